@@ -1,0 +1,158 @@
+"""Case files (TOML): one impact, how long to follow it, and, optionally, the parts of each path.
+
+Tables: ``[beam]``, ``[impact]``, ``[run]``, ``[mesh]``, ``[hermite.*]``, ``[exudyn.*]`` (docs/guide). Unknown keys are errors
+that name the nearest known key. The tables of the paths are kept as data: each path turns its own into parts.
+"""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Annotated, Any
+
+import pydantic
+from pydantic import BaseModel, ConfigDict, Field
+
+from bent_beam.impact import Impact
+from bent_beam.meshes import MESHES, Mesh
+from bent_beam.parts import InputError, first_line, nearest, part_from_table, shown
+
+__all__ = ["Case", "case_from_tables", "load_case"]
+
+MAXIMUM_BYTES = 1_000_000
+Number = Annotated[float, Field(allow_inf_nan=False, strict=True)]
+Positive = Annotated[float, Field(gt=0.0, allow_inf_nan=False, strict=True)]
+
+
+class _Table(BaseModel):
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+
+class _Beam(_Table):
+    bending_stiffness: Positive
+    mass_per_length: Positive
+    length: Positive
+    curvature: Annotated[float, Field(ge=0.0, allow_inf_nan=False, strict=True)]
+    section_height: Positive = 0.01
+
+
+class _Impact(_Table):
+    velocity: Positive
+    acceleration: Number = 0.0
+    curvature_rate: Number = 0.0
+    fourth_derivative: Number = 0.0
+
+
+class _Run(_Table):
+    end_time: Positive | None = None
+    duration: Positive | None = None
+
+
+class _File(_Table):
+    title: str = ""
+    beam: _Beam
+    impact: _Impact
+    run: _Run = _Run()
+    mesh: dict[str, Any] = Field(default_factory=dict)
+    hermite: dict[str, Any] = Field(default_factory=dict)
+    exudyn: dict[str, Any] = Field(default_factory=dict)
+
+
+class Case(BaseModel):
+    """A validated case. ``end_time`` in s; ``mesh`` is ``None`` when it is to be chosen from the problem."""
+
+    model_config = ConfigDict(frozen=True, arbitrary_types_allowed=True)
+
+    title: str
+    impact: Impact
+    end_time: float
+    mesh: Mesh | None
+    hermite: dict[str, Any]
+    exudyn: dict[str, Any]
+
+
+DEFAULT_DURATION = 0.1  # τ, the longest time that the thesis computes
+
+
+def _problem(error: pydantic.ValidationError) -> str:
+    problem = error.errors()[0]
+    place = ".".join(str(part) for part in problem["loc"])
+    value = shown(problem.get("input"))
+    kind = problem["type"]
+    if kind == "extra_forbidden":
+        table = {"beam": _Beam, "impact": _Impact, "run": _Run}.get(str(problem["loc"][0]), _File)
+        known = table.model_fields if len(problem["loc"]) > 1 else _File.model_fields
+        return f"{place} is not a known setting{nearest(str(problem['loc'][-1]), known)}"
+    if kind == "greater_than":
+        return f"{place} must be positive (got {value})"
+    if kind == "greater_than_equal":
+        return f"{place} must not be negative (got {value})"
+    if kind in ("finite_number", "float_type", "float_parsing"):
+        return f"{place} must be a finite number (got {value})"
+    return first_line(error, "")
+
+
+def case_from_tables(tables: dict[str, Any]) -> Case:
+    """A case from the tables of a TOML file. Raises :class:`InputError` with one line naming field and value."""
+    try:
+        file = _File.model_validate(tables)
+    except pydantic.ValidationError as error:
+        raise InputError(_problem(error)) from None
+    try:
+        impact = Impact(**file.beam.model_dump(), **file.impact.model_dump())
+    except ValueError as error:
+        raise InputError(str(error)) from None
+    if file.run.end_time is not None and file.run.duration is not None:
+        raise InputError("run.end_time and run.duration exclude each other: give one")
+    end_time = file.run.end_time
+    if end_time is None:
+        end_time = (file.run.duration or DEFAULT_DURATION) * impact.time_scale
+    if not 0.0 < end_time < float("inf"):
+        raise InputError(f"run.duration puts the end time out of range (got {file.run.duration!r})")
+    mesh = None
+    if file.mesh.get("kind", "auto") != "auto":
+        mesh = part_from_table(MESHES, file.mesh, "mesh")
+    elif set(file.mesh) - {"kind"}:
+        extra = sorted(set(file.mesh) - {"kind"})[0]
+        raise InputError(f"mesh.kind is required next to mesh.{extra} (one of {', '.join(sorted(MESHES))})")
+    return Case(title=file.title, impact=impact, end_time=end_time, mesh=mesh, hermite=file.hermite, exudyn=file.exudyn)
+
+
+def _set(tables: dict[str, Any], assignment: str) -> None:
+    key, sign, text = assignment.partition("=")
+    if not sign or not key.strip():
+        raise InputError(f"--set takes table.key=value (got {shown(assignment)})")
+    try:
+        value = tomllib.loads(f"value = {text.strip()}")["value"]
+    except (tomllib.TOMLDecodeError, RecursionError):
+        value = text.strip()
+    *path, last = key.strip().split(".")
+    table = tables
+    for name in path:
+        table = table.setdefault(name, {})
+        if not isinstance(table, dict):
+            raise InputError(f"--set {key.strip()}: {name} is a value, not a table")
+    table[last] = value
+
+
+def load_case(file: str | Path, assignments: Sequence[str] = ()) -> Case:
+    """Read and validate a case file, with ``table.key=value`` assignments laid over it.
+
+    Raises :class:`InputError` when the file cannot be read, is no TOML, or holds what is not allowed.
+    """
+    path = Path(file)
+    try:
+        with path.open("rb") as stream:
+            data = stream.read(MAXIMUM_BYTES + 1)
+    except OSError as error:
+        raise InputError(f"case file {path}: {(error.strerror or str(error)).lower()}") from None
+    if len(data) > MAXIMUM_BYTES:
+        raise InputError(f"case file {path} is larger than {MAXIMUM_BYTES} bytes: not a case file")
+    try:
+        tables = tomllib.loads(data.decode("utf-8"))
+    except (UnicodeDecodeError, tomllib.TOMLDecodeError, RecursionError) as error:
+        raise InputError(f"case file {path} is not valid TOML: {' '.join(str(error).split())}") from None
+    for assignment in assignments:
+        _set(tables, assignment)
+    return case_from_tables(tables)

@@ -1,0 +1,236 @@
+"""The record of a run: one ``xarray.Dataset`` in SI units, the same for every path.
+
+Dimensions: ``time`` (the saved instants) and ``x`` (nodes) and ``contact`` (contact points). Variables:
+
+| name | dims | unit | what |
+| --- | --- | --- | --- |
+| gap | time, x | m | distance to the wall, −y, at the nodes |
+| velocity | time, x | m/s | y_t, positive into the wall |
+| slope | time, x | 1 | y_x |
+| impulse | time, contact | N s | reaction impulse gathered by each contact point since t = 0 |
+| in_contact | time, contact | bool | contact active at that instant |
+| total_impulse | time | N s | over the whole beam (both halves) |
+| kinetic_energy, strain_energy | time | J | whole beam |
+| work_of_loads | time | J | whole beam, since t = 0 |
+| loss_impact, loss_integration, loss_artificial | time | J | energy taken out since t = 0 by impacts, by the time integration's algorithmic damping, and by artificial viscosity or absorbers |
+
+A moving mesh adds ``position`` (time, x) and ``contact_position`` (time, contact), m.
+Attributes hold the case, the settings, versions and warnings as JSON text.
+"""
+
+from __future__ import annotations
+
+import importlib.metadata
+import json
+import os
+import tempfile
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from bent_beam.impact import Impact
+
+__all__ = ["ImpactHistory", "SimulationError", "versions"]
+
+Array = NDArray[np.float64]
+
+UNITS = {
+    "time": "s", "x": "m", "contact_x": "m", "position": "m", "contact_position": "m", "gap": "m",
+    "velocity": "m/s", "slope": "1", "impulse": "N s", "total_impulse": "N s", "held_impulse": "N s",
+    "kinetic_energy": "J", "strain_energy": "J", "work_of_loads": "J", "loss_impact": "J",
+    "loss_integration": "J", "loss_artificial": "J",
+}
+FORMAT = "bent-beam-impact history 1"
+
+
+class SimulationError(RuntimeError):
+    """A solver could not finish. ``history`` holds what was reached (or ``None``)."""
+
+    def __init__(self, message: str, *, time: float, step: int, advice: str,
+                 history: ImpactHistory | None = None) -> None:
+        super().__init__(f"{message} at t = {time:.6g} s (step {step}); try: {advice}")
+        self.time, self.step, self.advice, self.history = time, step, advice, history
+
+
+def versions() -> dict[str, str]:
+    """Versions of what a result depends on, by distribution name."""
+    found = {}
+    for name in ("bent-beam-impact", "numpy", "scipy", "numba", "exudyn", "xarray"):
+        try:
+            found[name] = importlib.metadata.version(name)
+        except importlib.metadata.PackageNotFoundError:
+            continue
+    return found
+
+
+@dataclass(frozen=True)
+class ImpactHistory:
+    """What a simulation returns: ``dataset`` (see the module's table) with typed access to what is asked often."""
+
+    dataset: xr.Dataset
+
+    # making -------------------------------------------------------------------------------------------
+    @classmethod
+    def build(
+        cls,
+        *,
+        impact: Impact,
+        path: str,
+        symmetry: str,
+        settings: Mapping[str, Any],
+        time: Array,
+        x: Array,
+        contact_x: Array,
+        fields: Mapping[str, tuple[Sequence[str], NDArray[Any]]],
+        warnings: Sequence[str] = (),
+        steps: int = 0,
+        seconds: float = 0.0,
+        completed: bool = True,
+    ) -> ImpactHistory:
+        """Assemble a history.
+
+        path : "hermite" or "exudyn"; symmetry : "half" or "full" (what was modelled);
+        settings : JSON-ready description of mesh, integrator, contact …; fields : name → (dims, values);
+        steps, seconds : time steps taken and wall seconds spent in the solver.
+        Raises ``ValueError`` when a field is not finite.
+        """
+        data: dict[str, Any] = {}
+        for name, (dims, values) in fields.items():
+            array = np.asarray(values)
+            if array.dtype.kind == "f" and not np.all(np.isfinite(array)):
+                raise ValueError(f"history field {name} is not finite")
+            data[name] = (tuple(dims), array, {"units": UNITS[name]} if name in UNITS else {})
+        dataset = xr.Dataset(
+            data,
+            coords={
+                "time": ("time", np.asarray(time, float), {"units": "s"}),
+                "x": ("x", np.asarray(x, float), {"units": "m"}),
+                "contact_x": ("contact", np.asarray(contact_x, float), {"units": "m"}),
+            },
+            attrs={
+                "format": FORMAT,
+                "path": path,
+                "symmetry": symmetry,
+                "impact": json.dumps(asdict(impact)),
+                "settings": json.dumps(dict(settings), sort_keys=True),
+                "versions": json.dumps(versions(), sort_keys=True),
+                "warnings": json.dumps(list(warnings)),
+                "steps": int(steps),
+                "seconds": float(seconds),
+                "completed": int(completed),
+            },
+        )
+        return cls(dataset)
+
+    # reading ------------------------------------------------------------------------------------------
+    @property
+    def impact(self) -> Impact:
+        return Impact(**json.loads(self.dataset.attrs["impact"]))
+
+    @property
+    def path(self) -> str:
+        return str(self.dataset.attrs["path"])
+
+    @property
+    def settings(self) -> dict[str, Any]:
+        return dict(json.loads(self.dataset.attrs["settings"]))
+
+    @property
+    def versions(self) -> dict[str, str]:
+        return dict(json.loads(self.dataset.attrs["versions"]))
+
+    @property
+    def warnings(self) -> list[str]:
+        return list(json.loads(self.dataset.attrs["warnings"]))
+
+    @property
+    def steps(self) -> int:
+        return int(self.dataset.attrs["steps"])
+
+    @property
+    def seconds(self) -> float:
+        return float(self.dataset.attrs["seconds"])
+
+    @property
+    def completed(self) -> bool:
+        return bool(self.dataset.attrs["completed"])
+
+    @property
+    def time(self) -> Array:
+        """Saved instants, s, shape (times,)."""
+        return np.asarray(self.dataset["time"].values)
+
+    def positions(self, k: int) -> Array:
+        """Node places at saved instant ``k``, m, shape (nodes,)."""
+        if "position" in self.dataset:
+            return np.asarray(self.dataset["position"].values[k])
+        return np.asarray(self.dataset["x"].values)
+
+    def contact_positions(self, k: int) -> Array:
+        """Contact point places at saved instant ``k``, m, shape (contacts,)."""
+        if "contact_position" in self.dataset:
+            return np.asarray(self.dataset["contact_position"].values[k])
+        return np.asarray(self.dataset["contact_x"].values)
+
+    def array(self, name: str) -> NDArray[Any]:
+        """The values of one variable of the dataset."""
+        return np.asarray(self.dataset[name].values)
+
+    def energy_budget(self) -> dict[str, float]:
+        """Where the energy went between the first and the last saved instant, J, and the ``defect`` of the sum."""
+        def change(name: str) -> float:
+            values = self.array(name)
+            return float(values[-1] - values[0])
+
+        budget = {
+            name: change(name)
+            for name in ("kinetic_energy", "strain_energy", "work_of_loads", "loss_impact", "loss_integration",
+                         "loss_artificial")
+            if name in self.dataset
+        }
+        balance = budget.get("kinetic_energy", 0.0) + budget.get("strain_energy", 0.0)
+        balance -= budget.get("work_of_loads", 0.0)
+        balance += sum(v for k, v in budget.items() if k.startswith("loss_"))
+        budget["initial_energy"] = float(self.array("kinetic_energy")[0] + self.array("strain_energy")[0])
+        budget["defect"] = balance
+        return budget
+
+    # keeping ------------------------------------------------------------------------------------------
+    def save(self, file: str | Path) -> Path:
+        """Write netCDF atomically: a killed run leaves either the whole file or none. Returns the path."""
+        target = Path(file)
+        target.parent.mkdir(parents=True, exist_ok=True)
+        handle, name = tempfile.mkstemp(prefix=f".{target.name}.", suffix=".part", dir=target.parent)
+        os.close(handle)
+        part = Path(name)
+        try:
+            encoding = {
+                v: {"zlib": True, "complevel": 1} for v in self.dataset.variables if self.dataset[v].ndim == 2
+            }
+            self.dataset.to_netcdf(part, engine="h5netcdf", encoding=encoding)
+            with part.open("rb") as written:
+                os.fsync(written.fileno())
+            os.chmod(part, 0o644)
+            os.replace(part, target)
+        finally:
+            part.unlink(missing_ok=True)
+        return target
+
+    @classmethod
+    def load(cls, file: str | Path) -> ImpactHistory:
+        """Read a history back; ``ValueError`` when the file is none."""
+        source = Path(file)
+        try:
+            dataset = xr.load_dataset(source, engine="h5netcdf")
+        except FileNotFoundError:
+            raise
+        except Exception as error:  # h5py raises many kinds for a broken file
+            raise ValueError(f"{source} is not a readable history: {error}") from error
+        if dataset.attrs.get("format") != FORMAT:
+            raise ValueError(f"{source} is not a history of this project")
+        return cls(dataset)

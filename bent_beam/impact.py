@@ -1,0 +1,163 @@
+"""The physical problem: a naturally bent Euler–Bernoulli beam arriving at a rigid flat wall.
+
+    μ y_tt + EI y_xxxx = p − r,     0 ≤ r ⊥ g = −y ≥ 0                        (thesis 2.1.1–2)
+
+y > 0 points into the wall, x = 0 touches first, at t = 0. The free motion close to the contact is
+
+    y₀ = V₀ t − K x²/2 + a₀ t²/2 + c₀ x² t/2 + q₀ x⁴/24.                      (thesis 2.2.30)
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from dataclasses import dataclass
+
+from bent_beam.checks import finite, non_negative, positive
+
+__all__ = ["Impact"]
+
+
+@dataclass(frozen=True)
+class Impact:
+    """A bent beam, symmetric about x = 0, about to hit a rigid wall (SI units).
+
+    Parameters
+    ----------
+    bending_stiffness : EI, N m².
+    mass_per_length : μ, kg/m.
+    length : L of the whole beam, m.
+    curvature : K ≥ 0 of the stress-free beam, 1/m.
+    velocity : V₀ > 0 towards the wall, m/s.
+    acceleration : a₀ = ∂²y₀/∂t² at the first contact, m/s² (the thesis's α).
+    curvature_rate : c₀ = ∂³y₀/∂x²∂t there, 1/(m s) (χ).
+    fourth_derivative : q₀ = ∂⁴y₀/∂x⁴ there, 1/m³ (ψ).
+    section_height : height d of the section, m; only the Exudyn path uses it, for EA = 12 EI/d².
+
+    Raises
+    ------
+    ValueError : a field is not finite, or has the wrong sign; the message names field and value.
+    """
+
+    bending_stiffness: float
+    mass_per_length: float
+    length: float
+    curvature: float
+    velocity: float
+    acceleration: float = 0.0
+    curvature_rate: float = 0.0
+    fourth_derivative: float = 0.0
+    section_height: float = 0.01
+
+    def __post_init__(self) -> None:
+        for name in ("bending_stiffness", "mass_per_length", "length", "velocity", "section_height"):
+            object.__setattr__(self, name, positive(name, getattr(self, name)))
+        object.__setattr__(self, "curvature", non_negative("curvature", self.curvature))
+        for name in ("acceleration", "curvature_rate", "fourth_derivative"):
+            object.__setattr__(self, name, finite(name, getattr(self, name)))
+        for name in ("wave_constant", "time_scale", "length_scale", "slow_time_scale", "epsilon",
+                     "epsilon_alpha", "epsilon_chi", "epsilon_psi", "kappa_over_nu"):
+            try:
+                value = getattr(self, name)
+            except (OverflowError, ZeroDivisionError):
+                value = math.inf
+            scale = name in ("wave_constant", "time_scale", "length_scale", "slow_time_scale", "epsilon")
+            if not math.isfinite(value) or (scale and value <= 0.0):
+                raise ValueError(
+                    f"velocity, bending_stiffness and mass_per_length put {name} outside the range of "
+                    f"floating-point numbers (got V0 = {self.velocity!r}, EI = {self.bending_stiffness!r}, "
+                    f"mu = {self.mass_per_length!r})"
+                )
+
+    @classmethod
+    def dimensionless(
+        cls,
+        kappa_over_nu: float,
+        *,
+        epsilon_alpha: float = 0.0,
+        epsilon_psi: float = 0.0,
+        epsilon_chi: float = 0.0,
+        length: float = 1e3,
+    ) -> Impact:
+        """The impact in units of the fast layer: EI = μ = V₀ = 1, so l* = t* = 1 and ν = 1."""
+        return cls(
+            bending_stiffness=1.0, mass_per_length=1.0, length=length, velocity=1.0,
+            curvature=positive("kappa_over_nu", kappa_over_nu), acceleration=epsilon_alpha,
+            fourth_derivative=epsilon_psi, curvature_rate=epsilon_chi,
+        )
+
+    def replace(self, **changes: float) -> Impact:
+        """A copy with some fields changed, validated again."""
+        return dataclasses.replace(self, **changes)
+
+    # scales (theory.md, section 2; thesis 2.2.16, 2.2.36–37) -----------------------------------------
+    @property
+    def wave_constant(self) -> float:
+        """√(EI/μ), m²/s: bending waves spread as x² ~ √(EI/μ) t."""
+        return math.sqrt(self.bending_stiffness / self.mass_per_length)
+
+    @property
+    def time_scale(self) -> float:
+        """t* = √(EI/μ)/V₀², s: the time unit of the fast layer."""
+        return self.wave_constant / self.velocity / self.velocity
+
+    @property
+    def length_scale(self) -> float:
+        """l* = √(EI/μ)/V₀, m: the length unit of the fast layer."""
+        return self.wave_constant / self.velocity
+
+    @property
+    def deflection_scale(self) -> float:
+        """V₀ t*, m: the unit of the fast layer's deflection with ν = 1 (equal to l*)."""
+        return self.velocity * self.time_scale
+
+    @property
+    def half_length(self) -> float:
+        """L* = L/2, m."""
+        return self.length / 2.0
+
+    @property
+    def slow_time_scale(self) -> float:
+        """T* = √(μ L*⁴/EI), s: the time scale of the beam's free vibration (2.2.16)."""
+        return self.half_length**2 / self.wave_constant
+
+    @property
+    def epsilon(self) -> float:
+        """ε = t*/T*, dimensionless: the small parameter of the expansion."""
+        return (self.length_scale / self.half_length) ** 2
+
+    # dimensionless groups, ν = 1 ----------------------------------------------------------------------
+    @property
+    def kappa_over_nu(self) -> float:
+        """κ/ν = K √(EI/μ)/V₀: the one parameter of the leading order."""
+        return self.curvature * self.length_scale
+
+    @property
+    def epsilon_alpha(self) -> float:
+        """εα/ν = a₀ t*/V₀."""
+        return self.acceleration * (self.time_scale / self.velocity)
+
+    @property
+    def epsilon_chi(self) -> float:
+        """εχ/ν = c₀ l*²/V₀."""
+        return self.curvature_rate * self.length_scale * (self.length_scale / self.velocity)
+
+    @property
+    def epsilon_psi(self) -> float:
+        """εψ/ν = q₀ l*⁴/(V₀ t*) = q₀ l*³."""
+        return self.fourth_derivative * self.length_scale**3
+
+    @property
+    def alpha(self) -> float:
+        """α with ν = 1."""
+        return self.epsilon_alpha / self.epsilon
+
+    @property
+    def chi(self) -> float:
+        """χ with ν = 1."""
+        return self.epsilon_chi / self.epsilon
+
+    @property
+    def psi(self) -> float:
+        """ψ with ν = 1."""
+        return self.epsilon_psi / self.epsilon

@@ -1,0 +1,216 @@
+"""One-dimensional meshes of the half beam 0 ≤ x ≤ L/2, used by both numerical paths.
+
+A mesh is a small frozen object; ``mesh.nodes(half_length)`` lays its nodes. A full beam mirrors them
+(:func:`mirrored`). Grading reflects the short waves that an impact radiates (docs/numerics.md): grow by a
+few per cent an element at most, or add an absorbing far field.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Protocol, runtime_checkable
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bent_beam.checks import at_least, positive
+
+__all__ = [
+    "MESHES", "GradedMesh", "Mesh", "NodesMesh", "ScaleFreeMesh", "SquareMesh", "UniformMesh", "checked_nodes",
+    "mirrored",
+]
+
+Array = NDArray[np.float64]
+
+MAXIMUM_NODES = 2_000_000  # beyond this a mesh is a typing error, not a wish
+
+
+@runtime_checkable
+class Mesh(Protocol):
+    """What both numerical paths ask of a mesh."""
+
+    def nodes(self, half_length: float) -> Array:
+        """Node places from 0 to ``half_length``, m, strictly increasing, shape (n,)."""
+        ...
+
+
+def checked_nodes(nodes: Array) -> Array:
+    """Validate node places: finite, strictly increasing, at least two elements; ``ValueError`` otherwise."""
+    x = np.ascontiguousarray(nodes, dtype=np.float64)
+    if x.ndim != 1 or x.size < 3:
+        raise ValueError(f"mesh must have at least two elements (got {max(x.size - 1, 0)})")
+    if not np.all(np.isfinite(x)):
+        raise ValueError("mesh.nodes must be finite")
+    if not np.all(np.diff(x) > 0.0):
+        raise ValueError(f"mesh.nodes must increase strictly (element {int(np.argmin(np.diff(x)))} does not)")
+    return x
+
+
+def mirrored(nodes: Array) -> Array:
+    """Nodes of the full beam from those of its right half: −x_n … 0 … x_n, exactly symmetric."""
+    return np.concatenate([-nodes[:0:-1], nodes])
+
+
+def _count(half_length: float, element_length: float) -> int:
+    if half_length / element_length > MAXIMUM_NODES:
+        raise ValueError(
+            f"mesh.element_length is too small for the beam: more than {MAXIMUM_NODES} elements "
+            f"(got {element_length!r} for a half length of {half_length!r})"
+        )
+    return max(2, math.ceil(half_length / element_length - 1e-9))
+
+
+@dataclass(frozen=True)
+class UniformMesh:
+    """Elements of one length (adjusted down so that a whole number of them fits).
+
+    element_length : Δx, m.
+    """
+
+    element_length: float
+
+    def __post_init__(self) -> None:
+        positive("mesh.element_length", self.element_length)
+
+    def nodes(self, half_length: float) -> Array:
+        return np.linspace(0.0, half_length, _count(half_length, self.element_length) + 1)
+
+
+def _grown(start: float, first: float, growth: float, end: float, largest: float) -> Array:
+    """Nodes after ``start`` up to ``end``: elements first·growth^i, none above ``largest``, rescaled to fit."""
+    sizes: list[float] = []
+    size, total = first, 0.0
+    while total < (end - start) * (1.0 - 1e-12):
+        if len(sizes) > MAXIMUM_NODES:
+            raise ValueError(f"mesh would have more than {MAXIMUM_NODES} elements: enlarge element_length or growth")
+        size = min(size, largest)
+        sizes.append(size)
+        total += size
+        size *= growth
+    if not sizes:
+        return np.empty(0)
+    nodes = start + np.cumsum(sizes) * ((end - start) / total)
+    nodes[-1] = end
+    return nodes
+
+
+@dataclass(frozen=True)
+class GradedMesh:
+    """Uniform elements over the contact zone, then each larger than the last (thesis 3.3.3).
+
+    element_length : Δx of the zone, m.
+    growth : e = Δx_i/Δx_{i−1} outside it; the thesis uses 1.25, which reflects: 1.02 is the better choice.
+    zone : half length of the uniform zone, m (25 elements unless given, the thesis's Table 3.2).
+    size_ratio : largest element over smallest; the thesis caps it at 10³ against ill-conditioning.
+    """
+
+    element_length: float
+    growth: float = 1.02
+    zone: float | None = None
+    size_ratio: float = 1e3
+
+    def __post_init__(self) -> None:
+        positive("mesh.element_length", self.element_length)
+        at_least("mesh.growth", self.growth, 1.0)
+        at_least("mesh.size_ratio", self.size_ratio, 1.0)
+        if self.zone is not None:
+            positive("mesh.zone", self.zone)
+
+    def nodes(self, half_length: float) -> Array:
+        zone = 25 * self.element_length if self.zone is None else self.zone
+        count = _count(min(zone, half_length), self.element_length)
+        inner = np.linspace(0.0, min(count * self.element_length, half_length), count + 1)
+        outer = _grown(
+            inner[-1], self.element_length * self.growth, self.growth, half_length,
+            self.element_length * self.size_ratio,
+        )
+        return checked_nodes(np.concatenate([inner, outer]))
+
+
+@dataclass(frozen=True)
+class SquareMesh:
+    """The thesis's "square" mesh (3.3.5–9): x_i = first_element·√i, so a front x ∝ √t spends the same time in each.
+
+    first_element : length of the first element, m (thesis: λ₀√(ah), so that a step count a fits into each).
+    zone : half length over which the rule holds, m; outside it elements grow by ``growth``.
+    """
+
+    first_element: float
+    zone: float
+    growth: float = 1.25
+    size_ratio: float = 1e3
+
+    def __post_init__(self) -> None:
+        positive("mesh.first_element", self.first_element)
+        positive("mesh.zone", self.zone)
+        at_least("mesh.growth", self.growth, 1.0)
+        at_least("mesh.size_ratio", self.size_ratio, 1.0)
+
+    def nodes(self, half_length: float) -> Array:
+        end = min(self.zone, half_length)
+        ratio = (end / self.first_element) ** 2
+        if ratio > MAXIMUM_NODES:
+            raise ValueError(f"mesh.first_element is too small: {ratio:.3g} elements in the zone")
+        count = max(2, math.ceil(ratio - 1e-9))
+        inner = self.first_element * np.sqrt(np.arange(count + 1))
+        inner *= end / inner[-1]
+        last = inner[-1] - inner[-2]
+        outer = _grown(inner[-1], last * self.growth, self.growth, half_length, last * self.size_ratio)
+        return checked_nodes(np.concatenate([inner, outer]))
+
+
+@dataclass(frozen=True)
+class ScaleFreeMesh:
+    """Elements in proportion to the distance from the centre, so that every decade of time is resolved alike.
+
+    element_length : smallest element, at the centre, m.
+    growth : ratio of neighbours where elements grow, 1.01 to 1.02.
+    largest : no element above this, m (none by default).
+    """
+
+    element_length: float
+    growth: float = 1.01
+    largest: float | None = None
+
+    def __post_init__(self) -> None:
+        positive("mesh.element_length", self.element_length)
+        at_least("mesh.growth", self.growth, 1.0)
+        if self.largest is not None:
+            at_least("mesh.largest", self.largest, self.element_length)
+
+    def nodes(self, half_length: float) -> Array:
+        largest = math.inf if self.largest is None else self.largest
+        if self.growth == 1.0:
+            _count(half_length, self.element_length)
+        outer = _grown(0.0, self.element_length, self.growth, half_length, largest)
+        return checked_nodes(np.concatenate([[0.0], outer]))
+
+
+@dataclass(frozen=True)
+class NodesMesh:
+    """Node places given one by one (from Python): strictly increasing from 0 to the half length."""
+
+    places: tuple[float, ...]
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "places", tuple(float(p) for p in checked_nodes(np.asarray(self.places))))
+        if self.places[0] != 0.0:
+            raise ValueError(f"mesh.places must start at 0 (got {self.places[0]!r})")
+
+    def nodes(self, half_length: float) -> Array:
+        places = np.asarray(self.places)
+        if abs(places[-1] - half_length) > 1e-9 * half_length:
+            raise ValueError(f"mesh.places must end at the half length {half_length!r} (got {places[-1]!r})")
+        return places
+
+
+MESHES: dict[str, type] = {
+    "uniform": UniformMesh,
+    "graded": GradedMesh,
+    "square": SquareMesh,
+    "scale_free": ScaleFreeMesh,
+    "nodes": NodesMesh,
+}
+"""Kinds of a case file's ``[mesh]`` table."""
+
