@@ -1,0 +1,194 @@
+r"""Contact zone and reactions: λ_c = √τ(λ₀ + ελ₁τ), R̃ = 2√(2/π)(r₀ + εr₁τ)/√τ (2.7.6), (2.7.7).
+
+    φ_κ(λ₀)/φ_ν(λ₀) = κ/ν,   r₀ = ν/φ_ν(λ₀)                              (2.6.21), (2.6.22)
+
+continuous, κ/ν < 1, α+ψ ≥ 0                                                    (2.7.40)
+    [ φ_α      −2r₀φ_λ/λ₀ ] [r₁]   [ 2α − 2(α+ψ)φ_p       ]
+    [ −2φ_κ̇     r₀φ_λ̇/λ₀  ] [λ₁] = [ 4χ + √(2π)(α+ψ)φ_ṗ  ]
+detached, κ/ν < 1, α+ψ < 0                                                      (2.7.71)
+    [ φ_q/4     r₀φ_r + κλ₀ ] [r₁]   [ ψλ₀⁴/24 + χλ₀²/2 + α/2 ]
+    [ −φ_t      κ − r₀φ_s   ] [λ₁] = [ ψλ₀³/6 + χλ₀           ]
+discrete, κ/ν ≥ 1: λ₀ = λ₁ = 0, r₀ = ν, r₁ = 2α                        (2.6.23), (2.7.8)
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from scipy.optimize import newton
+
+from theory import phi
+from theory._fresnel import FloatArray
+
+DISCRETE = "discrete"
+CONTINUOUS = "continuous"
+DETACHED = "detached"
+
+
+@dataclass(frozen=True)
+class ContactParameters:
+    """The solution of the fast layer in the contact point; all dimensionless.
+
+    Floats and a string when every argument was a scalar, arrays of the broadcast shape otherwise.
+
+    Attributes:
+        kappa_over_nu, alpha, psi, chi, nu: what was asked for.
+        regime: "discrete", "continuous" or "detached".
+        lambda0, lambda1: half contact length √τ(λ₀ + ελ₁τ).
+        r0, r1: concentrated reactions, in total 2√(2/π)(r₀ + εr₁τ)/√τ.
+    """
+
+    kappa_over_nu: Any
+    alpha: Any
+    psi: Any
+    chi: Any
+    nu: Any
+    regime: Any
+    lambda0: Any
+    r0: Any
+    lambda1: Any
+    r1: Any
+
+    @property
+    def kappa(self) -> Any:
+        """Dimensionless curvature κ = (κ/ν) ν."""
+        return self.kappa_over_nu * self.nu
+
+    @property
+    def uniform_reaction(self) -> Any:
+        """r̃₁, the reaction per length ε r̃₁ in the contact zone: α+ψ if continuous, else 0 (2.7.5)."""
+        return np.where(np.asarray(self.regime) == CONTINUOUS, self.alpha + self.psi, 0.0)[()]
+
+
+def contact_parameters(
+    kappa_over_nu: ArrayLike,
+    alpha: ArrayLike = 0.0,
+    psi: ArrayLike = 0.0,
+    chi: ArrayLike = 0.0,
+    nu: ArrayLike = 1.0,
+) -> ContactParameters:
+    """λ₀, r₀ (leading order) and λ₁, r₁ (first order) of the impact.
+
+    Args:
+        kappa_over_nu: curvature over velocity κ/ν > 0.
+        alpha, psi, chi: acceleration, fourth derivative and rate of curvature of the slow motion
+            (2.2.34)–(2.2.36); first order is linear in them.
+        nu: velocity ν > 0. λ₀ does not depend on it; r₀ ∝ ν, λ₁ ∝ 1/ν at given κ/ν.
+
+    All arguments broadcast. Relative error below 1e-12 for κ/ν in 1e-12…1e12, of r₁ and λ₁ relative to
+    the largest contribution of α, ψ and χ.
+
+    Raises:
+        ValueError: κ/ν or ν not positive and finite, α, ψ or χ not finite.
+    """
+    given = {
+        "kappa_over_nu": kappa_over_nu,
+        "alpha": alpha,
+        "psi": psi,
+        "chi": chi,
+        "nu": nu,
+    }
+    arrays = {name: np.asarray(value, dtype=np.float64) for name, value in given.items()}
+    for name, values in arrays.items():
+        _check(name, values, positive=name in ("kappa_over_nu", "nu"))
+    ratio, a, p, c, n = (np.ascontiguousarray(v) for v in np.broadcast_arrays(*arrays.values()))
+    shape = np.broadcast_shapes(*(v.shape for v in arrays.values()))
+    ratio, a, p, c, n = (v.ravel() for v in (ratio, a, p, c, n))
+
+    spreads = ratio < 1.0
+    regime = np.full(ratio.shape, DISCRETE, dtype="<U10")
+    regime[spreads] = np.where((a + p)[spreads] >= 0.0, CONTINUOUS, DETACHED)
+    lambda0, r0, lambda1, r1 = np.zeros_like(ratio), n.copy(), np.zeros_like(ratio), 2.0 * a
+    lambda0[spreads] = _lambda0(ratio[spreads])
+    r0[spreads] = n[spreads] / phi.phi_nu(lambda0[spreads])
+    for name, solve in ((CONTINUOUS, _continuous), (DETACHED, _detached)):
+        here = regime == name
+        r1[here], lambda1[here] = solve(lambda0[here], r0[here], a[here], p[here], c[here])
+
+    def shaped(values: NDArray[Any]) -> Any:
+        return values.reshape(shape) if shape else values[0].item()
+
+    return ContactParameters(*map(shaped, (ratio, a, p, c, n, regime, lambda0, r0, lambda1, r1)))
+
+
+def _check(name: str, values: FloatArray, *, positive: bool) -> None:
+    good = np.isfinite(values) & (values > 0.0) if positive else np.isfinite(values)
+    if not np.all(good):
+        need = "positive and finite" if positive else "finite"
+        raise ValueError(f"{name} must be {need} (got {values[~good].ravel()[0]})")
+
+
+def _lambda0(ratio: FloatArray) -> FloatArray:
+    """Root of (2.6.21) for 0 < κ/ν < 1.
+
+    In log λ the logarithm of (φ_ν − φ_κ)/φ_κ = ν/κ − 1 is nearly a straight line, of slope 1 for small
+    λ (√(2/π)λ) and 2 for large λ (λ²/2); Newton's method started from the sum of the two limits
+    takes a handful of steps and neither limit loses digits.
+    """
+    target = (1.0 - ratio) / ratio
+    slope = np.sqrt(2.0 / np.pi)
+    guess = 2.0 * target / (slope + np.sqrt(slope**2 + 2.0 * target))
+    if guess.size == 0:
+        return guess
+
+    def excess(log_lam: FloatArray) -> FloatArray:
+        lam = np.exp(log_lam)
+        return np.log(phi.phi_nu_minus_kappa(lam) / (target * phi.phi_kappa(lam)))
+
+    def derivative(log_lam: FloatArray) -> FloatArray:
+        # φ_ν′ = −(λ/2)φ_κ and −φ_κ′ = √(2/π)(1 − φ_p)
+        lam = np.exp(log_lam)
+        kappa, fall = phi.phi_kappa(lam), slope * phi.one_minus_phi_p(lam)
+        return np.asarray(lam * ((fall - lam / 2.0 * kappa) / phi.phi_nu_minus_kappa(lam) + fall / kappa))
+
+    # the last step is below 1e-10, hence the error of the root, its square, below round-off
+    return np.exp(newton(excess, np.log(guess), fprime=derivative, tol=1e-10, maxiter=30))
+
+
+# Cramer's rule below: with the φ combinations reduced no determinant cancels (their terms differ in sign
+# or in order of λ), and rows of very different size do no harm, as they would to pivoting.
+
+
+def _continuous(
+    lam: FloatArray, r0: FloatArray, alpha: FloatArray, psi: FloatArray, chi: FloatArray
+) -> tuple[FloatArray, FloatArray]:
+    """(r₁, λ₁) of (2.7.40)."""
+    pushed = alpha + psi
+    phi_nu, phi_kappa = phi.phi_nu(lam), phi.phi_kappa(lam)
+    phi_alpha, phi_kappadot = phi.phi_alpha(lam), phi.phi_kappadot(lam)
+    phi_lambda, phi_lambdadot = phi.phi_lambda(lam), phi.phi_lambdadot(lam)
+    # 2α − 2(α+ψ)φ_p in the form that does not cancel: φ_p → 0 for small λ, → 1 for large λ
+    deflection = np.where(
+        lam < 1.0,
+        2.0 * alpha - 2.0 * pushed * phi.phi_p(lam),
+        2.0 * pushed * phi.one_minus_phi_p(lam) - 2.0 * psi,
+    )
+    curvature = 4.0 * chi + np.sqrt(2.0 * np.pi) * pushed * phi.phi_pdot(lam)
+    # φ_α·curvature + 2φ_κ̇·deflection; for small λ the parts linear in λ of the uniform reaction's
+    # terms cancel, √(2π)φ_ṗφ_α − 4φ_pφ_κ̇ = 2λ²φ_ν − √(π/2)λ³(φ_κ² + φ_ν²)
+    spread = np.where(
+        lam < 1.0,
+        4.0 * alpha * phi_kappadot
+        + 4.0 * chi * phi_alpha
+        + pushed * lam**2 * (2.0 * phi_nu - np.sqrt(np.pi / 2.0) * lam * (phi_kappa**2 + phi_nu**2)),
+        phi_alpha * curvature + 2.0 * phi_kappadot * deflection,
+    )
+    determinant = phi_alpha * phi_lambdadot - 4.0 * phi_lambda * phi_kappadot
+    r1 = (phi_lambdadot * deflection + 2.0 * phi_lambda * curvature) / determinant
+    return r1, lam / r0 * spread / determinant
+
+
+def _detached(
+    lam: FloatArray, r0: FloatArray, alpha: FloatArray, psi: FloatArray, chi: FloatArray
+) -> tuple[FloatArray, FloatArray]:
+    """(r₁, λ₁) of (2.7.71) divided by r₀ in its second column, with κ = r₀φ_κ (2.7.69)."""
+    phi_q, phi_t = phi.phi_q(lam) / 4.0, phi.phi_t(lam)
+    column = phi.phi_r_plus_lambda_phi_kappa(lam), phi.phi_kappa_minus_s(lam)
+    deflection = psi * lam**4 / 24.0 + chi * lam**2 / 2.0 + alpha / 2.0
+    slope = psi * lam**3 / 6.0 + chi * lam
+    determinant = phi_q * column[1] + phi_t * column[0]
+    r1 = (column[1] * deflection - column[0] * slope) / determinant
+    return r1, (phi_q * slope + phi_t * deflection) / (determinant * r0)
