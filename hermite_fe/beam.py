@@ -1,0 +1,203 @@
+"""Hermite Euler–Bernoulli elements, their bands, loads, supports and statics.
+
+On an element of length l, with ξ = x/l ∈ [0, 1] and dofs (w₁, θ₁, w₂, θ₂), θ = dw/dx:
+
+    N₁ = 1 − 3ξ² + 2ξ³,  N₂ = l(ξ − 2ξ² + ξ³),  N₃ = 3ξ² − 2ξ³,  N₄ = l(ξ³ − ξ²)     (thesis A.6)
+    Kₑ = EI ∫ N″ᵀN″ dx,   Mₑ = μ ∫ NᵀN dx,   V = ½ (q − q₀)ᵀ K (q − q₀)               (3.1.3–8)
+
+w is positive into the wall; node i has dofs 2i (w) and 2i + 1 (θ). Matrices are symmetric and kept in scipy's lower
+banded form, shape (4, 2·nodes): ``scipy.linalg.cholesky_banded(…, lower=True)`` takes them as they are.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.linalg import solveh_banded
+
+from bent_beam.checks import positive
+from bent_beam.meshes import checked_nodes
+from hermite_fe._assembly import assemble, assemble_load
+
+__all__ = ["HermiteBeam", "deflection", "element_mass", "element_stiffness", "shape_functions"]
+
+Array = NDArray[np.float64]
+
+
+def shape_functions(xi: Array, length: float, derivative: int = 0) -> Array:
+    """N₁…N₄ (or their x-derivative up to the third) at ξ ∈ [0, 1], shape (points, 4) (thesis A.6)."""
+    s = np.atleast_1d(np.asarray(xi, float))
+    one, zero = np.ones_like(s), np.zeros_like(s)
+    table = {
+        0: [1 - 3 * s**2 + 2 * s**3, s - 2 * s**2 + s**3, 3 * s**2 - 2 * s**3, s**3 - s**2],
+        1: [6 * s**2 - 6 * s, 1 - 4 * s + 3 * s**2, 6 * s - 6 * s**2, 3 * s**2 - 2 * s],
+        2: [12 * s - 6, 6 * s - 4, 6 - 12 * s, 6 * s - 2],
+        3: [12 * one, 6 * one, -12 * one, 6 * one + zero],
+    }
+    if derivative not in table:
+        raise ValueError(f"derivative must be 0, 1, 2 or 3 (got {derivative!r})")
+    values = np.stack(table[derivative], axis=1) / length**derivative
+    values[:, 1] *= length
+    values[:, 3] *= length
+    return values
+
+
+def element_stiffness(lengths: Array, bending_stiffness: float) -> Array:
+    """Kₑ of each element (3.1.5), shape (elements, 4, 4)."""
+    l = np.asarray(lengths, float)  # noqa: E741
+    k = np.empty((l.size, 4, 4))
+    k[:, 0, 0] = k[:, 2, 2] = 12.0
+    k[:, 0, 2] = k[:, 2, 0] = -12.0
+    k[:, 0, 1] = k[:, 1, 0] = k[:, 0, 3] = k[:, 3, 0] = 6.0 * l
+    k[:, 1, 2] = k[:, 2, 1] = k[:, 2, 3] = k[:, 3, 2] = -6.0 * l
+    k[:, 1, 1] = k[:, 3, 3] = 4.0 * l**2
+    k[:, 1, 3] = k[:, 3, 1] = 2.0 * l**2
+    return np.asarray(k * (bending_stiffness / l**3)[:, None, None])
+
+
+def element_mass(lengths: Array, mass_per_length: float) -> Array:
+    """Mₑ of each element (3.1.8), shape (elements, 4, 4)."""
+    l = np.asarray(lengths, float)  # noqa: E741
+    m = np.empty((l.size, 4, 4))
+    m[:, 0, 0] = m[:, 2, 2] = 156.0
+    m[:, 0, 2] = m[:, 2, 0] = 54.0
+    m[:, 0, 1] = m[:, 1, 0] = 22.0 * l
+    m[:, 2, 3] = m[:, 3, 2] = -22.0 * l
+    m[:, 0, 3] = m[:, 3, 0] = -13.0 * l
+    m[:, 1, 2] = m[:, 2, 1] = 13.0 * l
+    m[:, 1, 1] = m[:, 3, 3] = 4.0 * l**2
+    m[:, 1, 3] = m[:, 3, 1] = -3.0 * l**2
+    return np.asarray(m * (mass_per_length * l / 420.0)[:, None, None])
+
+
+@dataclass(frozen=True)
+class HermiteBeam:
+    """A straight-axis beam of Hermite elements between given nodes.
+
+    nodes : places x, m, strictly increasing, shape (nodes,); at least two elements.
+    bending_stiffness : EI, N m². mass_per_length : μ, kg/m.
+
+    Raises ``ValueError`` naming the field for non-increasing nodes, one element, or a property that is not positive.
+    """
+
+    nodes: Array
+    bending_stiffness: float
+    mass_per_length: float
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "nodes", checked_nodes(self.nodes))
+        positive("bending_stiffness", self.bending_stiffness)
+        positive("mass_per_length", self.mass_per_length)
+
+    @property
+    def lengths(self) -> Array:
+        """Element lengths, m, shape (elements,)."""
+        return np.diff(self.nodes)
+
+    @property
+    def dofs(self) -> int:
+        return 2 * self.nodes.size
+
+    def _banded(self, element: Array) -> Array:
+        bands = np.zeros((4, self.dofs))
+        assemble(self.lengths, element, bands)
+        return bands
+
+    def stiffness(self, weight: Array | None = None) -> Array:
+        """K in lower banded form, shape (4, dofs); ``weight`` (elements,) multiplies each element."""
+        element = element_stiffness(self.lengths, self.bending_stiffness)
+        return self._banded(element if weight is None else element * np.asarray(weight)[:, None, None])
+
+    def mass(self, weight: Array | None = None) -> Array:
+        """M in lower banded form, shape (4, dofs); ``weight`` (elements,) multiplies each element."""
+        element = element_mass(self.lengths, self.mass_per_length)
+        return self._banded(element if weight is None else element * np.asarray(weight)[:, None, None])
+
+    def uniform_load(self, load: float) -> Array:
+        """Consistent nodal loads of a uniform load, N/m: ∫ Nᵀ p dx, shape (dofs,)."""
+        l = self.lengths  # noqa: E741
+        element = load * np.stack([l / 2, l**2 / 12, l / 2, -(l**2) / 12], axis=1)
+        nodal = np.zeros(self.dofs)
+        assemble_load(element, nodal)
+        return nodal
+
+    def mass_load(self, acceleration: float) -> Array:
+        """Loads in proportion to the mass, M·1·a: a uniform field of acceleration a, m/s², shape (dofs,)."""
+        return self.uniform_load(self.mass_per_length * acceleration)
+
+    def curvature_load(self, curvature: float) -> Array:
+        """K q₀ of a stress-free shape of curvature w″ (uniform, 1/m): end moments EI w″, shape (dofs,).
+
+        ½(q − q₀)ᵀK(q − q₀) has the forces −K(q − q₀); the part of q₀ is this load.
+        """
+        nodal = np.zeros(self.dofs)
+        nodal[1] -= self.bending_stiffness * curvature
+        nodal[-1] += self.bending_stiffness * curvature
+        return nodal
+
+    def interpolate(self, value: Array, slope: Array) -> Array:
+        """Nodal dofs (value, slope interleaved), shape (dofs,), from fields at the nodes."""
+        q = np.empty(self.dofs)
+        q[0::2] = value
+        q[1::2] = slope
+        return q
+
+    def static(self, load: Array, supports: Mapping[int, float]) -> Array:
+        """Static deflection K q = load with prescribed dofs ``{dof: value}``; shape (dofs,).
+
+        Raises ``ValueError`` when a support is no dof of the beam, or when the supports leave it free to move.
+        """
+        for dof in supports:
+            if not 0 <= dof < self.dofs:
+                raise ValueError(f"supports must name dofs from 0 to {self.dofs - 1} (got {dof!r})")
+        bands, right = self.stiffness(), np.array(load, float)
+        q = np.zeros(self.dofs)
+        for dof, value in supports.items():
+            q[dof] = value
+        right -= banded_product(bands, q)
+        for dof in supports:
+            for m in range(1, 4):
+                if dof + m < self.dofs:
+                    bands[m, dof] = 0.0
+                if dof >= m:
+                    bands[m, dof - m] = 0.0
+            bands[0, dof], right[dof] = 1.0, 0.0
+        # rows and columns of θ scaled by the element length: the raw matrix mixes units and loses digits
+        scale = 1.0 / np.sqrt(bands[0])
+        for m in range(4):
+            bands[m, : self.dofs - m] *= scale[: self.dofs - m] * scale[m:]
+        try:
+            step = solveh_banded(bands, right * scale, lower=True) * scale
+        except np.linalg.LinAlgError:
+            raise ValueError(f"supports leave the beam free to move (got dofs {sorted(supports)})") from None
+        return np.asarray(q + step)
+
+
+def banded_product(bands: Array, x: Array) -> Array:
+    """A x for A in lower banded form."""
+    y = bands[0] * x
+    for m in range(1, bands.shape[0]):
+        y[m:] += bands[m, :-m] * x[:-m]
+        y[:-m] += bands[m, :-m] * x[m:]
+    return np.asarray(y)
+
+
+def deflection(nodes: Array, q: Array, x: Array, derivative: int = 0) -> Array:
+    """The deflection (or its x-derivative up to the third) of nodal dofs ``q`` at places ``x``, shape of ``x``.
+
+    Raises ``ValueError`` when a place lies off the beam.
+    """
+    nodes, places = np.asarray(nodes, float), np.asarray(x, float)
+    flat = places.ravel()
+    if flat.size and (flat.min() < nodes[0] or flat.max() > nodes[-1]):
+        raise ValueError(f"x must lie on the beam, [{nodes[0]!r}, {nodes[-1]!r}]")
+    e = np.clip(np.searchsorted(nodes, flat, side="right") - 1, 0, nodes.size - 2)
+    out = np.empty(flat.size)
+    for k in np.unique(e):
+        here = e == k
+        length = nodes[k + 1] - nodes[k]
+        out[here] = shape_functions((flat[here] - nodes[k]) / length, length, derivative) @ q[2 * k : 2 * k + 4]
+    return out.reshape(places.shape)

@@ -1,0 +1,70 @@
+"""What every time integrator shares: its instants, and one compiled call that takes steps."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from abc import ABC, abstractmethod
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bent_beam.checks import non_negative, positive
+from hermite_fe._problem import Contact, Problem, State, Work
+
+__all__ = ["Integrator"]
+
+MAXIMUM_STEPS = 200_000_000
+
+
+@dataclass(frozen=True)
+class Integrator(ABC):
+    """Base of the integrators: steps h = max(time_step, growth·t), adjusted down so that they end at the end time.
+
+    time_step : smallest step, s (``None``: chosen from the problem).
+    growth : step over time since impact, so that every decade of a self-similar motion takes the same number of
+        steps (``None``: 0, constant steps, when ``time_step`` is given; chosen otherwise).
+    """
+
+    time_step: float | None = None
+    growth: float | None = None
+
+    def __post_init__(self) -> None:
+        if self.time_step is not None:
+            positive("integrator.time_step", self.time_step)
+        if self.growth is not None:
+            non_negative("integrator.growth", self.growth)
+
+    def with_steps(self, time_step: float, growth: float) -> Integrator:
+        """A copy whose open choices are taken from here."""
+        if self.growth is not None:
+            growth = self.growth
+        elif self.time_step is not None:
+            growth = 0.0
+        return dataclasses.replace(
+            self, time_step=time_step if self.time_step is None else self.time_step, growth=growth
+        )
+
+    def instants(self, end_time: float) -> NDArray[np.float64]:
+        """All instants from 0 to ``end_time``, s, shape (steps + 1,). ``time_step`` must be set."""
+        if self.time_step is None:
+            raise ValueError("integrator.time_step is not chosen yet")
+        step, growth = self.time_step, self.growth or 0.0
+        switch = end_time if growth == 0.0 else min(end_time, step / growth)
+        if switch / step > MAXIMUM_STEPS:
+            raise ValueError(f"integrator.time_step is too small: {switch / step:.3g} steps (got {step!r})")
+        even = max(1, math.ceil(switch / step * (1.0 - 1e-12)))
+        times = np.linspace(0.0, switch, even + 1)
+        if switch < end_time:
+            count = max(1, math.ceil(math.log(end_time / switch) / math.log1p(growth) * (1.0 - 1e-12)))
+            times = np.concatenate([times, switch * (end_time / switch) ** (np.arange(1, count + 1) / count)])
+        times[-1] = end_time
+        return times
+
+    @abstractmethod
+    def advance(
+        self, problem: Problem, contact: Contact, state: State, work: Work, times: NDArray[np.float64],
+        first: int, last: int,
+    ) -> tuple[int, int]:
+        """Take steps ``first`` … ``last`` − 1 in place; returns (status, step reached), status 0 when all went well."""

@@ -1,0 +1,74 @@
+"""The bent beam as a :class:`hermite_fe.system.System`.
+
+Unknown is u = y + Kx²/2, the displacement from the stress-free beam, so that an unstrained beam is u = 0 whatever its
+curvature; the gap is g = −y = Kx²/2 − u. The motion before contact,
+
+    y₀ = V₀t − Kx²/2 + a₀t²/2 + c₀x²t/2 + q₀x⁴/24,                                             (2.2.30)
+
+starts the run (u = q₀x⁴/24, u̇ = V₀ + c₀x²/2) and fixes the load: p = μa₀ + EI q₀ keeps it up near the contact.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bent_beam.impact import Impact
+from bent_beam.meshes import checked_nodes, mirrored
+from hermite_fe.beam import HermiteBeam, banded_product
+from hermite_fe.contacts import Contact
+from hermite_fe.far_fields import FarField
+from hermite_fe.system import System
+
+__all__ = ["BeamModel", "beam_model"]
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class BeamModel:
+    """A system, its start, and how to read it: ``natural`` (nodes,) is the shape y of the stress-free beam, m."""
+
+    beam: HermiteBeam
+    system: System
+    displacement: Array
+    velocity: Array
+    natural: Array
+    natural_slope: Array
+    full: bool
+
+    @property
+    def copies(self) -> int:
+        """How often the model stands in the whole beam: 2 for the half, 1 for the full beam."""
+        return 1 if self.full else 2
+
+
+def beam_model(impact: Impact, nodes: Array, contact: Contact, far_field: FarField, *, full: bool) -> BeamModel:
+    """Assemble the half beam on ``nodes`` (0 … L/2), or the full beam on them and their mirror image."""
+    half = checked_nodes(nodes)
+    x = mirrored(half) if full else half
+    beam = HermiteBeam(x, impact.bending_stiffness, impact.mass_per_length)
+    natural = -0.5 * impact.curvature * x**2
+    quartic = beam.interpolate(impact.fourth_derivative * x**4 / 24.0, impact.fourth_derivative * x**3 / 6.0)
+    bending = beam.interpolate(impact.curvature_rate * x**2 / 2.0, impact.curvature_rate * x)
+    velocity = beam.interpolate(np.full(x.size, impact.velocity), np.zeros(x.size)) + bending
+    stiffness = beam.stiffness()
+    # what keeps y₀ up: K on Hermite interpolants is exact at nodes, ends included
+    load = np.stack([
+        beam.mass_load(impact.acceleration) + banded_product(stiffness, quartic),
+        banded_product(stiffness, bending),
+    ])
+    if far_field.end == "free":
+        load[0] = beam.uniform_load(
+            impact.mass_per_length * impact.acceleration + impact.bending_stiffness * impact.fourth_derivative
+        )
+        load[1] = 0.0
+    if not np.any(load[1]):
+        load = load[:1]
+    system = System(
+        mass=beam.mass(), stiffness=stiffness, damping=far_field.damping(beam, impact), load=load,
+        contacts=contact.rows(beam, natural, full=full), supports=() if full else (1,),
+    )
+    return BeamModel(beam, system, quartic, velocity, natural, -impact.curvature * x, full)

@@ -1,0 +1,101 @@
+"""One call from an impact to its history."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bent_beam.checks import positive
+from bent_beam.history import ImpactHistory, SimulationError
+from bent_beam.impact import Impact
+from bent_beam.meshes import Mesh
+from bent_beam.parts import describe
+from hermite_fe import auto
+from hermite_fe.contacts import Contact
+from hermite_fe.far_fields import FarField
+from hermite_fe.integrators import Integrator
+from hermite_fe.model import BeamModel, beam_model
+from hermite_fe.run import Trajectory, integrate
+
+__all__ = ["simulate"]
+
+
+def simulate(
+    impact: Impact,
+    *,
+    end_time: float | None = None,
+    mesh: Mesh | None = None,
+    integrator: Integrator | None = None,
+    contact: Contact | None = None,
+    far_field: FarField | None = None,
+    full_beam: bool = False,
+    save: int | Sequence[float] | NDArray[np.float64] = 200,
+    progress: Callable[[float], None] | None = None,
+) -> ImpactHistory:
+    """Simulate the impact on a Hermite beam; every part left out is chosen from the problem (:mod:`hermite_fe.auto`).
+
+    end_time : s (0.1 t* by default). full_beam : model both halves instead of one with a symmetry support.
+    save : number of saved instants, spread evenly in √t, or their times, s; snapped to steps.
+    progress : called with the finished fraction now and then.
+
+    Raises ``ValueError`` for bad input, :class:`bent_beam.SimulationError` (with the partial history) when a run cannot finish.
+    """
+    end = 0.1 * impact.time_scale if end_time is None else positive("end_time", end_time)
+    if type(mesh).__name__ == "ExpandingMesh":  # not imported before it is asked for
+        from hermite_fe.expanding import simulate_expanding
+
+        return simulate_expanding(impact, mesh, end_time=end, save=save, progress=progress)
+    choice = auto.choose(impact, end, mesh, integrator, contact, far_field)
+    model = beam_model(impact, choice.nodes, choice.contact, choice.far_field, full=full_beam)
+    trajectory = integrate(
+        model.system, model.displacement, model.velocity, choice.integrator, end,
+        restitution=choice.contact.restitution, hold=choice.contact.hold or 0,
+        hold_until=choice.contact.hold_until or 0.0, save=save, progress=progress,
+    )
+    settings = {
+        "end_time": end, "full_beam": full_beam,
+        "save": int(save) if np.ndim(save) == 0 else [float(t) for t in np.asarray(save)],  # type: ignore[arg-type]
+        **{name: describe(getattr(choice, name)) for name in ("mesh", "integrator", "contact", "far_field")},
+    }
+    history = history_of(impact, model, trajectory, settings, choice.warnings)
+    if trajectory.failure:
+        raise SimulationError(
+            trajectory.failure, time=trajectory.failure_time, step=trajectory.steps,
+            advice="a smaller integrator.time_step or growth, more damping at grid scale (far_field.viscosity), or "
+                   "integrator.kind = \"moreau_jean\"", history=history,
+        )
+    return history
+
+
+def history_of(
+    impact: Impact, model: BeamModel, run: Trajectory, settings: dict[str, Any], warnings: Sequence[str]
+) -> ImpactHistory:
+    """The record of a run: fields of the model, sums of the whole beam."""
+    copies = model.copies
+    rows = model.system.contacts
+    fields: dict[str, tuple[Sequence[str], NDArray[Any]]] = {
+        "gap": (("time", "x"), -(run.q[:, 0::2] + model.natural)),
+        "velocity": (("time", "x"), run.v[:, 0::2]),
+        "slope": (("time", "x"), run.q[:, 1::2] + model.natural_slope),
+        "impulse": (("time", "contact"), run.impulse),
+        "in_contact": (("time", "contact"), run.closed),
+        "total_impulse": (("time",), copies * run.impulse.sum(axis=1)),
+        "held_impulse": (("time",), copies * run.held_impulse.sum(axis=1)),
+        "kinetic_energy": (("time",), copies * run.kinetic),
+        "strain_energy": (("time",), copies * run.strain),
+        "work_of_loads": (("time",), copies * run.work),
+        "loss_impact": (("time",), copies * run.impact),
+        "loss_integration": (("time",), copies * run.algorithmic),
+        "loss_artificial": (("time",), copies * run.viscous),
+        "smallest_gap": (("time",), run.gap.min(axis=1)),
+        "smallest_reaction": (("time",), run.smallest_reaction),
+        "complementarity_product": (("time",), run.product),
+    }
+    return ImpactHistory.build(
+        impact=impact, path="hermite", symmetry="full" if model.full else "half", settings=settings, time=run.time,
+        x=model.beam.nodes, contact_x=rows.places, fields=fields, warnings=warnings, steps=run.steps,  # type: ignore[arg-type]
+        seconds=run.seconds, completed=not run.failure,
+    )

@@ -1,0 +1,111 @@
+"""A linear mechanical system with unilateral constraints, which knows no beams:
+
+    M q̈ + C q̇ + K q = F(t) + Gᵀλ,      0 ≤ λ ⊥ g = g₀ + G q ≥ 0,      q = const. at supports.        (thesis 3.2.5–7)
+
+Everything that steps in time (:mod:`hermite_fe.integrators`) takes a :class:`System`; the bent beam
+(:mod:`hermite_fe.model`), a bouncing ball and an oscillator against a stop are three of them.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+__all__ = ["ContactRows", "System"]
+
+Array = NDArray[np.float64]
+
+WIDTH = 4  # diagonal and three subdiagonals: what Hermite elements need
+
+
+@dataclass(frozen=True)
+class ContactRows:
+    """Unilateral constraints g_j = gap_j + Σ_k factors[j, k]·q[dofs[j, k]] ≥ 0.
+
+    dofs : (rows, w) int; factors : (rows, w); gap : (rows,), the gap at q = 0.
+    places : (rows,), where each sits (for the record).
+    rank : (rows,) int, how many constraints lie between it and the first to touch; side : (rows,) int, 0 or 1, which
+    way from there. Both serve only a hold behind a moving front (:class:`hermite_fe.contacts.Contact`).
+    tributary : (rows,), the length of beam that a row answers for (penalty contact scales with it).
+    """
+
+    dofs: NDArray[np.int64]
+    factors: Array
+    gap: Array
+    places: Array | None = None
+    rank: NDArray[np.int64] | None = None
+    side: NDArray[np.int64] | None = None
+    tributary: Array | None = None
+
+    def __post_init__(self) -> None:
+        dofs = np.atleast_2d(np.asarray(self.dofs, np.int64))
+        rows = dofs.shape[0]
+        set_ = object.__setattr__
+        set_(self, "dofs", np.ascontiguousarray(dofs))
+        set_(self, "factors", np.ascontiguousarray(np.asarray(self.factors, float).reshape(dofs.shape)))
+        set_(self, "gap", np.ascontiguousarray(np.asarray(self.gap, float).reshape(rows)))
+        for name, kind, default in (
+            ("places", np.float64, np.zeros(rows)), ("rank", np.int64, np.arange(rows)),
+            ("side", np.int64, np.zeros(rows)), ("tributary", np.float64, np.ones(rows)),
+        ):
+            value = getattr(self, name)
+            value = default if value is None else np.asarray(value)
+            if value.shape != (rows,):
+                raise ValueError(f"contact rows: {name} must have shape ({rows},) (got {value.shape})")
+            set_(self, name, np.ascontiguousarray(value, kind))
+        first = self.dofs.min(axis=1)
+        if np.any(np.diff(first) <= 0):
+            raise ValueError("contact rows must be sorted by their first dof, each with another one")
+
+    def __len__(self) -> int:
+        return int(self.gap.size)
+
+    def gaps(self, q: Array) -> Array:
+        """g = g₀ + G q, shape (rows,)."""
+        return np.asarray(self.gap + np.einsum("jk,jk->j", self.factors, q[self.dofs]))
+
+
+@dataclass(frozen=True)
+class System:
+    """Banded matrices, loads, supports and constraints.
+
+    mass, stiffness, damping : symmetric, scipy's lower banded form (≤ 4, dofs): ``mass[m, i] = M(i + m, i)``.
+    load : (powers, dofs), F(t) = Σ_k load[k]·t^k.
+    contacts : unilateral constraints. supports : dofs that keep their initial value.
+
+    Raises ``ValueError`` when shapes disagree, or a support carries a constraint of its own.
+    """
+
+    mass: Array
+    stiffness: Array
+    contacts: ContactRows
+    damping: Array | None = None
+    load: Array | None = None
+    supports: tuple[int, ...] = field(default=())
+
+    def __post_init__(self) -> None:
+        set_ = object.__setattr__
+        mass = np.atleast_2d(np.asarray(self.mass, float))
+        n = mass.shape[1]
+        for name, value in (("mass", mass), ("stiffness", self.stiffness), ("damping", self.damping)):
+            bands = np.zeros((1, n)) if value is None else np.atleast_2d(np.asarray(value, float))
+            if bands.shape[1] != n or bands.shape[0] > WIDTH:
+                raise ValueError(f"system.{name} must have shape (≤ {WIDTH}, {n}) (got {bands.shape})")
+            set_(self, name, np.pad(bands, ((0, WIDTH - bands.shape[0]), (0, 0))))
+        load = np.zeros((1, n)) if self.load is None else np.atleast_2d(np.asarray(self.load, float))
+        if load.shape[1] != n:
+            raise ValueError(f"system.load must have shape (powers, {n}) (got {load.shape})")
+        set_(self, "load", np.ascontiguousarray(load))
+        dofs = self.contacts.dofs
+        if dofs.size and (dofs.min() < 0 or dofs.max() >= n):
+            raise ValueError(f"contact rows must name dofs from 0 to {n - 1}")
+        if any(not 0 <= s < n for s in self.supports):
+            raise ValueError(f"system.supports must name dofs from 0 to {n - 1} (got {self.supports!r})")
+        if dofs.shape[1] == 1 and np.intersect1d(dofs, self.supports).size:
+            raise ValueError("system.supports and contact rows must not share a dof")
+
+    @property
+    def dofs(self) -> int:
+        return int(self.mass.shape[1])
