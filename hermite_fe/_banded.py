@@ -1,152 +1,195 @@
-"""Compiled kernels for symmetric banded matrices of half bandwidth 3, the bandwidth of Hermite beam elements.
+"""Compiled kernels for symmetric banded matrices.
 
-Storage by rows: ``A[k, m] = A(k, k − m)`` for m = 0…3, shape (n, 4): one dof is one cache line's half.
-The factorisation A = U D Uᵀ runs from the last dof to the first. In a contact problem the first dofs are those
-whose constraints switch, so what lies beyond the contact zone is factored once for a step and never touched again.
+Matrices of a system (half bandwidth 3, as Hermite elements have) are kept in scipy's lower form, ``A[m, i] = A(i + m, i)``,
+shape (4, n): products run along diagonals.
 
-A *fixed* dof keeps a given value: its row and column are those of the identity.
+The matrix that is factored has half bandwidth 4, room for a contact multiplier between the dofs of two nodes, and is kept
+by rows, ``S[k, m] = S(k, k − m)``, shape (n, 5). The factorisation S = U D Uᵀ runs from the last unknown to the first:
+in a contact problem the first ones are those whose constraints switch, so what lies beyond the contact zone is
+factored once for a step and not touched again. A *fixed* unknown has row and column of the identity.
 """
 
 from __future__ import annotations
 
-import numba
 import numpy as np
+from numpy.typing import NDArray
 
-_JIT = {"cache": True, "fastmath": {"contract"}, "error_model": "numpy"}
+from hermite_fe._jit import compiled, compiled_sums
 
+Array = NDArray[np.float64]
+Flags = NDArray[np.bool_]
 
-@numba.njit(**_JIT)
-def combine(M, C, K, c, k, S):  # type: ignore[no-untyped-def]
-    """S = M + c·C + k·K."""
-    for i in range(M.shape[0]):
-        for m in range(4):
-            S[i, m] = M[i, m] + c * C[i, m] + k * K[i, m]
+WIDTH = 5  # of the factored matrix: diagonal and four couplings
 
 
-@numba.njit(**_JIT)
-def multiply(A, x, y):  # type: ignore[no-untyped-def]
-    """y = A x."""
+@compiled_sums
+def multiply(A: Array, x: Array, y: Array) -> None:
+    """y = A x for A in lower form."""
     n = x.size
-    for i in range(n):
-        y[i] = A[i, 0] * x[i]
-    for i in range(1, n):
-        a = A[i, 1]
-        y[i] += a * x[i - 1]
-        y[i - 1] += a * x[i]
-    for i in range(2, n):
-        a = A[i, 2]
-        y[i] += a * x[i - 2]
-        y[i - 2] += a * x[i]
-    for i in range(3, n):
-        a = A[i, 3]
-        y[i] += a * x[i - 3]
-        y[i - 3] += a * x[i]
+    if n < 8:
+        for i in range(n):
+            total = A[0, i] * x[i]
+            for m in range(1, 4):
+                if i >= m:
+                    total += A[m, i - m] * x[i - m]
+                if i + m < n:
+                    total += A[m, i] * x[i + m]
+            y[i] = total
+        return
+    for i in range(3):
+        total = A[0, i] * x[i]
+        for m in range(1, 4):
+            if i >= m:
+                total += A[m, i - m] * x[i - m]
+            total += A[m, i] * x[i + m]
+        y[i] = total
+        k = n - 1 - i
+        total = A[0, k] * x[k]
+        for m in range(1, 4):
+            if k + m < n:
+                total += A[m, k] * x[k + m]
+            total += A[m, k - m] * x[k - m]
+        y[k] = total
+    d0, d1, d2, d3 = A[0, 3 : n - 3], A[1, 3 : n - 3], A[2, 3 : n - 3], A[3, 3 : n - 3]
+    e1, e2, e3 = A[1, 2 : n - 4], A[2, 1 : n - 5], A[3, : n - 6]
+    x0, r1, r2, r3 = x[3 : n - 3], x[4 : n - 2], x[5 : n - 1], x[6:n]
+    l1, l2, l3 = x[2 : n - 4], x[1 : n - 5], x[: n - 6]
+    inner = y[3 : n - 3]
+    for i in range(n - 6):
+        inner[i] = (
+            d0[i] * x0[i] + d1[i] * r1[i] + d2[i] * r2[i] + d3[i] * r3[i]
+            + e1[i] * l1[i] + e2[i] * l2[i] + e3[i] * l3[i]
+        )
 
 
-@numba.njit(**_JIT)
-def row_times(A, x, i):  # type: ignore[no-untyped-def]
-    """Row i of A times x."""
-    n = x.size
-    y = A[i, 0] * x[i]
-    for m in range(1, 4):
-        if i >= m:
-            y += A[i, m] * x[i - m]
-        if i + m < n:
-            y += A[i + m, m] * x[i + m]
-    return y
-
-
-@numba.njit(**_JIT)
-def quadratic(A, x):  # type: ignore[no-untyped-def]
-    """xᵀ A x."""
+@compiled_sums
+def quadratic(A: Array, x: Array) -> float:
+    """xᵀ A x for A in lower form, row by row: the large terms of a stiffness cancel before they are summed."""
     n = x.size
     total = 0.0
-    for i in range(min(3, n)):
-        y = 0.5 * A[i, 0] * x[i]
-        for m in range(1, i + 1):
-            y += A[i, m] * x[i - m]
-        total += x[i] * y
-    for i in range(3, n):
-        total += x[i] * (0.5 * A[i, 0] * x[i] + A[i, 1] * x[i - 1] + A[i, 2] * x[i - 2] + A[i, 3] * x[i - 3])
-    return 2.0 * total
+    if n < 8:
+        for i in range(n):
+            row = A[0, i] * x[i]
+            for m in range(1, 4):
+                if i >= m:
+                    row += A[m, i - m] * x[i - m]
+                if i + m < n:
+                    row += A[m, i] * x[i + m]
+            total += x[i] * row
+        return total
+    for i in range(3):
+        row = A[0, i] * x[i]
+        for m in range(1, 4):
+            if i >= m:
+                row += A[m, i - m] * x[i - m]
+            row += A[m, i] * x[i + m]
+        total += x[i] * row
+        k = n - 1 - i
+        row = A[0, k] * x[k]
+        for m in range(1, 4):
+            if k + m < n:
+                row += A[m, k] * x[k + m]
+            row += A[m, k - m] * x[k - m]
+        total += x[k] * row
+    d0, d1, d2, d3 = A[0, 3 : n - 3], A[1, 3 : n - 3], A[2, 3 : n - 3], A[3, 3 : n - 3]
+    e1, e2, e3 = A[1, 2 : n - 4], A[2, 1 : n - 5], A[3, : n - 6]
+    x0, r1, r2, r3 = x[3 : n - 3], x[4 : n - 2], x[5 : n - 1], x[6:n]
+    l1, l2, l3 = x[2 : n - 4], x[1 : n - 5], x[: n - 6]
+    for i in range(n - 6):
+        total += x0[i] * (
+            d0[i] * x0[i] + d1[i] * r1[i] + d2[i] * r2[i] + d3[i] * r3[i]
+            + e1[i] * l1[i] + e2[i] * l2[i] + e3[i] * l3[i]
+        )
+    return total
 
 
-@numba.njit(**_JIT)
-def factor(S, fixed, top, D, U):  # type: ignore[no-untyped-def]
-    """Factor S = U D Uᵀ from dof ``top`` down to 0; what is above ``top`` must be factored already.
+@compiled
+def combine(M: Array, C: Array, K: Array, m: float, c: float, k: float, place: NDArray[np.int64], S: Array) -> None:
+    """Write m·M + c·C + k·K (lower form) into S (by rows), dof i at unknown place[i]; nothing else in S changes."""
+    n = place.size
+    for i in range(n):
+        row = place[i]
+        for j in range(max(0, i - 3), i + 1):
+            S[row, row - place[j]] = m * M[i - j, j] + c * C[i - j, j] + k * K[i - j, j]
 
-    D (n + 3,) holds the pivots, U (n + 3, 4) the couplings U[q, m] = U(q − m, q); three idle dofs pad the end.
-    Returns False when a pivot is not positive (the matrix is not positive definite, or not finite).
+
+@compiled
+def factor(S: Array, fixed: Flags, top: int, D: Array, R: Array, U: Array) -> bool:
+    """Factor S = U D Uᵀ from unknown ``top`` down to 0; what is above ``top`` must be factored already.
+
+    D (n + 4,) pivots, R their inverses, U (n + 4, 5) couplings U[q, m] = U(q − m, q); four idle rows pad the end.
+    Returns False when a pivot is zero or not a number.
     """
-    for k in range(top, -1, -1):
+    sound = True
+    for t in range(top + 1):
+        k = top - t
         if fixed[k]:
             D[k] = 1.0
-            U[k, 1] = 0.0
-            U[k, 2] = 0.0
-            U[k, 3] = 0.0
+            R[k] = 1.0
+            for m in range(1, 5):
+                U[k, m] = 0.0
             continue
-        a1, a2, a3 = U[k + 1, 1], U[k + 2, 2], U[k + 3, 3]
-        b1, b2, b3 = a1 * D[k + 1], a2 * D[k + 2], a3 * D[k + 3]
-        d = S[k, 0] - a1 * b1 - a2 * b2 - a3 * b3
-        if not d > 0.0:
-            return False
+        b1, b2 = U[k + 1, 1] * D[k + 1], U[k + 2, 2] * D[k + 2]
+        b3, b4 = U[k + 3, 3] * D[k + 3], U[k + 4, 4] * D[k + 4]
+        d = S[k, 0] - b4 * U[k + 4, 4] - b3 * U[k + 3, 3] - b2 * U[k + 2, 2] - b1 * U[k + 1, 1]
+        sound = sound and abs(d) > 0.0
+        r = 1.0 / d
         D[k] = d
-        inverse = 1.0 / d
-        U[k, 1] = 0.0 if k < 1 or fixed[k - 1] else (S[k, 1] - b1 * U[k + 1, 2] - b2 * U[k + 2, 3]) * inverse
-        U[k, 2] = 0.0 if k < 2 or fixed[k - 2] else (S[k, 2] - b1 * U[k + 1, 3]) * inverse
-        U[k, 3] = 0.0 if k < 3 or fixed[k - 3] else S[k, 3] * inverse
-    return True
+        R[k] = r
+        u1 = (S[k, 1] - b3 * U[k + 3, 4] - b2 * U[k + 2, 3] - b1 * U[k + 1, 2]) * r
+        u2 = (S[k, 2] - b2 * U[k + 2, 4] - b1 * U[k + 1, 3]) * r
+        u3 = (S[k, 3] - b1 * U[k + 1, 4]) * r
+        u4 = S[k, 4] * r
+        U[k, 1] = 0.0 if k < 1 or fixed[k - 1] else u1
+        U[k, 2] = 0.0 if k < 2 or fixed[k - 2] else u2
+        U[k, 3] = 0.0 if k < 3 or fixed[k - 3] else u3
+        U[k, 4] = 0.0 if k < 4 or fixed[k - 4] else u4
+    return sound
 
 
-@numba.njit(**_JIT)
-def sweep_in(U, b, top, z):  # type: ignore[no-untyped-def]
-    """Solve U z = b from dof ``top`` down to 0; z above ``top`` must be known (z has three idle dofs at the end)."""
-    z1, z2, z3 = z[top + 1], z[top + 2], z[top + 3]
-    for k in range(top, -1, -1):
-        value = b[k] - U[k + 2, 2] * z2 - U[k + 3, 3] * z3 - U[k + 1, 1] * z1
+@compiled
+def sweep_in(U: Array, r: Array, top: int, z: Array) -> None:
+    """Solve U z = r from unknown ``top`` down to 0; z above ``top`` must be known (z has four idle places at the end)."""
+    z1, z2, z3, z4 = z[top + 1], z[top + 2], z[top + 3], z[top + 4]
+    for t in range(top + 1):
+        k = top - t
+        value = (r[k] - U[k + 4, 4] * z4 - U[k + 3, 3] * z3 - U[k + 2, 2] * z2) - U[k + 1, 1] * z1
         z[k] = value
+        z4 = z3
         z3 = z2
         z2 = z1
         z1 = value
 
 
-@numba.njit(**_JIT)
-def sweep_out(D, U, z, start, stop, x):  # type: ignore[no-untyped-def]
-    """Solve D Uᵀ x = z for dofs start…stop − 1; x below ``start`` must be known."""
-    for k in range(start, min(stop, 3)):
-        value = z[k] / D[k]
-        for m in range(1, k + 1):
-            value -= U[k, m] * x[k - m]
+@compiled
+def sweep_out(R: Array, U: Array, z: Array, start: int, stop: int, x: Array) -> None:
+    """Solve D Uᵀ x = z for unknowns start…stop − 1; x below ``start`` must be known."""
+    x1, x2, x3, x4 = 0.0, 0.0, 0.0, 0.0
+    if start > 0:
+        x1 = x[start - 1]
+    if start > 1:
+        x2 = x[start - 2]
+    if start > 2:
+        x3 = x[start - 3]
+    if start > 3:
+        x4 = x[start - 4]
+    for k in range(start, stop):
+        value = (z[k] * R[k] - U[k, 4] * x4 - U[k, 3] * x3 - U[k, 2] * x2) - U[k, 1] * x1
         x[k] = value
-    first = max(start, 3)
-    if first >= stop:
-        return
-    x1, x2, x3 = x[first - 1], x[first - 2], x[first - 3]
-    for k in range(first, stop):
-        value = z[k] / D[k] - U[k, 2] * x2 - U[k, 3] * x3 - U[k, 1] * x1
-        x[k] = value
+        x4 = x3
         x3 = x2
         x2 = x1
         x1 = value
 
 
-@numba.njit(**_JIT)
-def add(sum_, k, value):  # type: ignore[no-untyped-def]
-    """sum_[k] += value with Neumaier's compensation, kept in sum_[k + half]."""
-    half = sum_.size // 2
-    total = sum_[k]
+@compiled
+def add(sums: Array, k: int, value: float) -> None:
+    """sums[k] += value with Neumaier's compensation, kept half the array further."""
+    half = sums.size // 2
+    total = sums[k]
     new = total + value
     if abs(total) >= abs(value):
-        sum_[k + half] += (total - new) + value
+        sums[k + half] += (total - new) + value
     else:
-        sum_[k + half] += (value - new) + total
-    sum_[k] = new
-
-
-def by_rows(lower: np.ndarray) -> np.ndarray:
-    """Rows ``A[k, m] = A(k, k − m)`` from scipy's lower form ``lower[m, i] = A(i + m, i)``; at most 3 subdiagonals."""
-    width, n = lower.shape
-    rows = np.zeros((n, 4))
-    for m in range(width):
-        rows[m:, m] = lower[m, : n - m]
-    return rows
+        sums[k + half] += (value - new) + total
+    sums[k] = new

@@ -2,81 +2,152 @@
 
     S x = b + Gᵀ p,      0 ≤ p ⊥ G x − c ≥ 0,      x = 0 at supports,
 
-by block principal pivoting: guess which rows are closed (G x = c), solve, exchange every row whose sign is wrong, and
-repeat. Exchanging all at once takes two or three rounds; should the number of wrong rows stop falling, one row at
-a time is exchanged (Murty's rule), which cannot cycle for a positive definite S.
+by block principal pivoting: guess which rows are closed (G x = c), solve, exchange every row whose sign is wrong, repeat.
+Exchanging all at once takes two or three rounds; should the number of wrong rows stop falling, one row at a time is exchanged
+(Murty's rule), which cannot cycle for a positive definite S (Júdice & Pires 1994, Comput. Oper. Res. 21, 587).
 
-Here each row touches one dof (contact at nodes), so a closed row fixes its dof and p is what is left over in
-that dof's equation. The factorisation runs towards the contact zone (:mod:`hermite_fe._banded`): a round costs the
-zone, not the beam. A *held* row is closed whatever the sign of p; a row that is no *candidate* is open.
+A row that touches one dof fixes it when closed, and p is what is left over in that dof's equation. A row that touches
+several has a multiplier −p among the unknowns, fixed at 0 while open. Either way a switch changes the factors from
+there inwards only (:mod:`hermite_fe._banded`), so a round costs the contact zone, not the beam. A *held* row is
+closed whatever the sign of p; a row that is no *candidate* is open.
 """
 
 from __future__ import annotations
 
-import numba
+import numpy as np
+from numpy.typing import NDArray
 
-from hermite_fe._banded import _JIT, factor, sweep_in, sweep_out
+from hermite_fe._banded import factor, sweep_in, sweep_out
+from hermite_fe._jit import compiled
+from hermite_fe._problem import Problem, Work
 
-SOLVED, INDEFINITE, CYCLING = 0, 1, 2
+Array = NDArray[np.float64]
+Flags = NDArray[np.bool_]
+
+SOLVED, SINGULAR, CYCLING = 0, 1, 2
 PATIENCE = 8  # rounds of block exchange without progress before Murty's rule
-ROUND_OFF = 1e-13
+ROUND_OFF = 1e-13  # of the terms summed: below it a wrong sign means nothing
 
 
-@numba.njit(**_JIT)
-def solve_at_dofs(S, fresh, b, dofs, factors, target, candidate, held, closed, fixed, D, U, r, z, wrong, x, p):  # type: ignore[no-untyped-def]
-    """Solve with single-dof rows, sorted by dof. Returns (status, rounds).
+@compiled
+def equation(S: Array, x: Array, r: Array, k: int) -> tuple[float, float]:
+    """Equation k of S x − r, and the sum of its terms' sizes, against which round-off is judged."""
+    n = x.size
+    term = S[k, 0] * x[k]
+    total, size = term - r[k], abs(term) + abs(r[k])
+    for m in range(1, 5):
+        if k >= m:
+            term = S[k, m] * x[k - m]
+            total += term
+            size += abs(term)
+        if k + m < n:
+            term = S[k + m, m] * x[k + m]
+            total += term
+            size += abs(term)
+    return total, size
 
-    S (n, 4) by rows; fresh: S is new, its factors D (n+3,), U (n+3, 4) are stale; b (n,); row j is
-    factors[j]·x[dofs[j]] ≥ target[j]; closed (m,) is the guess on entry, the answer on return; fixed (n,) marks closed
-    dofs and supports as the factors know them; r (n,), z (n+3,), wrong (m,) are work space; x (n,), p (m,) the answer.
+
+@compiled
+def right_side(
+    S: Array, b: Array, place: NDArray[np.int64], fixed: Flags, switch: NDArray[np.int64], factors: Array,
+    target: Array, closed: Flags, last_row: int, end: int, r: Array,
+) -> None:
+    """Right-hand side of the first ``end`` unknowns, rows 0 … ``last_row`` closed as ``closed`` says."""
+    direct = factors.shape[1] == 1
+    n = r.size
+    for i in range(b.size):
+        k = place[i]
+        if k >= end:
+            break
+        r[k] = 0.0 if fixed[k] else b[i]
+    if not direct:
+        for j in range(last_row + 1):
+            k = switch[j]
+            if k < end:
+                r[k] = target[j] if closed[j] else 0.0
+        return
+    for j in range(last_row + 1):
+        if not closed[j]:
+            continue
+        k = switch[j]
+        if k >= end + 4:
+            break
+        value = target[j] / factors[j, 0]
+        if k < end:
+            r[k] = value
+        if value != 0.0:
+            for m in range(1, 5):
+                if k >= m and k - m < end and not fixed[k - m]:
+                    r[k - m] -= S[k, m] * value
+                if k + m < min(n, end) and not fixed[k + m]:
+                    r[k + m] -= S[k + m, m] * value
+
+
+@compiled
+def solve_rows(problem: Problem, work: Work, fresh: bool, closed: Flags) -> int:
+    """Solve for work.x (dofs,) and work.p (rows,) from work.S, work.b, work.target, work.candidate, work.held.
+
+    ``fresh`` : work.S is new, its factors are stale. ``closed`` (rows,) is the guess on entry, the answer on return.
+    Returns SOLVED, SINGULAR or CYCLING.
     """
-    n, m = b.size, dofs.size
+    dofs, factors, place, switch, reach = problem.dofs, problem.factors, problem.place, problem.switch, problem.reach
+    S, fixed, D, R, U, r, z, y = work.S, work.fixed, work.D, work.R, work.U, work.r, work.z, work.y
+    b, x, p, wrong = work.b, work.x, work.p, work.wrong
+    target, candidate, held = work.target, work.candidate, work.held
+    n, m, width = y.size, closed.size, factors.shape[1]
+    direct = width == 1
     top = n - 1 if fresh else -1
-    zone = 0
+    zone, last_row = 0, -1
     for j in range(m):
         want = held[j] or (closed[j] and candidate[j])
         closed[j] = want
-        d = dofs[j]
+        p[j] = 0.0
+        wrong[j] = False
         if want or candidate[j]:
-            zone = max(zone, d)
-        if want != fixed[d]:
-            fixed[d] = want
-            top = max(top, min(d + 3, n - 1))
-    zone = min(zone + 4, n)
+            last_row = j
+            zone = max(zone, reach[j])
+        k = switch[j]
+        if fixed[k] != (want == direct):
+            fixed[k] = want == direct
+            top = max(top, min(k + 4, n - 1))
+    zone = min(zone + 5, n)
 
-    for i in range(n):
-        r[i] = 0.0 if fixed[i] else b[i]
-    for j in range(m):
-        if closed[j]:
-            _prescribe(S, fixed, dofs[j], target[j] / factors[j], r)
-    if top >= 0 and not factor(S, fixed, top, D, U):
-        return INDEFINITE, 0
+    right_side(S, b, place, fixed, switch, factors, target, closed, m - 1, n, r)
+    if top >= 0 and not factor(S, fixed, top, D, R, U):
+        return SINGULAR
     sweep_in(U, r, n - 1, z)
 
     fewest, patience, rounds = m + 1, PATIENCE, 0
     while True:
-        rounds += 1
-        if rounds > 100 + 4 * m:
-            return CYCLING, rounds
-        sweep_out(D, U, z, 0, zone, x)
-        count, last = 0, -1
+        sweep_out(R, U, z, 0, zone, y)
         scale = 0.0
-        for j in range(m):
+        for i in range(min(b.size, zone)):
+            if place[i] >= zone:
+                break
+            scale = max(scale, abs(y[place[i]]))
+        count, last = 0, -1
+        for j in range(last_row + 1):
             wrong[j] = False
-            p[j] = 0.0
-            if candidate[j] or held[j]:
-                scale = max(scale, abs(x[dofs[j]]))
-        for j in range(m):
             if not (candidate[j] or held[j]):
                 continue
-            d = dofs[j]
             if closed[j]:
-                total, size = _residual(S, x, b, d)
-                p[j] = total / factors[j]
-                wrong[j] = not held[j] and p[j] < -ROUND_OFF * size / abs(factors[j])
+                if direct:
+                    k = switch[j]
+                    left, size = equation(S, y, r, k)
+                    left += r[k] - b[dofs[j, 0]]
+                    size += abs(b[dofs[j, 0]])
+                    p[j] = left / factors[j, 0]
+                else:
+                    _, size = equation(S, y, r, place[dofs[j, 0]])
+                    p[j] = -y[switch[j]]
+                wrong[j] = not held[j] and p[j] < -ROUND_OFF * size / abs(factors[j, 0])
             else:
-                slack = factors[j] * x[d] - target[j]
-                wrong[j] = slack < -ROUND_OFF * (scale * abs(factors[j]) + abs(target[j]))
+                p[j] = 0.0
+                slack, size = -target[j], abs(target[j])
+                for i in range(width):
+                    slack += factors[j, i] * y[place[dofs[j, i]]]
+                    size += abs(factors[j, i]) * scale
+                wrong[j] = slack < -ROUND_OFF * size
             if wrong[j]:
                 count += 1
                 last = j
@@ -86,64 +157,21 @@ def solve_at_dofs(S, fresh, b, dofs, factors, target, candidate, held, closed, f
             fewest, patience = count, PATIENCE
         else:
             patience -= 1
+        rounds += 1
+        if rounds > 100 + 4 * m:
+            return CYCLING
         top = -1
-        for j in range(m):
+        for j in range(last_row + 1):
             if wrong[j] and (patience > 0 or j == last):
-                d = dofs[j]
                 closed[j] = not closed[j]
-                fixed[d] = closed[j]
-                top = max(top, min(d + 3, n - 1))
-        for i in range(min(top + 4, n)):
-            r[i] = 0.0 if fixed[i] else b[i]
-        for j in range(m):
-            if closed[j]:
-                if dofs[j] > top + 7:
-                    break
-                _prescribe_below(S, fixed, dofs[j], target[j] / factors[j], r, top + 4)
-        if not factor(S, fixed, top, D, U):
-            return INDEFINITE, rounds
+                fixed[switch[j]] = closed[j] == direct
+                top = max(top, min(switch[j] + 4, n - 1))
+        right_side(S, b, place, fixed, switch, factors, target, closed, last_row, top + 1, r)
+        if not factor(S, fixed, top, D, R, U):
+            return SINGULAR
         sweep_in(U, r, top, z)
-    sweep_out(D, U, z, zone, n, x)
-    return SOLVED, rounds
-
-
-@numba.njit(**_JIT)
-def _residual(S, x, b, d):  # type: ignore[no-untyped-def]
-    """Row d of S x − b, and the sum of its terms' sizes, against which round-off is judged."""
-    n = b.size
-    total, size = S[d, 0] * x[d] - b[d], abs(S[d, 0] * x[d]) + abs(b[d])
-    for k in range(1, 4):
-        if d >= k:
-            term = S[d, k] * x[d - k]
-            total += term
-            size += abs(term)
-        if d + k < n:
-            term = S[d + k, k] * x[d + k]
-            total += term
-            size += abs(term)
-    return total, size
-
-
-@numba.njit(**_JIT)
-def _prescribe(S, fixed, d, value, r):  # type: ignore[no-untyped-def]
-    """Take the known x[d] = value to the right-hand side."""
-    r[d] = value
-    if value != 0.0:
-        for k in range(1, 4):
-            if d >= k and not fixed[d - k]:
-                r[d - k] -= S[d, k] * value
-            if d + k < r.size and not fixed[d + k]:
-                r[d + k] -= S[d + k, k] * value
-
-
-@numba.njit(**_JIT)
-def _prescribe_below(S, fixed, d, value, r, end):  # type: ignore[no-untyped-def]
-    """As :func:`_prescribe`, touching only r[: end]."""
-    if d < end:
-        r[d] = value
-    if value != 0.0:
-        for k in range(1, 4):
-            if d >= k and d - k < end and not fixed[d - k]:
-                r[d - k] -= S[d, k] * value
-            if d + k < r.size and d + k < end and not fixed[d + k]:
-                r[d + k] -= S[d + k, k] * value
+    sweep_out(R, U, z, zone, n, y)
+    if not direct:
+        for i in range(x.size):
+            x[i] = y[place[i]]
+    return SOLVED

@@ -1,50 +1,144 @@
-"""Plain arrays of a system, as the compiled kernels take them (named tuples, which numba knows)."""
+"""Plain arrays of a system, as the compiled kernels take them (named tuples, which numba knows).
+
+Unknowns of a step are the dofs, in order, and between them one multiplier for each row that touches several dofs
+(after the middle one of its dofs: between the two nodes of an element). ``place`` says which unknown a dof is, ``switch`` which
+unknown a row fixes (the dof itself when it touches only one), ``reach`` the last unknown that a row touches.
+"""
 
 from __future__ import annotations
 
-from collections import namedtuple
+from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
-from hermite_fe._banded import by_rows
 from hermite_fe.system import System
 
-Problem = namedtuple("Problem", "M C K load dofs factors gap rank side tributary")
-Contact = namedtuple("Contact", "restitution hold_rows hold_until")
-State = namedtuple("State", "q v a closed impulse held_impulse budget worst closing")
-Work = namedtuple("Work", "S fixed D U r z wrong b x p target candidate held y1 y2 y3 cache")
+Array = NDArray[np.float64]
+Flags = NDArray[np.bool_]
+Places = NDArray[np.int64]
 
-# places in State.worst: worst complementarity since the last look
-SMALLEST_REACTION, PRODUCT, WORST = 0, 1, 2
-# places in Work.cache: the coefficients S was made with
-CACHE = 4
+
+class Problem(NamedTuple):
+    """What does not change during a run."""
+
+    M: Array
+    C: Array
+    K: Array
+    load: Array
+    dofs: Places
+    factors: Array
+    gap: Array
+    rank: Places
+    side: Places
+    tributary: Array
+    place: Places
+    switch: Places
+    reach: Places
+
+
+class ContactLaw(NamedTuple):
+    """Impact law and hold (:mod:`hermite_fe.contacts.base`)."""
+
+    restitution: float
+    hold: int
+    hold_until: float
+
+
+class State(NamedTuple):
+    """What a step changes: motion, closed rows, impulses so far, energy sums, worst complementarity since the last look."""
+
+    q: Array
+    v: Array
+    a: Array
+    extra: Array
+    closed: Flags
+    impulse: Array
+    held_impulse: Array
+    budget: Array
+    worst: Array
+
+
+class Work(NamedTuple):
+    """Work space; nothing in it outlives a step but the factors that still hold, and what ``made_with`` says of them."""
+
+    S: Array
+    fixed: Flags
+    D: Array
+    R: Array
+    U: Array
+    r: Array
+    z: Array
+    y: Array
+    wrong: Flags
+    b: Array
+    x: Array
+    p: Array
+    target: Array
+    candidate: Flags
+    held: Flags
+    gap: Array
+    speed: Array
+    d1: Array
+    d2: Array
+    d3: Array
+    made_with: Array
+
+
+SMALLEST_REACTION, PRODUCT = 0, 1  # places in State.worst
+WORK, VISCOUS, IMPACT, ALGORITHMIC = 0, 1, 2, 3  # places in State.budget, compensations four further
 
 
 def problem_of(system: System) -> Problem:
-    """The arrays of a system, bands by rows."""
+    """The arrays of a system."""
     rows = system.contacts
+    m, width = rows.dofs.shape
+    place = np.arange(system.dofs)
+    if width > 1:
+        after = np.sort(rows.dofs, axis=1)[:, (width - 1) // 2]
+        place = place + np.searchsorted(after, np.arange(system.dofs), side="left")
+        switch = place[after] + 1
+        if m and (np.any(np.diff(switch) < 1) or np.abs(place[rows.dofs] - switch[:, None]).max() > 4
+                  or np.abs(place[3:] - place[:-3]).max(initial=0) > 4):
+            raise ValueError("contact rows must each touch a few neighbouring dofs, at most one row for two dofs")
+    else:
+        switch = rows.dofs[:, 0].copy()
+    reach = np.maximum(place[rows.dofs].max(axis=1), switch) if m else np.zeros(0, np.int64)
     return Problem(
-        by_rows(system.mass), by_rows(system.damping), by_rows(system.stiffness), system.load,  # type: ignore[arg-type]
-        rows.dofs, rows.factors, rows.gap, rows.rank, rows.side, rows.tributary,
+        system.mass, system.damping, system.stiffness, system.load,  # type: ignore[arg-type]
+        rows.dofs, rows.factors, rows.gap, rows.rank, rows.side, rows.tributary,  # type: ignore[arg-type]
+        place, switch, np.asarray(reach),
     )
 
 
-def state_of(system: System, q: np.ndarray, v: np.ndarray) -> State:
+def state_of(system: System, q: Array, v: Array) -> State:
     """A fresh state at the start, q and v copied."""
-    m = len(system.contacts)
+    n, m = system.dofs, len(system.contacts)
     return State(
-        np.array(q, float), np.array(v, float), np.zeros(system.dofs), np.zeros(m, np.bool_), np.zeros(m),
-        np.zeros(m), np.zeros(8), np.zeros(2), np.zeros(m),
+        np.array(q, float), np.array(v, float), np.zeros(n), np.zeros(n), np.zeros(m, np.bool_), np.zeros(m),
+        np.zeros(m), np.zeros(8), np.zeros(2),
     )
 
 
-def work_of(system: System) -> Work:
-    """Work space of the kernels; nothing in it outlives a step but the factors that still hold."""
+def work_of(system: System, problem: Problem) -> Work:
+    """Work space for a system."""
     n, m = system.dofs, len(system.contacts)
-    fixed = np.zeros(n, np.bool_)
-    fixed[list(system.supports)] = True
+    direct = problem.dofs.shape[1] == 1
+    size = n if direct else n + m
+    fixed = np.zeros(size, np.bool_)
+    fixed[problem.place[list(system.supports)]] = True
+    S = np.zeros((size, 5))
+    x = np.zeros(n)
+    if not direct:
+        fixed[problem.switch] = True
+        S[problem.switch, 0] = 0.0
+        for j in range(m):
+            for d, factor in zip(problem.dofs[j], problem.factors[j]):
+                k, s = int(problem.place[d]), int(problem.switch[j])
+                S[max(k, s), abs(k - s)] = factor
+    flags = [np.zeros(m, np.bool_) for _ in range(3)]
     return Work(
-        np.zeros((n, 4)), fixed, np.ones(n + 3), np.zeros((n + 3, 4)), np.zeros(n), np.zeros(n + 3),
-        np.zeros(m, np.bool_), np.zeros(n), np.zeros(n), np.zeros(m), np.zeros(m), np.zeros(m, np.bool_),
-        np.zeros(m, np.bool_), np.zeros(n), np.zeros(n), np.zeros(n), np.full(CACHE, np.nan),
+        S, fixed, np.ones(size + 4), np.ones(size + 4), np.zeros((size + 4, 5)), np.zeros(size), np.zeros(size + 4),
+        x if direct else np.zeros(size), flags[0], np.zeros(n), x, np.zeros(m), np.zeros(m), flags[1], flags[2],
+        np.zeros(m), np.zeros(m), np.zeros(n), np.zeros(n), np.zeros(n), np.full(2, np.nan),
     )

@@ -13,82 +13,94 @@ from __future__ import annotations
 
 import math
 
-import numba
+import numpy as np
+from numpy.typing import NDArray
 
-from hermite_fe._banded import _JIT, add, combine, multiply, quadratic
-from hermite_fe._contact import force_at, mark_held, rows_times, solve_rows
-from hermite_fe._pivoting import SOLVED
-from hermite_fe._problem import PRODUCT, SMALLEST_REACTION
+from hermite_fe._banded import add, combine, multiply, quadratic
+from hermite_fe._contact import force_at, mark_held, row_times, rows_times
+from hermite_fe._jit import compiled
+from hermite_fe._pivoting import SOLVED, solve_rows
+from hermite_fe._problem import (
+    ALGORITHMIC,
+    IMPACT,
+    PRODUCT,
+    SMALLEST_REACTION,
+    VISCOUS,
+    WORK,
+    ContactLaw,
+    Problem,
+    State,
+    Work,
+)
 
-NOT_FINITE = 3
-WORK, VISCOUS, IMPACT, ALGORITHMIC = 0, 1, 2, 3  # places in State.budget
+Array = NDArray[np.float64]
 
 
-@numba.njit(**_JIT)
-def steps(problem, contact, state, work, times, first, last, theta, at_position):  # type: ignore[no-untyped-def]
+@compiled
+def steps(
+    problem: Problem, law: ContactLaw, state: State, work: Work, times: Array, first: int, last: int, theta: float,
+    at_position: bool,
+) -> tuple[int, int]:
     """Take the steps ``first`` … ``last`` − 1 between the instants ``times``. Returns (status, step reached)."""
     M, C, K, load = problem.M, problem.C, problem.K, problem.load
-    dofs, factors = problem.dofs, problem.factors
+    dofs, factors, gap0 = problem.dofs, problem.factors, problem.gap
     q, v, closed = state.q, state.v, state.closed
+    b, dv, p, target, candidate, held = work.b, work.x, work.p, work.target, work.candidate, work.held
+    gap, speed, dq, vel, force = work.gap, work.speed, work.d1, work.d2, work.d3
     n, m = q.size, closed.size
-    dv, dq = work.x, work.y2
     for k in range(first, last):
         t = times[k]
         h = times[k + 1] - t
-        fresh = work.cache[0] != h
+        fresh = work.made_with[0] != h
         if fresh:
-            combine(M, C, K, theta * h, theta * theta * h * h, work.S)
-            work.cache[0] = h
+            combine(M, C, K, 1.0, theta * h, theta * theta * h * h, problem.place, work.S)
+            work.made_with[0] = h
         for i in range(n):
             dq[i] = q[i] + theta * h * v[i]
-        multiply(K, dq, work.b)
-        multiply(C, v, work.y1)
-        force_at(load, t, h, theta, work.y3)
+        multiply(K, dq, b)
+        multiply(C, v, vel)
+        force_at(load, t, h, theta, force)
         for i in range(n):
-            work.b[i] = h * (work.y3[i] - work.b[i] - work.y1[i])
+            b[i] = h * (force[i] - b[i] - vel[i])
 
-        mark_held(closed, problem.rank, problem.side, contact.hold_rows, t < contact.hold_until, work.held)
-        for j in range(m):
-            gap = problem.gap[j] + rows_times(dofs, factors, q, j)
-            speed = rows_times(dofs, factors, v, j)
-            if at_position:
-                work.candidate[j] = True
-                work.target[j] = -(gap / h + speed) / theta
-            else:
+        mark_held(closed, problem.rank, problem.side, law.hold, t < law.hold_until, held)
+        rows_times(dofs, factors, q, gap)
+        rows_times(dofs, factors, v, speed)
+        if at_position:
+            for j in range(m):
+                candidate[j] = True
+                target[j] = -((gap0[j] + gap[j]) / h + speed[j]) / theta
+        else:
+            for j in range(m):
                 # where a row would come to rest if it were closed now
-                work.candidate[j] = gap + (1.0 - theta) * h * speed <= 0.0
-                work.target[j] = -speed if work.held[j] else -(1.0 + contact.restitution) * speed
+                candidate[j] = gap0[j] + gap[j] + (1.0 - theta) * h * speed[j] <= 0.0
+                target[j] = -speed[j] if held[j] else -(1.0 + law.restitution) * speed[j]
         status = solve_rows(problem, work, fresh, closed)
         if status != SOLVED:
-            work.cache[0] = math.nan
+            work.made_with[0] = math.nan
             return status, k
 
-        p = work.p
         for j in range(m):
-            if closed[j] or p[j] != 0.0:
-                speed = rows_times(dofs, factors, v, j)
-                change = rows_times(dofs, factors, dv, j)
-                add(state.budget, IMPACT, -0.5 * p[j] * (2.0 * speed + change))
+            if closed[j]:
+                change = row_times(dofs, factors, dv, j)
+                add(state.budget, IMPACT, -0.5 * p[j] * (2.0 * speed[j] + change))
                 add(state.budget, ALGORITHMIC, -(theta - 0.5) * p[j] * change)
                 state.impulse[j] += p[j]
-                if work.held[j]:
+                if held[j]:
                     state.held_impulse[j] += min(p[j], 0.0)
                 else:
                     state.worst[SMALLEST_REACTION] = min(state.worst[SMALLEST_REACTION], p[j])
-                product = abs(p[j] * (change - work.target[j])) * (h if at_position else 1.0)
+                product = abs(p[j] * (change - target[j])) * (h if at_position else 1.0)
                 state.worst[PRODUCT] = max(state.worst[PRODUCT], product)
         add(state.budget, ALGORITHMIC, (theta - 0.5) * quadratic(M, dv))
         work_done = 0.0
         for i in range(n):
-            speed = v[i] + theta * dv[i]
-            work.y1[i] = speed
-            work_done += work.y3[i] * speed
-            dq[i] = h * speed
+            vel[i] = v[i] + theta * dv[i]
+            dq[i] = h * vel[i]
             q[i] += dq[i]
             v[i] += dv[i]
+            work_done += force[i] * vel[i]
         add(state.budget, WORK, h * work_done)
-        add(state.budget, VISCOUS, h * quadratic(C, work.y1))
+        add(state.budget, VISCOUS, h * quadratic(C, vel))
         add(state.budget, ALGORITHMIC, (theta - 0.5) * quadratic(K, dq))
-        if not math.isfinite(work_done + q[0] + v[0] + v[n - 1]):
-            return NOT_FINITE, k
     return SOLVED, last

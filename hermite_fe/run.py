@@ -13,8 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hermite_fe._banded import quadratic
-from hermite_fe._problem import Contact, problem_of, state_of, work_of
-from hermite_fe._theta import ALGORITHMIC, IMPACT, VISCOUS, WORK
+from hermite_fe._problem import ALGORITHMIC, IMPACT, VISCOUS, WORK, ContactLaw, problem_of, state_of, work_of
 from hermite_fe.integrators import Integrator
 from hermite_fe.system import System
 
@@ -104,9 +103,10 @@ def integrate(
     """
     instants = integrator.instants(end_time)
     kept = saved_steps(instants, save)
-    problem, work = problem_of(system), work_of(system)
+    problem = problem_of(system)
+    work = work_of(system, problem)
     state = state_of(system, q, v)
-    contact = Contact(float(restitution), int(hold), float(hold_until))
+    law = ContactLaw(float(restitution), int(hold), float(hold_until))
     n, m, count = system.dofs, len(system.contacts), kept.size
     samples = {name: np.zeros((count, n)) for name in ("q", "v")}
     samples |= {name: np.zeros((count, m)) for name in ("gap", "impulse", "held_impulse")}
@@ -117,7 +117,7 @@ def integrate(
     started = clock.perf_counter()
     for s, step in enumerate(kept):
         if s > 0:
-            status, reached = integrator.advance(problem, contact, state, work, instants, int(kept[s - 1]), int(step))
+            status, reached = integrator.advance(problem, law, state, work, instants, int(kept[s - 1]), int(step))
             taken = reached
             if status == 0 and not (np.all(np.isfinite(state.q)) and np.all(np.isfinite(state.v))):
                 status = 3

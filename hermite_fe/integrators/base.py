@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bent_beam.checks import non_negative, positive
-from hermite_fe._problem import Contact, Problem, State, Work
+from hermite_fe._problem import ContactLaw, Problem, State, Work
 
 __all__ = ["Integrator"]
 
@@ -64,7 +64,7 @@ class Integrator(ABC):
 
     @abstractmethod
     def advance(
-        self, problem: Problem, contact: Contact, state: State, work: Work, times: NDArray[np.float64],
+        self, problem: Problem, law: ContactLaw, state: State, work: Work, times: NDArray[np.float64],
         first: int, last: int,
     ) -> tuple[int, int]:
         """Take steps ``first`` … ``last`` − 1 in place; returns (status, step reached), status 0 when all went well."""

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from bent_beam.checks import between
 from hermite_fe import _theta
-from hermite_fe._problem import Contact, Problem, State, Work
+from hermite_fe._problem import ContactLaw, Problem, State, Work
 from hermite_fe.integrators.base import Integrator
 
 __all__ = ["MoreauJean"]
@@ -32,7 +32,7 @@ class MoreauJean(Integrator):
         between("integrator.theta", self.theta, 0.5, 1.0)
 
     def advance(
-        self, problem: Problem, contact: Contact, state: State, work: Work, times: NDArray[np.float64],
+        self, problem: Problem, law: ContactLaw, state: State, work: Work, times: NDArray[np.float64],
         first: int, last: int,
     ) -> tuple[int, int]:
-        return _theta.steps(problem, contact, state, work, times, first, last, self.theta, False)
+        return _theta.steps(problem, law, state, work, times, first, last, self.theta, False)

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from bent_beam.checks import between
 from hermite_fe import _theta
-from hermite_fe._problem import Contact, Problem, State, Work
+from hermite_fe._problem import ContactLaw, Problem, State, Work
 from hermite_fe.integrators.base import Integrator
 
 __all__ = ["SignoriniPosition"]
@@ -31,9 +31,9 @@ class SignoriniPosition(Integrator):
         between("integrator.theta", self.theta, 0.5, 1.0)
 
     def advance(
-        self, problem: Problem, contact: Contact, state: State, work: Work, times: NDArray[np.float64],
+        self, problem: Problem, law: ContactLaw, state: State, work: Work, times: NDArray[np.float64],
         first: int, last: int,
     ) -> tuple[int, int]:
-        if contact.restitution > 0.0:
-            raise ValueError(f"signorini_position has no impact law: restitution must be 0 (got {contact.restitution!r})")
-        return _theta.steps(problem, contact, state, work, times, first, last, self.theta, True)
+        if law.restitution > 0.0:
+            raise ValueError(f"signorini_position has no impact law: restitution must be 0 (got {law.restitution!r})")
+        return _theta.steps(problem, law, state, work, times, first, last, self.theta, True)
