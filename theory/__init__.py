@@ -1,16 +1,22 @@
 """The semi-analytic path: two-scale theory of a bent beam's impact on a rigid wall (thesis, chapter 2).
 
-`contact_parameters` solves the contact point, `predict` says what that means for a physical impact and
+`contact_parameters` solves the contact point, `ImpactFields` gives the beam around it, `SelfSimilarWave` the same in closed
+form at leading order, `predict` says what that means for a physical impact and
 where it may be trusted; the kernel and the φ functions are in `theory.kernel` and `theory.phi`.
 """
 
 from theory.contact import ContactParameters, contact_parameters
+from theory.fields import FieldValues, ImpactFields
 from theory.prediction import Prediction, PredictionAtTime, ValidityCheck, predict
+from theory.similarity import SelfSimilarWave
 
 __all__ = [
     "ContactParameters",
+    "FieldValues",
+    "ImpactFields",
     "Prediction",
     "PredictionAtTime",
+    "SelfSimilarWave",
     "ValidityCheck",
     "contact_parameters",
     "predict",

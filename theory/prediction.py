@@ -182,47 +182,58 @@ def _check_epsilon(epsilon: float) -> ValidityCheck:
         "epsilon",
         epsilon,
         EXPANSION_LIMIT,
-        f"The impact is fast against the beam's own vibration (epsilon = {epsilon:.3g}).",
-        f"epsilon = {epsilon:.3g}: the impact is not fast against the beam's own vibration, so the two "
-        "time scales do not separate; a faster, longer, heavier or softer beam would bring epsilon down.",
+        f"The impact is fast against the beam's own vibration (epsilon = t*/T* = {epsilon:.3g}).",
+        f"epsilon = t*/T* = {epsilon:.3g}: the impact is not fast against the beam's own vibration, so the "
+        "two time scales do not separate; at best times far below T* can be trusted. A faster, longer, "
+        "heavier or softer beam would bring epsilon down.",
     )
+
+
+def _correction(name: str, what: str, ratio: float | None, until: float, good: str) -> ValidityCheck:
+    if ratio is not None and ratio >= 1.0:
+        bad = (
+            f"The first-order change of the {what} is {ratio:.3g} times its leading order: the expansion says "
+            f"nothing here, it is valid up to {until:.3g} s. Ask for an earlier time or simulate."
+        )
+    else:
+        bad = (
+            f"The load changes the {what} by {_percent(ratio)} of its leading order: the terms left out are no "
+            f"longer small and the {what} is an indication only, it is valid up to {until:.3g} s."
+        )
+    return _check(name, ratio, EXPANSION_LIMIT, good, bad)
 
 
 def _checks_at_time(impact: Impact, solved: Any, t: float, length: float) -> tuple[ValidityCheck, ...]:
     tau = t / impact.time_scale
     spreads = solved.regime != DISCRETE
-    growth = abs(solved.lambda1) * tau / solved.lambda0 if spreads else None
-    load = abs(solved.r1) * tau / solved.r0
+    growth = abs(solved.lambda1) / solved.lambda0 if spreads else None
+    load = abs(solved.r1) / solved.r0
     reach = max(length, 0.0) / impact.half_length
     age = t / impact.slow_time_scale
     return (
-        _check(
+        _correction(
             "contact_length_correction",
-            growth,
-            EXPANSION_LIMIT,
+            "contact length",
+            None if growth is None else growth * tau,
+            EXPANSION_LIMIT / growth * impact.time_scale if growth else math.inf,
             "The first-order change of the contact length is a small correction."
             if spreads
             else "The beam touches in one point only: there is no contact length to correct.",
-            f"The load changes the contact length by {_percent(growth)} of its leading order: the terms left "
-            "out are no longer small and the contact length is an indication only; ask for an earlier time "
-            "or simulate.",
         ),
-        _check(
+        _correction(
             "reaction_correction",
-            load,
-            EXPANSION_LIMIT,
+            "reaction",
+            load * tau,
+            EXPANSION_LIMIT / load * impact.time_scale if load else math.inf,
             "The first-order change of the reaction is a small correction.",
-            f"The load changes the concentrated reaction by {_percent(load)} of its leading order: the terms "
-            "left out are no longer small and reaction and impulse are indications only; ask for an earlier "
-            "time or simulate.",
         ),
         _check(
             "contact_length_over_half_length",
             reach,
             CONTACT_LIMIT,
             f"The contact covers {_percent(reach)} of the beam.",
-            f"The contact covers {_percent(reach)} of the beam: the waves ahead of it have reached the beam's "
-            "ends, which the theory takes to be infinitely far.",
+            f"The contact covers {_percent(reach)} of the beam: the waves ahead of it have reached the "
+            "beam's ends, which the theory takes to be infinitely far.",
         ),
         _check(
             "time_over_slow_time_scale",
