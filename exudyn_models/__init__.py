@@ -1,0 +1,26 @@
+"""The Exudyn path: the beam of ANCF cable elements (or geometrically exact ones) against a rigid wall.
+
+One call, every part a small frozen object that may be swapped or left to be chosen from the problem::
+
+    from bent_beam import Impact
+    import exudyn_models
+
+    history = exudyn_models.simulate(Impact.dimensionless(0.5))
+"""
+
+from exudyn_models.contacts import CONTACTS
+from exudyn_models.elements import ELEMENTS
+from exudyn_models.geometry import GEOMETRIES
+from exudyn_models.integrators import INTEGRATORS
+from exudyn_models.simulation import chosen_half_length, chosen_mesh, simulate
+from exudyn_models.solvers import SOLVERS
+
+__all__ = [
+    "CONTACTS", "ELEMENTS", "GEOMETRIES", "INTEGRATORS", "REGISTRIES", "SOLVERS", "chosen_half_length", "chosen_mesh",
+    "simulate",
+]
+
+REGISTRIES = {
+    "element": ELEMENTS, "integrator": INTEGRATORS, "contact": CONTACTS, "geometry": GEOMETRIES, "solver": SOLVERS,
+}
+"""Sub-tables of a case file's ``[exudyn]`` table and the kinds that each may have."""

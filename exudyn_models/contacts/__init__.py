@@ -1,0 +1,8 @@
+"""Contact with the rigid wall: each a small file; ``CONTACTS`` names them for ``[exudyn.contact]``."""
+
+from exudyn_models.contacts.base import Contact, ContactRun, Wall
+from exudyn_models.contacts.penalty import Penalty
+
+__all__ = ["CONTACTS", "Contact", "ContactRun", "Penalty", "Wall"]
+
+CONTACTS: dict[str, type] = {"penalty": Penalty}

@@ -1,0 +1,128 @@
+"""Euler–Bernoulli cable of the absolute nodal coordinate formulation (Exudyn's ``ObjectANCFCable2D``).
+
+    m = EI(κ − κ₀) + η κ̇,   n = EA(|r′| − 1),   κ = (r′ × r″)/|r′|²,   r cubic between nodes with coordinates (r, r′)
+
+For small deflections this is the Hermite element of the beam equation. The viscosity η = c·√(EIμ)·Δx² damps only what the mesh
+cannot resolve: waves of wave number k by the ratio c(kΔx)²/2.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import exudyn.itemInterface as items
+import numpy as np
+from numpy.typing import NDArray
+
+from bent_beam.checks import non_negative, positive
+from exudyn_models.elements.beam import Beam, Section
+from exudyn_models.geometry import Shape
+
+__all__ = ["ANCFCable"]
+
+Array = NDArray[np.float64]
+
+POINTS, WEIGHTS = np.polynomial.legendre.leggauss(4)
+XI = (POINTS + 1) / 2
+
+
+def _shapes(derivative: int) -> Array:
+    """Hermite functions of the unit element at the Gauss points, shape (4 functions, points)."""
+    x, one = XI, np.ones_like(XI)
+    if derivative == 0:
+        return np.array([1 - 3 * x**2 + 2 * x**3, x - 2 * x**2 + x**3, 3 * x**2 - 2 * x**3, x**3 - x**2])
+    if derivative == 1:
+        return np.array([-6 * x + 6 * x**2, 1 - 4 * x + 3 * x**2, 6 * x - 6 * x**2, 3 * x**2 - 2 * x])
+    return np.array([-6 * one + 12 * x, -4 * one + 6 * x, 6 * one - 12 * x, 6 * x - 2 * one])
+
+
+class _Cable(Beam):
+    rotation_coordinate = 3
+
+    def _field(self, q: Array, offset: int, derivative: int) -> Array:
+        """A component (0: x, 1: y) or its derivative by s at the Gauss points, shape (elements, points)."""
+        first = self.horizontal + offset
+        value, gradient, length = q[first], q[first + 2], self.lengths[:, None]
+        n = _shapes(derivative)
+        return np.asarray(
+            (value[:-1, None] * n[0] + value[1:, None] * n[2] + length * (gradient[:-1, None] * n[1] + gradient[1:, None] * n[3]))
+            / length**derivative
+        )
+
+    def _integral(self, values: Array) -> float:
+        return float((values * self.lengths[:, None] * WEIGHTS / 2).sum())
+
+    def slope(self, q: Array) -> Array:
+        return np.asarray(q[self.rotation] / (1.0 + q[self.horizontal + 2]))
+
+    def momentum(self, v: Array) -> float:
+        y, g, length = v[self.vertical], v[self.rotation], self.lengths
+        sums = length * (y[:-1] + y[1:]) / 2 + length**2 * (g[:-1] - g[1:]) / 12
+        return float(self.section.mass_per_length * sums.sum())
+
+    def kinetic_energy(self, v: Array) -> float:
+        square = self._field(v, 0, 0) ** 2 + self._field(v, 1, 0) ** 2
+        return self.section.mass_per_length * self._integral(square) / 2
+
+    def _curvature(self, q: Array) -> tuple[Array, Array]:
+        x1, y1 = 1.0 + self._field(q, 0, 1), self._field(q, 1, 1)
+        x2, y2 = self._field(q, 0, 2), self._field(q, 1, 2)
+        square = x1**2 + y1**2
+        return (x1 * y2 - y1 * x2) / square, np.sqrt(square) - 1.0
+
+    def strain_energy(self, q: Array) -> float:
+        curvature, strain = self._curvature(q)
+        bending = self.section.bending_stiffness * (curvature - self.shape.curvature) ** 2
+        return self._integral(bending + self.section.axial_stiffness * strain**2) / 2
+
+    def viscous_power(self, q: Array, v: Array) -> float:
+        return self._integral(self.viscosity[:, None] * self._field(v, 1, 2) ** 2)
+
+    def element_matrices(self) -> tuple[Array, Array, Array]:
+        length = self.lengths
+        scale = np.stack([np.ones_like(length), length, np.ones_like(length), length], axis=1)
+        outer = scale[:, :, None] * scale[:, None, :]
+        n, b = _shapes(0), _shapes(2)
+        mass = (n * WEIGHTS / 2) @ n.T * outer * (self.section.mass_per_length * length)[:, None, None]
+        bend = (b * WEIGHTS / 2) @ b.T * outer / (length**3)[:, None, None]
+        return mass, self.section.bending_stiffness * bend, self.viscosity[:, None, None] * bend
+
+
+@dataclass(frozen=True)
+class ANCFCable:
+    """ANCF cable elements, cubic: the default.
+
+    viscosity : bending viscosity in units of √(EIμ)·Δx² of each element; None: 0.3 under implicit integrators, 0.003 under
+        explicit ones (more would shorten their stable step).
+    axial_stiffness : EA, N; None: 12EI/d² with the true geometry, EI/Λ² in the linear limit (where it has no effect).
+    """
+
+    viscosity: float | None = None
+    axial_stiffness: float | None = None
+
+    def __post_init__(self) -> None:
+        if self.viscosity is not None:
+            non_negative("exudyn.element.viscosity", self.viscosity)
+        if self.axial_stiffness is not None:
+            positive("exudyn.element.axial_stiffness", self.axial_stiffness)
+
+    def build(self, mbs: Any, shape: Shape, section: Section, viscosity: Array) -> Beam:
+        beam = _Cable(mbs, shape, section, viscosity)
+        cos, sin = np.cos(shape.angle), np.sin(shape.angle)
+        if not shape.slender:
+            # the linear limit: slopes are angles and nothing stretches to first order
+            cos, sin = np.ones_like(cos), shape.angle
+        for i in range(shape.s.size):
+            w = shape.angular_velocity[i]
+            beam.nodes.append(mbs.AddNode(items.NodePoint2DSlope1(
+                referenceCoordinates=[shape.s[i], 0.0, 1.0, 0.0],
+                initialCoordinates=[shape.x[i] - shape.s[i], shape.y[i], cos[i] - 1.0, sin[i]],
+                initialVelocities=[shape.velocity_x[i], shape.velocity_y[i],
+                                   -w * sin[i] if shape.slender else 0.0, w * cos[i]])))
+        for i, length in enumerate(beam.lengths):
+            beam.bodies.append(mbs.AddObject(items.ObjectANCFCable2D(
+                length=length, massPerLength=section.mass_per_length, bendingStiffness=section.bending_stiffness,
+                axialStiffness=section.axial_stiffness, bendingDamping=viscosity[i], referenceCurvature=shape.curvature,
+                nodeNumbers=[beam.nodes[i], beam.nodes[i + 1]], useReducedOrderIntegration=1)))
+        return beam

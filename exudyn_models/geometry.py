@@ -1,0 +1,120 @@
+"""How large the deflections of the model are.
+
+The natural shape of the beam at the first contact has the angle θ(s) = −Ks + q₀s³/6 at arc length s. Its material points lie at
+
+    x = ∫ cos θ ds,  y = ∫ sin θ ds,   ẋ = −∫ θ̇ sin θ ds,  ẏ = V₀ + ∫ θ̇ cos θ ds,  θ̇ = c₀ s       (no stretch)
+
+and for small angles y = −Ks²/2 + q₀s⁴/24, ẏ = V₀ + c₀s²/2, the free motion of Euler–Bernoulli theory.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bent_beam.checks import positive
+from exudyn_models.scaling import Scaling
+
+__all__ = ["GEOMETRIES", "Geometry", "LinearLimit", "Shape", "TrueGeometry"]
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Shape:
+    """Places, angles and velocities of the nodes at the first contact in model units, arrays of shape (nodes,)."""
+
+    s: Array
+    x: Array
+    y: Array
+    angle: Array
+    velocity_x: Array
+    velocity_y: Array
+    angular_velocity: Array
+    curvature: float  # stress-free
+    slender: bool     # true geometry: the axial stiffness of the section matters
+
+    @property
+    def lengths(self) -> Array:
+        """Element lengths, shape (nodes − 1,)."""
+        return np.diff(self.s)
+
+
+class Geometry(Protocol):
+    """What ``simulate`` asks of a geometry."""
+
+    def amplitude_of(self, true_amplitude: float) -> float:
+        """Deflection scale of the model over Λ, given that of the real beam."""
+        ...
+
+    def shape(self, s: Array, scaling: Scaling) -> Shape:
+        """The beam at the first contact."""
+        ...
+
+
+@dataclass(frozen=True)
+class LinearLimit:
+    """Deflections scaled down until the beam is linear: the comparison with linear theory.
+
+    amplitude : deflection V₀T over the length Λ = (EI/μ)^{1/4}√T in the model; the history is scaled back.
+    """
+
+    amplitude: float = 1e-3
+
+    def __post_init__(self) -> None:
+        positive("geometry.amplitude", self.amplitude)
+
+    def amplitude_of(self, true_amplitude: float) -> float:
+        return self.amplitude
+
+    def shape(self, s: Array, scaling: Scaling) -> Shape:
+        k, c, q, a = scaling.kappa, scaling.chi, scaling.psi, scaling.amplitude
+        return Shape(
+            s=s, x=s, y=a * (-k * s**2 / 2 + q * s**4 / 24), angle=a * (-k * s + q * s**3 / 6),
+            velocity_x=np.zeros_like(s), velocity_y=a * (1 + c * s**2 / 2), angular_velocity=a * c * s,
+            curvature=-a * k, slender=False,
+        )
+
+
+@dataclass(frozen=True)
+class TrueGeometry:
+    """The beam as it is: an arc laid by arc length, axial stiffness EA = 12EI/d² of its section height d.
+
+    Linear theory is approached as slopes vanish, that is for end times T ≪ t* (slopes over the front are ~ √(T/t*)).
+    """
+
+    def amplitude_of(self, true_amplitude: float) -> float:
+        return true_amplitude
+
+    def shape(self, s: Array, scaling: Scaling) -> Shape:
+        k, c, q, a = scaling.kappa, scaling.chi, scaling.psi, scaling.amplitude
+
+        def angle(at: Array) -> Array:
+            return np.asarray(a * (-k * at + q * at**3 / 6))
+
+        if np.max(np.abs(angle(s))) > np.pi / 2:
+            raise ValueError(
+                f"geometry true: the modelled beam of half length {s[-1] * scaling.length:.4g} m turns by more than a right "
+                "angle; shorten run.end_time or beam.length, or use the linear limit"
+            )
+        # four-point Gauss per element: exact to round-off for the small angle within one
+        points, weights = np.polynomial.legendre.leggauss(4)
+        at = s[:-1, None] + np.diff(s)[:, None] * (points + 1) / 2
+        weight = np.diff(s)[:, None] * weights / 2
+
+        def integral(values: Array) -> Array:
+            return np.concatenate([[0.0], np.cumsum((values * weight).sum(axis=1))])
+
+        theta, rate = angle(at), a * c * at
+        centre = int(np.argmin(np.abs(s)))
+        fields = [integral(f) for f in (np.cos(theta), np.sin(theta), -rate * np.sin(theta), rate * np.cos(theta))]
+        x, y, vx, vy = (f - f[centre] for f in fields)
+        return Shape(s=s, x=x, y=y, angle=angle(s), velocity_x=vx, velocity_y=a + vy, angular_velocity=a * c * s,
+                     curvature=-a * k, slender=True)
+
+
+GEOMETRIES: dict[str, type] = {"linear": LinearLimit, "true": TrueGeometry}
+"""Kinds of ``[exudyn.geometry]``."""

@@ -1,0 +1,20 @@
+"""Time integrators: each a small file; ``INTEGRATORS`` names them for ``[exudyn.integrator]``."""
+
+from exudyn_models.integrators.base import Integrator
+from exudyn_models.integrators.explicit import DOPRI5, RK44, VelocityVerlet
+from exudyn_models.integrators.generalized_alpha import GeneralizedAlpha
+from exudyn_models.integrators.newmark import Newmark
+from exudyn_models.integrators.trapezoidal import Trapezoidal
+
+__all__ = [
+    "DOPRI5", "INTEGRATORS", "RK44", "GeneralizedAlpha", "Integrator", "Newmark", "Trapezoidal", "VelocityVerlet",
+]
+
+INTEGRATORS: dict[str, type] = {
+    "generalized_alpha": GeneralizedAlpha,
+    "newmark": Newmark,
+    "trapezoidal": Trapezoidal,
+    "rk44": RK44,
+    "dopri5": DOPRI5,
+    "velocity_verlet": VelocityVerlet,
+}

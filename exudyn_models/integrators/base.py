@@ -1,0 +1,84 @@
+"""What every integrator says of itself, and the plan of steps common to the implicit ones.
+
+The impact has no time scale of its own: implicit steps grow with the time since impact, h = c·t, so that every decade is
+resolved alike, starting from the time in which the front crosses the first element.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, ClassVar
+
+import exudyn as exu
+
+from bent_beam.checks import positive
+
+__all__ = ["Implicit", "Integrator", "Segment", "growing_segments"]
+
+
+@dataclass(frozen=True)
+class Segment:
+    """``steps`` equal time steps from ``start`` to ``end`` (model units), taken inside Exudyn without interruption."""
+
+    start: float
+    end: float
+    steps: int
+
+
+def growing_segments(first: float, relative: float, per_segment: int, constant: bool = False) -> list[Segment]:
+    """Segments over 0 ≤ t ≤ 1: steps of ``first``, then of ``relative``·t (``constant``: of ``first`` throughout)."""
+    segments: list[Segment] = []
+    t, step = 0.0, first
+    while t < 1.0 - 1e-12:
+        count = per_segment
+        if t + count * step > 1.0 - step * 1e-6:
+            count = max(1, round((1.0 - t) / step + 0.499))
+            segments.append(Segment(t, 1.0, count))
+            break
+        segments.append(Segment(t, t + count * step, count))
+        t += count * step
+        # a new step size costs a factorisation: change it by 5 % at a time
+        if not constant and relative * t > 1.05 * step:
+            step = relative * t
+    return segments
+
+
+class Integrator:
+    """Base of the integrators. ``time_step`` in s (None: chosen)."""
+
+    explicit: ClassVar[bool] = False
+    time_step: float | None
+
+    def solver(self) -> Any:
+        """A fresh Exudyn solver object."""
+        return exu.MainSolverExplicit() if self.explicit else exu.MainSolverImplicitSecondOrder()
+
+    def configure(self, settings: Any) -> None:
+        """Write this integrator's choices into Exudyn's ``SimulationSettings``."""
+        raise NotImplementedError
+
+    def segments(self, first: float, per_segment: int, unit: float, stable: float) -> list[Segment]:
+        """The plan of steps in model units: ``first`` the time the front needs for the first element, ``unit`` the model's
+        time unit in s, ``stable`` the largest stable step of an explicit method."""
+        raise NotImplementedError
+
+
+@dataclass(frozen=True)
+class Implicit(Integrator):
+    """Base of the implicit integrators.
+
+    time_step : constant step, s; None: steps grow with the time since impact.
+    relative_step : their ratio h/t.
+    """
+
+    time_step: float | None = None
+    relative_step: float = 2e-3
+
+    def __post_init__(self) -> None:
+        if self.time_step is not None:
+            positive("exudyn.integrator.time_step", self.time_step)
+        positive("exudyn.integrator.relative_step", self.relative_step)
+
+    def segments(self, first: float, per_segment: int, unit: float, stable: float) -> list[Segment]:
+        step = first if self.time_step is None else min(1.0, self.time_step / unit)
+        return growing_segments(step, self.relative_step, per_segment, constant=self.time_step is not None)

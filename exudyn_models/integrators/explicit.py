@@ -1,0 +1,78 @@
+"""Exudyn's explicit methods: the fourth-order Runge–Kutta rule, Dormand–Prince 5(4), and velocity Verlet.
+
+They are stable while the step is below limit/ω, where ω bounds the frequencies (and decay rates) of the mesh with every contact
+closed: for bending ω ~ 91.7 √(EI/μ)/Δx² of the smallest element. ``simulate`` computes the bound and refuses a larger step.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any, ClassVar
+
+import exudyn as exu
+
+from bent_beam.checks import between, positive
+from exudyn_models.integrators.base import Integrator, Segment
+
+__all__ = ["DOPRI5", "RK44", "VelocityVerlet"]
+
+
+@dataclass(frozen=True)
+class _Explicit(Integrator):
+    """time_step : s, not above the stable step (``ValueError`` names it); None: ``safety`` × the stable step."""
+
+    time_step: float | None = None
+    safety: float = 0.8
+
+    explicit: ClassVar[bool] = True
+    limit: ClassVar[float]
+    method: ClassVar[Any]
+
+    def __post_init__(self) -> None:
+        if self.time_step is not None:
+            positive("exudyn.integrator.time_step", self.time_step)
+        between("exudyn.integrator.safety", self.safety, 1e-6, 1.0)
+
+    def configure(self, settings: Any) -> None:
+        settings.timeIntegration.solverType = self.method
+        settings.timeIntegration.automaticStepSize = False
+        settings.timeIntegration.explicit.computeEndOfStepAccelerations = False
+
+    def segments(self, first: float, per_segment: int, unit: float, stable: float) -> list[Segment]:
+        step = self.safety * stable
+        if self.time_step is not None:
+            step = self.time_step / unit
+            if step > stable:
+                raise ValueError(
+                    f"exudyn.integrator.time_step must not exceed the stable step {stable * unit:.4g} s of this mesh and "
+                    f"contact (got {self.time_step!r})"
+                )
+        count = math.ceil(1.0 / step)
+        pieces = max(1, min(1000, count // per_segment))
+        ends = [round(count * k / pieces) for k in range(pieces + 1)]
+        return [Segment(a / count, b / count, b - a) for a, b in zip(ends, ends[1:], strict=False)]
+
+
+@dataclass(frozen=True)
+class RK44(_Explicit):
+    """The classical Runge–Kutta method."""
+
+    limit: ClassVar[float] = 2.6
+    method: ClassVar[Any] = exu.DynamicSolverType.RK44
+
+
+@dataclass(frozen=True)
+class DOPRI5(_Explicit):
+    """Dormand–Prince 5(4), at a fixed step: its error control would chase every contact event."""
+
+    limit: ClassVar[float] = 1.0
+    method: ClassVar[Any] = exu.DynamicSolverType.DOPRI5
+
+
+@dataclass(frozen=True)
+class VelocityVerlet(_Explicit):
+    """Velocity Verlet (leap-frog), second order, one evaluation a step."""
+
+    limit: ClassVar[float] = 1.6
+    method: ClassVar[Any] = exu.DynamicSolverType.VelocityVerlet

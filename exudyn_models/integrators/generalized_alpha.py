@@ -1,0 +1,28 @@
+"""Generalised-α (Chung and Hulbert 1993): second order, implicit, waves that the step cannot resolve damped to ρ∞ a step."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import exudyn as exu
+
+from bent_beam.checks import between
+from exudyn_models.integrators.base import Implicit
+
+__all__ = ["GeneralizedAlpha"]
+
+
+@dataclass(frozen=True)
+class GeneralizedAlpha(Implicit):
+    """The default. spectral_radius : ρ∞ in [0, 1]; 1 damps nothing and lets contact rattle, 0 annihilates what is unresolved."""
+
+    spectral_radius: float = 0.5
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        between("exudyn.integrator.spectral_radius", self.spectral_radius, 0.0, 1.0)
+
+    def configure(self, settings: Any) -> None:
+        settings.timeIntegration.solverType = exu.DynamicSolverType.GeneralizedAlpha
+        settings.timeIntegration.generalizedAlpha.spectralRadius = self.spectral_radius

@@ -1,0 +1,35 @@
+"""Newmark's method: v⁺ = v + h[(1−γ)a + γa⁺], u⁺ = u + hv + h²[(½−β)a + βa⁺]; γ > ½ damps, at first order."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import exudyn as exu
+
+from bent_beam.checks import at_least
+from exudyn_models.integrators.base import Implicit
+
+__all__ = ["Newmark"]
+
+
+@dataclass(frozen=True)
+class Newmark(Implicit):
+    """gamma : γ ≥ ½; beta : β ≥ γ/2, None: (γ+½)²/4, the most that still damps. Constraints hold at velocity level (index 2)."""
+
+    gamma: float = 0.6
+    beta: float | None = None
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        at_least("exudyn.integrator.gamma", self.gamma, 0.5)
+        if self.beta is not None:
+            at_least("exudyn.integrator.beta", self.beta, self.gamma / 2)
+
+    def configure(self, settings: Any) -> None:
+        settings.timeIntegration.solverType = exu.DynamicSolverType.GeneralizedAlpha
+        rule = settings.timeIntegration.generalizedAlpha
+        rule.useNewmark = True
+        rule.useIndex2Constraints = True
+        rule.newmarkGamma = self.gamma
+        rule.newmarkBeta = (self.gamma + 0.5) ** 2 / 4 if self.beta is None else self.beta

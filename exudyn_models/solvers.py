@@ -1,0 +1,88 @@
+"""Exudyn's nonlinear and linear solver settings, and its silence.
+
+Newton's method is run modified (the Jacobian is kept while it converges) on a sparse factorisation whose pattern is kept. Residuals
+are forces in model units, of the size of the amplitude; below ``tolerance`` × amplitude they are round-off of 12EI/Δx³·y.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from typing import Any
+
+import exudyn as exu
+
+from bent_beam.checks import one_of, positive, whole
+
+__all__ = ["SOLVERS", "NewtonSolver", "silence"]
+
+LINEAR = {
+    "sparse": exu.LinearSolverType.EigenSparse,
+    "dense": exu.LinearSolverType.EXUdense,
+}
+
+
+@dataclass(frozen=True)
+class NewtonSolver:
+    """How each implicit step is solved.
+
+    absolute_tolerance, relative_tolerance : of the residual; the absolute one in units of the model's amplitude.
+    iterations : most Newton iterations a step.
+    contact_iterations : most repetitions of a step until the contact state no longer changes.
+    halve_steps : let Exudyn shorten a step that fails (down to 1/1000) before giving up.
+    modified_newton : keep the Jacobian while it converges.
+    linear_solver : "sparse" or "dense".
+    """
+
+    absolute_tolerance: float = 1e-9
+    relative_tolerance: float = 1e-6
+    iterations: int = 25
+    contact_iterations: int = 8
+    halve_steps: bool = False
+    modified_newton: bool = True
+    linear_solver: str = "sparse"
+
+    def __post_init__(self) -> None:
+        positive("exudyn.solver.absolute_tolerance", self.absolute_tolerance)
+        positive("exudyn.solver.relative_tolerance", self.relative_tolerance)
+        whole("exudyn.solver.iterations", self.iterations, 1)
+        whole("exudyn.solver.contact_iterations", self.contact_iterations, 1)
+        one_of("exudyn.solver.linear_solver", self.linear_solver, LINEAR)
+
+    def settings(self, amplitude: float) -> Any:
+        """A fresh ``exudyn.SimulationSettings`` with these choices and no files."""
+        settings = exu.SimulationSettings()
+        settings.solution.file.write = False
+        settings.solution.sensors.active = False
+        settings.linearSolver.solverType = LINEAR[self.linear_solver]
+        settings.linearSolver.reuseAnalyzedPattern = self.linear_solver == "sparse"
+        time = settings.timeIntegration
+        time.verboseMode = 0
+        time.stepInformation = 0
+        time.adaptiveStep = self.halve_steps
+        time.generalizedAlpha.computeInitialAccelerations = False
+        time.newton.useModifiedNewton = self.modified_newton
+        time.newton.absoluteTolerance = self.absolute_tolerance * amplitude
+        time.newton.relativeTolerance = self.relative_tolerance
+        time.newton.maxIterations = self.iterations
+        time.discontinuous.useRecommendedStepSize = False
+        time.discontinuous.ignoreMaxIterations = True
+        time.discontinuous.maxIterations = self.contact_iterations
+        time.discontinuous.iterationTolerance = self.absolute_tolerance * amplitude
+        return settings
+
+
+SOLVERS: dict[str, type] = {"newton": NewtonSolver}
+"""Kinds of ``[exudyn.solver]``."""
+
+
+@contextmanager
+def silence() -> Iterator[None]:
+    """Nothing from Exudyn on standard output or standard error while in here."""
+    console, warnings = exu.config.printToConsole, exu.config.suppressWarnings
+    exu.config.printToConsole, exu.config.suppressWarnings = False, True
+    try:
+        yield
+    finally:
+        exu.config.printToConsole, exu.config.suppressWarnings = console, warnings
