@@ -110,7 +110,9 @@ def combine(M: Array, C: Array, K: Array, m: float, c: float, k: float, place: N
     for i in range(n):
         row = place[i]
         for j in range(max(0, i - 3), i + 1):
-            S[row, row - place[j]] = m * M[i - j, j] + c * C[i - j, j] + k * K[i - j, j]
+            apart = row - place[j]
+            if apart < 5:
+                S[row, apart] = m * M[i - j, j] + c * C[i - j, j] + k * K[i - j, j]
 
 
 @compiled

@@ -46,13 +46,21 @@ class ContactLaw(NamedTuple):
 
 
 class State(NamedTuple):
-    """What a step changes: motion, closed rows, impulses so far, energy sums, worst complementarity since the last look."""
+    """What a step changes.
+
+    q, v : motion; acceleration, a, reaction, reaction_a : smooth acceleration and reaction of generalised-α, and their filtered
+    companions; closed : rows in contact; resting : rows closed without rebound; impulse, held_impulse : so far;
+    budget : energy sums; worst : complementarity since the last look.
+    """
 
     q: Array
     v: Array
     a: Array
-    extra: Array
+    acceleration: Array
+    reaction: Array
+    reaction_a: Array
     closed: Flags
+    resting: Flags
     impulse: Array
     held_impulse: Array
     budget: Array
@@ -98,8 +106,12 @@ def problem_of(system: System) -> Problem:
         after = np.sort(rows.dofs, axis=1)[:, (width - 1) // 2]
         place = place + np.searchsorted(after, np.arange(system.dofs), side="left")
         switch = place[after] + 1
-        if m and (np.any(np.diff(switch) < 1) or np.abs(place[rows.dofs] - switch[:, None]).max() > 4
-                  or np.abs(place[3:] - place[:-3]).max(initial=0) > 4):
+        tight = np.all(np.diff(switch) > 0) and np.abs(place[rows.dofs] - switch[:, None]).max(initial=0) <= 4
+        for bands in (system.mass, system.stiffness, system.damping):
+            for k in range(1, 4):
+                apart = place[k:] - place[:-k] > 4
+                tight = tight and not np.any(bands[k, :-k][apart])  # type: ignore[index]
+        if not tight:
             raise ValueError("contact rows must each touch a few neighbouring dofs, at most one row for two dofs")
     else:
         switch = rows.dofs[:, 0].copy()
@@ -115,8 +127,8 @@ def state_of(system: System, q: Array, v: Array) -> State:
     """A fresh state at the start, q and v copied."""
     n, m = system.dofs, len(system.contacts)
     return State(
-        np.array(q, float), np.array(v, float), np.zeros(n), np.zeros(n), np.zeros(m, np.bool_), np.zeros(m),
-        np.zeros(m), np.zeros(8), np.zeros(2),
+        np.array(q, float), np.array(v, float), np.zeros(n), np.zeros(n), np.zeros(m), np.zeros(m),
+        np.zeros(m, np.bool_), np.zeros(m, np.bool_), np.zeros(m), np.zeros(m), np.zeros(8), np.zeros(2),
     )
 
 

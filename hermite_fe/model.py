@@ -29,14 +29,13 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class BeamModel:
-    """A system, its start, and how to read it: ``natural`` (nodes,) is the shape y of the stress-free beam, m."""
+    """A system, its start, and how to read it: y = u + ``natural`` (dofs,), the stress-free shape."""
 
     beam: HermiteBeam
     system: System
     displacement: Array
     velocity: Array
     natural: Array
-    natural_slope: Array
     full: bool
 
     @property
@@ -50,7 +49,7 @@ def beam_model(impact: Impact, nodes: Array, contact: Contact, far_field: FarFie
     half = checked_nodes(nodes)
     x = mirrored(half) if full else half
     beam = HermiteBeam(x, impact.bending_stiffness, impact.mass_per_length)
-    natural = -0.5 * impact.curvature * x**2
+    natural = beam.interpolate(-0.5 * impact.curvature * x**2, -impact.curvature * x)
     quartic = beam.interpolate(impact.fourth_derivative * x**4 / 24.0, impact.fourth_derivative * x**3 / 6.0)
     bending = beam.interpolate(impact.curvature_rate * x**2 / 2.0, impact.curvature_rate * x)
     velocity = beam.interpolate(np.full(x.size, impact.velocity), np.zeros(x.size)) + bending
@@ -71,4 +70,4 @@ def beam_model(impact: Impact, nodes: Array, contact: Contact, far_field: FarFie
         mass=beam.mass(), stiffness=stiffness, damping=far_field.damping(beam, impact), load=load,
         contacts=contact.rows(beam, natural, full=full), supports=() if full else (1,),
     )
-    return BeamModel(beam, system, quartic, velocity, natural, -impact.curvature * x, full)
+    return BeamModel(beam, system, quartic, velocity, natural, full)

@@ -104,7 +104,7 @@ def integrate(
     instants = integrator.instants(end_time)
     kept = saved_steps(instants, save)
     problem = problem_of(system)
-    work = work_of(system, problem)
+    works = tuple(work_of(system, problem) for _ in range(integrator.matrices))
     state = state_of(system, q, v)
     law = ContactLaw(float(restitution), int(hold), float(hold_until))
     n, m, count = system.dofs, len(system.contacts), kept.size
@@ -117,7 +117,7 @@ def integrate(
     started = clock.perf_counter()
     for s, step in enumerate(kept):
         if s > 0:
-            status, reached = integrator.advance(problem, law, state, work, instants, int(kept[s - 1]), int(step))
+            status, reached = integrator.advance(problem, law, state, works, instants, int(kept[s - 1]), int(step))
             taken = reached
             if status == 0 and not (np.all(np.isfinite(state.q)) and np.all(np.isfinite(state.v))):
                 status = 3

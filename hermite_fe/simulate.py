@@ -77,9 +77,9 @@ def history_of(
     copies = model.copies
     rows = model.system.contacts
     fields: dict[str, tuple[Sequence[str], NDArray[Any]]] = {
-        "gap": (("time", "x"), -(run.q[:, 0::2] + model.natural)),
+        "gap": (("time", "x"), -(run.q[:, 0::2] + model.natural[0::2])),
         "velocity": (("time", "x"), run.v[:, 0::2]),
-        "slope": (("time", "x"), run.q[:, 1::2] + model.natural_slope),
+        "slope": (("time", "x"), run.q[:, 1::2] + model.natural[1::2]),
         "impulse": (("time", "contact"), run.impulse),
         "in_contact": (("time", "contact"), run.closed),
         "total_impulse": (("time",), copies * run.impulse.sum(axis=1)),

@@ -53,7 +53,10 @@ class Contact(ABC):
 
     @abstractmethod
     def rows(self, beam: HermiteBeam, natural: Array, *, full: bool) -> ContactRows:
-        """The constraint rows of ``beam``; ``natural`` (nodes,) is the stress-free shape y, so that g = −natural − u."""
+        """The constraint rows of ``beam`` for g = −y = −(u + natural).
+
+        u : the unknown dofs; natural : (dofs,), Hermite dofs of the stress-free shape y.
+        """
 
     def with_hold(self, hold: int, hold_until: float) -> Contact:
         """A copy whose open choices are taken from here (none at all when rows rebound)."""

@@ -6,6 +6,7 @@ import dataclasses
 import math
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,6 +27,9 @@ class Integrator(ABC):
     growth : step over time since impact, so that every decade of a self-similar motion takes the same number of
         steps (``None``: 0, constant steps, when ``time_step`` is given; chosen otherwise).
     """
+
+    matrices: ClassVar[int] = 1
+    """How many step matrices are kept factored at once: the length of ``works`` in :meth:`advance`."""
 
     time_step: float | None = None
     growth: float | None = None
@@ -64,7 +68,7 @@ class Integrator(ABC):
 
     @abstractmethod
     def advance(
-        self, problem: Problem, law: ContactLaw, state: State, work: Work, times: NDArray[np.float64],
+        self, problem: Problem, law: ContactLaw, state: State, works: tuple[Work, ...], times: NDArray[np.float64],
         first: int, last: int,
     ) -> tuple[int, int]:
         """Take steps ``first`` … ``last`` − 1 in place; returns (status, step reached), status 0 when all went well."""

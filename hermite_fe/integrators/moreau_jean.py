@@ -32,7 +32,7 @@ class MoreauJean(Integrator):
         between("integrator.theta", self.theta, 0.5, 1.0)
 
     def advance(
-        self, problem: Problem, law: ContactLaw, state: State, work: Work, times: NDArray[np.float64],
+        self, problem: Problem, law: ContactLaw, state: State, works: tuple[Work, ...], times: NDArray[np.float64],
         first: int, last: int,
     ) -> tuple[int, int]:
-        return _theta.steps(problem, law, state, work, times, first, last, self.theta, False)
+        return _theta.steps(problem, law, state, works[0], times, first, last, self.theta, False)

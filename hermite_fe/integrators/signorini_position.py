@@ -31,9 +31,9 @@ class SignoriniPosition(Integrator):
         between("integrator.theta", self.theta, 0.5, 1.0)
 
     def advance(
-        self, problem: Problem, law: ContactLaw, state: State, work: Work, times: NDArray[np.float64],
+        self, problem: Problem, law: ContactLaw, state: State, works: tuple[Work, ...], times: NDArray[np.float64],
         first: int, last: int,
     ) -> tuple[int, int]:
         if law.restitution > 0.0:
             raise ValueError(f"signorini_position has no impact law: restitution must be 0 (got {law.restitution!r})")
-        return _theta.steps(problem, law, state, work, times, first, last, self.theta, True)
+        return _theta.steps(problem, law, state, works[0], times, first, last, self.theta, True)

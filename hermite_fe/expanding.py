@@ -1,0 +1,531 @@
+"""The impact of an infinite beam on a mesh that expands with √t: the front stands still in it.
+
+The leading order has no scale of its own, so elements are laid in ζ = ξ/√τ and move with ξ = ζ√τ. In the units of the fast
+layer (l*, t*, V₀t*) and with s = ln τ, w = τ W(ζ, s) and D = ∂_s − (ζ/2)∂_ζ along a moving node,
+
+    w_ττ + w_ξξξξ = load − r̃      becomes      D(D + 1) W + W_ζζζζ = τ (load − r̃)
+
+with coefficients free of time. Only the fast part η = w₀ − w is unknown (thesis 2.2.19–20); the free motion
+
+    w₀ = τ W₀,   W₀ = 1 − κζ²/2 + ετ (α/2 + χζ²/2 + ψζ⁴/24)                                        (2.2.31)
+
+enters as an obstacle alone, 0 ≤ ρ ⊥ η − W₀ ≥ 0 at the nodes, so no load, no curvature and no end of the beam
+are modelled and the far field starts from rest.
+
+Why it is quiet where fixed meshes are noisy (docs/numerics.md): no node is captured while the front keeps its λ₀, each decade of
+time is resolved like the last, and waves that leave are carried outward for good by dξ/dτ of the nodes and absorbed
+by a ramp of viscous damping σ(ζ)(D + 1)η before the mesh stops resolving them.
+
+Time: implicit Euler in τ with steps in proportion to τ. It is exact for W = const (leading order) and for W = τ·const (first order),
+since both are linear functions of time for a moving node. Contact: Signorini at the new position, active set.
+
+Start: the mechanics before the first instant is the same at a smaller scale. The first state is therefore the self-similar one with
+the nodes behind the front held; the front's node is found by bisection (held as far as it is pushed). From there on
+every node is free to leave. Nothing is taken from ``theory/``.
+"""
+
+from __future__ import annotations
+
+import math
+import time as clock
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import scipy.sparse as sparse
+from numpy.typing import NDArray
+from scipy.linalg.lapack import dgbtrf, dgbtrs
+
+from bent_beam.checks import at_least, between, positive, whole
+from bent_beam.history import ImpactHistory, SimulationError
+from bent_beam.impact import Impact
+from bent_beam.parts import describe
+from hermite_fe.beam import shape_functions
+
+__all__ = ["ExpandingMesh", "Similarity", "similarity", "simulate_expanding"]
+
+Array = NDArray[np.float64]
+GAP_ROUND_OFF = 1e-11  # in W, that is in units of V₀t
+PATIENCE = 12  # swaps of all wrong contacts without progress before both tolerances are widened tenfold
+BAND = 3  # half-bandwidth of Hermite elements: two nodes of two degrees of freedom
+
+
+@dataclass(frozen=True)
+class ExpandingMesh:
+    """Mesh x = ζ l* √(t/t*) of an infinite beam; lengths below are in ζ unless said otherwise.
+
+    front_resolution : element at the front over the front's thickness 2/√(1 + λ²).
+    growth : growth of elements away from the front, per length (0.02: 2 % an element).
+    elements_per_wave : elements per wavelength 4π/ζ of what the impact radiates.
+    interior_elements : at least so many elements inside the contact zone.
+    absorber_start, absorber_length : clear distance ahead of the front, and length of the absorbing ramp.
+    absorber_strength : σ at its end over ζ/length there; the wave leaves with exp(−strength/4) twice.
+    step_ratio : h/t of the time steps.
+    decades : decades of time simulated before ``end_time``.
+    """
+
+    front_resolution: float = 0.01
+    growth: float = 0.02
+    elements_per_wave: int = 20
+    interior_elements: int = 40
+    absorber_start: float = 8.0
+    absorber_length: float = 16.0
+    absorber_strength: float = 40.0
+    step_ratio: float = 0.02
+    decades: float = 4.0
+
+    def __post_init__(self) -> None:
+        between("mesh.front_resolution", positive("mesh.front_resolution", self.front_resolution), 0.0, 0.5)
+        between("mesh.growth", positive("mesh.growth", self.growth), 0.0, 0.2)
+        whole("mesh.elements_per_wave", self.elements_per_wave, 6)
+        whole("mesh.interior_elements", self.interior_elements, 4)
+        for name in ("absorber_start", "absorber_length", "absorber_strength"):
+            positive(f"mesh.{name}", getattr(self, name))
+        between("mesh.step_ratio", positive("mesh.step_ratio", self.step_ratio), 0.0, 0.5)
+        between("mesh.decades", at_least("mesh.decades", self.decades, 0.5), 0.5, 12.0)
+
+    def lay(self, front: float) -> tuple[Array, float]:
+        """Nodes ζ (n,) from 0 around a front at ``front``, fine there, and where the absorber starts."""
+        thickness = 2.0 / math.sqrt(1.0 + front**2)
+        coarsest_inside = front / self.interior_elements if front > 0.0 else math.inf
+        fine = min(self.front_resolution * thickness, coarsest_inside)
+        start = front + self.absorber_start
+        end = start + self.absorber_length
+
+        def size(place: float) -> float:
+            grown = fine + self.growth * max(abs(place - front) - 3.0 * fine, 0.0)
+            if place > front:
+                return min(grown, 4.0 * math.pi / max(place, 1.0) / self.elements_per_wave)
+            return min(grown, coarsest_inside)
+
+        ahead = [front]
+        while ahead[-1] < end:
+            ahead.append(ahead[-1] + size(ahead[-1]))
+        behind = [front]
+        while front > 0.0 and behind[-1] > 0.0:
+            behind.append(behind[-1] - size(behind[-1]))
+        inner = np.array(behind[:0:-1]) if front > 0.0 else np.empty(0)
+        if inner.size:  # stretched so that it begins at the centre exactly
+            inner = front - (front - inner) * (front / (front - inner[0]))
+            inner[0] = 0.0
+        return np.concatenate([inner, ahead]), start
+
+
+# --- matrices ------------------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class _Operators:
+    """mass M, drift C and steady A of M η_ss + C η_s + A η = F, absorber included; CSR, (2n, 2n)."""
+
+    mass: sparse.csr_matrix
+    drift: sparse.csr_matrix
+    steady: sparse.csr_matrix
+    damping: sparse.csr_matrix  # ∫ σ N Nᵀ
+
+
+GAUSS, WEIGHTS = np.polynomial.legendre.leggauss(6)
+
+
+def _operators(zeta: Array, sigma: Callable[[Array], Array]) -> _Operators:
+    """Galerkin matrices of D(D + 1) + σ(D + 1) + ∂⁴ on Hermite elements; D's second factor is integrated by parts."""
+    length = np.diff(zeta)
+    n = zeta.size
+    parts: dict[str, Array] = {k: np.zeros((n - 1, 4, 4)) for k in ("m", "g", "s", "k", "ms", "gs")}
+    for point, weight in zip((GAUSS + 1.0) / 2.0, WEIGHTS / 2.0):
+        place = (zeta[:-1] + point * length)[:, None]
+        shape, slope, bend = (_shapes(point, length, d) for d in (0, 1, 2))
+        advected = -0.5 * place * slope  # −(ζ/2) N′
+        tested = 0.5 * place * slope + 0.5 * shape  # its adjoint: ∂(ζ/2 ·) moved to the test function
+        dl = (weight * length)[:, None, None]
+        absorbed = sigma(place)[:, :, None]
+        for key, left, right, factor in (
+            ("m", shape, shape, 1.0), ("g", shape, advected, 1.0), ("s", tested, advected, 1.0),
+            ("k", bend, bend, 1.0), ("ms", shape, shape, absorbed), ("gs", shape, advected, absorbed),
+        ):
+            parts[key] += dl * factor * left[:, :, None] * right[:, None, :]
+    dofs = 2 * np.arange(n - 1)[:, None] + np.arange(4)
+    rows, columns = np.repeat(dofs, 4, axis=1).ravel(), np.tile(dofs, (1, 4)).ravel()
+    m, g, s, k, ms, gs = (
+        sparse.csr_matrix((parts[key].ravel(), (rows, columns)), shape=(2 * n, 2 * n))
+        for key in ("m", "g", "s", "k", "ms", "gs")
+    )
+    return _Operators(mass=m, drift=m + 2.0 * g + ms, steady=s + g + k + ms + gs, damping=ms)
+
+
+def _shapes(point: float, length: Array, derivative: int) -> Array:
+    """Hermite shape functions (A.6) of elements of several lengths, d/dx, shape (elements, 4)."""
+    unit = shape_functions(np.array([point]), 1.0, derivative).reshape(-1)
+    scale = np.ones((length.size, 4))
+    scale[:, 1::2] = length[:, None]
+    return unit * scale / length[:, None] ** derivative
+
+
+# --- one state in similarity coordinates -----------------------------------------------------------------------
+
+
+class Similarity:
+    """State of the fast part in ζ and its implicit Euler step: η, u = ∂_s η, nodal reactions ρ, contact set."""
+
+    def __init__(self, zeta: Array, absorber: float, strength: float) -> None:
+        end = zeta[-1]
+        top = strength * 0.5 * (absorber + end) / (end - absorber)
+        self.zeta = zeta
+        self.operators = _operators(zeta, lambda z: top * np.clip((z - absorber) / (end - absorber), 0.0, None) ** 3)
+        self.dofs = 2 * zeta.size
+        self.eta = np.zeros(self.dofs)
+        self.rate = np.zeros(self.dofs)
+        self.reaction = np.zeros(zeta.size)
+        self.active = np.zeros(zeta.size, dtype=bool)
+        self.gap_tolerance = 0.0
+        self.set_step(0.0)
+
+    def set_step(self, backward: float) -> None:
+        """``backward`` = b of ∂_s f ≈ b (f − f_old): τ_new/h for Euler in time, 0 for the steady state."""
+        self.backward = backward
+        o = self.operators
+        self.matrix = (backward**2 * o.mass + backward * o.drift + o.steady).tocsr()
+        bands = np.zeros((3 * BAND + 1, self.dofs), order="F")
+        for k in range(-BAND, BAND + 1):
+            diagonal = self.matrix.diagonal(k)
+            bands[2 * BAND - k, max(k, 0) : self.dofs + min(k, 0)] = diagonal
+        self._bands = bands
+        self._factored: NDArray[np.bool_] | None = None
+        # a deflection is known to some ulp of 1, so a reaction to that times the stiffness it is computed with
+        self._round_off = 16.0 * np.finfo(float).eps * np.abs(self.matrix.diagonal()[0::2])
+
+    def _factor(self, active: NDArray[np.bool_]) -> None:
+        """Banded LU with the rows of held degrees of freedom replaced by the identity; kept while the set stays."""
+        if self._factored is not None and np.array_equal(self._factored, active):
+            return
+        bands = self._bands.copy(order="F")
+        n = self.dofs
+        held = np.concatenate([2 * np.flatnonzero(active), [1, n - 2, n - 1]])  # symmetry at 0, rest at the end
+        for k in range(-BAND, BAND + 1):
+            column = held + k
+            inside = (column >= 0) & (column < n)
+            bands[2 * BAND + held[inside] - column[inside], column[inside]] = 1.0 if k == 0 else 0.0
+        self._lu, self._pivots, info = dgbtrf(bands, BAND, BAND, overwrite_ab=1)
+        if info != 0:
+            raise ArithmeticError("the expanding mesh's matrix is singular")
+        self._factored = active.copy()
+
+    def _solve(self, right: Array, obstacle: Array, active: NDArray[np.bool_]) -> tuple[Array, Array]:
+        """η with η = obstacle on the active nodes, and the nodal reactions there."""
+        self._factor(active)
+        b = right.copy()
+        b[0::2][active] = obstacle[active]
+        b[1] = b[-2] = b[-1] = 0.0
+        eta, _ = dgbtrs(self._lu, BAND, BAND, b, self._pivots)
+        reaction = np.where(active, (self.matrix @ eta - right)[0::2], 0.0)
+        return eta, reaction
+
+    def hold_start(self, obstacle: Array) -> int:
+        """The self-similar state with the nodes behind the front held; returns the front's node.
+
+        The front is the last node for which holding everything up to it still pushes it away from the wall.
+        """
+        self.set_step(0.0)
+        zero = np.zeros(self.dofs)
+        low, high = 0, int(np.flatnonzero(obstacle > 0.0).max())
+        while low < high:
+            middle = (low + high + 1) // 2
+            active = np.arange(self.zeta.size) <= middle
+            _, reaction = self._solve(zero, obstacle, active)
+            if reaction[middle] > 0.0:
+                low = middle
+            else:
+                high = middle - 1
+        self.active = np.arange(self.zeta.size) <= low
+        self.eta, self.reaction = self._solve(zero, obstacle, self.active)
+        self.rate = zero
+        return low
+
+    def step(self, obstacle: Array) -> int:
+        """One implicit Euler step; ``obstacle`` (n,) is W₀ at the new time where contact may occur, −1 elsewhere.
+
+        Returns the active-set iterations; raises ``ArithmeticError`` when the set does not settle.
+        """
+        b, o = self.backward, self.operators
+        old, old_rate = b * self.eta, b * self.rate
+        right = o.mass @ (b * old + old_rate) + o.drift @ old
+        active = self.active
+        fewest, patience, slack = self.zeta.size + 1, PATIENCE, 1.0
+        for iteration in range(1, 1001):
+            eta, reaction = self._solve(right, obstacle, active)
+            wrong = np.where(active, reaction < -slack * self._round_off, obstacle - eta[0::2] > slack * GAP_ROUND_OFF)
+            wrong[-1] = False
+            count = int(np.count_nonzero(wrong))
+            if count == 0:
+                break
+            # Behind the front the exact reaction is nil: contacts that touch without load may cycle at round-off.
+            if count < fewest:
+                fewest, patience = count, PATIENCE
+            elif patience == 0:
+                fewest, patience, slack = self.zeta.size + 1, PATIENCE, 10.0 * slack
+            else:
+                patience -= 1
+            active = active ^ wrong
+        else:
+            raise ArithmeticError("the active set does not settle")
+        self.gap_tolerance = max(self.gap_tolerance, slack * GAP_ROUND_OFF)
+        if not np.all(np.isfinite(eta)):
+            raise ArithmeticError("the solution is no longer finite")
+        self.rate = b * eta - old
+        self.eta, self.reaction, self.active = eta, reaction, active
+        return iteration
+
+    @property
+    def front(self) -> float:
+        """Centroid of the reaction on ζ ≥ 0."""
+        total = self.reaction.sum()
+        return float((self.reaction @ self.zeta) / total) if total > 0.0 else 0.0
+
+    def velocity(self) -> Array:
+        """η_τ = (D + 1) η at the nodes."""
+        return self.rate[0::2] + self.eta[0::2] - 0.5 * self.zeta * self.eta[1::2]
+
+
+def _leading_obstacle(zeta: Array, kappa: float) -> Array:
+    return 1.0 - 0.5 * kappa * zeta**2
+
+
+def similarity(kappa_over_nu: float, mesh: ExpandingMesh) -> Similarity:
+    """The held start on a mesh laid around the front that coarser starts located; κ/ν ≥ 1 contacts at 0 alone."""
+    front = 0.0 if kappa_over_nu >= 1.0 else math.sqrt(2.0 / kappa_over_nu)  # free beam's reach: 1 = κζ²/2
+    coarse = ExpandingMesh(
+        front_resolution=max(0.05, mesh.front_resolution), growth=max(0.05, mesh.growth), interior_elements=40,
+        absorber_start=mesh.absorber_start, absorber_length=mesh.absorber_length,
+        absorber_strength=mesh.absorber_strength,
+    )
+    for _ in range(40 if front > 0.0 else 0):
+        state = Similarity(*coarse.lay(front), coarse.absorber_strength)
+        state.hold_start(_leading_obstacle(state.zeta, kappa_over_nu))
+        found = max(state.front, 0.3 * front)
+        settled = abs(found - front) < 0.02 * front
+        front = found
+        if settled:
+            break
+    state = Similarity(*mesh.lay(front), mesh.absorber_strength)
+    state.hold_start(_leading_obstacle(state.zeta, kappa_over_nu))
+    return state
+
+
+# --- the run ---------------------------------------------------------------------------------------------------
+
+
+def simulate_expanding(
+    impact: Impact,
+    mesh: ExpandingMesh,
+    *,
+    end_time: float,
+    save: int | Sequence[float] | Array = 200,
+    progress: Callable[[float], None] | None = None,
+) -> ImpactHistory:
+    """Follow the impact of an infinite beam over ``mesh.decades`` decades of time up to ``end_time`` (s).
+
+    save : number of saved instants (logarithmic over the last three decades, whole steps), at least 2.
+
+    The history's energies are those of the fast part z = y₀ − y (an infinite beam has no finite energy of its own):
+    ``work_of_loads`` is the work V₀∫R dt (+ first-order terms) that the wall does on it, ``loss_artificial`` what the absorber took.
+    Raises :class:`bent_beam.SimulationError` when the active set does not settle, the front leaves the fine mesh, or a
+    number is no longer finite; ``ValueError`` for a flat beam (K = 0).
+    """
+    positive("end_time", end_time)
+    if impact.kappa_over_nu == 0.0:
+        raise ValueError("curvature must be positive: a flat beam meets the wall everywhere at once (got 0.0)")
+    wanted = save if isinstance(save, int) else np.size(save)
+    whole("save", wanted, 2)
+    began = clock.perf_counter()
+    run = _Run(impact, mesh, end_time, int(wanted))
+    failure: ArithmeticError | None = None
+    try:
+        run.follow(progress)
+    except ArithmeticError as error:
+        failure = error
+    history = run.history(mesh, clock.perf_counter() - began, failure is None) if len(run.records) > 1 else None
+    if failure is not None or history is None:
+        raise SimulationError(
+            str(failure), time=run.tau * impact.time_scale, step=run.steps,
+            advice="a smaller mesh.step_ratio, a larger mesh.front_resolution, or an earlier end time", history=history,
+        )
+    return history
+
+
+class _Run:
+    """Time loop of one run in the units of the fast layer, and its record."""
+
+    def __init__(self, impact: Impact, mesh: ExpandingMesh, end_time: float, saves: int) -> None:
+        self.impact = impact
+        self.state = similarity(impact.kappa_over_nu, mesh)
+        zeta = self.state.zeta
+        self.front = self.state.front
+        self.end = end_time / impact.time_scale
+        ratio = mesh.step_ratio
+        self.total = max(2, math.ceil(mesh.decades * math.log(10.0) / ratio))
+        self.ratio = math.exp(mesh.decades * math.log(10.0) / self.total)  # τ_new/τ_old
+        recorded = min(self.total, math.ceil(min(3.0, mesh.decades) * math.log(10.0) / math.log(self.ratio)))
+        self.stride = max(1, math.ceil(recorded / max(saves - 1, 1)))
+        self.first_saved = self.total - (recorded // self.stride) * self.stride
+        leading = _leading_obstacle(zeta, impact.kappa_over_nu)
+        first = 0.5 * (impact.epsilon_alpha + impact.epsilon_chi * zeta**2) + impact.epsilon_psi * zeta**4 / 24.0
+        # The free motion is a Taylor polynomial: far from the contact its terms mean nothing, so nothing touches there.
+        self.near = zeta <= 1.5 * self.front + 0.5
+        self.leading, self.first = np.where(self.near, leading, -1.0), np.where(self.near, first, 0.0)
+        self.free = (leading, first)
+        self.tau = self.end / self.ratio**self.total
+        self.steps = 0
+        self.iterations = 0
+        reaction = float(self.state.reaction.sum())
+        # Before the first instant all was the same at a smaller scale: R ~ τ^−1/2, so ∫R = 2Rτ; centroid and energies alike.
+        root = math.sqrt(self.tau)
+        self.impulse = self.state.reaction * 2.0 * root
+        self.moment = reaction * self.front * self.tau
+        self.work = 2.0 * float(self.state.reaction @ self.rate_of_obstacle(0.0)) * root
+        self.absorbed = 2.0 * self.absorber_power() * root
+        self.records: list[dict[str, Any]] = []
+
+    def rate_of_obstacle(self, tau: float) -> Array:
+        """∂w₀/∂τ at the nodes: what the wall must undo there."""
+        e = self.impact
+        return 1.0 + tau * (e.epsilon_alpha + 0.5 * e.epsilon_chi * self.state.zeta**2)
+
+    def absorber_power(self) -> float:
+        """Power of the absorber divided by its τ^−1/2: ∫σ η_τ² dζ."""
+        state = self.state
+        velocity = self.full_velocity()
+        return float(velocity @ (state.operators.damping @ velocity))
+
+    def full_velocity(self) -> Array:
+        """η_τ as Hermite degrees of freedom (value and ζ-derivative), the latter from the curvature of both elements."""
+        state = self.state
+        eta, zeta = state.eta, state.zeta
+        h = np.diff(zeta)
+        w, t = eta[0::2], eta[1::2]
+        left = (6.0 * (w[1:] - w[:-1]) / h - 4.0 * t[:-1] - 2.0 * t[1:]) / h
+        right = (-6.0 * (w[1:] - w[:-1]) / h + 2.0 * t[:-1] + 4.0 * t[1:]) / h
+        bend = np.concatenate([[left[0]], 0.5 * (right[:-1] + left[1:]), [right[-1]]])
+        velocity = np.empty_like(eta)
+        velocity[0::2] = state.velocity()
+        velocity[1::2] = state.rate[1::2] + 0.5 * t - 0.5 * zeta * bend
+        return velocity
+
+    def follow(self, progress: Callable[[float], None] | None) -> None:
+        state = self.state
+        state.set_step(self.ratio / (self.ratio - 1.0))
+        if self.first_saved == 0:
+            self.record()
+        while self.steps < self.total:
+            tau_old = self.tau
+            self.steps += 1
+            self.tau = tau_old * self.ratio if self.steps < self.total else self.end
+            self.iterations += state.step(self.leading + self.tau * self.first)
+            # ∫ τ^−1/2 dτ of the step: reactions are ρ/√τ, moments ρζ, with ρ constant over the step
+            roots = 2.0 * (math.sqrt(self.tau) - math.sqrt(tau_old))
+            self.impulse = self.impulse + state.reaction * roots
+            self.moment += float(state.reaction @ state.zeta) * (self.tau - tau_old)
+            self.work += float(state.reaction @ self.rate_of_obstacle(self.tau)) * roots
+            self.absorbed += self.absorber_power() * roots
+            if state.active[self.near][-3:].any():
+                raise ArithmeticError("the contact has left the finely meshed zone")
+            if self.steps >= self.first_saved and (self.steps - self.first_saved) % self.stride == 0:
+                self.record()
+                if progress is not None:
+                    progress(self.steps / self.total)
+
+    def record(self) -> None:
+        state, tau = self.state, self.tau
+        leading, first = self.free
+        obstacle = leading + tau * first
+        root = math.sqrt(tau)
+        velocity = self.full_velocity()
+        eta = state.eta
+        kinetic = 0.5 * float(velocity @ (state.operators.mass @ velocity)) * root
+        slope_free = -self.impact.kappa_over_nu * state.zeta + tau * (
+            self.impact.epsilon_chi * state.zeta + self.impact.epsilon_psi * state.zeta**3 / 6.0
+        )
+        zone = state.zeta <= 0.9 * state.front
+        self.records.append({
+            "time": tau,
+            "position": state.zeta * root,
+            "gap": -tau * (obstacle - eta[0::2]),
+            "velocity": self.rate_of_obstacle(tau) - velocity[0::2],
+            "slope": root * (slope_free - eta[1::2]),
+            "impulse": self.impulse.copy(),
+            "in_contact": state.active.copy(),
+            "total_impulse": 2.0 * float(self.impulse.sum()),
+            "impulse_moment": self.moment,
+            "kinetic_energy": 2.0 * kinetic,
+            "strain_energy": 2.0 * self._strain() * root,
+            "work_of_loads": 2.0 * self.work,
+            "loss_artificial": 2.0 * self.absorbed,
+            "smallest_gap": float(np.min(-tau * (obstacle - eta[0::2])[self.near])),
+            "smallest_reaction": float(state.reaction.min()) / root,
+            "complementarity_product": float(np.abs(state.reaction * (eta[0::2] - obstacle)).max()) * root,
+            "lift": float(np.max(-tau * (obstacle - eta[0::2])[zone], initial=0.0)),
+        })
+
+    def _strain(self) -> float:
+        """½∫η_ζζ² dζ."""
+        h = np.diff(self.state.zeta)
+        w, t = self.state.eta[0::2], self.state.eta[1::2]
+        left = (6.0 * (w[1:] - w[:-1]) / h - 4.0 * t[:-1] - 2.0 * t[1:]) / h
+        right = (-6.0 * (w[1:] - w[:-1]) / h + 2.0 * t[:-1] + 4.0 * t[1:]) / h
+        return float(np.sum(h * (left**2 + left * right + right**2)) / 6.0)
+
+    def history(self, mesh: ExpandingMesh, seconds: float, completed: bool) -> ImpactHistory:
+        """The record in SI units."""
+        p = self.impact
+        column = {k: np.array([r[k] for r in self.records]) for k in self.records[0]}
+        force_time = p.mass_per_length * p.length_scale * p.velocity  # μ l* V₀, N s
+        energy = force_time * p.velocity
+        deflection = p.deflection_scale
+        units: dict[str, tuple[tuple[str, ...], float]] = {
+            "position": (("time", "x"), p.length_scale),
+            "gap": (("time", "x"), deflection),
+            "velocity": (("time", "x"), p.velocity),
+            "slope": (("time", "x"), deflection / p.length_scale),
+            "impulse": (("time", "contact"), force_time),
+            "total_impulse": (("time",), force_time),
+            "impulse_moment": (("time",), force_time * p.length_scale),
+            "smallest_gap": (("time",), deflection),
+            "smallest_reaction": (("time",), force_time / p.time_scale),
+            "complementarity_product": (("time",), force_time / p.time_scale * deflection),
+            "lift": (("time",), deflection),
+            **{k: (("time",), energy) for k in ("kinetic_energy", "strain_energy", "work_of_loads", "loss_artificial")},
+        }
+        fields: dict[str, tuple[Sequence[str], NDArray[Any]]] = {
+            name: (dims, column[name] * unit) for name, (dims, unit) in units.items()
+        }
+        fields["contact_position"] = (("time", "contact"), fields["position"][1])
+        fields["in_contact"] = (("time", "contact"), column["in_contact"])
+        balance = fields["work_of_loads"][1] - sum(
+            fields[k][1] for k in ("kinetic_energy", "strain_energy", "loss_artificial")
+        )
+        fields["loss_integration"] = (("time",), balance)  # what implicit Euler and the moving mesh took
+        final = fields["position"][1][-1]
+        return ImpactHistory.build(
+            impact=p, path="hermite", symmetry="half",
+            settings={
+                "mesh": describe(mesh), "end_time": self.end * p.time_scale, "integrator": "implicit Euler, steps ∝ time",
+                "contact": "node, Signorini at position level", "nodes": int(self.state.zeta.size),
+                "iterations": self.iterations,
+                "gap_tolerance": self.state.gap_tolerance, "energies": "of the fast part z = y0 - y",
+            },
+            time=column["time"] * p.time_scale, x=final, contact_x=final, fields=fields,
+            warnings=self.warnings(), steps=self.steps, seconds=seconds, completed=completed,
+        )
+
+    def warnings(self) -> list[str]:
+        found = []
+        reach = self.state.zeta[-1] * math.sqrt(self.end) * self.impact.length_scale
+        moved = abs(self.state.front / self.front - 1.0) if self.front > 0.0 else 0.0
+        if reach > self.impact.half_length and self.impact.length < 999.0 * self.impact.length_scale:
+            found.append(
+                f"an infinite beam was simulated: the waves followed here reach {reach:.3g} m, beyond the half length "
+                f"{self.impact.half_length:.3g} m"
+            )
+        if moved > 0.3:
+            found.append(f"the front moved {moved:.0%} through the expanding mesh and left its finest part")
+        return found
