@@ -420,12 +420,14 @@ class _Run:
             tau_old = self.tau
             self.steps += 1
             self.tau = tau_old * self.ratio if self.steps < self.total else self.end
+            before = state.reaction
             self.iterations += state.step(self.leading + self.tau * self.first)
-            # ∫ τ^−1/2 dτ of the step: reactions are ρ/√τ, moments ρζ, with ρ constant over the step
+            # reactions are ρ/√τ and moments ρζ; the mean of both ends integrates ρ = const and ρ ~ τ to second order
             roots = 2.0 * (math.sqrt(self.tau) - math.sqrt(tau_old))
-            self.impulse = self.impulse + state.reaction * roots
-            self.moment += float(state.reaction @ state.zeta) * (self.tau - tau_old)
-            self.work += float(state.reaction @ self.rate_of_obstacle(self.tau)) * roots
+            mean = 0.5 * (before + state.reaction)
+            self.impulse = self.impulse + mean * roots
+            self.moment += float(mean @ state.zeta) * (self.tau - tau_old)
+            self.work += float(mean @ self.rate_of_obstacle(0.5 * (self.tau + tau_old))) * roots
             self.absorbed += self.absorber_power() * roots
             if state.active[self.near][-3:].any():
                 raise ArithmeticError("the contact has left the finely meshed zone")

@@ -1,13 +1,20 @@
 """Time integrators. A new one is one small file here and a line in the registry."""
 
 from hermite_fe.integrators.base import Integrator
+from hermite_fe.integrators.generalized_alpha_penalty import GeneralizedAlphaPenalty
 from hermite_fe.integrators.moreau_jean import MoreauJean
+from hermite_fe.integrators.nonsmooth_generalized_alpha import NonsmoothGeneralizedAlpha
 from hermite_fe.integrators.signorini_position import SignoriniPosition
 
-__all__ = ["INTEGRATORS", "Integrator", "MoreauJean", "SignoriniPosition"]
+__all__ = [
+    "INTEGRATORS", "GeneralizedAlphaPenalty", "Integrator", "MoreauJean", "NonsmoothGeneralizedAlpha",
+    "SignoriniPosition",
+]
 
 INTEGRATORS: dict[str, type] = {
     "moreau_jean": MoreauJean,
+    "nonsmooth_generalized_alpha": NonsmoothGeneralizedAlpha,
     "signorini_position": SignoriniPosition,
+    "generalized_alpha_penalty": GeneralizedAlphaPenalty,
 }
 """Kinds of a case file's ``[hermite.integrator]`` table."""

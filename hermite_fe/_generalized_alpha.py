@@ -1,0 +1,414 @@
+"""Compiled generalised-α stepping (Chung & Hulbert) with unilateral rows.
+
+    v⁺ = v + h(1 − γ)a + hγa⁺ + W,    q⁺ = q + hv + h²(½ − β)a + h²βa⁺ + U                    (thesis 3.3.10–11)
+    (1 − α_m)a⁺ + α_m a = (1 − α_f)v̇⁺ + α_f v̇                                                (3.3.12)
+
+with the coefficients of (3.3.13–16). W and U are the jumps that the contact makes. With s = (1 − α_f)/(1 − α_m), the part of
+a⁺ that is known, a* = (α_f v̇ − α_m a)/(1 − α_m), and the predictions v*, q* made with it,
+
+    v⁺ = v* + hγs v̇⁺ + W,    q⁺ = q* + h²βs v̇⁺ + U.
+
+Energy, per step: Δ(T + V) = v̄ᵀMΔv + q̄ᵀKΔq (bars: means over the step) = F̄ᵀΔq − h v̄ᵀCv̄ + pᵀGv̄ − algorithmic loss, p the
+impulse of all reactions; the last has no formula of its own in these schemes and is what the others leave.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hermite_fe._banded import add, combine, factor, multiply, quadratic
+from hermite_fe._contact import force_at, mark_held, row_times, rows_times
+from hermite_fe._jit import compiled
+from hermite_fe._pivoting import SOLVED, solve_rows
+from hermite_fe._problem import (
+    ALGORITHMIC,
+    IMPACT,
+    PRODUCT,
+    SMALLEST_REACTION,
+    VISCOUS,
+    WORK,
+    ContactLaw,
+    Problem,
+    State,
+    Work,
+)
+
+Array = NDArray[np.float64]
+AT_REST = 1e-10  # of the largest velocity: a closed row slower than this has not rebounded
+
+
+@compiled
+def coefficients(spectral_radius: float) -> tuple[float, float, float, float]:
+    """α_m, α_f, γ, β of (3.3.13–16)."""
+    alpha_m = (2.0 * spectral_radius - 1.0) / (spectral_radius + 1.0)
+    alpha_f = spectral_radius / (spectral_radius + 1.0)
+    gamma = 0.5 + alpha_f - alpha_m
+    return alpha_m, alpha_f, gamma, 0.25 * (gamma + 0.5) ** 2
+
+
+@compiled
+def residual_force(problem: Problem, t: float, q: Array, v: Array, out: Array, scratch: Array) -> None:
+    """out = F(t) − Cv − Kq."""
+    force_at(problem.load, t, 0.0, 0.0, out)
+    multiply(problem.K, q, scratch)
+    for i in range(q.size):
+        out[i] -= scratch[i]
+    multiply(problem.C, v, scratch)
+    for i in range(q.size):
+        out[i] -= scratch[i]
+
+
+@compiled
+def open_all(problem: Problem, work: Work) -> None:
+    """No row takes part in the next solve with ``work``."""
+    for j in range(work.candidate.size):
+        work.candidate[j] = False
+        work.held[j] = False
+
+
+@compiled
+def start(problem: Problem, state: State, work: Work) -> int:
+    """Acceleration at the start, v̇ = a = M⁻¹(F − Cv − Kq), without reactions."""
+    combine(problem.M, problem.C, problem.K, 1.0, 0.0, 0.0, problem.place, work.S)
+    work.made_with[0] = math.nan
+    open_all(problem, work)
+    residual_force(problem, 0.0, state.q, state.v, work.b, work.d1)
+    status = solve_rows(problem, work, True, np.zeros(state.closed.size, np.bool_))
+    state.acceleration[:] = work.x
+    state.a[:] = work.x
+    return status
+
+
+@compiled
+def account(
+    problem: Problem, state: State, work: Work, t: float, h: float, old_q: Array, old_v: Array, impulse: Array
+) -> None:
+    """Book a step from (old_q, old_v) to the state under the impulses of its reactions; overwrites the old ones."""
+    n = old_q.size
+    mean_q, mean_v, force = work.d1, work.d2, work.d3
+    for i in range(n):
+        mean_q[i] = 0.5 * (state.q[i] + old_q[i])
+        mean_v[i] = 0.5 * (state.v[i] + old_v[i])
+        old_q[i] = state.q[i] - old_q[i]
+        old_v[i] = state.v[i] - old_v[i]
+    force_at(problem.load, t, h, 0.5, force)
+    done = 0.0
+    for i in range(n):
+        done += force[i] * old_q[i]
+    viscous = h * quadratic(problem.C, mean_v)
+    contact = 0.0
+    for j in range(impulse.size):
+        if impulse[j] != 0.0:
+            contact += impulse[j] * row_times(problem.dofs, problem.factors, mean_v, j)
+            state.impulse[j] += impulse[j]
+    multiply(problem.M, old_v, force)
+    change = 0.0
+    for i in range(n):
+        change += force[i] * mean_v[i]
+    multiply(problem.K, old_q, force)
+    for i in range(n):
+        change += force[i] * mean_q[i]
+    add(state.budget, WORK, done)
+    add(state.budget, VISCOUS, viscous)
+    add(state.budget, IMPACT, -contact)
+    add(state.budget, ALGORITHMIC, done - viscous + contact - change)
+
+
+@compiled
+def velocity_steps(
+    problem: Problem, law: ContactLaw, state: State, smooth: Work, velocity: Work, times: Array, first: int, last: int,
+    spectral_radius: float,
+) -> tuple[int, int]:
+    """Rows at velocity level only.
+
+    smooth :    M v̇⁺ + C ṽ + K q̃ = F⁺, the motion without reactions
+    velocity :  (M + hγsC + h²βsK)W = Gᵀp,  U = h(β/γ)W (½hW at ρ∞ = 1),   0 ≤ p ⊥ Gv⁺ + eGv ≥ 0
+
+    The jump takes along the elastic forces that it raises within the step: with M W = Gᵀp alone the next smooth
+    accelerations would have to undo them, which a stiff beam does not survive.
+    """
+    alpha_m, alpha_f, gamma, beta = coefficients(spectral_radius)
+    s = (1.0 - alpha_f) / (1.0 - alpha_m)
+    q, v, a, rate, closed = state.q, state.v, state.a, state.acceleration, state.closed
+    dofs, factors, work = problem.dofs, problem.factors, velocity
+    n, m = q.size, closed.size
+    old_q, old_v, predicted = np.empty(n), np.empty(n), np.empty(n)
+    none = np.zeros(m, np.bool_)
+    open_all(problem, smooth)
+    if first == 0:
+        status = start(problem, state, smooth)
+        if status != SOLVED:
+            return status, 0
+    for k in range(first, last):
+        t = times[k]
+        h = times[k + 1] - t
+        fresh = smooth.made_with[0] != h
+        if fresh:
+            combine(problem.M, problem.C, problem.K, 1.0, h * gamma * s, h * h * beta * s, problem.place, smooth.S)
+            combine(problem.M, problem.C, problem.K, 1.0, h * gamma * s, h * h * beta * s, problem.place, work.S)
+            smooth.made_with[0] = h
+        rows_times(dofs, factors, q, work.gap)
+        rows_times(dofs, factors, v, work.speed)
+        mark_held(closed, problem.rank, problem.side, law.hold, t < law.hold_until, work.held)
+        for j in range(m):
+            # where a row would come to rest if it were closed now
+            work.candidate[j] = problem.gap[j] + work.gap[j] + h * (1.0 - beta / gamma) * work.speed[j] <= 0.0
+        for i in range(n):
+            known = (alpha_f * rate[i] - alpha_m * a[i]) / (1.0 - alpha_m)
+            old_q[i] = q[i]
+            old_v[i] = v[i]
+            predicted[i] = known
+            q[i] += h * v[i] + h * h * ((0.5 - beta) * a[i] + beta * known)
+            v[i] += h * ((1.0 - gamma) * a[i] + gamma * known)
+        residual_force(problem, t + h, q, v, smooth.b, smooth.d1)
+        status = solve_rows(problem, smooth, fresh, none)
+        if status != SOLVED:
+            smooth.made_with[0] = math.nan
+            return status, k
+        for i in range(n):
+            rate[i] = smooth.x[i]
+            a[i] = predicted[i] + s * rate[i]
+            q[i] += h * h * beta * s * rate[i]
+            v[i] += h * gamma * s * rate[i]
+            work.b[i] = 0.0
+        rows_times(dofs, factors, v, work.gap)
+        for j in range(m):
+            rebound = 0.0 if work.held[j] else law.restitution
+            work.target[j] = -work.gap[j] - rebound * work.speed[j]
+        status = solve_rows(problem, work, fresh, closed)
+        if status != SOLVED:
+            smooth.made_with[0] = math.nan
+            return status, k
+        for j in range(m):
+            if closed[j]:
+                p = work.p[j]
+                if work.held[j]:
+                    state.held_impulse[j] += min(p, 0.0)
+                else:
+                    state.worst[SMALLEST_REACTION] = min(state.worst[SMALLEST_REACTION], p)
+                slack = row_times(dofs, factors, work.x, j) - work.target[j]
+                state.worst[PRODUCT] = max(state.worst[PRODUCT], abs(p * slack))
+        for i in range(n):
+            q[i] += h * (beta / gamma) * work.x[i]
+            v[i] += work.x[i]
+        account(problem, state, work, t, h, old_q, old_v, work.p)
+    return SOLVED, last
+
+
+@compiled
+def sequential_steps(
+    problem: Problem, law: ContactLaw, state: State, smooth: Work, position: Work, velocity: Work, times: Array,
+    first: int, last: int, spectral_radius: float, with_acceleration: bool,
+) -> tuple[int, int]:
+    """Rows at position and velocity level and, for smooth reactions, at acceleration level, one after the other.
+
+    smooth :    M v̇⁺ + C ṽ + K q̃ = F⁺ + Gᵀλ,   0 ≤ λ ⊥ Gv̇⁺ ≥ 0 for rows at rest on the wall (with_acceleration; else λ = 0)
+    position :  M U = h²f_p + Gᵀν,    f_p = −KU − CU/h,    0 ≤ ν ⊥ g(q̃ + U) ≥ 0                          (3.2.19)
+    velocity :  M W = hf_v + GᵀΛ,     f_v = −KU − CW,      0 ≤ Λ ⊥ Gv⁺ + eGv ≥ 0 for rows closed at position    (3.2.20)
+
+    λ counts in the impulse through the same filter as v̇: momentum is exact.
+    """
+    alpha_m, alpha_f, gamma, beta = coefficients(spectral_radius)
+    s = (1.0 - alpha_f) / (1.0 - alpha_m)
+    q, v, a, rate, closed = state.q, state.v, state.a, state.acceleration, state.closed
+    reaction, reaction_a, resting = state.reaction, state.reaction_a, state.resting
+    dofs, factors = problem.dofs, problem.factors
+    n, m = q.size, closed.size
+    old_q, old_v, predicted, impulse = np.empty(n), np.empty(n), np.empty(n), np.empty(m)
+    if first == 0:
+        status = start(problem, state, velocity)
+        if status != SOLVED:
+            return status, 0
+    for k in range(first, last):
+        t = times[k]
+        h = times[k + 1] - t
+        fresh = smooth.made_with[0] != h
+        if fresh:
+            combine(problem.M, problem.C, problem.K, 1.0, h * gamma * s, h * h * beta * s, problem.place, smooth.S)
+            combine(problem.M, problem.C, problem.K, 1.0, h, h * h, problem.place, position.S)
+            combine(problem.M, problem.C, problem.K, 1.0, h, 0.0, problem.place, velocity.S)
+            smooth.made_with[0] = h
+        mark_held(closed, problem.rank, problem.side, law.hold, t < law.hold_until, position.held)
+        rows_times(dofs, factors, v, velocity.speed)
+
+        for i in range(n):
+            known = (alpha_f * rate[i] - alpha_m * a[i]) / (1.0 - alpha_m)
+            old_q[i] = q[i]
+            old_v[i] = v[i]
+            predicted[i] = known
+            q[i] += h * v[i] + h * h * ((0.5 - beta) * a[i] + beta * known)
+            v[i] += h * ((1.0 - gamma) * a[i] + gamma * known)
+        residual_force(problem, t + h, q, v, smooth.b, smooth.d1)
+        for j in range(m):
+            smooth.candidate[j] = with_acceleration and resting[j]
+            smooth.held[j] = smooth.candidate[j] and position.held[j]
+            smooth.target[j] = 0.0
+        status = solve_rows(problem, smooth, fresh, resting)
+        if status != SOLVED:
+            smooth.made_with[0] = math.nan
+            return status, k
+        for i in range(n):
+            a_old = a[i]
+            rate[i] = smooth.x[i]
+            a[i] = predicted[i] + s * rate[i]
+            q[i] = old_q[i] + h * old_v[i] + h * h * ((0.5 - beta) * a_old + beta * a[i])
+            v[i] = old_v[i] + h * ((1.0 - gamma) * a_old + gamma * a[i])
+        for j in range(m):
+            known = (alpha_f * reaction[j] - alpha_m * reaction_a[j]) / (1.0 - alpha_m)
+            impulse[j] = h * (1.0 - gamma) * reaction_a[j]
+            reaction[j] = smooth.p[j]
+            reaction_a[j] = known + s * reaction[j]
+            impulse[j] += h * gamma * reaction_a[j]
+
+        rows_times(dofs, factors, q, position.gap)
+        for j in range(m):
+            position.candidate[j] = True
+            position.target[j] = -(problem.gap[j] + position.gap[j])
+        for i in range(n):
+            position.b[i] = 0.0
+        status = solve_rows(problem, position, fresh, closed)
+        if status != SOLVED:
+            smooth.made_with[0] = math.nan
+            return status, k
+
+        multiply(problem.K, position.x, velocity.b)
+        for i in range(n):
+            q[i] += position.x[i]
+            velocity.b[i] *= -h
+        multiply(problem.C, v, velocity.d1)
+        rows_times(dofs, factors, v, velocity.gap)
+        largest = 0.0
+        for i in range(n):
+            largest = max(largest, abs(v[i]))
+        for j in range(m):
+            velocity.candidate[j] = closed[j]
+            velocity.held[j] = position.held[j]
+            rebound = 0.0 if velocity.held[j] else law.restitution
+            velocity.target[j] = -velocity.gap[j] - rebound * velocity.speed[j]
+            resting[j] = closed[j]
+        status = solve_rows(problem, velocity, fresh, resting)
+        if status != SOLVED:
+            smooth.made_with[0] = math.nan
+            return status, k
+        for i in range(n):
+            v[i] += velocity.x[i]
+        for j in range(m):
+            if closed[j]:
+                p = velocity.p[j]
+                impulse[j] += p
+                if position.held[j]:
+                    state.held_impulse[j] += min(impulse[j], 0.0)
+                else:
+                    worst = min(min(p, h * smooth.p[j]), position.p[j] / h)
+                    state.worst[SMALLEST_REACTION] = min(state.worst[SMALLEST_REACTION], worst)
+                slack = row_times(dofs, factors, velocity.x, j) - velocity.target[j]
+                gap = row_times(dofs, factors, position.x, j) - position.target[j]
+                product = abs(p * slack) if resting[j] else 0.0
+                state.worst[PRODUCT] = max(state.worst[PRODUCT], max(product, abs(position.p[j] * gap) / (h * h)))
+            rebounding = row_times(dofs, factors, v, j) if resting[j] else 0.0
+            resting[j] = resting[j] and abs(rebounding) <= AT_REST * largest
+        account(problem, state, velocity, t, h, old_q, old_v, impulse)
+    return SOLVED, last
+
+
+@compiled
+def penalty_steps(
+    problem: Problem, state: State, work: Work, times: Array, first: int, last: int, spectral_radius: float,
+    stiffness: float, damping: float, rounds: int,
+) -> tuple[int, int]:
+    """Rows as springs and dampers on penetration: M v̇⁺ + Cv⁺ + Kq⁺ = F⁺ − Gᵀ(k g + d ġ)⁺ where g⁺ ≤ 0.
+
+    Rows touch one dof each. Which ones are in touch is settled by re-solving, at most ``rounds`` times, as
+    Exudyn's discontinuous iteration does; a damper may pull while its row is in touch.
+    """
+    alpha_m, alpha_f, gamma, beta = coefficients(spectral_radius)
+    s = (1.0 - alpha_f) / (1.0 - alpha_m)
+    q, v, a, rate, closed = state.q, state.v, state.a, state.acceleration, state.closed
+    dofs, factors = problem.dofs, problem.factors
+    n, m = q.size, closed.size
+    old_q, old_v, predicted, right = np.empty(n), np.empty(n), np.empty(n), np.empty(n)
+    touching = state.resting  # as the factors know them
+    none = np.zeros(m, np.bool_)
+    open_all(problem, work)
+    if first == 0:
+        status = start(problem, state, work)
+        if status != SOLVED:
+            return status, 0
+    for k in range(first, last):
+        t = times[k]
+        h = times[k + 1] - t
+        fresh = work.made_with[0] != h
+        if fresh:
+            combine(problem.M, problem.C, problem.K, 1.0, h * gamma * s, h * h * beta * s, problem.place, work.S)
+            work.made_with[0] = h
+            for j in range(m):
+                touching[j] = False
+        for i in range(n):
+            known = (alpha_f * rate[i] - alpha_m * a[i]) / (1.0 - alpha_m)
+            old_q[i] = q[i]
+            old_v[i] = v[i]
+            predicted[i] = known
+            q[i] += h * v[i] + h * h * ((0.5 - beta) * a[i] + beta * known)
+            v[i] += h * ((1.0 - gamma) * a[i] + gamma * known)
+        residual_force(problem, t + h, q, v, right, work.d1)
+        rows_times(dofs, factors, q, work.gap)
+        rows_times(dofs, factors, v, work.speed)
+        for attempt in range(rounds + 1):
+            top = -1
+            for i in range(n):
+                work.b[i] = right[i]
+            for j in range(m):
+                d, g = dofs[j, 0], factors[j, 0]
+                spring, damper = stiffness * problem.tributary[j], damping * problem.tributary[j]
+                if closed[j] != touching[j]:
+                    sign = 1.0 if closed[j] else -1.0
+                    work.S[d, 0] += sign * g * g * (h * h * beta * s * spring + h * gamma * s * damper)
+                    touching[j] = closed[j]
+                    top = max(top, d)
+                if closed[j]:
+                    work.b[d] -= g * (spring * (problem.gap[j] + work.gap[j]) + damper * work.speed[j])
+            if not fresh and top >= 0:
+                if not factor(work.S, work.fixed, top, work.D, work.R, work.U):
+                    work.made_with[0] = math.nan
+                    return 1, k
+            status = solve_rows(problem, work, fresh, none)
+            if status != SOLVED:
+                work.made_with[0] = math.nan
+                return status, k
+            fresh = False
+            changed = False
+            for j in range(m):
+                new = problem.gap[j] + work.gap[j] + h * h * beta * s * factors[j, 0] * work.x[dofs[j, 0]]
+                work.wrong[j] = (new <= 0.0) != closed[j]
+                changed = changed or work.wrong[j]
+            if not changed or attempt == rounds:
+                break
+            for j in range(m):
+                if work.wrong[j]:
+                    closed[j] = not closed[j]
+        for i in range(n):
+            rate[i] = work.x[i]
+            a_old = a[i]
+            a[i] = predicted[i] + s * rate[i]
+            q[i] = old_q[i] + h * old_v[i] + h * h * ((0.5 - beta) * a_old + beta * a[i])
+            v[i] = old_v[i] + h * ((1.0 - gamma) * a_old + gamma * a[i])
+        for j in range(m):
+            d, g = dofs[j, 0], factors[j, 0]
+            spring, damper = stiffness * problem.tributary[j], damping * problem.tributary[j]
+            force = 0.0
+            if closed[j]:
+                force = -spring * (problem.gap[j] + g * q[d]) - damper * g * v[d]
+            known = (alpha_f * state.reaction[j] - alpha_m * state.reaction_a[j]) / (1.0 - alpha_m)
+            work.p[j] = h * (1.0 - gamma) * state.reaction_a[j]
+            state.reaction[j] = force
+            state.reaction_a[j] = known + s * force
+            work.p[j] += h * gamma * state.reaction_a[j]
+            state.worst[SMALLEST_REACTION] = min(state.worst[SMALLEST_REACTION], h * force)
+            if closed[j]:
+                gap = problem.gap[j] + g * q[d]
+                state.worst[PRODUCT] = max(state.worst[PRODUCT], abs(h * force * gap))
+        account(problem, state, work, t, h, old_q, old_v, work.p)
+    return SOLVED, last
