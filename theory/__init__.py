@@ -1,8 +1,8 @@
 """The semi-analytic path: two-scale theory of a bent beam's impact on a rigid wall (thesis, chapter 2).
 
-`contact_parameters` solves the contact point, `ImpactFields` gives the beam around it, `SelfSimilarWave` the same in closed
-form at leading order, `predict` says what that means for a physical impact and
-where it may be trusted; the kernel and the φ functions are in `theory.kernel` and `theory.phi`.
+`contact_parameters` solves the contact point, `ImpactFields` gives the beam around it, `SelfSimilarWave`
+the leading order in closed form, and `predict` says what that means for a physical impact and where it may be
+trusted. The kernel is in `theory.kernel`, the φ functions in `theory.phi`.
 """
 
 from theory.contact import ContactParameters, contact_parameters

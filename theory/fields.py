@@ -179,8 +179,8 @@ class ImpactFields:
         )
         if info.status == 1:
             raise ArithmeticError(
-                f"the convolution did not reach its tolerance {self.tolerance:.3g} (error about {error:.3g}): "
-                "ask for fewer points at once, nearer the contact zone, or a larger tolerance"
+                f"the convolution did not reach its tolerance {self.tolerance:.3g} (error about "
+                f"{error:.3g}): ask for points nearer the contact zone, or a larger tolerance"
             )
         return values * np.stack([tau, np.sqrt(tau), np.ones_like(tau), np.ones_like(tau)])
 

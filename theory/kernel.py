@@ -22,8 +22,8 @@ from scipy.special import fresnel
 
 from theory._fresnel import SWITCH, FloatArray, scaled_moments
 
-# Past it β² would overflow; H, H′ and P − √(π/2) are zero to double precision long before.
-_LARGEST = 1e150
+# Past it β³ would overflow; H, H′ and P − √(π/2) are zero to double precision long before.
+_LARGEST = 1e100
 _SPLIT = 2.0**27 + 1.0
 
 

@@ -192,13 +192,13 @@ def _check_epsilon(epsilon: float) -> ValidityCheck:
 def _correction(name: str, what: str, ratio: float | None, until: float, good: str) -> ValidityCheck:
     if ratio is not None and ratio >= 1.0:
         bad = (
-            f"The first-order change of the {what} is {ratio:.3g} times its leading order: the expansion says "
-            f"nothing here, it is valid up to {until:.3g} s. Ask for an earlier time or simulate."
+            f"The first-order change of the {what} is {ratio:.3g} times its leading order: the expansion "
+            f"says nothing here, it is valid up to {until:.3g} s. Ask for an earlier time or simulate."
         )
     else:
         bad = (
-            f"The load changes the {what} by {_percent(ratio)} of its leading order: the terms left out are no "
-            f"longer small and the {what} is an indication only, it is valid up to {until:.3g} s."
+            f"The load changes the {what} by {_percent(ratio)} of its leading order: the terms left out are "
+            f"no longer small and the {what} is an indication only, it is valid up to {until:.3g} s."
         )
     return _check(name, ratio, EXPANSION_LIMIT, good, bad)
 

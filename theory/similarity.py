@@ -68,31 +68,31 @@ class SelfSimilarWave:
         """η/τ at x = ξ/√τ."""
         p, s = self.parameters, np.abs(np.asarray(x, dtype=np.float64))
         outside = self._wave(np.maximum(s, p.lambda0))[2].real
-        return np.where(s > p.lambda0, outside, p.nu - p.kappa * s**2 / 2.0)
+        return np.where(s >= p.lambda0, outside, p.nu - p.kappa * s**2 / 2.0)
 
     def slope(self, x: ArrayLike) -> FloatArray:
         """η_ξ/√τ at x = ξ/√τ."""
         p, position = self.parameters, np.asarray(x, dtype=np.float64)
         s = np.abs(position)
         outside = -(_TURN * self._wave(np.maximum(s, p.lambda0))[1]).real
-        return np.copysign(1.0, position) * np.where(s > p.lambda0, outside, -p.kappa * s)
+        return np.copysign(1.0, position) * np.where(s >= p.lambda0, outside, -p.kappa * s)
 
     def curvature(self, x: ArrayLike) -> FloatArray:
         """η_ξξ at x = ξ/√τ."""
         p, s = self.parameters, np.abs(np.asarray(x, dtype=np.float64))
         outside = (_TURN**2 * self._wave(np.maximum(s, p.lambda0))[0]).real
-        return np.where(s > p.lambda0, outside, -p.kappa)
+        return np.where(s >= p.lambda0, outside, -p.kappa)
 
     def velocity(self, x: ArrayLike) -> FloatArray:
         """η_τ at x = ξ/√τ."""
         p, s = self.parameters, np.abs(np.asarray(x, dtype=np.float64))
         outside = -(_TURN**2 * self._wave(np.maximum(s, p.lambda0))[0]).imag
-        return np.where(s > p.lambda0, outside, p.nu)
+        return np.where(s >= p.lambda0, outside, p.nu)
 
     def gap(self, x: ArrayLike) -> FloatArray:
         """−w/τ at x = ξ/√τ: 0 in the contact zone, positive outside."""
-        p, s = self.parameters, np.asarray(x, dtype=np.float64)
-        return np.asarray(self.deflection(s) - p.nu + p.kappa * s**2 / 2.0)
+        p, s = self.parameters, np.abs(np.asarray(x, dtype=np.float64))
+        return np.where(s > p.lambda0, self.deflection(s) - p.nu + p.kappa * s**2 / 2.0, 0.0)
 
     @property
     def impulse(self) -> float:

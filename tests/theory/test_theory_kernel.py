@@ -1,0 +1,107 @@
+"""The kernel against its definition in multiprecision (2.3.2), (2.3.3), (2.7.12)."""
+
+from __future__ import annotations
+
+import mpmath as mp
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from theory import kernel
+
+FUNCTIONS = ("H", "H1", "H2", "H3", "P")
+
+
+def exact(beta: float) -> dict[str, mp.mpf]:
+    with mp.workdps(60):
+        b = mp.mpf(beta)
+        x, phase = b / mp.sqrt(2 * mp.pi), b**2 / 4
+        s, c = mp.fresnels(x), mp.fresnelc(x)
+        sine, cosine = mp.sin(phase), mp.cos(phase)
+        root = mp.sqrt(mp.pi / 2)
+        return {
+            "H": root * b * (s - c) + mp.sqrt(2) * mp.sin((mp.pi + b**2) / 4),
+            "H1": root * (s - c),
+            "H2": (sine - cosine) / 2,
+            "H3": b / 4 * (cosine + sine),
+            "P": root * ((b**2 + 2) / 2 * s - (b**2 - 2) / 2 * c) + b / 2 * (sine + cosine),
+        }
+
+
+def envelope(beta: float) -> dict[str, float]:
+    """Size of the oscillation, by which an error next to a zero is measured."""
+    b = abs(beta)
+    return {
+        "H": min(1.0, 2.0 * np.sqrt(2.0) / max(b, 1.0) ** 2),
+        "H1": min(b / 2.0, 1.4 / max(b, 1.0)),
+        "H2": 0.5,
+        "H3": b / 4.0,
+        "P": min(b, 1.25),
+    }
+
+
+def relative_error(name: str, beta: float) -> float:
+    reference = exact(beta)[name]
+    scale = max(abs(float(reference)), envelope(beta)[name])
+    return abs(float(mp.mpf(getattr(kernel, name)(beta)) - reference)) / scale if scale else 0.0
+
+
+@pytest.mark.parametrize("name", FUNCTIONS)
+def test_kernel_functions_have_full_precision_up_to_a_million(name: str) -> None:
+    rng = np.random.default_rng(3)
+    betas = np.concatenate([10.0 ** rng.uniform(-8, 6, 60), rng.uniform(0.0, 5.0, 40), [1.5, 1e6]])
+    assert max(relative_error(name, b) for b in betas) < 1e-13
+
+
+@given(beta=st.floats(-1e6, 1e6, allow_subnormal=False), name=st.sampled_from(FUNCTIONS))
+def test_kernel_functions_are_exact_anywhere(beta: float, name: str) -> None:
+    assert relative_error(name, beta) < 1e-13
+
+
+@given(beta=st.floats(-1e300, 1e300))
+def test_parity_and_no_overflow(beta: float) -> None:
+    assert kernel.H(beta) == kernel.H(-beta)
+    assert kernel.H2(beta) == kernel.H2(-beta)
+    for odd in (kernel.H1, kernel.H3, kernel.P):
+        assert odd(beta) == -odd(-beta)
+    assert all(np.isfinite(getattr(kernel, name)(beta)) for name in FUNCTIONS)
+
+
+def test_values_at_zero_and_at_infinity() -> None:
+    assert [getattr(kernel, name)(0.0) for name in FUNCTIONS] == [1.0, 0.0, -0.5, 0.0, 0.0]
+    assert kernel.H(np.inf) == pytest.approx(0.0, abs=1e-100)
+    assert kernel.P(np.inf) == pytest.approx(np.sqrt(np.pi / 2.0), rel=1e-15)
+
+
+def test_arrays_keep_their_shape_and_scalars_are_floats() -> None:
+    grid = np.linspace(-4.0, 4.0, 12).reshape(3, 4)
+    for name in FUNCTIONS:
+        values = getattr(kernel, name)(grid)
+        assert values.shape == (3, 4)
+        assert values[1, 2] == getattr(kernel, name)(grid[1, 2])
+        assert isinstance(getattr(kernel, name)(0.3), float)
+
+
+def test_K_solves_the_beam_equation_away_from_the_impulse() -> None:
+    with mp.workdps(40):
+
+        def deflection(xi: mp.mpf, tau: mp.mpf) -> mp.mpf:
+            return mp.sqrt(tau / (2 * mp.pi)) * exact(xi / mp.sqrt(tau))["H"]
+
+        point = (mp.mpf("1.3"), mp.mpf("0.7"))
+        inertia = mp.diff(deflection, point, (0, 2), h=mp.mpf("1e-8"))
+        bending = mp.diff(deflection, point, (4, 0), h=mp.mpf("1e-6"))
+        assert abs(inertia + bending) < 1e-8
+        assert kernel.K(1.3, 0.7) == pytest.approx(float(deflection(*point)), rel=1e-14)
+
+
+def test_K_carries_unit_momentum() -> None:
+    # ∫K dξ = τ: 2√τ√(τ/2π) P(∞)
+    assert 2.0 * 3.0 / np.sqrt(2.0 * np.pi) * kernel.P(np.inf) == pytest.approx(3.0, rel=1e-15)
+
+
+def test_K_starts_from_rest_and_refuses_the_past() -> None:
+    assert kernel.K(0.2, 0.0) == 0.0
+    with pytest.raises(ValueError, match="tau"):
+        kernel.K(0.2, -1.0)

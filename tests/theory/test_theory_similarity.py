@@ -1,0 +1,80 @@
+"""The leading order in closed form: gap, momentum, energy and far field."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from scipy.integrate import quad
+
+from theory import SelfSimilarWave, contact_parameters, phi
+
+RATIOS = [1e-6, 1 / 1600, 0.05, 0.5, 0.9999, 1.0, 2.0, 50.0]
+
+
+@pytest.mark.parametrize("ratio", RATIOS)
+def test_momentum_equals_impulse(ratio: float) -> None:
+    wave = SelfSimilarWave(contact_parameters(ratio))
+    assert wave.momentum == pytest.approx(wave.impulse, rel=1e-12)
+
+
+@pytest.mark.parametrize("ratio", RATIOS)
+def test_the_impact_conserves_energy(ratio: float) -> None:
+    # beam: ½∫[(ν−η_τ)² − ν²] + ½∫η_ξξ² = energy of the fast layer − ν × its momentum
+    wave = SelfSimilarWave(contact_parameters(ratio, nu=1.7))
+    assert wave.energy == pytest.approx(1.7 * wave.impulse, rel=1e-11)
+
+
+def test_energy_summed_over_the_beam_converges_to_the_conserved_one() -> None:
+    # the wave carries |B|²/(4π x²) far ahead: what is missing beyond X falls like 1/X
+    wave = SelfSimilarWave(contact_parameters(0.5))
+
+    def density(x: float) -> float:
+        return float(wave.velocity(x)[0] ** 2 + wave.curvature(x)[0] ** 2)
+
+    missing = [
+        wave.impulse - quad(density, 0.0, end, limit=400, points=[wave.parameters.lambda0])[0]
+        for end in (20.0, 40.0)
+    ]
+    assert missing[0] / missing[1] == pytest.approx(2.0, rel=1e-3)
+    assert abs(2.0 * missing[1] - missing[0]) < 1e-5 * wave.impulse
+
+
+@pytest.mark.parametrize("ratio", [1 / 1600, 0.05, 0.5, 0.8, 0.99])
+def test_the_front_solves_all_four_conditions_at_once(ratio: float) -> None:
+    # deflection and slope were not used to find the wave: they hold because λ₀, r₀ are right
+    p = contact_parameters(ratio)
+    wave, x = SelfSimilarWave(p), np.nextafter(p.lambda0, np.inf)
+    assert wave.deflection(x)[0] == pytest.approx(p.r0 * phi.phi_alpha(p.lambda0), rel=1e-10)
+    assert wave.slope(x)[0] == pytest.approx(-p.kappa * p.lambda0, rel=1e-12)
+    assert wave.curvature(x)[0] == pytest.approx(-p.kappa, rel=1e-11)
+    assert wave.velocity(x)[0] == pytest.approx(p.nu, rel=1e-11)
+
+
+@settings(max_examples=50)
+@given(ratio=st.floats(1e-4, 50.0), beyond=st.floats(1e-2, 100.0))
+def test_the_gap_is_open_outside_the_zone_and_closed_inside(ratio: float, beyond: float) -> None:
+    wave = SelfSimilarWave(contact_parameters(ratio))
+    front = wave.parameters.lambda0
+    assert wave.gap(front + beyond * max(front, 1.0))[0] > 0.0
+    assert wave.gap(front / (1.0 + beyond))[0] == 0.0
+
+
+@pytest.mark.parametrize("ratio", [0.05, 0.5, 2.0])
+def test_the_far_field_dies_like_the_third_and_second_power(ratio: float) -> None:
+    wave = SelfSimilarWave(contact_parameters(ratio))
+    deflection, slope = wave.far_field
+    x = np.linspace(30.0, 60.0, 20001)
+    for values, bound, power in ((wave.deflection(x), deflection, 3), (wave.slope(x), slope, 2)):
+        peak = np.max(np.abs(values) * x**power)
+        assert peak < bound * (1.0 + 1e-2)
+        assert peak == pytest.approx(bound, rel=2e-2)
+
+
+def test_the_wave_is_the_kernel_convolved_at_the_middle_of_one_point() -> None:
+    # (2.6.36) at ξ = 0 and its slope
+    wave = SelfSimilarWave(contact_parameters(2.0, nu=3.0))
+    assert wave.deflection(0.0)[0] == pytest.approx(3.0, rel=1e-14)
+    assert wave.slope(1e-9)[0] == pytest.approx(0.0, abs=1e-8)
+    assert wave.curvature(1e-12)[0] == pytest.approx(-3.0, rel=1e-10)
