@@ -28,6 +28,7 @@ class NewtonSolver:
     """How each implicit step is solved.
 
     absolute_tolerance, relative_tolerance : of the residual; the absolute one in units of the model's amplitude.
+    contact_tolerance : force, in the same units, below which a change of the contact state does not repeat the step.
     iterations : most Newton iterations a step.
     contact_iterations : most repetitions of a step until the contact state no longer changes.
     halve_steps : let Exudyn shorten a step that fails (down to 1/1000) before giving up.
@@ -35,8 +36,9 @@ class NewtonSolver:
     linear_solver : "sparse" or "dense".
     """
 
-    absolute_tolerance: float = 1e-9
+    absolute_tolerance: float = 1e-8
     relative_tolerance: float = 1e-6
+    contact_tolerance: float = 1e-4
     iterations: int = 25
     contact_iterations: int = 8
     halve_steps: bool = False
@@ -46,6 +48,7 @@ class NewtonSolver:
     def __post_init__(self) -> None:
         positive("exudyn.solver.absolute_tolerance", self.absolute_tolerance)
         positive("exudyn.solver.relative_tolerance", self.relative_tolerance)
+        positive("exudyn.solver.contact_tolerance", self.contact_tolerance)
         whole("exudyn.solver.iterations", self.iterations, 1)
         whole("exudyn.solver.contact_iterations", self.contact_iterations, 1)
         one_of("exudyn.solver.linear_solver", self.linear_solver, LINEAR)
@@ -69,7 +72,7 @@ class NewtonSolver:
         time.discontinuous.useRecommendedStepSize = False
         time.discontinuous.ignoreMaxIterations = True
         time.discontinuous.maxIterations = self.contact_iterations
-        time.discontinuous.iterationTolerance = self.absolute_tolerance * amplitude
+        time.discontinuous.iterationTolerance = self.contact_tolerance * amplitude
         return settings
 
 

@@ -81,7 +81,9 @@ class _Run(ContactRun):
         changed = np.flatnonzero(wanted != self.held)
         for k in changed:
             self.beam.mbs.SetObjectParameter(self.holders[k], "activeConnector", bool(wanted[k]))
-            self.beam.mbs.SetObjectParameter(self.contacts[k], "activeConnector", not wanted[k])
+            # the one-sided connector stays active without force: deactivated, Exudyn repeats steps for it in vain
+            for name, value in (("contactStiffness", self.stiffness[k]), ("contactDamping", self.damping[k])):
+                self.beam.mbs.SetObjectParameter(self.contacts[k], name, 0.0 if wanted[k] else float(value))
         self.held = wanted
         return bool(changed.size)
 
