@@ -1,0 +1,104 @@
+"""Finished runs, kept under a key of what was asked and with which versions: a killed sweep resumes where it was.
+
+One JSON file a run, written beside its place and renamed into it, with a checksum inside: a file that is torn, edited or
+from other versions is never read as good.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+import tempfile
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from bent_beam.history import versions
+
+__all__ = ["RunStore", "default_store", "write_atomically"]
+
+
+def write_atomically(file: Path, text: str | bytes) -> None:
+    """Write a file so that a reader sees either nothing or all of it."""
+    file.parent.mkdir(parents=True, exist_ok=True)
+    handle, name = tempfile.mkstemp(prefix=f".{file.name}.", suffix=".part", dir=file.parent)
+    try:
+        with os.fdopen(handle, "wb") as stream:
+            stream.write(text.encode() if isinstance(text, str) else text)
+            stream.flush()
+            os.fsync(stream.fileno())
+        os.chmod(name, 0o644)
+        os.replace(name, file)
+    except BaseException:
+        Path(name).unlink(missing_ok=True)
+        raise
+
+
+def default_store() -> Path:
+    """``$BENTBEAM_STORE``, or the user's cache folder."""
+    given = os.environ.get("BENTBEAM_STORE")
+    if given:
+        return Path(given)
+    cache = os.environ.get("XDG_CACHE_HOME") or str(Path.home() / ".cache")
+    return Path(cache) / "bent-beam-impact" / "runs"
+
+
+def _canonical(value: Any) -> str:
+    return json.dumps(value, sort_keys=True, separators=(",", ":"), allow_nan=False)
+
+
+def _digest(text: str) -> str:
+    return hashlib.sha256(text.encode()).hexdigest()
+
+
+def source_digest() -> str:
+    """Digest of this project's own sources: a changed solver must not be served an old answer."""
+    root = Path(__file__).resolve().parent.parent
+    digest = hashlib.sha256()
+    for package in ("bent_beam", "theory", "hermite_fe", "exudyn_models", "comparison"):
+        for file in sorted((root / package).rglob("*.py")):
+            digest.update(file.relative_to(root).as_posix().encode())
+            digest.update(file.read_bytes())
+    return digest.hexdigest()
+
+
+@dataclass(frozen=True)
+class RunStore:
+    """A folder of finished runs; ``None`` keeps nothing."""
+
+    folder: Path | None
+
+    def file(self, question: Mapping[str, Any]) -> Path | None:
+        """Where the answer to ``question`` (JSON-ready) is kept."""
+        if self.folder is None:
+            return None
+        key = _digest(_canonical({"question": dict(question), "versions": versions(), "source": source_digest()}))
+        return self.folder / f"{key[:40]}.json"
+
+    def answer(self, question: Mapping[str, Any], compute: Callable[[], dict[str, Any]]) -> dict[str, Any]:
+        """The kept answer, or ``compute()``'s, kept from now on. Answers are finite JSON data."""
+        file = self.file(question)
+        if file is not None:
+            kept = self._read(file)
+            if kept is not None:
+                return kept
+        found: dict[str, Any] = json.loads(_canonical(compute()))
+        if file is not None:
+            try:
+                write_atomically(file, _canonical({"answer": found, "sha256": _digest(_canonical(found))}))
+            except OSError:
+                pass  # a full or read-only cache costs time, not the answer
+        return found
+
+    @staticmethod
+    def _read(file: Path) -> dict[str, Any] | None:
+        try:
+            kept = json.loads(file.read_text())
+            answer = kept["answer"]
+            if kept["sha256"] != _digest(_canonical(answer)) or not isinstance(answer, dict):
+                return None
+        except (OSError, ValueError, KeyError, TypeError):
+            return None
+        return answer
