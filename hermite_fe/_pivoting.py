@@ -27,6 +27,8 @@ Flags = NDArray[np.bool_]
 SOLVED, SINGULAR, CYCLING = 0, 1, 2
 PATIENCE = 8  # rounds of block exchange without progress before Murty's rule
 ROUND_OFF = 1e-13  # of the terms summed: below it a wrong sign means nothing
+DOUBT = 40  # rounds after which nearly degenerate rows are judged ten times more leniently
+COARSEST = 1e-8
 
 
 @compiled
@@ -117,7 +119,7 @@ def solve_rows(problem: Problem, work: Work, fresh: bool, closed: Flags) -> int:
         return SINGULAR
     sweep_in(U, r, n - 1, z)
 
-    fewest, patience, rounds = m + 1, PATIENCE, 0
+    fewest, patience, rounds, tolerance = m + 1, PATIENCE, 0, ROUND_OFF
     while True:
         sweep_out(R, U, z, 0, zone, y)
         scale = 0.0
@@ -140,14 +142,14 @@ def solve_rows(problem: Problem, work: Work, fresh: bool, closed: Flags) -> int:
                 else:
                     _, size = equation(S, y, r, place[dofs[j, 0]])
                     p[j] = -y[switch[j]]
-                wrong[j] = not held[j] and p[j] < -ROUND_OFF * size / abs(factors[j, 0])
+                wrong[j] = not held[j] and p[j] < -tolerance * size / abs(factors[j, 0])
             else:
                 p[j] = 0.0
                 slack, size = -target[j], abs(target[j])
                 for i in range(width):
                     slack += factors[j, i] * y[place[dofs[j, i]]]
                     size += abs(factors[j, i]) * scale
-                wrong[j] = slack < -ROUND_OFF * size
+                wrong[j] = slack < -tolerance * size
             if wrong[j]:
                 count += 1
                 last = j
@@ -158,8 +160,10 @@ def solve_rows(problem: Problem, work: Work, fresh: bool, closed: Flags) -> int:
         else:
             patience -= 1
         rounds += 1
-        if rounds > 100 + 4 * m:
-            return CYCLING
+        if rounds % (DOUBT + m) == 0:
+            tolerance *= 10.0
+            if tolerance > COARSEST:
+                return CYCLING
         top = -1
         for j in range(last_row + 1):
             if wrong[j] and (patience > 0 or j == last):

@@ -1,13 +1,22 @@
-"""Resolution chosen from the problem by scaling alone.
+"""Resolution and parts chosen from the problem by scaling alone.
 
-In units of the fast layer (l*, t*), with κ = κ/ν: the undisturbed parabola would meet the wall at ξ = √(2τ/κ), so the front
-moves like λ̂√τ with λ̂ = √(2/κ) as a crude upper estimate, and the beam bends ahead of it over ℓ(τ) = 2√τ/λ̂ (speed of the
-front, λ̂/2√τ, equal to the wave number 1/ℓ of the waves that keep up with it). Elements must be a fraction of
-ℓ where the front is, steps a fraction of its travel over ℓ. Nothing here knows λ₀ or r₀.
+In units of the fast layer (l*, t*), κ = κ/ν: the undisturbed parabola would meet the wall at ξ = √(2τ/κ), so the front moves
+like λ̂√τ with λ̂ = √(2/κ) as a crude upper estimate, and the beam bends ahead of it over ℓ(τ) = 2√τ/λ̂ (the front's speed
+λ̂/2√τ equals the wave number 1/ℓ of the waves that keep up with it). Elements must be a fraction of ℓ where the
+front is, steps a fraction of its travel over ℓ. Nothing here knows λ₀ or r₀.
+
+- mesh: elements in proportion to the distance, so that every decade of time is resolved alike; for a thin front (small κ)
+  even ones over the zone that the last part of the run covers;
+- steps in proportion to the time since impact, for the same reason;
+- integrator: Signorini at the new position, which leaves closed rows exactly on the wall; Moreau–Jean when rows rebound;
+- hold: 16 rows behind the front while the beam is pressed on (p = μa₀ + EI q₀ ≥ 0); none when p < 0, for then the middle
+  truly lifts off; and all that is closed until the front is a few elements thick;
+- far field: grid-scale viscosity.
 """
 
 from __future__ import annotations
 
+import dataclasses
 import math
 from dataclasses import dataclass
 
@@ -18,11 +27,16 @@ from bent_beam.impact import Impact
 from bent_beam.meshes import GradedMesh, Mesh, ScaleFreeMesh
 from hermite_fe.contacts import Contact, NodeContact
 from hermite_fe.far_fields import FarField, GridViscosity
-from hermite_fe.integrators import Integrator, MoreauJean
+from hermite_fe.integrators import GeneralizedAlphaPenalty, Integrator, MoreauJean, SignoriniPosition
 
 __all__ = ["Choice", "choose", "front"]
 
 Array = NDArray[np.float64]
+
+THIN = 0.04  # κ/ν below which scale-free elements all the way would be too many
+LARGEST_STEP = 5e-4  # of the time since impact
+ELEMENTS_PER_FRONT = 2.0  # fewer in ℓ deserve a warning
+HOLD = 16
 
 
 @dataclass(frozen=True)
@@ -37,37 +51,125 @@ class Choice:
     warnings: tuple[str, ...]
 
 
+def bounded_kappa(impact: Impact) -> float:
+    """κ/ν, kept off 0 and not above 1, where the contact stays a point."""
+    return min(max(impact.kappa_over_nu, 1e-9), 1.0)
+
+
 def front(impact: Impact, time: float) -> tuple[float, float]:
     """Crude estimates of the front's place and thickness at ``time``, m, by scaling."""
-    kappa = min(max(impact.kappa_over_nu, 1e-12), 1.0)
     spread = math.sqrt(time / impact.time_scale) * impact.length_scale
-    speed = math.sqrt(2.0 / kappa)
+    speed = math.sqrt(2.0 / bounded_kappa(impact))
     return speed * spread, 2.0 * spread / speed
 
 
 def chosen_mesh(impact: Impact, end_time: float) -> Mesh:
-    """Scale-free elements; for a thin front (small κ/ν) uniform ones over the zone."""
+    """Scale-free elements; for a thin front even ones over the zone."""
     place, thickness = front(impact, end_time)
-    kappa = min(max(impact.kappa_over_nu, 1e-12), 1.0)
-    if kappa >= 0.05:
-        return ScaleFreeMesh(element_length=1e-3 * thickness, growth=1.0 + min(0.01, 0.1 * kappa))
-    return GradedMesh(element_length=thickness / 4.0, growth=1.01, zone=min(1.1 * place, impact.half_length))
+    kappa = bounded_kappa(impact)
+    if kappa >= THIN:
+        smallest = min(4e-3 * thickness, 1e-3 * impact.half_length)
+        return ScaleFreeMesh(element_length=smallest, growth=1.0 + min(0.01, 0.1 * kappa))
+    zone = min(1.05 * place, impact.half_length)
+    return GradedMesh(element_length=min(thickness / 3.0, zone / 100.0), growth=1.02, zone=zone, size_ratio=1e6)
+
+
+def chosen_integrator(impact: Impact, end_time: float, nodes: Array, integrator: Integrator) -> Integrator:
+    """``integrator`` with what it leaves open filled in."""
+    growth = min(LARGEST_STEP, 0.4 * bounded_kappa(impact))
+    resolved = resolved_time(impact, nodes)
+    step = growth * min(max(resolved, 1e-7 * end_time), end_time)
+    integrator = integrator.with_steps(step, growth)
+    if isinstance(integrator, GeneralizedAlphaPenalty):
+        mass, time = impact.mass_per_length, impact.time_scale
+        integrator = dataclasses.replace(
+            integrator,
+            stiffness=1e5 * mass / time**2 if integrator.stiffness is None else integrator.stiffness,
+            damping=1e3 * mass / time if integrator.damping is None else integrator.damping,
+        )
+    return integrator
+
+
+def resolved_time(impact: Impact, nodes: Array) -> float:
+    """When the front is as thick as the smallest element, s."""
+    _, thickness = front(impact, impact.time_scale)
+    return impact.time_scale * (float(np.diff(nodes).min()) / thickness) ** 2
 
 
 def choose(
     impact: Impact, end_time: float, mesh: Mesh | None, integrator: Integrator | None, contact: Contact | None,
     far_field: FarField | None,
 ) -> Choice:
-    """Fill in what was left open."""
-    warnings: list[str] = []
-    mesh_ = chosen_mesh(impact, end_time) if mesh is None else mesh
-    nodes = mesh_.nodes(impact.half_length)
-    kappa = min(max(impact.kappa_over_nu, 1e-12), 1.0)
-    smallest = float(np.diff(nodes).min())
-    # the time at which the front is as thick as the smallest element
-    resolved = end_time * (smallest / front(impact, end_time)[1]) ** 2
-    growth = min(1e-3, 0.1 * kappa)
-    integrator_ = (MoreauJean() if integrator is None else integrator).with_steps(
-        max(growth * resolved, growth * end_time * 1e-7), growth)
-    contact_ = (NodeContact() if contact is None else contact).with_hold(16, 36.0 * resolved)
-    return Choice(mesh_, nodes, integrator_, contact_, far_field or GridViscosity(), tuple(warnings))
+    """Fill in what was left open, and warn where what was given by hand cannot resolve the front."""
+    if mesh is None:
+        mesh = chosen_mesh(impact, end_time)
+    nodes = mesh.nodes(impact.half_length)
+    if contact is None:
+        contact = NodeContact()
+    if integrator is None:
+        integrator = SignoriniPosition() if contact.restitution == 0.0 else MoreauJean()
+    integrator = chosen_integrator(impact, end_time, nodes, integrator)
+    pressed = impact.mass_per_length * impact.acceleration + impact.bending_stiffness * impact.fourth_derivative >= 0.0
+    contact = contact.with_hold(HOLD if pressed else 0, min(36.0 * resolved_time(impact, nodes), end_time))
+    if far_field is None:
+        far_field = GridViscosity()
+    warnings = [
+        *resolution_warnings(impact, end_time, nodes, integrator), *end_warnings(impact, end_time, nodes, far_field),
+    ]
+    return Choice(mesh, nodes, integrator, contact, far_field, tuple(warnings))
+
+
+def resolution_warnings(impact: Impact, end_time: float, nodes: Array, integrator: Integrator) -> list[str]:
+    """What the mesh and the steps cannot resolve of the front at the end of the run, and by how much."""
+    out: list[str] = []
+    if impact.kappa_over_nu >= 1.0:
+        return out
+    place, thickness = front(impact, end_time)
+    element = float(np.diff(nodes)[min(int(np.searchsorted(nodes, min(place, nodes[-1]))), nodes.size - 1) - 1])
+    if thickness < ELEMENTS_PER_FRONT * element:
+        out.append(
+            f"the mesh cannot resolve the contact front: it is about {thickness:.3g} m thick at the end of the run, "
+            f"{thickness / element:.2g} of the elements there ({element:.3g} m); at least {ELEMENTS_PER_FRONT:g} are "
+            f"needed, an element_length {ELEMENTS_PER_FRONT * element / thickness:.2g} times smaller"
+        )
+    step = max(integrator.time_step or 0.0, (integrator.growth or 0.0) * end_time)
+    travel = place * 0.5 * step / end_time
+    if travel > 0.5 * max(thickness, element):
+        out.append(
+            f"the time steps cannot resolve the contact front: it travels about {travel:.3g} m in the last one, "
+            f"{travel / max(thickness, element):.2g} of its thickness or of an element; half is the most, a step "
+            f"{2.0 * travel / max(thickness, element):.2g} times smaller"
+        )
+    return out
+
+
+def end_warnings(impact: Impact, end_time: float, nodes: Array, far_field: FarField) -> list[str]:
+    """Waves that can run to a free end and back to the front within the run.
+
+    Bending waves of number k travel at 2k√(EI/μ); those that an impact of age t radiates with much energy have k up to
+    about 1/ℓ(t), the front's own. Shorter ones arrive earlier but carry little.
+    """
+    out = []
+    place, _ = front(impact, end_time)
+    half, constant = impact.half_length, impact.wave_constant
+    # waves of the front's own thickness at its start have long gone; those of age t and size √(√(EI/μ) t) carry most
+    path = max(2.0 * half - place, 0.0)
+    arrival = (path / 2.0) ** 2 / constant / 4.0
+    if arrival < end_time:
+        out.append(
+            f"the ends of the beam can be felt: waves of length comparable to the contact zone's surroundings may return "
+            f"from x = {half:.3g} m from about t = {arrival:.2g} s on (run ends at {end_time:.2g} s); an infinite beam is "
+            "no longer a good model"
+        )
+    if place > half:
+        out.append(f"the contact may reach the end of the beam: it spreads to about {place:.3g} m of {half:.3g} m")
+    if far_field.end == "following":
+        y = (impact.velocity * end_time - 0.5 * impact.curvature * nodes**2 + 0.5 * impact.acceleration * end_time**2
+             + 0.5 * impact.curvature_rate * nodes**2 * end_time + impact.fourth_derivative * nodes**4 / 24.0)
+        far = nodes > 1.5 * place
+        if np.any(y[far] >= 0.0):
+            out.append(
+                f"the free motion itself reaches the wall far from the contact, at x = {float(nodes[far][y[far] >= 0.0][0]):.3g} m "
+                "within the run: shorten the beam"
+            )
+    return out

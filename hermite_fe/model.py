@@ -54,20 +54,17 @@ def beam_model(impact: Impact, nodes: Array, contact: Contact, far_field: FarFie
     bending = beam.interpolate(impact.curvature_rate * x**2 / 2.0, impact.curvature_rate * x)
     velocity = beam.interpolate(np.full(x.size, impact.velocity), np.zeros(x.size)) + bending
     stiffness = beam.stiffness()
-    # what keeps y₀ up: K on Hermite interpolants is exact at nodes, ends included
-    load = np.stack([
-        beam.mass_load(impact.acceleration) + banded_product(stiffness, quartic),
-        banded_product(stiffness, bending),
-    ])
-    if far_field.end == "free":
-        load[0] = beam.uniform_load(
-            impact.mass_per_length * impact.acceleration + impact.bending_stiffness * impact.fourth_derivative
-        )
-        load[1] = 0.0
-    if not np.any(load[1]):
-        load = load[:1]
+    damping = far_field.damping(beam, impact)
+    if far_field.end == "following":
+        # all that keeps y₀ up, end forces included (K on Hermite interpolants is exact at nodes), damping undone
+        steady = beam.mass_load(impact.acceleration) + banded_product(stiffness, quartic)
+        load = np.stack([steady + banded_product(damping, bending), banded_product(stiffness, bending)])
+        load = load if np.any(load[1]) else load[:1]
+    else:
+        pressure = impact.mass_per_length * impact.acceleration + impact.bending_stiffness * impact.fourth_derivative
+        load = beam.uniform_load(pressure)[None, :]
     system = System(
-        mass=beam.mass(), stiffness=stiffness, damping=far_field.damping(beam, impact), load=load,
+        mass=beam.mass(), stiffness=stiffness, damping=damping, load=load,
         contacts=contact.rows(beam, natural, full=full), supports=() if full else (1,),
     )
     return BeamModel(beam, system, quartic, velocity, natural, full)

@@ -1,0 +1,46 @@
+"""A sponge: bending viscosity that rises towards the ends, next to that at grid scale.
+
+    C = Σ_e η_e Kₑ,    η_e = (c Δx_e² + b w² s³)·√(μ/EI),    s = 1 − (distance to the end)/w ∈ [0, 1] within w of an end
+
+A wave of number k decays over the sponge by exp(−b (kw)³/16) on its way out, and as much on its way back: with b = 0.2, waves shorter than
+about the sponge's width are gone, and the gradual rise sends next to nothing back. Viscosity of bending, unlike drag, takes
+no momentum and leaves rigid motion alone.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bent_beam.checks import between, non_negative
+from bent_beam.impact import Impact
+from hermite_fe.beam import HermiteBeam
+from hermite_fe.far_fields.base import FarField
+
+__all__ = ["Sponge"]
+
+
+@dataclass(frozen=True)
+class Sponge(FarField):
+    """viscosity : c at grid scale; strength : b, dimensionless; width : w over the half length of the beam."""
+
+    viscosity: float = 0.3
+    strength: float = 0.2
+    width: float = 0.4
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        non_negative("far_field.viscosity", self.viscosity)
+        non_negative("far_field.strength", self.strength)
+        between("far_field.width", self.width, 0.0, 1.0)
+
+    def damping(self, beam: HermiteBeam, impact: Impact) -> NDArray[np.float64]:
+        middles = 0.5 * (beam.nodes[:-1] + beam.nodes[1:])
+        width = self.width * impact.half_length
+        eta = self.viscosity * beam.lengths**2
+        if width > 0.0:
+            depth = np.clip(1.0 - (impact.half_length - np.abs(middles)) / width, 0.0, 1.0)
+            eta = eta + self.strength * width**2 * depth**3
+        return beam.stiffness(weight=eta / impact.wave_constant)
