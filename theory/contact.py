@@ -23,6 +23,9 @@ from scipy.optimize import newton
 from theory import phi
 from theory._fresnel import FloatArray
 
+#: Below it λ₁ and r₁, which grow like (κ/ν)^{−5/2}, need intermediate numbers beyond double precision.
+FLATTEST = 1e-60
+
 DISCRETE = "discrete"
 CONTINUOUS = "continuous"
 DETACHED = "detached"
@@ -82,7 +85,7 @@ def contact_parameters(
     the largest contribution of α, ψ and χ.
 
     Raises:
-        ValueError: κ/ν or ν not positive and finite, α, ψ or χ not finite.
+        ValueError: κ/ν or ν not positive and finite, κ/ν < 1e-60, α, ψ or χ not finite.
     """
     given = {
         "kappa_over_nu": kappa_over_nu,
@@ -94,6 +97,11 @@ def contact_parameters(
     arrays = {name: np.asarray(value, dtype=np.float64) for name, value in given.items()}
     for name, values in arrays.items():
         _check(name, values, positive=name in ("kappa_over_nu", "nu"))
+    if np.any(arrays["kappa_over_nu"] < FLATTEST):
+        raise ValueError(
+            f"kappa_over_nu must be at least {FLATTEST:g} (got {np.min(arrays['kappa_over_nu'])}): "
+            "so flat a beam touches over its whole length at once"
+        )
     ratio, a, p, c, n = (np.ascontiguousarray(v) for v in np.broadcast_arrays(*arrays.values()))
     shape = np.broadcast_shapes(*(v.shape for v in arrays.values()))
     ratio, a, p, c, n = (v.ravel() for v in (ratio, a, p, c, n))

@@ -316,6 +316,7 @@ def test_arrays_equal_scalars() -> None:
         ({"kappa_over_nu": -0.5}, r"kappa_over_nu must be positive and finite \(got -0.5\)"),
         ({"kappa_over_nu": np.nan}, r"kappa_over_nu must be positive and finite \(got nan\)"),
         ({"kappa_over_nu": [0.5, np.inf]}, r"kappa_over_nu must be positive and finite \(got inf\)"),
+        ({"kappa_over_nu": 1e-80}, r"kappa_over_nu must be at least 1e-60 \(got 1e-80\)"),
         ({"kappa_over_nu": 0.5, "nu": 0.0}, r"nu must be positive and finite \(got 0.0\)"),
         ({"kappa_over_nu": 0.5, "alpha": np.nan}, r"alpha must be finite \(got nan\)"),
         ({"kappa_over_nu": 0.5, "psi": -np.inf}, r"psi must be finite \(got -inf\)"),
