@@ -30,7 +30,9 @@ class NewtonSolver:
     absolute_tolerance, relative_tolerance : of the residual; the absolute one in units of the model's amplitude.
     contact_tolerance : force, in the same units, below which a change of the contact state does not repeat the step.
     iterations : most Newton iterations a step.
-    contact_iterations : most repetitions of a step until the contact state no longer changes.
+    contact_iterations : most repetitions of a step in which the contact state changes.
+    contact_must_settle : fail when they run out. Exudyn compares the state with that at the *start* of the step, so that a step in
+        which a node is captured with more force than ``contact_tolerance`` always runs out: only with a large tolerance is this of use.
     halve_steps : let Exudyn shorten a step that fails (down to 1/1000) before giving up.
     modified_newton : keep the Jacobian while it converges.
     linear_solver : "sparse" or "dense".
@@ -40,7 +42,8 @@ class NewtonSolver:
     relative_tolerance: float = 1e-6
     contact_tolerance: float = 1e-4
     iterations: int = 25
-    contact_iterations: int = 8
+    contact_iterations: int = 5
+    contact_must_settle: bool = False
     halve_steps: bool = False
     modified_newton: bool = True
     linear_solver: str = "sparse"
@@ -70,7 +73,7 @@ class NewtonSolver:
         time.newton.relativeTolerance = self.relative_tolerance
         time.newton.maxIterations = self.iterations
         time.discontinuous.useRecommendedStepSize = False
-        time.discontinuous.ignoreMaxIterations = True
+        time.discontinuous.ignoreMaxIterations = not self.contact_must_settle
         time.discontinuous.maxIterations = self.contact_iterations
         time.discontinuous.iterationTolerance = self.contact_tolerance * amplitude
         return settings

@@ -2,7 +2,8 @@
 
 from exudyn_models.contacts.base import Contact, ContactRun, Wall
 from exudyn_models.contacts.penalty import Penalty
+from exudyn_models.contacts.rigid import Rigid
 
-__all__ = ["CONTACTS", "Contact", "ContactRun", "Penalty", "Wall"]
+__all__ = ["CONTACTS", "Contact", "ContactRun", "Penalty", "Rigid", "Wall"]
 
-CONTACTS: dict[str, type] = {"penalty": Penalty}
+CONTACTS: dict[str, type] = {"penalty": Penalty, "rigid": Rigid}

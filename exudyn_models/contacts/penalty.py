@@ -3,8 +3,8 @@
     R_i = b_i (k y_i + d ẏ_i)  while y_i > 0,   b_i the length of beam that node i stands for
     k = C EI/Δx⁴,   d = D √(EIμ)/Δx²
 
-With k and d tied to the element length the contact is as stiff as the elements themselves, on every scale of the mesh; C = D = 1
-keep both the penetration and the rattling at the mesh's own error.
+With k and d tied to the element length the contact is as stiff as the elements themselves, on every scale of the mesh; C = 10 and
+D = 3 keep both the penetration and the rattling below the mesh's own error.
 
 Behind the front the exact reaction vanishes; a one-sided force turns the numerical noise there into pushes that lift the beam. So a
 captured node is held (its penalty acts in both directions) until the front is ``hold`` elements further on: the held strip shrinks
@@ -22,6 +22,7 @@ from numpy.typing import NDArray
 
 from bent_beam.checks import non_negative, positive, whole
 from exudyn_models.contacts.base import ContactRun, Flags, Wall
+from exudyn_models.contacts.holding import HeldStrip, chosen_hold
 from exudyn_models.elements import Beam
 
 __all__ = ["Penalty", "penalty_per_length"]
@@ -36,12 +37,10 @@ def penalty_per_length(lengths: Array, relative_stiffness: float, relative_dampi
 
 class _Run(ContactRun):
     def __init__(self, beam: Beam, wall: Wall, stiffness: Array, damping: Array, hold: int) -> None:
-        self.beam, self.nodes, self.hold = beam, wall.nodes, hold
+        self.beam, self.nodes = beam, wall.nodes
         self.stiffness, self.damping = stiffness, damping
         self.contact_s = beam.shape.s[wall.nodes]
-        self.distance = np.abs(wall.nodes - wall.centre)  # from the centre, in elements
-        self.right = wall.nodes >= wall.centre
-        self.captured = np.zeros(wall.nodes.size, bool)
+        self.strip = HeldStrip(wall, hold)
         self.held = np.zeros(wall.nodes.size, bool)
         self.contacts: list[Any] = []
         self.holders: list[Any] = []
@@ -63,21 +62,14 @@ class _Run(ContactRun):
         touching = q[place] > 0.0
         active = touching | self.held
         force = np.where(active, self.stiffness * q[place] + self.damping * v[place], 0.0)
-        self.captured |= touching
+        self.strip.captured |= touching
         return force, active
 
     def velocity(self, q: Array, v: Array) -> Array:
         return np.asarray(v[self.beam.vertical[self.nodes]])
 
     def between(self, time: float, q: Array, v: Array) -> bool:
-        if not self.hold:
-            return False
-        wanted = np.zeros_like(self.held)
-        for side in (self.right, ~self.right):
-            caught = self.captured & side
-            if caught.any():
-                front = self.distance[caught].max()
-                wanted |= caught & (self.distance > front - self.hold)
+        wanted = self.strip.wanted()
         changed = np.flatnonzero(wanted != self.held)
         for k in changed:
             self.beam.mbs.SetObjectParameter(self.holders[k], "activeConnector", bool(wanted[k]))
@@ -93,7 +85,7 @@ class _Run(ContactRun):
         return k, d
 
     def settings(self) -> dict[str, Any]:
-        return {"hold_elements": self.hold}
+        return {"hold_elements": self.strip.hold}
 
 
 @dataclass(frozen=True)
@@ -101,16 +93,15 @@ class Penalty:
     """Nodal penalty: the default.
 
     stiffness, damping : k in N/m² and d in N s/m² per length of beam; None: from the element length and the next two.
-    relative_stiffness, relative_damping : C and D of the module's text; D None: 1 (0.1 under explicit integrators, whose
-        stable step a stronger one shortens).
+    relative_stiffness, relative_damping : C and D of the module's text.
     hold : elements behind the front whose captured nodes are held; None: 16, but none where the load draws the beam off the wall
         (α + ψ < 0, where a hold would pull on what rightly lifts) and none under explicit integrators.
     """
 
     stiffness: float | None = None
     damping: float | None = None
-    relative_stiffness: float = 1.0
-    relative_damping: float | None = None
+    relative_stiffness: float = 10.0
+    relative_damping: float = 3.0
     hold: int | None = None
 
     def __post_init__(self) -> None:
@@ -119,8 +110,7 @@ class Penalty:
         if self.damping is not None:
             non_negative("exudyn.contact.damping", self.damping)
         positive("exudyn.contact.relative_stiffness", self.relative_stiffness)
-        if self.relative_damping is not None:
-            non_negative("exudyn.contact.relative_damping", self.relative_damping)
+        non_negative("exudyn.contact.relative_damping", self.relative_damping)
         if self.hold is not None:
             whole("exudyn.contact.hold", self.hold, 0)
 
@@ -132,13 +122,9 @@ class Penalty:
         local = length.copy()
         if wall.half:
             local[0] *= 2.0  # the node of symmetry stands for half of its neighbourhood
-        relative = self.relative_damping if self.relative_damping is not None else (0.1 if wall.explicit else 1.0)
-        k, d = penalty_per_length(local, self.relative_stiffness, relative)
+        k, d = penalty_per_length(local, self.relative_stiffness, self.relative_damping)
         if self.stiffness is not None:
             k = np.full_like(local, self.stiffness / wall.stiffness_unit)
         if self.damping is not None:
             d = np.full_like(local, self.damping / wall.damping_unit)
-        hold = self.hold
-        if hold is None:
-            hold = 0 if wall.pulled_off or wall.explicit else 16
-        return _Run(beam, wall, k * length, d * length, hold)
+        return _Run(beam, wall, k * length, d * length, chosen_hold(wall, self.hold))

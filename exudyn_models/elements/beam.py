@@ -62,6 +62,20 @@ class Beam(ABC):
             self.mbs.AddObject(items.CoordinateConstraint(
                 markerNumbers=[self.ground_marker, self.marker(node, coordinate)]))
 
+    def burden(self, node: int, *coordinates: int, inertia: float = 1e9) -> None:
+        """Hold coordinates of a node by an inertia too large to move.
+
+        Exudyn's explicit solvers set constrained accelerations to zero *after* solving with the unconstrained mass matrix,
+        which destabilises a consistent one.
+        """
+        size = self.rotation_coordinate + 1
+        mass = np.zeros((size, size))
+        mass[list(coordinates), list(coordinates)] = inertia
+        none = np.zeros((size, size))
+        self.mbs.AddObject(items.ObjectGenericODE2(
+            nodeNumbers=[self.nodes[node]], massMatrix=mass, stiffnessMatrix=none, dampingMatrix=none,
+            forceVector=np.zeros(size)))
+
     def load_uniformly(self, acceleration: float) -> None:
         """A load μ·``acceleration`` per unit length along y."""
         for body in self.bodies:

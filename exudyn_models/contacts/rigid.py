@@ -1,0 +1,94 @@
+"""Rigid contact: constraints switched with the contact state (Exudyn's ``CoordinateConstraint``), Lagrange multipliers, no penalty.
+
+    y_i = 0 while captured,   R_i = −λ_i ≥ 0,   0 ≤ R_i ⊥ −y_i ≥ 0
+
+Every node that may touch carries a constraint on its velocity (index 2), inactive until, between two steps, the node is found at
+the wall; its velocity then vanishes within one step, the impact of restitution e = 0. It is released when it pulls, but not before the
+front is ``hold`` elements further on (see :mod:`exudyn_models.contacts.penalty`). Index 2 leaves a captured node where it was caught, at
+most V₀h inside the wall. Under position constraints (index 3, generalised-α) the jump of velocity that a switch asks for has no
+place in the equations and Newton's method stops converging: hence only Newmark integrators are accepted.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import exudyn.itemInterface as items
+import numpy as np
+from numpy.typing import NDArray
+
+from bent_beam.checks import whole
+from exudyn_models.contacts.base import ContactRun, Flags, Wall
+from exudyn_models.contacts.holding import HeldStrip, chosen_hold
+from exudyn_models.elements import Beam
+
+__all__ = ["Rigid"]
+
+Array = NDArray[np.float64]
+
+
+class _Run(ContactRun):
+    longest_segment = 1
+
+    def __init__(self, beam: Beam, wall: Wall, hold: int) -> None:
+        self.beam, self.nodes = beam, wall.nodes
+        self.contact_s = beam.shape.s[wall.nodes]
+        self.strip = HeldStrip(wall, hold)
+        self.active = np.zeros(wall.nodes.size, bool)
+        self.multipliers: NDArray[np.int64] | None = None
+        self.constraints = [
+            beam.mbs.AddObject(items.CoordinateConstraint(
+                markerNumbers=[beam.ground_marker, beam.marker(int(node), beam.vertical_coordinate)],
+                activeConnector=False))
+            for node in wall.nodes
+        ]
+
+    def forces(self, q: Array, v: Array) -> tuple[Array, Flags]:
+        data = self.beam.mbs.systemData
+        if self.multipliers is None:
+            self.multipliers = np.array([data.GetObjectLTGAE(number)[0] for number in self.constraints])
+        force = np.where(self.active, data.GetAECoordinates()[self.multipliers], 0.0)
+        return force, self.active.copy()
+
+    def velocity(self, q: Array, v: Array) -> Array:
+        return np.asarray(v[self.beam.vertical[self.nodes]])
+
+    def between(self, time: float, q: Array, v: Array) -> bool:
+        force, _ = self.forces(q, v)
+        touching = (q[self.beam.vertical[self.nodes]] >= 0.0) & ~self.active
+        if time == 0.0:
+            touching &= v[self.beam.vertical[self.nodes]] > 0.0
+        self.strip.captured |= touching
+        wanted = (self.active & (force >= 0.0)) | touching | self.strip.wanted()
+        changed = np.flatnonzero(wanted != self.active)
+        for k in changed:
+            self.beam.mbs.SetObjectParameter(self.constraints[k], "activeConnector", bool(wanted[k]))
+        self.active = wanted
+        return bool(changed.size)
+
+    def settings(self) -> dict[str, Any]:
+        return {"hold_elements": self.strip.hold}
+
+
+@dataclass(frozen=True)
+class Rigid:
+    """Constraints switched with the contact state; needs the trapezoidal or Newmark integrator.
+
+    hold : elements behind the front whose captured nodes are not released; None: as for the penalty.
+    """
+
+    hold: int | None = None
+
+    def __post_init__(self) -> None:
+        if self.hold is not None:
+            whole("exudyn.contact.hold", self.hold, 0)
+
+    def refuses(self, element: Any, integrator: Any) -> str | None:
+        if integrator.index_2_constraints:
+            return None
+        return ("exudyn.contact.kind rigid needs constraints at velocity level: take exudyn.integrator.kind newmark or trapezoidal "
+                f"(got {type(integrator).__name__})")
+
+    def attach(self, beam: Beam, wall: Wall) -> ContactRun:
+        return _Run(beam, wall, chosen_hold(wall, self.hold))
