@@ -12,4 +12,5 @@ REGISTRIES: dict[str, dict[str, type]] = {
     "contact": CONTACTS,
     "far_field": FAR_FIELDS,
 }
-"""Kinds of the tables ``[hermite.integrator]``, ``[hermite.contact]``, ``[hermite.far_field]`` of a case file."""
+"""Kinds of the tables ``[hermite.integrator]``, ``[hermite.contact]``, ``[hermite.far_field]`` of a case
+file."""

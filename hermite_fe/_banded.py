@@ -1,12 +1,13 @@
 """Compiled kernels for symmetric banded matrices.
 
-Matrices of a system (half bandwidth 3, as Hermite elements have) are kept in scipy's lower form, ``A[m, i] = A(i + m, i)``,
-shape (4, n): products run along diagonals.
+Matrices of a system (half bandwidth 3, as Hermite elements have) are kept in scipy's lower form, ``A[m, i] =
+A(i + m, i)``, shape (4, n): products run along diagonals.
 
-The matrix that is factored has half bandwidth 4, room for a contact multiplier between the dofs of two nodes, and is kept
-by rows, ``S[k, m] = S(k, k − m)``, shape (n, 5). The factorisation S = U D Uᵀ runs from the last unknown to the first:
-in a contact problem the first ones are those whose constraints switch, so what lies beyond the contact zone is
-factored once for a step and not touched again. A *fixed* unknown has row and column of the identity.
+The matrix that is factored has half bandwidth 4, room for a contact multiplier between the dofs of two nodes,
+and is kept by rows, ``S[k, m] = S(k, k − m)``, shape (n, 5). The factorisation S = U D Uᵀ runs from the last
+unknown to the first: in a contact problem the first ones are those whose constraints switch, so what lies
+beyond the contact zone is factored once for a step and not touched again. A *fixed* unknown has row and
+column of the identity.
 """
 
 from __future__ import annotations
@@ -57,14 +58,20 @@ def multiply(A: Array, x: Array, y: Array) -> None:
     inner = y[3 : n - 3]
     for i in range(n - 6):
         inner[i] = (
-            d0[i] * x0[i] + d1[i] * r1[i] + d2[i] * r2[i] + d3[i] * r3[i]
-            + e1[i] * l1[i] + e2[i] * l2[i] + e3[i] * l3[i]
+            d0[i] * x0[i]
+            + d1[i] * r1[i]
+            + d2[i] * r2[i]
+            + d3[i] * r3[i]
+            + e1[i] * l1[i]
+            + e2[i] * l2[i]
+            + e3[i] * l3[i]
         )
 
 
 @compiled_sums
 def quadratic(A: Array, x: Array) -> float:
-    """xᵀ A x for A in lower form, row by row: the large terms of a stiffness cancel before they are summed."""
+    """xᵀ A x for A in lower form, row by row: the large terms of a stiffness cancel before they are
+    summed."""
     n = x.size
     total = 0.0
     if n < 8:
@@ -97,15 +104,23 @@ def quadratic(A: Array, x: Array) -> float:
     l1, l2, l3 = x[2 : n - 4], x[1 : n - 5], x[: n - 6]
     for i in range(n - 6):
         total += x0[i] * (
-            d0[i] * x0[i] + d1[i] * r1[i] + d2[i] * r2[i] + d3[i] * r3[i]
-            + e1[i] * l1[i] + e2[i] * l2[i] + e3[i] * l3[i]
+            d0[i] * x0[i]
+            + d1[i] * r1[i]
+            + d2[i] * r2[i]
+            + d3[i] * r3[i]
+            + e1[i] * l1[i]
+            + e2[i] * l2[i]
+            + e3[i] * l3[i]
         )
     return total
 
 
 @compiled
-def combine(M: Array, C: Array, K: Array, m: float, c: float, k: float, place: NDArray[np.int64], S: Array) -> None:
-    """Write m·M + c·C + k·K (lower form) into S (by rows), dof i at unknown place[i]; nothing else in S changes."""
+def combine(
+    M: Array, C: Array, K: Array, m: float, c: float, k: float, place: NDArray[np.int64], S: Array
+) -> None:
+    """Write m·M + c·C + k·K (lower form) into S (by rows), dof i at unknown place[i]; nothing else in S
+    changes."""
     n = place.size
     for i in range(n):
         row = place[i]
@@ -119,8 +134,8 @@ def combine(M: Array, C: Array, K: Array, m: float, c: float, k: float, place: N
 def factor(S: Array, fixed: Flags, top: int, D: Array, R: Array, U: Array) -> bool:
     """Factor S = U D Uᵀ from unknown ``top`` down to 0; what is above ``top`` must be factored already.
 
-    D (n + 4,) pivots, R their inverses, U (n + 4, 5) couplings U[q, m] = U(q − m, q); four idle rows pad the end.
-    Returns False when a pivot is zero or not a number.
+    D (n + 4,) pivots, R their inverses, U (n + 4, 5) couplings U[q, m] = U(q − m, q); four idle rows pad the
+    end. Returns False when a pivot is zero or not a number.
     """
     sound = True
     for t in range(top + 1):
@@ -151,7 +166,8 @@ def factor(S: Array, fixed: Flags, top: int, D: Array, R: Array, U: Array) -> bo
 
 @compiled
 def sweep_in(U: Array, r: Array, top: int, z: Array) -> None:
-    """Solve U z = r from unknown ``top`` down to 0; z above ``top`` must be known (z has four idle places at the end)."""
+    """Solve U z = r from unknown ``top`` down to 0; z above ``top`` must be known (z has four idle places at
+    the end)."""
     z1, z2, z3, z4 = z[top + 1], z[top + 2], z[top + 3], z[top + 4]
     for t in range(top + 1):
         k = top - t

@@ -49,8 +49,11 @@ def force_at(load: Array, t: float, h: float, theta: float, force: Array) -> Non
 
 
 @compiled
-def mark_held(closed: Flags, rank: Places, side: Places, distance: int, everything: bool, held: Flags) -> None:
-    """Rows that stay closed: those whose front is fewer than ``distance`` rows further, or all that are closed."""
+def mark_held(
+    closed: Flags, rank: Places, side: Places, distance: int, everything: bool, held: Flags
+) -> None:
+    """Rows that stay closed: those whose front is fewer than ``distance`` rows further, or all that are
+    closed."""
     front = np.full(2, -1)
     for j in range(closed.size):
         if closed[j]:

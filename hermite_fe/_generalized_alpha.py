@@ -1,15 +1,17 @@
 """Compiled generalised-α stepping (Chung & Hulbert) with unilateral rows.
 
-    v⁺ = v + h(1 − γ)a + hγa⁺ + W,    q⁺ = q + hv + h²(½ − β)a + h²βa⁺ + U                    (thesis 3.3.10–11)
+    v⁺ = v + h(1 − γ)a + hγa⁺ + W,    q⁺ = q + hv + h²(½ − β)a + h²βa⁺ + U                    (thesis
+    3.3.10–11)
     (1 − α_m)a⁺ + α_m a = (1 − α_f)v̇⁺ + α_f v̇                                                (3.3.12)
 
-with the coefficients of (3.3.13–16). W and U are the jumps that the contact makes. With s = (1 − α_f)/(1 − α_m), the part of
-a⁺ that is known, a* = (α_f v̇ − α_m a)/(1 − α_m), and the predictions v*, q* made with it,
+with the coefficients of (3.3.13–16). W and U are the jumps that the contact makes. With s = (1 − α_f)/(1 −
+α_m), the part of a⁺ that is known, a* = (α_f v̇ − α_m a)/(1 − α_m), and the predictions v*, q* made with it,
 
     v⁺ = v* + hγs v̇⁺ + W,    q⁺ = q* + h²βs v̇⁺ + U.
 
-Energy, per step: Δ(T + V) = v̄ᵀMΔv + q̄ᵀKΔq (bars: means over the step) = F̄ᵀΔq − h v̄ᵀCv̄ + pᵀGv̄ − algorithmic loss, p the
-impulse of all reactions; the last has no formula of its own in these schemes and is what the others leave.
+Energy, per step: Δ(T + V) = v̄ᵀMΔv + q̄ᵀKΔq (bars: means over the step) = F̄ᵀΔq − h v̄ᵀCv̄ + pᵀGv̄ −
+algorithmic loss, p the impulse of all reactions; the last has no formula of its own in these schemes and is
+what the others leave.
 """
 
 from __future__ import annotations
@@ -86,7 +88,8 @@ def start(problem: Problem, state: State, work: Work) -> int:
 def account(
     problem: Problem, state: State, work: Work, t: float, h: float, old_q: Array, old_v: Array, impulse: Array
 ) -> None:
-    """Book a step from (old_q, old_v) to the state under the impulses of its reactions; overwrites the old ones."""
+    """Book a step from (old_q, old_v) to the state under the impulses of its reactions; overwrites the old
+    ones."""
     n = old_q.size
     mean_q, mean_v, force = work.d1, work.d2, work.d3
     for i in range(n):
@@ -119,7 +122,14 @@ def account(
 
 @compiled
 def velocity_steps(
-    problem: Problem, law: ContactLaw, state: State, smooth: Work, velocity: Work, times: Array, first: int, last: int,
+    problem: Problem,
+    law: ContactLaw,
+    state: State,
+    smooth: Work,
+    velocity: Work,
+    times: Array,
+    first: int,
+    last: int,
     spectral_radius: float,
 ) -> tuple[int, int]:
     """Rows at velocity level only.
@@ -127,8 +137,8 @@ def velocity_steps(
     smooth :    M v̇⁺ + C ṽ + K q̃ = F⁺, the motion without reactions
     velocity :  (M + hγsC + h²βsK)W = Gᵀp,  U = h(β/γ)W (½hW at ρ∞ = 1),   0 ≤ p ⊥ Gv⁺ + eGv ≥ 0
 
-    The jump takes along the elastic forces that it raises within the step: with M W = Gᵀp alone the next smooth
-    accelerations would have to undo them, which a stiff beam does not survive.
+    The jump takes along the elastic forces that it raises within the step: with M W = Gᵀp alone the next
+    smooth accelerations would have to undo them, which a stiff beam does not survive.
     """
     alpha_m, alpha_f, gamma, beta = coefficients(spectral_radius)
     s = (1.0 - alpha_f) / (1.0 - alpha_m)
@@ -147,8 +157,12 @@ def velocity_steps(
         h = times[k + 1] - t
         fresh = smooth.made_with[0] != h
         if fresh:
-            combine(problem.M, problem.C, problem.K, 1.0, h * gamma * s, h * h * beta * s, problem.place, smooth.S)
-            combine(problem.M, problem.C, problem.K, 1.0, h * gamma * s, h * h * beta * s, problem.place, work.S)
+            combine(
+                problem.M, problem.C, problem.K, 1.0, h * gamma * s, h * h * beta * s, problem.place, smooth.S
+            )
+            combine(
+                problem.M, problem.C, problem.K, 1.0, h * gamma * s, h * h * beta * s, problem.place, work.S
+            )
             smooth.made_with[0] = h
         rows_times(dofs, factors, q, work.gap)
         rows_times(dofs, factors, v, work.speed)
@@ -200,14 +214,27 @@ def velocity_steps(
 
 @compiled
 def sequential_steps(
-    problem: Problem, law: ContactLaw, state: State, smooth: Work, position: Work, velocity: Work, times: Array,
-    first: int, last: int, spectral_radius: float, with_acceleration: bool,
+    problem: Problem,
+    law: ContactLaw,
+    state: State,
+    smooth: Work,
+    position: Work,
+    velocity: Work,
+    times: Array,
+    first: int,
+    last: int,
+    spectral_radius: float,
+    with_acceleration: bool,
 ) -> tuple[int, int]:
-    """Rows at position and velocity level and, for smooth reactions, at acceleration level, one after the other.
+    """Rows at position and velocity level and, for smooth reactions, at acceleration level, one after the
+    other.
 
-    smooth :    M v̇⁺ + C ṽ + K q̃ = F⁺ + Gᵀλ,   0 ≤ λ ⊥ Gv̇⁺ ≥ 0 for rows at rest on the wall (with_acceleration; else λ = 0)
-    position :  M U = h²f_p + Gᵀν,    f_p = −KU − CU/h,    0 ≤ ν ⊥ g(q̃ + U) ≥ 0                          (3.2.19)
-    velocity :  M W = hf_v + GᵀΛ,     f_v = −KU − CW,      0 ≤ Λ ⊥ Gv⁺ + eGv ≥ 0 for rows closed at position    (3.2.20)
+    smooth :    M v̇⁺ + C ṽ + K q̃ = F⁺ + Gᵀλ,   0 ≤ λ ⊥ Gv̇⁺ ≥ 0 for rows at rest on the wall
+        (with_acceleration; else λ = 0)
+    position :  M U = h²f_p + Gᵀν,    f_p = −KU − CU/h,    0 ≤ ν ⊥ g(q̃ + U) ≥ 0
+        (3.2.19)
+    velocity :  M W = hf_v + GᵀΛ,     f_v = −KU − CW,      0 ≤ Λ ⊥ Gv⁺ + eGv ≥ 0 for rows closed at position
+         (3.2.20)
 
     λ counts in the impulse through the same filter as v̇: momentum is exact.
     """
@@ -227,7 +254,9 @@ def sequential_steps(
         h = times[k + 1] - t
         fresh = smooth.made_with[0] != h
         if fresh:
-            combine(problem.M, problem.C, problem.K, 1.0, h * gamma * s, h * h * beta * s, problem.place, smooth.S)
+            combine(
+                problem.M, problem.C, problem.K, 1.0, h * gamma * s, h * h * beta * s, problem.place, smooth.S
+            )
             combine(problem.M, problem.C, problem.K, 1.0, h, h * h, problem.place, position.S)
             combine(problem.M, problem.C, problem.K, 1.0, h, 0.0, problem.place, velocity.S)
             smooth.made_with[0] = h
@@ -307,7 +336,9 @@ def sequential_steps(
                 slack = row_times(dofs, factors, velocity.x, j) - velocity.target[j]
                 gap = row_times(dofs, factors, position.x, j) - position.target[j]
                 product = abs(p * slack) if resting[j] else 0.0
-                state.worst[PRODUCT] = max(state.worst[PRODUCT], max(product, abs(position.p[j] * gap) / (h * h)))
+                state.worst[PRODUCT] = max(
+                    state.worst[PRODUCT], max(product, abs(position.p[j] * gap) / (h * h))
+                )
             rebounding = row_times(dofs, factors, v, j) if resting[j] else 0.0
             resting[j] = resting[j] and abs(rebounding) <= AT_REST * largest
         account(problem, state, velocity, t, h, old_q, old_v, impulse)
@@ -316,8 +347,16 @@ def sequential_steps(
 
 @compiled
 def penalty_steps(
-    problem: Problem, state: State, work: Work, times: Array, first: int, last: int, spectral_radius: float,
-    stiffness: float, damping: float, rounds: int,
+    problem: Problem,
+    state: State,
+    work: Work,
+    times: Array,
+    first: int,
+    last: int,
+    spectral_radius: float,
+    stiffness: float,
+    damping: float,
+    rounds: int,
 ) -> tuple[int, int]:
     """Rows as springs and dampers on penetration: M v̇⁺ + Cv⁺ + Kq⁺ = F⁺ − Gᵀ(k g + d ġ)⁺ where g⁺ ≤ 0.
 
@@ -342,7 +381,9 @@ def penalty_steps(
         h = times[k + 1] - t
         fresh = work.made_with[0] != h
         if fresh:
-            combine(problem.M, problem.C, problem.K, 1.0, h * gamma * s, h * h * beta * s, problem.place, work.S)
+            combine(
+                problem.M, problem.C, problem.K, 1.0, h * gamma * s, h * h * beta * s, problem.place, work.S
+            )
             work.made_with[0] = h
             for j in range(m):
                 touching[j] = False

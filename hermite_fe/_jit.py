@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any, TypeVar
+from typing import Any, TypeVar, cast
 
 import numba
 
@@ -14,9 +14,10 @@ Function = TypeVar("Function", bound=Callable[..., Any])
 
 def compiled(function: Function) -> Function:
     """Compile with multiply–add contraction only: the order of sums is kept, as compensated sums need."""
-    return numba.njit(cache=True, error_model="numpy", fastmath={"contract"})(function)  # type: ignore[no-any-return]
+    return cast(Function, numba.njit(cache=True, error_model="numpy", fastmath={"contract"})(function))
 
 
 def compiled_sums(function: Function) -> Function:
     """Compile with sums reordered for speed, for kernels to which their order is nothing."""
-    return numba.njit(cache=True, error_model="numpy", fastmath={"contract", "reassoc"})(function)  # type: ignore[no-any-return]
+    options: Any = {"contract", "reassoc"}
+    return cast(Function, numba.njit(cache=True, error_model="numpy", fastmath=options)(function))

@@ -2,14 +2,15 @@
 
     S x = b + Gᵀ p,      0 ≤ p ⊥ G x − c ≥ 0,      x = 0 at supports,
 
-by block principal pivoting: guess which rows are closed (G x = c), solve, exchange every row whose sign is wrong, repeat.
-Exchanging all at once takes two or three rounds; should the number of wrong rows stop falling, one row at a time is exchanged
-(Murty's rule), which cannot cycle for a positive definite S (Júdice & Pires 1994, Comput. Oper. Res. 21, 587).
+by block principal pivoting: guess which rows are closed (G x = c), solve, exchange every row whose sign is
+wrong, repeat. Exchanging all at once takes two or three rounds; should the number of wrong rows stop falling,
+one row at a time is exchanged (Murty's rule), which cannot cycle for a positive definite S (Júdice & Pires
+1994, Comput. Oper. Res. 21, 587).
 
-A row that touches one dof fixes it when closed, and p is what is left over in that dof's equation. A row that touches
-several has a multiplier −p among the unknowns, fixed at 0 while open. Either way a switch changes the factors from
-there inwards only (:mod:`hermite_fe._banded`), so a round costs the contact zone, not the beam. A *held* row is
-closed whatever the sign of p; a row that is no *candidate* is open.
+A row that touches one dof fixes it when closed, and p is what is left over in that dof's equation. A row that
+touches several has a multiplier −p among the unknowns, fixed at 0 while open. Either way a switch changes the
+factors from there inwards only (:mod:`hermite_fe._banded`), so a round costs the contact zone, not the beam.
+A *held* row is closed whatever the sign of p; a row that is no *candidate* is open.
 """
 
 from __future__ import annotations
@@ -51,8 +52,17 @@ def equation(S: Array, x: Array, r: Array, k: int) -> tuple[float, float]:
 
 @compiled
 def right_side(
-    S: Array, b: Array, place: NDArray[np.int64], fixed: Flags, switch: NDArray[np.int64], factors: Array,
-    target: Array, closed: Flags, last_row: int, end: int, r: Array,
+    S: Array,
+    b: Array,
+    place: NDArray[np.int64],
+    fixed: Flags,
+    switch: NDArray[np.int64],
+    factors: Array,
+    target: Array,
+    closed: Flags,
+    last_row: int,
+    end: int,
+    r: Array,
 ) -> None:
     """Right-hand side of the first ``end`` unknowns, rows 0 … ``last_row`` closed as ``closed`` says."""
     direct = factors.shape[1] == 1
@@ -87,12 +97,19 @@ def right_side(
 
 @compiled
 def solve_rows(problem: Problem, work: Work, fresh: bool, closed: Flags) -> int:
-    """Solve for work.x (dofs,) and work.p (rows,) from work.S, work.b, work.target, work.candidate, work.held.
+    """Solve for work.x (dofs,) and work.p (rows,) from work.S, work.b, work.target, work.candidate,
+    work.held.
 
-    ``fresh`` : work.S is new, its factors are stale. ``closed`` (rows,) is the guess on entry, the answer on return.
-    Returns SOLVED, SINGULAR or CYCLING.
+    ``fresh`` : work.S is new, its factors are stale. ``closed`` (rows,) is the guess on entry, the answer on
+    return. Returns SOLVED, SINGULAR or CYCLING.
     """
-    dofs, factors, place, switch, reach = problem.dofs, problem.factors, problem.place, problem.switch, problem.reach
+    dofs, factors, place, switch, reach = (
+        problem.dofs,
+        problem.factors,
+        problem.place,
+        problem.switch,
+        problem.reach,
+    )
     S, fixed, D, R, U, r, z, y = work.S, work.fixed, work.D, work.R, work.U, work.r, work.z, work.y
     b, x, p, wrong = work.b, work.x, work.p, work.wrong
     target, candidate, held = work.target, work.candidate, work.held

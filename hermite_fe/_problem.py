@@ -1,8 +1,9 @@
 """Plain arrays of a system, as the compiled kernels take them (named tuples, which numba knows).
 
-Unknowns of a step are the dofs, in order, and between them one multiplier for each row that touches several dofs
-(after the middle one of its dofs: between the two nodes of an element). ``place`` says which unknown a dof is, ``switch`` which
-unknown a row fixes (the dof itself when it touches only one), ``reach`` the last unknown that a row touches.
+Unknowns of a step are the dofs, in order, and between them one multiplier for each row that touches several
+dofs (after the middle one of its dofs: between the two nodes of an element). ``place`` says which unknown a
+dof is, ``switch`` which unknown a row fixes (the dof itself when it touches only one), ``reach`` the last
+unknown that a row touches.
 """
 
 from __future__ import annotations
@@ -48,8 +49,10 @@ class ContactLaw(NamedTuple):
 class State(NamedTuple):
     """What a step changes.
 
-    q, v : motion; acceleration, a, reaction, reaction_a : smooth acceleration and reaction of generalised-α, and their filtered
-    companions; closed : rows in contact; resting : rows closed without rebound; impulse, held_impulse : so far;
+    q, v : motion; acceleration, a, reaction, reaction_a : smooth acceleration and reaction of generalised-α,
+        and their filtered
+    companions; closed : rows in contact; resting : rows closed without rebound; impulse, held_impulse : so
+    far;
     budget : energy sums; worst : complementarity since the last look.
     """
 
@@ -68,7 +71,8 @@ class State(NamedTuple):
 
 
 class Work(NamedTuple):
-    """Work space; nothing in it outlives a step but the factors that still hold, and what ``made_with`` says of them."""
+    """Work space; nothing in it outlives a step but the factors that still hold, and what ``made_with`` says
+    of them."""
 
     S: Array
     fixed: Flags
@@ -110,16 +114,28 @@ def problem_of(system: System) -> Problem:
         for bands in (system.mass, system.stiffness, system.damping):
             for k in range(1, 4):
                 apart = place[k:] - place[:-k] > 4
-                tight = tight and not np.any(bands[k, :-k][apart])  # type: ignore[index]
+                tight = tight and not np.any(bands[k, :-k][apart])
         if not tight:
-            raise ValueError("contact rows must each touch a few neighbouring dofs, at most one row for two dofs")
+            raise ValueError(
+                "contact rows must each touch a few neighbouring dofs, at most one row for two dofs"
+            )
     else:
         switch = rows.dofs[:, 0].copy()
     reach = np.maximum(place[rows.dofs].max(axis=1), switch) if m else np.zeros(0, np.int64)
     return Problem(
-        system.mass, system.damping, system.stiffness, system.load,  # type: ignore[arg-type]
-        rows.dofs, rows.factors, rows.gap, rows.rank, rows.side, rows.tributary,  # type: ignore[arg-type]
-        place, switch, np.asarray(reach),
+        system.mass,
+        system.damping,
+        system.stiffness,
+        system.load,
+        rows.dofs,
+        rows.factors,
+        rows.gap,
+        rows.rank,
+        rows.side,
+        rows.tributary,
+        place,
+        switch,
+        np.asarray(reach),
     )
 
 
@@ -127,8 +143,18 @@ def state_of(system: System, q: Array, v: Array) -> State:
     """A fresh state at the start, q and v copied."""
     n, m = system.dofs, len(system.contacts)
     return State(
-        np.array(q, float), np.array(v, float), np.zeros(n), np.zeros(n), np.zeros(m), np.zeros(m),
-        np.zeros(m, np.bool_), np.zeros(m, np.bool_), np.zeros(m), np.zeros(m), np.zeros(8), np.zeros(2),
+        np.array(q, float),
+        np.array(v, float),
+        np.zeros(n),
+        np.zeros(n),
+        np.zeros(m),
+        np.zeros(m),
+        np.zeros(m, np.bool_),
+        np.zeros(m, np.bool_),
+        np.zeros(m),
+        np.zeros(m),
+        np.zeros(8),
+        np.zeros(2),
     )
 
 
@@ -150,7 +176,25 @@ def work_of(system: System, problem: Problem) -> Work:
                 S[max(k, s), abs(k - s)] = factor
     flags = [np.zeros(m, np.bool_) for _ in range(3)]
     return Work(
-        S, fixed, np.ones(size + 4), np.ones(size + 4), np.zeros((size + 4, 5)), np.zeros(size), np.zeros(size + 4),
-        x if direct else np.zeros(size), flags[0], np.zeros(n), x, np.zeros(m), np.zeros(m), flags[1], flags[2],
-        np.zeros(m), np.zeros(m), np.zeros(n), np.zeros(n), np.zeros(n), np.full(2, np.nan),
+        S,
+        fixed,
+        np.ones(size + 4),
+        np.ones(size + 4),
+        np.zeros((size + 4, 5)),
+        np.zeros(size),
+        np.zeros(size + 4),
+        x if direct else np.zeros(size),
+        flags[0],
+        np.zeros(n),
+        x,
+        np.zeros(m),
+        np.zeros(m),
+        flags[1],
+        flags[2],
+        np.zeros(m),
+        np.zeros(m),
+        np.zeros(n),
+        np.zeros(n),
+        np.zeros(n),
+        np.full(2, np.nan),
     )

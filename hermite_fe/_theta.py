@@ -38,10 +38,18 @@ Array = NDArray[np.float64]
 
 @compiled
 def steps(
-    problem: Problem, law: ContactLaw, state: State, work: Work, times: Array, first: int, last: int, theta: float,
+    problem: Problem,
+    law: ContactLaw,
+    state: State,
+    work: Work,
+    times: Array,
+    first: int,
+    last: int,
+    theta: float,
     at_position: bool,
 ) -> tuple[int, int]:
-    """Take the steps ``first`` … ``last`` − 1 between the instants ``times``. Returns (status, step reached)."""
+    """Take the steps ``first`` … ``last`` − 1 between the instants ``times``. Returns (status, step
+    reached)."""
     M, C, K, load = problem.M, problem.C, problem.K, problem.load
     dofs, factors, gap0 = problem.dofs, problem.factors, problem.gap
     q, v, closed = state.q, state.v, state.closed

@@ -1,16 +1,18 @@
 """Resolution and parts chosen from the problem by scaling alone.
 
-In units of the fast layer (l*, t*), κ = κ/ν: the undisturbed parabola would meet the wall at ξ = √(2τ/κ), so the front moves
-like λ̂√τ with λ̂ = √(2/κ) as a crude upper estimate, and the beam bends ahead of it over ℓ(τ) = 2√τ/λ̂ (the front's speed
-λ̂/2√τ equals the wave number 1/ℓ of the waves that keep up with it). Elements must be a fraction of ℓ where the
-front is, steps a fraction of its travel over ℓ. Nothing here knows λ₀ or r₀.
+In units of the fast layer (l*, t*), κ = κ/ν: the undisturbed parabola would meet the wall at ξ = √(2τ/κ), so
+the front moves like λ̂√τ with λ̂ = √(2/κ) as a crude upper estimate, and the beam bends ahead of it over ℓ(τ)
+= 2√τ/λ̂ (the front's speed λ̂/2√τ equals the wave number 1/ℓ of the waves that keep up with it). Elements
+must be a fraction of ℓ where the front is, steps a fraction of its travel over ℓ. Nothing here knows λ₀ or
+r₀.
 
-- mesh: elements in proportion to the distance, so that every decade of time is resolved alike; for a thin front (small κ)
-  even ones over the zone that the last part of the run covers;
+- mesh: elements in proportion to the distance, so that every decade of time is resolved alike; for a thin
+  front (small κ) even ones over the zone that the last part of the run covers;
 - steps in proportion to the time since impact, for the same reason;
-- integrator: Signorini at the new position, which leaves closed rows exactly on the wall; Moreau–Jean when rows rebound;
-- hold: 16 rows behind the front while the beam is pressed on (p = μa₀ + EI q₀ ≥ 0); none when p < 0, for then the middle
-  truly lifts off; and all that is closed until the front is a few elements thick;
+- integrator: Signorini at the new position, which leaves closed rows exactly on the wall; Moreau–Jean when
+  rows rebound;
+- hold: 16 rows behind the front while the beam is pressed on (p = μa₀ + EI q₀ ≥ 0); none when p < 0, for then
+  the middle truly lifts off; and all that is closed until the front is a few elements thick;
 - far field: grid-scale viscosity.
 """
 
@@ -71,7 +73,9 @@ def chosen_mesh(impact: Impact, end_time: float) -> Mesh:
         smallest = min(4e-3 * thickness, 1e-3 * impact.half_length)
         return ScaleFreeMesh(element_length=smallest, growth=1.0 + min(0.01, 0.1 * kappa))
     zone = min(1.05 * place, impact.half_length)
-    return GradedMesh(element_length=min(thickness / 3.0, zone / 100.0), growth=1.02, zone=zone, size_ratio=1e6)
+    return GradedMesh(
+        element_length=min(thickness / 3.0, zone / 100.0), growth=1.02, zone=zone, size_ratio=1e6
+    )
 
 
 def chosen_integrator(impact: Impact, end_time: float, nodes: Array, integrator: Integrator) -> Integrator:
@@ -97,7 +101,11 @@ def resolved_time(impact: Impact, nodes: Array) -> float:
 
 
 def choose(
-    impact: Impact, end_time: float, mesh: Mesh | None, integrator: Integrator | None, contact: Contact | None,
+    impact: Impact,
+    end_time: float,
+    mesh: Mesh | None,
+    integrator: Integrator | None,
+    contact: Contact | None,
     far_field: FarField | None,
 ) -> Choice:
     """Fill in what was left open, and warn where what was given by hand cannot resolve the front."""
@@ -109,12 +117,16 @@ def choose(
     if integrator is None:
         integrator = SignoriniPosition() if contact.restitution == 0.0 else MoreauJean()
     integrator = chosen_integrator(impact, end_time, nodes, integrator)
-    pressed = impact.mass_per_length * impact.acceleration + impact.bending_stiffness * impact.fourth_derivative >= 0.0
+    pressed = (
+        impact.mass_per_length * impact.acceleration + impact.bending_stiffness * impact.fourth_derivative
+        >= 0.0
+    )
     contact = contact.with_hold(HOLD if pressed else 0, min(36.0 * resolved_time(impact, nodes), end_time))
     if far_field is None:
         far_field = GridViscosity()
     warnings = [
-        *resolution_warnings(impact, end_time, nodes, integrator), *end_warnings(impact, end_time, nodes, far_field),
+        *resolution_warnings(impact, end_time, nodes, integrator),
+        *end_warnings(impact, end_time, nodes, far_field),
     ]
     return Choice(mesh, nodes, integrator, contact, far_field, tuple(warnings))
 
@@ -125,51 +137,63 @@ def resolution_warnings(impact: Impact, end_time: float, nodes: Array, integrato
     if impact.kappa_over_nu >= 1.0:
         return out
     place, thickness = front(impact, end_time)
-    element = float(np.diff(nodes)[min(int(np.searchsorted(nodes, min(place, nodes[-1]))), nodes.size - 1) - 1])
+    element = float(
+        np.diff(nodes)[min(int(np.searchsorted(nodes, min(place, nodes[-1]))), nodes.size - 1) - 1]
+    )
     if thickness < ELEMENTS_PER_FRONT * element:
+        short = ELEMENTS_PER_FRONT * element / thickness
         out.append(
-            f"the mesh cannot resolve the contact front: it is about {thickness:.3g} m thick at the end of the run, "
-            f"{thickness / element:.2g} of the elements there ({element:.3g} m); at least {ELEMENTS_PER_FRONT:g} are "
-            f"needed, an element_length {ELEMENTS_PER_FRONT * element / thickness:.2g} times smaller"
+            "the mesh cannot resolve the contact front: about "
+            f"{thickness:.3g} m thick at the end of the run, it spans {thickness / element:.2g} elements "
+            f"({element:.3g} m there); {ELEMENTS_PER_FRONT:g} are the least, elements {short:.2g} times shorter"
         )
     step = max(integrator.time_step or 0.0, (integrator.growth or 0.0) * end_time)
-    travel = place * 0.5 * step / end_time
-    if travel > 0.5 * max(thickness, element):
+    travel, room = place * 0.5 * step / end_time, 0.5 * max(thickness, element)
+    if travel > room:
         out.append(
-            f"the time steps cannot resolve the contact front: it travels about {travel:.3g} m in the last one, "
-            f"{travel / max(thickness, element):.2g} of its thickness or of an element; half is the most, a step "
-            f"{2.0 * travel / max(thickness, element):.2g} times smaller"
+            f"the time steps cannot resolve the contact front: it runs about {travel:.3g} m in the last one; "
+            f"{room:.3g} m (half its thickness or half an element) is the most, "
+            f"steps {travel / room:.2g} times shorter"
         )
     return out
 
 
 def end_warnings(impact: Impact, end_time: float, nodes: Array, far_field: FarField) -> list[str]:
-    """Waves that can run to a free end and back to the front within the run.
+    """What the ends of the beam may do to the contact within the run.
 
-    Bending waves of number k travel at 2k√(EI/μ); those that an impact of age t radiates with much energy have k up to
-    about 1/ℓ(t), the front's own. Shorter ones arrive earlier but carry little.
+    A wave of number k travels at 2k√(EI/μ). The front radiates waves of its own number 1/ℓ(t), the shorter
+    the earlier, with an energy in proportion to √t: those of the first hundredth of the run carry a tenth.
+    The rest is looked at here, as far as the elements at the end carry it (k Δx < 1; shorter waves are
+    absorbed at grid scale).
     """
     out = []
     place, _ = front(impact, end_time)
-    half, constant = impact.half_length, impact.wave_constant
-    # waves of the front's own thickness at its start have long gone; those of age t and size √(√(EI/μ) t) carry most
-    path = max(2.0 * half - place, 0.0)
-    arrival = (path / 2.0) ** 2 / constant / 4.0
-    if arrival < end_time:
-        out.append(
-            f"the ends of the beam can be felt: waves of length comparable to the contact zone's surroundings may return "
-            f"from x = {half:.3g} m from about t = {arrival:.2g} s on (run ends at {end_time:.2g} s); an infinite beam is "
-            "no longer a good model"
-        )
+    half, last = impact.half_length, float(nodes[-1] - nodes[-2])
     if place > half:
-        out.append(f"the contact may reach the end of the beam: it spreads to about {place:.3g} m of {half:.3g} m")
-    if far_field.end == "following":
-        y = (impact.velocity * end_time - 0.5 * impact.curvature * nodes**2 + 0.5 * impact.acceleration * end_time**2
-             + 0.5 * impact.curvature_rate * nodes**2 * end_time + impact.fourth_derivative * nodes**4 / 24.0)
-        far = nodes > 1.5 * place
-        if np.any(y[far] >= 0.0):
-            out.append(
-                f"the free motion itself reaches the wall far from the contact, at x = {float(nodes[far][y[far] >= 0.0][0]):.3g} m "
-                "within the run: shorten the beam"
-            )
+        out.append(
+            f"the contact may reach the end of the beam: it may spread to {place:.3g} m, "
+            f"the end is at {half:.3g} m"
+        )
+    emitted = end_time * np.geomspace(0.01, 1.0, 40)
+    number = np.array([1.0 / front(impact, t)[1] for t in emitted])
+    arrival = emitted + max(2.0 * half - place, 0.0) / (2.0 * number * impact.wave_constant)
+    returning = arrival[(number * last < 1.0) & (arrival < end_time)]
+    if returning.size:
+        out.append(
+            f"waves may run to the ends of the beam (x = {half:.3g} m) and be back at the contact from about "
+            f"t = {float(returning.min()):.2g} s on, before the run ends at {end_time:.2g} s: from then on it is "
+            "no longer the impact of an infinitely long beam (a longer beam or an earlier end avoids it)"
+        )
+    far = nodes > 1.5 * place
+    free = (
+        impact.velocity * end_time
+        + 0.5 * impact.acceleration * end_time**2
+        + 0.5 * (impact.curvature_rate * end_time - impact.curvature) * nodes**2
+        + impact.fourth_derivative * nodes**4 / 24.0
+    )
+    if far_field.end == "following" and np.any(free[far] >= 0.0):
+        out.append(
+            "the free motion itself meets the wall away from the contact, at x = "
+            f"{float(nodes[far][free[far] >= 0.0][0]):.3g} m, before the run ends: shorten the beam"
+        )
     return out

@@ -5,8 +5,8 @@ On an element of length l, with ξ = x/l ∈ [0, 1] and dofs (w₁, θ₁, w₂,
     N₁ = 1 − 3ξ² + 2ξ³,  N₂ = l(ξ − 2ξ² + ξ³),  N₃ = 3ξ² − 2ξ³,  N₄ = l(ξ³ − ξ²)     (thesis A.6)
     Kₑ = EI ∫ N″ᵀN″ dx,   Mₑ = μ ∫ NᵀN dx,   V = ½ (q − q₀)ᵀ K (q − q₀)               (3.1.3–8)
 
-w is positive into the wall; node i has dofs 2i (w) and 2i + 1 (θ). Matrices are symmetric and kept in scipy's lower
-banded form, shape (4, 2·nodes): ``scipy.linalg.cholesky_banded(…, lower=True)`` takes them as they are.
+w is positive into the wall; node i has dofs 2i (w) and 2i + 1 (θ). Matrices are symmetric and kept in scipy's
+lower banded form, shape (4, 2·nodes): ``scipy.linalg.cholesky_banded(…, lower=True)`` takes them as they are.
 """
 
 from __future__ import annotations
@@ -80,7 +80,8 @@ class HermiteBeam:
     nodes : places x, m, strictly increasing, shape (nodes,); at least two elements.
     bending_stiffness : EI, N m². mass_per_length : μ, kg/m.
 
-    Raises ``ValueError`` naming the field for non-increasing nodes, one element, or a property that is not positive.
+    Raises ``ValueError`` naming the field for non-increasing nodes, one element, or a property that is not
+    positive.
     """
 
     nodes: Array
@@ -148,7 +149,8 @@ class HermiteBeam:
     def static(self, load: Array, supports: Mapping[int, float]) -> Array:
         """Static deflection K q = load with prescribed dofs ``{dof: value}``; shape (dofs,).
 
-        Raises ``ValueError`` when a support is no dof of the beam, or when the supports leave it free to move.
+        Raises ``ValueError`` when a support is no dof of the beam, or when the supports leave it free to
+        move.
         """
         for dof in supports:
             if not 0 <= dof < self.dofs:
@@ -186,7 +188,8 @@ def banded_product(bands: Array, x: Array) -> Array:
 
 
 def deflection(nodes: Array, q: Array, x: Array, derivative: int = 0) -> Array:
-    """The deflection (or its x-derivative up to the third) of nodal dofs ``q`` at places ``x``, shape of ``x``.
+    """The deflection (or its x-derivative up to the third) of nodal dofs ``q`` at places ``x``, shape of
+    ``x``.
 
     Raises ``ValueError`` when a place lies off the beam.
     """
@@ -199,5 +202,7 @@ def deflection(nodes: Array, q: Array, x: Array, derivative: int = 0) -> Array:
     for k in np.unique(e):
         here = e == k
         length = nodes[k + 1] - nodes[k]
-        out[here] = shape_functions((flat[here] - nodes[k]) / length, length, derivative) @ q[2 * k : 2 * k + 4]
+        out[here] = (
+            shape_functions((flat[here] - nodes[k]) / length, length, derivative) @ q[2 * k : 2 * k + 4]
+        )
     return out.reshape(places.shape)

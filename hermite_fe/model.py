@@ -1,11 +1,12 @@
 """The bent beam as a :class:`hermite_fe.system.System`.
 
-Unknown is u = y + Kx²/2, the displacement from the stress-free beam, so that an unstrained beam is u = 0 whatever its
-curvature; the gap is g = −y = Kx²/2 − u. The motion before contact,
+Unknown is u = y + Kx²/2, the displacement from the stress-free beam, so that an unstrained beam is u = 0
+whatever its curvature; the gap is g = −y = Kx²/2 − u. The motion before contact,
 
     y₀ = V₀t − Kx²/2 + a₀t²/2 + c₀x²t/2 + q₀x⁴/24,                                             (2.2.30)
 
-starts the run (u = q₀x⁴/24, u̇ = V₀ + c₀x²/2) and fixes the load: p = μa₀ + EI q₀ keeps it up near the contact.
+starts the run (u = q₀x⁴/24, u̇ = V₀ + c₀x²/2) and fixes the load: p = μa₀ + EI q₀ keeps it up near the
+contact.
 """
 
 from __future__ import annotations
@@ -44,7 +45,9 @@ class BeamModel:
         return 1 if self.full else 2
 
 
-def beam_model(impact: Impact, nodes: Array, contact: Contact, far_field: FarField, *, full: bool) -> BeamModel:
+def beam_model(
+    impact: Impact, nodes: Array, contact: Contact, far_field: FarField, *, full: bool
+) -> BeamModel:
     """Assemble the half beam on ``nodes`` (0 … L/2), or the full beam on them and their mirror image."""
     half = checked_nodes(nodes)
     x = mirrored(half) if full else half
@@ -56,15 +59,22 @@ def beam_model(impact: Impact, nodes: Array, contact: Contact, far_field: FarFie
     stiffness = beam.stiffness()
     damping = far_field.damping(beam, impact)
     if far_field.end == "following":
-        # all that keeps y₀ up, end forces included (K on Hermite interpolants is exact at nodes), damping undone
+        # all that keeps y₀ up, end forces included (K on Hermite interpolants is exact at nodes), damping
+        # undone
         steady = beam.mass_load(impact.acceleration) + banded_product(stiffness, quartic)
         load = np.stack([steady + banded_product(damping, bending), banded_product(stiffness, bending)])
         load = load if np.any(load[1]) else load[:1]
     else:
-        pressure = impact.mass_per_length * impact.acceleration + impact.bending_stiffness * impact.fourth_derivative
+        pressure = (
+            impact.mass_per_length * impact.acceleration + impact.bending_stiffness * impact.fourth_derivative
+        )
         load = beam.uniform_load(pressure)[None, :]
     system = System(
-        mass=beam.mass(), stiffness=stiffness, damping=damping, load=load,
-        contacts=contact.rows(beam, natural, full=full), supports=() if full else (1,),
+        mass=beam.mass(),
+        stiffness=stiffness,
+        damping=damping,
+        load=load,
+        contacts=contact.rows(beam, natural, full=full),
+        supports=() if full else (1,),
     )
     return BeamModel(beam, system, quartic, velocity, natural, full)

@@ -34,8 +34,8 @@ class Trajectory:
 
     q, v : (saved, dofs). impulse, held_impulse, gap : (saved, rows); closed : (saved, rows) bool.
     kinetic, strain, work, viscous, impact, algorithmic : (saved,), J, the last four since the start.
-    smallest_reaction, product : (saved,), worst reaction impulse of rows that are not held, and worst |p·(…)| since
-        the last sample: complementarity, at round-off when all is well.
+    smallest_reaction, product : (saved,), worst reaction impulse of rows that are not held, and worst |p·(…)|
+        since the last sample: complementarity, at round-off when all is well.
     status : 0 when the run finished; failure says why not. steps : taken; seconds : spent.
     """
 
@@ -61,13 +61,14 @@ class Trajectory:
 
 
 def saved_steps(instants: Array, save: int | Sequence[float] | Array) -> NDArray[np.int64]:
-    """Indices of the instants to keep: an equal number of √t's, or those nearest to given times; the first always.
+    """Indices of the instants to keep: an equal number of √t's, or those nearest to given times; the first
+    always.
 
     Raises ``ValueError`` for fewer than two, or times that are not increasing, negative or past the end.
     """
     end = instants[-1]
     if np.ndim(save) == 0:
-        count = int(save)  # type: ignore[arg-type]
+        count = int(np.asarray(save))
         if count != save or count < 2:
             raise ValueError(f"save must be a whole number of at least 2, or times (got {save!r})")
         wanted = end * np.linspace(0.0, 1.0, count) ** 2
@@ -96,10 +97,12 @@ def integrate(
 ) -> Trajectory:
     """Step ``system`` from (q, v) at t = 0 to ``end_time``, s.
 
-    q, v : (dofs,), in the system's units. restitution, hold, hold_until : see :class:`hermite_fe.contacts.Contact`.
+    q, v : (dofs,), in the system's units. restitution, hold, hold_until : see
+        :class:`hermite_fe.contacts.Contact`.
     save : number of saved instants, or times. progress : called with the finished fraction.
 
-    A run that cannot finish returns what it reached, with ``failure`` set. Raises ``ValueError`` for bad input.
+    A run that cannot finish returns what it reached, with ``failure`` set. Raises ``ValueError`` for bad
+    input.
     """
     instants = integrator.instants(end_time)
     kept = saved_steps(instants, save)
@@ -111,13 +114,26 @@ def integrate(
     samples = {name: np.zeros((count, n)) for name in ("q", "v")}
     samples |= {name: np.zeros((count, m)) for name in ("gap", "impulse", "held_impulse")}
     closed = np.zeros((count, m), bool)
-    sums = {name: np.zeros(count) for name in (
-        "kinetic", "strain", "work", "viscous", "impact", "algorithmic", "smallest_reaction", "product")}
+    sums = {
+        name: np.zeros(count)
+        for name in (
+            "kinetic",
+            "strain",
+            "work",
+            "viscous",
+            "impact",
+            "algorithmic",
+            "smallest_reaction",
+            "product",
+        )
+    }
     failure, failure_time, taken, good = "", 0.0, 0, 0
     started = clock.perf_counter()
     for s, step in enumerate(kept):
         if s > 0:
-            status, reached = integrator.advance(problem, law, state, works, instants, int(kept[s - 1]), int(step))
+            status, reached = integrator.advance(
+                problem, law, state, works, instants, int(kept[s - 1]), int(step)
+            )
             taken = reached
             if status == 0 and not (np.all(np.isfinite(state.q)) and np.all(np.isfinite(state.v))):
                 status = 3
@@ -131,7 +147,12 @@ def integrate(
         sums["kinetic"][s] = 0.5 * quadratic(problem.M, state.v)
         sums["strain"][s] = 0.5 * quadratic(problem.K, state.q)
         half = state.budget.size // 2
-        for name, place in (("work", WORK), ("viscous", VISCOUS), ("impact", IMPACT), ("algorithmic", ALGORITHMIC)):
+        for name, place in (
+            ("work", WORK),
+            ("viscous", VISCOUS),
+            ("impact", IMPACT),
+            ("algorithmic", ALGORITHMIC),
+        ):
             sums[name][s] = state.budget[place] + state.budget[place + half]
         sums["smallest_reaction"][s], sums["product"][s] = state.worst
         state.worst[:] = 0.0
@@ -141,6 +162,12 @@ def integrate(
     seconds = clock.perf_counter() - started
     kept_time = instants[kept[:good]]
     return Trajectory(
-        time=kept_time, closed=closed[:good], steps=int(taken), seconds=seconds, failure=failure,
-        failure_time=failure_time, **{k: a[:good] for k, a in samples.items()}, **{k: a[:good] for k, a in sums.items()},
+        time=kept_time,
+        closed=closed[:good],
+        steps=int(taken),
+        seconds=seconds,
+        failure=failure,
+        failure_time=failure_time,
+        **{k: a[:good] for k, a in samples.items()},
+        **{k: a[:good] for k, a in sums.items()},
     )

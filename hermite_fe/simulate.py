@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -35,39 +35,65 @@ def simulate(
     save: int | Sequence[float] | NDArray[np.float64] = 200,
     progress: Callable[[float], None] | None = None,
 ) -> ImpactHistory:
-    """Simulate the impact on a Hermite beam; every part left out is chosen from the problem (:mod:`hermite_fe.auto`).
+    """Simulate the impact on a Hermite beam; every part left out is chosen from the problem
+    (:mod:`hermite_fe.auto`).
 
     end_time : s (0.1 t* by default). full_beam : model both halves instead of one with a symmetry support.
     save : number of saved instants, spread evenly in √t, or their times, s; snapped to steps.
     progress : called with the finished fraction now and then.
 
-    Raises ``ValueError`` for bad input, :class:`bent_beam.SimulationError` (with the partial history) when a run cannot finish.
+    Raises ``ValueError`` for bad input, :class:`bent_beam.SimulationError` (with the partial history) when a
+    run cannot finish.
     """
     end = 0.1 * impact.time_scale if end_time is None else positive("end_time", end_time)
     if type(mesh).__name__ == "ExpandingMesh":  # not imported before it is asked for
         from hermite_fe.expanding import simulate_expanding
 
-        return simulate_expanding(impact, mesh, end_time=end, save=save, progress=progress)
+        return simulate_expanding(impact, cast(Any, mesh), end_time=end, save=save, progress=progress)
     choice = auto.choose(impact, end, mesh, integrator, contact, far_field)
     model = beam_model(impact, choice.nodes, choice.contact, choice.far_field, full=full_beam)
+    check_start(model)
     trajectory = integrate(
-        model.system, model.displacement, model.velocity, choice.integrator, end,
-        restitution=choice.contact.restitution, hold=choice.contact.hold or 0,
-        hold_until=choice.contact.hold_until or 0.0, save=save, progress=progress,
+        model.system,
+        model.displacement,
+        model.velocity,
+        choice.integrator,
+        end,
+        restitution=choice.contact.restitution,
+        hold=choice.contact.hold or 0,
+        hold_until=choice.contact.hold_until or 0.0,
+        save=save,
+        progress=progress,
     )
     settings = {
-        "end_time": end, "full_beam": full_beam,
-        "save": int(save) if np.ndim(save) == 0 else [float(t) for t in np.asarray(save)],  # type: ignore[arg-type]
+        "end_time": end,
+        "full_beam": full_beam,
+        "save": np.asarray(save).tolist(),
         **{name: describe(getattr(choice, name)) for name in ("mesh", "integrator", "contact", "far_field")},
     }
     history = history_of(impact, model, trajectory, settings, choice.warnings)
     if trajectory.failure:
         raise SimulationError(
-            trajectory.failure, time=trajectory.failure_time, step=trajectory.steps,
-            advice="a smaller integrator.time_step or growth, more damping at grid scale (far_field.viscosity), or "
-                   "integrator.kind = \"moreau_jean\"", history=history,
+            trajectory.failure,
+            time=trajectory.failure_time,
+            step=trajectory.steps,
+            advice="a smaller integrator.time_step or growth, more damping at grid scale "
+            '(far_field.viscosity), or integrator.kind = "moreau_jean"',
+            history=history,
         )
     return history
+
+
+def check_start(model: BeamModel) -> None:
+    """``ValueError`` when the beam starts inside the wall."""
+    rows = model.system.contacts
+    gaps = rows.gaps(model.displacement)
+    worst = int(np.argmin(gaps))
+    if gaps[worst] < -1e-12 * float(np.abs(gaps).max()):
+        raise ValueError(
+            f"fourth_derivative bends the beam into the wall before the impact: the gap at "
+            f"x = {float(rows.places[worst]):.6g} m is {float(gaps[worst]):.6g} m; shorten the beam"
+        )
 
 
 def history_of(
@@ -95,7 +121,16 @@ def history_of(
         "complementarity_product": (("time",), run.product),
     }
     return ImpactHistory.build(
-        impact=impact, path="hermite", symmetry="full" if model.full else "half", settings=settings, time=run.time,
-        x=model.beam.nodes, contact_x=rows.places, fields=fields, warnings=warnings, steps=run.steps,  # type: ignore[arg-type]
-        seconds=run.seconds, completed=not run.failure,
+        impact=impact,
+        path="hermite",
+        symmetry="full" if model.full else "half",
+        settings=settings,
+        time=run.time,
+        x=model.beam.nodes,
+        contact_x=rows.places,
+        fields=fields,
+        warnings=warnings,
+        steps=run.steps,
+        seconds=run.seconds,
+        completed=not run.failure,
     )

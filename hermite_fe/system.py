@@ -1,6 +1,7 @@
 """A linear mechanical system with unilateral constraints, which knows no beams:
 
-    M q̈ + C q̇ + K q = F(t) + Gᵀλ,      0 ≤ λ ⊥ g = g₀ + G q ≥ 0,      q = const. at supports.        (thesis 3.2.5–7)
+    M q̈ + C q̇ + K q = F(t) + Gᵀλ,      0 ≤ λ ⊥ g = g₀ + G q ≥ 0,      q = const. at supports.        (thesis
+    3.2.5–7)
 
 Everything that steps in time (:mod:`hermite_fe.integrators`) takes a :class:`System`; the bent beam
 (:mod:`hermite_fe.model`), a bouncing ball and an oscillator against a stop are three of them.
@@ -20,13 +21,22 @@ Array = NDArray[np.float64]
 WIDTH = 4  # diagonal and three subdiagonals: what Hermite elements need
 
 
+def _left_out() -> Array:
+    return np.zeros(0)
+
+
+def _left_out_whole() -> NDArray[np.int64]:
+    return np.zeros(0, np.int64)
+
+
 @dataclass(frozen=True)
 class ContactRows:
     """Unilateral constraints g_j = gap_j + Σ_k factors[j, k]·q[dofs[j, k]] ≥ 0.
 
     dofs : (rows, w) int; factors : (rows, w); gap : (rows,), the gap at q = 0.
     places : (rows,), where each sits (for the record).
-    rank : (rows,) int, how many constraints lie between it and the first to touch; side : (rows,) int, 0 or 1, which
+    rank : (rows,) int, how many constraints lie between it and the first to touch; side : (rows,) int, 0 or
+        1, which
     way from there. Both serve only a hold behind a moving front (:class:`hermite_fe.contacts.Contact`).
     tributary : (rows,), the length of beam that a row answers for (penalty contact scales with it).
     """
@@ -34,10 +44,10 @@ class ContactRows:
     dofs: NDArray[np.int64]
     factors: Array
     gap: Array
-    places: Array | None = None
-    rank: NDArray[np.int64] | None = None
-    side: NDArray[np.int64] | None = None
-    tributary: Array | None = None
+    places: Array = field(default_factory=_left_out)
+    rank: NDArray[np.int64] = field(default_factory=_left_out_whole)
+    side: NDArray[np.int64] = field(default_factory=_left_out_whole)
+    tributary: Array = field(default_factory=_left_out)
 
     def __post_init__(self) -> None:
         dofs = np.atleast_2d(np.asarray(self.dofs, np.int64))
@@ -47,11 +57,13 @@ class ContactRows:
         set_(self, "factors", np.ascontiguousarray(np.asarray(self.factors, float).reshape(dofs.shape)))
         set_(self, "gap", np.ascontiguousarray(np.asarray(self.gap, float).reshape(rows)))
         for name, kind, default in (
-            ("places", np.float64, np.zeros(rows)), ("rank", np.int64, np.arange(rows)),
-            ("side", np.int64, np.zeros(rows)), ("tributary", np.float64, np.ones(rows)),
+            ("places", np.float64, np.zeros(rows)),
+            ("rank", np.int64, np.arange(rows)),
+            ("side", np.int64, np.zeros(rows)),
+            ("tributary", np.float64, np.ones(rows)),
         ):
             value = getattr(self, name)
-            value = default if value is None else np.asarray(value)
+            value = default if np.size(value) == 0 else np.asarray(value)
             if value.shape != (rows,):
                 raise ValueError(f"contact rows: {name} must have shape ({rows},) (got {value.shape})")
             set_(self, name, np.ascontiguousarray(value, kind))
@@ -81,8 +93,8 @@ class System:
     mass: Array
     stiffness: Array
     contacts: ContactRows
-    damping: Array | None = None
-    load: Array | None = None
+    damping: Array = field(default_factory=_left_out)
+    load: Array = field(default_factory=_left_out)
     supports: tuple[int, ...] = field(default=())
 
     def __post_init__(self) -> None:
@@ -90,11 +102,11 @@ class System:
         mass = np.atleast_2d(np.asarray(self.mass, float))
         n = mass.shape[1]
         for name, value in (("mass", mass), ("stiffness", self.stiffness), ("damping", self.damping)):
-            bands = np.zeros((1, n)) if value is None else np.atleast_2d(np.asarray(value, float))
+            bands = np.zeros((1, n)) if np.size(value) == 0 else np.atleast_2d(np.asarray(value, float))
             if bands.shape[1] != n or bands.shape[0] > WIDTH:
                 raise ValueError(f"system.{name} must have shape (≤ {WIDTH}, {n}) (got {bands.shape})")
             set_(self, name, np.pad(bands, ((0, WIDTH - bands.shape[0]), (0, 0))))
-        load = np.zeros((1, n)) if self.load is None else np.atleast_2d(np.asarray(self.load, float))
+        load = np.zeros((1, n)) if np.size(self.load) == 0 else np.atleast_2d(np.asarray(self.load, float))
         if load.shape[1] != n:
             raise ValueError(f"system.load must have shape (powers, {n}) (got {load.shape})")
         set_(self, "load", np.ascontiguousarray(load))

@@ -1,16 +1,19 @@
 """What every contact discretisation shares: the impact law and the hold behind the front.
 
-    ġ⁺ = −e ġ⁻ where a row closes                                                                 (thesis 3.2.4)
+    ġ⁺ = −e ġ⁻ where a row closes                                                                 (thesis
+    3.2.4)
 
-**The hold.** Behind a moving contact front the exact reaction is zero. A unilateral law turns round-off and mesh noise of
-either sign there into pushes off the wall, which lift the zone ("double detachment", thesis 3.3.5); the impacts of
-the first instants, when no mesh resolves the front, do the same. So a row that has closed is not released
+**The hold.** Behind a moving contact front the exact reaction is zero. A unilateral law turns round-off and
+mesh noise of either sign there into pushes off the wall, which lift the zone ("double detachment", thesis
+3.3.5); the impacts of the first instants, when no mesh resolves the front, do the same. So a row that has
+closed is not released
 
 - until the front is ``hold`` rows further (the strip shrinks with the mesh: consistent), and
 - before ``hold_until``, the time at which the front's thickness is a few elements.
 
-A held row may pull; what it pulled is recorded as ``held_impulse``. Where the middle truly lifts off (α + ψ < 0) a long hold
-pulls on what should leave: keep it short there. With a restitution e > 0 nothing is held unless asked for.
+A held row may pull; what it pulled is recorded as ``held_impulse``. Where the middle truly lifts off (α + ψ <
+0) a long hold pulls on what should leave: keep it short there. With a restitution e > 0 nothing is held
+unless asked for.
 """
 
 from __future__ import annotations
@@ -36,7 +39,8 @@ class Contact(ABC):
     """Base of the contact discretisations.
 
     restitution : e ∈ [0, 1].
-    hold : rows that the front must be ahead before a closed one may open (``None``: chosen from the problem; 0: none).
+    hold : rows that the front must be ahead before a closed one may open (``None``: chosen from the problem;
+        0: none).
     hold_until : s, until when nothing that has closed opens (``None``: chosen; 0: never held).
     """
 

@@ -1,9 +1,10 @@
-"""Signorini's condition for the mean gap of each element, with a reaction constant over the element (thesis 4.0.6):
+"""Signorini's condition for the mean gap of each element, with a reaction constant over the element (thesis
+4.0.6):
 
     0 ≤ r_e ⊥ (1/l)∫_e g dx = −(½w₁ + (l/12)θ₁ + ½w₂ − (l/12)θ₂) ≥ 0
 
-The element's reaction impulse is p_e = l ∫ r_e dt: the pair (mean gap, p_e) is conjugate, so the work of a piecewise-constant reaction
-is exact.
+The element's reaction impulse is p_e = l ∫ r_e dt: the pair (mean gap, p_e) is conjugate, so the work of a
+piecewise-constant reaction is exact.
 """
 
 from __future__ import annotations

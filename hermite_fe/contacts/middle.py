@@ -1,4 +1,5 @@
-"""Contact at the element middles: g_e = −y(ξ = ½) = −(½w₁ + (l/8)θ₁ + ½w₂ − (l/8)θ₂) ≥ 0 (thesis 3.3.5, A.6)."""
+"""Contact at the element middles: g_e = −y(ξ = ½) = −(½w₁ + (l/8)θ₁ + ½w₂ − (l/8)θ₂) ≥ 0 (thesis 3.3.5,
+A.6)."""
 
 from __future__ import annotations
 
@@ -17,7 +18,8 @@ __all__ = ["MiddleContact"]
 
 @dataclass(frozen=True)
 class MiddleContact(Contact):
-    """Rows at the element middles; nodes may dip into the wall by KΔx²/8 before their element's row closes."""
+    """Rows at the element middles; nodes may dip into the wall by KΔx²/8 before their element's row
+    closes."""
 
     def rows(self, beam: HermiteBeam, natural: NDArray[np.float64], *, full: bool) -> ContactRows:
         l, half = beam.lengths, np.full(beam.lengths.size, 0.5)  # noqa: E741

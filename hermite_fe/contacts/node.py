@@ -25,7 +25,11 @@ class NodeContact(Contact):
         tributary[1:] += 0.5 * beam.lengths
         first = count // 2 if full else 0
         return ContactRows(
-            dofs=2 * np.arange(count)[:, None], factors=-np.ones((count, 1)), gap=-natural[0::2], places=x,
-            rank=np.abs(np.arange(count) - first), side=(np.arange(count) < first).astype(np.int64),
+            dofs=2 * np.arange(count)[:, None],
+            factors=-np.ones((count, 1)),
+            gap=-natural[0::2],
+            places=x,
+            rank=np.abs(np.arange(count) - first),
+            side=(np.arange(count) < first).astype(np.int64),
             tributary=tributary,
         )

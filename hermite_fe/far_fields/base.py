@@ -1,12 +1,12 @@
 """What happens to the waves that leave: nothing comes back, by a damping matrix, and what holds the far end.
 
-Waves whose length approaches the element are slowed, trapped and, where elements grow, sent back. A bending viscosity in
-proportion to the element's length squared,
+Waves whose length approaches the element are slowed, trapped and, where elements grow, sent back. A bending
+viscosity in proportion to the element's length squared,
 
     C = Σ_e c Δx_e² √(μ/EI) Kₑ,
 
-damps a wave of number k with the ratio ζ = ½c(kΔx)², that is, only what the mesh cannot carry anyway: the same in
-every element whatever its size, and gone under refinement like Δx².
+damps a wave of number k with the ratio ζ = ½c(kΔx)², that is, only what the mesh cannot carry anyway: the
+same in every element whatever its size, and gone under refinement like Δx².
 """
 
 from __future__ import annotations
@@ -30,9 +30,9 @@ ENDS = ("free", "following")
 class FarField(ABC):
     """Base of the far fields.
 
-    end : "free", as the ends of a real beam are; or "following": the end forces and moments that a₀, c₀, q₀ need are applied,
-        as if the beam went on, so that without contact the motion is y₀ everywhere (for a comparison with the theory of
-        the infinite beam).
+    end : "free", as the ends of a real beam are; or "following": the end forces and moments that a₀, c₀, q₀
+        need are applied, as if the beam went on, so that without contact the motion is y₀ everywhere (for a
+        comparison with the theory of the infinite beam).
     """
 
     end: str = "free"

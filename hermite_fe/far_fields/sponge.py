@@ -1,10 +1,11 @@
 """A sponge: bending viscosity that rises towards the ends, next to that at grid scale.
 
-    C = Σ_e η_e Kₑ,    η_e = (c Δx_e² + b w² s³)·√(μ/EI),    s = 1 − (distance to the end)/w ∈ [0, 1] within w of an end
+    C = Σ_e η_e Kₑ,    η_e = (c Δx_e² + b w² s³)·√(μ/EI),    s = 1 − (distance to the end)/w ∈ [0, 1] within w
+    of an end
 
-A wave of number k decays over the sponge by exp(−b (kw)³/16) on its way out, and as much on its way back: with b = 0.2, waves shorter than
-about the sponge's width are gone, and the gradual rise sends next to nothing back. Viscosity of bending, unlike drag, takes
-no momentum and leaves rigid motion alone.
+A wave of number k decays over the sponge by exp(−b (kw)³/16) on its way out, and as much on its way back:
+with b = 0.2, waves shorter than about the sponge's width are gone, and the gradual rise sends next to nothing
+back. Viscosity of bending, unlike drag, takes no momentum and leaves rigid motion alone.
 """
 
 from __future__ import annotations
@@ -24,7 +25,8 @@ __all__ = ["Sponge"]
 
 @dataclass(frozen=True)
 class Sponge(FarField):
-    """viscosity : c at grid scale; strength : b, dimensionless; width : w over the half length of the beam."""
+    """viscosity : c at grid scale; strength : b, dimensionless; width : w over the half length of the
+    beam."""
 
     viscosity: float = 0.3
     strength: float = 0.2

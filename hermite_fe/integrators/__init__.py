@@ -7,7 +7,11 @@ from hermite_fe.integrators.nonsmooth_generalized_alpha import NonsmoothGenerali
 from hermite_fe.integrators.signorini_position import SignoriniPosition
 
 __all__ = [
-    "INTEGRATORS", "GeneralizedAlphaPenalty", "Integrator", "MoreauJean", "NonsmoothGeneralizedAlpha",
+    "INTEGRATORS",
+    "GeneralizedAlphaPenalty",
+    "Integrator",
+    "MoreauJean",
+    "NonsmoothGeneralizedAlpha",
     "SignoriniPosition",
 ]
 

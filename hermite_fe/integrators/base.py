@@ -21,11 +21,12 @@ MAXIMUM_STEPS = 200_000_000
 
 @dataclass(frozen=True)
 class Integrator(ABC):
-    """Base of the integrators: steps h = max(time_step, growth·t), adjusted down so that they end at the end time.
+    """Base of the integrators: steps h = max(time_step, growth·t), adjusted down so that they end at the end
+    time.
 
     time_step : smallest step, s (``None``: chosen from the problem).
-    growth : step over time since impact, so that every decade of a self-similar motion takes the same number of
-        steps (``None``: 0, constant steps, when ``time_step`` is given; chosen otherwise).
+    growth : step over time since impact, so that every decade of a self-similar motion takes the same number
+        of steps (``None``: 0, constant steps, when ``time_step`` is given; chosen otherwise).
     """
 
     matrices: ClassVar[int] = 1
@@ -68,7 +69,14 @@ class Integrator(ABC):
 
     @abstractmethod
     def advance(
-        self, problem: Problem, law: ContactLaw, state: State, works: tuple[Work, ...], times: NDArray[np.float64],
-        first: int, last: int,
+        self,
+        problem: Problem,
+        law: ContactLaw,
+        state: State,
+        works: tuple[Work, ...],
+        times: NDArray[np.float64],
+        first: int,
+        last: int,
     ) -> tuple[int, int]:
-        """Take steps ``first`` … ``last`` − 1 in place; returns (status, step reached), status 0 when all went well."""
+        """Take steps ``first`` … ``last`` − 1 in place; returns (status, step reached), status 0 when all
+        went well."""

@@ -3,8 +3,8 @@
     M v̇⁺ + C v⁺ + K q⁺ = F⁺ + Gᵀλ,    λ_j = −(k_c g_j + d_c ġ_j)·(tributary length of j)  where g_j ≤ 0
 
 that is one spring and damper a node, acting on penetration only, which may pull while it does (Exudyn's
-``ObjectContactCoordinate`` with linear damping). Contact rows must touch one dof each: contact at nodes. There is no impact
-law and no hold; what the rows take in, stored or dissipated, is booked as loss in impacts.
+``ObjectContactCoordinate`` with linear damping). Contact rows must touch one dof each: contact at nodes.
+There is no impact law and no hold; what the rows take in, stored or dissipated, is booked as loss in impacts.
 """
 
 from __future__ import annotations
@@ -50,16 +50,33 @@ class GeneralizedAlphaPenalty(Integrator):
         whole("integrator.contact_rounds", self.contact_rounds, 0)
 
     def advance(
-        self, problem: Problem, law: ContactLaw, state: State, works: tuple[Work, ...], times: NDArray[np.float64],
-        first: int, last: int,
+        self,
+        problem: Problem,
+        law: ContactLaw,
+        state: State,
+        works: tuple[Work, ...],
+        times: NDArray[np.float64],
+        first: int,
+        last: int,
     ) -> tuple[int, int]:
         if self.stiffness is None or self.damping is None:
             raise ValueError("integrator.stiffness and integrator.damping are not chosen yet")
         if problem.dofs.shape[1] != 1:
-            raise ValueError("generalized_alpha_penalty takes contact.kind = \"node\" only")
+            raise ValueError('generalized_alpha_penalty takes contact.kind = "node" only')
         if law.restitution > 0.0:
             raise ValueError(
-                f"generalized_alpha_penalty has no impact law: restitution must be 0 (got {law.restitution!r})")
+                "generalized_alpha_penalty has no impact law: "
+                f"restitution must be 0 (got {law.restitution!r})"
+            )
         return _generalized_alpha.penalty_steps(
-            problem, state, works[0], times, first, last, self.spectral_radius, self.stiffness, self.damping,
-            self.contact_rounds)
+            problem,
+            state,
+            works[0],
+            times,
+            first,
+            last,
+            self.spectral_radius,
+            self.stiffness,
+            self.damping,
+            self.contact_rounds,
+        )

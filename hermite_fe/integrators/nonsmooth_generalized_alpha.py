@@ -7,9 +7,11 @@ Where the constraints are asked for:
 
 - ``velocity`` : the impact law at velocity level; positions drift (after Chen, Acary, Virlez, Brüls 2013,
   Int. J. Numer. Meth. Eng. 96, 487);
-- ``position_velocity`` : gaps and velocities, one after the other, no drift (after Brüls, Acary, Cardona 2014, CMAME 281, 131);
-- ``position_velocity_acceleration`` : also the smooth motion carries the reactions of rows at rest on the wall, so that lasting
-  contact is second order as well (after Brüls, Acary, Cardona 2018, Multibody Syst. Dyn. 44): the thesis's solver.
+- ``position_velocity`` : gaps and velocities, one after the other, no drift (after Brüls, Acary, Cardona
+  2014, CMAME 281, 131);
+- ``position_velocity_acceleration`` : also the smooth motion carries the reactions of rows at rest on the
+  wall, so that lasting contact is second order as well (after Brüls, Acary, Cardona 2018, Multibody Syst.
+  Dyn. 44): the thesis's solver.
 """
 
 from __future__ import annotations
@@ -32,7 +34,8 @@ LEVELS = ("velocity", "position_velocity", "position_velocity_acceleration")
 
 @dataclass(frozen=True)
 class NonsmoothGeneralizedAlpha(Integrator):
-    """spectral_radius : ρ∞ ∈ [0, 1] at infinite frequency (1: none is damped). levels : where constraints are asked for."""
+    """spectral_radius : ρ∞ ∈ [0, 1] at infinite frequency (1: none is damped). levels : where constraints are
+    asked for."""
 
     matrices: ClassVar[int] = 3
 
@@ -45,12 +48,29 @@ class NonsmoothGeneralizedAlpha(Integrator):
         one_of("integrator.levels", self.levels, LEVELS)
 
     def advance(
-        self, problem: Problem, law: ContactLaw, state: State, works: tuple[Work, ...], times: NDArray[np.float64],
-        first: int, last: int,
+        self,
+        problem: Problem,
+        law: ContactLaw,
+        state: State,
+        works: tuple[Work, ...],
+        times: NDArray[np.float64],
+        first: int,
+        last: int,
     ) -> tuple[int, int]:
         if self.levels == "velocity":
             return _generalized_alpha.velocity_steps(
-                problem, law, state, works[0], works[1], times, first, last, self.spectral_radius)
+                problem, law, state, works[0], works[1], times, first, last, self.spectral_radius
+            )
         return _generalized_alpha.sequential_steps(
-            problem, law, state, works[0], works[1], works[2], times, first, last, self.spectral_radius,
-            self.levels == "position_velocity_acceleration")
+            problem,
+            law,
+            state,
+            works[0],
+            works[1],
+            works[2],
+            times,
+            first,
+            last,
+            self.spectral_radius,
+            self.levels == "position_velocity_acceleration",
+        )

@@ -2,7 +2,8 @@
 
     M(v⁺ − v) + hC v_θ + hK q_θ = hF_θ + Gᵀp,   q⁺ = q + h v_θ;   0 ≤ p ⊥ g⁺ = g₀ + Gq⁺ ≥ 0
 
-A row that reaches the wall within a step is brought to the wall exactly, at rest a step later; the scheme has no impact law.
+A row that reaches the wall within a step is brought to the wall exactly, at rest a step later; the scheme has
+no impact law.
 """
 
 from __future__ import annotations
@@ -31,9 +32,17 @@ class SignoriniPosition(Integrator):
         between("integrator.theta", self.theta, 0.5, 1.0)
 
     def advance(
-        self, problem: Problem, law: ContactLaw, state: State, works: tuple[Work, ...], times: NDArray[np.float64],
-        first: int, last: int,
+        self,
+        problem: Problem,
+        law: ContactLaw,
+        state: State,
+        works: tuple[Work, ...],
+        times: NDArray[np.float64],
+        first: int,
+        last: int,
     ) -> tuple[int, int]:
         if law.restitution > 0.0:
-            raise ValueError(f"signorini_position has no impact law: restitution must be 0 (got {law.restitution!r})")
+            raise ValueError(
+                f"signorini_position has no impact law: restitution must be 0 (got {law.restitution!r})"
+            )
         return _theta.steps(problem, law, state, works[0], times, first, last, self.theta, True)
