@@ -19,9 +19,11 @@ from bent_beam.impact import Impact
 from comparison.estimators import LeadingEstimate, Moments, first_order, leading_order, moments
 from comparison.store import RunStore
 
-__all__ = ["PATHS", "MatchFailure", "MatchRow", "Question", "match", "questions"]
+__all__ = ["PATHS", "THESIS_KAPPAS", "MatchFailure", "MatchRow", "Question", "match", "questions"]
 
 PATHS = ("hermite", "exudyn")
+THESIS_KAPPAS = (1 / 1600, 1 / 800, 1 / 400, 1 / 200, 1 / 100, 1 / 40, 1 / 20, 1 / 4, 1 / 2)
+"""κ/ν of the thesis's Table 3.4."""
 
 
 @dataclass(frozen=True)

@@ -1,0 +1,87 @@
+"""The one style of all figures: theory is always the black line, Hermite always blue circles, Exudyn always orange squares.
+
+Colours are those of Okabe and Ito (2008), told apart by the colour-blind; sizes are those of a journal column.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from io import BytesIO
+from pathlib import Path
+from typing import Any
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from comparison.store import write_atomically
+
+__all__ = ["COLOURS", "COLUMN", "EXUDYN", "FORMATS", "HERMITE", "OLD", "PAGE", "SEQUENCE", "THEORY", "WALL", "figure", "save"]
+
+COLUMN = 3.4  # width of one column, inches
+PAGE = 7.0  # width of both
+FORMATS = ("png", "pdf", "svg")
+
+COLOURS = {
+    "black": "#000000", "orange": "#E69F00", "sky": "#56B4E9", "green": "#009E73", "yellow": "#F0E442", "blue": "#0072B2",
+    "vermilion": "#D55E00", "purple": "#CC79A7", "grey": "#777777",
+}
+SEQUENCE = [COLOURS[c] for c in ("blue", "vermilion", "green", "purple", "sky", "orange", "grey")]
+
+THEORY: dict[str, Any] = {"color": COLOURS["black"], "lw": 1.2, "ls": "-", "marker": "", "label": "theory"}
+HERMITE: dict[str, Any] = {
+    "color": COLOURS["blue"], "ls": "", "marker": "o", "ms": 4.5, "mfc": "none", "mew": 1.0, "label": "Hermite"
+}
+EXUDYN: dict[str, Any] = {
+    "color": COLOURS["vermilion"], "ls": "", "marker": "s", "ms": 3.5, "mfc": "none", "mew": 1.0, "label": "Exudyn"
+}
+OLD: dict[str, Any] = {"color": COLOURS["grey"], "lw": 0.8, "ls": "--", "marker": "", "label": "thesis's settings"}
+WALL: dict[str, Any] = {"color": COLOURS["grey"], "lw": 0.8, "ls": ":", "label": "wall"}
+MARKERS = {"hermite": HERMITE, "exudyn": EXUDYN}
+
+RC = {
+    "font.family": "DejaVu Sans", "font.size": 8.0, "mathtext.fontset": "dejavusans", "axes.labelsize": 8.5,
+    "axes.titlesize": 8.5, "legend.fontsize": 7.5, "xtick.labelsize": 7.5, "ytick.labelsize": 7.5,
+    "axes.linewidth": 0.7, "axes.spines.top": False, "axes.spines.right": False, "axes.grid": True,
+    "grid.color": "#DDDDDD", "grid.linewidth": 0.5, "axes.axisbelow": True, "legend.frameon": False,
+    "lines.linewidth": 1.1, "xtick.direction": "out", "ytick.direction": "out", "figure.dpi": 150,
+    "savefig.dpi": 200, "axes.prop_cycle": matplotlib.cycler(color=SEQUENCE), "figure.constrained_layout.use": True,
+    "svg.hashsalt": "bent-beam-impact", "svg.fonttype": "none", "pdf.fonttype": 42,
+}
+
+
+@contextmanager
+def figure(
+    rows: int = 1, columns: int = 1, *, width: float = COLUMN, height: float | None = None, **kwargs: Any
+) -> Iterator[tuple[Figure, Any]]:
+    """A figure in the project's style, closed afterwards: ``with figure() as (fig, ax): …``. Sizes in inches."""
+    with plt.rc_context(RC):
+        tall = height if height is not None else 0.75 * width / columns * rows
+        fig, axes = plt.subplots(rows, columns, figsize=(width, tall), **kwargs)
+        try:
+            yield fig, axes
+        finally:
+            plt.close(fig)
+
+
+def save(fig: Figure, out: Path, name: str, formats: Sequence[str] = ("png",)) -> list[Path]:
+    """Write ``name.png`` (and pdf, svg) in ``out``, atomically and without time stamps; returns the files."""
+    files = []
+    for kind in formats:
+        if kind not in FORMATS:
+            raise ValueError(f"format must be one of {', '.join(FORMATS)} (got {kind!r})")
+        stream = BytesIO()
+        metadata: dict[str, Any] = {"png": {"Software": None}, "pdf": {"CreationDate": None}, "svg": {"Date": None}}[kind]
+        fig.savefig(stream, format=kind, metadata=metadata)
+        files.append(out / f"{name}.{kind}")
+        write_atomically(files[-1], stream.getvalue())
+    return files
+
+
+def panel_label(axis: Axes, text: str) -> None:
+    """(a), (b) … in the upper left corner, outside the data."""
+    axis.text(0.0, 1.02, text, transform=axis.transAxes, ha="left", va="bottom", fontweight="bold", fontsize=8.5)
