@@ -10,7 +10,7 @@ and for small angles y = −Ks²/2 + q₀s⁴/24, ẏ = V₀ + c₀s²/2, the fr
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Protocol
+from typing import ClassVar, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -36,6 +36,7 @@ class Shape:
     angular_velocity: Array
     curvature: float  # stress-free
     slender: bool     # true geometry: the axial stiffness of the section matters
+    wall_curvature: float = 0.0  # of a round wall y = wall_curvature x²/2, against which a beam laid flatter is the same
 
     @property
     def lengths(self) -> Array:
@@ -46,12 +47,14 @@ class Shape:
 class Geometry(Protocol):
     """What ``simulate`` asks of a geometry."""
 
+    true: ClassVar[bool]
+
     def amplitude_of(self, true_amplitude: float) -> float:
         """Deflection scale of the model over Λ, given that of the real beam."""
         ...
 
-    def shape(self, s: Array, scaling: Scaling) -> Shape:
-        """The beam at the first contact."""
+    def shape(self, s: Array, scaling: Scaling, wall_share: float = 0.0) -> Shape:
+        """The beam at the first contact, a share of its curvature given to the wall (against which it is laid flatter)."""
         ...
 
 
@@ -62,6 +65,8 @@ class LinearLimit:
     amplitude : deflection V₀T over the length Λ = (EI/μ)^{1/4}√T in the model; the history is scaled back.
     """
 
+    true: ClassVar[bool] = False
+
     amplitude: float = 1e-3
 
     def __post_init__(self) -> None:
@@ -70,12 +75,12 @@ class LinearLimit:
     def amplitude_of(self, true_amplitude: float) -> float:
         return self.amplitude
 
-    def shape(self, s: Array, scaling: Scaling) -> Shape:
-        k, c, q, a = scaling.kappa, scaling.chi, scaling.psi, scaling.amplitude
+    def shape(self, s: Array, scaling: Scaling, wall_share: float = 0.0) -> Shape:
+        k, c, q, a = scaling.kappa * (1.0 - wall_share), scaling.chi, scaling.psi, scaling.amplitude
         return Shape(
             s=s, x=s, y=a * (-k * s**2 / 2 + q * s**4 / 24), angle=a * (-k * s + q * s**3 / 6),
             velocity_x=np.zeros_like(s), velocity_y=a * (1 + c * s**2 / 2), angular_velocity=a * c * s,
-            curvature=-a * k, slender=False,
+            curvature=-a * k, slender=False, wall_curvature=a * scaling.kappa * wall_share,
         )
 
 
@@ -86,11 +91,13 @@ class TrueGeometry:
     Linear theory is approached as slopes vanish, that is for end times T ≪ t* (slopes over the front are ~ √(T/t*)).
     """
 
+    true: ClassVar[bool] = True
+
     def amplitude_of(self, true_amplitude: float) -> float:
         return true_amplitude
 
-    def shape(self, s: Array, scaling: Scaling) -> Shape:
-        k, c, q, a = scaling.kappa, scaling.chi, scaling.psi, scaling.amplitude
+    def shape(self, s: Array, scaling: Scaling, wall_share: float = 0.0) -> Shape:
+        k, c, q, a = scaling.kappa * (1.0 - wall_share), scaling.chi, scaling.psi, scaling.amplitude
 
         def angle(at: Array) -> Array:
             return np.asarray(a * (-k * at + q * at**3 / 6))
@@ -113,7 +120,7 @@ class TrueGeometry:
         fields = [integral(f) for f in (np.cos(theta), np.sin(theta), -rate * np.sin(theta), rate * np.cos(theta))]
         x, y, vx, vy = (f - f[centre] for f in fields)
         return Shape(s=s, x=x, y=y, angle=angle(s), velocity_x=vx, velocity_y=a + vy, angular_velocity=a * c * s,
-                     curvature=-a * k, slender=True)
+                     curvature=-a * k, slender=True, wall_curvature=a * scaling.kappa * wall_share)
 
 
 GEOMETRIES: dict[str, type] = {"linear": LinearLimit, "true": TrueGeometry}

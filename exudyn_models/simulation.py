@@ -28,11 +28,11 @@ from bent_beam import Impact, ImpactHistory, SimulationError
 from bent_beam.checks import positive, whole
 from bent_beam.meshes import Mesh, NodesMesh, ScaleFreeMesh, checked_nodes, mirrored
 from bent_beam.parts import describe
-from exudyn_models.contacts import Contact, ContactRun, Penalty, Wall
+from exudyn_models.contacts import Contact, ContactRun, Penalty, Rigid, SegmentFriction, Wall
 from exudyn_models.elements import ANCFCable, Beam, Element
 from exudyn_models.elements.beam import Section
 from exudyn_models.geometry import GEOMETRIES, Geometry, LinearLimit, Shape
-from exudyn_models.integrators import GeneralizedAlpha, Integrator
+from exudyn_models.integrators import GeneralizedAlpha, Integrator, Newmark
 from exudyn_models.scaling import Scaling, front_estimate
 from exudyn_models.solvers import NewtonSolver, silence
 
@@ -121,6 +121,7 @@ class _Run:
         self.beam, self.contact, self.scaling, self.half = beam, contact, scaling, half
         shape, a = beam.shape, scaling.amplitude
         self.load = scaling.load * a
+        self.wall_y = shape.wall_curvature * shape.s**2 / 2
         # constant forces along y: the uniform load and the end shears, −q₀x at +x and +q₀x at −x
         length = float(beam.lengths.sum())
         self.shear = a * scaling.psi * shape.s[-1]
@@ -155,17 +156,18 @@ class _Run:
             total = self.start_momentum + self.force * t - momentum
             weight = np.abs(gain)
             missing = total - self.total - gain.sum()
-            if weight.sum() > 0.0:
-                gain = gain + missing * weight / weight.sum()
-                self.impulse += gain
-                self.total = total
+            if not weight.any():  # what acted within the segment only: at the deepest point
+                weight[np.argmax(self.contact.depth(q))] = 1.0
+            gain = gain + missing * weight / weight.sum()
+            self.impulse += gain
+            self.total = total
             self.held -= np.minimum(gain, 0.0).sum()
             self.contact_loss += float(((force * points + old_force * old_velocity)).sum() * dt / 2)
             self.viscous_loss += (viscous + old_viscous) * dt / 2
             self.work += (power + old_power) * dt / 2
         self.previous = (force, points, viscous, power)
         self.active = active
-        y = self.beam.deflection(q)
+        y = self.beam.deflection(q) - self.wall_y
         self.deepest = max(self.deepest, float(y.max()) / max(t, 1e-300)) if t > 0.01 else self.deepest
         return q, v
 
@@ -181,9 +183,9 @@ class _Run:
     def save(self, t: float, q: Array, v: Array) -> None:
         r, beam = self.record, self.beam
         r.time.append(t)
-        r.y.append(beam.deflection(q).copy())
+        r.y.append(beam.deflection(q) - self.wall_y)
         r.v.append(v[beam.vertical].copy())
-        r.slope.append(beam.slope(q).copy())
+        r.slope.append(beam.slope(q) - beam.shape.wall_curvature * beam.shape.s)
         r.impulse.append(self.impulse.copy())
         r.active.append(self.active.copy())
         r.total.append(self.total)
@@ -342,8 +344,12 @@ def simulate(
     end = _end_time(impact, end_time)
     whole("save", save, 1)
     element = ANCFCable() if element is None else element
-    integrator = GeneralizedAlpha() if integrator is None else integrator
     contact = Penalty() if contact is None else contact
+    if integrator is None:
+        integrator = Newmark() if isinstance(contact, Rigid) else GeneralizedAlpha()
+    if isinstance(contact, SegmentFriction):
+        geometry = contact.geometry() if geometry is None else geometry
+        solver = contact.solver() if solver is None else solver
     solver = NewtonSolver() if solver is None else solver
     if geometry is None or isinstance(geometry, str):
         if geometry is not None and geometry not in GEOMETRIES:
@@ -362,7 +368,10 @@ def simulate(
         half_length = laid.places[-1]
     places = checked_nodes(laid.nodes(half_length)) / scaling.length
     nodes = mirrored(places) if full_beam else places
-    shape = geometry.shape(nodes, scaling)
+    share = contact.wall_share(geometry) if isinstance(contact, SegmentFriction) else 0.0
+    if share and scaling.kappa == 0.0:
+        raise ValueError("exudyn.contact.kind segment_friction needs a bent beam (got curvature 0)")
+    shape = geometry.shape(nodes, scaling, share)
     half = not full_beam
 
     with silence():

@@ -3,7 +3,8 @@
 from exudyn_models.contacts.base import Contact, ContactRun, Wall
 from exudyn_models.contacts.penalty import Penalty
 from exudyn_models.contacts.rigid import Rigid
+from exudyn_models.contacts.segment_friction import SegmentFriction
 
-__all__ = ["CONTACTS", "Contact", "ContactRun", "Penalty", "Rigid", "Wall"]
+__all__ = ["CONTACTS", "Contact", "ContactRun", "Penalty", "Rigid", "SegmentFriction", "Wall"]
 
-CONTACTS: dict[str, type] = {"penalty": Penalty, "rigid": Rigid}
+CONTACTS: dict[str, type] = {"penalty": Penalty, "rigid": Rigid, "segment_friction": SegmentFriction}

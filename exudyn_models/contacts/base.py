@@ -47,7 +47,10 @@ class ContactRun(ABC):
 
     contact_s: Array
     longest_segment: int | None = None  # steps after which it must be asked again
-    velocity_jumps: bool = False        # whether ``between`` may change the state
+
+    @abstractmethod
+    def depth(self, q: Array) -> Array:
+        """Penetration at the contact points, shape (contacts,)."""
 
     @abstractmethod
     def forces(self, q: Array, v: Array) -> tuple[Array, Flags]:

@@ -57,6 +57,9 @@ class _Run(ContactRun):
                     markerNumbers=[beam.ground_marker, marker], stiffness=stiffness[k], damping=damping[k],
                     activeConnector=False)))
 
+    def depth(self, q: Array) -> Array:
+        return np.asarray(q[self.beam.vertical[self.nodes]])
+
     def forces(self, q: Array, v: Array) -> tuple[Array, Flags]:
         place = self.beam.vertical[self.nodes]
         touching = q[place] > 0.0

@@ -6,7 +6,8 @@ Every node that may touch carries a constraint on its velocity (index 2), inacti
 the wall; its velocity then vanishes within one step, the impact of restitution e = 0. It is released when it pulls, but not before the
 front is ``hold`` elements further on (see :mod:`exudyn_models.contacts.penalty`). Index 2 leaves a captured node where it was caught, at
 most V₀h inside the wall. Under position constraints (index 3, generalised-α) the jump of velocity that a switch asks for has no
-place in the equations and Newton's method stops converging: hence only Newmark integrators are accepted.
+place in the equations and Newton's method stops converging; under the undamped trapezoidal rule (γ = ½) the multipliers ring, their
+sign says nothing, and the run stops sooner or later. Hence only Newmark with γ > ½ is accepted.
 """
 
 from __future__ import annotations
@@ -22,6 +23,7 @@ from bent_beam.checks import whole
 from exudyn_models.contacts.base import ContactRun, Flags, Wall
 from exudyn_models.contacts.holding import HeldStrip, chosen_hold
 from exudyn_models.elements import Beam
+from exudyn_models.integrators import Newmark
 
 __all__ = ["Rigid"]
 
@@ -43,6 +45,9 @@ class _Run(ContactRun):
                 activeConnector=False))
             for node in wall.nodes
         ]
+
+    def depth(self, q: Array) -> Array:
+        return np.asarray(q[self.beam.vertical[self.nodes]])
 
     def forces(self, q: Array, v: Array) -> tuple[Array, Flags]:
         data = self.beam.mbs.systemData
@@ -73,7 +78,7 @@ class _Run(ContactRun):
 
 @dataclass(frozen=True)
 class Rigid:
-    """Constraints switched with the contact state; needs the trapezoidal or Newmark integrator.
+    """Constraints switched with the contact state; needs the Newmark integrator with γ > ½.
 
     hold : elements behind the front whose captured nodes are not released; None: as for the penalty.
     """
@@ -85,10 +90,10 @@ class Rigid:
             whole("exudyn.contact.hold", self.hold, 0)
 
     def refuses(self, element: Any, integrator: Any) -> str | None:
-        if integrator.index_2_constraints:
+        if isinstance(integrator, Newmark) and integrator.gamma > 0.5:
             return None
-        return ("exudyn.contact.kind rigid needs constraints at velocity level: take exudyn.integrator.kind newmark or trapezoidal "
-                f"(got {type(integrator).__name__})")
+        return ("exudyn.contact.kind rigid needs exudyn.integrator.kind newmark with gamma above 0.5: constraints at velocity "
+                f"level, and damping (got {type(integrator).__name__})")
 
     def attach(self, beam: Beam, wall: Wall) -> ContactRun:
         return _Run(beam, wall, chosen_hold(wall, self.hold))

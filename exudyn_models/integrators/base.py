@@ -47,7 +47,6 @@ class Integrator:
     """Base of the integrators. ``time_step`` in s (None: chosen)."""
 
     explicit: ClassVar[bool] = False
-    index_2_constraints: ClassVar[bool] = False  # constraints at velocity level
     time_step: float | None
 
     def solver(self) -> Any:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, ClassVar
+from typing import Any
 
 import exudyn as exu
 
@@ -19,7 +19,6 @@ class Newmark(Implicit):
 
     gamma: float = 0.6
     beta: float | None = None
-    index_2_constraints: ClassVar[bool] = True
 
     def __post_init__(self) -> None:
         super().__post_init__()

@@ -6,7 +6,7 @@ It damps nothing: what quiets the contact is the penalty's damping and the grid-
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, ClassVar
+from typing import Any
 
 import exudyn as exu
 
@@ -18,8 +18,6 @@ __all__ = ["Trapezoidal"]
 @dataclass(frozen=True)
 class Trapezoidal(Implicit):
     """Exudyn's ``TrapezoidalIndex2``."""
-
-    index_2_constraints: ClassVar[bool] = True
 
     def configure(self, settings: Any) -> None:
         settings.timeIntegration.solverType = exu.DynamicSolverType.TrapezoidalIndex2
