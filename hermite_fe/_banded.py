@@ -68,6 +68,64 @@ def multiply(A: Array, x: Array, y: Array) -> None:
         )
 
 
+@compiled
+def stiff_row(A: Array, even: Array, odd: Array, x: Array, i: int) -> float:
+    """Row i of :func:`stiff_multiply`, anywhere."""
+    n = x.size
+    total = even[i] * x[i]
+    if i >= 2:
+        total += A[2, i - 2] * (x[i - 2] - x[i])
+    if i + 2 < n:
+        total += A[2, i] * (x[i + 2] - x[i])
+    left = 0.0
+    if i >= 1:
+        left = x[i - 1]
+        total += odd[i] * left
+    if i >= 3:
+        total += A[3, i - 3] * (x[i - 3] - left)
+    if i + 1 < n:
+        total += A[1, i] * (x[i + 1] - left)
+    if i + 3 < n:
+        total += A[3, i] * (x[i + 3] - left)
+    return total
+
+
+@compiled
+def stiff_multiply(A: Array, even: Array, odd: Array, x: Array, y: Array) -> None:
+    """y = A x for a stiffness whose large entries cancel, by differences of neighbouring dofs of a kind.
+
+    A(i, ·)x = Σ_even A(i, j)(x_j − x_i) + even_i x_i + Σ_odd A(i, j)(x_j − x_{i−1}) + odd_i x_{i−1}, j − i even or odd,
+    with the row sums even, odd of :func:`row_sums`. Round-off is then that of the differences, not of 12EI/Δx³·x.
+    """
+    n = x.size
+    for i in range(min(3, n)):
+        y[i] = stiff_row(A, even, odd, x, i)
+    for i in range(max(3, n - 3), n):
+        y[i] = stiff_row(A, even, odd, x, i)
+    if n < 7:
+        return
+    d1, d2, d3 = A[1, 3 : n - 3], A[2, 3 : n - 3], A[3, 3 : n - 3]
+    e2, e3 = A[2, 1 : n - 5], A[3, : n - 6]
+    s, o, inner = even[3 : n - 3], odd[3 : n - 3], y[3 : n - 3]
+    x0, r1, r2, r3 = x[3 : n - 3], x[4 : n - 2], x[5 : n - 1], x[6:n]
+    l1, l2, l3 = x[2 : n - 4], x[1 : n - 5], x[: n - 6]
+    for i in range(n - 6):
+        inner[i] = (
+            (s[i] * x0[i] + o[i] * l1[i])
+            + (e2[i] * (l2[i] - x0[i]) + d2[i] * (r2[i] - x0[i]))
+            + (e3[i] * (l3[i] - l1[i]) + d1[i] * (r1[i] - l1[i]) + d3[i] * (r3[i] - l1[i]))
+        )
+
+
+@compiled_sums
+def dot(x: Array, y: Array) -> float:
+    """xᵀy."""
+    total = 0.0
+    for i in range(x.size):
+        total += x[i] * y[i]
+    return total
+
+
 @compiled_sums
 def quadratic(A: Array, x: Array) -> float:
     """xᵀ A x for A in lower form, row by row: the large terms of a stiffness cancel before they are
@@ -211,3 +269,21 @@ def add(sums: Array, k: int, value: float) -> None:
     else:
         sums[k + half] += (value - new) + total
     sums[k] = new
+
+
+def row_sums(A: Array) -> tuple[Array, Array]:
+    """Sums of A's rows over dofs an even and an odd distance away, shape (n,) each; round-off is cut to zero.
+
+    The odd sums leave out row 0, which has no dof to its left to take differences from.
+    """
+    n = A.shape[1]
+    sums, sizes = np.zeros((2, n)), np.zeros((2, n))
+    for m in range(4):
+        band = A[m, : n - m]
+        sums[m % 2, : n - m] += band
+        sizes[m % 2, : n - m] += np.abs(band)
+        if m:
+            sums[m % 2, m:] += band
+            sizes[m % 2, m:] += np.abs(band)
+    sums[np.abs(sums) < 1e-12 * sizes] = 0.0
+    return sums[0], sums[1]

@@ -21,7 +21,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from hermite_fe._banded import add, combine, factor, multiply, quadratic
+from hermite_fe._banded import add, combine, dot, factor, multiply, quadratic, stiff_multiply
 from hermite_fe._contact import force_at, mark_held, row_times, rows_times
 from hermite_fe._jit import compiled
 from hermite_fe._pivoting import SOLVED, solve_rows
@@ -55,7 +55,7 @@ def coefficients(spectral_radius: float) -> tuple[float, float, float, float]:
 def residual_force(problem: Problem, t: float, q: Array, v: Array, out: Array, scratch: Array) -> None:
     """out = F(t) − Cv − Kq."""
     force_at(problem.load, t, 0.0, 0.0, out)
-    multiply(problem.K, q, scratch)
+    stiff_multiply(problem.K, problem.even, problem.odd, q, scratch)
     for i in range(q.size):
         out[i] -= scratch[i]
     multiply(problem.C, v, scratch)
@@ -98,9 +98,7 @@ def account(
         old_q[i] = state.q[i] - old_q[i]
         old_v[i] = state.v[i] - old_v[i]
     force_at(problem.load, t, h, 0.5, force)
-    done = 0.0
-    for i in range(n):
-        done += force[i] * old_q[i]
+    done = dot(force, old_q)
     viscous = h * quadratic(problem.C, mean_v)
     contact = 0.0
     for j in range(impulse.size):
@@ -108,12 +106,9 @@ def account(
             contact += impulse[j] * row_times(problem.dofs, problem.factors, mean_v, j)
             state.impulse[j] += impulse[j]
     multiply(problem.M, old_v, force)
-    change = 0.0
-    for i in range(n):
-        change += force[i] * mean_v[i]
-    multiply(problem.K, old_q, force)
-    for i in range(n):
-        change += force[i] * mean_q[i]
+    change = dot(force, mean_v)
+    stiff_multiply(problem.K, problem.even, problem.odd, old_q, force)
+    change += dot(force, mean_q)
     add(state.budget, WORK, done)
     add(state.budget, VISCOUS, viscous)
     add(state.budget, IMPACT, -contact)

@@ -13,6 +13,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from hermite_fe._banded import row_sums
 from hermite_fe.system import System
 
 Array = NDArray[np.float64]
@@ -26,6 +27,8 @@ class Problem(NamedTuple):
     M: Array
     C: Array
     K: Array
+    even: Array
+    odd: Array
     load: Array
     dofs: Places
     factors: Array
@@ -126,6 +129,7 @@ def problem_of(system: System) -> Problem:
         system.mass,
         system.damping,
         system.stiffness,
+        *row_sums(system.stiffness),
         system.load,
         rows.dofs,
         rows.factors,

@@ -16,7 +16,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from hermite_fe._banded import add, combine, multiply, quadratic
+from hermite_fe._banded import add, combine, dot, multiply, quadratic, stiff_multiply
 from hermite_fe._contact import force_at, mark_held, row_times, rows_times
 from hermite_fe._jit import compiled
 from hermite_fe._pivoting import SOLVED, solve_rows
@@ -65,7 +65,7 @@ def steps(
             work.made_with[0] = h
         for i in range(n):
             dq[i] = q[i] + theta * h * v[i]
-        multiply(K, dq, b)
+        stiff_multiply(K, problem.even, problem.odd, dq, b)
         multiply(C, v, vel)
         force_at(load, t, h, theta, force)
         for i in range(n):
@@ -110,5 +110,6 @@ def steps(
             work_done += force[i] * vel[i]
         add(state.budget, WORK, h * work_done)
         add(state.budget, VISCOUS, h * quadratic(C, vel))
-        add(state.budget, ALGORITHMIC, (theta - 0.5) * quadratic(K, dq))
+        stiff_multiply(K, problem.even, problem.odd, dq, vel)
+        add(state.budget, ALGORITHMIC, (theta - 0.5) * dot(dq, vel))
     return SOLVED, last
