@@ -1,7 +1,7 @@
 """Case files (TOML): one impact, how long to follow it, and, optionally, the parts of each path.
 
-Tables: ``[beam]``, ``[impact]``, ``[run]``, ``[mesh]``, ``[hermite.*]``, ``[exudyn.*]`` (docs/guide). Unknown keys are errors
-that name the nearest known key. The tables of the paths are kept as data: each path turns its own into parts.
+Tables: ``[beam]``, ``[impact]``, ``[run]``, ``[mesh]``, ``[hermite.*]``, ``[exudyn.*]`` (docs/guide). Unknown keys are
+errors that name the nearest known key. The tables of the paths are kept as data: each path turns its own into parts.
 """
 
 from __future__ import annotations
@@ -81,8 +81,9 @@ def _problem(error: pydantic.ValidationError) -> str:
     value = shown(problem.get("input"))
     kind = problem["type"]
     if kind == "extra_forbidden":
-        table = {"beam": _Beam, "impact": _Impact, "run": _Run}.get(str(problem["loc"][0]), _File)
-        known = table.model_fields if len(problem["loc"]) > 1 else _File.model_fields
+        tables: dict[str, type[BaseModel]] = {"beam": _Beam, "impact": _Impact, "run": _Run}
+        table = tables.get(str(problem["loc"][0]), _File) if len(problem["loc"]) > 1 else _File
+        known = table.model_fields
         return f"{place} is not a known setting{nearest(str(problem['loc'][-1]), known)}"
     if kind == "greater_than":
         return f"{place} must be positive (got {value})"

@@ -12,7 +12,9 @@ Dimensions: ``time`` (the saved instants) and ``x`` (nodes) and ``contact`` (con
 | total_impulse | time | N s | over the whole beam (both halves) |
 | kinetic_energy, strain_energy | time | J | whole beam |
 | work_of_loads | time | J | whole beam, since t = 0 |
-| loss_impact, loss_integration, loss_artificial | time | J | energy taken out since t = 0 by impacts, by the time integration's algorithmic damping, and by artificial viscosity or absorbers |
+| loss_impact | time | J | energy taken out by impacts since t = 0 |
+| loss_integration | time | J | by the time integration's algorithmic damping |
+| loss_artificial | time | J | by artificial viscosity or absorbers |
 
 A moving mesh adds ``position`` (time, x) and ``contact_position`` (time, contact), m.
 Attributes hold the case, the settings, versions and warnings as JSON text.
@@ -40,10 +42,23 @@ __all__ = ["ImpactHistory", "SimulationError", "versions"]
 Array = NDArray[np.float64]
 
 UNITS = {
-    "time": "s", "x": "m", "contact_x": "m", "position": "m", "contact_position": "m", "gap": "m",
-    "velocity": "m/s", "slope": "1", "impulse": "N s", "total_impulse": "N s", "held_impulse": "N s",
-    "kinetic_energy": "J", "strain_energy": "J", "work_of_loads": "J", "loss_impact": "J",
-    "loss_integration": "J", "loss_artificial": "J",
+    "time": "s",
+    "x": "m",
+    "contact_x": "m",
+    "position": "m",
+    "contact_position": "m",
+    "gap": "m",
+    "velocity": "m/s",
+    "slope": "1",
+    "impulse": "N s",
+    "total_impulse": "N s",
+    "held_impulse": "N s",
+    "kinetic_energy": "J",
+    "strain_energy": "J",
+    "work_of_loads": "J",
+    "loss_impact": "J",
+    "loss_integration": "J",
+    "loss_artificial": "J",
 }
 FORMAT = "bent-beam-impact history 1"
 
@@ -51,8 +66,9 @@ FORMAT = "bent-beam-impact history 1"
 class SimulationError(RuntimeError):
     """A solver could not finish. ``history`` holds what was reached (or ``None``)."""
 
-    def __init__(self, message: str, *, time: float, step: int, advice: str,
-                 history: ImpactHistory | None = None) -> None:
+    def __init__(
+        self, message: str, *, time: float, step: int, advice: str, history: ImpactHistory | None = None
+    ) -> None:
         super().__init__(f"{message} at t = {time:.6g} s (step {step}); try: {advice}")
         self.time, self.step, self.advice, self.history = time, step, advice, history
 
@@ -183,14 +199,21 @@ class ImpactHistory:
 
     def energy_budget(self) -> dict[str, float]:
         """Where the energy went between the first and the last saved instant, J, and the ``defect`` of the sum."""
+
         def change(name: str) -> float:
             values = self.array(name)
             return float(values[-1] - values[0])
 
         budget = {
             name: change(name)
-            for name in ("kinetic_energy", "strain_energy", "work_of_loads", "loss_impact", "loss_integration",
-                         "loss_artificial")
+            for name in (
+                "kinetic_energy",
+                "strain_energy",
+                "work_of_loads",
+                "loss_impact",
+                "loss_integration",
+                "loss_artificial",
+            )
             if name in self.dataset
         }
         balance = budget.get("kinetic_energy", 0.0) + budget.get("strain_energy", 0.0)
@@ -209,9 +232,7 @@ class ImpactHistory:
         os.close(handle)
         part = Path(name)
         try:
-            encoding = {
-                v: {"zlib": True, "complevel": 1} for v in self.dataset.variables if self.dataset[v].ndim == 2
-            }
+            encoding = {v: {"zlib": True, "complevel": 1} for v in self.dataset.variables if self.dataset[v].ndim == 2}
             self.dataset.to_netcdf(part, engine="h5netcdf", encoding=encoding)
             with part.open("rb") as written:
                 os.fsync(written.fileno())

@@ -55,8 +55,17 @@ class Impact:
         object.__setattr__(self, "curvature", non_negative("curvature", self.curvature))
         for name in ("acceleration", "curvature_rate", "fourth_derivative"):
             object.__setattr__(self, name, finite(name, getattr(self, name)))
-        for name in ("wave_constant", "time_scale", "length_scale", "slow_time_scale", "epsilon",
-                     "epsilon_alpha", "epsilon_chi", "epsilon_psi", "kappa_over_nu"):
+        for name in (
+            "wave_constant",
+            "time_scale",
+            "length_scale",
+            "slow_time_scale",
+            "epsilon",
+            "epsilon_alpha",
+            "epsilon_chi",
+            "epsilon_psi",
+            "kappa_over_nu",
+        ):
             try:
                 value = getattr(self, name)
             except (OverflowError, ZeroDivisionError):
@@ -81,9 +90,14 @@ class Impact:
     ) -> Impact:
         """The impact in units of the fast layer: EI = μ = V₀ = 1, so l* = t* = 1 and ν = 1."""
         return cls(
-            bending_stiffness=1.0, mass_per_length=1.0, length=length, velocity=1.0,
-            curvature=positive("kappa_over_nu", kappa_over_nu), acceleration=epsilon_alpha,
-            fourth_derivative=epsilon_psi, curvature_rate=epsilon_chi,
+            bending_stiffness=1.0,
+            mass_per_length=1.0,
+            length=length,
+            velocity=1.0,
+            curvature=positive("kappa_over_nu", kappa_over_nu),
+            acceleration=epsilon_alpha,
+            fourth_derivative=epsilon_psi,
+            curvature_rate=epsilon_chi,
         )
 
     def replace(self, **changes: float) -> Impact:

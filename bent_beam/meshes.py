@@ -17,7 +17,14 @@ from numpy.typing import NDArray
 from bent_beam.checks import at_least, positive
 
 __all__ = [
-    "MESHES", "GradedMesh", "Mesh", "NodesMesh", "ScaleFreeMesh", "SquareMesh", "UniformMesh", "checked_nodes",
+    "MESHES",
+    "GradedMesh",
+    "Mesh",
+    "NodesMesh",
+    "ScaleFreeMesh",
+    "SquareMesh",
+    "UniformMesh",
+    "checked_nodes",
     "mirrored",
 ]
 
@@ -122,7 +129,10 @@ class GradedMesh:
         count = _count(min(zone, half_length), self.element_length)
         inner = np.linspace(0.0, min(count * self.element_length, half_length), count + 1)
         outer = _grown(
-            inner[-1], self.element_length * self.growth, self.growth, half_length,
+            inner[-1],
+            self.element_length * self.growth,
+            self.growth,
+            half_length,
             self.element_length * self.size_ratio,
         )
         return checked_nodes(np.concatenate([inner, outer]))
@@ -213,4 +223,3 @@ MESHES: dict[str, type] = {
     "nodes": NodesMesh,
 }
 """Kinds of a case file's ``[mesh]`` table."""
-

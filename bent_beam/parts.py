@@ -53,8 +53,8 @@ def shown(value: Any) -> str:
 def part_from_table(kinds: Mapping[str, type], table: Mapping[str, Any], where: str, default: str | None = None) -> Any:
     """Make the part that ``table["kind"]`` names, its other keys being the part's fields.
 
-    Raises :class:`InputError` for an unknown kind or key (naming the nearest), a missing field, a wrong type or
-    a value that the part refuses.
+    Raises :class:`InputError` for an unknown kind or key (naming the nearest), a missing field, a wrong type
+    or a value that the part refuses.
     """
     if not isinstance(table, Mapping):
         raise InputError(f"{where} must be a table (got {shown(table)})")
@@ -89,8 +89,9 @@ def parts_from_table(
         if isinstance(sub, Mapping) and sub.get("kind", "auto") == "auto":
             extra = [key for key in sub if key != "kind"]
             if extra:
-                raise InputError(f"{where}.{name}.kind is required next to {extra[0]} "
-                                 f"(one of {', '.join(sorted(registries[name]))})")
+                raise InputError(
+                    f"{where}.{name}.kind is required next to {extra[0]} (one of {', '.join(sorted(registries[name]))})"
+                )
             continue
         parts[name] = part_from_table(registries[name], sub, f"{where}.{name}")
     return parts
@@ -103,7 +104,7 @@ def describe(part: Any) -> dict[str, Any]:
         value = getattr(part, field.name)
         if dataclasses.is_dataclass(value) and not isinstance(value, type):
             value = describe(value)
-        elif isinstance(value, tuple) and len(value) > 16:
-            value = f"{len(value)} values"
+        elif isinstance(value, tuple):
+            value = list(value)
         out[field.name] = value
     return out

@@ -1,4 +1,5 @@
-"""The ``bentbeam`` command: a thin door to the packages. ``--json`` prints one JSON document on standard output, no more.
+"""The ``bentbeam`` command: a thin door to the packages. ``--json`` prints one JSON document on standard output, no
+more.
 
 Exit codes: 0 done; 2 bad input (one line naming field and value); 3 a solver could not finish; 130 interrupted.
 """
@@ -24,7 +25,10 @@ __all__ = ["app", "main"]
 
 app = typer.Typer(
     help="A naturally bent beam hits a rigid wall: theory, two simulations, and how well they agree.",
-    no_args_is_help=True, rich_markup_mode=None, pretty_exceptions_enable=False, context_settings={"max_content_width": 110},
+    no_args_is_help=True,
+    rich_markup_mode=None,
+    pretty_exceptions_enable=False,
+    context_settings={"max_content_width": 110},
 )
 
 Json = Annotated[bool, typer.Option("--json", help="Print one JSON document on standard output and nothing else.")]
@@ -35,7 +39,8 @@ Scheduler = Annotated[
     str | None, typer.Option(help="Address of a dask.distributed scheduler, e.g. tcp://127.0.0.1:8786.")
 ]
 Set = Annotated[
-    list[str] | None, typer.Option("--set", metavar="TABLE.KEY=VALUE", help="Lay a setting over the case file; repeatable.")
+    list[str] | None,
+    typer.Option("--set", metavar="TABLE.KEY=VALUE", help="Lay a setting over the case file; repeatable."),
 ]
 Overwrite = Annotated[bool, typer.Option("--overwrite", help="Replace what is there.")]
 
@@ -155,7 +160,9 @@ def _first_order(values: Sequence[str]) -> list[tuple[float, float, float]]:
 @app.command()
 def match(
     path: Annotated[list[str], typer.Option(help="hermite or exudyn; repeatable.")] = ["hermite", "exudyn"],  # noqa: B006
-    kappa_over_nu: Annotated[list[float] | None, typer.Option(help="κ/ν; repeatable. Default: the thesis's Table 3.4.")] = None,
+    kappa_over_nu: Annotated[
+        list[float] | None, typer.Option(help="κ/ν; repeatable. Default: the thesis's Table 3.4.")
+    ] = None,
     first_order: Annotated[
         list[str] | None, typer.Option(metavar="A,P,C", help="α,ψ,χ of a first-order match; repeatable.")
     ] = None,
@@ -170,7 +177,8 @@ def match(
 
     Example: bentbeam match --kappa-over-nu 0.5 --first-order 4,0,0
     """
-    from comparison.matching import THESIS_KAPPAS, match as match_all, questions
+    from comparison.matching import THESIS_KAPPAS, questions
+    from comparison.matching import match as match_all
     from comparison.store import RunStore, default_store
     from comparison.tables import match_document, match_table, write_match
 
@@ -205,11 +213,15 @@ def study(
     from comparison.studies import STUDIES, run_study
 
     if name == "list":
-        _emit([{"name": n, "title": s.title} for n, s in STUDIES.items()], as_json,
-              lambda: "\n".join(f"{n:>16}  {s.title}" for n, s in STUDIES.items()))
+        _emit(
+            [{"name": n, "title": s.title} for n, s in STUDIES.items()],
+            as_json,
+            lambda: "\n".join(f"{n:>16}  {s.title}" for n, s in STUDIES.items()),
+        )
         return
     if name not in STUDIES:
         from bent_beam.parts import nearest
+
         raise InputError(f"study {name!r} is not known{nearest(name, STUDIES)}")
     if case is None:
         raise InputError("a case file is required: bentbeam study NAME CASE.toml")
@@ -221,7 +233,9 @@ def study(
 
 @app.command()
 def gallery(
-    ids: Annotated[list[str] | None, typer.Argument(help='Figures and tables by number, e.g. "fig-3.29". Default: all.')] = None,
+    ids: Annotated[
+        list[str] | None, typer.Argument(help='Figures and tables by number, e.g. "fig-3.29". Default: all.')
+    ] = None,
     list_only: Annotated[bool, typer.Option("--list", help="List what there is.")] = False,
     out: Annotated[Path, typer.Option(help="Folder to write into.")] = Path("gallery"),
     format: Annotated[list[str], typer.Option(help="png, pdf or svg; repeatable.")] = ["png"],  # noqa: B006
@@ -240,12 +254,17 @@ def gallery(
         _emit(entries, as_json, lambda: "\n".join(f"{e['id']:>10}  {e['title']}" for e in entries))
         return
     from bent_beam.parts import nearest
+
     for wanted in ids or ():
         if wanted not in ITEMS:
             raise InputError(f"gallery {wanted!r} is not known{nearest(wanted, ITEMS)}")
     with Console(quiet).progress("gallery") as bar:
         drawn, failures = draw_all(ids or list(ITEMS), out, formats=format, jobs=jobs, progress=bar.count)
-    _emit({"drawn": drawn, "failures": failures}, as_json, lambda: "\n".join(f"{d['id']:>10}  {d['files'][0]}" for d in drawn))
+    _emit(
+        {"drawn": drawn, "failures": failures},
+        as_json,
+        lambda: "\n".join(f"{d['id']:>10}  {d['files'][0]}" for d in drawn),
+    )
     if failures:
         for f in failures:
             print(f"error: {f['id']}: {f['reason']}", file=sys.stderr)
@@ -255,7 +274,9 @@ def gallery(
 @app.command()
 def report(
     out: Annotated[Path, typer.Option(help="Folder to write into.")] = Path("report"),
-    jobs: Annotated[int, typer.Option("--jobs", "-j", min=1, help="Processes on this machine.")] = max(1, os.cpu_count() or 1),
+    jobs: Annotated[int, typer.Option("--jobs", "-j", min=1, help="Processes on this machine.")] = max(
+        1, os.cpu_count() or 1
+    ),
     scheduler: Scheduler = None,
     fresh: Annotated[bool, typer.Option("--fresh", help="Do not use runs kept from before.")] = False,
     overwrite: Overwrite = False,

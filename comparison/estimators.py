@@ -1,14 +1,15 @@
 """λ₀, r₀, λ₁, r₁ from a history, with error bars.
 
 In the units of the fast layer one end of the contact carries F(τ) = √(2/π)(r₀ + εr₁τ)/√τ at λ_c = √τ(λ₀ + ελ₁τ), and
-the zone behind it a uniform reaction p. Forces are never filtered: impulses are fitted, whose noise does not accumulate,
+the zone behind it a uniform reaction p. Forces are never filtered: impulses are fitted, whose noise does not
+accumulate,
 
     I(τ) = ∫F dτ   = √(2/π) [2 r₀ τ^{1/2} + (2/3) ε r₁ τ^{3/2} + …]                             (one side)
     J(τ) = ∫F λ_c dτ = √(2/π) [r₀λ₀ τ + (r₀λ₁ + r₁λ₀) ετ²/2 + …]                                (its first moment)
 
 after what the uniform reaction adds, ∫pλ_c dτ and ∫pλ_c²/2 dτ, with p as measured well inside the zone, is taken out.
-First order: the same of the difference between a run at ε and one at ε = 0 on the same mesh and steps, so that what both share,
-the start above all, drops out.
+First order: the same of the difference between a run at ε and one at ε = 0 on the same mesh and steps, so that what
+both share, the start above all, drops out.
 """
 
 from __future__ import annotations
@@ -66,8 +67,8 @@ class FirstOrderEstimate:
 class Moments:
     """A history reduced to what the estimators need, in fast-layer units, each of shape (times,).
 
-    tau; impulse I(τ) and first moment J(τ) of one side's concentrated reaction; pressure p(τ), the uniform reaction; front λ_c(τ);
-    lift, the largest gap inside nine tenths of the contact zone over V₀t.
+    tau; impulse I(τ) and first moment J(τ) of one side's concentrated reaction; pressure p(τ), the uniform reaction;
+    front λ_c(τ); lift, the largest gap inside nine tenths of the contact zone over V₀t.
     """
 
     tau: Array
@@ -132,9 +133,15 @@ def moments(history: ImpactHistory, *, uniform: bool = False) -> Moments:
         total = np.cumsum(force - pressure * front * step) + total[0]
         moment = np.cumsum(torque - pressure * front**2 / 2.0 * step) + moment[0]
     unit = impact.mass_per_length * impact.length_scale * impact.velocity
+    # the centroid so far is the mean over an interval, that is of √t: carry it to the interval's end
+    before = np.sqrt(np.concatenate([time[:1], time[:-1]]))
+    front = front * np.sqrt(time) / np.where(time > 0.0, 0.5 * (np.sqrt(time) + before), 1.0)
     return Moments(
-        tau=time / impact.time_scale, impulse=total / unit, moment=moment / (unit * impact.length_scale),
-        pressure=pressure / (unit / impact.length_scale / impact.time_scale), front=front / impact.length_scale,
+        tau=time / impact.time_scale,
+        impulse=total / unit,
+        moment=moment / (unit * impact.length_scale),
+        pressure=pressure / (unit / impact.length_scale / impact.time_scale),
+        front=front / impact.length_scale,
         lift=_lift(history),
     )
 
@@ -239,8 +246,9 @@ def first_order(
 
     runs : (ε, moments taken with ``uniform=True``), ε of the asked-for (α, ψ, χ): the run's εα is ε·α and so on.
 
-    Each run gives polynomials in δ = ετ; all runs are fitted together, so ε → 0 is reached by the terms in δ², δ³. The error bar is
-    the spread over degrees, windows and single runs. Raises ``ValueError`` without runs or when saved times differ.
+    Each run gives polynomials in δ = ετ; all runs are fitted together, so ε → 0 is reached by the terms in δ², δ³. The
+    error bar is the spread over degrees, windows and single runs. Raises ``ValueError`` without runs or when saved
+    times differ.
     """
     if not runs:
         raise ValueError("runs must hold at least one run at ε > 0")
@@ -260,8 +268,12 @@ def first_order(
             offset = np.zeros((d.size, len(chosen)))
             offset[:, place] = 1.0
             wi, wj = d**-1.5, d**-2.0
-            blocks_i.append(np.column_stack([offset * wi[:, None], *((d ** (n + 0.5)) * wi for n in range(1, degree + 1))]))
-            blocks_j.append(np.column_stack([offset * wj[:, None], *((d ** (n + 1.0)) * wj for n in range(1, degree + 1))]))
+            blocks_i.append(
+                np.column_stack([offset * wi[:, None], *((d ** (n + 0.5)) * wi for n in range(1, degree + 1))])
+            )
+            blocks_j.append(
+                np.column_stack([offset * wj[:, None], *((d ** (n + 1.0)) * wj for n in range(1, degree + 1))])
+            )
             right_i.append(math.sqrt(epsilon) * impulse[inside] * wi)
             right_j.append(epsilon * moment[inside] * wj)
         ci = _lstsq(np.concatenate(blocks_i), np.concatenate(right_i))[len(chosen)]
@@ -271,19 +283,28 @@ def first_order(
 
     every = list(range(len(rows)))
     best = solve(every, 2, (window, 1.0))
-    variants = [best, solve(every, 3, (window, 1.0)), solve(every, 2, (window / 2.0, 1.0)), solve(every, 2, (2 * window, 1.2))]
+    variants = [
+        best,
+        solve(every, 3, (window, 1.0)),
+        solve(every, 2, (window / 2.0, 1.0)),
+        solve(every, 2, (2 * window, 1.2)),
+    ]
     if len(rows) > 1:
         variants += [solve([i], 2, (window, 1.0)) for i in every]
     tail = rows[-1][4]
     late = tail.tau >= tail.tau[-1] / window
     pressure = float(np.mean(tail.pressure[late])) / rows[-1][0]
-    # What the base leaves uncertain, 0.2 % for steps and mesh, and an uniform reaction that is not yet steady: taken out of the
-    # impulse wrongly by dp, it moves r₁ by dp λ₀/√(2/π), and λ₁ by about half of that times λ₀/r₀.
+    # What the base leaves uncertain, 0.2 % for steps and mesh, and an uniform reaction that is not yet steady: taken
+    # out of the impulse wrongly by dp, it moves r₁ by dp λ₀/√(2/π), and λ₁ by about half of that times λ₀/r₀.
     inherited = abs(best[0]) * leading.lambda0.error / r0 + abs(best[1]) * leading.r0.error / r0
     unsteady = float(np.std(tail.pressure[late])) / rows[-1][0] * lambda0 / SIDE
     return FirstOrderEstimate(
         lambda1=Estimate(
-            best[1], _spread([v[1] for v in variants]) + inherited + 0.5 * unsteady * lambda0 / r0 + FLOOR * max(abs(best[1]), 1.0)
+            best[1],
+            _spread([v[1] for v in variants])
+            + inherited
+            + 0.5 * unsteady * lambda0 / r0
+            + FLOOR * max(abs(best[1]), 1.0),
         ),
         r1=Estimate(best[0], _spread([v[0] for v in variants]) + unsteady + FLOOR * max(abs(best[0]), 1.0)),
         uniform_reaction=pressure,
@@ -301,6 +322,4 @@ def _lstsq(matrix: Array, right: Array) -> Array:
 
 def scaled_impact(base: Impact, epsilon: float, alpha: float, psi: float, chi: float) -> Impact:
     """``base`` (dimensionless, ν = 1) with (εα, εψ, εχ) = ε·(α, ψ, χ)."""
-    return base.replace(
-        acceleration=epsilon * alpha, fourth_derivative=epsilon * psi, curvature_rate=epsilon * chi
-    )
+    return base.replace(acceleration=epsilon * alpha, fourth_derivative=epsilon * psi, curvature_rate=epsilon * chi)

@@ -1,7 +1,8 @@
 """Both numerical paths held against the theory: leading order at one ε = 0 run, first order by ε → 0.
 
-A question is (path, κ/ν, α, ψ, χ) and nothing else: meshes, steps, ε and fitting windows are chosen from the problem. The
-Hermite path runs on its expanding mesh (an infinite beam), the Exudyn path on a fixed one, long enough for its time.
+A question is (path, κ/ν, α, ψ, χ) and nothing else: meshes, steps, ε and fitting windows are chosen from the problem.
+The Hermite path runs on its expanding mesh (an infinite beam), the Exudyn path on a fixed one, long enough for its
+time.
 """
 
 from __future__ import annotations
@@ -46,7 +47,9 @@ class Question:
 
 @dataclass(frozen=True)
 class MatchRow:
-    """One row of the matching table. ``…_error`` is the numerical estimate's error bar, ``None`` where it does not apply."""
+    """One row of the matching table. ``…_error`` is the numerical estimate's error bar, ``None`` where it does not
+    apply.
+    """
 
     path: str
     kappa_over_nu: float
@@ -100,9 +103,13 @@ def _simulate(path: str, impact: Impact, first: bool) -> ImpactHistory:
     if path == "hermite":
         from hermite_fe.expanding import ExpandingMesh, simulate_expanding
 
-        # First order: the load must have closed the last trace of lift long before the fit begins, hence the earlier start and
-        # the finer front; its steps may be longer, for nothing happens within one.
-        mesh = ExpandingMesh(front_resolution=0.003, interior_elements=100, step_ratio=0.04, decades=6.0) if first else ExpandingMesh()
+        # First order: the load must have closed the last trace of lift long before the fit begins, hence the earlier
+        # start and the finer front; its steps may be longer, for nothing happens within one.
+        mesh = (
+            ExpandingMesh(front_resolution=0.003, interior_elements=100, step_ratio=0.04, decades=6.0)
+            if first
+            else ExpandingMesh()
+        )
         return simulate_expanding(impact, mesh, end_time=DURATION * impact.time_scale, save=250)
     import exudyn_models
 
@@ -118,7 +125,8 @@ def _reduced(store: RunStore, path: str, impact: Impact, *, first: bool) -> tupl
         found = moments(history, uniform=loaded)
         return {
             "moments": {name: values.tolist() for name, values in vars(found).items()},
-            "warnings": history.warnings, "seconds": history.seconds,
+            "warnings": history.warnings,
+            "seconds": history.seconds,
         }
 
     kept = store.answer({"path": path, "impact": asdict(impact), "first": first, "duration": DURATION}, compute)
@@ -129,8 +137,8 @@ def _reduced(store: RunStore, path: str, impact: Impact, *, first: bool) -> tupl
 def first_order_epsilon(path: str, leading: LeadingEstimate, first: tuple[float, float, float]) -> float:
     """ε whose free motion changes by a small part of V₀t over the contact zone at the end of the run.
 
-    ετ(|α|/2 + |χ|z²/2 + |ψ|z⁴/24) at z = the zone measured at ε = 0 and half the front's thickness: 3 % on the Hermite path,
-    whose noise is far below that, 6 % on the Exudyn path.
+    ετ(|α|/2 + |χ|z²/2 + |ψ|z⁴/24) at z = the zone measured at ε = 0 and half the front's thickness: 3 % on the Hermite
+    path, whose noise is far below that, 6 % on the Exudyn path.
     """
     front = leading.lambda0.value
     z = front + 1.0 / math.sqrt(1.0 + front**2)
@@ -166,16 +174,28 @@ def answer(question: Question, store: RunStore) -> MatchRow:
     if estimate is not None and estimate.r1.error > 0.1 * max(abs(estimate.r1.value), 1.0):
         warnings.append(f"wide error bar: r1 = {estimate.r1}")
     return MatchRow(
-        path=path, kappa_over_nu=kappa, alpha=alpha, psi=psi, chi=chi, regime=str(exact.regime),
-        lambda0=leading.lambda0.value, lambda0_error=leading.lambda0.error, lambda0_theory=float(exact.lambda0),
-        r0=leading.r0.value, r0_error=leading.r0.error, r0_theory=float(exact.r0),
+        path=path,
+        kappa_over_nu=kappa,
+        alpha=alpha,
+        psi=psi,
+        chi=chi,
+        regime=str(exact.regime),
+        lambda0=leading.lambda0.value,
+        lambda0_error=leading.lambda0.error,
+        lambda0_theory=float(exact.lambda0),
+        r0=leading.r0.value,
+        r0_error=leading.r0.error,
+        r0_theory=float(exact.r0),
         lambda1=estimate.lambda1.value if estimate else None,
         lambda1_error=estimate.lambda1.error if estimate else None,
         lambda1_theory=float(exact.lambda1) if first else None,
-        r1=estimate.r1.value if estimate else None, r1_error=estimate.r1.error if estimate else None,
+        r1=estimate.r1.value if estimate else None,
+        r1_error=estimate.r1.error if estimate else None,
         r1_theory=float(exact.r1) if first else None,
-        flatness=leading.flatness, seconds=seconds,
-        epsilons=list(estimate.epsilons) if estimate else [], warnings=sorted(set(warnings)),
+        flatness=leading.flatness,
+        seconds=seconds,
+        epsilons=list(estimate.epsilons) if estimate else [],
+        warnings=sorted(set(warnings)),
     )
 
 
@@ -192,7 +212,10 @@ def _attempt(question: Question, folder: str | None) -> MatchRow | MatchFailure:
 def failure(question: Question, reason: str) -> MatchFailure:
     first = "" if question.first is None else f" --first-order {','.join(f'{v:g}' for v in question.first)}"
     return MatchFailure(
-        question.path, question.kappa_over_nu, question.first, reason,
+        question.path,
+        question.kappa_over_nu,
+        question.first,
+        reason,
         f"bentbeam match --path {question.path} --kappa-over-nu {question.kappa_over_nu!r}{first}",
     )
 
@@ -214,7 +237,11 @@ def match(
     store = store or RunStore(None)
     folder = None if store.folder is None else str(store.folder)
     outcomes = run_all(
-        _attempt, [(question, folder) for question in asked], jobs=jobs, scheduler=scheduler, progress=progress,
+        _attempt,
+        [(question, folder) for question in asked],
+        jobs=jobs,
+        scheduler=scheduler,
+        progress=progress,
         on_death=lambda i, why: failure(asked[i], why),
     )
     rows = [o for o in outcomes if isinstance(o, MatchRow)]

@@ -22,7 +22,8 @@ def simulate_case(
 ) -> ImpactHistory:
     """Run a case on one path with the parts that its file sets; what it leaves out is chosen from the problem.
 
-    Raises ``ValueError`` for parts that the path does not know, :class:`bent_beam.SimulationError` when it cannot finish.
+    Raises ``ValueError`` for parts that the path does not know, :class:`bent_beam.SimulationError` when it cannot
+    finish.
     """
     one_of("path", path, PATHS)
     if path == "hermite":
@@ -30,15 +31,25 @@ def simulate_case(
 
         parts = parts_from_table(hermite_fe.REGISTRIES, _parts(case.hermite), "hermite")
         return hermite_fe.simulate(
-            case.impact, end_time=case.end_time, mesh=case.mesh, save=save, progress=progress,
-            **_flags(case.hermite, "hermite"), **parts,
+            case.impact,
+            end_time=case.end_time,
+            mesh=case.mesh,
+            save=save,
+            progress=progress,
+            **_flags(case.hermite, "hermite"),
+            **parts,
         )
     import exudyn_models
 
     parts = parts_from_table(exudyn_models.REGISTRIES, _parts(case.exudyn), "exudyn")
     return exudyn_models.simulate(
-        case.impact, end_time=case.end_time, mesh=case.mesh, save=save, progress=progress,
-        **_flags(case.exudyn, "exudyn"), **parts,
+        case.impact,
+        end_time=case.end_time,
+        mesh=case.mesh,
+        save=save,
+        progress=progress,
+        **_flags(case.exudyn, "exudyn"),
+        **parts,
     )
 
 
@@ -49,7 +60,7 @@ def _parts(table: dict[str, Any]) -> dict[str, Any]:
     return {key: value for key, value in table.items() if key not in FLAGS}
 
 
-def _flags(table: dict[str, Any], where: str) -> dict[str, bool]:
+def _flags(table: dict[str, Any], where: str) -> dict[str, Any]:
     found = {key: table[key] for key in FLAGS if key in table}
     for key, value in found.items():
         if not isinstance(value, bool):
@@ -78,7 +89,10 @@ def summary(history: ImpactHistory, file: Path | None = None) -> dict[str, Any]:
         "largest_gap_in_contact_zone": float(found.lift[-1]) * impact.velocity * end,
         "flatness": float(found.lift[-1]),
         "energy": history.energy_budget(),
-        "lambda0": None, "lambda0_error": None, "r0": None, "r0_error": None,
+        "lambda0": None,
+        "lambda0_error": None,
+        "r0": None,
+        "r0_error": None,
         "warnings": history.warnings,
         "file": None if file is None else str(file),
     }
@@ -89,16 +103,22 @@ def summary(history: ImpactHistory, file: Path | None = None) -> dict[str, Any]:
             pass
         else:
             result.update(
-                lambda0=leading.lambda0.value, lambda0_error=leading.lambda0.error,
-                r0=leading.r0.value, r0_error=leading.r0.error,
+                lambda0=leading.lambda0.value,
+                lambda0_error=leading.lambda0.error,
+                r0=leading.r0.value,
+                r0_error=leading.r0.error,
             )
     result["theory"] = None
     if impact.curvature > 0.0:
         prediction = predict(impact, [end])
         at = prediction.times[0]
         result["theory"] = {
-            "regime": prediction.regime, "lambda0": prediction.lambda0, "r0": prediction.r0,
-            "half_contact_length": at.half_contact_length, "total_impulse": at.impulse, "valid": at.valid,
+            "regime": prediction.regime,
+            "lambda0": prediction.lambda0,
+            "r0": prediction.r0,
+            "half_contact_length": at.half_contact_length,
+            "total_impulse": at.impulse,
+            "valid": at.valid,
         }
     return finite_or_null(result)
 

@@ -1,7 +1,7 @@
 """Finished runs, kept under a key of what was asked and with which versions: a killed sweep resumes where it was.
 
-One JSON file a run, written beside its place and renamed into it, with a checksum inside: a file that is torn, edited or
-from other versions is never read as good.
+One JSON file a run, written beside its place and renamed into it, with a checksum inside: a file that is torn, edited
+or from other versions is never read as good.
 """
 
 from __future__ import annotations

@@ -33,18 +33,39 @@ def match_document(rows: Sequence[MatchRow], failures: Sequence[MatchFailure]) -
 
 def match_table(rows: Sequence[MatchRow], failures: Sequence[MatchFailure] = ()) -> str:
     """A plain text table: value ± error bar, and the difference from theory in per cent."""
-    head = ["path", "kappa/nu", "alpha,psi,chi", "lambda0", "%", "r0", "%", "lambda1", "%", "r1", "%", "lift/(V0 t)", "s"]
+    head = [
+        "path",
+        "kappa/nu",
+        "alpha,psi,chi",
+        "lambda0",
+        "%",
+        "r0",
+        "%",
+        "lambda1",
+        "%",
+        "r1",
+        "%",
+        "lift/(V0 t)",
+        "s",
+    ]
     body = []
     for r in rows:
         first = r.lambda1 is not None
-        body.append([
-            r.path, f"{r.kappa_over_nu:.6g}", f"{r.alpha:g},{r.psi:g},{r.chi:g}" if first else "-",
-            f"{r.lambda0:.6g}±{r.lambda0_error:.0e}", f"{100 * leading_error(r.lambda0, r.lambda0_theory):+.3f}",
-            f"{r.r0:.6g}±{r.r0_error:.0e}", f"{100 * leading_error(r.r0, r.r0_theory):+.3f}",
-            *_first_cells(r.lambda1, r.lambda1_error, r.lambda1_theory),
-            *_first_cells(r.r1, r.r1_error, r.r1_theory),
-            f"{r.flatness:.0e}", f"{r.seconds:.1f}",
-        ])
+        body.append(
+            [
+                r.path,
+                f"{r.kappa_over_nu:.6g}",
+                f"{r.alpha:g},{r.psi:g},{r.chi:g}" if first else "-",
+                f"{r.lambda0:.6g}±{r.lambda0_error:.0e}",
+                f"{100 * leading_error(r.lambda0, r.lambda0_theory):+.3f}",
+                f"{r.r0:.6g}±{r.r0_error:.0e}",
+                f"{100 * leading_error(r.r0, r.r0_theory):+.3f}",
+                *_first_cells(r.lambda1, r.lambda1_error, r.lambda1_theory),
+                *_first_cells(r.r1, r.r1_error, r.r1_theory),
+                f"{r.flatness:.0e}",
+                f"{r.seconds:.1f}",
+            ]
+        )
     widths = [max(len(row[i]) for row in [head, *body]) for i in range(len(head))]
     lines = ["  ".join(cell.rjust(w) for cell, w in zip(row, widths)) for row in [head, *body]]
     lines.insert(1, "  ".join("-" * w for w in widths))
@@ -76,10 +97,14 @@ def run_table(found: dict[str, Any]) -> str:
         line("largest gap inside the zone", "m", found["largest_gap_in_contact_zone"]),
     ]
     if found["lambda0"] is not None:
-        lines.append(f"{'lambda0':>30}  {found['lambda0']:.6g} ± {found['lambda0_error']:.1g}"
-                     + (f"   (theory {exact['lambda0']:.6g})" if exact else ""))
-        lines.append(f"{'r0':>30}  {found['r0']:.6g} ± {found['r0_error']:.1g}"
-                     + (f"   (theory {exact['r0']:.6g})" if exact else ""))
+        lines.append(
+            f"{'lambda0':>30}  {found['lambda0']:.6g} ± {found['lambda0_error']:.1g}"
+            + (f"   (theory {exact['lambda0']:.6g})" if exact else "")
+        )
+        lines.append(
+            f"{'r0':>30}  {found['r0']:.6g} ± {found['r0_error']:.1g}"
+            + (f"   (theory {exact['r0']:.6g})" if exact else "")
+        )
     lines += [line(name.replace("_", " "), "J", value) for name, value in energy.items()]
     lines += [f"warning: {w}" for w in found["warnings"]]
     if found["file"]:

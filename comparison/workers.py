@@ -40,8 +40,11 @@ def run_all(
 
 
 def _on_cores(
-    function: Callable[..., Any], arguments: Sequence[tuple[Any, ...]], jobs: int,
-    progress: Callable[[int, int], None] | None, on_death: Callable[[int, str], Any],
+    function: Callable[..., Any],
+    arguments: Sequence[tuple[Any, ...]],
+    jobs: int,
+    progress: Callable[[int, int], None] | None,
+    on_death: Callable[[int, str], Any],
 ) -> list[Any]:
     results: dict[int, Any] = {}
     waiting = list(range(len(arguments)))
@@ -78,8 +81,11 @@ def _on_cores(
 
 
 def _on_cluster(
-    function: Callable[..., Any], arguments: Sequence[tuple[Any, ...]], scheduler: str,
-    progress: Callable[[int, int], None] | None, on_death: Callable[[int, str], Any],
+    function: Callable[..., Any],
+    arguments: Sequence[tuple[Any, ...]],
+    scheduler: str,
+    progress: Callable[[int, int], None] | None,
+    on_death: Callable[[int, str], Any],
 ) -> list[Any]:
     try:
         from distributed import Client

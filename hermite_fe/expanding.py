@@ -1,7 +1,7 @@
 """The impact of an infinite beam on a mesh that expands with √t: the front stands still in it.
 
-The leading order has no scale of its own, so elements are laid in ζ = ξ/√τ and move with ξ = ζ√τ. In the units of the fast
-layer (l*, t*, V₀t*) and with s = ln τ, w = τ W(ζ, s) and D = ∂_s − (ζ/2)∂_ζ along a moving node,
+The leading order has no scale of its own, so elements are laid in ζ = ξ/√τ and move with ξ = ζ√τ. In the units of the
+fast layer (l*, t*, V₀t*) and with s = ln τ, w = τ W(ζ, s) and D = ∂_s − (ζ/2)∂_ζ along a moving node,
 
     w_ττ + w_ξξξξ = load − r̃      becomes      D(D + 1) W + W_ζζζζ = τ (load − r̃)
 
@@ -12,16 +12,17 @@ with coefficients free of time. Only the fast part η = w₀ − w is unknown (t
 enters as an obstacle alone, 0 ≤ ρ ⊥ η − W₀ ≥ 0 at the nodes, so no load, no curvature and no end of the beam
 are modelled and the far field starts from rest.
 
-Why it is quiet where fixed meshes are noisy (docs/numerics.md): no node is captured while the front keeps its λ₀, each decade of
-time is resolved like the last, and waves that leave are carried outward for good by dξ/dτ of the nodes and absorbed
-by a ramp of viscous damping σ(ζ)(D + 1)η before the mesh stops resolving them.
+Why it is quiet where fixed meshes are noisy (docs/numerics.md): no node is captured while the front keeps its λ₀, each
+decade of time is resolved like the last, and waves that leave are carried outward for good by dξ/dτ of the nodes and
+absorbed by a ramp of viscous damping σ(ζ)(D + 1)η before the mesh stops resolving them.
 
-Time: implicit Euler in τ with steps in proportion to τ. It is exact for W = const (leading order) and for W = τ·const (first order),
-since both are linear functions of time for a moving node. Contact: Signorini at the new position, active set.
+Time: implicit Euler in τ with steps in proportion to τ. It is exact for W = const (leading order) and for W = τ·const
+(first order), since both are linear functions of time for a moving node. Contact: Signorini at the new position, active
+set.
 
-Start: the mechanics before the first instant is the same at a smaller scale. The first state is therefore the self-similar one with
-the nodes behind the front held; the front's node is found by bisection (held as far as it is pushed). From there on
-every node is free to leave. Nothing is taken from ``theory/``.
+Start: the mechanics before the first instant is the same at a smaller scale. The first state is therefore the
+self-similar one with the nodes behind the front held; the front's node is found by bisection (held as far as it is
+pushed). From there on every node is free to leave. Nothing is taken from ``theory/``.
 """
 
 from __future__ import annotations
@@ -141,8 +142,12 @@ def _operators(zeta: Array, sigma: Callable[[Array], Array]) -> _Operators:
         dl = (weight * length)[:, None, None]
         absorbed = sigma(place)[:, :, None]
         for key, left, right, factor in (
-            ("m", shape, shape, 1.0), ("g", shape, advected, 1.0), ("s", tested, advected, 1.0),
-            ("k", bend, bend, 1.0), ("ms", shape, shape, absorbed), ("gs", shape, advected, absorbed),
+            ("m", shape, shape, 1.0),
+            ("g", shape, advected, 1.0),
+            ("s", tested, advected, 1.0),
+            ("k", bend, bend, 1.0),
+            ("ms", shape, shape, absorbed),
+            ("gs", shape, advected, absorbed),
         ):
             parts[key] += dl * factor * left[:, :, None] * right[:, None, :]
     dofs = 2 * np.arange(n - 1)[:, None] + np.arange(4)
@@ -295,8 +300,11 @@ def similarity(kappa_over_nu: float, mesh: ExpandingMesh) -> Similarity:
     """The held start on a mesh laid around the front that coarser starts located; κ/ν ≥ 1 contacts at 0 alone."""
     front = 0.0 if kappa_over_nu >= 1.0 else math.sqrt(2.0 / kappa_over_nu)  # free beam's reach: 1 = κζ²/2
     coarse = ExpandingMesh(
-        front_resolution=max(0.05, mesh.front_resolution), growth=max(0.05, mesh.growth), interior_elements=40,
-        absorber_start=mesh.absorber_start, absorber_length=mesh.absorber_length,
+        front_resolution=max(0.05, mesh.front_resolution),
+        growth=max(0.05, mesh.growth),
+        interior_elements=40,
+        absorber_start=mesh.absorber_start,
+        absorber_length=mesh.absorber_length,
         absorber_strength=mesh.absorber_strength,
     )
     for _ in range(40 if front > 0.0 else 0):
@@ -328,9 +336,9 @@ def simulate_expanding(
     save : number of saved instants (logarithmic over the last three decades, whole steps), at least 2.
 
     The history's energies are those of the fast part z = y₀ − y (an infinite beam has no finite energy of its own):
-    ``work_of_loads`` is the work V₀∫R dt (+ first-order terms) that the wall does on it, ``loss_artificial`` what the absorber took.
-    Raises :class:`bent_beam.SimulationError` when the active set does not settle, the front leaves the fine mesh, or a
-    number is no longer finite; ``ValueError`` for a flat beam (K = 0).
+    ``work_of_loads`` is the work V₀∫R dt (+ first-order terms) that the wall does on it, ``loss_artificial`` what the
+    absorber took. Raises :class:`bent_beam.SimulationError` when the active set does not settle, the front leaves the
+    fine mesh, or a number is no longer finite; ``ValueError`` for a flat beam (K = 0).
     """
     positive("end_time", end_time)
     if impact.kappa_over_nu == 0.0:
@@ -347,8 +355,11 @@ def simulate_expanding(
     history = run.history(mesh, clock.perf_counter() - began, failure is None) if len(run.records) > 1 else None
     if failure is not None or history is None:
         raise SimulationError(
-            str(failure), time=run.tau * impact.time_scale, step=run.steps,
-            advice="a smaller mesh.step_ratio, a larger mesh.front_resolution, or an earlier end time", history=history,
+            str(failure),
+            time=run.tau * impact.time_scale,
+            step=run.steps,
+            advice="a smaller mesh.step_ratio, a larger mesh.front_resolution, or an earlier end time",
+            history=history,
         )
     return history
 
@@ -357,7 +368,7 @@ class _Run:
     """Time loop of one run in the units of the fast layer, and its record."""
 
     def __init__(self, impact: Impact, mesh: ExpandingMesh, end_time: float, saves: int) -> None:
-        self.impact = impact
+        self.impact, self.end_time, self.saves = impact, end_time, saves
         self.state = similarity(impact.kappa_over_nu, mesh)
         zeta = self.state.zeta
         self.front = self.state.front
@@ -378,7 +389,8 @@ class _Run:
         self.steps = 0
         self.iterations = 0
         reaction = float(self.state.reaction.sum())
-        # Before the first instant all was the same at a smaller scale: R ~ τ^−1/2, so ∫R = 2Rτ; centroid and energies alike.
+        # Before the first instant all was the same at a smaller scale: R ~ τ^−1/2, so ∫R = 2Rτ; centroid and energies
+        # alike.
         root = math.sqrt(self.tau)
         self.impulse = self.state.reaction * 2.0 * root
         self.moment = reaction * self.front * self.tau
@@ -448,25 +460,27 @@ class _Run:
             self.impact.epsilon_chi * state.zeta + self.impact.epsilon_psi * state.zeta**3 / 6.0
         )
         zone = state.zeta <= 0.9 * state.front
-        self.records.append({
-            "time": tau,
-            "position": state.zeta * root,
-            "gap": -tau * (obstacle - eta[0::2]),
-            "velocity": self.rate_of_obstacle(tau) - velocity[0::2],
-            "slope": root * (slope_free - eta[1::2]),
-            "impulse": self.impulse.copy(),
-            "in_contact": state.active.copy(),
-            "total_impulse": 2.0 * float(self.impulse.sum()),
-            "impulse_moment": self.moment,
-            "kinetic_energy": 2.0 * kinetic,
-            "strain_energy": 2.0 * self._strain() * root,
-            "work_of_loads": 2.0 * self.work,
-            "loss_artificial": 2.0 * self.absorbed,
-            "smallest_gap": float(np.min(-tau * (obstacle - eta[0::2])[self.near])),
-            "smallest_reaction": float(state.reaction.min()) / root,
-            "complementarity_product": float(np.abs(state.reaction * (eta[0::2] - obstacle)).max()) * root,
-            "lift": float(np.max(-tau * (obstacle - eta[0::2])[zone], initial=0.0)),
-        })
+        self.records.append(
+            {
+                "time": tau,
+                "position": state.zeta * root,
+                "gap": -tau * (obstacle - eta[0::2]),
+                "velocity": self.rate_of_obstacle(tau) - velocity[0::2],
+                "slope": root * (slope_free - eta[1::2]),
+                "impulse": self.impulse.copy(),
+                "in_contact": state.active.copy(),
+                "total_impulse": 2.0 * float(self.impulse.sum()),
+                "impulse_moment": self.moment,
+                "kinetic_energy": 2.0 * kinetic,
+                "strain_energy": 2.0 * self._strain() * root,
+                "work_of_loads": 2.0 * self.work,
+                "loss_artificial": 2.0 * self.absorbed,
+                "smallest_gap": float(np.min(-tau * (obstacle - eta[0::2])[self.near])),
+                "smallest_reaction": float(state.reaction.min()) / root,
+                "complementarity_product": float(np.abs(state.reaction * (eta[0::2] - obstacle)).max()) * root,
+                "lift": float(np.max(-tau * (obstacle - eta[0::2])[zone], initial=0.0)),
+            }
+        )
 
     def _strain(self) -> float:
         """½∫η_ζζ² dζ."""
@@ -508,15 +522,28 @@ class _Run:
         fields["loss_integration"] = (("time",), balance)  # what implicit Euler and the moving mesh took
         final = fields["position"][1][-1]
         return ImpactHistory.build(
-            impact=p, path="hermite", symmetry="half",
+            impact=p,
+            path="hermite",
+            symmetry="half",
             settings={
-                "mesh": describe(mesh), "end_time": self.end * p.time_scale, "integrator": "implicit Euler, steps ∝ time",
-                "contact": "node, Signorini at position level", "nodes": int(self.state.zeta.size),
+                "mesh": describe(mesh),
+                "end_time": self.end_time,
+                "save": self.saves,
+                "integrator": "implicit Euler, steps ∝ time",
+                "contact": "node, Signorini at position level",
+                "nodes": int(self.state.zeta.size),
                 "iterations": self.iterations,
-                "gap_tolerance": self.state.gap_tolerance, "energies": "of the fast part z = y0 - y",
+                "gap_tolerance": self.state.gap_tolerance,
+                "energies": "of the fast part z = y0 - y",
             },
-            time=column["time"] * p.time_scale, x=final, contact_x=final, fields=fields,
-            warnings=self.warnings(), steps=self.steps, seconds=seconds, completed=completed,
+            time=column["time"] * p.time_scale,
+            x=final,
+            contact_x=final,
+            fields=fields,
+            warnings=self.warnings(),
+            steps=self.steps,
+            seconds=seconds,
+            completed=completed,
         )
 
     def warnings(self) -> list[str]:

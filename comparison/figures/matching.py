@@ -1,4 +1,6 @@
-"""The matching plots: numerical λ₀, r₀ on the theory's curves (thesis Figs 3.29, 3.30), and λ₁, r₁ (Figs 2.12, 2.16 with points)."""
+"""The matching plots: numerical λ₀, r₀ on the theory's curves (thesis Figs 3.29, 3.30), and λ₁, r₁ (Figs 2.12, 2.16
+with points).
+"""
 
 from __future__ import annotations
 
@@ -22,7 +24,9 @@ def draw_matching(rows: Sequence[MatchRow], out: Path, formats: Sequence[str] = 
     return files
 
 
-def draw_leading(rows: Sequence[MatchRow], out: Path, formats: Sequence[str] = ("png",), name: str = "leading") -> list[Path]:
+def draw_leading(
+    rows: Sequence[MatchRow], out: Path, formats: Sequence[str] = ("png",), name: str = "leading"
+) -> list[Path]:
     """λ₀ and r₀ over κ/ν, theory's curve and numerical points, and the relative differences below."""
     leading = list({(r.path, r.kappa_over_nu): r for r in rows}.values())
     ratios = np.array([r.kappa_over_nu for r in leading])
@@ -44,7 +48,9 @@ def draw_leading(rows: Sequence[MatchRow], out: Path, formats: Sequence[str] = (
                 e = np.array([getattr(r, f"{what}_error") for r in mine])
                 t = np.array([getattr(r, f"{what}_theory") for r in mine])
                 top.plot(x, y, **marker)
-                below.errorbar(x, 100 * (y / t - 1), yerr=100 * e / t, elinewidth=0.8, capsize=2, **{**marker, "label": None})
+                below.errorbar(
+                    x, 100 * (y / t - 1), yerr=100 * e / t, elinewidth=0.8, capsize=2, **{**marker, "label": None}
+                )
             top.set_ylabel(f"{symbol}  (1)")
             below.set_ylabel("difference  (%)")
             below.set_yscale("symlog", linthresh=1e-3)
@@ -76,8 +82,11 @@ def draw_first_order(
                     points = [r for r in mine if r.path == path]
                     if points:
                         axis.errorbar(
-                            [r.kappa_over_nu for r in points], [getattr(r, what) for r in points],
-                            yerr=[getattr(r, f"{what}_error") for r in points], elinewidth=0.8, capsize=2,
+                            [r.kappa_over_nu for r in points],
+                            [getattr(r, what) for r in points],
+                            yerr=[getattr(r, f"{what}_error") for r in points],
+                            elinewidth=0.8,
+                            capsize=2,
                             **{**marker, "color": colour, "label": None},
                         )
                         largest = max(largest, *(abs(getattr(r, what)) for r in points))

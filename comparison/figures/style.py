@@ -1,4 +1,5 @@
-"""The one style of all figures: theory is always the black line, Hermite always blue circles, Exudyn always orange squares.
+"""The one style of all figures: theory is always the black line, Hermite always blue circles, Exudyn always orange
+squares.
 
 Colours are those of Okabe and Ito (2008), told apart by the colour-blind; sizes are those of a journal column.
 """
@@ -20,37 +21,88 @@ from matplotlib.figure import Figure
 
 from comparison.store import write_atomically
 
-__all__ = ["COLOURS", "COLUMN", "EXUDYN", "FORMATS", "HERMITE", "OLD", "PAGE", "SEQUENCE", "THEORY", "WALL", "figure", "save"]
+__all__ = [
+    "COLOURS",
+    "COLUMN",
+    "EXUDYN",
+    "FORMATS",
+    "HERMITE",
+    "OLD",
+    "PAGE",
+    "SEQUENCE",
+    "THEORY",
+    "WALL",
+    "figure",
+    "save",
+]
 
 COLUMN = 3.4  # width of one column, inches
 PAGE = 7.0  # width of both
 FORMATS = ("png", "pdf", "svg")
 
 COLOURS = {
-    "black": "#000000", "orange": "#E69F00", "sky": "#56B4E9", "green": "#009E73", "yellow": "#F0E442", "blue": "#0072B2",
-    "vermilion": "#D55E00", "purple": "#CC79A7", "grey": "#777777",
+    "black": "#000000",
+    "orange": "#E69F00",
+    "sky": "#56B4E9",
+    "green": "#009E73",
+    "yellow": "#F0E442",
+    "blue": "#0072B2",
+    "vermilion": "#D55E00",
+    "purple": "#CC79A7",
+    "grey": "#777777",
 }
 SEQUENCE = [COLOURS[c] for c in ("blue", "vermilion", "green", "purple", "sky", "orange", "grey")]
 
 THEORY: dict[str, Any] = {"color": COLOURS["black"], "lw": 1.2, "ls": "-", "marker": "", "label": "theory"}
 HERMITE: dict[str, Any] = {
-    "color": COLOURS["blue"], "ls": "", "marker": "o", "ms": 4.5, "mfc": "none", "mew": 1.0, "label": "Hermite"
+    "color": COLOURS["blue"],
+    "ls": "",
+    "marker": "o",
+    "ms": 4.5,
+    "mfc": "none",
+    "mew": 1.0,
+    "label": "Hermite",
 }
 EXUDYN: dict[str, Any] = {
-    "color": COLOURS["vermilion"], "ls": "", "marker": "s", "ms": 3.5, "mfc": "none", "mew": 1.0, "label": "Exudyn"
+    "color": COLOURS["vermilion"],
+    "ls": "",
+    "marker": "s",
+    "ms": 3.5,
+    "mfc": "none",
+    "mew": 1.0,
+    "label": "Exudyn",
 }
 OLD: dict[str, Any] = {"color": COLOURS["grey"], "lw": 0.8, "ls": "--", "marker": "", "label": "thesis's settings"}
 WALL: dict[str, Any] = {"color": COLOURS["grey"], "lw": 0.8, "ls": ":", "label": "wall"}
 MARKERS = {"hermite": HERMITE, "exudyn": EXUDYN}
 
-RC = {
-    "font.family": "DejaVu Sans", "font.size": 8.0, "mathtext.fontset": "dejavusans", "axes.labelsize": 8.5,
-    "axes.titlesize": 8.5, "legend.fontsize": 7.5, "xtick.labelsize": 7.5, "ytick.labelsize": 7.5,
-    "axes.linewidth": 0.7, "axes.spines.top": False, "axes.spines.right": False, "axes.grid": True,
-    "grid.color": "#DDDDDD", "grid.linewidth": 0.5, "axes.axisbelow": True, "legend.frameon": False,
-    "lines.linewidth": 1.1, "xtick.direction": "out", "ytick.direction": "out", "figure.dpi": 150,
-    "savefig.dpi": 200, "axes.prop_cycle": matplotlib.cycler(color=SEQUENCE), "figure.constrained_layout.use": True,
-    "svg.hashsalt": "bent-beam-impact", "svg.fonttype": "none", "pdf.fonttype": 42,
+RC: Any = {
+    "font.family": "DejaVu Sans",
+    "font.size": 8.0,
+    "mathtext.fontset": "dejavusans",
+    "axes.labelsize": 8.5,
+    "axes.titlesize": 8.5,
+    "legend.fontsize": 7.5,
+    "xtick.labelsize": 7.5,
+    "ytick.labelsize": 7.5,
+    "axes.linewidth": 0.7,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.grid": True,
+    "grid.color": "#DDDDDD",
+    "grid.linewidth": 0.5,
+    "axes.axisbelow": True,
+    "legend.frameon": False,
+    "lines.linewidth": 1.1,
+    "xtick.direction": "out",
+    "ytick.direction": "out",
+    "figure.dpi": 150,
+    "savefig.dpi": 200,
+    "axes.prop_cycle": plt.cycler(color=SEQUENCE),
+    "figure.constrained_layout.use": True,
+    "svg.hashsalt": "bent-beam-impact",
+    "svg.fonttype": "none",
+    "pdf.fonttype": 42,
 }
 
 
@@ -75,7 +127,9 @@ def save(fig: Figure, out: Path, name: str, formats: Sequence[str] = ("png",)) -
         if kind not in FORMATS:
             raise ValueError(f"format must be one of {', '.join(FORMATS)} (got {kind!r})")
         stream = BytesIO()
-        metadata: dict[str, Any] = {"png": {"Software": None}, "pdf": {"CreationDate": None}, "svg": {"Date": None}}[kind]
+        metadata: dict[str, Any] = {"png": {"Software": None}, "pdf": {"CreationDate": None}, "svg": {"Date": None}}[
+            kind
+        ]
         fig.savefig(stream, format=kind, metadata=metadata)
         files.append(out / f"{name}.{kind}")
         write_atomically(files[-1], stream.getvalue())

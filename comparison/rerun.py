@@ -1,0 +1,91 @@
+"""A stored history run again from its own record: case, settings and versions suffice."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from bent_beam import meshes
+from bent_beam.history import ImpactHistory, versions
+from bent_beam.parts import InputError
+
+__all__ = ["rerun_history"]
+
+
+def _rebuild(described: Any, known: Mapping[str, type], where: str) -> Any:
+    """The part that :func:`bent_beam.parts.describe` described; nested parts too. Only known classes are ever made."""
+    if described is None:
+        return None
+    if not isinstance(described, Mapping) or described.get("kind") not in known:
+        raise InputError(f"history's {where} cannot be made again (got {described!r:.80})")
+    part = known[described["kind"]]
+    values = {}
+    for field in dataclasses.fields(part):
+        if field.name in described and field.init:
+            value = described[field.name]
+            if isinstance(value, Mapping) and "kind" in value:
+                value = _rebuild(value, known, f"{where}.{field.name}")
+            values[field.name] = tuple(value) if isinstance(value, list) else value
+    return part(**values)
+
+
+def rerun_history(
+    old: ImpactHistory, out: Path | None = None, progress: Callable[[float], None] | None = None
+) -> dict[str, Any]:
+    """Simulate ``old``'s case with its settings and compare: ``identical`` (bit for bit), ``largest_difference``
+    (relative, per variable) and versions that differ. Keeps the new history in ``out``."""
+    new = _run(old, progress)
+    if out is not None:
+        new.save(out)
+    differences: dict[str, float | None] = {}
+    for name in sorted({str(v) for v in (*old.dataset.data_vars, *new.dataset.data_vars)}):
+        if name not in old.dataset or name not in new.dataset or old.dataset[name].shape != new.dataset[name].shape:
+            differences[name] = None
+            continue
+        a, b = old.array(name), new.array(name)
+        if not np.array_equal(a, b):
+            scale = float(np.abs(a).max()) or 1.0
+            differences[name] = float(np.abs(a.astype(float) - b.astype(float)).max()) / scale
+    now = versions()
+    return {
+        "identical": not differences,
+        "largest_difference": differences,
+        "versions_changed": {k: [v, now.get(k)] for k, v in old.versions.items() if now.get(k) != v},
+        "file": None if out is None else str(out),
+    }
+
+
+def _run(old: ImpactHistory, progress: Callable[[float], None] | None) -> ImpactHistory:
+    settings = old.settings
+    known: dict[str, type] = {cls.__name__: cls for cls in meshes.MESHES.values()}
+    save = settings.get("save", old.time.size)
+    if isinstance(save, list):
+        save = np.asarray(save, float)
+    common: dict[str, Any] = {"end_time": float(settings["end_time"]), "save": save, "progress": progress}
+    if old.path == "hermite":
+        import hermite_fe
+        from hermite_fe.expanding import ExpandingMesh
+
+        known[ExpandingMesh.__name__] = ExpandingMesh
+        for registry in hermite_fe.REGISTRIES.values():
+            known.update({cls.__name__: cls for cls in registry.values()})
+        mesh = _rebuild(settings["mesh"], known, "mesh")
+        if isinstance(mesh, ExpandingMesh):
+            return hermite_fe.simulate(old.impact, mesh=mesh, **common)  # type: ignore[arg-type]
+        parts = {n: _rebuild(settings[n], known, n) for n in hermite_fe.REGISTRIES}
+        return hermite_fe.simulate(old.impact, mesh=mesh, full_beam=bool(settings["full_beam"]), **parts, **common)
+    if old.path == "exudyn":
+        import exudyn_models
+
+        for registry in exudyn_models.REGISTRIES.values():
+            known.update({cls.__name__: cls for cls in registry.values()})
+        parts = {n: _rebuild(settings[n], known, n) for n in exudyn_models.REGISTRIES if n in settings}
+        mesh = _rebuild(settings["mesh"], known, "mesh")
+        return exudyn_models.simulate(
+            old.impact, mesh=mesh, full_beam=bool(settings.get("full_beam", False)), **parts, **common
+        )
+    raise InputError(f"history's path {old.path!r} is not known")
