@@ -16,11 +16,22 @@ from exudyn_models.simulation import chosen_half_length, chosen_mesh, simulate
 from exudyn_models.solvers import SOLVERS
 
 __all__ = [
-    "CONTACTS", "ELEMENTS", "GEOMETRIES", "INTEGRATORS", "REGISTRIES", "SOLVERS", "chosen_half_length", "chosen_mesh",
+    "CONTACTS",
+    "ELEMENTS",
+    "GEOMETRIES",
+    "INTEGRATORS",
+    "REGISTRIES",
+    "SOLVERS",
+    "chosen_half_length",
+    "chosen_mesh",
     "simulate",
 ]
 
 REGISTRIES = {
-    "element": ELEMENTS, "integrator": INTEGRATORS, "contact": CONTACTS, "geometry": GEOMETRIES, "solver": SOLVERS,
+    "element": ELEMENTS,
+    "integrator": INTEGRATORS,
+    "contact": CONTACTS,
+    "geometry": GEOMETRIES,
+    "solver": SOLVERS,
 }
 """Sub-tables of a case file's ``[exudyn]`` table and the kinds that each may have."""

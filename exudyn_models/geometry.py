@@ -1,6 +1,7 @@
 """How large the deflections of the model are.
 
-The natural shape of the beam at the first contact has the angle θ(s) = −Ks + q₀s³/6 at arc length s. Its material points lie at
+The natural shape of the beam at the first contact has the angle θ(s) = −Ks + q₀s³/6 at arc length s. Its material
+points lie at
 
     x = ∫ cos θ ds,  y = ∫ sin θ ds,   ẋ = −∫ θ̇ sin θ ds,  ẏ = V₀ + ∫ θ̇ cos θ ds,  θ̇ = c₀ s       (no stretch)
 
@@ -35,8 +36,10 @@ class Shape:
     velocity_y: Array
     angular_velocity: Array
     curvature: float  # stress-free
-    slender: bool     # true geometry: the axial stiffness of the section matters
-    wall_curvature: float = 0.0  # of a round wall y = wall_curvature x²/2, against which a beam laid flatter is the same
+    slender: bool  # true geometry: the axial stiffness of the section matters
+    wall_curvature: float = (
+        0.0  # of a round wall y = wall_curvature x²/2, against which a beam laid flatter is the same
+    )
 
     @property
     def lengths(self) -> Array:
@@ -54,7 +57,7 @@ class Geometry(Protocol):
         ...
 
     def shape(self, s: Array, scaling: Scaling, wall_share: float = 0.0) -> Shape:
-        """The beam at the first contact, a share of its curvature given to the wall (against which it is laid flatter)."""
+        """The beam at the first contact; a share of its curvature may be given to the wall instead."""
         ...
 
 
@@ -78,9 +81,16 @@ class LinearLimit:
     def shape(self, s: Array, scaling: Scaling, wall_share: float = 0.0) -> Shape:
         k, c, q, a = scaling.kappa * (1.0 - wall_share), scaling.chi, scaling.psi, scaling.amplitude
         return Shape(
-            s=s, x=s, y=a * (-k * s**2 / 2 + q * s**4 / 24), angle=a * (-k * s + q * s**3 / 6),
-            velocity_x=np.zeros_like(s), velocity_y=a * (1 + c * s**2 / 2), angular_velocity=a * c * s,
-            curvature=-a * k, slender=False, wall_curvature=a * scaling.kappa * wall_share,
+            s=s,
+            x=s,
+            y=a * (-k * s**2 / 2 + q * s**4 / 24),
+            angle=a * (-k * s + q * s**3 / 6),
+            velocity_x=np.zeros_like(s),
+            velocity_y=a * (1 + c * s**2 / 2),
+            angular_velocity=a * c * s,
+            curvature=-a * k,
+            slender=False,
+            wall_curvature=a * scaling.kappa * wall_share,
         )
 
 
@@ -104,8 +114,8 @@ class TrueGeometry:
 
         if np.max(np.abs(angle(s))) > np.pi / 2:
             raise ValueError(
-                f"geometry true: the modelled beam of half length {s[-1] * scaling.length:.4g} m turns by more than a right "
-                "angle; shorten run.end_time or beam.length, or use the linear limit"
+                f"geometry true: the modelled beam of half length {s[-1] * scaling.length:.4g} m turns by more "
+                "than a right angle; shorten run.end_time or beam.length, or use the linear limit"
             )
         # four-point Gauss per element: exact to round-off for the small angle within one
         points, weights = np.polynomial.legendre.leggauss(4)
@@ -119,8 +129,18 @@ class TrueGeometry:
         centre = int(np.argmin(np.abs(s)))
         fields = [integral(f) for f in (np.cos(theta), np.sin(theta), -rate * np.sin(theta), rate * np.cos(theta))]
         x, y, vx, vy = (f - f[centre] for f in fields)
-        return Shape(s=s, x=x, y=y, angle=angle(s), velocity_x=vx, velocity_y=a + vy, angular_velocity=a * c * s,
-                     curvature=-a * k, slender=True, wall_curvature=a * scaling.kappa * wall_share)
+        return Shape(
+            s=s,
+            x=x,
+            y=y,
+            angle=angle(s),
+            velocity_x=vx,
+            velocity_y=a + vy,
+            angular_velocity=a * c * s,
+            curvature=-a * k,
+            slender=True,
+            wall_curvature=a * scaling.kappa * wall_share,
+        )
 
 
 GEOMETRIES: dict[str, type] = {"linear": LinearLimit, "true": TrueGeometry}

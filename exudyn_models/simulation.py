@@ -1,13 +1,17 @@
 """One impact by Exudyn, from the problem to its history.
 
-    μ y_tt + EI y_xxxx = EI q₀ + μ a₀ − r,   0 ≤ r ⊥ −y ≥ 0                                            (thesis 2.1.1–2)
+    μ y_tt + EI y_xxxx = EI q₀ + μ a₀ − r,   0 ≤ r ⊥ −y ≥ 0                       (thesis 2.1.1–2)
 
-The beam is modelled in the units of :mod:`exudyn_models.scaling`, with the initial shape, velocity field and load for which, without
-contact, y₀ of :class:`bent_beam.Impact` is the motion; the ends carry the moment EI(q₀x²/2 + c₀t) and the shear EI q₀x of y₀ (nothing
-when ψ = χ = 0: a free end). Exudyn runs in segments of a few equal steps; between them its state vectors are read, which costs
+The beam is modelled in the units of :mod:`exudyn_models.scaling`, with the initial shape, velocity field and load
+for which, without
+contact, y₀ of :class:`bent_beam.Impact` is the motion; the ends carry the moment EI(q₀x²/2 + c₀t) and the shear EI
+q₀x of y₀ (nothing
+when ψ = χ = 0: a free end). Exudyn runs in segments of a few equal steps; between them its state vectors are read,
+which costs
 some microseconds where a callback a step would cost the run.
 
-The total impulse is what the momentum of the modelled beam lacks: it is exact, whatever happens within a step. The impulse of each
+The total impulse is what the momentum of the modelled beam lacks: it is exact, whatever happens within a step. The
+impulse of each
 contact point is the trapezoidal sum of its force, corrected to that total.
 """
 
@@ -35,19 +39,21 @@ from exudyn_models.geometry import GEOMETRIES, Geometry, LinearLimit, Shape
 from exudyn_models.integrators import GeneralizedAlpha, Integrator, Newmark
 from exudyn_models.scaling import Scaling, front_estimate
 from exudyn_models.solvers import NewtonSolver, silence
+from exudyn_models.viewer import open_viewer
 
 __all__ = ["chosen_half_length", "chosen_mesh", "simulate"]
 
 Array = NDArray[np.float64]
 
 DEFAULT_DURATION = 0.1  # τ, the longest time that the thesis computes
-GROWTH = 1.01           # neighbours of the chosen mesh: 5 elements over the front's bending length at κ/ν = 0.05, 20 at 0.2
-SEGMENT = 4             # steps between two readings of the state
+GROWTH = 1.01  # neighbours of the chosen mesh: 5 elements over the front's bending length at κ/ν = 0.05, 20 at 0.2
+SEGMENT = 4  # steps between two readings of the state
 
 
 # what is chosen from the problem ----------------------------------------------------------------------------------
 def _far_field(scaling: Scaling) -> float:
-    """Half length to model, in units of Λ, when the beam is longer: what the end would send back stays out of the picture.
+    """Half length to model, in units of Λ, when the beam is longer: what the end would send back stays out of the
+    picture.
 
     Waves of the front's length 2/λ₀ travel ~ 2λ₀ by the end and longer ones less; beyond 12 the kernel H has decayed.
     """
@@ -61,7 +67,7 @@ def _far_field(scaling: Scaling) -> float:
 
 
 def chosen_half_length(impact: Impact, end_time: float | None = None) -> float:
-    """The half length that ``simulate`` models when no mesh is given, m: the beam's, or less where nothing returns in time."""
+    """The half length, m, modelled when no mesh is given: the beam's, or less where nothing returns in time."""
     scaling = Scaling(impact, _end_time(impact, end_time), 1.0)
     return min(impact.half_length, _far_field(scaling) * scaling.length)
 
@@ -90,7 +96,7 @@ def _reachable(x: Array, scaling: Scaling, centre: int) -> NDArray[np.int64]:
     inside = (scaling.free_deflection(x[None, :], times) > 0.0).any(axis=0)
     reach = 1.5 * np.abs(x[inside]).max(initial=0.0)
     wide = np.abs(x) <= reach
-    wide[max(0, centre - 20): centre + 21] = True
+    wide[max(0, centre - 20) : centre + 21] = True
     return np.flatnonzero(wide)
 
 
@@ -162,7 +168,7 @@ class _Run:
             self.impulse += gain
             self.total = total
             self.held -= np.minimum(gain, 0.0).sum()
-            self.contact_loss += float(((force * points + old_force * old_velocity)).sum() * dt / 2)
+            self.contact_loss += float((force * points + old_force * old_velocity).sum() * dt / 2)
             self.viscous_loss += (viscous + old_viscous) * dt / 2
             self.work += (power + old_power) * dt / 2
         self.previous = (force, points, viscous, power)
@@ -221,13 +227,19 @@ class _Run:
         }
         place = np.interp(self.contact.contact_s, self.beam.shape.s, self.beam.shape.x)
         return ImpactHistory.build(
-            path="exudyn", symmetry="half" if self.half else "full", time=np.array(r.time) * s.end_time,
-            x=self.beam.shape.x * s.length, contact_x=place * s.length, fields=fields, **about,
+            path="exudyn",
+            symmetry="half" if self.half else "full",
+            time=np.array(r.time) * s.end_time,
+            x=self.beam.shape.x * s.length,
+            contact_x=place * s.length,
+            fields=fields,
+            **about,
         )
 
 
-def _assemble(shape: Shape, scaling: Scaling, element: Element, contact: Contact, integrator: Integrator,
-              half: bool) -> tuple[Beam, ContactRun]:
+def _assemble(
+    shape: Shape, scaling: Scaling, element: Element, contact: Contact, integrator: Integrator, half: bool
+) -> tuple[Beam, ContactRun]:
     """The Exudyn system: beam, loads, symmetry, contact."""
     container = exu.SystemContainer()
     system = container.AddSystem()
@@ -252,9 +264,15 @@ def _assemble(shape: Shape, scaling: Scaling, element: Element, contact: Contact
     for node, sign in ends:
         _load_end(beam, node, sign, scaling)
     wall = Wall(
-        nodes=_reachable(shape.s, scaling, centre), centre=centre, half=half, pulled_off=scaling.load < 0.0,
-        point_contact=scaling.kappa >= 1.0, explicit=integrator.explicit, curvature=-shape.curvature,
-        stiffness_unit=scaling.stiffness_per_length, damping_unit=scaling.damping_per_length,
+        nodes=_reachable(shape.s, scaling, centre),
+        centre=centre,
+        half=half,
+        pulled_off=scaling.load < 0.0,
+        point_contact=scaling.kappa >= 1.0,
+        explicit=integrator.explicit,
+        curvature=-shape.curvature,
+        stiffness_unit=scaling.stiffness_per_length,
+        damping_unit=scaling.damping_per_length,
     )
     run = contact.attach(beam, wall)
     system.Assemble()
@@ -267,19 +285,25 @@ def _load_end(beam: Beam, node: int, sign: float, scaling: Scaling) -> None:
     amplitude, end = scaling.amplitude, beam.shape.s[-1]
     constant, rate = amplitude * scaling.psi * end**2 / 2, amplitude * scaling.chi
     if scaling.psi:
-        beam.mbs.AddLoad(items.LoadCoordinate(
-            markerNumber=beam.marker(node, beam.vertical_coordinate), load=-amplitude * scaling.psi * end))
+        beam.mbs.AddLoad(
+            items.LoadCoordinate(
+                markerNumber=beam.marker(node, beam.vertical_coordinate), load=-amplitude * scaling.psi * end
+            )
+        )
     if scaling.psi or scaling.chi:
         marker = beam.marker(node, beam.rotation_coordinate)
         if rate:
-            beam.mbs.AddLoad(items.LoadCoordinate(
-                markerNumber=marker, loadUserFunction=lambda mbs, t, load: sign * (constant + rate * t)))
+            beam.mbs.AddLoad(
+                items.LoadCoordinate(
+                    markerNumber=marker, loadUserFunction=lambda mbs, t, load: sign * (constant + rate * t)
+                )
+            )
         else:
             beam.mbs.AddLoad(items.LoadCoordinate(markerNumber=marker, load=sign * constant))
 
 
 def _stable_step(beam: Beam, contact: ContactRun, integrator: Integrator) -> float:
-    """limit/ω with ω the largest eigenvalue of any element with its contact closed: an upper bound for the whole mesh."""
+    """limit/ω, ω the largest eigenvalue of any element with its contact closed: a bound for the whole mesh."""
     mass, stiffness, damping = beam.element_matrices()
     k, d = contact.stiffness_and_damping()
     share = beam.lengths / 2
@@ -315,6 +339,7 @@ def simulate(
     solver: NewtonSolver | None = None,
     full_beam: bool = False,
     save: int = 200,
+    view: bool = False,
     progress: Callable[[float], object] | None = None,
 ) -> ImpactHistory:
     """Simulate one impact with Exudyn.
@@ -323,17 +348,21 @@ def simulate(
     ----------
     impact : the problem (SI).
     end_time : s; None: τ = 0.1.
-    mesh : of the half beam, laid over the whole half length (a ``NodesMesh`` may end short of it); None: elements in proportion to
+    mesh : of the half beam, laid over the whole half length (a ``NodesMesh`` may end short of it); None: elements in
+        proportion to
         the distance from the centre, as far out as waves travel (:func:`chosen_mesh`).
-    element, integrator, contact, geometry, solver : parts of :data:`exudyn_models.REGISTRIES`; None: ANCF cable, generalised-α,
+    element, integrator, contact, geometry, solver : parts of :data:`exudyn_models.REGISTRIES`; None: ANCF cable,
+        generalised-α,
         nodal penalty, the linear limit, modified Newton. ``geometry`` may be "linear" or "true".
     full_beam : model both halves instead of x ≥ 0 with the slope fixed at x = 0.
     save : number of saved instants after t = 0, evenly spread in √t.
+    view : watch the run in Exudyn's viewer; without a display a line on standard error says so.
     progress : called with the fraction done.
 
     Returns
     -------
-    ImpactHistory with the fields of :mod:`bent_beam.history` in SI units. Sums (energies, ``total_impulse``) are of both halves of the
+    ImpactHistory with the fields of :mod:`bent_beam.history` in SI units. Sums (energies, ``total_impulse``) are of
+    both halves of the
     modelled beam; a half model's ``impulse`` is that of x ≥ 0, half of the total.
 
     Raises
@@ -383,16 +412,35 @@ def simulate(
         segments = integrator.segments(crossing, per_segment, end, stable)
         settings = solver.settings(scaling.amplitude)
         integrator.configure(settings)
-        steps, seconds, failure = _step(run, segments, settings, integrator.solver(), save, progress)
+        container = beam.mbs.variables["container"]
+        viewing = view and open_viewer(container, beam.mbs)
+        try:
+            steps, seconds, failure = _step(run, segments, settings, integrator.solver(), save, progress)
+        finally:
+            if viewing:
+                container.renderer.Stop()
+            beam.mbs.variables.clear()  # the container holds the system: break the circle
 
     warnings = _warnings(run, places, half_length, scaling, mesh is not None, impact)
     about: dict[str, Any] = {
-        "impact": impact, "warnings": warnings, "steps": steps, "seconds": seconds, "completed": failure is None,
+        "impact": impact,
+        "warnings": warnings,
+        "steps": steps,
+        "seconds": seconds,
+        "completed": failure is None,
         "settings": {
-            "end_time": end, "mesh": describe(laid), "element": describe(element), "integrator": describe(integrator),
-            "contact": describe(contact) | contact_run.settings(), "geometry": describe(geometry), "solver": describe(solver),
-            "full_beam": full_beam, "nodes": int(nodes.size), "modelled_half_length": float(half_length),
-            "amplitude": scaling.amplitude, "amplitude_of_the_real_beam": true,
+            "end_time": end,
+            "mesh": describe(laid),
+            "element": describe(element),
+            "integrator": describe(integrator),
+            "contact": describe(contact) | contact_run.settings(),
+            "geometry": describe(geometry),
+            "solver": describe(solver),
+            "full_beam": full_beam,
+            "nodes": int(nodes.size),
+            "modelled_half_length": float(half_length),
+            "amplitude": scaling.amplitude,
+            "amplitude_of_the_real_beam": true,
             "ends": "moment and shear of the free motion" if scaling.psi or scaling.chi else "free",
             "first_step": segments[0].end / segments[0].steps * end,
             "last_step": (segments[-1].end - segments[-1].start) / segments[-1].steps * end,
@@ -407,8 +455,9 @@ def simulate(
     return history
 
 
-def _step(run: _Run, segments: list[Any], settings: Any, solver: Any, save: int,
-          progress: Callable[[float], object] | None) -> tuple[int, float, str | None]:
+def _step(
+    run: _Run, segments: list[Any], settings: Any, solver: Any, save: int, progress: Callable[[float], object] | None
+) -> tuple[int, float, str | None]:
     """Run all segments; returns steps taken, seconds inside Exudyn and, if it failed, what failed."""
     mbs, time = run.beam.mbs, settings.timeIntegration
     steps, seconds = 0, 0.0
@@ -459,7 +508,9 @@ def _warnings(run: _Run, places: Array, half_length: float, scaling: Scaling, gi
     amplitude = scaling.amplitude
     penetration = run.deepest / amplitude
     if penetration > 0.01:
-        found.append(f"penalty too soft: the beam enters the wall by up to {penetration:.2%} of V0 t; raise the contact stiffness")
+        found.append(
+            f"penalty too soft: the beam enters the wall by up to {penetration:.2%} of V0 t; raise its stiffness"
+        )
     front = front_estimate(scaling.kappa)
     if scaling.kappa < 1.0 and len(run.record.time) > 1:
         bending = 2.0 / front
@@ -468,20 +519,24 @@ def _warnings(run: _Run, places: Array, half_length: float, scaling: Scaling, gi
             k = min(int(np.searchsorted(places, at)), places.size - 2)
             per = bending * math.sqrt(part) / (places[k + 1] - places[k])
             if per < 3.0:
-                found.append(f"under-resolved front: {per:.1f} elements over its bending length at t = {part:g} end_time (3 or more)")
+                found.append(
+                    f"under-resolved front: {per:.1f} elements (want 3) over its bending length at {part:g} end_time"
+                )
                 break
     if given:
         growth = places[2:] - places[1:-1]
         growth = growth / (places[1:-1] - places[:-2])
         if growth.max() > 1.021:
-            found.append(f"the mesh grows by {growth.max() - 1:.0%} an element: above 2 % it reflects waves into the contact zone")
+            found.append(f"the mesh grows by {growth.max() - 1:.0%} an element: above 2 % it reflects waves back")
     reach = half_length / scaling.length
     if reach < 0.5 * _far_field(scaling):
-        found.append(f"the end lies at {reach:.3g} sqrt(sqrt(EI/mu) T): waves reflected there come back before the end time")
+        found.append(
+            f"the end lies at {reach:.3g} sqrt(sqrt(EI/mu) T): waves reflected there come back before the end time"
+        )
     if run.record.y:
         untouchable = np.ones(run.beam.shape.s.size, bool)
         near = np.searchsorted(run.beam.shape.s, run.contact.contact_s)
-        untouchable[max(0, near.min() - 1): near.max() + 2] = False
+        untouchable[max(0, near.min() - 1) : near.max() + 2] = False
         if (run.record.y[-1][untouchable] > 0.0).any():
             found.append("the beam enters the wall outside the zone given contact points")
     slope = max((float(np.abs(s).max()) for s in run.record.slope), default=0.0)

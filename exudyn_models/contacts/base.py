@@ -1,6 +1,7 @@
 """What every contact is given and what it reports.
 
-The wall is y = 0, the beam lies in y ≤ 0, the gap is g = −y. A contact puts its connectors into the Exudyn system once and is
+The wall is y = 0, the beam lies in y ≤ 0, the gap is g = −y. A contact puts its connectors into the Exudyn system
+once and is
 then asked, between segments of time steps, for the force at each contact point; it may switch connectors there.
 """
 
@@ -65,7 +66,7 @@ class ContactRun(ABC):
         return False
 
     def stiffness_and_damping(self) -> tuple[Array, Array]:
-        """Largest stiffness and damping at each *beam node*, for the stable step of explicit integrators, shape (nodes,)."""
+        """Stiffness and damping of the closed contact at each *beam node*, shape (nodes,): for the stable step."""
         raise ValueError("exudyn.contact: this contact does not work with explicit integrators")
 
     def settings(self) -> dict[str, Any]:

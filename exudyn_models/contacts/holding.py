@@ -1,4 +1,4 @@
-"""Which captured nodes are held: those that the front has passed by fewer than ``hold`` elements, on either side of the centre."""
+"""Which captured nodes are held: those that the front has passed by fewer than ``hold`` elements, on either side."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ HOLD = 16  # elements; from 8 on the interior no longer lifts
 
 
 def chosen_hold(wall: Wall, hold: int | None) -> int:
-    """The given hold, or 16 elements; none where the load draws the beam off the wall and under explicit integrators."""
+    """The given hold, or 16; none where the load draws the beam off the wall and under explicit integrators."""
     if hold is not None:
         return hold
     return 0 if wall.pulled_off or wall.explicit else HOLD

@@ -3,11 +3,14 @@
     R_i = b_i (k y_i + d ẏ_i)  while y_i > 0,   b_i the length of beam that node i stands for
     k = C EI/Δx⁴,   d = D √(EIμ)/Δx²
 
-With k and d tied to the element length the contact is as stiff as the elements themselves, on every scale of the mesh; C = 10 and
+With k and d tied to the element length the contact is as stiff as the elements themselves, on every scale of the
+mesh; C = 10 and
 D = 3 keep both the penetration and the rattling below the mesh's own error.
 
-Behind the front the exact reaction vanishes; a one-sided force turns the numerical noise there into pushes that lift the beam. So a
-captured node is held (its penalty acts in both directions) until the front is ``hold`` elements further on: the held strip shrinks
+Behind the front the exact reaction vanishes; a one-sided force turns the numerical noise there into pushes that lift
+the beam. So a
+captured node is held (its penalty acts in both directions) until the front is ``hold`` elements further on: the held
+strip shrinks
 with the mesh, so that the scheme stays consistent. What it pulls is reported as ``held_impulse``.
 """
 
@@ -47,15 +50,32 @@ class _Run(ContactRun):
         mbs = beam.mbs
         for k, node in enumerate(wall.nodes):
             marker = beam.marker(int(node), beam.vertical_coordinate)
-            state = mbs.AddNode(items.NodeGenericData(
-                numberOfDataCoordinates=1, initialCoordinates=[max(0.0, -float(beam.shape.y[node]))]))
-            self.contacts.append(mbs.AddObject(items.ObjectContactCoordinate(
-                markerNumbers=[marker, beam.ground_marker], nodeNumber=state, contactStiffness=stiffness[k],
-                contactDamping=damping[k])))
+            state = mbs.AddNode(
+                items.NodeGenericData(
+                    numberOfDataCoordinates=1, initialCoordinates=[max(0.0, -float(beam.shape.y[node]))]
+                )
+            )
+            self.contacts.append(
+                mbs.AddObject(
+                    items.ObjectContactCoordinate(
+                        markerNumbers=[marker, beam.ground_marker],
+                        nodeNumber=state,
+                        contactStiffness=stiffness[k],
+                        contactDamping=damping[k],
+                    )
+                )
+            )
             if hold:
-                self.holders.append(mbs.AddObject(items.ObjectConnectorCoordinateSpringDamper(
-                    markerNumbers=[beam.ground_marker, marker], stiffness=stiffness[k], damping=damping[k],
-                    activeConnector=False)))
+                self.holders.append(
+                    mbs.AddObject(
+                        items.ObjectConnectorCoordinateSpringDamper(
+                            markerNumbers=[beam.ground_marker, marker],
+                            stiffness=stiffness[k],
+                            damping=damping[k],
+                            activeConnector=False,
+                        )
+                    )
+                )
 
     def depth(self, q: Array) -> Array:
         return np.asarray(q[self.beam.vertical[self.nodes]])
@@ -97,7 +117,8 @@ class Penalty:
 
     stiffness, damping : k in N/m² and d in N s/m² per length of beam; None: from the element length and the next two.
     relative_stiffness, relative_damping : C and D of the module's text.
-    hold : elements behind the front whose captured nodes are held; None: 16, but none where the load draws the beam off the wall
+    hold : elements behind the front whose captured nodes are held; None: 16, but none where the load draws the beam
+        off the wall
         (α + ψ < 0, where a hold would pull on what rightly lifts) and none under explicit integrators.
     """
 

@@ -1,12 +1,18 @@
-"""Rigid contact: constraints switched with the contact state (Exudyn's ``CoordinateConstraint``), Lagrange multipliers, no penalty.
+"""Rigid contact: constraints switched with the contact state (Exudyn's ``CoordinateConstraint``), Lagrange
+multipliers, no penalty.
 
     y_i = 0 while captured,   R_i = −λ_i ≥ 0,   0 ≤ R_i ⊥ −y_i ≥ 0
 
-Every node that may touch carries a constraint on its velocity (index 2), inactive until, between two steps, the node is found at
-the wall; its velocity then vanishes within one step, the impact of restitution e = 0. It is released when it pulls, but not before the
-front is ``hold`` elements further on (see :mod:`exudyn_models.contacts.penalty`). Index 2 leaves a captured node where it was caught, at
-most V₀h inside the wall. Under position constraints (index 3, generalised-α) the jump of velocity that a switch asks for has no
-place in the equations and Newton's method stops converging; under the undamped trapezoidal rule (γ = ½) the multipliers ring, their
+Every node that may touch carries a constraint on its velocity (index 2), inactive until, between two steps, the node
+is found at
+the wall; its velocity then vanishes within one step, the impact of restitution e = 0. It is released when it pulls,
+but not before the
+front is ``hold`` elements further on (see :mod:`exudyn_models.contacts.penalty`). Index 2 leaves a captured node
+where it was caught, at
+most V₀h inside the wall. Under position constraints (index 3, generalised-α) the jump of velocity that a switch asks
+for has no
+place in the equations and Newton's method stops converging; under the undamped trapezoidal rule (γ = ½) the
+multipliers ring, their
 sign says nothing, and the run stops sooner or later. Hence only Newmark with γ > ½ is accepted.
 """
 
@@ -40,9 +46,12 @@ class _Run(ContactRun):
         self.active = np.zeros(wall.nodes.size, bool)
         self.multipliers: NDArray[np.int64] | None = None
         self.constraints = [
-            beam.mbs.AddObject(items.CoordinateConstraint(
-                markerNumbers=[beam.ground_marker, beam.marker(int(node), beam.vertical_coordinate)],
-                activeConnector=False))
+            beam.mbs.AddObject(
+                items.CoordinateConstraint(
+                    markerNumbers=[beam.ground_marker, beam.marker(int(node), beam.vertical_coordinate)],
+                    activeConnector=False,
+                )
+            )
             for node in wall.nodes
         ]
 
@@ -92,8 +101,10 @@ class Rigid:
     def refuses(self, element: Any, integrator: Any) -> str | None:
         if isinstance(integrator, Newmark) and integrator.gamma > 0.5:
             return None
-        return ("exudyn.contact.kind rigid needs exudyn.integrator.kind newmark with gamma above 0.5: constraints at velocity "
-                f"level, and damping (got {type(integrator).__name__})")
+        return (
+            "exudyn.contact.kind rigid needs exudyn.integrator.kind newmark with gamma above 0.5: constraints at "
+            f"velocity level, and damping (got {type(integrator).__name__})"
+        )
 
     def attach(self, beam: Beam, wall: Wall) -> ContactRun:
         return _Run(beam, wall, chosen_hold(wall, self.hold))

@@ -2,9 +2,12 @@
 
     f_n = k g + d ġ per segment while it enters the wall,   |f_t| ≤ μ_f f_n
 
-Exudyn knows this contact against a circle only, and computes its gap as a difference of lengths of the order of the radius: too large
-a circle drowns it in round-off. So the wall takes over a share of the beam's curvature, against which the beam is laid flatter: all
-of it in the linear limit (gap, load and elastic forces are the same to first order), a quarter with the true geometry. Friction works along the beam: of second order in
+Exudyn knows this contact against a circle only, and computes its gap as a difference of lengths of the order of the
+radius: too large
+a circle drowns it in round-off. So the wall takes over a share of the beam's curvature, against which the beam is
+laid flatter: all
+of it in the linear limit (gap, load and elastic forces are the same to first order), a quarter with the true
+geometry. Friction works along the beam: of second order in
 the deflection, it changes nothing in the linear limit and little for a real, axially stiff beam.
 """
 
@@ -80,11 +83,15 @@ class SegmentFriction:
 
     def refuses(self, element: Any, integrator: Any) -> str | None:
         if not isinstance(element, ANCFCable):
-            return ("exudyn.contact.kind segment_friction works on ANCF cables only: take exudyn.element.kind ancf_cable "
-                    f"(got {type(element).__name__})")
+            return (
+                "exudyn.contact.kind segment_friction works on ANCF cables only: take exudyn.element.kind ancf_cable "
+                f"(got {type(element).__name__})"
+            )
         if integrator.explicit:
-            return ("exudyn.contact.kind segment_friction needs an implicit exudyn.integrator "
-                    f"(got {type(integrator).__name__})")
+            return (
+                "exudyn.contact.kind segment_friction needs an implicit exudyn.integrator "
+                f"(got {type(integrator).__name__})"
+            )
         return None
 
     def geometry(self) -> LinearLimit:
@@ -109,11 +116,20 @@ class SegmentFriction:
         elements = np.arange(max(0, int(wall.nodes[0]) - 1), min(lengths.size, int(wall.nodes[-1]) + 1))
         for e in elements:
             marker = mbs.AddMarker(items.MarkerBodyCable2DShape(bodyNumber=beam.bodies[e], numberOfSegments=1))
-            state = mbs.AddNode(items.NodeGenericData(
-                numberOfDataCoordinates=3, initialCoordinates=[0.1, -2.0, 0.0]))  # open, neither sticking nor slipping
-            mbs.AddObject(items.ObjectContactFrictionCircleCable2D(
-                markerNumbers=[circle, marker], nodeNumber=state, numberOfContactSegments=1,
-                contactStiffness=k[e] * lengths[e], contactDamping=d[e] * lengths[e], circleRadius=radius,
-                frictionCoefficient=self.friction,
-                frictionVelocityPenalty=tangential[e] * lengths[e] if self.friction else 0.0, useSegmentNormals=False))
+            state = mbs.AddNode(
+                items.NodeGenericData(numberOfDataCoordinates=3, initialCoordinates=[0.1, -2.0, 0.0])
+            )  # open, neither sticking nor slipping
+            mbs.AddObject(
+                items.ObjectContactFrictionCircleCable2D(
+                    markerNumbers=[circle, marker],
+                    nodeNumber=state,
+                    numberOfContactSegments=1,
+                    contactStiffness=k[e] * lengths[e],
+                    contactDamping=d[e] * lengths[e],
+                    circleRadius=radius,
+                    frictionCoefficient=self.friction,
+                    frictionVelocityPenalty=tangential[e] * lengths[e] if self.friction else 0.0,
+                    useSegmentNormals=False,
+                )
+            )
         return _Run(beam, elements, (k * lengths)[elements], (d * lengths)[elements])

@@ -2,7 +2,8 @@
 
     m = EI(κ − κ₀) + η κ̇,   n = EA(|r′| − 1),   κ = (r′ × r″)/|r′|²,   r cubic between nodes with coordinates (r, r′)
 
-For small deflections this is the Hermite element of the beam equation. The viscosity η = c·√(EIμ)·Δx² damps only what the mesh
+For small deflections this is the Hermite element of the beam equation. The viscosity η = c·√(EIμ)·Δx² damps only
+what the mesh
 cannot resolve: waves of wave number k by the ratio c(kΔx)²/2.
 """
 
@@ -46,7 +47,11 @@ class _Cable(Beam):
         value, gradient, length = q[first], q[first + 2], self.lengths[:, None]
         n = _shapes(derivative)
         return np.asarray(
-            (value[:-1, None] * n[0] + value[1:, None] * n[2] + length * (gradient[:-1, None] * n[1] + gradient[1:, None] * n[3]))
+            (
+                value[:-1, None] * n[0]
+                + value[1:, None] * n[2]
+                + length * (gradient[:-1, None] * n[1] + gradient[1:, None] * n[3])
+            )
             / length**derivative
         )
 
@@ -93,7 +98,8 @@ class _Cable(Beam):
 class ANCFCable:
     """ANCF cable elements, cubic: the default.
 
-    viscosity : bending viscosity in units of √(EIμ)·Δx² of each element; None: 0.3 under implicit integrators, 0.003 under
+    viscosity : bending viscosity in units of √(EIμ)·Δx² of each element; None: 0.3 under implicit integrators, 0.003
+        under
         explicit ones (more would shorten their stable step).
     axial_stiffness : EA, N; None: 12EI/d² with the true geometry, EI/Λ² in the linear limit (where it has no effect).
     """
@@ -115,14 +121,33 @@ class ANCFCable:
             cos, sin = np.ones_like(cos), shape.angle
         for i in range(shape.s.size):
             w = shape.angular_velocity[i]
-            beam.nodes.append(mbs.AddNode(items.NodePoint2DSlope1(
-                referenceCoordinates=[shape.s[i], 0.0, 1.0, 0.0],
-                initialCoordinates=[shape.x[i] - shape.s[i], shape.y[i], cos[i] - 1.0, sin[i]],
-                initialVelocities=[shape.velocity_x[i], shape.velocity_y[i],
-                                   -w * sin[i] if shape.slender else 0.0, w * cos[i]])))
+            beam.nodes.append(
+                mbs.AddNode(
+                    items.NodePoint2DSlope1(
+                        referenceCoordinates=[shape.s[i], 0.0, 1.0, 0.0],
+                        initialCoordinates=[shape.x[i] - shape.s[i], shape.y[i], cos[i] - 1.0, sin[i]],
+                        initialVelocities=[
+                            shape.velocity_x[i],
+                            shape.velocity_y[i],
+                            -w * sin[i] if shape.slender else 0.0,
+                            w * cos[i],
+                        ],
+                    )
+                )
+            )
         for i, length in enumerate(beam.lengths):
-            beam.bodies.append(mbs.AddObject(items.ObjectANCFCable2D(
-                length=length, massPerLength=section.mass_per_length, bendingStiffness=section.bending_stiffness,
-                axialStiffness=section.axial_stiffness, bendingDamping=viscosity[i], referenceCurvature=shape.curvature,
-                nodeNumbers=[beam.nodes[i], beam.nodes[i + 1]], useReducedOrderIntegration=1)))
+            beam.bodies.append(
+                mbs.AddObject(
+                    items.ObjectANCFCable2D(
+                        length=length,
+                        massPerLength=section.mass_per_length,
+                        bendingStiffness=section.bending_stiffness,
+                        axialStiffness=section.axial_stiffness,
+                        bendingDamping=viscosity[i],
+                        referenceCurvature=shape.curvature,
+                        nodeNumbers=[beam.nodes[i], beam.nodes[i + 1]],
+                        useReducedOrderIntegration=1,
+                    )
+                )
+            )
         return beam

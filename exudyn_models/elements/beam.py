@@ -59,29 +59,36 @@ class Beam(ABC):
     def fix(self, node: int, *coordinates: int) -> None:
         """Hold coordinates of a node at zero displacement."""
         for coordinate in coordinates:
-            self.mbs.AddObject(items.CoordinateConstraint(
-                markerNumbers=[self.ground_marker, self.marker(node, coordinate)]))
+            self.mbs.AddObject(
+                items.CoordinateConstraint(markerNumbers=[self.ground_marker, self.marker(node, coordinate)])
+            )
 
     def burden(self, node: int, *coordinates: int, inertia: float = 1e9) -> None:
         """Hold coordinates of a node by an inertia too large to move.
 
-        Exudyn's explicit solvers set constrained accelerations to zero *after* solving with the unconstrained mass matrix,
+        Exudyn's explicit solvers set constrained accelerations to zero *after* solving with the unconstrained mass
+        matrix,
         which destabilises a consistent one.
         """
         size = self.rotation_coordinate + 1
         mass = np.zeros((size, size))
         mass[list(coordinates), list(coordinates)] = inertia
         none = np.zeros((size, size))
-        self.mbs.AddObject(items.ObjectGenericODE2(
-            nodeNumbers=[self.nodes[node]], massMatrix=mass, stiffnessMatrix=none, dampingMatrix=none,
-            forceVector=np.zeros(size)))
+        self.mbs.AddObject(
+            items.ObjectGenericODE2(
+                nodeNumbers=[self.nodes[node]],
+                massMatrix=mass,
+                stiffnessMatrix=none,
+                dampingMatrix=none,
+                forceVector=np.zeros(size),
+            )
+        )
 
     def load_uniformly(self, acceleration: float) -> None:
         """A load μ·``acceleration`` per unit length along y."""
         for body in self.bodies:
             marker = self.mbs.AddMarker(items.MarkerBodyMass(bodyNumber=body))
-            self.mbs.AddLoad(items.LoadMassProportional(
-                markerNumber=marker, loadVector=[0.0, acceleration, 0.0]))
+            self.mbs.AddLoad(items.LoadMassProportional(markerNumber=marker, loadVector=[0.0, acceleration, 0.0]))
 
     def locate(self) -> None:
         """After ``mbs.Assemble()``: where the coordinates stand in the system's vectors."""
@@ -114,7 +121,7 @@ class Beam(ABC):
 
     @abstractmethod
     def element_matrices(self) -> tuple[Array, Array, Array]:
-        """Linearised mass, stiffness and damping matrices of the elements in (y₁, rotation₁, y₂, rotation₂): (elements, 4, 4)."""
+        """Linearised mass, stiffness and damping matrices in (y₁, rotation₁, y₂, rotation₂), each (elements, 4, 4)."""
 
     def axial_frequency(self) -> float:
         """Upper bound of the axial angular frequencies."""
@@ -124,8 +131,11 @@ class Beam(ABC):
 class Element(Protocol):
     """What ``simulate`` asks of an element. ``viscosity`` in units of √(EIμ)·Δx² (None: chosen with the integrator)."""
 
-    viscosity: float | None
-    axial_stiffness: float | None
+    @property
+    def viscosity(self) -> float | None: ...
+
+    @property
+    def axial_stiffness(self) -> float | None: ...
 
     def build(self, mbs: Any, shape: Shape, section: Section, viscosity: Array) -> Beam:
         """Add the beam to ``mbs``; ``viscosity`` is that of each element, shape (elements,)."""

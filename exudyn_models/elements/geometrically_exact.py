@@ -2,7 +2,8 @@
 
     m = EI(θ′ − κ₀) + η θ̇′,   n = EA ε,   q = GA γ,   position and angle θ linear between nodes, one integration point
 
-The one-point rule does not lock, so GA may be large enough for the shear angle to vanish against the slope; the rotary inertia is a
+The one-point rule does not lock, so GA may be large enough for the shear angle to vanish against the slope; the
+rotary inertia is a
 small multiple of what the element's length would give the section. Second order in Δx where the cable is of fourth.
 """
 
@@ -102,14 +103,29 @@ class GeometricallyExact:
         beam.shear_stiffness = self.shear_ratio * section.bending_stiffness / beam.lengths**2
         beam.rotary_inertia = self.rotary_ratio * section.mass_per_length * beam.lengths**2
         for i in range(shape.s.size):
-            beam.nodes.append(mbs.AddNode(items.NodeRigidBody2D(
-                referenceCoordinates=[shape.s[i], 0.0, 0.0],
-                initialCoordinates=[shape.x[i] - shape.s[i], shape.y[i], shape.angle[i]],
-                initialVelocities=[shape.velocity_x[i], shape.velocity_y[i], shape.angular_velocity[i]])))
+            beam.nodes.append(
+                mbs.AddNode(
+                    items.NodeRigidBody2D(
+                        referenceCoordinates=[shape.s[i], 0.0, 0.0],
+                        initialCoordinates=[shape.x[i] - shape.s[i], shape.y[i], shape.angle[i]],
+                        initialVelocities=[shape.velocity_x[i], shape.velocity_y[i], shape.angular_velocity[i]],
+                    )
+                )
+            )
         for i, length in enumerate(beam.lengths):
-            beam.bodies.append(mbs.AddObject(items.ObjectBeamGeometricallyExact2D(
-                nodeNumbers=[beam.nodes[i], beam.nodes[i + 1]], length=length, massPerLength=section.mass_per_length,
-                crossSectionInertia=beam.rotary_inertia[i], bendingStiffness=section.bending_stiffness,
-                axialStiffness=section.axial_stiffness, shearStiffness=beam.shear_stiffness[i],
-                bendingDamping=viscosity[i], referenceCurvature=shape.curvature)))
+            beam.bodies.append(
+                mbs.AddObject(
+                    items.ObjectBeamGeometricallyExact2D(
+                        nodeNumbers=[beam.nodes[i], beam.nodes[i + 1]],
+                        length=length,
+                        massPerLength=section.mass_per_length,
+                        crossSectionInertia=beam.rotary_inertia[i],
+                        bendingStiffness=section.bending_stiffness,
+                        axialStiffness=section.axial_stiffness,
+                        shearStiffness=beam.shear_stiffness[i],
+                        bendingDamping=viscosity[i],
+                        referenceCurvature=shape.curvature,
+                    )
+                )
+            )
         return beam

@@ -7,7 +7,14 @@ from exudyn_models.integrators.newmark import Newmark
 from exudyn_models.integrators.trapezoidal import Trapezoidal
 
 __all__ = [
-    "DOPRI5", "INTEGRATORS", "RK44", "GeneralizedAlpha", "Integrator", "Newmark", "Trapezoidal", "VelocityVerlet",
+    "DOPRI5",
+    "INTEGRATORS",
+    "RK44",
+    "GeneralizedAlpha",
+    "Integrator",
+    "Newmark",
+    "Trapezoidal",
+    "VelocityVerlet",
 ]
 
 INTEGRATORS: dict[str, type] = {

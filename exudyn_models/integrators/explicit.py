@@ -1,11 +1,14 @@
 """Exudyn's explicit methods: the fourth-order Runge–Kutta rule, Dormand–Prince 5(4), and velocity Verlet.
 
-They are stable while the step is below limit/ω, where ω bounds the frequencies (and decay rates) of the mesh with every contact
-closed: for bending ω ~ 91.7 √(EI/μ)/Δx² of the smallest element. ``simulate`` computes the bound and refuses a larger step.
+They are stable while the step is below limit/ω, where ω bounds the frequencies (and decay rates) of the mesh with
+every contact
+closed: for bending ω ~ 91.7 √(EI/μ)/Δx² of the smallest element. ``simulate`` computes the bound and refuses a
+larger step.
 """
 
 from __future__ import annotations
 
+import itertools
 import math
 from dataclasses import dataclass
 from typing import Any, ClassVar
@@ -45,13 +48,13 @@ class _Explicit(Integrator):
             step = self.time_step / unit
             if step > stable:
                 raise ValueError(
-                    f"exudyn.integrator.time_step must not exceed the stable step {stable * unit:.4g} s of this mesh and "
-                    f"contact (got {self.time_step!r})"
+                    f"exudyn.integrator.time_step must not exceed the stable step {stable * unit:.4g} s of this "
+                    f"mesh and contact (got {self.time_step!r})"
                 )
         count = math.ceil(1.0 / step)
         pieces = max(1, min(1000, count // per_segment))
         ends = [round(count * k / pieces) for k in range(pieces + 1)]
-        return [Segment(a / count, b / count, b - a) for a, b in zip(ends, ends[1:], strict=False)]
+        return [Segment(a / count, b / count, b - a) for a, b in itertools.pairwise(ends)]
 
 
 @dataclass(frozen=True)

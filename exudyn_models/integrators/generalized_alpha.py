@@ -1,4 +1,4 @@
-"""Generalised-α (Chung and Hulbert 1993): second order, implicit, waves that the step cannot resolve damped to ρ∞ a step."""
+"""Generalised-α (Chung and Hulbert 1993): second order, implicit; what the step cannot resolve is damped to ρ∞."""
 
 from __future__ import annotations
 
@@ -15,7 +15,10 @@ __all__ = ["GeneralizedAlpha"]
 
 @dataclass(frozen=True)
 class GeneralizedAlpha(Implicit):
-    """The default. spectral_radius : ρ∞ in [0, 1]; 1 damps nothing and lets contact rattle, 0 annihilates what is unresolved."""
+    """The default.
+
+    spectral_radius : ρ∞ in [0, 1]; 1 damps nothing and lets contact rattle, 0 annihilates what is unresolved.
+    """
 
     spectral_radius: float = 0.5
 

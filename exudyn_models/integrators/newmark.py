@@ -15,7 +15,11 @@ __all__ = ["Newmark"]
 
 @dataclass(frozen=True)
 class Newmark(Implicit):
-    """gamma : γ ≥ ½; beta : β ≥ γ/2, None: (γ+½)²/4, the most that still damps. Constraints hold at velocity level (index 2)."""
+    """Constraints hold at velocity level (index 2).
+
+    gamma : γ ≥ ½; above ½ it damps what the step cannot resolve, and the accuracy is of first order.
+    beta : β ≥ γ/2; None: (γ+½)²/4, which damps high frequencies most.
+    """
 
     gamma: float = 0.6
     beta: float | None = None
