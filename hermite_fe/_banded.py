@@ -94,8 +94,10 @@ def stiff_row(A: Array, even: Array, odd: Array, x: Array, i: int) -> float:
 def stiff_multiply(A: Array, even: Array, odd: Array, x: Array, y: Array) -> None:
     """y = A x for a stiffness whose large entries cancel, by differences of neighbouring dofs of a kind.
 
-    A(i, ·)x = Σ_even A(i, j)(x_j − x_i) + even_i x_i + Σ_odd A(i, j)(x_j − x_{i−1}) + odd_i x_{i−1}, j − i even or odd,
-    with the row sums even, odd of :func:`row_sums`. Round-off is then that of the differences, not of 12EI/Δx³·x.
+    A(i, ·)x = Σ_even A(i, j)(x_j − x_i) + even_i x_i + Σ_odd A(i, j)(x_j − x_{i−1}) + odd_i x_{i−1}
+
+    for j − i even or odd, with the row sums even, odd of :func:`row_sums`. Round-off is then that of the
+    differences, not of 12EI/Δx³·x.
     """
     n = x.size
     for i in range(min(3, n)):
@@ -274,7 +276,7 @@ def add(sums: Array, k: int, value: float) -> None:
 def row_sums(A: Array) -> tuple[Array, Array]:
     """Sums of A's rows over dofs an even and an odd distance away, shape (n,) each; round-off is cut to zero.
 
-    The odd sums leave out row 0, which has no dof to its left to take differences from.
+    Row 0 has no dof to its left to take odd differences from; its odd sum is not used.
     """
     n = A.shape[1]
     sums, sizes = np.zeros((2, n)), np.zeros((2, n))

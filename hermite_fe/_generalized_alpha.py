@@ -24,7 +24,7 @@ from numpy.typing import NDArray
 from hermite_fe._banded import add, combine, dot, factor, multiply, quadratic, stiff_multiply
 from hermite_fe._contact import force_at, mark_held, row_times, rows_times
 from hermite_fe._jit import compiled
-from hermite_fe._pivoting import SOLVED, solve_rows
+from hermite_fe._pivoting import NOT_FINITE, SINGULAR, SOLVED, solve_rows
 from hermite_fe._problem import (
     ALGORITHMIC,
     IMPACT,
@@ -87,7 +87,7 @@ def start(problem: Problem, state: State, work: Work) -> int:
 @compiled
 def account(
     problem: Problem, state: State, work: Work, t: float, h: float, old_q: Array, old_v: Array, impulse: Array
-) -> None:
+) -> bool:
     """Book a step from (old_q, old_v) to the state under the impulses of its reactions; overwrites the old
     ones."""
     n = old_q.size
@@ -113,6 +113,7 @@ def account(
     add(state.budget, VISCOUS, viscous)
     add(state.budget, IMPACT, -contact)
     add(state.budget, ALGORITHMIC, done - viscous + contact - change)
+    return math.isfinite(change)
 
 
 @compiled
@@ -203,7 +204,8 @@ def velocity_steps(
         for i in range(n):
             q[i] += h * (beta / gamma) * work.x[i]
             v[i] += work.x[i]
-        account(problem, state, work, t, h, old_q, old_v, work.p)
+        if not account(problem, state, work, t, h, old_q, old_v, work.p):
+            return NOT_FINITE, k
     return SOLVED, last
 
 
@@ -336,7 +338,8 @@ def sequential_steps(
                 )
             rebounding = row_times(dofs, factors, v, j) if resting[j] else 0.0
             resting[j] = resting[j] and abs(rebounding) <= AT_REST * largest
-        account(problem, state, velocity, t, h, old_q, old_v, impulse)
+        if not account(problem, state, velocity, t, h, old_q, old_v, impulse):
+            return NOT_FINITE, k
     return SOLVED, last
 
 
@@ -409,7 +412,7 @@ def penalty_steps(
             if not fresh and top >= 0:
                 if not factor(work.S, work.fixed, top, work.D, work.R, work.U):
                     work.made_with[0] = math.nan
-                    return 1, k
+                    return SINGULAR, k
             status = solve_rows(problem, work, fresh, none)
             if status != SOLVED:
                 work.made_with[0] = math.nan
@@ -446,5 +449,6 @@ def penalty_steps(
             if closed[j]:
                 gap = problem.gap[j] + g * q[d]
                 state.worst[PRODUCT] = max(state.worst[PRODUCT], abs(h * force * gap))
-        account(problem, state, work, t, h, old_q, old_v, work.p)
+        if not account(problem, state, work, t, h, old_q, old_v, work.p):
+            return NOT_FINITE, k
     return SOLVED, last

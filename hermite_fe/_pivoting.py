@@ -25,7 +25,7 @@ from hermite_fe._problem import Problem, Work
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
-SOLVED, SINGULAR, CYCLING = 0, 1, 2
+SOLVED, SINGULAR, CYCLING, NOT_FINITE = 0, 1, 2, 3
 PATIENCE = 8  # rounds of block exchange without progress before Murty's rule
 ROUND_OFF = 1e-13  # of the terms summed: below it a wrong sign means nothing
 DOUBT = 40  # rounds after which nearly degenerate rows are judged ten times more leniently

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from hermite_fe._banded import add, combine, dot, multiply, quadratic, stiff_multiply
 from hermite_fe._contact import force_at, mark_held, row_times, rows_times
 from hermite_fe._jit import compiled
-from hermite_fe._pivoting import SOLVED, solve_rows
+from hermite_fe._pivoting import NOT_FINITE, SOLVED, solve_rows
 from hermite_fe._problem import (
     ALGORITHMIC,
     IMPACT,
@@ -112,4 +112,6 @@ def steps(
         add(state.budget, VISCOUS, h * quadratic(C, vel))
         stiff_multiply(K, problem.even, problem.odd, dq, vel)
         add(state.budget, ALGORITHMIC, (theta - 0.5) * dot(dq, vel))
+        if not math.isfinite(work_done):
+            return NOT_FINITE, k
     return SOLVED, last

@@ -145,7 +145,8 @@ def resolution_warnings(impact: Impact, end_time: float, nodes: Array, integrato
         out.append(
             "the mesh cannot resolve the contact front: about "
             f"{thickness:.3g} m thick at the end of the run, it spans {thickness / element:.2g} elements "
-            f"({element:.3g} m there); {ELEMENTS_PER_FRONT:g} are the least, elements {short:.2g} times shorter"
+            f"({element:.3g} m there); {ELEMENTS_PER_FRONT:g} are the least, "
+            f"elements {short:.2g} times shorter"
         )
     step = max(integrator.time_step or 0.0, (integrator.growth or 0.0) * end_time)
     travel, room = place * 0.5 * step / end_time, 0.5 * max(thickness, element)
@@ -181,8 +182,8 @@ def end_warnings(impact: Impact, end_time: float, nodes: Array, far_field: FarFi
     if returning.size:
         out.append(
             f"waves may run to the ends of the beam (x = {half:.3g} m) and be back at the contact from about "
-            f"t = {float(returning.min()):.2g} s on, before the run ends at {end_time:.2g} s: from then on it is "
-            "no longer the impact of an infinitely long beam (a longer beam or an earlier end avoids it)"
+            f"t = {float(returning.min()):.2g} s on, before the run ends at {end_time:.2g} s: from then on "
+            "it is no longer the impact of an infinitely long beam (a longer beam or an earlier end avoids it)"
         )
     far = nodes > 1.5 * place
     free = (

@@ -16,15 +16,18 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import solveh_banded
+from scipy.linalg import cho_solve_banded, cholesky_banded
 
 from bent_beam.checks import positive
 from bent_beam.meshes import checked_nodes
 from hermite_fe._assembly import assemble, assemble_load
+from hermite_fe._banded import row_sums, stiff_multiply
 
 __all__ = ["HermiteBeam", "deflection", "element_mass", "element_stiffness", "shape_functions"]
 
 Array = NDArray[np.float64]
+
+REFINEMENTS = 4  # of a static solution
 
 
 def shape_functions(xi: Array, length: float, derivative: int = 0) -> Array:
@@ -155,27 +158,35 @@ class HermiteBeam:
         for dof in supports:
             if not 0 <= dof < self.dofs:
                 raise ValueError(f"supports must name dofs from 0 to {self.dofs - 1} (got {dof!r})")
-        bands, right = self.stiffness(), np.array(load, float)
-        q = np.zeros(self.dofs)
-        for dof, value in supports.items():
-            q[dof] = value
-        right -= banded_product(bands, q)
+        length = self.nodes[-1] - self.nodes[0]
+        rigid = [(1.0 - d % 2, self.nodes[d // 2] / length if d % 2 == 0 else 1.0) for d in supports]
+        if not rigid or np.linalg.matrix_rank(np.array(rigid)) < 2:
+            raise ValueError(f"supports leave the beam free to move (got dofs {sorted(supports)})")
+        stiffness, load = self.stiffness(), np.array(load, float)
+        bands = stiffness.copy()
+        free = np.ones(self.dofs, bool)
+        free[list(supports)] = False
         for dof in supports:
             for m in range(1, 4):
                 if dof + m < self.dofs:
                     bands[m, dof] = 0.0
                 if dof >= m:
                     bands[m, dof - m] = 0.0
-            bands[0, dof], right[dof] = 1.0, 0.0
-        # rows and columns of θ scaled by the element length: the raw matrix mixes units and loses digits
+            bands[0, dof] = 1.0
+        # rows and columns scaled to a unit diagonal: the raw matrix mixes w with θ and loses digits
         scale = 1.0 / np.sqrt(bands[0])
         for m in range(4):
             bands[m, : self.dofs - m] *= scale[: self.dofs - m] * scale[m:]
-        try:
-            step = solveh_banded(bands, right * scale, lower=True) * scale
-        except np.linalg.LinAlgError:
-            raise ValueError(f"supports leave the beam free to move (got dofs {sorted(supports)})") from None
-        return np.asarray(q + step)
+        factor = cholesky_banded(bands, lower=True)
+        even, odd = row_sums(stiffness)
+        q, forces = np.zeros(self.dofs), np.zeros(self.dofs)
+        for dof, value in supports.items():
+            q[dof] = value
+        for _ in range(REFINEMENTS):  # with residuals by differences, which see what 12EI/Δx³·q rounds away
+            stiff_multiply(stiffness, even, odd, q, forces)
+            residual = np.where(free, load - forces, 0.0)
+            q += scale * cho_solve_banded((factor, True), scale * residual)
+        return np.asarray(q)
 
 
 def banded_product(bands: Array, x: Array) -> Array:

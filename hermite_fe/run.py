@@ -13,14 +13,35 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hermite_fe._banded import quadratic, stiff_multiply
-from hermite_fe._problem import ALGORITHMIC, IMPACT, VISCOUS, WORK, ContactLaw, problem_of, state_of, work_of
+from hermite_fe._problem import (
+    ALGORITHMIC,
+    IMPACT,
+    PRODUCT,
+    SMALLEST_REACTION,
+    VISCOUS,
+    WORK,
+    ContactLaw,
+    problem_of,
+    state_of,
+    work_of,
+)
 from hermite_fe.integrators import Integrator
 from hermite_fe.system import System
 
-__all__ = ["Trajectory", "integrate", "saved_steps"]
+__all__ = ["Stepper", "Trajectory", "integrate", "saved_steps"]
 
 Array = NDArray[np.float64]
 
+SUMS = (
+    "kinetic",
+    "strain",
+    "work",
+    "viscous",
+    "impact",
+    "algorithmic",
+    "smallest_reaction",
+    "product",
+)
 FAILURES = {
     1: "the step matrix is not positive definite",
     2: "the active set of the contact does not settle",
@@ -82,6 +103,64 @@ def saved_steps(instants: Array, save: int | Sequence[float] | Array) -> NDArray
     return np.unique(np.concatenate([[0], np.searchsorted(middles, wanted)]))
 
 
+class Stepper:
+    """A run in progress: ``advance_to`` takes steps, ``state`` is what they lead to.
+
+    Arguments as for :func:`integrate`. instants : all instants, (steps + 1,), s; step : the one reached.
+    """
+
+    def __init__(
+        self,
+        system: System,
+        q: Array,
+        v: Array,
+        integrator: Integrator,
+        end_time: float,
+        *,
+        restitution: float = 0.0,
+        hold: int = 0,
+        hold_until: float = 0.0,
+    ) -> None:
+        self.integrator = integrator
+        self.instants = integrator.instants(end_time)
+        self.problem = problem_of(system)
+        self.works = tuple(work_of(system, self.problem) for _ in range(integrator.matrices))
+        self.state = state_of(system, q, v)
+        self.law = ContactLaw(float(restitution), int(hold), float(hold_until))
+        self.step = 0
+
+    def advance_to(self, step: int) -> int:
+        """Take steps up to number ``step``; 0 when all went well, else a key of ``FAILURES``."""
+        if step <= self.step:
+            return 0
+        status, self.step = self.integrator.advance(
+            self.problem, self.law, self.state, self.works, self.instants, self.step, step
+        )
+        finite = np.all(np.isfinite(self.state.q)) and np.all(np.isfinite(self.state.v))
+        return 3 if status == 0 and not finite else status
+
+    def sums(self) -> dict[str, float]:
+        """Energies now, J, what they lost since the start, and the worst complementarity since the last
+        call."""
+        state, problem = self.state, self.problem
+        forces = np.zeros(state.q.size)
+        stiff_multiply(problem.K, problem.even, problem.odd, state.q, forces)
+        half = state.budget.size // 2
+        total = state.budget[:half] + state.budget[half:]
+        worst = state.worst.copy()
+        state.worst[:] = 0.0
+        return {
+            "kinetic": 0.5 * quadratic(problem.M, state.v),
+            "strain": 0.5 * float(forces @ state.q),
+            "work": total[WORK],
+            "viscous": total[VISCOUS],
+            "impact": total[IMPACT],
+            "algorithmic": total[ALGORITHMIC],
+            "smallest_reaction": worst[SMALLEST_REACTION],
+            "product": worst[PRODUCT],
+        }
+
+
 def integrate(
     system: System,
     q: Array,
@@ -104,72 +183,40 @@ def integrate(
     A run that cannot finish returns what it reached, with ``failure`` set. Raises ``ValueError`` for bad
     input.
     """
-    instants = integrator.instants(end_time)
-    kept = saved_steps(instants, save)
-    problem = problem_of(system)
-    works = tuple(work_of(system, problem) for _ in range(integrator.matrices))
-    state = state_of(system, q, v)
-    law = ContactLaw(float(restitution), int(hold), float(hold_until))
-    n, m, count = system.dofs, len(system.contacts), kept.size
-    samples = {name: np.zeros((count, n)) for name in ("q", "v")}
-    samples |= {name: np.zeros((count, m)) for name in ("gap", "impulse", "held_impulse")}
+    run = Stepper(
+        system, q, v, integrator, end_time, restitution=restitution, hold=hold, hold_until=hold_until
+    )
+    kept = saved_steps(run.instants, save)
+    count, n, m = kept.size, system.dofs, len(system.contacts)
+    arrays = {name: np.zeros((count, n)) for name in ("q", "v")}
+    arrays |= {name: np.zeros((count, m)) for name in ("gap", "impulse", "held_impulse")}
     closed = np.zeros((count, m), bool)
-    sums = {
-        name: np.zeros(count)
-        for name in (
-            "kinetic",
-            "strain",
-            "work",
-            "viscous",
-            "impact",
-            "algorithmic",
-            "smallest_reaction",
-            "product",
-        )
-    }
-    failure, failure_time, taken, good = "", 0.0, 0, 0
-    forces = np.zeros(n)
+    sums = {name: np.zeros(count) for name in SUMS}
+    failure, failure_time, good = "", 0.0, 0
     started = clock.perf_counter()
     for s, step in enumerate(kept):
-        if s > 0:
-            status, reached = integrator.advance(
-                problem, law, state, works, instants, int(kept[s - 1]), int(step)
-            )
-            taken = reached
-            if status == 0 and not (np.all(np.isfinite(state.q)) and np.all(np.isfinite(state.v))):
-                status = 3
-            if status != 0:
-                failure, failure_time = FAILURES[status], float(instants[reached])
-                break
-        samples["q"][s], samples["v"][s] = state.q, state.v
-        samples["gap"][s] = system.contacts.gaps(state.q)
-        samples["impulse"][s], samples["held_impulse"][s] = state.impulse, state.held_impulse
+        status = run.advance_to(int(step))
+        if status != 0:
+            failure, failure_time = FAILURES[status], float(run.instants[run.step])
+            break
+        state = run.state
+        arrays["q"][s], arrays["v"][s] = state.q, state.v
+        arrays["gap"][s] = system.contacts.gaps(state.q)
+        arrays["impulse"][s], arrays["held_impulse"][s] = state.impulse, state.held_impulse
         closed[s] = state.closed
-        sums["kinetic"][s] = 0.5 * quadratic(problem.M, state.v)
-        stiff_multiply(problem.K, problem.even, problem.odd, state.q, forces)
-        sums["strain"][s] = 0.5 * float(forces @ state.q)
-        half = state.budget.size // 2
-        for name, place in (
-            ("work", WORK),
-            ("viscous", VISCOUS),
-            ("impact", IMPACT),
-            ("algorithmic", ALGORITHMIC),
-        ):
-            sums[name][s] = state.budget[place] + state.budget[place + half]
-        sums["smallest_reaction"][s], sums["product"][s] = state.worst
-        state.worst[:] = 0.0
+        for name, value in run.sums().items():
+            sums[name][s] = value
         good = s + 1
         if progress is not None:
             progress(float(step) / float(kept[-1]))
     seconds = clock.perf_counter() - started
-    kept_time = instants[kept[:good]]
     return Trajectory(
-        time=kept_time,
+        time=run.instants[kept[:good]],
         closed=closed[:good],
-        steps=int(taken),
+        steps=run.step,
         seconds=seconds,
         failure=failure,
         failure_time=failure_time,
-        **{k: a[:good] for k, a in samples.items()},
+        **{k: a[:good] for k, a in arrays.items()},
         **{k: a[:good] for k, a in sums.items()},
     )

@@ -1,0 +1,73 @@
+"""What one time step costs, next to LAPACK on a matrix of the same size (for the benchmarks).
+
+step = prepared_step(4000)          # call it: takes one whole step, active set included
+yardstick = lapack_step(4000)       # call it: cholesky_banded + cho_solve_banded
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+from scipy.linalg import cho_solve_banded, cholesky_banded
+
+from bent_beam.impact import Impact
+from bent_beam.meshes import UniformMesh
+from hermite_fe.contacts import Contact, NodeContact
+from hermite_fe.far_fields import GridViscosity
+from hermite_fe.integrators import Integrator, MoreauJean
+from hermite_fe.model import BeamModel, beam_model
+from hermite_fe.run import Stepper
+
+__all__ = ["lapack_step", "prepared_step"]
+
+STEP = 1e-3  # in units of t*, of a half beam 100 l* long at κ/ν = 0.1
+
+
+def _model(nodes: int, contact: Contact) -> BeamModel:
+    impact = Impact.dimensionless(0.1, length=200.0)
+    places = UniformMesh(100.0 / (nodes - 1)).nodes(100.0)
+    return beam_model(impact, places, contact, GridViscosity(), full=False)
+
+
+def prepared_step(
+    nodes: int,
+    integrator: Integrator | None = None,
+    contact: Contact | None = None,
+    *,
+    growing: bool = False,
+    start: float = 0.5,
+    end_time: float = 1.0,
+) -> Callable[[], None]:
+    """A half beam of ``nodes`` nodes in the middle of an impact; each call of the result takes one more step.
+
+    growing : steps in proportion to time, so that every one makes and factors a new matrix. ``start`` : how
+        far the
+    run has got, as a fraction of ``end_time`` (in t*), before the first call. Raises ``RuntimeError`` when a
+    step fails.
+    """
+    integrator = (integrator or MoreauJean()).with_steps(*((0.1 * STEP, 2.0 * STEP) if growing else (STEP, 0.0)))
+    contact = contact or NodeContact(hold=16, hold_until=0.0)
+    model = _model(nodes, contact)
+    run = Stepper(
+        model.system, model.displacement, model.velocity, integrator, end_time, hold=contact.hold or 0
+    )
+    run.advance_to(int(np.searchsorted(run.instants, start * end_time)))
+
+    def step() -> None:
+        if run.step + 1 >= run.instants.size or run.advance_to(run.step + 1) != 0:
+            raise RuntimeError(f"no step after t = {float(run.instants[run.step])!r}")
+
+    return step
+
+
+def lapack_step(nodes: int) -> Callable[[], None]:
+    """LAPACK's banded factorisation and solution, through SciPy, of the step matrix of the same beam."""
+    system = _model(nodes, NodeContact()).system
+    bands = system.mass + STEP * system.damping + STEP**2 * system.stiffness
+    right = np.ones(system.dofs)
+
+    def step() -> None:
+        cho_solve_banded((cholesky_banded(bands, lower=True), True), right)
+
+    return step
