@@ -1,0 +1,129 @@
+"""The report's sentences, drawn from its numbers."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from statistics import median
+
+from comparison.report_impacts import ShownImpact
+from comparison.report_rows import Cell, TableRow, first_of, worst
+
+__all__ = ["acceleration_answer", "agreement_answer", "coverage", "headline", "speed_answer"]
+
+NAMES = {"hermite": "Hermite", "exudyn": "Exudyn"}
+
+
+def percent(value: float) -> str:
+    """A share as per cent, two significant digits, rounded up: never better than it is."""
+    size = 100.0 * abs(value)
+    if size == 0.0:
+        return "0 %"
+    digits = max(0, 1 - math.floor(math.log10(size)))
+    step = 10.0**-digits
+    return f"{math.ceil(size / step - 1e-9) * step:.{digits}f} %"
+
+
+def _worst_of(rows: Sequence[TableRow]) -> list[tuple[str, Cell, int]]:
+    found = []
+    for path, name in NAMES.items():
+        cell = worst(rows, path)
+        if cell is not None:
+            found.append((name, cell, sum(1 for r in rows if r.row.path == path)))
+    return found
+
+
+def headline(leading: Sequence[TableRow], first: Sequence[TableRow], failures: int) -> str:
+    """One sentence: how good the agreement is."""
+    parts = []
+    for what, rows in (("leading order (λ₀, r₀)", leading), ("first order (λ₁, r₁)", first)):
+        each = [f"{name} within {percent(cell.error)} ({count} rows)" for name, cell, count in _worst_of(rows)]
+        if each:
+            parts.append(f"{what}: {' and '.join(each)}")
+    if not parts:
+        return f"No row could be computed ({failures} failed)."
+    lost = f" {failures} row{'s' if failures != 1 else ''} failed." if failures else ""
+    return "Simulation against theory at " + "; ".join(parts) + "." + lost
+
+
+def coverage(rows: Sequence[TableRow]) -> tuple[int, int]:
+    """How many numbers have the theory inside their error bar, of how many."""
+    cells = [c for r in rows for c in r.cells]
+    return sum(c.covered for c in cells), len(cells)
+
+
+def agreement_answer(leading: Sequence[TableRow], first: Sequence[TableRow]) -> str:
+    """The answer to "how good is the agreement?" in two or three sentences."""
+    rows = [*leading, *first]
+    if not rows:
+        return "Nothing was computed."
+    cells = [c for r in rows for c in r.cells]
+    within = sum(abs(c.error) <= c.tolerance for c in cells)
+    covered, total = coverage(rows)
+    return (
+        f"{within} of {len(cells)} numbers are within the tolerance that this project holds itself to, "
+        f"and for {covered} of {total} the theory lies inside the error bar that the simulation gives itself."
+    )
+
+
+def speed_answer(leading: Sequence[TableRow], first: Sequence[TableRow]) -> str:
+    """The answer to "which path is faster?", from rows that both paths answered."""
+    sentences = []
+    for order, rows in (("leading order", leading), ("first order", first)):
+        pairs = _pairs(rows)
+        if pairs:
+            ratio = median(e / h for h, e in pairs if h > 0.0)
+            hermite, exudyn = (median(p[i] for p in pairs) for i in (0, 1))
+            quick, slow = ("Hermite", "Exudyn") if ratio >= 1.0 else ("Exudyn", "Hermite")
+            sentences.append(
+                f"at {order} {quick} is {max(ratio, 1.0 / ratio):.2g} times faster than {slow} "
+                f"(median of {len(pairs)} like rows: Hermite {hermite:.2g} s, Exudyn {exudyn:.2g} s)"
+            )
+    if not sentences:
+        return "No row was answered by both paths, so their times cannot be compared."
+    text = "; ".join(sentences)
+    return text[0].upper() + text[1:] + "."
+
+
+def _pairs(rows: Sequence[TableRow]) -> list[tuple[float, float]]:
+    def key(row: TableRow) -> tuple[float, ...]:
+        return (row.row.kappa_over_nu, *first_of(row.row))
+
+    exudyn = {key(r): r.row.seconds for r in rows if r.row.path == "exudyn"}
+    return [(r.row.seconds, exudyn[key(r)]) for r in rows if r.row.path == "hermite" and key(r) in exudyn]
+
+
+def _change(value: float, plain: float, what: str) -> str:
+    share = value / plain - 1.0
+    return f"{what} is {abs(100 * share):.0f} % {'larger' if share > 0 else 'smaller'}"
+
+
+def acceleration_answer(impacts: Sequence[ShownImpact]) -> list[str]:
+    """What α does to the contact: one sentence an impact, measured at its end against the impact without it."""
+    by_name = {i.shown.name: i for i in impacts}
+    plain = by_name.get("plain")
+    if plain is None:
+        return []
+    sentences = []
+    for impact in impacts:
+        if impact is plain:
+            continue
+        shown, data = impact.shown, impact.data
+        zone = _change(data["front"][-1], plain.data["front"][-1], "the contact zone")
+        force = _change(data["reaction"][-1], plain.data["reaction"][-1], "the concentrated reaction at each of its ends")
+        load = shown.epsilon * (shown.first[0] + shown.first[1])
+        if load > 0.0:
+            inside = (
+                f"the beam stays on the wall (largest gap inside {max(data['lift']):.0e} V₀t), which now carries a uniform "
+                f"reaction of {data['pressure'][-1]:.3g} μV₀/t* per length, the ε(α+ψ) = {load:.3g} that theory says"
+            )
+        else:
+            inside = (
+                f"the middle lifts off at once, by up to {100 * max(data['lift']):.2g} % of V₀t, and only the two ends of the zone "
+                "still touch"
+            )
+        sentences.append(
+            f"{shown.title[0].upper() + shown.title[1:]}, ε = {shown.epsilon:g}: at τ = {data['time'][-1]:g} {zone} and {force} "
+            f"than without acceleration; {inside}."
+        )
+    return sentences
