@@ -46,7 +46,9 @@ def prepared_step(
     run has got, as a fraction of ``end_time`` (in t*), before the first call. Raises ``RuntimeError`` when a
     step fails.
     """
-    integrator = (integrator or MoreauJean()).with_steps(*((0.1 * STEP, 2.0 * STEP) if growing else (STEP, 0.0)))
+    integrator = (integrator or MoreauJean()).with_steps(
+        *((0.1 * STEP, 2.0 * STEP) if growing else (STEP, 0.0))
+    )
     contact = contact or NodeContact(hold=16, hold_until=0.0)
     model = _model(nodes, contact)
     run = Stepper(

@@ -34,7 +34,9 @@ def test_element_matrices_are_the_integrals_of_the_shape_functions() -> None:
     points, weights = leggauss(6)
     xi, weights = 0.5 * (points + 1.0), 0.5 * length * weights
     bending, shape = shape_functions(xi, length, 2), shape_functions(xi, length)
-    assert np.allclose(element_stiffness(np.array([length]), 2.0)[0], 2.0 * bending.T @ (weights[:, None] * bending))
+    assert np.allclose(
+        element_stiffness(np.array([length]), 2.0)[0], 2.0 * bending.T @ (weights[:, None] * bending)
+    )
     assert np.allclose(element_mass(np.array([length]), 3.0)[0], 3.0 * shape.T @ (weights[:, None] * shape))
 
 

@@ -16,61 +16,69 @@ from hermite_fe.run import integrate
 from hermite_fe.system import ContactRows, System
 
 
-def returned(nodes: NDArray[np.float64], far_field: FarField, number: float, start: float, turn: float) -> float:
-    """Amplitude that comes back to x < start from a packet of unit amplitude and wave number sent out at ``start``.
+def returned(
+    nodes: NDArray[np.float64], far_field: FarField, number: float, start: float, turn: float
+) -> float:
+    """Amplitude that comes back to x < start from a packet of unit amplitude and wave number sent out at
+    ``start``.
 
-    turn : how far out it can get; the run ends when it would be back twice over.
+    turn : how far out it gets at most; looked at from the time it would be there to the time it would be back
+        twice.
     """
     beam = HermiteBeam(nodes, 1.0, 1.0)
-    width, k, x = 6.0 / number, number, nodes
+    width, k, x = min(12.0 / number, start / 5.0), number, nodes
     envelope = np.exp(-0.5 * ((x - start) / width) ** 2)
-    first = -(x - start) / width**2 * envelope
-    second = (-1.0 / width**2 + ((x - start) / width**2) ** 2) * envelope
+    y = (x - start) / width
+    first, second = -y / width * envelope, (y**2 - 1.0) / width**2 * envelope
+    third = (3.0 * y - y**3) / width**3 * envelope
     cos, sin = np.cos(k * x), np.sin(k * x)
-    # u = Re A(x − 2kt) exp(i(kx − k²t)), outgoing at the group velocity 2k
+    # u = Re[A exp(ikx)] and its velocity Re[i ∂ₓₓ(A exp(ikx))]: every number in it runs outwards
     q = beam.interpolate(envelope * cos, first * cos - k * envelope * sin)
     v = beam.interpolate(
-        -2.0 * k * first * cos + k**2 * envelope * sin,
-        -2.0 * k * (second * cos - k * first * sin) + k**2 * (first * sin + k * envelope * cos),
+        (k**2 * envelope - second) * sin - 2.0 * k * first * cos,
+        (3.0 * k**2 * first - third) * sin + (k**3 * envelope - 3.0 * k * second) * cos,
     )
     system = System(
-        mass=beam.mass(), stiffness=beam.stiffness(),
+        mass=beam.mass(),
+        stiffness=beam.stiffness(),
         damping=far_field.damping(beam, Impact(1.0, 1.0, 2.0 * nodes[-1], 0.0, 1.0)),
         contacts=ContactRows(dofs=[[0]], factors=[[-1.0]], gap=[1e9]),
     )
-    end = (2.2 * (turn - start) + start) / (2.0 * k)
+    end = 4.0 * (turn - start) / (2.0 * k)
     run = integrate(
-        system, q, v, NonsmoothGeneralizedAlpha(0.05 / k**2, levels="velocity", spectral_radius=1.0), end,
-        save=np.linspace(0.5, 1.0, 60) * end,
+        system,
+        q,
+        v,
+        NonsmoothGeneralizedAlpha(0.05 / k**2, levels="velocity", spectral_radius=1.0),
+        end,
+        save=np.linspace(0.25, 1.0, 60) * end,
     )
     assert run.failure == ""
-    return float(np.abs(run.q[1:, 0::2][:, x < start - 3.0 * width]).max())
+    return float(np.abs(run.q[1:, 0::2][:, x < start]).max())
 
 
-@pytest.mark.parametrize("growth", [1.01, 1.02])
-@pytest.mark.parametrize("points", [15.0, 8.0])
+@pytest.mark.parametrize(("growth", "points"), [(1.01, 15.0), (1.01, 8.0), (1.02, 15.0)])
 def test_growing_elements_with_viscosity_swallow_a_packet(growth: float, points: float) -> None:
     """``points`` : elements per wave length where the packet starts; it dies on its way to a few."""
     start = 2.0 * np.pi / (points * (growth - 1.0))  # elements there are start·(growth − 1) long, k = 1
-    nodes = ScaleFreeMesh(0.2, growth).nodes(6.0 * start)
-    assert returned(nodes, GridViscosity(), 1.0, start, 3.0 * start) < 1e-3
+    nodes = ScaleFreeMesh(0.2, growth).nodes(12.0 * start)
+    assert returned(nodes, GridViscosity(), 1.0, start, np.pi / (growth - 1.0)) < 1e-3
 
 
 def test_growing_elements_alone_send_it_back() -> None:
-    start = 2.0 * np.pi / (8.0 * 0.02)
-    nodes = ScaleFreeMesh(0.2, 1.02).nodes(6.0 * start)
-    assert returned(nodes, GridViscosity(viscosity=0.0), 1.0, start, 3.0 * start) > 0.1
+    start = 2.0 * np.pi / (15.0 * 0.02)
+    nodes = ScaleFreeMesh(0.2, 1.02).nodes(12.0 * start)
+    assert returned(nodes, GridViscosity(viscosity=0.0), 1.0, start, np.pi / 0.02) > 0.1
 
 
-@pytest.mark.parametrize("number", [0.5, 1.0, 3.0])
+@pytest.mark.parametrize("number", [1.0, 2.0])
 def test_a_sponge_swallows_what_the_mesh_carries_to_the_end(number: float) -> None:
-    half = 100.0
-    nodes = UniformMesh(2.0 * np.pi / number / 20.0).nodes(half)
-    assert returned(nodes, Sponge(), number, 45.0, half) < 1e-3
+    nodes = UniformMesh(2.0 * np.pi / number / 20.0).nodes(100.0)
+    assert returned(nodes, Sponge(viscosity=0.0), number, 30.0, 100.0) < 1e-3
 
 
 def test_a_free_end_sends_everything_back() -> None:
-    assert returned(UniformMesh(0.3).nodes(100.0), GridViscosity(viscosity=0.0), 1.0, 45.0, 100.0) > 0.5
+    assert returned(UniformMesh(0.3).nodes(100.0), GridViscosity(viscosity=0.0), 1.0, 30.0, 100.0) > 0.5
 
 
 def test_doubling_the_far_field_changes_nothing() -> None:
@@ -91,15 +99,17 @@ def test_far_fields_take_no_momentum_and_leave_rigid_motion_alone() -> None:
     for far_field in (GridViscosity(), Sponge()):
         bands = far_field.damping(beam, impact)
         n = beam.dofs
-        full = sum(np.diag(bands[m, : n - m], -m) + (np.diag(bands[m, : n - m], m) if m else 0.0) for m in range(4))
+        full = sum(
+            np.diag(bands[m, : n - m], -m) + (np.diag(bands[m, : n - m], m) if m else 0.0) for m in range(4)
+        )
         rigid = beam.interpolate(np.ones(beam.nodes.size), np.zeros(beam.nodes.size))
         assert np.abs(full @ rigid).max() < 1e-12 * np.abs(full).max()
 
 
 def test_far_fields_validate_their_numbers() -> None:
-    with pytest.raises(ValueError, match="far_field.viscosity must not be negative"):
+    with pytest.raises(ValueError, match=r"far_field\.viscosity must not be negative"):
         GridViscosity(viscosity=-0.1)
     with pytest.raises(ValueError, match=r"far_field.width must lie in \[0, 1\]"):
         Sponge(width=2.0)
-    with pytest.raises(ValueError, match="far_field.end must be one of following, free"):
+    with pytest.raises(ValueError, match=r"far_field\.end must be one of following, free"):
         Sponge(end="welded")

@@ -1,4 +1,5 @@
-"""The contact core knows no beams: a bouncing ball and an oscillator against a stop run through every integrator."""
+"""The contact core knows no beams: a bouncing ball and an oscillator against a stop run through every
+integrator."""
 
 from __future__ import annotations
 
@@ -44,7 +45,9 @@ def ball() -> System:
 
 
 def oscillator(gap: float = 0.0) -> System:
-    return System(mass=[[2.0]], stiffness=[[8.0]], contacts=ContactRows(dofs=[[0]], factors=[[1.0]], gap=[gap]))
+    return System(
+        mass=[[2.0]], stiffness=[[8.0]], contacts=ContactRows(dofs=[[0]], factors=[[1.0]], gap=[gap])
+    )
 
 
 def chain(gap: float) -> System:
@@ -91,13 +94,17 @@ def test_order_across_impacts_is_about_one(make: Make) -> None:
     steps = np.geomspace(4e-3, 1e-4, 24)
     errors = []
     for h in steps:
-        run = integrate(ball(), np.array([DROP]), np.zeros(1), make(float(h)), end, restitution=0.9, save=[end])
+        run = integrate(
+            ball(), np.array([DROP]), np.zeros(1), make(float(h)), end, restitution=0.9, save=[end]
+        )
         errors.append(abs(run.q[-1, 0] - bounced(end, 0.9)))
     order = np.polyfit(np.log(steps), np.log(np.maximum(errors, 1e-9)), 1)[0]
     assert 0.6 < order < 1.7
 
 
-@pytest.mark.parametrize(("name", "order"), [(n, 1 if "implicit" in n or "signorini" in n else 2) for n in ALL])
+@pytest.mark.parametrize(
+    ("name", "order"), [(n, 1 if "implicit" in n or "signorini" in n else 2) for n in ALL]
+)
 def test_order_in_smooth_motion(name: str, order: int) -> None:
     system, ends = chain(gap=100.0), []
     for h in (0.02, 0.01, 0.005, 2e-4):

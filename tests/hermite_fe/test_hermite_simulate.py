@@ -52,17 +52,24 @@ def spread(history: ImpactHistory) -> float:
     thickness, out = math.sqrt(2.0 * impact.kappa_over_nu), []
     for k in np.flatnonzero(tau >= 0.3 * tau[-1]):
         last = x[history.array("in_contact")[k]].max()
-        near = (x > last + 0.1 * thickness * math.sqrt(tau[k])) & (x < last + 0.6 * thickness * math.sqrt(tau[k]))
-        roots = np.roots(np.polyfit(x[near], np.cbrt(history.array("gap")[k][near] / impact.deflection_scale), 2))
+        near = (x > last + 0.1 * thickness * math.sqrt(tau[k])) & (
+            x < last + 0.6 * thickness * math.sqrt(tau[k])
+        )
+        roots = np.roots(
+            np.polyfit(x[near], np.cbrt(history.array("gap")[k][near] / impact.deflection_scale), 2)
+        )
         real = roots[np.isreal(roots)].real
         out.append(real[np.argmin(np.abs(real - last))] / math.sqrt(tau[k]))
     return float(np.mean(out))
 
 
 @pytest.mark.parametrize(
-    ("curvature", "lambda0", "r0"), [(10.0, 1.01886591389, 1.17721208090), (2.0, 4.25760478009, 2.74499113477)]
+    ("curvature", "lambda0", "r0"),
+    [(10.0, 1.01886591389, 1.17721208090), (2.0, 4.25760478009, 2.74499113477)],
 )
-def test_auto_finds_the_leading_order_of_a_case_in_si_units(curvature: float, lambda0: float, r0: float) -> None:
+def test_auto_finds_the_leading_order_of_a_case_in_si_units(
+    curvature: float, lambda0: float, r0: float
+) -> None:
     history = simulate(Impact(1.0, 1.0, 50.0, curvature, 20.0))
     assert history.warnings == []
     assert history.completed and history.time[-1] == pytest.approx(2.5e-4)
@@ -80,21 +87,34 @@ def test_a_thin_front_is_resolved_too() -> None:
 
 @pytest.mark.parametrize(
     ("groups", "r1", "lambda0"),
-    [((4.0, 0.0, 0.0), 10.6928065607, 1.01886591389), ((1.0, 1.0, 0.0), 1.83706066099, 1.01886591389),
-     ((-1.0, -1.0, 0.0), -4.18053010088, 0.0)],
+    [
+        ((4.0, 0.0, 0.0), 10.6928065607, 1.01886591389),
+        ((1.0, 1.0, 0.0), 1.83706066099, 1.01886591389),
+        ((-1.0, -1.0, 0.0), -4.18053010088, 0.0),
+    ],
 )
-def test_first_order_reaction_at_kappa_one_half(groups: tuple[float, float, float], r1: float, lambda0: float) -> None:
-    """I₁ = (4√(2/π)/3 r₁ + (4/3)(α + ψ)₊λ₀) τ^{3/2}: loads of both signs, initial shape and rate simulated."""
+def test_first_order_reaction_at_kappa_one_half(
+    groups: tuple[float, float, float], r1: float, lambda0: float
+) -> None:
+    """I₁ = (4√(2/π)/3 r₁ + (4/3)(α + ψ)₊λ₀) τ^{3/2}: loads of both signs, initial shape and rate
+    simulated."""
     alpha, psi, chi = groups
     contact = NodeContact(hold=16 if alpha + psi >= 0 else 0)
     out = []
     for epsilon in (0.0, 2e-3, 4e-3):
         impact = Impact.dimensionless(
-            0.5, epsilon_alpha=epsilon * alpha, epsilon_psi=epsilon * psi, epsilon_chi=epsilon * chi, length=60.0)
+            0.5,
+            epsilon_alpha=epsilon * alpha,
+            epsilon_psi=epsilon * psi,
+            epsilon_chi=epsilon * chi,
+            length=60.0,
+        )
         out.append(simulate(impact, end_time=1.0, contact=contact, far_field=GridViscosity(end="following")))
     tau, base = scaled(out[0])
     late = tau >= 0.1
-    slopes = [slope(tau[late] ** 1.5, ((scaled(h)[1] - base) / e)[late]) for h, e in zip(out[1:], (2e-3, 4e-3))]
+    slopes = [
+        slope(tau[late] ** 1.5, ((scaled(h)[1] - base) / e)[late]) for h, e in zip(out[1:], (2e-3, 4e-3))
+    ]
     first = 2.0 * slopes[0] - slopes[1] - 4.0 / 3.0 * max(alpha + psi, 0.0) * lambda0
     assert first / (R / 3.0) == pytest.approx(r1, rel=5e-3)
 
@@ -103,18 +123,32 @@ def test_without_contact_the_free_motion_is_reproduced() -> None:
     impact = Impact.dimensionless(3.0, epsilon_alpha=0.4, epsilon_psi=0.3, epsilon_chi=-0.2, length=4.0)
     impact = impact.replace(velocity=1e-3, acceleration=-0.4)  # leaves before it touches anything
     history = simulate(
-        impact, end_time=0.4, mesh=UniformMesh(0.1), far_field=GridViscosity(end="following"),
-        integrator=INTEGRATORS["nonsmooth_generalized_alpha"](time_step=1e-2), contact=NodeContact(hold=0, hold_until=0.0),
+        impact,
+        end_time=0.4,
+        mesh=UniformMesh(0.1),
+        far_field=GridViscosity(end="following"),
+        integrator=INTEGRATORS["nonsmooth_generalized_alpha"](time_step=1e-2),
+        contact=NodeContact(hold=0, hold_until=0.0),
     )
     t, x = history.time[:, None], history.dataset.x.values[None, 1:]
-    exact = (impact.velocity * t - 0.5 * impact.curvature * x**2 + 0.5 * impact.acceleration * t**2
-             + 0.5 * impact.curvature_rate * x**2 * t + impact.fourth_derivative * x**4 / 24.0)
-    assert np.abs(history.array("gap")[:, 1:] + exact).max() < 2e-4  # the middle node's first touch is all there is
+    exact = (
+        impact.velocity * t
+        - 0.5 * impact.curvature * x**2
+        + 0.5 * impact.acceleration * t**2
+        + 0.5 * impact.curvature_rate * x**2 * t
+        + impact.fourth_derivative * x**4 / 24.0
+    )
+    assert (
+        np.abs(history.array("gap")[:, 1:] + exact).max() < 2e-4
+    )  # the middle node's first touch is all there is
 
 
 def test_a_finite_free_beam_is_pressed_or_lifts_off() -> None:
     """The thesis's first-order case: L = 2 m, K = 0.35 1/m, V₀ = 3.5 m/s, a₀ = ±700 m/s² (Fig. 3.34)."""
-    runs = {a: simulate(Impact(1.0, 1.0, 2.0, 0.35, 3.5, acceleration=a), end_time=2.5e-3) for a in (-700.0, 0.0, 700.0)}
+    runs = {
+        a: simulate(Impact(1.0, 1.0, 2.0, 0.35, 3.5, acceleration=a), end_time=2.5e-3)
+        for a in (-700.0, 0.0, 700.0)
+    }
     impulse = {a: history.array("total_impulse")[-1] for a, history in runs.items()}
     assert impulse[-700.0] < impulse[0.0] < impulse[700.0]
     assert runs[-700.0].array("gap")[-1][0] > 1e-4  # the middle is off the wall
@@ -126,15 +160,24 @@ def test_a_finite_free_beam_is_pressed_or_lifts_off() -> None:
 
 def test_coarse_meshes_and_steps_are_warned_of_by_how_much() -> None:
     history = simulate(
-        Impact(1.0, 1.0, 50.0, 1.0 / 80.0, 20.0), mesh=UniformMesh(0.05), integrator=MoreauJean(time_step=5e-5), save=4)
+        Impact(1.0, 1.0, 50.0, 1.0 / 80.0, 20.0),
+        mesh=UniformMesh(0.05),
+        integrator=MoreauJean(time_step=5e-5),
+        save=4,
+    )
     mesh, step = history.warnings
     assert "mesh cannot resolve" in mesh and "1.8e+02 times shorter" in mesh
     assert "time steps cannot resolve" in step
 
 
 def test_returning_waves_are_warned_of() -> None:
-    history = simulate(Impact.dimensionless(0.5, length=4.0), end_time=1.0, mesh=UniformMesh(0.05),
-                       integrator=MoreauJean(time_step=1e-2), save=4)
+    history = simulate(
+        Impact.dimensionless(0.5, length=4.0),
+        end_time=1.0,
+        mesh=UniformMesh(0.05),
+        integrator=MoreauJean(time_step=1e-2),
+        save=4,
+    )
     assert any("ends of the beam" in warning for warning in history.warnings)
 
 
@@ -146,7 +189,9 @@ def test_settings_suffice_to_run_again() -> None:
         name: kinds[text[name]["kind"]](**{k: v for k, v in text[name].items() if k != "kind"})
         for name in ("mesh", "integrator", "contact", "far_field")
     }
-    again = simulate(history.impact, end_time=text["end_time"], full_beam=text["full_beam"], save=text["save"], **parts)
+    again = simulate(
+        history.impact, end_time=text["end_time"], full_beam=text["full_beam"], save=text["save"], **parts
+    )
     assert np.array_equal(again.array("gap"), history.array("gap"))
     assert again.settings == history.settings
 
@@ -154,7 +199,9 @@ def test_settings_suffice_to_run_again() -> None:
 def test_saved_times_and_progress() -> None:
     fractions: list[float] = []
     wanted = [0.01, 0.02, 0.05]
-    history = simulate(SHORT, end_time=0.05, integrator=MoreauJean(time_step=1e-3), save=wanted, progress=fractions.append)
+    history = simulate(
+        SHORT, end_time=0.05, integrator=MoreauJean(time_step=1e-3), save=wanted, progress=fractions.append
+    )
     assert history.time == pytest.approx([0.0, *wanted])
     assert fractions[-1] == 1.0 and fractions == sorted(fractions)
 
@@ -176,8 +223,12 @@ def test_a_run_that_fails_keeps_its_partial_history() -> None:
 
 
 def test_an_overflow_is_found_in_the_step_where_it_happens() -> None:
-    system = System(mass=[[1.0]], stiffness=[[0.0]], load=[[0.0], [1e308]],
-                    contacts=ContactRows(dofs=[[0]], factors=[[1.0]], gap=[1.0]))
+    system = System(
+        mass=[[1.0]],
+        stiffness=[[0.0]],
+        load=[[0.0], [1e308]],
+        contacts=ContactRows(dofs=[[0]], factors=[[1.0]], gap=[1.0]),
+    )
     run = integrate(system, np.zeros(1), np.zeros(1), MoreauJean(time_step=1.0), 100.0, save=[100.0])
     assert run.failure == "the solution is not finite"
     assert run.steps < 10
@@ -221,7 +272,11 @@ def test_parts_come_from_case_tables() -> None:
     history = simulate(SHORT, end_time=0.02, **parts)
     assert history.settings["far_field"]["width"] == 0.5
     assert set(INTEGRATORS) == {
-        "moreau_jean", "nonsmooth_generalized_alpha", "signorini_position", "generalized_alpha_penalty"}
+        "moreau_jean",
+        "nonsmooth_generalized_alpha",
+        "signorini_position",
+        "generalized_alpha_penalty",
+    }
     assert set(CONTACTS) == {"node", "middle", "mean"} and set(FAR_FIELDS) == {"viscosity", "sponge"}
 
 
@@ -232,10 +287,16 @@ def test_parts_come_from_case_tables() -> None:
     element=st.floats(0.02, 0.5),
     step=st.floats(1e-4, 5e-2),
 )
-def test_any_sound_run_is_finite_and_closes_its_budget(kappa: float, restitution: float, element: float, step: float) -> None:
+def test_any_sound_run_is_finite_and_closes_its_budget(
+    kappa: float, restitution: float, element: float, step: float
+) -> None:
     history = simulate(
-        Impact.dimensionless(kappa, length=8.0), end_time=0.1, mesh=UniformMesh(element),
-        integrator=MoreauJean(time_step=step, theta=0.5), contact=NodeContact(restitution=restitution), save=5,
+        Impact.dimensionless(kappa, length=8.0),
+        end_time=0.1,
+        mesh=UniformMesh(element),
+        integrator=MoreauJean(time_step=step, theta=0.5),
+        contact=NodeContact(restitution=restitution),
+        save=5,
     )
     budget = history.energy_budget()
     assert abs(budget["defect"]) < 1e-10 * budget["initial_energy"]
