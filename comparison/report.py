@@ -1,8 +1,9 @@
 """The main job's result: both paths matched with the theory, as one HTML page that needs no network.
 
-``write_report`` computes the rows (:mod:`comparison.report_rows`), a few impacts to look at (:mod:`comparison.report_impacts`) and
-the cheap studies, draws them (:mod:`comparison.report_plots`) and puts them into ``templates/report.html.j2`` with
-plotly.js inside. Whatever fails is named on the page, with the command that asks again; the page is written all the same.
+``write_report`` computes the rows (:mod:`comparison.report_rows`), a few impacts to look at
+(:mod:`comparison.report_impacts`) and the cheap studies, draws them (:mod:`comparison.report_plots`) and puts
+them into ``templates/report.html.j2`` with plotly.js inside. Whatever fails is named on the page, with the
+command that asks again; the page is written all the same.
 """
 
 from __future__ import annotations
@@ -14,7 +15,7 @@ import platform
 import time as clock
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
-from datetime import datetime, timezone
+from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
@@ -28,7 +29,13 @@ from comparison.report_impacts import SHOWN, Shown, ShownImpact, show
 from comparison.report_plots import plots
 from comparison.report_rows import first_order_rows, leading_rows, report_questions
 from comparison.report_studies import StudyNote, cheap_studies
-from comparison.report_text import acceleration_answer, agreement_answer, headline, speed_answer
+from comparison.report_text import (
+    acceleration_answer,
+    acceleration_short,
+    agreement_answer,
+    headline,
+    speed_answer,
+)
 from comparison.store import RunStore, write_atomically
 from comparison.tables import write_match
 
@@ -68,8 +75,8 @@ def write_report(
     questions : rows to ask for instead of the usual ones. studies : run the cheap parameter studies too.
     progress : called with (done, total) as rows finish.
 
-    Returns ``page``, ``files``, ``headline``, ``failures`` (JSON-ready) and ``rows`` (their number). A row that fails is listed, not
-    raised.
+    Returns ``page``, ``files``, ``headline``, ``failures`` (JSON-ready) and ``rows`` (their number).
+    A row that fails is listed, not raised.
     """
     began = clock.perf_counter()
     asked = list(report_questions() if questions is None else questions)
@@ -86,8 +93,15 @@ def write_report(
     files = write_match(rows, failures, out / "data")
     files += still_pictures(impacts, out / "data")
     content = Content(
-        rows=rows, failures=failures, impacts=impacts, lost_impacts=lost, studies=notes,
-        pictures=[f for f in files if f.suffix == ".png"], seconds=clock.perf_counter() - began, jobs=jobs, machine=machine(),
+        rows=rows,
+        failures=failures,
+        impacts=impacts,
+        lost_impacts=lost,
+        studies=notes,
+        pictures=[f for f in files if f.suffix == ".png"],
+        seconds=clock.perf_counter() - began,
+        jobs=jobs,
+        machine=machine(),
     )
     index = out / "index.html"
     write_atomically(index, page(content))
@@ -140,7 +154,7 @@ def processor() -> str:
     return platform.processor() or platform.machine()
 
 
-# --- the page -----------------------------------------------------------------------------------------------------
+# --- the page ---------------------------------------------------------------------------------------------
 
 
 def page(content: Content) -> str:
@@ -148,8 +162,11 @@ def page(content: Content) -> str:
     from plotly.offline import get_plotlyjs
 
     environment = jinja2.Environment(
-        loader=jinja2.FileSystemLoader(TEMPLATES), autoescape=True, undefined=jinja2.StrictUndefined,
-        trim_blocks=True, lstrip_blocks=True,
+        loader=jinja2.FileSystemLoader(TEMPLATES),
+        autoescape=True,
+        undefined=jinja2.StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
     )
     leading, first = leading_rows(content.rows), first_order_rows(content.rows)
     return environment.get_template("report.html.j2").render(
@@ -157,11 +174,17 @@ def page(content: Content) -> str:
         agreement=agreement_answer(leading, first),
         speed=speed_answer(leading, first),
         acceleration=acceleration_answer(content.impacts),
-        leading=leading, first=first, failures=content.failures,
+        acceleration_short=acceleration_short(content.impacts),
+        leading=leading,
+        first=first,
+        failures=content.failures,
         warnings=[(r, w) for r in [*leading, *first] for w in r.row.warnings],
-        impacts=content.impacts, lost_impacts=content.lost_impacts, studies=content.studies,
+        impacts=content.impacts,
+        lost_impacts=content.lost_impacts,
+        studies=content.studies,
         pictures={p.stem: picture(p) for p in content.pictures if p.exists()},
-        facts=facts(content), settings=settings(content),
+        facts=facts(content),
+        settings=settings(content),
         data={"plots": plots(leading, first), "impacts": [impact_data(i) for i in content.impacts]},
         plotly=inline_script(get_plotlyjs()),
         script=inline_script((TEMPLATES / "report.js").read_text(encoding="utf-8")),
@@ -182,17 +205,29 @@ def picture(file: Path) -> str:
 def impact_data(impact: ShownImpact) -> dict[str, Any]:
     """An impact as the page's script reads it."""
     shown = impact.shown
-    return {"name": shown.name, "title": shown.title, "kappa": shown.kappa_over_nu, "epsilon": shown.epsilon, **impact.data}
+    return {
+        "name": shown.name,
+        "title": shown.title,
+        "kappa": shown.kappa_over_nu,
+        "epsilon": shown.epsilon,
+        **impact.data,
+    }
 
 
 def facts(content: Content) -> list[tuple[str, str]]:
     """Versions, machine and times, as pairs of name and value."""
-    when = datetime.now(timezone.utc).strftime("%Y-%m-%d %H:%M UTC")
+    when = datetime.now(UTC).strftime("%Y-%m-%d %H:%M UTC")
     return [
         ("written", when),
         ("rows", f"{len(content.rows)} computed, {len(content.failures)} failed"),
-        ("time for this report", f"{content.seconds:.0f} s with {content.jobs} process{'es' if content.jobs > 1 else ''}"),
-        ("time in the rows", f"{sum(r.seconds for r in content.rows):.0f} s (runs kept from before count what they took then)"),
+        (
+            "time for this report",
+            f"{content.seconds:.0f} s with {content.jobs} process{'es' if content.jobs > 1 else ''}",
+        ),
+        (
+            "time in the rows",
+            f"{sum(r.seconds for r in content.rows):.0f} s (runs kept from before count what they took then)",
+        ),
         *content.machine.items(),
         *versions().items(),
         ("plotly", plotly_version()),
@@ -210,13 +245,20 @@ def settings(content: Content) -> list[tuple[str, str]]:
     from hermite_fe.expanding import ExpandingMesh
 
     found = [("Hermite, leading order: expanding mesh", json.dumps(describe(ExpandingMesh()), indent=1))]
-    found += [(f"Shown impact: {i.shown.title}", json.dumps(dict(i.settings), indent=1)) for i in content.impacts]
+    found += [
+        (f"Shown impact: {i.shown.title}", json.dumps(dict(i.settings), indent=1)) for i in content.impacts
+    ]
     epsilons = {
-        f"{r.row.path}, kappa/nu = {r.row.kappa_over_nu:g}, {r.first_text}": [float(f"{e:.4g}") for e in r.row.epsilons]
+        f"{r.row.path}, kappa/nu = {r.row.kappa_over_nu:g}, {r.first_text}": [
+            float(f"{e:.4g}") for e in r.row.epsilons
+        ]
         for r in first_order_rows(content.rows)
     }
     if epsilons:
-        found.append(("First order: ε of the runs, chosen automatically", json.dumps(epsilons, indent=1, ensure_ascii=False)))
+        found.append(
+            (
+                "First order: ε of the runs, chosen automatically",
+                json.dumps(epsilons, indent=1, ensure_ascii=False),
+            )
+        )
     return found
-
-

@@ -1,9 +1,10 @@
-"""Impacts to look at: one history reduced to what a reader scrubs through, in units of the fast layer (l*, t*, V₀t*)."""
+"""Impacts to look at: a history reduced to what a reader scrubs through, in units of the fast layer."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -38,7 +39,9 @@ class Shown:
     def impact(self) -> Impact:
         alpha, psi, chi = self.first
         return Impact.dimensionless(
-            self.kappa_over_nu, epsilon_alpha=self.epsilon * alpha, epsilon_psi=self.epsilon * psi,
+            self.kappa_over_nu,
+            epsilon_alpha=self.epsilon * alpha,
+            epsilon_psi=self.epsilon * psi,
             epsilon_chi=self.epsilon * chi,
         )
 
@@ -66,10 +69,16 @@ def show(shown: Shown) -> ShownImpact:
     """Simulate on the Hermite path's expanding mesh and reduce. Raises :class:`bent_beam.SimulationError`."""
     from hermite_fe.expanding import ExpandingMesh, simulate_expanding
 
-    history = simulate_expanding(shown.impact, ExpandingMesh(), end_time=END * shown.impact.time_scale, save=400)
+    history = simulate_expanding(
+        shown.impact, ExpandingMesh(), end_time=END * shown.impact.time_scale, save=400
+    )
     exact = contact_parameters(shown.kappa_over_nu, *shown.first)
     return ShownImpact(
-        shown, reduce_history(history, exact, shown.epsilon), history.settings, history.seconds, history.steps,
+        shown,
+        reduce_history(history, exact, shown.epsilon),
+        history.settings,
+        history.seconds,
+        history.steps,
         tuple(history.warnings),
     )
 
@@ -84,8 +93,9 @@ def frames_of(time: Array, count: int = FRAMES) -> NDArray[np.int64]:
 def reduce_history(history: ImpactHistory, exact: ContactParameters, epsilon: float) -> dict[str, Any]:
     """What the page needs of a history of half a beam, JSON-ready, in units of the fast layer.
 
-    ``time`` (frames,); ``x`` (points,) and ``gap`` (frames, points) over V₀t; ``front`` and ``reaction`` (one side's), measured and of
-    theory; ``pressure`` of the zone; ``lift`` over V₀t; ``map``: force per length in bins of x between frames; energies.
+    ``time`` (frames,); ``x`` (points,) and ``gap`` (frames, points) over V₀t; ``front`` and ``reaction`` (one
+    side's), measured and of theory; ``pressure`` of the zone; ``lift`` over V₀t; ``map``: force per length in
+    bins of x between frames; energies.
     """
     impact = history.impact
     kept = frames_of(history.time)
@@ -95,39 +105,54 @@ def reduce_history(history: ImpactHistory, exact: ContactParameters, epsilon: fl
     reaction = np.gradient(found.impulse, np.sqrt(tau)) / (2.0 * np.sqrt(np.maximum(tau, 1e-300)))  # I ~ √τ
     widest = 1.25 * max(float(found.front.max()), 0.2 * np.sqrt(tau[-1]))
     x = np.linspace(0.0, 2.4 * widest / 1.25, POINTS)
-    gap = np.array([
-        np.interp(x, history.positions(k) / impact.length_scale, history.array("gap")[k]) / (impact.velocity * history.time[k])
-        for k in kept
-    ])
+    gap = np.array(
+        [
+            np.interp(x, history.positions(k) / impact.length_scale, history.array("gap")[k])
+            / (impact.velocity * history.time[k])
+            for k in kept
+        ]
+    )
     edges = np.linspace(0.0, widest, BINS + 1)
     energy = impact.mass_per_length * impact.length_scale * impact.velocity**2
     root = np.sqrt(tau[kept])
-    return finite_or_null({
-        "time": _short(tau[kept]), "x": _short(x), "gap": [_short(g) for g in gap],
-        "front": _short(found.front[kept]), "reaction": _short(reaction[kept]), "pressure": _short(found.pressure[kept]),
-        "lift": _short(found.lift[kept]),
-        "front_theory": _short(root * (exact.lambda0 + epsilon * exact.lambda1 * tau[kept])),
-        "reaction_theory": _short(side * (exact.r0 + epsilon * exact.r1 * tau[kept]) / root),
-        "map": {
-            "x": _short(0.5 * (edges[1:] + edges[:-1])), "root_time": _short(root[1:]),
-            "force": [_short(row) for row in force_map(history, kept, edges)],
-        },
-        "energy": {
-            name: _short(history.array(name)[kept] / energy)
-            for name in ("work_of_loads", "kinetic_energy", "strain_energy", "loss_artificial")
-        },
-    })
+    return finite_or_null(
+        {
+            "time": _short(tau[kept]),
+            "x": _short(x),
+            "gap": [_short(g) for g in gap],
+            "front": _short(found.front[kept]),
+            "reaction": _short(reaction[kept]),
+            "pressure": _short(found.pressure[kept]),
+            "lift": _short(found.lift[kept]),
+            "front_theory": _short(root * (exact.lambda0 + epsilon * exact.lambda1 * tau[kept])),
+            "reaction_theory": _short(side * (exact.r0 + epsilon * exact.r1 * tau[kept]) / root),
+            "map": {
+                "x": _short(0.5 * (edges[1:] + edges[:-1])),
+                "root_time": _short(root[1:]),
+                "force": [_short(row) for row in force_map(history, kept, edges)],
+            },
+            "energy": {
+                name: _short(history.array(name)[kept] / energy)
+                for name in ("work_of_loads", "kinetic_energy", "strain_energy", "loss_artificial")
+            },
+        }
+    )
 
 
 def force_map(history: ImpactHistory, kept: NDArray[np.int64], edges: Array) -> Array:
-    """Reaction per length (frames − 1, bins), each the mean between two kept instants: impulse gathered over length and time."""
+    """Reaction per length (frames − 1, bins): impulse between two kept instants, per length and time."""
     impact = history.impact
-    impulse, unit = history.array("impulse"), impact.mass_per_length * impact.velocity  # μV₀: impulse per length
+    impulse, unit = (
+        history.array("impulse"),
+        impact.mass_per_length * impact.velocity,
+    )  # μV₀: impulse per length
     width = np.diff(edges)
     rows = np.zeros((kept.size - 1, width.size))
-    for row, (first, last) in enumerate(zip(kept[:-1], kept[1:])):
+    for row, (first, last) in enumerate(pairwise(kept)):
         for k in range(first + 1, last + 1):
-            places = 0.5 * (history.contact_positions(k - 1) + history.contact_positions(k)) / impact.length_scale
+            places = (
+                0.5 * (history.contact_positions(k - 1) + history.contact_positions(k)) / impact.length_scale
+            )
             rows[row] += spread(places, (impulse[k] - impulse[k - 1]) / (unit * impact.length_scale), edges)
         rows[row] /= width * (history.time[last] - history.time[first]) / impact.time_scale
     return rows

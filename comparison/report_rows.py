@@ -9,14 +9,31 @@ from dataclasses import dataclass
 from comparison.matching import THESIS_KAPPAS, MatchRow, Question
 from comparison.tables import leading_error, relative_error
 
-__all__ = ["Cell", "TableRow", "leading_rows", "first_order_rows", "report_questions", "table_row", "tolerance", "worst"]
+__all__ = [
+    "Cell",
+    "TableRow",
+    "first_order_rows",
+    "leading_rows",
+    "report_questions",
+    "table_row",
+    "tolerance",
+    "worst",
+]
 
 First = tuple[float, float, float]
 
 LEADING_HERMITE = (*THESIS_KAPPAS, 0.8)
 LEADING_EXUDYN = tuple(k for k in LEADING_HERMITE if k >= 0.05)  # below, its fixed mesh would be too long
 FIRST_HERMITE: tuple[First, ...] = (
-    (1, 0, 0), (0, 1, 0), (0, 0, 1), (4, 0, 0), (0, 2, 0), (1, 1, 1), (-1, 0, 0), (-1, -1, 0), (-1, -1, 1),
+    (1, 0, 0),
+    (0, 1, 0),
+    (0, 0, 1),
+    (4, 0, 0),
+    (0, 2, 0),
+    (1, 1, 1),
+    (-1, 0, 0),
+    (-1, -1, 0),
+    (-1, -1, 1),
 )
 FIRST_ELSEWHERE: tuple[First, ...] = ((1, 0, 0), (1, 1, 1), (-1, -1, 1))
 ELSEWHERE = (0.1, 0.3, 0.8)
@@ -57,7 +74,7 @@ class Cell:
 
     @property
     def grade(self) -> str:
-        """``good`` within half the tolerance, ``fair`` within it, ``poor`` within three times, ``bad`` beyond."""
+        """``good`` within half the tolerance, ``fair`` within it, ``poor`` up to thrice, ``bad`` beyond."""
         size = abs(self.error) / self.tolerance
         return "good" if size <= 0.5 else "fair" if size <= 1.0 else "poor" if size <= 3.0 else "bad"
 
@@ -141,7 +158,8 @@ def first_order_rows(rows: Iterable[MatchRow]) -> list[TableRow]:
     return [
         table_row(r)
         for r in sorted(
-            chosen, key=lambda r: (r.kappa_over_nu, order.get(first_of(r), 99), first_of(r), r.path != "hermite")
+            chosen,
+            key=lambda r: (r.kappa_over_nu, order.get(first_of(r), 99), first_of(r), r.path != "hermite"),
         )
     ]
 

@@ -22,7 +22,12 @@ def draw_impact(impact: ShownImpact, out: Path) -> list[Path]:
         both = np.concatenate([-x[::-1], x])
         for i, k in enumerate(np.linspace(0, time.size - 1, 4).astype(int)):
             gap = np.array(data["gap"][k]) * time[k]
-            left.plot(both, -np.concatenate([gap[::-1], gap]), color=style.SEQUENCE[i], label=rf"$\tau$ = {time[k]:.2g}")
+            left.plot(
+                both,
+                -np.concatenate([gap[::-1], gap]),
+                color=style.SEQUENCE[i],
+                label=rf"$\tau$ = {time[k]:.2g}",
+            )
             front = data["front"][k]
             left.plot([-front, front], [0, 0], "|", color=style.SEQUENCE[i], ms=9)
         left.axhline(0.0, **{**style.WALL, "label": None})
@@ -42,14 +47,22 @@ def draw_impact(impact: ShownImpact, out: Path) -> list[Path]:
 
 def draw_maps(impacts: Sequence[ShownImpact], out: Path) -> list[Path]:
     """Reaction per length over place and time, a panel an impact."""
-    with style.figure(1, len(impacts), width=style.PAGE, height=2.8, sharey=True, squeeze=False) as (fig, axes):
+    with style.figure(1, len(impacts), width=style.PAGE, height=2.8, sharey=True, squeeze=False) as (
+        fig,
+        axes,
+    ):
         for axis, impact in zip(axes[0], impacts):
             field = impact.data["map"]
             x, root = np.array(field["x"]), np.array(field["root_time"])
             force = np.clip(np.array(field["force"]), 1e-2, None)
             mesh = axis.pcolormesh(
-                np.concatenate([-x[::-1], x]), root, np.concatenate([force[:, ::-1], force], axis=1), cmap="viridis",
-                norm=LogNorm(1e-2, 1e3), shading="nearest", rasterized=True,
+                np.concatenate([-x[::-1], x]),
+                root,
+                np.concatenate([force[:, ::-1], force], axis=1),
+                cmap="viridis",
+                norm=LogNorm(1e-2, 1e3),
+                shading="nearest",
+                rasterized=True,
             )
             axis.set_title(impact.shown.title, fontsize=6.5)
             axis.set_xlabel(r"$x/l_*$  (1)")

@@ -1,4 +1,4 @@
-"""The parameter studies' conclusions for the report, where :mod:`comparison.studies` offers studies cheap enough."""
+"""The parameter studies' conclusions for the report, where :mod:`comparison.studies` has cheap ones."""
 
 from __future__ import annotations
 

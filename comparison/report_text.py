@@ -9,7 +9,14 @@ from statistics import median
 from comparison.report_impacts import ShownImpact
 from comparison.report_rows import Cell, TableRow, first_of, worst
 
-__all__ = ["acceleration_answer", "agreement_answer", "coverage", "headline", "speed_answer"]
+__all__ = [
+    "acceleration_answer",
+    "acceleration_short",
+    "agreement_answer",
+    "coverage",
+    "headline",
+    "speed_answer",
+]
 
 NAMES = {"hermite": "Hermite", "exudyn": "Exudyn"}
 
@@ -37,7 +44,9 @@ def headline(leading: Sequence[TableRow], first: Sequence[TableRow], failures: i
     """One sentence: how good the agreement is."""
     parts = []
     for what, rows in (("leading order (λ₀, r₀)", leading), ("first order (λ₁, r₁)", first)):
-        each = [f"{name} within {percent(cell.error)} ({count} rows)" for name, cell, count in _worst_of(rows)]
+        each = [
+            f"{name} within {percent(cell.error)} ({count} rows)" for name, cell, count in _worst_of(rows)
+        ]
         if each:
             parts.append(f"{what}: {' and '.join(each)}")
     if not parts:
@@ -98,8 +107,27 @@ def _change(value: float, plain: float, what: str) -> str:
     return f"{what} is {abs(100 * share):.0f} % {'larger' if share > 0 else 'smaller'}"
 
 
+def acceleration_short(impacts: Sequence[ShownImpact]) -> str:
+    """The same in one breath, from the impacts pressed onto the wall and released from it."""
+    by_name = {i.shown.name: i for i in impacts}
+    if not {"plain", "pressed", "released"} <= set(by_name):
+        return "The impacts with acceleration could not be computed."
+
+    def change(name: str, what: str) -> str:
+        share = 100.0 * (by_name[name].data[what][-1] / by_name["plain"].data[what][-1] - 1.0)
+        return f"{abs(share):.0f} % {'more' if share > 0.0 else 'less'}"
+
+    return (
+        f"Into the wall, it spreads the contact faster ({change('pressed', 'front')} at the end of the "
+        f"impact shown), raises the end reactions ({change('pressed', 'reaction')}) and presses the whole zone on "
+        f"the wall. Away from it, the contact spreads slower ({change('released', 'front')}), the reactions fall "
+        f"({change('released', 'reaction')}) and the middle of the zone lifts off, by "
+        f"{100.0 * max(by_name['released'].data['lift']):.1g} % of V₀t."
+    )
+
+
 def acceleration_answer(impacts: Sequence[ShownImpact]) -> list[str]:
-    """What α does to the contact: one sentence an impact, measured at its end against the impact without it."""
+    """What α does to the contact: a sentence an impact, measured at its end against the impact without it."""
     by_name = {i.shown.name: i for i in impacts}
     plain = by_name.get("plain")
     if plain is None:
@@ -110,20 +138,23 @@ def acceleration_answer(impacts: Sequence[ShownImpact]) -> list[str]:
             continue
         shown, data = impact.shown, impact.data
         zone = _change(data["front"][-1], plain.data["front"][-1], "the contact zone")
-        force = _change(data["reaction"][-1], plain.data["reaction"][-1], "the concentrated reaction at each of its ends")
+        force = _change(
+            data["reaction"][-1], plain.data["reaction"][-1], "the concentrated reaction at each of its ends"
+        )
         load = shown.epsilon * (shown.first[0] + shown.first[1])
         if load > 0.0:
             inside = (
-                f"the beam stays on the wall (largest gap inside {max(data['lift']):.0e} V₀t), which now carries a uniform "
-                f"reaction of {data['pressure'][-1]:.3g} μV₀/t* per length, the ε(α+ψ) = {load:.3g} that theory says"
+                f"the beam stays on the wall (largest gap inside {max(data['lift']):.0e} V₀t), which now "
+                f"carries a uniform reaction of {data['pressure'][-1]:.3g} μV₀/t* per length, the "
+                f"ε(α+ψ) = {load:.3g} that theory says"
             )
         else:
             inside = (
-                f"the middle lifts off at once, by up to {100 * max(data['lift']):.2g} % of V₀t, and only the two ends of the zone "
-                "still touch"
+                f"the middle lifts off at once, by up to {100 * max(data['lift']):.2g} % of V₀t, and only "
+                "the two ends of the zone still touch"
             )
         sentences.append(
-            f"{shown.title[0].upper() + shown.title[1:]}, ε = {shown.epsilon:g}: at τ = {data['time'][-1]:g} {zone} and {force} "
-            f"than without acceleration; {inside}."
+            f"{shown.title[0].upper() + shown.title[1:]}, ε = {shown.epsilon:g}: at τ = {data['time'][-1]:g} "
+            f"{zone} and {force} than without acceleration; {inside}."
         )
     return sentences

@@ -42,30 +42,31 @@
 
   function show(k) {
     const d = impact, t = d.time[k], front = d.front[k], width = d.x[d.x.length - 1];
-    const x = mirror(d.x, -1), gap = d.gap[k].map((g) => g * t);
-    const deep = Math.max(...d.gap[d.time.length - 1].map((g) => g * d.time[d.time.length - 1]));
+    const x = mirror(d.x, -1), high = Math.max(...d.gap[d.time.length - 1]) * d.time[d.time.length - 1];
     const line = (xs, ys, colour, wide, more) => Object.assign({ x: xs, y: ys, mode: "lines", line: { color: colour, width: wide } }, more);
-    const ends = { x: [-front, front], y: [0, 0], mode: "markers", marker: { color: red, size: 9, symbol: "triangle-up" }, hovertemplate: "end of the contact, x = %{x:.4g}<extra></extra>" };
+    const ends = { x: [-front, front], y: [0, 0], mode: "markers", marker: { color: red, size: 8 }, hovertemplate: "end of the contact, x = %{x:.4g}<extra></extra>" };
+    const push = Math.min(d.reaction[k] / d.reaction[d.time.length - 1], 3);  // arrows in proportion to the reaction
+    const arrow = (place) => ({ x: place, y: 0, ax: 0, ay: 14 + 16 * push, showarrow: true, arrowhead: 2, arrowwidth: 2.2, arrowcolor: red, text: "" });
+    const wall = (depth) => ({ type: "rect", xref: "paper", x0: 0, x1: 1, y0: -depth, y1: 0, fillcolor: "#dfe4ea", line: { width: 0 }, layer: "below" });
     Plotly.react("beam", [
-      line(x, mirror(gap.map((g) => -g), 1), blue, 2.5, { hovertemplate: "x = %{x:.3g}<br>y = %{y:.3g}<extra>beam</extra>" }),
+      line(x, mirror(d.gap[k].map((g) => g * t), 1), blue, 2.5, { hovertemplate: "x = %{x:.3g}<br>gap = %{y:.3g} V<sub>0</sub>t<sub>*</sub><extra>beam</extra>" }),
       line([-front, front], [0, 0], red, 5, { hoverinfo: "skip" }), ends,
-    ], layout(axis("x / l<sub>*</sub>", { range: [-width, width] }), axis("y / (V<sub>0</sub>t<sub>*</sub>), wall at 0", { range: [-1.05 * deep, 0.18 * deep] }), {
-      shapes: [{ type: "rect", x0: -width, x1: width, y0: 0.02 * deep, y1: deep, fillcolor: "#cbd2d9", line: { width: 0 }, layer: "below" }],
+    ], layout(axis("x / l<sub>*</sub>", { range: [-width, width] }), axis("gap / (V<sub>0</sub>t<sub>*</sub>)", { range: [-0.3 * high, 1.05 * high] }), {
+      shapes: [wall(high)], annotations: [arrow(-front), arrow(front)],
     }), config);
 
     const row = Math.max(k - 1, 0), bins = d.map.x, force = d.map.force[row];
-    const high = Math.max(...d.map.force[d.map.force.length - 1]);
+    const top = Math.max(...d.map.force[d.map.force.length - 1]);
     Plotly.react("force", [
       { x: mirror(bins, -1), y: mirror(force, 1), type: "bar", width: bins[1] - bins[0], marker: { color: red, line: { width: 0 } }, hovertemplate: "x = %{x:.3g}<br>%{y:.4g} μV<sub>0</sub>/t<sub>*</sub><extra></extra>" },
-    ], layout(axis("x / l<sub>*</sub>", { range: [-width, width] }), axis("reaction per length / (μV<sub>0</sub>/t<sub>*</sub>)", { range: [0, 2.2 * high] }), { bargap: 0 }), config);
+    ], layout(axis("x / l<sub>*</sub>", { range: [-width, width] }), axis("reaction per length / (μV<sub>0</sub>/t<sub>*</sub>)", { range: [0, 2.2 * top] }), { bargap: 0 }), config);
 
     Plotly.react("zoom", [
       line(x, mirror(d.gap[k].map((g) => 1000 * g), 1), blue, 2.5, { hovertemplate: "x = %{x:.3g}<br>gap = %{y:.4g} ‰ of V<sub>0</sub>t<extra></extra>" }),
       line([-front, front], [0, 0], red, 4, { hoverinfo: "skip" }), ends,
-    ], layout(axis("x / l<sub>*</sub>", { range: [-1.35 * front, 1.35 * front] }), axis("gap (‰ of V<sub>0</sub>t)", { range: [9, -2] })), config);
+    ], layout(axis("x / l<sub>*</sub>", { range: [-1.35 * front, 1.35 * front] }), axis("gap (‰ of V<sub>0</sub>t)", { range: [-2, 9] }), { shapes: [wall(9)] }), config);
 
-    const upto = (values) => values;
-    const energy = (name, label, colour, dash) => ({ x: d.time, y: upto(d.energy[name]), mode: "lines", name: label, line: { color: colour, width: 2, dash: dash }, hovertemplate: label + " %{y:.4g}<extra></extra>" });
+    const energy = (name, label, colour, dash) => ({ x: d.time, y: d.energy[name], mode: "lines", name: label, line: { color: colour, width: 2, dash: dash }, hovertemplate: label + " %{y:.4g}<extra></extra>" });
     Plotly.react("energy", [
       energy("work_of_loads", "work of the wall", "#000"), energy("kinetic_energy", "kinetic", blue), energy("strain_energy", "strain", red),
       energy("loss_artificial", "gone with far waves", green, "dot"),
