@@ -29,15 +29,18 @@ parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.R
 parser.add_argument("--kappa-over-nu", type=float, default=0.5, help="K sqrt(EI/mu)/V0 (default 0.5)")
 parser.add_argument("--geometry", choices=["linear", "true"], default="linear")
 parser.add_argument("--duration", type=float, default=None, help="end time in units of t* (default 0.1; true: 1e-3)")
+parser.add_argument("--coarsen", type=float, default=1.0, help="factor on the element lengths")
 parser.add_argument("--figure", default="bent_beam_impact.png", help="file to save the figure in")
 parser.add_argument("--view", action="store_true", help="watch in Exudyn's viewer (best with --geometry true)")
 chosen = parser.parse_args()
 
 impact = Impact.dimensionless(chosen.kappa_over_nu)  # or Impact(bending_stiffness=..., ...) in SI units
 duration = chosen.duration or (1e-3 if chosen.geometry == "true" else 0.1)
+end_time = duration * impact.time_scale
 history = exudyn_models.simulate(
     impact,
-    end_time=duration * impact.time_scale,
+    end_time=end_time,
+    mesh=exudyn_models.chosen_mesh(impact, end_time, coarsen=chosen.coarsen),
     element=ANCFCable(),  # or GeometricallyExact()
     integrator=GeneralizedAlpha(spectral_radius=0.5),  # or Newmark(), Trapezoidal(), RK44(), VelocityVerlet() ...
     contact=Penalty(),  # or Rigid() with Newmark(), or SegmentFriction(friction=0.2)

@@ -16,16 +16,19 @@ import matplotlib.pyplot as plt
 import exudyn_models
 from bent_beam import Impact
 from exudyn_models.contacts import Penalty
+from exudyn_models.integrators import GeneralizedAlpha
 from exudyn_models.readings import first_order
 
 parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
 parser.add_argument("--duration", type=float, default=2e-3, help="longer of the two end times, in t* (default 0.002)")
+parser.add_argument("--coarsen", type=float, default=1.0, help="factor on the element lengths and the steps")
 parser.add_argument("--figure", default="first_order_impacts.png")
 chosen = parser.parse_args()
 
 LAMBDA0, R0 = 4.25760478009, 2.74499113477  # exact at κ/ν = 0.1 (thesis 2.6.21–22)
 EXACT = {700.0: (300.0, 85.90), -700.0: (-280.6, -88.97)}  # thesis 2.7.40 and 2.7.71
 impact = Impact(bending_stiffness=1.0, mass_per_length=1.0, length=2.0, curvature=0.35, velocity=3.5)
+integrator = GeneralizedAlpha(relative_step=2e-3 * chosen.coarsen)
 figure, axes = plt.subplots(layout="constrained")
 
 for acceleration, (exact_lambda1, exact_r1) in EXACT.items():
@@ -33,9 +36,9 @@ for acceleration, (exact_lambda1, exact_r1) in EXACT.items():
     found = []
     for duration in (chosen.duration / 2, chosen.duration):
         end = duration * impact.time_scale
-        mesh = exudyn_models.chosen_mesh(impact, end)
+        mesh = exudyn_models.chosen_mesh(impact, end, coarsen=chosen.coarsen)
         base, run = (
-            exudyn_models.simulate(case, end_time=end, mesh=mesh, contact=contact)
+            exudyn_models.simulate(case, end_time=end, mesh=mesh, contact=contact, integrator=integrator)
             for case in (impact, impact.replace(acceleration=acceleration))
         )
         lambda1, r1 = first_order(run, base, LAMBDA0, R0)

@@ -19,7 +19,7 @@ from __future__ import annotations
 
 import math
 import time as clock
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -46,7 +46,7 @@ __all__ = ["chosen_half_length", "chosen_mesh", "simulate"]
 Array = NDArray[np.float64]
 
 DEFAULT_DURATION = 0.1  # τ, the longest time that the thesis computes
-GROWTH = 1.01  # neighbours of the chosen mesh: 5 elements over the front's bending length at κ/ν = 0.05, 20 at 0.2
+GROWTH = 0.01  # neighbours of the chosen mesh: 5 elements over the front's bending length at κ/ν = 0.05, 20 at 0.2
 SEGMENT = 4  # steps between two readings of the state
 
 
@@ -72,22 +72,38 @@ def chosen_half_length(impact: Impact, end_time: float | None = None) -> float:
     return min(impact.half_length, _far_field(scaling) * scaling.length)
 
 
-def chosen_mesh(impact: Impact, end_time: float | None = None, explicit: bool = False) -> NodesMesh:
-    """The mesh that ``simulate`` lays when none is given (half beam), to lay the same under several impacts."""
+def chosen_mesh(
+    impact: Impact, end_time: float | None = None, *, explicit: bool = False, coarsen: float = 1.0
+) -> NodesMesh:
+    """The mesh that ``simulate`` lays when none is given (half beam), to lay the same under several impacts.
+
+    coarsen : factor on every element's length.
+    """
+    positive("coarsen", coarsen)
     scaling = Scaling(impact, _end_time(impact, end_time), 1.0)
     front = front_estimate(scaling.kappa)
     if explicit:
-        rule = ScaleFreeMesh(element_length=max(front, 0.5) / 25 * scaling.length, growth=1.02)
+        rule = ScaleFreeMesh(max(front, 0.5) / 25 * scaling.length * coarsen, 1.0 + 0.02 * coarsen)
     else:
         # the smallest element: 1/200 of the front's way, 1/30 of the length over which the beam bends ahead of it
         smallest = min(front / 200, (2.0 / front) / 30)
-        rule = ScaleFreeMesh(element_length=smallest * scaling.length, growth=GROWTH)
+        rule = ScaleFreeMesh(smallest * scaling.length * coarsen, 1.0 + GROWTH * coarsen)
     nodes = rule.nodes(chosen_half_length(impact, end_time))
     return NodesMesh(places=tuple(float(place) for place in nodes))
 
 
 def _end_time(impact: Impact, end_time: float | None) -> float:
     return DEFAULT_DURATION * impact.time_scale if end_time is None else positive("run.end_time", end_time)
+
+
+def _targets(save: int | Sequence[float] | Array, end: float) -> Array:
+    """The times to save in units of ``end``, ascending, after 0; the last is the end itself."""
+    if isinstance(save, (int, np.integer)):
+        return np.asarray((np.arange(1, whole("save", int(save), 1) + 1) / save) ** 2)
+    times = np.unique(np.asarray(save, float)) / end
+    if times.ndim != 1 or not np.isfinite(times).all() or (times < 0.0).any() or (times > 1.0 + 1e-9).any():
+        raise ValueError(f"save must be a number of instants or times from 0 to the end time {end:.6g} s")
+    return np.append(times[(times > 0.0) & (times < 1.0 - 1e-9)], 1.0)
 
 
 def _reachable(x: Array, scaling: Scaling, centre: int) -> NDArray[np.int64]:
@@ -123,7 +139,8 @@ class _Record:
 class _Run:
     """One beam in one Exudyn system, stepped and read."""
 
-    def __init__(self, beam: Beam, contact: ContactRun, scaling: Scaling, half: bool) -> None:
+    def __init__(self, beam: Beam, contact: ContactRun, scaling: Scaling, half: bool, newer: float) -> None:
+        self.newer = newer  # share of the newer force in the impulse between two readings
         self.beam, self.contact, self.scaling, self.half = beam, contact, scaling, half
         shape, a = beam.shape, scaling.amplitude
         self.load = scaling.load * a
@@ -158,7 +175,7 @@ class _Run:
             self.start_momentum = momentum
         else:
             old_force, old_velocity, old_viscous, old_power = self.previous
-            gain = (force + old_force) * (dt / 2)
+            gain = ((1.0 - self.newer) * old_force + self.newer * force) * dt
             total = self.start_momentum + self.force * t - momentum
             weight = np.abs(gain)
             missing = total - self.total - gain.sum()
@@ -283,7 +300,9 @@ def _assemble(
 def _load_end(beam: Beam, node: int, sign: float, scaling: Scaling) -> None:
     """The moment and shear that the free motion y₀ has at an end of the modelled beam."""
     amplitude, end = scaling.amplitude, beam.shape.s[-1]
-    constant, rate = amplitude * scaling.psi * end**2 / 2, amplitude * scaling.chi
+    # bending at the rate χ also takes the moment ηχ of the viscosity
+    constant = amplitude * (scaling.psi * end**2 / 2 + beam.viscosity[node if node == 0 else -1] * scaling.chi)
+    rate = amplitude * scaling.chi
     if scaling.psi:
         beam.mbs.AddLoad(
             items.LoadCoordinate(
@@ -338,7 +357,7 @@ def simulate(
     geometry: Geometry | str | None = None,
     solver: NewtonSolver | None = None,
     full_beam: bool = False,
-    save: int = 200,
+    save: int | Sequence[float] | Array = 200,
     view: bool = False,
     progress: Callable[[float], object] | None = None,
 ) -> ImpactHistory:
@@ -355,7 +374,7 @@ def simulate(
         generalised-α,
         nodal penalty, the linear limit, modified Newton. ``geometry`` may be "linear" or "true".
     full_beam : model both halves instead of x ≥ 0 with the slope fixed at x = 0.
-    save : number of saved instants after t = 0, evenly spread in √t.
+    save : number of saved instants after t = 0, spread evenly in √t, or their times, s; snapped to steps.
     view : watch the run in Exudyn's viewer; without a display a line on standard error says so.
     progress : called with the fraction done.
 
@@ -371,7 +390,7 @@ def simulate(
     SimulationError : Exudyn's solver failed or the state stopped being finite; carries the history up to there.
     """
     end = _end_time(impact, end_time)
-    whole("save", save, 1)
+    targets = _targets(save, end)
     element = ANCFCable() if element is None else element
     contact = Penalty() if contact is None else contact
     if integrator is None:
@@ -405,7 +424,9 @@ def simulate(
 
     with silence():
         beam, contact_run = _assemble(shape, scaling, element, contact, integrator, half)
-        run = _Run(beam, contact_run, scaling, half)
+        # Newmark's rule weighs the newer multiplier by γ: where a contact is read every step, its impulses are exact
+        newer = integrator.gamma if isinstance(integrator, Newmark) and contact_run.longest_segment == 1 else 0.5
+        run = _Run(beam, contact_run, scaling, half, newer)
         stable = _stable_step(beam, contact_run, integrator) if integrator.explicit else math.inf
         crossing = min(0.01, (places[1] / front_estimate(scaling.kappa)) ** 2)
         per_segment = SEGMENT if contact_run.longest_segment is None else contact_run.longest_segment
@@ -415,7 +436,7 @@ def simulate(
         container = beam.mbs.variables["container"]
         viewing = view and open_viewer(container, beam.mbs)
         try:
-            steps, seconds, failure = _step(run, segments, settings, integrator.solver(), save, progress)
+            steps, seconds, failure = _step(run, segments, settings, integrator.solver(), targets, progress)
         finally:
             if viewing:
                 container.renderer.Stop()
@@ -456,7 +477,12 @@ def simulate(
 
 
 def _step(
-    run: _Run, segments: list[Any], settings: Any, solver: Any, save: int, progress: Callable[[float], object] | None
+    run: _Run,
+    segments: list[Any],
+    settings: Any,
+    solver: Any,
+    targets: Array,
+    progress: Callable[[float], object] | None,
 ) -> tuple[int, float, str | None]:
     """Run all segments; returns steps taken, seconds inside Exudyn and, if it failed, what failed."""
     mbs, time = run.beam.mbs, settings.timeIntegration
@@ -472,7 +498,7 @@ def _step(
         q, v = run.read(0.0, 0.0)
         run.save(0.0, q, v)
         run.contact.between(0.0, q, v)
-        saved = 1
+        saved = 0
         for segment in segments:
             size = (segment.end - segment.start) / segment.steps
             time.startTime, time.endTime, time.numberOfSteps = segment.start, segment.end, segment.steps
@@ -488,9 +514,9 @@ def _step(
                 return steps, seconds, "Exudyn's solver failed: " + " ".join(str(solver.GetErrorString()).split())[:200]
             steps += segment.steps
             q, v = run.read(segment.end, segment.end - segment.start)
-            if segment.end >= (saved / save) ** 2 * (1.0 - 1e-9):
+            if saved < targets.size and segment.end >= targets[saved] * (1.0 - 1e-9):
                 run.save(segment.end, q, v)
-                saved = max(saved + 1, math.floor(math.sqrt(segment.end) * save + 1e-9) + 1)
+                saved = int(np.searchsorted(targets, segment.end * (1.0 + 1e-9), side="right"))
                 if progress is not None:
                     progress(segment.end)
             if run.contact.between(segment.end, q, v):
@@ -509,7 +535,7 @@ def _warnings(run: _Run, places: Array, half_length: float, scaling: Scaling, gi
     penetration = run.deepest / amplitude
     if penetration > 0.01:
         found.append(
-            f"penalty too soft: the beam enters the wall by up to {penetration:.2%} of V0 t; raise its stiffness"
+            f"the beam enters the wall by up to {penetration:.2%} of V0 t; take a stiffer penalty or smaller steps"
         )
     front = front_estimate(scaling.kappa)
     if scaling.kappa < 1.0 and len(run.record.time) > 1:

@@ -71,7 +71,7 @@ class NewtonSolver:
         time.verboseMode = 0
         time.stepInformation = 0
         time.adaptiveStep = self.halve_steps
-        time.generalizedAlpha.computeInitialAccelerations = False
+        time.generalizedAlpha.computeInitialAccelerations = True
         time.newton.useModifiedNewton = self.modified_newton
         time.newton.absoluteTolerance = self.absolute_tolerance * amplitude
         time.newton.relativeTolerance = self.relative_tolerance

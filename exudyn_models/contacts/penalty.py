@@ -50,9 +50,10 @@ class _Run(ContactRun):
         mbs = beam.mbs
         for k, node in enumerate(wall.nodes):
             marker = beam.marker(int(node), beam.vertical_coordinate)
+            # open at t = 0: a closed one would put its damping into the initial accelerations
             state = mbs.AddNode(
                 items.NodeGenericData(
-                    numberOfDataCoordinates=1, initialCoordinates=[max(0.0, -float(beam.shape.y[node]))]
+                    numberOfDataCoordinates=1, initialCoordinates=[max(1e-14, -float(beam.shape.y[node]))]
                 )
             )
             self.contacts.append(

@@ -1,0 +1,188 @@
+"""Impacts by Exudyn against the exact leading order, on small meshes; every part can be swapped."""
+
+import math
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+import exudyn_models
+from bent_beam import Impact, ImpactHistory
+from bent_beam.meshes import NodesMesh, ScaleFreeMesh, UniformMesh
+from exudyn_models.contacts import Penalty, Rigid, SegmentFriction
+from exudyn_models.elements import ANCFCable, GeometricallyExact
+from exudyn_models.geometry import LinearLimit
+from exudyn_models.integrators import DOPRI5, RK44, GeneralizedAlpha, Newmark, Trapezoidal, VelocityVerlet
+from exudyn_models.readings import first_order, leading_order
+
+EXACT = {
+    0.05: (6.23692857563, 3.93727884942),
+    0.1: (4.25760478009, 2.74499113477),
+    0.25: (2.26148623298, 1.66800147203),
+    0.5: (1.01886591389, 1.17721208090),
+    0.8: (0.296846693037, 1.01915199895),
+}
+HALF = Impact.dimensionless(0.5)
+
+
+def coarse(impact, growth=1.02, elements=60, end_time=None):
+    """Half of the default resolution and less."""
+    scale = math.sqrt((end_time or 0.1 * impact.time_scale) * impact.wave_constant)
+    return NodesMesh(
+        tuple(ScaleFreeMesh(scale / elements, growth).nodes(exudyn_models.chosen_half_length(impact, end_time)))
+    )
+
+
+def off(history, kappa_over_nu=0.5):
+    lambda0, r0 = leading_order(history)
+    return abs(lambda0 / EXACT[kappa_over_nu][0] - 1), abs(r0 / EXACT[kappa_over_nu][1] - 1)
+
+
+@pytest.fixture(scope="module")
+def default():
+    return exudyn_models.simulate(HALF, mesh=coarse(HALF), save=100)
+
+
+@pytest.mark.parametrize("kappa_over_nu", [0.05, 0.25])
+def test_leading_order_is_met_with_no_setting(kappa_over_nu):
+    history = exudyn_models.simulate(Impact.dimensionless(kappa_over_nu))
+    assert max(off(history, kappa_over_nu)) < 2e-3
+    assert history.warnings == []
+
+
+@pytest.mark.parametrize(
+    "parts",
+    [
+        {"integrator": GeneralizedAlpha(spectral_radius=0.0)},
+        {"integrator": GeneralizedAlpha(spectral_radius=0.8)},
+        {"integrator": Newmark()},
+        {"integrator": Trapezoidal()},
+        {"element": GeometricallyExact()},
+        {"full_beam": True},
+        {"geometry": LinearLimit(1e-2)},
+        {"contact": Penalty(relative_stiffness=3.0, relative_damping=1.0, hold=4)},
+    ],
+    ids=str,
+)
+def test_swapped_part_keeps_the_answer(parts):
+    assert max(off(exudyn_models.simulate(HALF, mesh=coarse(HALF), save=100, **parts))) < 5e-3
+
+
+@pytest.mark.verify
+@pytest.mark.parametrize("kappa_over_nu", [0.1, 0.5, 0.8])
+def test_leading_order_is_met_with_no_setting_elsewhere(kappa_over_nu):
+    assert max(off(exudyn_models.simulate(Impact.dimensionless(kappa_over_nu)), kappa_over_nu)) < 2e-3
+
+
+@pytest.mark.parametrize("integrator", [RK44(), DOPRI5(), VelocityVerlet()], ids=lambda i: type(i).__name__)
+def test_explicit_integrator_is_stable_at_its_own_step(integrator):
+    history = exudyn_models.simulate(HALF, mesh=coarse(HALF, growth=1.03, elements=13), integrator=integrator, save=100)
+    assert max(off(history)) < 1e-2
+
+
+def test_segment_contact_gives_the_same_impulse_and_friction_changes_nothing_in_the_linear_limit(default):
+    for friction in (0.0, 0.3):
+        history = exudyn_models.simulate(HALF, mesh=coarse(HALF), contact=SegmentFriction(friction=friction), save=100)
+        assert off(history)[1] < 5e-3
+        assert_allclose(history.array("gap")[0], 0.25 * history.array("x") ** 2, atol=1e-12)
+
+
+def test_penalty_and_constraints_agree_within_a_per_cent(default):
+    mesh = coarse(HALF, growth=1.01, elements=100)
+    for integrator in (None, Newmark(gamma=1.0)):
+        rigid = exudyn_models.simulate(HALF, mesh=mesh, contact=Rigid(), integrator=integrator, save=100)
+        assert_allclose(leading_order(rigid), leading_order(default), rtol=5e-3)
+
+
+def test_full_and_half_beam_agree(default):
+    full = exudyn_models.simulate(HALF, mesh=coarse(HALF), full_beam=True, save=100)
+    assert_allclose(full.array("total_impulse")[-1], default.array("total_impulse")[-1], rtol=1e-4)
+    assert_allclose(full.array("kinetic_energy")[-1], default.array("kinetic_energy")[-1], rtol=1e-4)
+    gap = full.array("gap")
+    assert_allclose(gap, gap[:, ::-1], atol=1e-7)
+
+
+def test_a_physical_beam_gives_the_same_numbers_in_si_units(default):
+    beam = Impact(
+        bending_stiffness=2.1e3, mass_per_length=4.0, length=40.0, curvature=0.5 * 3.0 / math.sqrt(525.0), velocity=3.0
+    )
+    assert beam.kappa_over_nu == pytest.approx(0.5)
+    history = exudyn_models.simulate(beam, mesh=coarse(beam), save=100)
+    assert_allclose(leading_order(history), leading_order(default), rtol=1e-5)
+    assert history.array("velocity")[0] == pytest.approx(3.0)
+
+
+def test_impulse_is_the_lost_momentum_and_energies_balance(default):
+    x, v = default.array("x"), default.array("velocity")[-1]
+    lost = 2 * (x[-1] - np.trapezoid(v, x))
+    assert default.array("total_impulse")[-1] == pytest.approx(lost, rel=2e-2)
+    assert 2 * default.array("impulse")[-1].sum() == pytest.approx(default.array("total_impulse")[-1], rel=1e-9)
+    budget = default.energy_budget()
+    assert abs(budget["defect"]) < 1e-12 * budget["initial_energy"]
+    assert abs(budget["loss_integration"]) < 0.02 * abs(budget["kinetic_energy"])
+
+
+def test_the_beam_stays_at_the_wall_behind_the_front_and_outside_it_ahead(default):
+    gap, x = default.array("gap")[-1], default.array("x")
+    front = 1.0189 * math.sqrt(0.1)
+    assert np.abs(gap[x < 0.8 * front]).max() < 1e-4 * 0.1
+    assert gap.min() > -1e-3 * 0.1
+    assert np.all(gap[x > 1.3 * front] > 0)
+
+
+@pytest.mark.parametrize("element", [ANCFCable(), GeometricallyExact()], ids=lambda e: type(e).__name__)
+def test_without_contact_y0_is_the_motion(element):
+    impact = Impact.dimensionless(0.5, epsilon_alpha=0.4, epsilon_psi=0.3, epsilon_chi=0.2)
+    mesh = NodesMesh(tuple(np.linspace(0.0, 2.0, 41)))
+    history = exudyn_models.simulate(
+        impact, mesh=mesh, element=element, contact=Penalty(stiffness=1e-12, damping=0.0, hold=0), end_time=0.5
+    )
+    x, t = history.array("x"), history.time[-1]
+    y0 = t - 0.25 * x**2 + 0.2 * t**2 + 0.1 * x**2 * t + 0.3 * x**4 / 24
+    # the two-node element interpolates y0 at second order, the cable exactly but for the shape of a quartic
+    assert_allclose(-history.array("gap")[-1], y0, atol=2e-3 if isinstance(element, GeometricallyExact) else 2e-5)
+
+
+def test_first_order_with_all_three_parameters():
+    exact = {(4, 0, 0): (5.66465632402, 10.6928065607), (-1, -1, 0): (-1.77288819407, -4.18053010088)}
+    for (alpha, psi, chi), (lambda1, r1) in exact.items():
+        found = []
+        contact = Penalty(hold=0 if alpha + psi < 0 else 16)
+        mesh = coarse(Impact.dimensionless(0.5, epsilon_psi=0.1), growth=1.015, elements=100)
+        base = exudyn_models.simulate(HALF, mesh=mesh, contact=contact)
+        for epsilon in (0.1, 0.2):
+            impact = Impact.dimensionless(
+                0.5, epsilon_alpha=epsilon * alpha, epsilon_psi=epsilon * psi, epsilon_chi=epsilon * chi
+            )
+            run = exudyn_models.simulate(impact, mesh=mesh, contact=contact)
+            found.append(np.array(first_order(run, base, *EXACT[0.5])) / epsilon)
+        got = 2 * found[0] - found[1]
+        assert got[0] == pytest.approx(lambda1, rel=0.04)
+        assert got[1] == pytest.approx(r1, rel=0.03)
+
+
+def test_history_round_trips_and_saves_where_asked(tmp_path):
+    times = [0.02, 0.05, 0.1]
+    seen = []
+    history = exudyn_models.simulate(HALF, mesh=coarse(HALF, elements=30), save=times, progress=seen.append)
+    assert_allclose(history.time[1:], times, rtol=0.02)
+    assert seen[-1] == 1.0
+    again = ImpactHistory.load(history.save(tmp_path / "run.nc"))
+    assert again.dataset.equals(history.dataset)
+    assert again.settings["contact"]["kind"] == "Penalty"
+    assert again.settings["amplitude"] == 1e-3
+
+
+def test_discrete_regime_keeps_one_point_in_contact():
+    impact = Impact.dimensionless(2.0)
+    history = exudyn_models.simulate(impact, mesh=coarse(impact, elements=30), save=100)
+    assert leading_order(history)[1] == pytest.approx(1.0, rel=5e-3)
+    impulse = history.array("impulse")[-1]
+    assert impulse[0] > 0.95 * impulse.sum()
+
+
+def test_a_uniform_mesh_is_laid_over_the_whole_beam():
+    impact = Impact.dimensionless(0.5, length=8.0)
+    history = exudyn_models.simulate(impact, mesh=UniformMesh(0.05), save=20)
+    assert history.array("x")[-1] == 4.0
+    assert history.settings["modelled_half_length"] == 4.0

@@ -1,0 +1,119 @@
+"""What is refused, how failures end, and that nothing is printed."""
+
+import math
+import warnings
+
+import numpy as np
+import pytest
+
+import exudyn_models
+from bent_beam import Impact, InputError, SimulationError
+from bent_beam.meshes import UniformMesh
+from bent_beam.parts import parts_from_table
+from exudyn_models.contacts import Penalty, Rigid, SegmentFriction
+from exudyn_models.elements import GeometricallyExact
+from exudyn_models.integrators import RK44, GeneralizedAlpha, Trapezoidal, VelocityVerlet
+from exudyn_models.solvers import NewtonSolver
+
+SHORT = Impact.dimensionless(0.5, length=8.0)
+MESH = UniformMesh(0.1)
+
+
+@pytest.mark.parametrize("integrator", [RK44, VelocityVerlet])
+def test_unstable_explicit_step_is_refused_with_the_stable_one(integrator):
+    with pytest.raises(ValueError, match="stable step") as refusal:
+        exudyn_models.simulate(SHORT, mesh=MESH, integrator=integrator(time_step=1e-2))
+    stable = float(str(refusal.value).split("stable step ")[1].split()[0])
+    history = exudyn_models.simulate(SHORT, mesh=MESH, integrator=integrator(time_step=0.99 * stable), save=5)
+    assert np.isfinite(history.array("gap")).all()
+
+
+@pytest.mark.parametrize(
+    ("parts", "message"),
+    [
+        ({"contact": Rigid(), "integrator": GeneralizedAlpha()}, "newmark"),
+        ({"contact": Rigid(), "integrator": Trapezoidal()}, "gamma above 0.5"),
+        ({"contact": SegmentFriction(), "element": GeometricallyExact()}, "ancf_cable"),
+        ({"contact": SegmentFriction(), "integrator": RK44()}, "implicit"),
+        ({"geometry": "round"}, "geometry"),
+        ({"save": 0}, "save"),
+        ({"save": [2.0]}, "save"),
+        ({"end_time": math.nan}, "end_time"),
+    ],
+)
+def test_parts_that_cannot_work_are_refused(parts, message):
+    with pytest.raises(ValueError, match=message):
+        exudyn_models.simulate(SHORT, mesh=MESH, **parts)
+
+
+def test_true_geometry_refuses_a_beam_rolled_up():
+    with pytest.raises(ValueError, match="right angle"):
+        exudyn_models.simulate(Impact.dimensionless(0.5, length=100.0), mesh=UniformMesh(1.0), geometry="true")
+
+
+@pytest.mark.parametrize(
+    ("table", "message"),
+    [
+        ({"integrator": {"kind": "generalized_alpha", "spectral_radus": 0.5}}, "spectral_radius"),
+        ({"integrator": {"kind": "generalised_alpha"}}, "generalized_alpha"),
+        ({"contact": {"kind": "penalty", "relative_stiffness": -1.0}}, "relative_stiffness must be positive"),
+        ({"contact": {"kind": "penalty", "damping": math.nan}}, "damping must be a finite number"),
+        ({"element": {"kind": "ancf_cable", "viscosity": -0.1}}, "viscosity"),
+        ({"geometry": {"kind": "linear", "amplitude": 0.0}}, "amplitude"),
+        ({"solver": {"kind": "newton", "linear_solver": "magic"}}, "linear_solver"),
+        ({"contacts": {"kind": "penalty"}}, "did you mean contact"),
+    ],
+)
+def test_case_file_tables_name_what_is_wrong(table, message):
+    with pytest.raises(InputError, match=message):
+        parts_from_table(exudyn_models.REGISTRIES, table, "exudyn")
+
+
+def test_every_kind_can_be_made_from_a_table():
+    for name, kinds in exudyn_models.REGISTRIES.items():
+        for kind in kinds:
+            part = parts_from_table(exudyn_models.REGISTRIES, {name: {"kind": kind}}, "exudyn")[name]
+            assert isinstance(part, kinds[kind])
+
+
+def test_failed_newton_carries_time_step_advice_and_partial_history():
+    with pytest.raises(SimulationError) as failure:
+        exudyn_models.simulate(
+            SHORT, mesh=MESH, solver=NewtonSolver(absolute_tolerance=1e-18, relative_tolerance=1e-18, iterations=1)
+        )
+    error = failure.value
+    assert error.history is not None and not error.history.completed
+    assert np.isfinite(error.history.array("gap")).all()
+    assert error.time >= 0.0 and "try" in str(error)
+
+
+def test_divergence_ends_as_an_error_and_never_as_a_history(monkeypatch):
+    monkeypatch.setattr(RK44, "limit", 40.0)  # a stability bound that lies
+    with pytest.raises(SimulationError, match=r"finite|unstable"):
+        exudyn_models.simulate(SHORT, mesh=MESH, integrator=RK44(safety=1.0))
+
+
+def test_nothing_is_printed_and_nothing_deprecated_is_used(capfd):
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        exudyn_models.simulate(SHORT, mesh=MESH, save=5)
+        exudyn_models.simulate(SHORT, mesh=MESH, save=5, integrator=RK44())
+        exudyn_models.simulate(SHORT, mesh=MESH, save=5, element=GeometricallyExact(), contact=Rigid())
+    with pytest.raises(SimulationError):
+        exudyn_models.simulate(
+            SHORT, mesh=MESH, solver=NewtonSolver(absolute_tolerance=1e-18, relative_tolerance=1e-18, iterations=1)
+        )
+    printed = capfd.readouterr()
+    assert printed.out == "" and printed.err == ""
+
+
+def test_warnings_name_a_soft_penalty_a_coarse_front_and_a_graded_mesh():
+    from bent_beam.meshes import GradedMesh
+
+    history = exudyn_models.simulate(
+        SHORT, mesh=GradedMesh(0.3, growth=1.25, zone=0.6), contact=Penalty(stiffness=20.0, hold=0), save=10
+    )
+    text = " ".join(history.warnings)
+    assert "enters the wall" in text
+    assert "under-resolved front" in text
+    assert "an element" in text

@@ -1,0 +1,70 @@
+"""Every model script runs as a user runs it and prints numbers that agree with the exact ones."""
+
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+SCRIPTS = Path(__file__).resolve().parents[2] / "exudyn_models"
+
+
+def run(name, tmp_path, *options):
+    environment = {k: v for k, v in os.environ.items() if k not in ("DISPLAY", "WAYLAND_DISPLAY")}
+    return subprocess.run(
+        [sys.executable, str(SCRIPTS / f"{name}.py"), *options],
+        cwd=tmp_path,
+        text=True,
+        capture_output=True,
+        timeout=120,
+        env=environment | {"MPLBACKEND": "Agg"},
+        check=True,
+    )
+
+
+def errors(output):
+    """Relative errors that a script printed: "off by +0.12%" or "off by -1.2e-06"."""
+    found = re.findall(r"off by ([-+][0-9.e+-]+)(%?)", output)
+    return [abs(float(number)) / (100 if percent else 1) for number, percent in found]
+
+
+@pytest.mark.parametrize(
+    ("name", "options", "count", "tolerance"),
+    [
+        ("cantilever", (), 2, 1e-5),
+        ("simply_supported_beam", (), 3, 1e-6),
+        ("bouncing_ball", (), 3, 3e-3),
+        ("bent_beam_impact", ("--coarsen", "2"), 2, 2e-3),
+        ("first_order_impacts", ("--coarsen", "2"), 4, 0.3),
+    ],
+)
+def test_script_prints_the_exact_answer_within(name, options, count, tolerance, tmp_path):
+    done = run(name, tmp_path, *options)
+    found = errors(done.stdout)
+    assert len(found) == count
+    assert max(found) < tolerance
+    assert (tmp_path / f"{name}.png").stat().st_size > 1000
+
+
+@pytest.mark.verify
+def test_first_order_impacts_meet_theory_at_full_resolution(tmp_path):
+    assert max(errors(run("first_order_impacts", tmp_path).stdout)) < 0.05
+
+
+def test_true_geometry_script_approaches_the_linear_answer(tmp_path):
+    assert max(errors(run("bent_beam_impact", tmp_path, "--geometry", "true", "--coarsen", "2").stdout)) < 5e-3
+
+
+@pytest.mark.parametrize(
+    "name", ["cantilever", "simply_supported_beam", "bouncing_ball", "bent_beam_impact", "first_order_impacts"]
+)
+def test_script_has_help(name, tmp_path):
+    assert "usage:" in run(name, tmp_path, "--help").stdout
+
+
+def test_view_without_a_display_is_said_plainly(tmp_path):
+    done = run("cantilever", tmp_path, "--view")
+    assert "no display" in done.stderr
+    assert "Traceback" not in done.stderr
