@@ -1,0 +1,155 @@
+"""The case that the thesis gave up on (3.5, Figs 3.33–3.36): a₀ = ±200 V₀ 1/s, that is ±700 m/s² at V₀ = 3.5 m/s.
+
+    λ_c(t) = (EI/μ)^{1/4} √t (λ₀ + ελ₁ t/t*),   the thesis's fitted "λ₁" = ελ₁ (EI/μ)^{1/4}/t*  in m/s^{3/2}
+
+fitted as the thesis did (λ₀ given, least squares in λ_c over 0 ≤ t ≤ t_f) to the contact length on the thesis's finite beam with the
+thesis's settings, on a finite beam that is resolved, and on an infinite one; the last also over ever shorter t_f, for the fit tends to
+ελ₁ only as t_f → 0: at the thesis's t_f the correction is a third of the leading order.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bent_beam.cases import Case
+from bent_beam.impact import Impact
+from comparison.figures import style
+from comparison.figures.recorder import Sheet
+from comparison.studies.base import Progress, Study, StudyResult
+from comparison.studies.exact import Exact
+from comparison.studies.outcome import Outcome
+from comparison.studies.panels import contact_length, geometry, reaction
+from comparison.studies.thesis import Settings, Variant, expanding, run_variants, thesis_settings
+from comparison.studies.words import number
+
+__all__ = ["FITTED", "STUDY", "accelerated", "fitted", "finite", "variants"]
+
+Array = NDArray[np.float64]
+FITTED = {1.0: 227.0, -1.0: -270.8}  # m/s^{3/2}, the thesis's fits for a₀ = ±700 m/s²
+WINDOWS = (1.0, 0.5, 0.25, 0.1, 0.05)
+SHORT = 25  # element lengths are an eighth of the front's thickness on the resolved finite beam
+
+
+def accelerated(impact: Impact, sign: float) -> Impact:
+    """The case's |a₀|, or 200 V₀ 1/s (the thesis's choice) when it has none, with a sign."""
+    size = abs(impact.acceleration) or 200.0 * impact.velocity
+    return impact.replace(acceleration=sign * size)
+
+
+def finite(impact: Impact, *, end_time: float, save: int = 400, **parts: Any) -> Any:
+    """The Hermite path on the beam as it is, with its own choices."""
+    from hermite_fe import simulate
+
+    return simulate(impact, end_time=end_time, save=save, **parts)
+
+
+def old_settings(impact: Impact, end: float) -> Settings:
+    """Thesis: Δx = 2.5·10⁻³ m, that is 0.00875 l*, nodes; its h = 2.5·10⁻⁸ s is not needed, 3·10⁻⁶ t* are as good."""
+    base = thesis_settings(impact, end)
+    element = 0.00875 * impact.length_scale
+    return base.replace(contact="node", element_length=element, time_step=3e-6 * impact.time_scale)
+
+
+def variants(case: Case) -> list[Variant]:
+    runs = []
+    for sign, name in ((1.0, "+"), (-1.0, "−")):
+        impact, end = accelerated(case.impact, sign), case.end_time
+        long = impact.replace(length=1e3 * impact.length_scale)
+        runs += [
+            Variant(f"{name}a₀, thesis's settings", impact, end, value=sign, settings=old_settings(impact, end)),
+            Variant(f"{name}a₀, finite beam resolved", impact, end, kind="fixed", value=sign, runner=finite),
+            Variant(f"{name}a₀, infinite beam", long, end, kind="hermite", value=sign, runner=expanding,
+                    arguments={"front_resolution": 0.004, "interior_elements": 100, "decades": 5.0}),
+        ]
+    return runs
+
+
+def fitted(outcome: Outcome, window: float = 1.0) -> float:
+    """ελ₁(EI/μ)^{1/4}/t*, m/s^{3/2}, by the thesis's fit over the first ``window`` of the run."""
+    exact = Exact(outcome.impact)
+    scale = outcome.impact.wave_constant**0.5
+    end = window * float(outcome.time[-1])
+    t = np.linspace(0.0, end, 400)[1:]
+    measured = np.interp(t, outcome.time, outcome.front)
+    base, basis = scale * float(exact.parameters.lambda0) * np.sqrt(t), t**1.5
+    return float(((measured - base) @ basis) / (basis @ basis))
+
+
+def predicted(impact: Impact) -> float:
+    """Theory's ελ₁(EI/μ)^{1/4}/t*, m/s^{3/2}."""
+    return float(Exact(impact).parameters.lambda1) * impact.wave_constant**0.5 / impact.time_scale
+
+
+def _rows(outcomes: Sequence[Outcome]) -> list[dict[str, Any]]:
+    rows: list[dict[str, Any]] = []
+    for o in outcomes:
+        row: dict[str, Any] = {"label": o.label, "theory": predicted(o.impact), "failure": o.failure, "kind": o.kind}
+        for window in WINDOWS:
+            row[f"fit_{window:g}"] = fitted(o, window) if o.failure is None else None
+        row.update(lift=o.measures.get("lift"), steps=o.measures.get("steps"), seconds=o.measures.get("seconds"))
+        rows.append(row)
+    return rows
+
+
+def conclude(outcomes: Sequence[Outcome]) -> str:
+    text = []
+    for sign, name in ((1.0, "+"), (-1.0, "−")):
+        mine = {o.label.split(", ")[1]: o for o in outcomes if o.value == sign and o.failure is None}
+        infinite, real = mine.get("infinite beam"), mine.get("finite beam resolved")
+        if infinite is None:
+            continue
+        target = predicted(infinite.impact)
+        sentence = (
+            f"a₀ = {name}{abs(infinite.impact.acceleration):g} m/s²: the direct link predicts {number(target)} m/s^(3/2); on an infinite "
+            f"beam the fit gives {number(fitted(infinite))} over the whole run and {number(fitted(infinite, WINDOWS[-1]))} over its "
+            f"first {100 * WINDOWS[-1]:g} %, tending to it as the window shrinks"
+        )
+        if real is not None:
+            away = abs(fitted(real) - fitted(infinite)) / abs(target)
+            sentence += (
+                f"; on the finite beam {number(fitted(real))}: "
+                + ("waves from its ends cost " if away > 0.02 else "its ends change no more than ")
+                + f"{number(100 * away)} % of the prediction"
+            )
+        old = mine.get("thesis's settings")
+        if old is not None:
+            sentence += f"; with the thesis's mesh {number(fitted(old))}"
+            if abs(abs(infinite.impact.acceleration) - 700.0) < 1.0:
+                sentence += f" (it printed {FITTED[sign]:g})"
+        text.append(sentence + ".")
+    if text:
+        text.append("What separates the thesis's fits from theory is that its end time is far outside first order, not α alone.")
+    return " ".join(text)
+
+
+def own(case: Case, jobs: int, progress: Progress | None) -> tuple[StudyResult, Sheet]:
+    outcomes = run_variants(variants(case), jobs=jobs, progress=progress)
+    columns = {"label": "run", "theory": "theory (m/s^1.5)",
+               **{f"fit_{w:g}": f"fit over {100 * w:g} %" for w in WINDOWS},
+               "lift": "lift/(V₀t)", "steps": "steps", "seconds": "seconds"}
+    warnings = sorted({f"{o.label}: {w}" for o in outcomes if o.kind != "thesis" for w in o.warnings})
+    result = StudyResult(STUDY.name, STUDY.title, case.title, columns, _rows(outcomes), conclude(outcomes),
+                         outcomes=list(outcomes), warnings=warnings)
+    sheet = Sheet()
+    draw(sheet, outcomes)
+    return result, sheet
+
+
+def draw(sheet: Sheet, outcomes: Sequence[Outcome]) -> None:
+    """Geometry, contact length and reaction; a row for each sign of a₀."""
+    with sheet.figure(2, 3, width=style.PAGE, height=4.9) as (fig, axes):
+        for row, sign in enumerate((1.0, -1.0)):
+            mine = [o for o in outcomes if o.value == sign and o.failure is None]
+            for column, panel in enumerate((geometry, contact_length, reaction)):
+                if mine:
+                    panel(sheet, axes[row, column], mine)
+                sheet.panel(axes[row, column], "abcdef"[3 * row + column])
+        handles, labels = axes[0, 0].get_legend_handles_labels()
+        fig.legend(handles, [label.removeprefix("+a₀, ") for label in labels], loc="outside upper center", ncols=4)
+
+
+STUDY = Study("first-order-case", "The thesis's first-order case", own=own)

@@ -1,0 +1,171 @@
+"""One run of a study, reduced to curves and the handful of numbers that tell runs apart.
+
+- contact length: λ₀ fitted to the centroid of the reaction; reaction: r₀ fitted to the impulse (:mod:`comparison.estimators`);
+  with first-order terms both are compared with theory at the end of the run;
+- lift: largest gap inside nine tenths of the contact zone over V₀t ("double detachment", thesis 3.3.5);
+- noise: what a fiftieth of the run's impulse scatters about theory, root mean square;
+- energy: what impacts and damping took, over the energy V₀∫R dt of the exact fast layer, which loses none.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bent_beam.history import ImpactHistory
+from bent_beam.impact import Impact
+from comparison.estimators import leading_order, moments
+from comparison.studies.exact import Exact
+
+__all__ = ["MEASURES", "Outcome", "failed", "outcome_of", "saved_times"]
+
+Array = NDArray[np.float64]
+WINDOWS = 50
+TOUCH = 1e-6  # m: gaps below are contact for the thesis's reading of the front (3.3.5)
+
+MEASURES: dict[str, str] = {
+    "contact_length_error": "λ₀ error (%)", "reaction_error": "r₀ error (%)", "lift": "lift/(V₀t)", "noise": "noise of R (%)",
+    "lost_impact": "lost in impacts (%)", "lost_damping": "lost in damping (%)", "strain": "strain energy/theory",
+    "steps": "steps", "seconds": "seconds",
+}
+"""Numbers of an outcome and how they are headed."""
+
+
+def saved_times(end: float, even: int = 400, root: int = 120) -> Array:
+    """Instants that show both a reaction (even in t) and a front (even in √t)."""
+    return np.unique(np.concatenate([np.linspace(0.0, end, even + 1), end * np.linspace(0.0, 1.0, root + 1) ** 2]))
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """A finished run. kind : whose mark it gets ("thesis", "hermite", "exudyn"); value : of the varied parameter, if a number.
+
+    time, front, side_impulse, strain, energy : (times,), SI, the energy being that of the whole beam over its first value;
+    x, gap : the beam at the end, half of it. ``failure`` says why a run did not finish; then everything may be empty.
+    """
+
+    label: str
+    kind: str
+    impact: Impact
+    value: float | None
+    time: Array
+    front: Array
+    side_impulse: Array
+    strain: Array
+    energy: Array
+    x: Array
+    gap: Array
+    measures: dict[str, float | None]
+    warnings: tuple[str, ...] = ()
+    failure: str | None = None
+
+    @cached_property
+    def exact(self) -> Exact:
+        return Exact(self.impact)
+
+    def reaction(self, windows: int = 200) -> tuple[Array, Array]:
+        """Middles of even time windows (s) and the mean reaction of one side in each (N)."""
+        first = self.time[0] if self.time[0] > 0.0 else 0.0
+        edges = np.linspace(first, self.time[-1], windows + 1)
+        gathered = np.interp(edges, self.time, self.side_impulse)
+        return 0.5 * (edges[1:] + edges[:-1]), np.diff(gathered) / np.diff(edges)
+
+    def row(self) -> dict[str, Any]:
+        """JSON-ready: label, kind, value, measures, failure."""
+        return {"label": self.label, "kind": self.kind, "value": self.value, **self.measures, "failure": self.failure}
+
+
+def failed(label: str, kind: str, impact: Impact, value: float | None, reason: str) -> Outcome:
+    """A run that could not finish."""
+    none = np.zeros(0)
+    return Outcome(label, kind, impact, value, *(none,) * 7, dict.fromkeys(MEASURES), failure=reason)
+
+
+def outcome_of(history: ImpactHistory, label: str, kind: str, value: float | None = None) -> Outcome:
+    """Curves and numbers of a history."""
+    exact = Exact(history.impact)
+    data = history.dataset
+    half = history.positions(-1) >= 0.0
+    kinetic, strain = history.array("kinetic_energy"), history.array("strain_energy")
+    work = history.array("work_of_loads")
+    expanding = "position" in data
+    energy = work - kinetic - strain if expanding else kinetic + strain - work - (kinetic + strain - work)[0]
+    if expanding:  # what the absorber took left the zone as waves; the free motion's energy is added back
+        energy = -(energy - history.array("loss_artificial"))
+    found = moments(history, uniform=not exact.leading)
+    centroid = found.front * history.impact.length_scale
+    return Outcome(
+        label=label, kind=kind, impact=history.impact, value=value, time=history.time,
+        front=centroid if expanding or history.path == "exudyn" else touching(history),
+        side_impulse=history.array("total_impulse") / 2.0,
+        strain=strain, energy=energy, x=history.positions(-1)[half], gap=history.array("gap")[-1][half],
+        measures={**_errors(found, exact, history), **_energy(history, exact, expanding),
+                  "steps": float(history.steps), "seconds": history.seconds},
+        warnings=tuple(history.warnings),
+    )
+
+
+def touching(history: ImpactHistory) -> Array:
+    """The thesis's reading of λ_c (3.3.5), m: coming from the end, the first node that touches or is a minimum of the gap."""
+    gap = history.array("gap")
+    x = np.abs(history.positions(0))
+    half = history.positions(0) >= 0.0
+    gap, x = gap[:, half], x[half]
+    outer = np.pad(gap, ((0, 0), (1, 1)), constant_values=np.inf)
+    lowest = (gap < outer[:, 2:]) & (gap <= outer[:, :-2]) & (x < 0.5 * x[-1])
+    reached = np.where((gap <= TOUCH) | lowest, x[None, :], 0.0).max(axis=1)
+    return np.asarray(np.where(history.time > 0.0, reached, 0.0))
+
+
+def _errors(found: Any, exact: Exact, history: ImpactHistory) -> dict[str, float | None]:
+    end, impact, p = float(history.time[-1]), history.impact, exact.parameters
+    total = float(history.array("total_impulse")[-1])
+    length = reaction = None
+    if exact.leading:
+        try:
+            fitted = leading_order(found)
+        except ValueError:
+            fitted = None
+        if fitted is not None:
+            reaction = 100.0 * (fitted.r0.value / p.r0 - 1.0)
+            length = 100.0 * (fitted.lambda0.value / p.lambda0 - 1.0) if p.lambda0 > 0.0 else None
+    else:
+        reaction = 100.0 * (total / float(exact.impulse(end)) - 1.0)
+        front = float(found.front[-1]) * impact.length_scale
+        length = 100.0 * (front / float(exact.front(end)) - 1.0) if p.lambda0 > 0.0 else None
+    return {
+        "contact_length_error": length, "reaction_error": reaction, "lift": float(found.lift[-1]),
+        "noise": 100.0 * _noise(history, exact),
+    }
+
+
+def _noise(history: ImpactHistory, exact: Exact) -> float:
+    """Scatter of the windows' impulses over the second half of the run, relative to theory's, its mean error taken out."""
+    end = float(history.time[-1])
+    edges = np.linspace(0.5 * end, end, WINDOWS + 1)
+    gathered = np.interp(edges, history.time, history.array("total_impulse"))
+    ratio = np.diff(gathered) / np.diff(exact.impulse(edges))
+    return float(np.std(ratio))
+
+
+def _energy(history: ImpactHistory, exact: Exact, expanding: bool) -> dict[str, float | None]:
+    end = float(history.time[-1])
+    whole = float(exact.fast_energy(end))
+    if not exact.leading or not math.isfinite(whole) or whole <= 0.0:
+        return {"lost_impact": None, "lost_damping": None, "strain": None}
+
+    def lost(name: str) -> float:
+        return float(history.array(name)[-1]) if name in history.dataset else 0.0
+
+    damping = lost("loss_integration") + (0.0 if expanding else lost("loss_artificial"))
+    strain = float(history.array("strain_energy")[-1] - (0.0 if expanding else history.array("strain_energy")[0]))
+    return {
+        "lost_impact": 100.0 * lost("loss_impact") / whole,
+        "lost_damping": 100.0 * damping / whole,
+        "strain": None if expanding else strain / float(exact.strain_energy(end)),
+    }

@@ -1,0 +1,190 @@
+"""Panels that hold several runs of one impact against theory: geometry, contact length, reaction, energy.
+
+The thesis's settings are thin coloured lines, ours are the markers of their path, theory is the black line.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from numpy.typing import NDArray
+
+from comparison.figures import style
+from comparison.figures.recorder import Sheet
+from comparison.studies.outcome import Outcome
+
+__all__ = ["contact_length", "draw_outcomes", "energy", "geometry", "looks", "reaction", "strain", "unit"]
+
+Array = NDArray[np.float64]
+PREFIX = {-12: "p", -9: "n", -6: "µ", -3: "m", 0: "", 3: "k", 6: "M"}
+MARKS = 22  # markers on a curve of ours
+
+
+def unit(largest: float, name: str) -> tuple[float, str]:
+    """(factor, "mm") such that values up to ``largest`` read as 1 … 1000."""
+    power = 3 * math.floor(math.log10(largest) / 3 + 1e-9) if largest > 0.0 else 0
+    power = min(max(power, -12), 6)
+    return 10.0**-power, PREFIX[power] + name
+
+
+def looks(outcomes: Sequence[Outcome]) -> list[dict[str, Any]]:
+    """A style each: colours in turn for the thesis's settings, the path's marker for ours."""
+    found, colour, mark = [], 0, 0
+    for o in outcomes:
+        if o.kind in style.MARKERS:
+            same = sum(p.kind == o.kind for p in outcomes)
+            look = dict(style.MARKERS[o.kind])
+            if same > 1:
+                look.update(color=style.SEQUENCE[mark % len(style.SEQUENCE)], ls="-", lw=0.6)
+                mark += 1
+            found.append(look)
+        else:
+            dashes = ("-", "--", ":")[colour // len(style.SEQUENCE) % 3]
+            found.append({"color": style.SEQUENCE[colour % len(style.SEQUENCE)], "lw": 0.9, "ls": dashes, "marker": ""})
+            colour += 1
+    return found
+
+
+def _sparse(look: dict[str, Any], count: int) -> dict[str, Any]:
+    return {**look, "markevery": max(1, count // MARKS)} if look.get("marker") else look
+
+
+def _finished(outcomes: Sequence[Outcome]) -> list[tuple[Outcome, dict[str, Any]]]:
+    return [(o, look) for o, look in zip(outcomes, looks(outcomes)) if o.failure is None and o.time.size]
+
+
+def _curves(sheet: Sheet, axis: Axes, curves: Sequence[tuple[str, Array, Array, dict[str, Any]]], legend: bool) -> None:
+    for label, x, y, look in curves:
+        sheet.line(axis, x, y, series=label, legend=legend, **_sparse(look, x.size))
+
+
+def _evenly(x: Array, count: int = MARKS) -> NDArray[np.int64]:
+    """Indices of points about evenly spread over x."""
+    return np.unique(np.searchsorted(x, np.linspace(x[0], x[-1], count)).clip(0, x.size - 1))
+
+
+def geometry(sheet: Sheet, axis: Axes, outcomes: Sequence[Outcome], *, legend: bool = True, reach: float = 1.25) -> None:
+    """Deflection y = −gap over x at the end of the run; the wall is the grey half plane."""
+    runs = _finished(outcomes)
+    exact, end = runs[0][0].exact, float(runs[0][0].time[-1])
+    edge = reach * max(float(exact.front(end)), 0.25 * exact.impact.length_scale * math.sqrt(exact.tau(end)))
+    inner = [float(np.abs(o.gap[o.x <= edge / reach]).max(initial=0.0)) for o, _ in runs]
+    flat = float(exact.impact.velocity * end)
+    high = max(1.4 * max(inner), 0.01 * flat)
+    sx, mx = unit(edge, "m")
+    sy, my = unit(high, "m")
+    axis.set_xlabel(f"$x$  ({mx})")
+    axis.set_ylabel(f"deflection $y$  ({my})")
+    axis.axhspan(0.0, 10.0 * high * sy, color="#EEEEEE", lw=0, zorder=0)
+    places = np.linspace(0.0, edge, 400)
+    _theory(sheet, axis, sx * places, -sy * exact.gap(places, end), legend)
+    curves = []
+    for o, look in runs:
+        near = o.x <= edge
+        x, y = o.x[near], -o.gap[near]
+        if look.get("marker"):
+            kept = _evenly(x)
+            x, y = x[kept], y[kept]
+        curves.append((o.label, sx * x, sy * y, look))
+    _curves(sheet, axis, curves, legend)
+    axis.set_xlim(0.0, sx * edge)
+    axis.set_ylim(-sy * high, 0.25 * sy * high)
+
+
+def contact_length(sheet: Sheet, axis: Axes, outcomes: Sequence[Outcome], *, legend: bool = True) -> None:
+    """λ_c over t."""
+    runs = _finished(outcomes)
+    exact, end = runs[0][0].exact, float(runs[0][0].time[-1])
+    times = end * np.linspace(0.0, 1.0, 300) ** 2
+    front = exact.front(times)
+    st, mt = unit(end, "s")
+    sx, mx = unit(max(float(front.max()), *(float(o.front.max()) for o, _ in runs), 1e-12), "m")
+    axis.set_xlabel(f"$t$  ({mt})")
+    axis.set_ylabel(rf"$\lambda_c$  ({mx})")
+    _theory(sheet, axis, st * times, sx * front, legend)
+    _curves(sheet, axis, [(o.label, *_thin(st * o.time, sx * o.front, look), look) for o, look in runs], legend)
+    axis.set_xlim(0.0, st * end)
+    axis.set_ylim(bottom=0.0)
+
+
+def reaction(sheet: Sheet, axis: Axes, outcomes: Sequence[Outcome], *, legend: bool = True, windows: int = 80) -> None:
+    """Reaction of one side over t, averaged over even windows of time."""
+    runs = _finished(outcomes)
+    exact, end = runs[0][0].exact, float(runs[0][0].time[-1])
+    times = np.linspace(0.0, end, windows + 1)[1:]
+    force = exact.side_reaction(times)
+    top = 2.2 * float(force[windows // 10])
+    st, mt = unit(end, "s")
+    sf, mf = unit(top, "N")
+    axis.set_xlabel(f"$t$  ({mt})")
+    axis.set_ylabel(f"reaction of one side  ({mf})")
+    curves = []
+    for o, look in runs:
+        t, f = o.reaction(25 if look.get("marker") else windows)
+        curves.append((o.label, st * t, sf * f, look))
+    for label, t, f, look in curves:
+        sheet.line(axis, t, f, series=label, legend=legend, **look)
+    _theory(sheet, axis, st * times, sf * force, legend)
+    axis.set_xlim(0.0, st * end)
+    axis.set_ylim(min(0.0, -0.05 * sf * top), sf * top)
+
+
+def energy(sheet: Sheet, axis: Axes, outcomes: Sequence[Outcome], *, legend: bool = True) -> None:
+    """Energy of the whole beam over its value at the first contact: exactly conserved by the theory."""
+    runs = _finished(outcomes)
+    end = float(runs[0][0].time[-1])
+    low = max(float(np.abs(o.energy).max()) for o, _ in runs)
+    st, mt = unit(end, "s")
+    se, me = unit(low, "J")
+    axis.set_xlabel(f"$t$  ({mt})")
+    axis.set_ylabel(rf"$E - E(0)$  ({me})")
+    _theory(sheet, axis, st * np.array([0.0, end]), np.zeros(2), legend)
+    _curves(sheet, axis, [(o.label, *_thin(st * o.time, se * o.energy, look), look) for o, look in runs], legend)
+    axis.set_xlim(0.0, st * end)
+
+
+def strain(sheet: Sheet, axis: Axes, outcomes: Sequence[Outcome], *, legend: bool = True) -> None:
+    """Strain energy of the whole beam over t."""
+    runs = [(o, look) for o, look in _finished(outcomes)]
+    exact, end = runs[0][0].exact, float(runs[0][0].time[-1])
+    times = end * np.linspace(0.0, 1.0, 200) ** 2
+    values = exact.strain_energy(times)
+    st, mt = unit(end, "s")
+    se, me = unit(float(values.max()), "J")
+    axis.set_xlabel(f"$t$  ({mt})")
+    axis.set_ylabel(f"strain energy  ({me})")
+    _theory(sheet, axis, st * times, se * values, legend)
+    _curves(sheet, axis, [(o.label, *_thin(st * o.time, se * o.strain, look), look) for o, look in runs], legend)
+    axis.set_xlim(0.0, st * end)
+    axis.set_ylim(bottom=0.0)
+
+
+def _thin(t: Array, values: Array, look: dict[str, Any]) -> tuple[Array, Array]:
+    """All of a line, some twenty points of a marker."""
+    if not look.get("marker"):
+        return t, values
+    kept = _evenly(t)
+    return t[kept], values[kept]
+
+
+def _theory(sheet: Sheet, axis: Axes, x: Array, y: Array, legend: bool) -> None:
+    sheet.line(axis, x, y, series="theory", legend=legend, **{k: v for k, v in style.THEORY.items() if k != "label"})
+
+
+def draw_outcomes(sheet: Sheet, outcomes: Sequence[Outcome]) -> None:
+    """The picture of a study: geometry, contact length, reaction, energy; one legend."""
+    usable = [o for o in outcomes if o.failure is None]
+    if not usable:
+        return
+    drawn = [geometry, contact_length, reaction, *([energy] if usable[0].exact.leading else [])]
+    rows = 2 if len(drawn) == 4 else 1
+    with sheet.figure(rows, len(drawn) // rows, width=style.PAGE, height=2.5 * rows + 0.3) as (fig, axes):
+        for axis, draw, letter in zip(axes.flat, drawn, "abcd"):
+            draw(sheet, axis, usable)
+            sheet.panel(axis, letter)
+        handles, labels = axes.flat[0].get_legend_handles_labels()
+        fig.legend(handles, labels, loc="outside upper center", ncols=min(3, len(labels)), fontsize=7.0)
