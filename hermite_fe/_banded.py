@@ -182,6 +182,11 @@ def combine(
     """Write m·M + c·C + k·K (lower form) into S (by rows), dof i at unknown place[i]; nothing else in S
     changes."""
     n = place.size
+    if place[n - 1] == n - 1:  # no multipliers between the dofs
+        for apart in range(min(4, n)):
+            for i in range(n - apart):
+                S[i + apart, apart] = m * M[apart, i] + c * C[apart, i] + k * K[apart, i]
+        return
     for i in range(n):
         row = place[i]
         for j in range(max(0, i - 3), i + 1):
