@@ -22,7 +22,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bent_beam.history import ImpactHistory
-from bent_beam.impact import Impact
 
 __all__ = ["Estimate", "FirstOrderEstimate", "LeadingEstimate", "Moments", "first_order", "leading_order", "moments"]
 
@@ -318,8 +317,3 @@ def _lstsq(matrix: Array, right: Array) -> Array:
     scale[scale == 0.0] = 1.0
     solution, *_ = np.linalg.lstsq(matrix / scale, right, rcond=None)
     return np.asarray(solution / scale)
-
-
-def scaled_impact(base: Impact, epsilon: float, alpha: float, psi: float, chi: float) -> Impact:
-    """``base`` (dimensionless, ν = 1) with (εα, εψ, εχ) = ε·(α, ψ, χ)."""
-    return base.replace(acceleration=epsilon * alpha, fourth_derivative=epsilon * psi, curvature_rate=epsilon * chi)

@@ -56,7 +56,7 @@ BAND = 3  # half-bandwidth of Hermite elements: two nodes of two degrees of free
 class ExpandingMesh:
     """Mesh x = ζ l* √(t/t*) of an infinite beam; lengths below are in ζ unless said otherwise.
 
-    front_resolution : element at the front over the front's thickness 2/√(1 + λ²).
+    front_resolution : element at the front over the front's thickness 2/√(1 + λ²), or over λ where that is less.
     growth : growth of elements away from the front, per length (0.02: 2 % an element).
     elements_per_wave : elements per wavelength 4π/ζ of what the impact radiates.
     interior_elements : at least so many elements inside the contact zone.
@@ -90,7 +90,7 @@ class ExpandingMesh:
         """Nodes ζ (n,) from 0 around a front at ``front``, fine there, and where the absorber starts."""
         thickness = 2.0 / math.sqrt(1.0 + front**2)
         coarsest_inside = front / self.interior_elements if front > 0.0 else math.inf
-        fine = min(self.front_resolution * thickness, coarsest_inside)
+        fine = self.front_resolution * (min(thickness, front) if front > 0.0 else thickness)
         start = front + self.absorber_start
         end = start + self.absorber_length
 
