@@ -19,8 +19,18 @@ __all__ = ["error_plot", "first_order_plot", "leading_plot", "plots", "seconds_p
 
 Plot = dict[str, Any]
 MARKS: dict[str, dict[str, Any]] = {
-    "hermite": {"symbol": "circle-open", "size": 9, "line": {"width": 1.8}, "color": COLOURS["blue"]},
-    "exudyn": {"symbol": "square-open", "size": 9, "line": {"width": 1.8}, "color": COLOURS["vermilion"]},
+    "hermite": {
+        "symbol": "circle-open",
+        "size": 9,
+        "line": {"width": 1.8, "color": COLOURS["blue"]},
+        "color": COLOURS["blue"],
+    },
+    "exudyn": {
+        "symbol": "square-open",
+        "size": 9,
+        "line": {"width": 1.8, "color": COLOURS["vermilion"]},
+        "color": COLOURS["vermilion"],
+    },
 }
 NAMES = {"theory": "Theory", "hermite": "Hermite", "exudyn": "Exudyn"}
 SYMBOLS = {
@@ -105,7 +115,9 @@ def leading_plot(rows: Sequence[TableRow], what: str) -> Plot:
         ]
         if mine:
             data.append(points(path, [r for r, _ in mine], [c for _, c in mine], marker=marker))
-    top = {"type": "log", "exponentformat": "power"}
+    top: Plot = {"type": "log", "exponentformat": "power", "dtick": 1}
+    if what == "r0":
+        top |= {"dtick": None, "tickvals": [1, 2, 5, 10, 20, 50, 100, 200, 500]}
     return {
         "data": data,
         "layout": layout("κ/ν", SYMBOLS[what] + ("/ν" if what == "r0" else ""), xaxis=LOG_RATIO, yaxis=top),
@@ -165,7 +177,7 @@ def first_order_plot(rows: Sequence[TableRow], what: str) -> Plot:
                         path,
                         [r for r, _ in both],
                         [c for _, c in both],
-                        marker={**marker, "color": colour},
+                        marker={**marker, "color": colour, "line": {"width": 1.8, "color": colour}},
                         legendgroup=label,
                         showlegend=False,
                     )
@@ -175,9 +187,19 @@ def first_order_plot(rows: Sequence[TableRow], what: str) -> Plot:
         "layout": layout(
             "κ/ν",
             SYMBOLS[what] + " (ν = 1)",
+            xaxis={"range": [0.08, 1.0]},
+            yaxis={"range": visible(rows, what)},
             legend={"title": {"text": "(α, ψ, χ)"}, "font": {"size": 11}},
         ),
     }
+
+
+def visible(rows: Sequence[TableRow], what: str) -> list[float]:
+    """The range that shows all points but those at small κ/ν, where λ₁ and r₁ grow without bound."""
+    every = [c.exact for r in rows for c in r.cells if c.what == what]
+    most = [c.exact for r in rows for c in r.cells if c.what == what and r.row.kappa_over_nu >= 0.25] or every
+    room = 0.15 * max(max(most) - min(most), 1.0)
+    return [min(most) - room, max(most) + room]
 
 
 def error_plot(rows: Sequence[TableRow], names: Sequence[str]) -> Plot:
@@ -206,6 +228,7 @@ def error_plot(rows: Sequence[TableRow], names: Sequence[str]) -> Plot:
             data.append(
                 {
                     **trace,
+                    "x": beside(trace["x"], len(data), logarithmic="lambda0" in names),
                     "y": size,
                     "error_y": {
                         "array": [100.0 * c.bar for c in cells],
@@ -247,6 +270,12 @@ def error_plot(rows: Sequence[TableRow], names: Sequence[str]) -> Plot:
             yaxis={"type": "log", "exponentformat": "power", "dtick": 1},
         ),
     }
+
+
+def beside(ratios: Sequence[float], place: int, *, logarithmic: bool) -> list[float]:
+    """κ/ν moved a little by the number of the curve, so that points of several do not hide one another."""
+    shift = place - 1.5
+    return [x * 1.03**shift if logarithmic else x + 0.007 * shift for x in ratios]
 
 
 def seconds_plot(rows: Sequence[TableRow]) -> Plot:

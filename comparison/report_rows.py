@@ -22,6 +22,12 @@ __all__ = [
 
 First = tuple[float, float, float]
 
+
+def signed(text: str) -> str:
+    """With a true minus sign, as wide as a plus."""
+    return text.replace("-", "−")
+
+
 LEADING_HERMITE = (*THESIS_KAPPAS, 0.8)
 LEADING_EXUDYN = tuple(k for k in LEADING_HERMITE if k >= 0.05)  # below, its fixed mesh would be too long
 FIRST_HERMITE: tuple[First, ...] = (
@@ -92,15 +98,21 @@ class Cell:
     def value_text(self) -> str:
         """Value ± error bar, with as many digits as the error bar leaves."""
         if not (self.bar_absolute > 0.0 and math.isfinite(self.bar_absolute)):
-            return f"{self.value:.6g}"
+            return signed(f"{self.value:.6g}")
         digits = max(0, min(8, 1 - math.floor(math.log10(self.bar_absolute))))
-        return f"{self.value:.{digits}f} ± {self.bar_absolute:.{digits}f}"
+        return signed(f"{self.value:.{digits}f} ± {self.bar_absolute:.{digits}f}")
 
     @property
     def error_text(self) -> str:
         """The relative error in per cent."""
         size = 100.0 * self.error
-        return f"{size:+.3f} %" if abs(size) < 0.1 else f"{size:+.2f} %"
+        if abs(size) < 5e-4:
+            return "0.000 %"
+        return signed(f"{size:+.3f} %" if abs(size) < 0.1 else f"{size:+.2f} %")
+
+    @property
+    def exact_text(self) -> str:
+        return signed(f"{self.exact:.6g}")
 
 
 @dataclass(frozen=True)
@@ -120,7 +132,7 @@ class TableRow:
     @property
     def first_text(self) -> str:
         """(α, ψ, χ) with proper minus signs."""
-        return "(" + ", ".join(f"{v:g}".replace("-", "−") for v in first_of(self.row)) + ")"
+        return signed("(" + ", ".join(f"{v:g}" for v in first_of(self.row)) + ")")
 
 
 def first_of(row: MatchRow) -> First:

@@ -119,9 +119,9 @@ def acceleration_short(impacts: Sequence[ShownImpact]) -> str:
 
     return (
         f"Into the wall, it spreads the contact faster ({change('pressed', 'front')} at the end of the "
-        f"impact shown), raises the end reactions ({change('pressed', 'reaction')}) and presses the whole zone on "
-        f"the wall. Away from it, the contact spreads slower ({change('released', 'front')}), the reactions fall "
-        f"({change('released', 'reaction')}) and the middle of the zone lifts off, by "
+        f"impact shown), raises the end reactions ({change('pressed', 'reaction')}) and presses the whole "
+        f"zone on the wall. Away from it, the contact spreads slower ({change('released', 'front')}), the "
+        f"reactions fall ({change('released', 'reaction')}) and the middle of the zone lifts off, by "
         f"{100.0 * max(by_name['released'].data['lift']):.1g} % of V₀t."
     )
 

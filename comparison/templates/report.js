@@ -38,7 +38,8 @@
   }, more);
   const legend = { showlegend: true, legend: { orientation: "h", y: 1.02, yanchor: "bottom", x: 0, font: { size: 11 } } };
   const mirror = (values, sign) => values.slice().reverse().map((v) => sign * v).concat(values);
-  const text = (v) => v === null ? "–" : Math.abs(v) >= 1e-3 || v === 0 ? Number(v.toPrecision(4)).toString() : v.toExponential(1).replace("e", "·10^").replace("+", "");
+  const power = (v) => { const [digits, exponent] = v.toExponential(1).split("e"); return digits + "·10" + exponent.replace("+", "").replace(/[-0-9]/g, (c) => "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"["-0123456789".indexOf(c)]); };
+  const text = (v) => v === null ? "–" : Math.abs(v) >= 1e-3 || v === 0 ? Number(v.toPrecision(4)).toString() : power(v);
 
   function show(k) {
     const d = impact, t = d.time[k], front = d.front[k], width = d.x[d.x.length - 1];
