@@ -100,7 +100,7 @@ class Cell:
         if not (self.bar_absolute > 0.0 and math.isfinite(self.bar_absolute)):
             return signed(f"{self.value:.6g}")
         digits = max(0, min(8, 1 - math.floor(math.log10(self.bar_absolute))))
-        return signed(f"{self.value:.{digits}f} ± {self.bar_absolute:.{digits}f}")
+        return signed(f"{self.value:.{digits}f} ±\u00a0{self.bar_absolute:.{digits}f}")
 
     @property
     def error_text(self) -> str:

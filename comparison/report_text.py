@@ -19,6 +19,7 @@ __all__ = [
 ]
 
 NAMES = {"hermite": "Hermite", "exudyn": "Exudyn"}
+SYMBOLS = {"lambda0": "λ₀", "r0": "r₀", "lambda1": "λ₁", "r1": "r₁"}
 
 
 def percent(value: float) -> str:
@@ -31,12 +32,14 @@ def percent(value: float) -> str:
     return f"{math.ceil(size / step - 1e-9) * step:.{digits}f} %"
 
 
-def _worst_of(rows: Sequence[TableRow]) -> list[tuple[str, Cell, int]]:
+def _worst_of(rows: Sequence[TableRow]) -> list[tuple[str, Cell, float, int]]:
+    """Name, worst cell, median error and number of rows of each path that has any."""
     found = []
     for path, name in NAMES.items():
         cell = worst(rows, path)
         if cell is not None:
-            found.append((name, cell, sum(1 for r in rows if r.row.path == path)))
+            mine = [r for r in rows if r.row.path == path]
+            found.append((name, cell, median(abs(c.error) for r in mine for c in r.cells), len(mine)))
     return found
 
 
@@ -45,7 +48,8 @@ def headline(leading: Sequence[TableRow], first: Sequence[TableRow], failures: i
     parts = []
     for what, rows in (("leading order (λ₀, r₀)", leading), ("first order (λ₁, r₁)", first)):
         each = [
-            f"{name} within {percent(cell.error)} ({count} rows)" for name, cell, count in _worst_of(rows)
+            f"{name} within {percent(cell.error)} (median {percent(middle)}, {count} rows)"
+            for name, cell, middle, count in _worst_of(rows)
         ]
         if each:
             parts.append(f"{what}: {' and '.join(each)}")
@@ -69,10 +73,19 @@ def agreement_answer(leading: Sequence[TableRow], first: Sequence[TableRow]) -> 
     cells = [c for r in rows for c in r.cells]
     within = sum(abs(c.error) <= c.tolerance for c in cells)
     covered, total = coverage(rows)
-    return (
+    text = (
         f"{within} of {len(cells)} numbers are within the tolerance that this project holds itself to, "
         f"and for {covered} of {total} the theory lies inside the error bar that the simulation gives itself."
     )
+    beyond = [(abs(c.error) / c.tolerance, r, c) for r in rows for c in r.cells if abs(c.error) > c.tolerance]
+    if beyond:
+        _, row, cell = max(beyond, key=lambda b: b[0])
+        text += (
+            f" Furthest beyond it: {NAMES[row.row.path]}, κ/ν = {row.ratio_text}, "
+            f"(α, ψ, χ) = {row.first_text}, "
+            f"{SYMBOLS[cell.what]} = {cell.value_text} (theory {cell.exact_text})."
+        )
+    return text
 
 
 def speed_answer(leading: Sequence[TableRow], first: Sequence[TableRow]) -> str:
