@@ -1,7 +1,7 @@
 """The main job's result: both paths matched with the theory, as one HTML page that needs no network.
 
 ``write_report`` computes the rows (:mod:`comparison.report_rows`), a few impacts to look at
-(:mod:`comparison.report_impacts`) and the cheap studies, draws them (:mod:`comparison.report_plots`) and puts
+(:mod:`comparison.report_impacts`) and the studies, draws them (:mod:`comparison.report_plots`) and puts
 them into ``templates/report.html.j2`` with plotly.js inside. Whatever fails is named on the page, with the
 command that asks again; the page is written all the same.
 """
@@ -28,7 +28,7 @@ from comparison.matching import MatchFailure, MatchRow, Question, match
 from comparison.report_impacts import SHOWN, Shown, ShownImpact, show
 from comparison.report_plots import plots
 from comparison.report_rows import first_order_rows, leading_rows, report_questions
-from comparison.report_studies import StudyNote, cheap_studies
+from comparison.report_studies import StudyNote, common_ending, known_studies, study_notes
 from comparison.report_text import (
     acceleration_answer,
     acceleration_short,
@@ -72,7 +72,7 @@ def write_report(
 ) -> dict[str, Any]:
     """Compute everything and write ``out/index.html``, with its rows and still pictures in ``out/data``.
 
-    questions : rows to ask for instead of the usual ones. studies : run the cheap parameter studies too.
+    questions : rows to ask for instead of the usual ones. studies : run the parameter studies too.
     progress : called with (done, total) as rows finish.
 
     Returns ``page``, ``files``, ``headline``, ``failures`` (JSON-ready) and ``rows`` (their number).
@@ -80,7 +80,8 @@ def write_report(
     """
     began = clock.perf_counter()
     asked = list(report_questions() if questions is None else questions)
-    total = len(asked) + len(SHOWN)
+    names = list(known_studies()) if studies else []
+    total = len(asked) + len(SHOWN) + len(names)
 
     def count(done: int, _: int) -> None:
         if progress is not None:
@@ -88,8 +89,9 @@ def write_report(
 
     rows, failures = match(asked, store=store, jobs=jobs, scheduler=scheduler, progress=count)
     impacts, lost = shown_impacts(SHOWN)
-    count(total, total)
-    notes = cheap_studies(jobs) if studies else []
+    before = len(asked) + len(SHOWN)
+    count(before, total)
+    notes = study_notes(names, store=store, jobs=jobs, progress=lambda done, _: count(before + done, total))
     files = write_match(rows, failures, out / "data")
     files += still_pictures(impacts, out / "data")
     content = Content(
@@ -127,10 +129,10 @@ def shown_impacts(wanted: Sequence[Shown]) -> tuple[list[ShownImpact], list[str]
 
 def still_pictures(impacts: Sequence[ShownImpact], out: Path) -> list[Path]:
     """The impacts as still pictures, for paper and for readers without JavaScript."""
-    from comparison.report_stills import draw_impact, draw_maps
+    from comparison.report_stills import draw_acceleration, draw_impact, draw_maps
 
     files = [file for impact in impacts for file in draw_impact(impact, out)]
-    return files + (draw_maps(impacts, out) if impacts else [])
+    return files + (draw_maps(impacts, out) + draw_acceleration(impacts, out) if impacts else [])
 
 
 def machine() -> dict[str, str]:
@@ -169,6 +171,7 @@ def page(content: Content) -> str:
         lstrip_blocks=True,
     )
     leading, first = leading_rows(content.rows), first_order_rows(content.rows)
+    ending = common_ending(content.studies)
     return environment.get_template("report.html.j2").render(
         title=headline(leading, first, len(content.failures)),
         agreement=agreement_answer(leading, first),
@@ -181,7 +184,8 @@ def page(content: Content) -> str:
         warnings=[(r, w) for r in [*leading, *first] for w in r.row.warnings],
         impacts=content.impacts,
         lost_impacts=content.lost_impacts,
-        studies=content.studies,
+        studies=[(s, s.conclusion.removesuffix(ending).strip()) for s in content.studies],
+        studies_ending=ending,
         pictures={p.stem: picture(p) for p in content.pictures if p.exists()},
         facts=facts(content),
         settings=settings(content),

@@ -11,7 +11,7 @@ from matplotlib.colors import LogNorm
 from comparison.figures import style
 from comparison.report_impacts import ShownImpact
 
-__all__ = ["draw_impact", "draw_maps"]
+__all__ = ["draw_acceleration", "draw_impact", "draw_maps"]
 
 
 def draw_impact(impact: ShownImpact, out: Path) -> list[Path]:
@@ -24,7 +24,7 @@ def draw_impact(impact: ShownImpact, out: Path) -> list[Path]:
             gap = np.array(data["gap"][k]) * time[k]
             left.plot(
                 both,
-                -np.concatenate([gap[::-1], gap]),
+                np.concatenate([gap[::-1], gap]),
                 color=style.SEQUENCE[i],
                 label=rf"$\tau$ = {time[k]:.2g}",
             )
@@ -32,7 +32,7 @@ def draw_impact(impact: ShownImpact, out: Path) -> list[Path]:
             left.plot([-front, front], [0, 0], "|", color=style.SEQUENCE[i], ms=9)
         left.axhline(0.0, **{**style.WALL, "label": None})
         left.set_xlabel(r"$x/l_*$  (1)")
-        left.set_ylabel(r"beam $y/(V_0t_*)$  (1)")
+        left.set_ylabel(r"gap $/(V_0t_*)$  (1)")
         left.legend()
         style.panel_label(left, "(a)")
         right.plot(time, data["reaction_theory"], **style.THEORY)
@@ -70,3 +70,24 @@ def draw_maps(impacts: Sequence[ShownImpact], out: Path) -> list[Path]:
         axes[0][0].set_ylabel(r"$\sqrt{\tau}$  (1)")
         fig.colorbar(mesh, ax=axes[0], label=r"reaction per length / ($\mu V_0/t_*$)")
         return style.save(fig, out, "reaction-map")
+
+
+def draw_acceleration(impacts: Sequence[ShownImpact], out: Path) -> list[Path]:
+    """λ_c/√τ and one end's reaction times √τ of all impacts: theory to first order, and the simulation."""
+    with style.figure(1, 2, width=style.PAGE, height=2.6) as (fig, axes):
+        for axis, what, power, symbol in zip(
+            axes, ("front", "reaction"), (-0.5, 0.5), (r"$\lambda_c/\sqrt{\tau}$", r"$(R/2)\sqrt{\tau}$")
+        ):
+            for i, impact in enumerate(impacts):
+                time = np.array(impact.data["time"])
+                colour = style.SEQUENCE[i]
+                axis.plot(time, np.array(impact.data[f"{what}_theory"]) * time**power, color=colour)
+                axis.plot(
+                    time[::3],
+                    (np.array(impact.data[what]) * time**power)[::3],
+                    **{**style.HERMITE, "color": colour, "label": impact.shown.title},
+                )
+            axis.set_xlabel(r"$\tau = t/t_*$  (1)")
+            axis.set_ylabel(f"{symbol}  (1)")
+        axes[0].legend(fontsize=6)
+        return style.save(fig, out, "acceleration")

@@ -1,0 +1,276 @@
+"""The report's page: it stands alone, escapes what it shows, and says what the rows say."""
+
+from __future__ import annotations
+
+import re
+import sys
+from dataclasses import replace
+from html.parser import HTMLParser
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from comparison import report as report_module
+from comparison.matching import MatchFailure
+from comparison.report import page, write_report
+from comparison.report_impacts import SHOWN, force_map, frames_of, spread
+from comparison.report_plots import row_plots
+from comparison.report_rows import (
+    first_order_rows,
+    leading_rows,
+    report_questions,
+    table_row,
+    tolerance,
+)
+from comparison.report_studies import StudyNote, case_of, common_ending, study_notes
+from comparison.report_text import acceleration_answer, headline, percent, speed_answer
+from comparison.store import RunStore
+
+sys.path.insert(0, str(Path(__file__).parent))
+from report_fixtures import NASTY, content, impacts, row, rows
+
+VOID = {"meta", "link", "br", "img", "input", "line", "circle", "rect", "path"}
+
+
+class Reader(HTMLParser):
+    """Tags, attributes and visible text of a page; raises on tags that do not close in order."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.open: list[str] = []
+        self.attributes: list[tuple[str, str, str]] = []
+        self.text: list[str] = []
+        self.tags: list[str] = []
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        self.tags.append(tag)
+        self.attributes += [(tag, name, value or "") for name, value in attrs]
+        if tag not in VOID:
+            self.open.append(tag)
+
+    def handle_startendtag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        self.tags.append(tag)
+        self.attributes += [(tag, name, value or "") for name, value in attrs]
+
+    def handle_endtag(self, tag: str) -> None:
+        if tag not in VOID:
+            assert self.open and self.open[-1] == tag, f"</{tag}> closes {self.open[-3:]}"
+            self.open.pop()
+
+    def handle_data(self, data: str) -> None:
+        if not {"script", "style"} & set(self.open):
+            self.text.append(data)
+
+
+def read(text: str) -> Reader:
+    reader = Reader()
+    reader.feed(text)
+    reader.close()
+    return reader
+
+
+@pytest.fixture(scope="module")
+def plain() -> str:
+    return page(content())
+
+
+def test_page_parses_and_its_links_lead_somewhere(plain: str) -> None:
+    reader = read(plain)
+    assert reader.open == []
+    ids = [value for _, name, value in reader.attributes if name == "id"]
+    assert len(ids) == len(set(ids))
+    for _, name, value in reader.attributes:
+        if name == "href" and value.startswith("#"):
+            assert value[1:] in ids, value
+
+
+def test_page_refers_to_nothing_outside_itself(plain: str) -> None:
+    for tag, name, value in read(plain).attributes:
+        if name in ("src", "href", "srcset", "action", "poster", "data"):
+            assert value.startswith(("#", "data:")), (tag, name, value[:80])
+    style = plain[plain.index("<style>") : plain.index("</style>")]
+    assert "@import" not in style and "url(" not in style
+
+
+def test_strings_from_files_are_escaped() -> None:
+    text = page(content(nasty=True))
+    assert NASTY not in text
+    reader = read(text)  # markup let through would unbalance the tags or add scripts
+    assert reader.tags.count("script") == read(page(content())).tags.count("script")
+    assert sum(NASTY in part for part in ["".join(reader.text)]) == 1
+
+
+def test_page_shows_every_row_and_the_failure(plain: str) -> None:
+    text = re.sub(r"[ \n]+", " ", "".join(read(plain).text))
+    for r in [*leading_rows(rows()), *first_order_rows(rows())]:
+        for c in r.cells:
+            assert c.value_text in text and c.error_text in text
+    assert "bentbeam match --path exudyn # an ordinary warning" in text
+    assert "1 row failed" in text
+
+
+def test_page_without_any_row_is_still_a_page() -> None:
+    lost = MatchFailure("hermite", 0.5, None, "no reason", "bentbeam match")
+    empty = report_module.Content(rows=[], failures=[lost])
+    reader = read(page(empty))
+    assert reader.open == []
+    assert "No row could be computed (1 failed)." in "".join(reader.text)
+
+
+def test_report_is_written_when_rows_fail(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    lost = MatchFailure(
+        "exudyn", 0.5, None, "the solver gave up", "bentbeam match --path exudyn --kappa-over-nu 0.5"
+    )
+    seen: list[tuple[int, int]] = []
+
+    def match(asked, *, store, jobs, scheduler, progress):  # type: ignore[no-untyped-def]
+        progress(1, len(asked))
+        return rows(), [lost]
+
+    monkeypatch.setattr(report_module, "match", match)
+    monkeypatch.setattr(report_module, "shown_impacts", lambda wanted: (list(impacts()), []))
+    found = write_report(
+        tmp_path, store=RunStore(None), jobs=1, progress=lambda a, b: seen.append((a, b)), studies=False
+    )
+    assert set(found) >= {"page", "files", "headline", "failures", "rows"}
+    assert all(Path(f).stat().st_size > 0 for f in found["files"])
+    assert found["failures"][0]["rerun"] == lost.rerun
+    assert "1 row failed" in found["headline"]
+    text = (tmp_path / "index.html").read_text()
+    assert "the solver gave up" in text and lost.rerun in text
+    pictures = [value for tag, name, value in read(text).attributes if tag == "img" and name == "src"]
+    assert len(pictures) == 7  # two matching plots, three impacts, maps, acceleration
+    assert seen[-1][0] == seen[-1][1]
+
+
+def test_questions_hold_the_thesis_table_and_the_first_order_sets() -> None:
+    asked = report_questions()
+    assert len(set(asked)) == len(asked)
+    leading = {(q.path, q.kappa_over_nu) for q in asked if q.first is None}
+    assert ("hermite", 1 / 1600) in leading and ("hermite", 0.8) in leading and ("exudyn", 0.8) in leading
+    assert not any(path == "exudyn" and kappa < 0.05 for path, kappa in leading)
+    assert sum(q.path == "hermite" and q.kappa_over_nu == 0.5 and q.first is not None for q in asked) == 9
+    assert {q.first for q in asked if q.path == "exudyn" and q.first} == {(4, 0, 0), (1, 1, 1), (-1, -1, 0)}
+
+
+@pytest.mark.parametrize(("off", "grade"), [(1e-3, "good"), (4e-3, "fair"), (1e-2, "poor"), (2e-2, "bad")])
+def test_grade_is_error_against_tolerance(off: float, grade: str) -> None:
+    cells = table_row(row("hermite", 0.25, None, off)).cells
+    assert [c.grade for c in cells] == [grade, grade]
+    assert all(c.covered for c in cells)
+    assert cells[0].error == pytest.approx(off) and cells[1].error == pytest.approx(-off)
+
+
+def test_tolerances_are_those_of_the_project() -> None:
+    assert tolerance("hermite", "r0", 0.5) == 0.005
+    assert tolerance("hermite", "r1", 0.5) == 0.01 and tolerance("hermite", "r1", 0.1) == 0.03
+    assert tolerance("exudyn", "lambda1", 0.5) == 0.04 and tolerance("exudyn", "r1", 0.5) == 0.03
+
+
+def test_value_is_written_with_the_digits_its_error_bar_leaves() -> None:
+    cell = table_row(row("hermite", 0.5, (4, 0, 0), 2e-3)).cells[0]
+    assert cell.value_text == "5.676 ±\u00a00.023"
+    assert cell.error_text == "+0.20 %"
+    assert table_row(row("hermite", 1 / 1600)).ratio_text == "1/1600"
+
+
+def test_percent_never_flatters() -> None:
+    assert percent(0.00121) == "0.13 %"
+    assert percent(-0.03) == "3.0 %"
+    assert percent(0.0) == "0 %"
+
+
+def test_headline_and_speed_come_from_the_rows() -> None:
+    leading, first = leading_rows(rows()), first_order_rows(rows())
+    text = headline(leading, first, 0)
+    assert "Hermite within 20 %" in text and "Exudyn within 2.5 %" in text and "failed" not in text
+    assert "10 times faster" in speed_answer(leading, first)
+    assert "cannot be compared" in speed_answer(leading[:1], [])
+
+
+def test_plots_tag_every_trace_with_its_path() -> None:
+    plots = row_plots(rows())
+    assert set(plots) == {"lambda0", "r0", "leading-error", "lambda1", "r1", "first-error", "seconds"}
+    for plot in plots.values():
+        assert plot["data"] and all(
+            t["meta"]["path"] in ("theory", "hermite", "exudyn") for t in plot["data"]
+        )
+
+
+# --- the shown impacts --------------------------------------------------------------------------------------
+
+
+def test_shown_impact_without_acceleration_is_the_leading_order() -> None:
+    data = impacts()[0].data
+    for what in ("front", "reaction"):
+        assert np.allclose(data[what], data[f"{what}_theory"], rtol=5e-3)
+    assert max(data["lift"]) < 1e-6
+
+
+def test_pressed_zone_carries_the_uniform_reaction_of_theory() -> None:
+    shown, data = SHOWN[1], impacts()[1].data
+    assert data["pressure"][-1] == pytest.approx(shown.epsilon * shown.first[0], rel=0.02)
+    middle = np.array(data["map"]["force"])[-20:, :10]
+    assert np.allclose(middle, shown.epsilon * shown.first[0], rtol=0.05)
+
+
+def test_released_zone_lifts_off_and_sentences_say_so() -> None:
+    data = impacts()[2].data
+    assert 1e-3 < max(data["lift"]) < 2e-2
+    pressed, released = acceleration_answer(impacts())
+    assert "uniform reaction of 1 " in pressed and "larger" in pressed
+    assert "lifts off" in released and "smaller" in released
+
+
+def test_map_holds_the_whole_impulse_of_one_side() -> None:
+    from hermite_fe.expanding import ExpandingMesh, simulate_expanding
+
+    history = simulate_expanding(SHOWN[1].impact, ExpandingMesh(decades=2.0), end_time=0.1, save=60)
+    kept = frames_of(history.time, 10)
+    edges = np.linspace(0.0, 1.0, 41)
+    gathered = (force_map(history, kept, edges) * np.diff(edges)).sum(axis=1) * np.diff(history.time[kept])
+    expected = np.diff(history.array("impulse").sum(axis=1)[kept])
+    assert np.allclose(gathered, expected, rtol=1e-9)
+
+
+def test_spread_keeps_the_sum() -> None:
+    places, amounts = np.array([0.0, 0.1, 0.4, 0.5]), np.array([1.0, 2.0, 0.5, 4.0])
+    bins = spread(places, amounts, np.linspace(0.0, 0.6, 7))
+    assert bins.sum() == pytest.approx(amounts.sum())
+    assert bins[-1] == pytest.approx(0.0, abs=1e-12)
+
+
+def test_frames_are_even_in_root_time() -> None:
+    time = np.geomspace(1e-4, 1e-1, 400)
+    kept = frames_of(time, 30)
+    steps = np.diff(np.sqrt(time[kept]))
+    assert steps.max() < 1.6 * steps.min()
+    assert kept[-1] == 399
+
+
+def test_numbers_in_the_page_data_are_finite(plain: str) -> None:
+    inside = re.search(r'<script type="application/json" id="data">(.*?)</script>', plain, re.S)
+    assert inside is not None
+    assert "NaN" not in inside[1] and "Infinity" not in inside[1]
+
+
+# --- studies ------------------------------------------------------------------------------------------------
+
+
+def test_a_study_that_fails_is_left_out_with_a_note() -> None:
+    notes = study_notes(["no-such-study"], store=RunStore(None))
+    assert notes[0].failed and "bentbeam study no-such-study" in notes[0].conclusion
+
+
+def test_sentence_shared_by_studies_is_said_once() -> None:
+    notes = [StudyNote(name, name, f"{name} is at 0.5 m. The rest is the same.") for name in ("A", "B", "C")]
+    assert common_ending(notes) == "The rest is the same."
+    assert common_ending(notes[:2]) == ""
+    text = page(replace(content(), studies=notes))
+    assert text.count("The rest is the same.") == 1 and "B is at 0.5 m." in text
+
+
+def test_studies_of_the_report_have_cases() -> None:
+    assert case_of("mesh").impact.kappa_over_nu == pytest.approx(0.5)
+    assert case_of("first-order-case").impact.epsilon_alpha == pytest.approx(16.3, rel=1e-2)
