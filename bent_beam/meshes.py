@@ -193,7 +193,8 @@ class ScaleFreeMesh:
         largest = math.inf if self.largest is None else self.largest
         if self.growth == 1.0:
             _count(half_length, self.element_length)
-        outer = _grown(0.0, self.element_length, self.growth, half_length, largest)
+        first = min(self.element_length, 0.5 * half_length)
+        outer = _grown(0.0, first, self.growth, half_length, max(largest, first))
         return checked_nodes(np.concatenate([[0.0], outer]))
 
 

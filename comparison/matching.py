@@ -118,7 +118,7 @@ def _simulate(path: str, impact: Impact, largest: Impact | None) -> ImpactHistor
             mesh = ExpandingMesh(front_resolution=0.0015, interior_elements=60, step_ratio=0.06, decades=6.0)
         elif largest is not None:
             # The contact is one or two nodes that the front passes on: steps shorter than its passage.
-            mesh = ExpandingMesh(front_resolution=0.005, interior_elements=60, step_ratio=0.015, decades=6.0)
+            mesh = ExpandingMesh(front_resolution=0.005, interior_elements=60, step_ratio=0.01, decades=6.0)
         return simulate_expanding(impact, mesh, end_time=end, save=250)
     import exudyn_models
     from exudyn_models.contacts import CONTACTS
@@ -165,12 +165,15 @@ def first_order_epsilon(path: str, leading: LeadingEstimate, first: tuple[float,
     """The largest ε of the runs: the free motion changes by a small part of V₀t over the contact zone at their end.
 
     ετ(|α|/4 + |χ|z²/2 + |ψ|z⁴/24) at z = the zone measured at ε = 0 and half the front's thickness: 3 % on the Hermite
-    path, whose noise is far below that, 6 % on the Exudyn path. (α counts half: its second order is small.)
+    path, whose noise is far below that, 6 % on the Exudyn path. (α counts half: its second order is small.) Where nothing
+    presses, a front that is close to the centre is spared too long a way.
     """
     front = leading.lambda0.value
     z = front + 1.0 / math.sqrt(1.0 + front**2)
     alpha, psi, chi = (abs(v) for v in first)
     part = 0.03 if path == "hermite" else 0.06
+    if first[0] + first[1] <= 0.0 and front > 0.0:
+        part *= front / (front + 0.2)
     return part / (DURATION * (alpha / (4 if path == "hermite" else 2) + chi * z**2 / 2 + psi * z**4 / 24))
 
 

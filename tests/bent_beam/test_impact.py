@@ -1,0 +1,58 @@
+"""The impact problem: its groups, scales and validation."""
+
+import math
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from bent_beam import Impact
+
+THESIS = dict(bending_stiffness=1.0, mass_per_length=1.0, length=50.0, curvature=10.0, velocity=20.0)
+
+
+def test_groups_of_the_thesis_case():
+    impact = Impact(**THESIS)
+    assert impact.kappa_over_nu == pytest.approx(0.5)
+    assert impact.time_scale == pytest.approx(1 / 400)
+    assert impact.length_scale == pytest.approx(1 / 20)
+    assert impact.epsilon == pytest.approx(4e-6)
+
+
+def test_the_direct_link_between_acceleration_and_alpha():
+    impact = Impact(1.0, 1.0, 2.0, 0.35, 3.5, acceleration=700.0)
+    assert impact.epsilon_alpha == pytest.approx(700 / 3.5**3)  # 16.3 in theory.md, section 7
+    assert impact.alpha == pytest.approx(impact.epsilon_alpha / impact.epsilon)
+
+
+positive = st.floats(1e-6, 1e6)
+
+
+@given(positive, positive, positive, st.floats(1e-6, 1e3), st.floats(1e-3, 1e3), st.floats(-1e3, 1e3))
+def test_groups_do_not_change_when_units_do(ei, mu, length, curvature, velocity, acceleration):
+    metre, second, kilogram = 3.7, 0.21, 11.0
+    a = Impact(ei, mu, length, curvature, velocity, acceleration=acceleration)
+    b = Impact(
+        ei * kilogram * metre**3 / second**2, mu * kilogram / metre, length * metre, curvature / metre,
+        velocity * metre / second, acceleration=acceleration * metre / second**2,
+    )
+    for group in ("kappa_over_nu", "epsilon", "epsilon_alpha", "epsilon_chi", "epsilon_psi"):
+        assert getattr(b, group) == pytest.approx(getattr(a, group), rel=1e-12)
+
+
+@pytest.mark.parametrize("field", ["bending_stiffness", "mass_per_length", "length", "velocity", "section_height"])
+@pytest.mark.parametrize("value", [0.0, -1.0, math.nan, math.inf, "1", None, True])
+def test_what_must_be_positive_is_refused_by_name(field, value):
+    with pytest.raises(ValueError, match=field):
+        Impact(**{**THESIS, field: value})
+
+
+@pytest.mark.parametrize("value", [-1e-9, math.nan, -math.inf])
+def test_negative_curvature_is_refused(value):
+    with pytest.raises(ValueError, match="curvature"):
+        Impact(**{**THESIS, "curvature": value})
+
+
+def test_scales_beyond_floating_point_are_refused():
+    with pytest.raises(ValueError, match="time_scale"):
+        Impact(**{**THESIS, "velocity": 1e-300})

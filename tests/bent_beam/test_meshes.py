@@ -1,0 +1,60 @@
+"""Meshes: they cover the half beam, grow as they say, and reproduce the thesis's Table 3.2."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from bent_beam.meshes import GradedMesh, NodesMesh, ScaleFreeMesh, SquareMesh, UniformMesh, mirrored
+
+
+@given(
+    st.one_of(
+        st.builds(UniformMesh, st.floats(0.02, 50)),
+        st.builds(GradedMesh, st.floats(0.02, 50), st.floats(1.0, 2.0), st.none() | st.floats(0.1, 60)),
+        st.builds(SquareMesh, st.floats(0.3, 20), st.floats(1, 60), st.floats(1.0, 2.0)),
+        st.builds(ScaleFreeMesh, st.floats(0.02, 10), st.floats(1.005, 2.0)),
+    ),
+    st.floats(1.0, 40.0),
+)
+def test_a_mesh_covers_the_half_beam_in_order(mesh, half_length):
+    nodes = mesh.nodes(half_length)
+    assert nodes[0] == 0.0
+    assert nodes[-1] == half_length
+    assert nodes.size >= 3
+    assert np.all(np.diff(nodes) > 0.0)
+    full = mirrored(nodes)
+    assert np.array_equal(full, -full[::-1])
+
+
+@pytest.mark.parametrize(("growth", "elements"), [(1.0, 20_000), (1.05, 302), (1.1, 192), (1.25, 120), (1.5, 92)])
+def test_element_counts_of_table_3_2(growth, elements):
+    """25 uniform elements a side reproduce the table up to one element a side (which way its code rounded is not told)."""
+    mesh = GradedMesh(element_length=2.5e-3, growth=growth, size_ratio=1e9)
+    assert abs(2 * (mesh.nodes(25.0).size - 1) - elements) <= 2
+
+
+def test_a_front_spends_the_same_time_in_each_element_of_the_square_mesh():
+    nodes = SquareMesh(first_element=0.1, zone=2.0).nodes(10.0)
+    times = nodes[nodes <= 2.0] ** 2  # a front x = √t passes a node at t = x²
+    assert np.allclose(np.diff(times), times[1])
+
+
+def test_elements_of_a_scale_free_mesh_grow_with_their_distance():
+    nodes = ScaleFreeMesh(element_length=1e-3, growth=1.02).nodes(10.0)
+    sizes = np.diff(nodes)
+    assert np.allclose(sizes[1:] / sizes[:-1], 1.02)
+
+
+@pytest.mark.parametrize(
+    "make",
+    [
+        lambda: UniformMesh(0.0), lambda: UniformMesh(float("nan")), lambda: GradedMesh(1.0, growth=0.9),
+        lambda: ScaleFreeMesh(-1.0), lambda: SquareMesh(0.1, zone=-1.0), lambda: NodesMesh((0.0, 1.0)),
+        lambda: NodesMesh((0.0, 2.0, 1.0)), lambda: NodesMesh((0.5, 1.0, 2.0)),
+        lambda: UniformMesh(1e-9).nodes(1.0),
+    ],
+)
+def test_impossible_meshes_are_refused(make):
+    with pytest.raises(ValueError, match="mesh"):
+        make()

@@ -1,0 +1,128 @@
+"""The command line is a contract: one JSON document, exit codes, one-line errors."""
+
+import json
+from pathlib import Path
+
+import pytest
+
+from comparison.command_line import run
+
+CASES = Path(__file__).parents[2] / "cases"
+K10 = str(CASES / "thesis_K10.toml")
+
+
+def document(capsys, *arguments):
+    code = run([*arguments, "--json"])
+    out = capsys.readouterr()
+    assert code == 0, out.err
+
+    def no_constants(name):
+        raise AssertionError(f"{name} in JSON")
+
+    return json.loads(out.out, parse_constant=no_constants)
+
+
+def refusal(capsys, *arguments):
+    code = run(arguments)
+    out = capsys.readouterr()
+    assert code == 2
+    assert out.out == ""
+    assert out.err.startswith("error: ")
+    assert out.err.count("\n") == 1
+    return out.err
+
+
+def test_theory(capsys):
+    found = document(capsys, "theory", "--kappa-over-nu", "0.5", "--alpha", "4")
+    assert list(found) == ["kappa_over_nu", "alpha", "psi", "chi", "regime", "lambda0", "r0", "lambda1", "r1"]
+    assert found["regime"] == "continuous"
+    assert found["lambda0"] == pytest.approx(1.01886591389, rel=1e-11)
+    assert found["r1"] == pytest.approx(10.6928065607, rel=1e-11)
+
+
+def test_predict_reads_the_drill_pipe(capsys):
+    found = document(capsys, "predict", str(CASES / "drill_pipe.toml"), "--time", "0.005", "--time", "0.01")
+    at = found["times"][1]
+    assert 3.5 < at["half_contact_length"] < 4.0
+    assert found["times"][0]["impulse"] < at["impulse"]
+    assert any(not c["ok"] and c["message"] for c in found["checks"])  # ε = 5: said
+
+
+@pytest.mark.parametrize("path", ["hermite", "exudyn"])
+def test_simulate_shows_what_theory_says(capsys, tmp_path, path):
+    file = tmp_path / "run.nc"
+    found = document(capsys, "simulate", K10, "--path", path, "--out", str(file))
+    assert found["half_contact_length"] == pytest.approx(found["theory"]["half_contact_length"], rel=5e-3)
+    assert found["total_impulse"] == pytest.approx(found["theory"]["total_impulse"], rel=2e-3)
+    assert found["lambda0"] == pytest.approx(found["theory"]["lambda0"], rel=3e-3)
+    assert abs(found["energy"]["defect"]) < 1e-9 * found["energy"]["initial_energy"] or path == "exudyn"
+    assert found["file"] == str(file)
+    assert file.exists()
+    assert "exists already" in refusal(capsys, "simulate", K10, "--out", str(file))
+
+
+def test_simulate_discrete_contact(capsys):
+    found = document(capsys, "simulate", str(CASES / "thesis_K25_discrete.toml"))
+    assert found["half_contact_length"] == 0.0
+    assert found["theory"]["regime"] == "discrete"
+    assert found["r0"] == pytest.approx(1.0, rel=1e-3)
+
+
+def test_match_prints_rows(capsys, monkeypatch, tmp_path):
+    monkeypatch.setenv("BENTBEAM_STORE", str(tmp_path / "store"))
+    found = document(capsys, "match", "--path", "hermite", "--kappa-over-nu", "0.5", "--out", str(tmp_path / "out"))
+    assert found["rows"][0]["lambda1"] is None
+    assert found["rows"][0]["lambda0"] == pytest.approx(1.01886591389, rel=1e-4)
+    assert {f.name for f in (tmp_path / "out").iterdir()} == {"match.json", "match.csv", "leading.png"}
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["theory", "--kappa-over-nu", "nan"], "kappa_over_nu"),
+        (["theory", "--kappa-over-nu", "-1"], "kappa_over_nu"),
+        (["theory", "--kappa", "0.5"], "--kappa"),
+        (["theory"], "kappa-over-nu"),
+        (["predict", "none.toml"], "none.toml"),
+        (["predict", K10, "--time", "-1"], "times"),
+        (["simulate", K10, "--path", "abaqus"], "path"),
+        (["simulate", K10, "--set", "beam.bending_stiffness=-1.0"], "beam.bending_stiffness must be positive (got -1.0)"),
+        (["simulate", K10, "--set", "hermite.contact.kind=nod"], "did you mean node?"),
+        (["simulate", K10, "--set", "hermite.integrator.kind=moreau_jean", "--set", "hermite.integrator.teta=1"], "theta"),
+        (["simulate", K10, "--set", "exudyn.integrator.kind=newmrk", "--path", "exudyn"], "newmark"),
+        (["simulate", K10, "--set", "nonsense"], "--set"),
+        (["match", "--first-order", "1,2"], "alpha,psi,chi"),
+        (["match", "--kappa-over-nu", "0"], "kappa_over_nu"),
+        (["match", "--path", "theory", "--kappa-over-nu", "1"], "path"),
+        (["match", "--path", "hermite", "--kappa-over-nu", "2", "--scheduler", "tcp://127.0.0.1:1"], "scheduler"),
+        (["study", "colour", K10], "colour"),
+        (["gallery", "fig-9.9"], "fig-9.9"),
+        (["rerun", "none.nc"], "none.nc"),
+        (["frobnicate"], "frobnicate"),
+    ],
+)
+def test_bad_input_is_one_line_and_exit_2(capsys, arguments, message):
+    assert message in refusal(capsys, *arguments)
+
+
+def test_help_has_an_example_for_every_command(capsys):
+    for command in ("theory", "predict", "simulate", "match", "study", "gallery", "report", "rerun"):
+        assert run([command, "--help"]) == 0
+        assert f"Example: bentbeam {command}" in capsys.readouterr().out
+
+
+def test_a_solver_that_cannot_finish_is_exit_3_with_a_partial_history(capsys, tmp_path, monkeypatch):
+    from bent_beam import ImpactHistory, SimulationError, load_case
+    from comparison.runs import simulate_case
+
+    part = simulate_case(load_case(K10, ["run.duration=0.01"]), "hermite", save=8)
+
+    def fails(*_, **__):
+        raise SimulationError("the Newton solve diverged", time=1e-5, step=12, advice="a smaller step", history=part)
+
+    monkeypatch.setattr("comparison.runs.simulate_case", fails)
+    code = run(["simulate", K10, "--out", str(tmp_path / "run.nc")])
+    error = capsys.readouterr().err
+    assert code == 3
+    assert "t = 1e-05 s (step 12); try: a smaller step" in error
+    assert ImpactHistory.load(tmp_path / "run.partial.nc").dataset.identical(part.dataset)

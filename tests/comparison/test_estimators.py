@@ -1,0 +1,116 @@
+"""Estimators on synthetic histories made from the theory's own laws, with noise: they find what was put in, within their error bars."""
+
+import numpy as np
+import pytest
+
+from bent_beam import Impact, ImpactHistory
+from comparison.estimators import SIDE, first_order, leading_order, moments
+from theory import contact_parameters
+
+
+def synthetic(kappa, first=(0.0, 0.0, 0.0), epsilon=0.0, noise=0.0, seed=0, times=200, nodes=400, impact=None):
+    """A half-beam history with both concentrated reactions and the uniform one on a fixed mesh; impulses exact, plus noise."""
+    rng = np.random.default_rng(seed)
+    exact = contact_parameters(kappa, *first)
+    alpha, psi, chi = (epsilon * v for v in first)
+    impact = impact or Impact.dimensionless(kappa, epsilon_alpha=alpha, epsilon_psi=psi, epsilon_chi=chi)
+    tau = np.linspace(np.sqrt(1e-4), np.sqrt(0.1), times) ** 2
+    x = np.linspace(0.0, 1.2 * exact.lambda0 * np.sqrt(0.1) + 0.2, nodes)
+    share = np.gradient(x)
+    share[0] /= 2
+    fine = np.linspace(np.sqrt(1e-6), np.sqrt(0.1), 20_001) ** 2
+    front = np.sqrt(fine) * (exact.lambda0 + epsilon * exact.lambda1 * fine)
+    force = SIDE * (exact.r0 + epsilon * exact.r1 * fine) / np.sqrt(fine)
+    pressure = epsilon * max(first[0] + first[1], 0.0)
+    # the force is shared by the two nodes around the front, as a finite element solution does
+    cell = np.clip(np.searchsorted(x, front) - 1, 0, nodes - 2)
+    right = (front - x[cell]) / (x[cell + 1] - x[cell])
+    impulse = np.zeros((times, nodes))
+    gathered = np.zeros(nodes)
+    step = np.diff(fine, prepend=0.0)
+    k = 0
+    for i, t in enumerate(fine):
+        mean = force[i] * step[i] if i else 2.0 * SIDE * exact.r0 * np.sqrt(t)
+        gathered[cell[i]] += mean * (1 - right[i])
+        gathered[cell[i] + 1] += mean * right[i]
+        inside = x <= front[i]
+        gathered[inside] += pressure * share[inside] * step[i]
+        gathered[cell[i]] += pressure * (front[i] - x[inside].sum() * 0 - share[inside].sum()) * step[i]
+        while k < times and t >= tau[k] * (1 - 1e-9):
+            impulse[k] = gathered
+            k += 1
+    impulse[k:] = gathered
+    kick = noise * impulse[-1].sum() * rng.standard_normal((times, 1)) / nodes
+    impulse = impulse + kick * (x <= 0.5 * x[-1])
+    fields = {
+        "gap": (("time", "x"), np.zeros((times, nodes))),
+        "impulse": (("time", "contact"), impulse),
+        "total_impulse": (("time",), 2.0 * impulse.sum(axis=1)),
+    }
+    return ImpactHistory.build(
+        impact=impact, path="hermite", symmetry="half", settings={}, time=tau, x=x, contact_x=x, fields=fields
+    )
+
+
+@pytest.mark.parametrize("kappa", [0.05, 0.3, 0.8])
+def test_leading_order_is_recovered(kappa):
+    exact = contact_parameters(kappa)
+    found = leading_order(moments(synthetic(kappa)))
+    assert found.r0.value == pytest.approx(exact.r0, rel=2e-3)
+    assert found.lambda0.value == pytest.approx(exact.lambda0, rel=4e-3)
+
+
+def test_noise_widens_the_error_bar_and_stays_inside_it():
+    exact = contact_parameters(0.3)
+    hits = 0
+    for seed in range(10):
+        found = leading_order(moments(synthetic(0.3, noise=0.02, seed=seed)))
+        assert found.r0.error > 1e-5
+        hits += abs(found.r0.value - exact.r0) <= found.r0.error
+    assert hits >= 9
+
+
+@pytest.mark.parametrize("first", [(4.0, 0.0, 0.0), (1.0, 1.0, 1.0), (-1.0, -1.0, 0.0), (0.0, 0.0, 1.0)])
+def test_first_order_is_recovered_with_and_without_uniform_reaction(first):
+    exact = contact_parameters(0.5, *first)
+    base = moments(synthetic(0.5))
+    leading = leading_order(base)
+    runs = [(e, moments(synthetic(0.5, first, e), uniform=True)) for e in (0.05, 0.1)]
+    found = first_order(runs, base, leading)
+    assert found.r1.value == pytest.approx(exact.r1, abs=0.01 * max(abs(exact.r1), 1.0))
+    assert found.lambda1.value == pytest.approx(exact.lambda1, abs=0.02 * max(abs(exact.lambda1), 1.0))
+    assert found.uniform_reaction == pytest.approx(max(first[0] + first[1], 0.0), abs=0.02)
+    assert abs(found.lambda1.value - exact.lambda1) <= found.lambda1.error + 0.02 * max(abs(exact.lambda1), 1.0)
+
+
+def test_physical_units_drop_out():
+    pipe = Impact(1.2e6, 29.0, 90.0, 0.3 / Impact(1.2e6, 29.0, 90.0, 1.0, 2.0).length_scale, 2.0)
+    history = synthetic(0.3)
+    unit = pipe.mass_per_length * pipe.length_scale * pipe.velocity
+    data = history.dataset
+    scaled = ImpactHistory.build(
+        impact=pipe, path="hermite", symmetry="half", settings={}, time=history.time * pipe.time_scale,
+        x=data["x"].values * pipe.length_scale, contact_x=data["contact_x"].values * pipe.length_scale,
+        fields={
+            "gap": (("time", "x"), data["gap"].values),
+            "impulse": (("time", "contact"), data["impulse"].values * unit),
+            "total_impulse": (("time",), data["total_impulse"].values * unit),
+        },
+    )
+    a, b = leading_order(moments(history)), leading_order(moments(scaled))
+    assert a.lambda0.value == pytest.approx(b.lambda0.value, rel=1e-10)
+    assert a.r0.value == pytest.approx(b.r0.value, rel=1e-10)
+
+
+def test_runs_saved_at_other_times_are_refused():
+    base = moments(synthetic(0.5))
+    other = moments(synthetic(0.5, (1.0, 0.0, 0.0), 0.1, times=150))
+    with pytest.raises(ValueError, match="same times"):
+        first_order([(0.1, other)], base, leading_order(base))
+
+
+def test_a_history_without_contact_is_refused():
+    history = synthetic(0.5)
+    empty = history.dataset.assign(impulse=history.dataset["impulse"] * 0, total_impulse=history.dataset["total_impulse"] * 0)
+    with pytest.raises(ValueError, match="at least 8 instants"):
+        leading_order(moments(ImpactHistory(empty)))
