@@ -1,0 +1,185 @@
+"""Every command and snippet of README and docs runs; the tutorial runs; the repository's papers are in order.
+
+A fence whose info line says "not run" (with the reason) or ``no-run`` is only read.
+"""
+
+from __future__ import annotations
+
+import re
+import shlex
+import time
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").rglob("*.md"))]
+FENCE = re.compile(r"^```(?P<info>[^\n`]*)\n(?P<body>.*?)^```\s*$", re.S | re.M)
+LANGUAGES = ("bash", "python")
+
+
+@dataclass(frozen=True)
+class Block:
+    """A fenced block: language, the rest of its info line, text."""
+
+    language: str
+    options: str
+    body: str
+
+    @property
+    def runs(self) -> bool:
+        return "not run" not in self.options and "no-run" not in self.options
+
+
+def blocks(page: Path) -> list[Block]:
+    found = []
+    for match in FENCE.finditer(page.read_text(encoding="utf-8")):
+        language, _, options = match["info"].strip().partition(" ")
+        found.append(Block(language, options, match["body"]))
+    return found
+
+
+def commands(body: str) -> Iterator[list[str]]:
+    """Command lines of a block as words, comments and continued lines considered."""
+    for line in body.replace("\\\n", " ").splitlines():
+        words = shlex.split(line, comments=True)
+        if words:
+            yield words
+
+
+def name_of(page: Path) -> str:
+    return page.relative_to(ROOT).as_posix()
+
+
+@pytest.fixture
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """An empty working folder with the project's cases and a store of its own."""
+    (tmp_path / "cases").symlink_to(ROOT / "cases")
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("BENTBEAM_STORE", str(tmp_path / "store"))
+    return tmp_path
+
+
+def run_command(words: list[str], page: Path) -> None:
+    if words[0] == "make":
+        makefile = (ROOT / "Makefile").read_text(encoding="utf-8")
+        for target in words[1:]:
+            assert re.search(rf"^{re.escape(target)}\s*:", makefile, re.M), f"make has no target {target}"
+        return
+    assert words[0] == "bentbeam", (
+        f"{name_of(page)}: only bentbeam and make can be run from a bash block; say 'not run' and why "
+        f"in its title (got {' '.join(words)})"
+    )
+    from comparison.command_line import run
+
+    assert run(words[1:]) == 0, " ".join(words)
+
+
+def test_there_are_pages_and_snippets() -> None:
+    languages = [b.language for page in PAGES for b in blocks(page)]
+    assert languages.count("bash") > 10 and languages.count("python") > 10
+
+
+@pytest.mark.parametrize("page", PAGES, ids=name_of)
+def test_commands_and_snippets_run(page: Path, folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    space: dict[str, object] = {"__name__": "__docs__"}
+    restore = registries()
+    try:
+        for block in blocks(page):
+            if block.language not in LANGUAGES or not block.runs:
+                continue
+            began = time.perf_counter()
+            if block.language == "python":
+                exec(compile(block.body, f"{name_of(page)}", "exec", dont_inherit=True), space)
+            else:
+                for words in commands(block.body):
+                    run_command(words, page)
+            with capsys.disabled():
+                spent = time.perf_counter() - began
+                if spent > 30.0:
+                    print(f"\n{name_of(page)}: a {block.language} block took {spent:.0f} s")
+    finally:
+        restore()
+
+
+def registries():  # type: ignore[no-untyped-def]
+    """A function that puts the registries back, which snippets may add to."""
+    from hermite_fe import REGISTRIES
+
+    kept = {name: dict(kinds) for name, kinds in REGISTRIES.items()}
+
+    def restore() -> None:
+        for name, kinds in kept.items():
+            REGISTRIES[name].clear()
+            REGISTRIES[name].update(kinds)
+
+    return restore
+
+
+@pytest.mark.parametrize("page", PAGES, ids=name_of)
+def test_blocks_that_are_not_run_say_why(page: Path) -> None:
+    for block in blocks(page):
+        if block.language in LANGUAGES and not block.runs:
+            reason = block.options.replace("no-run", "").strip()
+            assert len(reason) > 12, f"{name_of(page)}: {block.body.splitlines()[0]}"
+
+
+@pytest.mark.parametrize("page", PAGES, ids=name_of)
+def test_links_between_pages_lead_somewhere(page: Path) -> None:
+    text = FENCE.sub("", page.read_text(encoding="utf-8"))
+    for target in re.findall(r"\]\(([^)\s]+)\)", text):
+        if not target.startswith(("http", "#", "mailto:")):
+            assert (page.parent / target.partition("#")[0]).exists(), f"{name_of(page)}: {target}"
+
+
+def test_navigation_names_pages_that_exist() -> None:
+    listed = re.findall(r"[\w/.-]+\.(?:md|ipynb)", (ROOT / "mkdocs.yml").read_text(encoding="utf-8"))
+    assert "index.md" in listed
+    for page in listed:
+        assert (ROOT / "docs" / page).exists(), page
+
+
+def test_api_pages_name_modules_that_can_be_imported() -> None:
+    from importlib import import_module
+
+    names = [
+        n for p in (ROOT / "docs/api").glob("*.md") for n in re.findall(r"^::: (\S+)$", p.read_text(), re.M)
+    ]
+    assert len(names) > 20
+    for name in names:
+        assert import_module(name).__doc__, f"{name} has no docstring"
+
+
+def test_tutorial_runs() -> None:
+    nbformat = pytest.importorskip("nbformat")
+    nbclient = pytest.importorskip("nbclient")
+    pytest.importorskip("ipykernel")
+    notebook = nbformat.read(ROOT / "docs/tutorial.ipynb", as_version=4)
+    nbformat.validate(notebook)
+    nbclient.NotebookClient(
+        notebook, timeout=240, kernel_name="python3", resources={"metadata": {"path": str(ROOT / "docs")}}
+    ).execute()
+    for cell in notebook.cells:
+        assert not any(output.output_type == "error" for output in cell.get("outputs", []))
+
+
+def test_citation_names_the_thesis() -> None:
+    text = (ROOT / "CITATION.cff").read_text(encoding="utf-8")
+    for word in (
+        "cff-version: 1.2.0",
+        "The bent-beam-impact authors",
+        "Delcourt",
+        "University of Liège",
+        "MIT",
+    ):
+        assert word in text
+
+
+def test_version_is_the_same_everywhere() -> None:
+    import tomllib
+
+    version = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]["version"]
+    assert f"version: {version}\n" in (ROOT / "CITATION.cff").read_text(encoding="utf-8")
+    assert f"## {version}" in (ROOT / "CHANGELOG.md").read_text(encoding="utf-8")
