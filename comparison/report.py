@@ -249,13 +249,9 @@ def settings(content: Content) -> list[tuple[str, str]]:
     from hermite_fe.expanding import ExpandingMesh
 
     found = [("Hermite, leading order: expanding mesh", json.dumps(describe(ExpandingMesh()), indent=1))]
-    found += [
-        (f"Shown impact: {i.shown.title}", json.dumps(dict(i.settings), indent=1)) for i in content.impacts
-    ]
+    found += [(f"Shown impact: {i.shown.title}", json.dumps(dict(i.settings), indent=1)) for i in content.impacts]
     epsilons = {
-        f"{r.row.path}, kappa/nu = {r.row.kappa_over_nu:g}, {r.first_text}": [
-            float(f"{e:.4g}") for e in r.row.epsilons
-        ]
+        f"{r.row.path}, kappa/nu = {r.row.kappa_over_nu:g}, {r.first_text}": [float(f"{e:.4g}") for e in r.row.epsilons]
         for r in first_order_rows(content.rows)
     }
     if epsilons:

@@ -69,9 +69,7 @@ def show(shown: Shown) -> ShownImpact:
     """Simulate on the Hermite path's expanding mesh and reduce. Raises :class:`bent_beam.SimulationError`."""
     from hermite_fe.expanding import ExpandingMesh, simulate_expanding
 
-    history = simulate_expanding(
-        shown.impact, ExpandingMesh(), end_time=END * shown.impact.time_scale, save=400
-    )
+    history = simulate_expanding(shown.impact, ExpandingMesh(), end_time=END * shown.impact.time_scale, save=400)
     exact = contact_parameters(shown.kappa_over_nu, *shown.first)
     return ShownImpact(
         shown,
@@ -150,9 +148,7 @@ def force_map(history: ImpactHistory, kept: NDArray[np.int64], edges: Array) -> 
     rows = np.zeros((kept.size - 1, width.size))
     for row, (first, last) in enumerate(pairwise(kept)):
         for k in range(first + 1, last + 1):
-            places = (
-                0.5 * (history.contact_positions(k - 1) + history.contact_positions(k)) / impact.length_scale
-            )
+            places = 0.5 * (history.contact_positions(k - 1) + history.contact_positions(k)) / impact.length_scale
             rows[row] += spread(places, (impulse[k] - impulse[k - 1]) / (unit * impact.length_scale), edges)
         rows[row] /= width * (history.time[last] - history.time[first]) / impact.time_scale
     return rows

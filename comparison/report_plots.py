@@ -92,9 +92,7 @@ def plots(leading: Sequence[TableRow], first: Sequence[TableRow]) -> dict[str, P
 def leading_plot(rows: Sequence[TableRow], what: str) -> Plot:
     """λ₀ or r₀ over κ/ν on the theory's curve (thesis Figs 3.29, 3.30)."""
     smallest = min(r.row.kappa_over_nu for r in rows)
-    ratio = np.concatenate(
-        [np.geomspace(smallest / 1.5, 0.9, 200), 1.0 - np.geomspace(0.1, 1e-3, 40)[1:], [1.0, 1.5]]
-    )
+    ratio = np.concatenate([np.geomspace(smallest / 1.5, 0.9, 200), 1.0 - np.geomspace(0.1, 1e-3, 40)[1:], [1.0, 1.5]])
     exact = np.asarray(getattr(contact_parameters(ratio), what), float)
     shown = exact > 0.0
     data: list[Plot] = [
@@ -110,9 +108,7 @@ def leading_plot(rows: Sequence[TableRow], what: str) -> Plot:
         }
     ]
     for path, marker in MARKS.items():
-        mine = [
-            (r, c) for r in rows if r.row.path == path for c in r.cells if c.what == what and c.exact > 0.0
-        ]
+        mine = [(r, c) for r in rows if r.row.path == path for c in r.cells if c.what == what and c.exact > 0.0]
         if mine:
             data.append(points(path, [r for r, _ in mine], [c for _, c in mine], marker=marker))
     top: Plot = {"type": "log", "exponentformat": "power", "dtick": 1}
@@ -218,9 +214,7 @@ def error_plot(rows: Sequence[TableRow], names: Sequence[str]) -> Plot:
                 cells,
                 marker={
                     **marker,
-                    "symbol": marker["symbol"]
-                    if what.startswith("lambda")
-                    else marker["symbol"].replace("-open", ""),
+                    "symbol": marker["symbol"] if what.startswith("lambda") else marker["symbol"].replace("-open", ""),
                 },
                 name=f"{NAMES[path]} {SYMBOLS[what]}",
                 legendgroup=f"{path}-{what}",

@@ -46,12 +46,14 @@
     const x = mirror(d.x, -1), high = Math.max(...d.gap[d.time.length - 1]) * d.time[d.time.length - 1];
     const line = (xs, ys, colour, wide, more) => Object.assign({ x: xs, y: ys, mode: "lines", line: { color: colour, width: wide } }, more);
     const ends = { x: [-front, front], y: [0, 0], mode: "markers", marker: { color: red, size: 8 }, hovertemplate: "end of the contact, x = %{x:.4g}<extra></extra>" };
+    const lifted = d.lift[k] > 1e-4;  // only the ends touch: a dotted line in place of the zone
+    const zone = (wide) => ({ x: [-front, front], y: [0, 0], mode: "lines", hoverinfo: "skip", line: { color: red, width: lifted ? 1.5 : wide, dash: lifted ? "dot" : "solid" } });
     const push = Math.min(d.reaction[k] / d.reaction[d.time.length - 1], 3);  // arrows in proportion to the reaction
     const arrow = (place) => ({ x: place, y: 0, ax: 0, ay: 14 + 16 * push, showarrow: true, arrowhead: 2, arrowwidth: 2.2, arrowcolor: red, text: "" });
     const wall = (depth) => ({ type: "rect", xref: "paper", x0: 0, x1: 1, y0: -depth, y1: 0, fillcolor: "#dfe4ea", line: { width: 0 }, layer: "below" });
     Plotly.react("beam", [
       line(x, mirror(d.gap[k].map((g) => g * t), 1), blue, 2.5, { hovertemplate: "x = %{x:.3g}<br>gap = %{y:.3g} V<sub>0</sub>t<sub>*</sub><extra>beam</extra>" }),
-      line([-front, front], [0, 0], red, 5, { hoverinfo: "skip" }), ends,
+      zone(5), ends,
     ], layout(axis("x / l<sub>*</sub>", { range: [-width, width] }), axis("gap / (V<sub>0</sub>t<sub>*</sub>)", { range: [-0.3 * high, 1.05 * high] }), {
       shapes: [wall(high)], annotations: [arrow(-front), arrow(front)],
     }), config);
@@ -64,7 +66,7 @@
 
     Plotly.react("zoom", [
       line(x, mirror(d.gap[k].map((g) => 1000 * g), 1), blue, 2.5, { hovertemplate: "x = %{x:.3g}<br>gap = %{y:.4g} ‰ of V<sub>0</sub>t<extra></extra>" }),
-      line([-front, front], [0, 0], red, 4, { hoverinfo: "skip" }), ends,
+      zone(4), ends,
     ], layout(axis("x / l<sub>*</sub>", { range: [-1.35 * front, 1.35 * front] }), axis("gap (‰ of V<sub>0</sub>t)", { range: [-2, 9] }), { shapes: [wall(9)] }), config);
 
     const energy = (name, label, colour, dash) => ({ x: d.time, y: d.energy[name], mode: "lines", name: label, line: { color: colour, width: 2, dash: dash }, hovertemplate: label + " %{y:.4g}<extra></extra>" });

@@ -13,9 +13,7 @@ from theory import contact_parameters
 NASTY = "<script>alert('x')</script> & \"quotes\" </script>"
 
 
-def row(
-    path: str, kappa: float, first: tuple[float, float, float] | None = None, off: float = 1e-4
-) -> MatchRow:
+def row(path: str, kappa: float, first: tuple[float, float, float] | None = None, off: float = 1e-4) -> MatchRow:
     """A row that is ``off`` (relative) from theory, with an error bar twice that."""
     exact = contact_parameters(kappa, *(first or (0.0, 0.0, 0.0)))
     lambda0, r0 = float(exact.lambda0), float(exact.r0)

@@ -119,9 +119,7 @@ def test_page_without_any_row_is_still_a_page() -> None:
 
 
 def test_report_is_written_when_rows_fail(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    lost = MatchFailure(
-        "exudyn", 0.5, None, "the solver gave up", "bentbeam match --path exudyn --kappa-over-nu 0.5"
-    )
+    lost = MatchFailure("exudyn", 0.5, None, "the solver gave up", "bentbeam match --path exudyn --kappa-over-nu 0.5")
     seen: list[tuple[int, int]] = []
 
     def match(asked, *, store, jobs, scheduler, progress):  # type: ignore[no-untyped-def]
@@ -193,9 +191,7 @@ def test_plots_tag_every_trace_with_its_path() -> None:
     plots = row_plots(rows())
     assert set(plots) == {"lambda0", "r0", "leading-error", "lambda1", "r1", "first-error", "seconds"}
     for plot in plots.values():
-        assert plot["data"] and all(
-            t["meta"]["path"] in ("theory", "hermite", "exudyn") for t in plot["data"]
-        )
+        assert plot["data"] and all(t["meta"]["path"] in ("theory", "hermite", "exudyn") for t in plot["data"])
 
 
 # --- the shown impacts --------------------------------------------------------------------------------------

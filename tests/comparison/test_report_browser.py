@@ -18,9 +18,7 @@ from report_fixtures import content
 
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
 DRIVER = shutil.which("chromedriver")
-pytestmark = pytest.mark.skipif(
-    CHROMIUM is None or DRIVER is None, reason="Chromium and its driver are not installed"
-)
+pytestmark = pytest.mark.skipif(CHROMIUM is None or DRIVER is None, reason="Chromium and its driver are not installed")
 
 WIDTHS = (1400, 400)
 
@@ -129,8 +127,7 @@ def test_switches_hide_and_show_a_path(browser: Any, path: str) -> None:
 
 def move(browser: Any, place: int) -> None:
     browser.execute_script(
-        "const s = document.getElementById('time'); s.value = arguments[0];"
-        "s.dispatchEvent(new Event('input'))",
+        "const s = document.getElementById('time'); s.value = arguments[0];s.dispatchEvent(new Event('input'))",
         place,
     )
 

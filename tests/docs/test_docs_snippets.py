@@ -144,9 +144,7 @@ def test_navigation_names_pages_that_exist() -> None:
 def test_api_pages_name_modules_that_can_be_imported() -> None:
     from importlib import import_module
 
-    names = [
-        n for p in (ROOT / "docs/api").glob("*.md") for n in re.findall(r"^::: (\S+)$", p.read_text(), re.M)
-    ]
+    names = [n for p in (ROOT / "docs/api").glob("*.md") for n in re.findall(r"^::: (\S+)$", p.read_text(), re.M)]
     assert len(names) > 20
     for name in names:
         assert import_module(name).__doc__, f"{name} has no docstring"
