@@ -25,9 +25,29 @@ from comparison.store import write_atomically
 __all__ = ["Sheet", "plain"]
 
 TEX = {
-    r"\lambda": "λ", r"\kappa": "κ", r"\nu": "ν", r"\tau": "τ", r"\xi": "ξ", r"\beta": "β", r"\eta": "η", r"\alpha": "α",
-    r"\psi": "ψ", r"\chi": "χ", r"\varphi": "φ", r"\varepsilon": "ε", r"\rho": "ρ", r"\infty": "∞", r"\Delta": "Δ",
-    r"\tilde": "~", r"\sqrt": "√", r"\dot": "d/dτ ", r"\,": " ", r"\mathrm": "", r"\partial": "∂", r"\theta": "θ", r"\mu": "μ",
+    r"\lambda": "λ",
+    r"\kappa": "κ",
+    r"\nu": "ν",
+    r"\tau": "τ",
+    r"\xi": "ξ",
+    r"\beta": "β",
+    r"\eta": "η",
+    r"\alpha": "α",
+    r"\psi": "ψ",
+    r"\chi": "χ",
+    r"\varphi": "φ",
+    r"\varepsilon": "ε",
+    r"\rho": "ρ",
+    r"\infty": "∞",
+    r"\Delta": "Δ",
+    r"\tilde": "~",
+    r"\sqrt": "√",
+    r"\dot": "dot ",
+    r"\,": " ",
+    r"\mathrm": "",
+    r"\partial": "∂",
+    r"\theta": "θ",
+    r"\mu": "μ",
 }
 
 
@@ -44,6 +64,7 @@ class _Curve:
     series: str
     x: NDArray[np.float64]
     y: NDArray[np.float64]
+    quantity: str = ""
 
 
 @dataclass
@@ -79,7 +100,16 @@ class Sheet:
         self.panels[id(axis)] = letter
         style.panel_label(axis, f"({letter})")
         if text:
-            axis.text(0.08, 1.02, text, transform=axis.transAxes, ha="left", va="bottom", fontsize=7.5)
+            axis.annotate(
+                text,
+                (0.0, 1.02),
+                xycoords="axes fraction",
+                xytext=(17, 0),
+                textcoords="offset points",
+                ha="left",
+                va="bottom",
+                fontsize=7.5,
+            )
 
     def line(self, axis: Axes, x: ArrayLike, y: ArrayLike, *, series: str, legend: bool = True, **look: Any) -> None:
         """Plot one curve and remember it. ``look`` is a style of :mod:`comparison.figures.style` or matplotlib's."""
@@ -88,9 +118,10 @@ class Sheet:
         axis.plot(places, values, **look)
         self.record(axis, places, values, series)
 
-    def record(self, axis: Axes, x: ArrayLike, y: ArrayLike, series: str) -> None:
-        """Remember data that was drawn by other means."""
-        self.curves.append(_Curve(axis, series, np.ravel(np.asarray(x, float)), np.ravel(np.asarray(y, float))))
+    def record(self, axis: Axes, x: ArrayLike, y: ArrayLike, series: str, quantity: str = "") -> None:
+        """Remember data that was drawn by other means; ``quantity`` is what y is, if not what the axis says."""
+        places, values = np.ravel(np.asarray(x, float)), np.ravel(np.asarray(y, float))
+        self.curves.append(_Curve(axis, series, places, values, quantity))
 
     def table(self, columns: Sequence[str], rows: Sequence[Sequence[Any]], *, width: float = style.PAGE) -> None:
         """A table as picture and CSV. Cells are shown as given (strings) or with four digits (numbers)."""
@@ -101,11 +132,19 @@ class Sheet:
         with self.figure(width=width, height=height) as (_, axis):
             axis.axis("off")
             drawn = axis.table(
-                cells, colLabels=list(columns), cellLoc="right", edges="", bbox=[0.0, 0.0, 1.0, 1.0],
+                cells,
+                colLabels=list(columns),
+                cellLoc="right",
+                colLoc="right",
+                edges="",
+                bbox=[0.0, 0.0, 1.0, 1.0],
                 colWidths=[n / sum(lengths) for n in lengths],
             )
             drawn.auto_set_font_size(False)
             drawn.set_fontsize(7.5)
+            for row in range(len(rows) + 1):
+                drawn[row, 0].set_text_props(ha="left")
+                drawn[row, 0]._loc = "left"
             for level, thick in ((1.0, 0.9), (1.0 - 1.0 / (len(rows) + 1), 0.5), (0.0, 0.9)):
                 axis.plot([0, 1], [level, level], color="black", lw=thick, transform=axis.transAxes, clip_on=False)
 
@@ -120,7 +159,7 @@ class Sheet:
         writer.writerow(["panel", "series", "x_quantity", "x", "y_quantity", "y"])
         for curve in self.curves:
             about = (self.panels.get(id(curve.axis), ""), plain(curve.series))
-            names = plain(curve.axis.get_xlabel()), plain(curve.axis.get_ylabel())
+            names = plain(curve.axis.get_xlabel()), curve.quantity or plain(curve.axis.get_ylabel())
             for x, y in zip(curve.x, curve.y):
                 if np.isfinite(x) and np.isfinite(y):
                     writer.writerow([*about, names[0], f"{x:.9g}", names[1], f"{y:.9g}"])

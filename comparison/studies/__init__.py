@@ -33,8 +33,19 @@ __all__ = ["STUDIES", "Study", "StudyResult", "run_study"]
 STUDIES: dict[str, Study] = {
     module.STUDY.name: module.STUDY
     for module in (
-        time_step, mesh, damping, restitution, contact_point, far_field, penalty,
-        amplitude, friction, first_order_case,
+        time_step,
+        mesh,
+        damping,
+        restitution,
+        contact_point,
+        far_field,
+        penalty,
+        amplitude,
+        friction,
+        first_order_case,
+        amplitude,
+        friction,
+        first_order_case,
     )
 }
 

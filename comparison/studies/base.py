@@ -37,10 +37,20 @@ class StudyResult:
 
     def to_dict(self) -> dict[str, Any]:
         """JSON-ready; numbers finite or null."""
-        return dict(finite_or_null({
-            "name": self.name, "title": self.title, "case": self.case, "columns": self.columns, "rows": self.rows,
-            "conclusion": self.conclusion, "files": self.files, "warnings": self.warnings,
-        }))
+        return dict(
+            finite_or_null(
+                {
+                    "name": self.name,
+                    "title": self.title,
+                    "case": self.case,
+                    "columns": self.columns,
+                    "rows": self.rows,
+                    "conclusion": self.conclusion,
+                    "files": self.files,
+                    "warnings": self.warnings,
+                }
+            )
+        )
 
     def table(self) -> list[list[Any]]:
         """Rows of cells, in the order of the columns."""
@@ -50,8 +60,10 @@ class StudyResult:
         """Table and conclusion for a terminal."""
         cells = [list(self.columns.values()), *([shown(v) for v in row] for row in self.table())]
         widths = [max(len(row[i]) for row in cells) for i in range(len(self.columns))]
-        lines = ["  ".join(c.ljust(w) if i == 0 else c.rjust(w) for i, (c, w) in enumerate(zip(row, widths))).rstrip()
-                 for row in cells]
+        lines = [
+            "  ".join(c.ljust(w) if i == 0 else c.rjust(w) for i, (c, w) in enumerate(zip(row, widths))).rstrip()
+            for row in cells
+        ]
         lines.insert(1, "  ".join("-" * w for w in widths))
         notes = [f"failed: {r['label']}: {r['failure']}" for r in self.rows if r.get("failure")]
         notes += [f"warning: {w}" for w in self.warnings]
@@ -61,7 +73,8 @@ class StudyResult:
 
 @dataclass(frozen=True)
 class Study:
-    """A study by name. ``variants(case)`` are its runs, ``conclude(outcomes)`` says what they show; ``perform`` runs them.
+    """A study by name. ``variants(case)`` are its runs, ``conclude(outcomes)`` says what they show; ``perform`` runs
+    them.
 
     heading : of the varied parameter. own : a study that is no list of runs brings its whole performance.
     """
@@ -96,9 +109,14 @@ def _result(study: Study, case: Case, outcomes: list[Outcome]) -> StudyResult:
     used = {k: h for k, h in MEASURES.items() if any(o.measures.get(k) is not None for o in finished)}
     warnings = sorted({f"{o.label}: {w}" for o in finished if o.kind != "thesis" for w in o.warnings})
     return StudyResult(
-        name=study.name, title=study.title, case=case.title, columns={"label": study.heading, **used},
-        rows=[o.row() for o in outcomes], conclusion=study.conclude(finished) if finished else "No run finished.",
-        outcomes=list(outcomes), warnings=warnings,
+        name=study.name,
+        title=study.title,
+        case=case.title,
+        columns={"label": study.heading, **used},
+        rows=[o.row() for o in outcomes],
+        conclusion=study.conclude(finished) if finished else "No run finished.",
+        outcomes=list(outcomes),
+        warnings=warnings,
     )
 
 

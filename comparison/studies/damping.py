@@ -18,10 +18,14 @@ RADII = (1.0, 0.8, 0.5, 0.2, 0.0)
 def variants(case: Case) -> list[Variant]:
     base = thesis_settings(case.impact, case.end_time)
     runs = [
-        Variant(f"ρ∞ = {radius:g}", case.impact, case.end_time, value=radius, settings=base.replace(spectral_radius=radius))
+        Variant(
+            f"ρ∞ = {radius:g}", case.impact, case.end_time, value=radius, settings=base.replace(spectral_radius=radius)
+        )
         for radius in RADII
     ]
-    runs.append(Variant("ρ∞ = 0.8, grid viscosity 0.3", case.impact, case.end_time, settings=base.replace(viscosity=0.3)))
+    runs.append(
+        Variant("ρ∞ = 0.8, grid viscosity 0.3", case.impact, case.end_time, settings=base.replace(viscosity=0.3))
+    )
     return [*runs, cured(case.impact, case.end_time)]
 
 
@@ -37,15 +41,17 @@ def conclude(outcomes: Sequence[Outcome]) -> str:
     if impacts[1] > 0.0 or damping[1] > 0.0:
         text.append(
             f"Of the energy that the exact impact hands over to waves, the impacts of the mesh points destroy "
-            f"{number(impacts[0])} to {number(impacts[1])} %, the algorithmic damping {number(damping[0])} to {number(damping[1])} %. "
+            f"{between(old, 'lost_impact', ' %')}, the algorithmic damping {between(old, 'lost_damping', ' %')}. "
             f"Theory loses none: the thesis is right that damping takes less than the impacts, "
             f"but both losses are numerical, and the waves that are missing are those which the elements cannot carry."
         )
     if viscous:
         m = viscous[0].measures
-        text.append(f"Bending viscosity at grid scale gives a lift of {number(m['lift'] or 0.0)} V₀t and "
-                    f"{number(m['noise'] or 0.0)} % of noise (ρ∞ = 0.8 alone: "
-                    f"{number(next((o.measures['noise'] or 0.0 for o in old if o.value == 0.8), 0.0))} %).")
+        text.append(
+            f"Bending viscosity at grid scale gives a lift of {number(m['lift'] or 0.0)} V₀t and "
+            f"{number(m['noise'] or 0.0)} % of noise (ρ∞ = 0.8 alone: "
+            f"{number(next((o.measures['noise'] or 0.0 for o in old if o.value == 0.8), 0.0))} %)."
+        )
     return " ".join([*text, cure(outcomes)])
 
 

@@ -1,4 +1,6 @@
-"""Friction at the wall (issue 6): Exudyn's contact along the cable's segments with Coulomb friction, linear limit and true geometry."""
+"""Friction at the wall (issue 6): Exudyn's contact along the cable's segments with Coulomb friction, linear limit
+and true geometry.
+"""
 
 from __future__ import annotations
 
@@ -35,8 +37,15 @@ def rubbing(
 
 def variants(case: Case) -> list[Variant]:
     def run(name: str, geometry: str | None, friction: float, end: float) -> Variant:
-        return Variant(f"{name}, friction {friction:g}", case.impact, end, kind="exudyn", value=friction, runner=rubbing,
-                       arguments={"friction": friction, "geometry": geometry})
+        return Variant(
+            f"{name}, friction {friction:g}",
+            case.impact,
+            end,
+            kind="exudyn",
+            value=friction,
+            runner=rubbing,
+            arguments={"friction": friction, "geometry": geometry},
+        )
 
     end = DURATION * case.impact.time_scale
     return [
@@ -57,10 +66,14 @@ def conclude(outcomes: Sequence[Outcome]) -> str:
         reaction = max(abs((m["reaction_error"] or 0.0) - (without["reaction_error"] or 0.0)) for m in rubbed.values())
         lift = max(abs((m["lift"] or 0.0) - (without["lift"] or 0.0)) for m in rubbed.values())
         text.append(
-            f"Friction up to {max(f for f in rubbed if f is not None):g} {what} moves r₀ by {number(reaction)} % at most, the lift by "
+            f"Friction up to {max(f for f in rubbed if f is not None):g} {what} moves r₀ by {number(reaction)} % "
+            "at most, the lift by "
             f"{number(lift)} V₀t."
-            + (" It does nothing that matters: a point of the beam comes down on the wall almost without sliding."
-               if reaction < 0.1 else " It matters: sliding is no longer small.")
+            + (
+                " It does nothing that matters: a point of the beam comes down on the wall almost without sliding."
+                if reaction < 0.1
+                else " It matters: sliding is no longer small."
+            )
         )
     text.append(
         "λ₀ is read from shares of the reaction that Exudyn does not report for this contact; it is not compared."

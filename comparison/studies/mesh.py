@@ -1,4 +1,6 @@
-"""The mesh (thesis 3.3.2, Figs 3.10–3.16): element length, growth outside the contact zone, "square" and scale-free elements."""
+"""The mesh (thesis 3.3.2, Figs 3.10–3.16): element length, growth outside the contact zone, "square" and scale-free
+elements.
+"""
 
 from __future__ import annotations
 
@@ -20,7 +22,9 @@ PER_ELEMENT = 5.0  # the thesis's a: steps a front spends in each element of the
 
 
 def square_mesh(case: Case, settings: Settings, per_element: float = PER_ELEMENT) -> SquareMesh | None:
-    """x_i = λ₀√(ah)·√i over the zone (3.3.5–9), ``None`` when the contact does not spread or too many elements were needed."""
+    """x_i = λ₀√(ah)·√i over the zone (3.3.5–9), ``None`` when the contact does not spread or too many elements were
+    needed.
+    """
     exact = Exact(case.impact)
     first = float(exact.front(per_element * settings.time_step))
     if first <= 0.0 or (settings.zone / first) ** 2 > 6000:
@@ -33,17 +37,37 @@ def variants(case: Case) -> list[Variant]:
     runs = []
     for f in LENGTHS:
         length = f * base.element_length
-        runs.append(Variant(f"Δx = {length:.2g} m, e = 1.25", case.impact, case.end_time, value=length,
-                            settings=base.replace(element_length=length)))
+        runs.append(
+            Variant(
+                f"Δx = {length:.2g} m, e = 1.25",
+                case.impact,
+                case.end_time,
+                value=length,
+                settings=base.replace(element_length=length),
+            )
+        )
     for growth in GROWTHS:
-        runs.append(Variant(f"Δx = {base.element_length:.2g} m, e = {growth}", case.impact, case.end_time, value=growth,
-                            settings=base.replace(growth=growth)))
+        runs.append(
+            Variant(
+                f"Δx = {base.element_length:.2g} m, e = {growth}",
+                case.impact,
+                case.end_time,
+                value=growth,
+                settings=base.replace(growth=growth),
+            )
+        )
     laid = square_mesh(case, base)
     if laid is not None:
         runs.append(Variant('"square" mesh', case.impact, case.end_time, settings=base.replace(mesh=laid)))
     even = ScaleFreeMesh(element_length=0.1 * base.element_length, growth=1.02)
-    runs.append(Variant("scale-free, held, damped", case.impact, case.end_time,
-                        settings=base.replace(mesh=even, hold=16, viscosity=0.3)))
+    runs.append(
+        Variant(
+            "scale-free, held, damped",
+            case.impact,
+            case.end_time,
+            settings=base.replace(mesh=even, hold=16, viscosity=0.3),
+        )
+    )
     return [*runs, cured(case.impact, case.end_time)]
 
 
@@ -55,7 +79,8 @@ def conclude(outcomes: Sequence[Outcome]) -> str:
     text = [
         f"Shorter elements {'lower' if _falls(lengths) else 'hardly change'} the lift "
         f"({between(lengths, 'lift')} V₀t) and bring r₀ from "
-        f"{signed(lengths[0].measures['reaction_error'] or 0.0)} % to {signed(lengths[-1].measures['reaction_error'] or 0.0)} % "
+        f"{signed(lengths[0].measures['reaction_error'] or 0.0)} % to "
+        f"{signed(lengths[-1].measures['reaction_error'] or 0.0)} % "
         f"of theory: the reaction is overestimated as long as an element is longer than the front is thick."
     ]
     if slow:
@@ -66,7 +91,8 @@ def conclude(outcomes: Sequence[Outcome]) -> str:
         m = square[0].measures
         text.append(
             f'The "square" mesh spreads the steps of λ_c evenly (the thesis\'s point) and gives a lift of '
-            f"{number(m['lift'] or 0.0)} V₀t and r₀ {signed(m['reaction_error'] or 0.0)} %: its first elements are its longest, "
+            f"{number(m['lift'] or 0.0)} V₀t and r₀ {signed(m['reaction_error'] or 0.0)} %: its first elements "
+            "are its longest, "
             f"so the start is resolved worst."
         )
     text.append(cure(outcomes))
@@ -88,7 +114,8 @@ def _growth_words(base: Outcome, slow: Outcome) -> str:
             f"although the thesis found no effect of e."
         )
     return (
-        f"Growing by 2 % an element in place of 25 % changes little here (noise {number(before)} and {number(after)} %): "
+        f"Growing by 2 % an element in place of 25 % changes little here (noise {number(before)} and "
+        f"{number(after)} %): "
         f"the thesis is right for this case, whose waves are as short as its elements and do not leave the zone anyway."
     )
 

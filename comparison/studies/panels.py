@@ -17,7 +17,17 @@ from comparison.figures import style
 from comparison.figures.recorder import Sheet
 from comparison.studies.outcome import Outcome
 
-__all__ = ["contact_length", "draw_outcomes", "energy", "geometry", "looks", "reaction", "strain", "unit"]
+__all__ = [
+    "contact_length",
+    "draw_outcomes",
+    "energy",
+    "geometry",
+    "looks",
+    "reaction",
+    "strain",
+    "theory_first",
+    "unit",
+]
 
 Array = NDArray[np.float64]
 PREFIX = {-12: "p", -9: "n", -6: "µ", -3: "m", 0: "", 3: "k", 6: "M"}
@@ -32,8 +42,12 @@ def unit(largest: float, name: str) -> tuple[float, str]:
 
 
 def looks(outcomes: Sequence[Outcome]) -> list[dict[str, Any]]:
-    """A style each: colours in turn for the thesis's settings, the path's marker for ours."""
+    """A style each: colours in turn for the thesis's settings, the path's marker for ours.
+
+    Lines get thinner one after the other, so that those that coincide can all be seen.
+    """
     found, colour, mark = [], 0, 0
+    lines = max(1, sum(o.kind not in style.MARKERS for o in outcomes) - 1)
     for o in outcomes:
         if o.kind in style.MARKERS:
             same = sum(p.kind == o.kind for p in outcomes)
@@ -44,7 +58,14 @@ def looks(outcomes: Sequence[Outcome]) -> list[dict[str, Any]]:
             found.append(look)
         else:
             dashes = ("-", "--", ":")[colour // len(style.SEQUENCE) % 3]
-            found.append({"color": style.SEQUENCE[colour % len(style.SEQUENCE)], "lw": 0.9, "ls": dashes, "marker": ""})
+            found.append(
+                {
+                    "color": style.SEQUENCE[colour % len(style.SEQUENCE)],
+                    "ls": dashes,
+                    "marker": "",
+                    "lw": 2.2 - 1.5 * colour / lines if lines > 1 else 1.6 - 0.8 * colour,
+                }
+            )
             colour += 1
     return found
 
@@ -67,7 +88,9 @@ def _evenly(x: Array, count: int = MARKS) -> NDArray[np.int64]:
     return np.unique(np.searchsorted(x, np.linspace(x[0], x[-1], count)).clip(0, x.size - 1))
 
 
-def geometry(sheet: Sheet, axis: Axes, outcomes: Sequence[Outcome], *, legend: bool = True, reach: float = 1.25) -> None:
+def geometry(
+    sheet: Sheet, axis: Axes, outcomes: Sequence[Outcome], *, legend: bool = True, reach: float = 1.25
+) -> None:
     """Deflection y = −gap over x at the end of the run; the wall is the grey half plane."""
     runs = _finished(outcomes)
     exact, end = runs[0][0].exact, float(runs[0][0].time[-1])
@@ -106,7 +129,13 @@ def contact_length(sheet: Sheet, axis: Axes, outcomes: Sequence[Outcome], *, leg
     axis.set_xlabel(f"$t$  ({mt})")
     axis.set_ylabel(rf"$\lambda_c$  ({mx})")
     _theory(sheet, axis, st * times, sx * front, legend)
-    _curves(sheet, axis, [(o.label, *_thin(st * o.time, sx * o.front, look), look) for o, look in runs], legend)
+    curves = []
+    for o, look in runs:
+        touching = (
+            (o.front > 0.0) | (o.time == o.time[0]) | (not look.get("marker"))
+        )  # nothing to mark once it has left
+        curves.append((o.label, *_thin(st * o.time[touching], sx * o.front[touching], look), look))
+    _curves(sheet, axis, curves, legend)
     axis.set_xlim(0.0, st * end)
     axis.set_ylim(bottom=0.0)
 
@@ -175,6 +204,12 @@ def _theory(sheet: Sheet, axis: Axes, x: Array, y: Array, legend: bool) -> None:
     sheet.line(axis, x, y, series="theory", legend=legend, **{k: v for k, v in style.THEORY.items() if k != "label"})
 
 
+def theory_first(axis: Axes) -> tuple[list[Any], list[str]]:
+    """Handles and labels of a legend, theory's first."""
+    pairs = sorted(zip(*axis.get_legend_handles_labels()), key=lambda pair: not pair[1].startswith("theory"))
+    return [p[0] for p in pairs], [p[1] for p in pairs]
+
+
 def draw_outcomes(sheet: Sheet, outcomes: Sequence[Outcome]) -> None:
     """The picture of a study: geometry, contact length, reaction, energy; one legend."""
     usable = [o for o in outcomes if o.failure is None]
@@ -186,5 +221,5 @@ def draw_outcomes(sheet: Sheet, outcomes: Sequence[Outcome]) -> None:
         for axis, draw, letter in zip(axes.flat, drawn, "abcd"):
             draw(sheet, axis, usable)
             sheet.panel(axis, letter)
-        handles, labels = axes.flat[0].get_legend_handles_labels()
+        handles, labels = theory_first(axes.flat[0])
         fig.legend(handles, labels, loc="outside upper center", ncols=min(3, len(labels)), fontsize=7.0)

@@ -24,14 +24,24 @@ STEP = 5e-3  # h/t
 
 
 def penalised(
-    impact: Impact, *, end_time: float, relative_stiffness: float, relative_damping: float, spectral_radius: float,
-    hold: int | None, viscosity: float | None = None, save: int = 250, **others: Any,
+    impact: Impact,
+    *,
+    end_time: float,
+    relative_stiffness: float,
+    relative_damping: float,
+    spectral_radius: float,
+    hold: int | None,
+    viscosity: float | None = None,
+    save: int = 250,
+    **others: Any,
 ) -> ImpactHistory:
     """The Exudyn path with a penalty of these settings."""
     import exudyn_models
 
     return exudyn_models.simulate(
-        impact, end_time=end_time, save=save,
+        impact,
+        end_time=end_time,
+        save=save,
         contact=exudyn_models.CONTACTS["penalty"](
             relative_stiffness=relative_stiffness, relative_damping=relative_damping, hold=hold
         ),
@@ -43,8 +53,9 @@ def penalised(
 
 def variants(case: Case) -> list[Variant]:
     def run(label: str, value: float | None = None, kind: str = "thesis", **changes: Any) -> Variant:
-        return Variant(label, case.impact, case.end_time, kind=kind, value=value, runner=penalised,
-                       arguments={**BASE, **changes})
+        return Variant(
+            label, case.impact, case.end_time, kind=kind, value=value, runner=penalised, arguments={**BASE, **changes}
+        )
 
     return [
         run("bare: C = 10, D = 3, ρ∞ = 0.5"),
@@ -66,14 +77,17 @@ def conclude(outcomes: Sequence[Outcome]) -> str:
         if runs:
             tried = [o.value for o in runs if o.value is not None]
             text.append(
-                f"Over {names[symbol]} from {min(tried):g} to {max(tried):g}, r₀ is off by {between(runs, 'reaction_error', ' %')}, "
-                f"λ₀ by {between(runs, 'contact_length_error', ' %')}, the reaction scatters by {between(runs, 'noise', ' %')} "
+                f"Over {names[symbol]} from {min(tried):g} to {max(tried):g}, r₀ is off by "
+                f"{between(runs, 'reaction_error', ' %')}, "
+                f"λ₀ by {between(runs, 'contact_length_error', ' %')}, the reaction scatters by "
+                f"{between(runs, 'noise', ' %')} "
                 f"and the zone lifts by {between(runs, 'lift')} V₀t."
             )
     if base is not None and default is not None:
         worst = max((base, *(o for runs in groups.values() for o in runs)), key=lambda o: o.measures["noise"] or 0.0)
         text.append(
-            f"The noisiest that finished is {worst.label} ({number(worst.measures['noise'] or 0.0)} %). Held behind the front and with "
+            f"The noisiest that finished is {worst.label} ({number(worst.measures['noise'] or 0.0)} %). Held "
+            "behind the front and with "
             f"viscosity at grid scale the lift falls from {number(base.measures['lift'] or 0.0)} to "
             f"{number(default.measures['lift'] or 0.0)} V₀t, the error of λ₀ from "
             f"{number(abs(base.measures['contact_length_error'] or 0.0))} to "

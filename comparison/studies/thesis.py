@@ -1,9 +1,13 @@
 """The thesis's numerical settings (Table 3.3 and 3.2.1), scaled to any case, and what cures them.
 
-Δx = 0.05 l* (2.5·10⁻³ m at V₀ = 20 m/s), at least twelve elements in the contact zone at the end; h = 10⁻⁵ t* (2.5·10⁻⁸ s);
-uniform elements over twice the contact zone (25 a side in Table 3.2), growth 1.25 outside; nonsmooth generalised-α with constraints
-at position, velocity and acceleration level, ρ∞ = 0.8, restitution 0; contact at element middles or at nodes; nothing held, nothing
-absorbed. The cure is the expanding mesh (:mod:`hermite_fe.expanding`): front resolved at every time, radiated waves absorbed.
+Δx = 0.05 l* (2.5·10⁻³ m at V₀ = 20 m/s), at least twelve elements in the contact zone at the end; h = 10⁻⁵ t*
+(2.5·10⁻⁸ s);
+uniform elements over twice the contact zone (25 a side in Table 3.2), growth 1.25 outside; nonsmooth generalised-α
+with constraints
+at position, velocity and acceleration level, ρ∞ = 0.8, restitution 0; contact at element middles or at nodes; nothing
+held, nothing
+absorbed. The cure is the expanding mesh (:mod:`hermite_fe.expanding`): front resolved at every time, radiated waves
+absorbed.
 """
 
 from __future__ import annotations
@@ -30,7 +34,9 @@ GROWTH, RADIUS = 1.25, 0.8
 
 @dataclass(frozen=True)
 class Settings:
-    """A run on a fixed mesh of the Hermite path; lengths in m, times in s. ``mesh`` overrides element length and growth."""
+    """A run on a fixed mesh of the Hermite path; lengths in m, times in s. ``mesh`` overrides element length and
+    growth.
+    """
 
     element_length: float
     time_step: float
@@ -127,7 +133,14 @@ def run_variants(
     variants: Sequence[Variant], *, jobs: int = 1, progress: Callable[[int, int], None] | None = None
 ) -> list[Outcome]:
     """Run all, on ``jobs`` processes; outcomes in order."""
-    return list(run_all(
-        _outcome, [(v,) for v in variants], jobs=jobs, progress=progress,
-        on_death=lambda i, why: failed(variants[i].label, variants[i].kind, variants[i].impact, variants[i].value, why),
-    ))
+    return list(
+        run_all(
+            _outcome,
+            [(v,) for v in variants],
+            jobs=jobs,
+            progress=progress,
+            on_death=lambda i, why: failed(
+                variants[i].label, variants[i].kind, variants[i].impact, variants[i].value, why
+            ),
+        )
+    )

@@ -1,4 +1,6 @@
-"""Numbers of a study as words: the wording follows the numbers, so that a conclusion cannot disagree with its table."""
+"""Numbers of a study as words: the wording follows the numbers, so that a conclusion cannot disagree with its
+table.
+"""
 
 from __future__ import annotations
 
@@ -27,7 +29,9 @@ def smallest_and_largest(outcomes: Sequence[Outcome], name: str) -> tuple[float,
 def number(value: float) -> str:
     """Two significant digits, as a reader would write them."""
     size = abs(value)
-    if size == 0.0 or 1e-3 <= size < 1e5:
+    if size < 1e-12:
+        return "0"
+    if 1e-3 <= size < 1e5:
         return f"{value:.2g}" if size < 100 else f"{value:.0f}"
     mantissa, exponent = f"{value:.1e}".split("e")
     return f"{mantissa}e{int(exponent)}"
@@ -66,6 +70,7 @@ def cure(outcomes: Sequence[Outcome]) -> str:
     parts.append(f"a lift of {number(m['lift'] or 0.0)} V₀t and {number(m['noise'] or 0.0)} % of noise")
     first = " (end values; theory is of first order in ε)" if not best.exact.leading else ""
     return (
-        f"With the front resolved at all times and the waves absorbed ({best.label.lower().replace('hermite', 'Hermite')}) "
+        "With the front resolved at all times and the waves absorbed "
+        f"({best.label.lower().replace('hermite', 'Hermite')}) "
         f"the same case gives {', '.join(parts)}{first}."
     )
