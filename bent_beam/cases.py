@@ -14,9 +14,10 @@ from typing import Annotated, Any
 import pydantic
 from pydantic import BaseModel, ConfigDict, Field
 
+from bent_beam.checks import shortened
 from bent_beam.impact import Impact
 from bent_beam.meshes import MESHES, Mesh
-from bent_beam.parts import InputError, first_line, nearest, part_from_table, shown
+from bent_beam.parts import InputError, first_line, nearest, part_from_table
 
 __all__ = ["Case", "case_from_tables", "load_case"]
 
@@ -78,7 +79,7 @@ DEFAULT_DURATION = 0.1  # τ, the longest time that the thesis computes
 def _problem(error: pydantic.ValidationError) -> str:
     problem = error.errors()[0]
     place = ".".join(str(part) for part in problem["loc"])
-    value = shown(problem.get("input"))
+    value = shortened(problem.get("input"))
     kind = problem["type"]
     if kind == "extra_forbidden":
         tables: dict[str, type[BaseModel]] = {"beam": _Beam, "impact": _Impact, "run": _Run}
@@ -109,8 +110,10 @@ def case_from_tables(tables: dict[str, Any]) -> Case:
     end_time = file.run.end_time
     if end_time is None:
         end_time = (file.run.duration or DEFAULT_DURATION) * impact.time_scale
-    if not 0.0 < end_time < float("inf"):
-        raise InputError(f"run.duration puts the end time out of range (got {file.run.duration!r})")
+    try:
+        end_time = impact.checked_end_time(end_time)
+    except ValueError as error:
+        raise InputError(f"run.{'end_time' if file.run.end_time is not None else 'duration'}: {error}") from None
     mesh = None
     if file.mesh.get("kind", "auto") != "auto":
         mesh = part_from_table(MESHES, file.mesh, "mesh")
@@ -122,13 +125,16 @@ def case_from_tables(tables: dict[str, Any]) -> Case:
 
 def _set(tables: dict[str, Any], assignment: str) -> None:
     key, sign, text = assignment.partition("=")
-    if not sign or not key.strip():
-        raise InputError(f"--set takes table.key=value (got {shown(assignment)})")
-    try:
-        value = tomllib.loads(f"value = {text.strip()}")["value"]
-    except (tomllib.TOMLDecodeError, RecursionError):
-        value = text.strip()
-    *path, last = key.strip().split(".")
+    *path, last = (name.strip() for name in key.split("."))
+    if not sign or not all((*path, last)):
+        raise InputError(f"--set takes table.key=value (got {shortened(assignment)})")
+    text = text.strip()
+    value: Any = text
+    if last != "kind" and "\n" not in text or text.startswith(("'", '"')):  # a kind is a name, "true" is one
+        try:
+            value = tomllib.loads(f"value = {text}")["value"]
+        except (ValueError, RecursionError):
+            pass
     table = tables
     for name in path:
         table = table.setdefault(name, {})
@@ -152,7 +158,7 @@ def load_case(file: str | Path, assignments: Sequence[str] = ()) -> Case:
         raise InputError(f"case file {path} is larger than {MAXIMUM_BYTES} bytes: not a case file")
     try:
         tables = tomllib.loads(data.decode("utf-8"))
-    except (UnicodeDecodeError, tomllib.TOMLDecodeError, RecursionError) as error:
+    except (ValueError, RecursionError) as error:  # no UTF-8, no TOML, a number of too many digits, nesting without end
         raise InputError(f"case file {path} is not valid TOML: {' '.join(str(error).split())}") from None
     for assignment in assignments:
         _set(tables, assignment)

@@ -5,27 +5,37 @@ from __future__ import annotations
 import math
 from collections.abc import Collection
 
-__all__ = ["at_least", "between", "finite", "non_negative", "one_of", "positive", "whole"]
+__all__ = ["affordable", "at_least", "between", "finite", "non_negative", "one_of", "positive", "shortened", "whole"]
+
+LARGEST_COUNT = 2**53  # the last integer that a float tells from its neighbours
+LARGEST_RECORD = 60_000_000  # values a field: half a gigabyte
 
 
 def finite(name: str, value: float) -> float:
     """Return ``value`` as a float, or raise ``ValueError`` naming the field when it is no finite number."""
-    if isinstance(value, bool) or not isinstance(value, (int, float)) or not math.isfinite(value):
-        try:
-            number = float(value) if not isinstance(value, (bool, str)) else math.nan
-        except (TypeError, ValueError, OverflowError):
-            number = math.nan
-        if not math.isfinite(number):
-            raise ValueError(f"{name} must be a finite number (got {value!r})")
-        return number
-    return float(value)
+    try:
+        number = math.nan if isinstance(value, (bool, str, bytes)) else float(value)
+    except (TypeError, ValueError, OverflowError):
+        number = math.nan
+    if not math.isfinite(number):
+        raise ValueError(f"{name} must be a finite number (got {shortened(value)})")
+    return number
+
+
+def shortened(value: object) -> str:
+    """``repr`` of a value, cut to one short line."""
+    try:
+        text = " ".join(repr(value).split())
+    except ValueError:  # an integer of more digits than Python is willing to write
+        text = "a number too long to write"
+    return text if len(text) <= 80 else text[:77] + "..."
 
 
 def positive(name: str, value: float) -> float:
     """Return ``value`` as a float, or raise ``ValueError`` when it is not finite and > 0."""
     number = finite(name, value)
     if number <= 0.0:
-        raise ValueError(f"{name} must be positive (got {value!r})")
+        raise ValueError(f"{name} must be positive (got {shortened(value)})")
     return number
 
 
@@ -33,7 +43,7 @@ def non_negative(name: str, value: float) -> float:
     """Return ``value`` as a float, or raise ``ValueError`` when it is not finite and ≥ 0."""
     number = finite(name, value)
     if number < 0.0:
-        raise ValueError(f"{name} must not be negative (got {value!r})")
+        raise ValueError(f"{name} must not be negative (got {shortened(value)})")
     return number
 
 
@@ -41,7 +51,7 @@ def at_least(name: str, value: float, low: float) -> float:
     """Return ``value`` as a float, or raise ``ValueError`` when it is not finite and ≥ ``low``."""
     number = finite(name, value)
     if number < low:
-        raise ValueError(f"{name} must be at least {low:g} (got {value!r})")
+        raise ValueError(f"{name} must be at least {low:g} (got {shortened(value)})")
     return number
 
 
@@ -49,20 +59,35 @@ def between(name: str, value: float, low: float, high: float) -> float:
     """Return ``value`` as a float, or raise ``ValueError`` when it is not in [``low``, ``high``]."""
     number = finite(name, value)
     if not low <= number <= high:
-        raise ValueError(f"{name} must lie in [{low:g}, {high:g}] (got {value!r})")
+        raise ValueError(f"{name} must lie in [{low:g}, {high:g}] (got {shortened(value)})")
     return number
 
 
 def whole(name: str, value: int, low: int) -> int:
     """Return ``value`` as an int, or raise ``ValueError`` when it is no whole number ≥ ``low``."""
     number = finite(name, value)
-    if number != int(number) or number < low:
-        raise ValueError(f"{name} must be a whole number of at least {low} (got {value!r})")
+    if not low <= number <= LARGEST_COUNT or number != int(number):
+        raise ValueError(f"{name} must be a whole number of at least {low} (got {shortened(value)})")
     return int(number)
 
 
 def one_of(name: str, value: str, allowed: Collection[str]) -> str:
     """Return ``value``, or raise ``ValueError`` listing what is allowed."""
-    if value not in allowed:
-        raise ValueError(f"{name} must be one of {', '.join(sorted(allowed))} (got {value!r})")
+    if not isinstance(value, str) or value not in allowed:
+        raise ValueError(f"{name} must be one of {', '.join(sorted(allowed))} (got {shortened(value)})")
     return value
+
+
+def affordable(settings: str, steps: float, nodes: int, instants: int, most: float) -> None:
+    """``ValueError`` naming ``settings`` when a run asks for more than ``most`` steps × nodes, or for more than
+    ``LARGEST_RECORD`` nodes × saved instants."""
+    if steps * nodes > most:
+        raise ValueError(
+            f"{settings} ask for {steps:.3g} steps of {nodes} nodes: {steps * nodes:.2g} steps x nodes, {most:.2g} are "
+            "the most that one run takes; longer steps, larger elements or an earlier end time"
+        )
+    if instants * nodes > LARGEST_RECORD:
+        raise ValueError(
+            f"save asks for {instants} instants of {nodes} nodes, {LARGEST_RECORD:.2g} values are the most; "
+            "fewer instants or larger elements"
+        )

@@ -17,6 +17,9 @@ from bent_beam.checks import finite, non_negative, positive
 
 __all__ = ["Impact"]
 
+RANGE = 1e60  # of every number of a problem, in SI and in its own units: its fourth power can still be calculated with
+LONGEST = 1e30  # time, and change of the free motion by the loads, in the problem's own units
+
 
 @dataclass(frozen=True)
 class Impact:
@@ -67,16 +70,22 @@ class Impact:
             "kappa_over_nu",
         ):
             try:
-                value = getattr(self, name)
+                value = abs(getattr(self, name))
             except (OverflowError, ZeroDivisionError):
                 value = math.inf
             scale = name in ("wave_constant", "time_scale", "length_scale", "slow_time_scale", "epsilon")
-            if not math.isfinite(value) or (scale and value <= 0.0):
+            if not value <= RANGE or (scale and value < 1.0 / RANGE):
                 raise ValueError(
-                    f"velocity, bending_stiffness and mass_per_length put {name} outside the range of "
-                    f"floating-point numbers (got V0 = {self.velocity!r}, EI = {self.bending_stiffness!r}, "
-                    f"mu = {self.mass_per_length!r})"
+                    f"length, curvature, velocity, bending_stiffness and mass_per_length put {name} beyond "
+                    f"{RANGE:g} or below its inverse (got L = {self.length!r}, K = {self.curvature!r}, "
+                    f"V0 = {self.velocity!r}, EI = {self.bending_stiffness!r}, mu = {self.mass_per_length!r})"
                 )
+        for name in (f.name for f in dataclasses.fields(self)):
+            if abs(getattr(self, name)) > RANGE:
+                raise ValueError(f"{name} must not exceed {RANGE:g} (got {getattr(self, name)!r})")
+        for name in ("bending_stiffness", "mass_per_length", "length", "velocity", "section_height"):
+            if getattr(self, name) < 1.0 / RANGE:
+                raise ValueError(f"{name} must be at least {1.0 / RANGE:g} (got {getattr(self, name)!r})")
 
     @classmethod
     def dimensionless(
@@ -103,6 +112,20 @@ class Impact:
     def replace(self, **changes: float) -> Impact:
         """A copy with some fields changed, validated again."""
         return dataclasses.replace(self, **changes)
+
+    def checked_end_time(self, end_time: float) -> float:
+        """``end_time`` (s), or ``ValueError`` when it, or what the loads do by then, is out of all proportion."""
+        time = positive("end_time", end_time) / self.time_scale
+        if not 1.0 / LONGEST <= time <= LONGEST:
+            raise ValueError(
+                f"end_time must lie between {1 / LONGEST:g} and {LONGEST:g} t* (got {end_time!r}, t* = "
+                f"{self.time_scale!r} s)"
+            )
+        for name in ("acceleration", "curvature_rate", "fourth_derivative"):
+            group = {"acceleration": "alpha", "curvature_rate": "chi", "fourth_derivative": "psi"}[name]
+            if abs(getattr(self, f"epsilon_{group}")) * time > LONGEST:
+                raise ValueError(f"{name} is out of all proportion to the end time (got {getattr(self, name)!r})")
+        return float(end_time)
 
     # scales (theory.md, section 2; thesis 2.2.16, 2.2.36–37) -----------------------------------------
     @property

@@ -159,10 +159,12 @@ class SquareMesh:
 
     def nodes(self, half_length: float) -> Array:
         end = min(self.zone, half_length)
-        ratio = (end / self.first_element) ** 2
-        if ratio > MAXIMUM_NODES:
-            raise ValueError(f"mesh.first_element is too small: {ratio:.3g} elements in the zone")
-        count = max(2, math.ceil(ratio - 1e-9))
+        if end / self.first_element > math.sqrt(MAXIMUM_NODES):
+            raise ValueError(
+                f"mesh.first_element is too small: more than {MAXIMUM_NODES} elements in the zone "
+                f"(got {self.first_element!r} for a zone of {end!r})"
+            )
+        count = max(2, math.ceil((end / self.first_element) ** 2 - 1e-9))
         inner = self.first_element * np.sqrt(np.arange(count + 1))
         inner *= end / inner[-1]
         last = inner[-1] - inner[-2]
@@ -212,7 +214,7 @@ class NodesMesh:
     def nodes(self, half_length: float) -> Array:
         places = np.asarray(self.places)
         if abs(places[-1] - half_length) > 1e-9 * half_length:
-            raise ValueError(f"mesh.places must end at the half length {half_length!r} (got {places[-1]!r})")
+            raise ValueError(f"mesh.places must end at the half length {half_length!r} (got {self.places[-1]!r})")
         return places
 
 

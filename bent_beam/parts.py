@@ -13,6 +13,8 @@ from typing import Any
 
 import pydantic
 
+from bent_beam.checks import shortened
+
 __all__ = ["InputError", "describe", "nearest", "part_from_table", "parts_from_table", "unknown_key"]
 
 
@@ -41,13 +43,7 @@ def first_line(error: pydantic.ValidationError, where: str) -> str:
         return str(cause)
     if problem["type"] == "missing":
         return f"{place} is required"
-    return f"{place}: {problem['msg'][0].lower() + problem['msg'][1:]} (got {shown(problem.get('input'))})"
-
-
-def shown(value: Any) -> str:
-    """``repr`` of a value, cut to one short line."""
-    text = " ".join(repr(value).split())
-    return text if len(text) <= 80 else text[:77] + "..."
+    return f"{place}: {problem['msg'][0].lower() + problem['msg'][1:]} (got {shortened(problem.get('input'))})"
 
 
 def part_from_table(kinds: Mapping[str, type], table: Mapping[str, Any], where: str, default: str | None = None) -> Any:
@@ -57,12 +53,12 @@ def part_from_table(kinds: Mapping[str, type], table: Mapping[str, Any], where: 
     or a value that the part refuses.
     """
     if not isinstance(table, Mapping):
-        raise InputError(f"{where} must be a table (got {shown(table)})")
+        raise InputError(f"{where} must be a table (got {shortened(table)})")
     kind = table.get("kind", default)
     if kind is None:
         raise InputError(f"{where}.kind is required (one of {', '.join(sorted(kinds))})")
     if not isinstance(kind, str) or kind not in kinds:
-        raise InputError(f"{where}.kind: {shown(kind)} is not known{nearest(str(kind), kinds)}")
+        raise InputError(f"{where}.kind: {shortened(kind)} is not known{nearest(str(kind), kinds)}")
     part = kinds[kind]
     fields = {f.name for f in dataclasses.fields(part)}
     values = {key: value for key, value in table.items() if key != "kind"}

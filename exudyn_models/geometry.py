@@ -16,7 +16,7 @@ from typing import ClassVar, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from bent_beam.checks import positive
+from bent_beam.checks import between
 from exudyn_models.scaling import Scaling
 
 __all__ = ["GEOMETRIES", "Geometry", "LinearLimit", "Shape", "TrueGeometry"]
@@ -73,7 +73,7 @@ class LinearLimit:
     amplitude: float = 1e-3
 
     def __post_init__(self) -> None:
-        positive("geometry.amplitude", self.amplitude)
+        between("geometry.amplitude", self.amplitude, 1e-9, 1.0)
 
     def amplitude_of(self, true_amplitude: float) -> float:
         return self.amplitude

@@ -29,7 +29,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bent_beam import Impact, ImpactHistory, SimulationError
-from bent_beam.checks import positive, whole
+from bent_beam.checks import affordable, positive, whole
 from bent_beam.meshes import Mesh, NodesMesh, ScaleFreeMesh, checked_nodes, mirrored
 from bent_beam.parts import describe
 from exudyn_models.contacts import Contact, ContactRun, Penalty, Rigid, SegmentFriction, Wall
@@ -47,6 +47,7 @@ Array = NDArray[np.float64]
 
 DEFAULT_DURATION = 0.1  # τ, the longest time that the thesis computes
 GROWTH = 0.01  # neighbours of the chosen mesh: 5 elements over the front's bending length at κ/ν = 0.05, 20 at 0.2
+MOST_WORK = 2e9  # steps x nodes: about an hour
 SEGMENT = 4  # steps between two readings of the state
 
 
@@ -93,7 +94,7 @@ def chosen_mesh(
 
 
 def _end_time(impact: Impact, end_time: float | None) -> float:
-    return DEFAULT_DURATION * impact.time_scale if end_time is None else positive("run.end_time", end_time)
+    return impact.checked_end_time(DEFAULT_DURATION * impact.time_scale if end_time is None else end_time)
 
 
 def _targets(save: int | Sequence[float] | Array, end: float) -> Array:
@@ -431,6 +432,9 @@ def simulate(
         crossing = min(0.01, (places[1] / front_estimate(scaling.kappa)) ** 2)
         per_segment = SEGMENT if contact_run.longest_segment is None else contact_run.longest_segment
         segments = integrator.segments(crossing, per_segment, end, stable)
+        affordable(
+            "exudyn.integrator and mesh", sum(s.steps for s in segments), nodes.size, targets.size, MOST_WORK
+        )
         settings = solver.settings(scaling.amplitude)
         integrator.configure(settings)
         container = beam.mbs.variables["container"]
@@ -451,6 +455,7 @@ def simulate(
         "completed": failure is None,
         "settings": {
             "end_time": end,
+            "save": np.asarray(save).tolist(),
             "mesh": describe(laid),
             "element": describe(element),
             "integrator": describe(integrator),
@@ -523,6 +528,8 @@ def _step(
                 mbs.solverSignalJacobianUpdate = True
     except FloatingPointError as error:
         return steps, seconds, str(error)
+    except SystemError as error:  # what was raised while Exudyn ran, an interrupt by the user above all
+        raise (error.__cause__ or error) from None
     except (exu.ExudynError, RuntimeError) as error:
         return steps, seconds, "Exudyn's solver failed: " + " ".join(str(error).split())[:200]
     return steps, seconds, None

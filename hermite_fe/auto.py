@@ -111,7 +111,15 @@ def choose(
     """Fill in what was left open, and warn where what was given by hand cannot resolve the front."""
     if mesh is None:
         mesh = chosen_mesh(impact, end_time)
-    nodes = mesh.nodes(impact.half_length)
+        try:
+            nodes = mesh.nodes(impact.half_length)
+        except ValueError as error:
+            raise ValueError(
+                f"curvature: no mesh can be chosen that resolves the contact front at kappa/nu = "
+                f"{impact.kappa_over_nu:g} ({error}); give [mesh]"
+            ) from None
+    else:
+        nodes = mesh.nodes(impact.half_length)
     if contact is None:
         contact = NodeContact()
     if integrator is None:

@@ -38,7 +38,7 @@ import scipy.sparse as sparse
 from numpy.typing import NDArray
 from scipy.linalg.lapack import dgbtrf, dgbtrs
 
-from bent_beam.checks import at_least, between, positive, whole
+from bent_beam.checks import affordable, at_least, between, positive, whole
 from bent_beam.history import ImpactHistory, SimulationError
 from bent_beam.impact import Impact
 from bent_beam.parts import describe
@@ -47,6 +47,8 @@ from hermite_fe.beam import shape_functions
 __all__ = ["ExpandingMesh", "Similarity", "similarity", "simulate_expanding"]
 
 Array = NDArray[np.float64]
+MAXIMUM_NODES = 100_000
+MOST_WORK = 1e9  # steps x nodes: about an hour
 GAP_ROUND_OFF = 1e-11  # in W, that is in units of V₀t
 PATIENCE = 12  # swaps of all wrong contacts without progress before both tolerances are widened tenfold
 BAND = 3  # half-bandwidth of Hermite elements: two nodes of two degrees of freedom
@@ -101,11 +103,16 @@ class ExpandingMesh:
             return min(grown, coarsest_inside)
 
         ahead = [front]
-        while ahead[-1] < end:
+        while ahead[-1] < end and len(ahead) <= MAXIMUM_NODES:
             ahead.append(ahead[-1] + size(ahead[-1]))
         behind = [front]
-        while front > 0.0 and behind[-1] > 0.0:
+        while front > 0.0 and behind[-1] > 0.0 and len(behind) <= MAXIMUM_NODES:
             behind.append(behind[-1] - size(behind[-1]))
+        if len(ahead) + len(behind) > MAXIMUM_NODES:
+            raise ValueError(
+                f"mesh: more than {MAXIMUM_NODES} elements to follow a front at {front:.3g} sqrt(t) (kappa/nu too "
+                "small, or mesh.front_resolution, growth, elements_per_wave, interior_elements or absorber_length)"
+            )
         inner = np.array(behind[:0:-1]) if front > 0.0 else np.empty(0)
         if inner.size:  # stretched so that it begins at the centre exactly
             inner = front - (front - inner) * (front / (front - inner[0]))
@@ -341,13 +348,16 @@ def simulate_expanding(
     absorber took. Raises :class:`bent_beam.SimulationError` when the active set does not settle, the front leaves the
     fine mesh, or a number is no longer finite; ``ValueError`` for a flat beam (K = 0).
     """
-    positive("end_time", end_time)
+    end_time = impact.checked_end_time(end_time)
     if impact.kappa_over_nu == 0.0:
         raise ValueError("curvature must be positive: a flat beam meets the wall everywhere at once (got 0.0)")
     wanted = save if isinstance(save, int) else np.size(save)
     whole("save", wanted, 2)
     began = clock.perf_counter()
-    run = _Run(impact, mesh, end_time, int(wanted))
+    try:
+        run = _Run(impact, mesh, end_time, int(wanted))
+    except ArithmeticError as error:
+        raise SimulationError(str(error), time=0.0, step=0, advice="a larger mesh.front_resolution") from None
     failure: ArithmeticError | None = None
     try:
         run.follow(progress)
@@ -375,6 +385,7 @@ class _Run:
         self.front = self.state.front
         self.end = end_time / impact.time_scale
         ratio = mesh.step_ratio
+        affordable("mesh.step_ratio and mesh", mesh.decades * math.log(10.0) / ratio, zeta.size, saves, MOST_WORK)
         self.total = max(2, math.ceil(mesh.decades * math.log(10.0) / ratio))
         self.ratio = math.exp(mesh.decades * math.log(10.0) / self.total)  # τ_new/τ_old
         recorded = min(self.total, math.ceil(min(3.0, mesh.decades) * math.log(10.0) / math.log(self.ratio)))

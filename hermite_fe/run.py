@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from bent_beam.checks import affordable
 from hermite_fe._banded import quadratic, stiff_multiply
 from hermite_fe._problem import (
     ALGORITHMIC,
@@ -32,6 +33,7 @@ __all__ = ["Stepper", "Trajectory", "integrate", "saved_steps"]
 
 Array = NDArray[np.float64]
 
+MOST_WORK = 1e11  # steps x nodes: about an hour
 SUMS = (
     "kinetic",
     "strain",
@@ -187,6 +189,7 @@ def integrate(
         system, q, v, integrator, end_time, restitution=restitution, hold=hold, hold_until=hold_until
     )
     kept = saved_steps(run.instants, save)
+    affordable("integrator and mesh", run.instants.size - 1, system.dofs // 2, kept.size, MOST_WORK)
     count, n, m = kept.size, system.dofs, len(system.contacts)
     arrays = {name: np.zeros((count, n)) for name in ("q", "v")}
     arrays |= {name: np.zeros((count, m)) for name in ("gap", "impulse", "held_impulse")}

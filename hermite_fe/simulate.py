@@ -8,7 +8,6 @@ from typing import Any, cast
 import numpy as np
 from numpy.typing import NDArray
 
-from bent_beam.checks import positive
 from bent_beam.history import ImpactHistory, SimulationError
 from bent_beam.impact import Impact
 from bent_beam.meshes import Mesh
@@ -45,7 +44,7 @@ def simulate(
     Raises ``ValueError`` for bad input, :class:`bent_beam.SimulationError` (with the partial history) when a
     run cannot finish.
     """
-    end = 0.1 * impact.time_scale if end_time is None else positive("end_time", end_time)
+    end = impact.checked_end_time(0.1 * impact.time_scale if end_time is None else end_time)
     if type(mesh).__name__ == "ExpandingMesh":  # not imported before it is asked for
         from hermite_fe.expanding import simulate_expanding
 

@@ -7,6 +7,7 @@ resolved alike, starting from the time in which the front crosses the first elem
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
@@ -14,7 +15,9 @@ import exudyn as exu
 
 from bent_beam.checks import positive
 
-__all__ = ["Implicit", "Integrator", "Segment", "growing_segments"]
+__all__ = ["Implicit", "Integrator", "Segment", "checked_steps", "growing_segments"]
+
+MAXIMUM_STEPS = 5_000_000
 
 
 @dataclass(frozen=True)
@@ -26,8 +29,21 @@ class Segment:
     steps: int
 
 
+def checked_steps(count: float) -> None:
+    """``ValueError`` when a plan has more steps than any run takes."""
+    if not count <= MAXIMUM_STEPS:
+        raise ValueError(
+            f"exudyn.integrator.time_step or relative_step is too small: {count:.3g} steps, {MAXIMUM_STEPS:.2g} are "
+            "the most"
+        )
+
+
 def growing_segments(first: float, relative: float, per_segment: int, constant: bool = False) -> list[Segment]:
     """Segments over 0 ≤ t ≤ 1: steps of ``first``, then of ``relative``·t (``constant``: of ``first`` throughout)."""
+    even, grown = 1.0 / max(first, 1e-300), 0.0
+    if not constant:
+        even, grown = min(even, 1.0 / relative), math.log(max(relative * even, 1.0)) / math.log1p(relative)
+    checked_steps(even + grown)
     segments: list[Segment] = []
     t, step = 0.0, first
     while t < 1.0 - 1e-12:

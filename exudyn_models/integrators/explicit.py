@@ -16,7 +16,7 @@ from typing import Any, ClassVar
 import exudyn as exu
 
 from bent_beam.checks import between, positive
-from exudyn_models.integrators.base import Integrator, Segment
+from exudyn_models.integrators.base import Integrator, Segment, checked_steps
 
 __all__ = ["DOPRI5", "RK44", "VelocityVerlet"]
 
@@ -51,6 +51,7 @@ class _Explicit(Integrator):
                     f"exudyn.integrator.time_step must not exceed the stable step {stable * unit:.4g} s of this "
                     f"mesh and contact (got {self.time_step!r})"
                 )
+        checked_steps(1.0 / max(step, 1e-300))
         count = math.ceil(1.0 / step)
         pieces = max(1, min(1000, count // per_segment))
         ends = [round(count * k / pieces) for k in range(pieces + 1)]

@@ -16,7 +16,7 @@ from hermite_fe._problem import ContactLaw, Problem, State, Work
 
 __all__ = ["Integrator"]
 
-MAXIMUM_STEPS = 200_000_000
+MAXIMUM_STEPS = 20_000_000
 
 
 @dataclass(frozen=True)
@@ -57,12 +57,16 @@ class Integrator(ABC):
             raise ValueError("integrator.time_step is not chosen yet")
         step, growth = self.time_step, self.growth or 0.0
         switch = end_time if growth == 0.0 else min(end_time, step / growth)
-        if switch / step > MAXIMUM_STEPS:
-            raise ValueError(f"integrator.time_step is too small: {switch / step:.3g} steps (got {step!r})")
-        even = max(1, math.ceil(switch / step * (1.0 - 1e-12)))
-        times = np.linspace(0.0, switch, even + 1)
+        even = switch / step
+        grown = math.log(end_time / switch) / math.log1p(growth) if switch < end_time else 0.0
+        if not even + grown <= MAXIMUM_STEPS:
+            raise ValueError(
+                f"integrator.time_step is too small, or growth: {even + grown:.3g} steps, {MAXIMUM_STEPS:.2g} are the "
+                f"most (got {step!r} and {growth!r})"
+            )
+        times = np.linspace(0.0, switch, max(1, math.ceil(even * (1.0 - 1e-12))) + 1)
         if switch < end_time:
-            count = max(1, math.ceil(math.log(end_time / switch) / math.log1p(growth) * (1.0 - 1e-12)))
+            count = max(1, math.ceil(grown * (1.0 - 1e-12)))
             times = np.concatenate([times, switch * (end_time / switch) ** (np.arange(1, count + 1) / count)])
         times[-1] = end_time
         return times
