@@ -83,11 +83,14 @@ def predict(
 
     Example: bentbeam predict cases/drill_pipe.toml --time 0.005 --time 0.01
     """
+    from comparison.validity import add_measured_errors
     from theory import predict as predict_impact
 
     loaded = load_case(case, assignments or ())
     prediction = predict_impact(loaded.impact, time or [loaded.end_time])
-    _emit(prediction.to_dict(), as_json, prediction.summary)
+    document = prediction.to_dict()
+    notes = add_measured_errors(document)
+    _emit(document, as_json, lambda: "\n".join([prediction.summary(), *notes]))
 
 
 @app.command()

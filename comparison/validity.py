@@ -23,7 +23,7 @@ from comparison.estimators import Moments, moments
 from comparison.store import write_atomically
 from theory import contact_parameters
 
-__all__ = ["CORRECTIONS", "RATIOS", "draw_validity", "measure", "measured", "measured_error"]
+__all__ = ["CORRECTIONS", "RATIOS", "add_measured_errors", "draw_validity", "measure", "measured", "measured_error"]
 
 DATA = Path(__file__).with_name("measured.json")
 CORRECTIONS = (0.01, 0.02, 0.05, 0.1, 0.2, 0.3)
@@ -110,6 +110,23 @@ def measured_error(regime: str, kappa_over_nu: float, correction: float) -> floa
         return None
     rows = sorted(table["regimes"][regime], key=lambda r: abs(np.log(r["kappa_over_nu"] / kappa_over_nu)))[:2]
     return max(float(np.interp(correction, x, [1e-4, *row["error"]])) for row in rows)
+
+
+def add_measured_errors(prediction: dict[str, Any]) -> list[str]:
+    """Add ``measured_error`` to each time of a prediction (``Prediction.to_dict()``); returns it in plain sentences."""
+    notes = []
+    for row in prediction["times"]:
+        values = {check["name"]: check["value"] for check in row["checks"]}
+        parts = [values.get(name) for name in ("contact_length_correction", "reaction_correction")]
+        correction = max((v for v in parts if v is not None), default=0.0)
+        row["correction"] = correction
+        found = measured_error(prediction["regime"], prediction["kappa_over_nu"], correction)
+        row["measured_error"] = found
+        if correction == 0.0:
+            continue
+        what = "further than was measured" if found is None else f"within {100 * found:.2g} % of full simulation there"
+        notes.append(f"At t = {row['time']:.4g} s first order changes the result by {100 * correction:.2g} %: {what}.")
+    return notes
 
 
 def draw_validity(out: Path, formats: Sequence[str] = ("png",)) -> list[Path]:

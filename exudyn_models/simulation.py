@@ -432,9 +432,7 @@ def simulate(
         crossing = min(0.01, (places[1] / front_estimate(scaling.kappa)) ** 2)
         per_segment = SEGMENT if contact_run.longest_segment is None else contact_run.longest_segment
         segments = integrator.segments(crossing, per_segment, end, stable)
-        affordable(
-            "exudyn.integrator and mesh", sum(s.steps for s in segments), nodes.size, targets.size, MOST_WORK
-        )
+        affordable("exudyn.integrator and mesh", sum(s.steps for s in segments), nodes.size, targets.size, MOST_WORK)
         settings = solver.settings(scaling.amplitude)
         integrator.configure(settings)
         container = beam.mbs.variables["container"]

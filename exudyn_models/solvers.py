@@ -40,6 +40,7 @@ class NewtonSolver:
     halve_steps : let Exudyn shorten a step that fails (down to 1/1000) before giving up.
     modified_newton : keep the Jacobian while it converges.
     linear_solver : "sparse" or "dense".
+    initial_accelerations : solve for the accelerations at t = 0 instead of starting from none.
     """
 
     absolute_tolerance: float = 1e-8
@@ -51,6 +52,7 @@ class NewtonSolver:
     halve_steps: bool = False
     modified_newton: bool = True
     linear_solver: str = "sparse"
+    initial_accelerations: bool = True
 
     def __post_init__(self) -> None:
         positive("exudyn.solver.absolute_tolerance", self.absolute_tolerance)
@@ -71,7 +73,7 @@ class NewtonSolver:
         time.verboseMode = 0
         time.stepInformation = 0
         time.adaptiveStep = self.halve_steps
-        time.generalizedAlpha.computeInitialAccelerations = True
+        time.generalizedAlpha.computeInitialAccelerations = self.initial_accelerations
         time.newton.useModifiedNewton = self.modified_newton
         time.newton.absoluteTolerance = self.absolute_tolerance * amplitude
         time.newton.relativeTolerance = self.relative_tolerance

@@ -23,9 +23,9 @@ import exudyn.itemInterface as items
 import numpy as np
 from numpy.typing import NDArray
 
-from bent_beam.checks import non_negative, positive, whole
+from bent_beam.checks import between, non_negative, positive, whole
 from exudyn_models.contacts.base import ContactRun, Flags, Wall
-from exudyn_models.contacts.holding import HeldStrip, chosen_hold
+from exudyn_models.contacts.holding import START, HeldStrip, chosen_hold
 from exudyn_models.elements import Beam
 
 __all__ = ["Penalty", "penalty_per_length"]
@@ -39,11 +39,11 @@ def penalty_per_length(lengths: Array, relative_stiffness: float, relative_dampi
 
 
 class _Run(ContactRun):
-    def __init__(self, beam: Beam, wall: Wall, stiffness: Array, damping: Array, hold: int) -> None:
+    def __init__(self, beam: Beam, wall: Wall, stiffness: Array, damping: Array, strip: HeldStrip) -> None:
         self.beam, self.nodes = beam, wall.nodes
         self.stiffness, self.damping = stiffness, damping
         self.contact_s = beam.shape.s[wall.nodes]
-        self.strip = HeldStrip(wall, hold)
+        self.strip = strip
         self.held = np.zeros(wall.nodes.size, bool)
         self.contacts: list[Any] = []
         self.holders: list[Any] = []
@@ -66,7 +66,7 @@ class _Run(ContactRun):
                     )
                 )
             )
-            if hold:
+            if self.strip.used:
                 self.holders.append(
                     mbs.AddObject(
                         items.ObjectConnectorCoordinateSpringDamper(
@@ -93,7 +93,7 @@ class _Run(ContactRun):
         return np.asarray(v[self.beam.vertical[self.nodes]])
 
     def between(self, time: float, q: Array, v: Array) -> bool:
-        wanted = self.strip.wanted()
+        wanted = self.strip.wanted(time)
         changed = np.flatnonzero(wanted != self.held)
         for k in changed:
             self.beam.mbs.SetObjectParameter(self.holders[k], "activeConnector", bool(wanted[k]))
@@ -121,6 +121,7 @@ class Penalty:
     hold : elements behind the front whose captured nodes are held; None: 16, but none where the load draws the beam
         off the wall
         (α + ψ < 0, where a hold would pull on what rightly lifts) and none under explicit integrators.
+    hold_start : first share of the run in which all captured nodes are held, for the start is never resolved.
     """
 
     stiffness: float | None = None
@@ -128,6 +129,7 @@ class Penalty:
     relative_stiffness: float = 10.0
     relative_damping: float = 3.0
     hold: int | None = None
+    hold_start: float = START
 
     def __post_init__(self) -> None:
         if self.stiffness is not None:
@@ -138,6 +140,7 @@ class Penalty:
         non_negative("exudyn.contact.relative_damping", self.relative_damping)
         if self.hold is not None:
             whole("exudyn.contact.hold", self.hold, 0)
+        between("exudyn.contact.hold_start", self.hold_start, 0.0, 1.0)
 
     def refuses(self, element: Any, integrator: Any) -> str | None:
         return None
@@ -152,4 +155,5 @@ class Penalty:
             k = np.full_like(local, self.stiffness / wall.stiffness_unit)
         if self.damping is not None:
             d = np.full_like(local, self.damping / wall.damping_unit)
-        return _Run(beam, wall, k * length, d * length, chosen_hold(wall, self.hold))
+        strip = HeldStrip(wall, chosen_hold(wall, self.hold), self.hold_start)
+        return _Run(beam, wall, k * length, d * length, strip)

@@ -74,7 +74,7 @@ class _Run(ContactRun):
         if time == 0.0:
             touching &= v[self.beam.vertical[self.nodes]] > 0.0
         self.strip.captured |= touching
-        wanted = (self.active & (force >= 0.0)) | touching | self.strip.wanted()
+        wanted = (self.active & (force >= 0.0)) | touching | self.strip.wanted(time)
         changed = np.flatnonzero(wanted != self.active)
         for k in changed:
             self.beam.mbs.SetObjectParameter(self.constraints[k], "activeConnector", bool(wanted[k]))

@@ -20,8 +20,17 @@ def small(gap=None):
         "loss_impact": (("time",), np.array([0.0, 0.5, 1.0])),
     }
     return ImpactHistory.build(
-        impact=Impact.dimensionless(0.5), path="hermite", symmetry="half", settings={"mesh": {"kind": "UniformMesh"}},
-        time=time, x=x, contact_x=x[:2], fields=fields, warnings=["front under-resolved"], steps=7, seconds=0.1,
+        impact=Impact.dimensionless(0.5),
+        path="hermite",
+        symmetry="half",
+        settings={"mesh": {"kind": "UniformMesh"}},
+        time=time,
+        x=x,
+        contact_x=x[:2],
+        fields=fields,
+        warnings=["front under-resolved"],
+        steps=7,
+        seconds=0.1,
     )
 
 

@@ -33,8 +33,12 @@ def test_groups_do_not_change_when_units_do(ei, mu, length, curvature, velocity,
     metre, second, kilogram = 3.7, 0.21, 11.0
     a = Impact(ei, mu, length, curvature, velocity, acceleration=acceleration)
     b = Impact(
-        ei * kilogram * metre**3 / second**2, mu * kilogram / metre, length * metre, curvature / metre,
-        velocity * metre / second, acceleration=acceleration * metre / second**2,
+        ei * kilogram * metre**3 / second**2,
+        mu * kilogram / metre,
+        length * metre,
+        curvature / metre,
+        velocity * metre / second,
+        acceleration=acceleration * metre / second**2,
     )
     for group in ("kappa_over_nu", "epsilon", "epsilon_alpha", "epsilon_chi", "epsilon_psi"):
         assert getattr(b, group) == pytest.approx(getattr(a, group), rel=1e-12)

@@ -49,9 +49,14 @@ def test_elements_of_a_scale_free_mesh_grow_with_their_distance():
 @pytest.mark.parametrize(
     "make",
     [
-        lambda: UniformMesh(0.0), lambda: UniformMesh(float("nan")), lambda: GradedMesh(1.0, growth=0.9),
-        lambda: ScaleFreeMesh(-1.0), lambda: SquareMesh(0.1, zone=-1.0), lambda: NodesMesh((0.0, 1.0)),
-        lambda: NodesMesh((0.0, 2.0, 1.0)), lambda: NodesMesh((0.5, 1.0, 2.0)),
+        lambda: UniformMesh(0.0),
+        lambda: UniformMesh(float("nan")),
+        lambda: GradedMesh(1.0, growth=0.9),
+        lambda: ScaleFreeMesh(-1.0),
+        lambda: SquareMesh(0.1, zone=-1.0),
+        lambda: NodesMesh((0.0, 1.0)),
+        lambda: NodesMesh((0.0, 2.0, 1.0)),
+        lambda: NodesMesh((0.5, 1.0, 2.0)),
         lambda: UniformMesh(1e-9).nodes(1.0),
     ],
 )

@@ -86,9 +86,15 @@ def test_match_prints_rows(capsys, monkeypatch, tmp_path):
         (["predict", "none.toml"], "none.toml"),
         (["predict", K10, "--time", "-1"], "times"),
         (["simulate", K10, "--path", "abaqus"], "path"),
-        (["simulate", K10, "--set", "beam.bending_stiffness=-1.0"], "beam.bending_stiffness must be positive (got -1.0)"),
+        (
+            ["simulate", K10, "--set", "beam.bending_stiffness=-1.0"],
+            "beam.bending_stiffness must be positive (got -1.0)",
+        ),
         (["simulate", K10, "--set", "hermite.contact.kind=nod"], "did you mean node?"),
-        (["simulate", K10, "--set", "hermite.integrator.kind=moreau_jean", "--set", "hermite.integrator.teta=1"], "theta"),
+        (
+            ["simulate", K10, "--set", "hermite.integrator.kind=moreau_jean", "--set", "hermite.integrator.teta=1"],
+            "theta",
+        ),
         (["simulate", K10, "--set", "exudyn.integrator.kind=newmrk", "--path", "exudyn"], "newmark"),
         (["simulate", K10, "--set", "nonsense"], "--set"),
         (["match", "--first-order", "1,2"], "alpha,psi,chi"),

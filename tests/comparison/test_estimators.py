@@ -89,8 +89,13 @@ def test_physical_units_drop_out():
     unit = pipe.mass_per_length * pipe.length_scale * pipe.velocity
     data = history.dataset
     scaled = ImpactHistory.build(
-        impact=pipe, path="hermite", symmetry="half", settings={}, time=history.time * pipe.time_scale,
-        x=data["x"].values * pipe.length_scale, contact_x=data["contact_x"].values * pipe.length_scale,
+        impact=pipe,
+        path="hermite",
+        symmetry="half",
+        settings={},
+        time=history.time * pipe.time_scale,
+        x=data["x"].values * pipe.length_scale,
+        contact_x=data["contact_x"].values * pipe.length_scale,
         fields={
             "gap": (("time", "x"), data["gap"].values),
             "impulse": (("time", "contact"), data["impulse"].values * unit),
@@ -111,6 +116,8 @@ def test_runs_saved_at_other_times_are_refused():
 
 def test_a_history_without_contact_is_refused():
     history = synthetic(0.5)
-    empty = history.dataset.assign(impulse=history.dataset["impulse"] * 0, total_impulse=history.dataset["total_impulse"] * 0)
+    empty = history.dataset.assign(
+        impulse=history.dataset["impulse"] * 0, total_impulse=history.dataset["total_impulse"] * 0
+    )
     with pytest.raises(ValueError, match="at least 8 instants"):
         leading_order(moments(ImpactHistory(empty)))

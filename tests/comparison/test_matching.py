@@ -38,7 +38,8 @@ def test_discrete_contact_on_both_paths():
 
 
 @pytest.mark.parametrize(
-    ("kappa", "first"), [(0.5, (4.0, 0.0, 0.0)), (0.5, (-1.0, -1.0, 0.0)), (0.3, (-1.0, -1.0, 1.0)), (0.8, (0.0, 0.0, 1.0))]
+    ("kappa", "first"),
+    [(0.5, (4.0, 0.0, 0.0)), (0.5, (-1.0, -1.0, 0.0)), (0.3, (-1.0, -1.0, 1.0)), (0.8, (0.0, 0.0, 1.0))],
 )
 def test_hermite_matches_the_first_order(kappa, first):
     row = answer(Question("hermite", kappa, first), KEEP)
@@ -132,8 +133,21 @@ def test_rows_are_the_contract():
     row = answer(Question("hermite", 0.5), KEEP)
     assert isinstance(row, MatchRow)
     wanted = {
-        "path", "kappa_over_nu", "alpha", "psi", "chi", "lambda0", "lambda0_theory", "r0", "r0_theory", "lambda1",
-        "lambda1_theory", "r1", "r1_theory", "flatness", "seconds",
+        "path",
+        "kappa_over_nu",
+        "alpha",
+        "psi",
+        "chi",
+        "lambda0",
+        "lambda0_theory",
+        "r0",
+        "r0_theory",
+        "lambda1",
+        "lambda1_theory",
+        "r1",
+        "r1_theory",
+        "flatness",
+        "seconds",
     }
     assert wanted <= set(vars(row))
 
