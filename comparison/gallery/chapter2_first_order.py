@@ -67,7 +67,7 @@ def solution(
     sheet: Sheet, name: str, symbol: str, sets: Sequence[tuple[float, float, float]], limits: tuple[float, float]
 ) -> None:
     """r₁ or λ₁ over κ/ν for several (α, ψ, χ)."""
-    ratio = np.unique(np.concatenate([np.linspace(0.08, 1.2, 400), [0.3, 0.5, 0.8]]))
+    ratio = np.unique(np.concatenate([np.linspace(0.08, 1.2, 400), [0.3, 0.5, 0.8, 1.0]]))
     looks = ("-", "--", "-.", ":", (0, (5, 1, 1, 1, 1, 1)))
     with sheet.figure(width=4.2, height=2.9) as (_, axis):
         axis.set_xlabel(r"$\kappa/\nu$  (1)")

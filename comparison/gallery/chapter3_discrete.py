@@ -49,7 +49,7 @@ def geometry(sheet: Sheet, axis: Axes, history: ImpactHistory, times: tuple[floa
             axis,
             x[near],
             -1e3 * gap[k][near],
-            series=f"t = {1e6 * t:.3g} µs",
+            series=f"t = {1e6 * t:.4g} µs",
             color=colour,
             marker="o",
             ms=3,

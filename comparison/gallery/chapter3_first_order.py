@@ -162,4 +162,10 @@ def pushed(sheet: Sheet) -> str:
 )
 def pulled(sheet: Sheet) -> str:
     one_map(sheet, -700.0)
-    return "Only the two moving contact points push, as theory says; the beam leaves the wall towards the end."
+    history = old(-700.0)
+    total = history.array("total_impulse")
+    last = float(history.time[np.flatnonzero(np.diff(total) > 1e-6 * total[-1])[-1] + 1])
+    return (
+        "Only the two moving contact points push, as theory says. With the thesis's settings the last push is at "
+        f"t = {1e3 * last:.2g} ms: the beam then leaves the wall (the thesis sees it leave at 3.7 ms)."
+    )

@@ -64,8 +64,8 @@ def reaction_map(
             st * t,
             series=f"theory, side {side:+.0f}",
             color=style.COLOURS["vermilion"],
-            lw=0.6,
-            ls="--",
+            lw=0.9,
+            ls="-",
         )
     axis.grid(False)
     axis.set_xlim(-edge, edge)

@@ -93,7 +93,7 @@ def test_the_thesis_settings_of_its_own_cases() -> None:
     assert found.zone == pytest.approx(0.0624, abs=2e-4)
 
 
-# studies on small cases ------------------------------------------------------------------------------------------------
+# studies on small cases ----------------------------------------------------------------------
 
 
 def test_the_time_step_is_not_what_lifts_the_beam(tmp_path: Path) -> None:
