@@ -35,7 +35,7 @@ fuzz: $(STAMP)
 	FUZZ=1 $(BIN)/python -m pytest -n $(JOBS) --dist worksteal tests/reliability
 
 bench: $(STAMP)
-	$(BIN)/python -m pytest benchmarks -o python_files='bench_*.py' --benchmark-columns=median,iqr,rounds
+	$(BIN)/python -m pytest benchmarks -o python_files='bench_*.py' -o python_functions='bench_*' -s --benchmark-columns=median,iqr,rounds
 
 lint: $(STAMP)
 	$(BIN)/ruff check .

@@ -67,7 +67,7 @@ def draw_first_order(
 ) -> list[Path]:
     """λ₁ and r₁ over κ/ν for every (α, ψ, χ) among the rows: a curve of the theory each, and the numerical points."""
     firsts = sorted({(r.alpha, r.psi, r.chi) for r in rows if r.lambda1 is not None})
-    curve = np.linspace(0.05, 1.0, 400)
+    curve = np.linspace(0.05, 0.9999, 400)  # λ₁ jumps to 0 at κ/ν = 1
     with style.figure(1, 2, width=style.PAGE, height=3.4) as (fig, axes):
         for column, (what, symbol) in enumerate((("lambda1", r"$\lambda_1$"), ("r1", r"$r_1$"))):
             axis = axes[column]
@@ -77,7 +77,8 @@ def draw_first_order(
                 mine = [r for r in rows if r.lambda1 is not None and (r.alpha, r.psi, r.chi) == first]
                 shown = curve[curve >= 0.8 * min(r.kappa_over_nu for r in mine)]
                 values = getattr(contact_parameters(shown, *first), what)
-                axis.plot(shown, values, lw=1.1, color=colour, label="({:g}, {:g}, {:g})".format(*first))
+                label = "({:g}, {:g}, {:g})".format(*first) if column == 0 else None
+                axis.plot(shown, values, lw=1.1, color=colour, label=label)
                 for path, marker in style.MARKERS.items():
                     points = [r for r in mine if r.path == path]
                     if points:
@@ -95,8 +96,9 @@ def draw_first_order(
             axis.set_ylabel(f"{symbol}  (1)")
             style.panel_label(axis, "(a)" if column == 0 else "(b)")
         axes[0].legend(title=r"($\alpha$, $\psi$, $\chi$)", ncols=2)
-        for marker in (style.HERMITE, style.EXUDYN):
-            axes[1].plot([], [], **{**marker, "color": style.COLOURS["black"]})
+        for path, marker in style.MARKERS.items():
+            if any(r.path == path and r.lambda1 is not None for r in rows):
+                axes[1].plot([], [], **{**marker, "color": style.COLOURS["black"]})
         axes[1].plot([], [], **style.THEORY)
         axes[1].legend()
         return style.save(fig, out, name, formats)
