@@ -123,10 +123,10 @@ def _simulate(path: str, impact: Impact, largest: Impact | None) -> ImpactHistor
     import exudyn_models
     from exudyn_models.contacts import CONTACTS
 
-    mesh = exudyn_models.chosen_mesh(impact if largest is None else largest, end)
+    nodes = exudyn_models.chosen_mesh(impact if largest is None else largest, end)
     # A hold would pull on a zone that lifts off; the run at ε = 0 must do without it too.
     contact = CONTACTS["penalty"](hold=0) if largest is not None and _lifted(largest) else None
-    return exudyn_models.simulate(impact, end_time=end, mesh=mesh, contact=contact, save=250)
+    return exudyn_models.simulate(impact, end_time=end, mesh=nodes, contact=contact, save=250)
 
 
 def _pressed(impact: Impact) -> bool:

@@ -50,7 +50,7 @@ Array = NDArray[np.float64]
 MAXIMUM_NODES = 100_000
 MOST_WORK = 1e9  # steps x nodes: about an hour
 GAP_ROUND_OFF = 1e-11  # in W, that is in units of V₀t
-PATIENCE = 12  # swaps of all wrong contacts without progress before both tolerances are widened tenfold
+PATIENCE = 4  # swaps of all wrong contacts without progress before both tolerances are widened tenfold
 BAND = 3  # half-bandwidth of Hermite elements: two nodes of two degrees of freedom
 
 
