@@ -28,7 +28,8 @@ def bench_exudyn(benchmark, kappa):
 
 
 def bench_share_of_exudyn_solver(benchmark):
-    """At 600 nodes: seconds inside Exudyn's solver over the wall time of the run (set-up and recording take the rest)."""
+    """At 600 nodes: seconds inside Exudyn's solver over the wall time of the run (set-up and recording take the rest).
+    """
     impact = Impact.dimensionless(0.5, length=24.0)
     shares = []
 

@@ -43,7 +43,8 @@ class Estimate:
 
 @dataclass(frozen=True)
 class LeadingEstimate:
-    """λ₀ and r₀ with ν = 1; ``flatness`` is the largest lift inside the zone over V₀t; ``window`` the fitted times (τ)."""
+    """λ₀ and r₀ with ν = 1; ``flatness`` is the largest lift inside the zone over V₀t; ``window`` the fitted times (τ).
+    """
 
     lambda0: Estimate
     r0: Estimate

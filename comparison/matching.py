@@ -165,8 +165,8 @@ def first_order_epsilon(path: str, leading: LeadingEstimate, first: tuple[float,
     """The largest ε of the runs: the free motion changes by a small part of V₀t over the contact zone at their end.
 
     ετ(|α|/4 + |χ|z²/2 + |ψ|z⁴/24) at z = the zone measured at ε = 0 and half the front's thickness: 3 % on the Hermite
-    path, whose noise is far below that, 6 % on the Exudyn path. (α counts half: its second order is small.) Where nothing
-    presses, a front that is close to the centre is spared too long a way.
+    path, whose noise is far below that, 6 % on the Exudyn path. (α counts half: its second order is small.) Where
+    nothing presses, a front that is close to the centre is spared too long a way.
     """
     front = leading.lambda0.value
     z = front + 1.0 / math.sqrt(1.0 + front**2)

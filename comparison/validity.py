@@ -1,6 +1,8 @@
-"""How far the first-order theory is from the full simulation: measured once on the Hermite path, kept as data, quoted by ``predict``.
+"""How far the first-order theory is from the full simulation: measured once on the Hermite path, kept as data, quoted
+by ``predict``.
 
-Simulation and theory at ε = 0 agree to 10⁻⁵, so what differs at ε > 0 is what the expansion leaves out: terms in (ετ)². The error
+Simulation and theory at ε = 0 agree to 10⁻⁵, so what differs at ε > 0 is what the expansion leaves out: terms in (ετ)².
+The error
 
     e(x) = max(|λ_c/λ_c,theory − 1|, |R/R_theory − 1|)   at   x = max(ε|λ₁|τ/λ₀, ε|r₁|τ/r₀)
 
@@ -75,7 +77,9 @@ def measure(regime: str, kappa: float, corrections: Sequence[float] = CORRECTION
 
 
 def _local(run: Moments, at: float, which: int) -> float:
-    """Reaction (0) or contact length (1) around τ = ``at``, from a straight line through a third of an e-fold of impulses."""
+    """Reaction (0) or contact length (1) around τ = ``at``, from a straight line through a third of an e-fold of
+    impulses.
+    """
     inside = (run.tau > at / 1.18) & (run.tau < at * 1.18)
     root, tau = np.sqrt(run.tau[inside]), run.tau[inside]
     force = np.polyfit(root - np.sqrt(at), run.impulse[inside], 2)[1]
@@ -100,7 +104,8 @@ def measured() -> dict[str, Any]:
 
 
 def measured_error(regime: str, kappa_over_nu: float, correction: float) -> float | None:
-    """Measured relative error of the first-order theory at a relative ``correction`` x, the larger of the two nearest κ/ν.
+    """Measured relative error of the first-order theory at a relative ``correction`` x, the larger of the two nearest
+    κ/ν.
 
     ``None`` beyond the measured corrections (x > 0.3); at x = 0 the agreement of the leading order, 10⁻⁴.
     """

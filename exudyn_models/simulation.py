@@ -47,6 +47,7 @@ Array = NDArray[np.float64]
 
 DEFAULT_DURATION = 0.1  # τ, the longest time that the thesis computes
 GROWTH = 0.01  # neighbours of the chosen mesh: 5 elements over the front's bending length at κ/ν = 0.05, 20 at 0.2
+LARGEST_STEP = 0.05  # of the end time: the front then moves by a fortieth of the contact length in one
 MOST_WORK = 2e9  # steps x nodes: about an hour
 SEGMENT = 4  # steps between two readings of the state
 
@@ -445,6 +446,9 @@ def simulate(
             beam.mbs.variables.clear()  # the container holds the system: break the circle
 
     warnings = _warnings(run, places, half_length, scaling, mesh is not None, impact)
+    last_step = (segments[-1].end - segments[-1].start) / segments[-1].steps
+    if last_step > LARGEST_STEP:
+        warnings.append(f"time steps of {last_step:.2g} end_time cannot follow the front; {LARGEST_STEP:g} is the most")
     about: dict[str, Any] = {
         "impact": impact,
         "warnings": warnings,
@@ -467,7 +471,7 @@ def simulate(
             "amplitude_of_the_real_beam": true,
             "ends": "moment and shear of the free motion" if scaling.psi or scaling.chi else "free",
             "first_step": segments[0].end / segments[0].steps * end,
-            "last_step": (segments[-1].end - segments[-1].start) / segments[-1].steps * end,
+            "last_step": last_step * end,
             "wall_seconds": clock.perf_counter() - began,
         },
     }

@@ -422,7 +422,8 @@ class _Run:
         return float(velocity @ (state.operators.damping @ velocity))
 
     def full_velocity(self) -> Array:
-        """η_τ as Hermite degrees of freedom (value and ζ-derivative), the latter from the curvature of both elements."""
+        """η_τ as Hermite degrees of freedom (value and ζ-derivative), the latter from the curvature of both elements.
+        """
         state = self.state
         eta, zeta = state.eta, state.zeta
         h = np.diff(zeta)
@@ -572,6 +573,6 @@ class _Run:
             )
         if moved > 0.3:
             found.append(
-                f"the front moved by {moved:.0%} of the contact length through the expanding mesh, out of its finest part"
+                f"the front moved by {moved:.0%} of the contact length through the expanding mesh, out of its finest"
             )
         return found

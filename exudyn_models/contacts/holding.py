@@ -1,8 +1,8 @@
 """Which captured nodes are held: those that the front has passed by fewer than ``hold`` elements, on either side.
 
-The first instants are never resolved, whatever the mesh: the front is then faster than any element. What their node impacts leave
-behind would lift the zone for a long time, so all captured nodes are held for a first share ``START`` of the run. A zone that is to lift
-off has by then moved by START² of its final way.
+The first instants are never resolved, whatever the mesh: the front is then faster than any element. What their node
+impacts leave behind would lift the zone for a long time, so all captured nodes are held for a first share ``START`` of
+the run. A zone that is to lift off has by then moved by START² of its final way.
 """
 
 from __future__ import annotations

@@ -1,4 +1,6 @@
-"""Estimators on synthetic histories made from the theory's own laws, with noise: they find what was put in, within their error bars."""
+"""Estimators on synthetic histories made from the theory's own laws, with noise: they find what was put in, within
+their error bars.
+"""
 
 import numpy as np
 import pytest
@@ -9,7 +11,9 @@ from theory import contact_parameters
 
 
 def synthetic(kappa, first=(0.0, 0.0, 0.0), epsilon=0.0, noise=0.0, seed=0, times=200, nodes=400, impact=None):
-    """A half-beam history with both concentrated reactions and the uniform one on a fixed mesh; impulses exact, plus noise."""
+    """A half-beam history with both concentrated reactions and the uniform one on a fixed mesh; impulses exact, plus
+    noise.
+    """
     rng = np.random.default_rng(seed)
     exact = contact_parameters(kappa, *first)
     alpha, psi, chi = (epsilon * v for v in first)

@@ -154,5 +154,5 @@ def test_rows_are_the_contract():
 
 @pytest.mark.parametrize("bad", [("fem", 0.5, None), ("hermite", -1.0, None), ("hermite", 0.5, (float("nan"), 0, 0))])
 def test_impossible_questions_are_refused(bad):
-    with pytest.raises(ValueError, match="path|kappa_over_nu|alpha"):
+    with pytest.raises(ValueError, match=r"path|kappa_over_nu|alpha"):
         Question(*bad)

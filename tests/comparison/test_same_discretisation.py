@@ -1,5 +1,5 @@
-"""In the linear limit an ANCF cable is the Hermite element with consistent mass: on one mesh, with one step and one contact law, both
-codes must give the same gaps, node by node and digit by digit. Neither knows of the other."""
+"""In the linear limit an ANCF cable is the Hermite element with consistent mass: on one mesh, with one step and one
+contact law, both codes must give the same gaps, node by node and digit by digit. Neither knows of the other."""
 
 import numpy as np
 import pytest

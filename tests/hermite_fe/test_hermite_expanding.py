@@ -1,4 +1,5 @@
-"""The expanding mesh: self-similar impacts at rest in it, held against literal values of the theory (thesis 2.6.21–22)."""
+"""The expanding mesh: self-similar impacts at rest in it, held against literal values of the theory (thesis 2.6.21–22).
+"""
 
 import numpy as np
 import pytest
@@ -6,7 +7,7 @@ import pytest
 from bent_beam import Impact, SimulationError
 from comparison.estimators import SIDE, leading_order, moments
 from hermite_fe import simulate
-from hermite_fe.expanding import ExpandingMesh, simulate_expanding, similarity
+from hermite_fe.expanding import ExpandingMesh, similarity, simulate_expanding
 
 EXACT = {  # κ/ν: λ₀, r₀
     1 / 1600: (56.5684099145, 35.4490354773),
