@@ -65,10 +65,9 @@ def draw_all(
 ) -> tuple[list[dict[str, Any]], list[dict[str, Any]]]:
     """Draw items into ``out``; what an interrupted call has drawn is not drawn again (unless the sources changed).
 
-    Returns (drawn, failures): drawn = [{"id", "title", "caption", "files": [picture(s) …, csv], "seconds"}], failures =
-    [{"id", "reason"}]. ``index.md`` in ``out`` shows all that was drawn, with captions. ``progress`` counts groups of
-    items.
-    Raises ``ValueError`` for an unknown id or format.
+    Returns (drawn, failures): drawn = [{"id", "title", "caption", "files": [picture(s) …, csv], "seconds"}],
+    failures = [{"id", "reason"}]. ``index.md`` in ``out`` shows all that was drawn, with captions. ``progress``
+    counts groups of items. Raises ``ValueError`` for an unknown id or format.
     """
     from comparison.figures.style import FORMATS
 

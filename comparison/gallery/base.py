@@ -3,10 +3,9 @@
     @item("fig-2.3", "The kernel H", "Shape of the deflection under an impulse (2.3.3).", group="kernel")
     def kernel(sheet: Sheet) -> str: …
 
-The function draws on the :class:`comparison.figures.recorder.Sheet`, whose data become the CSV, and returns what the
-numbers add to
-the caption (how ours differs from the thesis, and why) or nothing. Items of one group share runs, so one process
-draws them.
+The function draws on the :class:`comparison.figures.recorder.Sheet`, whose data become the CSV, and returns what
+the numbers add to the caption (how ours differs from the thesis, and why) or nothing. Items of one group share
+runs, so one process draws them.
 """
 
 from __future__ import annotations

@@ -98,9 +98,8 @@ def lifting(sheet: Sheet) -> str:
     p = fields.parameters
     return (
         f"The middle is {lifts[0]:.1e}, {lifts[1]:.1e}, {lifts[2]:.1e} off the wall at the three times; what "
-        "enters it near ±λ_c, "
-        f"up to {depths[0]:.0e}, {depths[1]:.0e}, {depths[2]:.0e}, is the expansion's O(ε²). λ₀ = {p.lambda0:.4f} "
-        f"(the thesis's text prints 1.1089 once, and 1.0189), λ₁ = {p.lambda1:.4f}; the thesis compares |λ₁|τ√τ "
-        "with λ₀√τ "
-        f"and leaves out ε = 0.1: the correction is {100 * 0.1 * abs(p.lambda1) * 0.5 / p.lambda0:.0f} % at τ = 0.5."
+        f"enters it near ±λ_c, up to {depths[0]:.0e}, {depths[1]:.0e}, {depths[2]:.0e}, is the expansion's O(ε²). "
+        f"λ₀ = {p.lambda0:.4f} (the thesis's text prints 1.1089 once, and 1.0189), λ₁ = {p.lambda1:.4f}; the "
+        "thesis compares |λ₁|τ√τ with λ₀√τ and leaves out ε = 0.1: the correction is "
+        f"{100 * 0.1 * abs(p.lambda1) * 0.5 / p.lambda0:.0f} % at τ = 0.5."
     )

@@ -141,9 +141,8 @@ def complementarity(sheet: Sheet) -> str:
         key_below(fig, axes[0, 0])
     return (
         f"Largest difference within |a| ≤ 1: {worst[0]:.1e} and {worst[1]:.1e} at τ = 0.1, {worst[2]:.1e} and "
-        f"{worst[3]:.1e} at "
-        "τ = 0.5, where ελ₁τ is a quarter of λ₀ and more for α = 4: the expansion, not the solution, ends there, "
-        "as the thesis says."
+        f"{worst[3]:.1e} at τ = 0.5, where ελ₁τ is a quarter of λ₀ and more for α = 4: the expansion, not the "
+        "solution, ends there, as the thesis says."
     )
 
 

@@ -84,8 +84,7 @@ def complementarity(sheet: Sheet) -> str:
         key_below(fig, axes[0, 0])
     return (
         f"Within |a| ≤ 1 the two differ by at most {worst:.0e}. (2.6.25–26) of the thesis lack the factor r₀/π "
-        "that (2.6.29) has; "
-        "with it they agree."
+        "that (2.6.29) has; with it they agree."
     )
 
 

@@ -95,8 +95,7 @@ def nodes(sheet: Sheet) -> str:
     _, last = evolution(sheet, "node")
     return NODE_NOTE.format(1e3 * last, "0.17 mm") + (
         "The thesis's node method was ten times flatter than its middle method; with the same settings ours is "
-        "not: it is no "
-        "property of the method alone."
+        "not: it is no property of the method alone."
     )
 
 
@@ -140,9 +139,8 @@ def energies(sheet: Sheet) -> str:
     zone = 0.5 * 2.0 * float(found[0].exact.front(found[0].time[-1])) * 400.0
     return (
         f"Lost by t = 2.5·10⁻⁴ s: {-found[0].energy[-1]:.0f} J (nodes), {-found[1].energy[-1]:.0f} J (middles). "
-        "The thesis puts the "
-        f"loss down to the kinetic energy of the beam that comes to rest, {zone:.0f} J; exactly none is lost, "
-        "all of it runs ahead as waves."
+        f"The thesis puts the loss down to the kinetic energy of the beam that comes to rest, {zone:.0f} J; "
+        "exactly none is lost, all of it runs ahead as waves."
     )
 
 
@@ -159,9 +157,8 @@ def strains(sheet: Sheet) -> str:
     exact = float(found[0].exact.strain_energy(found[0].time[-1]))
     return (
         f"At t = 2.5·10⁻⁴ s: {shown[0].strain[-1]:.1f} J (nodes), {shown[1].strain[-1]:.1f} J (middles); thesis: "
-        "3.8 and 38 J. Theory "
-        f"has {exact:.0f} J, a quarter of the energy V₀∫R dt, most of it in waves that elements longer than the "
-        "front is thick cannot carry."
+        f"3.8 and 38 J. Theory has {exact:.0f} J, a quarter of the energy V₀∫R dt, most of it in waves that "
+        "elements longer than the front is thick cannot carry."
     )
 
 
@@ -193,10 +190,9 @@ def starts(sheet: Sheet) -> str:
         key_below(fig, axis, 3, fontsize=7.0)
     predicted = BENT * 2.5e-3**2 / 8.0 / 20.0
     return (
-        f"The middle of the first element reaches the wall KΔx²/(8V₀) = {predicted:.1e} s after the centre "
-        "would; its first reaction "
-        f"is seen at {late[1]:.1e} s, that of the node method at {late[0]:.1e} s. The thesis's 7.5·10⁻⁸ s joins "
-        "nodes by straight lines."
+        f"The middle of the first element reaches the wall KΔx²/(8V₀) = {predicted:.1e} s after the centre would; "
+        f"its first reaction is seen at {late[1]:.1e} s, that of the node method at {late[0]:.1e} s. The thesis's "
+        "7.5·10⁻⁸ s joins nodes by straight lines."
     )
 
 

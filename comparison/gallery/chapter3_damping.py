@@ -47,10 +47,9 @@ def damped_energy(sheet: Sheet) -> str:
     exact = float(found[0].exact.fast_energy(found[0].time[-1]))
     return (
         f"The thesis reads the loss as the energy of the impact. Theory conserves energy: of the {exact:.3g} J "
-        "that the wall's push "
-        f"hands to the waves, the thesis's settings lose {found[1].measures['lost_impact']:.0f} % in impacts of "
-        "its elements, which "
-        "are longer than the front is thick."
+        "that the wall's push hands to the waves, the thesis's settings lose "
+        f"{found[1].measures['lost_impact']:.0f} % in impacts of its elements, which are longer than the front is "
+        "thick."
     )
 
 
@@ -99,7 +98,6 @@ def bounced_energy(sheet: Sheet) -> str:
     return (
         f"With 0 the thesis's settings lose {-float(found[0].energy[-1]):.3g} J, which the thesis takes for "
         "physics; with 1 "
-        f"{'they gain ' if found[1].energy[-1] > 0 else 'they lose '}{abs(float(found[1].energy[-1])):.2g} J. "
-        "The exact impact loses "
-        "none, and a mesh that resolves its front loses none with restitution 0."
+        f"{'they gain ' if found[1].energy[-1] > 0 else 'they lose '}{abs(float(found[1].energy[-1])):.2g} J. The "
+        "exact impact loses none, and a mesh that resolves its front loses none with restitution 0."
     )

@@ -72,9 +72,9 @@ def middle_starts() -> tuple[float, float]:
     "Discrete contact",
     group="discrete",
     caption=(
-        "Discrete contact, κ/ν = 1.25, uniform mesh Δx = 5·10⁻² m, τ = 0.01: (a) geometry, nodes; (b) "
-        "geometry, middles; "
-        "(c) energy, nodes; (d) reaction over the first steps and after for several element lengths (L = 1 m)."
+        "Discrete contact, κ/ν = 1.25, uniform mesh Δx = 5·10⁻² m, τ = 0.01: (a) geometry, nodes; (b) geometry, "
+        "middles; (c) energy, nodes; (d) reaction over the first steps and after for several element lengths (L "
+        "= 1 m)."
     ),
 )
 def discrete(sheet: Sheet) -> str:
@@ -96,14 +96,11 @@ def discrete(sheet: Sheet) -> str:
     masses = ", ".join(f"{i:.3g}" for i in first)
     return (
         f"The contact stays at x = 0, as theory says. Middles close after {starts:.2e} s, KΔx²/(8V₀) = "
-        f"{predicted:.2e} s (the thesis "
-        f"expects 7.85·10⁻⁴ s, joining nodes by straight lines). The first impact takes {lost:.3g} J (thesis: 10 "
-        "J, ½μΔxV₀²): the mass "
-        "that moves with a node is the consistent one, not μΔx. Impulse of the first step for the element "
-        "lengths of (d): "
-        f"{masses} N s (thesis: μΔxV₀, 1 and 0.2 N s for the first two). Theory needs neither: as Δx → 0 this "
-        "impulse vanishes and "
-        "R = 2√(2/π) r₀/√τ from the start."
+        f"{predicted:.2e} s (the thesis expects 7.85·10⁻⁴ s, joining nodes by straight lines). The first impact "
+        f"takes {lost:.3g} J (thesis: 10 J, ½μΔxV₀²): the mass that moves with a node is the consistent one, not "
+        f"μΔx. Impulse of the first step for the element lengths of (d): {masses} N s (thesis: μΔxV₀, 1 and 0.2 N "
+        "s for the first two). Theory needs neither: as Δx → 0 this impulse vanishes and R = 2√(2/π) r₀/√τ from "
+        "the start."
     )
 
 

@@ -76,10 +76,10 @@ def shapes(sheet: Sheet) -> str:
         key_below(fig, axes[0], 4)
     lifts = {a: lift(runs(a)[0]) for a in SIGNS}
     return (
-        f"Lift inside the zone with the thesis's settings: {1e3 * lifts[0.0]:.2g} mm for a₀ = 0 (thesis: 0.41 mm) and "
-        f"{1e3 * lifts[700.0]:.2g} mm for 700 m/s² (thesis: 0.32 mm); resolved {1e3 * abs(lift(runs(0.0)[1])):.1g} and "
-        f"{1e3 * abs(lift(runs(700.0)[1])):.1g} mm. For −700 m/s² the middle lifts off in theory too; at this "
-        "time εα τ = "
+        f"Lift inside the zone with the thesis's settings: {1e3 * lifts[0.0]:.2g} mm for a₀ = 0 (thesis: 0.41 mm) "
+        f"and {1e3 * lifts[700.0]:.2g} mm for 700 m/s² (thesis: 0.32 mm); resolved "
+        f"{1e3 * abs(lift(runs(0.0)[1])):.1g} and {1e3 * abs(lift(runs(700.0)[1])):.1g} mm. For −700 m/s² the "
+        "middle lifts off in theory too; at this time εα τ = "
         f"{abs(runs(-700.0)[0].impact.epsilon_alpha) * DURATION:.2g} is not small, so theory of first order is "
         "only near."
     )
@@ -108,11 +108,9 @@ def evolution(sheet: Sheet, axis: Axes, acceleration: float) -> None:
     "First order: geometry, contact length, reaction",
     group="first-order",
     caption=(
-        "(a, b) geometry at several times with the thesis's settings, (c, d) contact length, (e, f) reaction "
-        "of one side, for "
-        f"a₀ = 700 (left) and −700 m/s² (right); {CASE}; resolved, finite and infinite; theory of first "
-        "order, by the direct "
-        "link εα = a₀√(EI/μ)/V₀³."
+        "(a, b) geometry at several times with the thesis's settings, (c, d) contact length, (e, f) reaction of "
+        f"one side, for a₀ = 700 (left) and −700 m/s² (right); {CASE}; resolved, finite and infinite; theory of "
+        "first order, by the direct link εα = a₀√(EI/μ)/V₀³."
     ),
 )
 def all_of_it(sheet: Sheet) -> str:
@@ -149,8 +147,7 @@ def pushed(sheet: Sheet) -> str:
     one_map(sheet, 700.0)
     return (
         "Theory has the two moving forces and between them the uniform reaction μa₀: the thesis saw points here "
-        "and there (a), "
-        "a resolved beam carries it everywhere (b)."
+        "and there (a), a resolved beam carries it everywhere (b)."
     )
 
 

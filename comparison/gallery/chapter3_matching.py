@@ -78,8 +78,7 @@ def parameters(sheet: Sheet) -> str:
     group="matching",
     caption=(
         "Curvatures K of the sweep at V₀ = 20 m/s with κ/ν, theory's λ₀ and r₀, and how many elements of the "
-        "thesis span its "
-        "front's thickness 2√(√(EI/μ) t)/λ₀ at τ = 0.1."
+        "thesis span its front's thickness 2√(√(EI/μ) t)/λ₀ at τ = 0.1."
     ),
 )
 def curvatures(sheet: Sheet) -> str:
@@ -152,8 +151,7 @@ def _worst(what: str) -> str:
     group="matching",
     caption=(
         "λ₀ over κ/ν for the curvatures of Table 3.4: theory, the thesis's settings, and both paths of this "
-        "project; "
-        "relative differences below."
+        "project; relative differences below."
     ),
 )
 def matched_length(sheet: Sheet) -> str:
@@ -168,8 +166,7 @@ def matched_length(sheet: Sheet) -> str:
     group="matching",
     caption=(
         "r₀ over κ/ν for the curvatures of Table 3.4: theory, the thesis's settings, and both paths of this "
-        "project; "
-        "relative differences below."
+        "project; relative differences below."
     ),
 )
 def matched_reaction(sheet: Sheet) -> str:
@@ -177,10 +174,8 @@ def matched_reaction(sheet: Sheet) -> str:
     old = [o.measures["reaction_error"] or 0.0 for o in noisy()]
     return (
         f"{_worst('r0')}; the thesis's settings from {signed(min(old))} to {signed(max(old))} %, largest where an "
-        "element is longest "
-        "against the front. r₀ is fitted to impulses here, not to filtered forces. The thesis's R₀ is "
-        "√(2/π)μV₀(EI/μ)^¼ r₀, "
-        "one side, N√s."
+        "element is longest against the front. r₀ is fitted to impulses here, not to filtered forces. The "
+        "thesis's R₀ is √(2/π)μV₀(EI/μ)^¼ r₀, one side, N√s."
     )
 
 
@@ -208,6 +203,5 @@ def reaction_in_space_and_time(sheet: Sheet) -> str:
         space_time(sheet, axes[1], 1.0 / 80.0, "node", "b")
     return (
         "The reaction is at the moving ends of the contact, as theory says; what is scattered inside is the "
-        "rattling of contact "
-        "points that theory leaves without any reaction."
+        "rattling of contact points that theory leaves without any reaction."
     )

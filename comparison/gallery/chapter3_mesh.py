@@ -39,9 +39,8 @@ def shape(sheet: Sheet) -> str:
     lifts = ", ".join(f"{o.measures['lift']:.2g}" for o in found)
     return (
         f"Lift over V₀t: {lifts}. As the thesis says, its element lengths do not cure the lift: the front, "
-        f"{1e3 * 2 / 6.237 * 0.05 * np.sqrt(DURATION):.2g} mm thick at the end and less before, needs elements "
-        "of a fraction of that "
-        "from the start."
+        f"{1e3 * 2 / 6.237 * 0.05 * np.sqrt(DURATION):.2g} mm thick at the end and less before, needs elements of "
+        "a fraction of that from the start."
     )
 
 
@@ -90,8 +89,7 @@ def counts(sheet: Sheet) -> str:
     sheet.table(["e", "thesis", "ours", "largest element (m)"], rows, width=style.COLUMN + 0.8)
     return (
         "A uniform zone of 25 elements a side gives the thesis's numbers within two elements, without its cap of "
-        "10³ on the ratio of "
-        "lengths; its largest element for e = 1.25, 0.2994 m, does not fit 120 elements."
+        "10³ on the ratio of lengths; its largest element for e = 1.25, 0.2994 m, does not fit 120 elements."
     )
 
 
@@ -169,10 +167,9 @@ def square_shape(sheet: Sheet) -> str:
     middle = -float(found[1].gap[0])
     side = "inside the wall" if middle > 0 else "off the wall"
     return (
-        f"The middle node of the square mesh is {1e4 * abs(middle):.2g}·10⁻⁴ m {side} (thesis: 1.8·10⁻⁴ m inside): "
-        f"the first element, {1e3 * square().first_element:.2g} mm, is what its row in the middle leaves free. "
-        "Ours is flat to "
-        f"{found[-1].measures['lift']:.0e} V₀t."
+        f"The middle node of the square mesh is {1e4 * abs(middle):.2g}·10⁻⁴ m {side} (thesis: 1.8·10⁻⁴ m "
+        f"inside): the first element, {1e3 * square().first_element:.2g} mm, is what its row in the middle leaves "
+        f"free. Ours is flat to {found[-1].measures['lift']:.0e} V₀t."
     )
 
 

@@ -105,8 +105,7 @@ def exact_ball(times: np.ndarray) -> np.ndarray:
     group="statics",
     caption=(
         "Bouncing ball, q₀ = 0.5 m, v₀ = 0, h = 10⁻³ s, restitution 0.9, Moreau–Jean with implicit Euler: the "
-        "law acts on "
-        "velocities, so positions drift by up to a step (zoom on the right)."
+        "law acts on velocities, so positions drift by up to a step (zoom on the right)."
     ),
 )
 def bouncing(sheet: Sheet) -> str:
@@ -142,8 +141,8 @@ def bouncing(sheet: Sheet) -> str:
     )
     return (
         f"At the first bounce it turns {1e3 * abs(first):.2g} mm {where if first < 0.0 else 'above the wall'}; "
-        "either way "
-        f"within the {1e3 * hit * 9.81e-3:.2g} mm that it moves in a step, and smaller steps bring it to the wall."
+        f"either way within the {1e3 * hit * 9.81e-3:.2g} mm that it moves in a step, and smaller steps bring it "
+        "to the wall."
     )
 
 

@@ -48,8 +48,7 @@ def length(sheet: Sheet) -> str:
     one_panel(sheet, contact_length, outcomes())
     return (
         "Steps of the lines are the elements; where a line falls back, the outermost node has let go for a "
-        "moment. Read as the "
-        "thesis does: the first node from outside that touches or has the smallest gap."
+        "moment. Read as the thesis does: the first node from outside that touches or has the smallest gap."
     )
 
 
@@ -64,9 +63,9 @@ def force(sheet: Sheet) -> str:
     one_panel(sheet, reaction, found)
     noise = [o.measures["noise"] or 0.0 for o in found]
     return (
-        "The thesis filters its force (filtfilt); here it is averaged over windows of time. Scatter about "
-        "theory in the second half: "
-        f"{min(noise[:-1]):.0f} to {max(noise[:-1]):.0f} % with the thesis's settings, {noise[-1]:.2g} % with ours."
+        "The thesis filters its force (filtfilt); here it is averaged over windows of time. Scatter about theory "
+        f"in the second half: {min(noise[:-1]):.0f} to {max(noise[:-1]):.0f} % with the thesis's settings, "
+        f"{noise[-1]:.2g} % with ours."
     )
 
 
@@ -76,8 +75,7 @@ def force(sheet: Sheet) -> str:
     group="time-step",
     caption=(
         "Seconds for each time step, the thesis's and ours on the same mesh and steps, and the expanding mesh, "
-        "which resolves "
-        "what they do not."
+        "which resolves what they do not."
     ),
 )
 def cost(sheet: Sheet) -> str:
@@ -104,8 +102,7 @@ def cost(sheet: Sheet) -> str:
     ratio = THESIS[2.5e-8][0] / max(found[3].measures["seconds"] or 1.0, 1e-9)
     return (
         "Thesis: Matlab on a personal computer of 2019; ours: compiled banded loops on the machine that draws "
-        "this, about "
-        f"{ratio:.0e} times faster at h = 2.5·10⁻⁸ s. Ours solves each level's contact set exactly by a pivoting pass, "
-        "so there is no count of Newton iterations to set beside the thesis's. Last row: expanding mesh, steps "
-        "in proportion to time."
+        f"this, about {ratio:.0e} times faster at h = 2.5·10⁻⁸ s. Ours solves each level's contact set exactly by "
+        "a pivoting pass, so there is no count of Newton iterations to set beside the thesis's. Last row: "
+        "expanding mesh, steps in proportion to time."
     )

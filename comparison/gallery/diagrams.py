@@ -215,8 +215,8 @@ def cantilever(sheet: Sheet) -> str:
     group="diagrams",
     caption=(
         "Nodes (circles) and middles (crosses) of the elements next to the centre of a bent beam at first "
-        "contact at nodes, "
-        "and when the middle method closes: the central node has then entered the wall by KΔx²/8."
+        "contact at nodes, and when the middle method closes: the central node has then entered the wall by "
+        "KΔx²/8."
     ),
 )
 def nodes_and_middles(sheet: Sheet) -> str:
@@ -246,6 +246,5 @@ def nodes_and_middles(sheet: Sheet) -> str:
         key_below(fig, axes[1])
     return (
         "With the Hermite shape functions a middle lies on the bent beam; the thesis's estimate of twice this "
-        "penetration "
-        "joins the nodes by straight lines."
+        "penetration joins the nodes by straight lines."
     )

@@ -2,8 +2,8 @@
 the same mesh.
 
 Slopes over the front are of order √τ, τ = t/t* (:class:`exudyn_models.geometry.TrueGeometry`): the end time sets
-them. The beam is cut
-where it would turn by more than 1.5 rad; the linear run on the same mesh takes what that costs out of the difference.
+them. The beam is cut where it would turn by more than 1.5 rad; the linear run on the same mesh takes what that
+costs out of the difference.
 """
 
 from __future__ import annotations

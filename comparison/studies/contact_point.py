@@ -41,12 +41,10 @@ def conclude(outcomes: Sequence[Outcome]) -> str:
     if fine and held and (fine["lift"] or 0.0) > 1.2 * (held["lift"] or 0.0):
         text.append(
             "The double detachment is rectified noise and a start that no mesh resolves: behind the front the "
-            "exact reaction is nil, "
-            "so a one-sided law turns noise of either sign into pushes off the wall. Shorter elements and slow "
-            "growth leave "
-            f"{number(fine['lift'] or 0.0)} V₀t; with captured nodes held until the front is 16 elements on, and "
-            "damping at grid "
-            f"scale, {number(held['lift'] or 0.0)} V₀t are left."
+            "exact reaction is nil, so a one-sided law turns noise of either sign into pushes off the wall. "
+            f"Shorter elements and slow growth leave {number(fine['lift'] or 0.0)} V₀t; with captured nodes held "
+            f"until the front is 16 elements on, and damping at grid scale, {number(held['lift'] or 0.0)} V₀t are "
+            "left."
         )
     elif fine and held:
         text.append(
@@ -63,8 +61,7 @@ def _node_or_middle(node: dict[str, float | None], middle: dict[str, float | Non
     better = "nodes" if lifts[0] < lifts[1] else "middles"
     verdict = (
         "the thesis's tenfold advantage of the node method is not a property of the method: the ratio is "
-        f"{number(ratio)}, "
-        f"in favour of {better}"
+        f"{number(ratio)}, in favour of {better}"
         if ratio < 5.0 or better == "middles"
         else f"the node method is flatter by a factor of {number(ratio)}, as the thesis found"
     )
@@ -81,8 +78,7 @@ def _node_or_middle(node: dict[str, float | None], middle: dict[str, float | Non
     return (
         f"Nodes lift by {number(lifts[0])} V₀t, middles by {number(lifts[1])} V₀t: {verdict}. r₀ is off by "
         f"{signed(node['reaction_error'] or 0.0)} and {signed(middle['reaction_error'] or 0.0)} %, the forces "
-        "scatter by "
-        f"{number(noises[0])} and {number(noises[1])} %: {quiet}."
+        f"scatter by {number(noises[0])} and {number(noises[1])} %: {quiet}."
     )
 
 

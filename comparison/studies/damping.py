@@ -8,7 +8,7 @@ from bent_beam.cases import Case
 from comparison.studies.base import Study
 from comparison.studies.outcome import Outcome
 from comparison.studies.thesis import Variant, cured, thesis_settings
-from comparison.studies.words import between, cure, moves, number, of_kind, smallest_and_largest
+from comparison.studies.words import between, cure, moves, number, of_kind
 
 __all__ = ["RADII", "STUDY"]
 
@@ -37,13 +37,15 @@ def conclude(outcomes: Sequence[Outcome]) -> str:
         f"ρ∞ from 1 to 0 {'does not change' if agrees else 'changes'} the geometry (lift {between(old, 'lift')} V₀t)"
         f"{', as the thesis found' if agrees else ''}; r₀ is off by {between(old, 'reaction_error', ' %')}."
     ]
-    impacts, damping = smallest_and_largest(old, "lost_impact"), smallest_and_largest(old, "lost_damping")
-    if impacts[1] > 0.0 or damping[1] > 0.0:
+    pairs = [(o.measures["lost_impact"], o.measures["lost_damping"]) for o in old]
+    losses = [(i, d) for i, d in pairs if i is not None and d is not None]
+    if losses:
+        less = all(d < i for i, d in losses)
         text.append(
             f"Of the energy that the exact impact hands over to waves, the impacts of the mesh points destroy "
             f"{between(old, 'lost_impact', ' %')}, the algorithmic damping {between(old, 'lost_damping', ' %')}. "
-            f"Theory loses none: the thesis is right that damping takes less than the impacts, "
-            f"but both losses are numerical, and the waves that are missing are those which the elements cannot carry."
+            f"Theory loses none: {'the thesis is right that damping takes less than the impacts, but ' if less else ''}"
+            "both losses are numerical, and the waves that are missing are those which the elements cannot carry."
         )
     if viscous:
         m = viscous[0].measures

@@ -3,8 +3,8 @@
     λ_c(t) = (EI/μ)^{1/4} √t (λ₀ + ελ₁ t/t*),   R(t)/2 = √(2/π) μV₀(EI/μ)^{1/4} (r₀ + εr₁ t/t*)/√t + uniform part
 
 Energies (leading order) are of the whole beam: all that the wall takes out of the free motion, V₀∫R dt, is found
-again in the fast
-layer; the part that bends the beam is the strain energy, the rest is missing from the kinetic energy. Nothing is lost.
+again in the fast layer; the part that bends the beam is the strain energy, the rest is missing from the kinetic
+energy. Nothing is lost.
 """
 
 from __future__ import annotations

@@ -3,10 +3,9 @@
     λ_c(t) = (EI/μ)^{1/4} √t (λ₀ + ελ₁ t/t*),   the thesis's fitted "λ₁" = ελ₁ (EI/μ)^{1/4}/t*  in m/s^{3/2}
 
 fitted as the thesis did (λ₀ given, least squares in λ_c over 0 ≤ t ≤ t_f) to the contact length on the thesis's
-finite beam with the
-thesis's settings, on a finite beam that is resolved, and on an infinite one; the last also over ever shorter t_f, for
-the fit tends to
-ελ₁ only as t_f → 0: at the thesis's t_f the correction is a third of the leading order.
+finite beam with the thesis's settings, on a finite beam that is resolved, and on an infinite one; the last also
+over ever shorter t_f, for the fit tends to ελ₁ only as t_f → 0: at the thesis's t_f the correction is a third of
+the leading order.
 """
 
 from __future__ import annotations
@@ -120,10 +119,9 @@ def conclude(outcomes: Sequence[Outcome]) -> str:
         target = predicted(infinite.impact)
         sentence = (
             f"a₀ = {name}{abs(infinite.impact.acceleration):g} m/s²: the direct link predicts {number(target)} "
-            "m/s^(3/2); on an infinite "
-            f"beam the fit gives {number(fitted(infinite))} over the whole run and "
-            f"{number(fitted(infinite, WINDOWS[-1]))} over its "
-            f"first {100 * WINDOWS[-1]:g} %, tending to it as the window shrinks"
+            f"m/s^(3/2); on an infinite beam the fit gives {number(fitted(infinite))} over the whole run and "
+            f"{number(fitted(infinite, WINDOWS[-1]))} over its first {100 * WINDOWS[-1]:g} %, tending to it as "
+            "the window shrinks"
         )
         end = contact_time(infinite)
         if end < 0.99 * float(infinite.time[-1]):
@@ -144,8 +142,7 @@ def conclude(outcomes: Sequence[Outcome]) -> str:
     if text:
         text.append(
             "What separates the fits from theory is the end time, at which the correction is no longer small, "
-            "and on the finite beam the waves "
-            "that come back; the direct link between a₀ and α is right."
+            "and on the finite beam the waves that come back; the direct link between a₀ and α is right."
         )
     return " ".join(text)
 

@@ -67,8 +67,7 @@ def conclude(outcomes: Sequence[Outcome]) -> str:
         lift = max(abs((m["lift"] or 0.0) - (without["lift"] or 0.0)) for m in rubbed.values())
         text.append(
             f"Friction up to {max(f for f in rubbed if f is not None):g} {what} moves r₀ by {number(reaction)} % "
-            "at most, the lift by "
-            f"{number(lift)} V₀t."
+            f"at most, the lift by {number(lift)} V₀t."
             + (
                 " It does nothing that matters: a point of the beam comes down on the wall almost without sliding."
                 if reaction < 0.1

@@ -76,12 +76,12 @@ def conclude(outcomes: Sequence[Outcome]) -> str:
     lengths = [o for o in old if "e = 1.25" in o.label]
     base = lengths[1] if len(lengths) > 1 else lengths[0]
     slow = [o for o in old if "e = 1.02" in o.label]
+    errors = [o.measures["reaction_error"] or 0.0 for o in lengths]
+    falling = errors == sorted(errors, reverse=True) and errors[-1] > 0.0
+    over = ": the reaction is overestimated while an element is longer than the front is thick" if falling else ""
     text = [
-        f"Shorter elements {'lower' if _falls(lengths) else 'hardly change'} the lift "
-        f"({between(lengths, 'lift')} V₀t) and bring r₀ from "
-        f"{signed(lengths[0].measures['reaction_error'] or 0.0)} % to "
-        f"{signed(lengths[-1].measures['reaction_error'] or 0.0)} % "
-        f"of theory: the reaction is overestimated as long as an element is longer than the front is thick."
+        f"Shorter elements {'lower' if _falls(lengths) else 'hardly change'} the lift ({between(lengths, 'lift')} "
+        f"V₀t) and bring r₀ from {signed(errors[0])} % to {signed(errors[-1])} % of theory{over}."
     ]
     if slow:
         graded = _growth_words(base, slow[0])
@@ -92,8 +92,7 @@ def conclude(outcomes: Sequence[Outcome]) -> str:
         text.append(
             f'The "square" mesh spreads the steps of λ_c evenly (the thesis\'s point) and gives a lift of '
             f"{number(m['lift'] or 0.0)} V₀t and r₀ {signed(m['reaction_error'] or 0.0)} %: its first elements "
-            "are its longest, "
-            f"so the start is resolved worst."
+            "are its longest, so the start is resolved worst."
         )
     text.append(cure(outcomes))
     return " ".join(text)
@@ -115,8 +114,8 @@ def _growth_words(base: Outcome, slow: Outcome) -> str:
         )
     return (
         f"Growing by 2 % an element in place of 25 % changes little here (noise {number(before)} and "
-        f"{number(after)} %): "
-        f"the thesis is right for this case, whose waves are as short as its elements and do not leave the zone anyway."
+        f"{number(after)} %): the thesis is right for this case, whose waves are as short as its elements and do "
+        "not leave the zone anyway."
     )
 
 

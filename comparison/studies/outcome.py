@@ -27,7 +27,7 @@ __all__ = ["MEASURES", "Outcome", "failed", "outcome_of", "saved_times"]
 
 Array = NDArray[np.float64]
 WINDOWS = 50
-TOUCH = 1e-6  # m: gaps below are contact for the thesis's reading of the front (3.3.5)
+TOUCH = 1e-6  # of V₀t: gaps below are contact (the thesis takes 10⁻⁶ m, which reads ahead of a thick front)
 
 MEASURES: dict[str, str] = {
     "contact_length_error": "λ₀ error (%)",
@@ -140,7 +140,8 @@ def touching(history: ImpactHistory) -> Array:
     gap, x = gap[:, half], x[half]
     outer = np.pad(gap, ((0, 0), (1, 1)), constant_values=np.inf)
     lowest = (gap < outer[:, 2:]) & (gap <= outer[:, :-2]) & (x < 0.5 * x[-1])
-    reached = np.where((gap <= TOUCH) | lowest, x[None, :], 0.0).max(axis=1)
+    small = TOUCH * history.impact.velocity * float(history.time[-1])
+    reached = np.where((gap <= small) | lowest, x[None, :], 0.0).max(axis=1)
     return np.asarray(np.where(history.time > 0.0, reached, 0.0))
 
 

@@ -78,19 +78,17 @@ def conclude(outcomes: Sequence[Outcome]) -> str:
             tried = [o.value for o in runs if o.value is not None]
             text.append(
                 f"Over {names[symbol]} from {min(tried):g} to {max(tried):g}, r₀ is off by "
-                f"{between(runs, 'reaction_error', ' %')}, "
-                f"λ₀ by {between(runs, 'contact_length_error', ' %')}, the reaction scatters by "
-                f"{between(runs, 'noise', ' %')} "
-                f"and the zone lifts by {between(runs, 'lift')} V₀t."
+                f"{between(runs, 'reaction_error', ' %')}, λ₀ by {between(runs, 'contact_length_error', ' %')}, "
+                f"the reaction scatters by {between(runs, 'noise', ' %')} and the zone lifts by "
+                f"{between(runs, 'lift')} V₀t."
             )
     if base is not None and default is not None:
         worst = max((base, *(o for runs in groups.values() for o in runs)), key=lambda o: o.measures["noise"] or 0.0)
         text.append(
             f"The noisiest that finished is {worst.label} ({number(worst.measures['noise'] or 0.0)} %). Held "
-            "behind the front and with "
-            f"viscosity at grid scale the lift falls from {number(base.measures['lift'] or 0.0)} to "
-            f"{number(default.measures['lift'] or 0.0)} V₀t, the error of λ₀ from "
-            f"{number(abs(base.measures['contact_length_error'] or 0.0))} to "
+            "behind the front and with viscosity at grid scale the lift falls from "
+            f"{number(base.measures['lift'] or 0.0)} to {number(default.measures['lift'] or 0.0)} V₀t, the error "
+            f"of λ₀ from {number(abs(base.measures['contact_length_error'] or 0.0))} to "
             f"{number(abs(default.measures['contact_length_error'] or 0.0))} %."
         )
     return " ".join([*text, cure(outcomes)])

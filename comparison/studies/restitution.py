@@ -32,18 +32,15 @@ def conclude(outcomes: Sequence[Outcome]) -> str:
     lifts = (none["lift"] or 0.0, full["lift"] or 0.0)
     text = [
         f"Restitution 1 lifts the zone by {number(lifts[1])} V₀t against {number(lifts[0])} V₀t with 0, and the "
-        "force scatters by "
-        f"{number(full['noise'] or 0.0)} against {number(none['noise'] or 0.0)} %: "
+        f"force scatters by {number(full['noise'] or 0.0)} against {number(none['noise'] or 0.0)} %: "
         + ("0 it must be, as the thesis concludes." if lifts[1] > 1.5 * lifts[0] else "the two hardly differ here.")
     ]
     if none["lost_impact"] is not None:
         text.append(
             f"With 0 the impacts destroy {number(none['lost_impact'])} % of the energy that should leave as "
-            "waves, with 1 "
-            f"{number(abs(full['lost_impact'] or 0.0))} %. The thesis reads the first as what a real impact "
-            "does; theory, whose contact "
-            "points move on without doing work, keeps it all, and so does a mesh that resolves the front, with "
-            "restitution 0."
+            f"waves, with 1 {number(abs(full['lost_impact'] or 0.0))} %. The thesis reads the first as what a "
+            "real impact does; theory, whose contact points move on without doing work, keeps it all, and so "
+            "does a mesh that resolves the front, with restitution 0."
         )
     return " ".join([*text, cure(outcomes)])
 

@@ -71,6 +71,5 @@ def cure(outcomes: Sequence[Outcome]) -> str:
     first = " (end values; theory is of first order in ε)" if not best.exact.leading else ""
     return (
         "With the front resolved at all times and the waves absorbed "
-        f"({best.label.lower().replace('hermite', 'Hermite')}) "
-        f"the same case gives {', '.join(parts)}{first}."
+        f"({best.label.lower().replace('hermite', 'Hermite')}) the same case gives {', '.join(parts)}{first}."
     )
