@@ -100,7 +100,7 @@ def evolution(sheet: Sheet, axis: Axes, acceleration: float) -> None:
     axis.axhspan(0.0, 5.0, color="#E8E8E8", lw=0, zorder=0)
     axis.set_xlim(0, 0.45)
     axis.set_ylim(-8.0, 1.0)
-    axis.legend(fontsize=6.5, loc="lower left")
+    axis.legend(fontsize=6.5, loc="lower left" if acceleration > 0.0 else "lower right")
 
 
 @item(
