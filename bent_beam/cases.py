@@ -130,7 +130,7 @@ def _set(tables: dict[str, Any], assignment: str) -> None:
         raise InputError(f"--set takes table.key=value (got {shortened(assignment)})")
     text = text.strip()
     value: Any = text
-    if last != "kind" and "\n" not in text or text.startswith(("'", '"')):  # a kind is a name, "true" is one
+    if (last != "kind" and "\n" not in text) or text.startswith(("'", '"')):  # a kind is a name, "true" is one
         try:
             value = tomllib.loads(f"value = {text}")["value"]
         except (ValueError, RecursionError):

@@ -22,6 +22,7 @@ Attributes hold the case, the settings, versions and warnings as JSON text.
 
 from __future__ import annotations
 
+import errno
 import importlib.metadata
 import json
 import os
@@ -35,6 +36,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from bent_beam.checks import one_of
 from bent_beam.impact import Impact
 
 __all__ = ["ImpactHistory", "SimulationError", "versions"]
@@ -60,6 +62,8 @@ UNITS = {
     "loss_integration": "J",
     "loss_artificial": "J",
 }
+REQUIRED = ("time", "x", "contact_x", "gap", "impulse", "total_impulse", "kinetic_energy", "strain_energy")
+MAXIMUM_BYTES = 8_000_000_000
 FORMAT = "bent-beam-impact history 1"
 
 
@@ -238,20 +242,53 @@ class ImpactHistory:
                 os.fsync(written.fileno())
             os.chmod(part, 0o644)
             os.replace(part, target)
+        except OSError as error:
+            raise OSError(error.errno or errno.EIO, error.strerror or str(error), str(target)) from error
         finally:
             part.unlink(missing_ok=True)
         return target
 
     @classmethod
     def load(cls, file: str | Path) -> ImpactHistory:
-        """Read a history back; ``ValueError`` when the file is none."""
+        """Read a history back; ``ValueError`` when the file is none, or holds anything that a history does not."""
         source = Path(file)
         try:
-            dataset = xr.load_dataset(source, engine="h5netcdf")
+            with xr.open_dataset(source, engine="h5netcdf", decode_times=False) as stored:
+                if stored.nbytes > MAXIMUM_BYTES:
+                    raise ValueError(f"it would take {stored.nbytes:.2g} bytes of memory")
+                dataset = stored.load()
         except FileNotFoundError:
             raise
         except Exception as error:  # h5py raises many kinds for a broken file
             raise ValueError(f"{source} is not a readable history: {error}") from error
         if dataset.attrs.get("format") != FORMAT:
             raise ValueError(f"{source} is not a history of this project")
-        return cls(dataset)
+        history = cls(dataset)
+        try:
+            history._check()
+        except (ValueError, TypeError, KeyError, OverflowError, RecursionError) as error:
+            what = f"{error} is missing" if isinstance(error, KeyError) else str(error)
+            raise ValueError(f"{source} is not a good history: {what}") from None
+        return history
+
+    def _check(self) -> None:
+        """Raise when an attribute or a variable is not what a history holds: numbers and JSON, nothing else."""
+        for name in ("impact", "settings", "versions", "warnings", "path", "symmetry"):
+            if not isinstance(self.dataset.attrs[name], str):
+                raise TypeError(f"attribute {name} must be text")
+        for name, kind in (("impact", dict), ("settings", dict), ("versions", dict), ("warnings", list)):
+            if not isinstance(json.loads(self.dataset.attrs[name]), kind):
+                raise TypeError(f"attribute {name} must hold a JSON {kind.__name__}")
+        one_of("attribute symmetry", self.dataset.attrs["symmetry"], ("half", "full"))
+        _ = self.impact, self.steps, self.seconds, self.completed
+        for required in REQUIRED:
+            _ = self.dataset[required]
+        for label, variable in self.dataset.variables.items():
+            if variable.dtype.kind not in "fiub":
+                raise TypeError(f"{label} must hold numbers (got {variable.dtype})")
+            if not set(variable.dims) <= {"time", "x", "contact"}:
+                raise ValueError(f"{label} must have dimensions time, x and contact (got {variable.dims})")
+            if not np.all(np.isfinite(variable.values)):
+                raise ValueError(f"{label} is not finite")
+        if self.time.size < 1 or np.any(np.diff(self.time) <= 0.0):
+            raise ValueError("time must increase")

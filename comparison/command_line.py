@@ -13,6 +13,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Annotated, Any
 
+import numpy as np
 import typer
 from typer._click.exceptions import ClickException
 
@@ -20,6 +21,7 @@ from bent_beam.cases import load_case
 from bent_beam.history import ImpactHistory, SimulationError
 from bent_beam.parts import InputError
 from comparison.console import Console
+from comparison.store import check_writable
 
 __all__ = ["app", "main"]
 
@@ -112,18 +114,23 @@ def simulate(
     from comparison.tables import run_table
 
     loaded = load_case(case, assignments or ())
-    if out is not None and out.exists() and not overwrite:
-        raise InputError(f"out: {out} exists already (give another name, or --overwrite)")
+    _check_out(out, overwrite)
     console = Console(quiet)
     try:
         with console.progress(f"{path}: {case.name}") as bar:
             history = simulate_case(loaded, path, save=save, progress=bar.fraction)
     except SimulationError as error:
         raise _kept(error, out) from None
+    problem = None
     if out is not None:
-        history.save(out)
+        try:
+            history.save(out)
+        except OSError as error:  # the run's answer is worth more than its file
+            problem, out = f"out: {out} could not be written: {error.strerror or error}", None
     found = summary(history, out)
     _emit(found, as_json, lambda: run_table(found))
+    if problem:
+        raise InputError(problem)
 
 
 @app.command()
@@ -142,11 +149,18 @@ def rerun(
 
     if not file.exists():
         raise InputError(f"history {file}: no such file")
-    if out is not None and out.exists() and not overwrite:
-        raise InputError(f"out: {out} exists already (give another name, or --overwrite)")
+    _check_out(out, overwrite)
     with Console(quiet).progress(f"again: {file.name}") as bar:
         found = rerun_history(ImpactHistory.load(file), out, bar.fraction)
     _emit(found, as_json, lambda: "\n".join(f"{k}: {v}" for k, v in found.items()))
+
+
+def _check_out(out: Path | None, overwrite: bool) -> None:
+    if out is None:
+        return
+    if out.exists() and not overwrite:
+        raise InputError(f"out: {out} exists already (give another name, or --overwrite)")
+    check_writable(out, folder=False)
 
 
 def _first_order(values: Sequence[str]) -> list[tuple[float, float, float]]:
@@ -187,6 +201,8 @@ def match(
 
     asked = questions(path, kappa_over_nu or THESIS_KAPPAS, _first_order(first_order or ()))
     store = RunStore(None if fresh else default_store())
+    if out is not None:
+        check_writable(out, folder=True)
     with Console(quiet).progress(f"{len(asked)} rows") as bar:
         rows, failures = match_all(asked, store=store, jobs=jobs, scheduler=scheduler, progress=bar.count)
     document = match_document(rows, failures)
@@ -229,6 +245,8 @@ def study(
     if case is None:
         raise InputError("a case file is required: bentbeam study NAME CASE.toml")
     loaded = load_case(case, assignments or ())
+    if out is not None:
+        check_writable(out, folder=True)
     with Console(quiet).progress(f"study {name}") as bar:
         found = run_study(name, loaded, out=out, jobs=jobs, progress=bar.count)
     _emit(found.to_dict(), as_json, found.text)
@@ -261,6 +279,7 @@ def gallery(
     for wanted in ids or ():
         if wanted not in ITEMS:
             raise InputError(f"gallery {wanted!r} is not known{nearest(wanted, ITEMS)}")
+    check_writable(out, folder=True)
     with Console(quiet).progress("gallery") as bar:
         drawn, failures = draw_all(ids or list(ITEMS), out, formats=format, jobs=jobs, progress=bar.count)
     _emit(
@@ -296,6 +315,7 @@ def report(
     page = out / "index.html"
     if page.exists() and not overwrite:
         raise InputError(f"out: {page} exists already (give another folder, or --overwrite)")
+    check_writable(out, folder=True)
     store = RunStore(None if fresh else default_store())
     with Console(quiet).progress("report") as bar:
         found = write_report(out, store=store, jobs=jobs, scheduler=scheduler, progress=bar.count)
@@ -324,11 +344,19 @@ def _kept(error: SimulationError, out: Path | None) -> SimulationError:
 
 def main(arguments: Sequence[str] | None = None) -> None:
     """Run the command and leave with its exit code."""
-    sys.exit(run(arguments))
+    code = run(arguments)
+    try:
+        sys.stdout.flush()
+    except OSError as error:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), 1)  # what is left in the buffer has nowhere to go
+        if not isinstance(error, BrokenPipeError):
+            code = _refuse(f"standard output cannot be written: {error.strerror}", 2)
+    sys.exit(code)
 
 
 def run(arguments: Sequence[str] | None = None) -> int:
     """Run the command; returns its exit code, prints one line on standard error when it is not 0."""
+    np.seterr(all="ignore")  # every result is checked to be finite; NumPy's remarks on the way are not for users
     try:
         code = app(args=None if arguments is None else list(arguments), prog_name="bentbeam", standalone_mode=False)
         return int(code or 0)
@@ -341,6 +369,8 @@ def run(arguments: Sequence[str] | None = None) -> int:
         return 0
     except (ValueError, OSError) as error:  # InputError among them
         return _refuse(str(error), 2)
+    except MemoryError:
+        return _refuse("not enough memory; fewer nodes, steps or saved instants need less", 3)
     except (KeyboardInterrupt, typer.Abort):
         return _refuse("interrupted; what was finished is kept and will not be computed again", 130)
 

@@ -8,10 +8,12 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pydantic
 
 from bent_beam import meshes
+from bent_beam.checks import finite, shortened, whole
 from bent_beam.history import ImpactHistory, versions
-from bent_beam.parts import InputError
+from bent_beam.parts import InputError, first_line
 
 __all__ = ["rerun_history"]
 
@@ -20,17 +22,19 @@ def _rebuild(described: Any, known: Mapping[str, type], where: str) -> Any:
     """The part that :func:`bent_beam.parts.describe` described; nested parts too. Only known classes are ever made."""
     if described is None:
         return None
-    if not isinstance(described, Mapping) or described.get("kind") not in known:
-        raise InputError(f"history's {where} cannot be made again (got {described!r:.80})")
+    if not isinstance(described, Mapping) or str(described.get("kind")) not in known:
+        raise InputError(f"history's {where} cannot be made again (got {shortened(described)})")
     part = known[described["kind"]]
     values = {}
     for field in dataclasses.fields(part):
         if field.name in described and field.init:
             value = described[field.name]
-            if isinstance(value, Mapping) and "kind" in value:
-                value = _rebuild(value, known, f"{where}.{field.name}")
-            values[field.name] = tuple(value) if isinstance(value, list) else value
-    return part(**values)
+            nested = isinstance(value, Mapping) and "kind" in value
+            values[field.name] = _rebuild(value, known, f"{where}.{field.name}") if nested else value
+    try:
+        return pydantic.TypeAdapter(part).validate_python(values)
+    except pydantic.ValidationError as error:
+        raise InputError(f"history's {first_line(error, where)}") from None
 
 
 def rerun_history(
@@ -62,10 +66,15 @@ def rerun_history(
 def _run(old: ImpactHistory, progress: Callable[[float], None] | None) -> ImpactHistory:
     settings = old.settings
     known: dict[str, type] = {cls.__name__: cls for cls in meshes.MESHES.values()}
-    save = settings.get("save", old.time.size)
+    save: Any = settings.get("save", old.time.size)
     if isinstance(save, list):
-        save = np.asarray(save, float)
-    common: dict[str, Any] = {"end_time": float(settings["end_time"]), "save": save, "progress": progress}
+        save = np.array([finite("history's save", time) for time in save])
+    else:
+        save = whole("history's save", save, 1)
+    for name in ("end_time", "mesh"):
+        if name not in settings:
+            raise InputError(f"history's settings lack {name}: it cannot be run again")
+    common: dict[str, Any] = {"end_time": settings["end_time"], "save": save, "progress": progress}
     if old.path == "hermite":
         import hermite_fe
         from hermite_fe.expanding import ExpandingMesh
@@ -76,8 +85,10 @@ def _run(old: ImpactHistory, progress: Callable[[float], None] | None) -> Impact
         mesh = _rebuild(settings["mesh"], known, "mesh")
         if isinstance(mesh, ExpandingMesh):
             return hermite_fe.simulate(old.impact, mesh=mesh, **common)  # type: ignore[arg-type]
-        parts = {n: _rebuild(settings[n], known, n) for n in hermite_fe.REGISTRIES}
-        return hermite_fe.simulate(old.impact, mesh=mesh, full_beam=bool(settings["full_beam"]), **parts, **common)
+        parts = {n: _rebuild(settings.get(n), known, n) for n in hermite_fe.REGISTRIES}
+        return hermite_fe.simulate(
+            old.impact, mesh=mesh, full_beam=bool(settings.get("full_beam", False)), **parts, **common
+        )
     if old.path == "exudyn":
         import exudyn_models
 
@@ -88,4 +99,4 @@ def _run(old: ImpactHistory, progress: Callable[[float], None] | None) -> Impact
         return exudyn_models.simulate(
             old.impact, mesh=mesh, full_beam=bool(settings.get("full_beam", False)), **parts, **common
         )
-    raise InputError(f"history's path {old.path!r} is not known")
+    raise InputError(f"history's path {shortened(old.path)} is not known")

@@ -6,6 +6,7 @@ or from other versions is never read as good.
 
 from __future__ import annotations
 
+import errno
 import hashlib
 import json
 import os
@@ -16,8 +17,9 @@ from pathlib import Path
 from typing import Any
 
 from bent_beam.history import versions
+from bent_beam.parts import InputError
 
-__all__ = ["RunStore", "default_store", "write_atomically"]
+__all__ = ["RunStore", "check_writable", "default_store", "write_atomically"]
 
 
 def write_atomically(file: Path, text: str | bytes) -> None:
@@ -34,6 +36,21 @@ def write_atomically(file: Path, text: str | bytes) -> None:
     except BaseException:
         Path(name).unlink(missing_ok=True)
         raise
+
+
+def check_writable(out: Path, *, folder: bool) -> None:
+    """``InputError`` when ``out`` (or a file in it, a ``folder``) cannot be written: asked before the work."""
+    place = out if folder else out.parent
+    try:
+        if not folder and out.is_dir():
+            raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR))
+        place.mkdir(parents=True, exist_ok=True)
+        handle, name = tempfile.mkstemp(prefix=".", suffix=".part", dir=place)
+        os.close(handle)
+        os.unlink(name)
+    except (OSError, ValueError) as error:
+        why = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
+        raise InputError(f"out: {out} cannot be written: {why.lower()}") from None
 
 
 def default_store() -> Path:
@@ -99,6 +116,6 @@ class RunStore:
             answer = kept["answer"]
             if kept["sha256"] != _digest(_canonical(answer)) or not isinstance(answer, dict):
                 return None
-        except (OSError, ValueError, KeyError, TypeError):
+        except (OSError, ValueError, KeyError, TypeError, RecursionError):
             return None
         return answer

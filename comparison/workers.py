@@ -1,9 +1,9 @@
-"""Many independent calls on this machine's cores or on a dask cluster; a call that dies does not take the others along."""
+"""Many independent calls on this machine's cores or on a dask cluster; one that dies does not take others along."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from concurrent.futures import Future, ProcessPoolExecutor, as_completed
+from concurrent.futures import Future, ProcessPoolExecutor, ThreadPoolExecutor, as_completed
 from concurrent.futures.process import BrokenProcessPool
 from multiprocessing import get_context
 from typing import Any
@@ -29,7 +29,7 @@ def run_all(
     whole("jobs", jobs, 1)
     if scheduler is not None:
         return _on_cluster(function, arguments, scheduler, progress, on_death)
-    if jobs == 1 or len(arguments) == 1:
+    if jobs == 1 or len(arguments) <= 1:
         results = []
         for i, a in enumerate(arguments):
             results.append(function(*a))
@@ -47,37 +47,62 @@ def _on_cores(
     on_death: Callable[[int, str], Any],
 ) -> list[Any]:
     results: dict[int, Any] = {}
-    waiting = list(range(len(arguments)))
-    deaths = dict.fromkeys(waiting, 0)
-    while waiting:
-        # spawn: a fresh interpreter a worker, so no thread or lock of this process is inherited half-way
-        with ProcessPoolExecutor(max_workers=min(jobs, len(waiting)), mp_context=get_context("spawn")) as pool:
-            futures: dict[Future[Any], int] = {pool.submit(function, *arguments[i]): i for i in waiting}
-            broken = []
-            try:
-                for future in as_completed(futures):
-                    i = futures[future]
-                    try:
-                        results[i] = future.result()
-                    except BrokenProcessPool:
-                        broken.append(i)
-                        continue
-                    if progress is not None:
-                        progress(len(results), len(arguments))
-            except KeyboardInterrupt:
-                pool.shutdown(wait=False, cancel_futures=True)
-                raise
-        # A dead worker breaks the pool and all that waited in it: try each of those again, alone after a second death.
-        waiting = []
-        for i in sorted(broken):
-            deaths[i] += 1
-            if deaths[i] >= 3:
-                results[i] = on_death(i, "its worker process died three times (killed, or out of memory)")
-            else:
-                waiting.append(i)
-        if any(deaths[i] >= 2 for i in waiting):
-            jobs = 1
+
+    def done(i: int, result: Any) -> None:
+        results[i] = result
+        if progress is not None:
+            progress(len(results), len(arguments))
+
+    suspects = _together(function, list(enumerate(arguments)), jobs, done)
+    # A worker that dies takes down its pool and all that waited in it: each of those again, in a pool of its own.
+    with ThreadPoolExecutor(max_workers=jobs) as watchers:
+        alone = {watchers.submit(_alone, function, arguments[i]): i for i in suspects}
+        for watcher in as_completed(alone):
+            i = alone[watcher]
+            died, result = watcher.result()
+            done(i, on_death(i, "its worker process died three times (killed, or out of memory)") if died else result)
     return [results[i] for i in range(len(arguments))]
+
+
+def _together(
+    function: Callable[..., Any],
+    calls: Sequence[tuple[int, tuple[Any, ...]]],
+    jobs: int,
+    done: Callable[[int, Any], None],
+) -> list[int]:
+    """All calls in one pool; returns those that were unfinished when a worker died."""
+    # spawn: a fresh interpreter a worker, so no thread or lock of this process is inherited half-way
+    with ProcessPoolExecutor(max_workers=min(jobs, len(calls)), mp_context=get_context("spawn")) as pool:
+        futures: dict[Future[Any], int] = {}
+        broken = []
+        for i, call in calls:
+            try:
+                futures[pool.submit(function, *call)] = i
+            except BrokenProcessPool:
+                broken.append(i)
+        try:
+            for future in as_completed(futures):
+                try:
+                    result = future.result()
+                except BrokenProcessPool:
+                    broken.append(futures[future])
+                else:
+                    done(futures[future], result)
+        except BaseException:
+            pool.shutdown(wait=False, cancel_futures=True)
+            raise
+    return sorted(broken)
+
+
+def _alone(function: Callable[..., Any], call: tuple[Any, ...]) -> tuple[bool, Any]:
+    """One call in a process of its own, tried twice: (died, result)."""
+    for _ in range(2):
+        with ProcessPoolExecutor(max_workers=1, mp_context=get_context("spawn")) as pool:
+            try:
+                return False, pool.submit(function, *call).result()
+            except BrokenProcessPool:
+                continue
+    return True, None
 
 
 def _on_cluster(
