@@ -14,7 +14,7 @@ from typing import Protocol, runtime_checkable
 import numpy as np
 from numpy.typing import NDArray
 
-from bent_beam.checks import at_least, positive
+from bent_beam.checks import at_least, finite, positive
 
 __all__ = [
     "MESHES",
@@ -207,7 +207,8 @@ class NodesMesh:
     places: tuple[float, ...]
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "places", tuple(float(p) for p in checked_nodes(np.asarray(self.places))))
+        places = [finite("mesh.places", place) for place in self.places]
+        object.__setattr__(self, "places", tuple(checked_nodes(np.array(places)).tolist()))
         if self.places[0] != 0.0:
             raise ValueError(f"mesh.places must start at 0 (got {self.places[0]!r})")
 
