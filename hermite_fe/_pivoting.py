@@ -195,4 +195,7 @@ def solve_rows(problem: Problem, work: Work, fresh: bool, closed: Flags) -> int:
     if not direct:
         for i in range(x.size):
             x[i] = y[place[i]]
+    work.rounds[0] += 1
+    work.rounds[1] += rounds + 1
+    work.rounds[2] = max(work.rounds[2], rounds + 1)
     return SOLVED

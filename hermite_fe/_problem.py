@@ -98,6 +98,7 @@ class Work(NamedTuple):
     d2: Array
     d3: Array
     made_with: Array
+    rounds: NDArray[np.int64]  # solves, active-set iterations of all of them, most of one
 
 
 SMALLEST_REACTION, PRODUCT = 0, 1  # places in State.worst
@@ -201,4 +202,5 @@ def work_of(system: System, problem: Problem) -> Work:
         np.zeros(n),
         np.zeros(n),
         np.full(2, np.nan),
+        np.zeros(3, np.int64),
     )

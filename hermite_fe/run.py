@@ -8,6 +8,7 @@ from __future__ import annotations
 import time as clock
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -79,6 +80,8 @@ class Trajectory:
     product: Array
     steps: int
     seconds: float
+    mean_iterations: float
+    most_iterations: int
     failure: str = ""
     failure_time: float = 0.0
 
@@ -140,6 +143,11 @@ class Stepper:
         )
         finite = np.all(np.isfinite(self.state.q)) and np.all(np.isfinite(self.state.v))
         return 3 if status == 0 and not finite else status
+
+    def iterations(self) -> tuple[float, int]:
+        """Active-set iterations a contact solve so far: mean and most, of the solve of a step that took most."""
+        solves, rounds, most = max((w.rounds for w in self.works), key=lambda r: r[1] / max(r[0], 1))
+        return float(rounds) / max(int(solves), 1), int(most)
 
     def sums(self) -> dict[str, float]:
         """Energies now, J, what they lost since the start, and the worst complementarity since the last
@@ -213,13 +221,16 @@ def integrate(
         if progress is not None:
             progress(float(step) / float(kept[-1]))
     seconds = clock.perf_counter() - started
+    mean, most = run.iterations()
+    records: dict[str, Any] = {k: a[:good] for k, a in (arrays | sums).items()}
     return Trajectory(
         time=run.instants[kept[:good]],
         closed=closed[:good],
         steps=run.step,
         seconds=seconds,
+        mean_iterations=mean,
+        most_iterations=most,
         failure=failure,
         failure_time=failure_time,
-        **{k: a[:good] for k, a in arrays.items()},
-        **{k: a[:good] for k, a in sums.items()},
+        **records,
     )

@@ -70,6 +70,8 @@ def simulate(
         "save": np.asarray(save).tolist(),
         **{name: describe(getattr(choice, name)) for name in ("mesh", "integrator", "contact", "far_field")},
     }
+    settings["mean_iterations"] = trajectory.mean_iterations
+    settings["most_iterations"] = trajectory.most_iterations
     history = history_of(impact, model, trajectory, settings, choice.warnings)
     if trajectory.failure:
         raise SimulationError(

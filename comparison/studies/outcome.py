@@ -124,6 +124,8 @@ def outcome_of(history: ImpactHistory, label: str, kind: str, value: float | Non
             **_errors(found, exact, history),
             **_energy(history, exact, expanding),
             "steps": float(history.steps),
+            "mean_iterations": history.settings.get("mean_iterations"),
+            "most_iterations": history.settings.get("most_iterations"),
             "seconds": history.seconds,
         },
         warnings=tuple(history.warnings),
