@@ -1,0 +1,202 @@
+"""The fast part of an impact in similarity coordinates, one implicit step at a time (see :mod:`hermite_fe.expanding`).
+
+    M η_ss + C η_s + A η = F,   0 ≤ ρ ⊥ η − W₀ ≥ 0 at the nodes
+
+with the Galerkin matrices of D(D + 1) + σ(D + 1) + ∂⁴, D = ∂_s − (ζ/2)∂_ζ, on Hermite elements in ζ = ξ/√τ.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+import scipy.sparse as sparse
+from numpy.typing import NDArray
+from scipy.linalg.lapack import dgbtrf, dgbtrs
+
+from hermite_fe.beam import shape_functions
+
+__all__ = ["Similarity"]
+
+Array = NDArray[np.float64]
+GAP_ROUND_OFF = 1e-11  # in W, that is in units of V₀t
+PATIENCE = 4  # swaps of all wrong contacts without progress before both tolerances are widened tenfold
+BAND = 3  # half-bandwidth of Hermite elements: two nodes of two degrees of freedom
+
+
+@dataclass(frozen=True)
+class _Operators:
+    """mass M, drift C and steady A of M η_ss + C η_s + A η = F, absorber included; CSR, (2n, 2n)."""
+
+    mass: sparse.csr_matrix
+    drift: sparse.csr_matrix
+    steady: sparse.csr_matrix
+    damping: sparse.csr_matrix  # ∫ σ N Nᵀ
+
+
+GAUSS, WEIGHTS = np.polynomial.legendre.leggauss(6)
+
+
+def _operators(zeta: Array, sigma: Callable[[Array], Array]) -> _Operators:
+    """Galerkin matrices of D(D + 1) + σ(D + 1) + ∂⁴ on Hermite elements; D's second factor is integrated by parts."""
+    length = np.diff(zeta)
+    n = zeta.size
+    parts: dict[str, Array] = {k: np.zeros((n - 1, 4, 4)) for k in ("m", "g", "s", "k", "ms", "gs")}
+    for point, weight in zip((GAUSS + 1.0) / 2.0, WEIGHTS / 2.0):
+        place = (zeta[:-1] + point * length)[:, None]
+        shape, slope, bend = (_shapes(point, length, d) for d in (0, 1, 2))
+        advected = -0.5 * place * slope  # −(ζ/2) N′
+        tested = 0.5 * place * slope + 0.5 * shape  # its adjoint: ∂(ζ/2 ·) moved to the test function
+        dl = (weight * length)[:, None, None]
+        absorbed = sigma(place)[:, :, None]
+        for key, left, right, factor in (
+            ("m", shape, shape, 1.0),
+            ("g", shape, advected, 1.0),
+            ("s", tested, advected, 1.0),
+            ("k", bend, bend, 1.0),
+            ("ms", shape, shape, absorbed),
+            ("gs", shape, advected, absorbed),
+        ):
+            parts[key] += dl * factor * left[:, :, None] * right[:, None, :]
+    dofs = 2 * np.arange(n - 1)[:, None] + np.arange(4)
+    rows, columns = np.repeat(dofs, 4, axis=1).ravel(), np.tile(dofs, (1, 4)).ravel()
+    m, g, s, k, ms, gs = (
+        sparse.csr_matrix((parts[key].ravel(), (rows, columns)), shape=(2 * n, 2 * n))
+        for key in ("m", "g", "s", "k", "ms", "gs")
+    )
+    return _Operators(mass=m, drift=m + 2.0 * g + ms, steady=s + g + k + ms + gs, damping=ms)
+
+
+def _shapes(point: float, length: Array, derivative: int) -> Array:
+    """Hermite shape functions (A.6) of elements of several lengths, d/dx, shape (elements, 4)."""
+    unit = shape_functions(np.array([point]), 1.0, derivative).reshape(-1)
+    scale = np.ones((length.size, 4))
+    scale[:, 1::2] = length[:, None]
+    return unit * scale / length[:, None] ** derivative
+
+
+# --- one state in similarity coordinates -----------------------------------------------------------------------
+
+
+class Similarity:
+    """State of the fast part in ζ and its implicit Euler step: η, u = ∂_s η, nodal reactions ρ, contact set."""
+
+    def __init__(self, zeta: Array, absorber: float, strength: float) -> None:
+        end = zeta[-1]
+        top = strength * 0.5 * (absorber + end) / (end - absorber)
+        self.zeta = zeta
+        self.operators = _operators(zeta, lambda z: top * np.clip((z - absorber) / (end - absorber), 0.0, None) ** 3)
+        self.dofs = 2 * zeta.size
+        self.eta = np.zeros(self.dofs)
+        self.rate = np.zeros(self.dofs)
+        self.reaction = np.zeros(zeta.size)
+        self.active = np.zeros(zeta.size, dtype=bool)
+        self.gap_tolerance = 0.0
+        self.iterations = 0
+        self.set_step(0.0)
+
+    def set_step(self, backward: float) -> None:
+        """``backward`` = b of ∂_s f ≈ b (f − f_old): τ_new/h for Euler in time, 0 for the steady state."""
+        self.backward = backward
+        o = self.operators
+        self.matrix = (backward**2 * o.mass + backward * o.drift + o.steady).tocsr()
+        bands = np.zeros((3 * BAND + 1, self.dofs), order="F")
+        for k in range(-BAND, BAND + 1):
+            diagonal = self.matrix.diagonal(k)
+            bands[2 * BAND - k, max(k, 0) : self.dofs + min(k, 0)] = diagonal
+        self._bands = bands
+        self._factored: NDArray[np.bool_] | None = None
+        # a deflection is known to some ulp of 1, so a reaction to that times the stiffness it is computed with
+        self._round_off = 16.0 * np.finfo(float).eps * np.abs(self.matrix.diagonal()[0::2])
+
+    def _factor(self, active: NDArray[np.bool_]) -> None:
+        """Banded LU with the rows of held degrees of freedom replaced by the identity; kept while the set stays."""
+        if self._factored is not None and np.array_equal(self._factored, active):
+            return
+        bands = self._bands.copy(order="F")
+        n = self.dofs
+        held = np.concatenate([2 * np.flatnonzero(active), [1, n - 2, n - 1]])  # symmetry at 0, rest at the end
+        for k in range(-BAND, BAND + 1):
+            column = held + k
+            inside = (column >= 0) & (column < n)
+            bands[2 * BAND + held[inside] - column[inside], column[inside]] = 1.0 if k == 0 else 0.0
+        self._lu, self._pivots, info = dgbtrf(bands, BAND, BAND, overwrite_ab=1)
+        if info != 0:
+            raise ArithmeticError("the expanding mesh's matrix is singular")
+        self._factored = active.copy()
+
+    def _solve(self, right: Array, obstacle: Array, active: NDArray[np.bool_]) -> tuple[Array, Array]:
+        """η with η = obstacle on the active nodes, and the nodal reactions there."""
+        self._factor(active)
+        b = right.copy()
+        b[0::2][active] = obstacle[active]
+        b[1] = b[-2] = b[-1] = 0.0
+        eta, _ = dgbtrs(self._lu, BAND, BAND, b, self._pivots)
+        reaction = np.where(active, (self.matrix @ eta - right)[0::2], 0.0)
+        return eta, reaction
+
+    def hold_start(self, obstacle: Array) -> int:
+        """The self-similar state with the nodes behind the front held; returns the front's node.
+
+        The front is the last node for which holding everything up to it still pushes it away from the wall.
+        """
+        self.set_step(0.0)
+        zero = np.zeros(self.dofs)
+        low, high = 0, int(np.flatnonzero(obstacle > 0.0).max())
+        while low < high:
+            middle = (low + high + 1) // 2
+            active = np.arange(self.zeta.size) <= middle
+            _, reaction = self._solve(zero, obstacle, active)
+            if reaction[middle] > 0.0:
+                low = middle
+            else:
+                high = middle - 1
+        self.active = np.arange(self.zeta.size) <= low
+        self.eta, self.reaction = self._solve(zero, obstacle, self.active)
+        self.rate = zero
+        return low
+
+    def step(self, obstacle: Array) -> None:
+        """One implicit Euler step; ``obstacle`` (n,) is W₀ at the new time where contact may occur, −1 elsewhere.
+
+        Raises ``ArithmeticError`` when the active set does not settle.
+        """
+        b, o = self.backward, self.operators
+        old, old_rate = b * self.eta, b * self.rate
+        right = o.mass @ (b * old + old_rate) + o.drift @ old
+        active = self.active
+        fewest, patience, slack = self.zeta.size + 1, PATIENCE, 1.0
+        for _ in range(1000):
+            self.iterations += 1
+            eta, reaction = self._solve(right, obstacle, active)
+            wrong = np.where(active, reaction < -slack * self._round_off, obstacle - eta[0::2] > slack * GAP_ROUND_OFF)
+            wrong[-1] = False
+            count = int(np.count_nonzero(wrong))
+            if count == 0:
+                break
+            # Behind the front the exact reaction is nil: contacts that touch without load may cycle at round-off.
+            if count < fewest:
+                fewest, patience = count, PATIENCE
+            elif patience == 0:
+                fewest, patience, slack = self.zeta.size + 1, PATIENCE, 10.0 * slack
+            else:
+                patience -= 1
+            active = active ^ wrong
+        else:
+            raise ArithmeticError("the active set does not settle")
+        self.gap_tolerance = max(self.gap_tolerance, slack * GAP_ROUND_OFF)
+        if not np.all(np.isfinite(eta)):
+            raise ArithmeticError("the solution is no longer finite")
+        self.rate = b * eta - old
+        self.eta, self.reaction, self.active = eta, reaction, active
+
+    @property
+    def front(self) -> float:
+        """Centroid of the reaction on ζ ≥ 0."""
+        total = self.reaction.sum()
+        return float((self.reaction @ self.zeta) / total) if total > 0.0 else 0.0
+
+    def velocity(self) -> Array:
+        """η_τ = (D + 1) η at the nodes."""
+        return self.rate[0::2] + self.eta[0::2] - 0.5 * self.zeta * self.eta[1::2]
