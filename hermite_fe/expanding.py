@@ -237,7 +237,8 @@ class _Run:
         return float(velocity @ (state.operators.damping @ velocity))
 
     def full_velocity(self) -> Array:
-        """η_τ as Hermite degrees of freedom (value and ζ-derivative), the latter from the curvature of both elements."""
+        """η_τ as Hermite degrees of freedom (value and ζ-derivative), the latter from the curvature of both elements.
+        """
         state = self.state
         eta, zeta = state.eta, state.zeta
         h = np.diff(zeta)
