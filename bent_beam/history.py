@@ -24,9 +24,11 @@ from __future__ import annotations
 
 import errno
 import importlib.metadata
+import io
 import json
 import os
 import tempfile
+import warnings as python_warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
@@ -231,21 +233,23 @@ class ImpactHistory:
     def save(self, file: str | Path) -> Path:
         """Write netCDF atomically: a killed run leaves either the whole file or none. Returns the path."""
         target = Path(file)
-        target.parent.mkdir(parents=True, exist_ok=True)
-        handle, name = tempfile.mkstemp(prefix=f".{target.name}.", suffix=".part", dir=target.parent)
-        os.close(handle)
-        part = Path(name)
+        encoding = {v: {"zlib": True, "complevel": 1} for v in self.dataset.variables if self.dataset[v].ndim == 2}
+        content = io.BytesIO()  # HDF5 itself does not survive a full disk: only finished bytes go there
         try:
-            encoding = {v: {"zlib": True, "complevel": 1} for v in self.dataset.variables if self.dataset[v].ndim == 2}
-            self.dataset.to_netcdf(part, engine="h5netcdf", encoding=encoding)
-            with part.open("rb") as written:
-                os.fsync(written.fileno())
-            os.chmod(part, 0o644)
-            os.replace(part, target)
+            self.dataset.to_netcdf(content, engine="h5netcdf", encoding=encoding)
+            target.parent.mkdir(parents=True, exist_ok=True)
+            handle, name = tempfile.mkstemp(prefix=f".{target.name}.", suffix=".part", dir=target.parent)
+            try:
+                with os.fdopen(handle, "wb") as part:
+                    part.write(content.getbuffer())
+                    part.flush()
+                    os.fsync(part.fileno())
+                os.chmod(name, 0o644)
+                os.replace(name, target)
+            finally:
+                Path(name).unlink(missing_ok=True)
         except OSError as error:
             raise OSError(error.errno or errno.EIO, error.strerror or str(error), str(target)) from error
-        finally:
-            part.unlink(missing_ok=True)
         return target
 
     @classmethod
@@ -253,10 +257,12 @@ class ImpactHistory:
         """Read a history back; ``ValueError`` when the file is none, or holds anything that a history does not."""
         source = Path(file)
         try:
-            with xr.open_dataset(source, engine="h5netcdf", decode_times=False) as stored:
-                if stored.nbytes > MAXIMUM_BYTES:
-                    raise ValueError(f"it would take {stored.nbytes:.2g} bytes of memory")
-                dataset = stored.load()
+            with python_warnings.catch_warnings():
+                python_warnings.simplefilter("ignore")  # what a foreign file lacks is said below
+                with xr.open_dataset(source, engine="h5netcdf", decode_times=False) as stored:
+                    if stored.nbytes > MAXIMUM_BYTES:
+                        raise ValueError(f"it would take {stored.nbytes:.2g} bytes of memory")
+                    dataset = stored.load()
         except FileNotFoundError:
             raise
         except Exception as error:  # h5py raises many kinds for a broken file

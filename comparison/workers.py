@@ -120,7 +120,7 @@ def _on_cluster(
     results: dict[int, Any] = {}
     try:
         client = Client(scheduler, timeout="10s")
-    except OSError as error:
+    except (OSError, ValueError) as error:
         raise ValueError(f"scheduler: none answers at {scheduler} ({error})") from None
     with client:
         futures = {client.submit(function, *a, pure=False): i for i, a in enumerate(arguments)}

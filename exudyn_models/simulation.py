@@ -48,6 +48,7 @@ Array = NDArray[np.float64]
 DEFAULT_DURATION = 0.1  # τ, the longest time that the thesis computes
 GROWTH = 0.01  # neighbours of the chosen mesh: 5 elements over the front's bending length at κ/ν = 0.05, 20 at 0.2
 LARGEST_STEP = 0.05  # of the end time: the front then moves by a fortieth of the contact length in one
+MOST_INSTANTS = 1_000_000
 MOST_WORK = 2e9  # steps x nodes: about an hour
 SEGMENT = 4  # steps between two readings of the state
 
@@ -101,7 +102,9 @@ def _end_time(impact: Impact, end_time: float | None) -> float:
 def _targets(save: int | Sequence[float] | Array, end: float) -> Array:
     """The times to save in units of ``end``, ascending, after 0; the last is the end itself."""
     if isinstance(save, (int, np.integer)):
-        return np.asarray((np.arange(1, whole("save", int(save), 1) + 1) / save) ** 2)
+        if whole("save", int(save), 1) > MOST_INSTANTS:
+            raise ValueError(f"save must be at most {MOST_INSTANTS} instants (got {save})")
+        return np.asarray((np.arange(1, save + 1) / save) ** 2)
     times = np.unique(np.asarray(save, float)) / end
     if times.ndim != 1 or not np.isfinite(times).all() or (times < 0.0).any() or (times > 1.0 + 1e-9).any():
         raise ValueError(f"save must be a number of instants or times from 0 to the end time {end:.6g} s")

@@ -34,6 +34,7 @@ __all__ = ["Stepper", "Trajectory", "integrate", "saved_steps"]
 
 Array = NDArray[np.float64]
 
+MOST_INSTANTS = 1_000_000
 MOST_WORK = 1e11  # steps x nodes: about an hour
 SUMS = (
     "kinetic",
@@ -95,8 +96,8 @@ def saved_steps(instants: Array, save: int | Sequence[float] | Array) -> NDArray
     end = instants[-1]
     if np.ndim(save) == 0:
         count = int(np.asarray(save))
-        if count != save or count < 2:
-            raise ValueError(f"save must be a whole number of at least 2, or times (got {save!r})")
+        if count != save or not 2 <= count <= MOST_INSTANTS:
+            raise ValueError(f"save must be a whole number from 2 to {MOST_INSTANTS}, or times (got {save!r})")
         wanted = end * np.linspace(0.0, 1.0, count) ** 2
     else:
         wanted = np.asarray(save, float)
@@ -193,9 +194,7 @@ def integrate(
     A run that cannot finish returns what it reached, with ``failure`` set. Raises ``ValueError`` for bad
     input.
     """
-    run = Stepper(
-        system, q, v, integrator, end_time, restitution=restitution, hold=hold, hold_until=hold_until
-    )
+    run = Stepper(system, q, v, integrator, end_time, restitution=restitution, hold=hold, hold_until=hold_until)
     kept = saved_steps(run.instants, save)
     affordable("integrator and mesh", run.instants.size - 1, system.dofs // 2, kept.size, MOST_WORK)
     count, n, m = kept.size, system.dofs, len(system.contacts)

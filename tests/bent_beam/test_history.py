@@ -50,7 +50,7 @@ def test_a_failed_write_leaves_the_old_file(tmp_path, monkeypatch):
     before = file.read_bytes()
 
     def torn(self, path, **_):
-        path.write_bytes(b"half a fi")
+        path.write(b"half a fi")
         raise OSError(28, "No space left on device")
 
     monkeypatch.setattr("xarray.Dataset.to_netcdf", torn)

@@ -196,16 +196,18 @@ def test_files_that_are_no_cases_are_refused(content):
     check(code, out, err)
 
 
+RUBBISH = (
+    "--json --kappa-over-nu --alpha --set --time --path --first-order nan inf -1 0 1e-400 exudyn x.y=1 "
+    "beam.length=nan 1,2 1,2,3,4 --jobs --out /dev/null"
+).split()
+
+
 @fuzz(40, 800)
 @given(
     st.sampled_from(["theory", "predict", "simulate", "match", "rerun", "study", "nothing", ""]),
     st.lists(
         st.one_of(
-            st.sampled_from(
-                "--json --kappa-over-nu --alpha --set --time --path --first-order nan inf -1 0 1e-400 exudyn x.y=1 beam.length=nan 1,2 1,2,3,4 --jobs --out /dev/null".split(
-                    " "
-                )
-            ),
+            st.sampled_from(RUBBISH),
             st.text(max_size=10).filter(lambda text: "\0" not in text),
         ),
         max_size=6,

@@ -1,0 +1,90 @@
+"""A result that is not to be trusted says so where the number is: in the JSON's `warnings`."""
+
+import contextlib
+import io
+import json
+
+import pytest
+
+from comparison.command_line import run
+
+CASE = """[beam]
+bending_stiffness = 1.0
+mass_per_length = 1.0
+length = {length}
+curvature = 0.5
+[impact]
+velocity = 1.0
+[run]
+duration = 0.1
+[hermite.integrator]
+kind = "signorini_position"
+growth = 0.01
+[exudyn.integrator]
+kind = "generalized_alpha"
+relative_step = 0.01
+"""
+
+
+def simulate(tmp_path, path, *settings, length=20.0):
+    file = tmp_path / "case.toml"
+    file.write_text(CASE.format(length=length))
+    arguments = ["simulate", str(file), "--path", path, "--json", "--save", "20"]
+    out = io.StringIO()
+    with contextlib.redirect_stdout(out):
+        code = run([*arguments, *(item for setting in settings for item in ("--set", setting))])
+    assert code == 0
+    return json.loads(out.getvalue())
+
+
+@pytest.mark.parametrize(
+    ("path", "settings", "length", "words"),
+    [
+        ("hermite", (), 1.0, "ends of the beam"),
+        ("hermite", ("mesh.kind=uniform", "mesh.element_length=2.0"), 20.0, "cannot resolve the contact front"),
+        ("hermite", ("hermite.integrator.growth=3.0",), 20.0, "time steps cannot resolve"),
+        ("hermite", ("run.duration=1e6",), 20.0, "end of the beam"),
+        ("exudyn", ("mesh.kind=uniform", "mesh.element_length=0.02"), 0.4, "reflected"),
+        ("exudyn", ("mesh.kind=uniform", "mesh.element_length=1.0"), 20.0, "under-resolved front"),
+        ("exudyn", ("mesh.kind=graded", "mesh.element_length=0.02", "mesh.growth=1.25"), 20.0, "grows by 25%"),
+        (
+            "exudyn",
+            (
+                *("mesh.kind=uniform", "mesh.element_length=0.05", "exudyn.contact.kind=penalty"),
+                *("exudyn.contact.stiffness=10.0", "exudyn.contact.damping=0.1", "exudyn.contact.hold=0"),
+            ),
+            10.0,
+            "enters the wall",
+        ),
+        (
+            "exudyn",
+            ("mesh.kind=uniform", "mesh.element_length=1.0", "exudyn.integrator.time_step=1.0"),
+            20.0,
+            "time steps",
+        ),
+    ],
+)
+def test_a_doubtful_run_says_so(path, settings, length, words, tmp_path):
+    found = simulate(tmp_path, path, *settings, length=length)
+    assert any(words in warning for warning in found["warnings"]), found["warnings"]
+
+
+def test_a_sound_run_has_nothing_to_warn_of(tmp_path):
+    assert simulate(tmp_path, "hermite")["warnings"] == []
+
+
+def test_a_wide_error_bar_is_said_in_the_row(monkeypatch):
+    import dataclasses
+
+    import comparison.matching as matching
+    from comparison.store import RunStore
+
+    measured = matching.leading_order
+
+    def vague(found):
+        leading = measured(found)
+        return dataclasses.replace(leading, r0=dataclasses.replace(leading.r0, error=0.2))
+
+    monkeypatch.setattr(matching, "leading_order", vague)
+    row = matching.answer(matching.Question("hermite", 0.5), RunStore(None))
+    assert any("wide error bar" in warning for warning in row.warnings)
