@@ -388,6 +388,6 @@ class _Run:
             )
         if moved > 0.3:
             found.append(
-                f"the front moved by {moved:.0%} of the contact length through the expanding mesh, out of its finest"
+                f"the front moved by {moved:.0%} of the contact length, out of the mesh's finest part"
             )
         return found
