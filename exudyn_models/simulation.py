@@ -580,4 +580,9 @@ def _warnings(run: _Run, places: Array, half_length: float, scaling: Scaling, gi
     slope = max((float(np.abs(s).max()) for s in run.record.slope), default=0.0)
     if run.beam.shape.slender and slope > 0.1:
         found.append(f"slopes up to {slope:.2g}: linear theory no longer describes this beam, only its first instants")
+    elif slope > 0.1:
+        found.append(
+            f"slopes of the model up to {slope:.2g}: its elements leave their linear range; kappa/nu "
+            f"= {scaling.kappa:.3g} is too large, or the beam too long, for this geometry.amplitude"
+        )
     return found

@@ -85,7 +85,7 @@ def test_a_killed_match_starts_again_and_ends_with_the_same_rows(reference, tmp_
             every_kept_run_is_whole(store)
         if kills >= wanted or not FUZZ or series % 5 == 0:
             assert rows_of(finished(MATCH, store)[0]) == rows
-            assert every_kept_run_is_whole(store) == 3
+            assert every_kept_run_is_whole(store) >= 3
         if kills >= wanted or not FUZZ:
             break
     print(f"match: {kills} kills")

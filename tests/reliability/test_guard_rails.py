@@ -69,6 +69,12 @@ def test_a_doubtful_run_says_so(path, settings, length, words, tmp_path):
     assert any(words in warning for warning in found["warnings"]), found["warnings"]
 
 
+def test_a_beam_bent_beyond_the_linear_range_of_its_elements_says_so(tmp_path):
+    settings = ("mesh.kind=uniform", "mesh.element_length=0.25", "beam.curvature=30.0")
+    found = simulate(tmp_path, "exudyn", *settings, length=10.0)
+    assert any("linear range" in warning for warning in found["warnings"]), found
+
+
 def test_a_sound_run_has_nothing_to_warn_of(tmp_path):
     assert simulate(tmp_path, "hermite")["warnings"] == []
 
