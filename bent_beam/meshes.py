@@ -127,7 +127,10 @@ class GradedMesh:
     def nodes(self, half_length: float) -> Array:
         zone = 25 * self.element_length if self.zone is None else self.zone
         count = _count(min(zone, half_length), self.element_length)
-        inner = np.linspace(0.0, min(count * self.element_length, half_length), count + 1)
+        end = min(count * self.element_length, half_length)
+        if half_length - end < 0.5 * self.element_length:  # no sliver at the end of the beam
+            end = half_length
+        inner = np.linspace(0.0, end, count + 1)
         outer = _grown(
             inner[-1],
             self.element_length * self.growth,
@@ -167,6 +170,7 @@ class SquareMesh:
         count = max(2, math.ceil((end / self.first_element) ** 2 - 1e-9))
         inner = self.first_element * np.sqrt(np.arange(count + 1))
         inner *= end / inner[-1]
+        inner[-1] = end
         last = inner[-1] - inner[-2]
         outer = _grown(inner[-1], last * self.growth, self.growth, half_length, last * self.size_ratio)
         return checked_nodes(np.concatenate([inner, outer]))
