@@ -1,4 +1,4 @@
-"""One seed for a whole fuzz run, the same in every worker process, printed so that the run can be repeated."""
+"""One seed for a whole fuzz run, the same in every worker process, printed at its end so that it can be repeated."""
 
 import os
 import random
@@ -8,5 +8,6 @@ if FUZZ:
     os.environ.setdefault("FUZZ_SEED", str(random.SystemRandom().randrange(2**32)))
 
 
-def pytest_report_header():
-    return f"fuzz seed: FUZZ_SEED={os.environ['FUZZ_SEED']}" if FUZZ else None
+def pytest_terminal_summary(terminalreporter):
+    if FUZZ:
+        terminalreporter.write_line(f"fuzz seed: FUZZ_SEED={os.environ['FUZZ_SEED']}")
