@@ -139,11 +139,14 @@ def solve_rows(problem: Problem, work: Work, fresh: bool, closed: Flags) -> int:
     fewest, patience, rounds, tolerance = m + 1, PATIENCE, 0, ROUND_OFF
     while True:
         sweep_out(R, U, z, 0, zone, y)
-        scale = 0.0
+        deflection, slope = 0.0, 0.0  # of different units: each is round-off's measure for its own kind alone
         for i in range(min(b.size, zone)):
             if place[i] >= zone:
                 break
-            scale = max(scale, abs(y[place[i]]))
+            if i % 2 == 0:
+                deflection = max(deflection, abs(y[place[i]]))
+            else:
+                slope = max(slope, abs(y[place[i]]))
         count, last = 0, -1
         for j in range(last_row + 1):
             wrong[j] = False
@@ -165,7 +168,7 @@ def solve_rows(problem: Problem, work: Work, fresh: bool, closed: Flags) -> int:
                 slack, size = -target[j], abs(target[j])
                 for i in range(width):
                     slack += factors[j, i] * y[place[dofs[j, i]]]
-                    size += abs(factors[j, i]) * scale
+                    size += abs(factors[j, i]) * (deflection if dofs[j, i] % 2 == 0 else slope)
                 wrong[j] = slack < -tolerance * size
             if wrong[j]:
                 count += 1

@@ -12,7 +12,14 @@ from hermite_fe.expanding import ExpandingMesh, simulate_expanding
 from hermite_fe.integrators import SignoriniPosition
 from theory import predict
 
-TWINS = [(1e-12, 1e12, 1e-9), (1e12, 1e-12, 1e6), (1e12, 1e12, 1.0), (3.7e-5, 2.2e4, 17.0), (1.0, 1e-12, 1e-3)]
+TWINS = [
+    (1e-12, 1e12, 1e6),
+    (1e-12, 1e12, 1e-9),
+    (1e12, 1e-12, 1e6),
+    (1e12, 1e12, 1.0),
+    (3.7e-5, 2.2e4, 17.0),
+    (1.0, 1e-12, 1e-3),
+]
 LOADS = dict(epsilon_alpha=0.3, epsilon_psi=-0.02, epsilon_chi=0.01)
 
 
