@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import numba
+from hermite_fe._jit import compiled
 
 
-@numba.njit(cache=True)
+@compiled
 def assemble(lengths, element, bands):  # type: ignore[no-untyped-def]
     """Add the element matrices ``element`` (elements, 4, 4), dofs (w₁, θ₁, w₂, θ₂), to ``bands``."""
     for e in range(lengths.size):
@@ -14,7 +14,7 @@ def assemble(lengths, element, bands):  # type: ignore[no-untyped-def]
                 bands[i - j, 2 * e + j] += element[e, i, j]
 
 
-@numba.njit(cache=True)
+@compiled
 def assemble_load(element, load):  # type: ignore[no-untyped-def]
     """Add the element loads ``element`` (elements, 4) to ``load`` (2·nodes,)."""
     for e in range(element.shape[0]):

@@ -2,22 +2,54 @@
 
 from __future__ import annotations
 
+import hashlib
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any, TypeVar, cast
 
 import numba
+from numba.core.caching import FunctionCache, IndexDataCacheFile
 
 __all__ = ["compiled", "compiled_sums"]
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 
 
+def sources() -> str:
+    """Digest of all modules of this package."""
+    texts = (path.read_bytes() for path in sorted(Path(__file__).parent.glob("*.py")))
+    return hashlib.sha256(b"\0".join(texts)).hexdigest()
+
+
+SOURCES = sources()
+
+
+class KernelCache(FunctionCache):
+    """Numba's cache, stale as soon as any module of the package changes.
+
+    Numba itself looks at the kernel's own file only, and would go on running what that kernel had called before
+    (``_theta`` with the ``_pivoting`` of the version before an upgrade).
+    """
+
+    def __init__(self, kernel: Callable[..., Any]) -> None:
+        super().__init__(kernel)
+        self._cache_file = IndexDataCacheFile(
+            cache_path=self._cache_path, filename_base=self._impl.filename_base, source_stamp=SOURCES
+        )
+
+
+def kernel(function: Function, **options: Any) -> Function:
+    """``function`` compiled at its first call, or loaded."""
+    dispatcher = numba.njit(error_model="numpy", **options)(function)
+    dispatcher._cache = KernelCache(dispatcher.py_func)
+    return cast(Function, dispatcher)
+
+
 def compiled(function: Function) -> Function:
     """Compile with multiply–add contraction only: the order of sums is kept, as compensated sums need."""
-    return cast(Function, numba.njit(cache=True, error_model="numpy", fastmath={"contract"})(function))
+    return kernel(function, fastmath={"contract"})
 
 
 def compiled_sums(function: Function) -> Function:
     """Compile with sums reordered for speed, for kernels to which their order is nothing."""
-    options: Any = {"contract", "reassoc"}
-    return cast(Function, numba.njit(cache=True, error_model="numpy", fastmath=options)(function))
+    return kernel(function, fastmath={"contract", "reassoc"})
