@@ -33,11 +33,11 @@ COARSEST = 1e-8
 
 
 @compiled
-def equation(S: Array, x: Array, r: Array, k: int) -> tuple[float, float]:
-    """Equation k of S x − r, and the sum of its terms' sizes, against which round-off is judged."""
+def equation(S: Array, x: Array, right: float, k: int) -> tuple[float, float]:
+    """Equation k of S x less its right-hand side, and the sum of the terms' sizes: round-off is judged against it."""
     n = x.size
     term = S[k, 0] * x[k]
-    total, size = term - r[k], abs(term) + abs(r[k])
+    total, size = term - right, abs(term) + abs(right)
     for m in range(1, 5):
         if k >= m:
             term = S[k, m] * x[k - m]
@@ -154,13 +154,11 @@ def solve_rows(problem: Problem, work: Work, fresh: bool, closed: Flags) -> int:
                 continue
             if closed[j]:
                 if direct:
-                    k = switch[j]
-                    left, size = equation(S, y, r, k)
-                    left += r[k] - b[dofs[j, 0]]
-                    size += abs(b[dofs[j, 0]])
+                    left, size = equation(S, y, b[dofs[j, 0]], switch[j])
                     p[j] = left / factors[j, 0]
                 else:
-                    _, size = equation(S, y, r, place[dofs[j, 0]])
+                    k = place[dofs[j, 0]]
+                    _, size = equation(S, y, r[k], k)
                     p[j] = -y[switch[j]]
                 wrong[j] = not held[j] and p[j] < -tolerance * size / abs(factors[j, 0])
             else:

@@ -346,7 +346,7 @@ def test_meshes_increase_from_the_centre_to_the_end_or_are_refused(kind, values,
 
 @fuzz(2, 12)
 @given(
-    powers, powers, velocities, st.sampled_from([2.0, 0.5] + [0.1] * FUZZ), st.floats(-15.5, 1.0).map(lambda p: 10.0**p)
+    powers, powers, velocities, st.sampled_from([2.0, 0.5] + [0.1] * FUZZ), st.floats(-24.0, 1.0).map(lambda p: 10.0**p)
 )
 def test_runs_chosen_from_the_problem_do_not_depend_on_its_size(stiffness, mass, velocity, kappa, tau):
     unit = math.sqrt(stiffness / mass) / velocity
@@ -357,7 +357,7 @@ def test_runs_chosen_from_the_problem_do_not_depend_on_its_size(stiffness, mass,
     except SimulationError as error:
         pytest.fail(str(error))
     assert 1_000 < history.steps < 60_000
-    assert abs(history.energy_budget()["defect"]) < 1e-8 * history.energy_budget()["initial_energy"]
+    assert abs(history.energy_budget()["defect"]) < 1e-9 * history.energy_budget()["initial_energy"]
 
 
 def test_no_hang_is_hidden_by_this_module():
