@@ -1,10 +1,8 @@
 """The thesis's first-order impacts: a₀ = ±700 m/s², V₀ = 3.5 m/s, K = 0.35 1/m, L = 2 m, EI = μ = 1 (κ/ν = 0.1).
 
 Half contact length λ_c = √t (λ₀ + ελ₁V₀² t) with EI/μ = 1; first-order theory predicts ελ₁V₀² = +300.0 and −280.6
-m/s^{3/2}, and for
-the reaction εr₁ = +85.90 and −88.97. Both are differences against the same run with a₀ = 0, and are carried to t → 0
-from two end
-times, since the expansion holds while ε|λ₁|t/t* is small against λ₀.
+m/s^{3/2}, and for the reaction εr₁ = +85.90 and −88.97. Both are differences against the same run with a₀ = 0, and
+are carried to t → 0 from two end times, since the expansion holds while ε|λ₁|t/t* is small against λ₀.
 
 python exudyn_models/first_order_impacts.py [--duration 0.002]
 """

@@ -5,14 +5,11 @@ With the end time T as unit of time and Λ = (EI/μ)^{1/4} √T as unit of lengt
     y_tt + y_xxxx = q₀ + a₀ − r,   0 ≤ t ≤ 1,   μ = EI = 1,                               (thesis 2.1.1 scaled)
 
 whatever the physical size of the problem: the leading order is self-similar, so its one parameter κ/ν = K√(EI/μ)/V₀
-is also
-the initial curvature here when deflections are measured in V₀T. Deflections carry a further factor, the
-``amplitude``: V₀T/Λ
-gives the true geometry, anything small the linear limit (the problem is linear in it).
+is also the initial curvature here when deflections are measured in V₀T. Deflections carry a further factor, the
+``amplitude``: V₀T/Λ gives the true geometry, anything small the linear limit (the problem is linear in it).
 
 The estimate of the front, λ₀ ~ √(2ν/κ)(1 − κ/ν), interpolates the two limits that scaling gives (λ₀ → √(2ν/κ) for
-κ/ν → 0,
-λ₀ → 0 at κ/ν = 1). It serves to choose a resolution, never to make an answer.
+κ/ν → 0, λ₀ → 0 at κ/ν = 1). It serves to choose a resolution, never to make an answer.
 """
 
 from __future__ import annotations

@@ -2,17 +2,13 @@
 
     μ y_tt + EI y_xxxx = EI q₀ + μ a₀ − r,   0 ≤ r ⊥ −y ≥ 0                       (thesis 2.1.1–2)
 
-The beam is modelled in the units of :mod:`exudyn_models.scaling`, with the initial shape, velocity field and load
-for which, without
-contact, y₀ of :class:`bent_beam.Impact` is the motion; the ends carry the moment EI(q₀x²/2 + c₀t) and the shear EI
-q₀x of y₀ (nothing
-when ψ = χ = 0: a free end). Exudyn runs in segments of a few equal steps; between them its state vectors are read,
-which costs
-some microseconds where a callback a step would cost the run.
+The beam is modelled in the units of :mod:`exudyn_models.scaling`, with the initial shape, velocity field and load for
+which, without contact, y₀ of :class:`bent_beam.Impact` is the motion; the ends carry the moment EI(q₀x²/2 + c₀t) and
+the shear EI q₀x of y₀ (nothing when ψ = χ = 0: a free end). Exudyn runs in segments of a few equal steps; between
+them its state vectors are read, which costs some microseconds where a callback a step would cost the run.
 
 The total impulse is what the momentum of the modelled beam lacks: it is exact, whatever happens within a step. The
-impulse of each
-contact point is the trapezoidal sum of its force, corrected to that total.
+impulse of each contact point is the trapezoidal sum of its force, corrected to that total.
 """
 
 from __future__ import annotations
@@ -373,11 +369,9 @@ def simulate(
     impact : the problem (SI).
     end_time : s; None: τ = 0.1.
     mesh : of the half beam, laid over the whole half length (a ``NodesMesh`` may end short of it); None: elements in
-        proportion to
-        the distance from the centre, as far out as waves travel (:func:`chosen_mesh`).
+        proportion to the distance from the centre, as far out as waves travel (:func:`chosen_mesh`).
     element, integrator, contact, geometry, solver : parts of :data:`exudyn_models.REGISTRIES`; None: ANCF cable,
-        generalised-α,
-        nodal penalty, the linear limit, modified Newton. ``geometry`` may be "linear" or "true".
+        generalised-α, nodal penalty, the linear limit, modified Newton. ``geometry`` may be "linear" or "true".
     full_beam : model both halves instead of x ≥ 0 with the slope fixed at x = 0.
     save : number of saved instants after t = 0, spread evenly in √t, or their times, s; snapped to steps.
     view : watch the run in Exudyn's viewer; without a display a line on standard error says so.
@@ -385,9 +379,9 @@ def simulate(
 
     Returns
     -------
-    ImpactHistory with the fields of :mod:`bent_beam.history` in SI units. Sums (energies, ``total_impulse``) are of
-    both halves of the
-    modelled beam; a half model's ``impulse`` is that of x ≥ 0, half of the total.
+    ImpactHistory with the fields of :mod:`bent_beam.history` in SI units. Sums (energies,
+    ``total_impulse``) are of both halves of the modelled beam; a half model's ``impulse`` is that of x ≥ 0, half of
+    the total.
 
     Raises
     ------

@@ -1,9 +1,8 @@
 """Exudyn's nonlinear and linear solver settings, and its silence.
 
 Newton's method is run modified (the Jacobian is kept while it converges) on a sparse factorisation whose pattern is
-kept. Residuals
-are forces in model units, of the size of the amplitude; below ``tolerance`` × amplitude they are round-off of
-12EI/Δx³·y.
+kept. Residuals are forces in model units, of the size of the amplitude; below ``tolerance`` × amplitude they are
+round-off of 12EI/Δx³·y.
 """
 
 from __future__ import annotations
@@ -34,9 +33,8 @@ class NewtonSolver:
     iterations : most Newton iterations a step.
     contact_iterations : most repetitions of a step in which the contact state changes.
     contact_must_settle : fail when they run out. Exudyn compares the state with that at the *start* of the step, so
-        that a step in
-        which a node is captured with more force than ``contact_tolerance`` always runs out: only with a large
-        tolerance is this of use.
+        that a step in which a node is captured with more force than ``contact_tolerance`` always runs out: only with
+        a large tolerance is this of use.
     halve_steps : let Exudyn shorten a step that fails (down to 1/1000) before giving up.
     modified_newton : keep the Jacobian while it converges.
     linear_solver : "sparse" or "dense".

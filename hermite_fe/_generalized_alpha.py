@@ -1,7 +1,6 @@
 """Compiled generalised-α stepping (Chung & Hulbert) with unilateral rows.
 
-    v⁺ = v + h(1 − γ)a + hγa⁺ + W,    q⁺ = q + hv + h²(½ − β)a + h²βa⁺ + U                    (thesis
-    3.3.10–11)
+    v⁺ = v + h(1 − γ)a + hγa⁺ + W,    q⁺ = q + hv + h²(½ − β)a + h²βa⁺ + U   (thesis 3.3.10–11)
     (1 − α_m)a⁺ + α_m a = (1 − α_f)v̇⁺ + α_f v̇                                                (3.3.12)
 
 with the coefficients of (3.3.13–16). W and U are the jumps that the contact makes. With s = (1 − α_f)/(1 −

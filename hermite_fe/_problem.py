@@ -53,10 +53,9 @@ class State(NamedTuple):
     """What a step changes.
 
     q, v : motion; acceleration, a, reaction, reaction_a : smooth acceleration and reaction of generalised-α,
-        and their filtered
-    companions; closed : rows in contact; resting : rows closed without rebound; impulse, held_impulse : so
-    far;
-    budget : energy sums; worst : complementarity since the last look.
+        and their filtered companions
+    closed : rows in contact; resting : rows closed without rebound
+    impulse, held_impulse : so far; budget : energy sums; worst : complementarity since the last look
     """
 
     q: Array

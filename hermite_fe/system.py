@@ -36,8 +36,7 @@ class ContactRows:
     dofs : (rows, w) int; factors : (rows, w); gap : (rows,), the gap at q = 0.
     places : (rows,), where each sits (for the record).
     rank : (rows,) int, how many constraints lie between it and the first to touch; side : (rows,) int, 0 or
-        1, which
-    way from there. Both serve only a hold behind a moving front (:class:`hermite_fe.contacts.Contact`).
+        1, which way from there. Both serve only a hold behind a moving front (:class:`hermite_fe.contacts.Contact`).
     tributary : (rows,), the length of beam that a row answers for (penalty contact scales with it).
     """
 

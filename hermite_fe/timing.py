@@ -41,10 +41,10 @@ def prepared_step(
 ) -> Callable[[], None]:
     """A half beam of ``nodes`` nodes in the middle of an impact; each call of the result takes one more step.
 
-    growing : steps in proportion to time, so that every one makes and factors a new matrix. ``start`` : how
-        far the
-    run has got, as a fraction of ``end_time`` (in t*), before the first call. Raises ``RuntimeError`` when a
-    step fails.
+    growing : steps in proportion to time, so that every one makes and factors a new matrix.
+    start : how far the run has got, as a fraction of ``end_time`` (in t*), before the first call.
+
+    Raises ``RuntimeError`` when a step fails.
     """
     integrator = (integrator or MoreauJean()).with_steps(
         *((0.1 * STEP, 2.0 * STEP) if growing else (STEP, 0.0))

@@ -25,10 +25,11 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Frame:
-    """One instant, SI units. x, y : (points,) places of the whole beam and deflections (positive into the wall); free
-    : the motion
-    without the wall at x; front : half contact length; reaction : of one side, N (averaged up to the neighbouring
-    frames)."""
+    """One instant, SI units.
+
+    x, y : (points,) places of the whole beam and deflections (positive into the wall); free : the motion without the
+        wall at x; front : half contact length; reaction : of one side, N (averaged up to the neighbouring frames).
+    """
 
     time: float
     x: Array

@@ -2,9 +2,8 @@
 
     m = EI(κ − κ₀) + η κ̇,   n = EA(|r′| − 1),   κ = (r′ × r″)/|r′|²,   r cubic between nodes with coordinates (r, r′)
 
-For small deflections this is the Hermite element of the beam equation. The viscosity η = c·√(EIμ)·Δx² damps only
-what the mesh
-cannot resolve: waves of wave number k by the ratio c(kΔx)²/2.
+For small deflections this is the Hermite element of the beam equation. The viscosity η = c·√(EIμ)·Δx² damps only what
+the mesh cannot resolve: waves of wave number k by the ratio c(kΔx)²/2.
 """
 
 from __future__ import annotations
@@ -99,8 +98,7 @@ class ANCFCable:
     """ANCF cable elements, cubic: the default.
 
     viscosity : bending viscosity in units of √(EIμ)·Δx² of each element; None: 0.3 under implicit integrators, 0.003
-        under
-        explicit ones (more would shorten their stable step).
+        under explicit ones (more would shorten their stable step).
     axial_stiffness : EA, N; None: 12EI/d² with the true geometry, EI/Λ² in the linear limit (where it has no effect).
     """
 

@@ -3,8 +3,8 @@
     m = EI(θ′ − κ₀) + η θ̇′,   n = EA ε,   q = GA γ,   position and angle θ linear between nodes, one integration point
 
 The one-point rule does not lock, so GA may be large enough for the shear angle to vanish against the slope; the
-rotary inertia is a
-small multiple of what the element's length would give the section. Second order in Δx where the cable is of fourth.
+rotary inertia is a small multiple of what the element's length would give the section. Second order in Δx where the
+cable is of fourth.
 """
 
 from __future__ import annotations

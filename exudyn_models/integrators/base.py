@@ -1,8 +1,7 @@
 """What every integrator says of itself, and the plan of steps common to the implicit ones.
 
-The impact has no time scale of its own: implicit steps grow with the time since impact, h = c·t, so that every
-decade is
-resolved alike, starting from the time in which the front crosses the first element.
+The impact has no time scale of its own: implicit steps grow with the time since impact, h = c·t, so that every decade
+is resolved alike, starting from the time in which the front crosses the first element.
 """
 
 from __future__ import annotations
@@ -76,8 +75,7 @@ class Integrator:
 
     def segments(self, first: float, per_segment: int, unit: float, stable: float) -> list[Segment]:
         """The plan of steps in model units: ``first`` the time the front needs for the first element, ``unit`` the
-        model's
-        time unit in s, ``stable`` the largest stable step of an explicit method."""
+        model's time unit in s, ``stable`` the largest stable step of an explicit method."""
         raise NotImplementedError
 
 

@@ -1,9 +1,8 @@
 """Exudyn's explicit methods: the fourth-order Runge–Kutta rule, Dormand–Prince 5(4), and velocity Verlet.
 
 They are stable while the step is below limit/ω, where ω bounds the frequencies (and decay rates) of the mesh with
-every contact
-closed: for bending ω ~ 91.7 √(EI/μ)/Δx² of the smallest element. ``simulate`` computes the bound and refuses a
-larger step.
+every contact closed: for bending ω ~ 91.7 √(EI/μ)/Δx² of the smallest element. ``simulate`` computes the bound and
+refuses a larger step.
 """
 
 from __future__ import annotations

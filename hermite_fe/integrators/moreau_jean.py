@@ -1,11 +1,10 @@
 """Moreau–Jean: a θ-scheme for measures, Signorini and the impact law at velocity level.
 
-    M(v⁺ − v) + hC v_θ + hK q_θ = hF_θ + Gᵀp,   q⁺ = q + h v_θ;   0 ≤ p ⊥ Gv⁺ + eGv ≥ 0  where  g + (1 − θ)h ġ
-    ≤ 0
+    M(v⁺ − v) + hC v_θ + hK q_θ = hF_θ + Gᵀp,   q⁺ = q + h v_θ;   0 ≤ p ⊥ Gv⁺ + eGv ≥ 0
+    for the rows with  g + (1 − θ)h ġ ≤ 0
 
-A row takes part when closing it now would leave it in the wall or on it; so a closed row stays a candidate.
-(Jean 1999, "The non-smooth contact dynamics method"; thesis 3.2.1–4 and Fig. 3.6 for its drift at position
-level.)
+A row takes part when closing it now would leave it in the wall or on it; so a closed row stays a candidate. (Jean
+1999, "The non-smooth contact dynamics method"; thesis 3.2.1–4 and Fig. 3.6 for its drift at position level.)
 """
 
 from __future__ import annotations
