@@ -28,13 +28,12 @@ LINEAR = {
 class NewtonSolver:
     """How each implicit step is solved.
 
-    absolute_tolerance, relative_tolerance : of the residual; the absolute one in units of the model's amplitude.
+    absolute_tolerance, relative_tolerance : of the residual; the absolute one in units of the model's amplitude. It and
+        ``contact_tolerance`` are raised to the round-off of the contact's own forces where those are larger.
     contact_tolerance : force, in the same units, below which a change of the contact state does not repeat the step.
     iterations : most Newton iterations a step.
-    contact_iterations : most repetitions of a step in which the contact state changes.
-    contact_must_settle : fail when they run out. Exudyn compares the state with that at the *start* of the step, so
-        that a step in which a node is captured with more force than ``contact_tolerance`` always runs out: only with
-        a large tolerance is this of use.
+    contact_iterations : most repetitions of a step until its contact state has settled (:mod:`exudyn_models.settling`).
+    contact_must_settle : fail when they run out; otherwise the run goes on and a warning counts the steps.
     halve_steps : let Exudyn shorten a step that fails (down to 1/1000) before giving up.
     modified_newton : keep the Jacobian while it converges.
     linear_solver : "sparse" or "dense".
@@ -45,8 +44,8 @@ class NewtonSolver:
     relative_tolerance: float = 1e-6
     contact_tolerance: float = 1e-4
     iterations: int = 25
-    contact_iterations: int = 5
-    contact_must_settle: bool = False
+    contact_iterations: int = 25
+    contact_must_settle: bool = True
     halve_steps: bool = False
     modified_newton: bool = True
     linear_solver: str = "sparse"
@@ -60,8 +59,8 @@ class NewtonSolver:
         whole("exudyn.solver.contact_iterations", self.contact_iterations, 1)
         one_of("exudyn.solver.linear_solver", self.linear_solver, LINEAR)
 
-    def settings(self, amplitude: float) -> Any:
-        """A fresh ``exudyn.SimulationSettings`` with these choices and no files."""
+    def settings(self, amplitude: float, round_off: float = 0.0) -> Any:
+        """Fresh ``exudyn.SimulationSettings`` with these choices and no files; ``round_off`` of the contact forces."""
         settings = exu.SimulationSettings()
         settings.solution.file.write = False
         settings.solution.sensors.active = False
@@ -73,13 +72,13 @@ class NewtonSolver:
         time.adaptiveStep = self.halve_steps
         time.generalizedAlpha.computeInitialAccelerations = self.initial_accelerations
         time.newton.useModifiedNewton = self.modified_newton
-        time.newton.absoluteTolerance = self.absolute_tolerance * amplitude
+        time.newton.absoluteTolerance = max(self.absolute_tolerance * amplitude, round_off)
         time.newton.relativeTolerance = self.relative_tolerance
         time.newton.maxIterations = self.iterations
         time.discontinuous.useRecommendedStepSize = False
-        time.discontinuous.ignoreMaxIterations = not self.contact_must_settle
+        time.discontinuous.ignoreMaxIterations = True  # whether they settled is judged elsewhere
         time.discontinuous.maxIterations = self.contact_iterations
-        time.discontinuous.iterationTolerance = self.contact_tolerance * amplitude
+        time.discontinuous.iterationTolerance = max(self.contact_tolerance * amplitude, 10.0 * round_off)
         return settings
 
 

@@ -1,20 +1,24 @@
 """What every contact is given and what it reports.
 
 The wall is y = 0, the beam lies in y ≤ 0, the gap is g = −y. A contact puts its connectors into the Exudyn system
-once and is
-then asked, between segments of time steps, for the force at each contact point; it may switch connectors there.
+once and is then asked, between segments of time steps, for the force at each contact point; it may switch connectors
+there.
 """
 
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from exudyn_models.elements import Beam
+from bent_beam import Impact
+from exudyn_models.elements import Beam, Element
+from exudyn_models.geometry import Geometry, LinearLimit
+from exudyn_models.integrators import GeneralizedAlpha, Integrator
+from exudyn_models.solvers import NewtonSolver
 
 __all__ = ["Contact", "ContactRun", "Wall"]
 
@@ -48,6 +52,8 @@ class ContactRun(ABC):
 
     contact_s: Array
     longest_segment: int | None = None  # steps after which it must be asked again
+    iterated = True  # Exudyn finds the contact state by repeating steps
+    round_off = 0.0  # force in Exudyn's connectors that means nothing: no residual can be made smaller
 
     @abstractmethod
     def depth(self, q: Array) -> Array:
@@ -61,8 +67,15 @@ class ContactRun(ABC):
     def velocity(self, q: Array, v: Array) -> Array:
         """Velocity of the beam at the contact points, positive into the wall, shape (contacts,)."""
 
-    def between(self, time: float, q: Array, v: Array) -> bool:
-        """Called between segments; returns whether connectors were switched (the Jacobian must then be renewed)."""
+    def contradictions(self, q: Array, data: Array) -> tuple[Flags, Array]:
+        """Connectors that the last solution assumed closed, and the force by which the gaps it found contradict that
+        (0 where they agree), each of shape (connectors,); ``data`` are Exudyn's data coordinates. For contacts whose
+        state Exudyn finds by repeating steps (``iterated``)."""
+        raise TypeError(f"{type(self).__name__} is not iterated")
+
+    def between(self, time: float, step: float, q: Array, v: Array) -> bool:
+        """Called between segments, ``step`` the length of the next steps; returns whether connectors were switched (the
+        Jacobian must then be renewed)."""
         return False
 
     def stiffness_and_damping(self) -> tuple[Array, Array]:
@@ -74,13 +87,29 @@ class ContactRun(ABC):
         return {}
 
 
-class Contact(Protocol):
-    """What ``simulate`` asks of a contact."""
+class Contact(ABC):
+    """A kind of contact: what it can work with, what goes with it when nothing else is asked for, its connectors."""
 
+    def refuses(self, impact: Impact, element: Element, integrator: Integrator) -> str | None:
+        """Why this contact cannot work with a beam, an element or an integrator (None: it can)."""
+        return None
+
+    def integrator(self) -> Integrator:
+        """The integrator that goes with it."""
+        return GeneralizedAlpha()
+
+    def geometry(self) -> Geometry:
+        """The geometry that goes with it."""
+        return LinearLimit()
+
+    def solver(self) -> NewtonSolver:
+        """The solver settings that go with it."""
+        return NewtonSolver()
+
+    def wall_share(self, geometry: Geometry) -> float:
+        """The share of the beam's curvature that a round wall takes over."""
+        return 0.0
+
+    @abstractmethod
     def attach(self, beam: Beam, wall: Wall) -> ContactRun:
         """Add the connectors to the beam's system (before ``Assemble``)."""
-        ...
-
-    def refuses(self, element: Any, integrator: Any) -> str | None:
-        """Why this contact cannot work with an element or integrator (None: it can)."""
-        ...

@@ -4,14 +4,12 @@
     k = C EI/Δx⁴,   d = D √(EIμ)/Δx²
 
 With k and d tied to the element length the contact is as stiff as the elements themselves, on every scale of the
-mesh; C = 10 and
-D = 3 keep both the penetration and the rattling below the mesh's own error.
+mesh; C = 10 and D = 3 keep both the penetration and the rattling below the mesh's own error.
 
 Behind the front the exact reaction vanishes; a one-sided force turns the numerical noise there into pushes that lift
-the beam. So a
-captured node is held (its penalty acts in both directions) until the front is ``hold`` elements further on: the held
-strip shrinks
-with the mesh, so that the scheme stays consistent. What it pulls is reported as ``held_impulse``.
+the beam. So a captured node is held (its penalty acts in both directions) until the front is ``hold`` elements
+further on: the held strip shrinks with the mesh, so that the scheme stays consistent. What it pulls is reported as
+``held_impulse``.
 """
 
 from __future__ import annotations
@@ -24,7 +22,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bent_beam.checks import between, non_negative, positive, whole
-from exudyn_models.contacts.base import ContactRun, Flags, Wall
+from exudyn_models.contacts.base import Contact, ContactRun, Flags, Wall
 from exudyn_models.contacts.holding import START, HeldStrip, chosen_hold
 from exudyn_models.elements import Beam
 
@@ -89,10 +87,15 @@ class _Run(ContactRun):
         self.strip.captured |= touching
         return force, active
 
+    def contradictions(self, q: Array, data: Array) -> tuple[Flags, Array]:
+        depth, closed = self.depth(q), data <= 0.0
+        wrong = (closed != (depth >= 0.0)) & ~self.held
+        return closed, np.where(wrong, self.stiffness * np.abs(depth), 0.0)
+
     def velocity(self, q: Array, v: Array) -> Array:
         return np.asarray(v[self.beam.vertical[self.nodes]])
 
-    def between(self, time: float, q: Array, v: Array) -> bool:
+    def between(self, time: float, step: float, q: Array, v: Array) -> bool:
         wanted = self.strip.wanted(time)
         changed = np.flatnonzero(wanted != self.held)
         for k in changed:
@@ -113,14 +116,13 @@ class _Run(ContactRun):
 
 
 @dataclass(frozen=True)
-class Penalty:
+class Penalty(Contact):
     """Nodal penalty: the default.
 
     stiffness, damping : k in N/m² and d in N s/m² per length of beam; None: from the element length and the next two.
     relative_stiffness, relative_damping : C and D of the module's text.
     hold : elements behind the front whose captured nodes are held; None: 16, but none where the load draws the beam
-        off the wall
-        (α + ψ < 0, where a hold would pull on what rightly lifts) and none under explicit integrators.
+        off the wall (α + ψ < 0, where a hold would pull on what rightly lifts) and none under explicit integrators.
     hold_start : first share of the run in which all captured nodes are held, for the start is never resolved.
     """
 
@@ -141,9 +143,6 @@ class Penalty:
         if self.hold is not None:
             whole("exudyn.contact.hold", self.hold, 0)
         between("exudyn.contact.hold_start", self.hold_start, 0.0, 1.0)
-
-    def refuses(self, element: Any, integrator: Any) -> str | None:
-        return None
 
     def attach(self, beam: Beam, wall: Wall) -> ContactRun:
         length = beam.tributary[wall.nodes]

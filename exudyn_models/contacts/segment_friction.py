@@ -3,66 +3,86 @@
     f_n = k g + d ġ per segment while it enters the wall,   |f_t| ≤ μ_f f_n
 
 Exudyn knows this contact against a circle only, and computes its gap as a difference of lengths of the order of the
-radius: too large
-a circle drowns it in round-off. So the wall takes over a share of the beam's curvature, against which the beam is
-laid flatter: all
-of it in the linear limit (gap, load and elastic forces are the same to first order), a quarter with the true
-geometry. Friction works along the beam: of second order in
-the deflection, it changes nothing in the linear limit and little for a real, axially stiff beam.
+radius: too large a circle drowns it in round-off. So the wall takes over a share of the beam's curvature, against
+which the beam is laid flatter: all of it in the linear limit (gap, load and elastic forces are the same to first
+order), a quarter with the true geometry. Friction works along the beam: of second order in the deflection, it changes
+nothing in the linear limit and little for a real, axially stiff beam.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import exudyn.itemInterface as items
 import numpy as np
 from numpy.typing import NDArray
 
+from bent_beam import Impact
 from bent_beam.checks import non_negative, positive
-from exudyn_models.contacts.base import ContactRun, Flags, Wall
+from exudyn_models.contacts.base import Contact, ContactRun, Flags, Wall
 from exudyn_models.contacts.penalty import penalty_per_length
-from exudyn_models.elements import ANCFCable, Beam
+from exudyn_models.elements import ANCFCable, Beam, Element
 from exudyn_models.geometry import Geometry, LinearLimit
+from exudyn_models.integrators import Integrator
 from exudyn_models.solvers import NewtonSolver
 
 __all__ = ["SegmentFriction"]
 
 Array = NDArray[np.float64]
 TRUE_SHARE = 0.25  # of the curvature, true geometry
+STATES = 3  # data coordinates of a segment: gap, stick or slip, where it sticks
 
 
 class _Run(ContactRun):
-    """Contact points are the elements' middles: Exudyn's segment is the chord of an element."""
+    """Contact points are the nodes: Exudyn's segment is the chord of an element, touches where it comes closest to the
+    centre of the circle, and hands the force there to its two ends by the lever rule. Exudyn reports no force of this
+    connector; what is computed here is its own law from the same state."""
 
     def __init__(self, beam: Beam, elements: NDArray[np.int64], stiffness: Array, damping: Array) -> None:
         self.beam, self.elements = beam, elements
         self.stiffness, self.damping = stiffness, damping
-        s = beam.shape.s
-        self.contact_s = (s[elements] + s[elements + 1]) / 2
+        self.nodes = np.append(elements, elements[-1] + 1)
+        self.contact_s = beam.shape.s[self.nodes]
         self.wall_y = beam.shape.wall_curvature * self.contact_s**2 / 2
+        self.radius = 1.0 / beam.shape.wall_curvature
+        self.round_off = float(np.finfo(float).eps * self.radius * stiffness.max())
 
-    def _middle(self, values: Array) -> Array:
-        nodal = values[self.beam.vertical]
-        return np.asarray((nodal[self.elements] + nodal[self.elements + 1]) / 2)
+    def _closest(self, q: Array) -> tuple[Array, Array, Array, Array]:
+        """Gap of each segment, where on it (0 … 1) and the normal there away from the wall (2, segments), and the
+        vertical part of the nodes' normals (nodes,)."""
+        beam, r = self.beam, self.radius
+        x = (beam.shape.s + q[beam.horizontal])[self.nodes]
+        y = q[beam.vertical][self.nodes]
+        dx, dy = np.diff(x), np.diff(y)
+        at = np.clip((-x[:-1] * dx + (r - y[:-1]) * dy) / (dx**2 + dy**2), 0.0, 1.0)
+        px, py = x[:-1] + at * dx, y[:-1] + at * dy
+        distance = np.hypot(px, py - r)
+        gap = (px**2 + py**2 - 2.0 * r * py) / (distance + r)  # distance − r without the difference of large numbers
+        return gap, at, np.stack([px, py - r]) / distance, (r - y) / np.hypot(x, y - r)
 
     def depth(self, q: Array) -> Array:
-        return np.asarray(self._middle(q) - self.wall_y)
+        return np.asarray(q[self.beam.vertical[self.nodes]] - self.wall_y)
 
     def forces(self, q: Array, v: Array) -> tuple[Array, Flags]:
-        # only how the known total is shared among the contact points: Exudyn reports no force of this connector
-        depth = self.depth(q)
-        active = depth > 0.0
-        force = self.stiffness * depth + self.damping * self._middle(v)
-        return np.where(active, force, 0.0), active
+        gap, at, normal, vertical = self._closest(q)
+        ends = np.stack([v[self.beam.horizontal], v[self.beam.vertical]])[:, self.nodes]
+        rate = ((ends[:, :-1] * (1.0 - at) + ends[:, 1:] * at) * normal).sum(axis=0)
+        force = np.where(gap <= 0.0, -(self.stiffness * gap + self.damping * rate), 0.0)
+        nodal = np.zeros(self.nodes.size)
+        nodal[:-1] += force * (1.0 - at)
+        nodal[1:] += force * at
+        return nodal * vertical, nodal != 0.0
+
+    def contradictions(self, q: Array, data: Array) -> tuple[Flags, Array]:
+        gap, closed = self._closest(q)[0], data[::STATES] <= 0.0
+        return closed, np.where(closed != (gap <= 0.0), self.stiffness * np.abs(gap), 0.0)
 
     def velocity(self, q: Array, v: Array) -> Array:
-        return self._middle(v)
+        return np.asarray(v[self.beam.vertical[self.nodes]])
 
 
 @dataclass(frozen=True)
-class SegmentFriction:
+class SegmentFriction(Contact):
     """Penalty on the segments of ANCF cables, with friction.
 
     friction : Coulomb's coefficient.
@@ -72,7 +92,7 @@ class SegmentFriction:
 
     friction: float = 0.0
     relative_stiffness: float = 10.0
-    relative_damping: float = 3.0
+    relative_damping: float = 10.0
     relative_friction_damping: float = 1.0
 
     def __post_init__(self) -> None:
@@ -81,7 +101,9 @@ class SegmentFriction:
         non_negative("exudyn.contact.relative_damping", self.relative_damping)
         positive("exudyn.contact.relative_friction_damping", self.relative_friction_damping)
 
-    def refuses(self, element: Any, integrator: Any) -> str | None:
+    def refuses(self, impact: Impact, element: Element, integrator: Integrator) -> str | None:
+        if impact.curvature == 0.0:
+            return "exudyn.contact.kind segment_friction needs a bent beam (got curvature 0)"
         if not isinstance(element, ANCFCable):
             return (
                 "exudyn.contact.kind segment_friction works on ANCF cables only: take exudyn.element.kind ancf_cable "
@@ -95,12 +117,12 @@ class SegmentFriction:
         return None
 
     def geometry(self) -> LinearLimit:
-        """Amplitude that keeps the circle small enough for its round-off, ε·k/K, to stay below the contact force."""
+        """Amplitude that keeps the circle small: its round-off, ε·k/K, then stays far below the contact force."""
         return LinearLimit(amplitude=0.02)
 
     def solver(self) -> NewtonSolver:
-        """Tolerances above that round-off."""
-        return NewtonSolver(absolute_tolerance=1e-3, contact_tolerance=1e-2)
+        """Steps are halved where the point of contact runs along its chord faster than Newton's method can follow."""
+        return NewtonSolver(halve_steps=True)
 
     def wall_share(self, geometry: Geometry) -> float:
         """The share of the beam's curvature that the round wall takes over."""
@@ -117,7 +139,7 @@ class SegmentFriction:
         for e in elements:
             marker = mbs.AddMarker(items.MarkerBodyCable2DShape(bodyNumber=beam.bodies[e], numberOfSegments=1))
             state = mbs.AddNode(
-                items.NodeGenericData(numberOfDataCoordinates=3, initialCoordinates=[0.1, -2.0, 0.0])
+                items.NodeGenericData(numberOfDataCoordinates=STATES, initialCoordinates=[0.1, -2.0, 0.0])
             )  # open, neither sticking nor slipping
             mbs.AddObject(
                 items.ObjectContactFrictionCircleCable2D(

@@ -7,6 +7,7 @@ is resolved alike, starting from the time in which the front crosses the first e
 from __future__ import annotations
 
 import math
+from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
@@ -26,6 +27,11 @@ class Segment:
     start: float
     end: float
     steps: int
+
+    @property
+    def length(self) -> float:
+        """Of one step."""
+        return (self.end - self.start) / self.steps
 
 
 def checked_steps(count: float) -> None:
@@ -59,24 +65,30 @@ def growing_segments(first: float, relative: float, per_segment: int, constant: 
     return segments
 
 
-class Integrator:
+class Integrator(ABC):
     """Base of the integrators. ``time_step`` in s (None: chosen)."""
 
     explicit: ClassVar[bool] = False
+    limit: ClassVar[float] = math.inf  # of step × largest frequency
     time_step: float | None
+
+    @property
+    def newer_share(self) -> float:
+        """The weight that a step's impulse gives to the force at its end."""
+        return 0.5
 
     def solver(self) -> Any:
         """A fresh Exudyn solver object."""
         return exu.MainSolverExplicit() if self.explicit else exu.MainSolverImplicitSecondOrder()
 
+    @abstractmethod
     def configure(self, settings: Any) -> None:
         """Write this integrator's choices into Exudyn's ``SimulationSettings``."""
-        raise NotImplementedError
 
+    @abstractmethod
     def segments(self, first: float, per_segment: int, unit: float, stable: float) -> list[Segment]:
         """The plan of steps in model units: ``first`` the time the front needs for the first element, ``unit`` the
         model's time unit in s, ``stable`` the largest stable step of an explicit method."""
-        raise NotImplementedError
 
 
 @dataclass(frozen=True)

@@ -28,7 +28,6 @@ class _Explicit(Integrator):
     safety: float = 0.8
 
     explicit: ClassVar[bool] = True
-    limit: ClassVar[float]
     method: ClassVar[Any]
 
     def __post_init__(self) -> None:

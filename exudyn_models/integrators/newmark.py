@@ -30,6 +30,10 @@ class Newmark(Implicit):
         if self.beta is not None:
             at_least("exudyn.integrator.beta", self.beta, self.gamma / 2)
 
+    @property
+    def newer_share(self) -> float:
+        return self.gamma
+
     def configure(self, settings: Any) -> None:
         settings.timeIntegration.solverType = exu.DynamicSolverType.GeneralizedAlpha
         rule = settings.timeIntegration.generalizedAlpha

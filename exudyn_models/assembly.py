@@ -1,0 +1,107 @@
+"""The Exudyn system of one impact: beam, loads, symmetry and contact; and how long a step it bears.
+
+The ends carry the moment EI(q₀x²/2 + c₀t) and the shear EI q₀x of y₀ (nothing when ψ = χ = 0: a free end), so that
+without contact y₀ of :class:`bent_beam.Impact` is the motion.
+"""
+
+from __future__ import annotations
+
+import exudyn as exu
+import exudyn.itemInterface as items
+import numpy as np
+
+from exudyn_models.contacts import Contact, ContactRun, Wall
+from exudyn_models.elements import Beam, Element
+from exudyn_models.elements.beam import Section
+from exudyn_models.geometry import Shape
+from exudyn_models.integrators import Integrator
+from exudyn_models.resolution import reachable
+from exudyn_models.scaling import Scaling
+
+__all__ = ["assemble", "stable_step"]
+
+
+def assemble(
+    shape: Shape, scaling: Scaling, element: Element, contact: Contact, integrator: Integrator, half: bool
+) -> tuple[Beam, ContactRun]:
+    """The Exudyn system: beam, loads, symmetry, contact."""
+    container = exu.SystemContainer()
+    system = container.AddSystem()
+    system.variables["container"] = container  # the system must not outlive it
+    true = shape.slender
+    axial = element.axial_stiffness
+    if axial is None:
+        axial_stiffness = 12.0 * (scaling.length / scaling.impact.section_height) ** 2 if true else 1.0
+    else:
+        axial_stiffness = axial * scaling.length**2 / scaling.impact.bending_stiffness
+    factor = element.viscosity
+    if factor is None:
+        factor = 0.003 if integrator.explicit else 0.3
+    beam = element.build(system, shape, Section(axial_stiffness=axial_stiffness), factor * shape.lengths**2)
+    last, centre = shape.s.size - 1, int(np.argmin(np.abs(shape.s)))
+    if half:
+        hold = beam.burden if integrator.explicit else beam.fix
+        hold(0, beam.horizontal_coordinate, beam.rotation_coordinate)
+    if scaling.load:
+        beam.load_uniformly(scaling.load * scaling.amplitude)
+    ends = [(last, 1.0)] if half else [(last, 1.0), (0, -1.0)]
+    for node, sign in ends:
+        _load_end(beam, node, sign, scaling)
+    wall = Wall(
+        nodes=reachable(shape.s, scaling, centre),
+        centre=centre,
+        half=half,
+        pulled_off=scaling.load < 0.0,
+        point_contact=scaling.kappa >= 1.0,
+        explicit=integrator.explicit,
+        curvature=-shape.curvature,
+        stiffness_unit=scaling.stiffness_per_length,
+        damping_unit=scaling.damping_per_length,
+    )
+    run = contact.attach(beam, wall)
+    system.Assemble()
+    beam.locate()
+    return beam, run
+
+
+def _load_end(beam: Beam, node: int, sign: float, scaling: Scaling) -> None:
+    """The moment and shear that the free motion y₀ has at an end of the modelled beam."""
+    amplitude, end = scaling.amplitude, beam.shape.s[-1]
+    # bending at the rate χ also takes the moment ηχ of the viscosity
+    constant = amplitude * (scaling.psi * end**2 / 2 + beam.viscosity[node if node == 0 else -1] * scaling.chi)
+    rate = amplitude * scaling.chi
+    if scaling.psi:
+        beam.mbs.AddLoad(
+            items.LoadCoordinate(
+                markerNumber=beam.marker(node, beam.vertical_coordinate), load=-amplitude * scaling.psi * end
+            )
+        )
+    if scaling.psi or scaling.chi:
+        marker = beam.marker(node, beam.rotation_coordinate)
+        if rate:
+            beam.mbs.AddLoad(
+                items.LoadCoordinate(
+                    markerNumber=marker, loadUserFunction=lambda mbs, t, load: sign * (constant + rate * t)
+                )
+            )
+        else:
+            beam.mbs.AddLoad(items.LoadCoordinate(markerNumber=marker, load=sign * constant))
+
+
+def stable_step(beam: Beam, contact: ContactRun, integrator: Integrator) -> float:
+    """limit/ω, ω the largest eigenvalue of any element with its contact closed: a bound for the whole mesh."""
+    mass, stiffness, damping = beam.element_matrices()
+    k, d = contact.stiffness_and_damping()
+    share = beam.lengths / 2
+    for end in (0, 1):
+        node = slice(end, beam.lengths.size + end)
+        part = share / beam.tributary[node]
+        stiffness[:, 2 * end, 2 * end] += k[node] * part
+        damping[:, 2 * end, 2 * end] += d[node] * part
+    solved_k, solved_d = np.linalg.solve(mass, stiffness), np.linalg.solve(mass, damping)
+    count = mass.shape[0]
+    state = np.zeros((count, 8, 8))
+    state[:, :4, 4:] = np.eye(4)
+    state[:, 4:, :4], state[:, 4:, 4:] = -solved_k, -solved_d
+    largest = float(np.abs(np.linalg.eigvals(state)).max())
+    return float(integrator.limit / max(largest, beam.axial_frequency()))
