@@ -17,6 +17,7 @@ from exudyn_models.geometry import Shape
 from exudyn_models.integrators import Integrator
 from exudyn_models.resolution import reachable
 from exudyn_models.scaling import Scaling
+from exudyn_models.viewer import draw_wall
 
 __all__ = ["assemble", "stable_step"]
 
@@ -59,6 +60,7 @@ def assemble(
         damping_unit=scaling.damping_per_length,
     )
     run = contact.attach(beam, wall)
+    draw_wall(system, min(0.0, float(shape.x[0])), float(shape.x[-1]), shape.wall_curvature)
     system.Assemble()
     beam.locate()
     return beam, run

@@ -14,7 +14,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from exudyn_models.solvers import silence
-from exudyn_models.viewer import open_viewer
+from exudyn_models.viewer import draw_wall, open_viewer, wait_until_closed
 
 parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
 parser.add_argument("--restitution", type=float, default=0.8)
@@ -48,6 +48,7 @@ mbs.AddObject(
 sensor = mbs.AddSensor(
     items.SensorNode(nodeNumber=ball, storeInternal=True, outputVariableType=exu.OutputVariableType.Position)
 )
+draw_wall(mbs, -1.0, 1.0)
 mbs.Assemble()
 
 settings = exu.SimulationSettings()
@@ -57,10 +58,11 @@ settings.timeIntegration.solverType = exu.DynamicSolverType.RK44  # a step of 1/
 settings.timeIntegration.numberOfSteps = round(end / 1.5e-5)
 settings.timeIntegration.endTime = end
 settings.timeIntegration.verboseMode = 0
-viewing = chosen.view and open_viewer(SC, mbs)
+viewing = chosen.view and open_viewer(SC, nodes=True)
 with silence():
     mbs.SolveDynamic(settings)
 if viewing:
+    wait_until_closed(SC)
     SC.renderer.Stop()
 
 t, y = np.array(mbs.GetSensorStoredData(sensor))[:, [0, 2]].T

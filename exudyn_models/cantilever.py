@@ -11,13 +11,13 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from exudyn_models.solvers import silence
-from exudyn_models.viewer import open_viewer
+from exudyn_models.viewer import open_viewer, wait_until_closed
 
 parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
 parser.add_argument("--elements", type=int, default=8)
 parser.add_argument("--load", type=float, default=1e-3, help="tip load, N (small: the exact answer is linear)")
 parser.add_argument("--figure", default="cantilever.png")
-parser.add_argument("--view", action="store_true", help="show the result in Exudyn's viewer")
+parser.add_argument("--view", action="store_true", help="show the result in Exudyn's viewer (true to scale: try --load 0.3)")
 chosen = parser.parse_args()
 L, EI, EA, mu, P, n = 2.0, 1.0, 1e4, 1.0, chosen.load, chosen.elements
 
@@ -57,6 +57,6 @@ plt.gca().set(xlabel="x, m", ylabel="deflection, m", title="cantilever under a t
 plt.legend()
 plt.savefig(chosen.figure, dpi=150)
 print("figure:", chosen.figure)
-if chosen.view and open_viewer(SC, mbs):
-    SC.renderer.DoIdleTasks()
+if chosen.view and open_viewer(SC):
+    wait_until_closed(SC)
     SC.renderer.Stop()

@@ -32,7 +32,7 @@ from exudyn_models.scaling import Scaling, front_estimate
 from exudyn_models.settling import Settling
 from exudyn_models.solvers import NewtonSolver, silence
 from exudyn_models.stepping import step_through
-from exudyn_models.viewer import open_viewer
+from exudyn_models.viewer import open_viewer, wait_until_closed
 
 __all__ = ["simulate"]
 
@@ -82,7 +82,8 @@ def simulate(
         generalised-α, nodal penalty, the linear limit, modified Newton. ``geometry`` may be "linear" or "true".
     full_beam : model both halves instead of x ≥ 0 with the slope fixed at x = 0.
     save : number of saved instants after t = 0, spread evenly in √t, or their times, s; snapped to steps.
-    view : watch the run in Exudyn's viewer; without a display a line on standard error says so.
+    view : watch the run in Exudyn's viewer, until its window is told to go on (Q or Escape); without a display a line
+        on standard error says so.
     progress : called with the fraction done.
 
     Returns
@@ -146,9 +147,11 @@ def simulate(
                 judged.iterationTolerance,
                 must_settle=solver.contact_must_settle,
             )
-        viewing = view and open_viewer(container, beam.mbs)
+        viewing = view and open_viewer(container)
         try:
             done = step_through(run, segments, settings, time_stepper, settling, targets, progress)
+            if viewing:
+                wait_until_closed(container)
         finally:
             if viewing:
                 container.renderer.Stop()

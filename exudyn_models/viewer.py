@@ -6,7 +6,13 @@ import os
 import sys
 from typing import Any
 
-__all__ = ["missing_display", "open_viewer"]
+import exudyn.graphics as graphics
+import exudyn.itemInterface as items
+import numpy as np
+
+__all__ = ["draw_wall", "missing_display", "open_viewer", "wait_until_closed"]
+
+BLUE, GREY = [0.12, 0.35, 0.67, 1.0], [0.35, 0.35, 0.35, 1.0]
 
 
 def missing_display() -> str | None:
@@ -16,14 +22,37 @@ def missing_display() -> str | None:
     return None
 
 
-def open_viewer(container: Any, system: Any) -> bool:
-    """Open the viewer on an assembled system; without a display, say so on standard error and return False."""
+def draw_wall(mbs: Any, left: float, right: float, curvature: float = 0.0) -> None:
+    """The line y = ``curvature`` x²/2 of a wall (before ``mbs.Assemble``)."""
+    x = np.linspace(left, right, 200)
+    line = np.stack([x, curvature * x**2 / 2, np.zeros_like(x)], axis=1)
+    wall = graphics.Lines(line.tolist(), color=GREY)
+    mbs.AddObject(items.ObjectGround(visualization=items.VObjectGround(graphicsData=[wall])))
+
+
+def open_viewer(container: Any, nodes: bool = False) -> bool:
+    """Open the viewer on an assembled system; without a display, say so on standard error and return False.
+
+    nodes : draw them (of a mass point there is nothing else to see).
+    """
     reason = missing_display()
     if reason is None:
-        container.visualizationSettings.general.graphicsUpdateInterval = 0.05
+        settings = container.visualizationSettings
+        settings.general.graphicsUpdateInterval = 0.05
+        settings.bodies.defaultColor = BLUE
+        settings.openGL.lineWidth = 3.0
+        settings.nodes.show, settings.nodes.showBasis = nodes, False
+        for cluttering in (settings.markers, settings.connectors, settings.loads):
+            cluttering.show = False
         if container.renderer.Start():
             container.renderer.ZoomAll()
             return True
         reason = "Exudyn's viewer could not be started"
     print(reason, file=sys.stderr)
     return False
+
+
+def wait_until_closed(container: Any) -> None:
+    """Leave the last picture on the screen until its user has seen enough."""
+    print("the viewer shows the end of the run: Q or Escape in its window to go on", file=sys.stderr)
+    container.renderer.DoIdleTasks(printPauseMessage=False)
