@@ -6,19 +6,27 @@ repeats until its repetitions run out, settled or not, and a node that hovers at
 back where it began. Here the state that a solution *assumed* is compared with the one that its gaps show:
 
 - they agree, but for forces below the tolerance: the step is accepted at once;
+- after ``BLOCK`` repetitions in which all connectors follow their gaps at once, only one at a time does (Murty's rule,
+  as in the Hermite path: Júdice & Pires 1994, Comput. Oper. Res. 21, 587);
 - a state comes back that this step had already tried: none is consistent, for the damping of the contact acts all at
   once when the gap closes and may stop a node that barely touches short of the wall. Of the states that return, the
   one that contradicts itself least is accepted, and counted;
-- the repetitions run out before either: the step is not solved.
+- the repetitions run out before: the step is not solved.
 """
 
 from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
+
 from exudyn_models.contacts import ContactRun
 
 __all__ = ["Settling"]
+
+BLOCK = 15  # repetitions; with no setting given, none of the impacts measured takes more
+TINY = 1e-30  # a gap that is a state and no length
 
 
 class Settling:
@@ -38,44 +46,80 @@ class Settling:
         self._contact, self._solver = contact, solver
         self._iterations, self._tolerance = iterations, tolerance
         self._time: float | None = None
-        self._tried: dict[bytes, float] = {}  # states assumed in this step, and their contradictions
         self._repetitions = 0
+        self._doubtful: NDArray[np.bool_] | None = None  # connectors whose state this step has had to correct
+        self._tried: dict[bytes, float] = {}  # what was assumed of them, and by how much it contradicted itself
         self._cycling = False
+        self._imposed: NDArray[np.bool_] | None = None
         self._first = ""
 
     def __call__(self, mbs: Any, time: float) -> list[float]:
         if time != self._time:
-            self._time, self._tried, self._repetitions, self._cycling = time, {}, 0, False
+            self._time, self._repetitions, self._doubtful = time, 0, None
             self.steps += 1
         self._repetitions += 1
         data = mbs.systemData
-        assumed, wrong = self._contact.contradictions(data.GetODE2Coordinates(), data.GetDataCoordinates())
+        closed = data.GetDataCoordinates()[:: self._contact.states] <= 0.0
+        wrong = self._contact.contradictions(data.GetODE2Coordinates(), closed)
         force = float(wrong.max(initial=0.0))
         if force <= self._tolerance:
-            return self._accept()
-        state = assumed.tobytes()
-        if state in self._tried:
-            while not self._cycling and next(iter(self._tried)) != state:
-                del self._tried[next(iter(self._tried))]  # what led into the cycle, never to return
-            self._cycling = True
-            if force <= min(self._tried.values()) * (1.0 + 1e-6):
-                self.cycles += 1
-                return self._accept()
-        self._tried[state] = force
+            return self._accept(mbs)
+        doubtful = wrong > self._tolerance
+        if self._returns(closed, doubtful, force):
+            self.cycles += 1
+            return self._accept(mbs)
         if self._repetitions >= self._iterations:
             self.unsettled += 1
             self._first = self._first or (
                 f"the contact state of a step had not settled after {self._iterations} repetitions: "
-                f"{(wrong > self._tolerance).sum()} contact points contradict their gaps by up to "
+                f"{doubtful.sum()} contact points contradict their gaps by up to "
                 f"{force / self._tolerance:.3g} contact_tolerance"
             )
+            self._follow(mbs)
+        elif self._repetitions >= BLOCK:
+            if self._imposed is None:
+                self._tried = {}
+                mbs.SetPreNewtonResidualUserFunction(self._impose)
+            self._imposed = closed.copy()
+            self._imposed[np.flatnonzero(doubtful)[-1]] ^= True
         return [force, -1.0]
 
     def failure(self) -> str:
         """What happened in the first step that ran out of repetitions."""
         return self._first
 
-    def _accept(self) -> list[float]:
+    def _returns(self, closed: NDArray[np.bool_], doubtful: NDArray[np.bool_], force: float) -> bool:
+        """Whether this is the least contradictory of states that come back again and again; else it is remembered."""
+        if self._doubtful is None or (doubtful & ~self._doubtful).any():
+            # nodes that hover at the wall without force make no difference: a state is that of the others
+            self._doubtful = doubtful if self._doubtful is None else doubtful | self._doubtful
+            self._tried, self._cycling = {}, False
+        state = closed[self._doubtful].tobytes()
+        if state in self._tried:
+            while not self._cycling and next(iter(self._tried)) != state:
+                del self._tried[next(iter(self._tried))]  # what led into the cycle, never to return
+            self._cycling = True
+            if state == min(self._tried, key=self._tried.__getitem__):
+                return True
+        self._tried[state] = force
+        return False
+
+    def _impose(self, mbs: Any, time: float, newton_step: int, repetition: int) -> None:
+        """Exudyn's ``PreNewtonResidualUserFunction``: the state to assume instead of what the last gaps showed."""
+        if newton_step == 0 and self._imposed is not None:
+            data = mbs.systemData.GetDataCoordinates()
+            data[:: self._contact.states] = np.where(self._imposed, -TINY, TINY)
+            mbs.systemData.SetDataCoordinates(data)
+            mbs.solverSignalJacobianUpdate = True
+
+    def _follow(self, mbs: Any) -> None:
+        """All connectors follow their gaps again."""
+        if self._imposed is not None:
+            self._imposed = None
+            mbs.SetPreNewtonResidualUserFunction(0)
+
+    def _accept(self, mbs: Any) -> list[float]:
         """No further repetition, whatever Exudyn's own measure says: it goes on when they are used up."""
+        self._follow(mbs)
         self._solver.it.discontinuousIteration = self._iterations - 1
         return [0.0, -1.0]

@@ -19,7 +19,7 @@ parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.R
 parser.add_argument("--elements", type=int, default=8, help="an even number")
 parser.add_argument("--load", type=float, default=1e-3, help="N (small: the exact answer is linear)")
 parser.add_argument("--figure", default="simply_supported_beam.png")
-parser.add_argument("--view", action="store_true", help="show the result in Exudyn's viewer (true to scale: try --load 0.3)")
+parser.add_argument("--view", action="store_true", help="show it in Exudyn's viewer, true to scale: try --load 0.3")
 chosen = parser.parse_args()
 L, EI, EA, mu, P, n = 2.0, 1.0, 1e4, 1.0, chosen.load, chosen.elements
 if n < 2 or n % 2:

@@ -1,4 +1,4 @@
-"""How far the linear theory carries (issue 6): Exudyn's true geometry at growing slopes against its linear limit on
+"""How far the linear theory carries: Exudyn's true geometry at growing slopes against its linear limit on
 the same mesh.
 
 Slopes over the front are of order √τ, τ = t/t* (:class:`exudyn_models.geometry.TrueGeometry`): the end time sets

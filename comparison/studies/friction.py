@@ -1,4 +1,4 @@
-"""Friction at the wall (issue 6): Exudyn's contact along the cable's segments with Coulomb friction, linear limit
+"""Friction at the wall: Exudyn's contact along the cable's segments with Coulomb friction, linear limit
 and true geometry.
 """
 
@@ -64,19 +64,17 @@ def conclude(outcomes: Sequence[Outcome]) -> str:
             text.append(f"Friction {what} could not be compared: a run is missing.")
             continue
         reaction = max(abs((m["reaction_error"] or 0.0) - (without["reaction_error"] or 0.0)) for m in rubbed.values())
+        length = max(abs((m["contact_length_error"] or 0.0) - (without["contact_length_error"] or 0.0)) for m in rubbed.values())
         lift = max(abs((m["lift"] or 0.0) - (without["lift"] or 0.0)) for m in rubbed.values())
         text.append(
-            f"Friction up to {max(f for f in rubbed if f is not None):g} {what} moves r₀ by {number(reaction)} % "
-            f"at most, the lift by {number(lift)} V₀t."
+            f"Friction up to {max(f for f in rubbed if f is not None):g} {what} moves r₀ by {number(reaction)} % and "
+            f"λ₀ by {number(length)} % at most, the lift by {number(lift)} V₀t."
             + (
                 " It does nothing that matters: a point of the beam comes down on the wall almost without sliding."
                 if reaction < 0.1
                 else " It matters: sliding is no longer small."
             )
         )
-    text.append(
-        "λ₀ is read from shares of the reaction that Exudyn does not report for this contact; it is not compared."
-    )
     return " ".join(text)
 
 

@@ -53,6 +53,7 @@ class ContactRun(ABC):
     contact_s: Array
     longest_segment: int | None = None  # steps after which it must be asked again
     iterated = True  # Exudyn finds the contact state by repeating steps
+    states = 1  # data coordinates of a connector, the first a gap: the connector is closed where it is not positive
     round_off = 0.0  # force in Exudyn's connectors that means nothing: no residual can be made smaller
 
     @abstractmethod
@@ -67,10 +68,9 @@ class ContactRun(ABC):
     def velocity(self, q: Array, v: Array) -> Array:
         """Velocity of the beam at the contact points, positive into the wall, shape (contacts,)."""
 
-    def contradictions(self, q: Array, data: Array) -> tuple[Flags, Array]:
-        """Connectors that the last solution assumed closed, and the force by which the gaps it found contradict that
-        (0 where they agree), each of shape (connectors,); ``data`` are Exudyn's data coordinates. For contacts whose
-        state Exudyn finds by repeating steps (``iterated``)."""
+    def contradictions(self, q: Array, closed: Flags) -> Array:
+        """Force, shape (connectors,), by which the gaps of a solution contradict the state that it assumed (0 where
+        they agree). For contacts whose state Exudyn finds by repeating steps (``iterated``)."""
         raise TypeError(f"{type(self).__name__} is not iterated")
 
     def between(self, time: float, step: float, q: Array, v: Array) -> bool:

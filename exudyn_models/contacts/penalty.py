@@ -87,10 +87,10 @@ class _Run(ContactRun):
         self.strip.captured |= touching
         return force, active
 
-    def contradictions(self, q: Array, data: Array) -> tuple[Flags, Array]:
-        depth, closed = self.depth(q), data <= 0.0
+    def contradictions(self, q: Array, closed: Flags) -> Array:
+        depth = self.depth(q)
         wrong = (closed != (depth >= 0.0)) & ~self.held
-        return closed, np.where(wrong, self.stiffness * np.abs(depth), 0.0)
+        return np.where(wrong, self.stiffness * np.abs(depth), 0.0)
 
     def velocity(self, q: Array, v: Array) -> Array:
         return np.asarray(v[self.beam.vertical[self.nodes]])

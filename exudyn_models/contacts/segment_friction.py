@@ -30,13 +30,14 @@ __all__ = ["SegmentFriction"]
 
 Array = NDArray[np.float64]
 TRUE_SHARE = 0.25  # of the curvature, true geometry
-STATES = 3  # data coordinates of a segment: gap, stick or slip, where it sticks
 
 
 class _Run(ContactRun):
     """Contact points are the nodes: Exudyn's segment is the chord of an element, touches where it comes closest to the
     centre of the circle, and hands the force there to its two ends by the lever rule. Exudyn reports no force of this
     connector; what is computed here is its own law from the same state."""
+
+    states = 3  # gap; stick or slip; where it sticks
 
     def __init__(self, beam: Beam, elements: NDArray[np.int64], stiffness: Array, damping: Array) -> None:
         self.beam, self.elements = beam, elements
@@ -73,9 +74,9 @@ class _Run(ContactRun):
         nodal[1:] += force * at
         return nodal * vertical, nodal != 0.0
 
-    def contradictions(self, q: Array, data: Array) -> tuple[Flags, Array]:
-        gap, closed = self._closest(q)[0], data[::STATES] <= 0.0
-        return closed, np.where(closed != (gap <= 0.0), self.stiffness * np.abs(gap), 0.0)
+    def contradictions(self, q: Array, closed: Flags) -> Array:
+        gap = self._closest(q)[0]
+        return np.where(closed != (gap <= 0.0), self.stiffness * np.abs(gap), 0.0)
 
     def velocity(self, q: Array, v: Array) -> Array:
         return np.asarray(v[self.beam.vertical[self.nodes]])
@@ -139,7 +140,7 @@ class SegmentFriction(Contact):
         for e in elements:
             marker = mbs.AddMarker(items.MarkerBodyCable2DShape(bodyNumber=beam.bodies[e], numberOfSegments=1))
             state = mbs.AddNode(
-                items.NodeGenericData(numberOfDataCoordinates=STATES, initialCoordinates=[0.1, -2.0, 0.0])
+                items.NodeGenericData(numberOfDataCoordinates=_Run.states, initialCoordinates=[0.1, -2.0, 0.0])
             )  # open, neither sticking nor slipping
             mbs.AddObject(
                 items.ObjectContactFrictionCircleCable2D(

@@ -14,53 +14,65 @@ from exudyn_models.solvers import NewtonSolver
 
 SHORT = Impact.dimensionless(0.5, length=8.0)
 MESH = UniformMesh(0.1)
-NOTHING = SimpleNamespace(
-    systemData=SimpleNamespace(GetODE2Coordinates=lambda: np.zeros(0), GetDataCoordinates=lambda: np.zeros(0))
-)
 
 
 class Scripted:
-    """A contact whose solutions assume the given states and contradict them by the given forces."""
+    """A system and its contact: solutions that assume the given states and contradict them at the given connectors."""
+
+    states = 1
 
     def __init__(self, *steps):
-        self.steps = iter(steps)
+        self.steps, self.systemData = iter(steps), self
 
-    def contradictions(self, q, data):
-        state, force = next(self.steps)
-        return np.array(state, bool), np.array([force])
+    def GetDataCoordinates(self):
+        state, self.forces = next(self.steps)
+        return -np.array(state, float) + 0.5
+
+    def GetODE2Coordinates(self):
+        return np.zeros(0)
+
+    def contradictions(self, q, closed):
+        return np.array(self.forces)
 
 
 def judged(*steps, iterations=10, time=1.0):
     """Repetitions until the step was accepted or its repetitions had run out."""
     solver = SimpleNamespace(it=SimpleNamespace(discontinuousIteration=0))
-    settling = Settling(Scripted(*steps), solver, iterations, 0.5, must_settle=True)
+    script = Scripted(*steps)
+    settling = Settling(script, solver, iterations, 0.5, must_settle=True)
     for count in range(1, iterations + 1):
-        settling(NOTHING, time)
+        settling(script, time)
         if solver.it.discontinuousIteration == iterations - 1:
             return settling, count
     return settling, iterations
 
 
 def test_a_state_that_its_gaps_confirm_is_accepted_at_once():
-    settling, count = judged(((1, 0), 0.4))
+    settling, count = judged(((1, 0), (0.4, 0.0)))
     assert (count, settling.cycles, settling.unsettled) == (1, 0, 0)
 
 
 def test_a_state_that_settles_later_takes_as_many_repetitions():
-    settling, count = judged(((0, 0), 9.0), ((1, 0), 3.0), ((1, 1), 0.0))
+    settling, count = judged(((0, 0), (9.0, 0.0)), ((1, 0), (0.0, 3.0)), ((1, 1), (0.1, 0.0)))
     assert (count, settling.cycles, settling.unsettled) == (3, 0, 0)
 
 
 def test_of_a_cycle_the_state_that_contradicts_itself_least_is_accepted():
-    """The state before the cycle, which never returns, does not count."""
+    """Neither the state before the cycle counts, which never returns, nor a connector that hovers without force."""
     settling, count = judged(
-        ((0, 0), 0.6), ((1, 0), 4.0), ((0, 1), 2.0), ((1, 0), 4.0), ((0, 1), 2.0), ((1, 0), 4.0), ((0, 1), 2.0)
+        ((0, 0, 0), (0.6, 0.6, 0.0)),
+        ((1, 0, 1), (0.0, 4.0, 0.1)),
+        ((1, 1, 0), (0.0, 2.0, 0.1)),
+        ((1, 0, 0), (0.0, 4.001, 0.1)),
+        ((1, 1, 1), (0.0, 2.001, 0.1)),
     )
     assert (count, settling.cycles, settling.unsettled) == (5, 1, 0)
 
 
 def test_repetitions_that_run_out_are_counted_and_described():
-    settling, _ = judged(((0, 0), 4.0), ((1, 0), 3.0), ((1, 1), 2.0), iterations=3)
+    settling, _ = judged(
+        ((0, 0, 0), (4.0, 0.0, 0.0)), ((1, 0, 0), (0.0, 3.0, 0.0)), ((1, 1, 0), (0.0, 0.0, 2.0)), iterations=3
+    )
     assert settling.unsettled == 1 and "3 repetitions" in settling.failure() and "4 contact_tol" in settling.failure()
 
 
