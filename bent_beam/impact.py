@@ -114,18 +114,25 @@ class Impact:
         return dataclasses.replace(self, **changes)
 
     def checked_end_time(self, end_time: float) -> float:
-        """``end_time`` (s), or ``ValueError`` when it, or what the loads do by then, is out of all proportion."""
-        time = positive("end_time", end_time) / self.time_scale
-        if not 1.0 / LONGEST <= time <= LONGEST:
+        """``end_time`` (s) of a simulation, or ``ValueError`` when it is out of all proportion to t*."""
+        if positive("end_time", end_time) / self.time_scale < 1.0 / LONGEST:
             raise ValueError(
-                f"end_time must lie between {1 / LONGEST:g} and {LONGEST:g} t* (got {end_time!r}, t* = "
-                f"{self.time_scale!r} s)"
+                f"end_time must be at least {1 / LONGEST:g} t* (got {end_time!r}, t* = {self.time_scale!r} s)"
             )
-        for name in ("acceleration", "curvature_rate", "fourth_derivative"):
-            group = {"acceleration": "alpha", "curvature_rate": "chi", "fourth_derivative": "psi"}[name]
+        return self.checked_time("end_time", end_time)
+
+    def checked_time(self, name: str, value: float) -> float:
+        """A time (s) since impact, or ``ValueError`` when it, or what the loads do by then, is out of proportion."""
+        time = non_negative(name, value) / self.time_scale
+        if time > LONGEST:
+            raise ValueError(f"{name} must not exceed {LONGEST:g} t* (got {value!r}, t* = {self.time_scale!r} s)")
+        loads = {"acceleration": "alpha", "curvature_rate": "chi", "fourth_derivative": "psi"}
+        for load, group in loads.items():
             if abs(getattr(self, f"epsilon_{group}")) * time > LONGEST:
-                raise ValueError(f"{name} is out of all proportion to the end time (got {getattr(self, name)!r})")
-        return float(end_time)
+                raise ValueError(
+                    f"{load} is out of all proportion to a time of {value:.6g} s (got {getattr(self, load)!r})"
+                )
+        return float(value)
 
     # scales (theory.md, section 2; thesis 2.2.16, 2.2.36–37) -----------------------------------------
     @property

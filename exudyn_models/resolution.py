@@ -71,6 +71,6 @@ def reachable(x: Array, scaling: Scaling, centre: int) -> NDArray[np.int64]:
     times = np.linspace(0.05, 1.0, 20)[:, None]
     inside = (scaling.free_deflection(x[None, :], times) > 0.0).any(axis=0)
     reach = 1.5 * np.abs(x[inside]).max(initial=0.0)
-    wide = np.abs(x) <= reach
+    wide = np.abs(x) <= reach * (1.0 + 1e-9)  # a node right there belongs, whatever its round-off
     wide[max(0, centre - 20) : centre + 21] = True
     return np.flatnonzero(wide)

@@ -103,17 +103,15 @@ def predict(impact: Impact, times: Iterable[float] | float = ()) -> Prediction:
         what `checks` is about.
 
     Raises:
-        ValueError: a straight beam (K = 0), or a time that is negative or not finite.
+        ValueError: a straight beam (K = 0), or a time that is negative, not finite or beyond 1e30 t*.
     """
     if impact.curvature == 0.0:
         raise ValueError(
             "curvature must be positive (got 0.0): a straight beam has kappa/nu = 0, touches over its whole "
             "length at once, and lambda0 is infinite"
         )
-    instants = [float(times)] if isinstance(times, int | float) else [float(t) for t in times]
-    for t in instants:
-        if not (math.isfinite(t) and t >= 0.0):
-            raise ValueError(f"times must be non-negative and finite (got {t})")
+    given = [times] if isinstance(times, int | float) else times
+    instants = [impact.checked_time("times", t) for t in given]
     epsilon = impact.epsilon
     solved = contact_parameters(
         impact.kappa_over_nu, impact.epsilon_alpha, impact.epsilon_psi, impact.epsilon_chi
