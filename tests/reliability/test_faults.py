@@ -1,11 +1,14 @@
 """Killed, torn, dying, lost: a second start finishes with the same rows, and nothing broken is read as good."""
 
 import contextlib
+import csv
+import functools
 import io
 import json
 import math
 import os
 import random
+import re
 import signal
 import subprocess
 import sys
@@ -19,23 +22,41 @@ from comparison.store import RunStore, write_atomically
 from comparison.workers import run_all
 
 FUZZ = bool(os.environ.get("FUZZ"))
-RANDOM = random.Random(int(os.environ.get("FUZZ_SEED", "0")))
+SEED = os.environ.get("FUZZ_SEED", "0")
 MAIN = "from comparison.command_line import main; main()"
-KAPPAS = [item for kappa in ("0.5", "0.3", "2.0") for item in ("--kappa-over-nu", kappa)]
-MATCH = ["match", "--path", "hermite", *KAPPAS, "--json"]
+FEW_ROWS = f"""
+import comparison.report as report
+questions, studies = report.report_questions, report.known_studies
+report.report_questions = lambda: [q for q in questions() if q.kappa_over_nu >= 0.25 and q.first in (None, (4, 0, 0))]
+report.known_studies = lambda: dict(list(studies().items())[:5])
+{MAIN}
+"""
+KAPPAS = {"hermite": ("0.5", "0.3", "2.0"), "exudyn": ("0.3", "2.0")}
 
 
-def start(arguments, store, **options):
+def match_on(path):
+    return ["match", "--path", path, *(i for kappa in KAPPAS[path] for i in ("--kappa-over-nu", kappa)), "--json"]
+
+
+MATCH = match_on("hermite")
+
+
+@pytest.fixture
+def numbers(request):
+    """Random numbers of the test's own: the same for the same seed, whatever ran before it in this process."""
+    return random.Random(f"{SEED} {request.node.name}")
+
+
+def start(arguments, store, main=MAIN):
     """The command in a session of its own, so that a kill takes its workers too, as a power cut would."""
     environment = os.environ | {"BENTBEAM_STORE": str(store), "OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
     return subprocess.Popen(
-        [sys.executable, "-c", MAIN, *map(str, arguments)],
+        [sys.executable, "-c", main, *map(str, arguments)],
         env=environment,
         start_new_session=True,
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
         text=True,
-        **options,
     )
 
 
@@ -50,9 +71,9 @@ def killed(process, after):
         return True
 
 
-def killed_after_its_first_run(process, store):
-    """Kill -9 as soon as one run is kept, however fast the machine; True when it was still at work."""
-    while process.poll() is None and not any(store.glob("*.json")):
+def killed_as_soon_as(happened, process):
+    """Kill -9 when ``happened()``, however fast the machine; True when it was still at work."""
+    while process.poll() is None and not happened():
         time.sleep(0.005)
     working = process.poll() is None
     if working:
@@ -61,8 +82,8 @@ def killed_after_its_first_run(process, store):
     return working
 
 
-def finished(arguments, store, limit=590):
-    out, err = start(arguments, store).communicate(timeout=limit)
+def finished(arguments, store, limit=590, main=MAIN):
+    out, err = start(arguments, store, main).communicate(timeout=limit)
     return out, err
 
 
@@ -71,41 +92,76 @@ def rows_of(text):
     return [{key: value for key, value in row.items() if key != "seconds"} for row in rows]
 
 
+def kept_in(store):
+    return sorted(f for f in store.glob("*.json") if not f.name.startswith("."))
+
+
 def every_kept_run_is_whole(store):
-    files = [f for f in store.glob("*.json") if not f.name.startswith(".")] if store.exists() else []
+    files = kept_in(store)
     for file in files:
         assert RunStore._read(file) is not None, file
     return len(files)
 
 
+@contextlib.contextmanager
+def none_kept_is_computed_again(store):
+    kept = {file: file.stat().st_mtime_ns for file in kept_in(store)}
+    yield
+    assert kept == {file: file.stat().st_mtime_ns for file in kept}
+
+
+def torn(file, numbers):
+    """Cut the file somewhere, as a disk that lost its last blocks would."""
+    good = file.read_bytes()
+    file.write_bytes(good[: numbers.randrange(len(good))])
+    assert RunStore._read(file) is None
+
+
 @pytest.fixture(scope="module")
 def reference(tmp_path_factory):
-    began = time.perf_counter()
-    out, _ = finished(MATCH, tmp_path_factory.mktemp("reference"))
-    return rows_of(out), time.perf_counter() - began
+    """Rows of an uninterrupted match on a path, and the seconds that it took; made once a path."""
+
+    @functools.cache
+    def of(path):
+        began = time.perf_counter()
+        out, _ = finished(match_on(path), tmp_path_factory.mktemp("reference"))
+        return rows_of(out), time.perf_counter() - began
+
+    return of
 
 
-def test_a_killed_match_starts_again_and_ends_with_the_same_rows(reference, tmp_path):
-    rows, duration = reference
-    kills, wanted = 0, 42 if FUZZ else 2
+@pytest.mark.parametrize(
+    ("path", "wanted"),
+    [
+        ("hermite", 42 if FUZZ else 2),
+        pytest.param("exudyn", 6, marks=pytest.mark.skipif(not FUZZ, reason="half a minute: FUZZ=1")),
+    ],
+)
+def test_a_killed_match_starts_again_and_ends_with_the_same_rows(path, wanted, reference, numbers, tmp_path):
+    rows, duration = reference(path)
+    command, kills = match_on(path), 0
     for series in range(200):
         store = tmp_path / f"store-{series}"
-        jobs = ["--jobs", RANDOM.choice(["1", "2"])] if FUZZ else []
-        kills += killed_after_its_first_run(start([*MATCH, *jobs], store), store)
+        jobs = ["--jobs", numbers.choice(["1", "2"])] if FUZZ else []
+        kills += killed_as_soon_as(lambda: kept_in(store), start([*command, *jobs], store))  # noqa: B023
         for _ in range(2):
-            kills += killed(start([*MATCH, *jobs], store), RANDOM.uniform(0.3, 0.9) * duration)
+            kills += killed(start([*command, *jobs], store), numbers.uniform(0.3, 0.9) * duration)
             every_kept_run_is_whole(store)
         if kills >= wanted or not FUZZ or series % 5 == 0:
-            assert rows_of(finished(MATCH, store)[0]) == rows
-            assert every_kept_run_is_whole(store) >= 3
+            with none_kept_is_computed_again(store):
+                assert rows_of(finished(command, store)[0]) == rows
+            assert every_kept_run_is_whole(store) == len(rows)
         if kills >= wanted or not FUZZ:
             break
-    print(f"match: {kills} kills")
+    torn(numbers.choice(kept_in(store)), numbers)
+    assert rows_of(finished(command, store)[0]) == rows
+    assert every_kept_run_is_whole(store) == len(rows)
+    print(f"match on the {path} path: {kills} kills")
     assert kills >= (wanted if FUZZ else 1)
 
 
 @pytest.mark.skipif(not FUZZ, reason="minutes: FUZZ=1")
-def test_a_killed_gallery_starts_again_and_ends_with_the_same_figures(tmp_path):
+def test_a_killed_gallery_starts_again_and_ends_with_the_same_figures(numbers, tmp_path):
     items = ["fig-2.5", "fig-2.7a", "fig-2.7b", "fig-2.9"]
     listed = {e["id"] for e in json.loads(finished(["gallery", "--list", "--json"], tmp_path / "s")[0])}
     items = [i for i in items if i in listed] or sorted(listed)[:4]
@@ -115,7 +171,7 @@ def test_a_killed_gallery_starts_again_and_ends_with_the_same_figures(tmp_path):
     kills = 0
     out = tmp_path / "killed"
     for _ in range(20):
-        kills += killed(start(["gallery", *items, "--out", out], tmp_path / "s"), RANDOM.uniform(0.2, 0.95) * duration)
+        kills += killed(start(["gallery", *items, "--out", out], tmp_path / "s"), numbers.uniform(0.2, 0.95) * duration)
         if kills == 5:
             break
     drawn = json.loads(finished(["gallery", *items, "--out", out, "--json"], tmp_path / "s")[0])
@@ -127,17 +183,78 @@ def test_a_killed_gallery_starts_again_and_ends_with_the_same_figures(tmp_path):
     print(f"gallery: {kills} kills")
 
 
+CLOCK = (  # where the page shows seconds or the date, and how often: (pattern, what to put there, times)
+    (r'(<td class="number wide">)[\d.]+(</td></tr>)', r"\1\2", "once a row"),
+    (r"order \w+ is \S+ times faster than \w+ (\(median of \d+ like rows): [^)]*\)", r"\1", "said twice an order"),
+    (r'(<th scope="row">(?:written|time for this report|time in the rows)</th><td>)[^<]*', r"\1", "three facts"),
+)
+
+
+def without_clock(text, times):
+    for pattern, rest, why in CLOCK:
+        text, found = re.subn(pattern, rest, text)
+        assert found == times[why], (why, found)
+    return text
+
+
+def shown_by(answer, out):
+    """All that a report says, by name, but for the seconds, the date and the folder: its answer, files, page, plots."""
+    found = json.loads(answer)
+    assert found["rows"] and not found["failures"]
+    shown = {"files": {os.path.relpath(f, out) for f in found["files"]}, "headline": found["headline"]}
+    shown |= {f.name: f.read_bytes() for f in (out / "data").glob("[!.]*.png")}
+    shown["match.json"] = rows_of((out / "data" / "match.json").read_text())
+    with open(out / "data" / "match.csv", newline="") as table:
+        shown["match.csv"] = [row | {"seconds": ""} for row in csv.DictReader(table)]
+    page = (out / "index.html").read_text()
+    before, mark, rest = page.partition('<script type="application/json" id="data">')
+    embedded, end, after = rest.partition("</script>")
+    assert mark and end
+    times = {"once a row": found["rows"], "said twice an order": 4, "three facts": 3}
+    shown["page"] = without_clock(before + after, times)
+    data = json.loads(embedded)
+    for plot in data["plots"].values():
+        for trace in plot["data"]:
+            if "computed in %{customdata[4]} s" in trace["hovertemplate"]:
+                trace["customdata"] = [point[:4] + point[5:] for point in trace["customdata"]]
+    for trace in data["plots"]["seconds"]["data"]:
+        del trace["y"]
+    shown |= {f"plot {name}": plot for name, plot in data.pop("plots").items()}
+    return shown | {f"data of {name}": value for name, value in data.items()}
+
+
 @pytest.mark.skipif(not FUZZ, reason="minutes: FUZZ=1")
-def test_a_killed_report_leaves_no_page_and_no_broken_run(tmp_path):
-    """What is in the store goes into the next start; a page is there whole or not at all."""
-    out, store, kills = tmp_path / "report", tmp_path / "store", 0
-    for _ in range(5):
-        kills += killed(start(["report", "--out", out, "--overwrite"], store), RANDOM.uniform(3.0, 25.0))
+def test_a_killed_report_starts_again_and_ends_with_the_same_page(numbers, tmp_path):
+    """Few of its rows and studies, on both paths and of both orders; no page before the end, then the whole page."""
+    command = ["report", "--jobs", "2", "--overwrite", "--json", "--out"]
+
+    def report(out, store):
+        return shown_by(finished([*command, out], store, main=FEW_ROWS)[0], out)
+
+    whole = report(tmp_path / "whole", tmp_path / "whole-store")
+    total = every_kept_run_is_whole(tmp_path / "whole-store")
+    out, store, kills = tmp_path / "killed", tmp_path / "killed-store", 0
+
+    def kill_as_soon_as(happened):
+        with none_kept_is_computed_again(store):
+            working = killed_as_soon_as(happened, start([*command, out], store, main=FEW_ROWS))
         every_kept_run_is_whole(store)
-        page = out / "index.html"
-        assert not page.exists() or page.read_text().rstrip().endswith("</html>")
-    assert kills >= 3
-    print(f"report: {kills} kills, {every_kept_run_is_whole(store)} runs kept")
+        return working
+
+    for _ in range(4):
+        kept = len(kept_in(store))
+        enough = kept + numbers.randint(1, max(1, (total - kept) // 3))
+        kills += kill_as_soon_as(lambda: len(kept_in(store)) >= enough)  # noqa: B023
+        assert not (out / "index.html").exists()
+    kills += kill_as_soon_as((out / "data" / "match.json").exists)  # at work on the pictures and the page
+    page = out / "index.html"
+    assert not page.exists() or page.read_text().rstrip().endswith("</html>")
+    with none_kept_is_computed_again(store):
+        again = report(out, store)
+    assert again.keys() == whole.keys()
+    assert [name for name in whole if again[name] != whole[name]] == []
+    assert kills >= 4 and len(kept_in(store)) == total
+    print(f"report: {kills} kills, {total} runs kept, {len(whole)} things on the page compared")
 
 
 # --- the store ------------------------------------------------------------
@@ -260,9 +377,9 @@ def test_rows_do_not_depend_on_jobs_or_on_a_cluster(reference):
         asked = [Question("hermite", kappa) for kappa in (0.5, 0.3, 2.0)]
         rows, failures = match(asked, scheduler=address)
         assert not failures
-        assert without_seconds(rows) == reference[0]
+        assert without_seconds(rows) == reference("hermite")[0]
         if FUZZ:
-            assert without_seconds(match(asked, jobs=2)[0]) == reference[0]
+            assert without_seconds(match(asked, jobs=2)[0]) == reference("hermite")[0]
     finally:
         for process in reversed(started):
             process.terminate()
