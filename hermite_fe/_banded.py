@@ -20,8 +20,6 @@ from hermite_fe._jit import compiled, compiled_sums
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
-WIDTH = 5  # of the factored matrix: diagonal and four couplings
-
 
 @compiled_sums
 def multiply(A: Array, x: Array, y: Array) -> None:

@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hermite_fe._jit import compiled
+from hermite_fe._problem import ContactLaw, Problem
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
@@ -49,14 +50,13 @@ def force_at(load: Array, t: float, h: float, theta: float, force: Array) -> Non
 
 
 @compiled
-def mark_held(
-    closed: Flags, rank: Places, side: Places, distance: int, everything: bool, held: Flags
-) -> None:
-    """Rows that stay closed: those whose front is fewer than ``distance`` rows further, or all that are
-    closed."""
+def mark_held(problem: Problem, law: ContactLaw, closed: Flags, t: float, held: Flags) -> None:
+    """Rows that stay closed after time t: those whose front is fewer than ``law.hold`` rows further, and before
+    ``law.hold_until`` all that are closed."""
+    rank, side, everything = problem.rank, problem.side, t < law.hold_until
     front = np.full(2, -1)
     for j in range(closed.size):
         if closed[j]:
             front[side[j]] = max(front[side[j]], rank[j])
     for j in range(closed.size):
-        held[j] = closed[j] and (everything or front[side[j]] - rank[j] < distance)
+        held[j] = closed[j] and (everything or front[side[j]] - rank[j] < law.hold)

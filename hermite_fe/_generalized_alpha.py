@@ -16,13 +16,14 @@ what the others leave.
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from hermite_fe._banded import add, combine, dot, factor, multiply, quadratic, stiff_multiply
 from hermite_fe._contact import force_at, mark_held, row_times, rows_times
-from hermite_fe._jit import compiled
+from hermite_fe._jit import compiled, inlined
 from hermite_fe._pivoting import NOT_FINITE, SINGULAR, SOLVED, solve_rows
 from hermite_fe._problem import (
     ALGORITHMIC,
@@ -41,13 +42,69 @@ Array = NDArray[np.float64]
 AT_REST = 1e-10  # of the largest velocity: a closed row slower than this has not rebounded
 
 
-@compiled
-def coefficients(spectral_radius: float) -> tuple[float, float, float, float]:
-    """α_m, α_f, γ, β of (3.3.13–16)."""
+class Scheme(NamedTuple):
+    """Coefficients of (3.3.13–16), and s = (1 − α_f)/(1 − α_m)."""
+
+    alpha_m: float
+    alpha_f: float
+    gamma: float
+    beta: float
+    s: float
+
+
+@inlined
+def scheme_of(spectral_radius: float) -> Scheme:
+    """The coefficients for ρ∞."""
     alpha_m = (2.0 * spectral_radius - 1.0) / (spectral_radius + 1.0)
     alpha_f = spectral_radius / (spectral_radius + 1.0)
     gamma = 0.5 + alpha_f - alpha_m
-    return alpha_m, alpha_f, gamma, 0.25 * (gamma + 0.5) ** 2
+    return Scheme(alpha_m, alpha_f, gamma, 0.25 * (gamma + 0.5) ** 2, (1.0 - alpha_f) / (1.0 - alpha_m))
+
+
+@inlined
+def combine_smooth(scheme: Scheme, problem: Problem, h: float, work: Work) -> None:
+    """work.S = M + hγsC + h²βsK, the matrix of v̇⁺."""
+    _, _, gamma, beta, s = scheme
+    combine(problem.M, problem.C, problem.K, 1.0, h * gamma * s, h * h * beta * s, problem.place, work.S)
+
+
+@inlined
+def predict(scheme: Scheme, state: State, h: float, old_q: Array, old_v: Array, predicted: Array) -> None:
+    """Keep q, v in old_q, old_v and put q*, v* in their place; predicted = a*."""
+    alpha_m, alpha_f, gamma, beta, _ = scheme
+    q, v, a, rate = state.q, state.v, state.a, state.acceleration
+    for i in range(q.size):
+        known = (alpha_f * rate[i] - alpha_m * a[i]) / (1.0 - alpha_m)
+        old_q[i] = q[i]
+        old_v[i] = v[i]
+        predicted[i] = known
+        q[i] += h * v[i] + h * h * ((0.5 - beta) * a[i] + beta * known)
+        v[i] += h * ((1.0 - gamma) * a[i] + gamma * known)
+
+
+@inlined
+def correct(scheme: Scheme, state: State, h: float, rate: Array, old_q: Array, old_v: Array, predicted: Array) -> None:
+    """v̇⁺ = rate and the a⁺, q⁺, v⁺ that follow from it and from what :func:`predict` kept; jumps are not in them."""
+    _, _, gamma, beta, s = scheme
+    q, v, a = state.q, state.v, state.a
+    for i in range(q.size):
+        a_old = a[i]
+        state.acceleration[i] = rate[i]
+        a[i] = predicted[i] + s * rate[i]
+        q[i] = old_q[i] + h * old_v[i] + h * h * ((0.5 - beta) * a_old + beta * a[i])
+        v[i] = old_v[i] + h * ((1.0 - gamma) * a_old + gamma * a[i])
+
+
+@inlined
+def react(scheme: Scheme, state: State, h: float, j: int, force: float, impulse: Array) -> None:
+    """Row j's reaction at the end of the step is ``force``; its impulse over the step goes to impulse[j], through the
+    same filter as v̇."""
+    alpha_m, alpha_f, gamma, _, s = scheme
+    known = (alpha_f * state.reaction[j] - alpha_m * state.reaction_a[j]) / (1.0 - alpha_m)
+    impulse[j] = h * (1.0 - gamma) * state.reaction_a[j]
+    state.reaction[j] = force
+    state.reaction_a[j] = known + s * force
+    impulse[j] += h * gamma * state.reaction_a[j]
 
 
 @compiled
@@ -63,19 +120,13 @@ def residual_force(problem: Problem, t: float, q: Array, v: Array, out: Array, s
 
 
 @compiled
-def open_all(problem: Problem, work: Work) -> None:
-    """No row takes part in the next solve with ``work``."""
-    for j in range(work.candidate.size):
-        work.candidate[j] = False
-        work.held[j] = False
-
-
-@compiled
 def start(problem: Problem, state: State, work: Work) -> int:
-    """Acceleration at the start, v̇ = a = M⁻¹(F − Cv − Kq), without reactions."""
+    """Acceleration at the start, v̇ = a = M⁻¹(F − Cv − Kq), without reactions; leaves ``work`` without rows that take
+    part."""
     combine(problem.M, problem.C, problem.K, 1.0, 0.0, 0.0, problem.place, work.S)
     work.made_with[0] = math.nan
-    open_all(problem, work)
+    work.candidate[:] = False
+    work.held[:] = False
     residual_force(problem, 0.0, state.q, state.v, work.b, work.d1)
     status = solve_rows(problem, work, True, np.zeros(state.closed.size, np.bool_))
     state.acceleration[:] = work.x
@@ -135,14 +186,13 @@ def velocity_steps(
     The jump takes along the elastic forces that it raises within the step: with M W = Gᵀp alone the next
     smooth accelerations would have to undo them, which a stiff beam does not survive.
     """
-    alpha_m, alpha_f, gamma, beta = coefficients(spectral_radius)
-    s = (1.0 - alpha_f) / (1.0 - alpha_m)
+    scheme = scheme_of(spectral_radius)
+    gamma, beta, s = scheme.gamma, scheme.beta, scheme.s
     q, v, a, rate, closed = state.q, state.v, state.a, state.acceleration, state.closed
     dofs, factors, work = problem.dofs, problem.factors, velocity
     n, m = q.size, closed.size
     old_q, old_v, predicted = np.empty(n), np.empty(n), np.empty(n)
     none = np.zeros(m, np.bool_)
-    open_all(problem, smooth)
     if first == 0:
         status = start(problem, state, smooth)
         if status != SOLVED:
@@ -152,26 +202,16 @@ def velocity_steps(
         h = times[k + 1] - t
         fresh = smooth.made_with[0] != h
         if fresh:
-            combine(
-                problem.M, problem.C, problem.K, 1.0, h * gamma * s, h * h * beta * s, problem.place, smooth.S
-            )
-            combine(
-                problem.M, problem.C, problem.K, 1.0, h * gamma * s, h * h * beta * s, problem.place, work.S
-            )
+            combine_smooth(scheme, problem, h, smooth)
+            combine_smooth(scheme, problem, h, work)
             smooth.made_with[0] = h
         rows_times(dofs, factors, q, work.gap)
         rows_times(dofs, factors, v, work.speed)
-        mark_held(closed, problem.rank, problem.side, law.hold, t < law.hold_until, work.held)
+        mark_held(problem, law, closed, t, work.held)
         for j in range(m):
             # where a row would come to rest if it were closed now
             work.candidate[j] = problem.gap[j] + work.gap[j] + h * (1.0 - beta / gamma) * work.speed[j] <= 0.0
-        for i in range(n):
-            known = (alpha_f * rate[i] - alpha_m * a[i]) / (1.0 - alpha_m)
-            old_q[i] = q[i]
-            old_v[i] = v[i]
-            predicted[i] = known
-            q[i] += h * v[i] + h * h * ((0.5 - beta) * a[i] + beta * known)
-            v[i] += h * ((1.0 - gamma) * a[i] + gamma * known)
+        predict(scheme, state, h, old_q, old_v, predicted)
         residual_force(problem, t + h, q, v, smooth.b, smooth.d1)
         status = solve_rows(problem, smooth, fresh, none)
         if status != SOLVED:
@@ -227,17 +267,14 @@ def sequential_steps(
 
     smooth :    M v̇⁺ + C ṽ + K q̃ = F⁺ + Gᵀλ,   0 ≤ λ ⊥ Gv̇⁺ ≥ 0 for rows at rest on the wall
         (with_acceleration; else λ = 0)
-    position :  M U = h²f_p + Gᵀν,    f_p = −KU − CU/h,    0 ≤ ν ⊥ g(q̃ + U) ≥ 0
-        (3.2.19)
-    velocity :  M W = hf_v + GᵀΛ,     f_v = −KU − CW,      0 ≤ Λ ⊥ Gv⁺ + eGv ≥ 0 for rows closed at position
-         (3.2.20)
+    position :  M U = h²f_p + Gᵀν,    f_p = −KU − CU/h,    0 ≤ ν ⊥ g(q̃ + U) ≥ 0                     (3.2.19)
+    velocity :  M W = hf_v + GᵀΛ,     f_v = −KU − CW,      0 ≤ Λ ⊥ Gv⁺ + eGv ≥ 0                     (3.2.20)
+        for rows closed at position
 
     λ counts in the impulse through the same filter as v̇: momentum is exact.
     """
-    alpha_m, alpha_f, gamma, beta = coefficients(spectral_radius)
-    s = (1.0 - alpha_f) / (1.0 - alpha_m)
-    q, v, a, rate, closed = state.q, state.v, state.a, state.acceleration, state.closed
-    reaction, reaction_a, resting = state.reaction, state.reaction_a, state.resting
+    scheme = scheme_of(spectral_radius)
+    q, v, closed, resting = state.q, state.v, state.closed, state.resting
     dofs, factors = problem.dofs, problem.factors
     n, m = q.size, closed.size
     old_q, old_v, predicted, impulse = np.empty(n), np.empty(n), np.empty(n), np.empty(m)
@@ -250,22 +287,14 @@ def sequential_steps(
         h = times[k + 1] - t
         fresh = smooth.made_with[0] != h
         if fresh:
-            combine(
-                problem.M, problem.C, problem.K, 1.0, h * gamma * s, h * h * beta * s, problem.place, smooth.S
-            )
+            combine_smooth(scheme, problem, h, smooth)
             combine(problem.M, problem.C, problem.K, 1.0, h, h * h, problem.place, position.S)
             combine(problem.M, problem.C, problem.K, 1.0, h, 0.0, problem.place, velocity.S)
             smooth.made_with[0] = h
-        mark_held(closed, problem.rank, problem.side, law.hold, t < law.hold_until, position.held)
+        mark_held(problem, law, closed, t, position.held)
         rows_times(dofs, factors, v, velocity.speed)
 
-        for i in range(n):
-            known = (alpha_f * rate[i] - alpha_m * a[i]) / (1.0 - alpha_m)
-            old_q[i] = q[i]
-            old_v[i] = v[i]
-            predicted[i] = known
-            q[i] += h * v[i] + h * h * ((0.5 - beta) * a[i] + beta * known)
-            v[i] += h * ((1.0 - gamma) * a[i] + gamma * known)
+        predict(scheme, state, h, old_q, old_v, predicted)
         residual_force(problem, t + h, q, v, smooth.b, smooth.d1)
         for j in range(m):
             smooth.candidate[j] = with_acceleration and resting[j]
@@ -275,18 +304,9 @@ def sequential_steps(
         if status != SOLVED:
             smooth.made_with[0] = math.nan
             return status, k
-        for i in range(n):
-            a_old = a[i]
-            rate[i] = smooth.x[i]
-            a[i] = predicted[i] + s * rate[i]
-            q[i] = old_q[i] + h * old_v[i] + h * h * ((0.5 - beta) * a_old + beta * a[i])
-            v[i] = old_v[i] + h * ((1.0 - gamma) * a_old + gamma * a[i])
+        correct(scheme, state, h, smooth.x, old_q, old_v, predicted)
         for j in range(m):
-            known = (alpha_f * reaction[j] - alpha_m * reaction_a[j]) / (1.0 - alpha_m)
-            impulse[j] = h * (1.0 - gamma) * reaction_a[j]
-            reaction[j] = smooth.p[j]
-            reaction_a[j] = known + s * reaction[j]
-            impulse[j] += h * gamma * reaction_a[j]
+            react(scheme, state, h, j, smooth.p[j], impulse)
 
         rows_times(dofs, factors, q, position.gap)
         for j in range(m):
@@ -360,15 +380,14 @@ def penalty_steps(
     Rows touch one dof each. Which ones are in touch is settled by re-solving, at most ``rounds`` times, as
     Exudyn's discontinuous iteration does; a damper may pull while its row is in touch.
     """
-    alpha_m, alpha_f, gamma, beta = coefficients(spectral_radius)
-    s = (1.0 - alpha_f) / (1.0 - alpha_m)
-    q, v, a, rate, closed = state.q, state.v, state.a, state.acceleration, state.closed
+    scheme = scheme_of(spectral_radius)
+    gamma, beta, s = scheme.gamma, scheme.beta, scheme.s
+    q, v, closed = state.q, state.v, state.closed
     dofs, factors = problem.dofs, problem.factors
     n, m = q.size, closed.size
     old_q, old_v, predicted, right = np.empty(n), np.empty(n), np.empty(n), np.empty(n)
     touching = state.resting  # as the factors know them
     none = np.zeros(m, np.bool_)
-    open_all(problem, work)
     if first == 0:
         status = start(problem, state, work)
         if status != SOLVED:
@@ -378,19 +397,11 @@ def penalty_steps(
         h = times[k + 1] - t
         fresh = work.made_with[0] != h
         if fresh:
-            combine(
-                problem.M, problem.C, problem.K, 1.0, h * gamma * s, h * h * beta * s, problem.place, work.S
-            )
+            combine_smooth(scheme, problem, h, work)
             work.made_with[0] = h
             for j in range(m):
                 touching[j] = False
-        for i in range(n):
-            known = (alpha_f * rate[i] - alpha_m * a[i]) / (1.0 - alpha_m)
-            old_q[i] = q[i]
-            old_v[i] = v[i]
-            predicted[i] = known
-            q[i] += h * v[i] + h * h * ((0.5 - beta) * a[i] + beta * known)
-            v[i] += h * ((1.0 - gamma) * a[i] + gamma * known)
+        predict(scheme, state, h, old_q, old_v, predicted)
         residual_force(problem, t + h, q, v, right, work.d1)
         rows_times(dofs, factors, q, work.gap)
         rows_times(dofs, factors, v, work.speed)
@@ -427,23 +438,14 @@ def penalty_steps(
             for j in range(m):
                 if work.wrong[j]:
                     closed[j] = not closed[j]
-        for i in range(n):
-            rate[i] = work.x[i]
-            a_old = a[i]
-            a[i] = predicted[i] + s * rate[i]
-            q[i] = old_q[i] + h * old_v[i] + h * h * ((0.5 - beta) * a_old + beta * a[i])
-            v[i] = old_v[i] + h * ((1.0 - gamma) * a_old + gamma * a[i])
+        correct(scheme, state, h, work.x, old_q, old_v, predicted)
         for j in range(m):
             d, g = dofs[j, 0], factors[j, 0]
             spring, damper = stiffness * problem.tributary[j], damping * problem.tributary[j]
             force = 0.0
             if closed[j]:
                 force = -spring * (problem.gap[j] + g * q[d]) - damper * g * v[d]
-            known = (alpha_f * state.reaction[j] - alpha_m * state.reaction_a[j]) / (1.0 - alpha_m)
-            work.p[j] = h * (1.0 - gamma) * state.reaction_a[j]
-            state.reaction[j] = force
-            state.reaction_a[j] = known + s * force
-            work.p[j] += h * gamma * state.reaction_a[j]
+            react(scheme, state, h, j, force, work.p)
             state.worst[SMALLEST_REACTION] = min(state.worst[SMALLEST_REACTION], h * force)
             if closed[j]:
                 gap = problem.gap[j] + g * q[d]

@@ -10,7 +10,7 @@ from typing import Any, TypeVar, cast
 import numba
 from numba.core.caching import FunctionCache, IndexDataCacheFile
 
-__all__ = ["compiled", "compiled_sums"]
+__all__ = ["compiled", "compiled_sums", "inlined"]
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 
@@ -53,3 +53,13 @@ def compiled(function: Function) -> Function:
 def compiled_sums(function: Function) -> Function:
     """Compile with sums reordered for speed, for kernels to which their order is nothing."""
     return kernel(function, fastmath={"contract", "reassoc"})
+
+
+def inlined(function: Function) -> Function:
+    """Write ``function`` into the kernels that call it before they are compiled: for arithmetic that several share.
+
+    As a kernel of its own it would be compiled for itself and once more within each caller, with other contractions.
+    Which of the two then runs depends on what the cache holds, so a first run and a second one would differ in their
+    last digits (measured).
+    """
+    return cast(Function, numba.njit(inline="always")(function))

@@ -22,7 +22,11 @@ Places = NDArray[np.int64]
 
 
 class Problem(NamedTuple):
-    """What does not change during a run."""
+    """What does not change during a run.
+
+    M, C, K, load, dofs … tributary : of the :class:`System` and its rows; even, odd : K's :func:`row_sums`
+    place, switch, reach : see above
+    """
 
     M: Array
     C: Array
@@ -96,7 +100,7 @@ class Work(NamedTuple):
     d1: Array
     d2: Array
     d3: Array
-    made_with: Array
+    made_with: Array  # the step that S was made with, alone
     rounds: NDArray[np.int64]  # solves, active-set iterations of all of them, most of one
 
 
@@ -125,21 +129,23 @@ def problem_of(system: System) -> Problem:
     else:
         switch = rows.dofs[:, 0].copy()
     reach = np.maximum(place[rows.dofs].max(axis=1), switch) if m else np.zeros(0, np.int64)
+    even, odd = row_sums(system.stiffness)
     return Problem(
-        system.mass,
-        system.damping,
-        system.stiffness,
-        *row_sums(system.stiffness),
-        system.load,
-        rows.dofs,
-        rows.factors,
-        rows.gap,
-        rows.rank,
-        rows.side,
-        rows.tributary,
-        place,
-        switch,
-        np.asarray(reach),
+        M=system.mass,
+        C=system.damping,
+        K=system.stiffness,
+        even=even,
+        odd=odd,
+        load=system.load,
+        dofs=rows.dofs,
+        factors=rows.factors,
+        gap=rows.gap,
+        rank=rows.rank,
+        side=rows.side,
+        tributary=rows.tributary,
+        place=place,
+        switch=switch,
+        reach=np.asarray(reach),
     )
 
 
@@ -147,18 +153,18 @@ def state_of(system: System, q: Array, v: Array) -> State:
     """A fresh state at the start, q and v copied."""
     n, m = system.dofs, len(system.contacts)
     return State(
-        np.array(q, float),
-        np.array(v, float),
-        np.zeros(n),
-        np.zeros(n),
-        np.zeros(m),
-        np.zeros(m),
-        np.zeros(m, np.bool_),
-        np.zeros(m, np.bool_),
-        np.zeros(m),
-        np.zeros(m),
-        np.zeros(8),
-        np.zeros(2),
+        q=np.array(q, float),
+        v=np.array(v, float),
+        a=np.zeros(n),
+        acceleration=np.zeros(n),
+        reaction=np.zeros(m),
+        reaction_a=np.zeros(m),
+        closed=np.zeros(m, np.bool_),
+        resting=np.zeros(m, np.bool_),
+        impulse=np.zeros(m),
+        held_impulse=np.zeros(m),
+        budget=np.zeros(8),
+        worst=np.zeros(2),
     )
 
 
@@ -173,33 +179,31 @@ def work_of(system: System, problem: Problem) -> Work:
     x = np.zeros(n)
     if not direct:
         fixed[problem.switch] = True
-        S[problem.switch, 0] = 0.0
         for j in range(m):
             for d, factor in zip(problem.dofs[j], problem.factors[j]):
                 k, s = int(problem.place[d]), int(problem.switch[j])
                 S[max(k, s), abs(k - s)] = factor
-    flags = [np.zeros(m, np.bool_) for _ in range(3)]
     return Work(
-        S,
-        fixed,
-        np.ones(size + 4),
-        np.ones(size + 4),
-        np.zeros((size + 4, 5)),
-        np.zeros(size),
-        np.zeros(size + 4),
-        x if direct else np.zeros(size),
-        flags[0],
-        np.zeros(n),
-        x,
-        np.zeros(m),
-        np.zeros(m),
-        flags[1],
-        flags[2],
-        np.zeros(m),
-        np.zeros(m),
-        np.zeros(n),
-        np.zeros(n),
-        np.zeros(n),
-        np.full(2, np.nan),
-        np.zeros(3, np.int64),
+        S=S,
+        fixed=fixed,
+        D=np.ones(size + 4),
+        R=np.ones(size + 4),
+        U=np.zeros((size + 4, 5)),
+        r=np.zeros(size),
+        z=np.zeros(size + 4),
+        y=x if direct else np.zeros(size),
+        wrong=np.zeros(m, np.bool_),
+        b=np.zeros(n),
+        x=x,
+        p=np.zeros(m),
+        target=np.zeros(m),
+        candidate=np.zeros(m, np.bool_),
+        held=np.zeros(m, np.bool_),
+        gap=np.zeros(m),
+        speed=np.zeros(m),
+        d1=np.zeros(n),
+        d2=np.zeros(n),
+        d3=np.zeros(n),
+        made_with=np.full(1, np.nan),
+        rounds=np.zeros(3, np.int64),
     )

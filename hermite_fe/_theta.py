@@ -71,7 +71,7 @@ def steps(
         for i in range(n):
             b[i] = h * (force[i] - b[i] - vel[i])
 
-        mark_held(closed, problem.rank, problem.side, law.hold, t < law.hold_until, held)
+        mark_held(problem, law, closed, t, held)
         rows_times(dofs, factors, q, gap)
         rows_times(dofs, factors, v, speed)
         if at_position:

@@ -30,6 +30,7 @@ from bent_beam.meshes import GradedMesh, Mesh, ScaleFreeMesh
 from hermite_fe.contacts import Contact, NodeContact
 from hermite_fe.far_fields import FarField, GridViscosity
 from hermite_fe.integrators import GeneralizedAlphaPenalty, Integrator, MoreauJean, SignoriniPosition
+from hermite_fe.model import uniform_pressure
 
 __all__ = ["Choice", "choose", "front"]
 
@@ -125,11 +126,8 @@ def choose(
     if integrator is None:
         integrator = SignoriniPosition() if contact.restitution == 0.0 else MoreauJean()
     integrator = chosen_integrator(impact, end_time, nodes, integrator)
-    pressed = (
-        impact.mass_per_length * impact.acceleration + impact.bending_stiffness * impact.fourth_derivative
-        >= 0.0
-    )
-    contact = contact.with_hold(HOLD if pressed else 0, min(36.0 * resolved_time(impact, nodes), end_time))
+    hold = HOLD if uniform_pressure(impact) >= 0.0 else 0
+    contact = contact.with_hold(hold, min(36.0 * resolved_time(impact, nodes), end_time))
     if far_field is None:
         far_field = GridViscosity()
     warnings = [

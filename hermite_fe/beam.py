@@ -33,12 +33,12 @@ REFINEMENTS = 4  # of a static solution
 def shape_functions(xi: Array, length: float, derivative: int = 0) -> Array:
     """N₁…N₄ (or their x-derivative up to the third) at ξ ∈ [0, 1], shape (points, 4) (thesis A.6)."""
     s = np.atleast_1d(np.asarray(xi, float))
-    one, zero = np.ones_like(s), np.zeros_like(s)
+    one = np.ones_like(s)
     table = {
         0: [1 - 3 * s**2 + 2 * s**3, s - 2 * s**2 + s**3, 3 * s**2 - 2 * s**3, s**3 - s**2],
         1: [6 * s**2 - 6 * s, 1 - 4 * s + 3 * s**2, 6 * s - 6 * s**2, 3 * s**2 - 2 * s],
         2: [12 * s - 6, 6 * s - 4, 6 - 12 * s, 6 * s - 2],
-        3: [12 * one, 6 * one, -12 * one, 6 * one + zero],
+        3: [12 * one, 6 * one, -12 * one, 6 * one],
     }
     if derivative not in table:
         raise ValueError(f"derivative must be 0, 1, 2 or 3 (got {derivative!r})")
@@ -115,10 +115,9 @@ class HermiteBeam:
         element = element_stiffness(self.lengths, self.bending_stiffness)
         return self._banded(element if weight is None else element * np.asarray(weight)[:, None, None])
 
-    def mass(self, weight: Array | None = None) -> Array:
-        """M in lower banded form, shape (4, dofs); ``weight`` (elements,) multiplies each element."""
-        element = element_mass(self.lengths, self.mass_per_length)
-        return self._banded(element if weight is None else element * np.asarray(weight)[:, None, None])
+    def mass(self) -> Array:
+        """M in lower banded form, shape (4, dofs)."""
+        return self._banded(element_mass(self.lengths, self.mass_per_length))
 
     def uniform_load(self, load: float) -> Array:
         """Consistent nodal loads of a uniform load, N/m: ∫ Nᵀ p dx, shape (dofs,)."""

@@ -157,7 +157,8 @@ def simulate_expanding(
 ) -> ImpactHistory:
     """Follow the impact of an infinite beam over ``mesh.decades`` decades of time up to ``end_time`` (s).
 
-    save : number of saved instants (logarithmic over the last three decades, whole steps), at least 2.
+    save : number of saved instants (logarithmic over the last three decades, whole steps), at least 2; of given times
+        only the number counts.
 
     The history's energies are those of the fast part z = y₀ − y (an infinite beam has no finite energy of its own):
     ``work_of_loads`` is the work V₀∫R dt (+ first-order terms) that the wall does on it, ``loss_artificial`` what the
@@ -242,15 +243,20 @@ class _Run:
         """
         state = self.state
         eta, zeta = state.eta, state.zeta
-        h = np.diff(zeta)
-        w, t = eta[0::2], eta[1::2]
-        left = (6.0 * (w[1:] - w[:-1]) / h - 4.0 * t[:-1] - 2.0 * t[1:]) / h
-        right = (-6.0 * (w[1:] - w[:-1]) / h + 2.0 * t[:-1] + 4.0 * t[1:]) / h
+        left, right = self.curvatures()
         bend = np.concatenate([[left[0]], 0.5 * (right[:-1] + left[1:]), [right[-1]]])
         velocity = np.empty_like(eta)
         velocity[0::2] = state.velocity()
-        velocity[1::2] = state.rate[1::2] + 0.5 * t - 0.5 * zeta * bend
+        velocity[1::2] = state.rate[1::2] + 0.5 * eta[1::2] - 0.5 * zeta * bend
         return velocity
+
+    def curvatures(self) -> tuple[Array, Array]:
+        """η_ζζ at the left and at the right end of each element, shape (elements,) each; linear between them."""
+        h = np.diff(self.state.zeta)
+        w, t = self.state.eta[0::2], self.state.eta[1::2]
+        left = (6.0 * (w[1:] - w[:-1]) / h - 4.0 * t[:-1] - 2.0 * t[1:]) / h
+        right = (-6.0 * (w[1:] - w[:-1]) / h + 2.0 * t[:-1] + 4.0 * t[1:]) / h
+        return left, right
 
     def follow(self, progress: Callable[[float], None] | None) -> None:
         state = self.state
@@ -284,6 +290,7 @@ class _Run:
         root = math.sqrt(tau)
         velocity = self.full_velocity()
         eta = state.eta
+        gap = -tau * (obstacle - eta[0::2])
         kinetic = 0.5 * float(velocity @ (state.operators.mass @ velocity)) * root
         slope_free = -self.impact.kappa_over_nu * state.zeta + tau * (
             self.impact.epsilon_chi * state.zeta + self.impact.epsilon_psi * state.zeta**3 / 6.0
@@ -293,7 +300,7 @@ class _Run:
             {
                 "time": tau,
                 "position": state.zeta * root,
-                "gap": -tau * (obstacle - eta[0::2]),
+                "gap": gap,
                 "velocity": self.rate_of_obstacle(tau) - velocity[0::2],
                 "slope": root * (slope_free - eta[1::2]),
                 "impulse": self.impulse.copy(),
@@ -305,20 +312,17 @@ class _Run:
                 "work_of_loads": 2.0 * self.work,
                 "loss_artificial": 2.0 * self.absorbed,
                 "held_impulse": 2.0 * self.held,
-                "smallest_gap": float(np.min(-tau * (obstacle - eta[0::2])[self.near])),
+                "smallest_gap": float(np.min(gap[self.near])),
                 "smallest_reaction": float(state.reaction.min()) / root,
                 "complementarity_product": float(np.abs(state.reaction * (eta[0::2] - obstacle)).max()) * root,
-                "lift": float(np.max(-tau * (obstacle - eta[0::2])[zone], initial=0.0)),
+                "lift": float(np.max(gap[zone], initial=0.0)),
             }
         )
 
     def _strain(self) -> float:
         """½∫η_ζζ² dζ."""
-        h = np.diff(self.state.zeta)
-        w, t = self.state.eta[0::2], self.state.eta[1::2]
-        left = (6.0 * (w[1:] - w[:-1]) / h - 4.0 * t[:-1] - 2.0 * t[1:]) / h
-        right = (-6.0 * (w[1:] - w[:-1]) / h + 2.0 * t[:-1] + 4.0 * t[1:]) / h
-        return float(np.sum(h * (left**2 + left * right + right**2)) / 6.0)
+        left, right = self.curvatures()
+        return float(np.sum(np.diff(self.state.zeta) * (left**2 + left * right + right**2)) / 6.0)
 
     def history(self, mesh: ExpandingMesh, seconds: float, completed: bool) -> ImpactHistory:
         """The record in SI units."""

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from bent_beam.checks import affordable
 from hermite_fe._banded import quadratic, stiff_multiply
+from hermite_fe._pivoting import CYCLING, NOT_FINITE, SINGULAR, SOLVED
 from hermite_fe._problem import (
     ALGORITHMIC,
     IMPACT,
@@ -36,20 +37,10 @@ Array = NDArray[np.float64]
 
 MOST_INSTANTS = 1_000_000
 MOST_WORK = 1e11  # steps x nodes: about an hour
-SUMS = (
-    "kinetic",
-    "strain",
-    "work",
-    "viscous",
-    "impact",
-    "algorithmic",
-    "smallest_reaction",
-    "product",
-)
 FAILURES = {
-    1: "the step matrix is not positive definite",
-    2: "the active set of the contact does not settle",
-    3: "the solution is not finite",
+    SINGULAR: "the step matrix is not positive definite",
+    CYCLING: "the active set of the contact does not settle",
+    NOT_FINITE: "the solution is not finite",
 }
 
 
@@ -61,7 +52,8 @@ class Trajectory:
     kinetic, strain, work, viscous, impact, algorithmic : (saved,), J, the last four since the start.
     smallest_reaction, product : (saved,), worst reaction impulse of rows that are not held, and worst |p·(…)|
         since the last sample: complementarity, at round-off when all is well.
-    status : 0 when the run finished; failure says why not. steps : taken; seconds : spent.
+    steps : taken; seconds : spent; mean_iterations, most_iterations : of the active set in one solve.
+    failure : why the run did not finish ("": it did); failure_time : s, how far it got.
     """
 
     time: Array
@@ -136,14 +128,14 @@ class Stepper:
         self.step = 0
 
     def advance_to(self, step: int) -> int:
-        """Take steps up to number ``step``; 0 when all went well, else a key of ``FAILURES``."""
+        """Take steps up to number ``step``; SOLVED (0) when all went well, else a key of ``FAILURES``."""
         if step <= self.step:
-            return 0
+            return SOLVED
         status, self.step = self.integrator.advance(
             self.problem, self.law, self.state, self.works, self.instants, self.step, step
         )
         finite = np.all(np.isfinite(self.state.q)) and np.all(np.isfinite(self.state.v))
-        return 3 if status == 0 and not finite else status
+        return NOT_FINITE if status == SOLVED and not finite else status
 
     def iterations(self) -> tuple[float, int]:
         """Active-set iterations a contact solve so far: mean and most, of the solve of a step that took most."""
@@ -201,12 +193,12 @@ def integrate(
     arrays = {name: np.zeros((count, n)) for name in ("q", "v")}
     arrays |= {name: np.zeros((count, m)) for name in ("gap", "impulse", "held_impulse")}
     closed = np.zeros((count, m), bool)
-    sums = {name: np.zeros(count) for name in SUMS}
-    failure, failure_time, good = "", 0.0, 0
+    sums: list[dict[str, float]] = []
+    failure, failure_time = "", 0.0
     started = clock.perf_counter()
     for s, step in enumerate(kept):
         status = run.advance_to(int(step))
-        if status != 0:
+        if status != SOLVED:
             failure, failure_time = FAILURES[status], float(run.instants[run.step])
             break
         state = run.state
@@ -214,14 +206,14 @@ def integrate(
         arrays["gap"][s] = system.contacts.gaps(state.q)
         arrays["impulse"][s], arrays["held_impulse"][s] = state.impulse, state.held_impulse
         closed[s] = state.closed
-        for name, value in run.sums().items():
-            sums[name][s] = value
-        good = s + 1
+        sums.append(run.sums())
         if progress is not None:
             progress(float(step) / float(kept[-1]))
     seconds = clock.perf_counter() - started
     mean, most = run.iterations()
-    records: dict[str, Any] = {k: a[:good] for k, a in (arrays | sums).items()}
+    good = len(sums)  # at least one: the start takes no step
+    records: dict[str, Any] = {name: samples[:good] for name, samples in arrays.items()}
+    records |= {name: np.array([row[name] for row in sums]) for name in sums[0]}
     return Trajectory(
         time=run.instants[kept[:good]],
         closed=closed[:good],

@@ -27,7 +27,8 @@ BAND = 3  # half-bandwidth of Hermite elements: two nodes of two degrees of free
 
 @dataclass(frozen=True)
 class _Operators:
-    """mass M, drift C and steady A of M η_ss + C η_s + A η = F, absorber included; CSR, (2n, 2n)."""
+    """mass M, drift C and steady A of M η_ss + C η_s + A η = F, absorber included, and the absorber's own damping; CSR,
+    (2n, 2n)."""
 
     mass: sparse.csr_matrix
     drift: sparse.csr_matrix
@@ -80,7 +81,10 @@ def _shapes(point: float, length: Array, derivative: int) -> Array:
 
 
 class Similarity:
-    """State of the fast part in ζ and its implicit Euler step: η, u = ∂_s η, nodal reactions ρ, contact set."""
+    """State of the fast part in ζ and its implicit Euler step: η, u = ∂_s η, nodal reactions ρ, contact set.
+
+    Made by :meth:`hold_start`; then :meth:`set_step`, and :meth:`step` from there on.
+    """
 
     def __init__(self, zeta: Array, absorber: float, strength: float) -> None:
         end = zeta[-1]
@@ -94,7 +98,6 @@ class Similarity:
         self.active = np.zeros(zeta.size, dtype=bool)
         self.gap_tolerance = 0.0
         self.iterations = 0
-        self.set_step(0.0)
 
     def set_step(self, backward: float) -> None:
         """``backward`` = b of ∂_s f ≈ b (f − f_old): τ_new/h for Euler in time, 0 for the steady state."""
@@ -136,10 +139,9 @@ class Similarity:
         reaction = np.where(active, (self.matrix @ eta - right)[0::2], 0.0)
         return eta, reaction
 
-    def hold_start(self, obstacle: Array) -> int:
-        """The self-similar state with the nodes behind the front held; returns the front's node.
-
-        The front is the last node for which holding everything up to it still pushes it away from the wall.
+    def hold_start(self, obstacle: Array) -> None:
+        """The self-similar state with the nodes behind the front held, which is the last node for which holding
+        everything up to it still pushes it away from the wall.
         """
         self.set_step(0.0)
         zero = np.zeros(self.dofs)
@@ -155,7 +157,6 @@ class Similarity:
         self.active = np.arange(self.zeta.size) <= low
         self.eta, self.reaction = self._solve(zero, obstacle, self.active)
         self.rate = zero
-        return low
 
     def step(self, obstacle: Array) -> None:
         """One implicit Euler step; ``obstacle`` (n,) is W₀ at the new time where contact may occur, −1 elsewhere.

@@ -1,7 +1,6 @@
 """A linear mechanical system with unilateral constraints, which knows no beams:
 
-    M q̈ + C q̇ + K q = F(t) + Gᵀλ,      0 ≤ λ ⊥ g = g₀ + G q ≥ 0,      q = const. at supports.        (thesis
-    3.2.5–7)
+    M q̈ + C q̇ + K q = F(t) + Gᵀλ,   0 ≤ λ ⊥ g = g₀ + G q ≥ 0,   q = const. at supports.   (thesis 3.2.5–7)
 
 Everything that steps in time (:mod:`hermite_fe.integrators`) takes a :class:`System`; the bent beam
 (:mod:`hermite_fe.model`), a bouncing ball and an oscillator against a stop are three of them.
@@ -94,7 +93,7 @@ class System:
     contacts: ContactRows
     damping: Array = field(default_factory=_left_out)
     load: Array = field(default_factory=_left_out)
-    supports: tuple[int, ...] = field(default=())
+    supports: tuple[int, ...] = ()
 
     def __post_init__(self) -> None:
         set_ = object.__setattr__

@@ -14,6 +14,7 @@ from comparison.figures import style
 from comparison.figures.recorder import Sheet
 from comparison.gallery.base import item
 from comparison.gallery.looks import THEORY
+from comparison.gallery.maps import reaction_map
 from comparison.gallery.runs import thesis_history
 from comparison.matching import THESIS_KAPPAS, MatchRow, match, questions
 from comparison.store import RunStore, default_store
@@ -181,8 +182,6 @@ def matched_reaction(sheet: Sheet) -> str:
 
 def space_time(sheet: Sheet, axis: Axes, curvature: float, contact: str, letter: str) -> None:
     """Reaction by contact point and time."""
-    from comparison.gallery.maps import reaction_map
-
     history = thesis_history(curvature, 0.1, contact=contact)
     reaction_map(sheet, axis, history, LogNorm(1e0, 1e4))
     sheet.panel(axis, letter, text="contact at element middles" if contact == "middle" else "contact at nodes")

@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import functools
+from collections.abc import Sequence
 
 import numpy as np
 
@@ -32,6 +33,11 @@ def lengths() -> list[Outcome]:
     return [*(thesis(f"Δx = {dx:g} m", COARSE, DURATION, element_length=dx) for dx in LENGTHS), ours(COARSE, DURATION)]
 
 
+def errors(found: Sequence[Outcome], what: str) -> str:
+    """One of the errors of each, in words."""
+    return ", ".join(f"{o.measures[what]:+.2g} %" for o in found)
+
+
 @item("fig-3.10", "Element length: geometry", group="mesh", caption=f"Impact zone for several element lengths; {SHOWN}")
 def shape(sheet: Sheet) -> str:
     found = lengths()
@@ -53,10 +59,9 @@ def shape(sheet: Sheet) -> str:
 def length(sheet: Sheet) -> str:
     found = lengths()
     one_panel(sheet, contact_length, found)
-    errors = ", ".join(f"{o.measures['contact_length_error']:+.2g} %" for o in found[:-1])
     return (
-        f"λ₀ fitted to the centroid of the reaction is off by {errors} for the three lengths: the staircase is "
-        "the elements'."
+        "λ₀ fitted to the centroid of the reaction is off by "
+        f"{errors(found[:-1], 'contact_length_error')} for the three lengths: the staircase is the elements'."
     )
 
 
@@ -69,8 +74,10 @@ def length(sheet: Sheet) -> str:
 def force(sheet: Sheet) -> str:
     found = lengths()
     one_panel(sheet, reaction, found)
-    errors = ", ".join(f"{o.measures['reaction_error']:+.2g} %" for o in found[:-1])
-    return f"r₀ fitted to the impulse is off by {errors}: overestimated by long elements, as the thesis saw."
+    return (
+        f"r₀ fitted to the impulse is off by {errors(found[:-1], 'reaction_error')}: overestimated by long elements, "
+        "as the thesis saw."
+    )
 
 
 @item(
@@ -193,7 +200,7 @@ def square_length(sheet: Sheet) -> str:
 def square_force(sheet: Sheet) -> str:
     found = meshes()
     one_panel(sheet, reaction, found)
-    errors = ", ".join(f"{o.measures['reaction_error']:+.2g} %" for o in found)
     return (
-        f"r₀ is off by {errors} (uniform zone, square zone, ours): neither of the thesis's meshes resolves the front."
+        f"r₀ is off by {errors(found, 'reaction_error')} (uniform zone, square zone, ours): neither of the thesis's "
+        "meshes resolves the front."
     )

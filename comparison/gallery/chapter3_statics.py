@@ -14,6 +14,7 @@ from hermite_fe.run import integrate
 from hermite_fe.system import ContactRows, System
 
 LENGTH, STIFFNESS, ELEMENTS = 5.0, 9.345e3, 52
+NODES = np.linspace(0.0, LENGTH, ELEMENTS + 1)
 MEGA = (
     "With EI = 9.345·10³ N m² as printed the largest deflection is {:.4g} m, which neither the thesis's axis nor "
     "linear theory allows; "
@@ -23,7 +24,7 @@ MEGA = (
 
 def static(sheet: Sheet, force: float, node: int, supports: dict[int, float], exact: np.ndarray) -> str:
     """Deflection of 52 elements under a nodal force against the exact solution at the nodes."""
-    beam = HermiteBeam(np.linspace(0.0, LENGTH, ELEMENTS + 1), STIFFNESS, 1.0)
+    beam = HermiteBeam(NODES, STIFFNESS, 1.0)
     load = np.zeros(beam.dofs)
     load[2 * node] = force
     found = beam.static(load, supports)[0::2]
@@ -46,8 +47,7 @@ def static(sheet: Sheet, force: float, node: int, supports: dict[int, float], ex
     caption="Beam on two supports, L = 5 m, P = 5·10⁵ N in the middle, 52 elements, against (3.1.12).",
 )
 def supported(sheet: Sheet) -> str:
-    x = np.linspace(0.0, LENGTH, ELEMENTS + 1)
-    s, force = np.minimum(x, LENGTH - x), 5e5
+    s, force = np.minimum(NODES, LENGTH - NODES), 5e5
     exact = force * s * (3.0 * LENGTH**2 - 4.0 * s**2) / (48.0 * STIFFNESS)
     note = static(sheet, force, ELEMENTS // 2, {0: 0.0, 2 * ELEMENTS: 0.0}, exact)
     return f'{note} The thesis\'s "fixed at both ends" is simply supported.'
@@ -60,8 +60,8 @@ def supported(sheet: Sheet) -> str:
     caption="Cantilever clamped at x = L, P = 8·10⁵ N at x = 0, L = 5 m, 52 elements, against (3.1.15).",
 )
 def cantilever(sheet: Sheet) -> str:
-    x, force = np.linspace(0.0, LENGTH, ELEMENTS + 1), 8e5
-    exact = force * (x**3 / 6.0 - LENGTH**2 * x / 2.0 + LENGTH**3 / 3.0) / STIFFNESS
+    force = 8e5
+    exact = force * (NODES**3 / 6.0 - LENGTH**2 * NODES / 2.0 + LENGTH**3 / 3.0) / STIFFNESS
     return static(sheet, force, 0, {2 * ELEMENTS: 0.0, 2 * ELEMENTS + 1: 0.0}, exact)
 
 

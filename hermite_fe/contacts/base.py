@@ -1,7 +1,6 @@
 """What every contact discretisation shares: the impact law and the hold behind the front.
 
-    ġ⁺ = −e ġ⁻ where a row closes                                                                 (thesis
-    3.2.4)
+    ġ⁺ = −e ġ⁻ where a row closes                                                           (thesis 3.2.4)
 
 **The hold.** Behind a moving contact front the exact reaction is zero. A unilateral law turns round-off and
 mesh noise of either sign there into pushes off the wall, which lift the zone ("double detachment", thesis

@@ -1,7 +1,6 @@
 """A sponge: bending viscosity that rises towards the ends, next to that at grid scale.
 
-    C = Σ_e η_e Kₑ,    η_e = (c Δx_e² + b w² s³)·√(μ/EI),    s = 1 − (distance to the end)/w ∈ [0, 1] within w
-    of an end
+    C = Σ_e η_e Kₑ,    η_e = (c Δx_e² + b w² s³)·√(μ/EI),    s = 1 − (distance to the end)/w ∈ [0, 1] within w of an end
 
 A wave of number k decays over the sponge by exp(−b (kw)³/16) on its way out, and as much on its way back; how
 little the onset itself sends back depends on how many waves fit into the sponge. Measured with the default b:

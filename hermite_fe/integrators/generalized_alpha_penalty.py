@@ -10,7 +10,6 @@ There is no impact law and no hold; what the rows take in, stored or dissipated,
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,13 +26,10 @@ __all__ = ["GeneralizedAlphaPenalty"]
 class GeneralizedAlphaPenalty(Integrator):
     """spectral_radius : ρ∞ ∈ [0, 1].
 
-    stiffness : k_c, N/m per metre of beam (``None``: chosen, 1e5 V₀μ/(l*t*) in units of the fast layer).
+    stiffness : k_c, N/m per metre of beam (``None``: chosen, 1e5 μ/t*²).
     damping : d_c, N s/m per metre of beam (``None``: chosen, 1e3 μ/t*).
     contact_rounds : most re-solutions a step until contact and penetration agree (Exudyn's default).
     """
-
-    matrices: ClassVar[int] = 1
-    penalises: ClassVar[bool] = True
 
     spectral_radius: float = 0.8
     stiffness: float | None = None
