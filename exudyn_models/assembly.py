@@ -16,7 +16,7 @@ from exudyn_models.elements.beam import Section
 from exudyn_models.geometry import Shape
 from exudyn_models.integrators import Integrator
 from exudyn_models.resolution import reachable
-from exudyn_models.scaling import Scaling
+from exudyn_models.scaling import Scaling, front_estimate
 from exudyn_models.viewer import draw_wall
 
 __all__ = ["assemble", "stable_step"]
@@ -54,6 +54,7 @@ def assemble(
         half=half,
         pulled_off=scaling.load < 0.0,
         point_contact=scaling.kappa >= 1.0,
+        front=front_estimate(scaling.kappa),
         explicit=integrator.explicit,
         curvature=-shape.curvature,
         stiffness_unit=scaling.stiffness_per_length,

@@ -52,7 +52,8 @@ def chosen_mesh(
     scaling = Scaling(impact, end_time_of(impact, end_time), 1.0)
     front = front_estimate(scaling.kappa)
     if explicit:
-        rule = ScaleFreeMesh(max(front, 0.5) / 25 * scaling.length * coarsen, 1.0 + 0.02 * coarsen)
+        smallest = min(max(front, 0.5) / 25, (2.0 / front) / 10)
+        rule = ScaleFreeMesh(smallest * scaling.length * coarsen, 1.0 + 0.02 * coarsen)
     else:
         # the smallest element: 1/200 of the front's way, 1/30 of the length over which the beam bends ahead of it
         smallest = min(front / 200, (2.0 / front) / 30)

@@ -3,14 +3,15 @@
 Exudyn solves a step with a guess of which connectors are closed, looks at the gaps, and repeats it with the state that
 they show. Its own nodal contact compares that state with the one at the *start* of the step: a step with a capture
 repeats until its repetitions run out, settled or not, and a node that hovers at the wall is accepted as soon as it is
-back where it began. Here the state that a solution *assumed* is compared with the one that its gaps show:
+back where it began. Here the state that a solution *assumed* is compared with the one that it shows. A connector that
+was closed and pushes, though its gap has not quite closed, is no contradiction: the contact's damping acts all at once
+and may stop a node just short of the wall, where without it the node would have entered.
 
-- they agree, but for forces below the tolerance: the step is accepted at once;
+- They agree, but for forces below the tolerance: the step is accepted at once;
 - after ``BLOCK`` repetitions in which all connectors follow their gaps at once, only one at a time does (Murty's rule,
   as in the Hermite path: Júdice & Pires 1994, Comput. Oper. Res. 21, 587);
-- a state comes back that this step had already tried: none is consistent, for the damping of the contact acts all at
-  once when the gap closes and may stop a node that barely touches short of the wall. Of the states that return, the
-  one that contradicts itself least is accepted, and counted;
+- a state comes back that this step had already tried: none is consistent. Of the states that return, the one that
+  contradicts itself least is accepted, and counted;
 - the repetitions run out before: the step is not solved.
 """
 
@@ -60,7 +61,7 @@ class Settling:
         self._repetitions += 1
         data = mbs.systemData
         closed = data.GetDataCoordinates()[:: self._contact.states] <= 0.0
-        wrong = self._contact.contradictions(data.GetODE2Coordinates(), closed)
+        wrong = self._contact.contradictions(data.GetODE2Coordinates(), data.GetODE2Coordinates_t(), closed)
         force = float(wrong.max(initial=0.0))
         if force <= self._tolerance:
             return self._accept(mbs)

@@ -32,7 +32,7 @@ class Wall:
 
     nodes : numbers of the beam's nodes that may touch, ascending; centre : the node at x = 0;
     half : only x ≥ 0 is modelled; pulled_off : the load draws the beam off the wall (detached regime);
-    point_contact : κ/ν ≥ 1, only the centre stays in contact;
+    point_contact : κ/ν ≥ 1, only the centre stays in contact; front : rough estimate of where contact ends at the end;
     stiffness_unit, damping_unit : N/m² and N s/m² of the model units.
     """
 
@@ -41,6 +41,7 @@ class Wall:
     half: bool
     pulled_off: bool
     point_contact: bool
+    front: float
     explicit: bool
     curvature: float
     stiffness_unit: float
@@ -68,9 +69,10 @@ class ContactRun(ABC):
     def velocity(self, q: Array, v: Array) -> Array:
         """Velocity of the beam at the contact points, positive into the wall, shape (contacts,)."""
 
-    def contradictions(self, q: Array, closed: Flags) -> Array:
-        """Force, shape (connectors,), by which the gaps of a solution contradict the state that it assumed (0 where
-        they agree). For contacts whose state Exudyn finds by repeating steps (``iterated``)."""
+    def contradictions(self, q: Array, v: Array, closed: Flags) -> Array:
+        """Force, shape (connectors,), by which a solution contradicts the state that it assumed (0 where it does not):
+        an open connector has entered the wall, a closed one is off the wall and does not push. For contacts whose state
+        Exudyn finds by repeating steps (``iterated``)."""
         raise TypeError(f"{type(self).__name__} is not iterated")
 
     def between(self, time: float, step: float, q: Array, v: Array) -> bool:

@@ -4,7 +4,9 @@
     k = C EI/Δx⁴,   d = D √(EIμ)/Δx²
 
 With k and d tied to the element length the contact is as stiff as the elements themselves, on every scale of the
-mesh; C = 10 and D = 3 keep both the penetration and the rattling below the mesh's own error.
+mesh; C = 10 and D = 3 keep both the penetration and the rattling below the mesh's own error. Where κ/ν is so small that
+the front passes an element faster than the element bends, the contact must be as fast as the front: it passes Δx at x
+in 2xΔx/λ² √(μ/EI), and twice that is a radian of √(k/μ) with C = (λ²Δx/x)². The damping ratio stays that of 10 and 3.
 
 Behind the front the exact reaction vanishes; a one-sided force turns the numerical noise there into pushes that lift
 the beam. So a captured node is held (its penalty acts in both directions) until the front is ``hold`` elements
@@ -14,6 +16,7 @@ further on: the held strip shrinks with the mesh, so that the scheme stays consi
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import Any
 
@@ -30,6 +33,14 @@ __all__ = ["Penalty", "penalty_per_length"]
 
 Array = NDArray[np.float64]
 
+STIFFNESS, DAMPING = 10.0, 3.0  # C and D
+
+
+def chosen_stiffness(s: Array, wall: Wall) -> float:
+    """C of the module's text: 10, or what the front asks for at the end of the run."""
+    k = min(max(int(np.searchsorted(s, wall.front)), 1), s.size - 1)
+    return max(STIFFNESS, float(wall.front**2 * (s[k] - s[k - 1]) / s[k]) ** 2)
+
 
 def penalty_per_length(lengths: Array, relative_stiffness: float, relative_damping: float) -> tuple[Array, Array]:
     """k and d of the module's text for given element lengths (EI = μ = 1)."""
@@ -37,7 +48,10 @@ def penalty_per_length(lengths: Array, relative_stiffness: float, relative_dampi
 
 
 class _Run(ContactRun):
-    def __init__(self, beam: Beam, wall: Wall, stiffness: Array, damping: Array, strip: HeldStrip) -> None:
+    def __init__(
+        self, beam: Beam, wall: Wall, stiffness: Array, damping: Array, strip: HeldStrip, chosen: dict[str, float]
+    ) -> None:
+        self.chosen = chosen
         self.beam, self.nodes = beam, wall.nodes
         self.stiffness, self.damping = stiffness, damping
         self.contact_s = beam.shape.s[wall.nodes]
@@ -87,10 +101,12 @@ class _Run(ContactRun):
         self.strip.captured |= touching
         return force, active
 
-    def contradictions(self, q: Array, closed: Flags) -> Array:
+    def contradictions(self, q: Array, v: Array, closed: Flags) -> Array:
         depth = self.depth(q)
-        wrong = (closed != (depth >= 0.0)) & ~self.held
-        return np.where(wrong, self.stiffness * np.abs(depth), 0.0)
+        spring = self.stiffness * depth
+        pushing = spring + self.damping * self.velocity(q, v) > 0.0
+        wrong = np.where(depth >= 0.0, ~closed, closed & ~pushing) & ~self.held
+        return np.where(wrong, np.abs(spring), 0.0)
 
     def velocity(self, q: Array, v: Array) -> Array:
         return np.asarray(v[self.beam.vertical[self.nodes]])
@@ -112,7 +128,7 @@ class _Run(ContactRun):
         return k, d
 
     def settings(self) -> dict[str, Any]:
-        return {"hold_elements": self.strip.hold}
+        return {"hold_elements": self.strip.hold} | self.chosen
 
 
 @dataclass(frozen=True)
@@ -120,7 +136,7 @@ class Penalty(Contact):
     """Nodal penalty: the default.
 
     stiffness, damping : k in N/m² and d in N s/m² per length of beam; None: from the element length and the next two.
-    relative_stiffness, relative_damping : C and D of the module's text.
+    relative_stiffness, relative_damping : C and D of the module's text; None: chosen, 10 and 3 for κ/ν ≥ 1/150.
     hold : elements behind the front whose captured nodes are held; None: 16, but none where the load draws the beam
         off the wall (α + ψ < 0, where a hold would pull on what rightly lifts) and none under explicit integrators.
     hold_start : first share of the run in which all captured nodes are held, for the start is never resolved.
@@ -128,8 +144,8 @@ class Penalty(Contact):
 
     stiffness: float | None = None
     damping: float | None = None
-    relative_stiffness: float = 10.0
-    relative_damping: float = 3.0
+    relative_stiffness: float | None = None
+    relative_damping: float | None = None
     hold: int | None = None
     hold_start: float = START
 
@@ -138,8 +154,10 @@ class Penalty(Contact):
             positive("exudyn.contact.stiffness", self.stiffness)
         if self.damping is not None:
             non_negative("exudyn.contact.damping", self.damping)
-        positive("exudyn.contact.relative_stiffness", self.relative_stiffness)
-        non_negative("exudyn.contact.relative_damping", self.relative_damping)
+        if self.relative_stiffness is not None:
+            positive("exudyn.contact.relative_stiffness", self.relative_stiffness)
+        if self.relative_damping is not None:
+            non_negative("exudyn.contact.relative_damping", self.relative_damping)
         if self.hold is not None:
             whole("exudyn.contact.hold", self.hold, 0)
         between("exudyn.contact.hold_start", self.hold_start, 0.0, 1.0)
@@ -149,10 +167,16 @@ class Penalty(Contact):
         local = length.copy()
         if wall.half:
             local[0] *= 2.0  # the node of symmetry stands for half of its neighbourhood
-        k, d = penalty_per_length(local, self.relative_stiffness, self.relative_damping)
+        stiffness, damping = self.relative_stiffness, self.relative_damping
+        if stiffness is None:
+            stiffness = chosen_stiffness(beam.shape.s, wall)
+        if damping is None:
+            damping = DAMPING * math.sqrt(stiffness / STIFFNESS)
+        k, d = penalty_per_length(local, stiffness, damping)
         if self.stiffness is not None:
             k = np.full_like(local, self.stiffness / wall.stiffness_unit)
         if self.damping is not None:
             d = np.full_like(local, self.damping / wall.damping_unit)
         strip = HeldStrip(wall, chosen_hold(wall, self.hold), self.hold_start)
-        return _Run(beam, wall, k * length, d * length, strip)
+        chosen = {"relative_stiffness": stiffness, "relative_damping": damping}
+        return _Run(beam, wall, k * length, d * length, strip, chosen)

@@ -61,22 +61,28 @@ class _Run(ContactRun):
         gap = (px**2 + py**2 - 2.0 * r * py) / (distance + r)  # distance − r without the difference of large numbers
         return gap, at, np.stack([px, py - r]) / distance, (r - y) / np.hypot(x, y - r)
 
+    def _normal_forces(self, q: Array, v: Array) -> tuple[Array, Array, Array, Array]:
+        """Gap of each segment, the force that it has when closed, where on it, and the nodes' vertical normals."""
+        gap, at, normal, vertical = self._closest(q)
+        ends = np.stack([v[self.beam.horizontal], v[self.beam.vertical]])[:, self.nodes]
+        rate = ((ends[:, :-1] * (1.0 - at) + ends[:, 1:] * at) * normal).sum(axis=0)
+        return gap, -(self.stiffness * gap + self.damping * rate), at, vertical
+
     def depth(self, q: Array) -> Array:
         return np.asarray(q[self.beam.vertical[self.nodes]] - self.wall_y)
 
     def forces(self, q: Array, v: Array) -> tuple[Array, Flags]:
-        gap, at, normal, vertical = self._closest(q)
-        ends = np.stack([v[self.beam.horizontal], v[self.beam.vertical]])[:, self.nodes]
-        rate = ((ends[:, :-1] * (1.0 - at) + ends[:, 1:] * at) * normal).sum(axis=0)
-        force = np.where(gap <= 0.0, -(self.stiffness * gap + self.damping * rate), 0.0)
+        gap, force, at, vertical = self._normal_forces(q, v)
+        force = np.where(gap <= 0.0, force, 0.0)
         nodal = np.zeros(self.nodes.size)
         nodal[:-1] += force * (1.0 - at)
         nodal[1:] += force * at
         return nodal * vertical, nodal != 0.0
 
-    def contradictions(self, q: Array, closed: Flags) -> Array:
-        gap = self._closest(q)[0]
-        return np.where(closed != (gap <= 0.0), self.stiffness * np.abs(gap), 0.0)
+    def contradictions(self, q: Array, v: Array, closed: Flags) -> Array:
+        gap, force, _, _ = self._normal_forces(q, v)
+        wrong = np.where(gap <= 0.0, ~closed, closed & (force <= 0.0))
+        return np.where(wrong, self.stiffness * np.abs(gap), 0.0)
 
     def velocity(self, q: Array, v: Array) -> Array:
         return np.asarray(v[self.beam.vertical[self.nodes]])
