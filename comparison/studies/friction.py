@@ -63,12 +63,13 @@ def conclude(outcomes: Sequence[Outcome]) -> str:
         if without is None or not rubbed:
             text.append(f"Friction {what} could not be compared: a run is missing.")
             continue
-        reaction = max(abs((m["reaction_error"] or 0.0) - (without["reaction_error"] or 0.0)) for m in rubbed.values())
-        length = max(abs((m["contact_length_error"] or 0.0) - (without["contact_length_error"] or 0.0)) for m in rubbed.values())
-        lift = max(abs((m["lift"] or 0.0) - (without["lift"] or 0.0)) for m in rubbed.values())
+        reaction, length, lift = (
+            max(abs((m[name] or 0.0) - (without[name] or 0.0)) for m in rubbed.values())
+            for name in ("reaction_error", "contact_length_error", "lift")
+        )
         text.append(
-            f"Friction up to {max(f for f in rubbed if f is not None):g} {what} moves r₀ by {number(reaction)} % and "
-            f"λ₀ by {number(length)} % at most, the lift by {number(lift)} V₀t."
+            f"Friction up to {max(f for f in rubbed if f is not None):g} {what} moves r₀ by {number(reaction)} % "
+            f"at most, λ₀ by {number(length)} %, the lift by {number(lift)} V₀t."
             + (
                 " It does nothing that matters: a point of the beam comes down on the wall almost without sliding."
                 if reaction < 0.1
