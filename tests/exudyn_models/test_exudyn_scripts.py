@@ -2,8 +2,10 @@
 
 import os
 import re
+import shutil
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 import pytest
@@ -68,3 +70,32 @@ def test_view_without_a_display_is_said_plainly(tmp_path):
     done = run("cantilever", tmp_path, "--view")
     assert "no display" in done.stderr
     assert "Traceback" not in done.stderr
+
+
+@pytest.mark.verify
+@pytest.mark.skipif(not (shutil.which("Xvfb") and shutil.which("xdotool")), reason="needs Xvfb and xdotool")
+def test_the_viewer_stays_until_it_is_told_to_go_on(tmp_path):
+    there, here = os.pipe()
+    server = subprocess.Popen(
+        ["Xvfb", "-displayfd", str(here), "-screen", "0", "1280x900x24"], pass_fds=[here], stderr=subprocess.DEVNULL
+    )
+    try:
+        with os.fdopen(there) as line:
+            environment = os.environ | {"DISPLAY": f":{line.readline().strip()}", "MPLBACKEND": "Agg"}
+        shown = subprocess.Popen(
+            [sys.executable, str(SCRIPTS / "bent_beam_impact.py"), "--view", "--geometry", "true", "--coarsen", "3"],
+            cwd=tmp_path,
+            text=True,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            env=environment,
+        )
+        assert "Q or Escape" in shown.stderr.readline()
+        assert shown.poll() is None
+        while shown.poll() is None:
+            subprocess.run(["xdotool", "mousemove", "500", "300", "key", "Escape"], env=environment, timeout=60)
+            time.sleep(0.2)
+        assert shown.returncode == 0 and "lambda0" in shown.stdout.read()
+    finally:
+        server.terminate()
+        server.wait(timeout=30)
