@@ -56,7 +56,6 @@ def assemble(
         point_contact=scaling.kappa >= 1.0,
         front=front_estimate(scaling.kappa),
         explicit=integrator.explicit,
-        curvature=-shape.curvature,
         stiffness_unit=scaling.stiffness_per_length,
         damping_unit=scaling.damping_per_length,
     )

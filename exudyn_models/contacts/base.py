@@ -43,7 +43,6 @@ class Wall:
     point_contact: bool
     front: float
     explicit: bool
-    curvature: float
     stiffness_unit: float
     damping_unit: float
 
