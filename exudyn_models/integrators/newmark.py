@@ -7,7 +7,7 @@ from typing import Any
 
 import exudyn as exu
 
-from bent_beam.checks import at_least
+from bent_beam.checks import between
 from exudyn_models.integrators.base import Implicit
 
 __all__ = ["Newmark"]
@@ -17,8 +17,8 @@ __all__ = ["Newmark"]
 class Newmark(Implicit):
     """Constraints hold at velocity level (index 2).
 
-    gamma : γ ≥ ½; above ½ it damps what the step cannot resolve, and the accuracy is of first order.
-    beta : β ≥ γ/2; None: (γ+½)²/4, which damps high frequencies most.
+    gamma : γ from ½ to 2; above ½ it damps what the step cannot resolve, and the accuracy is of first order.
+    beta : β from γ/2 to 2; None: (γ+½)²/4, which damps high frequencies most.
     """
 
     gamma: float = 0.6
@@ -26,9 +26,9 @@ class Newmark(Implicit):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        at_least("exudyn.integrator.gamma", self.gamma, 0.5)
+        between("exudyn.integrator.gamma", self.gamma, 0.5, 2.0)
         if self.beta is not None:
-            at_least("exudyn.integrator.beta", self.beta, self.gamma / 2)
+            between("exudyn.integrator.beta", self.beta, self.gamma / 2, 2.0)
 
     @property
     def newer_share(self) -> float:

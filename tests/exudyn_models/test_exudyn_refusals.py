@@ -56,6 +56,7 @@ def test_true_geometry_refuses_a_beam_rolled_up():
     [
         ({"integrator": {"kind": "generalized_alpha", "spectral_radus": 0.5}}, "spectral_radius"),
         ({"integrator": {"kind": "generalised_alpha"}}, "generalized_alpha"),
+        ({"integrator": {"kind": "newmark", "gamma": 1e300}}, "integrator.gamma"),
         ({"contact": {"kind": "penalty", "relative_stiffness": -1.0}}, "relative_stiffness must be positive"),
         ({"contact": {"kind": "penalty", "damping": math.nan}}, "damping must be a finite number"),
         ({"element": {"kind": "ancf_cable", "viscosity": -0.1}}, "viscosity"),
