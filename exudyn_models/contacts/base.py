@@ -48,8 +48,11 @@ class Wall:
 
 
 class ContactRun(ABC):
-    """A contact at work in one system. ``contact_s`` are the arc lengths of the contact points, shape (contacts,)."""
+    """A contact at work in one system. ``nodes`` are the beam's nodes that are contact points, ``contact_s`` their arc
+    lengths, each of shape (contacts,)."""
 
+    beam: Beam
+    nodes: NDArray[np.int64]
     contact_s: Array
     longest_segment: int | None = None  # steps after which it must be asked again
     iterated = True  # Exudyn finds the contact state by repeating steps
@@ -64,9 +67,9 @@ class ContactRun(ABC):
     def forces(self, q: Array, v: Array) -> tuple[Array, Flags]:
         """Contact forces (positive: pushing the beam off the wall) and active flags, each of shape (contacts,)."""
 
-    @abstractmethod
     def velocity(self, q: Array, v: Array) -> Array:
         """Velocity of the beam at the contact points, positive into the wall, shape (contacts,)."""
+        return np.asarray(v[self.beam.vertical[self.nodes]])
 
     def contradictions(self, q: Array, v: Array, closed: Flags) -> Array:
         """Force, shape (connectors,), by which a solution contradicts the state that it assumed (0 where it does not):

@@ -6,7 +6,7 @@
 With k and d tied to the element length the contact is as stiff as the elements themselves, on every scale of the
 mesh; C = 10 and D = 3 keep both the penetration and the rattling below the mesh's own error. Where κ/ν is so small that
 the front passes an element faster than the element bends, the contact must be as fast as the front: it passes Δx at x
-in 2xΔx/λ² √(μ/EI), and twice that is a radian of √(k/μ) with C = (λ²Δx/x)². The damping ratio stays that of 10 and 3.
+in t = 2xΔx/λ² √(μ/EI), and C = (λ²Δx/x)² makes √(k/μ) t = 2. The damping ratio stays that of 10 and 3.
 
 Behind the front the exact reaction vanishes; a one-sided force turns the numerical noise there into pushes that lift
 the beam. So a captured node is held (its penalty acts in both directions) until the front is ``hold`` elements
@@ -107,9 +107,6 @@ class _Run(ContactRun):
         pushing = spring + self.damping * self.velocity(q, v) > 0.0
         wrong = np.where(depth >= 0.0, ~closed, closed & ~pushing) & ~self.held
         return np.where(wrong, np.abs(spring), 0.0)
-
-    def velocity(self, q: Array, v: Array) -> Array:
-        return np.asarray(v[self.beam.vertical[self.nodes]])
 
     def between(self, time: float, step: float, q: Array, v: Array) -> bool:
         wanted = self.strip.wanted(time)

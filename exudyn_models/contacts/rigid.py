@@ -72,9 +72,6 @@ class _Run(ContactRun):
         force = np.where(self.active, data.GetAECoordinates()[self.multipliers], 0.0)
         return force, self.active.copy()
 
-    def velocity(self, q: Array, v: Array) -> Array:
-        return np.asarray(v[self.beam.vertical[self.nodes]])
-
     def between(self, time: float, step: float, q: Array, v: Array) -> bool:
         force, _ = self.forces(q, v)
         depth = self.depth(q)

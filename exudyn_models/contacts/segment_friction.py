@@ -84,9 +84,6 @@ class _Run(ContactRun):
         wrong = np.where(gap <= 0.0, ~closed, closed & (force <= 0.0))
         return np.where(wrong, self.stiffness * np.abs(gap), 0.0)
 
-    def velocity(self, q: Array, v: Array) -> Array:
-        return np.asarray(v[self.beam.vertical[self.nodes]])
-
 
 @dataclass(frozen=True)
 class SegmentFriction(Contact):
