@@ -1,12 +1,13 @@
 """The semi-analytic path: two-scale theory of a bent beam's impact on a rigid wall (thesis, chapter 2).
 
-`contact_parameters` solves the contact point, `ImpactFields` gives the beam around it, `SelfSimilarWave`
-the leading order in closed form, and `predict` says what that means for a physical impact and where it may be
-trusted. The kernel is in `theory.kernel`, the φ functions in `theory.phi`.
+`contact_parameters` solves the contact point, `ImpactFields` gives the beam around it, `SelfSimilarWave` the leading
+order in closed form, `peak_moment` its largest bending moment, and `predict` says what that means for a physical
+impact and where it may be trusted. The kernel is in `theory.kernel`, the φ functions in `theory.phi`.
 """
 
 from theory.contact import ContactParameters, contact_parameters
 from theory.fields import FieldValues, ImpactFields
+from theory.moment import PeakMoment, peak_moment
 from theory.prediction import Prediction, PredictionAtTime, ValidityCheck, predict
 from theory.similarity import SelfSimilarWave
 
@@ -14,10 +15,12 @@ __all__ = [
     "ContactParameters",
     "FieldValues",
     "ImpactFields",
+    "PeakMoment",
     "Prediction",
     "PredictionAtTime",
     "SelfSimilarWave",
     "ValidityCheck",
     "contact_parameters",
+    "peak_moment",
     "predict",
 ]

@@ -9,6 +9,11 @@ detached, κ/ν < 1, α+ψ < 0                                                  
     [ φ_q/4     r₀φ_r + κλ₀ ] [r₁]   [ ψλ₀⁴/24 + χλ₀²/2 + α/2 ]
     [ −φ_t      κ − r₀φ_s   ] [λ₁] = [ ψλ₀³/6 + χλ₀           ]
 discrete, κ/ν ≥ 1: λ₀ = λ₁ = 0, r₀ = ν, r₁ = 2α                        (2.6.23), (2.7.8)
+
+With an axial force N, tension positive, n = N/(μV₀²) = ε·axial (docs/theory.md, "Axial force"; not in the thesis)
+
+    α′ = α + axial·κ decides the regime and takes the place of α above,
+    λ_c = √τ(λ₀ + (ελ₁ + nλ_N)τ),   r₀ + (εr₁ + nr_N)τ.
 """
 
 from __future__ import annotations
@@ -21,10 +26,13 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import newton
 
 from theory import phi
-from theory._fresnel import FloatArray
+from theory._fresnel import SWITCH, FloatArray
 
 #: Below it λ₁ and r₁, which grow like (κ/ν)^{−5/2}, need intermediate numbers beyond double precision.
 FLATTEST = 1e-60
+
+#: α′+ψ is known to so many of its terms: a few roundings each on the way from SI units.
+_ROUNDING = 16.0 * float(np.finfo(float).eps)
 
 DISCRETE = "discrete"
 CONTINUOUS = "continuous"
@@ -40,8 +48,11 @@ class ContactParameters:
     Attributes:
         kappa_over_nu, alpha, psi, chi, nu: what was asked for.
         regime: "discrete", "continuous" or "detached".
-        lambda0, lambda1: half contact length √τ(λ₀ + ελ₁τ).
-        r0, r1: concentrated reactions, in total 2√(2/π)(r₀ + εr₁τ)/√τ.
+        lambda0, lambda1: half contact length √τ(λ₀ + ελ₁τ), the axial force's part of λ₁ included.
+        r0, r1: concentrated reactions, in total 2√(2/π)(r₀ + εr₁τ)/√τ, the axial force's part of r₁ included.
+        axial: axial force n/ε, tension positive.
+        lambda_axial, r_axial: λ_N and r_N, what a unit of `axial` adds to λ₁ and r₁ when α′ = α + axial·κ is kept.
+        uniform_reaction: r̃₁, the reaction per length ε r̃₁ in the contact zone: α′+ψ if continuous, else 0 (2.7.5).
     """
 
     kappa_over_nu: Any
@@ -54,16 +65,15 @@ class ContactParameters:
     r0: Any
     lambda1: Any
     r1: Any
+    axial: Any
+    lambda_axial: Any
+    r_axial: Any
+    uniform_reaction: Any
 
     @property
     def kappa(self) -> Any:
         """Dimensionless curvature κ = (κ/ν) ν."""
         return self.kappa_over_nu * self.nu
-
-    @property
-    def uniform_reaction(self) -> Any:
-        """r̃₁, the reaction per length ε r̃₁ in the contact zone: α+ψ if continuous, else 0 (2.7.5)."""
-        return np.where(np.asarray(self.regime) == CONTINUOUS, self.alpha + self.psi, 0.0)[()]
 
 
 def contact_parameters(
@@ -72,20 +82,22 @@ def contact_parameters(
     psi: ArrayLike = 0.0,
     chi: ArrayLike = 0.0,
     nu: ArrayLike = 1.0,
+    axial: ArrayLike = 0.0,
 ) -> ContactParameters:
     """λ₀, r₀ (leading order) and λ₁, r₁ (first order) of the impact.
 
     Args:
         kappa_over_nu: curvature over velocity κ/ν > 0.
         alpha, psi, chi: acceleration, fourth derivative and rate of curvature of the slow motion
-            (2.2.34)–(2.2.36); first order is linear in them.
+            (2.2.34)–(2.2.36), with what an axial force does to it; first order is linear in them.
         nu: velocity ν > 0. λ₀ does not depend on it; r₀ ∝ ν, λ₁ ∝ 1/ν at given κ/ν.
+        axial: axial force N/(μV₀²)/ε, tension positive. A bow free of stress under tension alone is α = −axial·κ.
 
     All arguments broadcast. Relative error below 1e-12 for κ/ν in 1e-12…1e12, of r₁ and λ₁ relative to
-    the largest contribution of α, ψ and χ.
+    the largest contribution of α, ψ, χ and the axial force. α′+ψ that is 0 but for rounding counts as 0.
 
     Raises:
-        ValueError: κ/ν or ν not positive and finite, κ/ν < 1e-60, α, ψ or χ not finite.
+        ValueError: κ/ν or ν not positive and finite, κ/ν < 1e-60, α, ψ, χ or the axial force not finite.
     """
     given = {
         "kappa_over_nu": kappa_over_nu,
@@ -93,6 +105,7 @@ def contact_parameters(
         "psi": psi,
         "chi": chi,
         "nu": nu,
+        "axial": axial,
     }
     arrays = {name: np.asarray(value, dtype=np.float64) for name, value in given.items()}
     for name, values in arrays.items():
@@ -102,24 +115,34 @@ def contact_parameters(
             f"kappa_over_nu must be at least {FLATTEST:g} (got {np.min(arrays['kappa_over_nu'])}): "
             "so flat a beam touches over its whole length at once"
         )
-    ratio, a, p, c, n = (np.ascontiguousarray(v) for v in np.broadcast_arrays(*arrays.values()))
     shape = np.broadcast_shapes(*(v.shape for v in arrays.values()))
-    ratio, a, p, c, n = (v.ravel() for v in (ratio, a, p, c, n))
+    ratio, a, p, c, n, axial = (np.ascontiguousarray(v).ravel() for v in np.broadcast_arrays(*arrays.values()))
 
     spreads = ratio < 1.0
+    wave = axial * ratio * n  # the zone is flat, so the axial force does not act there: α′ = α + axial·κ
+    pushed = (a + wave) + p
+    pushed[np.abs(pushed) <= _ROUNDING * (np.abs(a) + np.abs(wave) + np.abs(p))] = 0.0
     regime = np.full(ratio.shape, DISCRETE, dtype="<U10")
-    regime[spreads] = np.where((a + p)[spreads] >= 0.0, CONTINUOUS, DETACHED)
-    lambda0, r0, lambda1, r1 = np.zeros_like(ratio), n.copy(), np.zeros_like(ratio), 2.0 * a
+    regime[spreads] = np.where(pushed[spreads] >= 0.0, CONTINUOUS, DETACHED)
+    # discrete: 2α′ + axial(ν/2 − 2κ)
+    lambda0, r0, lambda1, r1 = np.zeros_like(ratio), n.copy(), np.zeros_like(ratio), 2.0 * a + axial * n / 2.0
+    lambda_axial, r_axial = np.zeros_like(ratio), n * (0.5 - 2.0 * ratio)
     lambda0[spreads] = _lambda0(ratio[spreads])
     r0[spreads] = n[spreads] / phi.phi_nu(lambda0[spreads])
+    lambda_axial[spreads], r_axial[spreads] = _axial(lambda0[spreads], r0[spreads])
     for name, solve in ((CONTINUOUS, _continuous), (DETACHED, _detached)):
         here = regime == name
-        r1[here], lambda1[here] = solve(lambda0[here], r0[here], a[here], p[here], c[here])
+        r1[here], lambda1[here] = solve(lambda0[here], r0[here], a[here] + wave[here], p[here], c[here], pushed[here])
+    r1[spreads] += axial[spreads] * r_axial[spreads]
+    lambda1[spreads] += axial[spreads] * lambda_axial[spreads]
+    uniform = np.where(regime == CONTINUOUS, pushed, 0.0)
 
     def shaped(values: NDArray[Any]) -> Any:
         return values.reshape(shape) if shape else values[0].item()
 
-    return ContactParameters(*map(shaped, (ratio, a, p, c, n, regime, lambda0, r0, lambda1, r1)))
+    return ContactParameters(
+        *map(shaped, (ratio, a, p, c, n, regime, lambda0, r0, lambda1, r1, axial, lambda_axial, r_axial, uniform))
+    )
 
 
 def _check(name: str, values: FloatArray, *, positive: bool) -> None:
@@ -161,10 +184,9 @@ def _lambda0(ratio: FloatArray) -> FloatArray:
 
 
 def _continuous(
-    lam: FloatArray, r0: FloatArray, alpha: FloatArray, psi: FloatArray, chi: FloatArray
+    lam: FloatArray, r0: FloatArray, alpha: FloatArray, psi: FloatArray, chi: FloatArray, pushed: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
-    """(r₁, λ₁) of (2.7.40)."""
-    pushed = alpha + psi
+    """(r₁, λ₁) of (2.7.40), with `pushed` = α+ψ."""
     phi_nu, phi_kappa = phi.phi_nu(lam), phi.phi_kappa(lam)
     phi_alpha, phi_kappadot = phi.phi_alpha(lam), phi.phi_kappadot(lam)
     phi_lambda, phi_lambdadot = phi.phi_lambda(lam), phi.phi_lambdadot(lam)
@@ -190,7 +212,7 @@ def _continuous(
 
 
 def _detached(
-    lam: FloatArray, r0: FloatArray, alpha: FloatArray, psi: FloatArray, chi: FloatArray
+    lam: FloatArray, r0: FloatArray, alpha: FloatArray, psi: FloatArray, chi: FloatArray, pushed: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
     """(r₁, λ₁) of (2.7.71) divided by r₀ in its second column, with κ = r₀φ_κ (2.7.69)."""
     phi_q, phi_t = phi.phi_q(lam) / 4.0, phi.phi_t(lam)
@@ -200,3 +222,39 @@ def _detached(
     determinant = phi_q * column[1] + phi_t * column[0]
     r1 = (column[1] * deflection - column[0] * slope) / determinant
     return r1, (phi_q * slope + phi_t * deflection) / (determinant * r0)
+
+
+def _axial(lam: FloatArray, r0: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """(λ_N, r_N) of a spreading contact, the same in both regimes (docs/theory.md, "Axial force").
+
+    They are the answer to χ_N = −√(2/π)(r₀/λ₀)(1 − φ_p) of a beam without load, and 1/λ₀ on top of λ_N; for
+    small λ₀, where the two parts of λ_N cancel, the same written out.
+    """
+    slope = np.sqrt(2.0 / np.pi)
+    lambda_axial, r_axial = np.empty_like(lam), np.empty_like(lam)
+    near = lam < SWITCH
+    x, a, b = lam[near], phi.phi_nu(lam[near]), phi.phi_kappa(lam[near])
+    determinant = (
+        4.0 * slope * a
+        + 2.0 * slope * x**2 * b
+        + slope * x**4 * a
+        - slope**2 * x**3
+        - (a**2 + b**2) * (3.0 * x + x**5 / 4.0)
+    )
+    lambda_axial[near] = (
+        -(a**2)
+        - 3.0 * b**2
+        + 4.0 * slope * x * b
+        + slope * x**3 * a
+        - slope**2 * x**2
+        - x**2 * a * b
+        - x**4 * (a**2 + b**2) / 4.0
+    ) / determinant
+    r_axial[near] = r0[near] * (x * a - 2.0 * slope) * (6.0 * b - 2.0 * slope * x + x**2 * a) / (2.0 * determinant)
+
+    x, reaction = lam[~near], r0[~near]
+    rate = -slope * (reaction / x) * phi.one_minus_phi_p(x)
+    none = np.zeros_like(x)
+    r_axial[~near], lambda_axial[~near] = _continuous(x, reaction, none, none, rate, none)
+    lambda_axial[~near] += 1.0 / x
+    return lambda_axial, r_axial

@@ -148,12 +148,16 @@ def test_both_first_order_systems_agree_without_uniform_reaction(
     from theory.contact import _continuous, _detached
 
     found = contact_parameters(ratio)
-    arguments = [np.array([v]) for v in (found.lambda0, found.r0, alpha, -alpha, chi)]
+    arguments = [np.array([v]) for v in (found.lambda0, found.r0, alpha, -alpha, chi, 0.0)]
     with_zone, without = _continuous(*arguments), _detached(*arguments)
     for one, other, index in zip(with_zone, without, (0, 1), strict=True):
         scale = max(
             abs(_continuous(*arguments[:2], *map(np.array, part))[index])
-            for part in (([alpha], [0.0], [0.0]), ([0.0], [-alpha], [0.0]), ([0.0], [0.0], [chi]))
+            for part in (
+                ([alpha], [0.0], [0.0], [alpha]),
+                ([0.0], [-alpha], [0.0], [-alpha]),
+                ([0.0], [0.0], [chi], [0.0]),
+            )
         )
         assert abs(one - other) <= 1e-11 * scale
 

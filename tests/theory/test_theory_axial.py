@@ -1,0 +1,135 @@
+"""Axial force: λ_N, r_N against patched waves in many digits, the regimes, the limits, the curved wall's rule."""
+
+from __future__ import annotations
+
+import mpmath as mp
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from theory import contact_parameters
+
+COEFFICIENTS = st.integers(-1000, 1000).map(lambda n: n / 100.0)
+
+
+def iterated_erfc(z: mp.mpc, order: int) -> list[mp.mpc]:
+    values = [mp.erfc(z), mp.exp(-(z**2)) / mp.sqrt(mp.pi) - z * mp.erfc(z)]
+    for n in range(2, order + 1):
+        values.append((values[-2] - 2 * z * values[-1]) / (2 * n))
+    return values
+
+
+def patched_waves(ratio: float, guess: float, digits: int) -> tuple[mp.mpf, mp.mpf]:
+    """(λ_N, r_N) of free flight under tension, ν = 1, from waves ahead of the front; no φ and no integral.
+
+    Leading order: Re[B i²erfc z] with deflection, slope and curvature of the slow motion at x = λ₀, which also
+    gives λ₀. First order in nτ²: Re[B₁ i⁴erfc z] + ½ Im[B i²erfc z] has the slow motion's −κ/2 and slope 0; the
+    front that has moved by nλ_Nτ turns the jump s r₀ of the third derivative into one of the curvature.
+    """
+    with mp.workdps(digits):
+        kappa, step = mp.mpf(ratio), mp.exp(-1j * mp.pi / 4) / 2
+
+        def row(c: mp.mpc) -> list[mp.mpf]:
+            return [mp.re(c), -mp.im(c)]
+
+        def amplitude(x: mp.mpf) -> mp.mpc:
+            e = iterated_erfc(step * x, 2)
+            b = mp.lu_solve(mp.matrix([row(-step * e[1]), row(step**2 * e[0])]), mp.matrix([-kappa * x, -kappa]))
+            return mp.mpc(b[0], b[1])
+
+        def misfit(x: mp.mpf) -> mp.mpf:
+            return mp.re(amplitude(x) * iterated_erfc(step * x, 2)[2]) - (1 - kappa * x**2 / 2)
+
+        x = mp.findroot(misfit, (mp.mpf(guess), mp.mpf(guess) * (1 + mp.mpf("1e-9"))), tol=mp.mpf(10) ** (-50))
+        b, e = amplitude(x), iterated_erfc(step * x, 4)
+        gauss = 2 / mp.sqrt(mp.pi) * mp.exp(-((step * x) ** 2))  # −d erfc/dz
+        second = [b * e[2], -b * step * e[1], b * step**2 * e[0], -b * step**3 * gauss]
+        third = mp.re(second[3])
+        first = [e[4], -step * e[3], step**2 * e[2], -(step**3) * e[1]]
+        slow = [-kappa / 2, mp.mpf(0), mp.mpf(0), mp.mpf(0)]
+        matrix = [
+            [*row(first[0]), 0, 0],
+            [*row(first[1]), 0, 0],
+            [*row(first[2]), third, 0],
+            [*row(first[3]), 0, -mp.sqrt(2 / mp.pi)],
+        ]
+        right = [s - mp.im(g) / 2 for s, g in zip(slow, second, strict=True)]
+        solution = mp.lu_solve(mp.matrix(matrix), mp.matrix(right))
+        return solution[2], solution[3]
+
+
+RATIOS = [1e-8, 1e-7, 3e-5, 1 / 1600, 0.01, 0.05, 0.15, 0.3, 0.38, 0.39, 0.45, 0.7, 0.95, 0.9999, 1 - 1e-6]
+
+
+@pytest.mark.parametrize("ratio", RATIOS)
+def test_tension_in_free_flight_is_exact(ratio: float) -> None:
+    found = contact_parameters(ratio, axial=1.0)
+    lambda_axial, r_axial = patched_waves(ratio, found.lambda0, 60 if ratio > 1e-3 else 120)
+    assert found.lambda_axial == pytest.approx(float(lambda_axial), rel=1e-12, abs=0.0)
+    assert found.r_axial == pytest.approx(float(r_axial), rel=1e-12, abs=0.0)
+
+
+@pytest.mark.parametrize(
+    ("ratio", "lambda_axial", "r_axial"),
+    [
+        (0.05, -0.105424234804, -0.75479113286),
+        (0.1, -0.20733738067, -1.06665409542),
+        (0.25, -0.534220796989, -1.51840932535),
+        (0.5, -0.948751775325, -1.66028391137),
+        (0.8, -1.19174875743, -1.57502280457),
+        (0.9, -1.22953133022, -1.53681968179),
+    ],
+)
+def test_tension_table(ratio: float, lambda_axial: float, r_axial: float) -> None:
+    found = contact_parameters(ratio, alpha=-ratio, axial=1.0)
+    assert (found.lambda_axial, found.r_axial) == pytest.approx((lambda_axial, r_axial), rel=1e-11)
+    # a stress-free bow in flight: tension's own part is all there is, and the zone rests without reaction
+    assert (found.lambda1, found.r1) == pytest.approx((lambda_axial, r_axial), rel=1e-11)
+    assert (found.regime, found.uniform_reaction) == ("continuous", 0.0)
+
+
+def test_limits_of_the_flat_and_of_the_strongly_curved_beam() -> None:
+    flat, nearly = contact_parameters(1e-10, axial=1.0), contact_parameters(1.0 - 1e-9, axial=1.0)
+    assert flat.lambda_axial == pytest.approx(-0.5 / flat.lambda0, rel=1e-8)
+    assert flat.r_axial == pytest.approx(-3.75e-10 * flat.r0, rel=1e-8)
+    assert (nearly.lambda_axial, nearly.r_axial) == pytest.approx((-np.sqrt(np.pi / 2.0), -1.5), rel=1e-8)
+    # one point: the tension acts on the wave alone when the load keeps the bow from accelerating
+    point = contact_parameters(40.0, nu=3.0, axial=0.5)
+    assert (point.lambda1, point.lambda_axial) == (0.0, 0.0)
+    assert point.r1 == 0.75
+    assert point.r_axial == pytest.approx(1.5 - 240.0, rel=1e-15)
+
+
+@given(ratio=st.floats(1e-8, 1e4), axial=COEFFICIENTS, psi=COEFFICIENTS, chi=COEFFICIENTS, nu=st.floats(0.1, 10.0))
+def test_wave_and_free_motion_add_up(ratio: float, axial: float, psi: float, chi: float, nu: float) -> None:
+    # the loads enter with α′ = α + axial·κ, the wave operator on its own
+    alpha = 0.7
+    whole = contact_parameters(ratio, alpha, psi, chi, nu, axial)
+    loads = contact_parameters(ratio, alpha + axial * whole.kappa, psi, chi, nu)
+    assert whole.regime == loads.regime
+    assert whole.uniform_reaction == pytest.approx(loads.uniform_reaction, rel=1e-14, abs=1e-13)
+    for name, part in (("lambda1", "lambda_axial"), ("r1", "r_axial")):
+        of_loads, of_wave = getattr(loads, name), axial * getattr(whole, part)
+        scale = abs(of_loads) + abs(of_wave)
+        assert abs(getattr(whole, name) - of_loads - of_wave) <= 1e-12 * scale
+
+
+@given(ratio=st.floats(1e-8, 1.0, exclude_max=True), axial=COEFFICIENTS, psi=COEFFICIENTS)
+def test_a_zone_at_rest_without_reaction_is_continuous_whatever_the_rounding(
+    ratio: float, axial: float, psi: float
+) -> None:
+    alpha = -(psi + axial * ratio) * (1.0 + 4.0 * np.finfo(float).eps)
+    found = contact_parameters(ratio, alpha, psi, axial=axial)
+    assert (found.regime, found.uniform_reaction) == ("continuous", 0.0)
+
+
+def test_tension_presses_a_bow_held_against_it_and_lifts_one_that_gives_way() -> None:
+    pressed = contact_parameters(0.5, axial=[2.0, -2.0])
+    assert list(pressed.regime) == ["continuous", "detached"]
+    np.testing.assert_allclose(pressed.uniform_reaction, [1.0, 0.0], rtol=1e-15)
+
+
+def test_axial_force_must_be_finite() -> None:
+    with pytest.raises(ValueError, match=r"axial must be finite \(got nan\)"):
+        contact_parameters(0.5, axial=np.nan)
