@@ -4,8 +4,9 @@ r"""Deflection, slope, curvature and velocity of the beam during the impact, by 
            + r̃ ∫₀^τ ∫_{−λ_c(s)}^{λ_c(s)} K(ξ−ξ̄, τ−s) dξ̄ ds                      (2.7.3), (2.7.43)
     w(ξ,τ) = ντ − κξ²/2 + ε(ψξ⁴/24 + χξ²τ/2 + ατ²/2) − η(ξ,τ)                    (2.2.41)
 
-with λ_c, R̃ of `theory.contact` and r̃ = ε(α+ψ) in the continuous regime, 0 otherwise. ε = 0 is the
-leading order (2.6.36), (2.6.37). w > 0 is in the wall: the gap is −w.
+with λ_c, R̃ of `theory.contact` and r̃ = ε(α′+ψ) in the continuous regime, 0 otherwise. ε = 0 is the
+leading order (2.6.36), (2.6.37). w > 0 is in the wall: the gap is −w. An axial force n changes the kernel of the
+concentrated reactions to √(t/2π)[H(β) + nt H_N(β)], t = τ−s; in r̃, itself of first order, n is left out.
 
 How the integrals are done. With x = |ξ|/√τ, √s = √τ tanh u and Λ(u) = λ₀ + ελ₁τ tanh²u, the kernel's
 argument is β_∓ = (ξ ∓ λ_c(s))/√(τ−s) = x cosh u ∓ Λ sinh u, so that both end-point singularities are gone and
@@ -14,7 +15,8 @@ velocity, without decay. H is the real part of an entire function, an iterated c
 function of z = e^{−iπ/4}β/2 (for β < 0 of −β, since H is even):
 
     H″ = Re[−(1+i)/2 e^{−z²}],     H′ = Re[i√(π/2) erfc z],     H − βH′ = Re[(1−i) e^{−z²}],
-    H  = Re[√(2π) e^{−iπ/4} ierfc z],     √(π/2) − P = Re[2√(2π) i²erfc z].
+    H  = Re[√(2π) e^{−iπ/4} ierfc z],     √(π/2) − P = Re[2√(2π) i²erfc z],
+    H_N = Re[√(2π) e^{iπ/4}(2 i³erfc z − ½ ierfc z)].
 
 So the path may leave the real axis. It leaves it downwards where |β| falls and upwards where |β| grows, and
 e^{iβ²/4} decays on all of it; it comes back to the axis only at the least |β|.
@@ -90,7 +92,7 @@ class ImpactFields:
 
     @property
     def uniform_reaction(self) -> float:
-        """r̃ = ε(α+ψ) on |ξ| < λ_c in the continuous regime, 0 in the others (2.7.5)."""
+        """r̃ = ε(α′+ψ) on |ξ| < λ_c in the continuous regime, 0 in the others (2.7.5)."""
         return self.epsilon * float(self.parameters.uniform_reaction)
 
     def slow_motion(self, xi: ArrayLike, tau: ArrayLike) -> FieldValues:
@@ -164,6 +166,7 @@ class ImpactFields:
             r0=p.r0,
             growth=e * p.r1 * tau,
             uniform=self.uniform_reaction * tau,
+            axial=e * float(p.axial) * tau,
         )
         # the phase x²/4 is known to a rounding of its size, over a stretch of u that shrinks like 1/x
         rounding = 4.0 * np.finfo(float).eps * p.r0 * max(1.0, float(np.max(path.x)), p.lambda0)
@@ -206,8 +209,10 @@ class _Path:
         r0: float,
         growth: FloatArray,
         uniform: FloatArray,
+        axial: FloatArray,
     ) -> None:
         self.x, self.change, self.r0, self.growth, self.uniform = x, change, r0, growth, uniform
+        self.axial = axial
         self.front = lambda0 + change
         self.ahead = np.where(x >= self.front, 1.0, -1.0)
         self.lowest = self._lowest(lambda0)
@@ -255,12 +260,22 @@ class _Path:
         beta = branch * (self.x / sech + side * (self.front * tanh / sech - self.change * sinh_sech2))
         z = np.exp(-0.25j * np.pi) * beta / 2.0
         wave = np.exp(-(z**2))
-        erfc, ierfc, i2erfc, _ = (wave * values for values in scaled_iterated_erfc(z))
+        erfc, ierfc, i2erfc, i3erfc = (wave * values for values in scaled_iterated_erfc(z))
         h2 = -0.5 * (1.0 + 1.0j) * wave
         h1 = branch * (1j * np.sqrt(np.pi / 2.0)) * erfc
         h = np.sqrt(2.0 * np.pi) * np.exp(-0.25j * np.pi) * ierfc
         force = 2.0 / np.pi * (self.r0 + self.growth * tanh**2) * sech * du
         values = [force * sech**2 * h, force * sech * h1, force * h2, 1j * force * h2]
+        if np.any(self.axial):
+            # velocity: (3/2)H_N − (β/2)H_N′, against ½(H − βH′) for H
+            hn = np.sqrt(2.0 * np.pi) * np.exp(0.25j * np.pi) * (2.0 * i3erfc - 0.5 * ierfc)
+            hn1 = -np.sqrt(np.pi / 2.0) * branch * (2.0 * i2erfc - 0.5 * erfc)
+            hn2 = np.sqrt(np.pi / 8.0) * np.exp(-0.25j * np.pi) * (2.0 * ierfc - wave / np.sqrt(np.pi))
+            stretch = self.axial * sech**2 * force
+            values[0] = values[0] + stretch * sech**2 * hn
+            values[1] = values[1] + stretch * sech * hn1
+            values[2] = values[2] + stretch * hn2
+            values[3] = values[3] + stretch * 0.5 * (3.0 * hn - beta * branch * hn1)
         if np.any(self.uniform):
             rest = 2.0 * np.sqrt(2.0 * np.pi) * i2erfc
             p = branch * (np.sqrt(np.pi / 2.0) - rest)

@@ -11,6 +11,10 @@ H, H″, K are even, H′, H‴, P odd. (2.3.3) cancels for large β; there, wit
     H  = √(π/8) β [(c+s) I₂ + (c−s) I₁],        H′ = −√(π/8) [(c+s) I₀ − (c−s) I₁],
     P  = √(π/2) {1 + ½(s−c)(2q I₃ − I₂) + ½(s+c)(2q I₂ − I₁)},   q = β²/4.
 
+Under an axial force n the kernel is √(τ/2π)[H(β) + nτ H_N(β)] to first order in n, z = e^{−iπ/4}|β|/2,
+
+    H_N(β) = √(2π) Re[e^{iπ/4}(2 i³erfc z − ½ ierfc z)],   H_N(0) = −1/6             (new: docs/theory.md)
+
 Relative error below 1e-13 of the value, next to a zero of the envelope, for |β| to 1e6 and beyond.
 """
 
@@ -21,6 +25,7 @@ from numpy.typing import ArrayLike
 from scipy.special import fresnel
 
 from theory._fresnel import SWITCH, FloatArray, scaled_moments
+from theory._iterated_erfc import scaled_iterated_erfc
 
 # Past it β³ would overflow; H, H′ and P − √(π/2) are zero to double precision long before.
 _LARGEST = 1e100
@@ -117,6 +122,15 @@ def P(beta: ArrayLike) -> FloatArray | float:
         1.0 + 0.5 * ((s - c) * (2.0 * m[3] - m[2]) / q + (s + c) * (2.0 * m[2] - m[1])) / (q * np.sqrt(q))
     )
     return _finish(np.copysign(1.0, signed) * result, beta)
+
+
+def H_axial(beta: ArrayLike) -> FloatArray | float:
+    """H_N, even: what an axial force nτ = 1 adds to H; β of any shape, absolute error below 1e-15."""
+    _, b, _ = _prepare(beta)
+    turn = np.exp(0.25j * np.pi)
+    _, first, _, third = scaled_iterated_erfc(b / (2.0 * turn))
+    c, s = _phase(b)
+    return _finish(np.sqrt(2.0 * np.pi) * (turn * (c + 1j * s) * (2.0 * third - 0.5 * first)).real, beta)
 
 
 def K(xi: ArrayLike, tau: ArrayLike) -> FloatArray | float:

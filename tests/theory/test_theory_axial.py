@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from theory import contact_parameters
+from theory import ImpactFields, contact_parameters, kernel
 
 COEFFICIENTS = st.integers(-1000, 1000).map(lambda n: n / 100.0)
 
@@ -133,3 +133,61 @@ def test_tension_presses_a_bow_held_against_it_and_lifts_one_that_gives_way() ->
 def test_axial_force_must_be_finite() -> None:
     with pytest.raises(ValueError, match=r"axial must be finite \(got nan\)"):
         contact_parameters(0.5, axial=np.nan)
+
+
+@pytest.mark.parametrize("ratio", [0.05, 0.3, 0.5, 0.9, 2.0])
+@pytest.mark.parametrize("alpha", [0.0, 0.4])
+def test_the_zone_stays_on_the_wall_at_first_order_in_the_tension(ratio: float, alpha: float) -> None:
+    places, e = np.array([0.0, 0.3, 0.6, 0.9, 1.0]) * (ratio < 1.0), 1e-4
+
+    def residual(axial: float) -> np.ndarray:
+        parameters = contact_parameters(ratio, alpha - axial * ratio, axial=axial)
+        return ImpactFields(parameters, e).complementarity_residual(places, 1.0)
+
+    with_, without, against = residual(1.0), residual(0.0), residual(-1.0)
+    linear = (with_ - against) / (2.0 * e)
+    assert np.max(np.abs(linear)) < 2e-7 + 3.0 * e
+    # what is left is of second order, and the kernel's change is of first: without it this fails by 0.1
+    assert np.max(np.abs(with_ - without)) < 3.0 * e**2
+
+
+def test_the_kernel_under_tension_is_that_of_the_dispersion_relation() -> None:
+    # ω² = k⁴ + nk² and K = (1/π)∫ cos(kξ) sin(ωτ)/ω dk, so ∂K/∂n at n = 0, τ = 1 has [cos k²/k² − sin k²/k⁴]/2
+    k = np.linspace(0.05, 60.0, 300_001)
+    smooth = np.exp(-((k / 25.0) ** 4))  # in place of the Abel limit
+    rate = 0.5 * (np.cos(k**2) / k**2 - np.sin(k**2) / k**4) * smooth
+    start = -(0.05**3) / 18.0  # of the integral up to 0.05, where the two terms would cancel
+    for beta in (0.0, 0.3, 1.0, 2.0, 3.0, 5.0):
+        integral = (np.trapezoid(rate * np.cos(k * beta), k) + start) / np.pi
+        assert kernel.H_axial(beta) == pytest.approx(np.sqrt(2.0 * np.pi) * integral, abs=1e-6)
+    assert kernel.H_axial(0.0) == pytest.approx(-1.0 / 6.0, rel=1e-14)
+    assert kernel.H_axial(-1.7) == kernel.H_axial(1.7)
+
+
+def plain_convolution(fields: ImpactFields, xi: float, tau: float) -> float:
+    """η with R̃ = 2√(2/π)(r₀ + εr₁s)/√s on the real axis, √s = √τ sin θ, tan θ ≤ 60; no uniform reaction."""
+    p, e = fields.parameters, fields.epsilon
+    nodes, weights = np.polynomial.legendre.leggauss(10)
+    v = (np.linspace(0.0, 60.0, 3001)[:-1, None] + 0.01 * (nodes + 1.0)).ravel()
+    s, left = tau * v**2 / (1.0 + v**2), tau / (1.0 + v**2)
+    front = np.sqrt(s) * (p.lambda0 + e * p.lambda1 * s)
+    total = np.zeros_like(v)
+    for side in (-1.0, 1.0):
+        beta = (xi + side * front) / np.sqrt(left)
+        total += kernel.H(beta) + e * p.axial * left * kernel.H_axial(beta)
+    values = 2.0 / np.pi * (p.r0 + e * p.r1 * s) * left * total / (1.0 + v**2)
+    return float(0.01 * np.tile(weights, 3000) @ values)
+
+
+@pytest.mark.parametrize("ratio", [0.5, 2.0])
+def test_fields_under_tension_are_the_convolution_as_it_stands_and_its_derivatives(ratio: float) -> None:
+    fields, tau, h = ImpactFields(contact_parameters(ratio, -ratio, axial=1.0), 0.1), 0.5, 1e-3
+    first = np.array([1.0, -8.0, 8.0, -1.0]) / 12.0
+    steps = h * np.array([-2, -1, 1, 2])
+    for xi in (0.2, 1.4, 2.5):
+        at = fields.fast_layer(xi, tau)
+        assert at.deflection == pytest.approx(plain_convolution(fields, xi, tau), abs=1e-10)
+        along, later = fields.fast_layer(xi + steps, tau), fields.fast_layer(xi, tau + 0.1 * steps)
+        assert at.slope == pytest.approx(first @ along.deflection / h, abs=1e-8)
+        assert at.curvature == pytest.approx(first @ along.slope / h, abs=1e-8)
+        assert at.velocity == pytest.approx(first @ later.deflection / (0.1 * h), abs=1e-7)
