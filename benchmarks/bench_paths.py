@@ -6,7 +6,7 @@ import exudyn_models
 import hermite_fe
 from bent_beam import Impact
 from bent_beam.meshes import UniformMesh
-from hermite_fe.expanding import ExpandingMesh
+from self_similar_fe import ExpandingMesh
 
 
 @pytest.mark.parametrize("kappa", [0.5, 0.1])

@@ -8,8 +8,8 @@ import time
 
 import pytest
 
+from benchmarks.timing import lapack_step, prepared_step
 from hermite_fe.integrators import MoreauJean, NonsmoothGeneralizedAlpha
-from hermite_fe.timing import lapack_step, prepared_step
 
 SIZES = (1_000, 2_000, 4_000, 10_000, 20_000)
 

@@ -1,8 +1,32 @@
-"""The ground floor: the impact problem, case files, meshes and the record of a run, shared by all paths."""
+"""The ground floor: the impact problem, case files, meshes, the record of a run, and what a method is."""
 
-from bent_beam.cases import Case, load_case
-from bent_beam.history import ImpactHistory, SimulationError
+from __future__ import annotations
+
+import importlib
+from typing import TYPE_CHECKING, Any
+
 from bent_beam.impact import Impact
-from bent_beam.parts import InputError
 
-__all__ = ["Case", "Impact", "ImpactHistory", "InputError", "SimulationError", "load_case"]
+if TYPE_CHECKING:
+    from bent_beam.cases import Case, load_case
+    from bent_beam.history import ImpactHistory, SimulationError
+    from bent_beam.method import Method
+    from bent_beam.parts import InputError
+
+__all__ = ["Case", "Impact", "ImpactHistory", "InputError", "Method", "SimulationError", "load_case"]
+
+# The theory needs Impact and no more: what is heavy (xarray, pydantic) is imported when it is asked for.
+_LATER = {
+    "Case": "bent_beam.cases",
+    "load_case": "bent_beam.cases",
+    "ImpactHistory": "bent_beam.history",
+    "SimulationError": "bent_beam.history",
+    "Method": "bent_beam.method",
+    "InputError": "bent_beam.parts",
+}
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _LATER:
+        raise AttributeError(f"module 'bent_beam' has no attribute {name!r}")
+    return getattr(importlib.import_module(_LATER[name]), name)

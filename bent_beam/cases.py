@@ -1,15 +1,17 @@
 """Case files (TOML): one impact, how long to follow it, and, optionally, the parts of each path.
 
-Tables: ``[beam]``, ``[impact]``, ``[run]``, ``[mesh]``, ``[hermite.*]``, ``[exudyn.*]`` (docs/guide). Unknown keys are
-errors that name the nearest known key. The tables of the paths are kept as data: each path turns its own into parts.
+Tables: ``[beam]``, ``[impact]``, ``[wall]``, ``[run]``, ``[mesh]``, and one for each installed path, ``[hermite.*]``,
+``[exudyn.*]`` … (docs/guide). Unknown keys are errors that name the nearest known key. The tables of the paths are kept
+as data: :meth:`Case.method` makes the method of a path from them.
 """
 
 from __future__ import annotations
 
+import dataclasses
 import tomllib
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import pydantic
 from pydantic import BaseModel, ConfigDict, Field
@@ -17,7 +19,10 @@ from pydantic import BaseModel, ConfigDict, Field
 from bent_beam.checks import shortened
 from bent_beam.impact import Impact
 from bent_beam.meshes import MESHES, Mesh
-from bent_beam.parts import InputError, first_line, nearest, part_from_table
+from bent_beam.parts import InputError, first_line, nearest, part_from_table, unknown_key
+
+if TYPE_CHECKING:
+    from bent_beam.method import Method
 
 __all__ = ["Case", "case_from_tables", "load_case"]
 
@@ -36,13 +41,23 @@ class _Beam(_Table):
     length: Positive
     curvature: Annotated[float, Field(ge=0.0, allow_inf_nan=False, strict=True)]
     section_height: Positive = 0.01
+    axial_force: Number = 0.0
+    damping: Annotated[float, Field(ge=0.0, allow_inf_nan=False, strict=True)] = 0.0
+    natural_curvature: Number | None = None
 
 
 class _Impact(_Table):
     velocity: Positive
-    acceleration: Number = 0.0
+    acceleration: Number | None = None
     curvature_rate: Number = 0.0
     fourth_derivative: Number = 0.0
+    rotation: Number = 0.0
+    first_touch: Number = 0.0
+
+
+class _Wall(_Table):
+    curvature: Number = 0.0
+    opposite: Positive | None = None
 
 
 class _Run(_Table):
@@ -51,17 +66,19 @@ class _Run(_Table):
 
 
 class _File(_Table):
+    model_config = ConfigDict(extra="allow", frozen=True)
+
     title: str = ""
     beam: _Beam
     impact: _Impact
+    wall: _Wall = _Wall()
     run: _Run = _Run()
     mesh: dict[str, Any] = Field(default_factory=dict)
-    hermite: dict[str, Any] = Field(default_factory=dict)
-    exudyn: dict[str, Any] = Field(default_factory=dict)
 
 
 class Case(BaseModel):
-    """A validated case. ``end_time`` in s; ``mesh`` is ``None`` when it is to be chosen from the problem."""
+    """A validated case. ``end_time`` in s; ``mesh`` is ``None`` when it is to be chosen from the problem; ``tables``
+    are those of the paths, by name."""
 
     model_config = ConfigDict(frozen=True, arbitrary_types_allowed=True)
 
@@ -69,8 +86,27 @@ class Case(BaseModel):
     impact: Impact
     end_time: float
     mesh: Mesh | None
-    hermite: dict[str, Any]
-    exudyn: dict[str, Any]
+    tables: dict[str, dict[str, Any]]
+
+    def method(self, path: str, *, label: str | None = None) -> Method:
+        """The method of ``path`` with the parts that this case sets for it.
+
+        Raises :class:`InputError` for an unknown path, part or value, in the tables of other paths too.
+        """
+        from bent_beam.method import method_from_tables
+
+        for name, table in self.tables.items():
+            if name != path:
+                method_from_tables(name, table)
+        made = method_from_tables(path, self.tables.get(path, {}), label=label)
+        if self.mesh is None:
+            return made
+        if "mesh" not in self.tables.get(path, {}) and type(self.mesh) in made.PARTS.get("mesh", {}).values():
+            return dataclasses.replace(made, mesh=self.mesh)
+        raise InputError(
+            f"mesh.kind: {path} does not take this mesh (known: {', '.join(sorted(made.PARTS.get('mesh', {})))}); "
+            f"leave [mesh] out, or set [{path}.mesh]"
+        )
 
 
 DEFAULT_DURATION = 0.1  # τ, the longest time that the thesis computes
@@ -82,7 +118,7 @@ def _problem(error: pydantic.ValidationError) -> str:
     value = shortened(problem.get("input"))
     kind = problem["type"]
     if kind == "extra_forbidden":
-        tables: dict[str, type[BaseModel]] = {"beam": _Beam, "impact": _Impact, "run": _Run}
+        tables: dict[str, type[BaseModel]] = {"beam": _Beam, "impact": _Impact, "wall": _Wall, "run": _Run}
         table = tables.get(str(problem["loc"][0]), _File) if len(problem["loc"]) > 1 else _File
         known = table.model_fields
         return f"{place} is not a known setting{nearest(str(problem['loc'][-1]), known)}"
@@ -95,14 +131,35 @@ def _problem(error: pydantic.ValidationError) -> str:
     return first_line(error, "")
 
 
+def _tables_of_paths(file: _File) -> dict[str, dict[str, Any]]:
+    """The tables that are left over must be those of installed paths."""
+    from bent_beam.method import paths
+
+    found = dict(file.model_extra or {})
+    for name, table in found.items():
+        if name not in paths():
+            raise unknown_key("", name, {*paths(), *_File.model_fields})
+        if not isinstance(table, dict):
+            raise InputError(f"{name} must be a table (got {shortened(table)})")
+    return found
+
+
 def case_from_tables(tables: dict[str, Any]) -> Case:
     """A case from the tables of a TOML file. Raises :class:`InputError` with one line naming field and value."""
     try:
         file = _File.model_validate(tables)
     except pydantic.ValidationError as error:
         raise InputError(_problem(error)) from None
+    others = _tables_of_paths(file)
+    given = file.impact.model_dump()
+    if given["acceleration"] is None:  # free flight, which tension bends
+        force = file.beam.axial_force
+        bent = file.beam.bending_stiffness * given["fourth_derivative"] + force * file.beam.curvature
+        given["acceleration"] = -bent / file.beam.mass_per_length if force else 0.0
     try:
-        impact = Impact(**file.beam.model_dump(), **file.impact.model_dump())
+        impact = Impact(
+            **file.beam.model_dump(), **given, wall_curvature=file.wall.curvature, opposite_wall=file.wall.opposite
+        )
     except ValueError as error:
         raise InputError(str(error)) from None
     if file.run.end_time is not None and file.run.duration is not None:
@@ -120,7 +177,7 @@ def case_from_tables(tables: dict[str, Any]) -> Case:
     elif set(file.mesh) - {"kind"}:
         extra = sorted(set(file.mesh) - {"kind"})[0]
         raise InputError(f"mesh.kind is required next to mesh.{extra} (one of {', '.join(sorted(MESHES))})")
-    return Case(title=file.title, impact=impact, end_time=end_time, mesh=mesh, hermite=file.hermite, exudyn=file.exudyn)
+    return Case(title=file.title, impact=impact, end_time=end_time, mesh=mesh, tables=others)
 
 
 def _set(tables: dict[str, Any], assignment: str) -> None:

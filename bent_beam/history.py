@@ -13,8 +13,11 @@ Dimensions: ``time`` (the saved instants) and ``x`` (nodes) and ``contact`` (con
 | kinetic_energy, strain_energy | time | J | whole beam |
 | work_of_loads | time | J | whole beam, since t = 0 |
 | loss_impact | time | J | energy taken out by impacts since t = 0 |
-| loss_integration | time | J | by the time integration's algorithmic damping |
-| loss_artificial | time | J | by artificial viscosity or absorbers |
+| loss_algorithmic | time | J | by the time integration's algorithmic damping |
+| loss_viscous | time | J | by artificial viscosity of bending at grid scale |
+| loss_material | time | J | by the damping of the beam itself |
+| loss_absorbed | time | J | by a sponge or an absorbing end |
+| held_impulse | time | N s | what held contact points pulled since t = 0, never positive |
 
 A moving mesh adds ``position`` (time, x) and ``contact_position`` (time, contact), m.
 Attributes hold the case, the settings, versions and warnings as JSON text.
@@ -61,12 +64,14 @@ UNITS = {
     "strain_energy": "J",
     "work_of_loads": "J",
     "loss_impact": "J",
-    "loss_integration": "J",
-    "loss_artificial": "J",
+    "loss_algorithmic": "J",
+    "loss_viscous": "J",
+    "loss_material": "J",
+    "loss_absorbed": "J",
 }
 REQUIRED = ("time", "x", "contact_x", "gap", "impulse", "total_impulse", "kinetic_energy", "strain_energy")
 MAXIMUM_BYTES = 8_000_000_000
-FORMAT = "bent-beam-impact history 1"
+FORMAT = "bent-beam-impact history 2"
 
 
 class SimulationError(RuntimeError):
@@ -217,8 +222,10 @@ class ImpactHistory:
                 "strain_energy",
                 "work_of_loads",
                 "loss_impact",
-                "loss_integration",
-                "loss_artificial",
+                "loss_algorithmic",
+                "loss_viscous",
+                "loss_material",
+                "loss_absorbed",
             )
             if name in self.dataset
         }

@@ -1,8 +1,8 @@
-"""The physical problem: a naturally bent Euler–Bernoulli beam arriving at a rigid flat wall.
+"""The physical problem: a naturally bent Euler–Bernoulli beam arriving at a rigid wall.
 
-    μ y_tt + EI y_xxxx = p − r,     0 ≤ r ⊥ g = −y ≥ 0                        (thesis 2.1.1–2)
+    μ y_tt + EI(y_xxxx + η y_txxxx) − N y_xx = p − r,     0 ≤ r ⊥ g = y_w − y ≥ 0         (thesis 2.1.1–2; N, η added)
 
-y > 0 points into the wall, x = 0 touches first, at t = 0. The free motion close to the contact is
+y > 0 points into the wall y_w = −K_w x²/2; x = 0 touches first, at t = 0. The free motion close to the contact is
 
     y₀ = V₀ t − K x²/2 + a₀ t²/2 + c₀ x² t/2 + q₀ x⁴/24.                      (thesis 2.2.30)
 """
@@ -36,6 +36,14 @@ class Impact:
     curvature_rate : c₀ = ∂³y₀/∂x²∂t there, 1/(m s) (χ).
     fourth_derivative : q₀ = ∂⁴y₀/∂x⁴ there, 1/m³ (ψ).
     section_height : height d of the section, m; only the Exudyn path uses it, for EA = 12 EI/d².
+    axial_force : N, N, tension positive.
+    damping : η ≥ 0, s: Kelvin–Voigt damping of the beam's own material, moment EI(y_xx + η y_txx).
+    wall_curvature : K_w, 1/m, positive where the wall is hollow, bent the same way as the beam; K_w < K.
+    natural_curvature : curvature of the beam free of stress, 1/m (``None``: all of ``curvature``); it enters the
+        stress alone.
+    rotation : ω, rad/s: the beam rocks about its middle while it flies; only runs of the full beam take it.
+    first_touch : place of the bow's apex along the beam, m from its middle; only runs of the full beam take it.
+    opposite_wall : distance of a second wall behind the beam's apex, m (``None``: none).
 
     Raises
     ------
@@ -51,13 +59,43 @@ class Impact:
     curvature_rate: float = 0.0
     fourth_derivative: float = 0.0
     section_height: float = 0.01
+    axial_force: float = 0.0
+    damping: float = 0.0
+    wall_curvature: float = 0.0
+    natural_curvature: float | None = None
+    rotation: float = 0.0
+    first_touch: float = 0.0
+    opposite_wall: float | None = None
 
     def __post_init__(self) -> None:
         for name in ("bending_stiffness", "mass_per_length", "length", "velocity", "section_height"):
             object.__setattr__(self, name, positive(name, getattr(self, name)))
         object.__setattr__(self, "curvature", non_negative("curvature", self.curvature))
-        for name in ("acceleration", "curvature_rate", "fourth_derivative"):
+        for name in (
+            "acceleration",
+            "curvature_rate",
+            "fourth_derivative",
+            "axial_force",
+            "wall_curvature",
+            "rotation",
+            "first_touch",
+        ):
             object.__setattr__(self, name, finite(name, getattr(self, name)))
+        object.__setattr__(self, "damping", non_negative("damping", self.damping))
+        if self.natural_curvature is not None:
+            object.__setattr__(self, "natural_curvature", finite("natural_curvature", self.natural_curvature))
+        if self.opposite_wall is not None:
+            object.__setattr__(self, "opposite_wall", positive("opposite_wall", self.opposite_wall))
+        if abs(self.first_touch) >= self.half_length:
+            raise ValueError(
+                f"first_touch must lie on the beam, within {self.half_length!r} m of its middle "
+                f"(got {self.first_touch!r})"
+            )
+        if self.wall_curvature and self.wall_curvature >= self.curvature:
+            raise ValueError(
+                f"wall_curvature must be less than the beam's curvature {self.curvature!r}, or no point touches first "
+                f"(got {self.wall_curvature!r})"
+            )
         for name in (
             "wave_constant",
             "time_scale",
@@ -67,6 +105,8 @@ class Impact:
             "epsilon_alpha",
             "epsilon_chi",
             "epsilon_psi",
+            "epsilon_axial",
+            "relative_damping",
             "kappa_over_nu",
         ):
             try:
@@ -81,7 +121,7 @@ class Impact:
                     f"V0 = {self.velocity!r}, EI = {self.bending_stiffness!r}, mu = {self.mass_per_length!r})"
                 )
         for name in (f.name for f in dataclasses.fields(self)):
-            if abs(getattr(self, name)) > RANGE:
+            if abs(getattr(self, name) or 0.0) > RANGE:
                 raise ValueError(f"{name} must not exceed {RANGE:g} (got {getattr(self, name)!r})")
         for name in ("bending_stiffness", "mass_per_length", "length", "velocity", "section_height"):
             if getattr(self, name) < 1.0 / RANGE:
@@ -95,6 +135,8 @@ class Impact:
         epsilon_alpha: float = 0.0,
         epsilon_psi: float = 0.0,
         epsilon_chi: float = 0.0,
+        epsilon_axial: float = 0.0,
+        damping: float = 0.0,
         length: float = 1e3,
     ) -> Impact:
         """The impact in units of the fast layer: EI = μ = V₀ = 1, so l* = t* = 1 and ν = 1."""
@@ -107,7 +149,14 @@ class Impact:
             acceleration=epsilon_alpha,
             fourth_derivative=epsilon_psi,
             curvature_rate=epsilon_chi,
+            axial_force=epsilon_axial,
+            damping=damping,
         )
+
+    @classmethod
+    def whole_beam(cls, kappa_over_nu: float, *, relative_damping: float = 0.0) -> Impact:
+        """The free–free beam in units of its half length: EI = μ = V₀ = L/2 = 1, so T* = 1; damping is η/T*."""
+        return cls.dimensionless(kappa_over_nu, damping=relative_damping, length=2.0)
 
     def replace(self, **changes: float) -> Impact:
         """A copy with some fields changed, validated again."""
@@ -174,7 +223,23 @@ class Impact:
     @property
     def kappa_over_nu(self) -> float:
         """κ/ν = K √(EI/μ)/V₀: the one parameter of the leading order."""
-        return self.curvature * self.length_scale
+        return self.relative_curvature * self.length_scale
+
+    @property
+    def relative_curvature(self) -> float:
+        """K − K_w, 1/m: of the beam against the wall. Without axial force a curved wall does nothing else."""
+        return self.curvature - self.wall_curvature
+
+    @property
+    def uniform_pressure(self) -> float:
+        """p = μa₀ + EI q₀ + N K, N/m: the uniform load under which the free motion is y₀."""
+        pressure = self.mass_per_length * self.acceleration + self.bending_stiffness * self.fourth_derivative
+        return pressure + self.axial_force * self.curvature
+
+    @property
+    def zone_pressure(self) -> float:
+        """p − N K_w, N/m: what presses a contact zone that lies on the wall; it lifts off where this is negative."""
+        return self.uniform_pressure - self.axial_force * self.wall_curvature
 
     @property
     def epsilon_alpha(self) -> float:
@@ -190,6 +255,21 @@ class Impact:
     def epsilon_psi(self) -> float:
         """εψ/ν = q₀ l*⁴/(V₀ t*) = q₀ l*³."""
         return self.fourth_derivative * self.length_scale**3
+
+    @property
+    def epsilon_axial(self) -> float:
+        """n = N/(μV₀²)."""
+        return self.axial_force / (self.mass_per_length * self.velocity**2)
+
+    @property
+    def axial(self) -> float:
+        """n/ε with ν = 1, next to α, ψ, χ."""
+        return self.epsilon_axial / self.epsilon
+
+    @property
+    def relative_damping(self) -> float:
+        """η/T*."""
+        return self.damping / self.slow_time_scale
 
     @property
     def alpha(self) -> float:

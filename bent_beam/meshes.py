@@ -41,6 +41,10 @@ class Mesh(Protocol):
         """Node places from 0 to ``half_length``, m, strictly increasing, shape (n,)."""
         ...
 
+    def refined(self, factor: float) -> Mesh:
+        """The same mesh with elements ``factor`` times shorter everywhere."""
+        ...
+
 
 def checked_nodes(nodes: Array) -> Array:
     """Validate node places: finite, strictly increasing, at least two elements; ``ValueError`` otherwise."""
@@ -82,6 +86,9 @@ class UniformMesh:
 
     def nodes(self, half_length: float) -> Array:
         return np.linspace(0.0, half_length, _count(half_length, self.element_length) + 1)
+
+    def refined(self, factor: float) -> UniformMesh:
+        return UniformMesh(self.element_length / factor)
 
 
 def _grown(start: float, first: float, growth: float, end: float, largest: float) -> Array:
@@ -140,6 +147,10 @@ class GradedMesh:
         )
         return checked_nodes(np.concatenate([inner, outer]))
 
+    def refined(self, factor: float) -> GradedMesh:
+        zone = 25 * self.element_length if self.zone is None else self.zone
+        return GradedMesh(self.element_length / factor, self.growth ** (1.0 / factor), zone, self.size_ratio)
+
 
 @dataclass(frozen=True)
 class SquareMesh:
@@ -175,6 +186,11 @@ class SquareMesh:
         outer = _grown(inner[-1], last * self.growth, self.growth, half_length, last * self.size_ratio)
         return checked_nodes(np.concatenate([inner, outer]))
 
+    def refined(self, factor: float) -> SquareMesh:
+        # x_i = a√i has elements a²/2x: half as long with a/√2
+        shorter = self.first_element / math.sqrt(factor)
+        return SquareMesh(shorter, self.zone, self.growth ** (1.0 / factor), self.size_ratio)
+
 
 @dataclass(frozen=True)
 class ScaleFreeMesh:
@@ -203,6 +219,10 @@ class ScaleFreeMesh:
         outer = _grown(0.0, first, self.growth, half_length, max(largest, first))
         return checked_nodes(np.concatenate([[0.0], outer]))
 
+    def refined(self, factor: float) -> ScaleFreeMesh:
+        largest = None if self.largest is None else self.largest / factor
+        return ScaleFreeMesh(self.element_length / factor, self.growth ** (1.0 / factor), largest)
+
 
 @dataclass(frozen=True)
 class NodesMesh:
@@ -221,6 +241,11 @@ class NodesMesh:
         if abs(places[-1] - half_length) > 1e-9 * half_length:
             raise ValueError(f"mesh.places must end at the half length {half_length!r} (got {self.places[-1]!r})")
         return places
+
+    def refined(self, factor: float) -> NodesMesh:
+        number = np.arange(len(self.places))
+        count = max(2, round(factor * number[-1]))
+        return NodesMesh(tuple(np.interp(np.linspace(0.0, number[-1], count + 1), number, self.places).tolist()))
 
 
 MESHES: dict[str, type] = {

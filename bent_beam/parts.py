@@ -15,7 +15,7 @@ import pydantic
 
 from bent_beam.checks import shortened
 
-__all__ = ["InputError", "describe", "nearest", "part_from_table", "parts_from_table", "unknown_key"]
+__all__ = ["InputError", "describe", "nearest", "part_from_table", "unknown_key"]
 
 
 class InputError(ValueError):
@@ -69,28 +69,6 @@ def part_from_table(kinds: Mapping[str, type], table: Mapping[str, Any], where: 
         return pydantic.TypeAdapter(part).validate_python(values)
     except pydantic.ValidationError as error:
         raise InputError(first_line(error, where)) from None
-
-
-def parts_from_table(
-    registries: Mapping[str, Mapping[str, type]], table: Mapping[str, Any], where: str
-) -> dict[str, Any]:
-    """Parts from a table of tables, e.g. ``[hermite.integrator]`` and ``[hermite.contact]``.
-
-    A sub-table whose ``kind`` is "auto" is left out: the path then chooses from the problem.
-    """
-    parts = {}
-    for name, sub in table.items():
-        if name not in registries:
-            raise unknown_key(where, str(name), registries)
-        if isinstance(sub, Mapping) and sub.get("kind", "auto") == "auto":
-            extra = [key for key in sub if key != "kind"]
-            if extra:
-                raise InputError(
-                    f"{where}.{name}.kind is required next to {extra[0]} (one of {', '.join(sorted(registries[name]))})"
-                )
-            continue
-        parts[name] = part_from_table(registries[name], sub, f"{where}.{name}")
-    return parts
 
 
 def describe(part: Any) -> dict[str, Any]:

@@ -109,17 +109,10 @@ def _simulate(path: str, impact: Impact, largest: Impact | None) -> ImpactHistor
     """A run; with ``largest``, the impact of the largest load it will be compared with, by parts fit for that one."""
     end = DURATION * impact.time_scale
     if path == "hermite":
-        from hermite_fe.expanding import ExpandingMesh, simulate_expanding
+        from self_similar_fe import SelfSimilarFE
 
-        mesh = ExpandingMesh()
-        if largest is not None and _pressed(largest):
-            # The load must close the last trace of lift long before the fit begins: early start, finest front. Nothing
-            # happens within a step but that, so steps may be long.
-            mesh = ExpandingMesh(front_resolution=0.0015, interior_elements=60, step_ratio=0.06, decades=6.0)
-        elif largest is not None:
-            # The contact is one or two nodes that the front passes on: steps shorter than its passage.
-            mesh = ExpandingMesh(front_resolution=0.005, interior_elements=60, step_ratio=0.01, decades=6.0)
-        return simulate_expanding(impact, mesh, end_time=end, save=250)
+        method = SelfSimilarFE().chosen_for(impact if largest is None else largest, end)
+        return method.simulate(impact, end_time=end, save=250)
     import exudyn_models
     from exudyn_models.contacts import CONTACTS
 

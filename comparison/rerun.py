@@ -10,9 +10,9 @@ from typing import Any
 import numpy as np
 import pydantic
 
-from bent_beam import meshes
 from bent_beam.checks import finite, shortened, whole
 from bent_beam.history import ImpactHistory, versions
+from bent_beam.method import Method, method_type
 from bent_beam.parts import InputError, first_line
 
 __all__ = ["rerun_history"]
@@ -65,38 +65,21 @@ def rerun_history(
 
 def _run(old: ImpactHistory, progress: Callable[[float], None] | None) -> ImpactHistory:
     settings = old.settings
-    known: dict[str, type] = {cls.__name__: cls for cls in meshes.MESHES.values()}
     save: Any = settings.get("save", old.time.size)
     if isinstance(save, list):
         save = np.array([finite("history's save", time) for time in save])
     else:
         save = whole("history's save", save, 1)
-    for name in ("end_time", "mesh"):
-        if name not in settings:
-            raise InputError(f"history's settings lack {name}: it cannot be run again")
-    common: dict[str, Any] = {"end_time": settings["end_time"], "save": save, "progress": progress}
-    if old.path == "hermite":
-        import hermite_fe
-        from hermite_fe.expanding import ExpandingMesh
-
-        known[ExpandingMesh.__name__] = ExpandingMesh
-        for registry in hermite_fe.REGISTRIES.values():
-            known.update({cls.__name__: cls for cls in registry.values()})
-        mesh = _rebuild(settings["mesh"], known, "mesh")
-        if isinstance(mesh, ExpandingMesh):
-            return hermite_fe.simulate(old.impact, mesh=mesh, **common)  # type: ignore[arg-type]
-        parts = {n: _rebuild(settings.get(n), known, n) for n in hermite_fe.REGISTRIES}
-        return hermite_fe.simulate(
-            old.impact, mesh=mesh, full_beam=bool(settings.get("full_beam", False)), **parts, **common
-        )
-    if old.path == "exudyn":
-        import exudyn_models
-
-        for registry in exudyn_models.REGISTRIES.values():
-            known.update({cls.__name__: cls for cls in registry.values()})
-        parts = {n: _rebuild(settings[n], known, n) for n in exudyn_models.REGISTRIES if n in settings}
-        mesh = _rebuild(settings["mesh"], known, "mesh")
-        return exudyn_models.simulate(
-            old.impact, mesh=mesh, full_beam=bool(settings.get("full_beam", False)), **parts, **common
-        )
-    raise InputError(f"history's path {shortened(old.path)} is not known")
+    if "end_time" not in settings:
+        raise InputError("history's settings lack end_time: it cannot be run again")
+    method = method_type(old.path)
+    values: dict[str, Any] = {}
+    for field in dataclasses.fields(method):
+        if field.name not in settings:
+            continue
+        kinds = method.PARTS.get(field.name)
+        value = settings[field.name]
+        known = {} if kinds is None else {cls.__name__: cls for cls in kinds.values()}
+        values[field.name] = value if kinds is None else _rebuild(value, known, field.name)
+    made: Method = method(**values)
+    return made.simulate(old.impact, end_time=settings["end_time"], save=save, progress=progress)

@@ -8,11 +8,8 @@ from pathlib import Path
 from typing import Any
 
 from bent_beam.cases import Case
-from bent_beam.checks import one_of
 from bent_beam.history import ImpactHistory
-from bent_beam.parts import parts_from_table
 from comparison.estimators import leading_order, moments
-from comparison.matching import PATHS
 
 __all__ = ["simulate_case", "summary"]
 
@@ -25,47 +22,7 @@ def simulate_case(
     Raises ``ValueError`` for parts that the path does not know, :class:`bent_beam.SimulationError` when it cannot
     finish.
     """
-    one_of("path", path, PATHS)
-    if path == "hermite":
-        import hermite_fe
-
-        parts = parts_from_table(hermite_fe.REGISTRIES, _parts(case.hermite), "hermite")
-        return hermite_fe.simulate(
-            case.impact,
-            end_time=case.end_time,
-            mesh=case.mesh,
-            save=save,
-            progress=progress,
-            **_flags(case.hermite, "hermite"),
-            **parts,
-        )
-    import exudyn_models
-
-    parts = parts_from_table(exudyn_models.REGISTRIES, _parts(case.exudyn), "exudyn")
-    return exudyn_models.simulate(
-        case.impact,
-        end_time=case.end_time,
-        mesh=case.mesh,
-        save=save,
-        progress=progress,
-        **_flags(case.exudyn, "exudyn"),
-        **parts,
-    )
-
-
-FLAGS = ("full_beam",)
-
-
-def _parts(table: dict[str, Any]) -> dict[str, Any]:
-    return {key: value for key, value in table.items() if key not in FLAGS}
-
-
-def _flags(table: dict[str, Any], where: str) -> dict[str, Any]:
-    found = {key: table[key] for key in FLAGS if key in table}
-    for key, value in found.items():
-        if not isinstance(value, bool):
-            raise ValueError(f"{where}.{key} must be true or false (got {value!r})")
-    return found
+    return case.method(path).simulate(case.impact, end_time=case.end_time, save=save, progress=progress)
 
 
 def summary(history: ImpactHistory, file: Path | None = None) -> dict[str, Any]:

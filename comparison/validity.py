@@ -39,7 +39,8 @@ LOADS = {"continuous": 1.0, "detached": -1.0, "discrete": 1.0}
 
 def measure(regime: str, kappa: float, corrections: Sequence[float] = CORRECTIONS) -> list[float]:
     """e(x) at ``corrections`` for a load α of the regime's sign, from one pair of runs on the expanding mesh."""
-    from hermite_fe.expanding import ExpandingMesh, simulate_expanding
+    from self_similar_fe.mesh import ExpandingMesh
+    from self_similar_fe.run import simulate_expanding
 
     alpha = LOADS[regime]
     exact = contact_parameters(kappa, alpha, 0.0, 0.0)

@@ -12,6 +12,7 @@ from exudyn_models.contacts import CONTACTS
 from exudyn_models.elements import ELEMENTS
 from exudyn_models.geometry import GEOMETRIES
 from exudyn_models.integrators import INTEGRATORS
+from exudyn_models.method import ExudynModel
 from exudyn_models.resolution import chosen_half_length, chosen_mesh
 from exudyn_models.simulation import simulate
 from exudyn_models.solvers import SOLVERS
@@ -21,18 +22,9 @@ __all__ = [
     "ELEMENTS",
     "GEOMETRIES",
     "INTEGRATORS",
-    "REGISTRIES",
     "SOLVERS",
+    "ExudynModel",
     "chosen_half_length",
     "chosen_mesh",
     "simulate",
 ]
-
-REGISTRIES = {
-    "element": ELEMENTS,
-    "integrator": INTEGRATORS,
-    "contact": CONTACTS,
-    "geometry": GEOMETRIES,
-    "solver": SOLVERS,
-}
-"""Sub-tables of a case file's ``[exudyn]`` table and the kinds that each may have."""

@@ -49,9 +49,9 @@ def cautions(
         found.append(
             f"the beam enters the wall by up to {penetration:.2%} of V0 t; take a stiffer penalty or smaller steps"
         )
-    if run.held > MOST_PULLED * abs(run.total):
+    if -run.held > MOST_PULLED * abs(run.total):
         found.append(
-            f"contact points were pulled by {run.held / abs(run.total):.2g} times the total impulse while held: their "
+            f"contact points were pulled by {-run.held / abs(run.total):.2g} times the total impulse while held: their "
             "reactions mean nothing one by one"
         )
     front = front_estimate(scaling.kappa)

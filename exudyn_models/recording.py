@@ -90,7 +90,7 @@ class Recorder:
             gain = gain + missing * weight / weight.sum()
             self.impulse += gain
             self.total = total
-            self.held -= np.minimum(gain, 0.0).sum()
+            self.held += np.minimum(gain, 0.0).sum()
             self.contact_loss += float((force * points + old_force * old_velocity).sum() * dt / 2)
             self.viscous_loss += (viscous + old_viscous) * dt / 2
             self.work += (power + old_power) * dt / 2
@@ -145,8 +145,8 @@ class Recorder:
             "strain_energy": (("time",), strain),
             "work_of_loads": (("time",), work),
             "loss_impact": (("time",), impact_loss),
-            "loss_artificial": (("time",), viscous_loss),
-            "loss_integration": (("time",), balance - impact_loss - viscous_loss),
+            "loss_viscous": (("time",), viscous_loss),
+            "loss_algorithmic": (("time",), balance - impact_loss - viscous_loss),
         }
         place = np.interp(self.contact.contact_s, self.beam.shape.s, self.beam.shape.x)
         return ImpactHistory.build(

@@ -66,6 +66,7 @@ def simulate(
     geometry: Geometry | str | None = None,
     solver: NewtonSolver | None = None,
     full_beam: bool = False,
+    refine: float = 1.0,
     save: int | Sequence[float] | Array = 200,
     view: bool = False,
     progress: Callable[[float], object] | None = None,
@@ -78,9 +79,10 @@ def simulate(
     end_time : s; None: τ = 0.1.
     mesh : of the half beam, laid over the whole half length (a ``NodesMesh`` may end short of it); None: elements in
         proportion to the distance from the centre, as far out as waves travel (:func:`chosen_mesh`).
-    element, integrator, contact, geometry, solver : parts of :data:`exudyn_models.REGISTRIES`; None: ANCF cable,
+    element, integrator, contact, geometry, solver : parts of :class:`exudyn_models.ExudynModel`; None: ANCF cable,
         generalised-α, nodal penalty, the linear limit, modified Newton. ``geometry`` may be "linear" or "true".
     full_beam : model both halves instead of x ≥ 0 with the slope fixed at x = 0.
+    refine : elements and steps so many times finer than the parts say.
     save : number of saved instants after t = 0, spread evenly in √t, or their times, s; snapped to steps.
     view : watch the run in Exudyn's viewer, until its window is told to go on (Q or Escape); without a display a line
         on standard error says so.
@@ -115,7 +117,8 @@ def simulate(
     began = clock.perf_counter()
     true = Scaling(impact, end, 1.0).true_amplitude
     scaling = Scaling(impact, end, geometry.amplitude_of(true))
-    laid = chosen_mesh(impact, end, explicit=integrator.explicit) if mesh is None else mesh
+    laid = (chosen_mesh(impact, end, explicit=integrator.explicit) if mesh is None else mesh).refined(refine)
+    integrator = integrator.refined(refine)
     half_length = impact.half_length
     if isinstance(laid, NodesMesh) and laid.places[-1] <= half_length * (1.0 + 1e-9):
         half_length = laid.places[-1]

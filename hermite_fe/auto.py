@@ -30,7 +30,6 @@ from bent_beam.meshes import GradedMesh, Mesh, ScaleFreeMesh
 from hermite_fe.contacts import Contact, NodeContact
 from hermite_fe.far_fields import FarField, GridViscosity
 from hermite_fe.integrators import GeneralizedAlphaPenalty, Integrator, MoreauJean, SignoriniPosition
-from hermite_fe.model import uniform_pressure
 
 __all__ = ["Choice", "choose", "front"]
 
@@ -108,10 +107,15 @@ def choose(
     integrator: Integrator | None,
     contact: Contact | None,
     far_field: FarField | None,
+    *,
+    refine: float = 1.0,
 ) -> Choice:
-    """Fill in what was left open, and warn where what was given by hand cannot resolve the front."""
+    """Fill in what was left open, and warn where what was given by hand cannot resolve the front.
+
+    refine : elements and steps so many times finer than given or chosen.
+    """
     if mesh is None:
-        mesh = chosen_mesh(impact, end_time)
+        mesh = chosen_mesh(impact, end_time).refined(refine)
         try:
             nodes = mesh.nodes(impact.half_length)
         except ValueError as error:
@@ -120,13 +124,14 @@ def choose(
                 f"{impact.kappa_over_nu:g} ({error}); give [mesh]"
             ) from None
     else:
+        mesh = mesh.refined(refine)
         nodes = mesh.nodes(impact.half_length)
     if contact is None:
         contact = NodeContact()
     if integrator is None:
         integrator = SignoriniPosition() if contact.restitution == 0.0 else MoreauJean()
-    integrator = chosen_integrator(impact, end_time, nodes, integrator)
-    hold = HOLD if uniform_pressure(impact) >= 0.0 else 0
+    integrator = chosen_integrator(impact, end_time, nodes, integrator).refined(refine)
+    hold = HOLD if impact.zone_pressure >= 0.0 else 0
     contact = contact.with_hold(hold, min(36.0 * resolved_time(impact, nodes), end_time))
     if far_field is None:
         far_field = GridViscosity()

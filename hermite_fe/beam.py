@@ -20,8 +20,8 @@ from scipy.linalg import cho_solve_banded, cholesky_banded
 
 from bent_beam.checks import positive
 from bent_beam.meshes import checked_nodes
-from hermite_fe._assembly import assemble, assemble_load
-from hermite_fe._banded import row_sums, stiff_multiply
+from hermite_fe.kernels.assembly import assemble, assemble_load
+from hermite_fe.kernels.banded import row_sums, stiff_multiply
 
 __all__ = ["HermiteBeam", "deflection", "element_mass", "element_stiffness", "shape_functions"]
 

@@ -23,7 +23,7 @@ from hermite_fe.contacts import Contact
 from hermite_fe.far_fields import FarField
 from hermite_fe.system import System
 
-__all__ = ["BeamModel", "beam_model", "uniform_pressure"]
+__all__ = ["BeamModel", "beam_model"]
 
 Array = NDArray[np.float64]
 
@@ -43,11 +43,6 @@ class BeamModel:
     def copies(self) -> int:
         """How often the model stands in the whole beam: 2 for the half, 1 for the full beam."""
         return 1 if self.full else 2
-
-
-def uniform_pressure(impact: Impact) -> float:
-    """p = μa₀ + EI q₀, N/m: the uniform load of the motion before contact."""
-    return impact.mass_per_length * impact.acceleration + impact.bending_stiffness * impact.fourth_derivative
 
 
 def beam_model(
@@ -70,7 +65,7 @@ def beam_model(
         load = np.stack([steady + banded_product(damping, bending), banded_product(stiffness, bending)])
         load = load if np.any(load[1]) else load[:1]
     else:
-        load = beam.uniform_load(uniform_pressure(impact))[None, :]
+        load = beam.uniform_load(impact.uniform_pressure)[None, :]
     system = System(
         mass=beam.mass(),
         stiffness=stiffness,

@@ -14,9 +14,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bent_beam.checks import affordable
-from hermite_fe._banded import quadratic, stiff_multiply
-from hermite_fe._pivoting import CYCLING, NOT_FINITE, SINGULAR, SOLVED
-from hermite_fe._problem import (
+from hermite_fe.integrators import Integrator
+from hermite_fe.kernels.banded import quadratic, stiff_multiply
+from hermite_fe.kernels.pivoting import CYCLING, NOT_FINITE, SINGULAR, SOLVED
+from hermite_fe.kernels.problem import (
     ALGORITHMIC,
     IMPACT,
     PRODUCT,
@@ -28,7 +29,6 @@ from hermite_fe._problem import (
     state_of,
     work_of,
 )
-from hermite_fe.integrators import Integrator
 from hermite_fe.system import System
 
 __all__ = ["Stepper", "Trajectory", "integrate", "saved_steps"]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import Any, cast
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -31,6 +31,7 @@ def simulate(
     contact: Contact | None = None,
     far_field: FarField | None = None,
     full_beam: bool = False,
+    refine: float = 1.0,
     save: int | Sequence[float] | NDArray[np.float64] = 200,
     progress: Callable[[float], None] | None = None,
 ) -> ImpactHistory:
@@ -38,6 +39,7 @@ def simulate(
     (:mod:`hermite_fe.auto`).
 
     end_time : s (0.1 t* by default). full_beam : model both halves instead of one with a symmetry support.
+    refine : elements and steps so many times finer than the parts say.
     save : number of saved instants, spread evenly in √t, or their times, s; snapped to steps.
     progress : called with the finished fraction now and then.
 
@@ -45,11 +47,7 @@ def simulate(
     run cannot finish.
     """
     end = impact.checked_end_time(0.1 * impact.time_scale if end_time is None else end_time)
-    if type(mesh).__name__ == "ExpandingMesh":  # not imported before it is asked for
-        from hermite_fe.expanding import simulate_expanding
-
-        return simulate_expanding(impact, cast(Any, mesh), end_time=end, save=save, progress=progress)
-    choice = auto.choose(impact, end, mesh, integrator, contact, far_field)
+    choice = auto.choose(impact, end, mesh, integrator, contact, far_field, refine=refine)
     model = beam_model(impact, choice.nodes, choice.contact, choice.far_field, full=full_beam)
     check_start(model)
     trajectory = integrate(
@@ -115,8 +113,8 @@ def history_of(
         "strain_energy": (("time",), copies * run.strain),
         "work_of_loads": (("time",), copies * run.work),
         "loss_impact": (("time",), copies * run.impact),
-        "loss_integration": (("time",), copies * run.algorithmic),
-        "loss_artificial": (("time",), copies * run.viscous),
+        "loss_algorithmic": (("time",), copies * run.algorithmic),
+        "loss_viscous": (("time",), copies * run.viscous),
         "smallest_gap": (("time",), run.gap.min(axis=1)),
         "smallest_reaction": (("time",), run.smallest_reaction),
         "complementarity_product": (("time",), run.product),

@@ -1,4 +1,4 @@
-"""The fast part of an impact in similarity coordinates, one implicit step at a time (see :mod:`hermite_fe.expanding`).
+"""The fast part of an impact in similarity coordinates, one implicit step at a time (:mod:`self_similar_fe.run`).
 
     M η_ss + C η_s + A η = F,   0 ≤ ρ ⊥ η − W₀ ≥ 0 at the nodes
 
@@ -12,10 +12,9 @@ from dataclasses import dataclass
 
 import numpy as np
 import scipy.sparse as sparse
+from numpy.polynomial import polynomial
 from numpy.typing import NDArray
 from scipy.linalg.lapack import dgbtrf, dgbtrs
-
-from hermite_fe.beam import shape_functions
 
 __all__ = ["Similarity"]
 
@@ -69,12 +68,16 @@ def _operators(zeta: Array, sigma: Callable[[Array], Array]) -> _Operators:
     return _Operators(mass=m, drift=m + 2.0 * g + ms, steady=s + g + k + ms + gs, damping=ms)
 
 
+CUBICS = np.array([[1.0, 0.0, -3.0, 2.0], [0.0, 1.0, -2.0, 1.0], [0.0, 0.0, 3.0, -2.0], [0.0, 0.0, -1.0, 1.0]])
+"""Hermite's four cubics on [0, 1] (thesis A.6), coefficients by rising power."""
+
+
 def _shapes(point: float, length: Array, derivative: int) -> Array:
-    """Hermite shape functions (A.6) of elements of several lengths, d/dx, shape (elements, 4)."""
-    unit = shape_functions(np.array([point]), 1.0, derivative).reshape(-1)
+    """Hermite shape functions of elements of several lengths at ``point`` ∈ [0, 1], d/dx, shape (elements, 4)."""
+    unit = polynomial.polyval(point, polynomial.polyder(CUBICS, derivative, axis=1).T)
     scale = np.ones((length.size, 4))
     scale[:, 1::2] = length[:, None]
-    return unit * scale / length[:, None] ** derivative
+    return np.asarray(unit * scale / length[:, None] ** derivative)
 
 
 # --- one state in similarity coordinates -----------------------------------------------------------------------

@@ -20,7 +20,7 @@ from typer._click.exceptions import ClickException
 from bent_beam.cases import load_case
 from bent_beam.history import ImpactHistory, SimulationError
 from bent_beam.parts import InputError
-from comparison.console import Console
+from comparison.command_line.console import Console
 from comparison.store import check_writable
 
 __all__ = ["app", "main"]
@@ -309,7 +309,7 @@ def report(
 
     Example: bentbeam report --out report
     """
-    from comparison.report import write_report
+    from comparison.report.page import write_report
     from comparison.store import RunStore, default_store
 
     page = out / "index.html"

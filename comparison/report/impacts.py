@@ -67,7 +67,8 @@ class ShownImpact:
 
 def show(shown: Shown) -> ShownImpact:
     """Simulate on the Hermite path's expanding mesh and reduce. Raises :class:`bent_beam.SimulationError`."""
-    from hermite_fe.expanding import ExpandingMesh, simulate_expanding
+    from self_similar_fe.mesh import ExpandingMesh
+    from self_similar_fe.run import simulate_expanding
 
     history = simulate_expanding(shown.impact, ExpandingMesh(), end_time=END * shown.impact.time_scale, save=400)
     exact = contact_parameters(shown.kappa_over_nu, *shown.first)
@@ -131,7 +132,7 @@ def reduce_history(history: ImpactHistory, exact: ContactParameters, epsilon: fl
             },
             "energy": {
                 name: _short(history.array(name)[kept] / energy)
-                for name in ("work_of_loads", "kinetic_energy", "strain_energy", "loss_artificial")
+                for name in ("work_of_loads", "kinetic_energy", "strain_energy", "loss_absorbed")
             },
         }
     )

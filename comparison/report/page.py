@@ -1,7 +1,7 @@
 """The main job's result: both paths matched with the theory, as one HTML page that needs no network.
 
-``write_report`` computes the rows (:mod:`comparison.report_rows`), a few impacts to look at
-(:mod:`comparison.report_impacts`) and the studies, draws them (:mod:`comparison.report_plots`) and puts
+``write_report`` computes the rows (:mod:`comparison.report.rows`), a few impacts to look at
+(:mod:`comparison.report.impacts`) and the studies, draws them (:mod:`comparison.report.plots`) and puts
 them into ``templates/report.html.j2`` with plotly.js inside. Whatever fails is named on the page, with the
 command that asks again; the page is written all the same.
 """
@@ -25,11 +25,11 @@ from markupsafe import Markup
 from bent_beam.history import SimulationError, versions
 from bent_beam.parts import describe
 from comparison.matching import MatchFailure, MatchRow, Question, match
-from comparison.report_impacts import SHOWN, Shown, ShownImpact, show
-from comparison.report_plots import plots
-from comparison.report_rows import first_order_rows, leading_rows, report_questions
-from comparison.report_studies import StudyNote, common_ending, known_studies, study_notes
-from comparison.report_text import (
+from comparison.report.impacts import SHOWN, Shown, ShownImpact, show
+from comparison.report.plots import plots
+from comparison.report.rows import first_order_rows, leading_rows, report_questions
+from comparison.report.studies import StudyNote, common_ending, known_studies, study_notes
+from comparison.report.text import (
     acceleration_answer,
     acceleration_short,
     agreement_answer,
@@ -129,7 +129,7 @@ def shown_impacts(wanted: Sequence[Shown]) -> tuple[list[ShownImpact], list[str]
 
 def still_pictures(impacts: Sequence[ShownImpact], out: Path) -> list[Path]:
     """The impacts as still pictures, for paper and for readers without JavaScript."""
-    from comparison.report_stills import draw_acceleration, draw_impact, draw_maps
+    from comparison.report.stills import draw_acceleration, draw_impact, draw_maps
 
     files = [file for impact in impacts for file in draw_impact(impact, out)]
     return files + (draw_maps(impacts, out) + draw_acceleration(impacts, out) if impacts else [])
@@ -246,7 +246,7 @@ def plotly_version() -> str:
 
 def settings(content: Content) -> list[tuple[str, str]]:
     """Settings of the runs, as pairs of title and JSON text."""
-    from hermite_fe.expanding import ExpandingMesh
+    from self_similar_fe import ExpandingMesh
 
     found = [("Hermite, leading order: expanding mesh", json.dumps(describe(ExpandingMesh()), indent=1))]
     found += [(f"Shown impact: {i.shown.title}", json.dumps(dict(i.settings), indent=1)) for i in content.impacts]

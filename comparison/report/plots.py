@@ -12,7 +12,7 @@ import numpy as np
 
 from comparison.figures.style import COLOURS, SEQUENCE
 from comparison.matching import MatchRow
-from comparison.report_rows import Cell, TableRow, first_of, table_row
+from comparison.report.rows import Cell, TableRow, first_of, table_row
 from theory import contact_parameters
 
 __all__ = ["error_plot", "first_order_plot", "leading_plot", "plots", "seconds_plot"]

@@ -9,7 +9,7 @@ import numpy as np
 from matplotlib.colors import LogNorm
 
 from comparison.figures import style
-from comparison.report_impacts import ShownImpact
+from comparison.report.impacts import ShownImpact
 
 __all__ = ["draw_acceleration", "draw_impact", "draw_maps"]
 

@@ -6,8 +6,8 @@ import math
 from collections.abc import Sequence
 from statistics import median
 
-from comparison.report_impacts import ShownImpact
-from comparison.report_rows import Cell, TableRow, first_of, worst
+from comparison.report.impacts import ShownImpact
+from comparison.report.rows import Cell, TableRow, first_of, worst
 
 __all__ = [
     "acceleration_answer",

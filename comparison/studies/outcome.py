@@ -105,7 +105,7 @@ def outcome_of(history: ImpactHistory, label: str, kind: str, value: float | Non
     expanding = "position" in data
     energy = work - kinetic - strain if expanding else kinetic + strain - work - (kinetic + strain - work)[0]
     if expanding:  # what the absorber took left the zone as waves; the free motion's energy is added back
-        energy = -(energy - history.array("loss_artificial"))
+        energy = -(energy - history.array("loss_absorbed"))
     found = moments(history, uniform=not exact.leading)
     centroid = found.front * history.impact.length_scale
     return Outcome(
@@ -192,7 +192,7 @@ def _energy(history: ImpactHistory, exact: Exact, expanding: bool) -> dict[str, 
         return float(history.array(name)[-1]) if name in history.dataset else 0.0
 
     impacts = lost("loss_impact")
-    damping = lost("loss_integration") + (0.0 if expanding else lost("loss_artificial"))
+    damping = lost("loss_algorithmic") + (0.0 if expanding else lost("loss_viscous"))
     if history.path == "exudyn":  # it books the work of its contact forces by sampling: only the sum is exact
         impacts, damping = math.nan, damping + impacts
     strain = float(history.array("strain_energy")[-1] - (0.0 if expanding else history.array("strain_energy")[0]))

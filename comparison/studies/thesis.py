@@ -4,7 +4,7 @@
 most a thousandth of the run (2.5·10⁻⁸ s); uniform elements over twice the contact zone (25 a side in Table 3.2),
 growth 1.25 outside; nonsmooth generalised-α with constraints at position, velocity and acceleration level, ρ∞ =
 0.8, restitution 0; contact at element middles or at nodes; nothing held, nothing absorbed. The cure is the
-expanding mesh (:mod:`hermite_fe.expanding`): front resolved at every time, radiated waves absorbed.
+expanding mesh (:mod:`self_similar_fe.run`): front resolved at every time, radiated waves absorbed.
 """
 
 from __future__ import annotations
@@ -108,7 +108,8 @@ class Variant:
 
 def expanding(impact: Impact, *, end_time: float, save: int = 400, **mesh: Any) -> ImpactHistory:
     """The Hermite path on its expanding mesh: an infinite beam, its front resolved at every time."""
-    from hermite_fe.expanding import ExpandingMesh, simulate_expanding
+    from self_similar_fe.mesh import ExpandingMesh
+    from self_similar_fe.run import simulate_expanding
 
     return simulate_expanding(impact, ExpandingMesh(**mesh), end_time=end_time, save=save)
 

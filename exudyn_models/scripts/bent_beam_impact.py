@@ -1,6 +1,6 @@
 """A naturally bent beam hits a rigid wall: μ y_tt + EI y_xxxx = −r, 0 ≤ r ⊥ −y ≥ 0 (thesis 2.1.1–2).
 
-Change a part below, run, look:  python exudyn_models/bent_beam_impact.py --kappa-over-nu 0.5
+Change a part below, run, look:  python exudyn_models/scripts/bent_beam_impact.py --kappa-over-nu 0.5
 Every part and its settings: docs/exudyn.md.
 """
 
@@ -14,7 +14,7 @@ from bent_beam import Impact
 from exudyn_models.contacts import Penalty
 from exudyn_models.elements import ANCFCable
 from exudyn_models.integrators import GeneralizedAlpha
-from exudyn_models.readings import leading_order
+from exudyn_models.scripts.readings import leading_order
 
 # exact leading order (thesis 2.6.21–22): κ/ν → λ₀, r₀/ν
 EXACT = {

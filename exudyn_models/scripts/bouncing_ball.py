@@ -3,7 +3,7 @@ d/(2√(km)).
 
 Between bounces the flight is exact, so the k-th apex is e^{2k} of the first height (for a contact short against the
 flight).
-python exudyn_models/bouncing_ball.py [--restitution 0.8] [--view]
+python exudyn_models/scripts/bouncing_ball.py [--restitution 0.8] [--view]
 """
 
 import argparse

@@ -1,6 +1,6 @@
 """A cantilever of ANCF cables under a tip load, statics: w = PL³/(3EI), slope PL²/(2EI) for small deflections.
 
-python exudyn_models/cantilever.py [--elements 8] [--load 1e-3] [--view]
+python exudyn_models/scripts/cantilever.py [--elements 8] [--load 1e-3] [--view]
 """
 
 import argparse

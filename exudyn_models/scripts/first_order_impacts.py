@@ -4,7 +4,7 @@ Half contact length λ_c = √t (λ₀ + ελ₁V₀² t) with EI/μ = 1; first-
 m/s^{3/2}, and for the reaction εr₁ = +85.90 and −88.97. Both are differences against the same run with a₀ = 0, and
 are carried to t → 0 from two end times, since the expansion holds while ε|λ₁|t/t* is small against λ₀.
 
-python exudyn_models/first_order_impacts.py [--duration 0.008]
+python exudyn_models/scripts/first_order_impacts.py [--duration 0.008]
 """
 
 import argparse
@@ -15,7 +15,7 @@ import exudyn_models
 from bent_beam import Impact
 from exudyn_models.contacts import Penalty
 from exudyn_models.integrators import GeneralizedAlpha
-from exudyn_models.readings import first_order
+from exudyn_models.scripts.readings import first_order
 
 parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
 parser.add_argument("--duration", type=float, default=8e-3, help="longer of the two end times, in t* (default 0.008)")

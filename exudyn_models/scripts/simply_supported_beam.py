@@ -2,7 +2,7 @@
 ends.
 
 Both ends turn freely (the thesis's Figs 3.2–3.3, which call it fixed at both ends, show this beam).
-python exudyn_models/simply_supported_beam.py [--elements 8] [--load 1e-3] [--view]
+python exudyn_models/scripts/simply_supported_beam.py [--elements 8] [--load 1e-3] [--view]
 """
 
 import argparse

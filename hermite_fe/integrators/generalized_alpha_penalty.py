@@ -15,9 +15,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bent_beam.checks import between, non_negative, positive, whole
-from hermite_fe import _generalized_alpha
-from hermite_fe._problem import ContactLaw, Problem, State, Work
 from hermite_fe.integrators.base import Integrator
+from hermite_fe.kernels import generalized_alpha
+from hermite_fe.kernels.problem import ContactLaw, Problem, State, Work
 
 __all__ = ["GeneralizedAlphaPenalty"]
 
@@ -64,7 +64,7 @@ class GeneralizedAlphaPenalty(Integrator):
                 "generalized_alpha_penalty has no impact law: "
                 f"restitution must be 0 (got {law.restitution!r})"
             )
-        return _generalized_alpha.penalty_steps(
+        return generalized_alpha.penalty_steps(
             problem,
             state,
             works[0],

@@ -15,9 +15,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bent_beam.checks import between
-from hermite_fe import _theta
-from hermite_fe._problem import ContactLaw, Problem, State, Work
 from hermite_fe.integrators.base import Integrator
+from hermite_fe.kernels import theta
+from hermite_fe.kernels.problem import ContactLaw, Problem, State, Work
 
 __all__ = ["MoreauJean"]
 
@@ -42,4 +42,4 @@ class MoreauJean(Integrator):
         first: int,
         last: int,
     ) -> tuple[int, int]:
-        return _theta.steps(problem, law, state, works[0], times, first, last, self.theta, False)
+        return theta.steps(problem, law, state, works[0], times, first, last, self.theta, False)

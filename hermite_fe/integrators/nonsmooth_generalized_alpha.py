@@ -23,9 +23,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bent_beam.checks import between, one_of
-from hermite_fe import _generalized_alpha
-from hermite_fe._problem import ContactLaw, Problem, State, Work
 from hermite_fe.integrators.base import Integrator
+from hermite_fe.kernels import generalized_alpha
+from hermite_fe.kernels.problem import ContactLaw, Problem, State, Work
 
 __all__ = ["LEVELS", "NonsmoothGeneralizedAlpha"]
 
@@ -58,10 +58,10 @@ class NonsmoothGeneralizedAlpha(Integrator):
         last: int,
     ) -> tuple[int, int]:
         if self.levels == "velocity":
-            return _generalized_alpha.velocity_steps(
+            return generalized_alpha.velocity_steps(
                 problem, law, state, works[0], works[1], times, first, last, self.spectral_radius
             )
-        return _generalized_alpha.sequential_steps(
+        return generalized_alpha.sequential_steps(
             problem,
             law,
             state,

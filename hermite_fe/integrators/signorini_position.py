@@ -14,9 +14,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bent_beam.checks import between
-from hermite_fe import _theta
-from hermite_fe._problem import ContactLaw, Problem, State, Work
 from hermite_fe.integrators.base import Integrator
+from hermite_fe.kernels import theta
+from hermite_fe.kernels.problem import ContactLaw, Problem, State, Work
 
 __all__ = ["SignoriniPosition"]
 
@@ -45,4 +45,4 @@ class SignoriniPosition(Integrator):
             raise ValueError(
                 f"signorini_position has no impact law: restitution must be 0 (got {law.restitution!r})"
             )
-        return _theta.steps(problem, law, state, works[0], times, first, last, self.theta, True)
+        return theta.steps(problem, law, state, works[0], times, first, last, self.theta, True)

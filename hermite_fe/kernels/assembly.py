@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from hermite_fe._jit import compiled
+from hermite_fe.kernels.jit import compiled
 
 
 @compiled

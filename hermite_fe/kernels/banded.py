@@ -15,7 +15,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from hermite_fe._jit import compiled, compiled_sums
+from hermite_fe.kernels.jit import compiled, compiled_sums
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]

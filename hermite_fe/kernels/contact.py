@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from hermite_fe._jit import compiled
-from hermite_fe._problem import ContactLaw, Problem
+from hermite_fe.kernels.jit import compiled
+from hermite_fe.kernels.problem import ContactLaw, Problem
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]

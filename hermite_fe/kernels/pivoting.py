@@ -9,7 +9,7 @@ one row at a time is exchanged (Murty's rule), which cannot cycle for a positive
 
 A row that touches one dof fixes it when closed, and p is what is left over in that dof's equation. A row that
 touches several has a multiplier −p among the unknowns, fixed at 0 while open. Either way a switch changes the
-factors from there inwards only (:mod:`hermite_fe._banded`), so a round costs the contact zone, not the beam.
+factors from there inwards only (:mod:`hermite_fe.kernels.banded`), so a round costs the contact zone, not the beam.
 A *held* row is closed whatever the sign of p; a row that is no *candidate* is open.
 """
 
@@ -18,9 +18,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from hermite_fe._banded import factor, sweep_in, sweep_out
-from hermite_fe._jit import compiled
-from hermite_fe._problem import Problem, Work
+from hermite_fe.kernels.banded import factor, sweep_in, sweep_out
+from hermite_fe.kernels.jit import compiled
+from hermite_fe.kernels.problem import Problem, Work
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
@@ -34,8 +34,8 @@ COARSEST = 1e-8
 
 @compiled
 def is_slope(dof: int) -> bool:
-    """Deflections and slopes take turns among the dofs, as in :func:`hermite_fe._banded.row_sums`. (Not an array of
-    :class:`Problem`: to look it up costs a step 1–3 %.)"""
+    """Deflections and slopes take turns among the dofs, as in :func:`hermite_fe.kernels.banded.row_sums`. (Not an array
+    of :class:`Problem`: to look it up costs a step 1–3 %.)"""
     return dof % 2 == 1
 
 

@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from hermite_fe._banded import row_sums
+from hermite_fe.kernels.banded import row_sums
 from hermite_fe.system import System
 
 Array = NDArray[np.float64]

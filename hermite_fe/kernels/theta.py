@@ -16,11 +16,11 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from hermite_fe._banded import add, combine, dot, multiply, quadratic, stiff_multiply
-from hermite_fe._contact import force_at, mark_held, row_times, rows_times
-from hermite_fe._jit import compiled
-from hermite_fe._pivoting import NOT_FINITE, SOLVED, solve_rows
-from hermite_fe._problem import (
+from hermite_fe.kernels.banded import add, combine, dot, multiply, quadratic, stiff_multiply
+from hermite_fe.kernels.contact import force_at, mark_held, row_times, rows_times
+from hermite_fe.kernels.jit import compiled
+from hermite_fe.kernels.pivoting import NOT_FINITE, SOLVED, solve_rows
+from hermite_fe.kernels.problem import (
     ALGORITHMIC,
     IMPACT,
     PRODUCT,

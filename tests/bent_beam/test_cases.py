@@ -29,7 +29,7 @@ def test_parts_and_assignments():
         ["mesh.kind=graded", "mesh.element_length=2.5e-3", "mesh.growth=1.25", "hermite.contact.kind=node"],
     )
     assert case.mesh == GradedMesh(element_length=2.5e-3, growth=1.25)
-    assert case.hermite == {"contact": {"kind": "node"}}
+    assert case.tables == {"hermite": {"contact": {"kind": "node"}}}
 
 
 def changed(table, **values):

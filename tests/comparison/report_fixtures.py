@@ -5,9 +5,9 @@ from __future__ import annotations
 from functools import cache
 
 from comparison.matching import MatchFailure, MatchRow
-from comparison.report import Content, machine
-from comparison.report_impacts import SHOWN, ShownImpact, show
-from comparison.report_studies import StudyNote
+from comparison.report.impacts import SHOWN, ShownImpact, show
+from comparison.report.page import Content, machine
+from comparison.report.studies import StudyNote
 from theory import contact_parameters
 
 NASTY = "<script>alert('x')</script> & \"quotes\" </script>"

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from comparison.command_line import run
+from comparison.command_line.app import run
 
 CASES = Path(__file__).parents[2] / "cases"
 K10 = str(CASES / "thesis_K10.toml")

@@ -11,20 +11,20 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from comparison import report as report_module
 from comparison.matching import MatchFailure
-from comparison.report import page, write_report
-from comparison.report_impacts import SHOWN, force_map, frames_of, spread
-from comparison.report_plots import row_plots
-from comparison.report_rows import (
+from comparison.report import page as report_module
+from comparison.report.impacts import SHOWN, force_map, frames_of, spread
+from comparison.report.page import page, write_report
+from comparison.report.plots import row_plots
+from comparison.report.rows import (
     first_order_rows,
     leading_rows,
     report_questions,
     table_row,
     tolerance,
 )
-from comparison.report_studies import StudyNote, case_of, common_ending, study_notes
-from comparison.report_text import acceleration_answer, headline, percent, speed_answer
+from comparison.report.studies import StudyNote, case_of, common_ending, study_notes
+from comparison.report.text import acceleration_answer, headline, percent, speed_answer
 from comparison.store import RunStore
 
 sys.path.insert(0, str(Path(__file__).parent))
@@ -220,7 +220,8 @@ def test_released_zone_lifts_off_and_sentences_say_so() -> None:
 
 
 def test_map_holds_the_whole_impulse_of_one_side() -> None:
-    from hermite_fe.expanding import ExpandingMesh, simulate_expanding
+    from self_similar_fe.mesh import ExpandingMesh
+    from self_similar_fe.run import simulate_expanding
 
     history = simulate_expanding(SHOWN[1].impact, ExpandingMesh(decades=2.0), end_time=0.1, save=60)
     kept = frames_of(history.time, 10)

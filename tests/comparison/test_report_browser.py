@@ -11,7 +11,7 @@ from typing import Any
 
 import pytest
 
-from comparison.report import page
+from comparison.report.page import page
 
 sys.path.insert(0, str(Path(__file__).parent))
 from report_fixtures import content

@@ -72,7 +72,7 @@ def run_command(words: list[str], page: Path) -> None:
         f"{name_of(page)}: only bentbeam and make can be run from a bash block; say 'not run' and why "
         f"in its title (got {' '.join(words)})"
     )
-    from comparison.command_line import run
+    from comparison.command_line.app import run
 
     assert run(words[1:]) == 0, " ".join(words)
 
@@ -106,14 +106,14 @@ def test_commands_and_snippets_run(page: Path, folder: Path, capsys: pytest.Capt
 
 def registries():  # type: ignore[no-untyped-def]
     """A function that puts the registries back, which snippets may add to."""
-    from hermite_fe import REGISTRIES
+    from hermite_fe import HermiteFE
 
-    kept = {name: dict(kinds) for name, kinds in REGISTRIES.items()}
+    kept = {name: dict(kinds) for name, kinds in HermiteFE.PARTS.items()}
 
     def restore() -> None:
         for name, kinds in kept.items():
-            REGISTRIES[name].clear()
-            REGISTRIES[name].update(kinds)
+            HermiteFE.PARTS[name].clear()
+            HermiteFE.PARTS[name].update(kinds)
 
     return restore
 

@@ -9,7 +9,6 @@ import pytest
 import exudyn_models
 from bent_beam import Impact, InputError, SimulationError
 from bent_beam.meshes import UniformMesh
-from bent_beam.parts import parts_from_table
 from exudyn_models.contacts import Penalty, Rigid, SegmentFriction
 from exudyn_models.elements import GeometricallyExact
 from exudyn_models.integrators import RK44, GeneralizedAlpha, Trapezoidal, VelocityVerlet
@@ -67,14 +66,14 @@ def test_true_geometry_refuses_a_beam_rolled_up():
 )
 def test_case_file_tables_name_what_is_wrong(table, message):
     with pytest.raises(InputError, match=message):
-        parts_from_table(exudyn_models.REGISTRIES, table, "exudyn")
+        method_from_tables("exudyn", table)
 
 
 def test_every_kind_can_be_made_from_a_table():
-    for name, kinds in exudyn_models.REGISTRIES.items():
-        for kind in kinds:
-            part = parts_from_table(exudyn_models.REGISTRIES, {name: {"kind": kind}}, "exudyn")[name]
-            assert isinstance(part, kinds[kind])
+    for name, kinds in exudyn_models.ExudynModel.PARTS.items():
+        for kind in kinds if name != "mesh" else ():  # a mesh has fields that must be given
+            made = method_from_tables("exudyn", {name: {"kind": kind}})
+            assert isinstance(getattr(made, name), kinds[kind])
 
 
 def test_failed_newton_carries_time_step_advice_and_partial_history():

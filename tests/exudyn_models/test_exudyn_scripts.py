@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-SCRIPTS = Path(__file__).resolve().parents[2] / "exudyn_models"
+SCRIPTS = Path(__file__).resolve().parents[2] / "exudyn_models" / "scripts"
 
 
 def run(name, tmp_path, *options):

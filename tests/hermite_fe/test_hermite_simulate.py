@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import json
 import math
-import sys
-import types
 
 import numpy as np
 import pytest
@@ -16,8 +14,8 @@ from numpy.typing import NDArray
 from bent_beam import Impact, ImpactHistory, SimulationError
 from bent_beam import meshes as mesh_kinds
 from bent_beam.meshes import UniformMesh
-from bent_beam.parts import parts_from_table
-from hermite_fe import CONTACTS, FAR_FIELDS, INTEGRATORS, REGISTRIES, simulate
+from bent_beam.method import method_from_tables
+from hermite_fe import INTEGRATORS, HermiteFE, simulate
 from hermite_fe.contacts import NodeContact
 from hermite_fe.far_fields import GridViscosity
 from hermite_fe.integrators import MoreauJean, SignoriniPosition
@@ -184,7 +182,7 @@ def test_returning_waves_are_warned_of() -> None:
 def test_settings_suffice_to_run_again() -> None:
     history = simulate(SHORT, end_time=0.05, integrator=MoreauJean(time_step=1e-3, theta=0.7), save=7)
     text = json.loads(json.dumps(history.settings))
-    kinds = {c.__name__: c for r in (*REGISTRIES.values(), mesh_kinds.MESHES) for c in r.values()}
+    kinds = {c.__name__: c for r in (*HermiteFE.PARTS.values(), mesh_kinds.MESHES) for c in r.values()}
     parts = {
         name: kinds[text[name]["kind"]](**{k: v for k, v in text[name].items() if k != "kind"})
         for name in ("mesh", "integrator", "contact", "far_field")
@@ -234,15 +232,6 @@ def test_an_overflow_is_found_in_the_step_where_it_happens() -> None:
     assert run.steps < 10
 
 
-def test_an_expanding_mesh_is_handed_on(monkeypatch: pytest.MonkeyPatch) -> None:
-    ExpandingMesh = type("ExpandingMesh", (), {})
-    module = types.ModuleType("hermite_fe.expanding")
-    module.simulate_expanding = lambda *a, **k: (a, k)  # type: ignore[attr-defined]
-    monkeypatch.setitem(sys.modules, "hermite_fe.expanding", module)
-    _, options = simulate(SHORT, end_time=0.2, mesh=ExpandingMesh(), save=5)  # type: ignore[misc, arg-type]
-    assert options == {"end_time": 0.2, "save": 5, "progress": None}
-
-
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
@@ -268,16 +257,9 @@ def test_parts_come_from_case_tables() -> None:
         "contact": {"kind": "mean", "restitution": 0.0},
         "far_field": {"kind": "sponge", "width": 0.5},
     }
-    parts = parts_from_table(REGISTRIES, table, "hermite")
-    history = simulate(SHORT, end_time=0.02, **parts)
+    history = method_from_tables("hermite", table).simulate(SHORT, end_time=0.02)
     assert history.settings["far_field"]["width"] == 0.5
-    assert set(INTEGRATORS) == {
-        "moreau_jean",
-        "nonsmooth_generalized_alpha",
-        "signorini_position",
-        "generalized_alpha_penalty",
-    }
-    assert set(CONTACTS) == {"node", "middle", "mean"} and set(FAR_FIELDS) == {"viscosity", "sponge"}
+
 
 
 @settings(max_examples=25, deadline=None)

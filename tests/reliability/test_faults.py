@@ -16,16 +16,16 @@ import time
 
 import pytest
 
-from comparison.command_line import run
+from comparison.command_line.app import run
 from comparison.matching import Question, match
 from comparison.store import RunStore, write_atomically
 from comparison.workers import run_all
 
 FUZZ = bool(os.environ.get("FUZZ"))
 SEED = os.environ.get("FUZZ_SEED", "0")
-MAIN = "from comparison.command_line import main; main()"
+MAIN = "from comparison.command_line.app import main; main()"
 FEW_ROWS = f"""
-import comparison.report as report
+import comparison.report.page as report
 questions, studies = report.report_questions, report.known_studies
 report.report_questions = lambda: [q for q in questions() if q.kappa_over_nu >= 0.25 and q.first in (None, (4, 0, 0))]
 report.known_studies = lambda: dict(list(studies().items())[:5])

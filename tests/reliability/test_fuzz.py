@@ -19,7 +19,7 @@ import exudyn_models
 import hermite_fe
 from bent_beam import Impact, ImpactHistory, SimulationError
 from bent_beam.meshes import MESHES
-from comparison.command_line import run
+from comparison.command_line.app import run
 from theory import contact_parameters
 from theory import predict as predict_impact
 
@@ -264,7 +264,7 @@ def small_meshes(draw):
     problems(st.one_of(st.just(0.0), st.floats(-10.0, 10.0))),
     small_meshes(),
     st.floats(0.002, 0.5),
-    parts({f"hermite.{k}": v for k, v in hermite_fe.REGISTRIES.items()}, ("time_step", "growth")),
+    parts({f"hermite.{k}": v for k, v in hermite_fe.HermiteFE.PARTS.items()}, ("time_step", "growth")),
     st.booleans(),
 )
 def test_the_hermite_path_finishes_or_says_why_not(tables, elements, growth, chosen, keep):
@@ -289,7 +289,10 @@ def test_the_hermite_path_finishes_or_says_why_not(tables, elements, growth, cho
     problems(st.one_of(st.just(0.0), st.floats(-10.0, 10.0))),
     st.integers(3, 16),
     st.floats(0.02, 0.5),
-    parts({f"exudyn.{k}": v for k, v in exudyn_models.REGISTRIES.items()}, ("time_step", "relative_step", "safety")),
+    parts(
+        {f"exudyn.{k}": v for k, v in exudyn_models.ExudynModel.PARTS.items()},
+        ("time_step", "relative_step", "safety"),
+    ),
 )
 def test_the_exudyn_path_finishes_or_says_why_not(tables, elements, relative, chosen):
     chosen |= {"mesh.kind": "uniform", "mesh.element_length": repr(tables["beam"]["length"] / 2.0 / elements)}

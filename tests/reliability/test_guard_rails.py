@@ -6,7 +6,7 @@ import json
 
 import pytest
 
-from comparison.command_line import run
+from comparison.command_line.app import run
 
 CASE = """[beam]
 bending_stiffness = 1.0

@@ -16,8 +16,9 @@ from exudyn_models.contacts import Penalty, Rigid, SegmentFriction
 from exudyn_models.elements import GeometricallyExact
 from exudyn_models.geometry import TrueGeometry
 from exudyn_models.integrators import RK44, GeneralizedAlpha, Newmark
-from hermite_fe.expanding import ExpandingMesh, simulate_expanding
 from hermite_fe.integrators import SignoriniPosition
+from self_similar_fe.mesh import ExpandingMesh
+from self_similar_fe.run import simulate_expanding
 from theory import predict
 
 TWINS = [

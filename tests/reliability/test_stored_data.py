@@ -17,16 +17,17 @@ import exudyn_models
 import hermite_fe
 from bent_beam import Impact, ImpactHistory, load_case
 from bent_beam.meshes import UniformMesh
-from comparison.command_line import run
+from comparison.command_line.app import run
 from comparison.rerun import rerun_history
 from exudyn_models.contacts import CONTACTS
 from exudyn_models.integrators import INTEGRATORS
-from hermite_fe.expanding import ExpandingMesh, simulate_expanding
 from hermite_fe.integrators import MoreauJean, SignoriniPosition
+from self_similar_fe.mesh import ExpandingMesh
+from self_similar_fe.run import simulate_expanding
 
 IMPACT = Impact.dimensionless(0.5, length=20.0, epsilon_alpha=0.2)
 COARSE = UniformMesh(0.1)
-MAIN = "from comparison.command_line import main; main()"
+MAIN = "from comparison.command_line.app import main; main()"
 
 
 def hermite(**parts):

@@ -72,7 +72,7 @@
     const energy = (name, label, colour, dash) => ({ x: d.time, y: d.energy[name], mode: "lines", name: label, line: { color: colour, width: 2, dash: dash }, hovertemplate: label + " %{y:.4g}<extra></extra>" });
     Plotly.react("energy", [
       energy("work_of_loads", "work of the wall", "#000"), energy("kinetic_energy", "kinetic", blue), energy("strain_energy", "strain", red),
-      energy("loss_artificial", "gone with far waves", green, "dot"),
+      energy("loss_viscous", "gone with far waves", green, "dot"),
     ], layout(axis("τ = t/t<sub>*</sub>"), axis("energy / (μV<sub>0</sub>²l<sub>*</sub>)"), Object.assign({ shapes: [{ type: "line", x0: t, x1: t, yref: "paper", y0: 0, y1: 1, line: { color: grey, width: 1.2 } }] }, legend)), config);
 
     Plotly.relayout("map", { "shapes[0].y0": Math.sqrt(t), "shapes[0].y1": Math.sqrt(t) });

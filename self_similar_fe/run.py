@@ -30,89 +30,22 @@ from __future__ import annotations
 import math
 import time as clock
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from bent_beam.checks import affordable, at_least, between, positive, whole
+from bent_beam.checks import affordable, whole
 from bent_beam.history import ImpactHistory, SimulationError
 from bent_beam.impact import Impact
 from bent_beam.parts import describe
-from hermite_fe.similarity import Similarity
+from self_similar_fe.mesh import ExpandingMesh
+from self_similar_fe.similarity import Similarity
 
-__all__ = ["ExpandingMesh", "similarity", "simulate_expanding"]
+__all__ = ["similarity", "simulate_expanding"]
 
 Array = NDArray[np.float64]
-MAXIMUM_NODES = 100_000
 MOST_WORK = 1e9  # steps x nodes: about an hour
-
-
-@dataclass(frozen=True)
-class ExpandingMesh:
-    """Mesh x = ζ l* √(t/t*) of an infinite beam; lengths below are in ζ unless said otherwise.
-
-    front_resolution : element at the front over the front's thickness 2/√(1 + λ²), or over 2λ where that is less.
-    growth : growth of elements away from the front, per length (0.02: 2 % an element).
-    elements_per_wave : elements per wavelength 4π/ζ of what the impact radiates.
-    interior_elements : at least so many elements inside the contact zone.
-    absorber_start, absorber_length : clear distance ahead of the front, and length of the absorbing ramp.
-    absorber_strength : σ at its end over ζ/length there; the wave leaves with exp(−strength/4) twice.
-    step_ratio : h/t of the time steps.
-    decades : decades of time simulated before ``end_time``.
-    """
-
-    front_resolution: float = 0.01
-    growth: float = 0.02
-    elements_per_wave: int = 20
-    interior_elements: int = 40
-    absorber_start: float = 8.0
-    absorber_length: float = 16.0
-    absorber_strength: float = 40.0
-    step_ratio: float = 0.02
-    decades: float = 4.0
-
-    def __post_init__(self) -> None:
-        between("mesh.front_resolution", positive("mesh.front_resolution", self.front_resolution), 0.0, 0.5)
-        between("mesh.growth", positive("mesh.growth", self.growth), 0.0, 0.2)
-        whole("mesh.elements_per_wave", self.elements_per_wave, 6)
-        whole("mesh.interior_elements", self.interior_elements, 4)
-        for name in ("absorber_start", "absorber_length", "absorber_strength"):
-            positive(f"mesh.{name}", getattr(self, name))
-        between("mesh.step_ratio", positive("mesh.step_ratio", self.step_ratio), 0.0, 0.5)
-        between("mesh.decades", at_least("mesh.decades", self.decades, 0.5), 0.5, 12.0)
-
-    def lay(self, front: float) -> tuple[Array, float]:
-        """Nodes ζ (n,) from 0 around a front at ``front``, fine there, and where the absorber starts."""
-        thickness = 2.0 / math.sqrt(1.0 + front**2)
-        coarsest_inside = front / self.interior_elements if front > 0.0 else math.inf
-        fine = self.front_resolution * (min(thickness, 2.0 * front) if front > 0.0 else thickness)
-        start = front + self.absorber_start
-        end = start + self.absorber_length
-
-        def size(place: float) -> float:
-            grown = fine + self.growth * max(abs(place - front) - 3.0 * fine, 0.0)
-            if place > front:
-                return min(grown, 4.0 * math.pi / max(place, 1.0) / self.elements_per_wave)
-            return min(grown, coarsest_inside)
-
-        ahead = [front]
-        while ahead[-1] < end and len(ahead) <= MAXIMUM_NODES:
-            ahead.append(ahead[-1] + size(ahead[-1]))
-        behind = [front]
-        while front > 0.0 and behind[-1] > 0.0 and len(behind) <= MAXIMUM_NODES:
-            behind.append(behind[-1] - size(behind[-1]))
-        if len(ahead) + len(behind) > MAXIMUM_NODES:
-            raise ValueError(
-                f"mesh: more than {MAXIMUM_NODES} elements to follow a front at {front:.3g} sqrt(t) (kappa/nu too "
-                "small, or mesh.front_resolution, growth, elements_per_wave, interior_elements or absorber_length)"
-            )
-        inner = np.array(behind[:0:-1]) if front > 0.0 else np.empty(0)
-        if inner.size:  # stretched so that it begins at the centre exactly
-            inner = front - (front - inner) * (front / (front - inner[0]))
-            inner[0] = 0.0
-        return np.concatenate([inner, ahead]), start
 
 
 def _leading_obstacle(zeta: Array, kappa: float) -> Array:
@@ -161,7 +94,7 @@ def simulate_expanding(
         only the number counts.
 
     The history's energies are those of the fast part z = y₀ − y (an infinite beam has no finite energy of its own):
-    ``work_of_loads`` is the work V₀∫R dt (+ first-order terms) that the wall does on it, ``loss_artificial`` what the
+    ``work_of_loads`` is the work V₀∫R dt (+ first-order terms) that the wall does on it, ``loss_absorbed`` what the
     absorber took. Raises :class:`bent_beam.SimulationError` when the active set does not settle, the front leaves the
     fine mesh, or a number is no longer finite; ``ValueError`` for a flat beam (K = 0).
     """
@@ -221,7 +154,7 @@ class _Run:
         # alike.
         root = math.sqrt(self.tau)
         self.impulse = self.state.reaction * 2.0 * root
-        self.held = -float(np.minimum(self.impulse, 0.0).sum())  # what the held start pulled; nothing is held after it
+        self.held = float(np.minimum(self.impulse, 0.0).sum())  # what the held start pulled; nothing is held after it
         self.moment = reaction * self.front * self.tau
         self.work = 2.0 * float(self.state.reaction @ self.rate_of_obstacle(0.0)) * root
         self.absorbed = 2.0 * self.absorber_power() * root
@@ -310,7 +243,7 @@ class _Run:
                 "kinetic_energy": 2.0 * kinetic,
                 "strain_energy": 2.0 * self._strain() * root,
                 "work_of_loads": 2.0 * self.work,
-                "loss_artificial": 2.0 * self.absorbed,
+                "loss_absorbed": 2.0 * self.absorbed,
                 "held_impulse": 2.0 * self.held,
                 "smallest_gap": float(np.min(gap[self.near])),
                 "smallest_reaction": float(state.reaction.min()) / root,
@@ -344,7 +277,7 @@ class _Run:
             "smallest_reaction": (("time",), force_time / p.time_scale),
             "complementarity_product": (("time",), force_time / p.time_scale * deflection),
             "lift": (("time",), deflection),
-            **{k: (("time",), energy) for k in ("kinetic_energy", "strain_energy", "work_of_loads", "loss_artificial")},
+            **{k: (("time",), energy) for k in ("kinetic_energy", "strain_energy", "work_of_loads", "loss_absorbed")},
         }
         fields: dict[str, tuple[Sequence[str], NDArray[Any]]] = {
             name: (dims, column[name] * unit) for name, (dims, unit) in units.items()
@@ -352,13 +285,13 @@ class _Run:
         fields["contact_position"] = (("time", "contact"), fields["position"][1])
         fields["in_contact"] = (("time", "contact"), column["in_contact"])
         balance = fields["work_of_loads"][1] - sum(
-            fields[k][1] for k in ("kinetic_energy", "strain_energy", "loss_artificial")
+            fields[k][1] for k in ("kinetic_energy", "strain_energy", "loss_absorbed")
         )
-        fields["loss_integration"] = (("time",), balance)  # what implicit Euler and the moving mesh took
+        fields["loss_algorithmic"] = (("time",), balance)  # what implicit Euler and the moving mesh took
         final = fields["position"][1][-1]
         return ImpactHistory.build(
             impact=p,
-            path="hermite",
+            path="self_similar",
             symmetry="half",
             settings={
                 "mesh": describe(mesh),

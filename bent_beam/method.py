@@ -1,0 +1,147 @@
+"""What a method is: a path to the answer with its settings and a label. Anybody's package may bring one.
+
+A method is a small frozen dataclass. Its package names it in the entry-point group ``bentbeam.methods``::
+
+    [project.entry-points."bentbeam.methods"]
+    my_code = "my_package:MyMethod"
+
+and from then on ``bentbeam simulate --path my_code``, ``match``, ``study`` and ``report`` know it. Nothing in this
+project needs to be touched.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Callable, Mapping, Sequence
+from functools import cache
+from importlib.metadata import EntryPoint, entry_points
+from typing import Any, ClassVar, Protocol, TypeVar, runtime_checkable
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bent_beam.history import ImpactHistory
+from bent_beam.impact import Impact
+from bent_beam.parts import InputError, describe, nearest, part_from_table, unknown_key
+
+__all__ = [
+    "GROUP",
+    "Method",
+    "Save",
+    "chosen_for",
+    "method_from_tables",
+    "method_type",
+    "paths",
+    "refined",
+    "settings_of",
+]
+
+GROUP = "bentbeam.methods"
+Save = int | Sequence[float] | NDArray[np.float64]
+M = TypeVar("M")
+
+
+@runtime_checkable
+class Method(Protocol):
+    """A way to simulate an impact.
+
+    Optional next to what stands below: ``chosen_for(impact, end_time)`` and ``refined(factor)`` (see the functions of
+    these names), ``PARTS`` (field → registry of kinds), for methods made from tables.
+    """
+
+    path: ClassVar[str]
+    """Name of the path, as on the command line."""
+
+    @property
+    def label(self) -> str:
+        """How rows, curves and tables call it."""
+        ...
+
+    def refuses(self, impact: Impact) -> str | None:
+        """Why this method cannot take the impact, naming the field (``None``: it can)."""
+        ...
+
+    def simulate(
+        self,
+        impact: Impact,
+        *,
+        end_time: float | None = None,
+        save: Save = 200,
+        progress: Callable[[float], None] | None = None,
+    ) -> ImpactHistory:
+        """Follow ``impact`` to ``end_time`` (s). ``save``: number of saved instants, or their times, s.
+
+        Raises ``ValueError`` for what it refuses, :class:`bent_beam.SimulationError` when it cannot finish.
+        """
+        ...
+
+
+def chosen_for(method: M, impact: Impact, end_time: float) -> M:
+    """``method`` with everything that it leaves open chosen for ``impact``, so that other impacts are then simulated on
+    the same mesh with the same steps; the method itself where it has no such choices."""
+    choose = getattr(method, "chosen_for", None)
+    return method if choose is None else choose(impact, end_time)
+
+
+def refined(method: M, factor: float) -> M | None:
+    """``method`` with elements and steps ``factor`` times finer; ``None`` where it does not know how."""
+    refine = getattr(method, "refined", None)
+    if refine is None:
+        return method if factor == 1.0 else None
+    return refine(factor)  # type: ignore[no-any-return]
+
+
+def settings_of(method: Any) -> dict[str, Any]:
+    """A method as JSON-ready settings: its path, label and parts."""
+    return {"path": method.path, **{k: v for k, v in describe(method).items() if k != "kind"}}
+
+
+@cache
+def _found() -> dict[str, EntryPoint]:
+    return {point.name: point for point in entry_points(group=GROUP)}
+
+
+def paths() -> list[str]:
+    """Names of all installed paths."""
+    return sorted(_found())
+
+
+def method_type(path: str) -> type[Any]:
+    """The class of a path. Raises :class:`InputError` for a name that nobody installed, or that does not load."""
+    if path not in _found():
+        raise InputError(f"path: {path!r} is not known{nearest(str(path), _found())}")
+    try:
+        return _found()[path].load()  # type: ignore[no-any-return]
+    except Exception as error:  # somebody else's package may fail in any way
+        reason = " ".join(str(error).split())
+        raise InputError(f"path: {path!r} is installed but does not load ({type(error).__name__}: {reason})") from None
+
+
+def method_from_tables(path: str, tables: Mapping[str, Any], *, label: str | None = None) -> Any:
+    """The method of a path from its tables: a part for each field in its ``PARTS``, plain values for the others.
+
+    A part's table whose ``kind`` is "auto" is left out: the method then chooses. Raises :class:`InputError` naming key
+    and value for what the method does not know or take.
+    """
+    kind = method_type(path)
+    registries: Mapping[str, Mapping[str, type]] = getattr(kind, "PARTS", {})
+    known = {f.name for f in dataclasses.fields(kind)} - {"label"}
+    values: dict[str, Any] = {}
+    for name, value in tables.items():
+        if name not in known:
+            raise unknown_key(path, str(name), known)
+        if name not in registries:
+            values[name] = value
+        elif isinstance(value, Mapping) and value.get("kind", "auto") == "auto":
+            extra = [key for key in value if key != "kind"]
+            if extra:
+                raise InputError(
+                    f"{path}.{name}.kind is required next to {extra[0]} (one of {', '.join(sorted(registries[name]))})"
+                )
+        else:
+            values[name] = part_from_table(registries[name], value, f"{path}.{name}")
+    try:
+        made = kind(**values)
+    except (TypeError, ValueError) as error:
+        raise InputError(f"{path}: {error}") from None
+    return made if label is None else dataclasses.replace(made, label=label)

@@ -1,0 +1,112 @@
+"""The Exudyn path as a method: what it is made of, and a run of it."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import ClassVar
+
+from bent_beam.checks import positive
+from bent_beam.history import ImpactHistory
+from bent_beam.impact import Impact
+from bent_beam.meshes import MESHES, Mesh
+from bent_beam.method import Save
+from exudyn_models.contacts import CONTACTS, Contact, Penalty
+from exudyn_models.elements import ELEMENTS, Element
+from exudyn_models.geometry import GEOMETRIES, Geometry
+from exudyn_models.integrators import INTEGRATORS, Integrator
+from exudyn_models.resolution import chosen_mesh
+from exudyn_models.simulation import simulate
+from exudyn_models.solvers import SOLVERS, NewtonSolver
+
+__all__ = ["ExudynModel"]
+
+
+@dataclass(frozen=True)
+class ExudynModel:
+    """Exudyn's cable or beam elements with contact against a rigid ground.
+
+    mesh, element, integrator, contact, geometry, solver : parts; ``None``: chosen from the problem.
+    full_beam : model both halves instead of one with a symmetry support.
+    refine : elements and steps so many times finer than the parts say, for studies of convergence.
+    label : how rows and curves call it.
+    """
+
+    path: ClassVar[str] = "exudyn"
+    PARTS: ClassVar[dict[str, dict[str, type]]] = {
+        "mesh": MESHES,
+        "element": ELEMENTS,
+        "integrator": INTEGRATORS,
+        "contact": CONTACTS,
+        "geometry": GEOMETRIES,
+        "solver": SOLVERS,
+    }
+
+    mesh: Mesh | None = None
+    element: Element | None = None
+    integrator: Integrator | None = None
+    contact: Contact | None = None
+    geometry: Geometry | None = None
+    solver: NewtonSolver | None = None
+    full_beam: bool = False
+    refine: float = 1.0
+    label: str = "Exudyn"
+
+    def __post_init__(self) -> None:
+        if not isinstance(self.full_beam, bool):
+            raise ValueError(f"full_beam must be true or false (got {self.full_beam!r})")
+        positive("refine", self.refine)
+
+    def refuses(self, impact: Impact) -> str | None:
+        """Why this method cannot take ``impact`` (``None``: it can)."""
+        contact, element, integrator = self._joined()
+        return contact.refuses(impact, element, integrator)
+
+    def _joined(self) -> tuple[Contact, Element, Integrator]:
+        contact = Penalty() if self.contact is None else self.contact
+        element = ELEMENTS["ancf_cable"]() if self.element is None else self.element
+        return contact, element, contact.integrator() if self.integrator is None else self.integrator
+
+    def simulate(
+        self,
+        impact: Impact,
+        *,
+        end_time: float | None = None,
+        save: Save = 200,
+        progress: Callable[[float], None] | None = None,
+    ) -> ImpactHistory:
+        """Follow ``impact`` to ``end_time`` (s); see :func:`exudyn_models.simulate`."""
+        return simulate(
+            impact,
+            end_time=end_time,
+            mesh=self.mesh,
+            element=self.element,
+            integrator=self.integrator,
+            contact=self.contact,
+            geometry=self.geometry,
+            solver=self.solver,
+            full_beam=self.full_beam,
+            refine=self.refine,
+            save=save,
+            progress=progress,
+        )
+
+    def chosen_for(self, impact: Impact, end_time: float) -> ExudynModel:
+        """A copy with mesh, steps and hold chosen for ``impact``: other impacts then run on the same ones."""
+        contact, _, integrator = self._joined()
+        mesh = chosen_mesh(impact, end_time, explicit=integrator.explicit) if self.mesh is None else self.mesh
+        if impact.zone_pressure < 0.0 and getattr(contact, "hold", 0) is None:
+            # A hold would pull on a zone that lifts off; the run without load must do without it too.
+            contact = dataclasses.replace(contact, hold=0)  # type: ignore[type-var]
+        return dataclasses.replace(
+            self,
+            mesh=mesh.refined(self.refine),
+            contact=contact,
+            integrator=integrator.refined(self.refine),
+            refine=1.0,
+        )
+
+    def refined(self, factor: float) -> ExudynModel:
+        """A copy with elements and steps ``factor`` times finer."""
+        return dataclasses.replace(self, refine=self.refine * factor)

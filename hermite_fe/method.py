@@ -1,0 +1,97 @@
+"""The nonsmooth finite-element path as a method: what it is made of, and a run of it."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import ClassVar
+
+from bent_beam.checks import positive
+from bent_beam.history import ImpactHistory
+from bent_beam.impact import Impact
+from bent_beam.meshes import MESHES, Mesh
+from bent_beam.method import Save
+from hermite_fe import auto
+from hermite_fe.contacts import CONTACTS, Contact
+from hermite_fe.far_fields import FAR_FIELDS, FarField
+from hermite_fe.integrators import INTEGRATORS, Integrator
+from hermite_fe.simulate import simulate
+
+__all__ = ["HermiteFE"]
+
+
+@dataclass(frozen=True)
+class HermiteFE:
+    """Hermite beam elements with unilateral contact and a nonsmooth time integrator, on a fixed mesh.
+
+    mesh, integrator, contact, far_field : parts; ``None``: chosen from the problem (:mod:`hermite_fe.auto`).
+    full_beam : model both halves instead of one with a symmetry support.
+    refine : elements and steps so many times finer than the parts say, for studies of convergence.
+    label : how rows and curves call it.
+    """
+
+    path: ClassVar[str] = "hermite"
+    PARTS: ClassVar[dict[str, dict[str, type]]] = {
+        "mesh": MESHES,
+        "integrator": INTEGRATORS,
+        "contact": CONTACTS,
+        "far_field": FAR_FIELDS,
+    }
+
+    mesh: Mesh | None = None
+    integrator: Integrator | None = None
+    contact: Contact | None = None
+    far_field: FarField | None = None
+    full_beam: bool = False
+    refine: float = 1.0
+    label: str = "Hermite"
+
+    def __post_init__(self) -> None:
+        if not isinstance(self.full_beam, bool):
+            raise ValueError(f"full_beam must be true or false (got {self.full_beam!r})")
+        positive("refine", self.refine)
+
+    def refuses(self, impact: Impact) -> str | None:
+        """Why this method cannot take ``impact`` (``None``: it can)."""
+        return None
+
+    def simulate(
+        self,
+        impact: Impact,
+        *,
+        end_time: float | None = None,
+        save: Save = 200,
+        progress: Callable[[float], None] | None = None,
+    ) -> ImpactHistory:
+        """Follow ``impact`` to ``end_time`` (s); see :func:`hermite_fe.simulate`."""
+        return simulate(
+            impact,
+            end_time=end_time,
+            mesh=self.mesh,
+            integrator=self.integrator,
+            contact=self.contact,
+            far_field=self.far_field,
+            full_beam=self.full_beam,
+            refine=self.refine,
+            save=save,
+            progress=progress,
+        )
+
+    def chosen_for(self, impact: Impact, end_time: float) -> HermiteFE:
+        """A copy with every open part chosen for ``impact``: other impacts then run on the same mesh and steps."""
+        choice = auto.choose(
+            impact, end_time, self.mesh, self.integrator, self.contact, self.far_field, refine=self.refine
+        )
+        return dataclasses.replace(
+            self,
+            mesh=choice.mesh,
+            integrator=choice.integrator,
+            contact=choice.contact,
+            far_field=choice.far_field,
+            refine=1.0,
+        )
+
+    def refined(self, factor: float) -> HermiteFE:
+        """A copy with elements and steps ``factor`` times finer."""
+        return dataclasses.replace(self, refine=self.refine * factor)

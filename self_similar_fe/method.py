@@ -1,0 +1,76 @@
+"""The self-similar path as a method."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import ClassVar
+
+from bent_beam.history import ImpactHistory
+from bent_beam.impact import Impact
+from bent_beam.method import Save
+from self_similar_fe.mesh import MESHES, ExpandingMesh
+from self_similar_fe.run import simulate_expanding
+
+__all__ = ["SelfSimilarFE"]
+
+DEFAULT_DURATION = 0.1  # τ, the longest time that the thesis computes
+
+
+@dataclass(frozen=True)
+class SelfSimilarFE:
+    """Finite elements in similarity coordinates: an infinite beam, steady at leading order.
+
+    mesh : ``None``: chosen from the load. label : how rows and curves call it.
+    """
+
+    path: ClassVar[str] = "self_similar"
+    PARTS: ClassVar[dict[str, dict[str, type]]] = {"mesh": MESHES}
+
+    mesh: ExpandingMesh | None = None
+    refine: float = 1.0
+    label: str = "Self-similar"
+
+    def refuses(self, impact: Impact) -> str | None:
+        """Why this method cannot take ``impact`` (``None``: it can)."""
+        if impact.relative_curvature == 0.0:
+            return "curvature must be positive: a flat beam meets the wall everywhere at once (got 0.0)"
+        return None
+
+    def simulate(
+        self,
+        impact: Impact,
+        *,
+        end_time: float | None = None,
+        save: Save = 200,
+        progress: Callable[[float], None] | None = None,
+    ) -> ImpactHistory:
+        """Follow ``impact`` over the mesh's decades of time up to ``end_time`` (s; 0.1 t* unless given)."""
+        end = impact.checked_end_time(DEFAULT_DURATION * impact.time_scale if end_time is None else end_time)
+        reason = self.refuses(impact)
+        if reason:
+            raise ValueError(reason)
+        mesh = self.chosen_for(impact, end).mesh
+        assert mesh is not None
+        return simulate_expanding(impact, mesh, end_time=end, save=save, progress=progress)
+
+    def chosen_for(self, impact: Impact, end_time: float) -> SelfSimilarFE:
+        """A copy with the mesh that the load of ``impact`` asks for."""
+        mesh = self.mesh
+        if mesh is None:
+            pressure = impact.zone_pressure
+            if pressure > 0.0:
+                # The load must close the last trace of lift long before the fit begins: early start, finest front.
+                # Nothing happens within a step but that, so steps may be long.
+                mesh = ExpandingMesh(front_resolution=0.0015, interior_elements=60, step_ratio=0.06, decades=6.0)
+            elif pressure < 0.0:
+                # The contact is one or two nodes that the front passes on: steps shorter than its passage.
+                mesh = ExpandingMesh(front_resolution=0.005, interior_elements=60, step_ratio=0.01, decades=6.0)
+            else:
+                mesh = ExpandingMesh()
+        return dataclasses.replace(self, mesh=mesh.refined(self.refine), refine=1.0)
+
+    def refined(self, factor: float) -> SelfSimilarFE:
+        """A copy with elements and steps ``factor`` times finer."""
+        return dataclasses.replace(self, refine=self.refine * factor)
