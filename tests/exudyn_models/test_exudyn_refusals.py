@@ -9,6 +9,7 @@ import pytest
 import exudyn_models
 from bent_beam import Impact, InputError, SimulationError
 from bent_beam.meshes import UniformMesh
+from bent_beam.method import method_from_tables
 from exudyn_models.contacts import Penalty, Rigid, SegmentFriction
 from exudyn_models.elements import GeometricallyExact
 from exudyn_models.integrators import RK44, GeneralizedAlpha, Trapezoidal, VelocityVerlet
