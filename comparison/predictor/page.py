@@ -1,0 +1,49 @@
+"""The page and the panel, from their templates. Nothing in them refers to anything outside."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import jinja2
+
+TEMPLATES = Path(__file__).parent / "templates"
+SCRIPTS = ("theory.js", "beam.js", "case.js", "view.js")
+
+
+@dataclass(frozen=True)
+class Panel:
+    """The predictor as a part of another page: markup for its body, style, and script to run after the markup."""
+
+    markup: str
+    style: str
+    script: str
+
+
+def _source(name: str) -> str:
+    return (TEMPLATES / name).read_text(encoding="utf-8")
+
+
+def panel() -> Panel:
+    """The predictor to be embedded; everything in it lives under the element ``#predictor``."""
+    return Panel(
+        markup=_source("panel.html"),
+        style=_source("predictor.css"),
+        script="\n".join(_source(name) for name in SCRIPTS),
+    )
+
+
+def page() -> str:
+    """The page as text, complete in itself."""
+    parts = panel()
+    environment = jinja2.Environment(undefined=jinja2.StrictUndefined, trim_blocks=True, autoescape=False)
+    template = environment.from_string(_source("predictor.html.j2"))
+    return template.render(panel=parts.markup, style=parts.style, script=parts.script)
+
+
+def write_page(file: str | Path) -> Path:
+    """Write the page to ``file`` (its folder is made) and return the path."""
+    path = Path(file)
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(page(), encoding="utf-8")
+    return path

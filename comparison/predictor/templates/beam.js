@@ -1,0 +1,158 @@
+"use strict";
+// A beam as one knows it → EI, μ, K, V₀ and loads (SI) → what the theory says of it, and until when.
+const Beam = (() => {
+  const { sqrt, abs, min, PI } = Math;
+  const GRAVITY = 9.80665; // m/s², standard
+
+  // quantity: [unit, its size in SI], metric and oilfield
+  const UNITS = {
+    si: {
+      section: ["mm", 1e-3], length: ["m", 1], modulus: ["GPa", 1e9], density: ["kg/m³", 1], line: ["kg/m", 1],
+      curvature: ["1/m", 1], sagitta: ["mm", 1e-3], dogleg: ["°/30 m", PI / 180 / 30], velocity: ["m/s", 1], drop: ["m", 1],
+      tension: ["kN", 1e3], load: ["N/m", 1], stress: ["MPa", 1e6], time: ["ms", 1e-3], force: ["kN", 1e3],
+      impulse: ["N s", 1], moment: ["kN m", 1e3],
+    },
+    oilfield: {
+      section: ["in", 0.0254], length: ["ft", 0.3048], modulus: ["Mpsi", 6.894757293168e9], density: ["lb/ft³", 16.01846337396],
+      line: ["lb/ft", 1.488163943570], curvature: ["1/ft", 1 / 0.3048], sagitta: ["in", 0.0254],
+      dogleg: ["°/100 ft", PI / 180 / 30.48], velocity: ["ft/s", 0.3048], drop: ["ft", 0.3048],
+      tension: ["klbf", 4448.2216152605], load: ["lbf/ft", 14.593902937206], stress: ["ksi", 6.894757293168e6],
+      time: ["ms", 1e-3], force: ["klbf", 4448.2216152605], impulse: ["lbf s", 4.4482216152605],
+      moment: ["ft lbf", 1.3558179483314],
+    },
+  };
+
+  // Every input: name, label, quantity, value to start with (SI), least value, when it is asked for.
+  const positive = (v) => v > 0, whole = (v) => v >= 0, any = () => true;
+  const on = (field, ...kinds) => (i) => kinds.includes(i[field]);
+  const CHOICES = [
+    { name: "units", label: "Units", group: "", options: { si: "metric", oilfield: "oilfield" } },
+    { name: "section", label: "Section", group: "The beam", options: { pipe: "pipe", round_bar: "round bar", rectangle: "rectangle" } },
+    { name: "bow", label: "Its bow is known as", group: "The bow", options: { curvature: "curvature", sagitta: "sagitta over a length", dogleg: "dogleg" } },
+    { name: "approach", label: "It arrives with", group: "The approach", options: { velocity: "a velocity", drop: "a drop from rest" } },
+  ];
+  const FIELDS = [
+    { name: "outer_diameter", label: "Outer diameter", quantity: "section", start: 0.127, ok: positive, shown: on("section", "pipe") },
+    { name: "inner_diameter", label: "Inner diameter", quantity: "section", start: 0.1086, ok: positive, shown: on("section", "pipe") },
+    { name: "diameter", label: "Diameter", quantity: "section", start: 0.02, ok: positive, shown: on("section", "round_bar") },
+    { name: "height", label: "Height, across the wall", quantity: "section", start: 0.01, ok: positive, shown: on("section", "rectangle") },
+    { name: "width", label: "Width, along the wall", quantity: "section", start: 0.03, ok: positive, shown: on("section", "rectangle") },
+    { name: "youngs_modulus", label: "Young’s modulus E", quantity: "modulus", start: 206e9, ok: positive },
+    { name: "density", label: "Density", quantity: "density", start: 7850, ok: positive },
+    { name: "added_mass", label: "Further mass: fluid, joints", quantity: "line", start: 0, ok: whole },
+    { name: "length", label: "Length L", quantity: "length", start: 90, ok: positive },
+    { name: "curvature", label: "Curvature K", quantity: "curvature", start: 0.002, ok: positive, shown: on("bow", "curvature"), group: "The bow" },
+    { name: "sagitta", label: "Sagitta", quantity: "sagitta", start: 0.025, ok: positive, shown: on("bow", "sagitta"), group: "The bow" },
+    { name: "chord", label: "over the length", quantity: "length", start: 10, ok: positive, shown: on("bow", "sagitta"), group: "The bow" },
+    { name: "dogleg", label: "Dogleg", quantity: "dogleg", start: 3 * PI / 180 / 30, ok: positive, shown: on("bow", "dogleg"), group: "The bow" },
+    { name: "velocity", label: "Velocity V₀", quantity: "velocity", start: 2, ok: positive, shown: on("approach", "velocity"), group: "The approach" },
+    { name: "drop", label: "Drop height", quantity: "drop", start: 0.2, ok: positive, shown: on("approach", "drop"), group: "The approach" },
+    { name: "tension", label: "Tension N (compression < 0)", quantity: "tension", start: 0, ok: any, group: "What acts on it" },
+    { name: "load", label: "Push towards the wall", quantity: "load", start: 0, ok: any, group: "What acts on it" },
+    { name: "yield_stress", label: "Yield stress (0: not known)", quantity: "stress", start: 0, ok: whole, group: "What acts on it" },
+  ];
+  for (const field of FIELDS) {
+    field.shown = field.shown || (() => true);
+    field.group = field.group || "The beam";
+  }
+  const START = { units: "si", section: "pipe", bow: "curvature", approach: "velocity" };
+  for (const field of FIELDS) START[field.name] = field.start;
+
+  /** What is wrong with the inputs: a list of [field name, sentence]. */
+  function complaints(inputs) {
+    const list = [];
+    for (const field of FIELDS) {
+      const value = inputs[field.name];
+      if (!field.shown(inputs)) continue;
+      if (!Number.isFinite(value)) list.push([field.name, `${field.label} needs a number.`]);
+      else if (!field.ok(value)) list.push([field.name, `${field.label} must ${field.ok === positive ? "be positive" : "not be negative"}.`]);
+    }
+    if (inputs.section === "pipe" && inputs.inner_diameter >= inputs.outer_diameter)
+      list.push(["inner_diameter", "The inner diameter must be smaller than the outer one."]);
+    return list;
+  }
+
+  /** Area, second moment of area, height and mass per length of the section, SI. */
+  function section(i) {
+    let area, second, height;
+    if (i.section === "rectangle") [area, second, height] = [i.width * i.height, i.width * i.height ** 3 / 12, i.height];
+    else {
+      const outer = i.section === "pipe" ? i.outer_diameter : i.diameter, inner = i.section === "pipe" ? i.inner_diameter : 0;
+      const wall = (outer - inner) * (outer + inner);
+      [area, second, height] = [PI / 4 * wall, PI / 64 * wall * (outer ** 2 + inner ** 2), outer];
+    }
+    return { area, second, height, stiffness: i.youngs_modulus * second, mass: i.density * area + i.added_mass };
+  }
+
+  /** The impact of the inputs: EI, μ, L, K, V₀, a₀ of the free flight, N (SI). */
+  function impact(i) {
+    const { area, second, height, stiffness, mass } = section(i);
+    const curvature = i.bow === "dogleg" ? i.dogleg : i.bow === "sagitta" ? 8 * i.sagitta / i.chord ** 2 : i.curvature;
+    const velocity = i.approach === "drop" ? sqrt(2 * GRAVITY * i.drop) : i.velocity;
+    return {
+      stiffness, mass, length: i.length, curvature, velocity, tension: i.tension, area, height, modulus: second / (height / 2),
+      acceleration: (i.load - i.tension * curvature) / mass, curvatureRate: 0, fourthDerivative: 0,
+    };
+  }
+
+  /** Groups, contact parameters, scales and the limit in time of one impact. */
+  function solve(b) {
+    const c = sqrt(b.stiffness / b.mass), half = b.length / 2, lengthScale = c / b.velocity;
+    const timeScale = c / b.velocity / b.velocity, slow = half * half / c;
+    const contact = Theory.contact(
+      b.curvature * lengthScale,
+      b.acceleration * (timeScale / b.velocity),
+      b.fourthDerivative * lengthScale ** 3,
+      b.curvatureRate * lengthScale * (lengthScale / b.velocity),
+      b.tension / (b.mass * b.velocity ** 2),
+    );
+    const form = Theory.shape(contact), peak = Theory.peakMoment(form);
+    const solved = { b, c, half, lengthScale, timeScale, slow, contact, form, peak, epsilon: timeScale / slow };
+    return Object.assign(solved, limit(solved));
+  }
+
+  /** Until when the theory holds, s, and what ends it. */
+  function limit(p) {
+    const { contact, timeScale, slow, c, half } = p, spreads = contact.regime !== "discrete";
+    const ends = [
+      ["waves come back from the ends", 0.1 * slow],
+      ["the load's correction of the force", contact.r1 ? 0.1 * contact.r0 / abs(contact.r1) * timeScale : Infinity],
+    ];
+    if (spreads && contact.lambda1)
+      ends.push(["the load's correction of the contact length", 0.1 * contact.lambda0 / abs(contact.lambda1) * timeScale]);
+    const [limitedBy, validUntil] = ends.reduce((a, b) => (b[1] < a[1] ? b : a));
+    return { limitedBy, validUntil };
+  }
+
+  /** Contact, force, impulse, moment and stress at the time t > 0, SI. */
+  function at(p, t) {
+    const { b, c, contact } = p, tau = t / p.timeScale, root = sqrt(c), momentum = b.mass * b.velocity;
+    const uniform = contact.uniform * momentum / p.timeScale, front = 2 * Theory.s * momentum * root;
+    const half = root * sqrt(t) * (contact.lambda0 + contact.lambda1 * tau);
+    const moment = p.peak.moment * b.velocity * sqrt(b.stiffness * b.mass);
+    return {
+      halfLength: half,
+      reaction: front * (contact.r0 + contact.r1 * tau) / sqrt(t) + 2 * half * uniform,
+      uniform,
+      impulse: 2 * front * sqrt(t) * (contact.r0 + contact.r1 * tau / 3)
+        + 4 * uniform * root * t ** 1.5 * (contact.lambda0 / 3 + contact.lambda1 * tau / 5),
+      moment,
+      stress: moment / b.modulus + abs(b.tension) / b.area,
+    };
+  }
+
+  /** Gap between beam and wall at the distance x from the first touch and the time t ≥ 0, m. */
+  function gap(p, x, t) {
+    const { b } = p;
+    if (!(t > 0)) return b.curvature * x * x / 2 - b.fourthDerivative * x ** 4 / 24;
+    const tau = t / p.timeScale, place = abs(x) / sqrt(p.c * t);
+    return -Theory.beamAt(p.form, place, tau)[0] * b.velocity * t;
+  }
+
+  /** The beam where it would be without the wall. */
+  const freeGap = ({ b }, x, t) => b.curvature * x * x / 2 - b.velocity * t - b.acceleration * t * t / 2
+    - b.curvatureRate * x * x * t / 2 - b.fourthDerivative * x ** 4 / 24;
+
+  return { UNITS, CHOICES, FIELDS, START, complaints, section, impact, solve, at, gap, freeGap };
+})();
+if (typeof module !== "undefined") module.exports = Beam;

@@ -1,0 +1,237 @@
+"use strict";
+// The theory in the browser: the closed forms of theory/, in the units of the fast layer (EI = μ = V₀ = 1, ν = 1).
+// Numbers in parentheses are equations of A. Delcourt's thesis; docs/theory.md derives what is not in it.
+const Theory = (() => {
+  const { abs, sqrt, exp, log, cos, sin, atan2, max, PI } = Math;
+  const s = sqrt(2 / PI);
+
+  // --- φ functions (A.5) ---------------------------------------------------------------------------------------
+  // All twelve are combinations of φ_ν = 2f and φ_κ = 2g, the auxiliary Fresnel functions at λ/√(2π). The closed forms
+  // cancel for large λ; from λ = 1.5 on the moments
+  //     I_k(q) = (√2/π) ∫₀^∞ e^{−qt} t^{k−1/2}/(1 + t²) dt,   q = λ²/4,   φ_ν = I₀,   φ_κ = I₁
+  // take their place (theory/phi.py). With t = v²/q the trapezoidal rule converges to round-off in 89 points.
+  const SWITCH = 1.5, STEP = 0.09, NODES = 89;
+
+  /** q^{k+1/2} I_k(q) for k = 0…6. */
+  function scaledMoments(q) {
+    const moments = new Array(7).fill(0);
+    for (let i = 0; i < NODES; i++) {
+      const v2 = (i * STEP) ** 2;
+      let term = (i ? 1 : 0.5) * exp(-v2) / (1 + (v2 / q) ** 2);
+      for (let k = 0; k < 7; k++, term *= v2) moments[k] += term;
+    }
+    return moments.map((sum) => 2 * STEP * sqrt(2) / PI * sum);
+  }
+
+  /** Fresnel integrals C and S at λ/√(2π) by their power series, λ < 1.5. */
+  function fresnel(x) {
+    const q = x * x / 4;
+    let c = 0, si = 0;
+    for (let n = 0, term = 1; n < 12; n++) {
+      c += term / (4 * n + 1);
+      term *= q / (2 * n + 1);
+      si += term / (4 * n + 3);
+      term *= -q / (2 * n + 2);
+    }
+    return [x / sqrt(2 * PI) * c, x / sqrt(2 * PI) * si];
+  }
+
+  /** Every φ at one λ ≥ 0, and the differences that vanish in a limit where their two terms do not. */
+  function phi(x) {
+    if (x < SWITCH) {
+      const [C, S] = fresnel(x), co = cos(x * x / 4), si = sin(x * x / 4);
+      const nu = co * (1 - 2 * S) - si * (1 - 2 * C), kappa = co * (1 - 2 * C) + si * (1 - 2 * S);
+      const root = sqrt(2 * PI), p = sqrt(PI / 8) * x * nu;
+      return {
+        nu, kappa, p, pdot: x * kappa, oneMinusP: 1 - p,
+        nuMinusKappa: 2 * ((C - S) * co - (1 - C - S) * si),
+        alpha: nu - x ** 2 / 2 * kappa,
+        lambda: 0.75 * x ** 2 * kappa - x ** 3 / (2 * root) + x ** 4 / 8 * nu,
+        kappadot: kappa - s * x + x ** 2 / 2 * nu,
+        lambdadot: 4 * s * x - 3 * x ** 2 * nu + x ** 4 / 2 * kappa,
+        q: s * x ** 3 + (x ** 6 - 36 * x ** 2) / 24 * kappa + (12 - 7 * x ** 4) / 12 * nu,
+        t: x ** 3 / 3 * nu + x * (12 - x ** 4) / 24 * kappa - x ** 2 / root,
+        rPlusLambdaKappa: x ** 3 * (x ** 4 - 84) / 192 * nu + x * (3 * x ** 4 - 12) / 32 * kappa
+          - x ** 2 * (x ** 4 - 60) / (48 * root),
+        kappaMinusS: -(x ** 2) * (36 - x ** 4) / 48 * nu + x ** 4 / 4 * kappa - x * (x ** 4 - 24) / (12 * root),
+      };
+    }
+    const q = x * x / 4, m = scaledMoments(q), scale = sqrt(PI / 2);
+    return {
+      nu: m[0] / sqrt(q), kappa: m[1] * q ** -1.5, p: scale * m[0], pdot: 2 * m[1] / q,
+      oneMinusP: scale * m[2] / q ** 2,
+      nuMinusKappa: (m[0] - m[1] / q) / sqrt(q),
+      alpha: (2 * m[3] - m[2]) * q ** -2.5,
+      lambda: (2 * m[4] - 3 * m[3]) * q ** -2.5,
+      kappadot: (m[1] - 2 * m[2]) * q ** -1.5,
+      lambdadot: (12 * m[2] - 8 * m[3]) * q ** -1.5,
+      q: (8 / 3 * m[5] - 28 / 3 * m[4] + 6 * m[3] - m[2]) * q ** -2.5,
+      t: (4 / 3 * m[3] - 8 / 3 * m[2] + m[1]) / q,
+      rPlusLambdaKappa: (2 / 3 * m[4] - 3 * m[3] + 3.5 * m[2] - 0.75 * m[1]) / q,
+      kappaMinusS: (4 / 3 * m[4] - 4 * m[3] + 3 * m[2]) * q ** -1.5,
+    };
+  }
+
+  // --- contact zone and reactions ------------------------------------------------------------------------------
+
+  /** λ₀: φ_κ(λ₀)/φ_ν(λ₀) = κ/ν < 1 (2.6.21), by Newton's method for log λ₀. */
+  function frontAtLeadingOrder(ratio) {
+    const target = (1 - ratio) / ratio;
+    let y = log(2 * target / (s + sqrt(s * s + 2 * target)));
+    for (let i = 0; i < 30; i++) {
+      const x = exp(y), f = phi(x), fall = s * f.oneMinusP; // −φ_κ′ = s(1 − φ_p), φ_ν′ = −(λ/2)φ_κ
+      const step = log(f.nuMinusKappa / (target * f.kappa))
+        / (x * ((fall - x / 2 * f.kappa) / f.nuMinusKappa + fall / f.kappa));
+      y -= step;
+      if (abs(step) < 1e-10) break;
+    }
+    return exp(y);
+  }
+
+  /** (r₁, λ₁) in continuous contact, α + ψ ≥ 0 (2.7.40), by Cramer's rule. */
+  function continuous(x, r0, f, alpha, psi, chi) {
+    const pushed = alpha + psi, near = x < 1;
+    const deflection = near ? 2 * alpha - 2 * pushed * f.p : 2 * pushed * f.oneMinusP - 2 * psi;
+    const curvature = 4 * chi + sqrt(2 * PI) * pushed * f.pdot;
+    const spread = near
+      ? 4 * alpha * f.kappadot + 4 * chi * f.alpha
+        + pushed * x ** 2 * (2 * f.nu - sqrt(PI / 2) * x * (f.kappa ** 2 + f.nu ** 2))
+      : f.alpha * curvature + 2 * f.kappadot * deflection;
+    const determinant = f.alpha * f.lambdadot - 4 * f.lambda * f.kappadot;
+    return [(f.lambdadot * deflection + 2 * f.lambda * curvature) / determinant, x / r0 * spread / determinant];
+  }
+
+  /** (r₁, λ₁) when the middle lifts off, α + ψ < 0 (2.7.71). */
+  function detached(x, r0, f, alpha, psi, chi) {
+    const q = f.q / 4, deflection = psi * x ** 4 / 24 + chi * x ** 2 / 2 + alpha / 2, slope = psi * x ** 3 / 6 + chi * x;
+    const determinant = q * f.kappaMinusS + f.t * f.rPlusLambdaKappa;
+    return [
+      (f.kappaMinusS * deflection - f.rPlusLambdaKappa * slope) / determinant,
+      (q * slope + f.t * deflection) / (determinant * r0),
+    ];
+  }
+
+  /** (r_N, λ_N): the response to a tension of n = 1 in free flight (docs/theory.md, tension). */
+  function tension(ratio, x, r0, f) {
+    if (ratio >= 1) return [0.5 - 2 * ratio, 0];
+    if (x >= SWITCH) {
+      const share = -s * r0 / x * f.oneMinusP;
+      const [r, lambda] = continuous(x, r0, f, 0, 0, 1);
+      return [share * r, share * lambda + 1 / x];
+    }
+    const a = f.nu, b = f.kappa;
+    const determinant = 4 * s * a + 2 * s * x ** 2 * b + s * x ** 4 * a - s ** 2 * x ** 3 - (a * a + b * b) * (3 * x + x ** 5 / 4);
+    return [
+      r0 * (x * a - 2 * s) * (6 * b - 2 * s * x + x * x * a) / (2 * determinant),
+      (-a * a - 3 * b * b + 4 * s * x * b + s * x ** 3 * a - s ** 2 * x ** 2 - x ** 2 * a * b - x ** 4 * (a * a + b * b) / 4)
+        / determinant,
+    ];
+  }
+
+  /** Regime, λ₀, r₀ and, with everything, λ₁ and r₁. `n` is N/(μV₀²); α is that of the true free motion. */
+  function contact(ratio, alpha = 0, psi = 0, chi = 0, n = 0) {
+    // In the zone the beam is straight, so the tension no longer holds it back: the wall carries α′ + ψ, α′ = α + nκ.
+    const raised = alpha + n * ratio, terms = abs(alpha) + abs(n * ratio) + abs(psi);
+    let pushed = raised + psi;
+    if (abs(pushed) <= 8 * Number.EPSILON * terms) pushed = 0;
+    const discrete = !(ratio < 1);
+    const lambda0 = discrete ? 0 : frontAtLeadingOrder(ratio), f = phi(lambda0), r0 = discrete ? 1 : 1 / f.nu;
+    const regime = discrete ? "discrete" : pushed >= 0 ? "continuous" : "detached";
+    let [r1, lambda1] = discrete ? [2 * raised, 0]
+      : (pushed >= 0 ? continuous : detached)(lambda0, r0, f, raised, psi, chi);
+    const [rN, lambdaN] = tension(ratio, lambda0, r0, f);
+    r1 += n * rN;
+    lambda1 += n * lambdaN;
+    return { ratio, alpha, raised, psi, chi, n, regime, lambda0, r0, lambda1, r1, rN, lambdaN,
+      uniform: regime === "continuous" ? pushed : 0 };
+  }
+
+  // --- the beam's shape ----------------------------------------------------------------------------------------
+  // Complex numbers are pairs [re, im].
+  const times = (a, b) => [a[0] * b[0] - a[1] * b[1], a[0] * b[1] + a[1] * b[0]];
+  const by = (c, a) => [c * a[0], c * a[1]];
+  const minus = (a, b) => [a[0] - b[0], a[1] - b[1]];
+  const inverse = (a) => by(1 / (a[0] * a[0] + a[1] * a[1]), [a[0], -a[1]]);
+  const turn = (angle) => [cos(angle), sin(angle)];
+  const T = by(0.5, turn(-PI / 4)), T2 = times(T, T), T3 = times(T2, T); // z = T x
+
+  /** e^{z²} iᵐerfc(z), m = 0…4, at z = e^{−iπ/4}x/2, x ≥ 0: by recurrence, and by the asymptotic series from |z| = 8. */
+  function iteratedErfc(x) {
+    const f = phi(x), z = by(x, T), list = [[(f.nu + f.kappa) / 2, (f.nu - f.kappa) / 2]];
+    if (x < 16) {
+      list.push(minus([1 / sqrt(PI), 0], times(z, list[0])));
+      for (let m = 2; m <= 4; m++) list.push(by(1 / (2 * m), minus(list[m - 2], by(2, times(z, list[m - 1])))));
+      return list;
+    }
+    const w = inverse(by(2, z)), w2 = times(w, w);
+    let power = w;
+    for (let m = 1; m <= 4; m++) {
+      power = times(power, w);
+      let term = [1, 0], sum = [0, 0];
+      for (let j = 0; j < 40; j++) {
+        sum = minus(sum, by(-1, term));
+        term = by(-(2 * j + m + 1) * (2 * j + m + 2) / (j + 1), times(term, w2));
+      }
+      list.push(by(2 / sqrt(PI), times(sum, power)));
+    }
+    return list;
+  }
+
+  /** The complex A with Re[A a] = p and Re[A b] = q. */
+  function amplitude(a, p, b, q) {
+    const determinant = a[1] * b[0] - a[0] * b[1];
+    return [(a[1] * q - b[1] * p) / determinant, (a[0] * q - b[0] * p) / determinant];
+  }
+
+  /**
+   * η = τE(x) + τ²E₁(x), x = ξ/√τ: what the wall does to the beam. Ahead of the front
+   *     E = Re[B i²erfc z],     E₁ = Re[B₁ i⁴erfc z] + (n/2) Im[B i²erfc z],
+   * with B from E″ = −κ, E‴ = s r₀ and B₁ from w = 0, w_ξ = 0 at the front. Behind it w = 0 in continuous contact; where
+   * the middle lifts off, w = τ² Q (x² − λ₀²)²/24 with Q(1 + λ₀⁴/12) = α′ + ψ.
+   */
+  function shape(c) {
+    const x0 = c.lambda0, front = iteratedErfc(x0), at = (m, factor) => times(factor, front[m]);
+    const jump = by(-2 / sqrt(PI), T3);
+    const B = c.regime === "discrete"
+      ? amplitude(by(-1, at(1, T)), 0, jump, s * c.r0)
+      : amplitude(at(0, T2), -c.ratio, jump, s * c.r0);
+    const F = times(B, front[2])[1], F1 = -times(B, times(T, front[1]))[1]; // Im of the wave, and its slope
+    const value = c.alpha / 2 + c.chi * x0 ** 2 / 2 + c.psi * x0 ** 4 / 24, slope = c.chi * x0 + c.psi * x0 ** 3 / 6;
+    const B1 = amplitude(front[4], value - c.n * F / 2, by(-1, at(3, T)), slope - c.n * F1 / 2);
+    const lift = c.regime === "detached" ? (c.raised + c.psi) / (1 + x0 ** 4 / 12) : 0;
+    return { c, B, B1, lift };
+  }
+
+  /** Deflection w/τ (positive into the wall, so the gap is −w) and bending, η_ξξ, at x = ξ/√τ and time τ. */
+  function beamAt(form, x, tau) {
+    const { c, B, B1, lift } = form;
+    if (x < c.lambda0) {
+      const y = x * x - c.lambda0 ** 2;
+      return [tau * lift * y * y / 24, -c.ratio + tau * (c.psi * x * x / 2 + c.chi - lift * (3 * x * x - c.lambda0 ** 2) / 6)];
+    }
+    const wave = turn((x * x - c.lambda0 ** 2) / 4), list = iteratedErfc(x).map((value) => times(wave, value));
+    const second = times(B, list[2]), free = 1 - c.ratio * x * x / 2
+      + tau * (c.psi * x ** 4 / 24 + c.chi * x * x / 2 + c.alpha / 2);
+    const eta = second[0] + tau * (times(B1, list[4])[0] + c.n / 2 * second[1]);
+    const bent = times(times(B, T2), list[0]);
+    return [free - eta, bent[0] + tau * (times(times(B1, T2), list[2])[0] + c.n / 2 * bent[1])];
+  }
+
+  /**
+   * Largest bending moment M/(V₀√(EIμ)) = max|E″| at leading order, and where, x = ξ/√τ. E″ = −κ at the front; ahead of
+   * it E‴ ∝ Re[−B T³ e^{ix²/4}] vanishes first where that phase has come to the next odd multiple of π/2.
+   */
+  function peakMoment(form) {
+    const { c, B } = form, start = times(by(-1, T3), B), phase = atan2(start[1], start[0]);
+    let rest = (PI / 2 - phase) % PI;
+    if (rest <= 0) rest += PI;
+    if (c.regime === "discrete" && PI - rest < 1e-12) rest = PI;
+    const x = sqrt(c.lambda0 ** 2 + 4 * rest);
+    const crest = abs(times(times(B, times(T2, iteratedErfc(x)[0])), turn(rest))[0]);
+    const atFront = abs(times(times(B, T2), iteratedErfc(c.lambda0)[0])[0]);
+    return crest > atFront ? { moment: crest, at: x } : { moment: atFront, at: c.lambda0 };
+  }
+
+  return { phi, contact, shape, beamAt, peakMoment, s };
+})();
+if (typeof module !== "undefined") module.exports = Theory;
