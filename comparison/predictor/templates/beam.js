@@ -106,7 +106,7 @@ const Beam = (() => {
       b.curvatureRate * lengthScale * (lengthScale / b.velocity),
       b.tension / (b.mass * b.velocity ** 2),
     );
-    const form = Theory.shape(contact), peak = Theory.peakMoment(form);
+    const form = Theory.shape(contact), peak = Theory.peakMoment(contact);
     const solved = { b, c, half, lengthScale, timeScale, slow, contact, form, peak, epsilon: timeScale / slow };
     return Object.assign(solved, limit(solved));
   }

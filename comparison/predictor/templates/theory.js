@@ -2,7 +2,7 @@
 // The theory in the browser: the closed forms of theory/, in the units of the fast layer (EI = μ = V₀ = 1, ν = 1).
 // Numbers in parentheses are equations of A. Delcourt's thesis; docs/theory.md derives what is not in it.
 const Theory = (() => {
-  const { abs, sqrt, exp, log, cos, sin, atan2, max, PI } = Math;
+  const { abs, sqrt, exp, log, cos, sin, atan2, hypot, PI } = Math;
   const s = sqrt(2 / PI);
 
   // --- φ functions (A.5) ---------------------------------------------------------------------------------------
@@ -89,8 +89,8 @@ const Theory = (() => {
   }
 
   /** (r₁, λ₁) in continuous contact, α + ψ ≥ 0 (2.7.40), by Cramer's rule. */
-  function continuous(x, r0, f, alpha, psi, chi) {
-    const pushed = alpha + psi, near = x < 1;
+  function continuous(x, r0, f, alpha, psi, chi, pushed) {
+    const near = x < 1; // pushed: α + ψ
     const deflection = near ? 2 * alpha - 2 * pushed * f.p : 2 * pushed * f.oneMinusP - 2 * psi;
     const curvature = 4 * chi + sqrt(2 * PI) * pushed * f.pdot;
     const spread = near
@@ -112,11 +112,10 @@ const Theory = (() => {
   }
 
   /** (r_N, λ_N): the response to a tension of n = 1 in free flight (docs/theory.md, tension). */
-  function tension(ratio, x, r0, f) {
-    if (ratio >= 1) return [0.5 - 2 * ratio, 0];
+  function tension(x, r0, f) {
     if (x >= SWITCH) {
       const share = -s * r0 / x * f.oneMinusP;
-      const [r, lambda] = continuous(x, r0, f, 0, 0, 1);
+      const [r, lambda] = continuous(x, r0, f, 0, 0, 1, 0);
       return [share * r, share * lambda + 1 / x];
     }
     const a = f.nu, b = f.kappa;
@@ -133,15 +132,16 @@ const Theory = (() => {
     // In the zone the beam is straight, so the tension no longer holds it back: the wall carries α′ + ψ, α′ = α + nκ.
     const raised = alpha + n * ratio, terms = abs(alpha) + abs(n * ratio) + abs(psi);
     let pushed = raised + psi;
-    if (abs(pushed) <= 8 * Number.EPSILON * terms) pushed = 0;
-    const discrete = !(ratio < 1);
+    if (abs(pushed) <= 16 * Number.EPSILON * terms) pushed = 0;
+    const discrete = !(ratio < 1), regime = discrete ? "discrete" : pushed >= 0 ? "continuous" : "detached";
     const lambda0 = discrete ? 0 : frontAtLeadingOrder(ratio), f = phi(lambda0), r0 = discrete ? 1 : 1 / f.nu;
-    const regime = discrete ? "discrete" : pushed >= 0 ? "continuous" : "detached";
-    let [r1, lambda1] = discrete ? [2 * raised, 0]
-      : (pushed >= 0 ? continuous : detached)(lambda0, r0, f, raised, psi, chi);
-    const [rN, lambdaN] = tension(ratio, lambda0, r0, f);
-    r1 += n * rN;
-    lambda1 += n * lambdaN;
+    const [rN, lambdaN] = discrete ? [0.5 - 2 * ratio, 0] : tension(lambda0, r0, f);
+    let r1 = 2 * alpha + n / 2, lambda1 = 0; // of a single point: 2α′ + n r_N
+    if (!discrete) {
+      [r1, lambda1] = (pushed >= 0 ? continuous : detached)(lambda0, r0, f, raised, psi, chi, pushed);
+      r1 += n * rN;
+      lambda1 += n * lambdaN;
+    }
     return { ratio, alpha, raised, psi, chi, n, regime, lambda0, r0, lambda1, r1, rN, lambdaN,
       uniform: regime === "continuous" ? pushed : 0 };
   }
@@ -218,18 +218,17 @@ const Theory = (() => {
   }
 
   /**
-   * Largest bending moment M/(V₀√(EIμ)) = max|E″| at leading order, and where, x = ξ/√τ. E″ = −κ at the front; ahead of
-   * it E‴ ∝ Re[−B T³ e^{ix²/4}] vanishes first where that phase has come to the next odd multiple of π/2.
+   * Largest bending moment M/(V₀√(EIμ)) at leading order, and where, x = ξ/√τ (0: in the contact). The wall bends the
+   * beam by κ in the zone, by 1 at a single point. Ahead of it E‴ = ρ cos((x² − λ₀²)/4 + θ); the first zero of that is
+   * where E″ is largest (theory/moment.py).
    */
-  function peakMoment(form) {
-    const { c, B } = form, start = times(by(-1, T3), B), phase = atan2(start[1], start[0]);
-    let rest = (PI / 2 - phase) % PI;
-    if (rest <= 0) rest += PI;
-    if (c.regime === "discrete" && PI - rest < 1e-12) rest = PI;
-    const x = sqrt(c.lambda0 ** 2 + 4 * rest);
-    const crest = abs(times(times(B, times(T2, iteratedErfc(x)[0])), turn(rest))[0]);
-    const atFront = abs(times(times(B, T2), iteratedErfc(c.lambda0)[0])[0]);
-    return crest > atFront ? { moment: crest, at: x } : { moment: atFront, at: c.lambda0 };
+  function peakMoment(c) {
+    const jump = by(-2 / sqrt(PI), T3), rise = s * c.r0, discrete = c.regime === "discrete";
+    const row = times(times(T2, iteratedErfc(c.lambda0)[0]), inverse(jump));
+    const bent = discrete ? 1 : c.ratio, swing = (rise * row[0] + bent) / row[1];
+    const place = sqrt(c.lambda0 ** 2 + 4 * atan2(rise, swing));
+    const crest = hypot(rise, swing) * times(times([0, 1], T2), times(iteratedErfc(place)[0], inverse(jump)))[0];
+    return crest > bent ? { moment: crest, at: place } : { moment: bent, at: 0 };
   }
 
   return { phi, contact, shape, beamAt, peakMoment, s };

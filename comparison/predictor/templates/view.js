@@ -185,7 +185,7 @@
 
   function rows(now) {
     const r = Beam.at(predicted, now), p = predicted;
-    const where = p.peak.at > 0 ? `${quantity("length", p.peak.at * Math.sqrt(p.c * now), 3)} from the middle` : "at the contact";
+    const where = p.peak.at > 0 ? `${quantity("length", p.peak.at * Math.sqrt(p.c * now), 3)} from the middle` : "in the contact";
     const list = [
       ["Half contact length", p.contact.regime === "discrete" ? "one point" : quantity("length", r.halfLength)],
       ["Force on the wall", quantity("force", r.reaction)],

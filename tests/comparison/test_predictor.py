@@ -1,0 +1,35 @@
+"""The predictor as a file: complete in itself, small, and told apart from what it stands in."""
+
+from __future__ import annotations
+
+import re
+import shutil
+import subprocess
+from pathlib import Path
+
+import pytest
+
+from comparison.predictor import page, panel, write_page
+
+
+def test_page_is_one_small_file_that_asks_for_nothing(tmp_path: Path) -> None:
+    file = write_page(tmp_path / "new" / "predictor.html")
+    text = file.read_text(encoding="utf-8")
+    assert text == page()
+    assert file.stat().st_size < 1_000_000
+    addresses = set(re.findall(r"https?://[^\s\"'<>]+", text))
+    assert addresses == {"http://www.w3.org/2000/svg"}  # the name of a namespace, no request
+    assert not re.search(r"<(?:script|img|iframe)[^>]*\ssrc=|<link[^>]*href=\"(?!data:)|@import|fetch\(|XMLHttpRequest|import\(", text)
+
+
+def test_panel_keeps_its_style_to_itself() -> None:
+    style = re.sub(r"@media[^{]*\{|/\*.*?\*/", "", panel().style)
+    selectors = [s.strip() for block in re.findall(r"([^{}]+)\{", style) for s in block.split(",")]
+    assert [s for s in selectors if not s.startswith(("#predictor", ":root"))] == []
+
+
+@pytest.mark.skipif(shutil.which("node") is None, reason="Node.js is not installed")
+@pytest.mark.parametrize("name", ["theory.js", "beam.js", "case.js", "view.js"])
+def test_scripts_parse(name: str) -> None:
+    file = Path(__file__).parents[2] / "comparison" / "predictor" / "templates" / name
+    subprocess.run(["node", "--check", str(file)], check=True, capture_output=True)

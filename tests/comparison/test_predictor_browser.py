@@ -1,0 +1,299 @@
+"""The predictor in headless Chromium: the same numbers as `theory`, by keyboard, on a phone, from a link."""
+
+from __future__ import annotations
+
+import json
+import shutil
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from bent_beam import Impact
+from bent_beam.cases import load_case
+from comparison.predictor import write_page
+from theory import SelfSimilarWave, contact_parameters, predict
+from theory.fields import ImpactFields
+from theory.moment import peak_moment
+
+CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
+DRIVER = shutil.which("chromedriver")
+pytestmark = pytest.mark.skipif(CHROMIUM is None or DRIVER is None, reason="Chromium and its driver are not installed")
+
+CASES = 10_000
+SAME = 1e-9
+FLAGS = ("--headless=new", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", "--disable-extensions")
+
+
+@pytest.fixture(scope="module")
+def address(tmp_path_factory: pytest.TempPathFactory) -> str:
+    return write_page(tmp_path_factory.mktemp("predictor") / "predictor.html").as_uri()
+
+
+@pytest.fixture(scope="module")
+def chromium() -> Iterator[Any]:
+    from selenium import webdriver
+    from selenium.webdriver.chrome.options import Options
+    from selenium.webdriver.chrome.service import Service
+
+    options = Options()
+    options.binary_location = str(CHROMIUM)
+    for flag in FLAGS:
+        options.add_argument(flag)
+    options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
+    driver = webdriver.Chrome(options=options, service=Service(DRIVER))
+    yield driver
+    driver.quit()
+
+
+def opened(driver: Any, address: str, width: int = 1400, fragment: str = "") -> Any:
+    driver.execute_cdp_cmd(
+        "Emulation.setDeviceMetricsOverride",
+        {"width": width, "height": 900, "deviceScaleFactor": 1, "mobile": width < 600},
+    )
+    driver.get("about:blank")
+    driver.get(address + fragment)
+    return driver
+
+
+@pytest.fixture
+def browser(chromium: Any, address: str) -> Any:
+    return opened(chromium, address)
+
+
+def ask(browser: Any, script: str, *arguments: Any) -> Any:
+    return browser.execute_script(f"return {script}", *arguments)
+
+
+def type_into(browser: Any, name: str, text: str) -> None:
+    """As somebody types it: the field is emptied, then filled."""
+    field = browser.find_element("id", f"in-{name}")
+    field.clear()
+    field.send_keys(text)
+
+
+def choose(browser: Any, name: str, value: str) -> None:
+    from selenium.webdriver.support.ui import Select
+
+    Select(browser.find_element("id", f"in-{name}")).select_by_value(value)
+
+
+def shown(browser: Any, name: str) -> str:
+    return str(ask(browser, f"document.getElementById('{name}').textContent"))
+
+
+def random_groups(seed: int) -> dict[str, np.ndarray]:
+    """κ/ν over eight decades, most of it where contact spreads, and loads of every sign, with and without."""
+    rng = np.random.default_rng(seed)
+    ratio = np.where(rng.random(CASES) < 0.8, 1.0 - rng.random(CASES), 10.0 ** rng.uniform(-6.0, 2.0, CASES))
+    groups = {"ratio": ratio}
+    for name in ("alpha", "psi", "chi", "n"):
+        size = 10.0 ** rng.uniform(-3.0, 2.0, CASES) * rng.choice([-1.0, 1.0], CASES)
+        groups[name] = np.where(rng.random(CASES) < 0.3, 0.0, size)
+    return groups
+
+
+def test_contact_is_that_of_python_on_random_problems(browser: Any) -> None:
+    groups = random_groups(20)
+    found = ask(
+        browser,
+        "arguments[0].map(g => { const c = Theory.contact(...g), m = Theory.peakMoment(c);"
+        " return [c.regime, c.lambda0, c.r0, c.lambda1, c.r1, c.lambdaN, c.rN, c.uniform, m.moment, m.at]; })",
+        np.column_stack(list(groups.values())).tolist(),
+    )
+    ratio, alpha, psi, chi, n = groups.values()
+    exact = contact_parameters(ratio, alpha, psi, chi, axial=n)
+    peak = peak_moment(ratio)
+    assert [row[0] for row in found] == exact.regime.tolist()
+    assert set(exact.regime) == {"continuous", "detached", "discrete"}
+    numbers = np.array([row[1:] for row in found], dtype=float)
+    one, none = np.ones(CASES), np.zeros(CASES)
+    # λ₁ and r₁ may be small differences of what α, ψ, χ and tension contribute: the measure is the largest of these
+    share = [
+        contact_parameters(ratio, abs(alpha) * one, 0.0),
+        contact_parameters(ratio, 0.0, abs(psi) * one),
+        contact_parameters(ratio, 0.0, 0.0, abs(chi) * one),
+        contact_parameters(ratio, abs(n) * ratio, axial=abs(n)),
+    ]
+    pull = [contact_parameters(ratio, none, axial=abs(n))]
+    parts = share + pull
+    scale = {
+        "lambda1": np.max([np.abs(p.lambda1) for p in parts], axis=0),
+        "r1": np.max([np.abs(p.r1) for p in parts], axis=0),
+        "uniform": np.abs(alpha) + np.abs(n * ratio) + np.abs(psi),
+    }
+    wanted = {
+        "lambda0": exact.lambda0,
+        "r0": exact.r0,
+        "lambda1": exact.lambda1,
+        "r1": exact.r1,
+        "lambdaN": exact.lambda_axial,
+        "rN": exact.r_axial,
+        "uniform": exact.uniform_reaction,
+        "moment": peak.largest,
+        "place": peak.place_of_largest,
+    }
+    for column, (name, value) in enumerate(wanted.items()):
+        size = scale.get(name, np.abs(value))
+        error = np.abs(numbers[:, column] - value)
+        assert np.all(error <= SAME * size + 1e-300), (name, np.nanmax(error / np.where(size > 0.0, size, 1.0)))
+
+
+@pytest.mark.parametrize("ratio", [0.03, 0.1, 0.5, 0.9, 1.0, 3.0])
+def test_shape_is_the_wave_of_python(browser: Any, ratio: float) -> None:
+    x = np.linspace(0.0, 30.0, 61)
+    found = ask(
+        browser,
+        "arguments[1].map(x => Theory.beamAt(Theory.shape(Theory.contact(arguments[0])), x, 0))",
+        ratio,
+        x.tolist(),
+    )
+    wave = SelfSimilarWave(contact_parameters(ratio))
+    gap = np.where(x < wave.parameters.lambda0, 0.0, wave.gap(x)) if ratio < 1.0 else wave.gap(x)
+    assert -np.array(found)[:, 0] == pytest.approx(gap, rel=1e-9, abs=1e-9)
+    assert np.array(found)[:, 1] == pytest.approx(wave.curvature(x), rel=1e-9, abs=1e-9)
+
+
+@pytest.mark.parametrize(
+    "groups",
+    [(0.5, 1.0, 1.0, 0.0), (0.5, -1.0, -1.0, 0.5), (0.15, 2.0, -1.0, 1.0), (0.15, -1.0, 0.3, 0.0), (2.0, 1.0, 0.0, 0.0)],
+)
+def test_first_order_shape_is_the_convolution_but_for_the_second_order(
+    browser: Any, groups: tuple[float, ...]
+) -> None:
+    """The closed form of the page against the integrals of `theory.fields`, which carry a part of O(ε²)."""
+    parameters = contact_parameters(*groups)
+    x = np.array([0.3, 0.8, 1.5, 2.5, 4.0]) * max(parameters.lambda0, 1.0)
+    errors = []
+    for tau in (0.02, 0.01):
+        found = ask(
+            browser,
+            "arguments[1].map(x => Theory.beamAt(Theory.shape(Theory.contact(...arguments[0])), x, arguments[2])[0])",
+            groups,
+            x.tolist(),
+            tau,
+        )
+        exact = ImpactFields(parameters, epsilon=1.0).beam(x * np.sqrt(tau), tau).deflection / tau
+        errors.append(np.max(np.abs(np.array(found) - exact)))
+    assert errors[1] < 2e-3
+    assert errors[1] < 0.3 * errors[0] + 1e-12  # one point: the two agree to rounding
+
+
+def test_loads_without_console_errors_and_without_requests(browser: Any) -> None:
+    assert [entry for entry in browser.get_log("browser") if entry["level"] == "SEVERE"] == []
+    asked = [
+        message["params"]["request"]["url"]
+        for message in (json.loads(entry["message"])["message"] for entry in browser.get_log("performance"))
+        if message["method"] == "Network.requestWillBeSent"
+    ]
+    assert [url for url in asked if not url.startswith(("file:", "data:", "blob:", "about:"))] == []
+    assert ask(browser, "performance.getEntriesByType('resource').filter(e => !/^(data|blob):/.test(e.name)).length") == 0
+
+
+@pytest.mark.parametrize("width", [390, 1400])
+def test_nothing_overflows(chromium: Any, address: str, width: int) -> None:
+    browser = opened(chromium, address, width)
+    assert ask(browser, "document.documentElement.scrollWidth <= window.innerWidth")
+    wide = ask(
+        browser,
+        "[...document.querySelectorAll('#predictor *')].filter(e => e.offsetParent || e.ownerSVGElement)"
+        ".filter(e => e.getBoundingClientRect().right > window.innerWidth + 1 && !e.closest('pre'))"
+        ".map(e => e.tagName + '#' + e.id)",
+    )
+    assert wide == []
+    small = ask(
+        browser,
+        "[...document.querySelectorAll('#predictor input, #predictor select, #predictor button')]"
+        ".filter(e => e.offsetParent && e.getBoundingClientRect().height < 30).map(e => e.id)",
+    )
+    assert small == []
+
+
+def test_more_curvature_stays_a_point_and_less_spreads(browser: Any) -> None:
+    assert shown(browser, "verdict") == "Contact spreads."
+    type_into(browser, "curvature", "0.05")
+    assert shown(browser, "verdict") == "Contact stays one point."
+    type_into(browser, "curvature", "0.002")
+    type_into(browser, "load", "-30")
+    assert shown(browser, "verdict") == "Contact spreads as two points."
+
+
+def test_keyboard_alone_reaches_and_moves_everything(browser: Any) -> None:
+    from selenium.webdriver.common.action_chains import ActionChains
+    from selenium.webdriver.common.keys import Keys
+
+    reached = []
+    for _ in range(40):
+        ActionChains(browser).send_keys(Keys.TAB).perform()
+        reached.append(ask(browser, "document.activeElement.id || document.activeElement.tagName"))
+        if reached[-1] == "time":
+            break
+    assert {"in-units", "in-section", "in-outer_diameter", "in-bow", "in-velocity", "in-tension"} <= set(reached)
+    assert reached[-1] == "time"
+    before = shown(browser, "instant"), ask(browser, "document.querySelector('#shape .beam').getAttribute('d')")
+    ActionChains(browser).send_keys(Keys.HOME).send_keys(*[Keys.ARROW_RIGHT] * 60).perform()
+    after = shown(browser, "instant"), ask(browser, "document.querySelector('#shape .beam').getAttribute('d')")
+    assert after[0] != before[0] and after[1] != before[1]
+
+
+def test_a_mistake_is_named_beside_its_field(browser: Any) -> None:
+    type_into(browser, "inner_diameter", "130")
+    assert "smaller" in shown(browser, "wrong-inner_diameter")
+    assert not ask(browser, "document.getElementById('answer').offsetParent")
+    type_into(browser, "inner_diameter", "ten")
+    assert "number" in shown(browser, "wrong-inner_diameter")
+    type_into(browser, "inner_diameter", "108.6")
+    assert ask(browser, "document.getElementById('answer').offsetParent !== null")
+
+
+def test_a_link_carries_the_inputs(chromium: Any, address: str) -> None:
+    browser = opened(chromium, address)
+    choose(browser, "units", "oilfield")
+    choose(browser, "bow", "dogleg")
+    type_into(browser, "dogleg", "4")
+    type_into(browser, "velocity", "5.5")
+    wanted = {name: shown(browser, name) for name in ("verdict", "holds", "values", "case")}
+    fragment = "#" + ask(browser, "location.hash.slice(1)")
+    again = opened(chromium, address, fragment=fragment)
+    assert {name: shown(again, name) for name in wanted} == wanted
+    assert ask(again, "document.getElementById('in-dogleg').value") == "4"
+    strange = opened(chromium, address, fragment="#velocity=abc&units=cubits&nonsense=1&length=")
+    assert shown(strange, "verdict") == "Contact spreads."
+
+
+def test_units_are_a_matter_of_display(browser: Any) -> None:
+    before = shown(browser, "case")
+    choose(browser, "units", "oilfield")
+    assert ask(browser, "document.getElementById('in-outer_diameter').value") == "5"
+    assert shown(browser, "case") == before
+
+
+def saved_case(browser: Any, file: Path) -> Any:
+    file.write_text(shown(browser, "case"), encoding="utf-8")
+    return load_case(file)
+
+
+@pytest.mark.parametrize("section", ["pipe", "round_bar", "rectangle"])
+def test_case_means_what_the_page_shows(browser: Any, tmp_path: Path, section: str) -> None:
+    choose(browser, "section", section)
+    type_into(browser, "length", "40")
+    type_into(browser, "load", "12")
+    impact = saved_case(browser, tmp_path / "impact.toml").impact
+    pages = ask(browser, "Beam.impact({...Beam.START, section: arguments[0], length: 40, load: 12})", section)
+    assert impact.bending_stiffness == pytest.approx(pages["stiffness"], rel=1e-12)
+    assert impact.mass_per_length == pytest.approx(pages["mass"], rel=1e-12)
+    assert impact.acceleration == pytest.approx(12.0 / pages["mass"], rel=1e-12)
+    assert impact.length == 40.0
+
+
+def test_a_change_takes_a_blink(browser: Any) -> None:
+    """All work of a change, drawing included, stays below what an eye sees: counted in points, not in time."""
+    assert ask(browser, "document.querySelectorAll('#predictor svg path').length") < 20
+    points = ask(
+        browser,
+        "[...document.querySelectorAll('#predictor svg path')].map(p => p.getAttribute('d').split('L').length)"
+        ".reduce((a, b) => a + b)",
+    )
+    assert points < 1500
