@@ -19,14 +19,15 @@ With an axial force N, tension positive, n = N/(μV₀²) = ε·axial (docs/theo
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cache
 from typing import Any
 
 import numpy as np
+from numpy.polynomial.chebyshev import chebinterpolate, chebval
 from numpy.typing import ArrayLike, NDArray
-from scipy.optimize import newton
 
 from theory import phi
-from theory._fresnel import SWITCH, FloatArray
+from theory._fresnel import FloatArray
 
 #: Below it λ₁ and r₁, which grow like (κ/ν)^{−5/2}, need intermediate numbers beyond double precision.
 FLATTEST = 1e-60
@@ -122,20 +123,23 @@ def contact_parameters(
     wave = axial * ratio * n  # the zone is flat, so the axial force does not act there: α′ = α + axial·κ
     pushed = (a + wave) + p
     pushed[np.abs(pushed) <= _ROUNDING * (np.abs(a) + np.abs(wave) + np.abs(p))] = 0.0
+    rests = spreads & (pushed >= 0.0)
+    lifts = spreads & ~rests
     regime = np.full(ratio.shape, DISCRETE, dtype="<U10")
-    regime[spreads] = np.where(pushed[spreads] >= 0.0, CONTINUOUS, DETACHED)
+    regime[rests], regime[lifts] = CONTINUOUS, DETACHED
     # discrete: 2α′ + axial(ν/2 − 2κ)
     lambda0, r0, lambda1, r1 = np.zeros_like(ratio), n.copy(), np.zeros_like(ratio), 2.0 * a + axial * n / 2.0
     lambda_axial, r_axial = np.zeros_like(ratio), n * (0.5 - 2.0 * ratio)
     lambda0[spreads] = _lambda0(ratio[spreads])
-    r0[spreads] = n[spreads] / phi.phi_nu(lambda0[spreads])
-    lambda_axial[spreads], r_axial[spreads] = _axial(lambda0[spreads], r0[spreads])
-    for name, solve in ((CONTINUOUS, _continuous), (DETACHED, _detached)):
-        here = regime == name
-        r1[here], lambda1[here] = solve(lambda0[here], r0[here], a[here] + wave[here], p[here], c[here], pushed[here])
+    at = phi.Argument.of(lambda0[spreads])
+    r0[spreads] = n[spreads] / phi.phi_nu(at)
+    lambda_axial[spreads], r_axial[spreads] = _axial(at, r0[spreads])
+    for here, solve in ((rests, _continuous), (lifts, _detached)):
+        loads = (v[here] for v in (a + wave, p, c, pushed))
+        r1[here], lambda1[here] = solve(at.take(here[spreads]), r0[here], *loads)
     r1[spreads] += axial[spreads] * r_axial[spreads]
     lambda1[spreads] += axial[spreads] * lambda_axial[spreads]
-    uniform = np.where(regime == CONTINUOUS, pushed, 0.0)
+    uniform = np.where(rests, pushed, 0.0)
 
     def shaped(values: NDArray[Any]) -> Any:
         return values.reshape(shape) if shape else values[0].item()
@@ -152,31 +156,54 @@ def _check(name: str, values: FloatArray, *, positive: bool) -> None:
         raise ValueError(f"{name} must be {need} (got {values[~good].ravel()[0]})")
 
 
+_SLOPE = float(np.sqrt(2.0 / np.pi))
+# Newton's step after which the error, about its square, is below round-off.
+_LAST_STEP = 1e-8
+
+
 def _lambda0(ratio: FloatArray) -> FloatArray:
     """Root of (2.6.21) for 0 < κ/ν < 1.
 
     In log λ the logarithm of (φ_ν − φ_κ)/φ_κ = ν/κ − 1 is nearly a straight line, of slope 1 for small
-    λ (√(2/π)λ) and 2 for large λ (λ²/2); Newton's method started from the sum of the two limits
-    takes a handful of steps and neither limit loses digits.
+    λ (√(2/π)λ) and 2 for large λ (λ²/2). Newton's method starts from the sum of the two limits, put right by an
+    interpolant of its own solutions: one step is then enough, and neither limit loses digits.
     """
     target = (1.0 - ratio) / ratio
-    slope = np.sqrt(2.0 / np.pi)
-    guess = 2.0 * target / (slope + np.sqrt(slope**2 + 2.0 * target))
-    if guess.size == 0:
-        return guess
+    both_limits = 2.0 * target / (_SLOPE + np.sqrt(_SLOPE**2 + 2.0 * target))
+    return _newton(target, np.log(both_limits) + chebval(_folded(both_limits), _correction()))
 
-    def excess(log_lam: FloatArray) -> FloatArray:
+
+def _folded(both_limits: FloatArray) -> FloatArray:
+    """The variable of the interpolant, (−1, 1) for (0, ∞)."""
+    return np.asarray((both_limits - 3.0) / (both_limits + 3.0))
+
+
+@cache
+def _correction() -> FloatArray:
+    """Chebyshev coefficients of log λ₀ − log(sum of the limits); their error, 1e-9, is Newton's to remove."""
+
+    def exact(folded: FloatArray) -> FloatArray:
+        both_limits = 3.0 * (1.0 + folded) / (1.0 - folded)
+        target = _SLOPE * both_limits + both_limits**2 / 2.0
+        return np.log(_newton(target, np.log(both_limits)) / both_limits)
+
+    return np.asarray(chebinterpolate(exact, 24))
+
+
+def _newton(target: FloatArray, log_lam: FloatArray) -> FloatArray:
+    """λ with (φ_ν − φ_κ)/φ_κ = target, from a guess of log λ."""
+    for _ in range(30):
         lam = np.exp(log_lam)
-        return np.log(phi.phi_nu_minus_kappa(lam) / (target * phi.phi_kappa(lam)))
-
-    def derivative(log_lam: FloatArray) -> FloatArray:
+        at = phi.Argument.of(lam)
+        difference, kappa = phi.phi_nu_minus_kappa(at), phi.phi_kappa(at)
         # φ_ν′ = −(λ/2)φ_κ and −φ_κ′ = √(2/π)(1 − φ_p)
-        lam = np.exp(log_lam)
-        kappa, fall = phi.phi_kappa(lam), slope * phi.one_minus_phi_p(lam)
-        return np.asarray(lam * ((fall - lam / 2.0 * kappa) / phi.phi_nu_minus_kappa(lam) + fall / kappa))
-
-    # the last step is below 1e-10, hence the error of the root, its square, below round-off
-    return np.exp(newton(excess, np.log(guess), fprime=derivative, tol=1e-10, maxiter=30))
+        fall = _SLOPE * phi.one_minus_phi_p(at)
+        slope = lam * ((fall - lam / 2.0 * kappa) / difference + fall / kappa)
+        step = np.log(difference / (target * kappa)) / slope
+        log_lam = log_lam - step
+        if np.all(np.abs(step) <= _LAST_STEP):
+            return np.exp(log_lam)
+    raise ArithmeticError(f"lambda0 did not converge for nu/kappa - 1 = {target[np.abs(step) > _LAST_STEP][0]!r}")
 
 
 # Cramer's rule below: with the φ combinations reduced no determinant cancels (their terms differ in sign
@@ -184,19 +211,20 @@ def _lambda0(ratio: FloatArray) -> FloatArray:
 
 
 def _continuous(
-    lam: FloatArray, r0: FloatArray, alpha: FloatArray, psi: FloatArray, chi: FloatArray, pushed: FloatArray
+    at: phi.Argument, r0: FloatArray, alpha: FloatArray, psi: FloatArray, chi: FloatArray, pushed: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
     """(r₁, λ₁) of (2.7.40), with `pushed` = α+ψ."""
-    phi_nu, phi_kappa = phi.phi_nu(lam), phi.phi_kappa(lam)
-    phi_alpha, phi_kappadot = phi.phi_alpha(lam), phi.phi_kappadot(lam)
-    phi_lambda, phi_lambdadot = phi.phi_lambda(lam), phi.phi_lambdadot(lam)
+    lam = at.lam
+    phi_nu, phi_kappa = phi.phi_nu(at), phi.phi_kappa(at)
+    phi_alpha, phi_kappadot = phi.phi_alpha(at), phi.phi_kappadot(at)
+    phi_lambda, phi_lambdadot = phi.phi_lambda(at), phi.phi_lambdadot(at)
     # 2α − 2(α+ψ)φ_p in the form that does not cancel: φ_p → 0 for small λ, → 1 for large λ
     deflection = np.where(
         lam < 1.0,
-        2.0 * alpha - 2.0 * pushed * phi.phi_p(lam),
-        2.0 * pushed * phi.one_minus_phi_p(lam) - 2.0 * psi,
+        2.0 * alpha - 2.0 * pushed * phi.phi_p(at),
+        2.0 * pushed * phi.one_minus_phi_p(at) - 2.0 * psi,
     )
-    curvature = 4.0 * chi + np.sqrt(2.0 * np.pi) * pushed * phi.phi_pdot(lam)
+    curvature = 4.0 * chi + np.sqrt(2.0 * np.pi) * pushed * phi.phi_pdot(at)
     # φ_α·curvature + 2φ_κ̇·deflection; for small λ the parts linear in λ of the uniform reaction's
     # terms cancel, √(2π)φ_ṗφ_α − 4φ_pφ_κ̇ = 2λ²φ_ν − √(π/2)λ³(φ_κ² + φ_ν²)
     spread = np.where(
@@ -212,11 +240,12 @@ def _continuous(
 
 
 def _detached(
-    lam: FloatArray, r0: FloatArray, alpha: FloatArray, psi: FloatArray, chi: FloatArray, pushed: FloatArray
+    at: phi.Argument, r0: FloatArray, alpha: FloatArray, psi: FloatArray, chi: FloatArray, pushed: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
     """(r₁, λ₁) of (2.7.71) divided by r₀ in its second column, with κ = r₀φ_κ (2.7.69)."""
-    phi_q, phi_t = phi.phi_q(lam) / 4.0, phi.phi_t(lam)
-    column = phi.phi_r_plus_lambda_phi_kappa(lam), phi.phi_kappa_minus_s(lam)
+    lam = at.lam
+    phi_q, phi_t = phi.phi_q(at) / 4.0, phi.phi_t(at)
+    column = phi.phi_r_plus_lambda_phi_kappa(at), phi.phi_kappa_minus_s(at)
     deflection = psi * lam**4 / 24.0 + chi * lam**2 / 2.0 + alpha / 2.0
     slope = psi * lam**3 / 6.0 + chi * lam
     determinant = phi_q * column[1] + phi_t * column[0]
@@ -224,16 +253,15 @@ def _detached(
     return r1, (phi_q * slope + phi_t * deflection) / (determinant * r0)
 
 
-def _axial(lam: FloatArray, r0: FloatArray) -> tuple[FloatArray, FloatArray]:
+def _axial(at: phi.Argument, r0: FloatArray) -> tuple[FloatArray, FloatArray]:
     """(λ_N, r_N) of a spreading contact, the same in both regimes (docs/theory.md, "Axial force").
 
     They are the answer to χ_N = −√(2/π)(r₀/λ₀)(1 − φ_p) of a beam without load, and 1/λ₀ on top of λ_N; for
     small λ₀, where the two parts of λ_N cancel, the same written out.
     """
-    slope = np.sqrt(2.0 / np.pi)
-    lambda_axial, r_axial = np.empty_like(lam), np.empty_like(lam)
-    near = lam < SWITCH
-    x, a, b = lam[near], phi.phi_nu(lam[near]), phi.phi_kappa(lam[near])
+    slope, near = _SLOPE, at.near
+    lambda_axial, r_axial = np.empty_like(r0), np.empty_like(r0)
+    x, (a, b) = at.lam[near], at.integrals
     determinant = (
         4.0 * slope * a
         + 2.0 * slope * x**2 * b
@@ -252,9 +280,10 @@ def _axial(lam: FloatArray, r0: FloatArray) -> tuple[FloatArray, FloatArray]:
     ) / determinant
     r_axial[near] = r0[near] * (x * a - 2.0 * slope) * (6.0 * b - 2.0 * slope * x + x**2 * a) / (2.0 * determinant)
 
-    x, reaction = lam[~near], r0[~near]
-    rate = -slope * (reaction / x) * phi.one_minus_phi_p(x)
+    far, reaction = at.take(~near), r0[~near]
+    x = far.lam
+    rate = -slope * (reaction / x) * phi.one_minus_phi_p(far)
     none = np.zeros_like(x)
-    r_axial[~near], lambda_axial[~near] = _continuous(x, reaction, none, none, rate, none)
+    r_axial[~near], lambda_axial[~near] = _continuous(far, reaction, none, none, rate, none)
     lambda_axial[~near] += 1.0 / x
     return lambda_axial, r_axial

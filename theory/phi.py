@@ -6,15 +6,17 @@ closed form for λ < SWITCH, and for λ ≥ SWITCH the same combination after I_
 the cancelling powers, in terms of the moments I_k of `theory._fresnel` with q = λ²/4.
 
 All functions take λ ≥ 0 of any shape, return the same shape (a float for a scalar), and raise ValueError
-for a negative λ or NaN. Relative error below 1e-13, next to a zero of the function relative to its terms.
+for a negative λ or NaN. Several φ of the same λ share its integrals through an `Argument`. Relative error below 1e-13, next to a zero of the function relative to its terms.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 from scipy.special import fresnel
 
 from theory._fresnel import SWITCH, FloatArray, scaled_moments, twice_auxiliary
@@ -26,41 +28,72 @@ _Closed = Callable[[FloatArray, FloatArray, FloatArray], FloatArray]
 _Reduced = Callable[[FloatArray, FloatArray], FloatArray]
 
 
-def _evaluate(lam: ArrayLike, closed: _Closed, reduced: _Reduced) -> FloatArray | float:
+@dataclass(frozen=True)
+class Argument:
+    """λ ≥ 0 of shape (n,) with its Fresnel integrals and moments, computed once for any number of φ.
+
+    Every φ takes one in place of λ.
+    """
+
+    lam: FloatArray
+    near: NDArray[np.bool_]
+    integrals: tuple[FloatArray, FloatArray]
+    moments: FloatArray
+
+    @classmethod
+    def of(cls, lam: FloatArray) -> Argument:
+        """From λ, shape (n,), none negative or NaN (ValueError)."""
+        if not np.all(lam >= 0.0):
+            raise ValueError(f"lam must not be negative or NaN (got {lam[~(lam >= 0.0)][0]!r})")
+        near = lam < SWITCH
+        return cls(lam, near, twice_auxiliary(lam[near]), scaled_moments(lam[~near] ** 2 / 4.0))
+
+    def take(self, chosen: NDArray[np.bool_]) -> Argument:
+        """Those of a mask of shape (n,)."""
+        nu, kappa = self.integrals
+        of_near = chosen[self.near]
+        return Argument(
+            self.lam[chosen],
+            self.near[chosen],
+            (nu[of_near], kappa[of_near]),
+            self.moments[:, chosen[~self.near]],
+        )
+
+
+def _evaluate(lam: ArrayLike | Argument, closed: _Closed, reduced: _Reduced) -> Any:
+    if isinstance(lam, Argument):
+        result = np.empty_like(lam.lam)
+        result[lam.near] = closed(lam.lam[lam.near], *lam.integrals)
+        far = ~lam.near
+        result[far] = reduced(lam.lam[far] ** 2 / 4.0, lam.moments)
+        return result
     values = np.asarray(lam, dtype=np.float64)
-    if not np.all(values >= 0.0):
-        raise ValueError(f"lam must not be negative or NaN (got {lam!r})")
-    flat = values.ravel()
-    result = np.empty_like(flat)
-    near = flat < SWITCH
-    result[near] = closed(flat[near], *twice_auxiliary(flat[near]))
-    q = flat[~near] ** 2 / 4.0
-    result[~near] = reduced(q, scaled_moments(q))
+    result = _evaluate(Argument.of(values.ravel()), closed, reduced)
     return result.reshape(values.shape) if values.ndim else float(result[0])
 
 
-def phi_nu(lam: ArrayLike) -> FloatArray | float:
+def phi_nu(lam: ArrayLike | Argument) -> Any:
     """φ_ν = (4/π)∫λ³H/(β²+λ²)² dβ (2.6.18): deflection at ξ = 0, leading order."""
     return _evaluate(lam, lambda x, nu, kappa: nu, lambda q, m: m[0] / np.sqrt(q))
 
 
-def phi_kappa(lam: ArrayLike) -> FloatArray | float:
+def phi_kappa(lam: ArrayLike | Argument) -> Any:
     """φ_κ = (4/π)∫2λ(λ²−3β²)H/(β²+λ²)³ dβ (2.6.20): curvature at ξ = 0, leading order."""
     return _evaluate(lam, lambda x, nu, kappa: kappa, lambda q, m: m[1] * q**-1.5)
 
 
-def phi_p(lam: ArrayLike) -> FloatArray | float:
+def phi_p(lam: ArrayLike | Argument) -> Any:
     """φ_p = (8/√2π)∫βλ⁴P/(β²+λ²)³ dβ (2.7.17): deflection by the uniform reaction."""
     scale = np.sqrt(np.pi / 8.0)
     return _evaluate(lam, lambda x, nu, kappa: scale * x * nu, lambda q, m: 2.0 * scale * m[0])
 
 
-def phi_pdot(lam: ArrayLike) -> FloatArray | float:
+def phi_pdot(lam: ArrayLike | Argument) -> Any:
     """φ_ṗ = −(8/π)∫λ²βH′/(β²+λ²)² dβ (2.7.34): curvature by the uniform reaction."""
     return _evaluate(lam, lambda x, nu, kappa: x * kappa, lambda q, m: 2.0 * m[1] / q)
 
 
-def phi_alpha(lam: ArrayLike) -> FloatArray | float:
+def phi_alpha(lam: ArrayLike | Argument) -> Any:
     """φ_α = (16/π)∫λ³β²H/(β²+λ²)³ dβ (2.7.23): deflection by r₁, and at ξ = λ_c by r₀ (2.7.54)."""
     return _evaluate(
         lam,
@@ -69,7 +102,7 @@ def phi_alpha(lam: ArrayLike) -> FloatArray | float:
     )
 
 
-def phi_lambda(lam: ArrayLike) -> FloatArray | float:
+def phi_lambda(lam: ArrayLike | Argument) -> Any:
     """φ_λ = −(8/π)∫λ³β³H′/(β²+λ²)³ dβ (2.7.23): deflection by λ₁."""
     return _evaluate(
         lam,
@@ -78,7 +111,7 @@ def phi_lambda(lam: ArrayLike) -> FloatArray | float:
     )
 
 
-def phi_kappadot(lam: ArrayLike) -> FloatArray | float:
+def phi_kappadot(lam: ArrayLike | Argument) -> Any:
     """φ_κ̇ = −(8/π)∫β²λH″/(β²+λ²)² dβ (2.7.38): curvature by r₁."""
     return _evaluate(
         lam,
@@ -87,7 +120,7 @@ def phi_kappadot(lam: ArrayLike) -> FloatArray | float:
     )
 
 
-def phi_lambdadot(lam: ArrayLike) -> FloatArray | float:
+def phi_lambdadot(lam: ArrayLike | Argument) -> Any:
     """φ_λ̇ = (16/π)∫β³λH‴/(β²+λ²)² dβ (2.7.38), an Abel limit: curvature by λ₁."""
     return _evaluate(
         lam,
@@ -96,7 +129,7 @@ def phi_lambdadot(lam: ArrayLike) -> FloatArray | float:
     )
 
 
-def phi_q(lam: ArrayLike) -> FloatArray | float:
+def phi_q(lam: ArrayLike | Argument) -> Any:
     """φ_q = (64/π)∫β²λ³(β²−λ²)²H/(β²+λ²)⁵ dβ (2.7.53): deflection at ξ = λ_c by r₁."""
     return _evaluate(
         lam,
@@ -109,7 +142,7 @@ def phi_q(lam: ArrayLike) -> FloatArray | float:
     )
 
 
-def phi_r(lam: ArrayLike) -> FloatArray | float:
+def phi_r(lam: ArrayLike | Argument) -> Any:
     """φ_r = (16/π)∫β³λ²(β⁴+3λ⁴)H′/(β²+λ²)⁵ dβ (2.7.53): deflection at ξ = λ_c by λ₁."""
     return _evaluate(
         lam,
@@ -122,7 +155,7 @@ def phi_r(lam: ArrayLike) -> FloatArray | float:
     )
 
 
-def phi_s(lam: ArrayLike) -> FloatArray | float:
+def phi_s(lam: ArrayLike | Argument) -> Any:
     """φ_s = −(8/π)∫β²λ(β⁴+3λ⁴)H″/(β²+λ²)⁴ dβ (2.7.68): slope at ξ = λ_c by λ₁."""
     return _evaluate(
         lam,
@@ -135,7 +168,7 @@ def phi_s(lam: ArrayLike) -> FloatArray | float:
     )
 
 
-def phi_t(lam: ArrayLike) -> FloatArray | float:
+def phi_t(lam: ArrayLike | Argument) -> Any:
     """φ_t = −(8/π)∫βλ²(β²−λ²)²H′/(β²+λ²)⁴ dβ (2.7.68): slope at ξ = λ_c by r₁."""
     return _evaluate(
         lam,
@@ -148,13 +181,13 @@ def phi_t(lam: ArrayLike) -> FloatArray | float:
 # a limit where its two terms do not.
 
 
-def one_minus_phi_p(lam: ArrayLike) -> FloatArray | float:
+def one_minus_phi_p(lam: ArrayLike | Argument) -> Any:
     """1 − φ_p, which vanishes like λ⁻⁴ for large λ."""
     scale = np.sqrt(np.pi / 8.0)
     return _evaluate(lam, lambda x, nu, kappa: 1.0 - scale * x * nu, lambda q, m: 2.0 * scale * m[2] / q**2)
 
 
-def phi_nu_minus_kappa(lam: ArrayLike) -> FloatArray | float:
+def phi_nu_minus_kappa(lam: ArrayLike | Argument) -> Any:
     """φ_ν − φ_κ, which vanishes like √(2/π) λ for small λ."""
 
     def closed(x: FloatArray, nu: FloatArray, kappa: FloatArray) -> FloatArray:
@@ -166,7 +199,7 @@ def phi_nu_minus_kappa(lam: ArrayLike) -> FloatArray | float:
     return _evaluate(lam, closed, lambda q, m: (m[0] - m[1] / q) / np.sqrt(q))
 
 
-def phi_r_plus_lambda_phi_kappa(lam: ArrayLike) -> FloatArray | float:
+def phi_r_plus_lambda_phi_kappa(lam: ArrayLike | Argument) -> Any:
     """φ_r + λφ_κ, the (1, 2) entry of (2.7.71) over r₀ since κ = r₀φ_κ (2.7.69)."""
     return _evaluate(
         lam,
@@ -179,7 +212,7 @@ def phi_r_plus_lambda_phi_kappa(lam: ArrayLike) -> FloatArray | float:
     )
 
 
-def phi_kappa_minus_s(lam: ArrayLike) -> FloatArray | float:
+def phi_kappa_minus_s(lam: ArrayLike | Argument) -> Any:
     """φ_κ − φ_s, the (2, 2) entry of (2.7.71) over r₀; it vanishes like √(2/π) λ for small λ."""
     return _evaluate(
         lam,

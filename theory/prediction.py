@@ -17,7 +17,7 @@ from collections.abc import Iterable
 from dataclasses import asdict, dataclass
 from typing import Any
 
-from bent_beam import Impact
+from bent_beam.impact import Impact
 from theory.contact import DISCRETE, contact_parameters
 
 #: Largest ε, ε|λ₁|τ/λ₀ and ε|r₁|τ/r₀: the terms left out are of the order of their squares, 1 %.

@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from theory import contact_parameters
+from theory import contact_parameters, phi
 
 PARAMETERS = ("lambda0", "r0", "lambda1", "r1")
 COEFFICIENTS = st.integers(-1000, 1000).map(lambda n: n / 100.0)
@@ -148,7 +148,8 @@ def test_both_first_order_systems_agree_without_uniform_reaction(
     from theory.contact import _continuous, _detached
 
     found = contact_parameters(ratio)
-    arguments = [np.array([v]) for v in (found.lambda0, found.r0, alpha, -alpha, chi, 0.0)]
+    at = phi.Argument.of(np.array([found.lambda0]))
+    arguments = [at, *(np.array([v]) for v in (found.r0, alpha, -alpha, chi, 0.0))]
     with_zone, without = _continuous(*arguments), _detached(*arguments)
     for one, other, index in zip(with_zone, without, (0, 1), strict=True):
         scale = max(
