@@ -6,7 +6,8 @@ closed form for λ < SWITCH, and for λ ≥ SWITCH the same combination after I_
 the cancelling powers, in terms of the moments I_k of `theory._fresnel` with q = λ²/4.
 
 All functions take λ ≥ 0 of any shape, return the same shape (a float for a scalar), and raise ValueError
-for a negative λ or NaN. Several φ of the same λ share its integrals through an `Argument`. Relative error below 1e-13, next to a zero of the function relative to its terms.
+for a negative λ or NaN. Several φ of the same λ share its integrals through an `Argument`. Relative error below
+1e-13, next to a zero of the function relative to its terms.
 """
 
 from __future__ import annotations
