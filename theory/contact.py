@@ -23,7 +23,7 @@ from functools import cache
 from typing import Any
 
 import numpy as np
-from numpy.polynomial.chebyshev import chebinterpolate, chebval
+from numpy.polynomial.chebyshev import chebfit, chebpts1, chebval
 from numpy.typing import ArrayLike, NDArray
 
 from theory import phi
@@ -187,7 +187,8 @@ def _correction() -> FloatArray:
         target = _SLOPE * both_limits + both_limits**2 / 2.0
         return np.log(_newton(target, np.log(both_limits)) / both_limits)
 
-    return np.asarray(chebinterpolate(exact, 24))
+    points = chebpts1(25)
+    return np.asarray(chebfit(points, exact(points), 24))
 
 
 def _newton(target: FloatArray, log_lam: FloatArray) -> FloatArray:

@@ -1,0 +1,115 @@
+"""The stopped beam with its own damping: against Laplace inversion, against the beam without ends, its release."""
+
+from __future__ import annotations
+
+import mpmath as mp
+import numpy as np
+import pytest
+
+from theory import contact_parameters, damped_point
+from theory.stopped_beam import StoppedBeam
+
+KINDS = ("impulse", "reaction", "midspan_moment")
+
+
+def by_laplace(damping: float, time: float, kind: str) -> float:
+    """The half beam as a boundary value problem at complex frequency s, inverted by Talbot's contour; no modes."""
+
+    def transform(s: mp.mpc) -> mp.mpc:
+        stiffness = 1 + mp.mpf(damping) * s
+        wave = mp.sqrt(mp.sqrt(s * s / stiffness))
+        roots = [wave * mp.exp(1j * mp.pi * (2 * j + 1) / 4) for j in range(4)]
+        # y(0) = 1/s² imposed, y′(0) = 0, y″(1) = y‴(1) = 0; growing waves measured at the far end
+        scale = [mp.exp(-r) if mp.re(r) > 0 else mp.mpf(1) for r in roots]
+        matrix = mp.matrix(
+            [
+                scale,
+                [r * e for r, e in zip(roots, scale, strict=True)],
+                [r**2 * e * mp.exp(r) for r, e in zip(roots, scale, strict=True)],
+                [r**3 * e * mp.exp(r) for r, e in zip(roots, scale, strict=True)],
+            ]
+        )
+        c = mp.lu_solve(matrix, mp.matrix([1 / s**2, 0, 0, 0]))
+        second = sum(c[j] * scale[j] * roots[j] ** 2 for j in range(4))
+        third = sum(c[j] * scale[j] * roots[j] ** 3 for j in range(4))
+        return {
+            "impulse": 2 * stiffness * third / s,
+            "reaction": 2 * stiffness * third,
+            "midspan_moment": -stiffness * second,
+        }[kind]
+
+    with mp.workdps(30):
+        return float(mp.invertlaplace(transform, time, method="talbot", degree=60))
+
+
+@pytest.mark.parametrize("damping", [3.0, 0.1, 1e-2])
+@pytest.mark.parametrize("kind", KINDS)
+def test_modes_give_what_laplace_inversion_gives(damping: float, kind: str) -> None:
+    for time in (1e-3, 0.02, 0.3):
+        found = float(getattr(StoppedBeam(damping), kind)(time))
+        assert found == pytest.approx(by_laplace(damping, time, kind), rel=1e-10, abs=1e-11)
+
+
+@pytest.mark.parametrize(
+    ("damping", "time", "impulse"),
+    [
+        (1e-2, 0.151641714, 1.223400763),
+        (3e-3, 0.151315100, 1.331492491),
+        (1e-3, 0.080315740, 0.912963645),
+        (1e-4, 0.039860576, 0.645800067),
+    ],
+)
+def test_first_release(damping: float, time: float, impulse: float) -> None:
+    beam = StoppedBeam(damping)
+    found = beam.release()
+    assert (found.time, found.impulse) == pytest.approx((time, impulse), abs=1e-9)
+    before = np.linspace(0.02, 1.0 - 1e-6, 400) * found.time
+    assert np.all(beam.reaction(before) > 0.0) and beam.reaction(found.time * (1.0 + 1e-6)) < 0.0
+
+
+@pytest.mark.parametrize("damping", [10.0, 1e-2, 1e-4, 1e-7])
+def test_a_beam_without_ends_and_one_with_them_start_alike(damping: float) -> None:
+    beam = StoppedBeam(damping)
+    early = beam._without_ends * np.array([1.0 - 1e-13, 1.0 + 1e-13])  # the closed form, then the modes
+    for kind in KINDS:
+        first, second = getattr(beam, kind)(early)
+        assert second == pytest.approx(first, rel=2e-11)
+
+
+def test_little_damping_gives_the_leading_order_at_early_times() -> None:
+    time, beam = 3e-4, StoppedBeam(1e-8)
+    r0 = contact_parameters(2.0).r0
+    assert beam.impulse(time) == pytest.approx(4.0 * np.sqrt(2.0 / np.pi * time) * r0, rel=1e-5)
+    assert beam.midspan_moment(time) == pytest.approx(1.0, rel=1e-9)
+
+
+def test_impulse_is_the_integral_of_the_reaction_and_ends_at_the_momentum_of_the_beam() -> None:
+    beam, h = StoppedBeam(1e-2), 1e-4
+    times = np.array([1e-3, 0.01, 0.1, 0.7])
+    central = (beam.impulse(times * (1 + h)) - beam.impulse(times * (1 - h))) / (2.0 * h * times)
+    np.testing.assert_allclose(beam.reaction(times), central, rtol=1e-5)
+    assert beam.impulse(0.0) == 0.0
+    # held for ever the beam comes to rest: all of its momentum, 2μℓV₀, has gone into the wall
+    assert beam.impulse(600.0) == pytest.approx(2.0, abs=1e-9)
+    assert beam.impulse(np.full((2, 3), 0.1)).shape == (2, 3)
+
+
+def test_damping_matters_until_six_times_its_own_time() -> None:
+    age = np.array([100.0, 1e4])
+    np.testing.assert_allclose(damped_point.impulse_ratio(age) - 1.0, 0.125 / age, rtol=3e-3)
+    np.testing.assert_allclose(damped_point.reaction_ratio(age) - 1.0, -0.125 / age, rtol=1e-2)
+    assert damped_point.impulse_ratio(6.5) < 1.02 < damped_point.impulse_ratio(6.2)
+    assert damped_point.moment_ratio(6.3) == pytest.approx(1.0, abs=1e-4)
+    with pytest.raises(ValueError, match="age must be positive"):
+        damped_point.impulse_ratio(0.0)
+
+
+def test_refusals_say_why() -> None:
+    with pytest.raises(ValueError, match=r"damping must be positive and finite \(got 0.0\).*divergent series"):
+        StoppedBeam(0.0)
+    with pytest.raises(ValueError, match="damping must be larger"):
+        StoppedBeam(1e-20)
+    with pytest.raises(ValueError, match="the reaction is infinite"):
+        StoppedBeam(1e-3).reaction([0.0, 0.1])
+    with pytest.raises(ValueError, match="times must be finite and not negative"):
+        StoppedBeam(1e-3).impulse(-1.0)
