@@ -1,0 +1,203 @@
+"""Problems of the open benchmark: ids, their physics, and the TOML file that an adapter reads (schema beam-impact/1).
+
+    leading-K              the infinite beam at leading order, κ/ν = K; contact spreads for K < 1
+    point-K                the same with K ≥ 1: one point in contact
+    first-K-A-P-C[-N]      the same with small loads (α, ψ, χ[, n]) = (A, P, C[, N]), compared with leading-K
+    bounce-K-D             the free beam of finite length until it has left the wall, η/T* = D
+    ball  bar  string  stopped-beam        the ladder: closed forms without a moving front
+
+All problems are posed in units that make the stiffness, the mass and the velocity one, in which every reference is
+known. A file holds no reference value and nothing numerical.
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from bent_beam.checks import finite, non_negative, positive, shortened
+from bent_beam.parts import InputError
+
+__all__ = ["LADDER", "SCHEMA", "Problem", "first_order_problem", "problem", "problem_text", "shipped_ids"]
+
+SCHEMA = "beam-impact/1"
+END = 0.1  # τ; the leading order is self-similar, any end will do (the thesis ends here)
+LOAD = 0.2  # ε times the sum of the loads' sizes: εr₁τ/r₀ ends at about 5 %, so its square is small and it is not
+EQUIVALENTS = ("half beam", "small amplitude", "straight beam on a curved wall")
+NUMBER = r"(-?\d+(?:\.\d+)?(?:e-?\d+)?)"
+
+#: The ladder's parts: table name and its keys, all numbers one, and the end of the record in the problem's own time.
+LADDER: dict[str, tuple[str, dict[str, float], float]] = {
+    "ball": ("ball", {"mass": 1.0, "gravity": 1.0, "height": 0.5, "restitution": 1.0}, 20.0),
+    "bar": ("bar", {"axial_stiffness": 1.0, "mass_per_length": 1.0, "length": 1.0, "velocity": 1.0}, 3.0),
+    "string": ("string", {"tension": 1.0, "mass_per_length": 1.0, "length": 1.0, "height": 1.0}, 4.0),
+    "stopped-beam": ("beam", {"bending_stiffness": 1.0, "mass_per_length": 1.0, "half_length": 1.0}, 0.1),
+}
+
+
+@dataclass(frozen=True)
+class Problem:
+    """One problem of the benchmark, in units EI = μ = V₀ = 1 (so l* = t* = 1).
+
+    id : its name. kind : "leading", "point", "first", "bounce" or one of the ladder.
+    kappa_over_nu : κ/ν. loads : (α, ψ, χ, n) with ν = 1, scaled by ``epsilon``; zeros at leading order.
+    length : of the whole beam, ``None`` for an infinite one. damping : Kelvin–Voigt time η over T*.
+    end_time, fit_window : in t* (the ladder: in the problem's own unit of time).
+    """
+
+    id: str
+    kind: str
+    kappa_over_nu: float = 0.0
+    loads: tuple[float, float, float, float] = (0.0, 0.0, 0.0, 0.0)
+    epsilon: float = 0.0
+    length: float | None = None
+    damping: float = 0.0
+    end_time: float = END
+    snapshots: tuple[float, ...] = field(default=(0.02, 0.05, 0.1))
+
+    @property
+    def fit_window(self) -> tuple[float, float]:
+        """The last decade of time."""
+        return self.end_time / 10.0, self.end_time
+
+    @property
+    def is_front(self) -> bool:
+        """The infinite beam: λ₀ and r₀ mean something."""
+        return self.kind in ("leading", "point", "first")
+
+    @property
+    def base_id(self) -> str | None:
+        """The problem without loads that a first-order problem is compared with."""
+        return _front_id(self.kappa_over_nu) if self.kind == "first" else None
+
+    @property
+    def uniform_load(self) -> float:
+        """What presses the resting zone on the wall, in μV₀/t*: ε(α + ψ + nκ), 0 when it lifts off (statics).
+
+        In the zone the beam lies on the wall and does not move, so the wall carries the load p of the free motion,
+        p = μa₀ + EI q₀ + N K.
+        """
+        alpha, psi, _, axial = self.loads
+        load = alpha + psi + axial * self.kappa_over_nu
+        largest = max(abs(alpha), abs(psi), abs(axial * self.kappa_over_nu), 1e-300)
+        return self.epsilon * load if load > 1e-12 * largest else 0.0
+
+
+def _front_id(kappa_over_nu: float) -> str:
+    return f"{'leading' if kappa_over_nu < 1.0 else 'point'}-{kappa_over_nu:.12g}"
+
+
+def first_order_problem(
+    kappa_over_nu: float, loads: tuple[float, float, float, float], epsilon: float, end_time: float = END
+) -> Problem:
+    """The infinite beam with loads (α, ψ, χ, n) scaled by ``epsilon``; without loads the leading order."""
+    positive("kappa_over_nu", kappa_over_nu)
+    snapshots = (0.2 * end_time, 0.5 * end_time, end_time)
+    if not any(loads):
+        kind = "leading" if kappa_over_nu < 1.0 else "point"
+        return Problem(_front_id(kappa_over_nu), kind, kappa_over_nu, end_time=end_time, snapshots=snapshots)
+    shown = loads if loads[3] else loads[:3]
+    name = "-".join(["first", f"{kappa_over_nu:.12g}", *(f"{value:.12g}" for value in shown)])
+    return Problem(name, "first", kappa_over_nu, loads, epsilon, end_time=end_time, snapshots=snapshots)
+
+
+def problem(name: str) -> Problem:
+    """The problem of an id. Raises :class:`InputError` for an id that none has."""
+    if not isinstance(name, str) or len(name) > 200:
+        raise InputError(f"problem: {shortened(name)} is not the id of a problem")
+    try:
+        found = _front(name) or _bounce(name) or _ladder(name)
+    except ValueError as error:
+        raise InputError(f"problem: {name}: {error}") from None
+    if found is None:
+        raise InputError(
+            f"problem: {shortened(name)} is not the id of a problem (leading-K, point-K, first-K-A-P-C[-N], "
+            f"bounce-K-D, {', '.join(LADDER)}; shipped: {', '.join(shipped_ids())})"
+        )
+    return found
+
+
+def _front(name: str) -> Problem | None:
+    match = re.fullmatch(f"(leading|point)-{NUMBER}", name)
+    if match:
+        kind, kappa = match[1], positive("K", float(match[2]))
+        if (kappa < 1.0) != (kind == "leading"):
+            raise ValueError(f"K must be {'below' if kind == 'leading' else 'at least'} 1 (got {kappa:g})")
+        return Problem(name, kind, kappa)
+    match = re.fullmatch(f"first-{NUMBER}-{NUMBER}-{NUMBER}-{NUMBER}(?:-{NUMBER})?", name)
+    if match:
+        kappa = positive("K", float(match[1]))
+        alpha, psi, chi, axial = (finite("load", float(value or 0.0)) for value in match.groups()[1:])
+        total = abs(alpha) + abs(psi) + abs(chi) + abs(axial)
+        if total == 0.0:
+            raise ValueError("at least one load must not be zero (without loads it is leading-K)")
+        return Problem(name, "first", kappa, (alpha, psi, chi, axial), LOAD / total)
+    return None
+
+
+def _bounce(name: str) -> Problem | None:
+    match = re.fullmatch(f"bounce-{NUMBER}-{NUMBER}", name)
+    if not match:
+        return None
+    kappa, damping = positive("K", float(match[1])), non_negative("D", float(match[2]))
+    # the last contact is before T* for every κ/ν that was tried (whole-impact study); half as much again is free
+    return Problem(name, "bounce", kappa, length=2.0, damping=damping, end_time=1.5, snapshots=(0.5, 1.0, 1.5))
+
+
+def _ladder(name: str) -> Problem | None:
+    if name not in LADDER:
+        return None
+    return Problem(name, name, end_time=LADDER[name][2], snapshots=())
+
+
+def problem_text(asked: Problem) -> str:
+    """The TOML file of a problem: what an adapter reads."""
+    lines = [f'schema = "{SCHEMA}"', f'id = "{asked.id}"', ""]
+    for table, values in tables(asked).items():
+        lines += [f"[{table}]", *(f"{key} = {_toml(value)}" for key, value in values.items()), ""]
+    return "\n".join(lines)
+
+
+def tables(asked: Problem) -> dict[str, dict[str, Any]]:
+    """The tables of a problem's file."""
+    record = {
+        "end_time": asked.end_time,
+        "fit_window": list(asked.fit_window),
+        "snapshots": list(asked.snapshots),
+    }
+    if asked.kind in LADDER:
+        name, values, _ = LADDER[asked.kind]
+        return {name: dict(values), "record": record}
+    alpha, psi, chi, axial = (asked.epsilon * value for value in asked.loads)
+    return {
+        "beam": {
+            "bending_stiffness": 1.0,
+            "mass_per_length": 1.0,
+            "curvature": asked.kappa_over_nu,
+            "length": "infinite" if asked.length is None else asked.length,
+            "axial_force": axial,
+            # T* = √(μℓ⁴/EI) is one for the half length ℓ = 1
+            "damping": asked.damping,
+        },
+        "impact": {"velocity": 1.0, "acceleration": alpha, "curvature_rate": chi, "fourth_derivative": psi},
+        "wall": {"curvature": 0.0, "side": "one-sided", "friction": 0.0, "adhesion": 0.0},
+        "record": record,
+        "allowed": {"equivalents": list(EQUIVALENTS)},
+    }
+
+
+def _toml(value: Any) -> str:
+    if isinstance(value, str):
+        return f'"{value}"'
+    if isinstance(value, list):
+        return "[" + ", ".join(_toml(item) for item in value) + "]"
+    return repr(float(value))
+
+
+def shipped_ids() -> list[str]:
+    """Ids of the problem files that are shipped, in the benchmark's order."""
+    order = ("leading", "first", "point", *LADDER, "bounce")
+    names = (file.stem for file in (Path(__file__).parent / "problems").glob("*.toml"))
+    return sorted(names, key=lambda name: (next(i for i, o in enumerate(order) if name.startswith(o)), name))
