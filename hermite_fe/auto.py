@@ -13,7 +13,8 @@ r₀.
   rows rebound;
 - hold: 16 rows behind the front while the beam is pressed on (p = μa₀ + EI q₀ ≥ 0); none when p < 0, for then
   the middle truly lifts off; and all that is closed until the front is a few elements thick;
-- far field: grid-scale viscosity.
+- far field: grid-scale viscosity;
+- mass: consistent.
 """
 
 from __future__ import annotations
@@ -30,6 +31,7 @@ from bent_beam.meshes import GradedMesh, Mesh, ScaleFreeMesh
 from hermite_fe.contacts import Contact, NodeContact
 from hermite_fe.far_fields import FarField, GridViscosity
 from hermite_fe.integrators import GeneralizedAlphaPenalty, Integrator, MoreauJean, SignoriniPosition
+from hermite_fe.masses import ConsistentMass, Mass
 
 __all__ = ["Choice", "choose", "front"]
 
@@ -50,6 +52,7 @@ class Choice:
     integrator: Integrator
     contact: Contact
     far_field: FarField
+    mass: Mass
     warnings: tuple[str, ...]
 
 
@@ -107,6 +110,7 @@ def choose(
     integrator: Integrator | None,
     contact: Contact | None,
     far_field: FarField | None,
+    mass: Mass | None = None,
     *,
     refine: float = 1.0,
 ) -> Choice:
@@ -139,7 +143,7 @@ def choose(
         *resolution_warnings(impact, end_time, nodes, integrator),
         *end_warnings(impact, end_time, nodes, far_field),
     ]
-    return Choice(mesh, nodes, integrator, contact, far_field, tuple(warnings))
+    return Choice(mesh, nodes, integrator, contact, far_field, mass or ConsistentMass(), tuple(warnings))
 
 
 def resolution_warnings(impact: Impact, end_time: float, nodes: Array, integrator: Integrator) -> list[str]:

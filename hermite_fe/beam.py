@@ -105,7 +105,8 @@ class HermiteBeam:
     def dofs(self) -> int:
         return 2 * self.nodes.size
 
-    def _banded(self, element: Array) -> Array:
+    def assembled(self, element: Array) -> Array:
+        """Element matrices (elements, 4, 4) in lower banded form, shape (4, dofs)."""
         bands = np.zeros((4, self.dofs))
         assemble(self.lengths, element, bands)
         return bands
@@ -113,11 +114,11 @@ class HermiteBeam:
     def stiffness(self, weight: Array | None = None) -> Array:
         """K in lower banded form, shape (4, dofs); ``weight`` (elements,) multiplies each element."""
         element = element_stiffness(self.lengths, self.bending_stiffness)
-        return self._banded(element if weight is None else element * np.asarray(weight)[:, None, None])
+        return self.assembled(element if weight is None else element * np.asarray(weight)[:, None, None])
 
     def mass(self) -> Array:
         """M in lower banded form, shape (4, dofs)."""
-        return self._banded(element_mass(self.lengths, self.mass_per_length))
+        return self.assembled(element_mass(self.lengths, self.mass_per_length))
 
     def uniform_load(self, load: float) -> Array:
         """Consistent nodal loads of a uniform load, N/m: ∫ Nᵀ p dx, shape (dofs,)."""
@@ -126,10 +127,6 @@ class HermiteBeam:
         nodal = np.zeros(self.dofs)
         assemble_load(element, nodal)
         return nodal
-
-    def mass_load(self, acceleration: float) -> Array:
-        """Loads in proportion to the mass, M·1·a: a uniform field of acceleration a, m/s², shape (dofs,)."""
-        return self.uniform_load(self.mass_per_length * acceleration)
 
     def curvature_load(self, curvature: float) -> Array:
         """K q₀ of a stress-free shape of curvature w″ (uniform, 1/m): end moments EI w″, shape (dofs,).

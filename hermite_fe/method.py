@@ -16,6 +16,7 @@ from hermite_fe import auto
 from hermite_fe.contacts import CONTACTS, Contact
 from hermite_fe.far_fields import FAR_FIELDS, FarField
 from hermite_fe.integrators import INTEGRATORS, Integrator
+from hermite_fe.masses import MASSES, Mass
 from hermite_fe.simulate import simulate
 
 __all__ = ["HermiteFE"]
@@ -25,7 +26,7 @@ __all__ = ["HermiteFE"]
 class HermiteFE:
     """Hermite beam elements with unilateral contact and a nonsmooth time integrator, on a fixed mesh.
 
-    mesh, integrator, contact, far_field : parts; ``None``: chosen from the problem (:mod:`hermite_fe.auto`).
+    mesh, integrator, contact, far_field, mass : parts; ``None``: chosen from the problem (:mod:`hermite_fe.auto`).
     full_beam : model both halves instead of one with a symmetry support.
     refine : elements and steps so many times finer than the parts say, for studies of convergence.
     label : how rows and curves call it.
@@ -37,12 +38,14 @@ class HermiteFE:
         "integrator": INTEGRATORS,
         "contact": CONTACTS,
         "far_field": FAR_FIELDS,
+        "mass": MASSES,
     }
 
     mesh: Mesh | None = None
     integrator: Integrator | None = None
     contact: Contact | None = None
     far_field: FarField | None = None
+    mass: Mass | None = None
     full_beam: bool = False
     refine: float = 1.0
     label: str = "Hermite"
@@ -72,6 +75,7 @@ class HermiteFE:
             integrator=self.integrator,
             contact=self.contact,
             far_field=self.far_field,
+            mass=self.mass,
             full_beam=self.full_beam,
             refine=self.refine,
             save=save,
@@ -81,7 +85,14 @@ class HermiteFE:
     def chosen_for(self, impact: Impact, end_time: float) -> HermiteFE:
         """A copy with every open part chosen for ``impact``: other impacts then run on the same mesh and steps."""
         choice = auto.choose(
-            impact, end_time, self.mesh, self.integrator, self.contact, self.far_field, refine=self.refine
+            impact,
+            end_time,
+            self.mesh,
+            self.integrator,
+            self.contact,
+            self.far_field,
+            self.mass,
+            refine=self.refine,
         )
         return dataclasses.replace(
             self,
@@ -89,6 +100,7 @@ class HermiteFE:
             integrator=choice.integrator,
             contact=choice.contact,
             far_field=choice.far_field,
+            mass=choice.mass,
             refine=1.0,
         )
 

@@ -21,11 +21,13 @@ from bent_beam.meshes import checked_nodes, mirrored
 from hermite_fe.beam import HermiteBeam, banded_product
 from hermite_fe.contacts import Contact
 from hermite_fe.far_fields import FarField
+from hermite_fe.masses import ConsistentMass, Mass
 from hermite_fe.system import System
 
 __all__ = ["BeamModel", "beam_model"]
 
 Array = NDArray[np.float64]
+CONSISTENT = ConsistentMass()
 
 
 @dataclass(frozen=True)
@@ -46,9 +48,13 @@ class BeamModel:
 
 
 def beam_model(
-    impact: Impact, nodes: Array, contact: Contact, far_field: FarField, *, full: bool
+    impact: Impact, nodes: Array, contact: Contact, far_field: FarField, *, full: bool, mass: Mass = CONSISTENT
 ) -> BeamModel:
-    """Assemble the half beam on ``nodes`` (0 … L/2), or the full beam on them and their mirror image."""
+    """Assemble the half beam on ``nodes`` (0 … L/2), or the full beam on them and their mirror image.
+
+    The load is laid on in proportion to the mass matrix, as (3.1.9) does, so that a free beam accelerates as a
+    rigid body whatever that matrix is; for the consistent one this is the consistent load.
+    """
     half = checked_nodes(nodes)
     x = mirrored(half) if full else half
     beam = HermiteBeam(x, impact.bending_stiffness, impact.mass_per_length)
@@ -56,18 +62,19 @@ def beam_model(
     quartic = beam.interpolate(impact.fourth_derivative * x**4 / 24.0, impact.fourth_derivative * x**3 / 6.0)
     bending = beam.interpolate(impact.curvature_rate * x**2 / 2.0, impact.curvature_rate * x)
     velocity = beam.interpolate(np.full(x.size, impact.velocity), np.zeros(x.size)) + bending
-    stiffness = beam.stiffness()
+    stiffness, inertia = beam.stiffness(), mass.matrix(beam)
+    uniform = banded_product(inertia, beam.interpolate(np.ones(x.size), np.zeros(x.size)))  # M·1
     damping = far_field.damping(beam, impact)
     if far_field.end == "following":
         # all that keeps y₀ up, end forces included (K on Hermite interpolants is exact at nodes), damping
         # undone
-        steady = beam.mass_load(impact.acceleration) + banded_product(stiffness, quartic)
+        steady = impact.acceleration * uniform + banded_product(stiffness, quartic)
         load = np.stack([steady + banded_product(damping, bending), banded_product(stiffness, bending)])
         load = load if np.any(load[1]) else load[:1]
     else:
-        load = beam.uniform_load(impact.uniform_pressure)[None, :]
+        load = (impact.uniform_pressure / impact.mass_per_length * uniform)[None, :]
     system = System(
-        mass=beam.mass(),
+        mass=inertia,
         stiffness=stiffness,
         damping=damping,
         load=load,

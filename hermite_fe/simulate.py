@@ -16,6 +16,7 @@ from hermite_fe import auto
 from hermite_fe.contacts import Contact
 from hermite_fe.far_fields import FarField
 from hermite_fe.integrators import Integrator
+from hermite_fe.masses import Mass
 from hermite_fe.model import BeamModel, beam_model
 from hermite_fe.run import Trajectory, integrate
 
@@ -30,6 +31,7 @@ def simulate(
     integrator: Integrator | None = None,
     contact: Contact | None = None,
     far_field: FarField | None = None,
+    mass: Mass | None = None,
     full_beam: bool = False,
     refine: float = 1.0,
     save: int | Sequence[float] | NDArray[np.float64] = 200,
@@ -47,8 +49,8 @@ def simulate(
     run cannot finish.
     """
     end = impact.checked_end_time(0.1 * impact.time_scale if end_time is None else end_time)
-    choice = auto.choose(impact, end, mesh, integrator, contact, far_field, refine=refine)
-    model = beam_model(impact, choice.nodes, choice.contact, choice.far_field, full=full_beam)
+    choice = auto.choose(impact, end, mesh, integrator, contact, far_field, mass, refine=refine)
+    model = beam_model(impact, choice.nodes, choice.contact, choice.far_field, full=full_beam, mass=choice.mass)
     check_start(model)
     trajectory = integrate(
         model.system,
@@ -66,7 +68,7 @@ def simulate(
         "end_time": end,
         "full_beam": full_beam,
         "save": np.asarray(save).tolist(),
-        **{name: describe(getattr(choice, name)) for name in ("mesh", "integrator", "contact", "far_field")},
+        **{name: describe(getattr(choice, name)) for name in ("mesh", "integrator", "contact", "far_field", "mass")},
     }
     settings["mean_iterations"] = trajectory.mean_iterations
     settings["most_iterations"] = trajectory.most_iterations

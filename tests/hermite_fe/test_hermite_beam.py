@@ -84,7 +84,7 @@ def test_a_cantilever_with_an_end_force_bends_to_the_exact_cubic() -> None:
 
 def test_uniform_load_deflects_the_nodes_exactly() -> None:
     beam = HermiteBeam(np.linspace(0.0, 1.0, 5), 1.0, 2.0)
-    q = beam.static(beam.mass_load(3.0), {0: 0.0, 1: 0.0})
+    q = beam.static(beam.uniform_load(3.0 * beam.mass_per_length), {0: 0.0, 1: 0.0})
     x = beam.nodes
     assert np.allclose(q[0::2], 6.0 * x**2 * (6.0 - 4.0 * x + x**2) / 24.0, rtol=1e-12)
 
