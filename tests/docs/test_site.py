@@ -20,6 +20,7 @@ ROOT = Path(__file__).parents[2]
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
 DRIVER = shutil.which("chromedriver")
 BUILDERS = ("mkdocs", "quickjax", "mkdocs_jupyter", "mkdocstrings")
+NOT_PROSE = "pre, code, .highlight, .formula, script, style, .clipboard-copy-txt, .zeroclipboard-container"
 pytestmark = [
     pytest.mark.verify,
     pytest.mark.skipif(CHROMIUM is None or DRIVER is None, reason="Chromium and its driver are not installed"),
@@ -90,7 +91,7 @@ def test_no_page_shows_latex(browser: Any, site: Path) -> None:
         prose = ask(
             browser,
             "(() => { const body = document.querySelector('.md-content').cloneNode(true);"
-            " body.querySelectorAll('pre, code, .highlight, .formula, script, style, .clipboard-copy-txt, .zeroclipboard-container').forEach(e => e.remove());"
+            f" body.querySelectorAll('{NOT_PROSE}').forEach(e => e.remove());"
             " return body.textContent; })()",
         )
         found += [(page.name, match[0]) for match in raw.finditer(prose)]
