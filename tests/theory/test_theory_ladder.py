@@ -1,0 +1,185 @@
+"""The ladder's exact solutions: each satisfies its equation, its contact law and its balances."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from theory.ladder import BouncingBall, FlyingBar, ReleasedBar, StringOnObstacle
+
+
+# ball
+@pytest.mark.parametrize("restitution", [0.0, 0.3, 0.9, 1.0])
+def test_the_ball_is_what_event_by_event_integration_gives(restitution: float) -> None:
+    ball = BouncingBall(height=2.0, velocity=0.7, gravity=9.81, restitution=restitution)
+    start, height, speed, impacts = 0.0, 2.0, 0.7, 0
+    for _ in range(40):
+        flight = (speed + np.sqrt(speed**2 + 2.0 * 9.81 * height)) / 9.81
+        inside = start + flight * np.array([0.01, 0.5, 0.99])
+        age = inside - start
+        expected = height + speed * age - 9.81 * age**2 / 2.0
+        # the accumulation point bounds what an instant can tell: age is known to 1e-16 of the time
+        slack = 1e-15 * (start + flight) * (abs(speed) + 9.81 * flight)
+        np.testing.assert_allclose(ball.position(inside), expected, rtol=1e-12, atol=slack)
+        np.testing.assert_array_equal(ball.impacts(inside), impacts)
+        landing = speed - 9.81 * flight
+        start, height, speed, impacts = start + flight, 0.0, -restitution * landing, impacts + 1
+        assert ball.impact_time(impacts) == pytest.approx(start, rel=1e-13)
+        if speed < 1e-4:
+            break
+
+
+def test_infinitely_many_impacts_end_in_finite_time() -> None:
+    ball = BouncingBall(restitution=0.5)
+    # t₁ = √2 and the flights 2u₁/g (e + e² + …) = 2√2
+    assert ball.rest == pytest.approx(3.0 * np.sqrt(2.0), rel=1e-15)
+    assert ball.impacts(ball.rest) == np.inf and ball.impacts(ball.rest * (1.0 - 1e-9)) == 30.0
+    after = np.array([ball.rest, 10.0])
+    for field in (ball.position, ball.velocity_at, ball.energy):
+        np.testing.assert_array_equal(field(after), 0.0)
+    # at rest the floor has stopped it and carries its weight
+    np.testing.assert_allclose(ball.impulse(after), after, rtol=1e-15)
+    assert BouncingBall(restitution=0.0).rest == BouncingBall(restitution=0.0).first_impact
+    assert BouncingBall(restitution=1.0).rest == np.inf
+
+
+def test_each_impact_takes_its_share_of_energy_and_reverses_the_velocity() -> None:
+    ball = BouncingBall(restitution=0.8)
+    for k in (1, 2, 3, 20):
+        t = float(ball.impact_time(k))
+        before, after = ball.velocity_at(t - 1e-9), ball.velocity_at(t + 1e-9)
+        assert after == pytest.approx(-0.8 * before, abs=5e-9)
+        assert ball.energy(t + 1e-9) == pytest.approx(0.64**k, rel=1e-12)
+    elastic = BouncingBall(restitution=1.0)
+    np.testing.assert_allclose(elastic.energy([0.0, 1e3 + 0.1]), 1.0, rtol=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "name"),
+    [
+        ({"height": -1.0}, "height"),
+        ({"height": 0.0}, "height"),
+        ({"gravity": 0.0}, "gravity"),
+        ({"restitution": 1.1}, "restitution"),
+        ({"velocity": np.nan}, "velocity"),
+    ],
+)
+def test_ball_refusals(arguments: dict[str, float], name: str) -> None:
+    with pytest.raises(ValueError, match=name):
+        BouncingBall(**arguments)
+    with pytest.raises(ValueError, match="times"):
+        BouncingBall().position(-1.0)
+
+
+# bars
+X, H = np.linspace(0.013, 0.987, 41), 1e-6
+BARS = [
+    (ReleasedBar(), 1.0, 1.0, np.array([0.3, 0.8, 1.21, 1.7, 2.4, 2.9, 4.33, 302.1])),
+    (FlyingBar(1.0, 4.0, 1.0, 0.5, 0.2), 2.0, 4.0, np.array([0.1, 0.5, 0.75, 1.02, 1.33, 1.7])),
+]
+
+
+@pytest.mark.parametrize(("bar", "speed", "stiffness", "times"), BARS)
+def test_bars_carry_waves(bar: ReleasedBar, speed: float, stiffness: float, times: np.ndarray) -> None:
+    # u_t and u_x are the derivatives of u, and are carried along the characteristics, away from the kinks
+    x, t = np.meshgrid(X, times)
+    fine = np.ones(x.shape, dtype=bool)
+    for field in (bar.velocity_at, bar.strain):
+        for dx, dt in ((2e-6, 0.0), (-2e-6, 0.0), (0.0, 2e-6), (0.0, -2e-6)):
+            fine &= field(x + dx, t + dt) == field(x, t)
+    assert np.count_nonzero(fine) > 0.9 * fine.size
+    rate = (bar.displacement(x, t + H) - bar.displacement(x, t - H)) / (2.0 * H)
+    slope = (bar.displacement(x + H, t) - bar.displacement(x - H, t)) / (2.0 * H)
+    np.testing.assert_allclose(rate[fine], bar.velocity_at(x, t)[fine], atol=1e-7)
+    np.testing.assert_allclose(slope[fine], bar.strain(x, t)[fine], atol=1e-7)
+    # invariants u_t ± c u_x do not change along x ∓ ct while inside the bar
+    step = 0.01
+    for sign in (1.0, -1.0):
+        here = bar.velocity_at(x, t) - sign * speed * bar.strain(x, t)
+        there = bar.velocity_at(x + sign * speed * step / 4, t + step / 4) - sign * speed * bar.strain(
+            x + sign * speed * step / 4, t + step / 4
+        )
+        inside = np.abs(x - 0.5) < 0.49 - speed * step
+        np.testing.assert_allclose(there[inside], here[inside], atol=1e-13)
+
+
+@pytest.mark.parametrize(("bar", "speed", "stiffness", "times"), BARS)
+def test_bars_keep_signorini_and_their_momentum_and_energy(
+    bar: ReleasedBar, speed: float, stiffness: float, times: np.ndarray
+) -> None:
+    fine = np.linspace(0.0, 3.0, 1201) + 1e-5
+    gap, reaction = bar.displacement(0.0, fine), bar.reaction(fine)
+    assert np.all(gap >= -1e-14) and np.all(reaction >= 0.0)
+    assert np.max(gap * reaction) < 1e-14
+    np.testing.assert_allclose(reaction, np.where(gap > 1e-13, 0.0, -stiffness * bar.strain(0.0, fine)), atol=1e-13)
+    np.testing.assert_allclose(np.diff(bar.impulse(fine)), 0.0025 * 0.5 * (reaction[1:] + reaction[:-1]), atol=3e-3)
+    x = (np.arange(4000) + 0.5) / 4000
+    energies = [
+        np.mean(bar.velocity_at(x, t) ** 2 + speed**2 * bar.strain(x, t) ** 2) for t in (0.1, 0.7, 1.3, 1.4, 2.2, 2.9)
+    ]
+    np.testing.assert_allclose(energies, energies[0], rtol=2e-3)
+
+
+def test_the_released_bar_starts_held_and_has_period_three() -> None:
+    bar = ReleasedBar()
+    np.testing.assert_allclose(bar.displacement(X, 0.0), (1.0 - X) / 2.0, atol=1e-15)
+    np.testing.assert_allclose(bar.velocity_at(X, 0.0), 0.0, atol=1e-15)
+    for t in (0.0, 0.4, 1.3, 2.2):
+        np.testing.assert_allclose(bar.displacement(X, t + 30.0), bar.displacement(X, t), atol=1e-13)
+        assert bar.displacement(1.0, t) == pytest.approx(0.0, abs=1e-15)
+    assert bar.impulse(30.0) == 5.0
+
+
+def test_the_flying_bar_leaves_as_it_came() -> None:
+    bar = FlyingBar(length=10.0, stiffness=900.0, mass_per_length=1.0, velocity=10.0, gap=5.0)
+    assert bar.contact == pytest.approx((0.5, 0.5 + 2.0 / 3.0))
+    assert bar.reaction(0.7) == pytest.approx(300.0)
+    assert bar.impulse(5.0) == pytest.approx(2.0 * 10.0 * 10.0)
+    x = np.linspace(0.0, 10.0, 7)
+    np.testing.assert_allclose(bar.displacement(x, 0.5 + 1.0 / 3.0), -10.0 * x / 30.0, atol=1e-14)
+    np.testing.assert_allclose(bar.displacement(x, 2.0), 10.0 * (2.0 - 0.5 - 2.0 / 3.0), rtol=1e-14)
+    np.testing.assert_array_equal(bar.velocity_at(x, 2.0), 10.0)
+
+
+# string
+def plucked() -> StringOnObstacle:
+    return StringOnObstacle(lambda x: 1.0 - np.abs(2.0 * x - 1.0), lambda x: np.where(x < 0.5, 2.0, -2.0))
+
+
+@pytest.mark.parametrize("string", [StringOnObstacle(), plucked()])
+def test_the_string_stays_above_the_obstacle_and_keeps_its_energy(string: StringOnObstacle) -> None:
+    x, t = np.meshgrid((np.arange(2000) + 0.5) / 2000, np.array([0.0, 0.3, 0.4999, 0.5001, 0.77, 1.0, 1.4, 7.1]))
+    assert np.all(string.displacement(x, t) >= 0.0)
+    energy = np.mean(string.velocity_at(x, t) ** 2 + string.strain(x, t) ** 2, axis=1)
+    np.testing.assert_allclose(energy, energy[0], rtol=1e-3)
+    np.testing.assert_allclose(string.displacement(X, 3.2), string.displacement(X, 0.2), atol=1e-14)
+    # the whole string lands at t = ½
+    assert np.max(string.displacement(X, 0.5)) < 1e-15
+    jump = string.velocity_at(X, 0.5 + 1e-9) - string.velocity_at(X, 0.5 - 1e-9)
+    np.testing.assert_allclose(jump, string.impulse(X, 0.6), atol=1e-7)
+    assert np.all(jump > 0.0)
+
+
+def test_the_string_obeys_the_wave_equation_between_landings() -> None:
+    string, h = StringOnObstacle(lambda x: np.sin(np.pi * x), lambda x: np.pi * np.cos(np.pi * x)), 1e-5
+    t = np.linspace(0.02, 2.97, 38)
+    np.testing.assert_allclose(
+        string.displacement(0.3, t), np.abs(np.cos(np.pi * t)) * np.sin(0.3 * np.pi), atol=1e-14
+    )
+    rate = (string.displacement(0.3, t + h) - string.displacement(0.3, t - h)) / (2.0 * h)
+    slope = (string.displacement(0.3 + h, t) - string.displacement(0.3 - h, t)) / (2.0 * h)
+    np.testing.assert_allclose(string.velocity_at(0.3, t), rate, atol=1e-8)
+    np.testing.assert_allclose(string.strain(0.3, t), slope, atol=1e-8)
+
+
+@pytest.mark.parametrize(
+    ("shape", "why"),
+    [
+        (lambda x: 1.0 + 0.0 * x, "0 at the ends"),
+        (lambda x: x**2 * (1.0 - x), "symmetric"),
+        (lambda x: np.sin(np.pi * x) ** 2, "concave"),
+    ],
+)
+def test_strings_that_would_land_piecemeal_are_refused(shape: object, why: str) -> None:
+    with pytest.raises(ValueError, match=why):
+        StringOnObstacle(shape)  # type: ignore[arg-type]
