@@ -20,6 +20,7 @@ from typing import Any, ClassVar, Protocol, TypeVar, runtime_checkable
 import numpy as np
 from numpy.typing import NDArray
 
+from bent_beam.free_flight import has_left
 from bent_beam.history import ImpactHistory
 from bent_beam.impact import Impact
 from bent_beam.parts import InputError, describe, nearest, part_from_table, unknown_key
@@ -29,11 +30,14 @@ __all__ = [
     "Method",
     "Save",
     "chosen_for",
+    "for_whole_beam",
     "method_from_tables",
     "method_type",
     "paths",
     "refined",
+    "separation_times",
     "settings_of",
+    "simulate_to_separation",
 ]
 
 GROUP = "bentbeam.methods"
@@ -45,8 +49,9 @@ M = TypeVar("M")
 class Method(Protocol):
     """A way to simulate an impact.
 
-    Optional next to what stands below: ``chosen_for(impact, end_time)`` and ``refined(factor)`` (see the functions of
-    these names), ``PARTS`` (field → registry of kinds), for methods made from tables.
+    Optional next to what stands below: ``chosen_for(impact, end_time)``, ``refined(factor)``,
+    ``for_whole_beam(impact)`` and ``simulate_to_separation(impact, …)`` (see the functions of these names), ``PARTS``
+    (field → registry of kinds), for methods made from tables.
     """
 
     path: ClassVar[str]
@@ -89,6 +94,50 @@ def refined(method: M, factor: float) -> M | None:
     if refine is None:
         return method if factor == 1.0 else None
     return refine(factor)  # type: ignore[no-any-return]
+
+
+def for_whole_beam(method: M, impact: Impact) -> M:
+    """``method`` with what it leaves open chosen for the whole beam from first touch to last separation: strictly
+    unilateral, nothing absorbed; the method itself where it has no such choices."""
+    choose = getattr(method, "for_whole_beam", None)
+    return method if choose is None else choose(impact)
+
+
+LONGEST = 8.0  # T*: a beam that then still touches is not about to leave
+
+
+def separation_times(impact: Impact, longest: float | None = None, save: int = 2000) -> NDArray[np.float64]:
+    """Saved instants, s, of a run until separation: ``save`` to a T*, evenly, up to ``longest`` (s; 8 T*)."""
+    end = LONGEST * impact.slow_time_scale if longest is None else impact.checked_end_time(longest)
+    return np.linspace(0.0, end, max(8, round(save * end / impact.slow_time_scale)) + 1)[1:]
+
+
+def simulate_to_separation(
+    method: Method,
+    impact: Impact,
+    *,
+    longest: float | None = None,
+    save: int = 2000,
+    progress: Callable[[float], None] | None = None,
+) -> ImpactHistory:
+    """Follow ``impact`` until the beam is off the wall and cannot come back (:mod:`bent_beam.free_flight`); under
+    loads, until it has not pushed for a period of its lowest mode.
+
+    longest : s, where a beam that does not leave is given up (8 T* by default). save : saved instants a T*.
+    A method without a way of its own is run to 1.5 T*, then twice as far and so on.
+    """
+    own = getattr(method, "simulate_to_separation", None)
+    if own is not None:
+        return own(impact, longest=longest, save=save, progress=progress)  # type: ignore[no-any-return]
+    last = float(separation_times(impact, longest, save)[-1])
+    end = min(1.5 * impact.slow_time_scale, last)
+    while True:
+        history = method.simulate(
+            impact, end_time=end, save=separation_times(impact, end, save), progress=progress
+        )
+        if end >= last or has_left(history):
+            return history
+        end = min(2.0 * end, last)
 
 
 def settings_of(method: Any) -> dict[str, Any]:

@@ -12,7 +12,7 @@ from bent_beam.history import ImpactHistory
 from bent_beam.impact import Impact
 from bent_beam.meshes import MESHES, Mesh
 from bent_beam.method import Save
-from hermite_fe import auto
+from hermite_fe import auto, whole_beam
 from hermite_fe.contacts import CONTACTS, Contact
 from hermite_fe.far_fields import FAR_FIELDS, FarField
 from hermite_fe.integrators import INTEGRATORS, Integrator
@@ -103,6 +103,21 @@ class HermiteFE:
             mass=choice.mass,
             refine=1.0,
         )
+
+    def for_whole_beam(self, impact: Impact) -> HermiteFE:
+        """A copy whose open parts suit the whole beam until it has left: strictly unilateral, nothing absorbed."""
+        return whole_beam.with_parts_for_whole_beam(self, impact)
+
+    def simulate_to_separation(
+        self,
+        impact: Impact,
+        *,
+        longest: float | None = None,
+        save: int = 2000,
+        progress: Callable[[float], None] | None = None,
+    ) -> ImpactHistory:
+        """Follow ``impact`` until the beam has left for good (:func:`bent_beam.method.simulate_to_separation`)."""
+        return whole_beam.simulate_to_separation(self, impact, longest=longest, save=save, progress=progress)
 
     def refined(self, factor: float) -> HermiteFE:
         """A copy with elements and steps ``factor`` times finer."""

@@ -46,6 +46,10 @@ class BeamModel:
         """How often the model stands in the whole beam: 2 for the half, 1 for the full beam."""
         return 1 if self.full else 2
 
+    def gap(self, q: Array) -> Array:
+        """Distance of the nodes to the wall, m, shape (nodes,)."""
+        return np.asarray(-(q[0::2] + self.natural[0::2]))
+
 
 def beam_model(
     impact: Impact, nodes: Array, contact: Contact, far_field: FarField, *, full: bool, mass: Mass = CONSISTENT

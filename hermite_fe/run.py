@@ -142,19 +142,29 @@ class Stepper:
         solves, rounds, most = max((w.rounds for w in self.works), key=lambda r: r[1] / max(r[0], 1))
         return float(rounds) / max(int(solves), 1), int(most)
 
+    def energy(self) -> float:
+        """Kinetic and strain energy now, J."""
+        return self._kinetic() + self._strain()
+
+    def _kinetic(self) -> float:
+        return 0.5 * float(quadratic(self.problem.M, self.state.v))
+
+    def _strain(self) -> float:
+        forces = np.zeros(self.state.q.size)
+        stiff_multiply(self.problem.K, self.problem.even, self.problem.odd, self.state.q, forces)
+        return 0.5 * float(forces @ self.state.q)
+
     def sums(self) -> dict[str, float]:
         """Energies now, J, what they lost since the start, and the worst complementarity since the last
         call."""
-        state, problem = self.state, self.problem
-        forces = np.zeros(state.q.size)
-        stiff_multiply(problem.K, problem.even, problem.odd, state.q, forces)
+        state = self.state
         half = state.budget.size // 2
         total = state.budget[:half] + state.budget[half:]
         worst = state.worst.copy()
         state.worst[:] = 0.0
         return {
-            "kinetic": 0.5 * quadratic(problem.M, state.v),
-            "strain": 0.5 * float(forces @ state.q),
+            "kinetic": self._kinetic(),
+            "strain": self._strain(),
             "work": total[WORK],
             "viscous": total[VISCOUS],
             "impact": total[IMPACT],
@@ -176,12 +186,14 @@ def integrate(
     hold_until: float = 0.0,
     save: int | Sequence[float] | Array = 200,
     progress: Callable[[float], None] | None = None,
+    until: Callable[[Stepper], bool] | None = None,
 ) -> Trajectory:
     """Step ``system`` from (q, v) at t = 0 to ``end_time``, s.
 
     q, v : (dofs,), in the system's units. restitution, hold, hold_until : see
         :class:`hermite_fe.contacts.Contact`.
     save : number of saved instants, or times. progress : called with the finished fraction.
+    until : asked at every saved instant; the run ends with the first at which it says so.
 
     A run that cannot finish returns what it reached, with ``failure`` set. Raises ``ValueError`` for bad
     input.
@@ -209,6 +221,8 @@ def integrate(
         sums.append(run.sums())
         if progress is not None:
             progress(float(step) / float(kept[-1]))
+        if until is not None and until(run):
+            break
     seconds = clock.perf_counter() - started
     mean, most = run.iterations()
     good = len(sums)  # at least one: the start takes no step

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Callable, Sequence
 from typing import Any
 
@@ -18,7 +19,7 @@ from hermite_fe.far_fields import FarField
 from hermite_fe.integrators import Integrator
 from hermite_fe.masses import Mass
 from hermite_fe.model import BeamModel, beam_model
-from hermite_fe.run import Trajectory, integrate
+from hermite_fe.run import Stepper, Trajectory, integrate
 
 __all__ = ["simulate"]
 
@@ -36,6 +37,7 @@ def simulate(
     refine: float = 1.0,
     save: int | Sequence[float] | NDArray[np.float64] = 200,
     progress: Callable[[float], None] | None = None,
+    until: Callable[[BeamModel, Stepper], bool] | None = None,
 ) -> ImpactHistory:
     """Simulate the impact on a Hermite beam; every part left out is chosen from the problem
     (:mod:`hermite_fe.auto`).
@@ -44,6 +46,7 @@ def simulate(
     refine : elements and steps so many times finer than the parts say.
     save : number of saved instants, spread evenly in √t, or their times, s; snapped to steps.
     progress : called with the finished fraction now and then.
+    until : asked at every saved instant; the run ends with the first at which it says so.
 
     Raises ``ValueError`` for bad input, :class:`bent_beam.SimulationError` (with the partial history) when a
     run cannot finish.
@@ -63,6 +66,7 @@ def simulate(
         hold_until=choice.contact.hold_until or 0.0,
         save=save,
         progress=progress,
+        until=None if until is None else functools.partial(until, model),
     )
     settings = {
         "end_time": end,

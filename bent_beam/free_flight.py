@@ -1,0 +1,75 @@
+"""Whether a beam that has left the wall can come back to it.
+
+A free–free beam without loads flies on: centre of mass and rotation go on at constant rates, and the elastic energy E,
+what is left of the total without them, can only fall. Its elastic deflection is then nowhere beyond
+
+    |u_e(x)| ≤ √(2E L³/(105 EI)),                                                                            (1)
+
+L³/(105 EI) being the compliance of the beam's end with its rigid motion taken out (Σφ_j²/ω_j² of the free–free modes).
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bent_beam.history import ImpactHistory
+from bent_beam.impact import Impact
+
+__all__ = ["LOWEST_PERIOD", "bears_free_flight", "cannot_return", "has_left"]
+
+Array = NDArray[np.float64]
+
+#: Period of the free–free beam's lowest mode over T*: 2π/(4.730/2)².
+LOWEST_PERIOD = 2.0 * math.pi / (4.730040744862704 / 2.0) ** 2
+
+
+def bears_free_flight(impact: Impact) -> bool:
+    """Whether the beam moves without loads once it is off the wall, and towards no other wall."""
+    return impact.uniform_pressure == 0.0 and impact.axial_force == 0.0 and impact.opposite_wall is None
+
+
+def cannot_return(impact: Impact, x: Array, gap: Array, velocity: Array, energy: float) -> bool:
+    """Whether the wall can never be touched again, by (1): sufficient, not necessary.
+
+    x : node places, m, of the whole beam or of its half x ≥ 0; gap (m) and velocity into the wall (m/s) there.
+    energy : kinetic and strain, of the whole beam, J.
+    """
+    if not bears_free_flight(impact):
+        return False
+    half = x[0] >= 0.0
+    free = gap - 0.5 * impact.relative_curvature * (x - impact.first_touch) ** 2  # zero for an unstrained beam at rest
+    distance, tilt = _rigid(x, free, half)
+    speed, spin = _rigid(x, -velocity, half)
+    mass = impact.mass_per_length * impact.length
+    rigid = 0.5 * mass * (speed**2 + spin**2 * impact.length**2 / 12.0)
+    elastic = max(energy - rigid, 0.0)
+    reach = math.sqrt(2.0 * elastic * impact.length**3 / (105.0 * impact.bending_stiffness))
+    clear = gap - free + distance + tilt * x >= reach
+    return bool(np.all(clear) and np.all(speed + spin * x >= 0.0))
+
+
+def has_left(history: ImpactHistory) -> bool:
+    """Whether a run ends with the beam off the wall for good: it cannot return, or, where that cannot be told, has not
+    pushed for a period of its lowest mode."""
+    impact, impulse = history.impact, history.array("total_impulse")
+    pushing = np.flatnonzero(np.diff(impulse) > 0.0)
+    if pushing.size == 0:
+        return False
+    if not bears_free_flight(impact):
+        quiet = float(history.time[-1] - history.time[pushing[-1] + 1])
+        return quiet >= LOWEST_PERIOD * impact.slow_time_scale
+    gap = history.array("gap")[-1]
+    energy = float(history.array("kinetic_energy")[-1] + history.array("strain_energy")[-1])
+    return bool(gap.min() > 0.0) and cannot_return(
+        impact, history.positions(-1), gap, history.array("velocity")[-1], energy
+    )
+
+
+def _rigid(x: Array, field: Array, half: bool) -> tuple[float, float]:
+    """Mean and slope of the straight line nearest to a field along the beam (slope 0 of a half)."""
+    span = float(x[-1] - x[0])
+    mean = float(np.trapezoid(field, x)) / span
+    return mean, 0.0 if half else 12.0 * float(np.trapezoid(field * x, x)) / span**3
