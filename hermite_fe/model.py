@@ -68,7 +68,10 @@ def beam_model(
     velocity = beam.interpolate(np.full(x.size, impact.velocity), np.zeros(x.size)) + bending
     stiffness, inertia = beam.stiffness(), mass.matrix(beam)
     uniform = banded_product(inertia, beam.interpolate(np.ones(x.size), np.zeros(x.size)))  # M·1
-    damping = far_field.damping(beam, impact)
+    dampings = far_field.dampings(beam, impact)
+    if impact.damping > 0.0:  # Kelvin–Voigt: C = ηK
+        dampings += (("material", impact.damping * stiffness),)
+    damping = np.sum([bands for _, bands in dampings], axis=0)
     if far_field.end == "following":
         # all that keeps y₀ up, end forces included (K on Hermite interpolants is exact at nodes), damping
         # undone
@@ -80,7 +83,7 @@ def beam_model(
     system = System(
         mass=inertia,
         stiffness=stiffness,
-        damping=damping,
+        dampings=dampings,
         load=load,
         contacts=contact.rows(beam, natural, full=full),
         supports=() if full else (1,),

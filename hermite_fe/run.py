@@ -18,8 +18,10 @@ from hermite_fe.integrators import Integrator
 from hermite_fe.kernels.banded import quadratic, stiff_multiply
 from hermite_fe.kernels.pivoting import CYCLING, NOT_FINITE, SINGULAR, SOLVED
 from hermite_fe.kernels.problem import (
+    ABSORBED,
     ALGORITHMIC,
     IMPACT,
+    MATERIAL,
     PRODUCT,
     SMALLEST_REACTION,
     VISCOUS,
@@ -49,7 +51,9 @@ class Trajectory:
     """Samples of a run, first axis ``time`` (saved,), s.
 
     q, v : (saved, dofs). impulse, held_impulse, gap : (saved, rows); closed : (saved, rows) bool.
-    kinetic, strain, work, viscous, impact, algorithmic : (saved,), J, the last four since the start.
+    kinetic, strain, work, viscous, material, absorbed, impact, algorithmic : (saved,), J, from ``work`` on since the
+        start, each computed from its cause: kinetic + strain − work + the five losses stays what it was at the start
+        but for what went wrong (:meth:`defect`).
     smallest_reaction, product : (saved,), worst reaction impulse of rows that are not held, and worst |p·(…)|
         since the last sample: complementarity, at round-off when all is well.
     steps : taken; seconds : spent; mean_iterations, most_iterations : of the active set in one solve.
@@ -67,6 +71,8 @@ class Trajectory:
     strain: Array
     work: Array
     viscous: Array
+    material: Array
+    absorbed: Array
     impact: Array
     algorithmic: Array
     smallest_reaction: Array
@@ -77,6 +83,12 @@ class Trajectory:
     most_iterations: int
     failure: str = ""
     failure_time: float = 0.0
+
+    def defect(self) -> Array:
+        """Energy that the budget does not explain, (saved,), J."""
+        losses = self.viscous + self.material + self.absorbed + self.impact + self.algorithmic
+        total = self.kinetic + self.strain - self.work + losses
+        return np.asarray(total - total[0])
 
 
 def saved_steps(instants: Array, save: int | Sequence[float] | Array) -> NDArray[np.int64]:
@@ -167,6 +179,8 @@ class Stepper:
             "strain": self._strain(),
             "work": total[WORK],
             "viscous": total[VISCOUS],
+            "material": total[MATERIAL],
+            "absorbed": total[ABSORBED],
             "impact": total[IMPACT],
             "algorithmic": total[ALGORITHMIC],
             "smallest_reaction": worst[SMALLEST_REACTION],

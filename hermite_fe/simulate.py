@@ -121,6 +121,8 @@ def history_of(
         "loss_impact": (("time",), copies * run.impact),
         "loss_algorithmic": (("time",), copies * run.algorithmic),
         "loss_viscous": (("time",), copies * run.viscous),
+        "loss_material": (("time",), copies * run.material),
+        "loss_absorbed": (("time",), copies * run.absorbed),
         "smallest_gap": (("time",), run.gap.min(axis=1)),
         "smallest_reaction": (("time",), run.smallest_reaction),
         "complementarity_product": (("time",), run.product),

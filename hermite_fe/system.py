@@ -13,9 +13,12 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["ContactRows", "System"]
+__all__ = ["DAMPINGS", "ContactRows", "System"]
 
 Array = NDArray[np.float64]
+
+DAMPINGS = ("viscous", "material", "absorbed")
+"""Causes of damping that are booked apart: viscosity at grid scale, the material's own, an absorber."""
 
 WIDTH = 4  # diagonal and three subdiagonals: what Hermite elements need
 
@@ -82,10 +85,14 @@ class System:
     """Banded matrices, loads, supports and constraints.
 
     mass, stiffness, damping : symmetric, scipy's lower banded form (≤ 4, dofs): ``mass[m, i] = M(i + m, i)``.
+    dampings : (cause, bands) pairs that add up to C, causes out of :data:`DAMPINGS`; what each takes out is booked
+        under its own name (``Trajectory.viscous``, ``.material``, ``.absorbed``). Give this or ``damping``, which is
+        then booked as viscous.
     load : (powers, dofs), F(t) = Σ_k load[k]·t^k.
     contacts : unilateral constraints. supports : dofs that keep their initial value.
 
-    Raises ``ValueError`` when shapes disagree, or a support carries a constraint of its own.
+    Raises ``ValueError`` when shapes disagree, a cause of damping is unknown or named twice, or a support carries a
+    constraint of its own.
     """
 
     mass: Array
@@ -94,6 +101,7 @@ class System:
     damping: Array = field(default_factory=_left_out)
     load: Array = field(default_factory=_left_out)
     supports: tuple[int, ...] = ()
+    dampings: tuple[tuple[str, Array], ...] = ()
 
     def __post_init__(self) -> None:
         set_ = object.__setattr__
@@ -104,6 +112,7 @@ class System:
             if bands.shape[1] != n or bands.shape[0] > WIDTH:
                 raise ValueError(f"system.{name} must have shape (≤ {WIDTH}, {n}) (got {bands.shape})")
             set_(self, name, np.pad(bands, ((0, WIDTH - bands.shape[0]), (0, 0))))
+        self._split_damping(n)
         load = np.zeros((1, n)) if np.size(self.load) == 0 else np.atleast_2d(np.asarray(self.load, float))
         if load.shape[1] != n:
             raise ValueError(f"system.load must have shape (powers, {n}) (got {load.shape})")
@@ -115,6 +124,26 @@ class System:
             raise ValueError(f"system.supports must name dofs from 0 to {n - 1} (got {self.supports!r})")
         if dofs.shape[1] == 1 and np.intersect1d(dofs, self.supports).size:
             raise ValueError("system.supports and contact rows must not share a dof")
+
+    def _split_damping(self, n: int) -> None:
+        """Make ``dampings`` and ``damping`` say the same; causes that damp nothing are left out."""
+        causes = [cause for cause, _ in self.dampings]
+        if not set(causes) <= set(DAMPINGS) or len(set(causes)) < len(causes):
+            raise ValueError(f"system.dampings must name each of {DAMPINGS} at most once (got {causes})")
+        parts: list[tuple[str, Array]] = []
+        total = np.zeros((WIDTH, n))
+        for cause, value in self.dampings or (("viscous", self.damping),):
+            bands = np.atleast_2d(np.asarray(value, float))
+            if bands.shape[1] != n or bands.shape[0] > WIDTH:
+                raise ValueError(f"system.dampings[{cause!r}] must have shape (≤ {WIDTH}, {n}) (got {bands.shape})")
+            bands = np.pad(bands, ((0, WIDTH - bands.shape[0]), (0, 0)))
+            total += bands
+            if np.any(bands):
+                parts.append((cause, bands))
+        if self.dampings and np.any(self.damping) and not np.allclose(self.damping, total, rtol=1e-12, atol=0.0):
+            raise ValueError("system.damping must be the sum of system.dampings: give one of them")
+        object.__setattr__(self, "damping", total)
+        object.__setattr__(self, "dampings", tuple(parts))
 
     @property
     def dofs(self) -> int:

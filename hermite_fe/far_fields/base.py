@@ -43,3 +43,8 @@ class FarField(ABC):
     @abstractmethod
     def damping(self, beam: HermiteBeam, impact: Impact) -> NDArray[np.float64]:
         """C in lower banded form, shape (4, dofs)."""
+
+    def dampings(self, beam: HermiteBeam, impact: Impact) -> tuple[tuple[str, NDArray[np.float64]], ...]:
+        """The parts of C by cause, as :class:`hermite_fe.system.System` takes them: all viscous unless said
+        otherwise."""
+        return (("viscous", self.damping(beam, impact)),)

@@ -39,10 +39,17 @@ class Sponge(FarField):
         between("far_field.width", self.width, 0.0, 1.0)
 
     def damping(self, beam: HermiteBeam, impact: Impact) -> NDArray[np.float64]:
+        (_, grid), (_, absorber) = self.dampings(beam, impact)
+        return grid + absorber
+
+    def dampings(self, beam: HermiteBeam, impact: Impact) -> tuple[tuple[str, NDArray[np.float64]], ...]:
         middles = 0.5 * (beam.nodes[:-1] + beam.nodes[1:])
         width = self.width * impact.half_length
-        eta = self.viscosity * beam.lengths**2
+        grid, absorber = self.viscosity * beam.lengths**2, np.zeros(middles.size)
         if width > 0.0:
             depth = np.clip(1.0 - (impact.half_length - np.abs(middles)) / width, 0.0, 1.0)
-            eta = eta + self.strength * width**2 * depth**3
-        return beam.stiffness(weight=eta / impact.wave_constant)
+            absorber = self.strength * width**2 * depth**3
+        return (
+            ("viscous", beam.stiffness(weight=grid / impact.wave_constant)),
+            ("absorbed", beam.stiffness(weight=absorber / impact.wave_constant)),
+        )

@@ -8,9 +8,19 @@ with the coefficients of (3.3.13–16). W and U are the jumps that the contact m
 
     v⁺ = v* + hγs v̇⁺ + W,    q⁺ = q* + h²βs v̇⁺ + U.
 
-Energy, per step: Δ(T + V) = v̄ᵀMΔv + q̄ᵀKΔq (bars: means over the step) = F̄ᵀΔq − h v̄ᵀCv̄ + pᵀGv̄ −
-algorithmic loss, p the impulse of all reactions; the last has no formula of its own in these schemes and is
-what the others leave.
+Energy, per step (bars: means over the step, Δ: changes, p: the impulse of all reactions). The scheme misses
+momentum and motion of the mean state by
+
+    r_p = MΔv − h(F̄ − Cv̄ − Kq̄) − Gᵀp = h(½ − α_f)[MΔ(v̇ − a) − GᵀΔ(λ − λ_a)] + h[½ J + w J⁺],
+    r_q = Δq − h v̄ = h²(β − ½γ)Δa + U − ½hW,                                    J = CW + KU,
+
+λ_a the reactions λ through the filter of (3.3.12), J the forces of a step's jumps, which its v̇⁺ has not felt; the
+weight w of the new ones depends on how the jumps are made. From Δ(T + V) = v̄ᵀMΔv + q̄ᵀKΔq follows, exactly,
+
+    Δ(T + V) = F̄ᵀΔq − h v̄ᵀCv̄ + pᵀGv̄ + v̄ᵀr_p + (Kq̄ − F̄)ᵀr_q:
+
+work of loads, (minus) viscous losses, loss in impacts, algorithmic loss. The last is evaluated on the right-hand
+sides of r_p and r_q, never as what the others leave, so that a wrong force, velocity or energy shows as a defect.
 """
 
 from __future__ import annotations
@@ -30,7 +40,6 @@ from hermite_fe.kernels.problem import (
     IMPACT,
     PRODUCT,
     SMALLEST_REACTION,
-    VISCOUS,
     WORK,
     ContactLaw,
     Problem,
@@ -68,38 +77,61 @@ def combine_smooth(scheme: Scheme, problem: Problem, h: float, work: Work) -> No
     combine(problem.M, problem.C, problem.K, 1.0, h * gamma * s, h * h * beta * s, problem.place, work.S)
 
 
+class Kept(NamedTuple):
+    """What a step keeps of its start: q, v, a*, v̇ − a and λ − λ_a; and what it builds up: r_q in ``slip``, J in
+    ``jump``."""
+
+    q: Array
+    v: Array
+    predicted: Array
+    lag: Array
+    row_lag: Array
+    slip: Array
+    jump: Array
+
+
 @inlined
-def predict(scheme: Scheme, state: State, h: float, old_q: Array, old_v: Array, predicted: Array) -> None:
-    """Keep q, v in old_q, old_v and put q*, v* in their place; predicted = a*."""
+def kept_of(n: int, m: int) -> Kept:
+    """Work space for n dofs and m rows."""
+    return Kept(np.empty(n), np.empty(n), np.empty(n), np.empty(n), np.empty(m), np.empty(n), np.zeros(n))
+
+
+@inlined
+def predict(scheme: Scheme, state: State, h: float, kept: Kept) -> None:
+    """Keep the start of the step and put q*, v* in place of q, v; ``slip`` starts as −h²(β − ½γ)a."""
     alpha_m, alpha_f, gamma, beta, _ = scheme
     q, v, a, rate = state.q, state.v, state.a, state.acceleration
     for i in range(q.size):
         known = (alpha_f * rate[i] - alpha_m * a[i]) / (1.0 - alpha_m)
-        old_q[i] = q[i]
-        old_v[i] = v[i]
-        predicted[i] = known
+        kept.q[i] = q[i]
+        kept.v[i] = v[i]
+        kept.predicted[i] = known
+        kept.lag[i] = rate[i] - a[i]
+        kept.slip[i] = -h * h * (beta - 0.5 * gamma) * a[i]
         q[i] += h * v[i] + h * h * ((0.5 - beta) * a[i] + beta * known)
         v[i] += h * ((1.0 - gamma) * a[i] + gamma * known)
 
 
 @inlined
-def correct(scheme: Scheme, state: State, h: float, rate: Array, old_q: Array, old_v: Array, predicted: Array) -> None:
+def correct(scheme: Scheme, state: State, h: float, rate: Array, kept: Kept) -> None:
     """v̇⁺ = rate and the a⁺, q⁺, v⁺ that follow from it and from what :func:`predict` kept; jumps are not in them."""
     _, _, gamma, beta, s = scheme
     q, v, a = state.q, state.v, state.a
     for i in range(q.size):
         a_old = a[i]
         state.acceleration[i] = rate[i]
-        a[i] = predicted[i] + s * rate[i]
-        q[i] = old_q[i] + h * old_v[i] + h * h * ((0.5 - beta) * a_old + beta * a[i])
-        v[i] = old_v[i] + h * ((1.0 - gamma) * a_old + gamma * a[i])
+        a[i] = kept.predicted[i] + s * rate[i]
+        q[i] = kept.q[i] + h * kept.v[i] + h * h * ((0.5 - beta) * a_old + beta * a[i])
+        v[i] = kept.v[i] + h * ((1.0 - gamma) * a_old + gamma * a[i])
+        kept.slip[i] += h * h * (beta - 0.5 * gamma) * a[i]
 
 
 @inlined
-def react(scheme: Scheme, state: State, h: float, j: int, force: float, impulse: Array) -> None:
+def react(scheme: Scheme, state: State, h: float, j: int, force: float, kept: Kept, impulse: Array) -> None:
     """Row j's reaction at the end of the step is ``force``; its impulse over the step goes to impulse[j], through the
     same filter as v̇."""
     alpha_m, alpha_f, gamma, _, s = scheme
+    kept.row_lag[j] = state.reaction[j] - state.reaction_a[j]
     known = (alpha_f * state.reaction[j] - alpha_m * state.reaction_a[j]) / (1.0 - alpha_m)
     impulse[j] = h * (1.0 - gamma) * state.reaction_a[j]
     state.reaction[j] = force
@@ -136,34 +168,55 @@ def start(problem: Problem, state: State, work: Work) -> int:
 
 @compiled
 def account(
-    problem: Problem, state: State, work: Work, t: float, h: float, old_q: Array, old_v: Array, impulse: Array
+    scheme: Scheme,
+    problem: Problem,
+    state: State,
+    kept: Kept,
+    work: Work,
+    t: float,
+    h: float,
+    jump_weight: float,
+    impulse: Array,
+    filtered: bool,
 ) -> bool:
-    """Book a step from (old_q, old_v) to the state under the impulses of its reactions; overwrites the old
-    ones."""
-    n = old_q.size
-    mean_q, mean_v, force = work.d1, work.d2, work.d3
-    for i in range(n):
-        mean_q[i] = 0.5 * (state.q[i] + old_q[i])
-        mean_v[i] = 0.5 * (state.v[i] + old_v[i])
-        old_q[i] = state.q[i] - old_q[i]
-        old_v[i] = state.v[i] - old_v[i]
+    """Book a step by the sums in the module's head; False when they are not finite.
+
+    kept : the start of the step, with ``slip`` and ``jump`` of this one. impulse : of all reactions over the step.
+    jump_weight : of the new jump force in the slip of momentum. filtered : reactions went through v̇'s filter.
+    """
+    q, v, old_q, old_v, lag = state.q, state.v, kept.q, kept.v, kept.lag
+    mean_v, force, product = work.d1, work.d2, work.d3
+    half = 0.5 - scheme.alpha_f
+    for i in range(q.size):
+        mean_v[i] = 0.5 * (v[i] + old_v[i])
+        old_v[i] = 0.5 * (q[i] + old_q[i])
+        old_q[i] = q[i] - old_q[i]
+        lag[i] = (state.acceleration[i] - state.a[i]) - lag[i]
     force_at(problem.load, t, h, 0.5, force)
     done = dot(force, old_q)
-    viscous = h * quadratic(problem.C, mean_v)
+    stiff_multiply(problem.K, problem.even, problem.odd, old_v, product)
+    gain = 0.0
+    for i in range(q.size):
+        gain += (product[i] - force[i]) * kept.slip[i]
+    multiply(problem.M, lag, product)
+    momentum = 0.0
+    for i in range(q.size):
+        momentum += mean_v[i] * (half * product[i] + 0.5 * state.jump[i] + jump_weight * kept.jump[i])
+        state.jump[i] = kept.jump[i]
     contact = 0.0
     for j in range(impulse.size):
-        if impulse[j] != 0.0:
-            contact += impulse[j] * row_times(problem.dofs, problem.factors, mean_v, j)
+        change = state.reaction[j] - state.reaction_a[j] - kept.row_lag[j] if filtered else 0.0
+        if impulse[j] != 0.0 or change != 0.0:
+            speed = row_times(problem.dofs, problem.factors, mean_v, j)
+            contact += impulse[j] * speed
+            momentum -= half * change * speed
             state.impulse[j] += impulse[j]
-    multiply(problem.M, old_v, force)
-    change = dot(force, mean_v)
-    stiff_multiply(problem.K, problem.even, problem.odd, old_q, force)
-    change += dot(force, mean_q)
     add(state.budget, WORK, done)
-    add(state.budget, VISCOUS, viscous)
     add(state.budget, IMPACT, -contact)
-    add(state.budget, ALGORITHMIC, done - viscous + contact - change)
-    return math.isfinite(change)
+    add(state.budget, ALGORITHMIC, -gain - h * momentum)
+    for cause in range(problem.slots.size):
+        add(state.budget, problem.slots[cause], h * quadratic(problem.parts[cause], mean_v))
+    return math.isfinite(done) and math.isfinite(momentum)
 
 
 @compiled
@@ -191,7 +244,7 @@ def velocity_steps(
     q, v, a, rate, closed = state.q, state.v, state.a, state.acceleration, state.closed
     dofs, factors, work = problem.dofs, problem.factors, velocity
     n, m = q.size, closed.size
-    old_q, old_v, predicted = np.empty(n), np.empty(n), np.empty(n)
+    kept = kept_of(n, m)
     none = np.zeros(m, np.bool_)
     if first == 0:
         status = start(problem, state, smooth)
@@ -211,7 +264,7 @@ def velocity_steps(
         for j in range(m):
             # where a row would come to rest if it were closed now
             work.candidate[j] = problem.gap[j] + work.gap[j] + h * (1.0 - beta / gamma) * work.speed[j] <= 0.0
-        predict(scheme, state, h, old_q, old_v, predicted)
+        predict(scheme, state, h, kept)
         residual_force(problem, t + h, q, v, smooth.b, smooth.d1)
         status = solve_rows(problem, smooth, fresh, none)
         if status != SOLVED:
@@ -219,7 +272,7 @@ def velocity_steps(
             return status, k
         for i in range(n):
             rate[i] = smooth.x[i]
-            a[i] = predicted[i] + s * rate[i]
+            a[i] = kept.predicted[i] + s * rate[i]
             q[i] += h * h * beta * s * rate[i]
             v[i] += h * gamma * s * rate[i]
             work.b[i] = 0.0
@@ -240,10 +293,14 @@ def velocity_steps(
                     state.worst[SMALLEST_REACTION] = min(state.worst[SMALLEST_REACTION], p)
                 slack = row_times(dofs, factors, work.x, j) - work.target[j]
                 state.worst[PRODUCT] = max(state.worst[PRODUCT], abs(p * slack))
+        multiply(problem.K, work.x, kept.jump)
+        multiply(problem.C, work.x, work.d1)
         for i in range(n):
+            kept.jump[i] = h * (beta / gamma) * kept.jump[i] + work.d1[i]
+            kept.slip[i] += h * h * (beta - 0.5 * gamma) * a[i] + h * (beta / gamma - 0.5) * work.x[i]
             q[i] += h * (beta / gamma) * work.x[i]
             v[i] += work.x[i]
-        if not account(problem, state, work, t, h, old_q, old_v, work.p):
+        if not account(scheme, problem, state, kept, work, t, h, 0.5 - gamma * s, work.p, False):
             return NOT_FINITE, k
     return SOLVED, last
 
@@ -277,7 +334,7 @@ def sequential_steps(
     q, v, closed, resting = state.q, state.v, state.closed, state.resting
     dofs, factors = problem.dofs, problem.factors
     n, m = q.size, closed.size
-    old_q, old_v, predicted, impulse = np.empty(n), np.empty(n), np.empty(n), np.empty(m)
+    kept, impulse = kept_of(n, m), np.empty(m)
     if first == 0:
         status = start(problem, state, velocity)
         if status != SOLVED:
@@ -294,7 +351,7 @@ def sequential_steps(
         mark_held(problem, law, closed, t, position.held)
         rows_times(dofs, factors, v, velocity.speed)
 
-        predict(scheme, state, h, old_q, old_v, predicted)
+        predict(scheme, state, h, kept)
         residual_force(problem, t + h, q, v, smooth.b, smooth.d1)
         for j in range(m):
             smooth.candidate[j] = with_acceleration and resting[j]
@@ -304,9 +361,9 @@ def sequential_steps(
         if status != SOLVED:
             smooth.made_with[0] = math.nan
             return status, k
-        correct(scheme, state, h, smooth.x, old_q, old_v, predicted)
+        correct(scheme, state, h, smooth.x, kept)
         for j in range(m):
-            react(scheme, state, h, j, smooth.p[j], impulse)
+            react(scheme, state, h, j, smooth.p[j], kept, impulse)
 
         rows_times(dofs, factors, q, position.gap)
         for j in range(m):
@@ -319,11 +376,10 @@ def sequential_steps(
             smooth.made_with[0] = math.nan
             return status, k
 
-        multiply(problem.K, position.x, velocity.b)
+        multiply(problem.K, position.x, kept.jump)
         for i in range(n):
             q[i] += position.x[i]
-            velocity.b[i] *= -h
-        multiply(problem.C, v, velocity.d1)
+            velocity.b[i] = -h * kept.jump[i]
         rows_times(dofs, factors, v, velocity.gap)
         largest = 0.0
         for i in range(n):
@@ -338,7 +394,10 @@ def sequential_steps(
         if status != SOLVED:
             smooth.made_with[0] = math.nan
             return status, k
+        multiply(problem.C, velocity.x, velocity.d1)
         for i in range(n):
+            kept.jump[i] += velocity.d1[i]
+            kept.slip[i] += position.x[i] - 0.5 * h * velocity.x[i]
             v[i] += velocity.x[i]
         for j in range(m):
             if closed[j]:
@@ -352,12 +411,10 @@ def sequential_steps(
                 slack = row_times(dofs, factors, velocity.x, j) - velocity.target[j]
                 gap = row_times(dofs, factors, position.x, j) - position.target[j]
                 product = abs(p * slack) if resting[j] else 0.0
-                state.worst[PRODUCT] = max(
-                    state.worst[PRODUCT], max(product, abs(position.p[j] * gap) / (h * h))
-                )
+                state.worst[PRODUCT] = max(state.worst[PRODUCT], max(product, abs(position.p[j] * gap) / (h * h)))
             rebounding = row_times(dofs, factors, v, j) if resting[j] else 0.0
             resting[j] = resting[j] and abs(rebounding) <= AT_REST * largest
-        if not account(problem, state, velocity, t, h, old_q, old_v, impulse):
+        if not account(scheme, problem, state, kept, velocity, t, h, -0.5, impulse, True):
             return NOT_FINITE, k
     return SOLVED, last
 
@@ -385,7 +442,7 @@ def penalty_steps(
     q, v, closed = state.q, state.v, state.closed
     dofs, factors = problem.dofs, problem.factors
     n, m = q.size, closed.size
-    old_q, old_v, predicted, right = np.empty(n), np.empty(n), np.empty(n), np.empty(n)
+    kept, right = kept_of(n, m), np.empty(n)
     touching = state.resting  # as the factors know them
     none = np.zeros(m, np.bool_)
     if first == 0:
@@ -401,7 +458,7 @@ def penalty_steps(
             work.made_with[0] = h
             for j in range(m):
                 touching[j] = False
-        predict(scheme, state, h, old_q, old_v, predicted)
+        predict(scheme, state, h, kept)
         residual_force(problem, t + h, q, v, right, work.d1)
         rows_times(dofs, factors, q, work.gap)
         rows_times(dofs, factors, v, work.speed)
@@ -438,18 +495,18 @@ def penalty_steps(
             for j in range(m):
                 if work.wrong[j]:
                     closed[j] = not closed[j]
-        correct(scheme, state, h, work.x, old_q, old_v, predicted)
+        correct(scheme, state, h, work.x, kept)
         for j in range(m):
             d, g = dofs[j, 0], factors[j, 0]
             spring, damper = stiffness * problem.tributary[j], damping * problem.tributary[j]
             force = 0.0
             if closed[j]:
                 force = -spring * (problem.gap[j] + g * q[d]) - damper * g * v[d]
-            react(scheme, state, h, j, force, work.p)
+            react(scheme, state, h, j, force, kept, work.p)
             state.worst[SMALLEST_REACTION] = min(state.worst[SMALLEST_REACTION], h * force)
             if closed[j]:
                 gap = problem.gap[j] + g * q[d]
                 state.worst[PRODUCT] = max(state.worst[PRODUCT], abs(h * force * gap))
-        if not account(problem, state, work, t, h, old_q, old_v, work.p):
+        if not account(scheme, problem, state, kept, work, t, h, 0.0, work.p, True):
             return NOT_FINITE, k
     return SOLVED, last

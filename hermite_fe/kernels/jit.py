@@ -28,7 +28,7 @@ class KernelCache(FunctionCache):
     """Numba's cache, stale as soon as any module of the package changes.
 
     Numba itself looks at the kernel's own file only, and would go on running what that kernel had called before
-    (``_theta`` with the ``_pivoting`` of the version before an upgrade).
+    (``theta`` with the ``pivoting`` of the version before an upgrade).
     """
 
     def __init__(self, kernel: Callable[..., Any]) -> None:

@@ -31,6 +31,8 @@ class Problem(NamedTuple):
     M: Array
     C: Array
     K: Array
+    parts: Array  # of C, (causes, 4, dofs), only those that are not zero
+    slots: Places  # where in State.budget each part of C is booked
     even: Array
     odd: Array
     load: Array
@@ -57,7 +59,7 @@ class State(NamedTuple):
     """What a step changes.
 
     q, v : motion; acceleration, a, reaction, reaction_a : smooth acceleration and reaction of generalised-α,
-        and their filtered companions
+        and their filtered companions; jump : C·(jump of v) + K·(jump of q) of the last step
     closed : rows in contact; resting : rows closed without rebound
     impulse, held_impulse : so far; budget : energy sums; worst : complementarity since the last look
     """
@@ -68,6 +70,7 @@ class State(NamedTuple):
     acceleration: Array
     reaction: Array
     reaction_a: Array
+    jump: Array
     closed: Flags
     resting: Flags
     impulse: Array
@@ -105,7 +108,16 @@ class Work(NamedTuple):
 
 
 SMALLEST_REACTION, PRODUCT = 0, 1  # places in State.worst
-WORK, VISCOUS, IMPACT, ALGORITHMIC = 0, 1, 2, 3  # places in State.budget, compensations four further
+WORK, IMPACT, ALGORITHMIC, VISCOUS, MATERIAL, ABSORBED = 0, 1, 2, 3, 4, 5
+"""Places in State.budget, J since the start; their compensations come :data:`TERMS` further.
+
+Work of the loads; loss in impacts, −Σ pᵀG(mean velocity), from contact impulses and velocities; loss to the scheme's
+algorithmic damping, from its own quadratic form; losses −(work of Cq̇) to viscosity at grid scale, to the material's own
+damping, to an absorber. Each comes from its cause: what they leave of Δ(T + V) is the defect of a run.
+"""
+
+TERMS = 6
+SLOTS = {"viscous": VISCOUS, "material": MATERIAL, "absorbed": ABSORBED}
 
 
 def problem_of(system: System) -> Problem:
@@ -134,6 +146,8 @@ def problem_of(system: System) -> Problem:
         M=system.mass,
         C=system.damping,
         K=system.stiffness,
+        parts=np.array([bands for _, bands in system.dampings]).reshape(-1, *system.damping.shape),
+        slots=np.array([SLOTS[cause] for cause, _ in system.dampings], np.int64),
         even=even,
         odd=odd,
         load=system.load,
@@ -159,11 +173,12 @@ def state_of(system: System, q: Array, v: Array) -> State:
         acceleration=np.zeros(n),
         reaction=np.zeros(m),
         reaction_a=np.zeros(m),
+        jump=np.zeros(n),
         closed=np.zeros(m, np.bool_),
         resting=np.zeros(m, np.bool_),
         impulse=np.zeros(m),
         held_impulse=np.zeros(m),
-        budget=np.zeros(8),
+        budget=np.zeros(2 * TERMS),
         worst=np.zeros(2),
     )
 

@@ -25,7 +25,6 @@ from hermite_fe.kernels.problem import (
     IMPACT,
     PRODUCT,
     SMALLEST_REACTION,
-    VISCOUS,
     WORK,
     ContactLaw,
     Problem,
@@ -109,7 +108,8 @@ def steps(
             v[i] += dv[i]
             work_done += force[i] * vel[i]
         add(state.budget, WORK, h * work_done)
-        add(state.budget, VISCOUS, h * quadratic(C, vel))
+        for cause in range(problem.slots.size):
+            add(state.budget, problem.slots[cause], h * quadratic(problem.parts[cause], vel))
         stiff_multiply(K, problem.even, problem.odd, dq, vel)
         add(state.budget, ALGORITHMIC, (theta - 0.5) * dot(dq, vel))
         if not math.isfinite(work_done):

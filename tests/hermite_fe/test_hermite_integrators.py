@@ -75,8 +75,7 @@ def bounced(t: float, restitution: float) -> float:
 
 
 def defect(run: Trajectory) -> float:
-    total = run.kinetic + run.strain - run.work + run.viscous + run.impact + run.algorithmic
-    return float(np.abs(total - total[0]).max())
+    return float(np.abs(run.defect()).max())
 
 
 @pytest.mark.parametrize("make", WITH_IMPACT_LAW.values(), ids=WITH_IMPACT_LAW)

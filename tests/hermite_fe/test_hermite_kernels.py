@@ -5,24 +5,24 @@ import subprocess
 import sys
 from pathlib import Path
 
-from hermite_fe import _jit
+from hermite_fe.kernels import jit
 
 
 def test_a_change_in_one_module_reaches_kernels_of_another(tmp_path: Path):
     package = tmp_path / "kernels"
     package.mkdir()
     (package / "__init__.py").write_text("")
-    shutil.copy(Path(_jit.__file__), package / "_jit.py")
-    (package / "_outer.py").write_text(
-        "from kernels._inner import rule\nfrom kernels._jit import compiled\n\n\n"
+    shutil.copy(Path(jit.__file__), package / "jit.py")
+    (package / "outer.py").write_text(
+        "from kernels.inner import rule\nfrom kernels.jit import compiled\n\n\n"
         "@compiled\ndef outer(x):\n    return rule(x)\n"
     )
     seen = []
     for rule in ("x + 1.0", "x + 1.0", "x * 3.0"):
-        (package / "_inner.py").write_text(
-            f"from kernels._jit import compiled\n\n\n@compiled\ndef rule(x):\n    return {rule}\n"
+        (package / "inner.py").write_text(
+            f"from kernels.jit import compiled\n\n\n@compiled\ndef rule(x):\n    return {rule}\n"
         )
-        program = "from kernels._outer import outer; print(outer(5.0), sum(outer.stats.cache_hits.values()))"
+        program = "from kernels.outer import outer; print(outer(5.0), sum(outer.stats.cache_hits.values()))"
         done = subprocess.run(
             [sys.executable, "-c", program], cwd=tmp_path, capture_output=True, text=True, timeout=120, check=True
         )
