@@ -43,12 +43,12 @@ class Estimate:
 
 @dataclass(frozen=True)
 class LeadingEstimate:
-    """λ₀ and r₀ with ν = 1; ``flatness`` is the largest lift inside the zone over V₀t; ``window`` the fitted times (τ).
+    """λ₀ and r₀ with ν = 1; ``lift`` is the largest lift inside the zone over V₀t; ``window`` the fitted times (τ).
     """
 
     lambda0: Estimate
     r0: Estimate
-    flatness: float
+    lift: float
     window: tuple[float, float]
 
 
@@ -203,7 +203,7 @@ def leading_order(found: Moments, *, window: float = 10.0) -> LeadingEstimate:
     return LeadingEstimate(
         lambda0=Estimate(lambda0, 1.0 * _spread([o[1] for o in others]) + 2e-5 * scale),
         r0=Estimate(r0, 1.0 * _spread([o[0] for o in others]) + 2e-5 * r0),
-        flatness=float(found.lift[inside].max()),
+        lift=float(found.lift[inside].max()),
         window=(float(tau[inside][0]), float(last)),
     )
 

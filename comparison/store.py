@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import errno
 import hashlib
+import inspect
 import json
 import os
 import tempfile
@@ -19,7 +20,7 @@ from typing import Any
 from bent_beam.history import versions
 from bent_beam.parts import InputError
 
-__all__ = ["RunStore", "check_writable", "default_store", "write_atomically"]
+__all__ = ["RunStore", "check_writable", "default_store", "source_of", "write_atomically"]
 
 
 def write_atomically(file: Path, text: str | bytes) -> None:
@@ -74,11 +75,20 @@ def source_digest() -> str:
     """Digest of this project's own sources: a changed solver must not be served an old answer."""
     root = Path(__file__).resolve().parent.parent
     digest = hashlib.sha256()
-    for package in ("bent_beam", "theory", "hermite_fe", "exudyn_models", "comparison"):
+    for package in ("bent_beam", "theory", "hermite_fe", "self_similar_fe", "exudyn_models", "comparison"):
         for file in sorted((root / package).rglob("*.py")):
             digest.update(file.relative_to(root).as_posix().encode())
             digest.update(file.read_bytes())
     return digest.hexdigest()
+
+
+def source_of(kind: type) -> str:
+    """Digest of the file that defines a class: somebody else's method is told from its older versions by it."""
+    try:
+        source = Path(inspect.getfile(kind)).read_bytes()
+    except (OSError, TypeError):  # made at a prompt
+        source = repr(kind).encode()
+    return f"{kind.__module__}.{kind.__qualname__} {hashlib.sha256(source).hexdigest()}"
 
 
 @dataclass(frozen=True)

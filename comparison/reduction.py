@@ -1,0 +1,68 @@
+"""What every reader of a history asks of it: lift, pull, hold, bending moment. Written once, here."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bent_beam.history import ImpactHistory
+
+__all__ = ["PeakMoment", "bending_moments", "hold_of", "peak_moment", "pull_of"]
+
+Array = NDArray[np.float64]
+START = 0.01  # of the run: what a start may be held for
+
+
+class PeakMoment(NamedTuple):
+    """Largest bending moment, N m (its size), its place, m, and its time, s, among the saved instants."""
+
+    moment: float
+    place: float
+    time: float
+
+
+def hold_of(history: ImpactHistory) -> dict[str, float] | None:
+    """``{"until": s, "pull": largest pull over largest push}`` where any contact point was held, else ``None``."""
+    found = history.settings.get("hold")
+    return {k: float(found[k]) for k in ("until", "pull")} if isinstance(found, dict) and found else None
+
+
+def pull_of(history: ImpactHistory) -> float | None:
+    """Largest negative over largest positive contact impulse between two saved instants, after the start; ``None``
+    where nothing pushed."""
+    time = history.time
+    impulse = np.diff(history.array("impulse"), axis=0)[time[:-1] >= START * time[-1]]
+    most = float(impulse.max(initial=0.0))
+    return None if most <= 0.0 else max(-float(impulse.min(initial=0.0)), 0.0) / most
+
+
+def bending_moments(history: ImpactHistory, k: int) -> tuple[Array, Array]:
+    """Bending moment EI(y_xx + K₀), N m, at both ends of each element at saved instant ``k``, and its places, m, both
+    of shape (elements, 2); K₀ is the curvature of the beam free of stress.
+
+    y_xx is that of the Hermite cubic through deflections and slopes; the part η y_txx of a damped beam is left out.
+    """
+    impact = history.impact
+    x = history.positions(k)
+    y = -history.array("gap")[k] - 0.5 * impact.wall_curvature * x**2
+    slope = history.array("slope")[k]
+    h = np.diff(x)
+    rise = np.diff(y) / h
+    left = (6.0 * rise - 4.0 * slope[:-1] - 2.0 * slope[1:]) / h
+    right = (-6.0 * rise + 2.0 * slope[:-1] + 4.0 * slope[1:]) / h
+    natural = impact.curvature if impact.natural_curvature is None else impact.natural_curvature
+    moment = impact.bending_stiffness * (np.stack([left, right], axis=1) + natural)
+    return moment, np.stack([x[:-1], x[1:]], axis=1)
+
+
+def peak_moment(history: ImpactHistory) -> PeakMoment:
+    """The largest bending moment anywhere at any saved instant after the first."""
+    best = PeakMoment(0.0, 0.0, float(history.time[0]))
+    for k in range(1, history.time.size):
+        moment, place = bending_moments(history, k)
+        worst = np.unravel_index(int(np.argmax(np.abs(moment))), moment.shape)
+        if abs(moment[worst]) > best.moment:
+            best = PeakMoment(float(abs(moment[worst])), float(place[worst]), float(history.time[k]))
+    return best
