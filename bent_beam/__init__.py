@@ -20,9 +20,9 @@ _LATER = {
     "Case": "bent_beam.cases",
     "load_case": "bent_beam.cases",
     "ImpactHistory": "bent_beam.history",
-    "SimulationError": "bent_beam.history",
+    "SimulationError": "bent_beam.errors",
     "Method": "bent_beam.method",
-    "InputError": "bent_beam.parts",
+    "InputError": "bent_beam.errors",
 }
 
 

@@ -24,7 +24,7 @@ from bent_beam.parts import InputError, first_line, nearest, part_from_table, un
 if TYPE_CHECKING:
     from bent_beam.method import Method
 
-__all__ = ["Case", "case_from_tables", "load_case"]
+__all__ = ["Case", "case_from_tables", "lay_over", "load_case", "read_toml"]
 
 MAXIMUM_BYTES = 1_000_000
 Number = Annotated[float, Field(allow_inf_nan=False, strict=True)]
@@ -180,7 +180,8 @@ def case_from_tables(tables: dict[str, Any]) -> Case:
     return Case(title=file.title, impact=impact, end_time=end_time, mesh=mesh, tables=others)
 
 
-def _set(tables: dict[str, Any], assignment: str) -> None:
+def lay_over(tables: dict[str, Any], assignment: str) -> None:
+    """Lay one ``table.key=value`` over ``tables``, in place. Raises :class:`InputError` for anything else."""
     key, sign, text = assignment.partition("=")
     *path, last = (name.strip() for name in key.split("."))
     if not sign or not all((*path, last)):
@@ -200,23 +201,27 @@ def _set(tables: dict[str, Any], assignment: str) -> None:
     table[last] = value
 
 
+def read_toml(path: Path, what: str) -> dict[str, Any]:
+    """The tables of a TOML file. Raises :class:`InputError` naming ``what`` when it cannot be read or is no TOML."""
+    try:
+        with path.open("rb") as stream:
+            data = stream.read(MAXIMUM_BYTES + 1)
+    except OSError as error:
+        raise InputError(f"{what} {path}: {(error.strerror or str(error)).lower()}") from None
+    if len(data) > MAXIMUM_BYTES:
+        raise InputError(f"{what} {path} is larger than {MAXIMUM_BYTES} bytes: not a {what}")
+    try:
+        return tomllib.loads(data.decode("utf-8"))
+    except (ValueError, RecursionError) as error:  # no UTF-8, no TOML, a number of too many digits, nesting without end
+        raise InputError(f"{what} {path} is not valid TOML: {' '.join(str(error).split())}") from None
+
+
 def load_case(file: str | Path, assignments: Sequence[str] = ()) -> Case:
     """Read and validate a case file, with ``table.key=value`` assignments laid over it.
 
     Raises :class:`InputError` when the file cannot be read, is no TOML, or holds what is not allowed.
     """
-    path = Path(file)
-    try:
-        with path.open("rb") as stream:
-            data = stream.read(MAXIMUM_BYTES + 1)
-    except OSError as error:
-        raise InputError(f"case file {path}: {(error.strerror or str(error)).lower()}") from None
-    if len(data) > MAXIMUM_BYTES:
-        raise InputError(f"case file {path} is larger than {MAXIMUM_BYTES} bytes: not a case file")
-    try:
-        tables = tomllib.loads(data.decode("utf-8"))
-    except (ValueError, RecursionError) as error:  # no UTF-8, no TOML, a number of too many digits, nesting without end
-        raise InputError(f"case file {path} is not valid TOML: {' '.join(str(error).split())}") from None
+    tables = read_toml(Path(file), "case file")
     for assignment in assignments:
-        _set(tables, assignment)
+        lay_over(tables, assignment)
     return case_from_tables(tables)

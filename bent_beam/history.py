@@ -42,6 +42,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from bent_beam.checks import one_of
+from bent_beam.errors import SimulationError
 from bent_beam.impact import Impact
 
 __all__ = ["ImpactHistory", "SimulationError", "versions"]
@@ -72,16 +73,6 @@ UNITS = {
 REQUIRED = ("time", "x", "contact_x", "gap", "impulse", "total_impulse", "kinetic_energy", "strain_energy")
 MAXIMUM_BYTES = 8_000_000_000
 FORMAT = "bent-beam-impact history 2"
-
-
-class SimulationError(RuntimeError):
-    """A solver could not finish. ``history`` holds what was reached (or ``None``)."""
-
-    def __init__(
-        self, message: str, *, time: float, step: int, advice: str, history: ImpactHistory | None = None
-    ) -> None:
-        super().__init__(f"{message} at t = {time:.6g} s (step {step}); try: {advice}")
-        self.time, self.step, self.advice, self.history = time, step, advice, history
 
 
 def versions() -> dict[str, str]:

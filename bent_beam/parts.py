@@ -14,12 +14,9 @@ from typing import Any
 import pydantic
 
 from bent_beam.checks import shortened
+from bent_beam.errors import InputError
 
 __all__ = ["InputError", "describe", "nearest", "part_from_table", "unknown_key"]
-
-
-class InputError(ValueError):
-    """Bad input from a user: one line that names the field and the value (exit code 2 of the command)."""
 
 
 def nearest(word: str, known: Iterable[str]) -> str:

@@ -4,130 +4,101 @@ from __future__ import annotations
 
 import csv
 import io
-import json
 from collections.abc import Sequence
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
-from comparison.matching import MatchFailure, MatchRow
+from comparison.compared import Compared
+from comparison.match import MatchRow, failures
+from comparison.plain import json_text, plain
 from comparison.store import write_atomically
+from comparison.text_table import text_table
 
-__all__ = ["match_document", "match_table", "relative_error", "run_table", "write_match"]
+__all__ = ["LEAST", "match_document", "match_table", "write_match"]
 
-
-def relative_error(value: float, exact: float) -> float:
-    """Error relative to max(|exact|, 1), as everywhere in this project; λ₀ and r₀ relative to themselves when > 0."""
-    return (value - exact) / max(abs(exact), 1.0)
-
-
-def leading_error(value: float, exact: float) -> float:
-    """Relative error of λ₀ or r₀; absolute for λ₀ = 0 (discrete contact)."""
-    return (value - exact) / exact if exact > 0.0 else value
+LEAST = {"lambda0": 0.0, "r0": 0.0, "lambda1": 1.0, "r1": 1.0}
+"""Errors are relative to the larger of |theory| and this."""
 
 
-def match_document(rows: Sequence[MatchRow], failures: Sequence[MatchFailure]) -> dict[str, Any]:
-    """The contract of ``bentbeam match --json``: ``rows``, and ``failures`` with how to ask again."""
-    return {"rows": [asdict(r) for r in rows], "failures": [asdict(f) for f in failures]}
-
-
-def match_table(rows: Sequence[MatchRow], failures: Sequence[MatchFailure] = ()) -> str:
-    """A plain text table: value ± error bar, and the difference from theory in per cent."""
-    head = [
-        "path",
-        "kappa/nu",
-        "alpha,psi,chi",
-        "lambda0",
-        "%",
-        "r0",
-        "%",
-        "lambda1",
-        "%",
-        "r1",
-        "%",
-        "lift/(V0 t)",
-        "s",
+def match_document(rows: Sequence[MatchRow]) -> dict[str, Any]:
+    """The contract of ``bentbeam match --json``: ``rows``, and ``failures``, those that failed unexpectedly."""
+    lost = [
+        {"label": r.label, "path": r.path, "kappa_over_nu": r.kappa_over_nu, "reason": r.reason} for r in failures(rows)
     ]
+    return {"rows": [asdict(r) for r in rows], "failures": lost}
+
+
+def match_table(rows: Sequence[MatchRow]) -> str:
+    """Value ± error bar, and the difference from theory in per cent."""
+    first = any(r.of_first_order for r in rows)
+    refined = any(r.refine != 1.0 for r in rows)
+    head = ["method", "kappa/nu"]
+    head += ["refine"] if refined else []
+    head += ["alpha,psi,chi,N"] if first else []
+    head += ["lambda0", "%", "r0", "%"]
+    head += ["lambda1", "%", "r1", "%"] if first else []
+    head += ["lift/(V0 t)", "pull", "held", "s"]
     body = []
     for r in rows:
-        first = r.lambda1 is not None
-        body.append(
-            [
-                r.path,
-                f"{r.kappa_over_nu:.6g}",
-                f"{r.alpha:g},{r.psi:g},{r.chi:g}" if first else "-",
-                f"{r.lambda0:.6g}±{r.lambda0_error:.0e}",
-                f"{100 * leading_error(r.lambda0, r.lambda0_theory):+.3f}",
-                f"{r.r0:.6g}±{r.r0_error:.0e}",
-                f"{100 * leading_error(r.r0, r.r0_theory):+.3f}",
-                *_first_cells(r.lambda1, r.lambda1_error, r.lambda1_theory),
-                *_first_cells(r.r1, r.r1_error, r.r1_theory),
-                f"{r.flatness:.0e}",
-                f"{r.seconds:.1f}",
-            ]
-        )
-    widths = [max(len(row[i]) for row in [head, *body]) for i in range(len(head))]
-    lines = ["  ".join(cell.rjust(w) for cell, w in zip(row, widths)) for row in [head, *body]]
-    lines.insert(1, "  ".join("-" * w for w in widths))
-    notes = [f"warning: {r.path}, kappa/nu = {r.kappa_over_nu:g}: {w}" for r in rows for w in r.warnings]
-    lost = [f"failed: {f.path}, kappa/nu = {f.kappa_over_nu:g}: {f.reason}" for f in failures]
-    return "\n".join([*lines, *notes, *lost])
+        line = [r.label, f"{r.kappa_over_nu:.6g}"]
+        line += [f"{r.refine:g}"] if refined else []
+        line += [",".join(f"{v:g}" for v in r.first) if r.of_first_order else "-"] if first else []
+        for name in ("lambda0", "r0", "lambda1", "r1")[: 4 if first else 2]:
+            line += _cells(getattr(r, name), LEAST[name])
+        line += [
+            "-" if r.lift is None else f"{r.lift:.0e}",
+            "-" if r.pull is None else f"{r.pull:.0e}",
+            "-" if r.hold is None else f"until {r.hold['until']:.2g}",
+            "-" if r.seconds is None else f"{r.seconds:.1f}",
+        ]
+        body.append(line)
+    notes = [f"{row_name(r)}: {r.reason}" for r in rows if r.reason]
+    notes += [f"warning: {row_name(r)}: {w}" for r in rows for w in r.warnings]
+    return "\n".join([text_table(head, body), *notes])
 
 
-def _first_cells(value: float | None, error: float | None, exact: float | None) -> list[str]:
-    if value is None or error is None or exact is None:
+def row_name(row: MatchRow) -> str:
+    """A row in words."""
+    text = f"{row.label}, kappa/nu = {row.kappa_over_nu:.6g}"
+    text += f", (alpha, psi, chi, N) = ({', '.join(f'{v:g}' for v in row.first)})" if row.of_first_order else ""
+    return text + (f", refined {row.refine:g} times" if row.refine != 1.0 else "")
+
+
+def _cells(number: Compared, least: float) -> list[str]:
+    if not number.measured:
         return ["-", "-"]
-    return [f"{value:.4g}±{error:.0e}", f"{100 * relative_error(value, exact):+.2f}"]
-
-
-def run_table(found: dict[str, Any]) -> str:
-    """The summary of one run for a reader."""
-    exact = found["theory"] or {}
-
-    def line(name: str, unit: str, value: float | None, other: float | None = None) -> str:
-        text = f"{name:>30}  {'-' if value is None else f'{value:.6g}'} {unit}"
-        return text + ("" if other is None else f"   (theory {other:.6g})")
-
-    energy = found["energy"]
-    lines = [
-        f"{found['path']} path, {found['steps']} steps in {found['seconds']:.2f} s",
-        line("time", "s", found["time"]),
-        line("half contact length", "m", found["half_contact_length"], exact.get("half_contact_length")),
-        line("total impulse", "N s", found["total_impulse"], exact.get("total_impulse")),
-        line("largest gap inside the zone", "m", found["largest_gap_in_contact_zone"]),
-    ]
-    if found["lambda0"] is not None:
-        lines.append(
-            f"{'lambda0':>30}  {found['lambda0']:.6g} ± {found['lambda0_error']:.1g}"
-            + (f"   (theory {exact['lambda0']:.6g})" if exact else "")
-        )
-        lines.append(
-            f"{'r0':>30}  {found['r0']:.6g} ± {found['r0_error']:.1g}"
-            + (f"   (theory {exact['r0']:.6g})" if exact else "")
-        )
-    lines += [line(name.replace("_", " "), "J", value) for name, value in energy.items()]
-    lines += [f"warning: {w}" for w in found["warnings"]]
-    if found["file"]:
-        lines.append(f"history: {found['file']}")
-    return "\n".join(lines)
+    off = number.relative(least)
+    return [str(number), "-" if off is None else f"{100 * off:+.3f}"]
 
 
 def rows_csv(rows: Sequence[MatchRow]) -> str:
-    """The rows as CSV with a header."""
+    """The rows as CSV with a header; compared numbers become three columns, missing ones stay empty."""
     stream = io.StringIO()
-    if rows:
-        writer = csv.DictWriter(stream, fieldnames=list(asdict(rows[0])), lineterminator="\n")
+    table = []
+    for row in rows:
+        flat: dict[str, Any] = {}
+        for key, value in plain(asdict(row)).items():
+            if isinstance(value, dict) and set(value) == {"value", "error", "theory"}:
+                flat |= {key: value["value"], f"{key}_error": value["error"], f"{key}_theory": value["theory"]}
+            elif isinstance(value, dict):
+                flat[key] = json_text(value)
+            else:
+                flat[key] = "; ".join(map(str, value)) if isinstance(value, list) else value
+        table.append(flat)
+    if table:
+        writer = csv.DictWriter(stream, fieldnames=list(table[0]), lineterminator="\n")
         writer.writeheader()
-        for row in rows:
-            writer.writerow({k: "; ".join(map(str, v)) if isinstance(v, list) else v for k, v in asdict(row).items()})
+        writer.writerows(table)
     return stream.getvalue()
 
 
-def write_match(rows: Sequence[MatchRow], failures: Sequence[MatchFailure], out: Path) -> list[Path]:
-    """``match.json``, ``match.csv`` and the matching plots in ``out``; returns the files."""
+def write_match(rows: Sequence[MatchRow], out: Path) -> list[Path]:
+    """``match.json``, ``match.csv`` and the plots that the rows have data for, in ``out``; returns the files."""
     from comparison.figures.matching import draw_matching
+    from comparison.figures.work_precision import draw_work_precision
 
     files = [out / "match.json", out / "match.csv"]
-    write_atomically(files[0], json.dumps(match_document(rows, failures), indent=1, allow_nan=False))
+    write_atomically(files[0], json_text(match_document(rows), indent=1))
     write_atomically(files[1], rows_csv(rows))
-    return files + draw_matching(rows, out)
+    return files + draw_matching(rows, out) + draw_work_precision(rows, out)

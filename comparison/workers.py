@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import signal
 from collections.abc import Callable, Sequence
 from concurrent.futures import Future, ProcessPoolExecutor, ThreadPoolExecutor, as_completed
 from concurrent.futures.process import BrokenProcessPool
+from functools import partial
 from multiprocessing import get_context
 from typing import Any
 
-from bent_beam.checks import whole
+from bent_beam.checks import positive, whole
 
 __all__ = ["run_all"]
 
@@ -19,14 +21,18 @@ def run_all(
     *,
     jobs: int = 1,
     scheduler: str | None = None,
+    limit: float | None = None,
     progress: Callable[[int, int], None] | None = None,
     on_death: Callable[[int, str], Any],
 ) -> list[Any]:
     """``[function(*a) for a in arguments]``, in order. ``on_death(i, why)`` stands in for a call whose worker died.
 
     jobs : processes on this machine (1: in this one). scheduler : address of a dask.distributed scheduler.
+    limit : seconds that one call may take (``None``: any time); ``function`` then sees a :class:`TimeoutError`.
     """
     whole("jobs", jobs, 1)
+    if limit is not None:
+        function = partial(limited, function, positive("limit", limit))
     if scheduler is not None:
         return _on_cluster(function, arguments, scheduler, progress, on_death)
     if jobs == 1 or len(arguments) <= 1:
@@ -37,6 +43,28 @@ def run_all(
                 progress(i + 1, len(arguments))
         return results
     return _on_cores(function, arguments, jobs, progress, on_death)
+
+
+def limited(function: Callable[..., Any], limit: float, *arguments: Any) -> Any:
+    """``function(*arguments)``, interrupted by :class:`TimeoutError` after ``limit`` seconds of the clock.
+
+    By the alarm of the operating system, which reaches the main thread between two calls of compiled code; where there
+    is none (Windows, a thread of a cluster's worker) the call takes the time that it takes.
+    """
+
+    def ring(*_: Any) -> None:
+        raise TimeoutError(f"not finished after {limit:g} s")
+
+    try:
+        before = signal.signal(signal.SIGALRM, ring)
+    except (AttributeError, ValueError):
+        return function(*arguments)
+    signal.setitimer(signal.ITIMER_REAL, limit)
+    try:
+        return function(*arguments)
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0.0)
+        signal.signal(signal.SIGALRM, before)
 
 
 def _on_cores(

@@ -1,26 +1,35 @@
 """The matching plots: numerical λ₀, r₀ on the theory's curves (thesis Figs 3.29, 3.30), and λ₁, r₁ (Figs 2.12, 2.16
 with points).
+
+A number that is missing is left out, and the figure says how many were.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
 from comparison.figures import style
-from comparison.matching import MatchRow
+from comparison.match import MatchRow
 from theory import contact_parameters
 
 __all__ = ["draw_first_order", "draw_leading", "draw_matching"]
 
 
 def draw_matching(rows: Sequence[MatchRow], out: Path, formats: Sequence[str] = ("png",)) -> list[Path]:
-    """Every matching plot that the rows have data for; returns the files."""
-    files = draw_leading(rows, out, formats) if rows else []
-    if any(r.lambda1 is not None for r in rows):
-        files += draw_first_order(rows, out, formats)
+    """Every matching plot that the rows have data for; returns the files. The finest refinement is drawn."""
+    finest: dict[Any, MatchRow] = {}
+    for row in rows:
+        key = (row.label, row.kappa_over_nu, row.first)
+        if key not in finest or row.refine > finest[key].refine:
+            finest[key] = row
+    shown = list(finest.values())
+    files = draw_leading(shown, out, formats) if any(r.lambda0.measured for r in shown) else []
+    if any(r.lambda1.measured for r in shown):
+        files += draw_first_order(shown, out, formats)
     return files
 
 
@@ -28,77 +37,99 @@ def draw_leading(
     rows: Sequence[MatchRow], out: Path, formats: Sequence[str] = ("png",), name: str = "leading"
 ) -> list[Path]:
     """λ₀ and r₀ over κ/ν, theory's curve and numerical points, and the relative differences below."""
-    leading = list({(r.path, r.kappa_over_nu): r for r in rows}.values())
+    leading = list({(r.label, r.kappa_over_nu): r for r in rows}.values())
+    marks = style.marks(r.label for r in leading)
     ratios = np.array([r.kappa_over_nu for r in leading])
     curve = np.geomspace(min(ratios.min() / 2, 0.05), max(ratios.max() * 1.5, 1.0), 400)
     exact = contact_parameters(curve)
-    with style.figure(2, 2, width=style.PAGE, height=4.2, sharex=True, height_ratios=[2, 1]) as (fig, axes):
+    shift = dict(zip(marks, 1.015 ** (np.arange(len(marks)) - (len(marks) - 1) / 2)))
+    with style.figure(2, 2, width=style.PAGE, height=4.4, sharex=True, height_ratios=[2, 1]) as (fig, axes):
         for column, (what, symbol) in enumerate((("lambda0", r"$\lambda_0$"), ("r0", r"$r_0/\nu$"))):
             top, below = axes[0, column], axes[1, column]
             values = np.asarray(getattr(exact, what), float)
             shown = values > 0
             top.loglog(curve[shown], values[shown], **style.THEORY)
             below.axhline(0.0, **{**style.THEORY, "label": None})
-            for path, marker in style.MARKERS.items():
-                mine = [r for r in leading if r.path == path and getattr(r, f"{what}_theory") > 0]
+            for label, mark in marks.items():
+                mine = [
+                    (r.kappa_over_nu, getattr(r, what))
+                    for r in leading
+                    if r.label == label and getattr(r, what).measured
+                ]
+                mine = [(k, c) for k, c in mine if c.theory]  # λ₀ = 0 has no place on a logarithmic axis
                 if not mine:
                     continue
-                x = [r.kappa_over_nu for r in mine]
-                y = np.array([getattr(r, what) for r in mine])
-                e = np.array([getattr(r, f"{what}_error") for r in mine])
-                t = np.array([getattr(r, f"{what}_theory") for r in mine])
-                top.plot(x, y, **marker)
+                x = np.array([k for k, _ in mine])
+                top.plot(x, [c.value for _, c in mine], **mark)
                 below.errorbar(
-                    x, 100 * (y / t - 1), yerr=100 * e / t, elinewidth=0.8, capsize=2, **{**marker, "label": None}
+                    x * shift[label],
+                    [100 * c.relative() for _, c in mine],
+                    yerr=[100 * (c.relative_error() or 0.0) for _, c in mine],
+                    elinewidth=0.8,
+                    capsize=2,
+                    **{**mark, "label": None},
                 )
             top.set_ylabel(f"{symbol}  (1)")
             below.set_ylabel("difference  (%)")
-            below.set_yscale("symlog", linthresh=1e-3)
-            below.set_yticks([-1, -1e-2, 0, 1e-2, 1], ["−1", "−0.01", "0", "0.01", "1"])
+            below.set_yscale("symlog", linthresh=1e-2)
+            below.set_yticks([-10, -1, -0.1, 0, 0.1, 1, 10], ["−10", "−1", "−0.1", "0", "0.1", "1", "10"])
             below.set_ylim(-2, 2)
             below.set_xlabel(r"$\kappa/\nu$  (1)")
             style.panel_label(top, "(a)" if column == 0 else "(b)")
         axes[0, 0].legend()
+        _say_what_is_missing(fig, [r for r in leading if not r.lambda0.measured])
         return style.save(fig, out, name, formats)
 
 
 def draw_first_order(
     rows: Sequence[MatchRow], out: Path, formats: Sequence[str] = ("png",), name: str = "first-order"
 ) -> list[Path]:
-    """λ₁ and r₁ over κ/ν for every (α, ψ, χ) among the rows: a curve of the theory each, and the numerical points."""
-    firsts = sorted({(r.alpha, r.psi, r.chi) for r in rows if r.lambda1 is not None})
+    """λ₁ and r₁ over κ/ν for every (α, ψ, χ, N) among the rows: a curve of the theory each, and the points."""
+    asked = [r for r in rows if r.of_first_order]
+    firsts = sorted({r.first for r in asked})
+    marks = style.marks(r.label for r in asked)
+    tension = any(first[3] for first in firsts)
     curve = np.linspace(0.05, 0.9999, 400)  # λ₁ jumps to 0 at κ/ν = 1
-    with style.figure(1, 2, width=style.PAGE, height=3.4) as (fig, axes):
+    with style.figure(1, 2, width=style.PAGE, height=3.6) as (fig, axes):
         for column, (what, symbol) in enumerate((("lambda1", r"$\lambda_1$"), ("r1", r"$r_1$"))):
             axis = axes[column]
             largest = 1.0
             for i, first in enumerate(firsts):
                 colour = style.SEQUENCE[i % len(style.SEQUENCE)]
-                mine = [r for r in rows if r.lambda1 is not None and (r.alpha, r.psi, r.chi) == first]
+                mine = [r for r in asked if r.first == first]
                 shown = curve[curve >= 0.8 * min(r.kappa_over_nu for r in mine)]
-                values = getattr(contact_parameters(shown, *first), what)
-                label = "({:g}, {:g}, {:g})".format(*first) if column == 0 else None
-                axis.plot(shown, values, lw=1.1, color=colour, label=label)
-                for path, marker in style.MARKERS.items():
-                    points = [r for r in mine if r.path == path]
+                values = getattr(contact_parameters(shown, *first[:3], axial=first[3]), what)
+                words = ", ".join(f"{v:g}" for v in first[: 4 if tension else 3])
+                dash = ("-", "--", ":")[i // len(style.SEQUENCE) % 3]
+                axis.plot(shown, values, lw=1.1, ls=dash, color=colour, label=f"({words})" if column == 0 else None)
+                for label, mark in marks.items():
+                    points = [(r.kappa_over_nu, getattr(r, what)) for r in mine if r.label == label]
+                    points = [(k, c) for k, c in points if c.measured]
                     if points:
                         axis.errorbar(
-                            [r.kappa_over_nu for r in points],
-                            [getattr(r, what) for r in points],
-                            yerr=[getattr(r, f"{what}_error") for r in points],
+                            [k for k, _ in points],
+                            [c.value for _, c in points],
+                            yerr=[c.error or 0.0 for _, c in points],
                             elinewidth=0.8,
                             capsize=2,
-                            **{**marker, "color": colour, "label": None},
+                            **{**mark, "color": colour, "label": None},
                         )
-                        largest = max(largest, *(abs(getattr(r, what)) for r in points))
+                        largest = max(largest, *(abs(c.value) for _, c in points))
             axis.set_yscale("symlog", linthresh=1.0) if largest > 30 else None
             axis.set_xlabel(r"$\kappa/\nu$  (1)")
             axis.set_ylabel(f"{symbol}  (1)")
             style.panel_label(axis, "(a)" if column == 0 else "(b)")
-        axes[0].legend(title=r"($\alpha$, $\psi$, $\chi$)", ncols=2)
-        for path, marker in style.MARKERS.items():
-            if any(r.path == path and r.lambda1 is not None for r in rows):
-                axes[1].plot([], [], **{**marker, "color": style.COLOURS["black"]})
+        symbols = r"($\alpha$, $\psi$, $\chi$, $N$)" if tension else r"($\alpha$, $\psi$, $\chi$)"
+        axes[0].legend(title=symbols, ncols=2)
+        for mark in marks.values():
+            axes[1].plot([], [], **{**mark, "color": style.COLOURS["black"]})
         axes[1].plot([], [], **style.THEORY)
         axes[1].legend()
+        _say_what_is_missing(fig, [r for r in asked if not r.lambda1.measured])
         return style.save(fig, out, name, formats)
+
+
+def _say_what_is_missing(fig: Any, lost: Sequence[MatchRow]) -> None:
+    if lost:
+        labels = ", ".join(dict.fromkeys(r.label for r in lost))
+        fig.text(0.5, -0.02, f"left out, no number: {len(lost)} rows ({labels[:120]})", ha="center", fontsize=6.5)

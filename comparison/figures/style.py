@@ -6,7 +6,7 @@ Colours are those of Okabe and Ito (2008), told apart by the colour-blind; sizes
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from io import BytesIO
 from pathlib import Path
@@ -33,6 +33,7 @@ __all__ = [
     "THEORY",
     "WALL",
     "figure",
+    "marks",
     "save",
 ]
 
@@ -74,7 +75,33 @@ EXUDYN: dict[str, Any] = {
 }
 OLD: dict[str, Any] = {"color": COLOURS["grey"], "lw": 0.8, "ls": "--", "marker": "", "label": "thesis's settings"}
 WALL: dict[str, Any] = {"color": COLOURS["grey"], "lw": 0.8, "ls": ":", "label": "wall"}
-MARKERS = {"hermite": HERMITE, "exudyn": EXUDYN}
+SELF_SIMILAR: dict[str, Any] = {**HERMITE, "color": COLOURS["green"], "marker": "D", "ms": 3.8, "label": "Self-similar"}
+MARKERS = {"hermite": HERMITE, "self_similar": SELF_SIMILAR, "exudyn": EXUDYN}
+MARKS = "^vP<>Xhd*p"
+
+
+def marks(labels: Iterable[str]) -> dict[str, dict[str, Any]]:
+    """Marker and colour of each method, by its label in order of first appearance: the same label, the same mark within
+    one figure. The three that nearly every figure shows always look alike."""
+    known = {mark["label"]: mark for mark in MARKERS.values()}
+    found: dict[str, dict[str, Any]] = {}
+    free = [c for c in SEQUENCE if c not in {mark["color"] for mark in known.values()}]
+    for label in dict.fromkeys(labels):
+        if label in known:
+            found[label] = known[label]
+            continue
+        place = len([name for name in found if name not in known])
+        found[label] = {
+            "color": free[place % len(free)],
+            "ls": "",
+            "marker": MARKS[place % len(MARKS)],
+            "ms": 4.0,
+            "mfc": "none",
+            "mew": 1.0,
+            "label": label,
+        }
+    return found
+
 
 RC: Any = {
     "font.family": "DejaVu Sans",

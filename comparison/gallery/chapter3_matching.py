@@ -16,7 +16,8 @@ from comparison.gallery.base import item
 from comparison.gallery.looks import THEORY
 from comparison.gallery.maps import reaction_map
 from comparison.gallery.runs import thesis_history
-from comparison.matching import THESIS_KAPPAS, MatchRow, match, questions
+from comparison.match import THESIS_KAPPAS, MatchRow, match, questions
+from comparison.methods import default_methods
 from comparison.store import RunStore, default_store
 from comparison.studies.outcome import Outcome, outcome_of
 from comparison.studies.words import number, signed
@@ -44,11 +45,11 @@ def noisy() -> list[Outcome]:
 
 @functools.cache
 def matched() -> list[MatchRow]:
-    """Both paths, automatic choices; kept runs are used."""
-    rows, failures = match(questions(("hermite", "exudyn"), THESIS_KAPPAS), store=RunStore(default_store()))
-    if failures and not rows:
-        raise ValueError(failures[0].reason)
-    return rows
+    """Hermite and Exudyn with automatic choices; kept runs are used."""
+    rows = match(questions(default_methods(("hermite", "exudyn")), THESIS_KAPPAS), store=RunStore(default_store()))
+    if not any(r.lambda0.measured for r in rows):
+        raise ValueError(rows[0].reason or "no row has a number")
+    return [r for r in rows if r.lambda0.measured]
 
 
 @item(
@@ -120,12 +121,12 @@ def curve_with_points(sheet: Sheet, what: str, symbol: str) -> None:
             top, at, getattr(contact_parameters(at), what) * (1.0 + wrong / 100.0), series="thesis's settings", **grey
         )
         sheet.line(below, at, wrong, series="thesis's settings", **grey)
-        for path, name in (("hermite", "Hermite"), ("exudyn", "Exudyn")):
-            mine = [r for r in matched() if r.path == path]
-            look = {k: v for k, v in style.MARKERS[path].items() if k != "label"}
+        for name, mark in style.marks(r.label for r in matched()).items():
+            mine = [r for r in matched() if r.label == name]
+            look = {k: v for k, v in mark.items() if k != "label"}
             x = np.array([r.kappa_over_nu for r in mine])
-            y = np.array([getattr(r, what) for r in mine])
-            t = np.array([getattr(r, f"{what}_theory") for r in mine])
+            y = np.array([getattr(r, what).value for r in mine])
+            t = np.array([getattr(r, what).theory for r in mine])
             sheet.line(top, x, y, series=name, **look)
             sheet.line(below, x, 100.0 * (y / t - 1.0), series=name, **look)
         below.axhline(0.0, color="black", lw=0.8)
@@ -139,8 +140,8 @@ def curve_with_points(sheet: Sheet, what: str, symbol: str) -> None:
 
 def _worst(what: str) -> str:
     found = []
-    for path, name in (("hermite", "Hermite"), ("exudyn", "Exudyn")):
-        errors = [abs(getattr(r, what) / getattr(r, f"{what}_theory") - 1.0) for r in matched() if r.path == path]
+    for name in dict.fromkeys(r.label for r in matched()):
+        errors = [abs(getattr(r, what).relative()) for r in matched() if r.label == name]
         if errors:
             found.append(f"{name} within {number(100.0 * max(errors))} %")
     return ", ".join(found)

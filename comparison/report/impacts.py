@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from bent_beam.history import ImpactHistory
 from bent_beam.impact import Impact
 from comparison.estimators import moments
-from comparison.runs import finite_or_null
+from comparison.plain import plain
 from theory import ContactParameters, contact_parameters
 
 __all__ = ["SHOWN", "Shown", "ShownImpact", "reduce_history", "show"]
@@ -114,7 +114,7 @@ def reduce_history(history: ImpactHistory, exact: ContactParameters, epsilon: fl
     edges = np.linspace(0.0, widest, BINS + 1)
     energy = impact.mass_per_length * impact.length_scale * impact.velocity**2
     root = np.sqrt(tau[kept])
-    return finite_or_null(
+    return plain(
         {
             "time": _short(tau[kept]),
             "x": _short(x),

@@ -23,11 +23,11 @@ import jinja2
 from markupsafe import Markup
 
 from bent_beam.history import SimulationError, versions
-from bent_beam.parts import describe
-from comparison.matching import MatchFailure, MatchRow, Question, match
+from bent_beam.method import Method
+from comparison.match import MatchRow, Question, failures, match
 from comparison.report.impacts import SHOWN, Shown, ShownImpact, show
 from comparison.report.plots import plots
-from comparison.report.rows import first_order_rows, leading_rows, report_questions
+from comparison.report.rows import first_order_rows, labels, leading_rows, report_questions
 from comparison.report.studies import StudyNote, common_ending, known_studies, study_notes
 from comparison.report.text import (
     acceleration_answer,
@@ -50,7 +50,6 @@ class Content:
     """All that the page shows."""
 
     rows: Sequence[MatchRow]
-    failures: Sequence[MatchFailure]
     impacts: Sequence[ShownImpact] = ()
     lost_impacts: Sequence[str] = ()
     studies: Sequence[StudyNote] = ()
@@ -67,19 +66,21 @@ def write_report(
     jobs: int = 1,
     scheduler: str | None = None,
     progress: Progress | None = None,
+    methods: Sequence[Method] | None = None,
     questions: Sequence[Question] | None = None,
     studies: bool = True,
 ) -> dict[str, Any]:
     """Compute everything and write ``out/index.html``, with its rows and still pictures in ``out/data``.
 
-    questions : rows to ask for instead of the usual ones. studies : run the parameter studies too.
+    methods : to report on instead of one of each path. questions : rows to ask for instead of the usual ones.
+    studies : run the parameter studies too.
     progress : called with (done, total) as rows finish.
 
     Returns ``page``, ``files``, ``headline``, ``failures`` (JSON-ready) and ``rows`` (their number).
     A row that fails is listed, not raised.
     """
     began = clock.perf_counter()
-    asked = list(report_questions() if questions is None else questions)
+    asked = list(report_questions(methods) if questions is None else questions)
     names = list(known_studies()) if studies else []
     total = len(asked) + len(SHOWN) + len(names)
 
@@ -87,16 +88,15 @@ def write_report(
         if progress is not None:
             progress(done, total)
 
-    rows, failures = match(asked, store=store, jobs=jobs, scheduler=scheduler, progress=count)
+    rows = match(asked, store=store, jobs=jobs, scheduler=scheduler, progress=count)
     impacts, lost = shown_impacts(SHOWN)
     before = len(asked) + len(SHOWN)
     count(before, total)
     notes = study_notes(names, store=store, jobs=jobs, progress=lambda done, _: count(before + done, total))
-    files = write_match(rows, failures, out / "data")
+    files = write_match(rows, out / "data")
     files += still_pictures(impacts, out / "data")
     content = Content(
         rows=rows,
-        failures=failures,
         impacts=impacts,
         lost_impacts=lost,
         studies=notes,
@@ -110,8 +110,8 @@ def write_report(
     return {
         "page": str(index),
         "files": [str(f) for f in [index, *files]],
-        "headline": headline(leading_rows(rows), first_order_rows(rows), len(failures)),
-        "failures": [vars(f) for f in failures],
+        "headline": headline(leading_rows(rows), first_order_rows(rows), len(failures(rows))),
+        "failures": [{"label": r.label, "kappa_over_nu": r.kappa_over_nu, "reason": r.reason} for r in failures(rows)],
         "rows": len(rows),
     }
 
@@ -173,14 +173,15 @@ def page(content: Content) -> str:
     leading, first = leading_rows(content.rows), first_order_rows(content.rows)
     ending = common_ending(content.studies)
     return environment.get_template("report.html.j2").render(
-        title=headline(leading, first, len(content.failures)),
+        title=headline(leading, first, len(failures(content.rows))),
         agreement=agreement_answer(leading, first),
         speed=speed_answer(leading, first),
         acceleration=acceleration_answer(content.impacts),
         acceleration_short=acceleration_short(content.impacts),
         leading=leading,
         first=first,
-        failures=content.failures,
+        failures=[row for row in content.rows if row.reason],
+        methods=labels(content.rows),
         warnings=[(r, w) for r in [*leading, *first] for w in r.row.warnings],
         impacts=content.impacts,
         lost_impacts=content.lost_impacts,
@@ -223,14 +224,14 @@ def facts(content: Content) -> list[tuple[str, str]]:
     when = datetime.now(UTC).strftime("%Y-%m-%d %H:%M UTC")
     return [
         ("written", when),
-        ("rows", f"{len(content.rows)} computed, {len(content.failures)} failed"),
+        ("rows", f"{len(content.rows)} asked for, {len(failures(content.rows))} failed"),
         (
             "time for this report",
             f"{content.seconds:.0f} s with {content.jobs} process{'es' if content.jobs > 1 else ''}",
         ),
         (
             "time in the rows",
-            f"{sum(r.seconds for r in content.rows):.0f} s (runs kept from before count what they took then)",
+            f"{sum(r.seconds or 0.0 for r in content.rows):.0f} s (runs kept from before count what they took then)",
         ),
         *content.machine.items(),
         *versions().items(),
@@ -246,12 +247,13 @@ def plotly_version() -> str:
 
 def settings(content: Content) -> list[tuple[str, str]]:
     """Settings of the runs, as pairs of title and JSON text."""
-    from self_similar_fe import ExpandingMesh
-
-    found = [("Hermite, leading order: expanding mesh", json.dumps(describe(ExpandingMesh()), indent=1))]
+    by_label = {r.label: r.settings for r in content.rows}
+    found = [(f"Method: {label}", json.dumps(chosen, indent=1)) for label, chosen in by_label.items()]
     found += [(f"Shown impact: {i.shown.title}", json.dumps(dict(i.settings), indent=1)) for i in content.impacts]
     epsilons = {
-        f"{r.row.path}, kappa/nu = {r.row.kappa_over_nu:g}, {r.first_text}": [float(f"{e:.4g}") for e in r.row.epsilons]
+        f"{r.row.label}, kappa/nu = {r.row.kappa_over_nu:g}, {r.first_text}": [
+            float(f"{e:.4g}") for e in r.row.epsilons
+        ]
         for r in first_order_rows(content.rows)
     }
     if epsilons:

@@ -1,38 +1,41 @@
 """The report's interactive plots as plain plotly dictionaries: ``{"data": […], "layout": {…}}``.
 
-Every trace carries ``meta.path`` ("theory", "hermite" or "exudyn"), which the page's switches act on.
+Every trace carries ``meta.label`` ("theory" or a method's label), which the page's switches act on.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from html import escape
 from typing import Any
 
 import numpy as np
 
-from comparison.figures.style import COLOURS, SEQUENCE
-from comparison.matching import MatchRow
-from comparison.report.rows import Cell, TableRow, first_of, table_row
+from comparison.figures.style import SEQUENCE, marks
+from comparison.match import MatchRow
+from comparison.report.rows import Cell, TableRow, labels, table_row
 from theory import contact_parameters
 
 __all__ = ["error_plot", "first_order_plot", "leading_plot", "plots", "seconds_plot"]
 
 Plot = dict[str, Any]
-MARKS: dict[str, dict[str, Any]] = {
-    "hermite": {
-        "symbol": "circle-open",
-        "size": 9,
-        "line": {"width": 1.8, "color": COLOURS["blue"]},
-        "color": COLOURS["blue"],
-    },
-    "exudyn": {
-        "symbol": "square-open",
-        "size": 9,
-        "line": {"width": 1.8, "color": COLOURS["vermilion"]},
-        "color": COLOURS["vermilion"],
-    },
-}
-NAMES = {"theory": "Theory", "hermite": "Hermite", "exudyn": "Exudyn"}
+OPEN = ("circle", "square", "diamond", "triangle-up", "triangle-down", "cross", "x", "star", "hexagon", "pentagon")
+
+
+def marks_of(rows: Sequence[TableRow]) -> dict[str, dict[str, Any]]:
+    """Marker of each method, by its label."""
+    colours = {label: str(mark["color"]) for label, mark in marks(labels(r.row for r in rows)).items()}
+    return {
+        label: {
+            "symbol": f"{OPEN[i % len(OPEN)]}-open",
+            "size": 9,
+            "line": {"width": 1.8, "color": colour},
+            "color": colour,
+        }
+        for i, (label, colour) in enumerate(colours.items())
+    }
+
+
 SYMBOLS = {
     "lambda0": "λ<sub>0</sub>",
     "r0": "r<sub>0</sub>",
@@ -100,17 +103,17 @@ def leading_plot(rows: Sequence[TableRow], what: str) -> Plot:
             "x": ratio[shown].round(8).tolist(),
             "y": exact[shown].round(8).tolist(),
             "mode": "lines",
-            "name": NAMES["theory"],
+            "name": "Theory",
             "line": {"color": "#000", "width": 1.8},
-            "meta": {"path": "theory"},
+            "meta": {"label": "theory"},
             "legendgroup": "theory",
             "hovertemplate": "κ/ν = %{x:.5g}<br>theory: %{y:.6g}<extra></extra>",
         }
     ]
-    for path, marker in MARKS.items():
-        mine = [(r, c) for r in rows if r.row.path == path for c in r.cells if c.what == what and c.exact > 0.0]
+    for label, marker in marks_of(rows).items():
+        mine = [(r, c) for r in rows if r.row.label == label for c in r.cells if c.what == what and c.exact > 0.0]
         if mine:
-            data.append(points(path, [r for r, _ in mine], [c for _, c in mine], marker=marker))
+            data.append(points(label, [r for r, _ in mine], [c for _, c in mine], marker=marker))
     top: Plot = {"type": "log", "exponentformat": "power", "dtick": 1}
     if what == "r0":
         top |= {"dtick": None, "tickvals": [1, 2, 5, 10, 20, 50, 100, 200, 500]}
@@ -120,61 +123,61 @@ def leading_plot(rows: Sequence[TableRow], what: str) -> Plot:
     }
 
 
-def points(path: str, rows: Sequence[TableRow], cells: Sequence[Cell], **more: Any) -> Plot:
+def points(label: str, rows: Sequence[TableRow], cells: Sequence[Cell], **more: Any) -> Plot:
     """Measured values with error bars, and all about them on hovering."""
     return {
         "x": [r.row.kappa_over_nu for r in rows],
         "y": [c.value for c in cells],
         "mode": "markers",
-        "name": NAMES[path],
+        "name": escape(label),
         "error_y": {"array": [c.bar_absolute for c in cells], "thickness": 1.2, "width": 4},
         "customdata": [
-            [r.first_text, c.value_text, f"{c.exact:.6g}", c.error_text, f"{r.row.seconds:.1f}", r.ratio_text]
+            [r.first_text, c.value_text, f"{c.exact:.6g}", c.error_text, f"{r.row.seconds or 0.0:.1f}", r.ratio_text]
             for r, c in zip(rows, cells)
         ],
-        "hovertemplate": "<b>" + NAMES[path] + "</b>, κ/ν = %{customdata[5]}, (α,ψ,χ) = %{customdata[0]}<br>"
+        "hovertemplate": "<b>" + escape(label) + "</b>, κ/ν = %{customdata[5]}, (α,ψ,χ,N) = %{customdata[0]}<br>"
         "%{customdata[1]}<br>theory %{customdata[2]}, error %{customdata[3]}<br>"
         "computed in %{customdata[4]} s<extra></extra>",
-        "meta": {"path": path},
-        "legendgroup": path,
+        "meta": {"label": label},
+        "legendgroup": label,
         **more,
     }
 
 
 def first_order_plot(rows: Sequence[TableRow], what: str) -> Plot:
     """λ₁ or r₁ over κ/ν: a curve of theory for each (α, ψ, χ), and the points of both paths on it."""
-    firsts = list(dict.fromkeys(first_of(r.row) for r in rows))
+    firsts = list(dict.fromkeys(r.row.first for r in rows))
     data: list[Plot] = []
     for i, first in enumerate(firsts):
         colour = SEQUENCE[i % len(SEQUENCE)]
-        mine = [r for r in rows if first_of(r.row) == first]
+        mine = [r for r in rows if r.row.first == first]
         smallest = min(r.row.kappa_over_nu for r in mine)
         ratio = np.linspace(0.1 if smallest < 0.2 else 0.25, 0.99, 120)
-        exact = np.asarray(getattr(contact_parameters(ratio, *first), what), float)
-        label = mine[0].first_text
+        exact = np.asarray(getattr(contact_parameters(ratio, *first[:3], axial=first[3]), what), float)
+        load = mine[0].first_text
         dash = ("solid", "dash")[i // len(SEQUENCE) % 2]
         data.append(
             {
                 "x": ratio.round(5).tolist(),
                 "y": exact.round(6).tolist(),
                 "mode": "lines",
-                "name": label,
-                "legendgroup": label,
+                "name": load,
+                "legendgroup": load,
                 "line": {"color": colour, "width": 1.5, "dash": dash},
-                "meta": {"path": "theory"},
-                "hovertemplate": label + "<br>κ/ν = %{x:.3f}: %{y:.5g}<extra>theory</extra>",
+                "meta": {"label": "theory"},
+                "hovertemplate": load + "<br>κ/ν = %{x:.3f}: %{y:.5g}<extra>theory</extra>",
             }
         )
-        for path, marker in MARKS.items():
-            both = [(r, c) for r in mine if r.row.path == path for c in r.cells if c.what == what]
+        for label, marker in marks_of(rows).items():
+            both = [(r, c) for r in mine if r.row.label == label for c in r.cells if c.what == what]
             if both:
                 data.append(
                     points(
-                        path,
+                        label,
                         [r for r, _ in both],
                         [c for _, c in both],
                         marker={**marker, "color": colour, "line": {"width": 1.8, "color": colour}},
-                        legendgroup=label,
+                        legendgroup=load,
                         showlegend=False,
                     )
                 )
@@ -185,7 +188,7 @@ def first_order_plot(rows: Sequence[TableRow], what: str) -> Plot:
             SYMBOLS[what] + " (ν = 1)",
             xaxis={"range": [0.08, 1.0]},
             yaxis={"range": visible(rows, what)},
-            legend={"title": {"text": "(α, ψ, χ)"}, "font": {"size": 11}},
+            legend={"title": {"text": "(α, ψ, χ, N)"}, "font": {"size": 11}},
         ),
     }
 
@@ -201,23 +204,23 @@ def visible(rows: Sequence[TableRow], what: str) -> list[float]:
 def error_plot(rows: Sequence[TableRow], names: Sequence[str]) -> Plot:
     """|error| in per cent of theory over κ/ν, error bars upwards, and the tolerances."""
     data: list[Plot] = []
-    for path, marker in MARKS.items():
+    for label, marker in marks_of(rows).items():
         for what in names:
-            both = [(r, c) for r in rows if r.row.path == path for c in r.cells if c.what == what]
+            both = [(r, c) for r in rows if r.row.label == label for c in r.cells if c.what == what]
             if not both:
                 continue
             cells = [c for _, c in both]
             size = [max(100.0 * abs(c.error), 1e-5) for c in cells]
             trace = points(
-                path,
+                label,
                 [r for r, _ in both],
                 cells,
                 marker={
                     **marker,
                     "symbol": marker["symbol"] if what.startswith("lambda") else marker["symbol"].replace("-open", ""),
                 },
-                name=f"{NAMES[path]} {SYMBOLS[what]}",
-                legendgroup=f"{path}-{what}",
+                name=f"{escape(label)} {SYMBOLS[what]}",
+                legendgroup=f"{label}-{what}",
             )
             data.append(
                 {
@@ -233,12 +236,12 @@ def error_plot(rows: Sequence[TableRow], names: Sequence[str]) -> Plot:
                     },
                 }
             )
-    for path in MARKS:
+    for label, marker in marks_of(rows).items():
         limits = sorted(
             {
                 (r.row.kappa_over_nu, 100.0 * max(c.tolerance for c in r.cells))
                 for r in rows
-                if r.row.path == path and r.cells
+                if r.row.label == label and r.cells
             }
         )
         if limits:
@@ -248,11 +251,11 @@ def error_plot(rows: Sequence[TableRow], names: Sequence[str]) -> Plot:
                     "y": [y for _, y in limits],
                     "mode": "lines+markers" if len(limits) == 1 else "lines",
                     "name": "tolerance",
-                    "showlegend": path == "hermite",
+                    "showlegend": label == next(iter(marks_of(rows))),
                     "hovertemplate": "tolerance %{y:g} %<extra></extra>",
-                    "line": {"color": MARKS[path]["color"], "width": 1, "dash": "dot", "shape": "hv"},
-                    "marker": {"symbol": "line-ew-open", "size": 16, "color": MARKS[path]["color"]},
-                    "meta": {"path": path},
+                    "line": {"color": marker["color"], "width": 1, "dash": "dot", "shape": "hv"},
+                    "marker": {"symbol": "line-ew-open", "size": 16, "color": marker["color"]},
+                    "meta": {"label": label},
                 }
             )
     return {
@@ -276,23 +279,24 @@ def beside(ratios: Sequence[float], place: int, *, logarithmic: bool) -> list[fl
 def seconds_plot(rows: Sequence[TableRow]) -> Plot:
     """Measured seconds of every row."""
     data: list[Plot] = []
-    for path, marker in MARKS.items():
+    for label, marker in marks_of(rows).items():
         for order, chosen in (("leading order", False), ("first order", True)):
-            mine = [r for r in rows if r.row.path == path and (r.row.lambda1 is not None) == chosen]
+            mine = [r for r in rows if r.row.label == label and r.row.of_first_order == chosen]
+            mine = [r for r in mine if r.row.seconds is not None]
             if mine:
                 data.append(
                     {
                         "x": [r.row.kappa_over_nu for r in mine],
                         "y": [r.row.seconds for r in mine],
                         "mode": "markers",
-                        "name": f"{NAMES[path]}, {order}",
-                        "meta": {"path": path},
+                        "name": f"{escape(label)}, {order}",
+                        "meta": {"label": label},
                         "marker": {
                             **marker,
                             "symbol": marker["symbol"] if chosen else marker["symbol"].replace("-open", ""),
                         },
                         "customdata": [[r.ratio_text, r.first_text] for r in mine],
-                        "hovertemplate": "κ/ν = %{customdata[0]}, (α,ψ,χ) = %{customdata[1]}<br>"
+                        "hovertemplate": "κ/ν = %{customdata[0]}, (α,ψ,χ,N) = %{customdata[1]}<br>"
                         "%{y:.2f} s<extra></extra>",
                     }
                 )
@@ -310,4 +314,4 @@ def seconds_plot(rows: Sequence[TableRow]) -> Plot:
 def row_plots(rows: Sequence[MatchRow]) -> dict[str, Plot]:
     """:func:`plots` from rows as the matching gives them."""
     both = [table_row(r) for r in rows]
-    return plots([r for r in both if r.row.lambda1 is None], [r for r in both if r.row.lambda1 is not None])
+    return plots([r for r in both if not r.row.of_first_order], [r for r in both if r.row.of_first_order])

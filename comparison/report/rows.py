@@ -6,13 +6,17 @@ import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
-from comparison.matching import THESIS_KAPPAS, MatchRow, Question
-from comparison.tables import leading_error, relative_error
+from bent_beam.method import Method
+from comparison.compared import Compared
+from comparison.match import First, MatchRow, Question
+from comparison.methods import default_methods
+from comparison.tables import LEAST
 
 __all__ = [
     "Cell",
     "TableRow",
     "first_order_rows",
+    "labels",
     "leading_rows",
     "report_questions",
     "table_row",
@@ -20,50 +24,33 @@ __all__ = [
     "worst",
 ]
 
-First = tuple[float, float, float]
-
 
 def signed(text: str) -> str:
     """With a true minus sign, as wide as a plus."""
     return text.replace("-", "−")
 
 
-LEADING_HERMITE = (*THESIS_KAPPAS, 0.8)
-LEADING_EXUDYN = tuple(k for k in LEADING_HERMITE if k >= 0.05)  # below, its fixed mesh would be too long
-FIRST_HERMITE: tuple[First, ...] = (
-    (1, 0, 0),
-    (0, 1, 0),
-    (0, 0, 1),
-    (4, 0, 0),
-    (0, 2, 0),
-    (1, 1, 1),
-    (-1, 0, 0),
-    (-1, -1, 0),
-    (-1, -1, 1),
-)
-FIRST_ELSEWHERE: tuple[First, ...] = ((1, 0, 0), (1, 1, 1), (-1, -1, 1))
-ELSEWHERE = (0.1, 0.3, 0.8)
-FIRST_EXUDYN: tuple[First, ...] = ((4, 0, 0), (1, 1, 1), (-1, -1, 0))
+PATHS = ("hermite", "self_similar", "exudyn")
+LEADING = (1 / 1600, 1 / 100, 1 / 20, 0.1, 1 / 4, 1 / 2, 0.8)
+FIRST: tuple[First, ...] = ((4, 0, 0, 0), (1, 1, 1, 0), (-1, -1, 0, 0), (0, 0, 0, 1))
+FIRST_RATIOS = (0.3, 0.5, 0.8)
 
 
-def report_questions() -> list[Question]:
+def report_questions(methods: Sequence[Method] | None = None) -> list[Question]:
     """Every row of the report, the longest first so that no core idles at the end."""
+    methods = default_methods(PATHS) if methods is None else methods
     return [
-        *(Question("exudyn", 0.5, first) for first in FIRST_EXUDYN),
-        *(Question("hermite", k, first) for first in FIRST_ELSEWHERE for k in ELSEWHERE),
-        *(Question("hermite", 0.5, first) for first in FIRST_HERMITE),
-        *(Question("exudyn", k) for k in LEADING_EXUDYN),
-        *(Question("hermite", k) for k in LEADING_HERMITE),
+        *(Question(m, k, first) for m in reversed(methods) for first in FIRST for k in FIRST_RATIOS),
+        *(Question(m, k) for m in reversed(methods) for k in LEADING),
+        *(Question(m, k, None, 0.5) for m in methods for k in (0.5,)),
     ]
 
 
-def tolerance(path: str, what: str, kappa_over_nu: float) -> float:
+def tolerance(what: str, kappa_over_nu: float) -> float:
     """The relative error that this project holds itself to (its regression tests do)."""
     if what in ("lambda0", "r0"):
-        return 0.005
-    if path == "hermite":
-        return 0.03 if kappa_over_nu < 0.3 else 0.01
-    return {"lambda1": 0.04, "r1": 0.03}[what]
+        return 0.001
+    return 0.03 if kappa_over_nu < 0.3 else 0.01
 
 
 @dataclass(frozen=True)
@@ -132,51 +119,45 @@ class TableRow:
     @property
     def first_text(self) -> str:
         """(α, ψ, χ) with proper minus signs."""
-        return signed("(" + ", ".join(f"{v:g}" for v in first_of(self.row)) + ")")
-
-
-def first_of(row: MatchRow) -> First:
-    return (row.alpha, row.psi, row.chi)
+        return signed("(" + ", ".join(f"{v:g}" for v in self.row.first) + ")")
 
 
 def cell(row: MatchRow, what: str) -> Cell | None:
     """The cell of one number of a row; ``None`` where the row does not have it."""
-    value, bar, exact = (getattr(row, what + end) for end in ("", "_error", "_theory"))
-    if value is None or bar is None or exact is None:
+    number: Compared = getattr(row, what)
+    error, bar = number.relative(LEAST[what]), number.relative_error(LEAST[what])
+    if number.value is None or number.error is None or number.theory is None or error is None or bar is None:
         return None
-    if what in ("lambda0", "r0"):
-        error, unit = leading_error(value, exact), exact if exact > 0.0 else 1.0
-    else:
-        error, unit = relative_error(value, exact), max(abs(exact), 1.0)
-    return Cell(what, value, bar, exact, error, bar / unit, tolerance(row.path, what, row.kappa_over_nu))
+    limit = tolerance(what, row.kappa_over_nu)
+    return Cell(what, number.value, number.error, number.theory, error, bar, limit)
 
 
 def table_row(row: MatchRow) -> TableRow:
     """A row with the cells that it is about: λ₁ and r₁ where it has them, λ₀ and r₀ otherwise."""
-    names = ("lambda0", "r0") if row.lambda1 is None else ("lambda1", "r1")
-    return TableRow(row, tuple(c for name in names if (c := cell(row, name)) is not None))
+    return TableRow(row, tuple(c for name in row.compared() if (c := cell(row, name)) is not None))
 
 
 def leading_rows(rows: Iterable[MatchRow]) -> list[TableRow]:
-    """Rows of leading order, by κ/ν, Hermite before Exudyn."""
-    chosen = [r for r in rows if r.lambda1 is None]
-    return [table_row(r) for r in sorted(chosen, key=lambda r: (r.kappa_over_nu, r.path != "hermite"))]
+    """Rows of leading order at the methods' own resolution, by κ/ν; methods stay in their order."""
+    chosen = [r for r in rows if not r.of_first_order and r.refine == 1.0 and r.reason is None]
+    order = {label: i for i, label in enumerate(labels(chosen))}
+    return [table_row(r) for r in sorted(chosen, key=lambda r: (r.kappa_over_nu, order[r.label]))]
+
+
+def labels(rows: Iterable[MatchRow]) -> list[str]:
+    """Labels of the methods, in order: those of this project first."""
+    found = {r.label: r.path for r in rows}
+    return sorted(found, key=lambda name: PATHS.index(found[name]) if found[name] in PATHS else len(PATHS))
 
 
 def first_order_rows(rows: Iterable[MatchRow]) -> list[TableRow]:
-    """Rows of first order, by κ/ν, (α, ψ, χ) and path."""
-    chosen = [r for r in rows if r.lambda1 is not None]
-    order = {first: i for i, first in enumerate(FIRST_HERMITE)}
-    return [
-        table_row(r)
-        for r in sorted(
-            chosen,
-            key=lambda r: (r.kappa_over_nu, order.get(first_of(r), 99), first_of(r), r.path != "hermite"),
-        )
-    ]
+    """Rows of first order at the methods' own resolution, by κ/ν, (α, ψ, χ, N) and method."""
+    chosen = [r for r in rows if r.of_first_order and r.refine == 1.0 and r.reason is None]
+    order = {label: i for i, label in enumerate(labels(chosen))}
+    return [table_row(r) for r in sorted(chosen, key=lambda r: (r.kappa_over_nu, r.first, order[r.label]))]
 
 
-def worst(rows: Sequence[TableRow], path: str) -> Cell | None:
-    """The cell of one path that is furthest from theory; ``None`` without rows."""
-    cells = [c for r in rows if r.row.path == path for c in r.cells]
+def worst(rows: Sequence[TableRow], label: str) -> Cell | None:
+    """The cell of one method that is furthest from theory; ``None`` without rows."""
+    cells = [c for r in rows if r.row.label == label for c in r.cells]
     return max(cells, key=lambda c: abs(c.error), default=None)

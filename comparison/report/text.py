@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from statistics import median
 
 from comparison.report.impacts import ShownImpact
-from comparison.report.rows import Cell, TableRow, first_of, worst
+from comparison.report.rows import Cell, TableRow, labels, worst
 
 __all__ = [
     "acceleration_answer",
@@ -18,7 +18,6 @@ __all__ = [
     "speed_answer",
 ]
 
-NAMES = {"hermite": "Hermite", "exudyn": "Exudyn"}
 SYMBOLS = {"lambda0": "λ₀", "r0": "r₀", "lambda1": "λ₁", "r1": "r₁"}
 
 
@@ -33,12 +32,12 @@ def percent(value: float) -> str:
 
 
 def _worst_of(rows: Sequence[TableRow]) -> list[tuple[str, Cell, float, int]]:
-    """Name, worst cell, median error and number of rows of each path that has any."""
+    """Label, worst cell, median error and number of rows of each method that has any."""
     found = []
-    for path, name in NAMES.items():
-        cell = worst(rows, path)
+    for name in labels(r.row for r in rows):
+        cell = worst(rows, name)
         if cell is not None:
-            mine = [r for r in rows if r.row.path == path]
+            mine = [r for r in rows if r.row.label == name]
             found.append((name, cell, median(abs(c.error) for r in mine for c in r.cells), len(mine)))
     return found
 
@@ -81,38 +80,29 @@ def agreement_answer(leading: Sequence[TableRow], first: Sequence[TableRow]) -> 
     if beyond:
         _, row, cell = max(beyond, key=lambda b: b[0])
         text += (
-            f" Furthest beyond it: {NAMES[row.row.path]}, κ/ν = {row.ratio_text}, "
-            f"(α, ψ, χ) = {row.first_text}, "
+            f" Furthest beyond it: {row.row.label}, κ/ν = {row.ratio_text}, "
+            f"(α, ψ, χ, N) = {row.first_text}, "
             f"{SYMBOLS[cell.what]} = {cell.value_text} (theory {cell.exact_text})."
         )
     return text
 
 
 def speed_answer(leading: Sequence[TableRow], first: Sequence[TableRow]) -> str:
-    """The answer to "which path is faster?", from rows that both paths answered."""
+    """What a row takes with each method: the median of those that all of them answered."""
     sentences = []
     for order, rows in (("leading order", leading), ("first order", first)):
-        pairs = _pairs(rows)
-        if pairs:
-            ratio = median(e / h for h, e in pairs if h > 0.0)
-            hermite, exudyn = (median(p[i] for p in pairs) for i in (0, 1))
-            quick, slow = ("Hermite", "Exudyn") if ratio >= 1.0 else ("Exudyn", "Hermite")
-            sentences.append(
-                f"at {order} {quick} is {max(ratio, 1.0 / ratio):.2g} times faster than {slow} "
-                f"(median of {len(pairs)} like rows: Hermite {hermite:.2g} s, Exudyn {exudyn:.2g} s)"
-            )
+        seconds: dict[str, dict[tuple[float, ...], float]] = {}
+        for r in rows:
+            if r.row.seconds is not None:
+                seconds.setdefault(r.row.label, {})[(r.row.kappa_over_nu, *r.row.first)] = r.row.seconds
+        shared = set.intersection(*(set(mine) for mine in seconds.values())) if seconds else set()
+        if shared and len(seconds) > 1:
+            each = [f"{label} {median(mine[k] for k in shared):.2g} s" for label, mine in seconds.items()]
+            sentences.append(f"at {order} a row takes {', '.join(each)} (medians of {len(shared)} rows)")
     if not sentences:
-        return "No row was answered by both paths, so their times cannot be compared."
+        return "No row was answered by two methods, so their times cannot be compared."
     text = "; ".join(sentences)
     return text[0].upper() + text[1:] + "."
-
-
-def _pairs(rows: Sequence[TableRow]) -> list[tuple[float, float]]:
-    def key(row: TableRow) -> tuple[float, ...]:
-        return (row.row.kappa_over_nu, *first_of(row.row))
-
-    exudyn = {key(r): r.row.seconds for r in rows if r.row.path == "exudyn"}
-    return [(r.row.seconds, exudyn[key(r)]) for r in rows if r.row.path == "hermite" and key(r) in exudyn]
 
 
 def _change(value: float, plain: float, what: str) -> str:

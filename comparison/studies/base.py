@@ -10,7 +10,7 @@ from typing import Any
 
 from bent_beam.cases import Case
 from comparison.figures.recorder import Sheet, shown
-from comparison.runs import finite_or_null
+from comparison.plain import plain
 from comparison.store import write_atomically
 from comparison.studies.outcome import MEASURES, Outcome
 from comparison.studies.panels import draw_outcomes
@@ -38,7 +38,7 @@ class StudyResult:
     def to_dict(self) -> dict[str, Any]:
         """JSON-ready; numbers finite or null."""
         return dict(
-            finite_or_null(
+            plain(
                 {
                     "name": self.name,
                     "title": self.title,

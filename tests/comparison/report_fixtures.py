@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from functools import cache
 
-from comparison.matching import MatchFailure, MatchRow
+from comparison.compared import Compared
+from comparison.match import MatchRow
 from comparison.report.impacts import SHOWN, ShownImpact, show
 from comparison.report.page import Content, machine
 from comparison.report.studies import StudyNote
@@ -13,23 +14,30 @@ from theory import contact_parameters
 NASTY = "<script>alert('x')</script> & \"quotes\" </script>"
 
 
+LABELS = {"hermite": "Hermite", "exudyn": "Exudyn"}
+
+
 def row(path: str, kappa: float, first: tuple[float, float, float] | None = None, off: float = 1e-4) -> MatchRow:
     """A row that is ``off`` (relative) from theory, with an error bar twice that."""
-    exact = contact_parameters(kappa, *(first or (0.0, 0.0, 0.0)))
-    lambda0, r0 = float(exact.lambda0), float(exact.r0)
-    ones = {}
-    for name in ("lambda1", "r1"):
-        value = float(getattr(exact, name)) if first else None
-        unit = max(abs(value), 1.0) if value is not None else None
-        ones[name] = value + off * unit if unit else None
-        ones[f"{name}_error"] = 2 * off * unit if unit else None
-        ones[f"{name}_theory"] = value
     alpha, psi, chi = first or (0.0, 0.0, 0.0)
+    exact = contact_parameters(kappa, alpha, psi, chi)
+    numbers = {
+        name: Compared(value + sign * off * max(abs(value), least), 2 * off * max(abs(value), least), value)
+        for name, sign, least in (("lambda0", 1, 0.0), ("r0", -1, 0.0), ("lambda1", 1, 1.0), ("r1", 1, 1.0))
+        if (value := float(getattr(exact, name))) is not None and (first or name.endswith("0"))
+    }
     return MatchRow(
-        path=path, kappa_over_nu=kappa, alpha=alpha, psi=psi, chi=chi, regime=str(exact.regime),
-        lambda0=lambda0 * (1 + off), lambda0_error=2 * off * lambda0, lambda0_theory=lambda0,
-        r0=r0 * (1 - off), r0_error=2 * off * r0, r0_theory=r0, flatness=1e-9,
-        seconds=0.5 if path == "hermite" else 5.0, epsilons=[0.1, 0.2] if first else [], warnings=[], **ones,
+        label=LABELS[path], path=path, settings={}, kappa_over_nu=kappa, alpha=alpha, psi=psi, chi=chi, axial=0.0,
+        refine=1.0, regime=str(exact.regime), lift=1e-9, pull=0.0, seconds=0.5 if path == "hermite" else 5.0,
+        epsilons=[0.1, 0.2] if first else [], **numbers,
+    )  # fmt: skip
+
+
+def lost(path: str, kappa: float, reason: str) -> MatchRow:
+    """A row that failed."""
+    return MatchRow(
+        label=LABELS[path], path=path, settings={}, kappa_over_nu=kappa, alpha=1.0, psi=0.0, chi=0.0, axial=0.0,
+        refine=1.0, reason=reason,
     )  # fmt: skip
 
 
@@ -55,9 +63,9 @@ def content(nasty: bool = False) -> Content:
     every = rows()
     text = NASTY if nasty else "an ordinary warning"
     every[0].warnings.append(text)
-    failure = MatchFailure("exudyn", 0.3, (1, 0, 0), text, f"bentbeam match --path exudyn # {text}")
+    every.append(lost("exudyn", 0.3, text))
     return Content(
-        rows=every, failures=[failure], impacts=impacts(), lost_impacts=[text],
+        rows=every, impacts=impacts(), lost_impacts=[text],
         studies=[StudyNote("mesh", text, text)], seconds=12.0, jobs=2,
         machine={**machine(), "processor": text},
     )  # fmt: skip

@@ -17,7 +17,7 @@ import time
 import pytest
 
 from comparison.command_line.app import run
-from comparison.matching import Question, match
+from comparison.match import Question, match
 from comparison.store import RunStore, write_atomically
 from comparison.workers import run_all
 
@@ -306,7 +306,7 @@ def test_a_worker_that_dies_takes_no_other_call_with_it():
 
 @pytest.mark.parametrize("problem", ["NaN", "failed", "Exudyn"])
 def test_a_run_that_fails_is_reported_with_how_to_ask_again_and_the_rest_goes_on(problem, monkeypatch, tmp_path):
-    import comparison.matching as matching
+    import comparison.match as matching
     from bent_beam import SimulationError
 
     monkeypatch.setenv("BENTBEAM_STORE", str(tmp_path))

@@ -82,7 +82,7 @@ def test_a_sound_run_has_nothing_to_warn_of(tmp_path):
 def test_a_wide_error_bar_is_said_in_the_row(monkeypatch):
     import dataclasses
 
-    import comparison.matching as matching
+    import comparison.match as matching
     from comparison.store import RunStore
 
     measured = matching.leading_order

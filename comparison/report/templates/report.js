@@ -14,10 +14,10 @@
     drawn.push(place);
     Plotly.newPlot(place, plot.data, plot.layout, config);
   }
-  for (const box of document.querySelectorAll("input[data-path]")) {
+  for (const box of document.querySelectorAll("input[data-label]")) {
     box.addEventListener("change", () => {
       for (const place of drawn) {
-        const chosen = place.data.flatMap((trace, i) => trace.meta.path === box.dataset.path ? [i] : []);
+        const chosen = place.data.flatMap((trace, i) => trace.meta.label === box.dataset.label ? [i] : []);
         if (chosen.length) Plotly.restyle(place, { visible: box.checked }, chosen);
       }
     });

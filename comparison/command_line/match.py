@@ -1,0 +1,95 @@
+"""``bentbeam match``."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from comparison.command_line.console import Console
+from comparison.command_line.options import Jobs, Json, Quiet, Scheduler, Set, emit, path_names
+
+__all__ = ["match"]
+
+PATHS = ["hermite", "exudyn"]
+
+
+def match(
+    path: Annotated[
+        list[str] | None,
+        typer.Option(
+            help="hermite, self_similar, exudyn or an installed one; repeatable. Default: hermite and exudyn.",
+            autocompletion=path_names,
+        ),
+    ] = None,
+    assignments: Set = None,
+    methods: Annotated[
+        Path | None, typer.Option(metavar="FILE.toml", help="Labelled methods (see cases/methods/) in place of --path.")
+    ] = None,
+    kappa_over_nu: Annotated[
+        list[float] | None, typer.Option(help="κ/ν; repeatable. Default: the thesis's Table 3.4.")
+    ] = None,
+    first_order: Annotated[
+        list[str] | None, typer.Option(metavar="A,P,C[,N]", help="α,ψ,χ[,N] of a first-order match; repeatable.")
+    ] = None,
+    refine: Annotated[
+        str,
+        typer.Option(metavar="1,2,4", help="Elements and steps so many times finer, each a row: work and precision."),
+    ] = "1",
+    limit: Annotated[float | None, typer.Option(help="Seconds that one row may take.")] = None,
+    jobs: Jobs = 1,
+    scheduler: Scheduler = None,
+    out: Annotated[Path | None, typer.Option(help="Folder for the table and the plots.")] = None,
+    fresh: Annotated[bool, typer.Option("--fresh", help="Do not use runs kept from before.")] = False,
+    as_json: Json = False,
+    quiet: Quiet = False,
+) -> None:
+    """Simulate with any methods and hold λ₀, r₀ (and λ₁, r₁) against the theory.
+
+    Example: bentbeam match --path hermite --set hermite.integrator.kind=moreau_jean --kappa-over-nu 0.5 --refine 1,2
+    """
+    import sys
+
+    from bent_beam.parts import InputError
+    from comparison.match import THESIS_KAPPAS, failures, questions
+    from comparison.match import match as match_all
+    from comparison.methods import methods_from_file, methods_of
+    from comparison.store import RunStore, check_writable, default_store
+    from comparison.tables import match_document, match_table, write_match
+
+    if methods is not None and (path or assignments):
+        raise InputError(f"--methods {methods} names the methods: leave --path and --set out, or write them there")
+    compared = methods_of(path or PATHS, assignments or ()) if methods is None else methods_from_file(methods)
+    loads = [numbers("--first-order", text, (3, 4), "alpha,psi,chi[,N]") for text in first_order or ()]
+    factors = numbers("--refine", refine, range(1, 20), "factors, e.g. 1,2,4")
+    asked = questions(compared, kappa_over_nu or THESIS_KAPPAS, loads, factors)
+    if out is not None:
+        check_writable(out, folder=True)
+    store = RunStore(None if fresh else default_store())
+    with Console(quiet).progress(f"{len(asked)} rows") as bar:
+        rows = match_all(asked, store=store, jobs=jobs, scheduler=scheduler, limit=limit, progress=bar.count)
+    if out is not None:
+        write_match(rows, out)
+    emit(match_document(rows), as_json, lambda: match_table(rows))
+    lost = failures(rows)
+    for row in lost:
+        print(f"error: {row.label}, kappa/nu = {row.kappa_over_nu:g}: {row.reason}", file=sys.stderr)
+    if lost:
+        raise typer.Exit(3)
+
+
+def numbers(option: str, text: str, counts: Sequence[int], what: str) -> tuple[float, ...]:
+    """Finite numbers, comma separated in ``text``. Raises :class:`InputError` when there are not as many as allowed."""
+    import math
+
+    from bent_beam.parts import InputError
+
+    try:
+        found = tuple(float(word) for word in text.split(","))
+    except ValueError:
+        found = ()
+    if len(found) not in counts or not all(math.isfinite(v) for v in found):
+        raise InputError(f"{option} takes {what} (got {text!r})")
+    return found

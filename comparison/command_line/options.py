@@ -1,0 +1,73 @@
+"""Options that several commands share, and how a result is printed."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+__all__ = [
+    "CaseFile",
+    "Jobs",
+    "Json",
+    "Overwrite",
+    "Quiet",
+    "Scheduler",
+    "Set",
+    "check_out",
+    "complete",
+    "emit",
+    "path_names",
+]
+
+
+def path_names(incomplete: str) -> list[str]:
+    """Completion of ``--path``: what is installed."""
+    from bent_beam.method import paths
+
+    return complete(paths(), incomplete)
+
+
+def complete(known: list[str], incomplete: str) -> list[str]:
+    """The known words that begin as typed."""
+    return [word for word in known if word.startswith(incomplete)]
+
+
+Json = Annotated[bool, typer.Option("--json", help="Print one JSON document on standard output and nothing else.")]
+Quiet = Annotated[bool, typer.Option("--quiet", "-q", help="No progress on standard error.")]
+CaseFile = Annotated[
+    Path, typer.Argument(metavar="CASE.toml", help="Case file (see cases/; `bentbeam new` writes one).")
+]
+Jobs = Annotated[int, typer.Option("--jobs", "-j", min=1, help="Processes on this machine.")]
+Scheduler = Annotated[
+    str | None, typer.Option(help="Address of a dask.distributed scheduler, e.g. tcp://127.0.0.1:8786.")
+]
+Set = Annotated[
+    list[str] | None,
+    typer.Option("--set", metavar="TABLE.KEY=VALUE", help="Lay a setting over the file's; repeatable."),
+]
+Overwrite = Annotated[bool, typer.Option("--overwrite", help="Replace what is there.")]
+
+
+def emit(document: Any, as_json: bool, text: Callable[[], str]) -> None:
+    """Print ``document`` as one line of JSON, numbers finite and missing values null, or as ``text``."""
+    if as_json:
+        from comparison.plain import json_text
+
+        print(json_text(document))
+    else:
+        print(text())
+
+
+def check_out(out: Path | None, overwrite: bool) -> None:
+    """``InputError`` when the file cannot be written, or is there already."""
+    if out is None:
+        return
+    from bent_beam.parts import InputError
+    from comparison.store import check_writable
+
+    if out.exists() and not overwrite:
+        raise InputError(f"out: {out} exists already (give another name, or --overwrite)")
+    check_writable(out, folder=False)

@@ -1,0 +1,75 @@
+"""``bentbeam simulate``."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from comparison.command_line.console import Console
+from comparison.command_line.options import CaseFile, Json, Overwrite, Quiet, Set, check_out, emit, path_names
+
+if TYPE_CHECKING:
+    from bent_beam.history import SimulationError
+
+__all__ = ["simulate"]
+
+
+def simulate(
+    case: CaseFile,
+    path: Annotated[
+        str, typer.Option(help="hermite, self_similar, exudyn or an installed one.", autocompletion=path_names)
+    ] = "hermite",
+    assignments: Set = None,
+    out: Annotated[Path | None, typer.Option(metavar="FILE.nc", help="Keep the history as netCDF.")] = None,
+    overwrite: Overwrite = False,
+    save: Annotated[int, typer.Option(min=8, max=20000, help="Number of saved instants.")] = 200,
+    as_json: Json = False,
+    quiet: Quiet = False,
+) -> None:
+    """Simulate one case on one path.
+
+    Example: bentbeam simulate cases/thesis_K10.toml --path exudyn --set exudyn.integrator.kind=newmark
+    """
+    from bent_beam.cases import load_case
+    from bent_beam.history import SimulationError
+    from bent_beam.parts import InputError
+    from comparison.summary import run_table, summary
+
+    loaded = load_case(case, assignments or ())
+    method = loaded.method(path)
+    check_out(out, overwrite)
+    try:
+        with Console(quiet).progress(f"{path}: {case.name}") as bar:
+            history = method.simulate(loaded.impact, end_time=loaded.end_time, save=save, progress=bar.fraction)
+    except SimulationError as error:
+        raise _kept(error, out) from None
+    problem = None
+    if out is not None:
+        try:
+            history.save(out)
+        except OSError as error:  # the run's answer is worth more than its file
+            problem, out = f"out: {out} could not be written: {error.strerror or error}", None
+    found = summary(history, out)
+    emit(found, as_json, lambda: run_table(found))
+    if problem:
+        raise InputError(problem)
+
+
+def _kept(error: SimulationError, out: Path | None) -> SimulationError:
+    """The same error, saying where the partial history was kept."""
+    if error.history is None:
+        return error
+    target = Path("partial.nc") if out is None else out.with_name(out.stem + ".partial.nc")
+    number = 1
+    while target.exists():
+        number += 1
+        target = target.with_name(f"{target.name.split('.')[0]}.partial-{number}.nc")
+    try:
+        error.history.save(target)
+    except OSError as problem:
+        error.args = (f"{error.args[0]}; the partial history could not be kept in {target} ({problem.strerror})",)
+    else:
+        error.args = (f"{error.args[0]}; the partial history is in {target}",)
+    return error

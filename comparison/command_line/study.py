@@ -1,0 +1,59 @@
+"""``bentbeam study``."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from comparison.command_line.console import Console
+from comparison.command_line.options import Jobs, Json, Quiet, Set, complete, emit
+
+__all__ = ["study"]
+
+
+def study_names(incomplete: str) -> list[str]:
+    """Completion of the study's name."""
+    from comparison.studies import STUDIES
+
+    return complete(["list", *STUDIES], incomplete)
+
+
+def study(
+    name: Annotated[
+        str, typer.Argument(help="Name of the study (`bentbeam study list` shows them).", autocompletion=study_names)
+    ],
+    case: Annotated[Path | None, typer.Argument(metavar="CASE.toml", help="Case file.")] = None,
+    assignments: Set = None,
+    out: Annotated[Path | None, typer.Option(help="Folder for figure, table and conclusion.")] = None,
+    jobs: Jobs = 1,
+    as_json: Json = False,
+    quiet: Quiet = False,
+) -> None:
+    """What a numerical parameter does to geometry, contact length, reaction and energy.
+
+    Example: bentbeam study mesh cases/thesis_K10.toml --out out/mesh
+    """
+    from bent_beam.cases import load_case
+    from bent_beam.parts import InputError, nearest
+    from comparison.store import check_writable
+    from comparison.studies import STUDIES, run_study
+
+    if name == "list":
+        emit(
+            [{"name": n, "title": s.title} for n, s in STUDIES.items()],
+            as_json,
+            lambda: "\n".join(f"{n:>16}  {s.title}" for n, s in STUDIES.items()),
+        )
+        return
+    if name not in STUDIES:
+        raise InputError(f"study {name!r} is not known{nearest(name, STUDIES)}")
+    if case is None:
+        raise InputError("a case file is required: bentbeam study NAME CASE.toml")
+    loaded = load_case(case, assignments or ())
+    if out is not None:
+        check_writable(out, folder=True)
+    with Console(quiet).progress(f"study {name}") as bar:
+        found = run_study(name, loaded, out=out, jobs=jobs, progress=bar.count)
+    emit(found.to_dict(), as_json, found.text)

@@ -1,0 +1,33 @@
+"""``bentbeam theory``."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import typer
+
+from comparison.command_line.options import Json, emit
+
+__all__ = ["theory"]
+
+
+def theory(
+    kappa_over_nu: Annotated[float, typer.Option(help="κ/ν = K √(EI/μ)/V₀, the one parameter of the leading order.")],
+    alpha: Annotated[float, typer.Option(help="First-order acceleration α, ν = 1, of the true free motion.")] = 0.0,
+    psi: Annotated[float, typer.Option(help="First-order fourth derivative ψ.")] = 0.0,
+    chi: Annotated[float, typer.Option(help="First-order rate of curvature χ.")] = 0.0,
+    axial: Annotated[float, typer.Option(help="First-order axial force N, tension positive.")] = 0.0,
+    as_json: Json = False,
+) -> None:
+    """λ₀, r₀, λ₁, r₁ and the largest bending moment of the semi-analytic theory.
+
+    Example: bentbeam theory --kappa-over-nu 0.5 --alpha 4
+    """
+    from theory.contact import contact_parameters
+    from theory.moment import peak_moment
+
+    found = contact_parameters(kappa_over_nu, alpha, psi, chi, axial=axial)
+    names = ("kappa_over_nu", "alpha", "psi", "chi", "axial", "regime", "lambda0", "r0", "lambda1", "r1")
+    document = {n: getattr(found, n) for n in (*names, "lambda_axial", "r_axial")}
+    document["peak_moment"] = peak_moment(kappa_over_nu).largest
+    emit(document, as_json, lambda: "\n".join(f"{n:>14} = {value}" for n, value in document.items()))

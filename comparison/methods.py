@@ -1,0 +1,89 @@
+"""Methods to compare, as the command line and a file name them: ``--path``, ``--set``, ``--methods FILE.toml``.
+
+A methods file is a list of labelled methods, each with the tables that a case has for its path::
+
+    [[method]]
+    label = "Moreau–Jean at the middles"
+    path = "hermite"
+    integrator = {kind = "moreau_jean"}
+    contact = {kind = "middle"}
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from bent_beam.cases import lay_over, read_toml
+from bent_beam.checks import shortened
+from bent_beam.method import Method, method_from_tables, paths
+from bent_beam.parts import InputError, nearest, unknown_key
+
+__all__ = ["default_methods", "methods_from_file", "methods_of"]
+
+MOST = 10_000
+
+
+def default_methods(names: Sequence[str]) -> list[Method]:
+    """The methods of paths, with everything chosen from the problem."""
+    return [method_from_tables(name, {}) for name in names]
+
+
+def methods_of(names: Sequence[str], assignments: Sequence[str] = ()) -> list[Method]:
+    """A method a path, with ``PATH.PART.KEY=VALUE`` assignments laid over its defaults; the label names them.
+
+    Raises :class:`InputError` for an assignment to a path that is not among ``names``.
+    """
+    tables: dict[str, Any] = {}
+    changes: dict[str, list[str]] = {name: [] for name in names}
+    for assignment in assignments:
+        path = assignment.partition(".")[0].strip()
+        if path not in changes:
+            known = [n for n in names if n in paths()] or names
+            raise InputError(f"--set {shortened(assignment)}: {path} is not a path asked for{nearest(path, known)}")
+        lay_over(tables, assignment)
+        changes[path].append(assignment.partition(".")[2].replace(".kind", ""))
+    found = []
+    for name in names:
+        made = method_from_tables(name, tables.get(name, {}))
+        label = f"{made.label}, {', '.join(changes[name])}" if changes[name] else None
+        found.append(method_from_tables(name, tables.get(name, {}), label=label))
+    return found
+
+
+def methods_from_file(file: Path) -> list[Method]:
+    """The labelled methods of a file, in order.
+
+    Raises :class:`InputError` for what is no list of methods, an unknown path, part or value, or a label given twice.
+    """
+    content = read_toml(file, "methods file")
+    for key in content:
+        if key != "method":
+            raise unknown_key("", str(key), ["method"])
+    tables = content.get("method")
+    if not isinstance(tables, list) or not tables:
+        raise InputError(f"methods file {file} must hold at least one [[method]] table")
+    if len(tables) > MOST:
+        raise InputError(f"methods file {file} holds {len(tables)} methods; {MOST} are the most")
+    found: list[Method] = []
+    for number, table in enumerate(tables, start=1):
+        found.append(_method(table, f"method {number}"))
+        if sum(m.label == found[-1].label for m in found) > 1:
+            raise InputError(f"method {number}: label {found[-1].label!r} is given twice")
+    return found
+
+
+def _method(table: Any, where: str) -> Method:
+    if not isinstance(table, Mapping):
+        raise InputError(f"{where} must be a table (got {shortened(table)})")
+    rest = {key: value for key, value in table.items() if key not in ("label", "path")}
+    if not isinstance(table.get("path"), str):
+        raise InputError(f"{where}: path is required (one of {', '.join(paths())})")
+    label = table.get("label")
+    if label is not None and (not isinstance(label, str) or not 0 < len(label) <= 80 or not label.isprintable()):
+        raise InputError(f"{where}: label must be a short text (got {shortened(label)})")
+    try:
+        return method_from_tables(table["path"], rest, label=label)  # type: ignore[no-any-return]
+    except InputError as error:
+        raise InputError(f"{where}: {error}") from None

@@ -1,0 +1,124 @@
+"""What one run did and found, for programs and for readers: the contract of ``bentbeam simulate --json``."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+from bent_beam.history import ImpactHistory
+from comparison.compared import Compared
+from comparison.estimators import leading_order, moments
+from comparison.reduction import hold_of, peak_moment, pull_of
+from comparison.text_table import text_table
+
+__all__ = ["run_table", "summary"]
+
+
+def summary(history: ImpactHistory, file: Path | None = None) -> dict[str, Any]:
+    """What a run did and found, SI units; the theory's numbers only where it claims to hold."""
+    from theory import predict
+
+    impact, time = history.impact, history.time
+    loaded = any((impact.acceleration, impact.fourth_derivative, impact.curvature_rate, impact.axial_force))
+    found = moments(history, uniform=loaded)
+    end = float(time[-1])
+    infinite = predict(impact, [end]) if impact.relative_curvature > 0.0 else None
+    row = infinite.times[0] if infinite else None
+    holds = row is not None and row.valid
+    leading = None
+    if holds and not loaded:
+        try:
+            leading = leading_order(found)
+        except ValueError:
+            pass
+    front = found.front[-1]
+    peak = peak_moment(history)
+    return {
+        "path": history.path,
+        "symmetry": str(history.dataset.attrs["symmetry"]),
+        "settings": history.settings,
+        "versions": history.versions,
+        "steps": history.steps,
+        "seconds": history.seconds,
+        "time": end,
+        "half_contact_length": Compared(
+            front * impact.length_scale if front is not None else None,
+            None,
+            row.half_contact_length if row and holds else None,
+        ),
+        "total_impulse": Compared(history.array("total_impulse")[-1], None, row.impulse if row and holds else None),
+        "lambda0": Compared(
+            leading and leading.lambda0.value, leading and leading.lambda0.error, infinite and infinite.lambda0
+        ),
+        "r0": Compared(leading and leading.r0.value, leading and leading.r0.error, infinite and infinite.r0),
+        "lift": found.lift[-1],
+        "pull": pull_of(history),
+        "hold": hold_of(history),
+        "peak_moment": peak.moment,
+        "peak_moment_place": peak.place,
+        "peak_moment_time": peak.time,
+        "peak_stress": None,
+        "energy": energy_at_end(history),
+        "warnings": history.warnings,
+        "file": None if file is None else str(file),
+    }
+
+
+def energy_at_end(history: ImpactHistory) -> dict[str, float | None]:
+    """The energies at the end, J, what was lost on the way, by cause, and the defect: what these do not explain."""
+    budget = history.energy_budget()
+    names = ("work_of_loads", "loss_impact", "loss_algorithmic", "loss_viscous", "loss_material", "loss_absorbed")
+    return {
+        "initial": budget["initial_energy"],
+        "kinetic": float(history.array("kinetic_energy")[-1]),
+        "strain": float(history.array("strain_energy")[-1]),
+        **{name: budget.get(name) for name in names},
+        "defect": budget["defect"],
+    }
+
+
+def run_table(found: dict[str, Any]) -> str:
+    """The summary of one run for a reader."""
+
+    def number(value: float | None) -> str:
+        return "-" if value is None else f"{value:.6g}"
+
+    lines = []
+    for name, key, unit in (
+        ("half contact length", "half_contact_length", "m"),
+        ("total impulse", "total_impulse", "N s"),
+        ("lambda0", "lambda0", "1"),
+        ("r0", "r0", "1"),
+    ):
+        c = found[key]
+        if c.measured or c.theory is not None:
+            theory = "outside its range" if c.theory is None else number(c.theory)
+            bar = "" if c.error is None else f"{c.error:.1g}"
+            lines.append([name, number(c.value), bar, unit, theory])
+    lines += [
+        ["largest bending moment", number(found["peak_moment"]), "", "N m", ""],
+        ["lift of the zone over V0 t", number(found["lift"]), "", "1", ""],
+        ["largest pull over largest push", number(found["pull"]), "", "1", ""],
+    ]
+    energy = found["energy"]
+    for name, value in energy.items():
+        if value is not None:
+            words = {"kinetic": "kinetic energy at the end", "strain": "strain energy at the end"}
+            title = words.get(name, "initial energy" if name == "initial" else name.replace("_", " "))
+            lines.append([title, number(value), "", "J", ""])
+    text = [
+        f"{found['path']}, {found['time']:.6g} s after first contact; "
+        f"{found['steps']} steps took {found['seconds']:.2f} s",
+        "",
+        text_table(["", "value", "error bar", "unit", "theory"], lines),
+    ]
+    if found["hold"]:
+        hold = found["hold"]
+        text.append(
+            f"held: contact points were held until {hold['until']:.3g} s and pulled at most {hold['pull']:.2g} of the "
+            "largest push; the gap of the zone up to then is imposed"
+        )
+    text += [f"warning: {w}" for w in found["warnings"]]
+    if found["file"]:
+        text.append(f"history: {found['file']}")
+    return "\n".join(text)
