@@ -180,16 +180,6 @@ def predictions_agree(browser: Any, impacts: list[Impact], seed: int) -> None:
     for impact in impacts:
         rate = max(abs(impact.epsilon_alpha), abs(impact.epsilon_psi), abs(impact.epsilon_chi), 1e-3)
         rows.append([10.0 ** rng.uniform(-4.0, -1.0) / rate * impact.time_scale, impact])
-    names = (
-        "stiffness",
-        "mass",
-        "length",
-        "curvature",
-        "velocity",
-        "acceleration",
-        "curvatureRate",
-        "fourthDerivative",
-    )
     found = ask(
         browser,
         "arguments[1].map(([t, ...v]) => { const b = {tension: 0, area: 1, modulus: 1};"
