@@ -7,6 +7,8 @@ from pathlib import Path
 
 import jinja2
 
+from comparison.store import write_atomically
+
 TEMPLATES = Path(__file__).parent / "templates"
 SCRIPTS = ("theory.js", "beam.js", "case.js", "view.js")
 
@@ -44,6 +46,5 @@ def page() -> str:
 def write_page(file: str | Path) -> Path:
     """Write the page to ``file`` (its folder is made) and return the path."""
     path = Path(file)
-    path.parent.mkdir(parents=True, exist_ok=True)
-    path.write_text(page(), encoding="utf-8")
+    write_atomically(path, page())
     return path

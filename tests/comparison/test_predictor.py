@@ -9,6 +9,7 @@ from pathlib import Path
 
 import pytest
 
+from comparison.command_line.app import run
 from comparison.predictor import page, panel, write_page
 
 
@@ -34,3 +35,13 @@ def test_panel_keeps_its_style_to_itself() -> None:
 def test_scripts_parse(name: str) -> None:
     file = Path(__file__).parents[2] / "comparison" / "predictor" / "templates" / name
     subprocess.run(["node", "--check", str(file)], check=True, capture_output=True)
+
+
+def test_command_writes_the_page_once(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    file = tmp_path / "mine.html"
+    assert run(["predictor", "--out", str(file)]) == 0
+    assert file.read_text(encoding="utf-8") == page()
+    assert str(file) in capsys.readouterr().out
+    assert run(["predictor", "--out", str(file)]) == 2
+    assert "overwrite" in capsys.readouterr().err
+    assert run(["predictor", "--out", str(file), "--overwrite"]) == 0

@@ -1,0 +1,26 @@
+"""``bentbeam predictor``."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from comparison.command_line.options import Overwrite, check_out
+
+__all__ = ["predictor"]
+
+
+def predictor(
+    out: Annotated[Path, typer.Option(help="The page to write.")] = Path("predictor.html"),
+    overwrite: Overwrite = False,
+) -> None:
+    """The theory as one web page for one's own beam: no server, no network.
+
+    Example: bentbeam predictor --out predictor.html
+    """
+    from comparison.predictor import write_page
+
+    check_out(out, overwrite)
+    print(f"{write_page(out)}: open it in a browser")
