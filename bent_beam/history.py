@@ -11,6 +11,7 @@ Dimensions: ``time`` (the saved instants) and ``x`` (nodes) and ``contact`` (con
 | in_contact | time, contact | bool | contact active at that instant |
 | total_impulse | time | N s | over the whole beam (both halves) |
 | kinetic_energy, strain_energy | time | J | whole beam |
+| contact_energy | time | J | in the springs of a penalty contact, change since t = 0 |
 | work_of_loads | time | J | whole beam, since t = 0 |
 | loss_impact | time | J | energy taken out by impacts since t = 0 |
 | loss_algorithmic | time | J | by the time integration's algorithmic damping |
@@ -63,6 +64,7 @@ UNITS = {
     "held_impulse": "N s",
     "kinetic_energy": "J",
     "strain_energy": "J",
+    "contact_energy": "J",
     "work_of_loads": "J",
     "loss_impact": "J",
     "loss_algorithmic": "J",
@@ -211,6 +213,7 @@ class ImpactHistory:
             for name in (
                 "kinetic_energy",
                 "strain_energy",
+                "contact_energy",
                 "work_of_loads",
                 "loss_impact",
                 "loss_algorithmic",
@@ -221,7 +224,7 @@ class ImpactHistory:
             if name in self.dataset
         }
         balance = budget.get("kinetic_energy", 0.0) + budget.get("strain_energy", 0.0)
-        balance -= budget.get("work_of_loads", 0.0)
+        balance += budget.get("contact_energy", 0.0) - budget.get("work_of_loads", 0.0)
         balance += sum(v for k, v in budget.items() if k.startswith("loss_"))
         budget["initial_energy"] = float(self.array("kinetic_energy")[0] + self.array("strain_energy")[0])
         budget["defect"] = balance

@@ -6,8 +6,9 @@ without contact y₀ of :class:`bent_beam.Impact` is the motion.
 
 from __future__ import annotations
 
+import math
+
 import exudyn as exu
-import exudyn.itemInterface as items
 import numpy as np
 
 from exudyn_models.contacts import Contact, ContactRun, Wall
@@ -15,11 +16,13 @@ from exudyn_models.elements import Beam, Element
 from exudyn_models.elements.beam import Section
 from exudyn_models.geometry import Shape
 from exudyn_models.integrators import Integrator
-from exudyn_models.resolution import reachable
+from exudyn_models.resolution import FIRST_SPREAD, reachable
 from exudyn_models.scaling import Scaling, front_estimate
 from exudyn_models.viewer import draw_wall
 
 __all__ = ["assemble", "stable_step"]
+
+STRETCH = 1e-4  # strain under the axial force in the linear limit: lengths are then right to as much
 
 
 def assemble(
@@ -31,17 +34,24 @@ def assemble(
     system.variables["container"] = container  # the system must not outlive it
     true = shape.slender
     axial = element.axial_stiffness
-    if axial is None:
-        axial_stiffness = 12.0 * (scaling.length / scaling.impact.section_height) ** 2 if true else 1.0
+    if axial is None and true:
+        axial_stiffness = 12.0 * (scaling.length / scaling.impact.section_height) ** 2
+    elif axial is None:
+        axial_stiffness = max(1.0, abs(scaling.axial_force) / STRETCH)
     else:
         axial_stiffness = axial * scaling.length**2 / scaling.impact.bending_stiffness
     factor = element.viscosity
     if factor is None:
         factor = 0.003 if integrator.explicit else 0.3
-    beam = element.build(system, shape, Section(axial_stiffness=axial_stiffness), factor * shape.lengths**2)
+    section = Section(
+        axial_stiffness=axial_stiffness,
+        axial_force=scaling.axial_force,
+        damping=scaling.impact.damping / scaling.end_time,
+    )
+    beam = element.build(system, shape, section, factor * shape.lengths**2)
     last, centre = shape.s.size - 1, int(np.argmin(np.abs(shape.s)))
     if half:
-        hold = beam.burden if integrator.explicit else beam.fix
+        hold = beam.hold_by_inertia if integrator.explicit else beam.fix
         hold(0, beam.horizontal_coordinate, beam.rotation_coordinate)
     if scaling.load:
         beam.load_uniformly(scaling.load * scaling.amplitude)
@@ -52,9 +62,9 @@ def assemble(
         nodes=reachable(shape.s, scaling, centre),
         centre=centre,
         half=half,
-        pulled_off=scaling.load < 0.0,
-        point_contact=scaling.kappa >= 1.0,
+        pulled_off=scaling.impact.zone_pressure < 0.0,
         front=front_estimate(scaling.kappa),
+        first_spread=FIRST_SPREAD * scaling.impact.slow_time_scale / scaling.end_time,
         explicit=integrator.explicit,
         stiffness_unit=scaling.stiffness_per_length,
         damping_unit=scaling.damping_per_length,
@@ -67,27 +77,16 @@ def assemble(
 
 
 def _load_end(beam: Beam, node: int, sign: float, scaling: Scaling) -> None:
-    """The moment and shear that the free motion y₀ has at an end of the modelled beam."""
-    amplitude, end = scaling.amplitude, beam.shape.s[-1]
+    """The moment, shear and axial force that the free motion y₀ has at an end of the modelled beam."""
+    amplitude, end, force = scaling.amplitude, beam.shape.s[-1], beam.section.axial_force
+    psi, chi = amplitude * scaling.psi, amplitude * scaling.chi
     # bending at the rate χ also takes the moment ηχ of the viscosity
-    constant = amplitude * (scaling.psi * end**2 / 2 + beam.viscosity[node if node == 0 else -1] * scaling.chi)
-    rate = amplitude * scaling.chi
-    if scaling.psi:
-        beam.mbs.AddLoad(
-            items.LoadCoordinate(
-                markerNumber=beam.marker(node, beam.vertical_coordinate), load=-amplitude * scaling.psi * end
-            )
-        )
-    if scaling.psi or scaling.chi:
-        marker = beam.marker(node, beam.rotation_coordinate)
-        if rate:
-            beam.mbs.AddLoad(
-                items.LoadCoordinate(
-                    markerNumber=marker, loadUserFunction=lambda mbs, t, load: sign * (constant + rate * t)
-                )
-            )
-        else:
-            beam.mbs.AddLoad(items.LoadCoordinate(markerNumber=marker, load=sign * constant))
+    viscous = beam.viscosity[node if node == 0 else -1] * chi
+    beam.load_node(node, beam.rotation_coordinate, sign * (psi * end**2 / 2 + viscous), sign * chi)
+    # the axial force acts along the beam's own end
+    angle = float(beam.shape.angle[node])
+    beam.load_node(node, beam.horizontal_coordinate, sign * force * math.cos(angle))
+    beam.load_node(node, beam.vertical_coordinate, -psi * end + sign * force * math.sin(angle), force * chi * end)
 
 
 def stable_step(beam: Beam, contact: ContactRun, integrator: Integrator) -> float:

@@ -10,6 +10,7 @@ and for small angles y = −Ks²/2 + q₀s⁴/24, ẏ = V₀ + c₀s²/2, the fr
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import ClassVar, Protocol
 
@@ -38,13 +39,32 @@ class Shape:
     curvature: float  # stress-free
     slender: bool  # true geometry: the axial stiffness of the section matters
     wall_curvature: float = (
-        0.0  # of a round wall y = wall_curvature x²/2, against which a beam laid flatter is the same
+        0.0  # of a wall y = wall_curvature x²/2; a share of the beam's own may be given to it, the beam laid flatter
     )
 
     @property
     def lengths(self) -> Array:
         """Element lengths, shape (nodes − 1,)."""
         return np.diff(self.s)
+
+
+def _arc(s: Array, angle: Callable[[Array], Array], rate: float) -> tuple[Array, Array, Array, Array]:
+    """x, y and their velocities beyond V₀ of an unstretched line of given angles, turning at the rate ``rate``·s.
+
+    Four-point Gauss per element: exact to round-off for the small change of angle within one.
+    """
+    points, weights = np.polynomial.legendre.leggauss(4)
+    at = s[:-1, None] + np.diff(s)[:, None] * (points + 1) / 2
+    weight = np.diff(s)[:, None] * weights / 2
+
+    def integral(values: Array) -> Array:
+        return np.concatenate([[0.0], np.cumsum((values * weight).sum(axis=1))])
+
+    theta, turning = angle(at), rate * at
+    fields = (np.cos(theta), np.sin(theta), -turning * np.sin(theta), turning * np.cos(theta))
+    centre = int(np.argmin(np.abs(s)))
+    x, y, vx, vy = (f - f[centre] for f in map(integral, fields))
+    return x, y, vx, vy
 
 
 class Geometry(Protocol):
@@ -79,10 +99,14 @@ class LinearLimit:
         return self.amplitude
 
     def shape(self, s: Array, scaling: Scaling, wall_share: float = 0.0) -> Shape:
-        k, c, q, a = scaling.kappa * (1.0 - wall_share), scaling.chi, scaling.psi, scaling.amplitude
+        k, c, q, a = scaling.beam_kappa - scaling.kappa * wall_share, scaling.chi, scaling.psi, scaling.amplitude
+        x = s
+        if scaling.axial_force:
+            # what carries a force must not be stretched by its own slope
+            x = _arc(s, lambda at: a * (-k * at + q * at**3 / 6), 0.0)[0]
         return Shape(
             s=s,
-            x=s,
+            x=x,
             y=a * (-k * s**2 / 2 + q * s**4 / 24),
             angle=a * (-k * s + q * s**3 / 6),
             velocity_x=np.zeros_like(s),
@@ -90,7 +114,7 @@ class LinearLimit:
             angular_velocity=a * c * s,
             curvature=-a * k,
             slender=False,
-            wall_curvature=a * scaling.kappa * wall_share,
+            wall_curvature=a * (scaling.kappa * wall_share - scaling.wall_kappa),
         )
 
 
@@ -107,7 +131,7 @@ class TrueGeometry:
         return true_amplitude
 
     def shape(self, s: Array, scaling: Scaling, wall_share: float = 0.0) -> Shape:
-        k, c, q, a = scaling.kappa * (1.0 - wall_share), scaling.chi, scaling.psi, scaling.amplitude
+        k, c, q, a = scaling.beam_kappa - scaling.kappa * wall_share, scaling.chi, scaling.psi, scaling.amplitude
 
         def angle(at: Array) -> Array:
             return np.asarray(a * (-k * at + q * at**3 / 6))
@@ -117,18 +141,7 @@ class TrueGeometry:
                 f"geometry true: the modelled beam of half length {s[-1] * scaling.length:.4g} m turns by more "
                 "than a right angle; shorten run.end_time or beam.length, or use the linear limit"
             )
-        # four-point Gauss per element: exact to round-off for the small angle within one
-        points, weights = np.polynomial.legendre.leggauss(4)
-        at = s[:-1, None] + np.diff(s)[:, None] * (points + 1) / 2
-        weight = np.diff(s)[:, None] * weights / 2
-
-        def integral(values: Array) -> Array:
-            return np.concatenate([[0.0], np.cumsum((values * weight).sum(axis=1))])
-
-        theta, rate = angle(at), a * c * at
-        centre = int(np.argmin(np.abs(s)))
-        fields = [integral(f) for f in (np.cos(theta), np.sin(theta), -rate * np.sin(theta), rate * np.cos(theta))]
-        x, y, vx, vy = (f - f[centre] for f in fields)
+        x, y, vx, vy = _arc(s, angle, a * c)
         return Shape(
             s=s,
             x=x,
@@ -139,7 +152,7 @@ class TrueGeometry:
             angular_velocity=a * c * s,
             curvature=-a * k,
             slender=True,
-            wall_curvature=a * scaling.kappa * wall_share,
+            wall_curvature=a * (scaling.kappa * wall_share - scaling.wall_kappa),
         )
 
 

@@ -96,9 +96,9 @@ class ExudynModel:
         """A copy with mesh, steps and hold chosen for ``impact``: other impacts then run on the same ones."""
         contact, _, integrator = self._joined()
         mesh = chosen_mesh(impact, end_time, explicit=integrator.explicit) if self.mesh is None else self.mesh
-        if impact.zone_pressure < 0.0 and getattr(contact, "hold", 0) is None:
-            # A hold would pull on a zone that lifts off; the run without load must do without it too.
-            contact = dataclasses.replace(contact, hold=0)  # type: ignore[type-var]
+        if impact.zone_pressure < 0.0 and isinstance(contact, Penalty) and contact.hold_start is None:
+            # no start is held where the load lifts the zone: the run without load must do without it too
+            contact = dataclasses.replace(contact, hold_start=0.0)
         return dataclasses.replace(
             self,
             mesh=mesh.refined(self.refine),

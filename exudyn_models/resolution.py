@@ -17,6 +17,7 @@ __all__ = ["chosen_half_length", "chosen_mesh", "end_time_of", "far_field", "rea
 Array = NDArray[np.float64]
 
 DEFAULT_DURATION = 0.1  # τ, the longest time that the thesis computes
+FIRST_SPREAD = 0.005  # T*: measured, from when on a finite beam's impulse is 1 % off the infinite beam's (κ/ν = 0.5)
 GROWTH = 0.01  # neighbours of the chosen mesh: 5 elements over the front's bending length at κ/ν = 0.05, 20 at 0.2
 
 

@@ -89,7 +89,21 @@ class Scaling:
     # the free motion in model units, y₀/amplitude = t − κx²/2 + αt²/2 + χx²t/2 + ψx⁴/24 --------------------------
     @property
     def kappa(self) -> float:
+        """Of the beam against the wall."""
         return self.impact.kappa_over_nu
+
+    @property
+    def beam_kappa(self) -> float:
+        return self.impact.curvature * self.impact.length_scale
+
+    @property
+    def wall_kappa(self) -> float:
+        return self.impact.wall_curvature * self.impact.length_scale
+
+    @property
+    def axial_force(self) -> float:
+        """N Λ²/EI."""
+        return self.impact.epsilon_axial * self.duration
 
     @property
     def duration(self) -> float:
@@ -110,8 +124,8 @@ class Scaling:
 
     @property
     def load(self) -> float:
-        """Uniform load (EI q₀ + μ a₀) per unit length over amplitude: without contact y₀ is then the motion."""
-        return self.alpha + self.psi
+        """Uniform load (EI q₀ + μ a₀ + N K) per unit length over amplitude: without contact y₀ is then the motion."""
+        return self.alpha + self.psi + self.axial_force * self.beam_kappa
 
     def free_deflection(self, x: Array, t: Array | float) -> Array:
         """y₀ at places ``x`` and time ``t`` (model units, amplitude 1), broadcast."""

@@ -3,9 +3,8 @@
 Exudyn solves a step with a guess of which connectors are closed, looks at the gaps, and repeats it with the state that
 they show. Its own nodal contact compares that state with the one at the *start* of the step: a step with a capture
 repeats until its repetitions run out, settled or not, and a node that hovers at the wall is accepted as soon as it is
-back where it began. Here the state that a solution *assumed* is compared with the one that it shows. A connector that
-was closed and pushes, though its gap has not quite closed, is no contradiction: the contact's damping acts all at once
-and may stop a node just short of the wall, where without it the node would have entered.
+back where it began. Here the state that a solution *assumed* is compared with the one that it shows. Where the contact
+has a law of its own (``imposes``: closed is what pushes), that decides, and the states are written over Exudyn's.
 
 - They agree, but for forces below the tolerance: the step is accepted at once;
 - after ``BLOCK`` repetitions in which all connectors follow their gaps at once, only one at a time does (Murty's rule,
@@ -39,9 +38,7 @@ class Settling:
         out of repetitions.
     """
 
-    def __init__(
-        self, contact: ContactRun, solver: Any, iterations: int, tolerance: float, must_settle: bool
-    ) -> None:
+    def __init__(self, contact: ContactRun, solver: Any, iterations: int, tolerance: float, must_settle: bool) -> None:
         self.must_settle = must_settle
         self.steps = self.cycles = self.unsettled = 0
         self._contact, self._solver = contact, solver
@@ -52,6 +49,7 @@ class Settling:
         self._tried: dict[bytes, float] = {}  # what was assumed of them, and by how much it contradicted itself
         self._cycling = False
         self._imposed: NDArray[np.bool_] | None = None
+        self._hooked = False
         self._first = ""
 
     def __call__(self, mbs: Any, time: float) -> list[float]:
@@ -61,14 +59,15 @@ class Settling:
         self._repetitions += 1
         data = mbs.systemData
         closed = data.GetDataCoordinates()[:: self._contact.states] <= 0.0
-        wrong = self._contact.contradictions(data.GetODE2Coordinates(), data.GetODE2Coordinates_t(), closed)
+        q, v = data.GetODE2Coordinates(), data.GetODE2Coordinates_t()
+        wrong = self._contact.contradictions(q, v, closed)
         force = float(wrong.max(initial=0.0))
         if force <= self._tolerance:
-            return self._accept(mbs)
+            return self._accept(mbs, closed)
         doubtful = wrong > self._tolerance
         if self._returns(closed, doubtful, force):
             self.cycles += 1
-            return self._accept(mbs)
+            return self._accept(mbs, closed)
         if self._repetitions >= self._iterations:
             self.unsettled += 1
             self._first = self._first or (
@@ -78,11 +77,13 @@ class Settling:
             )
             self._follow(mbs)
         elif self._repetitions >= BLOCK:
-            if self._imposed is None:
+            if self._repetitions == BLOCK:
                 self._tried = {}
-                mbs.SetPreNewtonResidualUserFunction(self._impose)
-            self._imposed = closed.copy()
-            self._imposed[np.flatnonzero(doubtful)[-1]] ^= True
+            single = closed.copy()
+            single[np.flatnonzero(doubtful)[-1]] ^= True
+            self._set(mbs, single)
+        elif self._contact.imposes:
+            self._set(mbs, np.where(doubtful, ~closed, closed))
         return [force, -1.0]
 
     def failure(self) -> str:
@@ -105,22 +106,34 @@ class Settling:
         self._tried[state] = force
         return False
 
+    def _set(self, mbs: Any, closed: NDArray[np.bool_]) -> None:
+        """Assume ``closed`` in the next repetition, whatever the gaps show."""
+        self._imposed = closed
+        if not self._hooked:
+            mbs.SetPreNewtonResidualUserFunction(self._impose)
+            self._hooked = True
+        mbs.solverSignalJacobianUpdate = True
+
     def _impose(self, mbs: Any, time: float, newton_step: int, repetition: int) -> None:
         """Exudyn's ``PreNewtonResidualUserFunction``: the state to assume instead of what the last gaps showed."""
         if newton_step == 0 and self._imposed is not None:
             data = mbs.systemData.GetDataCoordinates()
             data[:: self._contact.states] = np.where(self._imposed, -TINY, TINY)
             mbs.systemData.SetDataCoordinates(data)
-            mbs.solverSignalJacobianUpdate = True
 
     def _follow(self, mbs: Any) -> None:
         """All connectors follow their gaps again."""
-        if self._imposed is not None:
-            self._imposed = None
+        if self._hooked:
+            self._imposed, self._hooked = None, False
             mbs.SetPreNewtonResidualUserFunction(0)
 
-    def _accept(self, mbs: Any) -> list[float]:
+    def _accept(self, mbs: Any, closed: NDArray[np.bool_]) -> list[float]:
         """No further repetition, whatever Exudyn's own measure says: it goes on when they are used up."""
-        self._follow(mbs)
+        if self._contact.imposes:
+            if not self._hooked:
+                self._set(mbs, closed)
+            self._imposed = closed
+        else:
+            self._follow(mbs)
         self._solver.it.discontinuousIteration = self._iterations - 1
         return [0.0, -1.0]

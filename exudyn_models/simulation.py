@@ -21,7 +21,6 @@ from bent_beam.checks import affordable, one_of, whole
 from bent_beam.meshes import Mesh, NodesMesh, checked_nodes, mirrored
 from bent_beam.parts import describe
 from exudyn_models.assembly import assemble, stable_step
-from exudyn_models.cautions import cautions
 from exudyn_models.contacts import Contact, Penalty
 from exudyn_models.elements import ANCFCable, Element
 from exudyn_models.geometry import GEOMETRIES, Geometry
@@ -33,6 +32,7 @@ from exudyn_models.settling import Settling
 from exudyn_models.solvers import NewtonSolver, silence
 from exudyn_models.stepping import step_through
 from exudyn_models.viewer import open_viewer, wait_until_closed
+from exudyn_models.warnings_of_run import warnings_of_run
 
 __all__ = ["simulate"]
 
@@ -40,7 +40,6 @@ Array = NDArray[np.float64]
 
 MOST_INSTANTS = 1_000_000
 MOST_WORK = 2e9  # steps x nodes: about an hour
-SEGMENT = 4  # steps between two readings of the state
 
 
 def _targets(save: int | Sequence[float] | Array, end: float) -> Array:
@@ -129,13 +128,10 @@ def simulate(
 
     with silence():
         beam, contact_run = assemble(shape, scaling, element, contact, integrator, half)
-        # where a contact is read every step, its impulses are exact
-        newer = integrator.newer_share if contact_run.longest_segment == 1 else 0.5
-        run = Recorder(beam, contact_run, scaling, half, newer)
+        run = Recorder(beam, contact_run, scaling, half, integrator.averages())
         stable = stable_step(beam, contact_run, integrator) if integrator.explicit else math.inf
         crossing = min(0.01, (places[1] / front_estimate(scaling.kappa)) ** 2)
-        per_segment = SEGMENT if contact_run.longest_segment is None else contact_run.longest_segment
-        segments = integrator.segments(crossing, per_segment, end, stable)
+        segments = integrator.segments(crossing, 1, end, stable)
         affordable("exudyn.integrator and mesh", sum(s.steps for s in segments), nodes.size, targets.size, MOST_WORK)
         settings = solver.settings(scaling.amplitude, contact_run.round_off)
         integrator.configure(settings)
@@ -164,7 +160,7 @@ def simulate(
     last_step = segments[-1].length
     about: dict[str, Any] = {
         "impact": impact,
-        "warnings": cautions(run, places, half_length, scaling, mesh is not None, last_step, settling),
+        "warnings": warnings_of_run(run, places, half_length, scaling, mesh is not None, last_step, settling),
         "steps": done.steps,
         "seconds": done.seconds,
         "completed": done.failure is None,
@@ -177,6 +173,7 @@ def simulate(
             "contact": describe(contact) | contact_run.settings(),
             "geometry": describe(geometry),
             "solver": describe(solver),
+            "hold": run.hold(),
             "full_beam": full_beam,
             "nodes": int(nodes.size),
             "modelled_half_length": float(half_length),

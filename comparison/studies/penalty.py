@@ -1,6 +1,6 @@
 """Exudyn's penalty contact: stiffness C EI/Δx⁴, damping D √(EIμ)/Δx², spectral radius ρ∞.
 
-Bare: nothing held, no viscosity at grid scale; then with both, which is the default of :mod:`exudyn_models`.
+Bare: no viscosity at grid scale; then with it, which is the default of :mod:`exudyn_models`.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ def penalised(
     relative_stiffness: float,
     relative_damping: float,
     spectral_radius: float,
-    hold: int | None,
+    hold: int,
     viscosity: float | None = None,
     save: int = 250,
     **others: Any,
@@ -62,7 +62,7 @@ def variants(case: Case) -> list[Variant]:
         *(run(f"C = {c:g}", c, relative_stiffness=c) for c in STIFFNESS),
         *(run(f"D = {d:g}", d, relative_damping=d) for d in DAMPING),
         *(run(f"ρ∞ = {r:g}", r, spectral_radius=r) for r in RADII),
-        run("Exudyn's default (held, viscous)", kind="exudyn", hold=None, viscosity=None),
+        run("Exudyn's default (viscous)", kind="exudyn", viscosity=None),
         cured(case.impact, case.end_time),
     ]
 

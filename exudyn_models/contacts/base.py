@@ -32,7 +32,8 @@ class Wall:
 
     nodes : numbers of the beam's nodes that may touch, ascending; centre : the node at x = 0;
     half : only x ≥ 0 is modelled; pulled_off : the load draws the beam off the wall (detached regime);
-    point_contact : κ/ν ≥ 1, only the centre stays in contact; front : rough estimate of where contact ends at the end;
+    front : rough estimate of where contact ends at the end;
+    first_spread : until when (in end times) nothing but the first spread of the zone moves it: waves are back later;
     stiffness_unit, damping_unit : N/m² and N s/m² of the model units.
     """
 
@@ -40,8 +41,8 @@ class Wall:
     centre: int
     half: bool
     pulled_off: bool
-    point_contact: bool
     front: float
+    first_spread: float
     explicit: bool
     stiffness_unit: float
     damping_unit: float
@@ -54,9 +55,9 @@ class ContactRun(ABC):
     beam: Beam
     nodes: NDArray[np.int64]
     contact_s: Array
-    longest_segment: int | None = None  # steps after which it must be asked again
     iterated = True  # Exudyn finds the contact state by repeating steps
     states = 1  # data coordinates of a connector, the first a gap: the connector is closed where it is not positive
+    imposes = False  # states are those of ``closed_by``, not of Exudyn's gaps
     round_off = 0.0  # force in Exudyn's connectors that means nothing: no residual can be made smaller
 
     @abstractmethod
@@ -66,6 +67,14 @@ class ContactRun(ABC):
     @abstractmethod
     def forces(self, q: Array, v: Array) -> tuple[Array, Flags]:
         """Contact forces (positive: pushing the beam off the wall) and active flags, each of shape (contacts,)."""
+
+    def stored_energy(self, q: Array) -> float:
+        """Energy that the contact's springs hold."""
+        return 0.0
+
+    def closed_by(self, q: Array, v: Array) -> Flags:
+        """The connectors that a solution shows to be closed, shape (connectors,), for contacts that ``impose`` them."""
+        raise TypeError(f"{type(self).__name__} leaves its states to Exudyn")
 
     def velocity(self, q: Array, v: Array) -> Array:
         """Velocity of the beam at the contact points, positive into the wall, shape (contacts,)."""
@@ -85,6 +94,11 @@ class ContactRun(ABC):
     def stiffness_and_damping(self) -> tuple[Array, Array]:
         """Stiffness and damping of the closed contact at each *beam node*, shape (nodes,): for the stable step."""
         raise ValueError("exudyn.contact: this contact does not work with explicit integrators")
+
+    @property
+    def held_until(self) -> float:
+        """When (of the end time) the last contact point is let go that may have been held; 0: none ever is."""
+        return 0.0
 
     def settings(self) -> dict[str, Any]:
         """What was chosen, JSON-ready."""

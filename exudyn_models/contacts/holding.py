@@ -1,8 +1,13 @@
-"""Which captured nodes are held: those that the front has passed by fewer than ``hold`` elements, on either side.
+"""Which captured nodes are held, and until when.
 
 The first instants are never resolved, whatever the mesh: the front is then faster than any element. What their node
 impacts leave behind would lift the zone for a long time, so all captured nodes are held for a first share ``START`` of
-the run. A zone that is to lift off has by then moved by START² of its final way.
+the run, but not where the load draws the beam off the wall, nor in runs that last longer than the first spread.
+
+Behind the front the exact reaction vanishes; a one-sided law turns the numerical noise there into pushes that lift the
+beam. A hold of so many elements, where asked for, keeps each captured node until the front is that much further: the
+held strip shrinks with the mesh. It too ends with the first spread: from then on waves from the ends are back, and may
+lift what they will.
 """
 
 from __future__ import annotations
@@ -12,25 +17,24 @@ from numpy.typing import NDArray
 
 from exudyn_models.contacts.base import Wall
 
-__all__ = ["START", "HeldStrip", "chosen_hold"]
+__all__ = ["START", "HeldStrip"]
 
-HOLD = 16  # elements; from 8 on the interior no longer lifts
-START = 4e-3  # of the end time
-
-
-def chosen_hold(wall: Wall, hold: int | None) -> int:
-    """The given hold, or 16; none where the load draws the beam off the wall and under explicit integrators."""
-    if hold is not None:
-        return hold
-    return 0 if wall.pulled_off or wall.explicit else HOLD
+START = 0.01  # of the end time
 
 
 class HeldStrip:
-    """Remembers which contact nodes have been captured."""
+    """Remembers which contact nodes have been captured.
 
-    def __init__(self, wall: Wall, hold: int, start: float = START) -> None:
+    hold : elements behind the front; start : share of the run in which all captured nodes are held (``None``: chosen).
+    start, until : times (of the end time) after which the start, and the strip, are let go.
+    """
+
+    def __init__(self, wall: Wall, hold: int, start: float | None = None) -> None:
+        if wall.explicit or wall.pulled_off or wall.first_spread < 1.0:
+            start = start or 0.0
         self.hold = hold
-        self.start = 0.0 if wall.explicit or wall.point_contact else start
+        self.start = min(START if start is None else start, wall.first_spread)
+        self.until = wall.first_spread if hold else self.start
         self.captured = np.zeros(wall.nodes.size, bool)
         self._distance = np.abs(wall.nodes - wall.centre)
         self._sides = (wall.nodes >= wall.centre, wall.nodes < wall.centre)
@@ -38,14 +42,14 @@ class HeldStrip:
     @property
     def used(self) -> bool:
         """Whether any node will ever be held."""
-        return bool(self.hold) or self.start > 0.0
+        return self.until > 0.0
 
     def wanted(self, time: float) -> NDArray[np.bool_]:
         """Flags of the contact nodes to hold at ``time`` (of the end time), shape (contacts,)."""
         if time < self.start:
             return self.captured.copy()
         held = np.zeros_like(self.captured)
-        if not self.hold:
+        if not self.hold or time >= self.until:
             return held
         for side in self._sides:
             caught = self.captured & side

@@ -29,7 +29,7 @@ from numpy.typing import NDArray
 from bent_beam import Impact
 from bent_beam.checks import whole
 from exudyn_models.contacts.base import Contact, ContactRun, Flags, Wall
-from exudyn_models.contacts.holding import HeldStrip, chosen_hold
+from exudyn_models.contacts.holding import HeldStrip
 from exudyn_models.elements import Beam, Element
 from exudyn_models.integrators import Integrator, Newmark
 
@@ -41,12 +41,12 @@ RETURN = 0.2  # of its depth in a step: how fast a captured node is led back to 
 
 
 class _Run(ContactRun):
-    longest_segment = 1
     iterated = False
 
     def __init__(self, beam: Beam, wall: Wall, hold: int) -> None:
         self.beam, self.nodes = beam, wall.nodes
         self.contact_s = beam.shape.s[wall.nodes]
+        self.wall_y = beam.shape.wall_curvature * self.contact_s**2 / 2
         self.strip = HeldStrip(wall, hold)
         self.active = np.zeros(wall.nodes.size, bool)
         self.back = np.zeros(wall.nodes.size)  # speed asked of each closed node
@@ -63,7 +63,7 @@ class _Run(ContactRun):
         ]
 
     def depth(self, q: Array) -> Array:
-        return np.asarray(q[self.beam.vertical[self.nodes]])
+        return np.asarray(q[self.beam.vertical[self.nodes]] - self.wall_y)
 
     def forces(self, q: Array, v: Array) -> tuple[Array, Flags]:
         data = self.beam.mbs.systemData
@@ -90,6 +90,10 @@ class _Run(ContactRun):
         self.back = np.where(wanted, back, self.back)
         return bool(changed.size)
 
+    @property
+    def held_until(self) -> float:
+        return self.strip.until
+
     def settings(self) -> dict[str, Any]:
         return {"hold_elements": self.strip.hold}
 
@@ -98,14 +102,13 @@ class _Run(ContactRun):
 class Rigid(Contact):
     """Constraints switched with the contact state; needs the Newmark integrator with γ > ½.
 
-    hold : elements behind the front whose captured nodes are not released; None: as for the penalty.
+    hold : elements behind the front whose captured nodes are not released; as for the penalty.
     """
 
-    hold: int | None = None
+    hold: int = 0
 
     def __post_init__(self) -> None:
-        if self.hold is not None:
-            whole("exudyn.contact.hold", self.hold, 0)
+        whole("exudyn.contact.hold", self.hold, 0)
 
     def integrator(self) -> Integrator:
         return Newmark()
@@ -119,4 +122,4 @@ class Rigid(Contact):
         )
 
     def attach(self, beam: Beam, wall: Wall) -> ContactRun:
-        return _Run(beam, wall, chosen_hold(wall, self.hold))
+        return _Run(beam, wall, self.hold)

@@ -79,6 +79,9 @@ class _Run(ContactRun):
         nodal[1:] += force * at
         return nodal * vertical, nodal != 0.0
 
+    def stored_energy(self, q: Array) -> float:
+        return float((self.stiffness * np.minimum(self._closest(q)[0], 0.0) ** 2).sum() / 2)
+
     def contradictions(self, q: Array, v: Array, closed: Flags) -> Array:
         gap, force, _, _ = self._normal_forces(q, v)
         wrong = np.where(gap <= 0.0, ~closed, closed & (force <= 0.0))
@@ -106,6 +109,11 @@ class SegmentFriction(Contact):
         positive("exudyn.contact.relative_friction_damping", self.relative_friction_damping)
 
     def refuses(self, impact: Impact, element: Element, integrator: Integrator) -> str | None:
+        if impact.wall_curvature:
+            return (
+                "exudyn.contact.kind segment_friction knows a flat wall only: take penalty "
+                f"(got wall_curvature {impact.wall_curvature!r})"
+            )
         if impact.curvature == 0.0:
             return "exudyn.contact.kind segment_friction needs a bent beam (got curvature 0)"
         if not isinstance(element, ANCFCable):

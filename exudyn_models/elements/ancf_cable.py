@@ -78,10 +78,10 @@ class _Cable(Beam):
     def strain_energy(self, q: Array) -> float:
         curvature, strain = self._curvature(q)
         bending = self.section.bending_stiffness * (curvature - self.shape.curvature) ** 2
-        return self._integral(bending + self.section.axial_stiffness * strain**2) / 2
+        return self._integral(bending + self.section.axial_stiffness * (strain**2 - self.section.stretch**2)) / 2
 
-    def viscous_power(self, q: Array, v: Array) -> float:
-        return self._integral(self.viscosity[:, None] * self._field(v, 1, 2) ** 2)
+    def axial_mass(self) -> Array:
+        return self.element_matrices()[0]
 
     def element_matrices(self) -> tuple[Array, Array, Array]:
         length = self.lengths
@@ -114,16 +114,22 @@ class ANCFCable:
     def build(self, mbs: Any, shape: Shape, section: Section, viscosity: Array) -> Beam:
         beam = _Cable(mbs, shape, section, viscosity)
         cos, sin = np.cos(shape.angle), np.sin(shape.angle)
-        if not shape.slender:
+        if not (shape.slender or section.axial_force):
             # the linear limit: slopes are angles and nothing stretches to first order
             cos, sin = np.ones_like(cos), shape.angle
+        stretched = 1.0 + section.stretch
         for i in range(shape.s.size):
             w = shape.angular_velocity[i]
             beam.nodes.append(
                 mbs.AddNode(
                     items.NodePoint2DSlope1(
                         referenceCoordinates=[shape.s[i], 0.0, 1.0, 0.0],
-                        initialCoordinates=[shape.x[i] - shape.s[i], shape.y[i], cos[i] - 1.0, sin[i]],
+                        initialCoordinates=[
+                            stretched * shape.x[i] - shape.s[i],
+                            shape.y[i],
+                            stretched * cos[i] - 1.0,
+                            stretched * sin[i],
+                        ],
                         initialVelocities=[
                             shape.velocity_x[i],
                             shape.velocity_y[i],
@@ -141,7 +147,7 @@ class ANCFCable:
                         massPerLength=section.mass_per_length,
                         bendingStiffness=section.bending_stiffness,
                         axialStiffness=section.axial_stiffness,
-                        bendingDamping=viscosity[i],
+                        bendingDamping=beam.viscosity[i],
                         referenceCurvature=shape.curvature,
                         nodeNumbers=[beam.nodes[i], beam.nodes[i + 1]],
                         useReducedOrderIntegration=1,

@@ -6,27 +6,37 @@ Coordinates are Exudyn's: displacements from a straight reference along x, where
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, Protocol
 
 import exudyn.itemInterface as items
 import numpy as np
 from numpy.typing import NDArray
+from scipy.sparse import csr_matrix
 
 from exudyn_models.geometry import Shape
 
 __all__ = ["Beam", "Element", "Section"]
 
 Array = NDArray[np.float64]
+Matrix = Any  # SciPy's sparse matrices carry no types
 
 
 @dataclass(frozen=True)
 class Section:
-    """Of the beam in its model's units."""
+    """Of the beam in its model's units; ``damping`` is the Kelvin–Voigt time of bending."""
 
     bending_stiffness: float = 1.0
     mass_per_length: float = 1.0
     axial_stiffness: float = 1.0
+    axial_force: float = 0.0
+    damping: float = 0.0
+
+    @property
+    def stretch(self) -> float:
+        """Strain under the axial force."""
+        return self.axial_force / self.axial_stiffness
 
 
 class Beam(ABC):
@@ -37,7 +47,11 @@ class Beam(ABC):
     rotation_coordinate: int
 
     def __init__(self, mbs: Any, shape: Shape, section: Section, viscosity: Array) -> None:
-        self.mbs, self.shape, self.section, self.viscosity = mbs, shape, section, viscosity
+        self.mbs, self.shape, self.section = mbs, shape, section
+        self.grid_viscosity = viscosity
+        self.viscosity = viscosity + section.bending_stiffness * section.damping
+        self.uniform_load = 0.0
+        self.node_loads: list[tuple[int, int, float, float]] = []
         self.lengths = shape.lengths
         self.nodes: list[Any] = []
         self.bodies: list[Any] = []
@@ -63,12 +77,11 @@ class Beam(ABC):
                 items.CoordinateConstraint(markerNumbers=[self.ground_marker, self.marker(node, coordinate)])
             )
 
-    def burden(self, node: int, *coordinates: int, inertia: float = 1e9) -> None:
+    def hold_by_inertia(self, node: int, *coordinates: int, inertia: float = 1e9) -> None:
         """Hold coordinates of a node by an inertia too large to move.
 
         Exudyn's explicit solvers set constrained accelerations to zero *after* solving with the unconstrained mass
-        matrix,
-        which destabilises a consistent one.
+        matrix, which destabilises a consistent one.
         """
         size = self.rotation_coordinate + 1
         mass = np.zeros((size, size))
@@ -86,9 +99,59 @@ class Beam(ABC):
 
     def load_uniformly(self, acceleration: float) -> None:
         """A load μ·``acceleration`` per unit length along y."""
+        self.uniform_load = acceleration
         for body in self.bodies:
             marker = self.mbs.AddMarker(items.MarkerBodyMass(bodyNumber=body))
             self.mbs.AddLoad(items.LoadMassProportional(markerNumber=marker, loadVector=[0.0, acceleration, 0.0]))
+
+    def load_node(self, node: int, coordinate: int, constant: float, rate: float = 0.0) -> None:
+        """A force (or moment) ``constant`` + ``rate``·t on one coordinate of the ``node``-th node."""
+        if constant == 0.0 == rate:
+            return
+        self.node_loads.append((node, coordinate, constant, rate))
+        marker = self.marker(node, coordinate)
+        if rate:
+            load = items.LoadCoordinate(markerNumber=marker, loadUserFunction=lambda mbs, t, load: constant + rate * t)
+        else:
+            load = items.LoadCoordinate(markerNumber=marker, load=constant)
+        self.mbs.AddLoad(load)
+
+    def loads(self) -> Callable[[float], Array]:
+        """After ``locate``: all loads as forces on the system's coordinates, as a function of time."""
+        size = self.mbs.systemData.GetODE2Coordinates().size
+        uniform = np.zeros(size)
+        uniform[self.vertical] = self.uniform_load
+        constant, rate = self.mass_matrix() @ uniform, np.zeros(size)
+        for node, coordinate, value, slope in self.node_loads:
+            place = self.vertical[node] - self.vertical_coordinate + coordinate
+            constant[place] += value
+            rate[place] += slope
+        return lambda time: constant + rate * time
+
+    def _assembled(self, matrices: Array, first: NDArray[np.int64], second: NDArray[np.int64]) -> Matrix:
+        """The system's matrix of element matrices in (first, second) of the left node, then of the right."""
+        pairs = [first, second][: matrices.shape[1] // 2]
+        at = np.stack([c[s] for s in (slice(None, -1), slice(1, None)) for c in pairs], axis=1)
+        rows, columns = (np.broadcast_to(m, matrices.shape) for m in (at[:, :, None], at[:, None, :]))
+        size = self.mbs.systemData.GetODE2Coordinates().size
+        return csr_matrix((matrices.ravel(), (rows.ravel(), columns.ravel())), shape=(size, size))
+
+    def mass_matrix(self) -> Matrix:
+        """Consistent mass matrix of the system, for its linear part."""
+        mass, _, _ = self.element_matrices()
+        along = self.axial_mass()
+        last = self.horizontal + self.rotation_coordinate - 1
+        return self._assembled(mass, self.vertical, self.rotation) + self._assembled(along, self.horizontal, last)
+
+    def damping_matrices(self) -> tuple[Matrix, Matrix]:
+        """Bending viscosity of the system at grid scale, and of the material."""
+        _, _, damping = self.element_matrices()
+        share = self.grid_viscosity / np.where(self.viscosity > 0.0, self.viscosity, 1.0)
+        grid = damping * share[:, None, None]
+        return (
+            self._assembled(grid, self.vertical, self.rotation),
+            self._assembled(damping - grid, self.vertical, self.rotation),
+        )
 
     def locate(self) -> None:
         """After ``mbs.Assemble()``: where the coordinates stand in the system's vectors."""
@@ -116,12 +179,12 @@ class Beam(ABC):
     def strain_energy(self, q: Array) -> float: ...
 
     @abstractmethod
-    def viscous_power(self, q: Array, v: Array) -> float:
-        """Power that the bending viscosity takes out."""
-
-    @abstractmethod
     def element_matrices(self) -> tuple[Array, Array, Array]:
         """Linearised mass, stiffness and damping matrices in (y₁, rotation₁, y₂, rotation₂), each (elements, 4, 4)."""
+
+    @abstractmethod
+    def axial_mass(self) -> Array:
+        """Mass matrices along x, (elements, 2, 2) in (x₁, x₂) or (elements, 4, 4) in (x₁, x₁′, x₂, x₂′)."""
 
     def axial_frequency(self) -> float:
         """Upper bound of the axial angular frequencies."""

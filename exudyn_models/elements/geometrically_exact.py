@@ -55,11 +55,13 @@ class _Exact(Beam):
         strain = dx * np.cos(middle) + dy * np.sin(middle) - 1.0
         shear = dy * np.cos(middle) - dx * np.sin(middle)
         bending = self.section.bending_stiffness * (np.diff(theta) / length - self.shape.curvature) ** 2
-        total = bending + self.section.axial_stiffness * strain**2 + self.shear_stiffness * shear**2
+        axial = self.section.axial_stiffness * (strain**2 - self.section.stretch**2)
+        total = bending + axial + self.shear_stiffness * shear**2
         return float((total * length).sum() / 2)
 
-    def viscous_power(self, q: Array, v: Array) -> float:
-        return float((self.viscosity * np.diff(v[self.rotation]) ** 2 / self.lengths).sum())
+    def axial_mass(self) -> Array:
+        pair = np.array([[2.0, 1.0], [1.0, 2.0]]) / 6
+        return np.asarray(pair * self.lengths[:, None, None] * self.section.mass_per_length)
 
     def element_matrices(self) -> tuple[Array, Array, Array]:
         length = self.lengths[:, None, None]
@@ -102,12 +104,13 @@ class GeometricallyExact:
         beam = _Exact(mbs, shape, section, viscosity)
         beam.shear_stiffness = self.shear_ratio * section.bending_stiffness / beam.lengths**2
         beam.rotary_inertia = self.rotary_ratio * section.mass_per_length * beam.lengths**2
+        stretched = 1.0 + section.stretch
         for i in range(shape.s.size):
             beam.nodes.append(
                 mbs.AddNode(
                     items.NodeRigidBody2D(
                         referenceCoordinates=[shape.s[i], 0.0, 0.0],
-                        initialCoordinates=[shape.x[i] - shape.s[i], shape.y[i], shape.angle[i]],
+                        initialCoordinates=[stretched * shape.x[i] - shape.s[i], shape.y[i], shape.angle[i]],
                         initialVelocities=[shape.velocity_x[i], shape.velocity_y[i], shape.angular_velocity[i]],
                     )
                 )
@@ -123,7 +126,7 @@ class GeometricallyExact:
                         bendingStiffness=section.bending_stiffness,
                         axialStiffness=section.axial_stiffness,
                         shearStiffness=beam.shear_stiffness[i],
-                        bendingDamping=viscosity[i],
+                        bendingDamping=beam.viscosity[i],
                         referenceCurvature=shape.curvature,
                     )
                 )

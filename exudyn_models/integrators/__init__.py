@@ -1,6 +1,6 @@
 """Time integrators: each a small file; ``INTEGRATORS`` names them for ``[exudyn.integrator]``."""
 
-from exudyn_models.integrators.base import Integrator
+from exudyn_models.integrators.base import Averages, Integrator
 from exudyn_models.integrators.explicit import DOPRI5, RK44, VelocityVerlet
 from exudyn_models.integrators.generalized_alpha import GeneralizedAlpha
 from exudyn_models.integrators.newmark import Newmark
@@ -10,6 +10,7 @@ __all__ = [
     "DOPRI5",
     "INTEGRATORS",
     "RK44",
+    "Averages",
     "GeneralizedAlpha",
     "Integrator",
     "Newmark",

@@ -13,10 +13,14 @@ from dataclasses import dataclass
 from typing import Any, ClassVar, cast
 
 import exudyn as exu
+import numpy as np
+from numpy.typing import NDArray
 
 from bent_beam.checks import positive
 
-__all__ = ["Implicit", "Integrator", "Segment", "checked_steps", "growing_segments"]
+__all__ = ["Averages", "Implicit", "Integrator", "Segment", "checked_steps", "growing_segments"]
+
+Array = NDArray[np.float64]
 
 MAXIMUM_STEPS = 5_000_000
 
@@ -33,6 +37,23 @@ class Segment:
     def length(self) -> float:
         """Of one step."""
         return (self.end - self.start) / self.steps
+
+
+@dataclass(frozen=True)
+class Averages:
+    """How a scheme turns forces at the ends of a step into its impulse (Chung & Hulbert 1993; Newmark: αm = αf = 0):
+
+    Δp = h[(1−γ) φ₀ + γ φ₁],   (1−αm) φ₁ + αm φ₀ = (1−αf) f₁ + αf f₀.
+    """
+
+    gamma: float = 0.5
+    alpha_m: float = 0.0
+    alpha_f: float = 0.0
+
+    def impulse(self, old: Array, new: Array, averaged: Array) -> tuple[Array, Array]:
+        """Impulse of a force over the step's length, and its average φ₁; ``averaged`` is φ₀."""
+        after = ((1.0 - self.alpha_f) * new + self.alpha_f * old - self.alpha_m * averaged) / (1.0 - self.alpha_m)
+        return (1.0 - self.gamma) * averaged + self.gamma * after, after
 
 
 def checked_steps(count: float) -> None:
@@ -82,10 +103,9 @@ class Integrator(ABC):
         }
         return cast(Integrator, dataclasses.replace(cast(Any, self), **shorter))
 
-    @property
-    def newer_share(self) -> float:
-        """The weight that a step's impulse gives to the force at its end."""
-        return 0.5
+    def averages(self) -> Averages:
+        """What forces at the ends of a step make of its impulse; the mean where nothing better is known."""
+        return Averages()
 
     def solver(self) -> Any:
         """A fresh Exudyn solver object."""

@@ -38,7 +38,7 @@ class _Explicit(Integrator):
     def configure(self, settings: Any) -> None:
         settings.timeIntegration.solverType = self.method
         settings.timeIntegration.automaticStepSize = False
-        settings.timeIntegration.explicit.computeEndOfStepAccelerations = False
+        settings.timeIntegration.explicit.computeEndOfStepAccelerations = True  # the energy budget needs them
 
     def segments(self, first: float, per_segment: int, unit: float, stable: float) -> list[Segment]:
         step = self.safety * stable
@@ -51,7 +51,7 @@ class _Explicit(Integrator):
                 )
         checked_steps(1.0 / max(step, 1e-300))
         count = math.ceil(1.0 / step)
-        pieces = max(1, min(1000, count // per_segment))
+        pieces = max(1, count // per_segment)
         ends = [round(count * k / pieces) for k in range(pieces + 1)]
         return [Segment(a / count, b / count, b - a) for a, b in itertools.pairwise(ends)]
 

@@ -8,7 +8,7 @@ from typing import Any
 import exudyn as exu
 
 from bent_beam.checks import between
-from exudyn_models.integrators.base import Implicit
+from exudyn_models.integrators.base import Averages, Implicit
 
 __all__ = ["GeneralizedAlpha"]
 
@@ -25,6 +25,11 @@ class GeneralizedAlpha(Implicit):
     def __post_init__(self) -> None:
         super().__post_init__()
         between("exudyn.integrator.spectral_radius", self.spectral_radius, 0.0, 1.0)
+
+    def averages(self) -> Averages:
+        rho = self.spectral_radius
+        alpha_m, alpha_f = (2.0 * rho - 1.0) / (rho + 1.0), rho / (rho + 1.0)
+        return Averages(gamma=0.5 + alpha_f - alpha_m, alpha_m=alpha_m, alpha_f=alpha_f)
 
     def configure(self, settings: Any) -> None:
         settings.timeIntegration.solverType = exu.DynamicSolverType.GeneralizedAlpha

@@ -8,7 +8,7 @@ from typing import Any
 import exudyn as exu
 
 from bent_beam.checks import between
-from exudyn_models.integrators.base import Implicit
+from exudyn_models.integrators.base import Averages, Implicit
 
 __all__ = ["Newmark"]
 
@@ -30,9 +30,8 @@ class Newmark(Implicit):
         if self.beta is not None:
             between("exudyn.integrator.beta", self.beta, self.gamma / 2, 2.0)
 
-    @property
-    def newer_share(self) -> float:
-        return self.gamma
+    def averages(self) -> Averages:
+        return Averages(gamma=self.gamma)
 
     def configure(self, settings: Any) -> None:
         settings.timeIntegration.solverType = exu.DynamicSolverType.GeneralizedAlpha

@@ -12,7 +12,7 @@ from exudyn_models.resolution import far_field
 from exudyn_models.scaling import Scaling, front_estimate
 from exudyn_models.settling import Settling
 
-__all__ = ["cautions"]
+__all__ = ["warnings_of_run"]
 
 Array = NDArray[np.float64]
 
@@ -22,7 +22,7 @@ MOST_CYCLES = 0.05  # of the steps
 MOST_PULLED = 1.0  # of the total impulse
 
 
-def cautions(
+def warnings_of_run(
     run: Recorder,
     places: Array,
     half_length: float,
