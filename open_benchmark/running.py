@@ -1,0 +1,156 @@
+"""One run of one adapter under limits: of time, of what it writes, and of nothing else of the machine.
+
+An adapter that hangs, crashes, writes rubbish or fills the disk is an outcome with a reason. It runs in a process group
+and a folder of its own; both are gone afterwards.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import resource
+import shutil
+import signal
+import subprocess
+import tempfile
+import time
+from dataclasses import dataclass
+from pathlib import Path
+
+from open_benchmark.adapter import Adapter
+from open_benchmark.problem import Problem, problem_text
+from open_benchmark.result import ResultError, load_result
+
+__all__ = ["Limits", "Run", "run_adapter"]
+
+GRACE = 0.1  # s between looks at the clock and the folder
+MOST_FILES = 10_000
+
+
+@dataclass(frozen=True)
+class Limits:
+    """Of one run: wall seconds, and bytes of all that it writes."""
+
+    seconds: float = 120.0
+    output_bytes: int = 300_000_000
+
+
+@dataclass(frozen=True)
+class Run:
+    """How a run ended: ``outcome`` and ``reason`` of the judge ("" : the result file says), wall seconds."""
+
+    outcome: str
+    reason: str
+    seconds: float
+
+
+def run_adapter(adapter: Adapter, asked: Problem, resolution: str, kept: Path, limits: Limits) -> Run:
+    """Run an adapter on a problem; a readable result is left in ``kept`` (``kept.json`` and ``.csv`` for a pair)."""
+    for old in (kept, kept.with_suffix(".csv"), kept.with_suffix(".json")):
+        old.unlink(missing_ok=True)
+    missing = adapter.missing()
+    if missing:
+        return Run("not_installed", missing, 0.0)
+    kept.parent.mkdir(parents=True, exist_ok=True)
+    folder = Path(tempfile.mkdtemp(prefix=".run-", dir=kept.parent))
+    try:
+        (folder / "problem.toml").write_text(problem_text(asked), encoding="utf-8")
+        return _run(adapter, asked, resolution, folder, kept, limits)
+    finally:
+        shutil.rmtree(folder, ignore_errors=True)
+
+
+def _run(adapter: Adapter, asked: Problem, resolution: str, folder: Path, kept: Path, limits: Limits) -> Run:
+    def limit() -> None:
+        resource.setrlimit(resource.RLIMIT_FSIZE, (limits.output_bytes, limits.output_bytes))
+        resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+
+    command = adapter.command(folder / "problem.toml", folder / "result.npz", resolution)
+    # one thread each: a race for cores would be measured, not the codes
+    surroundings = {**os.environ, "OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1", "TMPDIR": str(folder)}
+    if adapter.install or adapter.debian:
+        surroundings.pop("PYTHONPATH", None)  # nothing of this project is in reach of a foreign adapter
+    began = time.perf_counter()
+    with open(folder / "out.txt", "wb") as out, open(folder / "err.txt", "wb") as err:
+        try:
+            process = subprocess.Popen(
+                command, cwd=folder, stdin=subprocess.DEVNULL, stdout=out, stderr=err, env=surroundings,
+                start_new_session=True, preexec_fn=limit,
+            )  # fmt: skip
+        except OSError as error:
+            return Run("crashed", f"could not be started: {error.strerror or error}", 0.0)
+        try:
+            ended = _watch(process, folder, began, limits)
+        finally:
+            _end(process)
+    spent = time.perf_counter() - began
+    if ended:
+        return Run(ended[0], ended[1], spent)
+    return _taken(folder, asked, kept, process.returncode, spent)
+
+
+def _watch(process: subprocess.Popen[bytes], folder: Path, began: float, limits: Limits) -> tuple[str, str] | None:
+    """Wait for the end; outcome and reason when a limit ended it."""
+    while process.poll() is None:
+        if time.perf_counter() - began > limits.seconds:
+            return "timeout", f"more than {limits.seconds:g} s"
+        size, files = _written(folder)
+        if size > limits.output_bytes or files > MOST_FILES:
+            return "crashed", f"wrote {size} bytes in {files} files, {limits.output_bytes} are the most"
+        time.sleep(GRACE if time.perf_counter() - began > 1.0 else GRACE / 5)
+    return None
+
+
+def _written(folder: Path) -> tuple[int, int]:
+    size = files = 0
+    for place, _, names in os.walk(folder):
+        for name in names:
+            try:
+                size += os.lstat(os.path.join(place, name)).st_blocks * 512
+            except OSError:
+                continue
+            files += 1
+        if files > MOST_FILES:
+            break
+    return size, files
+
+
+def _end(process: subprocess.Popen[bytes]) -> None:
+    """Kill the whole process group, what it started included."""
+    try:
+        os.killpg(process.pid, signal.SIGKILL)
+    except ProcessLookupError:
+        pass
+    process.wait()
+
+
+def _taken(folder: Path, asked: Problem, kept: Path, code: int, spent: float) -> Run:
+    """Keep what the adapter left, if it can be read and answers the problem."""
+    said = _last_line(folder / "err.txt")
+    for name in ("result.npz", "result.json"):
+        file = folder / name
+        if file.is_symlink() or not file.is_file():
+            continue
+        try:
+            result = load_result(file)
+        except ResultError as error:
+            return Run("invalid", str(error).replace(f"{folder}/", ""), spent)
+        if result.problem.id != asked.id:
+            return Run("invalid", f"problem is {result.problem.id}, asked was {asked.id}", spent)
+        for part in (file, file.with_suffix(".csv")):
+            if part.is_file():
+                os.replace(part, kept.with_suffix(part.suffix))
+        return Run("", "", spent)
+    if code < 0:
+        said = f"signal {signal.Signals(-code).name}" + (f": {said}" if said else "")
+    return Run("crashed", said or (f"exit status {code}" if code else "left no result.npz or result.json"), spent)
+
+
+def _last_line(file: Path) -> str:
+    """The last line of standard error, short."""
+    with open(file, "rb") as stream:
+        stream.seek(0, os.SEEK_END)
+        stream.seek(max(stream.tell() - 4000, 0))
+        lines = stream.read().decode("utf-8", "replace").splitlines()
+    line = next((" ".join(text.split()) for text in reversed(lines) if text.strip()), "")
+    return json.dumps(line[:200], ensure_ascii=False).strip('"')
