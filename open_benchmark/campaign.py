@@ -21,7 +21,18 @@ from open_benchmark.result import Result, ResultError, load_result
 from open_benchmark.running import Limits, Run, run_adapter
 from open_benchmark.score import Score, invalid, score
 
-__all__ = ["Row", "campaign", "load_rows"]
+__all__ = ["STANDARD", "Row", "campaign", "with_bases"]
+
+#: What ``bentbeam benchmark`` asks unless told otherwise: 0.5 ranks codes, 0.1 is the stress test of the first
+#: instants, then one point, and the three regimes of loads (pressed on, lifted off, under tension).
+STANDARD = (
+    "leading-0.5",
+    "leading-0.1",
+    "point-2",
+    "first-0.5-1-1-1",
+    "first-0.5--1--1-0",
+    "first-0.5--0.5-0-0-1",
+)
 
 
 @dataclass(frozen=True)
@@ -47,22 +58,18 @@ def campaign(
     *,
     limits: Limits | None = None,
     resolutions: Sequence[str] = RESOLUTIONS,
-    progress: Callable[[str], None] | None = None,
+    progress: Callable[[int, int], None] | None = None,
 ) -> list[Row]:
     """Run what has not been run, and score all. A first-order problem brings its base along."""
     limits = limits or Limits()
     asked = [problem(name) for name in with_bases(problems)]
-    rows = []
-    for adapter in adapters:
-        for item in asked:
-            if not adapter.takes(item):
-                continue
-            for resolution in resolutions:
-                if progress:
-                    progress(f"{adapter.name}: {item.id}, {resolution}")
-                _run_once(adapter, item, resolution, out, limits)
-            rows += [_row(adapter.name, item, resolution, out) for resolution in resolutions]
-    return rows
+    pairs = [(adapter, item) for adapter in adapters for item in asked if adapter.takes(item)]
+    runs = [(adapter, item, resolution) for adapter, item in pairs for resolution in resolutions]
+    for done, (adapter, item, resolution) in enumerate(runs):
+        if progress:
+            progress(done, len(runs))
+        _run_once(adapter, item, resolution, out, limits)
+    return [_row(adapter.name, item, resolution, out) for adapter, item, resolution in runs]
 
 
 def with_bases(problems: Sequence[str]) -> list[str]:
@@ -126,14 +133,3 @@ def _row(solver: str, asked: Problem, resolution: str, out: Path) -> Row:
     except ResultError as error:
         found = invalid(str(error), asked.id)
     return Row(solver, asked.id, resolution, run.seconds, found)
-
-
-def load_rows(adapters: Sequence[Adapter], problems: Sequence[str], out: Path) -> list[Row]:
-    """The rows of a campaign scored again from what is kept."""
-    return [
-        _row(adapter.name, problem(name), resolution, out)
-        for adapter in adapters
-        for name in with_bases(problems)
-        if adapter.takes(problem(name))
-        for resolution in RESOLUTIONS
-    ]

@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import io
 import json
-import math
 import platform
 from collections.abc import Sequence
 from pathlib import Path
@@ -130,10 +129,10 @@ def document(rows: Sequence[Row], adapters: Sequence[Adapter]) -> dict[str, Any]
 
 def _seconds(row: Row) -> float | None:
     """Of the time loop as the adapter says, never more than the wall clock of the whole run."""
-    said = row.score.metadata.get("seconds")
-    if isinstance(said, int | float) and not isinstance(said, bool) and math.isfinite(said) and said > 0.0:
-        return min(float(said), row.seconds) if row.seconds > 0.0 else float(said)
-    return row.seconds or None
+    said = row.score.seconds
+    if said is None:
+        return row.seconds or None
+    return min(said, row.seconds) if row.seconds > 0.0 else said
 
 
 def work_precision_figure(rows: Sequence[Row], name: str, solvers: Sequence[str]) -> Figure | None:
@@ -164,12 +163,10 @@ def work_precision_figure(rows: Sequence[Row], name: str, solvers: Sequence[str]
 
 
 def _point(row: Row, measure: str) -> tuple[float, float] | None:
-    estimate, exact = row.score.measured.get(measure, (None, None))
-    seconds = _seconds(row)
-    if estimate is None or exact is None or seconds is None:
+    found, seconds = row.score.measured.get(measure), _seconds(row)
+    if found is None or found.difference is None or seconds is None or (found.theory == 0.0 and measure == "lambda0"):
         return None
-    error = abs(estimate.value - exact) / (abs(exact) or 1.0)
-    return (seconds, max(error, 1e-7)) if math.isfinite(error) and not (exact == 0.0 and measure == "lambda0") else None
+    return seconds, max(abs(found.relative() or 0.0), 1e-7)
 
 
 def _svg(figure: Figure) -> str:
@@ -181,13 +178,10 @@ def _svg(figure: Figure) -> str:
 
 
 def _cell(row: Row, measure: str) -> str:
-    error = row.score.error(measure)
-    estimate, exact = row.score.measured.get(measure, (None, None))
-    if estimate is None:
+    found, error = row.score.measured.get(measure), row.score.error(measure)
+    if found is None or found.value is None:
         return "–"
-    if error is None:
-        return f"{estimate.value:.4g}" + ("" if exact is None else f" (exact {exact:g})")
-    return f"{100 * error:+.3f} %"
+    return f"{found.value:.3g}" if error is None else f"{100 * error:+.3f} %"
 
 
 def write_page(rows: Sequence[Row], adapters: Sequence[Adapter], out: Path) -> Path:

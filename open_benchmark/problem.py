@@ -4,7 +4,8 @@
     point-K                the same with K ≥ 1: one point in contact
     first-K-A-P-C[-N]      the same with small loads (α, ψ, χ[, n]) = (A, P, C[, N]), compared with leading-K
     bounce-K-D             the free beam of finite length until it has left the wall, η/T* = D
-    ball  bar  string  stopped-beam        the ladder: closed forms without a moving front
+    stopped-beam           the same until its first release: one point that holds
+    ball  bar  string      the ladder's lower rungs: closed forms without bending
 
 All problems are posed in units that make the stiffness, the mass and the velocity one, in which every reference is
 known. A file holds no reference value and nothing numerical.
@@ -28,13 +29,16 @@ LOAD = 0.2  # ε times the sum of the loads' sizes: εr₁τ/r₀ ends at about 
 EQUIVALENTS = ("half beam", "small amplitude", "straight beam on a curved wall")
 NUMBER = r"(-?\d+(?:\.\d+)?(?:e-?\d+)?)"
 
-#: The ladder's parts: table name and its keys, all numbers one, and the end of the record in the problem's own time.
+#: The ladder: its table's name and keys, and the end of the record, all in units that make the numbers simple.
 LADDER: dict[str, tuple[str, dict[str, float], float]] = {
-    "ball": ("ball", {"mass": 1.0, "gravity": 1.0, "height": 0.5, "restitution": 1.0}, 20.0),
-    "bar": ("bar", {"axial_stiffness": 1.0, "mass_per_length": 1.0, "length": 1.0, "velocity": 1.0}, 3.0),
+    # lands at t = 1, and again every 2: ten impacts by the end
+    "ball": ("ball", {"mass": 1.0, "gravity": 1.0, "height": 0.5, "velocity": 0.0, "restitution": 1.0}, 20.0),
+    # in contact from 0.5 to 2.5
+    "bar": ("bar", {"axial_stiffness": 1.0, "mass_per_length": 1.0, "length": 1.0, "velocity": 1.0, "gap": 0.5}, 3.0),
+    # a parabola of height 1 over an obstacle at rest through its ends: lands at 0.5, 1.5, 2.5 and 3.5
     "string": ("string", {"tension": 1.0, "mass_per_length": 1.0, "length": 1.0, "height": 1.0}, 4.0),
-    "stopped-beam": ("beam", {"bending_stiffness": 1.0, "mass_per_length": 1.0, "half_length": 1.0}, 0.1),
 }
+STOPPED_DAMPING, STOPPED_END = 0.01, 0.1  # the wall first lets go at 0.1516
 
 
 @dataclass(frozen=True)
@@ -114,7 +118,7 @@ def problem(name: str) -> Problem:
     if found is None:
         raise InputError(
             f"problem: {shortened(name)} is not the id of a problem (leading-K, point-K, first-K-A-P-C[-N], "
-            f"bounce-K-D, {', '.join(LADDER)}; shipped: {', '.join(shipped_ids())})"
+            f"bounce-K-D, {', '.join(LADDER)}, stopped-beam; shipped: {', '.join(shipped_ids())})"
         )
     return found
 
@@ -147,6 +151,10 @@ def _bounce(name: str) -> Problem | None:
 
 
 def _ladder(name: str) -> Problem | None:
+    if name == "stopped-beam":
+        return Problem(
+            name, name, 2.0, length=2.0, damping=STOPPED_DAMPING, end_time=STOPPED_END, snapshots=(0.5 * STOPPED_END,)
+        )
     if name not in LADDER:
         return None
     return Problem(name, name, end_time=LADDER[name][2], snapshots=())
@@ -198,6 +206,6 @@ def _toml(value: Any) -> str:
 
 def shipped_ids() -> list[str]:
     """Ids of the problem files that are shipped, in the benchmark's order."""
-    order = ("leading", "first", "point", *LADDER, "bounce")
+    order = ("leading", "first", "point", *LADDER, "stopped-beam", "bounce")
     names = (file.stem for file in (Path(__file__).parent / "problems").glob("*.toml"))
     return sorted(names, key=lambda name: (next(i for i, o in enumerate(order) if name.startswith(o)), name))

@@ -106,7 +106,8 @@ def load_result(file: str | Path) -> Result:
     except ResultError as error:
         raise ResultError(f"{source}: {error}") from None
     except (ValueError, OSError, RecursionError, OverflowError, MemoryError) as error:
-        raise ResultError(f"{source}: {_one_line(error)}") from None
+        said = _one_line(error)
+        raise ResultError(said if said.startswith(str(source)) else f"{source}: {said}") from None
     raise ResultError(f"{source}: must end in .npz, .csv or .json (CSV beside JSON), or .nc (a history)")
 
 

@@ -7,13 +7,15 @@ exact values come from ``theory``; how an estimate is read off J and Jm, with it
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import asdict, dataclass, field, replace
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from comparison.compared import Compared
 from comparison.estimators import Estimate, Moments, first_order, leading_order
+from comparison.plain import plain
 from open_benchmark import doctor
 from open_benchmark.references import Reference, reference
 from open_benchmark.result import Result, ResultError
@@ -33,14 +35,14 @@ class Score:
     """What the judge says of one result; a number is ``None`` where it is not reported or means nothing.
 
     outcome : the adapter's, with the judge's additions after a comma ("completed, lifted"). reason : one line for
-    anything but "completed". measured : name → (estimate, exact value or ``None``). lift, penetration (over V₀τ),
+    anything but "completed". measured : name → value, error bar and exact value. lift, penetration (over V₀τ),
     adhesion (tensile over whole impulse), noise (residual of the fit over the impulse), energy (shares of J V₀).
     """
 
     problem: str
     outcome: str
     reason: str | None = None
-    measured: dict[str, tuple[Estimate | None, float | None]] = field(default_factory=dict)
+    measured: dict[str, Compared] = field(default_factory=dict)
     lift: float | None = None
     penetration: float | None = None
     adhesion: float | None = None
@@ -51,40 +53,33 @@ class Score:
 
     def error(self, name: str) -> float | None:
         """Relative error of one measured number against its exact value; ``None`` where either is missing."""
-        estimate, exact = self.measured.get(name, (None, None))
-        return None if estimate is None or exact is None or exact == 0.0 else estimate.value / exact - 1.0
+        found = self.measured.get(name)
+        return found.relative() if found is not None and found.theory else None
+
+    @property
+    def seconds(self) -> float | None:
+        """Of the time loop, as the adapter reports them; ``None`` when it does not."""
+        said = self.metadata.get("seconds")
+        if not isinstance(said, int | float) or isinstance(said, bool) or not 0.0 < said < np.inf:
+            return None
+        return float(said)
 
     def to_dict(self) -> dict[str, Any]:
         """Ready for JSON: finite numbers or ``None``."""
         document: dict[str, Any] = {"problem": self.problem, "outcome": self.outcome, "reason": self.reason}
         for name in dict.fromkeys(("lambda0", "r0", "lambda1", "r1", *self.measured)):
-            estimate, exact = self.measured.get(name, (None, None))
-            document[name] = (
-                None
-                if estimate is None
-                else {"value": _number(estimate.value), "error": _number(estimate.error), "theory": _number(exact)}
-            )
+            document[name] = asdict(self.measured[name]) if name in self.measured else None
         for name in ("lift", "penetration", "adhesion", "noise"):
-            document[name] = _number(getattr(self, name))
-        document["energy"] = None if self.energy is None else {k: _number(v) for k, v in self.energy.items()}
+            document[name] = getattr(self, name)
+        document["energy"] = self.energy
         document["diagnosis"] = [finding.name for finding in self.diagnosis]
         document["advice"] = [finding.to_dict() for finding in self.diagnosis if finding.name != "clean"]
-        document["metadata"] = _json_ready(self.metadata)
-        return document
+        document["metadata"] = self.metadata
+        return dict(plain(document))
 
 
-def _number(value: float | None) -> float | None:
-    return float(value) if value is not None and np.isfinite(value) else None
-
-
-def _json_ready(value: Any) -> Any:
-    if isinstance(value, dict):
-        return {str(key): _json_ready(item) for key, item in value.items()}
-    if isinstance(value, list | tuple):
-        return [_json_ready(item) for item in value]
-    if isinstance(value, float):
-        return _number(value)
-    return value if isinstance(value, str | int | bool) or value is None else str(value)
+def _compared(found: Estimate, exact: float | None) -> Compared:
+    return Compared(found.value, found.error, exact)
 
 
 def invalid(reason: str, name: str = "") -> Score:
@@ -111,10 +106,10 @@ def score(result: Result, base: Result | None = None) -> Score:
         leading = leading_order(moments(bare), window=asked.fit_window[1] / asked.fit_window[0])
     except (ValueError, np.linalg.LinAlgError) as error:
         return replace(found, outcome="invalid", reason=" ".join(str(error).split()))
-    measured: dict[str, tuple[Estimate | None, float | None]] = {}
+    measured: dict[str, Compared] = {}
     if asked.kind != "first" or base is not None:
-        measured["lambda0"] = (leading.lambda0, exact["lambda0"])
-        measured["r0"] = (leading.r0, exact["r0"])
+        measured["lambda0"] = _compared(leading.lambda0, exact["lambda0"])
+        measured["r0"] = _compared(leading.r0, exact["r0"])
     if asked.kind == "first" and base is not None:
         try:
             change = first_order(
@@ -124,8 +119,8 @@ def score(result: Result, base: Result | None = None) -> Score:
             )
         except (ValueError, np.linalg.LinAlgError) as error:
             return replace(found, outcome="invalid", reason=" ".join(str(error).split()))
-        measured["lambda1"] = (change.lambda1, exact["lambda1"])
-        measured["r1"] = (change.r1, exact["r1"])
+        measured["lambda1"] = _compared(change.lambda1, exact["lambda1"])
+        measured["r1"] = _compared(change.r1, exact["r1"])
     lift, penetration = _gaps(result, leading.lambda0.value if asked.kind != "point" else 0.0)
     found = replace(
         found,
@@ -256,19 +251,17 @@ def _ladder(result: Result, exact: Reference) -> Score:
     """A problem with a fixed contact: the impulse against the closed form, or the restitution of a whole impact."""
     assert result.tau is not None and result.J is not None
     asked = result.problem
-    measured: dict[str, tuple[Estimate | None, float | None]] = {}
+    measured: dict[str, Compared] = {}
     if asked.kind == "bounce":
         free = result.tau >= 0.9 * asked.end_time  # out of contact by then: what still changes is the error
-        rest = result.J[free] / (2.0 * (asked.length or 2.0) / 2.0) - 1.0
-        measured["restitution"] = (
-            Estimate(float(rest[-1]), float(np.ptp(rest)) + 1e-12),
-            exact.values.get("restitution"),
-        )
+        rest = result.J[free] / (asked.length or 2.0) - 1.0
+        measured["restitution"] = Compared(float(rest[-1]), float(np.ptp(rest)), None)
     elif exact.impulse is not None:
         expected = exact.impulse(result.tau)
-        size = float(np.abs(expected).max())
-        measured["impulse_error"] = (Estimate(float(np.sqrt(np.mean((result.J - expected) ** 2))) / size, 0.0), 0.0)
-        measured["impulse"] = (Estimate(float(result.J[-1]), 0.0), float(expected[-1]))
+        # mean, not largest: where the impulse jumps, a jump at a slightly wrong time is a small error
+        mean = float(np.mean(np.abs(result.J - expected)) / np.abs(expected).max())
+        measured["impulse_error"] = Compared(mean, None, 0.0)
+        measured["impulse"] = Compared(float(result.J[-1]), None, float(expected[-1]))
     return Score(
         asked.id,
         "completed",
@@ -296,15 +289,13 @@ def work_precision(scores: Sequence[Score]) -> list[dict[str, Any]]:
     """Points of the work–precision line: seconds, steps and relative errors of the results of one code and problem."""
     points = []
     for found in scores:
-        errors = {name: found.error(name) for name in found.measured}
-        seconds = found.metadata.get("seconds")
         points.append(
             {
                 "problem": found.problem,
                 "resolution": found.metadata.get("resolution"),
-                "seconds": _number(seconds) if isinstance(seconds, int | float) else None,
+                "seconds": found.seconds,
                 "steps": found.metadata.get("steps"),
-                "errors": {name: _number(value) for name, value in errors.items()},
+                "errors": {name: found.error(name) for name in found.measured},
             }
         )
     return sorted(points, key=lambda point: (point["problem"], point["seconds"] is None, point["seconds"] or 0.0))

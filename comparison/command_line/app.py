@@ -15,19 +15,35 @@ from typing import Annotated
 import typer
 
 from bent_beam.errors import SimulationError
+from comparison.command_line.benchmark import benchmark
 from comparison.command_line.gallery import gallery
 from comparison.command_line.match import match
 from comparison.command_line.predict import predict
 from comparison.command_line.predictor import predictor
+from comparison.command_line.problem import problem
 from comparison.command_line.report import report
 from comparison.command_line.rerun import rerun
+from comparison.command_line.score import score
 from comparison.command_line.simulate import simulate
 from comparison.command_line.study import study
 from comparison.command_line.theory import theory
 
 __all__ = ["app", "main", "run"]
 
-COMMANDS = (theory, predict, predictor, simulate, match, study, gallery, report, rerun)
+COMMANDS = (
+    theory,
+    predict,
+    predictor,
+    simulate,
+    match,
+    study,
+    gallery,
+    report,
+    rerun,
+    problem,
+    score,
+    benchmark,
+)
 
 app = typer.Typer(
     help="A naturally bent beam hits a rigid wall: theory, simulations, and how well they agree.",

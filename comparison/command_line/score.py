@@ -1,0 +1,71 @@
+"""``bentbeam score``."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from comparison.command_line.options import Json, emit
+
+if TYPE_CHECKING:
+    from open_benchmark.score import Score
+
+__all__ = ["score"]
+
+
+def score(
+    results: Annotated[
+        list[Path],
+        typer.Argument(metavar="RESULT…", help="Results of any code: .npz, .csv beside .json, or a history (.nc)."),
+    ],
+    base: Annotated[
+        Path | None, typer.Option(metavar="RESULT", help="The same code's result without loads, for λ₁ and r₁.")
+    ] = None,
+    as_json: Json = False,
+) -> int:
+    """Score results against the exact solution, and say what is likely wrong with them.
+
+    With several results of one code and problem the work–precision line is added. Exit code 2 when a result cannot be
+    read; the others are scored all the same.
+
+    Example: bentbeam score coarse.npz medium.npz fine.npz
+    """
+    from open_benchmark.result import ResultError, load_result
+    from open_benchmark.score import invalid, work_precision
+    from open_benchmark.score import score as score_of
+
+    found, code = [], 0
+    reference = None if base is None else load_result(base)
+    for file in results:
+        try:
+            found.append(score_of(load_result(file), reference))
+        except ResultError as error:
+            print(f"error: {error}", file=sys.stderr)
+            found.append(invalid(str(error)))
+            code = 2
+    document: dict[str, Any] = found[0].to_dict()
+    if len(found) > 1:
+        document = {"results": [s.to_dict() for s in found], "work_precision": work_precision(found)}
+    readable = [s for s in found if s.outcome != "invalid"]
+    if as_json or readable:
+        emit(document, as_json, lambda: "\n\n".join(_text(s) for s in readable))
+    return code
+
+
+def _text(found: Score) -> str:
+    lines = [f"{found.problem}: {found.outcome}" + (f" ({found.reason})" if found.reason else "")]
+    for name, value in found.measured.items():
+        error = found.error(name)
+        exact = "" if value.theory is None else f", exact {value.theory:.8g}"
+        lines.append(f"{name:>14} = {value}{exact}" + ("" if error is None else f" ({100 * error:+.3f} %)"))
+    for name in ("lift", "penetration", "adhesion", "noise"):
+        number = getattr(found, name)
+        lines.append(f"{name:>14} = " + ("not reported" if number is None else f"{number:.2g}"))
+    for finding in found.diagnosis:
+        lines.append(f"{finding.name.replace('_', ' ')}" + (f": {finding.evidence}" if finding.evidence else ""))
+        if finding.advice:
+            lines.append(f"    {finding.advice}")
+    return "\n".join(lines)
