@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import json
 from dataclasses import dataclass
 from pathlib import Path
 
 import jinja2
 
 from comparison.store import write_atomically
+from theory.prediction import CONTACT_LIMIT, EXPANSION_LIMIT, TIME_LIMIT
 
 TEMPLATES = Path(__file__).parent / "templates"
 SCRIPTS = ("theory.js", "beam.js", "case.js", "view.js")
@@ -26,12 +28,17 @@ def _source(name: str) -> str:
     return (TEMPLATES / name).read_text(encoding="utf-8")
 
 
+def limits() -> dict[str, float]:
+    """Where `theory.predict` stops trusting itself, for the page to stop at the same."""
+    return {"time": TIME_LIMIT, "expansion": EXPANSION_LIMIT, "contact": CONTACT_LIMIT}
+
+
 def panel() -> Panel:
     """The predictor to be embedded; everything in it lives under the element ``#predictor``."""
     return Panel(
         markup=_source("panel.html"),
         style=_source("predictor.css"),
-        script="\n".join(_source(name) for name in SCRIPTS),
+        script="\n".join([f"const LIMITS = {json.dumps(limits())};", *(_source(name) for name in SCRIPTS)]),
     )
 
 

@@ -185,14 +185,15 @@ def predictions_agree(browser: Any, impacts: list[Impact], seed: int) -> None:
         "arguments[1].map(([t, ...v]) => { const b = {tension: 0, area: 1, modulus: 1};"
         " arguments[0].forEach((name, i) => { b[name] = v[i]; });"
         " const p = Beam.solve(b), r = Beam.at(p, t);"
-        " return [r.halfLength, r.reaction, r.uniform, r.impulse, p.contact.regime]; })",
+        " return [r.halfLength, r.reaction, r.uniform, r.impulse, p.contact.regime, p.validUntil]; })",
         list(NAMES),
         [[t, *(getattr(i, name) for name in NAMES.values())] for t, i in rows],
     )
     compared = 0
-    for (t, impact), (length, reaction, uniform, impulse, regime) in zip(rows, found, strict=True):
-        exact = predict(impact, t)
-        row = exact.times[0]
+    for (t, impact), (length, reaction, uniform, impulse, regime, until) in zip(rows, found, strict=True):
+        exact = predict(impact, [t, until * (1.0 - 1e-6), until * (1.0 + 1e-6)])
+        row, before, after = exact.times
+        assert before.valid and not after.valid
         assert regime == exact.regime
         if row.half_contact_length is None:
             continue  # beyond the expansion: the page stops before
@@ -216,6 +217,7 @@ def test_prediction_is_that_of_python_on_ten_thousand_problems(browser: Any) -> 
     predictions_agree(browser, random_impacts(CASES, 23), 24)
 
 
+@pytest.mark.verify
 @pytest.mark.parametrize("ratio", [0.03, 0.1, 0.5, 0.9, 1.0, 3.0])
 def test_shape_is_the_wave_of_python(browser: Any, ratio: float) -> None:
     x = np.linspace(0.0, 30.0, 61)
@@ -231,6 +233,7 @@ def test_shape_is_the_wave_of_python(browser: Any, ratio: float) -> None:
     assert np.array(found)[:, 1] == pytest.approx(wave.curvature(x), rel=1e-9, abs=1e-9)
 
 
+@pytest.mark.verify
 @pytest.mark.parametrize(
     "groups",
     [
@@ -272,6 +275,7 @@ def test_loads_without_console_errors_and_without_requests(browser: Any) -> None
     assert [name for name in loaded if not name.startswith(("data:", "blob:"))] == []
 
 
+@pytest.mark.verify
 @pytest.mark.parametrize("width", [390, 1400])
 def test_nothing_overflows(chromium: Any, address: str, width: int) -> None:
     browser = opened(chromium, address, width)
@@ -300,6 +304,7 @@ def test_more_curvature_stays_a_point_and_less_spreads(browser: Any) -> None:
     assert shown(browser, "verdict") == "Contact spreads as two points."
 
 
+@pytest.mark.verify
 def test_keyboard_alone_reaches_and_moves_everything(browser: Any) -> None:
     from selenium.webdriver.common.action_chains import ActionChains
     from selenium.webdriver.common.keys import Keys
@@ -318,6 +323,7 @@ def test_keyboard_alone_reaches_and_moves_everything(browser: Any) -> None:
     assert after[0] != before[0] and after[1] != before[1]
 
 
+@pytest.mark.verify
 def test_a_mistake_is_named_beside_its_field(browser: Any) -> None:
     type_into(browser, "inner_diameter", "130")
     assert "smaller" in shown(browser, "wrong-inner_diameter")
@@ -328,6 +334,7 @@ def test_a_mistake_is_named_beside_its_field(browser: Any) -> None:
     assert ask(browser, "document.getElementById('answer').offsetParent !== null")
 
 
+@pytest.mark.verify
 def test_a_link_carries_the_inputs(chromium: Any, address: str) -> None:
     browser = opened(chromium, address)
     choose(browser, "units", "oilfield")
@@ -343,6 +350,7 @@ def test_a_link_carries_the_inputs(chromium: Any, address: str) -> None:
     assert shown(strange, "verdict") == "Contact spreads."
 
 
+@pytest.mark.verify
 def test_units_are_a_matter_of_display(browser: Any) -> None:
     before = shown(browser, "case")
     choose(browser, "units", "oilfield")
@@ -368,6 +376,7 @@ def test_case_means_what_the_page_shows(browser: Any, tmp_path: Path, section: s
     assert impact.length == 40.0
 
 
+@pytest.mark.verify
 def test_a_change_takes_a_blink(browser: Any) -> None:
     """All work of a change, drawing included, stays below what an eye sees: counted in points, not in time."""
     assert ask(browser, "document.querySelectorAll('#predictor svg path').length") < 20

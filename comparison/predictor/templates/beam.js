@@ -111,17 +111,25 @@ const Beam = (() => {
     return Object.assign(solved, limit(solved));
   }
 
-  /** Until when the theory holds, s, and what ends it. */
+  /** Until when the theory holds, s, and what ends it: the conditions of theory/prediction.py, whose limits `LIMITS` are. */
   function limit(p) {
-    const { contact, timeScale, slow, c, half } = p, spreads = contact.regime !== "discrete";
-    const ends = [
-      ["waves come back from the ends", 0.1 * slow],
-      ["the load's correction of the force", contact.r1 ? 0.1 * contact.r0 / abs(contact.r1) * timeScale : Infinity],
-    ];
-    if (spreads && contact.lambda1)
-      ends.push(["the load's correction of the contact length", 0.1 * contact.lambda0 / abs(contact.lambda1) * timeScale]);
+    const { contact, timeScale, slow, c, half } = p;
+    const ends = [["bending waves come back from the ends", LIMITS.time * slow]];
+    const grows = (change, from, what) => {
+      if (change && from) ends.push([`the load changes the ${what} by ${100 * LIMITS.expansion} %`, LIMITS.expansion * from / abs(change) * timeScale]);
+    };
+    grows(contact.r1, contact.r0, "force");
+    grows(contact.lambda1, contact.lambda0, "contact length");
     const [limitedBy, validUntil] = ends.reduce((a, b) => (b[1] < a[1] ? b : a));
-    return { limitedBy, validUntil };
+    const reach = (t) => sqrt(c * t) * (contact.lambda0 + contact.lambda1 * t / timeScale);
+    if (reach(validUntil) <= LIMITS.contact * half) return { limitedBy, validUntil };
+    let [low, high] = [0, validUntil]; // where the zone has grown to its limit: it grows until then
+    for (let i = 0; i < 100; i++) {
+      const middle = (low + high) / 2;
+      if (reach(middle) < LIMITS.contact * half) low = middle;
+      else high = middle;
+    }
+    return { limitedBy: `the contact covers ${100 * LIMITS.contact} % of the beam`, validUntil: low };
   }
 
   /** Contact, force, impulse, moment and stress at the time t > 0, SI. */
