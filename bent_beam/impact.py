@@ -233,13 +233,22 @@ class Impact:
     @property
     def uniform_pressure(self) -> float:
         """p = μa₀ + EI q₀ + N K, N/m: the uniform load under which the free motion is y₀."""
-        pressure = self.mass_per_length * self.acceleration + self.bending_stiffness * self.fourth_derivative
-        return pressure + self.axial_force * self.curvature
+        return self._load_against(0.0)
+
+    def _load_against(self, curvature: float) -> float:
+        """μa₀ + EI q₀ + N(K − ``curvature``), N/m; nothing where the terms cancel to rounding."""
+        terms = (
+            self.mass_per_length * self.acceleration,
+            self.bending_stiffness * self.fourth_derivative,
+            self.axial_force * (self.curvature - curvature),
+        )
+        total = math.fsum(terms)
+        return total if abs(total) > 1e-14 * max(abs(term) for term in terms) else 0.0
 
     @property
     def zone_pressure(self) -> float:
         """p − N K_w, N/m: what presses a contact zone that lies on the wall; it lifts off where this is negative."""
-        return self.uniform_pressure - self.axial_force * self.wall_curvature
+        return self._load_against(self.wall_curvature)
 
     @property
     def epsilon_alpha(self) -> float:

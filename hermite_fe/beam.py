@@ -4,6 +4,7 @@ On an element of length l, with ξ = x/l ∈ [0, 1] and dofs (w₁, θ₁, w₂,
 
     N₁ = 1 − 3ξ² + 2ξ³,  N₂ = l(ξ − 2ξ² + ξ³),  N₃ = 3ξ² − 2ξ³,  N₄ = l(ξ³ − ξ²)     (thesis A.6)
     Kₑ = EI ∫ N″ᵀN″ dx,   Mₑ = μ ∫ NᵀN dx,   V = ½ (q − q₀)ᵀ K (q − q₀)               (3.1.3–8)
+    Gₑ = ∫ N′ᵀN′ dx,      ½ N qᵀ G q: the work of an axial force N on the shortening of the axis (geometric stiffness)
 
 w is positive into the wall; node i has dofs 2i (w) and 2i + 1 (θ). Matrices are symmetric and kept in scipy's
 lower banded form, shape (4, 2·nodes): ``scipy.linalg.cholesky_banded(…, lower=True)`` takes them as they are.
@@ -23,7 +24,14 @@ from bent_beam.meshes import checked_nodes
 from hermite_fe.kernels.assembly import assemble, assemble_load
 from hermite_fe.kernels.banded import row_sums, stiff_multiply
 
-__all__ = ["HermiteBeam", "deflection", "element_mass", "element_stiffness", "shape_functions"]
+__all__ = [
+    "HermiteBeam",
+    "deflection",
+    "element_geometric_stiffness",
+    "element_mass",
+    "element_stiffness",
+    "shape_functions",
+]
 
 Array = NDArray[np.float64]
 
@@ -59,6 +67,19 @@ def element_stiffness(lengths: Array, bending_stiffness: float) -> Array:
     k[:, 1, 1] = k[:, 3, 3] = 4.0 * l**2
     k[:, 1, 3] = k[:, 3, 1] = 2.0 * l**2
     return np.asarray(k * (bending_stiffness / l**3)[:, None, None])
+
+
+def element_geometric_stiffness(lengths: Array) -> Array:
+    """Gₑ = ∫ N′ᵀN′ dx of each element, shape (elements, 4, 4): stiffness under a unit axial force."""
+    l = np.asarray(lengths, float)  # noqa: E741
+    g = np.empty((l.size, 4, 4))
+    g[:, 0, 0] = g[:, 2, 2] = 36.0
+    g[:, 0, 2] = g[:, 2, 0] = -36.0
+    g[:, 0, 1] = g[:, 1, 0] = g[:, 0, 3] = g[:, 3, 0] = 3.0 * l
+    g[:, 1, 2] = g[:, 2, 1] = g[:, 2, 3] = g[:, 3, 2] = -3.0 * l
+    g[:, 1, 1] = g[:, 3, 3] = 4.0 * l**2
+    g[:, 1, 3] = g[:, 3, 1] = -(l**2)
+    return np.asarray(g / (30.0 * l)[:, None, None])
 
 
 def element_mass(lengths: Array, mass_per_length: float) -> Array:
@@ -115,6 +136,10 @@ class HermiteBeam:
         """K in lower banded form, shape (4, dofs); ``weight`` (elements,) multiplies each element."""
         element = element_stiffness(self.lengths, self.bending_stiffness)
         return self.assembled(element if weight is None else element * np.asarray(weight)[:, None, None])
+
+    def geometric_stiffness(self) -> Array:
+        """∫ N′ᵀN′ dx in lower banded form, shape (4, dofs); times an axial force N, tension positive, it stiffens."""
+        return self._banded(element_geometric_stiffness(self.lengths))
 
     def mass(self) -> Array:
         """M in lower banded form, shape (4, dofs)."""

@@ -17,7 +17,7 @@ from hermite_fe.contacts import CONTACTS, Contact
 from hermite_fe.far_fields import FAR_FIELDS, FarField
 from hermite_fe.integrators import INTEGRATORS, Integrator
 from hermite_fe.masses import MASSES, Mass
-from hermite_fe.simulate import simulate
+from hermite_fe.simulate import refusal, simulate
 
 __all__ = ["HermiteFE"]
 
@@ -56,8 +56,8 @@ class HermiteFE:
         positive("refine", self.refine)
 
     def refuses(self, impact: Impact) -> str | None:
-        """Why this method cannot take ``impact`` (``None``: it can)."""
-        return None
+        """Why this method cannot take ``impact``, naming the field (``None``: it can)."""
+        return refusal(impact)
 
     def simulate(
         self,

@@ -1,12 +1,19 @@
 """The bent beam as a :class:`hermite_fe.system.System`.
 
-Unknown is u = y + Kx²/2, the displacement from the stress-free beam, so that an unstrained beam is u = 0
-whatever its curvature; the gap is g = −y = Kx²/2 − u. The motion before contact,
+Unknown is u = y + Kx²/2, the displacement from the bow at the first touch, so that u = 0 is free of stress whatever the
+curvature. Seen from the wall y_w = −K_w x²/2 the bow is the shape −(K − K_w)x²/2: the gap is g = (K − K_w)x²/2 − u. The
+motion before contact,
 
     y₀ = V₀t − Kx²/2 + a₀t²/2 + c₀x²t/2 + q₀x⁴/24,                                             (2.2.30)
 
-starts the run (u = q₀x⁴/24, u̇ = V₀ + c₀x²/2) and fixes the load: p = μa₀ + EI q₀ keeps it up near the
-contact.
+starts the run (u = q₀x⁴/24, u̇ = V₀ + c₀x²/2) and fixes the load. With an axial force N and the material's damping η
+
+    μü + EI(u_xxxx + ηu̇_xxxx) − Nu_xx = p − NK − r,      p − NK = μa₀ + EI q₀
+
+so neither K nor K_w is left but in the gap. **The ends** carry N in the direction that the bow has there at the first
+touch, which they keep (a dead load): EI(u_xxx + ηu̇_xxx) − Nu_x = 0. Its transverse part −NKL/2 at either end balances
+the pull −NK per length of the bow, so no wave starts at an end and a₀ is the acceleration of the whole beam. A force
+that turned with the end would have no potential; one along x would set the ends swinging at once.
 """
 
 from __future__ import annotations
@@ -32,13 +39,17 @@ CONSISTENT = ConsistentMass()
 
 @dataclass(frozen=True)
 class BeamModel:
-    """A system, its start, and how to read it: y = u + ``natural`` (dofs,), the stress-free shape."""
+    """A system, its start, and how to read it: y = u + ``natural``, and the gap is −(u + ``facing``).
+
+    natural, facing : (dofs,), the bow at the first touch, from the axis and from the wall.
+    """
 
     beam: HermiteBeam
     system: System
     displacement: Array
     velocity: Array
     natural: Array
+    facing: Array
     full: bool
 
     @property
@@ -62,15 +73,19 @@ def beam_model(
     half = checked_nodes(nodes)
     x = mirrored(half) if full else half
     beam = HermiteBeam(x, impact.bending_stiffness, impact.mass_per_length)
-    natural = beam.interpolate(-0.5 * impact.curvature * x**2, -impact.curvature * x)
+    natural, facing = (
+        beam.interpolate(-0.5 * curvature * x**2, -curvature * x)
+        for curvature in (impact.curvature, impact.relative_curvature)
+    )
     quartic = beam.interpolate(impact.fourth_derivative * x**4 / 24.0, impact.fourth_derivative * x**3 / 6.0)
     bending = beam.interpolate(impact.curvature_rate * x**2 / 2.0, impact.curvature_rate * x)
     velocity = beam.interpolate(np.full(x.size, impact.velocity), np.zeros(x.size)) + bending
-    stiffness, inertia = beam.stiffness(), mass.matrix(beam)
+    bending_stiffness, inertia = beam.stiffness(), mass.matrix(beam)
+    stiffness = bending_stiffness + impact.axial_force * beam.geometric_stiffness()
     uniform = banded_product(inertia, beam.interpolate(np.ones(x.size), np.zeros(x.size)))  # M·1
     dampings = far_field.dampings(beam, impact)
     if impact.damping > 0.0:  # Kelvin–Voigt: C = ηK
-        dampings += (("material", impact.damping * stiffness),)
+        dampings += (("material", impact.damping * bending_stiffness),)
     damping = np.sum([bands for _, bands in dampings], axis=0)
     if far_field.end == "following":
         # all that keeps y₀ up, end forces included (K on Hermite interpolants is exact at nodes), damping
@@ -79,13 +94,14 @@ def beam_model(
         load = np.stack([steady + banded_product(damping, bending), banded_product(stiffness, bending)])
         load = load if np.any(load[1]) else load[:1]
     else:
-        load = (impact.uniform_pressure / impact.mass_per_length * uniform)[None, :]
+        pressure = impact.mass_per_length * impact.acceleration + impact.bending_stiffness * impact.fourth_derivative
+        load = (pressure / impact.mass_per_length * uniform)[None, :]
     system = System(
         mass=inertia,
         stiffness=stiffness,
         dampings=dampings,
         load=load,
-        contacts=contact.rows(beam, natural, full=full),
+        contacts=contact.rows(beam, facing, full=full),
         supports=() if full else (1,),
     )
-    return BeamModel(beam, system, quartic, velocity, natural, full)
+    return BeamModel(beam, system, quartic, velocity, natural, facing, full)

@@ -21,7 +21,16 @@ from hermite_fe.masses import Mass
 from hermite_fe.model import BeamModel, beam_model
 from hermite_fe.run import Stepper, Trajectory, integrate
 
-__all__ = ["simulate"]
+__all__ = ["refusal", "simulate"]
+
+
+def refusal(impact: Impact) -> str | None:
+    """Which field of ``impact`` a run from here cannot take (``None``: it takes all of them)."""
+    for name in ("rotation", "first_touch", "opposite_wall"):
+        if getattr(impact, name):
+            value = getattr(impact, name)
+            return f"{name} is not part of this model: a symmetric beam and one wall (got {value!r})"
+    return None
 
 
 def simulate(
@@ -51,6 +60,9 @@ def simulate(
     Raises ``ValueError`` for bad input, :class:`bent_beam.SimulationError` (with the partial history) when a
     run cannot finish.
     """
+    reason = refusal(impact)
+    if reason is not None:
+        raise ValueError(reason)
     end = impact.checked_end_time(0.1 * impact.time_scale if end_time is None else end_time)
     choice = auto.choose(impact, end, mesh, integrator, contact, far_field, mass, refine=refine)
     model = beam_model(impact, choice.nodes, choice.contact, choice.far_field, full=full_beam, mass=choice.mass)
@@ -108,7 +120,7 @@ def history_of(
     copies = model.copies
     rows = model.system.contacts
     fields: dict[str, tuple[Sequence[str], NDArray[Any]]] = {
-        "gap": (("time", "x"), -(run.q[:, 0::2] + model.natural[0::2])),
+        "gap": (("time", "x"), -(run.q[:, 0::2] + model.facing[0::2])),
         "velocity": (("time", "x"), run.v[:, 0::2]),
         "slope": (("time", "x"), run.q[:, 1::2] + model.natural[1::2]),
         "impulse": (("time", "contact"), run.impulse),

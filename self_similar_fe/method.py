@@ -33,7 +33,10 @@ class SelfSimilarFE:
     label: str = "Self-similar"
 
     def refuses(self, impact: Impact) -> str | None:
-        """Why this method cannot take ``impact`` (``None``: it can)."""
+        """Why this method cannot take ``impact``, naming the field (``None``: it can)."""
+        for name in ("damping", "rotation", "first_touch", "opposite_wall"):
+            if getattr(impact, name):
+                return f"{name} breaks the self-similarity that this path rests on (got {getattr(impact, name)!r})"
         if impact.relative_curvature == 0.0:
             return "curvature must be positive: a flat beam meets the wall everywhere at once (got 0.0)"
         return None
@@ -67,6 +70,9 @@ class SelfSimilarFE:
             elif pressure < 0.0:
                 # The contact is one or two nodes that the front passes on: steps shorter than its passage.
                 mesh = ExpandingMesh(front_resolution=0.005, interior_elements=60, step_ratio=0.01, decades=6.0)
+            elif impact.axial_force:
+                # Tension alone moves the front: it must pass the finest elements, whose size is the noise of λ_c.
+                mesh = ExpandingMesh(front_resolution=0.003, step_ratio=0.01)
             else:
                 mesh = ExpandingMesh()
         return dataclasses.replace(self, mesh=mesh.refined(self.refine), refine=1.0)

@@ -1,8 +1,8 @@
 """The fast part of an impact in similarity coordinates, one implicit step at a time (:mod:`self_similar_fe.run`).
 
-    M η_ss + C η_s + A η = F,   0 ≤ ρ ⊥ η − W₀ ≥ 0 at the nodes
+    M η_ss + C η_s + A η + nτ G η = ρ,   0 ≤ ρ ⊥ η − W₀ ≥ 0 at the nodes
 
-with the Galerkin matrices of D(D + 1) + σ(D + 1) + ∂⁴, D = ∂_s − (ζ/2)∂_ζ, on Hermite elements in ζ = ξ/√τ.
+with the Galerkin matrices of D(D + 1) + σ(D + 1) + ∂⁴ − nτ∂², D = ∂_s − (ζ/2)∂_ζ, on Hermite elements in ζ = ξ/√τ.
 """
 
 from __future__ import annotations
@@ -26,13 +26,15 @@ BAND = 3  # half-bandwidth of Hermite elements: two nodes of two degrees of free
 
 @dataclass(frozen=True)
 class _Operators:
-    """mass M, drift C and steady A of M η_ss + C η_s + A η = F, absorber included, and the absorber's own damping; CSR,
-    (2n, 2n)."""
+    """mass M, drift C, steady A of M η_ss + C η_s + A η = ρ, absorber included, and parts of them; CSR, (2n, 2n)."""
 
     mass: sparse.csr_matrix
     drift: sparse.csr_matrix
     steady: sparse.csr_matrix
-    damping: sparse.csr_matrix  # ∫ σ N Nᵀ
+    bending: sparse.csr_matrix  # ∫ N″ N″ᵀ, a part of A
+    tension: sparse.csr_matrix  # ∫ N′ N′ᵀ
+    damping: sparse.csr_matrix  # ∫ σ N Nᵀ, a part of C and A
+    damped: sparse.csr_matrix  # ∫ σ N (D₀N)ᵀ, D₀ = −(ζ/2)∂_ζ, a part of A
 
 
 GAUSS, WEIGHTS = np.polynomial.legendre.leggauss(6)
@@ -42,7 +44,7 @@ def _operators(zeta: Array, sigma: Callable[[Array], Array]) -> _Operators:
     """Galerkin matrices of D(D + 1) + σ(D + 1) + ∂⁴ on Hermite elements; D's second factor is integrated by parts."""
     length = np.diff(zeta)
     n = zeta.size
-    parts: dict[str, Array] = {k: np.zeros((n - 1, 4, 4)) for k in ("m", "g", "s", "k", "ms", "gs")}
+    parts: dict[str, Array] = {k: np.zeros((n - 1, 4, 4)) for k in ("m", "g", "s", "k", "t", "ms", "gs")}
     for point, weight in zip((GAUSS + 1.0) / 2.0, WEIGHTS / 2.0):
         place = (zeta[:-1] + point * length)[:, None]
         shape, slope, bend = (_shapes(point, length, d) for d in (0, 1, 2))
@@ -55,17 +57,19 @@ def _operators(zeta: Array, sigma: Callable[[Array], Array]) -> _Operators:
             ("g", shape, advected, 1.0),
             ("s", tested, advected, 1.0),
             ("k", bend, bend, 1.0),
+            ("t", slope, slope, 1.0),
             ("ms", shape, shape, absorbed),
             ("gs", shape, advected, absorbed),
         ):
             parts[key] += dl * factor * left[:, :, None] * right[:, None, :]
     dofs = 2 * np.arange(n - 1)[:, None] + np.arange(4)
     rows, columns = np.repeat(dofs, 4, axis=1).ravel(), np.tile(dofs, (1, 4)).ravel()
-    m, g, s, k, ms, gs = (
+    m, g, s, k, t, ms, gs = (
         sparse.csr_matrix((parts[key].ravel(), (rows, columns)), shape=(2 * n, 2 * n))
-        for key in ("m", "g", "s", "k", "ms", "gs")
+        for key in ("m", "g", "s", "k", "t", "ms", "gs")
     )
-    return _Operators(mass=m, drift=m + 2.0 * g + ms, steady=s + g + k + ms + gs, damping=ms)
+    drift, steady = m + 2.0 * g + ms, s + g + k + ms + gs
+    return _Operators(mass=m, drift=drift, steady=steady, bending=k, tension=t, damping=ms, damped=gs)
 
 
 CUBICS = np.array([[1.0, 0.0, -3.0, 2.0], [0.0, 1.0, -2.0, 1.0], [0.0, 0.0, 3.0, -2.0], [0.0, 0.0, -1.0, 1.0]])
@@ -101,12 +105,14 @@ class Similarity:
         self.active = np.zeros(zeta.size, dtype=bool)
         self.gap_tolerance = 0.0
         self.iterations = 0
+        self.inertia = np.zeros(self.dofs)
 
-    def set_step(self, backward: float) -> None:
-        """``backward`` = b of ∂_s f ≈ b (f − f_old): τ_new/h for Euler in time, 0 for the steady state."""
-        self.backward = backward
+    def set_step(self, backward: float, tension: float = 0.0) -> None:
+        """``backward`` = b of ∂_s f ≈ b (f − f_old): τ_new/h for Euler in time, 0 for the steady state; ``tension`` nτ.
+        """
+        self.backward, self.tension = backward, tension
         o = self.operators
-        self.matrix = (backward**2 * o.mass + backward * o.drift + o.steady).tocsr()
+        self.matrix = (backward**2 * o.mass + backward * o.drift + o.steady + tension * o.tension).tocsr()
         bands = np.zeros((3 * BAND + 1, self.dofs), order="F")
         for k in range(-BAND, BAND + 1):
             diagonal = self.matrix.diagonal(k)
@@ -192,7 +198,9 @@ class Similarity:
         self.gap_tolerance = max(self.gap_tolerance, slack * GAP_ROUND_OFF)
         if not np.all(np.isfinite(eta)):
             raise ArithmeticError("the solution is no longer finite")
-        self.rate = b * eta - old
+        rate = b * eta - old
+        self.inertia = b * (rate - self.rate)
+        self.rate = rate
         self.eta, self.reaction, self.active = eta, reaction, active
 
     @property
@@ -200,6 +208,19 @@ class Similarity:
         """Centroid of the reaction on ζ ≥ 0."""
         total = self.reaction.sum()
         return float((self.reaction @ self.zeta) / total) if total > 0.0 else 0.0
+
+    def internal_force(self) -> Array:
+        """M η_ss + (C − M_σ) η_s + (A − M_σ − G_σ + nτG) η of the last step, (dofs,): inertia and stiffness as the
+        scheme has them, without the absorber."""
+        o = self.operators
+        force = o.mass @ self.inertia + (o.drift - o.damping) @ self.rate
+        return np.asarray(force + (o.steady - o.damping - o.damped + self.tension * o.tension) @ self.eta)
+
+    def stored(self, velocity: Array) -> float:
+        """½vᵀMv + ½ηᵀ(K + nτG)η: kinetic and strain energy over √τ."""
+        o = self.operators
+        stiff = o.bending @ self.eta + self.tension * (o.tension @ self.eta)
+        return 0.5 * float(velocity @ (o.mass @ velocity) + self.eta @ stiff)
 
     def velocity(self) -> Array:
         """η_τ = (D + 1) η at the nodes."""

@@ -56,9 +56,9 @@ class Contact(ABC):
 
     @abstractmethod
     def rows(self, beam: HermiteBeam, natural: Array, *, full: bool) -> ContactRows:
-        """The constraint rows of ``beam`` for g = −y = −(u + natural).
+        """The constraint rows of ``beam`` for g = y_w − y = −(u + natural).
 
-        u : the unknown dofs; natural : (dofs,), Hermite dofs of the stress-free shape y.
+        u : the unknown dofs; natural : (dofs,), Hermite dofs of the bow as seen from the wall, −(K − K_w)x²/2.
         """
 
     def with_hold(self, hold: int, hold_until: float) -> Contact:
