@@ -139,7 +139,7 @@ class HermiteBeam:
 
     def geometric_stiffness(self) -> Array:
         """∫ N′ᵀN′ dx in lower banded form, shape (4, dofs); times an axial force N, tension positive, it stiffens."""
-        return self._banded(element_geometric_stiffness(self.lengths))
+        return self.assembled(element_geometric_stiffness(self.lengths))
 
     def mass(self) -> Array:
         """M in lower banded form, shape (4, dofs)."""

@@ -59,7 +59,7 @@ class BeamModel:
 
     def gap(self, q: Array) -> Array:
         """Distance of the nodes to the wall, m, shape (nodes,)."""
-        return np.asarray(-(q[0::2] + self.natural[0::2]))
+        return np.asarray(-(q[0::2] + self.facing[0::2]))
 
 
 def beam_model(
