@@ -1,25 +1,30 @@
 """Case files (TOML): one impact, how long to follow it, and, optionally, the parts of each path.
 
-Tables: ``[beam]``, ``[impact]``, ``[wall]``, ``[run]``, ``[mesh]``, and one for each installed path, ``[hermite.*]``,
-``[exudyn.*]`` … (docs/guide). Unknown keys are errors that name the nearest known key. The tables of the paths are kept
-as data: :meth:`Case.method` makes the method of a path from them.
+Tables: ``[beam]``, ``[section]``, ``[impact]``, ``[wall]``, ``[run]``, ``[mesh]``, and one for each installed path,
+``[hermite.*]``, ``[exudyn.*]`` … (docs/guide). Unknown keys are errors that name the nearest known key. The tables of
+the paths are kept as data: :meth:`Case.method` makes the method of a path from them.
 """
 
 from __future__ import annotations
 
 import dataclasses
+import math
 import tomllib
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Any
 
 import pydantic
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import BaseModel, ConfigDict
 
 from bent_beam.checks import shortened
+from bent_beam.description import beam_quantities, free_flight, impact_velocity
+from bent_beam.errors import InputError
 from bent_beam.impact import Impact
 from bent_beam.meshes import MESHES, Mesh
-from bent_beam.parts import InputError, first_line, nearest, part_from_table, unknown_key
+from bent_beam.parts import first_line, nearest, part_from_table, unknown_key
+from bent_beam.section import SECTIONS, Section
+from bent_beam.tables import TABLES, CaseFile
 
 if TYPE_CHECKING:
     from bent_beam.method import Method
@@ -27,58 +32,11 @@ if TYPE_CHECKING:
 __all__ = ["Case", "case_from_tables", "lay_over", "load_case", "read_toml"]
 
 MAXIMUM_BYTES = 1_000_000
-Number = Annotated[float, Field(allow_inf_nan=False, strict=True)]
-Positive = Annotated[float, Field(gt=0.0, allow_inf_nan=False, strict=True)]
-
-
-class _Table(BaseModel):
-    model_config = ConfigDict(extra="forbid", frozen=True)
-
-
-class _Beam(_Table):
-    bending_stiffness: Positive
-    mass_per_length: Positive
-    length: Positive
-    curvature: Annotated[float, Field(ge=0.0, allow_inf_nan=False, strict=True)]
-    section_height: Positive = 0.01
-    axial_force: Number = 0.0
-    damping: Annotated[float, Field(ge=0.0, allow_inf_nan=False, strict=True)] = 0.0
-    natural_curvature: Number | None = None
-
-
-class _Impact(_Table):
-    velocity: Positive
-    acceleration: Number | None = None
-    curvature_rate: Number = 0.0
-    fourth_derivative: Number = 0.0
-    rotation: Number = 0.0
-    first_touch: Number = 0.0
-
-
-class _Wall(_Table):
-    curvature: Number = 0.0
-    opposite: Positive | None = None
-
-
-class _Run(_Table):
-    end_time: Positive | None = None
-    duration: Positive | None = None
-
-
-class _File(_Table):
-    model_config = ConfigDict(extra="allow", frozen=True)
-
-    title: str = ""
-    beam: _Beam
-    impact: _Impact
-    wall: _Wall = _Wall()
-    run: _Run = _Run()
-    mesh: dict[str, Any] = Field(default_factory=dict)
 
 
 class Case(BaseModel):
     """A validated case. ``end_time`` in s; ``mesh`` is ``None`` when it is to be chosen from the problem; ``tables``
-    are those of the paths, by name."""
+    are those of the paths, by name; ``section`` where one was given; ``warnings`` of what the description says."""
 
     model_config = ConfigDict(frozen=True, arbitrary_types_allowed=True)
 
@@ -87,6 +45,8 @@ class Case(BaseModel):
     end_time: float
     mesh: Mesh | None
     tables: dict[str, dict[str, Any]]
+    section: Section | None = None
+    warnings: tuple[str, ...] = ()
 
     def method(self, path: str, *, label: str | None = None) -> Method:
         """The method of ``path`` with the parts that this case sets for it.
@@ -118,8 +78,7 @@ def _problem(error: pydantic.ValidationError) -> str:
     value = shortened(problem.get("input"))
     kind = problem["type"]
     if kind == "extra_forbidden":
-        tables: dict[str, type[BaseModel]] = {"beam": _Beam, "impact": _Impact, "wall": _Wall, "run": _Run}
-        table = tables.get(str(problem["loc"][0]), _File) if len(problem["loc"]) > 1 else _File
+        table = TABLES.get(str(problem["loc"][0]), CaseFile) if len(problem["loc"]) > 1 else CaseFile
         known = table.model_fields
         return f"{place} is not a known setting{nearest(str(problem['loc'][-1]), known)}"
     if kind == "greater_than":
@@ -131,14 +90,14 @@ def _problem(error: pydantic.ValidationError) -> str:
     return first_line(error, "")
 
 
-def _tables_of_paths(file: _File) -> dict[str, dict[str, Any]]:
+def _tables_of_paths(file: CaseFile) -> dict[str, dict[str, Any]]:
     """The tables that are left over must be those of installed paths."""
     from bent_beam.method import paths
 
     found = dict(file.model_extra or {})
     for name, table in found.items():
         if name not in paths():
-            raise unknown_key("", name, {*paths(), *_File.model_fields})
+            raise unknown_key("", name, {*paths(), *CaseFile.model_fields})
         if not isinstance(table, dict):
             raise InputError(f"{name} must be a table (got {shortened(table)})")
     return found
@@ -147,18 +106,23 @@ def _tables_of_paths(file: _File) -> dict[str, dict[str, Any]]:
 def case_from_tables(tables: dict[str, Any]) -> Case:
     """A case from the tables of a TOML file. Raises :class:`InputError` with one line naming field and value."""
     try:
-        file = _File.model_validate(tables)
+        file = CaseFile.model_validate(tables)
     except pydantic.ValidationError as error:
         raise InputError(_problem(error)) from None
     others = _tables_of_paths(file)
-    given = file.impact.model_dump()
-    if given["acceleration"] is None:  # free flight, which tension bends
-        force = file.beam.axial_force
-        bent = file.beam.bending_stiffness * given["fourth_derivative"] + force * file.beam.curvature
-        given["acceleration"] = -bent / file.beam.mass_per_length if force else 0.0
+    section = part_from_table(SECTIONS, file.section, "section") if file.section else None
+    beam = beam_quantities(file, section)
     try:
         impact = Impact(
-            **file.beam.model_dump(), **given, wall_curvature=file.wall.curvature, opposite_wall=file.wall.opposite
+            **beam,
+            velocity=impact_velocity(file.impact, beam["length"]),
+            acceleration=free_flight(file, beam),
+            curvature_rate=file.impact.curvature_rate,
+            fourth_derivative=file.impact.fourth_derivative,
+            rotation=file.impact.rotation,
+            first_touch=file.impact.first_touch,
+            wall_curvature=file.wall.curvature,
+            opposite_wall=file.wall.opposite,
         )
     except ValueError as error:
         raise InputError(str(error)) from None
@@ -177,7 +141,26 @@ def case_from_tables(tables: dict[str, Any]) -> Case:
     elif set(file.mesh) - {"kind"}:
         extra = sorted(set(file.mesh) - {"kind"})[0]
         raise InputError(f"mesh.kind is required next to mesh.{extra} (one of {', '.join(sorted(MESHES))})")
-    return Case(title=file.title, impact=impact, end_time=end_time, mesh=mesh, tables=others)
+    return Case(
+        title=file.title,
+        impact=impact,
+        end_time=end_time,
+        mesh=mesh,
+        tables=others,
+        section=section,
+        warnings=tuple(_warnings(impact)),
+    )
+
+
+def _warnings(impact: Impact) -> list[str]:
+    """What a description says that its author may not have meant."""
+    buckling = math.pi**2 * impact.bending_stiffness / impact.length**2
+    if impact.axial_force < -buckling:
+        return [
+            f"beam.axial_force: a compression of {-impact.axial_force:.6g} N is beyond {buckling:.6g} N = π² EI/L², at "
+            "which a straight beam on hinges buckles"
+        ]
+    return []
 
 
 def lay_over(tables: dict[str, Any], assignment: str) -> None:

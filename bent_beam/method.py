@@ -93,7 +93,7 @@ def refined(method: M, factor: float) -> M | None:
     refine = getattr(method, "refined", None)
     if refine is None:
         return method if factor == 1.0 else None
-    return refine(factor)  # type: ignore[no-any-return]
+    return refine(factor)
 
 
 def for_whole_beam(method: M, impact: Impact) -> M:
@@ -128,7 +128,7 @@ def simulate_to_separation(
     """
     own = getattr(method, "simulate_to_separation", None)
     if own is not None:
-        return own(impact, longest=longest, save=save, progress=progress)  # type: ignore[no-any-return]
+        return own(impact, longest=longest, save=save, progress=progress)
     last = float(separation_times(impact, longest, save)[-1])
     end = min(1.5 * impact.slow_time_scale, last)
     while True:
@@ -160,7 +160,7 @@ def method_type(path: str) -> type[Any]:
     if path not in _found():
         raise InputError(f"path: {path!r} is not known{nearest(str(path), _found())}")
     try:
-        return _found()[path].load()  # type: ignore[no-any-return]
+        return _found()[path].load()
     except Exception as error:  # somebody else's package may fail in any way
         reason = " ".join(str(error).split())
         raise InputError(f"path: {path!r} is installed but does not load ({type(error).__name__}: {reason})") from None

@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from bent_beam.history import ImpactHistory
+from bent_beam.section import Section
 from comparison.compared import Compared
 from comparison.estimators import leading_order, moments
 from comparison.reduction import hold_of, peak_moment, pull_of
@@ -14,8 +15,8 @@ from comparison.text_table import text_table
 __all__ = ["run_table", "summary"]
 
 
-def summary(history: ImpactHistory, file: Path | None = None) -> dict[str, Any]:
-    """What a run did and found, SI units; the theory's numbers only where it claims to hold."""
+def summary(history: ImpactHistory, file: Path | None = None, section: Section | None = None) -> dict[str, Any]:
+    """What a run did and found, SI units; the theory's numbers only where it claims to hold, stress with a section."""
     from theory import predict
 
     impact, time = history.impact, history.time
@@ -57,7 +58,8 @@ def summary(history: ImpactHistory, file: Path | None = None) -> dict[str, Any]:
         "peak_moment": peak.moment,
         "peak_moment_place": peak.place,
         "peak_moment_time": peak.time,
-        "peak_stress": None,
+        "peak_stress": None if section is None else section.stress(peak.moment, impact.axial_force),
+        "yield_stress": None if section is None else section.yield_stress,
         "energy": energy_at_end(history),
         "warnings": history.warnings,
         "file": None if file is None else str(file),
@@ -97,6 +99,7 @@ def run_table(found: dict[str, Any]) -> str:
             lines.append([name, number(c.value), bar, unit, theory])
     lines += [
         ["largest bending moment", number(found["peak_moment"]), "", "N m", ""],
+        *([["largest stress", number(found["peak_stress"]), "", "Pa", ""]] if found["peak_stress"] is not None else []),
         ["lift of the zone over V0 t", number(found["lift"]), "", "1", ""],
         ["largest pull over largest push", number(found["pull"]), "", "1", ""],
     ]

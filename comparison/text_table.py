@@ -10,8 +10,8 @@ __all__ = ["text_table"]
 WIDEST = 400
 
 
-def text_table(head: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
-    """Columns under their heads, the first flush left and the others flush right."""
+def text_table(head: Sequence[str], rows: Sequence[Sequence[str]], left: Sequence[int] = (0,)) -> str:
+    """Columns under their heads, those numbered in ``left`` flush left and the others flush right."""
     from rich.box import SIMPLE_HEAD
     from rich.console import Console
     from rich.table import Table
@@ -19,7 +19,7 @@ def text_table(head: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
 
     table = Table(box=SIMPLE_HEAD, pad_edge=False, show_edge=False, header_style=None)
     for number, title in enumerate(head):
-        table.add_column(Text(title), justify="left" if number == 0 else "right", no_wrap=True)
+        table.add_column(Text(title), justify="left" if number in left else "right", no_wrap=True)
     for row in rows:
         table.add_row(*(Text(cell) for cell in row))
     stream = io.StringIO()

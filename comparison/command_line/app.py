@@ -18,12 +18,15 @@ from bent_beam.errors import SimulationError
 from comparison.command_line.benchmark import benchmark
 from comparison.command_line.gallery import gallery
 from comparison.command_line.match import match
+from comparison.command_line.new import new
+from comparison.command_line.options import printable
 from comparison.command_line.predict import predict
 from comparison.command_line.predictor import predictor
 from comparison.command_line.problem import problem
 from comparison.command_line.report import report
 from comparison.command_line.rerun import rerun
 from comparison.command_line.score import score
+from comparison.command_line.settings import settings
 from comparison.command_line.simulate import simulate
 from comparison.command_line.study import study
 from comparison.command_line.theory import theory
@@ -32,6 +35,8 @@ __all__ = ["app", "main", "run"]
 
 COMMANDS = (
     theory,
+    new,
+    settings,
     predict,
     predictor,
     simulate,
@@ -107,5 +112,5 @@ def run(arguments: Sequence[str] | None = None) -> int:
 
 
 def _refuse(message: str, code: int) -> int:
-    print("error: " + " ".join(message.split()), file=sys.stderr)
+    print("error: " + printable(" ".join(message.split())), file=sys.stderr)
     return code

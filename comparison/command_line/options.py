@@ -20,6 +20,7 @@ __all__ = [
     "complete",
     "emit",
     "path_names",
+    "printable",
 ]
 
 
@@ -58,7 +59,12 @@ def emit(document: Any, as_json: bool, text: Callable[[], str]) -> None:
 
         print(json_text(document))
     else:
-        print(text())
+        print(printable(text()))
+
+
+def printable(text: str) -> str:
+    """``text`` without control characters, which a name from a file could send to the terminal."""
+    return "".join(c if c.isprintable() or c == "\n" else c.encode("unicode_escape").decode() for c in text)
 
 
 def check_out(out: Path | None, overwrite: bool) -> None:

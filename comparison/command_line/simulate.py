@@ -51,7 +51,8 @@ def simulate(
             history.save(out)
         except OSError as error:  # the run's answer is worth more than its file
             problem, out = f"out: {out} could not be written: {error.strerror or error}", None
-    found = summary(history, out)
+    found = summary(history, out, loaded.section)
+    found["warnings"] = [*loaded.warnings, *found["warnings"]]
     emit(found, as_json, lambda: run_table(found))
     if problem:
         raise InputError(problem)

@@ -1,0 +1,141 @@
+"""From the beam as its owner knows it to the quantities of :class:`bent_beam.Impact`.
+
+One or the other, never both: two ways to say the same thing clash, and the error names them.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import Any
+
+from bent_beam.errors import InputError
+from bent_beam.section import Section
+from bent_beam.tables import BeamTable, CaseFile, ImpactTable
+
+__all__ = ["beam_quantities", "free_flight", "impact_velocity", "one_of_these"]
+
+GRAVITY = 9.80665  # m/s², standard (3rd General Conference on Weights and Measures, 1901)
+FIRST_MODE = 4.730040744862704  # first root of cos z cosh z = 1, the free–free beam
+
+
+def one_of_these(where: str, values: Mapping[str, float | None], *, required: bool = True) -> tuple[str | None, float]:
+    """Name and value of the one that is given (``None``, 0: none is).
+
+    Raises :class:`InputError` naming those that clash, or what is missing.
+    """
+    given = [(name, value) for name, value in values.items() if value is not None]
+    if len(given) > 1:
+        both = " and ".join(f"{where}.{name} = {value!r}" for name, value in given[:2])
+        raise InputError(f"{both} say the same thing: give one of them")
+    if not given and required:
+        raise InputError(f"{where}.{next(iter(values))} is required (or {', '.join(list(values)[1:])})")
+    return given[0] if given else (None, 0.0)
+
+
+def beam_quantities(file: CaseFile, section: Section | None) -> dict[str, Any]:
+    """Fields of :class:`bent_beam.Impact` that the beam's tables settle."""
+    beam = file.beam
+    found: dict[str, Any] = {"length": beam.length, "axial_force": beam.axial_force}
+    found["natural_curvature"] = beam.natural_curvature
+    for name in ("bending_stiffness", "mass_per_length"):
+        value = getattr(beam, name)
+        if section is None and value is None:
+            raise InputError(f"beam.{name} is required (or a [section])")
+        if section is not None and value is not None:
+            raise InputError(f"beam.{name} = {value!r} and [section] say the same thing: give one of them")
+        found[name] = value if section is None else getattr(section, name)
+    if beam.section_height is not None:
+        if section is not None:
+            raise InputError(f"beam.section_height = {beam.section_height!r} and [section] clash: give one")
+        found["section_height"] = beam.section_height
+    elif section is not None:
+        # d of EA = 12 EI/d²: that of a rectangle with this section's radius of gyration
+        found["section_height"] = math.sqrt(12.0) * section.radius_of_gyration
+    found["curvature"] = _curvature(beam)
+    wave = math.sqrt(found["bending_stiffness"] / found["mass_per_length"])
+    found["damping"] = _damping(beam, wave)
+    return found
+
+
+def _curvature(beam: BeamTable) -> float:
+    """K, 1/m, of the bow: that of the circle through both ends and the middle."""
+    ways = {"curvature": beam.curvature, "sagitta": beam.sagitta, "dogleg": beam.dogleg}
+    way, bow = one_of_these("beam", ways)
+    if way != "sagitta" and beam.sagitta_length is not None:
+        raise InputError(f"beam.sagitta_length has no effect without beam.sagitta (got {beam.sagitta_length!r})")
+    if way == "curvature":
+        return bow
+    if way == "dogleg":
+        return math.radians(bow) / 30.0
+    chord = beam.length if beam.sagitta_length is None else beam.sagitta_length
+    if chord > beam.length:
+        raise InputError(f"beam.sagitta_length must not exceed beam.length {beam.length!r} (got {chord!r})")
+    if bow >= chord / 2.0:
+        raise InputError(f"beam.sagitta must be less than half its length {chord!r} (got {bow!r})")
+    return 8.0 * bow / (chord**2 + 4.0 * bow**2)
+
+
+def _damping(beam: BeamTable, wave: float) -> float:
+    """η, s: ζ = ηω/2 for the damping ratio of a mode, ηω for the loss factor."""
+    ways = {"damping": beam.damping, "damping_ratio": beam.damping_ratio, "loss_factor": beam.loss_factor}
+    way, amount = one_of_these("beam", ways, required=False)
+    if way != "loss_factor" and beam.loss_frequency is not None:
+        raise InputError(f"beam.loss_frequency has no effect without beam.loss_factor (got {beam.loss_frequency!r})")
+    if way is None or way == "damping":
+        return amount
+    if way == "damping_ratio":
+        return 2.0 * amount * (beam.length / FIRST_MODE) ** 2 / wave
+    if beam.loss_frequency is None:
+        raise InputError(f"beam.loss_frequency is required next to beam.loss_factor (got {amount!r} alone)")
+    return amount / (2.0 * math.pi * beam.loss_frequency)
+
+
+def impact_velocity(table: ImpactTable, length: float) -> float:
+    """V₀, m/s."""
+    ways = {"velocity": table.velocity, "drop_height": table.drop_height, "angular_speed": table.angular_speed}
+    way, given = one_of_these("impact", ways)
+    if way != "angular_speed" and table.angular_arm is not None:
+        raise InputError(f"impact.angular_arm has no effect without impact.angular_speed (got {table.angular_arm!r})")
+    if way == "velocity":
+        return given
+    if way == "angular_speed":
+        return given * (length / 2.0 if table.angular_arm is None else table.angular_arm)
+    gravity = _gravity(table)
+    along = gravity * math.cos(math.radians(table.gravity_angle))
+    if along <= 0.0:
+        raise InputError(
+            f"impact.drop_height = {given!r} needs gravity towards the wall "
+            f"(got impact.gravity = {gravity!r} at impact.gravity_angle = {table.gravity_angle!r})"
+        )
+    return math.sqrt(2.0 * along * given)
+
+
+def _gravity(table: ImpactTable) -> float:
+    if table.gravity is not None:
+        return table.gravity
+    return GRAVITY if table.drop_height is not None else 0.0
+
+
+def free_flight(file: CaseFile, beam: Mapping[str, Any]) -> float:
+    """a₀, m/s²: as given, or that of free flight under gravity, which tension bends: a₀ = g cos θ − (EI q₀ + N K)/μ.
+
+    Without gravity and tension a beam of which no acceleration is given does not accelerate.
+    """
+    table = file.impact
+    gravity = _gravity(table)
+    if table.gravity_angle and not gravity:
+        raise InputError(f"impact.gravity_angle has no effect without impact.gravity (got {table.gravity_angle!r})")
+    if table.acceleration is not None:
+        if table.gravity is not None:
+            raise InputError(
+                f"impact.acceleration = {table.acceleration!r} and impact.gravity = {table.gravity!r} say the same "
+                "thing: give one of them"
+            )
+        return table.acceleration
+    pull = gravity * math.cos(math.radians(table.gravity_angle))
+    force = beam["axial_force"]
+    if not gravity and not force:
+        return 0.0
+    bent = beam["bending_stiffness"] * table.fourth_derivative + force * beam["curvature"]
+    return float(pull - bent / beam["mass_per_length"])

@@ -1,0 +1,218 @@
+"""Cross-sections as a catalogue gives them: dimensions and material → EI, μ, EA, section modulus.
+
+I is the second moment of area about the axis of bending, W = I/(h/2) the section modulus, h the height in the plane of
+bending, i = √(I/A) the radius of gyration.
+"""
+
+from __future__ import annotations
+
+import math
+from abc import ABC, abstractmethod
+from dataclasses import dataclass
+
+from bent_beam.checks import finite, non_negative, positive
+
+__all__ = ["SECTIONS", "General", "Pipe", "Rectangle", "RoundBar", "Section"]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Section(ABC):
+    """What all sections have.
+
+    youngs_modulus : E, Pa. density : of the material, kg/m³. yield_stress : Pa (``None``: not compared).
+    added_mass : moves along outside, kg/m of beam (mud, cladding).
+    """
+
+    youngs_modulus: float
+    density: float
+    yield_stress: float | None = None
+    added_mass: float = 0.0
+
+    def __post_init__(self) -> None:
+        positive("section.youngs_modulus", self.youngs_modulus)
+        positive("section.density", self.density)
+        non_negative("section.added_mass", self.added_mass)
+        if self.yield_stress is not None:
+            positive("section.yield_stress", self.yield_stress)
+
+    @property
+    @abstractmethod
+    def area(self) -> float:
+        """A of the material, m²."""
+
+    @property
+    @abstractmethod
+    def second_moment(self) -> float:
+        """I, m⁴."""
+
+    @property
+    @abstractmethod
+    def height(self) -> float:
+        """h, m."""
+
+    @property
+    def bending_stiffness(self) -> float:
+        """EI, N m²."""
+        return self.youngs_modulus * self.second_moment
+
+    @property
+    def axial_stiffness(self) -> float:
+        """EA, N."""
+        return self.youngs_modulus * self.area
+
+    @property
+    def mass_per_length(self) -> float:
+        """μ with what moves along, kg/m."""
+        return self.density * self.area + self.added_mass
+
+    @property
+    def modulus(self) -> float:
+        """W, m³."""
+        return self.second_moment / (self.height / 2.0)
+
+    @property
+    def radius_of_gyration(self) -> float:
+        """i, m."""
+        return math.sqrt(self.second_moment / self.area)
+
+    def stress(self, moment: float, axial_force: float = 0.0) -> float:
+        """Largest normal stress |M|/W + |N|/A, Pa, of a bending moment (N m) and an axial force (N)."""
+        return abs(moment) / self.modulus + abs(axial_force) / self.area
+
+
+@dataclass(frozen=True, kw_only=True)
+class Pipe(Section):
+    """A pipe.
+
+    outer_diameter : m. inner_diameter, wall_thickness : m, one of the two. fluid_density : of what fills it, kg/m³.
+    """
+
+    outer_diameter: float
+    inner_diameter: float | None = None
+    wall_thickness: float | None = None
+    fluid_density: float = 0.0
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        outer = positive("section.outer_diameter", self.outer_diameter)
+        non_negative("section.fluid_density", self.fluid_density)
+        if (self.inner_diameter is None) == (self.wall_thickness is None):
+            raise ValueError(
+                "section.inner_diameter and section.wall_thickness say the same: give one of them "
+                f"(got {self.inner_diameter!r} and {self.wall_thickness!r})"
+            )
+        if self.wall_thickness is not None:
+            if not 0.0 < finite("section.wall_thickness", self.wall_thickness) < outer / 2.0:
+                raise ValueError(
+                    f"section.wall_thickness must lie between 0 and half the outer diameter {outer!r}, or the walls "
+                    f"cross (got {self.wall_thickness!r})"
+                )
+        elif not 0.0 <= finite("section.inner_diameter", self.inner_diameter or 0.0) < outer:
+            raise ValueError(
+                f"section.inner_diameter must be less than the outer diameter {outer!r}, or the walls cross "
+                f"(got {self.inner_diameter!r})"
+            )
+
+    @property
+    def bore(self) -> float:
+        """Inner diameter, m."""
+        if self.wall_thickness is not None:
+            return self.outer_diameter - 2.0 * self.wall_thickness
+        return self.inner_diameter or 0.0
+
+    @property
+    def area(self) -> float:
+        return math.pi / 4.0 * (self.outer_diameter**2 - self.bore**2)
+
+    @property
+    def second_moment(self) -> float:
+        return math.pi / 64.0 * (self.outer_diameter**4 - self.bore**4)
+
+    @property
+    def height(self) -> float:
+        return self.outer_diameter
+
+    @property
+    def mass_per_length(self) -> float:
+        return super().mass_per_length + self.fluid_density * math.pi / 4.0 * self.bore**2
+
+
+@dataclass(frozen=True, kw_only=True)
+class RoundBar(Section):
+    """A solid round bar. diameter : m."""
+
+    diameter: float
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        positive("section.diameter", self.diameter)
+
+    @property
+    def area(self) -> float:
+        return math.pi / 4.0 * self.diameter**2
+
+    @property
+    def second_moment(self) -> float:
+        return math.pi / 64.0 * self.diameter**4
+
+    @property
+    def height(self) -> float:
+        return self.diameter
+
+
+@dataclass(frozen=True, kw_only=True)
+class Rectangle(Section):
+    """A rectangle. width : m. thickness : in the plane of bending, m."""
+
+    width: float
+    thickness: float
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        positive("section.width", self.width)
+        positive("section.thickness", self.thickness)
+
+    @property
+    def area(self) -> float:
+        return self.width * self.thickness
+
+    @property
+    def second_moment(self) -> float:
+        return self.width * self.thickness**3 / 12.0
+
+    @property
+    def height(self) -> float:
+        return self.thickness
+
+
+@dataclass(frozen=True, kw_only=True)
+class General(Section):
+    """Any section by its properties, as a catalogue of rails gives them.
+
+    area_of_section : m². second_moment_of_area : m⁴.
+    section_height : m, twice the distance of the outermost fibre."""
+
+    area_of_section: float
+    second_moment_of_area: float
+    section_height: float
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        for name in ("area_of_section", "second_moment_of_area", "section_height"):
+            positive(f"section.{name}", getattr(self, name))
+
+    @property
+    def area(self) -> float:
+        return self.area_of_section
+
+    @property
+    def second_moment(self) -> float:
+        return self.second_moment_of_area
+
+    @property
+    def height(self) -> float:
+        return self.section_height
+
+
+SECTIONS: dict[str, type] = {"pipe": Pipe, "round_bar": RoundBar, "rectangle": Rectangle, "general": General}
+"""Kinds of a case file's ``[section]`` table."""

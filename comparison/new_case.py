@@ -1,0 +1,67 @@
+"""A case file to start from: a beam as its owner knows it, every line with its unit."""
+
+from __future__ import annotations
+
+from bent_beam.checks import shortened
+from bent_beam.errors import InputError
+from bent_beam.parts import nearest
+
+__all__ = ["new_case"]
+
+SECTION_LINES = {
+    "pipe": """outer_diameter = 0.127      # m
+wall_thickness = 0.00919    # m (or inner_diameter)
+fluid_density = 1200.0      # kg/m³, what fills it; leave out when empty
+""",
+    "round_bar": "diameter = 0.02              # m\n",
+    "rectangle": """width = 0.03                # m
+thickness = 0.001           # m, in the plane of bending
+""",
+    "general": """area_of_section = 7.686e-3      # m² (rail 60E1)
+second_moment_of_area = 3.038e-5  # m⁴
+section_height = 0.172          # m
+""",
+}
+
+TEXT = """title = "My beam"
+
+# Change the numbers; every other setting: bentbeam settings. Then: bentbeam predict THIS_FILE
+
+[section]
+kind = "{kind}"
+{lines}youngs_modulus = 206e9      # Pa
+density = 7850.0            # kg/m³
+yield_stress = 7.24e8       # Pa; leave out when not of interest
+# added_mass = 5.0          # kg/m, moves along outside
+
+[beam]
+length = {length}               # m, of the whole beam
+sagitta = {sagitta}             # m, height of the bow over its length (or curvature, 1/m, or dogleg, degrees in 30 m)
+# axial_force = 50e3        # N, tension positive
+damping_ratio = 0.005       # of the first bending mode (or damping, s, or loss_factor at loss_frequency)
+
+[impact]
+velocity = {velocity}              # m/s towards the wall (or drop_height, m, or angular_speed, rad/s)
+# gravity = 9.81            # m/s², with gravity_angle = 0.0 degrees onto a floor, 90.0 onto an upright wall
+
+# [wall]
+# curvature = 0.0           # 1/m, positive where the wall is hollow
+
+[run]
+end_time = {end_time}            # s
+"""
+
+
+def new_case(kind: str) -> str:
+    """The text of a case with a section of ``kind``. Raises :class:`InputError` for an unknown one."""
+    if kind not in SECTION_LINES:
+        raise InputError(f"--section: {shortened(kind)} is not known{nearest(kind, SECTION_LINES)}")
+    long = kind in ("pipe", "general")
+    return TEXT.format(
+        kind=kind,
+        lines=SECTION_LINES[kind],
+        length=30.0 if long else 1.0,
+        sagitta=0.2 if long else 0.01,
+        velocity=2.0 if long else 1.0,
+        end_time=1e-3 if long else 1e-4,
+    )

@@ -1,0 +1,147 @@
+"""A beam described as its owner knows it is the beam that its numbers say; what clashes is refused by name."""
+
+import math
+
+import pytest
+
+from bent_beam import InputError, load_case
+from bent_beam.cases import case_from_tables
+from bent_beam.section import General, Pipe, Rectangle, RoundBar
+
+STEEL = {"youngs_modulus": 206e9, "density": 7850.0}
+PIPE = {"kind": "pipe", "outer_diameter": 0.127, "wall_thickness": 0.0092, **STEEL}
+
+
+def case(beam=None, section=PIPE, impact=None, **more):
+    bow = {"curvature": 0.002} if beam is None else beam
+    tables = {"beam": {"length": 30.0, **bow}, "impact": {"velocity": 2.0} if impact is None else impact, **more}
+    return case_from_tables(tables | ({"section": section} if section else {}))
+
+
+def test_pipe_is_outer_less_inner_bar():
+    pipe = Pipe(outer_diameter=0.127, inner_diameter=0.1086, **STEEL)
+    outer, inner = RoundBar(diameter=0.127, **STEEL), RoundBar(diameter=0.1086, **STEEL)
+    assert pipe.bending_stiffness == pytest.approx(outer.bending_stiffness - inner.bending_stiffness, rel=1e-13)
+    assert pipe.mass_per_length == pytest.approx(outer.mass_per_length - inner.mass_per_length, rel=1e-13)
+    assert pipe.modulus == pytest.approx(pipe.second_moment / 0.0635, rel=1e-13)
+
+
+def test_stress_of_a_rectangle_under_moment_and_tension():
+    section = Rectangle(width=0.03, thickness=0.002, **STEEL)
+    assert section.stress(1.0) == pytest.approx(6.0 / (0.03 * 0.002**2), rel=1e-13)  # 6M/(b h²)
+    assert section.stress(0.0, -600.0) == pytest.approx(600.0 / (0.03 * 0.002), rel=1e-13)
+    assert section.radius_of_gyration == pytest.approx(0.002 / math.sqrt(12.0), rel=1e-13)
+
+
+def test_fluid_and_added_mass_move_along():
+    dry = Pipe(outer_diameter=0.1, inner_diameter=0.08, **STEEL)
+    wet = Pipe(outer_diameter=0.1, inner_diameter=0.08, fluid_density=1000.0, added_mass=3.0, **STEEL)
+    assert wet.mass_per_length - dry.mass_per_length == pytest.approx(1000.0 * math.pi * 0.04**2 + 3.0, rel=1e-12)
+    assert wet.bending_stiffness == dry.bending_stiffness
+
+
+def test_a_circle_through_ends_and_middle_has_the_sagitta():
+    found = case({"sagitta": 0.3, "sagitta_length": 20.0}).impact.curvature
+    radius = 1.0 / found
+    assert radius - math.sqrt(radius**2 - 100.0) == pytest.approx(0.3, rel=1e-12)
+
+
+def test_dogleg_is_degrees_in_thirty_metres():
+    assert case({"dogleg": 3.0}).impact.curvature * 30.0 == pytest.approx(math.radians(3.0), rel=1e-14)
+
+
+def test_dropped_beam_has_the_velocity_of_its_fall_and_falls_on():
+    found = case(impact={"drop_height": 0.5, "gravity": 9.0}).impact
+    assert found.velocity == pytest.approx(3.0, rel=1e-14)
+    assert found.acceleration == pytest.approx(9.0, rel=1e-14)
+    sloped = case(impact={"velocity": 1.0, "gravity": 9.0, "gravity_angle": 60.0}).impact
+    assert sloped.acceleration == pytest.approx(4.5, rel=1e-12)
+
+
+def test_a_swing_arrives_with_arm_times_speed():
+    assert case(impact={"angular_speed": 0.2}).impact.velocity == pytest.approx(3.0)
+    assert case(impact={"angular_speed": 0.2, "angular_arm": 5.0}).impact.velocity == pytest.approx(1.0)
+
+
+def test_free_flight_under_tension_straightens_the_bow():
+    found = case({"curvature": 0.002, "axial_force": 1e5}).impact
+    assert found.acceleration == pytest.approx(-1e5 * 0.002 / found.mass_per_length, rel=1e-12)
+    assert found.uniform_pressure == pytest.approx(0.0, abs=1e-9)
+    held = case({"curvature": 0.002, "axial_force": 1e5}, impact={"velocity": 2.0, "acceleration": 0.0}).impact
+    assert held.uniform_pressure == pytest.approx(200.0, rel=1e-12)
+
+
+def test_damping_ratio_and_loss_factor_are_the_same_time_constant():
+    ratio = case({"curvature": 0.002, "damping_ratio": 0.01}).impact
+    first = (4.730040744862704 / 30.0) ** 2 * ratio.wave_constant  # rad/s
+    assert ratio.damping == pytest.approx(2 * 0.01 / first, rel=1e-9)
+    loss = case({"curvature": 0.002, "loss_factor": 0.02, "loss_frequency": first / (2 * math.pi)}).impact
+    assert loss.damping == pytest.approx(ratio.damping, rel=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("tables", "message"),
+    [
+        ({"beam": {"curvature": 0.1, "sagitta": 0.1}}, "beam.curvature = 0.1 and beam.sagitta = 0.1"),
+        ({"beam": {}}, "beam.curvature is required"),
+        ({"beam": {"curvature": 0.1, "sagitta_length": 1.0}}, "sagitta_length has no effect"),
+        ({"beam": {"sagitta": 20.0}}, "beam.sagitta must be less than half"),
+        ({"beam": {"sagitta": 0.1, "sagitta_length": 40.0}}, "must not exceed beam.length"),
+        ({"beam": {"curvature": 0.1, "bending_stiffness": 1.0}}, "beam.bending_stiffness = 1.0 and"),
+        ({"section": None}, "beam.bending_stiffness is required"),
+        ({"section": PIPE | {"wall_thickness": 0.1}}, "walls cross"),
+        ({"section": PIPE | {"inner_diameter": 0.1}}, "say the same"),
+        ({"section": PIPE | {"diameter": 0.1}}, "section.diameter is not a known"),
+        ({"section": PIPE | {"kind": "tube"}}, "tube"),
+        ({"impact": {}}, "impact.velocity is required"),
+        ({"impact": {"velocity": 1.0, "drop_height": 1.0}}, "impact.velocity = 1.0 and impact.drop_height"),
+        ({"impact": {"drop_height": 1.0, "gravity_angle": 90.0001}}, "needs gravity towards the wall"),
+        ({"impact": {"velocity": 1.0, "acceleration": 1.0, "gravity": 9.8}}, "impact.acceleration = 1.0 and"),
+        ({"impact": {"velocity": 1.0, "gravity_angle": 5.0}}, "gravity_angle has no effect"),
+        ({"beam": {"curvature": 0.1, "damping": 0.1, "damping_ratio": 0.1}}, "beam.damping = 0.1 and"),
+        ({"beam": {"curvature": 0.1, "loss_factor": 0.1}}, "loss_frequency is required"),
+        ({"wall": {"curvature": 0.002}}, "wall_curvature must be less"),
+    ],
+)
+def test_what_clashes_is_named(tables, message):
+    with pytest.raises(InputError, match=message):
+        case(**tables)
+
+
+def test_compression_beyond_buckling_is_a_warning_with_the_number():
+    found = case({"curvature": 0.002, "axial_force": -1e5})
+    limit = math.pi**2 * found.impact.bending_stiffness / 30.0**2
+    assert f"{limit:.6g} N" in found.warnings[0]
+    assert case({"curvature": 0.002, "axial_force": -1e3}).warnings == ()
+
+
+@pytest.mark.parametrize("name", ["drill_pipe", "ruler", "glass_fibre_rod", "rail"])
+def test_shipped_cases_are_bowed_beams_that_spread(name):
+    found = load_case(f"cases/{name}.toml")
+    assert 0.0 < found.impact.kappa_over_nu < 1.0
+    assert found.section is not None and found.end_time < 0.01 * found.impact.slow_time_scale
+
+
+def test_a_rail_is_its_catalogue_entry():
+    rail = load_case("cases/rail.toml").section
+    assert isinstance(rail, General)
+    assert rail.mass_per_length == pytest.approx(60.21, rel=1e-3)
+
+
+@pytest.mark.parametrize("kind", ["pipe", "round_bar", "rectangle", "general"])
+def test_a_new_case_can_be_used_as_it_is(kind, tmp_path):
+    from comparison.new_case import new_case
+
+    file = tmp_path / "mine.toml"
+    file.write_text(new_case(kind))
+    assert load_case(file).section is not None
+
+
+def test_every_setting_of_a_case_is_listed():
+    from comparison.settings import settings, settings_markdown
+
+    found = {(s.table, s.name) for s in settings()}
+    some = {("beam", "dogleg"), ("section", "yield_stress"), ("hermite.integrator", "theta"), ("mesh", "growth")}
+    assert some <= found
+    assert all(s.text for s in settings() if s.table in ("beam", "impact", "wall", "run"))
+    assert "| `dogleg` | °/30 m |" in settings_markdown()
