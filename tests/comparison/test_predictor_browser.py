@@ -368,11 +368,19 @@ def test_case_means_what_the_page_shows(browser: Any, tmp_path: Path, section: s
     choose(browser, "section", section)
     type_into(browser, "length", "40")
     type_into(browser, "load", "12")
+    type_into(browser, "tension", "3")
     impact = saved_case(browser, tmp_path / "impact.toml").impact
-    pages = ask(browser, "Beam.impact({...Beam.START, section: arguments[0], length: 40, load: 12})", section)
+    given = "{...Beam.START, section: arguments[0], length: 40, load: 12, tension: 3000}"
+    pages = ask(browser, f"Beam.impact({given})", section)
+    regime, groups = ask(
+        browser, f"(c => [c.regime, [c.ratio, c.alpha, c.n]])(Beam.solve(Beam.impact({given})).contact)", section
+    )
+    assert (impact.kappa_over_nu, impact.epsilon_alpha, impact.epsilon_axial) == pytest.approx(groups, rel=1e-12)
+    assert regime == "continuous"
     assert impact.bending_stiffness == pytest.approx(pages["stiffness"], rel=1e-12)
     assert impact.mass_per_length == pytest.approx(pages["mass"], rel=1e-12)
-    assert impact.acceleration == pytest.approx(12.0 / pages["mass"], rel=1e-12)
+    assert impact.axial_force == 3000.0
+    assert impact.acceleration == pytest.approx((12.0 - 3000.0 * impact.curvature) / pages["mass"], rel=1e-12)
     assert impact.length == 40.0
 
 

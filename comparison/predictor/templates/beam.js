@@ -4,21 +4,24 @@ const Beam = (() => {
   const { sqrt, abs, min, PI } = Math;
   const GRAVITY = 9.80665; // m/s², standard
 
-  // quantity: [unit, its size in SI], metric and oilfield
+  // quantity: [unit, its size in SI], metric and oilfield; several where a result picks the one that suits its size
   const UNITS = {
     si: {
       section: ["mm", 1e-3], length: ["m", 1], modulus: ["GPa", 1e9], density: ["kg/m³", 1], line: ["kg/m", 1],
       curvature: ["1/m", 1], sagitta: ["mm", 1e-3], dogleg: ["°/30 m", PI / 180 / 30], velocity: ["m/s", 1], drop: ["m", 1],
-      tension: ["kN", 1e3], load: ["N/m", 1], stress: ["MPa", 1e6], time: ["ms", 1e-3], force: ["kN", 1e3],
-      impulse: ["N s", 1], moment: ["kN m", 1e3],
+      tension: ["kN", 1e3], load: ["N/m", 1], stress: ["MPa", 1e6],
+      time: [["µs", 1e-6], ["ms", 1e-3], ["s", 1]], force: [["N", 1], ["kN", 1e3], ["MN", 1e6]],
+      impulse: [["mN s", 1e-3], ["N s", 1], ["kN s", 1e3]], moment: [["N m", 1], ["kN m", 1e3]],
+      place: [["mm", 1e-3], ["m", 1]], gap: [["µm", 1e-6], ["mm", 1e-3], ["m", 1]],
     },
     oilfield: {
       section: ["in", 0.0254], length: ["ft", 0.3048], modulus: ["Mpsi", 6.894757293168e9], density: ["lb/ft³", 16.01846337396],
       line: ["lb/ft", 1.488163943570], curvature: ["1/ft", 1 / 0.3048], sagitta: ["in", 0.0254],
       dogleg: ["°/100 ft", PI / 180 / 30.48], velocity: ["ft/s", 0.3048], drop: ["ft", 0.3048],
       tension: ["klbf", 4448.2216152605], load: ["lbf/ft", 14.593902937206], stress: ["ksi", 6.894757293168e6],
-      time: ["ms", 1e-3], force: ["klbf", 4448.2216152605], impulse: ["lbf s", 4.4482216152605],
-      moment: ["ft lbf", 1.3558179483314],
+      time: [["µs", 1e-6], ["ms", 1e-3], ["s", 1]], force: [["lbf", 4.4482216152605], ["klbf", 4448.2216152605]],
+      impulse: [["lbf s", 4.4482216152605]], moment: [["ft lbf", 1.3558179483314], ["ft klbf", 1355.8179483314]],
+      place: [["in", 0.0254], ["ft", 0.3048]], gap: [["mil", 2.54e-5], ["in", 0.0254], ["ft", 0.3048]],
     },
   };
 

@@ -14,6 +14,7 @@ const Case = (() => {
       `length = ${float(b.length)}  # m`,
       `curvature = ${float(b.curvature)}  # 1/m`,
       `section_height = ${float(b.height)}  # m`,
+      ...(b.tension ? [`axial_force = ${float(b.tension)}  # tension, N`] : []),
       "",
       "[impact]",
       `velocity = ${float(b.velocity)}  # m/s`,

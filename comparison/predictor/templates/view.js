@@ -6,8 +6,13 @@
   const find = (selector) => root.querySelector(selector);
   let inputs = { ...START }, predicted = null;
 
-  const unit = (quantity) => UNITS[inputs.units][quantity];
-  const shown = (quantity, value) => value / unit(quantity)[1];
+  /** [unit, its size] of a quantity; where there are several, the largest that is not larger than the value. */
+  function unit(quantity, value = 1) {
+    const units = UNITS[inputs.units][quantity];
+    if (typeof units[0] === "string") return units;
+    return units.findLast(([, size]) => Math.abs(value) >= size) || units[0];
+  }
+  const shown = (quantity, value) => value / unit(quantity)[1]; // of an input
   /** A number to read: `digits` significant ones, no exponent for everyday sizes. */
   function text(value, digits = 4) {
     if (!Number.isFinite(value)) return "–";
@@ -18,7 +23,10 @@
     }
     return String(Number(value.toPrecision(digits))).replace("-", "−");
   }
-  const quantity = (name, value, digits) => `${text(shown(name, value), digits)} ${unit(name)[0]}`;
+  function quantity(name, value, digits) {
+    const [symbol, size] = unit(name, value);
+    return `${text(value / size, digits)} ${symbol}`;
+  }
 
   // --- inputs --------------------------------------------------------------------------------------------------
   const groups = [...new Set(FIELDS.map((field) => field.group))];
@@ -125,55 +133,62 @@
   const path = (points) => points.map(([x, y], i) => `${i ? "L" : "M"}${x.toFixed(2)},${y.toFixed(2)}`).join("");
 
   const CURVES = [
-    { id: "plot-length", label: "Half contact length", name: "length", of: (r) => r.halfLength },
+    { id: "plot-length", label: "Half contact length", name: "place", of: (r) => r.halfLength },
     { id: "plot-force", label: "Force on the wall", name: "force", of: (r) => r.reaction, steep: true },
     { id: "plot-impulse", label: "Impulse", name: "impulse", of: (r) => r.impulse },
     { id: "plot-stress", label: "Largest stress", name: "stress", of: (r) => r.stress },
   ];
 
   function drawCurves(end, now) {
-    const count = 80;
+    const count = 80, [second, perSecond] = unit("time", end);
     for (const { id, label, name, of, steep } of CURVES) {
-      const svg = find(`#${id}`), width = Math.max(260, svg.clientWidth || 320), height = 170;
-      const points = [];
+      const svg = find(`#${id}`), width = Math.max(260, svg.clientWidth || 320), points = [];
       for (let i = 1; i <= count; i++) {
         const t = end * (i / count) ** 2;
-        points.push([shown("time", t), shown(name, of(Beam.at(predicted, t)))]);
+        points.push([t, of(Beam.at(predicted, t))]);
       }
       // the force starts as 1/√t: its axis ends where the curve leaves it
       const top = steep ? 4 * points[count - 1][1] : Math.max(...points.map((p) => p[1]));
-      const high = top > 0 ? 1.08 * top : 1;
-      const [X, Y] = axes(svg, { width, height, left: 58, x: [0, shown("time", end)], y: [0, high], xLabel: `time, ${unit("time")[0]}`, yLabel: `${label}, ${unit(name)[0]}`, zero: true });
-      draw(svg, "path", { d: path(points.filter((p) => p[1] <= high).map(([a, b]) => [X(a), Y(b)])), class: "curve" });
-      if (now > 0) {
-        const value = shown(name, of(Beam.at(predicted, now)));
-        if (value <= high) draw(svg, "circle", { cx: X(shown("time", now)), cy: Y(value), r: 4.5, class: "now" });
+      const high = top > 0 ? 1.08 * top : 1, [symbol, size] = unit(name, top);
+      const [X, Y] = axes(svg, {
+        width, height: 170, left: 58, x: [0, end / perSecond], y: [0, high / size],
+        xLabel: `time, ${second}`, yLabel: `${label}, ${symbol}`, zero: true,
+      });
+      const place = ([t, value]) => [X(t / perSecond), Y(value / size)];
+      draw(svg, "path", { d: path(points.filter((p) => p[1] <= high).map(place)), class: "curve" });
+      const value = now > 0 ? of(Beam.at(predicted, now)) : Infinity;
+      if (value <= high) {
+        const [cx, cy] = place([now, value]);
+        draw(svg, "circle", { cx, cy, r: 4.5, class: "now" });
       }
     }
   }
 
   function drawShape(end, now) {
     const svg = find("#shape"), width = Math.max(300, svg.clientWidth || 640), height = width < 480 ? 230 : 280;
-    const p = predicted, reach = Math.sqrt(p.c * end), window = Math.min(p.half, Math.max(1.6 * p.contact.lambda0, p.contact.lambda0 + 3) * reach);
-    const high = Math.max(Beam.gap(p, window, 0), Beam.gap(p, window, end));
+    const p = predicted, { lambda0 } = p.contact, reach = Math.sqrt(p.c * end);
+    const window = Math.min(p.half, Math.max(1.6 * lambda0, lambda0 + 3) * reach);
+    const high = 1.05 * Math.max(Beam.gap(p, window, 0), Beam.gap(p, window, end));
     const low = Math.min(-0.12 * high, Math.max(Beam.freeGap(p, 0, end), -0.45 * high));
-    const [X, Y] = axes(svg, { width, height, left: 58, x: [shown("length", -window), shown("length", window)], y: [shown("sagitta", low), shown("sagitta", 1.05 * high)], xLabel: `along the beam, ${unit("length")[0]}`, yLabel: `Gap, ${unit("sagitta")[0]}`, zero: false });
-    const wall = Y(0), bottom = Y(shown("sagitta", low));
-    draw(svg, "rect", { x: X(shown("length", -window)), width: X(shown("length", window)) - X(shown("length", -window)), y: wall, height: bottom - wall, class: "wall" });
+    const [along, metre] = unit("place", window), [across, deep] = unit("gap", high);
+    const [X, Y] = axes(svg, {
+      width, height, left: 58, x: [-window / metre, window / metre], y: [low / deep, high / deep],
+      xLabel: `along the beam, ${along}`, yLabel: `Gap, ${across}`, zero: false,
+    });
+    const x = (place) => X(place / metre), y = (gap) => Y(gap / deep), wall = y(0);
+    draw(svg, "rect", { x: x(-window), width: x(window) - x(-window), y: wall, height: y(low) - wall, class: "wall" });
     const beam = [], free = [], count = 120;
     for (let i = -count; i <= count; i++) {
-      const x = window * i / count, at = X(shown("length", x));
-      beam.push([at, Y(shown("sagitta", Math.max(0, Beam.gap(p, Math.abs(x), now))))]);
-      const below = Beam.freeGap(p, x, now);
-      if (below >= low) free.push([at, Y(shown("sagitta", below))]);
+      const place = window * i / count, below = Beam.freeGap(p, place, now);
+      beam.push([x(place), y(Math.max(0, Beam.gap(p, Math.abs(place), now)))]);
+      if (below >= low && below <= high) free.push([x(place), y(below)]);
     }
     draw(svg, "path", { d: path(free), class: "free" });
     draw(svg, "path", { d: path(beam), class: "beam" });
-    if (now > 0) {
-      const front = Beam.at(p, now).halfLength, a = X(shown("length", -front)), b = X(shown("length", front));
-      if (p.contact.regime === "continuous") draw(svg, "line", { x1: a, x2: b, y1: wall, y2: wall, class: "contact" });
-      for (const x of new Set([a, b])) draw(svg, "path", { d: `M${x},${wall + 3}l-5,10h10z`, class: "push" });
-    }
+    if (!(now > 0)) return;
+    const front = Beam.at(p, now).halfLength;
+    if (p.contact.regime === "continuous") draw(svg, "line", { x1: x(-front), x2: x(front), y1: wall, y2: wall, class: "contact" });
+    for (const at of new Set([x(-front), x(front)])) draw(svg, "path", { d: `M${at},${wall + 3}l-5,10h10z`, class: "push" });
   }
 
   // --- words and numbers -----------------------------------------------------------------------------------------
@@ -185,9 +200,9 @@
 
   function rows(now) {
     const r = Beam.at(predicted, now), p = predicted;
-    const where = p.peak.at > 0 ? `${quantity("length", p.peak.at * Math.sqrt(p.c * now), 3)} from the middle` : "in the contact";
+    const where = p.peak.at > 0 ? `${quantity("place", p.peak.at * Math.sqrt(p.c * now), 3)} from the middle` : "in the contact";
     const list = [
-      ["Half contact length", p.contact.regime === "discrete" ? "one point" : quantity("length", r.halfLength)],
+      ["Half contact length", p.contact.regime === "discrete" ? "one point" : quantity("place", r.halfLength)],
       ["Force on the wall", quantity("force", r.reaction)],
       ["of it uniform in the zone", r.uniform > 0 ? quantity("load", r.uniform) : "none"],
       ["Impulse so far", quantity("impulse", r.impulse)],
@@ -222,7 +237,7 @@
     if (wrong.size) return;
     const problem = Beam.impact(inputs);
     predicted = Beam.solve(problem);
-    const [verdict, why] = REGIMES[predicted.contact.regime], last = Beam.at(predicted, predicted.validUntil);
+    const [verdict, why] = REGIMES[predicted.contact.regime];
     find("#verdict").textContent = verdict;
     find("#why").textContent = why;
     find("#holds").textContent = `This holds until ${quantity("time", predicted.validUntil, 3)} after first touch; then ${predicted.limitedBy}.`;
