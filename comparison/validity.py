@@ -122,9 +122,10 @@ def add_measured_errors(prediction: dict[str, Any]) -> list[str]:
     """Add ``measured_error`` to each time of a prediction (``Prediction.to_dict()``); returns it in plain sentences."""
     notes = []
     for row in prediction["times"]:
-        values = {check["name"]: check["value"] for check in row["checks"]}
-        parts = [values.get(name) for name in ("contact_length_correction", "reaction_correction")]
-        correction = max((v for v in parts if v is not None), default=0.0)
+        size = prediction["epsilon"] * row["tau"]
+        correction = size * abs(prediction["r1"]) / prediction["r0"]
+        if prediction["lambda0"] > 0.0:
+            correction = max(correction, size * abs(prediction["lambda1"]) / prediction["lambda0"])
         row["correction"] = correction
         found = measured_error(prediction["regime"], prediction["kappa_over_nu"], correction)
         row["measured_error"] = found

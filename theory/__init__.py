@@ -8,7 +8,7 @@ impact and where it may be trusted. The kernel is in `theory.kernel`, the φ fun
 from theory.contact import ContactParameters, contact_parameters
 from theory.fields import FieldValues, ImpactFields
 from theory.moment import PeakMoment, peak_moment
-from theory.prediction import Prediction, PredictionAtTime, ValidityCheck, predict
+from theory.prediction import Prediction, PredictionAtTime, predict
 from theory.similarity import SelfSimilarWave
 
 __all__ = [
@@ -19,7 +19,6 @@ __all__ = [
     "Prediction",
     "PredictionAtTime",
     "SelfSimilarWave",
-    "ValidityCheck",
     "contact_parameters",
     "peak_moment",
     "predict",

@@ -1,13 +1,16 @@
-r"""What the theory says about a physical impact, and where it may be trusted (theory in SI units).
+r"""What the theory says about a physical impact, and until when it may be trusted (theory in SI units).
 
-With c = √(EI/μ), ν = 1, τ = t/t*, and r̃₁ = ε(α+ψ)⁺ μV₀/t* in the continuous regime, 0 otherwise,
+With c = √(EI/μ), ν = 1, τ = t/t*, and r̃₁ = ε(α′+ψ)⁺ μV₀/t* in the continuous regime, 0 otherwise,
 
     λ_c(t) = √(c t) (λ₀ + ελ₁τ)                                               (2.7.6)
     R(t)   = 2√(2/π) μV₀ √c (r₀ + εr₁τ)/√t + 2 λ_c r̃₁                         (2.7.7), (2.7.5)
-    I(t)   = ∫₀ᵗ R = 4√(2/π) μV₀ √(c t) (r₀ + εr₁τ/3) + 4 r̃₁ √c t^{3/2} (λ₀/3 + ελ₁τ/5).
+    I(t)   = ∫₀ᵗ R = 4√(2/π) μV₀ √(c t) (r₀ + εr₁τ/3) + 4 r̃₁ √c t^{3/2} (λ₀/3 + ελ₁τ/5)
+    M      = EI(K_n − K) + V₀√(EIμ) κ in the zone, EI(K_n − K) − V₀√(EIμ) m_ahead ahead of it (leading order)
 
-Only the products εα, εψ, εχ are physical (the deflection scale y* of the slow motion is free): λ₁ and r₁
-are linear in them, so ελ₁ and εr₁ are solved for and divided by ε last.
+K_n the curvature free of stress. Only the products εα, εψ, εχ, n are physical (the deflection scale y* of the slow
+motion is free): λ₁ and r₁ are linear in them, so ελ₁ and εr₁ are solved for and divided by ε last. Where the beam
+touches in one point, its own damping η changes r₀ and M by the factors of `theory.damped_point`; for a zone there is
+no such form, and the prediction is the undamped one.
 """
 
 from __future__ import annotations
@@ -15,36 +18,51 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable
 from dataclasses import asdict, dataclass
-from typing import Any
+from typing import Any, Protocol
 
 from bent_beam.impact import Impact
-from theory.contact import DISCRETE, contact_parameters
+from theory import damped_point
+from theory.contact import DISCRETE, ContactParameters, contact_parameters
+from theory.moment import PeakMoment, peak_moment_of
+from theory.validity import ENDS, FIRST_ORDER, SECTION, SHEAR, SLOPE, TENSION, validity
 
-#: Largest ε, ε|λ₁|τ/λ₀ and ε|r₁|τ/r₀: the terms left out are of the order of their squares, 1 %.
-EXPANSION_LIMIT = 0.1
-#: Largest λ_c/(L/2): the waves ahead of the front travel at twice its speed (group against phase).
-CONTACT_LIMIT = 0.5
-#: Largest t/T*: then √(EI/μ)^{1/2}√t, which bending waves have covered, is a third of the half length.
-TIME_LIMIT = 0.1
+#: Damping times after which the undamped impulse of one point is within 2 %: 1/(8·0.02).
+DAMPING_TIMES = 6.25
 
 
-@dataclass(frozen=True)
-class ValidityCheck:
-    """One condition of the theory: holds if `value` ≤ `limit`; `value` is None where it has no meaning."""
+class Section(Protocol):
+    """What stress and shear need to know of a section, SI units; None where it is not known."""
 
-    name: str
-    value: float | None
-    limit: float
-    ok: bool
-    message: str
+    @property
+    def area(self) -> float:
+        """A, m²."""
+
+    @property
+    def section_modulus(self) -> float:
+        """EI/E over the outermost fibre's distance, m³."""
+
+    @property
+    def yield_stress(self) -> float | None:
+        """Pa."""
+
+    @property
+    def shear_stiffness(self) -> float | None:
+        """κ_s G A, N."""
 
 
 @dataclass(frozen=True)
 class PredictionAtTime:
     """The impact at one time after first contact, SI units.
 
-    None where a value does not exist: the reaction at t = 0 (it starts as 1/√t), and everything but the
-    time once the first-order correction has outgrown the leading order.
+    None where a value does not exist: the reaction at t = 0 (it starts as 1/√t), lengths, forces and impulse once
+    the first-order correction has outgrown the leading order, stress without a section.
+
+    Attributes:
+        contact_force_per_length: the uniform reaction in the zone, N/m.
+        peak_moment: largest bending moment in the beam, N m, at leading order.
+        peak_moment_place: its distance from the middle, m; 0 for the contact zone.
+        peak_stress: largest stress by bending and axial force, Pa.
+        valid: `Prediction.valid_from` ≤ time ≤ `Prediction.valid_until`.
     """
 
     time: float
@@ -53,21 +71,35 @@ class PredictionAtTime:
     reaction: float | None
     contact_force_per_length: float | None
     impulse: float | None
+    peak_moment: float
+    peak_moment_place: float
+    peak_stress: float | None
     valid: bool
-    checks: tuple[ValidityCheck, ...]
 
 
 @dataclass(frozen=True)
 class Prediction:
-    """Theory of one impact: groups and parameters (ν = 1, dimensionless), scales (SI), and its times."""
+    """Theory of one impact: groups and parameters (ν = 1, dimensionless), scales (SI), its times, its validity.
+
+    Attributes:
+        lambda1, r1: with everything; `lambda_axial`, `r_axial` per unit of `axial`.
+        peak_moment, peak_stress: the largest at leading order, where they are constant in time; N m, Pa.
+        valid_from, valid_until: s; half length, force and impulse are within 2 % between them.
+        limited_by: what ends it, one of the names in `theory.validity`.
+        damping_matters_until: s; before it the beam's own damping changes force or impulse by more than 2 %.
+        yields: whether the peak stress is beyond the yield stress; None if either is not known.
+        warnings: plain sentences.
+    """
 
     kappa_over_nu: float
     epsilon_alpha: float
     epsilon_psi: float
     epsilon_chi: float
+    epsilon_axial: float
     alpha: float
     psi: float
     chi: float
+    axial: float
     epsilon: float
     time_scale: float
     length_scale: float
@@ -78,8 +110,16 @@ class Prediction:
     r0: float
     lambda1: float
     r1: float
-    valid: bool
-    checks: tuple[ValidityCheck, ...]
+    lambda_axial: float
+    r_axial: float
+    peak_moment: float
+    peak_stress: float | None
+    yields: bool | None
+    valid_from: float
+    valid_until: float
+    limited_by: str
+    damping_matters_until: float
+    warnings: tuple[str, ...]
     times: tuple[PredictionAtTime, ...]
 
     def to_dict(self) -> dict[str, Any]:
@@ -87,45 +127,65 @@ class Prediction:
         return _finite(asdict(self))
 
     def summary(self) -> str:
-        """The prediction in plain text, one line a fact, one row a time, and what is out of range."""
-        return "\n".join([*_summary_of_impact(self), *_summary_of_times(self), *_summary_of_validity(self)])
+        """The prediction in plain text: does it spread, one row a time, until when, the moment, what else to know."""
+        parts = (_summary_of_contact, _summary_of_times, _summary_of_validity, _summary_of_moment)
+        return "\n".join(line for part in parts for line in part(self))
 
 
-def predict(impact: Impact, times: Iterable[float] | float = ()) -> Prediction:
-    """Contact length, reaction, impulse and validity of the theory for an impact.
+def predict(impact: Impact, times: Iterable[float] | float = (), *, section: Section | None = None) -> Prediction:
+    """Contact length, reaction, impulse, moment and stress of an impact, and until when they hold.
 
     Args:
         impact: the physical problem.
         times: times after the first contact, s, each ≥ 0.
+        section: for stress, shear and yield.
 
     Returns:
         Prediction: relative error 1e-11 of the theory's own formulas; how far these are from the beam is
-        what `checks` is about.
+        what `valid_until` is about.
 
     Raises:
-        ValueError: a straight beam (K = 0), or a time that is negative, not finite or beyond 1e30 t*.
+        ValueError: a beam as curved as its wall (K = K_w), one that rocks (rotation, first_touch), or a time that is
+            negative, not finite or beyond 1e30 t*.
     """
-    if impact.curvature == 0.0:
+    if not impact.relative_curvature > 0.0:
         raise ValueError(
-            "curvature must be positive (got 0.0): a straight beam has kappa/nu = 0, touches over its whole "
-            "length at once, and lambda0 is infinite"
+            f"curvature must be more than the wall's (got {impact.curvature!r}): a beam as straight as its wall has "
+            "kappa/nu = 0, touches over its whole length at once, and lambda0 is infinite"
         )
+    for name in ("rotation", "first_touch"):
+        if getattr(impact, name) != 0.0:
+            raise ValueError(
+                f"{name} must be 0 for the theory, which is symmetric about the first touch "
+                f"(got {getattr(impact, name)!r}): simulate the full beam"
+            )
     given = [times] if isinstance(times, int | float) else times
     instants = [impact.checked_time("times", t) for t in given]
     epsilon = impact.epsilon
-    solved = contact_parameters(
-        impact.kappa_over_nu, impact.epsilon_alpha, impact.epsilon_psi, impact.epsilon_chi
+    loads = (impact.epsilon_alpha, impact.epsilon_psi, impact.epsilon_chi)
+    solved = contact_parameters(impact.kappa_over_nu, *loads, axial=impact.epsilon_axial)
+    bending = _Bending(impact, peak_moment_of(solved), section)
+    peak, _ = bending.peak()
+    stress = bending.stress(peak)
+    limit = None if section is None else section.yield_stress
+    yields = None if stress is None or limit is None else stress > limit
+    holds = validity(
+        impact,
+        solved,
+        shear_stiffness=None if section is None else section.shear_stiffness,
+        yields=bool(yields),
     )
-    checks = (_check_epsilon(epsilon),)
-    rows = tuple(_at_time(impact, solved, t) for t in instants)
+    rows = tuple(_at_time(impact, solved, bending, t, holds.holds(t)) for t in instants)
     return Prediction(
         kappa_over_nu=impact.kappa_over_nu,
         epsilon_alpha=impact.epsilon_alpha,
         epsilon_psi=impact.epsilon_psi,
         epsilon_chi=impact.epsilon_chi,
+        epsilon_axial=impact.epsilon_axial,
         alpha=impact.alpha,
         psi=impact.psi,
         chi=impact.chi,
+        axial=impact.axial,
         epsilon=epsilon,
         time_scale=impact.time_scale,
         length_scale=impact.length_scale,
@@ -136,13 +196,49 @@ def predict(impact: Impact, times: Iterable[float] | float = ()) -> Prediction:
         r0=solved.r0,
         lambda1=solved.lambda1 / epsilon,
         r1=solved.r1 / epsilon,
-        valid=all(check.ok for check in checks) and all(row.valid for row in rows),
-        checks=checks,
+        lambda_axial=solved.lambda_axial,
+        r_axial=solved.r_axial,
+        peak_moment=peak,
+        peak_stress=stress,
+        yields=yields,
+        valid_from=holds.begins,
+        valid_until=holds.until,
+        limited_by=holds.limited_by,
+        damping_matters_until=DAMPING_TIMES * impact.damping,
+        warnings=tuple(_warnings(impact, solved)),
         times=rows,
     )
 
 
-def _at_time(impact: Impact, solved: Any, t: float) -> PredictionAtTime:
+@dataclass(frozen=True)
+class _Bending:
+    impact: Impact
+    moments: PeakMoment
+    section: Section | None
+
+    def peak(self, factor: float = 1.0) -> tuple[float, float]:
+        """Largest |M| (N m) and its place x/√(ct); `factor` multiplies the moment at the contact."""
+        impact = self.impact
+        unit = impact.velocity * math.sqrt(impact.bending_stiffness * impact.mass_per_length)
+        before = 0.0
+        if impact.natural_curvature is not None:
+            before = impact.bending_stiffness * (impact.natural_curvature - impact.curvature)
+        at_contact = abs(before + unit * self.moments.at_contact * factor)
+        ahead = abs(before - unit * self.moments.ahead)
+        if at_contact >= max(ahead, abs(before)):
+            return at_contact, 0.0
+        return (ahead, self.moments.place) if ahead >= abs(before) else (abs(before), math.inf)
+
+    def stress(self, moment: float) -> float | None:
+        """Largest |σ| (Pa) of a moment together with the axial force."""
+        if self.section is None:
+            return None
+        return moment / self.section.section_modulus + abs(self.impact.axial_force) / self.section.area
+
+
+def _at_time(
+    impact: Impact, solved: ContactParameters, bending: _Bending, t: float, valid: bool
+) -> PredictionAtTime:
     tau = t / impact.time_scale
     spread = solved.lambda0 + solved.lambda1 * tau
     push = solved.r0 + solved.r1 * tau
@@ -152,101 +248,46 @@ def _at_time(impact: Impact, solved: Any, t: float) -> PredictionAtTime:
     front = 2.0 * math.sqrt(2.0 / math.pi) * momentum * root
     length = root * math.sqrt(t) * spread
     exists = spread >= 0.0 and push > 0.0
-    checks = _checks_at_time(impact, solved, t, length)
+    of_force = of_impulse = of_moment = 1.0
+    if solved.regime == DISCRETE and impact.damping > 0.0 and 0.0 < t < 1e12 * impact.damping:
+        age = t / impact.damping
+        of_force, of_impulse = float(damped_point.reaction_ratio(age)), float(damped_point.impulse_ratio(age))
+        of_moment = float(damped_point.moment_ratio(age))
+    moment, place = bending.peak(of_moment)
+    force = front * (of_force * solved.r0 + solved.r1 * tau)
     return PredictionAtTime(
         time=t,
         tau=tau,
         half_contact_length=length if exists else None,
-        reaction=front * push / math.sqrt(t) + 2.0 * length * uniform if exists and t > 0.0 else None,
+        reaction=force / math.sqrt(t) + 2.0 * length * uniform if exists and t > 0.0 else None,
         contact_force_per_length=uniform if exists else None,
         impulse=(
-            2.0 * front * math.sqrt(t) * (solved.r0 + solved.r1 * tau / 3.0)
+            2.0 * front * math.sqrt(t) * (of_impulse * solved.r0 + solved.r1 * tau / 3.0)
             + 4.0 * uniform * root * t**1.5 * (solved.lambda0 / 3.0 + solved.lambda1 * tau / 5.0)
             if exists
             else None
         ),
-        valid=all(check.ok for check in checks),
-        checks=checks,
+        peak_moment=moment,
+        peak_moment_place=min(place * root * math.sqrt(t) if t > 0.0 else 0.0, impact.half_length),
+        peak_stress=bending.stress(moment),
+        valid=valid,
     )
 
 
-def _check(name: str, value: float | None, limit: float, good: str, bad: str) -> ValidityCheck:
-    ok = value is None or value <= limit
-    return ValidityCheck(name, value, limit, ok, good if ok else bad)
-
-
-def _check_epsilon(epsilon: float) -> ValidityCheck:
-    return _check(
-        "epsilon",
-        epsilon,
-        EXPANSION_LIMIT,
-        f"The impact is fast against the beam's own vibration (epsilon = t*/T* = {epsilon:.3g}).",
-        f"epsilon = t*/T* = {epsilon:.3g}: the impact is not fast against the beam's own vibration, so the "
-        "two time scales do not separate; at best times far below T* can be trusted. A faster, longer, "
-        "heavier or softer beam would bring epsilon down.",
-    )
-
-
-def _correction(name: str, what: str, ratio: float | None, until: float, good: str) -> ValidityCheck:
-    if ratio is not None and ratio >= 1.0:
-        bad = (
-            f"The first-order change of the {what} is {ratio:.3g} times its leading order: the expansion "
-            f"says nothing here, it is valid up to {until:.3g} s. Ask for an earlier time or simulate."
+def _warnings(impact: Impact, solved: ContactParameters) -> list[str]:
+    found = []
+    buckling = math.pi**2 * impact.bending_stiffness / impact.length**2
+    if impact.axial_force < -buckling:
+        found.append(
+            f"The compression of {-impact.axial_force:.4g} N is beyond the Euler load pi^2 EI/L^2 = {buckling:.4g} N: "
+            "a free beam of this length would buckle."
         )
-    else:
-        bad = (
-            f"The load changes the {what} by {_percent(ratio)} of its leading order: the terms left out are "
-            f"no longer small and the {what} is an indication only, it is valid up to {until:.3g} s."
+    if impact.damping > 0.0 and solved.regime != DISCRETE:
+        found.append(
+            f"The beam's own damping is not in the theory of a contact zone; it matters before about "
+            f"{DAMPING_TIMES * impact.damping:.3g} s."
         )
-    return _check(name, ratio, EXPANSION_LIMIT, good, bad)
-
-
-def _checks_at_time(impact: Impact, solved: Any, t: float, length: float) -> tuple[ValidityCheck, ...]:
-    tau = t / impact.time_scale
-    spreads = solved.regime != DISCRETE
-    growth = abs(solved.lambda1) / solved.lambda0 if spreads else None
-    load = abs(solved.r1) / solved.r0
-    reach = max(length, 0.0) / impact.half_length
-    age = t / impact.slow_time_scale
-    return (
-        _correction(
-            "contact_length_correction",
-            "contact length",
-            None if growth is None else growth * tau,
-            EXPANSION_LIMIT / growth * impact.time_scale if growth else math.inf,
-            "The first-order change of the contact length is a small correction."
-            if spreads
-            else "The beam touches in one point only: there is no contact length to correct.",
-        ),
-        _correction(
-            "reaction_correction",
-            "reaction",
-            load * tau,
-            EXPANSION_LIMIT / load * impact.time_scale if load else math.inf,
-            "The first-order change of the reaction is a small correction.",
-        ),
-        _check(
-            "contact_length_over_half_length",
-            reach,
-            CONTACT_LIMIT,
-            f"The contact covers {_percent(reach)} of the beam.",
-            f"The contact covers {_percent(reach)} of the beam: the waves ahead of it have reached the "
-            "beam's ends, which the theory takes to be infinitely far.",
-        ),
-        _check(
-            "time_over_slow_time_scale",
-            age,
-            TIME_LIMIT,
-            f"Bending waves have covered about {_percent(math.sqrt(age))} of the half length.",
-            f"The time is {age:.2g} T*: bending waves have covered about {_percent(math.sqrt(age))} of the "
-            "half length and come back from the ends, and the beam's free motion is no longer its Taylor "
-            "expansion at the first contact.",
-        ),
-    )
-
-
-def _percent(value: float | None) -> str:
-    return "" if value is None else f"{100.0 * value:.3g} %"
+    return found
 
 
 def _finite(value: Any) -> Any:
@@ -260,37 +301,42 @@ def _finite(value: Any) -> Any:
 
 
 _REGIMES = {
-    "discrete": "one point: the beam is too curved (or too slow) for the contact to spread",
-    "continuous": "a growing zone, in contact all along, with a concentrated force at each end",
-    "detached": "two points that move apart while the beam lifts off between them",
+    "discrete": "The contact stays a point: the beam is too curved (or too slow) for it to spread.",
+    "continuous": "The contact spreads: a growing zone, in contact all along, with a concentrated force at each end.",
+    "detached": "The contact spreads as two points that move apart while the beam lifts off between them.",
+}
+
+_ENDS_OF_VALIDITY = {
+    ENDS: "waves come back from the beam's ends, which the theory takes to be infinitely far",
+    FIRST_ORDER: "the loads change the contact so much that the first-order correction is no longer enough",
+    TENSION: "the axial force changes the contact so much that the first-order correction is no longer enough",
+    SLOPE: "the beam's slopes are no longer small",
+    SHEAR: "the beam is so stubby that it shears before it bends, all the time that the ends leave",
+    SECTION: "the bending stress is beyond the yield stress from the first instant on",
 }
 
 
-def _summary_of_impact(p: Prediction) -> list[str]:
+def _summary_of_contact(p: Prediction) -> list[str]:
     return [
-        f"Contact: {p.regime}: {_REGIMES[p.regime]}.",
-        f"  kappa/nu = {p.kappa_over_nu:.6g}   epsilon = {p.epsilon:.3g}",
-        f"  t* = {p.time_scale:.4g} s   l* = {p.length_scale:.4g} m   T* = {p.slow_time_scale:.4g} s",
-        f"  lambda0 = {p.lambda0:.9g}   r0 = {p.r0:.9g}",
-        f"  epsilon lambda1 = {p.epsilon * p.lambda1:.6g}   epsilon r1 = {p.epsilon * p.r1:.6g}",
+        _REGIMES[p.regime],
+        f"  kappa/nu = {p.kappa_over_nu:.6g} (below 1 it spreads), regime {p.regime}",
+        f"  t* = {p.time_scale:.4g} s   l* = {p.length_scale:.4g} m   T* = {p.slow_time_scale:.4g} s   "
+        f"epsilon = {p.epsilon:.3g}",
+        f"  lambda0 = {p.lambda0:.9g}   r0 = {p.r0:.9g}   "
+        f"epsilon lambda1 = {p.epsilon * p.lambda1:.6g}   epsilon r1 = {p.epsilon * p.r1:.6g}",
     ]
 
 
 def _summary_of_times(p: Prediction) -> list[str]:
     if not p.times:
         return []
-    head = ("time, s", "half contact, m", "reaction, N", "zone force, N/m", "impulse, N s", "valid")
+    head = ("time, s", "half contact, m", "reaction, N", "impulse, N s", "moment, N m", "stress, Pa", "holds")
     rows = [
         (
             f"{row.time:.4g}",
             *(
                 "-" if value is None else f"{value:.5g}"
-                for value in (
-                    row.half_contact_length,
-                    row.reaction,
-                    row.contact_force_per_length,
-                    row.impulse,
-                )
+                for value in (row.half_contact_length, row.reaction, row.impulse, row.peak_moment, row.peak_stress)
             ),
             "yes" if row.valid else "no",
         )
@@ -300,10 +346,22 @@ def _summary_of_times(p: Prediction) -> list[str]:
 
 
 def _summary_of_validity(p: Prediction) -> list[str]:
-    failed = [check.message for check in p.checks if not check.ok]
-    failed += [f"At {row.time:.4g} s: {c.message}" for row in p.times for c in row.checks if not c.ok]
-    return (
-        ["Outside the theory's range:", *(f"  {line}" for line in failed)]
-        if failed
-        else ["Within the theory's range."]
-    )
+    reason = _ENDS_OF_VALIDITY[p.limited_by]
+    if p.valid_until == 0.0:
+        lines = [f"This does not hold at any time: {reason}."]
+    else:
+        start = f"from {p.valid_from:.3g} s " if p.valid_from > 0.0 else ""
+        lines = [f"This holds {start}until {p.valid_until:.3g} s, to 2 %: then {reason}."]
+    if any(row.half_contact_length is None for row in p.times):
+        lines.append("Where there is a dash the correction exceeds the leading order: the theory says nothing there.")
+    if any(not row.valid for row in p.times):
+        lines.append("For other times simulate: bentbeam predict --simulate, or bentbeam simulate.")
+    return lines
+
+
+def _summary_of_moment(p: Prediction) -> list[str]:
+    lines = [f"The largest bending moment is {p.peak_moment:.4g} N m from the first instant on (at leading order)."]
+    if p.peak_stress is not None:
+        verdict = {None: "", True: ", beyond the yield stress", False: ", below the yield stress"}[p.yields]
+        lines.append(f"The largest stress is {p.peak_stress:.4g} Pa{verdict}.")
+    return [*lines, *p.warnings]
