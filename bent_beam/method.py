@@ -50,8 +50,10 @@ class Method(Protocol):
     """A way to simulate an impact.
 
     Optional next to what stands below: ``chosen_for(impact, end_time)``, ``refined(factor)``,
-    ``for_whole_beam(impact)`` and ``simulate_to_separation(impact, …)`` (see the functions of these names), ``PARTS``
-    (field → registry of kinds), for methods made from tables.
+    ``for_whole_beam(impact)`` and ``simulate_to_separation(impact, …)`` (see the functions of these names);
+    ``cross_checks(impact)`` (cause → a method to compare with, for the error bars of a whole impact) and
+    ``varied(impact, random)`` (a copy with mesh, steps and contact law drawn at random, for a band);
+    ``PARTS`` (field → registry of kinds), for methods made from tables.
     """
 
     path: ClassVar[str]

@@ -7,6 +7,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import ClassVar
 
+import numpy as np
+
 from bent_beam.checks import positive
 from bent_beam.history import ImpactHistory
 from bent_beam.impact import Impact
@@ -107,6 +109,14 @@ class HermiteFE:
     def for_whole_beam(self, impact: Impact) -> HermiteFE:
         """A copy whose open parts suit the whole beam until it has left: strictly unilateral, nothing absorbed."""
         return whole_beam.with_parts_for_whole_beam(self, impact)
+
+    def cross_checks(self, impact: Impact) -> dict[str, HermiteFE]:
+        """Coarser elements, longer steps, another impact law: what error bars of a whole impact come from."""
+        return whole_beam.cross_checks(self, impact)
+
+    def varied(self, impact: Impact, random: np.random.Generator) -> HermiteFE:
+        """A copy with elements, steps and impact law drawn at random, for an ensemble."""
+        return whole_beam.varied(self, impact, random)
 
     def simulate_to_separation(
         self,

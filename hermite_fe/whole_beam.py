@@ -25,7 +25,7 @@ from bent_beam.meshes import UniformMesh
 from bent_beam.method import separation_times
 from hermite_fe.contacts import NodeContact
 from hermite_fe.far_fields import GridViscosity
-from hermite_fe.integrators import NonsmoothGeneralizedAlpha
+from hermite_fe.integrators import MoreauJean, NonsmoothGeneralizedAlpha
 from hermite_fe.model import BeamModel
 from hermite_fe.run import Stepper
 from hermite_fe.simulate import simulate
@@ -33,7 +33,7 @@ from hermite_fe.simulate import simulate
 if TYPE_CHECKING:
     from hermite_fe.method import HermiteFE
 
-__all__ = ["ELEMENTS", "simulate_to_separation", "with_parts_for_whole_beam"]
+__all__ = ["ELEMENTS", "cross_checks", "simulate_to_separation", "varied", "with_parts_for_whole_beam"]
 
 ELEMENTS = 200  # of a half beam
 
@@ -57,6 +57,43 @@ def with_parts_for_whole_beam(method: HermiteFE, impact: Impact) -> HermiteFE:
         far_field=GridViscosity(viscosity=0.0) if method.far_field is None else method.far_field,
         full_beam=method.full_beam or bool(impact.rotation or impact.first_touch),
         refine=1.0,
+    )
+
+
+def cross_checks(method: HermiteFE, impact: Impact) -> dict[str, HermiteFE]:
+    """What stands beside ``method`` for error bars, by cause: half as many elements (and steps in proportion to their
+    square), steps twice as long, and the impact law of another scheme."""
+    chosen = with_parts_for_whole_beam(method, impact)
+    mesh, integrator = chosen.mesh, chosen.integrator
+    assert mesh is not None and integrator is not None
+    step = integrator.time_step
+    other = (
+        NonsmoothGeneralizedAlpha(time_step=step, growth=0.0)
+        if isinstance(integrator, MoreauJean)
+        else MoreauJean(theta=0.5, time_step=step, growth=0.0)
+    )
+    return {
+        "mesh": dataclasses.replace(chosen, mesh=mesh.refined(0.5), integrator=integrator.refined(0.25)),
+        "step": dataclasses.replace(chosen, integrator=integrator.refined(0.5)),
+        "contact_law": dataclasses.replace(chosen, integrator=other),
+    }
+
+
+def varied(method: HermiteFE, impact: Impact, random: np.random.Generator) -> HermiteFE:
+    """A method for an ensemble: elements, steps and impact law drawn at random.
+
+    Moreau–Jean with θ = ½ throughout, which keeps the energy between impacts: without damping the nonsmooth
+    generalised-α gains energy in impacts (up to half of it at κ/ν = 0.1).
+    """
+    elements = int(random.integers(2 * ELEMENTS // 5, 4 * ELEMENTS // 5))
+    length = impact.half_length / elements
+    step = 2.0 ** random.uniform(-1.0, 1.0) * length**2 / impact.wave_constant
+    restitution = (0.0, 0.5, 1.0)[int(random.integers(3))]
+    return dataclasses.replace(
+        method,
+        mesh=UniformMesh(length),
+        integrator=MoreauJean(theta=0.5, time_step=step, growth=0.0),
+        contact=NodeContact(restitution=restitution),
     )
 
 

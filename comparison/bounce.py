@@ -1,0 +1,266 @@
+"""The whole impact of one beam with error bars: e, impulse, times, moments, energy; without damping, a band.
+
+Each number comes from one run; its error bar is the root of the summed squares of what it moves by when elements,
+steps and the contact law change (``cross_checks`` of the method), and half a saved interval where it is a time.
+**Without damping** of the beam itself the numbers do not converge (docs/whole_impact.md): an ensemble of runs, meshes,
+steps and contact laws drawn at random from a seed, gives mean and standard deviation instead.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from bent_beam.checks import finite
+from bent_beam.history import ImpactHistory, versions
+from bent_beam.impact import Impact
+from bent_beam.method import Method, for_whole_beam, refined, settings_of, simulate_to_separation
+from comparison.whole_impact.outcome import NUMBERS, SHORTEST_SEPARATION, WholeImpact, whole_impact
+from comparison.workers import run_all
+
+__all__ = ["Bounce", "Number", "bounce", "bounce_document", "problem", "scales"]
+
+Progress = Callable[[int, int], None]
+RUNS = 24  # of a band
+SEED = 15
+LARGEST_KAPPA = 100.0  # beyond, and long before, the beam touches in one point: infinity is calculated as this
+TIMES = ("last_contact", "peak_moment_time")
+
+
+@dataclass(frozen=True)
+class Number:
+    """A number of a whole impact: ``value`` with its ``error`` bar and its ``parts`` by cause, or, without damping,
+    ``mean`` and ``std`` of an ensemble of ``runs``."""
+
+    value: float | None = None
+    error: float | None = None
+    parts: Mapping[str, float] = dataclasses.field(default_factory=dict)
+    mean: float | None = None
+    std: float | None = None
+    runs: int = 0
+
+    def scaled(self, unit: float) -> Number:
+        """The number in another unit."""
+
+        def times(number: float | None) -> float | None:
+            return None if number is None else number * unit
+
+        parts = {cause: part * unit for cause, part in self.parts.items()}
+        return Number(times(self.value), times(self.error), parts, times(self.mean), times(self.std), self.runs)
+
+    def to_dict(self) -> dict[str, Any]:
+        """JSON-ready: ``value`` and ``error``, or ``band``; what is missing is null."""
+        if self.runs:
+            return {"value": None, "error": None, "band": {"mean": self.mean, "std": self.std, "runs": self.runs}}
+        return {"value": self.value, "error": self.error}
+
+    def __str__(self) -> str:
+        if self.runs:
+            return f"{self.mean:.4g} ± {self.std:.1g} (band of {self.runs} runs)"
+        if self.value is None or self.error is None:
+            return "-"
+        if self.error == 0.0:
+            return f"{self.value:g}"
+        digits = min(max(0, 1 - math.floor(math.log10(self.error))), 12)
+        return f"{self.value:.{digits}f} ± {self.error:.1g}"
+
+
+@dataclass(frozen=True)
+class Bounce:
+    """A whole impact: ``numbers`` by name (:data:`comparison.whole_impact.outcome.NUMBERS`), dimensionless.
+
+    history : of the run that the values come from (one of the ensemble, for a band); outcome : what it came to.
+    settings : of that run's method; seconds : of all runs together; seed : of the ensemble.
+    """
+
+    impact: Impact
+    numbers: dict[str, Number]
+    history: ImpactHistory
+    outcome: WholeImpact
+    settings: dict[str, Any]
+    seconds: float
+    seed: int | None = None
+
+    @property
+    def warnings(self) -> list[str]:
+        """What a reader must know of the numbers."""
+        found = []
+        if self.seed is not None:
+            found.append(
+                "the beam has no damping of its own: the outcome is irregular and does not converge, so a band is "
+                "given; state [beam] damping (or --damping) for numbers"
+            )
+        if not self.outcome.left:
+            found.append("the beam had not left the wall for good when the run ended: the numbers are not final")
+        return found
+
+
+def problem(kappa_over_nu: float, damping: float) -> Impact:
+    """The beam in units of its half length; κ/ν = ∞ is calculated as a point contact."""
+    kappa = kappa_over_nu if kappa_over_nu == math.inf else finite("kappa_over_nu", kappa_over_nu)
+    return Impact.whole_beam(min(kappa, LARGEST_KAPPA), relative_damping=damping)
+
+
+def _run(method: Method, impact: Impact, save: int) -> tuple[WholeImpact, ImpactHistory]:
+    history = simulate_to_separation(method, impact, save=save)
+    return whole_impact(history), history
+
+
+def _outcome(method: Method, impact: Impact, save: int) -> tuple[WholeImpact, float]:
+    found, history = _run(method, impact, save)
+    return found, history.seconds
+
+
+def _died(_: int, why: str) -> Any:
+    raise RuntimeError(why)
+
+
+def bounce(
+    impact: Impact,
+    method: Method,
+    *,
+    runs: int = RUNS,
+    seed: int = SEED,
+    save: int = 2000,
+    jobs: int = 1,
+    progress: Progress | None = None,
+) -> Bounce:
+    """Follow ``impact`` to its last separation by ``method``, and by what it names to compare with.
+
+    runs, seed : of the ensemble, where the beam has no damping. save : saved instants a T*.
+    Raises ``ValueError`` for what the method refuses, :class:`bent_beam.SimulationError` when it cannot finish.
+    """
+    reason = method.refuses(impact)
+    if reason is not None:
+        raise ValueError(reason)
+    if impact.damping == 0.0 and hasattr(method, "varied"):
+        return _band(impact, method, runs, seed, save, jobs, progress)
+    checks = _cross_checks(method, impact)
+    if progress is not None:
+        progress(0, 1 + len(checks))
+    outcome, history = _run(method, impact, save)
+
+    def one_more(done: int, _: int) -> None:
+        if progress is not None:
+            progress(done + 1, 1 + len(checks))
+
+    found = run_all(
+        _outcome,
+        [(other, impact, save) for other in checks.values()],
+        jobs=jobs,
+        progress=one_more,
+        on_death=_died,
+    )
+    others = {cause: other for cause, (other, _) in zip(checks, found)}
+    return Bounce(
+        impact=impact,
+        numbers={name: _number(name, outcome, others) for name in NUMBERS},
+        history=history,
+        outcome=outcome,
+        settings=settings_of(for_whole_beam(method, impact)),
+        seconds=history.seconds + sum(seconds for _, seconds in found),
+    )
+
+
+def _cross_checks(method: Method, impact: Impact) -> dict[str, Method]:
+    own = getattr(method, "cross_checks", None)
+    if own is not None:
+        return dict(own(impact))
+    coarser = refined(for_whole_beam(method, impact), 0.5)
+    return {} if coarser is None else {"mesh_and_step": coarser}
+
+
+def _number(name: str, outcome: WholeImpact, others: Mapping[str, WholeImpact]) -> Number:
+    value = float(getattr(outcome, name))
+    parts = {cause: abs(float(getattr(other, name)) - value) for cause, other in others.items()}
+    if name in TIMES:
+        parts["saved_instants"] = 0.5 * outcome.spacing
+    return Number(value, math.sqrt(sum(part**2 for part in parts.values())) if others else None, parts)
+
+
+def _band(
+    impact: Impact, method: Method, runs: int, seed: int, save: int, jobs: int, progress: Progress | None
+) -> Bounce:
+    random = np.random.default_rng(seed)
+    methods = [method.varied(impact, random) for _ in range(runs)]  # type: ignore[attr-defined]
+    found = run_all(
+        _outcome,
+        [(drawn, impact, save) for drawn in methods[1:]],
+        jobs=jobs,
+        progress=progress,
+        on_death=_died,
+    )
+    outcome, history = _run(methods[0], impact, save)
+    outcomes = [outcome, *(other for other, _ in found)]
+    return Bounce(
+        impact=impact,
+        numbers={name: _spread([float(getattr(o, name)) for o in outcomes]) for name in NUMBERS},
+        history=history,
+        outcome=outcome,
+        settings=settings_of(for_whole_beam(methods[0], impact)),
+        seconds=history.seconds + sum(seconds for _, seconds in found),
+        seed=seed,
+    )
+
+
+def _spread(values: Sequence[float]) -> Number:
+    return Number(mean=float(np.mean(values)), std=float(np.std(values, ddof=1)), runs=len(values))
+
+
+def scales(impact: Impact) -> dict[str, float]:
+    """SI units of the dimensionless numbers: N s, s, N m, J."""
+    return {
+        "impulse": impact.mass_per_length * impact.half_length * impact.velocity,
+        "time": impact.slow_time_scale,
+        "moment": impact.velocity * math.sqrt(impact.bending_stiffness * impact.mass_per_length),
+        "energy": 0.5 * impact.mass_per_length * impact.length * impact.velocity**2,
+        "length": impact.half_length,
+    }
+
+
+SI = {
+    "impulse": ("impulse", "N s"),
+    "last_contact": ("time", "s"),
+    "peak_moment": ("moment", "N m"),
+    "peak_moment_place": ("length", "m"),
+    "peak_moment_time": ("time", "s"),
+    "midspan_moment": ("moment", "N m"),
+    "translation": ("energy", "J"),
+    "vibration": ("energy", "J"),
+    "dissipated": ("energy", "J"),
+}
+ENERGY = ("translation", "vibration", "dissipated")
+
+
+def bounce_document(found: Bounce) -> dict[str, Any]:
+    """The contract of ``bentbeam bounce --json``."""
+    unit = scales(found.impact)
+    document: dict[str, Any] = {
+        "kappa_over_nu": found.impact.kappa_over_nu,
+        "damping": found.impact.relative_damping,
+        **{name: number.to_dict() for name, number in found.numbers.items() if name not in ENERGY},
+        "energy": {name: found.numbers[name].to_dict() for name in ENERGY},
+        "si": {
+            name: {**found.numbers[name].scaled(unit[scale]).to_dict(), "unit": text}
+            for name, (scale, text) in SI.items()
+        },
+        "shortest_separation": SHORTEST_SEPARATION,
+        "contacts": [list(times) for times in found.outcome.contacts],
+        "error_parts": {name: dict(number.parts) for name, number in found.numbers.items()},
+        "energy_defect": found.outcome.energy_defect,
+        "energy_gain": found.outcome.energy_gain,
+        "left": found.outcome.left,
+        "steps": found.history.steps,
+        "seconds": found.seconds,
+        "seed": found.seed,
+        "settings": found.settings,
+        "versions": versions(),
+        "warnings": found.warnings,
+    }
+    document["si"]["time_unit"] = unit["time"]
+    return document

@@ -1,0 +1,143 @@
+"""What a run of the whole impact comes to, in the units ℓ = L/2, T* = ℓ²√(μ/EI), V₀ (so EI = μ = 1 as well).
+
+    J = impulse/(μℓV₀),   e = J/2 − 1, the centre of mass's velocity after over V₀ (without loads),
+
+the last contact T_c/T*, how often the beam was off the wall, the largest bending moment of the elastic strain
+EI u_xx/(V₀√(EIμ)) with place and time, and the shares of the initial energy at the last contact.
+
+A separation is a time of at least :data:`SHORTEST_SEPARATION` T* without a push: without a smallest duration there is
+no such number (the reaction of a beam that is stopped at a point changes sign arbitrarily fast).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bent_beam.free_flight import has_left
+from bent_beam.history import ImpactHistory
+
+__all__ = ["NUMBERS", "SHORTEST_SEPARATION", "WholeImpact", "bending_moments", "pushes", "whole_impact"]
+
+Array = NDArray[np.float64]
+
+SHORTEST_SEPARATION = 2e-3
+"""Shortest time without a push that counts as a separation, T*: four saved instants of a run to separation."""
+
+NUMBERS = (
+    "restitution",
+    "impulse",
+    "last_contact",
+    "separations",
+    "peak_moment",
+    "peak_moment_place",
+    "peak_moment_time",
+    "midspan_moment",
+    "translation",
+    "vibration",
+    "dissipated",
+)
+"""Fields of :class:`WholeImpact` that get error bars."""
+
+
+@dataclass(frozen=True)
+class WholeImpact:
+    """One run's whole impact, dimensionless (see the module's head).
+
+    spacing : of the saved instants around the last contact, which lies between two of them: ``last_contact`` is their
+        middle.
+    contacts : begin and end of each contact, separations shorter than the shortest ignored.
+    peak_moment_place : |x|/ℓ. translation, vibration, dissipated : shares of the initial energy, one altogether.
+    energy_defect : what the independently computed terms of the budget leave, of the initial energy; energy_gain : the
+        largest rise of the energy above what loads have worked, likewise.
+    left : whether the beam is off the wall for good; None of the numbers is final otherwise.
+    """
+
+    restitution: float
+    impulse: float
+    last_contact: float
+    separations: int
+    peak_moment: float
+    peak_moment_place: float
+    peak_moment_time: float
+    midspan_moment: float
+    translation: float
+    vibration: float
+    dissipated: float
+    spacing: float
+    contacts: tuple[tuple[float, float], ...]
+    energy_defect: float
+    energy_gain: float
+    left: bool
+
+
+def pushes(time: Array, impulse: Array, shortest: float) -> list[tuple[int, int]]:
+    """First and last saved instant of each contact, separations shorter than ``shortest`` (s) ignored."""
+    pushing = np.flatnonzero(np.diff(impulse) > 0.0)
+    if pushing.size == 0:
+        return []
+    apart = np.flatnonzero(time[pushing[1:]] - time[pushing[:-1] + 1] >= shortest * (1.0 - 1e-9))
+    begin = np.concatenate([pushing[:1], pushing[apart + 1]])
+    end = np.concatenate([pushing[apart], pushing[-1:]]) + 1
+    return [(int(i), int(k)) for i, k in zip(begin, end)]
+
+
+def bending_moments(history: ImpactHistory) -> tuple[Array, Array]:
+    """Elastic bending moment EI u_xx at the nodes, N m, shape (times, nodes), and the nodes' places.
+
+    From the Hermite interpolant of gap and slope; the mean of the two elements that meet at a node.
+    """
+    impact, x = history.impact, history.positions(0)
+    deflection = -history.array("gap") - 0.5 * impact.wall_curvature * x**2
+    slope, length = history.array("slope"), np.diff(x)
+    chord = np.diff(deflection, axis=1) / length
+    left = (6.0 * chord - 4.0 * slope[:, :-1] - 2.0 * slope[:, 1:]) / length
+    right = (-6.0 * chord + 2.0 * slope[:, :-1] + 4.0 * slope[:, 1:]) / length
+    bending = np.empty_like(slope)
+    bending[:, 0], bending[:, -1] = left[:, 0], right[:, -1]
+    bending[:, 1:-1] = 0.5 * (right[:, :-1] + left[:, 1:])
+    return impact.bending_stiffness * (bending + impact.curvature), x
+
+
+def whole_impact(history: ImpactHistory, *, shortest: float = SHORTEST_SEPARATION) -> WholeImpact:
+    """Reduce a run. ``shortest`` : separations that count, T*.
+
+    Raises ``ValueError`` when the wall was never touched.
+    """
+    impact, time = history.impact, history.time
+    unit = impact.slow_time_scale
+    total = history.array("total_impulse")
+    contacts = pushes(time, total, shortest * unit)
+    if not contacts:
+        raise ValueError("the run ends before the wall was touched")
+    mass, end = impact.mass_per_length * impact.length, contacts[-1][1]
+    impulse = float(total[-1]) / (mass * impact.velocity)
+    moments, x = bending_moments(history)
+    moments = np.abs(moments) / (impact.velocity * np.sqrt(impact.bending_stiffness * impact.mass_per_length))
+    k, place = np.unravel_index(int(np.argmax(moments)), moments.shape)
+    energy = history.array("kinetic_energy") + history.array("strain_energy")
+    initial = float(energy[0])
+    supplied = initial + history.array("work_of_loads")
+    velocity = impact.velocity - float(total[end]) / mass
+    velocity += impact.uniform_pressure * impact.length * float(time[end]) / mass
+    translation = 0.5 * mass * velocity**2 / initial
+    return WholeImpact(
+        restitution=impulse - 1.0,
+        impulse=2.0 * impulse,
+        last_contact=0.5 * float(time[end - 1] + time[end]) / unit,
+        separations=len(contacts) - (0 if has_left(history) else 1),
+        peak_moment=float(moments[k, place]),
+        peak_moment_place=abs(float(x[place])) / impact.half_length,
+        peak_moment_time=float(time[k]) / unit,
+        midspan_moment=float(moments[:, int(np.argmin(np.abs(x)))].max()),
+        translation=translation,
+        vibration=float(energy[end]) / initial - translation,
+        dissipated=float(supplied[end] - energy[end]) / initial,
+        spacing=float(time[end] - time[end - 1]) / unit,
+        contacts=tuple((float(time[i]) / unit, float(time[j]) / unit) for i, j in contacts),
+        energy_defect=abs(history.energy_budget()["defect"]) / initial,
+        energy_gain=float(np.max(np.diff(energy - supplied + initial), initial=0.0)) / initial,
+        left=has_left(history),
+    )
