@@ -12,6 +12,7 @@ from bent_beam.history import ImpactHistory
 __all__ = ["PeakMoment", "bending_moments", "hold_of", "peak_moment", "pull_of"]
 
 Array = NDArray[np.float64]
+CHUNK = 256  # saved instants at once
 START = 0.01  # of the run: what a start may be held for
 
 
@@ -38,31 +39,34 @@ def pull_of(history: ImpactHistory) -> float | None:
     return None if most <= 0.0 else max(-float(impulse.min(initial=0.0)), 0.0) / most
 
 
-def bending_moments(history: ImpactHistory, k: int) -> tuple[Array, Array]:
+def bending_moments(history: ImpactHistory, k: int | slice) -> tuple[Array, Array]:
     """Bending moment EI(y_xx + K₀), N m, at both ends of each element at saved instant ``k``, and its places, m, both
-    of shape (elements, 2); K₀ is the curvature of the beam free of stress.
+    of shape (elements, 2); K₀ is the curvature of the beam free of stress. For a slice of instants, of a fixed mesh,
+    the moments have these in front.
 
     y_xx is that of the Hermite cubic through deflections and slopes; the part η y_txx of a damped beam is left out.
     """
     impact = history.impact
-    x = history.positions(k)
+    x = history.positions(k if isinstance(k, int) else 0)
     y = -history.array("gap")[k] - 0.5 * impact.wall_curvature * x**2
     slope = history.array("slope")[k]
     h = np.diff(x)
-    rise = np.diff(y) / h
-    left = (6.0 * rise - 4.0 * slope[:-1] - 2.0 * slope[1:]) / h
-    right = (-6.0 * rise + 2.0 * slope[:-1] + 4.0 * slope[1:]) / h
+    rise = np.diff(y, axis=-1) / h
+    left = (6.0 * rise - 4.0 * slope[..., :-1] - 2.0 * slope[..., 1:]) / h
+    right = (-6.0 * rise + 2.0 * slope[..., :-1] + 4.0 * slope[..., 1:]) / h
     natural = impact.curvature if impact.natural_curvature is None else impact.natural_curvature
-    moment = impact.bending_stiffness * (np.stack([left, right], axis=1) + natural)
+    moment = impact.bending_stiffness * (np.stack([left, right], axis=-1) + natural)
     return moment, np.stack([x[:-1], x[1:]], axis=1)
 
 
 def peak_moment(history: ImpactHistory) -> PeakMoment:
     """The largest bending moment anywhere at any saved instant after the first."""
     best = PeakMoment(0.0, 0.0, float(history.time[0]))
-    for k in range(1, history.time.size):
-        moment, place = bending_moments(history, k)
-        worst = np.unravel_index(int(np.argmax(np.abs(moment))), moment.shape)
-        if abs(moment[worst]) > best.moment:
-            best = PeakMoment(float(abs(moment[worst])), float(place[worst]), float(history.time[k]))
+    moving = "position" in history.dataset
+    for first in range(1, history.time.size, 1 if moving else CHUNK):
+        moments, place = bending_moments(history, first if moving else slice(first, first + CHUNK))
+        sizes = np.abs(moments).reshape(-1, *place.shape)
+        j, *worst = np.unravel_index(int(np.argmax(sizes)), sizes.shape)
+        if sizes[j, *worst] > best.moment:
+            best = PeakMoment(float(sizes[j, *worst]), float(place[*worst]), float(history.time[first + j]))
     return best

@@ -11,6 +11,7 @@ no such number (the reaction of a beam that is stopped at a point changes sign a
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -18,8 +19,9 @@ from numpy.typing import NDArray
 
 from bent_beam.free_flight import has_left
 from bent_beam.history import ImpactHistory
+from comparison.reduction import bending_moments, peak_moment
 
-__all__ = ["NUMBERS", "SHORTEST_SEPARATION", "WholeImpact", "bending_moments", "pushes", "whole_impact"]
+__all__ = ["NUMBERS", "SHORTEST_SEPARATION", "WholeImpact", "pushes", "whole_impact"]
 
 Array = NDArray[np.float64]
 
@@ -74,7 +76,7 @@ class WholeImpact:
 
 
 def pushes(time: Array, impulse: Array, shortest: float) -> list[tuple[int, int]]:
-    """First and last saved instant of each contact, separations shorter than ``shortest`` (s) ignored."""
+    """Saved instants at which contacts begin and end, separations shorter than ``shortest`` (s) ignored."""
     pushing = np.flatnonzero(np.diff(impulse) > 0.0)
     if pushing.size == 0:
         return []
@@ -84,21 +86,10 @@ def pushes(time: Array, impulse: Array, shortest: float) -> list[tuple[int, int]
     return [(int(i), int(k)) for i, k in zip(begin, end)]
 
 
-def bending_moments(history: ImpactHistory) -> tuple[Array, Array]:
-    """Elastic bending moment EI u_xx at the nodes, N m, shape (times, nodes), and the nodes' places.
-
-    From the Hermite interpolant of gap and slope; the mean of the two elements that meet at a node.
-    """
-    impact, x = history.impact, history.positions(0)
-    deflection = -history.array("gap") - 0.5 * impact.wall_curvature * x**2
-    slope, length = history.array("slope"), np.diff(x)
-    chord = np.diff(deflection, axis=1) / length
-    left = (6.0 * chord - 4.0 * slope[:, :-1] - 2.0 * slope[:, 1:]) / length
-    right = (-6.0 * chord + 2.0 * slope[:, :-1] + 4.0 * slope[:, 1:]) / length
-    bending = np.empty_like(slope)
-    bending[:, 0], bending[:, -1] = left[:, 0], right[:, -1]
-    bending[:, 1:-1] = 0.5 * (right[:, :-1] + left[:, 1:])
-    return impact.bending_stiffness * (bending + impact.curvature), x
+def _midspan_moment(history: ImpactHistory) -> float:
+    """Largest bending moment at x = 0 at any saved instant, N m."""
+    moments, places = bending_moments(history, slice(1, None))
+    return float(np.abs(moments[:, places == 0.0]).max())
 
 
 def whole_impact(history: ImpactHistory, *, shortest: float = SHORTEST_SEPARATION) -> WholeImpact:
@@ -114,9 +105,8 @@ def whole_impact(history: ImpactHistory, *, shortest: float = SHORTEST_SEPARATIO
         raise ValueError("the run ends before the wall was touched")
     mass, end = impact.mass_per_length * impact.length, contacts[-1][1]
     impulse = float(total[-1]) / (mass * impact.velocity)
-    moments, x = bending_moments(history)
-    moments = np.abs(moments) / (impact.velocity * np.sqrt(impact.bending_stiffness * impact.mass_per_length))
-    k, place = np.unravel_index(int(np.argmax(moments)), moments.shape)
+    moment = impact.velocity * math.sqrt(impact.bending_stiffness * impact.mass_per_length)
+    peak = peak_moment(history)
     energy = history.array("kinetic_energy") + history.array("strain_energy")
     initial = float(energy[0])
     supplied = initial + history.array("work_of_loads")
@@ -128,10 +118,10 @@ def whole_impact(history: ImpactHistory, *, shortest: float = SHORTEST_SEPARATIO
         impulse=2.0 * impulse,
         last_contact=0.5 * float(time[end - 1] + time[end]) / unit,
         separations=len(contacts) - (0 if has_left(history) else 1),
-        peak_moment=float(moments[k, place]),
-        peak_moment_place=abs(float(x[place])) / impact.half_length,
-        peak_moment_time=float(time[k]) / unit,
-        midspan_moment=float(moments[:, int(np.argmin(np.abs(x)))].max()),
+        peak_moment=peak.moment / moment,
+        peak_moment_place=abs(peak.place) / impact.half_length,
+        peak_moment_time=peak.time / unit,
+        midspan_moment=_midspan_moment(history) / moment,
         translation=translation,
         vibration=float(energy[end]) / initial - translation,
         dissipated=float(supplied[end] - energy[end]) / initial,

@@ -1,0 +1,72 @@
+"""``bentbeam bounce``."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from comparison.command_line.console import Console
+from comparison.command_line.options import Jobs, Json, Quiet, Set, emit, path_names
+
+__all__ = ["bounce"]
+
+
+def bounce(
+    case: Annotated[
+        Path | None, typer.Argument(metavar="[CASE.toml]", help="Case file; or give --kappa-over-nu and --damping.")
+    ] = None,
+    kappa_over_nu: Annotated[
+        float | None, typer.Option(help="κ/ν of a beam in units of its half length, with --damping (inf: a point).")
+    ] = None,
+    damping: Annotated[
+        float | None, typer.Option(help="η/T*, the material's damping time; 0: none, the outcome is a band.")
+    ] = None,
+    path: Annotated[str, typer.Option(help="hermite, exudyn or an installed one.", autocompletion=path_names)] = (
+        "hermite"
+    ),
+    assignments: Set = None,
+    runs: Annotated[int, typer.Option(min=2, max=1000, help="Runs of the ensemble without damping.")] = 24,
+    seed: Annotated[int, typer.Option(min=0, help="Of the ensemble.")] = 15,
+    out: Annotated[Path | None, typer.Option(help="Folder for document, figure and animation.")] = None,
+    jobs: Jobs = 1,
+    as_json: Json = False,
+    quiet: Quiet = False,
+) -> None:
+    """The whole impact, from the first touch to the last separation: does it bounce, for how long, what it suffers.
+
+    Example: bentbeam bounce --kappa-over-nu 2 --damping 0.01
+    """
+    from bent_beam.cases import load_case
+    from bent_beam.method import for_whole_beam
+    from bent_beam.parts import InputError
+    from comparison.bounce import bounce as follow
+    from comparison.bounce import bounce_document, problem
+    from comparison.methods import methods_of
+    from comparison.store import check_writable
+    from comparison.whole_impact.table import bounce_table
+
+    if (case is None) == (kappa_over_nu is None):
+        raise InputError("bounce takes a case file or --kappa-over-nu, one of them")
+    if case is not None:
+        if damping is not None:
+            raise InputError(f"--damping {damping!r} goes with --kappa-over-nu; in a case set beam.damping (s)")
+        loaded = load_case(case, assignments or ())
+        impact, method = loaded.impact, loaded.method(path)
+    else:
+        if damping is None:
+            raise InputError("--damping is required next to --kappa-over-nu (eta/T*; 0 for none)")
+        impact, method = problem(kappa_over_nu or 0.0, damping), methods_of([path], assignments or ())[0]
+    if not hasattr(for_whole_beam(method, impact), "for_whole_beam"):
+        raise InputError(f"path: {path} has no choices for the whole beam (hermite has)")
+    if out is not None:
+        check_writable(out, folder=True)
+    with Console(quiet).progress(f"{path}: the whole impact") as bar:
+        found = follow(impact, method, runs=runs, seed=seed, jobs=jobs, progress=bar.count)
+    document = bounce_document(found)
+    if out is not None:
+        from comparison.whole_impact.figures import write_bounce
+
+        document["files"] = [str(file) for file in write_bounce(found, out)]
+    emit(document, as_json, lambda: bounce_table(found))

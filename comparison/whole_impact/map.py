@@ -1,0 +1,200 @@
+"""The map of the whole impact: every number over κ/ν and η/T*, with error bars, stored with where it comes from.
+
+``python -m comparison.whole_impact.map`` measures it on the Hermite path (about five minutes on two cores; rows that
+are done are kept and not run again) and writes ``map.json`` beside this module; :func:`bounce_from_map` interpolates.
+A free–free beam has no other groups as long as it flies without loads: ε drops out, because the problem is homogeneous
+of degree one in the deflection.
+
+Below κ/ν = 0.35 elements are twice as fine, for there more of the beam lands at once. From κ/ν = 2.5 on the beam
+touches in one point throughout (its midspan moment never reaches κ), so the last column is that of ∞.
+"""
+
+from __future__ import annotations
+
+import argparse
+import datetime
+import json
+import math
+from collections.abc import Callable, Sequence
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bent_beam.checks import finite, non_negative, positive
+from bent_beam.history import versions
+from bent_beam.method import Method, method_from_tables
+from comparison.bounce import Number, bounce, problem
+from comparison.plain import json_text
+from comparison.store import RunStore, default_store, write_atomically
+from comparison.whole_impact.outcome import NUMBERS, SHORTEST_SEPARATION
+from comparison.workers import run_all
+
+__all__ = ["DAMPINGS", "KAPPAS", "bounce_from_map", "measure_map", "stored_map"]
+
+Array = NDArray[np.float64]
+DATA = Path(__file__).with_name("map.json")
+POINT = 2.5  # κ/ν from which the contact is one point throughout
+KAPPAS = (
+    *(0.05, 0.065, 0.08, 0.1, 0.125, 0.15, 0.175, 0.2, 0.225, 0.25, 0.275, 0.3, 0.35, 0.4, 0.45, 0.5),
+    *(0.55, 0.6, 0.65, 0.7, 0.75, 0.8, 0.85, 0.9, 0.95, 1.0, 1.1, 1.2, 1.35, 1.5, 1.75, 2.0, POINT),
+)
+DAMPINGS = (1e-4, 3e-4, 1e-3, 3e-3, 1e-2, 3e-2, 1e-1)
+FINER = 0.35  # κ/ν below which elements are twice as fine
+SAVED = 2000
+
+
+def measure_point(path: str, kappa: float, damping: float) -> dict[str, Any]:
+    """One point of the map: number → [value, error bar], and what it took."""
+    impact = problem(kappa, damping)
+    method = method_from_tables(path, {})
+    if path == "hermite":
+        method = method.refined(2.0 if kappa < FINER else 1.0).for_whole_beam(impact)
+        method = _longer_steps(method)
+    found = bounce(impact, method, save=SAVED)
+    return {
+        "kappa_over_nu": kappa,
+        "damping": damping,
+        "numbers": {name: [number.value, number.error] for name, number in found.numbers.items()},
+        "energy_defect": found.outcome.energy_defect,
+        "energy_gain": found.outcome.energy_gain,
+        "left": found.outcome.left,
+        "steps": found.history.steps,
+        "seconds": found.seconds,
+        "settings": found.settings,
+    }
+
+
+def _longer_steps(method: Any) -> Method:
+    """h = 2Δx²√(μ/EI): half the work, and less of a change than the impact law makes."""
+    import dataclasses
+
+    return dataclasses.replace(method, integrator=method.integrator.refined(0.5))  # type: ignore[no-any-return]
+
+
+def _kept_point(folder: str | None, path: str, kappa: float, damping: float) -> dict[str, Any]:
+    store = RunStore(None if folder is None else Path(folder))
+    question = {"whole impact": path, "kappa_over_nu": kappa, "damping": damping, "saved": SAVED}
+    return store.answer(question, lambda: measure_point(path, kappa, damping))
+
+
+def _lost(i: int, why: str) -> Any:
+    raise RuntimeError(f"point {i} of the map: {why}")
+
+
+def measure_map(
+    path: str = "hermite",
+    kappas: Sequence[float] = KAPPAS,
+    dampings: Sequence[float] = DAMPINGS,
+    *,
+    jobs: int = 1,
+    scheduler: str | None = None,
+    store: RunStore | None = None,
+    progress: Callable[[int, int], None] | None = None,
+) -> list[dict[str, Any]]:
+    """Measure all points, the costly ones first, on cores or a cluster; in the order of ``dampings``, ``kappas``."""
+    folder = None if store is None or store.folder is None else str(store.folder)
+    points = [(damping, kappa) for damping in dampings for kappa in kappas]
+    order = sorted(range(len(points)), key=lambda i: (points[i][1] >= FINER, i))
+    found = run_all(
+        _kept_point,
+        [(folder, path, points[i][1], points[i][0]) for i in order],
+        jobs=jobs,
+        scheduler=scheduler,
+        progress=progress,
+        on_death=_lost,
+    )
+    return [row for _, row in sorted(zip(order, found), key=lambda pair: pair[0])]
+
+
+def write_map(rows: Sequence[dict[str, Any]], others: Sequence[dict[str, Any]] = ()) -> Path:
+    """Write ``map.json``. others : points of another path, to draw on the map."""
+    first = rows[0]
+    document = {
+        "what": "the whole impact of a free-free bent beam, units L/2 = EI = mu = V0 = 1: number -> [value, error bar]",
+        "made_by": "python -m comparison.whole_impact.map",
+        "date": datetime.datetime.now(datetime.UTC).date().isoformat(),
+        "versions": versions(),
+        "settings": first["settings"],
+        "shortest_separation": SHORTEST_SEPARATION,
+        "kappa_over_nu": sorted({row["kappa_over_nu"] for row in rows}),
+        "damping": sorted({row["damping"] for row in rows}),
+        "seconds": sum(row["seconds"] for row in rows),
+        "points": [{k: v for k, v in row.items() if k != "settings"} for row in rows],
+        "other_paths": list(others),
+    }
+    write_atomically(DATA, json_text(document, indent=1) + "\n")
+    return DATA
+
+
+@cache
+def stored_map() -> dict[str, Any]:
+    """The stored map."""
+    return dict(json.loads(DATA.read_text(encoding="utf-8")))
+
+
+@cache
+def _grids() -> tuple[Array, Array, dict[str, tuple[Array, Array]]]:
+    """κ/ν, η/T*, and for each number its values and error bars, shape (dampings, kappas)."""
+    table = stored_map()
+    kappas, dampings = np.array(table["kappa_over_nu"]), np.array(table["damping"])
+    at = {(p["damping"], p["kappa_over_nu"]): p["numbers"] for p in table["points"]}
+    found = {}
+    for name in NUMBERS:
+        pairs = np.array([[at[d, k][name] for k in kappas] for d in dampings], float)
+        found[name] = (pairs[..., 0], pairs[..., 1])
+    return kappas, dampings, found
+
+
+def bounce_from_map(kappa_over_nu: float, damping: float) -> dict[str, Number] | None:
+    """Every number of the whole impact at κ/ν and η/T*, interpolated between the map's points; ``None`` off the map
+    (κ/ν < 0.05, η/T* outside 1e-4 … 1e-1).
+
+    The error bar is the largest of the surrounding points', and half of what they differ by, the latter fading
+    towards a point: an honest bar for anything that is monotone between neighbours.
+    """
+    kappa = POINT if kappa_over_nu == math.inf else min(positive("kappa_over_nu", kappa_over_nu), POINT)
+    kappas, dampings, numbers = _grids()
+    damping = non_negative("damping", finite("damping", damping))
+    if not (kappas[0] <= kappa and dampings[0] <= damping <= dampings[-1]):
+        return None
+    j, v = _place(np.log(kappas), math.log(kappa))
+    i, u = _place(np.log(dampings), math.log(damping))
+    weights = np.array([[(1 - u) * (1 - v), (1 - u) * v], [u * (1 - v), u * v]])
+    between = max(4.0 * u * (1.0 - u), 4.0 * v * (1.0 - v))
+    found = {}
+    for name, (values, errors) in numbers.items():
+        corners, bars = values[i : i + 2, j : j + 2], errors[i : i + 2, j : j + 2]
+        used = weights > 1e-12
+        value = float(np.sum(corners * weights))
+        spread = 0.5 * between * float(np.ptp(corners[used]))
+        parts = {"map": float(bars[used].max()), "interpolation": spread}
+        found[name] = Number(value, math.hypot(*parts.values()), parts)
+    return found
+
+
+def _place(grid: Array, at: float) -> tuple[int, float]:
+    """The interval of ``grid`` that holds ``at``, and how far along, 0 … 1."""
+    i = int(np.clip(np.searchsorted(grid, at, side="right") - 1, 0, grid.size - 2))
+    share = float(np.clip((at - grid[i]) / (grid[i + 1] - grid[i]), 0.0, 1.0))
+    return i, 0.0 if share < 1e-9 else 1.0 if share > 1.0 - 1e-9 else share
+
+
+def _main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--jobs", type=int, default=2)
+    parser.add_argument("--scheduler", default=None)
+    asked = parser.parse_args()
+    rows = measure_map(
+        jobs=asked.jobs,
+        scheduler=asked.scheduler,
+        store=RunStore(default_store()),
+        progress=lambda done, total: print(f"\r{done}/{total}", end="", flush=True),
+    )
+    print(write_map(rows))
+
+
+if __name__ == "__main__":
+    _main()
