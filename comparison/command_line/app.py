@@ -16,6 +16,7 @@ import typer
 
 from bent_beam.errors import SimulationError
 from comparison.command_line.benchmark import benchmark
+from comparison.command_line.bounce import bounce
 from comparison.command_line.gallery import gallery
 from comparison.command_line.match import match
 from comparison.command_line.new import new
@@ -40,6 +41,7 @@ COMMANDS = (
     predict,
     predictor,
     simulate,
+    bounce,
     match,
     study,
     gallery,

@@ -5,8 +5,8 @@ are done are kept and not run again) and writes ``map.json`` beside this module;
 A free–free beam has no other groups as long as it flies without loads: ε drops out, because the problem is homogeneous
 of degree one in the deflection.
 
-Below κ/ν = 0.35 elements are twice as fine, for there more of the beam lands at once. From κ/ν = 2.5 on the beam
-touches in one point throughout (its midspan moment never reaches κ), so the last column is that of ∞.
+From κ/ν = 2.5 on the beam touches in one point throughout (its midspan moment never reaches κ), so the last column is
+that of ∞. Without damping the map holds bands of :data:`comparison.bounce.RUNS` runs.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ from numpy.typing import NDArray
 from bent_beam.checks import finite, non_negative, positive
 from bent_beam.history import versions
 from bent_beam.method import Method, method_from_tables
-from comparison.bounce import Number, bounce, problem
+from comparison.bounce import RUNS, SEED, Number, bounce, problem
 from comparison.plain import json_text
 from comparison.store import RunStore, default_store, write_atomically
 from comparison.whole_impact.outcome import NUMBERS, SHORTEST_SEPARATION
@@ -42,7 +42,7 @@ KAPPAS = (
     *(0.55, 0.6, 0.65, 0.7, 0.75, 0.8, 0.85, 0.9, 0.95, 1.0, 1.1, 1.2, 1.35, 1.5, 1.75, 2.0, POINT),
 )
 DAMPINGS = (1e-4, 3e-4, 1e-3, 3e-3, 1e-2, 3e-2, 1e-1)
-FINER = 0.35  # κ/ν below which elements are twice as fine
+BANDS = (0.05, 0.1, 0.2, 0.35, 0.5, 0.65, 0.8, 1.0, 1.25, 1.5, 2.0, POINT)
 SAVED = 2000
 
 
@@ -50,10 +50,12 @@ def measure_point(path: str, kappa: float, damping: float) -> dict[str, Any]:
     """One point of the map: number → [value, error bar], and what it took."""
     impact = problem(kappa, damping)
     method = method_from_tables(path, {})
-    if path == "hermite":
-        method = method.refined(2.0 if kappa < FINER else 1.0).for_whole_beam(impact)
-        method = _longer_steps(method)
+    if path == "hermite" and damping > 0.0:
+        method = _longer_steps(method.for_whole_beam(impact))
     found = bounce(impact, method, save=SAVED)
+    if damping == 0.0:
+        bands = {name: [number.mean, number.std] for name, number in found.numbers.items()}
+        return {"kappa_over_nu": kappa, "runs": RUNS, "seed": SEED, "band": bands, "seconds": found.seconds}
     return {
         "kappa_over_nu": kappa,
         "damping": damping,
@@ -94,23 +96,22 @@ def measure_map(
     store: RunStore | None = None,
     progress: Callable[[int, int], None] | None = None,
 ) -> list[dict[str, Any]]:
-    """Measure all points, the costly ones first, on cores or a cluster; in the order of ``dampings``, ``kappas``."""
+    """Measure all points, on cores or a cluster; in the order of ``dampings``, ``kappas``."""
     folder = None if store is None or store.folder is None else str(store.folder)
-    points = [(damping, kappa) for damping in dampings for kappa in kappas]
-    order = sorted(range(len(points)), key=lambda i: (points[i][1] >= FINER, i))
-    found = run_all(
+    return run_all(
         _kept_point,
-        [(folder, path, points[i][1], points[i][0]) for i in order],
+        [(folder, path, kappa, damping) for damping in dampings for kappa in kappas],
         jobs=jobs,
         scheduler=scheduler,
         progress=progress,
         on_death=_lost,
     )
-    return [row for _, row in sorted(zip(order, found), key=lambda pair: pair[0])]
 
 
-def write_map(rows: Sequence[dict[str, Any]], others: Sequence[dict[str, Any]] = ()) -> Path:
-    """Write ``map.json``. others : points of another path, to draw on the map."""
+def write_map(
+    rows: Sequence[dict[str, Any]], bands: Sequence[dict[str, Any]], others: Sequence[dict[str, Any]] = ()
+) -> Path:
+    """Write ``map.json``. bands : of the undamped beam; others : points of another path, to draw on the map."""
     first = rows[0]
     document = {
         "what": "the whole impact of a free-free bent beam, units L/2 = EI = mu = V0 = 1: number -> [value, error bar]",
@@ -121,8 +122,9 @@ def write_map(rows: Sequence[dict[str, Any]], others: Sequence[dict[str, Any]] =
         "shortest_separation": SHORTEST_SEPARATION,
         "kappa_over_nu": sorted({row["kappa_over_nu"] for row in rows}),
         "damping": sorted({row["damping"] for row in rows}),
-        "seconds": sum(row["seconds"] for row in rows),
+        "seconds": sum(row["seconds"] for row in (*rows, *bands)),
         "points": [{k: v for k, v in row.items() if k != "settings"} for row in rows],
+        "bands": list(bands),
         "other_paths": list(others),
     }
     write_atomically(DATA, json_text(document, indent=1) + "\n")
@@ -150,7 +152,7 @@ def _grids() -> tuple[Array, Array, dict[str, tuple[Array, Array]]]:
 
 def bounce_from_map(kappa_over_nu: float, damping: float) -> dict[str, Number] | None:
     """Every number of the whole impact at κ/ν and η/T*, interpolated between the map's points; ``None`` off the map
-    (κ/ν < 0.05, η/T* outside 1e-4 … 1e-1).
+    (κ/ν < 0.05, η/T* outside 1e-4 … 1e-1). Without damping the band between the nearest bands.
 
     The error bar is the largest of the surrounding points', and half of what they differ by, the latter fading
     towards a point: an honest bar for anything that is monotone between neighbours.
@@ -158,6 +160,8 @@ def bounce_from_map(kappa_over_nu: float, damping: float) -> dict[str, Number] |
     kappa = POINT if kappa_over_nu == math.inf else min(positive("kappa_over_nu", kappa_over_nu), POINT)
     kappas, dampings, numbers = _grids()
     damping = non_negative("damping", finite("damping", damping))
+    if damping == 0.0 and kappa >= kappas[0]:
+        return _band(kappa)
     if not (kappas[0] <= kappa and dampings[0] <= damping <= dampings[-1]):
         return None
     j, v = _place(np.log(kappas), math.log(kappa))
@@ -175,6 +179,19 @@ def bounce_from_map(kappa_over_nu: float, damping: float) -> dict[str, Number] |
     return found
 
 
+def _band(kappa: float) -> dict[str, Number]:
+    bands = stored_map()["bands"]
+    at = np.log([band["kappa_over_nu"] for band in bands])
+    return {
+        name: Number(
+            mean=float(np.interp(math.log(kappa), at, [band["band"][name][0] for band in bands])),
+            std=float(np.interp(math.log(kappa), at, [band["band"][name][1] for band in bands])),
+            runs=int(bands[0]["runs"]),
+        )
+        for name in NUMBERS
+    }
+
+
 def _place(grid: Array, at: float) -> tuple[int, float]:
     """The interval of ``grid`` that holds ``at``, and how far along, 0 … 1."""
     i = int(np.clip(np.searchsorted(grid, at, side="right") - 1, 0, grid.size - 2))
@@ -187,13 +204,18 @@ def _main() -> None:
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--scheduler", default=None)
     asked = parser.parse_args()
-    rows = measure_map(
-        jobs=asked.jobs,
-        scheduler=asked.scheduler,
-        store=RunStore(default_store()),
-        progress=lambda done, total: print(f"\r{done}/{total}", end="", flush=True),
+    store = RunStore(default_store())
+
+    def count(done: int, total: int) -> None:
+        print(f"\r{done}/{total}", end="", flush=True)
+
+    rows, bands = (
+        measure_map(
+            kappas=kappas, dampings=dampings, jobs=asked.jobs, scheduler=asked.scheduler, store=store, progress=count
+        )
+        for kappas, dampings in ((KAPPAS, DAMPINGS), (BANDS, (0.0,)))
     )
-    print(write_map(rows))
+    print(write_map(rows, bands))
 
 
 if __name__ == "__main__":

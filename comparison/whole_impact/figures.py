@@ -1,0 +1,167 @@
+"""Figures of a whole impact: force, contact zone and shapes of one; the map over κ/ν and damping; the animation."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from io import BytesIO
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bent_beam.history import ImpactHistory
+from comparison.bounce import Bounce, bounce_document
+from comparison.figures import style
+from comparison.plain import json_text
+from comparison.store import write_atomically
+
+__all__ = ["animate_bounce", "draw_bounce", "write_bounce"]
+
+Array = NDArray[np.float64]
+WINDOWS = 160  # of the force: what is quicker is noise of the reader's eye
+SHAPES = 7
+FRAMES = 90
+
+
+def write_bounce(found: Bounce, out: Path) -> list[Path]:
+    """``bounce.json``, ``bounce.png`` and ``bounce.gif`` in ``out``."""
+    document = out / "bounce.json"
+    write_atomically(document, json_text(bounce_document(found), indent=1) + "\n")
+    return [document, *draw_bounce(found, out), animate_bounce(found.history, out / "bounce.gif")]
+
+
+def _force(history: ImpactHistory, end: float) -> tuple[Array, Array]:
+    """Edges of windows in time, T*, and the wall's mean force in each, μℓV₀/T*."""
+    impact = history.impact
+    unit = impact.mass_per_length * impact.half_length * impact.velocity
+    time = history.time / impact.slow_time_scale
+    edges = np.linspace(0.0, end, WINDOWS + 1)
+    return edges, np.diff(np.interp(edges, time, history.array("total_impulse") / unit)) / np.diff(edges)
+
+
+def _contacts(history: ImpactHistory) -> tuple[Array, Array]:
+    """Times (T*) and places (x/ℓ, both halves) at which the wall pushed."""
+    impact = history.impact
+    k, j = np.nonzero(np.diff(history.array("impulse"), axis=0) > 0.0)
+    time = 0.5 * (history.time[:-1] + history.time[1:])[k] / impact.slow_time_scale
+    place = history.contact_positions(0)[j] / impact.half_length
+    if place.size and place.min() >= 0.0:
+        time, place = np.concatenate([time, time]), np.concatenate([place, -place])
+    return time, place
+
+
+def _whole(history: ImpactHistory, k: int) -> tuple[Array, Array]:
+    """x/ℓ and y/(V₀T*) of the whole beam at a saved instant."""
+    impact = history.impact
+    x, gap = history.positions(k), history.array("gap")[k]
+    if x[0] >= 0.0:
+        x, gap = np.concatenate([-x[:0:-1], x]), np.concatenate([gap[:0:-1], gap])
+    return x / impact.half_length, -gap / (impact.velocity * impact.slow_time_scale)
+
+
+def draw_bounce(found: Bounce, out: Path, formats: Sequence[str] = ("png",)) -> list[Path]:
+    """Force and contact zone over time, and the beam's shapes, one below the other as time goes on."""
+    history, impact = found.history, found.impact
+    end = min(1.25 * found.outcome.last_contact, float(history.time[-1]) / impact.slow_time_scale)
+    edges, force = _force(history, end)
+    time, place = _contacts(history)
+    with style.figure(2, 2, width=style.PAGE, height=4.0, width_ratios=[1.35, 1.0]) as (fig, axes):
+        for axis in axes[:, 1]:
+            axis.remove()
+        push, zone = axes[0, 0], axes[1, 0]
+        shapes = fig.add_subplot(axes[0, 0].get_gridspec()[:, 1])
+        push.stairs(force, edges, fill=True, color=style.COLOURS["sky"], lw=0.0)
+        push.stairs(force, edges, color=style.COLOURS["blue"], lw=0.8)
+        push.set_ylim(0.0, 1.1 * float(force[1:].max()))  # the first window holds the start, which is infinite
+        push.set_ylabel(r"force of the wall  ($\mu\ell V_0/T^*$)")
+        push.tick_params(labelbottom=False)
+        zone.plot(time, place, ls="", marker=".", ms=2.0, color=style.COLOURS["vermilion"], rasterized=True)
+        zone.axhline(0.0, color=style.COLOURS["grey"], lw=0.5)
+        zone.set_ylim(-1.05, 1.05)
+        zone.set_ylabel(r"contact at $x/\ell$")
+        zone.set_xlabel(r"$t/T^*$")
+        for axis in (push, zone):
+            axis.set_xlim(0.0, end)
+        _draw_shapes(shapes, history, end)
+        style.panel_label(push, "(a)")
+        style.panel_label(zone, "(b)")
+        style.panel_label(shapes, "(c)")
+        push.set_title(
+            rf"$\kappa/\nu$ = {impact.kappa_over_nu:.4g}, $\eta/T^*$ = {impact.relative_damping:.3g}",
+            loc="right",
+            pad=3.0,
+        )
+        return style.save(fig, out, "bounce", formats)
+
+
+def _draw_shapes(axis: Any, history: ImpactHistory, end: float) -> None:
+    """The beam above its own piece of wall at even times, the first on top."""
+    time = history.time / history.impact.slow_time_scale
+    wanted = np.linspace(0.0, end, SHAPES)
+    shown = [_whole(history, int(np.argmin(np.abs(time - t)))) for t in wanted]
+    step = 1.25 * max(float(-y.min()) for _, y in shown) or 1.0
+    for number, ((x, y), t) in enumerate(zip(shown, wanted)):
+        base = -number * step
+        axis.plot([-1.0, 1.0], [base, base], color=style.COLOURS["grey"], lw=0.8)
+        axis.plot(x, base - y, color=style.COLOURS["blue"], lw=1.4)
+        axis.text(1.06, base, f"{t:.2f}", va="center", fontsize=7.0)
+    axis.text(1.06, 0.62 * step, r"$t/T^*$", va="center", fontsize=7.5)
+    axis.set_xlim(-1.05, 1.3)
+    axis.set_ylim(-(SHAPES - 0.7) * step, 1.0 * step)
+    axis.set_xlabel(r"$x/\ell$")
+    axis.set_yticks([])
+    axis.grid(False)
+    axis.spines["left"].set_visible(False)
+
+
+def animate_bounce(history: ImpactHistory, file: Path, *, frames: int = FRAMES, per_second: int = 18) -> Path:
+    """The beam over the wall with the points that push, and the force so far, as an animated GIF."""
+    from PIL import Image
+
+    time = history.time / history.impact.slow_time_scale
+    end = float(time[-1])
+    chosen = [int(np.argmin(np.abs(time - t))) for t in np.linspace(0.0, end, frames)]
+    edges, force = _force(history, end)
+    when, place = _contacts(history)
+    shapes = [_whole(history, k) for k in chosen]
+    low = max(float(-y.min()) for _, y in shapes)
+    pictures: list[Any] = []
+    with style.figure(2, 1, width=4.6, height=4.0, height_ratios=[1.5, 1]) as (fig, (top, below)):
+        top.axhspan(0.0, 0.25 * low, color="#E4E4E4", lw=0)
+        top.axhline(0.0, color=style.COLOURS["grey"], lw=0.8)
+        top.set_xlim(-1.05, 1.05)
+        top.set_ylim(-1.05 * low, 0.25 * low)
+        top.set_xlabel(r"$x/\ell$")
+        top.set_ylabel(r"deflection  ($V_0T^*$)")
+        (beam,) = top.plot([], [], color=style.COLOURS["blue"], lw=1.8)
+        (touch,) = top.plot([], [], color=style.COLOURS["vermilion"], ls="", marker="^", ms=5)
+        clock = top.text(0.99, 0.03, "", transform=top.transAxes, ha="right", va="bottom")
+        below.set_xlim(0.0, end)
+        below.set_ylim(0.0, 1.1 * float(force[1:].max()))
+        below.set_xlabel(r"$t/T^*$")
+        below.set_ylabel(r"force  ($\mu\ell V_0/T^*$)")
+        below.stairs(force, edges, fill=True, color="#E4E4E4", lw=0.0)
+        past = below.axvline(0.0, color=style.COLOURS["blue"], lw=1.2)
+        for k, (x, y) in zip(chosen, shapes):
+            beam.set_data(x, y)
+            near = np.abs(when - time[k]) <= 0.5 * end / frames
+            touch.set_data(place[near], np.zeros(int(near.sum())))
+            clock.set_text(f"$t/T^*$ = {time[k]:.3f}")
+            past.set_xdata([time[k], time[k]])
+            stream = BytesIO()
+            fig.savefig(stream, format="png", dpi=110)
+            stream.seek(0)
+            pictures.append(Image.open(stream).convert("P", palette=Image.Palette.ADAPTIVE, colors=64))
+    stream = BytesIO()
+    pictures[0].save(
+        stream,
+        format="GIF",
+        save_all=True,
+        append_images=pictures[1:],
+        duration=1000 // per_second,
+        loop=0,
+        optimize=True,
+    )
+    write_atomically(file, stream.getvalue())
+    return file
