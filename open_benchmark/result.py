@@ -375,6 +375,7 @@ def result_from_history(history: ImpactHistory) -> Result:
     nodes = np.sort(np.abs(places[-1]))
     settings = history.settings
     model: dict[str, Any] = {
+        "time_step": _last_step(history, end) / time,
         "half_length": float(nodes[-1]),
         "smallest_element": float(np.diff(np.unique(nodes)).min()),
         "theory": "Euler-Bernoulli",
@@ -400,6 +401,18 @@ def result_from_history(history: ImpactHistory) -> Result:
         tau[keep],
         history.array("gap")[keep] / length,
     )
+
+
+def _last_step(history: ImpactHistory, end: float) -> float:
+    """The last step, s: as the settings say, or the mean one."""
+    table = history.settings.get("integrator")
+    whole = end * history.impact.time_scale
+    if isinstance(table, dict):
+        sizes = [table.get("time_step"), (table.get("growth") or 0.0) * whole]
+        given = [float(size) for size in sizes if isinstance(size, int | float) and size > 0.0]
+        if given:
+            return max(given)
+    return whole / max(history.steps, 1)
 
 
 def _pulled(history: ImpactHistory) -> Array:

@@ -1,0 +1,112 @@
+"""Drake: a chain of rigid links, springs and dampers in its hinges, discrete contact by the SAP solver.
+
+Settings from Drake's documentation: a discrete plant and point contact as compliant as "Contact Default Parameters"
+(near-rigid stiffness, which SAP regularises by the time step, sap_near_rigid_threshold = 1), the SAP approximation for
+its unconditional stability (DiscreteContactApproximation), dissipation by a relaxation time of one step.
+"""
+
+import json
+import sys
+import time
+import tomllib
+
+import numpy as np
+import pydrake
+from pydrake.geometry import AddContactMaterial, HalfSpace, ProximityProperties, Sphere
+from pydrake.math import RigidTransform
+from pydrake.multibody.plant import AddMultibodyPlant, CoulombFriction, MultibodyPlantConfig
+from pydrake.multibody.tree import (
+    FixedOffsetFrame,
+    PrismaticJoint,
+    RevoluteJoint,
+    RevoluteSpring,
+    SpatialInertia,
+    UnitInertia,
+)
+from pydrake.systems.analysis import Simulator
+from pydrake.systems.framework import DiagramBuilder
+
+SIZES = {"coarse": 0.04, "medium": 0.02, "fine": 0.01}  # link length over l*
+HALF_LENGTH, AMPLITUDE, VISCOSITY = 4.0, 1e-3, 0.3  # viscosity of a hinge over sqrt(EI mu) size
+
+
+def main(problem_file, result_file, resolution="medium"):
+    began = time.perf_counter()
+    with open(problem_file, "rb") as stream:
+        problem = tomllib.load(stream)
+    beam, impact, end = problem["beam"], problem["impact"], problem["record"]["end_time"]
+    if beam["axial_force"] != 0.0:
+        np.savez(result_file, outcome="unsupported(axial force)", problem=problem["id"], metadata="{}")
+        return
+    size = SIZES[resolution]
+    n = round(HALF_LENGTH / size)
+    steps = max(round(end / (0.2 * size**2)), 300)  # the springs are explicit: 2/omega = size^2/2
+    dt, x = end / steps, size * np.arange(n + 1)
+    curvature = AMPLITUDE * (beam["curvature"] - impact["fourth_derivative"] * x**2 / 2)
+    builder = DiagramBuilder()
+    config = MultibodyPlantConfig(time_step=dt, contact_model="point", discrete_contact_approximation="sap")
+    plant, scene = AddMultibodyPlant(config, builder)
+    plant.mutable_gravity_field().set_gravity_vector([0, 0, -AMPLITUDE * impact["acceleration"]])
+    touch = ProximityProperties()
+    AddContactMaterial(point_stiffness=1e12, friction=CoulombFriction(0, 0), properties=touch)
+    touch.AddProperty("material", "relaxation_time", dt)
+    ground = RigidTransform([0, 0, 0])
+    plant.RegisterCollisionGeometry(plant.world_body(), ground, HalfSpace(), "wall", touch)
+    radius, line, bodies, hinges = size / 10, beam["mass_per_length"] * size, [], []
+    viscosity = VISCOSITY * np.sqrt(beam["bending_stiffness"] * beam["mass_per_length"]) * size
+    for i in range(n + 1):
+        arm = np.zeros(3) if i == 0 else np.array([size, 0.0, 0.0])  # the node at the far end of its link
+        mass = line / 2 if i in (0, n) else line
+        unit = UnitInertia.SolidSphere(radius) if i == 0 else UnitInertia.PointMass(arm)
+        bodies.append(plant.AddRigidBody(f"link{i}", SpatialInertia(mass, arm, unit)))
+        plant.RegisterCollisionGeometry(bodies[i], RigidTransform(arm), Sphere(radius), f"node{i}", touch)
+        if i == 0:
+            up = RigidTransform([0, 0, radius])
+            slider = plant.AddJoint(PrismaticJoint("slider", plant.world_frame(), bodies[0].body_frame(), [0, 0, 1]))
+            continue
+        place = RigidTransform(np.zeros(3) if i == 1 else arm)
+        hinge = RevoluteJoint(
+            f"hinge{i}",
+            plant.AddFrame(FixedOffsetFrame(f"end{i - 1}", bodies[i - 1].body_frame(), place)),
+            bodies[i].body_frame(), [0, -1, 0], viscosity,
+        )  # fmt: skip
+        hinges.append(plant.AddJoint(hinge))
+        share = 2.0 if i == 1 else 1.0  # symmetry: the first hinge is half a cell of the beam
+        stiffness = share * beam["bending_stiffness"] / size
+        plant.AddForceElement(RevoluteSpring(hinges[-1], curvature[i - 1] * size / share, stiffness))
+    plant.Finalize()
+    simulator = Simulator(builder.Build())
+    context = plant.GetMyMutableContextFromRoot(simulator.get_mutable_context())
+    slider.set_translation(context, up.translation()[2])
+    slider.set_translation_rate(context, -AMPLITUDE * impact["velocity"])
+    for i, hinge in enumerate(hinges):
+        share = 2.0 if i == 0 else 1.0
+        hinge.set_angle(context, curvature[i] * size / share)
+        hinge.set_angular_rate(context, -AMPLITUDE * impact["curvature_rate"] * size / share)
+    node = {int(body.index()): i for i, body in enumerate(bodies)}
+    tau, J, Jm = np.zeros(steps + 1), np.zeros(steps + 1), np.zeros(steps + 1)
+    snapshots, snaps = {round(s / dt): s for s in problem["record"]["snapshots"]}, []
+    set_up, began = time.perf_counter() - began, time.perf_counter()
+    for k in range(1, steps + 1):
+        simulator.AdvanceTo(k * dt)
+        found = plant.get_contact_results_output_port().Eval(context)
+        push = np.zeros(n + 1)
+        for j in range(found.num_point_pair_contacts()):
+            pair = found.point_pair_contact_info(j)
+            i = node.get(int(pair.bodyA_index()), node.get(int(pair.bodyB_index())))
+            push[i] += abs(pair.contact_force()[2]) * dt / AMPLITUDE
+        tau[k], J[k], Jm[k] = k * dt, J[k - 1] + 2 * push.sum(), Jm[k - 1] + push @ x
+        if k in snapshots:
+            angle = np.cumsum([hinge.get_angle(context) for hinge in hinges])
+            heights = slider.get_translation(context) - radius + size * np.concatenate([[0], np.cumsum(np.sin(angle))])
+            snaps.append(heights / AMPLITUDE)
+    about = {"tool": "Drake", "version": getattr(pydrake, "__version__", ""), "resolution": resolution, "steps": steps,
+             "seconds": time.perf_counter() - began, "set_up_seconds": set_up, "lines": len(open(__file__).readlines()),
+             "settings": {"contact": "point, SAP", "relaxation_time": dt},
+             "model": {"theory": "chain of rigid links", "half_length": HALF_LENGTH, "smallest_element": size,
+                       "time_step": dt, "amplitude": AMPLITUDE, "deviations": []}}  # fmt: skip
+    np.savez(result_file, outcome="completed", problem=problem["id"], metadata=json.dumps(about), tau=tau, J=J, Jm=Jm,
+             J_minus=0 * tau, x=x, snap_tau=list(snapshots.values()), snap_gap=snaps)  # fmt: skip
+
+
+main(*sys.argv[1:])
