@@ -45,7 +45,7 @@ def main(problem_file, result_file, resolution="medium"):
     curvature = AMPLITUDE * (beam["curvature"] - impact["fourth_derivative"] * x**2 / 2)
     builder = DiagramBuilder()
     config = MultibodyPlantConfig(time_step=dt, contact_model="point", discrete_contact_approximation="sap")
-    plant, scene = AddMultibodyPlant(config, builder)
+    plant, _ = AddMultibodyPlant(config, builder)
     plant.mutable_gravity_field().set_gravity_vector([0, 0, -AMPLITUDE * impact["acceleration"]])
     touch = ProximityProperties()
     AddContactMaterial(point_stiffness=1e12, friction=CoulombFriction(0, 0), properties=touch)
