@@ -26,7 +26,7 @@ from pydrake.multibody.tree import (
 from pydrake.systems.analysis import Simulator
 from pydrake.systems.framework import DiagramBuilder
 
-SIZES = {"coarse": 0.04, "medium": 0.02, "fine": 0.01}  # link length over l*
+SIZES = {"coarse": 0.05, "medium": 0.035, "fine": 0.025}  # link length over l*
 HALF_LENGTH, AMPLITUDE, VISCOSITY = 4.0, 1e-3, 0.3  # viscosity of a hinge over sqrt(EI mu) size
 
 
@@ -40,7 +40,7 @@ def main(problem_file, result_file, resolution="medium"):
         return
     size = SIZES[resolution]
     n = round(HALF_LENGTH / size)
-    steps = max(round(end / (0.2 * size**2)), 300)  # the springs are explicit: 2/omega = size^2/2
+    steps = max(round(end / (0.3 * size**2)), 300)  # the springs are explicit: 2/omega = size^2/2
     dt, x = end / steps, size * np.arange(n + 1)
     curvature = AMPLITUDE * (beam["curvature"] - impact["fourth_derivative"] * x**2 / 2)
     builder = DiagramBuilder()

@@ -1,0 +1,83 @@
+"""MuJoCo: a chain of rigid links with springs and dampers in its hinges, soft contact made stiff.
+
+Settings from its documentation: implicitfast ("the recommended integrator for most models", Computation, Numerical
+integration), solref's time constant at twice the time step, the smallest allowed (Modeling, Solver parameters), an
+impedance close to one and constant, condim 1 on both geoms (the larger of both counts), Newton's solver.
+"""
+
+import json
+import sys
+import time
+import tomllib
+
+import mujoco
+import numpy as np
+
+SIZES = {"coarse": 0.05, "medium": 0.035, "fine": 0.025}  # link length over l*
+HALF_LENGTH, AMPLITUDE, VISCOSITY = 4.0, 1e-3, 0.3  # viscosity of a hinge over sqrt(EI mu) size
+XML = """<mujoco><compiler angle="radian" inertiafromgeom="false" boundmass="0" boundinertia="0"/>
+<option timestep="{dt}" integrator="implicitfast" solver="Newton" iterations="100" tolerance="0" gravity="0 0 {load}"/>
+<default><geom condim="1" solref="{time} 1" solimp="0.9999 0.9999 0.001 0.5 2" friction="0 0 0" margin="0"/></default>
+<worldbody><geom type="plane" size="0 0 1" contype="1" conaffinity="0"/>{chain}</worldbody></mujoco>"""
+
+
+def main(problem_file, result_file, resolution="medium"):
+    began = time.perf_counter()
+    with open(problem_file, "rb") as stream:
+        problem = tomllib.load(stream)
+    beam, impact, end = problem["beam"], problem["impact"], problem["record"]["end_time"]
+    if beam["axial_force"] != 0.0:
+        np.savez(result_file, outcome="unsupported(axial force)", problem=problem["id"], metadata="{}")
+        return
+    size = SIZES[resolution]
+    n = round(HALF_LENGTH / size)
+    steps = max(round(end / (0.3 * size**2)), 300)  # the springs are explicit: 2/omega = size^2/2
+    dt, x, radius = end / steps, size * np.arange(n + 1), size / 10
+    curvature = AMPLITUDE * (beam["curvature"] - impact["fourth_derivative"] * x**2 / 2)
+    line, bend = beam["mass_per_length"] * size, beam["bending_stiffness"] / size
+    damping = VISCOSITY * np.sqrt(beam["bending_stiffness"] * beam["mass_per_length"]) * size
+    ball = f'<geom type="sphere" size="{radius}" pos="{{}} 0 0" contype="0" conaffinity="1"/>'
+    heavy = '<inertial pos="{} 0 0" mass="{}" diaginertia="{r} {r} {r}"/>'
+    tiny = 1e-4 * line * size**2
+    chain = ""
+    for i in range(n, 0, -1):  # from the tip inwards; the first hinge is half a cell of the beam: symmetry
+        share = 2.0 if i == 1 else 1.0
+        mass = line / 2 if i == n else line
+        chain = (
+            f'<body pos="{0 if i == 1 else size} 0 0"><joint type="hinge" axis="0 -1 0" stiffness="{share * bend}" '
+            f'springref="{curvature[i - 1] * size / share}" damping="{damping}"/>'
+            + heavy.format(size, mass, r=tiny) + ball.format(size) + chain + "</body>"
+        )  # fmt: skip
+    root = f'<body pos="0 0 {radius}"><joint type="slide" axis="0 0 1"/>' + heavy.format(0, line / 2, r=tiny)
+    chain = root + ball.format(0) + chain + "</body>"
+    load = -AMPLITUDE * impact["acceleration"]
+    model = mujoco.MjModel.from_xml_string(XML.format(dt=dt, load=load, time=2 * dt, chain=chain))
+    data = mujoco.MjData(model)
+    share = np.where(np.arange(n) == 0, 2.0, 1.0)
+    data.qpos[1:] = curvature[:n] * size / share
+    data.qvel[0] = -AMPLITUDE * impact["velocity"]
+    data.qvel[1:] = -AMPLITUDE * impact["curvature_rate"] * size / share
+    tau, J, Jm = np.zeros(steps + 1), np.zeros(steps + 1), np.zeros(steps + 1)
+    snapshots, snaps = {round(s / dt): s for s in problem["record"]["snapshots"]}, []
+    force = np.zeros(6)
+    set_up, began = time.perf_counter() - began, time.perf_counter()
+    for k in range(1, steps + 1):
+        mujoco.mj_step(model, data)
+        push = np.zeros(n + 1)
+        for j in range(data.ncon):
+            mujoco.mj_contactForce(model, data, j, force)
+            push[max(data.contact[j].geom) - 1] += force[0] * dt / AMPLITUDE
+        tau[k], J[k], Jm[k] = k * dt, J[k - 1] + 2 * push.sum(), Jm[k - 1] + push @ x
+        if k in snapshots:
+            heights = data.qpos[0] + size * np.concatenate([[0], np.cumsum(np.sin(np.cumsum(data.qpos[1:])))])
+            snaps.append(heights / AMPLITUDE)
+    about = {"tool": "MuJoCo", "version": mujoco.__version__, "resolution": resolution, "steps": steps,
+             "seconds": time.perf_counter() - began, "set_up_seconds": set_up, "lines": len(open(__file__).readlines()),
+             "settings": {"integrator": "implicitfast", "solref": [2 * dt, 1.0], "impedance": 0.9999},
+             "model": {"theory": "chain of rigid links", "half_length": HALF_LENGTH, "smallest_element": size,
+                       "time_step": dt, "amplitude": AMPLITUDE, "deviations": ["soft contact"]}}  # fmt: skip
+    np.savez(result_file, outcome="completed", problem=problem["id"], metadata=json.dumps(about), tau=tau, J=J, Jm=Jm,
+             J_minus=0 * tau, x=x, snap_tau=list(snapshots.values()), snap_gap=snaps)  # fmt: skip
+
+
+main(*sys.argv[1:])
