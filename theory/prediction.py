@@ -24,10 +24,20 @@ from bent_beam.impact import Impact
 from theory import damped_point
 from theory.contact import DISCRETE, ContactParameters, contact_parameters
 from theory.moment import PeakMoment, peak_moment_of
-from theory.validity import ENDS, FIRST_ORDER, SECTION, SHEAR, SLOPE, TENSION, validity
+from theory.validity import (
+    DAMPING,
+    ENDS,
+    FIRST_ORDER,
+    SECTION,
+    SHEAR,
+    SLOPE,
+    TENSION,
+    validity,
+    zone_damping_times,
+)
 
 #: Damping times after which the undamped impulse of one point is within 2 %: 1/(8·0.02).
-DAMPING_TIMES = 6.25
+POINT_DAMPING_TIMES = 6.25
 
 
 class Section(Protocol):
@@ -204,7 +214,7 @@ def predict(impact: Impact, times: Iterable[float] | float = (), *, section: Sec
         valid_from=holds.begins,
         valid_until=holds.until,
         limited_by=holds.limited_by,
-        damping_matters_until=DAMPING_TIMES * impact.damping,
+        damping_matters_until=_damping_times(solved) * impact.damping,
         warnings=tuple(_warnings(impact, solved)),
         times=rows,
     )
@@ -274,6 +284,10 @@ def _at_time(
     )
 
 
+def _damping_times(solved: ContactParameters) -> float:
+    return POINT_DAMPING_TIMES if solved.regime == DISCRETE else zone_damping_times(solved.kappa_over_nu)
+
+
 def _warnings(impact: Impact, solved: ContactParameters) -> list[str]:
     found = []
     buckling = math.pi**2 * impact.bending_stiffness / impact.length**2
@@ -285,7 +299,7 @@ def _warnings(impact: Impact, solved: ContactParameters) -> list[str]:
     if impact.damping > 0.0 and solved.regime != DISCRETE:
         found.append(
             f"The beam's own damping is not in the theory of a contact zone; it matters before about "
-            f"{DAMPING_TIMES * impact.damping:.3g} s."
+            f"{_damping_times(solved) * impact.damping:.3g} s."
         )
     return found
 
@@ -310,6 +324,7 @@ _ENDS_OF_VALIDITY = {
     ENDS: "waves come back from the beam's ends, which the theory takes to be infinitely far",
     FIRST_ORDER: "the loads change the contact so much that the first-order correction is no longer enough",
     TENSION: "the axial force changes the contact so much that the first-order correction is no longer enough",
+    DAMPING: "the beam's own damping, which the theory of a contact zone lacks, acts as long as nothing else does",
     SLOPE: "the beam's slopes are no longer small",
     SHEAR: "the beam is so stubby that it shears before it bends, all the time that the ends leave",
     SECTION: "the bending stress is beyond the yield stress from the first instant on",

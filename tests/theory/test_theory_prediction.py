@@ -144,11 +144,34 @@ def test_epsilon_does_not_matter_to_validity() -> None:
 def test_limit_from_the_ends_is_the_measured_one_and_falls_with_the_square_of_the_front() -> None:
     table = json.loads(validity.DATA.read_text(encoding="utf-8"))
     for ratio, time in zip(table["kappa_over_nu"], table["time"], strict=True):
-        assert validity.ends_limit(ratio) == pytest.approx(time, rel=1e-12)
-        impact = Impact.whole_beam(ratio)
-        assert predict(impact).valid_until <= time * (1.0 + 1e-9)
-    assert validity.ends_limit(50.0) == pytest.approx(table["time"][-1], rel=1e-12)
+        assert validity.ends_limit(ratio, 1e-3) == pytest.approx(time, rel=1e-12)
+        assert predict(Impact.whole_beam(ratio)).valid_until <= time
+    assert validity.ends_limit(50.0, 1e-3) == pytest.approx(table["time"][-1], rel=1e-12)
     assert validity.ends_limit(1e-4) == pytest.approx(100.0 * validity.ends_limit(1e-6), rel=1e-3)
+
+
+@pytest.mark.parametrize("damping", [1e-4, 1e-3, 3e-3])
+def test_one_point_holds_within_two_per_cent_of_the_stopped_beam_until_the_limit_and_not_twice_as_long(
+    damping: float,
+) -> None:
+    impact, beam = Impact.whole_beam(2.0, relative_damping=damping), StoppedBeam(damping)
+    until = predict(impact).valid_until
+    times = until * np.linspace(0.01, 1.0, 400)
+    force = np.array([row.reaction for row in predict(impact, times).times]) / beam.reaction(times) - 1.0
+    impulse = np.array([row.impulse for row in predict(impact, times).times]) / beam.impulse(times) - 1.0
+    assert max(np.max(np.abs(force)), np.max(np.abs(impulse))) < 0.02
+    later = until * np.linspace(1.0, 2.0, 400)
+    late = np.array([row.reaction for row in predict(impact, later).times]) / beam.reaction(later) - 1.0
+    assert np.max(np.abs(late)) > 0.02
+
+
+def test_damping_of_a_zone_counts_from_below() -> None:
+    damped = predict(Impact.whole_beam(0.5, relative_damping=1e-3), [1e-3, 0.02])
+    assert 6e-3 < damped.valid_from < 0.02 < damped.valid_until
+    assert [row.valid for row in damped.times] == [False, True]
+    never = predict(Impact.whole_beam(0.5, relative_damping=0.05))
+    assert (never.valid_until, never.limited_by) == (0.0, validity.DAMPING)
+    assert predict(Impact.whole_beam(2.0, relative_damping=0.05)).valid_from == 0.0
 
 
 @pytest.mark.parametrize("ratio", [1e-7, 0.02, 0.3, 0.9, 0.999, 2.0])
