@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import shutil
+import tomllib
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -12,7 +13,7 @@ import numpy as np
 import pytest
 
 from bent_beam import Impact
-from bent_beam.cases import load_case
+from bent_beam.cases import case_from_tables, load_case
 from comparison.predictor import write_page
 from theory import SelfSimilarWave, contact_parameters, predict
 from theory.fields import ImpactFields
@@ -297,9 +298,9 @@ def test_nothing_overflows(chromium: Any, address: str, width: int) -> None:
 
 def test_more_curvature_stays_a_point_and_less_spreads(browser: Any) -> None:
     assert shown(browser, "verdict") == "Contact spreads."
-    type_into(browser, "curvature", "0.05")
+    type_into(browser, "dogleg", "90")
     assert shown(browser, "verdict") == "Contact stays one point."
-    type_into(browser, "curvature", "0.002")
+    type_into(browser, "dogleg", "3.4")
     type_into(browser, "load", "-30")
     assert shown(browser, "verdict") == "Contact spreads as two points."
 
@@ -338,6 +339,7 @@ def test_a_mistake_is_named_beside_its_field(browser: Any) -> None:
 def test_a_link_carries_the_inputs(chromium: Any, address: str) -> None:
     browser = opened(chromium, address)
     choose(browser, "units", "oilfield")
+    choose(browser, "bow", "curvature")
     choose(browser, "bow", "dogleg")
     type_into(browser, "dogleg", "4")
     type_into(browser, "velocity", "5.5")
@@ -358,30 +360,76 @@ def test_units_are_a_matter_of_display(browser: Any) -> None:
     assert shown(browser, "case") == before
 
 
-def saved_case(browser: Any, file: Path) -> Any:
-    file.write_text(shown(browser, "case"), encoding="utf-8")
-    return load_case(file)
+def random_inputs(count: int, seed: int) -> list[dict[str, Any]]:
+    """What somebody might type, in every combination of ways to say it."""
+    rng = np.random.default_rng(seed)
+    found = []
+    for _ in range(count):
+        outer, length = 10.0 ** rng.uniform(-3.0, -0.5), 10.0 ** rng.uniform(-0.5, 2.0)
+        found.append(
+            {
+                "section": rng.choice(["pipe", "round_bar", "rectangle"]).item(),
+                "bow": rng.choice(["curvature", "sagitta", "dogleg"]).item(),
+                "approach": rng.choice(["velocity", "drop"]).item(),
+                "outer_diameter": outer,
+                "inner_diameter": outer * rng.uniform(0.1, 0.99),
+                "diameter": outer,
+                "thickness": outer,
+                "width": outer * rng.uniform(0.2, 20.0),
+                "fluid_density": rng.choice([0.0, 1100.0]).item(),
+                "added_mass": rng.choice([0.0, 0.3]).item(),
+                "length": length,
+                "curvature": 10.0 ** rng.uniform(-4.0, 0.0) / length,
+                "sagitta": length * 10.0 ** rng.uniform(-5.0, -1.0),
+                "sagitta_length": length * rng.uniform(0.3, 1.0),
+                "dogleg": 10.0 ** rng.uniform(-4.0, -1.0),
+                "velocity": 10.0 ** rng.uniform(-2.0, 1.0),
+                "drop_height": 10.0 ** rng.uniform(-3.0, 1.0),
+                "tension": rng.choice([0.0, 1.0, -1.0]).item() * 10.0 ** rng.uniform(0.0, 3.0),
+                "load": rng.choice([0.0, 1.0, -1.0]).item() * 10.0 ** rng.uniform(-1.0, 2.0),
+            }
+        )
+    return found
 
 
-@pytest.mark.parametrize("section", ["pipe", "round_bar", "rectangle"])
-def test_case_means_what_the_page_shows(browser: Any, tmp_path: Path, section: str) -> None:
-    choose(browser, "section", section)
-    type_into(browser, "length", "40")
-    type_into(browser, "load", "12")
-    type_into(browser, "tension", "3")
-    impact = saved_case(browser, tmp_path / "impact.toml").impact
-    given = "{...Beam.START, section: arguments[0], length: 40, load: 12, tension: 3000}"
-    pages = ask(browser, f"Beam.impact({given})", section)
-    regime, groups = ask(
-        browser, f"(c => [c.regime, [c.ratio, c.alpha, c.n]])(Beam.solve(Beam.impact({given})).contact)", section
+def test_case_means_what_the_page_shows(browser: Any) -> None:
+    inputs = random_inputs(300, 25)
+    found = ask(
+        browser,
+        "arguments[0].map(given => { const i = {...Beam.START, ...given}, b = Beam.impact(i), p = Beam.solve(b);"
+        " return [Beam.complaints(i), Case.toml(i, b, p), b, p.validUntil]; })",
+        inputs,
     )
-    assert (impact.kappa_over_nu, impact.epsilon_alpha, impact.epsilon_axial) == pytest.approx(groups, rel=1e-12)
-    assert regime == "continuous"
-    assert impact.bending_stiffness == pytest.approx(pages["stiffness"], rel=1e-12)
-    assert impact.mass_per_length == pytest.approx(pages["mass"], rel=1e-12)
-    assert impact.axial_force == 3000.0
-    assert impact.acceleration == pytest.approx((12.0 - 3000.0 * impact.curvature) / pages["mass"], rel=1e-12)
-    assert impact.length == 40.0
+    for given, (complaints, text, page, until) in zip(inputs, found, strict=True):
+        if given["sagitta"] >= given["sagitta_length"] / 2.0 and given["bow"] == "sagitta":
+            assert complaints
+            continue
+        assert complaints == []
+        case = case_from_tables(tomllib.loads(text))
+        impact = case.impact
+        mine = {
+            "stiffness": impact.bending_stiffness,
+            "mass": impact.mass_per_length,
+            "length": impact.length,
+            "curvature": impact.curvature,
+            "velocity": impact.velocity,
+            "tension": impact.axial_force,
+            "acceleration": impact.acceleration,
+        }
+        for name, value in mine.items():
+            assert page[name] == pytest.approx(value, rel=1e-12, abs=1e-12), (name, text)
+        assert case.end_time == until
+        assert case.section is not None
+        assert page["modulus"] == pytest.approx(case.section.modulus, rel=1e-12)
+        assert page["area"] == pytest.approx(case.section.area, rel=1e-12)
+
+
+def test_page_starts_with_the_drill_pipe_of_the_cases(browser: Any) -> None:
+    shipped = load_case(Path(__file__).parents[2] / "cases" / "drill_pipe.toml").impact
+    page = case_from_tables(tomllib.loads(shown(browser, "case"))).impact
+    assert (page.kappa_over_nu, page.bending_stiffness, page.length) == pytest.approx(
+        (shipped.kappa_over_nu, shipped.bending_stiffness, shipped.length), rel=1e-9
+    )
 
 
 @pytest.mark.verify

@@ -98,6 +98,16 @@ def test_no_page_shows_latex(browser: Any, site: Path) -> None:
     assert found == []
 
 
+def test_no_page_loses_an_asterisk(browser: Any, site: Path) -> None:
+    """Two stars of a sentence (t*, T*) would become emphasis of what stands between them."""
+    eaten = []
+    for page in sorted(site.rglob("*.html")):
+        browser.get(page.as_uri())
+        emphasised = ask(browser, "[...document.querySelectorAll('.md-content em')].map(e => e.textContent)")
+        eaten += [(page.name, text) for text in emphasised if not re.fullmatch(r"[\w(].*[\w.?!):]", text, re.DOTALL)]
+    assert eaten == []
+
+
 @pytest.mark.parametrize(("page", "least"), [("theory.html", 190), ("tutorial.html", 15)])
 def test_formulas_are_drawn(browser: Any, site: Path, page: str, least: int) -> None:
     """Each has a size, and the screenshot of a formula holds its ink."""

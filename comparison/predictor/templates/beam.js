@@ -32,33 +32,34 @@ const Beam = (() => {
     { name: "units", label: "Units", group: "", options: { si: "metric", oilfield: "oilfield" } },
     { name: "section", label: "Section", group: "The beam", options: { pipe: "pipe", round_bar: "round bar", rectangle: "rectangle" } },
     { name: "bow", label: "Its bow is known as", group: "The bow", options: { curvature: "curvature", sagitta: "sagitta over a length", dogleg: "dogleg" } },
-    { name: "approach", label: "It arrives with", group: "The approach", options: { velocity: "a velocity", drop: "a drop from rest" } },
+    { name: "approach", label: "It arrives with", group: "The approach", options: { velocity: "a velocity", drop: "a drop on a floor" } },
   ];
   const FIELDS = [
     { name: "outer_diameter", label: "Outer diameter", quantity: "section", start: 0.127, ok: positive, shown: on("section", "pipe") },
     { name: "inner_diameter", label: "Inner diameter", quantity: "section", start: 0.1086, ok: positive, shown: on("section", "pipe") },
     { name: "diameter", label: "Diameter", quantity: "section", start: 0.02, ok: positive, shown: on("section", "round_bar") },
-    { name: "height", label: "Height, across the wall", quantity: "section", start: 0.01, ok: positive, shown: on("section", "rectangle") },
+    { name: "thickness", label: "Thickness, in the bending", quantity: "section", start: 0.01, ok: positive, shown: on("section", "rectangle") },
     { name: "width", label: "Width, along the wall", quantity: "section", start: 0.03, ok: positive, shown: on("section", "rectangle") },
     { name: "youngs_modulus", label: "Young’s modulus E", quantity: "modulus", start: 206e9, ok: positive },
     { name: "density", label: "Density", quantity: "density", start: 7850, ok: positive },
-    { name: "added_mass", label: "Further mass: fluid, joints", quantity: "line", start: 0, ok: whole },
+    { name: "fluid_density", label: "Fluid inside, density", quantity: "density", start: 0, ok: whole, shown: on("section", "pipe") },
+    { name: "added_mass", label: "Further mass (joints, mud)", quantity: "line", start: 2.29, ok: whole },
+    { name: "yield_stress", label: "Yield stress (0: not known)", quantity: "stress", start: 931e6, ok: whole },
     { name: "length", label: "Length L", quantity: "length", start: 90, ok: positive },
     { name: "curvature", label: "Curvature K", quantity: "curvature", start: 0.002, ok: positive, shown: on("bow", "curvature"), group: "The bow" },
     { name: "sagitta", label: "Sagitta", quantity: "sagitta", start: 0.025, ok: positive, shown: on("bow", "sagitta"), group: "The bow" },
-    { name: "chord", label: "over the length", quantity: "length", start: 10, ok: positive, shown: on("bow", "sagitta"), group: "The bow" },
-    { name: "dogleg", label: "Dogleg", quantity: "dogleg", start: 3 * PI / 180 / 30, ok: positive, shown: on("bow", "dogleg"), group: "The bow" },
+    { name: "sagitta_length", label: "over the length", quantity: "length", start: 10, ok: positive, shown: on("bow", "sagitta"), group: "The bow" },
+    { name: "dogleg", label: "Dogleg", quantity: "dogleg", start: 3.437747 * PI / 180 / 30, ok: positive, shown: on("bow", "dogleg"), group: "The bow" },
     { name: "velocity", label: "Velocity V₀", quantity: "velocity", start: 2, ok: positive, shown: on("approach", "velocity"), group: "The approach" },
-    { name: "drop", label: "Drop height", quantity: "drop", start: 0.2, ok: positive, shown: on("approach", "drop"), group: "The approach" },
+    { name: "drop_height", label: "Drop height", quantity: "drop", start: 0.2, ok: positive, shown: on("approach", "drop"), group: "The approach" },
     { name: "tension", label: "Tension N (compression < 0)", quantity: "tension", start: 0, ok: any, group: "What acts on it" },
-    { name: "load", label: "Push towards the wall", quantity: "load", start: 0, ok: any, group: "What acts on it" },
-    { name: "yield_stress", label: "Yield stress (0: not known)", quantity: "stress", start: 0, ok: whole, group: "What acts on it" },
+    { name: "load", label: "Push to the wall", quantity: "load", start: 0, ok: any, group: "What acts on it" },
   ];
   for (const field of FIELDS) {
     field.shown = field.shown || (() => true);
     field.group = field.group || "The beam";
   }
-  const START = { units: "si", section: "pipe", bow: "curvature", approach: "velocity" };
+  const START = { units: "si", section: "pipe", bow: "dogleg", approach: "velocity" };
   for (const field of FIELDS) START[field.name] = field.start;
 
   /** What is wrong with the inputs: a list of [field name, sentence]. */
@@ -72,29 +73,36 @@ const Beam = (() => {
     }
     if (inputs.section === "pipe" && inputs.inner_diameter >= inputs.outer_diameter)
       list.push(["inner_diameter", "The inner diameter must be smaller than the outer one."]);
+    if (inputs.bow === "sagitta" && inputs.sagitta >= inputs.sagitta_length / 2)
+      list.push(["sagitta", "The sagitta must be less than half the length under it."]);
+    if (inputs.bow === "sagitta" && inputs.sagitta_length > inputs.length)
+      list.push(["sagitta_length", "The length of the sagitta must not exceed that of the beam."]);
     return list;
   }
 
-  /** Area, second moment of area, height and mass per length of the section, SI. */
+  /** Area, second moment of area, height in the plane of bending and mass per length of the section, SI. */
   function section(i) {
-    let area, second, height;
-    if (i.section === "rectangle") [area, second, height] = [i.width * i.height, i.width * i.height ** 3 / 12, i.height];
+    let area, second, height, bore = 0;
+    if (i.section === "rectangle") [area, second, height] = [i.width * i.thickness, i.width * i.thickness ** 3 / 12, i.thickness];
     else {
       const outer = i.section === "pipe" ? i.outer_diameter : i.diameter, inner = i.section === "pipe" ? i.inner_diameter : 0;
       const wall = (outer - inner) * (outer + inner);
       [area, second, height] = [PI / 4 * wall, PI / 64 * wall * (outer ** 2 + inner ** 2), outer];
+      bore = PI / 4 * inner ** 2;
     }
-    return { area, second, height, stiffness: i.youngs_modulus * second, mass: i.density * area + i.added_mass };
+    return { area, second, height, stiffness: i.youngs_modulus * second, mass: i.density * area + i.fluid_density * bore + i.added_mass };
   }
 
-  /** The impact of the inputs: EI, μ, L, K, V₀, a₀ of the free flight, N (SI). */
+  /** The impact of the inputs: EI, μ, L, K, V₀, N, and a₀ of the free flight under weight, push and tension (SI). */
   function impact(i) {
     const { area, second, height, stiffness, mass } = section(i);
-    const curvature = i.bow === "dogleg" ? i.dogleg : i.bow === "sagitta" ? 8 * i.sagitta / i.chord ** 2 : i.curvature;
-    const velocity = i.approach === "drop" ? sqrt(2 * GRAVITY * i.drop) : i.velocity;
+    const curvature = i.bow === "dogleg" ? i.dogleg
+      : i.bow === "sagitta" ? 8 * i.sagitta / (i.sagitta_length ** 2 + 4 * i.sagitta ** 2) : i.curvature;
+    const velocity = i.approach === "drop" ? sqrt(2 * GRAVITY * i.drop_height) : i.velocity;
+    const weight = i.approach === "drop" ? GRAVITY : 0;
     return {
       stiffness, mass, length: i.length, curvature, velocity, tension: i.tension, area, height, modulus: second / (height / 2),
-      acceleration: (i.load - i.tension * curvature) / mass, curvatureRate: 0, fourthDerivative: 0,
+      acceleration: weight + (i.load - i.tension * curvature) / mass, curvatureRate: 0, fourthDerivative: 0,
     };
   }
 

@@ -1,29 +1,49 @@
 "use strict";
-// The inputs as a case file that `bentbeam simulate`, `predict` and `bounce` read.
+// The inputs as a case file that `bentbeam predict`, `simulate` and `bounce` read: described as they were given.
 const Case = (() => {
-  /** A number as TOML writes floats: shortest text that reads back as the same double. */
+  /** A number as TOML writes floats: the shortest text that reads back as the same double. */
   const float = (value) => (Number.isInteger(value) && Math.abs(value) < 1e15 ? value.toFixed(1) : String(value));
+  const line = (name, value, comment) => `${name} = ${float(value)}  # ${comment}`;
 
-  function toml(inputs, b, predicted) {
-    const lines = [
+  const SHAPES = {
+    pipe: ["outer_diameter", "inner_diameter"],
+    round_bar: ["diameter"],
+    rectangle: ["thickness", "width"],
+  };
+
+  function toml(i, impact, predicted) {
+    const given = (name, unit) => (i[name] ? [line(name, i[name], unit)] : []);
+    const bow = {
+      curvature: () => [line("curvature", i.curvature, "1/m")],
+      sagitta: () => [line("sagitta", i.sagitta, "m"), line("sagitta_length", i.sagitta_length, "m")],
+      dogleg: () => [line("dogleg", i.dogleg * 30 * 180 / Math.PI, "degrees in 30 m")],
+    };
+    const approach = i.approach === "drop" ? line("drop_height", i.drop_height, "m") : line("velocity", i.velocity, "m/s");
+    return [
       'title = "From the predictor"',
       "",
+      "[section]",
+      `kind = "${i.section}"`,
+      ...SHAPES[i.section].map((name) => line(name, i[name], "m")),
+      line("youngs_modulus", i.youngs_modulus, "Pa"),
+      line("density", i.density, "kg/m³"),
+      ...(i.section === "pipe" ? given("fluid_density", "kg/m³, inside") : []),
+      ...given("added_mass", "kg/m"),
+      ...given("yield_stress", "Pa"),
+      "",
       "[beam]",
-      `bending_stiffness = ${float(b.stiffness)}  # EI, N m²`,
-      `mass_per_length = ${float(b.mass)}  # kg/m`,
-      `length = ${float(b.length)}  # m`,
-      `curvature = ${float(b.curvature)}  # 1/m`,
-      `section_height = ${float(b.height)}  # m`,
-      ...(b.tension ? [`axial_force = ${float(b.tension)}  # tension, N`] : []),
+      line("length", i.length, "m"),
+      ...bow[i.bow](),
+      ...(i.tension ? [line("axial_force", i.tension, "N, tension positive")] : []),
       "",
       "[impact]",
-      `velocity = ${float(b.velocity)}  # m/s`,
-      `acceleration = ${float(b.acceleration)}  # of the free flight, m/s²`,
+      approach,
+      ...(i.load ? [line("acceleration", impact.acceleration, `m/s²: weight, tension and a push of ${float(i.load)} N/m`)] : []),
       "",
       "[run]",
-      `end_time = ${float(predicted.validUntil)}  # s, until when the theory holds`,
-    ];
-    return `${lines.join("\n")}\n`;
+      line("end_time", predicted.validUntil, "s, until when the theory holds"),
+      "",
+    ].join("\n");
   }
 
   return { toml };

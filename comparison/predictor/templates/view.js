@@ -74,7 +74,7 @@
     for (const field of FIELDS) {
       const row = find(`[data-field=${field.name}]`), value = shown(field.quantity, inputs[field.name]);
       row.hidden = !field.shown(inputs);
-      row.querySelector("input").value = Number.isFinite(value) ? String(Number(value.toPrecision(8))) : "";
+      row.querySelector("input").value = Number.isFinite(value) ? String(Number(value.toPrecision(6))) : "";
       row.querySelector(".unit").textContent = unit(field.quantity)[0];
     }
   }
@@ -107,7 +107,7 @@
   /** Round numbers in [low, high]. */
   function ticks(low, high, count) {
     const raw = (high - low) / count, power = 10 ** Math.floor(Math.log10(raw));
-    const step = power * [1, 2, 5, 10].find((m) => m * power >= raw * 0.999), list = [];
+    const step = power * [1, 2, 5, 10].find((m) => m * power >= raw * 0.7), list = [];
     for (let v = Math.ceil(low / step - 1e-9) * step; v <= high + 1e-9 * step; v += step) list.push(Math.abs(v) < 1e-9 * step ? 0 : v);
     return list;
   }
@@ -241,7 +241,7 @@
     find("#verdict").textContent = verdict;
     find("#why").textContent = why;
     find("#holds").textContent = `This holds until ${quantity("time", predicted.validUntil, 3)} after first touch; then ${predicted.limitedBy}.`;
-    find("#groups").textContent = `κ/ν = K√(EI/μ)/V₀ = ${text(predicted.contact.ratio, 5)}   λ₀ = ${text(predicted.contact.lambda0, 6)}   r₀ = ${text(predicted.contact.r0, 6)}   EI = ${text(problem.stiffness, 5)} N m²   μ = ${text(problem.mass, 5)} kg/m   K = ${text(problem.curvature, 5)} 1/m   V₀ = ${text(problem.velocity, 5)} m/s`;
+    find("#groups").textContent = `κ/ν = K√(EI/μ)/V₀ = ${text(predicted.contact.ratio, 5)} · λ₀ = ${text(predicted.contact.lambda0, 6)} · r₀ = ${text(predicted.contact.r0, 6)} · EI = ${text(problem.stiffness, 5)} N m² · μ = ${text(problem.mass, 5)} kg/m · K = ${text(problem.curvature, 5)} 1/m · V₀ = ${text(problem.velocity, 5)} m/s`;
     find("#case").textContent = Case.toml(inputs, problem, predicted);
     history.replaceState(null, "", toLink());
     show();
