@@ -5,11 +5,12 @@ from __future__ import annotations
 import json
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import jinja2
 
 from comparison.store import write_atomically
-from theory.prediction import CONTACT_LIMIT, EXPANSION_LIMIT, TIME_LIMIT
+from theory import validity
 
 TEMPLATES = Path(__file__).parent / "templates"
 SCRIPTS = ("theory.js", "beam.js", "case.js", "view.js")
@@ -28,9 +29,14 @@ def _source(name: str) -> str:
     return (TEMPLATES / name).read_text(encoding="utf-8")
 
 
-def limits() -> dict[str, float]:
-    """Where `theory.predict` stops trusting itself, for the page to stop at the same."""
-    return {"time": TIME_LIMIT, "expansion": EXPANSION_LIMIT, "contact": CONTACT_LIMIT}
+def limits() -> dict[str, Any]:
+    """The measured and chosen numbers of `theory.validity`, for the page to stop where `theory.predict` does."""
+    return {
+        "ends": json.loads(validity.DATA.read_text(encoding="utf-8")),
+        "third": validity.THIRD_ORDER,
+        "flattest": validity.FLATTEST,
+        "slope": validity.SLOPE_LIMIT,
+    }
 
 
 def panel() -> Panel:

@@ -151,12 +151,13 @@ def random_impacts(count: int, seed: int) -> list[Impact]:
         scale = np.sqrt(stiffness / mass) / velocity
         ratio = 1.0 - rng.random() if rng.random() < 0.8 else 10.0 ** rng.uniform(-4.0, 2.0)
         impact = Impact(stiffness, mass, 10.0 ** rng.uniform(0.0, 2.0) * scale, ratio / scale, velocity)
-        loads = rng.normal(size=3) * (rng.random(3) < 0.7)
+        loads = rng.normal(size=4) * (rng.random(4) < 0.7)
         impacts.append(
             impact.replace(
                 acceleration=loads[0] * velocity / impact.time_scale,
                 fourth_derivative=loads[1] / scale**3,
                 curvature_rate=loads[2] * velocity / scale**2,
+                axial_force=loads[3] * mass * velocity**2,
             )
         )
     return impacts
@@ -172,6 +173,16 @@ NAMES = {
     "acceleration": "acceleration",
     "curvatureRate": "curvature_rate",
     "fourthDerivative": "fourth_derivative",
+    "tension": "axial_force",
+}
+
+
+#: What ends the theory's validity, as the page and as `theory.validity` call it.
+ENDINGS = {
+    "ends": "waves back from the ends",
+    "loads": "first-order correction",
+    "tension": "tension",
+    "slope": "slope",
 }
 
 
@@ -179,34 +190,47 @@ def predictions_agree(browser: Any, impacts: list[Impact], seed: int) -> None:
     rng = np.random.default_rng(seed)
     rows = []
     for impact in impacts:
-        rate = max(abs(impact.epsilon_alpha), abs(impact.epsilon_psi), abs(impact.epsilon_chi), 1e-3)
-        rows.append([10.0 ** rng.uniform(-4.0, -1.0) / rate * impact.time_scale, impact])
+        groups = (impact.epsilon_alpha, impact.epsilon_psi, impact.epsilon_chi, impact.epsilon_axial)
+        rate = max(*(abs(group) for group in groups), 1e-3)
+        rows.append((10.0 ** rng.uniform(-4.0, -1.0) / rate * impact.time_scale, impact))
     found = ask(
         browser,
-        "arguments[1].map(([t, ...v]) => { const b = {tension: 0, area: 1, modulus: 1};"
+        "arguments[1].map(([t, ...v]) => { const b = {area: 2, modulus: 0.5};"
         " arguments[0].forEach((name, i) => { b[name] = v[i]; });"
         " const p = Beam.solve(b), r = Beam.at(p, t);"
-        " return [r.halfLength, r.reaction, r.uniform, r.impulse, p.contact.regime, p.validUntil]; })",
+        " return [p.contact.regime, p.ends, p.validUntil, r]; })",
         list(NAMES),
         [[t, *(getattr(i, name) for name in NAMES.values())] for t, i in rows],
     )
-    compared = 0
-    for (t, impact), (length, reaction, uniform, impulse, regime, until) in zip(rows, found, strict=True):
-        exact = predict(impact, [t, until * (1.0 - 1e-6), until * (1.0 + 1e-6)])
-        row, before, after = exact.times
-        assert before.valid and not after.valid
+    compared = same_limit = 0
+    for (t, impact), (regime, ends, until, page) in zip(rows, found, strict=True):
+        exact = predict(impact, t)
+        row = exact.times[0]
         assert regime == exact.regime
+        # The limit comes from a grid of times in steps of 0.35 %, and for flat beams (λ₀ > 7) from a second order
+        # that both know to 1e-5 only: a rounding may decide between two neighbours.
+        assert until == pytest.approx(exact.valid_until, rel=4e-3)
+        if abs(until / exact.valid_until - 1.0) < SAME:
+            same_limit += 1
+            assert ENDINGS[ends] == exact.limited_by
+        assert page["moment"] == pytest.approx(row.peak_moment, rel=SAME)
+        assert page["stress"] == pytest.approx(row.peak_moment / 0.5 + abs(impact.axial_force) / 2.0, rel=SAME)
         if row.half_contact_length is None:
             continue  # beyond the expansion: the page stops before
         compared += 1
         # relative to what the numbers are made of: leading order and first order may cancel
         reach = np.sqrt(impact.wave_constant * t) * max(exact.lambda0, 1.0)
         push = impact.mass_per_length * impact.velocity * np.sqrt(impact.wave_constant) * exact.r0
-        assert length == pytest.approx(row.half_contact_length, rel=SAME, abs=SAME * reach)
-        assert reaction == pytest.approx(row.reaction, rel=SAME, abs=SAME * push / np.sqrt(t))
-        assert impulse == pytest.approx(row.impulse, rel=SAME, abs=SAME * push * np.sqrt(t))
-        assert uniform == pytest.approx(row.contact_force_per_length, rel=SAME)
+        assert page["halfLength"] == pytest.approx(row.half_contact_length, rel=SAME, abs=SAME * reach)
+        assert page["reaction"] == pytest.approx(row.reaction, rel=SAME, abs=SAME * push / np.sqrt(t))
+        assert page["impulse"] == pytest.approx(row.impulse, rel=SAME, abs=SAME * push * np.sqrt(t))
+        terms = impact.mass_per_length * abs(impact.acceleration) + impact.bending_stiffness * abs(
+            impact.fourth_derivative
+        )
+        terms += abs(impact.axial_force) * impact.curvature
+        assert page["uniform"] == pytest.approx(row.contact_force_per_length, rel=SAME, abs=SAME * terms)
     assert compared > 0.5 * len(impacts)
+    assert same_limit > 0.97 * len(impacts)
 
 
 def test_prediction_is_that_of_python(browser: Any) -> None:

@@ -122,25 +122,18 @@ const Beam = (() => {
     return Object.assign(solved, limit(solved));
   }
 
-  /** Until when the theory holds, s, and what ends it: the conditions of theory/prediction.py, whose limits `LIMITS` are. */
+  /** What ends the theory's validity, in words. */
+  const ENDINGS = {
+    ends: "waves come back from the beam’s ends",
+    loads: "the loads have changed the contact too much for a first-order correction",
+    tension: "the axial force has changed the contact too much for a first-order correction",
+    slope: "the beam’s slopes are no longer small",
+  };
+
+  /** Until when the theory holds to 2 %, s, and what ends it. */
   function limit(p) {
-    const { contact, timeScale, slow, c, half } = p;
-    const ends = [["bending waves come back from the ends", LIMITS.time * slow]];
-    const grows = (change, from, what) => {
-      if (change && from) ends.push([`the load changes the ${what} by ${100 * LIMITS.expansion} %`, LIMITS.expansion * from / abs(change) * timeScale]);
-    };
-    grows(contact.r1, contact.r0, "force");
-    grows(contact.lambda1, contact.lambda0, "contact length");
-    const [limitedBy, validUntil] = ends.reduce((a, b) => (b[1] < a[1] ? b : a));
-    const reach = (t) => sqrt(c * t) * (contact.lambda0 + contact.lambda1 * t / timeScale);
-    if (reach(validUntil) <= LIMITS.contact * half) return { limitedBy, validUntil };
-    let [low, high] = [0, validUntil]; // where the zone has grown to its limit: it grows until then
-    for (let i = 0; i < 100; i++) {
-      const middle = (low + high) / 2;
-      if (reach(middle) < LIMITS.contact * half) low = middle;
-      else high = middle;
-    }
-    return { limitedBy: `the contact covers ${100 * LIMITS.contact} % of the beam`, validUntil: low };
+    const { until, by } = Theory.validity(p.contact, p.slow / p.timeScale, LIMITS);
+    return { validUntil: until * p.timeScale, limitedBy: ENDINGS[by], ends: by };
   }
 
   /** Contact, force, impulse, moment and stress at the time t > 0, SI. */

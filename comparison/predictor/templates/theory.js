@@ -155,17 +155,17 @@ const Theory = (() => {
   const turn = (angle) => [cos(angle), sin(angle)];
   const T = by(0.5, turn(-PI / 4)), T2 = times(T, T), T3 = times(T2, T); // z = T x
 
-  /** e^{z²} iᵐerfc(z), m = 0…4, at z = e^{−iπ/4}x/2, x ≥ 0: by recurrence, and by the asymptotic series from |z| = 8. */
+  /** e^{z²} iᵐerfc(z), m = 0…6, at z = e^{−iπ/4}x/2, x ≥ 0: by recurrence, and by the asymptotic series from |z| = 8. */
   function iteratedErfc(x) {
     const f = phi(x), z = by(x, T), list = [[(f.nu + f.kappa) / 2, (f.nu - f.kappa) / 2]];
     if (x < 16) {
       list.push(minus([1 / sqrt(PI), 0], times(z, list[0])));
-      for (let m = 2; m <= 4; m++) list.push(by(1 / (2 * m), minus(list[m - 2], by(2, times(z, list[m - 1])))));
+      for (let m = 2; m <= 6; m++) list.push(by(1 / (2 * m), minus(list[m - 2], by(2, times(z, list[m - 1])))));
       return list;
     }
     const w = inverse(by(2, z)), w2 = times(w, w);
     let power = w;
-    for (let m = 1; m <= 4; m++) {
+    for (let m = 1; m <= 6; m++) {
       power = times(power, w);
       let term = [1, 0], sum = [0, 0];
       for (let j = 0; j < 40; j++) {
@@ -183,6 +183,14 @@ const Theory = (() => {
     return [(a[1] * q - b[1] * p) / determinant, (a[0] * q - b[0] * p) / determinant];
   }
 
+  /** B at the front: E‴ = s r₀ and E″ = −κ there, E′ = 0 in place of the second for a single point. */
+  function leadingAmplitude(c, front) {
+    const jump = by(-2 / sqrt(PI), T3);
+    return c.regime === "discrete"
+      ? amplitude(by(-1, times(T, front[1])), 0, jump, s * c.r0)
+      : amplitude(times(T2, front[0]), -c.ratio, jump, s * c.r0);
+  }
+
   /**
    * η = τE(x) + τ²E₁(x), x = ξ/√τ: what the wall does to the beam. Ahead of the front
    *     E = Re[B i²erfc z],     E₁ = Re[B₁ i⁴erfc z] + (n/2) Im[B i²erfc z],
@@ -191,10 +199,7 @@ const Theory = (() => {
    */
   function shape(c) {
     const x0 = c.lambda0, front = iteratedErfc(x0), at = (m, factor) => times(factor, front[m]);
-    const jump = by(-2 / sqrt(PI), T3);
-    const B = c.regime === "discrete"
-      ? amplitude(by(-1, at(1, T)), 0, jump, s * c.r0)
-      : amplitude(at(0, T2), -c.ratio, jump, s * c.r0);
+    const B = leadingAmplitude(c, front);
     const F = times(B, front[2])[1], F1 = -times(B, times(T, front[1]))[1]; // Im of the wave, and its slope
     const value = c.alpha / 2 + c.chi * x0 ** 2 / 2 + c.psi * x0 ** 4 / 24, slope = c.chi * x0 + c.psi * x0 ** 3 / 6;
     const B1 = amplitude(front[4], value - c.n * F / 2, by(-1, at(3, T)), slope - c.n * F1 / 2);
@@ -228,9 +233,134 @@ const Theory = (() => {
     const bent = discrete ? 1 : c.ratio, swing = (rise * row[0] + bent) / row[1];
     const place = sqrt(c.lambda0 ** 2 + 4 * atan2(rise, swing));
     const crest = hypot(rise, swing) * times(times([0, 1], T2), times(iteratedErfc(place)[0], inverse(jump)))[0];
-    return crest > bent ? { moment: crest, at: place } : { moment: bent, at: 0 };
+    return crest > bent ? { moment: crest, at: place, ahead: place } : { moment: bent, at: 0, ahead: place };
   }
 
-  return { phi, contact, shape, beamAt, peakMoment, s };
+  // --- second order and validity -------------------------------------------------------------------------------
+
+  /** x of the 2 × 2 system with columns a, b and right-hand side c. */
+  function solve2(a, b, c) {
+    const determinant = a[0] * b[1] - a[1] * b[0];
+    return [(c[0] * b[1] - c[1] * b[0]) / determinant, (a[0] * c[1] - a[1] * c[0]) / determinant];
+  }
+  const add = (...lists) => lists[0].map((_, i) => lists.reduce((sum, list) => sum + list[i], 0));
+  const scaled = (factor, list) => list.map((value) => factor * value);
+
+  /** λ₂ and r₂: conditions at the moved front in τ², order by order (theory/second_order.py). */
+  function secondOrder(c) {
+    const { lambda0: x, n, alpha, psi, chi, ratio: kappa } = c, jump = s * c.r0;
+    const list = iteratedErfc(x), z = by(x, T), erfc = { "-1": [2 / sqrt(PI), 0] };
+    erfc[-2] = by(2, times(z, erfc[-1]));
+    erfc[-3] = minus(by(2, times(z, erfc[-2])), by(2, erfc[-1]));
+    list.forEach((value, m) => { erfc[m] = value; });
+    const turns = [[1, 0]];
+    for (let m = 1; m < 6; m++) turns.push(times(turns[m - 1], by(-1, T)));
+    /** i^{order}erfc and its derivatives 0…5 in x; Re[factor · those]. */
+    const wave = (order) => turns.map((t, m) => times(t, erfc[order - m]));
+    const real = (factor, w) => w.map((value) => times(factor, value)[0]);
+    const w0 = wave(2), w1 = wave(4), w2 = wave(6), B0 = leadingAmplitude(c, list);
+    const fifth = times(B0, w0[5])[0], halfN = [0, -n / 2];
+
+    const free1 = [alpha / 2 + chi * x ** 2 / 2 + psi * x ** 4 / 24, chi * x + psi * x ** 3 / 6, chi + psi * x ** 2 / 2, psi * x, psi];
+    const free2 = [n * (chi / 6 + psi * x ** 2 / 4), n * psi * x / 2, n * psi / 2, 0, 0];
+    /** (B, λ, r) with Re[B w] + rest = 0, 0, −λ·jump, s r in derivatives 0…3. */
+    function system(w, rest) {
+      const amplitudeHere = amplitude(w[0], -rest[0], w[1], -rest[1]), left = real(amplitudeHere, w);
+      return [amplitudeHere, x > 0 ? -(left[2] + rest[2]) / jump : 0, (left[3] + rest[3]) / s];
+    }
+
+    const rest1 = add(real(times(halfN, B0), w0).slice(0, 5), scaled(-1, free1)), detached = c.regime === "detached";
+    let a1 = 0, b1 = 0, middle1 = [0, 0, 0, 0, 0];
+    if (detached) {
+      const quartic = [1 - x ** 4 / 12, -(x ** 3) / 3, -x * x, -2 * x, -2], square = [x * x, 2 * x, 2, 0, 0];
+      const inside = add([-n * kappa / 2, 0, 0, 0, 0], scaled(-1, free1));
+      [a1, b1] = solve2(quartic, square, [-inside[0], -inside[1]]);
+      middle1 = add(inside, scaled(a1, quartic), scaled(b1, square));
+    }
+    const [B1, l1] = system(w1, add(rest1, scaled(-1, middle1)));
+    const d1 = add(rest1, real(B1, w1).slice(0, 5));
+
+    const known2 = add(real(times(halfN, B1), w1), real(by(-n * n / 8, B0), w0), real(by(n * n / 2, B0), w1)).slice(0, 5);
+    const moved = [
+      0, l1 * d1[2] + l1 * l1 * jump / 2, l1 * (d1[3] - middle1[3]), l1 * (d1[4] - middle1[4]) + l1 * l1 * fifth / 2, 0,
+    ];
+    let middle2 = [0, 0, 0, 0, 0];
+    if (detached) {
+      const sextic = [x * x - x ** 6 / 180, 2 * x - x ** 5 / 30, 2 - x ** 4 / 6, -2 * x ** 3 / 3, 0];
+      const quartic = [1 - x ** 4 / 4, -(x ** 3), -3 * x * x, -6 * x, 0];
+      const inside = add([n * (b1 / 3 - a1 * x * x / 2), -n * a1 * x, -n * a1, 0, 0], scaled(-1, free2));
+      const [a2, b2] = solve2(quartic, sextic, [-inside[0], -(inside[1] + l1 * middle1[2])]);
+      middle2 = add(inside, scaled(a2, quartic), scaled(b2, sextic));
+      middle2[0] = middle2[1] = 0;
+    }
+    const [, lambda2, r2] = system(w2, add(known2, scaled(-1, free2), moved, scaled(-1, middle2)));
+    return { lambda2, r2 };
+  }
+
+  /** Share of the time of free vibration until which waves from the ends change the leading order by less than the tolerance; `ends` is theory/ends.json. */
+  function endsLimit(ratio, ends) {
+    const ratios = ends.kappa_over_nu, limits = ends.time, last = ratios.length - 1;
+    if (ratio < ratios[0]) return limits[0] * (contact(ratios[0]).lambda0 / contact(ratio).lambda0) ** 2;
+    if (ratio >= ratios[last]) return limits[last];
+    const i = ratios.findLastIndex((r) => r <= ratio), share = (ratio - ratios[i]) / (ratios[i + 1] - ratios[i]);
+    return exp(log(limits[i]) * (1 - share) + log(limits[i + 1]) * share);
+  }
+
+  /**
+   * τ until which half length, force and impulse are within the tolerance, and what ends it (theory/validity.py):
+   *     tol·t/t_ends + max(|λ₂|τ²/λ, |r₂|τ²/r) + third·x³ = tol,   x = max(|λ₁|τ/λ₀, |r₁|τ/r₀).
+   * `slow`: the time of the free vibration over that of the contact, 1/ε. On the same grid of times as in Python.
+   */
+  function validity(c, slow, limits) {
+    const { ends: table, third, flattest, slope } = limits, tolerance = table.tolerance, end = endsLimit(c.ratio, table) * slow;
+    const size = Math.max(abs(c.alpha), abs(c.psi), abs(c.chi), abs(c.n));
+    const exact = size === 0 || (c.regime === "discrete" && c.n === 0), spreads = c.lambda0 > 0;
+    let scale = 0, loads = () => 0;
+    if (!exact) {
+      const p = contact(c.ratio, c.alpha / size, c.psi / size, c.chi / size, c.n / size);
+      const change = Math.max(abs(p.r1) / p.r0, spreads ? abs(p.lambda1) / p.lambda0 : 0);
+      let { lambda2, r2 } = p.lambda0 < flattest ? secondOrder(p) : { lambda2: change ** 2 * p.lambda0, r2: change ** 2 * p.r0 };
+      [lambda2, r2] = [abs(lambda2), abs(r2)];
+      const fastest = Math.max(change, sqrt(Math.max(r2 / p.r0, spreads ? lambda2 / p.lambda0 : 0)));
+      scale = fastest > 0 ? 1 / (fastest * size) : 0;
+      loads = (tau) => {
+        const t = size * tau, push = p.r0 + p.r1 * t, spread = p.lambda0 + p.lambda1 * t;
+        if (!(push > 0) || (spreads && !(spread > 0))) return Infinity;
+        const force = push + sqrt(PI / 2) * t * spread * p.uniform;
+        return Math.max(r2 * t * t / abs(force), spreads ? lambda2 * t * t / abs(spread) : 0) + third * (change * t) ** 3;
+      };
+    }
+    const grid = [];
+    for (let i = 0; i < 2000; i++) grid.push(end * 10 ** (-3 + 3 * i / 1999));
+    for (let i = 0; i < 4000; i++) grid.push(scale * 10 ** (-6 + 6 * i / 3999));
+    const tau = grid.filter((value) => value <= end).sort((a, b) => a - b);
+    const beyond = tau.findIndex((value) => tolerance * value / end + loads(value) > tolerance);
+    let until = tau[beyond < 0 ? tau.length - 1 : Math.max(beyond - 1, 0)], by = "ends";
+    if (loads(until) > tolerance * until / end) by = tensionLeads(c) ? "tension" : "loads";
+    const steep = steepest(c);
+    if (steep > 0 && (slope / steep) ** 2 < until) [until, by] = [(slope / steep) ** 2, "slope"];
+    return { until, by };
+  }
+
+  /** Whether the axial force changes λ and r more than the loads do. */
+  function tensionLeads(c) {
+    if (c.n === 0) return false;
+    const alone = contact(c.ratio, c.alpha, c.psi, c.chi);
+    const change = (l1, r1) => abs(r1) / c.r0 + (c.lambda0 > 0 ? abs(l1) / c.lambda0 : 0);
+    return change(c.lambda1 - alone.lambda1, c.r1 - alone.r1) >= change(alone.lambda1, alone.r1);
+  }
+
+  /** Largest slope |E′| that the impact adds, between the front and the largest moment ahead of it. */
+  function steepest(c) {
+    const B = leadingAmplitude(c, iteratedErfc(c.lambda0)), stop = peakMoment(c).ahead;
+    let most = 0;
+    for (let i = 0; i <= 64; i++) {
+      const x = c.lambda0 + (stop - c.lambda0) * i / 64, wave = times(B, turn((x * x - c.lambda0 ** 2) / 4));
+      most = Math.max(most, abs(times(times(wave, T), iteratedErfc(x)[1])[0]));
+    }
+    return most;
+  }
+
+  return { phi, contact, shape, beamAt, peakMoment, secondOrder, validity, s };
 })();
 if (typeof module !== "undefined") module.exports = Theory;

@@ -240,7 +240,11 @@
     const [verdict, why] = REGIMES[predicted.contact.regime];
     find("#verdict").textContent = verdict;
     find("#why").textContent = why;
-    find("#holds").textContent = `This holds until ${quantity("time", predicted.validUntil, 3)} after first touch; then ${predicted.limitedBy}.`;
+    const yields = inputs.yield_stress > 0 && Beam.at(predicted, predicted.validUntil).stress > inputs.yield_stress;
+    find("#holds").textContent = yields
+      ? "The stress is beyond yield from the first instant: a real beam bends for good, and what follows is that of an elastic one."
+      : `This holds to 2 % until ${quantity("time", predicted.validUntil, 3)} after first touch; then ${predicted.limitedBy}.`;
+    find("#holds").classList.toggle("alarm", yields);
     find("#groups").textContent = `κ/ν = K√(EI/μ)/V₀ = ${text(predicted.contact.ratio, 5)} · λ₀ = ${text(predicted.contact.lambda0, 6)} · r₀ = ${text(predicted.contact.r0, 6)} · EI = ${text(problem.stiffness, 5)} N m² · μ = ${text(problem.mass, 5)} kg/m · K = ${text(problem.curvature, 5)} 1/m · V₀ = ${text(problem.velocity, 5)} m/s`;
     find("#case").textContent = Case.toml(inputs, problem, predicted);
     history.replaceState(null, "", toLink());
