@@ -299,7 +299,8 @@ const Theory = (() => {
 
   /** Share of the time of free vibration until which waves from the ends change the leading order by less than the tolerance; `ends` is theory/ends.json. */
   function endsLimit(ratio, ends) {
-    const ratios = ends.kappa_over_nu, limits = ends.time, last = ratios.length - 1;
+    // of a beam without damping of its own: the smallest of the measured ones stands for it
+    const ratios = ends.kappa_over_nu, limits = ends.time.map((time) => ends.factor[0] * time), last = ratios.length - 1;
     if (ratio < ratios[0]) return limits[0] * (contact(ratios[0]).lambda0 / contact(ratio).lambda0) ** 2;
     if (ratio >= ratios[last]) return limits[last];
     const i = ratios.findLastIndex((r) => r <= ratio), share = (ratio - ratios[i]) / (ratios[i + 1] - ratios[i]);
@@ -308,7 +309,7 @@ const Theory = (() => {
 
   /**
    * τ until which half length, force and impulse are within the tolerance, and what ends it (theory/validity.py):
-   *     tol·t/t_ends + max(|λ₂|τ²/λ, |r₂|τ²/r) + third·x³ = tol,   x = max(|λ₁|τ/λ₀, |r₁|τ/r₀).
+   *     tol·(t/t_ends)² + max(|λ₂|τ²/λ, |r₂|τ²/r) + third·x³ = tol,   x = max(|λ₁|τ/λ₀, |r₁|τ/r₀).
    * `slow`: the time of the free vibration over that of the contact, 1/ε. On the same grid of times as in Python.
    */
   function validity(c, slow, limits) {
@@ -333,10 +334,10 @@ const Theory = (() => {
     const grid = [];
     for (let i = 0; i < 2000; i++) grid.push(end * 10 ** (-3 + 3 * i / 1999));
     for (let i = 0; i < 4000; i++) grid.push(scale * 10 ** (-6 + 6 * i / 3999));
-    const tau = grid.filter((value) => value <= end).sort((a, b) => a - b);
-    const beyond = tau.findIndex((value) => tolerance * value / end + loads(value) > tolerance);
+    const tau = grid.filter((value) => value > 0 && value <= end).sort((a, b) => a - b);
+    const beyond = tau.findIndex((value) => tolerance * (value / end) ** 2 + loads(value) > tolerance);
     let until = tau[beyond < 0 ? tau.length - 1 : Math.max(beyond - 1, 0)], by = "ends";
-    if (loads(until) > tolerance * until / end) by = tensionLeads(c) ? "tension" : "loads";
+    if (loads(until) > tolerance * (until / end) ** 2) by = tensionLeads(c) ? "tension" : "loads";
     const steep = steepest(c);
     if (steep > 0 && (slope / steep) ** 2 < until) [until, by] = [(slope / steep) ** 2, "slope"];
     return { until, by };
