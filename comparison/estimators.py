@@ -28,6 +28,9 @@ __all__ = ["Estimate", "FirstOrderEstimate", "LeadingEstimate", "Moments", "firs
 Array = NDArray[np.float64]
 SIDE = math.sqrt(2.0 / math.pi)
 FLOOR = 2e-3  # of a first-order value: what halving mesh and steps moves it by
+LEAST = 2e-5  # of a leading-order value: differences of this size are those of the fit itself
+COMPANION = 1.5  # first order in Δx: the coarser run is as far from this one as this one from the truth; half more
+DRIFT_ALONE = 4.0  # of the drift, where no companion says what the mesh does; both: tests/comparison/test_error_bars.py
 
 
 @dataclass(frozen=True)
@@ -178,12 +181,34 @@ def _spread(values: Sequence[float]) -> float:
 # --- leading order ---------------------------------------------------------------------------------------------
 
 
-def leading_order(found: Moments, *, window: float = 10.0) -> LeadingEstimate:
+def leading_order(found: Moments, *, window: float = 10.0, companions: Sequence[Moments] = ()) -> LeadingEstimate:
     """λ₀ and r₀ from the last factor ``window`` of time of one run at ε = 0.
 
-    The error bar is the spread over the whole window and its earlier and later parts, plus 2·10⁻⁵ of discretisation.
-    Raises ``ValueError`` when fewer than eight instants carry an impulse.
+    companions : the same run with elements and steps twice as long (and, for thorough bars, twice as short). What mesh,
+    steps and start do to the answer falls at least like Δx, so that the difference from the coarser run is the size of
+    the error; without companions only the drift over the window speaks of it.
+
+    The error bar is the drift (spread over the window and its parts), the largest difference from a companion, taken
+    ``COMPANION`` times, and 2·10⁻⁵ of discretisation. Raises ``ValueError`` when fewer than eight instants carry an
+    impulse.
     """
+    r0, lambda0, drift_r0, drift_lambda0, lift, times = _leading_values(found, window)
+    apart_r0 = apart_lambda0 = 0.0
+    for companion in companions:
+        other_r0, other_lambda0, *_ = _leading_values(companion, window)
+        apart_r0 = max(apart_r0, abs(other_r0 - r0))
+        apart_lambda0 = max(apart_lambda0, abs(other_lambda0 - lambda0))
+    alone = 1.0 if companions else DRIFT_ALONE
+    return LeadingEstimate(
+        lambda0=Estimate(lambda0, COMPANION * apart_lambda0 + alone * drift_lambda0 + LEAST * max(lambda0, 0.1)),
+        r0=Estimate(r0, COMPANION * apart_r0 + alone * drift_r0 + LEAST * r0),
+        lift=lift,
+        window=times,
+    )
+
+
+def _leading_values(found: Moments, window: float) -> tuple[float, float, float, float, float, tuple[float, float]]:
+    """r₀, λ₀, their drift over the window, the largest lift in it, and its ends."""
     tau, last = found.tau, found.tau[-1]
     inside = (tau >= last / window * (1 - 1e-9)) & (tau > 0.0) & (found.impulse > 0.0)
     if inside.sum() < 8:
@@ -199,12 +224,13 @@ def leading_order(found: Moments, *, window: float = 10.0) -> LeadingEstimate:
     cuts = [(last / window, last / window**0.4), (last / window**0.7, last / window**0.2), (last / window**0.5, last)]
     usable = [c for c in cuts if (inside & (tau >= c[0]) & (tau <= c[1])).sum() >= 6]
     others = [(r0, lambda0), *(values(*c) for c in usable)]
-    scale = max(lambda0, 0.1)
-    return LeadingEstimate(
-        lambda0=Estimate(lambda0, 1.0 * _spread([o[1] for o in others]) + 2e-5 * scale),
-        r0=Estimate(r0, 1.0 * _spread([o[0] for o in others]) + 2e-5 * r0),
-        lift=float(found.lift[inside].max()),
-        window=(float(tau[inside][0]), float(last)),
+    return (
+        r0,
+        lambda0,
+        _spread([o[0] for o in others]),
+        _spread([o[1] for o in others]),
+        float(found.lift[inside].max()),
+        (float(tau[inside][0]), float(last)),
     )
 
 
