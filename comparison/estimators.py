@@ -14,6 +14,7 @@ both share, the start above all, drops out.
 
 from __future__ import annotations
 
+import dataclasses
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -23,7 +24,16 @@ from numpy.typing import NDArray
 
 from bent_beam.history import ImpactHistory
 
-__all__ = ["Estimate", "FirstOrderEstimate", "LeadingEstimate", "Moments", "first_order", "leading_order", "moments"]
+__all__ = [
+    "Estimate",
+    "FirstOrderEstimate",
+    "LeadingEstimate",
+    "Moments",
+    "first_order",
+    "leading_order",
+    "moments",
+    "with_companions",
+]
 
 Array = NDArray[np.float64]
 SIDE = math.sqrt(2.0 / math.pi)
@@ -46,8 +56,7 @@ class Estimate:
 
 @dataclass(frozen=True)
 class LeadingEstimate:
-    """λ₀ and r₀ with ν = 1; ``lift`` is the largest lift inside the zone over V₀t; ``window`` the fitted times (τ).
-    """
+    """λ₀ and r₀ with ν = 1; ``lift`` is the largest lift inside the zone over V₀t; ``window`` the fitted times (τ)."""
 
     lambda0: Estimate
     r0: Estimate
@@ -336,6 +345,20 @@ def first_order(
         uniform_reaction=pressure,
         epsilons=tuple(row[0] for row in rows),
         window=(float(tail.tau[late][0]), float(tail.tau[-1])),
+    )
+
+
+def with_companions(found: FirstOrderEstimate, companions: Sequence[FirstOrderEstimate]) -> FirstOrderEstimate:
+    """``found`` with error bars that hold its largest difference from companion runs at other resolutions."""
+
+    def widened(number: Estimate, others: Sequence[Estimate]) -> Estimate:
+        apart = max((abs(o.value - number.value) for o in others), default=0.0)
+        return Estimate(number.value, number.error + COMPANION * apart)
+
+    return dataclasses.replace(
+        found,
+        lambda1=widened(found.lambda1, [c.lambda1 for c in companions]),
+        r1=widened(found.r1, [c.r1 for c in companions]),
     )
 
 

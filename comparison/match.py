@@ -14,12 +14,20 @@ from typing import Any
 
 import numpy as np
 
-from bent_beam.checks import finite, positive
+from bent_beam.checks import finite, one_of, positive
 from bent_beam.history import SimulationError
 from bent_beam.impact import Impact
 from bent_beam.method import Method, chosen_for, refined, settings_of
 from comparison.compared import MISSING, Compared
-from comparison.estimators import LeadingEstimate, Moments, first_order, leading_order, moments
+from comparison.estimators import (
+    FirstOrderEstimate,
+    LeadingEstimate,
+    Moments,
+    first_order,
+    leading_order,
+    moments,
+    with_companions,
+)
 from comparison.reduction import hold_of, pull_of
 from comparison.store import RunStore, source_of
 
@@ -35,6 +43,7 @@ DURATION = 0.1  # τ of the end: any will do at ε = 0 (self-similar); the thesi
 INSTANTS = 250
 SHARES = (0.35, 0.7, 1.0)  # of the largest ε
 PERTURBATION = 0.05  # see first_order_epsilon; a method may carry its own ``perturbation``
+COMPANIONS: dict[str, tuple[float, ...]] = {"drift": (), "quick": (0.5,), "thorough": (0.5, 2.0)}
 WIDE = 0.02  # of a leading-order number: a wider error bar deserves a warning
 WIDE_FIRST = 0.1  # of max(|r₁|, 1), likewise
 
@@ -42,16 +51,19 @@ WIDE_FIRST = 0.1  # of max(|r₁|, 1), likewise
 @dataclass(frozen=True)
 class Question:
     """One row to be matched. ``first`` : (α, ψ, χ, N), or ``None`` for the leading order alone; ``refine`` : elements
-    and steps so many times finer than the method's own."""
+    and steps so many times finer than the method's own; ``error_bars`` : "drift" (of the run alone), "quick" (a companion
+    at half the resolution, a quarter of the work), "thorough" (one at twice the resolution too)."""
 
     method: Method
     kappa_over_nu: float
     first: First | None = None
     refine: float = 1.0
+    error_bars: str = "quick"
 
     def __post_init__(self) -> None:
         positive("kappa_over_nu", self.kappa_over_nu)
         positive("refine", self.refine)
+        one_of("error_bars", self.error_bars, COMPANIONS)
         if self.first is not None:
             for name, value in zip(("alpha", "psi", "chi", "axial"), self.first):
                 finite(name, value)
@@ -111,10 +123,11 @@ def questions(
     kappas: Iterable[float],
     firsts: Sequence[Sequence[float]] = (),
     refines: Sequence[float] = (1.0,),
+    error_bars: str = "quick",
 ) -> list[Question]:
     """Every method × κ/ν × (α, ψ, χ[, N]) × refinement; without ``firsts`` the leading order alone."""
     loads: list[Any] = [tuple((*first, 0.0)[:4]) for first in firsts] or [None]
-    return [Question(m, k, first, r) for k in kappas for m in methods for first in loads for r in refines]
+    return [Question(m, k, first, r, error_bars) for k in kappas for m in methods for first in loads for r in refines]
 
 
 # --- one run, reduced ---------------------------------------------------------------------------------------------
@@ -178,49 +191,81 @@ def first_order_epsilon(leading: LeadingEstimate, first: First, perturbation: fl
     return part / (DURATION * (alpha / 2 + chi * z**2 / 2 + psi * z**4 / 24 + axial / 2))
 
 
-def answer(question: Question, store: RunStore) -> MatchRow:
-    """Simulate and estimate one row.
+@dataclass(frozen=True)
+class _Estimates:
+    """What the runs of one resolution gave."""
 
-    Raises ``ValueError`` for what the method refuses, :class:`bent_beam.SimulationError` when a run cannot finish.
+    run: _Reduced
+    runs: list[_Reduced]
+    leading: LeadingEstimate
+    first: FirstOrderEstimate | None
+
+
+def _estimates(question: Question, factor: float, store: RunStore, epsilon: float | None) -> _Estimates:
+    """Run and estimate at ``factor`` times the method's own resolution; ``epsilon`` is the largest ε, ``None``: chosen.
+
+    Raises ``ValueError`` for what the method refuses.
     """
-    asked, kappa, first = question.method, question.kappa_over_nu, question.first
-    method = refined(asked, question.refine)
+    asked, first = question.method, question.first
+    method = refined(asked, factor)
     if method is None:
-        raise ValueError(f"refine: {asked.path} does not know how to be refined (got {question.refine:g})")
-    bare = Impact.dimensionless(kappa)
-    end = DURATION * bare.time_scale
-    reason = method.refuses(bare)
-    if reason:
-        raise ValueError(reason)
+        raise ValueError(f"refine: {asked.path} does not know how to be refined (got {factor:g})")
+    bare = Impact.dimensionless(question.kappa_over_nu)
+    _ask(method, bare)
     run = _reduced(store, method, bare)
     runs = [run]
     leading = leading_order(run.moments)
     estimate = None
     if first is not None:
-        top = first_order_epsilon(leading, first, getattr(asked, "perturbation", PERTURBATION))
+        top = epsilon
+        if top is None:
+            top = first_order_epsilon(leading, first, getattr(asked, "perturbation", PERTURBATION))
         largest = _loaded(bare, top, first)
-        reason = method.refuses(largest)
-        if reason:
-            raise ValueError(reason)
-        fixed = chosen_for(method, largest, end)
+        _ask(method, largest)
+        fixed = chosen_for(method, largest, DURATION * bare.time_scale)
         found = [(s * top, _reduced(store, fixed, _loaded(bare, s * top, first))) for s in (0.0, *SHARES)]
         runs += [run for _, run in found]
         estimate = first_order([(e, run.moments) for e, run in found[1:]], found[0][1].moments, leading)
-    warnings = [w for r in runs for w in r.warnings]
+    return _Estimates(run, runs, leading, estimate)
+
+
+def _ask(method: Method, impact: Impact) -> None:
+    reason = method.refuses(impact)
+    if reason:
+        raise ValueError(reason)
+
+
+def answer(question: Question, store: RunStore) -> MatchRow:
+    """Simulate and estimate one row; companion runs at other resolutions say what the error bar is.
+
+    Raises ``ValueError`` for what the method refuses, :class:`bent_beam.SimulationError` when a run cannot finish.
+    """
+    fine = _estimates(question, question.refine, store, None)
+    others: list[_Estimates] = []
+    lost: list[str] = []
+    epsilon = None if fine.first is None else fine.first.epsilons[-1]
+    for factor in COMPANIONS[question.error_bars]:
+        try:
+            others.append(_estimates(question, factor * question.refine, store, epsilon))
+        except (ValueError, SimulationError) as error:
+            lost.append(f"no companion run at {factor:g} times the resolution, so the error bar is a guess: {error}")
+    leading = leading_order(fine.run.moments, companions=[o.run.moments for o in others])
+    estimate = fine.first and with_companions(fine.first, [o.first for o in others if o.first])
+    warnings = [w for r in fine.runs for w in r.warnings] + lost
     if leading.lambda0.error > WIDE * max(leading.lambda0.value, 0.1) or leading.r0.error > WIDE * leading.r0.value:
         warnings.append(f"wide error bar: lambda0 = {leading.lambda0}, r0 = {leading.r0}")
     if estimate is not None and estimate.r1.error > WIDE_FIRST * max(abs(estimate.r1.value), 1.0):
         warnings.append(f"wide error bar: r1 = {estimate.r1}")
-    holds = [r.hold for r in runs if r.hold]
-    pulls = [r.pull for r in runs if r.pull is not None]
+    holds = [r.hold for r in fine.runs if r.hold]
+    pulls = [r.pull for r in fine.runs if r.pull is not None]
     return MatchRow(
         **_about(question),
         **_with_theory(question, leading, estimate),
         lift=leading.lift,
         pull=max(pulls, default=None),
         hold={k: max(h[k] for h in holds) for k in ("until", "pull")} if holds else None,
-        seconds=sum(r.seconds for r in runs),
-        steps=sum(r.steps for r in runs),
+        seconds=sum(r.seconds for r in fine.runs),
+        steps=sum(r.steps for r in fine.runs),
         epsilons=list(estimate.epsilons) if estimate else [],
         warnings=sorted(set(warnings)),
     )

@@ -38,6 +38,9 @@ def match(
         str,
         typer.Option(metavar="1,2,4", help="Elements and steps so many times finer, each a row: work and precision."),
     ] = "1",
+    error_bars: Annotated[
+        str, typer.Option(help="quick (a companion run at half the resolution), thorough (and one at twice), or drift.")
+    ] = "quick",
     limit: Annotated[float | None, typer.Option(help="Seconds that one row may take.")] = None,
     jobs: Jobs = 1,
     scheduler: Scheduler = None,
@@ -64,7 +67,7 @@ def match(
     compared = methods_of(path or PATHS, assignments or ()) if methods is None else methods_from_file(methods)
     loads = [numbers("--first-order", text, (3, 4), "alpha,psi,chi[,N]") for text in first_order or ()]
     factors = numbers("--refine", refine, range(1, 20), "factors, e.g. 1,2,4")
-    asked = questions(compared, kappa_over_nu or THESIS_KAPPAS, loads, factors)
+    asked = questions(compared, kappa_over_nu or THESIS_KAPPAS, loads, factors, error_bars)
     if out is not None:
         check_writable(out, folder=True)
     store = RunStore(None if fresh else default_store())
