@@ -10,7 +10,7 @@ import math
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
 
-from bent_beam.checks import finite, non_negative, positive
+from bent_beam.checks import between, finite, non_negative, positive
 
 __all__ = ["SECTIONS", "General", "Pipe", "Rectangle", "RoundBar", "Section"]
 
@@ -20,18 +20,20 @@ class Section(ABC):
     """What all sections have.
 
     youngs_modulus : E, Pa. density : of the material, kg/m³. yield_stress : Pa (``None``: not compared).
-    added_mass : moves along outside, kg/m of beam (mud, cladding).
+    added_mass : moves along outside, kg/m of beam (mud, cladding). poisson_ratio : for shear.
     """
 
     youngs_modulus: float
     density: float
     yield_stress: float | None = None
     added_mass: float = 0.0
+    poisson_ratio: float = 0.3
 
     def __post_init__(self) -> None:
         positive("section.youngs_modulus", self.youngs_modulus)
         positive("section.density", self.density)
         non_negative("section.added_mass", self.added_mass)
+        between("section.poisson_ratio", self.poisson_ratio, -0.99, 0.5)
         if self.yield_stress is not None:
             positive("section.yield_stress", self.yield_stress)
 
@@ -51,6 +53,18 @@ class Section(ABC):
         """h, m."""
 
     @property
+    @abstractmethod
+    def shear_coefficient(self) -> float | None:
+        """κ_s of Timoshenko's beam (Cowper 1966, J. Appl. Mech. 33, 335); ``None`` where it is not known."""
+
+    @property
+    def shear_stiffness(self) -> float | None:
+        """κ_s G A, N."""
+        if self.shear_coefficient is None:
+            return None
+        return self.shear_coefficient * self.youngs_modulus / (2.0 * (1.0 + self.poisson_ratio)) * self.area
+
+    @property
     def bending_stiffness(self) -> float:
         """EI, N m²."""
         return self.youngs_modulus * self.second_moment
@@ -66,7 +80,7 @@ class Section(ABC):
         return self.density * self.area + self.added_mass
 
     @property
-    def modulus(self) -> float:
+    def section_modulus(self) -> float:
         """W, m³."""
         return self.second_moment / (self.height / 2.0)
 
@@ -77,7 +91,7 @@ class Section(ABC):
 
     def stress(self, moment: float, axial_force: float = 0.0) -> float:
         """Largest normal stress |M|/W + |N|/A, Pa, of a bending moment (N m) and an axial force (N)."""
-        return abs(moment) / self.modulus + abs(axial_force) / self.area
+        return abs(moment) / self.section_modulus + abs(axial_force) / self.area
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -133,6 +147,12 @@ class Pipe(Section):
         return self.outer_diameter
 
     @property
+    def shear_coefficient(self) -> float:
+        n, square = self.poisson_ratio, (self.bore / self.outer_diameter) ** 2
+        rim = (1.0 + square) ** 2
+        return 6.0 * (1.0 + n) * rim / ((7.0 + 6.0 * n) * rim + (20.0 + 12.0 * n) * square)
+
+    @property
     def mass_per_length(self) -> float:
         return super().mass_per_length + self.fluid_density * math.pi / 4.0 * self.bore**2
 
@@ -159,6 +179,10 @@ class RoundBar(Section):
     def height(self) -> float:
         return self.diameter
 
+    @property
+    def shear_coefficient(self) -> float:
+        return 6.0 * (1.0 + self.poisson_ratio) / (7.0 + 6.0 * self.poisson_ratio)
+
 
 @dataclass(frozen=True, kw_only=True)
 class Rectangle(Section):
@@ -183,6 +207,10 @@ class Rectangle(Section):
     @property
     def height(self) -> float:
         return self.thickness
+
+    @property
+    def shear_coefficient(self) -> float:
+        return 10.0 * (1.0 + self.poisson_ratio) / (12.0 + 11.0 * self.poisson_ratio)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -212,6 +240,10 @@ class General(Section):
     @property
     def height(self) -> float:
         return self.section_height
+
+    @property
+    def shear_coefficient(self) -> None:
+        return None
 
 
 SECTIONS: dict[str, type] = {"pipe": Pipe, "round_bar": RoundBar, "rectangle": Rectangle, "general": General}

@@ -245,7 +245,7 @@ def _leading_values(found: Moments, window: float) -> tuple[float, float, float,
 
 def _lift(history: ImpactHistory) -> Array:
     """Largest gap inside nine tenths of the contact zone over V₀t at the saved instants (0 without a zone)."""
-    front, gap = _local_front(history), history.array("gap")
+    front, gap = local_front(history), history.array("gap")
     lift = np.zeros(history.time.size)
     for k, t in enumerate(history.time):
         inside = np.abs(history.positions(k)) <= 0.9 * front[k]
@@ -254,7 +254,7 @@ def _lift(history: ImpactHistory) -> Array:
     return lift
 
 
-def _local_front(history: ImpactHistory) -> Array:
+def local_front(history: ImpactHistory) -> Array:
     """λ_c (m) at the saved instants: centroid of the impulse gathered over the last tenth of each instant's time."""
     time = history.time
     total, moment = _one_side(history)

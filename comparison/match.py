@@ -51,8 +51,8 @@ WIDE_FIRST = 0.1  # of max(|r₁|, 1), likewise
 @dataclass(frozen=True)
 class Question:
     """One row to be matched. ``first`` : (α, ψ, χ, N), or ``None`` for the leading order alone; ``refine`` : elements
-    and steps so many times finer than the method's own; ``error_bars`` : "drift" (of the run alone), "quick" (a companion
-    at half the resolution, a quarter of the work), "thorough" (one at twice the resolution too)."""
+    and steps so many times finer than the method's own; ``error_bars`` : "drift" (of the run alone), "quick" (a
+    companion at half the resolution, a quarter of the work), "thorough" (one at twice the resolution too)."""
 
     method: Method
     kappa_over_nu: float

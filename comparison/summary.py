@@ -2,34 +2,71 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
+from bent_beam.checks import one_of
+from bent_beam.errors import SimulationError
 from bent_beam.history import ImpactHistory
+from bent_beam.impact import Impact
+from bent_beam.method import Method, refined
 from bent_beam.section import Section
 from comparison.compared import Compared
-from comparison.estimators import leading_order, moments
+from comparison.estimators import Moments, leading_order, moments
+from comparison.match import COMPANIONS, INSTANTS
 from comparison.reduction import hold_of, peak_moment, pull_of
 from comparison.text_table import text_table
+from theory import predict
 
-__all__ = ["run_table", "summary"]
+__all__ = ["companions", "run_table", "summary"]
 
 
-def summary(history: ImpactHistory, file: Path | None = None, section: Section | None = None) -> dict[str, Any]:
+def companions(method: Method, impact: Impact, end_time: float, error_bars: str) -> list[Moments]:
+    """Runs at other resolutions, reduced, for the error bars of λ₀ and r₀; none where these are not estimated.
+
+    error_bars : a key of :data:`comparison.match.COMPANIONS`.
+    """
+    one_of("error_bars", error_bars, COMPANIONS)
+    found = []
+    if comparable(impact) and not loaded(impact) and predict(impact, [end_time]).times[0].valid:
+        for factor in COMPANIONS[error_bars]:
+            other = refined(method, factor)
+            if other is not None:
+                try:
+                    found.append(moments(other.simulate(impact, end_time=end_time, save=INSTANTS)))
+                except (SimulationError, ValueError):
+                    continue  # a coarser run may be too coarse; the bar is then that of the drift
+    return found
+
+
+def comparable(impact: Impact) -> bool:
+    """Whether the theory has an answer at all: a bow, symmetric about its first touch."""
+    return impact.relative_curvature > 0.0 and not (impact.rotation or impact.first_touch)
+
+
+def loaded(impact: Impact) -> bool:
+    """Whether the impact has terms of first order."""
+    return any((impact.acceleration, impact.fourth_derivative, impact.curvature_rate, impact.axial_force))
+
+
+def summary(
+    history: ImpactHistory,
+    file: Path | None = None,
+    section: Section | None = None,
+    others: Sequence[Moments] = (),
+) -> dict[str, Any]:
     """What a run did and found, SI units; the theory's numbers only where it claims to hold, stress with a section."""
-    from theory import predict
-
     impact, time = history.impact, history.time
-    loaded = any((impact.acceleration, impact.fourth_derivative, impact.curvature_rate, impact.axial_force))
-    found = moments(history, uniform=loaded)
+    found = moments(history, uniform=loaded(impact))
     end = float(time[-1])
-    infinite = predict(impact, [end]) if impact.relative_curvature > 0.0 else None
+    infinite = predict(impact, [end]) if comparable(impact) else None
     row = infinite.times[0] if infinite else None
     holds = row is not None and row.valid
     leading = None
-    if holds and not loaded:
+    if holds and not loaded(impact):
         try:
-            leading = leading_order(found)
+            leading = leading_order(found, companions=others)
         except ValueError:
             pass
     front = found.front[-1]

@@ -14,19 +14,19 @@ __all__ = ["predict"]
 def predict(
     case: CaseFile,
     time: Annotated[list[float] | None, typer.Option(help="Time after first contact, s; repeatable.")] = None,
+    simulate: Annotated[
+        bool, typer.Option("--simulate", help="Answer by the whole-beam solver too, ends and loads included.")
+    ] = False,
     assignments: Set = None,
     as_json: Json = False,
 ) -> None:
-    """Contact length, reaction and impulse in SI units, and whether the theory holds there.
+    """Does the contact spread, how far, how hard does the wall push, what does the beam suffer, until when this holds.
 
     Example: bentbeam predict cases/drill_pipe.toml --time 0.005 --time 0.01
     """
     from bent_beam.cases import load_case
-    from comparison.validity import add_measured_errors
-    from theory import predict as predict_impact
+    from comparison.verdict import verdict, verdict_text
 
     loaded = load_case(case, assignments or ())
-    prediction = predict_impact(loaded.impact, time or [loaded.end_time])
-    document = prediction.to_dict()
-    notes = add_measured_errors(document)
-    emit(document, as_json, lambda: "\n".join([prediction.summary(), *notes]))
+    document = verdict(loaded, time or [loaded.end_time], simulate=simulate)
+    emit(document, as_json, lambda: verdict_text(document))

@@ -22,6 +22,12 @@ def simulate(
         str, typer.Option(help="hermite, self_similar, exudyn or an installed one.", autocompletion=path_names)
     ] = "hermite",
     assignments: Set = None,
+    until: Annotated[
+        str | None, typer.Option(help='"separation": until the beam has left the wall, whatever [run] says.')
+    ] = None,
+    error_bars: Annotated[
+        str, typer.Option(help="quick (a companion run at half the resolution), thorough (and one at twice), or drift.")
+    ] = "quick",
     out: Annotated[Path | None, typer.Option(metavar="FILE.nc", help="Keep the history as netCDF.")] = None,
     overwrite: Overwrite = False,
     save: Annotated[int, typer.Option(min=8, max=20000, help="Number of saved instants.")] = 200,
@@ -34,15 +40,21 @@ def simulate(
     """
     from bent_beam.cases import load_case
     from bent_beam.history import SimulationError
+    from bent_beam.method import simulate_to_separation
     from bent_beam.parts import InputError
-    from comparison.summary import run_table, summary
+    from comparison.summary import companions, run_table, summary
 
     loaded = load_case(case, assignments or ())
     method = loaded.method(path)
+    if until not in (None, "separation"):
+        raise InputError(f'--until takes "separation" (got {until!r}); an end time is run.end_time')
     check_out(out, overwrite)
     try:
         with Console(quiet).progress(f"{path}: {case.name}") as bar:
-            history = method.simulate(loaded.impact, end_time=loaded.end_time, save=save, progress=bar.fraction)
+            if until is None:
+                history = method.simulate(loaded.impact, end_time=loaded.end_time, save=save, progress=bar.fraction)
+            else:
+                history = simulate_to_separation(method, loaded.impact, save=save, progress=bar.fraction)
     except SimulationError as error:
         raise _kept(error, out) from None
     problem = None
@@ -51,7 +63,8 @@ def simulate(
             history.save(out)
         except OSError as error:  # the run's answer is worth more than its file
             problem, out = f"out: {out} could not be written: {error.strerror or error}", None
-    found = summary(history, out, loaded.section)
+    others = [] if until else companions(method, loaded.impact, loaded.end_time, error_bars)
+    found = summary(history, out, loaded.section, others)
     found["warnings"] = [*loaded.warnings, *found["warnings"]]
     emit(found, as_json, lambda: run_table(found))
     if problem:

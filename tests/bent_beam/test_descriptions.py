@@ -23,7 +23,15 @@ def test_pipe_is_outer_less_inner_bar():
     outer, inner = RoundBar(diameter=0.127, **STEEL), RoundBar(diameter=0.1086, **STEEL)
     assert pipe.bending_stiffness == pytest.approx(outer.bending_stiffness - inner.bending_stiffness, rel=1e-13)
     assert pipe.mass_per_length == pytest.approx(outer.mass_per_length - inner.mass_per_length, rel=1e-13)
-    assert pipe.modulus == pytest.approx(pipe.second_moment / 0.0635, rel=1e-13)
+    assert pipe.section_modulus == pytest.approx(pipe.second_moment / 0.0635, rel=1e-13)
+
+
+def test_shear_coefficients_are_cowpers():
+    thin = Pipe(outer_diameter=0.1, inner_diameter=0.0999, poisson_ratio=0.3, **STEEL)
+    assert thin.shear_coefficient == pytest.approx(2 * 1.3 / (4 + 3 * 0.3), rel=2e-3)  # thin round tube
+    assert Pipe(outer_diameter=0.1, inner_diameter=0.0, **STEEL).shear_coefficient == pytest.approx(
+        RoundBar(diameter=0.1, **STEEL).shear_coefficient
+    )
 
 
 def test_stress_of_a_rectangle_under_moment_and_tension():
