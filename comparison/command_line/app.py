@@ -17,10 +17,12 @@ import typer
 from bent_beam.errors import SimulationError
 from comparison.command_line.benchmark import benchmark
 from comparison.command_line.bounce import bounce
+from comparison.command_line.compare import compare
 from comparison.command_line.gallery import gallery
 from comparison.command_line.match import match
 from comparison.command_line.new import new
 from comparison.command_line.options import printable
+from comparison.command_line.plot import plot
 from comparison.command_line.predict import predict
 from comparison.command_line.predictor import predictor
 from comparison.command_line.problem import problem
@@ -47,6 +49,8 @@ COMMANDS = (
     gallery,
     report,
     rerun,
+    plot,
+    compare,
     problem,
     score,
     benchmark,
@@ -62,7 +66,9 @@ for command in COMMANDS:
     app.command()(command)
 
 # Typer hides its copy of click, whose base class of usage errors this is.
-USAGE_ERRORS = tuple(kind for kind in typer.BadParameter.__mro__ if kind.__name__ == "ClickException")
+USAGE_ERRORS: tuple[type[Exception], ...] = tuple(
+    kind for kind in typer.BadParameter.__mro__ if kind.__name__ == "ClickException"
+)
 
 
 @app.callback(invoke_without_command=True)

@@ -149,3 +149,15 @@ def test_bare_command_prints_its_help(capsys, arguments):
 def test_version(capsys):
     assert run(["--version"]) == 0
     assert capsys.readouterr().out.strip()[0].isdigit()
+
+
+def test_a_stored_run_is_drawn_and_compared(capsys, tmp_path):
+    for name, path in (("a", "hermite"), ("b", "exudyn")):
+        file = str(tmp_path / f"{name}.nc")
+        document(capsys, "simulate", K10, "--path", path, "--out", file, "--error-bars", "drift")
+    found = document(capsys, "plot", str(tmp_path / "a.nc"), "--out", str(tmp_path))
+    assert all(Path(f).stat().st_size > 10_000 for f in found["files"])
+    found = document(capsys, "compare", str(tmp_path / "a.nc"), str(tmp_path / "b.nc"))
+    assert found["same_impact"] and found["paths"] == ["hermite", "exudyn"]
+    assert found["largest_difference"]["total_impulse"] < 0.01  # two codes, one impact
+    assert found["largest_difference"]["gap"] < 0.01

@@ -11,8 +11,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from comparison.figures.force_map import force_map, spread
 from comparison.report import page as report_module
-from comparison.report.impacts import SHOWN, force_map, frames_of, spread
+from comparison.report.impacts import SHOWN, frames_of
 from comparison.report.page import page, write_report
 from comparison.report.plots import row_plots
 from comparison.report.rows import (

@@ -1,0 +1,85 @@
+"""Two runs side by side: numbers at the end of their common time, the largest distance of their curves, settings."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from bent_beam.history import ImpactHistory
+from comparison.reduction import peak_moment
+from comparison.text_table import text_table
+
+__all__ = ["compare_histories", "comparison_text"]
+
+CURVES = ("total_impulse", "kinetic_energy", "strain_energy")
+
+
+def compare_histories(a: ImpactHistory, b: ImpactHistory) -> dict[str, Any]:
+    """What two histories have in common and what not; SI units.
+
+    ``end`` : numbers at the end of the common time, first and second; ``largest_difference`` : of each curve over the
+    common time, over the first's largest value; of the gap over V₀t at the end, on the nodes of the first.
+    """
+    end = min(float(a.time[-1]), float(b.time[-1]))
+    times = a.time[a.time <= end * (1.0 + 1e-9)]
+    numbers: dict[str, list[float]] = {"time": [float(a.time[-1]), float(b.time[-1])]}
+    apart: dict[str, float | None] = {}
+    for name in CURVES:
+        mine = np.interp(times, a.time, a.array(name))
+        other = np.interp(times, b.time, b.array(name))
+        numbers[name] = [float(np.interp(end, h.time, h.array(name))) for h in (a, b)]
+        largest = float(np.abs(mine).max())
+        apart[name] = float(np.abs(mine - other).max()) / largest if largest > 0.0 else None
+    numbers["peak_moment"] = [peak_moment(h).moment for h in (a, b)]
+    apart["gap"] = _gap_apart(a, b, end)
+    settings = {
+        key: [a.settings.get(key), b.settings.get(key)]
+        for key in sorted({*a.settings, *b.settings})
+        if a.settings.get(key) != b.settings.get(key)
+    }
+    return {
+        "paths": [a.path, b.path],
+        "same_impact": a.impact == b.impact,
+        "end": numbers,
+        "largest_difference": apart,
+        "settings": settings,
+        "versions": {
+            k: [a.versions.get(k), b.versions.get(k)]
+            for k in sorted({*a.versions, *b.versions})
+            if a.versions.get(k) != b.versions.get(k)
+        },
+    }
+
+
+def _gap_apart(a: ImpactHistory, b: ImpactHistory, end: float) -> float | None:
+    def shape(history: ImpactHistory) -> tuple[Any, Any]:
+        k = int(np.argmin(np.abs(history.time - end)))
+        x, gap = history.positions(k), history.array("gap")[k]
+        return x[x >= 0.0], gap[x >= 0.0]
+
+    (x, gap), (other_x, other_gap) = shape(a), shape(b)
+    common = x <= other_x[-1]
+    scale = a.impact.velocity * end
+    if scale <= 0.0 or not common.any():
+        return None
+    return float(np.abs(gap[common] - np.interp(x[common], other_x, other_gap)).max()) / scale
+
+
+def comparison_text(found: dict[str, Any], first: str, second: str) -> str:
+    """The same for a reader."""
+    units = {"time": "s", "total_impulse": "N s", "kinetic_energy": "J", "strain_energy": "J", "peak_moment": "N m"}
+    rows = []
+    for name, (a, b) in found["end"].items():
+        apart = found["largest_difference"].get(name)
+        rows.append(
+            [name.replace("_", " "), f"{a:.6g}", f"{b:.6g}", units[name], "-" if apart is None else f"{apart:.2g}"]
+        )
+    gap = found["largest_difference"]["gap"]
+    lines = [
+        text_table(["", first, second, "unit", "largest difference"], rows),
+        f"largest difference of the gaps at the end of the common time: {'-' if gap is None else f'{gap:.2g}'} V0 t",
+        "same impact" if found["same_impact"] else "the impacts differ",
+    ]
+    lines += [f"{key}: {a!r} | {b!r}" for key, (a, b) in {**found["settings"], **found["versions"]}.items()]
+    return "\n".join(lines)

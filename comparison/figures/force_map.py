@@ -1,0 +1,39 @@
+"""Reaction per length over place and time, from the impulses that the contact points gather."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bent_beam.history import ImpactHistory
+
+__all__ = ["force_map", "spread"]
+
+Array = NDArray[np.float64]
+
+
+def force_map(history: ImpactHistory, kept: NDArray[np.int64], edges: Array) -> Array:
+    """Reaction per length (frames − 1, bins): impulse between two kept instants, per length and time."""
+    impact = history.impact
+    impulse, unit = (
+        history.array("impulse"),
+        impact.mass_per_length * impact.velocity,
+    )  # μV₀: impulse per length
+    width = np.diff(edges)
+    rows = np.zeros((kept.size - 1, width.size))
+    for row, (first, last) in enumerate(pairwise(kept)):
+        for k in range(first + 1, last + 1):
+            places = 0.5 * (history.contact_positions(k - 1) + history.contact_positions(k)) / impact.length_scale
+            rows[row] += spread(places, (impulse[k] - impulse[k - 1]) / (unit * impact.length_scale), edges)
+        rows[row] /= width * (history.time[last] - history.time[first]) / impact.time_scale
+    return rows
+
+
+def spread(places: Array, amounts: Array, edges: Array) -> Array:
+    """Amounts of contact points put into bins, each evenly over its share of the beam."""
+    middles = 0.5 * (places[1:] + places[:-1])
+    borders = np.concatenate([[0.0], middles, [places[-1]]])
+    gathered = np.concatenate([[0.0], np.cumsum(amounts)])
+    return np.diff(np.interp(edges, borders, gathered))
