@@ -7,6 +7,7 @@ few per cent an element at most, or add an absorbing far field.
 
 from __future__ import annotations
 
+import dataclasses
 import math
 from dataclasses import dataclass
 from typing import Protocol, runtime_checkable
@@ -199,29 +200,50 @@ class ScaleFreeMesh:
     element_length : smallest element, at the centre, m.
     growth : ratio of neighbours where elements grow, 1.01 to 1.02.
     largest : no element above this, m (none by default).
+    zone : half length, m, beyond which elements grow by ``growth_outside`` instead; one goes with the other.
     """
 
     element_length: float
     growth: float = 1.01
     largest: float | None = None
+    zone: float | None = None
+    growth_outside: float | None = None
 
     def __post_init__(self) -> None:
         positive("mesh.element_length", self.element_length)
         at_least("mesh.growth", self.growth, 1.0)
         if self.largest is not None:
             at_least("mesh.largest", self.largest, self.element_length)
+        if (self.zone is None) != (self.growth_outside is None):
+            raise ValueError(
+                "mesh.zone and mesh.growth_outside go together: neither has an effect without the other "
+                f"(got {self.zone!r} and {self.growth_outside!r})"
+            )
+        if self.zone is not None and self.growth_outside is not None:
+            positive("mesh.zone", self.zone)
+            at_least("mesh.growth_outside", self.growth_outside, 1.0)
 
     def nodes(self, half_length: float) -> Array:
         largest = math.inf if self.largest is None else self.largest
         if self.growth == 1.0:
             _count(half_length, self.element_length)
         first = min(self.element_length, 0.5 * half_length)
-        outer = _grown(0.0, first, self.growth, half_length, max(largest, first))
-        return checked_nodes(np.concatenate([[0.0], outer]))
+        if self.zone is None or self.growth_outside is None or self.zone >= half_length:
+            outer = _grown(0.0, first, self.growth, half_length, max(largest, first))
+            return checked_nodes(np.concatenate([[0.0], outer]))
+        inner = np.concatenate([[0.0], _grown(0.0, min(first, self.zone), self.growth, self.zone, max(largest, first))])
+        last = min(float(inner[-1] - inner[-2]) * self.growth_outside, half_length - self.zone)
+        outer = _grown(self.zone, last, self.growth_outside, half_length, max(largest, last))
+        return checked_nodes(np.concatenate([inner, outer]))
 
     def refined(self, factor: float) -> ScaleFreeMesh:
-        largest = None if self.largest is None else self.largest / factor
-        return ScaleFreeMesh(self.element_length / factor, self.growth ** (1.0 / factor), largest)
+        return dataclasses.replace(
+            self,
+            element_length=self.element_length / factor,
+            growth=self.growth ** (1.0 / factor),
+            largest=None if self.largest is None else self.largest / factor,
+            growth_outside=None if self.growth_outside is None else self.growth_outside ** (1.0 / factor),
+        )
 
 
 @dataclass(frozen=True)

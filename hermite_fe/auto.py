@@ -6,20 +6,22 @@ the front moves like λ̂√τ with λ̂ = √(2/κ) as a crude upper estimate, 
 must be a fraction of ℓ where the front is, steps a fraction of its travel over ℓ. Nothing here knows λ₀ or
 r₀.
 
-- mesh: elements in proportion to the distance, so that every decade of time is resolved alike; for a thin
-  front (small κ) even ones over the zone that the last part of the run covers;
+- mesh: elements in proportion to the distance, so that every decade of time is resolved alike, from a centre so fine
+  that the start is over in a hundredth of the run; for a very thin front even ones over the zone that the last part of
+  the run covers;
 - steps in proportion to the time since impact, for the same reason;
-- integrator: Signorini at the new position, which leaves closed rows exactly on the wall; Moreau–Jean when
-  rows rebound;
-- hold: 16 rows behind the front while the beam is pressed on (p = μa₀ + EI q₀ ≥ 0); none when p < 0, for then
-  the middle truly lifts off; and all that is closed until the front is a few elements thick;
-- far field: grid-scale viscosity;
-- mass: consistent.
+- integrator: Signorini at the new position, which leaves closed rows exactly on the wall and does not rattle;
+  Moreau–Jean when rows rebound;
+- contact: unilateral; held is only the unresolved start, until the front is six elements thick, for a hundredth of the
+  run and 0.005 T* at most;
+- far field: grid-scale viscosity.
+
+The constants below are studied in tests/hermite_fe/test_constants.py: halved and doubled they move λ₀ and r₀ by less
+than the error bar that goes with them.
 """
 
 from __future__ import annotations
 
-import dataclasses
 import math
 from dataclasses import dataclass
 
@@ -30,17 +32,25 @@ from bent_beam.impact import Impact
 from bent_beam.meshes import GradedMesh, Mesh, ScaleFreeMesh
 from hermite_fe.contacts import Contact, NodeContact
 from hermite_fe.far_fields import FarField, GridViscosity
-from hermite_fe.integrators import GeneralizedAlphaPenalty, Integrator, MoreauJean, SignoriniPosition
+from hermite_fe.integrators import Integrator, MoreauJean, SignoriniPosition
 from hermite_fe.masses import ConsistentMass, Mass
 
 __all__ = ["Choice", "choose", "front"]
 
 Array = NDArray[np.float64]
 
-THIN = 0.04  # κ/ν below which scale-free elements all the way would be too many
-LARGEST_STEP = 5e-4  # of the time since impact
+THIN = 0.01  # κ/ν below which scale-free elements all the way would be too many
+SMALLEST_ELEMENT = 4e-3  # of ℓ at the end of the run, at the centre
+ELEMENT_AT_FRONT = 0.1  # of ℓ at any time
+GROWTH = 0.01  # of elements, at most
+LARGEST_STEP = 1e-3  # of the time since impact
+STEP_PER_FRONT = 0.4  # of the time in which the front runs its own thickness, 2κ t
 ELEMENTS_PER_FRONT = 2.0  # fewer in ℓ deserve a warning
-HOLD = 16
+ELEMENTS_AT_START = 6.0  # in ℓ, until when the start counts as unresolved
+START = 0.01  # of the run, the most that the start may be held
+PRESSED_HOLD = 16  # rows, of runs that measure what a load changes and presses the zone on
+DOMAIN = 12.0  # √(t/t*) l*: half length for such a run, beyond which nothing has arrived that the mesh can send back
+HOLD_ENDS = 0.005  # of T*: from when on the impulse on a finite beam leaves the infinite beam's by 1 % (κ/ν = 0.5)
 
 
 @dataclass(frozen=True)
@@ -71,30 +81,53 @@ def front(impact: Impact, time: float) -> tuple[float, float]:
 def chosen_mesh(impact: Impact, end_time: float) -> Mesh:
     """Scale-free elements; for a thin front even ones over the zone."""
     place, thickness = front(impact, end_time)
-    kappa = bounded_kappa(impact)
+    kappa, half = bounded_kappa(impact), impact.half_length
+    zone = min(1.2 * place, half)
     if kappa >= THIN:
-        smallest = min(4e-3 * thickness, 1e-3 * impact.half_length)
-        return ScaleFreeMesh(element_length=smallest, growth=1.0 + min(0.01, 0.1 * kappa))
-    zone = min(1.05 * place, impact.half_length)
-    return GradedMesh(
-        element_length=min(thickness / 3.0, zone / 100.0), growth=1.02, zone=zone, size_ratio=1e6
-    )
+        # at a thin front the centre may be coarser: the start is over in a hundredth of the run all the same
+        smallest = thickness * min(SMALLEST_ELEMENT * max(1.0, 0.04 / kappa), START**0.5 / ELEMENTS_AT_START)
+        growth = 1.0 + min(GROWTH, ELEMENT_AT_FRONT * kappa)
+        if zone == half:
+            return ScaleFreeMesh(element_length=min(smallest, 1e-3 * half), growth=growth)
+        return ScaleFreeMesh(
+            element_length=min(smallest, 1e-3 * half), growth=growth, zone=zone, growth_outside=1.0 + GROWTH
+        )
+    return GradedMesh(element_length=min(thickness / 3.0, zone / 100.0), growth=1.02, zone=zone, size_ratio=1e6)
 
 
 def chosen_integrator(impact: Impact, end_time: float, nodes: Array, integrator: Integrator) -> Integrator:
     """``integrator`` with what it leaves open filled in."""
-    growth = min(LARGEST_STEP, 0.4 * bounded_kappa(impact))
+    growth = min(LARGEST_STEP, STEP_PER_FRONT * bounded_kappa(impact))
     resolved = resolved_time(impact, nodes)
     step = growth * min(max(resolved, 1e-7 * end_time), end_time)
-    integrator = integrator.with_steps(step, growth)
-    if isinstance(integrator, GeneralizedAlphaPenalty):
-        mass, time = impact.mass_per_length, impact.time_scale
-        integrator = dataclasses.replace(
-            integrator,
-            stiffness=1e5 * mass / time**2 if integrator.stiffness is None else integrator.stiffness,
-            damping=1e3 * mass / time if integrator.damping is None else integrator.damping,
-        )
-    return integrator
+    return integrator.with_steps(step, growth).suited(impact)
+
+
+def chosen_contact(impact: Impact, end_time: float, nodes: Array, contact: Contact, integrator: Integrator) -> Contact:
+    """``contact`` with what it leaves open filled in; ``ValueError`` for a hold that the integrator does not know."""
+    if not integrator.holds:
+        for name in ("hold", "hold_until"):
+            if getattr(contact, name):
+                raise ValueError(
+                    f"contact.{name} has no effect with this integrator, whose rows may always open "
+                    f"(got {getattr(contact, name)!r})"
+                )
+        return contact.with_hold(0, 0.0)
+    start = ELEMENTS_AT_START**2 * resolved_time(impact, nodes)
+    return contact.with_hold(0, min(start, START * end_time, HOLD_ENDS * impact.slow_time_scale))
+
+
+def chosen_domain(impact: Impact, end_time: float) -> float | None:
+    """Half length, m, of a long beam that a run which measures what a load changes needs; ``None``: all of it.
+
+    The free motion y₀ is a Taylor polynomial: where its quartic term meets the wall by itself the beam is cut.
+    """
+    reach = DOMAIN * math.sqrt(end_time / impact.time_scale) * impact.length_scale
+    if reach > 0.2 * impact.half_length:
+        return None
+    if impact.fourth_derivative > 0.0:
+        reach = min(reach, 0.8 * math.sqrt(12.0 * impact.relative_curvature / impact.fourth_derivative))
+    return reach
 
 
 def resolved_time(impact: Impact, nodes: Array) -> float:
@@ -135,8 +168,7 @@ def choose(
     if integrator is None:
         integrator = SignoriniPosition() if contact.restitution == 0.0 else MoreauJean()
     integrator = chosen_integrator(impact, end_time, nodes, integrator).refined(refine)
-    hold = HOLD if impact.zone_pressure >= 0.0 else 0
-    contact = contact.with_hold(hold, min(36.0 * resolved_time(impact, nodes), end_time))
+    contact = chosen_contact(impact, end_time, nodes, contact, integrator)
     if far_field is None:
         far_field = GridViscosity()
     warnings = [

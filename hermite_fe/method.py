@@ -15,11 +15,11 @@ from bent_beam.impact import Impact
 from bent_beam.meshes import MESHES, Mesh
 from bent_beam.method import Save
 from hermite_fe import auto, whole_beam
-from hermite_fe.contacts import CONTACTS, Contact
-from hermite_fe.far_fields import FAR_FIELDS, FarField
+from hermite_fe.contacts import CONTACTS, Contact, NodeContact
+from hermite_fe.far_fields import FAR_FIELDS, FarField, GridViscosity
 from hermite_fe.integrators import INTEGRATORS, Integrator
 from hermite_fe.masses import MASSES, Mass
-from hermite_fe.simulate import refusal, simulate
+from hermite_fe.simulate import cut, refusal, simulate
 
 __all__ = ["HermiteFE"]
 
@@ -30,11 +30,15 @@ class HermiteFE:
 
     mesh, integrator, contact, far_field, mass : parts; ``None``: chosen from the problem (:mod:`hermite_fe.auto`).
     full_beam : model both halves instead of one with a symmetry support.
+    domain : half length, m, that is modelled of a longer beam, whose cut ends follow the free motion (``None``: all of
+        it, with free ends).
     refine : elements and steps so many times finer than the parts say, for studies of convergence.
     label : how rows and curves call it.
     """
 
     path: ClassVar[str] = "hermite"
+    perturbation: ClassVar[float] = 0.01
+    """How much a load may change the free motion at the end of a run that measures λ₁ and r₁, over V₀t."""
     PARTS: ClassVar[dict[str, dict[str, type]]] = {
         "mesh": MESHES,
         "integrator": INTEGRATORS,
@@ -49,6 +53,7 @@ class HermiteFE:
     far_field: FarField | None = None
     mass: Mass | None = None
     full_beam: bool = False
+    domain: float | None = None
     refine: float = 1.0
     label: str = "Hermite"
 
@@ -56,6 +61,8 @@ class HermiteFE:
         if not isinstance(self.full_beam, bool):
             raise ValueError(f"full_beam must be true or false (got {self.full_beam!r})")
         positive("refine", self.refine)
+        if self.domain is not None:
+            positive("domain", self.domain)
 
     def refuses(self, impact: Impact) -> str | None:
         """Why this method cannot take ``impact``, naming the field (``None``: it can)."""
@@ -79,20 +86,35 @@ class HermiteFE:
             far_field=self.far_field,
             mass=self.mass,
             full_beam=self.full_beam,
+            domain=self.domain,
             refine=self.refine,
             save=save,
             progress=progress,
         )
 
     def chosen_for(self, impact: Impact, end_time: float) -> HermiteFE:
-        """A copy with every open part chosen for ``impact``: other impacts then run on the same mesh and steps."""
+        """A copy with every open part chosen for ``impact``: other impacts then run on the same mesh and steps.
+
+        It measures what the loads of ``impact`` change. So a long beam is cut where nothing arrives, its ends following
+        the free motion, and a zone that the load presses on is held behind the front (``contact.hold``): what lift the
+        bare impact leaves would otherwise take up the load before the wall does. Neither without loads.
+        """
+        contact, far_field, domain = self.contact, self.far_field, self.domain
+        loads = (impact.acceleration, impact.fourth_derivative, impact.curvature_rate, impact.axial_force)
+        if any(loads):
+            if domain is None and far_field is None:
+                domain = auto.chosen_domain(impact, end_time)
+            if contact is None and impact.zone_pressure > 0.0 and (self.integrator is None or self.integrator.holds):
+                contact = NodeContact(hold=auto.PRESSED_HOLD)
+        if domain is not None and far_field is None:
+            far_field = GridViscosity(end="following")
         choice = auto.choose(
-            impact,
+            cut(impact, domain),
             end_time,
             self.mesh,
             self.integrator,
-            self.contact,
-            self.far_field,
+            contact,
+            far_field,
             self.mass,
             refine=self.refine,
         )
@@ -103,6 +125,7 @@ class HermiteFE:
             contact=choice.contact,
             far_field=choice.far_field,
             mass=choice.mass,
+            domain=domain,
             refine=1.0,
         )
 

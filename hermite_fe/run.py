@@ -5,6 +5,7 @@ Only samples are kept, so memory is (saved instants) × (dofs), whatever the num
 
 from __future__ import annotations
 
+import math
 import time as clock
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -130,6 +131,7 @@ class Stepper:
         restitution: float = 0.0,
         hold: int = 0,
         hold_until: float = 0.0,
+        hold_ends: float = math.inf,
     ) -> None:
         self.integrator = integrator
         self.instants = integrator.instants(end_time)
@@ -138,11 +140,18 @@ class Stepper:
         self.state = state_of(system, q, v)
         self.law = ContactLaw(float(restitution), int(hold), float(hold_until))
         self.step = 0
+        self.released = int(np.searchsorted(self.instants, hold_ends))  # the step from which on nothing is held
 
     def advance_to(self, step: int) -> int:
         """Take steps up to number ``step``; SOLVED (0) when all went well, else a key of ``FAILURES``."""
+        if self.step < self.released < step:
+            status = self.advance_to(self.released)
+            if status != SOLVED:
+                return status
         if step <= self.step:
             return SOLVED
+        if self.step >= self.released:
+            self.law = ContactLaw(self.law.restitution, 0, 0.0)
         status, self.step = self.integrator.advance(
             self.problem, self.law, self.state, self.works, self.instants, self.step, step
         )
@@ -198,6 +207,7 @@ def integrate(
     restitution: float = 0.0,
     hold: int = 0,
     hold_until: float = 0.0,
+    hold_ends: float = math.inf,
     save: int | Sequence[float] | Array = 200,
     progress: Callable[[float], None] | None = None,
     until: Callable[[Stepper], bool] | None = None,
@@ -205,14 +215,24 @@ def integrate(
     """Step ``system`` from (q, v) at t = 0 to ``end_time``, s.
 
     q, v : (dofs,), in the system's units. restitution, hold, hold_until : see
-        :class:`hermite_fe.contacts.Contact`.
+        :class:`hermite_fe.contacts.Contact`; hold_ends : s, nothing is held from then on.
     save : number of saved instants, or times. progress : called with the finished fraction.
     until : asked at every saved instant; the run ends with the first at which it says so.
 
     A run that cannot finish returns what it reached, with ``failure`` set. Raises ``ValueError`` for bad
     input.
     """
-    run = Stepper(system, q, v, integrator, end_time, restitution=restitution, hold=hold, hold_until=hold_until)
+    run = Stepper(
+        system,
+        q,
+        v,
+        integrator,
+        end_time,
+        restitution=restitution,
+        hold=hold,
+        hold_until=hold_until,
+        hold_ends=hold_ends,
+    )
     kept = saved_steps(run.instants, save)
     affordable("integrator and mesh", run.instants.size - 1, system.dofs // 2, kept.size, MOST_WORK)
     count, n, m = kept.size, system.dofs, len(system.contacts)

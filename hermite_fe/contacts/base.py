@@ -2,17 +2,17 @@
 
     ġ⁺ = −e ġ⁻ where a row closes                                                           (thesis 3.2.4)
 
-**The hold.** Behind a moving contact front the exact reaction is zero. A unilateral law turns round-off and
-mesh noise of either sign there into pushes off the wall, which lift the zone ("double detachment", thesis
-3.3.5); the impacts of the first instants, when no mesh resolves the front, do the same. So a row that has
-closed is not released
+**The hold.** Contact is unilateral. Two things may be held against that, for the infinite beam's first instants only:
 
-- until the front is ``hold`` rows further (the strip shrinks with the mesh: consistent), and
-- before ``hold_until``, the time at which the front's thickness is a few elements.
+- ``hold_until``: nothing that has closed opens before this time. No mesh resolves the first instants, when the front is
+  thinner than an element; the impacts of that phase would leave the zone with a velocity off the wall ("double
+  detachment", thesis 3.3.5). By default until the front is six elements thick, a hundredth of the run at most.
+- ``hold``: a row that has closed is not released until the front is so many rows further (the strip shrinks with the
+  mesh: consistent). Behind a moving front the exact reaction is zero, and noise of either sign there turns into pushes
+  off the wall. Off unless stated.
 
-A held row may pull; what it pulled is recorded as ``held_impulse``. Where the middle truly lifts off (α + ψ <
-0) a long hold pulls on what should leave: keep it short there. With a restitution e > 0 nothing is held
-unless asked for.
+Neither acts after t_w = 0.005 T* (:data:`hermite_fe.auto.HOLD_ENDS`), from when on waves from the ends may move the
+zone. A held row may pull; what it pulled is recorded as ``held_impulse``, and how hard as ``hold`` in the settings.
 """
 
 from __future__ import annotations
@@ -38,9 +38,8 @@ class Contact(ABC):
     """Base of the contact discretisations.
 
     restitution : e ∈ [0, 1].
-    hold : rows that the front must be ahead before a closed one may open (``None``: chosen from the problem;
-        0: none).
-    hold_until : s, until when nothing that has closed opens (``None``: chosen; 0: never held).
+    hold : rows that the front must be ahead before a closed one may open (``None`` and 0: none).
+    hold_until : s, until when nothing that has closed opens (``None``: chosen from the problem; 0: never held).
     """
 
     restitution: float = 0.0
@@ -53,6 +52,13 @@ class Contact(ABC):
             whole("contact.hold", self.hold, 0)
         if self.hold_until is not None:
             non_negative("contact.hold_until", self.hold_until)
+        if self.restitution > 0.0:
+            for name in ("hold", "hold_until"):
+                if getattr(self, name):
+                    raise ValueError(
+                        f"contact.{name} keeps rows closed that restitution {self.restitution!r} makes rebound: "
+                        f"state one of them (got {getattr(self, name)!r})"
+                    )
 
     @abstractmethod
     def rows(self, beam: HermiteBeam, natural: Array, *, full: bool) -> ContactRows:

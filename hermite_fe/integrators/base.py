@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bent_beam.checks import non_negative, positive
+from bent_beam.impact import Impact
 from hermite_fe.kernels.problem import ContactLaw, Problem, State, Work
 
 __all__ = ["Integrator"]
@@ -32,6 +33,9 @@ class Integrator(ABC):
     matrices: ClassVar[int] = 1
     """How many step matrices are kept factored at once: the length of ``works`` in :meth:`advance`."""
 
+    holds: ClassVar[bool] = True
+    """Whether it keeps closed rows closed when asked to (:class:`hermite_fe.contacts.Contact`)."""
+
     time_step: float | None = None
     growth: float | None = None
 
@@ -50,6 +54,10 @@ class Integrator(ABC):
         return dataclasses.replace(
             self, time_step=time_step if self.time_step is None else self.time_step, growth=growth
         )
+
+    def suited(self, impact: Impact) -> Integrator:
+        """A copy with whatever else it leaves open chosen for ``impact``; itself where there is nothing."""
+        return self
 
     def refined(self, factor: float) -> Integrator:
         """A copy with steps ``factor`` times shorter; what is not chosen yet stays open."""

@@ -9,12 +9,15 @@ There is no impact law and no hold; what the rows take in, stored or dissipated,
 
 from __future__ import annotations
 
+import dataclasses
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from bent_beam.checks import between, non_negative, positive, whole
+from bent_beam.impact import Impact
 from hermite_fe.integrators.base import Integrator
 from hermite_fe.kernels import generalized_alpha
 from hermite_fe.kernels.problem import ContactLaw, Problem, State, Work
@@ -31,6 +34,8 @@ class GeneralizedAlphaPenalty(Integrator):
     contact_rounds : most re-solutions a step until contact and penetration agree (Exudyn's default).
     """
 
+    holds: ClassVar[bool] = False
+
     spectral_radius: float = 0.8
     stiffness: float | None = None
     damping: float | None = None
@@ -44,6 +49,14 @@ class GeneralizedAlphaPenalty(Integrator):
         if self.damping is not None:
             non_negative("integrator.damping", self.damping)
         whole("integrator.contact_rounds", self.contact_rounds, 0)
+
+    def suited(self, impact: Impact) -> GeneralizedAlphaPenalty:
+        mass, time = impact.mass_per_length, impact.time_scale
+        return dataclasses.replace(
+            self,
+            stiffness=1e5 * mass / time**2 if self.stiffness is None else self.stiffness,
+            damping=1e3 * mass / time if self.damping is None else self.damping,
+        )
 
     def advance(
         self,

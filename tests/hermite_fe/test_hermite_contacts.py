@@ -105,11 +105,42 @@ def test_the_zone_stays_on_the_wall_with_the_hold() -> None:
         ("position_velocity_acceleration", 1e-9),
         ("moreau_jean", 1e-4),
     ):
-        history = simulate(IMPACT, end_time=0.3, integrator=INTEGRATORS[name])
+        history = simulate(IMPACT, end_time=0.3, integrator=INTEGRATORS[name], contact=NodeContact(hold=16))
         place = history.dataset.x.values[history.array("in_contact")[-1]].max()
         inside = history.dataset.x.values < 0.9 * place
         assert np.abs(history.array("gap")[-1][inside]).max() < most * 0.3
         assert history.array("held_impulse")[-1] < 0.0
+        assert history.settings["hold"]["until"] == 0.3
+        assert history.settings["hold"]["pull"] > 0.0
+
+
+@pytest.mark.parametrize("integrator", [i for i in INTEGRATORS.values() if i.holds], ids=lambda i: type(i).__name__)
+def test_nothing_pulls_after_the_start(integrator: Integrator) -> None:
+    """The default is unilateral: what pulls ends with the hold of the start, a hundredth of the run at most."""
+    history = run(integrator)
+    late = history.time > 0.01 * 0.3
+    held = history.array("held_impulse")[late]
+    assert np.all(held == held[0])
+    assert np.all(np.diff(history.array("impulse")[late], axis=0) >= -1e-12)
+    hold = history.settings["hold"]
+    assert hold is None or hold["until"] <= 0.01 * 0.3
+
+
+def test_no_hold_acts_once_waves_may_be_back() -> None:
+    """On a beam of T* = 1 everything is released at 0.005, whatever was asked for."""
+    history = simulate(
+        Impact.whole_beam(0.3), end_time=0.02, mesh=ScaleFreeMesh(0.002, 1.02), contact=NodeContact(hold=16), save=80
+    )
+    held = history.array("held_impulse")
+    assert history.settings["hold"]["until"] == pytest.approx(0.005)
+    assert held[-1] == held[np.searchsorted(history.time, 0.0052)] < 0.0
+
+
+def test_holds_without_effect_are_errors() -> None:
+    with pytest.raises(ValueError, match="hold keeps rows closed"):
+        NodeContact(restitution=0.5, hold=4)
+    with pytest.raises(ValueError, match=r"contact\.hold has no effect"):
+        run(INTEGRATORS["penalty"], NodeContact(hold=4))
 
 
 def test_impact_loss_vanishes_under_refinement() -> None:
