@@ -29,6 +29,7 @@ test: $(STAMP)
 	$(BIN)/python -m pytest -n $(JOBS) --dist worksteal -m "not verify"
 
 verify: $(STAMP)
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[docs]'
 	$(BIN)/python -m pytest -n $(JOBS) --dist worksteal -m verify
 
 fuzz: $(STAMP)

@@ -39,10 +39,11 @@ def limits() -> dict[str, Any]:
     }
 
 
-def panel() -> Panel:
-    """The predictor to be embedded; everything in it lives under the element ``#predictor``."""
+def panel(*, embedded: bool = True) -> Panel:
+    """The predictor; everything in it lives under the element ``#predictor``. Embedded, it leaves the address alone."""
+    markup = _source("panel.html")
     return Panel(
-        markup=_source("panel.html"),
+        markup=markup.replace('<div id="predictor">', '<div id="predictor" data-embedded>', 1) if embedded else markup,
         style=_source("predictor.css"),
         script="\n".join([f"const LIMITS = {json.dumps(limits())};", *(_source(name) for name in SCRIPTS)]),
     )
@@ -50,7 +51,7 @@ def panel() -> Panel:
 
 def page() -> str:
     """The page as text, complete in itself."""
-    parts = panel()
+    parts = panel(embedded=False)
     environment = jinja2.Environment(undefined=jinja2.StrictUndefined, trim_blocks=True, autoescape=False)
     template = environment.from_string(_source("predictor.html.j2"))
     return template.render(panel=parts.markup, style=parts.style, script=parts.script)

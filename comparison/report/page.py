@@ -25,6 +25,7 @@ from markupsafe import Markup
 from bent_beam.history import SimulationError, versions
 from bent_beam.method import Method
 from comparison.match import MatchRow, Question, failures, match
+from comparison.predictor import panel
 from comparison.report.impacts import SHOWN, Shown, ShownImpact, show
 from comparison.report.plots import plots
 from comparison.report.rows import first_order_rows, labels, leading_rows, report_questions
@@ -192,9 +193,16 @@ def page(content: Content) -> str:
         settings=settings(content),
         data={"plots": plots(leading, first), "impacts": [impact_data(i) for i in content.impacts]},
         plotly=inline_script(get_plotlyjs()),
+        predictor=_predictor(),
         script=inline_script((TEMPLATES / "report.js").read_text(encoding="utf-8")),
         style=Markup((TEMPLATES / "report.css").read_text(encoding="utf-8")),
     )
+
+
+def _predictor() -> dict[str, Markup]:
+    """The panel for one's own beam."""
+    own = panel()
+    return {"markup": Markup(own.markup), "style": Markup(own.style), "script": inline_script(own.script)}
 
 
 def inline_script(text: str) -> Markup:

@@ -338,13 +338,13 @@ def test_keyboard_alone_reaches_and_moves_everything(browser: Any) -> None:
     for _ in range(40):
         ActionChains(browser).send_keys(Keys.TAB).perform()
         reached.append(ask(browser, "document.activeElement.id || document.activeElement.tagName"))
-        if reached[-1] == "time":
+        if reached[-1] == "predict-time":
             break
     assert {"in-units", "in-section", "in-outer_diameter", "in-bow", "in-velocity", "in-tension"} <= set(reached)
-    assert reached[-1] == "time"
-    before = shown(browser, "instant"), ask(browser, "document.querySelector('#shape .beam').getAttribute('d')")
+    assert reached[-1] == "predict-time"
+    before = shown(browser, "predict-instant"), ask(browser, "document.querySelector('#shape .beam').getAttribute('d')")
     ActionChains(browser).send_keys(Keys.HOME).send_keys(*[Keys.ARROW_RIGHT] * 60).perform()
-    after = shown(browser, "instant"), ask(browser, "document.querySelector('#shape .beam').getAttribute('d')")
+    after = shown(browser, "predict-instant"), ask(browser, "document.querySelector('#shape .beam').getAttribute('d')")
     assert after[0] != before[0] and after[1] != before[1]
 
 

@@ -5,6 +5,7 @@
   const root = document.getElementById("predictor");
   const find = (selector) => root.querySelector(selector);
   let inputs = { ...START }, predicted = null;
+  const alone = !root.hasAttribute("data-embedded"); // the address of another page is not ours to change
 
   /** [unit, its size] of a quantity; where there are several, the largest that is not larger than the value. */
   function unit(quantity, value = 1) {
@@ -214,12 +215,12 @@
   }
 
   function time() {
-    return predicted.validUntil * (Number(find("#time").value) / 1000) ** 2;
+    return predicted.validUntil * (Number(find("#predict-time").value) / 1000) ** 2;
   }
 
   function show() {
     const now = time();
-    find("#instant").textContent = quantity("time", now);
+    find("#predict-instant").textContent = quantity("time", now);
     find("#values").replaceChildren(...(now > 0 ? rows(now) : [["At first touch", "nothing has happened yet"]]).map(([name, value]) => element("div", {}, element("dt", {}, name), element("dd", {}, value))));
     drawShape(predicted.validUntil, now);
     drawCurves(predicted.validUntil, now);
@@ -247,7 +248,7 @@
     find("#holds").classList.toggle("alarm", yields);
     find("#groups").textContent = `κ/ν = K√(EI/μ)/V₀ = ${text(predicted.contact.ratio, 5)} · λ₀ = ${text(predicted.contact.lambda0, 6)} · r₀ = ${text(predicted.contact.r0, 6)} · EI = ${text(problem.stiffness, 5)} N m² · μ = ${text(problem.mass, 5)} kg/m · K = ${text(problem.curvature, 5)} 1/m · V₀ = ${text(problem.velocity, 5)} m/s`;
     find("#case").textContent = Case.toml(inputs, problem, predicted);
-    history.replaceState(null, "", toLink());
+    if (alone) history.replaceState(null, "", toLink());
     show();
   }
 
@@ -268,13 +269,14 @@
   }
 
   build();
-  fromLink();
+  if (alone) fromLink();
+  find("#copy").hidden = !alone;
   fill();
   update();
-  find("#time").addEventListener("input", show);
+  find("#predict-time").addEventListener("input", show);
   find("#save").addEventListener("click", save);
   find("#copy").addEventListener("click", copyLink);
   find("#reset").addEventListener("click", () => { inputs = { ...START }; fill(); update(); });
-  addEventListener("hashchange", () => { fromLink(); fill(); update(); });
+  if (alone) addEventListener("hashchange", () => { fromLink(); fill(); update(); });
   addEventListener("resize", () => { if (!find("#answer").hidden) show(); });
 })();
