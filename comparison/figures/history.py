@@ -117,4 +117,4 @@ def _energies(axis: Any, history: ImpactHistory) -> None:
         axis.plot(time, history.array("work_of_loads"), ls=":", color="black", label="work of loads")
     axis.set_xlabel("$t$  (s)")
     axis.set_ylabel("energy  (J)")
-    axis.legend()
+    axis.legend(frameon=True, framealpha=0.85, edgecolor="none", fontsize=6.5)

@@ -1,0 +1,40 @@
+"""The error bars cover the truth on methods drawn at random, and are not wide for safety's sake."""
+
+import os
+import random
+
+import numpy as np
+import pytest
+
+from comparison.compared import Compared
+from comparison.error_bars import coverage, draw, measure
+from comparison.match import MatchRow
+
+
+def test_the_sample_is_reproducible_and_mixed():
+    first, again = ([draw(np.random.default_rng(3)) for _ in range(2)] for _ in range(2))
+    assert first == again
+    generator = np.random.default_rng(5)
+    paths = [draw(generator).method.path for _ in range(60)]
+    assert {"hermite", "self_similar", "exudyn"} == set(paths)
+
+
+def test_a_bar_that_misses_is_counted():
+    def row(value, error):
+        number = Compared(value, error, 1.0)
+        return MatchRow("x", "x", {}, 0.5, 0.0, 0.0, 0.0, 0.0, 1.0, lambda0=number, r0=number)
+
+    found = coverage([row(1.001, 2e-3), row(1.01, 2e-3), MatchRow("x", "x", {}, 0.5, 0, 0, 0, 0, 1.0)])
+    assert (found.share, found.runs) == (0.5, 3)
+    assert found.lost == pytest.approx(1 / 3)
+    assert len(found.worst) == 2
+
+
+@pytest.mark.verify
+def test_bars_cover_the_truth_in_nineteen_of_twenty():
+    seed = int(os.environ.get("COVERAGE_SEED", random.randrange(2**31)))
+    print(f"seed {seed}")
+    found = measure(200, seed)
+    assert found.share >= 0.95, (seed, found.worst[:5])
+    assert found.ratio <= 5.0, seed
+    assert found.lost <= 0.10, seed
