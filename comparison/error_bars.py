@@ -32,9 +32,6 @@ from comparison.store import RunStore, write_atomically
 
 __all__ = ["Coverage", "coverage", "draw", "draw_coverage"]
 
-GENERATION = "comparison.error_bars 1"
-
-
 def draw(random: np.random.Generator) -> Question:
     """One question of the distribution above."""
     kappa = _log_uniform(random, 0.05, 0.95)
