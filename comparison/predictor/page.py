@@ -36,6 +36,7 @@ def limits() -> dict[str, Any]:
         "third": validity.THIRD_ORDER,
         "flattest": validity.FLATTEST,
         "slope": validity.SLOPE_LIMIT,
+        "shear": validity.SHEAR_TIMES,
     }
 
 

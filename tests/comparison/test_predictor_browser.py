@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import json
 import shutil
 import tomllib
@@ -421,10 +422,11 @@ def test_case_means_what_the_page_shows(browser: Any) -> None:
     found = ask(
         browser,
         "arguments[0].map(given => { const i = {...Beam.START, ...given}, b = Beam.impact(i), p = Beam.solve(b);"
-        " return [Beam.complaints(i), Case.toml(i, b, p), b, p.validUntil]; })",
+        " const holds = [p.validFrom, p.validUntil, p.ends, Beam.at(p, 1).stress];"
+        " return [Beam.complaints(i), Case.toml(i, b, p), b, holds]; })",
         inputs,
     )
-    for given, (complaints, text, page, until) in zip(inputs, found, strict=True):
+    for given, (complaints, text, page, (begins, until, ends, stress)) in zip(inputs, found, strict=True):
         if given["sagitta"] >= given["sagitta_length"] / 2.0 and given["bow"] == "sagitta":
             assert complaints
             continue
@@ -444,8 +446,15 @@ def test_case_means_what_the_page_shows(browser: Any) -> None:
             assert page[name] == pytest.approx(value, rel=1e-12, abs=1e-12), (name, text)
         assert case.end_time == until
         assert case.section is not None
-        assert page["modulus"] == pytest.approx(case.section.modulus, rel=1e-12)
+        assert page["modulus"] == pytest.approx(case.section.section_modulus, rel=1e-12)
         assert page["area"] == pytest.approx(case.section.area, rel=1e-12)
+        assert page["shear"] == pytest.approx(case.section.shear_stiffness, rel=1e-12)
+        exact = predict(impact, section=dataclasses.replace(case.section, yield_stress=None))
+        assert stress == pytest.approx(exact.peak_stress, rel=SAME)
+        assert (ends == "shear") == (exact.limited_by == "shear")
+        if ends != "shear":
+            assert begins == pytest.approx(exact.valid_from, rel=SAME)
+            assert until == pytest.approx(exact.valid_until, rel=4e-3)
 
 
 def test_page_starts_with_the_drill_pipe_of_the_cases(browser: Any) -> None:

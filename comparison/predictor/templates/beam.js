@@ -90,18 +90,26 @@ const Beam = (() => {
       [area, second, height] = [PI / 4 * wall, PI / 64 * wall * (outer ** 2 + inner ** 2), outer];
       bore = PI / 4 * inner ** 2;
     }
-    return { area, second, height, stiffness: i.youngs_modulus * second, mass: i.density * area + i.fluid_density * bore + i.added_mass };
+    // shear: κ_s G A with Cowper's coefficients (1966) at Poisson's ratio 0.3
+    const n = 0.3, hollow = (i.inner_diameter / i.outer_diameter) ** 2, rim = (1 + hollow) ** 2;
+    const coefficient = {
+      pipe: 6 * (1 + n) * rim / ((7 + 6 * n) * rim + (20 + 12 * n) * hollow),
+      round_bar: 6 * (1 + n) / (7 + 6 * n),
+      rectangle: 10 * (1 + n) / (12 + 11 * n),
+    }[i.section];
+    const shear = coefficient * i.youngs_modulus / (2 * (1 + n)) * area;
+    return { area, second, height, shear, stiffness: i.youngs_modulus * second, mass: i.density * area + i.fluid_density * bore + i.added_mass };
   }
 
   /** The impact of the inputs: EI, μ, L, K, V₀, N, and a₀ of the free flight under weight, push and tension (SI). */
   function impact(i) {
-    const { area, second, height, stiffness, mass } = section(i);
+    const { area, second, height, shear, stiffness, mass } = section(i);
     const curvature = i.bow === "dogleg" ? i.dogleg
       : i.bow === "sagitta" ? 8 * i.sagitta / (i.sagitta_length ** 2 + 4 * i.sagitta ** 2) : i.curvature;
     const velocity = i.approach === "drop" ? sqrt(2 * GRAVITY * i.drop_height) : i.velocity;
     const weight = i.approach === "drop" ? GRAVITY : 0;
     return {
-      stiffness, mass, length: i.length, curvature, velocity, tension: i.tension, area, height, modulus: second / (height / 2),
+      stiffness, mass, length: i.length, curvature, velocity, tension: i.tension, area, height, shear, modulus: second / (height / 2),
       acceleration: weight + (i.load - i.tension * curvature) / mass, curvatureRate: 0, fourthDerivative: 0,
     };
   }
@@ -130,10 +138,13 @@ const Beam = (() => {
     slope: "the beam’s slopes are no longer small",
   };
 
-  /** Until when the theory holds to 2 %, s, and what ends it. */
+  /** From and until when the theory holds to 2 %, s, and what ends it. `shear` of a problem is κ_s G A, N. */
   function limit(p) {
-    const { until, by } = Theory.validity(p.contact, p.slow / p.timeScale, LIMITS);
-    return { validUntil: until * p.timeScale, limitedBy: ENDINGS[by], ends: by };
+    const { b, contact, timeScale } = p, { until, by } = Theory.validity(contact, p.slow / timeScale, LIMITS);
+    const shears = b.shear ? sqrt(b.stiffness * b.mass) / b.shear : 0;
+    const validFrom = LIMITS.shear[contact.regime === "discrete" ? "point" : "zone"] * shears, validUntil = until * timeScale;
+    return validFrom < validUntil ? { validFrom, validUntil, limitedBy: ENDINGS[by], ends: by }
+      : { validFrom: validUntil, validUntil, limitedBy: "", ends: "shear" };
   }
 
   /** Contact, force, impulse, moment and stress at the time t > 0, SI. */

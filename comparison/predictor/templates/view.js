@@ -242,10 +242,14 @@
     find("#verdict").textContent = verdict;
     find("#why").textContent = why;
     const yields = inputs.yield_stress > 0 && Beam.at(predicted, predicted.validUntil).stress > inputs.yield_stress;
+    const stubby = predicted.ends === "shear";
+    const from = predicted.validFrom > 0.01 * predicted.validUntil ? `from ${quantity("time", predicted.validFrom, 2)} ` : "";
     find("#holds").textContent = yields
       ? "The stress is beyond yield from the first instant: a real beam bends for good, and what follows is that of an elastic one."
-      : `This holds to 2 % until ${quantity("time", predicted.validUntil, 3)} after first touch; then ${predicted.limitedBy}.`;
-    find("#holds").classList.toggle("alarm", yields);
+      : stubby
+        ? "The beam is so stubby that it shears before it bends: this is an indication only."
+        : `This holds to 2 % ${from}until ${quantity("time", predicted.validUntil, 3)} after first touch; then ${predicted.limitedBy}.`;
+    find("#holds").classList.toggle("alarm", yields || stubby);
     find("#groups").textContent = `κ/ν = K√(EI/μ)/V₀ = ${text(predicted.contact.ratio, 5)} · λ₀ = ${text(predicted.contact.lambda0, 6)} · r₀ = ${text(predicted.contact.r0, 6)} · EI = ${text(problem.stiffness, 5)} N m² · μ = ${text(problem.mass, 5)} kg/m · K = ${text(problem.curvature, 5)} 1/m · V₀ = ${text(problem.velocity, 5)} m/s`;
     find("#case").textContent = Case.toml(inputs, problem, predicted);
     if (alone) history.replaceState(null, "", toLink());
