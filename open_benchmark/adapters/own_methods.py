@@ -7,6 +7,7 @@ import tomllib
 
 from bent_beam import Impact
 from bent_beam.method import chosen_for, method_type, refined
+from hermite_fe.whole_beam import with_parts_for_whole_beam
 from open_benchmark.problem import problem as problem_of
 from open_benchmark.result import Result, result_from_history, save_result
 
@@ -24,15 +25,19 @@ def main(problem_file, result_file, resolution="medium", path="hermite"):
     bare = Impact(
         bending_stiffness=beam["bending_stiffness"],
         mass_per_length=beam["mass_per_length"],
-        length=2 * HALF_LENGTH,
+        length=2 * HALF_LENGTH if beam["length"] == "infinite" else beam["length"],
         curvature=beam["curvature"],
         velocity=load["velocity"],
+        damping=beam["damping"],
     )
     changes = {name: load[name] for name in ("acceleration", "curvature_rate", "fourth_derivative") if load[name]}
     if beam["axial_force"]:
         changes["axial_force"] = beam["axial_force"]
     # mesh and steps are those of the problem without loads, so that both can be subtracted
-    method = chosen_for(method_type(path)(), bare, end)
+    method = method_type(path)()
+    if path == "hermite" and beam["length"] != "infinite":
+        method = with_parts_for_whole_beam(method, bare)  # nothing held, nothing absorbed
+    method = chosen_for(method, bare, end)
     method = refined(method, REFINEMENT.get(path, OTHERS)[resolution]) or method
     began = time.perf_counter()
     try:
