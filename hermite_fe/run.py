@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from bent_beam.checks import affordable
 from hermite_fe.integrators import Integrator
+from hermite_fe.kernels import subnormals
 from hermite_fe.kernels.banded import quadratic, stiff_multiply
 from hermite_fe.kernels.pivoting import CYCLING, NOT_FINITE, SINGULAR, SOLVED
 from hermite_fe.kernels.problem import (
@@ -152,9 +153,13 @@ class Stepper:
             return SOLVED
         if self.step >= self.released:
             self.law = ContactLaw(self.law.restitution, 0, 0.0)
-        status, self.step = self.integrator.advance(
-            self.problem, self.law, self.state, self.works, self.instants, self.step, step
-        )
+        before = subnormals.flush()
+        try:
+            status, self.step = self.integrator.advance(
+                self.problem, self.law, self.state, self.works, self.instants, self.step, step
+            )
+        finally:
+            subnormals.restore(before)
         finite = np.all(np.isfinite(self.state.q)) and np.all(np.isfinite(self.state.v))
         return NOT_FINITE if status == SOLVED and not finite else status
 
