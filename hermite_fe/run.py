@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from bent_beam.checks import affordable
 from hermite_fe.integrators import Integrator
 from hermite_fe.kernels import subnormals
-from hermite_fe.kernels.banded import quadratic, stiff_multiply
+from hermite_fe.kernels.banded import is_finite, quadratic, stiff_multiply
 from hermite_fe.kernels.pivoting import CYCLING, NOT_FINITE, SINGULAR, SOLVED
 from hermite_fe.kernels.problem import (
     ABSORBED,
@@ -31,7 +31,7 @@ from hermite_fe.kernels.problem import (
     ContactLaw,
     problem_of,
     state_of,
-    work_of,
+    works_of,
 )
 from hermite_fe.system import System
 
@@ -137,7 +137,7 @@ class Stepper:
         self.integrator = integrator
         self.instants = integrator.instants(end_time)
         self.problem = problem_of(system)
-        self.works = tuple(work_of(system, self.problem) for _ in range(integrator.matrices))
+        self.works = works_of(system, self.problem, integrator.solves)
         self.state = state_of(system, q, v)
         self.law = ContactLaw(float(restitution), int(hold), float(hold_until))
         self.step = 0
@@ -160,7 +160,7 @@ class Stepper:
             )
         finally:
             subnormals.restore(before)
-        finite = np.all(np.isfinite(self.state.q)) and np.all(np.isfinite(self.state.v))
+        finite = is_finite(self.state.q) and is_finite(self.state.v)
         return NOT_FINITE if status == SOLVED and not finite else status
 
     def iterations(self) -> tuple[float, int]:

@@ -30,8 +30,9 @@ class Integrator(ABC):
         of steps (``None``: 0, constant steps, when ``time_step`` is given; chosen otherwise).
     """
 
-    matrices: ClassVar[int] = 1
-    """How many step matrices are kept factored at once: the length of ``works`` in :meth:`advance`."""
+    solves: ClassVar[int] = 1
+    """How many contact problems a step solves one after the other, all with one step matrix: the length of ``works`` in
+    :meth:`advance`."""
 
     holds: ClassVar[bool] = True
     """Whether it keeps closed rows closed when asked to (:class:`hermite_fe.contacts.Contact`)."""

@@ -37,7 +37,7 @@ class NonsmoothGeneralizedAlpha(Integrator):
     """spectral_radius : ρ∞ ∈ [0, 1] at infinite frequency (1: none is damped). levels : where constraints are
     asked for."""
 
-    matrices: ClassVar[int] = 3
+    solves: ClassVar[int] = 3
 
     spectral_radius: float = 0.8
     levels: str = "position_velocity_acceleration"

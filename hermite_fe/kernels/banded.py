@@ -22,9 +22,8 @@ Flags = NDArray[np.bool_]
 
 
 @compiled_sums
-def multiply(A: Array, x: Array, y: Array) -> None:
-    """y = A x for A in lower form."""
-    n = x.size
+def multiply(A: Array, x: Array, y: Array, n: int) -> None:
+    """y = A x for A in lower form, in the first n places, with x taken as zero beyond them."""
     if n < 8:
         for i in range(n):
             total = A[0, i] * x[i]
@@ -124,6 +123,15 @@ def dot(x: Array, y: Array) -> float:
     for i in range(x.size):
         total += x[i] * y[i]
     return total
+
+
+@compiled_sums
+def is_finite(x: Array) -> bool:
+    """Whether no number of x is infinite or none."""
+    total = 0.0
+    for i in range(x.size):
+        total += 0.0 * x[i]
+    return total == 0.0
 
 
 @compiled_sums
@@ -228,7 +236,7 @@ def factor(S: Array, fixed: Flags, top: int, D: Array, R: Array, U: Array) -> bo
 
 
 @compiled
-def sweep_in(U: Array, r: Array, top: int, z: Array) -> None:
+def forward_substitute(U: Array, r: Array, top: int, z: Array) -> None:
     """Solve U z = r from unknown ``top`` down to 0; z above ``top`` must be known (z has four idle places at
     the end)."""
     z1, z2, z3, z4 = z[top + 1], z[top + 2], z[top + 3], z[top + 4]
@@ -243,7 +251,7 @@ def sweep_in(U: Array, r: Array, top: int, z: Array) -> None:
 
 
 @compiled
-def sweep_out(R: Array, U: Array, z: Array, start: int, stop: int, x: Array) -> None:
+def back_substitute(R: Array, U: Array, z: Array, start: int, stop: int, x: Array) -> None:
     """Solve D Uᵀ x = z for unknowns start…stop − 1; x below ``start`` must be known."""
     x1, x2, x3, x4 = 0.0, 0.0, 0.0, 0.0
     if start > 0:
@@ -261,6 +269,36 @@ def sweep_out(R: Array, U: Array, z: Array, start: int, stop: int, x: Array) -> 
         x3 = x2
         x2 = x1
         x1 = value
+
+
+@compiled
+def fade_out(U: Array, start: int, smallest: float, x: Array) -> int:
+    """Go on with :func:`back_substitute` from unknown ``start`` where z is zero, until four values in a row are below
+    ``smallest``: all that follow are, and x is zero from there on. Returns where that is.
+    """
+    n = x.size
+    x1, x2, x3, x4 = 0.0, 0.0, 0.0, 0.0
+    if start > 0:
+        x1 = x[start - 1]
+    if start > 1:
+        x2 = x[start - 2]
+    if start > 2:
+        x3 = x[start - 3]
+    if start > 3:
+        x4 = x[start - 4]
+    end = n
+    for k in range(start, n):
+        if max(max(abs(x1), abs(x2)), max(abs(x3), abs(x4))) < smallest:
+            end = k
+            break
+        value = (-U[k, 4] * x4 - U[k, 3] * x3 - U[k, 2] * x2) - U[k, 1] * x1
+        x[k] = value
+        x4 = x3
+        x3 = x2
+        x2 = x1
+        x1 = value
+    x[end:] = 0.0
+    return end
 
 
 @compiled

@@ -147,9 +147,10 @@ def residual_force(problem: Problem, t: float, q: Array, v: Array, out: Array, s
     stiff_multiply(problem.K, problem.even, problem.odd, q, scratch)
     for i in range(q.size):
         out[i] -= scratch[i]
-    multiply(problem.C, v, scratch)
-    for i in range(q.size):
-        out[i] -= scratch[i]
+    if problem.slots.size > 0:
+        multiply(problem.C, v, scratch, q.size)
+        for i in range(q.size):
+            out[i] -= scratch[i]
 
 
 @compiled
@@ -161,7 +162,7 @@ def start(problem: Problem, state: State, work: Work) -> int:
     work.candidate[:] = False
     work.held[:] = False
     residual_force(problem, 0.0, state.q, state.v, work.b, work.d1)
-    status = solve_rows(problem, work, True, np.zeros(state.closed.size, np.bool_))
+    status = solve_rows(problem, work, True, state.q.size, np.zeros(state.closed.size, np.bool_))
     state.acceleration[:] = work.x
     state.a[:] = work.x
     return status
@@ -198,7 +199,7 @@ def account(
     gain = 0.0
     for i in range(q.size):
         gain += (product[i] - force[i]) * kept.slip[i]
-    multiply(problem.M, lag, product)
+    multiply(problem.M, lag, product, lag.size)
     momentum = 0.0
     for i in range(q.size):
         momentum += mean_v[i] * (half * product[i] + 0.5 * state.jump[i] + kept.missed[i])
@@ -256,7 +257,6 @@ def velocity_steps(
         fresh = smooth.made_with[0] != h
         if fresh:
             combine_smooth(scheme, problem, h, smooth)
-            combine_smooth(scheme, problem, h, work)
             smooth.made_with[0] = h
         rows_times(dofs, factors, q, work.gap)
         rows_times(dofs, factors, v, work.speed)
@@ -266,7 +266,7 @@ def velocity_steps(
             work.candidate[j] = problem.gap[j] + work.gap[j] + h * (1.0 - beta / gamma) * work.speed[j] <= 0.0
         predict(scheme, state, h, kept)
         residual_force(problem, t + h, q, v, smooth.b, smooth.d1)
-        status = solve_rows(problem, smooth, fresh, none)
+        status = solve_rows(problem, smooth, fresh, n, none)
         if status != SOLVED:
             smooth.made_with[0] = math.nan
             return status, k
@@ -275,12 +275,11 @@ def velocity_steps(
             a[i] = kept.predicted[i] + s * rate[i]
             q[i] += h * h * beta * s * rate[i]
             v[i] += h * gamma * s * rate[i]
-            work.b[i] = 0.0
         rows_times(dofs, factors, v, work.gap)
         for j in range(m):
             rebound = 0.0 if work.held[j] else law.restitution
             work.target[j] = -work.gap[j] - rebound * work.speed[j]
-        status = solve_rows(problem, work, fresh, closed)
+        status = solve_rows(problem, work, False, 0, closed)
         if status != SOLVED:
             smooth.made_with[0] = math.nan
             return status, k
@@ -293,14 +292,19 @@ def velocity_steps(
                     state.worst[SMALLEST_REACTION] = min(state.worst[SMALLEST_REACTION], p)
                 slack = row_times(dofs, factors, work.x, j) - work.target[j]
                 state.worst[PRODUCT] = max(state.worst[PRODUCT], abs(p * slack))
-        multiply(problem.K, work.x, kept.jump)
-        multiply(problem.C, work.x, work.d1)
-        for i in range(n):
+        end = min(work.extent[0] + 3, n)
+        multiply(problem.K, work.x, kept.jump, end)
+        multiply(problem.C, work.x, work.d1, end)
+        for i in range(end):
             kept.jump[i] = h * (beta / gamma) * kept.jump[i] + work.d1[i]
             kept.missed[i] = (0.5 - gamma * s) * kept.jump[i]
-            kept.slip[i] += h * h * (beta - 0.5 * gamma) * a[i] + h * (beta / gamma - 0.5) * work.x[i]
+            kept.slip[i] += h * (beta / gamma - 0.5) * work.x[i]
             q[i] += h * (beta / gamma) * work.x[i]
             v[i] += work.x[i]
+        kept.jump[end:] = 0.0
+        kept.missed[end:] = 0.0
+        for i in range(n):
+            kept.slip[i] += h * h * (beta - 0.5 * gamma) * a[i]
         if not account(scheme, problem, state, kept, work, t, h, work.p, False):
             return NOT_FINITE, k
     return SOLVED, last
@@ -325,7 +329,7 @@ def sequential_steps(
 
     smooth :    M v̇⁺ + C ṽ + K q̃ = F⁺ + Gᵀλ,   0 ≤ λ ⊥ Gv̇⁺ ≥ 0 for rows at rest on the wall
         (with_acceleration; else λ = 0)
-    position :  M U = h²f_p + Gᵀν,    f_p = −KU − CU/h,    0 ≤ ν ⊥ g(q̃ + U) ≥ 0                     (3.2.19)
+    position :  (M + hγsC + h²βsK)U = Gᵀν,                 0 ≤ ν ⊥ g(q̃ + U) ≥ 0                (after 3.2.19)
     velocity :  (M + hγsC + h²βsK)W = −hKU + Gᵀ(p − p_λ),  0 ≤ p ⊥ Gv⁺ + eGv ≥ 0               (after 3.2.20)
         for rows closed at position, or with λ > 0; p = 0 in the others
 
@@ -351,8 +355,6 @@ def sequential_steps(
         fresh = smooth.made_with[0] != h
         if fresh:
             combine_smooth(scheme, problem, h, smooth)
-            combine(problem.M, problem.C, problem.K, 1.0, h, h * h, problem.place, position.S)
-            combine_smooth(scheme, problem, h, velocity)
             smooth.made_with[0] = h
         mark_held(problem, law, closed, t, position.held)
         rows_times(dofs, factors, v, velocity.speed)
@@ -363,7 +365,7 @@ def sequential_steps(
             smooth.candidate[j] = with_acceleration and resting[j]
             smooth.held[j] = smooth.candidate[j] and position.held[j]
             smooth.target[j] = 0.0
-        status = solve_rows(problem, smooth, fresh, resting)
+        status = solve_rows(problem, smooth, fresh, n, resting)
         if status != SOLVED:
             smooth.made_with[0] = math.nan
             return status, k
@@ -375,42 +377,50 @@ def sequential_steps(
         for j in range(m):
             position.candidate[j] = True
             position.target[j] = -(problem.gap[j] + position.gap[j])
-        for i in range(n):
-            position.b[i] = 0.0
-        status = solve_rows(problem, position, fresh, closed)
+        status = solve_rows(problem, position, False, 0, closed)
         if status != SOLVED:
             smooth.made_with[0] = math.nan
             return status, k
 
-        multiply(problem.K, position.x, kept.jump)
-        for i in range(n):
+        end = min(position.extent[0] + 3, n)
+        multiply(problem.K, position.x, kept.jump, end)
+        for i in range(end):
             q[i] += position.x[i]
+            kept.slip[i] += position.x[i]
+            kept.missed[i] = -0.5 * kept.jump[i]
             velocity.b[i] = -h * kept.jump[i]
+        kept.jump[end:] = 0.0
+        kept.missed[end:] = 0.0
+        velocity.b[end:] = 0.0
         rows_times(dofs, factors, v, velocity.gap)
         largest = 0.0
-        for i in range(n):
-            largest = max(largest, abs(v[i]))
+        for j in range(m):
+            largest = max(largest, abs(velocity.gap[j]))
         for j in range(m):
             velocity.candidate[j] = closed[j] or smooth.p[j] > 0.0
             if impulse[j] != 0.0:
                 for i in range(dofs.shape[1]):
                     velocity.b[dofs[j, i]] -= factors[j, i] * impulse[j]
+                    end = max(end, dofs[j, i] + 1)
             velocity.held[j] = position.held[j]
             rebound = 0.0 if velocity.held[j] else law.restitution
             velocity.target[j] = -velocity.gap[j] - rebound * velocity.speed[j]
             resting[j] = velocity.candidate[j]
-        status = solve_rows(problem, velocity, fresh, resting)
+        status = solve_rows(problem, velocity, False, end, resting)
         if status != SOLVED:
             smooth.made_with[0] = math.nan
             return status, k
-        multiply(problem.K, velocity.x, velocity.d1)
-        multiply(problem.C, velocity.x, velocity.d2)
-        for i in range(n):
-            raised = h * scheme.beta * scheme.s * velocity.d1[i]
-            kept.missed[i] = -0.5 * kept.jump[i] + (0.5 - scheme.gamma * scheme.s) * velocity.d2[i] - raised
-            kept.jump[i] += velocity.d2[i]
-            kept.slip[i] += position.x[i] - 0.5 * h * velocity.x[i]
+        end = min(velocity.extent[0] + 3, n)
+        multiply(problem.K, velocity.x, velocity.d1, end)
+        for i in range(end):
+            kept.missed[i] -= h * scheme.beta * scheme.s * velocity.d1[i]
+            kept.slip[i] -= 0.5 * h * velocity.x[i]
             v[i] += velocity.x[i]
+        if problem.slots.size > 0:
+            multiply(problem.C, velocity.x, velocity.d1, end)
+            for i in range(end):
+                kept.missed[i] += (0.5 - scheme.gamma * scheme.s) * velocity.d1[i]
+                kept.jump[i] += velocity.d1[i]
         for j in range(m):
             impulse[j] = velocity.p[j]
             if closed[j]:
@@ -492,7 +502,7 @@ def penalty_steps(
                 if not factor(work.S, work.fixed, top, work.D, work.R, work.U):
                     work.made_with[0] = math.nan
                     return SINGULAR, k
-            status = solve_rows(problem, work, fresh, none)
+            status = solve_rows(problem, work, fresh, n, none)
             if status != SOLVED:
                 work.made_with[0] = math.nan
                 return status, k

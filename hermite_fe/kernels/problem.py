@@ -80,8 +80,15 @@ class State(NamedTuple):
 
 
 class Work(NamedTuple):
-    """Work space; nothing in it outlives a step but the factors that still hold, and what ``made_with`` says
-    of them."""
+    """Work space of one contact problem; nothing in it outlives a step but the factors that still hold, and what
+    ``made_with`` says of them. Problems that a step solves one after the other share the matrix S, its factors and
+    what is scratch (:func:`works_of`).
+
+    S : step matrix by rows; fixed : unknowns whose equation is x = r; D, R, U : factors (:mod:`.banded`)
+    b : right-hand side, (dofs,); target, candidate, held : of the rows; x, p : the solution, (dofs,) and (rows,)
+    gap, speed, d1, d2, d3 : free for the integrator
+    extent : unknowns of the solution that are not zero, counted from the start of the beam
+    """
 
     S: Array
     fixed: Flags
@@ -104,6 +111,7 @@ class Work(NamedTuple):
     d2: Array
     d3: Array
     made_with: Array  # the step that S was made with, alone
+    extent: NDArray[np.int64]
     rounds: NDArray[np.int64]  # solves, active-set iterations of all of them, most of one
 
 
@@ -220,5 +228,17 @@ def work_of(system: System, problem: Problem) -> Work:
         d2=np.zeros(n),
         d3=np.zeros(n),
         made_with=np.full(1, np.nan),
+        extent=np.full(1, size),
         rounds=np.zeros(3, np.int64),
     )
+
+
+def works_of(system: System, problem: Problem, count: int) -> tuple[Work, ...]:
+    """Work space for ``count`` contact problems with one matrix, solved one after the other in every step."""
+    first = work_of(system, problem)
+    works = [first]
+    for _ in range(count - 1):
+        other = work_of(system, problem)
+        own = ("y", "b", "x", "p", "target", "candidate", "held", "gap", "speed", "extent", "rounds")
+        works.append(first._replace(**{name: getattr(other, name) for name in own}))
+    return tuple(works)

@@ -65,7 +65,7 @@ def steps(
         for i in range(n):
             dq[i] = q[i] + theta * h * v[i]
         stiff_multiply(K, problem.even, problem.odd, dq, b)
-        multiply(C, v, vel)
+        multiply(C, v, vel, n)
         force_at(load, t, h, theta, force)
         for i in range(n):
             b[i] = h * (force[i] - b[i] - vel[i])
@@ -82,7 +82,7 @@ def steps(
                 # where a row would come to rest if it were closed now
                 candidate[j] = gap0[j] + gap[j] + (1.0 - theta) * h * speed[j] <= 0.0
                 target[j] = -speed[j] if held[j] else -(1.0 + law.restitution) * speed[j]
-        status = solve_rows(problem, work, fresh, closed)
+        status = solve_rows(problem, work, fresh, n, closed)
         if status != SOLVED:
             work.made_with[0] = math.nan
             return status, k
