@@ -6,9 +6,9 @@ first differ by 1, 2 or 5 % is stored. **The beam's own damping**, which is not 
 is felt first and forgotten later. On the long beam it has one number, t/η; the age from which theory and simulation
 agree within the tolerance is stored, ``null`` where the long beam is not long enough to see it.
 
-Half length and force come from moments of the impulse: straight lines and parabolas in √t through an e-fold of
-2·:data:`WINDOW`. ``python -m comparison.whole_impact.ends`` measures all (a minute) and writes ``ends.json`` beside this
-module, and what ``predict`` reads of it, :mod:`theory`'s ``ends.json``.
+Half length and force come from moments of the impulse: parabolas in √t through ±:data:`WINDOW` in ln t.
+``python -m comparison.whole_impact.ends`` measures all (a minute on a machine of its own) and writes ``ends.json``
+beside this module, and what ``predict`` reads of it, ``ends.json`` in :mod:`theory`.
 """
 
 from __future__ import annotations
@@ -41,6 +41,8 @@ FOR_THEORY = Path(theory.__file__).with_name("ends.json")
 TOLERANCES = (0.01, 0.02, 0.05)
 KAPPAS = (0.05, 0.1, 0.15, 0.2, 0.25, 0.35, 0.5, 0.65, 0.8, 0.9, 1.0)
 DAMPINGS = (1e-4, 3e-4, 1e-3, 3e-3, 1e-2)
+TOLERANCE = 0.02  # of the table that predict reads
+LATEST = 2000.0  # t/η that stands for a damping that was not seen to be forgotten
 USUAL = 1e-3  # η/T* of the table that predict reads
 WINDOW = 0.11  # half an e-fold of fitted times, in ln t
 END = 0.08  # T*
@@ -86,6 +88,11 @@ def law_of(impact: Impact, elements: int, times: Array = TIMES, unit: float | No
     impulse = history.array("total_impulse") / 2.0
     moment = history.array("impulse") @ np.abs(history.contact_positions(0))
     moment = moment if history.dataset.attrs["symmetry"] == "half" else moment / 2.0
+    with np.errstate(divide="ignore", invalid="ignore"):
+        return _fitted(time, impulse, moment, times)
+
+
+def _fitted(time: Array, impulse: Array, moment: Array, times: Array) -> Law:
     fits = np.array([[*_local(time, impulse, t), _local(time, moment, t)[1]] for t in times])
     force = fits[:, 1] / (2.0 * np.sqrt(times))
     return Law(fits[:, 2] / fits[:, 1], force, fits[:, 0])
@@ -167,6 +174,15 @@ def measure(
     )
 
 
+def _age(at: dict[tuple[float, float], dict[str, Any]], kappa: float) -> float:
+    """t/η from which damping is forgotten, from the run with the usual damping or, if it is too short, with less."""
+    for damping in sorted((d for d, k in at if k == kappa and d <= USUAL), reverse=True):
+        age = at[damping, kappa]["damping_forgotten"][str(TOLERANCE)]
+        if age is not None:
+            return float(age)
+    return LATEST
+
+
 def write(points: Sequence[dict[str, Any]], elements: int) -> list[Path]:
     """Write both files."""
     provenance = {
@@ -188,21 +204,27 @@ def write(points: Sequence[dict[str, Any]], elements: int) -> list[Path]:
         )
         + "\n",
     )
-    usual = [p for p in points if p["damping"] == USUAL]
+    at = {(p["damping"], p["kappa_over_nu"]): p for p in points}
+    kappas, dampings = sorted({k for _, k in at}), sorted({d for d, _ in at})
+    times = {key: p["until"][str(TOLERANCE)] for key, p in at.items()}
+    factors = [min(times[d, k] / times[USUAL, k] for k in kappas) for d in dampings]
     write_atomically(
         FOR_THEORY,
         json_text(
             {
-                "what": "Time t/T* until which waves back from the ends change half length, force and impulse by less "
-                "than `tolerance`, without loads; `age`: t/eta from which the beam's own damping does, null: later "
-                "than the ends are felt",
-                "tolerance": 0.02,
-                "damping": USUAL,
-                "source": "measured on the whole beam; comparison/whole_impact/ends.json has more",
+                "what": "t/T* until which the infinite beam's half length, force and impulse are those of the finite "
+                "beam within `tolerance`, no loads; `time` over `kappa_over_nu` at damping eta/T* = 1e-3, `factor` over "
+                "`damping` for other eta (the least of all kappa/nu; the smallest eta stands for none); "
+                "`zone_damping_times`, over `kappa_over_nu`: t/eta from which damping changes a zone by less than the "
+                f"tolerance ({LATEST:g}: not seen to)",
+                "tolerance": TOLERANCE,
+                "source": "the whole beam against one without ends, comparison/whole_impact/ends.py",
                 **provenance,
-                "kappa_over_nu": [p["kappa_over_nu"] for p in usual],
-                "time": [p["until"]["0.02"] for p in usual],
-                "age": [p["damping_forgotten"]["0.02"] for p in usual],
+                "kappa_over_nu": kappas,
+                "time": [times[USUAL, k] for k in kappas],
+                "damping": dampings,
+                "factor": factors,
+                "zone_damping_times": [_age(at, k) for k in kappas],
             },
             indent=1,
         )
