@@ -9,7 +9,8 @@ Dimensions: ``time`` (the saved instants) and ``x`` (nodes) and ``contact`` (con
 | slope | time, x | 1 | y_x |
 | impulse | time, contact | N s | reaction impulse gathered by each contact point since t = 0 |
 | in_contact | time, contact | bool | contact active at that instant |
-| total_impulse | time | N s | over the whole beam (both halves) |
+| opposite_impulse | time, contact | N s | the same of a second wall behind the beam, where there is one |
+| total_impulse | time | N s | over the whole beam (both halves); of the wall less that of the opposite one |
 | kinetic_energy, strain_energy | time | J | whole beam |
 | contact_energy | time | J | in the springs of a penalty contact, change since t = 0 |
 | work_of_loads | time | J | whole beam, since t = 0 |
@@ -60,6 +61,7 @@ UNITS = {
     "velocity": "m/s",
     "slope": "1",
     "impulse": "N s",
+    "opposite_impulse": "N s",
     "total_impulse": "N s",
     "held_impulse": "N s",
     "kinetic_energy": "J",

@@ -19,7 +19,7 @@ from hermite_fe.contacts import CONTACTS, Contact, NodeContact
 from hermite_fe.far_fields import FAR_FIELDS, FarField, GridViscosity
 from hermite_fe.integrators import INTEGRATORS, Integrator
 from hermite_fe.masses import MASSES, Mass
-from hermite_fe.simulate import cut, refusal, simulate
+from hermite_fe.simulate import cut, off_centre, refusal, simulate
 
 __all__ = ["HermiteFE"]
 
@@ -76,18 +76,23 @@ class HermiteFE:
         save: Save = 200,
         progress: Callable[[float], None] | None = None,
     ) -> ImpactHistory:
-        """Follow ``impact`` to ``end_time`` (s); see :func:`hermite_fe.simulate`."""
+        """Follow ``impact`` to ``end_time`` (s); see :func:`hermite_fe.simulate`.
+
+        What is no impact of a front that spreads from the middle (rocking, a second wall) gets the parts that suit the
+        whole beam.
+        """
+        chosen = self.for_whole_beam(impact) if off_centre(impact) or impact.opposite_wall is not None else self
         return simulate(
             impact,
             end_time=end_time,
-            mesh=self.mesh,
-            integrator=self.integrator,
-            contact=self.contact,
-            far_field=self.far_field,
-            mass=self.mass,
-            full_beam=self.full_beam,
-            domain=self.domain,
-            refine=self.refine,
+            mesh=chosen.mesh,
+            integrator=chosen.integrator,
+            contact=chosen.contact,
+            far_field=chosen.far_field,
+            mass=chosen.mass,
+            full_beam=chosen.full_beam,
+            domain=chosen.domain,
+            refine=chosen.refine,
             save=save,
             progress=progress,
         )

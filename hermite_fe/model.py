@@ -10,10 +10,13 @@ starts the run (u = q₀x⁴/24, u̇ = V₀ + c₀x²/2) and fixes the load. Wit
 
     μü + EI(u_xxxx + ηu̇_xxxx) − Nu_xx = p − NK − r,      p − NK = μa₀ + EI q₀
 
-so neither K nor K_w is left but in the gap. **The ends** carry N in the direction that the bow has there at the first
-touch, which they keep (a dead load): EI(u_xxx + ηu̇_xxx) − Nu_x = 0. Its transverse part −NKL/2 at either end balances
-the pull −NK per length of the bow, so no wave starts at an end and a₀ is the acceleration of the whole beam. A force
-that turned with the end would have no potential; one along x would set the ends swinging at once.
+so neither K nor K_w is left but in the gap. A beam that rocks starts with V₀ + ωx in place of V₀; where the bow's apex
+is off the middle, x counts from it in y₀ and from the middle in ωx; both need the full beam.
+
+**The ends** carry N in the direction that the bow has there at the first touch, which they keep (a dead load):
+EI(u_xxx + ηu̇_xxx) − Nu_x = 0. Its transverse part −NKL/2 at either end balances the pull −NK per length of the bow, so
+no wave starts at an end and a₀ is the acceleration of the whole beam. A force that turned with the end would have no
+potential; one along x would set the ends swinging at once.
 """
 
 from __future__ import annotations
@@ -72,14 +75,16 @@ def beam_model(
     """
     half = checked_nodes(nodes)
     x = mirrored(half) if full else half
+    s = x - impact.first_touch
     beam = HermiteBeam(x, impact.bending_stiffness, impact.mass_per_length)
     natural, facing = (
-        beam.interpolate(-0.5 * curvature * x**2, -curvature * x)
+        beam.interpolate(-0.5 * curvature * s**2, -curvature * s)
         for curvature in (impact.curvature, impact.relative_curvature)
     )
-    quartic = beam.interpolate(impact.fourth_derivative * x**4 / 24.0, impact.fourth_derivative * x**3 / 6.0)
-    bending = beam.interpolate(impact.curvature_rate * x**2 / 2.0, impact.curvature_rate * x)
-    velocity = beam.interpolate(np.full(x.size, impact.velocity), np.zeros(x.size)) + bending
+    quartic = beam.interpolate(impact.fourth_derivative * s**4 / 24.0, impact.fourth_derivative * s**3 / 6.0)
+    bending = beam.interpolate(impact.curvature_rate * s**2 / 2.0, impact.curvature_rate * s)
+    rigid = beam.interpolate(impact.velocity + impact.rotation * x, np.full(x.size, impact.rotation))
+    velocity = rigid + bending
     bending_stiffness, inertia = beam.stiffness(), mass.matrix(beam)
     stiffness = bending_stiffness + impact.axial_force * beam.geometric_stiffness()
     uniform = banded_product(inertia, beam.interpolate(np.ones(x.size), np.zeros(x.size)))  # M·1

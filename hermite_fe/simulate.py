@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import functools
 from collections.abc import Callable, Sequence
 from typing import Any
 
@@ -21,19 +20,26 @@ from hermite_fe.integrators import Integrator
 from hermite_fe.masses import Mass
 from hermite_fe.model import BeamModel, beam_model
 from hermite_fe.run import Stepper, Trajectory, integrate
+from hermite_fe.walls import TwoWalls
 
-__all__ = ["refusal", "simulate"]
+__all__ = ["off_centre", "refusal", "simulate"]
 
 LARGEST_LIFT = 1e-2  # of V₀t; κ/ν = 0.1: with 0.03 r₀ is 0.5 % off, with 1e-3 0.05 % (docs/numerics.md)
 
 
 def refusal(impact: Impact) -> str | None:
     """Which field of ``impact`` a run from here cannot take (``None``: it takes all of them)."""
-    for name in ("rotation", "first_touch", "opposite_wall"):
-        if getattr(impact, name):
-            value = getattr(impact, name)
-            return f"{name} is not part of this model: a symmetric beam and one wall (got {value!r})"
+    if impact.velocity + impact.rotation * impact.first_touch <= 0.0:
+        return (
+            f"rotation must not take the first touch off the wall: the beam moves there at "
+            f"{impact.velocity + impact.rotation * impact.first_touch:.6g} m/s (got {impact.rotation!r})"
+        )
     return None
+
+
+def off_centre(impact: Impact) -> bool:
+    """Whether the impact is not symmetric: only a model of the full beam takes it."""
+    return bool(impact.rotation or impact.first_touch)
 
 
 def simulate(
@@ -55,7 +61,8 @@ def simulate(
     """Simulate the impact on a Hermite beam; every part left out is chosen from the problem
     (:mod:`hermite_fe.auto`).
 
-    end_time : s (0.1 t* by default). full_beam : model both halves instead of one with a symmetry support.
+    end_time : s (0.1 t* by default). full_beam : model both halves instead of one with a symmetry support, as is done
+        anyway where the impact is not symmetric.
     domain : half length, m, that is modelled of a longer beam; the cut ends follow the free motion (all of it
         unless given).
     refine : elements and steps so many times finer than the parts say.
@@ -69,6 +76,7 @@ def simulate(
     reason = refusal(impact)
     if reason is not None:
         raise ValueError(reason)
+    full_beam = full_beam or off_centre(impact)
     end = impact.checked_end_time(0.1 * impact.time_scale if end_time is None else end_time)
     modelled = cut(impact, domain)
     if domain is not None and far_field is None:
@@ -80,6 +88,13 @@ def simulate(
         )
     model = beam_model(modelled, choice.nodes, choice.contact, choice.far_field, full=full_beam, mass=choice.mass)
     check_start(model)
+    walls = None if impact.opposite_wall is None else TwoWalls(model, impact.opposite_wall)
+
+    def ends(run: Stepper) -> bool:
+        if walls is not None:
+            walls(run)
+        return until is not None and until(model, run)
+
     trajectory = integrate(
         model.system,
         model.displacement,
@@ -92,20 +107,23 @@ def simulate(
         hold_ends=auto.HOLD_ENDS * impact.slow_time_scale,
         save=save,
         progress=progress,
-        until=None if until is None else functools.partial(until, model),
+        until=ends,
     )
+    ended = until is not None and not trajectory.failure
     settings = {
-        "end_time": end,
+        "end_time": float(trajectory.time[-1]) if ended else end,
         "full_beam": full_beam,
         "domain": domain,
-        "save": np.asarray(save).tolist(),
+        "save": trajectory.time[1:].tolist() if ended else np.asarray(save).tolist(),
         **{name: describe(getattr(choice, name)) for name in ("mesh", "integrator", "contact", "far_field", "mass")},
     }
     settings["hold"] = hold_report(impact, choice.contact, trajectory)
     settings["mean_iterations"] = trajectory.mean_iterations
     settings["most_iterations"] = trajectory.most_iterations
-    warnings = (*choice.warnings, *lift_warnings(impact, model, trajectory))
-    history = history_of(impact, model, trajectory, settings, warnings)
+    warnings: tuple[str, ...] = ()
+    if until is None and walls is None and not off_centre(impact):  # what the choices warn about is a spreading front
+        warnings = (*choice.warnings, *lift_warnings(impact, model, trajectory))
+    history = history_of(impact, model, trajectory, settings, warnings, walls)
     if trajectory.failure:
         raise SimulationError(
             trajectory.failure,
@@ -173,9 +191,15 @@ def check_start(model: BeamModel) -> None:
 
 
 def history_of(
-    impact: Impact, model: BeamModel, run: Trajectory, settings: dict[str, Any], warnings: Sequence[str]
+    impact: Impact,
+    model: BeamModel,
+    run: Trajectory,
+    settings: dict[str, Any],
+    warnings: Sequence[str],
+    walls: TwoWalls | None = None,
 ) -> ImpactHistory:
-    """The record of a run: fields of the model, sums of the whole beam."""
+    """The record of a run: fields of the model, sums of the whole beam; of two walls the impulses apart, their sum with
+    its sign."""
     copies = model.copies
     rows = model.system.contacts
     fields: dict[str, tuple[Sequence[str], NDArray[Any]]] = {
@@ -198,6 +222,10 @@ def history_of(
         "smallest_reaction": (("time",), run.smallest_reaction),
         "complementarity_product": (("time",), run.product),
     }
+    if walls is not None:
+        front, behind = (np.array(samples[: run.time.size]) for samples in (walls.front, walls.behind))
+        fields["impulse"], fields["opposite_impulse"] = (("time", "contact"), front), (("time", "contact"), behind)
+        fields["total_impulse"] = (("time",), copies * (front - behind).sum(axis=1))
     return ImpactHistory.build(
         impact=impact,
         path="hermite",

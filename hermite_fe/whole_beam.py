@@ -28,7 +28,7 @@ from hermite_fe.far_fields import GridViscosity
 from hermite_fe.integrators import MoreauJean, NonsmoothGeneralizedAlpha
 from hermite_fe.model import BeamModel
 from hermite_fe.run import Stepper
-from hermite_fe.simulate import simulate
+from hermite_fe.simulate import off_centre, simulate
 
 if TYPE_CHECKING:
     from hermite_fe.method import HermiteFE
@@ -55,7 +55,8 @@ def with_parts_for_whole_beam(method: HermiteFE, impact: Impact) -> HermiteFE:
         integrator=integrator,
         contact=contact.with_hold(0, 0.0),
         far_field=GridViscosity(viscosity=0.0) if method.far_field is None else method.far_field,
-        full_beam=method.full_beam or bool(impact.rotation or impact.first_touch),
+        full_beam=method.full_beam or off_centre(impact),
+        domain=None,
         refine=1.0,
     )
 
@@ -140,6 +141,7 @@ def simulate_to_separation(
         integrator=chosen.integrator,
         contact=chosen.contact,
         far_field=chosen.far_field,
+        mass=chosen.mass,
         full_beam=chosen.full_beam,
         save=times,
         progress=progress,

@@ -185,7 +185,7 @@ def _age(at: dict[tuple[float, float], dict[str, Any]], kappa: float) -> float:
 
 def write(points: Sequence[dict[str, Any]], elements: int) -> list[Path]:
     """Write both files."""
-    provenance = {
+    provenance: dict[str, Any] = {
         "made_by": "python -m comparison.whole_impact.ends",
         "date": datetime.datetime.now(datetime.UTC).date().isoformat(),
         "versions": versions(),
@@ -207,14 +207,15 @@ def write(points: Sequence[dict[str, Any]], elements: int) -> list[Path]:
     at = {(p["damping"], p["kappa_over_nu"]): p for p in points}
     kappas, dampings = sorted({k for _, k in at}), sorted({d for d, _ in at})
     times = {key: p["until"][str(TOLERANCE)] for key, p in at.items()}
+    ages = np.maximum.accumulate([_age(at, k) for k in kappas[::-1]])[::-1]  # what swings counts until it is over
     factors = [min(times[d, k] / times[USUAL, k] for k in kappas) for d in dampings]
     write_atomically(
         FOR_THEORY,
         json_text(
             {
                 "what": "t/T* until which the infinite beam's half length, force and impulse are those of the finite "
-                "beam within `tolerance`, no loads; `time` over `kappa_over_nu` at damping eta/T* = 1e-3, `factor` over "
-                "`damping` for other eta (the least of all kappa/nu; the smallest eta stands for none); "
+                "beam within `tolerance`, no loads; `time` over `kappa_over_nu` at damping eta/T* = 1e-3, `factor` "
+                "over `damping` for other eta (the least of all kappa/nu; the smallest eta stands for none); "
                 "`zone_damping_times`, over `kappa_over_nu`: t/eta from which damping changes a zone by less than the "
                 f"tolerance ({LATEST:g}: not seen to)",
                 "tolerance": TOLERANCE,
@@ -224,7 +225,7 @@ def write(points: Sequence[dict[str, Any]], elements: int) -> list[Path]:
                 "time": [times[USUAL, k] for k in kappas],
                 "damping": dampings,
                 "factor": factors,
-                "zone_damping_times": [_age(at, k) for k in kappas],
+                "zone_damping_times": ages.tolist(),
             },
             indent=1,
         )
