@@ -17,7 +17,7 @@ from exudyn_models.elements.beam import Section
 from exudyn_models.geometry import Shape
 from exudyn_models.integrators import Integrator
 from exudyn_models.resolution import FIRST_SPREAD, reachable
-from exudyn_models.scaling import Scaling, front_estimate
+from exudyn_models.scaling import Scaling, front_bound
 from exudyn_models.viewer import draw_wall
 
 __all__ = ["assemble", "stable_step"]
@@ -58,16 +58,18 @@ def assemble(
     ends = [(last, 1.0)] if half else [(last, 1.0), (0, -1.0)]
     for node, sign in ends:
         _load_end(beam, node, sign, scaling)
+    opposite = scaling.impact.opposite_wall
     wall = Wall(
         nodes=reachable(shape.s, scaling, centre),
         centre=centre,
         half=half,
         pulled_off=scaling.impact.zone_pressure < 0.0,
-        front=front_estimate(scaling.kappa),
+        front=front_bound(scaling.kappa),
         first_spread=FIRST_SPREAD * scaling.impact.slow_time_scale / scaling.end_time,
         explicit=integrator.explicit,
         stiffness_unit=scaling.stiffness_per_length,
         damping_unit=scaling.damping_per_length,
+        opposite=None if opposite is None else -opposite / scaling.deflection,
     )
     run = contact.attach(beam, wall)
     draw_wall(system, min(0.0, float(shape.x[0])), float(shape.x[-1]), shape.wall_curvature)

@@ -41,6 +41,16 @@ class Shape:
     wall_curvature: float = (
         0.0  # of a wall y = wall_curvature x²/2; a share of the beam's own may be given to it, the beam laid flatter
     )
+    first_touch: float = 0.0  # x above is measured from there
+
+    @property
+    def wall_y(self) -> Array:
+        """Of the wall at the nodes, shape (nodes,)."""
+        return np.asarray(self.wall_curvature * (self.s - self.first_touch) ** 2 / 2)
+
+    @property
+    def wall_slope(self) -> Array:
+        return np.asarray(self.wall_curvature * (self.s - self.first_touch))
 
     @property
     def lengths(self) -> Array:
@@ -104,17 +114,19 @@ class LinearLimit:
         if scaling.axial_force:
             # what carries a force must not be stretched by its own slope
             x = _arc(s, lambda at: a * (-k * at + q * at**3 / 6), 0.0)[0]
+        bow = s - scaling.first_touch
         return Shape(
             s=s,
             x=x,
-            y=a * (-k * s**2 / 2 + q * s**4 / 24),
-            angle=a * (-k * s + q * s**3 / 6),
+            y=a * (-k * bow**2 / 2 + q * bow**4 / 24),
+            angle=a * (-k * bow + q * bow**3 / 6),
             velocity_x=np.zeros_like(s),
-            velocity_y=a * (1 + c * s**2 / 2),
-            angular_velocity=a * c * s,
+            velocity_y=a * (1 + scaling.spin * s + c * bow**2 / 2),
+            angular_velocity=a * (scaling.spin + c * bow),
             curvature=-a * k,
             slender=False,
             wall_curvature=a * (scaling.kappa * wall_share - scaling.wall_kappa),
+            first_touch=scaling.first_touch,
         )
 
 

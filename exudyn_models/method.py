@@ -12,12 +12,13 @@ from bent_beam.history import ImpactHistory
 from bent_beam.impact import Impact
 from bent_beam.meshes import MESHES, Mesh
 from bent_beam.method import Save
+from exudyn_models import whole_beam
 from exudyn_models.contacts import CONTACTS, Contact, Penalty
 from exudyn_models.elements import ELEMENTS, Element
 from exudyn_models.geometry import GEOMETRIES, Geometry
 from exudyn_models.integrators import INTEGRATORS, Integrator
 from exudyn_models.resolution import chosen_mesh
-from exudyn_models.simulation import simulate
+from exudyn_models.simulation import refusal, simulate
 from exudyn_models.solvers import SOLVERS, NewtonSolver
 
 __all__ = ["ExudynModel"]
@@ -61,7 +62,7 @@ class ExudynModel:
     def refuses(self, impact: Impact) -> str | None:
         """Why this method cannot take ``impact`` (``None``: it can)."""
         contact, element, integrator = self._joined()
-        return contact.refuses(impact, element, integrator)
+        return refusal(impact, self.full_beam) or contact.refuses(impact, element, integrator)
 
     def _joined(self) -> tuple[Contact, Element, Integrator]:
         contact = Penalty() if self.contact is None else self.contact
@@ -106,6 +107,21 @@ class ExudynModel:
             integrator=integrator.refined(self.refine),
             refine=1.0,
         )
+
+    def for_whole_beam(self, impact: Impact) -> ExudynModel:
+        """A copy whose open parts suit the whole beam until it has left: nothing held, no viscosity of the grid."""
+        return whole_beam.with_parts_for_whole_beam(self, impact)
+
+    def simulate_to_separation(
+        self,
+        impact: Impact,
+        *,
+        longest: float | None = None,
+        save: int = 2000,
+        progress: Callable[[float], None] | None = None,
+    ) -> ImpactHistory:
+        """Follow ``impact`` until the beam has left for good (:func:`bent_beam.method.simulate_to_separation`)."""
+        return whole_beam.simulate_to_separation(self, impact, longest=longest, save=save, progress=progress)
 
     def refined(self, factor: float) -> ExudynModel:
         """A copy with elements and steps ``factor`` times finer."""

@@ -69,7 +69,7 @@ class Recorder:
         self.averages = averages
         self.beam, self.contact, self.scaling, self.half = beam, contact, scaling, half
         shape = beam.shape
-        self.wall_y = shape.wall_curvature * shape.s**2 / 2
+        self.wall_y = shape.wall_y
         self.loads = beam.loads()
         self.mass = beam.mass_matrix()
         self.grid, self.material = beam.damping_matrices()
@@ -128,7 +128,7 @@ class Recorder:
                 gain = gain + missing * weight / weight.sum()
             self.impulse += gain
             self.total = total
-            both = (old.force + force) * (dt / 2)
+            both = (old.force + force) * self.contact.signs * (dt / 2)
             self.held += float(np.minimum(both, 0.0).sum())
             self.pushed += float(np.maximum(both, 0.0).sum())
         self.previous, self.load = new, load
@@ -142,7 +142,7 @@ class Recorder:
         r.time.append(t)
         r.y.append(beam.deflection(q) - self.wall_y)
         r.v.append(v[beam.vertical].copy())
-        r.slope.append(beam.slope(q) - beam.shape.wall_curvature * beam.shape.s)
+        r.slope.append(beam.slope(q) - beam.shape.wall_slope)
         r.impulse.append(self.impulse.copy())
         r.active.append(self.active.copy())
         r.total.append(self.total)

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from bent_beam import Impact
 from bent_beam.checks import positive
 from bent_beam.meshes import NodesMesh, ScaleFreeMesh
-from exudyn_models.scaling import Scaling, front_estimate
+from exudyn_models.scaling import Scaling, front_bound
 
 __all__ = ["chosen_half_length", "chosen_mesh", "end_time_of", "far_field", "reachable"]
 
@@ -51,13 +51,13 @@ def chosen_mesh(
     """
     positive("coarsen", coarsen)
     scaling = Scaling(impact, end_time_of(impact, end_time), 1.0)
-    front = front_estimate(scaling.kappa)
+    front = front_bound(scaling.kappa)
     if explicit:
         smallest = min(max(front, 0.5) / 25, (2.0 / front) / 10)
         rule = ScaleFreeMesh(smallest * scaling.length * coarsen, 1.0 + 0.02 * coarsen)
     else:
-        # the smallest element: 1/200 of the front's way, 1/30 of the length over which the beam bends ahead of it
-        smallest = min(front / 200, (2.0 / front) / 30)
+        # the smallest element: 1/300 of the front's bound, 1/30 of the length over which the beam bends ahead of it
+        smallest = min(front / 300, (2.0 / front) / 30)
         rule = ScaleFreeMesh(smallest * scaling.length * coarsen, 1.0 + GROWTH * coarsen)
     nodes = rule.nodes(chosen_half_length(impact, end_time))
     return NodesMesh(places=tuple(float(place) for place in nodes))
@@ -70,9 +70,12 @@ def end_time_of(impact: Impact, end_time: float | None) -> float:
 
 def reachable(x: Array, scaling: Scaling, centre: int) -> NDArray[np.int64]:
     """Nodes that may touch: half as far again as the free motion would carry the beam into the wall."""
+    if scaling.impact.opposite_wall is not None or scaling.spin:
+        return np.arange(x.size)
     times = np.linspace(0.05, 1.0, 20)[:, None]
     inside = (scaling.free_deflection(x[None, :], times) > 0.0).any(axis=0)
-    reach = 1.5 * np.abs(x[inside]).max(initial=0.0)
-    wide = np.abs(x) <= reach * (1.0 + 1e-9)  # a node right there belongs, whatever its round-off
+    place = np.abs(x - scaling.first_touch)
+    reach = 1.5 * place[inside].max(initial=0.0)
+    wide = place <= reach * (1.0 + 1e-9)  # a node right there belongs, whatever its round-off
     wide[max(0, centre - 20) : centre + 21] = True
     return np.flatnonzero(wide)

@@ -8,8 +8,8 @@ whatever the physical size of the problem: the leading order is self-similar, so
 is also the initial curvature here when deflections are measured in V₀T. Deflections carry a further factor, the
 ``amplitude``: V₀T/Λ gives the true geometry, anything small the linear limit (the problem is linear in it).
 
-The estimate of the front, λ₀ ~ √(2ν/κ)(1 − κ/ν), interpolates the two limits that scaling gives (λ₀ → √(2ν/κ) for
-κ/ν → 0, λ₀ → 0 at κ/ν = 1). It serves to choose a resolution, never to make an answer.
+A bound of the front: without a wall, y₀ = V₀t − Kx²/2 would be inside it up to x = √(2V₀t/K), that is λ₀ < √(2ν/κ).
+It serves to choose a resolution, never to make an answer.
 """
 
 from __future__ import annotations
@@ -22,16 +22,14 @@ from numpy.typing import NDArray
 
 from bent_beam import Impact
 
-__all__ = ["Scaling", "front_estimate"]
+__all__ = ["Scaling", "front_bound"]
 
 Array = NDArray[np.float64]
 
 
-def front_estimate(kappa_over_nu: float) -> float:
-    """A crude λ₀ for choosing a resolution: √(2ν/κ)(1 − κ/ν), at least 0.15, at most 200."""
-    if kappa_over_nu <= 0.0:
-        return 200.0
-    return min(200.0, max(0.15, math.sqrt(2.0 / kappa_over_nu) * (1.0 - kappa_over_nu)))
+def front_bound(kappa_over_nu: float) -> float:
+    """√(2ν/κ) for choosing a resolution, at most 200."""
+    return 200.0 if kappa_over_nu <= 0.0 else min(200.0, math.sqrt(2.0 / kappa_over_nu))
 
 
 @dataclass(frozen=True)
@@ -106,6 +104,15 @@ class Scaling:
         return self.impact.epsilon_axial * self.duration
 
     @property
+    def spin(self) -> float:
+        """ωΛ/V₀."""
+        return self.impact.rotation * self.length / self.impact.velocity
+
+    @property
+    def first_touch(self) -> float:
+        return self.impact.first_touch / self.length
+
+    @property
     def duration(self) -> float:
         """τ at the end: T/t*."""
         return self.end_time / self.impact.time_scale
@@ -129,6 +136,6 @@ class Scaling:
 
     def free_deflection(self, x: Array, t: Array | float) -> Array:
         """y₀ at places ``x`` and time ``t`` (model units, amplitude 1), broadcast."""
-        return np.asarray(
-            t - self.kappa * x**2 / 2 + self.alpha * t**2 / 2 + self.chi * x**2 * t / 2 + self.psi * x**4 / 24
-        )
+        spin, x = self.spin * x, x - self.first_touch
+        bow = -self.kappa * x**2 / 2 + self.psi * x**4 / 24
+        return np.asarray(bow + t * (1 + spin) + self.alpha * t**2 / 2 + self.chi * x**2 * t / 2)

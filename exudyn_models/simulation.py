@@ -27,14 +27,14 @@ from exudyn_models.geometry import GEOMETRIES, Geometry
 from exudyn_models.integrators import Integrator
 from exudyn_models.recording import Recorder
 from exudyn_models.resolution import chosen_mesh, end_time_of
-from exudyn_models.scaling import Scaling, front_estimate
+from exudyn_models.scaling import Scaling, front_bound
 from exudyn_models.settling import Settling
 from exudyn_models.solvers import NewtonSolver, silence
 from exudyn_models.stepping import step_through
 from exudyn_models.viewer import open_viewer, wait_until_closed
 from exudyn_models.warnings_of_run import warnings_of_run
 
-__all__ = ["simulate"]
+__all__ = ["refusal", "simulate"]
 
 Array = NDArray[np.float64]
 
@@ -54,6 +54,19 @@ def _targets(save: int | Sequence[float] | Array, end: float) -> Array:
     return np.append(times[(times > 0.0) & (times < 1.0 - 1e-9)], 1.0)
 
 
+def refusal(impact: Impact, full_beam: bool) -> str | None:
+    """Why the model cannot take an impact (``None``: it can)."""
+    lopsided = next((name for name in ("rotation", "first_touch") if getattr(impact, name)), None)
+    if lopsided is None:
+        return None
+    if not full_beam:
+        return f"{lopsided} needs exudyn.full_beam = true (got {getattr(impact, lopsided)!r})"
+    for name in ("curvature_rate", "fourth_derivative", "axial_force"):
+        if getattr(impact, name):
+            return f"{name} is not modelled together with {lopsided} (got {getattr(impact, name)!r})"
+    return None
+
+
 def simulate(
     impact: Impact,
     *,
@@ -69,6 +82,7 @@ def simulate(
     save: int | Sequence[float] | Array = 200,
     view: bool = False,
     progress: Callable[[float], object] | None = None,
+    until: Callable[[Recorder, float, Array, Array], bool] | None = None,
 ) -> ImpactHistory:
     """Simulate one impact with Exudyn.
 
@@ -86,6 +100,7 @@ def simulate(
     view : watch the run in Exudyn's viewer, until its window is told to go on (Q or Escape); without a display a line
         on standard error says so.
     progress : called with the fraction done.
+    until : asked at every saved instant; the run ends with the first at which it says so.
 
     Returns
     -------
@@ -109,9 +124,11 @@ def simulate(
         geometry = contact.geometry()
     elif isinstance(geometry, str):
         geometry = cast(Geometry, GEOMETRIES[one_of("geometry", geometry, GEOMETRIES)]())
-    refusal = contact.refuses(impact, element, integrator)
-    if refusal:
-        raise ValueError(refusal)
+    reason = refusal(impact, full_beam) or contact.refuses(impact, element, integrator)
+    if not reason and geometry.true and (impact.rotation or impact.first_touch):
+        reason = "exudyn.geometry.kind true knows the symmetric bow only: with rotation or first_touch take linear"
+    if reason:
+        raise ValueError(reason)
 
     began = clock.perf_counter()
     true = Scaling(impact, end, 1.0).true_amplitude
@@ -130,8 +147,8 @@ def simulate(
         beam, contact_run = assemble(shape, scaling, element, contact, integrator, half)
         run = Recorder(beam, contact_run, scaling, half, integrator.averages())
         stable = stable_step(beam, contact_run, integrator) if integrator.explicit else math.inf
-        crossing = min(0.01, (places[1] / front_estimate(scaling.kappa)) ** 2)
-        segments = integrator.segments(crossing, 1, end, stable)
+        crossing = min(0.01, (places[1] / front_bound(scaling.kappa)) ** 2)
+        segments = integrator.segments(crossing, end, stable)
         affordable("exudyn.integrator and mesh", sum(s.steps for s in segments), nodes.size, targets.size, MOST_WORK)
         settings = solver.settings(scaling.amplitude, contact_run.round_off)
         integrator.configure(settings)
@@ -148,7 +165,7 @@ def simulate(
             )
         viewing = view and open_viewer(container)
         try:
-            done = step_through(run, segments, settings, time_stepper, settling, targets, progress)
+            done = step_through(run, segments, settings, time_stepper, settling, targets, progress, until)
             if viewing:
                 wait_until_closed(container)
         finally:

@@ -1,6 +1,6 @@
-"""Exudyn's solver, run in segments of a few equal steps; between them its state vectors are read.
+"""Exudyn's solver, run in segments of equal steps, its state vectors read after each step.
 
-That costs some microseconds where a callback a step would cost the run.
+Every new segment costs a factorisation, every reading a hundredth of one.
 """
 
 from __future__ import annotations
@@ -46,6 +46,48 @@ class Stepping:
         return self
 
 
+class _Reader:
+    """Exudyn's ``PostStepUserFunction``: reads every step, saves the state where asked, switches connectors."""
+
+    def __init__(self, run: Recorder, targets: Array, done: Stepping, must_settle: Settling | None) -> None:
+        self.run, self.targets, self.done, self.must_settle = run, targets, done, must_settle
+        self.progress: Callable[[float], object] | None = None
+        self.until: Callable[[Recorder, float, Array, Array], bool] | None = None
+        self.time = 0.0
+        self.step = 0.0  # of the running segment
+        self.saved = 0
+        self.left = False
+        self.error: BaseException | None = None
+
+    def __call__(self, mbs: Any, time: float) -> bool:
+        try:
+            return self._read(mbs, time)
+        except BaseException as error:  # Exudyn would turn it into an error of its own
+            self.error = error
+            return False
+
+    def _read(self, mbs: Any, time: float) -> bool:
+        if self.must_settle is not None and self.must_settle.unsettled:
+            return False
+        run = self.run
+        if time <= self.time:  # Exudyn calls at the start of a segment, too
+            return True
+        q, v = run.read(time, time - self.time)
+        self.time = time
+        self.done.steps += 1
+        if self.saved < self.targets.size and time >= self.targets[self.saved] * (1.0 - 1e-9):
+            run.save(time, q, v)
+            self.saved = int(np.searchsorted(self.targets, time * (1.0 + 1e-9), side="right"))
+            if self.progress is not None:
+                self.progress(time)
+            if self.until is not None and self.until(run, time, q, v):
+                self.left = True
+                return False
+        if run.contact.between(time, self.step, q, v):
+            mbs.solverSignalJacobianUpdate = True
+        return True
+
+
 def step_through(
     run: Recorder,
     segments: list[Segment],
@@ -54,11 +96,14 @@ def step_through(
     settling: Settling | None,
     targets: Array,
     progress: Callable[[float], object] | None,
+    until: Callable[[Recorder, float, Array, Array], bool] | None = None,
 ) -> Stepping:
     """Run all segments and save at the first end of a segment at or after each of ``targets`` (model units)."""
     mbs, time, done = run.beam.mbs, settings.timeIntegration, Stepping()
     if settling is not None:
         mbs.SetPostNewtonUserFunction(settling)
+    reader = _Reader(run, targets, done, settling if settling is not None and settling.must_settle else None)
+    reader.progress, reader.until = progress, until
     try:
         first = segments[0]
         time.startTime, time.endTime, time.numberOfSteps = first.start, first.end, first.steps
@@ -69,9 +114,9 @@ def step_through(
         q, v = run.read(0.0, 0.0)
         run.save(0.0, q, v)
         run.contact.between(0.0, first.length, q, v)
-        saved = 0
-        for segment, following in zip(segments, [*segments[1:], segments[-1]]):
-            size = segment.length
+        mbs.SetPostStepUserFunction(reader)
+        for segment in segments:
+            size = reader.step = segment.length
             time.startTime, time.endTime, time.numberOfSteps = segment.start, segment.end, segment.steps
             time.minimumStepSize = size * 1e-3
             it = solver.it
@@ -81,23 +126,20 @@ def step_through(
             began = clock.perf_counter()
             solved = solver.SolveSteps(mbs, settings)
             done.seconds += clock.perf_counter() - began
-            if not solved:
+            if reader.error is not None:
+                raise reader.error
+            if not solved and not reader.left:
                 return done.failed("Exudyn's solver failed: " + " ".join(str(solver.GetErrorString()).split())[:200])
             if settling is not None and settling.must_settle and settling.unsettled:
                 return done.failed(settling.failure(), UNSETTLED)
-            done.steps += segment.steps
-            q, v = run.read(segment.end, segment.end - segment.start)
-            if saved < targets.size and segment.end >= targets[saved] * (1.0 - 1e-9):
-                run.save(segment.end, q, v)
-                saved = int(np.searchsorted(targets, segment.end * (1.0 + 1e-9), side="right"))
-                if progress is not None:
-                    progress(segment.end)
-            if run.contact.between(segment.end, following.length, q, v):
-                mbs.solverSignalJacobianUpdate = True
+            if reader.left:
+                return done
     except FloatingPointError as error:
         return done.failed(str(error))
     except SystemError as error:  # what was raised while Exudyn ran, an interrupt by the user above all
         raise (error.__cause__ or error) from None
     except (exu.ExudynError, RuntimeError) as error:
         return done.failed("Exudyn's solver failed: " + " ".join(str(error).split())[:200])
+    finally:
+        mbs.SetPostStepUserFunction(0)
     return done

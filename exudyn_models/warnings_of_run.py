@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from exudyn_models.recording import Recorder
 from exudyn_models.resolution import far_field
-from exudyn_models.scaling import Scaling, front_estimate
+from exudyn_models.scaling import Scaling, front_bound
 from exudyn_models.settling import Settling
 
 __all__ = ["warnings_of_run"]
@@ -54,8 +54,8 @@ def warnings_of_run(
             f"contact points were pulled by {-run.held / abs(run.total):.2g} times the total impulse while held: their "
             "reactions mean nothing one by one"
         )
-    front = front_estimate(scaling.kappa)
-    if scaling.kappa < 1.0 and len(run.record.time) > 1:
+    front = front_bound(scaling.kappa)
+    if len(run.record.time) > 1:
         bending = 2.0 / front
         for part in (1.0, 0.1):
             at = front * math.sqrt(part)
@@ -72,7 +72,7 @@ def warnings_of_run(
         if growth.max() > 1.021:
             found.append(f"the mesh grows by {growth.max() - 1:.0%} an element: above 2 % it reflects waves back")
     reach = half_length / scaling.length
-    if reach < 0.5 * far_field(scaling):
+    if reach < 0.5 * far_field(scaling) and half_length < scaling.impact.half_length * (1.0 - 1e-9):
         found.append(
             f"the end lies at {reach:.3g} sqrt(sqrt(EI/mu) T): waves reflected there come back before the end time"
         )
@@ -82,7 +82,7 @@ def warnings_of_run(
         untouchable[max(0, near.min() - 1) : near.max() + 2] = False
         if (run.record.y[-1][untouchable] > 0.0).any():
             found.append("the beam enters the wall outside the zone given contact points")
-    wall = run.beam.shape.wall_curvature * run.beam.shape.s
+    wall = run.beam.shape.wall_slope
     slope = max((float(np.abs(s + wall).max()) for s in run.record.slope), default=0.0)
     if run.beam.shape.slender and slope > 0.1:
         found.append(f"slopes up to {slope:.2g}: linear theory no longer describes this beam, only its first instants")

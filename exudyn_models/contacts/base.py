@@ -46,6 +46,7 @@ class Wall:
     explicit: bool
     stiffness_unit: float
     damping_unit: float
+    opposite: float | None  # y of a second, flat wall behind the beam
 
 
 class ContactRun(ABC):
@@ -66,7 +67,12 @@ class ContactRun(ABC):
 
     @abstractmethod
     def forces(self, q: Array, v: Array) -> tuple[Array, Flags]:
-        """Contact forces (positive: pushing the beam off the wall) and active flags, each of shape (contacts,)."""
+        """Contact forces (positive: off the wall; of an opposite one negative) and active flags, each of shape (contacts,)."""
+
+    @property
+    def signs(self) -> Array:
+        """+1 for contact points on the wall, −1 for those on an opposite one, shape (contacts,)."""
+        return np.ones(self.nodes.size)
 
     def stored_energy(self, q: Array) -> float:
         """Energy that the contact's springs hold."""

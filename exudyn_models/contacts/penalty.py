@@ -11,7 +11,7 @@ while y > 0, pulls a beam that leaves; :mod:`exudyn_models.settling` writes thes
 With k and d tied to the element length the contact is as stiff as the elements themselves, on every scale of the
 mesh. Where κ/ν is so small that the front passes an element faster than the element bends, the contact must be as fast
 as the front: it passes Δx at x in t = 2xΔx/λ² √(μ/EI), and C = (λ²Δx/x)² makes √(k/μ) t = 2. The damping ratio stays
-that of 10 and 3. Explicit solvers keep Exudyn's law; there d = 0 unless given.
+that of 10 and 3.
 """
 
 from __future__ import annotations
@@ -48,37 +48,44 @@ def penalty_per_length(lengths: Array, relative_stiffness: float, relative_dampi
 
 
 class _Run(ContactRun):
+    imposes = True
+
     def __init__(
         self, beam: Beam, wall: Wall, stiffness: Array, damping: Array, strip: HeldStrip, chosen: dict[str, float]
     ) -> None:
         self.chosen = chosen
         self.beam, self.nodes = beam, wall.nodes
         self.stiffness, self.damping = stiffness, damping
-        self.contact_s = beam.shape.s[wall.nodes]
-        self.wall_y = beam.shape.wall_curvature * self.contact_s**2 / 2
+        self.wall_y, self._signs = beam.shape.wall_y[wall.nodes], np.ones(wall.nodes.size)
+        if wall.opposite is not None:
+            self.nodes = np.concatenate([self.nodes, self.nodes])
+            self.stiffness, self.damping = np.tile(stiffness, 2), np.tile(damping, 2)
+            self.wall_y = np.concatenate([self.wall_y, np.full(wall.nodes.size, wall.opposite)])
+            self._signs = np.concatenate([self._signs, -self._signs])
+        self.contact_s = beam.shape.s[self.nodes]
         self.strip = strip
-        self.imposes = not wall.explicit
-        self.held = np.zeros(wall.nodes.size, bool)
+        self.explicit = wall.explicit
+        self.held = np.zeros(self.nodes.size, bool)
         self.contacts: list[Any] = []
         self.holders: list[Any] = []
         mbs = beam.mbs
-        for k, node in enumerate(wall.nodes):
+        for k, node in enumerate(self.nodes):
             marker = beam.marker(int(node), beam.vertical_coordinate)
             # open at t = 0: a closed one would put its damping into the initial accelerations
             state = mbs.AddNode(
                 items.NodeGenericData(
                     numberOfDataCoordinates=1,
-                    initialCoordinates=[max(1e-14, float(self.wall_y[k] - beam.shape.y[node]))],
+                    initialCoordinates=[max(1e-14, float(self._signs[k] * (self.wall_y[k] - beam.shape.y[node])))],
                 )
             )
             self.contacts.append(
                 mbs.AddObject(
                     items.ObjectContactCoordinate(
-                        markerNumbers=[marker, beam.ground_marker],
+                        markerNumbers=[marker, beam.ground_marker][:: int(self._signs[k])],
                         nodeNumber=state,
-                        contactStiffness=stiffness[k],
-                        contactDamping=damping[k],
-                        offset=-self.wall_y[k],
+                        contactStiffness=self.stiffness[k],
+                        contactDamping=self.damping[k],
+                        offset=-self._signs[k] * self.wall_y[k],
                     )
                 )
             )
@@ -87,8 +94,8 @@ class _Run(ContactRun):
                     mbs.AddObject(
                         items.ObjectConnectorCoordinateSpringDamper(
                             markerNumbers=[beam.ground_marker, marker],
-                            stiffness=stiffness[k],
-                            damping=damping[k],
+                            stiffness=self.stiffness[k],
+                            damping=self.damping[k],
                             offset=self.wall_y[k],
                             activeConnector=False,
                         )
@@ -96,7 +103,14 @@ class _Run(ContactRun):
                 )
 
     def depth(self, q: Array) -> Array:
-        return np.asarray(q[self.beam.vertical[self.nodes]] - self.wall_y)
+        return np.asarray(self._signs * (q[self.beam.vertical[self.nodes]] - self.wall_y))
+
+    @property
+    def signs(self) -> Array:
+        return self._signs
+
+    def velocity(self, q: Array, v: Array) -> Array:
+        return np.asarray(self._signs * v[self.beam.vertical[self.nodes]])
 
     def _spring_and_dashpot(self, q: Array, v: Array) -> Array:
         return np.asarray(self.stiffness * self.depth(q) + self.damping * self.velocity(q, v))
@@ -106,9 +120,9 @@ class _Run(ContactRun):
 
     def forces(self, q: Array, v: Array) -> tuple[Array, Flags]:
         force = self._spring_and_dashpot(q, v)
-        active = (force > 0.0 if self.imposes else self.depth(q) > 0.0) | self.held
-        self.strip.captured |= active
-        return np.where(active, force, 0.0), active
+        active = (force > 0.0) | self.held
+        self.strip.captured |= active[: self.strip.captured.size]
+        return np.where(active, self._signs * force, 0.0), active
 
     def stored_energy(self, q: Array) -> float:
         depth = self.depth(q)
@@ -119,7 +133,8 @@ class _Run(ContactRun):
         return np.where(((force > 0.0) != closed) & ~self.held, np.abs(force), 0.0)
 
     def between(self, time: float, step: float, q: Array, v: Array) -> bool:
-        wanted = self.strip.wanted(time)
+        wanted = np.zeros_like(self.held)
+        wanted[: self.strip.captured.size] = self.strip.wanted(time)
         changed = np.flatnonzero(wanted != self.held)
         for k in changed:
             self.beam.mbs.SetObjectParameter(self.holders[k], "activeConnector", bool(wanted[k]))
@@ -127,11 +142,15 @@ class _Run(ContactRun):
             for name, value in (("contactStiffness", self.stiffness[k]), ("contactDamping", self.damping[k])):
                 self.beam.mbs.SetObjectParameter(self.contacts[k], name, 0.0 if wanted[k] else float(value))
         self.held = wanted
+        if self.explicit:  # nothing is repeated: the state at the start of a step serves all of it
+            data, closed = self.beam.mbs.systemData, self.closed_by(q, v)
+            if not np.array_equal(closed, data.GetDataCoordinates() <= 0.0):
+                data.SetDataCoordinates(np.where(closed, -1e-30, 1e-30))
         return bool(changed.size)
 
     def stiffness_and_damping(self) -> tuple[Array, Array]:
         k, d = np.zeros((2, self.beam.shape.s.size))
-        k[self.nodes], d[self.nodes] = self.stiffness, self.damping
+        k[self.nodes], d[self.nodes] = self.stiffness, self.damping  # a node touches one wall at a time
         return k, d
 
     @property
@@ -184,7 +203,7 @@ class Penalty(Contact):
         if stiffness is None:
             stiffness = chosen_stiffness(beam.shape.s, wall)
         if damping is None:
-            damping = 0.0 if wall.explicit else DAMPING * math.sqrt(stiffness / STIFFNESS)
+            damping = DAMPING * math.sqrt(stiffness / STIFFNESS)
         k, d = penalty_per_length(local, stiffness, damping)
         if self.stiffness is not None:
             k = np.full_like(local, self.stiffness / wall.stiffness_unit)

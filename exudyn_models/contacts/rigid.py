@@ -46,7 +46,7 @@ class _Run(ContactRun):
     def __init__(self, beam: Beam, wall: Wall, hold: int) -> None:
         self.beam, self.nodes = beam, wall.nodes
         self.contact_s = beam.shape.s[wall.nodes]
-        self.wall_y = beam.shape.wall_curvature * self.contact_s**2 / 2
+        self.wall_y = beam.shape.wall_y[wall.nodes]
         self.strip = HeldStrip(wall, hold)
         self.active = np.zeros(wall.nodes.size, bool)
         self.back = np.zeros(wall.nodes.size)  # speed asked of each closed node
@@ -114,6 +114,8 @@ class Rigid(Contact):
         return Newmark()
 
     def refuses(self, impact: Impact, element: Element, integrator: Integrator) -> str | None:
+        if impact.opposite_wall is not None:
+            return "exudyn.contact.kind rigid knows one wall only: take penalty (opposite_wall is given)"
         if isinstance(integrator, Newmark) and integrator.gamma > 0.5:
             return None
         return (

@@ -109,6 +109,8 @@ class SegmentFriction(Contact):
         positive("exudyn.contact.relative_friction_damping", self.relative_friction_damping)
 
     def refuses(self, impact: Impact, element: Element, integrator: Integrator) -> str | None:
+        if impact.opposite_wall is not None:
+            return "exudyn.contact.kind segment_friction knows one wall only: take penalty (opposite_wall is given)"
         if impact.wall_curvature:
             return (
                 "exudyn.contact.kind segment_friction knows a flat wall only: take penalty "

@@ -23,6 +23,7 @@ __all__ = ["Averages", "Implicit", "Integrator", "Segment", "checked_steps", "gr
 Array = NDArray[np.float64]
 
 MAXIMUM_STEPS = 5_000_000
+CHANGE = 1.05
 
 
 @dataclass(frozen=True)
@@ -65,25 +66,28 @@ def checked_steps(count: float) -> None:
         )
 
 
-def growing_segments(first: float, relative: float, per_segment: int, constant: bool = False) -> list[Segment]:
-    """Segments over 0 ≤ t ≤ 1: steps of ``first``, then of ``relative``·t (``constant``: of ``first`` throughout)."""
+def growing_segments(first: float, relative: float, constant: bool = False) -> list[Segment]:
+    """Segments over 0 ≤ t ≤ 1: steps of ``first``, then of ``relative``·t (``constant``: of ``first`` throughout).
+
+    A new step size costs a factorisation: it changes by ``CHANGE`` at a time.
+    """
     even, grown = 1.0 / max(first, 1e-300), 0.0
     if not constant:
         even, grown = min(even, 1.0 / relative), math.log(max(relative * even, 1.0)) / math.log1p(relative)
     checked_steps(even + grown)
+    if constant:
+        return [Segment(0.0, 1.0, max(1, round(even)))]
     segments: list[Segment] = []
     t, step = 0.0, first
     while t < 1.0 - 1e-12:
-        count = per_segment
+        count = max(1, math.ceil((CHANGE * step / relative - t) / step - 1e-9))
         if t + count * step > 1.0 - step * 1e-6:
             count = max(1, round((1.0 - t) / step + 0.499))
             segments.append(Segment(t, 1.0, count))
             break
         segments.append(Segment(t, t + count * step, count))
         t += count * step
-        # a new step size costs a factorisation: change it by 5 % at a time
-        if not constant and relative * t > 1.05 * step:
-            step = relative * t
+        step = max(step, relative * t)
     return segments
 
 
@@ -116,7 +120,7 @@ class Integrator(ABC):
         """Write this integrator's choices into Exudyn's ``SimulationSettings``."""
 
     @abstractmethod
-    def segments(self, first: float, per_segment: int, unit: float, stable: float) -> list[Segment]:
+    def segments(self, first: float, unit: float, stable: float) -> list[Segment]:
         """The plan of steps in model units: ``first`` the time the front needs for the first element, ``unit`` the
         model's time unit in s, ``stable`` the largest stable step of an explicit method."""
 
@@ -137,6 +141,6 @@ class Implicit(Integrator):
             positive("exudyn.integrator.time_step", self.time_step)
         positive("exudyn.integrator.relative_step", self.relative_step)
 
-    def segments(self, first: float, per_segment: int, unit: float, stable: float) -> list[Segment]:
+    def segments(self, first: float, unit: float, stable: float) -> list[Segment]:
         step = first if self.time_step is None else min(1.0, self.time_step / unit)
-        return growing_segments(step, self.relative_step, per_segment, constant=self.time_step is not None)
+        return growing_segments(step, self.relative_step, constant=self.time_step is not None)

@@ -7,7 +7,6 @@ refuses a larger step.
 
 from __future__ import annotations
 
-import itertools
 import math
 from dataclasses import dataclass
 from typing import Any, ClassVar
@@ -40,7 +39,7 @@ class _Explicit(Integrator):
         settings.timeIntegration.automaticStepSize = False
         settings.timeIntegration.explicit.computeEndOfStepAccelerations = True  # the energy budget needs them
 
-    def segments(self, first: float, per_segment: int, unit: float, stable: float) -> list[Segment]:
+    def segments(self, first: float, unit: float, stable: float) -> list[Segment]:
         step = self.safety * stable
         if self.time_step is not None:
             step = self.time_step / unit
@@ -50,10 +49,7 @@ class _Explicit(Integrator):
                     f"mesh and contact (got {self.time_step!r})"
                 )
         checked_steps(1.0 / max(step, 1e-300))
-        count = math.ceil(1.0 / step)
-        pieces = max(1, count // per_segment)
-        ends = [round(count * k / pieces) for k in range(pieces + 1)]
-        return [Segment(a / count, b / count, b - a) for a, b in itertools.pairwise(ends)]
+        return [Segment(0.0, 1.0, math.ceil(1.0 / step))]
 
 
 @dataclass(frozen=True)
