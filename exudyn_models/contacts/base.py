@@ -67,7 +67,7 @@ class ContactRun(ABC):
 
     @abstractmethod
     def forces(self, q: Array, v: Array) -> tuple[Array, Flags]:
-        """Contact forces (positive: off the wall; of an opposite one negative) and active flags, each of shape (contacts,)."""
+        """Contact forces (off the wall positive, off an opposite one negative) and active flags, shape (contacts,)."""
 
     @property
     def signs(self) -> Array:

@@ -1,70 +1,61 @@
 """A naturally bent beam hits a rigid wall: μ y_tt + EI y_xxxx = −r, 0 ≤ r ⊥ −y ≥ 0 (thesis 2.1.1–2).
 
-Change a part below, run, look:  python exudyn_models/scripts/bent_beam_impact.py --kappa-over-nu 0.5
-Every part and its settings: docs/exudyn.md.
+Change a part, run, look: python exudyn_models/scripts/bent_beam_impact.py --kappa-over-nu 0.5   (docs/exudyn.md)
 """
 
+from __future__ import annotations
+
 import argparse
+from collections.abc import Sequence
 
 import matplotlib.pyplot as plt
 import numpy as np
 
-import exudyn_models
+import exudyn_models as em
 from bent_beam import Impact
-from exudyn_models.contacts import Penalty
-from exudyn_models.elements import ANCFCable
-from exudyn_models.integrators import GeneralizedAlpha
-from exudyn_models.scripts.readings import leading_order
+from comparison.estimators import leading_order, moments
+from theory import contact_parameters
 
-# exact leading order (thesis 2.6.21–22): κ/ν → λ₀, r₀/ν
-EXACT = {
-    0.05: (6.23692857563, 3.93727884942),
-    0.1: (4.25760478009, 2.74499113477),
-    0.25: (2.26148623298, 1.66800147203),
-    0.5: (1.01886591389, 1.17721208090),
-    0.8: (0.296846693037, 1.01915199895),
-}
 
-parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-parser.add_argument("--kappa-over-nu", type=float, default=0.5, help="K sqrt(EI/mu)/V0 (default 0.5)")
-parser.add_argument("--geometry", choices=["linear", "true"], default="linear")
-parser.add_argument("--duration", type=float, default=None, help="end time in units of t* (default 0.1; true: 1e-3)")
-parser.add_argument("--coarsen", type=float, default=1.0, help="factor on the element lengths")
-parser.add_argument("--figure", default="bent_beam_impact.png", help="file to save the figure in")
-parser.add_argument("--view", action="store_true", help="watch in Exudyn's viewer (best with --geometry true)")
-chosen = parser.parse_args()
+def main(arguments: Sequence[str] | None = None) -> None:
+    options = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    options.add_argument("--kappa-over-nu", type=float, default=0.5, help="K sqrt(EI/mu)/V0 (default 0.5)")
+    options.add_argument("--geometry", choices=["linear", "true"], default="linear")
+    options.add_argument("--duration", type=float, help="end time in units of t* (default 0.1; true: 1e-3)")
+    options.add_argument("--coarsen", type=float, default=1.0, help="factor on the element lengths")
+    options.add_argument("--out", default="bent_beam_impact.png", help="file to save the figure in")
+    options.add_argument("--view", action="store_true", help="watch in Exudyn's viewer (best with --geometry true)")
+    chosen = options.parse_args(arguments)
+    impact = Impact.dimensionless(chosen.kappa_over_nu)  # or Impact(bending_stiffness=..., ...) in SI units
+    end_time = (chosen.duration or (1e-3 if chosen.geometry == "true" else 0.1)) * impact.time_scale
+    history = em.simulate(
+        impact,
+        end_time=end_time,
+        mesh=em.chosen_mesh(impact, end_time, coarsen=chosen.coarsen),
+        element=em.ELEMENTS["ancf_cable"](),  # or geometrically_exact
+        integrator=em.INTEGRATORS["generalized_alpha"](),  # or newmark, trapezoidal, rk44, velocity_verlet
+        contact=em.CONTACTS["penalty"](),  # or rigid with newmark, or segment_friction
+        geometry=chosen.geometry,
+        view=chosen.view,
+    )
+    found, exact = leading_order(moments(history)), contact_parameters(chosen.kappa_over_nu)
+    for name, value, theory in (("lambda0", found.lambda0, exact.lambda0), ("r0", found.r0, exact.r0)):
+        print(f"{name} = {value}, theory {float(theory):.6g}, off by {value.value / float(theory) - 1:+.3%}")
+    print(*history.warnings, sep="\n", end="")
+    figure, (left, right) = plt.subplots(1, 2, figsize=(9, 3.6), layout="constrained")
+    reach = 1.6 * max(found.lambda0.value, 0.5) * impact.length_scale * np.sqrt(history.time[-1] / impact.time_scale)
+    x, depth = history.array("x"), -history.array("gap")
+    for share in (0.0, 0.25, 0.5, 1.0):
+        k = int(np.argmin(np.abs(history.time - share * end_time)))
+        left.plot(x[x < reach], depth[k, x < reach], label=f"t = {history.time[k]:.3g} s")
+    top = 0.06 * impact.curvature * reach**2
+    left.axhspan(0.0, top, color="0.85", zorder=0)
+    left.set(xlabel="x, m", ylabel="y, m (wall: grey)", title="half of the beam at the wall", ylim=(-8 * top, top))
+    left.legend()
+    right.plot(history.time, history.array("total_impulse"))
+    right.set(xlabel="t, s", ylabel="impulse, N s", title="impulse of the reaction")
+    figure.savefig(chosen.out, dpi=150)
 
-impact = Impact.dimensionless(chosen.kappa_over_nu)  # or Impact(bending_stiffness=..., ...) in SI units
-duration = chosen.duration or (1e-3 if chosen.geometry == "true" else 0.1)
-end_time = duration * impact.time_scale
-history = exudyn_models.simulate(
-    impact,
-    end_time=end_time,
-    mesh=exudyn_models.chosen_mesh(impact, end_time, coarsen=chosen.coarsen),
-    element=ANCFCable(),  # or GeometricallyExact()
-    integrator=GeneralizedAlpha(spectral_radius=0.5),  # or Newmark(), Trapezoidal(), RK44(), VelocityVerlet() ...
-    contact=Penalty(),  # or Rigid() with Newmark(), or SegmentFriction(friction=0.2)
-    geometry=chosen.geometry,
-    view=chosen.view,
-)
 
-lambda0, r0 = leading_order(history)
-exact = EXACT.get(chosen.kappa_over_nu)
-print(f"steps {history.steps}, {history.seconds:.1f} s in Exudyn, {history.settings['nodes']} nodes")
-for name, found, k in (("lambda0", lambda0, 0), ("r0", r0, 1)):
-    print(f"{name} = {found:.5f}" + (f", exact {exact[k]:.5f}, off by {found / exact[k] - 1:+.3%}" if exact else ""))
-for warning in history.warnings:
-    print("warning:", warning)
-
-figure, (left, right) = plt.subplots(1, 2, figsize=(10, 4), layout="constrained")
-scale = history.impact.length_scale * np.sqrt(history.time[-1] / history.impact.time_scale)
-near = np.abs(history.array("x")) < 4 * scale
-for k in np.linspace(0, history.time.size - 1, 5).astype(int):
-    left.plot(history.array("x")[near], -history.array("gap")[k, near], label=f"t = {history.time[k]:.3g} s")
-left.axhline(0.0, color="black", linewidth=0.8)
-left.set(xlabel="x, m", ylabel="y, m (wall at 0)", title="deflection")
-left.legend()
-right.plot(history.time, history.array("total_impulse"))
-right.set(xlabel="t, s", ylabel="impulse, N s", title="impulse of the reaction")
-figure.savefig(chosen.figure, dpi=150)
-print("figure:", chosen.figure)
+if __name__ == "__main__":
+    main()

@@ -9,11 +9,11 @@ from numpy.testing import assert_allclose
 import exudyn_models
 from bent_beam import Impact, ImpactHistory
 from bent_beam.meshes import NodesMesh, ScaleFreeMesh, UniformMesh
+from comparison import estimators
 from exudyn_models.contacts import Penalty, Rigid, SegmentFriction
 from exudyn_models.elements import ANCFCable, GeometricallyExact
 from exudyn_models.geometry import LinearLimit
 from exudyn_models.integrators import DOPRI5, RK44, GeneralizedAlpha, Newmark, Trapezoidal, VelocityVerlet
-from exudyn_models.scripts.readings import first_order, leading_order
 from exudyn_models.solvers import NewtonSolver
 
 EXACT = {
@@ -32,6 +32,11 @@ def coarse(impact, growth=1.02, elements=60, end_time=None):
     return NodesMesh(
         tuple(ScaleFreeMesh(scale / elements, growth).nodes(exudyn_models.chosen_half_length(impact, end_time)))
     )
+
+
+def leading_order(history):
+    found = estimators.leading_order(estimators.moments(history))
+    return found.lambda0.value, found.r0.value
 
 
 def off(history, kappa_over_nu=0.5):
@@ -202,19 +207,19 @@ def test_without_contact_y0_is_the_motion(element):
 def test_first_order_with_all_three_parameters():
     exact = {(4, 0, 0): (5.66465632402, 10.6928065607), (-1, -1, 0): (-1.77288819407, -4.18053010088)}
     for (alpha, psi, chi), (lambda1, r1) in exact.items():
-        found = []
-        contact = Penalty(hold_start=0.0) if alpha + psi < 0 else Penalty(hold=16)
+        contact = Penalty(hold_start=0.0) if alpha + psi < 0 else Penalty()
         mesh = coarse(Impact.dimensionless(0.5, epsilon_psi=0.1), growth=1.015, elements=100)
-        base = exudyn_models.simulate(HALF, mesh=mesh, contact=contact)
+        base = estimators.moments(exudyn_models.simulate(HALF, mesh=mesh, contact=contact))
+        runs = []
         for epsilon in (0.1, 0.2):
             impact = Impact.dimensionless(
                 0.5, epsilon_alpha=epsilon * alpha, epsilon_psi=epsilon * psi, epsilon_chi=epsilon * chi
             )
             run = exudyn_models.simulate(impact, mesh=mesh, contact=contact)
-            found.append(np.array(first_order(run, base, *EXACT[0.5])) / epsilon)
-        got = 2 * found[0] - found[1]
-        assert got[0] == pytest.approx(lambda1, rel=0.04)
-        assert got[1] == pytest.approx(r1, rel=0.03)
+            runs.append((epsilon, estimators.moments(run, uniform=True)))
+        found = estimators.first_order(runs, base, estimators.leading_order(base))
+        assert found.lambda1.value == pytest.approx(lambda1, rel=0.04)
+        assert found.r1.value == pytest.approx(r1, rel=0.03)
 
 
 def test_history_round_trips_and_saves_where_asked(tmp_path):

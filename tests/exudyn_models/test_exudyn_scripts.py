@@ -59,6 +59,16 @@ def test_true_geometry_script_approaches_the_linear_answer(tmp_path):
     assert max(errors(run("bent_beam_impact", tmp_path, "--geometry", "true", "--coarsen", "2").stdout)) < 5e-3
 
 
+def test_scripts_write_where_told_and_name_what_is_wrong(tmp_path):
+    from exudyn_models.scripts import cantilever, simply_supported_beam
+
+    cantilever.main(["--load", "-1", "--out", str(tmp_path / "bent.png")])
+    assert (tmp_path / "bent.png").exists()
+    for main, wrong in ((cantilever.main, "0"), (simply_supported_beam.main, "3")):
+        with pytest.raises(SystemExit):
+            main(["--elements", wrong])
+
+
 @pytest.mark.parametrize(
     "name", ["cantilever", "simply_supported_beam", "bouncing_ball", "bent_beam_impact", "first_order_impacts"]
 )

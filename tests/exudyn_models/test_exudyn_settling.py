@@ -19,7 +19,7 @@ MESH = UniformMesh(0.1)
 class Scripted:
     """A system and its contact: solutions that assume the given states and contradict them at the given connectors."""
 
-    states = 1
+    states, imposes = 1, False
 
     def __init__(self, *steps):
         self.steps, self.systemData = iter(steps), self
