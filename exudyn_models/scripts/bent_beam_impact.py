@@ -3,8 +3,6 @@
 Change a part, run, look: python exudyn_models/scripts/bent_beam_impact.py --kappa-over-nu 0.5   (docs/exudyn.md)
 """
 
-from __future__ import annotations
-
 import argparse
 from collections.abc import Sequence
 

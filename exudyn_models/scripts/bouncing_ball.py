@@ -3,8 +3,6 @@
 python exudyn_models/scripts/bouncing_ball.py [--restitution 0.8] [--out FILE]
 """
 
-from __future__ import annotations
-
 import argparse
 from collections.abc import Sequence
 
@@ -33,8 +31,8 @@ def main(arguments: Sequence[str] | None = None) -> None:
     mbs.AddLoad(items.Force(markerNumber=centre, loadVector=[0.0, -MASS * GRAVITY, 0.0]))
     ground = mbs.AddMarker(items.MarkerNodeCoordinate(nodeNumber=mbs.AddNode(items.NodePointGround()), coordinate=0))
     vertical = mbs.AddMarker(items.MarkerNodeCoordinate(nodeNumber=ball, coordinate=1))
-    state = mbs.AddNode(items.NodeGenericData(numberOfDataCoordinates=1, initialCoordinates=[HEIGHT]))
-    law = {"nodeNumber": state, "contactStiffness": STIFFNESS, "contactDamping": damping}
+    law = {"nodeNumber": mbs.AddNode(items.NodeGenericData(numberOfDataCoordinates=1, initialCoordinates=[HEIGHT]))}
+    law |= {"contactStiffness": STIFFNESS, "contactDamping": damping}
     mbs.AddObject(items.ObjectContactCoordinate(markerNumbers=[ground, vertical], **law))
     position = exu.OutputVariableType.Position
     sensor = mbs.AddSensor(items.SensorNode(nodeNumber=ball, storeInternal=True, outputVariableType=position))
@@ -52,7 +50,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     for k, apex in enumerate(y[top][:3] / HEIGHT, start=1):
         print(f"apex {k} = {apex:.5f} of the height, exact {e ** (2 * k):.5f}, off by {apex / e ** (2 * k) - 1:+.2%}")
     figure, axes = plt.subplots(layout="constrained")
-    axes.plot(t, y, color="#D55E00")
+    axes.plot(t, y)
     axes.set(xlabel="t, s", ylabel="height, m", title=f"bouncing ball, e = {e:g}")
     figure.savefig(chosen.out, dpi=150)
 
