@@ -37,7 +37,7 @@ class HermiteFE:
     """
 
     path: ClassVar[str] = "hermite"
-    perturbation: ClassVar[float] = 0.01
+    perturbation: ClassVar[float] = 0.02
     """How much a load may change the free motion at the end of a run that measures λ₁ and r₁, over V₀t."""
     PARTS: ClassVar[dict[str, dict[str, type]]] = {
         "mesh": MESHES,
@@ -104,19 +104,23 @@ class HermiteFE:
         the free motion, and a zone that the load presses on is held behind the front (``contact.hold``): what lift the
         bare impact leaves would otherwise take up the load before the wall does. Neither without loads.
         """
-        contact, far_field, domain = self.contact, self.far_field, self.domain
+        mesh, contact, far_field, domain = self.mesh, self.contact, self.far_field, self.domain
         loads = (impact.acceleration, impact.fourth_derivative, impact.curvature_rate, impact.axial_force)
         if any(loads):
             if domain is None and far_field is None:
                 domain = auto.chosen_domain(impact, end_time)
             if contact is None and impact.zone_pressure > 0.0 and (self.integrator is None or self.integrator.holds):
                 contact = NodeContact(hold=auto.PRESSED_HOLD)
+            if mesh is None:
+                mesh = auto.chosen_mesh(
+                    cut(impact, domain), end_time, at_front=auto.LOADED_AT_FRONT, growth=auto.LOADED_GROWTH
+                )
         if domain is not None and far_field is None:
             far_field = GridViscosity(end="following")
         choice = auto.choose(
             cut(impact, domain),
             end_time,
-            self.mesh,
+            mesh,
             self.integrator,
             contact,
             far_field,
