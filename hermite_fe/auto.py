@@ -48,7 +48,7 @@ STEP_PER_FRONT = 0.4  # of the time in which the front runs its own thickness, 2
 ELEMENTS_PER_FRONT = 2.0  # fewer in ℓ deserve a warning
 ELEMENTS_AT_START = 6.0  # in ℓ, until when the start counts as unresolved
 START = 0.01  # of the run, the most that the start may be held
-LOADED_AT_FRONT, LOADED_GROWTH = 0.03, 0.005  # the same two of runs that measure what a load changes
+LOADED = (1.3e-3, 0.03, 0.005)  # SMALLEST_ELEMENT, ELEMENT_AT_FRONT, GROWTH of runs that measure what a load changes
 PRESSED_HOLD = 16  # rows, of runs that measure what a load changes and presses the zone on
 DOMAIN = 12.0  # √(t/t*) l*: half length for such a run, beyond which nothing has arrived that the mesh can send back
 HOLD_ENDS = 0.005  # of T*: from when on the impulse on a finite beam leaves the infinite beam's by 1 % (κ/ν = 0.5)
@@ -79,19 +79,15 @@ def front(impact: Impact, time: float) -> tuple[float, float]:
     return speed * spread, 2.0 * spread / speed
 
 
-def chosen_mesh(
-    impact: Impact, end_time: float, *, at_front: float = ELEMENT_AT_FRONT, growth: float = GROWTH
-) -> Mesh:
-    """Scale-free elements; for a thin front even ones over the zone.
-
-    at_front : element at the front over its thickness; growth : of elements, at most.
-    """
+def chosen_mesh(impact: Impact, end_time: float, *, loaded: bool = False) -> Mesh:
+    """Scale-free elements; for a thin front even ones over the zone. ``loaded``: to measure what a load changes."""
+    smallest, at_front, growth = LOADED if loaded else (SMALLEST_ELEMENT, ELEMENT_AT_FRONT, GROWTH)
     place, thickness = front(impact, end_time)
     kappa, half = bounded_kappa(impact), impact.half_length
     zone = min(1.2 * place, half)
     if kappa >= THIN:
         # at a thin front the centre may be coarser: the start is over in a hundredth of the run all the same
-        smallest = thickness * min(SMALLEST_ELEMENT * max(1.0, 0.04 / kappa), START**0.5 / ELEMENTS_AT_START)
+        smallest = thickness * min(smallest * max(1.0, 0.04 / kappa), START**0.5 / ELEMENTS_AT_START)
         inside = 1.0 + min(growth, at_front * kappa)
         if zone == half:
             return ScaleFreeMesh(element_length=min(smallest, 1e-3 * half), growth=inside)

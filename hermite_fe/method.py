@@ -112,9 +112,7 @@ class HermiteFE:
             if contact is None and impact.zone_pressure > 0.0 and (self.integrator is None or self.integrator.holds):
                 contact = NodeContact(hold=auto.PRESSED_HOLD)
             if mesh is None:
-                mesh = auto.chosen_mesh(
-                    cut(impact, domain), end_time, at_front=auto.LOADED_AT_FRONT, growth=auto.LOADED_GROWTH
-                )
+                mesh = auto.chosen_mesh(cut(impact, domain), end_time, loaded=True)
         if domain is not None and far_field is None:
             far_field = GridViscosity(end="following")
         choice = auto.choose(

@@ -13,10 +13,20 @@ __all__ = ["element_rows"]
 Array = NDArray[np.float64]
 
 
-def element_rows(beam: HermiteBeam, natural: Array, weights: Array, *, full: bool) -> ContactRows:
-    """Rows −weights·(w₁, θ₁, w₂, θ₂); ``weights`` (elements, 4); ``natural`` (dofs,) is the stress-free
-    shape."""
+def element_rows(
+    beam: HermiteBeam, natural: Array, weights: Array, *, at: float | Array = 0.5, full: bool
+) -> ContactRows:
+    """Rows −weights·(w₁, θ₁, w₂, θ₂), one an element.
+
+    weights : (elements, 4). natural : (dofs,), the bow as seen from the wall. at : where in its element each row sits,
+        0 … 1 from the left, a number or (elements,); the moment of the reactions, and with it λ_c, is taken there.
+
+    Raises ``ValueError`` when ``at`` lies outside the elements.
+    """
     count = beam.nodes.size - 1
+    share = np.broadcast_to(np.asarray(at, float), (count,))
+    if not np.all((share >= 0.0) & (share <= 1.0)):
+        raise ValueError(f"at must lie in [0, 1], within the element (got {at!r})")
     dofs = 2 * np.arange(count)[:, None] + np.arange(4)[None, :]
     first = count // 2 if full else 0
     left = np.arange(count) < first
@@ -24,7 +34,7 @@ def element_rows(beam: HermiteBeam, natural: Array, weights: Array, *, full: boo
         dofs=dofs,
         factors=-weights,
         gap=-np.einsum("jk,jk->j", weights, natural[dofs]),
-        places=0.5 * (beam.nodes[:-1] + beam.nodes[1:]),
+        places=beam.nodes[:-1] + share * beam.lengths,
         rank=np.where(left, first - 1 - np.arange(count), np.arange(count) - first),
         side=left.astype(np.int64),
         tributary=beam.lengths,

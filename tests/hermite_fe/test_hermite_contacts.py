@@ -4,14 +4,18 @@ does."""
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 
 import numpy as np
 import pytest
 
 from bent_beam import Impact, ImpactHistory
-from bent_beam.meshes import ScaleFreeMesh
+from bent_beam.meshes import ScaleFreeMesh, UniformMesh
+from comparison.estimators import leading_order, moments
 from hermite_fe import simulate
+from hermite_fe.beam import shape_functions
 from hermite_fe.contacts import CONTACTS, Contact, MeanContact, MiddleContact, NodeContact
+from hermite_fe.contacts.element import element_rows
 from hermite_fe.far_fields import GridViscosity
 from hermite_fe.integrators import (
     GeneralizedAlphaPenalty,
@@ -191,3 +195,41 @@ def test_contacts_validate_their_numbers() -> None:
             kind(hold=-1)
         with pytest.raises(ValueError, match=r"contact\.hold_until must not be negative"):
             kind(hold_until=-1.0)
+
+
+@dataclass(frozen=True)
+class QuarterContact(Contact):
+    """Somebody's own: rows at a quarter of each element, counted from the middle of the beam."""
+
+    def rows(self, beam, natural, *, full):  # type: ignore[no-untyped-def]
+        s = np.where(beam.nodes[1:] > 0.0, 0.25, 0.75)
+        weights = np.concatenate([shape_functions(a, b) for a, b in zip(s, beam.lengths)])
+        return element_rows(beam, natural, weights, at=s, full=full)
+
+
+@pytest.mark.parametrize("contact", [QuarterContact(), MiddleContact(), MeanContact()], ids=lambda c: type(c).__name__)
+def test_contacts_between_nodes_are_booked_where_they_act(contact: Contact) -> None:
+    """λ₀ = 1.018866, r₀ = 1.177212 at κ/ν = 0.5 (thesis 2.6.21–22); booked a quarter element off, λ₀ is 0.8 % off."""
+    found = leading_order(moments(simulate(Impact.dimensionless(0.5, length=20.0), contact=contact)))
+    assert found.lambda0.value == pytest.approx(1.01886591389, rel=1e-3)
+    assert found.r0.value == pytest.approx(1.17721208090, rel=1e-3)
+    assert found.lift < 1e-3
+
+
+def test_a_quarter_contact_is_symmetric_on_the_full_beam() -> None:
+    half, full = (run(INTEGRATORS["signorini_position"], QuarterContact(), full_beam=f) for f in (False, True))
+    assert full.array("total_impulse") == pytest.approx(half.array("total_impulse"), abs=1e-8)
+    assert np.allclose(full.contact_positions(0), -full.contact_positions(0)[::-1])
+
+
+def test_a_zone_thrown_off_the_wall_is_warned_of() -> None:
+    """κ/ν = 0.1, coarse elements and Moreau–Jean, which rattles: the zone lifts by several per cent."""
+    history = simulate(
+        Impact.dimensionless(0.1, length=20.0),
+        end_time=0.1,
+        mesh=UniformMesh(0.02),
+        integrator=MoreauJean(time_step=1e-4),
+        contact=NodeContact(hold=0, hold_until=0.0),
+    )
+    assert leading_order(moments(history)).lift > 1e-2
+    assert any("off the wall" in warning for warning in history.warnings)
