@@ -253,23 +253,36 @@ def _text(fields: Mapping[str, Any], name: str) -> str:
             raise ResultError(f"{name} is not UTF-8 text") from None
     if not isinstance(value, str):
         raise ResultError(f"{name} must be a text (got {shortened(value)})")
+    if not _is_text(value):
+        raise ResultError(f"{name} holds characters that are no text")
     if len(value) > MOST_TEXT:
         raise ResultError(f"{name} has {len(value)} characters, {MOST_TEXT} are the most")
     return value
 
 
 def _metadata(fields: Mapping[str, Any]) -> dict[str, Any]:
-    if isinstance(fields.get("metadata"), dict):
-        return dict(fields["metadata"])
     try:
-        found = json.loads(_text(fields, "metadata"))
+        given = fields.get("metadata")
+        found = given if isinstance(given, dict) else json.loads(_text(fields, "metadata"))
+        readable = _is_text(json.dumps(found, ensure_ascii=False))
     except ResultError:
         raise
     except (ValueError, RecursionError) as error:
         raise ResultError(f"metadata is not JSON: {_one_line(error)}") from None
     if not isinstance(found, dict):
         raise ResultError("metadata must hold one JSON object")
-    return found
+    if not readable:
+        raise ResultError("metadata holds characters that are no text")
+    return dict(found)
+
+
+def _is_text(value: str) -> bool:
+    """Whether it can be written: no halves of characters, no control codes."""
+    try:
+        value.encode("utf-8")
+    except UnicodeEncodeError:
+        return False
+    return not re.search(r"[\x00-\x08\x0b\x0c\x0e-\x1f\x7f]", value)
 
 
 def _numbers(fields: Mapping[str, Any], name: str) -> Array:

@@ -6,6 +6,7 @@ and a folder of its own; both are gone afterwards.
 
 from __future__ import annotations
 
+import contextlib
 import json
 import os
 import resource
@@ -14,6 +15,7 @@ import signal
 import subprocess
 import tempfile
 import time
+import uuid
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -67,7 +69,14 @@ def _run(adapter: Adapter, asked: Problem, resolution: str, folder: Path, kept: 
 
     command = adapter.command(folder / "problem.toml", folder / "result.npz", resolution)
     # one thread each: a race for cores would be measured, not the codes
-    surroundings = {**os.environ, "OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1", "TMPDIR": str(folder)}
+    mark = f"BENTBEAM_RUN={uuid.uuid4().hex}"
+    surroundings = {
+        **os.environ,
+        **dict([mark.split("=")]),
+        "OMP_NUM_THREADS": "1",
+        "OPENBLAS_NUM_THREADS": "1",
+        "TMPDIR": str(folder),
+    }
     if adapter.install or adapter.debian:
         surroundings.pop("PYTHONPATH", None)  # nothing of this project is in reach of a foreign adapter
     began = time.perf_counter()
@@ -82,7 +91,7 @@ def _run(adapter: Adapter, asked: Problem, resolution: str, folder: Path, kept: 
         try:
             ended = _watch(process, folder, began, limits)
         finally:
-            _end(process)
+            _end(process, mark)
     spent = time.perf_counter() - began
     if ended:
         return Run(ended[0], ended[1], spent)
@@ -115,13 +124,15 @@ def _written(folder: Path) -> tuple[int, int]:
     return size, files
 
 
-def _end(process: subprocess.Popen[bytes]) -> None:
-    """Kill the whole process group, what it started included."""
-    try:
+def _end(process: subprocess.Popen[bytes], mark: str) -> None:
+    """Kill the whole process group, and whatever of this run has left it (it carries the run's mark)."""
+    with contextlib.suppress(ProcessLookupError):
         os.killpg(process.pid, signal.SIGKILL)
-    except ProcessLookupError:
-        pass
     process.wait()
+    for place in Path("/proc").glob("[0-9]*/environ"):
+        with contextlib.suppress(OSError):
+            if mark.encode() in place.read_bytes().split(b"\0"):
+                os.kill(int(place.parent.name), signal.SIGKILL)
 
 
 def _taken(folder: Path, asked: Problem, kept: Path, code: int, spent: float) -> Run:

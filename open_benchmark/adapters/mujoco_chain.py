@@ -13,7 +13,7 @@ import tomllib
 import mujoco
 import numpy as np
 
-SIZES = {"coarse": 0.05, "medium": 0.035, "fine": 0.025}  # link length over l*
+SIZES = {"coarse": 0.04, "medium": 0.025, "fine": 0.015}  # link length over l*
 HALF_LENGTH, AMPLITUDE, VISCOSITY = 4.0, 1e-3, 0.3  # viscosity of a hinge over sqrt(EI mu) size
 XML = """<mujoco><compiler angle="radian" inertiafromgeom="false" boundmass="0" boundinertia="0"/>
 <option timestep="{dt}" integrator="implicitfast" solver="Newton" iterations="100" tolerance="0" gravity="0 0 {load}"/>
@@ -31,7 +31,7 @@ def main(problem_file, result_file, resolution="medium"):
         return
     size = SIZES[resolution]
     n = round(HALF_LENGTH / size)
-    steps = max(round(end / (0.3 * size**2)), 300)  # the springs are explicit: 2/omega = size^2/2
+    steps = max(round(end / (0.2 * size**2)), 300)  # the springs are explicit: 2/omega = size^2/2
     dt, x, radius = end / steps, size * np.arange(n + 1), size / 10
     curvature = AMPLITUDE * (beam["curvature"] - impact["fourth_derivative"] * x**2 / 2)
     line, bend = beam["mass_per_length"] * size, beam["bending_stiffness"] / size

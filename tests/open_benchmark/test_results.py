@@ -79,6 +79,8 @@ def test_csv_beside_json_scores_like_npz(tmp_path: Path) -> None:
         ({"problem": "leading-1.5"}, "K must be below 1"),
         ({"metadata": "{"}, "metadata is not JSON"),
         ({"metadata": "[1]"}, "metadata must hold one JSON object"),
+        ({"metadata": '{"tool": "\\ud800"}'}, "metadata holds characters that are no text"),
+        ({"outcome": "crashed(\x1b[31m)"}, "outcome holds characters that are no text"),
         ({"J": np.zeros(17)}, "J holds 17 values for 400 instants"),
         ({"J": np.zeros((400, 2))}, "J must have one dimension"),
         ({"J": np.full(400, np.nan)}, "J[0] is nan"),

@@ -49,7 +49,7 @@ def test_a_hang_is_a_timeout_and_takes_its_children_along(tmp_path: Path) -> Non
     pid = tmp_path / "child.pid"
     source = f"""
 import subprocess, sys, time
-child = subprocess.Popen([sys.executable, "-c", "import time; time.sleep(60)"])
+child = subprocess.Popen([sys.executable, "-c", "import time; time.sleep(60)"], start_new_session=True)
 open({str(pid)!r}, "w").write(str(child.pid))
 time.sleep(60)
 """
