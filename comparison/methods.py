@@ -84,6 +84,6 @@ def _method(table: Any, where: str) -> Method:
     if label is not None and (not isinstance(label, str) or not 0 < len(label) <= 80 or not label.isprintable()):
         raise InputError(f"{where}: label must be a short text (got {shortened(label)})")
     try:
-        return method_from_tables(table["path"], rest, label=label)  # type: ignore[no-any-return]
+        return method_from_tables(table["path"], rest, label=label)
     except InputError as error:
         raise InputError(f"{where}: {error}") from None

@@ -13,7 +13,7 @@ from bent_beam.impact import Impact
 from bent_beam.method import Method, refined
 from bent_beam.section import Section
 from comparison.compared import Compared
-from comparison.estimators import Moments, leading_order, moments
+from comparison.estimators import Estimate, Moments, leading_order, moments
 from comparison.match import COMPANIONS, INSTANTS
 from comparison.reduction import hold_of, peak_moment, pull_of
 from comparison.text_table import text_table
@@ -85,10 +85,10 @@ def summary(
             row.half_contact_length if row and holds else None,
         ),
         "total_impulse": Compared(history.array("total_impulse")[-1], None, row.impulse if row and holds else None),
-        "lambda0": Compared(
-            leading and leading.lambda0.value, leading and leading.lambda0.error, infinite and infinite.lambda0
+        "lambda0": _estimated(
+            None if leading is None else leading.lambda0, None if infinite is None else infinite.lambda0
         ),
-        "r0": Compared(leading and leading.r0.value, leading and leading.r0.error, infinite and infinite.r0),
+        "r0": _estimated(None if leading is None else leading.r0, None if infinite is None else infinite.r0),
         "lift": found.lift[-1],
         "pull": pull_of(history),
         "hold": hold_of(history),
@@ -101,6 +101,10 @@ def summary(
         "warnings": history.warnings,
         "file": None if file is None else str(file),
     }
+
+
+def _estimated(found: Estimate | None, theory: float | None) -> Compared:
+    return Compared(theory=theory) if found is None else Compared(found.value, found.error, theory)
 
 
 def energy_at_end(history: ImpactHistory) -> dict[str, float | None]:
