@@ -31,21 +31,12 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from hermite_fe.kernels.banded import add, combine, dot, factor, multiply, quadratic, stiff_multiply
+from hermite_fe.kernels.banded import combine, factor, multiply, stiff_multiply
 from hermite_fe.kernels.contact import force_at, mark_held, row_times, rows_times
 from hermite_fe.kernels.jit import compiled, inlined
 from hermite_fe.kernels.pivoting import NOT_FINITE, SINGULAR, SOLVED, solve_rows
-from hermite_fe.kernels.problem import (
-    ALGORITHMIC,
-    IMPACT,
-    PRODUCT,
-    SMALLEST_REACTION,
-    WORK,
-    ContactLaw,
-    Problem,
-    State,
-    Work,
-)
+from hermite_fe.kernels.problem import PRODUCT, SMALLEST_REACTION, ContactLaw, Problem, State, Work
+from hermite_fe.kernels.stepping import book_step, initial_acceleration, residual_force
 
 Array = NDArray[np.float64]
 AT_REST = 1e-10  # of the largest velocity: a closed row slower than this has not rebounded
@@ -141,34 +132,6 @@ def react(scheme: Scheme, state: State, h: float, j: int, force: float, kept: Ke
 
 
 @compiled
-def residual_force(problem: Problem, t: float, q: Array, v: Array, out: Array, scratch: Array) -> None:
-    """out = F(t) − Cv − Kq."""
-    force_at(problem.load, t, 0.0, 0.0, out)
-    stiff_multiply(problem.K, problem.even, problem.odd, q, scratch)
-    for i in range(q.size):
-        out[i] -= scratch[i]
-    if problem.slots.size > 0:
-        multiply(problem.C, v, scratch, q.size)
-        for i in range(q.size):
-            out[i] -= scratch[i]
-
-
-@compiled
-def start(problem: Problem, state: State, work: Work) -> int:
-    """Acceleration at the start, v̇ = a = M⁻¹(F − Cv − Kq), without reactions; leaves ``work`` without rows that take
-    part."""
-    combine(problem.M, problem.C, problem.K, 1.0, 0.0, 0.0, problem.place, work.S)
-    work.made_with[0] = math.nan
-    work.candidate[:] = False
-    work.held[:] = False
-    residual_force(problem, 0.0, state.q, state.v, work.b, work.d1)
-    status = solve_rows(problem, work, True, state.q.size, np.zeros(state.closed.size, np.bool_))
-    state.acceleration[:] = work.x
-    state.a[:] = work.x
-    return status
-
-
-@compiled
 def account(
     scheme: Scheme,
     problem: Problem,
@@ -194,7 +157,6 @@ def account(
         old_q[i] = q[i] - old_q[i]
         lag[i] = (state.acceleration[i] - state.a[i]) - lag[i]
     force_at(problem.load, t, h, 0.5, force)
-    done = dot(force, old_q)
     stiff_multiply(problem.K, problem.even, problem.odd, old_v, product)
     gain = 0.0
     for i in range(q.size):
@@ -204,20 +166,13 @@ def account(
     for i in range(q.size):
         momentum += mean_v[i] * (half * product[i] + 0.5 * state.jump[i] + kept.missed[i])
         state.jump[i] = kept.jump[i]
-    contact = 0.0
-    for j in range(impulse.size):
-        change = state.reaction[j] - state.reaction_a[j] - kept.row_lag[j] if filtered else 0.0
-        if impulse[j] != 0.0 or change != 0.0:
-            speed = row_times(problem.dofs, problem.factors, mean_v, j)
-            contact += impulse[j] * speed
-            momentum -= half * change * speed
-            state.impulse[j] += impulse[j]
-    add(state.budget, WORK, done)
-    add(state.budget, IMPACT, -contact)
-    add(state.budget, ALGORITHMIC, -gain - h * momentum)
-    for cause in range(problem.slots.size):
-        add(state.budget, problem.slots[cause], h * quadratic(problem.parts[cause], mean_v))
-    return math.isfinite(done) and math.isfinite(momentum)
+    if filtered:
+        for j in range(impulse.size):
+            change = state.reaction[j] - state.reaction_a[j] - kept.row_lag[j]
+            if change != 0.0:
+                momentum -= half * change * row_times(problem.dofs, problem.factors, mean_v, j)
+    book_step(problem, state, h, force, old_q, mean_v, impulse, -gain - h * momentum)
+    return math.isfinite(gain) and math.isfinite(momentum)
 
 
 @compiled
@@ -248,7 +203,7 @@ def velocity_steps(
     kept = kept_of(n, m)
     none = np.zeros(m, np.bool_)
     if first == 0:
-        status = start(problem, state, smooth)
+        status = initial_acceleration(problem, state, smooth)
         if status != SOLVED:
             return status, 0
     for k in range(first, last):
@@ -346,7 +301,7 @@ def sequential_steps(
     n, m = q.size, closed.size
     kept, impulse = kept_of(n, m), np.empty(m)
     if first == 0:
-        status = start(problem, state, velocity)
+        status = initial_acceleration(problem, state, velocity)
         if status != SOLVED:
             return status, 0
     for k in range(first, last):
@@ -468,7 +423,7 @@ def penalty_steps(
     touching = state.resting  # as the factors know them
     none = np.zeros(m, np.bool_)
     if first == 0:
-        status = start(problem, state, work)
+        status = initial_acceleration(problem, state, work)
         if status != SOLVED:
             return status, 0
     for k in range(first, last):

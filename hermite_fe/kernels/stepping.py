@@ -1,0 +1,74 @@
+"""Compiled pieces of a step that integrators share: forces, the acceleration at the start, the energy booked."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hermite_fe.kernels.banded import add, combine, dot, multiply, quadratic, stiff_multiply
+from hermite_fe.kernels.contact import force_at, row_times
+from hermite_fe.kernels.jit import compiled
+from hermite_fe.kernels.pivoting import solve_rows
+from hermite_fe.kernels.problem import ALGORITHMIC, IMPACT, WORK, Problem, State, Work
+
+Array = NDArray[np.float64]
+
+
+@compiled
+def residual_force(problem: Problem, t: float, q: Array, v: Array, out: Array, scratch: Array) -> None:
+    """out = F(t) − Cv − Kq."""
+    force_at(problem.load, t, 0.0, 0.0, out)
+    stiff_multiply(problem.K, problem.even, problem.odd, q, scratch)
+    for i in range(q.size):
+        out[i] -= scratch[i]
+    if problem.slots.size > 0:
+        multiply(problem.C, v, scratch, q.size)
+        for i in range(q.size):
+            out[i] -= scratch[i]
+
+
+@compiled
+def initial_acceleration(problem: Problem, state: State, work: Work) -> int:
+    """Acceleration at the start, v̇ = a = M⁻¹(F − Cv − Kq), without reactions; leaves ``work`` without rows that take
+    part."""
+    combine(problem.M, problem.C, problem.K, 1.0, 0.0, 0.0, problem.place, work.S)
+    work.made_with[0] = math.nan
+    work.candidate[:] = False
+    work.held[:] = False
+    residual_force(problem, 0.0, state.q, state.v, work.b, work.d1)
+    status = solve_rows(problem, work, True, state.q.size, np.zeros(state.closed.size, np.bool_))
+    state.acceleration[:] = work.x
+    state.a[:] = work.x
+    return status
+
+
+@compiled
+def book_step(
+    problem: Problem,
+    state: State,
+    h: float,
+    force: Array,
+    change: Array,
+    mean_v: Array,
+    impulse: Array,
+    algorithmic: float,
+) -> None:
+    """Book a step of length h in state.budget and state.impulse, each term from its cause.
+
+    Work of the loads, forceᵀΔq; loss in impacts, −pᵀGv̄; what each cause of damping takes, h v̄ᵀCv̄.
+    force : F̄ (dofs,), mean load of the step; change : Δq; mean_v : v̄ = ½(v + v⁺); impulse : p (rows,), of all
+        reactions. algorithmic : the scheme's own loss, from the scheme's own formula: what is left of Δ(T + V) is
+        a run's defect.
+    """
+    contact = 0.0
+    for j in range(impulse.size):
+        if impulse[j] != 0.0:
+            contact += impulse[j] * row_times(problem.dofs, problem.factors, mean_v, j)
+            state.impulse[j] += impulse[j]
+    add(state.budget, WORK, dot(force, change))
+    add(state.budget, IMPACT, -contact)
+    add(state.budget, ALGORITHMIC, algorithmic)
+    for cause in range(problem.slots.size):
+        add(state.budget, problem.slots[cause], h * quadratic(problem.parts[cause], mean_v))

@@ -1,0 +1,148 @@
+"""The compiled contact problem and factorisation against truth: every active set tried densely, and LAPACK."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+from scipy.linalg import cho_solve_banded, cholesky_banded
+
+from bent_beam.meshes import ScaleFreeMesh
+from hermite_fe.beam import HermiteBeam
+from hermite_fe.kernels import SOLVED, combine, problem_of, solve_rows, works_of
+from hermite_fe.system import ContactRows, System
+
+Array = NDArray[np.float64]
+
+
+def dense(bands: Array) -> Array:
+    """The symmetric matrix of lower bands."""
+    n = bands.shape[1]
+    lower = sum(np.diag(bands[m, : n - m], -m) for m in range(min(4, n)))
+    return np.asarray(lower + np.tril(lower, -1).T)
+
+
+def random_system(random: np.random.Generator) -> System:
+    """A positive definite matrix put together from elements; up to seven rows of one dof, or of an element's four."""
+    nodes = int(random.integers(2, 8))
+    n = 2 * nodes
+    full = np.diag(random.uniform(0.1, 4.0, n))
+    for e in range(nodes - 1):  # elements, as in a beam
+        part = random.normal(size=(4, 4)) * random.choice([0.1, 1.0, 10.0])
+        full[2 * e : 2 * e + 4, 2 * e : 2 * e + 4] += part @ part.T
+    bands = np.stack([np.pad(np.diag(full, -m), (0, m)) for m in range(4)])
+    if random.random() < 0.5:
+        dofs = 2 * np.sort(random.choice(nodes, int(random.integers(1, nodes + 1)), replace=False))[:, None]
+    else:
+        elements = np.sort(random.choice(nodes - 1, int(random.integers(1, nodes)), replace=False))
+        dofs = 2 * elements[:, None] + np.arange(4)
+    factors = random.choice([-1.0, 1.0], dofs.shape) * random.uniform(0.5, 2.0, dofs.shape)
+    free = np.setdiff1d(np.arange(n), dofs) if dofs.shape[1] == 1 else np.arange(1, n, 2)
+    supports = tuple(int(d) for d in free[random.random(free.size) < 0.1][:1])
+    return System(
+        mass=bands,
+        stiffness=np.zeros((1, n)),
+        contacts=ContactRows(dofs=dofs, factors=factors, gap=np.zeros(len(dofs))),
+        supports=supports,
+    )
+
+
+def truth(system: System, b: Array, target: Array, candidate: Array, held: Array) -> tuple[Array, Array]:
+    """x and p of the one active set, out of all, that breaks no sign (or breaks them least: round-off)."""
+    rows, n = system.contacts, system.dofs
+    m = len(rows)
+    G = np.zeros((m, n))
+    np.put_along_axis(G, rows.dofs, rows.factors, axis=1)
+    keep = np.setdiff1d(np.arange(n), system.supports)
+    inverse = np.zeros((n, n))
+    inverse[np.ix_(keep, keep)] = np.linalg.inv(dense(system.mass)[np.ix_(keep, keep)])
+    W, free = G @ inverse @ G.T, G @ inverse @ b - target
+    sets = (np.arange(2**m)[:, None] >> np.arange(m)) & 1 == 1
+    sets = sets[np.all(sets | ~held, axis=1) & np.all(~sets | candidate | held, axis=1)]
+    both = sets[:, :, None] & sets[:, None, :]
+    p = np.linalg.solve(np.where(both, W, np.eye(m)), np.where(sets, -free, 0.0)[:, :, None])[:, :, 0]
+    slack = p @ W + free
+    worst = np.maximum(np.where(held, 0.0, -p), np.where(candidate & ~sets, -slack, 0.0)).max(axis=1)
+    best = int(np.argmin(worst))
+    return inverse @ (b + G.T @ p[best]), p[best]
+
+
+def check(seed: int) -> None:
+    random = np.random.default_rng(seed)
+    system = random_system(random)
+    problem = problem_of(system)
+    n, m = system.dofs, len(system.contacts)
+    work = works_of(system, problem, 1)[0]
+    combine(problem.M, problem.C, problem.K, 1.0, 0.0, 0.0, problem.place, work.S)
+    extent = int(random.integers(0, n + 1))
+    b = random.normal(size=n) * (np.arange(n) < extent)
+    target = random.normal(size=m)
+    degenerate = random.random()
+    if degenerate < 0.1:
+        b, target = np.round(b), np.zeros(m)
+    elif degenerate < 0.3:  # some rows just touch: no gap and no reaction
+        none = np.zeros(m, bool)
+        x, _ = truth(system, b, target, none, none)
+        touching = np.einsum("jk,jk->j", system.contacts.factors, x[system.contacts.dofs])
+        target = np.where(random.random(m) < 0.5, touching, target)
+    candidate, held = random.random(m) < 0.9, random.random(m) < 0.1
+    x, p = truth(system, b, target, candidate, held)
+    scale = 1.0 + np.abs(x).max() + np.abs(p).max()
+    work.target[:], work.candidate[:], work.held[:] = target, candidate, held
+    for attempt in range(3):  # from one guess to the next the factors are kept
+        closed = random.random(m) < 0.5
+        work.b[:] = b
+        assert solve_rows(problem, work, attempt == 0, extent, closed) == SOLVED, seed
+        assert np.abs(work.x - x).max() < 1e-7 * scale, seed
+        assert np.abs(work.p - p).max() < 1e-7 * scale, seed
+
+
+def test_contact_problems_are_solved_as_by_trying_every_active_set() -> None:
+    """300 random problems, degenerate ones among them, each from three wrong guesses."""
+    for seed in range(300):
+        check(seed)
+
+
+@pytest.mark.verify
+def test_ten_thousand_contact_problems() -> None:
+    for seed in range(1000, 11000):
+        check(seed)
+
+
+def test_the_factors_solve_like_lapack_s() -> None:
+    """The step matrix of a strongly graded beam, scaled to a unit diagonal for the comparison."""
+    beam = HermiteBeam(ScaleFreeMesh(element_length=1e-3, growth=1.02).nodes(10.0), 1.0, 1.0)
+    system = System(
+        mass=beam.mass(),
+        stiffness=beam.stiffness(),
+        contacts=ContactRows(dofs=[[0]], factors=[[1.0]], gap=[0.0]),
+    )
+    problem = problem_of(system)
+    work = works_of(system, problem, 1)[0]
+    combine(problem.M, problem.C, problem.K, 1.0, 0.0, 1e-6, problem.place, work.S)
+    bands = system.mass + 1e-6 * system.stiffness
+    known = np.random.default_rng(1).normal(size=system.dofs)
+    work.b[:] = dense(bands) @ known
+    assert solve_rows(problem, work, True, system.dofs, np.zeros(1, bool)) == SOLVED
+    lapack = cho_solve_banded((cholesky_banded(bands, lower=True), True), work.b)
+    worst = np.abs(lapack - known).max()
+    assert 0.0 < worst < 1e-6
+    assert np.abs(work.x - known).max() < 5.0 * worst
+
+
+def test_a_load_near_the_contact_moves_nothing_far_away() -> None:
+    """A short right-hand side is solved only as far as anything moves, and to the same answer."""
+    beam = HermiteBeam(np.linspace(0.0, 40.0, 1601), 1.0, 1.0)
+    rows = ContactRows(dofs=2 * np.arange(20)[:, None], factors=-np.ones((20, 1)), gap=np.zeros(20))
+    system = System(mass=beam.mass(), stiffness=beam.stiffness(), contacts=rows)
+    problem = problem_of(system)
+    short, whole = works_of(system, problem, 2)
+    combine(problem.M, problem.C, problem.K, 1.0, 0.0, 1e-6, problem.place, short.S)
+    for work, extent, fresh in ((short, 30, True), (whole, system.dofs, False)):
+        work.b[:30] = np.sin(np.arange(30))
+        work.candidate[:] = True
+        assert solve_rows(problem, work, fresh, extent, np.zeros(20, bool)) == SOLVED
+    assert 30 < short.extent[0] < 0.9 * system.dofs
+    assert np.all(short.x[short.extent[0] :] == 0.0)
+    assert np.abs(short.x - whole.x).max() < 1e-15 * np.abs(whole.x).max()
+    assert np.abs(short.p - whole.p).max() < 1e-14 * np.abs(whole.p).max()
