@@ -1,0 +1,90 @@
+"""Axial force and curved walls: the model itself carries them."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+import exudyn_models
+from bent_beam import Impact
+from bent_beam.meshes import NodesMesh
+from comparison import estimators
+from exudyn_models.contacts import Penalty
+from exudyn_models.elements import ANCFCable, GeometricallyExact
+
+MESH = NodesMesh(tuple(np.linspace(0.0, 2.0, 41)))
+NO_WALL = Penalty(stiffness=1e-12, damping=0.0, hold_start=0.0)
+
+
+@pytest.mark.parametrize("element", [ANCFCable(), GeometricallyExact()], ids=lambda e: type(e).__name__)
+@pytest.mark.parametrize("tension", [1.0, -1.0])
+def test_without_contact_y0_is_the_motion_under_tension(element, tension):
+    impact = Impact.dimensionless(0.5, epsilon_alpha=0.4, epsilon_axial=tension)
+    history = exudyn_models.simulate(impact, mesh=MESH, element=element, contact=NO_WALL, end_time=0.5)
+    x, t = history.array("x"), history.time[-1]
+    assert_allclose(-history.array("gap")[-1], t - 0.25 * x**2 + 0.2 * t**2, atol=2e-4)
+    budget = history.energy_budget()
+    assert abs(budget["defect"]) < 1e-6 * budget["initial_energy"]
+
+
+def test_a_taut_beam_vibrates_faster():
+    """Fundamental of a string-like pull: initial bow released, the middle's acceleration changes by N y_xx/μ."""
+    slack, taut = (
+        exudyn_models.simulate(
+            Impact.dimensionless(0.5, epsilon_axial=n, epsilon_alpha=-0.5 * n), mesh=MESH, contact=NO_WALL, end_time=0.5
+        )
+        for n in (0.0, 0.2)
+    )
+    middle = taut.array("gap")[-1, 0] - slack.array("gap")[-1, 0]
+    assert middle == pytest.approx(0.5 * 0.2 * 0.5**2 / 2, rel=0.02)
+
+
+def test_a_straight_beam_on_a_bulging_wall_is_the_bent_beam_on_a_flat_one():
+    bent = Impact.dimensionless(0.5, length=16.0)
+    straight = bent.replace(curvature=0.0, wall_curvature=-0.5)
+    both = bent.replace(curvature=0.8, wall_curvature=0.3)
+    mesh = exudyn_models.chosen_mesh(bent, coarsen=4.0)
+    flat, *curved = (exudyn_models.simulate(i, mesh=mesh, save=20) for i in (bent, straight, both))
+    for history in curved:
+        assert_allclose(history.array("total_impulse"), flat.array("total_impulse"), rtol=1e-4, atol=1e-6)
+        assert_allclose(history.array("gap"), flat.array("gap"), rtol=5e-5, atol=1e-6)
+
+
+@pytest.mark.verify
+@pytest.mark.parametrize(
+    ("kappa_over_nu", "lambda_axial", "r_axial"),
+    [
+        (0.1, -0.20733738067, -1.06665409542),
+        (0.25, -0.534220796989, -1.51840932535),
+        (0.5, -0.948751775325, -1.66028391137),
+        (0.8, -1.19174875743, -1.57502280457),
+    ],
+)
+def test_tension_changes_contact_and_reaction_as_first_order_theory_says(kappa_over_nu, lambda_axial, r_axial):
+    """Half the difference of runs under tension and compression, both in free flight, stands for one run."""
+    size = 0.3
+    base = Impact.dimensionless(kappa_over_nu)
+    mesh = exudyn_models.chosen_mesh(base)
+    taut, pressed, free = (
+        estimators.moments(
+            exudyn_models.simulate(base.replace(axial_force=n, acceleration=-n * kappa_over_nu), mesh=mesh)
+        )
+        for n in (size, -size, 0.0)
+    )
+    odd = dataclasses.replace(
+        free,
+        impulse=free.impulse + (taut.impulse - pressed.impulse) / 2,
+        moment=free.moment + (taut.moment - pressed.moment) / 2,
+    )
+    found = estimators.first_order([(size, odd)], free, estimators.leading_order(free))
+    assert abs(found.lambda1.value - lambda_axial) < 0.03 * max(1.0, abs(lambda_axial))
+    assert abs(found.r1.value - r_axial) < 0.03 * max(1.0, abs(r_axial))
+
+
+@pytest.mark.verify
+def test_a_real_beam_under_tension_gives_the_impulse_of_the_linear_limit():
+    impact = Impact.dimensionless(0.5, epsilon_axial=20.0, epsilon_alpha=-10.0).replace(section_height=1e-2)
+    end = 1e-3
+    linear, true = (exudyn_models.simulate(impact, end_time=end, geometry=g, save=50) for g in ("linear", "true"))
+    assert true.array("total_impulse")[-1] == pytest.approx(linear.array("total_impulse")[-1], rel=5e-3)

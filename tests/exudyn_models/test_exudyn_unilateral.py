@@ -1,0 +1,57 @@
+"""The wall pushes and never pulls, and no energy comes from it: random physical problems, default method."""
+
+import numpy as np
+import pytest
+
+import exudyn_models
+from bent_beam import Impact
+from bent_beam.meshes import UniformMesh
+
+
+def problem(generator):
+    """A steel-like pipe or rod: κ/ν from 0.05 to 5, damped a little, pressed, lifted or free."""
+    stiffness, mass, length = (10 ** generator.uniform(low, high) for low, high in ((-1, 6), (-1, 2), (-1, 2)))
+    velocity = 10 ** generator.uniform(-1, 1)
+    kappa = 10 ** generator.uniform(np.log10(0.05), np.log10(5.0))
+    wave = np.sqrt(stiffness / mass)
+    period = (length / 2) ** 2 / wave
+    return Impact(
+        bending_stiffness=stiffness,
+        mass_per_length=mass,
+        length=length,
+        curvature=kappa * velocity / wave,
+        velocity=velocity,
+        acceleration=generator.choice([0.0, 1.0, -1.0]) * generator.uniform(0, 1) * velocity / period,
+        damping=generator.choice([0.0, 1e-4, 1e-3, 1e-2]) * period,
+    )
+
+
+def check(impact):
+    end = 0.5 * impact.slow_time_scale
+    history = exudyn_models.simulate(impact, end_time=end, mesh=UniformMesh(impact.length / 100), save=200)
+    late = history.time >= 0.005 * impact.slow_time_scale
+    impulse = history.array("impulse")
+    pushed, pulled = history.array("total_impulse").max(), -history.array("held_impulse")[late]
+    assert pulled[-1] - pulled[0] <= 1e-3 * pushed
+    assert np.diff(impulse[late], axis=0).min() >= -1e-3 * pushed
+    energy = history.array("kinetic_energy") + history.array("strain_energy") - history.array("work_of_loads")
+    assert energy.max() <= energy[0] * (1 + 1e-3)
+    budget = history.energy_budget()
+    assert abs(budget["defect"]) < 1e-3 * budget["initial_energy"]
+
+
+def test_the_wall_never_pulls_and_gives_no_energy():
+    generator = np.random.default_rng(1)
+    for _ in range(2):
+        check(problem(generator))
+
+
+@pytest.mark.verify
+def test_the_wall_never_pulls_and_gives_no_energy_in_300_problems():
+    generator = np.random.default_rng(2)
+    for number in range(300):
+        impact = problem(generator)
+        try:
+            check(impact)
+        except Exception as error:
+            raise AssertionError(f"problem {number}, {impact}: {error}") from error

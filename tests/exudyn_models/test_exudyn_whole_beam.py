@@ -1,0 +1,91 @@
+"""The whole impact by Exudyn: waves back from the ends, slaps of the tips, the last separation; two walls; rocking."""
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+from bent_beam import Impact
+from bent_beam.meshes import UniformMesh
+from exudyn_models import ExudynModel
+from exudyn_models.contacts import Rigid, SegmentFriction
+
+COARSE = ExudynModel(mesh=UniformMesh(1 / 20))
+
+
+def restitution(history):
+    return history.array("total_impulse")[-1] / 2.0 - 1.0
+
+
+def closes(history, tolerance=1e-6):
+    """The budget closes, and energy falls from instant to instant but for what the contact's springs hold."""
+    budget = history.energy_budget()
+    energy = sum(history.array(name) for name in ("kinetic_energy", "strain_energy", "contact_energy"))
+    energy = energy - history.array("work_of_loads")
+    assert abs(budget["defect"]) < tolerance * budget["initial_energy"]
+    assert np.diff(energy).max() < tolerance * energy[0]
+    assert history.array("held_impulse")[-1] == 0.0
+
+
+def test_a_bounce_ends_when_the_beam_cannot_come_back_and_keeps_its_energy_account():
+    history = COARSE.simulate_to_separation(Impact.whole_beam(2.0, relative_damping=1e-2))
+    assert restitution(history) == pytest.approx(0.5663, abs=2e-3)
+    assert history.array("gap")[-1].min() > 0.0
+    assert history.energy_budget()["loss_viscous"] == 0.0 and history.energy_budget()["loss_material"] > 0.4
+    closes(history)
+
+
+@pytest.mark.verify
+@pytest.mark.parametrize(
+    ("kappa_over_nu", "damping", "value", "tolerance"),
+    [
+        (2.0, 1e-2, 0.56630, 3e-4),
+        (4.0, 1e-2, 0.56630, 3e-4),
+        (0.5, 1e-2, 0.3364, 3e-4),
+        (0.8, 1e-2, 0.5238, 4e-4),
+        (0.5, 1e-3, 0.4563, 1e-3),
+        (1.5, 1e-3, 0.6161, 1e-3),
+    ],
+)
+def test_restitution_is_that_of_the_hermite_path(kappa_over_nu, damping, value, tolerance):
+    history = ExudynModel().simulate_to_separation(Impact.whole_beam(kappa_over_nu, relative_damping=damping))
+    assert restitution(history) == pytest.approx(value, abs=tolerance)
+    closes(history)
+
+
+def test_a_stopped_beam_gathers_its_exact_impulse_until_the_first_release():
+    """Modes of the clamped–free half beam with Kelvin–Voigt damping η = 1e-3 (9 digits): t_s, J(t_s)."""
+    release, impulse = 0.080315740, 0.912963645
+    impact = Impact.whole_beam(2.0, relative_damping=1e-3)
+    history = ExudynModel().for_whole_beam(impact).simulate(impact, end_time=release, save=10)
+    assert history.array("total_impulse")[-1] == pytest.approx(impulse, abs=1e-3)
+
+
+def test_a_rocking_beam_is_the_mirror_image_of_one_rocking_the_other_way():
+    impact = Impact.whole_beam(0.5, relative_damping=1e-2).replace(rotation=0.5, first_touch=0.2)
+    right = COARSE.simulate_to_separation(impact, save=200)
+    left = COARSE.simulate_to_separation(impact.replace(rotation=-0.5, first_touch=-0.2), save=200)
+    assert_allclose(right.array("gap")[:100], left.array("gap")[:100, ::-1], atol=1e-8)
+    assert right.array("total_impulse")[-1] == pytest.approx(left.array("total_impulse")[-1], rel=1e-6)
+    assert right.array("gap")[-1, 0] != pytest.approx(right.array("gap")[-1, -1], rel=0.1)
+    closes(right)
+
+
+def test_between_two_walls_every_hit_turns_the_beam_and_costs_energy():
+    impact = Impact.whole_beam(2.0, relative_damping=1e-2).replace(opposite_wall=1.2)
+    method = COARSE.for_whole_beam(impact)
+    history = method.simulate(impact, end_time=4.0, save=800)
+    impulse = history.array("total_impulse")
+    gained = np.where(np.abs(np.diff(impulse)) > 1e-9, np.sign(np.diff(impulse)), 0.0)
+    hits = gained[gained != 0.0]
+    hits = hits[np.r_[True, np.diff(hits) != 0.0]]
+    assert hits.size >= 3 and np.all(hits == [(-1.0) ** k for k in range(hits.size)])
+    assert history.array("gap").min() > -0.02 and history.array("gap").max() < 1.22
+    closes(history, 1e-4)
+
+
+def test_what_a_part_cannot_model_is_refused():
+    impact = Impact.whole_beam(0.5)
+    assert "full_beam" in ExudynModel().refuses(impact.replace(rotation=0.1))
+    assert ExudynModel(full_beam=True).refuses(impact.replace(rotation=0.1)) is None
+    for contact in (Rigid(), SegmentFriction()):
+        assert "one wall" in ExudynModel(contact=contact).refuses(impact.replace(opposite_wall=1.0))
