@@ -101,9 +101,13 @@ def test_leading_order_is_met_with_no_setting_elsewhere(kappa_over_nu):
     assert max(off(exudyn_models.simulate(Impact.dimensionless(kappa_over_nu)), kappa_over_nu)) < 2e-3
 
 
-@pytest.mark.parametrize("integrator", [RK44(), DOPRI5(), VelocityVerlet()], ids=lambda i: type(i).__name__)
+@pytest.mark.parametrize(
+    "integrator",
+    [VelocityVerlet(), *(pytest.param(i, marks=pytest.mark.verify) for i in (RK44(), DOPRI5()))],
+    ids=lambda i: type(i).__name__,
+)
 def test_explicit_integrator_is_stable_at_its_own_step(integrator):
-    history = exudyn_models.simulate(HALF, mesh=coarse(HALF, growth=1.03, elements=12), integrator=integrator, save=100)
+    history = exudyn_models.simulate(HALF, mesh=coarse(HALF, growth=1.04, elements=8), integrator=integrator, save=100)
     assert max(off(history)) < 1e-2
 
 
