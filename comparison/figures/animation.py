@@ -45,7 +45,7 @@ def impact_frames(
     """``count`` instants evenly spread in time; ``reach`` is the half width shown, m (three contact lengths, if not
     given).
     """
-    outcome = outcome_of(history, "", "")
+    outcome = outcome_of(history, "", mark=history.path)
     end = float(history.time[-1])
     edge = reach or 3.0 * max(float(outcome.front.max()), 0.4 * np.sqrt(history.impact.wave_constant * end))
     edge = min(edge, history.impact.half_length)
@@ -114,16 +114,14 @@ class _Scene:
         self.st, mt = unit(last.time, "s")
         top, below = axes
         high = 0.4 * low
-        top.axhspan(0.0, self.sy * high, color="#E4E4E4", lw=0)
-        top.axhline(0.0, color=style.COLOURS["grey"], lw=0.8)
         top.set_xlim(self.sx * last.x[0], self.sx * last.x[-1])
-        top.set_ylim(-self.sy * low, self.sy * high)
+        style.wall_below(top, -self.sy * low, self.sy * high)
         top.set_xlabel(f"$x$  ({mx})")
         top.set_ylabel(f"deflection $y$  ({my})")
         (self.free,) = top.plot([], [], color=style.COLOURS["grey"], ls="--", lw=0.9, label="without the wall")
         (self.beam,) = top.plot([], [], color=style.COLOURS["blue"], lw=1.8, label="beam")
         (self.points,) = top.plot(
-            [], [], color=style.COLOURS["vermilion"], ls="", marker="^", ms=6, label="contact points"
+            [], [], color=style.COLOURS["vermilion"], ls="", marker="v", ms=6, label="contact points"
         )
         self.clock = top.text(0.99, 0.96, "", transform=top.transAxes, ha="right", va="top")
         top.legend(loc="lower center", ncols=3, bbox_to_anchor=(0.5, 1.0))

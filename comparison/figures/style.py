@@ -1,5 +1,6 @@
-"""The one style of all figures: theory is always the black line, Hermite always blue circles, Exudyn always orange
-squares.
+"""The one style of all figures: theory is always the black line, Hermite always blue circles, Self-similar green
+diamonds, Exudyn vermilion squares; any other path has a mark of its own (:func:`mark`). The wall is below: y, positive into
+the wall, points downwards (:func:`wall_below`).
 
 Colours are those of Okabe and Ito (2008), told apart by the colour-blind; sizes are those of a journal column.
 """
@@ -29,12 +30,16 @@ __all__ = [
     "HERMITE",
     "OLD",
     "PAGE",
+    "SELF_SIMILAR",
     "SEQUENCE",
     "THEORY",
     "WALL",
     "figure",
     "marks",
+    "mark",
+    "panel_label",
     "save",
+    "wall_below",
 ]
 
 COLUMN = 3.4  # width of one column, inches
@@ -161,6 +166,21 @@ def save(fig: Figure, out: Path, name: str, formats: Sequence[str] = ("png",)) -
         files.append(out / f"{name}.{kind}")
         write_atomically(files[-1], stream.getvalue())
     return files
+
+
+def mark(path: str) -> dict[str, Any]:
+    """Marker and colour of a path, without a label."""
+    look = MARKERS[path] if path in MARKERS else marks([path])[path]
+    return {k: v for k, v in look.items() if k != "label"}
+
+
+def wall_below(axis: Axes, low: float, high: float) -> None:
+    """Limits of an axis of deflections y, from ``low`` (off the wall) to ``high`` (inside it), and the wall itself, at
+    the bottom.
+    """
+    axis.axhspan(0.0, max(high, 0.0) * 2.0 + 1e-30, color="#E8E8E8", lw=0, zorder=0)
+    axis.axhline(0.0, color=COLOURS["grey"], lw=0.7, zorder=0.5)
+    axis.set_ylim(high, low)
 
 
 def panel_label(axis: Axes, text: str) -> None:

@@ -9,18 +9,17 @@ import numpy as np
 from comparison.figures.animation import Frame, animate
 from comparison.figures.recorder import Sheet
 from comparison.gallery.base import item
-from comparison.gallery.runs import case
+from comparison.gallery.runs import reference_history
 from comparison.store import write_atomically
-from comparison.studies.thesis import expanding
+from self_similar_fe import SelfSimilarFE
 
 CURVATURE, DURATION = 5.0, 0.1
 
 
 def write(out: Path, sheet: Sheet) -> tuple[list[Path], str]:
     """The GIF and its frames as CSV."""
-    given = case(CURVATURE, DURATION)
     files = [out / "animation.gif", out / "animation.csv"]
-    frames = animate(expanding(given.impact, end_time=given.end_time), files[0])
+    frames = animate(reference_history(CURVATURE, DURATION, SelfSimilarFE.path), files[0])
     write_atomically(files[1], table(frames))
     final = frames[-1]
     return files, f"At t = {final.time:.2e} s the contact points are at ±{1e3 * final.front:.1f} mm."
@@ -42,7 +41,7 @@ def table(frames: list[Frame]) -> str:
     group="theory",
     write=write,
     caption=(
-        "K = 5 1/m (κ/ν = 0.25), V₀ = 20 m/s, Hermite path: beam, wall and contact points; below, the reaction "
+        "K = 5 1/m (κ/ν = 0.25), V₀ = 20 m/s, Self-similar: beam, wall and contact points; below, the reaction "
         "against theory."
     ),
 )

@@ -8,7 +8,7 @@ from comparison.figures import style
 from comparison.figures.recorder import Sheet
 from comparison.gallery.base import item
 from comparison.gallery.chapter2_first_order import EPSILON, SETS, functions_of, solution
-from comparison.gallery.looks import beam_panel, key_below
+from comparison.gallery.drawing import beam_panel, key_below
 from theory import ImpactFields, contact_parameters
 
 PULLED = ((-1.0, -1.0, 0.0), (-1.0, -1.0, 1.0), (-2.0, 0.0, 0.0), (0.0, -2.0, 0.0), (-4.0, 0.0, 0.0))
@@ -93,7 +93,8 @@ def lifting(sheet: Sheet) -> str:
             beam_panel(sheet, axes[row, 1], fields, tau, reach=1.5 * front, limits=(-tall, tall), fast=False)
             sheet.panel(axes[row, 0], "ace"[row], text=rf"$\tau = {tau}$")
             sheet.panel(axes[row, 1], "bdf"[row], text=rf"$\tau = {tau}$, zoom")
-            axes[row, 1].ticklabel_format(axis="y", style="sci", scilimits=(-2, 2), useMathText=True)
+            axes[row, 1].set_ylabel(r"deflection $w$  ($10^{-3}$)")
+            axes[row, 1].yaxis.set_major_formatter(lambda value, _: f"{1e3 * value:.3g}".replace("-", "−"))
         key_below(fig, axes[0, 0], 4)
     p = fields.parameters
     return (

@@ -7,7 +7,7 @@ import numpy as np
 from comparison.figures import style
 from comparison.figures.recorder import Sheet
 from comparison.gallery.base import item
-from comparison.gallery.looks import THEORY, dashed
+from comparison.gallery.drawing import THEORY, dashed
 from theory import kernel, worked_examples
 
 DUFFING = 0.2

@@ -7,7 +7,7 @@ import numpy as np
 from comparison.figures import style
 from comparison.figures.recorder import Sheet
 from comparison.gallery.base import item
-from comparison.gallery.looks import THEORY, beam_panel, dashed, key_below
+from comparison.gallery.drawing import THEORY, beam_panel, dashed, key_below
 from theory import ImpactFields, contact_parameters, phi
 
 TIMES = (0.1, 0.25, 0.5)

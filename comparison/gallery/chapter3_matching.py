@@ -13,7 +13,7 @@ from matplotlib.colors import LogNorm
 from comparison.figures import style
 from comparison.figures.recorder import Sheet
 from comparison.gallery.base import item
-from comparison.gallery.looks import THEORY
+from comparison.gallery.drawing import THEORY
 from comparison.gallery.maps import reaction_map
 from comparison.gallery.runs import thesis_history
 from comparison.match import THESIS_KAPPAS, MatchRow, match, questions

@@ -13,39 +13,41 @@ from bent_beam.meshes import GradedMesh, SquareMesh
 from comparison.figures import style
 from comparison.figures.recorder import Sheet
 from comparison.gallery.base import item
-from comparison.gallery.looks import one_panel
-from comparison.gallery.runs import case, ours, thesis
+from comparison.gallery.drawing import key_below, one_panel
+from comparison.gallery.runs import case, reference_runs, thesis
 from comparison.studies import mesh as study
 from comparison.studies.outcome import Outcome
 from comparison.studies.panels import contact_length, geometry, reaction
+from comparison.studies.sentences import number, signed
 from comparison.studies.thesis import thesis_settings
 
 DURATION = 0.01
 COARSE, FLAT = 1.0, 1.0 / 80.0
 ELEMENTS = {1.0: 20000, 1.05: 302, 1.1: 192, 1.25: 120, 1.5: 92}  # Table 3.2
 LENGTHS = (5e-3, 2.5e-3, 1.5e-3)
-SHOWN = "K = 1 1/m, t_f = 2.5·10⁻⁵ s, h = 2.5·10⁻⁸ s; the thesis's settings (lines), our cure (circles) and theory."
+SHOWN = "K = 1 1/m, t_f = 2.5·10⁻⁵ s, h = 2.5·10⁻⁸ s; the thesis's settings (lines), Hermite (circles) and Self-similar (diamonds) with their own choices, theory (black)."
 SQUARE = "K = 1/80 1/m (κ/ν = 6.25·10⁻⁴), τ = 0.01, h = 2.5·10⁻⁸ s, e = 1.25, a = 5"
 
 
 def lengths() -> list[Outcome]:
-    """One run an element length, and ours."""
-    return [*(thesis(f"Δx = {dx:g} m", COARSE, DURATION, element_length=dx) for dx in LENGTHS), ours(COARSE, DURATION)]
+    """One run an element length, and the references."""
+    runs = [thesis(f"Δx = {dx:g} m", COARSE, DURATION, value=dx, element_length=dx) for dx in LENGTHS]
+    return [*runs, *reference_runs(COARSE, DURATION)]
 
 
 def errors(found: Sequence[Outcome], what: str) -> str:
     """One of the errors of each, in words."""
-    return ", ".join(f"{o.measures[what]:+.2g} %" for o in found)
+    return ", ".join(f"{signed(o.measures[what])} %" for o in found)
 
 
 @item("fig-3.10", "Element length: geometry", group="mesh", caption=f"Impact zone for several element lengths; {SHOWN}")
 def shape(sheet: Sheet) -> str:
     found = lengths()
     one_panel(sheet, geometry, found)
-    lifts = ", ".join(f"{o.measures['lift']:.2g}" for o in found)
+    lifts = ", ".join(f"{number(o.measures['lift'])} ({o.label})" for o in found)
     return (
-        f"Lift over V₀t: {lifts}. As the thesis says, its element lengths do not cure the lift: the front, "
-        f"{1e3 * 2 / 6.237 * 0.05 * np.sqrt(DURATION):.2g} mm thick at the end and less before, needs elements of "
+        f"Lift over V₀t: {lifts}. As the thesis says, its element lengths do not remove the lift: the front, "
+        f"{1e3 * 2 / float(found[0].exact.parameters.lambda0) * 0.05 * np.sqrt(DURATION):.2g} mm thick at the end and less before, needs elements of "
         "a fraction of that from the start."
     )
 
@@ -61,7 +63,7 @@ def length(sheet: Sheet) -> str:
     one_panel(sheet, contact_length, found)
     return (
         "λ₀ fitted to the centroid of the reaction is off by "
-        f"{errors(found[:-1], 'contact_length_error')} for the three lengths: the staircase is the elements'."
+        f"{errors(found[:3], 'contact_length_error')} for the three lengths: the staircase is the elements'."
     )
 
 
@@ -69,13 +71,13 @@ def length(sheet: Sheet) -> str:
     "fig-3.12",
     "Element length: reaction",
     group="mesh",
-    caption=f"Reaction of one side for several element lengths, averaged over eightieths of the run; {SHOWN}",
+    caption=f"R√t of one side for several element lengths, averaged over fortieths of √t, constant where R ∝ 1/√t; {SHOWN}",
 )
 def force(sheet: Sheet) -> str:
     found = lengths()
-    one_panel(sheet, reaction, found)
+    one_panel(sheet, reaction, found, scaled=True)
     return (
-        f"r₀ fitted to the impulse is off by {errors(found[:-1], 'reaction_error')}: overestimated by long elements, "
+        f"r₀ fitted to the impulse is off by {errors(found[:3], 'reaction_error')}: overestimated by long elements, "
         "as the thesis saw."
     )
 
@@ -106,16 +108,16 @@ def square() -> SquareMesh:
     base = thesis_settings(given.impact, given.end_time)
     laid = study.square_mesh(given, base)
     assert laid is not None
-    front = float(np.sqrt(given.end_time) * 56.5684)
+    front = float(study.Exact(given.impact).front(given.end_time))
     return SquareMesh(first_element=laid.first_element, zone=front, growth=1.25)
 
 
 def meshes() -> list[Outcome]:
-    """Uniform zone and square mesh, and ours."""
+    """Uniform zone and square mesh, and the references."""
     return [
         thesis("uniform zone", FLAT, DURATION),
         thesis('"square" zone', FLAT, DURATION, mesh=square()),
-        ours(FLAT, DURATION),
+        *reference_runs(FLAT, DURATION),
     ]
 
 
@@ -175,8 +177,9 @@ def square_shape(sheet: Sheet) -> str:
     side = "inside the wall" if middle > 0 else "off the wall"
     return (
         f"The middle node of the square mesh is {1e4 * abs(middle):.2g}·10⁻⁴ m {side} (thesis: 1.8·10⁻⁴ m "
-        f"inside): the first element, {1e3 * square().first_element:.2g} mm, is what its row in the middle leaves "
-        f"free. Ours is flat to {found[-1].measures['lift']:.0e} V₀t."
+        f"inside): the contact row sits at the middle of the first element, "
+        f"{1e3 * square().first_element:.2g} mm long, and does not stop the node. Lift over V₀t of the references: "
+        f"{', '.join(f'{number(o.measures[\"lift\"])} ({o.label})' for o in found[2:])}."
     )
 
 
@@ -187,20 +190,41 @@ def square_shape(sheet: Sheet) -> str:
     caption=f"Contact length until τ = 0.01 on both meshes; {SQUARE}.",
 )
 def square_length(sheet: Sheet) -> str:
-    one_panel(sheet, contact_length, meshes())
-    return "Each element of the square mesh lasts as long as any other: no long steps at the end, as the thesis found."
+    found = meshes()
+    end = float(found[0].time[-1])
+    with sheet.figure(1, 2, width=style.PAGE, height=2.9) as (fig, axes):
+        contact_length(sheet, axes[0], found)
+        contact_length(sheet, axes[1], found)
+        axes[1].set_xlim(1e6 * 0.6 * end, 1e6 * end)
+        low, high = (float(found[0].exact.front(t)) for t in (0.6 * end, end))
+        axes[1].set_ylim(1e3 * 0.97 * low, 1e3 * 1.03 * high)
+        sheet.panel(axes[0], "a")
+        sheet.panel(axes[1], "b", text="zoom on the last part")
+        key_below(fig, axes[0], 5, fontsize=7.0)
+    steps = [_longest_step(o) for o in found[:2]]
+    return (
+        f"In the last two fifths λ_c rests for up to {1e6 * steps[0]:.2g} µs on the uniform zone and {1e6 * steps[1]:.2g} µs on "
+        "the square one: shorter steps, as the thesis found, not none."
+    )
+
+
+def _longest_step(outcome: Outcome) -> float:
+    """How long λ_c rests at one place at most in the last two fifths of the run, s."""
+    late = outcome.time >= 0.6 * outcome.time[-1]
+    highest = np.maximum.accumulate(outcome.front[late])
+    moved = np.flatnonzero(np.diff(highest) > 0.0)
+    instants = outcome.time[late][np.concatenate([[0], moved + 1, [highest.size - 1]])]
+    return float(np.diff(instants).max())
 
 
 @item(
     "fig-3.16",
     "Square mesh: reaction",
     group="mesh-square",
-    caption=f"Reaction of one side until τ = 0.01 on both meshes, averaged over eightieths of the run; {SQUARE}.",
+    caption=f"R√t of one side until τ = 0.01 on both meshes, averaged over fortieths of √t; {SQUARE}.",
 )
 def square_force(sheet: Sheet) -> str:
     found = meshes()
-    one_panel(sheet, reaction, found)
-    return (
-        f"r₀ is off by {errors(found, 'reaction_error')} (uniform zone, square zone, ours): neither of the thesis's "
-        "meshes resolves the front."
-    )
+    one_panel(sheet, reaction, found, scaled=True)
+    labels = ", ".join(o.label for o in found)
+    return f"r₀ is off by {errors(found, 'reaction_error')} ({labels}): neither of the thesis's meshes resolves the front."

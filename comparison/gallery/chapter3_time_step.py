@@ -6,11 +6,12 @@ from collections.abc import Mapping
 
 from comparison.figures.recorder import Sheet
 from comparison.gallery.base import item
-from comparison.gallery.looks import one_panel
-from comparison.gallery.runs import ours, thesis
+from comparison.gallery.drawing import one_panel
+from comparison.gallery.runs import reference_runs, thesis
 from comparison.studies import time_step
 from comparison.studies.outcome import Outcome
 from comparison.studies.panels import contact_length, geometry, reaction
+from comparison.studies.sentences import between, number, varied
 
 CURVATURE, DURATION = 1.0, 0.01
 THESIS = {  # h: (seconds, most iterations, mean iterations), Table 3.1
@@ -20,20 +21,20 @@ THESIS = {  # h: (seconds, most iterations, mean iterations), Table 3.1
     2.5e-8: (715.86, 4, 1.035),
     1e-8: (1753.98, 4, 1.011),
 }
-SHOWN = "K = 1 1/m, t_f = 2.5·10⁻⁵ s, the thesis's settings (lines), our cure (circles) and theory."
+SHOWN = "K = 1 1/m, t_f = 2.5·10⁻⁵ s, the thesis's settings (lines), Hermite (circles) and Self-similar (diamonds) with their own choices, theory (black)."
 
 
 def outcomes() -> list[Outcome]:
-    """One run a time step, and ours."""
+    """One run a time step, and the references."""
     runs = [thesis(f"h = {h:g} s", CURVATURE, DURATION, value=h, time_step=h) for h in THESIS]
-    return [*runs, ours(CURVATURE, DURATION)]
+    return [*runs, *reference_runs(CURVATURE, DURATION)]
 
 
 @item("fig-3.7", "Time step: geometry", group="time-step", caption=f"Impact zone for several time steps; {SHOWN}")
 def shape(sheet: Sheet) -> str:
     found = outcomes()
     one_panel(sheet, geometry, found)
-    lifted = max(float(o.gap[: max(2, o.x.size // 8)].max()) for o in found[1:-1])
+    lifted = max(float(o.gap[: max(2, o.x.size // 8)].max()) for o in varied(found)[1:])
     return (
         f"Whatever h, the thesis's settings lift the middle by about {lifted:.1e} m (thesis: 2·10⁻⁴ m). "
         f"{time_step.conclude(found)}"
@@ -58,16 +59,15 @@ def length(sheet: Sheet) -> str:
     "fig-3.9",
     "Time step: reaction",
     group="time-step",
-    caption=f"Reaction of one side for several time steps, averaged over eightieths of the run; {SHOWN}",
+    caption=f"R√t of one side for several time steps, averaged over fortieths of √t, constant where R ∝ 1/√t; {SHOWN}",
 )
 def force(sheet: Sheet) -> str:
     found = outcomes()
-    one_panel(sheet, reaction, found)
-    noise = [o.measures["noise"] or 0.0 for o in found]
+    one_panel(sheet, reaction, found, scaled=True)
     return (
         "The thesis filters its force (filtfilt); here it is averaged over windows of time. Scatter about theory "
-        f"in the second half: {min(noise[:-1]):.0f} to {max(noise[:-1]):.0f} % with the thesis's settings, "
-        f"{noise[-1]:.2g} % with ours."
+        f"in the second half: {between(varied(found), 'noise', ' %')} with the thesis's settings, "
+        f"{', '.join(f'{number(o.measures[\"noise\"])} % ({o.label})' for o in found[len(THESIS) :])}."
     )
 
 
@@ -76,8 +76,8 @@ def force(sheet: Sheet) -> str:
     "Time step: cost",
     group="time-step",
     caption=(
-        "Seconds for each time step, the thesis's and ours on the same mesh and steps, and the expanding mesh, "
-        "which resolves what they do not."
+        "Seconds for each time step, the thesis's and ours on the same mesh and steps; then Hermite and "
+        "Self-similar with their own choices, which resolve what the thesis's mesh does not."
     ),
 )
 def cost(sheet: Sheet) -> str:
@@ -86,7 +86,7 @@ def cost(sheet: Sheet) -> str:
     for (h, (seconds, most, mean)), o in zip(THESIS.items(), found):
         m = o.measures
         rows.append([f"{h:g}", seconds, most, mean, *_ours(m)])
-    rows.append(["0.02 t", None, None, None, *_ours(found[-1].measures)])
+    rows += [[o.label, None, None, None, *_ours(o.measures)] for o in found[len(THESIS) :]]
     sheet.table(
         [
             "h (s)",
@@ -102,12 +102,11 @@ def cost(sheet: Sheet) -> str:
         ],
         rows,
     )
-    ratio = THESIS[2.5e-8][0] / max(found[3].measures["seconds"] or 1.0, 1e-9)
+    ratio = THESIS[2.5e-8][0] / found[3].measure("seconds")
     return (
         "Thesis: Matlab on a personal computer of 2019; ours: compiled banded loops on the machine that draws "
         f"this, about {ratio:.0e} times faster at h = 2.5·10⁻⁸ s. Iterations: Newton's in the thesis, active-set "
-        "passes of the contact solve in ours. Last row: "
-        "expanding mesh, steps in proportion to time."
+        "passes of the contact solve in ours."
     )
 
 
@@ -118,7 +117,7 @@ def _ours(m: Mapping[str, float | None]) -> list[object]:
         m["seconds"],
         m["most_iterations"],
         None if mean is None else round(mean, 4),
-        int(m["steps"] or 0),
+        None if m["steps"] is None else int(m["steps"]),
         m["lift"],
         m["reaction_error"],
     ]

@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from comparison.figures import style
 from comparison.figures.recorder import Sheet
 from comparison.gallery.base import item
-from comparison.gallery.looks import THEORY, key_below
+from comparison.gallery.drawing import THEORY, key_below
 from hermite_fe.beam import shape_functions
 
 ARROW = {"arrowstyle": "-|>", "color": style.COLOURS["vermilion"], "lw": 1.2, "shrinkA": 0, "shrinkB": 0}

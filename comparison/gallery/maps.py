@@ -1,11 +1,10 @@
-"""Reaction over space and time."""
+"""Reaction over space and time, with one scale for all maps."""
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.colors import LogNorm
 
 from bent_beam.history import ImpactHistory
 from comparison.figures import style
@@ -13,23 +12,25 @@ from comparison.figures.recorder import Sheet
 from comparison.studies.exact import Exact
 from comparison.studies.panels import unit
 
-__all__ = ["reaction_map"]
+__all__ = ["CellForces", "cell_forces", "map_norm", "reaction_map"]
 
 TIMES, PLACES = 60, 80
+DECADES = 4.0  # of the colour scale: below is noise of no consequence, marked as such
 
 
-def reaction_map(
-    sheet: Sheet, axis: Axes, history: ImpactHistory, norm: Any, *, reach: float = 1.25, bar: bool = True
-) -> None:
-    """Reaction (N) of both sides over x and t: mean over cells of time, summed over cells of place, mirrored about x
-    = 0.
+class CellForces:
+    """Reaction per cell: places and times are edges, m and s; force (times, places), N, of one side of the beam."""
 
-    The CSV holds, for each cell of time, place and reaction of the cells that carry any.
-    """
+    def __init__(self, places: np.ndarray, times: np.ndarray, force: np.ndarray) -> None:
+        self.places, self.times, self.force = places, times, force
+
+
+def cell_forces(history: ImpactHistory, *, reach: float = 1.25) -> CellForces:
+    """Mean over cells even in √t, summed over cells of place."""
     exact, end = Exact(history.impact), float(history.time[-1])
     front = exact.front(np.linspace(0.0, end, 200))
     edge = reach * float(front.max())
-    times, places = np.linspace(0.0, end, TIMES + 1), np.linspace(0.0, edge, PLACES // 2 + 1)
+    times, places = end * np.linspace(0.0, 1.0, TIMES + 1) ** 2, np.linspace(0.0, edge, PLACES // 2 + 1)
     x, impulse = np.abs(history.contact_positions(-1)), history.array("impulse")
     share = 0.5 if history.dataset.attrs["symmetry"] == "full" else 1.0
     cell = np.digitize(x, places) - 1
@@ -37,26 +38,42 @@ def reaction_map(
     for j in range(places.size - 1):
         gathered = share * impulse[:, cell == j].sum(axis=1)
         force[:, j] = np.diff(np.interp(times, history.time, gathered)) / np.diff(times)
+    return CellForces(places, times, force)
+
+
+def map_norm(*maps: CellForces) -> LogNorm:
+    """A scale that holds the largest cell of all maps and ``DECADES`` below it: nothing is clipped at the top, and cells
+    below it are pale.
+    """
+    largest = max(float(m.force.max()) for m in maps)
+    return LogNorm(largest / 10.0**DECADES, largest)
+
+
+def reaction_map(
+    sheet: Sheet, axis: Axes, history: ImpactHistory, cells: CellForces, norm: LogNorm, *, bar: bool = True
+) -> float:
+    """Reaction (N) of both sides over x and √t (so that the front is a straight line), mirrored about x = 0.
+
+    The CSV holds, for each cell of time, place and reaction of the cells that carry any. Returns the share of the cells
+    with a push that are weaker than the scale shows.
+    """
+    exact, end = Exact(history.impact), float(history.time[-1])
+    places, times, force = cells.places, cells.times, cells.force
     st, mt = unit(end, "s")
     axis.set_xlabel("$x$  (m)")
     axis.set_ylabel(f"$t$  ({mt})")
     whole = np.concatenate([-places[:0:-1], places])
-    drawn = axis.pcolormesh(
-        whole,
-        st * times,
-        np.ma.masked_less_equal(np.hstack([force[:, ::-1], force]), 0.0),
-        norm=norm,
-        cmap="YlGnBu",
-        rasterized=True,
-    )
+    pushing = np.ma.masked_less_equal(np.hstack([force[:, ::-1], force]), 0.0)
+    drawn = axis.pcolormesh(whole, st * times, pushing, norm=norm, cmap="YlGnBu", rasterized=True)
+    drawn.cmap.set_under("#F4F4EC")
     if bar:
-        axis.figure.colorbar(drawn, ax=axis, label="reaction  (N)", pad=0.02)
+        axis.figure.colorbar(drawn, ax=axis, label="reaction of a cell  (N)", pad=0.02, extend="min")
     middle = 0.5 * (places[1:] + places[:-1])
     for k in range(TIMES):
         carried = force[k] > 0.0
         at = st * 0.5 * (times[k] + times[k + 1])
         sheet.record(axis, middle[carried], force[k][carried], f"t = {at:.4g} {mt}", "reaction (N)")
-    t = np.linspace(0.0, end, 200)
+    t = end * np.linspace(0.0, 1.0, 200) ** 2
     for side in (-1.0, 1.0):
         sheet.line(
             axis,
@@ -67,6 +84,9 @@ def reaction_map(
             lw=0.9,
             ls="-",
         )
+    axis.set_yscale("function", functions=(lambda v: np.sqrt(np.maximum(v, 0.0)), np.square))
     axis.grid(False)
-    axis.set_xlim(-edge, edge)
+    axis.set_xlim(-places[-1], places[-1])
     axis.set_ylim(0.0, st * end)
+    found = force[force > 0.0]
+    return float(np.mean(found < norm.vmin)) if found.size else 0.0

@@ -16,6 +16,7 @@ from pathlib import Path
 from bent_beam.cases import Case
 from comparison.studies import (
     amplitude,
+    conditioning,
     contact_point,
     damping,
     far_field,
@@ -43,9 +44,7 @@ STUDIES: dict[str, Study] = {
         amplitude,
         friction,
         first_order_case,
-        amplitude,
-        friction,
-        first_order_case,
+        conditioning,
     )
 }
 

@@ -9,33 +9,29 @@ costs out of the difference.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
 
 from bent_beam.cases import Case
-from bent_beam.history import ImpactHistory
-from bent_beam.impact import Impact
+from bent_beam.method import Method
 from comparison.studies.base import Study
 from comparison.studies.outcome import Outcome
+from comparison.studies.sentences import number, signed
 from comparison.studies.thesis import Variant
-from comparison.studies.words import number, signed
 
 __all__ = ["STUDY", "exudyn"]
 
 DURATIONS = (1e-3, 1e-2, 3e-2, 1e-1)
 TURN = 1.5  # rad
 STEP = 5e-3  # h/t
+SAVED = 250
 
 
-def exudyn(
-    impact: Impact, *, end_time: float, geometry: str = "linear", save: int = 250, **parts: Any
-) -> ImpactHistory:
+def exudyn(geometry: str) -> Method:
     """The Exudyn path with its own choices, in larger steps than its default."""
-    import exudyn_models
+    from exudyn_models import INTEGRATORS, ExudynModel
+    from exudyn_models.geometry import GEOMETRIES
 
-    integrator = exudyn_models.INTEGRATORS["generalized_alpha"](relative_step=STEP)
-    return exudyn_models.simulate(
-        impact, end_time=end_time, geometry=geometry, save=save, integrator=integrator, **parts
-    )
+    integrator = INTEGRATORS["generalized_alpha"](relative_step=STEP)
+    return ExudynModel(geometry=GEOMETRIES[geometry](), integrator=integrator)
 
 
 def variants(case: Case) -> list[Variant]:
@@ -45,10 +41,10 @@ def variants(case: Case) -> list[Variant]:
             f"{geometry}, τ = {tau:g}",
             impact,
             tau * impact.time_scale,
-            kind="exudyn",
+            exudyn(geometry),
             value=tau**0.5,
-            runner=exudyn,
-            arguments={"geometry": geometry},
+            reference=True,
+            save=SAVED,
         )
         for tau in DURATIONS
         for geometry in ("linear", "true")
@@ -60,11 +56,13 @@ def conclude(outcomes: Sequence[Outcome]) -> str:
     drifts = []
     for tau in DURATIONS:
         linear, true = by_label.get(f"linear, τ = {tau:g}"), by_label.get(f"true, τ = {tau:g}")
-        if linear and true and true["reaction_error"] is not None and linear["reaction_error"] is not None:
-            length = (true["contact_length_error"] or 0.0) - (linear["contact_length_error"] or 0.0)
-            drifts.append((tau, length, true["reaction_error"] - linear["reaction_error"]))
+        if linear is None or true is None:
+            continue
+        length, reaction = (_drift(linear[name], true[name]) for name in ("contact_length_error", "reaction_error"))
+        if length is not None and reaction is not None:
+            drifts.append((tau, length, reaction))
     if not drifts:
-        return "No amplitude could be run with the true geometry."
+        return "At no amplitude did both geometries give numbers to compare."
     listed = "; ".join(f"√τ = {t**0.5:.2g}: λ₀ {signed(a)} %, r₀ {signed(b)} %" for t, a, b in drifts)
     per_square = [b / t for t, _, b in drifts[:-1]] or [drifts[0][2] / drifts[0][0]]
     even = max(per_square) < 2.0 * min(per_square)
@@ -74,10 +72,14 @@ def conclude(outcomes: Sequence[Outcome]) -> str:
     verdict = (
         f"Linear theory holds within one per cent up to slopes of {max(inside):.2g}"
         if inside
-        else ("Linear theory is off by more than one per cent at all of them")
+        else "Linear theory is off by more than one per cent at all of them"
     )
     verdict += f"; at {last[0] ** 0.5:.2g} it is off by {number(max(abs(last[1]), abs(last[2])))} %."
     return f"What the true geometry changes against the linear limit on the same mesh: {listed}.{rule} {verdict}"
+
+
+def _drift(linear: float | None, true: float | None) -> float | None:
+    return None if linear is None or true is None else true - linear
 
 
 STUDY = Study("amplitude", "True geometry against linear theory", variants, conclude, heading="geometry")

@@ -107,17 +107,24 @@ def perform(study: Study, case: Case, *, out: Path | None, jobs: int, progress: 
 def _result(study: Study, case: Case, outcomes: list[Outcome]) -> StudyResult:
     finished = [o for o in outcomes if o.failure is None]
     used = {k: h for k, h in MEASURES.items() if any(o.measures.get(k) is not None for o in finished)}
-    warnings = sorted({f"{o.label}: {w}" for o in finished if o.kind != "thesis" for w in o.warnings})
+    warnings = sorted({f"{o.label}: {w}" for o in finished if o.reference for w in o.warnings})
     return StudyResult(
         name=study.name,
         title=study.title,
         case=case.title,
         columns={"label": study.heading, **used},
         rows=[o.row() for o in outcomes],
-        conclusion=study.conclude(finished) if finished else "No run finished.",
+        conclusion=_concluded(study, outcomes) if finished else "No run finished.",
         outcomes=list(outcomes),
         warnings=warnings,
     )
+
+
+def _concluded(study: Study, outcomes: Sequence[Outcome]) -> str:
+    """What the finished runs show, and which runs are missing from it."""
+    missing = [o.label for o in outcomes if o.failure is not None]
+    text = study.conclude([o for o in outcomes if o.failure is None])
+    return f"{text} Without {', '.join(missing)}: it did not finish." if missing else text
 
 
 def _write(result: StudyResult, sheet: Sheet, out: Path) -> list[str]:

@@ -7,10 +7,13 @@ from collections.abc import Sequence
 from bent_beam.cases import Case
 from comparison.studies.base import Study
 from comparison.studies.outcome import Outcome
-from comparison.studies.thesis import Settings, Variant, cured, thesis_settings
-from comparison.studies.words import cure, number, of_kind
+from comparison.studies.sentences import number, reference_sentences, varied
+from comparison.studies.thesis import Settings, Variant, references, thesis_settings
 
 __all__ = ["STUDY"]
+
+COARSE, SLOW, DAMPED = "e = 1.25", "e = 1.02", "e = 1.25, grid viscosity 0.3"
+VISCOUS, SPONGE, HALF = (f"e = 1.02, grid viscosity 0.3{more}" for more in ("", ", sponge", ", half the length"))
 
 
 def base_settings(case: Case) -> Settings:
@@ -24,51 +27,45 @@ def base_settings(case: Case) -> Settings:
 def variants(case: Case) -> list[Variant]:
     base, impact, end = base_settings(case), case.impact, case.end_time
     runs = [
-        Variant(f"e = {growth:g}", impact, end, value=growth, settings=base.replace(growth=growth))
+        Variant(f"e = {growth:g}", impact, end, base.replace(growth=growth).method(), value=growth)
         for growth in (1.25, 1.1, 1.05, 1.02)
     ]
+    viscous = base.replace(growth=1.02, viscosity=0.3)
     runs += [
-        Variant("e = 1.25, grid viscosity 0.3", impact, end, settings=base.replace(viscosity=0.3)),
-        Variant("e = 1.02, grid viscosity 0.3", impact, end, settings=base.replace(growth=1.02, viscosity=0.3)),
-        Variant("the same, sponge", impact, end, settings=base.replace(growth=1.02, viscosity=0.3, sponge=True)),
-        Variant(
-            "the same, half the length",
-            impact.replace(length=0.5 * impact.length),
-            end,
-            settings=base.replace(growth=1.02, viscosity=0.3),
-        ),
+        Variant(DAMPED, impact, end, base.replace(viscosity=0.3).method()),
+        Variant(VISCOUS, impact, end, viscous.method()),
+        Variant(SPONGE, impact, end, viscous.replace(sponge=True).method()),
+        Variant(HALF, impact.replace(length=0.5 * impact.length), end, viscous.method()),
     ]
-    return [*runs, cured(impact, end)]
+    return [*runs, *references(impact, end)]
 
 
 def conclude(outcomes: Sequence[Outcome]) -> str:
-    old = {o.label: o.measures for o in of_kind(outcomes, "thesis")}
-    coarse, slow = old.get("e = 1.25"), old.get("e = 1.02")
-    viscous, half = old.get("e = 1.02, grid viscosity 0.3"), old.get("the same, half the length")
+    runs = {o.label: o for o in varied(outcomes)}
     text = []
-    if coarse and slow:
-        before, after = coarse["noise"] or 0.0, slow["noise"] or 0.0
+    if (coarse := runs.get(COARSE)) and (slow := runs.get(SLOW)):
+        before, after = coarse.measure("noise"), slow.measure("noise")
         text.append(
             f"Growing by 25 % an element leaves {number(before)} % of noise in the reaction and a lift of "
-            f"{number(coarse['lift'] or 0.0)} V₀t, 2 % leave {number(after)} % and {number(slow['lift'] or 0.0)} V₀t: "
+            f"{number(coarse.measures['lift'])} V₀t, 2 % leave {number(after)} % and {number(slow.measures['lift'])} V₀t: "
             + (
                 "the coarse elements reflect what the impact radiates."
                 if before > 1.25 * after
                 else "in this case the waves do not reach the coarse elements and reflection is not the trouble."
             )
         )
-    if coarse and (damped := old.get("e = 1.25, grid viscosity 0.3")):
+    if damped := runs.get(DAMPED):
         text.append(
-            f"Viscosity at grid scale alone takes 25 % growth to {number(damped['noise'] or 0.0)} % "
-            f"and {number(damped['lift'] or 0.0)} V₀t."
+            f"Viscosity at grid scale alone takes 25 % growth to {number(damped.measures['noise'])} % "
+            f"and {number(damped.measures['lift'])} V₀t."
         )
-    if viscous and half:
-        change = abs((viscous["reaction_error"] or 0.0) - (half["reaction_error"] or 0.0))
+    if (viscous := runs.get(VISCOUS)) and (half := runs.get(HALF)):
+        change = abs(viscous.measure("reaction_error") - half.measure("reaction_error"))
         text.append(
             f"Half the length of the beam moves r₀ by {number(change)} %"
-            + (": the ends are far enough." if change < 0.2 else ": the ends are heard.")
+            + (": the ends are far enough." if change < 0.2 else ": waves from the ends reach the contact.")
         )
-    return " ".join([*text, cure(outcomes)])
+    return " ".join([*text, reference_sentences(outcomes)])
 
 
 STUDY = Study("far-field", "Far field", variants, conclude, heading="far field")

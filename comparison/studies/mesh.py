@@ -11,14 +11,15 @@ from bent_beam.meshes import ScaleFreeMesh, SquareMesh
 from comparison.studies.base import Study
 from comparison.studies.exact import Exact
 from comparison.studies.outcome import Outcome
-from comparison.studies.thesis import Settings, Variant, cured, thesis_settings
-from comparison.studies.words import between, cure, number, of_kind, signed
+from comparison.studies.sentences import between, number, reference_sentences, signed, values, varied
+from comparison.studies.thesis import Settings, Variant, references, thesis_settings
 
 __all__ = ["STUDY", "square_mesh"]
 
 LENGTHS = (2.0, 1.0, 0.6, 0.3)
 GROWTHS = (1.05, 1.02)
 PER_ELEMENT = 5.0  # the thesis's a: steps a front spends in each element of the square mesh
+SQUARE, SCALE_FREE = '"square" mesh', "scale-free, held, damped"
 
 
 def square_mesh(case: Case, settings: Settings, per_element: float = PER_ELEMENT) -> SquareMesh | None:
@@ -33,84 +34,56 @@ def square_mesh(case: Case, settings: Settings, per_element: float = PER_ELEMENT
 
 
 def variants(case: Case) -> list[Variant]:
-    base = thesis_settings(case.impact, case.end_time)
-    runs = []
-    for f in LENGTHS:
-        length = f * base.element_length
-        runs.append(
-            Variant(
-                f"Δx = {length:.2g} m, e = 1.25",
-                case.impact,
-                case.end_time,
-                value=length,
-                settings=base.replace(element_length=length),
-            )
-        )
-    for growth in GROWTHS:
-        runs.append(
-            Variant(
-                f"Δx = {base.element_length:.2g} m, e = {growth}",
-                case.impact,
-                case.end_time,
-                value=growth,
-                settings=base.replace(growth=growth),
-            )
-        )
+    impact, end = case.impact, case.end_time
+    base = thesis_settings(impact, end)
+
+    def run(label: str, value: float | None, **changes: object) -> Variant:
+        return Variant(label, impact, end, base.replace(**changes).method(), value=value)
+
+    lengths = [f * base.element_length for f in LENGTHS]
+    runs = [run(f"Δx = {length:.2g} m, e = 1.25", length, element_length=length) for length in lengths]
+    runs += [run(f"Δx = {base.element_length:.2g} m, e = {g}", g, growth=g) for g in GROWTHS]
     laid = square_mesh(case, base)
     if laid is not None:
-        runs.append(Variant('"square" mesh', case.impact, case.end_time, settings=base.replace(mesh=laid)))
+        runs.append(run(SQUARE, None, mesh=laid))
     even = ScaleFreeMesh(element_length=0.1 * base.element_length, growth=1.02)
-    runs.append(
-        Variant(
-            "scale-free, held, damped",
-            case.impact,
-            case.end_time,
-            settings=base.replace(mesh=even, hold=16, viscosity=0.3),
-        )
-    )
-    return [*runs, cured(case.impact, case.end_time)]
+    runs.append(run(SCALE_FREE, None, mesh=even, hold=16, viscosity=0.3))
+    return [*runs, *references(impact, end)]
 
 
 def conclude(outcomes: Sequence[Outcome]) -> str:
-    old = of_kind(outcomes, "thesis")
-    lengths = [o for o in old if "e = 1.25" in o.label]
-    base = lengths[1] if len(lengths) > 1 else lengths[0]
-    slow = [o for o in old if "e = 1.02" in o.label]
-    errors = [o.measures["reaction_error"] or 0.0 for o in lengths]
-    falling = errors == sorted(errors, reverse=True) and errors[-1] > 0.0
-    over = ": the reaction is overestimated while an element is longer than the front is thick" if falling else ""
-    text = [
-        f"Shorter elements {'lower' if _falls(lengths) else 'hardly change'} the lift ({between(lengths, 'lift')} "
-        f"V₀t) and bring r₀ from {signed(errors[0])} % to {signed(errors[-1])} % of theory{over}."
-    ]
-    if slow:
-        graded = _growth_words(base, slow[0])
-        text.append(graded)
-    square = [o for o in old if "square" in o.label]
-    if square:
-        m = square[0].measures
+    runs = varied(outcomes)
+    lengths = [o for o in runs if "e = 1.25" in o.label]
+    errors = values(lengths, "reaction_error")
+    text = []
+    if len(errors) > 1:
+        falling = errors == sorted(errors, reverse=True) and errors[-1] > 0.0
+        over = ": the reaction is overestimated while an element is longer than the front is thick" if falling else ""
+        lower = lengths[-1].measure("lift") < 0.7 * lengths[0].measure("lift")
         text.append(
-            f'The "square" mesh spreads the steps of λ_c evenly (the thesis\'s point) and gives a lift of '
-            f"{number(m['lift'] or 0.0)} V₀t and r₀ {signed(m['reaction_error'] or 0.0)} %: its first elements "
-            "are its longest, so the start is resolved worst."
+            f"Shorter elements {'lower' if lower else 'hardly change'} the lift ({between(lengths, 'lift')} "
+            f"V₀t) and bring r₀ from {signed(errors[0])} % to {signed(errors[-1])} % of theory{over}."
         )
-    text.append(cure(outcomes))
-    return " ".join(text)
+    slow = [o for o in runs if "e = 1.02" in o.label]
+    if slow and len(lengths) > 1:
+        text.append(_growth(lengths[1], slow[0]))
+    for o in runs:
+        if o.label == SQUARE:
+            text.append(
+                f'The "square" mesh spreads the steps of λ_c evenly (the thesis\'s point) and gives a lift of '
+                f"{number(o.measures['lift'])} V₀t and r₀ {signed(o.measures['reaction_error'])} %: its first elements "
+                "are its longest, so the start is resolved worst."
+            )
+    return " ".join([*text, reference_sentences(outcomes)])
 
 
-def _falls(lengths: Sequence[Outcome]) -> bool:
-    first, last = (o.measures["lift"] or 0.0 for o in (lengths[0], lengths[-1]))
-    return last < 0.7 * first
-
-
-def _growth_words(base: Outcome, slow: Outcome) -> str:
-    before, after = base.measures["noise"] or 0.0, slow.measures["noise"] or 0.0
+def _growth(base: Outcome, slow: Outcome) -> str:
+    before, after = base.measure("noise"), slow.measure("noise")
     if after < 0.8 * before:
         return (
             f"Growing by 2 % an element in place of 25 % brings the noise of the reaction from {number(before)} to "
-            f"{number(after)} % and the lift from {number(base.measures['lift'] or 0.0)} to "
-            f"{number(slow.measures['lift'] or 0.0)} V₀t: here the coarse elements send waves back, "
-            f"although the thesis found no effect of e."
+            f"{number(after)} % and the lift from {number(base.measures['lift'])} to {number(slow.measures['lift'])} V₀t: "
+            "here the coarse elements send waves back, although the thesis found no effect of e."
         )
     return (
         f"Growing by 2 % an element in place of 25 % changes little here (noise {number(before)} and "

@@ -37,6 +37,7 @@ MEASURES: dict[str, str] = {
     "lost_impact": "lost in impacts (%)",
     "lost_damping": "lost in damping (%)",
     "strain": "strain energy/theory",
+    "nodes": "nodes",
     "steps": "steps",
     "seconds": "seconds",
 }
@@ -50,16 +51,17 @@ def saved_times(end: float, even: int = 400, root: int = 120) -> Array:
 
 @dataclass(frozen=True)
 class Outcome:
-    """A finished run. kind : whose mark it gets ("thesis", "hermite", "exudyn"); value : of the varied parameter, if
-    a number.
+    """A finished run.
 
+    mark : the path whose mark it is drawn with, for a reference; ``None`` for one of the varied settings, which are lines.
+    value : of the varied parameter, if a number.
     time, front, side_impulse, strain, energy : (times,), SI, the energy being that of the whole beam over its first
-    value;
-    x, gap : the beam at the end, half of it. ``failure`` says why a run did not finish; then everything may be empty.
+        value; x, gap : the beam at the end, half of it.
+    measures : numbers by the names of ``MEASURES``; ``None`` where there is none to be had.
+    failure : why a run did not finish; then everything may be empty.
     """
 
     label: str
-    kind: str
     impact: Impact
     value: float | None
     time: Array
@@ -70,51 +72,67 @@ class Outcome:
     x: Array
     gap: Array
     measures: dict[str, float | None]
+    mark: str | None = None
     warnings: tuple[str, ...] = ()
     failure: str | None = None
+
+    @property
+    def reference(self) -> bool:
+        """A method that the varied settings are held against."""
+        return self.mark is not None
+
+    def measure(self, name: str) -> float:
+        """A number that this run must have. Raises ``ValueError`` naming run and number where it has none."""
+        value = self.measures.get(name)
+        if value is None:
+            raise ValueError(f"{self.label or 'run'}: no {MEASURES.get(name, name)} was measured")
+        return value
 
     @cached_property
     def exact(self) -> Exact:
         return Exact(self.impact)
 
     def reaction(self, windows: int = 200) -> tuple[Array, Array]:
-        """Middles of even time windows (s) and the mean reaction of one side in each (N)."""
-        first = self.time[0] if self.time[0] > 0.0 else 0.0
-        edges = np.linspace(first, self.time[-1], windows + 1)
+        """Mean reaction of one side (N) in windows even in √t, and the time (s) at which 1/√t has its mean in each."""
+        first = max(float(self.time[0]), 0.0)
+        root = np.linspace(np.sqrt(first), np.sqrt(self.time[-1]), windows + 1)
+        edges = root**2
         gathered = np.interp(edges, self.time, self.side_impulse)
-        return 0.5 * (edges[1:] + edges[:-1]), np.diff(gathered) / np.diff(edges)
+        return (0.5 * (root[1:] + root[:-1])) ** 2, np.diff(gathered) / np.diff(edges)
 
     def row(self) -> dict[str, Any]:
-        """JSON-ready: label, kind, value, measures, failure."""
-        return {"label": self.label, "kind": self.kind, "value": self.value, **self.measures, "failure": self.failure}
+        """JSON-ready: label, path of a reference, value, measures, failure."""
+        return {"label": self.label, "reference": self.mark, "value": self.value, **self.measures, "failure": self.failure}
 
 
-def failed(label: str, kind: str, impact: Impact, value: float | None, reason: str) -> Outcome:
+def failed(label: str, impact: Impact, value: float | None, reason: str, *, mark: str | None = None) -> Outcome:
     """A run that could not finish."""
     none = np.zeros(0)
-    return Outcome(label, kind, impact, value, *(none,) * 7, dict.fromkeys(MEASURES), failure=reason)
+    return Outcome(label, impact, value, *(none,) * 7, dict.fromkeys(MEASURES), mark=mark, failure=reason)
 
 
-def outcome_of(history: ImpactHistory, label: str, kind: str, value: float | None = None) -> Outcome:
-    """Curves and numbers of a history."""
+def outcome_of(
+    history: ImpactHistory, label: str, *, value: float | None = None, mark: str | None = None
+) -> Outcome:
+    """Curves and numbers of a history. The contact length of the varied settings is read as the thesis does
+    (:func:`touching`), that of a reference (``mark``) from the centroid of the reaction.
+    """
     exact = Exact(history.impact)
-    data = history.dataset
+    moving = "position" in history.dataset
     half = history.positions(-1) >= 0.0
-    kinetic, strain = history.array("kinetic_energy"), history.array("strain_energy")
-    work = history.array("work_of_loads")
-    expanding = "position" in data
-    energy = work - kinetic - strain if expanding else kinetic + strain - work - (kinetic + strain - work)[0]
-    if expanding:  # what the absorber took left the zone as waves; the free motion's energy is added back
-        energy = -(energy - history.array("loss_absorbed"))
+    strain = history.array("strain_energy")
+    energy = history.array("kinetic_energy") + strain - history.array("work_of_loads")
+    if moving:  # energies of the fast part alone: what the wall has put in is what the free motion has lost
+        energy = energy + history.array("loss_absorbed")
+    else:
+        energy = energy - energy[0]
     found = moments(history, uniform=not exact.leading)
-    centroid = found.front * history.impact.length_scale
     return Outcome(
         label=label,
-        kind=kind,
         impact=history.impact,
         value=value,
         time=history.time,
-        front=centroid if expanding or history.path == "exudyn" else touching(history),
+        front=touching(history) if mark is None else found.front * history.impact.length_scale,
         side_impulse=history.array("total_impulse") / 2.0,
         strain=strain,
         energy=energy,
@@ -122,12 +140,14 @@ def outcome_of(history: ImpactHistory, label: str, kind: str, value: float | Non
         gap=history.array("gap")[-1][half],
         measures={
             **_errors(found, exact, history),
-            **_energy(history, exact, expanding),
+            **_energy(history, exact, moving),
             "steps": float(history.steps),
+            "nodes": float(history.positions(-1).size),
             "mean_iterations": history.settings.get("mean_iterations"),
             "most_iterations": history.settings.get("most_iterations"),
             "seconds": history.seconds,
         },
+        mark=mark,
         warnings=tuple(history.warnings),
     )
 
@@ -182,22 +202,20 @@ def _noise(history: ImpactHistory, exact: Exact) -> float:
     return float(np.std(ratio))
 
 
-def _energy(history: ImpactHistory, exact: Exact, expanding: bool) -> dict[str, float | None]:
+def _energy(history: ImpactHistory, exact: Exact, moving: bool) -> dict[str, float | None]:
     end = float(history.time[-1])
     whole = float(exact.fast_energy(end))
     if not exact.leading or not math.isfinite(whole) or whole <= 0.0:
         return {"lost_impact": None, "lost_damping": None, "strain": None}
 
-    def lost(name: str) -> float:
-        return float(history.array(name)[-1]) if name in history.dataset else 0.0
+    def lost(*names: str) -> float | None:
+        found = [float(history.array(name)[-1]) for name in names if name in history.dataset]
+        return 100.0 * sum(found) / whole if found else None
 
-    impacts = lost("loss_impact")
-    damping = lost("loss_algorithmic") + (0.0 if expanding else lost("loss_viscous"))
-    if history.path == "exudyn":  # it books the work of its contact forces by sampling: only the sum is exact
-        impacts, damping = math.nan, damping + impacts
-    strain = float(history.array("strain_energy")[-1] - (0.0 if expanding else history.array("strain_energy")[0]))
+    strain = history.array("strain_energy")
     return {
-        "lost_impact": 100.0 * impacts / whole if math.isfinite(impacts) else None,
-        "lost_damping": 100.0 * damping / whole,
-        "strain": None if expanding else strain / float(exact.strain_energy(end)),
+        "lost_impact": lost("loss_impact"),
+        # a moving mesh's viscosity is its absorber: what it takes has left the zone
+        "lost_damping": lost("loss_algorithmic") if moving else lost("loss_algorithmic", "loss_viscous"),
+        "strain": None if moving else float(strain[-1] - strain[0]) / float(exact.strain_energy(end)),
     }

@@ -1,6 +1,6 @@
 """Panels that hold several runs of one impact against theory: geometry, contact length, reaction, energy.
 
-The thesis's settings are thin coloured lines, ours are the markers of their path, theory is the black line.
+Varied settings are thin coloured lines, references the markers of their path, theory is the black line. The wall is below.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ __all__ = [
     "draw_outcomes",
     "energy",
     "geometry",
-    "looks",
+    "line_styles",
     "reaction",
     "strain",
     "theory_first",
@@ -31,7 +31,9 @@ __all__ = [
 
 Array = NDArray[np.float64]
 PREFIX = {-12: "p", -9: "n", -6: "µ", -3: "m", 0: "", 3: "k", 6: "M"}
-MARKS = 22  # markers on a curve of ours
+MARKS = 18  # markers on the curve of a reference
+LINES = [style.COLOURS[c] for c in ("vermilion", "sky", "purple", "orange", "grey", "green", "blue")]
+"""Colours of varied settings, those of the references last."""
 
 
 def unit(largest: float, name: str) -> tuple[float, str]:
@@ -41,68 +43,68 @@ def unit(largest: float, name: str) -> tuple[float, str]:
     return 10.0**-power, PREFIX[power] + name
 
 
-def looks(outcomes: Sequence[Outcome]) -> list[dict[str, Any]]:
-    """A style each: colours in turn for the thesis's settings, the path's marker for ours.
+def line_styles(outcomes: Sequence[Outcome]) -> list[dict[str, Any]]:
+    """A style each: colours in turn for the varied settings, the path's marker for references.
 
     Lines get thinner one after the other, so that those that coincide can all be seen.
     """
-    found, colour, mark = [], 0, 0
-    lines = max(1, sum(o.kind not in style.MARKERS for o in outcomes) - 1)
+    found: list[dict[str, Any]] = []
+    drawn = 0
+    lines = max(1, sum(not o.reference for o in outcomes) - 1)
     for o in outcomes:
-        if o.kind in style.MARKERS:
-            same = sum(p.kind == o.kind for p in outcomes)
-            look = dict(style.MARKERS[o.kind])
-            if same > 1:
-                look.update(color=style.SEQUENCE[mark % len(style.SEQUENCE)], ls="-", lw=0.6)
-                mark += 1
-            found.append(look)
+        if o.mark is not None:
+            style_of_path = style.mark(o.mark)
+            if sum(p.mark == o.mark for p in outcomes) > 1:  # several of one path: told apart by colour
+                place = sum(p.mark == o.mark for p in outcomes[: len(found)])
+                style_of_path.update(color=style.SEQUENCE[place % len(style.SEQUENCE)], ls="-", lw=0.6)
+            found.append(style_of_path)
         else:
-            dashes = ("-", "--", ":")[colour // len(style.SEQUENCE) % 3]
+            dashes = ("-", "--", ":")[drawn // len(style.SEQUENCE) % 3]
             found.append(
                 {
-                    "color": style.SEQUENCE[colour % len(style.SEQUENCE)],
+                    "color": LINES[drawn % len(LINES)],
                     "ls": dashes,
                     "marker": "",
-                    "lw": 2.2 - 1.5 * colour / lines if lines > 1 else 1.6 - 0.8 * colour,
+                    "lw": 2.2 - 1.5 * drawn / lines if lines > 1 else 1.6 - 0.8 * drawn,
                 }
             )
-            colour += 1
+            drawn += 1
     return found
 
 
-def _sparse(look: dict[str, Any], count: int) -> dict[str, Any]:
-    return {**look, "markevery": max(1, count // MARKS)} if look.get("marker") else look
-
-
 def _finished(outcomes: Sequence[Outcome]) -> list[tuple[Outcome, dict[str, Any]]]:
-    return [(o, look) for o, look in zip(outcomes, looks(outcomes)) if o.failure is None and o.time.size]
+    return [(o, look) for o, look in zip(outcomes, line_styles(outcomes)) if o.failure is None and o.time.size]
 
 
 def _curves(sheet: Sheet, axis: Axes, curves: Sequence[tuple[str, Array, Array, dict[str, Any]]], legend: bool) -> None:
     for label, x, y, look in curves:
-        sheet.line(axis, x, y, series=label, legend=legend, **_sparse(look, x.size))
+        sheet.line(axis, x, y, series=label, legend=legend, **look)
 
 
-def _evenly(x: Array, count: int = MARKS) -> NDArray[np.int64]:
-    """Indices of points about evenly spread over x."""
-    return np.unique(np.searchsorted(x, np.linspace(x[0], x[-1], count)).clip(0, x.size - 1))
+def _evenly(x: Array, shift: float = 0.0, count: int = MARKS) -> NDArray[np.int64]:
+    """Indices of points about evenly spread over x; ``shift`` (of a spacing) keeps the marks of two runs apart."""
+    spacing = (x[-1] - x[0]) / count
+    return np.unique(np.searchsorted(x, x[0] + spacing * (np.arange(count) + 0.25 + shift)).clip(0, x.size - 1))
+
+
+def _shift(look: dict[str, Any]) -> float:
+    return 0.5 if look["marker"] == style.SELF_SIMILAR["marker"] else 0.0
 
 
 def geometry(
     sheet: Sheet, axis: Axes, outcomes: Sequence[Outcome], *, legend: bool = True, reach: float = 1.25
 ) -> None:
-    """Deflection y = −gap over x at the end of the run; the wall is the grey half plane."""
+    """Deflection y = −gap over x at the end of the run; the wall is the grey half plane below."""
     runs = _finished(outcomes)
     exact, end = runs[0][0].exact, float(runs[0][0].time[-1])
     edge = reach * max(float(exact.front(end)), 0.25 * exact.impact.length_scale * math.sqrt(exact.tau(end)))
-    inner = [float(np.abs(o.gap[o.x <= edge / reach]).max(initial=0.0)) for o, _ in runs]
-    flat = float(exact.impact.velocity * end)
-    high = max(1.4 * max(inner), 0.01 * flat)
+    gaps = np.concatenate([o.gap[o.x <= edge / reach] for o, _ in runs])
+    high = max(1.4 * float(gaps.max()), 0.01 * float(exact.impact.velocity * end))
+    deep = max(0.25 * high, -1.3 * float(gaps.min()))
     sx, mx = unit(edge, "m")
     sy, my = unit(high, "m")
     axis.set_xlabel(f"$x$  ({mx})")
     axis.set_ylabel(f"deflection $y$  ({my})")
-    axis.axhspan(0.0, 10.0 * high * sy, color="#EEEEEE", lw=0, zorder=0)
     places = np.linspace(0.0, edge, 400)
     _theory(sheet, axis, sx * places, -sy * exact.gap(places, end), legend)
     curves = []
@@ -110,12 +112,12 @@ def geometry(
         near = o.x <= edge
         x, y = o.x[near], -o.gap[near]
         if look.get("marker"):
-            kept = _evenly(x)
+            kept = _evenly(x, _shift(look))
             x, y = x[kept], y[kept]
         curves.append((o.label, sx * x, sy * y, look))
     _curves(sheet, axis, curves, legend)
     axis.set_xlim(0.0, sx * edge)
-    axis.set_ylim(-sy * high, 0.25 * sy * high)
+    style.wall_below(axis, -sy * high, sy * deep)
 
 
 def contact_length(sheet: Sheet, axis: Axes, outcomes: Sequence[Outcome], *, legend: bool = True) -> None:
@@ -140,26 +142,34 @@ def contact_length(sheet: Sheet, axis: Axes, outcomes: Sequence[Outcome], *, leg
     axis.set_ylim(bottom=0.0)
 
 
-def reaction(sheet: Sheet, axis: Axes, outcomes: Sequence[Outcome], *, legend: bool = True, windows: int = 80) -> None:
-    """Reaction of one side over t, averaged over even windows of time."""
+def reaction(
+    sheet: Sheet, axis: Axes, outcomes: Sequence[Outcome], *, legend: bool = True, windows: int = 40, scaled: bool = False
+) -> None:
+    """Reaction of one side over t, averaged over ``windows`` even in √t.
+
+    scaled : R√t, which is constant where R ∝ 1/√t.
+    """
     runs = _finished(outcomes)
     exact, end = runs[0][0].exact, float(runs[0][0].time[-1])
-    times = np.linspace(0.0, end, windows + 1)[1:]
-    force = exact.side_reaction(times)
-    top = 2.2 * float(force[windows // 10])
+    times = end * np.linspace(0.0, 1.0, 201)[1:] ** 2
+    power = 0.5 if scaled else 0.0
+    force = exact.side_reaction(times) * times**power
     st, mt = unit(end, "s")
-    sf, mf = unit(top, "N")
-    axis.set_xlabel(f"$t$  ({mt})")
-    axis.set_ylabel(f"reaction of one side  ({mf})")
     curves = []
     for o, look in runs:
-        t, f = o.reaction(25 if look.get("marker") else windows)
-        curves.append((o.label, st * t, sf * f, look))
+        t, f = o.reaction(MARKS if look.get("marker") else windows)
+        curves.append((o.label, st * t, f * t**power, look))
+    late = [f[x > 0.02 * st * end] for _, x, f, _ in curves]
+    top = 1.25 * max(float(np.max(f)) for f in late) if scaled else 1.2 * float(exact.side_reaction(0.02 * end))
+    top = min(top, 4.0 * float(np.median(force))) if scaled else top
+    sf, mf = unit(top, "N")
+    axis.set_xlabel(f"$t$  ({mt})")
+    axis.set_ylabel(rf"$R\sqrt{{t}}/2$  ({mf}√s)" if scaled else f"reaction of one side  ({mf})")
     for label, t, f, look in curves:
-        sheet.line(axis, t, f, series=label, legend=legend, **look)
+        sheet.line(axis, t, sf * f, series=label, legend=legend, **look)
     _theory(sheet, axis, st * times, sf * force, legend)
     axis.set_xlim(0.0, st * end)
-    axis.set_ylim(min(0.0, -0.05 * sf * top), sf * top)
+    axis.set_ylim(0.0, sf * top)
 
 
 def energy(sheet: Sheet, axis: Axes, outcomes: Sequence[Outcome], *, legend: bool = True) -> None:
@@ -176,17 +186,21 @@ def energy(sheet: Sheet, axis: Axes, outcomes: Sequence[Outcome], *, legend: boo
     axis.set_xlim(0.0, st * end)
 
 
-def strain(sheet: Sheet, axis: Axes, outcomes: Sequence[Outcome], *, legend: bool = True) -> None:
-    """Strain energy of the whole beam over t."""
+def strain(
+    sheet: Sheet, axis: Axes, outcomes: Sequence[Outcome], *, legend: bool = True, theory: bool = True
+) -> None:
+    """Strain energy of the whole beam over t; ``theory`` = False leaves its line out where it is far above."""
     runs = [(o, look) for o, look in _finished(outcomes)]
     exact, end = runs[0][0].exact, float(runs[0][0].time[-1])
     times = end * np.linspace(0.0, 1.0, 200) ** 2
     values = exact.strain_energy(times)
     st, mt = unit(end, "s")
-    se, me = unit(float(values.max()), "J")
+    largest = float(values.max()) if theory else max(float(o.strain.max()) for o, _ in runs)
+    se, me = unit(largest, "J")
     axis.set_xlabel(f"$t$  ({mt})")
     axis.set_ylabel(f"strain energy  ({me})")
-    _theory(sheet, axis, st * times, se * values, legend)
+    if theory:
+        _theory(sheet, axis, st * times, se * values, legend)
     _curves(sheet, axis, [(o.label, *_thin(st * o.time, se * o.strain, look), look) for o, look in runs], legend)
     axis.set_xlim(0.0, st * end)
     axis.set_ylim(bottom=0.0)
@@ -196,7 +210,7 @@ def _thin(t: Array, values: Array, look: dict[str, Any]) -> tuple[Array, Array]:
     """All of a line, some twenty points of a marker."""
     if not look.get("marker"):
         return t, values
-    kept = _evenly(t)
+    kept = _evenly(t, _shift(look))
     return t[kept], values[kept]
 
 

@@ -9,8 +9,8 @@ from collections.abc import Sequence
 from bent_beam.cases import Case
 from comparison.studies.base import Study
 from comparison.studies.outcome import Outcome
-from comparison.studies.thesis import Variant, cured, thesis_settings
-from comparison.studies.words import between, cure, moves, number, of_kind, values
+from comparison.studies.sentences import between, moves, reference_sentences, varied
+from comparison.studies.thesis import Variant, references, thesis_settings
 
 __all__ = ["FACTORS", "STUDY"]
 
@@ -18,43 +18,31 @@ FACTORS = (40.0, 4.0, 2.0, 1.0, 0.4)
 
 
 def variants(case: Case) -> list[Variant]:
-    base = thesis_settings(case.impact, case.end_time)
-    runs = [
-        Variant(
-            f"h = {f * base.time_step:.2g} s",
-            case.impact,
-            case.end_time,
-            value=f * base.time_step,
-            settings=base.replace(time_step=f * base.time_step),
-        )
-        for f in FACTORS
-    ]
-    return [*runs, cured(case.impact, case.end_time)]
+    impact, end = case.impact, case.end_time
+    base = thesis_settings(impact, end)
+    steps = [f * base.time_step for f in FACTORS]
+    runs = [Variant(f"h = {h:.2g} s", impact, end, base.replace(time_step=h).method(), value=h) for h in steps]
+    return [*runs, *references(impact, end)]
 
 
 def conclude(outcomes: Sequence[Outcome]) -> str:
-    old = of_kind(outcomes, "thesis")
-    fine = sorted((o for o in old if o.value is not None), key=lambda o: o.value or 0.0)[:3]
-    noise = values(old, "noise")
+    runs = sorted((o for o in varied(outcomes) if o.value is not None), key=lambda o: o.value or 0.0)
+    fine = runs[:3]
     lifts, pushes = moves(fine, "lift", tell=0.2, relative=True), moves(fine, "reaction_error", tell=2.0)
     verdict = {
-        (
-            False,
-            False,
-        ): "the time step moves neither the lift behind the front, as the thesis says, nor the impulse: what it saw "
-        "in the reaction (Fig. 3.9) is noise of the force",
+        (False, False): "the time step moves neither the lift behind the front, as the thesis says, nor the impulse: what "
+        "it saw in the reaction (Fig. 3.9) is noise of the force",
         (False, True): "the time step does not move the lift behind the front, but the impulse, as the thesis says",
         (True, False): "the time step moves the lift behind the front, against the thesis, but not the impulse",
         (True, True): "the time step moves both the lift behind the front and the impulse",
     }[lifts, pushes]
     text = [
         f"Between the three smallest steps {verdict} (lift {between(fine, 'lift')} V₀t, r₀ off by "
-        f"{between(fine, 'reaction_error', ' %')}; the force scatters by {number(min(noise))} to "
-        f"{number(max(noise))} %)."
+        f"{between(fine, 'reaction_error', ' %')}; over all steps the force scatters by {between(runs, 'noise', ' %')})."
     ]
     if not (lifts or pushes):
         text.append("What is wrong at the thesis's step is wrong at any: it comes from the mesh.")
-    return " ".join([*text, cure(outcomes)])
+    return " ".join([*text, reference_sentences(outcomes)])
 
 
 STUDY = Study("time-step", "Time step h", variants, conclude, heading="time step")

@@ -14,7 +14,7 @@ from comparison.studies.outcome import Outcome
 from comparison.studies.panels import theory_first
 from theory import ImpactFields
 
-__all__ = ["BEAM", "FREE", "THEORY", "beam_panel", "dashed", "key_below", "one_panel", "wall"]
+__all__ = ["BEAM", "FREE", "THEORY", "beam_panel", "dashed", "key_below", "one_panel"]
 
 THEORY = {k: v for k, v in style.THEORY.items() if k != "label"}
 BEAM = THEORY
@@ -25,12 +25,6 @@ FAST: dict[str, Any] = {"color": style.COLOURS["sky"], "lw": 1.0, "ls": "-."}
 def dashed(colour: str) -> dict[str, Any]:
     """A dashed line in a named colour."""
     return {"color": style.COLOURS[colour], "lw": 1.0, "ls": "--"}
-
-
-def wall(axis: Axes, top: float) -> None:
-    """The wall: the half plane of positive deflections."""
-    axis.axhspan(0.0, top, color="#E8E8E8", lw=0, zorder=0)
-    axis.axhline(0.0, color=style.COLOURS["grey"], lw=0.7)
 
 
 def key_below(fig: Any, axis: Axes, columns: int = 3, **look: Any) -> None:
@@ -77,7 +71,6 @@ def beam_panel(
     if limits is None:
         low = float(min((free - layer).min(), free.min()))
         limits = (low - 0.05, 1.15 * float(max(free.max(), layer.max() if fast else 0.0)))
-    wall(axis, max(limits[1], 0.0) + 1.0)
     sheet.line(axis, xi, free, series="free motion", **FREE)
     if fast:
         sheet.line(axis, xi, layer, series=r"fast layer $\eta$", **FAST)
@@ -90,8 +83,9 @@ def beam_panel(
         series="contact points",
         color=style.COLOURS["vermilion"],
         ls="",
-        marker="^",
+        marker="v",
         ms=5,
+        clip_on=False,
     )
     axis.set_xlim(-reach, reach)
-    axis.set_ylim(*limits)
+    style.wall_below(axis, *limits)
