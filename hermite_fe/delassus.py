@@ -1,6 +1,7 @@
 """How an impact at one contact row moves its neighbours: the Delassus operator W = G M⁻¹ Gᵀ.
 
-A row j that stops from the velocity V₀ takes the impulse V₀/W_jj, and this changes the velocity of row i towards the wall
+A row j that stops from the velocity V₀ takes the impulse V₀/W_jj, and this changes the velocity of row i towards the
+wall
 by −(W_ij/W_jj)V₀. With
 
     c = W_{j,j±1}/W_jj

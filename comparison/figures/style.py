@@ -1,5 +1,6 @@
 """The one style of all figures: theory is always the black line, Hermite always blue circles, Self-similar green
-diamonds, Exudyn vermilion squares; any other path has a mark of its own (:func:`mark`). The wall is below: y, positive into
+diamonds, Exudyn vermilion squares; any other path has a mark of its own (:func:`mark`). The wall is below: y,
+positive into
 the wall, points downwards (:func:`wall_below`).
 
 Colours are those of Okabe and Ito (2008), told apart by the colour-blind; sizes are those of a journal column.
@@ -35,8 +36,8 @@ __all__ = [
     "THEORY",
     "WALL",
     "figure",
-    "marks",
     "mark",
+    "marks",
     "panel_label",
     "save",
     "wall_below",

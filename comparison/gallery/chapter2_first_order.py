@@ -10,6 +10,7 @@ from comparison.figures import style
 from comparison.figures.recorder import Sheet
 from comparison.gallery.base import item
 from comparison.gallery.drawing import THEORY, beam_panel, key_below
+from comparison.studies.sentences import signed
 from theory import ImpactFields, contact_parameters, phi
 
 EPSILON = 0.1
@@ -116,7 +117,8 @@ def pushed_length(sheet: Sheet) -> str:
     "No penetration over the contact zone, first order",
     group="theory",
     caption=(
-        "Free motion (2.7.41) as printed, truncated after the first order in ε, and fast layer (2.7.42) at ξ = aλ_c(τ); dotted, "
+        "Free motion (2.7.41) as printed, truncated after the first order in ε, and fast layer (2.7.42) at ξ = "
+        "aλ_c(τ); dotted, "
         "the free motion with λ_c² not truncated. ν = 1, χ = 0, ε = 0.1."
     ),
 )
@@ -137,7 +139,7 @@ def complementarity(sheet: Sheet) -> str:
             dropped = 0.5 * kappa * (EPSILON * a * p.lambda1 * tau) ** 2 * tau
             quartic = EPSILON * psi * ((xi**4) - (a * p.lambda0 * np.sqrt(tau)) ** 4) / 24.0
             printed = free + dropped - quartic
-            worst.append(float((printed - fast)[-1 - np.argmax(inside[::-1])]))
+            worst.append(float((fast - printed)[-1 - np.argmax(inside[::-1])]))
             whole.append(float(np.abs(free - fast)[inside].max()))
             axis.set_xlabel("$a$  (1)")
             axis.set_ylabel(r"$\eta$  (1)")
@@ -150,10 +152,11 @@ def complementarity(sheet: Sheet) -> str:
                 axis, letter, text=rf"$\kappa = {kappa}$, $\alpha = {alpha:g}$, $\psi = {psi:g}$, $\tau = {tau}$"
             )
         key_below(fig, axes[0, 0], 3)
-    listed = ", ".join(f"{v:+.4f} ({letter})" for v, letter in zip(worst, "abcd"))
+    listed = ", ".join(f"{signed(round(v, 4))} ({letter})" for v, letter in zip(worst, "abcd"))
     return (
-        f"Free motion as printed less fast layer at a = 1: {listed}; not truncated the two differ by up to "
-        f"{', '.join(f'{v:.4f}' for v in whole)} within |a| ≤ 1. In (d) ελ₁τ is a quarter of λ₀ and more: the expansion, not "
+        f"Fast layer less free motion as printed at a = 1: {listed}; not truncated the two differ by up to "
+        f"{', '.join(f'{v:.4f}' for v in whole)} within |a| ≤ 1. In (d) ελ₁τ is a quarter of λ₀ and more: the "
+        "expansion, not "
         "the solution, ends there, as the thesis says."
     )
 

@@ -58,9 +58,7 @@ def evolution(sheet: Sheet, contact: str) -> list[float]:
             for t, colour in zip(TIMES, style.SEQUENCE):
                 k = int(np.argmin(np.abs(history.time - t)))
                 front = float(exact.front(t))
-                sheet.line(
-                    axis, x[near], -1e3 * gap[k][near], series=f"t = {1e4 * t:g}·10⁻⁴ s", color=colour, lw=0.9
-                )
+                sheet.line(axis, x[near], -1e3 * gap[k][near], series=f"t = {1e4 * t:g}·10⁻⁴ s", color=colour, lw=0.9)
                 axis.plot([front], [0.0], marker="^", ms=5, color=colour, clip_on=False, zorder=5)
             found.append(lift(run(contact, mass)))
             places = np.linspace(0.0, 1.1, 300)
@@ -147,8 +145,10 @@ def energies(sheet: Sheet) -> str:
     lost = ", ".join(f"{-o.energy[-1]:.0f} J ({o.label})" for o in found[:4])
     return (
         f"Lost by t = 2.5·10⁻⁴ s: {lost}. With lumped masses the node method loses more than the middle method, as the "
-        "thesis says; with the consistent matrix they lose the same. The thesis puts the loss down to the kinetic energy "
-        f"of the beam that comes to rest, {zone:.0f} J, and with lumped nodes it is nearly that; exactly none is lost, all "
+        "thesis says; with the consistent matrix they lose the same. The thesis puts the loss down to the "
+        "kinetic energy "
+        f"of the beam that comes to rest, {zone:.0f} J, and with lumped nodes it is nearly that; exactly none "
+        "is lost, all "
         "of it runs ahead as waves. What Hermite loses with its own choices is the share of the waves that its coarser "
         "elements far away and its implicit step damp."
     )
@@ -191,7 +191,8 @@ def coupled(contact: str, mass: Mass) -> tuple[float, float]:
     group="coupling",
     caption=(
         "Lift at t = 2.5·10⁻⁴ s over the coupling c of neighbouring contact rows: an impact at one row changes the "
-        f"velocity of the next by −cV₀. Lumped masses of rotary part r from 1/16 to 1/420, and the consistent matrix; {SHOWN}."
+        "velocity of the next by −cV₀. Lumped masses of rotary part r from 1/16 to 1/420, and the consistent "
+        f"matrix; {SHOWN}."
     ),
 )
 def coupling(sheet: Sheet) -> str:
@@ -215,9 +216,12 @@ def coupling(sheet: Sheet) -> str:
         key_below(fig, axis, 3, fontsize=7.0)
     best = int(np.argmin(lumped[:, 1]))
     return (
-        f"The lift is smallest where rows do not couple, at r = 1/{ROTARY[best]:g} for middles (c = 0 at r = 1/32) and for "
-        "all lumped masses at nodes, and it grows with −c whatever the contact and the mass matrix are. With r = 1/105 an "
-        f"impact at a middle throws its neighbour off the wall at {number(-coupled('middle', LumpedMass(1.0 / 105.0))[0])} V₀, "
+        f"The lift is smallest where rows do not couple, at r = 1/{ROTARY[best]:g} for middles (c = 0 at r = "
+        "1/32) and for "
+        "all lumped masses at nodes, and it grows with −c whatever the contact and the mass matrix are. With r "
+        "= 1/105 an "
+        "impact at a middle throws its neighbour off the wall at "
+        f"{number(-coupled('middle', LumpedMass(1.0 / 105.0))[0])} V₀, "
         f"with the consistent matrix one at a node at {number(-consistent['node'][0])} V₀. This is the answer to the "
         "thesis's open question (3.3.5)."
     )
@@ -297,6 +301,10 @@ def unfiltered(sheet: Sheet) -> str:
             axis.set_ylabel("reaction of one side  (kN)")
     parts = []
     for mass, (node, middle) in noise.items():
-        quiet = "middles are quieter" if middle < 0.95 * node else "nodes are quieter" if node < 0.95 * middle else "alike"
+        quiet = (
+            "middles are quieter" if middle < 0.95 * node else "nodes are quieter" if node < 0.95 * middle else "alike"
+        )
         parts.append(f"{number(node)} (nodes) and {number(middle)} (middles) with the {mass} matrix: {quiet}")
-    return f"Scatter about theory in the second half, root mean square over theory: {'; '.join(parts)} (thesis: middles)."
+    return (
+        f"Scatter about theory in the second half, root mean square over theory: {'; '.join(parts)} (thesis: middles)."
+    )

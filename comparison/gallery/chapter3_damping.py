@@ -28,7 +28,8 @@ def damped() -> list[Outcome]:
     "fig-3.17",
     "Spectral radius: geometry",
     group="damping",
-    caption=f"Geometry at τ = 0.01 for several spectral radii, Hermite (circles) and Self-similar (diamonds) with their own choices, theory (black); {DAMPED}.",
+    caption="Geometry at τ = 0.01 for several spectral radii, Hermite (circles) and Self-similar (diamonds) "
+    f"with their own choices, theory (black); {DAMPED}.",
 )
 def damped_shape(sheet: Sheet) -> str:
     found = damped()
@@ -40,7 +41,10 @@ def damped_shape(sheet: Sheet) -> str:
     "fig-3.18",
     "Spectral radius: energy",
     group="damping",
-    caption=(f"Energy of the beam until τ = 0.01 for several spectral radii, Hermite (circles) and Self-similar (diamonds) with their own choices, theory (black); {DAMPED}."),
+    caption=(
+        "Energy of the beam until τ = 0.01 for several spectral radii, Hermite (circles) and Self-similar "
+        f"(diamonds) with their own choices, theory (black); {DAMPED}."
+    ),
 )
 def damped_energy(sheet: Sheet) -> str:
     found = damped()
@@ -64,7 +68,8 @@ def bounced() -> list[Outcome]:
     "fig-3.19",
     "Restitution: geometry",
     group="restitution",
-    caption=f"Geometry at τ = 0.1 for restitution 0 and 1, Hermite (circles) and Self-similar (diamonds) with their own choices, theory (black); {BOUNCED}.",
+    caption="Geometry at τ = 0.1 for restitution 0 and 1, Hermite (circles) and Self-similar (diamonds) with "
+    f"their own choices, theory (black); {BOUNCED}.",
 )
 def bounced_shape(sheet: Sheet) -> str:
     found = bounced()
@@ -76,9 +81,7 @@ def bounced_shape(sheet: Sheet) -> str:
     "fig-3.20",
     "Restitution: reaction",
     group="restitution",
-    caption=(
-        f"R√t of one side until τ = 0.1 for restitution 0 and 1, averaged over fortieths of √t; {BOUNCED}."
-    ),
+    caption=(f"R√t of one side until τ = 0.1 for restitution 0 and 1, averaged over fortieths of √t; {BOUNCED}."),
 )
 def bounced_force(sheet: Sheet) -> str:
     found = bounced()
@@ -90,7 +93,8 @@ def bounced_force(sheet: Sheet) -> str:
     "fig-3.21",
     "Restitution: energy",
     group="restitution",
-    caption=f"Energy of the beam until τ = 0.1 for restitution 0 and 1, Hermite (circles) and Self-similar (diamonds) with their own choices, theory (black); {BOUNCED}.",
+    caption="Energy of the beam until τ = 0.1 for restitution 0 and 1, Hermite (circles) and Self-similar "
+    f"(diamonds) with their own choices, theory (black); {BOUNCED}.",
 )
 def bounced_energy(sheet: Sheet) -> str:
     found = bounced()

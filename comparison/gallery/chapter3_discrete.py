@@ -26,13 +26,17 @@ FINE = (5e-2, 1e-2, 2.5e-3, 5e-4)
 
 
 @functools.cache
-def run(
-    contact: str, element: float, length: float, end: float, step: float, mass: Mass = CONSISTENT
-) -> ImpactHistory:
+def run(contact: str, element: float, length: float, end: float, step: float, mass: Mass = CONSISTENT) -> ImpactHistory:
     """A run on a uniform mesh, the thesis's other settings, its first steps saved one by one."""
     given = case(CURVATURE, DURATION)
     settings = Settings(
-        element_length=element, time_step=step, zone=1.0, growth=1.0, contact=contact, mass=mass, mesh=UniformMesh(element)
+        element_length=element,
+        time_step=step,
+        zone=1.0,
+        growth=1.0,
+        contact=contact,
+        mass=mass,
+        mesh=UniformMesh(element),
     )
     times = np.unique(np.concatenate([np.arange(11) * step, np.linspace(0.0, end, 201)]))
     return settings.method().simulate(given.impact.replace(length=length), end_time=end, save=times)
@@ -81,7 +85,8 @@ def middle_starts() -> tuple[float, float]:
     group="discrete",
     caption=(
         "Discrete contact, κ/ν = 1.25, uniform mesh Δx = 5·10⁻² m, τ = 0.01: (a) geometry, nodes; (b) geometry, "
-        "middles; (c) energy, nodes, both masses; (d) reaction over the first steps and after for several element lengths "
+        "middles; (c) energy, nodes, both masses; (d) reaction over the first steps and after for several "
+        "element lengths "
         "(L = 1 m), lumped masses."
     ),
 )
@@ -107,9 +112,12 @@ def discrete(sheet: Sheet) -> str:
         f"The contact stays at x = 0, as theory says. Middles close after {starts:.2e} s, KΔx²/(8V₀) = "
         f"{predicted:.2e} s (the thesis expects 7.85·10⁻⁴ s, joining nodes by straight lines). The first impact "
         f"takes {lumped[1]:.3g} J and {lumped[0]:.3g} N s with lumped masses, which is the thesis's 10 J, ½μΔxV₀², and "
-        f"1 N s, μΔxV₀, and {consistent[1]:.3g} J and {consistent[0]:.3g} N s with the consistent matrix (3.1.8) that it "
-        f"prints; with h = 10⁻¹⁰ s, {tiny[0]:.4g} N s, the same, as it says. Impulses of the first step for the element "
-        f"lengths of (d): {masses} N s (thesis: 1 and 0.2 N s for the first two). Theory needs none of it: as Δx → 0 this "
+        f"1 N s, μΔxV₀, and {consistent[1]:.3g} J and {consistent[0]:.3g} N s with the consistent matrix "
+        "(3.1.8) that it "
+        f"prints; with h = 10⁻¹⁰ s, {tiny[0]:.4g} N s, the same, as it says. Impulses of the first step for "
+        "the element "
+        f"lengths of (d): {masses} N s (thesis: 1 and 0.2 N s for the first two). Theory needs none of it: as "
+        "Δx → 0 this "
         "impulse vanishes and R = 2√(2/π) r₀/√τ from the start."
     )
 
@@ -121,9 +129,7 @@ def energies(sheet: Sheet, axis: Axes, end: float) -> None:
     for name, mass, colour in (("lumped", THESIS_MASS, "vermilion"), ("consistent", CONSISTENT, "sky")):
         history = run("node", ELEMENT, 50.0, end, 2.5e-8, mass)
         energy = history.array("kinetic_energy") + history.array("strain_energy")
-        sheet.line(
-            axis, 1e6 * history.time, energy - energy[0], series=f"nodes, {name}", color=style.COLOURS[colour]
-        )
+        sheet.line(axis, 1e6 * history.time, energy - energy[0], series=f"nodes, {name}", color=style.COLOURS[colour])
     sheet.line(axis, [0.0, 1e6 * end], [0.0, 0.0], series="theory", **THEORY)
     axis.set_xlim(-0.5, 1e6 * end)
     axis.legend(fontsize=7, loc="center right")

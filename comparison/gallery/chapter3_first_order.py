@@ -76,7 +76,8 @@ def lift(outcome: Outcome) -> float:
     "First order: geometry",
     group="first-order",
     caption=(
-        f"Geometry at τ = 0.05 for a₀ = −700, 0 and 700 m/s² on one axis, as in the thesis: its settings (lines), {CASE}, "
+        "Geometry at τ = 0.05 for a₀ = −700, 0 and 700 m/s² on one axis, as in the thesis: its settings "
+        f"(lines), {CASE}, "
         "lumped masses; Hermite on the same beam with its own choices (circles); theory of first order (black, dashed)."
     ),
 )
@@ -108,7 +109,12 @@ def shapes(sheet: Sheet) -> str:
             )
             exact = finite.exact.gap(places, float(finite.time[-1]))
             sheet.line(
-                axis, places, -1e3 * exact, series=f"theory, {name}", legend=acceleration == 0.0, **{**THEORY, "ls": "--"}
+                axis,
+                places,
+                -1e3 * exact,
+                series=f"theory, {name}",
+                legend=acceleration == 0.0,
+                **{**THEORY, "ls": "--"},
             )
         axis.set_xlim(0, 0.45)
         style.wall_below(axis, -9.0, 1.0)
@@ -117,11 +123,14 @@ def shapes(sheet: Sheet) -> str:
         fig.legend(handles, short, loc="outside lower center", ncols=5, fontsize=7.0)
     lifts = {a: 1e3 * lift(runs(a)[0]) for a in SIGNS}
     return (
-        f"Lift inside the zone with the thesis's settings and lumped masses: {lifts[0.0]:.2g} mm for a₀ = 0 (thesis: 0.41 mm) "
+        f"Lift inside the zone with the thesis's settings and lumped masses: {lifts[0.0]:.2g} mm for a₀ = 0 "
+        "(thesis: 0.41 mm) "
         f"and {lifts[700.0]:.2g} mm for 700 m/s² (thesis: 0.32 mm; it depends on where the fine elements end, 0.04 to "
         f"0.4 mm for a zone of 0.7 to 0.35 m: waves that come back); Hermite with its own choices "
-        f"{1e3 * lift(runs(0.0)[1]):.1g} and {1e3 * lift(runs(700.0)[1]):.1g} mm. For −700 m/s² the middle lifts off in "
-        f"theory too; at this time εα τ = {abs(runs(-700.0)[0].impact.epsilon_alpha) * DURATION:.2g} is not small, so theory "
+        f"{1e3 * lift(runs(0.0)[1]):.1g} and {1e3 * lift(runs(700.0)[1]):.1g} mm. For −700 m/s² the middle "
+        "lifts off in "
+        f"theory too; at this time εα τ = {abs(runs(-700.0)[0].impact.epsilon_alpha) * DURATION:.2g} is not "
+        "small, so theory "
         "of first order is only near."
     )
 
@@ -149,7 +158,8 @@ def evolution(sheet: Sheet, axis: Axes, acceleration: float) -> None:
     group="first-order",
     caption=(
         "(a, b) geometry at several times with the thesis's settings, (c, d) contact length, (e, f) reaction of "
-        f"one side, for a₀ = 700 (left) and −700 m/s² (right); {CASE}; Hermite and Self-similar with their own choices; theory of "
+        f"one side, for a₀ = 700 (left) and −700 m/s² (right); {CASE}; Hermite and Self-similar with their own "
+        "choices; theory of "
         "first order, εα = a₀√(EI/μ)/V₀³ by (3.5.5) × t*."
     ),
 )
@@ -177,7 +187,10 @@ def one_map(sheet: Sheet, acceleration: float) -> float:
     return float(norm.vmax or 0.0)
 
 
-MAP = "{CASE}; cells even in x and √t, the axis of t scaled alike, so that the front is straight; theory's ±λ_c(t) (red line)"
+MAP = (
+    "{CASE}; cells even in x and √t, the axis of t scaled alike, so that the front is straight; theory's ±λ_c(t) "
+    "(red line)"
+)
 
 
 @item(
@@ -204,7 +217,8 @@ def pulled(sheet: Sheet) -> str:
     one_map(sheet, -700.0)
     return (
         "Only the two moving contact points push, as theory says. With the thesis's settings the last push is at "
-        f"t = {1e3 * last_push(old(-700.0)):.2g} ms: the beam then leaves the wall (the thesis sees it leave at 3.7 ms)."
+        f"t = {1e3 * last_push(old(-700.0)):.2g} ms: the beam then leaves the wall (the thesis sees it leave "
+        "at 3.7 ms)."
     )
 
 
@@ -220,7 +234,8 @@ def last_push(history: ImpactHistory) -> float:
     group="first-order-long",
     caption=(
         "a₀ = 17 m/s² until τ = 0.5 (V₀ = 3.5 m/s, K = 0.35 1/m, L = 2 m), which the thesis left out for its cost: "
-        "(a) contact length, (b) geometry at the end; Hermite on the finite beam (circles), Self-similar on the infinite one "
+        "(a) contact length, (b) geometry at the end; Hermite on the finite beam (circles), Self-similar on "
+        "the infinite one "
         "(diamonds), theory of first order (black)."
     ),
 )

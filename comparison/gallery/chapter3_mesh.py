@@ -25,7 +25,10 @@ DURATION = 0.01
 COARSE, FLAT = 1.0, 1.0 / 80.0
 ELEMENTS = {1.0: 20000, 1.05: 302, 1.1: 192, 1.25: 120, 1.5: 92}  # Table 3.2
 LENGTHS = (5e-3, 2.5e-3, 1.5e-3)
-SHOWN = "K = 1 1/m, t_f = 2.5·10⁻⁵ s, h = 2.5·10⁻⁸ s; the thesis's settings (lines), Hermite (circles) and Self-similar (diamonds) with their own choices, theory (black)."
+SHOWN = (
+    "K = 1 1/m, t_f = 2.5·10⁻⁵ s, h = 2.5·10⁻⁸ s; the thesis's settings (lines), Hermite (circles) and Self-similar "
+    "(diamonds) with their own choices, theory (black)."
+)
 SQUARE = "K = 1/80 1/m (κ/ν = 6.25·10⁻⁴), τ = 0.01, h = 2.5·10⁻⁸ s, e = 1.25, a = 5"
 
 
@@ -47,7 +50,8 @@ def shape(sheet: Sheet) -> str:
     lifts = ", ".join(f"{number(o.measures['lift'])} ({o.label})" for o in found)
     return (
         f"Lift over V₀t: {lifts}. As the thesis says, its element lengths do not remove the lift: the front, "
-        f"{1e3 * 2 / float(found[0].exact.parameters.lambda0) * 0.05 * np.sqrt(DURATION):.2g} mm thick at the end and less before, needs elements of "
+        f"{1e3 * 2 / float(found[0].exact.parameters.lambda0) * 0.05 * np.sqrt(DURATION):.2g} mm thick at the "
+        "end and less before, needs elements of "
         "a fraction of that from the start."
     )
 
@@ -71,7 +75,8 @@ def length(sheet: Sheet) -> str:
     "fig-3.12",
     "Element length: reaction",
     group="mesh",
-    caption=f"R√t of one side for several element lengths, averaged over fortieths of √t, constant where R ∝ 1/√t; {SHOWN}",
+    caption="R√t of one side for several element lengths, averaged over fortieths of √t, constant where R ∝ "
+    f"1/√t; {SHOWN}",
 )
 def force(sheet: Sheet) -> str:
     found = lengths()
@@ -174,12 +179,13 @@ def square_shape(sheet: Sheet) -> str:
     found = meshes()
     one_panel(sheet, geometry, found)
     middle = -float(found[1].gap[0])
+    lifts = ", ".join(f"{number(o.measures['lift'])} ({o.label})" for o in found[2:])
     side = "inside the wall" if middle > 0 else "off the wall"
     return (
         f"The middle node of the square mesh is {1e4 * abs(middle):.2g}·10⁻⁴ m {side} (thesis: 1.8·10⁻⁴ m "
         f"inside): the contact row sits at the middle of the first element, "
         f"{1e3 * square().first_element:.2g} mm long, and does not stop the node. Lift over V₀t of the references: "
-        f"{', '.join(f'{number(o.measures[\"lift\"])} ({o.label})' for o in found[2:])}."
+        f"{lifts}."
     )
 
 
@@ -203,7 +209,8 @@ def square_length(sheet: Sheet) -> str:
         key_below(fig, axes[0], 5, fontsize=7.0)
     steps = [_longest_step(o) for o in found[:2]]
     return (
-        f"In the last two fifths λ_c rests for up to {1e6 * steps[0]:.2g} µs on the uniform zone and {1e6 * steps[1]:.2g} µs on "
+        f"In the last two fifths λ_c rests for up to {1e6 * steps[0]:.2g} µs on the uniform zone and "
+        f"{1e6 * steps[1]:.2g} µs on "
         "the square one: shorter steps, as the thesis found, not none."
     )
 
@@ -227,4 +234,6 @@ def square_force(sheet: Sheet) -> str:
     found = meshes()
     one_panel(sheet, reaction, found, scaled=True)
     labels = ", ".join(o.label for o in found)
-    return f"r₀ is off by {errors(found, 'reaction_error')} ({labels}): neither of the thesis's meshes resolves the front."
+    return (
+        f"r₀ is off by {errors(found, 'reaction_error')} ({labels}): neither of the thesis's meshes resolves the front."
+    )

@@ -18,7 +18,8 @@ NODES = np.linspace(0.0, LENGTH, ELEMENTS + 1)
 AXIS_STIFFNESS = 500.0 * STIFFNESS
 """EI, N m², that fits the printed axes of both figures; the captions print a five-hundredth of it."""
 PRINTED = (
-    "Drawn with EI = 4.67·10⁶ N m², which puts the largest deflection at {:.3g} m, where the thesis's axis has it ({}); with the "
+    "Drawn with EI = 4.67·10⁶ N m², which puts the largest deflection at {:.3g} m, where the thesis's axis has "
+    "it ({}); with the "
     "printed EI = 9.345·10³ N m² it would be {:.3g} m, five hundred times as much, against both printed axes."
 )
 

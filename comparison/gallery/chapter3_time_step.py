@@ -21,7 +21,11 @@ THESIS = {  # h: (seconds, most iterations, mean iterations), Table 3.1
     2.5e-8: (715.86, 4, 1.035),
     1e-8: (1753.98, 4, 1.011),
 }
-SHOWN = "K = 1 1/m, t_f = 2.5·10⁻⁵ s, the thesis's settings (lines), Hermite (circles) and Self-similar (diamonds) with their own choices, theory (black)."
+SHOWN = (
+    "K = 1 1/m, t_f = 2.5·10⁻⁵ s, the thesis's settings (lines), Hermite (circles) and Self-similar (diamonds) "
+    "with their "
+    "own choices, theory (black)."
+)
 
 
 def outcomes() -> list[Outcome]:
@@ -64,10 +68,11 @@ def length(sheet: Sheet) -> str:
 def force(sheet: Sheet) -> str:
     found = outcomes()
     one_panel(sheet, reaction, found, scaled=True)
+    noise = ", ".join(f"{number(o.measures['noise'])} % ({o.label})" for o in found[len(THESIS) :])
     return (
         "The thesis filters its force (filtfilt); here it is averaged over windows of time. Scatter about theory "
         f"in the second half: {between(varied(found), 'noise', ' %')} with the thesis's settings, "
-        f"{', '.join(f'{number(o.measures[\"noise\"])} % ({o.label})' for o in found[len(THESIS) :])}."
+        f"{noise}."
     )
 
 

@@ -80,8 +80,9 @@ def contact_sketch(sheet: Sheet, edges: tuple[float, ...], symbol: str, uniform:
         arrow(axis, (-2.3, 0.0), (2.5, 0.0), THIN)
         axis.text(2.42, -0.08, r"$\xi$")
         if edge > 0.0:
-            axis.text(edge + 0.03, -0.12, r"$\lambda_c(\tau)$", ha="left", fontsize=7.5)
-            axis.text(-edge - 0.03, -0.12, r"$-\lambda_c(\tau)$", ha="right", fontsize=7.5)
+            for place, name in ((edge, r"$\lambda_c(\tau)$"), (-edge, r"$-\lambda_c(\tau)$")):
+                axis.plot([place, place], [-0.5, -0.02], color="black", lw=0.5, ls=":")
+                axis.text(place, -0.55, name, ha="center", va="bottom", fontsize=7.5)  # clear of the beam
         sheet.record(axis, places, np.zeros(places.size), "reactions")
 
 
@@ -125,8 +126,9 @@ def element(sheet: Sheet) -> None:
     xi = np.linspace(0.0, 1.0, 101)
     dofs = np.array([0.32, -0.9, 0.12, 0.7])
     bent = -shape_functions(xi, 1.0) @ dofs
-    with sheet.figure(width=3.8, height=1.7) as (_, axis):
-        bare(axis, (-0.2, 1.35), (-0.65, 0.25))
+    with sheet.figure(width=4.2, height=2.6) as (_, axis):
+        bare(axis, (-0.2, 1.5), (-0.75, 0.28))
+        axis.set_aspect("equal")
         axis.plot([0, 1], [0, 0], color=style.COLOURS["grey"], lw=0.8, ls="--")
         sheet.line(axis, xi, bent, series="element", color=style.COLOURS["blue"], lw=2.2)
         for place, name in ((0.0, "1"), (1.0, "2")):
@@ -134,7 +136,13 @@ def element(sheet: Sheet) -> None:
             arrow(axis, (place, 0.0), (place, float(high)), ARROW)
             side = -1.0 if place == 0.0 else 1.0
             axis.text(place + 0.03 * side, high / 2, f"$w_{name}$", ha="right" if side < 0 else "left", va="center")
-            axis.text(place - 0.05 * side, high - 0.1, rf"$\theta_{name}$", ha="left" if side < 0 else "right")
+            slope = -dofs[1] if place == 0.0 else -dofs[3]
+            along = 0.3 * np.array([1.0, slope]) / np.hypot(1.0, slope)
+            axis.plot([place, place + 0.3], [high, high], color="black", lw=0.5, ls=":")
+            axis.plot([place, place + along[0]], [high, high + along[1]], color="black", lw=0.5)
+            angles = np.linspace(0.0, np.arctan(slope), 21)
+            axis.plot(place + 0.24 * np.cos(angles), high + 0.24 * np.sin(angles), color="black", lw=0.8)
+            axis.text(place + 0.33, high + 0.14 * slope, rf"$\theta_{name}$", ha="left", va="center")
             axis.text(place, 0.09, f"({name})", ha="center", va="center", fontsize=7)
         axis.plot([0, 1], [bent[0], bent[-1]], "o", ms=4, color=style.COLOURS["blue"])
         arrow(axis, (0.0, 0.2), (1.0, 0.2), BOTH)

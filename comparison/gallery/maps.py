@@ -18,6 +18,11 @@ TIMES, PLACES = 60, 80
 DECADES = 4.0  # of the colour scale: below is noise of no consequence, marked as such
 
 
+def largest_hidden(norm: LogNorm) -> float:
+    """The lower end of the colour scale, N."""
+    return float(norm.vmin or 0.0)
+
+
 class CellForces:
     """Reaction per cell: places and times are edges, m and s; force (times, places), N, of one side of the beam."""
 
@@ -42,7 +47,8 @@ def cell_forces(history: ImpactHistory, *, reach: float = 1.25) -> CellForces:
 
 
 def map_norm(*maps: CellForces) -> LogNorm:
-    """A scale that holds the largest cell of all maps and ``DECADES`` below it: nothing is clipped at the top, and cells
+    """A scale that holds the largest cell of all maps and ``DECADES`` below it: nothing is clipped at the top, and
+    cells
     below it are pale.
     """
     largest = max(float(m.force.max()) for m in maps)
@@ -89,4 +95,4 @@ def reaction_map(
     axis.set_xlim(-places[-1], places[-1])
     axis.set_ylim(0.0, st * end)
     found = force[force > 0.0]
-    return float(np.mean(found < norm.vmin)) if found.size else 0.0
+    return float(np.mean(found < largest_hidden(norm))) if found.size else 0.0

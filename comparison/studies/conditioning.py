@@ -135,7 +135,8 @@ def conclude(found: Sequence[Conditioning]) -> str:
     finest = found[-1]
     finished = [c for c in found if c.defect is not None]
     text = (
-        f"The thesis reports a matrix close to singular at Δx = 10⁻⁴ m. At Δx = {finest.element_length:.2g} m the condition "
+        f"The thesis reports a matrix close to singular at Δx = 10⁻⁴ m. At Δx = {finest.element_length:.2g} m "
+        "the condition "
         f"of S_T is {number(finest.raw)}; {number(LIMIT)} is where the last digit goes. Deflections and rotations in "
         f"one unit and the multipliers eliminated, it is {number(finest.scaled)}: most of it is units"
     )

@@ -1,4 +1,5 @@
-"""Where the no-penetration is asked for, and what mass moves there (thesis 3.3.5, Figs 3.22–3.28): nodes, element middles,
+"""Where the no-penetration is asked for, and what mass moves there (thesis 3.3.5, Figs 3.22–3.28): nodes, element
+middles,
 mean gaps, each with the consistent and with a lumped mass matrix; then nodes held behind the front.
 
 An impact at one row changes the velocities of its neighbours by c = W_{j,j±1}/W_jj of what it takes
@@ -73,7 +74,9 @@ def what_couples(outcomes: Sequence[Outcome]) -> str:
         lifts = node.measure("lift"), middle.measure("lift")
         ratio = max(lifts) / max(min(lifts), 1e-300)
         flatter = "nodes" if lifts[0] < lifts[1] else "middles"
-        verdict = f"{flatter} are flatter by a factor of {number(ratio)}" if ratio > 1.5 else "there is little between them"
+        verdict = (
+            f"{flatter} are flatter by a factor of {number(ratio)}" if ratio > 1.5 else "there is little between them"
+        )
         text.append(
             f"With the {mass} mass matrix nodes lift by {number(lifts[0])} V₀t and middles by {number(lifts[1])} V₀t: "
             f"{verdict} (coupling of neighbours c = {signed(node.value)} and {signed(middle.value)}); r₀ is off by "
@@ -88,7 +91,8 @@ def _held(fine: float, held: float) -> str:
         return (
             "The double detachment is rectified noise and a start that no mesh resolves: behind the front the "
             "exact reaction is zero, so a one-sided law turns noise of either sign into pushes off the wall. "
-            f"Shorter elements and slow growth leave {number(fine)} V₀t; with captured nodes held until the front is 16 "
+            f"Shorter elements and slow growth leave {number(fine)} V₀t; with captured nodes held until the "
+            "front is 16 "
             f"elements on, and damping at grid scale, {number(held)} V₀t are left."
         )
     return (
@@ -98,4 +102,6 @@ def _held(fine: float, held: float) -> str:
     )
 
 
-STUDY = Study("contact-point", "Contact at nodes or middles, consistent or lumped mass", variants, conclude, "contact, mass")
+STUDY = Study(
+    "contact-point", "Contact at nodes or middles, consistent or lumped mass", variants, conclude, "contact, mass"
+)

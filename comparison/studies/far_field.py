@@ -47,7 +47,8 @@ def conclude(outcomes: Sequence[Outcome]) -> str:
         before, after = coarse.measure("noise"), slow.measure("noise")
         text.append(
             f"Growing by 25 % an element leaves {number(before)} % of noise in the reaction and a lift of "
-            f"{number(coarse.measures['lift'])} V₀t, 2 % leave {number(after)} % and {number(slow.measures['lift'])} V₀t: "
+            f"{number(coarse.measures['lift'])} V₀t, 2 % leave {number(after)} % and "
+            f"{number(slow.measures['lift'])} V₀t: "
             + (
                 "the coarse elements reflect what the impact radiates."
                 if before > 1.25 * after

@@ -60,9 +60,12 @@ def conclude(outcomes: Sequence[Outcome]) -> str:
         if without is None or not rubbed:
             text.append(f"Friction could not be compared in the {name}: a run is missing.")
             continue
-        reaction, length, lift = (_change(rubbed, without, m) for m in ("reaction_error", "contact_length_error", "lift"))
+        reaction, length, lift = (
+            _change(rubbed, without, m) for m in ("reaction_error", "contact_length_error", "lift")
+        )
         text.append(
-            f"Friction up to {max(o.value or 0.0 for o in rubbed):g} moves r₀ by {number(reaction)} % at most in the {name}, "
+            f"Friction up to {max(o.value or 0.0 for o in rubbed):g} moves r₀ by {number(reaction)} % at most "
+            f"in the {name}, "
             f"λ₀ by {number(length)} %, the lift by {number(lift)} V₀t."
             + (
                 ""

@@ -82,7 +82,8 @@ def _growth(base: Outcome, slow: Outcome) -> str:
     if after < 0.8 * before:
         return (
             f"Growing by 2 % an element in place of 25 % brings the noise of the reaction from {number(before)} to "
-            f"{number(after)} % and the lift from {number(base.measures['lift'])} to {number(slow.measures['lift'])} V₀t: "
+            f"{number(after)} % and the lift from {number(base.measures['lift'])} to "
+            f"{number(slow.measures['lift'])} V₀t: "
             "here the coarse elements send waves back, although the thesis found no effect of e."
         )
     return (

@@ -53,7 +53,8 @@ def saved_times(end: float, even: int = 400, root: int = 120) -> Array:
 class Outcome:
     """A finished run.
 
-    mark : the path whose mark it is drawn with, for a reference; ``None`` for one of the varied settings, which are lines.
+    mark : the path whose mark it is drawn with, for a reference; ``None`` for one of the varied settings, which are
+    lines.
     value : of the varied parameter, if a number.
     time, front, side_impulse, strain, energy : (times,), SI, the energy being that of the whole beam over its first
         value; x, gap : the beam at the end, half of it.
@@ -102,7 +103,13 @@ class Outcome:
 
     def row(self) -> dict[str, Any]:
         """JSON-ready: label, path of a reference, value, measures, failure."""
-        return {"label": self.label, "reference": self.mark, "value": self.value, **self.measures, "failure": self.failure}
+        return {
+            "label": self.label,
+            "reference": self.mark,
+            "value": self.value,
+            **self.measures,
+            "failure": self.failure,
+        }
 
 
 def failed(label: str, impact: Impact, value: float | None, reason: str, *, mark: str | None = None) -> Outcome:
@@ -111,9 +118,7 @@ def failed(label: str, impact: Impact, value: float | None, reason: str, *, mark
     return Outcome(label, impact, value, *(none,) * 7, dict.fromkeys(MEASURES), mark=mark, failure=reason)
 
 
-def outcome_of(
-    history: ImpactHistory, label: str, *, value: float | None = None, mark: str | None = None
-) -> Outcome:
+def outcome_of(history: ImpactHistory, label: str, *, value: float | None = None, mark: str | None = None) -> Outcome:
     """Curves and numbers of a history. The contact length of the varied settings is read as the thesis does
     (:func:`touching`), that of a reference (``mark``) from the centroid of the reaction.
     """

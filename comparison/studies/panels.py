@@ -1,6 +1,7 @@
 """Panels that hold several runs of one impact against theory: geometry, contact length, reaction, energy.
 
-Varied settings are thin coloured lines, references the markers of their path, theory is the black line. The wall is below.
+Varied settings are thin coloured lines, references the markers of their path, theory is the black line. The wall is
+below.
 """
 
 from __future__ import annotations
@@ -143,7 +144,13 @@ def contact_length(sheet: Sheet, axis: Axes, outcomes: Sequence[Outcome], *, leg
 
 
 def reaction(
-    sheet: Sheet, axis: Axes, outcomes: Sequence[Outcome], *, legend: bool = True, windows: int = 40, scaled: bool = False
+    sheet: Sheet,
+    axis: Axes,
+    outcomes: Sequence[Outcome],
+    *,
+    legend: bool = True,
+    windows: int = 40,
+    scaled: bool = False,
 ) -> None:
     """Reaction of one side over t, averaged over ``windows`` even in √t.
 
@@ -186,9 +193,7 @@ def energy(sheet: Sheet, axis: Axes, outcomes: Sequence[Outcome], *, legend: boo
     axis.set_xlim(0.0, st * end)
 
 
-def strain(
-    sheet: Sheet, axis: Axes, outcomes: Sequence[Outcome], *, legend: bool = True, theory: bool = True
-) -> None:
+def strain(sheet: Sheet, axis: Axes, outcomes: Sequence[Outcome], *, legend: bool = True, theory: bool = True) -> None:
     """Strain energy of the whole beam over t; ``theory`` = False leaves its line out where it is far above."""
     runs = [(o, look) for o, look in _finished(outcomes)]
     exact, end = runs[0][0].exact, float(runs[0][0].time[-1])

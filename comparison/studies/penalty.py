@@ -36,7 +36,9 @@ def penalised(
     from exudyn_models import CONTACTS, ELEMENTS, INTEGRATORS, ExudynModel
 
     return ExudynModel(
-        contact=CONTACTS["penalty"](relative_stiffness=relative_stiffness, relative_damping=relative_damping, hold=hold),
+        contact=CONTACTS["penalty"](
+            relative_stiffness=relative_stiffness, relative_damping=relative_damping, hold=hold
+        ),
         element=ELEMENTS["ancf_cable"](viscosity=viscosity),
         integrator=INTEGRATORS["generalized_alpha"](spectral_radius=spectral_radius, relative_step=STEP),
     )

@@ -18,7 +18,9 @@ COEFFICIENTS = (0.0, 0.5, 1.0)
 def variants(case: Case) -> list[Variant]:
     impact, end = case.impact, case.end_time
     base = thesis_settings(impact, end)
-    runs = [Variant(f"restitution {e:g}", impact, end, base.replace(restitution=e).method(), value=e) for e in COEFFICIENTS]
+    runs = [
+        Variant(f"restitution {e:g}", impact, end, base.replace(restitution=e).method(), value=e) for e in COEFFICIENTS
+    ]
     return [*runs, *references(impact, end)]
 
 
@@ -37,7 +39,8 @@ def conclude(outcomes: Sequence[Outcome]) -> str:
     if lost is not None and kept is not None:
         text.append(
             f"With 0 the impacts destroy {number(lost)} % of the energy that should leave as waves, with 1 "
-            f"{number(abs(kept))} %. The thesis reads the first as what a real impact does; theory, whose contact points "
+            f"{number(abs(kept))} %. The thesis reads the first as what a real impact does; theory, whose "
+            "contact points "
             "move on without doing work, keeps all of it."
         )
     return " ".join([*text, reference_sentences(outcomes)])

@@ -1,7 +1,8 @@
 """The thesis's numerical settings (Table 3.3 and 3.2.1), scaled to any case, and the methods to hold them against.
 
 Δx = 0.05 l* (2.5·10⁻³ m at V₀ = 20 m/s), at least twelve elements in the contact zone at the end; h = 10⁻⁵ t*, at
-most a thousandth of the run (2.5·10⁻⁸ s); uniform elements over twice the contact zone of the leading order (which gives
+most a thousandth of the run (2.5·10⁻⁸ s); uniform elements over twice the contact zone of the leading order (which
+gives
 the element counts of Table 3.2, 3.3.2), growth 1.25 outside; nonsmooth generalised-α with constraints at position,
 velocity and acceleration level, ρ∞ = 0.8, restitution 0; contact at element middles or at nodes; nothing held, nothing
 absorbed. The mass matrix is the printed (3.1.8) or the lumped one that the thesis's numbers ask for
@@ -33,7 +34,8 @@ GROWTH, RADIUS = 1.25, 0.8
 CONSISTENT = ConsistentMass()  # (3.1.8)
 
 THESIS_MASS = LumpedMass(rotary=1.0 / 105.0)
-"""Half an element at each node and the diagonal 4l²/420 of (3.1.8) on its rotation: of the lumpings tried, the one whose
+"""Half an element at each node and the diagonal 4l²/420 of (3.1.8) on its rotation: of the lumpings tried, the one
+whose
 lifts and strain energies, with nodes and with middles, come closest to the thesis's (docs/numerics.md)."""
 
 

@@ -30,7 +30,10 @@ def conclude(outcomes: Sequence[Outcome]) -> str:
     fine = runs[:3]
     lifts, pushes = moves(fine, "lift", tell=0.2, relative=True), moves(fine, "reaction_error", tell=2.0)
     verdict = {
-        (False, False): "the time step moves neither the lift behind the front, as the thesis says, nor the impulse: what "
+        (
+            False,
+            False,
+        ): "the time step moves neither the lift behind the front, as the thesis says, nor the impulse: what "
         "it saw in the reaction (Fig. 3.9) is noise of the force",
         (False, True): "the time step does not move the lift behind the front, but the impulse, as the thesis says",
         (True, False): "the time step moves the lift behind the front, against the thesis, but not the impulse",
@@ -38,7 +41,8 @@ def conclude(outcomes: Sequence[Outcome]) -> str:
     }[lifts, pushes]
     text = [
         f"Between the three smallest steps {verdict} (lift {between(fine, 'lift')} V₀t, r₀ off by "
-        f"{between(fine, 'reaction_error', ' %')}; over all steps the force scatters by {between(runs, 'noise', ' %')})."
+        f"{between(fine, 'reaction_error', ' %')}; over all steps the force scatters by "
+        f"{between(runs, 'noise', ' %')})."
     ]
     if not (lifts or pushes):
         text.append("What is wrong at the thesis's step is wrong at any: it comes from the mesh.")
