@@ -30,6 +30,8 @@ from comparison.gallery import (  # noqa: F401  (each registers its items)
     chapter3_statics,
     chapter3_time_step,
     diagrams,
+    extras,
+    numbers,
 )
 from comparison.gallery.base import ITEMS as _REGISTERED
 from comparison.gallery.base import Item, draw_item, order
@@ -41,7 +43,7 @@ __all__ = ["ITEMS", "Item", "draw_all", "listing"]
 ITEMS: dict[str, Item] = {name: _REGISTERED[name] for name in sorted(_REGISTERED, key=order)}
 """Items in the order of the thesis."""
 
-LONGEST = ("matching", "first-order", "restitution", "contact-point", "mesh-square", "damping", "theory")
+LONGEST = ("numbers", "matching", "first-order", "restitution", "contact-point", "mesh-square", "damping", "theory")
 """Groups that take longest, first: so that two processes end together."""
 
 
@@ -101,8 +103,6 @@ def _index(drawn: Sequence[dict[str, Any]]) -> str:
     parts = ["# Figures and tables of the thesis, regenerated\n"]
     for entry in drawn:
         picture, data = Path(entry["files"][0]).name, Path(entry["files"][-1]).name
-        parts.append(
-            f"## {entry['id']}: {entry['title']}\n\n![{entry['id']}]({picture})\n\n{entry['caption']} "
-            f"([data]({data}))\n"
-        )
+        shown = f"![{entry['id']}]({picture})" if not picture.endswith(".md") else f"[the table]({picture})"
+        parts.append(f"## {entry['id']}: {entry['title']}\n\n{shown}\n\n{entry['caption']} ([data]({data}))\n")
     return "\n".join(parts)

@@ -12,12 +12,12 @@ from matplotlib.axes import Axes
 from comparison.figures import style
 from comparison.figures.recorder import Sheet
 from comparison.gallery.base import item
-from comparison.gallery.drawing import THEORY, key_below, one_panel
+from comparison.gallery.drawing import THEORY, key_below, one_panel, reaction_and_impulse
 from comparison.gallery.runs import case, reference_runs, thesis, thesis_history
 from comparison.studies.contact_point import MASSES, label_of, what_couples
 from comparison.studies.exact import Exact
 from comparison.studies.outcome import Outcome
-from comparison.studies.panels import contact_length, energy, reaction, strain
+from comparison.studies.panels import contact_length, energy, strain
 from comparison.studies.sentences import number, signed
 from hermite_fe import CONTACTS
 from hermite_fe.delassus import impact_coupling
@@ -124,11 +124,14 @@ def lengths(sheet: Sheet) -> str:
     "fig-3.26",
     "Nodes and middles: reaction",
     group="contact-point",
-    caption=f"R√t of one side until τ = 0.1, averaged over fortieths of √t, both masses: constant in theory; {SHOWN}.",
+    caption=(
+        "Reaction of one side until τ = 0.1, averaged over thirtieths of √t (a), and its impulse (b), both masses; "
+        f"{SHOWN}."
+    ),
 )
 def forces(sheet: Sheet) -> str:
     found = [*four(), *reference_runs(FLAT, DURATION)]
-    one_panel(sheet, reaction, found, columns=3, scaled=True)
+    reaction_and_impulse(sheet, found)
     return what_couples(found)
 
 

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from comparison.figures.recorder import Sheet
 from comparison.gallery.base import item
-from comparison.gallery.drawing import one_panel
+from comparison.gallery.drawing import one_panel, reaction_and_impulse
 from comparison.gallery.runs import reference_runs, thesis
 from comparison.studies import damping as damping_study
 from comparison.studies import restitution as restitution_study
 from comparison.studies.outcome import Outcome
-from comparison.studies.panels import energy, geometry, reaction
+from comparison.studies.panels import energy, geometry
 from comparison.studies.sentences import number, signed
 
 CURVATURE = 1.0 / 40.0
@@ -81,11 +81,14 @@ def bounced_shape(sheet: Sheet) -> str:
     "fig-3.20",
     "Restitution: reaction",
     group="restitution",
-    caption=(f"R√t of one side until τ = 0.1 for restitution 0 and 1, averaged over fortieths of √t; {BOUNCED}."),
+    caption=(
+        "Reaction of one side until τ = 0.1 for restitution 0 and 1, averaged over thirtieths of √t (a), and its impulse (b); "
+        f"{BOUNCED}."
+    ),
 )
 def bounced_force(sheet: Sheet) -> str:
     found = bounced()
-    one_panel(sheet, reaction, found, scaled=True)
+    reaction_and_impulse(sheet, found)
     return "r₀ is off by " + ", ".join(f"{signed(o.measures['reaction_error'])} % ({o.label})" for o in found) + "."
 
 

@@ -9,17 +9,17 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from bent_beam.meshes import GradedMesh, SquareMesh
+from bent_beam.meshes import GradedMesh, Mesh, SquareMesh
 from comparison.figures import style
 from comparison.figures.recorder import Sheet
 from comparison.gallery.base import item
-from comparison.gallery.drawing import key_below, one_panel
+from comparison.gallery.drawing import key_below, one_panel, reaction_and_impulse
 from comparison.gallery.runs import case, reference_runs, thesis
 from comparison.studies import mesh as study
 from comparison.studies.outcome import Outcome
-from comparison.studies.panels import contact_length, geometry, reaction
+from comparison.studies.panels import contact_length, geometry
 from comparison.studies.sentences import number, signed
-from comparison.studies.thesis import thesis_settings
+from comparison.studies.thesis import THESIS_MASS, thesis_settings
 
 DURATION = 0.01
 COARSE, FLAT = 1.0, 1.0 / 80.0
@@ -75,12 +75,14 @@ def length(sheet: Sheet) -> str:
     "fig-3.12",
     "Element length: reaction",
     group="mesh",
-    caption="R√t of one side for several element lengths, averaged over fortieths of √t, constant where R ∝ "
-    f"1/√t; {SHOWN}",
+    caption=(
+        "Reaction of one side for several element lengths, averaged over thirtieths of √t (a), and its impulse (b); "
+        f"{SHOWN}"
+    ),
 )
 def force(sheet: Sheet) -> str:
     found = lengths()
-    one_panel(sheet, reaction, found, scaled=True)
+    reaction_and_impulse(sheet, found)
     return (
         f"r₀ fitted to the impulse is off by {errors(found[:3], 'reaction_error')}: overestimated by long elements, "
         "as the thesis saw."
@@ -124,6 +126,23 @@ def meshes() -> list[Outcome]:
         thesis('"square" zone', FLAT, DURATION, mesh=square()),
         *reference_runs(FLAT, DURATION),
     ]
+
+
+def square_middle() -> float:
+    """How deep the central node of the square mesh is inside the wall at the end, m."""
+    return -float(thesis("", FLAT, DURATION, mesh=square(), mass=THESIS_MASS).gap[0])
+
+
+def count_of(curvature: float, duration: float, element: float, *, square: bool = False) -> int:
+    """Elements of the whole beam that the thesis's rules give (3.3.2)."""
+    given = case(curvature, duration)
+    settings = thesis_settings(given.impact, given.end_time)
+    zone = 2.0 * float(study.Exact(given.impact).front(given.end_time))
+    laid: Mesh = GradedMesh(element, settings.growth, zone=zone)
+    if square:
+        first = float(study.Exact(given.impact).front(study.PER_ELEMENT * settings.time_step))
+        laid = SquareMesh(first_element=first, zone=zone, growth=settings.growth)
+    return 2 * (laid.nodes(given.impact.half_length).size - 1)
 
 
 @item(
@@ -228,11 +247,14 @@ def _longest_step(outcome: Outcome) -> float:
     "fig-3.16",
     "Square mesh: reaction",
     group="mesh-square",
-    caption=f"R√t of one side until τ = 0.01 on both meshes, averaged over fortieths of √t; {SQUARE}.",
+    caption=(
+        "Reaction of one side until τ = 0.01 on both meshes, averaged over thirtieths of √t (a), and its impulse (b); "
+        f"{SQUARE}."
+    ),
 )
 def square_force(sheet: Sheet) -> str:
     found = meshes()
-    one_panel(sheet, reaction, found, scaled=True)
+    reaction_and_impulse(sheet, found)
     labels = ", ".join(o.label for o in found)
     return (
         f"r₀ is off by {errors(found, 'reaction_error')} ({labels}): neither of the thesis's meshes resolves the front."

@@ -6,11 +6,11 @@ from collections.abc import Mapping
 
 from comparison.figures.recorder import Sheet
 from comparison.gallery.base import item
-from comparison.gallery.drawing import one_panel
+from comparison.gallery.drawing import one_panel, reaction_and_impulse
 from comparison.gallery.runs import reference_runs, thesis
 from comparison.studies import time_step
 from comparison.studies.outcome import Outcome
-from comparison.studies.panels import contact_length, geometry, reaction
+from comparison.studies.panels import contact_length, geometry
 from comparison.studies.sentences import between, number, varied
 
 CURVATURE, DURATION = 1.0, 0.01
@@ -63,11 +63,13 @@ def length(sheet: Sheet) -> str:
     "fig-3.9",
     "Time step: reaction",
     group="time-step",
-    caption=f"R√t of one side for several time steps, averaged over fortieths of √t, constant where R ∝ 1/√t; {SHOWN}",
+    caption=(
+        f"Reaction of one side for several time steps, averaged over thirtieths of √t (a), and its impulse (b); {SHOWN}"
+    ),
 )
 def force(sheet: Sheet) -> str:
     found = outcomes()
-    one_panel(sheet, reaction, found, scaled=True)
+    reaction_and_impulse(sheet, found)
     noise = ", ".join(f"{number(o.measures['noise'])} % ({o.label})" for o in found[len(THESIS) :])
     return (
         "The thesis filters its force (filtfilt); here it is averaged over windows of time. Scatter about theory "

@@ -11,10 +11,10 @@ from matplotlib.axes import Axes
 from comparison.figures import style
 from comparison.figures.recorder import Sheet
 from comparison.studies.outcome import Outcome
-from comparison.studies.panels import theory_first
+from comparison.studies.panels import impulse, reaction, theory_first
 from theory import ImpactFields
 
-__all__ = ["BEAM", "FREE", "THEORY", "beam_panel", "dashed", "key_below", "one_panel"]
+__all__ = ["BEAM", "FREE", "THEORY", "beam_panel", "dashed", "key_below", "one_panel", "reaction_and_impulse"]
 
 THEORY = {k: v for k, v in style.THEORY.items() if k != "label"}
 BEAM = THEORY
@@ -47,6 +47,15 @@ def one_panel(
     with sheet.figure(width=width, height=height) as (fig, axis):
         panel(sheet, axis, outcomes, **options)
         key_below(fig, axis, columns, fontsize=7.0)
+
+
+def reaction_and_impulse(sheet: Sheet, outcomes: Sequence[Outcome]) -> None:
+    """The reaction, averaged, as the thesis shows it, and its impulse, which lets 1/√t be judged."""
+    with sheet.figure(1, 2, width=style.PAGE, height=3.0) as (fig, axes):
+        for axis, letter, panel in zip(axes, "ab", (reaction, impulse)):
+            panel(sheet, axis, outcomes)
+            sheet.panel(axis, letter)
+        key_below(fig, axes[1], 4, fontsize=7.0)
 
 
 def beam_panel(

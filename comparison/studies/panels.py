@@ -23,6 +23,7 @@ __all__ = [
     "draw_outcomes",
     "energy",
     "geometry",
+    "impulse",
     "line_styles",
     "reaction",
     "strain",
@@ -143,40 +144,46 @@ def contact_length(sheet: Sheet, axis: Axes, outcomes: Sequence[Outcome], *, leg
     axis.set_ylim(bottom=0.0)
 
 
-def reaction(
-    sheet: Sheet,
-    axis: Axes,
-    outcomes: Sequence[Outcome],
-    *,
-    legend: bool = True,
-    windows: int = 40,
-    scaled: bool = False,
-) -> None:
-    """Reaction of one side over t, averaged over ``windows`` even in √t.
-
-    scaled : R√t, which is constant where R ∝ 1/√t.
-    """
+def reaction(sheet: Sheet, axis: Axes, outcomes: Sequence[Outcome], *, legend: bool = True, windows: int = 30) -> None:
+    """Reaction of one side over t, averaged over ``windows`` even in √t."""
     runs = _finished(outcomes)
     exact, end = runs[0][0].exact, float(runs[0][0].time[-1])
     times = end * np.linspace(0.0, 1.0, 201)[1:] ** 2
-    power = 0.5 if scaled else 0.0
-    force = exact.side_reaction(times) * times**power
+    top = 1.2 * float(exact.side_reaction(0.02 * end))
     st, mt = unit(end, "s")
-    curves = []
-    for o, look in runs:
-        t, f = o.reaction(MARKS if look.get("marker") else windows)
-        curves.append((o.label, st * t, f * t**power, look))
-    late = [f[x > 0.02 * st * end] for _, x, f, _ in curves]
-    top = 1.25 * max(float(np.max(f)) for f in late) if scaled else 1.2 * float(exact.side_reaction(0.02 * end))
-    top = min(top, 4.0 * float(np.median(force))) if scaled else top
     sf, mf = unit(top, "N")
     axis.set_xlabel(f"$t$  ({mt})")
-    axis.set_ylabel(rf"$R\sqrt{{t}}/2$  ({mf}√s)" if scaled else f"reaction of one side  ({mf})")
-    for label, t, f, look in curves:
-        sheet.line(axis, t, sf * f, series=label, legend=legend, **look)
-    _theory(sheet, axis, st * times, sf * force, legend)
+    axis.set_ylabel(f"reaction of one side  ({mf})")
+    for o, look in runs:
+        t, f = o.reaction(MARKS if look.get("marker") else windows)
+        sheet.line(axis, st * t, sf * f, series=o.label, legend=legend, **look)
+    _theory(sheet, axis, st * times, sf * exact.side_reaction(times), legend)
     axis.set_xlim(0.0, st * end)
     axis.set_ylim(0.0, sf * top)
+
+
+def impulse(sheet: Sheet, axis: Axes, outcomes: Sequence[Outcome], *, legend: bool = True) -> None:
+    """Impulse of one side, ∫R dt, over t on an axis of √t: a straight line where R ∝ 1/√t, with the slope 2R√t. Nothing
+    is averaged.
+    """
+    runs = _finished(outcomes)
+    exact, end = runs[0][0].exact, float(runs[0][0].time[-1])
+    st, mt = unit(end, "s")
+    times = end * np.linspace(0.0, 1.0, 200) ** 2
+    values = 0.5 * exact.impulse(times)
+    si, mi = unit(float(values.max()), "N s")
+    axis.set_xlabel(f"$t$  ({mt}), scaled as $\\sqrt{{t}}$")
+    axis.set_ylabel(f"impulse of one side  ({mi})")
+    for o, look in runs:
+        t, y = o.time - min(float(o.time[0]), 0.0), o.side_impulse
+        if look.get("marker"):
+            kept = _evenly(np.sqrt(t), _shift(look))
+            t, y = t[kept], y[kept]
+        sheet.line(axis, st * t, si * y, series=o.label, legend=legend, **look)
+    _theory(sheet, axis, st * times, si * values, legend)
+    axis.set_xscale("function", functions=(lambda v: np.sqrt(np.maximum(v, 0.0)), np.square))
+    axis.set_xlim(0.0, st * end)
+    axis.set_ylim(bottom=0.0)
 
 
 def energy(sheet: Sheet, axis: Axes, outcomes: Sequence[Outcome], *, legend: bool = True) -> None:
