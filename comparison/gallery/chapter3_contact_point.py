@@ -5,6 +5,7 @@ consistent mass matrix that the thesis prints and the lumped one that its number
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -202,16 +203,16 @@ def coupling(sheet: Sheet) -> str:
     lumped = np.array([coupled("middle", LumpedMass(1.0 / n)) for n in ROTARY])
     consistent = {contact: coupled(contact, ConsistentMass()) for contact in ("node", "middle", "mean")}
     node = coupled("node", LumpedMass(1.0 / 105.0))
-    looks = {"ls": "", "ms": 5.5, "mew": 1.1, "mfc": "none"}
+    look: dict[str, Any] = {"ls": "", "ms": 5.5, "mew": 1.1, "mfc": "none"}
     with sheet.figure(width=4.6, height=3.2) as (fig, axis):
         axis.set_xlabel(r"coupling of neighbouring rows $c$  (1)")
         axis.set_ylabel("lift  (mm)")
         blue, red = style.COLOURS["blue"], style.COLOURS["vermilion"]
         sheet.line(axis, *lumped.T, series="middles, lumped", color=red, marker="o", ms=5, mfc="none", lw=0.8)
-        sheet.line(axis, *node, series="nodes, lumped", color=blue, marker="o", **looks)
-        sheet.line(axis, *consistent["node"], series="nodes, consistent", color=blue, marker="s", **looks)
-        sheet.line(axis, *consistent["middle"], series="middles, consistent", color=red, marker="s", **looks)
-        sheet.line(axis, *consistent["mean"], series="mean gaps, consistent", color="black", marker="s", **looks)
+        sheet.line(axis, *node, series="nodes, lumped", color=blue, marker="o", **look)
+        sheet.line(axis, *consistent["node"], series="nodes, consistent", color=blue, marker="s", **look)
+        sheet.line(axis, *consistent["middle"], series="middles, consistent", color=red, marker="s", **look)
+        sheet.line(axis, *consistent["mean"], series="mean gaps, consistent", color="black", marker="s", **look)
         for (c, high), n in zip(lumped, ROTARY):
             axis.annotate(f"1/{n:g}", (c, high), xytext=(5, 3), textcoords="offset points", fontsize=6.5)
         axis.axvline(0.0, color=style.COLOURS["grey"], lw=0.6, ls=":")
