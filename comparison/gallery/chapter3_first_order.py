@@ -22,7 +22,7 @@ from comparison.studies.thesis import THESIS_MASS, Settings, Variant, thesis_set
 from hermite_fe import HermiteFE
 
 DURATION = 0.05
-CASE = "V₀ = 3.5 m/s, K = 0.35 1/m, L = 2 m, Δx = 2.5·10⁻³ m, h = 2.5·10⁻⁸ s, e = 1.25, ρ∞ = 0.8, nodes"
+CASE = "V₀ = 3.5 m/s, K = 0.35 1/m, L = 2 m, Δx = 2.5·10⁻³ m, h = 2.5·10⁻⁷ s, e = 1.25, ρ∞ = 0.8, nodes"
 SIGNS = {-700.0: "a₀ = −700 m/s²", 0.0: "a₀ = 0", 700.0: "a₀ = 700 m/s²"}
 
 
@@ -33,10 +33,12 @@ def impact(acceleration: float) -> Impact:
 
 
 def settings(acceleration: float) -> Settings:
-    """The thesis's, with its h, Δx and the lumped masses that its numbers ask for."""
+    """The thesis's, with its Δx, ten times its h (lifts move by less than a tenth: 0.42 for 0.43 mm at a₀ = 0) and
+    the lumped masses that its numbers ask for.
+    """
     given = impact(acceleration)
     base = thesis_settings(given, DURATION * given.time_scale)
-    return base.replace(element_length=2.5e-3, time_step=2.5e-8, contact="node", mass=THESIS_MASS)
+    return base.replace(element_length=2.5e-3, time_step=2.5e-7, contact="node", mass=THESIS_MASS)
 
 
 @functools.cache

@@ -170,6 +170,7 @@ def nodes(sheet: Sheet) -> str:
             ms=2.5,
             lw=0.5,
         )
+        axes[0].invert_yaxis()  # the wall is below
         axes[1].set_xlabel("$x$  (m)")
         axes[1].set_ylabel(r"$\Delta x$  (mm)")
         sheet.line(

@@ -8,7 +8,7 @@ import numpy as np
 
 from bent_beam.history import ImpactHistory
 from bent_beam.impact import Impact
-from bent_beam.meshes import UniformMesh
+from bent_beam.meshes import GradedMesh, UniformMesh
 from comparison.figures import style
 from comparison.figures.recorder import Sheet
 from comparison.gallery.base import item
@@ -80,7 +80,10 @@ def whole_beam(sheet: Sheet) -> str:
     ),
 )
 def fine(sheet: Sheet) -> str:
-    histories = {dx: thesis_history(1.0, 0.01, element_length=dx) for dx in (2.5e-3, 1e-4)}
+    given = case(1.0, 0.01)
+    zone = thesis_settings(given.impact, given.end_time).zone
+    meshes = {dx: GradedMesh(dx, 1.25, zone=zone, size_ratio=conditioning_study.UNCAPPED) for dx in (2.5e-3, 1e-4)}
+    histories = {dx: thesis_history(1.0, 0.01, mesh=mesh) for dx, mesh in meshes.items()}
     found = [outcome_of(h, f"Δx = {dx:g} m", value=dx) for dx, h in histories.items()]
     with sheet.figure(1, 2, width=style.PAGE, height=2.8) as (fig, axes):
         contact_length(sheet, axes[0], found)

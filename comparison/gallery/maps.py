@@ -8,6 +8,7 @@ from matplotlib.colors import LogNorm
 
 from bent_beam.history import ImpactHistory
 from comparison.figures import style
+from comparison.figures.force_map import force_map
 from comparison.figures.recorder import Sheet
 from comparison.studies.exact import Exact
 from comparison.studies.panels import unit
@@ -31,19 +32,14 @@ class CellForces:
 
 
 def cell_forces(history: ImpactHistory, *, reach: float = 1.25) -> CellForces:
-    """Mean over cells even in √t, summed over cells of place."""
-    exact, end = Exact(history.impact), float(history.time[-1])
-    front = exact.front(np.linspace(0.0, end, 200))
-    edge = reach * float(front.max())
-    times, places = end * np.linspace(0.0, 1.0, TIMES + 1) ** 2, np.linspace(0.0, edge, PLACES // 2 + 1)
-    x, impulse = np.abs(history.contact_positions(-1)), history.array("impulse")
-    share = 0.5 if history.dataset.attrs["symmetry"] == "full" else 1.0
-    cell = np.digitize(x, places) - 1
-    force = np.zeros((TIMES, places.size - 1))
-    for j in range(places.size - 1):
-        gathered = share * impulse[:, cell == j].sum(axis=1)
-        force[:, j] = np.diff(np.interp(times, history.time, gathered)) / np.diff(times)
-    return CellForces(places, times, force)
+    """Mean over cells even in √t (between the saved instants next to them), sum over cells of place."""
+    exact, impact, end = Exact(history.impact), history.impact, float(history.time[-1])
+    edge = reach * float(exact.front(np.linspace(0.0, end, 200)).max())
+    wanted, places = end * np.linspace(0.0, 1.0, TIMES + 1) ** 2, np.linspace(0.0, edge, PLACES // 2 + 1)
+    kept = np.unique(np.searchsorted(history.time, wanted).clip(0, history.time.size - 1))
+    force = force_map(history, kept, places / impact.length_scale)
+    per_length = impact.mass_per_length * impact.velocity / impact.time_scale
+    return CellForces(places, history.time[kept], force * per_length * np.diff(places))
 
 
 def map_norm(*maps: CellForces) -> LogNorm:
@@ -75,7 +71,7 @@ def reaction_map(
     if bar:
         axis.figure.colorbar(drawn, ax=axis, label="reaction of a cell  (N)", pad=0.02, extend="min")
     middle = 0.5 * (places[1:] + places[:-1])
-    for k in range(TIMES):
+    for k in range(times.size - 1):
         carried = force[k] > 0.0
         at = st * 0.5 * (times[k] + times[k + 1])
         sheet.record(axis, middle[carried], force[k][carried], f"t = {at:.4g} {mt}", "reaction (N)")

@@ -28,8 +28,9 @@ FIGURES = [
     "fig-A.2",
     "fig-A.3",
 ]
-TABLES = ["table-3.1", "table-3.2", "table-3.3", "table-3.4"]
-QUICK = ("theory", "diagrams", "statics", "time-step", "mesh")
+EXTRAS = [f"extra-{n}" for n in ("counts", "uniform", "fine", "conditioning", "signorini", "coupling", "a0-17")]
+TABLES = ["table-numbers", "table-3.1", "table-3.2", "table-3.3", "table-3.4"]
+QUICK = ("theory", "diagrams", "statics", "mesh")
 ALL_QUICK = [name for name, i in ITEMS.items() if i.group in QUICK and name != "animation"]
 SLOW = pytest.mark.verify
 
@@ -64,7 +65,7 @@ def drawn(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, dict[str, dic
 
 
 def test_every_figure_and_table_of_the_issue_is_listed() -> None:
-    assert set(FIGURES) | set(TABLES) | {"animation"} == set(ITEMS)
+    assert set(FIGURES) | set(TABLES) | set(EXTRAS) | {"animation"} == set(ITEMS)
     entries = listing()
     assert [e["id"] for e in entries] == sorted(ITEMS, key=order)
     assert all(e["title"] and e["caption"].endswith((".", ")")) for e in entries)
@@ -141,14 +142,12 @@ POINTS = [  # figure, panel, series, x, y, tolerance
     ("fig-2.16b", "", "-1, -1, 0", 0.5, -1.77288819407, 1e-7),
     ("fig-2.17", "c", "beam", 0.0, 0.0, 2e-3),
     ("fig-3.2", "", "bending moment", 0.5, 0.25, 1e-9),
-    ("fig-3.3", "", "Hermite", 2.5, -5e5 * 5.0**3 / 48.0 / 9.345e3, 1e-6),
+    ("fig-3.3", "", "Hermite", 2.5, -5e5 * 5.0**3 / 48.0 / 9.345e3 / 500.0, 1e-6),
     ("fig-3.4", "", "bending moment", 1.0, -1.0, 1e-9),
-    ("fig-3.5", "", "Hermite", 0.0, -8e5 * 5.0**3 / 3.0 / 9.345e3, 1e-5),
+    ("fig-3.5", "", "Hermite", 0.0, -8e5 * 5.0**3 / 3.0 / 9.345e3 / 500.0, 1e-5),
     ("fig-3.6", "a", "theory", 0.0, 0.5, 1e-9),
     ("fig-A.1", "a", "N1", 0.5, 0.5, 1e-9),
     ("fig-A.1", "b", "N2", 0.5, 0.125, 1e-9),
-    ("fig-3.8", "", "theory", 25.0, 1e3 * 6.23692857563 * math.sqrt(2.5e-5), 1e-6),
-    ("fig-3.9", "", "theory", 25.0, 1e-3 * math.sqrt(2.0 / math.pi) * 20.0 * 3.93727884942 / math.sqrt(2.5e-5), 1e-6),
     ("fig-3.11", "", "theory", 25.0, 1e3 * 6.23692857563 * math.sqrt(2.5e-5), 1e-6),
 ]
 
@@ -160,12 +159,12 @@ def test_known_points_of_the_curves(
     assert at(drawn[0], name, series, x, panel) == pytest.approx(y, abs=within * max(1.0, abs(y)))
 
 
-@pytest.mark.parametrize(("name", "panels", "within"), [("fig-2.8", "abcd", 1e-8), ("fig-2.13", "ab", 2e-4)])
+@pytest.mark.parametrize(("name", "panels", "within"), [("fig-2.8", "abcd", 1e-8), ("fig-2.13", "ab", 3e-4)])
 def test_free_motion_and_fast_layer_agree_in_the_contact_zone(
     drawn: tuple[Path, dict[str, dict[str, Any]]], name: str, panels: str, within: float
 ) -> None:
     for panel in panels:
-        a, free = curve(drawn[0], name, "free motion", panel)
+        a, free = curve(drawn[0], name, "free motion" if name == "fig-2.8" else "free motion (2.7.41)", panel)
         _, fast = curve(drawn[0], name, "fast layer", panel)
         inside = np.abs(free - fast)[np.abs(a) <= 1.0].max()
         assert inside < within
@@ -177,29 +176,33 @@ def test_the_middle_lifts_off_when_pulled_back(drawn: tuple[Path, dict[str, dict
     assert 0.0 < lifts[0] < lifts[1] < lifts[2] < 1e-2
 
 
-def test_the_beam_lies_on_the_wall_in_ours_and_not_with_the_thesis_settings(
+OURS = ("Hermite", "Self-similar")
+
+
+def test_the_beam_lies_on_the_wall_with_our_methods_and_not_with_the_thesis_settings(
     drawn: tuple[Path, dict[str, dict[str, Any]]],
 ) -> None:
-    for name, old in (("fig-3.7", "h = 2.5e-08 s"), ("fig-3.10", "Δx = 0.0025 m")):
-        x, ours = curve(drawn[0], name, "Hermite, expanding mesh")
-        places, lifted = curve(drawn[0], name, old)
-        assert np.abs(ours[x < 28.0]).max() < 0.1  # µm
-        assert 100.0 < np.abs(lifted[places < 28.0]).max() < 200.0
+    for method in OURS:
+        x, ours = curve(drawn[0], "fig-3.10", method)
+        assert np.abs(ours[x < 28.0]).max() < 0.5  # µm
+    places, lifted = curve(drawn[0], "fig-3.10", "Δx = 0.0025 m")
+    assert 100.0 < np.abs(lifted[places < 28.0]).max() < 200.0
 
 
-def test_contact_length_and_reaction_of_ours_follow_theory(drawn: tuple[Path, dict[str, dict[str, Any]]]) -> None:
-    for name in ("fig-3.8", "fig-3.9", "fig-3.11", "fig-3.12"):
-        x, ours = curve(drawn[0], name, "Hermite, expanding mesh")
-        t, exact = curve(drawn[0], name, "theory")
-        late = x > 5.0
-        np.testing.assert_allclose(ours[late], np.interp(x[late], t, exact), rtol=5e-3)
+def test_contact_length_and_reaction_of_our_methods_follow_theory(
+    drawn: tuple[Path, dict[str, dict[str, Any]]],
+) -> None:
+    for name, panel in (("fig-3.11", ""), ("fig-3.12", "a"), ("fig-3.12", "b")):
+        t, exact = curve(drawn[0], name, "theory", panel)
+        for method in OURS:
+            x, ours = curve(drawn[0], name, method, panel)
+            late = x > 5.0
+            np.testing.assert_allclose(ours[late], np.interp(x[late], t, exact), rtol=2e-2)
 
 
-def test_tables_hold_the_thesis_numbers_beside_ours(drawn: tuple[Path, dict[str, dict[str, Any]]]) -> None:
-    cost = rows_of(drawn[0] / "table-3.1.csv")
-    assert [float(r["thesis: time (s)"]) for r in cost[:5]] == [90.0, 235.0, 381.83, 715.86, 1753.98]
-    assert [int(r["steps"]) for r in cost[:5]] == [25, 250, 500, 1000, 2500]
-    assert all(float(r["ours: time (s)"]) < 60.0 for r in cost)
+def test_the_table_of_elements_holds_the_thesis_counts_beside_ours(
+    drawn: tuple[Path, dict[str, dict[str, Any]]],
+) -> None:
     counts = {r["e"]: (int(r["thesis"]), int(r["ours"])) for r in rows_of(drawn[0] / "table-3.2.csv")}
     assert counts["1.25"] == (120, 120)
     assert all(abs(thesis - ours) <= 2 for thesis, ours in counts.values())
@@ -211,7 +214,7 @@ def test_the_table_of_curvatures_is_theory(tmp_path: Path) -> None:
     assert [r["K (1/m)"] for r in rows] == ["1/80", "1/40", "1/20", "1/10", "1/5", "1/2", "1", "5", "10"]
     found = contact_parameters(np.array([float(r["κ/ν"]) for r in rows]))
     np.testing.assert_allclose([float(r["λ₀"]) for r in rows], found.lambda0, rtol=1e-5)
-    assert len(rows_of(tmp_path / "table-3.3.csv")) == 7
+    assert len(rows_of(tmp_path / "table-3.3.csv")) == 10
 
 
 def test_the_bouncing_ball_turns_within_a_step_of_the_wall(drawn: tuple[Path, dict[str, dict[str, Any]]]) -> None:
@@ -230,24 +233,41 @@ def test_the_discrete_contact_and_its_activation_time(tmp_path: Path) -> None:
     found, failures = draw_all(["fig-3.32"], tmp_path)
     assert failures == []
     assert "KΔx²/(8V₀) = 3.91e-04 s" in found[0]["caption"]
-    t, energy = curve(tmp_path, "fig-3.32", "contact at nodes", "c")
-    assert energy[-1] == pytest.approx(-5.88, abs=0.1) and t[-1] == pytest.approx(25.0)
+    t, energy = curve(tmp_path, "fig-3.32", "nodes, lumped", "c")
+    assert energy[-1] == pytest.approx(-10.0, rel=0.02) and t[-1] == pytest.approx(25.0)  # ½μΔxV₀²
+    assert curve(tmp_path, "fig-3.32", "nodes, consistent", "c")[1][-1] == pytest.approx(-5.88, abs=0.1)
     x, force = curve(tmp_path, "fig-3.32", "Δx = 0.0005 m", "d")
     times, exact = curve(tmp_path, "fig-3.32", "theory", "d")
     np.testing.assert_allclose(force[x > 5.0], np.interp(x[x > 5.0], times, exact), rtol=0.1)
 
 
 @SLOW
-def test_nodes_and_middles_both_lift(tmp_path: Path) -> None:
+def test_lumped_nodes_are_ten_times_flatter_than_lumped_middles(tmp_path: Path) -> None:
     names = ["fig-3.23", "fig-3.24", "fig-3.25", "fig-3.26", "fig-3.27", "fig-3.28", "fig-3.31", "fig-A.2", "fig-A.3"]
     found, failures = draw_all(names, tmp_path)
     assert failures == [] and len(found) == len(names)
+    lifts = {}
     for name in ("fig-3.23", "fig-3.24"):
-        x, y = curve(tmp_path, name, "t = 2.5·10⁻⁴ s")
-        assert 0.5 < -y[x < 0.8].min() < 2.0  # mm
+        for panel in "ab":
+            x, y = curve(tmp_path, name, "t = 2.5·10⁻⁴ s", panel)
+            lifts[name, panel] = -y[x < 0.8].min()  # mm
+    assert 8.0 < lifts["fig-3.23", "b"] / lifts["fig-3.24", "b"] < 15.0  # thesis: 10
+    assert 0.7 < lifts["fig-3.23", "a"] / lifts["fig-3.24", "a"] < 1.3
     exact = Exact(case(1 / 80, 0.1).impact)
-    t, strain = curve(tmp_path, "fig-3.28", "theory")
+    t, strain = curve(tmp_path, "fig-3.28", "theory", "b")
     assert strain[-1] == pytest.approx(float(exact.strain_energy(1e-6 * t[-1])), rel=1e-6)
+
+
+@SLOW
+def test_the_page_of_printed_numbers_is_what_is_computed() -> None:
+    from comparison.gallery.numbers import rows
+
+    page = (Path(__file__).parents[2] / "docs" / "thesis_numbers.md").read_text()
+    for where, what, thesis, _, verdict, _ in rows():
+        line = next(
+            line for line in page.splitlines() if line.startswith(f"| {where} | {what.replace('|', chr(92) + '|')} |")
+        )
+        assert f"| {thesis} |" in line and verdict.split(" (")[0] in line
 
 
 @SLOW
@@ -258,6 +278,17 @@ def test_damping_and_restitution(tmp_path: Path) -> None:
     _, lost = curve(tmp_path, "fig-3.21", "restitution 0")
     _, kept = curve(tmp_path, "fig-3.21", "restitution 1")
     assert lost[-1] < -100.0 and abs(kept[-1]) < 10.0
+
+
+@SLOW
+def test_the_table_of_costs_holds_the_thesis_numbers_beside_ours(tmp_path: Path) -> None:
+    _, failures = draw_all(["table-3.1", "fig-3.7"], tmp_path)
+    assert failures == []
+    cost = rows_of(tmp_path / "table-3.1.csv")
+    assert [float(r["thesis: time (s)"]) for r in cost[:5]] == [90.0, 235.0, 381.83, 715.86, 1753.98]
+    assert [int(r["steps"]) for r in cost[:5]] == [25, 250, 500, 1000, 2500]
+    places, lifted = curve(tmp_path, "fig-3.7", "h = 2.5e-08 s")
+    assert 100.0 < np.abs(lifted[places < 28.0]).max() < 200.0
 
 
 @SLOW
@@ -273,8 +304,8 @@ def test_square_mesh(tmp_path: Path) -> None:
 def test_first_order_case(tmp_path: Path) -> None:
     found, failures = draw_all(["fig-3.33", "fig-3.34", "fig-3.35", "fig-3.36"], tmp_path)
     assert failures == []
-    assert "300" in found[1]["caption"] and "-281" in found[1]["caption"]
-    x, length = curve(tmp_path, "fig-3.34", "infinite beam", "c")
+    assert "300" in found[1]["caption"] and "−281" in found[1]["caption"]
+    x, length = curve(tmp_path, "fig-3.34", "Self-similar, infinite beam", "c")
     t, exact = curve(tmp_path, "fig-3.34", "theory", "c")
     early = (x > 0.3) & (x < 1.2)
     np.testing.assert_allclose(length[early], np.interp(x[early], t, exact), rtol=0.02)
