@@ -34,7 +34,8 @@ ROTARY = (16.0, 24.0, 28.0, 32.0, 40.0, 50.0, 78.0, 105.0, 420.0)
 
 def run(contact: str, mass: str, curvature: float = FLAT, duration: float = DURATION) -> Outcome:
     """One of the four."""
-    return thesis(label_of(contact, mass), curvature, duration, contact=contact, mass=MASSES[mass])
+    coupling = impact_coupling(CONTACTS[contact](), MASSES[mass]).neighbour
+    return thesis(label_of(contact, mass), curvature, duration, value=coupling, contact=contact, mass=MASSES[mass])
 
 
 def four() -> list[Outcome]:
