@@ -231,8 +231,8 @@ def reaction_in_space_and_time(sheet: Sheet) -> str:
             inside.append(share_inside(found, Exact(history.impact)))
     listed = ", ".join(f"{100 * v:.1f} % ({letter})" for v, letter in zip(inside, "abcd"))
     return (
-        "The reaction is at the moving ends of the contact, as theory and thesis say. Inside nine tenths of the zone falls "
-        f"{listed} of the impulse: the noise is in the steps of the front, not behind it."
+        "The reaction is at the moving ends of the contact, as theory and thesis say. Inside nine tenths of the "
+        f"zone falls {listed} of the impulse: the noise is in the steps of the front, not behind it."
     )
 
 
