@@ -134,14 +134,16 @@ def square_middle() -> float:
 
 
 def count_of(curvature: float, duration: float, element: float, *, square: bool = False) -> int:
-    """Elements of the whole beam that the thesis's rules give (3.3.2)."""
+    """Elements of the whole beam that the thesis's rules give (3.3.2): a uniform zone of twice the contact zone, or a square
+    one over the contact zone.
+    """
     given = case(curvature, duration)
     settings = thesis_settings(given.impact, given.end_time)
     zone = 2.0 * float(study.Exact(given.impact).front(given.end_time))
     laid: Mesh = GradedMesh(element, settings.growth, zone=zone)
     if square:
         first = float(study.Exact(given.impact).front(study.PER_ELEMENT * settings.time_step))
-        laid = SquareMesh(first_element=first, zone=zone, growth=settings.growth)
+        laid = SquareMesh(first_element=first, zone=0.5 * zone, growth=settings.growth, size_ratio=1e9)
     return 2 * (laid.nodes(given.impact.half_length).size - 1)
 
 
