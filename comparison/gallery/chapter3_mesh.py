@@ -134,8 +134,8 @@ def square_middle() -> float:
 
 
 def count_of(curvature: float, duration: float, element: float, *, square: bool = False) -> int:
-    """Elements of the whole beam that the thesis's rules give (3.3.2): a uniform zone of twice the contact zone, or a square
-    one over the contact zone.
+    """Elements of the whole beam that the thesis's rules give (3.3.2): a uniform zone of twice the contact zone, or a
+    square one over the contact zone.
     """
     given = case(curvature, duration)
     settings = thesis_settings(given.impact, given.end_time)

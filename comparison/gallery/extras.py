@@ -37,7 +37,8 @@ def counts(sheet: Sheet) -> str:
     )
     sheet.table(["mesh", "thesis", "ours"], [list(row) for row in cases], width=style.COLUMN + 1.0)
     return (
-        "The fine zone is twice as long as the contact zone at the end: with that the counts of Table 3.2 come out too."
+        "The uniform zone is twice as long as the contact zone at the end, the square one as long: with the first the "
+        "counts of Table 3.2 come out too."
     )
 
 
