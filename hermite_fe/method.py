@@ -37,7 +37,7 @@ class HermiteFE:
     """
 
     path: ClassVar[str] = "hermite"
-    perturbation: ClassVar[float] = 0.02
+    perturbation: ClassVar[float] = 0.01
     """How much a load may change the free motion at the end of a run that measures λ₁ and r₁, over V₀t."""
     PARTS: ClassVar[dict[str, dict[str, type]]] = {
         "mesh": MESHES,
