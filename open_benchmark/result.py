@@ -375,10 +375,11 @@ def result_from_history(history: ImpactHistory) -> Result:
         pushes = history.array("impulse")
         moment = np.array([pushes[k] @ np.abs(history.contact_positions(k)) for k in range(history.time.size)])
         moment = moment / 2.0 if data.attrs["symmetry"] == "full" else moment
+    fixed = "position" not in data  # a mesh that expands takes in energy with the beam that it takes in
     series = {
         name: history.array(source) / energy
         for name, source in (("E_kin", "kinetic_energy"), ("E_el", "strain_energy"))
-        if source in data
+        if source in data and fixed
     }
     series["J_minus"] = _pulled(history) / impulse
     tau = history.time / time

@@ -10,8 +10,10 @@ from typing import Any
 import numpy as np
 import pytest
 
+from bent_beam import Impact
+from bent_beam.method import method_type
 from open_benchmark import Result, ResultError, load_result, problem, score
-from open_benchmark.result import save_result
+from open_benchmark.result import result_from_history, save_result
 from theory import contact_parameters
 
 
@@ -172,3 +174,9 @@ def test_first_order_numbers_need_the_base_they_belong_to(tmp_path: Path) -> Non
     assert "lambda1" not in score(loaded).measured
     with pytest.raises(ResultError, match="is not the base"):
         score(loaded, loaded)
+
+
+def test_a_window_that_grows_with_the_contact_is_not_said_to_gain_energy() -> None:
+    history = method_type("self_similar")().simulate(Impact.dimensionless(0.5), end_time=0.1, save=60)
+    found = score(result_from_history(history))
+    assert found.energy is None and [finding.name for finding in found.diagnosis] == ["clean"]
