@@ -219,9 +219,10 @@ def test_the_table_of_curvatures_is_theory(tmp_path: Path) -> None:
 
 def test_the_bouncing_ball_turns_within_a_step_of_the_wall(drawn: tuple[Path, dict[str, dict[str, Any]]]) -> None:
     t, height = curve(drawn[0], "fig-3.6", "Moreau–Jean", "a")
-    exact = curve(drawn[0], "fig-3.6", "theory", "a")[1]
+    times, exact = curve(drawn[0], "fig-3.6", "theory", "a")
+    assert exact.min() == 0.0  # the exact ball reaches the wall
     assert -4e-3 < height.min() < 4e-3
-    assert np.abs(height - exact)[t < 0.5].max() < 0.01
+    assert np.abs(height - np.interp(t, times, exact))[t < 0.5].max() < 0.01
 
 
 def test_a_label_reads_without_markup() -> None:
