@@ -35,7 +35,7 @@ def functions(sheet: Sheet) -> None:
     caption="First-order reaction r₁ over κ/ν, detached contact (2.7.71); 2α in the discrete regime.",
 )
 def pulled_reaction(sheet: Sheet) -> str:
-    solution(sheet, "r1", "$r_1$", PULLED, (-16.0, 8.0))
+    solution(sheet, "r1", "$r_1$", PULLED, (-24.0, 12.0), smallest=0.2)
     found = contact_parameters(0.3, -1.0, -1.0, 1.0)
     return (
         f"{SETS} r₁ = {found.r1:.4f} and λ₁ = {found.lambda1:.4f} for (−1, −1, 1) at κ/ν = 0.3: positive, as the "

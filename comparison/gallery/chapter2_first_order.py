@@ -65,10 +65,15 @@ def curvature_functions(sheet: Sheet) -> None:
 
 
 def solution(
-    sheet: Sheet, name: str, symbol: str, sets: Sequence[tuple[float, float, float]], limits: tuple[float, float]
+    sheet: Sheet,
+    name: str,
+    symbol: str,
+    sets: Sequence[tuple[float, float, float]],
+    limits: tuple[float, float],
+    smallest: float = 0.08,
 ) -> None:
-    """r₁ or λ₁ over κ/ν for several (α, ψ, χ)."""
-    ratio = np.unique(np.concatenate([np.linspace(0.08, 1.2, 400), [0.3, 0.5, 0.8, 1.0]]))
+    """r₁ or λ₁ over κ/ν from ``smallest`` for several (α, ψ, χ)."""
+    ratio = np.unique(np.concatenate([np.linspace(smallest, 1.2, 400), [0.3, 0.5, 0.8, 1.0]]))
     looks = ("-", "--", "-.", ":", (0, (5, 1, 1, 1, 1, 1)))
     with sheet.figure(width=4.2, height=2.9) as (_, axis):
         axis.set_xlabel(r"$\kappa/\nu$  (1)")
@@ -81,7 +86,7 @@ def solution(
             sheet.line(axis, ratio, values, series=label, color=style.SEQUENCE[i], ls=looks[i])
         axis.axhline(0.0, color=style.COLOURS["grey"], lw=0.5)
         axis.axvline(1.0, color=style.COLOURS["grey"], lw=0.6, ls=":")
-        axis.set_xlim(0, 1.2)
+        axis.set_xlim(0.0 if smallest < 0.1 else smallest, 1.2)
         axis.set_ylim(*limits)
         axis.legend(title=r"$\alpha$, $\psi$, $\chi$", loc="center left", bbox_to_anchor=(1.0, 0.5))
 
