@@ -21,12 +21,13 @@ from hermite_fe.run import Stepper
 
 __all__ = ["lapack_step", "prepared_step"]
 
-STEP = 1e-3  # in units of t*, of a half beam 100 l* long at κ/ν = 0.1
+STEP = 1e-3  # in units of t*, at κ/ν = 0.1
+HALF_LENGTH = 100.0  # l*
 
 
-def _model(nodes: int, contact: Contact) -> BeamModel:
-    impact = Impact.dimensionless(0.1, length=200.0)
-    places = UniformMesh(100.0 / (nodes - 1)).nodes(100.0)
+def _model(nodes: int, contact: Contact, half_length: float) -> BeamModel:
+    impact = Impact.dimensionless(0.1, length=2.0 * half_length)
+    places = UniformMesh(half_length / (nodes - 1)).nodes(half_length)
     return beam_model(impact, places, contact, GridViscosity(), full=False)
 
 
@@ -38,10 +39,12 @@ def prepared_step(
     growing: bool = False,
     start: float = 0.5,
     end_time: float = 1.0,
+    half_length: float = HALF_LENGTH,
 ) -> Callable[[], None]:
     """A half beam of ``nodes`` nodes in the middle of an impact; each call of the result takes one more step.
 
     growing : steps in proportion to time, so that every one makes and factors a new matrix.
+    half_length : in l*; the shorter, the more of the nodes are in contact (at most 3 l* of the beam are).
     start : how far the run has got, as a fraction of ``end_time`` (in t*), before the first call.
 
     Raises ``RuntimeError`` when a step fails.
@@ -50,7 +53,7 @@ def prepared_step(
         *((0.1 * STEP, 2.0 * STEP) if growing else (STEP, 0.0))
     )
     contact = contact or NodeContact(hold=16, hold_until=0.0)
-    model = _model(nodes, contact)
+    model = _model(nodes, contact, half_length)
     run = Stepper(
         model.system, model.displacement, model.velocity, integrator, end_time, hold=contact.hold or 0
     )
@@ -65,7 +68,7 @@ def prepared_step(
 
 def lapack_step(nodes: int) -> Callable[[], None]:
     """LAPACK's banded factorisation and solution, through SciPy, of the step matrix of the same beam."""
-    system = _model(nodes, NodeContact()).system
+    system = _model(nodes, NodeContact(), HALF_LENGTH).system
     bands = system.mass + STEP * system.damping + STEP**2 * system.stiffness
     right = np.ones(system.dofs)
 

@@ -144,9 +144,12 @@ def wrong_rows(
             bad = not work.held[j] and p[j] < -tolerance * size / abs(factors[j, 0])
         elif work.candidate[j]:
             p[j] = 0.0
-            slack = -target[j]
-            for i in range(width):
-                slack += factors[j, i] * y[place[dofs[j, i]]]
+            if width == 1:
+                slack = factors[j, 0] * y[dofs[j, 0]] - target[j]
+            else:
+                slack = -target[j]
+                for i in range(width):
+                    slack += factors[j, i] * y[place[dofs[j, i]]]
             if slack < 0.0:
                 if not measured:
                     deflection, slope = largest_in(place, y, zone)

@@ -10,7 +10,7 @@ from __future__ import annotations
 import platform
 from typing import Any
 
-from llvmlite import ir
+from llvmlite import ir  # type: ignore[import-untyped]
 from numba import types
 from numba.core import cgutils
 from numba.extending import intrinsic
@@ -68,7 +68,7 @@ def set_control(context: Any, value: Any) -> Any:
 @compiled
 def flush() -> int:
     """Take subnormal numbers as zero and make none from now on, in this thread; returns what :func:`restore` needs."""
-    before = control()
+    before: int = control()  # type: ignore[call-arg]
     set_control(before | FLUSH)
     return before
 
@@ -76,7 +76,7 @@ def flush() -> int:
 @compiled
 def restore(before: int) -> None:
     """Compute as before :func:`flush`."""
-    set_control(before)
+    set_control(before)  # type: ignore[call-arg]
 
 
 @compiled
