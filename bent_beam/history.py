@@ -27,13 +27,8 @@ Attributes hold the case, the settings, versions and warnings as JSON text.
 
 from __future__ import annotations
 
-import errno
-import importlib.metadata
-import io
 import json
-import os
-import tempfile
-import warnings as python_warnings
+import unicodedata
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
@@ -43,9 +38,11 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from bent_beam.checks import one_of
+from bent_beam.checks import one_of, shortened
 from bent_beam.errors import SimulationError
 from bent_beam.impact import Impact
+from bent_beam.storage import read_dataset, write_dataset
+from bent_beam.versions import versions
 
 __all__ = ["ImpactHistory", "SimulationError", "versions"]
 
@@ -75,19 +72,8 @@ UNITS = {
     "loss_absorbed": "J",
 }
 REQUIRED = ("time", "x", "contact_x", "gap", "impulse", "total_impulse", "kinetic_energy", "strain_energy")
-MAXIMUM_BYTES = 8_000_000_000
 FORMAT = "bent-beam-impact history 2"
-
-
-def versions() -> dict[str, str]:
-    """Versions of what a result depends on, by distribution name."""
-    found = {}
-    for name in ("bent-beam-impact", "numpy", "scipy", "numba", "exudyn", "xarray"):
-        try:
-            found[name] = importlib.metadata.version(name)
-        except importlib.metadata.PackageNotFoundError:
-            continue
-    return found
+CONTROL = {"Cc", "Cf", "Cs"}  # of Unicode
 
 
 @dataclass(frozen=True)
@@ -234,42 +220,15 @@ class ImpactHistory:
 
     # keeping ------------------------------------------------------------------------------------------
     def save(self, file: str | Path) -> Path:
-        """Write netCDF atomically: a killed run leaves either the whole file or none. Returns the path."""
-        target = Path(file)
-        encoding = {v: {"zlib": True, "complevel": 1} for v in self.dataset.variables if self.dataset[v].ndim == 2}
-        content = io.BytesIO()  # HDF5 itself does not survive a full disk: only finished bytes go there
-        try:
-            self.dataset.to_netcdf(content, engine="h5netcdf", encoding=encoding)
-            target.parent.mkdir(parents=True, exist_ok=True)
-            handle, name = tempfile.mkstemp(prefix=f".{target.name}.", suffix=".part", dir=target.parent)
-            try:
-                with os.fdopen(handle, "wb") as part:
-                    part.write(content.getbuffer())
-                    part.flush()
-                    os.fsync(part.fileno())
-                os.chmod(name, 0o644)
-                os.replace(name, target)
-            finally:
-                Path(name).unlink(missing_ok=True)
-        except OSError as error:
-            raise OSError(error.errno or errno.EIO, error.strerror or str(error), str(target)) from error
-        return target
+        """Write netCDF: a killed run or a full disk leaves either the whole file or none. Returns the path."""
+        write_dataset(self.dataset, Path(file))
+        return Path(file)
 
     @classmethod
     def load(cls, file: str | Path) -> ImpactHistory:
         """Read a history back; ``ValueError`` when the file is none, or holds anything that a history does not."""
         source = Path(file)
-        try:
-            with python_warnings.catch_warnings():
-                python_warnings.simplefilter("ignore")  # what a foreign file lacks is said below
-                with xr.open_dataset(source, engine="h5netcdf", decode_times=False) as stored:
-                    if stored.nbytes > MAXIMUM_BYTES:
-                        raise ValueError(f"it would take {stored.nbytes:.2g} bytes of memory")
-                    dataset = stored.load()
-        except FileNotFoundError:
-            raise
-        except Exception as error:  # h5py raises many kinds for a broken file
-            raise ValueError(f"{source} is not a readable history: {error}") from error
+        dataset = read_dataset(source)
         if dataset.attrs.get("format") != FORMAT:
             raise ValueError(f"{source} is not a history of this project")
         history = cls(dataset)
@@ -286,8 +245,13 @@ class ImpactHistory:
             if not isinstance(self.dataset.attrs[name], str):
                 raise TypeError(f"attribute {name} must be text")
         for name, kind in (("impact", dict), ("settings", dict), ("versions", dict), ("warnings", list)):
-            if not isinstance(json.loads(self.dataset.attrs[name]), kind):
+            held = json.loads(self.dataset.attrs[name])
+            if not isinstance(held, kind):
                 raise TypeError(f"attribute {name} must hold a JSON {kind.__name__}")
+            _plain_text(held, f"attribute {name}")
+        _plain_text([self.path, *map(str, self.dataset.variables)], "attribute path or a variable's name")
+        if not all(isinstance(line, str) for line in self.warnings):
+            raise TypeError("attribute warnings must hold texts")
         one_of("attribute symmetry", self.dataset.attrs["symmetry"], ("half", "full"))
         _ = self.impact, self.steps, self.seconds, self.completed
         for required in REQUIRED:
@@ -301,3 +265,17 @@ class ImpactHistory:
                 raise ValueError(f"{label} is not finite")
         if self.time.size < 1 or np.any(np.diff(self.time) <= 0.0):
             raise ValueError("time must increase")
+
+
+def _plain_text(value: Any, where: str) -> None:
+    """Raise ``ValueError`` for a text with control characters, which could tell a terminal what to do."""
+    if isinstance(value, str):
+        if not all(unicodedata.category(c) not in CONTROL or c in "\n\t" for c in value):
+            raise ValueError(f"{where} holds control characters ({shortened(value)})")
+    elif isinstance(value, dict):
+        for key, item in value.items():
+            _plain_text(key, where)
+            _plain_text(item, where)
+    elif isinstance(value, list):
+        for item in value:
+            _plain_text(item, where)

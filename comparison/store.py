@@ -17,26 +17,13 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from bent_beam.history import versions
-from bent_beam.parts import InputError
+import platformdirs
+
+from bent_beam.errors import InputError
+from bent_beam.files import write_atomically
+from bent_beam.versions import versions
 
 __all__ = ["RunStore", "check_writable", "default_store", "source_of", "write_atomically"]
-
-
-def write_atomically(file: Path, text: str | bytes) -> None:
-    """Write a file so that a reader sees either nothing or all of it."""
-    file.parent.mkdir(parents=True, exist_ok=True)
-    handle, name = tempfile.mkstemp(prefix=f".{file.name}.", suffix=".part", dir=file.parent)
-    try:
-        with os.fdopen(handle, "wb") as stream:
-            stream.write(text.encode() if isinstance(text, str) else text)
-            stream.flush()
-            os.fsync(stream.fileno())
-        os.chmod(name, 0o644)
-        os.replace(name, file)
-    except BaseException:
-        Path(name).unlink(missing_ok=True)
-        raise
 
 
 def check_writable(out: Path, *, folder: bool) -> None:
@@ -59,8 +46,7 @@ def default_store() -> Path:
     given = os.environ.get("BENTBEAM_STORE")
     if given:
         return Path(given)
-    cache = os.environ.get("XDG_CACHE_HOME") or str(Path.home() / ".cache")
-    return Path(cache) / "bent-beam-impact" / "runs"
+    return Path(platformdirs.user_cache_dir("bent-beam-impact", appauthor=False)) / "runs"
 
 
 def _canonical(value: Any) -> str:

@@ -147,7 +147,7 @@ def _on_cluster(
         raise ValueError("scheduler: needs the extra [cluster] (pip install 'bent-beam-impact[cluster]')") from None
     results: dict[int, Any] = {}
     try:
-        client = Client(scheduler, timeout="10s")
+        client = Client(scheduler, timeout="10s", set_as_default=False)
     except (OSError, ValueError) as error:
         raise ValueError(f"scheduler: none answers at {scheduler} ({error})") from None
     with client:

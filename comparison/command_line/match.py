@@ -9,7 +9,7 @@ from typing import Annotated
 import typer
 
 from comparison.command_line.console import Console
-from comparison.command_line.options import Jobs, Json, Quiet, Scheduler, Set, emit, path_names
+from comparison.command_line.options import Jobs, Json, Quiet, Scheduler, Set, emit, path_names, printable
 
 __all__ = ["match"]
 
@@ -78,7 +78,7 @@ def match(
     emit(match_document(rows), as_json, lambda: match_table(rows))
     lost = failures(rows)
     for row in lost:
-        print(f"error: {row.label}, kappa/nu = {row.kappa_over_nu:g}: {row.reason}", file=sys.stderr)
+        print(printable(f"error: {row.label}, kappa/nu = {row.kappa_over_nu:g}: {row.reason}"), file=sys.stderr)
     if lost:
         raise typer.Exit(3)
 

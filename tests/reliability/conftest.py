@@ -3,6 +3,8 @@
 import os
 import random
 
+import pytest
+
 FUZZ = bool(os.environ.get("FUZZ"))
 if FUZZ:
     os.environ.setdefault("FUZZ_SEED", str(random.SystemRandom().randrange(2**32)))
@@ -11,3 +13,9 @@ if FUZZ:
 def pytest_terminal_summary(terminalreporter):
     if FUZZ:
         terminalreporter.write_line(f"fuzz seed: FUZZ_SEED={os.environ['FUZZ_SEED']}")
+
+
+@pytest.fixture(autouse=True)
+def in_a_folder_of_its_own(tmp_path, monkeypatch):
+    """A run that fails keeps its partial history where the command was started: not in the project."""
+    monkeypatch.chdir(tmp_path)
