@@ -48,6 +48,10 @@ WIDE = 0.02  # of a leading-order number: a wider error bar deserves a warning
 WIDE_FIRST = 0.1  # of max(|r₁|, 1), likewise
 
 
+class Refused(ValueError):
+    """What a method said that it cannot take, before its run or at its door; any other error is a failure."""
+
+
 @dataclass(frozen=True)
 class Question:
     """One row to be matched. ``first`` : (α, ψ, χ, N), or ``None`` for the leading order alone; ``refine`` : elements
@@ -160,7 +164,10 @@ def _reduced(store: RunStore, method: Method, impact: Impact) -> _Reduced:
     loaded = any((impact.acceleration, impact.fourth_derivative, impact.curvature_rate, impact.axial_force))
 
     def compute() -> dict[str, Any]:
-        history = method.simulate(impact, end_time=DURATION * impact.time_scale, save=INSTANTS)
+        try:
+            history = method.simulate(impact, end_time=DURATION * impact.time_scale, save=INSTANTS)
+        except ValueError as error:
+            raise Refused(str(error)) from None
         found = moments(history, uniform=loaded)
         return {
             "moments": {name: values.tolist() for name, values in vars(found).items()},
@@ -204,12 +211,12 @@ class _Estimates:
 def _estimates(question: Question, factor: float, store: RunStore, epsilon: float | None) -> _Estimates:
     """Run and estimate at ``factor`` times the method's own resolution; ``epsilon`` is the largest ε, ``None``: chosen.
 
-    Raises ``ValueError`` for what the method refuses.
+    Raises :class:`Refused` for what the method refuses.
     """
     asked, first = question.method, question.first
     method = refined(asked, factor)
     if method is None:
-        raise ValueError(f"refine: {asked.path} does not know how to be refined (got {factor:g})")
+        raise Refused(f"refine: {asked.path} does not know how to be refined (got {factor:g})")
     bare = Impact.dimensionless(question.kappa_over_nu)
     _ask(method, bare)
     run = _reduced(store, method, bare)
@@ -232,13 +239,13 @@ def _estimates(question: Question, factor: float, store: RunStore, epsilon: floa
 def _ask(method: Method, impact: Impact) -> None:
     reason = method.refuses(impact)
     if reason:
-        raise ValueError(reason)
+        raise Refused(reason)
 
 
 def answer(question: Question, store: RunStore) -> MatchRow:
     """Simulate and estimate one row; companion runs at other resolutions say what the error bar is.
 
-    Raises ``ValueError`` for what the method refuses, :class:`bent_beam.SimulationError` when a run cannot finish.
+    Raises :class:`Refused` for what the method refuses, :class:`bent_beam.SimulationError` when a run cannot finish.
     """
     fine = _estimates(question, question.refine, store, None)
     others: list[_Estimates] = []
@@ -306,7 +313,7 @@ def _attempt(question: Question, folder: str | None) -> MatchRow:
         return answer(question, RunStore(Path(folder) if folder else None))
     except SimulationError as error:
         return _lost(question, str(error))
-    except ValueError as error:
+    except Refused as error:
         return _lost(question, str(error), refused=True)
     except Exception as error:  # a sweep of hours must not end because one of its runs did
         return _lost(question, f"{type(error).__name__}: {error}")
