@@ -14,7 +14,7 @@ from bent_beam.impact import Impact
 from comparison.studies.outcome import Outcome, outcome_of
 from comparison.studies.thesis import Variant, references, thesis_settings
 
-__all__ = ["case", "fast", "hermite", "reference_history", "reference_runs", "thesis", "thesis_history"]
+__all__ = ["case", "reference_history", "reference_runs", "thesis", "thesis_history"]
 
 
 def case(curvature: float, duration: float, title: str = "") -> Case:
@@ -53,13 +53,3 @@ def reference_runs(curvature: float, duration: float) -> list[Outcome]:
         outcome_of(reference_history(curvature, duration, v.method.path), v.label, mark=v.method.path)
         for v in references(given.impact, given.end_time)
     ]
-
-
-def hermite(curvature: float, duration: float) -> Outcome:
-    """The fixed mesh alone: what a user of the Hermite path gets."""
-    return reference_runs(curvature, duration)[0]
-
-
-def fast(curvature: float, duration: float) -> Outcome:
-    """The infinite beam alone."""
-    return reference_runs(curvature, duration)[1]
