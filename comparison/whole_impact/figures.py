@@ -15,13 +15,23 @@ from comparison.bounce import Bounce, bounce_document
 from comparison.figures import style
 from comparison.plain import json_text
 from comparison.store import write_atomically
+from comparison.whole_impact.map import stored_map
 
-__all__ = ["animate_bounce", "draw_bounce", "write_bounce"]
+__all__ = ["animate_bounce", "draw_bounce", "draw_map", "write_bounce"]
 
 Array = NDArray[np.float64]
 WINDOWS = 160  # of the force: what is quicker is noise of the reader's eye
 SHAPES = 7
 FRAMES = 90
+PANELS = {
+    "restitution": r"restitution $e$",
+    "last_contact": r"last contact $t/T^*$",
+    "peak_moment": r"largest moment $/\,(V_0\sqrt{\mu EI})$",
+    "translation": "energy in translation",
+    "vibration": "energy in vibration",
+    "dissipated": "energy dissipated",
+}
+BANDED = ("restitution", "last_contact", "translation")
 
 
 def write_bounce(found: Bounce, out: Path) -> list[Path]:
@@ -113,6 +123,44 @@ def _draw_shapes(axis: Any, history: ImpactHistory, end: float) -> None:
     axis.set_yticks([])
     axis.grid(False)
     axis.spines["left"].set_visible(False)
+
+
+def draw_map(out: Path, formats: Sequence[str] = ("png",)) -> list[Path]:
+    """The stored map: restitution, last contact, largest moment, energies over κ/ν, a line for each damping."""
+    table = stored_map()
+    dampings = sorted(table["damping"])
+    colours = style.plt.get_cmap("viridis")(np.linspace(0.0, 0.88, len(dampings)))
+    with style.figure(2, 3, width=style.PAGE, height=4.7, sharex=True) as (fig, axes):
+        for axis, (name, words) in zip(axes.flat, PANELS.items()):
+            for damping, colour in zip(dampings, colours):
+                points = [p for p in table["points"] if p["damping"] == damping]
+                points.sort(key=lambda p: p["kappa_over_nu"])
+                kappa = [p["kappa_over_nu"] for p in points]
+                value, error = np.array([p["numbers"][name] for p in points]).T
+                axis.errorbar(kappa, value, error, color=colour, lw=0.9, elinewidth=0.6, label=_power(damping))
+            if name in BANDED and table["bands"]:
+                kappa = [b["kappa_over_nu"] for b in table["bands"]]
+                mean, std = np.array([b["band"][name] for b in table["bands"]]).T
+                axis.fill_between(kappa, mean - std, mean + std, color="#BBBBBB", lw=0.0, label="0 (band)", zorder=0)
+            axis.axvspan(0.8, 1.0, color="#F5DCCB", lw=0.0, zorder=-1)
+            axis.set_xscale("log")
+            axis.set_xlim(0.048, 2.6)
+            axis.set_xticks([0.05, 0.1, 0.2, 0.5, 1.0, 2.5], ["0.05", "0.1", "0.2", "0.5", "1", r"$\geq$2.5"])
+            axis.minorticks_off()
+            axis.set_ylabel(words)
+            axis.set_ylim(bottom=0.0)
+        for axis in axes[1]:
+            axis.set_xlabel(r"$\kappa/\nu$")
+        handles, labels = axes[0, 0].get_legend_handles_labels()
+        fig.legend(handles, labels, title=r"$\eta/T^*$", loc="outside upper center", ncols=len(labels))
+        for axis, letter in zip(axes.flat, "abcdef"):
+            style.panel_label(axis, f"({letter})")
+        return style.save(fig, out, "bounce-map", formats)
+
+
+def _power(damping: float) -> str:
+    digit, power = f"{damping:.0e}".split("e")
+    return rf"$10^{{{int(power)}}}$" if digit == "1" else rf"${digit}\cdot10^{{{int(power)}}}$"
 
 
 def animate_bounce(history: ImpactHistory, file: Path, *, frames: int = FRAMES, per_second: int = 18) -> Path:
