@@ -13,7 +13,7 @@ import tomllib
 import mujoco
 import numpy as np
 
-SIZES = {"coarse": 0.04, "medium": 0.025, "fine": 0.015}  # link length over l*
+SIZES = {"coarse": 0.04, "medium": 0.03, "fine": 0.02}  # link length over l*
 HALF_LENGTH, AMPLITUDE, VISCOSITY = 4.0, 1e-3, 0.3  # viscosity of a hinge over sqrt(EI mu) size
 XML = """<mujoco><compiler angle="radian" inertiafromgeom="false" boundmass="0" boundinertia="0"/>
 <option timestep="{dt}" integrator="implicitfast" solver="Newton" iterations="100" tolerance="0" gravity="0 0 {load}"/>
