@@ -249,6 +249,8 @@ def left_out(sheet: Sheet) -> str:
     infinite = outcome_of(endless.simulate(long, end_time=end, save=400), study.INFINITE, mark=endless.path)
     with sheet.figure(1, 2, width=style.PAGE, height=2.8) as (fig, axes):
         contact_length(sheet, axes[0], [finite, infinite])
+        # a centroid means nothing where rows push at random: such points are left outside
+        axes[0].set_ylim(0.0, 1.3 * float(finite.exact.front(end)))
         geometry(sheet, axes[1], [finite, infinite])
         for axis, letter in zip(axes, "ab"):
             sheet.panel(axis, letter)
