@@ -44,7 +44,7 @@ class NewtonSolver:
     relative_tolerance: float = 1e-6
     contact_tolerance: float = 1e-4
     iterations: int = 25
-    contact_iterations: int = 100
+    contact_iterations: int = 300
     contact_must_settle: bool = True
     halve_steps: bool = False
     modified_newton: bool = True
