@@ -23,6 +23,8 @@ from exudyn_models.solvers import SOLVERS, NewtonSolver
 
 __all__ = ["ExudynModel"]
 
+FIRST_ORDER_HOLD = 16  # elements behind the front; it ends when waves may be back, and every run states it
+
 
 @dataclass(frozen=True)
 class ExudynModel:
@@ -100,6 +102,10 @@ class ExudynModel:
         if impact.zone_pressure < 0.0 and isinstance(contact, Penalty) and contact.hold_start is None:
             # no start is held where the load lifts the zone: the run without load must do without it too
             contact = dataclasses.replace(contact, hold_start=0.0)
+        elif impact.zone_pressure > 0.0 and self.contact is None:
+            # a zone that a load presses must lie on the wall in the run without it, too, or the load first closes what
+            # the rebound of the first instants has left: λ₁ of (4, 0, 0) at κ/ν = 0.5 is 12 % off without, 0.1 % with
+            contact = Penalty(hold=FIRST_ORDER_HOLD)
         return dataclasses.replace(
             self,
             mesh=mesh.refined(self.refine),

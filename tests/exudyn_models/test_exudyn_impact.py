@@ -211,7 +211,7 @@ def test_without_contact_y0_is_the_motion(element):
 def test_first_order_with_all_three_parameters():
     exact = {(4, 0, 0): (5.66465632402, 10.6928065607), (-1, -1, 0): (-1.77288819407, -4.18053010088)}
     for (alpha, psi, chi), (lambda1, r1) in exact.items():
-        contact = Penalty(hold_start=0.0) if alpha + psi < 0 else Penalty()
+        contact = Penalty(hold_start=0.0) if alpha + psi < 0 else Penalty(hold=16)
         mesh = coarse(Impact.dimensionless(0.5, epsilon_psi=0.1), growth=1.015, elements=100)
         base = estimators.moments(exudyn_models.simulate(HALF, mesh=mesh, contact=contact))
         runs = []
