@@ -46,8 +46,8 @@ class Verdict:
 
 
 def random_problem(random: np.random.Generator) -> Impact:
-    """κ/ν from 0.05 to 3 (even in its logarithm), a uniform load and a tension of either sign that change force or length
-    by some per cent within the time of interest, η/T* = 1e-3.
+    """κ/ν from 0.05 to 3 (even in its logarithm), a uniform load and a tension of either sign that change force or
+    length by some per cent within the time of interest, η/T* = 1e-3.
 
     Only these: q₀ and c₀ need moments at the ends, without which waves start there at once.
     """
