@@ -8,18 +8,21 @@ export OMP_NUM_THREADS := 1
 export OPENBLAS_NUM_THREADS := 1
 JOBS ?= 2
 
-.PHONY: help report test verify lint bench fuzz docs gallery clean
+.PHONY: help report test verify lint bench fuzz docs gallery update lowest newest clean
 
 help:
 	@echo "make report   match both simulations with the theory and write report/index.html"
 	@echo "make test     the test suite (under four minutes on two cores)"
 	@echo "make verify   longer checks; make fuzz: random input and kills; make bench: speed, as ratios"
 	@echo "make lint     ruff and mypy; make docs: the guide in site/; make gallery: every figure of the thesis"
+	@echo "make update   renew the locked versions; make lowest, make newest: a quick suite on either end of the ranges"
 
-$(STAMP): pyproject.toml
+# Versions and hashes are locked; where the packages come from is the machine's own business (no index is named).
+PIP := $(BIN)/python -m pip --quiet --disable-pip-version-check
+$(STAMP): pyproject.toml requirements.lock
 	@test -x $(BIN)/python || $(PYTHON) -m venv $(VENV)
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check --upgrade pip
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[test,lint]'
+	$(PIP) install --require-hashes --requirement requirements.lock
+	$(PIP) install --no-deps --no-build-isolation --editable .
 	@touch $@
 
 report: $(STAMP)
@@ -29,7 +32,7 @@ test: $(STAMP)
 	$(BIN)/python -m pytest -n $(JOBS) --dist worksteal -m "not verify"
 
 verify: $(STAMP)
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[docs]'
+	$(PIP) install --require-hashes --requirement requirements-docs.lock
 	$(BIN)/python -m pytest -n $(JOBS) --dist worksteal -m verify
 
 fuzz: $(STAMP)
@@ -44,11 +47,29 @@ lint: $(STAMP)
 	$(BIN)/mypy
 
 docs: $(STAMP)
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[docs]'
+	$(PIP) install --require-hashes --requirement requirements-docs.lock
 	$(BIN)/mkdocs build --strict
 
 gallery: $(STAMP)
 	$(BIN)/bentbeam gallery --out gallery --jobs $(JOBS)
 
+# One lock for every platform and Python that pyproject.toml allows.
+COMPILE = $(BIN)/uv pip compile --quiet --upgrade --universal --python-version 3.11 --generate-hashes --no-emit-index-url \
+	--no-annotate --no-header pyproject.toml
+update: $(STAMP)
+	$(PIP) install uv
+	$(COMPILE) --extra test --extra lint --output-file requirements.lock
+	$(COMPILE) --extra docs --output-file requirements-docs.lock
+
+# Either end of the ranges that pyproject.toml declares, in an environment of its own: what it takes to install, start
+# and answer there. (The lowest versions of what is asked for here; what those ask for in turn is the newest.)
+QUICK := tests/test_package.py tests/test_house.py tests/theory tests/bent_beam
+lowest newest: $(STAMP)
+	$(PIP) install uv
+	$(BIN)/uv venv --quiet --clear --python $(BIN)/python .venv-$@
+	$(BIN)/uv pip install --quiet --python .venv-$@/bin/python --resolution $(if $(filter lowest,$@),lowest-direct,highest) '.[quick]'
+	.venv-$@/bin/bentbeam theory --kappa-over-nu 0.5 --json
+	.venv-$@/bin/python -m pytest -m "not verify" $(QUICK)
+
 clean:
-	rm -rf $(VENV) report gallery site .pytest_cache .mypy_cache .ruff_cache
+	rm -rf $(VENV) .venv-lowest .venv-newest report gallery site .pytest_cache .mypy_cache .ruff_cache

@@ -18,7 +18,6 @@ from bent_beam import Impact
 from comparison.estimators import first_order, leading_order, moments
 from exudyn_models.contacts import Penalty
 from exudyn_models.integrators import GeneralizedAlpha
-from theory import contact_parameters
 
 
 def main(arguments: Sequence[str] | None = None) -> None:
@@ -31,6 +30,8 @@ def main(arguments: Sequence[str] | None = None) -> None:
     end = chosen.duration * impact.time_scale
     mesh = exudyn_models.chosen_mesh(impact, end, coarsen=chosen.coarsen)
     integrator = GeneralizedAlpha(relative_step=2e-3 * chosen.coarsen)
+    from theory import contact_parameters  # nothing above knows it
+
     figure, axes = plt.subplots(layout="constrained")
     for acceleration in (700.0, -700.0):
         # a hold would pull on a zone that rightly lifts off

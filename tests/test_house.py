@@ -1,0 +1,205 @@
+"""The house: imports run downwards, the paths never meet, nothing above knows a path by name."""
+
+import ast
+import os
+import subprocess
+import sys
+from functools import cache
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parent.parent
+PATHS = ("theory", "hermite_fe", "self_similar_fe", "exudyn_models")
+PROGRAMS = "exudyn_models.scripts."  # run by users, above everything
+FLOOR = {"bent_beam": 0, **dict.fromkeys(PATHS, 1), "comparison": 2, "open_benchmark": 3}
+# The door of the house opens into the room above: these commands are of the open benchmark.
+DOORS = {f"comparison.command_line.{name}" for name in ("benchmark", "problem", "score")}
+NAMES_OF_PATHS = {"hermite", "self_similar", "exudyn"}
+LEAN = {"numpy", "scipy", "xarray", "pandas", "matplotlib", "numba", "exudyn", "h5py", "plotly", "jinja2", "dask"}
+
+
+@cache
+def modules():
+    """Dotted name → syntax tree of every module of the house."""
+    found = {}
+    for package in FLOOR:
+        for file in sorted((ROOT / package).rglob("*.py")):
+            parts = file.relative_to(ROOT).with_suffix("").parts
+            found[".".join(parts[:-1] if parts[-1] == "__init__" else parts)] = ast.parse(file.read_text(), str(file))
+    return found
+
+
+def imported_by(node):
+    """Modules of the house that an import statement names."""
+    if isinstance(node, ast.Import):
+        names = [alias.name for alias in node.names]
+    else:
+        assert node.level == 0, f"a relative import, line {node.lineno}"
+        names = [f"{node.module}.{alias.name}" for alias in node.names]
+    for name in names:
+        while name and name not in modules():
+            name = name.rpartition(".")[0]
+        if name:
+            yield name
+
+
+def imports(tree):
+    return (name for n in ast.walk(tree) if isinstance(n, (ast.Import, ast.ImportFrom)) for name in imported_by(n))
+
+
+def test_imports_run_downwards_and_the_paths_never_import_one_another():
+    wrong = []
+    for module, tree in modules().items():
+        here = module.partition(".")[0]
+        if module.startswith(PROGRAMS):
+            continue
+        for name in imports(tree):
+            there = name.partition(".")[0]
+            up = FLOOR[there] > FLOOR[here] and module not in DOORS
+            if up or (there != here and {here, there} <= set(PATHS)):
+                wrong.append(f"{module} imports {name}")
+    assert not wrong
+
+
+def at_import(tree):
+    """The import statements that run when the module is imported."""
+    waiting = list(tree.body)
+    while waiting:
+        node = waiting.pop()
+        if isinstance(node, (ast.Import, ast.ImportFrom)):
+            yield node
+        elif isinstance(node, ast.If) and "TYPE_CHECKING" in ast.unparse(node.test):
+            continue
+        elif not isinstance(node, (ast.FunctionDef, ast.AsyncFunctionDef)):
+            waiting += [child for child in ast.iter_child_nodes(node) if isinstance(child, ast.stmt)]
+
+
+def test_no_modules_import_one_another_in_a_circle():
+    graph = {m: {n for i in at_import(tree) for n in imported_by(i) if n != m} for m, tree in modules().items()}
+    while graph:
+        ends = {m for m, needs in graph.items() if not needs & graph.keys()}
+        if not ends:
+            break
+        graph = {m: needs for m, needs in graph.items() if m not in ends}
+    assert not graph, f"circles among {sorted(graph)}"
+
+
+def test_no_path_is_compared_by_name_above_the_paths():
+    wrong = []
+    for module, tree in modules().items():
+        if FLOOR[module.partition(".")[0]] < 2 or module.startswith("open_benchmark.adapters"):
+            continue
+        for node in ast.walk(tree):
+            asked = []
+            if isinstance(node, ast.Compare):
+                asked = [node.left, *node.comparators]
+            elif isinstance(node, ast.match_case):
+                asked = [node.pattern]
+            elif isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id == "isinstance":
+                wrong += [f"{module}:{node.lineno}" for n in ast.walk(node.args[1]) if getattr(n, "id", "") in METHODS]
+            for part in asked:
+                names = {n.value for n in ast.walk(part) if isinstance(n, ast.Constant) and isinstance(n.value, str)}
+                if names & NAMES_OF_PATHS:
+                    wrong.append(f"{module}:{node.lineno}: {ast.unparse(node)}")
+    assert not wrong
+
+
+METHODS = {"HermiteFE", "SelfSimilarFE", "ExudynModel"}
+
+
+def test_nothing_reads_outside_the_project():
+    words = [f"..{os.sep}shared", "/work" + "/", "wt" + "/reliab"]
+    kinds = {".py", ".toml", ".md", ".j2", ".js", ".css", ".html", ".ipynb", ".yml", ".json", ".lock", ""}
+    folders = ("bent_beam", *PATHS, "comparison", "open_benchmark", "tests", "docs", "cases", "benchmarks", ".ci")
+    files = [f for d in folders for f in (ROOT / d).rglob("*") if f.suffix in kinds and f.is_file()]
+    files += [f for f in ROOT.iterdir() if f.is_file() and f.name != ".git"]
+    wrong = [
+        f"{file.relative_to(ROOT)}: {word}"
+        for file in files
+        for word in words
+        if file != Path(__file__).resolve() and word in file.read_text(errors="replace")
+    ]
+    assert not wrong
+
+
+def loaded_by(code):
+    """Packages in ``sys.modules`` after ``code`` in a fresh interpreter."""
+    told = "\nimport sys; print('\\n' + ' '.join(sorted({m.partition('.')[0] for m in sys.modules})))"
+    done = subprocess.run(
+        [sys.executable, "-c", code + told],
+        capture_output=True,
+        text=True,
+        check=True,
+        env=os.environ | {"PYTHONPATH": str(ROOT)},
+    )
+    return set(done.stdout.rstrip().rpartition("\n")[2].split())
+
+
+def command(words):
+    return f"from comparison.command_line.app import run\nassert run({words.split()!r}) == 0"
+
+
+@pytest.mark.parametrize(
+    ("code", "allowed"),
+    [
+        ("import theory", {"numpy", "scipy"}),
+        (command("theory --kappa-over-nu 0.5 --alpha 4 --json"), {"numpy", "scipy"}),
+        (command("--help"), set()),
+        (command("match --help"), set()),
+    ],
+    ids=["import theory", "bentbeam theory", "bentbeam --help", "bentbeam match --help"],
+)
+def test_only_what_is_needed_is_loaded(code, allowed):
+    loaded = loaded_by(code)
+    assert loaded & (LEAN | set(PATHS)) <= allowed | {"theory"}
+
+
+WITHOUT_THEORY = """
+import sys
+
+class NoTheory:
+    def find_spec(self, name, path=None, target=None):
+        if name.partition(".")[0] == "theory":
+            raise ImportError(f"{name} is not to be had here")
+
+sys.meta_path.insert(0, NoTheory())
+"""
+
+SIMULATIONS = """
+from bent_beam import Impact
+from bent_beam.meshes import UniformMesh
+from comparison.estimators import leading_order, moments
+from exudyn_models import ExudynModel
+from exudyn_models.integrators import GeneralizedAlpha
+from hermite_fe import HermiteFE
+from hermite_fe.integrators import MoreauJean
+from self_similar_fe import SelfSimilarFE
+
+impact = Impact.dimensionless(0.5, length=20.0)
+for method in (
+    HermiteFE(mesh=UniformMesh(0.05), integrator=MoreauJean(time_step=1e-4)),
+    SelfSimilarFE(),
+    ExudynModel(mesh=UniformMesh(0.1), integrator=GeneralizedAlpha(relative_step=0.02)),
+):
+    history = method.simulate(impact, end_time=0.1, save=60)
+    found = leading_order(moments(history))
+    assert 0.5 < found.lambda0.value < 1.5, (method, found)
+"""
+
+
+def test_every_path_simulates_and_is_read_without_any_theory():
+    """λ₀(½) is about 1.02: a run and its estimate find it where nobody could have told it."""
+    loaded_by(WITHOUT_THEORY + SIMULATIONS)
+
+
+def test_the_choice_of_mesh_and_steps_needs_no_theory():
+    chosen = "\nfrom hermite_fe import HermiteFE\nfrom exudyn_models import ExudynModel\nfrom bent_beam import Impact\n"
+    chosen += "for m in (HermiteFE(), ExudynModel()):\n    m.chosen_for(Impact.dimensionless(0.37), 0.1)\n"
+    loaded_by(WITHOUT_THEORY + chosen)
+
+
+def test_every_model_script_can_be_imported_without_running_and_without_any_theory():
+    scripts = sorted(m for m in modules() if m.startswith(PROGRAMS))
+    assert len(scripts) >= 4
+    loaded_by(WITHOUT_THEORY + "\n".join(f"import {name}" for name in scripts))

@@ -1,0 +1,109 @@
+"""The built package works away from the checkout: every file is in it, and its command answers."""
+
+import json
+import os
+import shutil
+import subprocess
+import sys
+import zipfile
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parent.parent
+PACKAGES = (
+    "bent_beam",
+    "theory",
+    "hermite_fe",
+    "self_similar_fe",
+    "exudyn_models",
+    "comparison",
+    "open_benchmark",
+)
+
+
+@pytest.fixture(scope="module")
+def installed(tmp_path_factory):
+    """The wheel of a copy of the sources, unpacked where nothing else is."""
+    folder = tmp_path_factory.mktemp("package")
+    source = folder / "source"
+    source.mkdir()
+    for name in PACKAGES:
+        shutil.copytree(ROOT / name, source / name, ignore=shutil.ignore_patterns("__pycache__", "*.part"))
+    for name in ("pyproject.toml", "README.md", "LICENSE"):
+        shutil.copy(ROOT / name, source / name)
+    build = "from setuptools.build_meta import build_wheel; print(build_wheel('.'))"
+    done = subprocess.run([sys.executable, "-c", build], cwd=source, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr[-2000:]
+    (wheel,) = source.glob("*.whl")
+    with zipfile.ZipFile(wheel) as packed:
+        packed.extractall(folder / "site")
+    return folder / "site"
+
+
+def test_every_file_of_the_packages_is_in_the_wheel(installed):
+    missing = [
+        str(file.relative_to(ROOT))
+        for name in PACKAGES
+        for file in (ROOT / name).rglob("*")
+        if file.is_file() and "__pycache__" not in file.parts and not file.name.startswith(".")
+        if not (installed / file.relative_to(ROOT)).is_file()
+    ]
+    assert not missing
+
+
+CASE = """[beam]
+bending_stiffness = 1.0
+mass_per_length = 1.0
+length = 20.0
+curvature = 0.5
+[impact]
+velocity = 1.0
+[run]
+duration = 0.1
+[mesh]
+kind = "uniform"
+element_length = 0.1
+[hermite.integrator]
+kind = "moreau_jean"
+time_step = 1e-3
+"""
+COMMANDS = {
+    "theory": "theory --kappa-over-nu 0.5 --json",
+    "predict": "predict case.toml --json",
+    "simulate": "simulate case.toml --error-bars drift --out run.nc --json",
+    "rerun": "rerun run.nc --json",
+    "settings": "settings",
+    "new": "new beam.toml",
+    "problem": "problem leading-0.5 --out problem.toml",
+    "predictor": "predictor --out page.html",
+    "gallery": "gallery --list --json",
+}
+
+
+def test_every_command_answers_away_from_the_checkout(installed, tmp_path):
+    (tmp_path / "case.toml").write_text(CASE)
+    # the place of the wheel first and nothing of the checkout: -P keeps the current folder out, as the script would
+    main = f"""
+import json, shlex, sys
+sys.path[:] = [{str(installed)!r}] + [p for p in sys.path if p and p != {str(ROOT)!r}]
+sys.meta_path[:] = [f for f in sys.meta_path if "editable" not in repr(f).lower()]
+import bent_beam, comparison
+assert bent_beam.__file__.startswith({str(installed)!r}) and comparison.__file__.startswith({str(installed)!r})
+from importlib.metadata import entry_points
+found = {{p.name for p in entry_points(group="bentbeam.methods")}}
+assert {{"hermite", "self_similar", "exudyn"}} <= found, found
+from comparison.command_line.app import run
+for name, words in {COMMANDS!r}.items():
+    print("==", name, flush=True)
+    assert run(shlex.split(words)) == 0, name
+"""
+    environment = {k: v for k, v in os.environ.items() if k != "PYTHONPATH"} | {"BENTBEAM_STORE": str(tmp_path / "s")}
+    done = subprocess.run(
+        [sys.executable, "-P", "-c", main], cwd=tmp_path, capture_output=True, text=True, env=environment
+    )
+    assert done.returncode == 0, done.stdout[-500:] + done.stderr[-2000:]
+    answers = dict(part.strip().split("\n", 1) for part in done.stdout.split("== ")[1:])
+    assert json.loads(answers["theory"])["lambda0"] == pytest.approx(1.019, abs=1e-3)
+    assert json.loads(answers["rerun"])["identical"]
+    assert (tmp_path / "page.html").stat().st_size > 10_000
