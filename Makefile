@@ -70,6 +70,7 @@ lowest newest: $(STAMP)
 	$(BIN)/uv pip install --quiet --python .venv-$@/bin/python --resolution $(if $(filter lowest,$@),lowest-direct,highest) '.[quick]'
 	.venv-$@/bin/bentbeam theory --kappa-over-nu 0.5 --json
 	.venv-$@/bin/python -m pytest -m "not verify" $(QUICK)
+	.venv-$@/bin/python -m pytest -m verify tests/test_package.py
 
 clean:
 	rm -rf $(VENV) .venv-lowest .venv-newest report gallery site .pytest_cache .mypy_cache .ruff_cache

@@ -81,6 +81,7 @@ COMMANDS = {
 }
 
 
+@pytest.mark.verify  # the kernels are compiled anew
 def test_every_command_answers_away_from_the_checkout(installed, tmp_path):
     (tmp_path / "case.toml").write_text(CASE)
     # the place of the wheel first and nothing of the checkout: -P keeps the current folder out, as the script would
@@ -103,7 +104,7 @@ for name, words in {COMMANDS!r}.items():
         [sys.executable, "-P", "-c", main], cwd=tmp_path, capture_output=True, text=True, env=environment
     )
     assert done.returncode == 0, done.stdout[-500:] + done.stderr[-2000:]
-    answers = dict(part.strip().split("\n", 1) for part in done.stdout.split("== ")[1:])
+    answers = {name.strip(): rest for name, _, rest in (p.partition("\n") for p in done.stdout.split("== ")[1:])}
     assert json.loads(answers["theory"])["lambda0"] == pytest.approx(1.019, abs=1e-3)
     assert json.loads(answers["rerun"])["identical"]
     assert (tmp_path / "page.html").stat().st_size > 10_000

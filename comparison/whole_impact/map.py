@@ -161,7 +161,7 @@ def bounce_from_map(kappa_over_nu: float, damping: float) -> dict[str, Number] |
     kappa = POINT if kappa_over_nu == math.inf else min(positive("kappa_over_nu", kappa_over_nu), POINT)
     kappas, dampings, numbers = _grids()
     damping = non_negative("damping", finite("damping", damping))
-    if damping == 0.0 and kappa >= kappas[0]:
+    if damping == 0.0 and kappa >= kappas[0] and stored_map()["bands"]:
         return _band(kappa)
     if not (kappas[0] <= kappa and dampings[0] <= damping <= dampings[-1]):
         return None
