@@ -127,7 +127,7 @@ def test_compression_beyond_buckling_is_a_warning_with_the_number():
 def test_shipped_cases_are_bowed_beams_that_spread(name):
     found = load_case(f"cases/{name}.toml")
     assert 0.0 < found.impact.kappa_over_nu < 1.0
-    assert found.section is not None and found.end_time < 0.01 * found.impact.slow_time_scale
+    assert found.section is not None and found.end_time < 0.03 * found.impact.slow_time_scale
 
 
 def test_a_rail_is_its_catalogue_entry():

@@ -10,7 +10,7 @@ from numpy.polynomial.legendre import leggauss
 
 from bent_beam import Impact
 from bent_beam.meshes import ScaleFreeMesh, UniformMesh
-from hermite_fe import HermiteFE, simulate
+from hermite_fe import simulate
 from hermite_fe.beam import HermiteBeam, banded_product, element_geometric_stiffness, shape_functions
 from hermite_fe.contacts import NodeContact
 from hermite_fe.far_fields import GridViscosity
@@ -103,11 +103,3 @@ def test_a_bulging_wall_is_a_beam_bent_so_much_more(integrator: Integrator) -> N
     for name in ("gap", "total_impulse", "strain_energy"):
         assert np.array_equal(one.array(name), other.array(name)), name
     assert np.allclose(one.array("slope") - other.array("slope"), -0.5 * one.array("x"))
-
-
-@pytest.mark.parametrize("name", ["rotation", "first_touch", "opposite_wall"])
-def test_what_the_model_has_no_place_for_is_refused_by_name(name: str) -> None:
-    impact = Impact.dimensionless(0.5, length=8.0).replace(**{name: 0.1})
-    assert name in str(HermiteFE().refuses(impact))
-    with pytest.raises(ValueError, match=name):
-        HermiteFE().simulate(impact, end_time=0.01)
