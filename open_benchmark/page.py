@@ -43,16 +43,19 @@ def _done(rows: Sequence[Row], kinds: Sequence[str]) -> list[Row]:
 
 
 def _converges(rows: Sequence[Row]) -> str:
-    """Every leading-order problem: error of r₀ falls from the coarsest to the finest, and ends small."""
+    """Leading-order problems in which the larger of the errors of λ₀ and r₀ falls from coarse to fine and is small."""
     verdicts = []
-    for name in {r.problem for r in _done(rows, ("leading", "point"))}:
-        found = {r.resolution: r.score.error("r0") for r in rows if r.problem == name}
-        ends = [found.get(level) for level in (RESOLUTIONS[0], RESOLUTIONS[-1])]
-        if ends[0] is None or ends[1] is None:
-            verdicts.append(False)
-        else:
-            verdicts.append(abs(ends[1]) < CONVERGED and abs(ends[1]) <= max(abs(ends[0]), CONVERGED / 10))
+    for name in dict.fromkeys(r.problem for r in _done(rows, ("leading", "point"))):
+        own = [r for r in rows if r.problem == name]
+        first, last = (_worst([r for r in own if r.resolution == k]) for k in (RESOLUTIONS[0], RESOLUTIONS[-1]))
+        falls = first is not None and last is not None and last <= max(first, CONVERGED / 10)
+        verdicts.append(falls and last is not None and last < CONVERGED)
     return "not reported" if not verdicts else f"{sum(verdicts)} of {len(verdicts)} problems"
+
+
+def _worst(rows: Sequence[Row]) -> float | None:
+    errors = [abs(e) for row in rows for n in ("lambda0", "r0") if (e := row.score.error(n)) is not None]
+    return max(errors, default=None)
 
 
 def _largest(rows: Sequence[Row], name: str, kinds: Sequence[str]) -> str:
