@@ -88,7 +88,7 @@ def warnings_of_run(
         found.append(f"slopes up to {slope:.2g}: linear theory no longer describes this beam, only its first instants")
     elif slope > 0.1:
         found.append(
-            f"slopes of the model up to {slope:.2g}: its elements leave their linear range; kappa/nu "
-            f"= {scaling.kappa:.3g} is too large, or the beam too long, for this geometry.amplitude"
+            f"slopes of the model up to {slope:.2g}: its elements leave their linear range at kappa/nu = "
+            f"{scaling.kappa:.3g}; set a smaller exudyn.geometry.amplitude"
         )
     return found

@@ -1,9 +1,10 @@
-"""The main job's result: both paths matched with the theory, as one HTML page that needs no network.
+"""The main job's result: every method matched with the theory, as one HTML page that needs no network.
 
 ``write_report`` computes the rows (:mod:`comparison.report.rows`), a few impacts to look at
-(:mod:`comparison.report.impacts`) and the studies, draws them (:mod:`comparison.report.plots`) and puts
-them into ``templates/report.html.j2`` with plotly.js inside. Whatever fails is named on the page, with the
-command that asks again; the page is written all the same.
+(:mod:`comparison.report.impacts`), the same impact with the thesis's settings (:mod:`comparison.report.noise`) and a
+drill pipe in SI units (:mod:`comparison.report.pipe`), takes the parameter studies and the map of whole impacts as
+they are stored, draws all of it (:mod:`comparison.report.plots`) and puts it into ``templates/report.html.j2`` with
+plotly.js inside. Whatever fails is named on the page, and the page is written all the same.
 """
 
 from __future__ import annotations
@@ -13,7 +14,7 @@ import json
 import os
 import platform
 import time as clock
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from datetime import UTC, datetime
 from pathlib import Path
@@ -22,23 +23,34 @@ from typing import Any
 import jinja2
 from markupsafe import Markup
 
-from bent_beam.history import SimulationError, versions
+from bent_beam.history import versions
 from bent_beam.method import Method
+from comparison.figures.style import marks
+from comparison.figures.work_precision import draw_work_precision
 from comparison.match import MatchRow, Question, failures, match
+from comparison.methods import default_methods
 from comparison.predictor import panel
-from comparison.report.impacts import SHOWN, Shown, ShownImpact, show
-from comparison.report.plots import plots
-from comparison.report.rows import first_order_rows, labels, leading_rows, report_questions
-from comparison.report.studies import StudyNote, common_ending, known_studies, study_notes
+from comparison.report.guides import Guide, guides
+from comparison.report.impacts import ENERGIES, SHOWN, ShownImpact, show_all, theory_of
+from comparison.report.noise import Noise, compare_noise
+from comparison.report.pipe import Pipe, pipe_verdict
+from comparison.report.plots import bounce_plot, noise_plots, plots
+from comparison.report.rows import PATHS, convergence_rows, first_order_rows, labels, leading_rows, report_questions
+from comparison.report.stills import draw_acceleration, draw_impact, draw_maps, draw_noise, grouped
+from comparison.report.studies import StudyNote, common_ending, stored_studies
 from comparison.report.text import (
     acceleration_answer,
     acceleration_short,
     agreement_answer,
+    edge_answer,
     headline,
+    noise_answer,
+    problem_answer,
     speed_answer,
 )
 from comparison.store import RunStore, write_atomically
 from comparison.tables import write_match
+from comparison.whole_impact import map as whole_impact
 
 __all__ = ["Content", "machine", "page", "write_report"]
 
@@ -48,13 +60,17 @@ TEMPLATES = Path(__file__).resolve().parent / "templates"
 
 @dataclass(frozen=True)
 class Content:
-    """All that the page shows."""
+    """All that the page shows. ``bounce`` : the stored map of whole impacts (:mod:`comparison.whole_impact.map`)."""
 
     rows: Sequence[MatchRow]
     impacts: Sequence[ShownImpact] = ()
     lost_impacts: Sequence[str] = ()
+    noise: Noise | None = None
+    pipe: Pipe | None = None
+    bounce: Mapping[str, Any] | None = None
     studies: Sequence[StudyNote] = ()
     pictures: Sequence[Path] = ()
+    guides: Sequence[Guide] = ()
     seconds: float = 0.0
     jobs: int = 1
     machine: dict[str, str] = field(default_factory=dict)
@@ -69,45 +85,48 @@ def write_report(
     progress: Progress | None = None,
     methods: Sequence[Method] | None = None,
     questions: Sequence[Question] | None = None,
-    studies: bool = True,
 ) -> dict[str, Any]:
     """Compute everything and write ``out/index.html``, with its rows and still pictures in ``out/data``.
 
     methods : to report on instead of one of each path. questions : rows to ask for instead of the usual ones.
-    studies : run the parameter studies too.
     progress : called with (done, total) as rows finish.
 
     Returns ``page``, ``files``, ``headline``, ``failures`` (JSON-ready) and ``rows`` (their number).
     A row that fails is listed, not raised.
     """
     began = clock.perf_counter()
-    asked = list(report_questions(methods) if questions is None else questions)
-    names = list(known_studies()) if studies else []
-    total = len(asked) + len(SHOWN) + len(names)
+    shown_methods = default_methods(PATHS) if methods is None else list(methods)
+    asked = list(report_questions(shown_methods) if questions is None else questions)
+    total = len(asked) + len(SHOWN) * len(shown_methods) + 1
 
-    def count(done: int, _: int) -> None:
+    def count(done: int) -> None:
         if progress is not None:
             progress(done, total)
 
-    rows = match(asked, store=store, jobs=jobs, scheduler=scheduler, progress=count)
-    impacts, lost = shown_impacts(SHOWN)
-    before = len(asked) + len(SHOWN)
-    count(before, total)
-    notes = study_notes(names, store=store, jobs=jobs, progress=lambda done, _: count(before + done, total))
-    files = write_match(rows, out / "data")
-    files += still_pictures(impacts, out / "data")
+    rows = match(asked, store=store, jobs=jobs, scheduler=scheduler, progress=lambda done, _: count(done))
+    impacts, lost = show_all(
+        SHOWN, shown_methods, store=store, jobs=jobs, progress=lambda done, _: count(len(asked) + done)
+    )
+    noise, lost_noise = compare_noise(store=store, jobs=jobs)
+    files = write_match(rows, out / "data") + draw_work_precision(rows, out / "data")
+    files += still_pictures(impacts, noise, out / "data")
     content = Content(
         rows=rows,
         impacts=impacts,
-        lost_impacts=lost,
-        studies=notes,
+        lost_impacts=[*lost, *lost_noise],
+        noise=noise,
+        pipe=pipe_verdict(),
+        bounce=whole_impact.stored_map() if whole_impact.DATA.exists() else None,
+        studies=stored_studies(),
         pictures=[f for f in files if f.suffix == ".png"],
+        guides=guides(out),
         seconds=clock.perf_counter() - began,
         jobs=jobs,
         machine=machine(),
     )
     index = out / "index.html"
     write_atomically(index, page(content))
+    count(total)
     return {
         "page": str(index),
         "files": [str(f) for f in [index, *files]],
@@ -117,23 +136,11 @@ def write_report(
     }
 
 
-def shown_impacts(wanted: Sequence[Shown]) -> tuple[list[ShownImpact], list[str]]:
-    """The impacts to look at, and what could not be shown."""
-    impacts, lost = [], []
-    for shown in wanted:
-        try:
-            impacts.append(show(shown))
-        except (SimulationError, ValueError, ArithmeticError) as error:
-            lost.append(f"{shown.title}: {' '.join(str(error).split())}")
-    return impacts, lost
-
-
-def still_pictures(impacts: Sequence[ShownImpact], out: Path) -> list[Path]:
+def still_pictures(impacts: Sequence[ShownImpact], noise: Noise | None, out: Path) -> list[Path]:
     """The impacts as still pictures, for paper and for readers without JavaScript."""
-    from comparison.report.stills import draw_acceleration, draw_impact, draw_maps
-
-    files = [file for impact in impacts for file in draw_impact(impact, out)]
-    return files + (draw_maps(impacts, out) + draw_acceleration(impacts, out) if impacts else [])
+    files = [file for shown, runs in grouped(impacts).items() for file in draw_impact(shown, runs, out)]
+    files += draw_maps(impacts, out) + draw_acceleration(impacts, out) if impacts else []
+    return files + (draw_noise(noise.before, noise.after, out) if noise else [])
 
 
 def machine() -> dict[str, str]:
@@ -173,25 +180,44 @@ def page(content: Content) -> str:
     )
     leading, first = leading_rows(content.rows), first_order_rows(content.rows)
     ending = common_ending(content.studies)
+    drawn = plots(leading, first, convergence_rows(content.rows))
+    if content.noise is not None:
+        drawn |= noise_plots(content.noise.before, content.noise.after)
+    if content.bounce is not None:
+        drawn["bounce"] = bounce_plot(content.bounce)
     return environment.get_template("report.html.j2").render(
         title=headline(leading, first, len(failures(content.rows))),
+        problem=problem_answer(leading),
         agreement=agreement_answer(leading, first),
         speed=speed_answer(leading, first),
         acceleration=acceleration_answer(content.impacts),
         acceleration_short=acceleration_short(content.impacts),
+        edge=edge_answer(content.impacts),
+        noise=None if content.noise is None else noise_answer(content.noise),
+        pipe=content.pipe,
+        bounce=content.bounce,
         leading=leading,
         first=first,
         failures=[row for row in content.rows if row.reason],
         methods=labels(content.rows),
+        colours={label: mark["color"] for label, mark in marks(labels(content.rows)).items()},
         warnings=[(r, w) for r in [*leading, *first] for w in r.row.warnings],
-        impacts=content.impacts,
+        groups=grouped(content.impacts),
+        shown_methods=list(dict.fromkeys(i.label for i in content.impacts)),
+        impact_warnings=[(i, w) for i in content.impacts for w in i.warnings],
         lost_impacts=content.lost_impacts,
         studies=[(s, s.conclusion.removesuffix(ending).strip()) for s in content.studies],
         studies_ending=ending,
-        pictures={p.stem: picture(p) for p in content.pictures if p.exists()},
+        pictures={p.stem: picture(p) for p in content.pictures if p.exists()}
+        | {f"study-{n.name}": picture(n.picture) for n in content.studies if n.picture.exists()},
+        guides=content.guides,
         facts=facts(content),
         settings=settings(content),
-        data={"plots": plots(leading, first), "impacts": [impact_data(i) for i in content.impacts]},
+        data={
+            "plots": drawn,
+            "energies": ENERGIES,
+            "impacts": [impact_data(runs) for runs in grouped(content.impacts).values()],
+        },
         plotly=inline_script(get_plotlyjs()),
         predictor=_predictor(),
         script=inline_script((TEMPLATES / "report.js").read_text(encoding="utf-8")),
@@ -215,15 +241,17 @@ def picture(file: Path) -> str:
     return "data:image/png;base64," + base64.b64encode(file.read_bytes()).decode("ascii")
 
 
-def impact_data(impact: ShownImpact) -> dict[str, Any]:
-    """An impact as the page's script reads it."""
-    shown = impact.shown
+def impact_data(runs: Sequence[ShownImpact]) -> dict[str, Any]:
+    """An impact as the page's script reads it: theory and every method on one timeline."""
+    shown = runs[0].shown
+    colours = marks(run.label for run in runs)
     return {
         "name": shown.name,
         "title": shown.title,
         "kappa": shown.kappa_over_nu,
         "epsilon": shown.epsilon,
-        **impact.data,
+        "theory": theory_of(shown),
+        "methods": [{"label": run.label, "colour": colours[run.label]["color"], **run.data} for run in runs],
     }
 
 
@@ -257,7 +285,9 @@ def settings(content: Content) -> list[tuple[str, str]]:
     """Settings of the runs, as pairs of title and JSON text."""
     by_label = {r.label: r.settings for r in content.rows}
     found = [(f"Method: {label}", json.dumps(chosen, indent=1)) for label, chosen in by_label.items()]
-    found += [(f"Shown impact: {i.shown.title}", json.dumps(dict(i.settings), indent=1)) for i in content.impacts]
+    found += [
+        (f"Shown impact: {i.label}, {i.shown.title}", json.dumps(dict(i.settings), indent=1)) for i in content.impacts
+    ]
     epsilons = {
         f"{r.row.label}, kappa/nu = {r.row.kappa_over_nu:g}, {r.first_text}": [
             float(f"{e:.4g}") for e in r.row.epsilons

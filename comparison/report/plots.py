@@ -5,7 +5,7 @@ Every trace carries ``meta.label`` ("theory" or a method's label), which the pag
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from html import escape
 from typing import Any
 
@@ -13,10 +13,20 @@ import numpy as np
 
 from comparison.figures.style import SEQUENCE, marks
 from comparison.match import MatchRow
-from comparison.report.rows import Cell, TableRow, labels, table_row
+from comparison.report.impacts import ShownImpact, theory_of
+from comparison.report.rows import Cell, TableRow, convergence_rows, labels, table_row
 from theory import contact_parameters
 
-__all__ = ["error_plot", "first_order_plot", "leading_plot", "plots", "seconds_plot"]
+__all__ = [
+    "bounce_plot",
+    "convergence_plot",
+    "error_plot",
+    "first_order_plot",
+    "leading_plot",
+    "noise_plots",
+    "plots",
+    "seconds_plot",
+]
 
 Plot = dict[str, Any]
 OPEN = ("circle", "square", "diamond", "triangle-up", "triangle-down", "cross", "x", "star", "hexagon", "pentagon")
@@ -45,7 +55,7 @@ SYMBOLS = {
 
 
 def layout(x: str, y: str, **more: Any) -> Plot:
-    """The common look: axis titles ``x`` and ``y``, anything else laid over it."""
+    """The common layout: axis titles ``x`` and ``y``, anything else laid over it."""
     axis = {
         "gridcolor": "#e4e7eb",
         "linecolor": "#9aa5b1",
@@ -78,7 +88,9 @@ LOG_RATIO = {
 }
 
 
-def plots(leading: Sequence[TableRow], first: Sequence[TableRow]) -> dict[str, Plot]:
+def plots(
+    leading: Sequence[TableRow], first: Sequence[TableRow], convergence: Sequence[TableRow] = ()
+) -> dict[str, Plot]:
     """Every matching plot that the rows have data for, by the name of its place in the page."""
     found: dict[str, Plot] = {}
     if leading:
@@ -89,7 +101,45 @@ def plots(leading: Sequence[TableRow], first: Sequence[TableRow]) -> dict[str, P
         found["first-error"] = error_plot(first, ("lambda1", "r1"))
     if leading or first:
         found["seconds"] = seconds_plot([*leading, *first])
+    if convergence:
+        found["convergence"] = convergence_plot(convergence)
     return found
+
+
+def convergence_plot(rows: Sequence[TableRow]) -> Plot:
+    """|error| of λ₀ and r₀ over the refinement of elements and steps, a line a method and number."""
+    data: list[Plot] = []
+    for label, marker in marks_of(rows).items():
+        for what in ("lambda0", "r0"):
+            both = [(r, c) for r in rows if r.row.label == label for c in r.cells if c.what == what]
+            if both:
+                data.append(
+                    {
+                        "x": [r.row.refine for r, _ in both],
+                        "y": [max(100.0 * abs(c.error), 1e-5) for _, c in both],
+                        "mode": "lines+markers",
+                        "name": f"{escape(label)} {SYMBOLS[what]}",
+                        "line": {"color": marker["color"], "width": 1, "dash": "dot" if what == "lambda0" else "solid"},
+                        "marker": {
+                            **marker,
+                            "symbol": marker["symbol"] if what == "lambda0" else marker["symbol"].replace("-open", ""),
+                        },
+                        "customdata": [[c.error_text, f"{r.row.seconds or 0.0:.2g}"] for r, c in both],
+                        "hovertemplate": "refinement %{x:g}: error %{customdata[0]}, %{customdata[1]} s<extra></extra>",
+                        "meta": {"label": label},
+                    }
+                )
+    refinements = sorted({r.row.refine for r in rows})
+    return {
+        "data": data,
+        "layout": layout(
+            "refinement of elements and steps",
+            "|error| (%)",
+            xaxis={"type": "log", "tickvals": refinements, "ticktext": [f"{v:g}" for v in refinements]},
+            yaxis={"type": "log", "exponentformat": "power", "dtick": 1},
+            legend={"font": {"size": 11}},
+        ),
+    }
 
 
 def leading_plot(rows: Sequence[TableRow], what: str) -> Plot:
@@ -145,7 +195,7 @@ def points(label: str, rows: Sequence[TableRow], cells: Sequence[Cell], **more: 
 
 
 def first_order_plot(rows: Sequence[TableRow], what: str) -> Plot:
-    """λ₁ or r₁ over κ/ν: a curve of theory for each (α, ψ, χ), and the points of both paths on it."""
+    """λ₁ or r₁ over κ/ν: a curve of theory for each (α, ψ, χ), and every method's points on it."""
     firsts = list(dict.fromkeys(r.row.first for r in rows))
     data: list[Plot] = []
     for i, first in enumerate(firsts):
@@ -311,7 +361,79 @@ def seconds_plot(rows: Sequence[TableRow]) -> Plot:
     }
 
 
+def noise_plots(before: ShownImpact, after: ShownImpact) -> dict[str, Plot]:
+    """One end's reaction over theory's, and the gap of the zone at the end, before and after."""
+    theory = theory_of(after.shown)
+    time, x = np.array(theory["time"]), np.array(theory["x"]) / theory["front"][-1]
+    shown = x < 1.4
+    force: list[Plot] = []
+    gap: list[Plot] = []
+    for run, line in ((before, {"color": "#777777", "width": 1.3}), (after, {"color": SEQUENCE[0], "width": 2})):
+        ratio = np.array(run.data["reaction"]) / np.array(theory["reaction"])
+        common = {"mode": "lines", "name": escape(run.label), "line": line, "meta": {"label": run.label}}
+        force.append({**common, "x": np.sqrt(time).round(5).tolist(), "y": ratio.round(5).tolist()})
+        profile = 1000.0 * np.array(run.data["gap"][-1], float)
+        gap.append({**common, "x": x[shown].round(5).tolist(), "y": profile[shown].round(5).tolist()})
+    black = {"mode": "lines", "name": "Theory", "line": {"color": "#000", "width": 1.2, "dash": "dot"}}
+    ends = [float(np.sqrt(time[0])), float(np.sqrt(time[-1]))]
+    force.append({**black, "x": ends, "y": [1.0, 1.0], "meta": {"label": "theory"}})
+    exact = 1000.0 * np.array(theory["gap"][-1])
+    gap.append({**black, "x": x[shown].round(5).tolist(), "y": exact[shown].round(5).tolist(),
+                "meta": {"label": "theory"}})  # fmt: skip
+    return {
+        "noise-force": {"data": force, "layout": layout("√τ", "reaction / theory")},
+        "noise-gap": {
+            "data": gap,
+            "layout": layout("x/λ<sub>c</sub>", "gap (‰ of V<sub>0</sub>t)", yaxis={"range": [-2.0, 25.0]}),
+        },
+    }
+
+
+def bounce_plot(stored: Mapping[str, Any]) -> Plot:
+    """Restitution of the whole impact over κ/ν, a curve for each damping, error bars; the band without damping."""
+    data: list[Plot] = []
+    for i, damping in enumerate(stored["damping"]):
+        mine = sorted((p["kappa_over_nu"], *p["numbers"]["restitution"]) for p in stored["points"]
+                      if p["damping"] == damping and p["numbers"]["restitution"][0] is not None)  # fmt: skip
+        data.append(
+            {
+                "x": [k for k, _, _ in mine],
+                "y": [v for _, v, _ in mine],
+                "error_y": {"array": [e for _, _, e in mine], "thickness": 1, "width": 2},
+                "mode": "lines+markers",
+                "name": f"η/T* = {damping:g}",
+                "line": {"color": SEQUENCE[i % len(SEQUENCE)], "width": 1.5},
+                "marker": {"size": 4},
+                "meta": {"label": f"damping {damping:g}"},
+                "hovertemplate": "κ/ν = %{x:g}: e = %{y:.4f}<extra></extra>",
+            }
+        )
+    bands = sorted((b["kappa_over_nu"], *b["band"]["restitution"]) for b in stored["bands"])
+    if bands:
+        data.append(
+            {
+                "x": [k for k, _, _ in bands] + [k for k, _, _ in reversed(bands)],
+                "y": [m - s for _, m, s in bands] + [m + s for _, m, s in reversed(bands)],
+                "mode": "lines",
+                "line": {"width": 0},
+                "fill": "toself",
+                "fillcolor": "rgba(119,119,119,0.25)",
+                "name": "no damping: band of one standard deviation",
+                "hoverinfo": "skip",
+                "meta": {"label": "no damping"},
+            }
+        )
+    return {
+        "data": data,
+        "layout": layout(
+            "κ/ν", "restitution e", xaxis={"type": "log", "tickvals": [0.05, 0.1, 0.2, 0.5, 1, 2]},
+            yaxis={"range": [0.0, 1.0]}, legend={"font": {"size": 11}},
+        ),
+    }  # fmt: skip
+
+
 def row_plots(rows: Sequence[MatchRow]) -> dict[str, Plot]:
     """:func:`plots` from rows as the matching gives them."""
     both = [table_row(r) for r in rows]
-    return plots([r for r in both if not r.row.of_first_order], [r for r in both if r.row.of_first_order])
+    leading = [r for r in both if not r.row.of_first_order and r.row.refine == 1.0]
+    return plots(leading, [r for r in both if r.row.of_first_order], convergence_rows(rows))

@@ -15,6 +15,7 @@ from comparison.tables import LEAST
 __all__ = [
     "Cell",
     "TableRow",
+    "convergence_rows",
     "first_order_rows",
     "labels",
     "leading_rows",
@@ -31,18 +32,24 @@ def signed(text: str) -> str:
 
 
 PATHS = ("hermite", "self_similar", "exudyn")
-LEADING = (1 / 1600, 1 / 100, 1 / 20, 0.1, 1 / 4, 1 / 2, 0.8)
+LEADING = (1 / 1600, 1 / 20, 1 / 4, 1 / 2, 0.8)
+MIDDLE = 0.5
 FIRST: tuple[First, ...] = ((4, 0, 0, 0), (1, 1, 1, 0), (-1, -1, 0, 0), (0, 0, 0, 1))
-FIRST_RATIOS = (0.3, 0.5, 0.8)
+FIRST_ELSEWHERE: tuple[tuple[float, First], ...] = ((0.3, (1, 1, 1, 0)), (0.8, (1, 1, 1, 0)))
+COARSER = (0.25, 0.5)
 
 
 def report_questions(methods: Sequence[Method] | None = None) -> list[Question]:
-    """Every row of the report, the longest first so that no core idles at the end."""
+    """Every row of the report, few enough for a minute and a half, the longest first so that no core idles at the end.
+
+    Leading order over κ/ν; convergence at κ/ν = 0.5; first order for every load at κ/ν = 0.5 and for one load beside.
+    """
     methods = default_methods(PATHS) if methods is None else methods
+    first = [*((MIDDLE, load) for load in FIRST), *FIRST_ELSEWHERE]
     return [
-        *(Question(m, k, first) for m in reversed(methods) for first in FIRST for k in FIRST_RATIOS),
+        *(Question(m, k, load) for m in reversed(methods) for k, load in first),
         *(Question(m, k) for m in reversed(methods) for k in LEADING),
-        *(Question(m, k, None, 0.5) for m in methods for k in (0.5,)),
+        *(Question(m, MIDDLE, None, r) for m in methods for r in COARSER),
     ]
 
 
@@ -91,11 +98,11 @@ class Cell:
 
     @property
     def error_text(self) -> str:
-        """The relative error in per cent."""
+        """The relative error in per cent, two digits and its sign."""
         size = 100.0 * self.error
-        if abs(size) < 5e-4:
-            return "0.000 %"
-        return signed(f"{size:+.3f} %" if abs(size) < 0.1 else f"{size:+.2f} %")
+        if abs(size) < 1e-4:
+            return "< 0.0001 %"
+        return signed(f"{size:+.{max(0, 1 - math.floor(math.log10(abs(size))))}f} %")
 
     @property
     def exact_text(self) -> str:
@@ -155,6 +162,13 @@ def first_order_rows(rows: Iterable[MatchRow]) -> list[TableRow]:
     chosen = [r for r in rows if r.of_first_order and r.refine == 1.0 and r.reason is None]
     order = {label: i for i, label in enumerate(labels(chosen))}
     return [table_row(r) for r in sorted(chosen, key=lambda r: (r.kappa_over_nu, r.first, order[r.label]))]
+
+
+def convergence_rows(rows: Iterable[MatchRow]) -> list[TableRow]:
+    """Rows of leading order whose κ/ν was asked at several refinements, from coarse to fine."""
+    chosen = [r for r in rows if not r.of_first_order and r.reason is None]
+    several = {r.kappa_over_nu for r in chosen if r.refine != 1.0}
+    return [table_row(r) for r in sorted(chosen, key=lambda r: r.refine) if r.kappa_over_nu in several]
 
 
 def worst(rows: Sequence[TableRow], label: str) -> Cell | None:

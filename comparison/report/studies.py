@@ -1,18 +1,32 @@
-"""The parameter studies' conclusions for the report, as far as this installation has studies."""
+"""The parameter studies for the report: conclusions and pictures, stored with their date.
+
+They take minutes, so the report shows what ``python -m comparison.report.studies`` has measured and written to
+``stored/studies.json`` and the pictures beside it; the page says when, and with which versions.
+"""
 
 from __future__ import annotations
 
+import json
+import os
 from collections import Counter
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass
+from datetime import UTC, datetime
+from io import BytesIO
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
 
+from PIL import Image
+
 from bent_beam.cases import Case, case_from_tables
-from comparison.store import RunStore
+from bent_beam.history import SimulationError, versions
+from comparison.store import write_atomically
 from comparison.workers import run_all
 
-__all__ = ["StudyNote", "common_ending", "known_studies", "study_notes"]
+__all__ = ["STORED", "StudyNote", "common_ending", "known_studies", "store_studies", "stored_studies"]
+
+STORED = Path(__file__).with_name("stored")
 
 BEAM = {"bending_stiffness": 1.0, "mass_per_length": 1.0}
 USUAL: dict[str, Any] = {
@@ -32,21 +46,25 @@ OWN_CASES = {"first-order-case": FIRST_ORDER}
 
 @dataclass(frozen=True)
 class StudyNote:
-    """A study's title, its case and its conclusion in words, or why it is left out."""
+    """A study's title, its case and its conclusion, or why it is left out; the date of its measurement."""
 
     name: str
     title: str
     conclusion: str
     case: str = ""
     failed: bool = False
+    date: str = ""
+
+    @property
+    def picture(self) -> Path:
+        """Its picture, where it is stored."""
+        return STORED / f"{self.name}.png"
 
 
 def known_studies() -> dict[str, str]:
-    """Name → title of the studies that there are; none when they cannot be imported."""
-    try:
-        from comparison.studies import STUDIES
-    except ImportError:
-        return {}
+    """Name → title of every study."""
+    from comparison.studies import STUDIES
+
     return {name: study.title for name, study in STUDIES.items()}
 
 
@@ -55,39 +73,54 @@ def case_of(name: str) -> Case:
     return case_from_tables(OWN_CASES.get(name, USUAL))
 
 
-def study_notes(
-    names: Sequence[str],
-    *,
-    store: RunStore,
-    jobs: int = 1,
-    progress: Callable[[int, int], None] | None = None,
-) -> list[StudyNote]:
-    """Conclusions of the studies, ``jobs`` at a time; one that fails says why and how to run it alone."""
+def stored_studies() -> list[StudyNote]:
+    """The notes of the stored studies, in the order of the studies; none where nothing is stored."""
+    file = STORED / "studies.json"
+    if not file.exists():
+        return []
+    document = json.loads(file.read_text(encoding="utf-8"))
+    return [StudyNote(**note, date=document["date"]) for note in document["studies"]]
+
+
+def store_studies(names: Sequence[str], *, jobs: int = 1) -> Path:
+    """Run the studies and write their conclusions and pictures to ``stored/``; returns the file of conclusions."""
     titles = known_studies()
-    folder = None if store.folder is None else str(store.folder)
-    wanted = [(name, titles.get(name, name), folder) for name in names]
+    wanted = [(name, titles[name]) for name in names]
+    notes = run_all(_note, wanted, jobs=jobs, on_death=lambda i, why: lost(*wanted[i], why))
+    document = {
+        "what": "conclusions of the parameter studies, for the report",
+        "made_by": "python -m comparison.report.studies",
+        "date": datetime.now(UTC).date().isoformat(),
+        "versions": versions(),
+        "studies": [{k: v for k, v in asdict(note).items() if k != "date"} for note in notes],
+    }
+    file = STORED / "studies.json"
+    write_atomically(file, json.dumps(document, indent=1, ensure_ascii=False) + "\n")
+    return file
 
-    def died(place: int, why: str) -> StudyNote:
-        return lost(*wanted[place][:2], why)
 
-    return list(run_all(_note, wanted, jobs=jobs, progress=progress, on_death=died))
+def _note(name: str, title: str) -> StudyNote:
+    """One study in a worker, its picture made small."""
+    from comparison.studies import run_study
 
-
-def _note(name: str, title: str, folder: str | None) -> StudyNote:
-    """One study in a worker."""
     case = case_of(name)
-
-    def compute() -> dict[str, Any]:
-        from comparison.studies import run_study
-
-        return {"conclusion": run_study(name, case).conclusion}
-
     try:
-        question = {"study": name, "case": OWN_CASES.get(name, USUAL)}
-        found = RunStore(Path(folder) if folder else None).answer(question, compute)
-    except Exception as error:  # a study is an extra: whatever is wrong with it, the report goes on
-        return lost(name, title, f"{type(error).__name__}: {' '.join(str(error).split())}")
-    return StudyNote(name, title, str(found["conclusion"]), case.title)
+        with TemporaryDirectory() as folder:
+            conclusion = run_study(name, case, out=Path(folder)).conclusion
+            picture = Path(folder) / f"{name}.png"
+            if picture.exists():
+                small_picture(picture, STORED / picture.name)
+    except (ArithmeticError, ValueError, SimulationError) as error:
+        return lost(name, title, " ".join(str(error).split()))
+    return StudyNote(name, title, conclusion, case.title)
+
+
+def small_picture(file: Path, target: Path) -> None:
+    """A copy of a PNG in 64 colours: enough for lines and a third of the bytes."""
+    with Image.open(file) as image:
+        stream = BytesIO()
+        image.convert("RGB").quantize(64).save(stream, format="PNG", optimize=True)
+    write_atomically(target, stream.getvalue())
 
 
 def lost(name: str, title: str, why: str) -> StudyNote:
@@ -114,3 +147,7 @@ def ending_of(conclusion: str) -> str:
         if conclusion[place : place + 2] == ". " and conclusion[place + 2].isupper():
             start = place + 2
     return conclusion[start:]
+
+
+if __name__ == "__main__":
+    print(store_studies(list(known_studies()), jobs=max(1, os.cpu_count() or 1)))

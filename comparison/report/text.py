@@ -6,7 +6,10 @@ import math
 from collections.abc import Sequence
 from statistics import median
 
+import numpy as np
+
 from comparison.report.impacts import ShownImpact
+from comparison.report.noise import Noise
 from comparison.report.rows import Cell, TableRow, labels, worst
 
 __all__ = [
@@ -14,7 +17,10 @@ __all__ = [
     "acceleration_short",
     "agreement_answer",
     "coverage",
+    "edge_answer",
     "headline",
+    "noise_answer",
+    "problem_answer",
     "speed_answer",
 ]
 
@@ -22,10 +28,12 @@ SYMBOLS = {"lambda0": "λ₀", "r0": "r₀", "lambda1": "λ₁", "r1": "r₁"}
 
 
 def percent(value: float) -> str:
-    """A share as per cent, two significant digits, rounded up: never better than it is."""
+    """A share as per cent, two significant digits, rounded up: never better than it is. Tiny ones are "less than"."""
     size = 100.0 * abs(value)
     if size == 0.0:
         return "0 %"
+    if size < 1e-4:
+        return "less than 0.0001 %"
     digits = max(0, 1 - math.floor(math.log10(size)))
     step = 10.0**-digits
     return f"{math.ceil(size / step - 1e-9) * step:.{digits}f} %"
@@ -105,14 +113,48 @@ def speed_answer(leading: Sequence[TableRow], first: Sequence[TableRow]) -> str:
     return text[0].upper() + text[1:] + "."
 
 
+def problem_answer(leading: Sequence[TableRow]) -> str:
+    """λ₀ and r₀ of theory in figures, at the κ/ν among the rows nearest to 1/2."""
+    found = [r for r in leading if len(r.cells) == 2 and r.cells[0].exact > 0.0]
+    if not found:
+        return ""
+    row = min(found, key=lambda r: abs(r.row.kappa_over_nu - 0.5))
+    front, force = row.cells
+    return (
+        f"At κ/ν = {row.ratio_text}, theory has λ₀ = {front.exact_text} and r₀ = {force.exact_text}: four times the "
+        "time gives twice the contact length and half the reaction."
+    )
+
+
+def noise_answer(noise: Noise) -> str:
+    """How much the reaction scatters and the zone lifts, before and after."""
+    before, after = (f"{percent(noise.scatter(run))}" for run in (noise.before, noise.after))
+    lifts = [percent(noise.lift(run)) for run in (noise.before, noise.after)]
+    return (
+        f"With the {noise.before.label} the reaction of one end scatters by {before} about theory and the zone lifts "
+        f"by up to {lifts[0]} of V₀t, with the {noise.after.label} by {after} and {lifts[1]}. Both are runs of the "
+        f"same code, in {noise.before.seconds:.2g} s and {noise.after.seconds:.2g} s."
+    )
+
+
 def _change(value: float, plain: float, what: str) -> str:
     share = value / plain - 1.0
     return f"{what} is {abs(100 * share):.0f} % {'larger' if share > 0 else 'smaller'}"
 
 
+def _by_name(impacts: Sequence[ShownImpact]) -> dict[str, ShownImpact]:
+    """One run of each impact: of the first method that ran all of them, so that like is compared with like."""
+    names = {i.shown.name for i in impacts}
+    for label in dict.fromkeys(i.label for i in impacts):
+        mine = {i.shown.name: i for i in impacts if i.label == label}
+        if set(mine) == names:
+            return mine
+    return {}
+
+
 def acceleration_short(impacts: Sequence[ShownImpact]) -> str:
     """The same in one breath, from the impacts pressed onto the wall and released from it."""
-    by_name = {i.shown.name: i for i in impacts}
+    by_name = _by_name(impacts)
     if not {"plain", "pressed", "released"} <= set(by_name):
         return "The impacts with acceleration could not be computed."
 
@@ -125,39 +167,64 @@ def acceleration_short(impacts: Sequence[ShownImpact]) -> str:
         f"impact shown), raises the end reactions ({change('pressed', 'reaction')}) and presses the whole "
         f"zone on the wall. Away from it, the contact spreads slower ({change('released', 'front')}), the "
         f"reactions fall ({change('released', 'reaction')}) and the middle of the zone lifts off, by "
-        f"{100.0 * max(by_name['released'].data['lift']):.1g} % of V₀t."
+        f"{100.0 * max(by_name['released'].data['lift']):.1g} % of V₀t ({by_name['plain'].label})."
     )
 
 
 def acceleration_answer(impacts: Sequence[ShownImpact]) -> list[str]:
-    """What α does to the contact: a sentence an impact, measured at its end against the impact without it."""
-    by_name = {i.shown.name: i for i in impacts}
-    plain = by_name.get("plain")
-    if plain is None:
-        return []
+    """What α does to the contact: a sentence a run, measured at its end against the same method's run without it."""
+    plain = {i.label: i for i in impacts if i.shown.name == "plain"}
     sentences = []
     for impact in impacts:
-        if impact is plain:
+        base = plain.get(impact.label)
+        if base is None or impact is base:
             continue
         shown, data = impact.shown, impact.data
-        zone = _change(data["front"][-1], plain.data["front"][-1], "the contact zone")
-        force = _change(
-            data["reaction"][-1], plain.data["reaction"][-1], "the concentrated reaction at each of its ends"
-        )
-        load = shown.epsilon * (shown.first[0] + shown.first[1])
-        if load > 0.0:
+        zone = _change(data["front"][-1], base.data["front"][-1], "the contact zone")
+        force = _change(data["reaction"][-1], base.data["reaction"][-1], "the reaction at each of its ends")
+        lift = max(data["lift"])
+        if shown.pressure > 0.0:
             inside = (
-                f"the beam stays on the wall (largest gap inside {max(data['lift']):.0e} V₀t), which now "
-                f"carries a uniform reaction of {data['pressure'][-1]:.3g} μV₀/t* per length, the "
-                f"ε(α+ψ) = {load:.3g} that theory says"
+                f"the zone carries a uniform reaction of {data['pressure'][-1]:.3g} μV₀/t* per length (theory: "
+                f"ε(α+ψ) = {shown.pressure:.3g}), largest gap inside {'0' if lift == 0.0 else percent(lift)} of V₀t"
             )
         else:
-            inside = (
-                f"the middle lifts off at once, by up to {100 * max(data['lift']):.2g} % of V₀t, and only "
-                "the two ends of the zone still touch"
-            )
+            inside = f"the middle lifts off by up to {100 * lift:.2g} % of V₀t, and only the two ends still touch"
         sentences.append(
-            f"{shown.title[0].upper() + shown.title[1:]}, ε = {shown.epsilon:g}: at τ = {data['time'][-1]:g} "
-            f"{zone} and {force} than without acceleration; {inside}."
+            f"{impact.label}, {shown.title}, ε = {shown.epsilon:g}: {zone} and {force} than without acceleration; "
+            f"{inside}."
         )
     return sentences
+
+
+def edge_answer(impacts: Sequence[ShownImpact]) -> str:
+    """How much of the zone behind the front bears no uniform reaction, method by method, where theory has it all over.
+
+    A trace of lift that the front leaves behind takes the load a time √(2 gap/ε(α+ψ)) to close.
+    """
+    shares = []
+    for impact in impacts:
+        if impact.shown.pressure <= 0.0:
+            continue
+        share = _empty_behind_front(impact)
+        if share is not None:
+            shares.append(f"{impact.label} {percent(share)}")
+    if not shares:
+        return ""
+    return (
+        "Theory has the uniform reaction on all of the zone. In the simulations a strip behind the front bears less "
+        f"than half of it, at the end of the impact: {', '.join(shares)} of the zone's length (to within a bin of the "
+        "map). There the load still closes the trace of gap that the moving front left, which takes it a time of "
+        "√(2 gap/ε(α+ψ)); the finer the mesh at the front, the narrower the strip."
+    )
+
+
+def _empty_behind_front(impact: ShownImpact) -> float | None:
+    """Length of the strip behind the front that bears less than half the uniform reaction, over λ_c, at the end."""
+    field = impact.data["map"]
+    x, force = np.array(field["x"]), np.array(field["force"][-1])
+    front = impact.data["front"][-1]
+    bears = np.flatnonzero((force > 0.5 * impact.shown.pressure) & (x < front - 2.0 * (x[1] - x[0])))
+    if bears.size == 0:
+        return None
+    return max(0.0, 1.0 - (float(x[bears[-1]]) + 2.5 * float(x[1] - x[0])) / front)

@@ -2,13 +2,21 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import cache
 
+import numpy as np
+
+from bent_beam.meshes import ScaleFreeMesh
 from comparison.compared import Compared
 from comparison.match import MatchRow
-from comparison.report.impacts import SHOWN, ShownImpact, show
+from comparison.report.impacts import SHOWN, ShownImpact, show, theory_of
+from comparison.report.noise import Noise
 from comparison.report.page import Content, machine
+from comparison.report.pipe import pipe_verdict
 from comparison.report.studies import StudyNote
+from hermite_fe import HermiteFE
+from self_similar_fe import SelfSimilarFE
 from theory import contact_parameters
 
 NASTY = "<script>alert('x')</script> & \"quotes\" </script>"
@@ -44,8 +52,10 @@ def lost(path: str, kappa: float, reason: str) -> MatchRow:
 def rows() -> list[MatchRow]:
     """Leading and first order on both paths; one row of each grade."""
     leading = [row(path, k) for k in (1 / 1600, 1 / 20, 0.25, 0.5) for path in ("hermite", "exudyn")]
+    coarse = [replace(row(path, 0.5, off=4e-4), refine=0.5, seconds=0.1) for path in ("hermite", "exudyn")]
     return [
         *leading,
+        *coarse,
         row("hermite", 0.5, (4, 0, 0), 2e-3),
         row("exudyn", 0.5, (4, 0, 0), 2.5e-2),
         row("hermite", 0.1, (1, 0, 0), 4e-2),
@@ -53,9 +63,33 @@ def rows() -> list[MatchRow]:
     ]
 
 
+METHODS = (SelfSimilarFE(), HermiteFE(mesh=ScaleFreeMesh(element_length=4e-3, growth=1.02)))
+
+
 @cache
 def impacts() -> tuple[ShownImpact, ...]:
-    return tuple(show(s) for s in SHOWN)
+    """Every impact by two methods, on meshes of a second."""
+    return tuple(show(shown, method) for shown in SHOWN for method in METHODS)
+
+
+@cache
+def noise() -> Noise:
+    """A before and after without the minute that the real one takes: the same run with a scatter of a tenth."""
+    after = impacts()[1]
+    reaction = np.array(theory_of(after.shown)["reaction"])
+    scatter = reaction * (1.0 + 0.1 * np.random.default_rng(1).standard_normal(reaction.size))
+    before = {**after.data, "reaction": scatter.tolist(), "lift": [0.01] * reaction.size}
+    return Noise(replace(after, label="settings of the thesis", data=before), replace(after, label="settings of today"))
+
+
+def bounce() -> dict[str, object]:
+    """A map of whole impacts of two points and a band."""
+    points = [
+        {"kappa_over_nu": k, "damping": d, "numbers": {"restitution": [e, 0.01]}}
+        for k, d, e in ((0.5, 1e-3, 0.456), (1.5, 1e-3, 0.616), (0.5, 1e-2, 0.336), (1.5, 1e-2, 0.5626))
+    ]
+    bands = [{"kappa_over_nu": k, "band": {"restitution": [e, 0.03]}} for k, e in ((0.5, 0.43), (1.5, 0.64))]
+    return {"date": "2026-01-01", "made_by": "a test", "damping": [1e-3, 1e-2], "points": points, "bands": bands}
 
 
 def content(nasty: bool = False) -> Content:
@@ -65,7 +99,7 @@ def content(nasty: bool = False) -> Content:
     every[0].warnings.append(text)
     every.append(lost("exudyn", 0.3, text))
     return Content(
-        rows=every, impacts=impacts(), lost_impacts=[text],
+        rows=every, impacts=impacts(), lost_impacts=[text], noise=noise(), pipe=pipe_verdict(), bounce=bounce(),
         studies=[StudyNote("mesh", text, text)], seconds=12.0, jobs=2,
         machine={**machine(), "processor": text},
     )  # fmt: skip

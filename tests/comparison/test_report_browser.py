@@ -103,26 +103,43 @@ def test_every_plot_is_drawn(browser: Any) -> None:
     assert ask(browser, "document.querySelectorAll('.plot').length") >= 14
 
 
-def visible_traces(browser: Any, path: str) -> int:
+LABELS = ("theory", "Hermite", "Exudyn")
+
+
+def visible_traces(browser: Any, label: str) -> int:
     return int(
         ask(
             browser,
-            "[...document.querySelectorAll('[data-plot]')].flatMap(e => e.data)"
-            f".filter(t => t.meta.path === '{path}' && t.visible !== false).length",
+            "[...document.querySelectorAll('[data-plot]')].flatMap(e => e.data || [])"
+            f".filter(t => t.meta.label === '{label}' && t.visible !== false).length",
         )
     )
 
 
-@pytest.mark.parametrize("path", ["theory", "hermite", "exudyn"])
-def test_switches_hide_and_show_a_path(browser: Any, path: str) -> None:
-    before = visible_traces(browser, path)
-    others = {p: visible_traces(browser, p) for p in ("theory", "hermite", "exudyn") if p != path}
+def switch(browser: Any, label: str) -> None:
+    browser.execute_script("document.querySelector(`input[data-label='${arguments[0]}']`).click()", label)
+
+
+@pytest.mark.parametrize("label", LABELS)
+def test_switches_hide_and_show_a_method(browser: Any, label: str) -> None:
+    before = visible_traces(browser, label)
+    others = {other: visible_traces(browser, other) for other in LABELS if other != label}
     assert before > 0
-    browser.execute_script(f"document.querySelector('input[data-path={path}]').click()")
-    assert visible_traces(browser, path) == 0
-    assert {p: visible_traces(browser, p) for p in others} == others
-    browser.execute_script(f"document.querySelector('input[data-path={path}]').click()")
-    assert visible_traces(browser, path) == before
+    switch(browser, label)
+    assert visible_traces(browser, label) == 0
+    assert {other: visible_traces(browser, other) for other in others} == others
+    switch(browser, label)
+    assert visible_traces(browser, label) == before
+
+
+def test_warnings_are_seen_at_every_width(browser: Any) -> None:
+    assert ask(browser, "[...document.querySelectorAll('td.path a')].every(e => e.offsetParent !== null)")
+    assert ask(browser, "document.querySelectorAll('td.path a').length") > 0
+
+
+def test_small_drawings_are_explained_where_they_are_shown(browser: Any) -> None:
+    shown = ask(browser, "document.querySelector('.whisker').checkVisibility()")
+    assert ask(browser, "document.querySelector('.drawings').checkVisibility()") == shown
 
 
 def move(browser: Any, place: int) -> None:
@@ -133,7 +150,7 @@ def move(browser: Any, place: int) -> None:
 
 
 def front(browser: Any) -> float:
-    return float(ask(browser, "document.getElementById('beam').data[1].x[1]"))
+    return float(ask(browser, "document.getElementById('beam').data[0].x[1]"))
 
 
 def test_slider_moves_the_contact_front(browser: Any) -> None:
@@ -150,13 +167,15 @@ def test_slider_moves_the_contact_front(browser: Any) -> None:
 
 
 def test_other_impacts_can_be_chosen(browser: Any) -> None:
-    move(browser, 59)
+    move(browser, 49)
     found = {}
     for index in (0, 1, 2):
         browser.execute_script(f"document.querySelectorAll('input[name=impact]')[{index}].click()")
         found[index] = front(browser)
-        assert ask(browser, "document.getElementById('map').data[0].z.length") > 30
+        assert ask(browser, "document.querySelector('[data-map]').data[0].z.length") > 30
     assert found[2] < found[0] < found[1]
+    lines = ask(browser, "document.getElementById('beam').data.map(t => t.name)")
+    assert {"Theory", "Self-similar", "Hermite"} <= set(lines)  # side by side, on one timeline
     browser.execute_script("document.querySelectorAll('input[name=impact]')[0].click()")
 
 
