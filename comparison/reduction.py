@@ -44,12 +44,14 @@ def bending_moments(history: ImpactHistory, k: int | slice) -> tuple[Array, Arra
     of shape (elements, 2); K₀ is the curvature of the beam free of stress. For a slice of instants, of a fixed mesh,
     the moments have these in front.
 
-    y_xx is that of the Hermite cubic through deflections and slopes; the part η y_txx of a damped beam is left out.
+    y_xx is that of the Hermite cubic through deflections and slopes (by differences where a history has none); the
+    part η y_txx of a damped beam is left out.
     """
     impact = history.impact
     x = history.positions(k if isinstance(k, int) else 0)
     y = -history.array("gap")[k] - 0.5 * impact.wall_curvature * x**2
-    slope = history.array("slope")[k]
+    given = "slope" in history.dataset
+    slope = history.array("slope")[k] if given else np.gradient(y, x, axis=-1, edge_order=2)
     h = np.diff(x)
     rise = np.diff(y, axis=-1) / h
     left = (6.0 * rise - 4.0 * slope[..., :-1] - 2.0 * slope[..., 1:]) / h

@@ -38,10 +38,10 @@ def conclude(outcomes: Sequence[Outcome]) -> str:
     lost, kept = none.measures["lost_impact"], full.measures["lost_impact"]
     if lost is not None and kept is not None:
         text.append(
-            f"With 0 the impacts destroy {number(lost)} % of the energy that should leave as waves, with 1 "
-            f"{number(abs(kept))} %. The thesis reads the first as what a real impact does; theory, whose "
-            "contact points "
-            "move on without doing work, keeps all of it."
+            f"With restitution 0 the impacts destroy {number(lost)} % of the energy that should leave as waves, with "
+            f"restitution 1 {'none of it' if abs(kept) < 1e-3 else f'they destroy {number(abs(kept))} %'}. The thesis "
+            "reads the first as what a real impact does; theory, whose contact points move on without doing work, "
+            "keeps all of it."
         )
     return " ".join([*text, reference_sentences(outcomes)])
 

@@ -1,0 +1,77 @@
+"""The guide's method of one's own is a package outside the project that every command finds by its entry point."""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+PAGE = ROOT / "docs" / "guide" / "add-method.md"
+
+
+def fence(start: str) -> str:
+    found = re.search(rf"^```{re.escape(start)}\n(.*?)^```", PAGE.read_text(encoding="utf-8"), re.S | re.M)
+    assert found is not None, start
+    return found[1]
+
+
+@pytest.fixture(scope="module")
+def environment(tmp_path_factory: pytest.TempPathFactory) -> dict[str, str]:
+    """Where the package of the page is installed: its module and what a wheel says of it."""
+    folder = tmp_path_factory.mktemp("site")
+    (folder / "differences.py").write_text(fence('python title="differences.py"'), encoding="utf-8")
+    about = folder / "differences-1.0.dist-info"
+    about.mkdir()
+    (about / "METADATA").write_text("Metadata-Version: 2.1\nName: differences\nVersion: 1.0\n")
+    group, line = re.findall(r'entry-points\."(.+)"\]\n(.+)', PAGE.read_text(encoding="utf-8"))[0]
+    (about / "entry_points.txt").write_text(f"[{group}]\n{line.replace(chr(34), '')}\n")
+    paths = os.pathsep.join([str(folder), str(ROOT)])
+    return {**os.environ, "PYTHONPATH": paths, "BENTBEAM_STORE": str(folder / "store")}
+
+
+def bentbeam(environment: dict[str, str], *words: str) -> Any:
+    command = [sys.executable, "-m", "comparison.command_line", *words]
+    done = subprocess.run(command, env=environment, capture_output=True, text=True, cwd=ROOT, timeout=300)
+    assert done.returncode == 0, done.stderr
+    return json.loads(done.stdout)
+
+
+def test_match_holds_a_method_from_outside_against_theory(environment: dict[str, str]) -> None:
+    arguments = ("--path", "differences", "--kappa-over-nu", "0.5", "--json")
+    row = bentbeam(environment, "match", *arguments)["rows"][0]
+    assert row["path"] == "differences" and row["label"] == "Finite differences"
+    for name in ("lambda0", "r0"):
+        assert row[name]["value"] == pytest.approx(row[name]["theory"], rel=0.03)
+        assert row[name]["error"] > 0.0
+
+
+def test_simulate_takes_its_settings_and_refusals(environment: dict[str, str], tmp_path: Path) -> None:
+    file = tmp_path / "mine.nc"
+    arguments = ("--path", "differences", "--set", "differences.nodes=60", "--out", str(file), "--json")
+    found = bentbeam(environment, "simulate", "cases/thesis_K10.toml", *arguments)
+    assert file.exists() and found["total_impulse"] is not None
+
+
+def test_methods_file_and_the_rows_of_the_report_know_it(environment: dict[str, str], tmp_path: Path) -> None:
+    file = tmp_path / "mine.toml"
+    file.write_text(fence("toml\n[[method]]").join(["[[method]]\n", ""]), encoding="utf-8")
+    code = (
+        "import json, sys; from pathlib import Path\n"
+        "from comparison.methods import methods_from_file\n"
+        "from comparison.report.rows import report_questions\n"
+        "asked = report_questions(methods_from_file(Path(sys.argv[1])))\n"
+        "print(json.dumps([len(asked), asked[0].method.label, asked[0].method.nodes]))"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", code, str(file)], env=environment, capture_output=True, text=True, timeout=100
+    )
+    assert done.returncode == 0, done.stderr
+    count, label, nodes = json.loads(done.stdout)
+    assert count > 0 and label == "Finite differences, fine" and nodes == 200
