@@ -38,8 +38,8 @@ Array = NDArray[np.float64]
 DATA = Path(__file__).with_name("map.json")
 POINT = 4.0  # κ/ν that stands for ∞: the midspan moment never reaches it (2.7 at most), the beam touches in one point
 KAPPAS = (
-    *(0.05, 0.07, 0.1, 0.125, 0.15, 0.2, 0.25, 0.3, 0.35, 0.4, 0.45, 0.5),
-    *(0.55, 0.6, 0.65, 0.7, 0.75, 0.8, 0.85, 0.9, 0.95, 1.0, 1.1, 1.2, 1.35, 1.5, 1.75, 2.0, 2.5, POINT),
+    *(0.05, 0.07, 0.1, 0.15, 0.2, 0.25, 0.3, 0.4, 0.5),
+    *(0.6, 0.7, 0.8, 0.9, 1.0, 1.2, 1.5, 2.0, POINT),
 )
 DAMPINGS = (1e-4, 3e-4, 1e-3, 3e-3, 1e-2, 3e-2, 1e-1)
 BANDS = (0.05, 0.1, 0.2, 0.35, 0.5, 0.65, 0.8, 1.0, 1.25, 1.5, 2.0, 2.5)
