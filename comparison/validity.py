@@ -14,15 +14,17 @@ from __future__ import annotations
 
 import json
 from collections.abc import Sequence
+from datetime import UTC, datetime
 from functools import cache
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
+from bent_beam.files import write_atomically
 from bent_beam.impact import Impact
+from bent_beam.versions import versions
 from comparison.estimators import Moments, moments
-from comparison.store import write_atomically
 from theory import contact_parameters
 
 __all__ = ["CORRECTIONS", "RATIOS", "add_measured_errors", "draw_validity", "measure", "measured", "measured_error"]
@@ -94,7 +96,14 @@ def write() -> Path:
     table = {
         regime: [{"kappa_over_nu": k, "error": measure(regime, k)} for k in ratios] for regime, ratios in RATIOS.items()
     }
-    write_atomically(DATA, json.dumps({"corrections": CORRECTIONS, "regimes": table}, indent=1) + "\n")
+    about = {
+        "what": "relative error of first-order theory against simulation at relative corrections x, by kappa/nu",
+        "made_by": "python -m comparison.validity",
+        "date": datetime.now(UTC).date().isoformat(),
+        "versions": versions(),
+        "settings": {"path": "self_similar", "loads": LOADS},
+    }
+    write_atomically(DATA, json.dumps(about | {"corrections": CORRECTIONS, "regimes": table}, indent=1) + "\n")
     return DATA
 
 

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import asyncio
 import signal
-from collections.abc import Callable, Sequence
-from concurrent.futures import Future, ProcessPoolExecutor, ThreadPoolExecutor, as_completed
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import CancelledError, Future, ProcessPoolExecutor, ThreadPoolExecutor, as_completed
 from concurrent.futures.process import BrokenProcessPool
 from functools import partial
 from multiprocessing import get_context
@@ -133,6 +134,10 @@ def _alone(function: Callable[..., Any], call: tuple[Any, ...]) -> tuple[bool, A
     return True, None
 
 
+RECONNECT = 120.0  # s that a scheduler may be away before what is left is given up
+RESTARTS = 20  # times in a row that it may come back and go without a single answer
+
+
 def _on_cluster(
     function: Callable[..., Any],
     arguments: Sequence[tuple[Any, ...]],
@@ -140,24 +145,59 @@ def _on_cluster(
     progress: Callable[[int, int], None] | None,
     on_death: Callable[[int, str], Any],
 ) -> list[Any]:
+    """Dask asks again when a worker dies; what it cannot know of, its own scheduler's death, is waited for here."""
     try:
-        from distributed import Client
-        from distributed import as_completed as completed
+        import distributed  # noqa: F401
     except ImportError:
         raise ValueError("scheduler: needs the extra [cluster] (pip install 'bent-beam-impact[cluster]')") from None
     results: dict[int, Any] = {}
-    try:
-        client = Client(scheduler, timeout="10s", set_as_default=False)
-    except (OSError, ValueError) as error:
-        raise ValueError(f"scheduler: none answers at {scheduler} ({error})") from None
-    with client:
-        futures = {client.submit(function, *a, pure=False): i for i, a in enumerate(arguments)}
-        for future in completed(list(futures)):
-            i = futures[future]
-            if future.status == "finished":
-                results[i] = future.result()
-            else:
-                results[i] = on_death(i, f"its worker died or was lost ({future.exception()})")
-            if progress is not None:
-                progress(len(results), len(arguments))
+    idle, patience = 0, 10.0
+    while len(results) < len(arguments) and idle < RESTARTS:
+        left = [i for i in range(len(arguments)) if i not in results]
+        try:
+            found = _answers(function, arguments, left, scheduler, patience)
+            idle += 1
+            for i, died, result in found:
+                results[i] = on_death(i, f"its worker died or was lost ({result})") if died else result
+                idle = 0
+                if progress is not None:
+                    progress(len(results), len(arguments))
+        except (OSError, ValueError) as error:
+            if patience != RECONNECT:
+                raise ValueError(f"scheduler: none answers at {scheduler} ({error})") from None
+            break
+        patience = RECONNECT
+    for i in range(len(arguments)):
+        if i not in results:
+            results[i] = on_death(i, f"the scheduler at {scheduler} went away; ask again and only what is left is done")
     return [results[i] for i in range(len(arguments))]
+
+
+def _answers(
+    function: Callable[..., Any],
+    arguments: Sequence[tuple[Any, ...]],
+    left: Sequence[int],
+    scheduler: str,
+    patience: float,
+) -> Iterator[tuple[int, bool, Any]]:
+    """(i, whether its workers died, result) of the calls ``left``, as they come, until the scheduler goes away.
+
+    Raises ``OSError`` or ``ValueError`` when none answers at the address within ``patience`` s.
+    """
+    from distributed import Client
+    from distributed import as_completed as completed
+
+    # not the default: who asked may use dask, or xarray, for something else
+    with Client(scheduler, timeout=patience, set_as_default=False) as client:
+        futures = {client.submit(function, *arguments[i], pure=False): i for i in left}
+        for future in completed(list(futures), loop=client.loop):
+            if future.status == "finished":
+                try:
+                    result = future.result(timeout=patience)
+                except (OSError, CancelledError, asyncio.CancelledError):  # it went away with the answer: asked again
+                    continue
+                yield futures[future], False, result
+            elif future.status == "error":
+                yield futures[future], True, future.exception()
+            if client.status != "running":
+                return
