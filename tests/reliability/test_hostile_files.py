@@ -5,6 +5,7 @@ import os
 import random
 import subprocess
 import sys
+import zlib
 
 import h5py
 import numpy as np
@@ -53,10 +54,11 @@ def bomb(name, shape):
 
 
 def packed_bomb(data):
-    """A few chunks of 30 MB zeros each, really stored: 240 MB from some kilobytes, six times."""
-    for number in range(6):
-        made = data.create_dataset(f"b{number}", (8, 4_000_000), "f8", chunks=(1, 4_000_000), compression="gzip")
-        made[:] = 0.0
+    """Chunks of 32 MB zeros that are really stored, 384 MB from some kilobytes."""
+    made = data.create_dataset("zeros", (12, 4_000_000), "f8", chunks=(1, 4_000_000), compression="gzip")
+    chunk = zlib.compress(bytes(32_000_000), 1)
+    for number in range(12):
+        made.id.write_direct_chunk((number, 0), chunk)
 
 
 def deep(data):
@@ -126,7 +128,7 @@ HOSTILE = {
 
 
 @pytest.mark.parametrize("name", HOSTILE)
-def test_a_hostile_history_is_refused_before_its_values_are_read(name, good, tmp_path):
+def test_a_hostile_history_is_refused_before_its_values_are_read(name, good, tmp_path, examined_here):
     file = tmp_path / "bad.nc"
     file.write_bytes(good.read_bytes())
     (tmp_path / "x.nc").write_bytes(good.read_bytes())
@@ -136,6 +138,28 @@ def test_a_hostile_history_is_refused_before_its_values_are_read(name, good, tmp
         ImpactHistory.load(file)
     said = str(refused.value)
     assert "\n" not in said and len(said) < 500 and "\x1b" not in said, said
+
+
+def test_a_file_that_hangs_the_library_is_refused(good, tmp_path, monkeypatch):
+    from bent_beam import examination, storage
+
+    forever = tmp_path / "forever.py"
+    forever.write_text(
+        "import resource\nresource.setrlimit(resource.RLIMIT_CPU, (1, 1))\nwhile True:\n    pass\n"
+    )
+    monkeypatch.setattr(examination, "__file__", str(forever))
+    with pytest.raises(ValueError, match="hangs or crashes"):
+        storage.read_dataset(good)
+
+
+def test_what_stands_in_a_file_is_told_by_the_process_apart(good, tmp_path):
+    file = tmp_path / "bad.nc"
+    file.write_bytes(good.read_bytes())
+    ImpactHistory.load(file)
+    with h5py.File(file, "r+") as data:
+        HOSTILE["a soft link for a field"](data)
+    with pytest.raises(ValueError, match="gap is a link to elsewhere"):
+        ImpactHistory.load(file)
 
 
 READ_ALL = """

@@ -148,7 +148,7 @@ CRAFTED = {
 
 
 @pytest.mark.parametrize("name", CRAFTED)
-def test_a_crafted_history_is_refused_in_one_line(name, good, tmp_path):
+def test_a_crafted_history_is_refused_in_one_line(name, good, tmp_path, examined_here):
     file = changed(good, tmp_path, CRAFTED[name])
     code, out, err = command("rerun", file, "--json")
     assert code == 2 and out == "", (code, err)
