@@ -6,6 +6,7 @@ The thesis (Tables 3.2 and 3.3): elements of 0.05 l* growing by 1.25 outside the
 
 from __future__ import annotations
 
+import dataclasses
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -41,8 +42,9 @@ class Noise:
 def noise_methods() -> list[Method]:
     """The thesis's settings, and the same code with everything chosen from the problem."""
     impact = SHOWN[0].impact
+    thesis = thesis_settings(impact, END * impact.time_scale).method()
     return [
-        HermiteFE(label="settings of the thesis", **thesis_settings(impact, END * impact.time_scale).parts()),
+        dataclasses.replace(thesis, label="settings of the thesis"),
         HermiteFE(label="settings of today"),
     ]
 

@@ -87,6 +87,7 @@ def draw_maps(impacts: Sequence[ShownImpact], out: Path) -> list[Path]:
                 axis.grid(False)
         for row, label in enumerate(labels):
             axes[row][0].set_ylabel(f"{label}\n" + r"$\sqrt{\tau}$  (1)")
+        assert mesh is not None  # there is an impact, or nobody would draw
         fig.colorbar(mesh, ax=axes, label=r"reaction per length / ($\mu V_0/t_*$)")
         return style.save(fig, out, "reaction-map")
 

@@ -15,6 +15,7 @@ import pytest
 from comparison.figures.force_map import force_map, spread
 from comparison.report import page as report_module
 from comparison.report.impacts import END, FRAMES, SHOWN, frames, kept_instants, theory_of
+from comparison.report.noise import noise_methods
 from comparison.report.page import page, write_report
 from comparison.report.plots import row_plots
 from comparison.report.rows import (
@@ -297,3 +298,10 @@ def test_sentence_shared_by_studies_is_said_once() -> None:
 def test_studies_of_the_report_have_cases() -> None:
     assert case_of("mesh").impact.kappa_over_nu == pytest.approx(0.5)
     assert case_of("first-order-case").impact.epsilon_alpha == pytest.approx(16.3, rel=1e-2)
+
+
+def test_before_and_after_are_runs_of_one_path_with_two_settings() -> None:
+    before, after = noise_methods()
+    assert before.path == after.path and before.label != after.label
+    assert before.refuses(SHOWN[0].impact) is None
+    assert before.mesh is not None and after.mesh is None  # type: ignore[attr-defined]
