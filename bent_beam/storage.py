@@ -21,7 +21,7 @@ PATIENCE = 120  # s of the clock, beyond the limit of CPU time that ends an exam
 
 def write_dataset(dataset: xr.Dataset, file: Path) -> None:
     """Write netCDF, compressed, whole or not at all. ``OSError`` names the file."""
-    encoding = {v: {"zlib": True, "complevel": 1} for v in dataset.variables if dataset[v].ndim == 2}
+    encoding = {v: {"compression": "gzip", "compression_opts": 1} for v in dataset.variables if dataset[v].ndim == 2}
     content = io.BytesIO()  # HDF5 itself does not survive a full disk: only finished bytes go there
     try:
         dataset.to_netcdf(content, engine="h5netcdf", encoding=encoding)
