@@ -1,0 +1,139 @@
+"""The largest bending moment at leading order, m = M/(V₀√(EIμ)), over κ/ν: theory's curve and simulated points.
+
+``python -m comparison.figures.moment`` measures the points and writes ``docs/figures/peak-moment.png`` with
+``peak-moment.json`` beside it. At leading order the moment is constant in time, so the median over the last decade of a
+run is one measurement of it; early instants, whose front no mesh resolves, overshoot and are left out. Elements cut the
+crest of the wave ahead of the front, first order in their length, so two resolutions are extrapolated.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from bent_beam.history import ImpactHistory, versions
+from bent_beam.impact import Impact
+from bent_beam.method import Method, refined
+from comparison.figures import style
+from comparison.methods import default_methods
+from comparison.reduction import bending_moments
+from comparison.store import write_atomically
+from theory.moment import peak_moment
+
+__all__ = ["KAPPAS", "MeasuredMoment", "draw_moments", "measure_moment", "moment_over_time"]
+
+KAPPAS = (0.05, 0.1, 0.2, 0.5, 0.8, 1.5)
+PATHS = ("hermite", "exudyn")
+END = 0.1  # τ
+INSTANTS = 60
+FOLDER = Path(__file__).resolve().parents[2] / "docs" / "figures"
+
+
+@dataclass(frozen=True)
+class MeasuredMoment:
+    """m extrapolated from two resolutions, its error bar (their difference and the spread in time), and theory's;
+    ``finest`` : m of the finer of both."""
+
+    label: str
+    kappa_over_nu: float
+    value: float
+    error: float
+    theory: float
+    finest: float
+
+
+def moment_over_time(history: ImpactHistory) -> tuple[np.ndarray[Any, Any], np.ndarray[Any, Any]]:
+    """τ and the largest bending moment anywhere over V₀√(EIμ), at the saved instants after the first."""
+    impact = history.impact
+    unit = impact.velocity * np.sqrt(impact.bending_stiffness * impact.mass_per_length)
+    sizes = [np.abs(bending_moments(history, k)[0]).max() for k in range(1, history.time.size)]
+    return history.time[1:] / impact.time_scale, np.array(sizes) / unit
+
+
+def measure_moment(method: Method, kappa_over_nu: float) -> MeasuredMoment:
+    """m of the leading order at κ/ν, from runs at the method's own resolution and at twice.
+
+    Raises ``ValueError`` for a method that does not know how to be refined.
+    """
+    finer = refined(method, 2.0)
+    if finer is None:
+        raise ValueError(f"method: {method.path} does not know how to be refined")
+    coarse, _ = _late_moment(method, kappa_over_nu)
+    fine, spread = _late_moment(finer, kappa_over_nu)
+    return MeasuredMoment(
+        method.label,
+        kappa_over_nu,
+        2.0 * fine - coarse,
+        abs(fine - coarse) + spread,
+        float(peak_moment(kappa_over_nu).largest),
+        fine,
+    )
+
+
+def _late_moment(method: Method, kappa_over_nu: float) -> tuple[float, float]:
+    """Median of m over the last decade of a run, and half its spread there."""
+    impact = Impact.dimensionless(kappa_over_nu)
+    times = np.geomspace(0.1, 1.0, INSTANTS) * END * impact.time_scale
+    history = method.simulate(impact, end_time=float(times[-1]), save=times)
+    tau, m = moment_over_time(history)
+    late = m[tau >= 0.1 * END * (1.0 - 1e-9)]
+    low, high = np.quantile(late, [0.05, 0.95])
+    return float(np.median(late)), float(0.5 * (high - low))
+
+
+def draw_moments(found: Sequence[MeasuredMoment], out: Path, formats: Sequence[str] = ("png",)) -> list[Path]:
+    """``peak-moment``: theory's curve with the points, and their difference in per cent."""
+    marks = style.marks(m.label for m in found)
+    ratio = np.geomspace(0.03, 2.0, 300)
+    theory = peak_moment(ratio)
+    with style.figure(1, 2, width=style.PAGE, height=2.7) as (fig, (left, right)):
+        left.semilogx(ratio, theory.largest, **style.THEORY)
+        left.semilogx(ratio, theory.at_contact, color="black", lw=0.8, ls="--", label="in the contact zone")
+        spreads = ratio < 1.0
+        left.semilogx(ratio[spreads], theory.ahead[spreads], color="black", lw=0.8, ls=":", label="ahead of the zone")
+        right.axhline(0.0, **{**style.THEORY, "label": None})
+        for i, (label, mark) in enumerate(marks.items()):
+            mine = [m for m in found if m.label == label]
+            x = np.array([m.kappa_over_nu for m in mine])
+            left.plot(x, [m.value for m in mine], **mark)
+            right.errorbar(
+                x * 1.04 ** (i - 0.5 * (len(marks) - 1)),
+                [100.0 * (m.value / m.theory - 1.0) for m in mine],
+                yerr=[100.0 * m.error / m.theory for m in mine],
+                elinewidth=0.8,
+                capsize=2,
+                **mark,
+            )
+        for axis in (left, right):
+            axis.set_xlabel(r"$\kappa/\nu$  (1)")
+        left.set_ylabel(r"$M/(V_0\sqrt{EI\mu})$  (1)")
+        right.set_ylabel("difference  (%)")
+        right.set_xscale("log")
+        left.set_ylim(0.0, 1.12)
+        left.legend()
+        right.legend()
+        style.panel_label(left, "(a)")
+        style.panel_label(right, "(b)")
+        return style.save(fig, out, "peak-moment", formats)
+
+
+def _main() -> None:
+    found = [measure_moment(method, kappa) for method in default_methods(PATHS) for kappa in KAPPAS]
+    document = {
+        "made_by": "python -m comparison.figures.moment",
+        "versions": versions(),
+        "points": [asdict(m) for m in found],
+    }
+    write_atomically(FOLDER / "peak-moment.json", json.dumps(document, indent=1) + "\n")
+    for m in found:
+        print(f"{m.label:14s} {m.kappa_over_nu:6g}  {m.value:.5f} ± {m.error:.1g}  theory {m.theory:.5f}")
+    print(*draw_moments(found, FOLDER))
+
+
+if __name__ == "__main__":
+    _main()
