@@ -12,14 +12,17 @@ from matplotlib.axes import Axes
 
 from comparison.figures import style
 from comparison.figures.recorder import Sheet
+from comparison.gallery import chapter3_first_order as first
 from comparison.gallery.base import item
 from comparison.gallery.drawing import THEORY, key_below, one_panel, reaction_and_impulse
 from comparison.gallery.runs import case, reference_runs, thesis, thesis_history
 from comparison.studies.contact_point import MASSES, label_of, what_couples
 from comparison.studies.exact import Exact
+from comparison.studies.first_order_case import FITTED, fitted
 from comparison.studies.outcome import Outcome
 from comparison.studies.panels import contact_length, energy, strain
 from comparison.studies.sentences import number, signed
+from comparison.studies.thesis import THESIS_MASS
 from hermite_fe import CONTACTS
 from hermite_fe.delassus import impact_coupling
 from hermite_fe.masses import ConsistentMass, LumpedMass, Mass
@@ -231,6 +234,43 @@ def coupling(sheet: Sheet) -> str:
         f"with the consistent matrix one at a node at {number(-consistent['node'][0])} V₀. This is the answer to the "
         "thesis's open question (3.3.5)."
     )
+
+
+CANDIDATES = {
+    "consistent (3.1.8)": ConsistentMass(),
+    "r = 1/24: half elements as rods": LumpedMass(1.0 / 24.0),
+    "r = 1/78: diagonal of (3.1.8), scaled (HRZ)": LumpedMass(1.0 / 78.0),
+    "r = 1/105: diagonal of (3.1.8)": THESIS_MASS,
+    "r = 1/420: row sum of the rotations": LumpedMass(1.0 / 420.0),
+}
+"""Mass matrices that the thesis's numbers were tried on; sources in :mod:`hermite_fe.masses.lumped`."""
+
+
+@item(
+    "extra-masses",
+    "Which mass matrix the thesis's numbers ask for",
+    group="coupling",
+    caption=(
+        f"Lift and strain energy at t = 2.5·10⁻⁴ s with contact at nodes and at middles; {SHOWN}. Then the case of "
+        "3.5, contact at nodes, h = 2.5·10⁻⁷ s: lift for a₀ = 0, and λ₁ fitted for a₀ = 700 and −700 m/s²."
+    ),
+)
+def masses(sheet: Sheet) -> str:
+    rows: list[list[object]] = [["thesis", 0.17, 3.8, 1.7, 38.0, 0.41, *FITTED.values()]]
+    for name, mass in CANDIDATES.items():
+        cells: list[object] = [name]
+        for contact in ("node", "middle"):
+            outcome = thesis("", FLAT, DURATION, contact=contact, mass=mass)
+            cells += [1e3 * lift(outcome), float(outcome.strain[-1])]
+        cells.append(1e3 * lift(first.old_outcome(0.0, mass=mass)))
+        cells += [fitted(first.old_outcome(700.0 * sign, mass=mass)) for sign in FITTED]
+        rows.append(cells)
+    sheet.table(
+        ["mass matrix", "node: lift (mm)", "strain (J)", "middle: lift (mm)", "strain (J)", "a₀ = 0: lift (mm)",
+         "λ₁, +", "λ₁, −"],
+        rows,
+    )  # fmt: skip
+    return "λ₁ in m/s^(3/2). The lumped masses with r = 1/105 come closest to all of the printed numbers at once."
 
 
 @item(

@@ -28,7 +28,10 @@ FIGURES = [
     "fig-A.2",
     "fig-A.3",
 ]
-EXTRAS = [f"extra-{n}" for n in ("counts", "uniform", "fine", "conditioning", "signorini", "coupling", "a0-17")]
+EXTRAS = [
+    f"extra-{n}"
+    for n in ("counts", "uniform", "fine", "conditioning", "signorini", "coupling", "masses", "a0-17")
+]
 TABLES = ["table-numbers", "table-3.1", "table-3.2", "table-3.3", "table-3.4"]
 QUICK = ("theory", "diagrams", "statics", "mesh")
 ALL_QUICK = [name for name, i in ITEMS.items() if i.group in QUICK and name != "animation"]
