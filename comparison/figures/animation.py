@@ -82,7 +82,7 @@ def animate(history: ImpactHistory, file: Path | str, *, frames: int = 60, per_s
     shown = impact_frames(history, frames)
     pictures: list[Any] = []
     with style.figure(2, 1, width=4.6, height=4.2, height_ratios=[1.5, 1]) as (fig, axes):
-        scene = _Scene(axes, shown, Exact(history.impact))
+        scene = _Scene(axes, shown, Exact(history.impact), style.mark(history.path))
         for number in range(len(shown)):
             scene.show(number)
             stream = BytesIO()
@@ -104,10 +104,10 @@ def animate(history: ImpactHistory, file: Path | str, *, frames: int = 60, per_s
 
 
 class _Scene:
-    """The artists of the animation, moved from frame to frame."""
+    """The artists of the animation, moved from frame to frame; ``look`` is the mark of the path."""
 
-    def __init__(self, axes: Sequence[Any], frames: Sequence[Frame], exact: Exact) -> None:
-        self.frames, self.exact, last = frames, exact, frames[-1]
+    def __init__(self, axes: Sequence[Any], frames: Sequence[Frame], exact: Exact, look: dict[str, Any]) -> None:
+        self.frames, self.exact, self.look, last = frames, exact, look, frames[-1]
         self.sx, mx = unit(float(last.x[-1]), "m")
         low = 0.6 * float(-last.y.min())
         self.sy, my = unit(low, "m")
@@ -119,11 +119,11 @@ class _Scene:
         top.set_xlabel(f"$x$  ({mx})")
         top.set_ylabel(f"deflection $y$  ({my})")
         (self.free,) = top.plot([], [], color=style.COLOURS["grey"], ls="--", lw=0.9, label="without the wall")
-        (self.beam,) = top.plot([], [], color=style.COLOURS["blue"], lw=1.8, label="beam")
+        (self.beam,) = top.plot([], [], color=look["color"], lw=1.8, label="beam")
         (self.points,) = top.plot(
             [], [], color=style.COLOURS["vermilion"], ls="", marker="v", ms=6, label="contact points"
         )
-        self.clock = top.text(0.99, 0.96, "", transform=top.transAxes, ha="right", va="top")
+        self.clock = top.text(0.5, 0.94, "", transform=top.transAxes, ha="center", va="top")  # the beam is below
         top.legend(loc="lower center", ncols=3, bbox_to_anchor=(0.5, 1.0))
         self._reaction(below, mt)
 
@@ -135,10 +135,8 @@ class _Scene:
         self.sf, mf = unit(largest, "N")
         self.times, self.forces = self.st * times, self.sf * forces
         below.plot(self.times, self.sf * force, **style.THEORY)
-        (self.past,) = below.plot(
-            [], [], color=style.COLOURS["blue"], ls="", marker="o", ms=3.5, mfc="none", label="simulation"
-        )
-        (self.now,) = below.plot([], [], color=style.COLOURS["blue"], ls="", marker="o", ms=6)
+        (self.past,) = below.plot([], [], **{**self.look, "ms": 3.5}, label="simulation")
+        (self.now,) = below.plot([], [], **{**self.look, "ms": 6.0, "mfc": self.look["color"]})
         below.set_xlim(0.0, self.times[-1] * 1.01)
         below.set_ylim(0.0, self.sf * largest)
         below.set_xlabel(f"$t$  ({mt})")
