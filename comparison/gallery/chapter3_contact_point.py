@@ -217,9 +217,11 @@ def coupling(sheet: Sheet) -> str:
         sheet.line(axis, *consistent["node"], series="nodes, consistent", color=blue, marker="s", **look)
         sheet.line(axis, *consistent["middle"], series="middles, consistent", color=red, marker="s", **look)
         sheet.line(axis, *consistent["mean"], series="mean gaps, consistent", color="black", marker="s", **look)
+        crowded = {24.0: (5, -11), 28.0: (0, -11), 32.0: (-22, -10)}  # clear of their neighbours
         for (c, high), n in zip(lumped, ROTARY):
-            below = -11 if n in (24.0, 28.0) else 3  # clear of their neighbours
-            axis.annotate(f"1/{n:g}", (c, high), xytext=(5, below), textcoords="offset points", fontsize=6.5)
+            axis.annotate(
+                f"1/{n:g}", (c, high), xytext=crowded.get(n, (5, 3)), textcoords="offset points", fontsize=6.5
+            )
         axis.axvline(0.0, color=style.COLOURS["grey"], lw=0.6, ls=":")
         axis.set_ylim(0.0, 3.6)
         key_below(fig, axis, 3, fontsize=7.0)
