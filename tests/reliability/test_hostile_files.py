@@ -228,8 +228,8 @@ def mutated(content, numbers):
 
 
 def test_mutated_histories_are_read_or_refused_quickly_and_kill_nothing(good, tmp_path):
-    """Half of the mutations strike the first 16 kB, where HDF5 keeps what it says of the rest. About one file in a
-    hundred hangs or crashes the HDF5 library: those are refused as damaged."""
+    """Half of the mutations strike the first 16 kB, where HDF5 keeps what it says of the rest. About one file in
+    forty hangs or crashes the HDF5 library: those are refused as damaged."""
     numbers, reader = random.Random(f"{SEED} mutated"), Reader()
     content, file = good.read_bytes(), tmp_path / "mutated.nc"
     said, slowest, most, died = [], 0.0, 0, []
