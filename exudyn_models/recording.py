@@ -72,7 +72,7 @@ class Recorder:
         self.wall_y = shape.wall_y
         self.loads = beam.loads()
         self.mass = beam.mass_matrix()
-        self.grid, self.material = beam.damping_matrices()
+        self.grid, self.material = (matrix if abs(matrix).max() else None for matrix in beam.damping_matrices())
         self.upward = np.zeros(self.mass.shape[0])
         self.upward[beam.vertical] = 1.0
         self.record = Record()
@@ -98,7 +98,7 @@ class Recorder:
             raise FloatingPointError("velocities have grown a thousandfold: the integration is unstable")
         force, self.active = self.contact.forces(q, v)
         momenta = self.mass @ v
-        momentum = self.beam.momentum(v)
+        momentum = float(momenta[self.beam.vertical].sum())  # the shape functions of deflections add up to one
         new = _State(q, v, self.mass @ a, momenta, force, q[self.beam.vertical[self.contact.nodes]])
         load = self.loads(t)
         if self.previous is None:
@@ -112,8 +112,10 @@ class Recorder:
             self.algorithmic_loss += float(
                 moved @ (old.inertia + new.inertia) / 2 - mean_v @ (new.momenta - old.momenta)
             )
-            self.grid_loss += float(mean_v @ (self.grid @ moved))
-            self.material_loss += float(mean_v @ (self.material @ moved))
+            if self.grid is not None:
+                self.grid_loss += float(mean_v @ (self.grid @ moved))
+            if self.material is not None:
+                self.material_loss += float(mean_v @ (self.material @ moved))
             self.work += float(moved @ (self.load + load) / 2)
             self.contact_work += float((force + old.force) @ (new.places - old.places) / 2)
             self.load_impulse += float(self.upward @ (self.load + load)) * dt / 2

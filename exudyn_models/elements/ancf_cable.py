@@ -60,11 +60,6 @@ class _Cable(Beam):
     def slope(self, q: Array) -> Array:
         return np.asarray(q[self.rotation] / (1.0 + q[self.horizontal + 2]))
 
-    def momentum(self, v: Array) -> float:
-        y, g, length = v[self.vertical], v[self.rotation], self.lengths
-        sums = length * (y[:-1] + y[1:]) / 2 + length**2 * (g[:-1] - g[1:]) / 12
-        return float(self.section.mass_per_length * sums.sum())
-
     def kinetic_energy(self, v: Array) -> float:
         square = self._field(v, 0, 0) ** 2 + self._field(v, 1, 0) ** 2
         return self.section.mass_per_length * self._integral(square) / 2

@@ -169,10 +169,6 @@ class Beam(ABC):
         """dy/dx at the nodes."""
 
     @abstractmethod
-    def momentum(self, v: Array) -> float:
-        """Momentum along y."""
-
-    @abstractmethod
     def kinetic_energy(self, v: Array) -> float: ...
 
     @abstractmethod

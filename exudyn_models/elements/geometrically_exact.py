@@ -33,10 +33,6 @@ class _Exact(Beam):
     def slope(self, q: Array) -> Array:
         return np.asarray(np.tan(q[self.rotation])) if self.shape.slender else q[self.rotation]
 
-    def momentum(self, v: Array) -> float:
-        y = v[self.vertical]
-        return float(self.section.mass_per_length * (self.lengths * (y[:-1] + y[1:]) / 2).sum())
-
     def _square(self, values: Array) -> Array:
         """∫ of the square of a linearly interpolated field over each element, over its length."""
         a, b = values[:-1], values[1:]

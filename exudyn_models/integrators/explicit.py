@@ -38,6 +38,8 @@ class _Explicit(Integrator):
         settings.timeIntegration.solverType = self.method
         settings.timeIntegration.automaticStepSize = False
         settings.timeIntegration.explicit.computeEndOfStepAccelerations = True  # the energy budget needs them
+        # the contact state at the start of a step serves all of it: a repetition would put Exudyn's own in its place
+        settings.timeIntegration.discontinuous.maxIterations = 1
 
     def segments(self, first: float, unit: float, stable: float) -> list[Segment]:
         step = self.safety * stable
