@@ -19,6 +19,8 @@ Array = NDArray[np.float64]
 DEFAULT_DURATION = 0.1  # τ, the longest time that the thesis computes
 FIRST_SPREAD = 0.005  # T*: measured, from when on a finite beam's impulse is 1 % off the infinite beam's (κ/ν = 0.5)
 GROWTH = 0.01  # neighbours of the chosen mesh: 5 elements over the front's bending length at κ/ν = 0.05, 20 at 0.2
+OF_ZONE, OF_BENDING = 300.0, 30.0  # the smallest element over the front's bound and over the bending ahead of it
+REACH, REACH_OF_FRONT = 12.0, 8.0  # half length to model, see far_field; tests/exudyn_models/test_exudyn_constants.py
 
 
 def far_field(scaling: Scaling) -> float:
@@ -28,7 +30,7 @@ def far_field(scaling: Scaling) -> float:
     Waves of the front's length 2/λ₀ travel ~ 2λ₀ by the end and longer ones less; beyond 12 the kernel H has decayed.
     """
     kappa = scaling.kappa
-    reach = 12.0 + 8.0 * math.sqrt(2.0 / max(kappa, 2e-3))
+    reach = REACH + REACH_OF_FRONT * math.sqrt(2.0 / max(kappa, 2e-3))
     # a growing velocity (χ > 0) or an upward bent end (ψ > 0) would bring the far field to the wall: stay well inside
     spread = kappa - max(scaling.chi, 0.0)
     if scaling.psi > 0.0 and spread > 0.0:
@@ -56,8 +58,7 @@ def chosen_mesh(
         smallest = min(max(front, 0.5) / 25, (2.0 / front) / 10)
         rule = ScaleFreeMesh(smallest * scaling.length * coarsen, 1.0 + 0.02 * coarsen)
     else:
-        # the smallest element: 1/300 of the front's bound, 1/30 of the length over which the beam bends ahead of it
-        smallest = min(front / 300, (2.0 / front) / 30)
+        smallest = min(front / OF_ZONE, (2.0 / front) / OF_BENDING)
         rule = ScaleFreeMesh(smallest * scaling.length * coarsen, 1.0 + GROWTH * coarsen)
     nodes = rule.nodes(chosen_half_length(impact, end_time))
     return NodesMesh(places=tuple(float(place) for place in nodes))

@@ -109,6 +109,10 @@ def test_leading_order_is_met_with_no_setting_elsewhere(kappa_over_nu):
 def test_explicit_integrator_is_stable_at_its_own_step(integrator):
     history = exudyn_models.simulate(HALF, mesh=coarse(HALF, growth=1.04, elements=8), integrator=integrator, save=100)
     assert max(off(history)) < 1e-2
+    budget = history.energy_budget()
+    lost = budget["loss_impact"] + budget["loss_viscous"]
+    # 0.9 % of it: the contact state is frozen for a step; 24 % when Exudyn repeats steps with a state of its own
+    assert abs(budget["defect"]) < 0.03 * lost
 
 
 def test_segment_contact_meets_the_theory_and_friction_changes_nothing_in_the_linear_limit(default):
@@ -118,7 +122,9 @@ def test_segment_contact_meets_the_theory_and_friction_changes_nothing_in_the_li
         assert_allclose(history.array("gap")[0], 0.25 * history.array("x") ** 2, atol=1e-12)
 
 
-@pytest.mark.parametrize(("kappa_over_nu", "elements"), [(0.5, 100), (0.8, 300)])
+@pytest.mark.parametrize(
+    ("kappa_over_nu", "elements"), [(0.5, 100), pytest.param(0.8, 300, marks=pytest.mark.verify)]
+)
 def test_constraints_meet_the_theory_on_a_flat_wall(kappa_over_nu, elements):
     """Nodes are led back to the wall: what is left of their depths would press and pull without end."""
     impact = Impact.dimensionless(kappa_over_nu)
@@ -208,6 +214,7 @@ def test_without_contact_y0_is_the_motion(element):
     assert_allclose(-history.array("gap")[-1], y0, atol=2e-3 if isinstance(element, GeometricallyExact) else 2e-5)
 
 
+@pytest.mark.verify
 def test_first_order_with_all_three_parameters():
     exact = {(4, 0, 0): (5.66465632402, 10.6928065607), (-1, -1, 0): (-1.77288819407, -4.18053010088)}
     for (alpha, psi, chi), (lambda1, r1) in exact.items():

@@ -1,0 +1,71 @@
+"""Constants of the automatic choices: one at a time halved and doubled, none moves λ₀ or r₀ by more than the error bar.
+
+At a κ/ν at which nothing was chosen; the bar is that of ``bentbeam match``, with a companion of half the resolution.
+"""
+
+from __future__ import annotations
+
+import pytest
+
+from bent_beam import Impact
+from comparison.estimators import LeadingEstimate, Moments, leading_order, moments
+from exudyn_models import ExudynModel, resolution
+from exudyn_models.contacts import Penalty, holding
+from exudyn_models.elements import ANCFCable
+from exudyn_models.integrators import GeneralizedAlpha
+
+pytestmark = pytest.mark.verify
+
+IMPACT = Impact.dimensionless(0.33)
+END = 0.1 * IMPACT.time_scale
+
+
+def run(method: ExudynModel) -> Moments:
+    return moments(method.simulate(IMPACT, end_time=END, save=250))
+
+
+@pytest.fixture(scope="module")
+def chosen() -> LeadingEstimate:
+    return leading_order(run(ExudynModel()), companions=[run(ExudynModel().refined(0.5))])
+
+
+def does_not_move(method: ExudynModel, chosen: LeadingEstimate) -> None:
+    found = leading_order(run(method))
+    assert abs(found.lambda0.value - chosen.lambda0.value) < chosen.lambda0.error
+    assert abs(found.r0.value - chosen.r0.value) < chosen.r0.error
+
+
+@pytest.mark.parametrize("factor", [0.5, 2.0])
+@pytest.mark.parametrize(
+    "part",
+    [
+        lambda f: {"contact": Penalty(relative_stiffness=10.0 * f)},
+        lambda f: {"contact": Penalty(relative_damping=3.0 * f)},
+        lambda f: {"element": ANCFCable(viscosity=0.3 * f)},
+        lambda f: {"integrator": GeneralizedAlpha(relative_step=4e-3 * f)},
+        lambda f: {"integrator": GeneralizedAlpha(spectral_radius=0.375 * f)},
+    ],
+    ids=["C", "D", "viscosity", "relative_step", "spectral_radius"],
+)
+def test_a_setting_halved_or_doubled(part, factor: float, chosen: LeadingEstimate) -> None:
+    does_not_move(ExudynModel(**part(factor)), chosen)
+
+
+@pytest.mark.parametrize("factor", [0.5, 2.0])
+@pytest.mark.parametrize(
+    ("module", "name"),
+    [
+        (holding, "START"),
+        (resolution, "GROWTH"),
+        (resolution, "OF_ZONE"),
+        (resolution, "OF_BENDING"),
+        (resolution, "REACH"),
+        (resolution, "REACH_OF_FRONT"),
+    ],
+    ids=lambda x: x if isinstance(x, str) else "",
+)
+def test_a_constant_halved_or_doubled(
+    module, name: str, factor: float, chosen: LeadingEstimate, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(module, name, getattr(module, name) * factor)
+    does_not_move(ExudynModel(), chosen)
