@@ -153,22 +153,23 @@ def _loaded(bare: Impact, epsilon: float, first: First) -> Impact:
     return bare.replace(acceleration=alpha, fourth_derivative=psi, curvature_rate=chi, axial_force=axial)
 
 
-def _reduced(store: RunStore, method: Method, impact: Impact) -> _Reduced:
-    """A run reduced to moments, from the store when it is there."""
+def _reduced(store: RunStore, method: Method, impact: Impact, *, uniform: bool = False) -> _Reduced:
+    """A run reduced to moments, from the store when it is there; ``uniform``: see :func:`moments`. A run without loads
+    that others are held against must be reduced as they are, or what noise they share does not drop out."""
     question = {
         "settings": settings_of(method) | {"label": ""},
         "source": source_of(type(method)),
         "impact": asdict(impact),
         "duration": DURATION,
+        "uniform": uniform,
     }
-    loaded = any((impact.acceleration, impact.fourth_derivative, impact.curvature_rate, impact.axial_force))
 
     def compute() -> dict[str, Any]:
         try:
             history = method.simulate(impact, end_time=DURATION * impact.time_scale, save=INSTANTS)
         except ValueError as error:
             raise Refused(str(error)) from None
-        found = moments(history, uniform=loaded)
+        found = moments(history, uniform=uniform)
         return {
             "moments": {name: values.tolist() for name, values in vars(found).items()},
             "pull": pull_of(history),
@@ -230,7 +231,7 @@ def _estimates(question: Question, factor: float, store: RunStore, epsilon: floa
         largest = _loaded(bare, top, first)
         _ask(method, largest)
         fixed = chosen_for(method, largest, DURATION * bare.time_scale)
-        found = [(s * top, _reduced(store, fixed, _loaded(bare, s * top, first))) for s in (0.0, *SHARES)]
+        found = [(s * top, _reduced(store, fixed, _loaded(bare, s * top, first), uniform=True)) for s in (0.0, *SHARES)]
         runs += [run for _, run in found]
         estimate = first_order([(e, run.moments) for e, run in found[1:]], found[0][1].moments, leading)
     return _Estimates(run, runs, leading, estimate)

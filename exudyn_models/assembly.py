@@ -22,7 +22,8 @@ from exudyn_models.viewer import draw_wall
 
 __all__ = ["assemble", "stable_step"]
 
-STRETCH = 1e-4  # strain under the axial force in the linear limit: lengths are then right to as much
+STRETCH = 1e-4  # largest strain under the axial force in the linear limit: lengths are then right to as much
+TAUT = 1e4  # EAΛ²/EI under it: a strain of N/EA moves the front, too, by 7e-4 of what the force does (λ_N at κ/ν = 0.5)
 
 
 def assemble(
@@ -37,7 +38,7 @@ def assemble(
     if axial is None and true:
         axial_stiffness = 12.0 * (scaling.length / scaling.impact.section_height) ** 2
     elif axial is None:
-        axial_stiffness = max(1.0, abs(scaling.axial_force) / STRETCH)
+        axial_stiffness = max(TAUT, abs(scaling.axial_force) / STRETCH) if scaling.axial_force else 1.0
     else:
         axial_stiffness = axial * scaling.length**2 / scaling.impact.bending_stiffness
     factor = element.viscosity
