@@ -108,7 +108,7 @@ def write_report(
         SHOWN, shown_methods, store=store, jobs=jobs, progress=lambda done, _: count(len(asked) + done)
     )
     noise, lost_noise = compare_noise(store=store, jobs=jobs)
-    files = write_match(rows, out / "data") + draw_work_precision(rows, out / "data")
+    files = write_match(rows, out / "data") + draw_work_precision([r.row for r in convergence_rows(rows)], out / "data")
     files += still_pictures(impacts, noise, out / "data")
     content = Content(
         rows=rows,

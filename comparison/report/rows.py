@@ -35,7 +35,7 @@ PATHS = ("hermite", "self_similar", "exudyn")
 LEADING = (1 / 1600, 1 / 20, 1 / 4, 1 / 2, 0.8)
 MIDDLE = 0.5
 FIRST: tuple[First, ...] = ((4, 0, 0, 0), (-1, -1, 0, 0))  # a pressed zone and a lifting one
-COARSER = (0.25, 0.5)
+COARSER = (0.5,)
 
 
 def report_questions(methods: Sequence[Method] | None = None) -> list[Question]:

@@ -32,7 +32,7 @@ def test_moment_of_a_quick_run_is_that_of_theory_and_steady() -> None:
 
 def test_figure_is_drawn_from_points(tmp_path: Path) -> None:
     exact = {kappa: float(peak_moment(kappa).largest) for kappa in KAPPAS}
-    points = [MeasuredMoment("Hermite", kappa, 1.001 * m, 1e-3, m, m) for kappa, m in exact.items()]
+    points = [MeasuredMoment("Hermite", kappa, 1.001 * m, 1e-3, m) for kappa, m in exact.items()]
     (file,) = draw_moments(points, tmp_path)
     assert file.stat().st_size > 10_000
 
