@@ -127,7 +127,7 @@ class Sheet:
         """A table as picture and CSV. Cells are shown as given (strings) or with four digits (numbers)."""
         self.table_ = _Table([plain(c) for c in columns], rows)
         cells = [[shown(v) for v in row] for row in rows]
-        lengths = [max(len(plain(columns[i])), *(len(row[i]) for row in cells)) for i in range(len(columns))]
+        lengths = [max(len(plain(columns[i])), *(len(row[i]) for row in cells)) + 2 for i in range(len(columns))]
         height = 0.21 * (len(rows) + 1) + 0.12
         with self.figure(width=width, height=height) as (_, axis):
             axis.axis("off")
@@ -181,5 +181,6 @@ def shown(value: Any) -> str:
     if value is None:
         return "–"
     if isinstance(value, (float, np.floating)):
-        return f"{value:.4g}"
+        text = f"{value:.4g}"
+        return f"−{text[1:]}" if text.startswith("-") else text
     return str(value)
