@@ -43,7 +43,17 @@ __all__ = ["ITEMS", "Item", "draw_all", "listing"]
 ITEMS: dict[str, Item] = {name: _REGISTERED[name] for name in sorted(_REGISTERED, key=order)}
 """Items in the order of the thesis."""
 
-LONGEST = ("numbers", "matching", "first-order", "restitution", "contact-point", "mesh-square", "damping", "theory")
+LONGEST = (
+    "matching",
+    "contact-point",
+    "coupling",
+    "numbers",
+    "first-order",
+    "restitution",
+    "theory",
+    "damping",
+    "mesh-square",
+)
 """Groups that take longest, first: so that two processes end together."""
 
 

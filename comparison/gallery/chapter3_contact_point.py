@@ -130,7 +130,7 @@ def lengths(sheet: Sheet) -> str:
     "Nodes and middles: reaction",
     group="contact-point",
     caption=(
-        "Reaction of one side until τ = 0.1, averaged over thirtieths of √t (a, its peaks cut), and its impulse (b), both masses; "
+        "Reaction of one side until τ = 0.1, means over thirtieths of √t (a, peaks cut), impulse (b), both masses; "
         f"{SHOWN}."
     ),
 )

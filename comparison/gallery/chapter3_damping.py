@@ -82,7 +82,7 @@ def bounced_shape(sheet: Sheet) -> str:
     "Restitution: reaction",
     group="restitution",
     caption=(
-        "Reaction of one side until τ = 0.1 for restitution 0 and 1, averaged over thirtieths of √t (a, its peaks cut), "
+        "Reaction of one side until τ = 0.1 for restitution 0 and 1, averaged over thirtieths of √t (a, peaks cut), "
         "and its impulse (b); "
         f"{BOUNCED}."
     ),

@@ -76,7 +76,7 @@ def length(sheet: Sheet) -> str:
     "Element length: reaction",
     group="mesh",
     caption=(
-        "Reaction of one side for several element lengths, averaged over thirtieths of √t (a, its peaks cut), and its impulse (b); "
+        "Reaction of one side for several element lengths, means over thirtieths of √t (a, peaks cut), impulse (b); "
         f"{SHOWN}"
     ),
 )
@@ -251,7 +251,7 @@ def _longest_step(outcome: Outcome) -> float:
     "Square mesh: reaction",
     group="mesh-square",
     caption=(
-        "Reaction of one side until τ = 0.01 on both meshes, averaged over thirtieths of √t (a, its peaks cut), and its impulse (b); "
+        "Reaction of one side until τ = 0.01 on both meshes, means over thirtieths of √t (a, peaks cut), impulse (b); "
         f"{SQUARE}."
     ),
 )

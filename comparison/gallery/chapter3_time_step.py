@@ -64,7 +64,7 @@ def length(sheet: Sheet) -> str:
     "Time step: reaction",
     group="time-step",
     caption=(
-        f"Reaction of one side for several time steps, averaged over thirtieths of √t (a, its peaks cut), and its impulse (b); {SHOWN}"
+        f"Reaction of one side for several time steps, means over thirtieths of √t (a, peaks cut), impulse (b); {SHOWN}"
     ),
 )
 def force(sheet: Sheet) -> str:
