@@ -132,7 +132,7 @@ def energies(sheet: Sheet, axis: Axes, end: float) -> None:
         sheet.line(axis, 1e6 * history.time, energy - energy[0], series=f"nodes, {name}", color=style.COLOURS[colour])
     sheet.line(axis, [0.0, 1e6 * end], [0.0, 0.0], series="theory", **THEORY)
     axis.set_xlim(-0.5, 1e6 * end)
-    axis.legend(fontsize=7, loc="center right")
+    axis.legend(fontsize=7, loc="center right", bbox_to_anchor=(1.0, 0.75))
 
 
 def impulses(sheet: Sheet, axis: Axes, end: float) -> list[float]:
