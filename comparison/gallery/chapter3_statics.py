@@ -154,7 +154,7 @@ def bouncing(sheet: Sheet) -> str:
         key_below(fig, axes[0])
     first = float(height[(times > 0.2) & (times < 0.5)].min())
     where = (
-        "inside the wall: the gap is looked at before the step, where the thesis looks at the predicted one and "
+        "inside the wall: the gap is tested before the step, where the thesis tests the predicted one and "
         "turns above it"
     )
     return (

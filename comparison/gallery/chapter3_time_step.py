@@ -54,7 +54,7 @@ def shape(sheet: Sheet) -> str:
 def length(sheet: Sheet) -> str:
     one_panel(sheet, contact_length, outcomes())
     return (
-        "Steps of the lines are the elements; where a line falls back, the outermost node has let go for a "
+        "Steps of the lines are the elements; where a line falls back, the outermost node is off the wall for a "
         "moment. Read as the thesis does: the first node from outside that touches or has the smallest gap."
     )
 
