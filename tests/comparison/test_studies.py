@@ -130,6 +130,7 @@ def test_shorter_elements_bring_the_reaction_to_theory() -> None:
     assert "conclusion" in result.to_dict() and result.conclusion in result.text()
 
 
+@pytest.mark.verify
 def test_restitution_keeps_energy_and_lifts_more() -> None:
     rows = by_label(run_study("restitution", case(1.0, 0.01)))
     assert rows["restitution 0"]["lost_impact"] > 10.0
@@ -137,6 +138,7 @@ def test_restitution_keeps_energy_and_lifts_more() -> None:
     assert rows["restitution 1"]["lift"] > rows["restitution 0"]["lift"]
 
 
+@pytest.mark.verify
 def test_the_spectral_radius_hardly_matters() -> None:
     rows = by_label(run_study("damping", case(1.0, 0.01)))
     lifts = [rows[f"ρ∞ = {r}"]["lift"] for r in ("1", "0.8", "0.5", "0.2", "0")]
