@@ -18,7 +18,6 @@ from bent_beam.checks import affordable
 from hermite_fe.integrators import Integrator
 from hermite_fe.kernels import subnormals
 from hermite_fe.kernels.banded import is_finite, quadratic, stiff_multiply
-from hermite_fe.kernels.pivoting import CYCLING, NOT_FINITE, SINGULAR, SOLVED
 from hermite_fe.kernels.problem import (
     ABSORBED,
     ALGORITHMIC,
@@ -33,6 +32,7 @@ from hermite_fe.kernels.problem import (
     state_of,
     works_of,
 )
+from hermite_fe.kernels.rows import CYCLING, NOT_FINITE, SINGULAR, SOLVED
 from hermite_fe.system import System
 
 __all__ = ["Stepper", "Trajectory", "integrate", "saved_steps"]

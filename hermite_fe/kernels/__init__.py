@@ -16,8 +16,9 @@ called from Python or from a function of your own under :func:`compiled`.
 from hermite_fe.kernels.banded import combine, dot, multiply, quadratic, stiff_multiply
 from hermite_fe.kernels.contact import force_at, mark_held, row_times, rows_times
 from hermite_fe.kernels.jit import compiled
-from hermite_fe.kernels.pivoting import CYCLING, NOT_FINITE, SINGULAR, SOLVED, solve_rows
+from hermite_fe.kernels.pivoting import solve_rows
 from hermite_fe.kernels.problem import ContactLaw, Problem, State, Work, problem_of, state_of, works_of
+from hermite_fe.kernels.rows import CYCLING, NOT_FINITE, SINGULAR, SOLVED
 from hermite_fe.kernels.stepping import book_step, initial_acceleration, residual_force
 
 __all__ = [

@@ -34,8 +34,9 @@ from numpy.typing import NDArray
 from hermite_fe.kernels.banded import combine, factor, multiply, stiff_multiply
 from hermite_fe.kernels.contact import force_at, mark_held, row_times, rows_times
 from hermite_fe.kernels.jit import compiled, inlined
-from hermite_fe.kernels.pivoting import NOT_FINITE, SINGULAR, SOLVED, solve_rows
+from hermite_fe.kernels.pivoting import solve_rows
 from hermite_fe.kernels.problem import PRODUCT, SMALLEST_REACTION, ContactLaw, Problem, State, Work
+from hermite_fe.kernels.rows import NOT_FINITE, SINGULAR, SOLVED
 from hermite_fe.kernels.stepping import book_step, initial_acceleration, residual_force
 
 Array = NDArray[np.float64]

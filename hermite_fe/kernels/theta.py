@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from hermite_fe.kernels.banded import add, combine, dot, multiply, quadratic, stiff_multiply
 from hermite_fe.kernels.contact import force_at, mark_held, row_times, rows_times
 from hermite_fe.kernels.jit import compiled
-from hermite_fe.kernels.pivoting import NOT_FINITE, SOLVED, solve_rows
+from hermite_fe.kernels.pivoting import solve_rows
 from hermite_fe.kernels.problem import (
     ALGORITHMIC,
     IMPACT,
@@ -31,6 +31,7 @@ from hermite_fe.kernels.problem import (
     State,
     Work,
 )
+from hermite_fe.kernels.rows import NOT_FINITE, SOLVED
 
 Array = NDArray[np.float64]
 

@@ -1,0 +1,145 @@
+"""Compiled pieces of a contact problem's active set: right-hand sides, and which rows have the wrong sign."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hermite_fe.kernels.jit import compiled
+from hermite_fe.kernels.problem import Problem, Work
+
+Array = NDArray[np.float64]
+Flags = NDArray[np.bool_]
+
+SOLVED, SINGULAR, CYCLING, NOT_FINITE = 0, 1, 2, 3
+
+
+@compiled
+def is_slope(dof: int) -> bool:
+    """Deflections and slopes take turns among the dofs, as in :func:`hermite_fe.kernels.banded.row_sums`. (Not an array
+    of :class:`Problem`: to look it up costs a step 1–3 %.)"""
+    return dof % 2 == 1
+
+
+@compiled
+def equation(S: Array, x: Array, right: float, k: int) -> tuple[float, float]:
+    """Equation k of S x less its right-hand side, and the sum of the terms' sizes: round-off is judged against it."""
+    n = x.size
+    term = S[k, 0] * x[k]
+    total, size = term - right, abs(term) + abs(right)
+    for m in range(1, 5):
+        if k >= m:
+            term = S[k, m] * x[k - m]
+            total += term
+            size += abs(term)
+        if k + m < n:
+            term = S[k + m, m] * x[k + m]
+            total += term
+            size += abs(term)
+    return total, size
+
+
+@compiled
+def right_side(
+    S: Array,
+    b: Array,
+    place: NDArray[np.int64],
+    fixed: Flags,
+    switch: NDArray[np.int64],
+    factors: Array,
+    target: Array,
+    closed: Flags,
+    last_row: int,
+    end: int,
+    r: Array,
+) -> None:
+    """Right-hand side of the first ``end`` unknowns, rows 0 … ``last_row`` closed as ``closed`` says."""
+    direct = factors.shape[1] == 1
+    n = r.size
+    for i in range(b.size):
+        k = place[i]
+        if k >= end:
+            break
+        r[k] = 0.0 if fixed[k] else b[i]
+    if not direct:
+        for j in range(last_row + 1):
+            k = switch[j]
+            if k < end:
+                r[k] = target[j] if closed[j] else 0.0
+        return
+    for j in range(last_row + 1):
+        if not closed[j]:
+            continue
+        k = switch[j]
+        if k >= end + 4:
+            break
+        value = target[j] / factors[j, 0]
+        if k < end:
+            r[k] = value
+        if value != 0.0:
+            for m in range(1, 5):
+                if k >= m and k - m < end and not fixed[k - m]:
+                    r[k - m] -= S[k, m] * value
+                if k + m < min(n, end) and not fixed[k + m]:
+                    r[k + m] -= S[k + m, m] * value
+
+
+@compiled
+def largest_in(place: NDArray[np.int64], y: Array, zone: int) -> tuple[float, float]:
+    """Largest deflection and largest slope among the unknowns before ``zone``: of different units, each is round-off's
+    measure for its own kind alone."""
+    deflection, slope = 0.0, 0.0
+    for i in range(place.size):
+        k = place[i]
+        if k >= zone:
+            break
+        if is_slope(i):
+            slope = max(slope, abs(y[k]))
+        else:
+            deflection = max(deflection, abs(y[k]))
+    return deflection, slope
+
+
+@compiled
+def wrong_rows(
+    problem: Problem, work: Work, closed: Flags, first: int, stop: int, zone: int, tolerance: float
+) -> tuple[int, int]:
+    """Mark in work.wrong which of the rows ``first`` … ``stop`` − 1 have the wrong sign, the unknowns before ``zone``
+    known, and put their reactions in work.p. Returns how many are wrong, and the last of them (−1: none)."""
+    dofs, factors, place, switch = problem.dofs, problem.factors, problem.place, problem.switch
+    y, b, r, p, target = work.y, work.b, work.r, work.p, work.target
+    width = factors.shape[1]
+    count, last = 0, -1
+    deflection, slope, measured = 0.0, 0.0, False
+    for j in range(first, stop):
+        bad = False
+        if closed[j]:
+            if width == 1:
+                left, size = equation(work.S, y, b[dofs[j, 0]], switch[j])
+                p[j] = left / factors[j, 0]
+            else:
+                k = place[dofs[j, 0]]
+                _, size = equation(work.S, y, r[k], k)
+                p[j] = -y[switch[j]]
+            bad = not work.held[j] and p[j] < -tolerance * size / abs(factors[j, 0])
+        elif work.candidate[j]:
+            p[j] = 0.0
+            if width == 1:
+                slack = factors[j, 0] * y[dofs[j, 0]] - target[j]
+            else:
+                slack = -target[j]
+                for i in range(width):
+                    slack += factors[j, i] * y[place[dofs[j, i]]]
+            if slack < 0.0:
+                if not measured:
+                    deflection, slope = largest_in(place, y, zone)
+                    measured = True
+                size = abs(target[j])
+                for i in range(width):
+                    size += abs(factors[j, i]) * (slope if is_slope(dofs[j, i]) else deflection)
+                bad = slack < -tolerance * size
+        work.wrong[j] = bad
+        if bad:
+            count += 1
+            last = j
+    return count, last
