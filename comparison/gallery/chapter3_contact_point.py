@@ -174,7 +174,7 @@ def strains(sheet: Sheet) -> str:
         strain(sheet, axes[0], found, theory=False)
         strain(sheet, axes[1], found)
         axes[1].set_yscale("log")
-        axes[1].set_ylim(1.0, 400.0)
+        axes[1].set_ylim(0.1, 400.0)
         for axis, letter in zip(axes, "ab"):
             sheet.panel(axis, letter)
         key_below(fig, axes[1], 3, fontsize=7.0)

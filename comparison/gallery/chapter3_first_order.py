@@ -14,7 +14,7 @@ from comparison.figures import style
 from comparison.figures.recorder import Sheet
 from comparison.gallery.base import item
 from comparison.gallery.drawing import THEORY, key_below
-from comparison.gallery.maps import cell_forces, map_norm, reaction_map
+from comparison.gallery.maps import cell_forces, colour_bar, map_norm, reaction_map
 from comparison.studies import first_order_case as study
 from comparison.studies.outcome import Outcome, outcome_of
 from comparison.studies.panels import contact_length, geometry, reaction
@@ -188,16 +188,16 @@ def all_of_it(sheet: Sheet) -> str:
     return study.conclude([*runs(700.0), *runs(-700.0)])
 
 
-def one_map(sheet: Sheet, acceleration: float) -> float:
-    """Thesis's settings and Hermite with its own choices, one colour scale; returns the largest cell, N."""
+def one_map(sheet: Sheet, acceleration: float) -> None:
+    """Thesis's settings and Hermite with its own choices, one colour scale."""
     histories = (old(acceleration), resolved(acceleration))
     cells = [cell_forces(h) for h in histories]
     norm = map_norm(*cells)
-    with sheet.figure(1, 2, width=style.PAGE, height=3.0, sharey=True) as (_, axes):
+    with sheet.figure(1, 2, width=style.PAGE, height=3.0, sharey=True) as (fig, axes):
         for axis, letter, history, found, name in zip(axes, "ab", histories, cells, (study.OLD, study.FINITE)):
-            reaction_map(sheet, axis, history, found, norm)
+            drawn = reaction_map(sheet, axis, history, found, norm)
             sheet.panel(axis, letter, text=name)
-    return float(norm.vmax or 0.0)
+        colour_bar(fig, axes, drawn)
 
 
 MAP = (

@@ -12,7 +12,7 @@ from comparison.figures import style
 from comparison.figures.recorder import Sheet
 from comparison.gallery.base import item
 from comparison.gallery.drawing import THEORY
-from comparison.gallery.maps import CellForces, cell_forces, map_norm, reaction_map
+from comparison.gallery.maps import CellForces, cell_forces, colour_bar, map_norm, reaction_map
 from comparison.gallery.runs import case, thesis_history
 from comparison.match import THESIS_KAPPAS, MatchRow, match, questions
 from comparison.methods import default_methods
@@ -58,7 +58,7 @@ def matched() -> list[MatchRow]:
     rows = match(asked, store=RunStore(default_store()))
     if not any(r.lambda0.measured for r in rows):
         raise ValueError(rows[0].reason or "no row has a number")
-    return [r for r in rows if r.lambda0.measured]
+    return rows
 
 
 @item(
@@ -145,7 +145,7 @@ def curve_with_points(sheet: Sheet, what: str, symbol: str) -> None:
         )
         sheet.line(below, at, wrong, series="thesis's settings", **grey)
         for name, mark in style.marks(r.label for r in matched()).items():
-            mine = [r for r in matched() if r.label == name]
+            mine = [r for r in matched() if r.label == name and getattr(r, what).measured]
             look = {k: v for k, v in mark.items() if k != "label"}
             x = np.array([r.kappa_over_nu for r in mine])
             y = np.array([getattr(r, what).value for r in mine])
@@ -154,10 +154,10 @@ def curve_with_points(sheet: Sheet, what: str, symbol: str) -> None:
             sheet.line(below, x, 100.0 * (y / t - 1.0), series=name, **look)
         below.axhline(0.0, color="black", lw=0.8)
         below.set_yscale("symlog", linthresh=1e-2, linscale=0.6)
-        ticks = (-10.0, -1.0, -0.1, -0.01, 0.0, 0.01, 0.1, 1.0, 10.0)
+        ticks = (-10.0, -1.0, -0.1, -0.01, 0.0, 0.01, 0.1, 1.0, 10.0, 100.0)
         below.set_yticks(ticks, [f"{v:g}".replace("-", "−") for v in ticks], fontsize=6.5)
         below.set_yticks([], minor=True)
-        below.set_ylim(-60, 60)
+        below.set_ylim(-20, 200)
         top.legend()
         sheet.panel(top, "a")
         sheet.panel(below, "b")
@@ -170,11 +170,14 @@ def _range(name: str) -> str:
 
 
 def _worst(what: str) -> str:
+    """The largest error of each method, and which of its runs have no number."""
     found = []
     for name in dict.fromkeys(r.label for r in matched()):
-        errors = [abs(getattr(r, what).relative()) for r in matched() if r.label == name]
-        if errors:
-            found.append(f"{name} within {number(100.0 * max(errors))} %")
+        mine = [r for r in matched() if r.label == name]
+        errors = [abs(getattr(r, what).relative()) for r in mine if getattr(r, what).measured]
+        missing = ", ".join(f"{r.kappa_over_nu:.3g}" for r in mine if not getattr(r, what).measured)
+        text = f"{name} within {number(100.0 * max(errors))} %" if errors else name
+        found.append(f"{text} (no number at κ/ν = {missing})" if missing else text)
     return ", ".join(found)
 
 
@@ -227,12 +230,14 @@ def reaction_in_space_and_time(sheet: Sheet) -> str:
     cells = [cell_forces(h) for h in histories]
     norm = map_norm(*cells)
     inside = []
-    with sheet.figure(2, 2, width=style.PAGE, height=5.0, sharex=True, sharey=True) as (_, axes):
+    with sheet.figure(2, 2, width=style.PAGE, height=5.0, sharex=True, sharey=True) as (fig, axes):
         for axis, letter, (mass, contact), history, found in zip(axes.flat, "abcd", shown, histories, cells):
-            reaction_map(sheet, axis, history, found, norm)
+            drawn = reaction_map(sheet, axis, history, found, norm)
+            axis.label_outer()
             sheet.panel(axis, letter, text=f"contact at {contact}s, {mass} mass")
             inside.append(share_inside(found, Exact(history.impact)))
-    listed = ", ".join(f"{100 * v:.1f} % ({letter})" for v, letter in zip(inside, "abcd"))
+        colour_bar(fig, axes, drawn)
+    listed = ", ".join(f"{number(100 * v)} % ({letter})" for v, letter in zip(inside, "abcd"))
     return (
         "The reaction is at the moving ends of the contact, as theory and thesis say. Inside nine tenths of the "
         f"zone falls {listed} of the impulse: the noise is in the steps of the front, not behind it."

@@ -33,7 +33,7 @@ def conclude(outcomes: Sequence[Outcome]) -> str:
     text = [
         f"Restitution 1 lifts the zone by {number(lifts[1])} V₀t against {number(lifts[0])} V₀t with 0, and the "
         f"force scatters by {number(full.measures['noise'])} against {number(none.measures['noise'])} %: "
-        + ("0 it must be, as the thesis concludes." if lifts[1] > 1.5 * lifts[0] else "the two hardly differ here.")
+        + ("0 is right, as the thesis concludes." if lifts[1] > 1.5 * lifts[0] else "the two hardly differ here.")
     ]
     lost, kept = none.measures["lost_impact"], full.measures["lost_impact"]
     if lost is not None and kept is not None:
