@@ -64,7 +64,6 @@ def assemble(
         nodes=reachable(shape.s, scaling, centre),
         centre=centre,
         half=half,
-        pulled_off=scaling.impact.zone_pressure < 0.0,
         front=front_bound(scaling.kappa),
         first_spread=FIRST_SPREAD * scaling.impact.slow_time_scale / scaling.end_time,
         explicit=integrator.explicit,

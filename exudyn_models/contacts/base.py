@@ -31,7 +31,7 @@ class Wall:
     """Where and how the beam may touch, in model units.
 
     nodes : numbers of the beam's nodes that may touch, ascending; centre : the node at x = 0;
-    half : only x ≥ 0 is modelled; pulled_off : the load draws the beam off the wall (detached regime);
+    half : only x ≥ 0 is modelled;
     front : rough estimate of where contact ends at the end;
     first_spread : until when (in end times) nothing but the first spread of the zone moves it: waves are back later;
     stiffness_unit, damping_unit : N/m² and N s/m² of the model units.
@@ -40,7 +40,6 @@ class Wall:
     nodes: NDArray[np.int64]
     centre: int
     half: bool
-    pulled_off: bool
     front: float
     first_spread: float
     explicit: bool

@@ -30,7 +30,7 @@ class HeldStrip:
     """
 
     def __init__(self, wall: Wall, hold: int, start: float | None = None) -> None:
-        if wall.explicit or wall.pulled_off or wall.first_spread < 1.0:
+        if wall.explicit or wall.first_spread < 1.0:
             start = start or 0.0
         self.hold = hold
         self.start = min(START if start is None else start, wall.first_spread)

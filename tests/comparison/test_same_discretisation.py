@@ -18,7 +18,7 @@ from hermite_fe.integrators import INTEGRATORS
 def test_nodal_gaps_of_both_codes_agree():
     impact = Impact.dimensionless(0.5, length=10.0)
     mesh, step, end = UniformMesh(0.05), 2e-4, 0.1
-    stiffness, damping = 1e4, 1e2  # per unit length of beam
+    stiffness, damping = 1e4, 1e-3  # per unit length of beam; the codes' dashpots differ, hence next to none
     times = np.linspace(0.0, end, 26)
     ours = hermite_fe.simulate(
         impact,
@@ -45,7 +45,7 @@ def test_nodal_gaps_of_both_codes_agree():
     scale = impact.velocity * ours.time[1:, None]
     difference = np.abs(ours.array("gap")[1:] - theirs.array("gap")[1:]) / scale
     assert ours.array("in_contact").any()
-    assert float(difference.max()) < 1e-5
+    assert float(difference.max()) < 1e-6
 
 
 def test_both_paths_agree_on_a_finite_beam():
