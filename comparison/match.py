@@ -231,7 +231,10 @@ def _estimates(question: Question, factor: float, store: RunStore, epsilon: floa
         largest = _loaded(bare, top, first)
         _ask(method, largest)
         fixed = chosen_for(method, largest, DURATION * bare.time_scale)
-        found = [(s * top, _reduced(store, fixed, _loaded(bare, s * top, first), uniform=True)) for s in (0.0, *SHARES)]
+        # only a load that presses the zone leaves a uniform reaction to take out (tension alone: 0 to rounding)
+        pressed = largest.zone_pressure > 1e-9 * top
+        shares = (0.0, *SHARES)
+        found = [(s * top, _reduced(store, fixed, _loaded(bare, s * top, first), uniform=pressed)) for s in shares]
         runs += [run for _, run in found]
         estimate = first_order([(e, run.moments) for e, run in found[1:]], found[0][1].moments, leading)
     return _Estimates(run, runs, leading, estimate)

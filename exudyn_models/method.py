@@ -24,6 +24,7 @@ from exudyn_models.solvers import SOLVERS, NewtonSolver
 __all__ = ["ExudynModel"]
 
 FIRST_ORDER_HOLD = 16  # elements behind the front; it ends when waves may be back, and every run states it
+FIRST_ORDER_STEPS = 2.0  # so many times shorter steps: λ₁ of (−1, −1, 0) at κ/ν = 0.8 is 5 % off without, 0.4 % with
 
 
 @dataclass(frozen=True)
@@ -110,7 +111,7 @@ class ExudynModel:
             self,
             mesh=mesh.refined(self.refine),
             contact=contact,
-            integrator=integrator.refined(self.refine),
+            integrator=integrator.refined(self.refine * (FIRST_ORDER_STEPS if self.integrator is None else 1.0)),
             refine=1.0,
         )
 
