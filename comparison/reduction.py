@@ -36,7 +36,7 @@ def pull_of(history: ImpactHistory) -> float | None:
     time = history.time
     impulse = np.diff(history.array("impulse"), axis=0)[time[:-1] >= START * time[-1]]
     most = float(impulse.max(initial=0.0))
-    return None if most <= 0.0 else max(-float(impulse.min(initial=0.0)), 0.0) / most
+    return None if most <= 0.0 else abs(float(impulse.min(initial=0.0))) / most
 
 
 def bending_moments(history: ImpactHistory, k: int | slice) -> tuple[Array, Array]:
