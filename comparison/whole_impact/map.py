@@ -74,7 +74,7 @@ def _longer_steps(method: Any) -> Method:
     import dataclasses
 
     refine = getattr(getattr(method, "integrator", None), "refined", None)
-    return method if refine is None else dataclasses.replace(method, integrator=refine(0.25))  # type: ignore[no-any-return]
+    return method if refine is None else dataclasses.replace(method, integrator=refine(0.25))
 
 
 def _kept_point(folder: str | None, path: str, kappa: float, damping: float) -> dict[str, Any]:
