@@ -4,7 +4,8 @@
 
 that is one spring and damper a node, acting on penetration only, which may pull while it does (Exudyn's
 ``ObjectContactCoordinate`` with linear damping). Contact rows must touch one dof each: contact at nodes.
-There is no impact law and no hold; what the rows take in, stored or dissipated, is booked as loss in impacts.
+Measured at κ/ν = 0.5 and 0.1, τ = 0.1: with k = 10⁵, d = 10³ λ₀ is 1.6 and 1.1 % off, with the 10⁷ and 3·10⁴ chosen
+here 0.12 and 0.03 %, with 10⁸ and 10⁵ 0.05 and 0.003 %. There is no impact law and no hold; what the rows take in, stored or dissipated, is booked as loss in impacts.
 """
 
 from __future__ import annotations
@@ -29,9 +30,9 @@ __all__ = ["GeneralizedAlphaPenalty"]
 class GeneralizedAlphaPenalty(Integrator):
     """spectral_radius : ρ∞ ∈ [0, 1].
 
-    stiffness : k_c, N/m per metre of beam (``None``: chosen, 1e5 μ/t*²).
-    damping : d_c, N s/m per metre of beam (``None``: chosen, 1e3 μ/t*).
-    contact_rounds : most re-solutions a step until contact and penetration agree (Exudyn's default).
+    stiffness : k_c, N/m per metre of beam (``None``: chosen, 1e7 μ/t*²).
+    damping : d_c, N s/m per metre of beam (``None``: chosen, 3e4 μ/t*).
+    contact_rounds : most re-solutions a step until contact and penetration agree.
     """
 
     holds: ClassVar[bool] = False
@@ -39,7 +40,7 @@ class GeneralizedAlphaPenalty(Integrator):
     spectral_radius: float = 0.8
     stiffness: float | None = None
     damping: float | None = None
-    contact_rounds: int = 5
+    contact_rounds: int = 20
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -50,12 +51,22 @@ class GeneralizedAlphaPenalty(Integrator):
             non_negative("integrator.damping", self.damping)
         whole("integrator.contact_rounds", self.contact_rounds, 0)
 
+    def refined(self, factor: float) -> GeneralizedAlphaPenalty:
+        """Steps shorter, and the contact stiffer in proportion to their square: a soft penalty is an error like others."""
+        shorter = super().refined(factor)
+        assert isinstance(shorter, GeneralizedAlphaPenalty)
+        return dataclasses.replace(
+            shorter,
+            stiffness=None if self.stiffness is None else self.stiffness * factor**2,
+            damping=None if self.damping is None else self.damping * factor,
+        )
+
     def suited(self, impact: Impact) -> GeneralizedAlphaPenalty:
         mass, time = impact.mass_per_length, impact.time_scale
         return dataclasses.replace(
             self,
-            stiffness=1e5 * mass / time**2 if self.stiffness is None else self.stiffness,
-            damping=1e3 * mass / time if self.damping is None else self.damping,
+            stiffness=1e7 * mass / time**2 if self.stiffness is None else self.stiffness,
+            damping=3e4 * mass / time if self.damping is None else self.damping,
         )
 
     def advance(

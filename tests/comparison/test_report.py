@@ -216,7 +216,8 @@ def test_theory_and_simulation_have_the_same_shape_on_the_timeline(shown_impact:
 
 
 def test_pressed_zone_carries_the_uniform_reaction_of_theory_up_to_the_front() -> None:
-    for label, edge in (("Self-similar", 0.12), ("Hermite", 0.12)):
+    # behind Hermite's front sixteen rows are held under a pressing load: their reactions are imposed one by one
+    for label, edge in (("Self-similar", 0.12), ("Hermite", 0.22)):
         data = shown("pressed", label)
         assert data["pressure"][-1] == pytest.approx(SHOWN[1].pressure, rel=0.02)
         x, force = np.array(data["map"]["x"]), np.array(data["map"]["force"])[-5:].mean(axis=0)

@@ -25,7 +25,7 @@ def test_the_first_order_on_the_way_is_that_of_the_phi_functions(ratio: float, l
 
 @pytest.mark.parametrize("regime", ["continuous", "detached"])
 def test_it_is_what_simulation_finds_the_first_order_to_lack(regime: str) -> None:
-    # measured on the self-similar path for a load α where it changes λ or r by 30 %; third order is below 0.1·0.3³
+    # measured on the self-similar path for a load α where it changes λ or r by 30 %; third order is below 0.12·0.3³
     corrections = measured()["corrections"]
     for row in measured()["regimes"][regime]:
         parameters = contact_parameters(row["kappa_over_nu"], 1.0 if regime == "continuous" else -1.0)
@@ -34,7 +34,7 @@ def test_it_is_what_simulation_finds_the_first_order_to_lack(regime: str) -> Non
         tau = corrections[-1] / slope
         length = abs(found.lambda2) * tau**2 / (parameters.lambda0 + parameters.lambda1 * tau)
         force = abs(found.r2) * tau**2 / (parameters.r0 + parameters.r1 * tau)
-        assert max(length, force) == pytest.approx(row["error"][-1], abs=0.1 * corrections[-1] ** 3)
+        assert max(length, force) == pytest.approx(row["error"][-1], abs=0.12 * corrections[-1] ** 3)
 
 
 def test_tension_at_a_tenth_and_a_fifth() -> None:
