@@ -5,7 +5,8 @@
 that is one spring and damper a node, acting on penetration only, which may pull while it does (Exudyn's
 ``ObjectContactCoordinate`` with linear damping). Contact rows must touch one dof each: contact at nodes.
 Measured at κ/ν = 0.5 and 0.1, τ = 0.1: with k = 10⁵, d = 10³ λ₀ is 1.6 and 1.1 % off, with the 10⁷ and 3·10⁴ chosen
-here 0.12 and 0.03 %, with 10⁸ and 10⁵ 0.05 and 0.003 %. There is no impact law and no hold; what the rows take in, stored or dissipated, is booked as loss in impacts.
+here 0.12 and 0.03 %, with 10⁸ and 10⁵ 0.05 and 0.003 %. There is no impact law and no hold; what the rows take in,
+stored or dissipated, is booked as loss in impacts.
 """
 
 from __future__ import annotations
@@ -52,7 +53,7 @@ class GeneralizedAlphaPenalty(Integrator):
         whole("integrator.contact_rounds", self.contact_rounds, 0)
 
     def refined(self, factor: float) -> GeneralizedAlphaPenalty:
-        """Steps shorter, and the contact stiffer in proportion to their square: a soft penalty is an error like others."""
+        """Steps shorter, the contact stiffer in proportion to their square: a soft penalty is an error like others."""
         shorter = super().refined(factor)
         assert isinstance(shorter, GeneralizedAlphaPenalty)
         return dataclasses.replace(
