@@ -42,10 +42,7 @@ def verdict(case: Case, times: Sequence[float], *, simulate: bool = False) -> di
     prediction = predict(impact, times, section=case.section)
     document = prediction.to_dict()
     document["warnings"] = [*case.warnings, *document["warnings"]]
-    try:
-        bounce = bounce_from_map(impact.kappa_over_nu, impact.relative_damping) if _free(case) else None
-    except FileNotFoundError:  # the map is being measured anew
-        bounce = None
+    bounce = bounce_from_map(impact.kappa_over_nu, impact.relative_damping) if _free(case) else None
     document["bounce"] = None if bounce is None else {name: number.to_dict() for name, number in bounce.items()}
     if simulate:
         document["simulated"] = _simulated(case, times)
