@@ -46,6 +46,9 @@ def first_line(error: pydantic.ValidationError, where: str) -> str:
 def part_from_table(kinds: Mapping[str, type], table: Mapping[str, Any], where: str, default: str | None = None) -> Any:
     """Make the part that ``table["kind"]`` names, its other keys being the part's fields.
 
+    By hand and not as one of pydantic's tagged unions, which would ask every part, somebody else's too, for a field
+    ``kind`` and a configuration that forbids unknown keys.
+
     Raises :class:`InputError` for an unknown kind or key (naming the nearest), a missing field, a wrong type
     or a value that the part refuses.
     """
