@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from io import BytesIO
 from pathlib import Path
 from typing import Any
 
@@ -13,7 +12,7 @@ from numpy.typing import NDArray
 
 from bent_beam.history import ImpactHistory
 from comparison.figures import style
-from comparison.store import write_atomically
+from comparison.figures.gif import frame_of, write_gif
 from comparison.studies.exact import Exact
 from comparison.studies.outcome import Outcome, outcome_of
 from comparison.studies.panels import unit
@@ -77,29 +76,14 @@ def _frame(history: ImpactHistory, outcome: Outcome, time: float, step: float, x
 
 def animate(history: ImpactHistory, file: Path | str, *, frames: int = 60, per_second: int = 15) -> list[Frame]:
     """Write the impact as an animated GIF; returns the frames shown, for a table or a page of one's own."""
-    from PIL import Image
-
     shown = impact_frames(history, frames)
     pictures: list[Any] = []
     with style.figure(2, 1, width=4.6, height=4.2, height_ratios=[1.5, 1]) as (fig, axes):
         scene = _Scene(axes, shown, Exact(history.impact), style.mark(history.path))
         for number in range(len(shown)):
             scene.show(number)
-            stream = BytesIO()
-            fig.savefig(stream, format="png", dpi=110)
-            stream.seek(0)
-            pictures.append(Image.open(stream).convert("P", palette=Image.Palette.ADAPTIVE, colors=64))
-    stream = BytesIO()
-    pictures[0].save(
-        stream,
-        format="GIF",
-        save_all=True,
-        append_images=pictures[1:],
-        duration=1000 // per_second,
-        loop=0,
-        optimize=True,
-    )
-    write_atomically(Path(file), stream.getvalue())
+            pictures.append(frame_of(fig))
+    write_gif(pictures, Path(file), per_second)
     return shown
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from io import BytesIO
 from pathlib import Path
 from typing import Any
 
@@ -13,6 +12,7 @@ from numpy.typing import NDArray
 from bent_beam.history import ImpactHistory
 from comparison.bounce import Bounce, bounce_document
 from comparison.figures import style
+from comparison.figures.gif import frame_of, write_gif
 from comparison.plain import json_text
 from comparison.store import write_atomically
 from comparison.whole_impact.map import stored_map
@@ -165,8 +165,6 @@ def _power(damping: float) -> str:
 
 def animate_bounce(history: ImpactHistory, file: Path, *, frames: int = FRAMES, per_second: int = 18) -> Path:
     """The beam over the wall with the points that push, and the force so far, as an animated GIF."""
-    from PIL import Image
-
     time = history.time / history.impact.slow_time_scale
     end = float(time[-1])
     chosen = [int(np.argmin(np.abs(time - t))) for t in np.linspace(0.0, end, frames)]
@@ -197,19 +195,6 @@ def animate_bounce(history: ImpactHistory, file: Path, *, frames: int = FRAMES, 
             touch.set_data(place[near], np.zeros(int(near.sum())))
             clock.set_text(f"$t/T^*$ = {time[k]:.3f}")
             past.set_xdata([time[k], time[k]])
-            stream = BytesIO()
-            fig.savefig(stream, format="png", dpi=110)
-            stream.seek(0)
-            pictures.append(Image.open(stream).convert("P", palette=Image.Palette.ADAPTIVE, colors=64))
-    stream = BytesIO()
-    pictures[0].save(
-        stream,
-        format="GIF",
-        save_all=True,
-        append_images=pictures[1:],
-        duration=1000 // per_second,
-        loop=0,
-        optimize=True,
-    )
-    write_atomically(file, stream.getvalue())
+            pictures.append(frame_of(fig))
+    write_gif(pictures, file, per_second)
     return file
