@@ -7,6 +7,7 @@ adapters are run under limits. docs/benchmark.md describes both files.
 
 from open_benchmark.problem import Problem, problem, shipped_ids
 from open_benchmark.result import Result, ResultError, load_result
-from open_benchmark.score import Score, score
+from open_benchmark.score import score
+from open_benchmark.verdict import Score
 
 __all__ = ["Problem", "Result", "ResultError", "Score", "load_result", "problem", "score", "shipped_ids"]

@@ -9,17 +9,14 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from open_benchmark.result import Result
+from open_benchmark.verdict import LIMITS, Finding, Score
 
-if TYPE_CHECKING:
-    from open_benchmark.score import Score
-
-__all__ = ["NAMES", "Finding", "diagnose"]
+__all__ = ["NAMES", "diagnose"]
 
 Array = NDArray[np.float64]
 
@@ -37,10 +34,10 @@ NAMES = (
 )
 
 GAINED = 2e-4  # energy gained over JV₀: every passive scheme gains none
-ADHESION = 0.01  # tensile impulse over J, the judge's limit
+ADHESION = LIMITS["adhesive"]  # tensile impulse over J
 PENETRATION = 2e-3  # over V₀τ: five times that of a penalty with ten times the stiffness of the mesh's shortest wave
-SOFT = 0.01
-LIFT = 0.01  # gap in the zone over V₀τ, the judge's limit
+SOFT = LIMITS["leaky"]
+LIFT = LIMITS["lifted"]  # gap in the zone over V₀τ
 NOISE = 8e-4  # residual of the fitted impulse over the impulse
 PASSING = 3.0  # the same from the front's passing from element to element, times (Δx)²
 ELEMENTS = 2.0  # in the front's thickness ℓ at the end of the record, the fewest
@@ -51,19 +48,6 @@ UNSTEADY = 6e-3  # deviation of the lift's logarithm from a straight line over t
 HISS = 4.5e-4  # the noise that tells the same where gaps are reported at too few instants
 FEWEST_SNAPSHOTS = 10
 FEWEST_STEPS = 150  # to the end of the record: a first-order scheme then has lost a per cent
-
-
-@dataclass(frozen=True)
-class Finding:
-    """One fault: its name, the number that shows it, and what to change."""
-
-    name: str
-    evidence: str = ""
-    advice: str = ""
-
-    def to_dict(self) -> dict[str, Any]:
-        """Ready for JSON."""
-        return {"name": self.name, "evidence": self.evidence, "advice": self.advice}
 
 
 @dataclass(frozen=True)

@@ -7,7 +7,7 @@ exact values come from ``theory``; how an estimate is read off J and Jm, with it
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass, field, replace
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -15,76 +15,18 @@ from numpy.typing import NDArray
 
 from comparison.compared import Compared
 from comparison.estimators import Estimate, Moments, first_order, leading_order
-from comparison.plain import plain
 from open_benchmark import doctor
 from open_benchmark.references import Reference, reference
 from open_benchmark.result import Result, ResultError
+from open_benchmark.verdict import LIMITS, MEASURES, Score
 
-__all__ = ["LIMITS", "Score", "invalid", "score", "work_precision"]
+__all__ = ["score", "work_precision"]
 
 Array = NDArray[np.float64]
-
-#: What the judge calls a result beyond (benchmark.md; each about ten times what the best strictly unilateral code shows
-#: on its finest mesh at κ/ν = 0.5): tensile impulse over J, penetration over V₀τ, gap in the zone over V₀τ, noise.
-LIMITS = {"adhesive": 0.01, "leaky": 0.01, "lifted": 0.01, "unsettled": 0.005}
-MEASURES = {"adhesive": "adhesion", "leaky": "penetration", "lifted": "lift", "unsettled": "noise"}
-
-
-@dataclass(frozen=True)
-class Score:
-    """What the judge says of one result; a number is ``None`` where it is not reported or means nothing.
-
-    outcome : the adapter's, with the judge's additions after a comma ("completed, lifted"). reason : one line for
-    anything but "completed". measured : name → value, error bar and exact value. lift, penetration (over V₀τ),
-    adhesion (tensile over whole impulse), noise (residual of the fit over the impulse), energy (shares of J V₀).
-    """
-
-    problem: str
-    outcome: str
-    reason: str | None = None
-    measured: dict[str, Compared] = field(default_factory=dict)
-    lift: float | None = None
-    penetration: float | None = None
-    adhesion: float | None = None
-    noise: float | None = None
-    energy: dict[str, float | None] | None = None
-    diagnosis: tuple[doctor.Finding, ...] = ()
-    metadata: dict[str, Any] = field(default_factory=dict)
-
-    def error(self, name: str) -> float | None:
-        """Relative error of one measured number against its exact value; ``None`` where either is missing."""
-        found = self.measured.get(name)
-        return found.relative() if found is not None and found.theory else None
-
-    @property
-    def seconds(self) -> float | None:
-        """Of the time loop, as the adapter reports them; ``None`` when it does not."""
-        said = self.metadata.get("seconds")
-        if not isinstance(said, int | float) or isinstance(said, bool) or not 0.0 < said < np.inf:
-            return None
-        return float(said)
-
-    def to_dict(self) -> dict[str, Any]:
-        """Ready for JSON: finite numbers or ``None``."""
-        document: dict[str, Any] = {"problem": self.problem, "outcome": self.outcome, "reason": self.reason}
-        for name in dict.fromkeys(("lambda0", "r0", "lambda1", "r1", *self.measured)):
-            document[name] = asdict(self.measured[name]) if name in self.measured else None
-        for name in ("lift", "penetration", "adhesion", "noise"):
-            document[name] = getattr(self, name)
-        document["energy"] = self.energy
-        document["diagnosis"] = [finding.name for finding in self.diagnosis]
-        document["advice"] = [finding.to_dict() for finding in self.diagnosis if finding.name != "clean"]
-        document["metadata"] = self.metadata
-        return dict(plain(document))
 
 
 def _compared(found: Estimate, exact: float | None) -> Compared:
     return Compared(found.value, found.error, exact)
-
-
-def invalid(reason: str, name: str = "") -> Score:
-    """The score of a result that cannot be read."""
-    return Score(problem=name, outcome="invalid", reason=reason)
 
 
 def score(result: Result, base: Result | None = None) -> Score:
