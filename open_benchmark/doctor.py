@@ -178,6 +178,8 @@ def _signs(result: Result) -> Signs:
     root = math.sqrt(asked.end_time)
     place, thickness = speed * root, 2.0 * root / speed
     step = result.model("time_step")
+    if step is not None and step <= 0.0:
+        step = None  # says nothing
     element = growth = half_length = None
     if result.x is not None and result.x.size > 3:
         nodes = np.unique(np.abs(result.x if result.x.ndim == 1 else result.x[-1]))

@@ -11,7 +11,6 @@ from __future__ import annotations
 import csv
 import io
 import json
-import math
 import re
 import zipfile
 from collections.abc import Mapping
@@ -43,6 +42,7 @@ MOST_POINTS = 50_000
 MOST_VALUES = 8_000_000  # of all snapshots together
 MOST_BYTES = 200_000_000
 MOST_TEXT = 200_000
+MOST = 1e100  # of any number: beyond is no unit
 FEWEST = 200  # instants in the fit window
 
 
@@ -75,10 +75,17 @@ class Result:
         """A number that the adapter declares of its model, in l* and t*; ``None`` when it is not reported."""
         for table in (self.metadata.get("model"), self.metadata):
             if isinstance(table, Mapping):
-                value = table.get(name)
-                if isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value):
-                    return float(value)
+                value = plain_number(table.get(name))
+                if value is not None:
+                    return value
         return None
+
+
+def plain_number(value: Any) -> float | None:
+    """A finite number that somebody wrote into JSON; ``None`` for anything else."""
+    if not isinstance(value, int | float) or isinstance(value, bool) or not -MOST <= value <= MOST:
+        return None
+    return float(value)
 
 
 # --- files ---------------------------------------------------------------------------------------------------------
@@ -104,7 +111,9 @@ def load_result(file: str | Path) -> Result:
         if kind == ".npz":
             return result_from_fields(_npz_fields(source))
     except ResultError as error:
-        raise ResultError(f"{source}: {error}") from None
+        said = str(error)
+        beside = said.startswith((f"{source.stem}.csv", f"{source.stem}.json"))  # of a pair, the part that is wrong
+        raise ResultError(str(source.parent / said) if beside else f"{source}: {said}") from None
     except (ValueError, OSError, RecursionError, OverflowError, MemoryError) as error:
         said = _one_line(error)
         raise ResultError(said if said.startswith(str(source)) else f"{source}: {said}") from None
@@ -150,7 +159,7 @@ def _csv_fields(source: Path) -> dict[str, Any]:
         raise ResultError(f"{about.name}: {about.stat().st_size} bytes, {MOST_BYTES} are the most")
     try:
         words = json.loads(about.read_text(encoding="utf-8"))
-    except ValueError as error:
+    except (ValueError, RecursionError) as error:
         raise ResultError(f"{about.name} is not JSON: {_one_line(error)}") from None
     if not isinstance(words, dict):
         raise ResultError(f"{about.name} must hold one JSON object")
@@ -169,7 +178,10 @@ def _columns(table: Path) -> dict[str, Array]:
     if table.stat().st_size > MOST_BYTES:
         raise ResultError(f"{table.name}: {table.stat().st_size} bytes, {MOST_BYTES} are the most")
     allowed = ("tau", *SERIES)
-    rows = csv.reader(io.StringIO(table.read_text(encoding="utf-8-sig")))
+    try:
+        rows = csv.reader(io.StringIO(table.read_text(encoding="utf-8-sig")))
+    except UnicodeDecodeError as error:
+        raise ResultError(f"{table.name} is not UTF-8 text: {_one_line(error)}") from None
     try:
         head = [name.strip() for name in next(rows, [])]
         for name in head:
@@ -263,7 +275,8 @@ def _text(fields: Mapping[str, Any], name: str) -> str:
 def _metadata(fields: Mapping[str, Any]) -> dict[str, Any]:
     try:
         given = fields.get("metadata")
-        found = given if isinstance(given, dict) else json.loads(_text(fields, "metadata"))
+        in_json = given is not None and not isinstance(given, np.ndarray | str | bytes)  # not as a text, as what it is
+        found = given if in_json else json.loads(_text(fields, "metadata"))
         readable = _is_text(json.dumps(found, ensure_ascii=False))
     except ResultError:
         raise
@@ -288,7 +301,7 @@ def _is_text(value: str) -> bool:
 def _numbers(fields: Mapping[str, Any], name: str) -> Array:
     value = fields[name]
     try:
-        array = value if isinstance(value, np.ndarray) else np.asarray(value, dtype=float)
+        array = np.asarray(value)
     except (TypeError, ValueError, OverflowError):
         raise ResultError(f"{name} must hold numbers in rows of one length") from None
     if array.dtype.kind not in "fiu":
@@ -314,7 +327,7 @@ def _series(fields: Mapping[str, Any], name: str, instants: int | None) -> Array
 
 
 def _finite(name: str, array: Array) -> None:
-    bad = ~(np.abs(array) <= 1e100)  # not a number, infinite, or beyond any unit
+    bad = ~(np.abs(array) <= MOST)  # not a number, infinite, or beyond any unit
     if bad.any():
         place = np.unravel_index(int(np.argmax(bad)), array.shape)
         where = ", ".join(str(int(k)) for k in place)
@@ -329,6 +342,10 @@ def _snapshots(fields: Mapping[str, Any]) -> tuple[Array | None, Array | None, A
         if name not in given:
             raise ResultError(f"{name} is missing next to {given[0]}")
     x, when, gap = (_numbers(fields, name) for name in SNAPSHOTS)
+    if when.size == 0 and gap.size == 0:
+        return None, None, None  # an empty list is not reported
+    if gap.size == 0:
+        raise ResultError(f"snap_gap is empty (shape {gap.shape}) for {when.size} instants in snap_tau")
     if when.ndim != 1 or when.size > MOST_SNAPSHOTS:
         raise ResultError(f"snap_tau must have one dimension and at most {MOST_SNAPSHOTS} values (shape {when.shape})")
     if gap.ndim != 2 or gap.shape[0] != when.size or gap.shape[1] > MOST_POINTS:
@@ -337,6 +354,8 @@ def _snapshots(fields: Mapping[str, Any]) -> tuple[Array | None, Array | None, A
         raise ResultError(f"x must have shape ({gap.shape[1]},) or {gap.shape} (got {x.shape})")
     for name, array in zip(SNAPSHOTS, (x, when, gap)):
         _finite(name, array)
+    if when.min() < 0.0:
+        raise ResultError(f"snap_tau must not be negative (got {when.min():g})")
     return x, when, gap
 
 

@@ -47,7 +47,7 @@ def score(result: Result, base: Result | None = None) -> Score:
     try:
         leading = leading_order(moments(bare), window=asked.fit_window[1] / asked.fit_window[0])
     except (ValueError, np.linalg.LinAlgError) as error:
-        return replace(found, outcome="invalid", reason=" ".join(str(error).split()))
+        return replace(found, outcome="invalid", reason=_unfit("J and Jm", error))
     measured: dict[str, Compared] = {}
     if asked.kind != "first" or base is not None:
         measured["lambda0"] = _compared(leading.lambda0, exact["lambda0"])
@@ -60,7 +60,7 @@ def score(result: Result, base: Result | None = None) -> Score:
                 leading,
             )
         except (ValueError, np.linalg.LinAlgError) as error:
-            return replace(found, outcome="invalid", reason=" ".join(str(error).split()))
+            return replace(found, outcome="invalid", reason=_unfit("J and Jm next to their base", error))
         measured["lambda1"] = _compared(change.lambda1, exact["lambda1"])
         measured["r1"] = _compared(change.r1, exact["r1"])
     lift, penetration = _gaps(result, leading.lambda0.value if asked.kind != "point" else 0.0)
@@ -74,6 +74,10 @@ def score(result: Result, base: Result | None = None) -> Score:
         energy=_energy(result),
     )
     return _judged(found, result)
+
+
+def _unfit(fields: str, error: Exception) -> str:
+    return f"{fields}: no estimate can be read off ({' '.join(str(error).split())})"
 
 
 def _bare(result: Result, base: Result | None) -> Result:

@@ -5,10 +5,9 @@ from __future__ import annotations
 from dataclasses import asdict, dataclass, field
 from typing import Any
 
-import numpy as np
-
 from comparison.compared import Compared
 from comparison.plain import plain
+from open_benchmark.result import plain_number
 
 __all__ = ["LIMITS", "MEASURES", "Finding", "Score", "invalid"]
 
@@ -60,10 +59,8 @@ class Score:
     @property
     def seconds(self) -> float | None:
         """Of the time loop, as the adapter reports them; ``None`` when it does not."""
-        said = self.metadata.get("seconds")
-        if not isinstance(said, int | float) or isinstance(said, bool) or not 0.0 < said < np.inf:
-            return None
-        return float(said)
+        said = plain_number(self.metadata.get("seconds"))
+        return said if said is not None and said > 0.0 else None
 
     def to_dict(self) -> dict[str, Any]:
         """Ready for JSON: finite numbers or ``None``."""

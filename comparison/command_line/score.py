@@ -44,8 +44,10 @@ def score(
         try:
             found.append(score_of(load_result(file), reference))
         except ResultError as error:
-            print(f"error: {error}", file=sys.stderr)
             found.append(invalid(str(error)))
+        if found[-1].outcome == "invalid":
+            reason = str(found[-1].reason)
+            print(f"error: {reason if reason.startswith(str(file)) else f'{file}: {reason}'}", file=sys.stderr)
             code = 2
     document: dict[str, Any] = found[0].to_dict()
     if len(found) > 1:

@@ -96,12 +96,56 @@ def test_csv_beside_json_scores_like_npz(tmp_path: Path) -> None:
         ({"J_minus": -np.ones(400)}, "J_minus is the size of the tensile impulse"),
         ({"x": np.zeros(3)}, "snap_tau is missing next to x"),
         ({"x": np.zeros(3), "snap_tau": np.zeros(2), "snap_gap": np.zeros((3, 2))}, "must have shape (2, points)"),
+        ({"x": np.zeros(0), "snap_tau": np.ones(1), "snap_gap": np.zeros((1, 0))}, "snap_gap is empty"),
+        ({"x": np.zeros(1), "snap_tau": -np.ones(1), "snap_gap": np.zeros((1, 1))}, "snap_tau must not be negative"),
     ],
 )
 def test_a_malformed_result_gets_one_line_naming_the_field(tmp_path: Path, changes: dict[str, Any], words: str) -> None:
     with pytest.raises(ResultError) as error:
         load_result(written(tmp_path, **changes))
     assert words in str(error.value) and "\n" not in str(error.value)
+
+
+@pytest.mark.parametrize(
+    ("table", "about", "words"),
+    [
+        ("tau,J,Jm\n0,zero,0\n", "{}", "run.csv, line 2: J is not a number (got 'zero')"),
+        ("this is a letter\n", "{}", "run.csv: 'this is a letter' is not a column"),
+        ("tau,J,Jm\n0,0\n", "{}", "run.csv, line 2: 2 values for 3 columns"),
+        (b"tau,J,Jm\n\xff", "{}", "run.csv is not UTF-8 text"),
+        ("tau,J,Jm\n", "[1, 2]", "run.json must hold one JSON object"),
+        ("tau,J,Jm\n", "[" * 20_000, "run.json is not JSON"),
+        ("tau,J,Jm\n", '{"J": [1, 2]}', "run.json: 'J' is not a field of a result"),
+        ("tau,J,Jm\n", '{"outcome": ["completed"]}', "outcome must be a text"),
+        (
+            "tau,J,Jm\n",
+            '{"outcome": "completed", "problem": "point-2", "metadata": [1]}',
+            "metadata must hold one JSON",
+        ),
+        ("tau,J,Jm\n", '{"outcome": "completed", "problem": "point-2", "metadata": {}}', "tau is empty"),
+    ],
+)
+def test_a_malformed_table_gets_one_line_naming_the_file_once_and_the_field(
+    tmp_path: Path, table: str | bytes, about: str, words: str
+) -> None:
+    (tmp_path / "run.csv").write_bytes(table if isinstance(table, bytes) else table.encode())
+    (tmp_path / "run.json").write_text(about)
+    with pytest.raises(ResultError) as error:
+        load_result(tmp_path / "run.csv")
+    said = str(error.value)
+    assert words in said and "\n" not in said and said.count("run.csv") <= 1
+
+
+@pytest.mark.parametrize("step", [0.0, -1.0, 10**400, None, "short", [1.0]])
+def test_metadata_that_says_nothing_of_the_steps_is_no_error(tmp_path: Path, step: object) -> None:
+    text = json.dumps({"seconds": step, "model": {"time_step": step}})
+    found = score(load_result(written(tmp_path, metadata=text)))
+    assert found.outcome == "completed" and found.seconds is None
+
+
+def test_a_wall_that_never_pushes_is_invalid_and_not_scored(tmp_path: Path) -> None:
+    found = score(load_result(written(tmp_path, J=np.zeros(400))))
+    assert found.outcome == "invalid" and found.measured == {} and "J and Jm" in str(found.reason)
 
 
 class _Bomb:
