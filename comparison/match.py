@@ -232,7 +232,7 @@ def _estimates(question: Question, factor: float, store: RunStore, epsilon: floa
         _ask(method, largest)
         fixed = chosen_for(method, largest, DURATION * bare.time_scale)
         # only a load that presses the zone leaves a uniform reaction to take out (tension alone: 0 to rounding)
-        pressed = largest.zone_pressure > 1e-9 * top
+        pressed = bool(largest.zone_pressure > 1e-9 * top)
         shares = (0.0, *SHARES)
         found = [(s * top, _reduced(store, fixed, _loaded(bare, s * top, first), uniform=pressed)) for s in shares]
         runs += [run for _, run in found]

@@ -86,7 +86,8 @@ class RunStore:
     folder: Path | None
 
     def file(self, question: Mapping[str, Any]) -> Path | None:
-        """Where the answer to ``question`` (JSON-ready) is kept."""
+        """Where the answer to ``question`` (JSON-ready, also where nothing is kept) is kept."""
+        _canonical(dict(question))
         if self.folder is None:
             return None
         key = _digest(_canonical({"question": dict(question), "versions": versions(), "source": source_digest()}))
