@@ -18,12 +18,22 @@ from numpy.typing import NDArray
 from bent_beam.history import ImpactHistory
 from bent_beam.impact import Impact
 
-__all__ = ["LOWEST_PERIOD", "bears_free_flight", "cannot_return", "has_left"]
+__all__ = ["LOWEST_PERIOD", "bears_free_flight", "cannot_return", "has_left", "pushing"]
 
 Array = NDArray[np.float64]
 
 #: Period of the free–free beam's lowest mode over T*: 2π/(4.730/2)².
 LOWEST_PERIOD = 2.0 * math.pi / (4.730040744862704 / 2.0) ** 2
+
+ROUND_OFF = 1e-9
+"""Of the whole impulse: less between two saved instants is no push. A path that takes the impulse from the beam's
+momentum leaves 1e-12 to 1e-10 of it in free flight."""
+
+
+def pushing(impulse: Array) -> NDArray[np.bool_]:
+    """Between which saved instants a wall pushed, of its impulse so far: shape (times − 1,) and, for contact points,
+    (times − 1, contacts)."""
+    return np.diff(impulse, axis=0) > ROUND_OFF * float(np.abs(impulse).max(initial=0.0))
 
 
 def bears_free_flight(impact: Impact) -> bool:
@@ -55,11 +65,11 @@ def has_left(history: ImpactHistory) -> bool:
     """Whether a run ends with the beam off the wall for good: it cannot return, or, where that cannot be told, has not
     pushed for a period of its lowest mode."""
     impact, impulse = history.impact, history.array("total_impulse")
-    pushing = np.flatnonzero(np.diff(impulse) > 0.0)
-    if pushing.size == 0:
+    pushed = np.flatnonzero(pushing(impulse))
+    if pushed.size == 0:
         return False
     if not bears_free_flight(impact):
-        quiet = float(history.time[-1] - history.time[pushing[-1] + 1])
+        quiet = float(history.time[-1] - history.time[pushed[-1] + 1])
         return quiet >= LOWEST_PERIOD * impact.slow_time_scale
     gap = history.array("gap")[-1]
     energy = float(history.array("kinetic_energy")[-1] + history.array("strain_energy")[-1])

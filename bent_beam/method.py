@@ -109,7 +109,15 @@ LONGEST = 8.0  # T*: a beam that then still touches is not about to leave
 
 
 def separation_times(impact: Impact, longest: float | None = None, save: int = 2000) -> NDArray[np.float64]:
-    """Saved instants, s, of a run until separation: ``save`` to a T*, evenly, up to ``longest`` (s; 8 T*)."""
+    """Saved instants, s, of a run until separation: ``save`` to a T*, evenly, up to ``longest`` (s; 8 T*).
+
+    Raises ``ValueError`` between two walls, which no separation is the last of.
+    """
+    if impact.opposite_wall is not None:
+        raise ValueError(
+            f"opposite_wall {impact.opposite_wall!r}: between two walls no separation is the last; leave it out, or "
+            "give an end time"
+        )
     end = LONGEST * impact.slow_time_scale if longest is None else impact.checked_end_time(longest)
     return np.linspace(0.0, end, max(8, round(save * end / impact.slow_time_scale)) + 1)[1:]
 

@@ -21,6 +21,7 @@ from bent_beam.checks import finite
 from bent_beam.history import ImpactHistory, versions
 from bent_beam.impact import Impact
 from bent_beam.method import Method, for_whole_beam, refined, settings_of, simulate_to_separation
+from bent_beam.section import Section
 from comparison.whole_impact.outcome import NUMBERS, SHORTEST_SEPARATION, WholeImpact, whole_impact
 from comparison.workers import run_all
 
@@ -54,6 +55,11 @@ class Number:
         parts = {cause: part * unit for cause, part in self.parts.items()}
         return Number(times(self.value), times(self.error), parts, times(self.mean), times(self.std), self.runs)
 
+    def shifted(self, by: float) -> Number:
+        """The number and a known constant."""
+        moved = {name: None if at is None else at + by for name, at in (("value", self.value), ("mean", self.mean))}
+        return dataclasses.replace(self, **moved)  # type: ignore[arg-type]
+
     def to_dict(self) -> dict[str, Any]:
         """JSON-ready: ``value`` and ``error``, or ``band``; what is missing is null."""
         if self.runs:
@@ -77,6 +83,7 @@ class Bounce:
 
     history : of the run that the values come from (one of the ensemble, for a band); outcome : what it came to.
     settings : of that run's method; seconds : of all runs together; seed : of the ensemble.
+    section : what stresses follow from (``None``: none are given).
     """
 
     impact: Impact
@@ -86,6 +93,17 @@ class Bounce:
     settings: dict[str, Any]
     seconds: float
     seed: int | None = None
+    section: Section | None = None
+
+    @property
+    def peak_stress(self) -> Number | None:
+        """Largest normal stress, Pa, |M|/W + |N|/A at the place and time of the largest moment; ``None`` without a
+        section."""
+        if self.section is None:
+            return None
+        unit = scales(self.impact)["moment"]
+        axial = self.section.stress(0.0, self.impact.axial_force)
+        return self.numbers["peak_moment"].scaled(unit / self.section.section_modulus).shifted(axial)
 
     @property
     def warnings(self) -> list[str]:
@@ -125,6 +143,7 @@ def bounce(
     impact: Impact,
     method: Method,
     *,
+    section: Section | None = None,
     runs: int = RUNS,
     seed: int = SEED,
     save: int = 2000,
@@ -133,14 +152,15 @@ def bounce(
 ) -> Bounce:
     """Follow ``impact`` to its last separation by ``method``, and by what it names to compare with.
 
-    runs, seed : of the ensemble, where the beam has no damping. save : saved instants a T*.
+    section : of the beam, for its stress. runs, seed : of the ensemble, where the beam has no damping.
+    save : saved instants a T*.
     Raises ``ValueError`` for what the method refuses, :class:`bent_beam.SimulationError` when it cannot finish.
     """
     reason = method.refuses(impact)
     if reason is not None:
         raise ValueError(reason)
-    if impact.damping == 0.0 and hasattr(method, "varied"):
-        return _band(impact, method, runs, seed, save, jobs, progress)
+    if impact.damping == 0.0:
+        return _band(impact, method, section, runs, seed, save, jobs, progress)
     checks = _cross_checks(method, impact)
     if progress is not None:
         progress(0, 1 + len(checks))
@@ -165,6 +185,7 @@ def bounce(
         outcome=outcome,
         settings=settings_of(for_whole_beam(method, impact)),
         seconds=history.seconds + sum(seconds for _, seconds in found),
+        section=section,
     )
 
 
@@ -185,10 +206,17 @@ def _number(name: str, outcome: WholeImpact, others: Mapping[str, WholeImpact]) 
 
 
 def _band(
-    impact: Impact, method: Method, runs: int, seed: int, save: int, jobs: int, progress: Progress | None
+    impact: Impact,
+    method: Method,
+    section: Section | None,
+    runs: int,
+    seed: int,
+    save: int,
+    jobs: int,
+    progress: Progress | None,
 ) -> Bounce:
     random = np.random.default_rng(seed)
-    methods = [method.varied(impact, random) for _ in range(runs)]  # type: ignore[attr-defined]
+    methods = [_varied(method, impact, random) for _ in range(runs)]
     found = run_all(
         _outcome,
         [(drawn, impact, save) for drawn in methods[1:]],
@@ -206,7 +234,23 @@ def _band(
         settings=settings_of(for_whole_beam(methods[0], impact)),
         seconds=history.seconds + sum(seconds for _, seconds in found),
         seed=seed,
+        section=section,
     )
+
+
+def _varied(method: Method, impact: Impact, random: np.random.Generator) -> Method:
+    """One of an ensemble; of a path that draws none itself, coarser elements and steps by a random factor."""
+    own = getattr(method, "varied", None)
+    if own is not None:
+        drawn: Method = own(impact, random)
+        return drawn
+    coarser = refined(for_whole_beam(method, impact), 2.0 ** random.uniform(-1.5, -0.5))
+    if coarser is None:
+        raise ValueError(
+            f"damping: without damping of the beam a whole impact is a band, and {method.path} varies neither elements "
+            "nor steps; state a damping"
+        )
+    return coarser
 
 
 def _spread(values: Sequence[float]) -> Number:
@@ -240,7 +284,7 @@ ENERGY = ("translation", "vibration", "dissipated")
 
 def bounce_document(found: Bounce) -> dict[str, Any]:
     """The contract of ``bentbeam bounce --json``."""
-    unit = scales(found.impact)
+    unit, stress = scales(found.impact), found.peak_stress
     document: dict[str, Any] = {
         "kappa_over_nu": found.impact.kappa_over_nu,
         "damping": found.impact.relative_damping,
@@ -250,6 +294,8 @@ def bounce_document(found: Bounce) -> dict[str, Any]:
             name: {**found.numbers[name].scaled(unit[scale]).to_dict(), "unit": text}
             for name, (scale, text) in SI.items()
         },
+        "peak_stress": None if stress is None else {**stress.to_dict(), "unit": "Pa"},
+        "yield_stress": None if found.section is None else found.section.yield_stress,
         "shortest_separation": SHORTEST_SEPARATION,
         "contacts": [list(times) for times in found.outcome.contacts],
         "error_parts": {name: dict(number.parts) for name, number in found.numbers.items()},

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
@@ -17,6 +18,7 @@ from comparison.estimators import Estimate, Moments, leading_order, moments
 from comparison.match import COMPANIONS, INSTANTS
 from comparison.reduction import hold_of, peak_moment, pull_of
 from comparison.text_table import text_table
+from comparison.whole_impact.hits import hits
 from theory import predict
 
 __all__ = ["companions", "run_table", "summary"]
@@ -98,9 +100,15 @@ def summary(
         "peak_stress": None if section is None else section.stress(peak.moment, impact.axial_force),
         "yield_stress": None if section is None else section.yield_stress,
         "energy": energy_at_end(history),
+        "hits": [asdict(hit) for hit in hits(history)] if _hits_apart(impact) else None,
         "warnings": history.warnings,
         "file": None if file is None else str(file),
     }
+
+
+def _hits_apart(impact: Impact) -> bool:
+    """Whether an impact is one of several hits: between two walls, or of a beam that rocks."""
+    return impact.opposite_wall is not None or bool(impact.rotation or impact.first_touch)
 
 
 def _estimated(found: Estimate | None, theory: float | None) -> Compared:
@@ -162,7 +170,16 @@ def run_table(found: dict[str, Any]) -> str:
             f"held: contact points were held until {hold['until']:.3g} s and pulled at most {hold['pull']:.2g} of the "
             "largest push; the gap of the zone up to then is imposed"
         )
+    if found["hits"]:
+        text += ["", _hits_table(found["hits"])]
     text += [f"warning: {w}" for w in found["warnings"]]
     if found["file"]:
         text.append(f"history: {found['file']}")
     return "\n".join(text)
+
+
+def _hits_table(rows: Sequence[dict[str, Any]]) -> str:
+    head = ["hit", "wall", "from, s", "to, s", "mean |x|, m", "impulse, N s", "V after, m/s", "energy, J", "lost, J"]
+    names = ("begin", "end", "place", "impulse", "velocity", "energy", "lost")
+    body = [[str(i), row["wall"], *(f"{row[name]:.5g}" for name in names)] for i, row in enumerate(rows, 1)]
+    return text_table(head, body)

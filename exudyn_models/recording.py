@@ -187,7 +187,10 @@ class Recorder:
             "held_impulse": (("time",), np.array(r.held) * both * s.impulse),
         }
         fields |= {name: (("time",), np.array(values) * both * s.energy) for name, values in energies.items()}
-        place = np.interp(self.contact.contact_s, self.beam.shape.s, self.beam.shape.x)
+        front = self.contact.signs > 0.0
+        if not front.all():
+            fields |= self._of_two_walls(front)
+        place = np.interp(self.contact.contact_s[front], self.beam.shape.s, self.beam.shape.x)
         return ImpactHistory.build(
             path="exudyn",
             symmetry="half" if self.half else "full",
@@ -197,3 +200,14 @@ class Recorder:
             fields=fields,
             **about,
         )
+
+    def _of_two_walls(self, front: NDArray[np.bool_]) -> dict[str, tuple[tuple[str, ...], NDArray[Any]]]:
+        """What the two walls gave, apart; contact points of the ``front`` wall come first, then the opposite's."""
+        impulse = np.array(self.record.impulse) * self.scaling.impulse
+        active = np.array(self.record.active)
+        dims = ("time", "contact")
+        return {
+            "impulse": (dims, impulse[:, front]),
+            "opposite_impulse": (dims, -impulse[:, ~front]),
+            "in_contact": (dims, active[:, front] | active[:, ~front]),
+        }

@@ -53,17 +53,18 @@ def bounce(
         if damping is not None:
             raise InputError(f"--damping {damping!r} goes with --kappa-over-nu; in a case set beam.damping (s)")
         loaded = load_case(case, assignments or ())
-        impact, method = loaded.impact, loaded.method(path)
+        impact, method, section = loaded.impact, loaded.method(path), loaded.section
     else:
         if damping is None:
             raise InputError("--damping is required next to --kappa-over-nu (eta/T*; 0 for none)")
-        impact, method = problem(kappa_over_nu or 0.0, damping), methods_of([path], assignments or ())[0]
+        impact, section = problem(kappa_over_nu or 0.0, damping), None
+        method = methods_of([path], assignments or ())[0]
     if not hasattr(for_whole_beam(method, impact), "for_whole_beam"):
         raise InputError(f"path: {path} has no choices for the whole beam (hermite has)")
     if out is not None:
         check_writable(out, folder=True)
     with Console(quiet).progress(f"{path}: the whole impact") as bar:
-        found = follow(impact, method, runs=runs, seed=seed, jobs=jobs, progress=bar.count)
+        found = follow(impact, method, section=section, runs=runs, seed=seed, jobs=jobs, progress=bar.count)
     document = bounce_document(found)
     if out is not None:
         from comparison.whole_impact.figures import write_bounce

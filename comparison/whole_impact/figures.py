@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from bent_beam.free_flight import pushing
 from bent_beam.history import ImpactHistory
 from comparison.bounce import Bounce, bounce_document
 from comparison.figures import style
@@ -53,7 +54,7 @@ def _force(history: ImpactHistory, end: float) -> tuple[Array, Array]:
 def _contacts(history: ImpactHistory) -> tuple[Array, Array]:
     """Times (T*) and places (x/ℓ, both halves) at which the wall pushed."""
     impact = history.impact
-    k, j = np.nonzero(np.diff(history.array("impulse"), axis=0) > 0.0)
+    k, j = np.nonzero(pushing(history.array("impulse")))
     time = 0.5 * (history.time[:-1] + history.time[1:])[k] / impact.slow_time_scale
     place = history.contact_positions(0)[j] / impact.half_length
     if place.size and place.min() >= 0.0:

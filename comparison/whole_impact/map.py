@@ -1,12 +1,15 @@
 """The map of the whole impact: every number over κ/ν and η/T*, with error bars, stored with where it comes from.
 
-``python -m comparison.whole_impact.map`` measures it on the Hermite path (about five minutes on two cores; rows that
-are done are kept and not run again) and writes ``map.json`` beside this module; :func:`bounce_from_map` interpolates.
-A free–free beam has no other groups as long as it flies without loads: ε drops out, because the problem is homogeneous
-of degree one in the deflection.
+``python -m comparison.whole_impact.map`` measures it (on two cores, in under ten minutes; points that are done are kept
+and not run again) and writes ``map.json`` beside this module; :func:`bounce_from_map` interpolates. A free–free beam
+has no other groups as long as it flies without loads: ε drops out, because the problem is homogeneous of degree one in
+the deflection.
 
-The last column is that of ∞: the midspan moment stays below κ, so the beam touches in one point throughout, whatever κ
-is from there on. Without damping the map holds bands of :data:`comparison.bounce.RUNS` runs.
+Every point is what :func:`comparison.bounce.bounce` says by the Hermite path's own choice for the whole beam, with its
+error bars from elements, steps and contact law; below κ/ν = :data:`FLAT`, where a flat bow lands element by element,
+with elements half as long. The last column is that of ∞: the midspan moment stays below κ, so the beam touches in one
+point throughout, whatever κ is from there on. Without damping the map holds bands of :data:`comparison.bounce.RUNS`
+runs. :data:`OTHERS` are measured by another path, with its own bars.
 """
 
 from __future__ import annotations
@@ -25,7 +28,7 @@ from numpy.typing import NDArray
 
 from bent_beam.checks import finite, non_negative, positive
 from bent_beam.history import versions
-from bent_beam.method import Method, for_whole_beam, method_from_tables
+from bent_beam.method import method_from_tables
 from comparison.bounce import RUNS, SEED, Number, bounce, problem
 from comparison.plain import json_text
 from comparison.store import RunStore, default_store, write_atomically
@@ -43,15 +46,16 @@ KAPPAS = (
 )
 DAMPINGS = (1e-4, 3e-4, 1e-3, 3e-3, 1e-2, 3e-2, 1e-1)
 BANDS = (0.05, 0.1, 0.2, 0.35, 0.5, 0.65, 0.8, 1.0, 1.25, 1.5, 2.0, 2.5)
+PATH, OTHER = "hermite", "exudyn"
+OTHERS = tuple((kappa, damping) for damping in (1e-3, 1e-2) for kappa in (0.4, 0.6, 0.8, 1.0, 1.5, POINT))
+FLAT = 0.35
 SAVED = 2000
 
 
 def measure_point(path: str, kappa: float, damping: float) -> dict[str, Any]:
     """One point of the map: number → [value, error bar], and what it took."""
     impact = problem(kappa, damping)
-    method = method_from_tables(path, {})
-    if damping > 0.0:
-        method = _longer_steps(for_whole_beam(method, impact))
+    method = method_from_tables(path, {"refine": 2.0 if path == PATH and kappa < FLAT and damping > 0.0 else 1.0})
     found = bounce(impact, method, save=SAVED)
     if damping == 0.0:
         bands = {name: [number.mean, number.std] for name, number in found.numbers.items()}
@@ -69,14 +73,6 @@ def measure_point(path: str, kappa: float, damping: float) -> dict[str, Any]:
     }
 
 
-def _longer_steps(method: Any) -> Method:
-    """h = 2Δx²√(μ/EI) where the steps follow from the mesh: a quarter of the work, less of a change than the law."""
-    import dataclasses
-
-    refine = getattr(getattr(method, "integrator", None), "refined", None)
-    return method if refine is None else dataclasses.replace(method, integrator=refine(0.25))
-
-
 def _kept_point(folder: str | None, path: str, kappa: float, damping: float) -> dict[str, Any]:
     store = RunStore(None if folder is None else Path(folder))
     question = {"whole impact": path, "kappa_over_nu": kappa, "damping": damping, "saved": SAVED}
@@ -88,20 +84,18 @@ def _lost(i: int, why: str) -> Any:
 
 
 def measure_map(
-    path: str = "hermite",
-    kappas: Sequence[float] = KAPPAS,
-    dampings: Sequence[float] = DAMPINGS,
+    points: Sequence[tuple[str, float, float]],
     *,
     jobs: int = 1,
     scheduler: str | None = None,
     store: RunStore | None = None,
     progress: Callable[[int, int], None] | None = None,
 ) -> list[dict[str, Any]]:
-    """Measure all points, on cores or a cluster; in the order of ``dampings``, ``kappas``."""
+    """Measure ``points`` (path, κ/ν, η/T*) in their order, on cores or a cluster."""
     folder = None if store is None or store.folder is None else str(store.folder)
     return run_all(
         _kept_point,
-        [(folder, path, kappa, damping) for damping in dampings for kappa in kappas],
+        [(folder, *point) for point in points],
         jobs=jobs,
         scheduler=scheduler,
         progress=progress,
@@ -113,20 +107,20 @@ def write_map(
     rows: Sequence[dict[str, Any]], bands: Sequence[dict[str, Any]], others: Sequence[dict[str, Any]] = ()
 ) -> Path:
     """Write ``map.json``. bands : of the undamped beam; others : points of another path, to draw on the map."""
-    first = rows[0]
     document = {
         "what": "the whole impact of a free-free bent beam, units L/2 = EI = mu = V0 = 1: number -> [value, error bar]",
         "made_by": "python -m comparison.whole_impact.map",
         "date": datetime.datetime.now(datetime.UTC).date().isoformat(),
         "versions": versions(),
-        "settings": first["settings"],
+        "settings": rows[-1]["settings"],
+        "finer": {"kappa_over_nu_below": FLAT, "refine": 2.0},
         "shortest_separation": SHORTEST_SEPARATION,
         "kappa_over_nu": sorted({row["kappa_over_nu"] for row in rows}),
         "damping": sorted({row["damping"] for row in rows}),
-        "seconds": sum(row["seconds"] for row in (*rows, *bands)),
+        "seconds": sum(row["seconds"] for row in (*rows, *bands, *others)),
         "points": [{k: v for k, v in row.items() if k != "settings"} for row in rows],
         "bands": list(bands),
-        "other_paths": list(others),
+        "others": [{k: v for k, v in row.items() if k != "settings"} for row in others],
     }
     write_atomically(DATA, json_text(document, indent=1) + "\n")
     return DATA
@@ -153,7 +147,8 @@ def _grids() -> tuple[Array, Array, dict[str, tuple[Array, Array]]]:
 
 def bounce_from_map(kappa_over_nu: float, damping: float) -> dict[str, Number] | None:
     """Every number of the whole impact at κ/ν and η/T*, interpolated between the map's points; ``None`` off the map
-    (κ/ν < 0.05, η/T* outside 1e-4 … 1e-1). Without damping the band between the nearest bands.
+    (κ/ν < 0.05, η/T* > 1e-1). Without damping, and with less than the map's least (1e-4), which is as irregular, the
+    band between the nearest bands.
 
     The error bar is the largest of the surrounding points', and half of what they differ by, the latter fading
     towards a point: an honest bar for anything that is monotone between neighbours.
@@ -161,10 +156,10 @@ def bounce_from_map(kappa_over_nu: float, damping: float) -> dict[str, Number] |
     kappa = POINT if kappa_over_nu == math.inf else min(positive("kappa_over_nu", kappa_over_nu), POINT)
     kappas, dampings, numbers = _grids()
     damping = non_negative("damping", finite("damping", damping))
-    if damping == 0.0 and kappa >= kappas[0] and stored_map()["bands"]:
-        return _band(kappa)
-    if not (kappas[0] <= kappa and dampings[0] <= damping <= dampings[-1]):
+    if kappa < kappas[0] or damping > dampings[-1]:
         return None
+    if damping < dampings[0]:
+        return _band(kappa)
     j, v = _place(np.log(kappas), math.log(kappa))
     i, u = _place(np.log(dampings), math.log(damping))
     weights = np.array([[(1 - u) * (1 - v), (1 - u) * v], [u * (1 - v), u * v]])
@@ -210,13 +205,14 @@ def _main() -> None:
     def count(done: int, total: int) -> None:
         print(f"\r{done}/{total}", end="", flush=True)
 
-    rows, bands = (
-        measure_map(
-            kappas=kappas, dampings=dampings, jobs=asked.jobs, scheduler=asked.scheduler, store=store, progress=count
-        )
-        for kappas, dampings in ((KAPPAS, DAMPINGS), (BANDS, (0.0,)))
+    grid = [(PATH, kappa, damping) for damping in DAMPINGS for kappa in KAPPAS]
+    bands = [(PATH, kappa, 0.0) for kappa in BANDS]
+    others = [(OTHER, kappa, damping) for kappa, damping in OTHERS]
+    found = measure_map(
+        [*grid, *bands, *others], jobs=asked.jobs, scheduler=asked.scheduler, store=store, progress=count
     )
-    print(write_map(rows, bands))
+    count_of_rows, count_of_bands = len(grid), len(grid) + len(bands)
+    print(write_map(found[:count_of_rows], found[count_of_rows:count_of_bands], found[count_of_bands:]))
 
 
 if __name__ == "__main__":

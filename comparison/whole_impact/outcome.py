@@ -17,7 +17,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from bent_beam.free_flight import has_left
+from bent_beam.free_flight import has_left, pushing
 from bent_beam.history import ImpactHistory
 from comparison.reduction import bending_moments, peak_moment
 
@@ -77,12 +77,12 @@ class WholeImpact:
 
 def pushes(time: Array, impulse: Array, shortest: float) -> list[tuple[int, int]]:
     """Saved instants at which contacts begin and end, separations shorter than ``shortest`` (s) ignored."""
-    pushing = np.flatnonzero(np.diff(impulse) > 0.0)
-    if pushing.size == 0:
+    pushed = np.flatnonzero(pushing(impulse))
+    if pushed.size == 0:
         return []
-    apart = np.flatnonzero(time[pushing[1:]] - time[pushing[:-1] + 1] >= shortest * (1.0 - 1e-9))
-    begin = np.concatenate([pushing[:1], pushing[apart + 1]])
-    end = np.concatenate([pushing[apart], pushing[-1:]]) + 1
+    apart = np.flatnonzero(time[pushed[1:]] - time[pushed[:-1] + 1] >= shortest * (1.0 - 1e-9))
+    begin = np.concatenate([pushed[:1], pushed[apart + 1]])
+    end = np.concatenate([pushed[apart], pushed[-1:]]) + 1
     return [(int(i), int(k)) for i, k in zip(begin, end)]
 
 

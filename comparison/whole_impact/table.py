@@ -34,6 +34,8 @@ def bounce_table(found: Bounce) -> str:
             scale, text = SI[name]
             si = [str(number.scaled(unit[scale])), text]
         rows.append([words, str(number), *si])
+        if name == "peak_moment" and found.peak_stress is not None:
+            rows.append(["largest stress, there and then", "", str(found.peak_stress), "Pa"])
     lines = [
         f"kappa/nu = {impact.kappa_over_nu:.6g}, eta/T* = {impact.relative_damping:.6g}, "
         f"T* = {impact.slow_time_scale:.6g} s; {found.history.steps} steps, {found.seconds:.1f} s for all runs",
