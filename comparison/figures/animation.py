@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from bent_beam.history import ImpactHistory
 from comparison.figures import style
-from comparison.figures.gif import frame_of, write_gif
+from comparison.figures.gif import Film, write_gif
 from comparison.studies.exact import Exact
 from comparison.studies.outcome import Outcome, outcome_of
 from comparison.studies.panels import unit
@@ -80,9 +80,10 @@ def animate(history: ImpactHistory, file: Path | str, *, frames: int = 60, per_s
     pictures: list[Any] = []
     with style.figure(2, 1, width=4.6, height=4.2, height_ratios=[1.5, 1]) as (fig, axes):
         scene = _Scene(axes, shown, Exact(history.impact), style.mark(history.path))
+        film = Film(fig, scene.moving)
         for number in range(len(shown)):
             scene.show(number)
-            pictures.append(frame_of(fig))
+            pictures.append(film.picture())
     write_gif(pictures, Path(file), per_second)
     return shown
 
@@ -110,6 +111,7 @@ class _Scene:
         self.clock = top.text(0.5, 0.94, "", transform=top.transAxes, ha="center", va="top")  # the beam is below
         top.legend(loc="lower center", ncols=3, bbox_to_anchor=(0.5, 1.0))
         self._reaction(below, mt)
+        self.moving = (self.free, self.beam, self.points, self.clock, self.past, self.now)
 
     def _reaction(self, below: Any, mt: str) -> None:
         times = np.array([f.time for f in self.frames])

@@ -13,7 +13,7 @@ from bent_beam.free_flight import pushing
 from bent_beam.history import ImpactHistory
 from comparison.bounce import Bounce, bounce_document
 from comparison.figures import style
-from comparison.figures.gif import frame_of, write_gif
+from comparison.figures.gif import Film, write_gif
 from comparison.plain import json_text
 from comparison.store import write_atomically
 from comparison.whole_impact.map import stored_map
@@ -190,12 +190,13 @@ def animate_bounce(history: ImpactHistory, file: Path, *, frames: int = FRAMES, 
         below.set_ylabel(r"force  ($\mu\ell V_0/T^*$)")
         below.stairs(force, edges, fill=True, color="#E4E4E4", lw=0.0)
         past = below.axvline(0.0, color=style.COLOURS["blue"], lw=1.2)
+        film = Film(fig, (beam, touch, clock, past))
         for k, (x, y) in zip(chosen, shapes):
             beam.set_data(x, y)
             near = np.abs(when - time[k]) <= 0.5 * end / frames
             touch.set_data(place[near], np.zeros(int(near.sum())))
             clock.set_text(f"$t/T^*$ = {time[k]:.3f}")
             past.set_xdata([time[k], time[k]])
-            pictures.append(frame_of(fig))
+            pictures.append(film.picture())
     write_gif(pictures, file, per_second)
     return file
