@@ -9,7 +9,8 @@ from bent_beam.impact import Impact
 
 if TYPE_CHECKING:
     from bent_beam.cases import Case, load_case
-    from bent_beam.history import ImpactHistory, SimulationError
+    from bent_beam.errors import SimulationError
+    from bent_beam.history import ImpactHistory
     from bent_beam.method import Method
     from bent_beam.parts import InputError
 

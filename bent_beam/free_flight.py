@@ -11,6 +11,7 @@ L³/(105 EI) being the compliance of the beam's end with its rigid motion taken 
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,7 +19,7 @@ from numpy.typing import NDArray
 from bent_beam.history import ImpactHistory
 from bent_beam.impact import Impact
 
-__all__ = ["LOWEST_PERIOD", "bears_free_flight", "cannot_return", "has_left", "pushing"]
+__all__ = ["LOWEST_PERIOD", "Departure", "bears_free_flight", "cannot_return", "has_left", "pushing"]
 
 Array = NDArray[np.float64]
 
@@ -76,6 +77,40 @@ def has_left(history: ImpactHistory) -> bool:
     return bool(gap.min() > 0.0) and cannot_return(
         impact, history.positions(-1), gap, history.array("velocity")[-1], energy
     )
+
+
+class Departure:
+    """Says in the course of a run when the beam is off the wall for good: it cannot return, or, where that cannot be
+    told, it has not pushed for a period of its lowest mode."""
+
+    def __init__(self, impact: Impact) -> None:
+        self.impact = impact
+        self.told = bears_free_flight(impact)
+        self.impulse = 0.0
+        self.since = 0.0
+
+    def __call__(
+        self,
+        time: float,
+        impulse: float,
+        state: Callable[[], tuple[Array, Array, Array, float]],
+        *,
+        closed: bool = False,
+    ) -> bool:
+        """Whether the beam has left at ``time`` (s), asked at increasing times.
+
+        impulse : of the pushes so far, N s. closed : whether a contact point is closed, pushing or not.
+        state : gives x, gap, velocity and energy as :func:`cannot_return` takes them; called where they matter.
+        """
+        if closed or impulse > self.impulse:
+            self.impulse, self.since = impulse, time
+            return False
+        if impulse == 0.0:
+            return False
+        if not self.told:
+            return time - self.since >= LOWEST_PERIOD * self.impact.slow_time_scale
+        x, gap, velocity, energy = state()
+        return bool(gap.min() > 0.0) and cannot_return(self.impact, x, gap, velocity, energy)
 
 
 def _rigid(x: Array, field: Array, half: bool) -> tuple[float, float]:

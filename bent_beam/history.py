@@ -39,12 +39,11 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from bent_beam.checks import one_of, shortened
-from bent_beam.errors import SimulationError
 from bent_beam.impact import Impact
 from bent_beam.storage import read_dataset, write_dataset
 from bent_beam.versions import versions
 
-__all__ = ["ImpactHistory", "SimulationError", "versions"]
+__all__ = ["ImpactHistory", "versions"]
 
 Array = NDArray[np.float64]
 

@@ -31,6 +31,7 @@ __all__ = [
     "Save",
     "chosen_for",
     "for_whole_beam",
+    "made_of",
     "method_from_tables",
     "method_type",
     "paths",
@@ -148,6 +149,11 @@ def simulate_to_separation(
         if end >= last or has_left(history):
             return history
         end = min(2.0 * end, last)
+
+
+def made_of(method: Any) -> dict[str, Any]:
+    """What a method is made of, by name: all its fields but the label, as they are."""
+    return {f.name: getattr(method, f.name) for f in dataclasses.fields(method) if f.name != "label"}
 
 
 def settings_of(method: Any) -> dict[str, Any]:

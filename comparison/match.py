@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from bent_beam.checks import finite, one_of, positive
-from bent_beam.history import SimulationError
+from bent_beam.errors import SimulationError
 from bent_beam.impact import Impact
 from bent_beam.method import Method, chosen_for, refined, settings_of
 from comparison.compared import MISSING, Compared

@@ -7,19 +7,19 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import ClassVar
 
-from bent_beam.checks import positive
 from bent_beam.history import ImpactHistory
 from bent_beam.impact import Impact
-from bent_beam.meshes import MESHES, Mesh
-from bent_beam.method import Save
+from bent_beam.meshes import MESHES
+from bent_beam.method import Save, made_of
 from exudyn_models import whole_beam
+from exudyn_models.composition import Composition
 from exudyn_models.contacts import CONTACTS, Contact, Penalty
 from exudyn_models.elements import ELEMENTS, Element
-from exudyn_models.geometry import GEOMETRIES, Geometry
+from exudyn_models.geometry import GEOMETRIES
 from exudyn_models.integrators import INTEGRATORS, Integrator
 from exudyn_models.resolution import chosen_mesh
 from exudyn_models.simulation import refusal, simulate
-from exudyn_models.solvers import SOLVERS, NewtonSolver
+from exudyn_models.solvers import SOLVERS
 
 __all__ = ["ExudynModel"]
 
@@ -28,7 +28,7 @@ FIRST_ORDER_STEPS = 2.0  # so many times shorter steps: λ₁ of (−1, −1, 0)
 
 
 @dataclass(frozen=True)
-class ExudynModel:
+class ExudynModel(Composition):
     """Exudyn's cable or beam elements with contact against a rigid ground.
 
     mesh, element, integrator, contact, geometry, solver : parts; ``None``: chosen from the problem.
@@ -47,20 +47,7 @@ class ExudynModel:
         "solver": SOLVERS,
     }
 
-    mesh: Mesh | None = None
-    element: Element | None = None
-    integrator: Integrator | None = None
-    contact: Contact | None = None
-    geometry: Geometry | None = None
-    solver: NewtonSolver | None = None
-    full_beam: bool = False
-    refine: float = 1.0
     label: str = "Exudyn"
-
-    def __post_init__(self) -> None:
-        if not isinstance(self.full_beam, bool):
-            raise ValueError(f"full_beam must be true or false (got {self.full_beam!r})")
-        positive("refine", self.refine)
 
     def refuses(self, impact: Impact) -> str | None:
         """Why this method cannot take ``impact`` (``None``: it can)."""
@@ -81,20 +68,7 @@ class ExudynModel:
         progress: Callable[[float], None] | None = None,
     ) -> ImpactHistory:
         """Follow ``impact`` to ``end_time`` (s); see :func:`exudyn_models.simulate`."""
-        return simulate(
-            impact,
-            end_time=end_time,
-            mesh=self.mesh,
-            element=self.element,
-            integrator=self.integrator,
-            contact=self.contact,
-            geometry=self.geometry,
-            solver=self.solver,
-            full_beam=self.full_beam,
-            refine=self.refine,
-            save=save,
-            progress=progress,
-        )
+        return simulate(impact, end_time=end_time, save=save, progress=progress, **made_of(self))
 
     def chosen_for(self, impact: Impact, end_time: float) -> ExudynModel:
         """A copy with mesh, steps and hold chosen for ``impact``: other impacts then run on the same ones."""
@@ -129,7 +103,3 @@ class ExudynModel:
     ) -> ImpactHistory:
         """Follow ``impact`` until the beam has left for good (:func:`bent_beam.method.simulate_to_separation`)."""
         return whole_beam.simulate_to_separation(self, impact, longest=longest, save=save, progress=progress)
-
-    def refined(self, factor: float) -> ExudynModel:
-        """A copy with elements and steps ``factor`` times finer."""
-        return dataclasses.replace(self, refine=self.refine * factor)

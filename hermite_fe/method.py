@@ -9,23 +9,23 @@ from typing import ClassVar
 
 import numpy as np
 
-from bent_beam.checks import positive
 from bent_beam.history import ImpactHistory
 from bent_beam.impact import Impact
-from bent_beam.meshes import MESHES, Mesh
-from bent_beam.method import Save
+from bent_beam.meshes import MESHES
+from bent_beam.method import Save, made_of
 from hermite_fe import auto, whole_beam
-from hermite_fe.contacts import CONTACTS, Contact, NodeContact
-from hermite_fe.far_fields import FAR_FIELDS, FarField, GridViscosity
-from hermite_fe.integrators import INTEGRATORS, Integrator
-from hermite_fe.masses import MASSES, Mass
+from hermite_fe.composition import Composition
+from hermite_fe.contacts import CONTACTS, NodeContact
+from hermite_fe.far_fields import FAR_FIELDS, GridViscosity
+from hermite_fe.integrators import INTEGRATORS
+from hermite_fe.masses import MASSES
 from hermite_fe.simulate import cut, off_centre, refusal, simulate
 
 __all__ = ["HermiteFE"]
 
 
 @dataclass(frozen=True)
-class HermiteFE:
+class HermiteFE(Composition):
     """Hermite beam elements with unilateral contact and a nonsmooth time integrator, on a fixed mesh.
 
     mesh, integrator, contact, far_field, mass : parts; ``None``: chosen from the problem (:mod:`hermite_fe.auto`).
@@ -47,22 +47,7 @@ class HermiteFE:
         "mass": MASSES,
     }
 
-    mesh: Mesh | None = None
-    integrator: Integrator | None = None
-    contact: Contact | None = None
-    far_field: FarField | None = None
-    mass: Mass | None = None
-    full_beam: bool = False
-    domain: float | None = None
-    refine: float = 1.0
     label: str = "Hermite"
-
-    def __post_init__(self) -> None:
-        if not isinstance(self.full_beam, bool):
-            raise ValueError(f"full_beam must be true or false (got {self.full_beam!r})")
-        positive("refine", self.refine)
-        if self.domain is not None:
-            positive("domain", self.domain)
 
     def refuses(self, impact: Impact) -> str | None:
         """Why this method cannot take ``impact``, naming the field (``None``: it can)."""
@@ -82,20 +67,7 @@ class HermiteFE:
         whole beam.
         """
         chosen = self.for_whole_beam(impact) if off_centre(impact) or impact.opposite_wall is not None else self
-        return simulate(
-            impact,
-            end_time=end_time,
-            mesh=chosen.mesh,
-            integrator=chosen.integrator,
-            contact=chosen.contact,
-            far_field=chosen.far_field,
-            mass=chosen.mass,
-            full_beam=chosen.full_beam,
-            domain=chosen.domain,
-            refine=chosen.refine,
-            save=save,
-            progress=progress,
-        )
+        return simulate(impact, end_time=end_time, save=save, progress=progress, **made_of(chosen))
 
     def chosen_for(self, impact: Impact, end_time: float) -> HermiteFE:
         """A copy with every open part chosen for ``impact``: other impacts then run on the same mesh and steps.
@@ -158,7 +130,3 @@ class HermiteFE:
     ) -> ImpactHistory:
         """Follow ``impact`` until the beam has left for good (:func:`bent_beam.method.simulate_to_separation`)."""
         return whole_beam.simulate_to_separation(self, impact, longest=longest, save=save, progress=progress)
-
-    def refined(self, factor: float) -> HermiteFE:
-        """A copy with elements and steps ``factor`` times finer."""
-        return dataclasses.replace(self, refine=self.refine * factor)

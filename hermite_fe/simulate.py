@@ -9,7 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bent_beam.checks import positive
-from bent_beam.history import ImpactHistory, SimulationError
+from bent_beam.errors import SimulationError
+from bent_beam.history import ImpactHistory
 from bent_beam.impact import Impact
 from bent_beam.meshes import Mesh
 from bent_beam.parts import describe

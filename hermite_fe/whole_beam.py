@@ -14,15 +14,16 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Callable
-from typing import TYPE_CHECKING
+from typing import TypeVar
 
 import numpy as np
 
-from bent_beam.free_flight import LOWEST_PERIOD, bears_free_flight, cannot_return
+from bent_beam.free_flight import Departure
 from bent_beam.history import ImpactHistory
 from bent_beam.impact import Impact
 from bent_beam.meshes import UniformMesh
-from bent_beam.method import separation_times
+from bent_beam.method import made_of, separation_times
+from hermite_fe.composition import Composition
 from hermite_fe.contacts import NodeContact
 from hermite_fe.far_fields import GridViscosity
 from hermite_fe.integrators import MoreauJean, SignoriniPosition
@@ -30,15 +31,13 @@ from hermite_fe.model import BeamModel
 from hermite_fe.run import Stepper
 from hermite_fe.simulate import off_centre, simulate
 
-if TYPE_CHECKING:
-    from hermite_fe.method import HermiteFE
-
 __all__ = ["ELEMENTS", "cross_checks", "simulate_to_separation", "varied", "with_parts_for_whole_beam"]
 
 ELEMENTS = 200  # of a half beam
+C = TypeVar("C", bound=Composition)
 
 
-def with_parts_for_whole_beam(method: HermiteFE, impact: Impact) -> HermiteFE:
+def with_parts_for_whole_beam(method: C, impact: Impact) -> C:
     """A copy of ``method`` whose open parts are those of the module's head; its ``refine`` is worked in."""
     mesh = UniformMesh(impact.half_length / ELEMENTS) if method.mesh is None else method.mesh
     mesh = mesh.refined(method.refine)
@@ -61,7 +60,7 @@ def with_parts_for_whole_beam(method: HermiteFE, impact: Impact) -> HermiteFE:
     )
 
 
-def cross_checks(method: HermiteFE, impact: Impact) -> dict[str, HermiteFE]:
+def cross_checks(method: C, impact: Impact) -> dict[str, C]:
     """What stands beside ``method`` for error bars, by cause: half as many elements (and steps in proportion to their
     square), steps twice as long, and the impact law of another scheme."""
     chosen = with_parts_for_whole_beam(method, impact)
@@ -80,7 +79,7 @@ def cross_checks(method: HermiteFE, impact: Impact) -> dict[str, HermiteFE]:
     }
 
 
-def varied(method: HermiteFE, impact: Impact, random: np.random.Generator) -> HermiteFE:
+def varied(method: C, impact: Impact, random: np.random.Generator) -> C:
     """A method for an ensemble: elements, steps and impact law drawn at random.
 
     Moreau–Jean with θ = ½ throughout, which keeps the energy between impacts.
@@ -97,33 +96,8 @@ def varied(method: HermiteFE, impact: Impact, random: np.random.Generator) -> He
     )
 
 
-class _Left:
-    """Says when the beam is off the wall for good: it cannot come back, or, where that cannot be told, it has not
-    pushed for one period of its lowest mode."""
-
-    def __init__(self, impact: Impact) -> None:
-        self.impact = impact
-        self.told = bears_free_flight(impact)
-        self.impulse = 0.0
-        self.since = 0.0
-
-    def __call__(self, model: BeamModel, run: Stepper) -> bool:
-        time, impulse = float(run.instants[run.step]), float(run.state.impulse.sum())
-        if impulse > self.impulse or np.any(run.state.closed):
-            self.impulse, self.since = impulse, time
-            return False
-        if impulse == 0.0:
-            return False
-        if not self.told:
-            return time - self.since >= LOWEST_PERIOD * self.impact.slow_time_scale
-        gap = model.gap(run.state.q)
-        if gap.min() <= 0.0:
-            return False
-        return cannot_return(self.impact, model.beam.nodes, gap, run.state.v[0::2], model.copies * run.energy())
-
-
 def simulate_to_separation(
-    method: HermiteFE,
+    method: Composition,
     impact: Impact,
     *,
     longest: float | None = None,
@@ -131,18 +105,16 @@ def simulate_to_separation(
     progress: Callable[[float], None] | None = None,
 ) -> ImpactHistory:
     """Run ``impact`` until the beam has left the wall for good; see :func:`bent_beam.method.simulate_to_separation`."""
-    chosen = with_parts_for_whole_beam(method, impact)
-    times = separation_times(impact, longest, save)
-    return simulate(
-        impact,
-        end_time=float(times[-1]),
-        mesh=chosen.mesh,
-        integrator=chosen.integrator,
-        contact=chosen.contact,
-        far_field=chosen.far_field,
-        mass=chosen.mass,
-        full_beam=chosen.full_beam,
-        save=times,
-        progress=progress,
-        until=_Left(impact),
-    )
+    times, left = separation_times(impact, longest, save), Departure(impact)
+
+    def until(model: BeamModel, run: Stepper) -> bool:
+        state = run.state
+        return left(
+            float(run.instants[run.step]),
+            float(state.impulse.sum()),
+            lambda: (model.beam.nodes, model.gap(state.q), state.v[0::2], model.copies * run.energy()),
+            closed=bool(np.any(state.closed)),
+        )
+
+    parts = made_of(with_parts_for_whole_beam(method, impact))
+    return simulate(impact, end_time=float(times[-1]), save=times, progress=progress, until=until, **parts)

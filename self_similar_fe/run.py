@@ -37,7 +37,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bent_beam.checks import affordable, whole
-from bent_beam.history import ImpactHistory, SimulationError
+from bent_beam.errors import SimulationError
+from bent_beam.history import ImpactHistory
 from bent_beam.impact import Impact
 from bent_beam.parts import describe
 from self_similar_fe.mesh import ExpandingMesh

@@ -11,7 +11,7 @@ from comparison.command_line.console import Console
 from comparison.command_line.options import CaseFile, Json, Overwrite, Quiet, Set, check_out, emit, path_names
 
 if TYPE_CHECKING:
-    from bent_beam.history import SimulationError
+    from bent_beam.errors import SimulationError
 
 __all__ = ["simulate"]
 
@@ -39,7 +39,7 @@ def simulate(
     Example: bentbeam simulate cases/thesis_K10.toml --path exudyn --set exudyn.integrator.kind=newmark
     """
     from bent_beam.cases import load_case
-    from bent_beam.history import SimulationError
+    from bent_beam.errors import SimulationError
     from bent_beam.method import simulate_to_separation
     from bent_beam.parts import InputError
     from comparison.summary import companions, run_table, summary

@@ -19,7 +19,7 @@ from hashlib import sha256
 from pathlib import Path
 from typing import Any
 
-from bent_beam.history import SimulationError
+from bent_beam.errors import SimulationError
 from comparison.figures.recorder import Sheet
 from comparison.store import source_digest, write_atomically
 

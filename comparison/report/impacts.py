@@ -11,7 +11,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from bent_beam.history import ImpactHistory, SimulationError
+from bent_beam.errors import SimulationError
+from bent_beam.history import ImpactHistory
 from bent_beam.impact import Impact
 from bent_beam.method import Method, chosen_for, settings_of
 from comparison.estimators import moments

@@ -20,7 +20,8 @@ from typing import Any
 from PIL import Image
 
 from bent_beam.cases import Case, case_from_tables
-from bent_beam.history import SimulationError, versions
+from bent_beam.errors import SimulationError
+from bent_beam.history import versions
 from comparison.store import write_atomically
 from comparison.workers import run_all
 

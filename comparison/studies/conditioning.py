@@ -20,7 +20,7 @@ from scipy.sparse import block_array, csc_array, dia_array
 from scipy.sparse.linalg import LinearOperator, norm, onenormest, splu
 
 from bent_beam.cases import Case
-from bent_beam.history import SimulationError
+from bent_beam.errors import SimulationError
 from bent_beam.meshes import GradedMesh
 from comparison.figures import style
 from comparison.figures.recorder import Sheet

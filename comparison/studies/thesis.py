@@ -17,7 +17,8 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from bent_beam.history import ImpactHistory, SimulationError
+from bent_beam.errors import SimulationError
+from bent_beam.history import ImpactHistory
 from bent_beam.impact import Impact
 from bent_beam.meshes import GradedMesh, Mesh, UniformMesh
 from bent_beam.method import Method, Save
