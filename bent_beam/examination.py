@@ -30,14 +30,19 @@ RATIO = 20  # of all values to the size of the file, beyond that: numbers of a s
 FILTERS = {h5py.h5z.FILTER_DEFLATE, h5py.h5z.FILTER_SHUFFLE, h5py.h5z.FILTER_FLETCHER32}
 OF_NETCDF = {"DIMENSION_LIST", "REFERENCE_LIST"}  # references between variables and their dimensions, no text
 CPU_SECONDS = 4
+LIBRARIES = 600_000_000  # bytes of memory besides the values
 BYTES_A_SECOND = 20_000_000  # a large file may take longer
+
+
+def allowed(size: int) -> int:
+    """Bytes of all values that a file of ``size`` bytes may hold."""
+    return max(LARGEST_PACKED, min(LARGEST, RATIO * size))
 
 
 def examine(file: Path) -> None:
     """Raise ``ValueError`` for anything in ``file`` that a history does not hold; read all of the rest once."""
-    size = file.stat().st_size
     with h5py.File(file, "r") as content:
-        _check_content(content, max(LARGEST_PACKED, min(LARGEST, RATIO * size)))
+        _check_content(content, allowed(file.stat().st_size))
         for name in content:
             content[name][()]
 
@@ -110,8 +115,10 @@ def main() -> int:
     try:
         import resource
 
-        seconds = CPU_SECONDS + file.stat().st_size // BYTES_A_SECOND
+        size = file.stat().st_size
+        seconds, memory = CPU_SECONDS + size // BYTES_A_SECOND, LIBRARIES + allowed(size)
         resource.setrlimit(resource.RLIMIT_CPU, (seconds, seconds))
+        resource.setrlimit(resource.RLIMIT_DATA, (memory, memory))
         resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
     except ImportError:  # not on Windows: the caller's clock is the only limit there
         pass

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import asyncio
 import signal
+import threading
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import CancelledError, Future, ProcessPoolExecutor, ThreadPoolExecutor, as_completed
 from concurrent.futures.process import BrokenProcessPool
+from contextlib import contextmanager
 from functools import partial
-from multiprocessing import get_context
+from multiprocessing import active_children, get_context
 from typing import Any
 
 from bent_beam.checks import positive, whole
@@ -84,8 +86,9 @@ def _on_cores(
 
     suspects = _together(function, list(enumerate(arguments)), jobs, done)
     # A worker that dies takes down its pool and all that waited in it: each of those again, in a pool of its own.
-    with ThreadPoolExecutor(max_workers=jobs) as watchers:
-        alone = {watchers.submit(_alone, function, arguments[i]): i for i in suspects}
+    stopped = threading.Event()
+    with ThreadPoolExecutor(max_workers=jobs) as watchers, workers_end_with_us(stopped):
+        alone = {watchers.submit(_alone, function, arguments[i], stopped): i for i in suspects}
         for watcher in as_completed(alone):
             i = alone[watcher]
             died, result = watcher.result()
@@ -101,37 +104,65 @@ def _together(
 ) -> list[int]:
     """All calls in one pool; returns those that were unfinished when a worker died."""
     # spawn: a fresh interpreter a worker, so no thread or lock of this process is inherited half-way
-    with ProcessPoolExecutor(max_workers=min(jobs, len(calls)), mp_context=get_context("spawn")) as pool:
+    context = get_context("spawn")
+    with ProcessPoolExecutor(max_workers=min(jobs, len(calls)), mp_context=context) as pool, workers_end_with_us():
         futures: dict[Future[Any], int] = {}
         broken = []
-        for i, call in calls:
-            try:
-                futures[pool.submit(function, *call)] = i
-            except BrokenProcessPool:
-                broken.append(i)
-        try:
-            for future in as_completed(futures):
+        with interrupts_held():
+            for i, call in calls:
                 try:
-                    result = future.result()
+                    futures[pool.submit(function, *call)] = i
                 except BrokenProcessPool:
-                    broken.append(futures[future])
-                else:
-                    done(futures[future], result)
-        except BaseException:
-            pool.shutdown(wait=False, cancel_futures=True)
-            raise
+                    broken.append(i)
+        for future in as_completed(futures):
+            try:
+                result = future.result()
+            except BrokenProcessPool:
+                broken.append(futures[future])
+            else:
+                done(futures[future], result)
     return sorted(broken)
 
 
-def _alone(function: Callable[..., Any], call: tuple[Any, ...]) -> tuple[bool, Any]:
+def _alone(function: Callable[..., Any], call: tuple[Any, ...], stopped: threading.Event) -> tuple[bool, Any]:
     """One call in a process of its own, tried twice: (died, result)."""
     for _ in range(2):
+        if stopped.is_set():
+            break
         with ProcessPoolExecutor(max_workers=1, mp_context=get_context("spawn")) as pool:
             try:
-                return False, pool.submit(function, *call).result()
+                with interrupts_held():
+                    future = pool.submit(function, *call)
+                return False, future.result()
             except BrokenProcessPool:
                 continue
     return True, None
+
+
+@contextmanager
+def interrupts_held() -> Iterator[None]:
+    """Ctrl-C waits. Processes started meanwhile never see it: this one ends them, and speaks for all of them."""
+    if not hasattr(signal, "pthread_sigmask"):  # Windows
+        yield
+        return
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+
+
+@contextmanager
+def workers_end_with_us(stopped: threading.Event | None = None) -> Iterator[None]:
+    """An interrupt, or a ``progress`` that raises, does not wait for calls that are under way."""
+    try:
+        yield
+    except BaseException:
+        if stopped is not None:
+            stopped.set()
+        for worker in active_children():
+            worker.terminate()
+        raise
 
 
 RECONNECT = 120.0  # s that a scheduler may be away before what is left is given up

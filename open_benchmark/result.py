@@ -11,14 +11,16 @@ from __future__ import annotations
 import csv
 import io
 import json
+import math
 import re
 import zipfile
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import Any, TextIO
 
 import numpy as np
+from numpy.lib import format as npy
 from numpy.typing import NDArray
 
 from bent_beam.checks import shortened
@@ -41,6 +43,9 @@ MOST_SNAPSHOTS = 2_000
 MOST_POINTS = 50_000
 MOST_VALUES = 8_000_000  # of all snapshots together
 MOST_BYTES = 200_000_000
+MOST_JSON = 10_000_000  # bytes: five million empty lists, the worst of that size, take half a gigabyte of memory
+MOST_DIRECTORY = 100_000  # bytes of an NPZ's table of contents
+MOST_LINE = 10_000  # characters of a line of CSV
 MOST_TEXT = 200_000
 MOST = 1e100  # of any number: beyond is no unit
 FEWEST = 200  # instants in the fit window
@@ -125,13 +130,14 @@ def _one_line(error: BaseException) -> str:
 
 
 def _npz_fields(source: Path) -> dict[str, Any]:
+    _check_directory(source)
     try:
         with zipfile.ZipFile(source) as archive:
-            total = sum(item.file_size for item in archive.infolist())
-    except (zipfile.BadZipFile, OSError, NotImplementedError) as error:
+            total = sum(max(item.file_size, _announced(archive, item)) for item in archive.infolist())
+    except Exception as error:  # zipfile raises many kinds for a broken file
         raise ResultError(f"is not a readable NPZ file: {_one_line(error)}") from None
     if total > 2 * MOST_BYTES:
-        raise ResultError(f"would take {total} bytes unpacked, {2 * MOST_BYTES} are the most")
+        raise ResultError(f"would take {total:.3g} bytes unpacked, {2 * MOST_BYTES} are the most")
     found: dict[str, Any] = {}
     try:
         with np.load(source, allow_pickle=False) as stored:
@@ -146,17 +152,40 @@ def _npz_fields(source: Path) -> dict[str, Any]:
                     raise ResultError(f"{name} is no array")
     except ResultError:
         raise
-    except Exception as error:  # NumPy raises many kinds for a broken file
+    except Exception as error:  # so does NumPy
         raise ResultError(f"is not a readable NPZ file: {_one_line(error)}") from None
     return found
+
+
+def _check_directory(source: Path) -> None:
+    """Refuse a table of contents of a million entries, which ``zipfile`` would read whole."""
+    with source.open("rb") as stream:
+        stream.seek(-min(source.stat().st_size, 66_000), io.SEEK_END)
+        tail = stream.read()
+    end = tail.rfind(b"PK\x05\x06")
+    size = int.from_bytes(tail[end + 12 : end + 16], "little")
+    if end >= 0 and (size > MOST_DIRECTORY or tail[max(end - 20, 0) : end].startswith(b"PK\x06\x07")):
+        raise ResultError(f"its table of contents is longer than {MOST_DIRECTORY} bytes")
+
+
+def _announced(archive: zipfile.ZipFile, item: zipfile.ZipInfo) -> int:
+    """Bytes that an array says it takes: NumPy would ask for them before it reads any."""
+    with archive.open(item) as stream:
+        try:
+            version = npy.read_magic(stream)
+            read = npy.read_array_header_1_0 if version == (1, 0) else npy.read_array_header_2_0
+            shape, _, kind = read(stream)
+        except (ValueError, SyntaxError, TypeError):  # no array: said by name when it is read
+            return 0
+    return kind.itemsize * math.prod(int(n) for n in shape)
 
 
 def _csv_fields(source: Path) -> dict[str, Any]:
     table, about = source.with_suffix(".csv"), source.with_suffix(".json")
     if not about.exists():
         raise ResultError(f"needs {about.name} beside it (outcome, problem, metadata)")
-    if about.stat().st_size > MOST_BYTES:
-        raise ResultError(f"{about.name}: {about.stat().st_size} bytes, {MOST_BYTES} are the most")
+    if about.stat().st_size > MOST_JSON:
+        raise ResultError(f"{about.name}: {about.stat().st_size} bytes, {MOST_JSON} are the most (NPZ takes more)")
     try:
         words = json.loads(about.read_text(encoding="utf-8"))
     except (ValueError, RecursionError) as error:
@@ -178,10 +207,19 @@ def _columns(table: Path) -> dict[str, Array]:
     if table.stat().st_size > MOST_BYTES:
         raise ResultError(f"{table.name}: {table.stat().st_size} bytes, {MOST_BYTES} are the most")
     allowed = ("tau", *SERIES)
-    try:
-        rows = csv.reader(io.StringIO(table.read_text(encoding="utf-8-sig")))
-    except UnicodeDecodeError as error:
-        raise ResultError(f"{table.name} is not UTF-8 text: {_one_line(error)}") from None
+    with table.open(encoding="utf-8-sig", newline="") as stream:
+        return _read_columns(table, csv.reader(_lines(table, stream)), allowed)
+
+
+def _lines(table: Path, stream: TextIO) -> Iterator[str]:
+    """Lines of bounded length, one at a time."""
+    while line := stream.readline(MOST_LINE + 1):
+        if len(line) > MOST_LINE:
+            raise ResultError(f"{table.name}: a line is longer than {MOST_LINE} characters")
+        yield line
+
+
+def _read_columns(table: Path, rows: Iterator[list[str]], allowed: tuple[str, ...]) -> dict[str, Array]:
     try:
         head = [name.strip() for name in next(rows, [])]
         for name in head:
@@ -202,6 +240,8 @@ def _columns(table: Path) -> dict[str, Array]:
                 if not NUMBER.fullmatch(word):
                     raise ResultError(f"{table.name}, line {line}: {name} is not a number (got {shortened(word)})")
             values.append([float(re.sub("[dD](?=[-+0-9])", "e", word)) for word in row])  # Fortran writes 1.0D-3
+    except UnicodeDecodeError as error:
+        raise ResultError(f"{table.name} is not UTF-8 text: {_one_line(error)}") from None
     except csv.Error as error:
         raise ResultError(f"{table.name}: {_one_line(error)}") from None
     block = np.array(values, dtype=float).reshape(len(values), len(head))
@@ -290,12 +330,12 @@ def _metadata(fields: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _is_text(value: str) -> bool:
-    """Whether it can be written: no halves of characters, no control codes."""
+    """Whether it can be written: no halves of characters, no control codes, no writing turned round."""
     try:
         value.encode("utf-8")
     except UnicodeEncodeError:
         return False
-    return not re.search(r"[\x00-\x08\x0b\x0c\x0e-\x1f\x7f]", value)
+    return not re.search(r"[\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\x9f\u202a-\u202e\u2066-\u2069]", value)
 
 
 def _numbers(fields: Mapping[str, Any], name: str) -> Array:

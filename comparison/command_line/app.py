@@ -7,6 +7,7 @@ Nothing heavy is imported here or in the commands' files: ``bentbeam --help`` an
 from __future__ import annotations
 
 import os
+import signal
 import sys
 import warnings
 from collections.abc import Sequence
@@ -55,6 +56,8 @@ COMMANDS = (
     score,
     benchmark,
 )
+INTERRUPTED = 130
+RESUMED = ("match", "gallery", "report", "benchmark")  # keep every run, or every item, as soon as it is finished
 
 app = typer.Typer(
     help="A naturally bent beam hits a rigid wall: theory, simulations, and how well they agree.",
@@ -89,6 +92,7 @@ def bentbeam(
 def main(arguments: Sequence[str] | None = None) -> None:
     """Run the command and leave with its exit code."""
     code = run(arguments)
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # nothing is left to interrupt, and leaving takes a moment
     try:
         sys.stdout.flush()
     except OSError as error:
@@ -103,6 +107,8 @@ def run(arguments: Sequence[str] | None = None) -> int:
     warnings.simplefilter("ignore", RuntimeWarning)  # every result is checked to be finite
     try:
         code = app(args=None if arguments is None else list(arguments), prog_name="bentbeam", standalone_mode=False)
+        if code == INTERRUPTED:  # Typer makes this of Ctrl-C, without a word
+            raise KeyboardInterrupt
         return int(code or 0)
     except USAGE_ERRORS as error:
         return _refuse(error.format_message(), 2)  # type: ignore[attr-defined]
@@ -116,7 +122,14 @@ def run(arguments: Sequence[str] | None = None) -> int:
     except MemoryError:
         return _refuse("not enough memory; fewer nodes, steps or saved instants need less", 3)
     except (KeyboardInterrupt, typer.Abort):
-        return _refuse("interrupted; what was finished is kept and will not be computed again", 130)
+        return _refuse(f"interrupted; {how_to_go_on(sys.argv[1:] if arguments is None else arguments)}", INTERRUPTED)
+
+
+def how_to_go_on(arguments: Sequence[str]) -> str:
+    """What an interrupt has left, and what the same command does next."""
+    if "--fresh" not in arguments and arguments[:1] and arguments[0] in RESUMED:
+        return "what was finished is kept: the same command again goes on from there"
+    return "no half of a file is left: the same command again starts from the beginning"
 
 
 def _refuse(message: str, code: int) -> int:

@@ -39,7 +39,9 @@ class KernelCache(FunctionCache):
 
 
 def kernel(function: Function, **options: Any) -> Function:
-    """``function`` compiled at its first call, or loaded."""
+    """``function`` compiled at its first call or loaded; as it is under ``NUMBA_DISABLE_JIT=1``, to step through it."""
+    if numba.config.DISABLE_JIT:
+        return function
     dispatcher = numba.njit(error_model="numpy", **options)(function)
     dispatcher._cache = KernelCache(dispatcher.py_func)
     return cast(Function, dispatcher)

@@ -11,7 +11,7 @@ import platform
 from typing import Any
 
 from llvmlite import ir  # type: ignore[import-untyped]
-from numba import types
+from numba import config, types
 from numba.core import cgutils
 from numba.extending import intrinsic
 
@@ -23,6 +23,7 @@ SMALLEST = 2.2250738585072014e-308  # the smallest normal number
 MACHINE = platform.machine().lower()
 X86, ARM = MACHINE in ("x86_64", "amd64", "i386", "i686"), MACHINE in ("aarch64", "arm64")
 FLUSH = 0x8040 if X86 else 1 << 24  # FTZ | DAZ of MXCSR; FZ of FPCR
+INTERPRETED = bool(config.DISABLE_JIT)  # plain Python reaches no control register
 
 
 @intrinsic
@@ -68,6 +69,8 @@ def set_control(context: Any, value: Any) -> Any:
 @compiled
 def flush() -> int:
     """Take subnormal numbers as zero and make none from now on, in this thread; returns what :func:`restore` needs."""
+    if INTERPRETED:
+        return 0
     before: int = control()  # type: ignore[call-arg]
     set_control(before | FLUSH)
     return before
@@ -76,7 +79,8 @@ def flush() -> int:
 @compiled
 def restore(before: int) -> None:
     """Compute as before :func:`flush`."""
-    set_control(before)  # type: ignore[call-arg]
+    if not INTERPRETED:
+        set_control(before)  # type: ignore[call-arg]
 
 
 @compiled

@@ -144,9 +144,7 @@ def test_a_file_that_hangs_the_library_is_refused(good, tmp_path, monkeypatch):
     from bent_beam import examination, storage
 
     forever = tmp_path / "forever.py"
-    forever.write_text(
-        "import resource\nresource.setrlimit(resource.RLIMIT_CPU, (1, 1))\nwhile True:\n    pass\n"
-    )
+    forever.write_text("import resource\nresource.setrlimit(resource.RLIMIT_CPU, (1, 1))\nwhile True:\n    pass\n")
     monkeypatch.setattr(examination, "__file__", str(forever))
     with pytest.raises(ValueError, match="hangs or crashes"):
         storage.read_dataset(good)
