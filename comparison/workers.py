@@ -5,17 +5,22 @@ from __future__ import annotations
 import asyncio
 import signal
 import threading
+import time as clock
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import CancelledError, Future, ProcessPoolExecutor, ThreadPoolExecutor, as_completed
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
 from functools import partial
 from multiprocessing import active_children, get_context
+from types import FrameType
 from typing import Any
 
 from bent_beam.checks import positive, whole
 
 __all__ = ["run_all"]
+
+TICK = 0.1  # s, between two looks at the clock of a call whose time is limited
+PREPARING = ("importlib.", "numba.")
 
 
 def run_all(
@@ -31,7 +36,8 @@ def run_all(
     """``[function(*a) for a in arguments]``, in order. ``on_death(i, why)`` stands in for a call whose worker died.
 
     jobs : processes on this machine (1: in this one). scheduler : address of a dask.distributed scheduler.
-    limit : seconds that one call may take (``None``: any time); ``function`` then sees a :class:`TimeoutError`.
+    limit : seconds that one call may take (``None``: any time), after which ``function`` sees a :class:`TimeoutError`;
+        what it imports and compiles does not count.
     """
     whole("jobs", jobs, 1)
     if limit is not None:
@@ -51,23 +57,42 @@ def run_all(
 def limited(function: Callable[..., Any], limit: float, *arguments: Any) -> Any:
     """``function(*arguments)``, interrupted by :class:`TimeoutError` after ``limit`` seconds of the clock.
 
-    By the alarm of the operating system, which reaches the main thread between two calls of compiled code; where there
-    is none (Windows, a thread of a cluster's worker) the call takes the time that it takes.
+    By an alarm of the operating system, which reaches the main thread between two calls of compiled code; where there
+    is none (Windows, a thread of a cluster's worker) the call takes the time that it takes. The clock stands while a
+    module is imported or a kernel compiled: neither may be left half done, and neither belongs to the call's own time.
     """
+    used, last = 0.0, clock.perf_counter()
 
-    def ring(*_: Any) -> None:
-        raise TimeoutError(f"not finished after {limit:g} s")
+    def tick(_: int, frame: FrameType | None) -> None:
+        nonlocal used, last
+        now = clock.perf_counter()
+        passed, last = now - last, now
+        if _preparing(frame):
+            return
+        used += passed
+        if used >= limit:
+            signal.setitimer(signal.ITIMER_REAL, 0.0)  # once: whoever sees the error needs time to answer it
+            raise TimeoutError(f"time limit: not finished after {limit:g} s")
 
     try:
-        before = signal.signal(signal.SIGALRM, ring)
+        before = signal.signal(signal.SIGALRM, tick)
     except (AttributeError, ValueError):
         return function(*arguments)
-    signal.setitimer(signal.ITIMER_REAL, limit)
+    signal.setitimer(signal.ITIMER_REAL, *2 * (min(limit, TICK),))
     try:
         return function(*arguments)
     finally:
         signal.setitimer(signal.ITIMER_REAL, 0.0)
         signal.signal(signal.SIGALRM, before)
+
+
+def _preparing(frame: FrameType | None) -> bool:
+    """Whether a module is being imported or a kernel compiled somewhere up the calls."""
+    while frame is not None:
+        if frame.f_globals.get("__name__", "").startswith(PREPARING):
+            return True
+        frame = frame.f_back
+    return False
 
 
 def _on_cores(
