@@ -261,6 +261,41 @@ def test_a_killed_report_starts_again_and_ends_with_the_same_page(numbers, tmp_p
     print(f"report: {kills} kills, {total} runs kept, {len(whole)} things on the page compared")
 
 
+@pytest.mark.skipif(not FUZZ, reason="minutes: FUZZ=1")
+def test_two_reports_at_once_in_one_store_and_disks_that_fill_during_a_third(tmp_path):
+    """Both pages show the same; where files may not grow beyond some size, one line says so and no half is left."""
+    store, command = tmp_path / "store", ["report", "--overwrite", "--json", "--out"]
+    both = [start([*command, tmp_path / name], store, main=FEW_ROWS) for name in ("one", "two")]
+    answers = [process.communicate(timeout=590) for process in both]
+    assert [process.returncode for process in both] == [0, 0], answers
+    one, two = (shown_by(out, tmp_path / name) for (out, _), name in zip(answers, ("one", "two")))
+    assert [name for name in one if one[name] != two[name]] == []
+    every_kept_run_is_whole(store)
+    full = tmp_path / "full"
+    for most in (0, 20_000, 1_000_000):
+        limited = f"import resource; resource.setrlimit(resource.RLIMIT_FSIZE, ({most}, {most}))\n" + FEW_ROWS
+        process = start([*command, full], store, main=limited)
+        out, err = process.communicate(timeout=590)
+        assert process.returncode == 2 and out == "" and err.count("\n") == 1, (most, err)
+        assert str(full) in err and "large" in err, (most, err)
+        left = [f for f in full.rglob("*") if f.is_file()]
+        assert not (full / "index.html").exists() and not [f for f in left if f.suffix == ".part"]
+        assert all(f.stat().st_size for f in left)
+    with none_kept_is_computed_again(store):
+        answer, _ = finished([*command, full], store, main=FEW_ROWS)
+    third = shown_by(answer, full)
+    assert [name for name in one if one[name] != third[name]] == []
+
+
+def test_a_clock_that_jumps_changes_nothing(reference, monkeypatch, tmp_path):
+    jumps = iter(random.Random(3).choices([0.0, 1e9, 4e9, -1e9], k=100_000))
+    monkeypatch.setattr(time, "time", lambda: next(jumps))
+    asked = [Question(HermiteFE(), kappa) for kappa in (0.5, 0.3, 2.0)]
+    rows = match(asked, store=RunStore(tmp_path), limit=500.0)
+    assert without_seconds(rows) == reference("hermite")[0]
+    assert all(row.seconds is not None and 0.0 < row.seconds < 500.0 for row in rows)
+
+
 # --- the store ------------------------------------------------------------
 
 
