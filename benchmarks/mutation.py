@@ -18,6 +18,7 @@ from __future__ import annotations
 import argparse
 import ast
 import collections
+import compileall
 import difflib
 import fnmatch
 import importlib
@@ -83,7 +84,7 @@ WIDEST = (
     "tests/comparison/test_match.py",
 )
 # interpreted: kernels as plain Python, where they would have to be compiled anew for every fault
-STAGES = ("own", "interpreted", "compiled", "wider", "widest", "verify")
+STAGES = ("own", "interpreted", "wider", "compiled", "widest", "verify")
 
 NOT_TRIED = ("RShift", "LShift", "BitOr", "BitAnd", "BitXor")  # in place of arithmetic
 TOO_LONG = 1e6  # s, noted for a test that is not worth its time where kernels are plain Python
@@ -215,14 +216,17 @@ def warm_up() -> None:
 def tests_of(file: str, stage: str) -> tuple[str, ...]:
     own = next(tests for pattern, tests in OWN.items() if fnmatch.fnmatch(file, pattern))
     wider = WIDER[file.partition("/")[0]]
-    narrow = ("interpreted", "compiled") if file.startswith(KERNELS) else ("own",)
-    if stage in ("own", "interpreted", "compiled") and stage not in narrow:
+    kernel = file.startswith(KERNELS)
+    if stage in (("own", "wider") if kernel else ("interpreted", "compiled")):
         return ()
-    return {"wider": wider, "widest": WIDEST, "verify": (*own, *wider)}.get(stage, own)
+    return {"wider": wider, "compiled": (*own, *wider), "widest": WIDEST, "verify": (*own, *wider)}.get(stage, own)
 
 
-def in_child(tree: Path, cache: Path, files: tuple[str, ...], stage: str, seconds: dict[str, float]) -> dict[str, Any]:
-    """Run pytest on ``files`` in a forked process; what it told, or how it died."""
+def in_child(
+    tree: Path, cache: Path, files: tuple[str, ...], stage: str, seconds: dict[str, float], *more: str
+) -> dict[str, Any]:
+    """Run pytest on ``files`` in a forked process; what it told, or how it died. Without ``seconds`` nothing is at
+    fault: all tests are run, and what is compiled is kept."""
     answer = tree.parent / "answer.json"
     answer.unlink(missing_ok=True)
     began = time.monotonic()
@@ -235,6 +239,7 @@ def in_child(tree: Path, cache: Path, files: tuple[str, ...], stage: str, second
 
             sys.dont_write_bytecode = bool(seconds)
             os.environ["PYTHONDONTWRITEBYTECODE"] = "1" if seconds else ""
+            os.environ["PYTEST_DISABLE_PLUGIN_AUTOLOAD"] = "1"
             numba.core.config.CACHE_DIR = os.environ["NUMBA_CACHE_DIR"] = str(cache)
             numba.core.config.DISABLE_JIT = int(stage == "interpreted")
             os.environ["NUMBA_DISABLE_JIT"] = str(numba.core.config.DISABLE_JIT)
@@ -246,7 +251,7 @@ def in_child(tree: Path, cache: Path, files: tuple[str, ...], stage: str, second
             limit = (20.0 if seconds else 4.0) if stage == "interpreted" else 0.0
             recorder = Recorder(seconds, files, 2.0 if stage in ("interpreted", "own") else TOO_LONG, limit)
             marks = "verify" if stage == "verify" else "not verify"
-            options = ["-m", marks, "-p", "no:cacheprovider", "-p", "no:xdist"]
+            options = ["-m", marks, "-p", "no:cacheprovider", *more]
             options += ["-k", "not subnormal and not care"] if stage == "interpreted" else []
             options += ["--ignore=tests/hermite_fe/test_hermite_kernels.py"]  # of the cache on disk, not of kernels
             code = pytest.main([*files, *options, *(["-x"] if seconds else [])], [recorder])
@@ -255,12 +260,12 @@ def in_child(tree: Path, cache: Path, files: tuple[str, ...], stage: str, second
             os._exit(0)
     status, ended = 0, 0
     while not ended and time.monotonic() - began < WALL_SECONDS:
-        ended, status = os.waitpid(child, os.WNOHANG)
+        ended, status, spent = os.wait4(child, os.WNOHANG)
         time.sleep(0.05)
     if not ended:
         os.killpg(child, signal.SIGKILL)
-        _, status = os.waitpid(child, 0)
-    used = time.monotonic() - began
+        _, status, spent = os.wait4(child, 0)
+    used = round(spent.ru_utime + spent.ru_stime, 1)
     if not answer.exists():
         return {"code": None, "by": f"ended by signal {os.WTERMSIG(status)}" if status else "died", "seconds": used}
     code, failed, durations = json.loads(answer.read_text())
@@ -287,6 +292,8 @@ def run(out: Path, stages: tuple[str, ...] = STAGES) -> None:
     sys.path[:] = [str(tree), *(p for p in sys.path if Path(p or ".").resolve() != ROOT)]
     os.environ["PYTHONPATH"] = str(tree)
     warm_up()
+    compileall.compile_dir(tree, quiet=2)
+    in_child(tree, out / "cache", ("tests",), "own", {}, "--collect-only")  # Pytest's own compiled tests
     timed = out / "durations.json"
     durations: dict[str, dict[str, float]] = json.loads(timed.read_text()) if timed.exists() else {}
     for stage in stages:
@@ -316,7 +323,7 @@ def run(out: Path, stages: tuple[str, ...] = STAGES) -> None:
                 os.utime(tree / file, ns=(kept.st_atime_ns, kept.st_mtime_ns))
             done[number, stage] = caught(answer)
             row = {"number": number, "stage": stage, "caught": caught(answer), "by": answer["by"],
-                   "seconds": round(answer["seconds"], 1)}  # fmt: skip
+                   "cpu_seconds": answer["seconds"]}  # fmt: skip
             with results.open("a") as lines:
                 lines.write(json.dumps(row) + "\n")
 

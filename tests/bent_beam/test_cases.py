@@ -54,6 +54,8 @@ def changed(table, **values):
         (changed("mesh", kind="grade"), r"'grade' is not known \(did you mean graded\?\)"),
         (changed("mesh", element_length=1.0), "mesh.kind is required"),
         (changed("run", end_time=1.0, duration=1.0), "exclude each other"),
+        (changed("run", end_time=1e300), r"^run.end_time: "),
+        (changed("run", duration=1e300), r"^run.duration: "),
     ],
 )
 def test_a_mistake_is_named_with_its_value(tables, message):

@@ -32,6 +32,11 @@ def test_shear_coefficients_are_cowpers():
     assert Pipe(outer_diameter=0.1, inner_diameter=0.0, **STEEL).shear_coefficient == pytest.approx(
         RoundBar(diameter=0.1, **STEEL).shear_coefficient
     )
+    # Cowper 1966, Table 1: 6(1 + ν)/(7 + 6ν) and 10(1 + ν)/(12 + 11ν)
+    assert RoundBar(diameter=0.1, poisson_ratio=0.3, **STEEL).shear_coefficient == pytest.approx(0.8864, abs=1e-4)
+    assert Rectangle(width=1.0, thickness=0.1, poisson_ratio=0.3, **STEEL).shear_coefficient == pytest.approx(
+        0.8497, abs=1e-4
+    )
 
 
 def test_stress_of_a_rectangle_under_moment_and_tension():

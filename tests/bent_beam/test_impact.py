@@ -25,6 +25,12 @@ def test_the_direct_link_between_acceleration_and_alpha():
     assert impact.alpha == pytest.approx(impact.epsilon_alpha / impact.epsilon)
 
 
+def test_loads_that_cancel_press_with_nothing_at_all():
+    impact = Impact(1.0, 1.0, 2.0, 0.5, 1.0, acceleration=0.1, fourth_derivative=0.2, axial_force=-0.6)
+    assert math.fsum((0.1, 0.2, -0.3)) != 0.0  # in binary they do not
+    assert impact.uniform_pressure == 0.0 and impact.zone_pressure == 0.0
+
+
 positive = st.floats(1e-6, 1e6)
 
 

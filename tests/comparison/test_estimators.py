@@ -2,11 +2,13 @@
 their error bars.
 """
 
+import dataclasses
+
 import numpy as np
 import pytest
 
 from bent_beam import Impact, ImpactHistory
-from comparison.estimators import SIDE, first_order, leading_order, moments
+from comparison.estimators import SIDE, Estimate, _smooth, first_order, leading_order, moments, with_companions
 from theory import contact_parameters
 
 
@@ -85,6 +87,24 @@ def test_first_order_is_recovered_with_and_without_uniform_reaction(first):
     assert found.lambda1.value == pytest.approx(exact.lambda1, abs=0.02 * max(abs(exact.lambda1), 1.0))
     assert found.uniform_reaction == pytest.approx(max(first[0] + first[1], 0.0), abs=0.02)
     assert abs(found.lambda1.value - exact.lambda1) <= found.lambda1.error + 0.02 * max(abs(exact.lambda1), 1.0)
+
+
+def test_a_steady_uniform_reaction_is_averaged_over_an_e_fold():
+    time = np.linspace(0.0, 1.0, 2001)
+    noise = (-1.0) ** np.arange(time.size)
+    late = time > 0.1
+    assert np.abs(_smooth(time, 2.0 + noise) - 2.0)[late].max() < 0.05
+    assert _smooth(time, time)[late & (time < 0.6)] == pytest.approx(time[late & (time < 0.6)], rel=0.01)
+
+
+def test_companion_runs_widen_the_error_bars_by_their_distance():
+    runs = [(0.1, moments(synthetic(0.5, (1.0, 0.5, 0.0), 0.1), uniform=True))]
+    base = moments(synthetic(0.5))
+    found = first_order(runs, base, leading_order(base))
+    other = dataclasses.replace(found, r1=Estimate(found.r1.value + 0.3, 0.0))
+    wider = with_companions(found, [other, found])
+    assert (wider.r1.value, wider.lambda1) == (found.r1.value, found.lambda1)
+    assert wider.r1.error >= found.r1.error + 0.3 * (1.0 - 1e-12)
 
 
 def test_physical_units_drop_out():

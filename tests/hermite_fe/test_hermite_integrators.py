@@ -3,6 +3,7 @@ integrator."""
 
 from __future__ import annotations
 
+import dataclasses
 import math
 from collections.abc import Callable
 
@@ -16,7 +17,7 @@ from hermite_fe.integrators import (
     NonsmoothGeneralizedAlpha,
     SignoriniPosition,
 )
-from hermite_fe.run import Trajectory, integrate
+from hermite_fe.run import Trajectory, integrate, saved_steps
 from hermite_fe.system import ContactRows, System
 
 GRAVITY, DROP = 9.81, 0.5  # thesis Fig. 3.6
@@ -35,6 +36,24 @@ ALL: dict[str, Make] = WITH_IMPACT_LAW | {
 }
 
 
+@pytest.mark.parametrize("make", ALL.values(), ids=ALL)
+def test_steps_grow_at_most_as_asked_and_refined_ones_are_as_many_times_shorter(make: Make) -> None:
+    integrator = dataclasses.replace(make(1e-3), growth=0.02)
+    for finer in (1.0, 4.0):
+        instants = integrator.refined(finer).instants(3.0)
+        steps = np.diff(instants)
+        assert (instants[0], instants[-1]) == (0.0, 3.0)
+        assert steps[0] == pytest.approx(1e-3 / finer, rel=0.03)
+        assert np.all(steps <= np.maximum(1e-3, 0.02 * instants[:-1]) / finer * 1.001)
+        # 1/g even steps up to h/g, then as many as fit into log(3g/h) at most g long
+        assert steps.size == pytest.approx(finer / 0.02 * (1.0 + math.log(3.0 * 0.02 / 1e-3)), rel=0.02)
+    assert type(integrator.refined(2.0)) is type(integrator)
+
+
+def test_half_of_the_saved_instants_lie_in_the_first_quarter() -> None:
+    assert np.mean(saved_steps(np.linspace(0.0, 1.0, 100_001), 201) <= 25_000) == pytest.approx(0.5, abs=0.01)
+
+
 def ball() -> System:
     return System(
         mass=[[1.0]],
@@ -45,9 +64,7 @@ def ball() -> System:
 
 
 def oscillator(gap: float = 0.0) -> System:
-    return System(
-        mass=[[2.0]], stiffness=[[8.0]], contacts=ContactRows(dofs=[[0]], factors=[[1.0]], gap=[gap])
-    )
+    return System(mass=[[2.0]], stiffness=[[8.0]], contacts=ContactRows(dofs=[[0]], factors=[[1.0]], gap=[gap]))
 
 
 def chain(gap: float) -> System:
@@ -93,17 +110,13 @@ def test_order_across_impacts_is_about_one(make: Make) -> None:
     steps = np.geomspace(4e-3, 1e-4, 24)
     errors = []
     for h in steps:
-        run = integrate(
-            ball(), np.array([DROP]), np.zeros(1), make(float(h)), end, restitution=0.9, save=[end]
-        )
+        run = integrate(ball(), np.array([DROP]), np.zeros(1), make(float(h)), end, restitution=0.9, save=[end])
         errors.append(abs(run.q[-1, 0] - bounced(end, 0.9)))
     order = np.polyfit(np.log(steps), np.log(np.maximum(errors, 1e-9)), 1)[0]
     assert 0.6 < order < 1.7
 
 
-@pytest.mark.parametrize(
-    ("name", "order"), [(n, 1 if "implicit" in n or "signorini" in n else 2) for n in ALL]
-)
+@pytest.mark.parametrize(("name", "order"), [(n, 1 if "implicit" in n or "signorini" in n else 2) for n in ALL])
 def test_order_in_smooth_motion(name: str, order: int) -> None:
     system, ends = chain(gap=100.0), []
     for h in (0.02, 0.01, 0.005, 2e-4):

@@ -34,8 +34,7 @@ def test_energy_summed_over_the_beam_converges_to_the_conserved_one() -> None:
         return float(wave.velocity(x)[0] ** 2 + wave.curvature(x)[0] ** 2)
 
     missing = [
-        wave.impulse - quad(density, 0.0, end, limit=400, points=[wave.parameters.lambda0])[0]
-        for end in (20.0, 40.0)
+        wave.impulse - quad(density, 0.0, end, limit=400, points=[wave.parameters.lambda0])[0] for end in (20.0, 40.0)
     ]
     assert missing[0] / missing[1] == pytest.approx(2.0, rel=1e-3)
     assert abs(2.0 * missing[1] - missing[0]) < 1e-5 * wave.impulse
@@ -50,6 +49,15 @@ def test_the_front_solves_all_four_conditions_at_once(ratio: float) -> None:
     assert wave.slope(x)[0] == pytest.approx(-p.kappa * p.lambda0, rel=1e-12)
     assert wave.curvature(x)[0] == pytest.approx(-p.kappa, rel=1e-11)
     assert wave.velocity(x)[0] == pytest.approx(p.nu, rel=1e-11)
+
+
+@pytest.mark.parametrize("place", [0.0, 0.4, -0.9])
+def test_in_the_zone_the_wave_takes_the_flight_away(place: float) -> None:
+    # flat on the wall: deflection, slope, curvature and velocity are those of the free motion ν − κx²/2
+    p = contact_parameters(0.3, nu=1.5)
+    wave, x = SelfSimilarWave(p), place * p.lambda0
+    found = [float(np.ravel(f(x))[0]) for f in (wave.deflection, wave.slope, wave.curvature, wave.velocity)]
+    assert found == pytest.approx([p.nu - p.kappa * x**2 / 2.0, -p.kappa * x, -p.kappa, p.nu], rel=1e-14)
 
 
 @settings(max_examples=50)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import mpmath as mp
 import numpy as np
 import pytest
+from scipy.linalg import expm
 
 from theory import contact_parameters, damped_point
 from theory.stopped_beam import StoppedBeam
@@ -74,6 +75,19 @@ def test_a_beam_without_ends_and_one_with_them_start_alike(damping: float) -> No
     for kind in KINDS:
         first, second = getattr(beam, kind)(early)
         assert second == pytest.approx(first, rel=2e-11)
+
+
+@pytest.mark.parametrize("damping", [2.0, 0.05])
+def test_a_mode_moves_like_its_oscillator(damping: float) -> None:
+    """q̈ + ηω²q̇ + ω²q = 0 from a unit velocity, from weak damping over the critical ω = 2/η to creeping."""
+    omega = 2.0 / damping * np.array([0.01, 0.5, 0.99, 1.0, 1.0 + 1e-9, 1.002, 1.0049, 1.02, 1.2, 4.0, 30.0])
+    times = damping * np.array([1e-3, 0.3, 1.0, 5.0])
+    rate, force = StoppedBeam(damping)._oscillators(omega, times)
+    for k, w in enumerate(omega):
+        matrix = np.array([[0.0, 1.0], [-(w**2), -damping * w**2]])
+        exact = np.array([expm(matrix * time) @ [0.0, 1.0] for time in times])
+        np.testing.assert_allclose(rate[:, k], exact[:, 1], rtol=1e-9, atol=1e-12)
+        np.testing.assert_allclose(force[:, k], exact @ [1.0, damping], rtol=1e-7, atol=1e-12 * damping)
 
 
 def test_little_damping_gives_the_leading_order_at_early_times() -> None:
