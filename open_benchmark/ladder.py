@@ -2,6 +2,8 @@
 
 Ball, bar and string as :class:`hermite_fe.system.System`, the stopped beam as a run of the Hermite path; each against
 its closed form in ``theory``. Errors are the mean of |J − J exact| over the record, over the largest J.
+
+``python -m open_benchmark.ladder`` prints the table of docs/benchmark.md.
 """
 
 from __future__ import annotations
@@ -29,7 +31,7 @@ from hermite_fe.system import ContactRows, System
 from open_benchmark.problem import LADDER, problem
 from open_benchmark.references import reference
 
-__all__ = ["INTEGRATORS", "RUNGS", "Rung", "ladder_table", "observed_order"]
+__all__ = ["INTEGRATORS", "RUNGS", "Rung", "ladder_table", "ladder_text", "observed_order"]
 
 Array = NDArray[np.float64]
 
@@ -205,3 +207,21 @@ def _rung(make: Callable[[float], Integrator], rung: str, refinements: Sequence[
 
 def _shifted(make: Callable[[float], Integrator], phase: float) -> Callable[[float], Integrator]:
     return lambda step: make(phase * step)
+
+
+def ladder_text(table: dict[str, dict[str, Rung]]) -> str:
+    """The table in Markdown: error at the coarsest and the finest mesh, observed order, energy left."""
+    lines = [f"| integrator | {' | '.join(RUNGS)} |", "| --- " * (1 + len(RUNGS)) + "|"]
+    lines += [f"| {name} | {' | '.join(_cell(rungs[rung]) for rung in RUNGS)} |" for name, rungs in table.items()]
+    return "\n".join(lines)
+
+
+def _cell(rung: Rung) -> str:
+    if rung.reason:
+        return rung.reason
+    order = "round-off" if rung.order is None else f"{rung.order:.2f}"
+    return f"{rung.errors[0]:.1e} … {rung.errors[-1]:.1e}, {order}, {rung.energy:.4f}"
+
+
+if __name__ == "__main__":
+    print(ladder_text(ladder_table()))

@@ -14,14 +14,15 @@ from typing import Any
 
 import jinja2
 import matplotlib
+import numpy as np
 from matplotlib.figure import Figure
 
 from comparison.store import write_atomically
 from open_benchmark.adapter import RESOLUTIONS, Adapter
 from open_benchmark.campaign import Row
-from open_benchmark.problem import problem
+from open_benchmark.problem import Problem, problem
 
-__all__ = ["document", "properties", "work_precision_figure", "write_page"]
+__all__ = ["document", "errors_table", "properties", "work_precision_figures", "write_page"]
 
 TEMPLATES = Path(__file__).parent / "templates"
 MEASURES = {"lambda0": "λ₀", "r0": "r₀", "lambda1": "λ₁", "r1": "r₁", "restitution": "e", "impulse_error": "J(t)"}
@@ -34,7 +35,8 @@ def properties(rows: Sequence[Row], solver: str) -> dict[str, str]:
     own = [row for row in rows if row.solver == solver]
     done = [row for row in own if row.score.outcome.startswith("completed")]
     if not done:
-        return {name: "no result" for name in PROPERTIES}
+        why = {row.score.outcome.split("(")[0].replace("_", " ") for row in own}
+        return {name: why.pop() if len(why) == 1 else "no result" for name in PROPERTIES}
     return {name: rule(own) for name, rule in PROPERTIES.items()}
 
 
@@ -87,9 +89,7 @@ def _first(rows: Sequence[Row], wanted: str) -> str:
         asked = problem(row.problem)
         if asked.kind != "first" or row.resolution != RESOLUTIONS[-1]:
             continue
-        alpha, psi, _, axial = asked.loads
-        regime = "tension" if axial else "lift-off" if alpha + psi < 0.0 else "pressed"
-        if regime == wanted:
+        if _regime(asked) == wanted:
             chosen.append(row)
     if not chosen:
         return "not asked"
@@ -116,6 +116,7 @@ def document(rows: Sequence[Row], adapters: Sequence[Adapter]) -> dict[str, Any]
     return {
         "format": "beam-impact benchmark 1",
         "machine": {"processor": platform.machine(), "python": platform.python_version()},
+        "seconds": sum(row.seconds for row in rows),
         "solvers": [
             {
                 "name": a.name,
@@ -130,6 +131,30 @@ def document(rows: Sequence[Row], adapters: Sequence[Adapter]) -> dict[str, Any]
     }
 
 
+def in_words(asked: Problem) -> str:
+    """A problem in words, for a heading."""
+    front = f"infinite beam, κ/ν = {asked.kappa_over_nu:g}"
+    if asked.kind == "first":
+        alpha, psi, chi, axial = (f"{value:g}".replace("-", "−") for value in asked.loads)
+        loads = f"(α, ψ, χ, n) = ({alpha}, {psi}, {chi}, {axial})"
+        return f"{front}, first order in the loads {loads}: {_regime(asked)}"
+    if asked.kind == "bounce":
+        return f"free beam, κ/ν = {asked.kappa_over_nu:g}, damping η/T* = {asked.damping:g}, until it has left the wall"
+    return {
+        "leading": f"{front}: the contact spreads",
+        "point": f"{front}: one point in contact",
+        "stopped-beam": "free beam with damping, before the wall first lets go",
+        "ball": "bouncing ball, ten elastic impacts",
+        "bar": "elastic bar that meets the wall end on and leaves",
+        "string": "string that lands on an obstacle all at once",
+    }[asked.kind]
+
+
+def _regime(asked: Problem) -> str:
+    alpha, psi, _, axial = asked.loads
+    return "tension" if axial else "lift-off" if alpha + psi < 0.0 else "pressed"
+
+
 def _seconds(row: Row) -> float | None:
     """Of the time loop as the adapter says, never more than the wall clock of the whole run."""
     said = row.score.seconds
@@ -138,38 +163,52 @@ def _seconds(row: Row) -> float | None:
     return min(said, row.seconds) if row.seconds > 0.0 else said
 
 
-def work_precision_figure(rows: Sequence[Row], name: str, solvers: Sequence[str]) -> Figure | None:
-    """Relative error against seconds, a line a code, a panel a measured number; ``None`` when there is nothing."""
+def work_precision_figures(rows: Sequence[Row], name: str, solvers: Sequence[str]) -> dict[str, Figure]:
+    """Measured number → relative error against seconds, a line a code from its coarse to its fine mesh.
+
+    A faint line above a point ends at the error plus the error bar: what the result itself vouches for.
+    """
     own = [row for row in rows if row.problem == name]
     shown = [m for m in MEASURES if any(_point(row, m) for row in own)]
     if problem(name).kind == "first":
         shown = [m for m in shown if m in ("lambda1", "r1")]
-    if not shown:
-        return None
-    figure = Figure(figsize=(4.4 * len(shown) + 1.6, 3.7), layout="constrained")
-    axes = figure.subplots(1, len(shown), squeeze=False)[0]
-    for axis, measure in zip(axes, shown):
-        for k, solver in enumerate(solvers):
-            points = sorted(p for row in own if row.solver == solver and (p := _point(row, measure)))
-            if points:
-                axis.loglog(
-                    *zip(*points), marker=MARKS[k % len(MARKS)], ms=5, lw=1.2, color=f"C{k % 10}",
-                    ls="-" if k < 10 else "--", label=solver,
-                )  # fmt: skip
-        axis.set(xlabel="time loop, s", ylabel=f"relative error of {MEASURES[measure]}")
-        axis.grid(True, which="major", lw=0.4, color="0.85")
-        for side in ("top", "right"):
-            axis.spines[side].set_visible(False)
-    handles, labels = axes[0].get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside right upper", frameon=False, fontsize=8)
+    return {measure: _panel(own, measure, solvers) for measure in shown}
+
+
+def _panel(rows: Sequence[Row], measure: str, solvers: Sequence[str]) -> Figure:
+    figure = Figure(figsize=(5.2, 4.3), layout="constrained")
+    axis = figure.subplots()
+    for k, solver in enumerate(solvers):
+        own = sorted((r for r in rows if r.solver == solver), key=lambda r: _rank(r.resolution))
+        points = [p for row in own if (p := _point(row, measure))]
+        if points:
+            seconds, errors, tops = zip(*points)
+            color, style = f"C{k % 10}", "-" if k < 10 else "--"
+            axis.vlines(seconds, errors, tops, color=color, lw=0.8, alpha=0.35)
+            axis.loglog(
+                seconds, errors, marker=MARKS[k % len(MARKS)], ms=5, lw=1.2, color=color, ls=style, label=solver
+            )
+    low, high = axis.get_ylim()
+    axis.set_ylim(10.0 ** np.floor(np.log10(low)), 10.0 ** np.ceil(np.log10(high)))
+    axis.set(xlabel="time loop, s", ylabel=f"relative error of {MEASURES[measure]}")
+    axis.grid(True, which="major", lw=0.4, color="0.85")
+    for side in ("top", "right"):
+        axis.spines[side].set_visible(False)
+    figure.legend(loc="outside lower center", ncols=3, frameon=False, fontsize=8)
     return figure
 
 
-def _point(row: Row, measure: str) -> tuple[float, float] | None:
+def _rank(resolution: str) -> int:
+    return RESOLUTIONS.index(resolution) if resolution in RESOLUTIONS else len(RESOLUTIONS)
+
+
+def _point(row: Row, measure: str) -> tuple[float, float, float] | None:
+    """Seconds, relative error, and that with the error bar on top."""
     found, seconds = row.score.measured.get(measure), _seconds(row)
     if found is None or found.difference is None or seconds is None or (found.theory == 0.0 and measure == "lambda0"):
         return None
-    return seconds, max(abs(found.relative() or 0.0), 1e-7)
+    error = max(abs(found.relative() or 0.0), 1e-7)
+    return seconds, error, error + (found.relative_error() or 0.0)
 
 
 def _svg(figure: Figure) -> str:
@@ -187,18 +226,42 @@ def _cell(row: Row, measure: str) -> str:
     return f"{found.value:.3g}" if error is None else f"{100 * error:+.3f} %"
 
 
+def errors_table(rows: Sequence[Row], solvers: Sequence[str]) -> str:
+    """Markdown: code × problem, errors in per cent from the coarse to the fine mesh, each with its time loop in s."""
+    names = list(dict.fromkeys(row.problem for row in rows))
+    lines = [f"| code | {' | '.join(f'`{name}`' for name in names)} |", "| --- " * (1 + len(names)) + "|"]
+    for solver in solvers:
+        cells = []
+        for name in names:
+            own = [row for row in rows if row.solver == solver and row.problem == name]
+            cells.append("; ".join(dict.fromkeys(_in_short(row) for row in own)) or "not asked")
+        lines.append(f"| {solver} | {' | '.join(cells)} |")
+    return "\n".join(lines) + "\n"
+
+
+def _in_short(row: Row) -> str:
+    first = problem(row.problem).kind == "first"
+    wanted = ("lambda1", "r1") if first else ("lambda0", "r0", "restitution", "impulse_error")
+    errors = [f"{100 * e:+.3f}" for name in wanted if (e := row.score.error(name)) is not None]
+    if not errors:
+        return row.score.outcome.split("(")[0].replace("_", " ")
+    seconds = _seconds(row)
+    return " / ".join(errors) + ("" if seconds is None else f" ({seconds:.2g})")
+
+
 def write_page(rows: Sequence[Row], adapters: Sequence[Adapter], out: Path) -> Path:
-    """Write ``index.html`` and ``benchmark.json``; returns the page."""
+    """Write ``index.html``, ``benchmark.json`` and the errors as a table, ``errors.md``; returns the page."""
     solvers = [a.name for a in adapters]
     sheets = []
     for name in dict.fromkeys(row.problem for row in rows):
-        figure = work_precision_figure(rows, name, solvers)
+        figures = work_precision_figures(rows, name, solvers)
         own = [row for row in rows if row.problem == name]
         shown = [m for m in MEASURES if any(m in row.score.measured for row in own)]
         sheets.append(
             {
                 "id": name,
-                "figure": None if figure is None else _svg(figure),
+                "words": in_words(problem(name)),
+                "figures": [_svg(figure) for figure in figures.values()],
                 "measures": [MEASURES[m] for m in shown],
                 "rows": [(row, [_cell(row, m) for m in shown], _seconds(row)) for row in own],
             }
@@ -213,8 +276,10 @@ def write_page(rows: Sequence[Row], adapters: Sequence[Adapter], out: Path) -> P
         names=list(PROPERTIES),
         adapters=[(a, a.missing(), a.file.read_text(encoding="utf-8", errors="replace")) for a in adapters],
         versions={s: _version(rows, s) for s in solvers},
+        minutes=sum(row.seconds for row in rows) / 60.0,
     )
     write_atomically(out / "benchmark.json", json.dumps(document(rows, adapters), indent=1, allow_nan=False))
+    write_atomically(out / "errors.md", errors_table(rows, solvers))
     write_atomically(out / "index.html", html)
     return out / "index.html"
 

@@ -1,38 +1,51 @@
-"""Exact values that results are held against; nothing here is a measurement.
+"""Values that results are held against: exact ones, and for a whole impact a converged one with its error bar.
 
-The infinite beam: ``theory``. The ladder: closed forms in ``theory.ladder``. A whole impact has no closed form.
+The infinite beam: ``theory``. The ladder: closed forms in ``theory.ladder``. A whole impact has no closed form: its
+reference is a converged simulation with an error bar, ``bounce_reference.json`` for the problems that are shipped (made
+by ``python -m open_benchmark.bounce_reference``) and the map of the whole impact for others.
 """
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from functools import cache
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from open_benchmark.problem import LADDER, Problem
 
-__all__ = ["Reference", "reference"]
+__all__ = ["BOUNCES", "Reference", "reference"]
+
+BOUNCES = Path(__file__).with_name("bounce_reference.json")
 
 Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
 class Reference:
-    """``values``: exact numbers by name; ``impulse``: exact J(τ) of a problem of the ladder."""
+    """``values``: numbers by name, exact unless they stand in ``errors`` with an error bar; ``source``: of such;
+    ``impulse``: exact J(τ) of a problem of the ladder."""
 
     values: dict[str, float] = field(default_factory=dict)
     impulse: Callable[[Array], Array] | None = None
+    errors: dict[str, float] = field(default_factory=dict)
+    source: str = ""
 
     def __getitem__(self, name: str) -> float | None:
         return self.values.get(name)
 
 
 def reference(asked: Problem) -> Reference:
-    """The exact answer to a problem, as far as there is one."""
+    """The answer to a problem, as far as there is one."""
     if asked.is_front:
         return Reference(_front(asked))
+    if asked.kind == "bounce":
+        return _bounce(asked)
     impulse = {"ball": _ball, "bar": _bar, "string": _string, "stopped-beam": _stopped_beam}.get(asked.kind)
     return Reference(impulse=None if impulse is None else impulse(asked))
 
@@ -46,6 +59,27 @@ def _front(asked: Problem) -> dict[str, float]:
     if asked.kind == "first":
         values |= {"lambda1": float(found.lambda1), "r1": float(found.r1)}
     return values
+
+
+def _bounce(asked: Problem) -> Reference:
+    stored = stored_bounces()
+    if asked.id in stored["problems"]:
+        value, error = stored["problems"][asked.id]["restitution"]
+        return Reference({"restitution": value}, errors={"restitution": error}, source=stored["made_by"])
+    from comparison.whole_impact.map import bounce_from_map
+
+    found = bounce_from_map(asked.kappa_over_nu, asked.damping) if asked.damping > 0.0 else None
+    number = None if found is None else found["restitution"]
+    if number is None or number.value is None or number.error is None:
+        return Reference()  # off the map, or without damping, where no number exists
+    source = "comparison/whole_impact/map.json, interpolated"
+    return Reference({"restitution": number.value}, errors={"restitution": number.error}, source=source)
+
+
+@cache
+def stored_bounces() -> dict[str, Any]:
+    """``bounce_reference.json``."""
+    return dict(json.loads(BOUNCES.read_text(encoding="utf-8")))
 
 
 def _ball(asked: Problem) -> Callable[[Array], Array]:

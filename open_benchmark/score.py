@@ -18,7 +18,7 @@ from comparison.estimators import Estimate, Moments, first_order, leading_order
 from open_benchmark import doctor
 from open_benchmark.references import Reference, reference
 from open_benchmark.result import Result, ResultError
-from open_benchmark.verdict import LIMITS, MEASURES, Score
+from open_benchmark.verdict import LIMITS, MEASURES, TOLERANCE, Score
 
 __all__ = ["score", "work_precision"]
 
@@ -201,7 +201,7 @@ def _ladder(result: Result, exact: Reference) -> Score:
     if asked.kind == "bounce":
         free = result.tau >= 0.9 * asked.end_time  # out of contact by then: what still changes is the error
         rest = result.J[free] / (asked.length or 2.0) - 1.0
-        measured["restitution"] = Compared(float(rest[-1]), float(np.ptp(rest)), None)
+        measured["restitution"] = Compared(float(rest[-1]), float(np.ptp(rest)), exact["restitution"])
     elif exact.impulse is not None:
         expected = exact.impulse(result.tau)
         # mean, not largest: where the impulse jumps, a jump at a slightly wrong time is a small error
@@ -214,8 +214,22 @@ def _ladder(result: Result, exact: Reference) -> Score:
         measured=measured,
         adhesion=_adhesion(result),
         energy=_energy(result),
+        reference={name: {"error": error, "source": exact.source} for name, error in exact.errors.items()},
         metadata=result.metadata,
     )
+
+
+def _off(found: Score) -> list[str]:
+    """Names of the numbers that their reference, within both error bars and the tolerance, does not bear out."""
+    names = []
+    for name, about in found.reference.items():
+        difference = found.measured[name].difference
+        if (
+            difference is not None
+            and abs(difference) > about["error"] + (found.measured[name].error or 0.0) + TOLERANCE
+        ):
+            names.append(name)
+    return names
 
 
 def _judged(found: Score, result: Result) -> Score:
@@ -225,8 +239,12 @@ def _judged(found: Score, result: Result) -> Score:
         for name, measure in MEASURES.items()
         if (value := getattr(found, measure)) is not None and value > LIMITS[name]
     ]
-    words = ", ".join([found.outcome, *beyond])
-    reason = "; ".join(f"{MEASURES[n]} {getattr(found, MEASURES[n]):.2g} (limit {LIMITS[n]:g})" for n in beyond)
+    reasons = [f"{MEASURES[n]} {getattr(found, MEASURES[n]):.2g} (limit {LIMITS[n]:g})" for n in beyond]
+    for name in _off(found):
+        number, error = found.measured[name], found.reference[name]["error"]
+        reasons.append(f"{name} {number.value:.4g}, reference {number.theory:.4g} ± {error:.1g}")
+    words = ", ".join([found.outcome, *beyond, *(["off"] if len(reasons) > len(beyond) else [])])
+    reason = "; ".join(reasons)
     findings = tuple(doctor.diagnose(result, found)) if result.problem.is_front else ()
     return replace(found, outcome=words, reason=reason or None, diagnosis=findings)
 

@@ -9,12 +9,15 @@ from comparison.compared import Compared
 from comparison.plain import plain
 from open_benchmark.result import plain_number
 
-__all__ = ["LIMITS", "MEASURES", "Finding", "Score", "invalid"]
+__all__ = ["LIMITS", "MEASURES", "TOLERANCE", "Finding", "Score", "invalid"]
 
 #: What the judge calls a result beyond (benchmark.md; each about ten times what the best strictly unilateral code shows
 #: on its finest mesh at κ/ν = 0.5): tensile impulse over J, penetration over V₀τ, gap in the zone over V₀τ, noise.
 LIMITS = {"adhesive": 0.01, "leaky": 0.01, "lifted": 0.01, "unsettled": 0.005}
 MEASURES = {"adhesive": "adhesion", "leaky": "penetration", "lifted": "lift", "unsettled": "noise"}
+#: A restitution that is further from its reference than both error bars and this is called "off": what the best codes
+#: differ by on meshes of a hundred elements, three times.
+TOLERANCE = 0.005
 
 
 @dataclass(frozen=True)
@@ -37,6 +40,7 @@ class Score:
     outcome : the adapter's, with the judge's additions after a comma ("completed, lifted"). reason : one line for
     anything but "completed". measured : name → value, error bar and exact value. lift, penetration (over V₀τ),
     adhesion (tensile over whole impulse), noise (residual of the fit over the impulse), energy (shares of J V₀).
+    reference : name → error bar and source of a value in ``measured`` that is held against a simulation.
     """
 
     problem: str
@@ -48,6 +52,7 @@ class Score:
     adhesion: float | None = None
     noise: float | None = None
     energy: dict[str, float | None] | None = None
+    reference: dict[str, dict[str, Any]] = field(default_factory=dict)
     diagnosis: tuple[Finding, ...] = ()
     metadata: dict[str, Any] = field(default_factory=dict)
 
@@ -70,6 +75,7 @@ class Score:
         for name in ("lift", "penetration", "adhesion", "noise"):
             document[name] = getattr(self, name)
         document["energy"] = self.energy
+        document["reference"] = self.reference or None
         document["diagnosis"] = [finding.name for finding in self.diagnosis]
         document["advice"] = [finding.to_dict() for finding in self.diagnosis if finding.name != "clean"]
         document["metadata"] = self.metadata

@@ -62,7 +62,10 @@ def _text(found: Score) -> str:
     lines = [f"{found.problem}: {found.outcome}" + (f" ({found.reason})" if found.reason else "")]
     for name, value in found.measured.items():
         error = found.error(name)
-        exact = "" if value.theory is None else f", exact {value.theory:.8g}"
+        about = found.reference.get(name)
+        exact = f", reference {value.theory:.6g} ± {about['error']:.1g}" if about else ""
+        if value.theory is not None and not about:
+            exact = f", exact {value.theory:.8g}"
         lines.append(f"{name:>14} = {value}{exact}" + ("" if error is None else f" ({100 * error:+.3f} %)"))
     for name in ("lift", "penetration", "adhesion", "noise"):
         number = getattr(found, name)

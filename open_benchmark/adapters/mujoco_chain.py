@@ -1,8 +1,10 @@
 """MuJoCo: a chain of rigid links with springs and dampers in its hinges, soft contact made stiff.
 
-Settings from its documentation: implicitfast ("the recommended integrator for most models", Computation, Numerical
-integration), solref's time constant at twice the time step, the smallest allowed (Modeling, Solver parameters), an
-impedance close to one and constant, condim 1 on both geoms (the larger of both counts), Newton's solver.
+From its documentation: implicitfast, "the recommended integrator for most models" (Computation, Numerical
+integration); solref's time constant "at least two times larger than the simulation time step" and a damping ratio that
+"would normally be set to 1" (Modeling, Solver parameters): the stiffest of that; an impedance that is constant and as
+close to one as MuJoCo lets it be (0.9999), which gives the least penetration (same place); condim 1 on both geoms,
+because the larger counts (Modeling, Contact parameters); Newton's solver, its default, without an early stop.
 """
 
 import json

@@ -1,9 +1,10 @@
 """PyElastica: a Cosserat rod, position Verlet, its plane contact as shipped or with the wall's pull clipped.
 
-Settings its documentation recommends: LaplaceDissipationFilter of order 3 to 7 against high-frequency noise (its
-docstring in elastica/dissipation.py), position Verlet with constant steps (examples). Its plane contact ignores what
-is within an absolute 1e-4 of the plane, so lengths are scaled until that is nothing. Its damping acts on separation
-too: the wall pulls ("shipped"); "clipped" keeps the part of each element's force that pushes.
+From its documentation: LaplaceDissipationFilter against high-frequency noise, where orders of "3-7 are usually
+recommended" and low orders filter most (docstring of the class, elastica/dissipation.py): 3; PositionVerlet with
+constant steps, as in its examples. Its plane contact takes all that is less than an absolute 1e-4 above the plane
+for touching (surface_tol, elastica/contact_forces.py), so lengths are scaled until that is nothing. Its damping acts on
+separation too: the wall pulls ("shipped"); "clipped" keeps the part of each element's force that pushes.
 """
 
 import json

@@ -48,7 +48,7 @@ def by_laplace(damping: float, time: float, kind: str) -> float:
 def test_modes_give_what_laplace_inversion_gives(damping: float, kind: str) -> None:
     for time in (1e-3, 0.02, 0.3):
         found = float(getattr(StoppedBeam(damping), kind)(time))
-        assert found == pytest.approx(by_laplace(damping, time, kind), rel=1e-10, abs=1e-11)
+        assert found == pytest.approx(by_laplace(damping, time, kind), rel=1e-12, abs=1e-13)
 
 
 @pytest.mark.parametrize(

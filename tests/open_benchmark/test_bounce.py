@@ -1,0 +1,65 @@
+"""The whole impact: held against a converged reference, within both error bars and a tolerance."""
+
+from __future__ import annotations
+
+import dataclasses
+
+import numpy as np
+import pytest
+
+from comparison.whole_impact.map import bounce_from_map
+from open_benchmark.bounce_reference import measure
+from open_benchmark.problem import problem, shipped_ids
+from open_benchmark.references import reference, stored_bounces
+from open_benchmark.result import Result
+from open_benchmark.score import score
+
+SHIPPED = [name for name in shipped_ids() if name.startswith("bounce-")]
+
+
+def left_with(name: str, restitution: float, drift: float = 0.0) -> Result:
+    """A wall that has given the beam 2(1 + e) by half of the record, and ``drift`` on it from there."""
+    asked = problem(name)
+    tau = np.linspace(0.0, asked.end_time, 600)
+    push = 2.0 * (1.0 + restitution) * np.minimum(tau / (0.5 * asked.end_time), 1.0)
+    push = push + 2.0 * drift * np.maximum(tau / asked.end_time - 0.9, 0.0) / 0.1
+    return Result("completed", "", asked, {}, tau, push)
+
+
+@pytest.mark.parametrize("name", SHIPPED)
+def test_a_restitution_is_held_against_its_reference_within_bars_and_tolerance(name: str) -> None:
+    exact = reference(problem(name))
+    value, error = exact["restitution"], exact.errors["restitution"]
+    assert value is not None and 0.0 < error < 1e-3
+    right = score(left_with(name, value + 0.004))
+    assert right.outcome == "completed" and right.measured["restitution"].theory == value
+    assert right.reference["restitution"] == {"error": error, "source": exact.source} and "python -m" in exact.source
+    wrong = score(left_with(name, value - 0.03))
+    assert wrong.outcome == "completed, off" and "reference" in str(wrong.reason)
+    # one that is still changing says so in its own error bar
+    unsure = score(left_with(name, value - 0.03, drift=0.03))
+    assert unsure.outcome == "completed" and unsure.measured["restitution"].error == pytest.approx(0.03, rel=0.05)
+
+
+@pytest.mark.parametrize("name", SHIPPED)
+def test_the_stored_reference_and_the_map_agree_within_their_bars(name: str) -> None:
+    asked = problem(name)
+    value, error = stored_bounces()["problems"][name]["restitution"]
+    on_map = bounce_from_map(asked.kappa_over_nu, asked.damping)
+    assert on_map is not None and on_map["restitution"].value is not None
+    assert abs(on_map["restitution"].value - value) <= error + (on_map["restitution"].error or 0.0)
+
+
+def test_other_bounces_are_held_against_the_map_and_none_against_a_band() -> None:
+    between = reference(problem("bounce-0.7-2e-3"))
+    assert between["restitution"] and between.errors["restitution"] > 0.0 and "map" in between.source
+    assert reference(problem("bounce-0.7-0")) == dataclasses.replace(reference(problem("bounce-0.01-1e-3")))
+    assert score(left_with("bounce-0.7-0", 0.2)).measured["restitution"].theory is None
+
+
+@pytest.mark.verify
+def test_the_stored_reference_is_what_a_coarser_mesh_tends_to() -> None:
+    for name in SHIPPED:
+        coarse = measure(problem(name), elements=100)["restitution"]
+        value, error = stored_bounces()["problems"][name]["restitution"]
+        assert abs(coarse[0] - value) <= coarse[1] + error and coarse[1] > error
