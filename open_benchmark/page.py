@@ -250,18 +250,21 @@ def _in_short(row: Row) -> str:
 
 
 def write_page(rows: Sequence[Row], adapters: Sequence[Adapter], out: Path) -> Path:
-    """Write ``index.html``, ``benchmark.json`` and the errors as a table, ``errors.md``; returns the page."""
+    """Write ``index.html``, the same as ``benchmark.json``, its errors as a table (``errors.md``) and its figures
+    (``sheets/PROBLEM-MEASURE.svg``); returns the page."""
     solvers = [a.name for a in adapters]
     sheets = []
     for name in dict.fromkeys(row.problem for row in rows):
-        figures = work_precision_figures(rows, name, solvers)
+        figures = {m: _svg(figure) for m, figure in work_precision_figures(rows, name, solvers).items()}
+        for measure, text in figures.items():
+            write_atomically(out / "sheets" / f"{name}-{measure}.svg", text)
         own = [row for row in rows if row.problem == name]
         shown = [m for m in MEASURES if any(m in row.score.measured for row in own)]
         sheets.append(
             {
                 "id": name,
                 "words": in_words(problem(name)),
-                "figures": [_svg(figure) for figure in figures.values()],
+                "figures": list(figures.values()),
                 "measures": [MEASURES[m] for m in shown],
                 "rows": [(row, [_cell(row, m) for m in shown], _seconds(row)) for row in own],
             }
