@@ -9,6 +9,7 @@ import pytest
 
 from bent_beam import Impact, ImpactHistory
 from comparison.estimators import SIDE, Estimate, _smooth, first_order, leading_order, moments, with_companions
+from comparison.reduction import bending_moments, peak_moment
 from theory import contact_parameters
 
 
@@ -105,6 +106,31 @@ def test_companion_runs_widen_the_error_bars_by_their_distance():
     wider = with_companions(found, [other, found])
     assert (wider.r1.value, wider.lambda1) == (found.r1.value, found.lambda1)
     assert wider.r1.error >= found.r1.error + 0.3 * (1.0 - 1e-12)
+
+
+@pytest.mark.parametrize("with_slope", [True, False])
+@pytest.mark.parametrize("natural", [None, 0.1])
+def test_the_moment_of_a_cubic_is_exact_and_the_peak_is_where_it_is_largest(with_slope, natural):
+    """y = t(ax² + bx³) against a curved wall: M = EI(t(2a + 6bx) + K₀); the first saved instant does not count."""
+    a, b, stiffness, wall = 0.3, 0.2 if with_slope else 0.0, 2.5, 0.05  # differences are exact for a parabola
+    impact = Impact(stiffness, 1.0, 4.0, 0.2, 1.0, wall_curvature=wall, natural_curvature=natural)
+    time, x = np.array([9.0, 1.0, 3.0, 2.0]), np.array([0.0, 0.3, 0.7, 1.2, 2.0])
+    y = np.outer(time, a * x**2 + b * x**3)
+    fields = {"gap": (("time", "x"), -y - 0.5 * wall * x**2)}
+    fields |= {"slope": (("time", "x"), np.outer(time, 2 * a * x + 3 * b * x**2))} if with_slope else {}
+    fields |= {name: (("time", "contact"), 0.0 * y) for name in ("impulse",)}
+    fields |= {"total_impulse": (("time",), 0.0 * time)}
+    described = {"impact": impact, "path": "hermite", "symmetry": "half", "settings": {}}
+    history = ImpactHistory.build(**described, time=np.arange(4.0), x=x, contact_x=x, fields=fields)
+    exact = stiffness * (np.multiply.outer(time, 2 * a + 6 * b * x) + (0.2 if natural is None else natural))
+    found, place = bending_moments(history, slice(None))
+    assert found[..., 0] == pytest.approx(exact[:, :-1], rel=1e-12)
+    assert found[..., 1] == pytest.approx(exact[:, 1:], rel=1e-12)
+    assert bending_moments(history, 2)[0] == pytest.approx(found[2], rel=1e-15)
+    assert np.all(place == np.stack([x[:-1], x[1:]], axis=1))
+    peak = peak_moment(history)
+    assert peak.time == 2.0 and (peak.place == 2.0 or not with_slope)
+    assert peak.moment == pytest.approx(exact[2, -1], rel=1e-12)
 
 
 def test_physical_units_drop_out():

@@ -50,6 +50,17 @@ def test_steps_grow_at_most_as_asked_and_refined_ones_are_as_many_times_shorter(
     assert type(integrator.refined(2.0)) is type(integrator)
 
 
+def test_a_step_that_is_given_stays_and_does_not_grow_unless_asked() -> None:
+    def chosen(**given: float) -> tuple[float | None, float | None]:
+        made = MoreauJean(**given).with_steps(1e-3, 0.01)
+        return made.time_step, made.growth
+
+    assert chosen() == (1e-3, 0.01)
+    assert chosen(time_step=1e-4) == (1e-4, 0.0)
+    assert chosen(growth=0.05) == (1e-3, 0.05)
+    assert chosen(time_step=1e-4, growth=0.05) == (1e-4, 0.05)
+
+
 def test_half_of_the_saved_instants_lie_in_the_first_quarter() -> None:
     assert np.mean(saved_steps(np.linspace(0.0, 1.0, 100_001), 201) <= 25_000) == pytest.approx(0.5, abs=0.01)
 
