@@ -83,6 +83,8 @@ def _method(table: Any, where: str) -> Method:
     label = table.get("label")
     if label is not None and (not isinstance(label, str) or not 0 < len(label) <= 80 or not label.isprintable()):
         raise InputError(f"{where}: label must be a short text (got {shortened(label)})")
+    if label is not None and "$" in label:
+        raise InputError(f"{where}: label must not hold $, which figures take for mathematics (got {shortened(label)})")
     try:
         return method_from_tables(table["path"], rest, label=label)
     except InputError as error:

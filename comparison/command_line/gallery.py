@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 
 from comparison.command_line.console import Console
-from comparison.command_line.options import Jobs, Json, Quiet, complete, emit
+from comparison.command_line.options import Jobs, Json, Quiet, complete, emit, printable
 
 __all__ = ["gallery"]
 
@@ -59,5 +59,5 @@ def gallery(
     )
     if failures:
         for f in failures:
-            print(f"error: {f['id']}: {f['reason']}", file=sys.stderr)
+            print(printable(f"error: {f['id']}: {f['reason']}"), file=sys.stderr)
         raise typer.Exit(3)

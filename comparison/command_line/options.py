@@ -55,9 +55,11 @@ Overwrite = Annotated[bool, typer.Option("--overwrite", help="Replace what is th
 def emit(document: Any, as_json: bool, text: Callable[[], str]) -> None:
     """Print ``document`` as one line of JSON, numbers finite and missing values null, or as ``text``."""
     if as_json:
+        import json
+
         from comparison.plain import json_text
 
-        print(json_text(document))
+        print("".join(c if c.isprintable() else json.dumps(c)[1:-1] for c in json_text(document)))
     else:
         print(printable(text()))
 

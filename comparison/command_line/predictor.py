@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from comparison.command_line.options import Overwrite, check_out
+from comparison.command_line.options import Overwrite, check_out, printable
 
 __all__ = ["predictor"]
 
@@ -23,4 +23,4 @@ def predictor(
     from comparison.predictor import write_page
 
     check_out(out, overwrite)
-    print(f"{write_page(out)}: open it in a browser")
+    print(printable(f"{write_page(out)}: open it in a browser"))

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from comparison.command_line.options import Json, emit
+from comparison.command_line.options import Json, emit, printable
 
 if TYPE_CHECKING:
     from open_benchmark.verdict import Score
@@ -44,10 +44,11 @@ def score(
         try:
             found.append(score_of(load_result(file), reference))
         except ResultError as error:
-            found.append(invalid(str(error)))
+            found.append(invalid(printable(str(error))))
         if found[-1].outcome == "invalid":
             reason = str(found[-1].reason)
-            print(f"error: {reason if reason.startswith(str(file)) else f'{file}: {reason}'}", file=sys.stderr)
+            named = reason if reason.startswith(printable(str(file))) else f"{file}: {reason}"
+            print(printable(f"error: {named}"), file=sys.stderr)
             code = 2
     document: dict[str, Any] = found[0].to_dict()
     if len(found) > 1:

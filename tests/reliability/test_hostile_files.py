@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 
 from bent_beam import Impact, ImpactHistory
+from comparison.command_line.app import run
 
 FUZZ = bool(os.environ.get("FUZZ"))
 SEED = os.environ.get("FUZZ_SEED", "0")
@@ -258,3 +259,41 @@ def test_a_hostile_case_reaches_the_terminal_without_its_escapes(tmp_path):
     main = "from comparison.command_line.app import main; main()"
     done = subprocess.run([sys.executable, "-c", main, "predict", file], capture_output=True, text=True)
     assert done.returncode == 2 and "\x1b" not in done.stderr and "\x9b" not in done.stderr
+
+
+EVIL = "\x1b]0;x\x07\x9b31m\u202e<script>alert(1)</script>"
+TEXTS = {
+    "a case's title": "study mesh {case} --set hermite.integrator.kind={evil}",
+    "a setting's value": "predict {case} --set beam.{evil}=1",
+    "a setting in JSON": "predict {case} --json --set impact.velocity={evil}",
+    "a case's name": "predict {folder}/{evil}.toml",
+    "a method's label": "match --methods {methods} --kappa-over-nu 2",
+    "a label that is mathematics": "match --methods {mathematics} --kappa-over-nu 2",
+    "a result's name": "score {folder}/{evil}.npz",
+    "a result's name in JSON": "score {folder}/{evil}.npz --json",
+    "a history's name": "rerun {folder}/{evil}.nc",
+    "a figure's name": "gallery {evil}",
+    "a study's name": "study {evil}",
+    "a problem's name": "problem {evil}",
+    "a folder": "new {folder}/{evil}/x.toml",
+}
+
+
+@pytest.mark.parametrize("name", TEXTS)
+def test_no_text_acts_on_the_terminal(name, tmp_path, capsys):
+    """Control characters and writing turned round come out as their codes, in text and JSON, on either stream."""
+    quoted = json.dumps(EVIL).replace("\\u009b", "\x9b")
+    beam = "[beam]\nbending_stiffness = 1.0\nmass_per_length = 1.0\nlength = 2.0\ncurvature = 0.5\n"
+    texts = {
+        "case": f"title = {quoted}\n{beam}[impact]\nvelocity = 1.0\n",
+        "methods": f'[[method]]\npath = "hermite"\nlabel = {quoted}\n',
+        "mathematics": '[[method]]\npath = "hermite"\nlabel = "$\\\\frac{$ <b>"\n',
+    }
+    words = {"folder": str(tmp_path), "evil": EVIL.replace("/", "|")}
+    for kind, text in texts.items():
+        (tmp_path / f"{kind}.toml").write_text(text)
+        words[kind] = str(tmp_path / f"{kind}.toml")
+    code = run([word.format(**words) for word in TEXTS[name].split()])
+    said = capsys.readouterr()
+    assert code in (0, 2) and (code == 0 or said.err.count("\n") == 1)
+    assert all(c.isprintable() or c == "\n" for c in said.out + said.err), said
