@@ -208,6 +208,7 @@ def page(content: Content) -> str:
         lost_impacts=content.lost_impacts,
         studies=[(s, s.conclusion.removesuffix(ending).strip()) for s in content.studies],
         studies_ending=ending,
+        study_dates=span_of([note.date for note in content.studies if note.date]),
         pictures={p.stem: picture(p) for p in content.pictures if p.exists()}
         | {f"study-{n.name}": picture(n.picture) for n in content.studies if n.picture.exists()},
         guides=content.guides,
@@ -273,6 +274,12 @@ def facts(content: Content) -> list[tuple[str, str]]:
         *versions().items(),
         ("plotly", plotly_version()),
     ]
+
+
+def span_of(dates: Sequence[str]) -> str:
+    """When things of these dates (ISO) were measured: "on" the one day, or "from … to …"; empty without dates."""
+    first, last = min(dates, default=""), max(dates, default="")
+    return f"on {last}" if first == last and last else f"from {first} to {last}" if dates else ""
 
 
 def plotly_version() -> str:

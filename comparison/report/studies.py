@@ -1,11 +1,13 @@
 """The parameter studies for the report: conclusions and pictures, stored with their date.
 
 They take minutes, so the report shows what ``python -m comparison.report.studies`` has measured and written to
-``stored/studies.json`` and the pictures beside it; the page says when, and with which versions.
+``stored/studies.json`` and the pictures beside it; the page says when, and with which versions. Given names, the
+command measures those studies again and keeps the others with their dates.
 """
 
 from __future__ import annotations
 
+import argparse
 import json
 import os
 from collections import Counter
@@ -80,22 +82,32 @@ def stored_studies() -> list[StudyNote]:
     if not file.exists():
         return []
     document = json.loads(file.read_text(encoding="utf-8"))
-    return [StudyNote(**note, date=document["date"]) for note in document["studies"]]
+    return [StudyNote(**note) for note in document["studies"]]
 
 
 def store_studies(names: Sequence[str], *, jobs: int = 1) -> Path:
-    """Run the studies and write their conclusions and pictures to ``stored/``; returns the file of conclusions."""
+    """Run the studies and write their conclusions and pictures to ``stored/``; returns the file of conclusions.
+
+    Studies that are not named stay as they are stored. Raises ``ValueError`` for an unknown name, and where stored
+    studies would be kept that were measured with other versions than today's.
+    """
     titles = known_studies()
-    wanted = [(name, titles[name]) for name in names]
+    if unknown := sorted(set(names) - set(titles)):
+        raise ValueError(f"no study is called {', '.join(unknown)}; there are {', '.join(titles)}")
+    kept = {note.name: note for note in stored_studies() if note.name in titles and note.name not in names}
+    file = STORED / "studies.json"
+    if kept and json.loads(file.read_text(encoding="utf-8"))["versions"] != versions():
+        raise ValueError(f"{', '.join(kept)}: measured with other versions; run all studies again")
+    wanted = [(name, titles[name]) for name in titles if name in names]
     notes = run_all(_note, wanted, jobs=jobs, on_death=lambda i, why: lost(*wanted[i], why))
+    found = kept | {note.name: note for note in notes}
     document = {
         "what": "conclusions of the parameter studies, for the report",
         "made_by": "python -m comparison.report.studies",
-        "date": datetime.now(UTC).date().isoformat(),
+        "date": max(note.date for note in found.values()),
         "versions": versions(),
-        "studies": [{k: v for k, v in asdict(note).items() if k != "date"} for note in notes],
+        "studies": [asdict(found[name]) for name in titles if name in found],
     }
-    file = STORED / "studies.json"
     write_atomically(file, json.dumps(document, indent=1, ensure_ascii=False) + "\n")
     return file
 
@@ -113,7 +125,11 @@ def _note(name: str, title: str) -> StudyNote:
                 small_picture(picture, STORED / picture.name)
     except (ArithmeticError, ValueError, SimulationError) as error:
         return lost(name, title, " ".join(str(error).split()))
-    return StudyNote(name, title, conclusion, case.title)
+    return StudyNote(name, title, conclusion, case.title, date=today())
+
+
+def today() -> str:
+    return datetime.now(UTC).date().isoformat()
 
 
 def small_picture(file: Path, target: Path) -> None:
@@ -131,6 +147,7 @@ def lost(name: str, title: str, why: str) -> StudyNote:
         title,
         f"Left out ({why}). To run it alone: bentbeam study {name} cases/thesis_K10.toml",
         failed=True,
+        date=today(),
     )
 
 
@@ -151,4 +168,8 @@ def ending_of(conclusion: str) -> str:
 
 
 if __name__ == "__main__":
-    print(store_studies(list(known_studies()), jobs=max(1, os.cpu_count() or 1)))
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("names", nargs="*", metavar="NAME", help="studies to measure again (all)")
+    parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1)
+    given = parser.parse_args()
+    print(store_studies(given.names or list(known_studies()), jobs=given.jobs))

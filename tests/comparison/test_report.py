@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import json
 import re
+import shutil
 import sys
 from dataclasses import replace
 from html.parser import HTMLParser
@@ -14,9 +16,10 @@ import pytest
 
 from comparison.figures.force_map import force_map, spread
 from comparison.report import page as report_module
+from comparison.report import studies
 from comparison.report.impacts import END, FRAMES, SHOWN, frames, kept_instants, theory_of
 from comparison.report.noise import noise_methods
-from comparison.report.page import page, write_report
+from comparison.report.page import page, span_of, write_report
 from comparison.report.plots import row_plots
 from comparison.report.rows import (
     first_order_rows,
@@ -25,7 +28,7 @@ from comparison.report.rows import (
     table_row,
     tolerance,
 )
-from comparison.report.studies import StudyNote, case_of, common_ending, known_studies, stored_studies
+from comparison.report.studies import StudyNote, case_of, common_ending, known_studies, store_studies, stored_studies
 from comparison.report.text import acceleration_answer, edge_answer, headline, noise_answer, percent, speed_answer
 from comparison.store import RunStore
 
@@ -287,6 +290,30 @@ def test_stored_studies_are_those_that_there_are_with_date_and_picture() -> None
     assert {n.name for n in notes} <= set(known_studies()) and len(notes) >= 10
     assert all(n.date and n.conclusion and not n.failed for n in notes)
     assert sum(n.picture.exists() for n in notes) >= 10
+
+
+def test_a_study_measured_again_leaves_the_others_as_they_are(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    before = {note.name: note for note in stored_studies()}
+    shutil.copy(studies.STORED / "studies.json", tmp_path)
+    monkeypatch.setattr(studies, "STORED", tmp_path)
+    monkeypatch.setattr(studies, "versions", lambda: json.loads((tmp_path / "studies.json").read_text())["versions"])
+    monkeypatch.setattr(studies, "_note", lambda name, title: StudyNote(name, title, "New.", date="2030-01-01"))
+    store_studies(["mesh"])
+    after = {note.name: note for note in stored_studies()}
+    assert list(after) == list(before)
+    assert (after.pop("mesh").conclusion, before.pop("mesh").name) == ("New.", "mesh")
+    assert after == before
+    with pytest.raises(ValueError, match="no study is called meshes"):
+        store_studies(["meshes"])
+    monkeypatch.setattr(studies, "versions", lambda: {"numpy": "0"})
+    with pytest.raises(ValueError, match="run all studies again"):
+        store_studies(["mesh"])
+
+
+def test_dates_of_studies_are_one_day_or_a_span() -> None:
+    assert span_of([]) == ""
+    assert span_of(["2026-01-02", "2026-01-02"]) == "on 2026-01-02"
+    assert span_of(["2026-01-03", "2026-01-02"]) == "from 2026-01-02 to 2026-01-03"
 
 
 def test_sentence_shared_by_studies_is_said_once() -> None:

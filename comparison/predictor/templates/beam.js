@@ -30,34 +30,34 @@ const Beam = (() => {
   const on = (field, ...kinds) => (i) => kinds.includes(i[field]);
   const CHOICES = [
     { name: "units", label: "Units", group: "", options: { si: "metric", oilfield: "oilfield" } },
-    { name: "section", label: "Section", group: "The beam", options: { pipe: "pipe", round_bar: "round bar", rectangle: "rectangle" } },
-    { name: "bow", label: "Its bow is known as", group: "The bow", options: { curvature: "curvature", sagitta: "sagitta over a length", dogleg: "dogleg" } },
-    { name: "approach", label: "It arrives with", group: "The approach", options: { velocity: "a velocity", drop: "a drop on a floor" } },
+    { name: "section", label: "Section", group: "Beam", options: { pipe: "pipe", round_bar: "round bar", rectangle: "rectangle" } },
+    { name: "bow", label: "Given as", group: "Bow", options: { curvature: "curvature", sagitta: "sagitta over a length", dogleg: "dogleg" } },
+    { name: "approach", label: "Given as", group: "Approach", options: { velocity: "velocity", drop: "drop height" } },
   ];
   const FIELDS = [
     { name: "outer_diameter", label: "Outer diameter", quantity: "section", start: 0.127, ok: positive, shown: on("section", "pipe") },
     { name: "inner_diameter", label: "Inner diameter", quantity: "section", start: 0.1086, ok: positive, shown: on("section", "pipe") },
     { name: "diameter", label: "Diameter", quantity: "section", start: 0.02, ok: positive, shown: on("section", "round_bar") },
-    { name: "thickness", label: "Thickness, in the bending", quantity: "section", start: 0.01, ok: positive, shown: on("section", "rectangle") },
-    { name: "width", label: "Width, along the wall", quantity: "section", start: 0.03, ok: positive, shown: on("section", "rectangle") },
+    { name: "thickness", label: "Thickness (towards the wall)", quantity: "section", start: 0.01, ok: positive, shown: on("section", "rectangle") },
+    { name: "width", label: "Width (along the wall)", quantity: "section", start: 0.03, ok: positive, shown: on("section", "rectangle") },
     { name: "youngs_modulus", label: "Young’s modulus E", quantity: "modulus", start: 206e9, ok: positive },
     { name: "density", label: "Density", quantity: "density", start: 7850, ok: positive },
-    { name: "fluid_density", label: "Fluid inside, density", quantity: "density", start: 0, ok: whole, shown: on("section", "pipe") },
-    { name: "added_mass", label: "Further mass (joints, mud)", quantity: "line", start: 2.29, ok: whole },
-    { name: "yield_stress", label: "Yield stress (0: not known)", quantity: "stress", start: 931e6, ok: whole },
+    { name: "fluid_density", label: "Density of fluid inside", quantity: "density", start: 0, ok: whole, shown: on("section", "pipe") },
+    { name: "added_mass", label: "Added mass (joints, mud)", quantity: "line", start: 2.29, ok: whole },
+    { name: "yield_stress", label: "Yield stress (0: unknown)", quantity: "stress", start: 931e6, ok: whole },
     { name: "length", label: "Length L", quantity: "length", start: 90, ok: positive },
-    { name: "curvature", label: "Curvature K", quantity: "curvature", start: 0.002, ok: positive, shown: on("bow", "curvature"), group: "The bow" },
-    { name: "sagitta", label: "Sagitta", quantity: "sagitta", start: 0.025, ok: positive, shown: on("bow", "sagitta"), group: "The bow" },
-    { name: "sagitta_length", label: "over the length", quantity: "length", start: 10, ok: positive, shown: on("bow", "sagitta"), group: "The bow" },
-    { name: "dogleg", label: "Dogleg", quantity: "dogleg", start: 3.437747 * PI / 180 / 30, ok: positive, shown: on("bow", "dogleg"), group: "The bow" },
-    { name: "velocity", label: "Velocity V₀", quantity: "velocity", start: 2, ok: positive, shown: on("approach", "velocity"), group: "The approach" },
-    { name: "drop_height", label: "Drop height", quantity: "drop", start: 0.2, ok: positive, shown: on("approach", "drop"), group: "The approach" },
-    { name: "tension", label: "Tension N (compression < 0)", quantity: "tension", start: 0, ok: any, group: "What acts on it" },
-    { name: "load", label: "Push to the wall", quantity: "load", start: 0, ok: any, group: "What acts on it" },
+    { name: "curvature", label: "Curvature K", quantity: "curvature", start: 0.002, ok: positive, shown: on("bow", "curvature"), group: "Bow" },
+    { name: "sagitta", label: "Sagitta", quantity: "sagitta", start: 0.025, ok: positive, shown: on("bow", "sagitta"), group: "Bow" },
+    { name: "sagitta_length", label: "Length of the sagitta", quantity: "length", start: 10, ok: positive, shown: on("bow", "sagitta"), group: "Bow" },
+    { name: "dogleg", label: "Dogleg", quantity: "dogleg", start: 3.437747 * PI / 180 / 30, ok: positive, shown: on("bow", "dogleg"), group: "Bow" },
+    { name: "velocity", label: "Velocity V₀", quantity: "velocity", start: 2, ok: positive, shown: on("approach", "velocity"), group: "Approach" },
+    { name: "drop_height", label: "Drop height", quantity: "drop", start: 0.2, ok: positive, shown: on("approach", "drop"), group: "Approach" },
+    { name: "tension", label: "Axial force (tension +)", quantity: "tension", start: 0, ok: any, group: "Loads" },
+    { name: "load", label: "Load towards the wall", quantity: "load", start: 0, ok: any, group: "Loads" },
   ];
   for (const field of FIELDS) {
     field.shown = field.shown || (() => true);
-    field.group = field.group || "The beam";
+    field.group = field.group || "Beam";
   }
   const START = { units: "si", section: "pipe", bow: "dogleg", approach: "velocity" };
   for (const field of FIELDS) START[field.name] = field.start;

@@ -133,20 +133,26 @@
   }
   const path = (points) => points.map(([x, y], i) => `${i ? "L" : "M"}${x.toFixed(2)},${y.toFixed(2)}`).join("");
 
-  const CURVES = [
-    { id: "plot-length", label: "Half contact length", name: "place", of: (r) => r.halfLength },
+  const placeOfPeak = (t) => predicted.peak.at * Math.sqrt(predicted.c * t);
+  const CURVES = [ // `spreads`: nothing to draw where the contact stays a point
+    { id: "plot-length", label: "Half contact length", name: "place", of: (r) => r.halfLength, spreads: true },
     { id: "plot-force", label: "Force on the wall", name: "force", of: (r) => r.reaction, steep: true },
     { id: "plot-impulse", label: "Impulse", name: "impulse", of: (r) => r.impulse },
+    { id: "plot-moment", label: "Largest bending moment", name: "moment", of: (r) => r.moment },
+    { id: "plot-place", label: "Distance of that moment from the middle", name: "place", of: (_, t) => placeOfPeak(t), spreads: true },
     { id: "plot-stress", label: "Largest stress", name: "stress", of: (r) => r.stress },
   ];
 
   function drawCurves(end, now) {
-    const count = 80, [second, perSecond] = unit("time", end);
-    for (const { id, label, name, of, steep } of CURVES) {
-      const svg = find(`#${id}`), width = Math.max(260, svg.clientWidth || 320), points = [];
+    const count = 80, [second, perSecond] = unit("time", end), point = predicted.contact.regime === "discrete";
+    for (const { id, spreads } of CURVES) find(`#${id}`).style.display = spreads && point ? "none" : "";
+    const width = Math.max(260, find("#plot-force").clientWidth || 320); // read once: each reading after a change costs a layout
+    for (const { id, label, name, of, steep, spreads } of CURVES) {
+      if (spreads && point) continue;
+      const svg = find(`#${id}`), points = [];
       for (let i = 1; i <= count; i++) {
         const t = end * (i / count) ** 2;
-        points.push([t, of(Beam.at(predicted, t))]);
+        points.push([t, of(Beam.at(predicted, t), t)]);
       }
       // the force starts as 1/√t: its axis ends where the curve leaves it
       const top = steep ? 4 * points[count - 1][1] : Math.max(...points.map((p) => p[1]));
@@ -157,7 +163,7 @@
       });
       const place = ([t, value]) => [X(t / perSecond), Y(value / size)];
       draw(svg, "path", { d: path(points.filter((p) => p[1] <= high).map(place)), class: "curve" });
-      const value = now > 0 ? of(Beam.at(predicted, now)) : Infinity;
+      const value = now > 0 ? of(Beam.at(predicted, now), now) : Infinity;
       if (value <= high) {
         const [cx, cy] = place([now, value]);
         draw(svg, "circle", { cx, cy, r: 4.5, class: "now" });
@@ -201,16 +207,16 @@
 
   function rows(now) {
     const r = Beam.at(predicted, now), p = predicted;
-    const where = p.peak.at > 0 ? `${quantity("place", p.peak.at * Math.sqrt(p.c * now), 3)} from the middle` : "in the contact";
+    const where = p.peak.at > 0 ? `${quantity("place", placeOfPeak(now), 3)} from the middle` : "in the contact";
     const list = [
       ["Half contact length", p.contact.regime === "discrete" ? "one point" : quantity("place", r.halfLength)],
       ["Force on the wall", quantity("force", r.reaction)],
-      ["of it uniform in the zone", r.uniform > 0 ? quantity("load", r.uniform) : "none"],
+      ["Uniform reaction in the zone", r.uniform > 0 ? quantity("load", r.uniform) : "none"],
       ["Impulse so far", quantity("impulse", r.impulse)],
       ["Largest bending moment", `${quantity("moment", r.moment)}, ${where}`],
       ["Largest stress", quantity("stress", r.stress)],
     ];
-    if (inputs.yield_stress > 0) list.push(["of the yield stress", `${text(100 * r.stress / inputs.yield_stress, 3)} %`]);
+    if (inputs.yield_stress > 0) list.push(["Share of the yield stress", `${text(100 * r.stress / inputs.yield_stress, 3)} %`]);
     return list;
   }
 
@@ -221,7 +227,7 @@
   function show() {
     const now = time();
     find("#predict-instant").textContent = quantity("time", now);
-    find("#values").replaceChildren(...(now > 0 ? rows(now) : [["At first touch", "nothing has happened yet"]]).map(([name, value]) => element("div", {}, element("dt", {}, name), element("dd", {}, value))));
+    find("#values").replaceChildren(...(now > 0 ? rows(now) : [["At first touch", "no impulse yet"]]).map(([name, value]) => element("div", {}, element("dt", {}, name), element("dd", {}, value))));
     drawShape(predicted.validUntil, now);
     drawCurves(predicted.validUntil, now);
   }
@@ -235,19 +241,24 @@
     }
     find("#answer").hidden = wrong.size > 0;
     find("#cannot").hidden = wrong.size === 0;
+    find("#brief").textContent = find("#cannot").textContent;
     if (wrong.size) return;
     const problem = Beam.impact(inputs);
     predicted = Beam.solve(problem);
     const [verdict, why] = REGIMES[predicted.contact.regime];
     find("#verdict").textContent = verdict;
     find("#why").textContent = why;
-    const yields = inputs.yield_stress > 0 && Beam.at(predicted, predicted.validUntil).stress > inputs.yield_stress;
+    const { stress, moment } = Beam.at(predicted, predicted.validUntil), yields = inputs.yield_stress > 0 && stress > inputs.yield_stress;
+    const share = inputs.yield_stress > 0 ? ` (${text(100 * stress / inputs.yield_stress, 3)} % of yield)` : "";
+    const peak = `Largest stress ${quantity("stress", stress)}${share}`;
+    find("#peak").textContent = `${peak}, largest bending moment ${quantity("moment", moment)}.`;
+    find("#brief").textContent = `${peak} ↓`;
     const stubby = predicted.ends === "shear";
     const from = predicted.validFrom > 0.01 * predicted.validUntil ? `from ${quantity("time", predicted.validFrom, 2)} ` : "";
     find("#holds").textContent = yields
-      ? "The stress is beyond yield from the first instant: a real beam bends for good, and what follows is that of an elastic one."
+      ? "The largest stress exceeds the yield stress: a real beam would deform plastically. The numbers below are those of an elastic beam."
       : stubby
-        ? "The beam is so stubby that it shears before it bends: this is an indication only."
+        ? "This beam is too short and thick: shear, which the theory leaves out, matters at all times. Take the numbers as an indication."
         : `This holds to 2 % ${from}until ${quantity("time", predicted.validUntil, 3)} after first touch; then ${predicted.limitedBy}.`;
     find("#holds").classList.toggle("alarm", yields || stubby);
     find("#groups").textContent = `κ/ν = K√(EI/μ)/V₀ = ${text(predicted.contact.ratio, 5)} · λ₀ = ${text(predicted.contact.lambda0, 6)} · r₀ = ${text(predicted.contact.r0, 6)} · EI = ${text(problem.stiffness, 5)} N m² · μ = ${text(problem.mass, 5)} kg/m · K = ${text(problem.curvature, 5)} 1/m · V₀ = ${text(problem.velocity, 5)} m/s`;
@@ -278,6 +289,7 @@
   fill();
   update();
   find("#predict-time").addEventListener("input", show);
+  find("#brief").addEventListener("click", () => find("#result").scrollIntoView());
   find("#save").addEventListener("click", save);
   find("#copy").addEventListener("click", copyLink);
   find("#reset").addEventListener("click", () => { inputs = { ...START }; fill(); update(); });
