@@ -264,9 +264,9 @@ def answer(question: Question, store: RunStore) -> MatchRow:
     estimate = fine.first and with_companions(fine.first, [o.first for o in others if o.first])
     warnings = [w for r in fine.runs for w in r.warnings] + lost
     if leading.lambda0.error > WIDE * max(leading.lambda0.value, 0.1) or leading.r0.error > WIDE * leading.r0.value:
-        warnings.append(f"wide error bar: lambda0 = {leading.lambda0}, r0 = {leading.r0}")
+        warnings.append(f"wide error bar: λ₀ = {leading.lambda0}, r₀ = {leading.r0}")
     if estimate is not None and estimate.r1.error > WIDE_FIRST * max(abs(estimate.r1.value), 1.0):
-        warnings.append(f"wide error bar: r1 = {estimate.r1}")
+        warnings.append(f"wide error bar: r₁ = {estimate.r1}")
     holds = [r.hold for r in fine.runs if r.hold]
     pulls = [r.pull for r in fine.runs if r.pull is not None]
     return MatchRow(

@@ -62,9 +62,8 @@ def warnings_of_run(
             k = min(int(np.searchsorted(places, at)), places.size - 2)
             per = bending * math.sqrt(part) / (places[k + 1] - places[k])
             if per < 3.0:
-                found.append(
-                    f"under-resolved front: {per:.1f} elements (want 3) over its bending length at {part:g} end_time"
-                )
+                when = "the end time" if part == 1.0 else f"{part:g} of the end time"
+                found.append(f"under-resolved front: its bending length holds {per:.1f} elements at {when}, needs 3")
                 break
     if given:
         growth = places[2:] - places[1:-1]
@@ -88,7 +87,7 @@ def warnings_of_run(
         found.append(f"slopes up to {slope:.2g}: linear theory no longer describes this beam, only its first instants")
     elif slope > 0.1:
         found.append(
-            f"slopes of the model up to {slope:.2g}: its elements leave their linear range at kappa/nu = "
-            f"{scaling.kappa:.3g}; set a smaller exudyn.geometry.amplitude"
+            f"the model's slopes reach {slope:.2g}, beyond its elements' linear range (κ/ν = {scaling.kappa:.3g}); "
+            'set a smaller "amplitude" in [exudyn.geometry]'
         )
     return found

@@ -172,10 +172,10 @@ def lift_warnings(impact: Impact, model: BeamModel, run: Trajectory) -> list[str
     if worst <= LARGEST_LIFT:
         return []
     return [
-        f"the contact zone is off the wall by up to {worst:.2g} V0 t in the last decade of time, where it should lie "
-        f"on it ({LARGEST_LIFT:g} is the most for numbers good to 1 %): the impacts of the unresolved start, or the "
-        "contact law, have thrown it off; finer elements at the centre, a later end, or integrator.kind = "
-        '"signorini_position" with contact.kind = "node" help'
+        f"the contact zone lifts off the wall by up to {worst:.2g} V₀t in the last decade of time (numbers good to "
+        f"1 % need {LARGEST_LIFT:g}): impacts of the unresolved start, or the contact law, have thrown it off; use "
+        "finer elements at the centre, a later end time, or Signorini's condition at the new position with contact "
+        "at nodes (signorini_position, node)"
     ]
 
 

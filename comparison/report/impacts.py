@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.interpolate import CubicSpline
 
 from bent_beam.errors import SimulationError
 from bent_beam.history import ImpactHistory
@@ -23,7 +24,17 @@ from comparison.workers import run_all
 from theory import contact_parameters
 from theory.fields import ImpactFields
 
-__all__ = ["ENERGIES", "SHOWN", "Shown", "ShownImpact", "reduce_history", "show", "show_all", "theory_of"]
+__all__ = [
+    "ENERGIES",
+    "ENERGY_STYLE",
+    "SHOWN",
+    "Shown",
+    "ShownImpact",
+    "reduce_history",
+    "show",
+    "show_all",
+    "theory_of",
+]
 
 Array = NDArray[np.float64]
 FRAMES = 50
@@ -43,6 +54,17 @@ ENERGIES = {
     "loss_viscous": "lost in grid viscosity",
     "loss_material": "lost in the material",
     "loss_absorbed": "absorbed far away",
+}
+
+ENERGY_STYLE: dict[str, dict[str, Any]] = {
+    "kinetic_energy": {"colour": "#0072B2", "dash": False},
+    "strain_energy": {"colour": "#D55E00", "dash": False},
+    "work_of_loads": {"colour": "#009E73", "dash": False},
+    "loss_impact": {"colour": "#CC79A7", "dash": True},
+    "loss_algorithmic": {"colour": "#E69F00", "dash": True},
+    "loss_viscous": {"colour": "#56B4E9", "dash": True},
+    "loss_material": {"colour": "#8C6D31", "dash": True},
+    "loss_absorbed": {"colour": "#777777", "dash": True},
 }
 
 
@@ -181,12 +203,13 @@ def theory_of(shown: Shown) -> dict[str, Any]:
     fields = ImpactFields(exact, shown.epsilon, tolerance=1e-7)
     # at leading order the shape is one function of x/√τ; the first order adds a part that grows with τ
     times = np.linspace(tau[0], tau[-1], THEORY_TIMES if shown.epsilon else 1)
-    z = np.linspace(0.0, 1.0, POINTS) ** 1.6 * x[-1] / root[0]
+    near = 4.0 * max(float(exact.lambda0), 0.5)  # in front of the contact the shape bends most
+    z = np.concatenate([np.linspace(0.0, near, 91), np.geomspace(near, max(x[-1] / root[0], 2.0 * near), 31)[1:]])
     profiles = -fields.beam(z[None, :] * np.sqrt(times)[:, None], times[:, None]).deflection / times[:, None]
     gap = []
     for t, r in zip(tau, root):
         profile = np.array([np.interp(t, times, column) for column in profiles.T])
-        gap.append(_short(np.interp(x / r, z, profile)))
+        gap.append(_short(CubicSpline(z, profile)(x / r)))
     return dict(
         plain(
             {

@@ -24,22 +24,22 @@ import jinja2
 from markupsafe import Markup
 
 from bent_beam.history import versions
-from bent_beam.method import Method
+from bent_beam.method import Method, refined
 from comparison.figures.style import marks
 from comparison.figures.work_precision import draw_work_precision
 from comparison.match import MatchRow, Question, failures, match
 from comparison.methods import default_methods
 from comparison.predictor import panel
 from comparison.report.guides import Guide, guides
-from comparison.report.impacts import ENERGIES, SHOWN, ShownImpact, show_all, theory_of
-from comparison.report.noise import Noise, compare_noise
+from comparison.report.impacts import END, ENERGIES, ENERGY_STYLE, SHOWN, ShownImpact, show_all, theory_of
+from comparison.report.noise import Noise, compare_noise, noise_methods
 from comparison.report.pipe import Pipe, pipe_verdict
 from comparison.report.plots import bounce_plot, noise_plots, plots
 from comparison.report.rows import PATHS, convergence_rows, first_order_rows, labels, leading_rows, report_questions
 from comparison.report.stills import draw_acceleration, draw_impact, draw_maps, draw_noise, grouped
 from comparison.report.studies import StudyNote, common_ending, stored_studies
 from comparison.report.text import (
-    acceleration_answer,
+    acceleration_rows,
     acceleration_short,
     agreement_answer,
     edge_answer,
@@ -103,6 +103,7 @@ def write_report(
         if progress is not None:
             progress(done, total)
 
+    warm_up([*shown_methods, *noise_methods()])
     rows = match(asked, store=store, jobs=jobs, scheduler=scheduler, progress=lambda done, _: count(done))
     impacts, lost = show_all(
         SHOWN, shown_methods, store=store, jobs=jobs, progress=lambda done, _: count(len(asked) + done)
@@ -134,6 +135,19 @@ def write_report(
         "failures": [{"label": r.label, "kappa_over_nu": r.kappa_over_nu, "reason": r.reason} for r in failures(rows)],
         "rows": len(rows),
     }
+
+
+def warm_up(methods: Sequence[Method]) -> None:
+    """Run each method once, coarsely, so that kernels are compiled (and cached) before anything is timed.
+
+    A method that fails here fails again in its rows, with its reason.
+    """
+    impact = SHOWN[0].impact
+    for method in methods:
+        try:
+            (refined(method, 0.25) or method).simulate(impact, end_time=END * impact.time_scale, save=8)
+        except Exception:  # whatever a method of somebody else's raises is the reason of its rows
+            continue
 
 
 def still_pictures(impacts: Sequence[ShownImpact], noise: Noise | None, out: Path) -> list[Path]:
@@ -190,7 +204,7 @@ def page(content: Content) -> str:
         problem=problem_answer(leading),
         agreement=agreement_answer(leading, first),
         speed=speed_answer(leading, first),
-        acceleration=acceleration_answer(content.impacts),
+        acceleration=acceleration_rows(content.impacts),
         acceleration_short=acceleration_short(content.impacts),
         edge=edge_answer(content.impacts),
         noise=None if content.noise is None else noise_answer(content.noise),
@@ -202,6 +216,11 @@ def page(content: Content) -> str:
         methods=labels(content.rows),
         colours={label: mark["color"] for label, mark in marks(labels(content.rows)).items()},
         warnings=[(r, w) for r in [*leading, *first] for w in r.row.warnings],
+        energies=[
+            {"title": title, **ENERGY_STYLE[name]}
+            for name, title in ENERGIES.items()
+            if any(any(i.data["energy"].get(name, ())) for i in content.impacts)
+        ],
         groups=grouped(content.impacts),
         shown_methods=list(dict.fromkeys(i.label for i in content.impacts)),
         impact_warnings=[(i, w) for i in content.impacts for w in i.warnings],
@@ -216,7 +235,7 @@ def page(content: Content) -> str:
         settings=settings(content),
         data={
             "plots": drawn,
-            "energies": ENERGIES,
+            "energies": {name: {"title": title, **ENERGY_STYLE[name]} for name, title in ENERGIES.items()},
             "impacts": [impact_data(runs) for runs in grouped(content.impacts).values()],
         },
         plotly=inline_script(get_plotlyjs()),

@@ -418,7 +418,7 @@ def bounce_plot(stored: Mapping[str, Any]) -> Plot:
                 "line": {"width": 0},
                 "fill": "toself",
                 "fillcolor": "rgba(119,119,119,0.25)",
-                "name": "no damping: band of one standard deviation",
+                "name": "no damping, ± one standard deviation",
                 "hoverinfo": "skip",
                 "meta": {"label": "no damping"},
             }

@@ -4,16 +4,17 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import dataclass
 from statistics import median
 
 import numpy as np
 
 from comparison.report.impacts import ShownImpact
 from comparison.report.noise import Noise
-from comparison.report.rows import Cell, TableRow, labels, worst
+from comparison.report.rows import Cell, TableRow, labels, signed, worst
 
 __all__ = [
-    "acceleration_answer",
+    "acceleration_rows",
     "acceleration_short",
     "agreement_answer",
     "coverage",
@@ -55,11 +56,11 @@ def headline(leading: Sequence[TableRow], first: Sequence[TableRow], failures: i
     parts = []
     for what, rows in (("leading order (λ₀, r₀)", leading), ("first order (λ₁, r₁)", first)):
         each = [
-            f"{name} within {percent(cell.error)} (median {percent(middle)}, {count} rows)"
+            f"{name} within {percent(cell.error)} (median {percent(middle)}, {count} row{'s' if count > 1 else ''})"
             for name, cell, middle, count in _worst_of(rows)
         ]
         if each:
-            parts.append(f"{what}: {' and '.join(each)}")
+            parts.append(f"{what}: {', '.join(each)}")
     if not parts:
         return f"No row could be computed ({failures} failed)."
     lost = f" {failures} row{'s' if failures != 1 else ''} failed." if failures else ""
@@ -89,7 +90,7 @@ def agreement_answer(leading: Sequence[TableRow], first: Sequence[TableRow]) -> 
         _, row, cell = max(beyond, key=lambda b: b[0])
         text += (
             f" Furthest beyond it: {row.row.label}, κ/ν = {row.ratio_text}, "
-            f"(α, ψ, χ, N) = {row.first_text}, "
+            f"{f'(α, ψ, χ, N) = {row.first_text}, ' if row.row.of_first_order else ''}"
             f"{SYMBOLS[cell.what]} = {cell.value_text} (theory {cell.exact_text})."
         )
     return text
@@ -137,11 +138,6 @@ def noise_answer(noise: Noise) -> str:
     )
 
 
-def _change(value: float, plain: float, what: str) -> str:
-    share = value / plain - 1.0
-    return f"{what} is {abs(100 * share):.0f} % {'larger' if share > 0 else 'smaller'}"
-
-
 def _by_name(impacts: Sequence[ShownImpact]) -> dict[str, ShownImpact]:
     """One run of each impact: of the first method that ran all of them, so that like is compared with like."""
     names = {i.shown.name for i in impacts}
@@ -153,7 +149,7 @@ def _by_name(impacts: Sequence[ShownImpact]) -> dict[str, ShownImpact]:
 
 
 def acceleration_short(impacts: Sequence[ShownImpact]) -> str:
-    """The same in one breath, from the impacts pressed onto the wall and released from it."""
+    """What an acceleration does, from the impacts pressed onto the wall and released from it."""
     by_name = _by_name(impacts)
     if not {"plain", "pressed", "released"} <= set(by_name):
         return "The impacts with acceleration could not be computed."
@@ -171,30 +167,43 @@ def acceleration_short(impacts: Sequence[ShownImpact]) -> str:
     )
 
 
-def acceleration_answer(impacts: Sequence[ShownImpact]) -> list[str]:
-    """What α does to the contact: a sentence a run, measured at its end against the same method's run without it."""
+@dataclass(frozen=True)
+class AccelerationRow:
+    """What an acceleration does to one method's contact, at the end of the impact; ready to be shown.
+
+    zone, reaction : change of contact length and end reaction against the same method's run without acceleration;
+    uniform : reaction per length in the zone over μV₀/t*; gap : the largest inside the zone, over V₀t.
+    """
+
+    impact: str
+    label: str
+    zone: str
+    reaction: str
+    uniform: str
+    gap: str
+
+
+def acceleration_rows(impacts: Sequence[ShownImpact]) -> list[AccelerationRow]:
+    """A row a run with acceleration and, before those of an impact, what theory says of the uniform reaction."""
     plain = {i.label: i for i in impacts if i.shown.name == "plain"}
-    sentences = []
+    rows = []
     for impact in impacts:
         base = plain.get(impact.label)
         if base is None or impact is base:
             continue
-        shown, data = impact.shown, impact.data
-        zone = _change(data["front"][-1], base.data["front"][-1], "the contact zone")
-        force = _change(data["reaction"][-1], base.data["reaction"][-1], "the reaction at each of its ends")
-        lift = max(data["lift"])
-        if shown.pressure > 0.0:
-            inside = (
-                f"the zone carries a uniform reaction of {data['pressure'][-1]:.3g} μV₀/t* per length (theory: "
-                f"ε(α+ψ) = {shown.pressure:.3g}), largest gap inside {'0' if lift == 0.0 else percent(lift)} of V₀t"
+        lift = max(impact.data["lift"])
+        change = [signed(f"{100 * (impact.data[n][-1] / base.data[n][-1] - 1):+.0f} %") for n in ("front", "reaction")]
+        pressed = impact.shown.pressure > 0.0
+        rows.append(
+            AccelerationRow(
+                f"{impact.shown.title}, ε = {impact.shown.epsilon:g}",
+                impact.label,
+                *change,
+                f"{impact.data['pressure'][-1]:.3g} (theory: {impact.shown.pressure:.3g})" if pressed else "0",
+                ("0" if lift == 0.0 else percent(lift)) + ("" if pressed else ": the middle lifts off"),
             )
-        else:
-            inside = f"the middle lifts off by up to {100 * lift:.2g} % of V₀t, and only the two ends still touch"
-        sentences.append(
-            f"{impact.label}, {shown.title}, ε = {shown.epsilon:g}: {zone} and {force} than without acceleration; "
-            f"{inside}."
         )
-    return sentences
+    return rows
 
 
 def edge_answer(impacts: Sequence[ShownImpact]) -> str:

@@ -37,6 +37,12 @@ def test_scripts_parse(name: str) -> None:
     subprocess.run(["node", "--check", str(file)], check=True, capture_output=True)
 
 
+def test_the_page_of_the_guide_is_what_the_command_writes() -> None:
+    shipped = Path(__file__).parents[2] / "docs" / "predictor.html"
+    current = shipped.read_text(encoding="utf-8") == page()
+    assert current, "python -m comparison.command_line predictor --out docs/predictor.html --overwrite"
+
+
 def test_command_writes_the_page_once(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     file = tmp_path / "mine.html"
     assert run(["predictor", "--out", str(file)]) == 0

@@ -5,6 +5,7 @@ from __future__ import annotations
 import dataclasses
 import json
 import shutil
+import time
 import tomllib
 from collections.abc import Iterator
 from pathlib import Path
@@ -15,6 +16,7 @@ import pytest
 
 from bent_beam import Impact
 from bent_beam.cases import case_from_tables, load_case
+from comparison.command_line.app import run
 from comparison.predictor import write_page
 from theory import SelfSimilarWave, contact_parameters, predict
 from theory.fields import ImpactFields
@@ -455,6 +457,47 @@ def test_case_means_what_the_page_shows(browser: Any) -> None:
         if ends != "shear":
             assert begins == pytest.approx(exact.valid_from, rel=SAME)
             assert until == pytest.approx(exact.valid_until, rel=4e-3)
+
+
+def test_saved_case_is_predicted_with_the_numbers_of_the_page(
+    chromium: Any, address: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """As a newcomer does it: type, save, hand the file to the command."""
+    browser = opened(chromium, address)
+    browser.execute_cdp_cmd("Browser.setDownloadBehavior", {"behavior": "allow", "downloadPath": str(tmp_path)})
+    choose(browser, "units", "oilfield")
+    for name, text in (("outer_diameter", "6.625"), ("inner_diameter", "5.965"), ("length", "400"), ("dogleg", "4.2")):
+        type_into(browser, name, text)
+    type_into(browser, "velocity", "5")
+    type_into(browser, "tension", "20")
+    browser.find_element("id", "save").click()
+    file = tmp_path / "impact.toml"
+    for _ in range(100):
+        if file.exists():
+            break
+        time.sleep(0.05)
+    moment = 0.004
+    page = ask(
+        browser,
+        "(() => { const given = [...new URLSearchParams(location.hash.slice(1))]"
+        ".map(([k, v]) => [k, Number.isNaN(Number(v)) ? v : Number(v)]);"
+        " const p = Beam.solve(Beam.impact({...Beam.START, ...Object.fromEntries(given)}));"
+        " return {...Beam.at(p, arguments[0]), from: p.validFrom, until: p.validUntil}; })()",
+        moment,
+    )
+    assert run(["predict", str(file), "--time", str(moment), "--json"]) == 0
+    found = json.loads(capsys.readouterr().out)
+    row = found["times"][0]
+    assert row["valid"] and page["from"] < moment < page["until"]
+    named = {
+        "halfLength": "half_contact_length",
+        "reaction": "reaction",
+        "impulse": "impulse",
+        "moment": "peak_moment",
+        "stress": "peak_stress",
+    }
+    for here, there in named.items():
+        assert page[here] == pytest.approx(row[there], rel=SAME), here
 
 
 def test_page_starts_with_the_drill_pipe_of_the_cases(browser: Any) -> None:

@@ -29,7 +29,7 @@ from comparison.report.rows import (
     tolerance,
 )
 from comparison.report.studies import StudyNote, case_of, common_ending, known_studies, store_studies, stored_studies
-from comparison.report.text import acceleration_answer, edge_answer, headline, noise_answer, percent, speed_answer
+from comparison.report.text import acceleration_rows, edge_answer, headline, noise_answer, percent, speed_answer
 from comparison.store import RunStore
 
 sys.path.insert(0, str(Path(__file__).parent))
@@ -229,12 +229,12 @@ def test_pressed_zone_carries_the_uniform_reaction_of_theory_up_to_the_front() -
     assert "Self-similar" in edge_answer(impacts()) and "of the zone's length" in edge_answer(impacts())
 
 
-def test_released_zone_lifts_off_and_sentences_say_so() -> None:
+def test_released_zone_lifts_off_and_the_table_says_so() -> None:
     assert 1e-3 < max(shown("released", "Self-similar")["lift"]) < 2e-2
-    sentences = acceleration_answer(impacts())
-    assert len(sentences) == 4  # two impacts with acceleration, two methods
-    assert "uniform reaction of 1 " in sentences[0] and "larger" in sentences[0]
-    assert "lifts off" in sentences[-1] and "smaller" in sentences[-1]
+    rows = acceleration_rows(impacts())
+    assert len(rows) == 4  # two impacts with acceleration, two methods
+    assert rows[0].uniform == "1 (theory: 1)" and rows[0].zone.startswith("+") and rows[0].reaction.startswith("+")
+    assert rows[-1].uniform == "0" and rows[-1].zone.startswith("−") and rows[-1].gap.endswith("lifts off")
 
 
 def test_energies_of_a_run_balance_and_the_resting_wall_does_no_work() -> None:

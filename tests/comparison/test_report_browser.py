@@ -20,7 +20,7 @@ CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shuti
 DRIVER = shutil.which("chromedriver")
 pytestmark = pytest.mark.skipif(CHROMIUM is None or DRIVER is None, reason="Chromium and its driver are not installed")
 
-WIDTHS = (1400, 400)
+WIDTHS = (1400, 390)
 
 
 @pytest.fixture(scope="module")
@@ -91,6 +91,12 @@ def test_nothing_overflows(browser: Any) -> None:
         ".map(e => e.tagName + '.' + e.className + '#' + e.id)",
     )
     assert wide == []
+    cut = ask(
+        browser,
+        "[...document.querySelectorAll('.scroll > table')].filter(e => e.offsetParent)"
+        ".filter(e => e.scrollWidth > e.parentElement.clientWidth + 1).map(e => e.id)",
+    )
+    assert cut == []
 
 
 def test_every_plot_is_drawn(browser: Any) -> None:

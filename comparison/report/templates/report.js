@@ -109,15 +109,14 @@
         hovertemplate: "x = %{x:.3g}, √τ = %{y:.3g}<br>%{customdata:.4g} μV<sub>0</sub>/t<sub>*</sub><extra></extra>",
       }], layout(axis("x / l<sub>*</sub>"), axis("√τ"), { shapes: [{ type: "line", xref: "paper", x0: 0, x1: 1, y0: 0, y1: 0, line: { color: "#fff", width: 1.5 } }] }), config);
     }
-    const colours = { kinetic_energy: "#0072B2", strain_energy: red, work_of_loads: "#009E73", loss_impact: "#CC79A7", loss_algorithmic: "#E69F00", loss_viscous: "#56B4E9", loss_material: "#8c6d31", loss_absorbed: "#777" };
     for (const place of document.querySelectorAll("[data-energy]")) {
       const m = of(place.dataset.energy), time = impact.theory.time;
       if (!m) { Plotly.purge(place); continue; }
       const drawn = Object.keys(data.energies).filter((name) => m.energy[name] && m.energy[name].some((v) => v !== 0));
       Plotly.react(place, [
         curve([time[0], time[time.length - 1]], [0, 0], black, "work of the wall", { line: { color: black, width: 1.2, dash: "dot" } }),
-        ...drawn.map((name) => curve(time, m.energy[name], colours[name], data.energies[name], { hovertemplate: data.energies[name] + " %{y:.4g}<extra></extra>", line: { color: colours[name], width: 1.8, dash: name.startsWith("loss") ? "dash" : "solid" } })),
-      ], layout(axis("τ = t/t<sub>*</sub>"), axis("energy / (μV<sub>0</sub>²l<sub>*</sub>)"), Object.assign({ shapes: [{ type: "line", x0: 0, x1: 0, yref: "paper", y0: 0, y1: 1, line: { color: grey, width: 1.2 } }] }, legend)), config);
+        ...drawn.map((name) => ({ name, ...data.energies[name] })).map((e) => curve(time, m.energy[e.name], e.colour, e.title, { hovertemplate: e.title + " %{y:.4g}<extra></extra>", line: { color: e.colour, width: 1.8, dash: e.dash ? "dash" : "solid" } })),
+      ], layout(axis("τ = t/t<sub>*</sub>"), axis("energy / (μV<sub>0</sub>²l<sub>*</sub>)"), { shapes: [{ type: "line", x0: 0, x1: 0, yref: "paper", y0: 0, y1: 1, line: { color: grey, width: 1.2 } }] }), config);
     }
   }
 
