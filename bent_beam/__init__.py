@@ -1,4 +1,4 @@
-"""The ground floor: the impact problem, case files, meshes, the record of a run, and what a method is."""
+"""What every path shares: the impact problem, case files, meshes, the record of a run, and what a method is."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Validation at the door: every part of a run checks its own numbers with these, once, when it is made."""
+"""Validation: every part of a run checks its own numbers with these, once, when it is made."""
 
 from __future__ import annotations
 

@@ -33,7 +33,7 @@ class BeamTable(Table):
     sagitta_length: float | None = number(
         "m", "chord under the sagitta; the whole beam unless given", gt=0, default=None
     )
-    dogleg: float | None = number("°/30 m", "the bow as oilfield people give it", gt=0, default=None)
+    dogleg: float | None = number("°/30 m", "the bow as its dogleg severity", gt=0, default=None)
     natural_curvature: float | None = number(
         "1/m", "curvature of the beam free of stress; all of the bow unless given", default=None
     )

@@ -331,7 +331,7 @@ def first_order(
     tail = rows[-1][4]
     late = tail.tau >= tail.tau[-1] / window
     pressure = float(np.mean(tail.pressure[late])) / rows[-1][0]
-    # What the base leaves uncertain, 0.2 % for steps and mesh, and an uniform reaction that is not yet steady: taken
+    # What the base leaves uncertain, 0.2 % for steps and mesh, and a uniform reaction that is not yet steady: taken
     # out of the impulse wrongly by dp, it moves r₁ by dp λ₀/√(2/π), and λ₁ by about half of that times λ₀/r₀.
     inherited = abs(best[0]) * leading.lambda0.error / r0 + abs(best[1]) * leading.r0.error / r0
     unsteady = float(np.std(tail.pressure[late])) / rows[-1][0] * lambda0 / SIDE

@@ -49,7 +49,7 @@ WIDE_FIRST = 0.1  # of max(|r₁|, 1), likewise
 
 
 class Refused(ValueError):
-    """What a method said that it cannot take, before its run or at its door; any other error is a failure."""
+    """What a method refuses, when it is made or before its run; any other error is a failure."""
 
 
 @dataclass(frozen=True)

@@ -92,9 +92,9 @@ def _said(part: type) -> dict[str, str]:
     for kind in reversed(part.__mro__[:-1]):
         text = inspect.cleandoc(kind.__doc__ or "")
         pieces = re.split(r"(?:^|(?<=\. )|(?<=\n))((?:[a-z_]+)(?:, [a-z_]+)*) : ", text)
-        for names, words in zip(pieces[1::2], pieces[2::2]):
+        for names, sentence in zip(pieces[1::2], pieces[2::2]):
             for name in names.split(", "):
-                found[name] = " ".join(words.split("\n\n")[0].split())
+                found[name] = " ".join(sentence.split("\n\n")[0].split())
     return found
 
 

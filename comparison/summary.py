@@ -155,8 +155,8 @@ def run_table(found: dict[str, Any]) -> str:
     energy = found["energy"]
     for name, value in energy.items():
         if value is not None:
-            words = {"kinetic": "kinetic energy at the end", "strain": "strain energy at the end"}
-            title = words.get(name, "initial energy" if name == "initial" else name.replace("_", " "))
+            titles = {"kinetic": "kinetic energy at the end", "strain": "strain energy at the end"}
+            title = titles.get(name, "initial energy" if name == "initial" else name.replace("_", " "))
             lines.append([title, number(value), "", "J", ""])
     text = [
         f"{found['path']}, {found['time']:.6g} s after first contact; "

@@ -29,7 +29,7 @@ from exudyn_models.recording import Recorder
 from exudyn_models.resolution import chosen_mesh, end_time_of
 from exudyn_models.scaling import Scaling, front_bound
 from exudyn_models.settling import Settling
-from exudyn_models.solvers import NewtonSolver, silence
+from exudyn_models.solvers import NewtonSolver, quiet
 from exudyn_models.stepping import step_through
 from exudyn_models.viewer import open_viewer, wait_until_closed
 from exudyn_models.warnings_of_run import warnings_of_run
@@ -56,14 +56,14 @@ def _targets(save: int | Sequence[float] | Array, end: float) -> Array:
 
 def refusal(impact: Impact, full_beam: bool) -> str | None:
     """Why the model cannot take an impact (``None``: it can)."""
-    lopsided = next((name for name in ("rotation", "first_touch") if getattr(impact, name)), None)
-    if lopsided is None:
+    asymmetry = next((name for name in ("rotation", "first_touch") if getattr(impact, name)), None)
+    if asymmetry is None:
         return None
     if not full_beam:
-        return f"{lopsided} needs exudyn.full_beam = true (got {getattr(impact, lopsided)!r})"
+        return f"{asymmetry} needs exudyn.full_beam = true (got {getattr(impact, asymmetry)!r})"
     for name in ("curvature_rate", "fourth_derivative", "axial_force"):
         if getattr(impact, name):
-            return f"{name} is not modelled together with {lopsided} (got {getattr(impact, name)!r})"
+            return f"{name} is not modelled together with {asymmetry} (got {getattr(impact, name)!r})"
     return None
 
 
@@ -143,7 +143,7 @@ def simulate(
     shape = geometry.shape(nodes, scaling, contact.wall_share(geometry))
     half = not full_beam
 
-    with silence():
+    with quiet():
         beam, contact_run = assemble(shape, scaling, element, contact, integrator, half)
         run = Recorder(beam, contact_run, scaling, half, integrator.averages())
         stable = stable_step(beam, contact_run, integrator) if integrator.explicit else math.inf

@@ -1,4 +1,4 @@
-"""Exudyn's nonlinear and linear solver settings, and its silence.
+"""Exudyn's nonlinear and linear solver settings, and how to keep it from printing.
 
 Newton's method is run modified (the Jacobian is kept while it converges) on a sparse factorisation whose pattern is
 kept. Residuals are forces in model units, of the size of the amplitude; below ``tolerance`` × amplitude they are
@@ -16,7 +16,7 @@ import exudyn as exu
 
 from bent_beam.checks import one_of, positive, whole
 
-__all__ = ["SOLVERS", "NewtonSolver", "silence"]
+__all__ = ["SOLVERS", "NewtonSolver", "quiet"]
 
 LINEAR = {
     "sparse": exu.LinearSolverType.EigenSparse,
@@ -87,7 +87,7 @@ SOLVERS: dict[str, type] = {"newton": NewtonSolver}
 
 
 @contextmanager
-def silence() -> Iterator[None]:
+def quiet() -> Iterator[None]:
     """Nothing from Exudyn on standard output or standard error while in here."""
     console, warnings = exu.config.printToConsole, exu.config.suppressWarnings
     exu.config.printToConsole, exu.config.suppressWarnings = False, True

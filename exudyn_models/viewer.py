@@ -42,8 +42,8 @@ def open_viewer(container: Any, nodes: bool = False) -> bool:
         settings.bodies.defaultColor = BLUE
         settings.openGL.lineWidth = 3.0
         settings.nodes.show, settings.nodes.showBasis = nodes, False
-        for cluttering in (settings.markers, settings.connectors, settings.loads):
-            cluttering.show = False
+        for group in (settings.markers, settings.connectors, settings.loads):
+            group.show = False
         if container.renderer.Start():
             container.renderer.ZoomAll()
             return True

@@ -45,7 +45,7 @@ TRAVEL = 0.5  # of the front in a step, over the larger of its thickness and an 
 GROWTH = 1.05  # of neighbouring elements: what reflects short waves (docs/numerics.md)
 OF_LIFT = 0.03  # noise over lift: waves that come back show in the impulse first, a lifted zone in the gap
 UNSTEADY = 6e-3  # deviation of the lift's logarithm from a straight line over that of time
-HISS = 4.5e-4  # the noise that tells the same where gaps are reported at too few instants
+NOISE_WITHOUT_GAPS = 4.5e-4  # the noise that tells the same where gaps are reported at too few instants
 FEWEST_SNAPSHOTS = 10
 FEWEST_STEPS = 150  # to the end of the record: a first-order scheme then has lost a per cent
 
@@ -143,19 +143,19 @@ def _waves(found: Score, signs: Signs) -> Finding | None:
         return None
     if signs.growth is not None and signs.growth > GROWTH:
         cause = f"elements grow by {100 * (signs.growth - 1):.2g} % from one to the next"
-        cure = "let elements grow by 2 % at most, or absorb short waves (grid-scale viscosity, a sponge)"
+        advice = "let elements grow by 2 % at most, or absorb short waves (grid-scale viscosity, a sponge)"
     else:
         cause = "waves come back to the contact"
         if signs.half_length is not None:
             cause += f" from the end at {signs.half_length:.2g} l*"
-        cure = "a longer beam (about the end time over the element length), or damp short waves"
-    return Finding("reflection", f"the impulse is {100 * found.noise:.2g} % off a smooth one; {cause}", cure)
+        advice = "a longer beam (about the end time over the element length), or damp short waves"
+    return Finding("reflection", f"the impulse is {100 * found.noise:.2g} % off a smooth one; {cause}", advice)
 
 
 def _lift(found: Score, signs: Signs) -> Finding | None:
     if found.lift is None or found.lift <= LIFT:
         return None
-    noisy = signs.unsteady > UNSTEADY if signs.unsteady is not None else (found.noise or 0.0) > HISS
+    noisy = signs.unsteady > UNSTEADY if signs.unsteady is not None else (found.noise or 0.0) > NOISE_WITHOUT_GAPS
     if noisy:
         return Finding(
             "rectified_noise",

@@ -187,20 +187,20 @@ def _csv_fields(source: Path) -> dict[str, Any]:
     if about.stat().st_size > MOST_JSON:
         raise ResultError(f"{about.name}: {about.stat().st_size} bytes, {MOST_JSON} are the most (NPZ takes more)")
     try:
-        words = json.loads(about.read_text(encoding="utf-8"))
+        record = json.loads(about.read_text(encoding="utf-8"))
     except (ValueError, RecursionError) as error:
         raise ResultError(f"{about.name} is not JSON: {_one_line(error)}") from None
-    if not isinstance(words, dict):
+    if not isinstance(record, dict):
         raise ResultError(f"{about.name} must hold one JSON object")
     allowed = (*TEXTS, *SNAPSHOTS, "events")
-    for name in words:
+    for name in record:
         if name not in allowed:
             raise ResultError(f"{about.name}: {shortened(name)} is not a field of a result{nearest(name, allowed)}")
     if not table.exists():
-        if words.get("outcome") == "completed":
+        if record.get("outcome") == "completed":
             raise ResultError(f"needs {table.name} beside it (tau, J, Jm)")
-        return words
-    return {**words, **_columns(table)}
+        return record
+    return {**record, **_columns(table)}
 
 
 def _columns(table: Path) -> dict[str, Array]:
@@ -401,8 +401,8 @@ def _snapshots(fields: Mapping[str, Any]) -> tuple[Array | None, Array | None, A
 
 def save_result(file: str | Path, result: Result) -> None:
     """Write a result as NPZ."""
-    words = f"{result.outcome}({result.detail})" if result.detail else result.outcome
-    arrays: dict[str, Any] = {"outcome": words, "problem": result.problem.id, "metadata": json.dumps(result.metadata)}
+    stated = f"{result.outcome}({result.detail})" if result.detail else result.outcome
+    arrays: dict[str, Any] = {"outcome": stated, "problem": result.problem.id, "metadata": json.dumps(result.metadata)}
     for name in ("tau", "J", "Jm", *SNAPSHOTS):
         if getattr(result, name) is not None:
             arrays[name] = getattr(result, name)

@@ -35,15 +35,15 @@ def score(result: Result, base: Result | None = None) -> Score:
     Raises :class:`ResultError` when ``base`` does not belong to the result's problem.
     """
     asked = result.problem
-    words = f"{result.outcome}({result.detail})" if result.detail else result.outcome
+    stated = f"{result.outcome}({result.detail})" if result.detail else result.outcome
     if result.outcome != "completed":
-        return Score(asked.id, words, result.detail or result.outcome, metadata=result.metadata)
+        return Score(asked.id, stated, result.detail or result.outcome, metadata=result.metadata)
     assert result.tau is not None and result.J is not None
     exact = reference(asked)
     if not asked.is_front:
         return _judged(_ladder(result, exact), result)
     bare = _bare(result, base)
-    found = Score(asked.id, words, measured={}, metadata=result.metadata)
+    found = Score(asked.id, stated, measured={}, metadata=result.metadata)
     try:
         leading = leading_order(moments(bare), window=asked.fit_window[1] / asked.fit_window[0])
     except (ValueError, np.linalg.LinAlgError) as error:
@@ -243,10 +243,10 @@ def _judged(found: Score, result: Result) -> Score:
     for name in _off(found):
         number, error = found.measured[name], found.reference[name]["error"]
         reasons.append(f"{name} {number.value:.4g}, reference {number.theory:.4g} ± {error:.1g}")
-    words = ", ".join([found.outcome, *beyond, *(["off"] if len(reasons) > len(beyond) else [])])
+    stated = ", ".join([found.outcome, *beyond, *(["off"] if len(reasons) > len(beyond) else [])])
     reason = "; ".join(reasons)
     findings = tuple(doctor.diagnose(result, found)) if result.problem.is_front else ()
-    return replace(found, outcome=words, reason=reason or None, diagnosis=findings)
+    return replace(found, outcome=stated, reason=reason or None, diagnosis=findings)
 
 
 def work_precision(scores: Sequence[Score]) -> list[dict[str, Any]]:

@@ -9,9 +9,9 @@ M = EI(∂²y + η∂²∂_t y). In units ℓ = EI = μ = V₀ = 1 (ℓ = L/2, s
     J(t) = 2(1 − Σc_j²q̇_j),   R(t) = J̇ = 2Σc_j²ω_j²(q_j + ηq̇_j),   M(0,t) = Σ2c_jω_j(q_j + ηq̇_j).
 
 The bow does not enter: the wall stops a straight or a curved beam alike once it holds one point. Modes of ω > 2/η
-creep, each adding 8e^{−t/η}/(η²b⁶) to J, and the others die as e^{−ηω²t/2}. The sum goes on until these are dead;
-the creeping rest is added by Hurwitz's zeta function. Before anything can have been at the ends and back the beam
-has no ends: `theory.damped_point`.
+are overdamped, each adding 8e^{−t/η}/(η²b⁶) to J; the others decay as e^{−ηω²t/2}. The sum goes on until these are
+negligible; the overdamped rest is added by Hurwitz's zeta function. Before anything can have been at the ends and
+back the beam has no ends: `theory.damped_point`.
 """
 
 from __future__ import annotations
@@ -108,7 +108,7 @@ class StoppedBeam:
     def _without_ends(self) -> float:
         """Until then (T*) what has been at an end and back is below round-off.
 
-        A wave k = 1/t that swings has e^{−ηk⁴t/2} ≤ e^{−100} left, one that creeps e^{−¾(ηt)^{−1/3}} ≤ e^{−59}.
+        An underdamped wave k = 1/t has e^{−ηk⁴t/2} ≤ e^{−100} left, an overdamped one e^{−¾(ηt)^{−1/3}} ≤ e^{−59}.
         """
         return float(min((self.damping / 200.0) ** (1.0 / 3.0), 2e-6 / self.damping))
 
@@ -121,11 +121,11 @@ class StoppedBeam:
         return np.array(times)
 
     def _modes(self, shortest: float) -> int:
-        """Number of modes that are not dead at `shortest` (T*), and all that do more than creep."""
+        """Number of modes that are not negligible at `shortest` (T*), all that are not far overdamped included."""
         alive = (2.0 * _DEAD / (self.damping * shortest)) ** 0.25
         # x = 1/(ηω)² ≤ 1e-4 in the tail, whose third term is then below 1e-12; e^{−t/η} is another way out of it
-        creeping = 10.0 / np.sqrt(self.damping) if shortest < 100.0 * self.damping else 0.0
-        return int(np.ceil(max(alive, creeping) / np.pi)) + 20
+        overdamped = 10.0 / np.sqrt(self.damping) if shortest < 100.0 * self.damping else 0.0
+        return int(np.ceil(max(alive, overdamped) / np.pi)) + 20
 
     def _evaluate(self, times: ArrayLike, kind: str) -> FloatArray:
         values = np.asarray(times, dtype=np.float64)
@@ -158,14 +158,14 @@ class StoppedBeam:
     def _sum(self, t: FloatArray, modes: int, kind: str) -> FloatArray:
         b, sigma = _cantilever(modes)
         eta, age = self.damping, t / self.damping
-        creep = np.exp(-age)
+        overdamped_decay = np.exp(-age)
         first, second = (self._tail(modes, power) for power in ((7, 11) if kind == "moment" else (6, 10)))
         if kind == "impulse":
             rate, _ = self._oscillators(b**2, t)
-            tail = 8.0 * creep * (first / eta**2 + (3.0 - age) * second / eta**4)
+            tail = 8.0 * overdamped_decay * (first / eta**2 + (3.0 - age) * second / eta**4)
             return 2.0 * (1.0 - rate @ (2.0 * sigma / b) ** 2) + tail
         _, force = self._oscillators(b**2, t)
-        tail = -creep * (first / eta**3 + (4.0 - age) * second / eta**5)
+        tail = -overdamped_decay * (first / eta**3 + (4.0 - age) * second / eta**5)
         if kind == "reaction":
             return force @ (8.0 * sigma**2 * b**2) + 8.0 * tail
         return force @ (4.0 * sigma * b) + 4.0 * tail
@@ -181,28 +181,28 @@ class StoppedBeam:
         a = 0.5 * eta * omega**2
         rate, force = np.empty((t.size, omega.size)), np.empty((t.size, omega.size))
 
-        swings = a <= omega
-        frequency = np.sqrt((omega - a)[swings] * (omega + a)[swings])
-        decay = np.exp(-a[swings] * time)
+        underdamped = a <= omega
+        frequency = np.sqrt((omega - a)[underdamped] * (omega + a)[underdamped])
+        decay = np.exp(-a[underdamped] * time)
         q = decay * time * np.sinc(frequency * time / np.pi)
         cosine = decay * np.cos(frequency * time)
-        rate[:, swings] = cosine - a[swings] * q
-        force[:, swings] = q * (1.0 - eta * a[swings]) + eta * cosine
+        rate[:, underdamped] = cosine - a[underdamped] * q
+        force[:, underdamped] = q * (1.0 - eta * a[underdamped]) + eta * cosine
 
         # roots −a ± root: the slow one without cancellation, 1 + η·slow = −(ω/(a + root))²
-        damped = ~swings
+        damped = ~underdamped
         w, a = omega[damped], a[damped]
         root = np.sqrt((a - w) * (a + w))
         fast = a + root
         slow = w**2 / fast
-        slowly, fastly = np.exp(-slow * time), np.exp(-fast * time)
+        slow_decay, fast_decay = np.exp(-slow * time), np.exp(-fast * time)
         with np.errstate(divide="ignore", invalid="ignore"):
-            apart = (fast * fastly - slow * slowly) / (2.0 * root)
-            push = (-((w / fast) ** 2) * slowly - (1.0 - eta * fast) * fastly) / (2.0 * root)
+            apart = (fast * fast_decay - slow * slow_decay) / (2.0 * root)
+            push = (-((w / fast) ** 2) * slow_decay - (1.0 - eta * fast) * fast_decay) / (2.0 * root)
         # the roots nearly meet: sinh as one function
         near = root < 0.1 * a
         difference = np.where(root > 0.0, -np.expm1(-2.0 * root * time) / np.where(root > 0.0, 2.0 * root, 1.0), time)
-        q, cosh = slowly * difference, 0.5 * (slowly + fastly)
+        q, cosh = slow_decay * difference, 0.5 * (slow_decay + fast_decay)
         rate[:, damped] = np.where(near, cosh - a * q, apart)
         force[:, damped] = np.where(near, q * (1.0 - eta * a) + eta * cosh, push)
         return rate, force

@@ -1,4 +1,4 @@
-"""The ``bentbeam`` command: a thin door to the packages, one file a command beside this one.
+"""The ``bentbeam`` command: each command is a file of its own beside this one.
 
 Exit codes: 0 done; 2 bad input (one line naming field and value); 3 a solver could not finish; 130 interrupted.
 Nothing heavy is imported here or in the commands' files: ``bentbeam --help`` answers at once.

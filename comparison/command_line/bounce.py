@@ -34,7 +34,7 @@ def bounce(
     as_json: Json = False,
     quiet: Quiet = False,
 ) -> None:
-    """The whole impact, from the first touch to the last separation: does it bounce, for how long, what it suffers.
+    """The whole impact, from first touch to last separation: restitution, contact times, largest moment and stress.
 
     Example: bentbeam bounce --kappa-over-nu 2 --damping 0.01
     """

@@ -20,7 +20,7 @@ def predict(
     assignments: Set = None,
     as_json: Json = False,
 ) -> None:
-    """Does the contact spread, how far, how hard does the wall push, what does the beam suffer, until when this holds.
+    """Contact, force, impulse, moment and stress from theory, and until when they hold.
 
     Example: bentbeam predict cases/drill_pipe.toml --time 0.005 --time 0.01
     """

@@ -99,9 +99,9 @@ def draw_first_order(
                 mine = [r for r in asked if r.first == first]
                 shown = curve[curve >= 0.8 * min(r.kappa_over_nu for r in mine)]
                 values = getattr(contact_parameters(shown, *first[:3], axial=first[3]), what)
-                words = ", ".join(f"{v:g}" for v in first[: 4 if tension else 3])
+                loads = ", ".join(f"{v:g}" for v in first[: 4 if tension else 3])
                 dash = ("-", "--", ":")[i // len(style.SEQUENCE) % 3]
-                axis.plot(shown, values, lw=1.1, ls=dash, color=colour, label=f"({words})" if column == 0 else None)
+                axis.plot(shown, values, lw=1.1, ls=dash, color=colour, label=f"({loads})" if column == 0 else None)
                 for label, mark in marks.items():
                     points = [(r.kappa_over_nu, getattr(r, what)) for r in mine if r.label == label]
                     points = [(k, c) for k, c in points if c.measured]

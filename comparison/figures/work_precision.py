@@ -62,8 +62,8 @@ def _draw(rows: Sequence[MatchRow], out: Path, name: str, first: bool, formats: 
                 axis.set_ylabel(title)
                 if line == len(cases) - 1:
                     axis.set_xlabel("seconds  (s)")
-            words = rf"$\kappa/\nu$ = {kappa:g}" + (f", ({', '.join(f'{v:g}' for v in load)})" if first else "")
-            axes[line][0].set_title(words, loc="left")
+            heading = rf"$\kappa/\nu$ = {kappa:g}" + (f", ({', '.join(f'{v:g}' for v in load)})" if first else "")
+            axes[line][0].set_title(heading, loc="left")
         handles: list[Any] = axes[0][0].get_legend_handles_labels()[0]
         fig.legend(handles, list(marks), loc="outside lower center", ncols=2, fontsize=6.5)
         return style.save(fig, out, name, formats)

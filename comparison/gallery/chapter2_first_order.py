@@ -20,13 +20,13 @@ PUSHED = ((4.0, 0.0, 0.0), (2.0, 0.0, 0.0), (1.0, 1.0, 0.0), (1.0, 1.0, 1.0), (0
 def functions_of(sheet: Sheet, names: Sequence[tuple[str, str]], largest: float = 6.0) -> None:
     """φ functions over λ."""
     lam = np.linspace(0.0, largest, 301)
-    looks = ("-", "--", "-.", ":")
+    dashes = ("-", "--", "-.", ":")
     with sheet.figure() as (_, axis):
         axis.set_xlabel(r"$\lambda$  (1)")
         axis.set_ylabel(r"$\varphi$  (1)")
         for i, (name, symbol) in enumerate(names):
             values = np.asarray(getattr(phi, name)(lam))
-            sheet.line(axis, lam, values, series=symbol, color=style.SEQUENCE[i], ls=looks[i])
+            sheet.line(axis, lam, values, series=symbol, color=style.SEQUENCE[i], ls=dashes[i])
         axis.set_xlim(0, largest)
         axis.legend()
 
@@ -74,7 +74,7 @@ def solution(
 ) -> None:
     """r₁ or λ₁ over κ/ν from ``smallest`` for several (α, ψ, χ)."""
     ratio = np.unique(np.concatenate([np.linspace(smallest, 1.2, 400), [0.3, 0.5, 0.8, 1.0]]))
-    looks = ("-", "--", "-.", ":", (0, (5, 1, 1, 1, 1, 1)))
+    dashes = ("-", "--", "-.", ":", (0, (5, 1, 1, 1, 1, 1)))
     with sheet.figure(width=4.2, height=2.9) as (_, axis):
         axis.set_xlabel(r"$\kappa/\nu$  (1)")
         axis.set_ylabel(f"{symbol}  (1)")
@@ -83,7 +83,7 @@ def solution(
             if name == "lambda1":
                 values[ratio == 1.0] = np.nan  # it jumps to 0 there: no line across
             label = ", ".join(f"{v:g}" for v in first)
-            sheet.line(axis, ratio, values, series=label, color=style.SEQUENCE[i], ls=looks[i])
+            sheet.line(axis, ratio, values, series=label, color=style.SEQUENCE[i], ls=dashes[i])
         axis.axhline(0.0, color=style.COLOURS["grey"], lw=0.5)
         axis.axvline(1.0, color=style.COLOURS["grey"], lw=0.6, ls=":")
         axis.set_xlim(0.0 if smallest < 0.1 else smallest, 1.2)

@@ -124,15 +124,15 @@ def draw_noise(before: ShownImpact, after: ShownImpact, out: Path) -> list[Path]
     """One end's reaction over theory's, and the gap of the zone at the end: the thesis's settings and today's."""
     theory = theory_of(after.shown)
     time, x = np.array(theory["time"]), np.array(theory["x"])
-    looks: list[tuple[ShownImpact, Mapping[str, Any]]] = [
+    drawn: list[tuple[ShownImpact, Mapping[str, Any]]] = [
         (before, {**style.OLD, "label": before.label}),
         (after, {"color": style.COLOURS["blue"], "lw": 1.2, "label": after.label}),
     ]
     with style.figure(1, 2, width=style.PAGE, height=2.7) as (fig, (left, right)):
         front = theory["front"][-1]
-        for run, look in looks:
-            left.plot(np.sqrt(time), np.array(run.data["reaction"]) / np.array(theory["reaction"]), **look)
-            right.plot(x / front, 1000.0 * np.array(run.data["gap"][-1], float), **look)
+        for run, line in drawn:
+            left.plot(np.sqrt(time), np.array(run.data["reaction"]) / np.array(theory["reaction"]), **line)
+            right.plot(x / front, 1000.0 * np.array(run.data["gap"][-1], float), **line)
         left.axhline(1.0, **style.THEORY)
         right.plot(x / front, 1000.0 * np.array(theory["gap"][-1]), **style.THEORY)
         left.set_xlabel(r"$\sqrt{\tau}$  (1)")

@@ -29,7 +29,7 @@ def variants(case: Case) -> list[Variant]:
 def conclude(outcomes: Sequence[Outcome]) -> str:
     radii = [o for o in varied(outcomes) if o.value is not None]
     viscous = [o for o in varied(outcomes) if o.value is None]
-    agrees = not moves(radii, "lift", tell=0.1, relative=True)
+    agrees = not moves(radii, "lift", least=0.1, relative=True)
     text = [
         f"ρ∞ from 1 to 0 {'does not change' if agrees else 'changes'} the geometry (lift {between(radii, 'lift')} V₀t)"
         f"{', as the thesis found' if agrees else ''}; r₀ is off by {between(radii, 'reaction_error', ' %')}."

@@ -129,7 +129,7 @@ def _one_sign(runs: dict[str, Outcome], sign: float, name: str) -> str:
     target = predicted(endless.impact)
     sentence = (
         f"a₀ = {name}{abs(endless.impact.acceleration):g} m/s²: theory predicts {number(target)} "
-        f"m/s^(3/2); on an infinite beam the fit gives {number(fitted(endless))} over the whole run and "
+        f"m/s³ᐟ²; on an infinite beam the fit gives {number(fitted(endless))} over the whole run and "
         f"{number(fitted(endless, WINDOWS[-1]))} over its first {100 * WINDOWS[-1]:g} %, tending to it as "
         "the window shrinks"
     )

@@ -13,7 +13,7 @@ from comparison.studies.outcome import Outcome
 from comparison.studies.sentences import number, values
 from comparison.studies.thesis import Variant
 
-__all__ = ["STUDY", "rubbing"]
+__all__ = ["STUDY", "friction_method"]
 
 COEFFICIENTS = (0.0, 0.3, 0.6)
 DURATION = 1e-3  # τ of the true geometry: slopes of about 0.03
@@ -22,7 +22,7 @@ SAVED = 250
 GEOMETRIES = {"linear": "linear limit", "true": "true geometry"}
 
 
-def rubbing(friction: float, geometry: str) -> Method:
+def friction_method(friction: float, geometry: str) -> Method:
     """The Exudyn path with friction."""
     from exudyn_models import CONTACTS, INTEGRATORS, ExudynModel
     from exudyn_models.geometry import GEOMETRIES as KINDS
@@ -41,7 +41,7 @@ def variants(case: Case) -> list[Variant]:
             f"{name}, friction {friction:g}",
             case.impact,
             ends[kind],
-            rubbing(friction, kind),
+            friction_method(friction, kind),
             value=friction,
             reference=True,
             save=SAVED,
@@ -56,15 +56,15 @@ def conclude(outcomes: Sequence[Outcome]) -> str:
     for name in GEOMETRIES.values():
         runs = [o for o in outcomes if o.label.startswith(name)]
         without = next((o for o in runs if o.value == 0.0), None)
-        rubbed = [o for o in runs if o.value]
-        if without is None or not rubbed:
+        with_friction = [o for o in runs if o.value]
+        if without is None or not with_friction:
             text.append(f"Friction could not be compared in the {name}: a run is missing.")
             continue
         reaction, length, lift = (
-            _change(rubbed, without, m) for m in ("reaction_error", "contact_length_error", "lift")
+            _change(with_friction, without, m) for m in ("reaction_error", "contact_length_error", "lift")
         )
         text.append(
-            f"Friction up to {max(o.value or 0.0 for o in rubbed):g} moves r₀ by {number(reaction)} % at most "
+            f"Friction up to {max(o.value or 0.0 for o in with_friction):g} moves r₀ by {number(reaction)} % at most "
             f"in the {name}, "
             f"λ₀ by {number(length)} %, the lift by {number(lift)} V₀t."
             + (
@@ -78,9 +78,9 @@ def conclude(outcomes: Sequence[Outcome]) -> str:
     return " ".join(text)
 
 
-def _change(rubbed: Sequence[Outcome], without: Outcome, name: str) -> float | None:
+def _change(with_friction: Sequence[Outcome], without: Outcome, name: str) -> float | None:
     """Largest change of a measure by friction; ``None`` when there is none to compare."""
-    before, after = without.measures.get(name), values(rubbed, name)
+    before, after = without.measures.get(name), values(with_friction, name)
     return None if before is None or not after else max(abs(v - before) for v in after)
 
 

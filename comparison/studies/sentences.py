@@ -21,6 +21,7 @@ __all__ = [
 ]
 
 MISSING = "not measured"
+RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
 def varied(outcomes: Sequence[Outcome]) -> list[Outcome]:
@@ -54,7 +55,7 @@ def number(value: float | None) -> str:
     if 1e-3 <= size < 1e5:
         return f"{value:.2g}".replace("-", "−") if size < 100 else f"{value:.0f}".replace("-", "−")
     mantissa, exponent = f"{value:.1e}".split("e")
-    return f"{mantissa}e{int(exponent)}".replace("-", "−")
+    return f"{mantissa}·10{str(int(exponent)).translate(RAISED)}".replace("-", "−")
 
 
 def signed(value: float | None) -> str:
@@ -70,14 +71,14 @@ def between(outcomes: Sequence[Outcome], name: str, text: str = "") -> str:
     return (low if low == high else f"{low} to {high}") + text
 
 
-def moves(outcomes: Sequence[Outcome], name: str, *, tell: float, relative: bool = False) -> bool:
-    """Whether a measure differs over the runs by more than ``tell`` (``relative``: of its largest size)."""
+def moves(outcomes: Sequence[Outcome], name: str, *, least: float, relative: bool = False) -> bool:
+    """Whether a measure differs over the runs by more than ``least`` (``relative``: of its largest size)."""
     found = smallest_and_largest(outcomes, name)
     if found is None:
         return False
     low, high = found
     scale = max(abs(low), abs(high)) if relative else 1.0
-    return high - low > tell * scale
+    return high - low > least * scale
 
 
 def reference_sentences(outcomes: Sequence[Outcome]) -> str:

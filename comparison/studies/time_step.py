@@ -28,7 +28,7 @@ def variants(case: Case) -> list[Variant]:
 def conclude(outcomes: Sequence[Outcome]) -> str:
     runs = sorted((o for o in varied(outcomes) if o.value is not None), key=lambda o: o.value or 0.0)
     fine = runs[:3]
-    lifts, pushes = moves(fine, "lift", tell=0.2, relative=True), moves(fine, "reaction_error", tell=2.0)
+    lifts, pushes = moves(fine, "lift", least=0.2, relative=True), moves(fine, "reaction_error", least=2.0)
     verdict = {
         (
             False,

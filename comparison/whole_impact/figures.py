@@ -132,7 +132,7 @@ def draw_map(out: Path, formats: Sequence[str] = ("png",)) -> list[Path]:
     dampings = sorted(table["damping"])
     colours = style.plt.get_cmap("viridis")(np.linspace(0.0, 0.88, len(dampings)))
     with style.figure(2, 3, width=style.PAGE, height=4.7, sharex=True) as (fig, axes):
-        for axis, (name, words) in zip(axes.flat, PANELS.items()):
+        for axis, (name, title) in zip(axes.flat, PANELS.items()):
             for damping, colour in zip(dampings, colours):
                 points = [p for p in table["points"] if p["damping"] == damping]
                 points.sort(key=lambda p: p["kappa_over_nu"])
@@ -148,7 +148,7 @@ def draw_map(out: Path, formats: Sequence[str] = ("png",)) -> list[Path]:
             axis.set_xlim(0.048, 4.2)
             axis.set_xticks([0.05, 0.1, 0.2, 0.5, 1.0, 4.0], ["0.05", "0.1", "0.2", "0.5", "1", r"$\geq$4"])
             axis.minorticks_off()
-            axis.set_ylabel(words)
+            axis.set_ylabel(title)
             axis.set_ylim(bottom=0.0)
         for axis in axes[1]:
             axis.set_xlabel(r"$\kappa/\nu$")

@@ -8,7 +8,7 @@ from comparison.whole_impact.outcome import SHORTEST_SEPARATION
 
 __all__ = ["bounce_table"]
 
-WORDS = {
+TITLES = {
     "restitution": "velocity after over before, e",
     "impulse": "impulse of the wall",
     "last_contact": "last contact",
@@ -27,13 +27,13 @@ def bounce_table(found: Bounce) -> str:
     """Every number with its error bar, in units of the beam and in SI."""
     impact, unit = found.impact, scales(found.impact)
     rows = []
-    for name, words in WORDS.items():
+    for name, title in TITLES.items():
         number = found.numbers[name]
         si = ["", ""]
         if name in SI:
             scale, text = SI[name]
             si = [str(number.scaled(unit[scale])), text]
-        rows.append([words, str(number), *si])
+        rows.append([title, str(number), *si])
         if name == "peak_moment" and found.peak_stress is not None:
             rows.append(["largest stress, there and then", "", str(found.peak_stress), "Pa"])
     lines = [

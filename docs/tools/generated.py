@@ -17,7 +17,7 @@ PACKAGES = (
     "comparison",
     "open_benchmark",
 )
-#: Rooms whose modules are read in place: compiled kernels, scripts to run, commands, one file a figure or study.
+#: Packages whose modules are read in place: compiled kernels, scripts to run, commands, one file a figure or study.
 IN_PLACE = {"kernels", "scripts", "command_line", "gallery", "studies", "report", "adapters"}
 
 

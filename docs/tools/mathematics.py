@@ -2,6 +2,7 @@ r"""Formulas become pictures (SVG) while the site is built, drawn by MathJax ins
 
 Pages: `pymdownx.arithmatex` keeps formulas away from Markdown and marks them; `on_page_content` draws what it marked.
 Notebooks: nbconvert leaves formulas between dollars in the text of their Markdown cells.
+Single symbols in running text (λ_c, K_w) get their index set low; long names in code may break after an underscore.
 """
 
 from __future__ import annotations
@@ -19,6 +20,9 @@ CELL = re.compile(
 )
 DOLLARS = re.compile(r"\$\$(.+?)\$\$|\$([^$]+?)\$", re.DOTALL)
 TAG = re.compile(r"\\tag\{([^}]*)\}")
+SYMBOL = re.compile(r"(?<![\w/.@-])([^\W\d_]{1,2}[²³*]?)_([^\W\d_]{1,4}[̇̈]?)(?![\w(])")
+CODE = re.compile(r"(<(code|pre|svg|script|style|title|a)\b.*?</\2>|<[^>]*>)", re.DOTALL)
+NAME = re.compile(r"(?<=[a-z])_(?=[a-z])")
 MATHJAX_SETTINGS = re.compile(r"<!-- Load mathjax -->.*?<!-- End of mathjax configuration -->", re.DOTALL)
 
 
@@ -56,4 +60,15 @@ def on_page_content(content: str, **_: Any) -> str:
     def cell(match: re.Match[str]) -> str:
         return match[1] + DOLLARS.sub(between_dollars, match[2]) + match[3]
 
-    return MATHJAX_SETTINGS.sub("", CELL.sub(cell, MARKED.sub(marked, content)))
+    drawn = MATHJAX_SETTINGS.sub("", CELL.sub(cell, MARKED.sub(marked, content)))
+    return "".join((text, breakable)[k % 3](part) for k, part in enumerate(CODE.split(drawn)) if k % 3 != 2)
+
+
+def breakable(part: str) -> str:
+    """A tag as it is; a name in code with places where a narrow column may break it."""
+    return NAME.sub("_<wbr>", part) if part.startswith("<code") else part
+
+
+def text(part: str) -> str:
+    """Running text with the indices of single symbols set low."""
+    return SYMBOL.sub(r"\1<sub>\2</sub>", part)

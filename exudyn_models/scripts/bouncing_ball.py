@@ -11,7 +11,7 @@ import exudyn.itemInterface as items
 import matplotlib.pyplot as plt
 import numpy as np
 
-from exudyn_models.solvers import silence
+from exudyn_models.solvers import quiet
 
 MASS, GRAVITY, HEIGHT, STIFFNESS, END = 1.0, 9.81, 1.0, 1e7, 2.5
 
@@ -43,7 +43,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     time = settings.timeIntegration
     time.endTime, time.numberOfSteps = END, round(END / 1.5e-5)  # sixty steps to the contact's half period
     time.solverType = exu.DynamicSolverType.RK44
-    with silence():
+    with quiet():
         mbs.SolveDynamic(settings)
     t, y = np.array(mbs.GetSensorStoredData(sensor))[:, [0, 2]].T
     top = np.flatnonzero((y[1:-1] > y[:-2]) & (y[1:-1] >= y[2:])) + 1

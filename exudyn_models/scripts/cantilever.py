@@ -10,7 +10,7 @@ from collections.abc import Sequence
 import matplotlib.pyplot as plt
 import numpy as np
 
-from exudyn_models.scripts.static_cable import EI, LENGTH, parser, solved, tell
+from exudyn_models.scripts.static_cable import EI, LENGTH, parser, print_rows, solved
 
 
 def main(arguments: Sequence[str] | None = None) -> None:
@@ -21,7 +21,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
         options.error(f"--elements must be at least 1 and --load a number other than 0 (got {n} and {load:g})")
     clamp = [(0, 0), (0, 1), (0, 3)]  # x, y and the slope; the fourth coordinate, the stretch, stays free
     q, _ = solved(n, clamp, n, load, chosen.view)
-    tell(
+    print_rows(
         [
             ("tip deflection", q[-1, 1], load * LENGTH**3 / (3 * EI)),
             ("tip slope", q[-1, 3], load * LENGTH**2 / (2 * EI)),

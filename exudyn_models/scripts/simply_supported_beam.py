@@ -12,7 +12,7 @@ from collections.abc import Sequence
 import matplotlib.pyplot as plt
 import numpy as np
 
-from exudyn_models.scripts.static_cable import EI, LENGTH, parser, solved, tell
+from exudyn_models.scripts.static_cable import EI, LENGTH, parser, print_rows, solved
 
 
 def main(arguments: Sequence[str] | None = None) -> None:
@@ -25,7 +25,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
         options.error(f"--load must be a number other than 0 (got {load:g})")
     hinge_and_roller = [(0, 0), (0, 1), (n, 1)]
     q, moment = solved(n, hinge_and_roller, n // 2, load, chosen.view)
-    tell(
+    print_rows(
         [
             ("deflection in the middle", q[n // 2, 1], load * LENGTH**3 / (48 * EI)),
             ("slope at the end", q[0, 3], load * LENGTH**2 / (16 * EI)),

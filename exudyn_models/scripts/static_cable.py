@@ -12,10 +12,10 @@ import exudyn.itemInterface as items
 import numpy as np
 from numpy.typing import NDArray
 
-from exudyn_models.solvers import silence
+from exudyn_models.solvers import quiet
 from exudyn_models.viewer import open_viewer, wait_until_closed
 
-__all__ = ["EI", "LENGTH", "parser", "solved", "tell"]
+__all__ = ["EI", "LENGTH", "parser", "print_rows", "solved"]
 
 LENGTH, EI, EA = 2.0, 1.0, 1e4  # m, N m², N
 
@@ -61,7 +61,7 @@ def solved(
     settings.staticSolver.verboseMode = 0
     settings.staticSolver.newton.relativeTolerance = 1e-12
     settings.staticSolver.numberOfLoadSteps = 1 + int(20 * abs(load))
-    with silence():
+    with quiet():
         try:
             mbs.SolveStatic(settings)
         except Exception:
@@ -75,7 +75,7 @@ def solved(
     return q, abs(float(np.ravel(moment)[-1]))
 
 
-def tell(rows: Sequence[tuple[str, float, float]]) -> None:
+def print_rows(rows: Sequence[tuple[str, float, float]]) -> None:
     """Print what was found beside what is exact."""
     for name, found, exact in rows:
         print(f"{name} = {found:.10g}, linear theory {exact:.10g}, off by {found / exact - 1:+.2e}")

@@ -235,7 +235,7 @@ def test_numbers_and_units_read_well() -> None:
         "0.012",
         "12",
         "1234",
-        "2.5e−5",
+        "2.5·10⁻⁵",
     ]
     assert number(-2.5) == "−2.5" and number(None) == "not measured"
     assert unit(2.5e-5, "s") == (1e6, "µs") and unit(0.03, "m") == (1e3, "mm") and unit(12e3, "N")[1] == "kN"

@@ -12,7 +12,7 @@ import exudyn.itemInterface as items
 import numpy as np
 import pytest
 
-from exudyn_models.solvers import silence
+from exudyn_models.solvers import quiet
 
 FRICTION, KAPPA, AMPLITUDE = 0.3, 0.5, 1e-3
 ELEMENTS, LENGTH, END = 60, 3.0, 0.1
@@ -84,7 +84,7 @@ def taken_and_sideways(steps):
     time.generalizedAlpha.spectralRadius = 0.5
     time.discontinuous.ignoreMaxIterations = True
     settings.linearSolver.solverType = exu.LinearSolverType.EigenSparse
-    with silence():
+    with quiet():
         mbs.SolveDynamic(settings)
     q = mbs.systemData.GetODE2Coordinates()
     return AMPLITUDE * END - q[1::6], q[2::6]

@@ -20,7 +20,7 @@ def test_the_reproducer_needs_exudyn_and_numpy_and_80_lines() -> None:
     assert set(re.findall(r"^import (\w+)", text, re.M)) == {"exudyn", "numpy"} and "\nfrom " not in text
 
 
-def test_capturing_steps_use_up_their_repetitions_and_do_not_with_the_cure() -> None:
+def test_capturing_steps_use_up_their_repetitions_and_do_not_with_the_fix() -> None:
     space: dict[str, object] = {"__name__": "reproducer"}
     exec(source(), space)
     run = space["run"]

@@ -40,7 +40,7 @@
 
   function choice({ name, label, options }) {
     const select = element("select", { id: `in-${name}`, name });
-    for (const [value, words] of Object.entries(options)) select.append(element("option", { value }, words));
+    for (const [value, title] of Object.entries(options)) select.append(element("option", { value }, title));
     select.addEventListener("change", () => { inputs[name] = select.value; fill(); update(); });
     return element("div", { class: "field" }, element("label", { for: select.id }, label), select);
   }
@@ -97,10 +97,10 @@
 
   // --- drawing -------------------------------------------------------------------------------------------------
   const SVG = "http://www.w3.org/2000/svg";
-  const draw = (parent, name, attributes, words) => {
+  const draw = (parent, name, attributes, content) => {
     const made = document.createElementNS(SVG, name);
     for (const [key, value] of Object.entries(attributes)) made.setAttribute(key, value);
-    if (words !== undefined) made.textContent = words;
+    if (content !== undefined) made.textContent = content;
     parent.append(made);
     return made;
   };
