@@ -155,9 +155,9 @@ def draw_coverage(found: Coverage, out: Path, formats: Sequence[str] = ("png",))
         for what, symbol, mark in (("lambda0", r"$\lambda_0$", style.HERMITE), ("r0", "$r_0$", style.EXUDYN)):
             mine = [(bar, max(error, 1e-7)) for *_, name, error, bar in found.points if name == what]
             axis.plot(*zip(*mine), **{**mark, "label": symbol, "ms": 3})
-        low, high = axis.get_xlim()
-        line = np.geomspace(max(low, 1e-6), max(high, 1e-1), 50)
-        axis.plot(line, line, color="black", lw=1.0, label="error = bar")
+        bars = [bar for *_, bar in found.points if bar > 0.0]
+        ends = np.array([0.5 * min(bars, default=1e-4), 2.0 * max(bars, default=1e-1)])
+        axis.plot(ends, ends, color="black", lw=1.0, label="error = bar")
         axis.set_xscale("log")
         axis.set_yscale("log")
         axis.set_xlabel("error bar / theory  (1)")

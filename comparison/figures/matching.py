@@ -73,7 +73,10 @@ def draw_leading(
             below.set_ylabel("difference  (%)")
             below.set_yscale("symlog", linthresh=1e-2)
             below.set_yticks([-10, -1, -0.1, 0, 0.1, 1, 10], ["−10", "−1", "−0.1", "0", "0.1", "1", "10"])
-            below.set_ylim(-2, 2)
+            compared = [getattr(r, what) for r in leading]
+            furthest = max((abs(100 * (c.relative() or 0.0)) for c in compared if c.theory), default=0.0)
+            limit = max(2.0, 1.5 * furthest)  # every point has its place
+            below.set_ylim(-limit, limit)
             below.set_xlabel(r"$\kappa/\nu$  (1)")
             style.panel_label(top, "(a)" if column == 0 else "(b)")
         axes[0, 0].legend()
@@ -99,7 +102,7 @@ def draw_first_order(
                 mine = [r for r in asked if r.first == first]
                 shown = curve[curve >= 0.8 * min(r.kappa_over_nu for r in mine)]
                 values = getattr(contact_parameters(shown, *first[:3], axial=first[3]), what)
-                loads = ", ".join(f"{v:g}" for v in first[: 4 if tension else 3])
+                loads = ", ".join(f"{v:g}" for v in first[: 4 if tension else 3]).replace("-", "−")
                 dash = ("-", "--", ":")[i // len(style.SEQUENCE) % 3]
                 axis.plot(shown, values, lw=1.1, ls=dash, color=colour, label=f"({loads})" if column == 0 else None)
                 for label, mark in marks.items():
