@@ -42,10 +42,10 @@ def benchmark(
     as_json: Json = False,
     quiet: Quiet = False,
 ) -> int:
-    """Run codes on the open benchmark's problems at three resolutions and write one page.
+    """Run codes on the open benchmark and write one page.
 
-    An adapter that hangs, crashes, writes rubbish or is not installed is a row that says so. Runs that are there are
-    not run again.
+    Each problem is solved at three resolutions. An adapter that hangs, crashes, writes rubbish or is not installed is
+    a row that says so. Runs that are there are not run again.
 
     Example: bentbeam benchmark --install scikit-fem
     """

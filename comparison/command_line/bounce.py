@@ -34,7 +34,9 @@ def bounce(
     as_json: Json = False,
     quiet: Quiet = False,
 ) -> None:
-    """The whole impact, from first touch to last separation: restitution, contact times, largest moment and stress.
+    """Follow the whole impact to the last separation.
+
+    Gives restitution, contact times, the largest moment and stress, each with an error bar.
 
     Example: bentbeam bounce --kappa-over-nu 2 --damping 0.01
     """

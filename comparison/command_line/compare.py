@@ -17,7 +17,7 @@ def compare(
     second: Annotated[Path, typer.Argument(metavar="B.nc", help="Another one.")],
     as_json: Json = False,
 ) -> None:
-    """How far two stored runs are apart, and in which settings they differ.
+    """Compare two stored runs: their numbers and their settings.
 
     Example: bentbeam compare hermite.nc exudyn.nc
     """

@@ -32,7 +32,7 @@ def gallery(
     as_json: Json = False,
     quiet: Quiet = False,
 ) -> None:
-    """Every figure and table of the thesis, regenerated, each with its data as CSV.
+    """Draw figures and tables of the thesis, each with its data.
 
     Example: bentbeam gallery fig-2.7a fig-3.29 --out out/gallery
     """

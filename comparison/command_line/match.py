@@ -49,7 +49,7 @@ def match(
     as_json: Json = False,
     quiet: Quiet = False,
 ) -> None:
-    """Simulate with any methods and hold λ₀, r₀ (and λ₁, r₁) against the theory.
+    """Match simulations with the theory: λ₀, r₀, λ₁, r₁.
 
     Example: bentbeam match --path hermite --set hermite.integrator.kind=moreau_jean --kappa-over-nu 0.5 --refine 1,2
     """

@@ -27,7 +27,7 @@ def new(
     overwrite: Overwrite = False,
     as_json: Json = False,
 ) -> None:
-    """A commented case to start from, for a beam of your own.
+    """Write a commented case file for a beam of your own.
 
     Example: bentbeam new my_pipe.toml --section pipe
     """

@@ -18,7 +18,7 @@ def plot(
     format: Annotated[list[str], typer.Option(help="png, pdf or svg; repeatable.")] = ["png"],  # noqa: B006
     as_json: Json = False,
 ) -> None:
-    """The beam, the push of the wall, impulse and energies of stored runs, a sheet each.
+    """Draw stored runs: beam, force map, impulse, energies.
 
     Example: bentbeam plot run.nc --out pictures
     """

@@ -20,7 +20,9 @@ def predict(
     assignments: Set = None,
     as_json: Json = False,
 ) -> None:
-    """Contact, force, impulse, moment and stress from theory, and until when they hold.
+    """Predict contact, force and stress of a case by theory.
+
+    The answer says until when it holds and what ends it.
 
     Example: bentbeam predict cases/drill_pipe.toml --time 0.005 --time 0.01
     """

@@ -16,7 +16,7 @@ def predictor(
     out: Annotated[Path, typer.Option(help="The page to write.")] = Path("predictor.html"),
     overwrite: Overwrite = False,
 ) -> None:
-    """The theory as one web page for one's own beam: no server, no network.
+    """Write the predictor: theory as one web page, offline.
 
     Example: bentbeam predictor --out predictor.html
     """

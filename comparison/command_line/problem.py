@@ -33,7 +33,7 @@ def problem(
     ] = None,
     overwrite: Overwrite = False,
 ) -> None:
-    """Write a problem of the open benchmark: the physics that an adapter reads.
+    """Write a problem of the open benchmark as a file.
 
     Example: bentbeam problem leading-0.5 --out problem.toml
     """

@@ -28,7 +28,7 @@ def report(
     as_json: Json = False,
     quiet: Quiet = False,
 ) -> None:
-    """The main job: match both paths with the theory and write one HTML page about it.
+    """Match all methods with the theory; write one HTML page.
 
     Example: bentbeam report --out report
     """

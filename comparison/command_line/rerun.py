@@ -20,7 +20,7 @@ def rerun(
     as_json: Json = False,
     quiet: Quiet = False,
 ) -> None:
-    """Run a stored history's case again with its settings, and say whether it came out the same.
+    """Repeat a stored run and compare the two.
 
     Example: bentbeam rerun out/K10.nc
     """

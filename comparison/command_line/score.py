@@ -26,10 +26,10 @@ def score(
     ] = None,
     as_json: Json = False,
 ) -> int:
-    """Score results against the exact solution, and say what is likely wrong with them.
+    """Score results of any code against the exact solution.
 
-    With several results of one code and problem the work–precision line is added. Exit code 2 when a result cannot be
-    read; the others are scored all the same.
+    Says what is likely wrong with them. With several results of one code and problem the work–precision line is added.
+    Exit code 2 when a result cannot be read; the others are scored all the same.
 
     Example: bentbeam score coarse.npz medium.npz fine.npz
     """

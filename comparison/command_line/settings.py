@@ -15,7 +15,7 @@ def settings(
     markdown: Annotated[bool, typer.Option("--markdown", help="As the page of the documentation.")] = False,
     as_json: Json = False,
 ) -> None:
-    """Every table and field of a case file with unit, default and range.
+    """List every setting with unit, default and range.
 
     Example: bentbeam settings
     """

@@ -31,7 +31,7 @@ def study(
     as_json: Json = False,
     quiet: Quiet = False,
 ) -> None:
-    """What a numerical parameter does to geometry, contact length, reaction and energy.
+    """Vary one numerical parameter and say what it changes.
 
     Example: bentbeam study mesh cases/thesis_K10.toml --out out/mesh
     """

@@ -19,7 +19,7 @@ def theory(
     axial: Annotated[float, typer.Option(help="First-order axial force N, tension positive.")] = 0.0,
     as_json: Json = False,
 ) -> None:
-    """λ₀, r₀, λ₁, r₁ and the largest bending moment of the semi-analytic theory.
+    """Print λ₀, r₀, λ₁, r₁ and the largest moment of theory.
 
     Example: bentbeam theory --kappa-over-nu 0.5 --alpha 4
     """
