@@ -89,10 +89,10 @@ def animate(history: ImpactHistory, file: Path | str, *, frames: int = 60, per_s
 
 
 class _Scene:
-    """The artists of the animation, moved from frame to frame; ``look`` is the mark of the path."""
+    """The artists of the animation, moved from frame to frame; ``line_style`` is the mark of the path."""
 
-    def __init__(self, axes: Sequence[Any], frames: Sequence[Frame], exact: Exact, look: dict[str, Any]) -> None:
-        self.frames, self.exact, self.look, last = frames, exact, look, frames[-1]
+    def __init__(self, axes: Sequence[Any], frames: Sequence[Frame], exact: Exact, line_style: dict[str, Any]) -> None:
+        self.frames, self.exact, self.line_style, last = frames, exact, line_style, frames[-1]
         self.sx, mx = unit(float(last.x[-1]), "m")
         low = 0.6 * float(-last.y.min())
         self.sy, my = unit(low, "m")
@@ -104,7 +104,7 @@ class _Scene:
         top.set_xlabel(f"$x$  ({mx})")
         top.set_ylabel(f"deflection $y$  ({my})")
         (self.free,) = top.plot([], [], color=style.COLOURS["grey"], ls="--", lw=0.9, label="without the wall")
-        (self.beam,) = top.plot([], [], color=look["color"], lw=1.8, label="beam")
+        (self.beam,) = top.plot([], [], color=line_style["color"], lw=1.8, label="beam")
         (self.points,) = top.plot(
             [], [], color=style.COLOURS["vermilion"], ls="", marker="v", ms=6, label="contact points"
         )
@@ -121,8 +121,8 @@ class _Scene:
         self.sf, mf = unit(largest, "N")
         self.times, self.forces = self.st * times, self.sf * forces
         below.plot(self.times, self.sf * force, **style.THEORY)
-        (self.past,) = below.plot([], [], **{**self.look, "ms": 3.5}, label="simulation")
-        (self.now,) = below.plot([], [], **{**self.look, "ms": 6.0, "mfc": self.look["color"]})
+        (self.past,) = below.plot([], [], **{**self.line_style, "ms": 3.5}, label="simulation")
+        (self.now,) = below.plot([], [], **{**self.line_style, "ms": 6.0, "mfc": self.line_style["color"]})
         below.set_xlim(0.0, self.times[-1] * 1.01)
         below.set_ylim(0.0, self.sf * largest)
         below.set_xlabel(f"$t$  ({mt})")

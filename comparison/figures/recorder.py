@@ -111,11 +111,11 @@ class Sheet:
                 fontsize=7.5,
             )
 
-    def line(self, axis: Axes, x: ArrayLike, y: ArrayLike, *, series: str, legend: bool = True, **look: Any) -> None:
-        """Plot one curve and remember it. ``look`` is a style of :mod:`comparison.figures.style` or matplotlib's."""
+    def line(self, axis: Axes, x: ArrayLike, y: ArrayLike, *, series: str, legend: bool = True, **drawn: Any) -> None:
+        """Plot one curve and remember it. ``drawn`` is a style of :mod:`comparison.figures.style` or matplotlib's."""
         places, values = np.broadcast_arrays(np.asarray(x, float), np.asarray(y, float))
-        look = {**look, "label": series if legend else "_"}
-        axis.plot(places, values, **look)
+        drawn = {**drawn, "label": series if legend else "_"}
+        axis.plot(places, values, **drawn)
         self.record(axis, places, values, series)
 
     def record(self, axis: Axes, x: ArrayLike, y: ArrayLike, series: str, quantity: str = "") -> None:

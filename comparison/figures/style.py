@@ -171,8 +171,8 @@ def save(fig: Figure, out: Path, name: str, formats: Sequence[str] = ("png",)) -
 
 def mark(path: str) -> dict[str, Any]:
     """Marker and colour of a path, without a label."""
-    look = MARKERS[path] if path in MARKERS else marks([path])[path]
-    return {k: v for k, v in look.items() if k != "label"}
+    found = MARKERS[path] if path in MARKERS else marks([path])[path]
+    return {k: v for k, v in found.items() if k != "label"}
 
 
 def wall_below(axis: Axes, low: float, high: float) -> None:

@@ -207,16 +207,16 @@ def coupling(sheet: Sheet) -> str:
     lumped = np.array([coupled("middle", LumpedMass(1.0 / n)) for n in ROTARY])
     consistent = {contact: coupled(contact, ConsistentMass()) for contact in ("node", "middle", "mean")}
     node = coupled("node", LumpedMass(1.0 / 105.0))
-    look: dict[str, Any] = {"ls": "", "ms": 5.5, "mew": 1.1, "mfc": "none"}
+    line_style: dict[str, Any] = {"ls": "", "ms": 5.5, "mew": 1.1, "mfc": "none"}
     with sheet.figure(width=4.6, height=3.2) as (fig, axis):
         axis.set_xlabel(r"coupling of neighbouring rows $c$  (1)")
         axis.set_ylabel("lift  (mm)")
         blue, red = style.COLOURS["blue"], style.COLOURS["vermilion"]
         sheet.line(axis, *lumped.T, series="middles, lumped", color=red, marker="o", ms=5, mfc="none", lw=0.8)
-        sheet.line(axis, *node, series="nodes, lumped", color=blue, marker="o", **look)
-        sheet.line(axis, *consistent["node"], series="nodes, consistent", color=blue, marker="s", **look)
-        sheet.line(axis, *consistent["middle"], series="middles, consistent", color=red, marker="s", **look)
-        sheet.line(axis, *consistent["mean"], series="mean gaps, consistent", color="black", marker="s", **look)
+        sheet.line(axis, *node, series="nodes, lumped", color=blue, marker="o", **line_style)
+        sheet.line(axis, *consistent["node"], series="nodes, consistent", color=blue, marker="s", **line_style)
+        sheet.line(axis, *consistent["middle"], series="middles, consistent", color=red, marker="s", **line_style)
+        sheet.line(axis, *consistent["mean"], series="mean gaps, consistent", color="black", marker="s", **line_style)
         crowded = {24.0: (5, -11), 28.0: (0, -11), 32.0: (-22, -10)}  # clear of their neighbours
         for (c, high), n in zip(lumped, ROTARY):
             axis.annotate(

@@ -146,12 +146,12 @@ def curve_with_points(sheet: Sheet, what: str, symbol: str) -> None:
         sheet.line(below, at, wrong, series="thesis's settings", **grey)
         for name, mark in style.marks(r.label for r in matched()).items():
             mine = [r for r in matched() if r.label == name and getattr(r, what).measured]
-            look = {k: v for k, v in mark.items() if k != "label"}
+            line_style = {k: v for k, v in mark.items() if k != "label"}
             x = np.array([r.kappa_over_nu for r in mine])
             y = np.array([getattr(r, what).value for r in mine])
             t = np.array([getattr(r, what).theory for r in mine])
-            sheet.line(top, x, y, series=name, **look)
-            sheet.line(below, x, 100.0 * (y / t - 1.0), series=name, **look)
+            sheet.line(top, x, y, series=name, **line_style)
+            sheet.line(below, x, 100.0 * (y / t - 1.0), series=name, **line_style)
         below.axhline(0.0, color="black", lw=0.8)
         below.set_yscale("symlog", linthresh=1e-2, linscale=0.6)
         ticks = (-10.0, -1.0, -0.1, -0.01, 0.0, 0.01, 0.1, 1.0, 10.0, 100.0)

@@ -25,8 +25,8 @@ def bare(axis: Axes, x: tuple[float, float], y: tuple[float, float]) -> None:
     axis.axis("off")
 
 
-def arrow(axis: Axes, start: tuple[float, float], end: tuple[float, float], look: dict[str, object]) -> None:
-    axis.annotate("", xy=end, xytext=start, arrowprops=look)
+def arrow(axis: Axes, start: tuple[float, float], end: tuple[float, float], line_style: dict[str, object]) -> None:
+    axis.annotate("", xy=end, xytext=start, arrowprops=line_style)
 
 
 def ground(axis: Axes, x: tuple[float, float], level: float = 0.0, deep: float = 0.12) -> None:

@@ -27,10 +27,10 @@ def dashed(colour: str) -> dict[str, Any]:
     return {"color": style.COLOURS[colour], "lw": 1.0, "ls": "--"}
 
 
-def key_below(fig: Any, axis: Axes, columns: int = 3, **look: Any) -> None:
+def key_below(fig: Any, axis: Axes, columns: int = 3, **line_style: Any) -> None:
     """One legend under the whole figure, from one axis."""
     handles, labels = theory_first(axis)
-    fig.legend(handles, labels, loc="outside lower center", ncols=min(columns, len(labels)), **look)
+    fig.legend(handles, labels, loc="outside lower center", ncols=min(columns, len(labels)), **line_style)
 
 
 def one_panel(

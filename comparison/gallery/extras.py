@@ -137,12 +137,12 @@ def signorini(sheet: Sheet) -> str:
     }
     ends = []
     with sheet.figure(1, 2, width=style.PAGE, height=2.7) as (fig, axes):
-        for name, (history, look) in runs.items():
+        for name, (history, line_style) in runs.items():
             zone, t = whole_zone(history), history.time
             kept = np.flatnonzero(zone > 0.0)
-            kept = kept[:: max(1, kept.size // 40)] if look.get("marker") else kept
-            sheet.line(axes[0], 1e6 * t[kept], zone[kept], series=name, **look)
-            sheet.line(axes[1], 1e6 * t[kept], history.array("total_impulse")[kept], series=name, **look)
+            kept = kept[:: max(1, kept.size // 40)] if line_style.get("marker") else kept
+            sheet.line(axes[0], 1e6 * t[kept], zone[kept], series=name, **line_style)
+            sheet.line(axes[1], 1e6 * t[kept], history.array("total_impulse")[kept], series=name, **line_style)
             ends.append(float(zone[-1]))
         axes[0].set_yscale("log")
         axes[0].set_ylabel(r"$\int y^2\,dx\;/\;(V_0t)^2\lambda_c$  (1)")

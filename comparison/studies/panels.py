@@ -75,12 +75,12 @@ def line_styles(outcomes: Sequence[Outcome]) -> list[dict[str, Any]]:
 
 
 def _finished(outcomes: Sequence[Outcome]) -> list[tuple[Outcome, dict[str, Any]]]:
-    return [(o, look) for o, look in zip(outcomes, line_styles(outcomes)) if o.failure is None and o.time.size]
+    return [(o, line) for o, line in zip(outcomes, line_styles(outcomes)) if o.failure is None and o.time.size]
 
 
 def _curves(sheet: Sheet, axis: Axes, curves: Sequence[tuple[str, Array, Array, dict[str, Any]]], legend: bool) -> None:
-    for label, x, y, look in curves:
-        sheet.line(axis, x, y, series=label, legend=legend, **look)
+    for label, x, y, line in curves:
+        sheet.line(axis, x, y, series=label, legend=legend, **line)
 
 
 def _evenly(x: Array, shift: float = 0.0, count: int = MARKS) -> NDArray[np.int64]:
@@ -89,8 +89,8 @@ def _evenly(x: Array, shift: float = 0.0, count: int = MARKS) -> NDArray[np.int6
     return np.unique(np.searchsorted(x, x[0] + spacing * (np.arange(count) + 0.25 + shift)).clip(0, x.size - 1))
 
 
-def _shift(look: dict[str, Any]) -> float:
-    return 0.5 if look["marker"] == style.SELF_SIMILAR["marker"] else 0.0
+def _shift(line: dict[str, Any]) -> float:
+    return 0.5 if line["marker"] == style.SELF_SIMILAR["marker"] else 0.0
 
 
 def geometry(
@@ -101,7 +101,8 @@ def geometry(
     exact, end = runs[0][0].exact, float(runs[0][0].time[-1])
     edge = reach * max(float(exact.front(end)), 0.25 * exact.impact.length_scale * math.sqrt(exact.tau(end)))
     gaps = np.concatenate([o.gap[o.x <= edge / reach] for o, _ in runs])
-    high = max(1.4 * float(gaps.max()), 0.01 * float(exact.impact.velocity * end))
+    shown = 1.1 * float(exact.gap(np.array([edge]), end)[0])  # more would be empty
+    high = max(1.4 * float(gaps.max()), min(shown, 0.01 * float(exact.impact.velocity * end)))
     deep = max(0.25 * high, -1.3 * float(gaps.min()))
     sx, mx = unit(edge, "m")
     sy, my = unit(high, "m")
@@ -110,13 +111,13 @@ def geometry(
     places = np.linspace(0.0, edge, 400)
     _theory(sheet, axis, sx * places, -sy * exact.gap(places, end), legend)
     curves = []
-    for o, look in runs:
+    for o, line in runs:
         near = o.x <= edge
         x, y = o.x[near], -o.gap[near]
-        if look.get("marker"):
-            kept = _evenly(x, _shift(look))
+        if line.get("marker"):
+            kept = _evenly(x, _shift(line))
             x, y = x[kept], y[kept]
-        curves.append((o.label, sx * x, sy * y, look))
+        curves.append((o.label, sx * x, sy * y, line))
     _curves(sheet, axis, curves, legend)
     axis.set_xlim(0.0, sx * edge)
     style.wall_below(axis, -sy * high, sy * deep)
@@ -134,11 +135,11 @@ def contact_length(sheet: Sheet, axis: Axes, outcomes: Sequence[Outcome], *, leg
     axis.set_ylabel(rf"$\lambda_c$  ({mx})")
     _theory(sheet, axis, st * times, sx * front, legend)
     curves = []
-    for o, look in runs:
+    for o, line in runs:
         touching = (
-            (o.front > 0.0) | (o.time == o.time[0]) | (not look.get("marker"))
+            (o.front > 0.0) | (o.time == o.time[0]) | (not line.get("marker"))
         )  # nothing to mark once it has left
-        curves.append((o.label, *_thin(st * o.time[touching], sx * o.front[touching], look), look))
+        curves.append((o.label, *_thin(st * o.time[touching], sx * o.front[touching], line), line))
     _curves(sheet, axis, curves, legend)
     axis.set_xlim(0.0, st * end)
     axis.set_ylim(bottom=0.0)
@@ -154,9 +155,9 @@ def reaction(sheet: Sheet, axis: Axes, outcomes: Sequence[Outcome], *, legend: b
     sf, mf = unit(top, "N")
     axis.set_xlabel(f"$t$  ({mt})")
     axis.set_ylabel(f"reaction of one side  ({mf})")
-    for o, look in runs:
-        t, f = o.reaction(MARKS if look.get("marker") else windows)
-        sheet.line(axis, st * t, sf * f, series=o.label, legend=legend, **look)
+    for o, line in runs:
+        t, f = o.reaction(MARKS if line.get("marker") else windows)
+        sheet.line(axis, st * t, sf * f, series=o.label, legend=legend, **line)
     _theory(sheet, axis, st * times, sf * exact.side_reaction(times), legend)
     axis.set_xlim(0.0, st * end)
     axis.set_ylim(0.0, sf * top)
@@ -174,12 +175,12 @@ def impulse(sheet: Sheet, axis: Axes, outcomes: Sequence[Outcome], *, legend: bo
     si, mi = unit(float(values.max()), "N s")
     axis.set_xlabel(f"$t$  ({mt}), scaled as $\\sqrt{{t}}$")
     axis.set_ylabel(f"impulse of one side  ({mi})")
-    for o, look in runs:
+    for o, line in runs:
         t, y = o.time - min(float(o.time[0]), 0.0), o.side_impulse
-        if look.get("marker"):
-            kept = _evenly(np.sqrt(t), _shift(look))
+        if line.get("marker"):
+            kept = _evenly(np.sqrt(t), _shift(line))
             t, y = t[kept], y[kept]
-        sheet.line(axis, st * t, si * y, series=o.label, legend=legend, **look)
+        sheet.line(axis, st * t, si * y, series=o.label, legend=legend, **line)
     _theory(sheet, axis, st * times, si * values, legend)
     axis.set_xscale("function", functions=(lambda v: np.sqrt(np.maximum(v, 0.0)), np.square))
     axis.set_xlim(0.0, st * end)
@@ -196,13 +197,13 @@ def energy(sheet: Sheet, axis: Axes, outcomes: Sequence[Outcome], *, legend: boo
     axis.set_xlabel(f"$t$  ({mt})")
     axis.set_ylabel(rf"$E - E(0)$  ({me})")
     _theory(sheet, axis, st * np.array([0.0, end]), np.zeros(2), legend)
-    _curves(sheet, axis, [(o.label, *_thin(st * o.time, se * o.energy, look), look) for o, look in runs], legend)
+    _curves(sheet, axis, [(o.label, *_thin(st * o.time, se * o.energy, line), line) for o, line in runs], legend)
     axis.set_xlim(0.0, st * end)
 
 
 def strain(sheet: Sheet, axis: Axes, outcomes: Sequence[Outcome], *, legend: bool = True, theory: bool = True) -> None:
     """Strain energy of the whole beam over t; ``theory`` = False leaves its line out where it is far above."""
-    runs = [(o, look) for o, look in _finished(outcomes)]
+    runs = [(o, line) for o, line in _finished(outcomes)]
     exact, end = runs[0][0].exact, float(runs[0][0].time[-1])
     times = end * np.linspace(0.0, 1.0, 200) ** 2
     values = exact.strain_energy(times)
@@ -213,16 +214,16 @@ def strain(sheet: Sheet, axis: Axes, outcomes: Sequence[Outcome], *, legend: boo
     axis.set_ylabel(f"strain energy  ({me})")
     if theory:
         _theory(sheet, axis, st * times, se * values, legend)
-    _curves(sheet, axis, [(o.label, *_thin(st * o.time, se * o.strain, look), look) for o, look in runs], legend)
+    _curves(sheet, axis, [(o.label, *_thin(st * o.time, se * o.strain, line), line) for o, line in runs], legend)
     axis.set_xlim(0.0, st * end)
     axis.set_ylim(bottom=0.0)
 
 
-def _thin(t: Array, values: Array, look: dict[str, Any]) -> tuple[Array, Array]:
+def _thin(t: Array, values: Array, line: dict[str, Any]) -> tuple[Array, Array]:
     """All of a line, some twenty points of a marker."""
-    if not look.get("marker"):
+    if not line.get("marker"):
         return t, values
-    kept = _evenly(t, _shift(look))
+    kept = _evenly(t, _shift(line))
     return t[kept], values[kept]
 
 
