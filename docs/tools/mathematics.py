@@ -23,6 +23,7 @@ TAG = re.compile(r"\\tag\{([^}]*)\}")
 SYMBOL = re.compile(r"(?<![\w/.@-])([^\W\d_]{1,2}[²³*]?)_([^\W\d_]{1,4}[̇̈]?)(?![\w(])")
 CODE = re.compile(r"(<(code|pre|svg|script|style|title|a)\b.*?</\2>|<[^>]*>)", re.DOTALL)
 NAME = re.compile(r"(?<=[a-z])_(?=[a-z])")
+PLAIN_CODE = re.compile(r"<code>[^<]*</code>")
 MATHJAX_SETTINGS = re.compile(r"<!-- Load mathjax -->.*?<!-- End of mathjax configuration -->", re.DOTALL)
 
 
@@ -66,7 +67,7 @@ def on_page_content(content: str, **_: Any) -> str:
 
 def breakable(part: str) -> str:
     """A tag as it is; a name in code with places where a narrow column may break it."""
-    return NAME.sub("_<wbr>", part) if part.startswith("<code") else part
+    return NAME.sub("_<wbr>", part) if PLAIN_CODE.fullmatch(part) else part
 
 
 def text(part: str) -> str:
