@@ -55,7 +55,7 @@ def _check_content(content: h5py.File, most: int) -> None:
     total = 0
     for name in content:
         if not NAME.fullmatch(name):
-            raise ValueError(f"the name {name[:40]!r} is none of a variable")
+            raise ValueError(f"the name {name[:40]!r} is not that of a variable")
         link = content.get(name, getlink=True)
         if not isinstance(link, h5py.HardLink):
             raise ValueError(f"{name} is a link to elsewhere ({type(link).__name__}), which is not followed")

@@ -172,7 +172,7 @@ def paths() -> list[str]:
 
 
 def method_type(path: str) -> type[Any]:
-    """The class of a path. Raises :class:`InputError` for a name that nobody installed, or that does not load."""
+    """The class of a path. Raises :class:`InputError` for a name that is not installed, or that does not load."""
     if path not in _found():
         raise InputError(f"path: {path!r} is not known{nearest(str(path), _found())}")
     try:

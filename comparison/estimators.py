@@ -197,7 +197,7 @@ def leading_order(found: Moments, *, window: float = 10.0, companions: Sequence[
 
     companions : the same run with elements and steps twice as long (and, for thorough bars, twice as short). What mesh,
     steps and start do to the answer falls at least like Δx, so that the difference from the coarser run is the size of
-    the error; without companions only the drift over the window speaks of it.
+    the error; without companions only the drift over the window measures it.
 
     The error bar is the drift (spread over the window and its parts), the largest difference from a companion, taken
     ``COMPANION`` times, and ``LEAST`` of the value. Raises ``ValueError`` when fewer than eight instants carry an

@@ -188,7 +188,7 @@ def first_order_epsilon(leading: LeadingEstimate, first: First, perturbation: fl
     """The largest ε of the runs: the loads change the free motion by a small part of V₀t over the contact zone.
 
     ε τ (|α|/2 + |χ|z²/2 + |ψ|z⁴/24 + |N|/2) = ``perturbation`` at the end, z being the zone measured at ε = 0 and half
-    the front's thickness. Where nothing presses, a front close to the centre is spared too long a way.
+    the front's thickness. Where nothing presses, ε is reduced for a front near the centre, which would move too far.
     """
     front = leading.lambda0.value
     z = front + 1.0 / math.sqrt(1.0 + front**2)

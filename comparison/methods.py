@@ -55,7 +55,7 @@ def methods_of(names: Sequence[str], assignments: Sequence[str] = ()) -> list[Me
 def methods_from_file(file: Path) -> list[Method]:
     """The labelled methods of a file, in order.
 
-    Raises :class:`InputError` for what is no list of methods, an unknown path, part or value, or a label given twice.
+    Raises :class:`InputError` for anything but a list of methods, an unknown path, part or value, a label given twice.
     """
     content = read_toml(file, "methods file")
     for key in content:

@@ -306,7 +306,7 @@ def _text(fields: Mapping[str, Any], name: str) -> str:
     if not isinstance(value, str):
         raise ResultError(f"{name} must be a text (got {shortened(value)})")
     if not _is_text(value):
-        raise ResultError(f"{name} holds characters that are no text")
+        raise ResultError(f"{name} holds characters that are not text")
     if len(value) > MOST_TEXT:
         raise ResultError(f"{name} has {len(value)} characters, {MOST_TEXT} are the most")
     return value
@@ -325,7 +325,7 @@ def _metadata(fields: Mapping[str, Any]) -> dict[str, Any]:
     if not isinstance(found, dict):
         raise ResultError("metadata must hold one JSON object")
     if not readable:
-        raise ResultError("metadata holds characters that are no text")
+        raise ResultError("metadata holds characters that are not text")
     return dict(found)
 
 

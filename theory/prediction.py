@@ -368,7 +368,7 @@ def _summary_of_validity(p: Prediction) -> list[str]:
         start = f"from {p.valid_from:.3g} s " if p.valid_from > 0.0 else ""
         lines = [f"This holds {start}until {p.valid_until:.3g} s, to 2 %: then {reason}."]
     if any(row.half_contact_length is None for row in p.times):
-        lines.append("Where there is a dash the correction exceeds the leading order: the theory says nothing there.")
+        lines.append("Where there is a dash the correction exceeds the leading order: the theory does not hold there.")
     if any(not row.valid for row in p.times):
         lines.append("For other times simulate: bentbeam predict --simulate, or bentbeam simulate.")
     return lines

@@ -29,7 +29,7 @@ class Bar:
 
 
 class Console:
-    """Standard error as a place for progress; silent when it is no terminal or ``quiet``."""
+    """Standard error as a place for progress; silent when it is not a terminal, or ``quiet``."""
 
     def __init__(self, quiet: bool = False) -> None:
         self.shown = not quiet and sys.stderr.isatty()

@@ -24,7 +24,7 @@ from hermite_fe import HermiteFE
 
 DURATION = 0.05
 ZONES = (0.35, 0.53, 0.7)
-"""Where the fine elements end, m, in the runs that show how much the lift hangs on it (0.544 m by Table 3.2's rule)."""
+"""Where the fine elements end, m, in runs that show how much the lift depends on it (0.544 m by Table 3.2's rule)."""
 CASE = "V₀ = 3.5 m/s, K = 0.35 1/m, L = 2 m, Δx = 2.5·10⁻³ m, h = 2.5·10⁻⁷ s, e = 1.25, ρ∞ = 0.8, nodes"
 SIGNS = {-700.0: "a₀ = −700 m/s²", 0.0: "a₀ = 0", 700.0: "a₀ = 700 m/s²"}
 

@@ -76,7 +76,7 @@ class Study:
     """A study by name. ``variants(case)`` are its runs, ``conclude(outcomes)`` says what they show; ``perform`` runs
     them.
 
-    heading : of the varied parameter. own : a study that is no list of runs brings its whole performance.
+    heading : of the varied parameter. own : the whole of a study that is not a list of runs.
     """
 
     name: str

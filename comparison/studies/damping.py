@@ -39,7 +39,7 @@ def conclude(outcomes: Sequence[Outcome]) -> str:
     if losses:
         less = all(d < i for i, d in losses)
         text.append(
-            f"Of the energy that the exact impact hands over to waves, the impacts of the mesh points destroy "
+            f"Of the energy that the exact impact radiates as waves, the impacts of the mesh points destroy "
             f"{between(radii, 'lost_impact', ' %')}, the algorithmic damping {between(radii, 'lost_damping', ' %')}. "
             f"Theory loses none: {'the thesis is right that damping takes less than the impacts, but ' if less else ''}"
             "both losses are numerical, and the waves that are missing are those which the elements cannot carry."

@@ -100,7 +100,7 @@ def test_an_expansion_that_has_broken_down_returns_nothing() -> None:
     assert early.valid and early.reaction is not None
     assert not late.valid
     assert late.half_contact_length is late.reaction is late.impulse is None
-    assert "says nothing there" in found.summary()
+    assert "does not hold there" in found.summary()
 
 
 @dataclass(frozen=True)
