@@ -107,7 +107,8 @@ def speed_answer(leading: Sequence[TableRow], first: Sequence[TableRow]) -> str:
         shared = set.intersection(*(set(mine) for mine in seconds.values())) if seconds else set()
         if shared and len(seconds) > 1:
             each = [f"{label} {median(mine[k] for k in shared):.2g} s" for label, mine in seconds.items()]
-            sentences.append(f"at {order} a row takes {', '.join(each)} ({'medians of' if len(shared) > 1 else 'from'} {len(shared)} row{'s' if len(shared) > 1 else ''})")
+            count = f"medians of {len(shared)} rows" if len(shared) > 1 else "one row"
+            sentences.append(f"at {order} a row takes {', '.join(each)} ({count})")
     if not sentences:
         return "No row was answered by two methods, so their times cannot be compared."
     text = "; ".join(sentences)

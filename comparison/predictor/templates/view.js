@@ -139,7 +139,7 @@
     { id: "plot-force", label: "Force on the wall", name: "force", of: (r) => r.reaction, steep: true },
     { id: "plot-impulse", label: "Impulse", name: "impulse", of: (r) => r.impulse },
     { id: "plot-moment", label: "Largest bending moment", name: "moment", of: (r) => r.moment },
-    { id: "plot-place", label: "Distance of that moment from the middle", name: "place", of: (_, t) => placeOfPeak(t), spreads: true },
+    { id: "plot-place", label: "Place of that moment", name: "place", of: (_, t) => placeOfPeak(t), spreads: true },
     { id: "plot-stress", label: "Largest stress", name: "stress", of: (r) => r.stress },
   ];
 
