@@ -5,23 +5,23 @@ from __future__ import annotations
 import importlib
 from typing import TYPE_CHECKING, Any
 
-from bent_beam.impact import Impact
-
 if TYPE_CHECKING:
     from bent_beam.cases import Case, load_case
     from bent_beam.errors import SimulationError
     from bent_beam.history import ImpactHistory
+    from bent_beam.impact import Impact
     from bent_beam.method import Method
     from bent_beam.parts import InputError
 
 __all__ = ["Case", "Impact", "ImpactHistory", "InputError", "Method", "SimulationError", "load_case"]
 
-# The theory needs Impact and no more: what is heavy (xarray, pydantic) is imported when it is asked for.
+# The theory needs Impact and no more, an error message nothing: each is imported when it is asked for.
 _LATER = {
     "Case": "bent_beam.cases",
     "load_case": "bent_beam.cases",
     "ImpactHistory": "bent_beam.history",
     "SimulationError": "bent_beam.errors",
+    "Impact": "bent_beam.impact",
     "Method": "bent_beam.method",
     "InputError": "bent_beam.errors",
 }

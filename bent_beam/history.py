@@ -32,16 +32,18 @@ import unicodedata
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import xarray as xr
 from numpy.typing import NDArray
 
 from bent_beam.checks import one_of, shortened
 from bent_beam.impact import Impact
 from bent_beam.storage import read_dataset, write_dataset
 from bent_beam.versions import versions
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 __all__ = ["ImpactHistory", "versions"]
 
@@ -106,6 +108,8 @@ class ImpactHistory:
         steps, seconds : time steps taken and wall seconds spent in the solver.
         Raises ``ValueError`` when a field is not finite.
         """
+        import xarray as xr  # here, because it takes longer to import than a prediction takes
+
         data: dict[str, Any] = {}
         for name, (dims, values) in fields.items():
             array = np.asarray(values)

@@ -8,11 +8,12 @@ import subprocess
 import sys
 import warnings as python_warnings
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-import xarray as xr
-
-from bent_beam import examination
 from bent_beam.files import write_atomically
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 __all__ = ["read_dataset", "write_dataset"]
 
@@ -32,9 +33,13 @@ def write_dataset(dataset: xr.Dataset, file: Path) -> None:
 
 def read_dataset(file: Path) -> xr.Dataset:
     """All of a netCDF file in memory; ``ValueError`` in one line for what is none or holds what a history does not."""
+    import xarray as xr
+
+    from bent_beam.examination import BYTES_A_SECOND
+
     try:
         size = file.stat().st_size  # FileNotFoundError is the caller's to tell
-        examine_apart(file, PATIENCE + size // examination.BYTES_A_SECOND)
+        examine_apart(file, PATIENCE + size // BYTES_A_SECOND)
         with python_warnings.catch_warnings():
             python_warnings.simplefilter("ignore")  # what a foreign file lacks is said by whoever asks for it
             # no scales, offsets or fill values: they would turn small numbers into large arrays
@@ -51,6 +56,8 @@ def read_dataset(file: Path) -> xr.Dataset:
 
 def examine_apart(file: Path, patience: float) -> None:
     """:func:`bent_beam.examination.examine` in a process of its own: a file that hangs or crashes HDF5 is refused."""
+    from bent_beam import examination
+
     program = [sys.executable, "-P", str(examination.__file__), str(file.absolute())]
     try:
         done = subprocess.run(program, capture_output=True, timeout=patience, text=True, errors="replace")

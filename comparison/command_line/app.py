@@ -1,7 +1,7 @@
 """The ``bentbeam`` command: each command is a file of its own beside this one.
 
 Exit codes: 0 done; 2 bad input (one line naming field and value); 3 a solver could not finish; 130 interrupted.
-Nothing heavy is imported here or in the commands' files: ``bentbeam --help`` answers at once.
+Nothing heavy is imported here or at the head of the commands' files: ``bentbeam --help`` answers at once.
 """
 
 from __future__ import annotations
@@ -16,57 +16,21 @@ from typing import Annotated
 import typer
 
 from bent_beam.errors import SimulationError
-from comparison.command_line.benchmark import benchmark
-from comparison.command_line.bounce import bounce
-from comparison.command_line.compare import compare
-from comparison.command_line.gallery import gallery
-from comparison.command_line.match import match
-from comparison.command_line.new import new
+from comparison.command_line.group import CommandGroup
 from comparison.command_line.options import printable
-from comparison.command_line.plot import plot
-from comparison.command_line.predict import predict
-from comparison.command_line.predictor import predictor
-from comparison.command_line.problem import problem
-from comparison.command_line.report import report
-from comparison.command_line.rerun import rerun
-from comparison.command_line.score import score
-from comparison.command_line.settings import settings
-from comparison.command_line.simulate import simulate
-from comparison.command_line.study import study
-from comparison.command_line.theory import theory
 
 __all__ = ["app", "main", "run"]
 
-COMMANDS = (
-    theory,
-    new,
-    settings,
-    predict,
-    predictor,
-    simulate,
-    bounce,
-    match,
-    study,
-    gallery,
-    report,
-    rerun,
-    plot,
-    compare,
-    problem,
-    score,
-    benchmark,
-)
 INTERRUPTED = 130
 RESUMED = ("match", "gallery", "report", "benchmark")  # keep every run, or every item, as soon as it is finished
 
 app = typer.Typer(
+    cls=CommandGroup,
     help="A naturally bent beam hits a rigid wall: theory, simulations, and how well they agree.",
     rich_markup_mode=None,
     pretty_exceptions_enable=False,
     context_settings={"max_content_width": 110, "help_option_names": ["-h", "--help"]},
 )
-for command in COMMANDS:
-    app.command()(command)
 
 # Typer hides its copy of click, whose base class of usage errors this is.
 USAGE_ERRORS: tuple[type[Exception], ...] = tuple(

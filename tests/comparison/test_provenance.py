@@ -44,11 +44,11 @@ MADE = re.compile(r"<!-- made by: (bentbeam|python -m) ([^>]*?) -->")
 
 def exists(program, words):
     """Whether there is such a command."""
-    from comparison.command_line.app import COMMANDS
+    from comparison.command_line.group import COMMANDS
 
     first = words.split()[0]
     if program == "bentbeam":
-        return first in {command.__name__ for command in COMMANDS}
+        return first in COMMANDS
     return (ROOT / (first.replace(".", "/") + ".py")).is_file()
 
 
