@@ -23,7 +23,6 @@ from bent_beam.impact import Impact
 from bent_beam.method import Method, for_whole_beam, refined, settings_of, simulate_to_separation
 from bent_beam.section import Section
 from comparison.whole_impact.outcome import NUMBERS, SHORTEST_SEPARATION, WholeImpact, whole_impact
-from comparison.workers import run_all
 
 __all__ = ["Bounce", "Number", "bounce", "bounce_document", "problem", "scales"]
 
@@ -170,6 +169,8 @@ def bounce(
         if progress is not None:
             progress(done + 1, 1 + len(checks))
 
+    from comparison.workers import run_all  # here: who reads the map starts no processes
+
     found = run_all(
         _outcome,
         [(other, impact, save) for other in checks.values()],
@@ -217,6 +218,8 @@ def _band(
 ) -> Bounce:
     random = np.random.default_rng(seed)
     methods = [_varied(method, impact, random) for _ in range(runs)]
+    from comparison.workers import run_all  # here: who reads the map starts no processes
+
     found = run_all(
         _outcome,
         [(drawn, impact, save) for drawn in methods[1:]],

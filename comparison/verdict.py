@@ -10,9 +10,6 @@ import numpy as np
 
 from bent_beam.cases import Case
 from bent_beam.errors import InputError
-from bent_beam.method import for_whole_beam, method_from_tables
-from comparison.estimators import local_front, moments
-from comparison.reduction import bending_moments
 from comparison.text_table import text_table
 from comparison.whole_impact.map import bounce_from_map
 from theory import predict
@@ -59,6 +56,10 @@ def _free(case: Case) -> bool:
 
 def _simulated(case: Case, times: Sequence[float]) -> list[dict[str, float | None]]:
     """The rows at ``times`` from one run of the whole beam with half as long steps and elements beside it."""
+    from bent_beam.method import for_whole_beam, method_from_tables  # here: a prediction does without
+    from comparison.estimators import local_front, moments
+    from comparison.reduction import bending_moments
+
     impact = case.impact
     rows = []
     for factor in (1.0, 0.5):

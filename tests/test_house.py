@@ -16,7 +16,10 @@ FLOOR = {"bent_beam": 0, **dict.fromkeys(PATHS, 1), "comparison": 2, "open_bench
 # The door of the house opens into the room above: these commands are of the open benchmark.
 DOORS = {f"comparison.command_line.{name}" for name in ("benchmark", "problem", "score")}
 NAMES_OF_PATHS = {"hermite", "self_similar", "exudyn"}
-LEAN = {"numpy", "scipy", "xarray", "pandas", "matplotlib", "numba", "exudyn", "h5py", "plotly", "jinja2", "dask"}
+LEAN = {
+    *("numpy", "scipy", "xarray", "pandas", "matplotlib", "numba", "exudyn", "h5py", "plotly", "jinja2", "dask"),
+    *("h5netcdf", "multiprocessing", "asyncio", "PIL"),
+}
 
 
 @cache
@@ -116,6 +119,7 @@ def loaded_by(code):
         capture_output=True,
         text=True,
         check=True,
+        cwd=ROOT,
         env=os.environ | {"PYTHONPATH": str(ROOT)},
     )
     return set(done.stdout.rstrip().rpartition("\n")[2].split())
@@ -130,14 +134,21 @@ def command(words):
     [
         ("import theory", {"numpy", "scipy"}),
         (command("theory --kappa-over-nu 0.5 --alpha 4 --json"), {"numpy", "scipy"}),
+        (command("predict cases/ruler.toml --json"), {"numpy", "scipy"}),
         (command("--help"), set()),
         (command("match --help"), set()),
     ],
-    ids=["import theory", "bentbeam theory", "bentbeam --help", "bentbeam match --help"],
+    ids=["import theory", "bentbeam theory", "bentbeam predict", "bentbeam --help", "bentbeam match --help"],
 )
 def test_only_what_is_needed_is_loaded(code, allowed):
     loaded = loaded_by(code)
     assert loaded & (LEAN | set(PATHS)) <= allowed | {"theory"}
+
+
+def test_help_imports_no_command_and_no_validation():
+    """Typer itself loads pydantic as soon as a command has options."""
+    loaded = loaded_by(command("--help") + "\nassert 'comparison.command_line.theory' not in __import__('sys').modules")
+    assert not loaded & {"pydantic", "rich"}
 
 
 WITHOUT_THEORY = """

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import importlib
-import inspect
 from typing import TYPE_CHECKING, Any
 
 import typer
@@ -14,26 +13,27 @@ if TYPE_CHECKING:
 
 __all__ = ["COMMANDS", "CommandGroup", "command_function"]
 
-COMMANDS = (
-    "theory",
-    "new",
-    "settings",
-    "predict",
-    "predictor",
-    "simulate",
-    "bounce",
-    "match",
-    "study",
-    "gallery",
-    "report",
-    "rerun",
-    "plot",
-    "compare",
-    "problem",
-    "score",
-    "benchmark",
-)
-"""Each is the function of that name in the module of that name beside this one."""
+COMMANDS = {
+    "theory": "The numbers of the semi-analytic theory.",
+    "new": "A commented case to start from, for a beam of your own.",
+    "settings": "Every table and field of a case file.",
+    "predict": "What the theory says of a case, and until when it holds.",
+    "predictor": "The theory as one web page.",
+    "simulate": "One case on one path.",
+    "bounce": "The whole impact: does the beam bounce, for how long?",
+    "match": "Simulations by any methods, held against the theory.",
+    "study": "What a numerical parameter does.",
+    "gallery": "Every figure and table of the thesis.",
+    "report": "The main job: both paths against the theory, one page.",
+    "rerun": "A stored run again, and whether it came out the same.",
+    "plot": "Pictures of stored runs.",
+    "compare": "How far two stored runs are apart.",
+    "problem": "A problem of the open benchmark.",
+    "score": "Results of any code against the exact solution.",
+    "benchmark": "Codes on the open benchmark, and its page.",
+}
+"""Name → its line in ``bentbeam --help``. Each is the function of that name in the module of that name beside this one,
+which the list does not need."""
 
 
 def command_function(name: str) -> Callable[..., Any]:
@@ -61,10 +61,5 @@ class CommandGroup(TyperGroup):
         return self.commands[cmd_name]
 
     def format_commands(self, ctx: Any, formatter: Any) -> None:
-        """The list in ``--help``: of each command the first paragraph of what its function says."""
-        rows = []
-        for name in COMMANDS:
-            said = inspect.getdoc(command_function(name)) or ""
-            rows.append((name, " ".join(said.partition("\n\n")[0].split())))
         with formatter.section("Commands"):
-            formatter.write_dl(rows)
+            formatter.write_dl(list(COMMANDS.items()))

@@ -33,7 +33,6 @@ from comparison.bounce import RUNS, SEED, Number, bounce, problem
 from comparison.plain import json_text
 from comparison.store import RunStore, default_store, write_atomically
 from comparison.whole_impact.outcome import NUMBERS, SHORTEST_SEPARATION
-from comparison.workers import run_all
 
 __all__ = ["DAMPINGS", "KAPPAS", "bounce_from_map", "measure_map", "stored_map"]
 
@@ -92,6 +91,8 @@ def measure_map(
     progress: Callable[[int, int], None] | None = None,
 ) -> list[dict[str, Any]]:
     """Measure ``points`` (path, κ/ν, η/T*) in their order, on cores or a cluster."""
+    from comparison.workers import run_all  # here: who reads the map starts no processes
+
     folder = None if store is None or store.folder is None else str(store.folder)
     return run_all(
         _kept_point,
