@@ -31,6 +31,7 @@ import signal
 import sys
 import tempfile
 import time
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -61,7 +62,7 @@ OWN: dict[str, tuple[str, ...]] = {
     "hermite_fe/far_fields/*.py": (HERMITE + "far_field.py",),
     "hermite_fe/integrators/*.py": (HERMITE + "integrators.py",),
     "hermite_fe/masses/*.py": (HERMITE + "masses.py",),
-    KERNELS + "*.py": (HERMITE + "pivoting.py", HERMITE + "integrators.py", HERMITE + "steps.py"),
+    KERNELS + "*.py": tuple(HERMITE + f"{name}.py" for name in ("pivoting", "integrators", "energy", "steps")),
     "hermite_fe/*.py": (HERMITE + "simulate.py", HERMITE + "model.py"),
     "comparison/estimators.py": ("tests/comparison/test_estimators.py",),
     "comparison/error_bars.py": ("tests/comparison/test_error_bars.py",),
@@ -84,7 +85,9 @@ WIDEST = (
     "tests/comparison/test_match.py",
 )
 # interpreted: kernels as plain Python, where they would have to be compiled anew for every fault
-STAGES = ("own", "interpreted", "wider", "compiled", "widest", "verify")
+CHEAP, DEAR = ("own", "interpreted", "wider"), ("compiled", "widest", "verify")
+STAGES = CHEAP + DEAR
+BLOCK = 250
 
 NOT_TRIED = ("RShift", "LShift", "BitOr", "BitAnd", "BitXor")  # in place of arithmetic
 TOO_LONG = 1e6  # s, noted for a test that is not worth its time where kernels are plain Python
@@ -248,8 +251,9 @@ def in_child(
             os.chdir(tree)
             resource.setrlimit(resource.RLIMIT_CPU, (CPU_SECONDS if seconds else 1200, resource.RLIM_INFINITY))
             resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
-            limit = (20.0 if seconds else 4.0) if stage == "interpreted" else 0.0
-            recorder = Recorder(seconds, files, 2.0 if stage in ("interpreted", "own") else TOO_LONG, limit)
+            limit = (20.0 if seconds else 6.0) if stage == "interpreted" else 0.0
+            longest = {"own": 2.0, "interpreted": 6.0}.get(stage, TOO_LONG)
+            recorder = Recorder(seconds, files, longest, limit)
             marks = "verify" if stage == "verify" else "not verify"
             options = ["-m", marks, "-p", "no:cacheprovider", *more]
             options += ["-k", "not subnormal and not care"] if stage == "interpreted" else []
@@ -276,8 +280,8 @@ def caught(answer: dict[str, Any]) -> bool:
     return answer["code"] not in (0, 5)  # 5: no test chosen
 
 
-def run(out: Path, stages: tuple[str, ...] = STAGES) -> None:
-    """Append to ``results.jsonl``, a line a fault and stage; all faults against their own tests before wider ones."""
+def run(out: Path) -> None:
+    """Append to ``results.jsonl``, a line a fault and stage, until something has caught it."""
     mutants = [json.loads(line) for line in (out / "mutants.jsonl").read_text().splitlines()]
     tree, results = out / "tree", out / "results.jsonl"
     done: dict[tuple[int, str], bool] = {}
@@ -296,36 +300,38 @@ def run(out: Path, stages: tuple[str, ...] = STAGES) -> None:
     in_child(tree, out / "cache", ("tests",), "own", {}, "--collect-only")  # Pytest's own compiled tests
     timed = out / "durations.json"
     durations: dict[str, dict[str, float]] = json.loads(timed.read_text()) if timed.exists() else {}
-    for stage in stages:
-        for mutant in sorted(mutants, key=lambda m: m["number"]):
-            number, file = mutant["number"], mutant["file"]
-            if (number, stage) in done or any(done.get((number, before)) for before in STAGES):
-                continue
-            files = tests_of(file, stage)
-            if not files:
-                continue
-            key = " ".join((stage, *files))
-            if key not in durations:
-                whole = in_child(tree, out / "cache", files, stage, {})
-                if whole["by"] is not None:
-                    shutil.copy2(out / "output.txt", out / "failed_without_a_fault.txt")
-                    print(f"{key}: fails without a fault: {whole['by']}", flush=True)
-                durations[key] = whole.get("durations", {"none": 0.0})
-                timed.write_text(json.dumps(durations))
-            kept = (tree / file).stat()
-            with tempfile.TemporaryDirectory() as fresh:
-                (tree / file).write_text(mutant["source"], encoding="utf-8")
-                for old in (tree / file).parent.glob(f"__pycache__/{Path(file).stem}.*"):
-                    old.unlink()
-                cache = Path(fresh) if file.startswith(KERNELS) else out / "cache"
-                answer = in_child(tree, cache, files, stage, durations[key] or {"none": 0.0})
-                shutil.copy2(ROOT / file, tree / file)
-                os.utime(tree / file, ns=(kept.st_atime_ns, kept.st_mtime_ns))
-            done[number, stage] = caught(answer)
-            row = {"number": number, "stage": stage, "caught": caught(answer), "by": answer["by"],
-                   "cpu_seconds": answer["seconds"]}  # fmt: skip
-            with results.open("a") as lines:
-                lines.write(json.dumps(row) + "\n")
+    for mutant, stage in in_turn(mutants):
+        number, file = mutant["number"], mutant["file"]
+        files = tests_of(file, stage)
+        if not files or (number, stage) in done or any(done.get((number, before)) for before in STAGES):
+            continue
+        key = " ".join((stage, *files))
+        if key not in durations:
+            whole = in_child(tree, out / "cache", files, stage, {})
+            if whole["by"] is not None:
+                shutil.copy2(out / "output.txt", out / "failed_without_a_fault.txt")
+                print(f"{key}: fails without a fault: {whole['by']}", flush=True)
+            durations[key] = whole.get("durations", {"none": 0.0})
+            timed.write_text(json.dumps(durations))
+        with tempfile.TemporaryDirectory() as fresh:
+            (tree / file).write_text(mutant["source"], encoding="utf-8")
+            cache = Path(fresh) if file.startswith(KERNELS) else out / "cache"
+            answer = in_child(tree, cache, files, stage, durations[key] or {"none": 0.0})
+            shutil.copy2(ROOT / file, tree / file)  # its time too: what Python compiled of it before is good again
+        done[number, stage] = caught(answer)
+        row = {"number": number, "stage": stage, "caught": caught(answer), "by": answer["by"]}
+        with results.open("a") as lines:
+            lines.write(json.dumps(row | {"cpu_seconds": answer["seconds"]}) + "\n")
+
+
+def in_turn(mutants: list[dict[str, Any]]) -> Iterator[tuple[dict[str, Any], str]]:
+    """Block by block through the cheap stages, so that a run cut short has finished with a sample of its own; the
+    dear stages, compiled kernels among them, for what is then left of all."""
+    for first in range(0, len(mutants), BLOCK):
+        for stage in CHEAP:
+            yield from ((mutant, stage) for mutant in mutants[first : first + BLOCK])
+    for stage in DEAR:
+        yield from ((mutant, stage) for mutant in mutants)
 
 
 # --- tell ------------------------------------------------------------------------------------------------------------

@@ -10,6 +10,7 @@ from scipy.linalg import cho_solve_banded, cholesky_banded
 from bent_beam.meshes import ScaleFreeMesh
 from hermite_fe.beam import HermiteBeam
 from hermite_fe.kernels import SOLVED, combine, problem_of, solve_rows, works_of
+from hermite_fe.kernels.monotone import solve_monotone
 from hermite_fe.system import ContactRows, System
 
 Array = NDArray[np.float64]
@@ -101,6 +102,28 @@ def test_contact_problems_are_solved_as_by_trying_every_active_set() -> None:
     """300 random problems, degenerate ones among them, each from three wrong guesses."""
     for seed in range(300):
         check(seed)
+
+
+def test_the_fall_back_finds_the_same_reactions_from_none() -> None:
+    """What takes over when exchanging many rows at once runs in a circle, asked directly."""
+    for seed in range(200):
+        random = np.random.default_rng(seed)
+        system = random_system(random)
+        problem = problem_of(system)
+        n, m = system.dofs, len(system.contacts)
+        work = works_of(system, problem, 1)[0]
+        combine(problem.M, problem.C, problem.K, 1.0, 0.0, 0.0, problem.place, work.S)
+        b, target = random.normal(size=n), random.normal(size=m)
+        candidate, held = random.random(m) < 0.9, random.random(m) < 0.1
+        work.b[:], work.target[:], work.candidate[:], work.held[:] = b, target, candidate, held
+        work.p[:] = random.normal(size=m)  # whatever was there before
+        x, p = truth(system, b, target, candidate, held)
+        closed = random.random(m) < 0.5
+        status, solutions = solve_monotone(problem, work, closed, 1e-12)
+        scale = 1.0 + np.abs(x).max() + np.abs(p).max()
+        assert status == SOLVED and solutions <= 3 * m, seed
+        assert np.abs(work.y[problem.place] - x)[problem.place < n].max() < 1e-7 * scale, seed
+        assert np.abs(np.where(closed, work.p, 0.0) - p).max() < 1e-7 * scale, seed
 
 
 @pytest.mark.verify
