@@ -43,7 +43,10 @@ def kernel(function: Function, **options: Any) -> Function:
     if numba.config.DISABLE_JIT:
         return function
     dispatcher = numba.njit(error_model="numpy", **options)(function)
-    dispatcher._cache = KernelCache(dispatcher.py_func)
+    try:
+        dispatcher._cache = KernelCache(dispatcher.py_func)
+    except RuntimeError:  # neither this folder nor the user's can be written: compiled anew at every start
+        pass
     return cast(Function, dispatcher)
 
 

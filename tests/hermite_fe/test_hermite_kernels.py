@@ -5,7 +5,20 @@ import subprocess
 import sys
 from pathlib import Path
 
+import pytest
+from numba.core.caching import CompileResultCacheImpl
+
 from hermite_fe.kernels import jit
+
+
+def test_kernels_run_where_nothing_can_be_written(monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setattr(CompileResultCacheImpl, "_locator_classes", [])
+
+    @jit.compiled
+    def more(x: float) -> float:
+        return x + 1.0
+
+    assert more(2.0) == 3.0
 
 
 def test_a_change_in_one_module_reaches_kernels_of_another(tmp_path: Path):

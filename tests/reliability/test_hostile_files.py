@@ -165,17 +165,18 @@ READ_ALL = """
 import json, resource, sys, time
 import bent_beam.storage
 from bent_beam import ImpactHistory
-from bent_beam.examination import examine
+from bent_beam.examination import LIBRARIES, allowed, examine
 bent_beam.storage.examine_apart = lambda file, patience: examine(file)  # this process is apart already
 resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+resource.setrlimit(resource.RLIMIT_DATA, (LIBRARIES + allowed(0),) * 2)
 for line in sys.stdin:
     began, said = time.process_time(), "good"
-    resource.setrlimit(resource.RLIMIT_CPU, (int(began) + 4, resource.RLIM_INFINITY))
+    resource.setrlimit(resource.RLIMIT_CPU, (int(began) + 2, resource.RLIM_INFINITY))
     try:
         ImpactHistory.load(line.strip())
     except ValueError as error:
         said = str(error)
-    most = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024
+    most = next(int(x.split()[1]) * 1024 for x in open("/proc/self/status") if x.startswith("VmHWM"))
     print(json.dumps([said, time.process_time() - began, most]), flush=True)
 """
 
@@ -243,8 +244,9 @@ def test_mutated_histories_are_read_or_refused_quickly_and_kill_nothing(good, tm
             slowest, most = max(slowest, seconds), max(most, memory)
             if answer.startswith("died"):
                 died.append(answer)
-                with pytest.raises(ValueError, match="damaged"):
-                    ImpactHistory.load(file)
+                if len(died) <= 3:  # five seconds each
+                    with pytest.raises(ValueError, match="damaged"):
+                        ImpactHistory.load(file)
     finally:
         reader.close()
     good_ones = said.count("good")
