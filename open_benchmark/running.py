@@ -54,7 +54,7 @@ def run_adapter(adapter: Adapter, asked: Problem, resolution: str, kept: Path, l
     if missing:
         return Run("not_installed", missing, 0.0)
     kept.parent.mkdir(parents=True, exist_ok=True)
-    folder = Path(tempfile.mkdtemp(prefix=".run-", dir=kept.parent))
+    folder = Path(tempfile.mkdtemp(prefix=".run-", dir=kept.parent)).resolve()  # the adapter runs in it
     try:
         (folder / "problem.toml").write_text(problem_text(asked), encoding="utf-8")
         return _run(adapter, asked, resolution, folder, kept, limits)

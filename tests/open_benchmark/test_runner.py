@@ -110,6 +110,13 @@ def test_one_bad_adapter_is_a_row_and_finished_runs_are_kept(tmp_path: Path) -> 
     assert page.count("<svg") == 1 and "cannot" in page and "not installed" in page
 
 
+def test_a_folder_that_is_given_relative_to_where_one_stands(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    good = adapter(tmp_path, "good", GOOD.format(log=str(tmp_path / "log")))
+    rows = campaign([good], ["point-2"], Path("out"), resolutions=["coarse"])
+    assert [row.score.outcome for row in rows] == ["completed"], rows[0].score.reason
+
+
 def test_a_changed_adapter_runs_again(tmp_path: Path) -> None:
     log = tmp_path / "log"
     for comment in ("", "# better"):
