@@ -73,7 +73,7 @@ OWN: dict[str, tuple[str, ...]] = {
     "bent_beam/impact.py": ("tests/bent_beam/test_impact.py",),
 }
 WIDER = {
-    "theory": ("tests/theory",),
+    "theory": (THEORY + "axial.py", THEORY + "second_order.py", THEORY + "prediction.py", "tests/theory"),
     "hermite_fe": ("tests/hermite_fe",),
     "comparison": ("tests/comparison/test_error_bars.py", "tests/comparison/test_match.py"),
     "bent_beam": ("tests/bent_beam", "tests/theory"),
@@ -85,7 +85,7 @@ WIDEST = (
     "tests/comparison/test_match.py",
 )
 # interpreted: kernels as plain Python, where they would have to be compiled anew for every fault
-CHEAP, DEAR = ("own", "interpreted", "wider"), ("compiled", "widest", "verify")
+CHEAP, DEAR = ("own", "interpreted", "long", "wider"), ("compiled", "widest", "verify")
 STAGES = CHEAP + DEAR
 BLOCK = 250
 
@@ -178,8 +178,11 @@ def draw(out: Path, seed: int, number: int) -> None:
 class Recorder:
     """What pytest does in a child: the shortest tests of each file first, the first failure told."""
 
-    def __init__(self, seconds: dict[str, float], files: tuple[str, ...], longest: float, limit: float) -> None:
-        self.seconds, self.files, self.longest, self.limit = seconds, files, longest, limit
+    def __init__(
+        self, seconds: dict[str, float], files: tuple[str, ...], span: tuple[float, float], limit: float
+    ) -> None:
+        self.seconds, self.files, self.limit = seconds, files, limit
+        self.shortest, self.longest = span if seconds else (0.0, TOO_LONG)
         self.durations: dict[str, float] = {}
         self.failed: str | None = None
 
@@ -188,13 +191,16 @@ class Recorder:
         return own, self.seconds.get(nodeid, 0.0)
 
     def pytest_collection_modifyitems(self, items: list[Any]) -> None:
-        items[:] = [item for item in items if self.seconds.get(item.nodeid, 0.0) < self.longest]
+        items[:] = [item for item in items if self.shortest <= self.seconds.get(item.nodeid, 0.0) < self.longest]
         items.sort(key=lambda item: self.place(item.nodeid))
 
     def pytest_runtest_setup(self) -> None:
         if self.limit:
             signal.signal(signal.SIGVTALRM, too_long)
             signal.setitimer(signal.ITIMER_VIRTUAL, self.limit)
+
+    def pytest_runtest_teardown(self) -> None:
+        signal.setitimer(signal.ITIMER_VIRTUAL, 0.0)
 
     def pytest_runtest_logreport(self, report: Any) -> None:
         self.durations[report.nodeid] = self.durations.get(report.nodeid, 0.0) + report.duration
@@ -220,7 +226,7 @@ def tests_of(file: str, stage: str) -> tuple[str, ...]:
     own = next(tests for pattern, tests in OWN.items() if fnmatch.fnmatch(file, pattern))
     wider = WIDER[file.partition("/")[0]]
     kernel = file.startswith(KERNELS)
-    if stage in (("own", "wider") if kernel else ("interpreted", "compiled")):
+    if stage in (("own", "long", "wider") if kernel else ("interpreted", "compiled")):
         return ()
     return {"wider": wider, "compiled": (*own, *wider), "widest": WIDEST, "verify": (*own, *wider)}.get(stage, own)
 
@@ -252,8 +258,8 @@ def in_child(
             resource.setrlimit(resource.RLIMIT_CPU, (CPU_SECONDS if seconds else 1200, resource.RLIM_INFINITY))
             resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
             limit = (20.0 if seconds else 6.0) if stage == "interpreted" else 0.0
-            longest = {"own": 2.0, "interpreted": 6.0}.get(stage, TOO_LONG)
-            recorder = Recorder(seconds, files, longest, limit)
+            span = {"own": (0.0, 2.0), "long": (2.0, TOO_LONG), "interpreted": (0.0, 6.0)}.get(stage, (0.0, TOO_LONG))
+            recorder = Recorder(seconds, files, span, limit)
             marks = "verify" if stage == "verify" else "not verify"
             options = ["-m", marks, "-p", "no:cacheprovider", *more]
             options += ["-k", "not subnormal and not care"] if stage == "interpreted" else []
@@ -305,7 +311,7 @@ def run(out: Path) -> None:
         files = tests_of(file, stage)
         if not files or (number, stage) in done or any(done.get((number, before)) for before in STAGES):
             continue
-        key = " ".join((stage, *files))
+        key = " ".join((stage.replace("long", "own"), *files))
         if key not in durations:
             whole = in_child(tree, out / "cache", files, stage, {})
             if whole["by"] is not None:

@@ -19,6 +19,17 @@ def test_the_sample_is_reproducible_and_mixed():
     assert {"hermite", "self_similar", "exudyn"} == set(paths)
 
 
+def test_every_method_that_is_drawn_can_be_made_and_spans_what_the_distribution_says():
+    generator = np.random.default_rng(7)
+    drawn = [draw(generator) for _ in range(400)]  # a setting out of its range would raise
+    kappas = np.array([question.kappa_over_nu for question in drawn])
+    assert 0.05 <= kappas.min() < 0.06 and 0.8 < kappas.max() <= 0.95
+    assert np.median(kappas) == pytest.approx(np.sqrt(0.05 * 0.95), rel=0.2)
+    assert np.mean([question.method.path == "hermite" for question in drawn]) == pytest.approx(0.8, abs=0.06)
+    factors = {question.refine for question in drawn if question.method.path == "exudyn"}
+    assert 1.0 / 3.0 <= min(factors) and max(factors) <= 1.0 and len(factors) > 20
+
+
 def test_a_bar_that_misses_is_counted():
     def row(value, error):
         number = Compared(value, error, 1.0)

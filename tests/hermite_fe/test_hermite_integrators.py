@@ -48,6 +48,9 @@ def test_steps_grow_at_most_as_asked_and_refined_ones_are_as_many_times_shorter(
         # 1/g even steps up to h/g, then as many as fit into log(3g/h) at most g long
         assert steps.size == pytest.approx(finer / 0.02 * (1.0 + math.log(3.0 * 0.02 / 1e-3)), rel=0.02)
     assert type(integrator.refined(2.0)) is type(integrator)
+    if isinstance(integrator, GeneralizedAlphaPenalty):  # the penetration is of second order, too
+        finer = integrator.refined(2.0)
+        assert (finer.stiffness, finer.damping) == (4e4, 20.0)
 
 
 def test_a_step_that_is_given_stays_and_does_not_grow_unless_asked() -> None:

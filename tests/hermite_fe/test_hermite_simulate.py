@@ -77,6 +77,15 @@ def test_auto_finds_the_leading_order_of_a_case_in_si_units(
     assert np.abs(history.array("gap")[-1][inside]).max() < 2e-3 * 20.0 * 2.5e-4
 
 
+def test_only_what_a_load_changes_is_measured_on_a_cut_beam() -> None:
+    """A long beam under load is cut, its ends following the free motion; without loads nothing is."""
+    bare = Impact.dimensionless(0.3, length=400.0)
+    chosen = HermiteFE().chosen_for(bare, 0.1)
+    assert chosen.domain is None and chosen.far_field.end == "free"
+    loaded = HermiteFE().chosen_for(bare.replace(acceleration=0.1), 0.1)
+    assert 0.0 < loaded.domain < 100.0 and loaded.far_field.end == "following"
+
+
 def test_a_thin_front_is_resolved_too() -> None:
     impact = Impact(1.0, 1.0, 50.0, 1.0 / 10.0, 20.0)  # κ/ν = 1/200; r₀ → √(π/8)·√(2ν/κ)
     (warning,) = simulate(impact).warnings

@@ -165,6 +165,15 @@ def test_one_point_holds_within_two_per_cent_of_the_stopped_beam_until_the_limit
     assert np.max(np.abs(late)) > 0.02
 
 
+def test_a_beam_without_damping_is_told_nothing_of_it_and_the_first_instant_is_finite() -> None:
+    assert predict(Impact.whole_beam(0.5)).warnings == ()
+    assert "damping" in " ".join(predict(Impact.whole_beam(0.5, relative_damping=1e-3)).warnings)
+    assert predict(Impact.whole_beam(2.0, relative_damping=1e-3)).warnings == ()
+    for ratio in (0.5, 2.0):
+        (start,) = predict(Impact.whole_beam(ratio, relative_damping=1e-3), 0.0).times
+        assert (start.half_contact_length, start.impulse, start.reaction) == (0.0, 0.0, None)
+
+
 def test_damping_of_a_zone_counts_from_below() -> None:
     damped = predict(Impact.whole_beam(0.5, relative_damping=1e-3), [1e-3, 0.02])
     assert 6e-3 < damped.valid_from < 0.02 < damped.valid_until
