@@ -17,7 +17,7 @@ from exudyn_models.contacts import CONTACTS, Contact, Penalty
 from exudyn_models.elements import ELEMENTS, Element
 from exudyn_models.geometry import GEOMETRIES
 from exudyn_models.integrators import INTEGRATORS, Integrator
-from exudyn_models.resolution import chosen_mesh
+from exudyn_models.resolution import chosen_mesh, chosen_steps
 from exudyn_models.simulation import refusal, simulate
 from exudyn_models.solvers import SOLVERS
 
@@ -81,13 +81,11 @@ class ExudynModel(Composition):
             # a zone that a load presses must lie on the wall in the run without it, too, or the load first closes what
             # the rebound of the first instants has left: λ₁ of (4, 0, 0) at κ/ν = 0.5 is 12 % off without, 0.1 % with
             contact = Penalty(hold=FIRST_ORDER_HOLD)
-        return dataclasses.replace(
-            self,
-            mesh=mesh.refined(self.refine),
-            contact=contact,
-            integrator=integrator.refined(self.refine * (FIRST_ORDER_STEPS if self.integrator is None else 1.0)),
-            refine=1.0,
-        )
+        mesh = mesh.refined(self.refine)
+        integrator = integrator.refined(self.refine * (FIRST_ORDER_STEPS if self.integrator is None else 1.0))
+        if self.integrator is None:
+            integrator = chosen_steps(integrator, mesh, impact, end_time)
+        return dataclasses.replace(self, mesh=mesh, contact=contact, integrator=integrator, refine=1.0)
 
     def for_whole_beam(self, impact: Impact) -> ExudynModel:
         """A copy whose open parts suit the whole beam until it has left: nothing held, no viscosity of the grid."""

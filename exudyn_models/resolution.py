@@ -1,18 +1,36 @@
-"""Mesh, length and contact points that are chosen from the problem by scaling arguments, when none are given."""
+"""Mesh, length, steps and contact points that are chosen from the problem by scaling arguments, when none are given.
+
+While nothing but the first spread of the zone moves it, elements and steps grow with distance and time. A run that
+lasts until waves are back from the ends needs every part of the beam alike, and steps that resolve the contact: one
+that closes a node in a step much longer than the penalty's own time gives half of the reaction once more in the next,
+and the beam leaves with more energy than it had. There the mesh is uniform and h = ½Δx²√(μ/EI).
+"""
 
 from __future__ import annotations
 
+import dataclasses
 import math
+from typing import Any, cast
 
 import numpy as np
 from numpy.typing import NDArray
 
 from bent_beam import Impact
 from bent_beam.checks import positive
-from bent_beam.meshes import NodesMesh, ScaleFreeMesh
+from bent_beam.meshes import Mesh, NodesMesh, ScaleFreeMesh
+from exudyn_models.integrators import Integrator
 from exudyn_models.scaling import Scaling, front_bound
 
-__all__ = ["chosen_half_length", "chosen_mesh", "end_time_of", "far_field", "reachable"]
+__all__ = [
+    "chosen_half_length",
+    "chosen_mesh",
+    "chosen_steps",
+    "end_time_of",
+    "far_field",
+    "lasts_until_waves_return",
+    "reachable",
+    "resolving_step",
+]
 
 Array = NDArray[np.float64]
 
@@ -21,6 +39,9 @@ FIRST_SPREAD = 0.005  # T*: measured, from when on a finite beam's impulse is 1 
 GROWTH = 0.01  # neighbours of the chosen mesh: 5 elements over the front's bending length at κ/ν = 0.05, 20 at 0.2
 OF_ZONE, OF_BENDING = 300.0, 30.0  # the smallest element over the front's bound and over the bending ahead of it
 REACH, REACH_OF_FRONT = 12.0, 8.0  # half length to model, see far_field; tests/exudyn_models/test_exudyn_constants.py
+ELEMENT_STEPS = 4e5  # elements times steps of a run with uniform elements: a few seconds
+FEWEST, MOST = 60, 400  # uniform elements of a half beam; tests/exudyn_models/test_exudyn_constants.py
+MOST_STEPS = 200_000  # that an open time step may ask for
 
 
 def far_field(scaling: Scaling) -> float:
@@ -52,6 +73,11 @@ def chosen_mesh(
     coarsen : factor on every element's length.
     """
     positive("coarsen", coarsen)
+    if lasts_until_waves_return(impact, end_time):
+        steps_at_one = 2.0 * end_time_of(impact, end_time) / impact.slow_time_scale  # with one element
+        count = min(max((ELEMENT_STEPS / steps_at_one) ** (1.0 / 3.0), FEWEST), MOST) / coarsen
+        places = np.linspace(0.0, impact.half_length, max(2, round(count)) + 1)
+        return NodesMesh(places=tuple(float(place) for place in places))
     scaling = Scaling(impact, end_time_of(impact, end_time), 1.0)
     front = front_bound(scaling.kappa)
     if explicit:
@@ -64,14 +90,41 @@ def chosen_mesh(
     return NodesMesh(places=tuple(float(place) for place in nodes))
 
 
+def lasts_until_waves_return(impact: Impact, end_time: float | None) -> bool:
+    """Whether waves from the ends of the beam are back before the end time, s."""
+    end = end_time_of(impact, end_time)
+    return end > FIRST_SPREAD * impact.slow_time_scale and chosen_half_length(impact, end) == impact.half_length
+
+
+def resolving_step(mesh: Mesh, impact: Impact) -> float:
+    """The time step, s, that resolves the contact of the shortest element: ½Δx²√(μ/EI)."""
+    return 0.5 * float(np.diff(mesh.nodes(impact.half_length)).min()) ** 2 / impact.wave_constant
+
+
+def chosen_steps(integrator: Integrator, mesh: Mesh, impact: Impact, end_time: float | None) -> Integrator:
+    """``integrator``, which nobody asked for, with steps that resolve the contact once waves are back from the ends.
+
+    With elements so short that this would take more than ``MOST_STEPS`` it stays as it is: the run warns where its
+    contact gives energy.
+    """
+    if integrator.explicit or not lasts_until_waves_return(impact, end_time):
+        return integrator
+    step = resolving_step(mesh, impact)
+    if end_time_of(impact, end_time) > MOST_STEPS * step:
+        return integrator
+    return cast(Integrator, dataclasses.replace(cast(Any, integrator), time_step=step))
+
+
 def end_time_of(impact: Impact, end_time: float | None) -> float:
     """The end time, s, checked; None: τ = 0.1."""
     return impact.checked_end_time(DEFAULT_DURATION * impact.time_scale if end_time is None else end_time)
 
 
 def reachable(x: Array, scaling: Scaling, centre: int) -> NDArray[np.int64]:
-    """Nodes that may touch: half as far again as the free motion would carry the beam into the wall."""
-    if scaling.impact.opposite_wall is not None or scaling.spin:
+    """Nodes that may touch: half as far again as the free motion would carry the beam into the wall, and all where
+    waves from the ends may throw any of them at it."""
+    impact = scaling.impact
+    if impact.opposite_wall is not None or scaling.spin or lasts_until_waves_return(impact, scaling.end_time):
         return np.arange(x.size)
     times = np.linspace(0.05, 1.0, 20)[:, None]
     inside = (scaling.free_deflection(x[None, :], times) > 0.0).any(axis=0)

@@ -26,7 +26,7 @@ from exudyn_models.elements import ANCFCable, Element
 from exudyn_models.geometry import GEOMETRIES, Geometry
 from exudyn_models.integrators import Integrator
 from exudyn_models.recording import Recorder
-from exudyn_models.resolution import chosen_mesh, end_time_of
+from exudyn_models.resolution import chosen_mesh, chosen_steps, end_time_of
 from exudyn_models.scaling import Scaling, front_bound
 from exudyn_models.settling import Settling
 from exudyn_models.solvers import NewtonSolver, quiet
@@ -91,7 +91,8 @@ def simulate(
     impact : the problem (SI).
     end_time : s; None: τ = 0.1.
     mesh : of the half beam, laid over the whole half length (a ``NodesMesh`` may end short of it); None: elements in
-        proportion to the distance from the centre, as far out as waves travel (:func:`chosen_mesh`).
+        proportion to the distance from the centre, as far out as waves travel, or uniform ones where waves are back
+        from the ends before the end time (:func:`chosen_mesh`).
     element, integrator, contact, geometry, solver : parts of :class:`exudyn_models.ExudynModel`; None: ANCF cable,
         generalised-α, nodal penalty, the linear limit, modified Newton. ``geometry`` may be "linear" or "true".
     full_beam : model both halves instead of x ≥ 0 with the slope fixed at x = 0.
@@ -118,6 +119,7 @@ def simulate(
     targets = _targets(save, end)
     element = ANCFCable() if element is None else element
     contact = Penalty() if contact is None else contact
+    open_steps = integrator is None
     integrator = contact.integrator() if integrator is None else integrator
     solver = contact.solver() if solver is None else solver
     if geometry is None:
@@ -133,8 +135,10 @@ def simulate(
     began = clock.perf_counter()
     true = Scaling(impact, end, 1.0).true_amplitude
     scaling = Scaling(impact, end, geometry.amplitude_of(true))
-    laid = (chosen_mesh(impact, end, explicit=integrator.explicit) if mesh is None else mesh).refined(refine)
-    integrator = integrator.refined(refine)
+    laid = chosen_mesh(impact, end, explicit=integrator.explicit) if mesh is None else mesh
+    laid, integrator = laid.refined(refine), integrator.refined(refine)
+    if open_steps:
+        integrator = chosen_steps(integrator, laid, impact, end)
     half_length = impact.half_length
     if isinstance(laid, NodesMesh) and laid.places[-1] <= half_length * (1.0 + 1e-9):
         half_length = laid.places[-1]

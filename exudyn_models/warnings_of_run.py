@@ -19,6 +19,7 @@ Array = NDArray[np.float64]
 
 LARGEST_STEP = 0.05  # of the end time: the front then moves by a fortieth of the contact length in one
 MOST_CYCLES = 0.05  # of the steps
+MOST_GIVEN = 1e-3  # of the initial energy, by the contact
 MOST_PULLED = 1.0  # of the total impulse
 
 
@@ -48,6 +49,14 @@ def warnings_of_run(
     if penetration > 0.01:
         found.append(
             f"the beam enters the wall by up to {penetration:.2%} of V0 t; take a stiffer penalty or smaller steps"
+        )
+    lost = np.asarray(run.record.contact_loss)
+    given_back = float((np.maximum.accumulate(lost) - lost).max(initial=0.0))
+    initial = run.record.kinetic[0] + run.record.strain[0] if lost.size else 0.0
+    if given_back > MOST_GIVEN * initial:
+        found.append(
+            f"the contact gave {given_back / initial:.2g} of the initial energy: steps too long for it; take steps of "
+            "0.5 dx^2 sqrt(mu/EI) at most, or longer elements"
         )
     if -run.held > MOST_PULLED * abs(run.total):
         found.append(

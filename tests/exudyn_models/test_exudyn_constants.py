@@ -69,3 +69,17 @@ def test_a_constant_halved_or_doubled(
 ) -> None:
     monkeypatch.setattr(module, name, getattr(module, name) * factor)
     does_not_move(ExudynModel(), chosen)
+
+
+@pytest.mark.parametrize("factor", [0.5, 2.0])
+def test_uniform_elements_halved_or_doubled(factor: float, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Once waves are back: work of a run, and with it elements by a quarter and steps by half."""
+    impact = Impact.dimensionless(0.4, length=2.0, damping=1e-3)
+
+    def impulse(end: float) -> float:
+        return float(ExudynModel().simulate(impact, end_time=end, save=50).array("total_impulse")[-1])
+
+    ends = (0.02, 0.08)
+    chosen = [impulse(end) for end in ends]
+    monkeypatch.setattr(resolution, "ELEMENT_STEPS", resolution.ELEMENT_STEPS * factor)
+    assert [impulse(end) for end in ends] == pytest.approx(chosen, rel=0.01)

@@ -1,11 +1,15 @@
 """The wall pushes and never pulls, and no energy comes from it: random physical problems, default method."""
 
+import os
+import random
+
 import numpy as np
 import pytest
 
 import exudyn_models
 from bent_beam import Impact
 from bent_beam.meshes import UniformMesh
+from exudyn_models.integrators import GeneralizedAlpha
 
 
 def problem(generator):
@@ -28,7 +32,7 @@ def problem(generator):
 
 def check(impact):
     end = 0.5 * impact.slow_time_scale
-    history = exudyn_models.simulate(impact, end_time=end, mesh=UniformMesh(impact.length / 100), save=200)
+    history = exudyn_models.simulate(impact, end_time=end, save=200)
     late = history.time >= 0.005 * impact.slow_time_scale
     impulse = history.array("impulse")
     pushed, pulled = history.array("total_impulse").max(), -history.array("held_impulse")[late]
@@ -41,17 +45,28 @@ def check(impact):
 
 
 def test_the_wall_never_pulls_and_gives_no_energy():
-    generator = np.random.default_rng(1)
-    for _ in range(2):
-        check(problem(generator))
+    check(problem(np.random.default_rng(1)))
+
+
+def test_steps_too_long_for_the_contact_give_energy_and_the_run_says_so():
+    """A reaction that a step starts with acts on, half as strong, after the node has left."""
+    impact = Impact.dimensionless(1.128, length=2.0)
+    history = exudyn_models.simulate(
+        impact, end_time=0.5, mesh=UniformMesh(0.01), integrator=GeneralizedAlpha(), save=100
+    )
+    assert history.array("loss_impact").min() < -0.01 * history.energy_budget()["initial_energy"]
+    assert any("the contact gave" in warning for warning in history.warnings)
 
 
 @pytest.mark.verify
-def test_the_wall_never_pulls_and_gives_no_energy_in_300_problems():
-    generator = np.random.default_rng(2)
-    for number in range(300):
+def test_the_wall_never_pulls_and_gives_no_energy_in_many_problems():
+    """``BEAMS=300`` for all that the issue asked for; the seed is printed."""
+    seed = int(os.environ.get("BEAMS_SEED", random.randrange(2**31)))
+    print(f"seed {seed}")
+    generator = np.random.default_rng(seed)
+    for number in range(int(os.environ.get("BEAMS", "20"))):
         impact = problem(generator)
         try:
             check(impact)
         except Exception as error:
-            raise AssertionError(f"problem {number}, {impact}: {error}") from error
+            raise AssertionError(f"seed {seed}, problem {number}, {impact}: {error}") from error
