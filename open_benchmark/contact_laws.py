@@ -6,7 +6,6 @@ new position, on the same beam, mesh and steps (θ = 1, nothing held).
 
 from __future__ import annotations
 
-import dataclasses
 from collections.abc import Callable, Sequence
 
 from bent_beam import Impact
@@ -50,7 +49,7 @@ def _result(name: str, law: Callable[[float], Integrator], size: float) -> Resul
         far_field=GridViscosity(viscosity=0.0, end="following"),
     )
     history = method.simulate(impact, end_time=asked.end_time, save=600)
-    return dataclasses.replace(result_from_history(history), problem=asked)
+    return result_from_history(history, asked)
 
 
 def compared_laws(sizes: Sequence[float] = (0.04, 0.02, 0.01, 0.005)) -> dict[tuple[str, float], dict[str, Errors]]:

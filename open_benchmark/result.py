@@ -413,20 +413,29 @@ def save_result(file: str | Path, result: Result) -> None:
 # --- this project's own histories --------------------------------------------------------------------------------
 
 
-def result_from_history(history: ImpactHistory) -> Result:
+def result_from_history(history: ImpactHistory, asked: Problem | None = None) -> Result:
     """A history of this project as a result: the same numbers that any adapter hands in.
 
-    Raises :class:`ResultError` for a beam of finite length that waves have crossed: it is no infinite beam.
+    asked : the problem that it answers; ``None`` reads it off the history's impact.
+    Raises :class:`ResultError` for an impact that is none of the infinite beam's: no exact solution knows of it.
     """
     impact = history.impact
     if impact.curvature <= 0.0:
         raise ResultError("curvature must be positive: a straight beam has no isolated first touch")
+    for name, why in (
+        ("damping", "the exact solution has none; `bentbeam bounce` gives a damped beam's whole impact"),
+        ("rotation", "the exact solution is symmetric"),
+        ("first_touch", "the exact solution is symmetric"),
+        ("opposite_wall", "the exact solution knows one wall"),
+    ):
+        if asked is None and getattr(impact, name):
+            raise ResultError(f"{name} is {getattr(impact, name):g}: {why}")
     length, time = impact.length_scale, impact.time_scale
     mass = impact.mass_per_length
     impulse = mass * impact.velocity * length
     energy = mass * impact.velocity**2 * length
     end = float(history.time[-1]) / time
-    asked = _problem_of(history, end)
+    asked = asked or _problem_of(history, end)
     data = history.dataset
     if "impulse_moment" in data:
         moment = history.array("impulse_moment")

@@ -5,7 +5,7 @@ import sys
 import time
 import tomllib
 
-from bent_beam import Impact
+from bent_beam import Impact, SimulationError
 from bent_beam.method import chosen_for, method_type, refined
 from hermite_fe.whole_beam import with_parts_for_whole_beam
 from open_benchmark.problem import problem as problem_of
@@ -48,15 +48,19 @@ def main(problem_file, result_file, resolution="medium", path="hermite"):
     if refusal:
         save_result(result_file, Result("unsupported", refusal, asked, {}))
         return
-    history = method.simulate(impact, end_time=end, save=600)
-    found = result_from_history(history)
+    try:
+        history = method.simulate(impact, end_time=end, save=600)
+    except SimulationError as error:
+        save_result(result_file, Result("not_converged", " ".join(str(error).split()), asked, {}))
+        return
+    found = result_from_history(history, asked)
     about = {
         **found.metadata,
         "resolution": resolution,
         "set_up_seconds": time.perf_counter() - began - history.seconds,
     }
     about["lines"] = len(open(__file__).readlines())
-    save_result(result_file, dataclasses.replace(found, problem=asked, metadata=about))
+    save_result(result_file, dataclasses.replace(found, metadata=about))
 
 
 main(*sys.argv[1:])

@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 from bent_beam import Impact
+from bent_beam.meshes import UniformMesh
 from bent_beam.method import method_type
 from open_benchmark import Result, ResultError, load_result, problem, score
 from open_benchmark.result import result_from_history, save_result
@@ -224,3 +225,14 @@ def test_a_window_that_grows_with_the_contact_is_not_said_to_gain_energy() -> No
     history = method_type("self_similar")().simulate(Impact.dimensionless(0.5), end_time=0.1, save=60)
     found = score(result_from_history(history))
     assert found.energy is None and [finding.name for finding in found.diagnosis] == ["clean"]
+
+
+@pytest.mark.parametrize(
+    ("name", "value"), [("damping", 0.001), ("rotation", 0.001), ("first_touch", 0.001), ("opposite_wall", 1.0)]
+)
+def test_a_history_of_another_impact_than_the_exact_solution_s_is_refused(name: str, value: float) -> None:
+    impact = Impact.whole_beam(0.5).replace(**{name: value})
+    method = method_type("hermite")(mesh=UniformMesh(element_length=0.1))  # type: ignore[call-arg]
+    history = method.simulate(impact, end_time=1e-3, save=4)
+    with pytest.raises(ResultError, match=f"{name} is {value:g}"):
+        result_from_history(history)
