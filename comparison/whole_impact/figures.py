@@ -1,7 +1,11 @@
-"""Figures of a whole impact: force, contact zone and shapes of one; the map over κ/ν and damping; the animation."""
+"""Figures of a whole impact: force, contact zone and shapes of one; the map over κ/ν and damping; the animation.
+
+``bentbeam bounce … --out FOLDER`` draws the first and the last, ``python -m comparison.whole_impact.figures`` the map.
+"""
 
 from __future__ import annotations
 
+import argparse
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -143,6 +147,10 @@ def draw_map(out: Path, formats: Sequence[str] = ("png",)) -> list[Path]:
                 kappa = [b["kappa_over_nu"] for b in table["bands"]]
                 mean, std = np.array([b["band"][name] for b in table["bands"]]).T
                 axis.fill_between(kappa, mean - std, mean + std, color="#BBBBBB", lw=0.0, label="0 (band)", zorder=0)
+            for point in table["others"]:
+                look = {"marker": style.mark(point["path"])["marker"], "ms": 3.0, "mfc": "white", "ls": ""}
+                colour = colours[dampings.index(point["damping"])]
+                axis.errorbar(point["kappa_over_nu"], *point["numbers"][name], color=colour, **look)
             axis.axvspan(0.8, 1.0, color="#F5DCCB", lw=0.0, zorder=-1)
             axis.set_xscale("log")
             axis.set_xlim(0.048, 4.2)
@@ -200,3 +208,14 @@ def animate_bounce(history: ImpactHistory, file: Path, *, frames: int = FRAMES, 
             pictures.append(film.picture())
     write_gif(pictures, file, per_second)
     return file
+
+
+def _main() -> None:
+    parser = argparse.ArgumentParser(description="Draw the stored map.")
+    parser.add_argument("--out", type=Path, default=Path("docs/figures"))
+    for file in draw_map(parser.parse_args().out):
+        print(file)
+
+
+if __name__ == "__main__":
+    _main()

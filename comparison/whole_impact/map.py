@@ -20,8 +20,9 @@ import json
 import math
 from collections.abc import Callable, Sequence
 from functools import cache
+from itertools import chain, islice
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -34,7 +35,7 @@ from comparison.plain import json_text
 from comparison.store import RunStore, default_store, write_atomically
 from comparison.whole_impact.outcome import NUMBERS, SHORTEST_SEPARATION
 
-__all__ = ["DAMPINGS", "KAPPAS", "bounce_from_map", "measure_map", "stored_map"]
+__all__ = ["DAMPINGS", "KAPPAS", "Point", "bounce_from_map", "grid", "measure_map", "measure_point", "stored_map"]
 
 Array = NDArray[np.float64]
 DATA = Path(__file__).with_name("map.json")
@@ -47,21 +48,37 @@ DAMPINGS = (1e-4, 3e-4, 1e-3, 3e-3, 1e-2, 3e-2, 1e-1)
 BANDS = (0.05, 0.1, 0.2, 0.35, 0.5, 0.65, 0.8, 1.0, 1.25, 1.5, 2.0, 2.5)
 PATH, OTHER = "hermite", "exudyn"
 OTHERS = tuple((kappa, damping) for damping in (1e-3, 1e-2) for kappa in (0.4, 0.6, 0.8, 1.0, 1.5, POINT))
-FLAT = 0.35
+FLAT, FINER = 0.35, 2.0  # below this κ/ν elements so many times shorter
 SAVED = 2000
 
 
-def measure_point(path: str, kappa: float, damping: float) -> dict[str, Any]:
+class Point(NamedTuple):
+    """One point to measure; ``refine`` : elements so many times shorter than the path's own choice."""
+
+    path: str
+    kappa_over_nu: float
+    damping: float
+    refine: float = 1.0
+
+
+def grid(kappas: Sequence[float] = KAPPAS, dampings: Sequence[float] = DAMPINGS) -> list[Point]:
+    """The map's points, in the order of ``dampings``, ``kappas``."""
+    return [Point(PATH, kappa, eta, FINER if kappa < FLAT else 1.0) for eta in dampings for kappa in kappas]
+
+
+def measure_point(point: Point) -> dict[str, Any]:
     """One point of the map: number → [value, error bar], and what it took."""
-    impact = problem(kappa, damping)
-    method = method_from_tables(path, {"refine": 2.0 if path == PATH and kappa < FLAT and damping > 0.0 else 1.0})
-    found = bounce(impact, method, save=SAVED)
-    if damping == 0.0:
+    found = bounce(
+        problem(point.kappa_over_nu, point.damping),
+        method_from_tables(point.path, {} if point.refine == 1.0 else {"refine": point.refine}),
+        save=SAVED,
+    )
+    asked = point._asdict()
+    if point.damping == 0.0:
         bands = {name: [number.mean, number.std] for name, number in found.numbers.items()}
-        return {"kappa_over_nu": kappa, "runs": RUNS, "seed": SEED, "band": bands, "seconds": found.seconds}
+        return {**asked, "runs": RUNS, "seed": SEED, "band": bands, "seconds": found.seconds}
     return {
-        "kappa_over_nu": kappa,
-        "damping": damping,
+        **asked,
         "numbers": {name: [number.value, number.error] for name, number in found.numbers.items()},
         "energy_defect": found.outcome.energy_defect,
         "energy_gain": found.outcome.energy_gain,
@@ -72,10 +89,10 @@ def measure_point(path: str, kappa: float, damping: float) -> dict[str, Any]:
     }
 
 
-def _kept_point(folder: str | None, path: str, kappa: float, damping: float) -> dict[str, Any]:
+def _kept_point(folder: str | None, point: Point) -> dict[str, Any]:
     store = RunStore(None if folder is None else Path(folder))
-    question = {"whole impact": path, "kappa_over_nu": kappa, "damping": damping, "saved": SAVED}
-    return store.answer(question, lambda: measure_point(path, kappa, damping))
+    question = {"whole impact": point._asdict(), "saved": SAVED}
+    return store.answer(question, lambda: measure_point(point))
 
 
 def _lost(i: int, why: str) -> Any:
@@ -83,20 +100,20 @@ def _lost(i: int, why: str) -> Any:
 
 
 def measure_map(
-    points: Sequence[tuple[str, float, float]],
+    points: Sequence[Point],
     *,
     jobs: int = 1,
     scheduler: str | None = None,
     store: RunStore | None = None,
     progress: Callable[[int, int], None] | None = None,
 ) -> list[dict[str, Any]]:
-    """Measure ``points`` (path, κ/ν, η/T*) in their order, on cores or a cluster."""
+    """Measure ``points`` in their order, on cores or a cluster."""
     from comparison.workers import run_all  # here: who reads the map starts no processes
 
     folder = None if store is None or store.folder is None else str(store.folder)
     return run_all(
         _kept_point,
-        [(folder, *point) for point in points],
+        [(folder, point) for point in points],
         jobs=jobs,
         scheduler=scheduler,
         progress=progress,
@@ -114,7 +131,7 @@ def write_map(
         "date": datetime.datetime.now(datetime.UTC).date().isoformat(),
         "versions": versions(),
         "settings": rows[-1]["settings"],
-        "finer": {"kappa_over_nu_below": FLAT, "refine": 2.0},
+        "finer": {"kappa_over_nu_below": FLAT, "refine": FINER},
         "shortest_separation": SHORTEST_SEPARATION,
         "kappa_over_nu": sorted({row["kappa_over_nu"] for row in rows}),
         "damping": sorted({row["damping"] for row in rows}),
@@ -206,14 +223,12 @@ def _main() -> None:
     def count(done: int, total: int) -> None:
         print(f"\r{done}/{total}", end="", flush=True)
 
-    grid = [(PATH, kappa, damping) for damping in DAMPINGS for kappa in KAPPAS]
-    bands = [(PATH, kappa, 0.0) for kappa in BANDS]
-    others = [(OTHER, kappa, damping) for kappa, damping in OTHERS]
-    found = measure_map(
-        [*grid, *bands, *others], jobs=asked.jobs, scheduler=asked.scheduler, store=store, progress=count
+    parts = grid(), [Point(PATH, kappa, 0.0) for kappa in BANDS], [Point(OTHER, *at) for at in OTHERS]
+    found = iter(
+        measure_map(list(chain(*parts)), jobs=asked.jobs, scheduler=asked.scheduler, store=store, progress=count)
     )
-    count_of_rows, count_of_bands = len(grid), len(grid) + len(bands)
-    print(write_map(found[:count_of_rows], found[count_of_rows:count_of_bands], found[count_of_bands:]))
+    rows, bands, others = (list(islice(found, len(part))) for part in parts)
+    print(write_map(rows, bands, others))
 
 
 if __name__ == "__main__":
