@@ -7,6 +7,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import ClassVar
 
+import numpy as np
+
 from bent_beam.history import ImpactHistory
 from bent_beam.impact import Impact
 from bent_beam.meshes import MESHES
@@ -90,6 +92,14 @@ class ExudynModel(Composition):
     def for_whole_beam(self, impact: Impact) -> ExudynModel:
         """A copy whose open parts suit the whole beam until it has left: nothing held, no viscosity of the grid."""
         return whole_beam.with_parts_for_whole_beam(self, impact)
+
+    def cross_checks(self, impact: Impact) -> dict[str, ExudynModel]:
+        """Coarser elements, longer steps, a softer contact: what error bars of a whole impact come from."""
+        return whole_beam.cross_checks(self, impact)
+
+    def varied(self, impact: Impact, random: np.random.Generator) -> ExudynModel:
+        """A copy with elements, steps and stiffness of the contact drawn at random, for an ensemble."""
+        return whole_beam.varied(self, impact, random)
 
     def simulate_to_separation(
         self,

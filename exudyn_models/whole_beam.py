@@ -5,11 +5,15 @@ What suits the infinite beam's first instants does not suit this: nothing may be
 itself, and every part of it matters alike. So
 
     a uniform mesh,   constant steps h = ½Δx²√(μ/EI),   the trapezoidal rule,   no viscosity at grid scale.
+
+A stiffer penalty is no better: ten times the stiffness takes a quarter of the step, and e is then as far off on the
+other side (κ/ν = 0.4 to 0.7).
 """
 
 from __future__ import annotations
 
 import dataclasses
+import math
 from collections.abc import Callable
 from typing import TypeVar
 
@@ -22,28 +26,32 @@ from bent_beam.impact import Impact
 from bent_beam.meshes import UniformMesh
 from bent_beam.method import made_of, separation_times
 from exudyn_models.composition import Composition
-from exudyn_models.contacts import Penalty
+from exudyn_models.contacts import Penalty, penalty
 from exudyn_models.elements import ANCFCable
 from exudyn_models.integrators.trapezoidal import Trapezoidal
 from exudyn_models.recording import Recorder
 from exudyn_models.simulation import simulate
 
-__all__ = ["ELEMENTS", "simulate_to_separation", "with_parts_for_whole_beam"]
+__all__ = ["ELEMENTS", "cross_checks", "simulate_to_separation", "varied", "with_parts_for_whole_beam"]
 
 Array = NDArray[np.float64]
 C = TypeVar("C", bound=Composition)
 
-ELEMENTS = 100  # of a half beam; half as many: e moves by 1e-3 at κ/ν = 0.6, 3e-3 at 0.4, 4e-5 from 1 on
+STEP = 0.5  # h/(Δx²√(μ/EI))
+CONTACT = Penalty(hold_start=0.0)
+ELEMENTS = 100  # of a half beam that touches in a point; half as many: e moves by 4e-5
+ZONE_ELEMENTS = 180  # where a zone spreads, κ/ν < 1; e at κ/ν = 0.4, η/T* = 1e-2 is 37, 8, 3.5e-4 off at 50, 100, 150
 
 
 def with_parts_for_whole_beam(method: C, impact: Impact) -> C:
     """A copy of ``method`` whose open parts are those of the module's head; its ``refine`` is worked in."""
-    mesh = UniformMesh(impact.half_length / ELEMENTS) if method.mesh is None else method.mesh
+    elements = ZONE_ELEMENTS if impact.kappa_over_nu < 1.0 else ELEMENTS
+    mesh = UniformMesh(impact.half_length / elements) if method.mesh is None else method.mesh
     mesh = mesh.refined(method.refine)
     integrator = method.integrator
     if integrator is None:
         shortest = float(np.diff(mesh.nodes(impact.half_length)).min())
-        integrator = Trapezoidal(time_step=0.5 * shortest**2 / impact.wave_constant)
+        integrator = Trapezoidal(time_step=STEP * shortest**2 / impact.wave_constant)
     else:
         integrator = integrator.refined(method.refine)
     return dataclasses.replace(
@@ -51,9 +59,46 @@ def with_parts_for_whole_beam(method: C, impact: Impact) -> C:
         mesh=mesh,
         element=ANCFCable(viscosity=0.0) if method.element is None else method.element,
         integrator=integrator,
-        contact=Penalty(hold_start=0.0) if method.contact is None else method.contact,
+        contact=CONTACT if method.contact is None else method.contact,
         full_beam=method.full_beam or bool(impact.rotation or impact.first_touch),
         refine=1.0,
+    )
+
+
+def cross_checks(method: C, impact: Impact) -> dict[str, C]:
+    """What stands beside ``method`` for error bars, by cause: half as many elements (and steps in proportion to their
+    square), steps twice as long, and, of a penalty, a contact of a quarter of the stiffness."""
+    chosen = with_parts_for_whole_beam(method, impact)
+    mesh, integrator, contact = chosen.mesh, chosen.integrator, chosen.contact
+    assert mesh is not None and integrator is not None
+    checks = {
+        "mesh": dataclasses.replace(chosen, mesh=mesh.refined(0.5), integrator=integrator.refined(0.25)),
+        "step": dataclasses.replace(chosen, integrator=integrator.refined(0.5)),
+    }
+    if isinstance(contact, Penalty):
+        checks["contact_law"] = dataclasses.replace(chosen, contact=_softer(contact, 0.25))
+    return checks
+
+
+def _softer(contact: Penalty, factor: float) -> Penalty:
+    """A penalty of ``factor`` times the stiffness with the same damping ratio."""
+    if contact.stiffness is not None:
+        return dataclasses.replace(contact, stiffness=contact.stiffness * factor)
+    stiffness = penalty.STIFFNESS if contact.relative_stiffness is None else contact.relative_stiffness
+    damping = penalty.DAMPING if contact.relative_damping is None else contact.relative_damping
+    return dataclasses.replace(
+        contact, relative_stiffness=stiffness * factor, relative_damping=damping * math.sqrt(factor)
+    )
+
+
+def varied(method: C, impact: Impact, random: np.random.Generator) -> C:
+    """A method for an ensemble: elements, steps and stiffness of the penalty drawn at random."""
+    elements = int(random.integers(2 * ELEMENTS // 5, 4 * ELEMENTS // 5))
+    length = impact.half_length / elements
+    step = STEP * 2.0 ** random.uniform(-0.5, 0.5) * length**2 / impact.wave_constant
+    contact = _softer(CONTACT, 2.0 ** random.uniform(-2.0, 0.0))
+    return dataclasses.replace(
+        method, mesh=UniformMesh(length), integrator=Trapezoidal(time_step=step), contact=contact
     )
 
 

@@ -5,16 +5,17 @@ and not run again) and writes ``map.json`` beside this module; :func:`bounce_fro
 has no other groups as long as it flies without loads: ε drops out, because the problem is homogeneous of degree one in
 the deflection.
 
-Every point is what :func:`comparison.bounce.bounce` says by the Hermite path's own choice for the whole beam, with its
-error bars from elements, steps and contact law; below κ/ν = :data:`FLAT`, where a flat bow lands element by element,
-with elements half as long. The last column is that of ∞: the midspan moment stays below κ, so the beam touches in one
-point throughout, whatever κ is from there on. Without damping the map holds bands of :data:`comparison.bounce.RUNS`
-runs. :data:`OTHERS` are measured by another path, with its own bars.
+Every point is what :func:`comparison.bounce.bounce` says with the Hermite path's elements and law for the whole beam
+and steps h = Δx²√(μ/EI), with its error bars from elements, steps and contact law; below κ/ν = :data:`FLAT`, where a
+flat bow lands element by element, elements are half as long. The last column is that of ∞: the midspan moment stays
+below κ, so the beam touches in one point throughout, whatever κ is from there on. Without damping the map holds bands
+of :data:`comparison.bounce.RUNS` runs. :data:`OTHERS` are measured by another path, with its own bars.
 """
 
 from __future__ import annotations
 
 import argparse
+import dataclasses
 import datetime
 import json
 import math
@@ -29,7 +30,7 @@ from numpy.typing import NDArray
 
 from bent_beam.checks import finite, non_negative, positive
 from bent_beam.history import versions
-from bent_beam.method import method_from_tables
+from bent_beam.method import for_whole_beam, method_from_tables
 from comparison.bounce import RUNS, SEED, Number, bounce, problem
 from comparison.plain import json_text
 from comparison.store import RunStore, default_store, write_atomically
@@ -47,32 +48,41 @@ KAPPAS = (
 DAMPINGS = (1e-4, 3e-4, 1e-3, 3e-3, 1e-2, 3e-2, 1e-1)
 BANDS = (0.05, 0.1, 0.2, 0.35, 0.5, 0.65, 0.8, 1.0, 1.25, 1.5, 2.0, 2.5)
 PATH, OTHER = "hermite", "exudyn"
-OTHERS = tuple((kappa, damping) for damping in (1e-3, 1e-2) for kappa in (0.4, 0.6, 0.8, 1.0, 1.5, POINT))
+OTHERS = tuple((kappa, damping) for damping in (1e-3, 1e-2) for kappa in (0.4, 0.7, 1.5, POINT))
 FLAT, FINER = 0.35, 2.0  # below this κ/ν elements so many times shorter
+LONGER = 2.0  # steps than a single bounce takes: half of the work, and e moves by less than by half of the elements
+COARSER = 0.5  # of the other path
 SAVED = 2000
 
 
 class Point(NamedTuple):
-    """One point to measure; ``refine`` : elements so many times shorter than the path's own choice."""
+    """One point to measure. refine : elements so many times shorter than the path's own choice for the whole beam;
+    longer : steps so many times longer than those that go with these elements."""
 
     path: str
     kappa_over_nu: float
     damping: float
     refine: float = 1.0
+    longer: float = 1.0
+
+    def method(self) -> Any:
+        """What measures it."""
+        impact = problem(self.kappa_over_nu, self.damping)
+        made = method_from_tables(self.path, {} if self.refine == 1.0 else {"refine": self.refine})
+        if self.longer == 1.0:
+            return made
+        chosen = for_whole_beam(made, impact)
+        return dataclasses.replace(chosen, integrator=chosen.integrator.refined(1.0 / self.longer))
 
 
 def grid(kappas: Sequence[float] = KAPPAS, dampings: Sequence[float] = DAMPINGS) -> list[Point]:
     """The map's points, in the order of ``dampings``, ``kappas``."""
-    return [Point(PATH, kappa, eta, FINER if kappa < FLAT else 1.0) for eta in dampings for kappa in kappas]
+    return [Point(PATH, kappa, eta, FINER if kappa < FLAT else 1.0, LONGER) for eta in dampings for kappa in kappas]
 
 
 def measure_point(point: Point) -> dict[str, Any]:
     """One point of the map: number → [value, error bar], and what it took."""
-    found = bounce(
-        problem(point.kappa_over_nu, point.damping),
-        method_from_tables(point.path, {} if point.refine == 1.0 else {"refine": point.refine}),
-        save=SAVED,
-    )
+    found = bounce(problem(point.kappa_over_nu, point.damping), point.method(), save=SAVED)
     asked = point._asdict()
     if point.damping == 0.0:
         bands = {name: [number.mean, number.std] for name, number in found.numbers.items()}
@@ -223,7 +233,7 @@ def _main() -> None:
     def count(done: int, total: int) -> None:
         print(f"\r{done}/{total}", end="", flush=True)
 
-    parts = grid(), [Point(PATH, kappa, 0.0) for kappa in BANDS], [Point(OTHER, *at) for at in OTHERS]
+    parts = grid(), [Point(PATH, kappa, 0.0) for kappa in BANDS], [Point(OTHER, *at, COARSER) for at in OTHERS]
     found = iter(
         measure_map(list(chain(*parts)), jobs=asked.jobs, scheduler=asked.scheduler, store=store, progress=count)
     )

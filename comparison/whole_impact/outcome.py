@@ -53,7 +53,7 @@ class WholeImpact:
     contacts : begin and end of each contact, separations shorter than the shortest ignored.
     peak_moment_place : |x|/ℓ. translation, vibration, dissipated : shares of the initial energy, one altogether.
     energy_defect : what the independently computed terms of the budget leave, of the initial energy; energy_gain : the
-        largest rise of the energy above what loads have worked, likewise.
+        largest rise of the energy, what springs of the wall hold included, above what loads have worked, likewise.
     left : whether the beam is off the wall for good; None of the numbers is final otherwise.
     """
 
@@ -108,6 +108,7 @@ def whole_impact(history: ImpactHistory, *, shortest: float = SHORTEST_SEPARATIO
     moment = impact.velocity * math.sqrt(impact.bending_stiffness * impact.mass_per_length)
     peak = peak_moment(history)
     energy = history.array("kinetic_energy") + history.array("strain_energy")
+    held = history.array("contact_energy") if "contact_energy" in history.dataset else 0.0  # by springs of the wall
     initial = float(energy[0])
     supplied = initial + history.array("work_of_loads")
     velocity = impact.velocity - float(total[end]) / mass
@@ -128,6 +129,6 @@ def whole_impact(history: ImpactHistory, *, shortest: float = SHORTEST_SEPARATIO
         spacing=float(time[end] - time[end - 1]) / unit,
         contacts=tuple((float(time[i]) / unit, float(time[j]) / unit) for i, j in contacts),
         energy_defect=abs(history.energy_budget()["defect"]) / initial,
-        energy_gain=float(np.max(np.diff(energy - supplied + initial), initial=0.0)) / initial,
+        energy_gain=float(np.max(np.diff(energy + held - supplied), initial=0.0)) / initial,
         left=has_left(history),
     )
