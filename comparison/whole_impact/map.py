@@ -43,7 +43,7 @@ DATA = Path(__file__).with_name("map.json")
 POINT = 4.0  # κ/ν that stands for ∞: the midspan moment never reaches it (2.7 at most), the beam touches in one point
 KAPPAS = (
     *(0.05, 0.07, 0.1, 0.15, 0.2, 0.25, 0.3, 0.4, 0.5),
-    *(0.6, 0.7, 0.8, 0.9, 1.0, 1.2, 1.5, 2.0, POINT),
+    *(0.6, 0.7, 0.75, 0.8, 0.9, 1.0, 1.1, 1.2, 1.35, 1.5, 1.75, 2.0, POINT),
 )
 DAMPINGS = (1e-4, 3e-4, 1e-3, 3e-3, 1e-2, 3e-2, 1e-1)
 BANDS = (0.05, 0.1, 0.2, 0.35, 0.5, 0.65, 0.8, 1.0, 1.25, 1.5, 2.0, 2.5)
@@ -178,8 +178,8 @@ def bounce_from_map(kappa_over_nu: float, damping: float) -> dict[str, Number] |
     (κ/ν < 0.05, η/T* > 1e-1). Without damping, and with less than the map's least (1e-4), which is as irregular, the
     band between the nearest bands.
 
-    The error bar is the largest of the surrounding points', and half of what they differ by, the latter fading
-    towards a point: an honest bar for anything that is monotone between neighbours.
+    The error bar is the largest of the surrounding points', and half of what they and their neighbours differ by, the
+    latter fading towards a point: the numbers go up and down with κ/ν, with weak damping from one point to the next.
     """
     kappa = POINT if kappa_over_nu == math.inf else min(positive("kappa_over_nu", kappa_over_nu), POINT)
     kappas, dampings, numbers = _grids()
@@ -192,13 +192,13 @@ def bounce_from_map(kappa_over_nu: float, damping: float) -> dict[str, Number] |
     i, u = _place(np.log(dampings), math.log(damping))
     weights = np.array([[(1 - u) * (1 - v), (1 - u) * v], [u * (1 - v), u * v]])
     between = max(4.0 * u * (1.0 - u), 4.0 * v * (1.0 - v))
+    rows, columns = _around(i, u), _around(j, v)
     found = {}
     for name, (values, errors) in numbers.items():
-        corners, bars = values[i : i + 2, j : j + 2], errors[i : i + 2, j : j + 2]
         used = weights > 1e-12
-        value = float(np.sum(corners * weights))
-        spread = 0.5 * between * float(np.ptp(corners[used]))
-        parts = {"map": float(bars[used].max()), "interpolation": spread}
+        value = float(np.sum(values[i : i + 2, j : j + 2] * weights))
+        spread = 0.5 * between * float(np.ptp(values[rows, columns]))
+        parts = {"map": float(errors[i : i + 2, j : j + 2][used].max()), "interpolation": spread}
         found[name] = Number(value, math.hypot(*parts.values()), parts)
     return found
 
@@ -214,6 +214,13 @@ def _band(kappa: float) -> dict[str, Number]:
         )
         for name in NUMBERS
     }
+
+
+def _around(i: int, share: float) -> slice:
+    """The points on either side and one beyond; the point itself where it is one."""
+    if share in (0.0, 1.0):
+        return slice(i + int(share), i + int(share) + 1)
+    return slice(max(0, i - 1), i + 3)
 
 
 def _place(grid: Array, at: float) -> tuple[int, float]:

@@ -21,7 +21,7 @@ from comparison.whole_impact.hits import hits
 from comparison.whole_impact.outcome import NUMBERS, pushes, whole_impact
 from comparison.whole_impact.verdict import random_problem, verdict
 from hermite_fe import HermiteFE
-from hermite_fe.integrators import MoreauJean, NonsmoothGeneralizedAlpha
+from hermite_fe.integrators import MoreauJean, NonsmoothGeneralizedAlpha, SignoriniPosition
 from hermite_fe.whole_beam import ELEMENTS
 from theory.stopped_beam import StoppedBeam
 
@@ -52,7 +52,7 @@ def test_first_release_and_impulse_until_then_are_the_stopped_beam_s(integrator:
 
 
 @pytest.mark.verify
-@pytest.mark.parametrize("integrator", SCHEMES, ids=lambda scheme: type(scheme).__name__)
+@pytest.mark.parametrize("integrator", [*SCHEMES, SignoriniPosition(theta=0.5)], ids=lambda one: type(one).__name__)
 def test_impulse_until_the_first_release_is_exact_to_one_in_a_hundred_thousand(integrator: object) -> None:
     steps, error = released(200, 0.5, integrator)
     assert abs(steps) <= 2.0
@@ -76,7 +76,16 @@ def test_a_damped_point_contact_bounces_with_a_restitution_that_no_scheme_change
 @pytest.mark.parametrize("integrator", SCHEMES, ids=lambda scheme: type(scheme).__name__)
 @pytest.mark.parametrize(
     ("kappa", "damping", "restitution", "within"),
-    [(2.0, 1e-2, 0.56630, 1e-4), (1.5, 1e-3, 0.6161, 2e-4), (0.5, 1e-3, 0.4563, 5e-4), (0.5, 1e-2, 0.3364, 2e-4)],
+    [
+        (2.0, 1e-2, 0.56630, 1e-4),
+        (1.5, 1e-3, 0.6161, 2e-4),
+        (0.5, 1e-3, 0.4563, 5e-4),
+        (0.5, 1e-2, 0.3364, 2e-4),
+        (0.7, 1e-2, 0.4745, 3e-4),
+        (1.2, 3e-3, 0.6108, 2e-4),
+        (4.0, 1e-3, 0.616598, 1e-4),  # by modes
+        (0.4, 1e-2, 0.2747, 3e-4),
+    ],
 )
 def test_restitution_converges_whatever_the_scheme(
     integrator: object, kappa: float, damping: float, restitution: float, within: float
