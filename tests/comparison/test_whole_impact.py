@@ -381,17 +381,6 @@ def test_points_of_the_map_hold_what_finer_elements_and_another_scheme_give(kapp
         assert abs(getattr(found, name) - value) <= error, (name, getattr(found, name), value, error)
 
 
-def test_points_of_another_path_on_the_map_agree_within_their_bars() -> None:
-    table = map.stored_map()
-    assert len(table["others"]) >= 10
-    at = {(p["damping"], p["kappa_over_nu"]): p["numbers"] for p in table["points"]}
-    for other in table["others"]:
-        here = at[other["damping"], other["kappa_over_nu"]]
-        for name in ("restitution", "translation", "dissipated"):
-            (value, error), (reference, bar) = other["numbers"][name], here[name]
-            assert abs(value - reference) <= error + bar, (other["kappa_over_nu"], other["damping"], name)
-
-
 @pytest.mark.verify
 @pytest.mark.parametrize(("kappa", "damping"), [(0.25, 1e-3), (0.65, 3e-4), (1.0, 1e-3)])
 def test_measured_ends_come_out_again(kappa: float, damping: float) -> None:
