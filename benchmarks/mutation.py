@@ -190,6 +190,13 @@ class Recorder:
         own = next((i for i, f in enumerate(self.files) if nodeid.startswith(f)), len(self.files))
         return own, self.seconds.get(nodeid, 0.0)
 
+    def pytest_collection(self) -> None:
+        """A failure is enough: Hypothesis need not look for a simpler one."""
+        from hypothesis import Phase, settings
+
+        settings.register_profile("mutants", settings.default, phases=[Phase.explicit, Phase.generate])
+        settings.load_profile("mutants")
+
     def pytest_collection_modifyitems(self, items: list[Any]) -> None:
         items[:] = [item for item in items if self.shortest <= self.seconds.get(item.nodeid, 0.0) < self.longest]
         items.sort(key=lambda item: self.place(item.nodeid))

@@ -63,6 +63,19 @@ def test_negative_curvature_is_refused(value):
         Impact(**{**THESIS, "curvature": value})
 
 
+@given(st.lists(st.integers(-60, 60), min_size=8, max_size=8))
+def test_any_size_is_an_impact_or_is_refused(powers):
+    names = ("bending_stiffness", "mass_per_length", "length", "curvature", "velocity", "acceleration")
+    names += ("fourth_derivative", "curvature_rate")
+    given_ = {name: 10.0**power for name, power in zip(names, powers)}
+    try:
+        impact = Impact(**given_)
+    except ValueError as refused:
+        assert "\n" not in str(refused)
+    else:
+        assert math.isfinite(impact.epsilon_alpha) and math.isfinite(impact.kappa_over_nu)
+
+
 def test_scales_beyond_floating_point_are_refused():
     with pytest.raises(ValueError, match="time_scale"):
         Impact(**{**THESIS, "velocity": 1e-300})

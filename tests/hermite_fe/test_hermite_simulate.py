@@ -16,6 +16,7 @@ from bent_beam import meshes as mesh_kinds
 from bent_beam.meshes import UniformMesh
 from bent_beam.method import method_from_tables
 from hermite_fe import INTEGRATORS, HermiteFE, simulate
+from hermite_fe.auto import end_warnings
 from hermite_fe.contacts import NodeContact
 from hermite_fe.far_fields import GridViscosity
 from hermite_fe.integrators import MoreauJean, SignoriniPosition
@@ -84,6 +85,19 @@ def test_only_what_a_load_changes_is_measured_on_a_cut_beam() -> None:
     assert chosen.domain is None and chosen.far_field.end == "free"
     loaded = HermiteFE().chosen_for(bare.replace(acceleration=0.1), 0.1)
     assert 0.0 < loaded.domain < 100.0 and loaded.far_field.end == "following"
+
+
+def test_a_free_motion_that_meets_the_wall_elsewhere_is_said_of_ends_that_follow_it() -> None:
+    """q₀ > 0 bends the far ends into the wall: V₀t − Kx²/2 + q₀x⁴/24 = 0 again at x² = 12K/q₀."""
+    impact, nodes = Impact.dimensionless(0.5, length=60.0).replace(fourth_derivative=0.02), np.linspace(0.0, 30.0, 601)
+
+    def said(impact: Impact, end: str) -> list[str]:
+        far = GridViscosity(end=end)
+        return [w for w in end_warnings(impact, 0.1, nodes, far) if "meets the wall away" in w]
+
+    (found,) = said(impact, "following")
+    assert f"x = {math.ceil(math.sqrt(12.0 * 0.5 / 0.02) / 0.05) * 0.05:.3g} m" in found
+    assert said(impact, "free") == said(impact.replace(fourth_derivative=-0.02), "following") == []
 
 
 def test_a_thin_front_is_resolved_too() -> None:
