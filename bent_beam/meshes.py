@@ -248,7 +248,10 @@ class ScaleFreeMesh:
 
 @dataclass(frozen=True)
 class NodesMesh:
-    """Node places given one by one (from Python): strictly increasing from 0 to the half length."""
+    """Node places given one by one.
+
+    places : m, strictly increasing from 0 to the half length.
+    """
 
     places: tuple[float, ...]
 

@@ -74,10 +74,25 @@ def _fields(table: str, kind: str | None, part: type) -> Iterator[Setting]:
             continue
         default: str | None = None
         if field.default is not dataclasses.MISSING:
-            default = "chosen" if field.default is None else _written(field.default)
+            absent = "-" if table == "section" else "chosen"  # a section's numbers are known or not
+            default = absent if field.default is None else _written(field.default)
         elif field.default_factory is not dataclasses.MISSING:
             default = _written(field.default_factory())
-        yield Setting(table, kind, field.name, "", default, "", said.get(field.name, ""))
+        yield Setting(table, kind, field.name, *_unit_apart(said.get(field.name, ""), default))
+
+
+ROLE = re.compile(r":\w+:`~?([^`]+)`")
+ABSENT = re.compile(r"`?\bNone\b`?: ")
+UNITS = "kg/m³|kg/m|N s/m²|N/m²|1/m|Pa|m⁴|m²|m|s|N"
+UNIT = re.compile(rf"^({UNITS})(?:, |(?= \()|\.?$)|, ({UNITS})(?: of beam)?(?=\.?$| \()")
+
+
+def _unit_apart(sentence: str, default: str | None) -> tuple[str, str | None, str, str]:
+    """Unit, default, allowed range (not known) and what is left of a field's sentence without its unit."""
+    found = UNIT.search(sentence)
+    if found is None:
+        return "", default, "", sentence
+    return found[1] or found[2], default, "", (sentence[: found.start()] + sentence[found.end() :]).strip()
 
 
 def _written(value: Any) -> str:
@@ -94,7 +109,8 @@ def _said(part: type) -> dict[str, str]:
         pieces = re.split(r"(?:^|(?<=\. )|(?<=\n))((?:[a-z_]+)(?:, [a-z_]+)*) : ", text)
         for names, sentence in zip(pieces[1::2], pieces[2::2]):
             for name in names.split(", "):
-                found[name] = " ".join(sentence.split("\n\n")[0].split())
+                text = ROLE.sub(r"`\1`", " ".join(sentence.split("\n\n")[0].split())).replace("``", "`")
+                found[name] = ABSENT.sub("unless given: ", text)
     return found
 
 
@@ -117,11 +133,14 @@ def settings_markdown() -> str:
     ]
     for table, kind, mine in _grouped():
         lines += ["", f"## `[{table}]`" + (f" kind = `{kind}`" if kind else ""), ""]
-        lines += ["| field | unit | default | allowed | what |", "| --- | --- | --- | --- | --- |"]
-        for s in mine:
-            default = "required" if s.default is None else s.default
-            cells = [f"`{s.name}`", s.unit, default, s.allowed, s.text]
-            lines.append("| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |")
+        rows = [["field", "unit", "default", "allowed", "what"]]
+        rows += [
+            [f"`{s.name}`", s.unit, "required" if s.default is None else s.default, s.allowed, s.text] for s in mine
+        ]
+        columns = [column for column in zip(*rows) if any(column[1:])]
+        rows = [list(row) for row in zip(*columns)]
+        rows.insert(1, ["---"] * len(columns))
+        lines += ["| " + " | ".join(cell.replace("|", "\\|") for cell in row) + " |" for row in rows]
     return "\n".join([*lines, ""])
 
 

@@ -21,7 +21,8 @@ __all__ = ["DOPRI5", "RK44", "VelocityVerlet"]
 
 @dataclass(frozen=True)
 class _Explicit(Integrator):
-    """time_step : s, not above the stable step (``ValueError`` names it); None: ``safety`` × the stable step."""
+    """time_step : s, not above the stable step (``ValueError`` names it); None: ``safety`` × the stable step.
+    safety : share of the stable step that is taken."""
 
     time_step: float | None = None
     safety: float = 0.8

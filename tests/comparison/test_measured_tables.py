@@ -20,7 +20,7 @@ from comparison.command_line.app import run
 
 ROOT = Path(__file__).resolve().parents[2]
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
-MARKED = re.compile(r"<!-- made by: bentbeam (match [^>]*?) -->\n+((?:\|.*\n)+|```text\n.*?```)", re.S)
+MARKED = re.compile(r"<!-- made by: bentbeam (match [^>]*?) -->\n+((?:\|[^\n]*\n)+|```text\n.*?```)", re.S)
 TABLES = [
     pytest.param(command, text, id=f"{page.name}-{k}")
     for page in PAGES
