@@ -10,7 +10,11 @@ import zipfile
 
 import numpy as np
 
+from open_benchmark.adapter import Adapter
+from open_benchmark.campaign import Row
+from open_benchmark.page import write_page
 from open_benchmark.result import ResultError, load_result
+from open_benchmark.verdict import Score
 from theory import contact_parameters
 
 FUZZ = bool(os.environ.get("FUZZ"))
@@ -189,3 +193,13 @@ def test_mutated_results_are_read_or_refused(tmp_path):
         except ResultError as error:
             assert "\n" not in str(error)
         (tmp_path / name).write_bytes(originals[name])
+
+
+def test_markup_in_results_and_adapters_is_text_on_the_page(tmp_path):
+    evil = "<script>alert(1)</script><img src=x onerror=alert(1)>"
+    file = tmp_path / "adapter.py"
+    file.write_text(f"# </pre>{evil}")
+    score = Score("leading-0.5", f"crashed({evil})", evil, metadata={"tool": evil, "version": evil})
+    rows = [Row(evil, "leading-0.5", resolution, 1.0, score) for resolution in ("coarse", "medium", "fine")]
+    page = write_page(rows, [Adapter(evil, file)], tmp_path / "out").read_text()
+    assert "alert(1)" in page and "<script>alert" not in page and "<img" not in page
