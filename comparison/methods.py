@@ -12,17 +12,19 @@ A methods file is a list of labelled methods, each with the tables that a case h
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from functools import partial
 from pathlib import Path
 from typing import Any
 
-from bent_beam.cases import lay_over, read_toml
+from bent_beam.cases import Case, lay_over, read_toml
 from bent_beam.checks import shortened
 from bent_beam.method import Method, method_from_tables, paths
 from bent_beam.parts import InputError, nearest, unknown_key
 
-__all__ = ["default_methods", "methods_from_file", "methods_of"]
+__all__ = ["PATHS", "chosen_methods", "default_methods", "methods_from_file", "methods_of"]
 
 MOST = 10_000
+PATHS = ("hermite", "exudyn")  # that are compared where none is named
 
 
 def default_methods(names: Sequence[str]) -> list[Method]:
@@ -30,9 +32,24 @@ def default_methods(names: Sequence[str]) -> list[Method]:
     return [method_from_tables(name, {}) for name in names]
 
 
-def methods_of(names: Sequence[str], assignments: Sequence[str] = ()) -> list[Method]:
+def chosen_methods(
+    names: Sequence[str], assignments: Sequence[str], file: Path | None, case: Case | None = None
+) -> list[Method]:
+    """The methods of ``--path`` and ``--set``, or those of ``--methods FILE``; see :func:`methods_of`.
+
+    Raises :class:`InputError` when both name some.
+    """
+    if file is None:
+        return methods_of(names or PATHS, assignments, case)
+    if names or assignments:
+        raise InputError(f"--methods {file} names the methods: leave --path and --set out, or write them there")
+    return methods_from_file(file)
+
+
+def methods_of(names: Sequence[str], assignments: Sequence[str] = (), case: Case | None = None) -> list[Method]:
     """A method a path, with ``PATH.PART.KEY=VALUE`` assignments laid over its defaults; the label names them.
 
+    case : whose settings the methods take; the assignments are then among them already.
     Raises :class:`InputError` for an assignment to a path that is not among ``names``.
     """
     tables: dict[str, Any] = {}
@@ -42,13 +59,14 @@ def methods_of(names: Sequence[str], assignments: Sequence[str] = ()) -> list[Me
         if path not in changes:
             known = [n for n in names if n in paths()] or names
             raise InputError(f"--set {shortened(assignment)}: {path} is not a path asked for{nearest(path, known)}")
-        lay_over(tables, assignment)
+        if case is None:
+            lay_over(tables, assignment)
         changes[path].append(assignment.partition(".")[2].replace(".kind", ""))
     found = []
     for name in names:
-        made = method_from_tables(name, tables.get(name, {}))
-        label = f"{made.label}, {', '.join(changes[name])}" if changes[name] else None
-        found.append(method_from_tables(name, tables.get(name, {}), label=label))
+        make = partial(method_from_tables, name, tables.get(name, {})) if case is None else partial(case.method, name)
+        made = make()
+        found.append(make(label=f"{made.label}, {', '.join(changes[name])}") if changes[name] else made)
     return found
 
 

@@ -73,8 +73,10 @@ class ExudynModel(Composition):
         return simulate(impact, end_time=end_time, save=save, progress=progress, **made_of(self))
 
     def chosen_for(self, impact: Impact, end_time: float) -> ExudynModel:
-        """A copy with mesh, steps and hold chosen for ``impact``: other impacts then run on the same ones."""
-        contact, _, integrator = self._joined()
+        """A copy with mesh, element, steps and hold chosen for ``impact``: other impacts then run on the same ones."""
+        contact, element, integrator = self._joined()
+        loads = (impact.acceleration, impact.fourth_derivative, impact.curvature_rate, impact.axial_force)
+        shorter = FIRST_ORDER_STEPS if self.integrator is None and any(loads) else 1.0
         mesh = chosen_mesh(impact, end_time, explicit=integrator.explicit) if self.mesh is None else self.mesh
         if impact.zone_pressure < 0.0 and isinstance(contact, Penalty) and contact.hold_start is None:
             # no start is held where the load lifts the zone: the run without load must do without it too
@@ -84,10 +86,12 @@ class ExudynModel(Composition):
             # the rebound of the first instants has left: λ₁ of (4, 0, 0) at κ/ν = 0.5 is 12 % off without, 0.1 % with
             contact = Penalty(hold=FIRST_ORDER_HOLD)
         mesh = mesh.refined(self.refine)
-        integrator = integrator.refined(self.refine * (FIRST_ORDER_STEPS if self.integrator is None else 1.0))
+        integrator = integrator.refined(self.refine * shorter)
         if self.integrator is None:
             integrator = chosen_steps(integrator, mesh, impact, end_time)
-        return dataclasses.replace(self, mesh=mesh, contact=contact, integrator=integrator, refine=1.0)
+        return dataclasses.replace(
+            self, mesh=mesh, element=element, contact=contact, integrator=integrator, refine=1.0
+        )
 
     def for_whole_beam(self, impact: Impact) -> ExudynModel:
         """A copy whose open parts suit the whole beam until it has left: nothing held, no viscosity of the grid."""

@@ -2,32 +2,31 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
 from comparison.command_line.console import Console
-from comparison.command_line.options import Jobs, Json, Quiet, Scheduler, Set, emit, path_names, printable
+from comparison.command_line.options import (
+    Jobs,
+    Json,
+    Methods,
+    Paths,
+    Quiet,
+    Scheduler,
+    Set,
+    emit,
+    factors,
+    numbers,
+    printable,
+)
 
 __all__ = ["match"]
-
-PATHS = ["hermite", "exudyn"]
-
-
 def match(
-    path: Annotated[
-        list[str] | None,
-        typer.Option(
-            help="hermite, self_similar, exudyn or an installed one; repeatable. Default: hermite and exudyn.",
-            autocompletion=path_names,
-        ),
-    ] = None,
+    path: Paths = None,
     assignments: Set = None,
-    methods: Annotated[
-        Path | None, typer.Option(metavar="FILE.toml", help="Labelled methods (see cases/methods/) in place of --path.")
-    ] = None,
+    methods: Methods = None,
     kappa_over_nu: Annotated[
         list[float] | None, typer.Option(help="κ/ν; repeatable. Default: the thesis's Table 3.4.")
     ] = None,
@@ -55,19 +54,15 @@ def match(
     """
     import sys
 
-    from bent_beam.parts import InputError
     from comparison.match import THESIS_KAPPAS, failures, questions
     from comparison.match import match as match_all
-    from comparison.methods import methods_from_file, methods_of
+    from comparison.methods import chosen_methods
     from comparison.store import RunStore, check_writable, default_store
     from comparison.tables import match_document, match_table, write_match
 
-    if methods is not None and (path or assignments):
-        raise InputError(f"--methods {methods} names the methods: leave --path and --set out, or write them there")
-    compared = methods_of(path or PATHS, assignments or ()) if methods is None else methods_from_file(methods)
+    compared = chosen_methods(path or (), assignments or (), methods)
     loads = [numbers("--first-order", text, (3, 4), "alpha,psi,chi[,N]") for text in first_order or ()]
-    factors = numbers("--refine", refine, range(1, 20), "factors, e.g. 1,2,4")
-    asked = questions(compared, kappa_over_nu or THESIS_KAPPAS, loads, factors, error_bars)
+    asked = questions(compared, kappa_over_nu or THESIS_KAPPAS, loads, factors(refine), error_bars)
     if out is not None:
         check_writable(out, folder=True)
     store = RunStore(None if fresh else default_store())
@@ -81,18 +76,3 @@ def match(
         print(printable(f"error: {row.label}, kappa/nu = {row.kappa_over_nu:g}: {row.reason}"), file=sys.stderr)
     if lost:
         raise typer.Exit(3)
-
-
-def numbers(option: str, text: str, counts: Sequence[int], what: str) -> tuple[float, ...]:
-    """Finite numbers, comma separated in ``text``. Raises :class:`InputError` when there are not as many as allowed."""
-    import math
-
-    from bent_beam.parts import InputError
-
-    try:
-        found = tuple(float(word) for word in text.split(","))
-    except ValueError:
-        found = ()
-    if len(found) not in counts or not all(math.isfinite(v) for v in found):
-        raise InputError(f"{option} takes {what} (got {text!r})")
-    return found

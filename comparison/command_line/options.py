@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -12,13 +12,17 @@ __all__ = [
     "CaseFile",
     "Jobs",
     "Json",
+    "Methods",
     "Overwrite",
+    "Paths",
     "Quiet",
     "Scheduler",
     "Set",
     "check_out",
     "complete",
     "emit",
+    "factors",
+    "numbers",
     "path_names",
     "printable",
 ]
@@ -49,7 +53,39 @@ Set = Annotated[
     list[str] | None,
     typer.Option("--set", metavar="TABLE.KEY=VALUE", help="Lay a setting over the file's; repeatable."),
 ]
+Paths = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--path",
+        help="hermite, self_similar, exudyn or an installed one; repeatable. Default: hermite and exudyn.",
+        autocompletion=path_names,
+    ),
+]
+Methods = Annotated[
+    Path | None,
+    typer.Option(metavar="FILE.toml", help="Labelled methods (see cases/methods/) in place of --path."),
+]
 Overwrite = Annotated[bool, typer.Option("--overwrite", help="Replace what is there.")]
+
+
+def numbers(option: str, text: str, counts: Sequence[int], what: str) -> tuple[float, ...]:
+    """Finite numbers, comma separated in ``text``. Raises :class:`InputError` when there are not as many as allowed."""
+    import math
+
+    from bent_beam.parts import InputError
+
+    try:
+        found = tuple(float(word) for word in text.split(","))
+    except ValueError:
+        found = ()
+    if len(found) not in counts or not all(math.isfinite(v) for v in found):
+        raise InputError(f"{option} takes {what} (got {text!r})")
+    return found
+
+
+def factors(refine: str) -> tuple[float, ...]:
+    """The factors of ``--refine``. Raises :class:`InputError`."""
+    return numbers("--refine", refine, range(1, 20), "factors, e.g. 1,2,4")
 
 
 def emit(document: Any, as_json: bool, text: Callable[[], str]) -> None:

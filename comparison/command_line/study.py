@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 
 from comparison.command_line.console import Console
-from comparison.command_line.options import Jobs, Json, Quiet, Set, complete, emit
+from comparison.command_line.options import Jobs, Json, Methods, Paths, Quiet, Set, complete, emit, factors
 
 __all__ = ["study"]
 
@@ -25,7 +25,13 @@ def study(
         str, typer.Argument(help="Name of the study (`bentbeam study list` shows them).", autocompletion=study_names)
     ],
     case: Annotated[Path | None, typer.Argument(metavar="CASE.toml", help="Case file.")] = None,
+    path: Paths = None,
     assignments: Set = None,
+    methods: Methods = None,
+    refine: Annotated[
+        str | None,
+        typer.Option(metavar="1,2,4", help="Elements and steps of the methods so many times finer, each a row."),
+    ] = None,
     out: Annotated[Path | None, typer.Option(help="Folder for figure, table and conclusion.")] = None,
     jobs: Jobs = 1,
     as_json: Json = False,
@@ -33,10 +39,14 @@ def study(
 ) -> None:
     """Vary one numerical parameter and say what it changes.
 
-    Example: bentbeam study mesh cases/thesis_K10.toml --out out/mesh
+    With the thesis's settings, or with those of any methods (--path, --methods, --refine), each of which it varies.
+
+    Example: bentbeam study mesh cases/thesis_K10.toml --path exudyn --refine 1,2 --out out/mesh
     """
     from bent_beam.cases import load_case
+    from bent_beam.method import paths
     from bent_beam.parts import InputError, nearest
+    from comparison.methods import chosen_methods
     from comparison.store import check_writable
     from comparison.studies import STUDIES, run_study
 
@@ -51,9 +61,15 @@ def study(
         raise InputError(f"study {name!r} is not known{nearest(name, STUDIES)}")
     if case is None:
         raise InputError("a case file is required: bentbeam study NAME CASE.toml")
+    of_paths = [one for one in assignments or () if one.partition(".")[0].strip() in paths()]
     loaded = load_case(case, assignments or ())
+    asked = path or of_paths or methods is not None or refine is not None
+    varied = chosen_methods(path or (), of_paths, methods, loaded) if asked else []
+    refines = factors(refine or "1")
     if out is not None:
         check_writable(out, folder=True)
     with Console(quiet).progress(f"study {name}") as bar:
-        found = run_study(name, loaded, out=out, jobs=jobs, progress=bar.count)
+        found = run_study(
+            name, loaded, methods=varied, refines=refines, out=out, jobs=jobs, progress=bar.count
+        )
     emit(found.to_dict(), as_json, found.text)

@@ -35,10 +35,12 @@ PATHS = ("hermite", "self_similar", "exudyn")
 LEADING = (1 / 1600, 1 / 20, 1 / 4, 1 / 2, 0.8)
 MIDDLE = 0.5
 FIRST: tuple[First, ...] = ((4, 0, 0, 0), (-1, -1, 0, 0))  # a pressed zone and a lifting one
-COARSER = (0.5,)
+REFINES = (0.5, 1.0)
 
 
-def report_questions(methods: Sequence[Method] | None = None) -> list[Question]:
+def report_questions(
+    methods: Sequence[Method] | None = None, refines: Sequence[float] = REFINES
+) -> list[Question]:
     """Every row of the report, few enough for a minute and a half, the longest first so that no core idles at the end.
 
     Leading order over κ/ν; convergence and two loads of first order at κ/ν = 0.5. A row of first order is five runs and
@@ -48,7 +50,7 @@ def report_questions(methods: Sequence[Method] | None = None) -> list[Question]:
     return [
         *(Question(m, MIDDLE, load) for m in reversed(methods) for load in FIRST),
         *(Question(m, k) for m in reversed(methods) for k in LEADING),
-        *(Question(m, MIDDLE, None, r) for m in methods for r in COARSER),
+        *(Question(m, MIDDLE, None, r) for m in methods for r in refines if r != 1.0),
     ]
 
 

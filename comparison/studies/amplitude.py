@@ -11,11 +11,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from bent_beam.cases import Case
+from bent_beam.impact import Impact
 from bent_beam.method import Method
 from comparison.studies.base import Study
 from comparison.studies.outcome import Outcome
 from comparison.studies.sentences import number, signed
 from comparison.studies.thesis import Variant
+from comparison.studies.variation import Setting, kinds_of, with_parts
 
 __all__ = ["STUDY", "exudyn"]
 
@@ -34,8 +36,29 @@ def exudyn(geometry: str) -> Method:
     return ExudynModel(geometry=GEOMETRIES[geometry](), integrator=integrator)
 
 
+def cut(case: Case) -> Impact:
+    """The case's beam, cut where it would turn too far."""
+    return case.impact.replace(length=min(case.impact.length, 2.0 * TURN / case.impact.curvature))
+
+
+def vary(method: Method, case: Case) -> list[Setting]:
+    """Every geometry that the method knows, over ever longer times."""
+    impact = cut(case)
+    return [
+        Setting(
+            f"{name}, τ = {tau:g}",
+            with_parts(method, geometry=kind()),
+            tau**0.5,
+            impact,
+            tau * impact.time_scale,
+        )
+        for tau in DURATIONS
+        for name, kind in kinds_of(method, "geometry").items()
+    ]
+
+
 def variants(case: Case) -> list[Variant]:
-    impact = case.impact.replace(length=min(case.impact.length, 2.0 * TURN / case.impact.curvature))
+    impact = cut(case)
     return [
         Variant(
             f"{geometry}, τ = {tau:g}",
@@ -82,4 +105,4 @@ def _drift(linear: float | None, true: float | None) -> float | None:
     return None if linear is None or true is None else true - linear
 
 
-STUDY = Study("amplitude", "True geometry against linear theory", variants, conclude, heading="geometry")
+STUDY = Study("amplitude", "True geometry against linear theory", variants, conclude, vary=vary, heading="geometry")

@@ -15,8 +15,9 @@ from comparison.store import write_atomically
 from comparison.studies.outcome import MEASURES, Outcome
 from comparison.studies.panels import draw_outcomes
 from comparison.studies.thesis import Variant, run_variants
+from comparison.studies.variation import Vary
 
-__all__ = ["Study", "StudyResult", "perform"]
+__all__ = ["Progress", "Study", "StudyResult", "perform", "used_measures", "write_result"]
 
 Progress = Callable[[int, int], None]
 
@@ -65,10 +66,17 @@ class StudyResult:
             for row in cells
         ]
         lines.insert(1, "  ".join("-" * w for w in widths))
-        notes = [f"failed: {r['label']}: {r['failure']}" for r in self.rows if r.get("failure")]
+        notes = [f"failed: {_called(r)}: {r['failure']}" for r in self.rows if r.get("failure")]
         notes += [f"warning: {w}" for w in self.warnings]
         files = [f"file: {f}" for f in self.files]
         return "\n".join([f"{self.title}: {self.case}", "", *lines, "", self.conclusion, *notes, *files])
+
+
+def _called(row: dict[str, Any]) -> str:
+    """A row in words."""
+    refine = row.get("refine", 1.0)
+    words = [row["label"], "" if refine == 1.0 else f"refined {refine:g} times", row.get("setting")]
+    return ", ".join(word for word in words if word)
 
 
 @dataclass(frozen=True)
@@ -77,6 +85,7 @@ class Study:
     them.
 
     heading : of the varied parameter. own : the whole of a study that is not a list of runs.
+    vary : its parameter varied on any method (:mod:`comparison.studies.of_methods`).
     """
 
     name: str
@@ -85,12 +94,11 @@ class Study:
     conclude: Callable[[Sequence[Outcome]], str] = lambda outcomes: ""
     heading: str = "run"
     own: Callable[[Case, int, Progress | None], tuple[StudyResult, Sheet]] | None = None
+    vary: Vary | None = None
 
 
 def perform(study: Study, case: Case, *, out: Path | None, jobs: int, progress: Progress | None) -> StudyResult:
     """Run a study on a case; with ``out`` its picture, CSV and conclusion are written there."""
-    if case.impact.curvature <= 0.0:
-        raise ValueError("beam.curvature must be positive for a study (got 0.0): a flat beam meets the wall at once")
     if study.own is not None:
         result, sheet = study.own(case, jobs, progress)
     else:
@@ -99,25 +107,29 @@ def perform(study: Study, case: Case, *, out: Path | None, jobs: int, progress: 
         if out is not None:
             draw_outcomes(sheet, outcomes)
     if out is not None:
-        result.files = _write(result, sheet, out)
+        result.files = write_result(result, sheet, out)
     sheet.close()
     return result
 
 
 def _result(study: Study, case: Case, outcomes: list[Outcome]) -> StudyResult:
     finished = [o for o in outcomes if o.failure is None]
-    used = {k: h for k, h in MEASURES.items() if any(o.measures.get(k) is not None for o in finished)}
     warnings = sorted({f"{o.label}: {w}" for o in finished if o.reference for w in o.warnings})
     return StudyResult(
         name=study.name,
         title=study.title,
         case=case.title,
-        columns={"label": study.heading, **used},
+        columns={"label": study.heading, **used_measures(outcomes)},
         rows=[o.row() for o in outcomes],
         conclusion=_concluded(study, outcomes) if finished else "No run finished.",
         outcomes=list(outcomes),
         warnings=warnings,
     )
+
+
+def used_measures(outcomes: Sequence[Outcome]) -> dict[str, str]:
+    """Measures that any run has, and how they are headed."""
+    return {k: h for k, h in MEASURES.items() if any(o.measures.get(k) is not None for o in outcomes)}
 
 
 def _concluded(study: Study, outcomes: Sequence[Outcome]) -> str:
@@ -127,7 +139,7 @@ def _concluded(study: Study, outcomes: Sequence[Outcome]) -> str:
     return f"{text} Without {', '.join(missing)}: it did not finish." if missing else text
 
 
-def _write(result: StudyResult, sheet: Sheet, out: Path) -> list[str]:
+def write_result(result: StudyResult, sheet: Sheet, out: Path) -> list[str]:
     """Picture with its curves' CSV, the table's CSV, and the result as JSON; returns the files."""
     files = []
     if sheet.figure_ is not None:

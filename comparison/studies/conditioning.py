@@ -22,11 +22,13 @@ from scipy.sparse.linalg import LinearOperator, norm, onenormest, splu
 from bent_beam.cases import Case
 from bent_beam.errors import SimulationError
 from bent_beam.meshes import GradedMesh
+from bent_beam.method import Method
 from comparison.figures import style
 from comparison.figures.recorder import Sheet
 from comparison.studies.base import Progress, Study, StudyResult
 from comparison.studies.sentences import number
 from comparison.studies.thesis import Settings, thesis_settings
+from comparison.studies.variation import NotVaried, Setting
 from hermite_fe.beam import HermiteBeam
 from hermite_fe.contacts import NodeContact
 
@@ -191,4 +193,8 @@ def own(case: Case, jobs: int, progress: Progress | None) -> tuple[StudyResult, 
     return StudyResult(STUDY.name, STUDY.title, case.title, COLUMNS, rows, conclude(found)), sheet
 
 
-STUDY = Study("conditioning", "Conditioning of the step's matrix", own=own)
+def vary(method: Method, case: Case) -> list[Setting]:
+    raise NotVaried("no method shows the matrix of its step; the study takes apart that of the thesis's scheme")
+
+
+STUDY = Study("conditioning", "Conditioning of the step's matrix", own=own, vary=vary, heading="step's matrix")

@@ -9,12 +9,15 @@ An impact at one row changes the velocities of its neighbours by c = W_{j,j±1}/
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import product
 
 from bent_beam.cases import Case
+from bent_beam.method import Method
 from comparison.studies.base import Study
 from comparison.studies.outcome import Outcome
 from comparison.studies.sentences import number, reference_sentences, signed, varied
 from comparison.studies.thesis import THESIS_MASS, Variant, references, thesis_settings
+from comparison.studies.variation import Setting, has_part, kinds_of, of_kind, part_of, with_parts
 from hermite_fe import CONTACTS
 from hermite_fe.delassus import impact_coupling
 from hermite_fe.masses import ConsistentMass
@@ -52,6 +55,20 @@ def variants(case: Case) -> list[Variant]:
         Variant(HELD, impact, end, fine.replace(hold=16, viscosity=0.3).method()),
         *references(impact, end),
     ]
+
+
+def vary(method: Method, case: Case) -> list[Setting]:
+    """Every contact discretisation that the method knows, with every mass matrix that it knows."""
+    varied_parts = [name for name in ("contact", "mass") if name == "contact" or has_part(method, name)]
+    kinds = [kinds_of(method, name).items() for name in varied_parts]
+    found = []
+    for chosen in product(*kinds):
+        parts = {
+            name: of_kind(kind, part_of(method, name, case)) for name, (_, kind) in zip(varied_parts, chosen)
+        }
+        changed = with_parts(method, **parts)
+        found.append(Setting(", ".join(name for name, _ in chosen), changed))
+    return found
 
 
 def conclude(outcomes: Sequence[Outcome]) -> str:
@@ -103,5 +120,10 @@ def _held(fine: float, held: float) -> str:
 
 
 STUDY = Study(
-    "contact-point", "Contact at nodes or middles, consistent or lumped mass", variants, conclude, "contact, mass"
+    "contact-point",
+    "Contact at nodes or middles, consistent or lumped mass",
+    variants,
+    conclude,
+    heading="contact, mass",
+    vary=vary,
 )

@@ -2,17 +2,27 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 from bent_beam.cases import Case
+from bent_beam.method import Method
 from comparison.studies.base import Study
 from comparison.studies.outcome import Outcome
 from comparison.studies.sentences import between, moves, number, reference_sentences, varied
 from comparison.studies.thesis import Variant, references, thesis_settings
+from comparison.studies.variation import NotVaried, Setting, part_of, with_field
 
 __all__ = ["RADII", "STUDY"]
 
 RADII = (1.0, 0.8, 0.5, 0.2, 0.0)
+
+DAMPS: dict[str, Callable[[float], float]] = {
+    "spectral_radius": lambda radius: radius,
+    "theta": lambda radius: 1.0 / (1.0 + radius),
+    "gamma": lambda radius: (3.0 - radius) / (2.0 + 2.0 * radius),
+}
+"""Field of an integrator → its value for ρ∞: the θ-method amplifies ever higher frequencies by (1 − θ)/θ, Newmark's
+with β = (γ + ½)²/4 by (3/2 − γ)/(γ + ½) (Hughes 2000, 9.3)."""
 
 
 def variants(case: Case) -> list[Variant]:
@@ -24,6 +34,20 @@ def variants(case: Case) -> list[Variant]:
     ]
     viscous = Variant("ρ∞ = 0.8, grid viscosity 0.3", impact, end, base.replace(viscosity=0.3).method())
     return [*runs, viscous, *references(impact, end)]
+
+
+def vary(method: Method, case: Case) -> list[Setting]:
+    """The integrator's own damping, as the ρ∞ that it means."""
+    integrator = part_of(method, "integrator", case)
+    name = next((n for n in DAMPS if hasattr(integrator, n)), None)
+    if name is None:
+        raise NotVaried(f"its integrator ({type(integrator).__name__}) has no damping to vary ({', '.join(DAMPS)})")
+    if getattr(integrator, "beta", None) is not None:
+        raise NotVaried(f"its integrator sets beta = {integrator.beta!r}, which gamma alone does not follow")
+    return [
+        Setting(f"ρ∞ = {radius:g}", with_field(method, "integrator", case, **{name: DAMPS[name](radius)}), radius)
+        for radius in RADII
+    ]
 
 
 def conclude(outcomes: Sequence[Outcome]) -> str:
@@ -53,4 +77,4 @@ def conclude(outcomes: Sequence[Outcome]) -> str:
     return " ".join([*text, reference_sentences(outcomes)])
 
 
-STUDY = Study("damping", "Numerical damping", variants, conclude, heading="damping")
+STUDY = Study("damping", "Numerical damping", variants, conclude, vary=vary, heading="damping")

@@ -5,13 +5,27 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from bent_beam.cases import Case
+from bent_beam.method import Method
 from comparison.studies.base import Study
 from comparison.studies.outcome import Outcome
 from comparison.studies.sentences import number, reference_sentences, varied
 from comparison.studies.thesis import Settings, Variant, references, thesis_settings
+from comparison.studies.variation import (
+    Setting,
+    has_part,
+    kinds_of,
+    of_kind,
+    part_of,
+    resolution,
+    with_field,
+    with_growth,
+    with_parts,
+)
 
 __all__ = ["STUDY"]
 
+GROWTHS = (1.25, 1.1, 1.05, 1.02)
+ABSORBERS = ("far_field", "element")  # parts that may have a viscosity of the grid
 COARSE, SLOW, DAMPED = "e = 1.25", "e = 1.02", "e = 1.25, grid viscosity 0.3"
 VISCOUS, SPONGE, HALF = (f"e = 1.02, grid viscosity 0.3{more}" for more in ("", ", sponge", ", half the length"))
 
@@ -28,7 +42,7 @@ def variants(case: Case) -> list[Variant]:
     base, impact, end = base_settings(case), case.impact, case.end_time
     runs = [
         Variant(f"e = {growth:g}", impact, end, base.replace(growth=growth).method(), value=growth)
-        for growth in (1.25, 1.1, 1.05, 1.02)
+        for growth in GROWTHS
     ]
     viscous = base.replace(growth=1.02, viscosity=0.3)
     runs += [
@@ -38,6 +52,34 @@ def variants(case: Case) -> list[Variant]:
         Variant(HALF, impact.replace(length=0.5 * impact.length), end, viscous.method()),
     ]
     return [*runs, *references(impact, end)]
+
+
+def vary(method: Method, case: Case) -> list[Setting]:
+    """The method as it is, on half the beam, and, where it has them, with other growths, viscosities and absorbers."""
+    impact = case.impact
+    found = [
+        Setting("as it is", method),
+        Setting("half the length", method, impact=impact.replace(length=0.5 * impact.length)),
+    ]
+    if has_part(method, "mesh"):
+        mesh, laid_on = resolution(method, case)
+        grown = {growth: with_growth(mesh, growth) for growth in GROWTHS}
+        found += [Setting(f"e = {e:g}", laid_on(other), e) for e, other in grown.items() if other is not None]
+    for name in ABSORBERS:
+        if not has_part(method, name):
+            continue
+        part = part_of(method, name, case)
+        if hasattr(part, "viscosity"):
+            found += [
+                Setting(f"viscosity {v:g}", with_field(method, name, case, viscosity=v), v) for v in (0.0, 0.3)
+            ]
+    if has_part(method, "far_field"):
+        part = part_of(method, "far_field", case)
+        for name, kind in kinds_of(method, "far_field").items():
+            if kind is not type(part):
+                changed = with_parts(method, far_field=of_kind(kind, part))
+                found.append(Setting(name, changed))
+    return found
 
 
 def conclude(outcomes: Sequence[Outcome]) -> str:
@@ -69,4 +111,4 @@ def conclude(outcomes: Sequence[Outcome]) -> str:
     return " ".join([*text, reference_sentences(outcomes)])
 
 
-STUDY = Study("far-field", "Far field", variants, conclude, heading="far field")
+STUDY = Study("far-field", "Far field", variants, conclude, vary=vary, heading="far field")

@@ -27,6 +27,7 @@ from comparison.studies.outcome import Outcome
 from comparison.studies.panels import contact_length, geometry, reaction
 from comparison.studies.sentences import number
 from comparison.studies.thesis import THESIS_MASS, Settings, Variant, run_variants, thesis_settings
+from comparison.studies.variation import Setting
 from hermite_fe import HermiteFE
 from self_similar_fe import ExpandingMesh, SelfSimilarFE
 
@@ -68,6 +69,13 @@ def variants(case: Case) -> list[Variant]:
             Variant(f"{name}a₀, {INFINITE}", long, end, endless, value=sign, reference=True, save=400),
         ]
     return runs
+
+
+def vary(method: Method, case: Case) -> list[Setting]:
+    """The method as it is, under both accelerations."""
+    return [
+        Setting(f"{name}a₀", method, sign, accelerated(case.impact, sign)) for sign, name in ((1.0, "+"), (-1.0, "−"))
+    ]
 
 
 def fitted(outcome: Outcome, window: float = 1.0) -> float:
@@ -190,4 +198,4 @@ def draw(sheet: Sheet, outcomes: Sequence[Outcome]) -> None:
         fig.legend(handles, [label.removeprefix("+a₀, ") for label in labels], loc="outside lower center", ncols=4)
 
 
-STUDY = Study("first-order-case", "The thesis's first-order case", own=own)
+STUDY = Study("first-order-case", "The thesis's first-order case", own=own, vary=vary, heading="acceleration")

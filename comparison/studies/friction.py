@@ -12,6 +12,7 @@ from comparison.studies.base import Study
 from comparison.studies.outcome import Outcome
 from comparison.studies.sentences import number, values
 from comparison.studies.thesis import Variant
+from comparison.studies.variation import Setting, with_field
 
 __all__ = ["STUDY", "friction_method"]
 
@@ -51,6 +52,10 @@ def variants(case: Case) -> list[Variant]:
     ]
 
 
+def vary(method: Method, case: Case) -> list[Setting]:
+    return [Setting(f"friction {f:g}", with_field(method, "contact", case, friction=f), f) for f in COEFFICIENTS]
+
+
 def conclude(outcomes: Sequence[Outcome]) -> str:
     text = []
     for name in GEOMETRIES.values():
@@ -84,4 +89,4 @@ def _change(with_friction: Sequence[Outcome], without: Outcome, name: str) -> fl
     return None if before is None or not after else max(abs(v - before) for v in after)
 
 
-STUDY = Study("friction", "Friction at the wall", variants, conclude, heading="contact")
+STUDY = Study("friction", "Friction at the wall", variants, conclude, vary=vary, heading="contact")

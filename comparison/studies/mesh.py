@@ -8,16 +8,19 @@ from collections.abc import Sequence
 
 from bent_beam.cases import Case
 from bent_beam.meshes import ScaleFreeMesh, SquareMesh
+from bent_beam.method import Method
 from comparison.studies.base import Study
 from comparison.studies.exact import Exact
 from comparison.studies.outcome import Outcome
 from comparison.studies.sentences import between, number, reference_sentences, signed, values, varied
 from comparison.studies.thesis import Settings, Variant, references, thesis_settings
+from comparison.studies.variation import Setting, resolution, with_growth
 
 __all__ = ["STUDY", "square_mesh"]
 
 LENGTHS = (2.0, 1.0, 0.6, 0.3)
 GROWTHS = (1.05, 1.02)
+OF_METHODS = (2.0, 1.0, 0.5)  # times the elements of a method's own mesh
 PER_ELEMENT = 5.0  # the thesis's a: steps a front spends in each element of the square mesh
 SQUARE, SCALE_FREE = '"square" mesh', "scale-free, held, damped"
 
@@ -49,6 +52,14 @@ def variants(case: Case) -> list[Variant]:
     even = ScaleFreeMesh(element_length=0.1 * base.element_length, growth=1.02)
     runs.append(run(SCALE_FREE, None, mesh=even, hold=16, viscosity=0.3))
     return [*runs, *references(impact, end)]
+
+
+def vary(method: Method, case: Case) -> list[Setting]:
+    """Elements so many times longer, then other growths; the steps stay."""
+    mesh, laid_on = resolution(method, case)
+    found = [Setting(f"Δx × {f:g}", laid_on(mesh.refined(1.0 / f)), f) for f in OF_METHODS]
+    grown = {growth: with_growth(mesh, growth) for growth in GROWTHS}
+    return found + [Setting(f"e = {e:g}", laid_on(other), e) for e, other in grown.items() if other is not None]
 
 
 def conclude(outcomes: Sequence[Outcome]) -> str:
@@ -93,4 +104,4 @@ def _growth(base: Outcome, slow: Outcome) -> str:
     )
 
 
-STUDY = Study("mesh", "Mesh", variants, conclude, heading="mesh")
+STUDY = Study("mesh", "Mesh", variants, conclude, vary=vary, heading="mesh")

@@ -59,7 +59,9 @@ class Outcome:
     time, front, side_impulse, strain, energy : (times,), SI, the energy being that of the whole beam over its first
         value; x, gap : the beam at the end, half of it.
     measures : numbers by the names of ``MEASURES``; ``None`` where there is none to be had.
-    failure : why a run did not finish; then everything may be empty.
+    failure : why a run did not finish; then everything may be empty. refused : the method had said so before.
+    setting, refine : of the varied parameter, and of a method's resolution, where methods are varied; ``label`` is then
+        the method's.
     """
 
     label: str
@@ -76,6 +78,19 @@ class Outcome:
     mark: str | None = None
     warnings: tuple[str, ...] = ()
     failure: str | None = None
+    refused: bool = False
+    setting: str = ""
+    refine: float = 1.0
+
+    @property
+    def method(self) -> str:
+        """The label, and the resolution where it is not the method's own."""
+        return self.label if self.refine == 1.0 else f"{self.label}, refined {self.refine:g} times"
+
+    @property
+    def name(self) -> str:
+        """The run in words."""
+        return f"{self.method}, {self.setting}" if self.setting else self.method
 
     @property
     def reference(self) -> bool:
@@ -105,22 +120,27 @@ class Outcome:
         """JSON-ready: label, path of a reference, value, measures, failure."""
         return {
             "label": self.label,
+            "setting": self.setting or None,
+            "refine": self.refine,
             "reference": self.mark,
             "value": self.value,
             **self.measures,
             "failure": self.failure,
+            "refused": self.refused,
         }
 
 
-def failed(label: str, impact: Impact, value: float | None, reason: str, *, mark: str | None = None) -> Outcome:
-    """A run that could not finish."""
+def failed(label: str, impact: Impact, value: float | None, reason: str, **about: Any) -> Outcome:
+    """A run that could not finish. ``about`` : further fields."""
     none = np.zeros(0)
-    return Outcome(label, impact, value, *(none,) * 7, dict.fromkeys(MEASURES), mark=mark, failure=reason)
+    return Outcome(label, impact, value, *(none,) * 7, dict.fromkeys(MEASURES), failure=reason, **about)
 
 
-def outcome_of(history: ImpactHistory, label: str, *, value: float | None = None, mark: str | None = None) -> Outcome:
+def outcome_of(
+    history: ImpactHistory, label: str, *, value: float | None = None, mark: str | None = None, **about: Any
+) -> Outcome:
     """Curves and numbers of a history. The contact length of the varied settings is read as the thesis does
-    (:func:`touching`), that of a reference (``mark``) from the centroid of the reaction.
+    (:func:`touching`), that of a reference (``mark``) from the centroid of the reaction. ``about`` : further fields.
     """
     exact = Exact(history.impact)
     moving = "position" in history.dataset
@@ -154,6 +174,7 @@ def outcome_of(history: ImpactHistory, label: str, *, value: float | None = None
         },
         mark=mark,
         warnings=tuple(history.warnings),
+        **about,
     )
 
 

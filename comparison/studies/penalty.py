@@ -14,6 +14,7 @@ from comparison.studies.base import Study
 from comparison.studies.outcome import Outcome
 from comparison.studies.sentences import between, number, reference_sentences, references_of, varied
 from comparison.studies.thesis import Variant, references
+from comparison.studies.variation import Setting, with_field
 
 __all__ = ["STUDY", "penalised"]
 
@@ -59,6 +60,16 @@ def variants(case: Case) -> list[Variant]:
     ]
 
 
+def vary(method: Method, case: Case) -> list[Setting]:
+    """Stiffness and damping of the method's contact, in units of its elements' own."""
+    fields = {"C": ("relative_stiffness", (1.0, 10.0, 100.0)), "D": ("relative_damping", (0.3, 3.0, 30.0))}
+    return [Setting("as it is", method)] + [
+        Setting(f"{symbol} = {v:g}", with_field(method, "contact", case, **{name: v}), v)
+        for symbol, (name, tried) in fields.items()
+        for v in tried
+    ]
+
+
 def conclude(outcomes: Sequence[Outcome]) -> str:
     names = {"C": "the stiffness C", "D": "the damping D", "ρ∞": "ρ∞"}
     runs = varied(outcomes)
@@ -89,4 +100,4 @@ def conclude(outcomes: Sequence[Outcome]) -> str:
     return " ".join([*text, reference_sentences(others)])
 
 
-STUDY = Study("penalty", "Penalty contact in Exudyn", variants, conclude, heading="penalty")
+STUDY = Study("penalty", "Penalty contact in Exudyn", variants, conclude, vary=vary, heading="penalty")

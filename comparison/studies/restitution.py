@@ -5,10 +5,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from bent_beam.cases import Case
+from bent_beam.method import Method
 from comparison.studies.base import Study
 from comparison.studies.outcome import Outcome
 from comparison.studies.sentences import number, reference_sentences, varied
 from comparison.studies.thesis import Variant, references, thesis_settings
+from comparison.studies.variation import Setting, with_field
 
 __all__ = ["COEFFICIENTS", "STUDY"]
 
@@ -22,6 +24,10 @@ def variants(case: Case) -> list[Variant]:
         Variant(f"restitution {e:g}", impact, end, base.replace(restitution=e).method(), value=e) for e in COEFFICIENTS
     ]
     return [*runs, *references(impact, end)]
+
+
+def vary(method: Method, case: Case) -> list[Setting]:
+    return [Setting(f"restitution {e:g}", with_field(method, "contact", case, restitution=e), e) for e in COEFFICIENTS]
 
 
 def conclude(outcomes: Sequence[Outcome]) -> str:
@@ -46,4 +52,4 @@ def conclude(outcomes: Sequence[Outcome]) -> str:
     return " ".join([*text, reference_sentences(outcomes)])
 
 
-STUDY = Study("restitution", "Coefficient of restitution", variants, conclude, heading="restitution")
+STUDY = Study("restitution", "Coefficient of restitution", variants, conclude, vary=vary, heading="restitution")

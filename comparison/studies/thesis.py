@@ -106,6 +106,7 @@ class Variant:
 
     reference : a method to hold the others against, drawn with the mark of its path, not one of the varied settings.
     value : of the varied parameter, if a number. save : instants to keep (``None``: :func:`saved_times`).
+    setting, refine : see :class:`Outcome`.
     """
 
     label: str
@@ -115,6 +116,18 @@ class Variant:
     value: float | None = None
     reference: bool = False
     save: Save | None = None
+    setting: str = ""
+    refine: float = 1.0
+
+    @property
+    def about(self) -> dict[str, Any]:
+        """What its outcome takes over."""
+        mark = self.method.path if self.reference else None
+        return {"mark": mark, "setting": self.setting, "refine": self.refine}
+
+    def lost(self, reason: str, *, refused: bool = False) -> Outcome:
+        """The outcome of a run that gave none."""
+        return failed(self.label, self.impact, self.value, " ".join(reason.split()), refused=refused, **self.about)
 
     def history(self) -> ImpactHistory:
         save = saved_times(self.end_time) if self.save is None else self.save
@@ -133,12 +146,17 @@ def references(impact: Impact, end_time: float) -> list[Variant]:
 
 
 def _outcome(variant: Variant) -> Outcome:
-    """One variant in a worker; a solver that cannot finish is an answer too."""
-    mark = variant.method.path if variant.reference else None
+    """One variant in a worker; a solver that cannot finish, and a method that refuses, are answers too."""
     try:
-        return outcome_of(variant.history(), variant.label, value=variant.value, mark=mark)
+        history = variant.history()
     except (SimulationError, ArithmeticError) as error:
-        return failed(variant.label, variant.impact, variant.value, " ".join(str(error).split()), mark=mark)
+        return variant.lost(str(error))
+    except ValueError as error:
+        return variant.lost(str(error), refused=True)
+    try:
+        return outcome_of(history, variant.label, value=variant.value, **variant.about)
+    except (ValueError, ArithmeticError) as error:
+        return variant.lost(f"nothing can be read off this run: {error}")
 
 
 def run_variants(
@@ -146,8 +164,10 @@ def run_variants(
 ) -> list[Outcome]:
     """Run all, on ``jobs`` processes; outcomes in order."""
 
-    def died(place: int, why: str) -> Outcome:
-        v = variants[place]
-        return failed(v.label, v.impact, v.value, why, mark=v.method.path if v.reference else None)
-
-    return list(run_all(_outcome, [(v,) for v in variants], jobs=jobs, progress=progress, on_death=died))
+    return run_all(
+        _outcome,
+        [(v,) for v in variants],
+        jobs=jobs,
+        progress=progress,
+        on_death=lambda i, why: variants[i].lost(why),
+    )

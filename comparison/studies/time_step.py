@@ -7,14 +7,18 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from bent_beam.cases import Case
+from bent_beam.method import Method
 from comparison.studies.base import Study
 from comparison.studies.outcome import Outcome
 from comparison.studies.sentences import between, moves, reference_sentences, varied
 from comparison.studies.thesis import Variant, references, thesis_settings
+from comparison.studies.variation import NotVaried, Setting, part_of, with_field, with_parts
 
 __all__ = ["FACTORS", "STUDY"]
 
 FACTORS = (40.0, 4.0, 2.0, 1.0, 0.4)
+OF_METHODS = (4.0, 2.0, 1.0, 0.5)  # times a method's own
+STEPS = ("time_step", "growth", "relative_step")  # fields of an integrator that say how long its steps are
 
 
 def variants(case: Case) -> list[Variant]:
@@ -23,6 +27,19 @@ def variants(case: Case) -> list[Variant]:
     steps = [f * base.time_step for f in FACTORS]
     runs = [Variant(f"h = {h:.2g} s", impact, end, base.replace(time_step=h).method(), value=h) for h in steps]
     return [*runs, *references(impact, end)]
+
+
+def vary(method: Method, case: Case) -> list[Setting]:
+    """Steps so many times longer; the mesh stays."""
+    integrator = part_of(method, "integrator", case, filled=True)
+    steps = {name: value for name in STEPS if (value := getattr(integrator, name, None)) is not None}
+    if not steps:
+        raise NotVaried(f"its integrator ({type(integrator).__name__}) takes its step from the mesh")
+    fixed = with_parts(method, integrator=integrator)
+    return [
+        Setting(f"h × {f:g}", with_field(fixed, "integrator", case, **{n: f * v for n, v in steps.items()}), f)
+        for f in OF_METHODS
+    ]
 
 
 def conclude(outcomes: Sequence[Outcome]) -> str:
@@ -49,4 +66,4 @@ def conclude(outcomes: Sequence[Outcome]) -> str:
     return " ".join([*text, reference_sentences(outcomes)])
 
 
-STUDY = Study("time-step", "Time step h", variants, conclude, heading="time step")
+STUDY = Study("time-step", "Time step h", variants, conclude, vary=vary, heading="time step")

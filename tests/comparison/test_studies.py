@@ -3,21 +3,28 @@
 from __future__ import annotations
 
 import json
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 import pytest
 
 from bent_beam.cases import Case
 from bent_beam.impact import Impact
+from bent_beam.meshes import UniformMesh
+from comparison.command_line.app import run
 from comparison.studies import STUDIES, amplitude, first_order_case, friction, penalty, run_study
 from comparison.studies.exact import Exact
+from comparison.studies.of_methods import asked_of
 from comparison.studies.outcome import Outcome
 from comparison.studies.panels import unit
 from comparison.studies.sentences import between, number, reference_sentences
 from comparison.studies.thesis import Variant, run_variants, thesis_settings
+from exudyn_models import ExudynModel
 from hermite_fe import HermiteFE
+from hermite_fe.integrators import SignoriniPosition
+from self_similar_fe import SelfSimilarFE
 
 NAMES = {
     "time-step",
@@ -35,9 +42,8 @@ NAMES = {
 
 
 def case(curvature: float, duration: float, **changes: float) -> Case:
-    impact = Impact(
-        bending_stiffness=1.0, mass_per_length=1.0, length=50.0, curvature=curvature, velocity=20.0, **changes
-    )
+    usual = {"bending_stiffness": 1.0, "mass_per_length": 1.0, "length": 50.0, "velocity": 20.0}
+    impact = Impact(**{**usual, "curvature": curvature, **changes})
     return Case(
         title=f"K = {curvature:g} 1/m",
         impact=impact,
@@ -177,6 +183,116 @@ def test_what_is_missing_is_said_and_never_a_zero() -> None:
     assert reference_sentences([run]) == "Mine gave no number on this case."
     with pytest.raises(ValueError, match="no lift"):
         run.measure("lift")
+
+
+# studies of any methods --------------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class Plain:
+    """A method of somebody else's without any parts."""
+
+    path: ClassVar[str] = "plain"
+    label: str = "Plain"
+
+    def refuses(self, impact: Impact) -> str | None:
+        return "axial_force is not modelled" if impact.axial_force else None
+
+
+USES = {  # whom a study can use, of hermite, self_similar, exudyn and a method without parts
+    "time-step": {"hermite", "exudyn"},
+    "mesh": {"hermite", "self_similar", "exudyn"},
+    "damping": {"hermite", "exudyn"},
+    "restitution": {"hermite"},
+    "contact-point": {"hermite", "exudyn"},
+    "far-field": {"hermite", "self_similar", "exudyn", "plain"},
+    "penalty": {"exudyn"},
+    "amplitude": {"exudyn"},
+    "friction": set(),  # until it is given a contact with friction
+    "first-order-case": {"hermite", "self_similar", "exudyn", "plain"},
+    "conditioning": set(),
+}
+
+
+@pytest.mark.parametrize("name", sorted(NAMES))
+def test_a_study_varies_the_methods_that_have_what_it_varies_and_says_what_the_others_lack(name: str) -> None:
+    given = case(10.0, 0.01)
+    for method in (HermiteFE(), SelfSimilarFE(), ExudynModel(), Plain()):
+        found = asked_of(STUDIES[name], given, method, 1.0)
+        if method.path in USES[name]:
+            settings = [one for one in found if isinstance(one, Variant)]
+            assert len(settings) == len(found) > 1
+            assert len({one.setting for one in settings}) == len(found)
+            assert len({(one.method, one.impact, one.end_time) for one in settings}) == len(found)
+            assert all(one.label == method.label for one in settings)
+        else:
+            (row,) = found
+            assert isinstance(row, Outcome) and row.refused and row.label == method.label
+            assert "not varied: " in str(row.failure)
+
+
+def test_a_study_varies_one_thing() -> None:
+    """Longer steps on the same mesh, longer elements with the same steps, ρ∞ as the θ that means it."""
+    given, method = case(10.0, 0.01), HermiteFE()
+    steps = {one.setting: one.method for one in asked_of(STUDIES["time-step"], given, method, 1.0)}
+    assert steps["h × 4"].integrator.growth == 4.0 * steps["h × 1"].integrator.growth
+    assert steps["h × 4"].mesh == steps["h × 1"].mesh
+    meshes = {one.setting: one.method for one in asked_of(STUDIES["mesh"], given, method, 2.0)}
+    assert meshes["Δx × 2"].mesh.element_length == pytest.approx(2.0 * meshes["Δx × 1"].mesh.element_length)
+    assert meshes["Δx × 2"].integrator == meshes["Δx × 1"].integrator
+    damped = {one.setting: one.method for one in asked_of(STUDIES["damping"], given, method, 1.0)}
+    assert [damped[f"ρ∞ = {radius}"].integrator.theta for radius in ("1", "0")] == [0.5, 1.0]
+
+
+def test_what_a_method_refuses_is_a_row_with_its_reason() -> None:
+    pulled = case(10.0, 0.01, axial_force=1.0)
+    (row,) = asked_of(STUDIES["far-field"], pulled, Plain(), 1.0)
+    assert row.refused and row.failure == "axial_force is not modelled"
+    (row,) = asked_of(STUDIES["far-field"], case(10.0, 0.01), Plain(), 2.0)
+    assert row.refused and "does not know how to be refined" in row.failure
+    law = HermiteFE(mesh=UniformMesh(0.05), integrator=SignoriniPosition())
+    rows = run_study("restitution", case(10.0, 0.01, length=2.0), methods=[law]).rows
+    assert [row["refused"] for row in rows] == [False, True, True]
+    assert all("restitution" in row["failure"] for row in rows[1:])
+
+
+def test_the_command_takes_methods_and_every_row_plot_and_table_carries_the_label(tmp_path: Path, capsys: Any) -> None:
+    """The labels are those of the file; a method that cannot be used is a row among the others, and no error."""
+    mesh = 'mesh = {kind = "uniform", element_length = 0.05}'
+    file = tmp_path / "methods.toml"
+    file.write_text(
+        f'[[method]]\nlabel = "Mine"\npath = "hermite"\n{mesh}\nintegrator = {{kind = "moreau_jean"}}\n'
+        '[[method]]\nlabel = "Endless"\npath = "self_similar"\n'
+    )
+    small = ["--set", "beam.length=2.0", "--set", "run.duration=0.01"]
+    arguments = ["study", "damping", "cases/thesis_K10.toml", *small, "--json", "--out", str(tmp_path / "out")]
+    assert run([*arguments, "--methods", str(file), "--refine", "1,2"]) == 0
+    document = json.loads(capsys.readouterr().out)
+    rows = document["rows"]
+    assert [(r["label"], r["refine"]) for r in rows] == [
+        *[("Mine", 1)] * 5,
+        *[("Mine", 2)] * 5,
+        ("Endless", 1),
+        ("Endless", 2),
+    ]
+    assert [r["setting"] for r in rows[5:10]] == ["ρ∞ = 1", "ρ∞ = 0.8", "ρ∞ = 0.5", "ρ∞ = 0.2", "ρ∞ = 0"]
+    assert all(r["reaction_error"] is not None and r["failure"] is None for r in rows[:10])
+    assert all(r["failure"] == "not varied: self_similar has no integrator" and r["refused"] for r in rows[10:])
+    drawn = (tmp_path / "out" / "damping.csv").read_text()
+    table = (tmp_path / "out" / "damping-table.csv").read_text()
+    assert "Mine" in drawn and "Mine, refined 2 times" in drawn and "Endless" in table
+    assert "Mine, refined 2 times: over 5 settings" in document["conclusion"]
+
+
+def test_the_command_takes_paths_and_settings_and_refuses_both_ways_at_once(tmp_path: Path, capsys: Any) -> None:
+    arguments = ["study", "damping", "cases/thesis_K10.toml", "--json", "--set", "beam.length=2.0"]
+    arguments += ["--set", "run.duration=0.01", "--set", "hermite.mesh.kind=uniform"]
+    arguments += ["--set", "hermite.mesh.element_length=0.05"]
+    assert run([*arguments, "--path", "hermite"]) == 0
+    (label,) = {row["label"] for row in json.loads(capsys.readouterr().out)["rows"]}
+    assert label == "Hermite, mesh=uniform, mesh.element_length=0.05"
+    assert run([*arguments, "--methods", "cases/methods/one_of_each.toml"]) == 2
+    assert "names the methods" in capsys.readouterr().err
 
 
 # Exudyn and first order --------------------------------------------------------------------------------------------

@@ -59,19 +59,81 @@ def test_simulate_takes_its_settings_and_refusals(environment: dict[str, str], t
     assert file.exists() and found["total_impulse"] is not None
 
 
-def test_methods_file_and_the_rows_of_the_report_know_it(environment: dict[str, str], tmp_path: Path) -> None:
-    file = tmp_path / "mine.toml"
-    file.write_text(fence("toml\n[[method]]").join(["[[method]]\n", ""]), encoding="utf-8")
-    code = (
-        "import json, sys; from pathlib import Path\n"
-        "from comparison.methods import methods_from_file\n"
-        "from comparison.report.rows import report_questions\n"
-        "asked = report_questions(methods_from_file(Path(sys.argv[1])))\n"
-        "print(json.dumps([len(asked), asked[0].method.label, asked[0].method.nodes]))"
-    )
+def python(environment: dict[str, str], code: str, *words: str) -> str:
     done = subprocess.run(
-        [sys.executable, "-c", code, str(file)], env=environment, capture_output=True, text=True, timeout=100
+        [sys.executable, "-c", code, *words], env=environment, capture_output=True, text=True, cwd=ROOT, timeout=200
     )
     assert done.returncode == 0, done.stderr
-    count, label, nodes = json.loads(done.stdout)
-    assert count > 0 and label == "Finite differences, fine" and nodes == 200
+    return done.stdout
+
+
+@pytest.fixture(scope="module")
+def methods_file(tmp_path_factory: pytest.TempPathFactory) -> str:
+    """The list of methods of the page."""
+    file = tmp_path_factory.mktemp("lists") / "mine.toml"
+    file.write_text(fence("toml\n[[method]]").join(["[[method]]\n", ""]), encoding="utf-8")
+    return str(file)
+
+
+LABEL = "Finite differences, fine"
+
+
+def test_refine_gives_a_row_for_each_resolution(environment: dict[str, str], methods_file: str, tmp_path: Path) -> None:
+    arguments = ("--methods", methods_file, "--kappa-over-nu", "0.5", "--refine", "0.25,0.5", "--out", str(tmp_path))
+    rows = bentbeam(environment, "match", *arguments, "--json")["rows"]
+    assert [(row["label"], row["refine"]) for row in rows] == [(LABEL, 0.25), (LABEL, 0.5)]
+    coarse, fine = (abs(row["r0"]["value"] / row["r0"]["theory"] - 1.0) for row in rows)
+    assert fine < coarse and rows[0]["steps"] < rows[1]["steps"]
+    assert (tmp_path / "work-precision.png").exists() and LABEL in (tmp_path / "match.csv").read_text()
+
+
+def test_settings_and_completion_name_it(environment: dict[str, str]) -> None:
+    found = {(s["table"], s["name"]): s["default"] for s in bentbeam(environment, "settings", "--json")}
+    assert found["differences", "nodes"] == "100" and found["differences", "steps"] == "400"
+    typed = {"_BENTBEAM_COMPLETE": "complete_bash", "COMP_CWORD": "3"}
+    for command in ("match", "study", "report", "simulate"):
+        asked = {**environment, **typed, "COMP_WORDS": f"bentbeam {command} --path diff"}
+        code = "from comparison.command_line.app import main; main()"
+        assert python(asked, code).split() == ["differences"], command
+
+
+def test_a_study_varies_what_it_has_and_says_what_it_lacks(environment: dict[str, str], methods_file: str) -> None:
+    small = ("cases/thesis_K10.toml", "--set", "run.duration=0.01", "--methods", methods_file, "--refine", "0.25,0.5")
+    rows = bentbeam(environment, "study", "far-field", *small, "--json")["rows"]
+    assert [(row["label"], row["refine"], row["setting"]) for row in rows] == [
+        (LABEL, factor, name) for factor in (0.25, 0.5) for name in ("as it is", "half the length")
+    ]
+    assert all(abs(row["reaction_error"]) < 20.0 and row["failure"] is None for row in rows)
+    (row, _) = bentbeam(environment, "study", "damping", *small, "--json")["rows"]
+    assert row["label"] == LABEL and row["failure"] == "not varied: differences has no integrator" and row["refused"]
+
+
+REPORT = """
+import sys
+from pathlib import Path
+from comparison.match import Question
+from comparison.methods import methods_from_file
+from comparison.report import page
+from comparison.store import RunStore
+
+page.compare_noise = lambda **_: (None, [])  # of this project's own path
+method, = methods_from_file(Path(sys.argv[1]))
+asked = [Question(method, 0.5, None, 0.25), Question(method, 0.5, None, 0.5), Question(method, 0.5, None, 1.0)]
+asked.append(Question(method, 0.5, (4.0, 0.0, 0.0)))
+page.write_report(Path(sys.argv[2]), methods=[method], questions=asked, store=RunStore(None))
+"""
+
+
+def test_a_report_shows_it_in_its_tables_plots_and_impacts(
+    environment: dict[str, str], methods_file: str, tmp_path: Path
+) -> None:
+    python(environment, REPORT, methods_file, str(tmp_path))
+    text = (tmp_path / "index.html").read_text(encoding="utf-8")
+    data = json.loads(re.findall(r'<script type="application/json" id="data">(.*?)</script>', text, re.S)[0])
+    for name in ("lambda0", "r0", "leading-error", "seconds", "convergence"):
+        assert LABEL in {trace["meta"]["label"] for trace in data["plots"][name]["data"]}, name
+    assert [run["label"] for run in data["impacts"][0]["methods"]] == [LABEL]
+    shown = re.sub(r"<script.*?</script>", "", text, flags=re.S)
+    assert f"<td>{LABEL}</td>" in shown or f">{LABEL}<" in shown
+    assert "acceleration is not modelled by finite differences" in shown  # first order, and an impact with loads
+    assert (tmp_path / "data" / "work-precision.png").exists()
