@@ -1,7 +1,8 @@
 """Work and precision: the errors of r₀, λ₀ (r₁, λ₁) and the lift over the seconds that they took, a line a method.
 
 It answers which integrator and which contact law, at what cost. A point lies at its error against the theory; below the
-error bar of the estimate an error means nothing, so the bar is drawn upwards from the point.
+error bar of the estimate an error means nothing, so the bar is drawn upwards from the point. Where there are many
+methods each path has panels of its own, on common axes: a colour an integrator, a marker a contact.
 """
 
 from __future__ import annotations
@@ -16,6 +17,11 @@ from comparison.match import MatchRow
 __all__ = ["draw_work_precision"]
 
 SMALLEST = 1e-7  # errors below are drawn here
+MANY = 7  # methods that one panel can tell apart
+MARKERS = "osD^vP*X"
+
+Read = Callable[[MatchRow], tuple[float | None, float | None]]
+"""What a panel shows of a row, and its error bar."""
 
 
 def draw_work_precision(rows: Sequence[MatchRow], out: Path, formats: Sequence[str] = ("png",)) -> list[Path]:
@@ -29,41 +35,109 @@ def draw_work_precision(rows: Sequence[MatchRow], out: Path, formats: Sequence[s
     return files
 
 
+def _error(what: str, least: float) -> Read:
+    def read(row: MatchRow) -> tuple[float | None, float | None]:
+        number = getattr(row, what)
+        off = number.relative(least)
+        return None if off is None else abs(off), number.relative_error(least)
+
+    return read
+
+
 def _draw(rows: Sequence[MatchRow], out: Path, name: str, first: bool, formats: Sequence[str]) -> list[Path]:
-    names = ("r1", "lambda1") if first else ("r0", "lambda0")
-    least = 1.0 if first else 0.0
-
-    def error(what: str) -> Callable[[MatchRow], float | None]:
-        def read(row: MatchRow) -> float | None:
-            off = getattr(row, what).relative(least)
-            return None if off is None else abs(off)
-
-        return read
-
+    measured = ("r1", "lambda1") if first else ("r0", "lambda0")
     symbols = {"r0": "$r_0$", "lambda0": r"$\lambda_0$", "r1": "$r_1$", "lambda1": r"$\lambda_1$"}
-    panels: list[tuple[str, Callable[[MatchRow], float | None]]] = [
-        (f"error of {symbols[what]}  (1)", error(what)) for what in names
+    panels: list[tuple[str, Read]] = [
+        (f"error of {symbols[what]}  (1)", _error(what, 1.0 if first else 0.0)) for what in measured
     ]
-    panels.append((r"lift $/(V_0t)$  (1)", lambda row: row.lift))
+    panels.append((r"lift $/(V_0t)$" + (", no load" if first else "") + "  (1)", lambda row: (row.lift, None)))
+    paths = list(dict.fromkeys(r.path for r in rows))
+    apart = len({r.label for r in rows}) > MANY and len(paths) > 1
+    groups = [[r for r in rows if r.path == path] for path in paths] if apart else [list(rows)]
+    marks = {label: mark for group in groups for label, mark in _marks(group).items()}
     cases = sorted({(r.kappa_over_nu, r.first) for r in rows})
-    marks = style.marks(r.label for r in rows)
-    below = 0.16 * -(-len(marks) // 2) + 0.2
-    with style.figure(len(cases), 3, width=style.PAGE, height=2.4 * len(cases) + below, squeeze=False) as (fig, axes):
-        for line, (kappa, load) in enumerate(cases):
+    lines = [(case, group) for case in cases for group in groups if any(_case(r) == case for r in group)]
+    columns = _columns(groups)
+    below = 0.16 * len(columns[0]) + 0.2
+    size = {"width": style.PAGE, "height": 1.9 * len(lines) + 0.5 + below}
+    with style.figure(len(lines), len(panels), **size, squeeze=False, sharex=True, sharey="col") as (fig, axes):
+        for line, (case, group) in enumerate(lines):
             for axis, (title, read) in zip(axes[line], panels):
                 for label, mark in marks.items():
-                    mine = [r for r in rows if (r.label, r.kappa_over_nu, r.first) == (label, kappa, load)]
-                    points = [(r.seconds, read(r)) for r in sorted(mine, key=lambda r: r.refine)]
-                    drawn = [(s, max(e, SMALLEST)) for s, e in points if s is not None and e is not None]
-                    if drawn:
-                        axis.plot(*zip(*drawn), **{**mark, "ls": "-", "lw": 0.7})
+                    _line(axis, [r for r in group if r.label == label and _case(r) == case], read, mark)
                 axis.set_xscale("log")
                 axis.set_yscale("log")
                 axis.set_ylabel(title)
-                if line == len(cases) - 1:
+                if line == len(lines) - 1:
                     axis.set_xlabel("seconds  (s)")
-            heading = rf"$\kappa/\nu$ = {kappa:g}" + (f", ({', '.join(f'{v:g}' for v in load)})" if first else "")
-            axes[line][0].set_title(heading, loc="left")
-        handles: list[Any] = axes[0][0].get_legend_handles_labels()[0]
-        fig.legend(handles, list(marks), loc="outside lower center", ncols=2, fontsize=6.5)
+            axes[line][0].set_title(_title(case, group[0].path if apart else "", first), loc="left")
+        names = [label for column in columns for label in column]
+        looks = [{**marks[label], "ls": "-", "lw": 0.7} if label else {"ls": ""} for label in names]
+        handles = [axes[0][0].plot([], [], **look)[0] for look in looks]
+        fig.legend(handles, names, loc="outside lower center", ncols=len(columns), fontsize=6.5)
         return style.save(fig, out, name, formats)
+
+
+def _columns(groups: Sequence[Sequence[MatchRow]]) -> list[list[str]]:
+    """Labels as columns of a legend, all as long as the first: one for each group, or two of a single one."""
+    found = [list(dict.fromkeys(r.label for r in group)) for group in groups]
+    if len(found) == 1:
+        half = -(-len(found[0]) // 2)
+        found = [found[0][:half], found[0][half:]]
+    longest = max(map(len, found))
+    return [column + [""] * (longest - len(column)) for column in found]
+
+
+def _case(row: MatchRow) -> tuple[float, tuple[float, ...]]:
+    return row.kappa_over_nu, row.first
+
+
+def _title(case: tuple[float, tuple[float, ...]], path: str, first: bool) -> str:
+    kappa, load = case
+    words = rf"$\kappa/\nu$ = {kappa:g}"
+    if first:
+        symbols = r"$\alpha, \psi, \chi$" + (", $N$" if load[3] else "")
+        words += rf", ({symbols}) = ({', '.join(f'{v:g}'.replace('-', '−') for v in load[: 4 if load[3] else 3])})"
+    return f"{words}, path {path}" if path else words
+
+
+def _line(axis: Any, rows: Sequence[MatchRow], read: Read, mark: dict[str, Any]) -> None:
+    """One method over its refinements, with the error bars upwards."""
+    points = []
+    for row in sorted(rows, key=lambda r: r.refine):
+        value, bar = read(row)
+        if value is not None and row.seconds:
+            points.append((row.seconds, max(value, SMALLEST), value + (bar or 0.0)))
+    if not points:
+        return
+    seconds, values, tops = zip(*points)
+    axis.vlines(seconds, values, [max(v, t) for v, t in zip(values, tops)], color=mark["color"], lw=0.5, alpha=0.4)
+    axis.plot(seconds, values, **{**mark, "ls": "-", "lw": 0.7})
+
+
+def _marks(rows: Sequence[MatchRow]) -> dict[str, dict[str, Any]]:
+    """Marker and colour by label: few methods as everywhere; many by contact and integrator, where that tells them
+    apart."""
+    labels = list(dict.fromkeys(r.label for r in rows))
+    parts = {r.label: tuple(_kind(r, name) for name in ("integrator", "contact")) for r in rows}
+    if len(labels) <= 4 or len(set(parts.values())) < len(labels):
+        return style.marks(labels)
+    integrators, contacts = (list(dict.fromkeys(p[i] for p in parts.values())) for i in (0, 1))
+    return {
+        label: {
+            "color": style.SEQUENCE[integrators.index(parts[label][0]) % len(style.SEQUENCE)],
+            "marker": MARKERS[contacts.index(parts[label][1]) % len(MARKERS)],
+            "ms": 4.0,
+            "mfc": "none",
+            "mew": 1.0,
+            "ls": "",
+            "label": label,
+        }
+        for label in labels
+    }
+
+
+def _kind(row: MatchRow, name: str) -> str:
+    """The kind of a part in a row's settings."""
+    part = row.settings.get(name)
+    return str(part.get("kind")) if isinstance(part, dict) else ""
