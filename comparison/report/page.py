@@ -48,6 +48,7 @@ from comparison.report.text import (
     problem_answer,
     speed_answer,
 )
+from comparison.report.work import StoredMeasurement, stored_measurements
 from comparison.store import RunStore, write_atomically
 from comparison.tables import write_match
 from comparison.whole_impact import map as whole_impact
@@ -69,6 +70,7 @@ class Content:
     pipe: Pipe | None = None
     bounce: Mapping[str, Any] | None = None
     studies: Sequence[StudyNote] = ()
+    work: Sequence[StoredMeasurement] = ()
     pictures: Sequence[Path] = ()
     guides: Sequence[Guide] = ()
     seconds: float = 0.0
@@ -119,6 +121,7 @@ def write_report(
         pipe=pipe_verdict(),
         bounce=whole_impact.stored_map() if whole_impact.DATA.exists() else None,
         studies=stored_studies(),
+        work=stored_measurements(),
         pictures=[f for f in files if f.suffix == ".png"],
         guides=guides(out),
         seconds=clock.perf_counter() - began,
@@ -226,6 +229,7 @@ def page(content: Content) -> str:
         impact_warnings=[(i, w) for i in content.impacts for w in i.warnings],
         lost_impacts=content.lost_impacts,
         studies=[(s, s.conclusion.removesuffix(ending).strip()) for s in content.studies],
+        work=[(w, picture(w.picture)) for w in content.work if w.picture.exists()],
         studies_ending=ending,
         study_dates=span_of([note.date for note in content.studies if note.date]),
         pictures={p.stem: picture(p) for p in content.pictures if p.exists()}

@@ -15,6 +15,8 @@ import numpy as np
 import pytest
 
 from comparison.figures.force_map import force_map, spread
+from comparison.match import questions
+from comparison.methods import methods_from_file
 from comparison.report import page as report_module
 from comparison.report import studies
 from comparison.report.impacts import END, FRAMES, SHOWN, frames, kept_instants, theory_of
@@ -28,8 +30,17 @@ from comparison.report.rows import (
     table_row,
     tolerance,
 )
-from comparison.report.studies import StudyNote, case_of, common_ending, known_studies, store_studies, stored_studies
+from comparison.report.studies import (
+    STORED,
+    StudyNote,
+    case_of,
+    common_ending,
+    known_studies,
+    store_studies,
+    stored_studies,
+)
 from comparison.report.text import acceleration_rows, edge_answer, headline, noise_answer, percent, speed_answer
+from comparison.report.work import stored_measurements
 from comparison.store import RunStore
 
 sys.path.insert(0, str(Path(__file__).parent))
@@ -142,7 +153,7 @@ def test_report_is_written_when_rows_fail(tmp_path: Path, monkeypatch: pytest.Mo
     assert "the solver gave up" in text
     pictures = [value for tag, name, value in read(text).attributes if tag == "img" and name == "src"]
     # matching and work-precision, three impacts, maps, acceleration, noise; the stored studies
-    assert len(pictures) == 9 + sum(n.picture.exists() for n in stored_studies())
+    assert len(pictures) == 9 + sum(n.picture.exists() for n in [*stored_studies(), *stored_measurements()])
     assert seen[-1][0] == seen[-1][1]
 
 
@@ -314,6 +325,22 @@ def test_dates_of_studies_are_one_day_or_a_span() -> None:
     assert span_of([]) == ""
     assert span_of(["2026-01-02", "2026-01-02"]) == "on 2026-01-02"
     assert span_of(["2026-01-03", "2026-01-02"]) == "from 2026-01-02 to 2026-01-03"
+
+
+def test_stored_work_and_precision_holds_every_method_of_its_list() -> None:
+    """Both codes on one sheet, leading and first order; what has no number says why."""
+    assert [m.name for m in stored_measurements()] == [m.name for m in MEASUREMENTS]
+    for measurement in MEASUREMENTS:
+        document = json.loads((STORED / f"{measurement.name}.json").read_text())
+        methods = methods_from_file(LISTS / measurement.methods)
+        asked = questions(methods, [KAPPA], measurement.firsts, measurement.refines)
+        assert [(r["label"], r["refine"], r["alpha"]) for r in document["rows"]] == [
+            (q.method.label, q.refine, q.first[0] if q.first else 0.0) for q in asked
+        ]
+        assert {method.path for method in methods} >= {"hermite", "exudyn"}
+        for row in document["rows"]:
+            numbers = [row[name]["value"] for name in (("lambda1", "r1") if row["alpha"] else ("lambda0", "r0"))]
+            assert (None in numbers) == bool(row["reason"]), row["label"]
 
 
 def test_sentence_shared_by_studies_is_said_once() -> None:

@@ -1,0 +1,130 @@
+"""Work and precision of many methods, for the report and the README: rows and pictures, stored with their date.
+
+They take minutes, so the report shows what ``python -m comparison.report.work`` has measured and written to
+``stored/``: all integrators with all contacts at leading order, and the integrators at first order. An interrupted
+measurement goes on where it was; ``python -m comparison.report.work NAME`` makes one of them anew.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import sys
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import Any
+
+from bent_beam.versions import versions
+from comparison.figures.work_precision import draw_work_precision
+from comparison.match import First, MatchRow, match, questions
+from comparison.methods import methods_from_file
+from comparison.plain import json_text
+from comparison.report.studies import STORED
+from comparison.store import RunStore, default_store, write_atomically
+
+__all__ = ["MEASUREMENTS", "Measurement", "StoredMeasurement", "store_measurement", "stored_measurements"]
+
+LISTS = Path(__file__).resolve().parents[2] / "cases" / "methods"
+KAPPA = 0.5
+KEPT = ("label", "path", "kappa_over_nu", "alpha", "psi", "chi", "axial", "refine", "lambda0", "r0", "lambda1", "r1",
+        "lift", "pull", "hold", "seconds", "steps", "reason")  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Measurement:
+    """What is measured. methods : a list in cases/methods; limit : s, for one row."""
+
+    name: str
+    title: str
+    methods: str
+    refines: tuple[float, ...]
+    firsts: tuple[First, ...] = ()
+    limit: float = 60.0
+
+    @property
+    def command(self) -> str:
+        """The same rows from the command line."""
+        words = [f"bentbeam match --methods cases/methods/{self.methods} --kappa-over-nu {KAPPA:g}"]
+        words += [f"--first-order={','.join(f'{v:g}' for v in first[:3])}" for first in self.firsts]
+        words.append(f"--refine {','.join(f'{r:g}' for r in self.refines)} --limit {self.limit:g} --jobs 2 --out out")
+        return " ".join(words)
+
+
+MEASUREMENTS = (
+    Measurement("work-precision", "all integrators with all contacts, leading order", "all.toml", (1.0, 2.0)),
+    Measurement(
+        "work-precision-first-order",
+        "integrators, first order",
+        "first_order.toml",
+        (0.5, 1.0),
+        ((4.0, 0.0, 0.0, 0.0), (-1.0, -1.0, 0.0, 0.0)),
+        limit=120.0,
+    ),
+)
+
+
+@dataclass(frozen=True)
+class StoredMeasurement:
+    """A measurement as it is stored; ``lost`` : its rows without a number, with the reason of each."""
+
+    name: str
+    title: str
+    command: str
+    date: str
+    lost: tuple[tuple[str, str], ...]
+
+    @property
+    def picture(self) -> Path:
+        """Its picture."""
+        return STORED / f"{self.name}.png"
+
+
+def store_measurement(measurement: Measurement, *, jobs: int = 1) -> Path:
+    """Measure and write rows and picture to ``stored/``; returns the file of rows."""
+    asked = questions(methods_from_file(LISTS / measurement.methods), [KAPPA], measurement.firsts, measurement.refines)
+    rows = match(asked, store=RunStore(default_store()), jobs=jobs, limit=measurement.limit)
+    document = {
+        "what": f"work and precision: {measurement.title}",
+        "made_by": f"python -m comparison.report.work {measurement.name}",
+        "command": measurement.command,
+        "date": datetime.now(UTC).date().isoformat(),
+        "versions": versions(),
+        "settings": {row.label: row.settings for row in rows},
+        "rows": [_kept(row) for row in rows],
+    }
+    draw_work_precision(rows, STORED)
+    file = STORED / f"{measurement.name}.json"
+    write_atomically(file, json_text(document, indent=1) + "\n")
+    return file
+
+
+def _kept(row: MatchRow) -> dict[str, Any]:
+    whole = asdict(row)
+    return {name: whole[name] for name in KEPT}
+
+
+def stored_measurements() -> list[StoredMeasurement]:
+    """What is stored, in the order of :data:`MEASUREMENTS`."""
+    found = []
+    for measurement in MEASUREMENTS:
+        file = STORED / f"{measurement.name}.json"
+        if not file.exists():
+            continue
+        document = json.loads(file.read_text(encoding="utf-8"))
+        lost = tuple({row["label"]: row["reason"] for row in document["rows"] if row["reason"]}.items())
+        date, command = document["date"], document["command"]
+        found.append(StoredMeasurement(measurement.name, measurement.title, command, date, lost))
+    return found
+
+
+def main(names: Sequence[str]) -> None:
+    """Store the measurements of these names (none: all)."""
+    for measurement in MEASUREMENTS:
+        if not names or measurement.name in names:
+            print(store_measurement(measurement, jobs=max(1, os.cpu_count() or 1)))
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])
