@@ -82,8 +82,17 @@ def test_the_first_order_is_matched_everywhere(method, kappa, first):
 
 
 @pytest.mark.verify
-@pytest.mark.parametrize("kappa", [0.3, 0.5, 0.8])
-@pytest.mark.parametrize("first", [(4.0, 0.0, 0.0), (1.0, 1.0, 1.0), (-1.0, -1.0, 0.0)])
+@pytest.mark.parametrize("kappa", [0.2, 0.4, 0.65])
+@pytest.mark.parametrize("first", [(2, -1, 0.5), (0, -2, 1), (4, 0, 0), (-1, -1, 1)])
+def test_the_nonsmooth_solver_matches_the_first_order_in_between(kappa, first):
+    row = answer(Question(HermiteFE(), kappa, tuple(map(float, first))), KEEP)
+    assert off(row.lambda1, 1.0) < 0.01
+    assert off(row.r1, 1.0) < 0.01
+
+
+@pytest.mark.verify
+@pytest.mark.parametrize("kappa", [0.3, 0.4, 0.5, 0.65, 0.8])
+@pytest.mark.parametrize("first", [(4.0, 0.0, 0.0), (1.0, 1.0, 1.0), (-1.0, -1.0, 0.0), (2.0, -1.0, 0.5)])
 def test_exudyn_matches_the_first_order(kappa, first):
     row = answer(Question(ExudynModel(), kappa, first), KEEP)
     assert off(row.lambda1, 1.0) < 0.03

@@ -75,6 +75,16 @@ def test_python_s_own_arithmetic_is_left_as_it_was() -> None:
 
 
 @every
+def test_kernels_that_are_compiled_beforehand_take_the_same_steps(integrator: Integrator) -> None:
+    ready, cold = long_beam(50, integrator), long_beam(50, integrator)
+    ready.compile()
+    assert ready.step == 0 and np.array_equal(ready.state.q, cold.state.q) and ready.iterations() == cold.iterations()
+    for run in (ready, cold):
+        run.advance_to(20)
+    assert np.array_equal(ready.state.q, cold.state.q) and np.array_equal(ready.state.v, cold.state.v)
+
+
+@every
 def test_a_step_of_one_ulp_changes_nothing_to_speak_of(integrator: Integrator) -> None:
     run = long_beam(50, integrator)
     run.advance_to(100)
