@@ -154,8 +154,8 @@ def _loaded(bare: Impact, epsilon: float, first: First) -> Impact:
 
 
 def _reduced(store: RunStore, method: Method, impact: Impact, *, uniform: bool = False) -> _Reduced:
-    """A run reduced to moments, from the store when it is there; ``uniform``: see :func:`moments`. A run without loads
-    that others are held against must be reduced as they are, or what noise they share does not drop out."""
+    """A run reduced to moments, from the store where it is there; ``uniform``: see :func:`moments`. The run without
+    loads must be reduced as the loaded ones are, or the noise that they share does not drop out."""
     question = {
         "settings": settings_of(method) | {"label": ""},
         "source": source_of(type(method)),
@@ -201,7 +201,7 @@ def first_order_epsilon(leading: LeadingEstimate, first: First, perturbation: fl
 
 @dataclass(frozen=True)
 class _Estimates:
-    """What the runs of one resolution gave."""
+    """What the runs at one resolution gave: ``run`` alone without loads, ``runs`` all of them."""
 
     run: _Reduced
     runs: list[_Reduced]
@@ -219,7 +219,7 @@ def _estimates(question: Question, factor: float, store: RunStore, epsilon: floa
     if method is None:
         raise Refused(f"refine: {asked.path} does not know how to be refined (got {factor:g})")
     bare = Impact.dimensionless(question.kappa_over_nu)
-    _ask(method, bare)
+    _raise_if_refused(method, bare)
     run = _reduced(store, method, bare)
     runs = [run]
     leading = leading_order(run.moments)
@@ -229,7 +229,7 @@ def _estimates(question: Question, factor: float, store: RunStore, epsilon: floa
         if top is None:
             top = first_order_epsilon(leading, first, getattr(asked, "perturbation", PERTURBATION))
         largest = _loaded(bare, top, first)
-        _ask(method, largest)
+        _raise_if_refused(method, largest)
         fixed = chosen_for(method, largest, DURATION * bare.time_scale)
         # only a load that presses the zone leaves a uniform reaction to take out (tension alone: 0 to rounding)
         pressed = bool(largest.zone_pressure > 1e-9 * top)
@@ -240,7 +240,8 @@ def _estimates(question: Question, factor: float, store: RunStore, epsilon: floa
     return _Estimates(run, runs, leading, estimate)
 
 
-def _ask(method: Method, impact: Impact) -> None:
+def _raise_if_refused(method: Method, impact: Impact) -> None:
+    """Ask the method before its run. Raises :class:`Refused` with its reason."""
     reason = method.refuses(impact)
     if reason:
         raise Refused(reason)
@@ -312,7 +313,7 @@ def _about(question: Question) -> dict[str, Any]:
 
 
 def _attempt(question: Question, folder: str | None) -> MatchRow:
-    """One question in a worker: a failure is an answer too, so that the rest of a sweep goes on."""
+    """One question in a worker: a failure is an answer too, so that the sweep goes on."""
     try:
         return answer(question, RunStore(Path(folder) if folder else None))
     except SimulationError as error:

@@ -1,4 +1,4 @@
-"""What every reader of a history asks of it: lift, pull, hold, bending moment. Written once, here."""
+"""What every reader of a history asks of it: pull, hold, bending moment. Written once, here."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ __all__ = ["PeakMoment", "bending_moments", "hold_of", "peak_moment", "pull_of"]
 
 Array = NDArray[np.float64]
 CHUNK = 256  # saved instants at once
-START = 0.01  # of the run: what a start may be held for
+START = 0.01  # of the run: while this lasts, a start may be held
 
 
 class PeakMoment(NamedTuple):
