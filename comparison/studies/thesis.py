@@ -153,9 +153,11 @@ def _outcome(variant: Variant) -> Outcome:
         return variant.lost(str(error))
     except ValueError as error:
         return variant.lost(str(error), refused=True)
+    except Exception as error:  # of a method of somebody else's: the other runs go on
+        return variant.lost(f"{type(error).__name__}: {error}")
     try:
         return outcome_of(history, variant.label, value=variant.value, **variant.about)
-    except (ValueError, ArithmeticError) as error:
+    except (ValueError, ArithmeticError, KeyError) as error:
         return variant.lost(f"nothing can be read off this run: {error}")
 
 
