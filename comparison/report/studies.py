@@ -100,6 +100,7 @@ def store_studies(names: Sequence[str], *, jobs: int = 1) -> Path:
         raise ValueError(f"{', '.join(kept)}: measured with other versions; run all studies again")
     wanted = [(name, titles[name]) for name in titles if name in names]
     notes = run_all(_note, wanted, jobs=jobs, on_death=lambda i, why: lost(*wanted[i], why))
+    kept = {note.name: note for note in stored_studies() if note.name in kept}  # another run may have written since
     found = kept | {note.name: note for note in notes}
     document = {
         "what": "conclusions of the parameter studies, for the report",
