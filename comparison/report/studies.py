@@ -173,4 +173,6 @@ if __name__ == "__main__":
     parser.add_argument("names", nargs="*", metavar="NAME", help="studies to measure again (all)")
     parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1)
     given = parser.parse_args()
-    print(store_studies(given.names or list(known_studies()), jobs=given.jobs))
+    rounds = [given.names[i : i + given.jobs] for i in range(0, len(given.names), given.jobs)]
+    for names in rounds or [list(known_studies())]:  # what is measured one by one is kept one by one
+        print(store_studies(names, jobs=given.jobs), *names, flush=True)
