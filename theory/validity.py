@@ -40,8 +40,9 @@ from theory.similarity import SelfSimilarWave
 DATA = Path(__file__).with_name("ends.json")
 #: Bound of the third order over x³.
 THIRD_ORDER = 0.1
-#: Flattest contact for which λ₂ and r₂ keep digits; beyond it x² stands for them.
-FLATTEST = 1e5
+#: λ₀ of the flattest contact for which r₂ keeps a digit (5 % off there, thirty times at ten times that); beyond it x²,
+#: which is more, stands for both.
+FLATTEST = 1e4
 #: Slope at which an arch is 2 % lower than its parabola, θ²/12.
 SLOPE_LIMIT = math.sqrt(12.0 * 0.02)
 #: Shear times t_s after which Euler and Bernoulli's beam is within the tolerance, for a zone and for one point.
