@@ -28,17 +28,23 @@ from theory.contact import DETACHED, ContactParameters
 
 _TURN = np.exp(-0.25j * np.pi) / 2.0
 _SLOPE = float(np.sqrt(2.0 / np.pi))
-_FAR = 9.0  # |z| from which the asymptotic series of iⁿerfc is the better of the two
+_NEAR = 1.0  # |z| below which the recurrence of iⁿerfc may run upwards
+_LAST, _LAST_NEAR = 30, 220.0  # n from which it runs downwards: _LAST + _LAST_NEAR/|z|²
 
 
 @dataclass(frozen=True)
 class SecondOrder:
-    """λ₂ and r₂ of one impact, and its λ₁ and r₁ once more, found on the way without any φ."""
+    """λ₂ and r₂ of one impact, and its λ₁ and r₁ once more, found on the way without any φ.
+
+    opening: rate at which the loads change the curvature of the gap at the front, in τ; one point, whose gap has
+        κ − ν at first, spreads once it is gone.
+    """
 
     lambda1: float
     r1: float
     lambda2: float
     r2: float
+    opening: float
 
 
 def second_order(parameters: ContactParameters) -> SecondOrder:
@@ -56,23 +62,28 @@ def second_order(parameters: ContactParameters) -> SecondOrder:
 
 
 def _scaled(z: complex) -> dict[int, complex]:
-    """e^{z²} iⁿerfc(z) for n = −3…6."""
+    """e^{z²} iⁿerfc(z) for n = −3…6, Re z ≥ 0, to rounding.
+
+    The recurrence 2n iⁿerfc = iⁿ⁻²erfc − 2z iⁿ⁻¹erfc loses digits upwards, where iⁿerfc is its minimal solution; so
+    their ratios r_n = iⁿ/iⁿ⁻¹ are taken downwards, r_{n−1} = 1/(2z + 2n r_n), from where the start is forgotten.
+    """
     gauss = 2.0 / np.sqrt(np.pi)
-    values: dict[int, complex] = {-1: complex(gauss), 0: complex(wofz(1j * z))}
+    values: dict[int, complex] = {-1: complex(gauss)}
     values[-2] = 2.0 * z * values[-1]
     values[-3] = 2.0 * z * values[-2] - 2.0 * values[-1]
-    for n in range(1, 7):
-        values[n] = (values[n - 2] - 2.0 * z * values[n - 1]) / (2.0 * n)
-    if abs(z) > _FAR:
-        for n in range(0, 7):
-            term, total = gauss / (2.0 * z) ** (n + 1), 0j
-            for m in range(30):
-                total += term
-                following = term * -(2 * m + n + 1) * (2 * m + n + 2) / ((m + 1) * (2.0 * z) ** 2)
-                if abs(following) >= abs(term):
-                    break
-                term = following
-            values[n] = total
+    if abs(z) < _NEAR:
+        values[0] = complex(wofz(1j * z))
+        for n in range(1, 7):
+            values[n] = (values[n - 2] - 2.0 * z * values[n - 1]) / (2.0 * n)
+        return values
+    last = _LAST + int(_LAST_NEAR / abs(z) ** 2)
+    ratio = 1.0 / (z + np.sqrt(z * z + 2.0 * last))
+    ratios = {}
+    for n in range(last, 0, -1):
+        ratio = 1.0 / (2.0 * z + 2.0 * n * ratio)
+        ratios[n - 1] = ratio
+    for n in range(7):
+        values[n] = values[n - 1] * ratios[n]
     return values
 
 
@@ -144,7 +155,7 @@ class _Front:
             g2 = inside + a2 * quartic + b2 * sextic
             g2[:2] = 0.0  # the wave meets the free motion, not the middle, in deflection and slope
         _, lambda2, r2 = self._system(w2, rest2[:4] + moved - g2[:4], jump)
-        return SecondOrder(lambda1, r1, lambda2, r2)
+        return SecondOrder(lambda1, r1, lambda2, r2, float(d1[2]))
 
     def _amplitude(self) -> complex:
         """B₀ at the front: slope and third derivative for one point, curvature and third derivative for a zone."""
