@@ -41,10 +41,28 @@ def verdict(case: Case, times: Sequence[float], *, simulate: bool = False) -> di
     document["warnings"] = [*case.warnings, *document["warnings"]]
     bounce = bounce_from_map(impact.kappa_over_nu, impact.relative_damping) if _free(case) else None
     document["bounce"] = None if bounce is None else {name: number.to_dict() for name, number in bounce.items()}
+    document["warnings"] += _left(document)
     if simulate:
         document["simulated"] = _simulated(case, times)
     document["summary"] = prediction.summary()
     return document
+
+
+def _left(document: dict[str, Any]) -> list[str]:
+    """A sentence on the times at which the beam has left the wall for good, where the map tells that."""
+    last = None if document["bounce"] is None else document["bounce"]["last_contact"]
+    if last is None:
+        return []
+    band = last.get("band")
+    latest = band["mean"] + 2.0 * band["std"] if band else last["value"] + last["error"] if last["value"] else None
+    later = [] if latest is None else [r for r in document["times"] if r["time"] > latest * document["slow_time_scale"]]
+    if not later:
+        return []
+    instants = [f"{row['time']:.4g} s" for row in later]
+    return [
+        f"At {', '.join(instants)} the beam has left the wall: its last contact is over by "
+        f"{latest * document['slow_time_scale']:.3g} s."
+    ]
 
 
 def _free(case: Case) -> bool:

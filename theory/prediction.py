@@ -10,7 +10,7 @@ With c = √(EI/μ), ν = 1, τ = t/t*, and r̃₁ = ε(α′+ψ)⁺ μV₀/t* i
 K_n the curvature free of stress. Only the products εα, εψ, εχ, n are physical (the deflection scale y* of the slow
 motion is free): λ₁ and r₁ are linear in them, so ελ₁ and εr₁ are solved for and divided by ε last. Where the beam
 touches in one point, its own damping η changes r₀ and M by the factors of `theory.damped_point`; for a zone there is
-no such form, and the prediction is the undamped one.
+no such form, and the factors are measured ones (`theory.damped_zone`).
 """
 
 from __future__ import annotations
@@ -20,8 +20,10 @@ from collections.abc import Iterable
 from dataclasses import asdict, dataclass
 from typing import Any, Protocol
 
+import numpy as np
+
 from bent_beam.impact import Impact
-from theory import damped_point
+from theory import damped_point, damped_zone
 from theory.contact import DISCRETE, ContactParameters, contact_parameters
 from theory.moment import PeakMoment, peak_moment_of
 from theory.validity import (
@@ -33,7 +35,6 @@ from theory.validity import (
     SLOPE,
     TENSION,
     validity,
-    zone_damping_times,
 )
 
 #: Damping times after which the undamped impulse of one point is within 2 %: 1/(8·0.02).
@@ -65,7 +66,7 @@ class PredictionAtTime:
     """The impact at one time after first contact, SI units.
 
     None where a value does not exist: the reaction at t = 0 (it starts as 1/√t), lengths, forces and impulse once
-    the first-order correction has outgrown the leading order, stress without a section.
+    the first-order correction has outgrown the leading order or the contact the beam, stress without a section.
 
     Attributes:
         contact_force_per_length: the uniform reaction in the zone, N/m.
@@ -257,14 +258,20 @@ def _at_time(
     uniform = float(solved.uniform_reaction) * momentum / impact.time_scale
     front = 2.0 * math.sqrt(2.0 / math.pi) * momentum * root
     length = root * math.sqrt(t) * spread
-    exists = spread >= 0.0 and push > 0.0
+    exists = spread >= 0.0 and push > 0.0 and length <= impact.half_length
     of_force = of_impulse = of_moment = 1.0
-    if solved.regime == DISCRETE and impact.damping > 0.0 and 0.0 < t < 1e12 * impact.damping:
+    of_loads = of_impulse_of_loads = 1.0
+    if impact.damping > 0.0 and 0.0 < t < 1e12 * impact.damping:
         age = t / impact.damping
-        of_force, of_impulse = float(damped_point.reaction_ratio(age)), float(damped_point.impulse_ratio(age))
-        of_moment = float(damped_point.moment_ratio(age))
+        if solved.regime == DISCRETE:
+            of_force, of_impulse = float(damped_point.reaction_ratio(age)), float(damped_point.impulse_ratio(age))
+            of_moment = float(damped_point.moment_ratio(age))
+        else:
+            of_length, of_force, of_impulse = damped_zone.ratios(solved.kappa_over_nu, solved.r0, age)[:, 0].tolist()
+            length *= of_length
+            of_loads, of_impulse_of_loads = of_force, of_impulse
     moment, place = bending.peak(of_moment)
-    force = front * (of_force * solved.r0 + solved.r1 * tau)
+    force = front * (of_force * solved.r0 + of_loads * solved.r1 * tau)
     return PredictionAtTime(
         time=t,
         tau=tau,
@@ -272,7 +279,7 @@ def _at_time(
         reaction=force / math.sqrt(t) + 2.0 * length * uniform if exists and t > 0.0 else None,
         contact_force_per_length=uniform if exists else None,
         impulse=(
-            2.0 * front * math.sqrt(t) * (of_impulse * solved.r0 + solved.r1 * tau / 3.0)
+            2.0 * front * math.sqrt(t) * (of_impulse * solved.r0 + of_impulse_of_loads * solved.r1 * tau / 3.0)
             + 4.0 * uniform * root * t**1.5 * (solved.lambda0 / 3.0 + solved.lambda1 * tau / 5.0)
             if exists
             else None
@@ -285,7 +292,12 @@ def _at_time(
 
 
 def _damping_times(solved: ContactParameters) -> float:
-    return POINT_DAMPING_TIMES if solved.regime == DISCRETE else zone_damping_times(solved.kappa_over_nu)
+    """t/η from which damping changes force and impulse by less than 2 %."""
+    if solved.regime == DISCRETE:
+        return POINT_DAMPING_TIMES
+    ages = np.geomspace(1.0, 1e6, 1000)
+    change = np.abs(damped_zone.ratios(solved.kappa_over_nu, solved.r0, ages)[1:] - 1.0).max(axis=0)
+    return float(ages[np.flatnonzero(change > 0.02)[-1]]) if np.any(change > 0.02) else float(ages[0])
 
 
 def _warnings(impact: Impact, solved: ContactParameters) -> list[str]:
@@ -296,10 +308,10 @@ def _warnings(impact: Impact, solved: ContactParameters) -> list[str]:
             f"The compression of {-impact.axial_force:.4g} N is beyond the Euler load pi^2 EI/L^2 = {buckling:.4g} N: "
             "a free beam of this length would buckle."
         )
-    if impact.damping > 0.0 and solved.regime != DISCRETE:
+    if impact.damping > 0.0 and solved.kappa_over_nu < damped_zone.flattest():
         found.append(
-            f"The beam's own damping is not in the theory of a contact zone; it matters before about "
-            f"{_damping_times(solved) * impact.damping:.3g} s."
+            f"What the beam's own damping does to so flat a contact was not measured (kappa/nu below "
+            f"{damped_zone.flattest():g}): the numbers are those of kappa/nu = {damped_zone.flattest():g}'s damping."
         )
     return found
 
@@ -324,7 +336,7 @@ _ENDS_OF_VALIDITY = {
     ENDS: "waves come back from the beam's ends, which the theory takes to be infinitely far",
     FIRST_ORDER: "the loads change the contact so much that the first-order correction is no longer enough",
     TENSION: "the axial force changes the contact so much that the first-order correction is no longer enough",
-    DAMPING: "the beam's own damping, which the theory of a contact zone lacks, acts as long as nothing else does",
+    DAMPING: "the beam's own damping rules, and was not measured for so flat a contact",
     SLOPE: "the beam's slopes are no longer small",
     SHEAR: "the beam is so stubby that it shears before it bends, all the time that the ends leave",
     SECTION: "the bending stress is beyond the yield stress from the first instant on",
@@ -368,7 +380,10 @@ def _summary_of_validity(p: Prediction) -> list[str]:
         start = f"from {p.valid_from:.3g} s " if p.valid_from > 0.0 else ""
         lines = [f"This holds {start}until {p.valid_until:.3g} s, to 2 %: then {reason}."]
     if any(row.half_contact_length is None for row in p.times):
-        lines.append("Where there is a dash the correction exceeds the leading order: the theory does not hold there.")
+        lines.append(
+            "Where there is a dash the correction exceeds the leading order, or the contact the beam: the theory does "
+            "not hold there."
+        )
     if any(not row.valid for row in p.times):
         lines.append("For other times simulate: bentbeam predict --simulate, or bentbeam simulate.")
     return lines

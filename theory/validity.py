@@ -1,17 +1,18 @@
 r"""Until when the theory of the first instants holds for a real beam, and what ends it.
 
-Waves that have been at the ends are measured on the whole beam (`ends.json`), the second order in the loads and the
-axial force is known (`theory.second_order`), the third is bounded by measurement, and the beam's own damping η acts on
-a zone at early times, without a closed form. With their relative errors of half length, force and impulse
+What half length, force and impulse lack is added up with its signs: waves that have been at the ends, and those that
+start there where the free motion has a fourth derivative (measured on the whole beam, `ends.json`); the second order in
+the loads and the axial force (`theory.second_order`); and what damping changes of the answer of a zone to them
+(measured, `theory.damped_zone`). The third order is bounded by measurement. With their relative errors e_i(t)
 
-    e(t) = tol·(t/t_ends)² + max(|λ₂|τ²/λ, |r₂|τ²/r) + 0.1 x³,   x = max(|λ₁|τ/λ₀, |r₁|τ/r₀),   d(t) = tol·t_η/t,
+    max |e_i| + 0.1 x³ ≤ ¾ tol,   tol = 2 %,   x = max(|λ₁|τ/λ₀, |r₁|τ/r₀);
 
-the theory holds while √(e² + d²) ≤ tol = 2 %, d being independent of the rest. The square in e: on the damped beam
-what comes from the ends grows faster. t_η is measured: 7η at κ/ν = 0.5, but hundreds of η below 0.3, where what
-damping does to the first instant stays in the impulse.
-0.1x³: on the self-similar path the error of first order exceeds the second by at most 0.09x³ for a load α at
-κ/ν = 0.05 … 0.8, both regimes (docs/theory.md). ε is not in it: the leading order is exact at any ε until the ends are
-felt.
+a quarter is left for what these do to each other. 0.1x³: on the self-similar path the error of first order exceeds the
+second by at most 0.09x³ for a load α at κ/ν = 0.05 … 0.8, both regimes (docs/theory.md). ε is not in it: the leading
+order is exact at any ε until the ends are felt.
+
+One point begins to spread when the loads have taken the gap's curvature away that is left beside it; a few per cent
+beyond that (`POINT`) its length does not matter.
 
 Beyond these: slope (an arch is lower than its parabola by θ²/12, 2 % at θ = 0.49), shear (a Timoshenko beam starts
 otherwise: a zone's force is within 1 % after 10 t_s, one point's within 4 %, t_s = √(EIμ)/(κ_sGA)), and a section that
@@ -30,19 +31,23 @@ from typing import Any
 import numpy as np
 
 from bent_beam.impact import Impact
+from theory import damped_zone
 from theory._fresnel import FloatArray
 from theory.contact import DISCRETE, ContactParameters, contact_parameters
 from theory.moment import peak_moment_of
 from theory.second_order import second_order
 from theory.similarity import SelfSimilarWave
 
-#: Made anew by whoever measures the whole beam: κ/ν ascending, t/T* of the same length, and the tolerance.
+#: Made anew by whoever measures the whole beam: relative changes over κ/ν and t/T*, and the tolerance.
 DATA = Path(__file__).with_name("ends.json")
+#: Of the tolerance, what the known errors may take.
+SHARE = 0.75
 #: Bound of the third order over x³.
 THIRD_ORDER = 0.1
-#: λ₀ of the flattest contact for which r₂ keeps a digit (5 % off there, thirty times at ten times that); beyond it x²,
-#: which is more, stands for both.
-FLATTEST = 1e4
+#: κ/ν of the flattest contact for which λ₂ and r₂ keep all digits; flatter ones are like it (`_second_order`).
+FLATTEST = 3e-3
+#: What the loads may take of a point's curvature beyond all of it, over ν: λ_c is then 0.05√(ct).
+POINT = 0.04
 #: Slope at which an arch is 2 % lower than its parabola, θ²/12.
 SLOPE_LIMIT = math.sqrt(12.0 * 0.02)
 #: Shear times t_s after which Euler and Bernoulli's beam is within the tolerance, for a zone and for one point.
@@ -75,28 +80,55 @@ def _table() -> dict[str, Any]:
     return dict(json.loads(DATA.read_text(encoding="utf-8")))
 
 
-def ends_limit(kappa_over_nu: float, damping: float = 0.0) -> float:
-    """t/T* until which waves from the ends change the leading order by less than the tolerance, at η/T* = `damping`.
+def ends_errors(kappa_over_nu: float, time: FloatArray, damping: float = 0.0) -> FloatArray:
+    """Relative change of half length, force and impulse by the ends, at t/T* = `time` and η/T* = `damping`.
 
-    Between the measured κ/ν log t is interpolated in κ/ν, from the last on it is constant, and below the first it
-    falls like 1/λ₀², as the time at which the contact itself reaches the ends. Damping kills the short waves, which
-    are the first to come back: a factor, interpolated in logarithms.
+    Linear in κ/ν at equal times over the arrival, and in ln t, between what was measured. Below the smallest κ/ν the
+    same comes earlier, as 1/λ₀², like the time at which the contact itself reaches the ends. Damping kills the short
+    waves, which are the first to come back: a factor on time.
+
+    Returns:
+        Without loads, and per unit of q₀ (V₀T*/ℓ⁴), shape (2, 3, n).
     """
     table = _table()
-    ratios, times = np.array(table["kappa_over_nu"]), np.array(table["time"])
+    ratios, later = np.array(table["kappa_over_nu"]), np.log(table["later"])
+    stretch, size = _factor(damping) * _flattened(kappa_over_nu), max(1.0, float(ratios[0]) / kappa_over_nu)
+    here = min(max(kappa_over_nu, float(ratios[0])), float(ratios[-1]))
+    i = min(max(int(np.searchsorted(ratios, here)) - 1, 0), ratios.size - 2)
+    share = (here - ratios[i]) / (ratios[i + 1] - ratios[i])
+
+    def between(rows: list[Any]) -> FloatArray:
+        return np.asarray((1.0 - share) * np.array(rows[i]) + share * np.array(rows[i + 1]))
+
+    found = np.empty((2, 3, time.size))
+    for k, cause in enumerate(("ends", "quartic")):
+        at = np.log(time / (stretch * float(between(table[cause]["arrival"]))))
+        for j, name in enumerate(("half_length", "reaction", "impulse")):
+            found[k, j] = np.interp(at, later, between(table[cause][name]), left=0.0)
+    found[1] *= size
+    return found
+
+
+def _flattened(kappa_over_nu: float) -> float:
+    """How much earlier the ends are felt below the smallest measured κ/ν."""
+    first = float(_table()["kappa_over_nu"][0])
+    if kappa_over_nu >= first:
+        return 1.0
+    return float(contact_parameters(first).lambda0 / contact_parameters(kappa_over_nu).lambda0) ** 2
+
+
+def _factor(damping: float) -> float:
+    table = _table()
     known = np.array(table["damping"])
     at = np.log(max(damping, float(known[0])))
-    factor = float(np.exp(np.interp(at, np.log(known), np.log(table["factor"]))))
-    if kappa_over_nu < ratios[0]:
-        first, here = contact_parameters(float(ratios[0])), contact_parameters(kappa_over_nu)
-        return factor * float(times[0] * (first.lambda0 / here.lambda0) ** 2)
-    return factor * float(np.exp(np.interp(kappa_over_nu, ratios, np.log(times))))
+    return float(np.exp(np.interp(at, np.log(known), np.log(table["factor"]))))
 
 
-def zone_damping_times(kappa_over_nu: float) -> float:
-    """t/η from which the beam's own damping changes a contact zone by less than the tolerance."""
+def latest(kappa_over_nu: float, damping: float = 0.0) -> float:
+    """t/T* beyond which nothing was measured: the ends have long been felt."""
     table = _table()
-    return float(np.exp(np.interp(kappa_over_nu, table["kappa_over_nu"], np.log(table["zone_damping_times"]))))
+    last = max(table["ends"]["arrival"]) * float(table["later"][-1])
+    return last * _factor(damping) * _flattened(kappa_over_nu)
 
 
 def validity(
@@ -114,31 +146,20 @@ def validity(
         shear_stiffness: κ_sGA, N; None: shear is left out.
         yields: whether the leading order's bending stress is beyond the material's yield stress.
     """
-    tolerance = float(_table()["tolerance"])
-    unit = impact.slow_time_scale / impact.time_scale
-    ends = ends_limit(solved.kappa_over_nu, impact.relative_damping) * unit
-    start = zone_damping_times(solved.kappa_over_nu) * impact.damping / impact.time_scale
-    if solved.regime == DISCRETE:
-        start = 0.0  # one point's damping is in the prediction
-    loads = _Loads(solved)
-    tau = np.concatenate([ends * np.geomspace(1e-3, 1.0, 2000), loads.scale * np.geomspace(1e-6, 1.0, 4000)])
-    tau = np.sort(tau[(tau > 0.0) & (tau <= ends)])
-    from_ends, from_loads = tolerance * (tau / ends) ** 2, loads.error(tau)
-    good = np.hypot(from_ends + from_loads, tolerance * start / tau) <= tolerance
-    if not np.any(good):
-        return Validity(0.0, 0.0, DAMPING)
-    first = int(np.argmax(good))
-    last = first + int(np.argmin(good[first:])) - 1 if not np.all(good[first:]) else tau.size - 1
-    begins, until, limited_by = float(tau[first]) if start > 0.0 else 0.0, float(tau[last]), ENDS
-    if from_loads[last] > from_ends[last]:
-        limited_by = TENSION if _tension_leads(solved) else FIRST_ORDER
+    errors = _Errors(impact, solved)
+    begins = 0.0
+    if solved.regime != DISCRETE and impact.damping > 0.0:
+        begins = damped_zone.earliest_age(solved.kappa_over_nu) * impact.damping / impact.time_scale
+        if solved.kappa_over_nu < damped_zone.flattest():
+            return Validity(0.0, 0.0, DAMPING)
+    until, limited_by = errors.limit(begins)
     steep = _slope(solved)
     if steep > 0.0 and (SLOPE_LIMIT / steep) ** 2 < until:
         until, limited_by = (SLOPE_LIMIT / steep) ** 2, SLOPE
-        if begins >= until:
-            begins, until = 0.0, 0.0
+    if begins >= until:
+        begins, until = 0.0, 0.0
     begins, until = begins * impact.time_scale, until * impact.time_scale
-    if shear_stiffness is not None:
+    if shear_stiffness is not None and until > 0.0:
         shear_time = math.sqrt(impact.bending_stiffness * impact.mass_per_length) / shear_stiffness
         begins = max(begins, SHEAR_TIMES["point" if solved.regime == DISCRETE else "zone"] * shear_time)
         if begins >= until:
@@ -148,43 +169,109 @@ def validity(
     return Validity(begins, until, limited_by)
 
 
+class _Errors:
+    """What half length, force and impulse lack at τ, each relative, by cause."""
+
+    def __init__(self, impact: Impact, solved: ContactParameters) -> None:
+        self.solved, self.loads = solved, _Loads(solved)
+        self.damping = impact.relative_damping
+        self.unit = impact.slow_time_scale / impact.time_scale  # T* in t*
+        self.age = impact.time_scale / impact.damping if impact.damping > 0.0 else math.inf  # t* in η
+        self.quartic = impact.fourth_derivative * impact.half_length**4 / (impact.velocity * impact.slow_time_scale)
+        self.end = latest(solved.kappa_over_nu, self.damping) * self.unit
+        pushed = solved.alpha + solved.axial * solved.kappa + solved.psi
+        self.acting = np.array([max(pushed, 0.0), max(-pushed, 0.0), solved.chi, solved.psi, solved.axial])
+
+    def causes(self, tau: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Ends, second order, third order: the first two with signs, shape (3, n), the last as a bound, shape (n,)."""
+        bare, quartic = ends_errors(self.solved.kappa_over_nu, tau / self.unit, self.damping)
+        second, third = self.loads.errors(tau)
+        if self.solved.regime != DISCRETE and math.isfinite(self.age) and np.any(self.acting):
+            rates = damped_zone.load_rates(self.solved.kappa_over_nu, tau * self.age)
+            second = second + np.tensordot(self.acting, rates, 1) * tau
+        return bare + self.quartic * quartic, second, third
+
+    def total(self, tau: FloatArray) -> FloatArray:
+        """The largest of the three errors, shape (n,)."""
+        ends, second, third = self.causes(tau)
+        return np.asarray(np.max(np.abs(ends + second), axis=0) + third)
+
+    def limit(self, begins: float) -> tuple[float, str]:
+        """τ at which the error first reaches what it may after `begins`, and what makes it (0: at once)."""
+        most = SHARE * float(_table()["tolerance"])
+        tau = np.sort(np.concatenate([self.end * np.geomspace(1e-4, 1.0, 600), self.loads.scale * _DECADES]))
+        tau = tau[(tau > begins) & (tau <= self.end)]
+        beyond = np.flatnonzero(~(self.total(tau) <= most))
+        high = float(tau[beyond[0]]) if beyond.size else self.end
+        low = begins if not beyond.size or beyond[0] == 0 else float(tau[beyond[0] - 1])
+        for _ in range(60):
+            middle = 0.5 * (low + high)
+            low, high = (middle, high) if self.total(np.array([middle]))[0] <= most else (low, middle)
+        until = min(low, self.loads.point)
+        if until == self.loads.point or until == 0.0:
+            return until, TENSION if _tension_leads(self.solved) else FIRST_ORDER
+        ends, second, third = self.causes(np.array([until]))
+        if np.max(np.abs(second)) + third[0] > np.max(np.abs(ends)):
+            return until, TENSION if _tension_leads(self.solved) else FIRST_ORDER
+        return until, ENDS
+
+
+_DECADES = np.geomspace(1e-6, 1.0, 600)
+
+
 class _Loads:
-    """Relative error of first order; homogeneous in loads times τ, so that loads of order one are solved for."""
+    """Relative errors of first order; homogeneous in loads times τ, so that loads of order one are solved for."""
 
     def __init__(self, solved: ContactParameters) -> None:
         self.size = max(abs(solved.alpha), abs(solved.psi), abs(solved.chi), abs(solved.axial))
         self.exact = self.size == 0.0 or (solved.regime == DISCRETE and solved.axial == 0.0)  # a linear problem
-        self.scale = 0.0
-        if self.exact:
+        self.scale, self.point = 0.0, math.inf
+        if self.size == 0.0:
             return
         alpha, psi, chi, axial = (v / self.size for v in (solved.alpha, solved.psi, solved.chi, solved.axial))
         self.unit = p = contact_parameters(solved.kappa_over_nu, alpha, psi, chi, axial=axial)
         spreads = p.lambda0 > 0.0
         self.change = max(abs(p.r1) / p.r0, abs(p.lambda1) / p.lambda0 if spreads else 0.0)
-        if p.lambda0 < FLATTEST:
-            second = second_order(p)
-            self.lambda2, self.r2 = abs(second.lambda2), abs(second.r2)
-        else:
-            self.lambda2, self.r2 = self.change**2 * p.lambda0, self.change**2 * p.r0
-        square = max(self.r2 / p.r0, self.lambda2 / p.lambda0 if spreads else 0.0)
+        self.lambda2, self.r2, opening = _second_order(p)
+        if not spreads and opening < 0.0:
+            self.point = (p.kappa_over_nu - 1.0 + POINT) / (-opening * self.size)
+        square = max(abs(self.r2) / p.r0, abs(self.lambda2) / p.lambda0 if spreads else 0.0)
         # τ at which a first or second order is as large as the leading one
         fastest = max(self.change, math.sqrt(square))
         self.scale = 1.0 / (fastest * self.size) if fastest > 0.0 else 0.0
 
-    def error(self, tau: FloatArray) -> FloatArray:
-        """At τ, shape (n,); infinite once λ or r has changed sign."""
+    def errors(self, tau: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Second order of half length, force and impulse, shape (3, n), and the bound of the third, shape (n,)."""
+        found, third = np.zeros((3, tau.size)), np.zeros(tau.size)
         if self.exact:
-            return np.zeros_like(tau)
+            return found, third
         p, at = self.unit, self.size * tau
-        push = p.r0 + p.r1 * at
-        spread = p.lambda0 + p.lambda1 * at
-        force = push + np.sqrt(np.pi / 2.0) * at * spread * p.uniform_reaction
+        push, spread = p.r0 + p.r1 * at, p.lambda0 + p.lambda1 * at
+        uniform = np.sqrt(np.pi / 2.0) * at * p.uniform_reaction
+        force = push + uniform * spread
+        total = p.r0 + p.r1 * at / 3.0 + uniform * (p.lambda0 / 3.0 + p.lambda1 * at / 5.0)
         with np.errstate(all="ignore"):
-            error = np.where(push > 0.0, self.r2 * at**2 / np.abs(force), np.inf)
+            found[1], found[2] = self.r2 * at**2 / force, self.r2 * at**2 / (5.0 * total)
             if p.lambda0 > 0.0:
-                error = np.maximum(error, np.where(spread > 0.0, self.lambda2 * at**2 / np.abs(spread), np.inf))
-            error = error + THIRD_ORDER * (self.change * at) ** 3
-        return np.where(np.isnan(error), np.inf, error)
+                found[0] = self.lambda2 * at**2 / spread
+            third = THIRD_ORDER * (self.change * at) ** 3
+        gone = ~(push > 0.0) | ~(force > 0.0) | ~(spread > 0.0) & (p.lambda0 > 0.0)
+        return np.where(gone, np.inf, found), np.where(gone, np.inf, third)
+
+
+def _second_order(p: ContactParameters) -> tuple[float, float, float]:
+    """λ₂, r₂ and the rate of the curvature.
+
+    As κ → 0 relative changes depend on α, χ/κ, ψ/κ² and κn alone, so that a flatter contact is one of κ = `FLATTEST`
+    with other loads, but for a relative error of order κ.
+    """
+    if p.kappa_over_nu >= FLATTEST:
+        second = second_order(p)
+        return second.lambda2, second.r2, second.opening
+    flatter = p.kappa_over_nu / FLATTEST
+    like = contact_parameters(FLATTEST, p.alpha, p.psi / flatter**2, p.chi / flatter, axial=p.axial * flatter)
+    second = second_order(like)
+    return second.lambda2 / like.lambda0 * p.lambda0, second.r2 / like.r0 * p.r0, second.opening
 
 
 def _tension_leads(solved: ContactParameters) -> bool:

@@ -2,9 +2,10 @@
 
 ``python -m comparison.figures.moment`` measures the points and writes ``docs/figures/peak-moment.png`` with
 ``peak-moment.json`` beside it. At leading order the moment is constant in time, so the median over the last decade of a
-run is one measurement of it; early instants, whose front no mesh resolves, overshoot and are left out. Elements cut the
-crest of the wave ahead of the front, so the run is made at twice the method's own resolution, and what the own
-resolution makes of it is the error bar (no order of convergence is assumed: it differs between the paths).
+run is one measurement of it; early instants, whose front no mesh resolves, overshoot and are left out. Elements and
+damping at their scale cut the crest of the wave ahead of the front, by an amount that falls by the same factor from
+resolution to resolution; the factor differs between the paths. So runs at the method's own resolution, half and a
+quarter of it are extrapolated by Aitken's rule, and what that adds is the error bar.
 """
 
 from __future__ import annotations
@@ -28,17 +29,18 @@ from theory.moment import peak_moment
 
 __all__ = ["KAPPAS", "MeasuredMoment", "draw_moments", "measure_moment", "moment_over_time"]
 
-KAPPAS = (0.05, 0.1, 0.2, 0.5, 0.8, 1.5)
+KAPPAS = (0.01, 0.05, 0.1, 0.2, 0.5, 0.8, 1.5)
 PATHS = ("hermite", "exudyn")
 END = 0.1  # τ
 INSTANTS = 60
+SLOWEST = 0.7  # factor between differences from which on they say nothing about a limit
 FOLDER = Path(__file__).resolve().parents[2] / "docs" / "figures"
 
 
 @dataclass(frozen=True)
 class MeasuredMoment:
-    """m at twice the method's own resolution, its error bar (the difference from the own one, and the spread in
-    time), and theory's."""
+    """m extrapolated from the method's own resolution, its error bar (the difference from the own one, and the spread
+    in time), and theory's."""
 
     label: str
     kappa_over_nu: float
@@ -56,22 +58,29 @@ def moment_over_time(history: ImpactHistory) -> tuple[np.ndarray[Any, Any], np.n
 
 
 def measure_moment(method: Method, kappa_over_nu: float) -> MeasuredMoment:
-    """m of the leading order at κ/ν, from runs at the method's own resolution and at twice.
+    """m of the leading order at κ/ν, from runs at the method's own resolution, half and a quarter of it.
 
     Raises ``ValueError`` for a method that does not know how to be refined.
     """
-    finer = refined(method, 2.0)
-    if finer is None:
+    half, quarter = (refined(method, factor) for factor in (0.5, 0.25))
+    if half is None or quarter is None:
         raise ValueError(f"method: {method.path} does not know how to be refined")
-    coarse, _ = _late_moment(method, kappa_over_nu)
-    fine, spread = _late_moment(finer, kappa_over_nu)
+    (coarsest, _), (coarse, _), (own, spread) = (_late_moment(m, kappa_over_nu) for m in (quarter, half, method))
+    value = aitken(coarsest, coarse, own)
     return MeasuredMoment(
         method.label,
         kappa_over_nu,
-        fine,
-        abs(fine - coarse) + spread,
+        value,
+        abs(value - own) + spread,
         float(peak_moment(kappa_over_nu).largest),
     )
+
+
+def aitken(first: float, second: float, third: float) -> float:
+    """The limit of three values whose differences fall by one factor; the last where they do not fall
+    (:data:`SLOWEST`)."""
+    factor = (third - second) / (second - first) if second != first else 0.0
+    return third + (third - second) * factor / (1.0 - factor) if 0.0 < factor < SLOWEST else third
 
 
 def _late_moment(method: Method, kappa_over_nu: float) -> tuple[float, float]:

@@ -10,7 +10,7 @@ from typing import Any
 import jinja2
 
 from comparison.store import write_atomically
-from theory import validity
+from theory import damped_zone, validity
 
 TEMPLATES = Path(__file__).parent / "templates"
 SCRIPTS = ("theory.js", "beam.js", "case.js", "view.js")
@@ -33,6 +33,9 @@ def limits() -> dict[str, Any]:
     """The measured and chosen numbers of `theory.validity`, for the page to stop where `theory.predict` does."""
     return {
         "ends": json.loads(validity.DATA.read_text(encoding="utf-8")),
+        "zone": json.loads(damped_zone.DATA.read_text(encoding="utf-8")),
+        "share": validity.SHARE,
+        "point": validity.POINT,
         "third": validity.THIRD_ORDER,
         "flattest": validity.FLATTEST,
         "slope": validity.SLOPE_LIMIT,

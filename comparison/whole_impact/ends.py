@@ -1,24 +1,22 @@
-"""Where the theory of the first instants ends on a real beam: measured, over κ/ν and η/T*.
+"""Where the theory of the first instants ends on a real beam: waves that have been at the ends, measured.
 
-Two things end it. **Waves that have been at the ends**: the same beam and one that is so long that nothing can come
-back, on the same elements with the same steps, differ by them alone; the time at which half length, force or impulse
-first differ by 1, 2 or 5 % is stored. **The beam's own damping**, which is not in the theory of a spreading contact: it
-is felt first and forgotten later. On the long beam it has one number, t/η; the age from which theory and simulation
-agree within the tolerance is stored, ``null`` where the long beam is not long enough to see it.
+The same beam and one that is so long that nothing can come back, on the same elements with the same steps, differ by
+them alone: relative changes of half length, force and impulse are stored over time and κ/ν. A beam whose free motion
+has a fourth derivative q₀ needs moments and forces at its ends; without them waves start there at once. Their part is
+stored too, per unit of q₀, from runs with ±q₀ and no pressure on the zone. (Nothing of the kind was found for c₀ and
+an axial force.)
 
 Half length and force come from moments of the impulse: parabolas in √t through ±:data:`WINDOW` in ln t.
-``python -m comparison.whole_impact.ends`` measures all (a minute on a machine of its own) and writes ``ends.json``
-beside this module, and what ``predict`` reads of it, ``ends.json`` in :mod:`theory`.
+``python -m comparison.whole_impact.ends`` measures all (some minutes) and writes ``ends.json`` in :mod:`theory`, which
+``predict`` reads.
 """
 
 from __future__ import annotations
 
 import argparse
 import datetime
-import json
 import math
-from collections.abc import Callable, Sequence
-from functools import cache
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -28,88 +26,112 @@ from numpy.typing import NDArray
 import theory
 from bent_beam.history import versions
 from bent_beam.impact import Impact
-from comparison.bounce import problem
+from bent_beam.meshes import GradedMesh
 from comparison.plain import json_text
 from comparison.store import write_atomically
 from comparison.workers import run_all
 from theory import damped_point
 from theory.stopped_beam import StoppedBeam
 
-__all__ = ["Law", "law_of", "measured_ends", "reached", "without_ends"]
+__all__ = ["Law", "law_of", "measure_ends", "reached", "theory_law"]
 
 Array = NDArray[np.float64]
-DATA = Path(__file__).with_name("ends.json")
-FOR_THEORY = Path(theory.__file__).with_name("ends.json")
-TOLERANCES = (0.01, 0.02, 0.05)
-KAPPAS = (0.05, 0.1, 0.15, 0.2, 0.25, 0.35, 0.5, 0.65, 0.8, 0.9, 1.0)
+DATA = Path(theory.__file__).with_name("ends.json")
+KAPPAS = (0.05, 0.07, 0.1, 0.14, 0.2, 0.27, 0.35, 0.5, 0.65, 0.8, 0.9, 1.2)
 DAMPINGS = (1e-4, 3e-4, 1e-3, 3e-3, 1e-2)
-TOLERANCE = 0.02  # of the table that predict reads
-LATEST = 2000.0  # t/η that stands for a damping that was not seen to be forgotten
-USUAL = 1e-3  # η/T* of the table that predict reads
-WINDOW = 0.11  # half an e-fold of fitted times, in ln t
-END = 0.08  # T*
+USUAL = 1e-3  # η/T* of the curves; other dampings get a factor on time
+TOLERANCE = 0.02
+LARGEST = 2.5  # changes beyond it are no small ones and stored as it
 LONGER = 2.5  # times the beam: what comes back from its ends then comes 6.25 times later
-TIMES = np.geomspace(1.5e-3, END / math.exp(WINDOW), 160)
-"""Instants looked at, T*: the first is where an element of the mesh is a tenth of what a wave has covered."""
+TIMES = np.geomspace(2e-3, 0.07, 60)
+"""Instants measured, T*."""
+LATER = np.geomspace(0.2, 2.0, 47)
+"""Times stored, over the arrival: curves that come later where κ/ν is larger are alike over it."""
+QUARTIC = 0.2  # q₀ of the runs with one, of min(κ/ν, 1): a tenth of what would straighten the ends
+
+WINDOW = 0.11  # of fitted times, ± in ln t
+SAVED = 100  # instants an e-fold
+ELEMENT = 0.04  # at the middle, over √(√(EI/μ) η)
+ZONE = 4.0  # of such elements, in the same length
+GROWTH = 0.01  # of elements further out
+STEP = 2e-3  # over the time
+FLAT = 0.05  # κ/ν below which elements and steps grow more slowly
 
 
 class Law(NamedTuple):
-    """Half length (ℓ), force and impulse of one side (beam's units) at :data:`TIMES`."""
+    """Half length (m), force (N) and impulse (N s) of one side."""
 
     half_length: Array
     force: Array
     impulse: Array
 
-    def differs(self, other: Law, *, spreads: bool) -> Array:
-        """Largest relative difference of the three (of the last two for a point contact)."""
-        found = np.maximum(np.abs(self.force / other.force - 1.0), np.abs(self.impulse / other.impulse - 1.0))
-        return np.maximum(found, np.abs(self.half_length / other.half_length - 1.0)) if spreads else found
+    def over(self, other: Law) -> Array:
+        """Relative differences of the three, shape (3, n)."""
+        with np.errstate(divide="ignore", invalid="ignore"):
+            return np.array([a / b - 1.0 for a, b in zip(self, other)])
 
 
-def without_ends(impact: Impact) -> Impact:
-    """The beam, so much longer that nothing comes back from its ends while :data:`END` lasts."""
-    return impact.replace(length=LONGER * impact.length)
+def law_of(
+    impact: Impact, times: Array, *, element: float = ELEMENT, window: float = WINDOW, end: str = "free"
+) -> Law:
+    """A whole-beam run, by moments of the impulse at ``times`` (s): what one side bears.
 
-
-def law_of(impact: Impact, elements: int, times: Array = TIMES, unit: float | None = None) -> Law:
-    """A whole-beam run on ``elements`` a half length of the *given* beam (``unit``: of another), by moments.
-
-    times : in T* of the unit length, s if that is 1.
+    element : Δx at the middle over √(√(EI/μ) η), which the beam's own damping η smooths over by t = η; further out
+        elements grow, steps grow with time.
+    end : of the beam, as of a far field.
     """
-    from bent_beam.meshes import UniformMesh
-    from bent_beam.method import method_from_tables
+    from hermite_fe import HermiteFE
+    from hermite_fe.contacts import NodeContact
+    from hermite_fe.far_fields import GridViscosity
+    from hermite_fe.integrators import SignoriniPosition
 
-    length = impact.half_length if unit is None else unit
-    scale = length**2 / impact.wave_constant
-    method = method_from_tables("hermite", {})
-    method = type(method)(mesh=UniformMesh(length / elements)).for_whole_beam(impact)
-    end = float(times[-1]) * math.exp(WINDOW) * scale
-    saved = np.unique(np.concatenate([np.linspace(0.0, end, 1200)[1:], end * np.linspace(0.05, 1.0, 400) ** 2]))
-    history = method.simulate(impact, end_time=end, save=saved)
-    time = history.time / scale
+    smoothed = math.sqrt(impact.wave_constant * impact.damping)
+    refinement = ELEMENT / element
+    flattest = min(1.0, impact.kappa_over_nu / FLAT)  # the flatter, the thinner the front over its distance
+    method = HermiteFE(
+        mesh=GradedMesh(
+            element * smoothed, 1.0 + GROWTH * flattest / refinement, min(ZONE * smoothed, impact.half_length), 1e9
+        ),
+        integrator=SignoriniPosition(
+            theta=0.5,
+            time_step=0.5 * (element * smoothed) ** 2 / impact.wave_constant,
+            growth=STEP * flattest**0.5 / refinement,
+        ),
+        contact=NodeContact(hold=0, hold_until=0.0),
+        far_field=GridViscosity(viscosity=0.0, end=end),
+    )
+    ends = float(times[0]) * math.exp(-window), float(times[-1]) * math.exp(window)
+    saved = np.geomspace(ends[0], ends[1], 2 + round(SAVED * math.log(ends[1] / ends[0])))
+    history = method.simulate(impact, end_time=ends[1], save=saved)
     impulse = history.array("total_impulse") / 2.0
     moment = history.array("impulse") @ np.abs(history.contact_positions(0))
     moment = moment if history.dataset.attrs["symmetry"] == "half" else moment / 2.0
     with np.errstate(divide="ignore", invalid="ignore"):
-        return _fitted(time, impulse, moment, times)
+        return _fitted(history.time, impulse, moment, times, window, max(impact.zone_pressure, 0.0))
 
 
-def _fitted(time: Array, impulse: Array, moment: Array, times: Array) -> Law:
-    fits = np.array([[*_local(time, impulse, t), _local(time, moment, t)[1]] for t in times])
+def _fitted(time: Array, impulse: Array, moment: Array, times: Array, window: float, pressure: float) -> Law:
+    """``pressure``, N/m, acts between the middle and the concentrated force whose place is the half length."""
+    fits = np.array([[*_local(time, impulse, t, window), _local(time, moment, t, window)[1]] for t in times])
     force = fits[:, 1] / (2.0 * np.sqrt(times))
-    return Law(fits[:, 2] / fits[:, 1], force, fits[:, 0])
+    turn = fits[:, 2] / (2.0 * np.sqrt(times))
+    if pressure > 0.0:  # turn = (force − pλ)λ + pλ²/2
+        place = (force - np.sqrt(np.maximum(force**2 - 2.0 * pressure * turn, 0.0))) / pressure
+    else:
+        place = turn / force
+    return Law(place, force, fits[:, 0])
 
 
-def _local(time: Array, values: Array, at: float) -> tuple[float, float]:
+def _local(time: Array, values: Array, at: float, window: float) -> tuple[float, float]:
     """Value and slope in √t at ``at``, of a parabola in √t around it."""
-    inside = (time > at * math.exp(-WINDOW)) & (time < at * math.exp(WINDOW))
+    inside = (time > at * math.exp(-window)) & (time < at * math.exp(window))
     root = np.sqrt(time[inside])
     fit = np.polyfit(root - math.sqrt(at), values[inside], 2)
     return float(fit[2]), float(fit[1])
 
 
-def theory_law(kappa: float, times: Array = TIMES) -> Law:
-    """The undamped infinite beam's law in the beam's units."""
+def theory_law(kappa: float, times: Array) -> Law:
+    """The undamped infinite beam's law with EI = μ = V₀ = 1."""
     exact = theory.contact_parameters(kappa)
     force = math.sqrt(2.0 / math.pi) * exact.r0
     return Law(exact.lambda0 * np.sqrt(times), force / np.sqrt(times), 2.0 * force * np.sqrt(times))
@@ -127,62 +149,49 @@ def reached(times: Array, error: Array, tolerance: float) -> float | None:
     return float(times[k - 1] * (times[k] / times[k - 1]) ** share)
 
 
-def forgotten(times: Array, error: Array, tolerance: float) -> float | None:
-    """From when on an error that falls stays below ``tolerance``; ``None`` if it does not."""
-    beyond = np.flatnonzero(error >= tolerance)
-    if beyond.size == 0:
-        return float(times[0])
-    k = int(beyond[-1]) + 1
-    return float(times[k]) if k < times.size else None
+def measure_ends(kappa: float, damping: float = USUAL, element: float = ELEMENT) -> Array:
+    """Relative changes of half length (0 for one point), force and impulse by the ends at :data:`TIMES`, (3, n)."""
+    beam = Impact.whole_beam(kappa, relative_damping=damping)
+    real, endless = (
+        law_of(impact, TIMES, element=element) for impact in (beam, beam.replace(length=LONGER * beam.length))
+    )
+    return _tidy(real.over(endless), kappa)
 
 
-def measure_point(kappa: float, damping: float, elements: int = 200) -> dict[str, Any]:
-    """One κ/ν and η/T*: times (T*) by tolerance until which ends are not felt, ages (η) from which damping is not."""
-    impact = problem(kappa, damping)
-    spreads = kappa < 1.0
-    real = law_of(impact, elements)
-    endless = law_of(without_ends(impact), elements, unit=impact.half_length)
-    ends = real.differs(endless, spreads=spreads)
-    damped = endless.differs(theory_law(kappa), spreads=spreads)
-    seen = TIMES < 0.9 * END
-    ages = [forgotten(TIMES[seen] / damping, damped[seen], tolerance) for tolerance in TOLERANCES]
-    return {
-        "kappa_over_nu": kappa,
-        "damping": damping,
-        "until": {str(tolerance): reached(TIMES, ends, tolerance) for tolerance in TOLERANCES},
-        "damping_forgotten": {str(tolerance): age for tolerance, age in zip(TOLERANCES, ages)},
-    }
+def measure_quartic(kappa: float, element: float = ELEMENT) -> Array:
+    """The same by the free motion's fourth derivative, per unit of q₀ (V₀T*/ℓ⁴), against a longer beam whose ends
+    follow the free motion."""
+    size = QUARTIC * min(kappa, 1.0)
+    beam = Impact.whole_beam(kappa, relative_damping=USUAL)
+    answers = []
+    for impact, end in ((beam, "free"), (beam.replace(length=LONGER * beam.length), "following")):
+        bare, *loaded = (
+            law_of(
+                impact.replace(fourth_derivative=sign * size, acceleration=-sign * size),
+                TIMES,
+                element=element,
+                end=end,
+            )
+            for sign in (0.0, 1.0, -1.0)
+        )
+        answers.append((loaded[0].over(bare) - loaded[1].over(bare)) / (2.0 * size))
+    return _tidy(answers[0] - answers[1], kappa)
+
+
+def _tidy(change: Array, kappa: float) -> Array:
+    """Bounded, and held once it is: what follows is no small change any more."""
+    if kappa >= 1.0:
+        change[0] = 0.0
+    change = np.nan_to_num(change, nan=np.inf)
+    for row in change:
+        beyond = np.flatnonzero(np.abs(row) > LARGEST)
+        if beyond.size:
+            row[beyond[0] :] = np.sign(row[beyond[0]]) * LARGEST
+    return change
 
 
 def _lost(i: int, why: str) -> Any:
     raise RuntimeError(f"point {i}: {why}")
-
-
-def measure(
-    kappas: Sequence[float] = KAPPAS,
-    dampings: Sequence[float] = DAMPINGS,
-    *,
-    elements: int = 200,
-    jobs: int = 1,
-    progress: Callable[[int, int], None] | None = None,
-) -> list[dict[str, Any]]:
-    """All points, in the order of ``dampings``, ``kappas``."""
-    return run_all(
-        measure_point,
-        [(kappa, damping, elements) for damping in dampings for kappa in kappas],
-        jobs=jobs,
-        progress=progress,
-        on_death=_lost,
-    )
-
-
-def _age(at: dict[tuple[float, float], dict[str, Any]], kappa: float) -> float:
-    """t/η from which damping is forgotten, from the run with the usual damping or, if it is too short, with less."""
-    for damping in sorted((d for d, k in at if k == kappa and d <= USUAL), reverse=True):
-        age = at[damping, kappa]["damping_forgotten"][str(TOLERANCE)]
-        if age is not None:
-            return float(age)
-    return LATEST
 
 
 def one_point(damping: float, tolerance: float = TOLERANCE) -> float:
@@ -197,78 +206,70 @@ def one_point(damping: float, tolerance: float = TOLERANCE) -> float:
     return found
 
 
-def write(points: Sequence[dict[str, Any]], elements: int) -> list[Path]:
-    """Write both files."""
-    provenance: dict[str, Any] = {
+def _factors(curves: dict[float, list[Array]]) -> dict[float, float]:
+    """By η/T*: the least, over κ/ν, of the time at which 2 % are reached over that with the usual damping."""
+    at = {
+        damping: [reached(TIMES, np.abs(curve).max(axis=0), TOLERANCE) for curve in found]
+        for damping, found in curves.items()
+    }
+    exact = {damping: one_point(damping) / one_point(USUAL) for damping in (1e-5, *curves)}
+    least = {
+        damping: min((a / b for a, b in zip(times, at[USUAL]) if a and b), default=math.inf)
+        for damping, times in at.items()
+    }
+    return {damping: min(factor, least.get(damping, factor)) for damping, factor in exact.items()}
+
+
+def write(curves: dict[float, list[Array]], quartic: Sequence[Array]) -> Path:
+    """Write the table from the curves by damping, each a list over :data:`KAPPAS`."""
+    names = ("half_length", "reaction", "impulse")
+
+    def stored(found: Sequence[Array], felt: Sequence[float]) -> dict[str, Any]:
+        arrival = [reached(TIMES, np.abs(curve[1]), least) for curve, least in zip(found, felt)]
+        assert all(arrival)
+        curves_at = {
+            name: [
+                [float(f"{v:.4g}") for v in np.interp(np.log(LATER * at), np.log(TIMES), curve[i], left=0.0)]
+                for curve, at in zip(found, arrival)
+            ]
+            for i, name in enumerate(names)
+        }
+        return {"arrival": [float(f"{at:.5g}") for at in arrival], **curves_at}
+
+    factors = _factors(curves)
+    document = {
+        "what": "relative change by the ends of a free beam, of half length, reaction and impulse, over kappa/nu "
+        "(rows) and time (columns, `later` times the `arrival` t/T*, when the reaction has changed by 2 %), at damping "
+        "eta/T* = 1e-3: `ends` without loads, `quartic` per unit of q0 l^4/(V0 T*) on top; the same comes `factor` "
+        "times later at other `damping` (the least over kappa/nu; the "
+        "smallest stands for none)",
+        "tolerance": TOLERANCE,
+        "source": "the whole beam against one without ends, comparison/whole_impact/ends.py",
         "made_by": "python -m comparison.whole_impact.ends",
         "date": datetime.datetime.now(datetime.UTC).date().isoformat(),
         "versions": versions(),
-        "settings": {"path": "hermite", "elements": elements, "longer": LONGER, "window": WINDOW, "end": END},
+        "settings": {"path": "hermite", "element": ELEMENT, "longer": LONGER, "window": WINDOW},
+        "kappa_over_nu": KAPPAS,
+        "later": [float(f"{later:.6g}") for later in LATER],
+        "damping": list(factors),
+        "factor": [float(f"{factor:.4g}") for factor in factors.values()],
+        "ends": stored(curves[USUAL], [TOLERANCE] * len(KAPPAS)),
+        "quartic": stored(quartic, [TOLERANCE / min(kappa, 1.0) for kappa in KAPPAS]),
     }
-    write_atomically(
-        DATA,
-        json_text(
-            {
-                "what": "until: t/T* at which waves back from the ends first change half length, force or impulse by "
-                "so much; damping_forgotten: t/eta from which the undamped law holds so well on an endless beam",
-                **provenance,
-                "points": list(points),
-            },
-            indent=1,
-        )
-        + "\n",
-    )
-    at = {(p["damping"], p["kappa_over_nu"]): p for p in points}
-    kappas, dampings = sorted({k for _, k in at}), sorted({d for d, _ in at})
-    times = {key: p["until"][str(TOLERANCE)] for key, p in at.items()}
-    ages = np.maximum.accumulate([_age(at, k) for k in kappas[::-1]])[::-1]  # what swings counts until it is over
-    least = {d: min(times[d, k] / times[USUAL, k] for k in kappas) for d in dampings}
-    exact = {d: one_point(d) / one_point(USUAL) for d in (1e-5, *dampings)}
-    factors = {d: min(factor, least.get(d, factor)) for d, factor in exact.items()}
-    write_atomically(
-        FOR_THEORY,
-        json_text(
-            {
-                "what": "t/T* until which the infinite beam's half length, force and impulse are those of the finite "
-                "beam within `tolerance`, no loads; `time` over `kappa_over_nu` at damping eta/T* = 1e-3, `factor` "
-                "over `damping` for other eta (the least of all kappa/nu and of one point's exact momentary force; the "
-                "smallest eta stands for none); "
-                "`zone_damping_times`, over `kappa_over_nu`: t/eta from which damping changes a zone by less than the "
-                f"tolerance ({LATEST:g}: not seen to)",
-                "tolerance": TOLERANCE,
-                "source": "the whole beam against one without ends, comparison/whole_impact/ends.py; one point: exact",
-                **provenance,
-                "kappa_over_nu": kappas,
-                "time": [times[USUAL, k] for k in kappas],
-                "damping": list(factors),
-                "factor": list(factors.values()),
-                "zone_damping_times": ages.tolist(),
-            },
-            indent=1,
-        )
-        + "\n",
-    )
-    return [DATA, FOR_THEORY]
-
-
-@cache
-def measured_ends() -> dict[str, Any]:
-    """The stored measurement."""
-    return dict(json.loads(DATA.read_text(encoding="utf-8")))
+    write_atomically(DATA, json_text(document) + "\n")
+    return DATA
 
 
 def _main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--jobs", type=int, default=2)
-    parser.add_argument("--elements", type=int, default=200)
-    asked = parser.parse_args()
-    points = measure(
-        elements=asked.elements,
-        jobs=asked.jobs,
-        progress=lambda done, total: print(f"\r{done}/{total}", end="", flush=True),
-    )
-    for file in write(points, asked.elements):
-        print(file)
+    jobs = parser.parse_args().jobs
+    asked = [(kappa, damping) for damping in DAMPINGS for kappa in KAPPAS]
+    found = run_all(measure_ends, asked, jobs=jobs, on_death=_lost)
+    curves: dict[float, list[Array]] = {damping: [] for damping in DAMPINGS}
+    for (_, damping), curve in zip(asked, found):
+        curves[damping].append(curve)
+    print(write(curves, run_all(measure_quartic, [(kappa,) for kappa in KAPPAS], jobs=jobs, on_death=_lost)))
 
 
 if __name__ == "__main__":

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from comparison.figures.moment import FOLDER, KAPPAS, PATHS, MeasuredMoment, draw_moments, measure_moment
+from comparison.figures.moment import FOLDER, KAPPAS, PATHS, MeasuredMoment, aitken, draw_moments, measure_moment
 from comparison.methods import default_methods
 from hermite_fe import HermiteFE
 from theory.moment import peak_moment
@@ -22,6 +22,14 @@ def test_stored_points_are_within_half_a_percent_of_theory() -> None:
     for p in points:
         assert p.theory == pytest.approx(peak_moment(p.kappa_over_nu).largest)
         assert abs(p.value / p.theory - 1.0) < WITHIN, p
+
+
+def test_extrapolation_knows_any_order() -> None:
+    for factor in (0.25, 0.4, 0.5):
+        assert aitken(*(2.0 - 0.1 * factor**k for k in range(3))) == pytest.approx(2.0, rel=1e-12)
+    assert aitken(1.0, 1.1, 1.3) == 1.3
+    assert aitken(1.0, 1.1, 1.05) == 1.05
+    assert aitken(1.0, 1.0, 1.0) == 1.0
 
 
 def test_moment_of_a_quick_run_is_that_of_theory_and_steady() -> None:

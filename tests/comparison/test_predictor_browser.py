@@ -161,6 +161,9 @@ def random_impacts(count: int, seed: int) -> list[Impact]:
                 fourth_derivative=loads[1] / scale**3,
                 curvature_rate=loads[2] * velocity / scale**2,
                 axial_force=loads[3] * mass * velocity**2,
+                damping=(rng.random() < 0.5) * 10.0 ** rng.uniform(-6.0, -1.0) * impact.slow_time_scale,
+                wall_curvature=(rng.random() < 0.3) * rng.uniform(-2.0, 0.9) * impact.curvature,
+                natural_curvature=rng.choice([1.0, 0.0, rng.normal()]) * impact.curvature,
             )
         )
     return impacts
@@ -177,6 +180,9 @@ NAMES = {
     "curvatureRate": "curvature_rate",
     "fourthDerivative": "fourth_derivative",
     "tension": "axial_force",
+    "damping": "damping",
+    "wallCurvature": "wall_curvature",
+    "naturalCurvature": "natural_curvature",
 }
 
 
@@ -186,6 +192,7 @@ ENDINGS = {
     "loads": "first-order correction",
     "tension": "tension",
     "slope": "slope",
+    "damping": "damping",
 }
 
 
@@ -201,21 +208,18 @@ def predictions_agree(browser: Any, impacts: list[Impact], seed: int) -> None:
         "arguments[1].map(([t, ...v]) => { const b = {area: 2, modulus: 0.5};"
         " arguments[0].forEach((name, i) => { b[name] = v[i]; });"
         " const p = Beam.solve(b), r = Beam.at(p, t);"
-        " return [p.contact.regime, p.ends, p.validUntil, r]; })",
+        " return [p.contact.regime, p.ends, p.validFrom, p.validUntil, r]; })",
         list(NAMES),
         [[t, *(getattr(i, name) for name in NAMES.values())] for t, i in rows],
     )
-    compared = same_limit = 0
-    for (t, impact), (regime, ends, until, page) in zip(rows, found, strict=True):
+    compared = same_ending = 0
+    for (t, impact), (regime, ends, begins, until, page) in zip(rows, found, strict=True):
         exact = predict(impact, t)
         row = exact.times[0]
         assert regime == exact.regime
-        # The limit comes from a grid of times in steps of 0.35 %, and for flat beams (λ₀ > 7) from a second order
-        # that both know to 1e-5 only: a rounding may decide between two neighbours.
-        assert until == pytest.approx(exact.valid_until, rel=4e-3)
-        if abs(until / exact.valid_until - 1.0) < SAME:
-            same_limit += 1
-            assert ENDINGS[ends] == exact.limited_by
+        assert begins == pytest.approx(exact.valid_from, rel=SAME)
+        assert until == pytest.approx(exact.valid_until, rel=SAME)
+        same_ending += ENDINGS[ends] == exact.limited_by  # of two that are alike either may be named
         assert page["moment"] == pytest.approx(row.peak_moment, rel=SAME)
         assert page["stress"] == pytest.approx(row.peak_moment / 0.5 + abs(impact.axial_force) / 2.0, rel=SAME)
         if row.half_contact_length is None:
@@ -233,7 +237,7 @@ def predictions_agree(browser: Any, impacts: list[Impact], seed: int) -> None:
         terms += abs(impact.axial_force) * impact.curvature
         assert page["uniform"] == pytest.approx(row.contact_force_per_length, rel=SAME, abs=SAME * terms)
     assert compared > 0.5 * len(impacts)
-    assert same_limit > 0.97 * len(impacts)
+    assert same_ending >= 0.999 * len(impacts)
 
 
 def test_prediction_is_that_of_python(browser: Any) -> None:
@@ -265,16 +269,20 @@ def test_shape_is_the_wave_of_python(browser: Any, ratio: float) -> None:
 @pytest.mark.parametrize(
     "groups",
     [
-        (0.5, 1.0, 1.0, 0.0),
-        (0.5, -1.0, -1.0, 0.5),
-        (0.15, 2.0, -1.0, 1.0),
-        (0.15, -1.0, 0.3, 0.0),
-        (2.0, 1.0, 0.0, 0.0),
+        (0.5, 1.0, 1.0, 0.0, 0.0),
+        (0.5, -1.0, -1.0, 0.5, 0.0),
+        (0.15, 2.0, -1.0, 1.0, 0.0),
+        (0.15, -1.0, 0.3, 0.0, 0.0),
+        (2.0, 1.0, 0.0, 0.0, 0.0),
+        (0.5, -0.5, 0.0, 0.0, 1.0),
+        (0.5, -1.5, 0.3, 0.0, 1.0),
+        (0.15, 1.0, 0.5, -0.5, -1.0),
+        (2.0, 0.0, 0.0, 0.0, 1.0),
     ],
 )
 def test_first_order_shape_is_the_convolution_but_for_the_second_order(browser: Any, groups: tuple[float, ...]) -> None:
     """The closed form of the page against the integrals of `theory.fields`, which carry a part of O(ε²)."""
-    parameters = contact_parameters(*groups)
+    parameters = contact_parameters(*groups[:4], axial=groups[4])
     x = np.array([0.3, 0.8, 1.5, 2.5, 4.0]) * max(parameters.lambda0, 1.0)
     errors = []
     for tau in (0.02, 0.01):
@@ -414,6 +422,9 @@ def random_inputs(count: int, seed: int) -> list[dict[str, Any]]:
                 "drop_height": 10.0 ** rng.uniform(-3.0, 1.0),
                 "tension": rng.choice([0.0, 1.0, -1.0]).item() * 10.0 ** rng.uniform(0.0, 3.0),
                 "load": rng.choice([0.0, 1.0, -1.0]).item() * 10.0 ** rng.uniform(-1.0, 2.0),
+                "natural_share": rng.choice([1.0, 0.0, 0.4]).item(),
+                "damping_ratio": rng.choice([0.0, 10.0 ** rng.uniform(-4.0, -1.0)]).item(),
+                "wall_curvature": rng.choice([0.0, -0.01, 1e-9]).item(),
             }
         )
     return found
@@ -424,11 +435,11 @@ def test_case_means_what_the_page_shows(browser: Any) -> None:
     found = ask(
         browser,
         "arguments[0].map(given => { const i = {...Beam.START, ...given}, b = Beam.impact(i), p = Beam.solve(b);"
-        " const holds = [p.validFrom, p.validUntil, p.ends, Beam.at(p, 1).stress];"
+        " const holds = [p.validFrom, p.validUntil, p.shownUntil, p.ends, Beam.at(p, 1).stress];"
         " return [Beam.complaints(i), Case.toml(i, b, p), b, holds]; })",
         inputs,
     )
-    for given, (complaints, text, page, (begins, until, ends, stress)) in zip(inputs, found, strict=True):
+    for given, (complaints, text, page, (begins, until, shown, ends, stress)) in zip(inputs, found, strict=True):
         if given["sagitta"] >= given["sagitta_length"] / 2.0 and given["bow"] == "sagitta":
             assert complaints
             continue
@@ -443,20 +454,22 @@ def test_case_means_what_the_page_shows(browser: Any) -> None:
             "velocity": impact.velocity,
             "tension": impact.axial_force,
             "acceleration": impact.acceleration,
+            "damping": impact.damping,
+            "wallCurvature": impact.wall_curvature,
         }
         for name, value in mine.items():
             assert page[name] == pytest.approx(value, rel=1e-12, abs=1e-12), (name, text)
-        assert case.end_time == until
+        assert case.end_time == shown
         assert case.section is not None
         assert page["modulus"] == pytest.approx(case.section.section_modulus, rel=1e-12)
         assert page["area"] == pytest.approx(case.section.area, rel=1e-12)
         assert page["shear"] == pytest.approx(case.section.shear_stiffness, rel=1e-12)
-        exact = predict(impact, section=dataclasses.replace(case.section, yield_stress=None))
-        assert stress == pytest.approx(exact.peak_stress, rel=SAME)
+        exact = predict(impact, 1.0, section=dataclasses.replace(case.section, yield_stress=None))
+        assert stress == pytest.approx(exact.times[0].peak_stress, rel=SAME)
         assert (ends == "shear") == (exact.limited_by == "shear")
         if ends != "shear":
             assert begins == pytest.approx(exact.valid_from, rel=SAME)
-            assert until == pytest.approx(exact.valid_until, rel=4e-3)
+            assert until == pytest.approx(exact.valid_until, rel=SAME)
 
 
 def test_saved_case_is_predicted_with_the_numbers_of_the_page(

@@ -16,14 +16,16 @@ from bent_beam.meshes import UniformMesh
 from bent_beam.method import for_whole_beam, method_from_tables
 from comparison.bounce import bounce, bounce_document, problem
 from comparison.command_line.app import run
-from comparison.whole_impact import ends, map
+from comparison.whole_impact import damped, ends, map
 from comparison.whole_impact.hits import hits
 from comparison.whole_impact.outcome import NUMBERS, pushes, whole_impact
-from comparison.whole_impact.verdict import random_problem, verdict
+from comparison.whole_impact.verdict import Verdict, random_problem, verdict
 from hermite_fe import HermiteFE
 from hermite_fe.integrators import MoreauJean, NonsmoothGeneralizedAlpha, SignoriniPosition
 from hermite_fe.whole_beam import ELEMENTS
+from theory import contact_parameters, damped_zone
 from theory.stopped_beam import StoppedBeam
+from theory.validity import ends_errors
 
 SCHEMES = [MoreauJean(theta=0.5), NonsmoothGeneralizedAlpha()]
 COARSE = HermiteFE(mesh=UniformMesh(1.0 / 50))
@@ -382,34 +384,57 @@ def test_points_of_the_map_hold_what_finer_elements_and_another_scheme_give(kapp
 
 
 @pytest.mark.verify
-@pytest.mark.parametrize(("kappa", "damping"), [(0.25, 1e-3), (0.65, 3e-4), (1.0, 1e-3)])
-def test_measured_ends_come_out_again(kappa: float, damping: float) -> None:
-    again = ends.measure_point(kappa, damping)
-    stored = next(
-        p for p in ends.measured_ends()["points"] if (p["kappa_over_nu"], p["damping"]) == (kappa, damping)
-    )
-    for tolerance, time in stored["until"].items():
-        assert again["until"][tolerance] == pytest.approx(time, rel=0.05)
+@pytest.mark.parametrize("kappa", [0.1, 0.3, 0.75])
+def test_a_damped_zone_measured_again_is_the_stored_one_within_half_a_per_cent(kappa: float) -> None:
+    ages = damped.AGES[32:64:4]
+    again = damped.measure_zone(kappa, ages)
+    r0 = contact_parameters(kappa).r0
+    stored = damped_zone.ratios(kappa, r0, ages)
+    again[0] *= 1.0 - damped_zone.age_of_spreading(kappa) / ages
+    assert again == pytest.approx(stored, rel=5e-3)
 
 
-def test_the_ends_are_felt_the_later_the_larger_the_change_that_counts() -> None:
-    for point in ends.measured_ends()["points"]:
-        times = [point["until"][str(tolerance)] or ends.END for tolerance in ends.TOLERANCES]
-        assert times == sorted(times)
-        assert 0.004 < times[0]
+@pytest.mark.verify
+@pytest.mark.parametrize("kappa", [0.1, 0.3, 0.7])
+def test_waves_from_the_ends_come_out_again_between_what_was_measured(kappa: float) -> None:
+    times = ends.TIMES
+    again = ends.measure_ends(kappa)
+    stored, _ = ends_errors(kappa, times, ends.USUAL)
+    for name, a, b in zip(("half length", "force"), again, stored):
+        felt = [ends.reached(times, np.abs(curve), ends.TOLERANCE) for curve in (a, b)]
+        assert felt[0] == pytest.approx(felt[1], rel=0.1), name
+
+
+def checked(seed: int, count: int) -> list[Verdict]:
+    """Verdicts on ``count`` random problems, each drawn problem counts; the seed and what misses are printed."""
+    random = np.random.default_rng(seed)
+    found = [verdict(random_problem(random)) for _ in range(count)]
+    for k, v in enumerate(found):
+        if not (holds_at_limit(v) and is_no_coward(v)):
+            print(f"seed {seed}, problem {k}: {v.impact}, limit {v.valid_until:.4g}, {v.at_limit}, {v.first_wrong}")
+    held, brave = (sum(says(v) for v in found) for says in (holds_at_limit, is_no_coward))
+    print(f"seed {seed}: {held} of {count} hold at the limit, of {brave} it is no less than half of what is possible")
+    return found
+
+
+def holds_at_limit(v: Verdict) -> bool:
+    return v.at_limit is not None and v.at_limit <= 0.02
+
+
+def is_no_coward(v: Verdict) -> bool:
+    return v.first_wrong is None or v.valid_until >= 0.5 * v.first_wrong
+
+
+def test_random_problems_are_within_two_per_cent_at_the_limit_of_predict() -> None:
+    found = checked(2027, 2)
+    assert all(holds_at_limit(v) and is_no_coward(v) for v in found)
 
 
 @pytest.mark.verify
 def test_sixty_random_problems_are_within_two_per_cent_at_the_time_predict_gives_as_its_limit() -> None:
-    seed = 165
-    print(f"seed {seed}")
-    random = np.random.default_rng(seed)
-    found = [verdict(random_problem(random)) for _ in range(60)]
-    for v in found:
-        if v.at_limit is not None:
-            assert v.at_limit <= 0.02, (v.impact, v.valid_until, v.limited_by)
-            assert v.first_wrong is None or v.valid_until >= 0.5 * v.first_wrong, (v.impact, v.first_wrong)
-    assert sum(v.at_limit is not None for v in found) >= 20
+    found = checked(165, 60)
+    assert sum(holds_at_limit(v) for v in found) == 60
+    assert sum(is_no_coward(v) for v in found) == 60
 
 
 def test_bounce_on_the_command_line(capsys: pytest.CaptureFixture[str], tmp_path) -> None:  # type: ignore[no-untyped-def]

@@ -34,14 +34,17 @@ const Case = (() => {
       "[beam]",
       line("length", i.length, "m"),
       ...bow[i.bow](),
+      ...(i.natural_share === 1 ? [] : [line("natural_curvature", impact.naturalCurvature, "1/m, free of stress")]),
+      ...(i.damping_ratio ? [line("damping_ratio", i.damping_ratio, "of the lowest bending mode")] : []),
       ...(i.tension ? [line("axial_force", i.tension, "N, tension positive")] : []),
       "",
       "[impact]",
       approach,
       ...(i.load ? [line("acceleration", impact.acceleration, `m/s²: weight, tension and a push of ${float(i.load)} N/m`)] : []),
       "",
+      ...(i.wall_curvature ? ["[wall]", line("curvature", i.wall_curvature, "1/m, hollow > 0"), ""] : []),
       "[run]",
-      line("end_time", predicted.validUntil, "s, until when the theory holds"),
+      line("end_time", predicted.shownUntil, "s, until when the theory holds"),
       "",
     ].join("\n");
   }

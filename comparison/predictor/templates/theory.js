@@ -155,25 +155,27 @@ const Theory = (() => {
   const turn = (angle) => [cos(angle), sin(angle)];
   const T = by(0.5, turn(-PI / 4)), T2 = times(T, T), T3 = times(T2, T); // z = T x
 
-  /** e^{z²} iᵐerfc(z), m = 0…6, at z = e^{−iπ/4}x/2, x ≥ 0: by recurrence, and by the asymptotic series from |z| = 8. */
+  const root = (a) => {
+    const size = hypot(a[0], a[1]), re = sqrt((size + abs(a[0])) / 2), im = a[1] / (2 * re);
+    return a[0] >= 0 ? [re, im] : [abs(im), a[1] < 0 ? -re : re];
+  };
+
+  /** e^{z²} iᵐerfc(z), m = 0…6, at z = e^{−iπ/4}x/2, x ≥ 0: by recurrence, upwards near 0, else their ratios downwards. */
   function iteratedErfc(x) {
-    const f = phi(x), z = by(x, T), list = [[(f.nu + f.kappa) / 2, (f.nu - f.kappa) / 2]];
-    if (x < 16) {
+    const z = by(x, T), twice = by(2, z), f = phi(x), list = [[(f.nu + f.kappa) / 2, (f.nu - f.kappa) / 2]];
+    if (x < 2) {
       list.push(minus([1 / sqrt(PI), 0], times(z, list[0])));
       for (let m = 2; m <= 6; m++) list.push(by(1 / (2 * m), minus(list[m - 2], by(2, times(z, list[m - 1])))));
       return list;
     }
-    const w = inverse(by(2, z)), w2 = times(w, w);
-    let power = w;
-    for (let m = 1; m <= 6; m++) {
-      power = times(power, w);
-      let term = [1, 0], sum = [0, 0];
-      for (let j = 0; j < 40; j++) {
-        sum = minus(sum, by(-1, term));
-        term = by(-(2 * j + m + 1) * (2 * j + m + 2) / (j + 1), times(term, w2));
-      }
-      list.push(by(2 / sqrt(PI), times(sum, power)));
+    const last = 30 + Math.trunc(880 / (x * x)), ratios = [], z2 = times(z, z);
+    let ratio = root([z2[0] + 2 * last, z2[1]]);
+    ratio = inverse([z[0] + ratio[0], z[1] + ratio[1]]);
+    for (let m = last; m > 0; m--) {
+      ratio = inverse([twice[0] + 2 * m * ratio[0], twice[1] + 2 * m * ratio[1]]);
+      ratios[m - 1] = ratio;
     }
+    for (let m = 1; m <= 6; m++) list.push(times(list[m - 1], ratios[m]));
     return list;
   }
 
@@ -233,7 +235,8 @@ const Theory = (() => {
     const bent = discrete ? 1 : c.ratio, swing = (rise * row[0] + bent) / row[1];
     const place = sqrt(c.lambda0 ** 2 + 4 * atan2(rise, swing));
     const crest = hypot(rise, swing) * times(times([0, 1], T2), times(iteratedErfc(place)[0], inverse(jump)))[0];
-    return crest > bent ? { moment: crest, at: place, ahead: place } : { moment: bent, at: 0, ahead: place };
+    const found = { crest, contact: bent, ahead: place };
+    return Object.assign(found, crest > bent ? { moment: crest, at: place } : { moment: bent, at: 0 });
   }
 
   // --- second order and validity -------------------------------------------------------------------------------
@@ -294,53 +297,160 @@ const Theory = (() => {
       middle2[0] = middle2[1] = 0;
     }
     const [, lambda2, r2] = system(w2, add(known2, scaled(-1, free2), moved, scaled(-1, middle2)));
-    return { lambda2, r2 };
+    return { lambda2, r2, opening: d1[2] };
   }
 
-  /** Share of the time of free vibration until which waves from the ends change the leading order by less than the tolerance; `ends` is theory/ends.json. */
-  function endsLimit(ratio, ends) {
-    // of a beam without damping of its own: the smallest of the measured ones stands for it
-    const ratios = ends.kappa_over_nu, limits = ends.time.map((time) => ends.factor[0] * time), last = ratios.length - 1;
-    if (ratio < ratios[0]) return limits[0] * (contact(ratios[0]).lambda0 / contact(ratio).lambda0) ** 2;
-    if (ratio >= ratios[last]) return limits[last];
-    const i = ratios.findLastIndex((r) => r <= ratio), share = (ratio - ratios[i]) / (ratios[i + 1] - ratios[i]);
-    return exp(log(limits[i]) * (1 - share) + log(limits[i + 1]) * share);
+  /** The knot before x and the share of the way to the next one; the outermost knots beyond. */
+  function between(knots, x) {
+    const at = Math.min(Math.max(x, knots[0]), knots[knots.length - 1]);
+    let i = 0;
+    while (i < knots.length - 2 && knots[i + 1] < at) i++;
+    return [i, (at - knots[i]) / (knots[i + 1] - knots[i])];
+  }
+  const mixed = (list, [i, share]) => (1 - share) * list[i] + share * list[i + 1];
+
+  /** erf, from its series of positive terms. */
+  function erf(x) {
+    if (x > 6) return 1;
+    let term = 2 / sqrt(PI) * x * exp(-x * x), sum = 0;
+    for (let n = 0; n < 200 && term > 1e-18 * sum; n++) {
+      sum += term;
+      term *= 2 * x * x / (2 * n + 3);
+    }
+    return sum;
+  }
+
+  /** erf⁻¹ on (0, 1), by Newton's method from below, where erf is concave. */
+  function erfInverse(y) {
+    let x = sqrt(PI) / 2 * y;
+    for (let i = 0; i < 60; i++) {
+      const step = (y - erf(x)) * sqrt(PI) / 2 * exp(x * x);
+      x += step;
+      if (abs(step) < 1e-15 * x) break;
+    }
+    return x;
+  }
+
+  /** A stopped point's reaction (c = ¼) or impulse (c = 5/4) over that without damping, t/η = age (theory/damped_point.py). */
+  function pointRatio(age, c) {
+    let sum = 0, term = 1;
+    if (age > 40) {
+      for (let n = 0; n < 25; n++) {
+        sum += term;
+        term *= (n - 0.25) * (n + 0.75 - c) / ((n + 1) * age);
+      }
+      return sum;
+    }
+    // Γ(c + ¼)/Γ(c) age^{−1/4} ₁F₁(−¼; c; −age), the latter by Kummer's transformation: positive terms
+    for (let n = 0; n < 400; n++) {
+      sum += term;
+      term *= (c + 0.25 + n) / ((c + n) * (n + 1)) * age;
+    }
+    const front = c < 1 ? 0.4888705337234618 : 2 * 0.4888705337234618; // Γ(½)/Γ(¼), Γ(3/2)/Γ(5/4)
+    return front * age ** -0.25 * exp(-age) * sum;
+  }
+
+  /** Half length, reaction, impulse and moment at the contact over those without damping at t/η = age (theory/damped_zone.py). */
+  function damped(c, age, table) {
+    if (!(age < 1e12)) return { length: 1, reaction: 1, impulse: 1, moment: 1 };
+    if (c.regime === "discrete")
+      return { length: 1, reaction: pointRatio(age, 0.25), impulse: pointRatio(age, 1.25), moment: exp(-age) / sqrt(PI * age) + erf(sqrt(age)) };
+    const point = erfInverse(c.ratio) ** 2;
+    if (age <= point) return { length: 0, reaction: pointRatio(age, 0.25) / c.r0, impulse: pointRatio(age, 1.25) / c.r0, moment: 1 };
+    const last = table.age[table.age.length - 1], late = age > last ? sqrt(last / age) : 1;
+    const [spread, reaction, impulse] = atAge(table, c.ratio, age).map((ratio) => 1 + (ratio - 1) * late);
+    return { length: spread * (1 - point / age), reaction, impulse, moment: 1 };
+  }
+  const NAMES = ["half_length", "reaction", "impulse"];
+  /** The three of a table over κ/ν and age, bilinear in the logarithms. */
+  function atAge(table, ratio, age, rows = table) {
+    const [i, share] = between(table.kappa_over_nu.map(log), log(ratio)), column = between(table.age.map(log), log(age));
+    return NAMES.map((name) => (1 - share) * mixed(rows[name][i], column) + share * mixed(rows[name][i + 1], column));
   }
 
   /**
-   * τ until which half length, force and impulse are within the tolerance, and what ends it (theory/validity.py):
-   *     tol·(t/t_ends)² + max(|λ₂|τ²/λ, |r₂|τ²/r) + third·x³ = tol,   x = max(|λ₁|τ/λ₀, |r₁|τ/r₀).
-   * `slow`: the time of the free vibration over that of the contact, 1/ε. On the same grid of times as in Python.
+   * τ from and until which half length, force and impulse are within the tolerance, and what ends it (theory/validity.py).
+   * slow: the time of the free vibration over that of the contact, 1/ε; damping: η over the time of the free vibration;
+   * quartic: q₀ ℓ⁴/(V₀T*).
    */
-  function validity(c, slow, limits) {
-    const { ends: table, third, flattest, slope } = limits, tolerance = table.tolerance, end = endsLimit(c.ratio, table) * slow;
+  function validity(c, slow, limits, damping = 0, quartic = 0) {
+    const { ends: table, zone, third, flattest, slope, share: part, point: slack } = limits, discrete = c.regime === "discrete";
+    let begins = 0;
+    if (damping > 0 && !discrete) {
+      if (c.ratio < zone.kappa_over_nu[0]) return { begins: 0, until: 0, by: "damping" };
+      begins = erfInverse(c.ratio) ** 2 >= zone.age[0] ? 0 : zone.age[0] * damping * slow;
+    }
+    const factor = exp(mixed(table.factor.map(log), between(table.damping.map(log), log(Math.max(damping, table.damping[0])))));
+    const ratios = table.kappa_over_nu, flat = c.ratio < ratios[0] ? ratios[0] / c.ratio : 1;
+    const stretch = factor * (flat > 1 ? (contact(ratios[0]).lambda0 / c.lambda0) ** 2 : 1);
+    const end = Math.max(...table.ends.arrival) * table.later[table.later.length - 1] * stretch * slow;
+    const logs = table.later.map(log), row = between(ratios, c.ratio);
+    const ofEnds = (tau) => {
+      const [bare, fourth] = [table.ends, table.quartic].map((cause) => {
+        const at = log(tau / (slow * stretch * mixed(cause.arrival, row))), column = between(logs, at);
+        if (at < logs[0]) return [0, 0, 0];
+        return NAMES.map((name) => (1 - row[1]) * mixed(cause[name][row[0]], column) + row[1] * mixed(cause[name][row[0] + 1], column));
+      });
+      return bare.map((value, i) => value + quartic * flat * fourth[i]);
+    };
+
     const size = Math.max(abs(c.alpha), abs(c.psi), abs(c.chi), abs(c.n));
-    const exact = size === 0 || (c.regime === "discrete" && c.n === 0), spreads = c.lambda0 > 0;
-    let scale = 0, loads = () => 0;
-    if (!exact) {
+    const exact = size === 0 || (discrete && c.n === 0), spreads = c.lambda0 > 0;
+    let scale = 0, until = Infinity, secondOf = () => [0, 0, 0], thirdOf = () => 0;
+    if (size > 0) {
       const p = contact(c.ratio, c.alpha / size, c.psi / size, c.chi / size, c.n / size);
       const change = Math.max(abs(p.r1) / p.r0, spreads ? abs(p.lambda1) / p.lambda0 : 0);
-      let { lambda2, r2 } = p.lambda0 < flattest ? secondOrder(p) : { lambda2: change ** 2 * p.lambda0, r2: change ** 2 * p.r0 };
-      [lambda2, r2] = [abs(lambda2), abs(r2)];
-      const fastest = Math.max(change, sqrt(Math.max(r2 / p.r0, spreads ? lambda2 / p.lambda0 : 0)));
+      const flatter = Math.min(1, c.ratio / flattest);
+      const like = flatter < 1 ? contact(flattest, p.alpha, p.psi / flatter ** 2, p.chi / flatter, p.n * flatter) : p;
+      const { lambda2: ofLength, r2: ofForce, opening } = secondOrder(like);
+      const lambda2 = spreads ? ofLength / like.lambda0 * p.lambda0 : 0, r2 = ofForce / like.r0 * p.r0;
+      if (!spreads && opening < 0) until = (p.ratio - 1 + slack) / (-opening * size);
+      const fastest = Math.max(change, sqrt(Math.max(abs(r2) / p.r0, spreads ? abs(lambda2) / p.lambda0 : 0)));
       scale = fastest > 0 ? 1 / (fastest * size) : 0;
-      loads = (tau) => {
-        const t = size * tau, push = p.r0 + p.r1 * t, spread = p.lambda0 + p.lambda1 * t;
-        if (!(push > 0) || (spreads && !(spread > 0))) return Infinity;
-        const force = push + sqrt(PI / 2) * t * spread * p.uniform;
-        return Math.max(r2 * t * t / abs(force), spreads ? lambda2 * t * t / abs(spread) : 0) + third * (change * t) ** 3;
-      };
+      if (!exact) {
+        secondOf = (tau) => {
+          const t = size * tau, push = p.r0 + p.r1 * t, spread = p.lambda0 + p.lambda1 * t, uniform = sqrt(PI / 2) * t * p.uniform;
+          const force = push + uniform * spread, total = p.r0 + p.r1 * t / 3 + uniform * (p.lambda0 / 3 + p.lambda1 * t / 5);
+          if (!(push > 0) || !(force > 0) || (spreads && !(spread > 0))) return [Infinity, Infinity, Infinity];
+          return [spreads ? lambda2 * t * t / spread : 0, r2 * t * t / force, r2 * t * t / (5 * total)];
+        };
+        thirdOf = (tau) => third * (change * size * tau) ** 3;
+      }
     }
+    const pushed = c.raised + c.psi;
+    const acting = { press: Math.max(pushed, 0), lift: Math.max(-pushed, 0), chi: c.chi, psi: c.psi, axial: c.n };
+    const loaded = !discrete && damping > 0 ? Object.keys(acting).filter((load) => acting[load]) : [];
+    const ofLoads = (tau) => {
+      const found = secondOf(tau), age = tau / slow / damping, ages = zone.loads.age, last = ages[ages.length - 1];
+      for (const load of loaded)
+        atAge(zone.loads, c.ratio, age, zone.loads[load]).forEach((rate, i) => {
+          found[i] += acting[load] * rate * (age > last ? sqrt(last / age) : 1) * tau;
+        });
+      return found;
+    };
+    const most = part * table.tolerance, largest = (list) => Math.max(...list.map(abs));
+    const good = (tau) => {
+      const ends = ofEnds(tau), loads = ofLoads(tau);
+      return largest(ends.map((value, i) => value + loads[i])) + thirdOf(tau) <= most;
+    };
     const grid = [];
-    for (let i = 0; i < 2000; i++) grid.push(end * 10 ** (-3 + 3 * i / 1999));
-    for (let i = 0; i < 4000; i++) grid.push(scale * 10 ** (-6 + 6 * i / 3999));
-    const tau = grid.filter((value) => value > 0 && value <= end).sort((a, b) => a - b);
-    const beyond = tau.findIndex((value) => tolerance * (value / end) ** 2 + loads(value) > tolerance);
-    let until = tau[beyond < 0 ? tau.length - 1 : Math.max(beyond - 1, 0)], by = "ends";
-    if (loads(until) > tolerance * (until / end) ** 2) by = tensionLeads(c) ? "tension" : "loads";
+    for (let i = 0; i < 600; i++) grid.push(end * 10 ** (-4 + 4 * i / 599), scale * 10 ** (-6 + 6 * i / 599));
+    const tau = grid.filter((value) => value > begins && value <= end).sort((a, b) => a - b);
+    const beyond = tau.findIndex((value) => !good(value));
+    let high = beyond < 0 ? end : tau[beyond], low = beyond < 1 ? begins : tau[beyond - 1];
+    for (let i = 0; i < 60; i++) {
+      const middle = (low + high) / 2;
+      if (good(middle)) low = middle;
+      else high = middle;
+    }
+    const ofLoad = tensionLeads(c) ? "tension" : "loads";
+    let ending = "ends";
+    if (until <= low || low === 0) ending = ofLoad;
+    else if (largest(ofLoads(low)) + thirdOf(low) > largest(ofEnds(low))) ending = ofLoad;
+    until = Math.min(low, until);
     const steep = steepest(c);
-    if (steep > 0 && (slope / steep) ** 2 < until) [until, by] = [(slope / steep) ** 2, "slope"];
-    return { until, by };
+    if (steep > 0 && (slope / steep) ** 2 < until) [until, ending] = [(slope / steep) ** 2, "slope"];
+    return begins >= until ? { begins: 0, until: 0, by: ending } : { begins, until, by: ending };
   }
 
   /** Whether the axial force changes λ and r more than the loads do. */
@@ -362,6 +472,6 @@ const Theory = (() => {
     return most;
   }
 
-  return { phi, contact, shape, beamAt, peakMoment, secondOrder, validity, s };
+  return { phi, contact, shape, beamAt, peakMoment, secondOrder, damped, validity, s };
 })();
 if (typeof module !== "undefined") module.exports = Theory;

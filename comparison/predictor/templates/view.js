@@ -133,7 +133,7 @@
   }
   const path = (points) => points.map(([x, y], i) => `${i ? "L" : "M"}${x.toFixed(2)},${y.toFixed(2)}`).join("");
 
-  const placeOfPeak = (t) => predicted.peak.at * Math.sqrt(predicted.c * t);
+  const placeOfPeak = (t) => (t > 0 ? Beam.at(predicted, t).place : 0);
   const CURVES = [ // `spreads`: nothing to draw where the contact stays a point
     { id: "plot-length", label: "Half contact length", name: "place", of: (r) => r.halfLength, spreads: true },
     { id: "plot-force", label: "Force on the wall", name: "force", of: (r) => r.reaction, steep: true },
@@ -207,7 +207,7 @@
 
   function rows(now) {
     const r = Beam.at(predicted, now), p = predicted;
-    const where = p.peak.at > 0 ? `${quantity("place", placeOfPeak(now), 3)} from the middle` : "in the contact";
+    const where = placeOfPeak(now) > 0 ? `${quantity("place", placeOfPeak(now), 3)} from the middle` : "in the contact";
     const list = [
       ["Half contact length", p.contact.regime === "discrete" ? "one point" : quantity("place", r.halfLength)],
       ["Force on the wall", quantity("force", r.reaction)],
@@ -221,15 +221,15 @@
   }
 
   function time() {
-    return predicted.validUntil * (Number(find("#predict-time").value) / 1000) ** 2;
+    return predicted.shownUntil * (Number(find("#predict-time").value) / 1000) ** 2;
   }
 
   function show() {
     const now = time();
     find("#predict-instant").textContent = quantity("time", now);
     find("#values").replaceChildren(...(now > 0 ? rows(now) : [["At first touch", "no impulse yet"]]).map(([name, value]) => element("div", {}, element("dt", {}, name), element("dd", {}, value))));
-    drawShape(predicted.validUntil, now);
-    drawCurves(predicted.validUntil, now);
+    drawShape(predicted.shownUntil, now);
+    drawCurves(predicted.shownUntil, now);
   }
 
   function update() {
@@ -248,7 +248,7 @@
     const [verdict, why] = REGIMES[predicted.contact.regime];
     find("#verdict").textContent = verdict;
     find("#why").textContent = why;
-    const { stress, moment } = Beam.at(predicted, predicted.validUntil), yields = inputs.yield_stress > 0 && stress > inputs.yield_stress;
+    const { stress, moment } = Beam.at(predicted, predicted.shownUntil), yields = inputs.yield_stress > 0 && stress > inputs.yield_stress;
     const share = inputs.yield_stress > 0 ? ` (${text(100 * stress / inputs.yield_stress, 3)} % of yield)` : "";
     const peak = `Largest stress ${quantity("stress", stress)}${share}`;
     find("#peak").textContent = `${peak}, largest bending moment ${quantity("moment", moment)}.`;
@@ -259,9 +259,11 @@
       ? "The largest stress exceeds the yield stress: a real beam would deform plastically. The numbers below are those of an elastic beam."
       : stubby
         ? "This beam is too short and thick: shear, which the theory leaves out, matters at all times. Take the numbers as an indication."
-        : `This holds to 2 % ${from}until ${quantity("time", predicted.validUntil, 3)} after first touch; then ${predicted.limitedBy}.`;
-    find("#holds").classList.toggle("alarm", yields || stubby);
-    find("#groups").textContent = `κ/ν = K√(EI/μ)/V₀ = ${text(predicted.contact.ratio, 5)} · λ₀ = ${text(predicted.contact.lambda0, 6)} · r₀ = ${text(predicted.contact.r0, 6)} · EI = ${text(problem.stiffness, 5)} N m² · μ = ${text(problem.mass, 5)} kg/m · K = ${text(problem.curvature, 5)} 1/m · V₀ = ${text(problem.velocity, 5)} m/s`;
+        : predicted.validUntil === 0
+          ? `This does not hold to 2 % at any time: ${predicted.limitedBy}. Take the numbers as an indication.`
+          : `This holds to 2 % ${from}until ${quantity("time", predicted.validUntil, 3)} after first touch; then ${predicted.limitedBy}.`;
+    find("#holds").classList.toggle("alarm", yields || stubby || predicted.validUntil === 0);
+    find("#groups").textContent = `κ/ν = ${problem.wallCurvature ? "(K − K_w)" : "K"}√(EI/μ)/V₀ = ${text(predicted.contact.ratio, 5)} · λ₀ = ${text(predicted.contact.lambda0, 6)} · r₀ = ${text(predicted.contact.r0, 6)} · EI = ${text(problem.stiffness, 5)} N m² · μ = ${text(problem.mass, 5)} kg/m · K = ${text(problem.curvature, 5)} 1/m · V₀ = ${text(problem.velocity, 5)} m/s`;
     find("#case").textContent = Case.toml(inputs, problem, predicted);
     if (alone) history.replaceState(null, "", toLink());
     show();

@@ -1,0 +1,164 @@
+"""What the beam's own damping does to a contact zone: measured, over κ/ν and t/η.
+
+On an endless beam without loads the damped impact has two numbers, κ/ν and the age T = t/η. Here half length, force and
+impulse over those of the undamped theory are measured on two meshes, whose errors fall in proportion to the elements,
+and extrapolated. Until T = erf⁻¹(κ/ν)² the contact is one point, and exact (:mod:`theory.damped_point`); so the half
+length is stored over λ₀√(ct)(1 − T_p/T), which is smooth.
+
+``python -m comparison.whole_impact.damped`` measures all (a quarter of an hour) and writes ``damped_zone.json`` in
+:mod:`theory`, which ``predict`` reads.
+"""
+
+from __future__ import annotations
+
+import argparse
+import datetime
+import math
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.special import erfinv
+
+import theory
+from bent_beam.history import versions
+from bent_beam.impact import Impact
+from comparison.plain import json_text
+from comparison.store import write_atomically
+from comparison.whole_impact.ends import Law, law_of, theory_law
+from comparison.workers import run_all
+from theory import damped_zone
+
+__all__ = ["AGES", "KAPPAS", "measure_zone"]
+
+Array = NDArray[np.float64]
+KAPPAS = (
+    0.01, 0.014, 0.02, 0.03, 0.04, 0.05, 0.07, 0.1, 0.125, 0.15, 0.175, 0.2, 0.225, 0.25, 0.275, 0.3, 0.35, 0.4, 0.45,
+    0.5, 0.55, 0.6, 0.65, 0.7, 0.75, 0.8, 0.85, 0.9, 0.95,
+)  # fmt: skip
+AGES = np.geomspace(0.0316, 3160.0, 81)
+"""t/η: sixteen a decade."""
+ELEMENTS = (0.04, 0.02)  # at the middle, of √(cη), which damping smooths over by the age 1
+LOAD_KAPPAS = (0.02, 0.05, 0.1, 0.15, 0.2, 0.3, 0.4, 0.5, 0.65, 0.8, 0.95)
+LOAD_AGES = np.geomspace(0.3, 300.0, 13)
+PER_RUN = 4  # intervals of these ages
+CHANGE = 0.15  # by the load, at the end of such a run
+WINDOW = 0.15  # of the fits, ± in ln t
+REACH = 20.0, 2.0  # half length over √(ct) at the last age, less a multiple of λ₀: nothing has been there and back
+
+
+def measure_zone(kappa: float, ages: Array = AGES, elements: Sequence[float] = ELEMENTS) -> Array:
+    """Half length (as stored), force and impulse over the undamped theory's at ``ages``, shape (3, n): extrapolated
+    from two meshes."""
+    coarse, fine = (_over_theory(kappa, ages, element) for element in elements)
+    ratio = elements[0] / elements[1]
+    return np.asarray(fine + (fine - coarse) / (ratio - 1.0))
+
+
+def _over_theory(kappa: float, ages: Array, element: float) -> Array:
+    reach = REACH[0] + REACH[1] * theory.contact_parameters(kappa).lambda0
+    impact = Impact.dimensionless(kappa, damping=1.0, length=2.0 * reach * math.sqrt(float(ages[-1])))
+    found: Law = law_of(impact, ages, element=element, window=WINDOW)
+    half_length, force, impulse = (a / b for a, b in zip(found, theory_law(kappa, ages)))
+    age_of_point = float(erfinv(kappa)) ** 2
+    with np.errstate(divide="ignore", invalid="ignore"):
+        spread = np.where(ages > 1.2 * age_of_point, half_length / (1.0 - age_of_point / ages), np.nan)
+    first = int(np.argmax(np.isfinite(spread)))
+    spread[:first] = spread[first]  # one point: multiplied by zero
+    return np.array([spread, force, impulse])
+
+
+def measure_loads(kappa: float, element: float = ELEMENTS[0]) -> Array:
+    """What damping changes of the answer to loads, relative, per unit of load times τ at :data:`LOAD_AGES`, shape
+    (loads, 3, n): half length, force and impulse of a loaded run over those of a bare one, over what theory says of
+    that, less one."""
+    found = np.zeros((len(damped_zone.LOADS), 3, LOAD_AGES.size))
+    for k, load in enumerate(damped_zone.LOADS):
+        for first in range(0, LOAD_AGES.size - 1, PER_RUN):
+            part = slice(first, min(first + PER_RUN + 1, LOAD_AGES.size))
+            found[k, :, part] = _answer(kappa, load, LOAD_AGES[part], element)
+    return found
+
+
+def _answer(kappa: float, load: str, ages: Array, element: float) -> Array:
+    solved = _loaded(kappa, load, 1.0)
+    exact = theory.contact_parameters(
+        kappa, solved.epsilon_alpha, solved.epsilon_psi, solved.epsilon_chi, axial=solved.epsilon_axial
+    )
+    change = max(abs(exact.lambda1) / exact.lambda0, abs(exact.r1) / exact.r0)
+    size = CHANGE / (change * float(ages[-1]))
+    reach = REACH[0] + REACH[1] * exact.lambda0
+    length = 2.0 * reach * math.sqrt(float(ages[-1]))
+
+    def over(impact: Impact) -> Array:
+        impact = impact.replace(length=length)
+        bare = impact.replace(acceleration=0.0, fourth_derivative=0.0, curvature_rate=0.0, axial_force=0.0)
+        runs = [law_of(i, ages, element=element, window=WINDOW, end="following") for i in (impact, bare)]
+        rows = [theory.predict(i.replace(damping=0.0), ages).times for i in (impact, bare)]
+        names = ("half_contact_length", "reaction", "impulse")
+        said = [Law(*(np.array([getattr(row, name) for row in at]) for name in names)) for at in rows]
+        return (1.0 + runs[0].over(runs[1])) / (1.0 + said[0].over(said[1])) - 1.0
+
+    if load in ("press", "lift"):  # of one sign only: from two sizes, against the square
+        once, twice = over(_loaded(kappa, load, 0.5 * size)), over(_loaded(kappa, load, size))
+        return np.asarray((4.0 * once - twice) / (size * ages))
+    there, back = over(_loaded(kappa, load, size)), over(_loaded(kappa, load, -size))
+    return np.asarray((there - back) / (2.0 * size * ages))
+
+
+def _loaded(kappa: float, load: str, size: float) -> Impact:
+    changes = {
+        "press": {"acceleration": size},
+        "lift": {"acceleration": -size},
+        "chi": {"curvature_rate": size},
+        "psi": {"fourth_derivative": size, "acceleration": -size},
+        "axial": {"axial_force": size, "acceleration": -size * kappa},
+    }[load]
+    return Impact.dimensionless(kappa, damping=1.0).replace(**changes)
+
+
+def _lost(i: int, why: str) -> Array:
+    raise RuntimeError(f"point {i}: {why}")
+
+
+def write(rows: Sequence[Array], loads: Sequence[Array]) -> Path:
+    """Write the table from what was measured at :data:`KAPPAS` and :data:`LOAD_KAPPAS`."""
+    table = np.array(rows)
+    names = ("half_length", "reaction", "impulse")
+    document = {
+        "what": "endless damped beam over undamped theory, by kappa/nu (rows) and age t/eta (columns): reaction, "
+        "impulse, and half_length over lambda0 sqrt(ct) (1 - erfinv(kappa/nu)^2/age); under `loads` what damping "
+        "changes of the answer to a load, relative, per unit of load times tau",
+        "made_by": "python -m comparison.whole_impact.damped",
+        "date": datetime.datetime.now(datetime.UTC).date().isoformat(),
+        "versions": versions(),
+        "settings": {"path": "hermite", "extrapolated_from_elements": ELEMENTS},
+        "kappa_over_nu": KAPPAS,
+        "age": [float(f"{age:.6g}") for age in AGES],
+        **{name: [[float(f"{v:.5g}") for v in row] for row in table[:, i]] for i, name in enumerate(names)},
+        "loads": {
+            "kappa_over_nu": LOAD_KAPPAS,
+            "age": [float(f"{age:.6g}") for age in LOAD_AGES],
+            **{
+                load: {
+                    name: [[float(f"{v:.3g}") for v in at[k, i]] for at in loads] for i, name in enumerate(names)
+                }
+                for k, load in enumerate(damped_zone.LOADS)
+            },
+        },
+    }
+    write_atomically(damped_zone.DATA, json_text(document) + "\n")
+    return damped_zone.DATA
+
+
+def _main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--jobs", type=int, default=2)
+    jobs = parser.parse_args().jobs
+    rows = run_all(measure_zone, [(kappa,) for kappa in KAPPAS], jobs=jobs, on_death=_lost)
+    print(write(rows, run_all(measure_loads, [(kappa,) for kappa in LOAD_KAPPAS], jobs=jobs, on_death=_lost)))
+
+
+if __name__ == "__main__":
+    _main()

@@ -1,0 +1,115 @@
+r"""A contact zone with Kelvin and Voigt's damping: how half length, force and impulse start (measured; no closed form).
+
+On an endless beam without loads the damped impact has two numbers, κ/ν and the age T = t/η. Every contact starts as
+one point: the wall takes the curvature κ/ν out of it only by
+
+    T_p = erf⁻¹(κ/ν)²                    (elastic part of the moment of a point: erf √T, `theory.damped_point`)
+
+and spreads from then on as λ_c = λ₀√(ct)(1 − T_p/T) g(T). g and the ratios of force and impulse to the undamped theory
+were measured on an endless finite-element beam (`damped_zone.json`, error about 0.3 %) and are interpolated linearly
+in ln κ/ν and ln T; g, force and impulse → 1 for large T, slowly in the impulse where κ/ν is small: what the first
+instants took stays in it.
+
+Loads act on a damped zone otherwise than on an undamped one. What the product of the two laws misses is measured too,
+as a rate: it is no part of the prediction but ends its validity.
+"""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import ArrayLike
+from scipy.special import erfinv
+
+from theory import damped_point
+from theory._fresnel import FloatArray
+
+#: Made anew by `python -m comparison.whole_impact.damped`.
+DATA = Path(__file__).with_name("damped_zone.json")
+#: The loads whose interaction with damping is known: pressing and lifting, χ, ψ (with α = −ψ), tension (with α = −nκ).
+LOADS = ("press", "lift", "chi", "psi", "axial")
+
+
+@dataclass(frozen=True)
+class _Table:
+    """Values over ln κ/ν (rows) and ln T (columns)."""
+
+    ratio: FloatArray
+    age: FloatArray
+    values: FloatArray
+
+    def at(self, ratio: float, age: FloatArray) -> FloatArray:
+        """Bilinear in the logarithms, the outermost values beyond; shape (..., n) for values (rows, ..., columns)."""
+        x, y = np.log(self.ratio), np.log(self.age)
+        here = float(np.clip(np.log(ratio), x[0], x[-1]))
+        i = int(np.clip(np.searchsorted(x, here) - 1, 0, x.size - 2))
+        share = (here - x[i]) / (x[i + 1] - x[i])
+        rows = (1.0 - share) * self.values[i] + share * self.values[i + 1]
+        at = np.clip(np.log(age), y[0], y[-1])
+        j = np.clip(np.searchsorted(y, at) - 1, 0, y.size - 2)
+        part = (at - y[j]) / (y[j + 1] - y[j])
+        return np.asarray((1.0 - part) * rows[..., j] + part * rows[..., j + 1])
+
+
+@cache
+def _tables() -> tuple[_Table, _Table]:
+    stored = json.loads(DATA.read_text(encoding="utf-8"))
+    names = ("half_length", "reaction", "impulse")
+    base = np.array([stored[name] for name in names]).transpose(1, 0, 2)
+    loads = stored["loads"]
+    rates = np.array([[loads[load][name] for name in names] for load in LOADS]).transpose(2, 0, 1, 3)
+    return (
+        _Table(np.array(stored["kappa_over_nu"]), np.array(stored["age"]), base),
+        _Table(np.array(loads["kappa_over_nu"]), np.array(loads["age"]), rates),
+    )
+
+
+def flattest() -> float:
+    """κ/ν of the flattest zone that was measured."""
+    return float(_tables()[0].ratio[0])
+
+
+def age_of_spreading(kappa_over_nu: float) -> float:
+    """T_p = erf⁻¹(κ/ν)², until which the contact is one point; κ/ν < 1."""
+    return float(erfinv(kappa_over_nu)) ** 2
+
+
+def earliest_age(kappa_over_nu: float) -> float:
+    """t/η from which the ratios are known: 0 where the point lasts until the table begins."""
+    first = float(_tables()[0].age[0])
+    return 0.0 if age_of_spreading(kappa_over_nu) >= first else first
+
+
+def ratios(kappa_over_nu: float, r0: float, age: ArrayLike) -> FloatArray:
+    """Half length, reaction and impulse over those of the undamped zone at T = t/η > 0, shape (3, n).
+
+    Args:
+        kappa_over_nu: below 1; below `flattest()` the flattest row is returned.
+        r0: of the undamped zone.
+        age: T, shape (n,).
+    """
+    ages = np.atleast_1d(np.asarray(age, dtype=np.float64))
+    table = _tables()[0]
+    spread, reaction, impulse = table.at(kappa_over_nu, ages)
+    point = age_of_spreading(kappa_over_nu)
+    last = float(table.age[-1])
+    late = np.sqrt(np.where(ages > last, last / ages, 1.0))
+    spread, reaction, impulse = (1.0 + (ratio - 1.0) * late for ratio in (spread, reaction, impulse))
+    before = ages <= point
+    if np.any(before):
+        one = np.where(before, ages, point)
+        reaction = np.where(before, damped_point.reaction_ratio(one) / r0, reaction)
+        impulse = np.where(before, damped_point.impulse_ratio(one) / r0, impulse)
+    return np.array([spread * np.where(before, 0.0, 1.0 - point / ages), reaction, impulse])
+
+
+def load_rates(kappa_over_nu: float, age: ArrayLike) -> FloatArray:
+    """What damping changes of the answer to a load, per unit of load times τ: relative, (loads, 3, n), `LOADS`."""
+    ages = np.atleast_1d(np.asarray(age, dtype=np.float64))
+    table = _tables()[1]
+    last = float(table.age[-1])
+    return np.asarray(table.at(kappa_over_nu, ages) * np.sqrt(np.where(ages > last, last / ages, 1.0)))
