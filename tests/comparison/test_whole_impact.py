@@ -28,6 +28,7 @@ from theory.stopped_beam import StoppedBeam
 from theory.validity import ends_errors
 
 SCHEMES = [MoreauJean(theta=0.5), NonsmoothGeneralizedAlpha()]
+PATHS = ["hermite", "exudyn"]
 COARSE = HermiteFE(mesh=UniformMesh(1.0 / 50))
 
 
@@ -83,7 +84,7 @@ def test_a_damped_point_contact_bounces_with_a_restitution_that_no_scheme_change
         (1.5, 1e-3, 0.6161, 2e-4),
         (0.5, 1e-3, 0.4563, 5e-4),
         (0.5, 1e-2, 0.3364, 2e-4),
-        (0.7, 1e-2, 0.4745, 3e-4),
+        (0.7, 1e-2, 0.4740, 5e-4),
         (1.2, 3e-3, 0.6108, 2e-4),
         (4.0, 1e-3, 0.616598, 1e-4),  # by modes
         (0.4, 1e-2, 0.2747, 3e-4),
@@ -92,7 +93,7 @@ def test_a_damped_point_contact_bounces_with_a_restitution_that_no_scheme_change
 def test_restitution_converges_whatever_the_scheme(
     integrator: object, kappa: float, damping: float, restitution: float, within: float
 ) -> None:
-    elements = 400 if (kappa, damping) == (0.5, 1e-3) else 200
+    elements = 400 if (kappa, damping) in ((0.5, 1e-3), (0.7, 1e-2)) else 200
     method = HermiteFE(mesh=UniformMesh(1.0 / elements), integrator=integrator)  # type: ignore[arg-type]
     history = method.simulate_to_separation(Impact.whole_beam(kappa, relative_damping=damping))
     found = whole_impact(history)
@@ -130,12 +131,14 @@ def test_breaks_shorter_than_the_shortest_separation_are_none() -> None:
     assert pushes(time, np.zeros(10), 1.0) == []
 
 
-def test_error_bars_of_a_bounce_hold_the_converged_value() -> None:
-    found = bounce(problem(0.5, 1e-2), COARSE)
+@pytest.mark.parametrize(("path", "elements"), [("hermite", 50), ("exudyn", 20)])
+def test_error_bars_of_a_bounce_hold_the_converged_value(path: str, elements: int) -> None:
+    method = dataclasses.replace(method_from_tables(path, {}), mesh=UniformMesh(1.0 / elements))
+    found = bounce(problem(0.5, 1e-2), method)
     restitution = found.numbers["restitution"]
     assert set(restitution.parts) == {"mesh", "step", "contact_law"}
     assert restitution.value is not None and restitution.error is not None
-    assert abs(restitution.value - 0.33636) <= restitution.error < 0.02
+    assert abs(restitution.value - 0.33636) <= restitution.error < 0.03
     document = bounce_document(found)
     assert json.loads(json.dumps(document)) == document
     assert document["si"]["impulse"]["value"] == pytest.approx(2.0 * (1.0 + restitution.value))
@@ -157,6 +160,18 @@ def test_without_damping_a_seeded_band_takes_the_place_of_a_number() -> None:
         "error": None,
         "band": {"mean": band.mean, "std": band.std, "runs": 2},
     }
+
+
+@pytest.mark.parametrize("path", PATHS)
+def test_an_ensemble_draws_elements_steps_and_contact_from_its_seed(path: str) -> None:
+    impact = problem(2.0, 0.0)
+    first, again = (
+        [method_from_tables(path, {}).varied(impact, random) for _ in range(6)]
+        for random in (np.random.default_rng(7), np.random.default_rng(7))
+    )
+    assert first == again
+    for part in ("mesh", "integrator", "contact"):
+        assert len({str(getattr(method, part)) for method in first}) > 1
 
 
 @dataclasses.dataclass(frozen=True)
@@ -193,9 +208,6 @@ kind = "uniform"
 element_length = {element}
 {more}
 """
-PATHS = ["hermite", "exudyn"]
-
-
 def case(folder: Path, damping: float = 1e-3, element: float = 0.025, more: str = "") -> str:
     """A steel ruler's case file."""
     file = folder / "ruler.toml"
