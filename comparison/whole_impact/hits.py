@@ -22,8 +22,8 @@ LONGEST_BREAK = 0.5
 class Hit:
     """wall : "front" or "opposite"; begin, end : s; place : mean |x| of the push, m; impulse : N s, always positive.
 
-    velocity : of the centre of mass after it, m/s, positive towards the front wall; energy : kinetic and strain after
-    it, J; lost : what the energy fell by between its begin and its end, J.
+    velocity : of the centre of mass after it, m/s, positive towards the front wall; energy : kinetic, strain and in
+    springs of the wall after it, J; lost : what the energy fell by between its begin and its end, J.
     """
 
     wall: str
@@ -52,6 +52,8 @@ def hits(history: ImpactHistory, *, longest_break: float = LONGEST_BREAK) -> lis
         else:
             spans.append((i, k, wall))
     energy = history.array("kinetic_energy") + history.array("strain_energy") - history.array("work_of_loads")
+    if "contact_energy" in history.dataset:
+        energy = energy + history.array("contact_energy")
     mass = impact.mass_per_length * impact.length
     carried = history.array("total_impulse")
     found = []
