@@ -56,7 +56,7 @@ const Beam = (() => {
     { name: "drop_height", label: "Drop height", quantity: "drop", start: 0.2, ok: positive, shown: on("approach", "drop"), group: "Approach" },
     { name: "tension", label: "Axial force (tension +)", quantity: "tension", start: 0, ok: any, group: "Loads" },
     { name: "load", label: "Load towards the wall", quantity: "load", start: 0, ok: any, group: "Loads" },
-    { name: "damping_ratio", label: "Damping ratio, lowest mode", quantity: "share", start: 0, ok: whole, group: "Beam" },
+    { name: "damping_ratio", label: "Damping ratio, 1st mode", quantity: "share", start: 0, ok: whole, group: "Beam" },
     { name: "wall_curvature", label: "Curvature (hollow +)", quantity: "curvature", start: 0, ok: any, group: "Wall" },
   ];
   for (const field of FIELDS) {

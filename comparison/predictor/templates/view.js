@@ -263,7 +263,7 @@
           ? `This does not hold to 2 % at any time: ${predicted.limitedBy}. Take the numbers as an indication.`
           : `This holds to 2 % ${from}until ${quantity("time", predicted.validUntil, 3)} after first touch; then ${predicted.limitedBy}.`;
     find("#holds").classList.toggle("alarm", yields || stubby || predicted.validUntil === 0);
-    find("#groups").textContent = `κ/ν = ${problem.wallCurvature ? "(K − K_w)" : "K"}√(EI/μ)/V₀ = ${text(predicted.contact.ratio, 5)} · λ₀ = ${text(predicted.contact.lambda0, 6)} · r₀ = ${text(predicted.contact.r0, 6)} · EI = ${text(problem.stiffness, 5)} N m² · μ = ${text(problem.mass, 5)} kg/m · K = ${text(problem.curvature, 5)} 1/m · V₀ = ${text(problem.velocity, 5)} m/s`;
+    find("#groups").textContent = `κ/ν = ${problem.wallCurvature ? "(K − K of the wall)" : "K"}√(EI/μ)/V₀ = ${text(predicted.contact.ratio, 5)} · λ₀ = ${text(predicted.contact.lambda0, 6)} · r₀ = ${text(predicted.contact.r0, 6)} · EI = ${text(problem.stiffness, 5)} N m² · μ = ${text(problem.mass, 5)} kg/m · K = ${text(problem.curvature, 5)} 1/m · V₀ = ${text(problem.velocity, 5)} m/s`;
     find("#case").textContent = Case.toml(inputs, problem, predicted);
     if (alone) history.replaceState(null, "", toLink());
     show();
