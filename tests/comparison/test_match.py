@@ -3,6 +3,8 @@
 import json
 import time
 from dataclasses import dataclass, replace
+from itertools import product
+from pathlib import Path
 from typing import ClassVar
 
 import pytest
@@ -221,6 +223,23 @@ def test_methods_come_from_a_file_and_from_assignments(tmp_path):
     assert (
         changed.integrator == replace(method_from_tables("hermite", {"integrator": {"kind": "moreau_jean"}})).integrator
     )
+
+
+LISTS = Path(__file__).resolve().parents[2] / "cases" / "methods"
+
+
+@pytest.mark.parametrize("file", sorted(LISTS.glob("*.toml")), ids=lambda file: file.stem)
+def test_every_shipped_list_can_be_asked_for(file):
+    assert methods_from_file(file)
+
+
+@pytest.mark.parametrize(("name", "types"), [("all", (HermiteFE, ExudynModel)), ("hermite", (HermiteFE,))])
+def test_a_list_of_all_pairs_holds_every_integrator_with_every_contact(name, types):
+    methods = methods_from_file(LISTS / f"{name}.toml")
+    for kind in types:
+        pairs = [(type(m.integrator), type(m.contact)) for m in methods if isinstance(m, kind)]
+        parts = (kind.PARTS[part].values() for part in ("integrator", "contact"))
+        assert len(pairs) == len(set(pairs)) and set(pairs) == set(product(*parts))
 
 
 @pytest.mark.parametrize(
