@@ -135,4 +135,4 @@ def draw_first_order(
 def _say_what_is_missing(fig: Any, lost: Sequence[MatchRow]) -> None:
     if lost:
         labels = ", ".join(dict.fromkeys(r.label for r in lost))
-        fig.text(0.5, -0.02, f"left out, no number: {len(lost)} rows ({labels[:120]})", ha="center", fontsize=6.5)
+        fig.supxlabel(f"left out, no number: {len(lost)} row{'s' if len(lost) > 1 else ''} ({labels[:120]})", fontsize=6.5)

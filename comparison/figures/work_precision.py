@@ -31,7 +31,8 @@ def draw_work_precision(rows: Sequence[MatchRow], out: Path, formats: Sequence[s
     for name, first in (("work-precision", False), ("work-precision-first-order", True)):
         mine = [r for r in rows if r.of_first_order == first and r.reason is None and r.seconds]
         if len({(r.label, r.refine) for r in mine}) > len({r.label for r in mine}):
-            files += _draw(mine, out, name, first, formats)
+            lost = {r.label for r in rows if r.of_first_order == first} - {r.label for r in mine}
+            files += _draw(mine, out, name, first, formats, missing=len(lost))
     return files
 
 
@@ -44,7 +45,9 @@ def _error(what: str, least: float) -> Read:
     return read
 
 
-def _draw(rows: Sequence[MatchRow], out: Path, name: str, first: bool, formats: Sequence[str]) -> list[Path]:
+def _draw(
+    rows: Sequence[MatchRow], out: Path, name: str, first: bool, formats: Sequence[str], missing: int
+) -> list[Path]:
     measured = ("r1", "lambda1") if first else ("r0", "lambda0")
     symbols = {"r0": "$r_0$", "lambda0": r"$\lambda_0$", "r1": "$r_1$", "lambda1": r"$\lambda_1$"}
     panels: list[tuple[str, Read]] = [
@@ -74,7 +77,9 @@ def _draw(rows: Sequence[MatchRow], out: Path, name: str, first: bool, formats: 
         names = [label for column in columns for label in column]
         looks = [{**marks[label], "ls": "-", "lw": 0.7} if label else {"ls": ""} for label in names]
         handles = [axes[0][0].plot([], [], **look)[0] for look in looks]
-        fig.legend(handles, names, loc="outside lower center", ncols=len(columns), fontsize=6.5)
+        words = f"left out, no number: {missing} method{'s' if missing > 1 else ''} of the table" if missing else None
+        sizes = {"fontsize": 6.5, "title_fontsize": 6.5}
+        fig.legend(handles, names, loc="outside lower center", ncols=len(columns), title=words, **sizes)
         return style.save(fig, out, name, formats)
 
 

@@ -177,10 +177,11 @@ def _draw(sheet: Sheet, study: Study, outcomes: Sequence[Outcome]) -> None:
         for axis in axes[-1]:
             axis.set_xlabel(study.heading)
         handles, labels = max((a.get_legend_handles_labels() for a in axes.flat), key=lambda pair: len(pair[1]))
-        fig.legend(handles, labels, loc="outside lower center", ncols=2, fontsize=6.5)
         missing = sum(o.failure is not None for o in outcomes)
-        if missing:
-            fig.text(0.5, -0.02, f"left out, no number: {missing} rows of the table", ha="center", fontsize=6.5)
+        said = f"left out, no number: {missing} row{'s' if missing > 1 else ''} of the table" if missing else None
+        fig.legend(
+            handles, labels, loc="outside lower center", ncols=2, fontsize=6.5, title=said, title_fontsize=6.5
+        )
 
 
 def _decades(axis: Axes, drawn: Sequence[Any]) -> None:
