@@ -135,4 +135,5 @@ def draw_first_order(
 def _say_what_is_missing(fig: Any, lost: Sequence[MatchRow]) -> None:
     if lost:
         labels = ", ".join(dict.fromkeys(r.label for r in lost))
-        fig.supxlabel(f"left out, no number: {len(lost)} row{'s' if len(lost) > 1 else ''} ({labels[:120]})", fontsize=6.5)
+        rows = f"{len(lost)} row{'s' if len(lost) > 1 else ''}"
+        fig.supxlabel(f"left out, no number: {rows} ({labels[:120]})", fontsize=6.5)
