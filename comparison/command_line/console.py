@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import logging
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
@@ -50,5 +51,24 @@ class Console:
             TextColumn("left"),
             TimeRemainingColumn(),
         )
-        with Progress(*columns, console=RichConsole(stderr=True), transient=True) as bar:
+        with Progress(*columns, console=RichConsole(stderr=True), transient=True) as bar, notices(bar.console.print):
             yield Bar(bar, title)
+
+
+@contextmanager
+def notices(show: Callable[[str], None]) -> Iterator[None]:
+    """What any path logs for the user (the logger ``bent_beam``) goes to ``show`` while in here."""
+
+    class Shown(logging.Handler):
+        def emit(self, record: logging.LogRecord) -> None:
+            show(record.getMessage())
+
+    handler, log = Shown(logging.INFO), logging.getLogger("bent_beam")
+    level = log.level
+    log.addHandler(handler)
+    log.setLevel(logging.INFO)
+    try:
+        yield
+    finally:
+        log.removeHandler(handler)
+        log.setLevel(level)

@@ -184,8 +184,12 @@ class AccelerationRow:
     gap: str
 
 
+def _change(value: float, plain: float) -> str:
+    return signed(f"{100 * (value / plain - 1):+.0f} %")
+
+
 def acceleration_rows(impacts: Sequence[ShownImpact]) -> list[AccelerationRow]:
-    """A row a run with acceleration and, before those of an impact, what theory says of the uniform reaction."""
+    """A row for each run with acceleration."""
     plain = {i.label: i for i in impacts if i.shown.name == "plain"}
     rows = []
     for impact in impacts:
@@ -193,13 +197,14 @@ def acceleration_rows(impacts: Sequence[ShownImpact]) -> list[AccelerationRow]:
         if base is None or impact is base:
             continue
         lift = max(impact.data["lift"])
-        change = [signed(f"{100 * (impact.data[n][-1] / base.data[n][-1] - 1):+.0f} %") for n in ("front", "reaction")]
+        zone, reaction = (_change(impact.data[n][-1], base.data[n][-1]) for n in ("front", "reaction"))
         pressed = impact.shown.pressure > 0.0
         rows.append(
             AccelerationRow(
                 f"{impact.shown.title}, ε = {impact.shown.epsilon:g}",
                 impact.label,
-                *change,
+                zone,
+                reaction,
                 f"{impact.data['pressure'][-1]:.3g} (theory: {impact.shown.pressure:.3g})" if pressed else "0",
                 ("0" if lift == 0.0 else percent(lift)) + ("" if pressed else ": the middle lifts off"),
             )

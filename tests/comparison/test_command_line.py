@@ -163,3 +163,16 @@ def test_a_stored_run_is_drawn_and_compared(capsys, tmp_path):
     assert found["same_impact"] and found["paths"] == ["hermite", "exudyn"]
     assert found["largest_difference"]["total_impulse"] < 0.01  # two codes, one impact
     assert found["largest_difference"]["gap"] < 0.01
+
+
+def test_what_a_path_logs_for_the_user_is_shown_with_the_progress():
+    import logging
+
+    from comparison.command_line.console import notices
+
+    seen = []
+    with notices(seen.append):
+        logging.getLogger("bent_beam").info("compiling")
+        logging.getLogger("elsewhere").info("noise")
+    logging.getLogger("bent_beam").info("after")
+    assert seen == ["compiling"]
