@@ -35,8 +35,11 @@ def main(problem_file, result_file, resolution="medium", path="hermite"):
         changes["axial_force"] = beam["axial_force"]
     # mesh and steps are those of the problem without loads, so that both can be subtracted
     method = method_type(path)()
-    if path == "hermite" and beam["length"] != "infinite":
-        method = with_parts_for_whole_beam(method, bare)  # nothing held, nothing absorbed
+    if path == "hermite":
+        if beam["length"] == "infinite":  # cut where the beam goes on: its ends follow the free motion
+            method = dataclasses.replace(method, domain=HALF_LENGTH)
+        else:
+            method = with_parts_for_whole_beam(method, bare)  # nothing held, nothing absorbed
     method = chosen_for(method, bare, end)
     method = refined(method, REFINEMENT.get(path, OTHERS)[resolution]) or method
     began = time.perf_counter()
