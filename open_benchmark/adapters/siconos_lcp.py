@@ -17,7 +17,7 @@ import numpy as np
 import siconos.kernel as sk
 
 SIZES = {"coarse": 0.04, "medium": 0.02, "fine": 0.0125}  # element length over l*
-HALF_LENGTH, THETA = 4.0, 1.0
+HALF_LENGTH, THETA = 3.0, 1.0
 
 
 def matrices(n, size, beam):
