@@ -17,7 +17,7 @@ from PIL import Image
 
 FUZZ = bool(os.environ.get("FUZZ"))
 SEED = os.environ.get("FUZZ_SEED", "0")
-INTERRUPTS = 4 if FUZZ else 1
+INTERRUPTS = 3 if FUZZ else 1
 MAIN = """
 import sys
 from pathlib import Path
