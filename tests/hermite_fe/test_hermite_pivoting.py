@@ -9,7 +9,17 @@ from scipy.linalg import cho_solve_banded, cholesky_banded
 
 from bent_beam.meshes import ScaleFreeMesh
 from hermite_fe.beam import HermiteBeam
-from hermite_fe.kernels import SOLVED, combine, problem_of, solve_rows, works_of
+from hermite_fe.kernels import (
+    SOLVED,
+    combine,
+    force_at,
+    multiply,
+    problem_of,
+    solve_rows,
+    stiff_multiply,
+    works_of,
+)
+from hermite_fe.kernels.banded import quadratic, row_sums
 from hermite_fe.kernels.monotone import solve_monotone
 from hermite_fe.system import ContactRows, System
 
@@ -151,6 +161,29 @@ def test_the_factors_solve_like_lapack_s() -> None:
     worst = np.abs(lapack - known).max()
     assert 0.0 < worst < 1e-6
     assert np.abs(work.x - known).max() < 5.0 * worst
+
+
+@pytest.mark.parametrize("n", [2, 4, 6, 8, 10, 16, 30])
+def test_products_are_those_of_the_dense_matrix(n: int) -> None:
+    random = np.random.default_rng(n)
+    bands, x, y = random.normal(size=(4, n)), random.normal(size=n), np.zeros(n)
+    for m in range(4):
+        bands[m, max(n - m, 0) :] = 0.0
+    full = dense(bands)
+    for first in {n, n - 1, n // 2, 1}:  # x is taken as zero beyond
+        multiply(bands, x, y, first)
+        assert y[:first] == pytest.approx(full[:first, :first] @ x[:first], rel=1e-13, abs=1e-13)
+    assert quadratic(bands, x) == pytest.approx(x @ full @ x, rel=1e-12, abs=1e-12)
+    stiff_multiply(bands, *row_sums(bands), x, y)
+    assert y == pytest.approx(full @ x, rel=1e-13, abs=1e-13)
+
+
+def test_loads_are_powers_of_time() -> None:
+    load, force = np.array([[1.0, -2.0], [0.5, 3.0], [-4.0, 0.25]]), np.full(2, 9.0)
+    t, h, theta = 0.7, 0.2, 0.6
+    force_at(load, t, h, theta, force)
+    exact = [theta * np.polyval(c[::-1], t + h) + (1.0 - theta) * np.polyval(c[::-1], t) for c in load.T]
+    assert force == pytest.approx(exact, rel=1e-14)
 
 
 def test_a_load_near_the_contact_moves_nothing_far_away() -> None:
