@@ -35,6 +35,14 @@ def path_names(incomplete: str) -> list[str]:
     return complete(paths(), incomplete)
 
 
+def setting_names(incomplete: str) -> list[str]:
+    """Completion of ``--set``: every setting, and the kinds of each part."""
+    from comparison.settings import settings
+
+    known = {f"{s.table}.kind={s.kind}" if s.name == "kind" else f"{s.table}.{s.name}=" for s in settings()}
+    return complete(sorted(known), incomplete)
+
+
 def complete(known: list[str], incomplete: str) -> list[str]:
     """The known words that begin as typed."""
     return [word for word in known if word.startswith(incomplete)]
@@ -51,7 +59,12 @@ Scheduler = Annotated[
 ]
 Set = Annotated[
     list[str] | None,
-    typer.Option("--set", metavar="TABLE.KEY=VALUE", help="Lay a setting over the file's; repeatable."),
+    typer.Option(
+        "--set",
+        metavar="TABLE.KEY=VALUE",
+        help="Lay a setting over the file's; repeatable.",
+        autocompletion=setting_names,
+    ),
 ]
 Paths = Annotated[
     list[str] | None,

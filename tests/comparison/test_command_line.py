@@ -176,3 +176,11 @@ def test_what_a_path_logs_for_the_user_is_shown_with_the_progress():
         logging.getLogger("elsewhere").info("noise")
     logging.getLogger("bent_beam").info("after")
     assert seen == ["compiling"]
+
+
+def test_settings_and_kinds_are_completed():
+    from comparison.command_line.options import setting_names
+
+    assert "hermite.contact.kind=middle" in setting_names("hermite.contact.k")
+    assert setting_names("beam.leng") == ["beam.length="]
+    assert "exudyn.integrator.kind=newmark" in setting_names("exudyn.")
