@@ -27,5 +27,5 @@ def plain(text: str) -> str:
     first, _, rest = text.partition("\n\n")
     head = re.sub(r"([\[\]*_|<>#])", r"\\\1", " ".join(first.split()))
     head = re.sub(r"`+[^`]*`+", lambda m: m[0].replace("\\", ""), head)
-    rest = rest.strip("\n").replace("``", "")
+    rest = rest.strip("\n").replace("``", "").replace("**", "")
     return head + (f"\n\n```text\n{rest}\n```" if rest else "")
