@@ -37,7 +37,7 @@ from comparison.report.pipe import Pipe, pipe_verdict
 from comparison.report.plots import bounce_plot, noise_plots, plots
 from comparison.report.rows import PATHS, convergence_rows, first_order_rows, labels, leading_rows, report_questions
 from comparison.report.stills import draw_acceleration, draw_impact, draw_maps, draw_noise, grouped
-from comparison.report.studies import StudyNote, common_ending, stored_studies
+from comparison.report.studies import StudyNote, stored_studies
 from comparison.report.text import (
     acceleration_rows,
     acceleration_short,
@@ -45,6 +45,7 @@ from comparison.report.text import (
     edge_answer,
     headline,
     noise_answer,
+    powers,
     problem_answer,
     speed_answer,
 )
@@ -196,7 +197,6 @@ def page(content: Content) -> str:
         lstrip_blocks=True,
     )
     leading, first = leading_rows(content.rows), first_order_rows(content.rows)
-    ending = common_ending(content.studies)
     drawn = plots(leading, first, convergence_rows(content.rows))
     if content.noise is not None:
         drawn |= noise_plots(content.noise.before, content.noise.after)
@@ -228,9 +228,8 @@ def page(content: Content) -> str:
         shown_methods=list(dict.fromkeys(i.label for i in content.impacts)),
         impact_warnings=[(i, w) for i in content.impacts for w in i.warnings],
         lost_impacts=content.lost_impacts,
-        studies=[(s, s.conclusion.removesuffix(ending).strip()) for s in content.studies],
+        studies=[(note, powers(note.conclusion)) for note in content.studies],
         work=[(w, picture(w.picture)) for w in content.work if w.picture.exists()],
-        studies_ending=ending,
         study_dates=span_of([note.date for note in content.studies if note.date]),
         pictures={p.stem: picture(p) for p in content.pictures if p.exists()}
         | {f"study-{n.name}": picture(n.picture) for n in content.studies if n.picture.exists()},

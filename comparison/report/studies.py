@@ -10,7 +10,6 @@ from __future__ import annotations
 import argparse
 import json
 import os
-from collections import Counter
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 from datetime import UTC, datetime
@@ -27,7 +26,7 @@ from bent_beam.history import versions
 from comparison.store import write_atomically
 from comparison.workers import run_all
 
-__all__ = ["STORED", "StudyNote", "common_ending", "known_studies", "store_studies", "stored_studies"]
+__all__ = ["STORED", "StudyNote", "known_studies", "store_studies", "stored_studies"]
 
 STORED = Path(__file__).with_name("stored")
 
@@ -149,22 +148,6 @@ def lost(name: str, title: str, why: str) -> StudyNote:
         failed=True,
         date=today(),
     )
-
-
-def common_ending(notes: Sequence[StudyNote]) -> str:
-    """The last sentence, where several conclusions share it: to be said once."""
-    endings = Counter(ending_of(n.conclusion) for n in notes if not n.failed)
-    text, times = endings.most_common(1)[0] if endings else ("", 0)
-    return text if times >= 3 else ""
-
-
-def ending_of(conclusion: str) -> str:
-    """The last sentence of a text (a full stop followed by a capital starts a new one)."""
-    start = 0
-    for place in range(len(conclusion) - 2):
-        if conclusion[place : place + 2] == ". " and conclusion[place + 2].isupper():
-            start = place + 2
-    return conclusion[start:]
 
 
 if __name__ == "__main__":

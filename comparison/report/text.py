@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from statistics import median
@@ -21,6 +22,7 @@ __all__ = [
     "edge_answer",
     "headline",
     "noise_answer",
+    "powers",
     "problem_answer",
     "speed_answer",
 ]
@@ -38,6 +40,14 @@ def percent(value: float) -> str:
     digits = max(0, 1 - math.floor(math.log10(size)))
     step = 10.0**-digits
     return f"{math.ceil(size / step - 1e-9) * step:.{digits}f} %"
+
+
+RAISED = str.maketrans("-−0123456789", "⁻⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+
+
+def powers(text: str) -> str:
+    """``text`` with numbers like 7.0e-4 as 7.0·10⁻⁴, as a reader writes them."""
+    return re.sub(r"(?<=\d)e([-−]?)0*(\d+)\b", lambda m: "·10" + (m[1] + m[2]).translate(RAISED), text)
 
 
 def _worst_of(rows: Sequence[TableRow]) -> list[tuple[str, Cell, float, int]]:

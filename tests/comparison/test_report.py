@@ -6,7 +6,6 @@ import json
 import re
 import shutil
 import sys
-from dataclasses import replace
 from html.parser import HTMLParser
 from pathlib import Path
 from typing import Any
@@ -34,12 +33,11 @@ from comparison.report.studies import (
     STORED,
     StudyNote,
     case_of,
-    common_ending,
     known_studies,
     store_studies,
     stored_studies,
 )
-from comparison.report.text import acceleration_rows, edge_answer, headline, noise_answer, percent, speed_answer
+from comparison.report.text import acceleration_rows, edge_answer, headline, noise_answer, percent, powers, speed_answer
 from comparison.report.work import KAPPA, LISTS, MEASUREMENTS, stored_measurements
 from comparison.store import RunStore
 
@@ -343,12 +341,8 @@ def test_stored_work_and_precision_holds_every_method_of_its_list() -> None:
             assert (None in numbers) == bool(kept["reason"]), kept["label"]
 
 
-def test_sentence_shared_by_studies_is_said_once() -> None:
-    notes = [StudyNote(name, name, f"{name} is at 0.5 m. The rest is the same.") for name in ("A", "B", "C")]
-    assert common_ending(notes) == "The rest is the same."
-    assert common_ending(notes[:2]) == ""
-    text = page(replace(content(), studies=notes))
-    assert text.count("The rest is the same.") == 1 and "B is at 0.5 m." in text
+def test_powers_of_ten_are_written_as_such() -> None:
+    assert powers("off by 7.0e−4 % and 1.2e-09 V₀t, the 3e5th") == "off by 7.0·10⁻⁴ % and 1.2·10⁻⁹ V₀t, the 3e5th"
 
 
 def test_studies_of_the_report_have_cases() -> None:
