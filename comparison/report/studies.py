@@ -99,6 +99,7 @@ def store_studies(names: Sequence[str], *, jobs: int = 1) -> Path:
         raise ValueError(f"{', '.join(kept)}: measured with other versions; run all studies again")
     wanted = [(name, titles[name]) for name in titles if name in names]
     notes = run_all(_note, wanted, jobs=jobs, on_death=lambda i, why: lost(*wanted[i], why))
+    kept = {note.name: note for note in stored_studies() if note.name in kept}  # another run may have written since
     found = kept | {note.name: note for note in notes}
     document = {
         "what": "conclusions of the parameter studies, for the report",
@@ -155,4 +156,6 @@ if __name__ == "__main__":
     parser.add_argument("names", nargs="*", metavar="NAME", help="studies to measure again (all)")
     parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1)
     given = parser.parse_args()
-    print(store_studies(given.names or list(known_studies()), jobs=given.jobs))
+    rounds = [given.names[i : i + given.jobs] for i in range(0, len(given.names), given.jobs)]
+    for names in rounds or [list(known_studies())]:  # what is measured one by one is kept one by one
+        print(store_studies(names, jobs=given.jobs), *names, flush=True)

@@ -37,6 +37,7 @@ def test_a_bar_that_misses_is_counted():
 
     found = coverage([row(1.001, 2e-3), row(1.01, 2e-3), MatchRow("x", "x", {}, 0.5, 0, 0, 0, 0, 1.0)])
     assert (found.share, found.runs) == (0.5, 3)
+    assert found.ratio == pytest.approx(1.1)  # of bars over errors: 2, 2, 0.2, 0.2
     assert found.lost == pytest.approx(1 / 3)
     assert len(found.worst) == 2
 

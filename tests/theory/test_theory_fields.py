@@ -184,3 +184,13 @@ def test_refusals_name_what_is_wrong() -> None:
         fields.beam(0.0, 5.0)
     with pytest.raises(ValueError, match=r"a must lie in \[-1, 1\]"):
         fields.complementarity_residual(1.5, 0.1)
+
+
+def test_a_front_that_turns_back_is_refused_from_the_time_that_is_named() -> None:
+    # λ_c = √τ(λ₀ + ελ₁τ) turns back where λ₀ + 3ελ₁τ = 0
+    fields = ImpactFields(contact_parameters(0.5, -2.0, 0.0, 0.0), epsilon=0.5)
+    p = fields.parameters
+    last = p.lambda0 / (-3.0 * 0.5 * p.lambda1)
+    with pytest.raises(ValueError, match=f"tau must be below {last:.6g}"):
+        fields.half_contact_length(1.001 * last)
+    assert fields.half_contact_length(0.999 * last) > 0.0
