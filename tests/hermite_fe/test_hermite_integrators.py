@@ -169,6 +169,29 @@ def test_a_ball_at_rest_presses_with_its_weight(make: Make) -> None:
     assert run.impulse[-1, 0] == pytest.approx(GRAVITY, rel=2e-3)
 
 
+def test_a_ball_that_rests_on_a_spring_says_how_far_reaction_and_gap_exclude_each_other() -> None:
+    """Reaction mg and penetration mg/k in every step: their product is what complementarity lacks."""
+    k, h = 1e4, 1e-3
+    resting = np.array([-GRAVITY / k])
+    run = integrate(ball(), resting, np.zeros(1), GeneralizedAlphaPenalty(h, stiffness=k, damping=0.0), 0.1, save=8)
+    assert run.product[1:] == pytest.approx(h * GRAVITY**2 / k, rel=0.15)  # the start shakes it a little
+    assert run.held_impulse[-1, 0] == 0.0
+
+
+@pytest.mark.parametrize("make", WITH_IMPACT_LAW.values(), ids=WITH_IMPACT_LAW)
+def test_only_what_a_held_row_pulls_is_its_held_impulse(make: Make) -> None:
+    """A weight lifted off at g from a wall that holds it for half a second, after a second of lying on it."""
+    g, end = 2.0, 1.5
+    system = System(
+        mass=[[1.0]], stiffness=[[0.0]], load=[[-g], [2.0 * g]], contacts=ContactRows([[0]], [[1.0]], [0.0])
+    )
+    run = integrate(system, np.zeros(1), np.zeros(1), make(1e-3), end, hold=0, hold_until=1.0)
+    assert np.all(np.diff(run.held_impulse[:, 0]) <= 1e-12)
+    # the load −g + 2gt presses until t = ½ and pulls from then on, held until 1
+    assert run.held_impulse[-1, 0] == pytest.approx(-g * 0.25, abs=0.02)
+    assert run.impulse[-1, 0] == pytest.approx(0.0, abs=0.02)
+
+
 def test_signorini_at_position_never_enters_the_wall() -> None:
     run = integrate(ball(), np.array([DROP]), np.zeros(1), SignoriniPosition(1e-3), 1.0)
     assert run.gap.min() >= -1e-15
