@@ -167,6 +167,28 @@ def test_a_ball_at_rest_presses_with_its_weight(make: Make) -> None:
     run = integrate(ball(), np.zeros(1), np.zeros(1), make(1e-3), 1.0)
     assert np.abs(run.q).max() < 1e-5
     assert run.impulse[-1, 0] == pytest.approx(GRAVITY, rel=2e-3)
+    assert np.abs(run.product).max() < 1e-12 and run.smallest_reaction.min() >= 0.0
+
+
+@pytest.mark.parametrize("radius", [0.6, 0.9])
+@pytest.mark.parametrize(
+    "make",
+    [
+        lambda h, r: NonsmoothGeneralizedAlpha(h, spectral_radius=r),
+        lambda h, r: NonsmoothGeneralizedAlpha(h, levels="velocity", spectral_radius=r),
+        lambda h, r: GeneralizedAlphaPenalty(h, spectral_radius=r, stiffness=1e4, damping=0.0),
+    ],
+)
+def test_what_steps_cannot_resolve_shrinks_by_the_spectral_radius(
+    make: Callable[[float, float], Integrator], radius: float
+) -> None:
+    """Chung & Hulbert 1993: at ωh → ∞ all roots of the amplification are ρ∞, a double one among them (n ρⁿ)."""
+    system = System(mass=[[1.0]], stiffness=[[1e12]], contacts=ContactRows([[0]], [[1.0]], [1e9]))
+    steps = int(-40.0 / np.log(radius))
+    run = integrate(system, np.ones(1), np.zeros(1), make(1.0, radius), float(steps), save=list(np.arange(steps + 1.0)))
+    size, half = np.abs(run.q[:, 0]), steps // 2
+    early, late = size[half - 4 : half].max(), size[2 * half - 4 : 2 * half].max()
+    assert (late / early / 2.0) ** (1.0 / half) == pytest.approx(radius, rel=0.03)
 
 
 def test_a_ball_that_rests_on_a_spring_says_how_far_reaction_and_gap_exclude_each_other() -> None:

@@ -15,6 +15,8 @@ from hermite_fe.kernels import (
     force_at,
     multiply,
     problem_of,
+    row_times,
+    rows_times,
     solve_rows,
     stiff_multiply,
     works_of,
@@ -176,6 +178,17 @@ def test_products_are_those_of_the_dense_matrix(n: int) -> None:
     assert quadratic(bands, x) == pytest.approx(x @ full @ x, rel=1e-12, abs=1e-12)
     stiff_multiply(bands, *row_sums(bands), x, y)
     assert y == pytest.approx(full @ x, rel=1e-13, abs=1e-13)
+
+
+@pytest.mark.parametrize("width", [1, 4])
+def test_gaps_are_rows_times_displacements(width: int) -> None:
+    random = np.random.default_rng(width)
+    dofs = np.array([[0], [3], [4]]) + np.arange(width)
+    factors, x, out = random.normal(size=(3, width)), random.normal(size=9), np.full(3, 7.0)
+    exact = (factors * x[dofs]).sum(axis=1)
+    rows_times(dofs, factors, x, out)
+    assert out == pytest.approx(exact, rel=1e-14)
+    assert [row_times(dofs, factors, x, j) for j in range(3)] == pytest.approx(exact, rel=1e-14)
 
 
 def test_loads_are_powers_of_time() -> None:
