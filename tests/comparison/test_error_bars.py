@@ -6,9 +6,10 @@ import random
 import numpy as np
 import pytest
 
+from bent_beam.meshes import GradedMesh
 from comparison.compared import Compared
 from comparison.error_bars import coverage, draw, measure
-from comparison.match import MatchRow
+from comparison.match import DURATION, MatchRow
 
 
 def test_the_sample_is_reproducible_and_mixed():
@@ -26,6 +27,9 @@ def test_every_method_that_is_drawn_can_be_made_and_spans_what_the_distribution_
     assert 0.05 <= kappas.min() < 0.06 and 0.8 < kappas.max() <= 0.95
     assert np.median(kappas) == pytest.approx(np.sqrt(0.05 * 0.95), rel=0.2)
     assert np.mean([question.method.path == "hermite" for question in drawn]) == pytest.approx(0.8, abs=0.06)
+    meshes = [(q.method.mesh, np.sqrt(2.0 * DURATION / q.kappa_over_nu)) for q in drawn if q.method.path == "hermite"]
+    zones = [mesh.zone / length for mesh, length in meshes if isinstance(mesh, GradedMesh)]
+    assert 1.0 <= min(zones) < 1.5 and 3.5 < max(zones) <= 4.0
     factors = {question.refine for question in drawn if question.method.path == "exudyn"}
     assert 1.0 / 3.0 <= min(factors) and max(factors) <= 1.0 and len(factors) > 20
 

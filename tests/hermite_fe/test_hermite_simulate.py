@@ -100,6 +100,16 @@ def test_a_free_motion_that_meets_the_wall_elsewhere_is_said_of_ends_that_follow
     assert said(impact, "free") == said(impact.replace(fourth_derivative=-0.02), "following") == []
 
 
+def test_an_ensemble_is_drawn_within_a_factor_of_two_of_one_step() -> None:
+    impact, random = Impact.whole_beam(0.5), np.random.default_rng(3)
+    drawn = [HermiteFE().varied(impact, random) for _ in range(300)]
+    steps = [m.integrator.time_step * impact.wave_constant / m.mesh.element_length**2 for m in drawn]
+    assert 0.5 <= min(steps) < 0.55 and 1.8 < max(steps) <= 2.0
+    assert {m.contact.restitution for m in drawn} == {0.0, 0.5, 1.0}
+    elements = [impact.half_length / m.mesh.element_length for m in drawn]
+    assert 79.5 < min(elements) < 90.0 and 150.0 < max(elements) < 160.5
+
+
 def test_a_thin_front_is_resolved_too() -> None:
     impact = Impact(1.0, 1.0, 50.0, 1.0 / 10.0, 20.0)  # κ/ν = 1/200; r₀ → √(π/8)·√(2ν/κ)
     (warning,) = simulate(impact).warnings
