@@ -36,6 +36,7 @@ PANELS = {
     "vibration": "energy in vibration",
     "dissipated": "energy dissipated",
 }
+SHARES = ("restitution", "translation", "vibration", "dissipated")
 BANDED = ("restitution", "last_contact", "translation")
 
 
@@ -157,7 +158,7 @@ def draw_map(out: Path, formats: Sequence[str] = ("png",)) -> list[Path]:
             axis.set_xticks([0.05, 0.1, 0.2, 0.5, 1.0, 4.0], ["0.05", "0.1", "0.2", "0.5", "1", r"$\geq$4"])
             axis.minorticks_off()
             axis.set_ylabel(title)
-            axis.set_ylim(bottom=0.0)
+            axis.set_ylim(0.0, min(axis.get_ylim()[1], 1.0) if name in SHARES else None)
         for axis in axes[1]:
             axis.set_xlabel(r"$\kappa/\nu$")
         handles, labels = axes[0, 0].get_legend_handles_labels()
