@@ -178,8 +178,10 @@ def bounce_from_map(kappa_over_nu: float, damping: float) -> dict[str, Number] |
     (κ/ν < 0.05, η/T* > 1e-1). Without damping, and with less than the map's least (1e-4), which is as irregular, the
     band between the nearest bands.
 
-    The error bar is the largest of the surrounding points', and half of what they and their neighbours differ by, the
-    latter fading towards a point: the numbers go up and down with κ/ν, with weak damping from one point to the next.
+    The error bar is the largest of the surrounding points', and, along either axis, 2u(1 − u)|Δ²| of the largest second
+    difference around the place u between two points. A parabola takes a quarter of that; the numbers go up and down
+    with κ/ν, with weak damping from one point to the next: of 240 numbers at random places 30 were outside half of
+    this bar and one outside all of it.
     """
     kappa = POINT if kappa_over_nu == math.inf else min(positive("kappa_over_nu", kappa_over_nu), POINT)
     kappas, dampings, numbers = _grids()
@@ -191,13 +193,12 @@ def bounce_from_map(kappa_over_nu: float, damping: float) -> dict[str, Number] |
     j, v = _place(np.log(kappas), math.log(kappa))
     i, u = _place(np.log(dampings), math.log(damping))
     weights = np.array([[(1 - u) * (1 - v), (1 - u) * v], [u * (1 - v), u * v]])
-    between = max(4.0 * u * (1.0 - u), 4.0 * v * (1.0 - v))
-    rows, columns = _around(i, u), _around(j, v)
     found = {}
     for name, (values, errors) in numbers.items():
         used = weights > 1e-12
         value = float(np.sum(values[i : i + 2, j : j + 2] * weights))
-        spread = 0.5 * between * float(np.ptp(values[rows, columns]))
+        spread = 2.0 * u * (1.0 - u) * _bend(values[:, j : j + 2], i)
+        spread += 2.0 * v * (1.0 - v) * _bend(values[i : i + 2].T, j)
         parts = {"map": float(errors[i : i + 2, j : j + 2][used].max()), "interpolation": spread}
         found[name] = Number(value, math.hypot(*parts.values()), parts)
     return found
@@ -216,11 +217,10 @@ def _band(kappa: float) -> dict[str, Number]:
     }
 
 
-def _around(i: int, share: float) -> slice:
-    """The points on either side and one beyond; the point itself where it is one."""
-    if share in (0.0, 1.0):
-        return slice(i + int(share), i + int(share) + 1)
-    return slice(max(0, i - 1), i + 3)
+def _bend(values: Array, i: int) -> float:
+    """Largest second difference along the first axis at the points ``i`` and ``i + 1``; 0 at an end of it."""
+    middle = [k for k in (i, i + 1) if 0 < k < len(values) - 1]
+    return max((float(np.abs(values[k - 1] - 2.0 * values[k] + values[k + 1]).max()) for k in middle), default=0.0)
 
 
 def _place(grid: Array, at: float) -> tuple[int, float]:
