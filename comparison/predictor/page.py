@@ -35,6 +35,7 @@ def limits() -> dict[str, Any]:
         "ends": json.loads(validity.DATA.read_text(encoding="utf-8")),
         "zone": json.loads(damped_zone.DATA.read_text(encoding="utf-8")),
         "share": validity.SHARE,
+        "endsWeight": validity.ENDS_WEIGHT,
         "point": validity.POINT,
         "third": validity.THIRD_ORDER,
         "flattest": validity.FLATTEST,

@@ -40,11 +40,12 @@ KAPPAS = (
 AGES = np.geomspace(0.0316, 3160.0, 81)
 """t/η: sixteen a decade."""
 ELEMENTS = (0.04, 0.02)  # at the middle, of √(cη), which damping smooths over by the age 1
-LOAD_KAPPAS = (0.02, 0.05, 0.1, 0.15, 0.2, 0.3, 0.4, 0.5, 0.65, 0.8, 0.95)
-LOAD_AGES = np.geomspace(0.3, 300.0, 13)
+LOAD_KAPPAS = (0.02, 0.05, 0.1, 0.2, 0.25, 0.3, 0.35, 0.4, 0.45, 0.5, 0.6, 0.8)
+LOAD_AGES = np.geomspace(0.3, 300.0, 25)
 PER_RUN = 4  # intervals of these ages
 CHANGE = 0.15  # by the load, at the end of such a run
 WINDOW = 0.15  # of the fits, ± in ln t
+NOISY = 0.22  # κ/ν below which rates of loads are noisy: twice the window, and smoothed
 REACH = 20.0, 2.0  # half length over √(ct) at the last age, less a multiple of λ₀: nothing has been there and back
 
 
@@ -77,8 +78,17 @@ def measure_loads(kappa: float, element: float = ELEMENTS[0]) -> Array:
     for k, load in enumerate(damped_zone.LOADS):
         for first in range(0, LOAD_AGES.size - 1, PER_RUN):
             part = slice(first, min(first + PER_RUN + 1, LOAD_AGES.size))
-            found[k, :, part] = _answer(kappa, load, LOAD_AGES[part], element)
-    return found
+            answer = _answer(kappa, load, LOAD_AGES[part], element)
+            new = slice(first + 1 if first else 0, part.stop)  # at the end of a run loads have done most
+            found[k, :, new] = answer[:, 1 if first else 0 :]
+    found = np.nan_to_num(found, posinf=0.0, neginf=0.0)  # where a contact that is still one point has no length
+    return smoothed(found) if kappa < NOISY else found
+
+
+def smoothed(rates: Array) -> Array:
+    """Each age's rate a half from itself and a quarter from either neighbour: nodes that are caught make noise."""
+    ends = np.concatenate([rates[..., :1], rates, rates[..., -1:]], axis=-1)
+    return np.asarray(0.5 * rates + 0.25 * (ends[..., :-2] + ends[..., 2:]))
 
 
 def _answer(kappa: float, load: str, ages: Array, element: float) -> Array:
@@ -87,14 +97,19 @@ def _answer(kappa: float, load: str, ages: Array, element: float) -> Array:
         kappa, solved.epsilon_alpha, solved.epsilon_psi, solved.epsilon_chi, axial=solved.epsilon_axial
     )
     change = max(abs(exact.lambda1) / exact.lambda0, abs(exact.r1) / exact.r0)
-    size = CHANGE / (change * float(ages[-1]))
-    reach = REACH[0] + REACH[1] * exact.lambda0
-    length = 2.0 * reach * math.sqrt(float(ages[-1]))
+    last = float(ages[-1])
+    reach = (REACH[0] + REACH[1] * exact.lambda0) * math.sqrt(last)
+    size = CHANGE / (change * last)
+    if load == "psi":
+        size = min(size, 6.0 * kappa / reach**2)  # the bow stays one
+    if load == "chi":
+        size = min(size, 0.5 * kappa / last)
 
     def over(impact: Impact) -> Array:
-        impact = impact.replace(length=length)
+        impact = impact.replace(length=2.0 * reach)
         bare = impact.replace(acceleration=0.0, fourth_derivative=0.0, curvature_rate=0.0, axial_force=0.0)
-        runs = [law_of(i, ages, element=element, window=WINDOW, end="following") for i in (impact, bare)]
+        window = 2.0 * WINDOW if kappa < NOISY else WINDOW
+        runs = [law_of(i, ages, element=element, window=window, end="following") for i in (impact, bare)]
         rows = [theory.predict(i.replace(damping=0.0), ages).times for i in (impact, bare)]
         names = ("half_contact_length", "reaction", "impulse")
         said = [Law(*(np.array([getattr(row, name) for row in at]) for name in names)) for at in rows]

@@ -45,8 +45,8 @@ LARGEST = 2.5  # changes beyond it are no small ones and stored as it
 LONGER = 2.5  # times the beam: what comes back from its ends then comes 6.25 times later
 TIMES = np.geomspace(2e-3, 0.07, 60)
 """Instants measured, T*."""
-LATER = np.geomspace(0.2, 2.0, 47)
-"""Times stored, over the arrival: curves that come later where κ/ν is larger are alike over it."""
+LATER = np.geomspace(0.7, 2.0, 43)
+"""Times stored, over the arrival: curves that come later where κ/ν is larger are alike over it. Noise before."""
 QUARTIC = 0.2  # q₀ of the runs with one, of min(κ/ν, 1): a tenth of what would straighten the ends
 
 WINDOW = 0.11  # of fitted times, ± in ln t
@@ -212,7 +212,7 @@ def _factors(curves: dict[float, list[Array]]) -> dict[float, float]:
         damping: [reached(TIMES, np.abs(curve).max(axis=0), TOLERANCE) for curve in found]
         for damping, found in curves.items()
     }
-    exact = {damping: one_point(damping) / one_point(USUAL) for damping in (1e-5, *curves)}
+    exact = {damping: one_point(damping) / one_point(USUAL) for damping in (1e-5, *DAMPINGS)}
     least = {
         damping: min((a / b for a, b in zip(times, at[USUAL]) if a and b), default=math.inf)
         for damping, times in at.items()

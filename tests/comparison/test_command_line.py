@@ -51,6 +51,16 @@ def test_predict_reads_the_drill_pipe(capsys):
     assert at["valid"] and found["valid_until"] > 0.01 and found["limited_by"]  # ε = 5 does not matter
 
 
+def test_predict_answers_for_a_damped_rod_and_says_when_it_has_left(capsys):
+    found = document(capsys, "predict", str(CASES / "glass_fibre_rod.toml"), "--time", "0.001", "--time", "0.1")
+    early, late = found["times"]
+    assert (early["valid"], late["valid"]) == (True, False)
+    assert found["valid_from"] < 1e-4 < 1e-3 < found["valid_until"]
+    last = found["bounce"]["last_contact"]
+    assert late["time"] > (last["value"] + last["error"]) * found["slow_time_scale"]
+    assert any("At 0.1 s the beam has left the wall" in warning for warning in found["warnings"])
+
+
 @pytest.mark.parametrize("path", ["hermite", "exudyn"])
 def test_simulate_shows_what_theory_says(capsys, tmp_path, path):
     file = tmp_path / "run.nc"

@@ -7,7 +7,16 @@ from pathlib import Path
 
 import pytest
 
-from comparison.figures.moment import FOLDER, KAPPAS, PATHS, MeasuredMoment, aitken, draw_moments, measure_moment
+from comparison.figures.moment import (
+    FLATTEST,
+    FOLDER,
+    KAPPAS,
+    PATHS,
+    MeasuredMoment,
+    aitken,
+    draw_moments,
+    measure_moment,
+)
 from comparison.methods import default_methods
 from hermite_fe import HermiteFE
 from theory.moment import peak_moment
@@ -49,6 +58,8 @@ def test_figure_is_drawn_from_points(tmp_path: Path) -> None:
 @pytest.mark.parametrize("path", PATHS)
 @pytest.mark.parametrize("kappa", KAPPAS)
 def test_moment_is_that_of_theory(path: str, kappa: float) -> None:
+    if kappa < FLATTEST[path]:
+        pytest.skip("the front is thinner than this path's own mesh resolves")
     (method,) = default_methods([path])
     found = measure_moment(method, kappa)
     assert found.value == pytest.approx(found.theory, rel=WITHIN)

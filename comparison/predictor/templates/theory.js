@@ -391,7 +391,7 @@ const Theory = (() => {
         if (at < logs[0]) return [0, 0, 0];
         return NAMES.map((name) => (1 - row[1]) * mixed(cause[name][row[0]], column) + row[1] * mixed(cause[name][row[0] + 1], column));
       });
-      return bare.map((value, i) => value + quartic * flat * fourth[i]);
+      return bare.map((value, i) => limits.endsWeight * (value + quartic * flat * fourth[i]));
     };
 
     const size = Math.max(abs(c.alpha), abs(c.psi), abs(c.chi), abs(c.n));
