@@ -39,9 +39,9 @@ Array = NDArray[np.float64]
 SIDE = math.sqrt(2.0 / math.pi)
 FLOOR = 2e-3  # of a first-order value: what halving mesh and steps moves it by
 # The error bar, held against 200 methods drawn at random (comparison/error_bars.py, make verify):
-LEAST = 6e-5  # of a leading-order value: what runs keep that no refinement moves any more
-COMPANION = 1.0  # first order in Δx: the coarser run is as far from this one as this one from the truth
-DRIFT = 1.5  # of the spread over the window and its parts
+LEAST = 1e-4  # of a leading-order value: what runs keep that no refinement moves any more
+COMPANION = 1.2  # first order in Δx: the coarser run is as far from this one as this one from the truth
+DRIFT = 2.0  # of the spread over the window and its parts
 DRIFT_ALONE = 4.0  # the same where no companion says what the mesh does
 
 
@@ -199,8 +199,9 @@ def leading_order(found: Moments, *, window: float = 10.0, companions: Sequence[
     steps and start do to the answer falls at least like Δx, so that the difference from the coarser run is the size of
     the error; without companions only the drift over the window measures it.
 
-    The error bar is the drift (spread over the window and its parts), the largest difference from a companion, taken
-    ``COMPANION`` times, and ``LEAST`` of the value. Raises ``ValueError`` when fewer than eight instants carry an
+    The error bar is the root of the sum of squares, for the causes are independent, of the drift (spread over the
+    window and its parts) taken ``DRIFT`` times, of the largest difference from a companion taken ``COMPANION`` times,
+    and of ``LEAST`` of the value. Raises ``ValueError`` when fewer than eight instants carry an
     impulse.
     """
     r0, lambda0, drift_r0, drift_lambda0, lift, times = _leading_values(found, window)
@@ -211,8 +212,10 @@ def leading_order(found: Moments, *, window: float = 10.0, companions: Sequence[
         apart_lambda0 = max(apart_lambda0, abs(other_lambda0 - lambda0))
     alone = DRIFT if companions else DRIFT_ALONE
     return LeadingEstimate(
-        lambda0=Estimate(lambda0, COMPANION * apart_lambda0 + alone * drift_lambda0 + LEAST * max(lambda0, 0.1)),
-        r0=Estimate(r0, COMPANION * apart_r0 + alone * drift_r0 + LEAST * r0),
+        lambda0=Estimate(
+            lambda0, math.hypot(COMPANION * apart_lambda0, alone * drift_lambda0, LEAST * max(lambda0, 0.1))
+        ),
+        r0=Estimate(r0, math.hypot(COMPANION * apart_r0, alone * drift_r0, LEAST * r0)),
         lift=lift,
         window=times,
     )

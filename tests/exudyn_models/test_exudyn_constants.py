@@ -9,7 +9,9 @@ import pytest
 
 from bent_beam import Impact
 from comparison.estimators import LeadingEstimate, Moments, leading_order, moments
-from exudyn_models import ExudynModel, resolution
+from comparison.match import Question, answer
+from comparison.store import RunStore
+from exudyn_models import ExudynModel, method, resolution
 from exudyn_models.contacts import Penalty, holding
 from exudyn_models.elements import ANCFCable
 from exudyn_models.integrators import GeneralizedAlpha
@@ -83,3 +85,14 @@ def test_uniform_elements_halved_or_doubled(factor: float, monkeypatch: pytest.M
     chosen = [impulse(end) for end in ends]
     monkeypatch.setattr(resolution, "ELEMENT_STEPS", resolution.ELEMENT_STEPS * factor)
     assert [impulse(end) for end in ends] == pytest.approx(chosen, rel=0.01)
+
+
+@pytest.mark.parametrize("factor", [0.5, 2.0])
+@pytest.mark.parametrize("name", ["FIRST_ORDER_HOLD", "FIRST_ORDER_STEPS"])
+def test_a_constant_of_loaded_runs_halved_or_doubled(name: str, factor: float, monkeypatch: pytest.MonkeyPatch) -> None:
+    """λ₁ and r₁ stay within 3 % of theory under a load that presses."""
+    value = getattr(method, name)
+    monkeypatch.setattr(method, name, type(value)(factor * value))
+    row = answer(Question(ExudynModel(), 0.42, (2.0, 0.5, 0.5), error_bars="drift"), RunStore(None))
+    for number in (row.lambda1, row.r1):
+        assert number.value == pytest.approx(number.theory, abs=0.03 * max(abs(number.theory), 1.0))

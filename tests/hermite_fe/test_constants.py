@@ -10,6 +10,8 @@ import pytest
 
 from bent_beam import Impact
 from comparison.estimators import LeadingEstimate, leading_order, moments
+from comparison.match import Question, answer
+from comparison.store import RunStore
 from hermite_fe import HermiteFE, auto
 from hermite_fe.contacts import NodeContact
 from hermite_fe.far_fields import GridViscosity
@@ -60,3 +62,16 @@ def test_where_even_elements_begin_matters_to_the_hold_alone(thin: float, monkey
     """κ/ν on either side of ``THIN`` moved: with a stated hold both meshes give λ₀, r₀ within 0.1 %."""
     monkeypatch.setattr(auto, "THIN", thin)
     agrees(leading(0.012, contact=NodeContact(hold=auto.PRESSED_HOLD)), 0.012, 1e-3)
+
+
+@pytest.mark.verify
+@pytest.mark.parametrize("factor", [0.5, 2.0])
+@pytest.mark.parametrize("name", ["LOADED", "PRESSED_HOLD", "DOMAIN"])
+def test_a_constant_of_loaded_runs_halved_or_doubled(name: str, factor: float, monkeypatch: pytest.MonkeyPatch) -> None:
+    """λ₁ and r₁ stay within 1 % of theory under a load that presses; the half length holds what it has to."""
+    value = getattr(auto, name)
+    changed = tuple(factor * v for v in value) if isinstance(value, tuple) else type(value)(factor * value)
+    monkeypatch.setattr(auto, name, changed)
+    row = answer(Question(HermiteFE(), 0.42, (2.0, 0.5, 0.5), error_bars="drift"), RunStore(None))
+    for number in (row.lambda1, row.r1):
+        assert number.value == pytest.approx(number.theory, abs=0.01 * max(abs(number.theory), 1.0))
