@@ -19,6 +19,7 @@ from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.interpolate import PchipInterpolator
 from scipy.special import erfinv
 
 import theory
@@ -44,6 +45,8 @@ LOAD_KAPPAS = (0.02, 0.05, 0.1, 0.2, 0.25, 0.3, 0.35, 0.4, 0.45, 0.5, 0.6, 0.8)
 LOAD_AGES = np.geomspace(0.3, 300.0, 25)
 PER_RUN = 4  # intervals of these ages
 CHANGE = 0.15  # by the load, at the end of such a run
+TOUCHING = (0.25, 0.275, 0.3, 0.35, 0.4, 0.45)
+"""κ/ν between which the middle comes back to the wall while anybody looks."""
 WINDOW = 0.15  # of the fits, ± in ln t
 NOISY = 0.22  # κ/ν below which rates of loads are noisy: twice the window, and smoothed
 REACH = 20.0, 2.0  # half length over √(ct) at the last age, less a multiple of λ₀: nothing has been there and back
@@ -133,17 +136,32 @@ def _loaded(kappa: float, load: str, size: float) -> Impact:
     return Impact.dimensionless(kappa, damping=1.0).replace(**changes)
 
 
+def touches(rows: Sequence[Array]) -> tuple[Array, Array]:
+    """κ/ν, and the age at which the lifted middle comes back to the wall: the sharpest peak of the force, by a parabola
+    through three ages, interpolated between :data:`TOUCHING`."""
+    ages = []
+    for kappa in TOUCHING:
+        force = rows[KAPPAS.index(kappa)][1]
+        bend = np.where((AGES[1:-1] > 5.0) & (AGES[1:-1] < 1000.0), np.diff(force, 2), 0.0)
+        j = int(np.argmin(bend)) + 1
+        off = 0.5 * (force[j - 1] - force[j + 1]) / (force[j - 1] - 2.0 * force[j] + force[j + 1])
+        ages.append(AGES[j] * (AGES[1] / AGES[0]) ** off)
+    between = np.linspace(TOUCHING[0], TOUCHING[-1], 17)
+    return between, np.exp(PchipInterpolator(TOUCHING, np.log(ages))(between))
+
+
 def _lost(i: int, why: str) -> Array:
     raise RuntimeError(f"point {i}: {why}")
 
 
 def write(rows: Sequence[Array], loads: Sequence[Array]) -> Path:
     """Write the table from what was measured at :data:`KAPPAS` and :data:`LOAD_KAPPAS`."""
-    table = np.array(rows)
+    table, touch = np.array(rows), touches(rows)
     names = ("half_length", "reaction", "impulse")
     document = {
         "what": "endless damped beam over undamped theory, by kappa/nu (rows) and age t/eta (columns): reaction, "
-        "impulse, and half_length over lambda0 sqrt(ct) (1 - erfinv(kappa/nu)^2/age); under `loads` what damping "
+        "impulse, and half_length over lambda0 sqrt(ct) (1 - erfinv(kappa/nu)^2/age); `touch` is the age at which the "
+        "lifted middle comes back to the wall; under `loads` what damping "
         "changes of the answer to a load, relative, per unit of load times tau",
         "made_by": "python -m comparison.whole_impact.damped",
         "date": datetime.datetime.now(datetime.UTC).date().isoformat(),
@@ -152,6 +170,10 @@ def write(rows: Sequence[Array], loads: Sequence[Array]) -> Path:
         "kappa_over_nu": KAPPAS,
         "age": [float(f"{age:.6g}") for age in AGES],
         **{name: [[float(f"{v:.5g}") for v in row] for row in table[:, i]] for i, name in enumerate(names)},
+        "touch": {
+            "kappa_over_nu": [float(f"{kappa:.6g}") for kappa in touch[0]],
+            "age": [float(f"{age:.5g}") for age in touch[1]],
+        },
         "loads": {
             "kappa_over_nu": LOAD_KAPPAS,
             "age": [float(f"{age:.6g}") for age in LOAD_AGES],

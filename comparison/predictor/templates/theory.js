@@ -358,14 +358,18 @@ const Theory = (() => {
     const point = erfInverse(c.ratio) ** 2;
     if (age <= point) return { length: 0, reaction: pointRatio(age, 0.25) / c.r0, impulse: pointRatio(age, 1.25) / c.r0, moment: 1 };
     const last = table.age[table.age.length - 1], late = age > last ? sqrt(last / age) : 1;
-    const [spread, reaction, impulse] = atAge(table, c.ratio, age).map((ratio) => 1 + (ratio - 1) * late);
+    const [spread, reaction, impulse] = atAge(table, table.touch, c.ratio, age).map((ratio) => 1 + (ratio - 1) * late);
     return { length: spread * (1 - point / age), reaction, impulse, moment: 1 };
   }
   const NAMES = ["half_length", "reaction", "impulse"];
   /** The three of a table over κ/ν and age, bilinear in the logarithms. */
-  function atAge(table, ratio, age, rows = table) {
-    const [i, share] = between(table.kappa_over_nu.map(log), log(ratio)), column = between(table.age.map(log), log(age));
-    return NAMES.map((name) => (1 - share) * mixed(rows[name][i], column) + share * mixed(rows[name][i + 1], column));
+  function atAge(table, touch, ratio, age, rows = table) {
+    const [i, share] = between(table.kappa_over_nu.map(log), log(ratio)), ages = table.age.map(log);
+    // rows move with the age at which the lifted middle comes back to the wall
+    const comes = (kappa) => mixed(touch.age.map(log), between(touch.kappa_over_nu, kappa)), here = comes(ratio);
+    const moved = Math.min(Math.max((log(age) - here + log(10)) / log(5), 0), 1);
+    const [low, high] = [i, i + 1].map((k) => between(ages, log(age) + moved * (comes(table.kappa_over_nu[k]) - here)));
+    return NAMES.map((name) => (1 - share) * mixed(rows[name][i], low) + share * mixed(rows[name][i + 1], high));
   }
 
   /**
@@ -423,7 +427,7 @@ const Theory = (() => {
     const ofLoads = (tau) => {
       const found = secondOf(tau), age = tau / slow / damping, ages = zone.loads.age, last = ages[ages.length - 1];
       for (const load of loaded)
-        atAge(zone.loads, c.ratio, age, zone.loads[load]).forEach((rate, i) => {
+        atAge(zone.loads, zone.touch, c.ratio, age, zone.loads[load]).forEach((rate, i) => {
           found[i] += acting[load] * rate * (age > last ? sqrt(last / age) : 1) * tau;
         });
       return found;
