@@ -52,6 +52,9 @@ def methods_of(names: Sequence[str], assignments: Sequence[str] = (), case: Case
     case : whose settings the methods take; the assignments are then among them already.
     Raises :class:`InputError` for an assignment to a path that is not among ``names``.
     """
+    twice = next((name for i, name in enumerate(names) if name in names[:i]), None)
+    if twice is not None:
+        raise InputError(f"--path {twice} is given twice: methods of one path are told apart in a file (--methods)")
     tables: dict[str, Any] = {}
     changes: dict[str, list[str]] = {name: [] for name in names}
     for assignment in assignments:

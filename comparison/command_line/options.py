@@ -98,7 +98,9 @@ def numbers(option: str, text: str, counts: Sequence[int], what: str) -> tuple[f
 
 def factors(refine: str) -> tuple[float, ...]:
     """The factors of ``--refine``. Raises :class:`InputError`."""
-    return numbers("--refine", refine, range(1, 20), "factors, e.g. 1,2,4")
+    from bent_beam.checks import positive
+
+    return tuple(positive("refine", f) for f in numbers("--refine", refine, range(1, 20), "factors, e.g. 1,2,4"))
 
 
 def emit(document: Any, as_json: bool, text: Callable[[], str]) -> None:

@@ -218,6 +218,8 @@ def test_methods_come_from_a_file_and_from_assignments(tmp_path):
     )
     first, second = methods_from_file(file)
     assert (first.label, first.integrator.theta, second.label) == ("MJ", 0.6, "Self-similar")
+    with pytest.raises(InputError, match="given twice"):
+        methods_of(["hermite", "exudyn", "hermite"])
     (changed,) = methods_of(["hermite"], ["hermite.integrator.kind=moreau_jean"])
     assert changed.label == "Hermite, integrator=moreau_jean"
     assert (
