@@ -320,8 +320,6 @@ def _attempt(question: Question, folder: str | None) -> MatchRow:
         return _lost(question, str(error))
     except Refused as error:
         return _lost(question, str(error), refused=True)
-    except TimeoutError as error:
-        return _lost(question, str(error))
     except Exception as error:  # a sweep of hours must not end because one of its runs did
         return _lost(question, f"{type(error).__name__}: {error}")
 

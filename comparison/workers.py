@@ -10,6 +10,7 @@ from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import CancelledError, Future, ProcessPoolExecutor, ThreadPoolExecutor, as_completed
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
+from dataclasses import dataclass
 from functools import partial
 from multiprocessing import active_children, get_context
 from types import FrameType
@@ -21,6 +22,13 @@ __all__ = ["run_all"]
 
 TICK = 0.1  # s, between two looks at the clock of a call whose time is limited
 PREPARING = ("importlib.", "numba.")
+
+
+@dataclass(frozen=True)
+class Expired:
+    """The result of a call that has taken too long, and what to say of it."""
+
+    why: str
 
 
 def run_all(
@@ -36,12 +44,14 @@ def run_all(
     """``[function(*a) for a in arguments]``, in order. ``on_death(i, why)`` stands in for a call whose worker died.
 
     jobs : processes on this machine (1: in this one). scheduler : address of a dask.distributed scheduler.
-    limit : seconds that one call may take (``None``: any time), after which ``function`` sees a :class:`TimeoutError`;
-        what it imports and compiles does not count.
+    limit : seconds that one call may take (``None``: any time); what it imports and compiles does not count.
+        ``on_death`` stands in for a call that takes longer, too.
     """
     whole("jobs", jobs, 1)
     if limit is not None:
         function = partial(limited, function, positive("limit", limit))
+        timed = run_all(function, arguments, jobs=jobs, scheduler=scheduler, progress=progress, on_death=on_death)
+        return [on_death(i, result.why) if isinstance(result, Expired) else result for i, result in enumerate(timed)]
     if scheduler is not None:
         return _on_cluster(function, arguments, scheduler, progress, on_death)
     if jobs == 1 or len(arguments) <= 1:
@@ -55,13 +65,15 @@ def run_all(
 
 
 def limited(function: Callable[..., Any], limit: float, *arguments: Any) -> Any:
-    """``function(*arguments)``, interrupted by :class:`TimeoutError` after ``limit`` seconds of the clock.
+    """``function(*arguments)``, or :class:`Expired` when it has taken more than ``limit`` seconds of the clock.
 
-    By an alarm of the operating system, which reaches the main thread between two calls of compiled code; where there
-    is none (Windows, a thread of a cluster's worker) the call takes the time that it takes. The clock stands while a
-    module is imported or a kernel compiled: neither may be left half done, and neither belongs to the call's own time.
+    It is interrupted by a :class:`TimeoutError` (of which other people's code may make an error of its own), by an
+    alarm of the operating system, which reaches the main thread between two calls of compiled code; where there is none
+    (Windows, a thread of a cluster's worker) the call takes the time that it takes. The clock stands while a module is
+    imported or a kernel compiled: neither may be left half done, and neither belongs to the call's own time.
     """
     used, last = 0.0, clock.perf_counter()
+    expired: list[Expired] = []
 
     def tick(_: int, frame: FrameType | None) -> None:
         nonlocal used, last
@@ -72,7 +84,8 @@ def limited(function: Callable[..., Any], limit: float, *arguments: Any) -> Any:
         used += passed
         if used >= limit:
             signal.setitimer(signal.ITIMER_REAL, 0.0)  # once: whoever sees the error needs time to answer it
-            raise TimeoutError(f"time limit: not finished after {limit:g} s")
+            expired.append(Expired(f"time limit: not finished after {limit:g} s"))
+            raise TimeoutError(expired[0].why)
 
     try:
         before = signal.signal(signal.SIGALRM, tick)
@@ -80,10 +93,15 @@ def limited(function: Callable[..., Any], limit: float, *arguments: Any) -> Any:
         return function(*arguments)
     signal.setitimer(signal.ITIMER_REAL, *2 * (min(limit, TICK),))
     try:
-        return function(*arguments)
+        result = function(*arguments)
+    except Exception:
+        if not expired:
+            raise
+        result = None
     finally:
         signal.setitimer(signal.ITIMER_REAL, 0.0)
         signal.signal(signal.SIGALRM, before)
+    return expired[0] if expired else result
 
 
 def _preparing(frame: FrameType | None) -> bool:

@@ -11,6 +11,8 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
+from matplotlib.ticker import FormatStrFormatter, LogLocator, NullFormatter
+
 from comparison.figures import style
 from comparison.match import MatchRow
 
@@ -68,8 +70,8 @@ def _draw(
             for axis, (title, read) in zip(axes[line], panels):
                 for label, mark in marks.items():
                     _line(axis, [r for r in group if r.label == label and _case(r) == case], read, mark)
-                axis.set_xscale("log")
                 axis.set_yscale("log")
+                _seconds(axis, rows)
                 axis.set_ylabel(title)
                 if line == len(lines) - 1:
                     axis.set_xlabel("seconds  (s)")
@@ -104,6 +106,16 @@ def _title(case: tuple[float, tuple[float, ...]], path: str, first: bool) -> str
         symbols = r"$\alpha, \psi, \chi$" + (", $N$" if load[3] else "")
         words += rf", ({symbols}) = ({', '.join(f'{v:g}'.replace('-', '−') for v in load[: 4 if load[3] else 3])})"
     return f"{words}, path {path}" if path else words
+
+
+def _seconds(axis: Any, rows: Sequence[MatchRow]) -> None:
+    """A logarithmic axis of seconds, with numbers on it however few decades there are."""
+    seconds = [r.seconds for r in rows if r.seconds]
+    axis.set_xscale("log")
+    few = max(seconds) < 100.0 * min(seconds)
+    axis.xaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0) if few else (1.0,)))
+    axis.xaxis.set_major_formatter(FormatStrFormatter("%g"))
+    axis.xaxis.set_minor_formatter(NullFormatter())
 
 
 def _line(axis: Any, rows: Sequence[MatchRow], read: Read, mark: dict[str, Any]) -> None:

@@ -59,7 +59,7 @@ MEASUREMENTS = (
         "integrators, first order",
         "first_order.toml",
         (0.5, 1.0),
-        ((4.0, 0.0, 0.0, 0.0), (-1.0, -1.0, 0.0, 0.0)),
+        ((4.0, 0.0, 0.0, 0.0),),
         limit=120.0,
     ),
 )

@@ -17,7 +17,7 @@ from comparison.match import MatchRow, Question, answer, failures, match, questi
 from comparison.methods import default_methods, methods_from_file, methods_of
 from comparison.store import RunStore
 from comparison.tables import match_document, match_table, write_match
-from comparison.workers import limited
+from comparison.workers import Expired, limited
 from exudyn_models import ExudynModel
 from hermite_fe import HermiteFE
 from self_similar_fe import SelfSimilarFE
@@ -185,8 +185,22 @@ def test_the_time_limit_stands_still_while_code_is_compiled_or_imported(module):
     preparing = {"__name__": module, "spin": spin}
     exec("def prepare(seconds): return spin(seconds)", preparing)
     assert limited(preparing["prepare"], 0.2, 0.6) == "finished"
-    with pytest.raises(TimeoutError, match=r"time limit: not finished after 0.2 s"):
-        limited(lambda: (preparing["prepare"](0.6), spin(0.6)), 0.2)
+    found = limited(lambda: (preparing["prepare"](0.6), spin(0.6)), 0.2)
+    assert found == Expired("time limit: not finished after 0.2 s")
+
+
+def test_a_time_limit_is_the_reason_whatever_the_interrupted_code_makes_of_it():
+    """Exudyn's solver says that a user function failed."""
+
+    def solver():
+        try:
+            spin(1.0)
+        except TimeoutError:
+            raise SimulationError("a user function failed", time=0.0, step=1, advice="none") from None
+
+    assert limited(solver, 0.2) == Expired("time limit: not finished after 0.2 s")
+    with pytest.raises(ZeroDivisionError):
+        limited(lambda: 1 // 0, 0.2)
 
 
 def test_an_unexpected_error_does_not_take_the_others_along(monkeypatch):
