@@ -94,6 +94,14 @@ def age_of_spreading(kappa_over_nu: float) -> float:
     return float(erfinv(kappa_over_nu)) ** 2
 
 
+def touch_age(kappa_over_nu: float) -> float | None:
+    """T at which the lifted middle comes back to the wall with a pulse; None where it does not while anybody looks."""
+    ratios, ages = _tables()[0].touch
+    if not ratios[0] <= kappa_over_nu <= ratios[-1]:
+        return None
+    return float(np.exp(np.interp(kappa_over_nu, ratios, np.log(ages))))
+
+
 def earliest_age(kappa_over_nu: float) -> float:
     """t/η from which the ratios are known: 0 where the point lasts until the table begins."""
     first = float(_tables()[0].age[0])

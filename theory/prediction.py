@@ -34,6 +34,7 @@ from theory.validity import (
     SHEAR,
     SLOPE,
     TENSION,
+    TOUCH,
     validity,
 )
 
@@ -337,6 +338,7 @@ _ENDS_OF_VALIDITY = {
     FIRST_ORDER: "the loads change the contact so much that the first-order correction is no longer enough",
     TENSION: "the axial force changes the contact so much that the first-order correction is no longer enough",
     DAMPING: "the beam's own damping rules, and was not measured for so flat a contact",
+    TOUCH: "the middle of the contact, which the first instants have lifted, comes back to the wall with a pulse",
     SLOPE: "the beam's slopes are no longer small",
     SHEAR: "the beam is so stubby that it shears before it bends, all the time that the ends leave",
     SECTION: "the bending stress is beyond the yield stress from the first instant on",

@@ -49,6 +49,8 @@ ENDS_WEIGHT = 2.0
 THIRD_ORDER = 0.1
 #: κ/ν of the flattest contact for which λ₂ and r₂ keep all digits; flatter ones are like it (`_second_order`).
 FLATTEST = 3e-3
+#: From and until when, over its age, the lifted middle's pulse makes the force uncertain by some per cent.
+PULSE = (0.85, 1.3)
 #: What the loads may take of a point's curvature beyond all of it, over ν: λ_c is then 0.05√(ct).
 POINT = 0.04
 #: Slope at which an arch is 2 % lower than its parabola, θ²/12.
@@ -60,6 +62,7 @@ ENDS = "waves back from the ends"
 FIRST_ORDER = "first-order correction"
 TENSION = "tension"
 DAMPING = "damping"
+TOUCH = "lifted middle back on the wall"
 SLOPE = "slope"
 SHEAR = "shear"
 SECTION = "section"
@@ -211,6 +214,9 @@ class _Errors:
             middle = 0.5 * (low + high)
             low, high = (middle, high) if self.total(np.array([middle]))[0] <= most else (low, middle)
         until = min(low, self.loads.point)
+        touch = damped_zone.touch_age(self.solved.kappa_over_nu) if math.isfinite(self.age) else None
+        if touch is not None and PULSE[0] * touch < until * self.age < PULSE[1] * touch:
+            return PULSE[0] * touch / self.age, TOUCH
         if until == self.loads.point or until == 0.0:
             return until, TENSION if _tension_leads(self.solved) else FIRST_ORDER
         ends, second, third = self.causes(np.array([until]))

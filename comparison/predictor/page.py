@@ -37,6 +37,7 @@ def limits() -> dict[str, Any]:
         "share": validity.SHARE,
         "endsWeight": validity.ENDS_WEIGHT,
         "point": validity.POINT,
+        "pulse": validity.PULSE,
         "third": validity.THIRD_ORDER,
         "flattest": validity.FLATTEST,
         "slope": validity.SLOPE_LIMIT,

@@ -193,6 +193,7 @@ ENDINGS = {
     "tension": "tension",
     "slope": "slope",
     "damping": "damping",
+    "touch": "lifted middle back on the wall",
 }
 
 

@@ -155,6 +155,7 @@ const Beam = (() => {
     loads: "the loads have changed the contact too much for a first-order correction",
     tension: "the axial force has changed the contact too much for a first-order correction",
     damping: "the beam’s own damping, which was not measured for so flat a contact",
+    touch: "the middle of the contact, which the first instants have lifted, comes back to the wall with a pulse",
     slope: "the beam’s slopes are no longer small",
   };
 

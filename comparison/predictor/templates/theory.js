@@ -378,7 +378,7 @@ const Theory = (() => {
    * quartic: q₀ ℓ⁴/(V₀T*).
    */
   function validity(c, slow, limits, damping = 0, quartic = 0) {
-    const { ends: table, zone, third, flattest, slope, share: part, point: slack } = limits, discrete = c.regime === "discrete";
+    const { ends: table, zone, third, flattest, slope, share: part, point: slack, pulse } = limits, discrete = c.regime === "discrete";
     let begins = 0;
     if (damping > 0 && !discrete) {
       if (c.ratio < zone.kappa_over_nu[0]) return { begins: 0, until: 0, by: "damping" };
@@ -452,6 +452,11 @@ const Theory = (() => {
     if (until <= low || low === 0) ending = ofLoad;
     else if (largest(ofLoads(low)) + thirdOf(low) > largest(ofEnds(low))) ending = ofLoad;
     until = Math.min(low, until);
+    const { kappa_over_nu: lifted, age: comes } = zone.touch;
+    if (damping > 0 && c.ratio >= lifted[0] && c.ratio <= lifted[lifted.length - 1]) {
+      const touch = exp(mixed(comes.map(log), between(lifted, c.ratio))) * damping * slow;
+      if (pulse[0] * touch < until && until < pulse[1] * touch) [until, ending] = [pulse[0] * touch, "touch"];
+    }
     const steep = steepest(c);
     if (steep > 0 && (slope / steep) ** 2 < until) [until, ending] = [(slope / steep) ** 2, "slope"];
     return begins >= until ? { begins: 0, until: 0, by: ending } : { begins, until, by: ending };
