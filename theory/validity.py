@@ -7,7 +7,7 @@ the loads and the axial force (`theory.second_order`); and what damping changes 
 
     max |e_i| + 0.1 x³ ≤ ¾ tol,   tol = 2 %,   x = max(|λ₁|τ/λ₀, |r₁|τ/r₀);
 
-a quarter is left for what these do to each other, and the ends count twice: they grow so fast that it
+a quarter is left for what these do to each other, and the ends count three times: they grow so fast that it
 is their time that must be right. 0.1x³: on the self-similar path the error of first order exceeds the
 second by at most 0.09x³ for a load α at κ/ν = 0.05 … 0.8, both regimes (docs/theory.md). ε is not in it: the leading
 order is exact at any ε until the ends are felt.
@@ -44,7 +44,7 @@ DATA = Path(__file__).with_name("ends.json")
 #: Of the tolerance, what the known errors may take.
 SHARE = 0.75
 #: By how much more what comes from the ends counts: it grows so fast that its time matters, known to a few per cent.
-ENDS_WEIGHT = 2.0
+ENDS_WEIGHT = 3.0
 #: Bound of the third order over x³.
 THIRD_ORDER = 0.1
 #: κ/ν of the flattest contact for which λ₂ and r₂ keep all digits; flatter ones are like it (`_second_order`).

@@ -24,7 +24,8 @@ __all__ = ["Verdict", "random_problem", "verdict"]
 Array = NDArray[np.float64]
 DAMPING = 1e-3  # η/T*
 EARLIEST, LATEST = 1.5e-3, 0.06  # T*: the ends are felt before the latest
-ELEMENT = 0.02  # of what damping smooths over
+ELEMENTS = 0.02, 0.01  # of what damping smooths over; below THIN, where the front is thin, the second
+THIN = 0.12  # κ/ν
 WINDOW = 0.15  # of fitted times, ± in ln t
 POINT_LENGTH = 2.0 / 200.0  # of the half length
 
@@ -91,7 +92,7 @@ def errors_of(impact: Impact, times: Array) -> Array:
     """|half length|, |force|, |impulse| of predict over the simulation's, less one, at ``times`` (T*), shape
     (times, 3); for one point, half lengths over :data:`POINT_LENGTH`: no error, or infinity."""
     unit = impact.slow_time_scale
-    found = law_of(impact, times * unit, element=ELEMENT, window=WINDOW)
+    found = law_of(impact, times * unit, element=ELEMENTS[impact.kappa_over_nu < THIN], window=WINDOW)
     rows = predict(impact, times * unit).times
     exact = contact_parameters(impact.kappa_over_nu)
     errors = np.full((times.size, 3), math.inf)
