@@ -56,6 +56,7 @@ def _main() -> None:
         "made_by": "python -m open_benchmark.bounce_reference",
         "date": datetime.datetime.now(datetime.UTC).date().isoformat(),
         "versions": versions(),
+        "settings": {"path": HermiteFE.path, "elements": ELEMENTS},
         "problems": dict(sorted(kept.items())),
     }
     write_atomically(BOUNCES, json_text(document, indent=1) + "\n")
