@@ -242,7 +242,7 @@ def predictions_agree(browser: Any, impacts: list[Impact], seed: int) -> None:
 
 
 def test_prediction_is_that_of_python(browser: Any) -> None:
-    predictions_agree(browser, random_impacts(300, 21), 22)
+    predictions_agree(browser, random_impacts(100, 21), 22)
 
 
 @pytest.mark.verify
