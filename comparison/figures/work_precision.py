@@ -1,8 +1,9 @@
 """Work and precision: the errors of r₀, λ₀ (r₁, λ₁) and the lift over the seconds that they took, a line a method.
 
 It answers which integrator and which contact law, at what cost. A point lies at its error against the theory; below the
-error bar of the estimate an error means nothing, so the bar is drawn upwards from the point. Where there are many
-methods each path has panels of its own, on common axes: a colour an integrator, a marker a contact.
+error bar of the estimate an error means nothing, so the bar is drawn upwards from the point; what is off by more than
+all of the number leaves the frame. Where there are many methods the paths have panels of their own, on common axes: a
+colour an integrator, a marker a contact.
 """
 
 from __future__ import annotations
@@ -19,6 +20,7 @@ from comparison.match import MatchRow
 __all__ = ["draw_work_precision"]
 
 SMALLEST = 1e-7  # errors below are drawn here
+LARGEST = 1.0  # errors above leave the frame: there is no number
 MANY = 7  # methods that one panel can tell apart
 MARKERS = "osD^vP*X"
 
@@ -56,9 +58,7 @@ def _draw(
         (f"error of {symbols[what]}  (1)", _error(what, 1.0 if first else 0.0)) for what in measured
     ]
     panels.append((r"lift $/(V_0t)$" + (", no load" if first else "") + "  (1)", lambda row: (row.lift, None)))
-    paths = list(dict.fromkeys(r.path for r in rows))
-    apart = len({r.label for r in rows}) > MANY and len(paths) > 1
-    groups = [[r for r in rows if r.path == path] for path in paths] if apart else [list(rows)]
+    groups = _groups(rows)
     marks = {label: mark for group in groups for label, mark in _marks(group).items()}
     cases = sorted({(r.kappa_over_nu, r.first) for r in rows})
     lines = [(case, group) for case in cases for group in groups if any(_case(r) == case for r in group)]
@@ -75,7 +75,10 @@ def _draw(
                 axis.set_ylabel(title)
                 if line == len(lines) - 1:
                     axis.set_xlabel("seconds  (s)")
-            axes[line][0].set_title(_title(case, group[0].path if apart else "", first), loc="left")
+            paths = ", ".join(dict.fromkeys(r.path for r in group)) if len(groups) > 1 else ""
+            axes[line][0].set_title(_title(case, paths, first), loc="left")
+        for axis in axes[0]:
+            axis.set_ylim(top=min(axis.get_ylim()[1], LARGEST))
         names = [label for column in columns for label in column]
         looks = [{**marks[label], "ls": "-", "lw": 0.7} if label else {"ls": ""} for label in names]
         handles = [axes[0][0].plot([], [], **look)[0] for look in looks]
@@ -83,6 +86,18 @@ def _draw(
         sizes = {"fontsize": 6.5, "title_fontsize": 6.5}
         fig.legend(handles, names, loc="outside lower center", ncols=len(columns), title=words, **sizes)
         return style.save(fig, out, name, formats)
+
+
+def _groups(rows: Sequence[MatchRow]) -> list[list[MatchRow]]:
+    """The rows path by path, as many paths together as one panel can tell apart."""
+    found: list[list[MatchRow]] = []
+    for path in dict.fromkeys(r.path for r in rows):
+        mine = [r for r in rows if r.path == path]
+        if found and len({r.label for r in (*found[-1], *mine)}) <= MANY:
+            found[-1] += mine
+        else:
+            found.append(mine)
+    return found
 
 
 def _columns(groups: Sequence[Sequence[MatchRow]]) -> list[list[str]]:

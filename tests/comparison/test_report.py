@@ -327,8 +327,8 @@ def test_dates_of_studies_are_one_day_or_a_span() -> None:
 
 def test_stored_work_and_precision_holds_every_method_of_its_list() -> None:
     """Both codes on one sheet, leading and first order; what has no number says why."""
-    stored = [m.name for m in stored_measurements()]
-    for measurement in [m for m in MEASUREMENTS if m.name in stored]:
+    assert [m.name for m in stored_measurements()] == [m.name for m in MEASUREMENTS]
+    for measurement in MEASUREMENTS:
         document = json.loads((STORED / f"{measurement.name}.json").read_text())
         methods = methods_from_file(LISTS / measurement.methods)
         asked = questions(methods, [KAPPA], measurement.firsts, measurement.refines)
