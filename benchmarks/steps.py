@@ -9,11 +9,7 @@ pairs, so that other work on the machine weighs on both alike.
 from __future__ import annotations
 
 import argparse
-import datetime
-import importlib.metadata
-import json
 import math
-import platform
 import statistics
 import time
 from collections.abc import Callable
@@ -21,13 +17,14 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from benchmarks.record import RESULTS, keep
 from benchmarks.timing import HALF_LENGTH, lapack_step, prepared_step
 from hermite_fe.contacts import Contact, MeanContact, MiddleContact, NodeContact
 from hermite_fe.integrators import Integrator, MoreauJean, NonsmoothGeneralizedAlpha, SignoriniPosition
 
 SIZES = (500, 1_000, 2_000, 4_000, 10_000, 20_000, 50_000)
 EXPONENT = 1.03  # goal: of cost over nodes
-RESULTS = Path(__file__).parent / "results" / "steps.json"
+START = 0.06  # t*; growing steps grow from 0.05 on
 
 
 @dataclass(frozen=True)
@@ -89,7 +86,7 @@ def measure(sizes: list[int], rounds: int) -> list[dict[str, Any]]:
             ratios, seconds = [], []
             for nodes in sizes:
                 step = prepared_step(
-                    nodes, row.integrator, row.contact, growing=growing, start=0.3, half_length=row.half_length
+                    nodes, row.integrator, row.contact, growing=growing, start=START, half_length=row.half_length
                 )
                 for _ in range(3):
                     step()
@@ -116,33 +113,14 @@ def measure(sizes: list[int], rounds: int) -> list[dict[str, Any]]:
     return out
 
 
-def processor() -> str:
-    """The processor's model, as the system names it."""
-    try:
-        for line in Path("/proc/cpuinfo").read_text(encoding="utf-8").splitlines():
-            if line.startswith("model name"):
-                return line.partition(":")[2].strip()
-    except OSError:
-        pass
-    return platform.processor() or platform.machine()
-
-
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--sizes", default=",".join(map(str, SIZES)))
     parser.add_argument("--rounds", type=int, default=60)
-    parser.add_argument("--out", type=Path, default=RESULTS)
+    parser.add_argument("--out", type=Path, default=RESULTS / "steps.json")
     arguments = parser.parse_args()
     rows = measure([int(n) for n in arguments.sizes.split(",")], arguments.rounds)
-    record = {
-        "date": datetime.datetime.now(datetime.UTC).date().isoformat(),
-        "processor": processor(),
-        "python": platform.python_version(),
-        "versions": {name: importlib.metadata.version(name) for name in ("numpy", "scipy", "numba", "llvmlite")},
-        "rows": rows,
-    }
-    arguments.out.parent.mkdir(parents=True, exist_ok=True)
-    arguments.out.write_text(json.dumps(record, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
+    keep(arguments.out, rows)
 
 
 if __name__ == "__main__":
