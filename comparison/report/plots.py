@@ -295,16 +295,17 @@ def error_plot(rows: Sequence[TableRow], names: Sequence[str]) -> Plot:
             }
         )
         if limits:
+            (first, low), (last, high) = limits[0], limits[-1]
+            limits = [(0.9 * first, low), *limits, (1.1 * last, high)]  # all marks of the outermost κ/ν lie between
             data.append(
                 {
                     "x": [x for x, _ in limits],
                     "y": [y for _, y in limits],
-                    "mode": "lines+markers" if len(limits) == 1 else "lines",
+                    "mode": "lines",
                     "name": "tolerance",
                     "showlegend": label == next(iter(marks_of(rows))),
                     "hovertemplate": "tolerance %{y:g} %<extra></extra>",
                     "line": {"color": marker["color"], "width": 1, "dash": "dot", "shape": "hv"},
-                    "marker": {"symbol": "line-ew-open", "size": 16, "color": marker["color"]},
                     "meta": {"label": label},
                 }
             )
