@@ -42,7 +42,7 @@ THESIS_KAPPAS = (1 / 1600, 1 / 800, 1 / 400, 1 / 200, 1 / 100, 1 / 40, 1 / 20, 1
 DURATION = 0.1  # τ of the end: any will do at ε = 0 (self-similar); the thesis ends here
 INSTANTS = 250
 SHARES = (0.35, 0.7, 1.0)  # of the largest ε
-PERTURBATION = 0.05  # see first_order_epsilon; a method may carry its own ``perturbation``
+PERTURBATION = 0.05  # see first_order_epsilon (tests: half, twice); a method may carry its own ``perturbation``
 COMPANIONS: dict[str, tuple[float, ...]] = {"drift": (), "quick": (0.5,), "thorough": (0.5, 2.0)}
 WIDE = 0.02  # of a leading-order number: a wider error bar deserves a warning
 WIDE_FIRST = 0.1  # of max(|r₁|, 1), likewise

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.ticker import NullFormatter
 
 from bent_beam.cases import Case
 from bent_beam.method import Method, refined
@@ -187,6 +188,7 @@ def _draw(sheet: Sheet, study: Study, outcomes: Sequence[Outcome]) -> None:
 def _decades(axis: Axes, drawn: Sequence[Any]) -> None:
     """A logarithmic axis over whole decades."""
     axis.set_yscale("log")
+    axis.yaxis.set_minor_formatter(NullFormatter())
     if drawn:
         low, high = (float(f(np.concatenate(drawn))) for f in (np.min, np.max))
         axis.set_ylim(10.0 ** np.floor(np.log10(low) - 0.02), 10.0 ** np.ceil(np.log10(high) + 0.02))

@@ -101,6 +101,21 @@ def test_exudyn_matches_the_first_order(kappa, first):
     assert off(row.r1, 1.0) < 0.03
 
 
+@pytest.mark.verify
+@pytest.mark.parametrize("factor", [0.5, 2.0])
+@pytest.mark.parametrize(("kappa", "first"), [(0.5, (4.0, 0.0, 0.0)), (0.5, (1.0, 1.0, 1.0)), (0.8, (-1.0, -1.0, 0.0))])
+def test_the_size_of_the_loads_is_within_the_error_bars(monkeypatch, kappa, first, factor):
+    """ε → 0 is extrapolated to: with half and twice the ε λ₁ and r₁ are the same."""
+    asked = Question(SelfSimilarFE(), kappa, first, error_bars="drift")
+    usual = answer(asked, KEEP)
+    monkeypatch.setattr(matching, "PERTURBATION", factor * matching.PERTURBATION)
+    other = answer(asked, KEEP)
+    assert other.epsilons[-1] == pytest.approx(factor * usual.epsilons[-1])
+    for name in ("lambda1", "r1"):
+        one, two = usual.compared()[name], other.compared()[name]
+        assert abs(one.value - two.value) < one.error + two.error
+
+
 def test_a_sweep_resumes_and_does_not_depend_on_jobs(tmp_path):
     asked = questions(default_methods(["self_similar"]), [0.5, 0.25, 2.0])
     first = match(asked[:2], store=RunStore(tmp_path))
