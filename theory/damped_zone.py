@@ -36,6 +36,12 @@ DATA = Path(__file__).with_name("damped_zone.json")
 LOADS = ("press", "lift", "chi", "psi", "axial")
 
 
+#: κ/ν from which what damping changes of the answer to loads is less than its own noise.
+QUIET = 0.44
+#: Over the age of spreading: before, a zone is too short for relative changes of its length to say anything.
+SHORT = 3.0
+
+
 @dataclass(frozen=True)
 class _Table:
     """Values over ln κ/ν (rows) and ln T (columns)."""
@@ -136,4 +142,5 @@ def load_rates(kappa_over_nu: float, age: ArrayLike) -> FloatArray:
     ages = np.atleast_1d(np.asarray(age, dtype=np.float64))
     table = _tables()[1]
     last = float(table.age[-1])
-    return np.asarray(table.at(kappa_over_nu, ages) * np.sqrt(np.where(ages > last, last / ages, 1.0)))
+    counts = (ages >= SHORT * age_of_spreading(kappa_over_nu)) * (kappa_over_nu < QUIET)
+    return np.asarray(table.at(kappa_over_nu, ages) * np.sqrt(np.where(ages > last, last / ages, 1.0)) * counts)

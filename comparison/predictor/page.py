@@ -35,6 +35,8 @@ def limits() -> dict[str, Any]:
         "ends": json.loads(validity.DATA.read_text(encoding="utf-8")),
         "zone": json.loads(damped_zone.DATA.read_text(encoding="utf-8")),
         "share": validity.SHARE,
+        "quiet": damped_zone.QUIET,
+        "short": damped_zone.SHORT,
         "endsWeight": validity.ENDS_WEIGHT,
         "point": validity.POINT,
         "pulse": validity.PULSE,

@@ -423,10 +423,11 @@ const Theory = (() => {
     }
     const pushed = c.raised + c.psi;
     const acting = { press: Math.max(pushed, 0), lift: Math.max(-pushed, 0), chi: c.chi, psi: c.psi, axial: c.n };
-    const loaded = !discrete && damping > 0 ? Object.keys(acting).filter((load) => acting[load]) : [];
+    const settled = discrete ? 0 : limits.short * erfInverse(c.ratio) ** 2;
+    const loaded = !discrete && damping > 0 && c.ratio < limits.quiet ? Object.keys(acting).filter((load) => acting[load]) : [];
     const ofLoads = (tau) => {
       const found = secondOf(tau), age = tau / slow / damping, ages = zone.loads.age, last = ages[ages.length - 1];
-      for (const load of loaded)
+      for (const load of age >= settled ? loaded : [])
         atAge(zone.loads, zone.touch, c.ratio, age, zone.loads[load]).forEach((rate, i) => {
           found[i] += acting[load] * rate * (age > last ? sqrt(last / age) : 1) * tau;
         });
