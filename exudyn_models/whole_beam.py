@@ -40,7 +40,7 @@ C = TypeVar("C", bound=Composition)
 STEP = 0.5  # h/(Δx²√(μ/EI))
 CONTACT = Penalty(hold_start=0.0)
 ELEMENTS = 100  # of a half beam that touches in a point; half as many: e moves by 4e-5
-ZONE_ELEMENTS = 180  # where a zone spreads, κ/ν < 1; e at κ/ν = 0.4, η/T* = 1e-2 is 37, 8, 3.5e-4 off at 50, 100, 150
+ZONE_ELEMENTS = 180  # where a zone spreads, κ/ν < 1; e at κ/ν = 0.4, η/T* = 1e-2 is 37, 8, 4e-4 off at 50, 100, 180
 
 
 def with_parts_for_whole_beam(method: C, impact: Impact) -> C:
