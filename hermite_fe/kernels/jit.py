@@ -40,7 +40,7 @@ class KernelCache(FunctionCache):
 
 def kernel(function: Function, **options: Any) -> Function:
     """``function`` compiled at its first call or loaded; as it is under ``NUMBA_DISABLE_JIT=1``, to step through it."""
-    if numba.config.DISABLE_JIT:
+    if numba.config.DISABLE_JIT:  # type: ignore[attr-defined]  # set as numba is imported
         return function
     dispatcher = numba.njit(error_model="numpy", **options)(function)
     try:

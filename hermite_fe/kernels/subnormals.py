@@ -23,7 +23,7 @@ SMALLEST = 2.2250738585072014e-308  # the smallest normal number
 MACHINE = platform.machine().lower()
 X86, ARM = MACHINE in ("x86_64", "amd64", "i386", "i686"), MACHINE in ("aarch64", "arm64")
 FLUSH = 0x8040 if X86 else 1 << 24  # FTZ | DAZ of MXCSR; FZ of FPCR
-INTERPRETED = bool(config.DISABLE_JIT)  # plain Python reaches no control register
+INTERPRETED = bool(config.DISABLE_JIT)  # type: ignore[attr-defined]  # plain Python reaches no control register
 
 
 @intrinsic
