@@ -38,15 +38,21 @@ def row_times(dofs: Places, factors: Array, x: Array, j: int) -> float:
 
 
 @compiled
+def force_rows(load: Array, t: float, h: float, theta: float, first: int, stop: int, force: Array) -> None:
+    """Rows ``first`` … ``stop`` − 1 of :func:`force_at`, force (stop − first,)."""
+    steady = load[0, first:stop]
+    for i in range(steady.size):
+        force[i] = steady[i]
+    for power in range(1, load.shape[0]):
+        mean, part = theta * (t + h) ** power + (1.0 - theta) * t**power, load[power, first:stop]
+        for i in range(part.size):
+            force[i] += mean * part[i]
+
+
+@compiled
 def force_at(load: Array, t: float, h: float, theta: float, force: Array) -> None:
     """force = θF(t + h) + (1 − θ)F(t) for F = Σ load[k]·t^k."""
-    n = force.size
-    for i in range(n):
-        force[i] = load[0, i]
-    for power in range(1, load.shape[0]):
-        mean = theta * (t + h) ** power + (1.0 - theta) * t**power
-        for i in range(n):
-            force[i] += mean * load[power, i]
+    force_rows(load, t, h, theta, 0, force.size, force)
 
 
 @compiled
@@ -54,6 +60,9 @@ def mark_held(problem: Problem, law: ContactLaw, closed: Flags, t: float, held: 
     """Rows that stay closed after time t: those whose front is fewer than ``law.hold`` rows further, and before
     ``law.hold_until`` all that are closed."""
     rank, side, everything = problem.rank, problem.side, t < law.hold_until
+    if law.hold == 0 and not everything:
+        held[:] = False
+        return
     front = np.full(2, -1)
     for j in range(closed.size):
         if closed[j]:

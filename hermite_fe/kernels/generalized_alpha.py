@@ -37,7 +37,7 @@ from hermite_fe.kernels.jit import compiled, inlined
 from hermite_fe.kernels.pivoting import solve_rows
 from hermite_fe.kernels.problem import PRODUCT, SMALLEST_REACTION, ContactLaw, Problem, State, Work
 from hermite_fe.kernels.rows import NOT_FINITE, SINGULAR, SOLVED
-from hermite_fe.kernels.stepping import book_step, initial_acceleration, residual_force
+from hermite_fe.kernels.stepping import book_step, initial_acceleration, residual_force, step_length
 
 Array = NDArray[np.float64]
 AT_REST = 1e-10  # of the largest velocity: a closed row slower than this has not rebounded
@@ -209,7 +209,7 @@ def velocity_steps(
             return status, 0
     for k in range(first, last):
         t = times[k]
-        h = times[k + 1] - t
+        h = step_length(times, k, smooth.made_with)
         fresh = smooth.made_with[0] != h
         if fresh:
             combine_smooth(scheme, problem, h, smooth)
@@ -307,7 +307,7 @@ def sequential_steps(
             return status, 0
     for k in range(first, last):
         t = times[k]
-        h = times[k + 1] - t
+        h = step_length(times, k, smooth.made_with)
         fresh = smooth.made_with[0] != h
         if fresh:
             combine_smooth(scheme, problem, h, smooth)
@@ -429,7 +429,7 @@ def penalty_steps(
             return status, 0
     for k in range(first, last):
         t = times[k]
-        h = times[k + 1] - t
+        h = step_length(times, k, work.made_with)
         fresh = work.made_with[0] != h
         if fresh:
             combine_smooth(scheme, problem, h, work)

@@ -33,7 +33,8 @@ from hermite_fe.kernels.rows import (
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
-PATIENCE = 8  # rounds of block exchange without progress before Murty's rule
+PATIENCE = 8  # rounds of block exchange without progress before one row at a time is exchanged
+PERSISTENCE = 64  # rounds without progress of exchanging the worst row before Murty's rule
 ROUND_OFF = 1e-13  # of the terms summed: below it a wrong sign means nothing
 LENIENT_AFTER = 40  # rounds, and one more a row: nearly degenerate rows are then judged ten times more leniently
 PATIENT = 1e-12  # beyond it the exchanges run in a circle, and the fall-back takes over
@@ -73,11 +74,11 @@ def solve_rows(problem: Problem, work: Work, fresh: bool, extent: int, closed: F
     direct = factors.shape[1] == 1
     top = n - 1 if fresh else -1
     last_row, last_closed = -1, -1
+    p[:] = 0.0
+    wrong[:] = False
     for j in range(m):
         want = held[j] or (closed[j] and candidate[j])
         closed[j] = want
-        p[j] = 0.0
-        wrong[j] = False
         if want:
             last_closed = j
         if want or candidate[j]:
@@ -108,7 +109,7 @@ def solve_rows(problem: Problem, work: Work, fresh: bool, extent: int, closed: F
     fewest, patience, rounds, tolerance, smallest = m + 1, PATIENCE, 0, ROUND_OFF, 0.0
     while True:
         back_substitute(R, U, z, 0, zone, y)
-        count, last = wrong_rows(problem, work, closed, 0, near, zone, tolerance)
+        count, last, worst = wrong_rows(problem, work, closed, 0, near, zone, tolerance)
         if count == 0:
             if end < n:
                 deflection, slope = largest_in(place, y, zone)
@@ -116,7 +117,7 @@ def solve_rows(problem: Problem, work: Work, fresh: bool, extent: int, closed: F
             work.extent[0] = substitute_rest(work, zone, end, smallest)
             if near > last_row:
                 break
-            count, last = wrong_rows(problem, work, closed, near, last_row + 1, whole, tolerance)
+            count, last, worst = wrong_rows(problem, work, closed, near, last_row + 1, whole, tolerance)
             if count == 0:
                 break
             zone, near = whole, last_row + 1
@@ -136,9 +137,10 @@ def solve_rows(problem: Problem, work: Work, fresh: bool, extent: int, closed: F
                 rounds += more
                 work.extent[0] = n
                 break
+        chosen = worst if patience > -PERSISTENCE else last
         top = -1
-        for j in range(last_row + 1):
-            if wrong[j] and (patience > 0 or j == last):
+        for j in range(last + 1):
+            if wrong[j] and (patience > 0 or j == chosen):
                 closed[j] = not closed[j]
                 fixed[switch[j]] = closed[j] == direct
                 top = max(top, min(switch[j] + 4, n - 1))

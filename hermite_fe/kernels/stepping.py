@@ -9,11 +9,20 @@ from numpy.typing import NDArray
 
 from hermite_fe.kernels.banded import add, combine, dot, multiply, quadratic, stiff_multiply
 from hermite_fe.kernels.contact import force_at, row_times
-from hermite_fe.kernels.jit import compiled
+from hermite_fe.kernels.jit import compiled, inlined
 from hermite_fe.kernels.pivoting import solve_rows
 from hermite_fe.kernels.problem import ALGORITHMIC, IMPACT, WORK, Problem, State, Work
 
 Array = NDArray[np.float64]
+ROUNDING = 2.0**-51  # of an instant: each of two instants is rounded twice at most
+
+
+@inlined
+def step_length(times: Array, k: int, made_with: Array) -> float:
+    """h of step k, s; the one that the matrix was made with where the two differ by the rounding of the instants alone,
+    so that steps that are meant to be alike share their factors."""
+    h = times[k + 1] - times[k]
+    return made_with[0] if abs(h - made_with[0]) <= ROUNDING * times[k + 1] else h
 
 
 @compiled

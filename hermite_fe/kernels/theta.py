@@ -16,8 +16,8 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from hermite_fe.kernels.banded import add, combine, dot, multiply, quadratic, stiff_multiply
-from hermite_fe.kernels.contact import force_at, mark_held, row_times, rows_times
+from hermite_fe.kernels.banded import CHUNK, add, combine, dot, multiply_rows, quadratic_rows, stiff_rows
+from hermite_fe.kernels.contact import force_rows, mark_held, row_times, rows_times
 from hermite_fe.kernels.jit import compiled
 from hermite_fe.kernels.pivoting import solve_rows
 from hermite_fe.kernels.problem import (
@@ -32,8 +32,66 @@ from hermite_fe.kernels.problem import (
     Work,
 )
 from hermite_fe.kernels.rows import NOT_FINITE, SOLVED
+from hermite_fe.kernels.stepping import step_length
 
 Array = NDArray[np.float64]
+
+
+@compiled
+def predict(problem: Problem, state: State, work: Work, t: float, h: float, theta: float) -> None:
+    """work.b = h[F_θ − K(q + θhv) − Cv], the change of momentum of a step without Δv and without contact."""
+    q, v, b, moved, part, force = state.q, state.v, work.b, work.d1, work.d2, work.d3
+    n, known = q.size, 0
+    for first in range(0, n, CHUNK):
+        stop = min(first + CHUNK, n)
+        count, reach = stop - first, min(stop + 3, n)
+        new, old, rate = moved[known:reach], q[known:reach], v[known:reach]
+        for i in range(reach - known):
+            new[i] = old[i] + theta * h * rate[i]
+        known = reach
+        right = b[first:stop]
+        stiff_rows(problem.K, problem.even, problem.odd, moved, first, stop, right)
+        multiply_rows(problem.C, v, n, first, stop, part)
+        force_rows(problem.load, t, h, theta, first, stop, force)
+        for i in range(count):
+            right[i] = h * (force[i] - right[i] - part[i])
+
+
+@compiled
+def correct(problem: Problem, state: State, work: Work, t: float, h: float, theta: float, lost: Array) -> float:
+    """q⁺ and v⁺ from Δv = work.x, and the energies that the step takes, booked. Returns the work of the loads.
+
+    lost : (causes,), scratch.
+    """
+    q, v, dv, dq, vel = state.q, state.v, work.x, work.d1, work.b
+    part, force = work.d2, work.d3
+    n, known = q.size, 0
+    kinetic, strain, work_done = 0.0, 0.0, 0.0
+    lost[:] = 0.0
+    for first in range(0, n, CHUNK):
+        stop = min(first + CHUNK, n)
+        reach = min(stop + 3, n)
+        motion, rate, jump = q[known:reach], v[known:reach], dv[known:reach]
+        mean, change = vel[known:reach], dq[known:reach]
+        for i in range(reach - known):
+            mean[i] = rate[i] + theta * jump[i]
+            change[i] = h * mean[i]
+            motion[i] += change[i]
+            rate[i] += jump[i]
+        known = reach
+        force_rows(problem.load, t, h, theta, first, stop, force)
+        work_done += dot(force[: stop - first], vel[first:stop])
+        kinetic += quadratic_rows(problem.M, dv, first, stop)
+        for cause in range(lost.size):
+            lost[cause] += quadratic_rows(problem.parts[cause], vel, first, stop)
+        stiff_rows(problem.K, problem.even, problem.odd, dq, first, stop, part)
+        strain += dot(part[: stop - first], dq[first:stop])
+    add(state.budget, WORK, h * work_done)
+    add(state.budget, ALGORITHMIC, (theta - 0.5) * kinetic)
+    add(state.budget, ALGORITHMIC, (theta - 0.5) * strain)
+    for cause in range(lost.size):
+        add(state.budget, problem.slots[cause], h * lost[cause])
+    return work_done
 
 
 @compiled
@@ -50,26 +108,20 @@ def steps(
 ) -> tuple[int, int]:
     """Take the steps ``first`` … ``last`` − 1 between the instants ``times``. Returns (status, step
     reached)."""
-    M, C, K, load = problem.M, problem.C, problem.K, problem.load
     dofs, factors, gap0 = problem.dofs, problem.factors, problem.gap
     q, v, closed = state.q, state.v, state.closed
-    b, dv, p, target, candidate, held = work.b, work.x, work.p, work.target, work.candidate, work.held
-    gap, speed, dq, vel, force = work.gap, work.speed, work.d1, work.d2, work.d3
+    dv, p, target, candidate, held = work.x, work.p, work.target, work.candidate, work.held
+    gap, speed = work.gap, work.speed
     n, m = q.size, closed.size
+    lost = np.zeros(problem.slots.size)
     for k in range(first, last):
         t = times[k]
-        h = times[k + 1] - t
+        h = step_length(times, k, work.made_with)
         fresh = work.made_with[0] != h
         if fresh:
-            combine(M, C, K, 1.0, theta * h, theta * theta * h * h, problem.place, work.S)
+            combine(problem.M, problem.C, problem.K, 1.0, theta * h, theta * theta * h * h, problem.place, work.S)
             work.made_with[0] = h
-        for i in range(n):
-            dq[i] = q[i] + theta * h * v[i]
-        stiff_multiply(K, problem.even, problem.odd, dq, b)
-        multiply(C, v, vel, n)
-        force_at(load, t, h, theta, force)
-        for i in range(n):
-            b[i] = h * (force[i] - b[i] - vel[i])
+        predict(problem, state, work, t, h, theta)
 
         mark_held(problem, law, closed, t, held)
         rows_times(dofs, factors, q, gap)
@@ -100,19 +152,7 @@ def steps(
                     state.worst[SMALLEST_REACTION] = min(state.worst[SMALLEST_REACTION], p[j])
                 product = abs(p[j] * (change - target[j])) * (h if at_position else 1.0)
                 state.worst[PRODUCT] = max(state.worst[PRODUCT], product)
-        add(state.budget, ALGORITHMIC, (theta - 0.5) * quadratic(M, dv))
-        work_done = 0.0
-        for i in range(n):
-            vel[i] = v[i] + theta * dv[i]
-            dq[i] = h * vel[i]
-            q[i] += dq[i]
-            v[i] += dv[i]
-            work_done += force[i] * vel[i]
-        add(state.budget, WORK, h * work_done)
-        for cause in range(problem.slots.size):
-            add(state.budget, problem.slots[cause], h * quadratic(problem.parts[cause], vel))
-        stiff_multiply(K, problem.even, problem.odd, dq, vel)
-        add(state.budget, ALGORITHMIC, (theta - 0.5) * dot(dq, vel))
+        work_done = correct(problem, state, work, t, h, theta, lost)
         if not math.isfinite(work_done):
             return NOT_FINITE, k
     return SOLVED, last
