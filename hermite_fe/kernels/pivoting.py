@@ -4,8 +4,9 @@
 
 by block principal pivoting: guess which rows are closed (G x = c), solve, exchange every row whose sign is
 wrong, repeat. Exchanging all at once takes two or three rounds; should the number of wrong rows stop falling,
-one row at a time is exchanged (Murty's rule), which cannot cycle for a positive definite S (Júdice & Pires
-1994, Comput. Oper. Res. 21, 587) but may take very long: then :mod:`hermite_fe.kernels.monotone` takes over.
+one row at a time is exchanged, the one that pulls most or else is furthest in the wall. Where that does not help the
+last of them is (Murty's rule), which cannot cycle for a positive definite S (Júdice & Pires 1994, Comput. Oper. Res.
+21, 587) but may take very long: then :mod:`hermite_fe.kernels.monotone` takes over.
 
 A row that touches one dof fixes it when closed, and p is what is left over in that dof's equation. A row that
 touches several has a multiplier −p among the unknowns, fixed at 0 while open. Either way a switch changes the
@@ -36,7 +37,7 @@ Flags = NDArray[np.bool_]
 PATIENCE = 8  # rounds of block exchange without progress before one row at a time is exchanged
 PERSISTENCE = 64  # rounds without progress of exchanging the worst row before Murty's rule
 ROUND_OFF = 1e-13  # of the terms summed: below it a wrong sign means nothing
-LENIENT_AFTER = 40  # rounds, and one more a row: nearly degenerate rows are then judged ten times more leniently
+LENIENT_AFTER = 150  # rounds, whatever the rows: nearly degenerate rows are then judged ten times more leniently
 PATIENT = 1e-12  # beyond it the exchanges run in a circle, and the fall-back takes over
 COARSEST = 1e-8
 MARGIN = 64  # unknowns beyond the closed rows that every round looks at; the rest of the beam is looked at last
@@ -126,7 +127,7 @@ def solve_rows(problem: Problem, work: Work, fresh: bool, extent: int, closed: F
         else:
             patience -= 1
         rounds += 1
-        if rounds % (LENIENT_AFTER + m) == 0:
+        if rounds % LENIENT_AFTER == 0:
             tolerance *= 10.0
             if tolerance > PATIENT:
                 status, more = solve_monotone(problem, work, closed, ROUND_OFF)
