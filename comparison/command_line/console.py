@@ -33,10 +33,13 @@ class Console:
     """Standard error as a place for progress; silent when it is not a terminal, or ``quiet``."""
 
     def __init__(self, quiet: bool = False) -> None:
+        self.quiet = quiet
         self.shown = not quiet and sys.stderr.isatty()
 
     @contextmanager
     def progress(self, title: str) -> Iterator[Bar]:
+        if not self.quiet:
+            show_messages()
         if not self.shown:
             yield Bar(None, title)
             return
@@ -72,3 +75,18 @@ def notices(show: Callable[[str], None]) -> Iterator[None]:
     finally:
         log.removeHandler(handler)
         log.setLevel(level)
+
+
+def show_messages() -> None:
+    """Why a command takes longer than usual, in one line on standard error: what paths tell the logger ``bentbeam``."""
+    import logging
+
+    class Lines(logging.Handler):
+        def emit(self, record: logging.LogRecord) -> None:
+            print(record.getMessage(), file=sys.stderr)
+
+    logger = logging.getLogger("bentbeam")
+    if not logger.handlers:
+        logger.addHandler(Lines())
+        logger.setLevel(logging.INFO)
+        logger.propagate = False

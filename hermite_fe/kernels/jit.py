@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import hashlib
+import logging
 from collections.abc import Callable
+from functools import cache
 from pathlib import Path
 from typing import Any, TypeVar, cast
 
@@ -37,12 +39,31 @@ class KernelCache(FunctionCache):
             cache_path=self._cache_path, filename_base=self._impl.filename_base, source_stamp=SOURCES
         )
 
+    def load_overload(self, signature: Any, target_context: Any) -> Any:
+        found = super().load_overload(signature, target_context)
+        if found is None:
+            _say_once()
+        return found
+
+
+@cache
+def _say_once() -> None:
+    """To the logger that the command shows on standard error."""
+    logging.getLogger("bentbeam").info("compiling, as always on a new machine or after an update: about ten seconds")
+
 
 def kernel(function: Function, **options: Any) -> Function:
     """``function`` compiled at its first call or loaded; as it is under ``NUMBA_DISABLE_JIT=1``, to step through it."""
     if numba.config.DISABLE_JIT:  # type: ignore[attr-defined]  # set as numba is imported
         return function
     dispatcher = numba.njit(error_model="numpy", **options)(function)
+    template = dispatcher.get_call_template
+
+    def without_literals(arguments: tuple[Any, ...], names: dict[str, Any]) -> Any:
+        """Numba would compile a kernel once more for each number that a call writes out, as ``first = 0``."""
+        return template(tuple(numba.types.unliteral(a) for a in arguments), names)
+
+    dispatcher.get_call_template = without_literals
     try:
         dispatcher._cache = KernelCache(dispatcher.py_func)
     except RuntimeError:  # neither this folder nor the user's can be written: compiled anew at every start
