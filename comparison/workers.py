@@ -208,6 +208,7 @@ def workers_end_with_us(stopped: threading.Event | None = None) -> Iterator[None
         raise
 
 
+FIRST_ANSWER = 10.0  # s that a scheduler has to answer at first
 RECONNECT = 120.0  # s that a scheduler may be away before what is left is given up
 RESTARTS = 20  # times in a row that it may come back and go without a single answer
 
@@ -225,7 +226,7 @@ def _on_cluster(
     except ImportError:
         raise ValueError("scheduler: needs the extra [cluster] (pip install 'bent-beam-impact[cluster]')") from None
     results: dict[int, Any] = {}
-    idle, patience = 0, 10.0
+    idle, patience = 0, FIRST_ANSWER
     while len(results) < len(arguments) and idle < RESTARTS:
         left = [i for i in range(len(arguments)) if i not in results]
         try:

@@ -5,6 +5,7 @@ from pathlib import Path
 
 import pytest
 
+from comparison import workers
 from comparison.command_line.app import run
 
 CASES = Path(__file__).parents[2] / "cases"
@@ -115,7 +116,6 @@ def test_match_prints_rows(capsys, monkeypatch, tmp_path):
         (["match", "--methods", "none.toml"], "none.toml"),
         (["match", "--kappa-over-nu", "0"], "kappa_over_nu"),
         (["match", "--path", "theory", "--kappa-over-nu", "1"], "path"),
-        (["match", "--path", "hermite", "--kappa-over-nu", "2", "--scheduler", "tcp://127.0.0.1:1"], "scheduler"),
         (["study", "colour", K10], "colour"),
         (["gallery", "fig-9.9"], "fig-9.9"),
         (["rerun", "none.nc"], "none.nc"),
@@ -124,6 +124,12 @@ def test_match_prints_rows(capsys, monkeypatch, tmp_path):
 )
 def test_bad_input_is_one_line_and_exit_2(capsys, arguments, message):
     assert message in refusal(capsys, *arguments)
+
+
+def test_a_scheduler_that_does_not_answer_is_named(capsys, monkeypatch):
+    monkeypatch.setattr(workers, "FIRST_ANSWER", 0.5)
+    arguments = ("match", "--path", "hermite", "--kappa-over-nu", "2", "--scheduler", "tcp://127.0.0.1:1")
+    assert "scheduler" in refusal(capsys, *arguments)
 
 
 def test_help_has_an_example_for_every_command(capsys):

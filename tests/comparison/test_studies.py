@@ -151,6 +151,7 @@ def test_the_spectral_radius_hardly_matters() -> None:
     assert max(lifts) < 1.25 * min(lifts)
 
 
+@pytest.mark.verify
 def test_lumped_nodes_are_flatter_than_lumped_middles_and_consistent_ones_are_not() -> None:
     """Thesis 3.3.5: a tenth, which needs lumped masses."""
     rows = by_label(run_study("contact-point", case(1.0, 0.01)))
@@ -159,6 +160,7 @@ def test_lumped_nodes_are_flatter_than_lumped_middles_and_consistent_ones_are_no
     assert 0.5 < rows["nodes, consistent"]["lift"] / rows["middles, consistent"]["lift"] < 2.0
 
 
+@pytest.mark.verify
 def test_coarse_elements_far_away_send_waves_back() -> None:
     rows = by_label(run_study("far-field", case(10.0, 0.01)))
     assert rows["e = 1.25"]["noise"] > 1.5 * rows["e = 1.02"]["noise"]

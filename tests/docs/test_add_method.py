@@ -124,6 +124,7 @@ page.write_report(Path(sys.argv[2]), methods=[method], questions=asked, store=Ru
 """
 
 
+@pytest.mark.verify
 def test_a_report_shows_it_in_its_tables_plots_and_impacts(
     environment: dict[str, str], methods_file: str, tmp_path: Path
 ) -> None:

@@ -19,6 +19,7 @@ import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
 GENERATED = re.compile(r"(?:^|/)(?:settings|api/\w+)\.md")  # by docs/tools/generated.py
+LONG = {"exudyn.md", "cluster.md"}  # pages whose commands take more than five seconds
 PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").rglob("*.md"))]
 FENCE = re.compile(r"^```(?P<info>[^\n`]*)\n(?P<body>.*?)^```\s*$", re.S | re.M)
 LANGUAGES = ("bash", "python")
@@ -86,7 +87,11 @@ def test_there_are_pages_and_snippets() -> None:
     assert languages.count("bash") > 10 and languages.count("python") > 10
 
 
-@pytest.mark.parametrize("page", PAGES, ids=name_of)
+@pytest.mark.parametrize(
+    "page",
+    [pytest.param(p, marks=[pytest.mark.verify] * (p.name in LONG)) for p in PAGES],
+    ids=name_of,
+)
 def test_commands_and_snippets_run(page: Path, folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     space: dict[str, object] = {"__name__": "__docs__"}
     restore = registries()

@@ -138,7 +138,7 @@ def reference(tmp_path_factory):
 @pytest.mark.parametrize(
     ("path", "wanted"),
     [
-        ("hermite", 42 if FUZZ else 2),
+        pytest.param("hermite", 42 if FUZZ else 2, marks=pytest.mark.verify),
         pytest.param("exudyn", 6, marks=pytest.mark.skipif(not FUZZ, reason="half a minute: FUZZ=1")),
     ],
 )
@@ -385,6 +385,7 @@ def without_seconds(rows):
     return [{k: v for k, v in plain(asdict(row)).items() if k != "seconds"} for row in rows]
 
 
+@pytest.mark.verify
 def test_rows_do_not_depend_on_jobs_or_on_a_cluster(reference):
     pytest.importorskip("distributed")
     environment = os.environ | {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
