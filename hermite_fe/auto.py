@@ -50,7 +50,7 @@ ELEMENTS_AT_START = 6.0  # in ℓ, until when the start counts as unresolved
 START = 0.01  # of the run, the most that the start may be held
 LOADED = (1.3e-3, 0.03, 0.005)  # SMALLEST_ELEMENT, ELEMENT_AT_FRONT, GROWTH of runs that measure what a load changes
 PRESSED_HOLD = 16  # rows, of runs that measure what a load changes and presses the zone on
-DOMAIN = 12.0  # √(t/t*) l*: least half length for such a run; at 6 waves come back and λ₁ is 3 % off, 24 is as good
+DOMAIN = 24.0  # √(t/t*) l*: least half length for such a run; 12 and 48 are as good, at 6 waves come back
 HOLD_ENDS = 0.005  # of T*: from when on the impulse on a finite beam leaves the infinite beam's by 1 % (κ/ν = 0.5)
 
 
