@@ -16,6 +16,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from bent_beam.parts import InputError, nearest
+from bent_beam.versions import versions
+from comparison.store import source_digest
 from open_benchmark.problem import Problem
 
 __all__ = ["ADAPTERS", "RESOLUTIONS", "Adapter", "chosen_adapters", "environments", "install", "shipped_adapters"]
@@ -73,8 +75,11 @@ class Adapter:
         return None
 
     def digest(self) -> str:
-        """Of everything that decides its answers but the problem: source, arguments, pinned versions."""
+        """Of everything that decides its answers but the problem: source, arguments, pinned versions; of a method of
+        this project its solver's source and what that runs with."""
         text = repr((self.arguments, self.install, self.debian)).encode()
+        if self.module and not (self.install or self.debian):
+            text += repr((source_digest(), versions())).encode()
         return hashlib.sha256(self.file.read_bytes() + text).hexdigest()
 
 

@@ -125,6 +125,16 @@ def test_a_changed_adapter_runs_again(tmp_path: Path) -> None:
     assert log.read_text().split() == ["coarse", "coarse"]
 
 
+@pytest.mark.parametrize("name", ["source_digest", "versions"])
+def test_a_changed_solver_of_this_project_runs_again_and_no_foreign_one(
+    monkeypatch: pytest.MonkeyPatch, name: str
+) -> None:
+    shipped = shipped_adapters()
+    before = {key: one.digest() for key, one in shipped.items()}
+    monkeypatch.setattr(f"open_benchmark.adapter.{name}", lambda: "of tomorrow")
+    assert {key for key, one in shipped.items() if one.digest() != before[key]} == {"hermite", "exudyn"}
+
+
 def test_foreign_adapters_import_nothing_of_this_project() -> None:
     for one in shipped_adapters().values():
         if one.install or one.debian:
