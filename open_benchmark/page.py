@@ -21,6 +21,7 @@ from comparison.store import write_atomically
 from open_benchmark.adapter import RESOLUTIONS, Adapter
 from open_benchmark.campaign import Row
 from open_benchmark.problem import Problem, problem
+from open_benchmark.verdict import Score
 
 __all__ = ["document", "errors_table", "properties", "work_precision_figures", "write_page"]
 
@@ -108,6 +109,7 @@ PROPERTIES = {
     "first order, pressed": lambda rows: _first(rows, "pressed"),
     "first order, lift-off": lambda rows: _first(rows, "lift-off"),
     "first order, tension": lambda rows: _first(rows, "tension"),
+    "first order, compression": lambda rows: _first(rows, "compression"),
 }
 
 
@@ -152,7 +154,9 @@ def in_words(asked: Problem) -> str:
 
 def _regime(asked: Problem) -> str:
     alpha, psi, _, axial = asked.loads
-    return "tension" if axial else "lift-off" if alpha + psi < 0.0 else "pressed"
+    if axial:
+        return "tension" if axial > 0.0 else "compression"
+    return "lift-off" if alpha + psi < 0.0 else "pressed"
 
 
 def _seconds(row: Row) -> float | None:
@@ -242,11 +246,17 @@ def errors_table(rows: Sequence[Row], solvers: Sequence[str]) -> str:
 def _in_short(row: Row) -> str:
     first = problem(row.problem).kind == "first"
     wanted = ("lambda1", "r1") if first else ("lambda0", "r0", "restitution", "impulse_error")
-    errors = [f"{100 * e:+.3f}" for name in wanted if (e := row.score.error(name)) is not None]
+    errors = [f"{100 * e:+.3f}" for name in wanted if (e := _error(row.score, name)) is not None]
     if not errors:
         return row.score.outcome.split("(")[0].replace("_", " ")
     seconds = _seconds(row)
     return " / ".join(errors) + ("" if seconds is None else f" ({seconds:.2g})")
+
+
+def _error(found: Score, name: str) -> float | None:
+    """Relative error of one measured number; that of J(t) over time is measured itself, against nothing."""
+    number = found.measured.get(name)
+    return found.error(name) if name != "impulse_error" or number is None else number.value
 
 
 def write_page(rows: Sequence[Row], adapters: Sequence[Adapter], out: Path) -> Path:

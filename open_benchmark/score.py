@@ -152,8 +152,8 @@ def _adhesion(result: Result) -> float | None:
     if "J_minus" not in result.series:
         return None
     assert result.J is not None
-    pushed = float(result.J[-1])
-    return float(result.series["J_minus"][-1]) / pushed if pushed > 0.0 else None
+    largest = float(np.abs(result.J).max())  # a wall that pulls more than it pushes leaves J negative
+    return float(result.series["J_minus"][-1]) / largest if largest > 0.0 else None
 
 
 def _gaps(result: Result, lambda0: float) -> tuple[float | None, float | None]:

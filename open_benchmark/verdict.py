@@ -39,7 +39,8 @@ class Score:
 
     outcome : the adapter's, with the judge's additions after a comma ("completed, lifted"). reason : one line for
     anything but "completed". measured : name → value, error bar and exact value. lift, penetration (over V₀τ),
-    adhesion (tensile over whole impulse), noise (residual of the fit over the impulse), energy (shares of J V₀).
+    adhesion (tensile over largest whole impulse), noise (residual of the fit over the impulse), energy (shares of
+    J V₀).
     reference : name → error bar and source of a value in ``measured`` that is held against a simulation.
     """
 

@@ -186,6 +186,16 @@ def test_a_wall_that_pulls_is_called_adhesive(tmp_path: Path) -> None:
     assert found.outcome == "completed, adhesive" and found.adhesion == pytest.approx(0.03)
 
 
+@pytest.mark.parametrize("net", [-1.0, 0.0])
+def test_a_wall_that_pulls_more_than_it_pushes_is_adhesive_too(net: float) -> None:
+    asked = problem("stopped-beam")
+    tau = np.linspace(0.0, asked.end_time, 400)
+    pushed, pulled = np.minimum(tau / tau[-1], 0.5), np.maximum(tau / tau[-1] - 0.5, 0.0) * (1.0 - 2.0 * net)
+    found = score(Result("completed", "", asked, {}, tau, pushed - pulled, series={"J_minus": pulled}))
+    assert found.outcome == "completed, adhesive"
+    assert found.adhesion == pytest.approx(1.5 if net else 1.0, rel=1e-2)
+
+
 def test_gaps_in_the_zone_and_penetration_are_measured_over_the_way_travelled(tmp_path: Path) -> None:
     x = np.linspace(0.0, 2.0, 401)
     front = contact_parameters(0.5).lambda0 * np.sqrt(0.05)
