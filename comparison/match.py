@@ -260,7 +260,7 @@ def answer(question: Question, store: RunStore) -> MatchRow:
         try:
             others.append(_estimates(question, factor * question.refine, store, epsilon))
         except (ValueError, SimulationError) as error:
-            lost.append(f"no companion run at {factor:g} times the resolution, so the error bar is a guess: {error}")
+            lost.append(without_companion(factor, error))
     leading = leading_order(fine.run.moments, companions=[o.run.moments for o in others])
     estimate = fine.first and with_companions(fine.first, [o.first for o in others if o.first])
     warnings = [w for r in fine.runs for w in r.warnings] + lost
@@ -281,6 +281,11 @@ def answer(question: Question, store: RunStore) -> MatchRow:
         epsilons=list(estimate.epsilons) if estimate else [],
         warnings=sorted(set(warnings)),
     )
+
+
+def without_companion(factor: float, error: Exception) -> str:
+    """What to say where a companion run could not finish."""
+    return f"no companion run at {factor:g} times the resolution, so the error bar is a guess: {error}"
 
 
 def _with_theory(question: Question, leading: LeadingEstimate | None, estimate: Any) -> dict[str, Any]:

@@ -15,7 +15,7 @@ from bent_beam.method import Method, refined
 from bent_beam.section import Section
 from comparison.compared import Compared
 from comparison.estimators import Estimate, Moments, leading_order, moments
-from comparison.match import COMPANIONS, INSTANTS
+from comparison.match import COMPANIONS, INSTANTS, without_companion
 from comparison.reduction import hold_of, peak_moment, pull_of
 from comparison.text_table import text_table
 from comparison.whole_impact.hits import hits
@@ -24,22 +24,26 @@ from theory import predict
 __all__ = ["companions", "run_table", "summary"]
 
 
-def companions(method: Method, impact: Impact, end_time: float, error_bars: str) -> list[Moments]:
-    """Runs at other resolutions, reduced, for the error bars of λ₀ and r₀; none where these are not estimated.
+def companions(
+    method: Method, impact: Impact, end_time: float, error_bars: str
+) -> tuple[list[Moments], list[str]]:
+    """Runs at other resolutions, reduced, for the error bars of λ₀ and r₀, and a warning for each that could not
+    finish; neither where λ₀ and r₀ are not estimated.
 
     error_bars : a key of :data:`comparison.match.COMPANIONS`.
     """
     one_of("error_bars", error_bars, COMPANIONS)
-    found = []
+    found: list[Moments] = []
+    lost: list[str] = []
     if comparable(impact) and not loaded(impact) and predict(impact, [end_time]).times[0].valid:
         for factor in COMPANIONS[error_bars]:
             other = refined(method, factor)
             if other is not None:
                 try:
                     found.append(moments(other.simulate(impact, end_time=end_time, save=INSTANTS)))
-                except (SimulationError, ValueError):
-                    continue  # a coarser run may be too coarse; the bar is then that of the drift
-    return found
+                except (SimulationError, ValueError) as error:  # a coarser run may be too coarse
+                    lost.append(without_companion(factor, error))
+    return found, lost
 
 
 def comparable(impact: Impact) -> bool:

@@ -63,9 +63,9 @@ def simulate(
             history.save(out)
         except OSError as error:  # the run's answer is worth more than its file
             problem, out = f"out: {out} could not be written: {error.strerror or error}", None
-    others = [] if until else companions(method, loaded.impact, loaded.end_time, error_bars)
+    others, lost = ([], []) if until else companions(method, loaded.impact, loaded.end_time, error_bars)
     found = summary(history, out, loaded.section, others)
-    found["warnings"] = [*loaded.warnings, *found["warnings"]]
+    found["warnings"] = [*loaded.warnings, *found["warnings"], *lost]
     emit(found, as_json, lambda: run_table(found))
     if problem:
         raise InputError(problem)

@@ -156,6 +156,23 @@ def test_a_solver_that_cannot_finish_is_exit_3_with_a_partial_history(capsys, tm
     assert ImpactHistory.load(tmp_path / "run.partial.nc").dataset.identical(part.dataset)
 
 
+def test_a_companion_run_that_cannot_finish_is_a_warning(capsys, monkeypatch):
+    from bent_beam import SimulationError
+    from self_similar_fe import SelfSimilarFE
+
+    def simulate(method, *given, **named):
+        if method.refine < 1.0:
+            raise SimulationError("the front left the mesh", time=1e-5, step=12, advice="a smaller step")
+        return whole(method, *given, **named)
+
+    whole = SelfSimilarFE.simulate
+    monkeypatch.setattr(SelfSimilarFE, "simulate", simulate)
+    found = document(capsys, "simulate", K10, "--path", "self_similar")
+    assert found["lambda0"]["error"] > 0.0
+    (warning,) = (w for w in found["warnings"] if "companion" in w)
+    assert "0.5 times the resolution" in warning and "the front left the mesh" in warning
+
+
 @pytest.mark.parametrize("arguments", [[], ["-h"], ["--help"]])
 def test_bare_command_prints_its_help(capsys, arguments):
     assert run(arguments) == 0
