@@ -75,7 +75,7 @@ def _free(case: Case) -> bool:
 def _simulated(case: Case, times: Sequence[float]) -> list[dict[str, float | None]]:
     """The rows at ``times`` from one run of the whole beam with half as long steps and elements beside it."""
     from bent_beam.method import for_whole_beam, method_from_tables  # here: a prediction does without
-    from comparison.estimators import local_front, moments
+    from comparison.estimators import moments
     from comparison.reduction import bending_moments
 
     impact = case.impact
@@ -86,19 +86,22 @@ def _simulated(case: Case, times: Sequence[float]) -> list[dict[str, float | Non
         wanted = np.unique(np.concatenate([np.linspace(0.0, end, INSTANTS + 1)[1:], [t for t in times if t > 0.0]]))
         history = method.simulate(impact, end_time=end, save=wanted)
         found = moments(history, uniform=impact.zone_pressure > 0.0)
-        front = local_front(history)
         total = history.array("total_impulse")
         run = []
         for t in times:
             k = int(np.argmin(np.abs(history.time - t)))
-            j = max(0, int(np.searchsorted(history.time, 0.9 * history.time[k])) - 1)
+            j = max(0, min(int(np.searchsorted(history.time, 0.9 * history.time[k])), k - 1))
             span = history.time[k] - history.time[j]
+            push = found.impulse[k] - found.impulse[j]
+            # the centroid of what was gathered on the way lies at the mean of √t: carry it to the time asked
+            roots = np.sqrt(history.time[[j, k]])
+            place = (found.moment[k] - found.moment[j]) / push * roots[1] / roots.mean() if push > 0.0 else 0.0
             moment, _ = bending_moments(history, k)
             peak = float(np.abs(moment).max())
             run.append(
                 {
                     "time": float(history.time[k]),
-                    "half_contact_length": float(front[k]),
+                    "half_contact_length": float(place) * impact.length_scale,
                     "reaction": float((total[k] - total[j]) / span) if span > 0.0 else None,
                     "impulse": float(total[k]),
                     "peak_moment": peak,
