@@ -276,6 +276,11 @@ class Impact:
         return self.epsilon_axial / self.epsilon
 
     @property
+    def loaded(self) -> bool:
+        """Whether terms of first order act: a₀, q₀, c₀ or an axial force."""
+        return any((self.acceleration, self.fourth_derivative, self.curvature_rate, self.axial_force))
+
+    @property
     def relative_damping(self) -> float:
         """η/T*."""
         return self.damping / self.slow_time_scale

@@ -35,7 +35,7 @@ def companions(
     one_of("error_bars", error_bars, COMPANIONS)
     found: list[Moments] = []
     lost: list[str] = []
-    if comparable(impact) and not loaded(impact) and predict(impact, [end_time]).times[0].valid:
+    if comparable(impact) and not impact.loaded and predict(impact, [end_time]).times[0].valid:
         for factor in COMPANIONS[error_bars]:
             other = refined(method, factor)
             if other is not None:
@@ -51,11 +51,6 @@ def comparable(impact: Impact) -> bool:
     return impact.relative_curvature > 0.0 and not (impact.rotation or impact.first_touch)
 
 
-def loaded(impact: Impact) -> bool:
-    """Whether the impact has terms of first order."""
-    return any((impact.acceleration, impact.fourth_derivative, impact.curvature_rate, impact.axial_force))
-
-
 def summary(
     history: ImpactHistory,
     file: Path | None = None,
@@ -64,13 +59,13 @@ def summary(
 ) -> dict[str, Any]:
     """What a run did and found, SI units; the theory's numbers only where it claims to hold, stress with a section."""
     impact, time = history.impact, history.time
-    found = moments(history, uniform=loaded(impact))
+    found = moments(history, uniform=impact.loaded)
     end = float(time[-1])
     infinite = predict(impact, [end]) if comparable(impact) else None
     row = infinite.times[0] if infinite else None
     holds = row is not None and row.valid
     leading = None
-    if holds and not loaded(impact):
+    if holds and not impact.loaded:
         try:
             leading = leading_order(found, companions=others)
         except ValueError:

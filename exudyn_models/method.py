@@ -75,8 +75,7 @@ class ExudynModel(Composition):
     def chosen_for(self, impact: Impact, end_time: float) -> ExudynModel:
         """A copy with mesh, element, steps and hold chosen for ``impact``: other impacts then run on the same ones."""
         contact, element, integrator = self._joined()
-        loads = (impact.acceleration, impact.fourth_derivative, impact.curvature_rate, impact.axial_force)
-        shorter = FIRST_ORDER_STEPS if self.integrator is None and any(loads) else 1.0
+        shorter = FIRST_ORDER_STEPS if self.integrator is None and impact.loaded else 1.0
         mesh = chosen_mesh(impact, end_time, explicit=integrator.explicit) if self.mesh is None else self.mesh
         if impact.zone_pressure < 0.0 and isinstance(contact, Penalty) and contact.hold_start is None:
             # no start is held where the load lifts the zone: the run without load must do without it too

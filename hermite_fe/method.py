@@ -77,8 +77,7 @@ class HermiteFE(Composition):
         bare impact leaves would otherwise take up the load before the wall does. Neither without loads.
         """
         mesh, contact, far_field, domain = self.mesh, self.contact, self.far_field, self.domain
-        loads = (impact.acceleration, impact.fourth_derivative, impact.curvature_rate, impact.axial_force)
-        if any(loads):
+        if impact.loaded:
             if domain is None and far_field is None:
                 domain = auto.chosen_domain(impact, end_time)
             if contact is None and impact.zone_pressure > 0.0 and (self.integrator is None or self.integrator.holds):

@@ -27,21 +27,21 @@ TAIL = 60.0  # ζ up to which strain and kinetic energy of the waves are told ap
 
 @dataclass(frozen=True)
 class Exact:
-    """Theory of ``impact``; first order included where the impact has a₀, c₀ or q₀."""
+    """Theory of ``impact``; first order included where the impact has a₀, c₀, q₀ or an axial force."""
 
     impact: Impact
 
     @cached_property
     def parameters(self) -> ContactParameters:
-        """ε = 1: α, ψ, χ are the products εα, εψ, εχ, and so are λ₁, r₁."""
+        """ε = 1: α, ψ, χ and the axial force are the products εα, εψ, εχ and n, and so are λ₁, r₁."""
         i = self.impact
-        return contact_parameters(i.kappa_over_nu, i.epsilon_alpha, i.epsilon_psi, i.epsilon_chi)
+        loads = (i.epsilon_alpha, i.epsilon_psi, i.epsilon_chi)
+        return contact_parameters(i.kappa_over_nu, *loads, axial=i.epsilon_axial)
 
     @property
     def leading(self) -> bool:
         """No first-order term acts."""
-        i = self.impact
-        return not (i.acceleration or i.curvature_rate or i.fourth_derivative)
+        return not self.impact.loaded
 
     @cached_property
     def wave(self) -> SelfSimilarWave:

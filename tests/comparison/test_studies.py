@@ -25,6 +25,7 @@ from exudyn_models import ExudynModel
 from hermite_fe import HermiteFE
 from hermite_fe.integrators import SignoriniPosition
 from self_similar_fe import SelfSimilarFE
+from theory import predict
 
 NAMES = {
     "time-step",
@@ -55,6 +56,20 @@ def case(curvature: float, duration: float, **changes: float) -> Case:
 
 def by_label(result: Any) -> dict[str, dict[str, Any]]:
     return {row["label"]: row for row in result.rows}
+
+
+@pytest.mark.parametrize("force", [0.0, 40.0, -40.0])
+def test_the_exact_answer_of_a_study_knows_the_axial_force(force: float) -> None:
+    impact = Impact.whole_beam(0.5).replace(axial_force=force)
+    exact, time = Exact(impact), np.array([1e-3, 2e-3])
+    rows = predict(impact, time).times
+    assert exact.leading == (force == 0.0) == (not impact.loaded)
+    for found, name in ((exact.front(time), "half_contact_length"), (2.0 * exact.side_reaction(time), "reaction"),
+                        (exact.impulse(time), "impulse")):  # fmt: skip
+        assert found == pytest.approx([getattr(row, name) for row in rows], rel=1e-9)
+    front = float(exact.front(2e-3))
+    if force >= 0.0:
+        assert np.abs(exact.gap(np.linspace(0.0, front, 9), 2e-3)).max() < 1e-2 * 2e-3  # of second order
 
 
 def test_all_studies_are_registered_with_titles() -> None:
