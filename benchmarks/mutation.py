@@ -31,6 +31,7 @@ import signal
 import sys
 import tempfile
 import time
+import traceback
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -92,6 +93,8 @@ BLOCK = 250
 NOT_TRIED = ("RShift", "LShift", "BitOr", "BitAnd", "BitXor")  # in place of arithmetic
 TOO_LONG = 1e6  # s, noted for a test that is not worth its time where kernels are plain Python
 CPU_SECONDS = 240  # of a stage, at most: a fault that makes a loop run for ever is caught
+HARNESS = 70  # exit status of a child that could not run pytest or tell what it said
+DIED = "died"
 WALL_SECONDS = 1500  # the run may be in the background, with little of a core
 
 
@@ -201,6 +204,10 @@ class Recorder:
         items[:] = [item for item in items if self.shortest <= self.seconds.get(item.nodeid, 0.0) < self.longest]
         items.sort(key=lambda item: self.place(item.nodeid))
 
+    def pytest_internalerror(self, excinfo: Any) -> None:
+        if isinstance(excinfo.value, SystemExit):  # to pytest an error of its own, but a module did it at its import
+            self.failed = self.failed or "left at an import"
+
     def pytest_runtest_setup(self) -> None:
         if self.limit:
             signal.signal(signal.SIGVTALRM, too_long)
@@ -273,8 +280,11 @@ def in_child(
             options += ["--ignore=tests/hermite_fe/test_hermite_kernels.py"]  # of the cache on disk, not of kernels
             code = pytest.main([*files, *options, *(["-x"] if seconds else [])], [recorder])
             answer.write_text(json.dumps([int(code), recorder.failed, recorder.durations]))
-        finally:
             os._exit(0)
+        except BaseException:
+            traceback.print_exc()
+        finally:
+            os._exit(HARNESS)
     status, ended = 0, 0
     while not ended and time.monotonic() - began < WALL_SECONDS:
         ended, status, spent = os.wait4(child, os.WNOHANG)
@@ -284,12 +294,26 @@ def in_child(
         _, status, spent = os.wait4(child, 0)
     used = round(spent.ru_utime + spent.ru_stime, 1)
     if not answer.exists():
-        return {"code": None, "by": f"ended by signal {os.WTERMSIG(status)}" if status else "died", "seconds": used}
+        return {"code": None, "by": how_it_ended(status), "seconds": used}
     code, failed, durations = json.loads(answer.read_text())
     return {"code": code, "by": failed, "seconds": used, "durations": durations}
 
 
+def how_it_ended(status: int) -> str:
+    """Of a child without an answer: a fault may crash it, leave it without memory or time, or make it leave early."""
+    if os.WIFSIGNALED(status):
+        return f"ended by signal {os.WTERMSIG(status)}"
+    return DIED if os.WEXITSTATUS(status) == HARNESS else f"left with {os.WEXITSTATUS(status)}"
+
+
 def caught(answer: dict[str, Any]) -> bool:
+    """Whether the tests notice a fault: one fails, a module cannot be imported (2), or the fault ends the process.
+
+    Raises ``RuntimeError`` where it was not tried: pytest fails by itself (3), has no such test file (4), or this
+    program does.
+    """
+    if (answer["code"] in (3, 4) and answer["by"] is None) or answer["by"] == DIED:
+        raise RuntimeError(f"the fault was not tried (pytest's exit code {answer['code']}); see output.txt")
     return answer["code"] not in (0, 5)  # 5: no test chosen
 
 
@@ -321,6 +345,8 @@ def run(out: Path) -> None:
         key = " ".join((stage.replace("long", "own"), *files))
         if key not in durations:
             whole = in_child(tree, out / "cache", files, stage, {})
+            if whole["code"] not in (0, 1, 5):
+                raise SystemExit(f"{key}: without a fault, code {whole['code']}, {whole['by']}; see output.txt")
             if whole["by"] is not None:
                 shutil.copy2(out / "output.txt", out / "failed_without_a_fault.txt")
                 print(f"{key}: fails without a fault: {whole['by']}", flush=True)
@@ -331,8 +357,8 @@ def run(out: Path) -> None:
             cache = Path(fresh) if file.startswith(KERNELS) else out / "cache"
             answer = in_child(tree, cache, files, stage, durations[key] or {"none": 0.0})
             shutil.copy2(ROOT / file, tree / file)  # its time too: what Python compiled of it before is good again
-        done[number, stage] = caught(answer)
-        row = {"number": number, "stage": stage, "caught": caught(answer), "by": answer["by"]}
+        done[number, stage] = noticed = caught(answer)
+        row = {"number": number, "stage": stage, "caught": noticed, "by": answer["by"]}
         with results.open("a") as lines:
             lines.write(json.dumps(row | {"cpu_seconds": answer["seconds"]}) + "\n")
 
