@@ -25,7 +25,7 @@ from __future__ import annotations
 import json
 import math
 from dataclasses import dataclass, replace
-from functools import cache
+from functools import cache, lru_cache
 from pathlib import Path
 from typing import Any
 
@@ -115,6 +115,7 @@ def ends_errors(kappa_over_nu: float, time: FloatArray, damping: float = 0.0) ->
     return found
 
 
+@lru_cache(maxsize=128)
 def _flattened(kappa_over_nu: float) -> float:
     """How much earlier the ends are felt below the smallest measured κ/ν."""
     first = float(_table()["kappa_over_nu"][0])
