@@ -83,13 +83,18 @@ def cross_checks(method: C, impact: Impact) -> dict[str, C]:
 
 
 def _softer(contact: Penalty, factor: float) -> Penalty:
-    """A penalty of ``factor`` times the stiffness with the same damping ratio."""
-    if contact.stiffness is not None:
-        return dataclasses.replace(contact, stiffness=contact.stiffness * factor)
+    """A penalty of ``factor`` times the stiffness with the same damping ratio; a damping left open follows by itself."""
+
+    def scaled(value: float | None, by: float) -> float | None:
+        return None if value is None else value * by
+
     stiffness = penalty.STIFFNESS if contact.relative_stiffness is None else contact.relative_stiffness
-    damping = penalty.DAMPING if contact.relative_damping is None else contact.relative_damping
     return dataclasses.replace(
-        contact, relative_stiffness=stiffness * factor, relative_damping=damping * math.sqrt(factor)
+        contact,
+        stiffness=scaled(contact.stiffness, factor),
+        damping=scaled(contact.damping, math.sqrt(factor)),
+        relative_stiffness=stiffness * factor,
+        relative_damping=scaled(contact.relative_damping, math.sqrt(factor)),
     )
 
 

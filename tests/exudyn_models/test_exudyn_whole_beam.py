@@ -7,8 +7,11 @@ from numpy.testing import assert_allclose
 from bent_beam import Impact
 from bent_beam.free_flight import pushing
 from bent_beam.meshes import UniformMesh
+from bent_beam.method import made_of
 from exudyn_models import ExudynModel
-from exudyn_models.contacts import Rigid, SegmentFriction
+from exudyn_models.contacts import Penalty, Rigid, SegmentFriction
+from exudyn_models.integrators.trapezoidal import Trapezoidal
+from exudyn_models.simulation import simulate
 
 COARSE = ExudynModel(mesh=UniformMesh(1 / 20))
 
@@ -53,6 +56,38 @@ def test_restitution_is_that_of_the_hermite_path(kappa_over_nu, damping, value, 
     history = ExudynModel().simulate_to_separation(Impact.whole_beam(kappa_over_nu, relative_damping=damping))
     assert restitution(history) == pytest.approx(value, abs=tolerance)
     closes(history)
+
+
+@pytest.mark.parametrize(
+    "given",
+    [
+        {},
+        {"relative_stiffness": 100.0},
+        {"relative_damping": 1.0},
+        {"stiffness": 1e5, "damping": 1e2},
+        {"stiffness": 1e5},
+        {"damping": 1e2},
+    ],
+    ids=lambda given: ", ".join(given) or "chosen",
+)
+def test_a_softer_contact_keeps_its_damping_ratio(given):
+    """A quarter of k and half of d, whether they are given, in proportion to the element's own or chosen."""
+    impact, step = Impact.whole_beam(2.0), 1e-4
+    method = ExudynModel(
+        mesh=UniformMesh(0.25), integrator=Trapezoidal(time_step=step), contact=Penalty(**given)
+    ).for_whole_beam(impact)
+    softer = method.cross_checks(impact)["contact_law"]
+    assembled = []
+
+    def keep(run, time, q, v):
+        assembled.append((run.contact.stiffness, run.contact.damping))
+        return True
+
+    for each in (method, softer):
+        simulate(impact, end_time=2 * step, save=1, until=keep, **made_of(each))
+    (k, d), (k_softer, d_softer) = assembled
+    assert_allclose(k_softer, 0.25 * k, rtol=1e-12)
+    assert_allclose(d_softer, 0.5 * d, rtol=1e-12)
 
 
 def test_a_stopped_beam_gathers_its_exact_impulse_until_the_first_release():
