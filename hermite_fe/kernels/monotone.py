@@ -23,7 +23,8 @@ MOST = 20  # exchanges a row
 
 @compiled
 def solve_monotone(problem: Problem, work: Work, closed: Flags, tolerance: float) -> tuple[int, int]:
-    """Solve for work.y and work.p from scratch; ``closed`` (rows,) is the answer. Returns (status, solutions)."""
+    """Solve for work.y and work.p from scratch; ``closed`` (rows,) is the answer. Returns (status, solutions); CYCLING
+    also where a row is left in the wall because closing it makes it pull: ``tolerance`` is below round-off."""
     switch, place, dofs, factors = problem.switch, problem.place, problem.dofs, problem.factors
     S, fixed, y, p = work.S, work.fixed, work.y, work.p
     n, m, width = y.size, closed.size, factors.shape[1]
@@ -56,6 +57,8 @@ def solve_monotone(problem: Problem, work: Work, closed: Flags, tolerance: float
             if opening == last_closed:  # it closed for nothing but round-off
                 barred[opening] = True
             continue
+        if last_closed >= 0 and closed[last_closed]:  # it stays: what was barred before is judged anew
+            barred[:] = False
         deepest, closing = 0.0, -1
         for j in range(m):
             known[j] = p[j] if closed[j] else 0.0
@@ -66,7 +69,7 @@ def solve_monotone(problem: Problem, work: Work, closed: Flags, tolerance: float
                 if slack < deepest:
                     deepest, closing = slack, j
         if closing < 0:
-            return SOLVED, attempt
+            return CYCLING if np.any(work.wrong & barred) else SOLVED, attempt
         closed[closing] = True
         fixed[switch[closing]] = direct
         last_closed = closing

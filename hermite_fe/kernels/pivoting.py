@@ -130,9 +130,11 @@ def solve_rows(problem: Problem, work: Work, fresh: bool, extent: int, closed: F
         if rounds % LENIENT_AFTER == 0:
             tolerance *= 10.0
             if tolerance > PATIENT:
-                status, more = solve_monotone(problem, work, closed, ROUND_OFF)
-                if status != SOLVED:
-                    status, more = solve_monotone(problem, work, closed, COARSEST)
+                tolerance = ROUND_OFF
+                status, more = solve_monotone(problem, work, closed, tolerance)
+                while status != SOLVED and tolerance < COARSEST:
+                    tolerance = min(10.0 * tolerance, COARSEST)
+                    status, more = solve_monotone(problem, work, closed, tolerance)
                 if status != SOLVED:
                     return status
                 rounds += more

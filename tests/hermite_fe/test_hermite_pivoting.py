@@ -23,6 +23,7 @@ from hermite_fe.kernels import (
 )
 from hermite_fe.kernels.banded import quadratic, row_sums
 from hermite_fe.kernels.monotone import solve_monotone
+from hermite_fe.kernels.rows import CYCLING, wrong_rows
 from hermite_fe.system import ContactRows, System
 
 Array = NDArray[np.float64]
@@ -136,6 +137,33 @@ def test_the_fall_back_finds_the_same_reactions_from_none() -> None:
         assert status == SOLVED and solutions <= 3 * m, seed
         assert np.abs(work.y[problem.place] - x)[problem.place < n].max() < 1e-7 * scale, seed
         assert np.abs(np.where(closed, work.p, 0.0) - p).max() < 1e-7 * scale, seed
+
+
+@pytest.mark.parametrize("tolerance", [1e-13, 1e-17])
+def test_the_fall_back_never_calls_a_row_inside_the_wall_solved(tolerance: float) -> None:
+    """Rows that just touch, by a tolerance beyond and below round-off; there no row may be left out in silence."""
+    given_up = 0
+    for seed in range(200):
+        random = np.random.default_rng([5, seed])
+        system = random_system(random)
+        problem = problem_of(system)
+        n, m = system.dofs, len(system.contacts)
+        none = np.zeros(m, bool)
+        work = works_of(system, problem, 1)[0]
+        combine(problem.M, problem.C, problem.K, 1.0, 0.0, 0.0, problem.place, work.S)
+        b, target = random.normal(size=n), random.normal(size=m)
+        x, _ = truth(system, b, target, none, none)
+        touching = np.einsum("jk,jk->j", system.contacts.factors, x[system.contacts.dofs])
+        work.b[:], work.target[:] = b, np.where(random.random(m) < 0.9, touching, target)
+        work.candidate[:], work.held[:] = True, False
+        closed = none.copy()
+        status, _ = solve_monotone(problem, work, closed, tolerance)
+        if status == SOLVED:
+            assert wrong_rows(problem, work, closed, 0, m, work.y.size, tolerance)[0] == 0, seed
+        else:
+            assert status == CYCLING
+            given_up += 1
+    assert (given_up == 0) == (tolerance > 1e-15)
 
 
 @pytest.mark.verify
