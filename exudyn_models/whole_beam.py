@@ -119,7 +119,7 @@ def simulate_to_separation(
 ) -> ImpactHistory:
     """Run ``impact`` until the beam has left the wall for good; see :func:`bent_beam.method.simulate_to_separation`.
 
-    Between two walls it never does.
+    Raises ``ValueError`` between two walls.
     """
     times, left = separation_times(impact, longest, save), Departure(impact)
 
@@ -135,7 +135,7 @@ def simulate_to_separation(
                 energy * (2.0 if run.half else 1.0),
             )
 
-        return impact.opposite_wall is None and left(t * scaling.end_time, run.pushed, state)
+        return left(t * scaling.end_time, run.pushed, state)
 
     parts = made_of(with_parts_for_whole_beam(method, impact))
     return simulate(impact, end_time=float(times[-1]), save=times, progress=progress, until=until, **parts)
