@@ -41,6 +41,7 @@ OF_ZONE, OF_BENDING = 300.0, 30.0  # the smallest element over the front's bound
 REACH, REACH_OF_FRONT = 12.0, 8.0  # half length to model, see far_field; tests/exudyn_models/test_exudyn_constants.py
 ELEMENT_STEPS = 4e5  # elements times steps of a run with uniform elements: a few seconds
 FEWEST, MOST = 60, 400  # uniform elements of a half beam; tests/exudyn_models/test_exudyn_constants.py
+STEP = 0.5  # h/(Δx²√(μ/EI)) that resolves the contact
 MOST_STEPS = 200_000  # that an open time step may ask for
 
 
@@ -98,7 +99,7 @@ def lasts_until_waves_return(impact: Impact, end_time: float | None) -> bool:
 
 def resolving_step(mesh: Mesh, impact: Impact) -> float:
     """The time step, s, that resolves the contact of the shortest element: ½Δx²√(μ/EI)."""
-    return 0.5 * float(np.diff(mesh.nodes(impact.half_length)).min()) ** 2 / impact.wave_constant
+    return STEP * float(np.diff(mesh.nodes(impact.half_length)).min()) ** 2 / impact.wave_constant
 
 
 def chosen_steps(integrator: Integrator, mesh: Mesh, impact: Impact, end_time: float | None) -> Integrator:

@@ -30,6 +30,7 @@ from exudyn_models.contacts import Penalty, penalty
 from exudyn_models.elements import ANCFCable
 from exudyn_models.integrators.trapezoidal import Trapezoidal
 from exudyn_models.recording import Recorder
+from exudyn_models.resolution import STEP, resolving_step
 from exudyn_models.simulation import simulate
 
 __all__ = ["ELEMENTS", "cross_checks", "simulate_to_separation", "varied", "with_parts_for_whole_beam"]
@@ -37,10 +38,9 @@ __all__ = ["ELEMENTS", "cross_checks", "simulate_to_separation", "varied", "with
 Array = NDArray[np.float64]
 C = TypeVar("C", bound=Composition)
 
-STEP = 0.5  # h/(Δx²√(μ/EI))
 CONTACT = Penalty(hold_start=0.0)
 ELEMENTS = 100  # of a half beam that touches in a point; half as many: e moves by 4e-5
-ZONE_ELEMENTS = 180  # where a zone spreads, κ/ν < 1; e at κ/ν = 0.4, η/T* = 1e-2 is 37, 8, 4e-4 off at 50, 100, 180
+ZONE_ELEMENTS = 180  # where a zone spreads; e at κ/ν = 0.4, η/T* = 1e-2 is 37e-4, 8e-4, 4e-4 off at 50, 100, 180
 
 
 def with_parts_for_whole_beam(method: C, impact: Impact) -> C:
@@ -50,8 +50,7 @@ def with_parts_for_whole_beam(method: C, impact: Impact) -> C:
     mesh = mesh.refined(method.refine)
     integrator = method.integrator
     if integrator is None:
-        shortest = float(np.diff(mesh.nodes(impact.half_length)).min())
-        integrator = Trapezoidal(time_step=STEP * shortest**2 / impact.wave_constant)
+        integrator = Trapezoidal(time_step=resolving_step(mesh, impact))
     else:
         integrator = integrator.refined(method.refine)
     return dataclasses.replace(
@@ -83,7 +82,7 @@ def cross_checks(method: C, impact: Impact) -> dict[str, C]:
 
 
 def _softer(contact: Penalty, factor: float) -> Penalty:
-    """A penalty of ``factor`` times the stiffness with the same damping ratio; a damping left open follows by itself."""
+    """A penalty of ``factor`` times the stiffness with the same damping ratio; damping left open follows by itself."""
 
     def scaled(value: float | None, by: float) -> float | None:
         return None if value is None else value * by
