@@ -1,8 +1,9 @@
 """Work and precision of many methods, for the report and the README: rows and pictures, stored with their date.
 
 They take minutes, so the report shows what ``python -m comparison.report.work`` has measured and written to
-``stored/``: all integrators with all contacts at leading order, and the integrators at first order. An interrupted
-measurement goes on where it was; ``python -m comparison.report.work NAME`` makes one of them anew.
+``stored/``: all integrators with all contacts at leading order, and the integrators at first order.
+``python -m comparison.report.work NAME`` stores one of them. Rows that are kept, of an interrupted measurement too, are
+not run again.
 """
 
 from __future__ import annotations
@@ -120,7 +121,11 @@ def stored_measurements() -> list[StoredMeasurement]:
 
 
 def main(names: Sequence[str]) -> None:
-    """Store the measurements of these names (none: all)."""
+    """Store the measurements of these names (none: all). Raises ``SystemExit`` for a name that none has."""
+    known = [measurement.name for measurement in MEASUREMENTS]
+    for name in names:
+        if name not in known:
+            raise SystemExit(f"{name} is not a measurement (known: {', '.join(known)})")
     for measurement in MEASUREMENTS:
         if not names or measurement.name in names:
             print(store_measurement(measurement, jobs=max(1, os.cpu_count() or 1)))

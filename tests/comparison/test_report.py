@@ -17,7 +17,7 @@ from comparison.figures.force_map import force_map, spread
 from comparison.match import questions
 from comparison.methods import methods_from_file
 from comparison.report import page as report_module
-from comparison.report import studies
+from comparison.report import studies, work
 from comparison.report.impacts import END, FRAMES, SHOWN, frames, kept_instants, theory_of
 from comparison.report.noise import noise_methods
 from comparison.report.page import page, span_of, write_report
@@ -339,6 +339,16 @@ def test_stored_work_and_precision_holds_every_method_of_its_list() -> None:
         for kept in document["rows"]:
             numbers = [kept[name]["value"] for name in (("lambda1", "r1") if kept["alpha"] else ("lambda0", "r0"))]
             assert (None in numbers) == bool(kept["reason"]), kept["label"]
+
+
+def test_a_measurement_that_does_not_exist_is_named_with_those_that_do(monkeypatch: pytest.MonkeyPatch) -> None:
+    stored = []
+    monkeypatch.setattr(work, "store_measurement", lambda measurement, jobs: stored.append(measurement.name))
+    with pytest.raises(SystemExit, match="work-precison is not a measurement.*work-precision-first-order"):
+        work.main(["work-precision", "work-precison"])
+    assert stored == []
+    work.main(["work-precision"])
+    assert stored == ["work-precision"]
 
 
 def test_powers_of_ten_are_written_as_such() -> None:
