@@ -26,8 +26,8 @@ Array = NDArray[np.float64]
 class Frame:
     """One instant, SI units.
 
-    x, y : (points,) places of the whole beam and deflections (positive into the wall); free : the motion without the
-        wall at x; front : half contact length; reaction : of one side, N (averaged up to the neighbouring frames).
+    x, y : (points,) places of the whole beam and deflections from the wall (positive into it); free : the motion
+        without the wall at x; front : half contact length; reaction : of one side, N (averaged up to the neighbouring frames).
     """
 
     time: float
@@ -58,7 +58,7 @@ def _frame(history: ImpactHistory, outcome: Outcome, time: float, step: float, x
     p, t = history.impact, float(history.time[k])
     free = (
         p.velocity * t
-        - 0.5 * p.curvature * x**2
+        - 0.5 * p.relative_curvature * x**2
         + 0.5 * p.acceleration * t**2
         + 0.5 * p.curvature_rate * x**2 * t
         + p.fourth_derivative * x**4 / 24.0

@@ -1,0 +1,24 @@
+"""The frames of an animation: beam and free motion over one wall."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import asdict
+
+import numpy as np
+
+from bent_beam import Impact, ImpactHistory
+from comparison.figures.animation import impact_frames
+from self_similar_fe import SelfSimilarFE
+
+
+def test_the_beam_without_the_wall_is_drawn_over_a_curved_wall_too() -> None:
+    """A wall bent like the beam and a beam bent more, by as much, are the same impact."""
+    flat = SelfSimilarFE().simulate(Impact.dimensionless(0.5, length=20.0), end_time=0.1, save=20)
+    dataset = flat.dataset.copy()
+    dataset.attrs["impact"] = json.dumps(asdict(flat.impact.replace(curvature=0.8, wall_curvature=0.3)))
+    for over_flat, over_curved in zip(impact_frames(flat, 4), impact_frames(ImpactHistory(dataset), 4), strict=True):
+        far = np.abs(over_flat.x) > 0.9 * over_flat.x.max()
+        assert np.allclose(over_curved.free, over_flat.free, rtol=0.0, atol=1e-12)
+        assert np.allclose(over_curved.y, over_flat.y, rtol=0.0, atol=1e-12)
+        assert np.all(over_flat.free[far] < 0.0)
