@@ -461,6 +461,7 @@ def test_case_means_what_the_page_shows(browser: Any) -> None:
         for name, value in mine.items():
             assert page[name] == pytest.approx(value, rel=1e-12, abs=1e-12), (name, text)
         assert case.end_time == shown
+        assert ("until when the theory holds" in text) == (begins < until)
         assert case.section is not None
         assert page["modulus"] == pytest.approx(case.section.section_modulus, rel=1e-12)
         assert page["area"] == pytest.approx(case.section.area, rel=1e-12)

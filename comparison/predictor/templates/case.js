@@ -18,6 +18,7 @@ const Case = (() => {
       sagitta: () => [line("sagitta", i.sagitta, "m"), line("sagitta_length", i.sagitta_length, "m")],
       dogleg: () => [line("dogleg", i.dogleg * 30 * 180 / Math.PI, "degrees in 30 m")],
     };
+    const holds = predicted.validUntil > predicted.validFrom;
     const approach = i.approach === "drop" ? line("drop_height", i.drop_height, "m") : line("velocity", i.velocity, "m/s");
     return [
       'title = "From the predictor"',
@@ -44,7 +45,7 @@ const Case = (() => {
       "",
       ...(i.wall_curvature ? ["[wall]", line("curvature", i.wall_curvature, "1/m, hollow > 0"), ""] : []),
       "[run]",
-      line("end_time", predicted.shownUntil, "s, until when the theory holds"),
+      line("end_time", predicted.shownUntil, holds ? "s, until when the theory holds" : "s"),
       "",
     ].join("\n");
   }
