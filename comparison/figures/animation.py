@@ -27,7 +27,8 @@ class Frame:
     """One instant, SI units.
 
     x, y : (points,) places of the whole beam and deflections from the wall (positive into it); free : the motion
-        without the wall at x; front : half contact length; reaction : of one side, N (averaged up to the neighbouring frames).
+        without the wall at x; front : half contact length; reaction : of one side, N (averaged up to the
+        neighbouring frames).
     """
 
     time: float

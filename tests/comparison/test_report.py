@@ -344,7 +344,7 @@ def test_stored_work_and_precision_holds_every_method_of_its_list() -> None:
 def test_a_measurement_that_does_not_exist_is_named_with_those_that_do(monkeypatch: pytest.MonkeyPatch) -> None:
     stored = []
     monkeypatch.setattr(work, "store_measurement", lambda measurement, jobs: stored.append(measurement.name))
-    with pytest.raises(SystemExit, match="work-precison is not a measurement.*work-precision-first-order"):
+    with pytest.raises(SystemExit, match=r"work-precison is not a measurement.*work-precision-first-order"):
         work.main(["work-precision", "work-precison"])
     assert stored == []
     work.main(["work-precision"])
