@@ -9,7 +9,7 @@ the loads and the axial force (`theory.second_order`); and what damping changes 
 
 a quarter is left for what these do to each other, and the ends count three times: they grow so fast that it
 is their time that must be right. 0.1x³: on the self-similar path the error of first order exceeds the
-second by at most 0.09x³ for a load α at κ/ν = 0.05 … 0.8, both regimes (docs/theory.md). ε is not in it: the leading
+second by at most 0.08x³ for a load α at κ/ν = 0.05 … 0.8, both regimes (docs/theory.md). ε is not in it: the leading
 order is exact at any ε until the ends are felt.
 
 One point begins to spread when the loads have taken the gap's curvature away that is left beside it; a few per cent

@@ -12,6 +12,7 @@ from mpmath import mp, mpf
 from comparison.validity import measured
 from theory import contact_parameters
 from theory.second_order import second_order
+from theory.validity import THIRD_ORDER
 
 LOADS = st.tuples(*[st.integers(-20, 20).map(lambda n: n / 10.0)] * 4)
 
@@ -28,16 +29,17 @@ def test_the_first_order_on_the_way_is_that_of_the_phi_functions(ratio: float, l
 
 @pytest.mark.parametrize("regime", ["continuous", "detached"])
 def test_it_is_what_simulation_finds_the_first_order_to_lack(regime: str) -> None:
-    # measured on the self-similar path for a load α where it changes λ or r by 30 %; third order is below 0.12·0.3³
-    corrections = measured()["corrections"]
-    for row in measured()["regimes"][regime]:
-        parameters = contact_parameters(row["kappa_over_nu"], 1.0 if regime == "continuous" else -1.0)
-        found = second_order(parameters)
-        slope = max(abs(parameters.r1) / parameters.r0, abs(parameters.lambda1) / parameters.lambda0)
-        tau = corrections[-1] / slope
-        length = abs(found.lambda2) * tau**2 / (parameters.lambda0 + parameters.lambda1 * tau)
-        force = abs(found.r2) * tau**2 / (parameters.r0 + parameters.r1 * tau)
-        assert max(length, force) == pytest.approx(row["error"][-1], abs=0.12 * corrections[-1] ** 3)
+    # measured on the self-similar path for a load α where it changes λ or r by 20 and 30 %; less is noise. What the
+    # second order leaves is what the bound of the third is for: never more, and not much less than nothing
+    for x, column in zip(measured()["corrections"][-2:], (-2, -1)):
+        for row in measured()["regimes"][regime]:
+            parameters = contact_parameters(row["kappa_over_nu"], 1.0 if regime == "continuous" else -1.0)
+            found = second_order(parameters)
+            slope = max(abs(parameters.r1) / parameters.r0, abs(parameters.lambda1) / parameters.lambda0)
+            tau = x / slope
+            length = abs(found.lambda2) * tau**2 / (parameters.lambda0 + parameters.lambda1 * tau)
+            force = abs(found.r2) * tau**2 / (parameters.r0 + parameters.r1 * tau)
+            assert -0.12 * x**3 <= row["error"][column] - max(length, force) <= THIRD_ORDER * x**3
 
 
 def test_tension_at_a_tenth_and_a_fifth() -> None:
