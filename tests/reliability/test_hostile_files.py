@@ -151,6 +151,17 @@ def test_a_file_that_hangs_the_library_is_refused(good, tmp_path, monkeypatch):
         storage.read_dataset(good)
 
 
+def test_the_process_apart_has_one_thread_whose_stack_takes_of_its_memory(good, tmp_path, monkeypatch):
+    from bent_beam import examination, storage
+
+    told = tmp_path / "told.py"
+    told.write_text("import os\nprint(os.environ['OPENBLAS_NUM_THREADS'], 'thread')\nraise SystemExit(1)\n")
+    monkeypatch.setattr(examination, "__file__", str(told))
+    monkeypatch.setenv("OPENBLAS_NUM_THREADS", "64")
+    with pytest.raises(ValueError, match="1 thread"):
+        storage.read_dataset(good)
+
+
 def test_what_stands_in_a_file_is_told_by_the_process_apart(good, tmp_path):
     file = tmp_path / "bad.nc"
     file.write_bytes(good.read_bytes())
