@@ -259,7 +259,6 @@ def _at_time(
     uniform = float(solved.uniform_reaction) * momentum / impact.time_scale
     front = 2.0 * math.sqrt(2.0 / math.pi) * momentum * root
     length = root * math.sqrt(t) * spread
-    exists = spread >= 0.0 and push > 0.0 and length <= impact.half_length
     of_force = of_impulse = of_moment = 1.0
     of_loads = of_impulse_of_loads = 1.0
     if impact.damping > 0.0 and 0.0 < t < 1e12 * impact.damping:
@@ -271,6 +270,7 @@ def _at_time(
             of_length, of_force, of_impulse = damped_zone.ratios(solved.kappa_over_nu, solved.r0, age)[:, 0].tolist()
             length *= of_length
             of_loads, of_impulse_of_loads = of_force, of_impulse
+    exists = spread >= 0.0 and push > 0.0 and length <= impact.half_length
     moment, place = bending.peak(of_moment)
     force = front * (of_force * solved.r0 + of_loads * solved.r1 * tau)
     return PredictionAtTime(

@@ -104,6 +104,17 @@ def test_an_expansion_that_has_broken_down_returns_nothing() -> None:
     assert "does not hold there" in found.summary()
 
 
+@pytest.mark.parametrize(("ratio", "share"), [(0.1, 1.005), (0.3, 0.995)])
+def test_a_damped_contact_ends_where_its_own_length_is_the_beam_s(ratio: float, share: float) -> None:
+    # at this time without damping: `share` of the beam. At κ/ν = 0.1 damping makes it 1.2 % shorter, at 0.3 longer
+    impact = Impact.whole_beam(ratio, relative_damping=1e-2)
+    time = (share * impact.half_length / predict(impact).lambda0) ** 2 / impact.wave_constant
+    bare, row = (predict(each, time).times[0] for each in (impact.replace(damping=0.0), impact))
+    assert (bare.half_contact_length is None, row.half_contact_length is None) == (share > 1.0, share < 1.0)
+    assert (row.reaction is None, row.impulse is None) == (share < 1.0, share < 1.0)
+    assert row.half_contact_length is None or row.half_contact_length < impact.half_length
+
+
 @dataclass(frozen=True)
 class Pipe:
     area: float = 3.4e-3
