@@ -216,7 +216,7 @@ def predict(impact: Impact, times: Iterable[float] | float = (), *, section: Sec
         valid_from=holds.begins,
         valid_until=holds.until,
         limited_by=holds.limited_by,
-        damping_matters_until=_damping_times(solved) * impact.damping,
+        damping_matters_until=_damping_times(solved) * impact.damping if impact.damping > 0.0 else 0.0,
         warnings=tuple(_warnings(impact, solved)),
         times=rows,
     )
