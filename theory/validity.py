@@ -24,7 +24,7 @@ from __future__ import annotations
 
 import json
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cache, lru_cache
 from pathlib import Path
 from typing import Any
@@ -292,8 +292,7 @@ def _tension_leads(solved: ContactParameters) -> bool:
 
     if solved.axial == 0.0:
         return False
-    still = replace(solved, alpha=0.0)
-    alone = contact_parameters(still.kappa_over_nu, solved.alpha, solved.psi, solved.chi)
+    alone = contact_parameters(solved.kappa_over_nu, solved.alpha, solved.psi, solved.chi)
     return change(solved.lambda1 - alone.lambda1, solved.r1 - alone.r1) >= change(alone.lambda1, alone.r1)
 
 
