@@ -32,6 +32,7 @@ __all__ = [
     "first_order",
     "leading_order",
     "moments",
+    "one_side",
     "with_companions",
 ]
 
@@ -96,14 +97,19 @@ class Moments:
 # --- reading a history -------------------------------------------------------------------------------------------
 
 
-def _one_side(history: ImpactHistory) -> tuple[Array, Array]:
+def one_side(history: ImpactHistory) -> tuple[Array, Array]:
     """Total impulse of one side (N s) and its first moment (N s m) at the saved instants."""
     data = history.dataset
     total = history.array("total_impulse") / 2.0
     if "impulse_moment" in data:
         return total, history.array("impulse_moment")
-    places = history.contact_positions(0)
-    moment = history.array("impulse") @ np.abs(places)
+    impulse = history.array("impulse")
+    if "contact_position" in data:  # each contact point gathers on its way: what it got is taken halfway
+        places = np.abs(np.stack([history.contact_positions(k) for k in range(history.time.size)]))
+        pushes = np.diff(impulse, axis=0, prepend=0.0 * impulse[:1])
+        moment = np.cumsum((pushes * 0.5 * (places + np.concatenate([places[:1], places[:-1]]))).sum(axis=1))
+    else:
+        moment = impulse @ np.abs(history.contact_positions(0))
     return total, moment / 2.0 if data.attrs["symmetry"] == "full" else moment
 
 
@@ -128,7 +134,7 @@ def _pressure(history: ImpactHistory, front: Array) -> Array:
 def moments(history: ImpactHistory, *, uniform: bool = False) -> Moments:
     """Concentrated impulse and first moment of one side. ``uniform``: a uniform reaction may act and is taken out."""
     impact = history.impact
-    total, moment = _one_side(history)
+    total, moment = one_side(history)
     time = history.time
     step = np.diff(time, prepend=time[0])
     pressure = np.zeros(time.size)
@@ -262,7 +268,7 @@ def _lift(history: ImpactHistory) -> Array:
 def local_front(history: ImpactHistory) -> Array:
     """λ_c (m) at the saved instants: centroid of the impulse gathered over the last tenth of each instant's time."""
     time = history.time
-    total, moment = _one_side(history)
+    total, moment = one_side(history)
     front = np.zeros(time.size)
     for k in range(1, time.size):
         j = min(int(np.searchsorted(time, 0.9 * time[k])), k - 1)

@@ -26,6 +26,7 @@ from numpy.typing import NDArray
 from bent_beam.checks import shortened
 from bent_beam.history import ImpactHistory
 from bent_beam.parts import nearest
+from comparison.estimators import one_side
 from open_benchmark.problem import Problem, first_order_problem, problem
 
 __all__ = ["OUTCOMES", "Result", "ResultError", "load_result", "result_from_history", "save_result"]
@@ -437,12 +438,7 @@ def result_from_history(history: ImpactHistory, asked: Problem | None = None) ->
     end = float(history.time[-1]) / time
     asked = asked or _problem_of(history, end)
     data = history.dataset
-    if "impulse_moment" in data:
-        moment = history.array("impulse_moment")
-    else:
-        pushes = history.array("impulse")
-        moment = np.array([pushes[k] @ np.abs(history.contact_positions(k)) for k in range(history.time.size)])
-        moment = moment / 2.0 if data.attrs["symmetry"] == "full" else moment
+    _, moment = one_side(history)
     fixed = "position" not in data  # a mesh that expands takes in energy with the beam that it takes in
     series = {
         name: history.array(source) / energy

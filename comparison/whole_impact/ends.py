@@ -27,6 +27,7 @@ import theory
 from bent_beam.history import versions
 from bent_beam.impact import Impact
 from bent_beam.meshes import GradedMesh
+from comparison.estimators import one_side
 from comparison.plain import json_text
 from comparison.store import write_atomically
 from comparison.workers import run_all
@@ -103,9 +104,7 @@ def law_of(
     ends = float(times[0]) * math.exp(-window), float(times[-1]) * math.exp(window)
     saved = np.geomspace(ends[0], ends[1], 2 + round(SAVED * math.log(ends[1] / ends[0])))
     history = method.simulate(impact, end_time=ends[1], save=saved)
-    impulse = history.array("total_impulse") / 2.0
-    moment = history.array("impulse") @ np.abs(history.contact_positions(0))
-    moment = moment if history.dataset.attrs["symmetry"] == "half" else moment / 2.0
+    impulse, moment = one_side(history)
     with np.errstate(divide="ignore", invalid="ignore"):
         return _fitted(history.time, impulse, moment, times, window, max(impact.zone_pressure, 0.0))
 

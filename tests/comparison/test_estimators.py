@@ -8,7 +8,16 @@ import numpy as np
 import pytest
 
 from bent_beam import Impact, ImpactHistory
-from comparison.estimators import SIDE, Estimate, _smooth, first_order, leading_order, moments, with_companions
+from comparison.estimators import (
+    SIDE,
+    Estimate,
+    _smooth,
+    first_order,
+    leading_order,
+    moments,
+    one_side,
+    with_companions,
+)
 from comparison.reduction import bending_moments, peak_moment
 from theory import contact_parameters
 
@@ -65,6 +74,27 @@ def test_leading_order_is_recovered(kappa):
     found = leading_order(moments(synthetic(kappa)))
     assert found.r0.value == pytest.approx(exact.r0, rel=2e-3)
     assert found.lambda0.value == pytest.approx(exact.lambda0, rel=4e-3)
+
+
+@pytest.mark.parametrize("symmetry", ["half", "full"])
+def test_the_first_moment_is_that_of_where_the_pushes_were(symmetry):
+    """A unit force on each side that moves as √t: its moment is (2/3)t^{3/2}, whatever the mesh did since."""
+    time = np.linspace(0.0, 1.0, 201)
+    sides = [1.0] if symmetry == "half" else [-1.0, 1.0]
+    places = np.sqrt(time)[:, None] * np.array(sides)
+    fields = {
+        "gap": (("time", "x"), np.zeros((time.size, 1))),
+        "impulse": (("time", "contact"), np.outer(time, np.ones(len(sides)))),
+        "total_impulse": (("time",), 2.0 * time),
+        "contact_position": (("time", "contact"), places),
+    }
+    history = ImpactHistory.build(
+        impact=Impact.dimensionless(0.5), path="moving", symmetry=symmetry, settings={}, time=time, x=np.zeros(1),
+        contact_x=places[0], fields=fields,
+    )  # fmt: skip
+    impulse, moment = one_side(history)
+    assert impulse == pytest.approx(time)
+    assert moment[50:] == pytest.approx(2.0 / 3.0 * time[50:] ** 1.5, rel=1e-3)
 
 
 def test_noise_widens_the_error_bar_and_stays_inside_it():
