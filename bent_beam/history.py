@@ -45,7 +45,7 @@ from bent_beam.versions import versions
 if TYPE_CHECKING:
     import xarray as xr
 
-__all__ = ["ImpactHistory", "versions"]
+__all__ = ["ImpactHistory"]
 
 Array = NDArray[np.float64]
 

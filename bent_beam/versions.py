@@ -1,10 +1,14 @@
-"""Which versions a result was computed with."""
+"""Which versions a result was computed with, when and on what."""
 
 from __future__ import annotations
 
 import importlib.metadata
+import platform
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import Any
 
-__all__ = ["versions"]
+__all__ = ["processor", "stamp", "versions"]
 
 
 def versions() -> dict[str, str]:
@@ -16,3 +20,19 @@ def versions() -> dict[str, str]:
         except importlib.metadata.PackageNotFoundError:
             continue
     return found
+
+
+def stamp(made_by: str) -> dict[str, Any]:
+    """Where stored numbers are from: the command that makes them anew, the day (UTC) and the versions."""
+    return {"made_by": made_by, "date": datetime.now(UTC).date().isoformat(), "versions": versions()}
+
+
+def processor() -> str:
+    """The processor's name as its maker gives it, where the system tells."""
+    try:
+        for line in Path("/proc/cpuinfo").read_text(encoding="utf-8").splitlines():
+            if line.lower().startswith("model name"):
+                return line.partition(":")[2].strip()
+    except OSError:
+        pass
+    return platform.processor() or platform.machine()

@@ -18,10 +18,11 @@ from typing import Any
 import numpy as np
 
 from bent_beam.checks import finite
-from bent_beam.history import ImpactHistory, versions
+from bent_beam.history import ImpactHistory
 from bent_beam.impact import Impact
 from bent_beam.method import Method, for_whole_beam, refined, settings_of, simulate_to_separation
 from bent_beam.section import Section
+from bent_beam.versions import versions
 from comparison.whole_impact.outcome import NUMBERS, SHORTEST_SEPARATION, WholeImpact, whole_impact
 
 __all__ = ["Bounce", "Number", "bounce", "bounce_document", "problem", "scales"]

@@ -18,14 +18,13 @@ import dataclasses
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from bent_beam.history import versions
 from bent_beam.method import method_from_tables
+from bent_beam.versions import stamp
 from comparison.match import DURATION, MatchRow, Question, match
 from comparison.plain import json_text
 from comparison.store import RunStore, write_atomically
@@ -175,9 +174,7 @@ def _main() -> None:
     chosen = parser.parse_args()
     found = measure(chosen.runs, chosen.seed, jobs=chosen.jobs)
     about = {
-        "made_by": f"python -m comparison.error_bars --runs {chosen.runs} --seed {chosen.seed}",
-        "date": datetime.now(UTC).date().isoformat(),
-        "versions": versions(),
+        **stamp(f"python -m comparison.error_bars --runs {chosen.runs} --seed {chosen.seed}"),
     }
     write_atomically(chosen.out / "error-bars.json", json_text(about | dataclasses.asdict(found), indent=1))
     draw_coverage(found, chosen.out)

@@ -11,9 +11,10 @@ import numpy as np
 import pydantic
 
 from bent_beam.checks import finite, shortened, whole
-from bent_beam.history import ImpactHistory, versions
+from bent_beam.history import ImpactHistory
 from bent_beam.method import Method, method_type
 from bent_beam.parts import InputError, first_line
+from bent_beam.versions import versions
 
 __all__ = ["rerun_history"]
 

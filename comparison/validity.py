@@ -14,7 +14,6 @@ from __future__ import annotations
 
 import json
 from collections.abc import Sequence
-from datetime import UTC, datetime
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -23,7 +22,7 @@ import numpy as np
 
 from bent_beam.files import write_atomically
 from bent_beam.impact import Impact
-from bent_beam.versions import versions
+from bent_beam.versions import stamp
 from comparison.estimators import Moments, moments
 from theory import contact_parameters
 
@@ -98,9 +97,7 @@ def write() -> Path:
     }
     about = {
         "what": "relative error of first-order theory against simulation at relative corrections x, by kappa/nu",
-        "made_by": "python -m comparison.validity",
-        "date": datetime.now(UTC).date().isoformat(),
-        "versions": versions(),
+        **stamp("python -m comparison.validity"),
         "settings": {"path": "self_similar", "loads": LOADS},
     }
     write_atomically(DATA, json.dumps(about | {"corrections": CORRECTIONS, "regimes": table}, indent=1) + "\n")

@@ -8,12 +8,11 @@ the number of elements, doubling the steps and Moreau and Jean's contact law cha
 from __future__ import annotations
 
 import argparse
-import datetime
 import json
 from typing import Any
 
-from bent_beam.history import versions
 from bent_beam.meshes import UniformMesh
+from bent_beam.versions import stamp
 from comparison.bounce import bounce
 from comparison.bounce import problem as beam
 from comparison.plain import json_text
@@ -53,9 +52,7 @@ def _main() -> None:
         print(name, kept[name]["restitution"], flush=True)
     document = {
         "what": "whole impacts of a free-free bent beam, units L/2 = EI = mu = V0 = 1: number -> [value, error bar]",
-        "made_by": "python -m open_benchmark.bounce_reference",
-        "date": datetime.datetime.now(datetime.UTC).date().isoformat(),
-        "versions": versions(),
+        **stamp("python -m open_benchmark.bounce_reference"),
         "settings": {"path": HermiteFE.path, "elements": ELEMENTS},
         "problems": dict(sorted(kept.items())),
     }

@@ -17,6 +17,7 @@ import matplotlib
 import numpy as np
 from matplotlib.figure import Figure
 
+from bent_beam.versions import processor
 from comparison.store import write_atomically
 from open_benchmark.adapter import RESOLUTIONS, Adapter
 from open_benchmark.campaign import Row
@@ -117,7 +118,7 @@ def document(rows: Sequence[Row], adapters: Sequence[Adapter]) -> dict[str, Any]
     """All of the page as JSON."""
     return {
         "format": "beam-impact benchmark 1",
-        "machine": {"processor": platform.machine(), "python": platform.python_version()},
+        "machine": {"processor": processor(), "python": platform.python_version()},
         "seconds": sum(row.seconds for row in rows),
         "solvers": [
             {

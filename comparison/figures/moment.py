@@ -18,9 +18,10 @@ from typing import Any
 
 import numpy as np
 
-from bent_beam.history import ImpactHistory, versions
+from bent_beam.history import ImpactHistory
 from bent_beam.impact import Impact
 from bent_beam.method import Method, refined
+from bent_beam.versions import stamp
 from comparison.figures import style
 from comparison.methods import default_methods
 from comparison.reduction import bending_moments
@@ -134,8 +135,7 @@ def draw_moments(found: Sequence[MeasuredMoment], out: Path, formats: Sequence[s
 def write(found: Sequence[MeasuredMoment]) -> list[Path]:
     """Store the points and draw them."""
     document = {
-        "made_by": "python -m comparison.figures.moment",
-        "versions": versions(),
+        **stamp("python -m comparison.figures.moment"),
         "points": [asdict(m) for m in found],
     }
     write_atomically(FOLDER / "peak-moment.json", json.dumps(document, indent=1) + "\n")

@@ -23,8 +23,8 @@ from typing import Any
 import jinja2
 from markupsafe import Markup
 
-from bent_beam.history import versions
 from bent_beam.method import Method, refined
+from bent_beam.versions import processor, versions
 from comparison.figures.style import marks
 from comparison.figures.work_precision import draw_work_precision
 from comparison.match import MatchRow, Question, failures, match
@@ -169,17 +169,6 @@ def machine() -> dict[str, str]:
         "system": f"{platform.system()} {platform.release()} ({platform.machine()})",
         "Python": platform.python_version(),
     }
-
-
-def processor() -> str:
-    """The processor's name as its maker gives it, where the system tells."""
-    try:
-        for line in Path("/proc/cpuinfo").read_text().splitlines():
-            if line.lower().startswith("model name"):
-                return line.partition(":")[2].strip()
-    except OSError:
-        pass
-    return platform.processor() or platform.machine()
 
 
 # --- the page ---------------------------------------------------------------------------------------------

@@ -22,7 +22,7 @@ from PIL import Image
 
 from bent_beam.cases import Case, case_from_tables
 from bent_beam.errors import SimulationError
-from bent_beam.history import versions
+from bent_beam.versions import stamp, versions
 from comparison.store import write_atomically
 from comparison.workers import run_all
 
@@ -103,9 +103,8 @@ def store_studies(names: Sequence[str], *, jobs: int = 1) -> Path:
     found = kept | {note.name: note for note in notes}
     document = {
         "what": "conclusions of the parameter studies, for the report",
-        "made_by": "python -m comparison.report.studies",
+        **stamp("python -m comparison.report.studies"),
         "date": max(note.date for note in found.values()),
-        "versions": versions(),
         "studies": [asdict(found[name]) for name in titles if name in found],
     }
     write_atomically(file, json.dumps(document, indent=1, ensure_ascii=False) + "\n")

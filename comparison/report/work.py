@@ -13,11 +13,10 @@ import os
 import sys
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass
-from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
-from bent_beam.versions import versions
+from bent_beam.versions import stamp
 from comparison.figures.work_precision import draw_work_precision
 from comparison.match import First, MatchRow, match, questions
 from comparison.methods import methods_from_file
@@ -88,10 +87,8 @@ def store_measurement(measurement: Measurement, *, jobs: int = 1) -> Path:
     rows = match(asked, store=RunStore(default_store()), jobs=jobs, limit=measurement.limit)
     document = {
         "what": f"work and precision: {measurement.title}",
-        "made_by": f"python -m comparison.report.work {measurement.name}",
+        **stamp(f"python -m comparison.report.work {measurement.name}"),
         "command": measurement.command,
-        "date": datetime.now(UTC).date().isoformat(),
-        "versions": versions(),
         "settings": {row.label: row.settings for row in rows},
         "rows": [_kept(row) for row in rows],
     }

@@ -12,7 +12,6 @@ length is stored over λ₀√(ct)(1 − T_p/T), which is smooth.
 from __future__ import annotations
 
 import argparse
-import datetime
 import math
 from collections.abc import Sequence
 from pathlib import Path
@@ -23,8 +22,8 @@ from scipy.interpolate import PchipInterpolator
 from scipy.special import erfinv
 
 import theory
-from bent_beam.history import versions
 from bent_beam.impact import Impact
+from bent_beam.versions import stamp
 from comparison.plain import json_text
 from comparison.store import write_atomically
 from comparison.whole_impact.ends import Law, law_of, theory_law
@@ -163,9 +162,7 @@ def write(rows: Sequence[Array], loads: Sequence[Array]) -> Path:
         "impulse, and half_length over lambda0 sqrt(ct) (1 - erfinv(kappa/nu)^2/age); `touch` is the age at which the "
         "lifted middle comes back to the wall; under `loads` what damping "
         "changes of the answer to a load, relative, per unit of load times tau",
-        "made_by": "python -m comparison.whole_impact.damped",
-        "date": datetime.datetime.now(datetime.UTC).date().isoformat(),
-        "versions": versions(),
+        **stamp("python -m comparison.whole_impact.damped"),
         "settings": {"path": "hermite", "extrapolated_from_elements": ELEMENTS},
         "kappa_over_nu": KAPPAS,
         "age": [float(f"{age:.6g}") for age in AGES],

@@ -14,7 +14,6 @@ Half length and force come from moments of the impulse: parabolas in √t throug
 from __future__ import annotations
 
 import argparse
-import datetime
 import math
 from collections.abc import Sequence
 from pathlib import Path
@@ -24,9 +23,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 import theory
-from bent_beam.history import versions
 from bent_beam.impact import Impact
 from bent_beam.meshes import GradedMesh
+from bent_beam.versions import stamp
 from comparison.estimators import one_side
 from comparison.plain import json_text
 from comparison.store import write_atomically
@@ -246,9 +245,7 @@ def write(curves: dict[float, list[Array]], quartic: Sequence[Array]) -> Path:
         "smallest stands for none)",
         "tolerance": TOLERANCE,
         "source": "the whole beam against one without ends, comparison/whole_impact/ends.py",
-        "made_by": "python -m comparison.whole_impact.ends",
-        "date": datetime.datetime.now(datetime.UTC).date().isoformat(),
-        "versions": versions(),
+        **stamp("python -m comparison.whole_impact.ends"),
         "settings": {"path": "hermite", "element": ELEMENT, "longer": LONGER, "window": WINDOW},
         "kappa_over_nu": KAPPAS,
         "later": [float(f"{later:.6g}") for later in LATER],

@@ -16,7 +16,6 @@ from __future__ import annotations
 
 import argparse
 import dataclasses
-import datetime
 import json
 import math
 from collections.abc import Callable, Sequence
@@ -29,8 +28,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bent_beam.checks import finite, non_negative, positive
-from bent_beam.history import versions
 from bent_beam.method import for_whole_beam, method_from_tables
+from bent_beam.versions import stamp
 from comparison.bounce import RUNS, SEED, Number, bounce, problem
 from comparison.plain import json_text
 from comparison.store import RunStore, default_store, write_atomically
@@ -137,9 +136,7 @@ def write_map(
     """Write ``map.json``. bands : of the undamped beam; others : points of another path, to draw on the map."""
     document = {
         "what": "the whole impact of a free-free bent beam, units L/2 = EI = mu = V0 = 1: number -> [value, error bar]",
-        "made_by": "python -m comparison.whole_impact.map",
-        "date": datetime.datetime.now(datetime.UTC).date().isoformat(),
-        "versions": versions(),
+        **stamp("python -m comparison.whole_impact.map"),
         "settings": rows[-1]["settings"],
         "finer": {"kappa_over_nu_below": FLAT, "refine": FINER},
         "shortest_separation": SHORTEST_SEPARATION,

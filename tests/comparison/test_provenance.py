@@ -8,6 +8,8 @@ from pathlib import Path
 
 import pytest
 
+from bent_beam.versions import processor, stamp
+
 ROOT = Path(__file__).resolve().parents[2]
 STORED = [
     file
@@ -26,6 +28,12 @@ def test_stored_measurements_say_how_they_were_made(file):
     assert re.fullmatch(r"\d{4}-\d\d-\d\d", stored["date"]) and {"numpy", "scipy"} <= stored["versions"].keys()
     program, words = re.fullmatch(r"(bentbeam|python -m) (.+)", stored["made_by"]).groups()
     assert exists(program, words), "a command that makes it anew"
+
+
+def test_a_stamp_is_what_is_asked_of_stored_measurements():
+    found = stamp("python -m comparison.error_bars")
+    assert list(found) == ["made_by", "date", "versions"] and processor()
+    assert re.fullmatch(r"\d{4}-\d\d-\d\d", found["date"]) and {"numpy", "scipy"} <= found["versions"].keys()
 
 
 @pytest.mark.verify
