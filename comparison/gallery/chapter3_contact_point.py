@@ -46,11 +46,6 @@ def four() -> list[Outcome]:
     return [run(contact, mass) for mass in MASSES for contact in ("node", "middle")]
 
 
-def lift(outcome: Outcome) -> float:
-    """Largest gap inside nine tenths of the contact zone at the end, m."""
-    return outcome.measure("lift") * outcome.impact.velocity * float(outcome.time[-1])
-
-
 def evolution(sheet: Sheet, contact: str) -> list[float]:
     """Geometry at several times, a panel for each mass; returns the last lifts inside, m."""
     found = []
@@ -65,7 +60,7 @@ def evolution(sheet: Sheet, contact: str) -> list[float]:
                 front = float(exact.front(t))
                 sheet.line(axis, x[near], -1e3 * gap[k][near], series=f"t = {1e4 * t:g}·10⁻⁴ s", color=colour, lw=0.9)
                 axis.plot([front], [0.0], marker="^", ms=5, color=colour, clip_on=False, zorder=5)
-            found.append(lift(run(contact, mass)))
+            found.append(run(contact, mass).lift)
             places = np.linspace(0.0, 1.1, 300)
             last = TIMES[-1]
             sheet.line(
@@ -190,7 +185,7 @@ def strains(sheet: Sheet) -> str:
 def coupled(contact: str, mass: Mass) -> tuple[float, float]:
     """(coupling c of neighbouring rows, lift in mm)."""
     outcome = thesis("", FLAT, DURATION, contact=contact, mass=mass)
-    return impact_coupling(CONTACTS[contact](), mass).neighbour, 1e3 * lift(outcome)
+    return impact_coupling(CONTACTS[contact](), mass).neighbour, 1e3 * outcome.lift
 
 
 @item(
@@ -263,8 +258,8 @@ def masses(sheet: Sheet) -> str:
         cells: list[object] = [name]
         for contact in ("node", "middle"):
             outcome = thesis("", FLAT, DURATION, contact=contact, mass=mass)
-            cells += [round(1e3 * lift(outcome), 2), round(float(outcome.strain[-1]), 1)]
-        cells.append(round(1e3 * lift(first.old_outcome(0.0, mass=mass)), 2))
+            cells += [round(1e3 * outcome.lift, 2), round(float(outcome.strain[-1]), 1)]
+        cells.append(round(1e3 * first.old_outcome(0.0, mass=mass).lift, 2))
         cells += [round(fitted(first.old_outcome(700.0 * sign, mass=mass)), 1) for sign in FITTED]
         rows.append(cells)
     sheet.table(

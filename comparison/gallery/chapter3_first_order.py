@@ -57,7 +57,7 @@ def old_outcome(acceleration: float, **changes: Any) -> Outcome:
 def lifts_by_zone() -> str:
     """Lift for a₀ = 700 m/s² over where the fine elements end, in words."""
     rule = f"{settings(700.0).zone:.3g} m by the rule of Table 3.2"
-    found = ", ".join(f"{1e3 * lift(old_outcome(700.0, zone=zone)):.2g} mm for {zone:g} m" for zone in ZONES)
+    found = ", ".join(f"{1e3 * old_outcome(700.0, zone=zone).lift:.2g} mm for {zone:g} m" for zone in ZONES)
     return f"it depends on where the fine elements end, {rule}: {found}; waves that come back set it"
 
 
@@ -79,11 +79,6 @@ def runs(acceleration: float) -> list[Outcome]:
         outcome_of(resolved(acceleration), study.FINITE, value=sign, mark=HermiteFE.path),
         outcome_of(history, study.INFINITE, value=sign, mark=endless.path),
     ]
-
-
-def lift(outcome: Outcome) -> float:
-    """Largest gap inside nine tenths of the contact zone at the end, m."""
-    return outcome.measure("lift") * outcome.impact.velocity * float(outcome.time[-1])
 
 
 @item(
@@ -136,8 +131,8 @@ def shapes(sheet: Sheet) -> str:
         pairs = sorted(zip(*axis.get_legend_handles_labels()), key=lambda pair: pair[1] not in SIGNS.values())
         short = [label.removesuffix(f", {SIGNS[0.0]}") for _, label in pairs]
         fig.legend([handle for handle, _ in pairs], short, loc="outside lower center", ncols=5, fontsize=7.0)
-    lifts = {a: 1e3 * lift(runs(a)[0]) for a in SIGNS}
-    ours = [number(max(1e3 * lift(runs(a)[1]), 0.0)) for a in (0.0, 700.0)]
+    lifts = {a: 1e3 * runs(a)[0].lift for a in SIGNS}
+    ours = [number(max(1e3 * runs(a)[1].lift, 0.0)) for a in (0.0, 700.0)]
     return (
         f"Lift inside the zone with the thesis's settings and lumped masses: {lifts[0.0]:.2g} mm for a₀ = 0 "
         "(thesis: 0.41 mm) "
@@ -201,7 +196,7 @@ def one_map(sheet: Sheet, acceleration: float) -> None:
 
 
 MAP = (
-    "{CASE}; cells even in x and √t, the axis of t scaled alike, so that the front is straight; theory's ±λ_c(t) "
+    f"{CASE}; cells even in x and √t, the axis of t scaled alike, so that the front is straight; theory's ±λ_c(t) "
     "(red line)"
 )
 
@@ -210,7 +205,7 @@ MAP = (
     "fig-3.35",
     "Reaction in space and time, a₀ = 700 m/s²",
     group="first-order",
-    caption=f"Reaction per cell over x and t for a₀ = 700 m/s²; {MAP.format(CASE=CASE)}.",
+    caption=f"Reaction per cell over x and t for a₀ = 700 m/s²; {MAP}.",
 )
 def pushed(sheet: Sheet) -> str:
     one_map(sheet, 700.0)
@@ -224,7 +219,7 @@ def pushed(sheet: Sheet) -> str:
     "fig-3.36",
     "Reaction in space and time, a₀ = −700 m/s²",
     group="first-order",
-    caption=f"Reaction per cell over x and t for a₀ = −700 m/s²; {MAP.format(CASE=CASE)}.",
+    caption=f"Reaction per cell over x and t for a₀ = −700 m/s²; {MAP}.",
 )
 def pulled(sheet: Sheet) -> str:
     one_map(sheet, -700.0)

@@ -18,7 +18,7 @@ from bent_beam.meshes import GradedMesh
 from comparison.figures.recorder import Sheet
 from comparison.gallery import chapter3_first_order as first
 from comparison.gallery.base import item
-from comparison.gallery.chapter3_contact_point import FLAT, lift, run
+from comparison.gallery.chapter3_contact_point import FLAT, run
 from comparison.gallery.chapter3_discrete import CURVATURE, ELEMENT, first_impact
 from comparison.gallery.chapter3_mesh import ELEMENTS, count_of, square_middle
 from comparison.gallery.runs import case, thesis
@@ -196,8 +196,8 @@ def contact_rows() -> Iterator[Printed]:
     )  # fmt: skip
     for contact, name, high, strain in (("node", "nodes", 1.7e-4, 3.8), ("middle", "middles", 1.7e-3, 38.0)):
         yield Printed(
-            "3.3.5", f"lift at 2.5·10⁻⁴ s, {name}, m", high, lift(run(contact, "lumped")), 0.2, OPEN,
-            f"lumped masses, r = 1/105; with the printed (3.1.8) {lift(run(contact, 'consistent')):.2g} m",
+            "3.3.5", f"lift at 2.5·10⁻⁴ s, {name}, m", high, run(contact, "lumped").lift, 0.2, OPEN,
+            f"lumped masses, r = 1/105; with the printed (3.1.8) {run(contact, 'consistent').lift:.2g} m",
         )  # fmt: skip
         yield Printed(
             "3.3.5", f"strain energy at 2.5·10⁻⁴ s, {name}, J", strain, float(run(contact,
@@ -253,11 +253,11 @@ def contact_rows() -> Iterator[Printed]:
 def first_order_rows() -> Iterator[Printed]:
     """Section 3.5."""
     yield Printed(
-        "3.5, Fig. 3.33", "lift, a₀ = 0, m", 4.1e-4, first.lift(first.old_outcome(0.0)), 0.2, OPEN,
+        "3.5, Fig. 3.33", "lift, a₀ = 0, m", 4.1e-4, first.old_outcome(0.0).lift, 0.2, OPEN,
         "thesis's settings, nodes, lumped masses r = 1/105",
     )  # fmt: skip
     yield Printed(
-        "3.5, Fig. 3.33", "lift, a₀ = 700 m/s², m", 3.2e-4, first.lift(first.old_outcome(700.0)), 0.2, OPEN,
+        "3.5, Fig. 3.33", "lift, a₀ = 700 m/s², m", 3.2e-4, first.old_outcome(700.0).lift, 0.2, OPEN,
         first.lifts_by_zone(),
     )  # fmt: skip
     for sign, printed in FITTED.items():

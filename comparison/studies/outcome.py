@@ -104,6 +104,11 @@ class Outcome:
             raise ValueError(f"{self.label or 'run'}: no {MEASURES.get(name, name)} was measured")
         return value
 
+    @property
+    def lift(self) -> float:
+        """Largest gap inside nine tenths of the contact zone at the end, m."""
+        return self.measure("lift") * self.impact.velocity * float(self.time[-1])
+
     @cached_property
     def exact(self) -> Exact:
         return Exact(self.impact)
