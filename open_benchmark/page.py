@@ -124,11 +124,12 @@ def document(rows: Sequence[Row], adapters: Sequence[Adapter]) -> dict[str, Any]
             {
                 "name": a.name,
                 "adapter": a.file.name,
-                "installed": a.missing() is None,
+                "installed": missing is None,
+                "missing": missing,
                 "packages": list(a.install) or ([a.debian] if a.debian else []),
                 "properties": properties(rows, a.name),
             }
-            for a in adapters
+            for a, missing in [(a, a.missing()) for a in adapters]
         ],
         "rows": [row.to_dict() for row in rows],
     }
@@ -260,9 +261,12 @@ def _error(found: Score, name: str) -> float | None:
     return found.error(name) if name != "impulse_error" or number is None else number.value
 
 
-def write_page(rows: Sequence[Row], adapters: Sequence[Adapter], out: Path) -> Path:
+def write_page(
+    rows: Sequence[Row], adapters: Sequence[Adapter], out: Path, about: dict[str, Any] | None = None
+) -> Path:
     """Write ``index.html``, the same as ``benchmark.json``, its errors as a table (``errors.md``) and its figures
-    (``sheets/PROBLEM-MEASURE.svg``); returns the page."""
+    (``sheets/PROBLEM-MEASURE.svg``); returns the page. ``about`` : what :func:`document` has said of them."""
+    about = about or document(rows, adapters)
     solvers = [a.name for a in adapters]
     sheets = []
     for name in dict.fromkeys(row.problem for row in rows):
@@ -286,13 +290,16 @@ def write_page(rows: Sequence[Row], adapters: Sequence[Adapter], out: Path) -> P
     html = loader.get_template("benchmark.html.j2").render(
         sheets=sheets,
         solvers=solvers,
-        properties={s: properties(rows, s) for s in solvers},
+        properties={said["name"]: said["properties"] for said in about["solvers"]},
         names=list(PROPERTIES),
-        adapters=[(a, a.missing(), a.file.read_text(encoding="utf-8", errors="replace")) for a in adapters],
+        adapters=[
+            (a, said["missing"], a.file.read_text(encoding="utf-8", errors="replace"))
+            for a, said in zip(adapters, about["solvers"], strict=True)
+        ],
         versions={s: _version(rows, s) for s in solvers},
         minutes=sum(row.seconds for row in rows) / 60.0,
     )
-    write_atomically(out / "benchmark.json", json.dumps(document(rows, adapters), indent=1, allow_nan=False))
+    write_atomically(out / "benchmark.json", json.dumps(about, indent=1, allow_nan=False))
     write_atomically(out / "errors.md", errors_table(rows, solvers))
     write_atomically(out / "index.html", html)
     return out / "index.html"

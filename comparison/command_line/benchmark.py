@@ -73,9 +73,10 @@ def benchmark(
     check_writable(out, folder=True)
     with Console(quiet).progress("benchmark") as bar:
         rows = campaign(adapters, names, out, limits=Limits(seconds=seconds), progress=bar.count)
-    page = write_page(rows, adapters, out)
+    about = document(rows, adapters)
+    page = write_page(rows, adapters, out, about)
     emit(
-        {"page": str(page), **document(rows, adapters)},
+        {"page": str(page), **about},
         as_json,
         lambda: "\n".join(
             [*(f"{r.solver:>20} {r.problem:>22} {r.resolution:>7} {r.score.outcome}" for r in rows), f"page: {page}"]
