@@ -5,12 +5,9 @@ Only samples are kept, so memory is (saved instants) × (dofs), whatever the num
 
 from __future__ import annotations
 
-import logging
 import math
-import threading
 import time as clock
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Sequence
 from copy import deepcopy
 from dataclasses import dataclass
 from typing import Any
@@ -43,8 +40,6 @@ __all__ = ["Stepper", "Trajectory", "integrate", "saved_steps"]
 
 Array = NDArray[np.float64]
 
-log = logging.getLogger("bent_beam")  # what a user should know while a run goes on, from any path
-NOTICED = 2.0  # s of compiling, from when on a user should know; loading compiled kernels takes less
 MOST_INSTANTS = 1_000_000
 MOST_WORK = 1e11  # steps x nodes: about an hour
 FAILURES = {
@@ -52,18 +47,6 @@ FAILURES = {
     CYCLING: "the active set of the contact does not settle",
     NOT_FINITE: "the solution is not finite",
 }
-
-
-@contextmanager
-def _said_when_it_takes_long() -> Iterator[None]:
-    """Log that kernels are being compiled when that is not over soon."""
-    notice = threading.Timer(NOTICED, log.info, ["compiling the solver: half a minute or so, at its first use only"])
-    notice.daemon = True
-    notice.start()
-    try:
-        yield
-    finally:
-        notice.cancel()
 
 
 @dataclass(frozen=True)
@@ -165,10 +148,9 @@ class Stepper:
     def compile(self) -> None:
         """Have all kernels compiled, or loaded, by taking no step: the seconds of a run are those of its steps."""
         state, works = deepcopy((self.state, self.works))  # a scheme may prepare its first step in them
-        with _said_when_it_takes_long():
-            self.integrator.advance(self.problem, self.law, state, works, self.instants, 0, 0)
-            is_finite(self.state.q)
-            self.energy()
+        self.integrator.advance(self.problem, self.law, state, works, self.instants, 0, 0)
+        is_finite(self.state.q)
+        self.energy()
 
     def advance_to(self, step: int) -> int:
         """Take steps up to number ``step``; SOLVED (0) when all went well, else a key of ``FAILURES``."""

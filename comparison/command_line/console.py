@@ -6,6 +6,7 @@ import logging
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from functools import partial
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -38,10 +39,12 @@ class Console:
 
     @contextmanager
     def progress(self, title: str) -> Iterator[Bar]:
-        if not self.quiet:
-            show_messages()
-        if not self.shown:
+        if self.quiet:
             yield Bar(None, title)
+            return
+        if not self.shown:
+            with notices(partial(print, file=sys.stderr)):
+                yield Bar(None, title)
             return
         from rich.console import Console as RichConsole
         from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
@@ -75,18 +78,3 @@ def notices(show: Callable[[str], None]) -> Iterator[None]:
     finally:
         log.removeHandler(handler)
         log.setLevel(level)
-
-
-def show_messages() -> None:
-    """Why a command takes longer than usual, in one line on standard error: what paths tell the logger ``bentbeam``."""
-    import logging
-
-    class Lines(logging.Handler):
-        def emit(self, record: logging.LogRecord) -> None:
-            print(record.getMessage(), file=sys.stderr)
-
-    logger = logging.getLogger("bentbeam")
-    if not logger.handlers:
-        logger.addHandler(Lines())
-        logger.setLevel(logging.INFO)
-        logger.propagate = False

@@ -49,7 +49,7 @@ class KernelCache(FunctionCache):
 @cache
 def _say_once() -> None:
     """To the logger that the command shows on standard error."""
-    logging.getLogger("bentbeam").info("compiling, as always on a new machine or after an update: about ten seconds")
+    logging.getLogger("bent_beam").info("compiling, as always on a new machine or after an update: about ten seconds")
 
 
 def kernel(function: Function, **options: Any) -> Function:

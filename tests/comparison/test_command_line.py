@@ -211,6 +211,19 @@ def test_what_a_path_logs_for_the_user_is_shown_with_the_progress():
     assert seen == ["compiling"]
 
 
+@pytest.mark.parametrize("quiet", [False, True])
+def test_what_a_path_logs_is_a_line_where_there_is_no_terminal(capsys, quiet):
+    import logging
+
+    from comparison.command_line.console import Console
+
+    with Console(quiet).progress("a run"):
+        logging.getLogger("bent_beam").info("compiling")
+    logging.getLogger("bent_beam").info("after")
+    printed = capsys.readouterr()
+    assert printed.out == "" and printed.err == ("" if quiet else "compiling\n")
+
+
 def test_settings_and_kinds_are_completed():
     from comparison.command_line.options import setting_names
 

@@ -335,19 +335,3 @@ def test_numbers_are_refused_or_kept(value: float, field: str) -> None:
         assert not (allowed and math.isfinite(value))
     else:
         assert getattr(part, field) == value and allowed and math.isfinite(value)
-
-
-def test_compiling_that_takes_long_is_said(monkeypatch, caplog):
-    import time
-
-    from hermite_fe import run
-
-    monkeypatch.setattr(run, "NOTICED", 0.01)
-    with caplog.at_level("INFO", logger="bent_beam"), run._said_when_it_takes_long():
-        time.sleep(0.2)
-    assert "at its first use only" in caplog.text
-    caplog.clear()
-    monkeypatch.setattr(run, "NOTICED", 5.0)
-    with caplog.at_level("INFO", logger="bent_beam"), run._said_when_it_takes_long():
-        pass
-    assert not caplog.text
