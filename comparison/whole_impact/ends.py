@@ -136,14 +136,14 @@ def theory_law(kappa: float, times: Array) -> Law:
 
 
 def reached(times: Array, error: Array, tolerance: float) -> float | None:
-    """When an error that grows first reaches ``tolerance``, by interpolation; ``None`` if it does not."""
-    beyond = np.flatnonzero(error >= tolerance)
+    """When an error of either sign first reaches ``tolerance`` in size, by interpolation; ``None`` if it does not."""
+    beyond = np.flatnonzero(np.abs(error) >= tolerance)
     if beyond.size == 0:
         return None
     k = int(beyond[0])
     if k == 0:
         return 0.0
-    share = (tolerance - error[k - 1]) / (error[k] - error[k - 1])
+    share = (math.copysign(tolerance, error[k]) - error[k - 1]) / (error[k] - error[k - 1])
     return float(times[k - 1] * (times[k] / times[k - 1]) ** share)
 
 
@@ -206,10 +206,12 @@ def one_point(damping: float, tolerance: float = TOLERANCE) -> float:
 
 def _factors(curves: dict[float, list[Array]]) -> dict[float, float]:
     """By η/T*: the least, over κ/ν, of the time at which 2 % are reached over that with the usual damping."""
-    at = {
-        damping: [reached(TIMES, np.abs(curve).max(axis=0), TOLERANCE) for curve in found]
-        for damping, found in curves.items()
-    }
+
+    def first(curve: Array) -> float | None:
+        felt = [reached(TIMES, row, TOLERANCE) for row in curve]
+        return min((time for time in felt if time is not None), default=None)
+
+    at = {damping: [first(curve) for curve in found] for damping, found in curves.items()}
     exact = {damping: one_point(damping) / one_point(USUAL) for damping in (1e-5, *DAMPINGS)}
     least = {
         damping: min((a / b for a, b in zip(times, at[USUAL]) if a and b), default=math.inf)
@@ -223,7 +225,7 @@ def write(curves: dict[float, list[Array]], quartic: Sequence[Array]) -> Path:
     names = ("half_length", "reaction", "impulse")
 
     def stored(found: Sequence[Array], felt: Sequence[float]) -> dict[str, Any]:
-        reached_at = [reached(TIMES, np.abs(curve[1]), least) for curve, least in zip(found, felt)]
+        reached_at = [reached(TIMES, curve[1], least) for curve, least in zip(found, felt)]
         arrival = [time for time in reached_at if time is not None]
         if len(arrival) < len(found):
             raise ValueError("times: a curve never changes as much as asked for; measure later")

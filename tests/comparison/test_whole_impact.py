@@ -432,6 +432,17 @@ def test_a_damped_zone_measured_again_is_the_stored_one_within_half_a_per_cent(k
     assert again == pytest.approx(stored, rel=5e-3)
 
 
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+def test_an_error_is_reached_on_its_own_side_when_it_turns(sign: float) -> None:
+    """From 1 % on one side to 5 % on the other, 2 % are half-way in ln t; the size alone would be at a quarter."""
+    times = np.array([1.0, 2.0, 8.0, 16.0])
+    curve = sign * np.array([0.0, 0.01, -0.05, -0.2])
+    assert ends.reached(times, curve, 0.02) == pytest.approx(4.0, rel=1e-12)
+    assert ends.reached(times, curve, 0.05) == pytest.approx(8.0, rel=1e-12)
+    assert ends.reached(times, curve, 0.01) == pytest.approx(2.0, rel=1e-12)
+    assert ends.reached(times, curve, 0.3) is None
+
+
 @pytest.mark.verify
 @pytest.mark.parametrize("kappa", [0.1, 0.3, 0.7])
 def test_waves_from_the_ends_come_out_again_between_what_was_measured(kappa: float) -> None:
@@ -439,7 +450,7 @@ def test_waves_from_the_ends_come_out_again_between_what_was_measured(kappa: flo
     again = ends.measure_ends(kappa)
     stored, _ = ends_errors(kappa, times, ends.USUAL)
     for name, a, b in zip(("half length", "force"), again, stored):
-        felt = [ends.reached(times, np.abs(curve), ends.TOLERANCE) for curve in (a, b)]
+        felt = [ends.reached(times, curve, ends.TOLERANCE) for curve in (a, b)]
         assert felt[0] == pytest.approx(felt[1], rel=0.1), name
 
 
