@@ -1,6 +1,6 @@
 """Every command and snippet of README and docs runs; the tutorial runs; the repository's papers are in order.
 
-A fence whose info line says "not run" (with the reason) or ``no-run`` is only read.
+A fence whose info line says "not run" (with the reason) or ``no-run`` is only read, "make verify" that it runs there.
 """
 
 from __future__ import annotations
@@ -19,7 +19,6 @@ import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
 GENERATED = re.compile(r"(?:^|/)(?:settings|api/\w+)\.md")  # by docs/tools/generated.py
-LONG = {"exudyn.md", "cluster.md"}  # pages whose commands take more than five seconds
 PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").rglob("*.md"))]
 FENCE = re.compile(r"^```(?P<info>[^\n`]*)\n(?P<body>.*?)^```\s*$", re.S | re.M)
 LANGUAGES = ("bash", "python")
@@ -36,6 +35,10 @@ class Block:
     @property
     def runs(self) -> bool:
         return "not run" not in self.options and "no-run" not in self.options
+
+    @property
+    def is_long(self) -> bool:
+        return "make verify" in self.options
 
 
 def blocks(page: Path) -> list[Block]:
@@ -87,16 +90,23 @@ def test_there_are_pages_and_snippets() -> None:
     assert languages.count("bash") > 10 and languages.count("python") > 10
 
 
-@pytest.mark.parametrize(
-    "page",
-    [pytest.param(p, marks=[pytest.mark.verify] * (p.name in LONG)) for p in PAGES],
-    ids=name_of,
-)
+@pytest.mark.parametrize("page", PAGES, ids=name_of)
 def test_commands_and_snippets_run(page: Path, folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    run_blocks(page, [block for block in blocks(page) if not block.is_long], capsys)
+
+
+@pytest.mark.verify
+@pytest.mark.parametrize("page", [p for p in PAGES if any(block.is_long for block in blocks(p))], ids=name_of)
+def test_pages_with_long_snippets_run(page: Path, folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    run_blocks(page, blocks(page), capsys)
+
+
+def run_blocks(page: Path, chosen: list[Block], capsys: pytest.CaptureFixture[str]) -> None:
+    """One after the other, the names of snippets shared."""
     space: dict[str, object] = {"__name__": "__docs__"}
     restore = registries()
     try:
-        for block in blocks(page):
+        for block in chosen:
             if block.language not in LANGUAGES or not block.runs:
                 continue
             began = time.perf_counter()
