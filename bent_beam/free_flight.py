@@ -27,8 +27,8 @@ Array = NDArray[np.float64]
 LOWEST_PERIOD = 2.0 * math.pi / (4.730040744862704 / 2.0) ** 2
 
 ROUND_OFF = 1e-9
-"""Of the whole impulse: less between two saved instants is no push. A path that takes the impulse from the beam's
-momentum leaves 1e-12 to 1e-10 of it in free flight."""
+"""Of the largest impulse of the record: less between two saved instants is no push. A path that takes the
+impulse from the beam's momentum leaves 1e-12 to 1e-10 of it in free flight."""
 
 
 def pushing(impulse: Array) -> NDArray[np.bool_]:

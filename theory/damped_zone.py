@@ -101,7 +101,7 @@ def age_of_spreading(kappa_over_nu: float) -> float:
 
 
 def touch_age(kappa_over_nu: float) -> float | None:
-    """T at which the lifted middle comes back to the wall with a pulse; None where it does not while anybody looks."""
+    """T at which the lifted middle comes back to the wall with a pulse; None outside the measured κ/ν, 0.25–0.45."""
     ratios, ages = _tables()[0].touch
     if not ratios[0] <= kappa_over_nu <= ratios[-1]:
         return None

@@ -39,7 +39,7 @@ from theory.moment import peak_moment_of
 from theory.second_order import second_order
 from theory.similarity import SelfSimilarWave
 
-#: Made anew by whoever measures the whole beam: relative changes over κ/ν and t/T*, and the tolerance.
+#: Made by `python -m comparison.whole_impact.ends`: relative changes over κ/ν and t/T*, and the tolerance.
 DATA = Path(__file__).with_name("ends.json")
 #: Of the tolerance, what the known errors may take.
 SHARE = 0.75

@@ -38,8 +38,8 @@ PATIENCE = 8  # rounds of block exchange without progress before one row at a ti
 PERSISTENCE = 64  # rounds without progress of exchanging the worst row before Murty's rule
 ROUND_OFF = 1e-13  # of the terms summed: below it a wrong sign means nothing
 LENIENT_AFTER = 150  # rounds, whatever the rows: nearly degenerate rows are then judged ten times more leniently
-PATIENT = 1e-12  # beyond it the exchanges run in a circle, and the fall-back takes over
-COARSEST = 1e-8
+MOST_LENIENT = 1e-12  # beyond it the exchanges run in a circle, and the fall-back takes over
+COARSEST = 1e-8  # of the fall-back, which starts at round-off
 MARGIN = 64  # unknowns beyond the closed rows that every round looks at; the rest of the beam is looked at last
 FADED = 1e-100  # of the largest unknown: what is smaller, and beyond all loads, is taken as zero
 
@@ -129,7 +129,7 @@ def solve_rows(problem: Problem, work: Work, fresh: bool, extent: int, closed: F
         rounds += 1
         if rounds % LENIENT_AFTER == 0:
             tolerance *= 10.0
-            if tolerance > PATIENT:
+            if tolerance > MOST_LENIENT:
                 tolerance = ROUND_OFF
                 status, more = solve_monotone(problem, work, closed, tolerance)
                 while status != SOLVED and tolerance < COARSEST:

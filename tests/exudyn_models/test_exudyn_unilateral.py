@@ -60,7 +60,7 @@ def test_steps_too_long_for_the_contact_give_energy_and_the_run_says_so():
 
 @pytest.mark.verify
 def test_the_wall_never_pulls_and_gives_no_energy_in_many_problems():
-    """``BEAMS=300`` for all that the issue asked for; the seed is printed."""
+    """``BEAMS=300`` for a long run; the seed is printed."""
     seed = int(os.environ.get("BEAMS_SEED", random.randrange(2**31)))
     print(f"seed {seed}")
     generator = np.random.default_rng(seed)

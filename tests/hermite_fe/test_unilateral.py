@@ -47,7 +47,7 @@ def test_a_beam_is_never_pulled_and_gains_no_energy(number: int) -> None:
 
 @pytest.mark.verify
 def test_many_beams_are_never_pulled_and_gain_no_energy() -> None:
-    """``BEAMS=10000`` for all that the issue asked for; a seed is printed."""
+    """``BEAMS=10000`` for a long run; the seed is printed."""
     seed = int(os.environ.get("BEAMS_SEED", random.randrange(2**31)))
     print(f"seed {seed}")
     generator = np.random.default_rng(seed)
