@@ -19,7 +19,7 @@ from exudyn_models.contacts import CONTACTS, Contact, Penalty
 from exudyn_models.elements import ELEMENTS, Element
 from exudyn_models.geometry import GEOMETRIES
 from exudyn_models.integrators import INTEGRATORS, Integrator
-from exudyn_models.resolution import chosen_mesh, chosen_steps
+from exudyn_models.resolution import refined_choice
 from exudyn_models.simulation import refusal, simulate
 from exudyn_models.solvers import SOLVERS
 
@@ -76,7 +76,6 @@ class ExudynModel(Composition):
         """A copy with mesh, element, steps and hold chosen for ``impact``: other impacts then run on the same ones."""
         contact, element, integrator = self._joined()
         shorter = FIRST_ORDER_STEPS if self.integrator is None and impact.loaded else 1.0
-        mesh = chosen_mesh(impact, end_time, explicit=integrator.explicit) if self.mesh is None else self.mesh
         if impact.zone_pressure < 0.0 and isinstance(contact, Penalty) and contact.hold_start is None:
             # no start is held where the load lifts the zone: the run without load must do without it too
             contact = dataclasses.replace(contact, hold_start=0.0)
@@ -84,10 +83,15 @@ class ExudynModel(Composition):
             # a zone that a load presses must lie on the wall in the run without it, too, or the load first closes what
             # the rebound of the first instants has left: λ₁ of (4, 0, 0) at κ/ν = 0.5 is 12 % off without, 0.1 % with
             contact = Penalty(hold=FIRST_ORDER_HOLD)
-        mesh = mesh.refined(self.refine)
-        integrator = integrator.refined(self.refine * shorter)
-        if self.integrator is None:
-            integrator = chosen_steps(integrator, mesh, impact, end_time)
+        mesh, integrator = refined_choice(
+            self.mesh,
+            integrator,
+            impact,
+            end_time,
+            open_steps=self.integrator is None,
+            refine=self.refine,
+            shorter=shorter,
+        )
         return dataclasses.replace(
             self, mesh=mesh, element=element, contact=contact, integrator=integrator, refine=1.0
         )

@@ -29,6 +29,7 @@ __all__ = [
     "far_field",
     "lasts_until_waves_return",
     "reachable",
+    "refined_choice",
     "resolving_step",
 ]
 
@@ -114,6 +115,25 @@ def chosen_steps(integrator: Integrator, mesh: Mesh, impact: Impact, end_time: f
     if end_time_of(impact, end_time) > MOST_STEPS * step:
         return integrator
     return cast(Integrator, dataclasses.replace(cast(Any, integrator), time_step=step))
+
+
+def refined_choice(
+    mesh: Mesh | None,
+    integrator: Integrator,
+    impact: Impact,
+    end_time: float | None,
+    *,
+    open_steps: bool,
+    refine: float,
+    shorter: float = 1.0,
+) -> tuple[Mesh, Integrator]:
+    """Mesh, chosen where none is given, and integrator, both ``refine`` times finer, steps ``shorter`` times more.
+
+    open_steps : nobody asked for the integrator, so that its steps may be chosen, too.
+    """
+    laid = chosen_mesh(impact, end_time, explicit=integrator.explicit) if mesh is None else mesh
+    laid, integrator = laid.refined(refine), integrator.refined(refine * shorter)
+    return laid, chosen_steps(integrator, laid, impact, end_time) if open_steps else integrator
 
 
 def end_time_of(impact: Impact, end_time: float | None) -> float:

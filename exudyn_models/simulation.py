@@ -26,7 +26,7 @@ from exudyn_models.elements import ANCFCable, Element
 from exudyn_models.geometry import GEOMETRIES, Geometry
 from exudyn_models.integrators import Integrator
 from exudyn_models.recording import Recorder
-from exudyn_models.resolution import chosen_mesh, chosen_steps, end_time_of
+from exudyn_models.resolution import end_time_of, refined_choice
 from exudyn_models.scaling import Scaling, front_bound
 from exudyn_models.settling import Settling
 from exudyn_models.solvers import NewtonSolver, quiet
@@ -135,10 +135,7 @@ def simulate(
     began = clock.perf_counter()
     true = Scaling(impact, end, 1.0).true_amplitude
     scaling = Scaling(impact, end, geometry.amplitude_of(true))
-    laid = chosen_mesh(impact, end, explicit=integrator.explicit) if mesh is None else mesh
-    laid, integrator = laid.refined(refine), integrator.refined(refine)
-    if open_steps:
-        integrator = chosen_steps(integrator, laid, impact, end)
+    laid, integrator = refined_choice(mesh, integrator, impact, end, open_steps=open_steps, refine=refine)
     half_length = impact.half_length
     if isinstance(laid, NodesMesh) and laid.places[-1] <= half_length * (1.0 + 1e-9):
         half_length = laid.places[-1]
