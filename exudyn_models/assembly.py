@@ -22,6 +22,8 @@ from exudyn_models.viewer import draw_wall
 
 __all__ = ["assemble", "stable_step"]
 
+VISCOSITY = 0.3  # of √(EIμ)Δx² of an element; tests/exudyn_models/test_exudyn_constants.py
+VISCOSITY_EXPLICIT = 0.003  # more would shorten the stable step
 STRETCH = 1e-4  # largest strain under the axial force in the linear limit: lengths are then right to as much
 TAUT = 1e4  # EAΛ²/EI under it: a strain of N/EA moves the front, too, by 7e-4 of what the force does (λ_N at κ/ν = 0.5)
 
@@ -43,7 +45,7 @@ def assemble(
         axial_stiffness = axial * scaling.length**2 / scaling.impact.bending_stiffness
     factor = element.viscosity
     if factor is None:
-        factor = 0.003 if integrator.explicit else 0.3
+        factor = VISCOSITY_EXPLICIT if integrator.explicit else VISCOSITY
     section = Section(
         axial_stiffness=axial_stiffness,
         axial_force=scaling.axial_force,

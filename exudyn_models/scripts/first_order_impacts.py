@@ -29,7 +29,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     impact = Impact(bending_stiffness=1.0, mass_per_length=1.0, length=2.0, curvature=0.35, velocity=3.5)
     end = chosen.duration * impact.time_scale
     mesh = exudyn_models.chosen_mesh(impact, end, coarsen=chosen.coarsen)
-    integrator = GeneralizedAlpha(relative_step=4e-3 * chosen.coarsen)
+    integrator = GeneralizedAlpha().refined(1.0 / chosen.coarsen)
     from theory import contact_parameters  # nothing above knows it
 
     figure, axes = plt.subplots(layout="constrained")

@@ -11,8 +11,8 @@ from bent_beam import Impact
 from comparison.estimators import LeadingEstimate, Moments, leading_order, moments
 from comparison.match import Question, answer
 from comparison.store import RunStore
-from exudyn_models import ExudynModel, method, resolution
-from exudyn_models.contacts import Penalty, holding
+from exudyn_models import ExudynModel, assembly, method, resolution
+from exudyn_models.contacts import Penalty, holding, penalty
 from exudyn_models.elements import ANCFCable
 from exudyn_models.integrators import GeneralizedAlpha
 
@@ -41,11 +41,11 @@ def does_not_move(method: ExudynModel, chosen: LeadingEstimate) -> None:
 @pytest.mark.parametrize(
     "part",
     [
-        lambda f: {"contact": Penalty(relative_stiffness=10.0 * f)},
-        lambda f: {"contact": Penalty(relative_damping=3.0 * f)},
-        lambda f: {"element": ANCFCable(viscosity=0.3 * f)},
-        lambda f: {"integrator": GeneralizedAlpha(relative_step=4e-3 * f)},
-        lambda f: {"integrator": GeneralizedAlpha(spectral_radius=0.375 * f)},
+        lambda f: {"contact": Penalty(relative_stiffness=penalty.STIFFNESS * f)},
+        lambda f: {"contact": Penalty(relative_damping=penalty.DAMPING * f)},
+        lambda f: {"element": ANCFCable(viscosity=assembly.VISCOSITY * f)},
+        lambda f: {"integrator": GeneralizedAlpha().refined(1.0 / f)},
+        lambda f: {"integrator": GeneralizedAlpha(spectral_radius=GeneralizedAlpha().spectral_radius * f)},
     ],
     ids=["C", "D", "viscosity", "relative_step", "spectral_radius"],
 )
@@ -74,16 +74,18 @@ def test_a_constant_halved_or_doubled(
 
 
 @pytest.mark.parametrize("factor", [0.5, 2.0])
-def test_uniform_elements_halved_or_doubled(factor: float, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Once waves are back: work of a run, and with it elements by a quarter and steps by half."""
+@pytest.mark.parametrize(("name", "ends"), [("ELEMENT_STEPS", (0.02, 0.08)), ("FEWEST", (2.0,))])
+def test_uniform_elements_halved_or_doubled(
+    name: str, ends: tuple[float, ...], factor: float, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Once waves are back: work of a run, and with it elements by a quarter and steps by half; the fewest elements."""
     impact = Impact.dimensionless(0.4, length=2.0, damping=1e-3)
 
     def impulse(end: float) -> float:
         return float(ExudynModel().simulate(impact, end_time=end, save=50).array("total_impulse")[-1])
 
-    ends = (0.02, 0.08)
     chosen = [impulse(end) for end in ends]
-    monkeypatch.setattr(resolution, "ELEMENT_STEPS", resolution.ELEMENT_STEPS * factor)
+    monkeypatch.setattr(resolution, name, getattr(resolution, name) * factor)
     assert [impulse(end) for end in ends] == pytest.approx(chosen, rel=0.01)
 
 
