@@ -19,7 +19,7 @@ from hermite_fe import INTEGRATORS, HermiteFE, simulate
 from hermite_fe.auto import end_warnings
 from hermite_fe.contacts import NodeContact
 from hermite_fe.far_fields import GridViscosity
-from hermite_fe.integrators import MoreauJean, SignoriniPosition
+from hermite_fe.integrators import GeneralizedAlphaPenalty, MoreauJean, SignoriniPosition
 from hermite_fe.run import integrate
 from hermite_fe.system import ContactRows, System
 
@@ -335,3 +335,16 @@ def test_numbers_are_refused_or_kept(value: float, field: str) -> None:
         assert not (allowed and math.isfinite(value))
     else:
         assert getattr(part, field) == value and allowed and math.isfinite(value)
+
+
+def test_a_penalty_that_nobody_gave_is_refined_with_the_steps_of_a_whole_beam() -> None:
+    impact = Impact.whole_beam(0.5)
+    one, finer = (
+        HermiteFE(integrator=GeneralizedAlphaPenalty(), refine=refine).for_whole_beam(impact).integrator
+        for refine in (1.0, 2.0)
+    )
+    longer = HermiteFE(integrator=GeneralizedAlphaPenalty()).cross_checks(impact)["step"].integrator
+    for other in (finer, longer):
+        shorter = one.time_step / other.time_step
+        assert shorter == pytest.approx(4.0 if other is finer else 0.5)
+        assert (other.stiffness, other.damping) == pytest.approx((one.stiffness * shorter**2, one.damping * shorter))
