@@ -131,14 +131,14 @@ def test_breaks_shorter_than_the_shortest_separation_are_none() -> None:
     assert pushes(time, np.zeros(10), 1.0) == []
 
 
-@pytest.mark.parametrize(("path", "elements"), [("hermite", 50), ("exudyn", 20)])
-def test_error_bars_of_a_bounce_hold_the_converged_value(path: str, elements: int) -> None:
+@pytest.mark.parametrize(("path", "elements", "widest"), [("hermite", 50, 0.02), ("exudyn", 20, 0.03)])
+def test_error_bars_of_a_bounce_hold_the_converged_value(path: str, elements: int, widest: float) -> None:
     method = dataclasses.replace(method_from_tables(path, {}), mesh=UniformMesh(1.0 / elements))
     found = bounce(problem(0.5, 1e-2), method)
     restitution = found.numbers["restitution"]
     assert set(restitution.parts) == {"mesh", "step", "contact_law"}
     assert restitution.value is not None and restitution.error is not None
-    assert abs(restitution.value - 0.33636) <= restitution.error < 0.03
+    assert abs(restitution.value - 0.33636) <= restitution.error < widest
     document = bounce_document(found)
     assert json.loads(json.dumps(document)) == document
     assert document["si"]["impulse"]["value"] == pytest.approx(2.0 * (1.0 + restitution.value))
