@@ -228,8 +228,8 @@ def test_theory_and_simulation_have_the_same_shape_on_the_timeline(shown_impact:
 
 
 def test_pressed_zone_carries_the_uniform_reaction_of_theory_up_to_the_front() -> None:
-    # behind Hermite's front sixteen rows are held under a pressing load: their reactions are imposed one by one
-    for label, edge in (("Self-similar", 0.12), ("Hermite", 0.22)):
+    edge = 0.12  # of the front: four of Hermite's elements, over which its concentrated force is spread
+    for label in ("Self-similar", "Hermite"):
         data = shown("pressed", label)
         assert data["pressure"][-1] == pytest.approx(SHOWN[1].pressure, rel=0.02)
         x, force = np.array(data["map"]["x"]), np.array(data["map"]["force"])[-5:].mean(axis=0)
@@ -296,9 +296,9 @@ def test_numbers_in_the_page_data_are_finite(plain: str) -> None:
 
 def test_stored_studies_are_those_that_there_are_with_date_and_picture() -> None:
     notes = stored_studies()
-    assert {n.name for n in notes} <= set(known_studies()) and len(notes) >= 10
+    assert [n.name for n in notes] == list(known_studies())
     assert all(n.date and n.conclusion and not n.failed for n in notes)
-    assert sum(n.picture.exists() for n in notes) >= 10
+    assert all(n.picture.exists() for n in notes)
 
 
 def test_a_study_measured_again_leaves_the_others_as_they_are(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
