@@ -69,9 +69,6 @@ class Case(BaseModel):
         )
 
 
-DEFAULT_DURATION = 0.1  # τ, the longest time that the thesis computes
-
-
 def _problem(error: pydantic.ValidationError) -> str:
     problem = error.errors()[0]
     place = ".".join(str(part) for part in problem["loc"])
@@ -129,8 +126,8 @@ def case_from_tables(tables: dict[str, Any]) -> Case:
     if file.run.end_time is not None and file.run.duration is not None:
         raise InputError("run.end_time and run.duration exclude each other: give one")
     end_time = file.run.end_time
-    if end_time is None:
-        end_time = (file.run.duration or DEFAULT_DURATION) * impact.time_scale
+    if file.run.duration is not None:
+        end_time = file.run.duration * impact.time_scale
     try:
         end_time = impact.checked_end_time(end_time)
     except ValueError as error:

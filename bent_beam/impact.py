@@ -19,6 +19,8 @@ __all__ = ["Impact"]
 
 RANGE = 1e60  # of every number of a problem, in SI and in its own units: its fourth power can still be calculated with
 LONGEST = 1e30  # time, and change of the free motion by the loads, in the problem's own units
+DEFAULT_DURATION = 0.1  # t*
+BEFORE_WAVES_RETURN = 0.01  # T*: the earliest that they change the answer by 2 % (comparison/whole_impact/ends.py)
 
 
 @dataclass(frozen=True)
@@ -162,8 +164,14 @@ class Impact:
         """A copy with some fields changed, validated again."""
         return dataclasses.replace(self, **changes)
 
-    def checked_end_time(self, end_time: float) -> float:
-        """``end_time`` (s) of a simulation, or ``ValueError`` when it is out of all proportion to t*."""
+    def checked_end_time(self, end_time: float | None = None) -> float:
+        """``end_time`` (s) of a simulation, or ``ValueError`` when it is out of all proportion to t*.
+
+        ``None``: 0.1 t*, the longest time that the thesis computes, but 0.01 T* at most: then waves come back from the
+        ends and what is asked without a time, the first spread of the contact, is over.
+        """
+        if end_time is None:
+            end_time = min(DEFAULT_DURATION * self.time_scale, BEFORE_WAVES_RETURN * self.slow_time_scale)
         if positive("end_time", end_time) / self.time_scale < 1.0 / LONGEST:
             raise ValueError(
                 f"end_time must be at least {1 / LONGEST:g} t* (got {end_time!r}, t* = {self.time_scale!r} s)"

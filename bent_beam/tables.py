@@ -84,7 +84,9 @@ class RunTable(Table):
     """How long the impact is followed."""
 
     end_time: float | None = number("s", "end of the run", gt=0, default=None)
-    duration: float | None = number("t*", "the same in units of t*; 0.1 unless given", gt=0, default=None)
+    duration: float | None = number(
+        "t*", "the same in units of t*; 0.1, but 0.01 T* at most, unless given", gt=0, default=None
+    )
 
 
 class CaseFile(Table):

@@ -25,7 +25,6 @@ __all__ = [
     "chosen_half_length",
     "chosen_mesh",
     "chosen_steps",
-    "end_time_of",
     "far_field",
     "lasts_until_waves_return",
     "reachable",
@@ -35,7 +34,6 @@ __all__ = [
 
 Array = NDArray[np.float64]
 
-DEFAULT_DURATION = 0.1  # τ, the longest time that the thesis computes
 FIRST_SPREAD = 0.005  # T*: measured, from when on a finite beam's impulse is 1 % off the infinite beam's (κ/ν = 0.5)
 GROWTH = 0.01  # neighbours of the chosen mesh: 5 elements over the front's bending length at κ/ν = 0.05, 20 at 0.2
 OF_ZONE, OF_BENDING = 300.0, 30.0  # the smallest element over the front's bound and over the bending ahead of it
@@ -63,7 +61,7 @@ def far_field(scaling: Scaling) -> float:
 
 def chosen_half_length(impact: Impact, end_time: float | None = None) -> float:
     """The half length, m, modelled when no mesh is given: the beam's, or less where nothing returns in time."""
-    scaling = Scaling(impact, end_time_of(impact, end_time), 1.0)
+    scaling = Scaling(impact, impact.checked_end_time(end_time), 1.0)
     return min(impact.half_length, far_field(scaling) * scaling.length)
 
 
@@ -76,11 +74,11 @@ def chosen_mesh(
     """
     positive("coarsen", coarsen)
     if lasts_until_waves_return(impact, end_time):
-        steps_at_one = 2.0 * end_time_of(impact, end_time) / impact.slow_time_scale  # with one element
+        steps_at_one = 2.0 * impact.checked_end_time(end_time) / impact.slow_time_scale  # with one element
         count = max((ELEMENT_STEPS / steps_at_one) ** (1.0 / 3.0), FEWEST) / coarsen
         places = np.linspace(0.0, impact.half_length, max(2, round(count)) + 1)
         return NodesMesh(places=tuple(float(place) for place in places))
-    scaling = Scaling(impact, end_time_of(impact, end_time), 1.0)
+    scaling = Scaling(impact, impact.checked_end_time(end_time), 1.0)
     front = front_bound(scaling.kappa)
     if explicit:
         smallest = min(max(front, 0.5) / 25, (2.0 / front) / 10)
@@ -94,7 +92,7 @@ def chosen_mesh(
 
 def lasts_until_waves_return(impact: Impact, end_time: float | None) -> bool:
     """Whether waves from the ends of the beam are back before the end time, s."""
-    end = end_time_of(impact, end_time)
+    end = impact.checked_end_time(end_time)
     return end > FIRST_SPREAD * impact.slow_time_scale and chosen_half_length(impact, end) == impact.half_length
 
 
@@ -112,7 +110,7 @@ def chosen_steps(integrator: Integrator, mesh: Mesh, impact: Impact, end_time: f
     if integrator.explicit or not lasts_until_waves_return(impact, end_time):
         return integrator
     step = resolving_step(mesh, impact)
-    if end_time_of(impact, end_time) > MOST_STEPS * step:
+    if impact.checked_end_time(end_time) > MOST_STEPS * step:
         return integrator
     return cast(Integrator, dataclasses.replace(cast(Any, integrator), time_step=step))
 
@@ -134,11 +132,6 @@ def refined_choice(
     laid = chosen_mesh(impact, end_time, explicit=integrator.explicit) if mesh is None else mesh
     laid, integrator = laid.refined(refine), integrator.refined(refine * shorter)
     return laid, chosen_steps(integrator, laid, impact, end_time) if open_steps else integrator
-
-
-def end_time_of(impact: Impact, end_time: float | None) -> float:
-    """The end time, s, checked; None: τ = 0.1."""
-    return impact.checked_end_time(DEFAULT_DURATION * impact.time_scale if end_time is None else end_time)
 
 
 def reachable(x: Array, scaling: Scaling, centre: int) -> NDArray[np.int64]:

@@ -26,7 +26,7 @@ from exudyn_models.elements import ANCFCable, Element
 from exudyn_models.geometry import GEOMETRIES, Geometry
 from exudyn_models.integrators import Integrator
 from exudyn_models.recording import Recorder
-from exudyn_models.resolution import end_time_of, refined_choice
+from exudyn_models.resolution import refined_choice
 from exudyn_models.scaling import Scaling, front_bound
 from exudyn_models.settling import Settling
 from exudyn_models.solvers import NewtonSolver, quiet
@@ -115,7 +115,7 @@ def simulate(
     SimulationError : Exudyn's solver failed, contact states did not settle, or the state stopped being finite; carries
         the history up to there.
     """
-    end = end_time_of(impact, end_time)
+    end = impact.checked_end_time(end_time)
     targets = _targets(save, end)
     element = ANCFCable() if element is None else element
     contact = Penalty() if contact is None else contact

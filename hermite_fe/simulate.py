@@ -62,8 +62,9 @@ def simulate(
     """Simulate the impact on a Hermite beam; every part left out is chosen from the problem
     (:mod:`hermite_fe.auto`).
 
-    end_time : s (0.1 t* by default). full_beam : model both halves instead of one with a symmetry support, as is done
-        anyway where the impact is not symmetric.
+    end_time : s (by default 0.1 t*, but 0.01 T* at most).
+    full_beam : model both halves instead of one with a symmetry support, as is done anyway where the impact is not
+        symmetric.
     domain : half length, m, that is modelled of a longer beam; the cut ends follow the free motion (all of it
         unless given).
     refine : elements and steps so many times finer than the parts say.
@@ -78,7 +79,7 @@ def simulate(
     if reason is not None:
         raise ValueError(reason)
     full_beam = full_beam or off_centre(impact)
-    end = impact.checked_end_time(0.1 * impact.time_scale if end_time is None else end_time)
+    end = impact.checked_end_time(end_time)
     modelled = cut(impact, domain)
     if domain is not None and far_field is None:
         far_field = GridViscosity(end="following")

@@ -15,8 +15,6 @@ from self_similar_fe.run import simulate_expanding
 
 __all__ = ["SelfSimilarFE"]
 
-DEFAULT_DURATION = 0.1  # τ, the longest time that the thesis computes
-
 
 @dataclass(frozen=True)
 class SelfSimilarFE:
@@ -49,8 +47,9 @@ class SelfSimilarFE:
         save: Save = 200,
         progress: Callable[[float], None] | None = None,
     ) -> ImpactHistory:
-        """Follow ``impact`` over the mesh's decades of time up to ``end_time`` (s; 0.1 t* unless given)."""
-        end = impact.checked_end_time(DEFAULT_DURATION * impact.time_scale if end_time is None else end_time)
+        """Follow ``impact`` over the mesh's decades of time up to ``end_time``, s (by default 0.1 t*, but 0.01 T* at
+        most)."""
+        end = impact.checked_end_time(end_time)
         reason = self.refuses(impact)
         if reason:
             raise ValueError(reason)

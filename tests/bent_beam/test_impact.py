@@ -79,3 +79,10 @@ def test_any_size_is_an_impact_or_is_refused(powers):
 def test_scales_beyond_floating_point_are_refused():
     with pytest.raises(ValueError, match="time_scale"):
         Impact(**{**THESIS, "velocity": 1e-300})
+
+
+def test_what_is_asked_without_a_time_ends_before_waves_are_back():
+    long, short = Impact(**THESIS), Impact(**(THESIS | {"length": 1.0}))
+    assert long.checked_end_time() == 0.1 * long.time_scale
+    short = short.replace(velocity=0.1)
+    assert short.checked_end_time() == 0.01 * short.slow_time_scale < 0.1 * short.time_scale
