@@ -115,7 +115,7 @@ class GradedMesh:
     """Uniform elements over the contact zone, then each larger than the last (thesis 3.3.3).
 
     element_length : Δx of the zone, m.
-    growth : e = Δx_i/Δx_{i−1} outside it; the thesis uses 1.25, which reflects: 1.02 is the better choice.
+    growth : e, ratio of neighbouring elements outside it; the thesis uses 1.25, which reflects: 1.02 is better.
     zone : half length of the uniform zone, m (25 elements unless given, the thesis's Table 3.2).
     size_ratio : largest element over smallest; the thesis caps it at 10³ against ill-conditioning.
     """

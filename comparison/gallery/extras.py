@@ -103,10 +103,10 @@ def fine(sheet: Sheet) -> str:
 
 @item(
     "extra-conditioning",
-    "Conditioning of S_T",
+    "Conditioning of the step's matrix",
     group="extras",
     caption=(
-        "Condition in the 1-norm of the step's matrix S_T (3.3.4) over Δx, K = 1 1/m, h = 2.5·10⁻⁸ s, e = 1.25 "
+        "Condition in the 1-norm of the step's matrix (3.3.4) over Δx, K = 1 1/m, h = 2.5·10⁻⁸ s, e = 1.25 "
         "without a "
         "cap on the ratio of lengths: as it stands, and with deflections and rotations in one unit and the multipliers "
         "eliminated, as the solver here factors it."

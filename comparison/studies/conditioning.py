@@ -138,9 +138,9 @@ def conclude(found: Sequence[Conditioning]) -> str:
     finished = [c for c in found if c.defect is not None]
     text = (
         f"The thesis reports a matrix close to singular at Δx = 10⁻⁴ m. At Δx = {finest.element_length:.2g} m "
-        "the condition "
-        f"of S_T is {number(finest.raw)}; {number(LIMIT)} is where the last digit goes. Deflections and rotations in "
-        f"one unit and the multipliers eliminated, it is {number(finest.scaled)}: most of it is units"
+        f"the condition of the step's matrix is {number(finest.raw)}; {number(LIMIT)} is where the last digit goes. "
+        "Deflections and rotations in one unit and the multipliers eliminated, it is "
+        f"{number(finest.scaled)}: most of it is units"
     )
     if len(finished) == len(found):
         worst = max(c.defect for c in finished if c.defect is not None)
@@ -177,7 +177,7 @@ COLUMNS = {
     "element_length": "Δx (m)",
     "elements": "elements of the half",
     "size_ratio": "largest/smallest",
-    "raw": "condition of S_T",
+    "raw": "condition of the step's matrix",
     "scaled": "condition, one unit",
     "defect": "energy defect/largest loss",
 }
