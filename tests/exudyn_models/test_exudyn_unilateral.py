@@ -1,10 +1,8 @@
 """The wall pushes and never pulls, and no energy comes from it: random physical problems, default method."""
 
-import os
-import random
-
 import numpy as np
 import pytest
+from random_beams import hold_for_many
 
 import exudyn_models
 from bent_beam import Impact
@@ -60,12 +58,4 @@ def test_steps_too_long_for_the_contact_give_energy_and_the_run_says_so():
 @pytest.mark.verify
 def test_the_wall_never_pulls_and_gives_no_energy_in_many_problems():
     """``BEAMS=300`` for a long run; the seed is printed."""
-    seed = int(os.environ.get("BEAMS_SEED", random.randrange(2**31)))
-    print(f"seed {seed}")
-    generator = np.random.default_rng(seed)
-    for number in range(int(os.environ.get("BEAMS", "20"))):
-        impact = problem(generator)
-        try:
-            check(impact)
-        except Exception as error:
-            raise AssertionError(f"seed {seed}, problem {number}, {impact}: {error}") from error
+    hold_for_many(problem, check, 20)

@@ -1,10 +1,8 @@
 """Whole beams drawn at random, by default: nothing pulls once waves may be back, and no energy is gained."""
 
-import os
-import random
-
 import numpy as np
 import pytest
+from random_beams import hold_for_many
 
 from bent_beam import Impact
 from hermite_fe import HermiteFE
@@ -48,15 +46,7 @@ def test_a_beam_is_never_pulled_and_gains_no_energy(number: int) -> None:
 @pytest.mark.verify
 def test_many_beams_are_never_pulled_and_gain_no_energy() -> None:
     """``BEAMS=10000`` for a long run; the seed is printed."""
-    seed = int(os.environ.get("BEAMS_SEED", random.randrange(2**31)))
-    print(f"seed {seed}")
-    generator = np.random.default_rng(seed)
-    for _ in range(int(os.environ.get("BEAMS", "300"))):
-        impact = drawn(generator)
-        try:
-            check(impact)
-        except AssertionError as error:
-            raise AssertionError(f"seed {seed}, {impact}") from error
+    hold_for_many(drawn, check, 300)
 
 
 @pytest.mark.parametrize("length", [1.0, 2.0, 3.0])
