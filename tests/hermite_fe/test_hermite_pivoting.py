@@ -23,6 +23,7 @@ from hermite_fe.kernels import (
 )
 from hermite_fe.kernels.banded import quadratic, row_sums
 from hermite_fe.kernels.monotone import solve_monotone
+from hermite_fe.kernels.problem import Problem, Work
 from hermite_fe.kernels.rows import CYCLING, wrong_rows
 from hermite_fe.system import ContactRows, System
 
@@ -61,6 +62,15 @@ def random_system(random: np.random.Generator) -> System:
     )
 
 
+def ready(random: np.random.Generator) -> tuple[System, Problem, Work]:
+    """A random system with its matrix, and room to solve in."""
+    system = random_system(random)
+    problem = problem_of(system)
+    work = works_of(system, problem, 1)[0]
+    combine(problem.M, problem.C, problem.K, 1.0, 0.0, 0.0, problem.place, work.S)
+    return system, problem, work
+
+
 def truth(system: System, b: Array, target: Array, candidate: Array, held: Array) -> tuple[Array, Array]:
     """x and p of the one active set, out of all, that breaks no sign (or breaks them least: round-off)."""
     rows, n = system.contacts, system.dofs
@@ -83,11 +93,8 @@ def truth(system: System, b: Array, target: Array, candidate: Array, held: Array
 
 def check(seed: int) -> None:
     random = np.random.default_rng(seed)
-    system = random_system(random)
-    problem = problem_of(system)
+    system, problem, work = ready(random)
     n, m = system.dofs, len(system.contacts)
-    work = works_of(system, problem, 1)[0]
-    combine(problem.M, problem.C, problem.K, 1.0, 0.0, 0.0, problem.place, work.S)
     extent = int(random.integers(0, n + 1))
     b = random.normal(size=n) * (np.arange(n) < extent)
     target = random.normal(size=m)
@@ -121,11 +128,8 @@ def test_the_fall_back_finds_the_same_reactions_from_none() -> None:
     """What takes over when exchanging many rows at once runs in a circle, asked directly."""
     for seed in range(200):
         random = np.random.default_rng(seed)
-        system = random_system(random)
-        problem = problem_of(system)
+        system, problem, work = ready(random)
         n, m = system.dofs, len(system.contacts)
-        work = works_of(system, problem, 1)[0]
-        combine(problem.M, problem.C, problem.K, 1.0, 0.0, 0.0, problem.place, work.S)
         b, target = random.normal(size=n), random.normal(size=m)
         candidate, held = random.random(m) < 0.9, random.random(m) < 0.1
         work.b[:], work.target[:], work.candidate[:], work.held[:] = b, target, candidate, held
@@ -145,12 +149,9 @@ def test_the_fall_back_never_calls_a_row_inside_the_wall_solved(tolerance: float
     given_up = 0
     for seed in range(200):
         random = np.random.default_rng([5, seed])
-        system = random_system(random)
-        problem = problem_of(system)
+        system, problem, work = ready(random)
         n, m = system.dofs, len(system.contacts)
         none = np.zeros(m, bool)
-        work = works_of(system, problem, 1)[0]
-        combine(problem.M, problem.C, problem.K, 1.0, 0.0, 0.0, problem.place, work.S)
         b, target = random.normal(size=n), random.normal(size=m)
         x, _ = truth(system, b, target, none, none)
         touching = np.einsum("jk,jk->j", system.contacts.factors, x[system.contacts.dofs])
