@@ -7,11 +7,10 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from bent_beam.cases import Case, load_case
-    from bent_beam.errors import SimulationError
+    from bent_beam.errors import InputError, SimulationError
     from bent_beam.history import ImpactHistory
     from bent_beam.impact import Impact
     from bent_beam.method import Method
-    from bent_beam.parts import InputError
 
 __all__ = ["Case", "Impact", "ImpactHistory", "InputError", "Method", "SimulationError", "load_case"]
 
@@ -31,3 +30,7 @@ def __getattr__(name: str) -> Any:
     if name not in _LATER:
         raise AttributeError(f"module 'bent_beam' has no attribute {name!r}")
     return getattr(importlib.import_module(_LATER[name]), name)
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *__all__})

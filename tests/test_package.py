@@ -1,5 +1,6 @@
 """The built package works away from the checkout: every file is in it, and its command answers."""
 
+import importlib
 import json
 import os
 import shutil
@@ -9,6 +10,9 @@ import zipfile
 from pathlib import Path
 
 import pytest
+
+import bent_beam
+import theory
 
 ROOT = Path(__file__).resolve().parent.parent
 PACKAGES = (
@@ -50,6 +54,15 @@ def test_every_file_of_the_packages_is_in_the_wheel(installed):
         if not (installed / file.relative_to(ROOT)).is_file()
     ]
     assert not missing
+
+
+@pytest.mark.parametrize(("package", "table"), [(bent_beam, bent_beam._LATER), (theory, theory._WHERE)])
+def test_what_a_package_offers_is_what_it_finds_when_asked(package, table):
+    """Names are imported where they are first asked for: none may be promised that is not there."""
+    assert sorted(table) == sorted(package.__all__)
+    assert set(package.__all__) <= set(dir(package))
+    for name, module in table.items():
+        assert getattr(package, name) is getattr(importlib.import_module(module), name)
 
 
 CASE = """[beam]
