@@ -1,5 +1,5 @@
-"""How far the first-order theory is from the full simulation: measured once on the Hermite path, kept as data, quoted
-by ``predict``.
+"""How far the first-order theory is from the full simulation: measured once on the self-similar path, kept as data that
+the second-order theory is tested against.
 
 Simulation and theory at ε = 0 agree to 10⁻⁵, so what differs at ε > 0 is what the expansion leaves out: terms in (ετ)².
 The error
@@ -7,7 +7,7 @@ The error
     e(x) = max(|λ_c/λ_c,theory − 1|, |R/R_theory − 1|)   at   x = max(ε|λ₁|τ/λ₀, ε|r₁|τ/r₀)
 
 depends on the regime, on κ/ν and on x. ``measured.json`` beside this module holds it for a load α alone; it is made by
-``python -m comparison.validity`` (a minute) and read by :func:`measured_error` and the figure.
+``python -m comparison.validity`` (a minute).
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ from bent_beam.versions import stamp
 from comparison.estimators import Moments, moments
 from theory import contact_parameters
 
-__all__ = ["CORRECTIONS", "RATIOS", "add_measured_errors", "draw_validity", "measure", "measured", "measured_error"]
+__all__ = ["CORRECTIONS", "RATIOS", "measure", "measured"]
 
 DATA = Path(__file__).with_name("measured.json")
 CORRECTIONS = (0.01, 0.02, 0.05, 0.1, 0.2, 0.3)
@@ -108,61 +108,6 @@ def write() -> Path:
 def measured() -> dict[str, Any]:
     """The stored measurement."""
     return dict(json.loads(DATA.read_text()))
-
-
-def measured_error(regime: str, kappa_over_nu: float, correction: float) -> float | None:
-    """Measured relative error of the first-order theory at a relative ``correction`` x, the larger of the two nearest
-    κ/ν.
-
-    ``None`` beyond the measured corrections (x > 0.3); at x = 0 the agreement of the leading order, 10⁻⁴.
-    """
-    table = measured()
-    x = np.array([0.0, *table["corrections"]])
-    if not correction <= x[-1]:
-        return None
-    rows = sorted(table["regimes"][regime], key=lambda r: abs(np.log(r["kappa_over_nu"] / kappa_over_nu)))[:2]
-    return max(float(np.interp(correction, x, [1e-4, *row["error"]])) for row in rows)
-
-
-def add_measured_errors(prediction: dict[str, Any]) -> list[str]:
-    """Add ``measured_error`` to each time of a prediction (``Prediction.to_dict()``); returns it in plain sentences."""
-    notes = []
-    for row in prediction["times"]:
-        size = prediction["epsilon"] * row["tau"]
-        correction = size * abs(prediction["r1"]) / prediction["r0"]
-        if prediction["lambda0"] > 0.0:
-            correction = max(correction, size * abs(prediction["lambda1"]) / prediction["lambda0"])
-        row["correction"] = correction
-        found = measured_error(prediction["regime"], prediction["kappa_over_nu"], correction)
-        row["measured_error"] = found
-        if correction == 0.0:
-            continue
-        what = "further than was measured" if found is None else f"within {100 * found:.2g} % of full simulation there"
-        notes.append(f"At t = {row['time']:.4g} s first order changes the result by {100 * correction:.2g} %: {what}.")
-    return notes
-
-
-def draw_validity(out: Path, formats: Sequence[str] = ("png",)) -> list[Path]:
-    """The validity map: e over x, a line for each κ/ν, a panel for each regime."""
-    from comparison.figures import style
-
-    table = measured()
-    x = np.array(table["corrections"])
-    with style.figure(1, 3, width=style.PAGE, height=2.8, sharey=True) as (fig, axes):
-        for axis, (regime, rows) in zip(axes, table["regimes"].items()):
-            for i, row in enumerate(rows):
-                axis.loglog(
-                    x,
-                    100 * np.maximum(row["error"], 1e-6),
-                    marker=".",
-                    color=style.SEQUENCE[i % len(style.SEQUENCE)],
-                    label=f"{row['kappa_over_nu']:g}",
-                )
-            axis.loglog(x, 100 * x**2, **{**style.OLD, "label": r"$x^2$"})
-            axis.set_xlabel(r"$\max(\varepsilon|\lambda_1|\tau/\lambda_0,\ \varepsilon|r_1|\tau/r_0)$  (1)")
-            axis.legend(title=rf"{regime}, $\kappa/\nu$", ncols=2, fontsize=6.5)
-        axes[0].set_ylabel("theory against simulation  (%)")
-        return style.save(fig, out, "validity", formats)
 
 
 if __name__ == "__main__":
