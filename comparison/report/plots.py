@@ -12,9 +12,8 @@ from typing import Any
 import numpy as np
 
 from comparison.figures.style import SEQUENCE, marks
-from comparison.match import MatchRow
 from comparison.report.impacts import ShownImpact, theory_of
-from comparison.report.rows import Cell, TableRow, convergence_rows, labels, table_row
+from comparison.report.rows import Cell, TableRow, labels
 from theory import contact_parameters
 
 __all__ = [
@@ -431,10 +430,3 @@ def bounce_plot(stored: Mapping[str, Any]) -> Plot:
             yaxis={"range": [0.0, 1.0]}, legend={"font": {"size": 11}},
         ),
     }  # fmt: skip
-
-
-def row_plots(rows: Sequence[MatchRow]) -> dict[str, Plot]:
-    """:func:`plots` from rows as the matching gives them."""
-    both = [table_row(r) for r in rows]
-    leading = [r for r in both if not r.row.of_first_order and r.row.refine == 1.0]
-    return plots(leading, [r for r in both if r.row.of_first_order], convergence_rows(rows))

@@ -21,8 +21,9 @@ from comparison.report import studies, work
 from comparison.report.impacts import END, FRAMES, SHOWN, frames, kept_instants, theory_of
 from comparison.report.noise import noise_methods
 from comparison.report.page import page, span_of, write_report
-from comparison.report.plots import row_plots
+from comparison.report.plots import plots
 from comparison.report.rows import (
+    convergence_rows,
     first_order_rows,
     leading_rows,
     report_questions,
@@ -198,9 +199,9 @@ def test_headline_and_speed_come_from_the_rows() -> None:
 
 
 def test_plots_tag_every_trace_with_its_method() -> None:
-    plots = row_plots(rows())
-    assert set(plots) == {"lambda0", "r0", "leading-error", "lambda1", "r1", "first-error", "seconds", "convergence"}
-    for plot in plots.values():
+    drawn = plots(leading_rows(rows()), first_order_rows(rows()), convergence_rows(rows()))
+    assert set(drawn) == {"lambda0", "r0", "leading-error", "lambda1", "r1", "first-error", "seconds", "convergence"}
+    for plot in drawn.values():
         assert plot["data"] and all(t["meta"]["label"] in ("theory", "Hermite", "Exudyn") for t in plot["data"])
 
 
