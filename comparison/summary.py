@@ -81,7 +81,7 @@ def summary(
         "seconds": history.seconds,
         "time": end,
         "half_contact_length": Compared(
-            front * impact.length_scale if front is not None else None,
+            front * impact.length_scale,
             None,
             row.half_contact_length if row and holds else None,
         ),

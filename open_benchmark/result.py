@@ -504,7 +504,5 @@ def _pulled(history: ImpactHistory) -> Array:
 
 def _problem_of(history: ImpactHistory, end: float) -> Problem:
     impact = history.impact
-    epsilon = impact.epsilon
-    axial = getattr(impact, "axial", 0.0)
-    kappa = getattr(impact, "relative_curvature", impact.curvature) * impact.length_scale
-    return first_order_problem(kappa, (impact.alpha, impact.psi, impact.chi, axial), epsilon, end)
+    loads = (impact.alpha, impact.psi, impact.chi, impact.axial)
+    return first_order_problem(impact.kappa_over_nu, loads, impact.epsilon, end)

@@ -120,7 +120,7 @@ def write_report(
         lost_impacts=[*lost, *lost_noise],
         noise=noise,
         pipe=pipe_verdict(),
-        bounce=whole_impact.stored_map() if whole_impact.DATA.exists() else None,
+        bounce=whole_impact.stored_map(),
         studies=stored_studies(),
         work=stored_measurements(),
         pictures=[f for f in files if f.suffix == ".png"],
