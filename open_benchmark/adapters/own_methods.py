@@ -6,8 +6,7 @@ import time
 import tomllib
 
 from bent_beam import Impact, SimulationError
-from bent_beam.method import chosen_for, method_type, refined
-from hermite_fe.whole_beam import with_parts_for_whole_beam
+from bent_beam.method import chosen_for, for_whole_beam, method_type, refined
 from open_benchmark.problem import problem as problem_of
 from open_benchmark.result import Result, result_from_history, save_result
 
@@ -35,11 +34,10 @@ def main(problem_file, result_file, resolution="medium", path="hermite"):
         changes["axial_force"] = beam["axial_force"]
     # mesh and steps are those of the problem without loads, so that both can be subtracted
     method = method_type(path)()
-    if path == "hermite":
-        if beam["length"] == "infinite":  # cut where the beam goes on: its ends follow the free motion
-            method = dataclasses.replace(method, domain=HALF_LENGTH)
-        else:
-            method = with_parts_for_whole_beam(method, bare)  # nothing held, nothing absorbed
+    if beam["length"] != "infinite":
+        method = for_whole_beam(method, bare)  # nothing held, nothing absorbed
+    elif path == "hermite":  # cut where the beam goes on: its ends follow the free motion
+        method = dataclasses.replace(method, domain=HALF_LENGTH)
     method = chosen_for(method, bare, end)
     method = refined(method, REFINEMENT.get(path, OTHERS)[resolution]) or method
     began = time.perf_counter()
