@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 
 from comparison.command_line.console import Console
-from comparison.command_line.options import Jobs, Json, Methods, Paths, Quiet, Set, complete, emit, factors
+from comparison.command_line.options import Jobs, Json, Methods, Quiet, Set, complete, emit, factors, path_names
 
 __all__ = ["study"]
 
@@ -25,7 +25,15 @@ def study(
         str, typer.Argument(help="Name of the study (`bentbeam study list` shows them).", autocompletion=study_names)
     ],
     case: Annotated[Path | None, typer.Argument(metavar="CASE.toml", help="Case file.")] = None,
-    path: Paths = None,
+    path: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--path",
+            help="hermite, self_similar, exudyn or an installed one; repeatable. Without any of --path, --methods, "
+            "--refine and --set of a path: the thesis's settings.",
+            autocompletion=path_names,
+        ),
+    ] = None,
     assignments: Set = None,
     methods: Methods = None,
     refine: Annotated[
