@@ -1,6 +1,6 @@
 """What a time step costs, as a multiple of one LAPACK banded factor-and-solve of the same size, taken in turn.
 
-    python -m benchmarks.steps [--sizes 500,1000,…] [--rounds 40] [--out benchmarks/results/steps.json]
+    python -m benchmarks.steps [--sizes 500,1000,…] [--rounds 60] [--out benchmarks/results/steps.json]
 
 Prints a table (ratio, goal, met or not) and keeps it with the processor's model and the versions. Ratios are medians of
 pairs, so that other work on the machine weighs on both alike.
