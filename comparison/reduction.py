@@ -17,11 +17,13 @@ START = 0.01  # of the run: while this lasts, a start may be held
 
 
 class PeakMoment(NamedTuple):
-    """Largest bending moment, N m (its size), its place, m, and its time, s, among the saved instants."""
+    """Largest bending moment, N m (its size), its place, m, and its time, s, among the saved instants; ``midspan`` :
+    the largest at x = 0, N m."""
 
     moment: float
     place: float
     time: float
+    midspan: float
 
 
 def hold_of(history: ImpactHistory) -> dict[str, float] | None:
@@ -62,13 +64,18 @@ def bending_moments(history: ImpactHistory, k: int | slice) -> tuple[Array, Arra
 
 
 def peak_moment(history: ImpactHistory) -> PeakMoment:
-    """The largest bending moment anywhere at any saved instant after the first."""
-    best = PeakMoment(0.0, 0.0, float(history.time[0]))
+    """The largest bending moment anywhere, and in the middle, at any saved instant after the first."""
+    best = PeakMoment(0.0, 0.0, float(history.time[0]), 0.0)
+    midspan = 0.0
     moving = "position" in history.dataset
     for first in range(1, history.time.size, 1 if moving else CHUNK):
         moments, place = bending_moments(history, first if moving else slice(first, first + CHUNK))
         sizes = np.abs(moments).reshape(-1, *place.shape)
         j, *worst = np.unravel_index(int(np.argmax(sizes)), sizes.shape)
         if sizes[j, *worst] > best.moment:
-            best = PeakMoment(float(sizes[j, *worst]), float(place[*worst]), float(history.time[first + j]))
-    return best
+            best = PeakMoment(float(sizes[j, *worst]), float(place[*worst]), float(history.time[first + j]), 0.0)
+        middle = (place[:, 0] <= 0.0) & (place[:, 1] >= 0.0)
+        share = -place[middle, 0] / (place[middle, 1] - place[middle, 0])  # linear in an element, as of a cubic
+        there = (1.0 - share) * moments[..., middle, 0] + share * moments[..., middle, 1]
+        midspan = max(midspan, float(np.abs(there).max(initial=0.0)))
+    return best._replace(midspan=midspan)

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 
 from bent_beam.free_flight import has_left, pushing
 from bent_beam.history import ImpactHistory
-from comparison.reduction import bending_moments, peak_moment
+from comparison.reduction import peak_moment
 
 __all__ = ["NUMBERS", "SHORTEST_SEPARATION", "WholeImpact", "pushes", "whole_impact"]
 
@@ -86,12 +86,6 @@ def pushes(time: Array, impulse: Array, shortest: float) -> list[tuple[int, int]
     return [(int(i), int(k)) for i, k in zip(begin, end)]
 
 
-def _midspan_moment(history: ImpactHistory) -> float:
-    """Largest bending moment at x = 0 at any saved instant, N m."""
-    moments, places = bending_moments(history, slice(1, None))
-    return float(np.abs(moments[:, places == 0.0]).max())
-
-
 def whole_impact(history: ImpactHistory, *, shortest: float = SHORTEST_SEPARATION) -> WholeImpact:
     """Reduce a run. ``shortest`` : separations that count, T*.
 
@@ -122,7 +116,7 @@ def whole_impact(history: ImpactHistory, *, shortest: float = SHORTEST_SEPARATIO
         peak_moment=peak.moment / moment,
         peak_moment_place=abs(peak.place) / impact.half_length,
         peak_moment_time=peak.time / unit,
-        midspan_moment=_midspan_moment(history) / moment,
+        midspan_moment=peak.midspan / moment,
         translation=translation,
         vibration=float(energy[end]) / initial - translation,
         dissipated=float(supplied[end] - energy[end]) / initial,

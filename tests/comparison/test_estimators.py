@@ -161,6 +161,25 @@ def test_the_moment_of_a_cubic_is_exact_and_the_peak_is_where_it_is_largest(with
     peak = peak_moment(history)
     assert peak.time == 2.0 and (peak.place == 2.0 or not with_slope)
     assert peak.moment == pytest.approx(exact[2, -1], rel=1e-12)
+    assert peak.midspan == pytest.approx(exact[2, 0], rel=1e-12)
+
+
+@pytest.mark.parametrize("nodes", [(-2.0, -0.3, 0.5, 2.0), (-2.0, -0.3, 0.0, 0.5, 2.0)])
+def test_the_moment_in_the_middle_needs_no_node_there(nodes):
+    """y = t(ax² + bx³) at two instants: M(0) = EI(2at + K₀)."""
+    x, time = np.array(nodes), np.array([0.0, 1.0, 3.0])
+    still = np.zeros((3, x.size))
+    fields = {
+        "gap": (("time", "x"), -np.outer(time, 0.3 * x**2 + 0.2 * x**3)),
+        "slope": (("time", "x"), np.outer(time, 0.6 * x + 0.6 * x**2)),
+        "impulse": (("time", "contact"), still),
+        "total_impulse": (("time",), 0.0 * time),
+    }
+    history = ImpactHistory.build(
+        impact=Impact(2.5, 1.0, 4.0, 0.2, 1.0), path="hermite", symmetry="full", settings={}, time=time, x=x,
+        contact_x=x, fields=fields,
+    )  # fmt: skip
+    assert peak_moment(history).midspan == pytest.approx(2.5 * (3.0 * 0.6 + 0.2), rel=1e-12)
 
 
 def test_physical_units_drop_out():
