@@ -192,6 +192,10 @@ class ImpactHistory:
         """The values of one variable of the dataset."""
         return np.asarray(self.dataset[name].values)
 
+    def energy(self, name: str) -> Array:
+        """One of the energies of the module's table, J, shape (times,): nothing where the path has no such term."""
+        return self.array(name) if name in self.dataset else np.zeros(self.time.size)
+
     def energy_budget(self) -> dict[str, float]:
         """Where the energy went between the first and the last saved instant, J, and the ``defect`` of the sum."""
 

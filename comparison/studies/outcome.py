@@ -151,9 +151,7 @@ def outcome_of(
     moving = "position" in history.dataset
     half = history.positions(-1) >= 0.0
     strain = history.array("strain_energy")
-    energy = history.array("kinetic_energy") + strain
-    if "work_of_loads" in history.dataset:
-        energy = energy - history.array("work_of_loads")
+    energy = history.array("kinetic_energy") + strain - history.energy("work_of_loads")
     if moving:  # energies of the fast part alone: what the wall has put in is what the free motion has lost
         energy = energy + history.array("loss_absorbed")
     else:

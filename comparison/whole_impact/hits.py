@@ -51,9 +51,8 @@ def hits(history: ImpactHistory, *, longest_break: float = LONGEST_BREAK) -> lis
             spans[-1] = (spans[-1][0], k, wall)
         else:
             spans.append((i, k, wall))
-    energy = history.array("kinetic_energy") + history.array("strain_energy") - history.array("work_of_loads")
-    if "contact_energy" in history.dataset:
-        energy = energy + history.array("contact_energy")
+    work = history.energy("work_of_loads")
+    energy = history.array("kinetic_energy") + history.array("strain_energy") - work + history.energy("contact_energy")
     mass = impact.mass_per_length * impact.length
     carried = history.array("total_impulse")
     found = []
@@ -69,7 +68,7 @@ def hits(history: ImpactHistory, *, longest_break: float = LONGEST_BREAK) -> lis
                 place,
                 float(given.sum()),
                 impact.velocity - momentum / mass,
-                float(energy[k] + history.array("work_of_loads")[k]),
+                float(energy[k] + work[k]),
                 float(energy[i] - energy[k]),
             )
         )

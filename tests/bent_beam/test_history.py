@@ -45,6 +45,12 @@ def test_a_history_is_read_back_equal(tmp_path):
     assert [f.name for f in tmp_path.iterdir()] == ["run.nc"]  # no part left behind
 
 
+def test_an_energy_that_a_path_does_not_have_is_nothing():
+    history = small()
+    assert history.energy("loss_impact").tolist() == [0.0, 0.5, 1.0]
+    assert history.energy("work_of_loads").tolist() == [0.0, 0.0, 0.0]
+
+
 def test_a_failed_write_leaves_the_old_file(tmp_path, monkeypatch):
     file = small().save(tmp_path / "run.nc")
     before = file.read_bytes()

@@ -131,6 +131,29 @@ def test_breaks_shorter_than_the_shortest_separation_are_none() -> None:
     assert pushes(time, np.zeros(10), 1.0) == []
 
 
+def test_a_path_that_knows_no_loads_has_hits_and_a_whole_impact() -> None:
+    time, x = np.linspace(0.0, 2.0, 41), np.linspace(0.0, 1.0, 5)
+    impulse = np.zeros((time.size, x.size))
+    impulse[:, 0] = 2.9 * np.minimum(time, 0.5)
+    away = np.maximum(time[:, None] - 0.5, 0.0) * np.ones(x.size)
+    fields = {
+        "gap": (("time", "x"), away),
+        "velocity": (("time", "x"), -np.ones(away.shape)),
+        "slope": (("time", "x"), np.zeros(away.shape)),
+        "impulse": (("time", "contact"), impulse),
+        "total_impulse": (("time",), 2.0 * impulse[:, 0]),
+        "kinetic_energy": (("time",), np.ones(time.size)),
+        "strain_energy": (("time",), np.zeros(time.size)),
+    }
+    history = ImpactHistory.build(
+        impact=Impact.whole_beam(2.0), path="bare", symmetry="half", settings={}, time=time, x=x, contact_x=x,
+        fields=fields,
+    )  # fmt: skip
+    (hit,), found = hits(history), whole_impact(history)
+    assert (hit.impulse, hit.energy, hit.lost) == (2.9, 1.0, 0.0)
+    assert found.restitution == pytest.approx(0.45) and found.midspan_moment == 2.0 and found.energy_gain == 0.0
+
+
 @pytest.mark.parametrize(("path", "elements", "widest"), [("hermite", 50, 0.02), ("exudyn", 20, 0.03)])
 def test_error_bars_of_a_bounce_hold_the_converged_value(path: str, elements: int, widest: float) -> None:
     method = dataclasses.replace(method_from_tables(path, {}), mesh=UniformMesh(1.0 / elements))
