@@ -162,23 +162,7 @@ def bounce(
     if impact.damping == 0.0:
         return _band(impact, method, section, runs, seed, save, jobs, progress)
     checks = _cross_checks(method, impact)
-    if progress is not None:
-        progress(0, 1 + len(checks))
-    outcome, history = _run(method, impact, save)
-
-    def one_more(done: int, _: int) -> None:
-        if progress is not None:
-            progress(done + 1, 1 + len(checks))
-
-    from comparison.workers import run_all  # here: who reads the map starts no processes
-
-    found = run_all(
-        _outcome,
-        [(other, impact, save) for other in checks.values()],
-        jobs=jobs,
-        progress=one_more,
-        on_death=_died,
-    )
+    outcome, history, found = _one_and_others(method, list(checks.values()), impact, save, jobs, progress)
     others = {cause: other for cause, (other, _) in zip(checks, found)}
     return Bounce(
         impact=impact,
@@ -189,6 +173,24 @@ def bounce(
         seconds=history.seconds + sum(seconds for _, seconds in found),
         section=section,
     )
+
+
+def _one_and_others(
+    method: Method, others: Sequence[Method], impact: Impact, save: int, jobs: int, progress: Progress | None
+) -> tuple[WholeImpact, ImpactHistory, list[tuple[WholeImpact, float]]]:
+    """``method``'s run, whole, and of each of ``others`` what it came to and its seconds."""
+    from comparison.workers import run_all  # here: who reads the map starts no processes
+
+    def told(done: int) -> None:
+        if progress is not None:
+            progress(done, 1 + len(others))
+
+    told(0)
+    outcome, history = _run(method, impact, save)
+    told(1)
+    asked = [(other, impact, save) for other in others]
+    found = run_all(_outcome, asked, jobs=jobs, progress=lambda done, _: told(1 + done), on_death=_died)
+    return outcome, history, found
 
 
 def _cross_checks(method: Method, impact: Impact) -> dict[str, Method]:
@@ -219,16 +221,7 @@ def _band(
 ) -> Bounce:
     random = np.random.default_rng(seed)
     methods = [_varied(method, impact, random) for _ in range(runs)]
-    from comparison.workers import run_all  # here: who reads the map starts no processes
-
-    found = run_all(
-        _outcome,
-        [(drawn, impact, save) for drawn in methods[1:]],
-        jobs=jobs,
-        progress=progress,
-        on_death=_died,
-    )
-    outcome, history = _run(methods[0], impact, save)
+    outcome, history, found = _one_and_others(methods[0], methods[1:], impact, save, jobs, progress)
     outcomes = [outcome, *(other for other, _ in found)]
     return Bounce(
         impact=impact,
