@@ -307,6 +307,12 @@ const Theory = (() => {
     while (i < knots.length - 2 && knots[i + 1] < at) i++;
     return [i, (at - knots[i]) / (knots[i + 1] - knots[i])];
   }
+  /** The logarithms of a table's column, taken once: an answer looks there hundreds of times. */
+  const columns = new WeakMap();
+  function logsOf(list) {
+    if (!columns.has(list)) columns.set(list, list.map(log));
+    return columns.get(list);
+  }
   const mixed = (list, [i, share]) => (1 - share) * list[i] + share * list[i + 1];
 
   /** erf, from its series of positive terms. */
@@ -364,9 +370,9 @@ const Theory = (() => {
   const NAMES = ["half_length", "reaction", "impulse"];
   /** The three of a table over κ/ν and age, bilinear in the logarithms. */
   function atAge(table, touch, ratio, age, rows = table) {
-    const [i, share] = between(table.kappa_over_nu.map(log), log(ratio)), ages = table.age.map(log);
+    const [i, share] = between(logsOf(table.kappa_over_nu), log(ratio)), ages = logsOf(table.age);
     // rows move with the age at which the lifted middle comes back to the wall
-    const comes = (kappa) => mixed(touch.age.map(log), between(touch.kappa_over_nu, kappa)), here = comes(ratio);
+    const comes = (kappa) => mixed(logsOf(touch.age), between(touch.kappa_over_nu, kappa)), here = comes(ratio);
     const moved = Math.min(Math.max((log(age) - here + log(10)) / log(5), 0), 1);
     const [low, high] = [i, i + 1].map((k) => between(ages, log(age) + moved * (comes(table.kappa_over_nu[k]) - here)));
     return NAMES.map((name) => (1 - share) * mixed(rows[name][i], low) + share * mixed(rows[name][i + 1], high));
@@ -384,11 +390,11 @@ const Theory = (() => {
       if (c.ratio < zone.kappa_over_nu[0]) return { begins: 0, until: 0, by: "damping" };
       begins = erfInverse(c.ratio) ** 2 >= zone.age[0] ? 0 : zone.age[0] * damping * slow;
     }
-    const factor = exp(mixed(table.factor.map(log), between(table.damping.map(log), log(Math.max(damping, table.damping[0])))));
+    const factor = exp(mixed(logsOf(table.factor), between(logsOf(table.damping), log(Math.max(damping, table.damping[0])))));
     const ratios = table.kappa_over_nu, flat = c.ratio < ratios[0] ? ratios[0] / c.ratio : 1;
     const stretch = factor * (flat > 1 ? (contact(ratios[0]).lambda0 / c.lambda0) ** 2 : 1);
     const end = Math.max(...table.ends.arrival) * table.later[table.later.length - 1] * stretch * slow;
-    const logs = table.later.map(log), row = between(ratios, c.ratio);
+    const logs = logsOf(table.later), row = between(ratios, c.ratio);
     const ofEnds = (tau) => {
       const [bare, fourth] = [table.ends, table.quartic].map((cause) => {
         const at = log(tau / (slow * stretch * mixed(cause.arrival, row))), column = between(logs, at);
@@ -455,7 +461,7 @@ const Theory = (() => {
     until = Math.min(low, until);
     const { kappa_over_nu: lifted, age: comes } = zone.touch;
     if (damping > 0 && c.ratio >= lifted[0] && c.ratio <= lifted[lifted.length - 1]) {
-      const touch = exp(mixed(comes.map(log), between(lifted, c.ratio))) * damping * slow;
+      const touch = exp(mixed(logsOf(comes), between(lifted, c.ratio))) * damping * slow;
       if (pulse[0] * touch < until && until < pulse[1] * touch) [until, ending] = [pulse[0] * touch, "touch"];
     }
     const steep = steepest(c);

@@ -133,13 +133,12 @@
   }
   const path = (points) => points.map(([x, y], i) => `${i ? "L" : "M"}${x.toFixed(2)},${y.toFixed(2)}`).join("");
 
-  const placeOfPeak = (t) => (t > 0 ? Beam.at(predicted, t).place : 0);
   const CURVES = [ // `spreads`: nothing to draw where the contact stays a point
     { id: "plot-length", label: "Half contact length", name: "place", of: (r) => r.halfLength, spreads: true },
     { id: "plot-force", label: "Force on the wall", name: "force", of: (r) => r.reaction, steep: true },
     { id: "plot-impulse", label: "Impulse", name: "impulse", of: (r) => r.impulse },
     { id: "plot-moment", label: "Largest bending moment", name: "moment", of: (r) => r.moment },
-    { id: "plot-place", label: "Place of that moment", name: "place", of: (_, t) => placeOfPeak(t), spreads: true },
+    { id: "plot-place", label: "Place of that moment", name: "place", of: (r) => r.place, spreads: true },
     { id: "plot-stress", label: "Largest stress", name: "stress", of: (r) => r.stress },
   ];
 
@@ -147,13 +146,11 @@
     const count = 80, [second, perSecond] = unit("time", end), point = predicted.contact.regime === "discrete";
     for (const { id, spreads } of CURVES) find(`#${id}`).style.display = spreads && point ? "none" : "";
     const width = Math.max(260, find("#plot-force").clientWidth || 320); // read once: each reading after a change costs a layout
+    const instants = Array.from({ length: count }, (_, i) => end * ((i + 1) / count) ** 2);
+    const answers = instants.map((t) => [t, Beam.at(predicted, t)]), present = now > 0 ? Beam.at(predicted, now) : null;
     for (const { id, label, name, of, steep, spreads } of CURVES) {
       if (spreads && point) continue;
-      const svg = find(`#${id}`), points = [];
-      for (let i = 1; i <= count; i++) {
-        const t = end * (i / count) ** 2;
-        points.push([t, of(Beam.at(predicted, t), t)]);
-      }
+      const svg = find(`#${id}`), points = answers.map(([t, r]) => [t, of(r)]);
       // the force starts as 1/√t: its axis ends where the curve leaves it
       const top = steep ? 4 * points[count - 1][1] : Math.max(...points.map((p) => p[1]));
       const high = top > 0 ? 1.08 * top : 1, [symbol, size] = unit(name, top);
@@ -163,7 +160,7 @@
       });
       const place = ([t, value]) => [X(t / perSecond), Y(value / size)];
       draw(svg, "path", { d: path(points.filter((p) => p[1] <= high).map(place)), class: "curve" });
-      const value = now > 0 ? of(Beam.at(predicted, now), now) : Infinity;
+      const value = present ? of(present) : Infinity;
       if (value <= high) {
         const [cx, cy] = place([now, value]);
         draw(svg, "circle", { cx, cy, r: 4.5, class: "now" });
@@ -207,7 +204,7 @@
 
   function rows(now) {
     const r = Beam.at(predicted, now), p = predicted;
-    const where = placeOfPeak(now) > 0 ? `${quantity("place", placeOfPeak(now), 3)} from the middle` : "in the contact";
+    const where = r.place > 0 ? `${quantity("place", r.place, 3)} from the middle` : "in the contact";
     const list = [
       ["Half contact length", p.contact.regime === "discrete" ? "one point" : quantity("place", r.halfLength)],
       ["Force on the wall", quantity("force", r.reaction)],
