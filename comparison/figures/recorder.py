@@ -22,7 +22,7 @@ from numpy.typing import ArrayLike, NDArray
 from comparison.figures import style
 from comparison.store import write_atomically
 
-__all__ = ["Sheet", "plain"]
+__all__ = ["Sheet", "without_tex"]
 
 TEX = {
     r"\lambda": "λ",
@@ -51,7 +51,7 @@ TEX = {
 }
 
 
-def plain(label: str) -> str:
+def without_tex(label: str) -> str:
     """A mathtext label as plain text, for a CSV header."""
     for tex, text in TEX.items():
         label = label.replace(tex, text)
@@ -125,9 +125,9 @@ class Sheet:
 
     def table(self, columns: Sequence[str], rows: Sequence[Sequence[Any]], *, width: float = style.PAGE) -> None:
         """A table as picture and CSV. Cells are shown as given (strings) or with four digits (numbers)."""
-        self.table_ = _Table([plain(c) for c in columns], rows)
+        self.table_ = _Table([without_tex(c) for c in columns], rows)
         cells = [[shown(v) for v in row] for row in rows]
-        lengths = [max(len(plain(columns[i])), *(len(row[i]) for row in cells)) + 2 for i in range(len(columns))]
+        lengths = [max(len(without_tex(columns[i])), *(len(row[i]) for row in cells)) + 2 for i in range(len(columns))]
         height = 0.21 * (len(rows) + 1) + 0.12
         with self.figure(width=width, height=height) as (_, axis):
             axis.axis("off")
@@ -158,8 +158,8 @@ class Sheet:
             return stream.getvalue()
         writer.writerow(["panel", "series", "x_quantity", "x", "y_quantity", "y"])
         for curve in self.curves:
-            about = (self.panels.get(id(curve.axis), ""), plain(curve.series))
-            names = plain(curve.axis.get_xlabel()), curve.quantity or plain(curve.axis.get_ylabel())
+            about = (self.panels.get(id(curve.axis), ""), without_tex(curve.series))
+            names = without_tex(curve.axis.get_xlabel()), curve.quantity or without_tex(curve.axis.get_ylabel())
             for x, y in zip(curve.x, curve.y):
                 if np.isfinite(x) and np.isfinite(y):
                     writer.writerow([*about, names[0], f"{x:.9g}", names[1], f"{y:.9g}"])

@@ -26,7 +26,7 @@ __all__ = [
 ]
 
 
-def signed(text: str) -> str:
+def true_minus(text: str) -> str:
     """With a true minus sign, as wide as a plus."""
     return text.replace("-", "−")
 
@@ -93,9 +93,9 @@ class Cell:
     def value_text(self) -> str:
         """Value ± error bar, with as many digits as the error bar leaves."""
         if not (self.bar_absolute > 0.0 and math.isfinite(self.bar_absolute)):
-            return signed(f"{self.value:.6g}")
+            return true_minus(f"{self.value:.6g}")
         digits = max(0, min(8, 1 - math.floor(math.log10(self.bar_absolute))))
-        return signed(f"{self.value:.{digits}f} ±\u00a0{self.bar_absolute:.{digits}f}")
+        return true_minus(f"{self.value:.{digits}f} ±\u00a0{self.bar_absolute:.{digits}f}")
 
     @property
     def error_text(self) -> str:
@@ -103,11 +103,11 @@ class Cell:
         size = 100.0 * self.error
         if abs(size) < 1e-4:
             return "< 0.0001 %"
-        return signed(f"{size:+.{max(0, 1 - math.floor(math.log10(abs(size))))}f} %")
+        return true_minus(f"{size:+.{max(0, 1 - math.floor(math.log10(abs(size))))}f} %")
 
     @property
     def exact_text(self) -> str:
-        return signed(f"{self.exact:.6g}")
+        return true_minus(f"{self.exact:.6g}")
 
 
 @dataclass(frozen=True)
@@ -127,7 +127,7 @@ class TableRow:
     @property
     def first_text(self) -> str:
         """(α, ψ, χ) with proper minus signs."""
-        return signed("(" + ", ".join(f"{v:g}" for v in self.row.first) + ")")
+        return true_minus("(" + ", ".join(f"{v:g}" for v in self.row.first) + ")")
 
 
 def cell(row: MatchRow, what: str) -> Cell | None:

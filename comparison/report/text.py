@@ -12,7 +12,7 @@ import numpy as np
 
 from comparison.report.impacts import ShownImpact
 from comparison.report.noise import Noise
-from comparison.report.rows import Cell, TableRow, labels, signed, worst
+from comparison.report.rows import Cell, TableRow, labels, true_minus, worst
 
 __all__ = [
     "acceleration_rows",
@@ -195,7 +195,7 @@ class AccelerationRow:
 
 
 def _change(value: float, plain: float) -> str:
-    return signed(f"{100 * (value / plain - 1):+.0f} %")
+    return true_minus(f"{100 * (value / plain - 1):+.0f} %")
 
 
 def acceleration_rows(impacts: Sequence[ShownImpact]) -> list[AccelerationRow]:

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from comparison.figures.recorder import plain
+from comparison.figures.recorder import without_tex
 from comparison.gallery import ITEMS, draw_all, listing
 from comparison.gallery.base import order
 from comparison.gallery.runs import case
@@ -229,7 +229,7 @@ def test_the_bouncing_ball_turns_within_a_step_of_the_wall(drawn: tuple[Path, di
 
 
 def test_a_label_reads_without_markup() -> None:
-    assert plain(r"$\lambda_c$  (mm)") == "λ_c (mm)"
+    assert without_tex(r"$\lambda_c$  (mm)") == "λ_c (mm)"
 
 
 @SLOW
