@@ -5,9 +5,9 @@ program in any language that imports nothing of this project. Here results are v
 adapters are run under limits. docs/benchmark.md describes both files.
 """
 
+from open_benchmark.judgement import Score
 from open_benchmark.problem import Problem, problem, shipped_ids
 from open_benchmark.result import Result, ResultError, load_result
 from open_benchmark.score import score
-from open_benchmark.verdict import Score
 
 __all__ = ["Problem", "Result", "ResultError", "Score", "load_result", "problem", "score", "shipped_ids"]

@@ -16,11 +16,11 @@ from typing import Any
 
 from comparison.store import write_atomically
 from open_benchmark.adapter import RESOLUTIONS, Adapter
+from open_benchmark.judgement import Score, invalid
 from open_benchmark.problem import Problem, problem, problem_text
 from open_benchmark.result import Result, ResultError, load_result
 from open_benchmark.running import Limits, Run, run_adapter
 from open_benchmark.score import score
-from open_benchmark.verdict import Score, invalid
 
 __all__ = ["STANDARD", "Row", "campaign", "with_bases"]
 

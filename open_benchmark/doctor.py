@@ -13,8 +13,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from open_benchmark.judgement import LIMITS, Finding, Score
 from open_benchmark.result import Result
-from open_benchmark.verdict import LIMITS, Finding, Score
 
 __all__ = ["NAMES", "diagnose"]
 

@@ -21,8 +21,8 @@ from bent_beam.versions import processor
 from comparison.store import write_atomically
 from open_benchmark.adapter import RESOLUTIONS, Adapter
 from open_benchmark.campaign import Row
+from open_benchmark.judgement import Score
 from open_benchmark.problem import Problem, problem
-from open_benchmark.verdict import Score
 
 __all__ = ["document", "errors_table", "properties", "work_precision_figures", "write_page"]
 

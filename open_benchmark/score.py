@@ -16,9 +16,9 @@ from numpy.typing import NDArray
 from comparison.compared import Compared
 from comparison.estimators import Estimate, Moments, first_order, leading_order
 from open_benchmark import doctor
+from open_benchmark.judgement import LIMITS, MEASURES, TOLERANCE, Score
 from open_benchmark.references import Reference, reference
 from open_benchmark.result import Result, ResultError
-from open_benchmark.verdict import LIMITS, MEASURES, TOLERANCE, Score
 
 __all__ = ["score", "work_precision"]
 

@@ -11,7 +11,7 @@ import typer
 from comparison.command_line.options import Json, emit, printable
 
 if TYPE_CHECKING:
-    from open_benchmark.verdict import Score
+    from open_benchmark.judgement import Score
 
 __all__ = ["score"]
 
@@ -33,10 +33,10 @@ def score(
 
     Example: bentbeam score coarse.npz medium.npz fine.npz
     """
+    from open_benchmark.judgement import invalid
     from open_benchmark.result import ResultError, load_result
     from open_benchmark.score import score as score_of
     from open_benchmark.score import work_precision
-    from open_benchmark.verdict import invalid
 
     found, code = [], 0
     reference = None if base is None else load_result(base)

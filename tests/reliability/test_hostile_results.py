@@ -12,9 +12,9 @@ import numpy as np
 
 from open_benchmark.adapter import Adapter
 from open_benchmark.campaign import Row
+from open_benchmark.judgement import Score
 from open_benchmark.page import write_page
 from open_benchmark.result import ResultError, load_result
-from open_benchmark.verdict import Score
 from theory import contact_parameters
 
 FUZZ = bool(os.environ.get("FUZZ"))
