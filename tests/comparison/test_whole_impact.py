@@ -19,7 +19,7 @@ from comparison.command_line.app import run
 from comparison.whole_impact import damped, ends, map
 from comparison.whole_impact.hits import hits
 from comparison.whole_impact.outcome import NUMBERS, pushes, whole_impact
-from comparison.whole_impact.verdict import Verdict, random_problem, verdict
+from comparison.whole_impact.prediction_errors import PredictionErrors, prediction_errors, random_problem
 from hermite_fe import HermiteFE
 from hermite_fe.integrators import MoreauJean, NonsmoothGeneralizedAlpha, SignoriniPosition
 from hermite_fe.whole_beam import ELEMENTS
@@ -479,10 +479,10 @@ def test_waves_from_the_ends_come_out_again_between_what_was_measured(kappa: flo
         assert felt[0] == pytest.approx(felt[1], rel=0.1), name
 
 
-def checked(seed: int, count: int) -> list[Verdict]:
+def checked(seed: int, count: int) -> list[PredictionErrors]:
     """Verdicts on ``count`` random problems, each drawn problem counts; the seed and what misses are printed."""
     random = np.random.default_rng(seed)
-    found = [verdict(random_problem(random)) for _ in range(count)]
+    found = [prediction_errors(random_problem(random)) for _ in range(count)]
     for k, v in enumerate(found):
         if not (holds_at_limit(v) and is_no_coward(v)):
             print(f"seed {seed}, problem {k}: {v.impact}, limit {v.valid_until:.4g}, {v.at_limit}, {v.first_wrong}")
@@ -491,11 +491,11 @@ def checked(seed: int, count: int) -> list[Verdict]:
     return found
 
 
-def holds_at_limit(v: Verdict) -> bool:
+def holds_at_limit(v: PredictionErrors) -> bool:
     return v.at_limit is not None and v.at_limit <= 0.02
 
 
-def is_no_coward(v: Verdict) -> bool:
+def is_no_coward(v: PredictionErrors) -> bool:
     return v.first_wrong is None or v.valid_until >= 0.5 * v.first_wrong
 
 

@@ -19,7 +19,7 @@ from comparison.whole_impact.ends import law_of, reached
 from theory import predict
 from theory.contact import contact_parameters
 
-__all__ = ["Verdict", "random_problem", "verdict"]
+__all__ = ["PredictionErrors", "prediction_errors", "random_problem"]
 
 Array = NDArray[np.float64]
 DAMPING = 1e-3  # η/T*
@@ -31,7 +31,7 @@ POINT_LENGTH = 2.0 / 200.0  # of the half length
 
 
 @dataclass(frozen=True)
-class Verdict:
+class PredictionErrors:
     """One problem: what predict says, and how it fares. Times in T*; errors relative.
 
     at_limit : the largest of the three errors at valid_until (``None`` where nothing is valid).
@@ -68,7 +68,7 @@ def random_problem(random: np.random.Generator) -> Impact:
     )
 
 
-def verdict(impact: Impact, *, tolerance: float = 0.02) -> Verdict:
+def prediction_errors(impact: Impact, *, tolerance: float = 0.02) -> PredictionErrors:
     """Run the whole beam and hold predict against it."""
     unit = impact.slow_time_scale
     said = predict(impact)
@@ -85,7 +85,7 @@ def verdict(impact: Impact, *, tolerance: float = 0.02) -> Verdict:
         within = float(largest[inside].max()) if inside.any() else at_limit
     later = times >= begin
     wrong = reached(times[later], largest[later], tolerance)
-    return Verdict(impact, begin, until, said.limited_by, at_limit, within, wrong, times, errors)
+    return PredictionErrors(impact, begin, until, said.limited_by, at_limit, within, wrong, times, errors)
 
 
 def errors_of(impact: Impact, times: Array) -> Array:
