@@ -135,10 +135,6 @@ def _outcome(method: Method, impact: Impact, save: int) -> tuple[WholeImpact, fl
     return found, history.seconds
 
 
-def _died(_: int, why: str) -> Any:
-    raise RuntimeError(why)
-
-
 def bounce(
     impact: Impact,
     method: Method,
@@ -189,7 +185,7 @@ def _one_and_others(
     outcome, history = _run(method, impact, save)
     told(1)
     asked = [(other, impact, save) for other in others]
-    found = run_all(_outcome, asked, jobs=jobs, progress=lambda done, _: told(1 + done), on_death=_died)
+    found = run_all(_outcome, asked, jobs=jobs, progress=lambda done, _: told(1 + done))
     return outcome, history, found
 
 

@@ -39,15 +39,17 @@ def run_all(
     scheduler: str | None = None,
     limit: float | None = None,
     progress: Callable[[int, int], None] | None = None,
-    on_death: Callable[[int, str], Any],
+    on_death: Callable[[int, str], Any] | None = None,
 ) -> list[Any]:
-    """``[function(*a) for a in arguments]``, in order. ``on_death(i, why)`` stands in for a call whose worker died.
+    """``[function(*a) for a in arguments]``, in order. ``on_death(i, why)`` stands in for a call whose worker died;
+    without it that raises ``RuntimeError``.
 
     jobs : processes on this machine (1: in this one). scheduler : address of a dask.distributed scheduler.
     limit : seconds that one call may take (``None``: any time); what it imports and compiles does not count.
         ``on_death`` stands in for a call that takes longer, too.
     """
     whole("jobs", jobs, 1)
+    on_death = on_death or _cannot_do_without
     if limit is not None:
         function = partial(limited, function, positive("limit", limit))
         timed = run_all(function, arguments, jobs=jobs, scheduler=scheduler, progress=progress, on_death=on_death)
@@ -62,6 +64,10 @@ def run_all(
                 progress(i + 1, len(arguments))
         return results
     return _on_cores(function, arguments, jobs, progress, on_death)
+
+
+def _cannot_do_without(i: int, why: str) -> Any:
+    raise RuntimeError(f"call {i}: {why}")
 
 
 def limited(function: Callable[..., Any], limit: float, *arguments: Any) -> Any:

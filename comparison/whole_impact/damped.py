@@ -149,10 +149,6 @@ def touches(rows: Sequence[Array]) -> tuple[Array, Array]:
     return between, np.exp(PchipInterpolator(TOUCHING, np.log(ages))(between))
 
 
-def _lost(i: int, why: str) -> Array:
-    raise RuntimeError(f"point {i}: {why}")
-
-
 def write(rows: Sequence[Array], loads: Sequence[Array]) -> Path:
     """Write the table from what was measured at :data:`KAPPAS` and :data:`LOAD_KAPPAS`."""
     table, touch = np.array(rows), touches(rows)
@@ -190,8 +186,8 @@ def _main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--jobs", type=int, default=2)
     jobs = parser.parse_args().jobs
-    rows = run_all(measure_zone, [(kappa,) for kappa in KAPPAS], jobs=jobs, on_death=_lost)
-    print(write(rows, run_all(measure_loads, [(kappa,) for kappa in LOAD_KAPPAS], jobs=jobs, on_death=_lost)))
+    rows = run_all(measure_zone, [(kappa,) for kappa in KAPPAS], jobs=jobs)
+    print(write(rows, run_all(measure_loads, [(kappa,) for kappa in LOAD_KAPPAS], jobs=jobs)))
 
 
 if __name__ == "__main__":

@@ -188,10 +188,6 @@ def _tidy(change: Array, kappa: float) -> Array:
     return change
 
 
-def _lost(i: int, why: str) -> Any:
-    raise RuntimeError(f"point {i}: {why}")
-
-
 def one_point(damping: float, tolerance: float = TOLERANCE) -> float:
     """t/T* until which the ends change impulse and momentary force of one point by less, exact for κ/ν ≥ 1."""
     times = np.geomspace(1e-3, 0.1, 4000)
@@ -265,11 +261,11 @@ def _main() -> None:
     parser.add_argument("--jobs", type=int, default=2)
     jobs = parser.parse_args().jobs
     asked = [(kappa, damping) for damping in DAMPINGS for kappa in KAPPAS]
-    found = run_all(measure_ends, asked, jobs=jobs, on_death=_lost)
+    found = run_all(measure_ends, asked, jobs=jobs)
     curves: dict[float, list[Array]] = {damping: [] for damping in DAMPINGS}
     for (_, damping), curve in zip(asked, found):
         curves[damping].append(curve)
-    print(write(curves, run_all(measure_quartic, [(kappa,) for kappa in KAPPAS], jobs=jobs, on_death=_lost)))
+    print(write(curves, run_all(measure_quartic, [(kappa,) for kappa in KAPPAS], jobs=jobs)))
 
 
 if __name__ == "__main__":

@@ -342,6 +342,8 @@ def test_a_worker_that_dies_takes_no_other_call_with_it():
     found = run_all(survives, [(n,) for n in range(6)], jobs=2, on_death=lambda i, why: dead.append((i, why)) or "dead")
     assert found == [0, 1, 4, "dead", 16, 25]
     assert [i for i, _ in dead] == [3] and "died" in dead[0][1]
+    with pytest.raises(RuntimeError, match="call 1: its worker process died"):
+        run_all(survives, [(1,), (3,)], jobs=2)
 
 
 @pytest.mark.parametrize("problem", ["NaN", "failed", "Exudyn"])
