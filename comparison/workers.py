@@ -78,14 +78,14 @@ def limited(function: Callable[..., Any], limit: float, *arguments: Any) -> Any:
     (Windows, a thread of a cluster's worker) the call takes the time that it takes. The clock stands while a module is
     imported or a kernel compiled: neither may be left half done, and neither belongs to the call's own time.
     """
-    used, last = 0.0, clock.perf_counter()
+    used, last, over = 0.0, clock.perf_counter(), False
     expired: list[Expired] = []
 
     def tick(_: int, frame: FrameType | None) -> None:
         nonlocal used, last
         now = clock.perf_counter()
         passed, last = now - last, now
-        if _preparing(frame):
+        if over or _preparing(frame):
             return
         used += passed
         if used >= limit:
@@ -99,7 +99,10 @@ def limited(function: Callable[..., Any], limit: float, *arguments: Any) -> Any:
         return function(*arguments)
     signal.setitimer(signal.ITIMER_REAL, *2 * (min(limit, TICK),))
     try:
-        result = function(*arguments)
+        try:
+            result = function(*arguments)
+        finally:
+            over = True  # an alarm from here on is late
     except Exception:
         if not expired:
             raise

@@ -1,6 +1,7 @@
 """The point of the project: any method is held against the theory, and those of this project agree with it."""
 
 import json
+import signal
 import time
 from dataclasses import dataclass, replace
 from itertools import product
@@ -202,6 +203,18 @@ def test_the_time_limit_stands_still_while_code_is_compiled_or_imported(module):
     assert limited(preparing["prepare"], 0.2, 0.6) == "finished"
     found = limited(lambda: (preparing["prepare"](0.6), spin(0.6)), 0.2)
     assert found == Expired("time limit: not finished after 0.2 s")
+
+
+def test_an_alarm_after_the_call_is_late(monkeypatch):
+    set_timer = signal.setitimer
+
+    def slowly(which, seconds, interval=0.0):
+        if seconds == 0.0:
+            time.sleep(0.2)  # the alarm rings while it is being taken back
+        set_timer(which, seconds, interval)
+
+    monkeypatch.setattr(signal, "setitimer", slowly)
+    assert limited(str, 0.05, "answer") == "answer"
 
 
 def test_a_time_limit_is_the_reason_whatever_the_interrupted_code_makes_of_it():
