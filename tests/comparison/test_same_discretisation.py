@@ -15,10 +15,14 @@ from hermite_fe.far_fields import FAR_FIELDS
 from hermite_fe.integrators import INTEGRATORS
 
 
-def test_nodal_gaps_of_both_codes_agree():
+@pytest.mark.parametrize(("damping", "gaps", "impulse"), [(1e-3, 1e-6, 1e-9), (1e2, 0.11, 1e-3)])
+def test_nodal_gaps_of_both_codes_agree(damping, gaps, impulse):
+    """With next to no dashpots digit by digit. Those of Exudyn's path grip just before the wall and let go before they
+    would pull, those of the Hermite path act inside the wall alone: gaps differ by a tenth of V₀t at first, by a
+    hundredth at the end, the impulse hardly."""
     impact = Impact.dimensionless(0.5, length=10.0)
     mesh, step, end = UniformMesh(0.05), 2e-4, 0.1
-    stiffness, damping = 1e4, 1e-3  # per unit length of beam; the codes' dashpots differ, hence next to none
+    stiffness = 1e4  # per unit length of beam, as the damping
     times = np.linspace(0.0, end, 26)
     ours = hermite_fe.simulate(
         impact,
@@ -45,7 +49,8 @@ def test_nodal_gaps_of_both_codes_agree():
     scale = impact.velocity * ours.time[1:, None]
     difference = np.abs(ours.array("gap")[1:] - theirs.array("gap")[1:]) / scale
     assert ours.array("in_contact").any()
-    assert float(difference.max()) < 1e-6
+    assert float(difference.max()) < gaps and float(difference[-1].max()) < 0.1 * gaps
+    assert ours.array("total_impulse")[-1] == pytest.approx(theirs.array("total_impulse")[-1], rel=impulse)
 
 
 def test_both_paths_agree_on_a_finite_beam():
