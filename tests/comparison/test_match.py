@@ -63,8 +63,17 @@ def test_a_point_contact_does_not_spread():
     assert off(answer(Question(ExudynModel(), 1.25, error_bars="drift"), KEEP).r0) < 1e-3
 
 
-def test_the_self_similar_solver_matches_the_first_order():
-    row = answer(Question(SelfSimilarFE(), 0.5, (4.0, 0.0, 0.0), error_bars="drift"), KEEP)
+@pytest.mark.parametrize(
+    ("kappa", "first"),
+    [
+        (0.5, (4.0, 0.0, 0.0)),
+        pytest.param(0.5, (-1.0, -1.0, 0.0), marks=pytest.mark.verify),
+        pytest.param(0.3, (-1.0, -1.0, 1.0), marks=pytest.mark.verify),
+        pytest.param(0.8, (0.0, 0.0, 1.0), marks=pytest.mark.verify),
+    ],
+)
+def test_the_self_similar_solver_matches_the_first_order(kappa, first):
+    row = answer(Question(SelfSimilarFE(), kappa, first, error_bars="drift"), KEEP)
     for number in (row.lambda1, row.r1):
         assert off(number, 1.0) < 0.01
         assert number.covered
