@@ -32,6 +32,9 @@ from theory._fresnel import FloatArray
 #: Below it λ₁ and r₁, which grow like (κ/ν)^{−5/2}, need intermediate numbers beyond double precision.
 FLATTEST = 1e-60
 
+#: Products of three arguments stay below the largest double.
+_LARGEST = 1e100
+
 #: α′+ψ is known to so many of its terms: a few roundings each on the way from SI units.
 _ROUNDING = 16.0 * float(np.finfo(float).eps)
 
@@ -98,7 +101,8 @@ def contact_parameters(
     the largest contribution of α, ψ, χ and the axial force. α′+ψ that is 0 but for rounding counts as 0.
 
     Raises:
-        ValueError: κ/ν or ν not positive and finite, κ/ν < 1e-60, α, ψ, χ or the axial force not finite.
+        ValueError: κ/ν or ν not positive and finite, κ/ν < 1e-60, α, ψ, χ or the axial force not finite, any
+            beyond 1e100.
     """
     given = {
         "kappa_over_nu": kappa_over_nu,
@@ -154,6 +158,8 @@ def _check(name: str, values: FloatArray, *, positive: bool) -> None:
     if not np.all(good):
         need = "positive and finite" if positive else "finite"
         raise ValueError(f"{name} must be {need} (got {values[~good].ravel()[0]})")
+    if np.any(np.abs(values) > _LARGEST):
+        raise ValueError(f"{name} must not exceed {_LARGEST:g} in size (got {values[np.abs(values) > _LARGEST][0]:g})")
 
 
 _SLOPE = float(np.sqrt(2.0 / np.pi))

@@ -75,6 +75,7 @@ class PredictionAtTime:
         peak_moment_place: its distance from the middle, m; 0 for the contact zone.
         peak_stress: largest stress by bending and axial force, Pa.
         valid: `Prediction.valid_from` ≤ time ≤ `Prediction.valid_until`.
+        spoiled_by: why it is not valid, one of the names in `theory.validity`; None where it is.
     """
 
     time: float
@@ -87,6 +88,7 @@ class PredictionAtTime:
     peak_moment_place: float
     peak_stress: float | None
     valid: bool
+    spoiled_by: str | None
 
 
 @dataclass(frozen=True)
@@ -97,7 +99,8 @@ class Prediction:
         lambda1, r1: with everything; `lambda_axial`, `r_axial` per unit of `axial`.
         peak_moment, peak_stress: the largest at leading order, where they are constant in time; N m, Pa.
         valid_from, valid_until: s; half length, force and impulse are within 2 % between them.
-        limited_by: what ends it, one of the names in `theory.validity`.
+        valid_after: what spoils them before valid_from, one of the names in `theory.validity`; None: nothing does.
+        limited_by: what ends it, one of these names.
         damping_matters_until: s; before it the beam's own damping changes force or impulse by more than 2 %.
         yields: whether the peak stress is beyond the yield stress; None if either is not known.
         warnings: plain sentences.
@@ -128,6 +131,7 @@ class Prediction:
     peak_stress: float | None
     yields: bool | None
     valid_from: float
+    valid_after: str | None
     valid_until: float
     limited_by: str
     damping_matters_until: float
@@ -187,7 +191,7 @@ def predict(impact: Impact, times: Iterable[float] | float = (), *, section: Sec
         shear_stiffness=None if section is None else section.shear_stiffness,
         yields=bool(yields),
     )
-    rows = tuple(_at_time(impact, solved, bending, t, holds.holds(t)) for t in instants)
+    rows = tuple(_at_time(impact, solved, bending, t, holds.spoiled_by(t)) for t in instants)
     return Prediction(
         kappa_over_nu=impact.kappa_over_nu,
         epsilon_alpha=impact.epsilon_alpha,
@@ -214,6 +218,7 @@ def predict(impact: Impact, times: Iterable[float] | float = (), *, section: Sec
         peak_stress=stress,
         yields=yields,
         valid_from=holds.begins,
+        valid_after=holds.begins_after,
         valid_until=holds.until,
         limited_by=holds.limited_by,
         damping_matters_until=_damping_times(solved) * impact.damping if impact.damping > 0.0 else 0.0,
@@ -249,7 +254,7 @@ class _Bending:
 
 
 def _at_time(
-    impact: Impact, solved: ContactParameters, bending: _Bending, t: float, valid: bool
+    impact: Impact, solved: ContactParameters, bending: _Bending, t: float, spoiled_by: str | None
 ) -> PredictionAtTime:
     tau = t / impact.time_scale
     spread = solved.lambda0 + solved.lambda1 * tau
@@ -288,7 +293,8 @@ def _at_time(
         peak_moment=moment,
         peak_moment_place=min(place * root * math.sqrt(t) if t > 0.0 else 0.0, impact.half_length),
         peak_stress=bending.stress(moment),
-        valid=valid,
+        valid=spoiled_by is None,
+        spoiled_by=spoiled_by,
     )
 
 
@@ -337,7 +343,7 @@ _ENDS_OF_VALIDITY = {
     ENDS: "waves come back from the beam's ends, which the theory takes to be infinitely far",
     FIRST_ORDER: "the loads change the contact so much that the first-order correction is no longer enough",
     TENSION: "the axial force changes the contact so much that the first-order correction is no longer enough",
-    DAMPING: "the beam's own damping rules, and was not measured for so flat a contact",
+    DAMPING: "the beam's own damping rules, and was not measured for so flat or so short a contact",
     TOUCH: "the middle of the contact, which the first instants have lifted, comes back to the wall with a pulse",
     SLOPE: "the beam's slopes are no longer small",
     SHEAR: "the beam is so stubby that it shears before it bends, all the time that the ends leave",
@@ -356,6 +362,12 @@ def _summary_of_contact(p: Prediction) -> list[str]:
     ]
 
 
+_STARTS_OF_VALIDITY = {
+    DAMPING: "before, the beam's own damping rules, and was not measured so early",
+    SHEAR: "before, the beam shears as much as it bends, which the theory leaves out",
+}
+
+
 def _summary_of_times(p: Prediction) -> list[str]:
     if not p.times:
         return []
@@ -367,11 +379,11 @@ def _summary_of_times(p: Prediction) -> list[str]:
                 "-" if value is None else f"{value:.5g}"
                 for value in (row.half_contact_length, row.reaction, row.impulse, row.peak_moment, row.peak_stress)
             ),
-            "yes" if row.valid else "no",
+            "yes" if row.spoiled_by is None else f"no: {row.spoiled_by}",
         )
         for row in p.times
     ]
-    return ["  ".join(f"{cell:>15}" for cell in line) for line in (head, *rows)]
+    return ["  ".join([*(f"{cell:>15}" for cell in line[:-1]), line[-1]]) for line in (head, *rows)]
 
 
 def _summary_of_validity(p: Prediction) -> list[str]:
@@ -379,7 +391,9 @@ def _summary_of_validity(p: Prediction) -> list[str]:
     if p.valid_until == 0.0:
         lines = [f"This does not hold at any time: {reason}."]
     else:
-        start = f"from {p.valid_from:.3g} s " if p.valid_from > 0.0 else ""
+        start = ""
+        if p.valid_after is not None:
+            start = f"from {p.valid_from:.3g} s ({_STARTS_OF_VALIDITY[p.valid_after]}) "
         lines = [f"This holds {start}until {p.valid_until:.3g} s, to 2 %: then {reason}."]
     if any(row.half_contact_length is None for row in p.times):
         lines.append(

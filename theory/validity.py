@@ -70,15 +70,21 @@ SECTION = "section"
 
 @dataclass(frozen=True)
 class Validity:
-    """The theory holds for `begins` ≤ t ≤ `until` (s); `limited_by` names what ends it. Never valid: until = 0."""
+    """The theory holds for `begins` ≤ t ≤ `until` (s); `limited_by` names what ends it. Never valid: until = 0.
+
+    `begins_after` names what spoils it before `begins` (None: nothing does, it holds from the first instant).
+    """
 
     begins: float
     until: float
     limited_by: str
+    begins_after: str | None = None
 
-    def holds(self, time: float) -> bool:
-        """Whether the theory holds at `time` (s)."""
-        return self.until > 0.0 and self.begins <= time <= self.until
+    def spoiled_by(self, time: float) -> str | None:
+        """What spoils the theory at `time` (s); None: it holds."""
+        if self.until == 0.0 or time > self.until:
+            return self.limited_by
+        return self.begins_after if time < self.begins else None
 
 
 @cache
@@ -154,26 +160,34 @@ def validity(
         yields: whether the leading order's bending stress is beyond the material's yield stress.
     """
     errors = _Errors(impact, solved)
-    begins = 0.0
+    begins, begins_after = 0.0, None
     if solved.regime != DISCRETE and impact.damping > 0.0:
         begins = damped_zone.earliest_age(solved.kappa_over_nu) * impact.damping / impact.time_scale
         if solved.kappa_over_nu < damped_zone.flattest():
             return Validity(0.0, 0.0, DAMPING)
     until, limited_by = errors.limit(begins)
+    if solved.regime != DISCRETE and impact.damping > 0.0 and solved.kappa_over_nu > damped_zone.shortest():
+        spreads = damped_zone.age_of_spreading(solved.kappa_over_nu) * impact.damping / impact.time_scale
+        if spreads < until:
+            until, limited_by = spreads, DAMPING
     steep = _slope(solved)
     if steep > 0.0 and (SLOPE_LIMIT / steep) ** 2 < until:
         until, limited_by = (SLOPE_LIMIT / steep) ** 2, SLOPE
+    if begins > 0.0:
+        begins_after = DAMPING
     if begins >= until:
         begins, until = 0.0, 0.0
     begins, until = begins * impact.time_scale, until * impact.time_scale
     if shear_stiffness is not None and until > 0.0:
         shear_time = math.sqrt(impact.bending_stiffness * impact.mass_per_length) / shear_stiffness
-        begins = max(begins, SHEAR_TIMES["point" if solved.regime == DISCRETE else "zone"] * shear_time)
+        sheared = SHEAR_TIMES["point" if solved.regime == DISCRETE else "zone"] * shear_time
+        if sheared > begins:
+            begins, begins_after = sheared, SHEAR
         if begins >= until:
             begins, until, limited_by = 0.0, 0.0, SHEAR
     if yields:
         begins, until, limited_by = 0.0, 0.0, SECTION
-    return Validity(begins, until, limited_by)
+    return Validity(begins, until, limited_by, begins_after if until > 0.0 else None)
 
 
 class _Errors:
@@ -196,6 +210,8 @@ class _Errors:
         if self.solved.regime != DISCRETE and math.isfinite(self.age) and np.any(self.acting):
             rates = damped_zone.load_rates(self.solved.kappa_over_nu, tau * self.age)
             second = second + np.tensordot(self.acting, rates, 1) * tau
+            waiting = damped_zone.waiting(self.solved.kappa_over_nu, tau * self.age)
+            second[0] += waiting * self.solved.lambda1 / self.solved.lambda0 * tau
         return ENDS_WEIGHT * (bare + self.quartic * quartic), second, third
 
     def total(self, tau: FloatArray) -> FloatArray:

@@ -36,6 +36,7 @@ def limits() -> dict[str, Any]:
         "zone": json.loads(damped_zone.DATA.read_text(encoding="utf-8")),
         "share": validity.SHARE,
         "quiet": damped_zone.QUIET,
+        "waiting": damped_zone.WAITING,
         "short": damped_zone.SHORT,
         "endsWeight": validity.ENDS_WEIGHT,
         "point": validity.POINT,

@@ -14,6 +14,7 @@ from __future__ import annotations
 import argparse
 import math
 from collections.abc import Sequence
+from functools import lru_cache
 from pathlib import Path
 
 import numpy as np
@@ -35,13 +36,16 @@ __all__ = ["AGES", "KAPPAS", "measure_zone"]
 Array = NDArray[np.float64]
 KAPPAS = (
     0.01, 0.014, 0.02, 0.03, 0.04, 0.05, 0.07, 0.1, 0.125, 0.15, 0.175, 0.2, 0.225, 0.25, 0.275, 0.3, 0.35, 0.4, 0.45,
-    0.5, 0.55, 0.6, 0.65, 0.7, 0.75, 0.8, 0.85, 0.9, 0.95,
+    0.5, 0.55, 0.6, 0.65, 0.7, 0.75, 0.8, 0.85, 0.9, 0.93, 0.95, 0.97,
 )  # fmt: skip
 AGES = np.geomspace(0.0316, 3160.0, 81)
 """t/η: sixteen a decade."""
 ELEMENTS = (0.04, 0.02)  # at the middle, of √(cη), which damping smooths over by the age 1
+SHORT = 0.3  # λ₀ (of κ/ν = 0.8) below which a zone is so short that elements shrink with it, to LEAST of them
+LEAST = 0.2
 LOAD_KAPPAS = (0.02, 0.05, 0.1, 0.2, 0.25, 0.3, 0.35, 0.4, 0.45, 0.5, 0.6, 0.8)
 LOAD_AGES = np.geomspace(0.3, 300.0, 25)
+LOAD_ELEMENT = 0.02
 PER_RUN = 4  # intervals of these ages
 CHANGE = 0.15  # by the load, at the end of such a run
 TOUCHING = (0.25, 0.275, 0.3, 0.35, 0.4, 0.45)
@@ -59,10 +63,16 @@ def measure_zone(kappa: float, ages: Array = AGES, elements: Sequence[float] = E
     return np.asarray(fine + (fine - coarse) / (ratio - 1.0))
 
 
+def shortened(kappa: float) -> float:
+    """How much shorter elements are where the zone is short, so that several lie in it."""
+    front = theory.contact_parameters(kappa).lambda0
+    return float(np.clip(front / SHORT, LEAST, 1.0)) if front > 0.0 else 1.0
+
+
 def _over_theory(kappa: float, ages: Array, element: float) -> Array:
     reach = REACH[0] + REACH[1] * theory.contact_parameters(kappa).lambda0
     impact = Impact.dimensionless(kappa, damping=1.0, length=2.0 * reach * math.sqrt(float(ages[-1])))
-    found: Law = law_of(impact, ages, element=element, window=WINDOW)
+    found: Law = law_of(impact, ages, element=element * shortened(kappa), window=WINDOW)
     half_length, force, impulse = (a / b for a, b in zip(found, theory_law(kappa, ages)))
     age_of_point = float(erfinv(kappa)) ** 2
     with np.errstate(divide="ignore", invalid="ignore"):
@@ -72,7 +82,7 @@ def _over_theory(kappa: float, ages: Array, element: float) -> Array:
     return np.array([spread, force, impulse])
 
 
-def measure_loads(kappa: float, element: float = ELEMENTS[0]) -> Array:
+def measure_loads(kappa: float, element: float = LOAD_ELEMENT) -> Array:
     """What damping changes of the answer to loads, relative, per unit of load times τ at :data:`LOAD_AGES`, shape
     (loads, 3, n): half length, force and impulse of a loaded run over those of a bare one, over what theory says of
     that, less one."""
@@ -110,8 +120,7 @@ def _answer(kappa: float, load: str, ages: Array, element: float) -> Array:
     def over(impact: Impact) -> Array:
         impact = impact.replace(length=2.0 * reach)
         bare = impact.replace(acceleration=0.0, fourth_derivative=0.0, curvature_rate=0.0, axial_force=0.0)
-        window = 2.0 * WINDOW if kappa < NOISY else WINDOW
-        runs = [law_of(i, ages, element=element, window=window, end="following") for i in (impact, bare)]
+        runs = [_run(i, tuple(ages.tolist()), element) for i in (impact, bare)]
         rows = [theory.predict(i.replace(damping=0.0), ages).times for i in (impact, bare)]
         names = ("half_contact_length", "reaction", "impulse")
         said = [Law(*(np.array([getattr(row, name) for row in at]) for name in names)) for at in rows]
@@ -122,6 +131,12 @@ def _answer(kappa: float, load: str, ages: Array, element: float) -> Array:
         return np.asarray((4.0 * once - twice) / (size * ages))
     there, back = over(_loaded(kappa, load, size)), over(_loaded(kappa, load, -size))
     return np.asarray((there - back) / (2.0 * size * ages))
+
+
+@lru_cache(maxsize=16)  # the bare run is the same for all loads
+def _run(impact: Impact, ages: tuple[float, ...], element: float) -> Law:
+    window = 2.0 * WINDOW if impact.kappa_over_nu < NOISY else WINDOW
+    return law_of(impact, np.array(ages), element=element, window=window, end="following")
 
 
 def _loaded(kappa: float, load: str, size: float) -> Impact:

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bent_beam.impact import Impact
+from comparison.whole_impact.damped import shortened
 from comparison.whole_impact.ends import law_of, reached
 from theory import predict
 from theory.contact import contact_parameters
@@ -25,7 +26,7 @@ Array = NDArray[np.float64]
 DAMPING = 1e-3  # η/T*
 EARLIEST, LATEST = 1.5e-3, 0.06  # T*: the ends are felt before the latest
 ELEMENTS = 0.02, 0.01  # of what damping smooths over; below THIN, where the front is thin, the second
-THIN = 0.12  # κ/ν
+THIN = 0.25  # κ/ν
 WINDOW = 0.15  # of fitted times, ± in ln t
 POINT_LENGTH = 2.0 / 200.0  # of the half length
 
@@ -92,7 +93,8 @@ def errors_of(impact: Impact, times: Array) -> Array:
     """|half length|, |force|, |impulse| of predict over the simulation's, less one, at ``times`` (T*), shape
     (times, 3); for one point, half lengths over :data:`POINT_LENGTH`: no error, or infinity."""
     unit = impact.slow_time_scale
-    found = law_of(impact, times * unit, element=ELEMENTS[impact.kappa_over_nu < THIN], window=WINDOW)
+    element = ELEMENTS[impact.kappa_over_nu < THIN] * shortened(impact.kappa_over_nu)
+    found = law_of(impact, times * unit, element=element, window=WINDOW)
     rows = predict(impact, times * unit).times
     exact = contact_parameters(impact.kappa_over_nu)
     errors = np.full((times.size, 3), math.inf)

@@ -322,6 +322,8 @@ def test_arrays_equal_scalars() -> None:
         ({"kappa_over_nu": np.nan}, r"kappa_over_nu must be positive and finite \(got nan\)"),
         ({"kappa_over_nu": [0.5, np.inf]}, r"kappa_over_nu must be positive and finite \(got inf\)"),
         ({"kappa_over_nu": 1e-80}, r"kappa_over_nu must be at least 1e-60 \(got 1e-80\)"),
+        ({"kappa_over_nu": 1e308}, r"kappa_over_nu must not exceed 1e\+100 in size \(got 1e\+308\)"),
+        ({"kappa_over_nu": 0.5, "alpha": -1e200}, r"alpha must not exceed 1e\+100 in size \(got -1e\+200\)"),
         ({"kappa_over_nu": 0.5, "nu": 0.0}, r"nu must be positive and finite \(got 0.0\)"),
         ({"kappa_over_nu": 0.5, "alpha": np.nan}, r"alpha must be finite \(got nan\)"),
         ({"kappa_over_nu": 0.5, "psi": -np.inf}, r"psi must be finite \(got -inf\)"),
@@ -331,3 +333,13 @@ def test_arrays_equal_scalars() -> None:
 def test_bad_input_is_named(arguments: dict[str, float], message: str) -> None:
     with pytest.raises(ValueError, match=message):
         contact_parameters(**arguments)
+
+
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize("ratio", [1e-60, 0.5, 1e100])
+def test_nothing_overflows_up_to_the_largest_arguments(ratio: float) -> None:
+    for sign in (1.0, -1.0):
+        found = contact_parameters(ratio, sign * 1e100, -1e100, sign * 1e100, axial=-sign * 1e100)
+        assert np.isfinite(found.r_axial)
+        if ratio > 1e-20:
+            assert np.isfinite(found.r1) and np.isfinite(found.lambda1)

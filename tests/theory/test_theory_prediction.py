@@ -146,6 +146,25 @@ def test_what_ends_it_is_one_thing_and_rows_never_contradict_it(
     assert holds in found.summary()
 
 
+def test_what_the_theory_leaves_out_before_it_holds_is_said_in_the_row_and_in_words() -> None:
+    section = Pipe(shear_stiffness=2e8)
+    begins, until = predict(PIPE, section=section).valid_from, predict(PIPE, section=section).valid_until
+    shear_time = math.sqrt(PIPE.bending_stiffness * PIPE.mass_per_length) / 2e8
+    assert begins == pytest.approx(10.0 * shear_time, rel=1e-12)
+    found = predict(PIPE, [0.9 * begins, 1.1 * begins, 1.1 * until], section=section)
+    assert found.valid_after == validity.SHEAR
+    assert [row.spoiled_by for row in found.times] == [validity.SHEAR, None, validity.ENDS]
+    assert f"from {begins:.3g} s (before, the beam shears" in found.summary()
+    lines = found.summary().splitlines()
+    assert [line.split("  ")[-1] for line in lines if line.startswith(" " * 6)][1:] == [
+        "no: shear", "yes", f"no: {validity.ENDS}",
+    ]  # fmt: skip
+    early = Impact.whole_beam(0.1, relative_damping=1e-3)
+    assert predict(early).valid_after == validity.DAMPING
+    assert predict(early, 0.5 * predict(early).valid_from).times[0].spoiled_by == validity.DAMPING
+    assert (predict(PIPE).valid_from, predict(PIPE).valid_after) == (0.0, None)
+
+
 def test_epsilon_does_not_matter_to_validity() -> None:
     # the same beam, slower and less curved: κ/ν is the same, ε is 100 times larger
     slow = PIPE.replace(velocity=0.2, curvature=PIPE.curvature / 10.0)

@@ -12,7 +12,7 @@ from mpmath import mp, mpf
 from comparison.validity import measured
 from theory import contact_parameters
 from theory.second_order import second_order
-from theory.validity import THIRD_ORDER
+from theory.validity import FLATTEST, THIRD_ORDER, _Loads
 
 LOADS = st.tuples(*[st.integers(-20, 20).map(lambda n: n / 10.0)] * 4)
 
@@ -167,6 +167,31 @@ def test_both_sides_of_the_front_meet_to_second_order(ratio: float, loads: tuple
         assert left < 1e-9
         assert float(r0) == pytest.approx(float(parameters.r0), rel=1e-9)
         assert (float(r1), float(r2)) == pytest.approx((found.r1, found.r2), rel=1e-7)
+
+
+@pytest.mark.parametrize("load", [1.0, -1.0])
+@pytest.mark.parametrize("front", [20.0, 300.0, 1e4, 1e5, 1e7])
+def test_a_flat_contact_s_second_order_is_a_fixed_share_of_the_square_of_the_first(front: float, load: float) -> None:
+    # under an acceleration λ₂/λ₀ → −x²/98 and r₂/r₀ → 19x²/98, however flat
+    p = contact_parameters(2.0 / front**2, 1e-3 * load / front**2)
+    counted = _Loads(p)
+    assert counted.lambda2 / (p.lambda0 * counted.change**2) == pytest.approx(-1.0 / 98.0, rel=0.03)
+    assert counted.r2 / (p.r0 * counted.change**2) == pytest.approx(19.0 / 98.0, rel=0.01)
+
+
+@pytest.mark.parametrize("flatter", [0.3, 0.03])
+@pytest.mark.parametrize(
+    "loads", [(1, 0, 0, 0), (-1, 0, 0, 0), (0, 1, 0, 0), (0, 0, 1, 0), (0, 0, -1, 0), (1, 0.5, -0.3, 0.2)]
+)
+def test_a_flatter_contact_is_like_the_flattest_that_is_solved_for(flatter: float, loads: tuple[float, ...]) -> None:
+    # where the direct solution still has its digits; loads scaled so that none outweighs the others
+    kappa = flatter * FLATTEST
+    alpha, psi, chi, axial = loads
+    p = contact_parameters(kappa, alpha, psi * kappa**2, chi * kappa, axial=axial / kappa)
+    counted, direct = _Loads(p), second_order(p)
+    square = counted.change**2 * counted.size**2
+    assert counted.lambda2 / p.lambda0 * counted.size**2 == pytest.approx(direct.lambda2 / p.lambda0, abs=0.01 * square)
+    assert counted.r2 / p.r0 * counted.size**2 == pytest.approx(direct.r2 / p.r0, abs=0.01 * square)
 
 
 def test_refusals() -> None:

@@ -154,14 +154,20 @@ const Beam = (() => {
     ends: "waves come back from the beam’s ends",
     loads: "the loads have changed the contact too much for a first-order correction",
     tension: "the axial force has changed the contact too much for a first-order correction",
-    damping: "the beam’s own damping, which was not measured for so flat a contact",
+    damping: "the beam’s own damping rules, and was not measured for so flat or so short a contact",
     touch: "the middle of the contact, which the first instants have lifted, comes back to the wall with a pulse",
     slope: "the beam’s slopes are no longer small",
   };
 
+  /** What spoils it before it holds. */
+  const STARTS = {
+    damping: "before, the beam’s own damping rules, and was not measured so early",
+    shear: "before, the beam shears as much as it bends, which the theory leaves out",
+  };
+
   const SHOWN = 0.03; // T*: about when the ends are felt
 
-  /** From and until when the theory holds to 2 %, s, and what ends it. `shear` of a problem is κ_s G A, N. */
+  /** From and until when the theory holds to 2 %, s, what spoils it before and what ends it. `shear` of a problem is κ_s G A, N. */
   function limit(p) {
     const { b, contact, timeScale } = p, quartic = b.fourthDerivative * p.half ** 4 / (b.velocity * p.slow);
     const { begins, until, by } = Theory.validity(contact, p.slow / timeScale, LIMITS, b.damping / p.slow, quartic);
@@ -169,8 +175,9 @@ const Beam = (() => {
     const sheared = LIMITS.shear[contact.regime === "discrete" ? "point" : "zone"] * shears, validUntil = until * timeScale;
     const validFrom = Math.max(begins * timeScale, sheared);
     // where nothing holds the numbers are shown as far as they would without what spoils them
+    const validAfter = sheared > begins * timeScale ? STARTS.shear : STARTS.damping;
     if (!(until > 0)) return { validFrom: 0, validUntil: 0, shownUntil: SHOWN * p.slow, limitedBy: ENDINGS[by], ends: by };
-    return validFrom < validUntil ? { validFrom, validUntil, shownUntil: validUntil, limitedBy: ENDINGS[by], ends: by }
+    return validFrom < validUntil ? { validFrom, validAfter, validUntil, shownUntil: validUntil, limitedBy: ENDINGS[by], ends: by }
       : { validFrom: validUntil, validUntil, shownUntil: validUntil, limitedBy: "", ends: "shear" };
   }
 

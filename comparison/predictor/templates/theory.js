@@ -429,7 +429,8 @@ const Theory = (() => {
     }
     const pushed = c.raised + c.psi;
     const acting = { press: Math.max(pushed, 0), lift: Math.max(-pushed, 0), chi: c.chi, psi: c.psi, axial: c.n };
-    const settled = discrete ? 0 : limits.short * erfInverse(c.ratio) ** 2;
+    const point = discrete ? 0 : erfInverse(c.ratio) ** 2, settled = limits.short * point;
+    const waits = !discrete && damping > 0 && size > 0 && c.ratio >= limits.quiet;
     const loaded = !discrete && damping > 0 && c.ratio < limits.quiet ? Object.keys(acting).filter((load) => acting[load]) : [];
     const ofLoads = (tau) => {
       const found = secondOf(tau), age = tau / slow / damping, ages = zone.loads.age, last = ages[ages.length - 1];
@@ -437,6 +438,7 @@ const Theory = (() => {
         atAge(zone.loads, zone.touch, c.ratio, age, zone.loads[load]).forEach((rate, i) => {
           found[i] += acting[load] * rate * (age > last ? sqrt(last / age) : 1) * tau;
         });
+      if (waits && age > point) found[0] += limits.waiting * point / (Math.max(age, settled) - point) * c.lambda1 / c.lambda0 * tau;
       return found;
     };
     const most = part * table.tolerance, largest = (list) => Math.max(...list.map(abs));
@@ -464,6 +466,9 @@ const Theory = (() => {
       const touch = exp(mixed(logsOf(comes), between(lifted, c.ratio))) * damping * slow;
       if (pulse[0] * touch < until && until < pulse[1] * touch) [until, ending] = [pulse[0] * touch, "touch"];
     }
+    const shortest = zone.kappa_over_nu[zone.kappa_over_nu.length - 1];
+    if (damping > 0 && !discrete && c.ratio > shortest && point * damping * slow < until)
+      [until, ending] = [point * damping * slow, "damping"];
     const steep = steepest(c);
     if (steep > 0 && (slope / steep) ** 2 < until) [until, ending] = [(slope / steep) ** 2, "slope"];
     return begins >= until ? { begins: 0, until: 0, by: ending } : { begins, until, by: ending };

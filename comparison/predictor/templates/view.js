@@ -251,7 +251,7 @@
     find("#peak").textContent = `${peak}, largest bending moment ${quantity("moment", moment)}.`;
     find("#brief").textContent = `${peak} ↓`;
     const stubby = predicted.ends === "shear";
-    const from = predicted.validFrom > 0.01 * predicted.validUntil ? `from ${quantity("time", predicted.validFrom, 2)} ` : "";
+    const from = predicted.validFrom > 0.01 * predicted.validUntil ? `from ${quantity("time", predicted.validFrom, 2)} (${predicted.validAfter}) ` : "";
     find("#holds").textContent = yields
       ? "The largest stress exceeds the yield stress: a real beam would deform plastically. The numbers below are those of an elastic beam."
       : stubby
