@@ -113,21 +113,32 @@ def one_side(history: ImpactHistory) -> tuple[Array, Array]:
     return total, moment / 2.0 if data.attrs["symmetry"] == "full" else moment
 
 
+ZONE = 0.7  # of the front, within which the uniform reaction is read off
+
+
 def _pressure(history: ImpactHistory, front: Array) -> Array:
-    """Uniform reaction (N/m) over each interval, from the contact points with |x| between 0.1 and 0.7 of the front."""
-    impulse = history.array("impulse")
-    time = history.time
+    """Uniform reaction (N/m) over each interval: the slope of the impulse gathered from the centre outwards, by least
+    squares over the contact points within :data:`ZONE` of the front.
+
+    Few of these may carry the load at a time, each for its neighbours: a sum over them, divided by the length between
+    the outermost, is off by what one of them carries; the slope hardly feels it.
+    """
+    impulse, time = history.array("impulse"), history.time
+    sides = 2.0 if history.dataset.attrs["symmetry"] == "full" else 1.0
     found = np.zeros(time.size)
     for k in range(1, time.size):
         # a moving contact point has gathered its impulse on the way: take its place halfway
-        signed = 0.5 * (history.contact_positions(k - 1) + history.contact_positions(k))
-        places, order = np.abs(signed), np.argsort(signed)
-        share = np.empty(places.size)
-        share[order] = np.gradient(signed[order]) if places.size > 1 else 0.0
-        inside = (places < 0.7 * front[k]) & (places > 0.1 * front[k])
-        length = share[inside].sum()
-        if length > 0.0 and inside.sum() >= 3:
-            found[k] = (impulse[k, inside] - impulse[k - 1, inside]).sum() / length / (time[k] - time[k - 1])
+        places = np.abs(0.5 * (history.contact_positions(k - 1) + history.contact_positions(k)))
+        order = np.argsort(places)
+        places, gathered = places[order], (impulse[k] - impulse[k - 1])[order] / sides
+        inside = places < ZONE * front[k]
+        if inside.sum() < 3:
+            continue
+        upto = np.cumsum(gathered) - 0.5 * gathered
+        upto[places == 0.0] = 0.0  # the centre carries for one side of it
+        share = np.gradient(places)[inside]
+        off = places[inside] - np.average(places[inside], weights=share)
+        found[k] = (share * off) @ upto[inside] / ((share * off) @ off) / (time[k] - time[k - 1])
     return found
 
 
@@ -167,12 +178,13 @@ def moments(history: ImpactHistory, *, uniform: bool = False) -> Moments:
 
 
 def _smooth(time: Array, values: Array) -> Array:
-    """Running time average over about an e-fold: the uniform reaction is steady, its measurement is not."""
+    """Running average over the times from a quarter to four times each: the uniform reaction is steady, its
+    measurement is not."""
     out = values.copy()
     gathered = np.concatenate([[0.0], np.cumsum(values[1:] * np.diff(time))])
     for k in range(1, time.size):
-        first = int(np.searchsorted(time, time[k] / 2.0))
-        last = min(int(np.searchsorted(time, time[k] * 1.5)), time.size - 1)
+        first = int(np.searchsorted(time, time[k] / 4.0))
+        last = min(int(np.searchsorted(time, time[k] * 4.0)), time.size - 1)
         if last > first:
             out[k] = (gathered[last] - gathered[first]) / (time[last] - time[first])
     return out

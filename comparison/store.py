@@ -18,7 +18,9 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import platformdirs
+from numpy.typing import NDArray
 
 from bent_beam.errors import InputError
 from bent_beam.files import write_atomically
@@ -107,6 +109,11 @@ class RunStore:
             except OSError:
                 pass  # a full or read-only cache costs time, not the answer
         return found
+
+    def array(self, function: Callable[..., NDArray[np.float64]], *arguments: Any) -> NDArray[np.float64]:
+        """``function(*arguments)``, finite numbers for JSON-ready arguments, from the store where it is there."""
+        question = {"function": f"{function.__module__}.{function.__qualname__}", "arguments": list(arguments)}
+        return np.array(self.answer(question, lambda: {"values": function(*arguments).tolist()})["values"])
 
     @staticmethod
     def _read(file: Path) -> dict[str, Any] | None:

@@ -26,7 +26,7 @@ import theory
 from bent_beam.impact import Impact
 from bent_beam.versions import stamp
 from comparison.plain import json_text
-from comparison.store import write_atomically
+from comparison.store import RunStore, write_atomically
 from comparison.whole_impact.ends import Law, law_of, theory_law
 from comparison.workers import run_all
 from theory import damped_zone
@@ -200,9 +200,14 @@ def write(rows: Sequence[Array], loads: Sequence[Array]) -> Path:
 def _main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--jobs", type=int, default=2)
-    jobs = parser.parse_args().jobs
-    rows = run_all(measure_zone, [(kappa,) for kappa in KAPPAS], jobs=jobs)
-    print(write(rows, run_all(measure_loads, [(kappa,) for kappa in LOAD_KAPPAS], jobs=jobs)))
+    parser.add_argument("--store", type=Path, help="folder that keeps finished points: interrupted, it goes on there")
+    chosen = parser.parse_args()
+    measured = RunStore(chosen.store).array
+    zones, loads = (
+        run_all(measured, [(measure, kappa) for kappa in kappas], jobs=chosen.jobs)
+        for measure, kappas in ((measure_zone, KAPPAS), (measure_loads, LOAD_KAPPAS))
+    )
+    print(write(zones, loads))
 
 
 if __name__ == "__main__":

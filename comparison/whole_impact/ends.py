@@ -28,7 +28,7 @@ from bent_beam.meshes import GradedMesh
 from bent_beam.versions import stamp
 from comparison.estimators import one_side
 from comparison.plain import json_text
-from comparison.store import write_atomically
+from comparison.store import RunStore, write_atomically
 from comparison.workers import run_all
 from theory import damped_point
 from theory.stopped_beam import StoppedBeam
@@ -259,13 +259,15 @@ def write(curves: dict[float, list[Array]], quartic: Sequence[Array]) -> Path:
 def _main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--jobs", type=int, default=2)
-    jobs = parser.parse_args().jobs
-    asked = [(kappa, damping) for damping in DAMPINGS for kappa in KAPPAS]
-    found = run_all(measure_ends, asked, jobs=jobs)
+    parser.add_argument("--store", type=Path, help="folder that keeps finished points: interrupted, it goes on there")
+    chosen = parser.parse_args()
+    measured = RunStore(chosen.store).array
+    asked = [(measure_ends, kappa, damping) for damping in DAMPINGS for kappa in KAPPAS]
     curves: dict[float, list[Array]] = {damping: [] for damping in DAMPINGS}
-    for (_, damping), curve in zip(asked, found):
+    for (_, _, damping), curve in zip(asked, run_all(measured, asked, jobs=chosen.jobs)):
         curves[damping].append(curve)
-    print(write(curves, run_all(measure_quartic, [(kappa,) for kappa in KAPPAS], jobs=jobs)))
+    quartic = run_all(measured, [(measure_quartic, kappa) for kappa in KAPPAS], jobs=chosen.jobs)
+    print(write(curves, quartic))
 
 
 if __name__ == "__main__":
