@@ -178,13 +178,13 @@ def moments(history: ImpactHistory, *, uniform: bool = False) -> Moments:
 
 
 def _smooth(time: Array, values: Array) -> Array:
-    """Running average over the times from a quarter to four times each: the uniform reaction is steady, its
+    """Running average over the times from a quarter of each to as much beyond: the uniform reaction is steady, its
     measurement is not."""
     out = values.copy()
     gathered = np.concatenate([[0.0], np.cumsum(values[1:] * np.diff(time))])
     for k in range(1, time.size):
-        first = int(np.searchsorted(time, time[k] / 4.0))
-        last = min(int(np.searchsorted(time, time[k] * 4.0)), time.size - 1)
+        first = int(np.searchsorted(time, 0.25 * time[k]))
+        last = min(int(np.searchsorted(time, 1.75 * time[k])), time.size - 1)
         if last > first:
             out[k] = (gathered[last] - gathered[first]) / (time[last] - time[first])
     return out

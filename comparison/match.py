@@ -116,6 +116,12 @@ class MatchRow:
     def of_first_order(self) -> bool:
         return any(self.first)
 
+    @property
+    def of_tension_alone(self) -> bool:
+        """Whether it is about a bow free of stress under an axial force in free flight: λ₁/N = λ_N, r₁/N = r_N."""
+        flight = math.isclose(self.alpha, -self.kappa_over_nu * self.axial, rel_tol=1e-9)
+        return self.axial != 0.0 and flight and self.psi == self.chi == 0.0
+
     def compared(self) -> dict[str, Compared]:
         """The numbers that this row is about."""
         names = ("lambda1", "r1") if self.of_first_order else ("lambda0", "r0")
@@ -125,13 +131,23 @@ class MatchRow:
 def questions(
     methods: Sequence[Method],
     kappas: Iterable[float],
-    firsts: Sequence[Sequence[float]] = (),
+    firsts: Sequence[Sequence[float | None]] = (),
     refines: Sequence[float] = (1.0,),
     error_bars: str = "quick",
 ) -> list[Question]:
-    """Every method × κ/ν × (α, ψ, χ[, N]) × refinement; without ``firsts`` the leading order alone."""
-    loads: list[Any] = [tuple((*first, 0.0)[:4]) for first in firsts] or [None]
-    return [Question(m, k, first, r, error_bars) for k in kappas for m in methods for first in loads for r in refines]
+    """Every method × κ/ν × (α, ψ, χ[, N]) × refinement; without ``firsts`` the leading order alone. α = ``None``: what
+    the axial force makes of a bow free of stress in free flight, α = −κN."""
+
+    def load(first: Sequence[float | None] | None, kappa: float) -> Any:
+        if first is None:
+            return None
+        alpha, psi, chi, axial = (*first, 0.0)[:4]
+        return (-kappa * (axial or 0.0) if alpha is None else alpha, psi, chi, axial)
+
+    asked: list[Sequence[float | None] | None] = [*firsts] or [None]
+    return [
+        Question(m, k, load(f, k), r, error_bars) for k in kappas for m in methods for f in asked for r in refines
+    ]
 
 
 # --- one run, reduced ---------------------------------------------------------------------------------------------

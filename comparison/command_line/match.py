@@ -31,7 +31,10 @@ def match(
         list[float] | None, typer.Option(help="κ/ν; repeatable. Default: the thesis's Table 3.4.")
     ] = None,
     first_order: Annotated[
-        list[str] | None, typer.Option(metavar="A,P,C[,N]", help="α,ψ,χ[,N] of a first-order match; repeatable.")
+        list[str] | None, typer.Option(
+            metavar="A,P,C[,N]",
+            help="α,ψ,χ[,N] of a first-order match, α = free: a bow free of stress in free flight, −κN; repeatable.",
+        ),
     ] = None,
     refine: Annotated[
         str,
@@ -61,7 +64,7 @@ def match(
     from comparison.tables import match_document, match_table, write_match
 
     compared = chosen_methods(path or (), assignments or (), methods)
-    loads = [numbers("--first-order", text, (3, 4), "alpha,psi,chi[,N]") for text in first_order or ()]
+    loads = [_load(text) for text in first_order or ()]
     asked = questions(compared, kappa_over_nu or THESIS_KAPPAS, loads, factors(refine), error_bars)
     if out is not None:
         check_writable(out, folder=True)
@@ -76,3 +79,11 @@ def match(
         print(printable(f"error: {row.label}, kappa/nu = {row.kappa_over_nu:g}: {row.reason}"), file=sys.stderr)
     if lost:
         raise typer.Exit(3)
+
+
+def _load(text: str) -> tuple[float | None, ...]:
+    """(α, ψ, χ[, N]) of ``--first-order``; α = ``None`` where it says ``free``."""
+    word, _, others = text.partition(",")
+    if word.strip() == "free":
+        return (None, *numbers("--first-order", others, (3,), "after free: psi,chi,N"))
+    return numbers("--first-order", text, (3, 4), "alpha,psi,chi[,N] or free,psi,chi,N")

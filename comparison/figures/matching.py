@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from comparison.figures import style
-from comparison.match import MatchRow
+from comparison.match import First, MatchRow
 from theory import contact_parameters
 
 __all__ = ["draw_first_order", "draw_leading", "draw_matching"]
@@ -87,11 +87,14 @@ def draw_leading(
 def draw_first_order(
     rows: Sequence[MatchRow], out: Path, formats: Sequence[str] = ("png",), name: str = "first-order"
 ) -> list[Path]:
-    """λ₁ and r₁ over κ/ν for every (α, ψ, χ, N) among the rows: a curve of the theory each, and the points."""
+    """λ₁ and r₁ over κ/ν for every (α, ψ, χ, N) among the rows, λ_N and r_N where it is tension alone: a curve of the
+    theory each, and the points."""
     asked = [r for r in rows if r.of_first_order]
-    firsts = sorted({r.first for r in asked})
+    # in free flight α differs with κ/ν, and λ₁, r₁ are λ_N, r_N times the axial force: one curve
+    firsts: list[First | None] = [*sorted({r.first for r in asked if not r.of_tension_alone})]
+    firsts += [None] if any(r.of_tension_alone for r in asked) else []
     marks = style.marks(r.label for r in asked)
-    tension = any(first[3] for first in firsts)
+    tension = any(first[3] for first in firsts if first)
     curve = np.linspace(0.05, 0.9999, 400)  # λ₁ jumps to 0 at κ/ν = 1
     with style.figure(1, 2, width=style.PAGE, height=3.6) as (fig, axes):
         for column, (what, symbol) in enumerate((("lambda1", r"$\lambda_1$"), ("r1", r"$r_1$"))):
@@ -99,31 +102,39 @@ def draw_first_order(
             largest = 1.0
             for i, first in enumerate(firsts):
                 colour = style.SEQUENCE[i % len(style.SEQUENCE)]
-                mine = [r for r in asked if r.first == first]
+                mine = [r for r in asked if (None if r.of_tension_alone else r.first) == first]
                 shown = curve[curve >= 0.8 * min(r.kappa_over_nu for r in mine)]
-                values = getattr(contact_parameters(shown, *first[:3], axial=first[3]), what)
-                loads = ", ".join(f"{v:g}" for v in first[: 4 if tension else 3]).replace("-", "−")
+                if first is None:
+                    values = getattr(contact_parameters(shown), {"lambda1": "lambda_axial", "r1": "r_axial"}[what])
+                    named = r"tension alone: $\lambda_N$, $r_N$"
+                else:
+                    values = getattr(contact_parameters(shown, *first[:3], axial=first[3]), what)
+                    named = f"({', '.join(f'{v:g}' for v in first[: 4 if tension else 3])})".replace("-", "−")
                 dash = ("-", "--", ":")[i // len(style.SEQUENCE) % 3]
-                axis.plot(shown, values, lw=1.1, ls=dash, color=colour, label=f"({loads})" if column == 0 else None)
+                axis.plot(shown, values, lw=1.1, ls=dash, color=colour, label=named if column == 0 else None)
                 for label, mark in marks.items():
-                    points = [(r.kappa_over_nu, getattr(r, what)) for r in mine if r.label == label]
-                    points = [(k, c) for k, c in points if c.measured]
+                    points = [
+                        (r.kappa_over_nu, getattr(r, what), r.axial if first is None else 1.0)
+                        for r in mine
+                        if r.label == label and getattr(r, what).measured
+                    ]
                     if points:
                         axis.errorbar(
-                            [k for k, _ in points],
-                            [c.value for _, c in points],
-                            yerr=[c.error or 0.0 for _, c in points],
+                            [k for k, _, _ in points],
+                            [c.value / unit for _, c, unit in points],
+                            yerr=[(c.error or 0.0) / abs(unit) for _, c, unit in points],
                             elinewidth=0.8,
                             capsize=2,
                             **{**mark, "color": colour, "label": None},
                         )
-                        largest = max(largest, *(abs(c.value) for _, c in points))
+                        largest = max(largest, *(abs(c.value / unit) for _, c, unit in points))
             axis.set_yscale("symlog", linthresh=1.0) if largest > 30 else None
             axis.set_xlabel(r"$\kappa/\nu$  (1)")
-            axis.set_ylabel(f"{symbol}  (1)")
+            of_tension = {"lambda1": r"$\lambda_N$", "r1": r"$r_N$"}[what]
+            axis.set_ylabel(f"{', '.join([symbol] * any(firsts) + [of_tension] * (None in firsts))}  (1)")
             style.panel_label(axis, "(a)" if column == 0 else "(b)")
         symbols = r"($\alpha$, $\psi$, $\chi$, $N$)" if tension else r"($\alpha$, $\psi$, $\chi$)"
-        axes[0].legend(title=symbols, ncols=2)
+        axes[0].legend(title=symbols if any(firsts) else None, ncols=2 if len(firsts) > 1 else 1)
         for mark in marks.values():
             axes[1].plot([], [], **{**mark, "color": style.COLOURS["black"]})
         axes[1].plot([], [], **style.THEORY)

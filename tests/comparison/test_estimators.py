@@ -3,6 +3,7 @@ their error bars.
 """
 
 import dataclasses
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -11,6 +12,7 @@ from bent_beam import Impact, ImpactHistory
 from comparison.estimators import (
     SIDE,
     Estimate,
+    _pressure,
     _smooth,
     first_order,
     leading_order,
@@ -220,3 +222,26 @@ def test_a_history_without_contact_is_refused():
     )
     with pytest.raises(ValueError, match="at least 8 instants"):
         leading_order(moments(ImpactHistory(empty)))
+
+
+@pytest.mark.parametrize("symmetry", ["half", "full"])
+def test_a_uniform_reaction_that_one_node_in_three_carries_is_read_off_to_a_thousandth(symmetry):
+    """As under tension on the self-similar path: a sum over nodes is off by what one of them carries."""
+    rng = np.random.default_rng(3)
+    half = np.linspace(0.0, 1.2, 241)
+    shared = np.zeros(half.size)
+    carrying = np.sort(rng.choice(np.arange(1, half.size), half.size // 3, replace=False))
+    edges = np.concatenate([[0.0], 0.5 * (half[carrying][1:] + half[carrying][:-1]), [half[-1]]])
+    shared[carrying] = 5.0 * np.diff(edges)
+    places, impulse = half, shared
+    if symmetry == "full":
+        places = np.concatenate([-half[:0:-1], half])
+        impulse = np.concatenate([shared[:0:-1], shared])
+    time = np.array([1.0, 1.1, 1.3])
+    history = SimpleNamespace(
+        time=time,
+        array=lambda name: time[:, None] * impulse,
+        contact_positions=lambda k: places,
+        dataset=SimpleNamespace(attrs={"symmetry": symmetry}),
+    )
+    assert _pressure(history, np.full(3, 1.4))[1:] == pytest.approx(5.0, rel=1e-3)

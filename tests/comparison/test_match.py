@@ -14,6 +14,7 @@ import comparison.match as matching
 from bent_beam import InputError, SimulationError
 from bent_beam.method import method_from_tables
 from comparison.compared import Compared
+from comparison.figures.matching import draw_first_order
 from comparison.match import MatchRow, Question, answer, failures, match, questions
 from comparison.methods import default_methods, methods_from_file, methods_of
 from comparison.store import RunStore
@@ -22,6 +23,7 @@ from comparison.workers import Expired, limited
 from exudyn_models import ExudynModel
 from hermite_fe import HermiteFE
 from self_similar_fe import SelfSimilarFE
+from theory import contact_parameters
 
 KEEP = RunStore(None)
 
@@ -124,6 +126,29 @@ def test_the_size_of_the_loads_is_within_the_error_bars(monkeypatch, kappa, firs
     for name in ("lambda1", "r1"):
         one, two = usual.compared()[name], other.compared()[name]
         assert abs(one.value - two.value) < one.error + two.error
+
+
+@pytest.mark.verify
+@pytest.mark.parametrize("kappa", [0.1, 0.15, 0.25, 0.35, 0.5, 0.65, 0.8])
+def test_tension_alone_on_the_self_similar_path_within_three_thousandths(kappa):
+    """Held by a load (0, 0, 0, 1) and in free flight, where λ₁, r₁ are λ_N, r_N."""
+    for first in ((0.0, 0.0, 0.0, 1.0), (-kappa, 0.0, 0.0, 1.0)):
+        row = answer(Question(SelfSimilarFE(), kappa, first, error_bars="drift"), KEEP)
+        for number in (row.lambda1, row.r1):
+            assert abs(number.value - number.theory) < 3e-3 * max(abs(number.theory), 1.0)
+        if row.of_tension_alone:
+            exact = contact_parameters(kappa)
+            assert (row.lambda1.theory, row.r1.theory) == pytest.approx((exact.lambda_axial, exact.r_axial), rel=1e-9)
+
+
+def test_free_flight_under_tension_has_its_own_acceleration_at_each_curvature(tmp_path):
+    asked = questions([SelfSimilarFE()], [0.5, 0.25], [(None, 0.0, 0.0, 2.0), (1.0, 0.0, 0.0)])
+    assert [q.first for q in asked] == [(-1.0, 0.0, 0.0, 2.0), (1.0, 0, 0, 0), (-0.5, 0.0, 0.0, 2.0), (1.0, 0, 0, 0)]
+    number = Compared(-1.9, 0.01, -1.897)
+    base = MatchRow("one", "self_similar", {}, 0.5, -1.0, 0.0, 0.0, 2.0, 1.0, lambda1=number, r1=number)
+    rows = [base, replace(base, kappa_over_nu=0.25, alpha=-0.5), replace(base, alpha=1.0, axial=0.0)]
+    assert [row.of_tension_alone for row in rows] == [True, True, False]
+    assert [file.name for file in draw_first_order(rows, tmp_path)] == ["first-order.png"]
 
 
 def test_a_sweep_resumes_and_does_not_depend_on_jobs(tmp_path):
