@@ -189,3 +189,25 @@ def test_a_fresh_run_gives_the_stated_numbers(command: str, text: str, monkeypat
     monkeypatch.chdir(ROOT)
     rows = matched(command)
     assert (wrong_in_table if text.startswith("|") else wrong_in_output)(rows, text) == []
+
+
+HITS = {"begins": "begin", "impulse": "impulse", "velocity after": "velocity", "energy lost": "lost"}
+
+
+@pytest.mark.verify
+def test_the_hits_of_the_page_are_those_of_its_command(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(ROOT)
+    page = (ROOT / "docs/whole_impact.md").read_text(encoding="utf-8")
+    found = re.search(r"<!-- made by: bentbeam (simulate .*?) -->\n+((?:\|[^\n]*\n)+)", page)
+    assert found is not None
+    assert run([*shlex.split(found[1]), "--json", "--quiet"]) == 0
+    hits = json.loads(capsys.readouterr().out)["hits"]
+    head, _, *body = (cells(line) for line in found[2].splitlines())
+    assert len(body) == len(hits)
+    for row, hit in zip(body, hits):
+        assert row[1].startswith(hit["wall"])
+        for title, cell in zip(head[2:], row[2:]):
+            value, unit = stated(cell)
+            assert hit[HITS[title.partition(",")[0]]] == pytest.approx(value, abs=1.01 * unit), (title, cell)
