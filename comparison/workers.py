@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import os
 import signal
 import threading
 import time as clock
@@ -12,7 +13,8 @@ from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import partial
-from multiprocessing import active_children, get_context
+from multiprocessing import active_children, get_context, parent_process
+from multiprocessing.connection import wait
 from types import FrameType
 from typing import Any
 
@@ -157,7 +159,8 @@ def _together(
     """All calls in one pool; returns those that were unfinished when a worker died."""
     # spawn: a fresh interpreter a worker, so no thread or lock of this process is inherited half-way
     context = get_context("spawn")
-    with ProcessPoolExecutor(max_workers=min(jobs, len(calls)), mp_context=context) as pool, workers_end_with_us():
+    pool = ProcessPoolExecutor(min(jobs, len(calls)), mp_context=context, initializer=end_with_parent)
+    with pool, workers_end_with_us():
         futures: dict[Future[Any], int] = {}
         broken = []
         with interrupts_held():
@@ -181,7 +184,7 @@ def _alone(function: Callable[..., Any], call: tuple[Any, ...], stopped: threadi
     for _ in range(2):
         if stopped.is_set():
             break
-        with ProcessPoolExecutor(max_workers=1, mp_context=get_context("spawn")) as pool:
+        with ProcessPoolExecutor(1, mp_context=get_context("spawn"), initializer=end_with_parent) as pool:
             try:
                 with interrupts_held():
                     future = pool.submit(function, *call)
@@ -202,6 +205,20 @@ def interrupts_held() -> Iterator[None]:
         yield
     finally:
         signal.pthread_sigmask(signal.SIG_SETMASK, before)
+
+
+def end_with_parent() -> None:
+    """In a worker: end when the process that started it is gone, however it went. Killed, it could tell nobody, and a
+    worker that waits for its next call would wait for ever."""
+    parent = parent_process()
+    if parent is None:
+        return
+
+    def watch() -> None:
+        wait([parent.sentinel])
+        os._exit(1)
+
+    threading.Thread(target=watch, daemon=True).start()
 
 
 @contextmanager

@@ -1,9 +1,9 @@
 """The map of the whole impact: every number over κ/ν and η/T*, with error bars, stored with where it comes from.
 
-``python -m comparison.whole_impact.map`` measures it (on two cores, in under ten minutes; points that are done are kept
-and not run again) and writes ``map.json`` beside this module; :func:`bounce_from_map` interpolates. A free–free beam
-has no other groups as long as it flies without loads: ε drops out, because the problem is homogeneous of degree one in
-the deflection.
+``python -m comparison.whole_impact.map`` measures it (on two cores, in under ten minutes) and writes ``map.json``
+beside this module, with the time that it took; interrupted, it goes on where it was when asked again, and says so.
+:func:`bounce_from_map` interpolates. A free–free beam has no other groups as long as it flies without loads: ε drops
+out, because the problem is homogeneous of degree one in the deflection.
 
 Every point is what :func:`comparison.bounce.bounce` says with the Hermite path's elements and law for the whole beam
 and steps h = Δx²√(μ/EI), with its error bars from elements, steps and contact law; below κ/ν = :data:`FLAT`, where a
@@ -18,6 +18,8 @@ import argparse
 import dataclasses
 import json
 import math
+import sys
+import time as clock
 from collections.abc import Callable, Sequence
 from functools import cache
 from itertools import chain, islice
@@ -98,10 +100,18 @@ def measure_point(point: Point) -> dict[str, Any]:
     }
 
 
+def _question(point: Point) -> dict[str, Any]:
+    return {"whole impact": point._asdict(), "saved": SAVED}
+
+
+def _is_kept(store: RunStore, point: Point) -> bool:
+    file = store.file(_question(point))
+    return file is not None and file.exists()
+
+
 def _kept_point(folder: str | None, point: Point) -> dict[str, Any]:
     store = RunStore(None if folder is None else Path(folder))
-    question = {"whole impact": point._asdict(), "saved": SAVED}
-    return store.answer(question, lambda: measure_point(point))
+    return store.answer(_question(point), lambda: measure_point(point))
 
 
 def _lost(i: int, why: str) -> Any:
@@ -131,9 +141,13 @@ def measure_map(
 
 
 def write_map(
-    rows: Sequence[dict[str, Any]], bands: Sequence[dict[str, Any]], others: Sequence[dict[str, Any]] = ()
+    rows: Sequence[dict[str, Any]],
+    bands: Sequence[dict[str, Any]],
+    others: Sequence[dict[str, Any]] = (),
+    run: dict[str, Any] | None = None,
 ) -> Path:
-    """Write ``map.json``. bands : of the undamped beam; others : points of another path, to draw on the map."""
+    """Write ``map.json``. bands : of the undamped beam; others : points of another path, to draw on the map; run : what
+    the command took, see :func:`_main`."""
     document = {
         "what": "the whole impact of a free-free bent beam, units L/2 = EI = mu = V0 = 1: number -> [value, error bar]",
         **stamp("python -m comparison.whole_impact.map"),
@@ -143,6 +157,7 @@ def write_map(
         "kappa_over_nu": sorted({row["kappa_over_nu"] for row in rows}),
         "damping": sorted({row["damping"] for row in rows}),
         "seconds": sum(row["seconds"] for row in (*rows, *bands, *others)),
+        "run": run,
         "points": [{k: v for k, v in row.items() if k != "settings"} for row in rows],
         "bands": list(bands),
         "others": [{k: v for k, v in row.items() if k != "settings"} for row in others],
@@ -227,23 +242,32 @@ def _place(grid: Array, at: float) -> tuple[int, float]:
     return i, 0.0 if share < 1e-9 else 1.0 if share > 1.0 - 1e-9 else share
 
 
-def _main() -> None:
+def _main() -> int:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--scheduler", default=None)
     asked = parser.parse_args()
     store = RunStore(default_store())
+    parts = grid(), [Point(PATH, kappa, 0.0) for kappa in BANDS], [Point(OTHER, *at, COARSER) for at in OTHERS]
+    points = list(chain(*parts))
+    before = sum(_is_kept(store, point) for point in points)
+    if before:
+        print(f"{before} of {len(points)} points are kept from an earlier run of the same code")
+    began = clock.perf_counter()
 
     def count(done: int, total: int) -> None:
-        print(f"\r{done}/{total}", end="", flush=True)
+        print(f"\r{done}/{total}, {clock.perf_counter() - began:.0f} s", end="", flush=True)
 
-    parts = grid(), [Point(PATH, kappa, 0.0) for kappa in BANDS], [Point(OTHER, *at, COARSER) for at in OTHERS]
-    found = iter(
-        measure_map(list(chain(*parts)), jobs=asked.jobs, scheduler=asked.scheduler, store=store, progress=count)
-    )
+    try:
+        found = iter(measure_map(points, jobs=asked.jobs, scheduler=asked.scheduler, store=store, progress=count))
+    except KeyboardInterrupt:
+        print("\ninterrupted: the same command again goes on from there")
+        return 130
+    run = {"jobs": asked.jobs, "wall_seconds": clock.perf_counter() - began, "points_of_earlier_runs": before}
     rows, bands, others = (list(islice(found, len(part))) for part in parts)
-    print(write_map(rows, bands, others))
+    print(f"\n{write_map(rows, bands, others, run)}")
+    return 0
 
 
 if __name__ == "__main__":
-    _main()
+    sys.exit(_main())

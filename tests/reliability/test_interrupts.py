@@ -94,6 +94,23 @@ def test_workers_end_with_the_command_and_say_nothing(after, tmp_path):
     assert nothing_left_of(process.pid)
 
 
+@pytest.mark.parametrize("how", [signal.SIGKILL, signal.SIGTERM], ids=lambda how: how.name)
+def test_workers_end_when_the_command_is_killed(how, tmp_path):
+    """No line of its own runs then: the workers themselves have to see that it is gone."""
+    ready, program = tmp_path / "ready", tmp_path / "program.py"
+    program.write_text(SLEEP.replace("arguments, **_", "**_").format(ready=str(ready)))
+    process = subprocess.Popen(
+        [sys.executable, str(program)], stdout=-1, stderr=-1, text=True, start_new_session=True, cwd=tmp_path
+    )
+    while not ready.exists():
+        time.sleep(0.01)
+    time.sleep(1.5)
+    process.send_signal(how)
+    process.communicate(timeout=30)
+    assert process.returncode == -how
+    assert nothing_left_of(process.pid)
+
+
 @pytest.fixture(scope="module")
 def files(tmp_path_factory):
     """A case, and a history of it."""
