@@ -27,13 +27,18 @@ from theory import contact_parameters, damped_zone
 from theory.stopped_beam import StoppedBeam
 from theory.validity import ends_errors
 
-SCHEMES = [MoreauJean(theta=0.5), NonsmoothGeneralizedAlpha()]
+SCHEMES = [MoreauJean(theta=0.5), NonsmoothGeneralizedAlpha(), SignoriniPosition(theta=0.5)]
 PATHS = ["hermite", "exudyn"]
 COARSE = HermiteFE(mesh=UniformMesh(1.0 / 50))
 
 
 def released(elements: int, step: float, integrator: object) -> tuple[float, float]:
-    """Steps between the first release and the exact one, and the error of the impulse at that time (κ/ν = 2)."""
+    """Steps between the first release and the exact one, and the error of the impulse at that time (κ/ν = 2).
+
+    Signorini's condition at position level with θ = ½ turns the velocity of a closed row in each step; its impulses
+    alternate, and the reaction is their mean over two steps. So the wall lets go in the middle of the first two steps
+    without a push.
+    """
     exact = StoppedBeam(1e-3).release()
     h = step / elements**2
     method = HermiteFE(mesh=UniformMesh(1.0 / elements), integrator=dataclasses.replace(integrator, time_step=h))  # type: ignore[type-var]
@@ -42,9 +47,9 @@ def released(elements: int, step: float, integrator: object) -> tuple[float, flo
     times = h * np.arange(round(0.078 / h), count + 1)
     history = method.for_whole_beam(impact).simulate(impact, end_time=count * h, save=times)
     impulse = history.array("total_impulse")[1:]
-    stopped = int(np.argmax(np.diff(impulse) <= 0.0))
+    stopped = int(np.argmax(impulse[2:] - impulse[:-2] <= 0.0))
     error = float(np.interp(exact.time, history.time[1:], impulse)) - exact.impulse
-    return (history.time[1 + stopped] - exact.time) / h, error
+    return (history.time[2 + stopped] - exact.time) / h, error
 
 
 @pytest.mark.parametrize("integrator", SCHEMES, ids=lambda scheme: type(scheme).__name__)
