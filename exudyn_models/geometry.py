@@ -18,11 +18,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bent_beam.checks import between
-from exudyn_models.scaling import Scaling
+from exudyn_models.scaling import Scaling, front_bound
 
 __all__ = ["GEOMETRIES", "Geometry", "LinearLimit", "Shape", "TrueGeometry"]
 
 Array = NDArray[np.float64]
+
+STEEPEST = 1e-4  # slope in the linear limit: at 2e-3 the energy budget of a whole impact is 8e-6 off
+MOVED = 2.0  # fronts' bounds from the centre: beyond, the beam keeps the shape that it came with
 
 
 @dataclass(frozen=True)
@@ -82,8 +85,9 @@ class Geometry(Protocol):
 
     true: ClassVar[bool]
 
-    def amplitude_of(self, true_amplitude: float) -> float:
-        """Deflection scale of the model over Λ, given that of the real beam."""
+    def amplitude_of(self, scaling: Scaling, reach: float) -> float:
+        """Deflection scale of the model over Λ for a beam modelled over ``reach`` Λ, ``scaling`` having the amplitude
+        one."""
         ...
 
     def shape(self, s: Array, scaling: Scaling, wall_share: float = 0.0) -> Shape:
@@ -95,18 +99,25 @@ class Geometry(Protocol):
 class LinearLimit:
     """Deflections scaled down until the beam is linear: the comparison with linear theory.
 
-    amplitude : deflection V₀T over the length Λ = (EI/μ)^{1/4}√T in the model; the history is scaled back.
+    amplitude : deflection V₀T over the length Λ = (EI/μ)^{1/4}√T in the model; the history is scaled back. None: such
+        that slopes of the free motion stay below 1e-4 where the impact moves the beam, their square being what is left
+        of geometry.
     """
 
     true: ClassVar[bool] = False
 
-    amplitude: float = 1e-3
+    amplitude: float | None = None
 
     def __post_init__(self) -> None:
-        between("geometry.amplitude", self.amplitude, 1e-9, 1.0)
+        if self.amplitude is not None:
+            between("geometry.amplitude", self.amplitude, 1e-9, 1.0)
 
-    def amplitude_of(self, true_amplitude: float) -> float:
-        return self.amplitude
+    def amplitude_of(self, scaling: Scaling, reach: float) -> float:
+        if self.amplitude is not None:
+            return self.amplitude
+        far = min(reach, MOVED * front_bound(scaling.kappa)) + abs(scaling.first_touch)
+        bow = max(abs(scaling.kappa), abs(scaling.beam_kappa)) * far + abs(scaling.psi) * far**3 / 6
+        return STEEPEST / max(1.0, bow + abs(scaling.spin) + abs(scaling.chi) * far)
 
     def shape(self, s: Array, scaling: Scaling, wall_share: float = 0.0) -> Shape:
         k, c, q, a = scaling.beam_kappa - scaling.kappa * wall_share, scaling.chi, scaling.psi, scaling.amplitude
@@ -139,8 +150,8 @@ class TrueGeometry:
 
     true: ClassVar[bool] = True
 
-    def amplitude_of(self, true_amplitude: float) -> float:
-        return true_amplitude
+    def amplitude_of(self, scaling: Scaling, reach: float) -> float:
+        return scaling.true_amplitude
 
     def shape(self, s: Array, scaling: Scaling, wall_share: float = 0.0) -> Shape:
         k, c, q, a = scaling.beam_kappa - scaling.kappa * wall_share, scaling.chi, scaling.psi, scaling.amplitude

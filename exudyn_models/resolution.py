@@ -36,6 +36,7 @@ Array = NDArray[np.float64]
 
 FIRST_SPREAD = 0.005  # T*: measured, from when on a finite beam's impulse is 1 % off the infinite beam's (κ/ν = 0.5)
 GROWTH = 0.01  # neighbours of the chosen mesh: 5 elements over the front's bending length at κ/ν = 0.05, 20 at 0.2
+WAVES, GROWTH_OF_WAVES = 2.0, 0.02  # beyond so many times the front's bound there are waves only, and these neighbours
 OF_ZONE, OF_BENDING = 300.0, 30.0  # the smallest element over the front's bound and over the bending ahead of it
 REACH, REACH_OF_FRONT = 12.0, 8.0  # half length to model, see far_field; tests/exudyn_models/test_exudyn_constants.py
 ELEMENT_STEPS = 4e5  # elements times steps of a run with uniform elements: a few seconds
@@ -85,7 +86,12 @@ def chosen_mesh(
         rule = ScaleFreeMesh(smallest * scaling.length * coarsen, 1.0 + 0.02 * coarsen)
     else:
         smallest = min(front / OF_ZONE, (2.0 / front) / OF_BENDING)
-        rule = ScaleFreeMesh(smallest * scaling.length * coarsen, 1.0 + GROWTH * coarsen)
+        rule = ScaleFreeMesh(
+            smallest * scaling.length * coarsen,
+            1.0 + GROWTH * coarsen,
+            zone=WAVES * front * scaling.length,
+            growth_outside=1.0 + GROWTH_OF_WAVES * coarsen,
+        )
     nodes = rule.nodes(chosen_half_length(impact, end_time))
     return NodesMesh(places=tuple(float(place) for place in nodes))
 

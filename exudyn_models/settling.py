@@ -49,8 +49,10 @@ class Settling:
         self._tried: dict[bytes, float] = {}  # what was assumed of them, and by how much it contradicted itself
         self._cycling = False
         self._imposed: NDArray[np.bool_] | None = None
+        self._gaps: NDArray[np.float64] | None = None  # that stand for it
         self._hooked = False
         self._first = ""
+        self.solution: tuple[NDArray[np.float64], NDArray[np.float64]] | None = None  # q, v last looked at
 
     def __call__(self, mbs: Any, time: float) -> list[float]:
         if time != self._time:
@@ -58,8 +60,13 @@ class Settling:
             self.steps += 1
         self._repetitions += 1
         data = mbs.systemData
-        closed = data.GetDataCoordinates()[:: self._contact.states] <= 0.0
+        closed = self._imposed
+        if closed is None:
+            closed = data.GetDataCoordinates()[:: self._contact.states] <= 0.0
         q, v = data.GetODE2Coordinates(), data.GetODE2Coordinates_t()
+        self.solution = (q, v)
+        if self._contact.imposes and np.array_equal(self._contact.closed_by(q, v), closed):
+            return self._accept(mbs, closed)
         wrong = self._contact.contradictions(q, v, closed)
         force = float(wrong.max(initial=0.0))
         if force <= self._tolerance:
@@ -108,23 +115,30 @@ class Settling:
 
     def _set(self, mbs: Any, closed: NDArray[np.bool_]) -> None:
         """Assume ``closed`` in the next repetition, whatever the gaps show."""
-        self._imposed = closed
+        self._assume(closed)
         if not self._hooked:
             mbs.SetPreNewtonResidualUserFunction(self._impose)
             self._hooked = True
         mbs.solverSignalJacobianUpdate = True
 
+    def _assume(self, closed: NDArray[np.bool_]) -> None:
+        if closed is not self._imposed:
+            self._imposed, self._gaps = closed, np.where(closed, -TINY, TINY)
+
     def _impose(self, mbs: Any, time: float, newton_step: int, repetition: int) -> None:
         """Exudyn's ``PreNewtonResidualUserFunction``: the state to assume instead of what the last gaps showed."""
-        if newton_step == 0 and self._imposed is not None:
+        if newton_step == 0 and self._gaps is not None:
+            if self._contact.states == 1:
+                mbs.systemData.SetDataCoordinates(self._gaps)
+                return
             data = mbs.systemData.GetDataCoordinates()
-            data[:: self._contact.states] = np.where(self._imposed, -TINY, TINY)
+            data[:: self._contact.states] = self._gaps
             mbs.systemData.SetDataCoordinates(data)
 
     def _follow(self, mbs: Any) -> None:
         """All connectors follow their gaps again."""
         if self._hooked:
-            self._imposed, self._hooked = None, False
+            self._imposed, self._gaps, self._hooked = None, None, False
             mbs.SetPreNewtonResidualUserFunction(0)
 
     def _accept(self, mbs: Any, closed: NDArray[np.bool_]) -> list[float]:
@@ -132,7 +146,7 @@ class Settling:
         if self._contact.imposes:
             if not self._hooked:
                 self._set(mbs, closed)
-            self._imposed = closed
+            self._assume(closed)
         else:
             self._follow(mbs)
         self._solver.it.discontinuousIteration = self._iterations - 1

@@ -133,13 +133,13 @@ def simulate(
         raise ValueError(reason)
 
     began = clock.perf_counter()
-    true = Scaling(impact, end, 1.0).true_amplitude
-    scaling = Scaling(impact, end, geometry.amplitude_of(true))
     laid, integrator = refined_choice(mesh, integrator, impact, end, open_steps=open_steps, refine=refine)
     half_length = impact.half_length
     if isinstance(laid, NodesMesh) and laid.places[-1] <= half_length * (1.0 + 1e-9):
         half_length = laid.places[-1]
-    places = checked_nodes(laid.nodes(half_length)) / scaling.length
+    unscaled = Scaling(impact, end, 1.0)
+    places = checked_nodes(laid.nodes(half_length)) / unscaled.length
+    scaling = Scaling(impact, end, geometry.amplitude_of(unscaled, float(places[-1])))
     nodes = mirrored(places) if full_beam else places
     shape = geometry.shape(nodes, scaling, contact.wall_share(geometry))
     half = not full_beam
@@ -196,7 +196,7 @@ def simulate(
             "nodes": int(nodes.size),
             "modelled_half_length": float(half_length),
             "amplitude": scaling.amplitude,
-            "amplitude_of_the_real_beam": true,
+            "amplitude_of_the_real_beam": scaling.true_amplitude,
             "ends": "moment and shear of the free motion" if scaling.psi or scaling.chi else "free",
             "first_step": segments[0].length * end,
             "last_step": last_step * end,

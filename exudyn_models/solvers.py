@@ -41,7 +41,7 @@ class NewtonSolver:
     """
 
     absolute_tolerance: float = 1e-8
-    relative_tolerance: float = 1e-6
+    relative_tolerance: float = 1e-5
     contact_tolerance: float = 1e-4
     iterations: int = 25
     contact_iterations: int = 300

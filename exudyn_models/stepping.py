@@ -49,8 +49,9 @@ class Stepping:
 class _Reader:
     """Exudyn's ``PostStepUserFunction``: reads every step, saves the state where asked, switches connectors."""
 
-    def __init__(self, run: Recorder, targets: Array, done: Stepping, must_settle: Settling | None) -> None:
-        self.run, self.targets, self.done, self.must_settle = run, targets, done, must_settle
+    def __init__(self, run: Recorder, targets: Array, done: Stepping, settling: Settling | None) -> None:
+        self.run, self.targets, self.done, self.settling = run, targets, done, settling
+        self.must_settle = settling is not None and settling.must_settle
         self.progress: Callable[[float], object] | None = None
         self.until: Callable[[Recorder, float, Array, Array], bool] | None = None
         self.time = 0.0
@@ -67,12 +68,13 @@ class _Reader:
             return False
 
     def _read(self, mbs: Any, time: float) -> bool:
-        if self.must_settle is not None and self.must_settle.unsettled:
+        settling = self.settling
+        if self.must_settle and settling is not None and settling.unsettled:
             return False
         run = self.run
         if time <= self.time:  # Exudyn calls at the start of a segment, too
             return True
-        q, v = run.read(time, time - self.time)
+        q, v = run.read(time, None if settling is None else settling.solution)
         self.time = time
         self.done.steps += 1
         if self.saved < self.targets.size and time >= self.targets[self.saved] * (1.0 - 1e-9):
@@ -102,7 +104,7 @@ def step_through(
     mbs, time, done = run.beam.mbs, settings.timeIntegration, Stepping()
     if settling is not None:
         mbs.SetPostNewtonUserFunction(settling)
-    reader = _Reader(run, targets, done, settling if settling is not None and settling.must_settle else None)
+    reader = _Reader(run, targets, done, settling)
     reader.progress, reader.until = progress, until
     try:
         first = segments[0]
@@ -111,7 +113,7 @@ def step_through(
         if not solver.InitializeSolver(mbs, settings):
             return done.failed("Exudyn could not initialise")
         done.seconds += clock.perf_counter() - began
-        q, v = run.read(0.0, 0.0)
+        q, v = run.read(0.0)
         run.save(0.0, q, v)
         run.contact.between(0.0, first.length, q, v)
         mbs.SetPostStepUserFunction(reader)
@@ -142,4 +144,5 @@ def step_through(
         return done.failed("Exudyn's solver failed: " + " ".join(str(error).split())[:200])
     finally:
         mbs.SetPostStepUserFunction(0)
+        run.sum_up()
     return done

@@ -18,6 +18,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import exudyn.itemInterface as items
@@ -66,6 +67,8 @@ class _Run(ContactRun):
         self.strip = strip
         self.explicit = wall.explicit
         self.held = np.zeros(self.nodes.size, bool)
+        self._of: tuple[Array | None, Array | None] = None, None
+        self._force = np.zeros(self.nodes.size)
         self.contacts: list[Any] = []
         self.holders: list[Any] = []
         mbs = beam.mbs
@@ -102,18 +105,26 @@ class _Run(ContactRun):
                     )
                 )
 
+    @cached_property
+    def _coordinates(self) -> NDArray[np.int64]:
+        """Of the contact points in the system's vectors, known once it is assembled."""
+        return np.asarray(self.beam.vertical[self.nodes])
+
     def depth(self, q: Array) -> Array:
-        return np.asarray(self._signs * (q[self.beam.vertical[self.nodes]] - self.wall_y))
+        return np.asarray(self._signs * (q[self._coordinates] - self.wall_y))
 
     @property
     def signs(self) -> Array:
         return self._signs
 
     def velocity(self, q: Array, v: Array) -> Array:
-        return np.asarray(self._signs * v[self.beam.vertical[self.nodes]])
+        return np.asarray(self._signs * v[self._coordinates])
 
     def _spring_and_dashpot(self, q: Array, v: Array) -> Array:
-        return np.asarray(self.stiffness * self.depth(q) + self.damping * self.velocity(q, v))
+        if self._of[0] is not q or self._of[1] is not v:  # one solution is looked at more than once
+            self._of = q, v
+            self._force = self.stiffness * self.depth(q) + self.damping * self.velocity(q, v)
+        return self._force
 
     def closed_by(self, q: Array, v: Array) -> Flags:
         return self._spring_and_dashpot(q, v) > 0.0
@@ -121,7 +132,8 @@ class _Run(ContactRun):
     def forces(self, q: Array, v: Array) -> tuple[Array, Flags]:
         force = self._spring_and_dashpot(q, v)
         active = (force > 0.0) | self.held
-        self.strip.captured |= active[: self.strip.captured.size]
+        if self.strip.used:
+            self.strip.captured |= active[: self.strip.captured.size]
         return np.where(active, self._signs * force, 0.0), active
 
     def stored_energy(self, q: Array) -> float:
@@ -133,6 +145,17 @@ class _Run(ContactRun):
         return np.where(((force > 0.0) != closed) & ~self.held, np.abs(force), 0.0)
 
     def between(self, time: float, step: float, q: Array, v: Array) -> bool:
+        changed = self._held_or_let_go(time) if self.strip.used else 0
+        if self.explicit:  # nothing is repeated: the state at the start of a step serves all of it
+            data, closed = self.beam.mbs.systemData, self.closed_by(q, v)
+            if not np.array_equal(closed, data.GetDataCoordinates() <= 0.0):
+                data.SetDataCoordinates(np.where(closed, -1e-30, 1e-30))
+        return changed > 0
+
+    def _held_or_let_go(self, time: float) -> int:
+        """Hold the nodes that are to be held from ``time`` on, and no others; how many changed."""
+        if time >= self.strip.until and not self.held.any():
+            return 0
         wanted = np.zeros_like(self.held)
         wanted[: self.strip.captured.size] = self.strip.wanted(time)
         changed = np.flatnonzero(wanted != self.held)
@@ -142,11 +165,7 @@ class _Run(ContactRun):
             for name, value in (("contactStiffness", self.stiffness[k]), ("contactDamping", self.damping[k])):
                 self.beam.mbs.SetObjectParameter(self.contacts[k], name, 0.0 if wanted[k] else float(value))
         self.held = wanted
-        if self.explicit:  # nothing is repeated: the state at the start of a step serves all of it
-            data, closed = self.beam.mbs.systemData, self.closed_by(q, v)
-            if not np.array_equal(closed, data.GetDataCoordinates() <= 0.0):
-                data.SetDataCoordinates(np.where(closed, -1e-30, 1e-30))
-        return bool(changed.size)
+        return int(changed.size)
 
     def stiffness_and_damping(self) -> tuple[Array, Array]:
         k, d = np.zeros((2, self.beam.shape.s.size))

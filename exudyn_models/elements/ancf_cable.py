@@ -9,6 +9,7 @@ the mesh cannot resolve: waves of wave number k by the ratio c(kΔx)²/2.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import exudyn.itemInterface as items
@@ -37,40 +38,42 @@ def _shapes(derivative: int) -> Array:
     return np.array([-6 * one + 12 * x, -4 * one + 6 * x, 6 * one - 12 * x, 6 * x - 2 * one])
 
 
+SHAPES = tuple(_shapes(derivative) for derivative in range(3))
+
+
 class _Cable(Beam):
     rotation_coordinate = 3
 
-    def _field(self, q: Array, offset: int, derivative: int) -> Array:
-        """A component (0: x, 1: y) or its derivative by s at the Gauss points, shape (elements, points)."""
-        first = self.horizontal + offset
-        value, gradient, length = q[first], q[first + 2], self.lengths[:, None]
-        n = _shapes(derivative)
-        return np.asarray(
-            (
-                value[:-1, None] * n[0]
-                + value[1:, None] * n[2]
-                + length * (gradient[:-1, None] * n[1] + gradient[1:, None] * n[3])
-            )
-            / length**derivative
-        )
+    @cached_property
+    def _first(self) -> NDArray[np.int64]:
+        """Coordinates (x₁, x₁′, x₂, x₂′) of the elements, known once the system is assembled."""
+        left, right = self.horizontal[:-1], self.horizontal[1:]
+        return np.stack([left, left + 2, right, right + 2], axis=1)
 
-    def _integral(self, values: Array) -> float:
-        return float((values * self.lengths[:, None] * WEIGHTS / 2).sum())
+    def _fields(self, q: Array, offset: int, *derivatives: int) -> list[Array]:
+        """Derivatives by s of a component (0: x, 1: y) at the Gauss points, each (…, elements, points)."""
+        length = self.lengths[:, None]
+        at_nodes = q[..., self._first + offset]
+        at_nodes[..., 1::2] *= length
+        return [at_nodes @ SHAPES[derivative] / length**derivative for derivative in derivatives]
+
+    def _integral(self, values: Array) -> Array:
+        return np.asarray((values * (self.lengths[:, None] * WEIGHTS / 2)).sum(axis=(-2, -1)))
 
     def slope(self, q: Array) -> Array:
         return np.asarray(q[self.rotation] / (1.0 + q[self.horizontal + 2]))
 
-    def kinetic_energy(self, v: Array) -> float:
-        square = self._field(v, 0, 0) ** 2 + self._field(v, 1, 0) ** 2
-        return self.section.mass_per_length * self._integral(square) / 2
+    def kinetic_energy(self, v: Array) -> Array:
+        (along,), (across,) = self._fields(v, 0, 0), self._fields(v, 1, 0)
+        return np.asarray(self.section.mass_per_length * self._integral(along**2 + across**2) / 2)
 
     def _curvature(self, q: Array) -> tuple[Array, Array]:
-        x1, y1 = 1.0 + self._field(q, 0, 1), self._field(q, 1, 1)
-        x2, y2 = self._field(q, 0, 2), self._field(q, 1, 2)
+        (x1, x2), (y1, y2) = self._fields(q, 0, 1, 2), self._fields(q, 1, 1, 2)
+        x1 += 1.0
         square = x1**2 + y1**2
         return (x1 * y2 - y1 * x2) / square, np.sqrt(square) - 1.0
 
-    def strain_energy(self, q: Array) -> float:
+    def strain_energy(self, q: Array) -> Array:
         curvature, strain = self._curvature(q)
         bending = self.section.bending_stiffness * (curvature - self.shape.curvature) ** 2
         return self._integral(bending + self.section.axial_stiffness * (strain**2 - self.section.stretch**2)) / 2
@@ -82,7 +85,7 @@ class _Cable(Beam):
         length = self.lengths
         scale = np.stack([np.ones_like(length), length, np.ones_like(length), length], axis=1)
         outer = scale[:, :, None] * scale[:, None, :]
-        n, b = _shapes(0), _shapes(2)
+        n, _, b = SHAPES
         mass = (n * WEIGHTS / 2) @ n.T * outer * (self.section.mass_per_length * length)[:, None, None]
         bend = (b * WEIGHTS / 2) @ b.T * outer / (length**3)[:, None, None]
         return mass, self.section.bending_stiffness * bend, self.viscosity[:, None, None] * bend

@@ -116,8 +116,9 @@ class Beam(ABC):
             load = items.LoadCoordinate(markerNumber=marker, load=constant)
         self.mbs.AddLoad(load)
 
-    def loads(self) -> Callable[[float], Array]:
-        """After ``locate``: all loads as forces on the system's coordinates, as a function of time."""
+    def loads(self) -> Callable[[Array], Array]:
+        """After ``locate``: all loads as forces on the system's coordinates, as a function of times, (times,
+        coordinates)."""
         size = self.mbs.systemData.GetODE2Coordinates().size
         uniform = np.zeros(size)
         uniform[self.vertical] = self.uniform_load
@@ -126,7 +127,7 @@ class Beam(ABC):
             place = self.vertical[node] - self.vertical_coordinate + coordinate
             constant[place] += value
             rate[place] += slope
-        return lambda time: constant + rate * time
+        return lambda times: constant + np.multiply.outer(times, rate)
 
     def _assembled(self, matrices: Array, first: NDArray[np.int64], second: NDArray[np.int64]) -> Matrix:
         """The system's matrix of element matrices in (first, second) of the left node, then of the right."""
@@ -169,10 +170,12 @@ class Beam(ABC):
         """dy/dx at the nodes."""
 
     @abstractmethod
-    def kinetic_energy(self, v: Array) -> float: ...
+    def kinetic_energy(self, v: Array) -> Array:
+        """Of one state, or of each of several, v (states, coordinates)."""
 
     @abstractmethod
-    def strain_energy(self, q: Array) -> float: ...
+    def strain_energy(self, q: Array) -> Array:
+        """Of one state, or of each of several, q (states, coordinates)."""
 
     @abstractmethod
     def element_matrices(self) -> tuple[Array, Array, Array]:

@@ -35,25 +35,25 @@ class _Exact(Beam):
 
     def _square(self, values: Array) -> Array:
         """∫ of the square of a linearly interpolated field over each element, over its length."""
-        a, b = values[:-1], values[1:]
+        a, b = values[..., :-1], values[..., 1:]
         return np.asarray((a**2 + a * b + b**2) / 3)
 
-    def kinetic_energy(self, v: Array) -> float:
-        square = self._square(v[self.horizontal]) + self._square(v[self.vertical])
-        turning = self.rotary_inertia * self._square(v[self.rotation])
-        return float(((self.section.mass_per_length * square + turning) * self.lengths).sum() / 2)
+    def kinetic_energy(self, v: Array) -> Array:
+        square = self._square(v[..., self.horizontal]) + self._square(v[..., self.vertical])
+        turning = self.rotary_inertia * self._square(v[..., self.rotation])
+        return np.asarray(((self.section.mass_per_length * square + turning) * self.lengths).sum(axis=-1) / 2)
 
-    def strain_energy(self, q: Array) -> float:
-        length, theta = self.lengths, q[self.rotation]
-        dx = 1.0 + np.diff(q[self.horizontal]) / length
-        dy = np.diff(q[self.vertical]) / length
-        middle = (theta[:-1] + theta[1:]) / 2
+    def strain_energy(self, q: Array) -> Array:
+        length, theta = self.lengths, q[..., self.rotation]
+        dx = 1.0 + np.diff(q[..., self.horizontal]) / length
+        dy = np.diff(q[..., self.vertical]) / length
+        middle = (theta[..., :-1] + theta[..., 1:]) / 2
         strain = dx * np.cos(middle) + dy * np.sin(middle) - 1.0
         shear = dy * np.cos(middle) - dx * np.sin(middle)
         bending = self.section.bending_stiffness * (np.diff(theta) / length - self.shape.curvature) ** 2
         axial = self.section.axial_stiffness * (strain**2 - self.section.stretch**2)
         total = bending + axial + self.shear_stiffness * shear**2
-        return float((total * length).sum() / 2)
+        return np.asarray((total * length).sum(axis=-1) / 2)
 
     def axial_mass(self) -> Array:
         pair = np.array([[2.0, 1.0], [1.0, 2.0]]) / 6

@@ -23,7 +23,8 @@ __all__ = ["Averages", "Implicit", "Integrator", "Segment", "checked_steps", "gr
 Array = NDArray[np.float64]
 
 MAXIMUM_STEPS = 5_000_000
-CHANGE = 1.05
+EVEN = 12.5  # steps of one length at least, while steps grow …
+CHANGE = 1.05  # … or as many as it takes them to grow by this factor
 
 
 @dataclass(frozen=True)
@@ -51,10 +52,19 @@ class Averages:
     alpha_m: float = 0.0
     alpha_f: float = 0.0
 
-    def impulse(self, old: Array, new: Array, averaged: Array) -> tuple[Array, Array]:
-        """Impulse of a force over the step's length, and its average φ₁; ``averaged`` is φ₀."""
-        after = ((1.0 - self.alpha_f) * new + self.alpha_f * old - self.alpha_m * averaged) / (1.0 - self.alpha_m)
-        return (1.0 - self.gamma) * averaged + self.gamma * after, after
+    def impulses(self, forces: Array, averaged: Array) -> tuple[Array, Array]:
+        """Impulse of forces over the length of each step, (steps, points), and the last average φ₁.
+
+        forces : at the ends of the steps, (steps + 1, points). averaged : the first φ₀, (points,).
+        """
+        steps = forces.shape[0] - 1
+        averages = np.empty((steps + 1, forces.shape[1]))
+        averages[0] = averaged
+        averages[1:] = ((1.0 - self.alpha_f) * forces[1:] + self.alpha_f * forces[:-1]) / (1.0 - self.alpha_m)
+        if self.alpha_m:
+            apart = np.subtract.outer(np.arange(steps + 1), np.arange(steps + 1))
+            averages = np.tril((-self.alpha_m / (1.0 - self.alpha_m)) ** np.maximum(apart, 0)) @ averages
+        return (1.0 - self.gamma) * averages[:-1] + self.gamma * averages[1:], averages[-1]
 
 
 def checked_steps(count: float) -> None:
@@ -69,7 +79,7 @@ def checked_steps(count: float) -> None:
 def growing_segments(first: float, relative: float, constant: bool = False) -> list[Segment]:
     """Segments over 0 ≤ t ≤ 1: steps of ``first``, then of ``relative``·t (``constant``: of ``first`` throughout).
 
-    A new step size costs a factorisation: it changes by ``CHANGE`` at a time.
+    A new step size costs a factorisation: it changes by ``CHANGE`` at a time, or by what ``EVEN`` steps make of it.
     """
     even, grown = 1.0 / max(first, 1e-300), 0.0
     if not constant:
@@ -78,9 +88,9 @@ def growing_segments(first: float, relative: float, constant: bool = False) -> l
     if constant:
         return [Segment(0.0, 1.0, max(1, round(even)))]
     segments: list[Segment] = []
-    t, step = 0.0, first
+    t, step, change = 0.0, first, max(CHANGE, 1.0 + EVEN * relative)
     while t < 1.0 - 1e-12:
-        count = max(1, math.ceil((CHANGE * step / relative - t) / step - 1e-9))
+        count = max(1, math.ceil((change * step / relative - t) / step - 1e-9))
         if t + count * step > 1.0 - step * 1e-6:
             count = max(1, round((1.0 - t) / step + 0.499))
             segments.append(Segment(t, 1.0, count))

@@ -59,6 +59,8 @@ def test_a_setting_halved_or_doubled(part, factor: float, chosen: LeadingEstimat
     [
         (holding, "START"),
         (resolution, "GROWTH"),
+        (resolution, "WAVES"),
+        (resolution, "GROWTH_OF_WAVES"),
         (resolution, "OF_ZONE"),
         (resolution, "OF_BENDING"),
         (resolution, "REACH"),

@@ -240,7 +240,7 @@ def test_history_round_trips_and_saves_where_asked(tmp_path):
     again = ImpactHistory.load(history.save(tmp_path / "run.nc"))
     assert again.dataset.equals(history.dataset)
     assert again.settings["contact"]["kind"] == "Penalty"
-    assert again.settings["amplitude"] == 1e-3
+    assert 0.0 < again.settings["amplitude"] <= 1e-4
 
 
 def test_discrete_regime_keeps_one_point_in_contact():
