@@ -31,6 +31,7 @@ import json
 import unicodedata
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
+from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -72,16 +73,56 @@ UNITS = {
     "loss_material": "J",
     "loss_absorbed": "J",
 }
+COORDINATES = ("time", "x", "contact_x")
 REQUIRED = ("time", "x", "contact_x", "gap", "impulse", "total_impulse", "kinetic_energy", "strain_energy")
 FORMAT = "bent-beam-impact history 2"
 CONTROL = {"Cc", "Cf", "Cs"}  # of Unicode
 
 
 @dataclass(frozen=True)
-class ImpactHistory:
-    """What a simulation returns: ``dataset`` (see the module's table) with typed access to what is asked often."""
+class Record:
+    """The variables and attributes of a history before they are a dataset: a run that is only reduced to numbers does
+    without xarray, which takes longer to import than a small run takes.
 
-    dataset: xr.Dataset
+    variables : name → (dimensions, values); attrs : as of the dataset.
+    """
+
+    variables: Mapping[str, tuple[tuple[str, ...], NDArray[Any]]]
+    attrs: Mapping[str, Any]
+
+    def __post_init__(self) -> None:
+        sizes: dict[str, int] = {}
+        for name, (dims, values) in self.variables.items():
+            if len(dims) != values.ndim:
+                raise ValueError(f"history field {name} must have dimensions {dims} (got shape {values.shape})")
+            for dim, size in zip(dims, values.shape):
+                if sizes.setdefault(dim, size) != size:
+                    raise ValueError(f"history field {name} must have {sizes[dim]} of {dim} (got {size})")
+
+    def dataset(self) -> xr.Dataset:
+        """The same as a dataset; values are shared."""
+        import xarray as xr
+
+        def variable(name: str) -> tuple[Any, ...]:
+            return (*self.variables[name], {"units": UNITS[name]} if name in UNITS else {})
+
+        data = {name: variable(name) for name in self.variables if name not in COORDINATES}
+        return xr.Dataset(data, coords={name: variable(name) for name in COORDINATES}, attrs=dict(self.attrs))
+
+
+@dataclass(frozen=True, eq=False)
+class ImpactHistory:
+    """What a simulation returns: :attr:`dataset` (see the module's table) with typed access to what is asked often.
+
+    source : the dataset, or what it is made of when somebody asks for it.
+    """
+
+    source: xr.Dataset | Record
+
+    @cached_property
+    def dataset(self) -> xr.Dataset:
+        """The variables of the module's table, with their units."""
+        return self.source.dataset() if isinstance(self.source, Record) else self.source
 
     # making -------------------------------------------------------------------------------------------
     @classmethod
@@ -108,93 +149,100 @@ class ImpactHistory:
         steps, seconds : time steps taken and wall seconds spent in the solver.
         Raises ``ValueError`` when a field is not finite.
         """
-        import xarray as xr  # here, because it takes longer to import than a prediction takes
-
-        data: dict[str, Any] = {}
-        for name, (dims, values) in fields.items():
-            array = np.asarray(values)
+        given = {**fields, "time": (("time",), time), "x": (("x",), x), "contact_x": (("contact",), contact_x)}
+        variables: dict[str, tuple[tuple[str, ...], NDArray[Any]]] = {}
+        for name, (dims, values) in given.items():
+            array = np.asarray(values, float if name in COORDINATES else None)
             if array.dtype.kind == "f" and not np.all(np.isfinite(array)):
                 raise ValueError(f"history field {name} is not finite")
-            data[name] = (tuple(dims), array, {"units": UNITS[name]} if name in UNITS else {})
-        dataset = xr.Dataset(
-            data,
-            coords={
-                "time": ("time", np.asarray(time, float), {"units": "s"}),
-                "x": ("x", np.asarray(x, float), {"units": "m"}),
-                "contact_x": ("contact", np.asarray(contact_x, float), {"units": "m"}),
-            },
-            attrs={
-                "format": FORMAT,
-                "path": path,
-                "symmetry": symmetry,
-                "impact": json.dumps(asdict(impact)),
-                "settings": json.dumps(dict(settings), sort_keys=True),
-                "versions": json.dumps(versions(), sort_keys=True),
-                "warnings": json.dumps(list(warnings)),
-                "steps": int(steps),
-                "seconds": float(seconds),
-                "completed": int(completed),
-            },
-        )
-        return cls(dataset)
+            variables[name] = (tuple(dims), array)
+        attrs = {
+            "format": FORMAT,
+            "path": path,
+            "symmetry": symmetry,
+            "impact": json.dumps(asdict(impact)),
+            "settings": json.dumps(dict(settings), sort_keys=True),
+            "versions": json.dumps(versions(), sort_keys=True),
+            "warnings": json.dumps(list(warnings)),
+            "steps": int(steps),
+            "seconds": float(seconds),
+            "completed": int(completed),
+        }
+        return cls(Record(variables, attrs))
 
     # reading ------------------------------------------------------------------------------------------
     @property
+    def attrs(self) -> Mapping[str, Any]:
+        """The attributes of the dataset, which need not be made for them."""
+        return self._now.attrs
+
+    @property
+    def _now(self) -> xr.Dataset | Record:
+        """The dataset once there is one: it is what somebody may have changed."""
+        return self.__dict__.get("dataset", self.source)
+
+    @property
     def impact(self) -> Impact:
-        return Impact(**json.loads(self.dataset.attrs["impact"]))
+        return Impact(**json.loads(self.attrs["impact"]))
 
     @property
     def path(self) -> str:
-        return str(self.dataset.attrs["path"])
+        return str(self.attrs["path"])
+
+    @property
+    def symmetry(self) -> str:
+        """What was modelled: the "half" beam or the "full" one."""
+        return str(self.attrs["symmetry"])
 
     @property
     def settings(self) -> dict[str, Any]:
-        return dict(json.loads(self.dataset.attrs["settings"]))
+        return dict(json.loads(self.attrs["settings"]))
 
     @property
     def versions(self) -> dict[str, str]:
-        return dict(json.loads(self.dataset.attrs["versions"]))
+        return dict(json.loads(self.attrs["versions"]))
 
     @property
     def warnings(self) -> list[str]:
-        return list(json.loads(self.dataset.attrs["warnings"]))
+        return list(json.loads(self.attrs["warnings"]))
 
     @property
     def steps(self) -> int:
-        return int(self.dataset.attrs["steps"])
+        return int(self.attrs["steps"])
 
     @property
     def seconds(self) -> float:
-        return float(self.dataset.attrs["seconds"])
+        return float(self.attrs["seconds"])
 
     @property
     def completed(self) -> bool:
-        return bool(self.dataset.attrs["completed"])
+        return bool(self.attrs["completed"])
 
     @property
     def time(self) -> Array:
         """Saved instants, s, shape (times,)."""
-        return np.asarray(self.dataset["time"].values)
+        return self.array("time")
 
     def positions(self, k: int) -> Array:
         """Node places at saved instant ``k``, m, shape (nodes,)."""
-        if "position" in self.dataset:
-            return np.asarray(self.dataset["position"].values[k])
-        return np.asarray(self.dataset["x"].values)
+        return self.array("position")[k] if "position" in self else self.array("x")
 
     def contact_positions(self, k: int) -> Array:
         """Contact point places at saved instant ``k``, m, shape (contacts,)."""
-        if "contact_position" in self.dataset:
-            return np.asarray(self.dataset["contact_position"].values[k])
-        return np.asarray(self.dataset["contact_x"].values)
+        return self.array("contact_position")[k] if "contact_position" in self else self.array("contact_x")
+
+    def __contains__(self, name: str) -> bool:
+        """Whether the history has this variable."""
+        return name in self._now.variables
 
     def array(self, name: str) -> NDArray[Any]:
-        """The values of one variable of the dataset."""
-        return np.asarray(self.dataset[name].values)
+        """The values of one variable."""
+        now = self._now
+        return np.asarray(now.variables[name][1] if isinstance(now, Record) else now[name].values)
 
     def energy(self, name: str) -> Array:
         """One of the energies of the module's table, J, shape (times,): nothing where the path has no such term."""
-        return self.array(name) if name in self.dataset else np.zeros(self.time.size)
+        return self.array(name) if name in self else np.zeros(self.time.size)
 
     def energy_budget(self) -> dict[str, float]:
         """Where the energy went between the first and the last saved instant, J, and the ``defect`` of the sum."""
@@ -216,7 +264,7 @@ class ImpactHistory:
                 "loss_material",
                 "loss_absorbed",
             )
-            if name in self.dataset
+            if name in self
         }
         balance = budget.get("kinetic_energy", 0.0) + budget.get("strain_energy", 0.0)
         balance += budget.get("contact_energy", 0.0) - budget.get("work_of_loads", 0.0)

@@ -99,18 +99,17 @@ class Moments:
 
 def one_side(history: ImpactHistory) -> tuple[Array, Array]:
     """Total impulse of one side (N s) and its first moment (N s m) at the saved instants."""
-    data = history.dataset
     total = history.array("total_impulse") / 2.0
-    if "impulse_moment" in data:
+    if "impulse_moment" in history:
         return total, history.array("impulse_moment")
     impulse = history.array("impulse")
-    if "contact_position" in data:  # each contact point gathers on its way: what it got is taken halfway
+    if "contact_position" in history:  # each contact point gathers on its way: what it got is taken halfway
         places = np.abs(np.stack([history.contact_positions(k) for k in range(history.time.size)]))
         pushes = np.diff(impulse, axis=0, prepend=0.0 * impulse[:1])
         moment = np.cumsum((pushes * 0.5 * (places + np.concatenate([places[:1], places[:-1]]))).sum(axis=1))
     else:
         moment = impulse @ np.abs(history.contact_positions(0))
-    return total, moment / 2.0 if data.attrs["symmetry"] == "full" else moment
+    return total, moment / 2.0 if history.symmetry == "full" else moment
 
 
 ZONE = 0.7  # of the front, within which the uniform reaction is read off
@@ -124,7 +123,7 @@ def _pressure(history: ImpactHistory, front: Array) -> Array:
     the outermost, is off by what one of them carries; the slope hardly feels it.
     """
     impulse, time = history.array("impulse"), history.time
-    sides = 2.0 if history.dataset.attrs["symmetry"] == "full" else 1.0
+    sides = 2.0 if history.symmetry == "full" else 1.0
     found = np.zeros(time.size)
     for k in range(1, time.size):
         # a moving contact point has gathered its impulse on the way: take its place halfway

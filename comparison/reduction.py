@@ -52,7 +52,7 @@ def bending_moments(history: ImpactHistory, k: int | slice) -> tuple[Array, Arra
     impact = history.impact
     x = history.positions(k if isinstance(k, int) else 0)
     y = -history.array("gap")[k] - 0.5 * impact.wall_curvature * x**2
-    given = "slope" in history.dataset
+    given = "slope" in history
     slope = history.array("slope")[k] if given else np.gradient(y, x, axis=-1, edge_order=2)
     h = np.diff(x)
     rise = np.diff(y, axis=-1) / h
@@ -67,7 +67,7 @@ def peak_moment(history: ImpactHistory) -> PeakMoment:
     """The largest bending moment anywhere, and in the middle, at any saved instant after the first."""
     best = PeakMoment(0.0, 0.0, float(history.time[0]), 0.0)
     midspan = 0.0
-    moving = "position" in history.dataset
+    moving = "position" in history
     for first in range(1, history.time.size, 1 if moving else CHUNK):
         moments, place = bending_moments(history, first if moving else slice(first, first + CHUNK))
         sizes = np.abs(moments).reshape(-1, *place.shape)

@@ -74,7 +74,7 @@ def summary(
     peak = peak_moment(history)
     return {
         "path": history.path,
-        "symmetry": str(history.dataset.attrs["symmetry"]),
+        "symmetry": history.symmetry,
         "settings": history.settings,
         "versions": history.versions,
         "steps": history.steps,

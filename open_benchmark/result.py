@@ -437,13 +437,12 @@ def result_from_history(history: ImpactHistory, asked: Problem | None = None) ->
     energy = mass * impact.velocity**2 * length
     end = float(history.time[-1]) / time
     asked = asked or _problem_of(history, end)
-    data = history.dataset
     _, moment = one_side(history)
-    fixed = "position" not in data  # a mesh that expands takes in energy with the beam that it takes in
+    fixed = "position" not in history  # a mesh that expands takes in energy with the beam that it takes in
     series = {
         name: history.array(source) / energy
         for name, source in (("E_kin", "kinetic_energy"), ("E_el", "strain_energy"))
-        if source in data and fixed
+        if source in history and fixed
     }
     series["J_minus"] = _pulled(history) / impulse
     tau = history.time / time
@@ -495,10 +494,10 @@ def _last_step(history: ImpactHistory, end: float) -> float:
 
 def _pulled(history: ImpactHistory) -> Array:
     """Size of the tensile impulse so far of the whole wall, N s: as the path books it, else point by point."""
-    if "held_impulse" in history.dataset:
+    if "held_impulse" in history:
         return np.maximum.accumulate(np.abs(history.array("held_impulse")))
     pulls = np.minimum(np.diff(history.array("impulse"), axis=0), 0.0).sum(axis=1)
-    copies = 1.0 if history.dataset.attrs["symmetry"] == "full" else 2.0
+    copies = 1.0 if history.symmetry == "full" else 2.0
     return copies * np.concatenate([[0.0], np.cumsum(-pulls)])
 
 

@@ -111,9 +111,9 @@ def _energies(axis: Any, history: ImpactHistory) -> None:
         axis.plot(time, values - values[0], color=style.COLOURS[colour], label=f"change of {label} energy")
     colours = iter(c for c in style.SEQUENCE[2:])
     for name, label in LOSSES.items():
-        if name in history.dataset and np.any(history.array(name)):
+        if name in history and np.any(history.array(name)):
             axis.plot(time, history.array(name), ls="--", color=next(colours), label=f"lost in {label}")
-    if "work_of_loads" in history.dataset and np.any(history.array("work_of_loads")):
+    if "work_of_loads" in history and np.any(history.array("work_of_loads")):
         axis.plot(time, history.array("work_of_loads"), ls=":", color="black", label="work of loads")
     axis.set_xlabel("$t$  (s)")
     axis.set_ylabel("energy  (J)")

@@ -259,7 +259,7 @@ def reduce_history(history: ImpactHistory, shown: Shown) -> dict[str, Any]:
     kept = kept_instants(history.time)
     edges = np.linspace(0.0, widest(shown), BINS + 1)
     energy = impact.mass_per_length * impact.length_scale * impact.velocity**2
-    changes = {n: history.array(n) - history.array(n)[0] for n in ENERGIES if n in history.dataset}
+    changes = {n: history.array(n) - history.array(n)[0] for n in ENERGIES if n in history}
     return dict(
         plain(
             {

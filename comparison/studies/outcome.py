@@ -148,7 +148,7 @@ def outcome_of(
     (:func:`touching`), that of a reference (``mark``) from the centroid of the reaction. ``about`` : further fields.
     """
     exact = Exact(history.impact)
-    moving = "position" in history.dataset
+    moving = "position" in history
     half = history.positions(-1) >= 0.0
     strain = history.array("strain_energy")
     energy = history.array("kinetic_energy") + strain - history.energy("work_of_loads")
@@ -240,7 +240,7 @@ def _energy(history: ImpactHistory, exact: Exact, moving: bool) -> dict[str, flo
         return {"lost_impact": None, "lost_damping": None, "strain": None}
 
     def lost(*names: str) -> float | None:
-        found = [float(history.array(name)[-1]) for name in names if name in history.dataset]
+        found = [float(history.array(name)[-1]) for name in names if name in history]
         return 100.0 * sum(found) / whole if found else None
 
     strain = history.array("strain_energy")

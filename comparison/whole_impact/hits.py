@@ -39,9 +39,9 @@ class Hit:
 def hits(history: ImpactHistory, *, longest_break: float = LONGEST_BREAK) -> list[Hit]:
     """All hits of a run, in order of time."""
     impact, time = history.impact, history.time
-    copies = 2.0 if history.dataset.attrs["symmetry"] == "half" else 1.0
+    copies = 2.0 if history.symmetry == "half" else 1.0
     names = {"front": "impulse", "opposite": "opposite_impulse"}
-    rows = {wall: copies * history.array(name) for wall, name in names.items() if name in history.dataset}
+    rows = {wall: copies * history.array(name) for wall, name in names.items() if name in history}
     sums = {wall: values.sum(axis=1) for wall, values in rows.items()}
     parts = [(i, k, wall) for wall, total in sums.items() for i, k in pushes(time, total, 0.0)]
     spans: list[tuple[int, int, str]] = []
