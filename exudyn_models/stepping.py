@@ -90,6 +90,13 @@ class _Reader:
         return True
 
 
+def _failed(done: Stepping, message: str) -> Stepping:
+    """What Exudyn says of a run that it ended; an interrupt by the user within a user function is no failure."""
+    if KeyboardInterrupt.__name__ in message:
+        raise KeyboardInterrupt
+    return done.failed("Exudyn's solver failed: " + " ".join(message.split())[:200])
+
+
 def step_through(
     run: Recorder,
     segments: list[Segment],
@@ -131,7 +138,7 @@ def step_through(
             if reader.error is not None:
                 raise reader.error
             if not solved and not reader.left:
-                return done.failed("Exudyn's solver failed: " + " ".join(str(solver.GetErrorString()).split())[:200])
+                return _failed(done, str(solver.GetErrorString()))
             if settling is not None and settling.must_settle and settling.unsettled:
                 return done.failed(settling.failure(), UNSETTLED)
             if reader.left:
@@ -141,7 +148,7 @@ def step_through(
     except SystemError as error:  # what was raised while Exudyn ran, an interrupt by the user above all
         raise (error.__cause__ or error) from None
     except (exu.ExudynError, RuntimeError) as error:
-        return done.failed("Exudyn's solver failed: " + " ".join(str(error).split())[:200])
+        return _failed(done, str(error))
     finally:
         mbs.SetPostStepUserFunction(0)
         run.sum_up()

@@ -100,3 +100,13 @@ def test_with_no_setting_every_step_settles(contact):
     history = exudyn_models.simulate(SHORT, mesh=MESH, contact=contact, save=20)
     assert history.settings["unsettled_steps"] == 0
     assert history.settings["contact_cycles"] < 0.05 * history.steps
+
+
+@pytest.mark.parametrize("where", ["__call__", "_impose"])
+def test_an_interrupt_while_exudyn_calls_back_is_an_interrupt_and_no_failure_of_the_run(where, monkeypatch):
+    def interrupted(*_):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(Settling, where, interrupted)
+    with pytest.raises(KeyboardInterrupt):
+        exudyn_models.simulate(SHORT, mesh=MESH, save=20)
