@@ -51,7 +51,7 @@ CHANGE = 0.15  # by the load, at the end of such a run
 TOUCHING = (0.25, 0.275, 0.3, 0.35, 0.4, 0.45)
 """κ/ν between which the middle comes back to the wall while anybody looks."""
 WINDOW = 0.15  # of the fits, ± in ln t
-NOISY = 0.22  # κ/ν below which rates of loads are noisy: twice the window, and smoothed
+NOISY = 0.22  # κ/ν below which there is no pulse to resolve, and nodes that are caught make noise: twice the window
 REACH = 20.0, 2.0  # half length over √(ct) at the last age, less a multiple of λ₀: nothing has been there and back
 
 
@@ -69,10 +69,15 @@ def shortened(kappa: float) -> float:
     return float(np.clip(front / SHORT, LEAST, 1.0)) if front > 0.0 else 1.0
 
 
+def window_at(kappa: float) -> float:
+    """Of the fits, ± in ln t."""
+    return 2.0 * WINDOW if kappa < NOISY else WINDOW
+
+
 def _over_theory(kappa: float, ages: Array, element: float) -> Array:
     reach = REACH[0] + REACH[1] * theory.contact_parameters(kappa).lambda0
     impact = Impact.dimensionless(kappa, damping=1.0, length=2.0 * reach * math.sqrt(float(ages[-1])))
-    found: Law = law_of(impact, ages, element=element * shortened(kappa), window=WINDOW)
+    found: Law = law_of(impact, ages, element=element * shortened(kappa), window=window_at(kappa))
     half_length, force, impulse = (a / b for a, b in zip(found, theory_law(kappa, ages)))
     age_of_point = float(erfinv(kappa)) ** 2
     with np.errstate(divide="ignore", invalid="ignore"):
@@ -135,8 +140,7 @@ def _answer(kappa: float, load: str, ages: Array, element: float) -> Array:
 
 @lru_cache(maxsize=16)  # the bare run is the same for all loads
 def _run(impact: Impact, ages: tuple[float, ...], element: float) -> Law:
-    window = 2.0 * WINDOW if impact.kappa_over_nu < NOISY else WINDOW
-    return law_of(impact, np.array(ages), element=element, window=window, end="following")
+    return law_of(impact, np.array(ages), element=element, window=window_at(impact.kappa_over_nu), end="following")
 
 
 def _loaded(kappa: float, load: str, size: float) -> Impact:
