@@ -168,8 +168,8 @@ def validity(
     until, limited_by = errors.limit(begins)
     if solved.regime != DISCRETE and impact.damping > 0.0 and solved.kappa_over_nu > damped_zone.shortest():
         spreads = damped_zone.age_of_spreading(solved.kappa_over_nu) * impact.damping / impact.time_scale
-        if spreads < until:
-            until, limited_by = spreads, DAMPING
+        if spreads < until * (1.0 + 1e-9):  # what loads do then begins there too
+            until, limited_by = min(spreads, until), DAMPING
     steep = _slope(solved)
     if steep > 0.0 and (SLOPE_LIMIT / steep) ** 2 < until:
         until, limited_by = (SLOPE_LIMIT / steep) ** 2, SLOPE

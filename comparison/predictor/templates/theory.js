@@ -467,8 +467,8 @@ const Theory = (() => {
       if (pulse[0] * touch < until && until < pulse[1] * touch) [until, ending] = [pulse[0] * touch, "touch"];
     }
     const shortest = zone.kappa_over_nu[zone.kappa_over_nu.length - 1];
-    if (damping > 0 && !discrete && c.ratio > shortest && point * damping * slow < until)
-      [until, ending] = [point * damping * slow, "damping"];
+    if (damping > 0 && !discrete && c.ratio > shortest && point * damping * slow < until * (1 + 1e-9))
+      [until, ending] = [Math.min(point * damping * slow, until), "damping"];
     const steep = steepest(c);
     if (steep > 0 && (slope / steep) ** 2 < until) [until, ending] = [(slope / steep) ** 2, "slope"];
     return begins >= until ? { begins: 0, until: 0, by: ending } : { begins, until, by: ending };
