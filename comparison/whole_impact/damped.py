@@ -45,7 +45,7 @@ SHORT = 0.3  # λ₀ (of κ/ν = 0.8) below which a zone is so short that elemen
 LEAST = 0.2
 LOAD_KAPPAS = (0.02, 0.05, 0.1, 0.2, 0.25, 0.3, 0.35, 0.4, 0.45, 0.5, 0.6, 0.8)
 LOAD_AGES = np.geomspace(0.3, 300.0, 25)
-LOAD_ELEMENT = 0.02
+LOAD_ELEMENT = 0.04
 PER_RUN = 4  # intervals of these ages
 CHANGE = 0.15  # by the load, at the end of such a run
 TOUCHING = (0.25, 0.275, 0.3, 0.35, 0.4, 0.45)
