@@ -42,3 +42,11 @@ def test_impulse_is_the_integral_of_the_reaction() -> None:
 def test_what_loads_add_dies_out_with_damping() -> None:
     early, late = (np.abs(damped_zone.load_rates(0.3, [age])).max() for age in (10.0, 1e8))
     assert late <= 1e-3 * early
+
+
+def test_what_loads_make_of_a_short_zone_does_not_wait_for_it_to_spread() -> None:
+    point = damped_zone.age_of_spreading(0.9)
+    early, spreading, late, later = damped_zone.waiting(0.9, point * np.array([0.5, 1.5, 10.0, 1e6]))
+    assert early == 0.0  # one point has no length
+    assert spreading > late > later and later < 1e-6
+    assert damped_zone.waiting(0.3, [5.0])[0] == 0.0  # there the rates of loads are measured

@@ -251,6 +251,17 @@ def test_so_flat_a_damped_contact_that_nobody_measured_is_said_to_hold_at_no_tim
     assert predict(Impact.whole_beam(1e-3)).valid_until > 0.0
 
 
+def test_a_zone_shorter_than_was_measured_holds_as_the_point_that_it_is_at_first() -> None:
+    found = predict(Impact.whole_beam(0.99, relative_damping=1e-3))
+    assert found.valid_until == pytest.approx(1e-3 * float(erfinv(0.99)) ** 2, rel=1e-12)
+    assert found.limited_by == validity.DAMPING
+    assert predict(Impact.whole_beam(0.99)).limited_by == validity.ENDS
+    assert predict(Impact.whole_beam(0.9, relative_damping=1e-3)).limited_by == validity.ENDS
+    # loads move the front of a short zone far: x = 0.2 at 0.01 T*, of which a short zone's start takes its share
+    loaded = predict(Impact.whole_beam(0.94, relative_damping=1e-3).replace(curvature_rate=-0.9))
+    assert loaded.limited_by == validity.FIRST_ORDER
+
+
 def test_one_point_spreads_once_the_loads_have_taken_its_curvature() -> None:
     # gap's curvature κ − ν − (χ + α)τ; four per cent beyond zero its length may still be left out
     impact = Impact.dimensionless(1.02, epsilon_alpha=20.0, epsilon_chi=10.0, length=4.0)
