@@ -64,8 +64,9 @@ def test_a_perfect_run_is_read_as_the_theory_says(monkeypatch: pytest.MonkeyPatc
 
 @pytest.mark.parametrize("acceleration", [0.0, 20.0])
 def test_the_whole_beam_is_as_the_theory_says_before_its_ends_are_felt(acceleration: float) -> None:
-    found = verdict(case(acceleration=acceleration), TIMES, simulate=True)
+    """To the 2 % that the theory claims: an undamped run's own noise is 1 % (its error bars say more)."""
+    found = verdict(case(acceleration=acceleration), [0.002, 0.003], simulate=True)
     for row, exact in zip(found["simulated"], found["times"], strict=True):
         assert exact["valid"]
-        assert row["half_contact_length"] == pytest.approx(exact["half_contact_length"], rel=1e-2)
+        assert row["half_contact_length"] == pytest.approx(exact["half_contact_length"], rel=2e-2)
         assert row["impulse"] == pytest.approx(exact["impulse"], rel=5e-3)
