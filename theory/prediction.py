@@ -266,6 +266,7 @@ def _at_time(
     length = root * math.sqrt(t) * spread
     of_force = of_impulse = of_moment = 1.0
     of_loads = of_impulse_of_loads = 1.0
+    of_press = (1.0, 1.0, 1.0)
     if impact.damping > 0.0 and 0.0 < t < 1e12 * impact.damping:
         age = t / impact.damping
         if solved.regime == DISCRETE:
@@ -273,23 +274,21 @@ def _at_time(
             of_moment = float(damped_point.moment_ratio(age))
         else:
             of_length, of_force, of_impulse = damped_zone.ratios(solved.kappa_over_nu, solved.r0, age)[:, 0].tolist()
+            of_press = damped_zone.press_factors(solved.kappa_over_nu, age, solved.uniform_reaction * tau)[:, 0].tolist()
             length *= of_length
             of_loads, of_impulse_of_loads = of_force, of_impulse
-    exists = spread >= 0.0 and push > 0.0 and length <= impact.half_length
+    exists = spread >= 0.0 and push > 0.0 and min(of_press) > 0.0 and length * of_press[0] <= impact.half_length
     moment, place = bending.peak(of_moment)
     force = front * (of_force * solved.r0 + of_loads * solved.r1 * tau)
+    impulse = 2.0 * front * math.sqrt(t) * (of_impulse * solved.r0 + of_impulse_of_loads * solved.r1 * tau / 3.0)
+    impulse += 4.0 * uniform * root * t**1.5 * (solved.lambda0 / 3.0 + solved.lambda1 * tau / 5.0)
     return PredictionAtTime(
         time=t,
         tau=tau,
-        half_contact_length=length if exists else None,
-        reaction=force / math.sqrt(t) + 2.0 * length * uniform if exists and t > 0.0 else None,
+        half_contact_length=of_press[0] * length if exists else None,
+        reaction=of_press[1] * (force / math.sqrt(t) + 2.0 * length * uniform) if exists and t > 0.0 else None,
         contact_force_per_length=uniform if exists else None,
-        impulse=(
-            2.0 * front * math.sqrt(t) * (of_impulse * solved.r0 + of_impulse_of_loads * solved.r1 * tau / 3.0)
-            + 4.0 * uniform * root * t**1.5 * (solved.lambda0 / 3.0 + solved.lambda1 * tau / 5.0)
-            if exists
-            else None
-        ),
+        impulse=of_press[2] * impulse if exists else None,
         peak_moment=moment,
         peak_moment_place=min(place * root * math.sqrt(t) if t > 0.0 else 0.0, impact.half_length),
         peak_stress=bending.stress(moment),

@@ -209,6 +209,8 @@ class _Errors:
         second, third = self.loads.errors(tau)
         if self.solved.regime != DISCRETE and math.isfinite(self.age) and np.any(self.acting):
             rates = damped_zone.load_rates(self.solved.kappa_over_nu, tau * self.age)
+            known = damped_zone.known_press(self.solved.kappa_over_nu)  # what predict takes into account
+            rates[damped_zone.LOADS.index("press")] *= 1.0 - known + damped_zone.UNSURE * known
             second = second + np.tensordot(self.acting, rates, 1) * tau
             waiting = damped_zone.waiting(self.solved.kappa_over_nu, tau * self.age)
             second[0] += waiting * self.solved.lambda1 / self.solved.lambda0 * tau

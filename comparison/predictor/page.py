@@ -37,6 +37,8 @@ def limits() -> dict[str, Any]:
         "share": validity.SHARE,
         "quiet": damped_zone.QUIET,
         "waiting": damped_zone.WAITING,
+        "flat": damped_zone.FLAT,
+        "unsure": damped_zone.UNSURE,
         "short": damped_zone.SHORT,
         "endsWeight": validity.ENDS_WEIGHT,
         "point": validity.POINT,

@@ -190,13 +190,14 @@ const Beam = (() => {
     // one point: the loads' part is that without damping; a zone: its whole law has the measured factor
     const force = damped.reaction * contact.r0 + (point ? 1 : damped.reaction) * contact.r1 * tau;
     const sum = damped.impulse * contact.r0 + (point ? 1 : damped.impulse) * contact.r1 * tau / 3;
+    const pressed = Theory.pressFactors(contact, t / b.damping, contact.uniform * tau, LIMITS);
     const { moment, place } = largest(p, damped.moment);
     return {
-      halfLength: half,
-      reaction: front * force / sqrt(t) + 2 * half * uniform,
+      halfLength: pressed[0] * half,
+      reaction: pressed[1] * (front * force / sqrt(t) + 2 * half * uniform),
       uniform,
-      impulse: 2 * front * sqrt(t) * sum
-        + 4 * uniform * root * t ** 1.5 * (contact.lambda0 / 3 + contact.lambda1 * tau / 5),
+      impulse: pressed[2] * (2 * front * sqrt(t) * sum
+        + 4 * uniform * root * t ** 1.5 * (contact.lambda0 / 3 + contact.lambda1 * tau / 5)),
       moment,
       place: min(place * root * sqrt(t), p.half),
       stress: moment / b.modulus + abs(b.tension) / b.area,

@@ -378,6 +378,20 @@ const Theory = (() => {
     return NAMES.map((name) => (1 - share) * mixed(rows[name][i], low) + share * mixed(rows[name][i + 1], high));
   }
 
+  /** Rates of a load in a damped zone at t/η = age (theory/damped_zone.py). */
+  function loadRates(c, age, limits, load) {
+    const { zone } = limits, ages = zone.loads.age, last = ages[ages.length - 1];
+    if (!(c.ratio < limits.quiet) || age < limits.short * erfInverse(c.ratio) ** 2) return [0, 0, 0];
+    return atAge(zone.loads, zone.touch, c.ratio, age, zone.loads[load]).map((rate) => rate * (age > last ? sqrt(last / age) : 1));
+  }
+  /** Share of a pressure's rate that is part of the prediction. */
+  const knownPress = (c, { flat: [from, to] }) => Math.min(Math.max((to - c.ratio) / (to - from), 0), 1);
+  /** Half length, reaction and impulse of a pressed zone over the product of the damped and the loaded law. */
+  function pressFactors(c, age, press, limits) {
+    if (c.regime !== "continuous" || !(age < 1e12) || !(knownPress(c, limits) > 0)) return [1, 1, 1];
+    return loadRates(c, age, limits, "press").map((rate) => 1 + knownPress(c, limits) * rate * press);
+  }
+
   /**
    * τ from and until which half length, force and impulse are within the tolerance, and what ends it (theory/validity.py).
    * slow: the time of the free vibration over that of the contact, 1/ε; damping: η over the time of the free vibration;
@@ -432,11 +446,12 @@ const Theory = (() => {
     const point = discrete ? 0 : erfInverse(c.ratio) ** 2, settled = limits.short * point;
     const waits = !discrete && damping > 0 && size > 0 && c.ratio >= limits.quiet;
     const loaded = !discrete && damping > 0 && c.ratio < limits.quiet ? Object.keys(acting).filter((load) => acting[load]) : [];
+    const unknown = { press: 1 - (1 - limits.unsure) * knownPress(c, limits), lift: 1, chi: 1, psi: 1, axial: 1 };
     const ofLoads = (tau) => {
-      const found = secondOf(tau), age = tau / slow / damping, ages = zone.loads.age, last = ages[ages.length - 1];
-      for (const load of age >= settled ? loaded : [])
-        atAge(zone.loads, zone.touch, c.ratio, age, zone.loads[load]).forEach((rate, i) => {
-          found[i] += acting[load] * rate * (age > last ? sqrt(last / age) : 1) * tau;
+      const found = secondOf(tau), age = tau / slow / damping;
+      for (const load of loaded)
+        loadRates(c, age, limits, load).forEach((rate, i) => {
+          found[i] += acting[load] * unknown[load] * rate * tau;
         });
       if (waits && age > point) found[0] += limits.waiting * point / (Math.max(age, settled) - point) * c.lambda1 / c.lambda0 * tau;
       return found;
@@ -493,6 +508,6 @@ const Theory = (() => {
     return most;
   }
 
-  return { phi, contact, shape, beamAt, peakMoment, secondOrder, damped, validity, s };
+  return { phi, contact, shape, beamAt, peakMoment, secondOrder, damped, pressFactors, validity, s };
 })();
 if (typeof module !== "undefined") module.exports = Theory;
