@@ -274,7 +274,8 @@ def _at_time(
             of_moment = float(damped_point.moment_ratio(age))
         else:
             of_length, of_force, of_impulse = damped_zone.ratios(solved.kappa_over_nu, solved.r0, age)[:, 0].tolist()
-            of_press = damped_zone.press_factors(solved.kappa_over_nu, age, solved.uniform_reaction * tau)[:, 0].tolist()
+            press = solved.uniform_reaction * tau
+            of_press = damped_zone.press_factors(solved.kappa_over_nu, age, press)[:, 0].tolist()
             length *= of_length
             of_loads, of_impulse_of_loads = of_force, of_impulse
     exists = spread >= 0.0 and push > 0.0 and min(of_press) > 0.0 and length * of_press[0] <= impact.half_length
