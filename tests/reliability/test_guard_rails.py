@@ -70,9 +70,12 @@ def test_a_doubtful_run_says_so(path, settings, length, words, tmp_path):
 
 
 def test_a_beam_bent_beyond_the_linear_range_of_its_elements_says_so(tmp_path):
+    """An amplitude that is chosen keeps it within."""
     settings = ("mesh.kind=uniform", "mesh.element_length=0.25", "beam.curvature=30.0")
-    found = simulate(tmp_path, "exudyn", *settings, length=10.0)
-    assert any("linear range" in warning for warning in found["warnings"]), found
+    given = ("exudyn.geometry.kind=linear", "exudyn.geometry.amplitude=1e-3")
+    for amplitude, warned in ((given, True), ((), False)):
+        found = simulate(tmp_path, "exudyn", *settings, *amplitude, length=10.0)
+        assert any("linear range" in warning for warning in found["warnings"]) == warned, found
 
 
 def test_a_sound_run_has_nothing_to_warn_of(tmp_path):
