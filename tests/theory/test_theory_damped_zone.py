@@ -50,3 +50,13 @@ def test_what_loads_make_of_a_short_zone_does_not_wait_for_it_to_spread() -> Non
     assert early == 0.0  # one point has no length
     assert spreading > late > later and later < 1e-6
     assert damped_zone.waiting(0.3, [5.0])[0] == 0.0  # there the rates of loads are measured
+
+
+def test_a_pressed_flat_zone_bears_less_while_its_middle_is_lifted() -> None:
+    # rates on elements half as long as the table's: 0.75, −1.13 and −0.41 at κ/ν = 0.2, t/η = 9.5
+    found = damped_zone.press_factors(0.2, [9.5], 0.02)[:, 0]
+    assert found == pytest.approx([1.0 + 0.02 * 0.75, 1.0 - 0.02 * 1.13, 1.0 - 0.02 * 0.41], abs=0.004)
+    part = damped_zone.press_factors(0.225, [9.5], 0.02)[:, 0]
+    whole = 1.0 + 0.02 * damped_zone.load_rates(0.225, [9.5])[damped_zone.LOADS.index("press"), :, 0]
+    assert part - 1.0 == pytest.approx(0.5 * (whole - 1.0), rel=1e-9)
+    assert np.all(damped_zone.press_factors(0.3, [9.5], 0.02) == 1.0)
