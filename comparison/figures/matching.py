@@ -134,7 +134,7 @@ def draw_first_order(
             axis.set_ylabel(f"{', '.join([symbol] * any(firsts) + [of_tension] * (None in firsts))}  (1)")
             style.panel_label(axis, "(a)" if column == 0 else "(b)")
         symbols = r"($\alpha$, $\psi$, $\chi$, $N$)" if tension else r"($\alpha$, $\psi$, $\chi$)"
-        axes[0].legend(title=symbols if any(firsts) else None, ncols=2 if len(firsts) > 1 else 1)
+        axes[0].legend(title=symbols if any(firsts) else None, ncols=1 if None in firsts else 2)
         for mark in marks.values():
             axes[1].plot([], [], **{**mark, "color": style.COLOURS["black"]})
         axes[1].plot([], [], **style.THEORY)
