@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from hermite_fe.kernels.jit import compiled
+from hermite_fe.kernels.jit import compiled_in_place
 
 
-@compiled
+@compiled_in_place
 def assemble(lengths, element, bands):  # type: ignore[no-untyped-def]
     """Add the element matrices ``element`` (elements, 4, 4), dofs (w₁, θ₁, w₂, θ₂), to ``bands``."""
     for e in range(lengths.size):
@@ -14,7 +14,7 @@ def assemble(lengths, element, bands):  # type: ignore[no-untyped-def]
                 bands[i - j, 2 * e + j] += element[e, i, j]
 
 
-@compiled
+@compiled_in_place
 def assemble_load(element, load):  # type: ignore[no-untyped-def]
     """Add the element loads ``element`` (elements, 4) to ``load`` (2·nodes,)."""
     for e in range(element.shape[0]):

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from hermite_fe.kernels.jit import compiled
+from hermite_fe.kernels.jit import compiled, compiled_in_place
 from hermite_fe.kernels.problem import ContactLaw, Problem
 
 Array = NDArray[np.float64]
@@ -13,7 +13,7 @@ Flags = NDArray[np.bool_]
 Places = NDArray[np.int64]
 
 
-@compiled
+@compiled_in_place
 def rows_times(dofs: Places, factors: Array, x: Array, out: Array) -> None:
     """out = G x."""
     m, width = dofs.shape
@@ -28,7 +28,7 @@ def rows_times(dofs: Places, factors: Array, x: Array, out: Array) -> None:
             out[j] = total
 
 
-@compiled
+@compiled_in_place
 def row_times(dofs: Places, factors: Array, x: Array, j: int) -> float:
     """Row j of G x."""
     total = 0.0
@@ -37,7 +37,7 @@ def row_times(dofs: Places, factors: Array, x: Array, j: int) -> float:
     return total
 
 
-@compiled
+@compiled_in_place
 def force_rows(load: Array, t: float, h: float, theta: float, first: int, stop: int, force: Array) -> None:
     """Rows ``first`` … ``stop`` − 1 of :func:`force_at`, force (stop − first,)."""
     steady = load[0, first:stop]
@@ -49,7 +49,7 @@ def force_rows(load: Array, t: float, h: float, theta: float, first: int, stop: 
             force[i] += mean * part[i]
 
 
-@compiled
+@compiled_in_place
 def force_at(load: Array, t: float, h: float, theta: float, force: Array) -> None:
     """force = θF(t + h) + (1 − θ)F(t) for F = Σ load[k]·t^k."""
     force_rows(load, t, h, theta, 0, force.size, force)

@@ -15,7 +15,7 @@ from numba import config, types
 from numba.core import cgutils
 from numba.extending import intrinsic
 
-from hermite_fe.kernels.jit import compiled
+from hermite_fe.kernels.jit import compiled_in_place
 
 __all__ = ["count_subnormals", "flush", "restore"]
 
@@ -66,7 +66,7 @@ def set_control(context: Any, value: Any) -> Any:
     return types.void(types.int64), generate
 
 
-@compiled
+@compiled_in_place
 def flush() -> int:
     """Take subnormal numbers as zero and make none from now on, in this thread; returns what :func:`restore` needs."""
     if INTERPRETED:
@@ -76,14 +76,14 @@ def flush() -> int:
     return before
 
 
-@compiled
+@compiled_in_place
 def restore(before: int) -> None:
     """Compute as before :func:`flush`."""
     if not INTERPRETED:
         set_control(before)  # type: ignore[call-arg]
 
 
-@compiled
+@compiled_in_place
 def count_subnormals(x):  # type: ignore[no-untyped-def]
     """How many of the numbers of ``x`` (any,) are subnormal (0 between :func:`flush` and :func:`restore`)."""
     count = 0

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from hermite_fe.kernels.banded import CHUNK, add, combine, dot, multiply_rows, quadratic_rows, stiff_rows
 from hermite_fe.kernels.contact import force_rows, mark_held, row_times, rows_times
-from hermite_fe.kernels.jit import compiled
+from hermite_fe.kernels.jit import compiled, compiled_in_place
 from hermite_fe.kernels.pivoting import solve_rows
 from hermite_fe.kernels.problem import (
     ALGORITHMIC,
@@ -37,7 +37,7 @@ from hermite_fe.kernels.stepping import step_length
 Array = NDArray[np.float64]
 
 
-@compiled
+@compiled_in_place
 def predict(problem: Problem, state: State, work: Work, t: float, h: float, theta: float) -> None:
     """work.b = h[F_θ − K(q + θhv) − Cv], the change of momentum of a step without Δv and without contact."""
     q, v, b, moved, part, force = state.q, state.v, work.b, work.d1, work.d2, work.d3
@@ -57,7 +57,7 @@ def predict(problem: Problem, state: State, work: Work, t: float, h: float, thet
             right[i] = h * (force[i] - right[i] - part[i])
 
 
-@compiled
+@compiled_in_place
 def correct(problem: Problem, state: State, work: Work, t: float, h: float, theta: float, lost: Array) -> float:
     """q⁺ and v⁺ from Δv = work.x, and the energies that the step takes, booked. Returns the work of the loads.
 
