@@ -49,7 +49,7 @@ def noise_methods() -> list[Method]:
     ]
 
 
-def compare_noise(*, store: RunStore, jobs: int = 1) -> tuple[Noise | None, Sequence[str]]:
+def compare_noise(*, store: RunStore) -> tuple[Noise | None, Sequence[str]]:
     """Both runs, or ``None`` and why one of them failed."""
-    runs, lost = show_all(SHOWN[:1], noise_methods(), store=store, jobs=jobs)
+    runs, lost = show_all(SHOWN[:1], noise_methods(), store=store)
     return (Noise(runs[0], runs[1]) if len(runs) == 2 else None), lost

@@ -111,7 +111,7 @@ def write_report(
     impacts, lost = show_all(
         SHOWN, shown_methods, store=store, jobs=jobs, progress=lambda done, _: count(len(asked) + done)
     )
-    noise, lost_noise = compare_noise(store=store, jobs=jobs)
+    noise, lost_noise = compare_noise(store=store)  # a second or two: processes would take longer to start
     files = write_match(rows, out / "data") + draw_work_precision([r.row for r in convergence_rows(rows)], out / "data")
     files += still_pictures(impacts, noise, out / "data")
     content = Content(
