@@ -9,7 +9,6 @@ steps and contact laws drawn at random from a seed, gives mean and standard devi
 
 from __future__ import annotations
 
-import dataclasses
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
@@ -23,7 +22,8 @@ from bent_beam.impact import Impact
 from bent_beam.method import Method, for_whole_beam, refined, settings_of, simulate_to_separation
 from bent_beam.section import Section
 from bent_beam.versions import versions
-from comparison.whole_impact.outcome import NUMBERS, SHORTEST_SEPARATION, WholeImpact, whole_impact
+from comparison.whole_impact.number import NUMBERS, Number
+from comparison.whole_impact.outcome import SHORTEST_SEPARATION, WholeImpact, whole_impact
 
 __all__ = ["Bounce", "Number", "bounce", "bounce_document", "problem", "scales"]
 
@@ -35,51 +35,8 @@ TIMES = ("last_contact", "peak_moment_time")
 
 
 @dataclass(frozen=True)
-class Number:
-    """A number of a whole impact: ``value`` with its ``error`` bar and its ``parts`` by cause, or, without damping,
-    ``mean`` and ``std`` of an ensemble of ``runs``."""
-
-    value: float | None = None
-    error: float | None = None
-    parts: Mapping[str, float] = dataclasses.field(default_factory=dict)
-    mean: float | None = None
-    std: float | None = None
-    runs: int = 0
-
-    def scaled(self, unit: float) -> Number:
-        """The number in another unit."""
-
-        def times(number: float | None) -> float | None:
-            return None if number is None else number * unit
-
-        parts = {cause: part * unit for cause, part in self.parts.items()}
-        return Number(times(self.value), times(self.error), parts, times(self.mean), times(self.std), self.runs)
-
-    def shifted(self, by: float) -> Number:
-        """The number and a known constant."""
-        moved = {name: None if at is None else at + by for name, at in (("value", self.value), ("mean", self.mean))}
-        return dataclasses.replace(self, **moved)  # type: ignore[arg-type]
-
-    def to_dict(self) -> dict[str, Any]:
-        """JSON-ready: ``value`` and ``error``, or ``band``; what is missing is null."""
-        if self.runs:
-            return {"value": None, "error": None, "band": {"mean": self.mean, "std": self.std, "runs": self.runs}}
-        return {"value": self.value, "error": self.error}
-
-    def __str__(self) -> str:
-        if self.runs:
-            return f"{self.mean:.4g} ± {self.std:.1g} (band of {self.runs} runs)"
-        if self.value is None or self.error is None:
-            return "-"
-        if self.error == 0.0:
-            return f"{self.value:g}"
-        digits = min(max(0, 1 - math.floor(math.log10(self.error))), 12)
-        return f"{self.value:.{digits}f} ± {self.error:.1g}"
-
-
-@dataclass(frozen=True)
 class Bounce:
-    """A whole impact: ``numbers`` by name (:data:`comparison.whole_impact.outcome.NUMBERS`), dimensionless.
+    """A whole impact: ``numbers`` by name (:data:`comparison.whole_impact.number.NUMBERS`), dimensionless.
 
     history : of the run that the values come from (one of the ensemble, for a band); outcome : what it came to.
     settings : of that run's method; seconds : of all runs together; seed : of the ensemble.

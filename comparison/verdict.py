@@ -11,7 +11,7 @@ import numpy as np
 from bent_beam.cases import Case
 from bent_beam.errors import InputError
 from comparison.text_table import text_table
-from comparison.whole_impact.map import bounce_from_map
+from comparison.whole_impact.stored_map import bounce_from_map
 from theory import predict
 
 __all__ = ["verdict", "verdict_text"]

@@ -66,7 +66,7 @@ def _bounce(asked: Problem) -> Reference:
     if asked.id in stored["problems"]:
         value, error = stored["problems"][asked.id]["restitution"]
         return Reference({"restitution": value}, errors={"restitution": error}, source=stored["made_by"])
-    from comparison.whole_impact.map import bounce_from_map
+    from comparison.whole_impact.stored_map import bounce_from_map
 
     found = bounce_from_map(asked.kappa_over_nu, asked.damping) if asked.damping > 0.0 else None
     number = None if found is None else found["restitution"]

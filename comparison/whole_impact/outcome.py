@@ -21,27 +21,12 @@ from bent_beam.free_flight import has_left, pushing
 from bent_beam.history import ImpactHistory
 from comparison.reduction import peak_moment
 
-__all__ = ["NUMBERS", "SHORTEST_SEPARATION", "WholeImpact", "pushes", "whole_impact"]
+__all__ = ["SHORTEST_SEPARATION", "WholeImpact", "pushes", "whole_impact"]
 
 Array = NDArray[np.float64]
 
 SHORTEST_SEPARATION = 2e-3
 """Shortest time without a push that counts as a separation, T*: four saved instants of a run to separation."""
-
-NUMBERS = (
-    "restitution",
-    "impulse",
-    "last_contact",
-    "separations",
-    "peak_moment",
-    "peak_moment_place",
-    "peak_moment_time",
-    "midspan_moment",
-    "translation",
-    "vibration",
-    "dissipated",
-)
-"""Fields of :class:`WholeImpact` that get error bars."""
 
 
 @dataclass(frozen=True)

@@ -18,7 +18,8 @@ from comparison.bounce import bounce, bounce_document, problem
 from comparison.command_line.app import run
 from comparison.whole_impact import damped, ends, map
 from comparison.whole_impact.hits import hits
-from comparison.whole_impact.outcome import NUMBERS, pushes, whole_impact
+from comparison.whole_impact.number import NUMBERS
+from comparison.whole_impact.outcome import pushes, whole_impact
 from comparison.whole_impact.prediction_errors import PredictionErrors, prediction_errors, random_problem
 from hermite_fe import HermiteFE
 from hermite_fe.integrators import MoreauJean, NonsmoothGeneralizedAlpha, SignoriniPosition
