@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from hermite_fe.kernels.jit import compiled, compiled_in_place
+from hermite_fe.kernels.jit import compiled_in_place
 from hermite_fe.kernels.problem import ContactLaw, Problem
 
 Array = NDArray[np.float64]
@@ -55,7 +55,7 @@ def force_at(load: Array, t: float, h: float, theta: float, force: Array) -> Non
     force_rows(load, t, h, theta, 0, force.size, force)
 
 
-@compiled
+@compiled_in_place
 def mark_held(problem: Problem, law: ContactLaw, closed: Flags, t: float, held: Flags) -> None:
     """Rows that stay closed after time t: those whose front is fewer than ``law.hold`` rows further, and before
     ``law.hold_until`` all that are closed."""
@@ -63,9 +63,11 @@ def mark_held(problem: Problem, law: ContactLaw, closed: Flags, t: float, held: 
     if law.hold == 0 and not everything:
         held[:] = False
         return
-    front = np.full(2, -1)
+    right, left = -1, -1  # the front on either side
     for j in range(closed.size):
-        if closed[j]:
-            front[side[j]] = max(front[side[j]], rank[j])
+        if closed[j] and side[j] == 0:
+            right = max(right, rank[j])
+        elif closed[j]:
+            left = max(left, rank[j])
     for j in range(closed.size):
-        held[j] = closed[j] and (everything or front[side[j]] - rank[j] < law.hold)
+        held[j] = closed[j] and (everything or (right if side[j] == 0 else left) - rank[j] < law.hold)
