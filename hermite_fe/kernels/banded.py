@@ -4,10 +4,11 @@ Matrices of a system (half bandwidth 3, as Hermite elements have) are kept in sc
 A(i + m, i)``, shape (4, n): products run along diagonals.
 
 The matrix that is factored has half bandwidth 4, room for a contact multiplier between the dofs of two nodes,
-and is kept by rows, ``S[k, m] = S(k, k − m)``, shape (n, 5). The factorisation S = U D Uᵀ runs from the last
-unknown to the first: in a contact problem the first ones are those whose constraints switch, so what lies
-beyond the contact zone is factored once for a step and not touched again. A *fixed* unknown has row and
-column of the identity.
+and is kept by rows, ``S[k, m] = S(k, k − m)``, shape (n, 5). Its factorisation is twisted: it runs from the last
+unknown down to unknown ``twist`` and from the first one up to it. In a contact problem constraints switch at the
+front of the contact zone, so what lies beyond the zone, and what lies settled within it, is factored once and not
+touched again. Below ``twist``, U holds the couplings to the four unknowns that follow, from there on those to the
+four before. A *fixed* unknown has row and column of the identity.
 
 A long beam's matrices do not fit the processor's cache. What ends in ``_rows`` works on some rows, so that a step can
 do all that it does with them while they are there: ``CHUNK`` dofs at a time.
@@ -205,14 +206,14 @@ def combine(
 
 
 @compiled
-def factor(S: Array, fixed: Flags, top: int, D: Array, R: Array, U: Array) -> bool:
-    """Factor S = U D Uᵀ from unknown ``top`` down to 0; what is above ``top`` must be factored already.
+def factor(S: Array, fixed: Flags, top: int, bottom: int, D: Array, R: Array, U: Array) -> bool:
+    """Factor S = U D Uᵀ from unknown ``top`` down to ``bottom``; what is above ``top`` must be factored already.
 
     D (n + 4,) pivots, R their inverses, U (n + 4, 5) couplings U[q, m] = U(q − m, q); four idle rows pad the
     end. Returns False when a pivot is zero or not a number.
     """
     sound = True
-    for t in range(top + 1):
+    for t in range(top + 1 - bottom):
         k = top - t
         if fixed[k]:
             D[k] = 1.0
@@ -239,11 +240,57 @@ def factor(S: Array, fixed: Flags, top: int, D: Array, R: Array, U: Array) -> bo
 
 
 @compiled
-def forward_substitute(U: Array, r: Array, top: int, z: Array) -> None:
-    """Solve U z = r from unknown ``top`` down to 0; z above ``top`` must be known (z has four idle places at
+def factor_up(S: Array, fixed: Flags, first: int, stop: int, D: Array, R: Array, U: Array) -> bool:
+    """Factor S = L D Lᵀ from unknown ``first`` up to ``stop`` − 1, with L(q + m, q) in U[q, m]; what is below ``first``
+    must be factored already. (Before unknown 0 come, as Python counts, the idle rows at the end.)"""
+    sound = True
+    for k in range(first, stop):
+        if fixed[k]:
+            D[k] = 1.0
+            R[k] = 1.0
+            for m in range(1, 5):
+                U[k, m] = 0.0
+            continue
+        b1, b2 = U[k - 1, 1] * D[k - 1], U[k - 2, 2] * D[k - 2]
+        b3, b4 = U[k - 3, 3] * D[k - 3], U[k - 4, 4] * D[k - 4]
+        d = S[k, 0] - b4 * U[k - 4, 4] - b3 * U[k - 3, 3] - b2 * U[k - 2, 2] - b1 * U[k - 1, 1]
+        sound = sound and abs(d) > 0.0
+        r = 1.0 / d
+        D[k] = d
+        R[k] = r
+        u1 = (S[k + 1, 1] - b3 * U[k - 3, 4] - b2 * U[k - 2, 3] - b1 * U[k - 1, 2]) * r
+        u2 = (S[k + 2, 2] - b2 * U[k - 2, 4] - b1 * U[k - 1, 3]) * r
+        u3 = (S[k + 3, 3] - b1 * U[k - 1, 4]) * r
+        u4 = S[k + 4, 4] * r
+        U[k, 1] = 0.0 if fixed[k + 1] else u1
+        U[k, 2] = 0.0 if fixed[k + 2] else u2
+        U[k, 3] = 0.0 if fixed[k + 3] else u3
+        U[k, 4] = 0.0 if fixed[k + 4] else u4
+    return sound
+
+
+@compiled
+def factor_down(S: Array, fixed: Flags, top: int, twist: int, D: Array, R: Array, U: Array) -> bool:
+    """:func:`factor` from unknown ``top`` down to ``twist``, what is below it factored by :func:`factor_up`."""
+    if twist == 0:
+        return factor(S, fixed, top, 0, D, R, U)
+    sound = top < twist + 4 or factor(S, fixed, top, twist + 4, D, R, U)
+    meeting = np.zeros((4, 5))  # S between the first four unknowns, less what the elimination of those below takes off
+    for i in range(4):
+        for m in range(i + 1):
+            total = S[twist + i, m]
+            for q in range(twist + i - 4, twist):
+                total -= U[q, twist + i - q] * D[q] * U[q, twist + i - m - q]
+            meeting[i, m] = total
+    return factor(meeting, fixed[twist:], min(top - twist, 3), 0, D[twist:], R[twist:], U[twist:]) and sound
+
+
+@compiled
+def forward_substitute(U: Array, r: Array, top: int, bottom: int, z: Array) -> None:
+    """Solve U z = r from unknown ``top`` down to ``bottom``; z above ``top`` must be known (z has four idle places at
     the end)."""
     z1, z2, z3, z4 = z[top + 1], z[top + 2], z[top + 3], z[top + 4]
-    for t in range(top + 1):
+    for t in range(top + 1 - bottom):
         k = top - t
         value = (r[k] - U[k + 4, 4] * z4 - U[k + 3, 3] * z3 - U[k + 2, 2] * z2) - U[k + 1, 1] * z1
         z[k] = value
@@ -251,6 +298,38 @@ def forward_substitute(U: Array, r: Array, top: int, z: Array) -> None:
         z3 = z2
         z2 = z1
         z1 = value
+
+
+@compiled
+def substitute_up(U: Array, r: Array, first: int, stop: int, z: Array) -> None:
+    """Solve L z = r, of :func:`factor_up`, from unknown ``first`` up to ``stop`` − 1; z below ``first`` must be known."""
+    z1, z2, z3, z4 = 0.0, 0.0, 0.0, 0.0
+    if first > 0:
+        z1, z2, z3, z4 = z[first - 1], z[first - 2], z[first - 3], z[first - 4]
+    for k in range(first, stop):
+        value = (r[k] - U[k - 4, 4] * z4 - U[k - 3, 3] * z3 - U[k - 2, 2] * z2) - U[k - 1, 1] * z1
+        z[k] = value
+        z4 = z3
+        z3 = z2
+        z2 = z1
+        z1 = value
+
+
+@compiled
+def substitute_down(U: Array, r: Array, top: int, twist: int, z: Array) -> None:
+    """:func:`forward_substitute` from unknown ``top`` down to ``twist``, z below it known by :func:`substitute_up`."""
+    if twist == 0:
+        forward_substitute(U, r, top, 0, z)
+        return
+    if top >= twist + 4:
+        forward_substitute(U, r, top, twist + 4, z)
+    meeting = np.empty(4)
+    for i in range(4):
+        total = r[twist + i]
+        for q in range(twist + i - 4, twist):
+            total -= U[q, twist + i - q] * z[q]
+        meeting[i] = total
+    forward_substitute(U[twist:], meeting, min(top - twist, 3), 0, z[twist:])
 
 
 @compiled
@@ -266,6 +345,23 @@ def back_substitute(R: Array, U: Array, z: Array, start: int, stop: int, x: Arra
     if start > 3:
         x4 = x[start - 4]
     for k in range(start, stop):
+        value = (z[k] * R[k] - U[k, 4] * x4 - U[k, 3] * x3 - U[k, 2] * x2) - U[k, 1] * x1
+        x[k] = value
+        x4 = x3
+        x3 = x2
+        x2 = x1
+        x1 = value
+
+
+@compiled
+def back_substitute_down(R: Array, U: Array, z: Array, twist: int, x: Array) -> None:
+    """Solve D Lᵀ x = z, of :func:`factor_up`, from unknown ``twist`` − 1 down to 0; x from ``twist`` on must be known.
+    """
+    if twist == 0:
+        return
+    x1, x2, x3, x4 = x[twist], x[twist + 1], x[twist + 2], x[twist + 3]
+    for t in range(twist):
+        k = twist - 1 - t
         value = (z[k] * R[k] - U[k, 4] * x4 - U[k, 3] * x3 - U[k, 2] * x2) - U[k, 1] * x1
         x[k] = value
         x4 = x3

@@ -34,13 +34,14 @@ def solve_monotone(problem: Problem, work: Work, closed: Flags, tolerance: float
         closed[j] = work.held[j]
         fixed[switch[j]] = closed[j] == direct
     last_closed = -1
+    work.twist[:] = 0  # factored from above alone
     for attempt in range(MOST * (m + 1)):
-        right_side(S, work.b, place, fixed, switch, factors, work.target, closed, m - 1, n, work.r)
-        if not factor(S, fixed, n - 1, work.D, work.R, work.U):
+        right_side(S, work.b, place, fixed, switch, factors, work.target, closed, m - 1, 0, n, work.r)
+        if not factor(S, fixed, n - 1, 0, work.D, work.R, work.U):
             return SINGULAR, attempt
-        forward_substitute(work.U, work.r, n - 1, work.z)
+        forward_substitute(work.U, work.r, n - 1, 0, work.z)
         back_substitute(work.R, work.U, work.z, 0, n, y)
-        wrong_rows(problem, work, closed, 0, m, n, tolerance)
+        wrong_rows(problem, work, closed, 0, m, 0, n, tolerance)
         share, opening = 1.0, -1
         for j in range(m):
             if closed[j] and work.wrong[j]:

@@ -10,8 +10,9 @@ last of them is (Murty's rule), which cannot cycle for a positive definite S (J�
 
 A row that touches one dof fixes it when closed, and p is what is left over in that dof's equation. A row that
 touches several has a multiplier −p among the unknowns, fixed at 0 while open. Either way a switch changes the
-factors from there inwards only (:mod:`hermite_fe.kernels.banded`), so a round costs the contact zone, not the beam.
-A *held* row is closed whatever the sign of p; a row that is no *candidate* is open.
+factors from there to the twist only (:mod:`hermite_fe.kernels.banded`), which stays below all rows that have switched
+of late: so a round costs the front of the contact zone, not the zone or the beam. The rest of either is looked at when
+the front is settled. A *held* row is closed whatever the sign of p; a row that is no *candidate* is open.
 """
 
 from __future__ import annotations
@@ -19,13 +20,22 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from hermite_fe.kernels.banded import back_substitute, factor, fade_out, forward_substitute
+from hermite_fe.kernels.banded import (
+    back_substitute,
+    back_substitute_down,
+    factor_down,
+    factor_up,
+    fade_out,
+    substitute_down,
+    substitute_up,
+)
 from hermite_fe.kernels.jit import compiled
 from hermite_fe.kernels.monotone import solve_monotone
 from hermite_fe.kernels.problem import Problem, Work
 from hermite_fe.kernels.rows import (
     SINGULAR,
     SOLVED,
+    first_from,
     largest_in,
     right_side,
     wrong_rows,
@@ -41,6 +51,9 @@ LENIENT_AFTER = 150  # rounds, whatever the rows: nearly degenerate rows are the
 MOST_LENIENT = 1e-12  # beyond it the exchanges run in a circle, and the fall-back takes over
 COARSEST = 1e-8  # of the fall-back, which starts at round-off
 MARGIN = 64  # unknowns beyond the closed rows that every round looks at; the rest of the beam is looked at last
+REACH = 5  # unknowns: the twist is so far below a switch, which changes couplings of four unknowns on either side
+ADVANCE = 32  # unknowns that the twist lags at most behind where it may be
+CALMING = 4  # solves in which a row that switched is forgotten for the most part
 FADED = 1e-100  # of the largest unknown: what is smaller, and beyond all loads, is taken as zero
 
 
@@ -58,6 +71,30 @@ def substitute_rest(work: Work, start: int, end: int, smallest: float) -> int:
 
 
 @compiled
+def refactor(work: Work, calm: int, low: int, top: int, wanted: int) -> int:
+    """Bring the factors up to date where unknowns between ``low`` and ``top`` − 4 have switched, or all are new
+    (``calm`` = 0): the first ``calm`` unknowns are factored from below. The twist moves to ``wanted`` where that is
+    below it or well above. Returns the last unknown that was factored anew from above, −1 if none, −2 on failure.
+    """
+    S, fixed, D, R, U = work.S, work.fixed, work.D, work.R, work.U
+    before, twist = work.twist[0], work.twist[0]
+    if wanted < twist or wanted > twist + ADVANCE:
+        twist = wanted
+    calm = min(calm, before, max(low - REACH, 0))
+    sound = True
+    if twist > calm:
+        sound = factor_up(S, fixed, calm, twist, D, R, U)
+    if twist < before:
+        top = max(top, before + 3)
+    if twist != before or calm < twist:
+        top = max(top, twist + 3)
+    work.twist[0] = twist
+    if top >= twist:
+        sound = factor_down(S, fixed, top, twist, D, R, U) and sound
+    return top if sound else -2
+
+
+@compiled
 def solve_rows(problem: Problem, work: Work, fresh: bool, extent: int, closed: Flags) -> int:
     """Solve for work.x (dofs,) and work.p (rows,) from work.S, work.b, work.target, work.candidate,
     work.held.
@@ -68,12 +105,12 @@ def solve_rows(problem: Problem, work: Work, fresh: bool, extent: int, closed: F
     Returns SOLVED, SINGULAR or CYCLING.
     """
     factors, place, switch, reach = problem.factors, problem.place, problem.switch, problem.reach
-    S, fixed, D, R, U, r, z, y = work.S, work.fixed, work.D, work.R, work.U, work.r, work.z, work.y
-    b, x, p, wrong = work.b, work.x, work.p, work.wrong
+    S, fixed, R, U, r, z, y = work.S, work.fixed, work.R, work.U, work.r, work.z, work.y
+    b, x, p, wrong, twist = work.b, work.x, work.p, work.wrong, work.twist
     target, candidate, held = work.target, work.candidate, work.held
     n, m = y.size, closed.size
     direct = factors.shape[1] == 1
-    top = n - 1 if fresh else -1
+    low, top = n, n - 1 if fresh else -1
     last_row, last_closed = -1, -1
     p[:] = 0.0
     wrong[:] = False
@@ -87,6 +124,7 @@ def solve_rows(problem: Problem, work: Work, fresh: bool, extent: int, closed: F
         k = switch[j]
         if fixed[k] != (want == direct):
             fixed[k] = want == direct
+            low = min(low, k)
             top = max(top, min(k + 4, n - 1))
     whole = min(reach[last_row] + 5, n) if last_row >= 0 else 0
     zone, near = whole, last_row + 1
@@ -101,27 +139,38 @@ def solve_rows(problem: Problem, work: Work, fresh: bool, extent: int, closed: F
         end = place[extent - 1] + 1 if extent > 0 else 0
         if last_closed >= 0:
             end = max(end, min(switch[last_closed] + 5, n))
-        z[end:] = 0.0
-    right_side(S, b, place, fixed, switch, factors, target, closed, last_closed, end, r)
-    if top >= 0 and not factor(S, fixed, top, D, R, U):
+        z[end:n] = 0.0
+    settled = min(twist[1], low) if last_closed >= 0 else 0
+    wanted = max(0, min(settled, switch[last_closed] if last_closed >= 0 else 0, n - 4 + REACH) - REACH)
+    if refactor(work, 0 if fresh else n, low, top, wanted) == -2:
         return SINGULAR
-    forward_substitute(U, r, end - 1, z)
+    bottom = twist[0]
+    end = max(end, min(bottom + 4, n))
+    right_side(S, b, place, fixed, switch, factors, target, closed, last_closed, 0, end, r)
+    substitute_up(U, r, 0, bottom, z)
+    substitute_down(U, r, end - 1, bottom, z)
+    first = first_from(switch, bottom + 4) if bottom > 0 else 0
 
     fewest, patience, rounds, tolerance, smallest = m + 1, PATIENCE, 0, ROUND_OFF, 0.0
+    lowest = low
     while True:
-        back_substitute(R, U, z, 0, zone, y)
-        count, last, worst = wrong_rows(problem, work, closed, 0, near, zone, tolerance)
+        back_substitute(R[bottom:], U[bottom:], z[bottom:], 0, zone - bottom, y[bottom:])
+        count, last, worst = wrong_rows(problem, work, closed, first, near, bottom, zone, tolerance)
         if count == 0:
             if end < n:
-                deflection, slope = largest_in(place, y, zone)
+                deflection, slope = largest_in(place, y, bottom, zone)
                 smallest = FADED * max(deflection, slope)
             work.extent[0] = substitute_rest(work, zone, end, smallest)
-            if near > last_row:
-                break
-            count, last, worst = wrong_rows(problem, work, closed, near, last_row + 1, whole, tolerance)
+            back_substitute_down(R, U, z, bottom, y)
+            if bottom > 0:
+                count, last, worst = wrong_rows(problem, work, closed, 0, first, 0, zone, tolerance)
+            if near <= last_row:
+                more, beyond, worse = wrong_rows(problem, work, closed, near, last_row + 1, 0, whole, tolerance)
+                if more > 0:
+                    count, last, worst = count + more, beyond, worse
+                zone, near = whole, last_row + 1
             if count == 0:
                 break
-            zone, near = whole, last_row + 1
         if count < fewest:
             fewest, patience = count, PATIENCE
         else:
@@ -139,19 +188,29 @@ def solve_rows(problem: Problem, work: Work, fresh: bool, extent: int, closed: F
                     return status
                 rounds += more
                 work.extent[0] = n
+                lowest = 0
                 break
         chosen = worst if patience > -PERSISTENCE else last
-        top = -1
+        low, top = n, -1
         for j in range(last + 1):
-            if wrong[j] and (patience > 0 or j == chosen):
-                closed[j] = not closed[j]
-                fixed[switch[j]] = closed[j] == direct
-                top = max(top, min(switch[j] + 4, n - 1))
-        end = max(end, top + 1)
-        right_side(S, b, place, fixed, switch, factors, target, closed, last_row, top + 1, r)
-        if not factor(S, fixed, top, D, R, U):
+            if wrong[j]:
+                low = min(low, switch[j])
+                if patience > 0 or j == chosen:
+                    closed[j] = not closed[j]
+                    fixed[switch[j]] = closed[j] == direct
+                    top = max(top, min(switch[j] + 4, n - 1))
+        lowest = min(lowest, low)
+        top = refactor(work, n, low, top, min(bottom, max(0, low - REACH)))
+        if top == -2:
             return SINGULAR
-        forward_substitute(U, r, top, z)
+        if twist[0] < bottom:
+            bottom = twist[0]
+            first = first_from(switch, bottom + 4) if bottom > 0 else 0
+        end = max(end, top + 1)
+        right_side(S, b, place, fixed, switch, factors, target, closed, last_row, bottom, top + 1, r)
+        substitute_down(U, r, top, bottom, z)
+    if last_closed >= 0:
+        twist[1] = min(lowest, twist[1] + max(1, (switch[last_closed] - twist[1]) // CALMING))
     if not direct:
         for i in range(x.size):
             x[i] = y[place[i]]

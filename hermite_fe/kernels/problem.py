@@ -87,6 +87,7 @@ class Work(NamedTuple):
     S : step matrix by rows; fixed : unknowns whose equation is x = r; D, R, U : factors (:mod:`.banded`)
     b : right-hand side, (dofs,); target, candidate, held : of the rows; x, p : the solution, (dofs,) and (rows,)
     gap, speed, d1, d2, d3 : free for the integrator
+    twist : where the factorisation from either end meets, and the unknown below which no row has switched of late
     extent : unknowns of the solution that are not zero, counted from the start of the beam
     """
 
@@ -111,6 +112,7 @@ class Work(NamedTuple):
     d2: Array
     d3: Array
     made_with: Array  # the step that S was made with, alone
+    twist: NDArray[np.int64]
     extent: NDArray[np.int64]
     rounds: NDArray[np.int64]  # solves, active-set iterations of all of them, most of one
 
@@ -228,6 +230,7 @@ def work_of(system: System, problem: Problem) -> Work:
         d2=np.zeros(n),
         d3=np.zeros(n),
         made_with=np.full(1, np.nan),
+        twist=np.zeros(2, np.int64),
         extent=np.full(1, size),
         rounds=np.zeros(3, np.int64),
     )

@@ -24,6 +24,19 @@ def is_slope(dof: int) -> bool:
 
 
 @compiled
+def first_from(increasing: NDArray[np.int64], value: int) -> int:
+    """Index of the first number that is not below ``value``."""
+    low, high = 0, increasing.size
+    while low < high:
+        middle = (low + high) // 2
+        if increasing[middle] < value:
+            low = middle + 1
+        else:
+            high = middle
+    return low
+
+
+@compiled
 def equation(S: Array, x: Array, right: float, k: int) -> tuple[float, float]:
     """Equation k of S x less its right-hand side, and the sum of the terms' sizes: round-off is judged against it."""
     n = x.size
@@ -52,52 +65,55 @@ def right_side(
     target: Array,
     closed: Flags,
     last_row: int,
+    start: int,
     end: int,
     r: Array,
 ) -> None:
-    """Right-hand side of the first ``end`` unknowns, rows 0 … ``last_row`` closed as ``closed`` says."""
+    """Right-hand side of the unknowns ``start`` … ``end`` − 1, rows 0 … ``last_row`` closed as ``closed`` says."""
     direct = factors.shape[1] == 1
     n = r.size
+    first_row = first_from(switch, start - 4)
     if direct:
-        for k in range(min(end, n)):
+        for k in range(start, min(end, n)):
             r[k] = 0.0 if fixed[k] else b[k]
     else:
-        for i in range(b.size):
+        for i in range(first_from(place, start), b.size):
             k = place[i]
             if k >= end:
                 break
             r[k] = 0.0 if fixed[k] else b[i]
-        for j in range(last_row + 1):
+        for j in range(first_row, last_row + 1):
             k = switch[j]
             if k >= end:
                 break
-            r[k] = target[j] if closed[j] else 0.0
+            if k >= start:
+                r[k] = target[j] if closed[j] else 0.0
         return
-    for j in range(last_row + 1):
+    for j in range(first_row, last_row + 1):
         k = switch[j]
         if k >= end + 4:
             break
         if not closed[j]:
             continue
         value = target[j] / factors[j, 0]
-        if k < end:
+        if start <= k < end:
             r[k] = value
         if value != 0.0:
             for m in range(1, 5):
-                if k >= m and k - m < end and not fixed[k - m]:
+                if start <= k - m < end and not fixed[k - m]:
                     r[k - m] -= S[k, m] * value
-                if k + m < min(n, end) and not fixed[k + m]:
+                if start <= k + m < min(n, end) and not fixed[k + m]:
                     r[k + m] -= S[k + m, m] * value
 
 
 @compiled
-def largest_in(place: NDArray[np.int64], y: Array, zone: int) -> tuple[float, float]:
-    """Largest deflection and largest slope among the unknowns before ``zone``: of different units, each is round-off's
-    measure for its own kind alone."""
+def largest_in(place: NDArray[np.int64], y: Array, start: int, stop: int) -> tuple[float, float]:
+    """Largest deflection and largest slope among the unknowns ``start`` … ``stop`` − 1: of different units, each is
+    round-off's measure for its own kind alone."""
     deflection, slope = 0.0, 0.0
-    for i in range(place.size):
+    for i in range(first_from(place, start), place.size):
         k = place[i]
-        if k >= zone:
+        if k >= stop:
             break
         if is_slope(i):
             slope = max(slope, abs(y[k]))
@@ -124,11 +140,11 @@ def nearest_open(problem: Problem, work: Work, closed: Flags, first: int, stop: 
 
 @compiled
 def wrong_rows(
-    problem: Problem, work: Work, closed: Flags, first: int, stop: int, zone: int, tolerance: float
+    problem: Problem, work: Work, closed: Flags, first: int, stop: int, start: int, zone: int, tolerance: float
 ) -> tuple[int, int, int]:
-    """Mark in work.wrong which of the rows ``first`` … ``stop`` − 1 have the wrong sign, the unknowns before ``zone``
-    known, and put their reactions in work.p. Returns how many are wrong, the last of them, and the one that pulls most
-    or, where none pulls, is furthest in the wall (−1: none)."""
+    """Mark in work.wrong which of the rows ``first`` … ``stop`` − 1 have the wrong sign, and put their reactions in
+    work.p. The unknowns from ``start`` to before ``zone`` are known, and measure round-off. Returns how many are wrong,
+    the last of them, and the one that pulls most or, where none pulls, is furthest in the wall (−1: none)."""
     dofs, factors, place, switch = problem.dofs, problem.factors, problem.place, problem.switch
     y, b, r, p, target = work.y, work.b, work.r, work.p, work.target
     width = factors.shape[1]
@@ -162,7 +178,7 @@ def wrong_rows(
                     slack += factors[j, i] * y[place[dofs[j, i]]]
             if slack < 0.0:
                 if not measured:
-                    deflection, slope = largest_in(place, y, zone)
+                    deflection, slope = largest_in(place, y, start, zone)
                     measured = True
                 size = abs(target[j])
                 for i in range(width):
