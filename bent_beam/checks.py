@@ -79,8 +79,8 @@ def one_of(name: str, value: str, allowed: Collection[str]) -> str:
 
 
 def affordable(settings: str, steps: float, nodes: int, instants: int, most: float) -> None:
-    """``ValueError`` naming ``settings`` when a run asks for more than ``most`` steps × nodes, or for more than
-    ``LARGEST_RECORD`` nodes × saved instants."""
+    """``ValueError`` naming ``settings`` when a run asks for more than ``most`` steps × nodes, or would keep more than
+    ``LARGEST_RECORD`` nodes × saved instants in memory."""
     if steps * nodes > most:
         raise ValueError(
             f"{settings} ask for {steps:.3g} steps of {nodes} nodes: {steps * nodes:.2g} steps x nodes, {most:.2g} are "

@@ -24,19 +24,20 @@ NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]{0,63}")
 MOST_VARIABLES = 64
 MOST_ATTRIBUTES = 32  # of one object
 MOST_TEXT = 16_000_000  # characters in all attributes: the nodes and saved instants of the largest run fit
-LARGEST = 8_000_000_000  # bytes of all values
+LARGEST = 8_000_000_000  # bytes of all values, of a packed file
 LARGEST_PACKED = 250_000_000  # bytes of all values that a small file may unpack to
 RATIO = 20  # of all values to the size of the file, beyond that: numbers of a simulation hardly compress
 FILTERS = {h5py.h5z.FILTER_DEFLATE, h5py.h5z.FILTER_SHUFFLE, h5py.h5z.FILTER_FLETCHER32}
 OF_NETCDF = {"DIMENSION_LIST", "REFERENCE_LIST"}  # references between variables and their dimensions, no text
 CPU_SECONDS = 4
 LIBRARIES = 600_000_000  # bytes of memory besides the values
+BLOCK = 64_000_000  # bytes of values that are read at a time
 BYTES_A_SECOND = 20_000_000  # a large file may take longer
 
 
 def allowed(size: int) -> int:
     """Bytes of all values that a file of ``size`` bytes may hold."""
-    return max(LARGEST_PACKED, min(LARGEST, RATIO * size))
+    return max(LARGEST_PACKED + size, min(LARGEST, RATIO * size))
 
 
 def examine(file: Path) -> None:
@@ -44,7 +45,18 @@ def examine(file: Path) -> None:
     with h5py.File(file, "r") as content:
         _check_content(content, allowed(file.stat().st_size))
         for name in content:
-            content[name][()]
+            _read(content[name])
+
+
+def _read(variable: h5py.Dataset) -> None:
+    """All values once, ``BLOCK`` bytes at a time."""
+    rows = variable.shape[0] if variable.shape else 0
+    step = max(1, int(BLOCK * rows // max(variable.nbytes, 1)))
+    if rows <= step:
+        variable[()]
+        return
+    for first in range(0, rows, step):
+        variable[first : first + step]
 
 
 def _check_content(content: h5py.File, most: int) -> None:

@@ -3,19 +3,24 @@
 from __future__ import annotations
 
 import os
+import shutil
 import tempfile
 from pathlib import Path
+from typing import BinaryIO
 
 __all__ = ["write_atomically"]
 
 
-def write_atomically(file: Path, content: str | bytes | memoryview) -> None:
+def write_atomically(file: Path, content: str | bytes | memoryview | BinaryIO) -> None:
     """Write a file so that a reader sees either nothing or all of it, and a killed run leaves no half of it."""
     file.parent.mkdir(parents=True, exist_ok=True)
     handle, name = tempfile.mkstemp(prefix=f".{file.name[:100]}.", suffix=".part", dir=file.parent)
     try:
         with os.fdopen(handle, "wb") as part:
-            part.write(content.encode() if isinstance(content, str) else content)
+            if isinstance(content, (str, bytes, memoryview)):
+                part.write(content.encode() if isinstance(content, str) else content)
+            else:
+                shutil.copyfileobj(content, part)
             part.flush()
             os.fsync(part.fileno())
         os.chmod(name, 0o644)

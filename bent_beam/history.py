@@ -29,8 +29,8 @@ from __future__ import annotations
 
 import json
 import unicodedata
-from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import asdict, dataclass, replace
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -40,7 +40,7 @@ from numpy.typing import NDArray
 
 from bent_beam.checks import one_of, shortened
 from bent_beam.impact import Impact
-from bent_beam.storage import read_dataset, write_dataset
+from bent_beam.storage import blocks, copy_whole, read_dataset, write_dataset
 from bent_beam.versions import versions
 
 if TYPE_CHECKING:
@@ -115,9 +115,12 @@ class ImpactHistory:
     """What a simulation returns: :attr:`dataset` (see the module's table) with typed access to what is asked often.
 
     source : the dataset, or what it is made of when somebody asks for it.
+    file : where the values are read from each time that they are asked for (``None``: they are in memory). Ask such a
+        history for instants, ``array("gap", k)``, or for ``blocks("gap")``, not for all of a variable.
     """
 
     source: xr.Dataset | Record
+    file: Path | None = None
 
     @cached_property
     def dataset(self) -> xr.Dataset:
@@ -169,6 +172,11 @@ class ImpactHistory:
             "completed": int(completed),
         }
         return cls(Record(variables, attrs))
+
+    def with_warnings(self, warnings: Sequence[str]) -> ImpactHistory:
+        """The same with other warnings."""
+        now, attrs = self._now, {**self.attrs, "warnings": json.dumps(list(warnings))}
+        return replace(self, source=replace(now, attrs=attrs) if isinstance(now, Record) else now.assign_attrs(attrs))
 
     # reading ------------------------------------------------------------------------------------------
     @property
@@ -225,20 +233,30 @@ class ImpactHistory:
 
     def positions(self, k: int) -> Array:
         """Node places at saved instant ``k``, m, shape (nodes,)."""
-        return self.array("position")[k] if "position" in self else self.array("x")
+        return self.array("position", k) if "position" in self else self.array("x")
 
     def contact_positions(self, k: int) -> Array:
         """Contact point places at saved instant ``k``, m, shape (contacts,)."""
-        return self.array("contact_position")[k] if "contact_position" in self else self.array("contact_x")
+        return self.array("contact_position", k) if "contact_position" in self else self.array("contact_x")
 
     def __contains__(self, name: str) -> bool:
         """Whether the history has this variable."""
         return name in self._now.variables
 
-    def array(self, name: str) -> NDArray[Any]:
-        """The values of one variable."""
+    def array(self, name: str, k: int | None = None) -> NDArray[Any]:
+        """The values of one variable, at saved instant ``k`` alone where one is given."""
         now = self._now
-        return np.asarray(now.variables[name][1] if isinstance(now, Record) else now[name].values)
+        if isinstance(now, Record):
+            values = now.variables[name][1]
+        elif self.file is not None and k is not None:
+            return np.asarray(now.variables[name][k].values)
+        else:
+            values = now[name].values
+        return np.asarray(values if k is None else values[k])
+
+    def blocks(self, name: str) -> Iterator[NDArray[Any]]:
+        """The values of one variable, instants of a few megabytes at a time where they are on disk."""
+        return iter([self.array(name)]) if self.file is None else blocks(self.dataset.variables[name])
 
     def energy(self, name: str) -> Array:
         """One of the energies of the module's table, J, shape (times,): nothing where the path has no such term."""
@@ -276,17 +294,21 @@ class ImpactHistory:
     # keeping ------------------------------------------------------------------------------------------
     def save(self, file: str | Path) -> Path:
         """Write netCDF: a killed run or a full disk leaves either the whole file or none. Returns the path."""
-        write_dataset(self.dataset, Path(file))
+        if self.file is None:
+            write_dataset(self.dataset, Path(file))
+        else:
+            copy_whole(self.file, Path(file))
         return Path(file)
 
     @classmethod
     def load(cls, file: str | Path) -> ImpactHistory:
-        """Read a history back; ``ValueError`` when the file is none, or holds anything that a history does not."""
+        """Read a history back; ``ValueError`` when the file is none, or holds anything that a history does not. Of a
+        large one (:data:`bent_beam.storage.LARGE`) the values stay on disk until they are asked for."""
         source = Path(file)
-        dataset = read_dataset(source)
+        dataset, large = read_dataset(source)
         if dataset.attrs.get("format") != FORMAT:
             raise ValueError(f"{source} is not a history of this project")
-        history = cls(dataset)
+        history = cls(dataset, source if large else None)
         try:
             history._check()
         except (ValueError, TypeError, KeyError, OverflowError, RecursionError) as error:
@@ -316,7 +338,7 @@ class ImpactHistory:
                 raise TypeError(f"{label} must hold numbers (got {variable.dtype})")
             if not set(variable.dims) <= {"time", "x", "contact"}:
                 raise ValueError(f"{label} must have dimensions time, x and contact (got {variable.dims})")
-            if not np.all(np.isfinite(variable.values)):
+            if not all(np.all(np.isfinite(values)) for values in blocks(variable)):
                 raise ValueError(f"{label} is not finite")
         if self.time.size < 1 or np.any(np.diff(self.time) <= 0.0):
             raise ValueError("time must increase")

@@ -102,13 +102,14 @@ def one_side(history: ImpactHistory) -> tuple[Array, Array]:
     total = history.array("total_impulse") / 2.0
     if "impulse_moment" in history:
         return total, history.array("impulse_moment")
-    impulse = history.array("impulse")
     if "contact_position" in history:  # each contact point gathers on its way: what it got is taken halfway
+        impulse = history.array("impulse")
         places = np.abs(np.stack([history.contact_positions(k) for k in range(history.time.size)]))
         pushes = np.diff(impulse, axis=0, prepend=0.0 * impulse[:1])
         moment = np.cumsum((pushes * 0.5 * (places + np.concatenate([places[:1], places[:-1]]))).sum(axis=1))
     else:
-        moment = impulse @ np.abs(history.contact_positions(0))
+        places = np.abs(history.contact_positions(0))
+        moment = np.concatenate([part @ places for part in history.blocks("impulse")])
     return total, moment / 2.0 if history.symmetry == "full" else moment
 
 
@@ -122,14 +123,14 @@ def _pressure(history: ImpactHistory, front: Array) -> Array:
     Few of these may carry the load at a time, each for its neighbours: a sum over them, divided by the length between
     the outermost, is off by what one of them carries; the slope hardly feels it.
     """
-    impulse, time = history.array("impulse"), history.time
+    time = history.time
     sides = 2.0 if history.symmetry == "full" else 1.0
     found = np.zeros(time.size)
     for k in range(1, time.size):
         # a moving contact point has gathered its impulse on the way: take its place halfway
         places = np.abs(0.5 * (history.contact_positions(k - 1) + history.contact_positions(k)))
         order = np.argsort(places)
-        places, gathered = places[order], (impulse[k] - impulse[k - 1])[order] / sides
+        places, gathered = places[order], (history.array("impulse", k) - history.array("impulse", k - 1))[order] / sides
         inside = places < ZONE * front[k]
         if inside.sum() < 3:
             continue
@@ -267,12 +268,12 @@ def _leading_values(found: Moments, window: float) -> tuple[float, float, float,
 
 def _lift(history: ImpactHistory) -> Array:
     """Largest gap inside nine tenths of the contact zone over V₀t at the saved instants (0 without a zone)."""
-    front, gap = local_front(history), history.array("gap")
+    front = local_front(history)
     lift = np.zeros(history.time.size)
     for k, t in enumerate(history.time):
         inside = np.abs(history.positions(k)) <= 0.9 * front[k]
         if t > 0.0 and inside.any():
-            lift[k] = max(float(gap[k, inside].max()), 0.0) / (history.impact.velocity * t)
+            lift[k] = max(float(history.array("gap", k)[inside].max()), 0.0) / (history.impact.velocity * t)
     return lift
 
 

@@ -8,11 +8,20 @@ import signal
 import threading
 import time as clock
 from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import CancelledError, Future, ProcessPoolExecutor, ThreadPoolExecutor, as_completed
+from concurrent.futures import (
+    FIRST_COMPLETED,
+    CancelledError,
+    Future,
+    ProcessPoolExecutor,
+    ThreadPoolExecutor,
+    as_completed,
+)
+from concurrent.futures import wait as wait_for
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import partial
+from itertools import islice
 from multiprocessing import active_children, get_context, parent_process
 from multiprocessing.connection import wait
 from types import FrameType
@@ -23,6 +32,8 @@ from bent_beam.checks import positive, whole
 __all__ = ["run_all"]
 
 TICK = 0.1  # s, between two looks at the clock of a call whose time is limited
+AHEAD = 8  # calls a process that wait or run: a sweep of any length takes the same memory
+AHEAD_ON_CLUSTER = 1_000  # the same of all its workers together
 PREPARING = ("importlib.", "numba.")
 
 
@@ -138,45 +149,52 @@ def _on_cores(
         if progress is not None:
             progress(len(results), len(arguments))
 
-    suspects = _together(function, list(enumerate(arguments)), jobs, done)
-    # A worker that dies takes down its pool and all that waited in it: each of those again, in a pool of its own.
-    stopped = threading.Event()
-    with ThreadPoolExecutor(max_workers=jobs) as watchers, workers_end_with_us(stopped):
-        alone = {watchers.submit(_alone, function, arguments[i], stopped): i for i in suspects}
-        for watcher in as_completed(alone):
-            i = alone[watcher]
-            died, result = watcher.result()
-            done(i, on_death(i, "its worker process died three times (killed, or out of memory)") if died else result)
+    calls = iter(enumerate(arguments))
+    while suspects := _together(function, calls, min(jobs, len(arguments)), done):
+        # A worker that dies takes down its pool and all that waited in it: each of those again, in a pool of its own.
+        stopped = threading.Event()
+        with ThreadPoolExecutor(max_workers=jobs) as watchers, workers_end_with_us(stopped):
+            alone = {watchers.submit(_alone, function, arguments[i], stopped): i for i in suspects}
+            for watcher in as_completed(alone):
+                i = alone[watcher]
+                died, result = watcher.result()
+                why = "its worker process died three times (killed, or out of memory)"
+                done(i, on_death(i, why) if died else result)
     return [results[i] for i in range(len(arguments))]
 
 
 def _together(
     function: Callable[..., Any],
-    calls: Sequence[tuple[int, tuple[Any, ...]]],
+    calls: Iterator[tuple[int, tuple[Any, ...]]],
     jobs: int,
     done: Callable[[int, Any], None],
 ) -> list[int]:
-    """All calls in one pool; returns those that were unfinished when a worker died."""
+    """Calls in one pool, a few ahead of its workers, until none is left or a worker dies; returns those that were under
+    way then."""
     # spawn: a fresh interpreter a worker, so no thread or lock of this process is inherited half-way
     context = get_context("spawn")
-    pool = ProcessPoolExecutor(min(jobs, len(calls)), mp_context=context, initializer=end_with_parent)
+    pool = ProcessPoolExecutor(jobs, mp_context=context, initializer=end_with_parent)
     with pool, workers_end_with_us():
         futures: dict[Future[Any], int] = {}
-        broken = []
-        with interrupts_held():
-            for i, call in calls:
+        broken: list[int] = []
+        while True:
+            for i, call in islice(calls, 0 if broken else AHEAD * jobs - len(futures)):
                 try:
-                    futures[pool.submit(function, *call)] = i
+                    with interrupts_held():
+                        futures[pool.submit(function, *call)] = i
                 except BrokenProcessPool:
                     broken.append(i)
-        for future in as_completed(futures):
-            try:
-                result = future.result()
-            except BrokenProcessPool:
-                broken.append(futures[future])
-            else:
-                done(futures[future], result)
-    return sorted(broken)
+                    break
+            if not futures:
+                return sorted(broken)
+            for future in wait_for(futures, return_when=FIRST_COMPLETED).done:
+                i = futures.pop(future)
+                try:
+                    result = future.result()
+                except BrokenProcessPool:
+                    broken.append(i)
+                else:
+                    done(i, result)
 
 
 def _alone(function: Callable[..., Any], call: tuple[Any, ...], stopped: threading.Event) -> tuple[bool, Any]:
@@ -290,15 +308,26 @@ def _answers(
 
     # not the default: who asked may use dask, or xarray, for something else
     with Client(scheduler, timeout=patience, set_as_default=False) as client:
-        futures = {client.submit(function, *arguments[i], pure=False): i for i in left}
-        for future in completed(list(futures), loop=client.loop):
+        futures: dict[Any, int] = {}
+        waiting, finished = iter(left), completed(loop=client.loop)
+
+        def submit(count: int) -> None:
+            for i in islice(waiting, count):
+                future = client.submit(function, *arguments[i], pure=False)
+                futures[future] = i
+                finished.add(future)
+
+        submit(AHEAD_ON_CLUSTER)
+        for future in finished:
+            i = futures.pop(future)
             if future.status == "finished":
                 try:
                     result = future.result(timeout=patience)
                 except (OSError, CancelledError, asyncio.CancelledError):  # it went away with the answer: asked again
                     continue
-                yield futures[future], False, result
+                yield i, False, result
             elif future.status == "error":
-                yield futures[future], True, future.exception()
+                yield i, True, future.exception()
             if client.status != "running":
                 return
+            submit(AHEAD_ON_CLUSTER - len(futures))

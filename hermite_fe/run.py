@@ -1,6 +1,7 @@
 """One run of any :class:`hermite_fe.system.System`: steps between the saved instants, samples at them.
 
-Only samples are kept, so memory is (saved instants) × (dofs), whatever the number of steps.
+Only samples are kept, so memory is (saved instants) × (dofs), whatever the number of steps; and where that is much,
+they are given away block by block while the run goes on.
 """
 
 from __future__ import annotations
@@ -37,6 +38,8 @@ from hermite_fe.kernels.rows import CYCLING, NOT_FINITE, SINGULAR, SOLVED
 from hermite_fe.system import System
 
 __all__ = ["Stepper", "Trajectory", "integrate", "saved_steps"]
+
+BLOCK = 10_000_000  # nodes x saved instants that are kept in memory: a gigabyte with all that is made of them
 
 Array = NDArray[np.float64]
 
@@ -115,6 +118,51 @@ def saved_steps(instants: Array, save: int | Sequence[float] | Array) -> NDArray
             raise ValueError(f"save must hold increasing times from 0 to the end time {end!r}")
     middles = 0.5 * (instants[1:] + instants[:-1])
     return np.unique(np.concatenate([[0], np.searchsorted(middles, wanted)]))
+
+
+class Samples:
+    """Up to ``count`` saved instants of a run."""
+
+    def __init__(self, system: System, count: int) -> None:
+        n, m = system.dofs, len(system.contacts)
+        self.contacts, self.count, self.size = system.contacts, count, 0
+        self.arrays = {name: np.zeros((count, n)) for name in ("q", "v")}
+        self.arrays |= {name: np.zeros((count, m)) for name in ("gap", "impulse", "held_impulse")}
+        self.arrays |= {"time": np.zeros(count), "closed": np.zeros((count, m), bool)}
+        self.sums: list[dict[str, float]] = []
+
+    def add(self, run: Stepper) -> None:
+        """The instant that ``run`` has reached."""
+        s, state = self.size, run.state
+        self.arrays["time"][s] = run.instants[run.step]
+        self.arrays["q"][s], self.arrays["v"][s] = state.q, state.v
+        self.arrays["gap"][s] = self.contacts.gaps(state.q)
+        self.arrays["impulse"][s], self.arrays["held_impulse"][s] = state.impulse, state.held_impulse
+        self.arrays["closed"][s] = state.closed
+        self.sums.append(run.sums())
+        self.size += 1
+
+    def trajectory(self, run: Stepper, seconds: float, failure: str = "", failure_time: float = 0.0) -> Trajectory:
+        """What there is, at least one instant."""
+        mean, most = run.iterations()
+        records: dict[str, Any] = {name: samples[: self.size] for name, samples in self.arrays.items()}
+        records |= {name: np.array([row[name] for row in self.sums]) for name in self.sums[0]}
+        return Trajectory(
+            steps=run.step,
+            seconds=seconds,
+            mean_iterations=mean,
+            most_iterations=most,
+            failure=failure,
+            failure_time=failure_time,
+            **records,
+        )
+
+    def keep_last(self) -> None:
+        """Forget all instants but the last."""
+        for samples in self.arrays.values():
+            samples[0] = samples[self.size - 1]
+        del self.sums[:-1]
+        self.size = 1
 
 
 class Stepper:
@@ -225,6 +273,7 @@ def integrate(
     save: int | Sequence[float] | Array = 200,
     progress: Callable[[float], None] | None = None,
     until: Callable[[Stepper], bool] | None = None,
+    record: Callable[[Trajectory, int], None] | None = None,
 ) -> Trajectory:
     """Step ``system`` from (q, v) at t = 0 to ``end_time``, s.
 
@@ -232,6 +281,9 @@ def integrate(
         :class:`hermite_fe.contacts.Contact`; hold_ends : s, nothing is held from then on.
     save : number of saved instants, or times. progress : called with the finished fraction.
     until : asked at every saved instant; the run ends with the first at which it says so.
+    record : takes the instants of a run that saves more than ``BLOCK`` nodes x instants, block by block as they come,
+        and how many are to be saved in all; each block starts with the last instant of the one before, and the last
+        one is returned (a shorter run calls it never and returns all).
 
     A run that cannot finish returns what it reached, with ``failure`` set. Raises ``ValueError`` for bad
     input.
@@ -248,43 +300,25 @@ def integrate(
         hold_ends=hold_ends,
     )
     kept = saved_steps(run.instants, save)
-    affordable("integrator and mesh", run.instants.size - 1, system.dofs // 2, kept.size, MOST_WORK)
-    count, n, m = kept.size, system.dofs, len(system.contacts)
-    arrays = {name: np.zeros((count, n)) for name in ("q", "v")}
-    arrays |= {name: np.zeros((count, m)) for name in ("gap", "impulse", "held_impulse")}
-    closed = np.zeros((count, m), bool)
-    sums: list[dict[str, float]] = []
+    nodes = max(1, system.dofs // 2)
+    block = kept.size if record is None else max(2, BLOCK // nodes)
+    affordable("integrator and mesh", run.instants.size - 1, nodes, min(kept.size, block), MOST_WORK)
+    samples = Samples(system, min(kept.size, block))
     failure, failure_time = "", 0.0
     run.compile()
     started = clock.perf_counter()
-    for s, step in enumerate(kept):
+    for step in kept:
         status = run.advance_to(int(step))
         if status != SOLVED:
             failure, failure_time = FAILURES[status], float(run.instants[run.step])
             break
-        state = run.state
-        arrays["q"][s], arrays["v"][s] = state.q, state.v
-        arrays["gap"][s] = system.contacts.gaps(state.q)
-        arrays["impulse"][s], arrays["held_impulse"][s] = state.impulse, state.held_impulse
-        closed[s] = state.closed
-        sums.append(run.sums())
+        if samples.size == samples.count and record is not None:
+            record(samples.trajectory(run, clock.perf_counter() - started), kept.size)
+            samples.keep_last()
+        samples.add(run)
         if progress is not None:
             progress(float(step) / float(kept[-1]))
         if until is not None and until(run):
             break
-    seconds = clock.perf_counter() - started
-    mean, most = run.iterations()
-    good = len(sums)  # at least one: the start takes no step
-    records: dict[str, Any] = {name: samples[:good] for name, samples in arrays.items()}
-    records |= {name: np.array([row[name] for row in sums]) for name in sums[0]}
-    return Trajectory(
-        time=run.instants[kept[:good]],
-        closed=closed[:good],
-        steps=run.step,
-        seconds=seconds,
-        mean_iterations=mean,
-        most_iterations=most,
-        failure=failure,
-        failure_time=failure_time,
-        **records,
-    )
+    # at least one instant: the start takes no step
+    return samples.trajectory(run, clock.perf_counter() - started, failure, failure_time)

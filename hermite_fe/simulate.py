@@ -14,6 +14,7 @@ from bent_beam.history import ImpactHistory
 from bent_beam.impact import Impact
 from bent_beam.meshes import Mesh
 from bent_beam.parts import describe
+from bent_beam.storage import GrowingFile
 from hermite_fe import auto
 from hermite_fe.contacts import Contact
 from hermite_fe.far_fields import FarField, GridViscosity
@@ -72,6 +73,9 @@ def simulate(
     progress : called with the finished fraction now and then.
     until : asked at every saved instant; the run ends with the first at which it says so.
 
+    A history of more than :data:`hermite_fe.run.BLOCK` nodes x instants is written to a file while the run goes on, and
+    read from there (:class:`bent_beam.storage.GrowingFile`).
+
     Raises ``ValueError`` for bad input, :class:`bent_beam.SimulationError` (with the partial history) when a
     run cannot finish.
     """
@@ -97,6 +101,7 @@ def simulate(
             walls(run)
         return until is not None and until(model, run)
 
+    long = LongRecord(impact, model)
     trajectory = integrate(
         model.system,
         model.displacement,
@@ -110,22 +115,29 @@ def simulate(
         save=save,
         progress=progress,
         until=ends,
+        record=None if walls is not None else long.add,
     )
+    saved = np.concatenate([*long.times, trajectory.time[bool(long.times) :]])
     ended = until is not None and not trajectory.failure
     settings = {
-        "end_time": float(trajectory.time[-1]) if ended else end,
+        "end_time": float(saved[-1]) if ended else end,
         "full_beam": full_beam,
         "domain": domain,
-        "save": trajectory.time[1:].tolist() if ended else np.asarray(save).tolist(),
+        "save": saved[1:].tolist() if ended else np.asarray(save).tolist(),
         **{name: describe(getattr(choice, name)) for name in ("mesh", "integrator", "contact", "far_field", "mass")},
     }
-    settings["hold"] = hold_report(impact, choice.contact, trajectory)
+    extremes = np.max([*long.extremes, hold_extremes(trajectory)], axis=0)
+    settings["hold"] = hold_report(impact, choice.contact, trajectory.time[-1], *extremes)
     settings["mean_iterations"] = trajectory.mean_iterations
     settings["most_iterations"] = trajectory.most_iterations
-    warnings: tuple[str, ...] = ()
-    if until is None and walls is None and not off_centre(impact):  # what the choices warn about is a spreading front
-        warnings = (*choice.warnings, *lift_warnings(impact, model, trajectory))
-    history = history_of(impact, model, trajectory, settings, warnings, walls)
+    history = history_of(impact, model, trajectory, settings, (), walls)
+
+    def warnings_of(history: ImpactHistory) -> list[str]:
+        if until is not None or walls is not None or off_centre(impact):
+            return []  # what the choices warn about is a spreading front
+        return [*choice.warnings, *lift_warnings(impact, model, history)]
+
+    history = long.finished(history, warnings_of) if long.times else history.with_warnings(warnings_of(history))
     if trajectory.failure:
         raise SimulationError(
             trajectory.failure,
@@ -147,29 +159,71 @@ def cut(impact: Impact, domain: float | None) -> Impact:
     return impact.replace(length=2.0 * domain)
 
 
-def hold_report(impact: Impact, contact: Contact, run: Trajectory) -> dict[str, float] | None:
-    """``{"until": s, "pull": largest pull over largest push}`` of a contact point between two saved instants, where the
-    hold acted; ``None`` where nothing ever pulled."""
+class LongRecord:
+    """The record of a run that is too long for memory: blocks of instants in a file, and what is asked of all of them.
+
+    times : saved instants of the blocks; extremes : :func:`hold_extremes` of each.
+    """
+
+    def __init__(self, impact: Impact, model: BeamModel) -> None:
+        self.impact, self.model = impact, model
+        self.times: list[NDArray[np.float64]] = []
+        self.extremes: list[tuple[float, float]] = []
+        self.file: GrowingFile | None = None
+
+    def add(self, run: Trajectory, instants: int) -> None:
+        """One more block; ``instants`` are saved in all."""
+        if self.file is None:
+            self.file = GrowingFile()
+            self.file.make_room(instants * (1.5 * run.q.shape[1] + 2.0 * run.gap.shape[1]))
+        self._append(history_of(self.impact, self.model, run, {}, ()))
+        self.times.append(run.time[len(self.times) > 0 :])
+        self.extremes.append(hold_extremes(run))
+
+    def _append(self, block: ImpactHistory) -> None:
+        assert self.file is not None
+        again = 1 if self.file.instants else 0  # a block starts where the one before ended
+        self.file.append(block.dataset.isel(time=slice(again, None)))
+
+    def finished(self, last: ImpactHistory, warnings_of: Callable[[ImpactHistory], list[str]]) -> ImpactHistory:
+        """The whole history, of which ``last`` is the last block, with the warnings that it gives rise to."""
+        self._append(last)
+        assert self.file is not None
+        with self.file.read() as dataset:
+            warned = last.with_warnings(warnings_of(ImpactHistory(dataset, self.file.file)))
+        self.file.describe(warned.dataset.attrs)
+        return ImpactHistory(self.file.finished(), self.file.file)
+
+
+def hold_extremes(run: Trajectory) -> tuple[float, float]:
+    """Largest pull where the hold acted and largest push of a contact point between two saved instants, N s."""
     pull = -float(np.diff(run.held_impulse, axis=0).min(initial=0.0))
+    return pull, float(np.diff(run.impulse, axis=0).max(initial=0.0))
+
+
+def hold_report(impact: Impact, contact: Contact, end: float, pull: float, push: float) -> dict[str, float] | None:
+    """``{"until": s, "pull": largest pull over largest push}`` of a run to ``end``, s; ``None`` where nothing ever
+    pulled."""
     if pull == 0.0:
         return None
-    push = float(np.diff(run.impulse, axis=0).max(initial=0.0))
-    stated = run.time[-1] if contact.hold else contact.hold_until or 0.0
-    until = min(float(stated), float(run.time[-1]), auto.HOLD_ENDS * impact.slow_time_scale)
-    return {"until": until, "pull": pull / push if push > 0.0 else float(np.finfo(float).max)}
+    stated = end if contact.hold else contact.hold_until or 0.0
+    until = min(float(stated), float(end), auto.HOLD_ENDS * impact.slow_time_scale)
+    return {"until": until, "pull": float(pull / push) if push > 0.0 else float(np.finfo(float).max)}
 
 
-def lift_warnings(impact: Impact, model: BeamModel, run: Trajectory) -> list[str]:
+def lift_warnings(impact: Impact, model: BeamModel, history: ImpactHistory) -> list[str]:
     """A zone off the wall although nothing lifts it: neither a load nor, before 0.005 T*, waves from the ends."""
-    end = run.time[-1]
+    time = history.time
+    end = time[-1]
     if impact.zone_pressure < 0.0 or end > auto.HOLD_ENDS * impact.slow_time_scale:
         return []
     places, worst = np.abs(model.system.contacts.places), 0.0
     nodes = np.abs(model.beam.nodes)
-    for k in np.flatnonzero(run.time > 0.1 * end)[1:]:
-        pushed = run.impulse[k] > run.impulse[np.searchsorted(run.time, 0.9 * run.time[k]) - 1]
-        inside = nodes < 0.8 * np.max(places[pushed], initial=0.0)
-        worst = max(worst, float(np.max(model.gap(run.q[k])[inside], initial=0.0)) / (impact.velocity * run.time[k]))
+    for k in np.flatnonzero(time > 0.1 * end)[1:]:
+        before = history.array("impulse", int(np.searchsorted(time, 0.9 * time[k]) - 1))
+        inside = nodes < 0.8 * np.max(places[history.array("impulse", k) > before], initial=0.0)
+        lift = np.max(history.array("gap", k)[inside], initial=0.0)
+        worst = max(worst, float(lift) / (impact.velocity * time[k]))
     if worst <= LARGEST_LIFT:
         return []
     return [

@@ -302,7 +302,8 @@ def forward_substitute(U: Array, r: Array, top: int, bottom: int, z: Array) -> N
 
 @compiled
 def substitute_up(U: Array, r: Array, first: int, stop: int, z: Array) -> None:
-    """Solve L z = r, of :func:`factor_up`, from unknown ``first`` up to ``stop`` − 1; z below ``first`` must be known."""
+    """Solve L z = r, of :func:`factor_up`, from unknown ``first`` up to ``stop`` − 1; z below ``first`` must be known.
+    """
     z1, z2, z3, z4 = 0.0, 0.0, 0.0, 0.0
     if first > 0:
         z1, z2, z3, z4 = z[first - 1], z[first - 2], z[first - 3], z[first - 4]

@@ -2,9 +2,10 @@
 
     S x = b + Gᵀ p,      0 ≤ p ⊥ G x − c ≥ 0,      x = 0 at supports,
 
-by block principal pivoting: guess which rows are closed (G x = c), solve, exchange every row whose sign is
-wrong, repeat. Exchanging all at once takes two or three rounds; should the number of wrong rows stop falling,
-one row at a time is exchanged, the one that pulls most or else is furthest in the wall. Where that does not help the
+by block principal pivoting: guess which rows are closed (G x = c), solve, exchange rows whose sign is wrong, repeat.
+Of a run of neighbours that are wrong alike the worst is exchanged, which mends most of the others: a beam is stiff over
+a few nodes, so that all of them at once would do too much. Should the number of wrong rows stop falling, one row at a
+time is exchanged, the one that pulls most or else is furthest in the wall. Where that does not help the
 last of them is (Murty's rule), which cannot cycle for a positive definite S (Júdice & Pires 1994, Comput. Oper. Res.
 21, 587) but may take very long: then :mod:`hermite_fe.kernels.monotone` takes over.
 
@@ -44,6 +45,7 @@ from hermite_fe.kernels.rows import (
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
+FEW = 2  # neighbours that are exchanged together
 PATIENCE = 8  # rounds of block exchange without progress before one row at a time is exchanged
 PERSISTENCE = 64  # rounds without progress of exchanging the worst row before Murty's rule
 ROUND_OFF = 1e-13  # of the terms summed: below it a wrong sign means nothing
@@ -106,7 +108,7 @@ def solve_rows(problem: Problem, work: Work, fresh: bool, extent: int, closed: F
     """
     factors, place, switch, reach = problem.factors, problem.place, problem.switch, problem.reach
     S, fixed, R, U, r, z, y = work.S, work.fixed, work.R, work.U, work.r, work.z, work.y
-    b, x, p, wrong, twist = work.b, work.x, work.p, work.wrong, work.twist
+    b, x, p, wrong, excess, twist = work.b, work.x, work.p, work.wrong, work.excess, work.twist
     target, candidate, held = work.target, work.candidate, work.held
     n, m = y.size, closed.size
     direct = factors.shape[1] == 1
@@ -152,7 +154,7 @@ def solve_rows(problem: Problem, work: Work, fresh: bool, extent: int, closed: F
     first = first_from(switch, bottom + 4) if bottom > 0 else 0
 
     fewest, patience, rounds, tolerance, smallest = m + 1, PATIENCE, 0, ROUND_OFF, 0.0
-    lowest = low
+    lowest, most, few = low, -1, True
     while True:
         back_substitute(R[bottom:], U[bottom:], z[bottom:], 0, zone - bottom, y[bottom:])
         count, last, worst = wrong_rows(problem, work, closed, first, near, bottom, zone, tolerance)
@@ -191,14 +193,22 @@ def solve_rows(problem: Problem, work: Work, fresh: bool, extent: int, closed: F
                 lowest = 0
                 break
         chosen = worst if patience > -PERSISTENCE else last
-        low, top = n, -1
+        low, top, stop = n, -1, 0
         for j in range(last + 1):
-            if wrong[j]:
-                low = min(low, switch[j])
-                if patience > 0 or j == chosen:
-                    closed[j] = not closed[j]
-                    fixed[switch[j]] = closed[j] == direct
-                    top = max(top, min(switch[j] + 4, n - 1))
+            if not wrong[j]:
+                continue
+            low = min(low, switch[j])
+            if j >= stop:  # a run of neighbours that are wrong alike
+                shut, stop, most = closed[j], j + 1, j
+                while stop <= last and wrong[stop] and closed[stop] == shut:
+                    if excess[stop] > excess[most]:
+                        most = stop
+                    stop += 1
+                few = stop - j <= FEW
+            if j == chosen if patience <= 0 else few or j == most:
+                closed[j] = not closed[j]
+                fixed[switch[j]] = closed[j] == direct
+                top = max(top, min(switch[j] + 4, n - 1))
         lowest = min(lowest, low)
         top = refactor(work, n, low, top, min(bottom, max(0, low - REACH)))
         if top == -2:

@@ -85,6 +85,7 @@ class Work(NamedTuple):
     what is scratch (:func:`works_of`).
 
     S : step matrix by rows; fixed : unknowns whose equation is x = r; D, R, U : factors (:mod:`.banded`)
+    wrong, excess : rows whose sign is wrong, and by how much
     b : right-hand side, (dofs,); target, candidate, held : of the rows; x, p : the solution, (dofs,) and (rows,)
     gap, speed, d1, d2, d3 : free for the integrator
     twist : where the factorisation from either end meets, and the unknown below which no row has switched of late
@@ -100,6 +101,7 @@ class Work(NamedTuple):
     z: Array
     y: Array
     wrong: Flags
+    excess: Array
     b: Array
     x: Array
     p: Array
@@ -218,6 +220,7 @@ def work_of(system: System, problem: Problem) -> Work:
         z=np.zeros(size + 4),
         y=x if direct else np.zeros(size),
         wrong=np.zeros(m, np.bool_),
+        excess=np.zeros(m),
         b=np.zeros(n),
         x=x,
         p=np.zeros(m),

@@ -142,9 +142,10 @@ def nearest_open(problem: Problem, work: Work, closed: Flags, first: int, stop: 
 def wrong_rows(
     problem: Problem, work: Work, closed: Flags, first: int, stop: int, start: int, zone: int, tolerance: float
 ) -> tuple[int, int, int]:
-    """Mark in work.wrong which of the rows ``first`` … ``stop`` − 1 have the wrong sign, and put their reactions in
-    work.p. The unknowns from ``start`` to before ``zone`` are known, and measure round-off. Returns how many are wrong,
-    the last of them, and the one that pulls most or, where none pulls, is furthest in the wall (−1: none)."""
+    """Mark in work.wrong which of the rows ``first`` … ``stop`` − 1 have the wrong sign, and put by how much in
+    work.excess and their reactions in work.p. The unknowns from ``start`` to before ``zone`` are known, and measure
+    round-off. Returns how many are wrong, the last of them, and the one that pulls most or, where none pulls, is
+    furthest in the wall (−1: none)."""
     dofs, factors, place, switch = problem.dofs, problem.factors, problem.place, problem.switch
     y, b, r, p, target = work.y, work.b, work.r, work.p, work.target
     width = factors.shape[1]
@@ -166,6 +167,7 @@ def wrong_rows(
                 _, size = equation(work.S, y, r[k], k)
                 p[j] = -y[switch[j]]
             bad = not work.held[j] and p[j] < -tolerance * size / abs(factors[j, 0])
+            work.excess[j] = -p[j]
             if bad and p[j] < pull:
                 pull, pulling = p[j], j
         elif work.candidate[j]:
@@ -184,6 +186,7 @@ def wrong_rows(
                 for i in range(width):
                     size += abs(factors[j, i]) * (slope if is_slope(dofs[j, i]) else deflection)
                 bad = slack < -tolerance * size
+                work.excess[j] = -slack
                 if bad and slack < depth:
                     depth, deepest = slack, j
         work.wrong[j] = bad

@@ -1,11 +1,13 @@
 """The record of a run: finite, complete, written whole or not at all, read back equal."""
 
+import gc
 import json
 
 import numpy as np
 import pytest
 
 from bent_beam import Impact, ImpactHistory
+from bent_beam.storage import GrowingFile, blocks
 
 
 def small(gap=None):
@@ -85,3 +87,38 @@ def test_the_budget_adds_up():
     assert budget["defect"] == pytest.approx(0.0)
     assert budget["initial_energy"] == 5.0
     assert json.dumps(budget, allow_nan=False)
+
+
+def test_a_history_that_grows_on_disk_is_the_one_from_memory(tmp_path, monkeypatch):
+    """Written in blocks of three instants, read as it is asked for, copied, and read back."""
+    whole = small().dataset
+    monkeypatch.setenv("TMPDIR", str(tmp_path))
+    monkeypatch.setattr("tempfile.tempdir", None)
+    growing = GrowingFile()
+    for block in (slice(0, 1), slice(1, 3)):
+        growing.append(whole.isel(time=block))
+    growing.describe(whole.attrs | {"steps": 8})
+    history = ImpactHistory(growing.finished(), growing.file)
+    assert history.dataset.equals(whole) and history.steps == 8
+    assert np.array_equal(history.array("gap", 1), whole["gap"].values[1])
+    assert not history.dataset["gap"].variable._in_memory
+    copy = history.save(tmp_path / "copy.nc")
+    monkeypatch.setattr("bent_beam.storage.LARGE", 10)
+    again = ImpactHistory.load(copy)
+    assert again.file == copy and again.dataset.equals(whole) and not again.dataset["gap"].variable._in_memory
+    del history, growing
+    gc.collect()
+    assert [f.name for f in tmp_path.iterdir()] == ["copy.nc"]  # what grew is gone with its dataset
+
+
+def test_a_history_for_which_the_disk_has_no_room_is_refused():
+    with pytest.raises(ValueError, match=r"save asks for 8e\+09 GB.*TMPDIR"):
+        GrowingFile().make_room(1e18)
+
+
+@pytest.mark.parametrize("block", [1, 2, 100])
+def test_all_of_a_variable_is_seen_block_by_block(monkeypatch, block):
+    monkeypatch.setattr("bent_beam.storage.BLOCK", 8 * 4 * block)
+    gap = small().dataset["gap"].variable
+    parts = list(blocks(gap))
+    assert len(parts) == -(-3 // min(block, 3)) and np.array_equal(np.concatenate(parts), gap.values)

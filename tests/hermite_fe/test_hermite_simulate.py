@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+from typing import Any
 
 import numpy as np
 import pytest
@@ -238,6 +239,17 @@ def test_saved_times_and_progress() -> None:
     )
     assert history.time == pytest.approx([0.0, *wanted])
     assert fractions[-1] == 1.0 and fractions == sorted(fractions)
+
+
+@pytest.mark.parametrize("until", [None, lambda model, run: run.instants[run.step] > 0.03])
+def test_a_record_too_long_for_memory_is_the_same_from_disk(monkeypatch: pytest.MonkeyPatch, until: Any) -> None:
+    arguments: Any = {"mesh": UniformMesh(0.2), "integrator": MoreauJean(1e-3), "save": 60, "until": until}
+    whole = simulate(SHORT, **arguments)
+    monkeypatch.setattr("hermite_fe.run.BLOCK", 700)  # seven instants of a hundred nodes
+    long = simulate(SHORT, **arguments)
+    assert whole.file is None and long.file is not None and not long.dataset["gap"].variable._in_memory
+    assert long.dataset.equals(whole.dataset)
+    assert long.settings == whole.settings and long.warnings == whole.warnings and long.steps == whole.steps
 
 
 def test_a_run_that_fails_keeps_its_partial_history() -> None:

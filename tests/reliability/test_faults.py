@@ -13,11 +13,13 @@ import signal
 import subprocess
 import sys
 import time
+from collections.abc import Sequence
 from dataclasses import asdict
 
 import pytest
 
 from bent_beam import SimulationError
+from comparison import workers
 from comparison.command_line.app import run
 from comparison.match import Question, failures, match
 from comparison.plain import plain
@@ -344,6 +346,47 @@ def test_a_worker_that_dies_takes_no_other_call_with_it():
     assert [i for i, _ in dead] == [3] and "died" in dead[0][1]
     with pytest.raises(RuntimeError, match="call 1: its worker process died"):
         run_all(survives, [(1,), (3,)], jobs=2)
+
+
+def test_the_calls_after_one_that_dies_share_a_pool_again():
+    """A sweep of ten thousand rows must not start a process for each row that follows a death."""
+    started = []
+    together = workers._together
+
+    def counted(*arguments):
+        started.append(1)
+        return together(*arguments)
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(workers, "_together", counted)
+        found = run_all(survives, [(n,) for n in range(60)], jobs=2, on_death=lambda i, why: "dead")
+    assert found == [n * n if n != 3 else "dead" for n in range(60)] and len(started) == 2
+
+
+class Watched(Sequence):
+    """Arguments of calls, and how many have been asked for at most before their answers came."""
+
+    def __init__(self, count):
+        self.count, self.asked, self.answered, self.ahead = count, 0, 0, 0
+
+    def __len__(self):
+        return self.count
+
+    def __getitem__(self, i):
+        if i >= self.count:
+            raise IndexError(i)
+        self.asked += 1
+        self.ahead = max(self.ahead, self.asked - self.answered)
+        return (i,)
+
+    def progress(self, done, total):
+        self.answered = done
+
+
+def test_a_long_sweep_keeps_few_calls_waiting():
+    calls = Watched(500)
+    assert run_all(abs, calls, jobs=2, progress=calls.progress, on_death=pytest.fail) == list(range(500))
+    assert calls.ahead <= 2 * workers.AHEAD + 1
 
 
 @pytest.mark.parametrize("problem", ["NaN", "failed", "Exudyn"])
