@@ -40,9 +40,7 @@ fuzz: $(STAMP)
 	FUZZ=1 $(BIN)/python -m pytest -n $(JOBS) --dist worksteal tests/reliability
 
 bench: $(STAMP)
-	$(BIN)/python -m benchmarks.startup
-	$(BIN)/python -m benchmarks.steps
-	$(BIN)/python -m pytest benchmarks -o python_files='bench_*.py' -o python_functions='bench_*' -s --benchmark-columns=median,iqr,rounds
+	$(BIN)/python -m benchmarks
 
 lint: $(STAMP)
 	$(BIN)/ruff check .

@@ -6,21 +6,66 @@ import datetime
 import importlib.metadata
 import json
 import platform
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 from bent_beam.files import write_atomically
 from bent_beam.versions import processor
 
-__all__ = ["RESULTS", "keep"]
+__all__ = ["RESULTS", "Row", "keep", "keep_rows", "said"]
 
-VERSIONS = ("numpy", "scipy", "numba", "llvmlite", "typer")
+VERSIONS = ("numpy", "scipy", "numba", "llvmlite", "typer", "exudyn", "xarray")
 
 RESULTS = Path(__file__).parent / "results"
 
 
-def keep(file: Path, rows: list[dict[str, Any]]) -> None:
-    """Write ``rows`` as JSON."""
+@dataclass(frozen=True)
+class Row:
+    """One figure and its goal. at_least : the goal is the least, not the most; about : whatever else is kept."""
+
+    label: str
+    figure: float
+    goal: float
+    at_least: bool = False
+    about: dict[str, Any] = field(default_factory=dict)
+
+    @property
+    def met(self) -> bool:
+        return self.figure >= self.goal if self.at_least else self.figure <= self.goal
+
+    def __str__(self) -> str:
+        sign = "≥" if self.at_least else "≤"
+        return f"{self.label:50}{self.figure:9.3f}  {sign} {self.goal:<6g} {'met' if self.met else 'NOT MET'}"
+
+
+def said(row: Row) -> Row:
+    """The row, printed as soon as it is known."""
+    print(row, flush=True)
+    return row
+
+
+def keep(file: Path, rows: list[Row]) -> list[Row]:
+    """Write ``rows`` as JSON; returns them."""
+    keep_rows(
+        file,
+        [
+            {
+                "row": row.label,
+                "figure": round(row.figure, 4),
+                "goal": row.goal,
+                "at_least": row.at_least,
+                "met": row.met,
+                **row.about,
+            }
+            for row in rows
+        ],
+    )
+    return rows
+
+
+def keep_rows(file: Path, rows: list[dict[str, Any]]) -> None:
+    """Write JSON rows of any kind."""
     record = {
         "date": datetime.datetime.now(datetime.UTC).date().isoformat(),
         "processor": processor(),

@@ -15,7 +15,7 @@ import time
 from pathlib import Path
 from typing import Any
 
-from benchmarks.record import RESULTS, keep
+from benchmarks.record import RESULTS, keep_rows
 
 RUNS = (  # nodes, steps, saved instants
     (1_000, 10_000, 200),
@@ -120,7 +120,7 @@ def main() -> None:
         kind, *numbers = arguments.one
         print(json.dumps((one_run if kind == "run" else one_sweep)(*map(int, numbers))))
         return
-    keep(arguments.out, measure())
+    keep_rows(arguments.out, measure())
 
 
 if __name__ == "__main__":

@@ -11,9 +11,8 @@ import subprocess
 import sys
 import time
 from pathlib import Path
-from typing import Any
 
-from benchmarks.record import RESULTS, keep
+from benchmarks.record import RESULTS, Row, keep, said
 
 ROOT = Path(__file__).resolve().parents[1]
 COMMAND = ["-m", "comparison.command_line"]
@@ -35,29 +34,26 @@ def seconds(words: list[str]) -> float:
     return time.perf_counter() - started
 
 
-def measure(rounds: int) -> list[dict[str, Any]]:
+def measure(rounds: int) -> list[Row]:
     """Median ratios of pairs; prints them."""
     taken: dict[str, list[float]] = {name: [] for name in (*YARDSTICKS, *(row[0] for row in ROWS))}
     for _ in range(rounds + 1):  # the first round fills caches
         for name, words in (*YARDSTICKS.items(), *((name, words) for name, words, _, _ in ROWS)):
             taken[name].append(seconds(words))
     out = []
-    print(f"{'command':12}{'seconds':>9}{'ratio':>8}{'goal':>8}  met   over the import of")
     for name, _, yardstick, goal in ROWS:
         ratio = statistics.median(a / b for a, b in zip(taken[name][1:], taken[yardstick][1:]))
-        shortest = min(taken[name][1:])
-        print(f"{name:12}{shortest:9.3f}{ratio:8.2f}{goal:8.2f}  {ratio <= goal!s:5} {yardstick}")
-        row = {"command": name, "seconds": round(shortest, 3), "ratio": round(ratio, 3), "goal": goal}
-        out.append({**row, "met": ratio <= goal, "yardstick": yardstick})
+        about = {"seconds": round(min(taken[name][1:]), 3), "yardstick": yardstick}
+        out.append(said(Row(f"bentbeam {name} / import {yardstick}", ratio, goal, about=about)))
     return out
 
 
-def main() -> None:
+def main(words: list[str] | None = None) -> list[Row]:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--rounds", type=int, default=15)
     parser.add_argument("--out", type=Path, default=RESULTS / "startup.json")
-    arguments = parser.parse_args()
-    keep(arguments.out, measure(arguments.rounds))
+    arguments = parser.parse_args(words)
+    return keep(arguments.out, measure(arguments.rounds))
 
 
 if __name__ == "__main__":
