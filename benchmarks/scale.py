@@ -26,12 +26,13 @@ RUNS = (  # nodes, steps, saved instants
     (100, 1_000_000, 200),
     (1_000, 10_000, 2_000),
     (1_000, 10_000, 10_000),
+    (10_000, 4_000, 4_000),  # too much for memory: written to disk on the way
 )
 SWEEPS = (1_000, 10_000)  # rows
 LENGTH = 100.0  # l*, half the beam: no wave comes back
 
 
-def one_run(nodes: int, steps: int, saved: int) -> dict[str, float]:
+def one_run(nodes: int, steps: int, saved: int) -> dict[str, Any]:
     """A half beam, constant steps; seconds of the steps, of all, and of a first step that compiles or loads kernels."""
     import hermite_fe
     from bent_beam import Impact
@@ -51,6 +52,7 @@ def one_run(nodes: int, steps: int, saved: int) -> dict[str, float]:
         "megabytes": peak(),
         "before": before,
         "history": history.dataset.nbytes / 1e6,
+        "on_disk": history.file is not None,
     }
 
 
@@ -73,6 +75,20 @@ def one_sweep(rows: int) -> dict[str, float]:
     return {"seconds": time.perf_counter() - started, "megabytes": peak(), "before": before}
 
 
+def one_cluster(rows: int) -> dict[str, float]:
+    """The same on a dask cluster of two workers, whose scheduler is in this process."""
+    from distributed import LocalCluster
+
+    from comparison.workers import run_all
+
+    with LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None) as cluster:
+        address = cluster.scheduler_address
+        run_all(nothing, [(row,) for row in range(10)], scheduler=address, on_death=lost)
+        before, started = peak(), time.perf_counter()
+        run_all(nothing, [(row,) for row in range(rows)], scheduler=address, on_death=lost)
+        return {"seconds": time.perf_counter() - started, "megabytes": peak(), "before": before}
+
+
 def peak() -> float:
     """Largest resident memory of this process so far, MB."""
     import resource
@@ -91,23 +107,25 @@ def apart(kind: str, *numbers: int) -> dict[str, Any]:
 def measure() -> list[dict[str, Any]]:
     """All rows; prints them as they come."""
     out = []
-    print("| nodes | steps | saved | seconds | ns a node and step | memory, MB | of it the history, MB |")
-    print("| ---: | ---: | ---: | ---: | ---: | ---: | ---: |")
+    print("| nodes | steps | saved | seconds | ns a node and step | memory, MB | the history, MB | where it is |")
+    print("| ---: | ---: | ---: | ---: | ---: | ---: | ---: | --- |")
     for nodes, steps, saved in RUNS:
         row = apart("run", nodes, steps, saved)
         each = 1e9 * row["stepping"] / (nodes * steps)
         print(
             f"| {nodes:,} | {steps:,} | {min(saved, steps + 1):,} | {row['seconds']:.2f} | {each:.0f} | "
-            f"{row['megabytes']:.0f} | {row['history']:.0f} |",
+            f"{row['megabytes']:.0f} | {row['history']:.0f} | {'disk' if row['on_disk'] else 'memory'} |",
             flush=True,
         )
         out.append({"nodes": nodes, "steps": steps, "saved": saved, **row})
-    print("\n| rows of a sweep | seconds | client's memory before, MB | after, MB |")
-    print("| ---: | ---: | ---: | ---: |")
-    for rows in SWEEPS:
-        row = apart("sweep", rows)
-        print(f"| {rows:,} | {row['seconds']:.1f} | {row['before']:.0f} | {row['megabytes']:.0f} |", flush=True)
-        out.append({"rows": rows, **row})
+    print("\n| rows of a sweep | on | seconds | memory before, MB | after, MB |")
+    print("| ---: | --- | ---: | ---: | ---: |")
+    for kind, on in (("sweep", "two processes"), ("cluster", "a dask cluster, scheduler included")):
+        for rows in SWEEPS:
+            row = apart(kind, rows)
+            memory = f"{row['before']:.0f} | {row['megabytes']:.0f}"
+            print(f"| {rows:,} | {on} | {row['seconds']:.1f} | {memory} |", flush=True)
+            out.append({"rows": rows, "on": on, **row})
     return out
 
 
@@ -118,7 +136,8 @@ def main() -> None:
     arguments = parser.parse_args()
     if arguments.one:
         kind, *numbers = arguments.one
-        print(json.dumps((one_run if kind == "run" else one_sweep)(*map(int, numbers))))
+        one = {"run": one_run, "sweep": one_sweep, "cluster": one_cluster}[kind]
+        print(json.dumps(one(*map(int, numbers))))
         return
     keep_rows(arguments.out, measure())
 

@@ -206,10 +206,10 @@ def combine(
 
 
 @compiled
-def factor(S: Array, fixed: Flags, top: int, bottom: int, D: Array, R: Array, U: Array) -> bool:
+def factor(S: Array, fixed: Flags, top: int, bottom: int, D: Array, U: Array) -> bool:
     """Factor S = U D Uᵀ from unknown ``top`` down to ``bottom``; what is above ``top`` must be factored already.
 
-    D (n + 4,) pivots, R their inverses, U (n + 4, 5) couplings U[q, m] = U(q − m, q); four idle rows pad the
+    D (n + 4,) pivots, U (n + 4, 5) their inverses U[q, 0] and couplings U[q, m] = U(q − m, q); four idle rows pad the
     end. Returns False when a pivot is zero or not a number.
     """
     sound = True
@@ -217,7 +217,7 @@ def factor(S: Array, fixed: Flags, top: int, bottom: int, D: Array, R: Array, U:
         k = top - t
         if fixed[k]:
             D[k] = 1.0
-            R[k] = 1.0
+            U[k, 0] = 1.0
             for m in range(1, 5):
                 U[k, m] = 0.0
             continue
@@ -227,7 +227,7 @@ def factor(S: Array, fixed: Flags, top: int, bottom: int, D: Array, R: Array, U:
         sound = sound and abs(d) > 0.0
         r = 1.0 / d
         D[k] = d
-        R[k] = r
+        U[k, 0] = r
         u1 = (S[k, 1] - b3 * U[k + 3, 4] - b2 * U[k + 2, 3] - b1 * U[k + 1, 2]) * r
         u2 = (S[k, 2] - b2 * U[k + 2, 4] - b1 * U[k + 1, 3]) * r
         u3 = (S[k, 3] - b1 * U[k + 1, 4]) * r
@@ -240,14 +240,14 @@ def factor(S: Array, fixed: Flags, top: int, bottom: int, D: Array, R: Array, U:
 
 
 @compiled
-def factor_up(S: Array, fixed: Flags, first: int, stop: int, D: Array, R: Array, U: Array) -> bool:
+def factor_up(S: Array, fixed: Flags, first: int, stop: int, D: Array, U: Array) -> bool:
     """Factor S = L D Lᵀ from unknown ``first`` up to ``stop`` − 1, with L(q + m, q) in U[q, m]; what is below ``first``
     must be factored already. (Before unknown 0 come, as Python counts, the idle rows at the end.)"""
     sound = True
     for k in range(first, stop):
         if fixed[k]:
             D[k] = 1.0
-            R[k] = 1.0
+            U[k, 0] = 1.0
             for m in range(1, 5):
                 U[k, m] = 0.0
             continue
@@ -257,7 +257,7 @@ def factor_up(S: Array, fixed: Flags, first: int, stop: int, D: Array, R: Array,
         sound = sound and abs(d) > 0.0
         r = 1.0 / d
         D[k] = d
-        R[k] = r
+        U[k, 0] = r
         u1 = (S[k + 1, 1] - b3 * U[k - 3, 4] - b2 * U[k - 2, 3] - b1 * U[k - 1, 2]) * r
         u2 = (S[k + 2, 2] - b2 * U[k - 2, 4] - b1 * U[k - 1, 3]) * r
         u3 = (S[k + 3, 3] - b1 * U[k - 1, 4]) * r
@@ -270,11 +270,11 @@ def factor_up(S: Array, fixed: Flags, first: int, stop: int, D: Array, R: Array,
 
 
 @compiled
-def factor_down(S: Array, fixed: Flags, top: int, twist: int, D: Array, R: Array, U: Array) -> bool:
+def factor_down(S: Array, fixed: Flags, top: int, twist: int, D: Array, U: Array) -> bool:
     """:func:`factor` from unknown ``top`` down to ``twist``, what is below it factored by :func:`factor_up`."""
     if twist == 0:
-        return factor(S, fixed, top, 0, D, R, U)
-    sound = top < twist + 4 or factor(S, fixed, top, twist + 4, D, R, U)
+        return factor(S, fixed, top, 0, D, U)
+    sound = top < twist + 4 or factor(S, fixed, top, twist + 4, D, U)
     meeting = np.zeros((4, 5))  # S between the first four unknowns, less what the elimination of those below takes off
     for i in range(4):
         for m in range(i + 1):
@@ -282,17 +282,17 @@ def factor_down(S: Array, fixed: Flags, top: int, twist: int, D: Array, R: Array
             for q in range(twist + i - 4, twist):
                 total -= U[q, twist + i - q] * D[q] * U[q, twist + i - m - q]
             meeting[i, m] = total
-    return factor(meeting, fixed[twist:], min(top - twist, 3), 0, D[twist:], R[twist:], U[twist:]) and sound
+    return factor(meeting, fixed[twist:], min(top - twist, 3), 0, D[twist:], U[twist:]) and sound
 
 
 @compiled
-def forward_substitute(U: Array, r: Array, top: int, bottom: int, z: Array) -> None:
-    """Solve U z = r from unknown ``top`` down to ``bottom``; z above ``top`` must be known (z has four idle places at
-    the end)."""
+def forward_substitute(U: Array, top: int, bottom: int, z: Array) -> None:
+    """Solve U z = r from unknown ``top`` down to ``bottom``, in place of r; z above ``top`` must be known (z has four
+    idle places at the end)."""
     z1, z2, z3, z4 = z[top + 1], z[top + 2], z[top + 3], z[top + 4]
     for t in range(top + 1 - bottom):
         k = top - t
-        value = (r[k] - U[k + 4, 4] * z4 - U[k + 3, 3] * z3 - U[k + 2, 2] * z2) - U[k + 1, 1] * z1
+        value = (z[k] - U[k + 4, 4] * z4 - U[k + 3, 3] * z3 - U[k + 2, 2] * z2) - U[k + 1, 1] * z1
         z[k] = value
         z4 = z3
         z3 = z2
@@ -301,14 +301,14 @@ def forward_substitute(U: Array, r: Array, top: int, bottom: int, z: Array) -> N
 
 
 @compiled
-def substitute_up(U: Array, r: Array, first: int, stop: int, z: Array) -> None:
-    """Solve L z = r, of :func:`factor_up`, from unknown ``first`` up to ``stop`` − 1; z below ``first`` must be known.
-    """
+def substitute_up(U: Array, first: int, stop: int, z: Array) -> None:
+    """Solve L z = r, of :func:`factor_up`, from unknown ``first`` up to ``stop`` − 1, in place of r; z below ``first``
+    must be known."""
     z1, z2, z3, z4 = 0.0, 0.0, 0.0, 0.0
     if first > 0:
         z1, z2, z3, z4 = z[first - 1], z[first - 2], z[first - 3], z[first - 4]
     for k in range(first, stop):
-        value = (r[k] - U[k - 4, 4] * z4 - U[k - 3, 3] * z3 - U[k - 2, 2] * z2) - U[k - 1, 1] * z1
+        value = (z[k] - U[k - 4, 4] * z4 - U[k - 3, 3] * z3 - U[k - 2, 2] * z2) - U[k - 1, 1] * z1
         z[k] = value
         z4 = z3
         z3 = z2
@@ -317,24 +317,23 @@ def substitute_up(U: Array, r: Array, first: int, stop: int, z: Array) -> None:
 
 
 @compiled
-def substitute_down(U: Array, r: Array, top: int, twist: int, z: Array) -> None:
+def substitute_down(U: Array, top: int, twist: int, z: Array) -> None:
     """:func:`forward_substitute` from unknown ``top`` down to ``twist``, z below it known by :func:`substitute_up`."""
     if twist == 0:
-        forward_substitute(U, r, top, 0, z)
+        forward_substitute(U, top, 0, z)
         return
     if top >= twist + 4:
-        forward_substitute(U, r, top, twist + 4, z)
-    meeting = np.empty(4)
+        forward_substitute(U, top, twist + 4, z)
     for i in range(4):
-        total = r[twist + i]
+        total = z[twist + i]
         for q in range(twist + i - 4, twist):
             total -= U[q, twist + i - q] * z[q]
-        meeting[i] = total
-    forward_substitute(U[twist:], meeting, min(top - twist, 3), 0, z[twist:])
+        z[twist + i] = total
+    forward_substitute(U[twist:], min(top - twist, 3), 0, z[twist:])
 
 
 @compiled
-def back_substitute(R: Array, U: Array, z: Array, start: int, stop: int, x: Array) -> None:
+def back_substitute(U: Array, z: Array, start: int, stop: int, x: Array) -> None:
     """Solve D Uᵀ x = z for unknowns start…stop − 1; x below ``start`` must be known."""
     x1, x2, x3, x4 = 0.0, 0.0, 0.0, 0.0
     if start > 0:
@@ -346,7 +345,7 @@ def back_substitute(R: Array, U: Array, z: Array, start: int, stop: int, x: Arra
     if start > 3:
         x4 = x[start - 4]
     for k in range(start, stop):
-        value = (z[k] * R[k] - U[k, 4] * x4 - U[k, 3] * x3 - U[k, 2] * x2) - U[k, 1] * x1
+        value = (z[k] * U[k, 0] - U[k, 4] * x4 - U[k, 3] * x3 - U[k, 2] * x2) - U[k, 1] * x1
         x[k] = value
         x4 = x3
         x3 = x2
@@ -355,7 +354,7 @@ def back_substitute(R: Array, U: Array, z: Array, start: int, stop: int, x: Arra
 
 
 @compiled
-def back_substitute_down(R: Array, U: Array, z: Array, twist: int, x: Array) -> None:
+def back_substitute_down(U: Array, z: Array, twist: int, x: Array) -> None:
     """Solve D Lᵀ x = z, of :func:`factor_up`, from unknown ``twist`` − 1 down to 0; x from ``twist`` on must be known.
     """
     if twist == 0:
@@ -363,7 +362,7 @@ def back_substitute_down(R: Array, U: Array, z: Array, twist: int, x: Array) -> 
     x1, x2, x3, x4 = x[twist], x[twist + 1], x[twist + 2], x[twist + 3]
     for t in range(twist):
         k = twist - 1 - t
-        value = (z[k] * R[k] - U[k, 4] * x4 - U[k, 3] * x3 - U[k, 2] * x2) - U[k, 1] * x1
+        value = (z[k] * U[k, 0] - U[k, 4] * x4 - U[k, 3] * x3 - U[k, 2] * x2) - U[k, 1] * x1
         x[k] = value
         x4 = x3
         x3 = x2

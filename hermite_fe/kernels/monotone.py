@@ -36,11 +36,11 @@ def solve_monotone(problem: Problem, work: Work, closed: Flags, tolerance: float
     last_closed = -1
     work.twist[:] = 0  # factored from above alone
     for attempt in range(MOST * (m + 1)):
-        right_side(S, work.b, place, fixed, switch, factors, work.target, closed, m - 1, 0, n, work.r)
-        if not factor(S, fixed, n - 1, 0, work.D, work.R, work.U):
+        right_side(S, work.b, place, fixed, switch, factors, work.target, closed, m - 1, 0, n, work.z)
+        if not factor(S, fixed, n - 1, 0, work.D, work.U):
             return SINGULAR, attempt
-        forward_substitute(work.U, work.r, n - 1, 0, work.z)
-        back_substitute(work.R, work.U, work.z, 0, n, y)
+        forward_substitute(work.U, n - 1, 0, work.z)
+        back_substitute(work.U, work.z, 0, n, y)
         wrong_rows(problem, work, closed, 0, m, 0, n, tolerance)
         share, opening = 1.0, -1
         for j in range(m):

@@ -64,10 +64,10 @@ def substitute_rest(work: Work, start: int, end: int, smallest: float) -> int:
     """Unknowns from ``start`` on, where right-hand sides are zero from ``end`` on. Returns where they become zero."""
     y = work.y
     if end >= y.size:
-        back_substitute(work.R, work.U, work.z, start, y.size, y)
+        back_substitute(work.U, work.z, start, y.size, y)
         return int(y.size)
     if start < end:
-        back_substitute(work.R, work.U, work.z, start, end, y)
+        back_substitute(work.U, work.z, start, end, y)
         start = end
     return fade_out(work.U, start, smallest, y)
 
@@ -78,21 +78,21 @@ def refactor(work: Work, calm: int, low: int, top: int, wanted: int) -> int:
     (``calm`` = 0): the first ``calm`` unknowns are factored from below. The twist moves to ``wanted`` where that is
     below it or well above. Returns the last unknown that was factored anew from above, −1 if none, −2 on failure.
     """
-    S, fixed, D, R, U = work.S, work.fixed, work.D, work.R, work.U
+    S, fixed, D, U = work.S, work.fixed, work.D, work.U
     before, twist = work.twist[0], work.twist[0]
     if wanted < twist or wanted > twist + ADVANCE:
         twist = wanted
     calm = min(calm, before, max(low - REACH, 0))
     sound = True
     if twist > calm:
-        sound = factor_up(S, fixed, calm, twist, D, R, U)
+        sound = factor_up(S, fixed, calm, twist, D, U)
     if twist < before:
         top = max(top, before + 3)
     if twist != before or calm < twist:
         top = max(top, twist + 3)
     work.twist[0] = twist
     if top >= twist:
-        sound = factor_down(S, fixed, top, twist, D, R, U) and sound
+        sound = factor_down(S, fixed, top, twist, D, U) and sound
     return top if sound else -2
 
 
@@ -107,7 +107,7 @@ def solve_rows(problem: Problem, work: Work, fresh: bool, extent: int, closed: F
     Returns SOLVED, SINGULAR or CYCLING.
     """
     factors, place, switch, reach = problem.factors, problem.place, problem.switch, problem.reach
-    S, fixed, R, U, r, z, y = work.S, work.fixed, work.R, work.U, work.r, work.z, work.y
+    S, fixed, U, z, y = work.S, work.fixed, work.U, work.z, work.y
     b, x, p, wrong, excess, twist = work.b, work.x, work.p, work.wrong, work.excess, work.twist
     target, candidate, held = work.target, work.candidate, work.held
     n, m = y.size, closed.size
@@ -148,22 +148,22 @@ def solve_rows(problem: Problem, work: Work, fresh: bool, extent: int, closed: F
         return SINGULAR
     bottom = twist[0]
     end = max(end, min(bottom + 4, n))
-    right_side(S, b, place, fixed, switch, factors, target, closed, last_closed, 0, end, r)
-    substitute_up(U, r, 0, bottom, z)
-    substitute_down(U, r, end - 1, bottom, z)
+    right_side(S, b, place, fixed, switch, factors, target, closed, last_closed, 0, end, z)
+    substitute_up(U, 0, bottom, z)
+    substitute_down(U, end - 1, bottom, z)
     first = first_from(switch, bottom + 4) if bottom > 0 else 0
 
     fewest, patience, rounds, tolerance, smallest = m + 1, PATIENCE, 0, ROUND_OFF, 0.0
     lowest, most, few = low, -1, True
     while True:
-        back_substitute(R[bottom:], U[bottom:], z[bottom:], 0, zone - bottom, y[bottom:])
+        back_substitute(U[bottom:], z[bottom:], 0, zone - bottom, y[bottom:])
         count, last, worst = wrong_rows(problem, work, closed, first, near, bottom, zone, tolerance)
         if count == 0:
             if end < n:
                 deflection, slope = largest_in(place, y, bottom, zone)
                 smallest = FADED * max(deflection, slope)
             work.extent[0] = substitute_rest(work, zone, end, smallest)
-            back_substitute_down(R, U, z, bottom, y)
+            back_substitute_down(U, z, bottom, y)
             if bottom > 0:
                 count, last, worst = wrong_rows(problem, work, closed, 0, first, 0, zone, tolerance)
             if near <= last_row:
@@ -217,8 +217,8 @@ def solve_rows(problem: Problem, work: Work, fresh: bool, extent: int, closed: F
             bottom = twist[0]
             first = first_from(switch, bottom + 4) if bottom > 0 else 0
         end = max(end, top + 1)
-        right_side(S, b, place, fixed, switch, factors, target, closed, last_row, bottom, top + 1, r)
-        substitute_down(U, r, top, bottom, z)
+        right_side(S, b, place, fixed, switch, factors, target, closed, last_row, bottom, top + 1, z)
+        substitute_down(U, top, bottom, z)
     if last_closed >= 0:
         twist[1] = min(lowest, twist[1] + max(1, (switch[last_closed] - twist[1]) // CALMING))
     if not direct:

@@ -84,7 +84,7 @@ class Work(NamedTuple):
     ``made_with`` says of them. Problems that a step solves one after the other share the matrix S, its factors and
     what is scratch (:func:`works_of`).
 
-    S : step matrix by rows; fixed : unknowns whose equation is x = r; D, R, U : factors (:mod:`.banded`)
+    S : step matrix by rows; fixed : unknowns whose equation is x = r; D, U : factors (:mod:`.banded`)
     wrong, excess : rows whose sign is wrong, and by how much
     b : right-hand side, (dofs,); target, candidate, held : of the rows; x, p : the solution, (dofs,) and (rows,)
     gap, speed, d1, d2, d3 : free for the integrator
@@ -95,9 +95,7 @@ class Work(NamedTuple):
     S: Array
     fixed: Flags
     D: Array
-    R: Array
     U: Array
-    r: Array
     z: Array
     y: Array
     wrong: Flags
@@ -154,11 +152,13 @@ def problem_of(system: System) -> Problem:
         switch = rows.dofs[:, 0].copy()
     reach = np.maximum(place[rows.dofs].max(axis=1), switch) if m else np.zeros(0, np.int64)
     even, odd = row_sums(system.stiffness)
+    parts = [bands for _, bands in system.dampings]
     return Problem(
         M=system.mass,
         C=system.damping,
         K=system.stiffness,
-        parts=np.array([bands for _, bands in system.dampings]).reshape(-1, *system.damping.shape),
+        # one cause is C itself: less for a long beam to read
+        parts=system.damping[None] if len(parts) == 1 else np.array(parts).reshape(-1, *system.damping.shape),
         slots=np.array([SLOTS[cause] for cause, _ in system.dampings], np.int64),
         even=even,
         odd=odd,
@@ -214,9 +214,7 @@ def work_of(system: System, problem: Problem) -> Work:
         S=S,
         fixed=fixed,
         D=np.ones(size + 4),
-        R=np.ones(size + 4),
         U=np.zeros((size + 4, 5)),
-        r=np.zeros(size),
         z=np.zeros(size + 4),
         y=x if direct else np.zeros(size),
         wrong=np.zeros(m, np.bool_),

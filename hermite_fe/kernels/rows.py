@@ -71,7 +71,7 @@ def right_side(
 ) -> None:
     """Right-hand side of the unknowns ``start`` … ``end`` − 1, rows 0 … ``last_row`` closed as ``closed`` says."""
     direct = factors.shape[1] == 1
-    n = r.size
+    n = fixed.size
     first_row = first_from(switch, start - 4)
     if direct:
         for k in range(start, min(end, n)):
@@ -147,7 +147,7 @@ def wrong_rows(
     round-off. Returns how many are wrong, the last of them, and the one that pulls most or, where none pulls, is
     furthest in the wall (−1: none)."""
     dofs, factors, place, switch = problem.dofs, problem.factors, problem.place, problem.switch
-    y, b, r, p, target = work.y, work.b, work.r, work.p, work.target
+    y, b, p, target = work.y, work.b, work.p, work.target
     width = factors.shape[1]
     count, last, pulling, deepest = 0, -1, -1, -1
     pull, depth = 0.0, 0.0
@@ -164,7 +164,7 @@ def wrong_rows(
                 p[j] = left / factors[j, 0]
             else:
                 k = place[dofs[j, 0]]
-                _, size = equation(work.S, y, r[k], k)
+                _, size = equation(work.S, y, b[dofs[j, 0]], k)
                 p[j] = -y[switch[j]]
             bad = not work.held[j] and p[j] < -tolerance * size / abs(factors[j, 0])
             work.excess[j] = -p[j]

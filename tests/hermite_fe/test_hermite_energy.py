@@ -98,7 +98,7 @@ def test_a_falsified_force_shows_in_proportion(integrator: Integrator) -> None:
         start = balance(run)
         run.advance_to(10)
         for work in run.works:
-            work.R[:] *= 1.0 + share
+            work.U[:, 0] *= 1.0 + share
         run.advance_to(40)
         return balance(run) - start
 
