@@ -160,7 +160,7 @@ def test_the_fall_back_never_calls_a_row_inside_the_wall_solved(tolerance: float
         closed = none.copy()
         status, _ = solve_monotone(problem, work, closed, tolerance)
         if status == SOLVED:
-            assert wrong_rows(problem, work, closed, 0, m, work.y.size, tolerance)[0] == 0, seed
+            assert wrong_rows(problem, work, closed, 0, m, 0, work.y.size, tolerance)[0] == 0, seed
         else:
             assert status == CYCLING
             given_up += 1
