@@ -25,8 +25,8 @@ STEP = 1e-3  # in units of t*, at κ/ν = 0.1
 HALF_LENGTH = 100.0  # l*
 
 
-def _model(nodes: int, contact: Contact, half_length: float, alpha: float = 0.0) -> BeamModel:
-    impact = Impact.dimensionless(0.1, epsilon_alpha=alpha, length=2.0 * half_length)
+def _model(nodes: int, contact: Contact, half_length: float) -> BeamModel:
+    impact = Impact.dimensionless(0.1, length=2.0 * half_length)
     places = UniformMesh(half_length / (nodes - 1)).nodes(half_length)
     return beam_model(impact, places, contact, GridViscosity(), full=False)
 
@@ -40,13 +40,11 @@ def prepared_step(
     start: float = 0.5,
     end_time: float = 1.0,
     half_length: float = HALF_LENGTH,
-    alpha: float = 0.0,
 ) -> Callable[[], None]:
     """A half beam of ``nodes`` nodes in the middle of an impact; each call of the result takes one more step.
 
     growing : steps in proportion to time, so that every one makes and factors a new matrix.
     half_length : in l*; the shorter, the more of the nodes are in contact (at most 3 l* of the beam are).
-    alpha : εα, a load that presses all that lies on the wall, so that every node of it stays closed.
     start : how far the run has got, as a fraction of ``end_time`` (in t*), before the first call.
 
     Raises ``RuntimeError`` when a step fails.
@@ -55,7 +53,7 @@ def prepared_step(
         *((0.1 * STEP, 2.0 * STEP) if growing else (STEP, 0.0))
     )
     contact = contact or NodeContact(hold=16, hold_until=0.0)
-    model = _model(nodes, contact, half_length, alpha)
+    model = _model(nodes, contact, half_length)
     run = Stepper(
         model.system, model.displacement, model.velocity, integrator, end_time, hold=contact.hold or 0
     )

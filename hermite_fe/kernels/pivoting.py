@@ -3,9 +3,9 @@
     S x = b + Gᵀ p,      0 ≤ p ⊥ G x − c ≥ 0,      x = 0 at supports,
 
 by block principal pivoting: guess which rows are closed (G x = c), solve, exchange rows whose sign is wrong, repeat.
-Of a run of neighbours that are wrong alike the worst is exchanged, which mends most of the others: a beam is stiff over
-a few nodes, so that all of them at once would do too much. Should the number of wrong rows stop falling, one row at a
-time is exchanged, the one that pulls most or else is furthest in the wall. Where that does not help the
+All are exchanged as long as their number falls fast, then the worst of every run of neighbours that are wrong alike: a
+beam is stiff over a few nodes, so that it mends most of the others. Should the number not fall for some rounds, one row
+at a time is exchanged, the one that pulls most or else is furthest in the wall. Where that does not help the
 last of them is (Murty's rule), which cannot cycle for a positive definite S (Júdice & Pires 1994, Comput. Oper. Res.
 21, 587) but may take very long: then :mod:`hermite_fe.kernels.monotone` takes over.
 
@@ -45,7 +45,8 @@ from hermite_fe.kernels.rows import (
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
-FEW = 2  # neighbours that are exchanged together
+FALLING = 0.75  # share of the wrong rows of the round before, up to which all are exchanged
+FEW = 2  # neighbours that are exchanged together nevertheless
 PATIENCE = 8  # rounds of block exchange without progress before one row at a time is exchanged
 PERSISTENCE = 64  # rounds without progress of exchanging the worst row before Murty's rule
 ROUND_OFF = 1e-13  # of the terms summed: below it a wrong sign means nothing
@@ -154,7 +155,7 @@ def solve_rows(problem: Problem, work: Work, fresh: bool, extent: int, closed: F
     first = first_from(switch, bottom + 4) if bottom > 0 else 0
 
     fewest, patience, rounds, tolerance, smallest = m + 1, PATIENCE, 0, ROUND_OFF, 0.0
-    lowest, most, few = low, -1, True
+    lowest, most, few, together, before = low, -1, True, True, m + 1
     while True:
         back_substitute(U[bottom:], z[bottom:], 0, zone - bottom, y[bottom:])
         count, last, worst = wrong_rows(problem, work, closed, first, near, bottom, zone, tolerance)
@@ -173,6 +174,8 @@ def solve_rows(problem: Problem, work: Work, fresh: bool, extent: int, closed: F
                 zone, near = whole, last_row + 1
             if count == 0:
                 break
+        together = together and count < FALLING * before
+        before = count
         if count < fewest:
             fewest, patience = count, PATIENCE
         else:
@@ -205,7 +208,7 @@ def solve_rows(problem: Problem, work: Work, fresh: bool, extent: int, closed: F
                         most = stop
                     stop += 1
                 few = stop - j <= FEW
-            if j == chosen if patience <= 0 else few or j == most:
+            if j == chosen if patience <= 0 else together or few or j == most:
                 closed[j] = not closed[j]
                 fixed[switch[j]] = closed[j] == direct
                 top = max(top, min(switch[j] + 4, n - 1))
