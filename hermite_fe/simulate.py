@@ -177,7 +177,7 @@ class LongRecord:
             self.file = GrowingFile()
             self.file.make_room(instants * (1.5 * run.q.shape[1] + 2.0 * run.gap.shape[1]))
         self._append(history_of(self.impact, self.model, run, {}, ()))
-        self.times.append(run.time[len(self.times) > 0 :])
+        self.times.append(run.time[len(self.times) > 0 :].copy())  # the block is used again
         self.extremes.append(hold_extremes(run))
 
     def _append(self, block: ImpactHistory) -> None:
