@@ -61,17 +61,13 @@ def nothing(row: int) -> dict[str, float]:
     return {f"number {k}": float(row) for k in range(20)}
 
 
-def lost(row: int, why: str) -> Any:
-    raise RuntimeError(f"row {row}: {why}")
-
-
 def one_sweep(rows: int) -> dict[str, float]:
     """Rows that cost nothing, on two processes of this machine."""
     from comparison.workers import run_all
 
-    run_all(nothing, [(row,) for row in range(10)], jobs=2, on_death=lost)
+    run_all(nothing, [(row,) for row in range(10)], jobs=2)
     before, started = peak(), time.perf_counter()
-    run_all(nothing, [(row,) for row in range(rows)], jobs=2, on_death=lost)
+    run_all(nothing, [(row,) for row in range(rows)], jobs=2)
     return {"seconds": time.perf_counter() - started, "megabytes": peak(), "before": before}
 
 
@@ -83,9 +79,9 @@ def one_cluster(rows: int) -> dict[str, float]:
 
     with LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None) as cluster:
         address = cluster.scheduler_address
-        run_all(nothing, [(row,) for row in range(10)], scheduler=address, on_death=lost)
+        run_all(nothing, [(row,) for row in range(10)], scheduler=address)
         before, started = peak(), time.perf_counter()
-        run_all(nothing, [(row,) for row in range(rows)], scheduler=address, on_death=lost)
+        run_all(nothing, [(row,) for row in range(rows)], scheduler=address)
         return {"seconds": time.perf_counter() - started, "megabytes": peak(), "before": before}
 
 

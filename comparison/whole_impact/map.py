@@ -109,10 +109,6 @@ def _kept_point(folder: str | None, point: Point) -> dict[str, Any]:
     return store.answer(_question(point), lambda: measure_point(point))
 
 
-def _lost(i: int, why: str) -> Any:
-    raise RuntimeError(f"point {i} of the map: {why}")
-
-
 def measure_map(
     points: Sequence[Point],
     *,
@@ -131,7 +127,6 @@ def measure_map(
         jobs=jobs,
         scheduler=scheduler,
         progress=progress,
-        on_death=_lost,
     )
 
 
