@@ -6,6 +6,7 @@ Nothing heavy is imported here or at the head of the commands' files: ``bentbeam
 
 from __future__ import annotations
 
+import gc
 import os
 import signal
 import sys
@@ -55,6 +56,7 @@ def bentbeam(
 
 def main(arguments: Sequence[str] | None = None) -> None:
     """Run the command and leave with its exit code."""
+    gc.disable()  # looking for cycles among what is imported is a tenth of a start; what takes long enables it again
     code = run(arguments)
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # nothing is left to interrupt, and leaving takes a moment
     try:

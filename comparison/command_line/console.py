@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import logging
 import sys
 from collections.abc import Callable, Iterator
@@ -39,6 +40,9 @@ class Console:
 
     @contextmanager
     def progress(self, title: str) -> Iterator[Bar]:
+        if not gc.isenabled():  # by ``main``: what was imported stays, cycles come from here on
+            gc.freeze()
+            gc.enable()
         if self.quiet:
             yield Bar(None, title)
             return
