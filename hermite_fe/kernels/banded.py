@@ -19,7 +19,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from hermite_fe.kernels.jit import compiled, compiled_sums
+from hermite_fe.kernels.jit import compiled, compiled_in_place, compiled_sums
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
@@ -74,7 +74,7 @@ def multiply(A: Array, x: Array, y: Array, n: int) -> None:
     multiply_rows(A, x, n, 0, n, y)
 
 
-@compiled
+@compiled_in_place
 def stiff_row(A: Array, even: Array, odd: Array, x: Array, i: int) -> float:
     """Row i of :func:`stiff_multiply`, anywhere."""
     n = x.size
@@ -96,7 +96,7 @@ def stiff_row(A: Array, even: Array, odd: Array, x: Array, i: int) -> float:
     return total
 
 
-@compiled
+@compiled_in_place
 def stiff_rows(A: Array, even: Array, odd: Array, x: Array, first: int, stop: int, y: Array) -> None:
     """y = rows ``first`` … ``stop`` − 1 of :func:`stiff_multiply`, y (stop − first,)."""
     n = x.size
@@ -120,7 +120,7 @@ def stiff_rows(A: Array, even: Array, odd: Array, x: Array, first: int, stop: in
         )
 
 
-@compiled
+@compiled_in_place
 def stiff_multiply(A: Array, even: Array, odd: Array, x: Array, y: Array) -> None:
     """y = A x for a stiffness whose large entries cancel, by differences of neighbouring dofs of a kind.
 
@@ -185,7 +185,7 @@ def quadratic(A: Array, x: Array) -> float:
     return quadratic_rows(A, x, 0, x.size)
 
 
-@compiled
+@compiled_in_place
 def combine(
     M: Array, C: Array, K: Array, m: float, c: float, k: float, place: NDArray[np.int64], S: Array
 ) -> None:
@@ -205,7 +205,7 @@ def combine(
                 S[row, apart] = m * M[i - j, j] + c * C[i - j, j] + k * K[i - j, j]
 
 
-@compiled
+@compiled_in_place
 def factor(S: Array, fixed: Flags, top: int, bottom: int, D: Array, U: Array) -> bool:
     """Factor S = U D Uᵀ from unknown ``top`` down to ``bottom``; what is above ``top`` must be factored already.
 
@@ -239,7 +239,7 @@ def factor(S: Array, fixed: Flags, top: int, bottom: int, D: Array, U: Array) ->
     return sound
 
 
-@compiled
+@compiled_in_place
 def factor_up(S: Array, fixed: Flags, first: int, stop: int, D: Array, U: Array) -> bool:
     """Factor S = L D Lᵀ from unknown ``first`` up to ``stop`` − 1, with L(q + m, q) in U[q, m]; what is below ``first``
     must be factored already. (Before unknown 0 come, as Python counts, the idle rows at the end.)"""
@@ -285,7 +285,7 @@ def factor_down(S: Array, fixed: Flags, top: int, twist: int, D: Array, U: Array
     return factor(meeting, fixed[twist:], min(top - twist, 3), 0, D[twist:], U[twist:]) and sound
 
 
-@compiled
+@compiled_in_place
 def forward_substitute(U: Array, top: int, bottom: int, z: Array) -> None:
     """Solve U z = r from unknown ``top`` down to ``bottom``, in place of r; z above ``top`` must be known (z has four
     idle places at the end)."""
@@ -300,7 +300,7 @@ def forward_substitute(U: Array, top: int, bottom: int, z: Array) -> None:
         z1 = value
 
 
-@compiled
+@compiled_in_place
 def substitute_up(U: Array, first: int, stop: int, z: Array) -> None:
     """Solve L z = r, of :func:`factor_up`, from unknown ``first`` up to ``stop`` − 1, in place of r; z below ``first``
     must be known."""
@@ -316,7 +316,7 @@ def substitute_up(U: Array, first: int, stop: int, z: Array) -> None:
         z1 = value
 
 
-@compiled
+@compiled_in_place
 def substitute_down(U: Array, top: int, twist: int, z: Array) -> None:
     """:func:`forward_substitute` from unknown ``top`` down to ``twist``, z below it known by :func:`substitute_up`."""
     if twist == 0:
@@ -332,7 +332,7 @@ def substitute_down(U: Array, top: int, twist: int, z: Array) -> None:
     forward_substitute(U[twist:], min(top - twist, 3), 0, z[twist:])
 
 
-@compiled
+@compiled_in_place
 def back_substitute(U: Array, z: Array, start: int, stop: int, x: Array) -> None:
     """Solve D Uᵀ x = z for unknowns start…stop − 1; x below ``start`` must be known."""
     x1, x2, x3, x4 = 0.0, 0.0, 0.0, 0.0
@@ -353,7 +353,7 @@ def back_substitute(U: Array, z: Array, start: int, stop: int, x: Array) -> None
         x1 = value
 
 
-@compiled
+@compiled_in_place
 def back_substitute_down(U: Array, z: Array, twist: int, x: Array) -> None:
     """Solve D Lᵀ x = z, of :func:`factor_up`, from unknown ``twist`` − 1 down to 0; x from ``twist`` on must be known.
     """
@@ -370,7 +370,7 @@ def back_substitute_down(U: Array, z: Array, twist: int, x: Array) -> None:
         x1 = value
 
 
-@compiled
+@compiled_in_place
 def fade_out(U: Array, start: int, smallest: float, x: Array) -> int:
     """Go on with :func:`back_substitute` from unknown ``start`` where z is zero, until four values in a row are below
     ``smallest``: all that follow are, and x is zero from there on. Returns where that is.
@@ -400,7 +400,7 @@ def fade_out(U: Array, start: int, smallest: float, x: Array) -> int:
     return end
 
 
-@compiled
+@compiled_in_place
 def add(sums: Array, k: int, value: float) -> None:
     """sums[k] += value with Neumaier's compensation, kept half the array further."""
     half = sums.size // 2

@@ -30,7 +30,7 @@ from hermite_fe.kernels.banded import (
     substitute_down,
     substitute_up,
 )
-from hermite_fe.kernels.jit import compiled
+from hermite_fe.kernels.jit import compiled_in_place
 from hermite_fe.kernels.monotone import solve_monotone
 from hermite_fe.kernels.problem import Problem, Work
 from hermite_fe.kernels.rows import (
@@ -60,7 +60,7 @@ CALMING = 4  # solves in which a row that switched is forgotten for the most par
 FADED = 1e-100  # of the largest unknown: what is smaller, and beyond all loads, is taken as zero
 
 
-@compiled
+@compiled_in_place
 def substitute_rest(work: Work, start: int, end: int, smallest: float) -> int:
     """Unknowns from ``start`` on, where right-hand sides are zero from ``end`` on. Returns where they become zero."""
     y = work.y
@@ -73,7 +73,7 @@ def substitute_rest(work: Work, start: int, end: int, smallest: float) -> int:
     return fade_out(work.U, start, smallest, y)
 
 
-@compiled
+@compiled_in_place
 def refactor(work: Work, calm: int, low: int, top: int, wanted: int) -> int:
     """Bring the factors up to date where unknowns between ``low`` and ``top`` − 4 have switched, or all are new
     (``calm`` = 0): the first ``calm`` unknowns are factored from below. The twist moves to ``wanted`` where that is
@@ -97,7 +97,7 @@ def refactor(work: Work, calm: int, low: int, top: int, wanted: int) -> int:
     return top if sound else -2
 
 
-@compiled
+@compiled_in_place
 def solve_rows(problem: Problem, work: Work, fresh: bool, extent: int, closed: Flags) -> int:
     """Solve for work.x (dofs,) and work.p (rows,) from work.S, work.b, work.target, work.candidate,
     work.held.

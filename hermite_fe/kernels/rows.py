@@ -7,7 +7,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from hermite_fe.kernels.jit import compiled
+from hermite_fe.kernels.jit import compiled_in_place
 from hermite_fe.kernels.problem import Problem, Work
 
 Array = NDArray[np.float64]
@@ -16,14 +16,14 @@ Flags = NDArray[np.bool_]
 SOLVED, SINGULAR, CYCLING, NOT_FINITE = 0, 1, 2, 3
 
 
-@compiled
+@compiled_in_place
 def is_slope(dof: int) -> bool:
     """Deflections and slopes take turns among the dofs, as in :func:`hermite_fe.kernels.banded.row_sums`. (Not an array
     of :class:`Problem`: to look it up costs a step 1–3 %.)"""
     return dof % 2 == 1
 
 
-@compiled
+@compiled_in_place
 def first_from(increasing: NDArray[np.int64], value: int) -> int:
     """Index of the first number that is not below ``value``."""
     low, high = 0, increasing.size
@@ -36,7 +36,7 @@ def first_from(increasing: NDArray[np.int64], value: int) -> int:
     return low
 
 
-@compiled
+@compiled_in_place
 def equation(S: Array, x: Array, right: float, k: int) -> tuple[float, float]:
     """Equation k of S x less its right-hand side, and the sum of the terms' sizes: round-off is judged against it."""
     n = x.size
@@ -54,7 +54,7 @@ def equation(S: Array, x: Array, right: float, k: int) -> tuple[float, float]:
     return total, size
 
 
-@compiled
+@compiled_in_place
 def right_side(
     S: Array,
     b: Array,
@@ -106,7 +106,7 @@ def right_side(
                     r[k + m] -= S[k + m, m] * value
 
 
-@compiled
+@compiled_in_place
 def largest_in(place: NDArray[np.int64], y: Array, start: int, stop: int) -> tuple[float, float]:
     """Largest deflection and largest slope among the unknowns ``start`` … ``stop`` − 1: of different units, each is
     round-off's measure for its own kind alone."""
@@ -122,7 +122,7 @@ def largest_in(place: NDArray[np.int64], y: Array, start: int, stop: int) -> tup
     return deflection, slope
 
 
-@compiled
+@compiled_in_place
 def nearest_open(problem: Problem, work: Work, closed: Flags, first: int, stop: int) -> float:
     """Smallest slack of the rows ``first`` … ``stop`` − 1, which touch one dof each; −1 where one of them is closed.
 
@@ -138,7 +138,7 @@ def nearest_open(problem: Problem, work: Work, closed: Flags, first: int, stop: 
     return nearest
 
 
-@compiled
+@compiled_in_place
 def wrong_rows(
     problem: Problem, work: Work, closed: Flags, first: int, stop: int, start: int, zone: int, tolerance: float
 ) -> tuple[int, int, int]:
