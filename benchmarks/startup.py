@@ -1,4 +1,5 @@
-"""How long the command takes to answer, over what it cannot do without, each in a fresh interpreter, in turn.
+"""How long the command takes to answer, over what it cannot do without, each in a fresh interpreter, in turn; and how
+long a small simulation takes, the first on a machine, which compiles, and the next, with their goals on an idle one.
 
 python -m benchmarks.startup [--rounds 15] [--out benchmarks/results/startup.json]
 """
@@ -6,9 +7,11 @@ python -m benchmarks.startup [--rounds 15] [--out benchmarks/results/startup.jso
 from __future__ import annotations
 
 import argparse
+import os
 import statistics
 import subprocess
 import sys
+import tempfile
 import time
 from pathlib import Path
 
@@ -25,13 +28,28 @@ ROWS = (
     ("predict", [*COMMAND, "predict", "cases/drill_pipe.toml", "--json"], "numpy, scipy.special, typer", 1.6),
     ("--help", [*COMMAND, "--help"], "typer", 1.2),
 )
+SIMULATION = [*COMMAND, "simulate", "cases/thesis_K10.toml", "--json", "--quiet"]
+FIRST, NEXT = 10.0, 1.5  # s, goals
+NEXT_ROUNDS = 3
 
 
-def seconds(words: list[str]) -> float:
+def seconds(words: list[str], **environment: str) -> float:
     """Of the clock, for one interpreter from start to end."""
     started = time.perf_counter()
-    subprocess.run([sys.executable, *words], cwd=ROOT, stdout=subprocess.DEVNULL, check=True)
+    subprocess.run(
+        [sys.executable, *words], cwd=ROOT, stdout=subprocess.DEVNULL, check=True, env={**os.environ, **environment}
+    )
     return time.perf_counter() - started
+
+
+def measure_simulation() -> list[Row]:
+    """Seconds of a small simulation with kernels to be compiled, and with kernels kept; prints them."""
+    with tempfile.TemporaryDirectory() as folder:
+        first, *later = (seconds(SIMULATION, NUMBA_CACHE_DIR=folder) for _ in range(1 + NEXT_ROUNDS))
+    return [
+        said(Row("first bentbeam simulate, compiling, s", first, FIRST)),
+        said(Row("next bentbeam simulate, s", min(later), NEXT)),
+    ]
 
 
 def measure(rounds: int) -> list[Row]:
@@ -53,7 +71,7 @@ def main(words: list[str] | None = None) -> list[Row]:
     parser.add_argument("--rounds", type=int, default=15)
     parser.add_argument("--out", type=Path, default=RESULTS / "startup.json")
     arguments = parser.parse_args(words)
-    return keep(arguments.out, measure(arguments.rounds))
+    return keep(arguments.out, [*measure(arguments.rounds), *measure_simulation()])
 
 
 if __name__ == "__main__":

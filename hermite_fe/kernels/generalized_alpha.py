@@ -33,7 +33,7 @@ from numpy.typing import NDArray
 
 from hermite_fe.kernels.banded import combine, factor, multiply, stiff_multiply
 from hermite_fe.kernels.contact import force_at, mark_held, row_times, rows_times
-from hermite_fe.kernels.jit import compiled, compiled_in_place, inlined
+from hermite_fe.kernels.jit import compiled, compiled_in_place
 from hermite_fe.kernels.pivoting import solve_rows
 from hermite_fe.kernels.problem import PRODUCT, SMALLEST_REACTION, ContactLaw, Problem, State, Work
 from hermite_fe.kernels.rows import NOT_FINITE, SINGULAR, SOLVED
@@ -53,7 +53,7 @@ class Scheme(NamedTuple):
     s: float
 
 
-@inlined
+@compiled_in_place
 def scheme_of(spectral_radius: float) -> Scheme:
     """The coefficients for ρ∞."""
     alpha_m = (2.0 * spectral_radius - 1.0) / (spectral_radius + 1.0)
@@ -62,7 +62,7 @@ def scheme_of(spectral_radius: float) -> Scheme:
     return Scheme(alpha_m, alpha_f, gamma, 0.25 * (gamma + 0.5) ** 2, (1.0 - alpha_f) / (1.0 - alpha_m))
 
 
-@inlined
+@compiled_in_place
 def combine_smooth(scheme: Scheme, problem: Problem, h: float, work: Work) -> None:
     """work.S = M + hγsC + h²βsK, the matrix of v̇⁺."""
     _, _, gamma, beta, s = scheme
@@ -83,13 +83,13 @@ class Kept(NamedTuple):
     missed: Array
 
 
-@inlined
+@compiled
 def kept_of(n: int, m: int) -> Kept:
     """Work space for n dofs and m rows."""
     return Kept(np.empty(n), np.empty(n), np.empty(n), np.empty(n), np.empty(m), np.empty(n), np.zeros(n), np.zeros(n))
 
 
-@inlined
+@compiled_in_place
 def predict(scheme: Scheme, state: State, h: float, kept: Kept) -> None:
     """Keep the start of the step and put q*, v* in place of q, v; ``slip`` starts as −h²(β − ½γ)a."""
     alpha_m, alpha_f, gamma, beta, _ = scheme
@@ -105,7 +105,7 @@ def predict(scheme: Scheme, state: State, h: float, kept: Kept) -> None:
         v[i] += h * ((1.0 - gamma) * a[i] + gamma * known)
 
 
-@inlined
+@compiled_in_place
 def correct(scheme: Scheme, state: State, h: float, rate: Array, kept: Kept) -> None:
     """v̇⁺ = rate and the a⁺, q⁺, v⁺ that follow from it and from what :func:`predict` kept; jumps are not in them."""
     _, _, gamma, beta, s = scheme
@@ -119,7 +119,7 @@ def correct(scheme: Scheme, state: State, h: float, rate: Array, kept: Kept) -> 
         kept.slip[i] += h * h * (beta - 0.5 * gamma) * a[i]
 
 
-@inlined
+@compiled_in_place
 def react(scheme: Scheme, state: State, h: float, j: int, force: float, kept: Kept, impulse: Array) -> None:
     """Row j's reaction at the end of the step is ``force``; its impulse over the step goes to impulse[j], through the
     same filter as v̇."""

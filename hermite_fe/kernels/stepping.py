@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from hermite_fe.kernels.banded import add, combine, dot, multiply, quadratic, stiff_multiply
 from hermite_fe.kernels.contact import force_at, row_times
-from hermite_fe.kernels.jit import compiled, compiled_in_place, inlined
+from hermite_fe.kernels.jit import compiled, compiled_in_place
 from hermite_fe.kernels.pivoting import solve_rows
 from hermite_fe.kernels.problem import ALGORITHMIC, IMPACT, WORK, Problem, State, Work
 
@@ -17,7 +17,7 @@ Array = NDArray[np.float64]
 ROUNDING = 2.0**-51  # of an instant: each of two instants is rounded twice at most
 
 
-@inlined
+@compiled_in_place
 def step_length(times: Array, k: int, made_with: Array) -> float:
     """h of step k, s; the one that the matrix was made with where the two differ by the rounding of the instants alone,
     so that steps that are meant to be alike share their factors."""
