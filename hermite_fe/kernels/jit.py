@@ -103,7 +103,7 @@ class PartCacheImpl(CompileResultCacheImpl):
 class PartCache(KernelCache):
     """Where kernels for other kernels are kept."""
 
-    _impl_class = PartCacheImpl
+    _impl_class = PartCacheImpl  # type: ignore[assignment]
     suffix = ".part"
 
 
@@ -122,8 +122,9 @@ def kernel(function: Function, **options: Any) -> Function:
     if numba.config.DISABLE_JIT:  # type: ignore[attr-defined]  # set as numba is imported
         return function
     options = {"error_model": "numpy", "no_cfunc_wrapper": True, **options}
-    called = numba.njit(**options)(function)
-    part = numba.njit(no_cpython_wrapper=True, pipeline_class=PartCompiler, **options)(function)
+    compiler: Any = numba.njit  # whose types do not know all options
+    called = compiler(**options)(function)
+    part = compiler(no_cpython_wrapper=True, pipeline_class=PartCompiler, **options)(function)
 
     def template_without_literals(arguments: tuple[Any, ...], names: dict[str, Any]) -> Any:
         """Numba would compile a kernel once more for each number that a call writes out, as ``first = 0``."""
