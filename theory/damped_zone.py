@@ -43,8 +43,8 @@ SHORT = 3.0
 #: κ/ν between which what damping changes of the answer to a pressure ceases to be part of the prediction: beyond, the
 #: middle may come back to the wall at any time, and its pulse makes the rates wild.
 FLAT = (0.2, 0.25)
-#: Of what is part of it, what is not known: rates on elements twice as long differ by so much at most.
-UNSURE = 0.25
+#: Of what is part of it, what is not known: rates on elements half as long differ by 6 % in the median, 20 % at most.
+UNSURE = 0.15
 #: What loads make of a short zone's length waits less for the age of spreading than what is there without them: the
 #: part of λ₁τ T_p/(T − T_p) that is missing (0.2 to 0.5 for α, χ, n at κ/ν = 0.8, 0.9, 0.96, T = 5 … 15).
 WAITING = 0.35

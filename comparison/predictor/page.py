@@ -40,7 +40,7 @@ def limits() -> dict[str, Any]:
         "flat": damped_zone.FLAT,
         "unsure": damped_zone.UNSURE,
         "short": damped_zone.SHORT,
-        "endsWeight": validity.ENDS_WEIGHT,
+        "earlier": validity.EARLIER,
         "point": validity.POINT,
         "pulse": validity.PULSE,
         "third": validity.THIRD_ORDER,

@@ -415,9 +415,10 @@ const Theory = (() => {
         if (at < logs[0]) return [0, 0, 0];
         return NAMES.map((name) => (1 - row[1]) * mixed(cause[name][row[0]], column) + row[1] * mixed(cause[name][row[0] + 1], column));
       });
-      return bare.map((value, i) => limits.endsWeight * (value + quartic * flat * fourth[i]));
+      return bare.map((value, i) => value + quartic * flat * fourth[i]);
     };
 
+    const fromEnds = (tau) => [...ofEnds(tau), ...ofEnds(limits.earlier * tau)]; // as measured, and if they come earlier
     const size = Math.max(abs(c.alpha), abs(c.psi), abs(c.chi), abs(c.n));
     const exact = size === 0 || (discrete && c.n === 0), spreads = c.lambda0 > 0;
     let scale = 0, until = Infinity, secondOf = () => [0, 0, 0], thirdOf = () => 0;
@@ -458,8 +459,8 @@ const Theory = (() => {
     };
     const most = part * table.tolerance, largest = (list) => Math.max(...list.map(abs));
     const good = (tau) => {
-      const ends = ofEnds(tau), loads = ofLoads(tau);
-      return largest(ends.map((value, i) => value + loads[i])) + thirdOf(tau) <= most;
+      const loads = ofLoads(tau);
+      return largest(fromEnds(tau).map((value, i) => value + loads[i % 3])) + thirdOf(tau) <= most;
     };
     const grid = [];
     for (let i = 0; i < 600; i++) grid.push(end * 10 ** (-4 + 4 * i / 599), scale * 10 ** (-6 + 6 * i / 599));
@@ -474,7 +475,7 @@ const Theory = (() => {
     const ofLoad = tensionLeads(c) ? "tension" : "loads";
     let ending = "ends";
     if (until <= low || low === 0) ending = ofLoad;
-    else if (largest(ofLoads(low)) + thirdOf(low) > largest(ofEnds(low))) ending = ofLoad;
+    else if (largest(ofLoads(low)) + thirdOf(low) > largest(fromEnds(low))) ending = ofLoad;
     until = Math.min(low, until);
     const { kappa_over_nu: lifted, age: comes } = zone.touch;
     if (damping > 0 && c.ratio >= lifted[0] && c.ratio <= lifted[lifted.length - 1]) {
