@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+from scipy.interpolate import CubicHermiteSpline
 
 from bent_beam.history import ImpactHistory
 from comparison.reduction import peak_moment
@@ -53,17 +54,25 @@ def compare_histories(a: ImpactHistory, b: ImpactHistory) -> dict[str, Any]:
 
 
 def _gap_apart(a: ImpactHistory, b: ImpactHistory, end: float) -> float | None:
-    def shape(history: ImpactHistory) -> tuple[Any, Any]:
+    """Between the nodes of ``b`` by the cubics of its elements where it has slopes: elements may be long."""
+
+    def shape(history: ImpactHistory) -> tuple[Any, Any, Any]:
         k = int(np.argmin(np.abs(history.time - end)))
         x, gap = history.positions(k), history.array("gap")[k]
-        return x[x >= 0.0], gap[x >= 0.0]
+        slope = -history.array("slope")[k] - history.impact.wall_curvature * x if "slope" in history else None
+        right = x >= 0.0
+        return x[right], gap[right], None if slope is None else slope[right]
 
-    (x, gap), (other_x, other_gap) = shape(a), shape(b)
-    common = x <= other_x[-1]
+    (x, gap, _), (other_x, other_gap, other_slope) = shape(a), shape(b)
+    common = (x >= other_x[0]) & (x <= other_x[-1])
     scale = a.impact.velocity * end
     if scale <= 0.0 or not common.any():
         return None
-    return float(np.abs(gap[common] - np.interp(x[common], other_x, other_gap)).max()) / scale
+    if other_slope is None:
+        between = np.interp(x[common], other_x, other_gap)
+    else:
+        between = CubicHermiteSpline(other_x, other_gap, other_slope)(x[common])
+    return float(np.abs(gap[common] - between).max()) / scale
 
 
 def comparison_text(found: dict[str, Any], first: str, second: str) -> str:
