@@ -14,12 +14,15 @@ from bent_beam import Impact
 from bent_beam.meshes import UniformMesh
 
 GOAL = 0.9
+KAPPAS = (0.1, 0.25, 0.5)
 
 
 def measure(rounds: int) -> list[Row]:
     """The least share of some runs as they are chosen from κ/ν, and at 600 nodes."""
-    cases = [(f"κ/ν = {kappa:g}", Impact.dimensionless(kappa), None) for kappa in (0.1, 0.25, 0.5)]
-    cases.append(("600 nodes", Impact.dimensionless(0.5, length=24.0), UniformMesh(0.02)))
+    cases: list[tuple[str, Impact, UniformMesh | None]] = [
+        *((f"κ/ν = {kappa:g}", Impact.dimensionless(kappa), None) for kappa in KAPPAS),
+        ("600 nodes", Impact.dimensionless(0.5, length=24.0), UniformMesh(0.02)),
+    ]
     rows = []
     for label, impact, mesh in cases:
         shares, seconds = [], []

@@ -40,17 +40,19 @@ def prepared_step(
     start: float = 0.5,
     end_time: float = 1.0,
     half_length: float = HALF_LENGTH,
+    length: float = STEP,
 ) -> Callable[[], None]:
     """A half beam of ``nodes`` nodes in the middle of an impact; each call of the result takes one more step.
 
     growing : steps in proportion to time, so that every one makes and factors a new matrix.
     half_length : in l*; the shorter, the more of the nodes are in contact (at most 3 l* of the beam are).
+    length : of constant steps, in t*.
     start : how far the run has got, as a fraction of ``end_time`` (in t*), before the first call.
 
     Raises ``RuntimeError`` when a step fails.
     """
     integrator = (integrator or MoreauJean()).with_steps(
-        *((0.1 * STEP, 2.0 * STEP) if growing else (STEP, 0.0))
+        *((0.1 * STEP, 2.0 * STEP) if growing else (length, 0.0))
     )
     contact = contact or NodeContact(hold=16, hold_until=0.0)
     model = _model(nodes, contact, half_length)

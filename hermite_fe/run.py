@@ -126,7 +126,7 @@ class Samples:
     def __init__(self, system: System, count: int) -> None:
         n, m = system.dofs, len(system.contacts)
         self.contacts, self.count, self.size = system.contacts, count, 0
-        self.arrays = {name: np.zeros((count, n)) for name in ("q", "v")}
+        self.arrays: dict[str, NDArray[Any]] = {name: np.zeros((count, n)) for name in ("q", "v")}
         self.arrays |= {name: np.zeros((count, m)) for name in ("gap", "impulse", "held_impulse")}
         self.arrays |= {"time": np.zeros(count), "closed": np.zeros((count, m), bool)}
         self.sums: list[dict[str, float]] = []
