@@ -37,10 +37,7 @@ __all__ = ["Law", "law_of", "measure_ends", "reached", "theory_law"]
 
 Array = NDArray[np.float64]
 DATA = Path(theory.__file__).with_name("ends.json")
-KAPPAS = (
-    0.05, 0.06, 0.07, 0.085, 0.1, 0.12, 0.14, 0.17, 0.2, 0.235, 0.27, 0.31, 0.35, 0.42, 0.5, 0.57, 0.65, 0.72, 0.8,
-    0.85, 0.9, 1.2,
-)  # fmt: skip
+KAPPAS = (0.05, 0.07, 0.1, 0.14, 0.2, 0.27, 0.35, 0.5, 0.65, 0.8, 0.9, 1.2)
 DAMPINGS = (1e-4, 3e-4, 1e-3, 3e-3, 1e-2)
 USUAL = 1e-3  # η/T* of the curves; other dampings get a factor on time
 TOLERANCE = 0.02
