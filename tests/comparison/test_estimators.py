@@ -242,6 +242,6 @@ def test_a_uniform_reaction_that_one_node_in_three_carries_is_read_off_to_a_thou
         time=time,
         array=lambda name: time[:, None] * impulse,
         contact_positions=lambda k: places,
-        dataset=SimpleNamespace(attrs={"symmetry": symmetry}),
+        symmetry=symmetry,
     )
     assert _pressure(history, np.full(3, 1.4))[1:] == pytest.approx(5.0, rel=1e-3)
