@@ -8,6 +8,7 @@ first title. A table whose titles are κ/ν is read by columns. "≤" states a b
 
 from __future__ import annotations
 
+import itertools
 import json
 import re
 import shlex
@@ -16,9 +17,11 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 
 from comparison.command_line.app import run
+from comparison.whole_impact.ends import reached
 
 ROOT = Path(__file__).resolve().parents[2]
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
@@ -189,6 +192,31 @@ def test_a_fresh_run_gives_the_stated_numbers(command: str, text: str, monkeypat
     monkeypatch.chdir(ROOT)
     rows = matched(command)
     assert (wrong_in_table if text.startswith("|") else wrong_in_output)(rows, text) == []
+
+
+def table_after(page: str, words: str) -> dict[str, list[str]]:
+    """The first table below these words, by the first cells of its lines."""
+    text = (ROOT / page).read_text(encoding="utf-8")
+    lines = text[text.index(words) :].splitlines()
+    first = next(k for k, line in enumerate(lines) if line.startswith("|"))
+    rows = itertools.takewhile(lambda line: line.startswith("|"), lines[first:])
+    return {first: others for first, *others in map(cells, rows)}
+
+
+def test_the_times_until_waves_return_are_the_stored_ones() -> None:
+    stored = json.loads((ROOT / "theory/ends.json").read_text(encoding="utf-8"))
+    table = table_after("docs/whole_impact.md", "The same beam, and one 2.5 times as long")
+    for column, title in enumerate(table["κ/ν"]):
+        row = stored["kappa_over_nu"].index(1.2 if title.startswith("≥") else float(title))
+        times = np.array(stored["later"]) * stored["ends"]["arrival"][row]
+        assert float(table["2 %"][column]) == pytest.approx(stored["ends"]["arrival"][row], abs=1e-4)
+        for share in ("1 %", "5 %"):
+            tolerance = float(share[:1]) / 100.0
+            curves = (np.array(stored["ends"][name][row]) for name in ("half_length", "reaction", "impulse"))
+            found = [reached(times, curve, tolerance) for curve in curves]
+            assert float(table[share][column]) == pytest.approx(min(t for t in found if t is not None), abs=1e-4)
+    factors = table_after("docs/whole_impact.md", "At other dampings the same comes earlier")
+    assert [float(f) for f in factors["factor"]] == pytest.approx(stored["factor"], abs=6e-3)
 
 
 HITS = {"begins": "begin", "impulse": "impulse", "velocity after": "velocity", "energy lost": "lost"}
