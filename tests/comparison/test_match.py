@@ -127,7 +127,7 @@ def test_the_size_of_the_loads_is_within_the_error_bars(monkeypatch, kappa, firs
     """ε → 0 is extrapolated to: with half and twice the ε λ₁ and r₁ are the same."""
     asked = Question(SelfSimilarFE(), kappa, first, error_bars="drift")
     usual = answer(asked, KEEP)
-    monkeypatch.setattr(matching, "PERTURBATION", factor * matching.PERTURBATION)
+    monkeypatch.setattr(SelfSimilarFE, "perturbation", factor * SelfSimilarFE.perturbation)
     other = answer(asked, KEEP)
     assert other.epsilons[-1] == pytest.approx(factor * usual.epsilons[-1])
     for name in ("lambda1", "r1"):
