@@ -3,8 +3,9 @@
 On an endless beam without loads the damped impact has two numbers, κ/ν and the age T = t/η. Here half length, force and
 impulse over those of the undamped theory are measured on two meshes or more, whose errors fall in proportion to the
 elements, and extrapolated by a straight line. In a flat bow each node that is caught leaves noise, in the force of one
-run some tenths of a per cent, which differs from mesh to mesh: there eight meshes share it. Until T = erf⁻¹(κ/ν)² the contact is one point, and exact
-(:mod:`theory.damped_point`); so the half length is stored over λ₀√(ct)(1 − T_p/T), which is smooth.
+run some tenths of a per cent, which differs from mesh to mesh: there eight meshes share it. Until T = erf⁻¹(κ/ν)² the
+contact is one point, and exact (:mod:`theory.damped_point`); so the half length is stored over λ₀√(ct)(1 − T_p/T),
+which is smooth.
 
 ``python -m comparison.whole_impact.damped`` measures all (a quarter of an hour) and writes ``damped_zone.json`` in
 :mod:`theory`, which ``predict`` reads.
