@@ -7,7 +7,7 @@ run some tenths of a per cent, which differs from mesh to mesh: there eight mesh
 contact is one point, and exact (:mod:`theory.damped_point`); so the half length is stored over λ₀√(ct)(1 − T_p/T),
 which is smooth.
 
-``python -m comparison.whole_impact.damped`` measures all (a quarter of an hour) and writes ``damped_zone.json`` in
+``python -m comparison.whole_impact.damped`` measures all (nine minutes on two cores) and writes ``damped_zone.json`` in
 :mod:`theory`, which ``predict`` reads.
 """
 
