@@ -81,8 +81,9 @@ def test_the_self_similar_solver_matches_the_first_order(kappa, first):
         assert number.covered
 
 
+@pytest.mark.verify
 def test_exudyn_matches_the_first_order_of_a_pressed_zone():
-    """On half of its elements and steps, for a third of the time; with all of them in make verify."""
+    """On half of its elements and steps, for a third of the time."""
     row = answer(Question(ExudynModel(refine=0.5), 0.5, (4.0, 0.0, 0.0), error_bars="drift"), KEEP)
     assert off(row.lambda1, 1.0) < 0.01
     assert off(row.r1, 1.0) < 0.01

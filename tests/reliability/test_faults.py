@@ -290,6 +290,7 @@ def test_two_reports_at_once_in_one_store_and_disks_that_fill_during_a_third(tmp
     assert [name for name in one if one[name] != third[name]] == []
 
 
+@pytest.mark.verify
 def test_a_clock_that_jumps_changes_nothing(reference, monkeypatch, tmp_path):
     jumps = iter(random.Random(3).choices([0.0, 1e9, 4e9, -1e9], k=100_000))
     monkeypatch.setattr(time, "time", lambda: next(jumps))
@@ -339,6 +340,7 @@ def survives(number):
     return number * number
 
 
+@pytest.mark.verify
 def test_a_worker_that_dies_takes_no_other_call_with_it():
     dead = []
     found = run_all(survives, [(n,) for n in range(6)], jobs=2, on_death=lambda i, why: dead.append((i, why)) or "dead")
@@ -348,6 +350,7 @@ def test_a_worker_that_dies_takes_no_other_call_with_it():
         run_all(survives, [(1,), (3,)], jobs=2)
 
 
+@pytest.mark.verify
 def test_the_calls_after_one_that_dies_share_a_pool_again():
     """A sweep of ten thousand rows must not start a process for each row that follows a death."""
     started = []
