@@ -5,11 +5,8 @@ python -m benchmarks.exudyn [--rounds 3] [--out benchmarks/results/exudyn.json]
 
 from __future__ import annotations
 
-import argparse
-from pathlib import Path
-
 import exudyn_models
-from benchmarks.record import RESULTS, Row, keep, said
+from benchmarks.record import Row, keep, options, said
 from bent_beam import Impact
 from bent_beam.meshes import UniformMesh
 
@@ -36,10 +33,7 @@ def measure(rounds: int) -> list[Row]:
 
 
 def main(words: list[str] | None = None) -> list[Row]:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--rounds", type=int, default=3)
-    parser.add_argument("--out", type=Path, default=RESULTS / "exudyn.json")
-    arguments = parser.parse_args(words)
+    arguments = options("exudyn", __doc__, rounds=3).parse_args(words)
     return keep(arguments.out, measure(arguments.rounds))
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import argparse
 import datetime
 import importlib.metadata
 import json
@@ -13,7 +14,7 @@ from typing import Any
 from bent_beam.files import write_atomically
 from bent_beam.versions import processor
 
-__all__ = ["RESULTS", "Row", "keep", "keep_rows", "said"]
+__all__ = ["RESULTS", "Row", "keep", "keep_rows", "options", "said"]
 
 VERSIONS = ("numpy", "scipy", "numba", "llvmlite", "typer", "exudyn", "xarray")
 
@@ -37,6 +38,14 @@ class Row:
     def __str__(self) -> str:
         sign = "≥" if self.at_least else "≤"
         return f"{self.label:50}{self.figure:9.3f}  {sign} {self.goal:<6g} {'met' if self.met else 'NOT MET'}"
+
+
+def options(name: str, about: str | None, rounds: int) -> argparse.ArgumentParser:
+    """The command line of a benchmark: ``--rounds``, and ``--out`` for what it keeps."""
+    parser = argparse.ArgumentParser(description=about, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--rounds", type=int, default=rounds)
+    parser.add_argument("--out", type=Path, default=RESULTS / f"{name}.json")
+    return parser
 
 
 def said(row: Row) -> Row:

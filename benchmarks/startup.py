@@ -6,7 +6,6 @@ python -m benchmarks.startup [--rounds 15] [--out benchmarks/results/startup.jso
 
 from __future__ import annotations
 
-import argparse
 import os
 import statistics
 import subprocess
@@ -15,7 +14,7 @@ import tempfile
 import time
 from pathlib import Path
 
-from benchmarks.record import RESULTS, Row, keep, said
+from benchmarks.record import Row, keep, options, said
 
 ROOT = Path(__file__).resolve().parents[1]
 COMMAND = ["-m", "comparison.command_line"]
@@ -67,10 +66,7 @@ def measure(rounds: int) -> list[Row]:
 
 
 def main(words: list[str] | None = None) -> list[Row]:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--rounds", type=int, default=15)
-    parser.add_argument("--out", type=Path, default=RESULTS / "startup.json")
-    arguments = parser.parse_args(words)
+    arguments = options("startup", __doc__, rounds=15).parse_args(words)
     return keep(arguments.out, [*measure(arguments.rounds), *measure_simulation()])
 
 

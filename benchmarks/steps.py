@@ -8,15 +8,13 @@ pairs, so that other work on the machine weighs on both alike.
 
 from __future__ import annotations
 
-import argparse
 import math
 import statistics
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from pathlib import Path
 
-from benchmarks.record import RESULTS, Row, keep, said
+from benchmarks.record import Row, keep, options, said
 from benchmarks.timing import HALF_LENGTH, STEP, lapack_step, prepared_step
 from hermite_fe.contacts import Contact, MeanContact, MiddleContact, NodeContact
 from hermite_fe.integrators import Integrator, MoreauJean, NonsmoothGeneralizedAlpha, SignoriniPosition
@@ -119,11 +117,9 @@ def measure(sizes: tuple[int, ...], rounds: int, only: str = "") -> list[Row]:
 
 
 def main(words: list[str] | None = None) -> list[Row]:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = options("steps", __doc__, rounds=60)
     parser.add_argument("--sizes", default=",".join(map(str, SIZES)))
-    parser.add_argument("--rounds", type=int, default=60)
     parser.add_argument("--only", default="", help="kinds of step with this in their names")
-    parser.add_argument("--out", type=Path, default=RESULTS / "steps.json")
     arguments = parser.parse_args(words)
     sizes = tuple(int(n) for n in arguments.sizes.split(","))
     return keep(arguments.out, measure(sizes, arguments.rounds, arguments.only))

@@ -5,13 +5,11 @@ python -m benchmarks.theory [--rounds 3] [--out benchmarks/results/theory.json]
 
 from __future__ import annotations
 
-import argparse
 import time
-from pathlib import Path
 
 import numpy as np
 
-from benchmarks.record import RESULTS, Row, keep, said
+from benchmarks.record import Row, keep, options, said
 from theory.contact import contact_parameters
 
 COUNT = 1_000_000
@@ -33,10 +31,7 @@ def measure(rounds: int) -> list[Row]:
 
 
 def main(words: list[str] | None = None) -> list[Row]:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--rounds", type=int, default=3)
-    parser.add_argument("--out", type=Path, default=RESULTS / "theory.json")
-    arguments = parser.parse_args(words)
+    arguments = options("theory", __doc__, rounds=3).parse_args(words)
     return keep(arguments.out, measure(arguments.rounds))
 
 

@@ -67,7 +67,7 @@ from pathlib import Path
 from comparison.command_line import app
 from comparison.workers import run_all
 
-def match(arguments, **_):
+def match(**_):
     Path({ready!r}).touch()
     run_all(time.sleep, [(60.0,)] * 3, jobs=2, on_death=lambda i, why: why)
 
@@ -77,16 +77,22 @@ if __name__ == "__main__":
 """
 
 
-@pytest.mark.parametrize("after", [0.0, 0.3, 1.5])
-def test_workers_end_with_the_command_and_say_nothing(after, tmp_path):
-    """Two workers asleep, or still starting: Ctrl-C reaches all processes of a terminal at once."""
-    ready, program = tmp_path / "ready", tmp_path / "program.py"
-    program.write_text(SLEEP.replace("arguments, **_", "**_").format(ready=str(ready)))
+def started_with_workers(folder: Path) -> subprocess.Popen[str]:
+    """A command in a session of its own, about to start two workers that sleep."""
+    ready, program = folder / "ready", folder / "program.py"
+    program.write_text(SLEEP.format(ready=str(ready)))
     process = subprocess.Popen(
-        [sys.executable, str(program)], stdout=-1, stderr=-1, text=True, start_new_session=True, cwd=tmp_path
+        [sys.executable, str(program)], stdout=-1, stderr=-1, text=True, start_new_session=True, cwd=folder
     )
     while not ready.exists():
         time.sleep(0.01)
+    return process
+
+
+@pytest.mark.parametrize("after", [0.0, 0.3, 1.5])
+def test_workers_end_with_the_command_and_say_nothing(after, tmp_path):
+    """Two workers asleep, or still starting: Ctrl-C reaches all processes of a terminal at once."""
+    process = started_with_workers(tmp_path)
     time.sleep(after)
     os.killpg(process.pid, signal.SIGINT)
     out, err = process.communicate(timeout=30)
@@ -97,13 +103,7 @@ def test_workers_end_with_the_command_and_say_nothing(after, tmp_path):
 @pytest.mark.parametrize("how", [signal.SIGKILL, signal.SIGTERM], ids=lambda how: how.name)
 def test_workers_end_when_the_command_is_killed(how, tmp_path):
     """No line of its own runs then: the workers themselves have to see that it is gone."""
-    ready, program = tmp_path / "ready", tmp_path / "program.py"
-    program.write_text(SLEEP.replace("arguments, **_", "**_").format(ready=str(ready)))
-    process = subprocess.Popen(
-        [sys.executable, str(program)], stdout=-1, stderr=-1, text=True, start_new_session=True, cwd=tmp_path
-    )
-    while not ready.exists():
-        time.sleep(0.01)
+    process = started_with_workers(tmp_path)
     time.sleep(1.5)
     process.send_signal(how)
     process.communicate(timeout=30)
