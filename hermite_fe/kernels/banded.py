@@ -19,7 +19,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from hermite_fe.kernels.jit import compiled, compiled_in_place, compiled_sums
+from hermite_fe.kernels.jit import compiled_in_place, compiled_sums
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
@@ -206,109 +206,87 @@ def combine(
 
 
 @compiled_in_place
-def factor(S: Array, fixed: Flags, top: int, bottom: int, D: Array, U: Array) -> bool:
-    """Factor S = U D Uᵀ from unknown ``top`` down to ``bottom``; what is above ``top`` must be factored already.
+def factor(S: Array, fixed: Flags, first: int, count: int, way: int, D: Array, U: Array) -> bool:
+    """Factor ``count`` unknowns from ``first`` on: S = U D Uᵀ on the ``way`` −1 downwards, S = L D Lᵀ on the way 1
+    upwards; those before ``first``, as one goes, must be factored already.
 
-    D (n + 4,) pivots, U (n + 4, 5) their inverses U[q, 0] and couplings U[q, m] = U(q − m, q); four idle rows pad the
-    end. Returns False when a pivot is zero or not a number.
+    D (n + 4,) pivots, U (n + 4, 5) their inverses U[q, 0] and couplings U[q, m] = U(q − m, q) or L(q + m, q); four idle
+    rows pad the end (and come, as Python counts, before unknown 0). Returns False when a pivot is zero or not a number.
     """
     sound = True
-    for t in range(top + 1 - bottom):
-        k = top - t
-        if fixed[k]:
-            D[k] = 1.0
-            U[k, 0] = 1.0
-            for m in range(1, 5):
-                U[k, m] = 0.0
-            continue
-        b1, b2 = U[k + 1, 1] * D[k + 1], U[k + 2, 2] * D[k + 2]
-        b3, b4 = U[k + 3, 3] * D[k + 3], U[k + 4, 4] * D[k + 4]
-        d = S[k, 0] - b4 * U[k + 4, 4] - b3 * U[k + 3, 3] - b2 * U[k + 2, 2] - b1 * U[k + 1, 1]
-        sound = sound and abs(d) > 0.0
-        r = 1.0 / d
+    i1, i2, i3, i4 = first - way, first - 2 * way, first - 3 * way, first - 4 * way
+    d1, d2, d3, d4 = D[i1], D[i2], D[i3], D[i4]
+    u11, u12, u13, u14 = U[i1, 1], U[i1, 2], U[i1, 3], U[i1, 4]  # kept at hand: what has just been written
+    u22, u23, u24 = U[i2, 2], U[i2, 3], U[i2, 4]  # would have to be waited for
+    u33, u34, u44 = U[i3, 3], U[i3, 4], U[i4, 4]
+    for t in range(count):
+        k = first + way * t
+        d, r, u1, u2, u3, u4 = 1.0, 1.0, 0.0, 0.0, 0.0, 0.0
+        if not fixed[k]:
+            j1, j2, j3, j4 = k + way, k + 2 * way, k + 3 * way, k + 4 * way
+            b1, b2, b3, b4 = u11 * d1, u22 * d2, u33 * d3, u44 * d4
+            d = S[k, 0] - b4 * u44 - b3 * u33 - b2 * u22 - b1 * u11
+            sound = sound and abs(d) > 0.0
+            r = 1.0 / d
+            if j1 >= 0 and not fixed[j1]:
+                u1 = (S[max(k, j1), 1] - b3 * u34 - b2 * u23 - b1 * u12) * r
+            if j2 >= 0 and not fixed[j2]:
+                u2 = (S[max(k, j2), 2] - b2 * u24 - b1 * u13) * r
+            if j3 >= 0 and not fixed[j3]:
+                u3 = (S[max(k, j3), 3] - b1 * u14) * r
+            if j4 >= 0 and not fixed[j4]:
+                u4 = S[max(k, j4), 4] * r
         D[k] = d
         U[k, 0] = r
-        u1 = (S[k, 1] - b3 * U[k + 3, 4] - b2 * U[k + 2, 3] - b1 * U[k + 1, 2]) * r
-        u2 = (S[k, 2] - b2 * U[k + 2, 4] - b1 * U[k + 1, 3]) * r
-        u3 = (S[k, 3] - b1 * U[k + 1, 4]) * r
-        u4 = S[k, 4] * r
-        U[k, 1] = 0.0 if k < 1 or fixed[k - 1] else u1
-        U[k, 2] = 0.0 if k < 2 or fixed[k - 2] else u2
-        U[k, 3] = 0.0 if k < 3 or fixed[k - 3] else u3
-        U[k, 4] = 0.0 if k < 4 or fixed[k - 4] else u4
+        U[k, 1] = u1
+        U[k, 2] = u2
+        U[k, 3] = u3
+        U[k, 4] = u4
+        d1, d2, d3, d4 = d, d1, d2, d3
+        u33, u34, u44 = u23, u24, u34
+        u22, u23, u24 = u12, u13, u14
+        u11, u12, u13, u14 = u1, u2, u3, u4
     return sound
 
 
 @compiled_in_place
-def factor_up(S: Array, fixed: Flags, first: int, stop: int, D: Array, U: Array) -> bool:
-    """Factor S = L D Lᵀ from unknown ``first`` up to ``stop`` − 1, with L(q + m, q) in U[q, m]; what is below ``first``
-    must be factored already. (Before unknown 0 come, as Python counts, the idle rows at the end.)"""
-    sound = True
-    for k in range(first, stop):
-        if fixed[k]:
-            D[k] = 1.0
-            U[k, 0] = 1.0
-            for m in range(1, 5):
-                U[k, m] = 0.0
-            continue
-        b1, b2 = U[k - 1, 1] * D[k - 1], U[k - 2, 2] * D[k - 2]
-        b3, b4 = U[k - 3, 3] * D[k - 3], U[k - 4, 4] * D[k - 4]
-        d = S[k, 0] - b4 * U[k - 4, 4] - b3 * U[k - 3, 3] - b2 * U[k - 2, 2] - b1 * U[k - 1, 1]
-        sound = sound and abs(d) > 0.0
-        r = 1.0 / d
-        D[k] = d
-        U[k, 0] = r
-        u1 = (S[k + 1, 1] - b3 * U[k - 3, 4] - b2 * U[k - 2, 3] - b1 * U[k - 1, 2]) * r
-        u2 = (S[k + 2, 2] - b2 * U[k - 2, 4] - b1 * U[k - 1, 3]) * r
-        u3 = (S[k + 3, 3] - b1 * U[k - 1, 4]) * r
-        u4 = S[k + 4, 4] * r
-        U[k, 1] = 0.0 if fixed[k + 1] else u1
-        U[k, 2] = 0.0 if fixed[k + 2] else u2
-        U[k, 3] = 0.0 if fixed[k + 3] else u3
-        U[k, 4] = 0.0 if fixed[k + 4] else u4
-    return sound
+def factor_down(S: Array, fixed: Flags, top: int, twist: int, meeting: Array, D: Array, U: Array) -> bool:
+    """:func:`factor` from unknown ``top`` down to ``twist``, what is below it being factored upwards.
 
-
-@compiled
-def factor_down(S: Array, fixed: Flags, top: int, twist: int, D: Array, U: Array) -> bool:
-    """:func:`factor` from unknown ``top`` down to ``twist``, what is below it factored by :func:`factor_up`."""
+    meeting : (4, 5), scratch: S between the first four unknowns, less what the elimination of those below takes off.
+    """
     if twist == 0:
-        return factor(S, fixed, top, 0, D, U)
-    sound = top < twist + 4 or factor(S, fixed, top, twist + 4, D, U)
-    meeting = np.zeros((4, 5))  # S between the first four unknowns, less what the elimination of those below takes off
+        return factor(S, fixed, top, top + 1, -1, D, U)
+    sound = factor(S, fixed, top, top - twist - 3, -1, D, U)
     for i in range(4):
         for m in range(i + 1):
             total = S[twist + i, m]
             for q in range(twist + i - 4, twist):
                 total -= U[q, twist + i - q] * D[q] * U[q, twist + i - m - q]
             meeting[i, m] = total
-    return factor(meeting, fixed[twist:], min(top - twist, 3), 0, D[twist:], U[twist:]) and sound
+    last = min(top - twist, 3)
+    return factor(meeting, fixed[twist:], last, last + 1, -1, D[twist:], U[twist:]) and sound
 
 
 @compiled_in_place
-def forward_substitute(U: Array, top: int, bottom: int, z: Array) -> None:
-    """Solve U z = r from unknown ``top`` down to ``bottom``, in place of r; z above ``top`` must be known (z has four
-    idle places at the end)."""
-    z1, z2, z3, z4 = z[top + 1], z[top + 2], z[top + 3], z[top + 4]
-    for t in range(top + 1 - bottom):
-        k = top - t
-        value = (z[k] - U[k + 4, 4] * z4 - U[k + 3, 3] * z3 - U[k + 2, 2] * z2) - U[k + 1, 1] * z1
-        z[k] = value
-        z4 = z3
-        z3 = z2
-        z2 = z1
-        z1 = value
+def four_before(x: Array, first: int, way: int) -> tuple[float, float, float, float]:
+    """The four values before ``first``, as one goes, the nearest first; zero where there are none."""
+    n, i1, i2, i3, i4 = x.size, first - way, first - 2 * way, first - 3 * way, first - 4 * way
+    x1 = x[i1] if 0 <= i1 < n else 0.0
+    x2 = x[i2] if 0 <= i2 < n else 0.0
+    x3 = x[i3] if 0 <= i3 < n else 0.0
+    x4 = x[i4] if 0 <= i4 < n else 0.0
+    return x1, x2, x3, x4
 
 
 @compiled_in_place
-def substitute_up(U: Array, first: int, stop: int, z: Array) -> None:
-    """Solve L z = r, of :func:`factor_up`, from unknown ``first`` up to ``stop`` − 1, in place of r; z below ``first``
-    must be known."""
-    z1, z2, z3, z4 = 0.0, 0.0, 0.0, 0.0
-    if first > 0:
-        z1, z2, z3, z4 = z[first - 1], z[first - 2], z[first - 3], z[first - 4]
-    for k in range(first, stop):
-        value = (z[k] - U[k - 4, 4] * z4 - U[k - 3, 3] * z3 - U[k - 2, 2] * z2) - U[k - 1, 1] * z1
+def substitute(U: Array, first: int, count: int, way: int, z: Array) -> None:
+    """Solve U z = r (L z = r), of :func:`factor`, for ``count`` unknowns from ``first`` on, in place of r; z before
+    ``first`` must be known (z has four idle places at the end)."""
+    z1, z2, z3, z4 = four_before(z, first, way)
+    for t in range(count):
+        k = first + way * t
+        value = (z[k] - U[k - 4 * way, 4] * z4 - U[k - 3 * way, 3] * z3 - U[k - 2 * way, 2] * z2) - U[k - way, 1] * z1
         z[k] = value
         z4 = z3
         z3 = z2
@@ -318,50 +296,27 @@ def substitute_up(U: Array, first: int, stop: int, z: Array) -> None:
 
 @compiled_in_place
 def substitute_down(U: Array, top: int, twist: int, z: Array) -> None:
-    """:func:`forward_substitute` from unknown ``top`` down to ``twist``, z below it known by :func:`substitute_up`."""
+    """:func:`substitute` from unknown ``top`` down to ``twist``, z below it being known from the way up."""
     if twist == 0:
-        forward_substitute(U, top, 0, z)
+        substitute(U, top, top + 1, -1, z)
         return
-    if top >= twist + 4:
-        forward_substitute(U, top, twist + 4, z)
+    substitute(U, top, top - twist - 3, -1, z)
     for i in range(4):
         total = z[twist + i]
         for q in range(twist + i - 4, twist):
             total -= U[q, twist + i - q] * z[q]
         z[twist + i] = total
-    forward_substitute(U[twist:], min(top - twist, 3), 0, z[twist:])
+    last = min(top - twist, 3)
+    substitute(U[twist:], last, last + 1, -1, z[twist:])
 
 
 @compiled_in_place
-def back_substitute(U: Array, z: Array, start: int, stop: int, x: Array) -> None:
-    """Solve D Uᵀ x = z for unknowns start…stop − 1; x below ``start`` must be known."""
-    x1, x2, x3, x4 = 0.0, 0.0, 0.0, 0.0
-    if start > 0:
-        x1 = x[start - 1]
-    if start > 1:
-        x2 = x[start - 2]
-    if start > 2:
-        x3 = x[start - 3]
-    if start > 3:
-        x4 = x[start - 4]
-    for k in range(start, stop):
-        value = (z[k] * U[k, 0] - U[k, 4] * x4 - U[k, 3] * x3 - U[k, 2] * x2) - U[k, 1] * x1
-        x[k] = value
-        x4 = x3
-        x3 = x2
-        x2 = x1
-        x1 = value
-
-
-@compiled_in_place
-def back_substitute_down(U: Array, z: Array, twist: int, x: Array) -> None:
-    """Solve D Lᵀ x = z, of :func:`factor_up`, from unknown ``twist`` − 1 down to 0; x from ``twist`` on must be known.
-    """
-    if twist == 0:
-        return
-    x1, x2, x3, x4 = x[twist], x[twist + 1], x[twist + 2], x[twist + 3]
-    for t in range(twist):
-        k = twist - 1 - t
+def back_substitute(U: Array, z: Array, first: int, count: int, way: int, x: Array) -> None:
+    """Solve D Uᵀ x = z, on the ``way`` 1 upwards (D Lᵀ x = z, on the way −1 downwards), for ``count`` unknowns from
+    ``first`` on; x before ``first``, as one goes, must be known."""
+    x1, x2, x3, x4 = four_before(x, first, way)
+    for t in range(count):
+        k = first + way * t
         value = (z[k] * U[k, 0] - U[k, 4] * x4 - U[k, 3] * x3 - U[k, 2] * x2) - U[k, 1] * x1
         x[k] = value
         x4 = x3
@@ -372,19 +327,11 @@ def back_substitute_down(U: Array, z: Array, twist: int, x: Array) -> None:
 
 @compiled_in_place
 def fade_out(U: Array, start: int, smallest: float, x: Array) -> int:
-    """Go on with :func:`back_substitute` from unknown ``start`` where z is zero, until four values in a row are below
-    ``smallest``: all that follow are, and x is zero from there on. Returns where that is.
+    """Go on with :func:`back_substitute`, upwards from unknown ``start``, where z is zero, until four values in a row
+    are below ``smallest``: all that follow are, and x is zero from there on. Returns where that is.
     """
     n = x.size
-    x1, x2, x3, x4 = 0.0, 0.0, 0.0, 0.0
-    if start > 0:
-        x1 = x[start - 1]
-    if start > 1:
-        x2 = x[start - 2]
-    if start > 2:
-        x3 = x[start - 3]
-    if start > 3:
-        x4 = x[start - 4]
+    x1, x2, x3, x4 = four_before(x, start, 1)
     end = n
     for k in range(start, n):
         if max(max(abs(x1), abs(x2)), max(abs(x3), abs(x4))) < smallest:

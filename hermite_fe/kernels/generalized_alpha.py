@@ -455,7 +455,7 @@ def penalty_steps(
                 if closed[j]:
                     work.b[d] -= g * (spring * (problem.gap[j] + work.gap[j]) + damper * work.speed[j])
             if not fresh and top >= 0:
-                if not factor(work.S, work.fixed, top, 0, work.D, work.U):
+                if not factor(work.S, work.fixed, top, top + 1, -1, work.D, work.U):
                     work.made_with[0] = math.nan
                     return SINGULAR, k
             status = solve_rows(problem, work, fresh, n, none)

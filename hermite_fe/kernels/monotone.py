@@ -11,7 +11,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from hermite_fe.kernels.banded import back_substitute, factor, forward_substitute
+from hermite_fe.kernels.banded import back_substitute, factor, substitute
 from hermite_fe.kernels.jit import compiled
 from hermite_fe.kernels.problem import Problem, Work
 from hermite_fe.kernels.rows import CYCLING, SINGULAR, SOLVED, right_side, wrong_rows
@@ -37,10 +37,10 @@ def solve_monotone(problem: Problem, work: Work, closed: Flags, tolerance: float
     work.twist[:] = 0  # factored from above alone
     for attempt in range(MOST * (m + 1)):
         right_side(S, work.b, place, fixed, switch, factors, work.target, closed, m - 1, 0, n, work.z)
-        if not factor(S, fixed, n - 1, 0, work.D, work.U):
+        if not factor(S, fixed, n - 1, n, -1, work.D, work.U):
             return SINGULAR, attempt
-        forward_substitute(work.U, n - 1, 0, work.z)
-        back_substitute(work.U, work.z, 0, n, y)
+        substitute(work.U, n - 1, n, -1, work.z)
+        back_substitute(work.U, work.z, 0, n, 1, y)
         wrong_rows(problem, work, closed, 0, m, 0, n, tolerance)
         share, opening = 1.0, -1
         for j in range(m):

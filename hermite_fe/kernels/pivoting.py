@@ -23,12 +23,11 @@ from numpy.typing import NDArray
 
 from hermite_fe.kernels.banded import (
     back_substitute,
-    back_substitute_down,
+    factor,
     factor_down,
-    factor_up,
     fade_out,
+    substitute,
     substitute_down,
-    substitute_up,
 )
 from hermite_fe.kernels.jit import compiled_in_place
 from hermite_fe.kernels.monotone import solve_monotone
@@ -65,10 +64,10 @@ def substitute_rest(work: Work, start: int, end: int, smallest: float) -> int:
     """Unknowns from ``start`` on, where right-hand sides are zero from ``end`` on. Returns where they become zero."""
     y = work.y
     if end >= y.size:
-        back_substitute(work.U, work.z, start, y.size, y)
+        back_substitute(work.U, work.z, start, y.size - start, 1, y)
         return int(y.size)
     if start < end:
-        back_substitute(work.U, work.z, start, end, y)
+        back_substitute(work.U, work.z, start, end - start, 1, y)
         start = end
     return fade_out(work.U, start, smallest, y)
 
@@ -86,14 +85,14 @@ def refactor(work: Work, calm: int, low: int, top: int, wanted: int) -> int:
     calm = min(calm, before, max(low - REACH, 0))
     sound = True
     if twist > calm:
-        sound = factor_up(S, fixed, calm, twist, D, U)
+        sound = factor(S, fixed, calm, twist - calm, 1, D, U)
     if twist < before:
         top = max(top, before + 3)
     if twist != before or calm < twist:
         top = max(top, twist + 3)
     work.twist[0] = twist
     if top >= twist:
-        sound = factor_down(S, fixed, top, twist, D, U) and sound
+        sound = factor_down(S, fixed, top, twist, work.meeting, D, U) and sound
     return top if sound else -2
 
 
@@ -150,21 +149,21 @@ def solve_rows(problem: Problem, work: Work, fresh: bool, extent: int, closed: F
     bottom = twist[0]
     end = max(end, min(bottom + 4, n))
     right_side(S, b, place, fixed, switch, factors, target, closed, last_closed, 0, end, z)
-    substitute_up(U, 0, bottom, z)
+    substitute(U, 0, bottom, 1, z)
     substitute_down(U, end - 1, bottom, z)
     first = first_from(switch, bottom + 4) if bottom > 0 else 0
 
     fewest, patience, rounds, tolerance, smallest = m + 1, PATIENCE, 0, ROUND_OFF, 0.0
     lowest, most, few, together, before = low, -1, True, True, m + 1
     while True:
-        back_substitute(U[bottom:], z[bottom:], 0, zone - bottom, y[bottom:])
+        back_substitute(U[bottom:], z[bottom:], 0, zone - bottom, 1, y[bottom:])
         count, last, worst = wrong_rows(problem, work, closed, first, near, bottom, zone, tolerance)
         if count == 0:
             if end < n:
                 deflection, slope = largest_in(place, y, bottom, zone)
                 smallest = FADED * max(deflection, slope)
             work.extent[0] = substitute_rest(work, zone, end, smallest)
-            back_substitute_down(U, z, bottom, y)
+            back_substitute(U, z, bottom - 1, bottom, -1, y)
             if bottom > 0:
                 count, last, worst = wrong_rows(problem, work, closed, 0, first, 0, zone, tolerance)
             if near <= last_row:

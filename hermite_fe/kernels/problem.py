@@ -84,7 +84,8 @@ class Work(NamedTuple):
     ``made_with`` says of them. Problems that a step solves one after the other share the matrix S, its factors and
     what is scratch (:func:`works_of`).
 
-    S : step matrix by rows; fixed : unknowns whose equation is x = r; D, U : factors (:mod:`.banded`)
+    S : step matrix by rows; fixed : unknowns whose equation is x = r
+    D, U : factors; meeting : scratch of theirs (:mod:`.banded`)
     wrong, excess : rows whose sign is wrong, and by how much
     b : right-hand side, (dofs,); target, candidate, held : of the rows; x, p : the solution, (dofs,) and (rows,)
     gap, speed, d1, d2, d3 : free for the integrator
@@ -96,6 +97,7 @@ class Work(NamedTuple):
     fixed: Flags
     D: Array
     U: Array
+    meeting: Array
     z: Array
     y: Array
     wrong: Flags
@@ -215,6 +217,7 @@ def work_of(system: System, problem: Problem) -> Work:
         fixed=fixed,
         D=np.ones(size + 4),
         U=np.zeros((size + 4, 5)),
+        meeting=np.zeros((4, 5)),
         z=np.zeros(size + 4),
         y=x if direct else np.zeros(size),
         wrong=np.zeros(m, np.bool_),
