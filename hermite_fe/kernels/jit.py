@@ -22,6 +22,8 @@ from numba.core.caching import CompileResultCacheImpl, FunctionCache, IndexDataC
 from numba.core.codegen import JITCodeLibrary
 from numba.core.compiler import Compiler
 
+from hermite_fe.kernels.inference import remember
+
 __all__ = ["compiled", "compiled_in_place", "compiled_sums"]
 
 Function = TypeVar("Function", bound=Callable[..., Any])
@@ -121,6 +123,7 @@ def kernel(function: Function, **options: Any) -> Function:
     """
     if numba.config.DISABLE_JIT:  # type: ignore[attr-defined]  # set as numba is imported
         return function
+    remember()
     options = {"error_model": "numpy", "no_cfunc_wrapper": True, **options}
     compiler: Any = numba.njit  # whose types do not know all options
     called = compiler(**options)(function)
