@@ -12,7 +12,10 @@ __all__ = ["write_atomically"]
 
 
 def write_atomically(file: Path, content: str | bytes | memoryview | BinaryIO) -> None:
-    """Write a file so that a reader sees either nothing or all of it, and a killed run leaves no half of it."""
+    """Write a file so that a reader sees either nothing or all of it, and a killed run leaves no half of it.
+
+    Raises ``OSError`` that names the file: a full disk does not say by itself which one it could not take.
+    """
     file.parent.mkdir(parents=True, exist_ok=True)
     handle, name = tempfile.mkstemp(prefix=f".{file.name[:100]}.", suffix=".part", dir=file.parent)
     try:
@@ -25,5 +28,7 @@ def write_atomically(file: Path, content: str | bytes | memoryview | BinaryIO) -
             os.fsync(part.fileno())
         os.chmod(name, 0o644)
         os.replace(name, file)
+    except OSError as error:
+        raise OSError(error.errno, error.strerror or str(error), str(file)) from error
     finally:
         Path(name).unlink(missing_ok=True)

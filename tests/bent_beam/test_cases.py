@@ -32,6 +32,15 @@ def test_parts_and_assignments():
     assert case.tables == {"hermite": {"contact": {"kind": "node"}}}
 
 
+def test_a_mesh_is_the_method_s_and_a_mistake_for_one_path_is_found_with_another():
+    assert case_from_tables(GOOD).method("hermite").mesh is None
+    meshed = case_from_tables({**GOOD, "mesh": {"kind": "graded", "element_length": 0.01, "growth": 1.1}})
+    assert meshed.method("hermite").mesh == GradedMesh(element_length=0.01, growth=1.1)
+    mistaken = case_from_tables({**GOOD, "exudyn": {"contact": {"kind": "rigit"}}})
+    with pytest.raises(InputError, match="rigit"):
+        mistaken.method("hermite")
+
+
 def changed(table, **values):
     return {**GOOD, table: {**GOOD.get(table, {}), **values}}
 

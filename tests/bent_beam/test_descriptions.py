@@ -23,6 +23,9 @@ def test_pipe_is_outer_less_inner_bar():
     outer, inner = RoundBar(diameter=0.127, **STEEL), RoundBar(diameter=0.1086, **STEEL)
     assert pipe.bending_stiffness == pytest.approx(outer.bending_stiffness - inner.bending_stiffness, rel=1e-13)
     assert pipe.mass_per_length == pytest.approx(outer.mass_per_length - inner.mass_per_length, rel=1e-13)
+    walled = Pipe(outer_diameter=0.127, wall_thickness=0.0092, **STEEL)
+    assert walled.bore == pytest.approx(0.1086, rel=1e-13)
+    assert walled.area == pytest.approx(math.pi * 0.0092 * (0.127 - 0.0092), rel=1e-13)  # along its middle line
     assert pipe.section_modulus == pytest.approx(pipe.second_moment / 0.0635, rel=1e-13)
 
 

@@ -79,6 +79,18 @@ def test_any_size_is_an_impact_or_is_refused(powers):
 def test_scales_beyond_floating_point_are_refused():
     with pytest.raises(ValueError, match="time_scale"):
         Impact(**{**THESIS, "velocity": 1e-300})
+    with pytest.raises(ValueError, match="time_scale"):  # 1e-80 s
+        Impact(**{**THESIS, "velocity": 1e40})
+    with pytest.raises(ValueError, match="section_height must not exceed"):  # in none of the scales
+        Impact(**THESIS, section_height=1e61)
+
+
+def test_the_dimensionless_impact_has_the_groups_it_is_asked_for_and_no_others():
+    groups = ("epsilon_alpha", "epsilon_psi", "epsilon_chi", "epsilon_axial")
+    for asked in groups:
+        impact = Impact.dimensionless(0.5, **{asked: 0.25})
+        assert impact.kappa_over_nu == 0.5
+        assert [getattr(impact, group) for group in groups] == [0.25 * (group == asked) for group in groups]
 
 
 def test_what_is_asked_without_a_time_ends_before_waves_are_back():

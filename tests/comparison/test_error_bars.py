@@ -30,6 +30,8 @@ def test_every_method_that_is_drawn_can_be_made_and_spans_what_the_distribution_
     meshes = [(q.method.mesh, np.sqrt(2.0 * DURATION / q.kappa_over_nu)) for q in drawn if q.method.path == "hermite"]
     zones = [mesh.zone / length for mesh, length in meshes if isinstance(mesh, GradedMesh)]
     assert 1.0 <= min(zones) < 1.5 and 3.5 < max(zones) <= 4.0
+    decades = [question.method.mesh.decades for question in drawn if question.method.path == "self_similar"]
+    assert 2.0 <= min(decades) < 2.5 and 4.5 < max(decades) <= 5.0
     factors = {question.refine for question in drawn if question.method.path == "exudyn"}
     assert 1.0 / 3.0 <= min(factors) and max(factors) <= 1.0 and len(factors) > 20
 

@@ -10,8 +10,11 @@ import pytest
 
 from bent_beam import Impact, ImpactHistory
 from comparison.estimators import (
+    DRIFT_ALONE,
+    LEAST,
     SIDE,
     Estimate,
+    Moments,
     _pressure,
     _smooth,
     first_order,
@@ -73,9 +76,32 @@ def synthetic(kappa, first=(0.0, 0.0, 0.0), epsilon=0.0, noise=0.0, seed=0, time
 @pytest.mark.parametrize("kappa", [0.05, 0.3, 0.8])
 def test_leading_order_is_recovered(kappa):
     exact = contact_parameters(kappa)
-    found = leading_order(moments(synthetic(kappa)))
+    reduced = moments(synthetic(kappa))
+    found = leading_order(reduced)
     assert found.r0.value == pytest.approx(exact.r0, rel=2e-3)
     assert found.lambda0.value == pytest.approx(exact.lambda0, rel=4e-3)
+    assert np.median((reduced.front / np.sqrt(reduced.tau))[20:]) == pytest.approx(exact.lambda0, rel=2e-3)
+
+
+@pytest.mark.parametrize(("instants", "spoken"), [(200, 3), (10, 1)])
+def test_the_bar_is_as_wide_as_what_the_parts_of_the_window_say_apart_and_five_instants_say_nothing(instants, spoken):
+    rng, window = np.random.default_rng(5), 30.0
+    tau = np.geomspace(1.0 / window, 1.0, instants)
+    impulse = 2.0 * SIDE * np.sqrt(tau) * (1.0 + 0.01 * rng.standard_normal(instants))
+    zero = np.zeros(instants)
+    found = leading_order(Moments(tau, impulse, SIDE * tau, zero, zero, zero), window=window)
+
+    def r0_of(low, high):
+        part = (tau >= window**-low * (1.0 - 1e-9)) & (tau <= window**-high * (1.0 + 1e-9))
+        weight = tau[part] ** -0.25
+        offset_and_slope = np.stack([weight, weight * np.sqrt(tau[part])], axis=1)
+        return np.linalg.lstsq(offset_and_slope, weight * impulse[part])[0][1] / (2.0 * SIDE), part.sum()
+
+    (whole, _), *parts = (r0_of(*ends) for ends in ((1.0, 0.0), (1.0, 0.4), (0.7, 0.2), (0.5, 0.0)))
+    said = [whole, *(value for value, count in parts if count >= 6)]
+    assert found.r0.value == pytest.approx(whole, rel=1e-9)
+    assert found.r0.error == pytest.approx(np.hypot(DRIFT_ALONE * np.ptp(said), LEAST * whole), rel=1e-6)
+    assert len(said) == 1 + spoken
 
 
 @pytest.mark.parametrize("symmetry", ["half", "full"])
@@ -127,7 +153,21 @@ def test_a_steady_uniform_reaction_is_averaged_over_times_from_a_quarter_to_one_
     noise = (-1.0) ** np.arange(time.size)
     late = time > 0.1
     assert np.abs(_smooth(time, 2.0 + noise) - 2.0)[late].max() < 0.05
+    last = (time == 1.0).astype(float)
+    assert _smooth(time, last)[-1] == pytest.approx((time[1] - time[0]) / 0.75)
     assert _smooth(time, time)[late & (time < 0.57)] == pytest.approx(time[late & (time < 0.57)], rel=0.01)
+
+
+def test_an_unsteady_uniform_reaction_moves_lambda1_by_half_of_what_it_moves_r1_times_lambda0_over_r0():
+    base, (epsilon, first) = moments(synthetic(0.5)), (0.1, (-1.0, -1.0, 0.0))
+    leading, run = leading_order(base), moments(synthetic(0.5, first, epsilon))
+    steady = first_order([(epsilon, run)], base, leading)
+    wave = 0.02 * np.sin(np.arange(run.tau.size))
+    shaken = first_order([(epsilon, dataclasses.replace(run, pressure=run.pressure + wave))], base, leading)
+    wider = shaken.r1.error - steady.r1.error
+    assert wider > 0.05 and (shaken.r1.value, shaken.lambda1.value) == (steady.r1.value, steady.lambda1.value)
+    half = 0.5 * wider * leading.lambda0.value / leading.r0.value
+    assert shaken.lambda1.error - steady.lambda1.error == pytest.approx(half, rel=1e-9)
 
 
 def test_companion_runs_widen_the_error_bars_by_their_distance():
@@ -164,6 +204,22 @@ def test_the_moment_of_a_cubic_is_exact_and_the_peak_is_where_it_is_largest(with
     assert peak.time == 2.0 and (peak.place == 2.0 or not with_slope)
     assert peak.moment == pytest.approx(exact[2, -1], rel=1e-12)
     assert peak.midspan == pytest.approx(exact[2, 0], rel=1e-12)
+
+
+def test_moments_of_a_mesh_that_moves_stand_where_its_nodes_are_then():
+    time, x = np.array([0.0, 1.0, 4.0]), np.array([0.0, 0.3, 0.7, 1.2])
+    position = np.multiply.outer(np.sqrt(time) + 1.0, x)
+    fields = {"position": (("time", "x"), position), "gap": (("time", "x"), -0.3 * position**2)}
+    fields |= {"slope": (("time", "x"), 0.6 * position), "total_impulse": (("time",), 0.0 * time)}
+    fields |= {"impulse": (("time", "contact"), 0.0 * position)}
+    history = ImpactHistory.build(
+        impact=Impact(2.5, 1.0, 4.0, 0.2, 1.0), path="hermite", symmetry="half", settings={}, time=time, x=x,
+        contact_x=x, fields=fields,
+    )  # fmt: skip
+    for k in range(3):
+        found, place = bending_moments(history, k)
+        assert found == pytest.approx(2.5 * (0.6 + 0.2), rel=1e-12)
+        assert np.all(place[:, 1] == position[k, 1:])
 
 
 @pytest.mark.parametrize("nodes", [(-2.0, -0.3, 0.5, 2.0), (-2.0, -0.3, 0.0, 0.5, 2.0)])
@@ -206,6 +262,7 @@ def test_physical_units_drop_out():
     a, b = leading_order(moments(history)), leading_order(moments(scaled))
     assert a.lambda0.value == pytest.approx(b.lambda0.value, rel=1e-10)
     assert a.r0.value == pytest.approx(b.r0.value, rel=1e-10)
+    assert moments(history).front == pytest.approx(moments(scaled).front, rel=1e-10)
 
 
 def test_runs_saved_at_other_times_are_refused():

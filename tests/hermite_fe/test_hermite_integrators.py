@@ -234,6 +234,7 @@ def test_growing_steps_take_each_decade_alike_and_end_on_time() -> None:
     decades = [np.sum((instants > 10.0**k) & (instants <= 10.0 ** (k + 1))) for k in (-3, -2, -1)]
     assert max(decades) - min(decades) <= 1
     assert np.diff(instants).max() <= 1e-2
+    assert SignoriniPosition(time_step=1e-3, growth=0.1).instants(0.0101).size == 12  # ten even steps and one more
 
 
 def test_constant_steps_divide_the_run() -> None:

@@ -20,7 +20,7 @@ from hermite_fe import INTEGRATORS, HermiteFE, simulate
 from hermite_fe.auto import end_warnings
 from hermite_fe.contacts import NodeContact
 from hermite_fe.far_fields import GridViscosity
-from hermite_fe.integrators import GeneralizedAlphaPenalty, MoreauJean, SignoriniPosition
+from hermite_fe.integrators import GeneralizedAlphaPenalty, Integrator, MoreauJean, SignoriniPosition
 from hermite_fe.run import integrate
 from hermite_fe.system import ContactRows, System
 
@@ -98,6 +98,8 @@ def test_a_free_motion_that_meets_the_wall_elsewhere_is_said_of_ends_that_follow
 
     (found,) = said(impact, "following")
     assert f"x = {math.ceil(math.sqrt(12.0 * 0.5 / 0.02) / 0.05) * 0.05:.3g} m" in found
+    nodes = nodes[nodes < 17.4]  # where it is 0.8 m inside the wall
+    assert said(impact, "following") == [found]
     assert said(impact, "free") == said(impact.replace(fourth_derivative=-0.02), "following") == []
 
 
@@ -299,6 +301,12 @@ def test_a_beam_bent_into_the_wall_is_refused() -> None:
         simulate(Impact.dimensionless(0.5, epsilon_psi=1.0, length=40.0))
 
 
+def test_a_straight_beam_on_a_flat_wall_is_nowhere_inside_it() -> None:
+    parts = {"mesh": UniformMesh(0.1), "integrator": SignoriniPosition(theta=0.5, time_step=1e-4)}
+    found = simulate(Impact(1.0, 1.0, 2.0, 0.0, 1.0), end_time=1e-3, **parts)
+    assert np.all(found.array("gap")[0] == 0.0) and found.array("total_impulse")[-1] > 0.0
+
+
 def test_parts_come_from_case_tables() -> None:
     table = {
         "integrator": {"kind": "nonsmooth_generalized_alpha", "spectral_radius": 0.5, "time_step": 1e-3},
@@ -360,3 +368,12 @@ def test_a_penalty_that_nobody_gave_is_refined_with_the_steps_of_a_whole_beam() 
         shorter = one.time_step / other.time_step
         assert shorter == pytest.approx(4.0 if other is finer else 0.5)
         assert (other.stiffness, other.damping) == pytest.approx((one.stiffness * shorter**2, one.damping * shorter))
+
+
+@pytest.mark.parametrize("integrator", [None, MoreauJean(), SignoriniPosition(theta=0.5)])
+def test_beside_a_whole_beam_stands_another_impact_law(integrator: Integrator | None) -> None:
+    impact = Impact.whole_beam(0.5)
+    chosen = HermiteFE(integrator=integrator).for_whole_beam(impact).integrator
+    other = HermiteFE(integrator=integrator).cross_checks(impact)["contact_law"].integrator
+    assert {type(chosen), type(other)} == {MoreauJean, SignoriniPosition}
+    assert other.time_step == pytest.approx(2.0 * chosen.time_step)

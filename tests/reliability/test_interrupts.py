@@ -26,10 +26,11 @@ Path({ready!r}).touch()
 main()
 """
 FEW_ROWS = """
-import comparison.report.page as report
-questions = report.report_questions
-report.report_questions = lambda *a: [q for q in questions(*a) if q.kappa_over_nu >= 0.4 and q.first is None]
-report.stored_studies = lambda: []
+import comparison.report.page as page
+import comparison.report.rows as rows
+questions = rows.report_questions
+rows.report_questions = lambda *a: [q for q in questions(*a) if q.kappa_over_nu >= 0.4 and q.first is None]
+page.stored_studies = lambda: []
 """
 CASE = """[beam]
 bending_stiffness = 1.0

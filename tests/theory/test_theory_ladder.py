@@ -71,6 +71,13 @@ def test_ball_refusals(arguments: dict[str, float], name: str) -> None:
         BouncingBall().position(-1.0)
 
 
+@pytest.mark.parametrize("name", ["length", "stiffness", "mass_per_length", "velocity", "gap"])
+@pytest.mark.parametrize("value", [-1.0, np.inf, np.nan])
+def test_bar_refusals(name: str, value: float) -> None:
+    with pytest.raises(ValueError, match=f"{name} must be .*finite"):
+        FlyingBar(**{name: value})
+
+
 # bars
 X, H = np.linspace(0.013, 0.987, 41), 1e-6
 BARS = [
@@ -176,6 +183,7 @@ def test_the_string_obeys_the_wave_equation_between_landings() -> None:
     ("shape", "why"),
     [
         (lambda x: 1.0 + 0.0 * x, "0 at the ends"),
+        (lambda x: x, r"got 0\.0, 1\.0|got np.float64\(0.0\), np.float64\(1.0\)"),
         (lambda x: x**2 * (1.0 - x), "symmetric"),
         (lambda x: np.sin(np.pi * x) ** 2, "concave"),
     ],

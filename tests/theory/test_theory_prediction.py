@@ -187,6 +187,19 @@ def test_limit_from_the_ends_is_the_measured_one_and_falls_with_the_square_of_th
     )
 
 
+def test_what_comes_from_the_ends_is_that_of_the_undamped_beam_unless_damping_is_given() -> None:
+    time = np.geomspace(1e-3, 0.1, 9)
+    bare, damped = (validity.ends_errors(0.5, time, damping) for damping in (0.0, 0.1))
+    assert np.any(bare != 0.0) and np.any(bare != damped)
+    assert np.array_equal(validity.ends_errors(0.5, time), bare)
+
+
+def test_of_tension_and_loads_the_larger_is_named() -> None:
+    for axial, named in ((1e2, validity.FIRST_ORDER), (1e6, validity.TENSION)):
+        impact = Impact.dimensionless(0.5, epsilon_alpha=1e4, epsilon_axial=axial, length=1e6)
+        assert predict(impact).limited_by == named
+
+
 def test_a_quartic_bow_sends_waves_from_its_ends() -> None:
     # the faster, the larger q₀; loads at the ends are what the free motion would need
     bare = predict(Impact.whole_beam(0.5, relative_damping=1e-3)).valid_until
@@ -246,7 +259,7 @@ def test_what_the_first_instants_took_stays_in_the_impulse_of_a_flat_contact() -
 
 def test_so_flat_a_damped_contact_that_nobody_measured_is_said_to_hold_at_no_time() -> None:
     found = predict(Impact.whole_beam(1e-3, relative_damping=1e-3), 0.01)
-    assert (found.valid_until, found.limited_by) == (0.0, validity.DAMPING)
+    assert (found.valid_from, found.valid_until, found.limited_by) == (0.0, 0.0, validity.DAMPING)
     assert "was not measured" in found.summary()
     assert predict(Impact.whole_beam(1e-3)).valid_until > 0.0
 
