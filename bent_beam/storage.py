@@ -10,6 +10,7 @@ import errno
 import io
 import os
 import shutil
+import stat
 import subprocess
 import sys
 import tempfile
@@ -143,7 +144,10 @@ def read_dataset(file: Path) -> tuple[xr.Dataset, bool]:
     from bent_beam.examination import BYTES_A_SECOND
 
     try:
-        size = file.stat().st_size  # FileNotFoundError is the caller's to tell
+        described = file.stat()  # FileNotFoundError is the caller's to tell
+        if not stat.S_ISREG(described.st_mode):  # a pipe that nobody writes into would be waited for
+            raise ValueError("it is no regular file")
+        size = described.st_size
         examine_apart(file, PATIENCE + size // BYTES_A_SECOND)
         with python_warnings.catch_warnings():
             python_warnings.simplefilter("ignore")  # what a foreign file lacks is said by whoever asks for it

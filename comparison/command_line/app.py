@@ -57,6 +57,7 @@ def bentbeam(
 def main(arguments: Sequence[str] | None = None) -> None:
     """Run the command and leave with its exit code."""
     gc.disable()  # looking for cycles among what is imported is a tenth of a start; what takes long enables it again
+    _open_closed_streams()
     code = run(arguments)
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # nothing is left to interrupt, and leaving takes a moment
     try:
@@ -66,6 +67,14 @@ def main(arguments: Sequence[str] | None = None) -> None:
         if not isinstance(error, BrokenPipeError):
             code = _refuse(f"standard output cannot be written: {error.strerror}", 2)
     sys.exit(code)
+
+
+def _open_closed_streams() -> None:
+    """Open what was closed (``>&-``, some daemons) on the null device: Python has ``None`` in its place, and the first
+    file that is opened would take its number, and with it whatever a library prints."""
+    for name, mode in (("stdin", "r"), ("stdout", "w"), ("stderr", "w")):
+        if getattr(sys, name) is None:
+            setattr(sys, name, open(os.devnull, mode, encoding="utf-8"))
 
 
 def run(arguments: Sequence[str] | None = None) -> int:

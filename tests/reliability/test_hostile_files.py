@@ -141,6 +141,12 @@ def test_a_hostile_history_is_refused_before_its_values_are_read(name, good, tmp
     assert "\n" not in said and len(said) < 500 and "\x1b" not in said, said
 
 
+def test_a_pipe_that_nobody_writes_into_is_not_waited_for(tmp_path):
+    os.mkfifo(tmp_path / "pipe.nc")
+    with pytest.raises(ValueError, match="no regular file"):
+        ImpactHistory.load(tmp_path / "pipe.nc")
+
+
 def test_a_file_that_hangs_the_library_is_refused(good, tmp_path, monkeypatch):
     from bent_beam import examination, storage
 

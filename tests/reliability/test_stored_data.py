@@ -274,6 +274,17 @@ def test_a_full_standard_output_is_an_error():
     assert done.returncode == 2 and done.stderr.count("\n") == 1, done.stderr
 
 
+@pytest.mark.parametrize(("closed", "number"), [("<&-", 0), (">&-", 1), ("2>&-", 2)])
+def test_a_closed_standard_stream_is_no_file_that_is_opened_later(closed, number, case):
+    """As cron jobs and daemons are started: nothing is said there, and nothing of it lands anywhere else."""
+    for file, code in ((case, 0), (case.with_name("missing.toml"), 2)):
+        line = f'exec "$0" -c "$1" predict "$2" --json {closed}'
+        done = subprocess.run(["sh", "-c", line, sys.executable, MAIN, str(file)], capture_output=True, text=True)
+        assert done.returncode == code, done.stderr
+        assert bool(done.stdout) == (code == 0 and number != 1)
+        assert done.stderr.count("\n") == (code == 2 and number != 2)
+
+
 def test_paths_in_a_case_write_nothing(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     file = tmp_path / "case.toml"
