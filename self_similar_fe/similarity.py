@@ -21,6 +21,7 @@ __all__ = ["Similarity"]
 Array = NDArray[np.float64]
 GAP_ROUND_OFF = 1e-11  # in W, that is in units of V₀t
 PATIENCE = 4  # swaps of all wrong contacts without progress before both tolerances are widened tenfold
+MOST_SWAPS = 200  # in a step: sound runs take 80 at most, and those that take more go on to take ever more
 BAND = 3  # half-bandwidth of Hermite elements: two nodes of two degrees of freedom
 
 
@@ -177,7 +178,7 @@ class Similarity:
         right = o.mass @ (b * old + old_rate) + o.drift @ old
         active = self.active
         fewest, patience, slack = self.zeta.size + 1, PATIENCE, 1.0
-        for _ in range(1000):
+        for _ in range(MOST_SWAPS):
             self.iterations += 1
             eta, reaction = self._solve(right, obstacle, active)
             wrong = np.where(active, reaction < -slack * self._round_off, obstacle - eta[0::2] > slack * GAP_ROUND_OFF)

@@ -41,15 +41,19 @@ REFINES = (0.5, 1.0)
 def report_questions(
     methods: Sequence[Method] | None = None, refines: Sequence[float] = REFINES
 ) -> list[Question]:
-    """Every row of the report, few enough for a minute and a half, the longest first so that no core idles at the end.
+    """Every row of the report, few enough for a minute and a half.
+
+    The longest come first, so that no core idles at the end, and a method's two loads apart, so that the second finds
+    the run without loads in the store.
 
     Leading order over κ/ν; convergence and two loads of first order at κ/ν = 0.5. A row of first order is five runs and
     their companions: ``bentbeam match --first-order`` asks for more of them.
     """
     methods = default_methods(PATHS) if methods is None else methods
     return [
-        *(Question(m, MIDDLE, load) for m in reversed(methods) for load in FIRST),
-        *(Question(m, k) for m in reversed(methods) for k in LEADING),
+        *(Question(m, LEADING[0]) for m in reversed(methods)),
+        *(Question(m, MIDDLE, load) for load in FIRST for m in reversed(methods)),
+        *(Question(m, k) for k in LEADING[1:] for m in reversed(methods)),
         *(Question(m, MIDDLE, None, r) for m in methods for r in refines if r != 1.0),
     ]
 
