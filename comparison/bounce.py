@@ -39,6 +39,7 @@ class Bounce:
     """A whole impact: ``numbers`` by name (:data:`comparison.whole_impact.number.NUMBERS`), dimensionless.
 
     history : of the run that the values come from (one of the ensemble, for a band); outcome : what it came to.
+    left : whether the beam is off the wall for good in every run that a number or its error bar comes from.
     settings : of that run's method; seconds : of all runs together; seed : of the ensemble.
     section : what stresses follow from (``None``: none are given).
     """
@@ -47,6 +48,7 @@ class Bounce:
     numbers: dict[str, Number]
     history: ImpactHistory
     outcome: WholeImpact
+    left: bool
     settings: dict[str, Any]
     seconds: float
     seed: int | None = None
@@ -71,8 +73,8 @@ class Bounce:
                 "the beam has no damping of its own: the outcome is irregular and does not converge, so a band is "
                 "given; state [beam] damping (or --damping) for numbers"
             )
-        if not self.outcome.left:
-            found.append("the beam had not left the wall for good when the run ended: the numbers are not final")
+        if not self.left:
+            found.append("the beam had not left the wall for good when a run ended: the numbers are not final")
         return found
 
 
@@ -122,6 +124,7 @@ def bounce(
         numbers={name: _number(name, outcome, others) for name in NUMBERS},
         history=history,
         outcome=outcome,
+        left=outcome.left and all(other.left for other, _ in found),
         settings=settings_of(for_whole_beam(method, impact)),
         seconds=history.seconds + sum(seconds for _, seconds in found),
         section=section,
@@ -181,6 +184,7 @@ def _band(
         numbers={name: _spread([float(getattr(o, name)) for o in outcomes]) for name in NUMBERS},
         history=history,
         outcome=outcome,
+        left=outcome.left and all(other.left for other, _ in found),
         settings=settings_of(for_whole_beam(methods[0], impact)),
         seconds=history.seconds + sum(seconds for _, seconds in found),
         seed=seed,
@@ -251,7 +255,7 @@ def bounce_document(found: Bounce) -> dict[str, Any]:
         "error_parts": {name: dict(number.parts) for name, number in found.numbers.items()},
         "energy_defect": found.outcome.energy_defect,
         "energy_gain": found.outcome.energy_gain,
-        "left": found.outcome.left,
+        "left": found.left,
         "steps": found.history.steps,
         "seconds": found.seconds,
         "seed": found.seed,

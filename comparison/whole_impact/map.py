@@ -79,18 +79,16 @@ def grid(kappas: Sequence[float] = KAPPAS, dampings: Sequence[float] = DAMPINGS)
 def measure_point(point: Point) -> dict[str, Any]:
     """One point of the map: number → [value, error bar], and what it took."""
     found = bounce(problem(point.kappa_over_nu, point.damping), point.method(), save=SAVED)
-    asked = point._asdict()
+    asked = {**point._asdict(), "left": found.left, "seconds": found.seconds}
     if point.damping == 0.0:
         bands = {name: [number.mean, number.std] for name, number in found.numbers.items()}
-        return {**asked, "runs": RUNS, "seed": SEED, "band": bands, "seconds": found.seconds}
+        return {**asked, "runs": RUNS, "seed": SEED, "band": bands}
     return {
         **asked,
         "numbers": {name: [number.value, number.error] for name, number in found.numbers.items()},
         "energy_defect": found.outcome.energy_defect,
         "energy_gain": found.outcome.energy_gain,
-        "left": found.outcome.left,
         "steps": found.history.steps,
-        "seconds": found.seconds,
         "settings": found.settings,
     }
 

@@ -137,11 +137,12 @@ def test_breaks_shorter_than_the_shortest_separation_are_none() -> None:
     assert pushes(time, np.zeros(10), 1.0) == []
 
 
-def test_a_path_that_knows_no_loads_has_hits_and_a_whole_impact() -> None:
-    time, x = np.linspace(0.0, 2.0, 41), np.linspace(0.0, 1.0, 5)
+def pushed_until(end: float, last: float = 2.0) -> ImpactHistory:
+    """A rigid beam that the wall pushes from first touch to ``end``, T*, at 5.8 μℓV₀ a T*; saved until ``last``, T*."""
+    time, x = np.linspace(0.0, last, 41), np.linspace(0.0, 1.0, 5)
     impulse = np.zeros((time.size, x.size))
-    impulse[:, 0] = 2.9 * np.minimum(time, 0.5)
-    away = np.maximum(time[:, None] - 0.5, 0.0) * np.ones(x.size)
+    impulse[:, 0] = 2.9 * np.minimum(time, end)
+    away = np.maximum(time[:, None] - end, 0.0) * np.ones(x.size)
     fields = {
         "gap": (("time", "x"), away),
         "velocity": (("time", "x"), -np.ones(away.shape)),
@@ -151,10 +152,14 @@ def test_a_path_that_knows_no_loads_has_hits_and_a_whole_impact() -> None:
         "kinetic_energy": (("time",), np.ones(time.size)),
         "strain_energy": (("time",), np.zeros(time.size)),
     }
-    history = ImpactHistory.build(
+    return ImpactHistory.build(
         impact=Impact.whole_beam(2.0), path="bare", symmetry="half", settings={}, time=time, x=x, contact_x=x,
         fields=fields,
     )  # fmt: skip
+
+
+def test_a_path_that_knows_no_loads_has_hits_and_a_whole_impact() -> None:
+    history = pushed_until(0.5)
     (hit,), found = hits(history), whole_impact(history)
     assert (hit.impulse, hit.energy, hit.lost) == (2.9, 1.0, 0.0)
     assert found.restitution == pytest.approx(0.45) and found.midspan_moment == 2.0 and found.energy_gain == 0.0
@@ -219,6 +224,33 @@ class Bare:
 def test_a_method_that_varies_nothing_gives_no_band_and_no_number_without_damping() -> None:
     with pytest.raises(ValueError, match="bare varies neither"):
         bounce(problem(2.0, 0.0), Bare())  # type: ignore[arg-type]
+
+
+@dataclasses.dataclass(frozen=True)
+class Scripted(Bare):
+    """Its beam leaves at 0.5 T*; with ``other``, as its cross-check and some of an ensemble, much later."""
+
+    other: bool = False
+
+    def for_whole_beam(self, impact: Impact) -> "Scripted":
+        return self
+
+    def simulate_to_separation(self, impact: Impact, **_: Any) -> ImpactHistory:
+        return pushed_until(9.0 if self.other else 0.5)
+
+    def cross_checks(self, impact: Impact) -> dict[str, "Scripted"]:
+        return {"step": Scripted(other=True)}
+
+    def varied(self, impact: Impact, random: np.random.Generator) -> "Scripted":
+        return Scripted(other=bool(random.random() < 0.5))
+
+
+@pytest.mark.parametrize("damping", [1e-3, 0.0])
+def test_a_single_run_that_ends_at_the_wall_is_told_with_the_numbers_that_it_enters(damping: float) -> None:
+    found = bounce(problem(2.0, damping), Scripted(), runs=4, seed=0)  # type: ignore[arg-type]
+    assert found.outcome.left and not found.left
+    assert bounce_document(found)["left"] is False
+    assert any("not left the wall" in warning for warning in found.warnings)
 
 
 BEAM = """
