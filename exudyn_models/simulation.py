@@ -175,6 +175,8 @@ def simulate(
             beam.mbs.SetPostNewtonUserFunction(0)
             beam.mbs.variables.clear()  # the container holds the system: break the circle
 
+    if done.failure is not None and not run.record.time:
+        raise SimulationError(done.failure, time=0.0, step=0, advice=done.advice)
     last_step = segments[-1].length
     about: dict[str, Any] = {
         "impact": impact,

@@ -3,6 +3,7 @@
 import math
 import warnings
 
+import exudyn as exu
 import numpy as np
 import pytest
 
@@ -86,6 +87,13 @@ def test_failed_newton_carries_time_step_advice_and_partial_history():
     assert error.history is not None and not error.history.completed
     assert np.isfinite(error.history.array("gap")).all()
     assert error.time >= 0.0 and "try" in str(error)
+
+
+def test_a_solver_that_does_not_start_says_so(monkeypatch):
+    monkeypatch.setattr(exu.MainSolverImplicitSecondOrder, "InitializeSolver", lambda *_: False)
+    with pytest.raises(SimulationError, match="could not initialise at t = 0") as failure:
+        exudyn_models.simulate(SHORT, mesh=MESH)
+    assert failure.value.history is None and failure.value.step == 0
 
 
 def test_divergence_ends_as_an_error_and_never_as_a_history(monkeypatch):
