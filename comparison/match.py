@@ -100,7 +100,7 @@ class MatchRow:
     r1: Compared = MISSING
     lift: float | None = None
     pull: float | None = None
-    hold: dict[str, float] | None = None
+    hold: dict[str, float | None] | None = None
     seconds: float | None = None
     steps: int | None = None
     epsilons: list[float] = field(default_factory=list)
@@ -157,7 +157,7 @@ def questions(
 class _Reduced:
     moments: Moments
     pull: float | None
-    hold: dict[str, float] | None
+    hold: dict[str, float | None] | None
     warnings: list[str]
     seconds: float
     steps: int
@@ -285,18 +285,21 @@ def answer(question: Question, store: RunStore) -> MatchRow:
     if estimate is not None and estimate.r1.error > WIDE_FIRST * max(abs(estimate.r1.value), 1.0):
         warnings.append(f"wide error bar: r₁ = {estimate.r1}")
     holds = [r.hold for r in fine.runs if r.hold]
-    pulls = [r.pull for r in fine.runs if r.pull is not None]
     return MatchRow(
         **_about(question),
         **_with_theory(question, leading, estimate),
         lift=leading.lift,
-        pull=max(pulls, default=None),
-        hold={k: max(h[k] for h in holds) for k in ("until", "pull")} if holds else None,
+        pull=_largest(r.pull for r in fine.runs),
+        hold={name: _largest(h[name] for h in holds) for name in ("until", "pull")} if holds else None,
         seconds=sum(r.seconds for r in fine.runs),
         steps=sum(r.steps for r in fine.runs),
         epsilons=list(estimate.epsilons) if estimate else [],
         warnings=sorted(set(warnings)),
     )
+
+
+def _largest(values: Iterable[float | None]) -> float | None:
+    return max((value for value in values if value is not None), default=None)
 
 
 def without_companion(factor: float, error: Exception) -> str:

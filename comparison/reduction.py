@@ -26,10 +26,13 @@ class PeakMoment(NamedTuple):
     midspan: float
 
 
-def hold_of(history: ImpactHistory) -> dict[str, float] | None:
-    """``{"until": s, "pull": largest pull over largest push}`` where any contact point was held, else ``None``."""
+def hold_of(history: ImpactHistory) -> dict[str, float | None] | None:
+    """``{"until": s, "pull": largest pull over largest push}`` where any contact point was held, pull ``None`` where
+    nothing pushed; else ``None``."""
     found = history.settings.get("hold")
-    return {k: float(found[k]) for k in ("until", "pull")} if isinstance(found, dict) and found else None
+    if not isinstance(found, dict) or not found:
+        return None
+    return {k: None if found[k] is None else float(found[k]) for k in ("until", "pull")}
 
 
 def pull_of(history: ImpactHistory) -> float | None:

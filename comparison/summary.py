@@ -165,9 +165,10 @@ def run_table(found: dict[str, Any]) -> str:
     ]
     if found["hold"]:
         hold = found["hold"]
+        pulled = "" if hold["pull"] is None else f" and pulled at most {hold['pull']:.2g} of the largest push"
         text.append(
-            f"held: contact points were held until {hold['until']:.3g} s and pulled at most {hold['pull']:.2g} of the "
-            "largest push; the gap of the zone up to then is imposed"
+            f"held: contact points were held until {hold['until']:.3g} s{pulled}; the gap of the zone up to then is "
+            "imposed"
         )
     if found["hits"]:
         text += ["", _hits_table(found["hits"])]

@@ -100,6 +100,21 @@ class _Steps:
         self.filled = 1
 
 
+class _Largest:
+    """The largest gain of any contact point between two saved instants."""
+
+    def __init__(self, contacts: int) -> None:
+        self.now, self.saved = np.zeros(contacts), np.zeros(contacts)
+        self.value = 0.0
+
+    def add(self, gains: Array, saved: list[int]) -> None:
+        """What the points gained in more steps, (steps, contacts), and after how many of these was saved."""
+        sums = _onwards(self.now, gains)
+        kept = np.concatenate([self.saved[None], sums[saved]])
+        self.value = max(self.value, float(np.diff(kept, axis=0).max(initial=0.0)))
+        self.now, self.saved = sums[-1], kept[-1]
+
+
 class Recorder:
     """One beam in one Exudyn system, stepped and read."""
 
@@ -119,6 +134,7 @@ class Recorder:
         self.impulse = np.zeros(contact.contact_s.size)
         self.averaged = np.zeros(contact.contact_s.size)  # contact force after the scheme's averages
         self.steps = _Steps(self.mass.shape[0], contact.contact_s.size)
+        self.largest_pull, self.largest_push = (_Largest(contact.contact_s.size) for _ in range(2))
         names = ("work", "contact_work", "grid_loss", "material_loss", "algorithmic_loss", "held", "pushed")
         self.sums = {name: np.zeros(1) for name in names}
         self.pending: list[int] = []  # rows of ``steps`` that are saved
@@ -184,6 +200,8 @@ class Recorder:
         pushes = means * self.contact.signs * dt[:, None]
         sums["held"] = _onwards(sums["held"], np.minimum(pushes, 0.0).sum(axis=1))
         sums["pushed"] = _onwards(sums["pushed"], np.maximum(pushes, 0.0).sum(axis=1))
+        self.largest_pull.add(-np.minimum(pushes, 0.0), self.pending)
+        self.largest_push.add(pushes, self.pending)
         impulse = _onwards(self.impulse, self._gains(dt, q, force, np.diff(total)))
         record = self.record
         record.kinetic += self.beam.kinetic_energy(v[self.pending]).tolist()
@@ -236,10 +254,12 @@ class Recorder:
         r.stored.append(self.contact.stored_energy(q) - self.start_stored)
         self.pending.append(self.steps.filled - 1)
 
-    def hold(self) -> dict[str, float] | None:
-        """Until when (s) contact points may have been held, and what they pulled over what was pushed; None: never."""
+    def hold(self) -> dict[str, float | None] | None:
+        """Until when (s) contact points may have been held, and the largest pull of one over the largest push, each
+        between two saved instants (``None`` without a push); ``None``: never."""
         until = min(self.contact.held_until, self.record.time[-1]) * self.scaling.end_time
-        return {"until": until, "pull": -self.held / self.pushed if self.pushed else 0.0} if until else None
+        pull, push = self.largest_pull.value, self.largest_push.value
+        return {"until": until, "pull": pull / push if push > 0.0 else None} if until else None
 
     def history(self, **about: Any) -> ImpactHistory:
         """The record in SI units, of the whole beam where it is a sum."""

@@ -202,14 +202,16 @@ def hold_extremes(run: Trajectory) -> tuple[float, float]:
     return pull, float(np.diff(run.impulse, axis=0).max(initial=0.0))
 
 
-def hold_report(impact: Impact, contact: Contact, end: float, pull: float, push: float) -> dict[str, float] | None:
-    """``{"until": s, "pull": largest pull over largest push}`` of a run to ``end``, s; ``None`` where nothing ever
-    pulled."""
+def hold_report(
+    impact: Impact, contact: Contact, end: float, pull: float, push: float
+) -> dict[str, float | None] | None:
+    """``{"until": s, "pull": largest pull over largest push}`` of a run to ``end``, s, pull ``None`` without a push;
+    ``None`` where nothing ever pulled."""
     if pull == 0.0:
         return None
     stated = end if contact.hold else contact.hold_until or 0.0
     until = min(float(stated), float(end), auto.HOLD_ENDS * impact.slow_time_scale)
-    return {"until": until, "pull": float(pull / push) if push > 0.0 else float(np.finfo(float).max)}
+    return {"until": until, "pull": float(pull / push) if push > 0.0 else None}
 
 
 def lift_warnings(impact: Impact, model: BeamModel, history: ImpactHistory) -> list[str]:

@@ -60,6 +60,8 @@ def test_a_hold_behind_the_front_says_until_when_and_how_hard_it_pulled():
     assert max(off(history, 0.05)) < 1e-3
     hold = history.settings["hold"]
     assert hold["until"] == pytest.approx(0.1) and 0.0 < hold["pull"] < 0.3
+    gains = np.diff(history.array("impulse"), axis=0)  # of each point; the scheme averages forces, the hold does not
+    assert hold["pull"] == pytest.approx(-gains.min() / gains.max(), rel=0.03)
     held = history.array("held_impulse")
     assert held[-1] < 0.0 and np.all(np.diff(held) <= 0.0)
 

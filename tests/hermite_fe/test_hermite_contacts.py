@@ -24,6 +24,7 @@ from hermite_fe.integrators import (
     NonsmoothGeneralizedAlpha,
     SignoriniPosition,
 )
+from hermite_fe.simulate import hold_report
 
 STEPS = {"time_step": 1e-5, "growth": 2e-3}
 INTEGRATORS: dict[str, Integrator] = {
@@ -138,6 +139,12 @@ def test_no_hold_acts_once_waves_may_be_back() -> None:
     held = history.array("held_impulse")
     assert history.settings["hold"]["until"] == pytest.approx(0.005)
     assert held[-1] == held[np.searchsorted(history.time, 0.0052)] < 0.0
+
+
+def test_a_pull_over_no_push_is_no_number() -> None:
+    assert hold_report(IMPACT, NodeContact(hold=16), 0.3, pull=2.0, push=0.0) == {"until": 0.3, "pull": None}
+    assert hold_report(IMPACT, NodeContact(hold=16), 0.3, pull=2.0, push=8.0) == {"until": 0.3, "pull": 0.25}
+    assert hold_report(IMPACT, NodeContact(hold=16), 0.3, pull=0.0, push=0.0) is None
 
 
 def test_holds_without_effect_are_errors() -> None:
