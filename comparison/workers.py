@@ -7,7 +7,7 @@ import os
 import signal
 import threading
 import time as clock
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Generator, Iterator, Sequence
 from concurrent.futures import (
     FIRST_COMPLETED,
     CancelledError,
@@ -18,7 +18,7 @@ from concurrent.futures import (
 )
 from concurrent.futures import wait as wait_for
 from concurrent.futures.process import BrokenProcessPool
-from contextlib import contextmanager
+from contextlib import closing, contextmanager
 from dataclasses import dataclass
 from functools import partial
 from itertools import islice
@@ -266,25 +266,32 @@ def _on_cluster(
 ) -> list[Any]:
     """Dask asks again when a worker dies; what it cannot know of, its own scheduler's death, is waited for here."""
     try:
-        import distributed  # noqa: F401
+        import distributed
     except ImportError:
         raise ValueError("scheduler: needs the extra [cluster] (pip install 'bent-beam-impact[cluster]')") from None
     results: dict[int, Any] = {}
-    idle, patience = 0, FIRST_ANSWER
-    while len(results) < len(arguments) and idle < RESTARTS:
+    idle, patience, away = 0, FIRST_ANSWER, False
+    while len(results) < len(arguments) and idle < RESTARTS and not away:
         left = [i for i in range(len(arguments)) if i not in results]
-        try:
-            found = _answers(function, arguments, left, scheduler, patience)
-            idle += 1
-            for i, died, result in found:
-                results[i] = on_death(i, f"its worker died or was lost ({result})") if died else result
+        idle += 1
+        with closing(_answers(function, arguments, left, scheduler, patience)) as found:
+            while True:
+                try:
+                    answer = next(found, None)
+                except (OSError, ValueError) as error:  # of the connection alone: what a call raised is an answer
+                    if patience != RECONNECT:
+                        raise ValueError(f"scheduler: none answers at {scheduler} ({error})") from None
+                    away = True
+                    break
+                if answer is None:
+                    break
+                i, raised, result = answer
+                if raised is not None and not isinstance(raised, distributed.KilledWorker):
+                    raise raised
+                results[i] = result if raised is None else on_death(i, f"its worker died or was lost ({raised})")
                 idle = 0
                 if progress is not None:
                     progress(len(results), len(arguments))
-        except (OSError, ValueError) as error:
-            if patience != RECONNECT:
-                raise ValueError(f"scheduler: none answers at {scheduler} ({error})") from None
-            break
         patience = RECONNECT
     for i in range(len(arguments)):
         if i not in results:
@@ -298,8 +305,9 @@ def _answers(
     left: Sequence[int],
     scheduler: str,
     patience: float,
-) -> Iterator[tuple[int, bool, Any]]:
-    """(i, whether its workers died, result) of the calls ``left``, as they come, until the scheduler goes away.
+) -> Generator[tuple[int, BaseException | None, Any], None, None]:
+    """(i, what it raised, result) of the calls ``left``, as they come, until the scheduler goes away; a call whose
+    workers died raises ``distributed.KilledWorker``.
 
     Raises ``OSError`` or ``ValueError`` when none answers at the address within ``patience`` s.
     """
@@ -325,9 +333,9 @@ def _answers(
                     result = future.result(timeout=patience)
                 except (OSError, CancelledError, asyncio.CancelledError):  # it went away with the answer: asked again
                     continue
-                yield i, False, result
+                yield i, None, result
             elif future.status == "error":
-                yield i, True, future.exception()
+                yield i, future.exception(), None
             if client.status != "running":
                 return
             submit(AHEAD_ON_CLUSTER - len(futures))
