@@ -12,6 +12,7 @@ from __future__ import annotations
 import hashlib
 import logging
 from collections.abc import Callable
+from contextlib import suppress
 from functools import cache
 from pathlib import Path
 from types import SimpleNamespace
@@ -38,6 +39,22 @@ def sources() -> str:
 SOURCES = sources()
 
 
+class KernelFiles(IndexDataCacheFile):
+    """Kernels on disk. What cannot be kept or read there is compiled anew: it costs time, not the run."""
+
+    def load(self, key: Any) -> Any:
+        try:
+            return super().load(key)
+        except Exception:  # a file that lost its end in a power cut is pickled nonsense
+            with suppress(OSError):
+                self.flush()
+            return None
+
+    def save(self, key: Any, data: Any) -> None:
+        with suppress(OSError):  # the disk is full
+            super().save(key, data)
+
+
 class KernelCache(FunctionCache):
     """Numba's cache, stale as soon as any module of the package changes.
 
@@ -49,7 +66,7 @@ class KernelCache(FunctionCache):
 
     def __init__(self, kernel: Callable[..., Any]) -> None:
         super().__init__(kernel)
-        self._cache_file = IndexDataCacheFile(
+        self._cache_file = KernelFiles(
             cache_path=self._cache_path, filename_base=self._impl.filename_base + self.suffix, source_stamp=SOURCES
         )
 

@@ -21,6 +21,56 @@ def test_kernels_run_where_nothing_can_be_written(monkeypatch: pytest.MonkeyPatc
     assert more(2.0) == 3.0
 
 
+TWICE = """
+import sys
+sys.path.insert(0, {folder!r})
+{before}
+from kernels.outer import outer
+print(outer(5.0))
+"""
+
+
+@pytest.fixture
+def kernels(tmp_path: Path) -> Path:
+    """A package of two kernels, one of which calls the other, compiled and kept once."""
+    package = tmp_path / "kernels"
+    package.mkdir()
+    for name in ("jit.py", "inference.py"):
+        shutil.copy(Path(jit.__file__).with_name(name), package / name)
+    (package / "__init__.py").write_text("")
+    (package / "inner.py").write_text(
+        "from kernels.jit import compiled\n\n@compiled\ndef inner(x):\n    return x + 1.0\n"
+    )
+    (package / "outer.py").write_text(
+        "from kernels.inner import inner\nfrom kernels.jit import compiled\n\n"
+        "@compiled\ndef outer(x):\n    return 2.0 * inner(x)\n"
+    )
+    return package
+
+
+def answered(kernels: Path, before: str = "") -> str:
+    program = TWICE.format(folder=str(kernels.parent), before=before)
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True)
+    return done.stdout.strip() or done.stderr
+
+
+def test_kernels_run_while_the_disk_is_full(kernels: Path):
+    full = "import resource; resource.setrlimit(resource.RLIMIT_FSIZE, (100, 100))"
+    assert answered(kernels, full) == "12.0"
+    assert not list(kernels.rglob("*.nbc"))
+
+
+@pytest.mark.parametrize("kind", ["nbi", "nbc"])
+def test_kernels_on_disk_that_lost_their_end_are_compiled_again(kind: str, kernels: Path):
+    assert answered(kernels) == "12.0"
+    files = list(kernels.rglob(f"*.{kind}"))
+    assert files
+    for left in (0.0, 0.5):
+        for file in files:
+            file.write_bytes(file.read_bytes()[: int(left * file.stat().st_size)])
+        assert answered(kernels) == "12.0"
+
+
 def test_a_change_in_one_module_reaches_kernels_of_another(tmp_path: Path):
     package = tmp_path / "kernels"
     package.mkdir()

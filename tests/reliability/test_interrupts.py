@@ -1,4 +1,5 @@
-"""Ctrl-C at any moment of any command: exit 130, one line that says how to go on, files whole or not there."""
+"""Ctrl-C at any moment of any command, or a disk that is full: one line that says how to go on, or what could not be
+written; files whole or not there."""
 
 import csv
 import json
@@ -120,13 +121,13 @@ def files(tmp_path_factory):
     return {"CASE": str(folder / "case.toml"), "HISTORY": str(folder / "history.nc")}
 
 
-def start(name, files, folder):
+def start(name, files, folder, before=""):
     """The command in a session of its own, as in a terminal of its own, at work from the moment ``ready`` is there."""
     ready = folder / "ready"
     ready.unlink(missing_ok=True)
     words = {**files, "OUT": str(folder / "out"), "OUT/history.nc": str(folder / "out/history.nc")}
     words["OUT/beam.toml"] = str(folder / "out/beam.toml")
-    program = (FEW_ROWS if name == "report" else "") + MAIN.format(ready=str(ready))
+    program = before + (FEW_ROWS if name == "report" else "") + MAIN.format(ready=str(ready))
     again = ["--overwrite"] if name.startswith("simulate") else []
     process = subprocess.Popen(
         [sys.executable, "-c", program, *(words.get(word, word) for word in COMMANDS[name]), *again],
@@ -223,3 +224,19 @@ def test_an_interrupt_leaves_whole_files_and_says_how_to_go_on(name, files, tmp_
     assert made == sorted(f.relative_to(folder) for f in (folder / "out").rglob("*") if f.is_file())
     print(f"{name}: {stopped} interrupts of {seconds:.1f} s")
     assert stopped or seconds < 1.0
+
+
+WRITING = [name for name, words in COMMANDS.items() if any(word.startswith("OUT") for word in words)]
+
+
+@pytest.mark.parametrize("name", WRITING if FUZZ else QUICK)
+def test_a_full_disk_is_told_by_the_name_of_the_file_and_takes_none_of_those_before(name, files, tmp_path):
+    """No file of this process and its children may grow beyond 100 bytes: kernels and runs cannot be kept either."""
+    full = "import resource; resource.setrlimit(resource.RLIMIT_FSIZE, (100, 100))\n"
+    process = start(name, files, tmp_path, full)
+    _, err = process.communicate(timeout=500)
+    assert process.returncode in (2, 3) and "Traceback" not in err, err
+    assert str(tmp_path / "out") in err and "File too large" in err, err
+    left = [f for f in tmp_path.rglob("*") if f.is_file() and f.name != "ready"]
+    assert not [f for f in left if f.suffix == ".part" or not f.stat().st_size], left
+    assert nothing_left_of(process.pid)
