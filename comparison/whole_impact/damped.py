@@ -96,7 +96,10 @@ def _over_theory(kappa: float, ages: Array, element: float) -> Array:
 def measure_loads(kappa: float, element: float = LOAD_ELEMENT) -> Array:
     """What damping changes of the answer to loads, relative, per unit of load times τ at :data:`LOAD_AGES`, shape
     (loads, 3, n): half length, force and impulse of a loaded run over those of a bare one, over what theory says of
-    that, less one."""
+    that, less one; no change where the contact is still one point and has no length.
+
+    Raises ``FloatingPointError`` when a force or an impulse is not finite.
+    """
     found = np.zeros((len(damped_zone.LOADS), 3, LOAD_AGES.size))
     for k, load in enumerate(damped_zone.LOADS):
         for first in range(0, LOAD_AGES.size - 1, PER_RUN):
@@ -104,7 +107,9 @@ def measure_loads(kappa: float, element: float = LOAD_ELEMENT) -> Array:
             answer = _answer(kappa, load, LOAD_AGES[part], element)
             new = slice(first + 1 if first else 0, part.stop)  # at the end of a run loads have done most
             found[k, :, new] = answer[:, 1 if first else 0 :]
-    found = np.nan_to_num(found, posinf=0.0, neginf=0.0)  # where a contact that is still one point has no length
+    found[:, 0] = np.nan_to_num(found[:, 0], posinf=0.0, neginf=0.0)
+    if not np.isfinite(found).all():
+        raise FloatingPointError(f"the force or impulse of a loaded run is not finite at kappa/nu = {kappa:g}")
     return smoothed(found) if kappa < NOISY else found
 
 

@@ -210,6 +210,20 @@ def test_an_ensemble_draws_elements_steps_and_contact_from_its_seed(path: str) -
         assert len({str(getattr(method, part)) for method in first}) > 1
 
 
+def test_only_the_length_of_a_contact_that_has_none_may_be_missing(monkeypatch: pytest.MonkeyPatch) -> None:
+    def answer(missing: int) -> Any:
+        values = np.where(np.arange(3) == missing, np.nan, 0.25)
+        return lambda kappa, load, ages, element: np.outer(values, np.ones(ages.size))
+
+    monkeypatch.setattr(damped, "_answer", answer(0))
+    found = damped.measure_loads(0.5)
+    assert np.all(found[:, 0] == 0.0) and np.all(found[:, 1:] == 0.25)
+    for missing in (1, 2):
+        monkeypatch.setattr(damped, "_answer", answer(missing))
+        with pytest.raises(FloatingPointError, match=r"not finite at kappa/nu = 0\.5"):
+            damped.measure_loads(0.5)
+
+
 @dataclasses.dataclass(frozen=True)
 class Bare:
     """Somebody's method without choices for the whole beam, nor for an ensemble."""
