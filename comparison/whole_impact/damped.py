@@ -101,11 +101,11 @@ def measure_loads(kappa: float, element: float = LOAD_ELEMENT) -> Array:
     Raises ``FloatingPointError`` when a force or an impulse is not finite.
     """
     found = np.zeros((len(damped_zone.LOADS), 3, LOAD_AGES.size))
-    for k, load in enumerate(damped_zone.LOADS):
-        for first in range(0, LOAD_AGES.size - 1, PER_RUN):
-            part = slice(first, min(first + PER_RUN + 1, LOAD_AGES.size))
+    for first in range(0, LOAD_AGES.size - 1, PER_RUN):
+        part = slice(first, min(first + PER_RUN + 1, LOAD_AGES.size))
+        new = slice(first + 1 if first else 0, part.stop)  # at the end of a run loads have done most
+        for k, load in enumerate(damped_zone.LOADS):  # all loads of these ages share one bare run
             answer = _answer(kappa, load, LOAD_AGES[part], element)
-            new = slice(first + 1 if first else 0, part.stop)  # at the end of a run loads have done most
             found[k, :, new] = answer[:, 1 if first else 0 :]
     found[:, 0] = np.nan_to_num(found[:, 0], posinf=0.0, neginf=0.0)
     if not np.isfinite(found).all():
@@ -149,7 +149,7 @@ def _answer(kappa: float, load: str, ages: Array, element: float) -> Array:
     return np.asarray((there - back) / (2.0 * size * ages))
 
 
-@lru_cache(maxsize=16)  # the bare run is the same for all loads
+@lru_cache(maxsize=4)  # for the bare run, which comes again between any two loaded ones
 def _run(impact: Impact, ages: tuple[float, ...], element: float) -> Law:
     return law_of(impact, np.array(ages), element=element, window=window_at(impact.kappa_over_nu), end="following")
 
