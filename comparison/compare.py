@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -19,7 +20,8 @@ CURVES = ("total_impulse", "kinetic_energy", "strain_energy")
 def compare_histories(a: ImpactHistory, b: ImpactHistory) -> dict[str, Any]:
     """What two histories have in common and what not; SI units.
 
-    ``end`` : numbers at the end of the common time, first and second; ``largest_difference`` : of each curve over the
+    ``end`` : numbers at the end of the common time (``time`` : of each run), first and second; ``peak_moment`` : the
+    largest until then; ``largest_difference`` : of each curve over the
     common time, over the first's largest value; of the gap over V₀t at the end, on the nodes of the first.
     """
     end = min(float(a.time[-1]), float(b.time[-1]))
@@ -32,7 +34,7 @@ def compare_histories(a: ImpactHistory, b: ImpactHistory) -> dict[str, Any]:
         numbers[name] = [float(np.interp(end, h.time, h.array(name))) for h in (a, b)]
         largest = float(np.abs(mine).max())
         apart[name] = float(np.abs(mine - other).max()) / largest if largest > 0.0 else None
-    numbers["peak_moment"] = [peak_moment(h).moment for h in (a, b)]
+    numbers["peak_moment"] = [peak_moment(h, until=end).moment for h in (a, b)]
     apart["gap"] = _gap_apart(a, b, end)
     settings = {
         key: [a.settings.get(key), b.settings.get(key)]
@@ -54,12 +56,21 @@ def compare_histories(a: ImpactHistory, b: ImpactHistory) -> dict[str, Any]:
 
 
 def _gap_apart(a: ImpactHistory, b: ImpactHistory, end: float) -> float | None:
-    """Between the nodes of ``b`` by the cubics of its elements where it has slopes: elements may be long."""
+    """At ``end``, linear between the saved instants around it, which are others in either run; between the nodes of
+    ``b`` by the cubics of its elements where it has slopes: elements may be long."""
 
     def shape(history: ImpactHistory) -> tuple[Any, Any, Any]:
-        k = int(np.argmin(np.abs(history.time - end)))
-        x, gap = history.positions(k), history.array("gap")[k]
-        slope = -history.array("slope")[k] - history.impact.wall_curvature * x if "slope" in history else None
+        after = min(int(np.searchsorted(history.time, end * (1.0 - 1e-9))), history.time.size - 1)
+        before = max(after - 1, 0)
+        share = float(np.interp(end, history.time[[before, after]], [0.0, 1.0])) if before < after else 1.0
+
+        def at_end(values: Callable[[int], Any]) -> Any:
+            return (1.0 - share) * values(before) + share * values(after)
+
+        x, gap = at_end(history.positions), at_end(lambda k: history.array("gap", k))
+        slope = None
+        if "slope" in history:
+            slope = -at_end(lambda k: history.array("slope", k)) - history.impact.wall_curvature * x
         right = x >= 0.0
         return x[right], gap[right], None if slope is None else slope[right]
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import NamedTuple
 
 import numpy as np
@@ -66,13 +67,15 @@ def bending_moments(history: ImpactHistory, k: int | slice) -> tuple[Array, Arra
     return moment, np.stack([x[:-1], x[1:]], axis=1)
 
 
-def peak_moment(history: ImpactHistory) -> PeakMoment:
-    """The largest bending moment anywhere, and in the middle, at any saved instant after the first."""
+def peak_moment(history: ImpactHistory, until: float | None = None) -> PeakMoment:
+    """The largest bending moment anywhere, and in the middle, at any saved instant after the first, up to ``until`` (s;
+    ``None``: the last)."""
+    count = int(np.searchsorted(history.time, math.inf if until is None else until * (1.0 + 1e-9), side="right"))
     best = PeakMoment(0.0, 0.0, float(history.time[0]), 0.0)
     midspan = 0.0
     moving = "position" in history
-    for first in range(1, history.time.size, 1 if moving else CHUNK):
-        moments, place = bending_moments(history, first if moving else slice(first, first + CHUNK))
+    for first in range(1, count, 1 if moving else CHUNK):
+        moments, place = bending_moments(history, first if moving else slice(first, min(first + CHUNK, count)))
         sizes = np.abs(moments).reshape(-1, *place.shape)
         j, *worst = np.unravel_index(int(np.argmax(sizes)), sizes.shape)
         if sizes[j, *worst] > best.moment:
