@@ -19,7 +19,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from hermite_fe.kernels.jit import compiled_in_place, compiled_sums
+from hermite_fe.kernels.jit import compiled_apart, compiled_in_place, compiled_sums
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
@@ -205,7 +205,7 @@ def combine(
                 S[row, apart] = m * M[i - j, j] + c * C[i - j, j] + k * K[i - j, j]
 
 
-@compiled_in_place
+@compiled_apart
 def factor(S: Array, fixed: Flags, first: int, count: int, way: int, D: Array, U: Array) -> bool:
     """Factor ``count`` unknowns from ``first`` on: S = U D Uᵀ on the ``way`` −1 downwards, S = L D Lᵀ on the way 1
     upwards; those before ``first``, as one goes, must be factored already.
@@ -279,7 +279,7 @@ def four_before(x: Array, first: int, way: int) -> tuple[float, float, float, fl
     return x1, x2, x3, x4
 
 
-@compiled_in_place
+@compiled_apart
 def substitute(U: Array, first: int, count: int, way: int, z: Array) -> None:
     """Solve U z = r (L z = r), of :func:`factor`, for ``count`` unknowns from ``first`` on, in place of r; z before
     ``first`` must be known (z has four idle places at the end)."""
@@ -294,7 +294,7 @@ def substitute(U: Array, first: int, count: int, way: int, z: Array) -> None:
         z1 = value
 
 
-@compiled_in_place
+@compiled_apart
 def substitute_down(U: Array, top: int, twist: int, z: Array) -> None:
     """:func:`substitute` from unknown ``top`` down to ``twist``, z below it being known from the way up."""
     if twist == 0:
@@ -310,7 +310,7 @@ def substitute_down(U: Array, top: int, twist: int, z: Array) -> None:
     substitute(U[twist:], last, last + 1, -1, z[twist:])
 
 
-@compiled_in_place
+@compiled_apart
 def back_substitute(U: Array, z: Array, first: int, count: int, way: int, x: Array) -> None:
     """Solve D Uᵀ x = z, on the ``way`` 1 upwards (D Lᵀ x = z, on the way −1 downwards), for ``count`` unknowns from
     ``first`` on; x before ``first``, as one goes, must be known."""
@@ -325,7 +325,7 @@ def back_substitute(U: Array, z: Array, first: int, count: int, way: int, x: Arr
         x1 = value
 
 
-@compiled_in_place
+@compiled_apart
 def fade_out(U: Array, start: int, smallest: float, x: Array) -> int:
     """Go on with :func:`back_substitute`, upwards from unknown ``start``, where z is zero, until four values in a row
     are below ``smallest``: all that follow are, and x is zero from there on. Returns where that is.

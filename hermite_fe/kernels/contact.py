@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from hermite_fe.kernels.jit import compiled_in_place
+from hermite_fe.kernels.jit import compiled_apart, compiled_in_place
 from hermite_fe.kernels.problem import ContactLaw, Problem
 
 Array = NDArray[np.float64]
@@ -55,7 +55,7 @@ def force_at(load: Array, t: float, h: float, theta: float, force: Array) -> Non
     force_rows(load, t, h, theta, 0, force.size, force)
 
 
-@compiled_in_place
+@compiled_apart
 def mark_held(problem: Problem, law: ContactLaw, closed: Flags, t: float, held: Flags) -> None:
     """Rows that stay closed after time t: those whose front is fewer than ``law.hold`` rows further, and before
     ``law.hold_until`` all that are closed."""

@@ -33,7 +33,7 @@ from numpy.typing import NDArray
 
 from hermite_fe.kernels.banded import combine, factor, multiply, stiff_multiply
 from hermite_fe.kernels.contact import force_at, mark_held, row_times, rows_times
-from hermite_fe.kernels.jit import compiled, compiled_in_place
+from hermite_fe.kernels.jit import compiled, compiled_apart, compiled_in_place
 from hermite_fe.kernels.pivoting import solve_rows
 from hermite_fe.kernels.problem import PRODUCT, SMALLEST_REACTION, ContactLaw, Problem, State, Work
 from hermite_fe.kernels.rows import NOT_FINITE, SINGULAR, SOLVED
@@ -132,7 +132,7 @@ def react(scheme: Scheme, state: State, h: float, j: int, force: float, kept: Ke
     impulse[j] += h * gamma * state.reaction_a[j]
 
 
-@compiled_in_place
+@compiled_apart
 def account(
     scheme: Scheme,
     problem: Problem,

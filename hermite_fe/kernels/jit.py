@@ -22,10 +22,11 @@ import numba
 from numba.core.caching import CompileResultCacheImpl, FunctionCache, IndexDataCacheFile
 from numba.core.codegen import JITCodeLibrary
 from numba.core.compiler import Compiler
+from numba.core.runtime.nrt import rtsys
 
 from hermite_fe.kernels.inference import remember
 
-__all__ = ["compiled", "compiled_in_place", "compiled_sums"]
+__all__ = ["compiled", "compiled_apart", "compiled_in_place", "compiled_sums"]
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 
@@ -71,7 +72,10 @@ class KernelCache(FunctionCache):
         )
 
     def load_overload(self, signature: Any, target_context: Any) -> Any:
-        found = super().load_overload(signature, target_context)
+        """What is found needs no more of numba than its runtime: numba itself would import all that it can compile."""
+        rtsys.initialize(target_context)
+        with self._guard_against_spurious_io_errors():
+            found = self._load_overload(signature, target_context)
         if found is None:
             _say_once()
         return found
@@ -107,6 +111,16 @@ class PartLibrary(JITCodeLibrary):
         return self.serialize_using_bitcode()
 
 
+class ApartLibrary(PartLibrary):
+    """The code of a long kernel, which is not written into those that call it: so much less to optimise."""
+
+    def add_llvm_module(self, ll_module: Any) -> None:
+        for function in ll_module.functions:
+            if not function.is_declaration:
+                function.add_function_attribute("noinline")
+        super().add_llvm_module(ll_module)
+
+
 class PartCacheImpl(CompileResultCacheImpl):
     """What is loaded is a :class:`PartLibrary` again: as machine code it would run in place of the optimised one."""
 
@@ -129,11 +143,19 @@ class PartCache(KernelCache):
 class PartCompiler(Compiler):
     """Numba's compiler, into a :class:`PartLibrary`."""
 
+    library: type[PartLibrary] = PartLibrary
+
     def __init__(self, typing: Any, target: Any, library: Any, *rest: Any) -> None:
-        super().__init__(typing, target, PartLibrary(target.codegen(), "part"), *rest)
+        super().__init__(typing, target, self.library(target.codegen(), "part"), *rest)
 
 
-def kernel(function: Function, **options: Any) -> Function:
+class ApartCompiler(PartCompiler):
+    """Numba's compiler, into an :class:`ApartLibrary`."""
+
+    library = ApartLibrary
+
+
+def kernel(function: Function, part_compiler: type[Compiler] = PartCompiler, **options: Any) -> Function:
     """``function`` compiled at its first call or loaded; as it is under ``NUMBA_DISABLE_JIT=1``, to step through it.
 
     Kernels call another compilation of it than Python does, one without a way in from Python.
@@ -144,7 +166,7 @@ def kernel(function: Function, **options: Any) -> Function:
     options = {"error_model": "numpy", "no_cfunc_wrapper": True, **options}
     compiler: Any = numba.njit  # whose types do not know all options
     called = compiler(**options)(function)
-    part = compiler(no_cpython_wrapper=True, pipeline_class=PartCompiler, **options)(function)
+    part = compiler(no_cpython_wrapper=True, pipeline_class=part_compiler, **options)(function)
 
     def template_without_literals(arguments: tuple[Any, ...], names: dict[str, Any]) -> Any:
         """Numba would compile a kernel once more for each number that a call writes out, as ``first = 0``."""
@@ -175,6 +197,11 @@ def compiled(function: Function) -> Function:
 def compiled_in_place(function: Function) -> Function:
     """As :func:`compiled`, for a kernel that makes no arrays (views of those that it is given are none)."""
     return kernel(function, fastmath={"contract"}, _nrt=False)
+
+
+def compiled_apart(function: Function) -> Function:
+    """As :func:`compiled_in_place`, for a long kernel that is called a few times a step: it stays a function."""
+    return kernel(function, ApartCompiler, fastmath={"contract"}, _nrt=False)
 
 
 def compiled_sums(function: Function) -> Function:

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hermite_fe.kernels.banded import back_substitute, factor, substitute
-from hermite_fe.kernels.jit import compiled
+from hermite_fe.kernels.jit import compiled_apart
 from hermite_fe.kernels.problem import Problem, Work
 from hermite_fe.kernels.rows import CYCLING, SINGULAR, SOLVED, right_side, wrong_rows
 
@@ -21,7 +21,7 @@ Flags = NDArray[np.bool_]
 MOST = 20  # exchanges a row
 
 
-@compiled
+@compiled_apart
 def solve_monotone(problem: Problem, work: Work, closed: Flags, tolerance: float) -> tuple[int, int]:
     """Solve for work.y and work.p from scratch; ``closed`` (rows,) is the answer. Returns (status, solutions); CYCLING
     also where a row is left in the wall because closing it makes it pull: ``tolerance`` is below round-off."""
@@ -29,12 +29,14 @@ def solve_monotone(problem: Problem, work: Work, closed: Flags, tolerance: float
     S, fixed, y, p = work.S, work.fixed, work.y, work.p
     n, m, width = y.size, closed.size, factors.shape[1]
     direct = width == 1
-    known, barred = np.zeros(m), np.zeros(m, np.bool_)
+    known, barred = work.known, work.barred
     for j in range(m):
+        known[j] = 0.0
+        barred[j] = False
         closed[j] = work.held[j]
         fixed[switch[j]] = closed[j] == direct
     last_closed = -1
-    work.twist[:] = 0  # factored from above alone
+    work.twist[0] = work.twist[1] = 0  # factored from above alone
     for attempt in range(MOST * (m + 1)):
         right_side(S, work.b, place, fixed, switch, factors, work.target, closed, m - 1, 0, n, work.z)
         if not factor(S, fixed, n - 1, n, -1, work.D, work.U):
@@ -59,10 +61,12 @@ def solve_monotone(problem: Problem, work: Work, closed: Flags, tolerance: float
                 barred[opening] = True
             continue
         if last_closed >= 0 and closed[last_closed]:  # it stays: what was barred before is judged anew
-            barred[:] = False
-        deepest, closing = 0.0, -1
+            for j in range(m):
+                barred[j] = False
+        left, deepest, closing = False, 0.0, -1
         for j in range(m):
             known[j] = p[j] if closed[j] else 0.0
+            left = left or (work.wrong[j] and barred[j])
             if not closed[j] and work.wrong[j] and not barred[j]:
                 slack = -work.target[j]
                 for i in range(width):
@@ -70,7 +74,7 @@ def solve_monotone(problem: Problem, work: Work, closed: Flags, tolerance: float
                 if slack < deepest:
                     deepest, closing = slack, j
         if closing < 0:
-            return CYCLING if np.any(work.wrong & barred) else SOLVED, attempt
+            return CYCLING if left else SOLVED, attempt
         closed[closing] = True
         fixed[switch[closing]] = direct
         last_closed = closing

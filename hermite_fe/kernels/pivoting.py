@@ -29,7 +29,7 @@ from hermite_fe.kernels.banded import (
     substitute,
     substitute_down,
 )
-from hermite_fe.kernels.jit import compiled_in_place
+from hermite_fe.kernels.jit import compiled_apart, compiled_in_place
 from hermite_fe.kernels.monotone import solve_monotone
 from hermite_fe.kernels.problem import Problem, Work
 from hermite_fe.kernels.rows import (
@@ -72,7 +72,7 @@ def substitute_rest(work: Work, start: int, end: int, smallest: float) -> int:
     return fade_out(work.U, start, smallest, y)
 
 
-@compiled_in_place
+@compiled_apart
 def refactor(work: Work, calm: int, low: int, top: int, wanted: int) -> int:
     """Bring the factors up to date where unknowns between ``low`` and ``top`` − 4 have switched, or all are new
     (``calm`` = 0): the first ``calm`` unknowns are factored from below. The twist moves to ``wanted`` where that is
@@ -96,7 +96,7 @@ def refactor(work: Work, calm: int, low: int, top: int, wanted: int) -> int:
     return top if sound else -2
 
 
-@compiled_in_place
+@compiled_apart
 def solve_rows(problem: Problem, work: Work, fresh: bool, extent: int, closed: Flags) -> int:
     """Solve for work.x (dofs,) and work.p (rows,) from work.S, work.b, work.target, work.candidate,
     work.held.

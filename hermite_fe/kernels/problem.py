@@ -86,9 +86,9 @@ class Work(NamedTuple):
 
     S : step matrix by rows; fixed : unknowns whose equation is x = r
     D, U : factors; meeting : scratch of theirs (:mod:`.banded`)
-    wrong, excess : rows whose sign is wrong, and by how much
+    wrong, excess : rows whose sign is wrong, and by how much; known, barred : of the rows, scratch (:mod:`.monotone`)
     b : right-hand side, (dofs,); target, candidate, held : of the rows; x, p : the solution, (dofs,) and (rows,)
-    gap, speed, d1, d2, d3 : free for the integrator
+    gap, speed, d1, d2, d3 : free for the integrator; lost : (causes of damping,), likewise
     twist : where the factorisation from either end meets, and the unknown below which no row has switched of late
     extent : unknowns of the solution that are not zero, counted from the start of the beam
     """
@@ -102,6 +102,8 @@ class Work(NamedTuple):
     y: Array
     wrong: Flags
     excess: Array
+    known: Array
+    barred: Flags
     b: Array
     x: Array
     p: Array
@@ -113,6 +115,7 @@ class Work(NamedTuple):
     d1: Array
     d2: Array
     d3: Array
+    lost: Array
     made_with: Array  # the step that S was made with, alone
     twist: NDArray[np.int64]
     extent: NDArray[np.int64]
@@ -222,6 +225,8 @@ def work_of(system: System, problem: Problem) -> Work:
         y=x if direct else np.zeros(size),
         wrong=np.zeros(m, np.bool_),
         excess=np.zeros(m),
+        known=np.zeros(m),
+        barred=np.zeros(m, np.bool_),
         b=np.zeros(n),
         x=x,
         p=np.zeros(m),
@@ -233,6 +238,7 @@ def work_of(system: System, problem: Problem) -> Work:
         d1=np.zeros(n),
         d2=np.zeros(n),
         d3=np.zeros(n),
+        lost=np.zeros(problem.slots.size),
         made_with=np.full(1, np.nan),
         twist=np.zeros(2, np.int64),
         extent=np.full(1, size),

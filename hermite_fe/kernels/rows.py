@@ -7,7 +7,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from hermite_fe.kernels.jit import compiled_in_place
+from hermite_fe.kernels.jit import compiled_apart, compiled_in_place
 from hermite_fe.kernels.problem import Problem, Work
 
 Array = NDArray[np.float64]
@@ -54,7 +54,7 @@ def equation(S: Array, x: Array, right: float, k: int) -> tuple[float, float]:
     return total, size
 
 
-@compiled_in_place
+@compiled_apart
 def right_side(
     S: Array,
     b: Array,
@@ -138,7 +138,7 @@ def nearest_open(problem: Problem, work: Work, closed: Flags, first: int, stop: 
     return nearest
 
 
-@compiled_in_place
+@compiled_apart
 def wrong_rows(
     problem: Problem, work: Work, closed: Flags, first: int, stop: int, start: int, zone: int, tolerance: float
 ) -> tuple[int, int, int]:

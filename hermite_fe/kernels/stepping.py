@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from hermite_fe.kernels.banded import add, combine, dot, multiply, quadratic, stiff_multiply
 from hermite_fe.kernels.contact import force_at, row_times
-from hermite_fe.kernels.jit import compiled, compiled_in_place
+from hermite_fe.kernels.jit import compiled, compiled_apart, compiled_in_place
 from hermite_fe.kernels.pivoting import solve_rows
 from hermite_fe.kernels.problem import ALGORITHMIC, IMPACT, WORK, Problem, State, Work
 
@@ -25,7 +25,7 @@ def step_length(times: Array, k: int, made_with: Array) -> float:
     return made_with[0] if abs(h - made_with[0]) <= ROUNDING * times[k + 1] else h
 
 
-@compiled_in_place
+@compiled_apart
 def residual_force(problem: Problem, t: float, q: Array, v: Array, out: Array, scratch: Array) -> None:
     """out = F(t) − Cv − Kq."""
     force_at(problem.load, t, 0.0, 0.0, out)
@@ -53,7 +53,7 @@ def initial_acceleration(problem: Problem, state: State, work: Work) -> int:
     return status
 
 
-@compiled_in_place
+@compiled_apart
 def book_step(
     problem: Problem,
     state: State,

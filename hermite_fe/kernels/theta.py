@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from hermite_fe.kernels.banded import CHUNK, add, combine, dot, multiply_rows, quadratic_rows, stiff_rows
 from hermite_fe.kernels.contact import force_rows, mark_held, row_times, rows_times
-from hermite_fe.kernels.jit import compiled, compiled_in_place
+from hermite_fe.kernels.jit import compiled_apart, compiled_in_place
 from hermite_fe.kernels.pivoting import solve_rows
 from hermite_fe.kernels.problem import (
     ALGORITHMIC,
@@ -37,7 +37,7 @@ from hermite_fe.kernels.stepping import step_length
 Array = NDArray[np.float64]
 
 
-@compiled_in_place
+@compiled_apart
 def predict(problem: Problem, state: State, work: Work, t: float, h: float, theta: float) -> None:
     """work.b = h[F_θ − K(q + θhv) − Cv], the change of momentum of a step without Δv and without contact."""
     q, v, b, moved, part, force = state.q, state.v, work.b, work.d1, work.d2, work.d3
@@ -57,17 +57,15 @@ def predict(problem: Problem, state: State, work: Work, t: float, h: float, thet
             right[i] = h * (force[i] - right[i] - part[i])
 
 
-@compiled_in_place
-def correct(problem: Problem, state: State, work: Work, t: float, h: float, theta: float, lost: Array) -> float:
-    """q⁺ and v⁺ from Δv = work.x, and the energies that the step takes, booked. Returns the work of the loads.
-
-    lost : (causes,), scratch.
-    """
+@compiled_apart
+def correct(problem: Problem, state: State, work: Work, t: float, h: float, theta: float) -> float:
+    """q⁺ and v⁺ from Δv = work.x, and the energies that the step takes, booked. Returns the work of the loads."""
     q, v, dv, dq, vel = state.q, state.v, work.x, work.d1, work.b
-    part, force = work.d2, work.d3
+    part, force, lost = work.d2, work.d3, work.lost
     n, known = q.size, 0
     kinetic, strain, work_done = 0.0, 0.0, 0.0
-    lost[:] = 0.0
+    for cause in range(lost.size):
+        lost[cause] = 0.0
     for first in range(0, n, CHUNK):
         stop = min(first + CHUNK, n)
         reach = min(stop + 3, n)
@@ -94,7 +92,7 @@ def correct(problem: Problem, state: State, work: Work, t: float, h: float, thet
     return work_done
 
 
-@compiled
+@compiled_in_place
 def steps(
     problem: Problem,
     law: ContactLaw,
@@ -113,7 +111,6 @@ def steps(
     dv, p, target, candidate, held = work.x, work.p, work.target, work.candidate, work.held
     gap, speed = work.gap, work.speed
     n, m = q.size, closed.size
-    lost = np.zeros(problem.slots.size)
     for k in range(first, last):
         t = times[k]
         h = step_length(times, k, work.made_with)
@@ -152,7 +149,7 @@ def steps(
                     state.worst[SMALLEST_REACTION] = min(state.worst[SMALLEST_REACTION], p[j])
                 product = abs(p[j] * (change - target[j])) * (h if at_position else 1.0)
                 state.worst[PRODUCT] = max(state.worst[PRODUCT], product)
-        work_done = correct(problem, state, work, t, h, theta, lost)
+        work_done = correct(problem, state, work, t, h, theta)
         if not math.isfinite(work_done):
             return NOT_FINITE, k
     return SOLVED, last
