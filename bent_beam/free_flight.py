@@ -72,10 +72,10 @@ def has_left(history: ImpactHistory) -> bool:
     if not bears_free_flight(impact):
         quiet = float(history.time[-1] - history.time[pushed[-1] + 1])
         return quiet >= LOWEST_PERIOD * impact.slow_time_scale
-    gap = history.array("gap")[-1]
+    gap = history.array("gap", -1)
     energy = float(history.array("kinetic_energy")[-1] + history.array("strain_energy")[-1])
     return bool(gap.min() > 0.0) and cannot_return(
-        impact, history.positions(-1), gap, history.array("velocity")[-1], energy
+        impact, history.positions(-1), gap, history.array("velocity", -1), energy
     )
 
 

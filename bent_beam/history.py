@@ -243,8 +243,9 @@ class ImpactHistory:
         """Whether the history has this variable."""
         return name in self._now.variables
 
-    def array(self, name: str, k: int | None = None) -> NDArray[Any]:
-        """The values of one variable, at saved instant ``k`` alone where one is given."""
+    def array(self, name: str, k: int | slice | NDArray[np.intp] | None = None) -> NDArray[Any]:
+        """The values of one variable, at saved instant ``k`` alone where one is given, or at a few of them: a slice,
+        or their numbers in rising order."""
         now = self._now
         if isinstance(now, Record):
             values = now.variables[name][1]

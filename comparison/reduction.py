@@ -40,9 +40,18 @@ def pull_of(history: ImpactHistory) -> float | None:
     """Largest negative over largest positive contact impulse between two saved instants, after the start; ``None``
     where nothing pushed."""
     time = history.time
-    impulse = np.diff(history.array("impulse"), axis=0)[time[:-1] >= START * time[-1]]
-    most = float(impulse.max(initial=0.0))
-    return None if most <= 0.0 else abs(float(impulse.min(initial=0.0))) / most
+    first = int(np.searchsorted(time, START * time[-1]))
+    least = most = 0.0
+    before, done = None, 0
+    for part in history.blocks("impulse"):
+        rows = part[max(first - done, 0) :]
+        done += len(part)
+        if before is not None and len(rows):
+            rows = np.concatenate([before, rows])
+        gains = np.diff(rows, axis=0)
+        least, most = min(least, float(gains.min(initial=0.0))), max(most, float(gains.max(initial=0.0)))
+        before = rows[-1:] if len(rows) else before
+    return None if most <= 0.0 else -least / most
 
 
 def bending_moments(history: ImpactHistory, k: int | slice) -> tuple[Array, Array]:
@@ -55,9 +64,9 @@ def bending_moments(history: ImpactHistory, k: int | slice) -> tuple[Array, Arra
     """
     impact = history.impact
     x = history.positions(k if isinstance(k, int) else 0)
-    y = -history.array("gap")[k] - 0.5 * impact.wall_curvature * x**2
+    y = -history.array("gap", k) - 0.5 * impact.wall_curvature * x**2
     given = "slope" in history
-    slope = history.array("slope")[k] if given else np.gradient(y, x, axis=-1, edge_order=2)
+    slope = history.array("slope", k) if given else np.gradient(y, x, axis=-1, edge_order=2)
     h = np.diff(x)
     rise = np.diff(y, axis=-1) / h
     left = (6.0 * rise - 4.0 * slope[..., :-1] - 2.0 * slope[..., 1:]) / h

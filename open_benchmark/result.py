@@ -476,7 +476,7 @@ def result_from_history(history: ImpactHistory, asked: Problem | None = None) ->
         series,
         places,
         tau[keep],
-        history.array("gap")[keep] / length,
+        history.array("gap", keep) / length,
     )
 
 

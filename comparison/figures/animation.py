@@ -64,7 +64,7 @@ def _frame(history: ImpactHistory, outcome: Outcome, time: float, step: float, x
         + 0.5 * p.curvature_rate * x**2 * t
         + p.fourth_derivative * x**4 / 24.0
     )
-    places, gap = history.positions(k), history.array("gap")[k]
+    places, gap = history.positions(k), history.array("gap", k)
     half = places >= 0.0
     known = np.abs(x) <= places[half][-1]
     y = np.where(known, -np.interp(np.abs(x), places[half], gap[half]), free)

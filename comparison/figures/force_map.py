@@ -17,16 +17,14 @@ Array = NDArray[np.float64]
 def force_map(history: ImpactHistory, kept: NDArray[np.int64], edges: Array) -> Array:
     """Reaction per length (frames − 1, bins): impulse between two kept instants, per length and time."""
     impact = history.impact
-    impulse, unit = (
-        history.array("impulse"),
-        impact.mass_per_length * impact.velocity,
-    )  # μV₀: impulse per length
+    unit = impact.mass_per_length * impact.velocity  # impulse per length
     width = np.diff(edges)
     rows = np.zeros((kept.size - 1, width.size))
     for row, (first, last) in enumerate(pairwise(kept)):
-        for k in range(first + 1, last + 1):
+        pushes = np.diff(history.array("impulse", slice(first, last + 1)), axis=0) / (unit * impact.length_scale)
+        for k, push in enumerate(pushes, first + 1):
             places = 0.5 * (history.contact_positions(k - 1) + history.contact_positions(k)) / impact.length_scale
-            rows[row] += spread(places, (impulse[k] - impulse[k - 1]) / (unit * impact.length_scale), edges)
+            rows[row] += spread(places, push, edges)
         rows[row] /= width * (history.time[last] - history.time[first]) / impact.time_scale
     return rows
 

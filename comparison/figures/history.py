@@ -40,7 +40,8 @@ def draw_history(history: ImpactHistory, out: Path, name: str, formats: Sequence
 
 def _reach(history: ImpactHistory) -> float:
     """Half width to be shown, m: three times where anything was ever pushed, at most the beam."""
-    pushed = np.abs(history.array("impulse")[-1]) > 1e-3 * np.abs(history.array("impulse")[-1]).max(initial=1e-300)
+    impulse = np.abs(history.array("impulse", -1))
+    pushed = impulse > 1e-3 * impulse.max(initial=1e-300)
     places = np.abs(history.contact_positions(-1)[pushed])
     edge = float(np.abs(history.positions(-1)).max())
     wave = 2.0 * np.sqrt(history.impact.wave_constant * history.time[-1])
@@ -51,7 +52,7 @@ def _shapes(axis: Any, history: ImpactHistory) -> None:
     reach, end = _reach(history), history.time[-1]
     for i, t in enumerate(np.linspace(0.0, end, SHAPES)):
         k = int(np.argmin(np.abs(history.time - t)))
-        x, gap = history.positions(k), history.array("gap")[k]
+        x, gap = history.positions(k), history.array("gap", k)
         if x.min() >= 0.0:
             x, gap = np.concatenate([-x[::-1], x]), np.concatenate([gap[::-1], gap])
         inside = np.abs(x) <= reach

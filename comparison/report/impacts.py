@@ -246,7 +246,7 @@ def reduce_history(history: ImpactHistory, shown: Shown) -> dict[str, Any]:
     gap = np.array(
         [
             np.interp(
-                x, history.positions(k)[half[k]] / impact.length_scale, history.array("gap")[k][half[k]], right=np.nan
+                x, history.positions(k)[half[k]] / impact.length_scale, history.array("gap", k)[half[k]], right=np.nan
             )
             / (impact.velocity * max(history.time[k], 1e-300))
             for k in range(tau.size)

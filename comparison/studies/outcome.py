@@ -167,7 +167,7 @@ def outcome_of(
         strain=strain,
         energy=energy,
         x=history.positions(-1)[half],
-        gap=history.array("gap")[-1][half],
+        gap=history.array("gap", -1)[half],
         measures={
             **_errors(found, exact, history),
             **_energy(history, exact, moving),

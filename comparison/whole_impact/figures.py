@@ -70,7 +70,7 @@ def _contacts(history: ImpactHistory) -> tuple[Array, Array]:
 def _whole(history: ImpactHistory, k: int) -> tuple[Array, Array]:
     """x/ℓ and y/(V₀T*) of the whole beam at a saved instant."""
     impact = history.impact
-    x, gap = history.positions(k), history.array("gap")[k]
+    x, gap = history.positions(k), history.array("gap", k)
     if x[0] >= 0.0:
         x, gap = np.concatenate([-x[:0:-1], x]), np.concatenate([gap[:0:-1], gap])
     return x / impact.half_length, -gap / (impact.velocity * impact.slow_time_scale)

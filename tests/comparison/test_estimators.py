@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from bent_beam import Impact, ImpactHistory
+from bent_beam.meshes import UniformMesh
 from comparison.compare import compare_histories
 from comparison.estimators import (
     DRIFT_ALONE,
@@ -25,6 +26,8 @@ from comparison.estimators import (
     with_companions,
 )
 from comparison.reduction import bending_moments, peak_moment
+from comparison.summary import summary
+from hermite_fe import simulate
 from theory import contact_parameters
 
 
@@ -264,6 +267,28 @@ def test_physical_units_drop_out():
     assert a.lambda0.value == pytest.approx(b.lambda0.value, rel=1e-10)
     assert a.r0.value == pytest.approx(b.r0.value, rel=1e-10)
     assert moments(history).front == pytest.approx(moments(scaled).front, rel=1e-10)
+
+
+def test_what_a_history_on_disk_comes_to_is_found_without_reading_all_of_it(tmp_path, monkeypatch):
+    here = simulate(Impact.dimensionless(0.5, length=20.0), mesh=UniformMesh(0.1), save=40)
+    known = summary(here)
+    monkeypatch.setattr("bent_beam.storage.LARGE", 10)
+    monkeypatch.setattr("bent_beam.storage.BLOCK", 5_000)
+    there = ImpactHistory.load(here.save(tmp_path / "run.nc"))
+    read = ImpactHistory.array
+    asked = []
+
+    def array(history, name, k=None):
+        values = read(history, name, k)
+        asked.append(values.size if values.ndim > 1 else 0)
+        return values
+
+    monkeypatch.setattr(ImpactHistory, "array", array)
+    monkeypatch.setattr("comparison.reduction.CHUNK", 8)
+    found = summary(there)
+    assert max(asked) <= 8 * here.array("gap").shape[1]
+    for name in ("pull", "lift", "peak_moment", "peak_moment_time", "half_contact_length", "r0"):
+        assert found[name] == known[name]
 
 
 def flown(times):
