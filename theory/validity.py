@@ -270,8 +270,8 @@ class _Loads:
             self.point = (p.kappa_over_nu - 1.0 + POINT) / (-opening * self.size)
         square = max(abs(self.r2) / p.r0, abs(self.lambda2) / p.lambda0 if spreads else 0.0)
         # τ at which a first or second order is as large as the leading one
-        fastest = max(self.change, math.sqrt(square))
-        self.scale = 1.0 / (fastest * self.size) if fastest > 0.0 else 0.0
+        pace = max(self.change, math.sqrt(square)) * self.size
+        self.scale = 1.0 / pace if pace > 0.0 else 0.0  # loads may be subnormal
 
     def errors(self, tau: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Second order of half length, force and impulse, shape (3, n), and the bound of the third, shape (n,)."""

@@ -65,7 +65,8 @@ def command(*arguments):
     out, err = io.StringIO(), io.StringIO()
     with limited(), contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
         code = run([str(a) for a in arguments])
-    return code, out.getvalue(), err.getvalue()
+    said = [line for line in err.getvalue().splitlines(keepends=True) if not line.startswith("compiling, as always")]
+    return code, out.getvalue(), "".join(said)  # without what a machine says that is new to the kernels
 
 
 def refuse_constant(name):

@@ -200,6 +200,14 @@ def test_of_tension_and_loads_the_larger_is_named() -> None:
         assert predict(impact).limited_by == named
 
 
+@pytest.mark.parametrize("load", ["acceleration", "fourth_derivative", "curvature_rate", "axial_force"])
+def test_a_subnormal_load_is_none_where_one_point_is_about_to_spread(load: str) -> None:
+    impact = Impact.whole_beam(1.0 - 1.2e-16)
+    until = predict(impact).valid_until
+    for size in (5e-324, 1e-316, 1e-308):
+        assert predict(impact.replace(**{load: size})).valid_until == until
+
+
 def test_a_quartic_bow_sends_waves_from_its_ends() -> None:
     # the faster, the larger q₀; loads at the ends are what the free motion would need
     bare = predict(Impact.whole_beam(0.5, relative_damping=1e-3)).valid_until
