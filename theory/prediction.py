@@ -343,7 +343,7 @@ _ENDS_OF_VALIDITY = {
     ENDS: "waves come back from the beam's ends, which the theory takes to be infinitely far",
     FIRST_ORDER: "the loads change the contact so much that the first-order correction is no longer enough",
     TENSION: "the axial force changes the contact so much that the first-order correction is no longer enough",
-    DAMPING: "the beam's own damping rules, and was not measured for so flat or so short a contact",
+    DAMPING: "the beam's own damping rules, and was not measured for so flat or so short a contact, or so early",
     TOUCH: "the middle of the contact, which the first instants have lifted, comes back to the wall with a pulse",
     SLOPE: "the beam's slopes are no longer small",
     SHEAR: "the beam is so stubby that it shears before it bends, all the time that the ends leave",

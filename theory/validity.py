@@ -176,6 +176,7 @@ def validity(
     if begins > 0.0:
         begins_after = DAMPING
     if begins >= until:
+        limited_by = DAMPING if begins > 0.0 else limited_by
         begins, until = 0.0, 0.0
     begins, until = begins * impact.time_scale, until * impact.time_scale
     if shear_stiffness is not None and until > 0.0:

@@ -272,6 +272,14 @@ def test_so_flat_a_damped_contact_that_nobody_measured_is_said_to_hold_at_no_tim
     assert predict(Impact.whole_beam(1e-3)).valid_until > 0.0
 
 
+def test_a_damping_that_rules_until_the_waves_are_back_is_why_nothing_holds() -> None:
+    found = predict(Impact.whole_beam(0.1, relative_damping=3.0), [1e-6])
+    assert (found.valid_until, found.limited_by) == (0.0, validity.DAMPING)
+    assert found.times[0].spoiled_by == validity.DAMPING  # and not waves, which take 0.01 T*
+    # with a hundredth of it they are
+    assert predict(Impact.whole_beam(0.1, relative_damping=0.03)).limited_by == validity.ENDS
+
+
 def test_a_zone_shorter_than_was_measured_holds_as_the_point_that_it_is_at_first() -> None:
     found = predict(Impact.whole_beam(0.99, relative_damping=1e-3))
     assert found.valid_until == pytest.approx(1e-3 * float(erfinv(0.99)) ** 2, rel=1e-12)

@@ -154,7 +154,7 @@ const Beam = (() => {
     ends: "waves come back from the beam’s ends",
     loads: "the loads have changed the contact too much for a first-order correction",
     tension: "the axial force has changed the contact too much for a first-order correction",
-    damping: "the beam’s own damping rules, and was not measured for so flat or so short a contact",
+    damping: "the beam’s own damping rules, and was not measured for so flat or so short a contact, or so early",
     touch: "the middle of the contact, which the first instants have lifted, comes back to the wall with a pulse",
     slope: "the beam’s slopes are no longer small",
   };

@@ -487,7 +487,7 @@ const Theory = (() => {
       [until, ending] = [Math.min(point * damping * slow, until), "damping"];
     const steep = steepest(c);
     if (steep > 0 && (slope / steep) ** 2 < until) [until, ending] = [(slope / steep) ** 2, "slope"];
-    return begins >= until ? { begins: 0, until: 0, by: ending } : { begins, until, by: ending };
+    return begins >= until ? { begins: 0, until: 0, by: begins > 0 ? "damping" : ending } : { begins, until, by: ending };
   }
 
   /** Whether the axial force changes λ and r more than the loads do. */
