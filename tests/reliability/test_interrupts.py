@@ -51,7 +51,7 @@ COMMANDS = {
     "simulate": ["simulate", "CASE", "--out", "OUT/history.nc", "--save", "2000"],
     "simulate on Exudyn": ["simulate", "CASE", "--path", "exudyn", "--out", "OUT/history.nc"],
     "bounce": ["bounce", "--kappa-over-nu", "2", "--damping", "0.1", "--jobs", "2", "--out", "OUT"],
-    "report": ["report", "--out", "OUT", "--jobs", "2", "--overwrite"],
+    "report": ["report", "--path", "hermite", "--out", "OUT", "--jobs", "2", "--overwrite"],
     "gallery": ["gallery", "fig-2.5", "fig-2.7a", "fig-2.9", "--out", "OUT", "--format", "png", "--format", "pdf"],
     "study": ["study", "mesh", "CASE", "--out", "OUT"],
     "benchmark": ["benchmark", "--solver", "hermite", "--out", "OUT"],
