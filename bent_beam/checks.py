@@ -28,6 +28,8 @@ def shortened(value: object) -> str:
         text = " ".join(repr(value).split())
     except ValueError:  # an integer of more digits than Python is willing to write
         text = "a number too long to write"
+    except RecursionError:
+        text = "tables or lists nested without end"
     return text if len(text) <= 80 else text[:77] + "..."
 
 

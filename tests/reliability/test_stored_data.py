@@ -217,6 +217,20 @@ def test_unreadable_case_files_are_refused(kind, tmp_path):
     assert code == 2 and out == "" and err.count("\n") == 1 and "case" in err
 
 
+@pytest.mark.parametrize("table", ["beam", "mesh", "hermite", "hermite.mesh", "section", "impact", "run", "nonsense"])
+def test_tables_nested_without_end_are_refused_in_one_line(table, tmp_path):
+    """Five thousand tables in each other take no bracket: a.a.a… = 1."""
+    deep = f"[{table}]\n{'a.' * 5000}b = 1\n"
+    for name, text, arguments in (
+        ("case.toml", deep, ["predict"]),
+        ("more.toml", CASE.replace("[hermite.integrator]", f"{deep}[hermite.integrator]"), ["simulate"]),
+        ("methods.toml", f'[[method]]\npath = "hermite"\n{"a." * 5000}b = 1\n', ["match", "--methods"]),
+    ):
+        (tmp_path / name).write_text(text)
+        code, out, err = command(*arguments, tmp_path / name)
+        assert code == 2 and out == "" and err.count("\n") == 1, err
+
+
 def test_a_file_without_permission_is_refused():
     with tempfile.TemporaryDirectory(dir="/tmp") as folder:
         os.chmod(folder, 0o755)
