@@ -8,22 +8,20 @@ first title. A table whose titles are κ/ν is read by columns. "≤" states a b
 
 from __future__ import annotations
 
-import itertools
 import json
 import re
 import shlex
 from fractions import Fraction
 from functools import cache
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
+from markdown_tables import RAISED, ROOT, cells, stated, table_after
 
 from comparison.command_line.app import run
 from comparison.whole_impact.ends import reached
 
-ROOT = Path(__file__).resolve().parents[2]
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
 MARKED = re.compile(r"<!-- made by: bentbeam (match .*?) -->\n+((?:\|[^\n]*\n)+|```text\n.*?```)", re.S)
 TABLES = [
@@ -31,18 +29,8 @@ TABLES = [
     for page in PAGES
     for k, (command, text) in enumerate(MARKED.findall(page.read_text(encoding="utf-8")))
 ]
-RAISED = str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹−", "-0123456789-")
-NUMBER = re.compile(r"([-+]?\d+(?:\.(\d+))?)(?:(?:·10|e)([-+]?\d+))?")
 
 Row = dict[str, Any]
-
-
-def stated(text: str) -> tuple[float, float]:
-    """A number as it is printed and the unit of its last digit."""
-    found = NUMBER.search(text.translate(RAISED))
-    assert found, text
-    power = 10.0 ** int(found[3] or 0)
-    return float(found[1]) * power, power * 10.0 ** -len(found[2] or "")
 
 
 def percent(row: Row, name: str) -> float:
@@ -97,10 +85,6 @@ def narrowed(rows: list[Row], title: str) -> list[Row]:
         return [r for r in rows if [r["alpha"], r["psi"], r["chi"], r["axial"]] == asked]
     word = re.split(r"[ ,]", title)[0]
     return [r for r in rows if r["label"].endswith(", " + title) or (word and r["label"].startswith(word))] or rows
-
-
-def cells(line: str) -> list[str]:
-    return [cell.strip() for cell in line.strip().strip("|").split("|")]
 
 
 def agrees(rows: list[Row], name: str, cell: str) -> float | None:
@@ -192,15 +176,6 @@ def test_a_fresh_run_gives_the_stated_numbers(command: str, text: str, monkeypat
     monkeypatch.chdir(ROOT)
     rows = matched(command)
     assert (wrong_in_table if text.startswith("|") else wrong_in_output)(rows, text) == []
-
-
-def table_after(page: str, words: str) -> dict[str, list[str]]:
-    """The first table below these words, by the first cells of its lines."""
-    text = (ROOT / page).read_text(encoding="utf-8")
-    lines = text[text.index(words) :].splitlines()
-    first = next(k for k, line in enumerate(lines) if line.startswith("|"))
-    rows = itertools.takewhile(lambda line: line.startswith("|"), lines[first:])
-    return {first: others for first, *others in map(cells, rows)}
 
 
 def test_the_times_until_waves_return_are_the_stored_ones() -> None:

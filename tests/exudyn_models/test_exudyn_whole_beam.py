@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from markdown_tables import lines_after, stated
 from numpy.testing import assert_allclose
 
 from bent_beam import Impact
@@ -13,6 +14,10 @@ from exudyn_models.contacts import Penalty, Rigid, SegmentFriction
 from exudyn_models.integrators.trapezoidal import Trapezoidal
 from exudyn_models.simulation import simulate
 
+PAGE = {
+    (float(kappa), stated(damping.replace("10", "1e", 1))[0]): stated(value)[0]
+    for kappa, damping, value, *_ in lines_after("docs/exudyn.md", "## The whole impact")[2:]
+}
 COARSE = ExudynModel(mesh=UniformMesh(1 / 20))
 
 
@@ -42,6 +47,7 @@ def test_a_bounce_ends_when_the_beam_cannot_come_back_and_keeps_its_energy_accou
 @pytest.mark.parametrize(
     ("kappa_over_nu", "damping", "value", "tolerance"),
     [
+        (1.5, 1e-2, 0.56262, 3e-4),
         (2.0, 1e-2, 0.56630, 3e-4),
         (4.0, 1e-2, 0.56630, 3e-4),
         (0.5, 1e-2, 0.3364, 3e-4),
@@ -51,12 +57,18 @@ def test_a_bounce_ends_when_the_beam_cannot_come_back_and_keeps_its_energy_accou
         (0.8, 1e-2, 0.5236, 3e-4),
         (0.4, 1e-3, 0.2749, 1e-3),
         (0.5, 1e-3, 0.4563, 1e-3),
+        (0.6, 1e-3, 0.57736, 1e-3),
+        (0.8, 1e-3, 0.5907, 4e-3),  # Hermite's 0.5876 to 0.5932: nothing has converged there
         (1.5, 1e-3, 0.6161, 1e-3),
+        (2.0, 1e-3, 0.61502, 1e-3),
+        (4.0, 1e-3, 0.616598, 1e-3),  # by modes
     ],
 )
-def test_restitution_is_that_of_the_hermite_path(kappa_over_nu, damping, value, tolerance):
+def test_restitution_is_that_of_the_hermite_path_and_of_the_page(kappa_over_nu, damping, value, tolerance):
     history = ExudynModel().simulate_to_separation(Impact.whole_beam(kappa_over_nu, relative_damping=damping))
     assert restitution(history) == pytest.approx(value, abs=tolerance)
+    # hits that follow one another amplify round-off, which differs from processor to processor
+    assert restitution(history) == pytest.approx(PAGE[kappa_over_nu, damping], abs=1e-4)
     closes(history)
 
 

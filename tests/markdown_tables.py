@@ -1,0 +1,36 @@
+"""Tables of README and docs, and the numbers in their cells."""
+
+from __future__ import annotations
+
+import itertools
+import re
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[1]
+RAISED = str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹−", "-0123456789-")
+NUMBER = re.compile(r"([-+]?\d+(?:\.(\d+))?)(?:(?:·10|e)([-+]?\d+))?")
+
+
+def stated(text: str) -> tuple[float, float]:
+    """A number as it is printed and the unit of its last digit."""
+    found = NUMBER.search(text.translate(RAISED))
+    assert found, text
+    power = 10.0 ** int(found[3] or 0)
+    return float(found[1]) * power, power * 10.0 ** -len(found[2] or "")
+
+
+def cells(line: str) -> list[str]:
+    return [cell.strip() for cell in line.strip().strip("|").split("|")]
+
+
+def lines_after(page: str, words: str) -> list[list[str]]:
+    """The first table below these words of a page, by lines; the second is the rule under the titles."""
+    text = (ROOT / page).read_text(encoding="utf-8")
+    lines = text[text.index(words) :].splitlines()
+    first = next(k for k, line in enumerate(lines) if line.startswith("|"))
+    return [cells(line) for line in itertools.takewhile(lambda line: line.startswith("|"), lines[first:])]
+
+
+def table_after(page: str, words: str) -> dict[str, list[str]]:
+    """The same by the first cells of its lines."""
+    return {first: others for first, *others in lines_after(page, words)}
