@@ -142,9 +142,11 @@ def _pressure(history: ImpactHistory, front: Array) -> Array:
     return found
 
 
-def moments(history: ImpactHistory, *, uniform: bool = False) -> Moments:
-    """Concentrated impulse and first moment of one side. ``uniform``: a uniform reaction may act and is taken out."""
+def moments(history: ImpactHistory, *, uniform: bool | None = None) -> Moments:
+    """Concentrated impulse and first moment of one side. ``uniform``: a uniform reaction may act and is taken out
+    (``None``: where something presses the zone)."""
     impact = history.impact
+    uniform = impact.zone_pressure > 0.0 if uniform is None else uniform
     total, moment = one_side(history)
     time = history.time
     step = np.diff(time, prepend=time[0])

@@ -247,8 +247,8 @@ def _estimates(question: Question, factor: float, store: RunStore, epsilon: floa
         largest = _loaded(bare, top, first)
         _raise_if_refused(method, largest)
         fixed = chosen_for(method, largest, DURATION * bare.time_scale)
-        # only a load that presses the zone leaves a uniform reaction to take out (tension alone: 0 to rounding)
-        pressed = bool(largest.zone_pressure > 1e-9 * top)
+        # only a load that presses the zone leaves a uniform reaction to take out, of the bare run too
+        pressed = largest.zone_pressure > 0.0
         shares = (0.0, *SHARES)
         found = [(s * top, _reduced(store, fixed, _loaded(bare, s * top, first), uniform=pressed)) for s in shares]
         runs += [run for _, run in found]

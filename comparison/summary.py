@@ -59,7 +59,7 @@ def summary(
 ) -> dict[str, Any]:
     """What a run did and found, SI units; the theory's numbers only where it claims to hold, stress with a section."""
     impact, time = history.impact, history.time
-    found = moments(history, uniform=impact.loaded)
+    found = moments(history)
     end = float(time[-1])
     infinite = predict(impact, [end]) if comparable(impact) else None
     row = infinite.times[0] if infinite else None

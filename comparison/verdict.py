@@ -84,7 +84,7 @@ def _simulated(case: Case, times: Sequence[float]) -> list[dict[str, float | Non
         end = max(times)
         wanted = np.unique(np.concatenate([np.linspace(0.0, end, INSTANTS + 1)[1:], [t for t in times if t > 0.0]]))
         history = method.simulate(impact, end_time=end, save=wanted)
-        found = moments(history, uniform=impact.zone_pressure > 0.0)
+        found = moments(history)
         total = history.array("total_impulse")
         run = []
         for t in times:

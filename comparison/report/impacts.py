@@ -238,7 +238,7 @@ def reduce_history(history: ImpactHistory, shown: Shown) -> dict[str, Any]:
     ``energy``: those of :data:`ENERGIES` that the method reports, as changes since the first saved instant.
     """
     impact = history.impact
-    found = moments(history, uniform=bool(shown.epsilon))
+    found = moments(history)
     tau, wanted, x = found.tau, frames(), places(shown)
     root = np.sqrt(tau)
     reaction = np.gradient(found.impulse, root) / (2.0 * np.sqrt(np.maximum(tau, 1e-300)))  # I ~ √τ

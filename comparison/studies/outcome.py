@@ -156,7 +156,7 @@ def outcome_of(
         energy = energy + history.array("loss_absorbed")
     else:
         energy = energy - energy[0]
-    found = moments(history, uniform=not exact.leading)
+    found = moments(history)
     return Outcome(
         label=label,
         impact=history.impact,

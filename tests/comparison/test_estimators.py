@@ -3,6 +3,7 @@ their error bars.
 """
 
 import dataclasses
+import json
 from types import SimpleNamespace
 
 import numpy as np
@@ -29,6 +30,10 @@ from comparison.reduction import bending_moments, peak_moment
 from comparison.summary import summary
 from hermite_fe import simulate
 from theory import contact_parameters
+
+
+def with_impact(history, impact):
+    return ImpactHistory(history.dataset.assign_attrs(impact=json.dumps(dataclasses.asdict(impact))))
 
 
 def synthetic(kappa, first=(0.0, 0.0, 0.0), epsilon=0.0, noise=0.0, seed=0, times=200, nodes=400, impact=None):
@@ -150,6 +155,17 @@ def test_first_order_is_recovered_with_and_without_uniform_reaction(first):
     assert found.lambda1.value == pytest.approx(exact.lambda1, abs=0.02 * max(abs(exact.lambda1), 1.0))
     assert found.uniform_reaction == pytest.approx(max(first[0] + first[1], 0.0), abs=0.02)
     assert abs(found.lambda1.value - exact.lambda1) <= found.lambda1.error + 0.02 * max(abs(exact.lambda1), 1.0)
+
+
+def test_a_uniform_reaction_is_taken_out_where_something_presses_the_zone():
+    """Whatever the cause: a₀ or tension on a bow. A load that lifts, or one that bends alone, leaves none."""
+    pressed, lifted = (synthetic(0.5, (alpha, 0.0, 0.0), 0.1) for alpha in (1.0, -1.0))
+    assert moments(pressed).pressure[-50:] == pytest.approx(0.1, rel=0.05)
+    for acceleration, tension, chi in ((-0.1, 0.0, 0.0), (0.0, 0.0, 0.1), (-0.05, 0.1, 0.0)):
+        impact = Impact.dimensionless(0.5).replace(acceleration=acceleration, axial_force=tension, curvature_rate=chi)
+        assert np.all(moments(with_impact(lifted, impact)).pressure == 0.0)
+    stretched = Impact.dimensionless(0.5).replace(axial_force=0.2)
+    assert moments(with_impact(pressed, stretched)).pressure[-50:] == pytest.approx(0.1, rel=0.05)
 
 
 def test_a_steady_uniform_reaction_is_averaged_over_times_from_a_quarter_to_one_and_three_quarters():
