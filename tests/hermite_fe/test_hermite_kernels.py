@@ -71,6 +71,14 @@ def test_kernels_on_disk_that_lost_their_end_are_compiled_again(kind: str, kerne
         assert answered(kernels) == "12.0"
 
 
+def test_types_that_are_found_again_are_those_of_the_arguments():
+    @jit.compiled
+    def twice(x: float) -> float:
+        return x + x
+
+    assert [type(twice(x)) for x in (2, 2.0, 3, 3j)] == [int, float, int, complex]
+
+
 def test_a_change_in_one_module_reaches_kernels_of_another(tmp_path: Path):
     package = tmp_path / "kernels"
     package.mkdir()
