@@ -289,6 +289,11 @@ class Impact:
         return any((self.acceleration, self.fourth_derivative, self.curvature_rate, self.axial_force))
 
     @property
+    def off_centre(self) -> bool:
+        """Whether the impact is not symmetric about the middle: only a model of the full beam takes it."""
+        return bool(self.rotation or self.first_touch)
+
+    @property
     def relative_damping(self) -> float:
         """η/T*."""
         return self.damping / self.slow_time_scale

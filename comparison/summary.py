@@ -48,7 +48,7 @@ def companions(
 
 def comparable(impact: Impact) -> bool:
     """Whether the theory has an answer at all: a bow, symmetric about its first touch."""
-    return impact.relative_curvature > 0.0 and not (impact.rotation or impact.first_touch)
+    return impact.relative_curvature > 0.0 and not impact.off_centre
 
 
 def summary(
@@ -107,7 +107,7 @@ def summary(
 
 def _hits_apart(impact: Impact) -> bool:
     """Whether an impact is one of several hits: between two walls, or of a beam that rocks."""
-    return impact.opposite_wall is not None or bool(impact.rotation or impact.first_touch)
+    return impact.opposite_wall is not None or impact.off_centre
 
 
 def _estimated(found: Estimate | None, theory: float | None) -> Compared:

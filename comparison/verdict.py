@@ -68,7 +68,7 @@ def _left(document: dict[str, Any]) -> list[str]:
 def _free(case: Case) -> bool:
     """Whether the whole impact is that of the map: a beam without loads, tension, rocking or a second wall."""
     i = case.impact
-    return not (i.loaded or i.rotation or i.first_touch) and i.opposite_wall is None
+    return not (i.loaded or i.off_centre) and i.opposite_wall is None
 
 
 def _simulated(case: Case, times: Sequence[float]) -> list[dict[str, float | None]]:

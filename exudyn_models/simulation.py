@@ -89,7 +89,7 @@ def simulate(
     Parameters
     ----------
     impact : the problem (SI).
-    end_time : s; None: τ = 0.1.
+    end_time : s; None: 0.1 t*, but 0.01 T* at most.
     mesh : of the half beam, laid over the whole half length (a ``NodesMesh`` may end short of it); None: elements in
         proportion to the distance from the centre, as far out as waves travel, or uniform ones where waves are back
         from the ends before the end time (:func:`chosen_mesh`).
@@ -127,7 +127,7 @@ def simulate(
     elif isinstance(geometry, str):
         geometry = cast(Geometry, GEOMETRIES[one_of("geometry", geometry, GEOMETRIES)]())
     reason = refusal(impact, full_beam) or contact.refuses(impact, element, integrator)
-    if not reason and geometry.true and (impact.rotation or impact.first_touch):
+    if not reason and geometry.true and impact.off_centre:
         reason = "exudyn.geometry.kind true knows the symmetric bow only: with rotation or first_touch take linear"
     if reason:
         raise ValueError(reason)

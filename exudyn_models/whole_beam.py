@@ -69,7 +69,7 @@ def with_parts_for_whole_beam(method: C, impact: Impact) -> C:
         element=ANCFCable(viscosity=0.0) if method.element is None else method.element,
         integrator=integrator,
         contact=contact,
-        full_beam=method.full_beam or bool(impact.rotation or impact.first_touch),
+        full_beam=method.full_beam or impact.off_centre,
         refine=1.0,
     )
 

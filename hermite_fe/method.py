@@ -19,7 +19,7 @@ from hermite_fe.contacts import CONTACTS, NodeContact
 from hermite_fe.far_fields import FAR_FIELDS, GridViscosity
 from hermite_fe.integrators import INTEGRATORS
 from hermite_fe.masses import MASSES
-from hermite_fe.simulate import cut, off_centre, refusal, simulate
+from hermite_fe.simulate import cut, refusal, simulate
 
 __all__ = ["HermiteFE"]
 
@@ -66,7 +66,7 @@ class HermiteFE(Composition):
         What is no impact of a front that spreads from the middle (rocking, a second wall) gets the parts that suit the
         whole beam.
         """
-        chosen = self.for_whole_beam(impact) if off_centre(impact) or impact.opposite_wall is not None else self
+        chosen = self.for_whole_beam(impact) if impact.off_centre or impact.opposite_wall is not None else self
         return simulate(impact, end_time=end_time, save=save, progress=progress, **made_of(chosen))
 
     def chosen_for(self, impact: Impact, end_time: float) -> HermiteFE:

@@ -24,7 +24,7 @@ from hermite_fe.model import BeamModel, beam_model
 from hermite_fe.run import Stepper, Trajectory, integrate
 from hermite_fe.walls import TwoWalls
 
-__all__ = ["off_centre", "refusal", "simulate"]
+__all__ = ["refusal", "simulate"]
 
 MOST_READ = 200  # instants of a history on disk that are looked at for lift
 LARGEST_LIFT = 1e-2  # of V₀t; κ/ν = 0.1: with 0.03 r₀ is 0.5 % off, with 1e-3 0.05 % (docs/numerics.md)
@@ -38,11 +38,6 @@ def refusal(impact: Impact) -> str | None:
             f"{impact.velocity + impact.rotation * impact.first_touch:.6g} m/s (got {impact.rotation!r})"
         )
     return None
-
-
-def off_centre(impact: Impact) -> bool:
-    """Whether the impact is not symmetric: only a model of the full beam takes it."""
-    return bool(impact.rotation or impact.first_touch)
 
 
 def simulate(
@@ -83,7 +78,7 @@ def simulate(
     reason = refusal(impact)
     if reason is not None:
         raise ValueError(reason)
-    full_beam = full_beam or off_centre(impact)
+    full_beam = full_beam or impact.off_centre
     end = impact.checked_end_time(end_time)
     modelled = cut(impact, domain)
     if domain is not None and far_field is None:
@@ -134,7 +129,7 @@ def simulate(
     history = history_of(impact, model, trajectory, settings, (), walls)
 
     def warnings_of(history: ImpactHistory) -> list[str]:
-        if until is not None or walls is not None or off_centre(impact):
+        if until is not None or walls is not None or impact.off_centre:
             return []  # what the choices warn about is a spreading front
         return [*choice.warnings, *lift_warnings(impact, model, history)]
 

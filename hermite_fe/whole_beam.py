@@ -29,7 +29,7 @@ from hermite_fe.far_fields import GridViscosity
 from hermite_fe.integrators import MoreauJean, SignoriniPosition
 from hermite_fe.model import BeamModel
 from hermite_fe.run import Stepper
-from hermite_fe.simulate import off_centre, simulate
+from hermite_fe.simulate import simulate
 
 __all__ = ["ELEMENTS", "cross_checks", "simulate_to_separation", "varied", "with_parts_for_whole_beam"]
 
@@ -55,7 +55,7 @@ def with_parts_for_whole_beam(method: C, impact: Impact) -> C:
         integrator=integrator,
         contact=contact.with_hold(0, 0.0),
         far_field=GridViscosity(viscosity=0.0) if method.far_field is None else method.far_field,
-        full_beam=method.full_beam or off_centre(impact),
+        full_beam=method.full_beam or impact.off_centre,
         domain=None,
         refine=1.0,
     )
