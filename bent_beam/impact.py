@@ -20,6 +20,7 @@ __all__ = ["Impact"]
 RANGE = 1e60  # of every number of a problem, in SI and in its own units: its fourth power can still be calculated with
 LONGEST = 1e30  # time, and change of the free motion by the loads, in the problem's own units
 DEFAULT_DURATION = 0.1  # t*
+FIRST_SPREAD = 0.005  # T*: measured, from when on a finite beam's impulse is 1 % off the infinite beam's (κ/ν = 0.5)
 BEFORE_WAVES_RETURN = 0.01  # T*: the earliest that they change the answer by 2 % (comparison/whole_impact/ends.py)
 
 

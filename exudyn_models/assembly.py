@@ -11,12 +11,13 @@ import math
 import exudyn as exu
 import numpy as np
 
+from bent_beam.impact import FIRST_SPREAD
 from exudyn_models.contacts import Contact, ContactRun, Wall
 from exudyn_models.elements import Beam, Element
 from exudyn_models.elements.beam import Section
 from exudyn_models.geometry import Shape
 from exudyn_models.integrators import Integrator
-from exudyn_models.resolution import FIRST_SPREAD, reachable
+from exudyn_models.resolution import reachable
 from exudyn_models.scaling import Scaling, front_bound
 from exudyn_models.viewer import draw_wall
 

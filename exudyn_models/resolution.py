@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 from bent_beam import Impact
 from bent_beam.checks import positive
+from bent_beam.impact import FIRST_SPREAD
 from bent_beam.meshes import Mesh, NodesMesh, ScaleFreeMesh
 from exudyn_models.integrators import Integrator
 from exudyn_models.scaling import Scaling, front_bound
@@ -34,7 +35,6 @@ __all__ = [
 
 Array = NDArray[np.float64]
 
-FIRST_SPREAD = 0.005  # T*: measured, from when on a finite beam's impulse is 1 % off the infinite beam's (κ/ν = 0.5)
 GROWTH = 0.01  # neighbours of the chosen mesh: 5 elements over the front's bending length at κ/ν = 0.05, 20 at 0.2
 WAVES, GROWTH_OF_WAVES = 2.0, 0.02  # beyond so many times the front's bound there are waves only, and these neighbours
 OF_ZONE, OF_BENDING = 300.0, 30.0  # the smallest element over the front's bound and over the bending ahead of it

@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bent_beam import Impact, ImpactHistory, SimulationError
-from bent_beam.checks import affordable, one_of, whole
+from bent_beam.checks import MOST_INSTANTS, affordable, one_of, whole
 from bent_beam.meshes import Mesh, NodesMesh, checked_nodes, mirrored
 from bent_beam.parts import describe
 from exudyn_models.assembly import assemble, stable_step
@@ -38,7 +38,6 @@ __all__ = ["refusal", "simulate"]
 
 Array = NDArray[np.float64]
 
-MOST_INSTANTS = 1_000_000
 MOST_WORK = 2e9  # steps x nodes: about an hour
 
 

@@ -28,7 +28,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from bent_beam.impact import Impact
+from bent_beam.impact import FIRST_SPREAD, Impact
 from bent_beam.meshes import GradedMesh, Mesh, ScaleFreeMesh
 from hermite_fe.contacts import Contact, NodeContact
 from hermite_fe.far_fields import FarField, GridViscosity
@@ -51,7 +51,6 @@ START = 0.01  # of the run, the most that the start may be held
 LOADED = (1.3e-3, 0.03, 0.005)  # SMALLEST_ELEMENT, ELEMENT_AT_FRONT, GROWTH of runs that measure what a load changes
 PRESSED_HOLD = 16  # rows, of runs that measure what a load changes and presses the zone on
 DOMAIN = 24.0  # √(t/t*) l*: least half length for such a run; 12 and 48 are as good, at 6 waves come back
-HOLD_ENDS = 0.005  # of T*: from when on the impulse on a finite beam leaves the infinite beam's by 1 % (κ/ν = 0.5)
 
 
 @dataclass(frozen=True)
@@ -116,7 +115,7 @@ def chosen_contact(impact: Impact, end_time: float, nodes: Array, contact: Conta
                 )
         return contact.with_hold(0, 0.0)
     start = ELEMENTS_AT_START**2 * resolved_time(impact, nodes)
-    return contact.with_hold(0, min(start, START * end_time, HOLD_ENDS * impact.slow_time_scale))
+    return contact.with_hold(0, min(start, START * end_time, FIRST_SPREAD * impact.slow_time_scale))
 
 
 def chosen_domain(impact: Impact, end_time: float) -> float | None:

@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from bent_beam.checks import affordable
+from bent_beam.checks import MOST_INSTANTS, affordable
 from hermite_fe.integrators import Integrator
 from hermite_fe.kernels import subnormals
 from hermite_fe.kernels.banded import is_finite, quadratic, stiff_multiply
@@ -43,7 +43,6 @@ BLOCK = 10_000_000  # nodes x saved instants that are kept in memory: a gigabyte
 
 Array = NDArray[np.float64]
 
-MOST_INSTANTS = 1_000_000
 MOST_WORK = 1e11  # steps x nodes: about an hour
 FAILURES = {
     SINGULAR: "the step matrix is not positive definite",

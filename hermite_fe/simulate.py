@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from bent_beam.checks import positive
 from bent_beam.errors import SimulationError
 from bent_beam.history import ImpactHistory
-from bent_beam.impact import Impact
+from bent_beam.impact import FIRST_SPREAD, Impact
 from bent_beam.meshes import Mesh
 from bent_beam.parts import describe
 from bent_beam.storage import GrowingFile
@@ -107,7 +107,7 @@ def simulate(
         restitution=choice.contact.restitution,
         hold=choice.contact.hold or 0,
         hold_until=choice.contact.hold_until or 0.0,
-        hold_ends=auto.HOLD_ENDS * impact.slow_time_scale,
+        hold_ends=FIRST_SPREAD * impact.slow_time_scale,
         save=save,
         progress=progress,
         until=ends,
@@ -205,7 +205,7 @@ def hold_report(
     if pull == 0.0:
         return None
     stated = end if contact.hold else contact.hold_until or 0.0
-    until = min(float(stated), float(end), auto.HOLD_ENDS * impact.slow_time_scale)
+    until = min(float(stated), float(end), FIRST_SPREAD * impact.slow_time_scale)
     return {"until": until, "pull": float(pull / push) if push > 0.0 else None}
 
 
@@ -213,7 +213,7 @@ def lift_warnings(impact: Impact, model: BeamModel, history: ImpactHistory) -> l
     """A zone off the wall although nothing lifts it: neither a load nor, before 0.005 T*, waves from the ends."""
     time = history.time
     end = time[-1]
-    if impact.zone_pressure < 0.0 or end > auto.HOLD_ENDS * impact.slow_time_scale:
+    if impact.zone_pressure < 0.0 or end > FIRST_SPREAD * impact.slow_time_scale:
         return []
     places, worst = np.abs(model.system.contacts.places), 0.0
     nodes = np.abs(model.beam.nodes)

@@ -11,7 +11,7 @@
   mesh: consistent). Behind a moving front the exact reaction is zero, and noise of either sign there turns into pushes
   off the wall. Off unless stated.
 
-Neither acts after t_w = 0.005 T* (:data:`hermite_fe.auto.HOLD_ENDS`), from when on waves from the ends may move the
+Neither acts after t_w = 0.005 T* (:data:`bent_beam.impact.FIRST_SPREAD`), from when on waves from the ends may move the
 zone. A held row may pull; what it pulled is recorded as ``held_impulse``, and how hard as ``hold`` in the settings.
 """
 
