@@ -49,16 +49,27 @@ class Stepping:
 class _Reader:
     """Exudyn's ``PostStepUserFunction``: reads every step, saves the state where asked, switches connectors."""
 
-    def __init__(self, run: Recorder, targets: Array, done: Stepping, settling: Settling | None) -> None:
+    def __init__(
+        self,
+        run: Recorder,
+        targets: Array,
+        done: Stepping,
+        settling: Settling | None,
+        progress: Callable[[float], object] | None,
+        until: Callable[[Recorder, float, Array, Array], bool] | None,
+    ) -> None:
         self.run, self.targets, self.done, self.settling = run, targets, done, settling
-        self.must_settle = settling is not None and settling.must_settle
-        self.progress: Callable[[float], object] | None = None
-        self.until: Callable[[Recorder, float, Array, Array], bool] | None = None
+        self.progress, self.until = progress, until
         self.time = 0.0
         self.step = 0.0  # of the running segment
         self.saved = 0
         self.left = False
         self.error: BaseException | None = None
+
+    @property
+    def unsettled(self) -> bool:
+        """Whether a step has ended with contacts that must settle and did not."""
+        return self.settling is not None and self.settling.must_settle and self.settling.unsettled > 0
 
     def __call__(self, mbs: Any, time: float) -> bool:
         try:
@@ -68,13 +79,12 @@ class _Reader:
             return False
 
     def _read(self, mbs: Any, time: float) -> bool:
-        settling = self.settling
-        if self.must_settle and settling is not None and settling.unsettled:
+        if self.unsettled:
             return False
         run = self.run
         if time <= self.time:  # Exudyn calls at the start of a segment, too
             return True
-        q, v = run.read(time, None if settling is None else settling.solution)
+        q, v = run.read(time, None if self.settling is None else self.settling.solution)
         self.time = time
         self.done.steps += 1
         if self.saved < self.targets.size and time >= self.targets[self.saved] * (1.0 - 1e-9):
@@ -111,8 +121,7 @@ def step_through(
     mbs, time, done = run.beam.mbs, settings.timeIntegration, Stepping()
     if settling is not None:
         mbs.SetPostNewtonUserFunction(settling)
-    reader = _Reader(run, targets, done, settling)
-    reader.progress, reader.until = progress, until
+    reader = _Reader(run, targets, done, settling, progress, until)
     try:
         first = segments[0]
         time.startTime, time.endTime, time.numberOfSteps = first.start, first.end, first.steps
@@ -139,7 +148,7 @@ def step_through(
                 raise reader.error
             if not solved and not reader.left:
                 return _failed(done, str(solver.GetErrorString()))
-            if settling is not None and settling.must_settle and settling.unsettled:
+            if settling is not None and reader.unsettled:
                 return done.failed(settling.failure(), UNSETTLED)
             if reader.left:
                 return done

@@ -9,8 +9,8 @@ itself, and every part of it matters alike. So
 A beam that touches in a point takes h = ½Δx²√(μ/EI) and the penalty as it is. Where a zone spreads, e is off by what
 elements lose that land, about in proportion to Δx; how stiff the penalty is, how it is damped and how long the steps
 are matters less, as long as the steps resolve the penalty. So there elements are shorter, steps √2 times as long for
-them, and the penalty half as stiff, with the same damping ratio: kh² and dh stay what they are. On a mesh of somebody's
-own it is as for a point.
+them, and the penalty half as stiff, with the same damping ratio: kh² and dh stay what they are. With a
+mesh, steps or contact of somebody's own it is as for a point.
 """
 
 from __future__ import annotations
@@ -51,7 +51,7 @@ FLATTEST = 1.0 / 150.0  # κ/ν down to which the front does not ask for a stiff
 def with_parts_for_whole_beam(method: C, impact: Impact) -> C:
     """A copy of ``method`` whose open parts are those of the module's head; its ``refine`` is worked in."""
     elements = ZONE_ELEMENTS if impact.kappa_over_nu < 1.0 else ELEMENTS
-    chosen = method.mesh is None and method.contact is None
+    chosen = method.mesh is None and method.contact is None and method.integrator is None
     slower = SLOWER if chosen and FLATTEST <= impact.kappa_over_nu < 1.0 else 1.0
     mesh = UniformMesh(impact.half_length / elements) if method.mesh is None else method.mesh
     mesh = mesh.refined(method.refine)

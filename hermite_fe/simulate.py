@@ -187,7 +187,7 @@ class LongRecord:
         assert self.file is not None
         with self.file.read() as dataset:
             warned = last.with_warnings(warnings_of(ImpactHistory(dataset, self.file.file)))
-        self.file.describe(warned.dataset.attrs)
+        self.file.describe(dict(warned.attrs))
         return ImpactHistory(self.file.finished(), self.file.file)
 
 

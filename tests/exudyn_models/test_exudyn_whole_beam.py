@@ -150,6 +150,22 @@ def test_a_steep_bow_is_laid_flat_enough_for_its_energy_account():
     assert np.abs(history.array("slope")).max() * scale < 3e-4
 
 
+def test_softer_contacts_go_with_the_longer_steps_that_are_chosen_with_them():
+    """kh² stays what it is for a point; with somebody's own steps the penalty is that of a point."""
+    point, zone = (Impact.whole_beam(kappa, relative_damping=1e-2) for kappa in (2.0, 0.5))
+
+    def stiffness_of_steps(method, impact):
+        chosen = method.for_whole_beam(impact)
+        relative = chosen.integrator.time_step * (2.0 * chosen.mesh.nodes(impact.half_length).size - 2.0) ** 2
+        stiffness = chosen.contact.relative_stiffness
+        return relative, 10.0 if stiffness is None else stiffness
+
+    (h, k), (longer, softer) = (stiffness_of_steps(ExudynModel(), impact) for impact in (point, zone))
+    assert longer > 1.4 * h and softer * longer**2 == pytest.approx(k * h**2)
+    own = ExudynModel(integrator=Trapezoidal(time_step=1e-5))
+    assert own.for_whole_beam(zone).contact == own.for_whole_beam(point).contact
+
+
 def test_what_a_part_cannot_model_is_refused():
     impact = Impact.whole_beam(0.5)
     assert "full_beam" in ExudynModel().refuses(impact.replace(rotation=0.1))
