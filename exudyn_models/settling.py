@@ -22,11 +22,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from exudyn_models.contacts import ContactRun
+from exudyn_models.contacts.base import TINY
 
 __all__ = ["Settling"]
 
 BLOCK = 15  # repetitions; with no setting given, none of the impacts measured takes more
-TINY = 1e-30  # a gap that is a state and no length
 
 
 class Settling:

@@ -23,6 +23,7 @@ from exudyn_models.solvers import NewtonSolver
 __all__ = ["Contact", "ContactRun", "Wall"]
 
 Array = NDArray[np.float64]
+TINY = 1e-30  # a gap that is a state and no length
 Flags = NDArray[np.bool_]
 
 

@@ -26,7 +26,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bent_beam.checks import between, non_negative, positive, whole
-from exudyn_models.contacts.base import Contact, ContactRun, Flags, Wall
+from exudyn_models.contacts.base import TINY, Contact, ContactRun, Flags, Wall
 from exudyn_models.contacts.holding import START, HeldStrip
 from exudyn_models.elements import Beam
 
@@ -149,7 +149,7 @@ class _Run(ContactRun):
         if self.explicit:  # nothing is repeated: the state at the start of a step serves all of it
             data, closed = self.beam.mbs.systemData, self.closed_by(q, v)
             if not np.array_equal(closed, data.GetDataCoordinates() <= 0.0):
-                data.SetDataCoordinates(np.where(closed, -1e-30, 1e-30))
+                data.SetDataCoordinates(np.where(closed, -TINY, TINY))
         return changed > 0
 
     def _held_or_let_go(self, time: float) -> int:
