@@ -46,6 +46,7 @@ THEORY, HERMITE = "tests/theory/test_theory_", "tests/hermite_fe/test_hermite_"
 OWN: dict[str, tuple[str, ...]] = {
     "theory/ladder/*.py": (THEORY + "ladder.py",),
     "theory/contact.py": (THEORY + "contact.py",),
+    "theory/damped_zone.py": (THEORY + "damped_zone.py",),
     "theory/fields.py": (THEORY + "fields.py",),
     "theory/kernel.py": (THEORY + "kernel.py",),
     "theory/moment.py": (THEORY + "moment.py",),
