@@ -19,6 +19,7 @@ import uuid
 from dataclasses import dataclass
 from pathlib import Path
 
+from bent_beam.files import write_atomically
 from open_benchmark.adapter import Adapter
 from open_benchmark.problem import Problem, problem_text
 from open_benchmark.result import ResultError, load_result
@@ -56,15 +57,18 @@ def run_adapter(adapter: Adapter, asked: Problem, resolution: str, kept: Path, l
     kept.parent.mkdir(parents=True, exist_ok=True)
     folder = Path(tempfile.mkdtemp(prefix=".run-", dir=kept.parent)).resolve()  # the adapter runs in it
     try:
-        (folder / "problem.toml").write_text(problem_text(asked), encoding="utf-8")
+        write_atomically(folder / "problem.toml", problem_text(asked))
         return _run(adapter, asked, resolution, folder, kept, limits)
     finally:
         shutil.rmtree(folder, ignore_errors=True)
 
 
 def _run(adapter: Adapter, asked: Problem, resolution: str, folder: Path, kept: Path, limits: Limits) -> Run:
+    allowed = resource.getrlimit(resource.RLIMIT_FSIZE)[1]  # which nobody may raise
+    most = limits.output_bytes if allowed == resource.RLIM_INFINITY else min(limits.output_bytes, allowed)
+
     def limit() -> None:
-        resource.setrlimit(resource.RLIMIT_FSIZE, (limits.output_bytes, limits.output_bytes))
+        resource.setrlimit(resource.RLIMIT_FSIZE, (most, most))
         resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
 
     command = adapter.command(folder / "problem.toml", folder / "result.npz", resolution)
