@@ -16,7 +16,7 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -116,27 +116,39 @@ def one_side(history: ImpactHistory) -> tuple[Array, Array]:
 ZONE = 0.7  # of the front, within which the uniform reaction is read off
 
 
-def _pressure(history: ImpactHistory, front: Array) -> Array:
+def _outwards(history: ImpactHistory) -> Iterator[tuple[Array, Array, Array]]:
+    """Of each interval between saved instants, contact points from the centre outwards: place (m), impulse gathered up
+    to there on one side (N s), and length that is the point's own (m)."""
+    sides = 2.0 if history.symmetry == "full" else 1.0
+    moving = "contact_position" in history
+    before = history.array("impulse", 0)
+    for k in range(1, history.time.size):
+        if moving or k == 1:  # a moving contact point has gathered its impulse on the way: take its place halfway
+            places = np.abs(0.5 * (history.contact_positions(k - 1) + history.contact_positions(k)))
+            order = np.argsort(places)
+            places = places[order]
+            own = np.gradient(places) if places.size > 1 else np.zeros(places.size)
+        impulse = history.array("impulse", k)
+        gathered = (impulse - before)[order] / sides
+        before = impulse
+        upto = np.cumsum(gathered) - 0.5 * gathered
+        upto[places == 0.0] = 0.0  # the centre carries for one side of it
+        yield places, upto, own
+
+
+def _pressure(time: Array, outwards: Iterable[tuple[Array, Array, Array]], front: Array) -> Array:
     """Uniform reaction (N/m) over each interval: the slope of the impulse gathered from the centre outwards, by least
     squares over the contact points within :data:`ZONE` of the front.
 
     Few of these may carry the load at a time, each for its neighbours: a sum over them, divided by the length between
     the outermost, is off by what one of them carries; the slope hardly feels it.
     """
-    time = history.time
-    sides = 2.0 if history.symmetry == "full" else 1.0
     found = np.zeros(time.size)
-    for k in range(1, time.size):
-        # a moving contact point has gathered its impulse on the way: take its place halfway
-        places = np.abs(0.5 * (history.contact_positions(k - 1) + history.contact_positions(k)))
-        order = np.argsort(places)
-        places, gathered = places[order], (history.array("impulse", k) - history.array("impulse", k - 1))[order] / sides
+    for k, (places, upto, own) in enumerate(outwards, 1):
         inside = places < ZONE * front[k]
         if inside.sum() < 3:
             continue
-        upto = np.cumsum(gathered) - 0.5 * gathered
-        upto[places == 0.0] = 0.0  # the centre carries for one side of it
-        share = np.gradient(places)[inside]
+        share = own[inside]
         off = places[inside] - np.average(places[inside], weights=share)
         found[k] = (share * off) @ upto[inside] / ((share * off) @ off) / (time[k] - time[k - 1])
     return found
@@ -157,8 +169,9 @@ def moments(history: ImpactHistory, *, uniform: bool | None = None) -> Moments:
     front[1:] = np.where(force[1:] > 0.0, torque[1:] / np.where(force[1:] > 0.0, force[1:], 1.0), 0.0)
     front = np.where(carrying, np.clip(front, 0.0, None), 0.0)
     if uniform:
+        kept = list(_outwards(history)) if history.file is None else None  # of one on disk they are read again
         for _ in range(6):  # the front and the part of the uniform reaction depend on each other: contracts fast
-            pressure = _smooth(time, _pressure(history, front))
+            pressure = _smooth(time, _pressure(time, _outwards(history) if kept is None else kept, front))
             part, turn = pressure * front * step, pressure * front**2 / 2.0 * step
             left = force - part
             front = np.where(left > 0.0, (torque - turn) / np.where(left > 0.0, left, 1.0), front)

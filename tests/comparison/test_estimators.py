@@ -4,7 +4,6 @@ their error bars.
 
 import dataclasses
 import json
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -18,6 +17,7 @@ from comparison.estimators import (
     SIDE,
     Estimate,
     Moments,
+    _outwards,
     _pressure,
     _smooth,
     first_order,
@@ -362,10 +362,9 @@ def test_a_uniform_reaction_that_one_node_in_three_carries_is_read_off_to_a_thou
         places = np.concatenate([-half[:0:-1], half])
         impulse = np.concatenate([shared[:0:-1], shared])
     time = np.array([1.0, 1.1, 1.3])
-    history = SimpleNamespace(
-        time=time,
-        array=lambda name, k: time[k] * impulse,
-        contact_positions=lambda k: places,
-        symmetry=symmetry,
-    )
-    assert _pressure(history, np.full(3, 1.4))[1:] == pytest.approx(5.0, rel=1e-3)
+    fields = {"impulse": (("time", "contact"), time[:, None] * impulse)}
+    history = ImpactHistory.build(
+        impact=Impact.dimensionless(0.5), path="bare", symmetry=symmetry, settings={}, time=time, x=places,
+        contact_x=places, fields=fields,
+    )  # fmt: skip
+    assert _pressure(history.time, _outwards(history), np.full(3, 1.4))[1:] == pytest.approx(5.0, rel=1e-3)
