@@ -147,7 +147,7 @@ class ImpactHistory:
     ) -> ImpactHistory:
         """Assemble a history.
 
-        path : "hermite" or "exudyn"; symmetry : "half" or "full" (what was modelled);
+        path : name of the path; symmetry : "half" or "full" (what was modelled);
         settings : JSON-ready description of mesh, integrator, contact …; fields : name → (dims, values);
         steps, seconds : time steps taken and wall seconds spent in the solver.
         Raises ``ValueError`` when a field is not finite.

@@ -24,6 +24,7 @@ from bent_beam.section import Section
 from bent_beam.versions import versions
 from comparison.whole_impact.number import NUMBERS, Number
 from comparison.whole_impact.outcome import SHORTEST_SEPARATION, WholeImpact, whole_impact
+from comparison.workers import run_all
 
 __all__ = ["Bounce", "Number", "bounce", "bounce_document", "problem", "scales"]
 
@@ -135,8 +136,6 @@ def _one_and_others(
     method: Method, others: Sequence[Method], impact: Impact, save: int, jobs: int, progress: Progress | None
 ) -> tuple[WholeImpact, ImpactHistory, list[tuple[WholeImpact, float]]]:
     """``method``'s run, whole, and of each of ``others`` what it came to and its seconds."""
-    from comparison.workers import run_all  # here: who reads the map starts no processes
-
     def told(done: int) -> None:
         if progress is not None:
             progress(done, 1 + len(others))

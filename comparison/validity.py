@@ -79,7 +79,7 @@ def measure(regime: str, kappa: float, corrections: Sequence[float] = CORRECTION
 
 
 def _local(run: Moments, at: float, which: int) -> float:
-    """Reaction (0) or contact length (1) around τ = ``at``, from a straight line through a third of an e-fold of
+    """Reaction (0) or contact length (1) around τ = ``at``, from a parabola through a third of an e-fold of
     impulses.
     """
     inside = (run.tau > at / 1.18) & (run.tau < at * 1.18)

@@ -52,7 +52,7 @@ from comparison.report.text import (
 from comparison.report.work import StoredMeasurement, stored_measurements
 from comparison.store import RunStore, write_atomically
 from comparison.tables import write_match
-from comparison.whole_impact import map as whole_impact
+from comparison.whole_impact.stored_map import stored_map
 
 __all__ = ["Content", "machine", "page", "write_report"]
 
@@ -120,7 +120,7 @@ def write_report(
         lost_impacts=[*lost, *lost_noise],
         noise=noise,
         pipe=pipe_verdict(),
-        bounce=whole_impact.stored_map(),
+        bounce=stored_map(),
         studies=stored_studies(),
         work=stored_measurements(),
         pictures=[f for f in files if f.suffix == ".png"],

@@ -20,7 +20,7 @@ from comparison.figures import style
 from comparison.figures.gif import Film, write_gif
 from comparison.plain import json_text
 from comparison.store import write_atomically
-from comparison.whole_impact.map import stored_map
+from comparison.whole_impact.stored_map import stored_map
 
 __all__ = ["animate_bounce", "draw_bounce", "draw_map", "write_bounce"]
 

@@ -23,20 +23,17 @@ from itertools import chain, islice
 from pathlib import Path
 from typing import Any, NamedTuple
 
-import numpy as np
-from numpy.typing import NDArray
-
 from bent_beam.method import for_whole_beam, method_from_tables
 from bent_beam.versions import stamp
 from comparison.bounce import RUNS, SEED, bounce, problem
 from comparison.plain import json_text
 from comparison.store import RunStore, default_store, write_atomically
 from comparison.whole_impact.outcome import SHORTEST_SEPARATION
-from comparison.whole_impact.stored_map import DATA, POINT, bounce_from_map, stored_map
+from comparison.whole_impact.stored_map import DATA, POINT
+from comparison.workers import run_all
 
-__all__ = ["DAMPINGS", "KAPPAS", "Point", "bounce_from_map", "grid", "measure_map", "measure_point", "stored_map"]
+__all__ = ["DAMPINGS", "KAPPAS", "Point", "grid", "measure_map", "measure_point"]
 
-Array = NDArray[np.float64]
 KAPPAS = (
     *(0.05, 0.07, 0.1, 0.15, 0.2, 0.25, 0.3, 0.4, 0.5),
     *(0.6, 0.7, 0.75, 0.8, 0.9, 1.0, 1.1, 1.2, 1.35, 1.5, 1.75, 2.0, POINT),
@@ -64,7 +61,7 @@ class Point(NamedTuple):
     def method(self) -> Any:
         """What measures it."""
         impact = problem(self.kappa_over_nu, self.damping)
-        made = method_from_tables(self.path, {} if self.refine == 1.0 else {"refine": self.refine})
+        made = method_from_tables(self.path, {"refine": self.refine})
         if self.longer == 1.0:
             return made
         chosen = for_whole_beam(made, impact)
@@ -116,8 +113,6 @@ def measure_map(
     progress: Callable[[int, int], None] | None = None,
 ) -> list[dict[str, Any]]:
     """Measure ``points`` in their order, on cores or a cluster."""
-    from comparison.workers import run_all  # here: who reads the map starts no processes
-
     folder = None if store is None or store.folder is None else str(store.folder)
     return run_all(
         _kept_point,

@@ -36,7 +36,8 @@ class WholeImpact:
     spacing : of the saved instants around the last contact, which lies between two of them: ``last_contact`` is their
         middle.
     contacts : begin and end of each contact, separations shorter than the shortest ignored.
-    peak_moment_place : |x|/ℓ. translation, vibration, dissipated : shares of the initial energy, one altogether.
+    peak_moment_place : |x|/ℓ. translation, vibration, dissipated : shares of the initial energy, altogether
+        one and the work of the loads.
     energy_defect : what the independently computed terms of the budget leave, of the initial energy; energy_gain : the
         largest rise of the energy, what springs of the wall hold included, above what loads have worked, likewise.
     left : whether the beam is off the wall for good; None of the numbers is final otherwise.

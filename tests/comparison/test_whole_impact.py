@@ -21,6 +21,7 @@ from comparison.whole_impact.hits import hits
 from comparison.whole_impact.number import NUMBERS
 from comparison.whole_impact.outcome import pushes, whole_impact
 from comparison.whole_impact.prediction_errors import PredictionErrors, prediction_errors, random_problem
+from comparison.whole_impact.stored_map import bounce_from_map, stored_map
 from hermite_fe import HermiteFE
 from hermite_fe.integrators import MoreauJean, NonsmoothGeneralizedAlpha, SignoriniPosition
 from hermite_fe.whole_beam import ELEMENTS
@@ -420,32 +421,32 @@ def test_both_paths_give_the_first_hits_between_two_walls_alike() -> None:
 
 
 def test_the_map_holds_its_points_and_lies_between_them() -> None:
-    table = map.stored_map()
+    table = stored_map()
     point = next(p for p in table["points"] if (p["kappa_over_nu"], p["damping"]) == (2.0, 1e-2))
-    found = map.bounce_from_map(2.0, 1e-2)
+    found = bounce_from_map(2.0, 1e-2)
     assert found is not None
     for name in NUMBERS:
         assert found[name].value == pytest.approx(point["numbers"][name][0], rel=1e-12)
         assert found[name].error == pytest.approx(point["numbers"][name][1], rel=1e-12)
     assert found["restitution"].value == pytest.approx(0.5663, abs=1e-4)
-    between = map.bounce_from_map(0.447, 1e-2)
+    between = bounce_from_map(0.447, 1e-2)
     assert between is not None and between["restitution"].value is not None and between["restitution"].error is not None
-    low, high = (map.bounce_from_map(kappa, 1e-2) for kappa in (0.4, 0.5))
+    low, high = (bounce_from_map(kappa, 1e-2) for kappa in (0.4, 0.5))
     assert low is not None and high is not None
     sides = sorted(float(side["restitution"].value or 0.0) for side in (low, high))
     assert sides[0] < between["restitution"].value < sides[1]
     assert between["restitution"].error > max(low["restitution"].error or 0.0, high["restitution"].error or 0.0)
-    assert map.bounce_from_map(0.01, 1e-2) is None
-    assert map.bounce_from_map(1.0, 1.0) is None
-    faint, none = map.bounce_from_map(0.5, 1e-5), map.bounce_from_map(0.5, 0.0)
+    assert bounce_from_map(0.01, 1e-2) is None
+    assert bounce_from_map(1.0, 1.0) is None
+    faint, none = bounce_from_map(0.5, 1e-5), bounce_from_map(0.5, 0.0)
     assert faint is not None and faint == none and faint["restitution"].runs == 24
-    far, point_contact = map.bounce_from_map(math.inf, 1e-2), map.bounce_from_map(1e3, 1e-2)
+    far, point_contact = bounce_from_map(math.inf, 1e-2), bounce_from_map(1e3, 1e-2)
     assert far is not None and point_contact is not None
     assert far["restitution"] == point_contact["restitution"]
 
 
 def test_points_of_another_path_on_the_map_agree_within_their_bars() -> None:
-    table = map.stored_map()
+    table = stored_map()
     assert len(table["others"]) >= 8
     at = {(p["damping"], p["kappa_over_nu"]): p["numbers"] for p in table["points"]}
     for other in table["others"]:
@@ -456,7 +457,7 @@ def test_points_of_another_path_on_the_map_agree_within_their_bars() -> None:
 
 
 def test_energy_of_every_point_of_the_map_is_closed_and_every_beam_has_left() -> None:
-    for point in map.stored_map()["points"]:
+    for point in stored_map()["points"]:
         assert point["left"], point
         assert point["energy_defect"] < 1e-6
         shares = sum(point["numbers"][name][0] for name in ("translation", "vibration", "dissipated"))
@@ -470,7 +471,7 @@ def test_numbers_between_the_points_of_the_map_lie_within_their_bars() -> None:
         kappa, damping = math.exp(random.uniform(math.log(0.3), math.log(3.0))), 10.0 ** random.uniform(-3.5, -1.0)
         integrator = SignoriniPosition(theta=0.5, time_step=1.0 / ELEMENTS**2)
         run = HermiteFE(integrator=integrator).simulate_to_separation(problem(kappa, damping))
-        found, said = whole_impact(run), map.bounce_from_map(kappa, damping)
+        found, said = whole_impact(run), bounce_from_map(kappa, damping)
         assert said is not None
         for name in ("restitution", "translation", "dissipated"):
             value, error = said[name].value, said[name].error
@@ -491,7 +492,7 @@ def test_points_of_the_map_hold_what_finer_elements_and_another_scheme_give(kapp
     method = HermiteFE(mesh=UniformMesh(1.0 / elements), integrator=MoreauJean(theta=0.5, time_step=step))
     found = whole_impact(method.simulate_to_separation(problem(kappa, damping)))
     stored = next(
-        p["numbers"] for p in map.stored_map()["points"] if (p["kappa_over_nu"], p["damping"]) == (kappa, damping)
+        p["numbers"] for p in stored_map()["points"] if (p["kappa_over_nu"], p["damping"]) == (kappa, damping)
     )
     for name in ("restitution", "impulse", "peak_moment", "translation", "dissipated"):
         value, error = stored[name]
@@ -532,14 +533,14 @@ def test_waves_from_the_ends_come_out_again_between_what_was_measured(kappa: flo
 
 
 def checked(seed: int, count: int) -> list[PredictionErrors]:
-    """Verdicts on ``count`` random problems, each drawn problem counts; the seed and what misses are printed."""
+    """Prediction errors of ``count`` random problems, each drawn problem counts; seed and misses are printed."""
     random = np.random.default_rng(seed)
     found = [prediction_errors(random_problem(random)) for _ in range(count)]
     for k, v in enumerate(found):
-        if not (holds_at_limit(v) and is_no_coward(v)):
+        if not (holds_at_limit(v) and is_not_too_early(v)):
             print(f"seed {seed}, problem {k}: {v.impact}, limit {v.valid_until:.4g}, {v.at_limit}, {v.first_wrong}")
-    held, brave = (sum(says(v) for v in found) for says in (holds_at_limit, is_no_coward))
-    print(f"seed {seed}: {held} of {count} hold at the limit, of {brave} it is no less than half of what is possible")
+    held, late = (sum(says(v) for v in found) for says in (holds_at_limit, is_not_too_early))
+    print(f"seed {seed}: {held} of {count} hold at the limit, of {late} it is no less than half of what is possible")
     return found
 
 
@@ -547,20 +548,20 @@ def holds_at_limit(v: PredictionErrors) -> bool:
     return v.at_limit is not None and v.at_limit <= 0.02
 
 
-def is_no_coward(v: PredictionErrors) -> bool:
+def is_not_too_early(v: PredictionErrors) -> bool:
     return v.first_wrong is None or v.valid_until >= 0.5 * v.first_wrong
 
 
 def test_random_problems_are_within_two_per_cent_at_the_limit_of_predict() -> None:
     found = checked(2027, 2)
-    assert all(holds_at_limit(v) and is_no_coward(v) for v in found)
+    assert all(holds_at_limit(v) and is_not_too_early(v) for v in found)
 
 
 @pytest.mark.verify
 def test_sixty_random_problems_are_within_two_per_cent_at_the_time_predict_gives_as_its_limit() -> None:
     found = checked(777, 60)
     assert sum(holds_at_limit(v) for v in found) == 60
-    assert sum(is_no_coward(v) for v in found) == 60
+    assert sum(is_not_too_early(v) for v in found) == 60
 
 
 def test_bounce_on_the_command_line(capsys: pytest.CaptureFixture[str], tmp_path) -> None:  # type: ignore[no-untyped-def]

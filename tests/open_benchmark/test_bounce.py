@@ -7,7 +7,7 @@ import dataclasses
 import numpy as np
 import pytest
 
-from comparison.whole_impact.map import bounce_from_map
+from comparison.whole_impact.stored_map import bounce_from_map
 from open_benchmark.bounce_reference import measure
 from open_benchmark.problem import problem, shipped_ids
 from open_benchmark.references import reference, stored_bounces
