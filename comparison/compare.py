@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from reprlib import Repr
 from typing import Any
 
 import numpy as np
@@ -101,5 +102,8 @@ def comparison_text(found: dict[str, Any], first: str, second: str) -> str:
         f"largest difference of the gaps at the end of the common time: {'-' if gap is None else f'{gap:.2g}'} V0 t",
         "same impact" if found["same_impact"] else "the impacts differ",
     ]
-    lines += [f"{key}: {a!r} | {b!r}" for key, (a, b) in {**found["settings"], **found["versions"]}.items()]
+    shown = Repr()
+    shown.maxlist, shown.maxdict, shown.maxstring, shown.maxother = 4, 50, 200, 200  # a mesh may name all its nodes
+    changed = {**found["settings"], **found["versions"]}
+    lines += [f"{key}: {shown.repr(a)} | {shown.repr(b)}" for key, (a, b) in changed.items()]
     return "\n".join(lines)

@@ -51,7 +51,7 @@ def pull_of(history: ImpactHistory) -> float | None:
         gains = np.diff(rows, axis=0)
         least, most = min(least, float(gains.min(initial=0.0))), max(most, float(gains.max(initial=0.0)))
         before = rows[-1:] if len(rows) else before
-    return None if most <= 0.0 else -least / most
+    return None if most <= 0.0 else (0.0 - least) / most  # nothing pulled: 0, not −0
 
 
 def bending_moments(history: ImpactHistory, k: int | slice) -> tuple[Array, Array]:

@@ -248,7 +248,8 @@
     const { stress, moment } = Beam.at(predicted, predicted.shownUntil), yields = inputs.yield_stress > 0 && stress > inputs.yield_stress;
     const share = inputs.yield_stress > 0 ? ` (${text(100 * stress / inputs.yield_stress, 3)} % of yield)` : "";
     const peak = `Largest stress ${quantity("stress", stress)}${share}`;
-    find("#peak").textContent = `${peak}, largest bending moment ${quantity("moment", moment)}.`;
+    const without = problem.damping > 0 && predicted.contact.ratio < 1 ? " (without the damping, which may take most of it away)" : "";
+    find("#peak").textContent = `${peak}, largest bending moment ${quantity("moment", moment)}${without}.`;
     find("#brief").textContent = `${peak} ↓`;
     const stubby = predicted.ends === "shear";
     const from = predicted.validFrom > 0.01 * predicted.validUntil ? `from ${quantity("time", predicted.validFrom, 2)} (${predicted.validAfter}) ` : "";
