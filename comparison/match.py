@@ -9,7 +9,6 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import asdict, dataclass, field
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -336,10 +335,10 @@ def _about(question: Question) -> dict[str, Any]:
     }
 
 
-def _attempt(question: Question, folder: str | None) -> MatchRow:
+def _attempt(question: Question, store: RunStore) -> MatchRow:
     """One question in a worker: a failure is an answer too, so that the sweep goes on."""
     try:
-        return answer(question, RunStore(Path(folder) if folder else None))
+        return answer(question, store)
     except SimulationError as error:
         return _lost(question, str(error))
     except Refused as error:
@@ -376,11 +375,10 @@ def match(
     from comparison.workers import run_all
 
     store = store or RunStore(None)
-    folder = None if store.folder is None else str(store.folder)
     return list(
         run_all(
             _attempt,
-            [(question, folder) for question in asked],
+            [(question, store) for question in asked],
             jobs=jobs,
             scheduler=scheduler,
             limit=limit,

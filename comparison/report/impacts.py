@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -150,7 +149,7 @@ def show(shown: Shown, method: Method) -> ShownImpact:
     )
 
 
-def _kept(shown: Shown, method: Method, folder: str | None) -> ShownImpact | str:
+def _kept(shown: Shown, method: Method, store: RunStore) -> ShownImpact | str:
     """:func:`show` in a worker, from the store when it is there; a sentence where it fails."""
     question = {
         "shown": [shown.name, shown.kappa_over_nu, *shown.first, shown.epsilon, FRAMES, POINTS, BINS, INSTANTS, END],
@@ -164,7 +163,7 @@ def _kept(shown: Shown, method: Method, folder: str | None) -> ShownImpact | str
                 "steps": found.steps, "warnings": list(found.warnings)}  # fmt: skip
 
     try:
-        kept = RunStore(Path(folder) if folder else None).answer(question, compute)
+        kept = store.answer(question, compute)
     except (SimulationError, ValueError, ArithmeticError) as error:
         return f"{method.label}, {shown.title}: {' '.join(str(error).split())}"
     return ShownImpact(shown, method.label, **{**kept, "warnings": tuple(kept["warnings"])})
@@ -179,8 +178,7 @@ def show_all(
     progress: Callable[[int, int], None] | None = None,
 ) -> tuple[list[ShownImpact], list[str]]:
     """Every impact by every method, impact by impact, and a sentence for each that could not be shown."""
-    folder = None if store.folder is None else str(store.folder)
-    asked = [(shown, method, folder) for shown in wanted for method in methods]
+    asked = [(shown, method, store) for shown in wanted for method in methods]
     slowest_first = sorted(range(len(asked)), key=lambda i: -asked[i][0].epsilon)
     found = run_all(
         _kept,

@@ -99,8 +99,7 @@ def _is_kept(store: RunStore, point: Point) -> bool:
     return file is not None and file.exists()
 
 
-def _kept_point(folder: str | None, point: Point) -> dict[str, Any]:
-    store = RunStore(None if folder is None else Path(folder))
+def _kept_point(store: RunStore, point: Point) -> dict[str, Any]:
     return store.answer(_question(point), lambda: measure_point(point))
 
 
@@ -113,10 +112,10 @@ def measure_map(
     progress: Callable[[int, int], None] | None = None,
 ) -> list[dict[str, Any]]:
     """Measure ``points`` in their order, on cores or a cluster."""
-    folder = None if store is None or store.folder is None else str(store.folder)
+    store = store or RunStore(None)
     return run_all(
         _kept_point,
-        [(folder, point) for point in points],
+        [(store, point) for point in points],
         jobs=jobs,
         scheduler=scheduler,
         progress=progress,
