@@ -110,7 +110,7 @@ def one_side(history: ImpactHistory) -> tuple[Array, Array]:
     else:
         places = np.abs(history.contact_positions(0))
         moment = np.concatenate([part @ places for part in history.blocks("impulse")])
-    return total, moment / 2.0 if history.symmetry == "full" else moment
+    return total, moment / history.sides
 
 
 ZONE = 0.7  # of the front, within which the uniform reaction is read off
@@ -119,7 +119,6 @@ ZONE = 0.7  # of the front, within which the uniform reaction is read off
 def _outwards(history: ImpactHistory) -> Iterator[tuple[Array, Array, Array]]:
     """Of each interval between saved instants, contact points from the centre outwards: place (m), impulse gathered up
     to there on one side (N s), and length that is the point's own (m)."""
-    sides = 2.0 if history.symmetry == "full" else 1.0
     moving = "contact_position" in history
     before = history.array("impulse", 0)
     for k in range(1, history.time.size):
@@ -129,7 +128,7 @@ def _outwards(history: ImpactHistory) -> Iterator[tuple[Array, Array, Array]]:
             places = places[order]
             own = np.gradient(places) if places.size > 1 else np.zeros(places.size)
         impulse = history.array("impulse", k)
-        gathered = (impulse - before)[order] / sides
+        gathered = (impulse - before)[order] / history.sides
         before = impulse
         upto = np.cumsum(gathered) - 0.5 * gathered
         upto[places == 0.0] = 0.0  # the centre carries for one side of it

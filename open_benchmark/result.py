@@ -497,8 +497,7 @@ def _pulled(history: ImpactHistory) -> Array:
     if "held_impulse" in history:
         return np.maximum.accumulate(np.abs(history.array("held_impulse")))
     pulls = np.minimum(np.diff(history.array("impulse"), axis=0), 0.0).sum(axis=1)
-    copies = 1.0 if history.symmetry == "full" else 2.0
-    return copies * np.concatenate([[0.0], np.cumsum(-pulls)])
+    return 2.0 / history.sides * np.concatenate([[0.0], np.cumsum(-pulls)])
 
 
 def _problem_of(history: ImpactHistory, end: float) -> Problem:

@@ -39,7 +39,7 @@ class Hit:
 def hits(history: ImpactHistory, *, longest_break: float = LONGEST_BREAK) -> list[Hit]:
     """All hits of a run, in order of time."""
     impact, time = history.impact, history.time
-    copies = 2.0 if history.symmetry == "half" else 1.0
+    copies = 2.0 / history.sides
     names = {"front": "impulse", "opposite": "opposite_impulse"}
     rows = {wall: copies * history.array(name) for wall, name in names.items() if name in history}
     sums = {wall: values.sum(axis=1) for wall, values in rows.items()}
