@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import datetime
 import importlib.metadata
 import json
 import platform
@@ -12,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from bent_beam.files import write_atomically
-from bent_beam.versions import processor
+from bent_beam.versions import processor, today
 
 __all__ = ["RESULTS", "Row", "keep", "keep_rows", "options", "said"]
 
@@ -76,7 +75,7 @@ def keep(file: Path, rows: list[Row]) -> list[Row]:
 def keep_rows(file: Path, rows: list[dict[str, Any]]) -> None:
     """Write JSON rows of any kind."""
     record = {
-        "date": datetime.datetime.now(datetime.UTC).date().isoformat(),
+        "date": today(),
         "processor": processor(),
         "python": platform.python_version(),
         "versions": {name: importlib.metadata.version(name) for name in VERSIONS},

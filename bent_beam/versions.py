@@ -8,7 +8,7 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
-__all__ = ["processor", "stamp", "versions"]
+__all__ = ["processor", "stamp", "today", "versions"]
 
 
 def versions() -> dict[str, str]:
@@ -22,9 +22,14 @@ def versions() -> dict[str, str]:
     return found
 
 
+def today() -> str:
+    """The day (UTC), as in 2026-11-22."""
+    return datetime.now(UTC).date().isoformat()
+
+
 def stamp(made_by: str) -> dict[str, Any]:
     """Where stored numbers are from: the command that makes them anew, the day (UTC) and the versions."""
-    return {"made_by": made_by, "date": datetime.now(UTC).date().isoformat(), "versions": versions()}
+    return {"made_by": made_by, "date": today(), "versions": versions()}
 
 
 def processor() -> str:

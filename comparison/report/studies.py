@@ -12,7 +12,6 @@ import json
 import os
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass
-from datetime import UTC, datetime
 from io import BytesIO
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -22,7 +21,7 @@ from PIL import Image
 
 from bent_beam.cases import Case, case_from_tables
 from bent_beam.errors import SimulationError
-from bent_beam.versions import stamp, versions
+from bent_beam.versions import stamp, today, versions
 from comparison.store import write_atomically
 from comparison.workers import run_all
 
@@ -125,10 +124,6 @@ def _note(name: str, title: str) -> StudyNote:
     except (ArithmeticError, ValueError, SimulationError) as error:
         return lost(name, title, " ".join(str(error).split()))
     return StudyNote(name, title, conclusion, case.title, date=today())
-
-
-def today() -> str:
-    return datetime.now(UTC).date().isoformat()
 
 
 def small_picture(file: Path, target: Path) -> None:
