@@ -41,6 +41,7 @@ def bounce(
     Example: bentbeam bounce --kappa-over-nu 2 --damping 0.01
     """
     from bent_beam.cases import load_case
+    from bent_beam.method import paths_with
     from bent_beam.parts import InputError
     from comparison.bounce import bounce as follow
     from comparison.bounce import bounce_document, problem
@@ -61,7 +62,8 @@ def bounce(
         impact, section = problem(kappa_over_nu or 0.0, damping), None
         method = methods_of([path], assignments or ())[0]
     if not hasattr(method, "for_whole_beam"):
-        raise InputError(f"path: {path} has no choices for the whole beam (hermite and exudyn have)")
+        able = paths_with("for_whole_beam")
+        raise InputError(f"path: {path} has no choices for the whole beam ({' and '.join(able)} have)")
     if out is not None:
         check_writable(out, folder=True)
     with Console(quiet).progress(f"{path}: the whole impact") as bar:

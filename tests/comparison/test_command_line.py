@@ -99,7 +99,7 @@ def test_match_prints_rows(capsys, monkeypatch, tmp_path):
         (["predict", "none.toml"], "none.toml"),
         (["predict", K10, "--time", "-1"], "times"),
         (["simulate", K10, "--path", "abaqus"], "path"),
-        (["bounce", "--kappa-over-nu", "2", "--damping", "0.01", "--path", "self_similar"], "hermite and exudyn have"),
+        (["bounce", "--kappa-over-nu", "2", "--damping", "0.01", "--path", "self_similar"], "exudyn and hermite have"),
         (
             ["simulate", K10, "--set", "beam.bending_stiffness=-1.0"],
             "beam.bending_stiffness must be positive (got -1.0)",
