@@ -28,7 +28,10 @@ RUNS = (  # nodes, steps, saved instants
     (1_000, 10_000, 10_000),
     (10_000, 4_000, 4_000),  # too much for memory: written to disk on the way
 )
-SWEEPS = (1_000, 10_000)  # rows
+SWEEPS = {  # rows
+    ("sweep", "two processes"): (1_000, 10_000),
+    ("cluster", "a dask cluster, scheduler included"): (1_000, 4_000),
+}
 LENGTH = 100.0  # l*, half the beam: no wave comes back
 
 
@@ -116,8 +119,8 @@ def measure() -> list[dict[str, Any]]:
         out.append({"nodes": nodes, "steps": steps, "saved": saved, **row})
     print("\n| rows of a sweep | on | seconds | memory before, MB | after, MB |")
     print("| ---: | --- | ---: | ---: | ---: |")
-    for kind, on in (("sweep", "two processes"), ("cluster", "a dask cluster, scheduler included")):
-        for rows in SWEEPS:
+    for (kind, on), sizes in SWEEPS.items():
+        for rows in sizes:
             row = apart(kind, rows)
             memory = f"{row['before']:.0f} | {row['megabytes']:.0f}"
             print(f"| {rows:,} | {on} | {row['seconds']:.1f} | {memory} |", flush=True)
