@@ -173,9 +173,7 @@ def _main() -> None:
     parser.add_argument("--out", type=Path, default=Path("docs/figures"))
     chosen = parser.parse_args()
     found = measure(chosen.runs, chosen.seed, jobs=chosen.jobs)
-    about = {
-        **stamp(f"python -m comparison.error_bars --runs {chosen.runs} --seed {chosen.seed}"),
-    }
+    about = stamp(f"python -m comparison.error_bars --runs {chosen.runs} --seed {chosen.seed}")
     write_atomically(chosen.out / "error-bars.json", json_text(about | dataclasses.asdict(found), indent=1))
     draw_coverage(found, chosen.out)
     print(f"covered {found.share:.1%}, median bar over error {found.ratio:.2g}, without a number {found.lost:.1%}")

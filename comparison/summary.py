@@ -62,10 +62,9 @@ def summary(
     found = moments(history)
     end = float(time[-1])
     infinite = predict(impact, [end]) if comparable(impact) else None
-    row = infinite.times[0] if infinite else None
-    holds = row is not None and row.valid
+    row = infinite.times[0] if infinite and infinite.times[0].valid else None
     leading = None
-    if holds and not impact.loaded:
+    if row and not impact.loaded:
         try:
             leading = leading_order(found, companions=others)
         except ValueError:
@@ -80,12 +79,8 @@ def summary(
         "steps": history.steps,
         "seconds": history.seconds,
         "time": end,
-        "half_contact_length": Compared(
-            front * impact.length_scale,
-            None,
-            row.half_contact_length if row and holds else None,
-        ),
-        "total_impulse": Compared(history.array("total_impulse")[-1], None, row.impulse if row and holds else None),
+        "half_contact_length": Compared(front * impact.length_scale, None, row.half_contact_length if row else None),
+        "total_impulse": Compared(history.array("total_impulse")[-1], None, row.impulse if row else None),
         "lambda0": _estimated(
             None if leading is None else leading.lambda0, None if infinite is None else infinite.lambda0
         ),

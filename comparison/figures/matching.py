@@ -96,8 +96,12 @@ def draw_first_order(
     marks = style.marks(r.label for r in asked)
     tension = any(first[3] for first in firsts if first)
     curve = np.linspace(0.05, 0.9999, 400)  # λ₁ jumps to 0 at κ/ν = 1
+    columns = (
+        ("lambda1", r"$\lambda_1$", "lambda_axial", r"$\lambda_N$"),
+        ("r1", r"$r_1$", "r_axial", r"$r_N$"),
+    )
     with style.figure(1, 2, width=style.PAGE, height=3.6) as (fig, axes):
-        for column, (what, symbol) in enumerate((("lambda1", r"$\lambda_1$"), ("r1", r"$r_1$"))):
+        for column, (what, symbol, tensile, of_tension) in enumerate(columns):
             axis = axes[column]
             largest = 1.0
             for i, first in enumerate(firsts):
@@ -105,7 +109,7 @@ def draw_first_order(
                 mine = [r for r in asked if (None if r.of_tension_alone else r.first) == first]
                 shown = curve[curve >= 0.8 * min(r.kappa_over_nu for r in mine)]
                 if first is None:
-                    values = getattr(contact_parameters(shown), {"lambda1": "lambda_axial", "r1": "r_axial"}[what])
+                    values = getattr(contact_parameters(shown), tensile)
                     named = r"tension alone: $\lambda_N$, $r_N$"
                 else:
                     values = getattr(contact_parameters(shown, *first[:3], axial=first[3]), what)
@@ -130,7 +134,6 @@ def draw_first_order(
                         largest = max(largest, *(abs(c.value / unit) for _, c, unit in points))
             axis.set_yscale("symlog", linthresh=1.0) if largest > 30 else None
             axis.set_xlabel(r"$\kappa/\nu$  (1)")
-            of_tension = {"lambda1": r"$\lambda_N$", "r1": r"$r_N$"}[what]
             axis.set_ylabel(f"{', '.join([symbol] * any(firsts) + [of_tension] * (None in firsts))}  (1)")
             style.panel_label(axis, "(a)" if column == 0 else "(b)")
         symbols = r"($\alpha$, $\psi$, $\chi$, $N$)" if tension else r"($\alpha$, $\psi$, $\chi$)"
