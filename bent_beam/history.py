@@ -40,7 +40,7 @@ from numpy.typing import NDArray
 
 from bent_beam.checks import one_of, shortened
 from bent_beam.impact import Impact
-from bent_beam.storage import blocks, copy_whole, read_dataset, write_dataset
+from bent_beam.storage import blocks, copy_whole, open_lazily, read_dataset, write_dataset
 from bent_beam.versions import versions
 
 if TYPE_CHECKING:
@@ -174,7 +174,9 @@ class ImpactHistory:
         return cls(Record(variables, attrs))
 
     def with_warnings(self, warnings: Sequence[str]) -> ImpactHistory:
-        """The same with other warnings."""
+        """The same with other warnings. ``ValueError`` for one on disk, whose warnings are its file's."""
+        if self.file is not None:
+            raise ValueError(f"file {self.file} holds the warnings of this history: they cannot be replaced in memory")
         now, attrs = self._now, {**self.attrs, "warnings": json.dumps(list(warnings))}
         return replace(self, source=replace(now, attrs=attrs) if isinstance(now, Record) else now.assign_attrs(attrs))
 
@@ -299,10 +301,17 @@ class ImpactHistory:
 
     # keeping ------------------------------------------------------------------------------------------
     def save(self, file: str | Path) -> Path:
-        """Write netCDF: a killed run or a full disk leaves either the whole file or none. Returns the path."""
+        """Write netCDF: a killed run or a full disk leaves either the whole file or none. Returns the path.
+
+        Of a history on disk this is a copy of its file; ``ValueError`` when attributes were changed since.
+        """
         if self.file is None:
             write_dataset(self.dataset, Path(file))
         else:
+            with open_lazily(self.file) as kept:
+                changed = [name for name, value in self.attrs.items() if kept.attrs.get(name) != value]
+            if changed:
+                raise ValueError(f"{changed[0]} was changed, but {self.file}, which save copies, holds the old value")
             copy_whole(self.file, Path(file))
         return Path(file)
 

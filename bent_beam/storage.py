@@ -25,7 +25,7 @@ from bent_beam.files import write_atomically
 if TYPE_CHECKING:
     import xarray as xr
 
-__all__ = ["GrowingFile", "blocks", "copy_whole", "read_dataset", "write_dataset"]
+__all__ = ["GrowingFile", "blocks", "copy_whole", "open_lazily", "read_dataset", "write_dataset"]
 
 PATIENCE = 120  # s of the clock, beyond the limit of CPU time that ends an examination
 LARGE = 1_000_000_000  # bytes of all values; a larger history is read as it is asked for

@@ -106,6 +106,11 @@ def test_a_history_that_grows_on_disk_is_the_one_from_memory(tmp_path, monkeypat
     monkeypatch.setattr("bent_beam.storage.LARGE", 10)
     again = ImpactHistory.load(copy)
     assert again.file == copy and again.dataset.equals(whole) and not again.dataset["gap"].variable._in_memory
+    with pytest.raises(ValueError, match="cannot be replaced in memory"):
+        history.with_warnings(["other"])
+    again.dataset.attrs["steps"] = 9
+    with pytest.raises(ValueError, match=r"steps was changed, but .*copy\.nc"):
+        again.save(tmp_path / "other.nc")
     del history, growing
     gc.collect()
     assert [f.name for f in tmp_path.iterdir()] == ["copy.nc"]  # what grew is gone with its dataset
