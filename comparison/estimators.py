@@ -30,7 +30,9 @@ __all__ = [
     "LeadingEstimate",
     "Moments",
     "first_order",
+    "last_tenth",
     "leading_order",
+    "local_front",
     "moments",
     "one_side",
     "with_companions",
@@ -282,7 +284,7 @@ def _leading_values(found: Moments, window: float) -> tuple[float, float, float,
 
 def _lift(history: ImpactHistory) -> Array:
     """Largest gap inside nine tenths of the contact zone over V₀t at the saved instants (0 without a zone)."""
-    front = local_front(history)
+    front = local_front(history.time, *one_side(history))
     lift = np.zeros(history.time.size)
     for k, t in enumerate(history.time):
         inside = np.abs(history.positions(k)) <= 0.9 * front[k]
@@ -291,16 +293,25 @@ def _lift(history: ImpactHistory) -> Array:
     return lift
 
 
-def local_front(history: ImpactHistory) -> Array:
-    """λ_c (m) at the saved instants: centroid of the impulse gathered over the last tenth of each instant's time."""
-    time = history.time
-    total, moment = one_side(history)
+def local_front(time: Array, impulse: Array, moment: Array) -> Array:
+    """λ_c at the instants ``time`` from one side's ``impulse`` and its first ``moment``, all of shape (times,), in the
+    unit of moment/impulse: the centroid of what was gathered over the last tenth of each instant's time.
+
+    That lies where the front was at the mean of √t, and is carried to the instant: exact for λ_c ~ √t.
+    """
     front = np.zeros(time.size)
     for k in range(1, time.size):
-        j = min(int(np.searchsorted(time, 0.9 * time[k])), k - 1)
-        if total[k] > total[j]:
-            front[k] = max((moment[k] - moment[j]) / (total[k] - total[j]), 0.0)
+        j = last_tenth(time, k)
+        if impulse[k] > impulse[j]:
+            roots = np.sqrt(time[[j, k]])
+            centroid = (moment[k] - moment[j]) / (impulse[k] - impulse[j])
+            front[k] = max(centroid * roots[1] / roots.mean(), 0.0)
     return front
+
+
+def last_tenth(time: Array, k: int) -> int:
+    """The saved instant at which the last tenth of the time of instant ``k`` begins."""
+    return max(0, min(int(np.searchsorted(time, 0.9 * time[k])), k - 1))
 
 
 # --- first order -----------------------------------------------------------------------------------------------

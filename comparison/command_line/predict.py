@@ -6,7 +6,8 @@ from typing import Annotated
 
 import typer
 
-from comparison.command_line.options import CaseFile, Json, Set, emit
+from comparison.command_line.console import Console
+from comparison.command_line.options import CaseFile, Json, Quiet, Set, emit
 
 __all__ = ["predict"]
 
@@ -19,6 +20,7 @@ def predict(
     ] = False,
     assignments: Set = None,
     as_json: Json = False,
+    quiet: Quiet = False,
 ) -> None:
     """Predict contact, force and stress of a case by theory.
 
@@ -30,5 +32,10 @@ def predict(
     from comparison.verdict import verdict, verdict_text
 
     loaded = load_case(case, assignments or ())
-    document = verdict(loaded, time or [loaded.end_time], simulate=simulate)
+    times = time or [loaded.end_time]
+    if simulate:
+        with Console(quiet or as_json).progress(f"the whole beam: {case.name}") as bar:
+            document = verdict(loaded, times, simulate=True, progress=bar.fraction)
+    else:  # at once: a bar would take longer to set up
+        document = verdict(loaded, times)
     emit(document, as_json, lambda: verdict_text(document))

@@ -22,6 +22,7 @@ from comparison.estimators import (
     _smooth,
     first_order,
     leading_order,
+    local_front,
     moments,
     one_side,
     with_companions,
@@ -132,6 +133,13 @@ def test_the_first_moment_is_that_of_where_the_pushes_were(symmetry):
     impulse, moment = one_side(history)
     assert impulse == pytest.approx(time)
     assert moment[50:] == pytest.approx(2.0 / 3.0 * time[50:] ** 1.5, rel=1e-3)
+
+
+@pytest.mark.parametrize("times", [np.linspace(0.0, 0.1, 41), np.linspace(0.0, 0.3, 30) ** 2])
+def test_the_front_is_where_it_is_at_the_instant_not_where_it_was_on_the_way(times):
+    """Of an exact history, F = c/√t at λ₀√t: I = 2c√t, J = cλ₀t."""
+    front = local_front(times, 3.0 * np.sqrt(times), 1.5 * 0.7 * times)
+    assert front == pytest.approx(0.7 * np.sqrt(times), rel=1e-12)
 
 
 def test_noise_widens_the_error_bar_and_stays_inside_it():

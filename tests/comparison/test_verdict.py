@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -9,9 +12,11 @@ import pytest
 
 from bent_beam import Impact, ImpactHistory
 from bent_beam.cases import Case
+from comparison.command_line.app import run
 from comparison.verdict import verdict
 from theory import predict
 
+K10 = Path(__file__).resolve().parents[2] / "cases" / "thesis_K10.toml"
 TIMES = [0.001, 0.002, 0.0025]
 
 
@@ -23,7 +28,10 @@ def case(**loads: float) -> Case:
 class Perfect:
     """A method whose runs are what the theory says, on a mesh of its own."""
 
-    def simulate(self, impact: Impact, *, end_time: float, save: Any) -> ImpactHistory:
+    def simulate(self, impact: Impact, *, end_time: float, save: Any, progress: Any = None) -> ImpactHistory:
+        if progress is not None:
+            progress(0.5)
+            progress(1.0)
         time = np.asarray(save)
         x = np.linspace(0.0, 0.15, 600)
         fine = np.linspace(0.0, np.sqrt(end_time), 4001)[1:] ** 2
@@ -60,6 +68,36 @@ def test_a_perfect_run_is_read_as_the_theory_says(monkeypatch: pytest.MonkeyPatc
         assert exact["contact_force_per_length"] == pytest.approx(acceleration)
         assert row["half_contact_length"] == pytest.approx(exact["half_contact_length"], rel=5e-3)
         assert row["impulse"] == pytest.approx(exact["impulse"], rel=1e-3)
+
+
+@pytest.mark.parametrize("options", [[], ["--quiet"], ["--json"]])
+def test_a_simulation_says_how_far_it_is_unless_asked_to_be_silent(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], options: list[str]
+) -> None:
+    """Both runs on one bar, which never goes back and ends full."""
+    told: list[float] = []
+    asked: list[bool] = []
+
+    def console(quiet: bool) -> Recorded:
+        asked.append(quiet)
+        return Recorded(told)
+
+    monkeypatch.setattr("bent_beam.method.method_from_tables", lambda *_: Perfect())
+    monkeypatch.setattr("comparison.command_line.predict.Console", console)
+    assert run(["predict", str(K10), "--simulate", *options]) == 0
+    assert asked == [bool(options)] and capsys.readouterr().err == ""
+    assert told == sorted(told) and len(told) == 4 and told[-1] == pytest.approx(1.0)
+
+
+class Recorded:
+    """A console that keeps what a bar would show."""
+
+    def __init__(self, told: list[float]) -> None:
+        self.fraction = told.append
+
+    @contextmanager
+    def progress(self, _: str) -> Iterator[Any]:
+        yield self
 
 
 @pytest.mark.parametrize("acceleration", [0.0, 20.0])
