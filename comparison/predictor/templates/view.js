@@ -244,7 +244,8 @@
     predicted = Beam.solve(problem);
     const [verdict, why] = REGIMES[predicted.contact.regime];
     find("#verdict").textContent = verdict;
-    find("#why").textContent = why;
+    const lifted = predicted.contact.regime === "continuous" && problem.damping > 0;
+    find("#why").textContent = why + (lifted ? " The beam’s own damping lifts its middle off the wall for a time." : "");
     const { stress, moment } = Beam.at(predicted, predicted.shownUntil), yields = inputs.yield_stress > 0 && stress > inputs.yield_stress;
     const share = inputs.yield_stress > 0 ? ` (${text(100 * stress / inputs.yield_stress, 3)} % of yield)` : "";
     const peak = `Largest stress ${quantity("stress", stress)}${share}`;
