@@ -36,8 +36,8 @@ DATA = Path(__file__).with_name("damped_zone.json")
 LOADS = ("press", "lift", "chi", "psi", "axial")
 
 
-#: κ/ν from which what damping changes of the answer to loads is less than its own noise.
-QUIET = 0.44
+#: κ/ν between which what damping changes of the answer to loads falls below its own noise and ceases to count.
+QUIET = (0.4, 0.5)
 #: Over the age of spreading: before, a zone is too short for relative changes of its length to say anything.
 SHORT = 3.0
 #: κ/ν between which what damping changes of the answer to a pressure ceases to be part of the prediction: beyond, the
@@ -149,12 +149,16 @@ def ratios(kappa_over_nu: float, r0: float, age: ArrayLike) -> FloatArray:
     return np.array([spread * np.where(before, 0.0, 1.0 - point / ages), reaction, impulse])
 
 
+def _quiet(kappa_over_nu: float) -> float:
+    return float(np.interp(kappa_over_nu, QUIET, (0.0, 1.0)))
+
+
 def load_rates(kappa_over_nu: float, age: ArrayLike) -> FloatArray:
     """What damping changes of the answer to a load, per unit of load times τ: relative, (loads, 3, n), `LOADS`."""
     ages = np.atleast_1d(np.asarray(age, dtype=np.float64))
     table = _tables()[1]
     last = float(table.age[-1])
-    counts = (ages >= SHORT * age_of_spreading(kappa_over_nu)) * (kappa_over_nu < QUIET)
+    counts = (ages >= SHORT * age_of_spreading(kappa_over_nu)) * (1.0 - _quiet(kappa_over_nu))
     return np.asarray(table.at(kappa_over_nu, ages) * np.sqrt(np.where(ages > last, last / ages, 1.0)) * counts)
 
 
@@ -175,8 +179,11 @@ def press_factors(kappa_over_nu: float, age: ArrayLike, press: ArrayLike) -> Flo
 
 
 def waiting(kappa_over_nu: float, age: ArrayLike) -> FloatArray:
-    """What the half length lacks of λ₁τ/λ₀ since damping delays it, relative, shape (n,); 0 where `load_rates` tell."""
+    """What the half length lacks of λ₁τ/λ₀ since damping delays it, relative, shape (n,).
+
+    0 where `load_rates` tell; within `QUIET` the share that these leave.
+    """
     ages = np.atleast_1d(np.asarray(age, dtype=np.float64))
     point = age_of_spreading(kappa_over_nu)
-    counts = (ages > point) * (kappa_over_nu >= QUIET)
+    counts = (ages > point) * _quiet(kappa_over_nu)
     return np.asarray(WAITING * point / (np.maximum(ages, SHORT * point) - point) * counts)

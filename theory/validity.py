@@ -39,7 +39,7 @@ from theory.moment import peak_moment_of
 from theory.second_order import second_order
 from theory.similarity import SelfSimilarWave
 
-#: Made by `python -m comparison.whole_impact.ends`: relative changes over κ/ν and t/T*, and the tolerance.
+#: Made by `python -m comparison.whole_impact.ends`: relative changes over κ/ν and phase, and the tolerance.
 DATA = Path(__file__).with_name("ends.json")
 #: Of the tolerance, what the known errors may take.
 SHARE = 0.75
@@ -92,31 +92,46 @@ def _table() -> dict[str, Any]:
     return dict(json.loads(DATA.read_text(encoding="utf-8")))
 
 
+def phase(kappa_over_nu: float, time: FloatArray) -> dict[str, FloatArray]:
+    """Phases of waves from the ends where they meet the front, at t/T* = `time` (ℓ the half length).
+
+    Bending waves that start together have the phase x²/(4ct) at x. Those that come back from the middle's image at 2ℓ
+    meet the front, at λ₀√(ct), with 1/t − λ₀/√t more than it has itself (`ends`); those that start at the end with
+    (1/√t − λ₀)²/4, 0 once the front is there (`quartic`). At equal phases curves of different κ/ν have their crests.
+    """
+    front, root = _front(kappa_over_nu), 1.0 / np.sqrt(time)
+    return {"ends": root * (root - front), "quartic": 0.25 * np.maximum(root - front, 0.0) ** 2}
+
+
+@lru_cache(maxsize=128)
+def _front(kappa_over_nu: float) -> float:
+    """λ₀, 0 for one point."""
+    return float(contact_parameters(kappa_over_nu).lambda0)
+
+
 def ends_errors(kappa_over_nu: float, time: FloatArray, damping: float = 0.0) -> FloatArray:
     """Relative change of half length, force and impulse by the ends, at t/T* = `time` and η/T* = `damping`.
 
-    Linear in κ/ν at equal times over the arrival, and in ln t, between what was measured. Below the smallest κ/ν the
-    same comes earlier, as 1/λ₀², like the time at which the contact itself reaches the ends. Damping kills the short
-    waves, which are the first to come back: a factor on time.
+    Between what was measured linear in ln κ/ν at equal phases, and in the phase. Below the smallest κ/ν the same comes
+    earlier, as 1/λ₀², like the time at which the contact itself reaches the ends. Damping kills the short waves, which
+    are the first to come back: a factor on time.
 
     Returns:
         Without loads, and per unit of q₀ (V₀T*/ℓ⁴), shape (2, 3, n).
     """
     table = _table()
-    ratios, later = np.array(table["kappa_over_nu"]), np.log(table["later"])
+    ratios = np.array(table["kappa_over_nu"])
     stretch, size = _factor(damping) * _flattened(kappa_over_nu), max(1.0, float(ratios[0]) / kappa_over_nu)
     here = min(max(kappa_over_nu, float(ratios[0])), float(ratios[-1]))
     i = min(max(int(np.searchsorted(ratios, here)) - 1, 0), ratios.size - 2)
-    share = (here - ratios[i]) / (ratios[i + 1] - ratios[i])
-
-    def between(rows: list[Any]) -> FloatArray:
-        return np.asarray((1.0 - share) * np.array(rows[i]) + share * np.array(rows[i + 1]))
-
+    share = math.log(here / ratios[i]) / math.log(ratios[i + 1] / ratios[i])
+    phases = phase(here, time / stretch)
     found = np.empty((2, 3, time.size))
     for k, cause in enumerate(("ends", "quartic")):
-        at = np.log(time / (stretch * float(between(table[cause]["arrival"]))))
+        stored = table[cause]
         for j, name in enumerate(("half_length", "reaction", "impulse")):
-            found[k, j] = np.interp(at, later, between(table[cause][name]), left=0.0)
+            row = (1.0 - share) * np.array(stored[name][i]) + share * np.array(stored[name][i + 1])
+            found[k, j] = np.interp(phases[cause], stored["phase"], row, right=0.0)
     found[1] *= size
     return found
 
@@ -140,8 +155,7 @@ def _factor(damping: float) -> float:
 def latest(kappa_over_nu: float, damping: float = 0.0) -> float:
     """t/T* beyond which nothing was measured: the ends have long been felt."""
     table = _table()
-    last = max(table["ends"]["arrival"]) * float(table["later"][-1])
-    return last * _factor(damping) * _flattened(kappa_over_nu)
+    return float(table["last"]) * _factor(damping) * _flattened(kappa_over_nu)
 
 
 def validity(

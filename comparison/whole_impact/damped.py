@@ -48,7 +48,7 @@ MANY_ELEMENTS = tuple(np.geomspace(0.05, 0.0125, 8).tolist())
 STEEP = 0.6  # κ/ν from which on two meshes are enough: at 0.75 the noise is 0.02 %, at 0.3 it would be 0.7 %
 SHORT = 0.3  # λ₀ (of κ/ν = 0.8) below which a zone is so short that elements shrink with it, to LEAST of them
 LEAST = 0.2
-LOAD_KAPPAS = (0.02, 0.05, 0.1, 0.2, 0.25, 0.3, 0.35, 0.4, 0.45, 0.5, 0.6, 0.8)
+LOAD_KAPPAS = (0.02, 0.05, 0.1, 0.2, 0.25, 0.3, 0.35, 0.4, 0.45, 0.5)
 LOAD_AGES = np.geomspace(0.3, 300.0, 25)
 LOAD_ELEMENT = 0.04
 PER_RUN = 4  # intervals of these ages

@@ -1,10 +1,10 @@
 """Where the theory of the first instants ends on a real beam: waves that have been at the ends, measured.
 
 The same beam and one that is so long that nothing can come back, on the same elements with the same steps, differ by
-them alone: relative changes of half length, force and impulse are stored over time and κ/ν. A beam whose free motion
-has a fourth derivative q₀ needs moments and forces at its ends; without them waves start there at once. Their part is
-stored too, per unit of q₀, from runs with ±q₀ and no pressure on the zone. (Nothing of the kind was found for c₀ and
-an axial force.)
+them alone: relative changes of half length, force and impulse are stored over κ/ν and the phase of the waves. A beam
+whose free motion has a fourth derivative q₀ needs moments and forces at its ends; without them waves start there at
+once. Their part is stored too, per unit of q₀, from runs with ±q₀ and no pressure on the zone. (Nothing of the kind was
+found for c₀ and an axial force.)
 
 Half length and force come from moments of the impulse: parabolas in √t through ±:data:`WINDOW` in ln t.
 ``python -m comparison.whole_impact.ends`` measures all (some minutes) and writes ``ends.json`` in :mod:`theory`, which
@@ -32,21 +32,25 @@ from comparison.store import RunStore, write_atomically
 from comparison.workers import run_all
 from theory import damped_point
 from theory.stopped_beam import StoppedBeam
+from theory.validity import phase
 
 __all__ = ["Law", "law_of", "measure_ends", "reached", "theory_law"]
 
 Array = NDArray[np.float64]
 DATA = Path(theory.__file__).with_name("ends.json")
-KAPPAS = (0.05, 0.07, 0.1, 0.14, 0.2, 0.27, 0.35, 0.5, 0.65, 0.8, 0.9, 1.2)
+KAPPAS = (
+    0.05, 0.06, 0.07, 0.085, 0.1, 0.12, 0.14, 0.17, 0.2, 0.235, 0.27, 0.31, 0.35, 0.42, 0.5, 0.57, 0.65, 0.72, 0.8,
+    0.85, 0.9, 1.2,
+)  # fmt: skip
 DAMPINGS = (1e-4, 3e-4, 1e-3, 3e-3, 1e-2)
 USUAL = 1e-3  # η/T* of the curves; other dampings get a factor on time
 TOLERANCE = 0.02
 LARGEST = 2.5  # changes beyond it are no small ones and stored as it
 LONGER = 2.5  # times the beam: what comes back from its ends then comes 6.25 times later
-TIMES = np.geomspace(2e-3, 0.07, 60)
-"""Instants measured, T*."""
-LATER = np.geomspace(0.7, 2.0, 43)
-"""Times stored, over the arrival: curves that come later where κ/ν is larger are alike over it. Noise before."""
+TIMES = np.geomspace(2e-3, 0.07, 360)
+"""Instants measured, T*: ten a period of the shortest waves that come back."""
+PHASES = {"ends": np.arange(2.0, 42.01, 0.5), "quartic": np.linspace(0.0, 5.5, 81).round(3) ** 2}
+"""Phases stored (`theory.validity.phase`): over them crests of all κ/ν lie side by side. Noise before."""
 QUARTIC = 0.2  # q₀ of the runs with one, of min(κ/ν, 1): a tenth of what would straighten the ends
 
 WINDOW = 0.11  # of fitted times, ± in ln t
@@ -221,37 +225,38 @@ def write(curves: dict[float, list[Array]], quartic: Sequence[Array]) -> Path:
     """Write the table from the curves by damping, each a list over :data:`KAPPAS`."""
     names = ("half_length", "reaction", "impulse")
 
-    def stored(found: Sequence[Array], felt: Sequence[float]) -> dict[str, Any]:
-        reached_at = [reached(TIMES, curve[1], least) for curve, least in zip(found, felt)]
-        arrival = [time for time in reached_at if time is not None]
-        if len(arrival) < len(found):
-            raise ValueError("times: a curve never changes as much as asked for; measure later")
-        curves_at = {
-            name: [
-                [float(f"{v:.4g}") for v in np.interp(np.log(LATER * at), np.log(TIMES), curve[i], left=0.0)]
-                for curve, at in zip(found, arrival)
-            ]
-            for i, name in enumerate(names)
+    def stored(cause: str, found: Sequence[Array]) -> dict[str, Any]:
+        phases = [phase(kappa, TIMES)[cause] for kappa in KAPPAS]  # fall with time
+        over = [
+            [np.interp(PHASES[cause], at[::-1], row[::-1], right=0.0) for row in curve]
+            for at, curve in zip(phases, found)
+        ]
+        return {
+            "phase": [float(f"{at:.6g}") for at in PHASES[cause]],
+            **{name: [[float(f"{v:.4g}") for v in rows[i].round(6)] for rows in over] for i, name in enumerate(names)},
         }
-        return {"arrival": [float(f"{at:.5g}") for at in arrival], **curves_at}
 
+    arrival = [reached(TIMES, curve[1], TOLERANCE) for curve in curves[USUAL]]
+    if None in arrival:
+        raise ValueError("TIMES: a force never changes as much as asked for; measure later")
     factors = _factors(curves)
     document = {
         "what": "relative change by the ends of a free beam, of half length, reaction and impulse, over kappa/nu "
-        "(rows) and time (columns, `later` times the `arrival` t/T*, when the reaction has changed by 2 %), at damping "
-        "eta/T* = 1e-3: `ends` without loads, `quartic` per unit of q0 l^4/(V0 T*) on top; the same comes `factor` "
-        "times later at other `damping` (the least over kappa/nu; the "
-        "smallest stands for none)",
+        "(rows) and phase (columns) of the waves that are back at the front of the contact (theory.validity.phase; it "
+        "falls with time), at damping eta/T* = 1e-3: `ends` without loads, `quartic` per unit of q0 l^4/(V0 T*) on "
+        "top; measured until `last` t/T*; `arrival` is t/T* when the reaction has changed by the tolerance; the same "
+        "comes `factor` times later at other `damping` (the least over kappa/nu; the smallest stands for none)",
         "tolerance": TOLERANCE,
         "source": "the whole beam against one without ends, comparison/whole_impact/ends.py",
         **stamp("python -m comparison.whole_impact.ends"),
         "settings": {"path": "hermite", "element": ELEMENT, "longer": LONGER, "window": WINDOW},
         "kappa_over_nu": KAPPAS,
-        "later": [float(f"{later:.6g}") for later in LATER],
+        "last": float(TIMES[-1]),
+        "arrival": [float(f"{at:.5g}") for at in arrival if at is not None],
         "damping": list(factors),
         "factor": [float(f"{factor:.4g}") for factor in factors.values()],
-        "ends": stored(curves[USUAL], [TOLERANCE] * len(KAPPAS)),
-        "quartic": stored(quartic, [TOLERANCE / min(kappa, 1.0) for kappa in KAPPAS]),
+        "ends": stored("ends", curves[USUAL]),
+        "quartic": stored("quartic", quartic),
     }
     write_atomically(DATA, json_text(document) + "\n")
     return DATA

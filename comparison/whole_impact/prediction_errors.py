@@ -36,7 +36,8 @@ class PredictionErrors:
     """One problem: what predict says, and how it fares. Times in T*; errors relative.
 
     at_limit : the largest of the three errors at valid_until (``None`` where nothing is valid).
-    largest_within : the largest between valid_from (or :data:`EARLIEST`) and valid_until.
+    largest_within : the largest between valid_from (or :data:`EARLIEST`) and valid_until; lengths that are both below
+        :data:`POINT_LENGTH` are those of one point there: relative errors of a zone that begins to spread say nothing.
     first_wrong : when the largest error first reaches 2 % from valid_from on (``None``: not before LATEST).
     """
 
@@ -77,34 +78,37 @@ def prediction_errors(impact: Impact, *, tolerance: float = 0.02) -> PredictionE
     times = np.geomspace(EARLIEST, LATEST, 90)
     if EARLIEST < until < LATEST:
         times = np.sort(np.append(times, until))
-    errors = errors_of(impact, times)
+    errors, short = errors_of(impact, times)
     largest = errors.max(axis=1)
     at_limit = within = None
     if until > 0.0:
         at_limit = float(largest[int(np.argmin(np.abs(times - until)))])
         inside = (times >= begin) & (times <= until)
-        within = float(largest[inside].max()) if inside.any() else at_limit
+        resolved = np.where(short[:, None] & (np.arange(3) == 0), 0.0, errors)[inside]
+        within = float(resolved.max()) if inside.any() else at_limit
     later = times >= begin
     wrong = reached(times[later], largest[later], tolerance)
     return PredictionErrors(impact, begin, until, said.limited_by, at_limit, within, wrong, times, errors)
 
 
-def errors_of(impact: Impact, times: Array) -> Array:
+def errors_of(impact: Impact, times: Array) -> tuple[Array, NDArray[np.bool_]]:
     """|half length|, |force|, |impulse| of predict over the simulation's, less one, at ``times`` (T*), shape
-    (times, 3); for one point, half lengths over :data:`POINT_LENGTH`: no error, or infinity."""
+    (times, 3); for one point, half lengths over :data:`POINT_LENGTH`: no error, or infinity. And whether both half
+    lengths are below that."""
     unit = impact.slow_time_scale
     element = ELEMENTS[impact.kappa_over_nu < THIN] * shortened(impact.kappa_over_nu)
     found = law_of(impact, times * unit, element=element, window=WINDOW)
     rows = predict(impact, times * unit).times
     exact = contact_parameters(impact.kappa_over_nu)
-    errors = np.full((times.size, 3), math.inf)
+    errors, short = np.full((times.size, 3), math.inf), np.zeros(times.size, dtype=bool)
     for i, row in enumerate(rows):
         if row.half_contact_length is None or row.reaction is None or row.impulse is None:
             continue
         length, force, impulse = (float(values[i]) for values in found)
+        short[i] = max(length, row.half_contact_length) < POINT_LENGTH * impact.half_length
         errors[i, 1:] = abs(2.0 * force / row.reaction - 1.0), abs(2.0 * impulse / row.impulse - 1.0)
         if exact.lambda0 > 0.0 and row.half_contact_length > 0.0:
             errors[i, 0] = abs(length / row.half_contact_length - 1.0)
         else:
             errors[i, 0] = 0.0 if length < POINT_LENGTH * impact.half_length else math.inf
-    return errors
+    return errors, short

@@ -378,11 +378,15 @@ const Theory = (() => {
     return NAMES.map((name) => (1 - share) * mixed(rows[name][i], low) + share * mixed(rows[name][i + 1], high));
   }
 
+  /** How far what damping changes of the answer to loads has ceased to count. */
+  const quiet = (c, { quiet: [from, to] }) => Math.min(Math.max((c.ratio - from) / (to - from), 0), 1);
   /** Rates of a load in a damped zone at t/η = age (theory/damped_zone.py). */
   function loadRates(c, age, limits, load) {
     const { zone } = limits, ages = zone.loads.age, last = ages[ages.length - 1];
-    if (!(c.ratio < limits.quiet) || age < limits.short * erfInverse(c.ratio) ** 2) return [0, 0, 0];
-    return atAge(zone.loads, zone.touch, c.ratio, age, zone.loads[load]).map((rate) => rate * (age > last ? sqrt(last / age) : 1));
+    const counts = 1 - quiet(c, limits);
+    if (!(counts > 0) || age < limits.short * erfInverse(c.ratio) ** 2) return [0, 0, 0];
+    const faded = counts * (age > last ? sqrt(last / age) : 1);
+    return atAge(zone.loads, zone.touch, c.ratio, age, zone.loads[load]).map((rate) => rate * faded);
   }
   /** Share of a pressure's rate that is part of the prediction. */
   const knownPress = (c, { flat: [from, to] }) => Math.min(Math.max((to - c.ratio) / (to - from), 0), 1);
@@ -407,12 +411,14 @@ const Theory = (() => {
     const factor = exp(mixed(logsOf(table.factor), between(logsOf(table.damping), log(Math.max(damping, table.damping[0])))));
     const ratios = table.kappa_over_nu, flat = c.ratio < ratios[0] ? ratios[0] / c.ratio : 1;
     const stretch = factor * (flat > 1 ? (contact(ratios[0]).lambda0 / c.lambda0) ** 2 : 1);
-    const end = Math.max(...table.ends.arrival) * table.later[table.later.length - 1] * stretch * slow;
-    const logs = logsOf(table.later), row = between(ratios, c.ratio);
+    const end = table.last * stretch * slow, row = between(logsOf(ratios), log(c.ratio));
+    const front = flat > 1 ? contact(ratios[0]).lambda0 : c.lambda0;
     const ofEnds = (tau) => {
-      const [bare, fourth] = [table.ends, table.quartic].map((cause) => {
-        const at = log(tau / (slow * stretch * mixed(cause.arrival, row))), column = between(logs, at);
-        if (at < logs[0]) return [0, 0, 0];
+      const root = 1 / sqrt(tau / (slow * stretch));
+      const phases = [root * (root - front), 0.25 * Math.max(root - front, 0) ** 2];
+      const [bare, fourth] = [table.ends, table.quartic].map((cause, k) => {
+        if (phases[k] > cause.phase[cause.phase.length - 1]) return [0, 0, 0];
+        const column = between(cause.phase, phases[k]);
         return NAMES.map((name) => (1 - row[1]) * mixed(cause[name][row[0]], column) + row[1] * mixed(cause[name][row[0] + 1], column));
       });
       return bare.map((value, i) => value + quartic * flat * fourth[i]);
@@ -445,8 +451,8 @@ const Theory = (() => {
     const pushed = c.raised + c.psi;
     const acting = { press: Math.max(pushed, 0), lift: Math.max(-pushed, 0), chi: c.chi, psi: c.psi, axial: c.n };
     const point = discrete ? 0 : erfInverse(c.ratio) ** 2, settled = limits.short * point;
-    const waits = !discrete && damping > 0 && size > 0 && c.ratio >= limits.quiet;
-    const loaded = !discrete && damping > 0 && c.ratio < limits.quiet ? Object.keys(acting).filter((load) => acting[load]) : [];
+    const waits = !discrete && damping > 0 && size > 0 ? quiet(c, limits) : 0;
+    const loaded = !discrete && damping > 0 && quiet(c, limits) < 1 ? Object.keys(acting).filter((load) => acting[load]) : [];
     const unknown = { press: 1 - (1 - limits.unsure) * knownPress(c, limits), lift: 1, chi: 1, psi: 1, axial: 1 };
     const ofLoads = (tau) => {
       const found = secondOf(tau), age = tau / slow / damping;
@@ -454,7 +460,7 @@ const Theory = (() => {
         loadRates(c, age, limits, load).forEach((rate, i) => {
           found[i] += acting[load] * unknown[load] * rate * tau;
         });
-      if (waits && age > point) found[0] += limits.waiting * point / (Math.max(age, settled) - point) * c.lambda1 / c.lambda0 * tau;
+      if (waits > 0 && age > point) found[0] += waits * limits.waiting * point / (Math.max(age, settled) - point) * c.lambda1 / c.lambda0 * tau;
       return found;
     };
     const most = part * table.tolerance, largest = (list) => Math.max(...list.map(abs));
