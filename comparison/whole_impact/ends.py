@@ -50,7 +50,8 @@ LONGER = 2.5  # times the beam: what comes back from its ends then comes 6.25 ti
 TIMES = np.geomspace(2e-3, 0.07, 360)
 """Instants measured, T*: ten a period of the shortest waves that come back."""
 PHASES = {"ends": np.arange(2.0, 42.01, 0.5), "quartic": np.linspace(0.0, 5.5, 81).round(3) ** 2}
-"""Phases stored (`theory.validity.phase`): over them crests of all κ/ν lie side by side. Noise before."""
+"""Phases stored (`theory.validity.phase`): over them crests of all κ/ν lie side by side."""
+NOISE = 0.7  # of the time at which the force has changed by the tolerance: before, there is nothing but noise
 QUARTIC = 0.2  # q₀ of the runs with one, of min(κ/ν, 1): a tenth of what would straighten the ends
 
 WINDOW = 0.11  # of fitted times, ± in ln t
@@ -225,15 +226,17 @@ def write(curves: dict[float, list[Array]], quartic: Sequence[Array]) -> Path:
     """Write the table from the curves by damping, each a list over :data:`KAPPAS`."""
     names = ("half_length", "reaction", "impulse")
 
-    def stored(cause: str, found: Sequence[Array]) -> dict[str, Any]:
-        phases = [phase(kappa, TIMES)[cause] for kappa in KAPPAS]  # fall with time
-        over = [
-            [np.interp(PHASES[cause], at[::-1], row[::-1], right=0.0) for row in curve]
-            for at, curve in zip(phases, found)
-        ]
+    def stored(cause: str, found: Sequence[Array], felt: Sequence[float]) -> dict[str, Any]:
+        over = []
+        for kappa, curve, least in zip(KAPPAS, found, felt):
+            at, arrives = phase(kappa, TIMES)[cause], reached(TIMES, curve[1], least)  # phases fall with time
+            if arrives is None:
+                raise ValueError("TIMES: a force never changes as much as asked for; measure later")
+            row = np.array([np.interp(PHASES[cause], at[::-1], of[::-1], right=0.0) for of in curve])
+            over.append(np.where(PHASES[cause] > phase(kappa, np.array([NOISE * arrives]))[cause], 0.0, row))
         return {
             "phase": [float(f"{at:.6g}") for at in PHASES[cause]],
-            **{name: [[float(f"{v:.4g}") for v in rows[i].round(6)] for rows in over] for i, name in enumerate(names)},
+            **{name: [[float(f"{v:.4g}") for v in row[i].round(6)] for row in over] for i, name in enumerate(names)},
         }
 
     arrival = [reached(TIMES, curve[1], TOLERANCE) for curve in curves[USUAL]]
@@ -255,8 +258,8 @@ def write(curves: dict[float, list[Array]], quartic: Sequence[Array]) -> Path:
         "arrival": [float(f"{at:.5g}") for at in arrival if at is not None],
         "damping": list(factors),
         "factor": [float(f"{factor:.4g}") for factor in factors.values()],
-        "ends": stored("ends", curves[USUAL]),
-        "quartic": stored("quartic", quartic),
+        "ends": stored("ends", curves[USUAL], [TOLERANCE] * len(KAPPAS)),
+        "quartic": stored("quartic", quartic, [TOLERANCE / min(kappa, 1.0) for kappa in KAPPAS]),
     }
     write_atomically(DATA, json_text(document) + "\n")
     return DATA
