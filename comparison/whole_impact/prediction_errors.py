@@ -25,6 +25,7 @@ __all__ = ["PredictionErrors", "prediction_errors", "random_problem"]
 Array = NDArray[np.float64]
 DAMPING = 1e-3  # η/T*
 EARLIEST, LATEST = 1.5e-3, 0.06  # T*: the ends are felt before the latest
+EARLIER = 10  # instants from an earlier limit on
 ELEMENTS = 0.02, 0.01  # of what damping smooths over; below THIN, where the front is thin, the second
 THIN = 0.25  # κ/ν
 WINDOW = 0.15  # of fitted times, ± in ln t
@@ -78,6 +79,8 @@ def prediction_errors(impact: Impact, *, tolerance: float = 0.02) -> PredictionE
     times = np.geomspace(EARLIEST, LATEST, 90)
     if EARLIEST < until < LATEST:
         times = np.sort(np.append(times, until))
+    elif 0.0 < until < EARLIEST:
+        times = np.concatenate([np.geomspace(until, EARLIEST, EARLIER, endpoint=False), times])
     errors, short = errors_of(impact, times)
     largest = errors.max(axis=1)
     at_limit = within = None
