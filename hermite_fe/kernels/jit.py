@@ -42,26 +42,35 @@ SOURCES = sources()
 
 
 class KernelFiles(IndexDataCacheFile):
-    """Kernels on disk. What cannot be kept or read there is compiled anew: it costs time, not the run."""
+    """Kernels on disk, each file marked with what it was compiled from.
+
+    Numba marks the index alone, and writes it first: where the kernel itself then cannot be written, or a reader comes
+    in between, a fresh index leads to the code of the version before.
+    """
 
     def load(self, key: Any) -> Any:
-        try:
-            return super().load(key)
-        except Exception:  # a file that lost its end in a power cut is pickled nonsense
-            with suppress(OSError):
-                self.flush()
-            return None
+        found = super().load(key)
+        return found[1] if found is not None and found[0] == self._mark(key) else None
 
     def save(self, key: Any, data: Any) -> None:
-        with suppress(OSError):  # the disk is full
-            super().save(key, data)
+        super().save(key, (self._mark(key), data))
+
+    def _mark(self, key: Any) -> tuple[Any, ...]:
+        return self._source_stamp, self._version, key
+
+    def _load_index(self) -> Any:
+        try:
+            return super()._load_index()
+        except Exception:  # a file that lost its end in a power cut is pickled nonsense
+            return {}
 
 
 class KernelCache(FunctionCache):
     """Numba's cache, stale as soon as any module of the package changes.
 
     Numba itself looks at the kernel's own file only, and would go on running what that kernel had called before
-    (``theta`` with the ``pivoting`` of the version before an upgrade).
+    (``theta`` with the ``pivoting`` of the version before an upgrade). What cannot be kept or read is compiled anew: it
+    costs time, not the run.
     """
 
     suffix = ""
@@ -75,11 +84,16 @@ class KernelCache(FunctionCache):
     def load_overload(self, signature: Any, target_context: Any) -> Any:
         """What is found needs no more of numba than its runtime: numba itself would import all that it can compile."""
         rtsys.initialize(target_context)
-        with self._guard_against_spurious_io_errors():
+        found = None
+        with suppress(Exception):  # a file that lost its end, or that cannot be opened
             found = self._load_overload(signature, target_context)
         if found is None:
             _say_once()
         return found
+
+    def save_overload(self, signature: Any, data: Any) -> None:
+        with suppress(OSError):  # the disk is full
+            super().save_overload(signature, data)
 
 
 @cache

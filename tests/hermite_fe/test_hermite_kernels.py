@@ -1,5 +1,6 @@
 """Compiled kernels on disk: an upgraded package must never run yesterday's code."""
 
+import errno
 import shutil
 import subprocess
 import sys
@@ -35,8 +36,7 @@ def kernels(tmp_path: Path) -> Path:
     """A package of two kernels, one of which calls the other, compiled and kept once."""
     package = tmp_path / "kernels"
     package.mkdir()
-    for name in ("jit.py", "inference.py"):
-        shutil.copy(Path(jit.__file__).with_name(name), package / name)
+    shutil.copy(Path(jit.__file__), package / "jit.py")
     (package / "__init__.py").write_text("")
     (package / "inner.py").write_text(
         "from kernels.jit import compiled\n\n@compiled\ndef inner(x):\n    return x + 1.0\n"
@@ -69,6 +69,65 @@ def test_kernels_on_disk_that_lost_their_end_are_compiled_again(kind: str, kerne
         for file in files:
             file.write_bytes(file.read_bytes()[: int(left * file.stat().st_size)])
         assert answered(kernels) == "12.0"
+
+
+class Full(jit.KernelFiles):
+    """On a disk that has room for an index and for nothing else."""
+
+    def _save_data(self, name: str, data: object) -> None:
+        raise OSError(errno.ENOSPC, "No space left on device")
+
+
+def test_code_of_the_version_before_is_not_read_under_an_index_of_today(tmp_path: Path):
+    jit.KernelFiles(str(tmp_path), "kernel", "old").save("key", "old code")
+    with pytest.raises(OSError, match="No space"):
+        Full(str(tmp_path), "kernel", "new").save("key", "new code")
+    today = jit.KernelFiles(str(tmp_path), "kernel", "new")
+    assert today.load("key") is None
+    today.save("key", "new code")
+    assert today.load("key") == "new code"
+
+
+def test_code_for_other_types_is_not_read_under_an_index_of_another_process(tmp_path: Path):
+    """Two processes start with no index, and each calls its first kernel number 1."""
+    one, other = (jit.KernelFiles(str(tmp_path), "kernel", "stamp") for _ in range(2))
+    one.save("float", "for floats")
+    index = Path(one._index_path).read_bytes()
+    Path(one._index_path).unlink()
+    other.save("int", "for ints")
+    Path(one._index_path).write_bytes(index)
+    assert one.load("float") is None
+
+
+TORN_AND_FULL = """
+import numba.core.caching as caching
+def full(self, path):
+    raise OSError(28, "No space left on device")
+caching.IndexDataCacheFile._open_for_write = full
+"""
+NO_FOLDER = """
+import sys
+import numba.core.caching as caching
+def gone(self):
+    if sys._getframe(1).f_code.co_name == "_save_overload":
+        raise PermissionError(13, "Permission denied")
+caching._CacheLocator.ensure_cache_path = gone
+"""
+CANNOT_REBUILD = """
+import numba.core.caching as caching
+def rebuild(self, context, payload):
+    raise ValueError("what was read is no kernel")
+caching.CompileResultCacheImpl.rebuild = rebuild
+"""
+
+
+@pytest.mark.parametrize("before", [TORN_AND_FULL, NO_FOLDER, CANNOT_REBUILD], ids=["full", "no-folder", "rebuild"])
+def test_what_a_cache_cannot_do_is_done_without(before: str, kernels: Path):
+    assert answered(kernels) == "12.0"
+    if before is not CANNOT_REBUILD:
+        for file in kernels.rglob("*.nbi"):
+            file.write_bytes(file.read_bytes()[:-20])
+    assert answered(kernels, before) == "12.0"
 
 
 def test_types_that_are_found_again_are_those_of_the_arguments():
