@@ -66,7 +66,8 @@ update: $(STAMP)
 # compile and answer on both paths there (AT=3.13: on another Python). The lowest versions are those of what is asked
 # for here; what those ask for in turn is the newest.
 AT ?= $(BIN)/python
-QUICK := tests/test_package.py tests/bent_beam tests/theory/test_theory_contact.py tests/theory/test_theory_similarity.py
+QUICK := tests/test_package.py tests/bent_beam tests/theory/test_theory_contact.py tests/theory/test_theory_similarity.py \
+	tests/hermite_fe/test_hermite_kernels.py
 lowest newest: $(STAMP)
 	@$(BIN)/uv --version >/dev/null 2>&1 || $(PIP) install uv
 	$(BIN)/uv venv --quiet --clear --python $(AT) .venv-$@

@@ -8,22 +8,35 @@ answers; they are the same.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from functools import wraps
+from inspect import signature
 from typing import Any
-
-from numba.core.targetconfig import ConfigStack, TargetConfig
-from numba.core.types.functions import BaseFunction
 
 __all__ = ["remember"]
 
 
 def remember() -> None:
-    """Let numba find each type once, for all that this process compiles; calling it again changes nothing."""
-    if not hasattr(BaseFunction.get_call_type, "__wrapped__"):
+    """Let numba find each type once, for all that this process compiles; calling it again changes nothing.
+
+    A numba that is built otherwise is left as it is, and compiles for longer.
+    """
+    try:
+        from numba.core.targetconfig import ConfigStack, TargetConfig
+        from numba.core.types.functions import BaseFunction
+
         functions: Any = BaseFunction
-        functions.get_call_type = _remembered(BaseFunction.get_call_type)
         options: Any = TargetConfig
-        options.__eq__, options.__hash__ = _quickly_equal(TargetConfig.__eq__), lambda self: len(self.options)
+        call, kept = functions.get_call_type, functions.get_impl_key.__code__.co_names
+        if hasattr(call, "__wrapped__") or list(signature(call).parameters) != ["self", "context", "args", "kws"]:
+            return
+        if "_impl_keys" not in kept or not isinstance(options()._values, dict):
+            return
+        remembered = _remembered(call, ConfigStack.top_or_none)
+    except (ImportError, AttributeError):
+        return
+    functions.get_call_type = remembered
+    options.__eq__, options.__hash__ = _quickly_equal(options.__eq__), lambda self: len(self.options)
 
 
 def _quickly_equal(equal: Any) -> Any:
@@ -36,17 +49,17 @@ def _quickly_equal(equal: Any) -> Any:
     return compare
 
 
-def _remembered(get_call_type: Any) -> Any:
+def _remembered(get_call_type: Any, options: Callable[[], Any]) -> Any:
     """The signature of a call and what implements it, by function, types of the arguments and compiler's options."""
     known: dict[Any, tuple[Any, Any]] = {}
 
     @wraps(get_call_type)
-    def found(self: Any, context: Any, arguments: Any, names: dict[str, Any]) -> Any:
-        call = self, context, tuple(arguments), tuple(names.items()), ConfigStack.top_or_none()
+    def remembered(self: Any, context: Any, arguments: Any, names: dict[str, Any]) -> Any:
+        call = self, context, tuple(arguments), tuple(names.items()), options()
         if call not in known:
-            signature = get_call_type(self, context, arguments, names)
-            known[call] = signature, self._impl_keys[signature.args]
-        signature, self._impl_keys[signature.args] = known[call]
-        return signature
+            found = get_call_type(self, context, arguments, names)
+            known[call] = found, self._impl_keys[found.args]
+        found, self._impl_keys[found.args] = known[call]
+        return found
 
-    return found
+    return remembered

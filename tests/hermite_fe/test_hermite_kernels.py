@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 from numba.core.caching import CompileResultCacheImpl
+from numba.core.types.functions import BaseFunction
 
 from hermite_fe.kernels import jit
 
@@ -128,6 +129,35 @@ def test_what_a_cache_cannot_do_is_done_without(before: str, kernels: Path):
         for file in kernels.rglob("*.nbi"):
             file.write_bytes(file.read_bytes()[:-20])
     assert answered(kernels, before) == "12.0"
+
+
+def test_types_are_kept_with_the_numba_that_is_locked():
+    assert hasattr(BaseFunction.get_call_type, "__wrapped__")
+
+
+OTHER_NUMBA = """
+from numba.core.types.functions import BaseFunction
+found = BaseFunction.get_call_type
+def get_call_type(self, context, args, kws, more=None):
+    return found(self, context, args, kws)
+BaseFunction.get_call_type = get_call_type
+"""
+NO_CONFIG = """
+import sys
+import numba
+sys.modules["numba.core.targetconfig"] = None  # an import of it fails
+"""
+LEFT_ALONE = """
+import atexit
+from numba.core.types.functions import BaseFunction
+here = BaseFunction.get_call_type
+atexit.register(lambda: print(BaseFunction.get_call_type is here))
+"""
+
+
+@pytest.mark.parametrize("before", [OTHER_NUMBA, NO_CONFIG], ids=["parameters", "import"])
+def test_kernels_answer_where_numba_is_built_otherwise(before: str, kernels: Path):
+    assert answered(kernels, before + LEFT_ALONE).split() == ["12.0", "True"]
 
 
 def test_types_that_are_found_again_are_those_of_the_arguments():
