@@ -105,5 +105,32 @@ def comparison_text(found: dict[str, Any], first: str, second: str) -> str:
     shown = Repr()
     shown.maxlist, shown.maxdict, shown.maxstring, shown.maxother = 4, 50, 200, 200  # a mesh may name all its nodes
     changed = {**found["settings"], **found["versions"]}
-    lines += [f"{key}: {shown.repr(a)} | {shown.repr(b)}" for key, (a, b) in changed.items()]
+    lines += [f"{key}: {_told_apart(a, b, shown)}" for key, (a, b) in changed.items()]
     return "\n".join(lines)
+
+
+def _told_apart(a: Any, b: Any, shown: Repr) -> str:
+    """Both; where they differ in what is not shown of them, what stands at the first place at which they do."""
+    place = ""
+    while shown.repr(a) == shown.repr(b) and (key := _first_difference(a, b)) is not None:
+        place += f"[{key!r}]"
+        if isinstance(a, str):
+            a, b = a[key:], b[key:]
+        elif isinstance(a, dict):
+            a, b = a.get(key), b.get(key)
+        elif key < min(len(a), len(b)):
+            a, b = a[key], b[key]
+        else:
+            return f"{len(a)} values | {len(b)} values, the same up to {place}"
+    where = f"first differ at {place}: " if place else ""
+    return f"{where}{shown.repr(a)} | {shown.repr(b)}"
+
+
+def _first_difference(a: Any, b: Any) -> Any:
+    """Its key or index; ``None`` : not two dictionaries, two lists or two strings, or none is found."""
+    if isinstance(a, dict) and isinstance(b, dict):
+        return next((k for k in sorted({*a, *b}, key=str) if a.get(k) != b.get(k)), None)
+    for kind in (str, (list, tuple)):
+        if isinstance(a, kind) and isinstance(b, kind) and a != b:
+            return next((i for i, (x, y) in enumerate(zip(a, b)) if x != y), min(len(a), len(b)))
+    return None
