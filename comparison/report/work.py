@@ -29,7 +29,7 @@ __all__ = ["MEASUREMENTS", "Measurement", "StoredMeasurement", "store_measuremen
 LISTS = Path(__file__).resolve().parents[2] / "cases" / "methods"
 KAPPA = 0.5
 KEPT = ("label", "path", "kappa_over_nu", "alpha", "psi", "chi", "axial", "refine", "lambda0", "r0", "lambda1", "r1",
-        "lift", "pull", "hold", "seconds", "steps", "reason")  # fmt: skip
+        "lift", "pull", "seconds", "steps", "reason")  # fmt: skip
 
 
 @dataclass(frozen=True)
