@@ -40,9 +40,9 @@ def write_dataset(dataset: xr.Dataset, file: Path) -> None:
     content = io.BytesIO()  # HDF5 itself does not survive a full disk: only finished bytes go there
     try:
         dataset.to_netcdf(content, engine="h5netcdf", encoding=encoding)
-        write_atomically(file, content.getbuffer())
     except OSError as error:
         raise OSError(error.errno or errno.EIO, error.strerror or str(error), str(file)) from error
+    write_atomically(file, content.getbuffer())
 
 
 def copy_whole(source: Path, file: Path) -> None:

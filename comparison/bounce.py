@@ -118,34 +118,36 @@ def bounce(
     if impact.damping == 0.0:
         return _band(impact, method, section, runs, seed, save, jobs, progress)
     checks = _cross_checks(method, impact)
-    outcome, history, found = _one_and_others(method, list(checks.values()), impact, save, jobs, progress)
-    others = {cause: other for cause, (other, _) in zip(checks, found)}
+    history, (outcome, *found), about = _one_and_others([method, *checks.values()], impact, save, jobs, progress)
+    others = dict(zip(checks, found))
     return Bounce(
         impact=impact,
         numbers={name: _number(name, outcome, others) for name in NUMBERS},
         history=history,
         outcome=outcome,
-        left=outcome.left and all(other.left for other, _ in found),
         settings=settings_of(for_whole_beam(method, impact)),
-        seconds=history.seconds + sum(seconds for _, seconds in found),
         section=section,
+        **about,
     )
 
 
 def _one_and_others(
-    method: Method, others: Sequence[Method], impact: Impact, save: int, jobs: int, progress: Progress | None
-) -> tuple[WholeImpact, ImpactHistory, list[tuple[WholeImpact, float]]]:
-    """``method``'s run, whole, and of each of ``others`` what it came to and its seconds."""
+    methods: Sequence[Method], impact: Impact, save: int, jobs: int, progress: Progress | None
+) -> tuple[ImpactHistory, list[WholeImpact], dict[str, Any]]:
+    """The first method's run, what each came to, and ``left`` and ``seconds`` of all of them."""
+
     def told(done: int) -> None:
         if progress is not None:
-            progress(done, 1 + len(others))
+            progress(done, len(methods))
 
     told(0)
-    outcome, history = _run(method, impact, save)
+    outcome, history = _run(methods[0], impact, save)
     told(1)
-    asked = [(other, impact, save) for other in others]
+    asked = [(other, impact, save) for other in methods[1:]]
     found = run_all(_outcome, asked, jobs=jobs, progress=lambda done, _: told(1 + done))
-    return outcome, history, found
+    outcomes = [outcome, *(other for other, _ in found)]
+    seconds = history.seconds + sum(seconds for _, seconds in found)
+    return history, outcomes, {"left": all(o.left for o in outcomes), "seconds": seconds}
 
 
 def _cross_checks(method: Method, impact: Impact) -> dict[str, Method]:
@@ -176,18 +178,16 @@ def _band(
 ) -> Bounce:
     random = np.random.default_rng(seed)
     methods = [_varied(method, impact, random) for _ in range(runs)]
-    outcome, history, found = _one_and_others(methods[0], methods[1:], impact, save, jobs, progress)
-    outcomes = [outcome, *(other for other, _ in found)]
+    history, outcomes, about = _one_and_others(methods, impact, save, jobs, progress)
     return Bounce(
         impact=impact,
         numbers={name: _spread([float(getattr(o, name)) for o in outcomes]) for name in NUMBERS},
         history=history,
-        outcome=outcome,
-        left=outcome.left and all(other.left for other, _ in found),
+        outcome=outcomes[0],
         settings=settings_of(for_whole_beam(methods[0], impact)),
-        seconds=history.seconds + sum(seconds for _, seconds in found),
         seed=seed,
         section=section,
+        **about,
     )
 
 
