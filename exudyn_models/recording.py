@@ -200,8 +200,9 @@ class Recorder:
         pushes = means * self.contact.signs * dt[:, None]
         sums["held"] = _onwards(sums["held"], np.minimum(pushes, 0.0).sum(axis=1))
         sums["pushed"] = _onwards(sums["pushed"], np.maximum(pushes, 0.0).sum(axis=1))
-        self.largest_pull.add(-np.minimum(pushes, 0.0), self.pending)
-        self.largest_push.add(pushes, self.pending)
+        if self.contact.held_until:  # no other law pulls
+            self.largest_pull.add(-np.minimum(pushes, 0.0), self.pending)
+            self.largest_push.add(pushes, self.pending)
         impulse = _onwards(self.impulse, self._gains(dt, q, force, np.diff(total)))
         record = self.record
         record.kinetic += self.beam.kinetic_energy(v[self.pending]).tolist()
