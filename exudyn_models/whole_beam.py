@@ -9,8 +9,9 @@ itself, and every part of it matters alike. So
 A beam that touches in a point takes h = ½Δx²√(μ/EI) and the penalty as it is. Where a zone spreads, e is off by what
 elements lose that land, about in proportion to Δx; how stiff the penalty is, how it is damped and how long the steps
 are matters less, as long as the steps resolve the penalty. So there elements are shorter, steps √2 times as long for
-them, and the penalty half as stiff, with the same damping ratio: kh² and dh stay what they are. With a
-mesh, steps or contact of somebody's own it is as for a point.
+them, and the penalty half as stiff, with the same damping ratio: kh² and dh stay what they are. With a mesh, steps or
+contact of somebody's own, and where the beam is so flat that its front asks for a stiffer penalty, steps and penalty
+are as for a point; elements are shorter wherever no mesh is given.
 """
 
 from __future__ import annotations
