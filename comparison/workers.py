@@ -257,6 +257,10 @@ RECONNECT = 120.0  # s that a scheduler may be away before what is left is given
 RESTARTS = 20  # times in a row that it may come back and go without a single answer
 
 
+class NoSchedulerError(Exception):
+    """None answers at the address in time."""
+
+
 def _on_cluster(
     function: Callable[..., Any],
     arguments: Sequence[tuple[Any, ...]],
@@ -270,28 +274,23 @@ def _on_cluster(
     except ImportError:
         raise ValueError("scheduler: needs the extra [cluster] (pip install 'bent-beam-impact[cluster]')") from None
     results: dict[int, Any] = {}
-    idle, patience, away = 0, FIRST_ANSWER, False
-    while len(results) < len(arguments) and idle < RESTARTS and not away:
+    idle, patience = 0, FIRST_ANSWER
+    while len(results) < len(arguments) and idle < RESTARTS:
         left = [i for i in range(len(arguments)) if i not in results]
         idle += 1
-        with closing(_answers(function, arguments, left, scheduler, patience)) as found:
-            while True:
-                try:
-                    answer = next(found, None)
-                except (OSError, ValueError) as error:  # of the connection alone: what a call raised is an answer
-                    if patience != RECONNECT:
-                        raise ValueError(f"scheduler: none answers at {scheduler} ({error})") from None
-                    away = True
-                    break
-                if answer is None:
-                    break
-                i, raised, result = answer
-                if raised is not None and not isinstance(raised, distributed.KilledWorker):
-                    raise raised
-                results[i] = result if raised is None else on_death(i, f"its worker died or was lost ({raised})")
-                idle = 0
-                if progress is not None:
-                    progress(len(results), len(arguments))
+        try:
+            with closing(_answers(function, arguments, left, scheduler, patience)) as found:
+                for i, raised, result in found:
+                    if raised is not None and not isinstance(raised, distributed.KilledWorker):
+                        raise raised
+                    results[i] = result if raised is None else on_death(i, f"its worker died or was lost ({raised})")
+                    idle = 0
+                    if progress is not None:
+                        progress(len(results), len(arguments))
+        except NoSchedulerError as error:
+            if patience == FIRST_ANSWER:
+                raise ValueError(f"scheduler: none answers at {scheduler} ({error})") from None
+            break
         patience = RECONNECT
     for i in range(len(arguments)):
         if i not in results:
@@ -309,13 +308,17 @@ def _answers(
     """(i, what it raised, result) of the calls ``left``, as they come, until the scheduler goes away; a call whose
     workers died raises ``distributed.KilledWorker``.
 
-    Raises ``OSError`` or ``ValueError`` when none answers at the address within ``patience`` s.
+    Raises :class:`NoSchedulerError` when none answers at the address within ``patience`` s.
     """
     from distributed import Client
     from distributed import as_completed as completed
 
-    # not the default: who asked may use dask, or xarray, for something else
-    with Client(scheduler, timeout=patience, set_as_default=False) as client:
+    try:
+        # not the default: who asked may use dask, or xarray, for something else
+        connected = Client(scheduler, timeout=patience, set_as_default=False)
+    except (OSError, ValueError) as error:
+        raise NoSchedulerError(error) from error
+    with connected as client:
         futures: dict[Any, int] = {}
         waiting, finished = iter(left), completed(loop=client.loop)
 
@@ -328,14 +331,18 @@ def _answers(
         submit(AHEAD_ON_CLUSTER)
         for future in finished:
             i = futures.pop(future)
-            if future.status == "finished":
-                try:
+            status, raised, result = future.status, None, None
+            try:
+                if status == "error":
+                    raised = future.exception(timeout=patience)
+                    if raised is None or isinstance(raised, CancelledError):
+                        continue
+                elif status == "finished":
                     result = future.result(timeout=patience)
-                except (OSError, CancelledError, asyncio.CancelledError):  # it went away with the answer: asked again
-                    continue
-                yield i, None, result
-            elif future.status == "error":
-                yield i, future.exception(), None
+            except (OSError, CancelledError, asyncio.CancelledError):  # it went away with the answer: asked again
+                continue
+            if status in ("error", "finished"):
+                yield i, raised, result
             if client.status != "running":
                 return
             submit(AHEAD_ON_CLUSTER - len(futures))

@@ -24,7 +24,7 @@ class Answered:
     def result(self, timeout: float) -> Any:
         return self.given
 
-    def exception(self) -> Any:
+    def exception(self, timeout: float) -> Any:
         return self.given
 
 
@@ -90,3 +90,47 @@ def test_what_a_caller_raises_is_not_laid_to_the_scheduler(error: Exception) -> 
         run_all(root, [(4.0,)], scheduler="here", progress=fail)
     with pytest.raises(type(error), match=f"^{error}$"):
         run_all(root, [(0.0,)], scheduler="here", on_death=fail)
+
+
+@pytest.mark.parametrize("error", [OSError("disk full"), ValueError("cannot be pickled")])
+def test_what_cannot_be_sent_is_not_laid_to_the_scheduler(error: Exception, monkeypatch: pytest.MonkeyPatch) -> None:
+    def submit(*_: Any, **__: Any) -> None:
+        raise error
+
+    monkeypatch.setattr(Client, "submit", submit)
+    with pytest.raises(type(error), match=f"^{error}$"):
+        run_all(root, [(4.0,)], scheduler="here")
+
+
+@pytest.mark.parametrize("lost", [TimeoutError("it is gone"), None])
+def test_an_error_that_went_with_the_scheduler_is_asked_for_again(
+    lost: Exception | None, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    asked = []
+
+    def gone_at_first(call: Answered, timeout: float) -> Any:
+        asked.append(call)
+        if len(asked) > 1:
+            return call.given
+        if lost is not None:
+            raise lost
+        return None
+
+    monkeypatch.setattr(Answered, "exception", gone_at_first)
+    with pytest.raises(ValueError, match=r"^negative$"):
+        run_all(root, [(-1.0,)], scheduler="here")
+    assert len(asked) == 2
+
+
+def test_a_scheduler_that_stays_away_gives_up_what_is_left_alone(monkeypatch: pytest.MonkeyPatch) -> None:
+    def goes_away(client: Client, address: str, timeout: float, set_as_default: bool) -> None:
+        if Client.status == "closed":
+            raise OSError("connection refused")
+        monkeypatch.setattr(Client, "status", "closed")
+
+    monkeypatch.setattr(Client, "__init__", goes_away)
+    monkeypatch.setattr("comparison.workers.AHEAD_ON_CLUSTER", 1)
+    found = run_all(root, [(4.0,), (9.0,)], scheduler="here", on_death=lambda i, why: (i, "went away" in why))
+    assert found == [2.0, (1, True)]
+    with pytest.raises(ValueError, match="none answers at here"):
+        run_all(root, [(4.0,)], scheduler="here")
