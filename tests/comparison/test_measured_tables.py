@@ -45,6 +45,7 @@ MEASURES = {
     "λ₁": lambda row: percent(row, "lambda1"),
     "r₁": lambda row: percent(row, "r1"),
     "lift": lambda row: row["lift"],
+    "pull": lambda row: 100.0 * row["hold"]["pull"],
     "steps": lambda row: row["steps"],
 }
 BARS = {"λ₁": "lambda1", "r₁": "r1"}  # differences of runs, whose last digits depend on the processor
