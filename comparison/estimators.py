@@ -289,7 +289,7 @@ def _lift(history: ImpactHistory) -> Array:
     for k, t in enumerate(history.time):
         inside = np.abs(history.positions(k)) <= 0.9 * front[k]
         if t > 0.0 and inside.any():
-            lift[k] = max(float(history.array("gap", k)[inside].max()), 0.0) / (history.impact.velocity * t)
+            lift[k] = max(0.0, float(history.array("gap", k)[inside].max())) / (history.impact.velocity * t)
     return lift
 
 

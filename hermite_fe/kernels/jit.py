@@ -129,11 +129,11 @@ class PartLibrary(JITCodeLibrary):
 class ApartLibrary(PartLibrary):
     """The code of a long kernel, which is not written into those that call it: so much less to optimise."""
 
-    def add_llvm_module(self, ll_module: Any) -> None:
-        for function in ll_module.functions:
-            if not function.is_declaration:
-                function.add_function_attribute("noinline")
-        super().add_llvm_module(ll_module)
+    def add_ir_module(self, ir_module: Any) -> None:
+        for function in ir_module.functions:
+            if not function.is_declaration and "alwaysinline" not in function.attributes:
+                function.attributes.add("noinline")
+        super().add_ir_module(ir_module)
 
 
 class PartCacheImpl(CompileResultCacheImpl):
