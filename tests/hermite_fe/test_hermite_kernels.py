@@ -61,6 +61,7 @@ def test_kernels_run_while_the_disk_is_full(kernels: Path):
     assert not list(kernels.rglob("*.nbc"))
 
 
+@pytest.mark.verify
 @pytest.mark.parametrize("kind", ["nbi", "nbc"])
 def test_kernels_on_disk_that_lost_their_end_are_compiled_again(kind: str, kernels: Path):
     assert answered(kernels) == "12.0"
@@ -122,6 +123,7 @@ caching.CompileResultCacheImpl.rebuild = rebuild
 """
 
 
+@pytest.mark.verify
 @pytest.mark.parametrize("before", [TORN_AND_FULL, NO_FOLDER, CANNOT_REBUILD], ids=["full", "no-folder", "rebuild"])
 def test_what_a_cache_cannot_do_is_done_without(before: str, kernels: Path):
     assert answered(kernels) == "12.0"
