@@ -140,7 +140,8 @@ def settings_markdown() -> str:
         columns = [column for column in zip(*rows) if any(column[1:])]
         rows = [list(row) for row in zip(*columns)]
         rows.insert(1, ["---"] * len(columns))
-        lines += ["| " + " | ".join(cell.replace("|", "\\|") for cell in row) + " |" for row in rows]
+        escaped = [[cell.replace("|", "\\|").replace("*", "\\*") for cell in row] for row in rows]
+        lines += ["| " + " | ".join(row) + " |" for row in escaped]
     return "\n".join([*lines, ""])
 
 
