@@ -336,9 +336,13 @@ def _finite(value: Any) -> Any:
 
 _REGIMES = {
     "discrete": "The contact stays a point: the beam is too curved (or too slow) for it to spread.",
-    "continuous": "The contact spreads: a growing zone with a concentrated force at each end.",
+    "continuous": "The contact spreads: a growing zone, in contact all along, with a concentrated force at each end.",
     "detached": "The contact spreads as two points that move apart while the beam lifts off between them.",
 }
+_LIFTED = (
+    "The contact spreads: a growing zone with a concentrated force at each end; the beam's own damping lifts its "
+    "middle off the wall for a time."
+)
 
 _ENDS_OF_VALIDITY = {
     ENDS: "waves come back from the beam's ends, which the theory takes to be infinitely far",
@@ -355,7 +359,7 @@ _ENDS_OF_VALIDITY = {
 def _summary_of_contact(p: Prediction) -> list[str]:
     lifted = p.regime == "continuous" and p.damping_matters_until > 0.0
     return [
-        _REGIMES[p.regime] + (" The beam's own damping lifts its middle off the wall for a time." if lifted else ""),
+        _LIFTED if lifted else _REGIMES[p.regime],
         f"  kappa/nu = {p.kappa_over_nu:.6g} (below 1 it spreads), regime {p.regime}",
         f"  t* = {p.time_scale:.4g} s   l* = {p.length_scale:.4g} m   T* = {p.slow_time_scale:.4g} s   "
         f"epsilon = {p.epsilon:.3g}",
