@@ -71,7 +71,8 @@ def _gap_apart(a: ImpactHistory, b: ImpactHistory, end: float) -> float | None:
         x, gap = at_end(history.positions), at_end(lambda k: history.array("gap", k))
         slope = None
         if "slope" in history:
-            slope = -at_end(lambda k: history.array("slope", k)) - history.impact.wall_curvature * x
+            from_touch = x - history.impact.first_touch
+            slope = -at_end(lambda k: history.array("slope", k)) - history.impact.wall_curvature * from_touch
         right = x >= 0.0
         return x[right], gap[right], None if slope is None else slope[right]
 

@@ -64,7 +64,7 @@ def bending_moments(history: ImpactHistory, k: int | slice) -> tuple[Array, Arra
     """
     impact = history.impact
     x = history.positions(k if isinstance(k, int) else 0)
-    y = -history.array("gap", k) - 0.5 * impact.wall_curvature * x**2
+    y = -history.array("gap", k) - 0.5 * impact.wall_curvature * (x - impact.first_touch) ** 2
     given = "slope" in history
     slope = history.array("slope", k) if given else np.gradient(y, x, axis=-1, edge_order=2)
     h = np.diff(x)

@@ -279,7 +279,6 @@ class Recorder:
         fields: dict[str, tuple[tuple[str, ...], NDArray[Any]]] = {
             "gap": (("time", "x"), -np.array(r.y) * s.deflection),
             "velocity": (("time", "x"), np.array(r.v) * s.velocity),
-            "slope": (("time", "x"), np.array(r.slope) * s.slope),
             "impulse": (("time", "contact"), np.array(r.impulse) * s.impulse),
             "in_contact": (("time", "contact"), np.array(r.active)),
             "total_impulse": (("time",), np.array(r.total) * both * s.impulse),
@@ -290,13 +289,16 @@ class Recorder:
         if not front.all():
             fields |= self._of_two_walls(front)
         place = np.interp(self.contact.contact_s[front], self.beam.shape.s, self.beam.shape.x)
+        x = self.beam.shape.x * s.length
+        # against the model's wall, which may have a share of the beam's own curvature, but not the real one's
+        slope = np.array(r.slope) * s.slope - s.impact.wall_curvature * (x - s.impact.first_touch)
         return ImpactHistory.build(
             path="exudyn",
             symmetry="half" if self.half else "full",
             time=np.array(r.time) * s.end_time,
-            x=self.beam.shape.x * s.length,
+            x=x,
             contact_x=place * s.length,
-            fields=fields,
+            fields=fields | {"slope": (("time", "x"), slope)},
             **about,
         )
 
