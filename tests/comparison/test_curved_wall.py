@@ -27,4 +27,4 @@ def test_the_slope_is_that_of_the_deflection(kind, impact):
 def test_both_paths_find_the_same_largest_moment(impact):
     methods = (kind(mesh=UniformMesh(1 / 100), full_beam=impact is ROCKING) for kind in (HermiteFE, ExudynModel))
     mine, other = (peak_moment(method.simulate(impact, end_time=0.01, save=20)).moment for method in methods)
-    assert mine == pytest.approx(other, rel=0.03)
+    assert mine == pytest.approx(other, rel=0.05)  # with a hundred elements each
