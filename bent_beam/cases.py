@@ -89,9 +89,11 @@ def _problem(error: pydantic.ValidationError) -> str:
 
 def _tables_of_paths(file: CaseFile) -> dict[str, dict[str, Any]]:
     """The tables that are left over must be those of installed paths."""
+    found = dict(file.model_extra or {})
+    if not found:
+        return {}
     from bent_beam.method import paths
 
-    found = dict(file.model_extra or {})
     for name, table in found.items():
         if name not in paths():
             raise unknown_key("", name, {*paths(), *CaseFile.model_fields})

@@ -132,13 +132,14 @@ def command(words):
 @pytest.mark.parametrize(
     ("code", "allowed"),
     [
-        ("import theory", {"numpy", "scipy"}),
-        (command("theory --kappa-over-nu 0.5 --alpha 4 --json"), {"numpy", "scipy"}),
-        (command("predict cases/ruler.toml --json"), {"numpy", "scipy"}),
+        ("import theory, theory.prediction", {"numpy"}),
+        (command("theory --kappa-over-nu 0.5 --alpha 4 --json"), {"numpy"}),
+        (command("predict cases/ruler.toml --json"), {"numpy"}),
+        (command("predict cases/thesis_K25_discrete.toml --set beam.damping=1e-4 --json"), {"numpy"}),
         (command("--help"), set()),
         (command("match --help"), set()),
     ],
-    ids=["import theory", "bentbeam theory", "bentbeam predict", "bentbeam --help", "bentbeam match --help"],
+    ids=["import", "theory", "predict, zone", "predict, point", "--help", "match --help"],
 )
 def test_only_what_is_needed_is_loaded(code, allowed):
     loaded = loaded_by(code)

@@ -12,10 +12,12 @@ from __future__ import annotations
 from math import factorial
 
 import numpy as np
-from numpy.typing import NDArray
-from scipy.special import wofz
+from numpy.typing import ArrayLike
 
-ComplexArray = NDArray[np.complex128]
+from theory._fresnel import ComplexArray, scaled_erfc
+
+_Four = tuple[ComplexArray, ComplexArray, ComplexArray, ComplexArray]
+_TURN = np.exp(-0.25j * np.pi) / 2.0
 
 # From here on 14 terms of the series give 1e-16, and the recurrence has lost no more than that absolutely.
 _FAR = 12.0
@@ -25,9 +27,19 @@ _SERIES = {
 }
 
 
-def scaled_iterated_erfc(z: ComplexArray) -> tuple[ComplexArray, ComplexArray, ComplexArray, ComplexArray]:
+def scaled_iterated_erfc(z: ComplexArray) -> _Four:
     """e^{z²} iⁿerfc(z) for n = 0…3 with absolute error 1e-15; any shape, |arg z| ≤ π/2 where |z| > 12."""
-    zeroth = np.asarray(wofz(1j * z))
+    from scipy.special import wofz  # here, because it takes longer to import than all of theory
+
+    return _integrated(z, np.asarray(wofz(1j * z)))
+
+
+def iterated_erfc_of_wave(x: ArrayLike) -> _Four:
+    """The same at z = e^{−iπ/4}x/2 for x ≥ 0 of any shape: a wave that decays ahead of x."""
+    return _integrated(_TURN * np.asarray(x, dtype=np.float64), scaled_erfc(x))
+
+
+def _integrated(z: ComplexArray, zeroth: ComplexArray) -> _Four:
     first = 1.0 / np.sqrt(np.pi) - z * zeroth
     second = 0.25 * (zeroth - 2.0 * z * first)
     third = (first - 2.0 * z * second) / 6.0

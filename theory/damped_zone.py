@@ -22,10 +22,10 @@ import json
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
+from statistics import NormalDist
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.special import erfinv
 
 from theory import damped_point
 from theory._fresnel import FloatArray
@@ -109,7 +109,7 @@ def shortest() -> float:
 
 def age_of_spreading(kappa_over_nu: float) -> float:
     """T_p = erf⁻¹(κ/ν)², until which the contact is one point; κ/ν < 1."""
-    return float(erfinv(kappa_over_nu)) ** 2
+    return 0.5 * NormalDist().inv_cdf(0.5 * (1.0 - kappa_over_nu)) ** 2
 
 
 def touch_age(kappa_over_nu: float) -> float | None:

@@ -29,8 +29,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from theory._fresnel import FloatArray
-from theory._iterated_erfc import ComplexArray, scaled_iterated_erfc
+from theory._fresnel import ComplexArray, FloatArray
+from theory._iterated_erfc import scaled_iterated_erfc
 from theory.contact import DISCRETE, ContactParameters
 
 # At the front itself the least |β| is at u = ∞; what lies beyond is e^{-18}, and integrated all the same.

@@ -22,10 +22,9 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.special import fresnel
 
-from theory._fresnel import SWITCH, FloatArray, scaled_moments
-from theory._iterated_erfc import scaled_iterated_erfc
+from theory._fresnel import SWITCH, FloatArray, fresnel_integrals, scaled_moments
+from theory._iterated_erfc import iterated_erfc_of_wave
 
 # Past it β³ would overflow; H, H′ and P − √(π/2) are zero to double precision long before.
 _LARGEST = 1e100
@@ -63,7 +62,7 @@ def H(beta: ArrayLike) -> FloatArray | float:
     _, b, result = _prepare(beta)
     near = b < SWITCH
     x = b[near]
-    s_integral, c_integral = fresnel(x / np.sqrt(2.0 * np.pi))
+    s_integral, c_integral = fresnel_integrals(x)
     result[near] = (
         np.sqrt(np.pi / 2.0) * x * (s_integral - c_integral) + np.cos(x**2 / 4.0) + np.sin(x**2 / 4.0)
     )
@@ -80,7 +79,7 @@ def H1(beta: ArrayLike) -> FloatArray | float:
     """H′, odd; β of any shape."""
     signed, b, result = _prepare(beta)
     near = b < SWITCH
-    s_integral, c_integral = fresnel(b[near] / np.sqrt(2.0 * np.pi))
+    s_integral, c_integral = fresnel_integrals(b[near])
     result[near] = np.sqrt(np.pi / 2.0) * (s_integral - c_integral)
     x = b[~near]
     q = x**2 / 4.0
@@ -109,7 +108,7 @@ def P(beta: ArrayLike) -> FloatArray | float:
     signed, b, result = _prepare(beta)
     near = b < SWITCH
     x = b[near]
-    s_integral, c_integral = fresnel(x / np.sqrt(2.0 * np.pi))
+    s_integral, c_integral = fresnel_integrals(x)
     half = x**2 / 2.0
     result[near] = np.sqrt(np.pi / 2.0) * (
         (half + 1.0) * s_integral - (half - 1.0) * c_integral
@@ -128,7 +127,7 @@ def H_axial(beta: ArrayLike) -> FloatArray | float:
     """H_N, even: what an axial force nτ = 1 adds to H; β of any shape, absolute error below 1e-15."""
     _, b, _ = _prepare(beta)
     turn = np.exp(0.25j * np.pi)
-    _, first, _, third = scaled_iterated_erfc(b / (2.0 * turn))
+    _, first, _, third = iterated_erfc_of_wave(b)
     c, s = _phase(b)
     return _finish(np.sqrt(2.0 * np.pi) * (turn * (c + 1j * s) * (2.0 * third - 0.5 * first)).real, beta)
 

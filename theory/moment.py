@@ -16,10 +16,9 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.special import wofz
 
 from theory import phi
-from theory._fresnel import FloatArray
+from theory._fresnel import FloatArray, scaled_erfc
 from theory.contact import ContactParameters, contact_parameters
 
 _TURN = np.exp(-0.25j * np.pi) / 2.0
@@ -82,7 +81,7 @@ def _ahead(lam: FloatArray, r0: FloatArray, kappa: FloatArray) -> tuple[FloatArr
     With a, the wave's amplitude at the front, times `jump`: real part √(2/π)r₀ by E‴, imaginary part by E″ = −κ.
     One point is the limit λ₀ = 0, κ = ν.
     """
-    row = _TURN**2 * wofz(1j * _TURN * lam) / _JUMP
+    row = _TURN**2 * scaled_erfc(lam) / _JUMP
     rise = _SLOPE * r0
     # Re[row (rise + i turn)] = −κ
     turn = (rise * row.real + kappa) / row.imag
@@ -90,5 +89,5 @@ def _ahead(lam: FloatArray, r0: FloatArray, kappa: FloatArray) -> tuple[FloatArr
     phase = np.arctan2(rise, turn)
     place = np.sqrt(lam**2 + 4.0 * phase)
     size = np.hypot(rise, turn)
-    ahead = size * (1j * _TURN**2 * wofz(1j * _TURN * place) / _JUMP).real
+    ahead = size * (1j * _TURN**2 * scaled_erfc(place) / _JUMP).real
     return place, ahead

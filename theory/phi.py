@@ -18,9 +18,8 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.special import fresnel
 
-from theory._fresnel import SWITCH, FloatArray, scaled_moments, twice_auxiliary
+from theory._fresnel import SWITCH, FloatArray, fresnel_integrals, scaled_moments, twice_auxiliary
 
 _ROOT_TWO_PI = np.sqrt(2.0 * np.pi)
 
@@ -193,7 +192,7 @@ def phi_nu_minus_kappa(lam: ArrayLike | Argument) -> Any:
 
     def closed(x: FloatArray, nu: FloatArray, kappa: FloatArray) -> FloatArray:
         # (A.5.1) − (A.5.2) with the ones cancelled by hand
-        s, c = fresnel(x / _ROOT_TWO_PI)
+        s, c = fresnel_integrals(x)
         phase = x**2 / 4.0
         return np.asarray(2.0 * ((c - s) * np.cos(phase) - (1.0 - c - s) * np.sin(phase)))
 

@@ -21,9 +21,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.special import wofz
 
-from theory._fresnel import FloatArray
+from theory._fresnel import FloatArray, scaled_erfc
 from theory.contact import DETACHED, ContactParameters
 
 _TURN = np.exp(-0.25j * np.pi) / 2.0
@@ -61,18 +60,19 @@ def second_order(parameters: ContactParameters) -> SecondOrder:
     return _Front(p).solve()
 
 
-def _scaled(z: complex) -> dict[int, complex]:
-    """e^{z²} iⁿerfc(z) for n = −3…6, Re z ≥ 0, to rounding.
+def _scaled(x: float) -> dict[int, complex]:
+    """e^{z²} iⁿerfc(z) for n = −3…6 at z = e^{−iπ/4}x/2, x ≥ 0, to rounding.
 
     The recurrence 2n iⁿerfc = iⁿ⁻²erfc − 2z iⁿ⁻¹erfc loses digits upwards, where iⁿerfc is its minimal solution; so
     their ratios r_n = iⁿ/iⁿ⁻¹ are taken downwards, r_{n−1} = 1/(2z + 2n r_n), from where the start is forgotten.
     """
+    z = complex(_TURN * x)
     gauss = 2.0 / np.sqrt(np.pi)
     values: dict[int, complex] = {-1: complex(gauss)}
     values[-2] = 2.0 * z * values[-1]
     values[-3] = 2.0 * z * values[-2] - 2.0 * values[-1]
     if abs(z) < _NEAR:
-        values[0] = complex(wofz(1j * z))
+        values[0] = complex(scaled_erfc(x))
         for n in range(1, 7):
             values[n] = (values[n - 2] - 2.0 * z * values[n - 1]) / (2.0 * n)
         return values
@@ -92,7 +92,7 @@ class _Front:
 
     def __init__(self, p: ContactParameters) -> None:
         self.p, self.x, self.n = p, float(p.lambda0), float(p.axial)
-        self.erfc = _scaled(complex(_TURN * self.x))
+        self.erfc = _scaled(self.x)
 
     def wave(self, order: int) -> list[complex]:
         """i^{order}erfc and its derivatives in x, per amplitude at the front."""

@@ -24,8 +24,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from theory import phi
-from theory._fresnel import FloatArray
-from theory._iterated_erfc import ComplexArray, scaled_iterated_erfc
+from theory._fresnel import ComplexArray, FloatArray, scaled_erfc
+from theory._iterated_erfc import iterated_erfc_of_wave
 from theory.contact import ContactParameters
 
 _TURN = np.exp(-0.25j * np.pi) / 2.0
@@ -47,7 +47,7 @@ class SelfSimilarWave:
         In the discrete regime E′(0) = 0 takes the place of E″, which the front's zone no longer sets.
         """
         p = self.parameters
-        front = complex(scaled_iterated_erfc(np.array([_TURN * p.lambda0]))[0][0])
+        front = complex(scaled_erfc(p.lambda0))
         if p.lambda0 > 0.0:
             row, value = _TURN**2 * front, -p.r0 * float(phi.phi_kappa(p.lambda0))
         else:
@@ -61,7 +61,7 @@ class SelfSimilarWave:
     def _wave(self, x: FloatArray) -> tuple[ComplexArray, ...]:
         """B iⁿerfc(z), n = 0…3, at x ≥ λ₀."""
         wave = self._amplitude * np.exp(0.25j * (x**2 - self.parameters.lambda0**2))
-        return tuple(wave * values for values in scaled_iterated_erfc(_TURN * np.atleast_1d(x)))
+        return tuple(wave * values for values in iterated_erfc_of_wave(np.atleast_1d(x)))
 
     def deflection(self, x: ArrayLike) -> FloatArray:
         """η/τ at x = ξ/√τ."""
