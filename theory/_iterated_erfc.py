@@ -28,14 +28,14 @@ _SERIES = {
 
 
 def scaled_iterated_erfc(z: ComplexArray) -> _Four:
-    """e^{z²} iⁿerfc(z) for n = 0…3 with absolute error 1e-15; any shape, |arg z| ≤ π/2 where |z| > 12."""
+    """e^{z²} iⁿerfc(z) for n = 0…3 with absolute error 1e-13; any shape, |arg z| ≤ π/2 where |z| > 12."""
     from scipy.special import wofz  # here, because it takes longer to import than all of theory
 
     return _integrated(z, np.asarray(wofz(1j * z)))
 
 
 def iterated_erfc_of_wave(x: ArrayLike) -> _Four:
-    """The same at z = e^{−iπ/4}x/2 for x ≥ 0 of any shape: a wave that decays ahead of x."""
+    """The same with 1e-14 at z = e^{−iπ/4}x/2, x ≥ 0 of any shape: a wave that decays ahead of x."""
     return _integrated(_TURN * np.asarray(x, dtype=np.float64), scaled_erfc(x))
 
 
