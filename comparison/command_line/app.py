@@ -18,7 +18,6 @@ import typer
 
 from bent_beam.errors import SimulationError
 from comparison.command_line.group import CommandGroup
-from comparison.command_line.options import printable
 
 __all__ = ["app", "main", "run"]
 
@@ -108,5 +107,7 @@ def how_to_go_on(arguments: Sequence[str]) -> str:
 
 
 def _refuse(message: str, code: int) -> int:
+    from comparison.command_line.options import printable
+
     print("error: " + printable(" ".join(message.split())), file=sys.stderr)
     return code
