@@ -38,6 +38,7 @@ Array = NDArray[np.float64]
 GROWTH = 0.01  # neighbours of the chosen mesh: 5 elements over the front's bending length at κ/ν = 0.05, 20 at 0.2
 WAVES, GROWTH_OF_WAVES = 2.0, 0.02  # beyond so many times the front's bound there are waves only, and these neighbours
 OF_ZONE, OF_BENDING = 300.0, 30.0  # the smallest element over the front's bound and over the bending ahead of it
+FINEST = 3e3  # the front's bound over the smallest element: a finer start moves r₀ by < 0.3 % (κ/ν < 1/100)
 REACH, REACH_OF_FRONT = 12.0, 8.0  # half length to model, see far_field; tests/exudyn_models/test_exudyn_constants.py
 ELEMENT_STEPS = 4e5  # elements times steps of a run with uniform elements: a few seconds
 FEWEST = 60  # uniform elements of a half beam, from 0.9 T* on; tests/exudyn_models/test_exudyn_constants.py
@@ -85,7 +86,7 @@ def chosen_mesh(
         smallest = min(max(front, 0.5) / 25, (2.0 / front) / 10)
         rule = ScaleFreeMesh(smallest * scaling.length * coarsen, 1.0 + 0.02 * coarsen)
     else:
-        smallest = min(front / OF_ZONE, (2.0 / front) / OF_BENDING)
+        smallest = max(min(front / OF_ZONE, (2.0 / front) / OF_BENDING), front / FINEST)
         rule = ScaleFreeMesh(
             smallest * scaling.length * coarsen,
             1.0 + GROWTH * coarsen,

@@ -7,8 +7,9 @@ back where it began. Here the state that a solution *assumed* is compared with t
 has a law of its own (``imposes``: closed is what pushes), that decides, and the states are written over Exudyn's.
 
 - They agree, but for forces below the tolerance: the step is accepted at once;
-- after ``BLOCK`` repetitions in which all connectors follow their gaps at once, only one at a time does (Murty's rule,
-  as in the Hermite path: Júdice & Pires 1994, Comput. Oper. Res. 21, 587);
+- after ``BLOCK`` repetitions in which all connectors follow their gaps at once and no fewer contradict theirs than
+  before, only one at a time does, until fewer do: the one with the largest force, and after ``PERSISTENCE`` repetitions
+  more the last (Murty's rule; as in the Hermite path: Júdice & Pires 1994, Comput. Oper. Res. 21, 587);
 - a state comes back that this step had already tried: none is consistent. Of the states that return, the one that
   contradicts itself least is accepted, and counted;
 - the repetitions run out before: the step is not solved.
@@ -16,6 +17,7 @@ has a law of its own (``imposes``: closed is what pushes), that decides, and the
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import numpy as np
@@ -26,7 +28,7 @@ from exudyn_models.contacts.base import TINY
 
 __all__ = ["Settling"]
 
-BLOCK = 15  # repetitions; with no setting given, none of the impacts measured takes more
+BLOCK, PERSISTENCE = 15, 60  # repetitions
 
 
 class Settling:
@@ -45,6 +47,8 @@ class Settling:
         self._iterations, self._tolerance = iterations, tolerance
         self._time: float | None = None
         self._repetitions = 0
+        self._fewest = math.inf  # contradictions in this step
+        self._patience = BLOCK  # repetitions until only one follows its gap
         self._doubtful: NDArray[np.bool_] | None = None  # connectors whose state this step has had to correct
         self._tried: dict[bytes, float] = {}  # what was assumed of them, and by how much it contradicted itself
         self._cycling = False
@@ -57,6 +61,7 @@ class Settling:
     def __call__(self, mbs: Any, time: float) -> list[float]:
         if time != self._time:
             self._time, self._repetitions, self._doubtful = time, 0, None
+            self._fewest, self._patience = math.inf, BLOCK
             self.steps += 1
         self._repetitions += 1
         data = mbs.systemData
@@ -83,19 +88,29 @@ class Settling:
                 f"{force / self._tolerance:.3g} contact_tolerance"
             )
             self._follow(mbs)
-        elif self._repetitions >= BLOCK:
-            if self._repetitions == BLOCK:
-                self._tried = {}
+        elif not self._all_at_once(int(doubtful.sum())):
+            worst = self._patience > -PERSISTENCE
             single = closed.copy()
-            single[np.flatnonzero(doubtful)[-1]] ^= True
+            single[np.argmax(wrong) if worst else np.flatnonzero(doubtful)[-1]] ^= True
             self._set(mbs, single)
         elif self._contact.imposes:
             self._set(mbs, np.where(doubtful, ~closed, closed))
+        else:
+            self._follow(mbs)
         return [force, -1.0]
 
     def failure(self) -> str:
         """What happened in the first step that ran out of repetitions."""
         return self._first
+
+    def _all_at_once(self, contradictions: int) -> bool:
+        """Whether all connectors follow their gaps in the next repetition, or only one that contradicts its own."""
+        before, self._patience = self._patience, self._patience - 1
+        if contradictions < self._fewest:
+            self._fewest, self._patience = contradictions, BLOCK
+        if (before > 0) != (self._patience > 0) or self._patience == -PERSISTENCE:
+            self._tried = {}  # under another rule a state may well come back
+        return self._patience > 0
 
     def _returns(self, closed: NDArray[np.bool_], doubtful: NDArray[np.bool_], force: float) -> bool:
         """Whether this is the least contradictory of states that come back again and again; else it is remembered."""

@@ -9,7 +9,6 @@ import typer
 
 from comparison.command_line.console import Console
 from comparison.command_line.options import (
-    Jobs,
     Json,
     Methods,
     Paths,
@@ -23,6 +22,10 @@ from comparison.command_line.options import (
 )
 
 __all__ = ["match"]
+
+LEAST_ROWS = 4  # a process, where the number of processes is left open
+
+
 def match(
     path: Paths = None,
     assignments: Set = None,
@@ -44,7 +47,10 @@ def match(
         str, typer.Option(help="quick (a companion run at half the resolution), thorough (and one at twice), or drift.")
     ] = "quick",
     limit: Annotated[float | None, typer.Option(help="Seconds that one row may take.")] = None,
-    jobs: Jobs = 1,
+    jobs: Annotated[
+        int | None,
+        typer.Option("--jobs", "-j", min=1, help="Processes on this machine. Default: one a core, for four rows each."),
+    ] = None,
     scheduler: Scheduler = None,
     out: Annotated[Path | None, typer.Option(help="Folder for the table and the plots.")] = None,
     fresh: Annotated[bool, typer.Option("--fresh", help="Do not use runs kept from before.")] = False,
@@ -55,6 +61,7 @@ def match(
 
     Example: bentbeam match --path hermite --set hermite.integrator.kind=moreau_jean --kappa-over-nu 0.5 --refine 1,2
     """
+    import os
     import sys
 
     from comparison.match import THESIS_KAPPAS, failures, questions
@@ -69,6 +76,8 @@ def match(
     if out is not None:
         check_writable(out, folder=True)
     store = RunStore(None if fresh else default_store())
+    if jobs is None:  # a process takes a second or two to start
+        jobs = max(1, min(os.cpu_count() or 1, len(asked) // LEAST_ROWS))
     with Console(quiet).progress(f"{len(asked)} rows") as bar:
         rows = match_all(asked, store=store, jobs=jobs, scheduler=scheduler, limit=limit, progress=bar.count)
     if out is not None:

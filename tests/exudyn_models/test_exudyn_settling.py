@@ -110,3 +110,57 @@ def test_an_interrupt_while_exudyn_calls_back_is_an_interrupt_and_no_failure_of_
     monkeypatch.setattr(Settling, where, interrupted)
     with pytest.raises(KeyboardInterrupt):
         exudyn_models.simulate(SHORT, mesh=MESH, save=20)
+
+
+class Pressed:
+    """0 ≤ p ⊥ M p − c ≥ 0 in the place of a system and its contact: p are forces, M p − c gaps."""
+
+    states, imposes = 1, True
+
+    def __init__(self, flexibility, penetration):
+        self.flexibility, self.penetration, self.systemData = flexibility, penetration, self
+        self.data, self.hook = np.ones(penetration.size), lambda *_: None
+
+    def SetPreNewtonResidualUserFunction(self, hook):
+        self.hook = hook
+
+    def SetDataCoordinates(self, data):
+        self.data = data
+
+    def GetDataCoordinates(self):
+        return self.data
+
+    def solve(self):
+        self.hook(self, 0.0, 0, 0)
+        closed = self.data <= 0.0
+        self.forces = np.zeros(closed.size)
+        self.forces[closed] = np.linalg.solve(self.flexibility[np.ix_(closed, closed)], self.penetration[closed])
+        self.gaps = np.where(closed, 0.0, self.flexibility @ self.forces - self.penetration)
+
+    def GetODE2Coordinates(self):
+        return self.forces
+
+    def GetODE2Coordinates_t(self):
+        return self.gaps
+
+    def closed_by(self, forces, gaps):
+        return (forces > 0.0) | (gaps < 0.0)
+
+    def contradictions(self, forces, gaps, closed):
+        return np.maximum(np.where(closed, -forces, -gaps), 0.0)
+
+
+def test_a_stiff_chain_pressed_at_random_settles():
+    """Sixty contacts a fourth derivative apart: one at a time from the last on, and never all again, runs out."""
+    count = 60
+    bending = np.diff(np.eye(count + 4), 4, axis=0)[:, :count]
+    flexibility = np.linalg.inv(1e-3 * np.eye(count) + bending.T @ bending)
+    for seed in range(10):
+        contact = Pressed(flexibility, np.random.default_rng(seed).normal(size=count))
+        solver = SimpleNamespace(it=SimpleNamespace(discontinuousIteration=0))
+        settling = Settling(contact, solver, 300, 1e-9, must_settle=True)
+        while not (solver.it.discontinuousIteration or settling.unsettled):
+            contact.solve()
+            settling(contact, 1.0)
+        assert settling.unsettled == 0
+        assert settling.cycles or min(contact.forces.min(), contact.gaps.min()) >= -1e-9
