@@ -1,8 +1,8 @@
 """All benchmarks that have goals, one after the other, and what they come to.
 
-python -m benchmarks [startup theory exudyn steps]
+python -m benchmarks [startup theory exudyn steps waits]
 
-Each keeps its figures in ``benchmarks/results``. What is not a ratio (the theory's seconds) is that of this machine.
+Each keeps its figures in ``benchmarks/results``. Seconds, which are no ratios, are those of this machine.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ import time
 from benchmarks.record import VERSIONS
 from bent_beam.versions import processor
 
-ALL = ("startup", "theory", "exudyn", "steps")
+ALL = ("startup", "theory", "exudyn", "steps", "waits")
 
 
 def main() -> int:
