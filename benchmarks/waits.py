@@ -1,6 +1,6 @@
-"""What a user waits for: three commands, each from the start of its interpreter to its last line, in a folder of its own
-with nothing stored, on two processes (match: as many as it takes when nobody says), kernels compiled beforehand. Goals
-in seconds are those of an idle machine with two cores: with other work on it they may be missed.
+"""What a user waits for: three commands, each from the start of its interpreter to its last line, in a folder of its
+own with nothing stored, on two processes (match: as many as it takes when nobody says), kernels compiled beforehand.
+Goals in seconds are those of an idle machine with two cores: with other work on it they may be missed.
 
 python -m benchmarks.waits [--rounds 1] [--out benchmarks/results/waits.json]
 """
