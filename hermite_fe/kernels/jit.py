@@ -3,17 +3,19 @@
 The first start pays for every line and every array of every signature. So a kernel that others call is compiled for
 them without a way in from Python, and made machine code once, with the kernel that Python calls, not at every level in
 between; a long one stays a function of its own there; none has a way in from C; where no array is made no references
-are counted; and types that have been found are kept (:mod:`.inference`). A first simulation takes 13 s of processor
-time so, and 23 s where long kernels are written into others and types are looked for anew. A kernel that Python calls
-too is compiled a second time for it. (Two processes side by side were 5 % faster, on two cores that share one memory.)
+are counted, and what numba does for closures and the like is left out; types that have been found are kept
+(:mod:`.inference`); and Python does not look for cycles meanwhile. A first simulation takes 8 s so, and 20 s where long
+kernels are written into others, types are looked for anew and so on. A kernel that Python calls too is compiled a
+second time for it. (Two processes side by side were 5 % faster, on two cores that share one memory.)
 """
 
 from __future__ import annotations
 
+import gc
 import hashlib
 import logging
-from collections.abc import Callable
-from contextlib import suppress
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
 from functools import cache
 from pathlib import Path
 from types import SimpleNamespace
@@ -22,7 +24,8 @@ from typing import Any, TypeVar, cast
 import numba
 from numba.core.caching import CompileResultCacheImpl, FunctionCache, IndexDataCacheFile
 from numba.core.codegen import JITCodeLibrary
-from numba.core.compiler import Compiler
+from numba.core.compiler import Compiler, DefaultPassBuilder
+from numba.core.compiler_machinery import PassManager
 from numba.core.runtime.nrt import rtsys
 
 from hermite_fe.kernels.inference import remember
@@ -106,6 +109,14 @@ class PartLibrary(JITCodeLibrary):
     """The code of a kernel for those that call it: neither optimised nor made machine code, which is done once for all
     that a kernel calls where Python calls it, not once more at every level in between."""
 
+    def _optimize_functions(self, module: Any) -> None:
+        """Made smaller only: a third of the time."""
+        level, numba.config.OPT = numba.config.OPT, 1  # type: ignore[attr-defined]
+        try:
+            super()._optimize_functions(module)
+        finally:
+            numba.config.OPT = level  # type: ignore[attr-defined]
+
     def _optimize_final_module(self) -> None:
         pass
 
@@ -155,7 +166,27 @@ class PartCache(KernelCache):
     suffix = ".part"
 
 
-class PartCompiler(Compiler):
+@contextmanager
+def _cycles_kept() -> Iterator[None]:
+    """Without looking for cycles among what is made in here, almost all of which stays: a tenth of a compilation."""
+    collecting = gc.isenabled()
+    gc.disable()
+    try:
+        yield
+    finally:
+        if collecting:
+            gc.enable()
+
+
+class KernelCompiler(Compiler):
+    """Numba's compiler."""
+
+    def compile_extra(self, function: Any) -> Any:
+        with _cycles_kept():
+            return super().compile_extra(function)
+
+
+class PartCompiler(KernelCompiler):
     """Numba's compiler, into a :class:`PartLibrary`."""
 
     library: type[PartLibrary] = PartLibrary
@@ -170,7 +201,46 @@ class ApartCompiler(PartCompiler):
     library = ApartLibrary
 
 
-def kernel(function: Function, part_compiler: type[Compiler] = PartCompiler, **options: Any) -> Function:
+NOT_IN_PLAIN_KERNELS = {
+    *("WithLifting", "InlineClosureLikes", "MakeFunctionToJitFunction", "RewriteDynamicRaises"),
+    *("FindLiterallyCalls", "LiteralUnroll", "LiteralPropagationSubPipelinePass", "DeadBranchPrune"),
+    *("InlineInlinables", "InlineOverloads", "NopythonRewrites"),
+}
+"""Numba's passes for closures and comprehensions, ``with``, what errors say, ``literal_unroll``, branches on ``None``,
+functions to be inlined before their types are known, and sums and products of whole arrays."""
+
+
+class Plain:
+    """A compiler of kernels that loop over numbers: without passes for what is not in them (which would not compile).
+    Such passes take a tenth of the time."""
+
+    def define_pipelines(self) -> list[PassManager]:
+        plain = PassManager("plain kernel")
+        for kind, description in DefaultPassBuilder.define_nopython_pipeline(self.state).passes:  # type: ignore[attr-defined]
+            if kind.__name__ not in NOT_IN_PLAIN_KERNELS:
+                plain.add_pass(kind, description)
+        plain.finalize()
+        return [plain]
+
+
+class PlainCompiler(Plain, KernelCompiler):
+    """For Python."""
+
+
+class PlainPartCompiler(Plain, PartCompiler):
+    """For other kernels."""
+
+
+class PlainApartCompiler(Plain, ApartCompiler):
+    """For other kernels, long."""
+
+
+def kernel(
+    function: Function,
+    compiler: type[Compiler] = KernelCompiler,
+    part_compiler: type[Compiler] = PartCompiler,
+    **options: Any,
+) -> Function:
     """``function`` compiled at its first call or loaded; as it is under ``NUMBA_DISABLE_JIT=1``, to step through it.
 
     Kernels call another compilation of it than Python does, one without a way in from Python.
@@ -179,9 +249,9 @@ def kernel(function: Function, part_compiler: type[Compiler] = PartCompiler, **o
         return function
     remember()
     options = {"error_model": "numpy", "no_cfunc_wrapper": True, **options}
-    compiler: Any = numba.njit  # whose types do not know all options
-    called = compiler(**options)(function)
-    part = compiler(no_cpython_wrapper=True, pipeline_class=part_compiler, **options)(function)
+    njit: Any = numba.njit  # whose types do not know all options
+    called = njit(pipeline_class=compiler, **options)(function)
+    part = njit(no_cpython_wrapper=True, pipeline_class=part_compiler, **options)(function)
 
     def template_without_literals(arguments: tuple[Any, ...], names: dict[str, Any]) -> Any:
         """Numba would compile a kernel once more for each number that a call writes out, as ``first = 0``."""
@@ -210,15 +280,17 @@ def compiled(function: Function) -> Function:
 
 
 def compiled_in_place(function: Function) -> Function:
-    """As :func:`compiled`, for a kernel that makes no arrays (views of those that it is given are none)."""
-    return kernel(function, fastmath={"contract"}, _nrt=False)
+    """As :func:`compiled`, for a kernel that makes no arrays (views of those that it is given are none) and loops over
+    numbers: no closures, no comprehensions, no arithmetic with whole arrays."""
+    return kernel(function, PlainCompiler, PlainPartCompiler, fastmath={"contract"}, _nrt=False)
 
 
 def compiled_apart(function: Function) -> Function:
     """As :func:`compiled_in_place`, for a long kernel that is called a few times a step: it stays a function."""
-    return kernel(function, ApartCompiler, fastmath={"contract"}, _nrt=False)
+    return kernel(function, PlainCompiler, PlainApartCompiler, fastmath={"contract"}, _nrt=False)
 
 
 def compiled_sums(function: Function) -> Function:
-    """Compile with sums reordered for speed, for kernels to which their order is nothing and which make no arrays."""
-    return kernel(function, fastmath={"contract", "reassoc"}, _nrt=False)
+    """Compile with sums reordered for speed, for kernels to which their order is nothing and which are else as those of
+    :func:`compiled_in_place`."""
+    return kernel(function, PlainCompiler, PlainPartCompiler, fastmath={"contract", "reassoc"}, _nrt=False)

@@ -6,6 +6,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+import numpy as np
 import pytest
 from numba.core.caching import CompileResultCacheImpl
 from numba.core.types.functions import BaseFunction
@@ -193,3 +194,16 @@ def test_a_change_in_one_module_reaches_kernels_of_another(tmp_path: Path):
         )
         seen.append((*done.stdout.split(), done.stderr.count("bent_beam: compiling")))
     assert seen == [("6.0", "0", 1), ("6.0", "1", 0), ("15.0", "0", 1)]  # said once, to whom the command listens
+
+
+def test_a_kernel_of_ones_own_may_hold_all_that_numba_takes():
+    """Those of the package, which loop over numbers, are compiled without passes for arrays, closures and the like."""
+
+    @jit.compiled
+    def furthest(x: np.ndarray) -> float:
+        def off(value: float) -> float:
+            return abs(value - 1.0)
+
+        return max([off(v) for v in 2.0 * x + 1.0])
+
+    assert furthest(np.array([1.0, -3.0, 2.0])) == 6.0
