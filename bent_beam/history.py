@@ -31,7 +31,7 @@ import json
 import unicodedata
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
-from functools import cached_property
+from functools import cached_property, lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -193,7 +193,7 @@ class ImpactHistory:
 
     @property
     def impact(self) -> Impact:
-        return Impact(**json.loads(self.attrs["impact"]))
+        return _impact(self.attrs["impact"])
 
     @property
     def path(self) -> str:
@@ -371,3 +371,9 @@ def _plain_text(value: Any, where: str) -> None:
     elif isinstance(value, list):
         for item in value:
             _plain_text(item, where)
+
+
+@lru_cache(maxsize=16)
+def _impact(described: str) -> Impact:
+    """Of the attribute, which is asked for at every instant."""
+    return Impact(**json.loads(described))

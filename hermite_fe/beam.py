@@ -17,7 +17,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import cho_solve_banded, cholesky_banded
 
 from bent_beam.checks import positive
 from bent_beam.meshes import checked_nodes
@@ -179,6 +178,8 @@ class HermiteBeam:
         for dof in supports:
             if not 0 <= dof < self.dofs:
                 raise ValueError(f"supports must name dofs from 0 to {self.dofs - 1} (got {dof!r})")
+        from scipy.linalg import cho_solve_banded, cholesky_banded  # here: no impact needs what takes long to import
+
         length = self.nodes[-1] - self.nodes[0]
         rigid = [(1.0 - d % 2, self.nodes[d // 2] / length if d % 2 == 0 else 1.0) for d in supports]
         if not rigid or np.linalg.matrix_rank(np.array(rigid)) < 2:

@@ -17,7 +17,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.linalg import cho_solve_banded, cholesky_banded
 
 from hermite_fe.beam import HermiteBeam
 from hermite_fe.contacts import Contact
@@ -38,6 +37,8 @@ class ImpactCoupling:
 
 def impact_coupling(contact: Contact, mass: Mass) -> ImpactCoupling:
     """Of rows far from the ends of a beam of equal elements."""
+    from scipy.linalg import cho_solve_banded, cholesky_banded  # here: few runs need what takes long to import
+
     beam = HermiteBeam(np.arange(ELEMENTS + 1.0), 1.0, 1.0)
     rows = contact.rows(beam, np.zeros(beam.dofs), full=False)
     j = len(rows) // 2

@@ -251,11 +251,18 @@ def kernel(
     options = {"error_model": "numpy", "no_cfunc_wrapper": True, **options}
     njit: Any = numba.njit  # whose types do not know all options
     called = njit(pipeline_class=compiler, **options)(function)
-    part = njit(no_cpython_wrapper=True, pipeline_class=part_compiler, **options)(function)
+
+    @cache
+    def part() -> Any:
+        """Made when another kernel is compiled that calls this one."""
+        made = njit(no_cpython_wrapper=True, pipeline_class=part_compiler, **options)(function)
+        with suppress(RuntimeError):
+            made._cache = PartCache(function)
+        return made
 
     def template_without_literals(arguments: tuple[Any, ...], names: dict[str, Any]) -> Any:
         """Numba would compile a kernel once more for each number that a call writes out, as ``first = 0``."""
-        return part.get_call_template(tuple(numba.types.unliteral(a) for a in arguments), names)
+        return part().get_call_template(tuple(numba.types.unliteral(a) for a in arguments), names)
 
     add_overload = called.add_overload
 
@@ -266,11 +273,10 @@ def kernel(
         add_overload(result)
 
     called.add_overload = add_with_parts
-    called.get_call_template, called.get_overload = template_without_literals, part.get_overload
-    try:
-        called._cache, part._cache = KernelCache(function), PartCache(function)
-    except RuntimeError:  # neither this folder nor the user's can be written: compiled anew at every start
-        pass
+    called.get_call_template = template_without_literals
+    called.get_overload = lambda signature: part().get_overload(signature)
+    with suppress(RuntimeError):  # neither this folder nor the user's can be written: compiled anew at every start
+        called._cache = KernelCache(function)
     return cast(Function, called)
 
 
