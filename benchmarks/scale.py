@@ -22,7 +22,7 @@ RUNS = (  # nodes, steps, saved instants
     (10_000, 1_000, 200),
     (100_000, 100, 200),
     (100_000, 100, 20),
-    (1_000, 100_000, 200),
+    (1_000, 1_000_000, 200),
     (100, 1_000_000, 200),
     (1_000, 10_000, 2_000),
     (1_000, 10_000, 10_000),
@@ -30,7 +30,7 @@ RUNS = (  # nodes, steps, saved instants
 )
 SWEEPS = {  # rows
     ("sweep", "two processes"): (1_000, 10_000),
-    ("cluster", "a dask cluster, scheduler included"): (1_000, 4_000),
+    ("cluster", "a dask cluster, scheduler included"): (1_000, 10_000),
 }
 LENGTH = 100.0  # l*, half the beam: no wave comes back
 

@@ -23,7 +23,7 @@ from exudyn_models.viewer import draw_wall
 
 __all__ = ["assemble", "stable_step"]
 
-VISCOSITY = 0.3  # of √(EIμ)Δx² of an element; tests/exudyn_models/test_exudyn_constants.py
+VISCOSITY = 0.15  # of √(EIμ)Δx² of an element, λ₀ is off in proportion; tests/exudyn_models/test_exudyn_constants.py
 VISCOSITY_EXPLICIT = 0.003  # more would shorten the stable step
 STRETCH = 1e-4  # largest strain under the axial force in the linear limit: lengths are then right to as much
 TAUT = 1e4  # EAΛ²/EI under it: a strain of N/EA moves the front, too, by 7e-4 of what the force does (λ_N at κ/ν = 0.5)

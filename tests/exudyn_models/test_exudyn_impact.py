@@ -124,9 +124,12 @@ def test_segment_contact_meets_the_theory_and_friction_changes_nothing_in_the_li
         assert_allclose(history.array("gap")[0], 0.25 * history.array("x") ** 2, atol=1e-12)
 
 
-@pytest.mark.parametrize(("kappa_over_nu", "elements"), [(0.5, 100), pytest.param(0.8, 300, marks=pytest.mark.verify)])
+@pytest.mark.parametrize(("kappa_over_nu", "elements"), [(0.5, 140), pytest.param(0.8, 300, marks=pytest.mark.verify)])
 def test_constraints_meet_the_theory_on_a_flat_wall(kappa_over_nu, elements):
-    """Nodes are led back to the wall: what is left of their depths would press and pull without end."""
+    """Nodes are led back to the wall: what is left of their depths would press and pull without end.
+
+    With 140 elements 2e-8 is left, whatever the viscosity; with 100 it is 4e-8 to 1.3e-7, as captures fall.
+    """
     impact = Impact.dimensionless(kappa_over_nu)
     mesh = coarse(impact, growth=1.012, elements=elements)
     rigid = exudyn_models.simulate(impact, mesh=mesh, contact=Rigid(), save=100)
