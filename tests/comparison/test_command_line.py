@@ -231,3 +231,18 @@ def test_settings_and_kinds_are_completed():
     assert "hermite.contact.kind=middle" in setting_names("hermite.contact.k")
     assert setting_names("beam.leng") == ["beam.length="]
     assert "exudyn.integrator.kind=newmark" in setting_names("exudyn.")
+
+
+@pytest.mark.parametrize(
+    ("words", "cores", "processes"),
+    [((), 2, 2), ((), 64, 4), (("--kappa-over-nu", "0.5"), 64, 1), (("--jobs", "1"), 2, 1), ((), None, 1)],
+)
+def test_match_takes_as_many_processes_as_there_are_cores_and_rows_for_them(
+    words, cores, processes, capsys, monkeypatch
+):
+    """Eighteen rows without options; four a process at least, for one takes seconds to start."""
+    taken = []
+    monkeypatch.setattr("os.cpu_count", lambda: cores)
+    monkeypatch.setattr("comparison.match.match", lambda asked, *, jobs, **_: taken.append(jobs) or [])
+    assert document(capsys, "match", *words)["rows"] == []
+    assert taken == [processes]
