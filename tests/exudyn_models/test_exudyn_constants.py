@@ -76,6 +76,18 @@ def test_a_constant_halved_or_doubled(
 
 
 @pytest.mark.parametrize("factor", [0.5, 2.0])
+def test_the_finest_start_halved_or_doubled(factor: float, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Where the front is too thin for any mesh (r₀ is 14 % off), a finer start does not help."""
+    question = Question(ExudynModel(), 1 / 200, error_bars="drift")
+    chosen = answer(question, RunStore(None))
+    monkeypatch.setattr(resolution, "FINEST", resolution.FINEST * factor)
+    found = answer(question, RunStore(None))
+    for name, most in (("lambda0", 1e-3), ("r0", 5e-3)):
+        number, moved = getattr(chosen, name), getattr(found, name)
+        assert 0.0 < abs(moved.value - number.value) < most * number.theory
+
+
+@pytest.mark.parametrize("factor", [0.5, 2.0])
 @pytest.mark.parametrize(("name", "ends"), [("ELEMENT_STEPS", (0.02, 0.08)), ("FEWEST", (2.0,))])
 def test_uniform_elements_halved_or_doubled(
     name: str, ends: tuple[float, ...], factor: float, monkeypatch: pytest.MonkeyPatch
