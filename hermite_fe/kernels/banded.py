@@ -24,20 +24,24 @@ from hermite_fe.kernels.jit import compiled_apart, compiled_in_place, compiled_s
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
+ROWS = 512
+"""Of the step matrix that are written at a time: 20 kB."""
+
 CHUNK = 8192
 """Dofs that a sweep takes at a time. Few enough for the second-level cache (four arrays of 64 kB a matrix), enough for
 the processor to see that it reads on: with 1,024 a step of 50,000 nodes took a fifth longer."""
 
 
 @compiled_sums
-def band_row(A: Array, x: Array, n: int, i: int) -> float:
-    """Row i of A x, anywhere, with x taken as zero from n on."""
-    total = A[0, i] * x[i]
+def band_row(A: Array, x: Array, origin: int, n: int, i: int) -> float:
+    """Row i of A x, anywhere, with x taken as zero from n on; ``x`` starts with dof ``origin``."""
+    o = i - origin
+    total = A[0, i] * x[o]
     for m in range(1, 4):
         if i >= m:
-            total += A[m, i - m] * x[i - m]
+            total += A[m, i - m] * x[o - m]
         if i + m < n:
-            total += A[m, i] * x[i + m]
+            total += A[m, i] * x[o + m]
     return total
 
 
@@ -46,9 +50,9 @@ def multiply_rows(A: Array, x: Array, n: int, first: int, stop: int, y: Array) -
     """y = rows ``first`` … ``stop`` − 1 of A x, y (stop − first,), with x taken as zero from n on."""
     low, high = max(first, 3), min(stop, n - 3)
     for i in range(first, min(low, stop)):
-        y[i - first] = band_row(A, x, n, i)
+        y[i - first] = band_row(A, x, 0, n, i)
     for i in range(max(high, min(low, stop)), stop):
-        y[i - first] = band_row(A, x, n, i)
+        y[i - first] = band_row(A, x, 0, n, i)
     if high <= low:
         return
     d0, d1, d2, d3 = A[0, low:high], A[1, low:high], A[2, low:high], A[3, low:high]
@@ -75,46 +79,47 @@ def multiply(A: Array, x: Array, y: Array, n: int) -> None:
 
 
 @compiled_in_place
-def stiff_row(A: Array, even: Array, odd: Array, x: Array, i: int) -> float:
+def stiff_row(A: Array, even: Array, odd: Array, x: Array, origin: int, i: int) -> float:
     """Row i of :func:`stiff_multiply`, anywhere."""
-    n = x.size
-    total = even[i] * x[i]
+    n, o = even.size, i - origin
+    total = even[i] * x[o]
     if i >= 2:
-        total += A[2, i - 2] * (x[i - 2] - x[i])
+        total += A[2, i - 2] * (x[o - 2] - x[o])
     if i + 2 < n:
-        total += A[2, i] * (x[i + 2] - x[i])
+        total += A[2, i] * (x[o + 2] - x[o])
     left = 0.0
     if i >= 1:
-        left = x[i - 1]
+        left = x[o - 1]
         total += odd[i] * left
     if i >= 3:
-        total += A[3, i - 3] * (x[i - 3] - left)
+        total += A[3, i - 3] * (x[o - 3] - left)
     if i + 1 < n:
-        total += A[1, i] * (x[i + 1] - left)
+        total += A[1, i] * (x[o + 1] - left)
     if i + 3 < n:
-        total += A[3, i] * (x[i + 3] - left)
+        total += A[3, i] * (x[o + 3] - left)
     return total
 
 
 @compiled_in_place
-def stiff_rows(A: Array, even: Array, odd: Array, x: Array, first: int, stop: int, y: Array) -> None:
-    """y = rows ``first`` … ``stop`` − 1 of :func:`stiff_multiply`, y (stop − first,)."""
-    n = x.size
+def stiff_rows(A: Array, even: Array, odd: Array, x: Array, origin: int, first: int, stop: int, y: Array) -> None:
+    """y = rows ``first`` … ``stop`` − 1 of :func:`stiff_multiply`, y (stop − first,); ``x`` starts with dof ``origin``."""
+    n = even.size
     low, high = max(first, 3), min(stop, n - 3)
     for i in range(first, min(low, stop)):
-        y[i - first] = stiff_row(A, even, odd, x, i)
+        y[i - first] = stiff_row(A, even, odd, x, origin, i)
     for i in range(max(high, min(low, stop)), stop):
-        y[i - first] = stiff_row(A, even, odd, x, i)
+        y[i - first] = stiff_row(A, even, odd, x, origin, i)
     if high <= low:
         return
     d1, d2, d3 = A[1, low:high], A[2, low:high], A[3, low:high]
     e2, e3 = A[2, low - 2 : high - 2], A[3, low - 3 : high - 3]
-    s, o, inner = even[low:high], odd[low:high], y[low - first : high - first]
-    x0, r1, r2, r3 = x[low:high], x[low + 1 : high + 1], x[low + 2 : high + 2], x[low + 3 : high + 3]
-    l1, l2, l3 = x[low - 1 : high - 1], x[low - 2 : high - 2], x[low - 3 : high - 3]
-    for i in range(high - low):
+    s, t, inner = even[low:high], odd[low:high], y[low - first : high - first]
+    o, size = low - origin, high - low
+    x0, r1, r2, r3 = x[o : o + size], x[o + 1 : o + 1 + size], x[o + 2 : o + 2 + size], x[o + 3 : o + 3 + size]
+    l1, l2, l3 = x[o - 1 : o - 1 + size], x[o - 2 : o - 2 + size], x[o - 3 : o - 3 + size]
+    for i in range(size):
         inner[i] = (
-            (s[i] * x0[i] + o[i] * l1[i])
+            (s[i] * x0[i] + t[i] * l1[i])
             + (e2[i] * (l2[i] - x0[i]) + d2[i] * (r2[i] - x0[i]))
             + (e3[i] * (l3[i] - l1[i]) + d1[i] * (r1[i] - l1[i]) + d3[i] * (r3[i] - l1[i]))
         )
@@ -129,7 +134,7 @@ def stiff_multiply(A: Array, even: Array, odd: Array, x: Array, y: Array) -> Non
     for j − i even or odd, with the row sums even, odd of :func:`row_sums`. Round-off is then that of the
     differences, not of 12EI/Δx³·x.
     """
-    stiff_rows(A, even, odd, x, 0, x.size, y)
+    stiff_rows(A, even, odd, x, 0, 0, x.size, y)
 
 
 @compiled_sums
@@ -151,21 +156,22 @@ def is_finite(x: Array) -> bool:
 
 
 @compiled_sums
-def quadratic_rows(A: Array, x: Array, first: int, stop: int) -> float:
-    """What rows ``first`` … ``stop`` − 1 contribute to xᵀ A x."""
-    n, total = x.size, 0.0
+def quadratic_rows(A: Array, x: Array, origin: int, first: int, stop: int) -> float:
+    """What rows ``first`` … ``stop`` − 1 contribute to xᵀ A x; ``x`` starts with dof ``origin``."""
+    n, total = A.shape[1], 0.0
     low, high = max(first, 3), min(stop, n - 3)
     for i in range(first, min(low, stop)):
-        total += x[i] * band_row(A, x, n, i)
+        total += x[i - origin] * band_row(A, x, origin, n, i)
     for i in range(max(high, min(low, stop)), stop):
-        total += x[i] * band_row(A, x, n, i)
+        total += x[i - origin] * band_row(A, x, origin, n, i)
     if high <= low:
         return total
     d0, d1, d2, d3 = A[0, low:high], A[1, low:high], A[2, low:high], A[3, low:high]
     e1, e2, e3 = A[1, low - 1 : high - 1], A[2, low - 2 : high - 2], A[3, low - 3 : high - 3]
-    x0, r1, r2, r3 = x[low:high], x[low + 1 : high + 1], x[low + 2 : high + 2], x[low + 3 : high + 3]
-    l1, l2, l3 = x[low - 1 : high - 1], x[low - 2 : high - 2], x[low - 3 : high - 3]
-    for i in range(high - low):
+    o, size = low - origin, high - low
+    x0, r1, r2, r3 = x[o : o + size], x[o + 1 : o + 1 + size], x[o + 2 : o + 2 + size], x[o + 3 : o + 3 + size]
+    l1, l2, l3 = x[o - 1 : o - 1 + size], x[o - 2 : o - 2 + size], x[o - 3 : o - 3 + size]
+    for i in range(size):
         total += x0[i] * (
             d0[i] * x0[i]
             + d1[i] * r1[i]
@@ -182,7 +188,7 @@ def quadratic_rows(A: Array, x: Array, first: int, stop: int) -> float:
 def quadratic(A: Array, x: Array) -> float:
     """xᵀ A x for A in lower form, row by row: the large terms of a stiffness cancel before they are
     summed."""
-    return quadratic_rows(A, x, 0, x.size)
+    return quadratic_rows(A, x, 0, 0, x.size)
 
 
 @compiled_in_place
@@ -191,18 +197,30 @@ def combine(
 ) -> None:
     """Write m·M + c·C + k·K (lower form) into S (by rows), dof i at unknown place[i]; nothing else in S
     changes."""
-    n = place.size
-    if place[n - 1] == n - 1:  # no multipliers between the dofs
-        for apart in range(min(4, n)):
-            for i in range(n - apart):
-                S[i + apart, apart] = m * M[apart, i] + c * C[apart, i] + k * K[apart, i]
-        return
-    for i in range(n):
+    n, shift = place.size, place[place.size - 1] - place.size + 1
+    low, high = 0, n  # the dofs before ``high`` have multipliers between them
+    while low < high:
+        middle = (low + high) // 2
+        if place[middle] == middle + shift:
+            high = middle
+        else:
+            low = middle + 1
+    near = min(high + 3, n) if shift > 0 else 0
+    for i in range(near):
         row = place[i]
-        for j in range(max(0, i - 3), i + 1):
+        for back in range(min(i, 3) + 1):
+            j = i - back
             apart = row - place[j]
             if apart < 5:
-                S[row, apart] = m * M[i - j, j] + c * C[i - j, j] + k * K[i - j, j]
+                S[row, apart] = m * M[back, j] + c * C[back, j] + k * K[back, j]
+    for first in range(near, n, ROWS):  # a few rows at a time: each of the four sweeps passes all of them
+        stop = min(first + ROWS, n)
+        for apart in range(4):
+            start = max(first, apart)
+            part = S[start + shift : stop + shift, apart]
+            a, b, d = M[apart, start - apart :], C[apart, start - apart :], K[apart, start - apart :]
+            for i in range(stop - start):
+                part[i] = m * a[i] + c * b[i] + k * d[i]
 
 
 @compiled_apart
@@ -280,13 +298,13 @@ def four_before(x: Array, first: int, way: int) -> tuple[float, float, float, fl
 
 
 @compiled_apart
-def substitute(U: Array, first: int, count: int, way: int, z: Array) -> None:
-    """Solve U z = r (L z = r), of :func:`factor`, for ``count`` unknowns from ``first`` on, in place of r; z before
-    ``first`` must be known (z has four idle places at the end)."""
+def substitute(U: Array, first: int, count: int, way: int, r: Array, z: Array) -> None:
+    """Solve U z = r (L z = r), of :func:`factor`, for ``count`` unknowns from ``first`` on; z before ``first`` must be
+    known (z has four idle places at the end). r may be z itself."""
     z1, z2, z3, z4 = four_before(z, first, way)
     for t in range(count):
         k = first + way * t
-        value = (z[k] - U[k - 4 * way, 4] * z4 - U[k - 3 * way, 3] * z3 - U[k - 2 * way, 2] * z2) - U[k - way, 1] * z1
+        value = (r[k] - U[k - 4 * way, 4] * z4 - U[k - 3 * way, 3] * z3 - U[k - 2 * way, 2] * z2) - U[k - way, 1] * z1
         z[k] = value
         z4 = z3
         z3 = z2
@@ -294,20 +312,20 @@ def substitute(U: Array, first: int, count: int, way: int, z: Array) -> None:
         z1 = value
 
 
-@compiled_apart
+@compiled_in_place
 def substitute_down(U: Array, top: int, twist: int, z: Array) -> None:
-    """:func:`substitute` from unknown ``top`` down to ``twist``, z below it being known from the way up."""
+    """:func:`substitute` in place from unknown ``top`` down to ``twist``, z below it being known from the way up."""
     if twist == 0:
-        substitute(U, top, top + 1, -1, z)
+        substitute(U, top, top + 1, -1, z, z)
         return
-    substitute(U, top, top - twist - 3, -1, z)
+    substitute(U, top, top - twist - 3, -1, z, z)
     for i in range(4):
         total = z[twist + i]
         for q in range(twist + i - 4, twist):
             total -= U[q, twist + i - q] * z[q]
         z[twist + i] = total
     last = min(top - twist, 3)
-    substitute(U[twist:], last, last + 1, -1, z[twist:])
+    substitute(U[twist:], last, last + 1, -1, z[twist:], z[twist:])
 
 
 @compiled_apart

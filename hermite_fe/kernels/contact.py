@@ -29,6 +29,26 @@ def rows_times(dofs: Places, factors: Array, x: Array, out: Array) -> None:
 
 
 @compiled_in_place
+def rows_times_both(dofs: Places, factors: Array, x: Array, y: Array, first: Array, second: Array) -> None:
+    """first = G x and second = G y, in one pass over the rows."""
+    m, width = dofs.shape
+    if width == 1:
+        for j in range(m):
+            d, factor = dofs[j, 0], factors[j, 0]
+            first[j] = factor * x[d]
+            second[j] = factor * y[d]
+    else:
+        for j in range(m):
+            one, other = 0.0, 0.0
+            for k in range(width):
+                d, factor = dofs[j, k], factors[j, k]
+                one += factor * x[d]
+                other += factor * y[d]
+            first[j] = one
+            second[j] = other
+
+
+@compiled_in_place
 def row_times(dofs: Places, factors: Array, x: Array, j: int) -> float:
     """Row j of G x."""
     total = 0.0
@@ -40,11 +60,11 @@ def row_times(dofs: Places, factors: Array, x: Array, j: int) -> float:
 @compiled_in_place
 def force_rows(load: Array, t: float, h: float, theta: float, first: int, stop: int, force: Array) -> None:
     """Rows ``first`` … ``stop`` − 1 of :func:`force_at`, force (stop − first,)."""
-    steady = load[0, first:stop]
-    for i in range(steady.size):
-        force[i] = steady[i]
-    for power in range(1, load.shape[0]):
-        mean, part = theta * (t + h) ** power + (1.0 - theta) * t**power, load[power, first:stop]
+    for i in range(stop - first):
+        force[i] = 0.0
+    for power in range(load.shape[0]):
+        mean = theta * (t + h) ** power + (1.0 - theta) * t**power if power > 0 else 1.0
+        part = load[power, first:stop]
         for i in range(part.size):
             force[i] += mean * part[i]
 

@@ -41,7 +41,7 @@ def solve_monotone(problem: Problem, work: Work, closed: Flags, tolerance: float
         right_side(S, work.b, place, fixed, switch, factors, work.target, closed, m - 1, 0, n, work.z)
         if not factor(S, fixed, n - 1, n, -1, work.D, work.U):
             return SINGULAR, attempt
-        substitute(work.U, n - 1, n, -1, work.z)
+        substitute(work.U, n - 1, n, -1, work.z, work.z)
         back_substitute(work.U, work.z, 0, n, 1, y)
         wrong_rows(problem, work, closed, 0, m, 0, n, tolerance)
         share, opening = 1.0, -1

@@ -112,6 +112,7 @@ def solve_rows(problem: Problem, work: Work, fresh: bool, extent: int, closed: F
     target, candidate, held = work.target, work.candidate, work.held
     n, m = y.size, closed.size
     direct = factors.shape[1] == 1
+    shift = n - b.size  # multipliers, all of them before the first unknown of ``far``
     low, top = n, n - 1 if fresh else -1
     last_row, last_closed = -1, -1
     p[:] = 0.0
@@ -148,9 +149,17 @@ def solve_rows(problem: Problem, work: Work, fresh: bool, extent: int, closed: F
         return SINGULAR
     bottom = twist[0]
     end = max(end, min(bottom + 4, n))
-    right_side(S, b, place, fixed, switch, factors, target, closed, last_closed, 0, end, z)
-    substitute(U, 0, bottom, 1, z)
-    substitute_down(U, end - 1, bottom, z)
+    # beyond what a closed row or a multiplier touches the right-hand side is b as it stands
+    for support in problem.supports:
+        b[support] = 0.0
+    far = max(bottom + 4, switch[m - 1] + 1 if m > 0 and not direct else 0)
+    if last_closed >= 0:
+        far = max(far, switch[last_closed] + 5)
+    far = min(far, end)
+    right_side(S, b, place, fixed, switch, factors, target, closed, last_closed, 0, far, z)
+    substitute(U[shift:], end - 1 - shift, end - far, -1, b, z[shift:])
+    substitute(U, 0, bottom, 1, z, z)
+    substitute_down(U, far - 1, bottom, z)
     first = first_from(switch, bottom + 4) if bottom > 0 else 0
 
     fewest, patience, rounds, tolerance, smallest = m + 1, PATIENCE, 0, ROUND_OFF, 0.0
@@ -224,8 +233,12 @@ def solve_rows(problem: Problem, work: Work, fresh: bool, extent: int, closed: F
     if last_closed >= 0:
         twist[1] = min(lowest, twist[1] + max(1, (switch[last_closed] - twist[1]) // CALMING))
     if not direct:
-        for i in range(x.size):
+        near = min(switch[m - 1] + 1 - shift if m > 0 else 0, x.size)
+        for i in range(near):
             x[i] = y[place[i]]
+        rest, found = x[near:], y[near + shift :]
+        for i in range(rest.size):
+            rest[i] = found[i]
     work.rounds[0] += 1
     work.rounds[1] += rounds + 1
     work.rounds[2] = max(work.rounds[2], rounds + 1)

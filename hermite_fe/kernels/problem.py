@@ -24,7 +24,7 @@ Places = NDArray[np.int64]
 class Problem(NamedTuple):
     """What does not change during a run.
 
-    M, C, K, load, dofs … tributary : of the :class:`System` and its rows; even, odd : K's :func:`row_sums`
+    M, C, K, load, dofs … tributary, supports : of the :class:`System` and its rows; even, odd : K's :func:`row_sums`
     place, switch, reach : see above
     """
 
@@ -42,6 +42,7 @@ class Problem(NamedTuple):
     rank: Places
     side: Places
     tributary: Array
+    supports: Places
     place: Places
     switch: Places
     reach: Places
@@ -167,13 +168,15 @@ def problem_of(system: System) -> Problem:
         slots=np.array([SLOTS[cause] for cause, _ in system.dampings], np.int64),
         even=even,
         odd=odd,
-        load=system.load,
+        # nothing for a long beam to read where there is no load
+        load=system.load if np.any(system.load) else np.zeros((0, system.dofs)),
         dofs=rows.dofs,
         factors=rows.factors,
         gap=rows.gap,
         rank=rows.rank,
         side=rows.side,
         tributary=rows.tributary,
+        supports=np.array(system.supports, np.int64),
         place=place,
         switch=switch,
         reach=np.asarray(reach),

@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hermite_fe.kernels.banded import CHUNK, add, combine, dot, multiply_rows, quadratic_rows, stiff_rows
-from hermite_fe.kernels.contact import force_rows, mark_held, row_times, rows_times
+from hermite_fe.kernels.contact import force_rows, mark_held, row_times, rows_times_both
 from hermite_fe.kernels.jit import compiled_apart, compiled_in_place
 from hermite_fe.kernels.pivoting import solve_rows
 from hermite_fe.kernels.problem import (
@@ -41,55 +41,62 @@ Array = NDArray[np.float64]
 def predict(problem: Problem, state: State, work: Work, t: float, h: float, theta: float) -> None:
     """work.b = h[F_θ − K(q + θhv) − Cv], the change of momentum of a step without Δv and without contact."""
     q, v, b, moved, part, force = state.q, state.v, work.b, work.d1, work.d2, work.d3
-    n, known = q.size, 0
+    n, loaded = q.size, problem.load.shape[0] > 0
     for first in range(0, n, CHUNK):
         stop = min(first + CHUNK, n)
-        count, reach = stop - first, min(stop + 3, n)
-        new, old, rate = moved[known:reach], q[known:reach], v[known:reach]
-        for i in range(reach - known):
-            new[i] = old[i] + theta * h * rate[i]
-        known = reach
-        right = b[first:stop]
-        stiff_rows(problem.K, problem.even, problem.odd, moved, first, stop, right)
+        origin, reach, count = max(first - 3, 0), min(stop + 3, n), stop - first
+        old, rate, right = q[origin:reach], v[origin:reach], b[first:stop]
+        for i in range(reach - origin):
+            moved[i] = old[i] + theta * h * rate[i]
+        stiff_rows(problem.K, problem.even, problem.odd, moved, origin, first, stop, right)
         multiply_rows(problem.C, v, n, first, stop, part)
-        force_rows(problem.load, t, h, theta, first, stop, force)
-        for i in range(count):
-            right[i] = h * (force[i] - right[i] - part[i])
+        if loaded:
+            force_rows(problem.load, t, h, theta, first, stop, force)
+            for i in range(count):
+                right[i] = h * (force[i] - right[i] - part[i])
+        else:
+            for i in range(count):
+                right[i] = -h * (right[i] + part[i])
 
 
 @compiled_apart
 def correct(problem: Problem, state: State, work: Work, t: float, h: float, theta: float) -> float:
-    """q⁺ and v⁺ from Δv = work.x, and the energies that the step takes, booked. Returns the work of the loads."""
-    q, v, dv, dq, vel = state.q, state.v, work.x, work.d1, work.b
-    part, force, lost = work.d2, work.d3, work.lost
-    n, known = q.size, 0
+    """q⁺ and v⁺ from Δv = work.x, and the energies that the step takes, booked. Returns their sum: finite where the
+    solution is."""
+    q, v, dv, lost, mean, change, force = state.q, state.v, work.x, work.lost, work.d1, work.d2, work.d3
+    n, known, origin, loaded = q.size, 0, 0, problem.load.shape[0] > 0
     kinetic, strain, work_done = 0.0, 0.0, 0.0
     for cause in range(lost.size):
         lost[cause] = 0.0
     for first in range(0, n, CHUNK):
         stop = min(first + CHUNK, n)
-        reach = min(stop + 3, n)
+        start, reach, count = max(first - 3, 0), min(stop + 3, n), stop - first
+        there = known - start  # of the sweep before
+        for i in range(there):
+            mean[i], change[i] = mean[start - origin + i], change[start - origin + i]
+        origin = start
         motion, rate, jump = q[known:reach], v[known:reach], dv[known:reach]
-        mean, change = vel[known:reach], dq[known:reach]
+        new_mean, new_change = mean[there : reach - start], change[there : reach - start]
         for i in range(reach - known):
-            mean[i] = rate[i] + theta * jump[i]
-            change[i] = h * mean[i]
-            motion[i] += change[i]
+            new_mean[i] = rate[i] + theta * jump[i]
+            new_change[i] = h * new_mean[i]
+            motion[i] += new_change[i]
             rate[i] += jump[i]
         known = reach
-        force_rows(problem.load, t, h, theta, first, stop, force)
-        work_done += dot(force[: stop - first], vel[first:stop])
-        kinetic += quadratic_rows(problem.M, dv, first, stop)
+        if loaded:
+            force_rows(problem.load, t, h, theta, first, stop, force)
+            work_done += dot(force[:count], mean[first - origin : stop - origin])
+        kinetic += quadratic_rows(problem.M, dv, 0, first, stop)
         for cause in range(lost.size):
-            lost[cause] += quadratic_rows(problem.parts[cause], vel, first, stop)
-        stiff_rows(problem.K, problem.even, problem.odd, dq, first, stop, part)
-        strain += dot(part[: stop - first], dq[first:stop])
+            lost[cause] += quadratic_rows(problem.parts[cause], mean, origin, first, stop)
+        stiff_rows(problem.K, problem.even, problem.odd, change, origin, first, stop, force)
+        strain += dot(force[:count], change[first - origin : stop - origin])
     add(state.budget, WORK, h * work_done)
     add(state.budget, ALGORITHMIC, (theta - 0.5) * kinetic)
     add(state.budget, ALGORITHMIC, (theta - 0.5) * strain)
     for cause in range(lost.size):
         add(state.budget, problem.slots[cause], h * lost[cause])
-    return work_done
+    return work_done + kinetic + strain
 
 
 @compiled_in_place
@@ -121,8 +128,7 @@ def steps(
         predict(problem, state, work, t, h, theta)
 
         mark_held(problem, law, closed, t, held)
-        rows_times(dofs, factors, q, gap)
-        rows_times(dofs, factors, v, speed)
+        rows_times_both(dofs, factors, q, v, gap, speed)
         if at_position:
             for j in range(m):
                 candidate[j] = True
@@ -149,7 +155,6 @@ def steps(
                     state.worst[SMALLEST_REACTION] = min(state.worst[SMALLEST_REACTION], p[j])
                 product = abs(p[j] * (change - target[j])) * (h if at_position else 1.0)
                 state.worst[PRODUCT] = max(state.worst[PRODUCT], product)
-        work_done = correct(problem, state, work, t, h, theta)
-        if not math.isfinite(work_done):
+        if not math.isfinite(correct(problem, state, work, t, h, theta)):
             return NOT_FINITE, k
     return SOLVED, last
