@@ -66,7 +66,7 @@ def scheme_of(spectral_radius: float) -> Scheme:
 def combine_smooth(scheme: Scheme, problem: Problem, h: float, work: Work) -> None:
     """work.S = M + hγsC + h²βsK, the matrix of v̇⁺."""
     _, _, gamma, beta, s = scheme
-    combine(problem.M, problem.C, problem.K, 1.0, h * gamma * s, h * h * beta * s, problem.place, work.S)
+    combine(problem.M, problem.C, problem.K, 1.0, h * gamma * s, h * h * beta * s, work.place, work.S)
 
 
 class Kept(NamedTuple):

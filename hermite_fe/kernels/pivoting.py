@@ -31,6 +31,7 @@ from hermite_fe.kernels.banded import (
 )
 from hermite_fe.kernels.jit import compiled_apart, compiled_in_place
 from hermite_fe.kernels.monotone import solve_monotone
+from hermite_fe.kernels.multipliers import extend
 from hermite_fe.kernels.problem import Problem, Work
 from hermite_fe.kernels.rows import (
     SINGULAR,
@@ -60,25 +61,24 @@ FADED = 1e-100  # of the largest unknown: what is smaller, and beyond all loads,
 
 
 @compiled_in_place
-def substitute_rest(work: Work, start: int, end: int, smallest: float) -> int:
+def substitute_rest(U: Array, z: Array, start: int, end: int, smallest: float, y: Array) -> int:
     """Unknowns from ``start`` on, where right-hand sides are zero from ``end`` on. Returns where they become zero."""
-    y = work.y
     if end >= y.size:
-        back_substitute(work.U, work.z, start, y.size - start, 1, y)
+        back_substitute(U, z, start, y.size - start, 1, y)
         return int(y.size)
     if start < end:
-        back_substitute(work.U, work.z, start, end - start, 1, y)
+        back_substitute(U, z, start, end - start, 1, y)
         start = end
-    return fade_out(work.U, start, smallest, y)
+    return fade_out(U, start, smallest, y)
 
 
 @compiled_apart
-def refactor(work: Work, calm: int, low: int, top: int, wanted: int) -> int:
+def refactor(work: Work, D: Array, U: Array, calm: int, low: int, top: int, wanted: int) -> int:
     """Bring the factors up to date where unknowns between ``low`` and ``top`` − 4 have switched, or all are new
     (``calm`` = 0): the first ``calm`` unknowns are factored from below. The twist moves to ``wanted`` where that is
     below it or well above. Returns the last unknown that was factored anew from above, −1 if none, −2 on failure.
     """
-    S, fixed, D, U = work.S, work.fixed, work.D, work.U
+    S, fixed = work.S, work.fixed
     before, twist = work.twist[0], work.twist[0]
     if wanted < twist or wanted > twist + ADVANCE:
         twist = wanted
@@ -96,7 +96,7 @@ def refactor(work: Work, calm: int, low: int, top: int, wanted: int) -> int:
     return top if sound else -2
 
 
-@compiled_apart
+@compiled_in_place
 def solve_rows(problem: Problem, work: Work, fresh: bool, extent: int, closed: Flags) -> int:
     """Solve for work.x (dofs,) and work.p (rows,) from work.S, work.b, work.target, work.candidate,
     work.held.
@@ -106,13 +106,30 @@ def solve_rows(problem: Problem, work: Work, fresh: bool, extent: int, closed: F
 
     Returns SOLVED, SINGULAR or CYCLING.
     """
-    factors, place, switch, reach = problem.factors, problem.place, problem.switch, problem.reach
-    S, fixed, U, z, y = work.S, work.fixed, work.U, work.z, work.y
+    if work.span[0] == 0 and closed.size > 0:
+        extend(problem, work, 0)
+        fresh = True
+    while True:
+        status, row = solve_near(problem, work, fresh, extent, closed)
+        if row < 0:
+            return status
+        extend(problem, work, row)
+        fresh = True
+
+
+@compiled_apart
+def solve_near(problem: Problem, work: Work, fresh: bool, extent: int, closed: Flags) -> tuple[int, int]:
+    """:func:`solve_rows` as far as rows have multipliers. Returns (status, −1), or a row that has none and would close
+    in place of −1."""
+    factors, place, switch, reach = problem.factors, work.place, problem.switch, problem.reach
+    S, fixed = work.S, work.fixed
     b, x, p, wrong, excess, twist = work.b, work.x, work.p, work.wrong, work.excess, work.twist
     target, candidate, held = work.target, work.candidate, work.held
-    n, m = y.size, closed.size
+    m, span = closed.size, work.span[0]
     direct = factors.shape[1] == 1
-    shift = n - b.size  # multipliers, all of them before the first unknown of ``far``
+    shift = 0 if direct else span  # multipliers, all of them before the first unknown of ``far``
+    n = b.size + shift
+    D, U, z, y = work.D[: n + 4], work.U[: n + 4], work.z[: n + 4], work.y[:n]
     low, top = n, n - 1 if fresh else -1
     last_row, last_closed = -1, -1
     p[:] = 0.0
@@ -124,11 +141,15 @@ def solve_rows(problem: Problem, work: Work, fresh: bool, extent: int, closed: F
             last_closed = j
         if want or candidate[j]:
             last_row = j
+        if j >= span:
+            continue
         k = switch[j]
         if fixed[k] != (want == direct):
             fixed[k] = want == direct
             low = min(low, k)
             top = max(top, min(k + 4, n - 1))
+    if last_closed >= span:
+        return SOLVED, last_closed
     whole = min(reach[last_row] + 5, n) if last_row >= 0 else 0
     zone, near = whole, last_row + 1
     limit = MARGIN + (reach[last_closed] if last_closed >= 0 else 0)
@@ -136,6 +157,7 @@ def solve_rows(problem: Problem, work: Work, fresh: bool, extent: int, closed: F
         zone, near = limit, last_closed + 1
         while reach[near] + 5 <= zone:
             near += 1
+    near = min(near, span)
 
     end = n  # of the unknowns with a right-hand side
     if extent < b.size:
@@ -145,14 +167,14 @@ def solve_rows(problem: Problem, work: Work, fresh: bool, extent: int, closed: F
         z[end:n] = 0.0
     settled = min(twist[1], low) if last_closed >= 0 else 0
     wanted = max(0, min(settled, switch[last_closed] if last_closed >= 0 else 0, n - 4 + REACH) - REACH)
-    if refactor(work, 0 if fresh else n, low, top, wanted) == -2:
-        return SINGULAR
+    if refactor(work, D, U, 0 if fresh else n, low, top, wanted) == -2:
+        return SINGULAR, -1
     bottom = twist[0]
     end = max(end, min(bottom + 4, n))
     # beyond what a closed row or a multiplier touches the right-hand side is b as it stands
     for support in problem.supports:
         b[support] = 0.0
-    far = max(bottom + 4, switch[m - 1] + 1 if m > 0 and not direct else 0)
+    far = max(bottom + 4, switch[span - 1] + 1 if shift > 0 else 0)
     if last_closed >= 0:
         far = max(far, switch[last_closed] + 5)
     far = min(far, end)
@@ -171,7 +193,7 @@ def solve_rows(problem: Problem, work: Work, fresh: bool, extent: int, closed: F
             if end < n:
                 deflection, slope = largest_in(place, y, bottom, zone)
                 smallest = FADED * max(deflection, slope)
-            work.extent[0] = substitute_rest(work, zone, end, smallest)
+            work.extent[0] = substitute_rest(U, z, zone, end, smallest, y)
             back_substitute(U, z, bottom - 1, bottom, -1, y)
             if bottom > 0:
                 count, last, worst = wrong_rows(problem, work, closed, 0, first, 0, zone, tolerance)
@@ -179,7 +201,9 @@ def solve_rows(problem: Problem, work: Work, fresh: bool, extent: int, closed: F
                 more, beyond, worse = wrong_rows(problem, work, closed, near, last_row + 1, 0, whole, tolerance)
                 if more > 0:
                     count, last, worst = count + more, beyond, worse
-                zone, near = whole, last_row + 1
+                if last >= span:
+                    return SOLVED, last
+                zone, near = whole, min(last_row + 1, span)
             if count == 0:
                 break
         together = together and count < FALLING * before
@@ -192,15 +216,17 @@ def solve_rows(problem: Problem, work: Work, fresh: bool, extent: int, closed: F
         if rounds % LENIENT_AFTER == 0:
             tolerance *= 10.0
             if tolerance > MOST_LENIENT:
+                if span < m:
+                    return SOLVED, m - 1
                 tolerance = ROUND_OFF
                 status, more = solve_monotone(problem, work, closed, tolerance)
                 while status != SOLVED and tolerance < COARSEST:
                     tolerance = min(10.0 * tolerance, COARSEST)
                     status, more = solve_monotone(problem, work, closed, tolerance)
                 if status != SOLVED:
-                    return status
+                    return status, -1
                 rounds += more
-                work.extent[0] = n
+                work.extent[0] = b.size
                 lowest = 0
                 break
         chosen = worst if patience > -PERSISTENCE else last
@@ -221,19 +247,21 @@ def solve_rows(problem: Problem, work: Work, fresh: bool, extent: int, closed: F
                 fixed[switch[j]] = closed[j] == direct
                 top = max(top, min(switch[j] + 4, n - 1))
         lowest = min(lowest, low)
-        top = refactor(work, n, low, top, min(bottom, max(0, low - REACH)))
+        top = refactor(work, D, U, n, low, top, min(bottom, max(0, low - REACH)))
         if top == -2:
-            return SINGULAR
+            return SINGULAR, -1
         if twist[0] < bottom:
             bottom = twist[0]
             first = first_from(switch, bottom + 4) if bottom > 0 else 0
         end = max(end, top + 1)
-        right_side(S, b, place, fixed, switch, factors, target, closed, last_row, bottom, top + 1, z)
+        right_side(S, b, place, fixed, switch, factors, target, closed, min(last_row, span - 1), bottom, top + 1, z)
         substitute_down(U, top, bottom, z)
     if last_closed >= 0:
         twist[1] = min(lowest, twist[1] + max(1, (switch[last_closed] - twist[1]) // CALMING))
-    if not direct:
-        near = min(switch[m - 1] + 1 - shift if m > 0 else 0, x.size)
+    if shift > 0:
+        near = switch[span - 1] + 1 - shift
+        # of the dofs: beyond the multipliers there are ``shift`` fewer of them than unknowns
+        work.extent[0] = max(work.extent[0] - shift, near)
         for i in range(near):
             x[i] = y[place[i]]
         rest, found = x[near:], y[near + shift :]
@@ -242,4 +270,4 @@ def solve_rows(problem: Problem, work: Work, fresh: bool, extent: int, closed: F
     work.rounds[0] += 1
     work.rounds[1] += rounds + 1
     work.rounds[2] = max(work.rounds[2], rounds + 1)
-    return SOLVED
+    return SOLVED, -1

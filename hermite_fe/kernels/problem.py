@@ -1,9 +1,9 @@
 """Plain arrays of a system, as the compiled kernels take them (named tuples, which numba knows).
 
 Unknowns of a step are the dofs, in order, and between them one multiplier for each row that touches several
-dofs (after the middle one of its dofs: between the two nodes of an element). ``place`` says which unknown a
-dof is, ``switch`` which unknown a row fixes (the dof itself when it touches only one), ``reach`` the last
-unknown that a row touches.
+dofs (after the middle one of its dofs: between the two nodes of an element). ``switch`` says which unknown a row fixes
+(the dof itself when it touches only one), ``reach`` the last unknown that a row touches. Rows far ahead of the contact
+zone have no multiplier yet (:mod:`.multipliers`): ``span`` counts those that have, ``place`` says which unknown a dof is.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ class Problem(NamedTuple):
     """What does not change during a run.
 
     M, C, K, load, dofs … tributary, supports : of the :class:`System` and its rows; even, odd : K's :func:`row_sums`
-    place, switch, reach : see above
+    before : rows whose multipliers come before a dof; switch, reach : see above
     """
 
     M: Array
@@ -43,7 +43,7 @@ class Problem(NamedTuple):
     side: Places
     tributary: Array
     supports: Places
-    place: Places
+    before: Places
     switch: Places
     reach: Places
 
@@ -85,6 +85,7 @@ class Work(NamedTuple):
     ``made_with`` says of them. Problems that a step solves one after the other share the matrix S, its factors and
     what is scratch (:func:`works_of`).
 
+    place, span : see above
     S : step matrix by rows; fixed : unknowns whose equation is x = r
     D, U : factors; meeting : scratch of theirs (:mod:`.banded`)
     wrong, excess : rows whose sign is wrong, and by how much; known, barred : of the rows, scratch (:mod:`.monotone`)
@@ -94,6 +95,8 @@ class Work(NamedTuple):
     extent : unknowns of the solution that are not zero, counted from the start of the beam
     """
 
+    place: Places
+    span: Places
     S: Array
     fixed: Flags
     D: Array
@@ -140,10 +143,11 @@ def problem_of(system: System) -> Problem:
     """The arrays of a system."""
     rows = system.contacts
     m, width = rows.dofs.shape
-    place = np.arange(system.dofs)
+    before = np.zeros(system.dofs, np.int64)
     if width > 1:
         after = np.sort(rows.dofs, axis=1)[:, (width - 1) // 2]
-        place = place + np.searchsorted(after, np.arange(system.dofs), side="left")
+        before = np.searchsorted(after, np.arange(system.dofs), side="left").astype(np.int64)
+        place = np.arange(system.dofs) + before
         switch = place[after] + 1
         tight = np.all(np.diff(switch) > 0) and np.abs(place[rows.dofs] - switch[:, None]).max(initial=0) <= 4
         for bands in (system.mass, system.stiffness, system.damping):
@@ -156,7 +160,8 @@ def problem_of(system: System) -> Problem:
             )
     else:
         switch = rows.dofs[:, 0].copy()
-    reach = np.maximum(place[rows.dofs].max(axis=1), switch) if m else np.zeros(0, np.int64)
+    last = rows.dofs.max(axis=1)
+    reach = np.maximum(last + before[last], switch) if m else np.zeros(0, np.int64)
     even, odd = row_sums(system.stiffness)
     parts = [bands for _, bands in system.dampings]
     return Problem(
@@ -177,7 +182,7 @@ def problem_of(system: System) -> Problem:
         side=rows.side,
         tributary=rows.tributary,
         supports=np.array(system.supports, np.int64),
-        place=place,
+        before=before,
         switch=switch,
         reach=np.asarray(reach),
     )
@@ -209,17 +214,12 @@ def work_of(system: System, problem: Problem) -> Work:
     direct = problem.dofs.shape[1] == 1
     size = n if direct else n + m
     fixed = np.zeros(size, np.bool_)
-    fixed[problem.place[list(system.supports)]] = True
-    S = np.zeros((size, 5))
+    fixed[list(system.supports)] = True
     x = np.zeros(n)
-    if not direct:
-        fixed[problem.switch] = True
-        for j in range(m):
-            for d, factor in zip(problem.dofs[j], problem.factors[j]):
-                k, s = int(problem.place[d]), int(problem.switch[j])
-                S[max(k, s), abs(k - s)] = factor
     return Work(
-        S=S,
+        place=np.arange(n),
+        span=np.full(1, m if direct else 0),
+        S=np.zeros((size, 5)),
         fixed=fixed,
         D=np.ones(size + 4),
         U=np.zeros((size + 4, 5)),
@@ -244,7 +244,7 @@ def work_of(system: System, problem: Problem) -> Work:
         lost=np.zeros(problem.slots.size),
         made_with=np.full(1, np.nan),
         twist=np.zeros(2, np.int64),
-        extent=np.full(1, size),
+        extent=np.full(1, n),
         rounds=np.zeros(3, np.int64),
     )
 

@@ -146,7 +146,7 @@ def wrong_rows(
     work.excess and their reactions in work.p. The unknowns from ``start`` to before ``zone`` are known, and measure
     round-off. Returns how many are wrong, the last of them, and the one that pulls most or, where none pulls, is
     furthest in the wall (−1: none)."""
-    dofs, factors, place, switch = problem.dofs, problem.factors, problem.place, problem.switch
+    dofs, factors, place, switch = problem.dofs, problem.factors, work.place, problem.switch
     y, b, p, target = work.y, work.b, work.p, work.target
     width = factors.shape[1]
     count, last, pulling, deepest = 0, -1, -1, -1

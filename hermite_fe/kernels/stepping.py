@@ -42,7 +42,7 @@ def residual_force(problem: Problem, t: float, q: Array, v: Array, out: Array, s
 def initial_acceleration(problem: Problem, state: State, work: Work) -> int:
     """Acceleration at the start, v̇ = a = M⁻¹(F − Cv − Kq), without reactions; leaves ``work`` without rows that take
     part."""
-    combine(problem.M, problem.C, problem.K, 1.0, 0.0, 0.0, problem.place, work.S)
+    combine(problem.M, problem.C, problem.K, 1.0, 0.0, 0.0, work.place, work.S)
     work.made_with[0] = math.nan
     work.candidate[:] = False
     work.held[:] = False

@@ -123,7 +123,7 @@ def steps(
         h = step_length(times, k, work.made_with)
         fresh = work.made_with[0] != h
         if fresh:
-            combine(problem.M, problem.C, problem.K, 1.0, theta * h, theta * theta * h * h, problem.place, work.S)
+            combine(problem.M, problem.C, problem.K, 1.0, theta * h, theta * theta * h * h, work.place, work.S)
             work.made_with[0] = h
         predict(problem, state, work, t, h, theta)
 

@@ -9,6 +9,7 @@ from scipy.linalg import cho_solve_banded, cholesky_banded
 
 from bent_beam.meshes import ScaleFreeMesh
 from hermite_fe.beam import HermiteBeam
+from hermite_fe.contacts import MeanContact
 from hermite_fe.kernels import (
     SOLVED,
     combine,
@@ -22,7 +23,9 @@ from hermite_fe.kernels import (
     works_of,
 )
 from hermite_fe.kernels.banded import quadratic, row_sums
+from hermite_fe.kernels.contact import rows_times_both
 from hermite_fe.kernels.monotone import solve_monotone
+from hermite_fe.kernels.multipliers import extend
 from hermite_fe.kernels.problem import Problem, Work
 from hermite_fe.kernels.rows import CYCLING, wrong_rows
 from hermite_fe.system import ContactRows, System
@@ -67,7 +70,15 @@ def ready(random: np.random.Generator) -> tuple[System, Problem, Work]:
     system = random_system(random)
     problem = problem_of(system)
     work = works_of(system, problem, 1)[0]
-    combine(problem.M, problem.C, problem.K, 1.0, 0.0, 0.0, problem.place, work.S)
+    combine(problem.M, problem.C, problem.K, 1.0, 0.0, 0.0, work.place, work.S)
+    return system, problem, work
+
+
+def whole(random: np.random.Generator) -> tuple[System, Problem, Work]:
+    """:func:`ready`, each row with its multiplier."""
+    system, problem, work = ready(random)
+    if work.span[0] < len(system.contacts):
+        extend(problem, work, len(system.contacts) - 1)
     return system, problem, work
 
 
@@ -128,7 +139,7 @@ def test_the_fall_back_finds_the_same_reactions_from_none() -> None:
     """What takes over when exchanging many rows at once runs in a circle, asked directly."""
     for seed in range(200):
         random = np.random.default_rng(seed)
-        system, problem, work = ready(random)
+        system, problem, work = whole(random)
         n, m = system.dofs, len(system.contacts)
         b, target = random.normal(size=n), random.normal(size=m)
         candidate, held = random.random(m) < 0.9, random.random(m) < 0.1
@@ -139,7 +150,7 @@ def test_the_fall_back_finds_the_same_reactions_from_none() -> None:
         status, solutions = solve_monotone(problem, work, closed, 1e-12)
         scale = 1.0 + np.abs(x).max() + np.abs(p).max()
         assert status == SOLVED and solutions <= 3 * m, seed
-        assert np.abs(work.y[problem.place] - x)[problem.place < n].max() < 1e-7 * scale, seed
+        assert np.abs(work.y[work.place] - x)[work.place < n].max() < 1e-7 * scale, seed
         assert np.abs(np.where(closed, work.p, 0.0) - p).max() < 1e-7 * scale, seed
 
 
@@ -149,7 +160,7 @@ def test_the_fall_back_never_calls_a_row_inside_the_wall_solved(tolerance: float
     given_up = 0
     for seed in range(200):
         random = np.random.default_rng([5, seed])
-        system, problem, work = ready(random)
+        system, problem, work = whole(random)
         n, m = system.dofs, len(system.contacts)
         none = np.zeros(m, bool)
         b, target = random.normal(size=n), random.normal(size=m)
@@ -183,7 +194,7 @@ def test_the_factors_solve_like_lapack_s() -> None:
     )
     problem = problem_of(system)
     work = works_of(system, problem, 1)[0]
-    combine(problem.M, problem.C, problem.K, 1.0, 0.0, 1e-6, problem.place, work.S)
+    combine(problem.M, problem.C, problem.K, 1.0, 0.0, 1e-6, work.place, work.S)
     bands = system.mass + 1e-6 * system.stiffness
     known = np.random.default_rng(1).normal(size=system.dofs)
     work.b[:] = dense(bands) @ known
@@ -218,6 +229,10 @@ def test_gaps_are_rows_times_displacements(width: int) -> None:
     rows_times(dofs, factors, x, out)
     assert out == pytest.approx(exact, rel=1e-14)
     assert [row_times(dofs, factors, x, j) for j in range(3)] == pytest.approx(exact, rel=1e-14)
+    first, second = np.empty(3), np.empty(3)
+    rows_times_both(dofs, factors, x, x[::-1].copy(), first, second)
+    assert first == pytest.approx(exact, rel=1e-14)
+    assert second == pytest.approx((factors * x[::-1][dofs]).sum(axis=1), rel=1e-14)
 
 
 def test_loads_are_powers_of_time() -> None:
@@ -235,7 +250,7 @@ def test_a_load_near_the_contact_moves_nothing_far_away() -> None:
     system = System(mass=beam.mass(), stiffness=beam.stiffness(), contacts=rows)
     problem = problem_of(system)
     short, whole = works_of(system, problem, 2)
-    combine(problem.M, problem.C, problem.K, 1.0, 0.0, 1e-6, problem.place, short.S)
+    combine(problem.M, problem.C, problem.K, 1.0, 0.0, 1e-6, short.place, short.S)
     for work, extent, fresh in ((short, 30, True), (whole, system.dofs, False)):
         work.b[:30] = np.sin(np.arange(30))
         work.candidate[:] = True
@@ -264,7 +279,7 @@ def test_what_is_settled_behind_a_front_is_factored_once(width: int) -> None:
         problem = problem_of(system)
         work = works_of(system, problem, 1)[0]
         n, m = system.dofs, len(system.contacts)
-        combine(problem.M, problem.C, problem.K, 1.0, 0.0, 0.3, problem.place, work.S)
+        combine(problem.M, problem.C, problem.K, 1.0, 0.0, 0.3, work.place, work.S)
         S, G = dense(system.mass + 0.3 * system.stiffness), np.zeros((m, n))
         np.put_along_axis(G, system.contacts.dofs, system.contacts.factors, axis=1)
         closed, twists = np.zeros(m, bool), []
@@ -287,3 +302,49 @@ def test_what_is_settled_behind_a_front_is_factored_once(width: int) -> None:
         assert max(twists) > n // 4, twists
         retreats += min(np.diff(twists)) < -20
     assert retreats > 0
+
+
+@pytest.mark.parametrize("extent", [1000, 1602])
+def test_rows_ahead_of_the_zone_have_no_multiplier_until_it_comes(extent: int) -> None:
+    """The same reactions as with all multipliers from the start, while a load goes over the beam and back."""
+    beam = HermiteBeam(np.linspace(0.0, 80.0, 801), 1.0, 1.0)
+    rows = MeanContact().rows(beam, np.zeros(1602), full=False)
+    system = System(mass=beam.mass(), stiffness=beam.stiffness(), contacts=rows, supports=(1601,))
+    problem = problem_of(system)
+    (late,), (early,) = works_of(system, problem, 1), works_of(system, problem, 1)
+    spans = []
+    closed = {0: np.zeros(800, bool), 1: np.zeros(800, bool)}
+    for step, front in enumerate((0, 10, 30, 150, 155, 190, 240, 20)):
+        for which, work in enumerate((late, early)):
+            fresh = step % 3 == 0
+            if fresh:
+                combine(problem.M, problem.C, problem.K, 1.0, 0.0, 1e-4 * (1 + step), work.place, work.S)
+            if step == 0 and which == 1:
+                extend(problem, work, 799)
+            work.b[:] = 0.0
+            work.b[: 2 * front : 2] = 1.0 + np.sin(np.arange(front)) ** 2
+            work.candidate[:], work.target[:] = True, -1e-3
+            assert solve_rows(problem, work, fresh, extent, closed[which]) == SOLVED
+        assert np.count_nonzero(late.p) > 0 or front == 0
+        assert np.abs(late.x - early.x).max() <= 1e-12 * np.abs(early.x).max()
+        assert np.abs(late.p - early.p).max() <= 1e-11 * np.abs(early.p).max()
+        assert np.all(closed[0] == closed[1])
+        spans.append(int(late.span[0]))
+    assert spans[0] < 100 < spans[3] < spans[6] < 800 == early.span[0]
+
+
+def test_a_load_near_contact_of_elements_moves_nothing_far_away() -> None:
+    """As for contact at the nodes, whose unknowns are the dofs."""
+    beam = HermiteBeam(np.linspace(0.0, 40.0, 1601), 1.0, 1.0)
+    rows = MeanContact().rows(beam, np.zeros(3202), full=False)
+    system = System(mass=beam.mass(), stiffness=beam.stiffness(), contacts=rows)
+    problem = problem_of(system)
+    short, all_of_it = works_of(system, problem, 2)
+    combine(problem.M, problem.C, problem.K, 1.0, 0.0, 1e-6, short.place, short.S)
+    for work, extent, fresh in ((short, 30, True), (all_of_it, system.dofs, False)):
+        work.b[:30] = np.sin(np.arange(30))
+        work.candidate[:20] = True
+        assert solve_rows(problem, work, fresh, extent, np.zeros(len(rows), bool)) == SOLVED
+    assert 30 < short.extent[0] < 0.9 * system.dofs
+    assert np.all(short.x[short.extent[0] :] == 0.0)
+    assert np.abs(short.x - all_of_it.x).max() < 1e-15 * np.abs(all_of_it.x).max()
