@@ -41,8 +41,9 @@ def prepared_step(
     end_time: float = 1.0,
     half_length: float = HALF_LENGTH,
     length: float = STEP,
+    steps: int = 1,
 ) -> Callable[[], None]:
-    """A half beam of ``nodes`` nodes in the middle of an impact; each call of the result takes one more step.
+    """A half beam of ``nodes`` nodes in the middle of an impact; each call of the result takes ``steps`` more steps.
 
     growing : steps in proportion to time, so that every one makes and factors a new matrix.
     half_length : in l*; the shorter, the more of the nodes are in contact (at most 3 l* of the beam are).
@@ -62,7 +63,7 @@ def prepared_step(
     run.advance_to(int(np.searchsorted(run.instants, start * end_time)))
 
     def step() -> None:
-        if run.step + 1 >= run.instants.size or run.advance_to(run.step + 1) != 0:
+        if run.step + steps >= run.instants.size or run.advance_to(run.step + steps) != 0:
             raise RuntimeError(f"no step after t = {float(run.instants[run.step])!r}")
 
     return step

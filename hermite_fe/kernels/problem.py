@@ -87,7 +87,7 @@ class Work(NamedTuple):
 
     place, span : see above
     S : step matrix by rows; fixed : unknowns whose equation is x = r
-    D, U : factors; meeting : scratch of theirs (:mod:`.banded`)
+    D, U : factors; meeting : scratch of theirs (:mod:`.banded`); z, y : of a solution, free between two
     wrong, excess : rows whose sign is wrong, and by how much; known, barred : of the rows, scratch (:mod:`.monotone`)
     b : right-hand side, (dofs,); target, candidate, held : of the rows; x, p : the solution, (dofs,) and (rows,)
     gap, speed, d1, d2, d3 : free for the integrator; lost : (causes of damping,), likewise

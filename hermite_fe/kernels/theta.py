@@ -37,32 +37,48 @@ from hermite_fe.kernels.stepping import step_length
 Array = NDArray[np.float64]
 
 
+@compiled_in_place
+def predict_rows(problem: Problem, state: State, work: Work, h: float, theta: float, first: int, stop: int) -> None:
+    """Rows ``first`` … ``stop`` − 1 of work.b = −h[K(q + θhv) + Cv]."""
+    q, v, moved, part = state.q, state.v, work.z, work.d3
+    origin, reach = max(first - 3, 0), min(stop + 3, q.size)
+    old, rate, right = q[origin:reach], v[origin:reach], work.b[first:stop]
+    for i in range(reach - origin):
+        moved[i] = old[i] + theta * h * rate[i]
+    stiff_rows(problem.K, problem.even, problem.odd, moved, origin, first, stop, right)
+    multiply_rows(problem.C, v, q.size, first, stop, part)
+    for i in range(stop - first):
+        right[i] = -h * (right[i] + part[i])
+
+
+@compiled_in_place
+def load_rows(problem: Problem, work: Work, t: float, h: float, theta: float, first: int, stop: int) -> None:
+    """Add hF_θ to rows ``first`` … ``stop`` − 1 of work.b, the change of momentum of a step without Δv and without
+    contact."""
+    if problem.load.shape[0] > 0:
+        right, force = work.b[first:stop], work.d3
+        force_rows(problem.load, t, h, theta, first, stop, force)
+        for i in range(stop - first):
+            right[i] += h * force[i]
+
+
 @compiled_apart
 def predict(problem: Problem, state: State, work: Work, t: float, h: float, theta: float) -> None:
-    """work.b = h[F_θ − K(q + θhv) − Cv], the change of momentum of a step without Δv and without contact."""
-    q, v, b, moved, part, force = state.q, state.v, work.b, work.d1, work.d2, work.d3
-    n, loaded = q.size, problem.load.shape[0] > 0
+    """work.b = h[F_θ − K(q + θhv) − Cv]."""
+    n = state.q.size
     for first in range(0, n, CHUNK):
         stop = min(first + CHUNK, n)
-        origin, reach, count = max(first - 3, 0), min(stop + 3, n), stop - first
-        old, rate, right = q[origin:reach], v[origin:reach], b[first:stop]
-        for i in range(reach - origin):
-            moved[i] = old[i] + theta * h * rate[i]
-        stiff_rows(problem.K, problem.even, problem.odd, moved, origin, first, stop, right)
-        multiply_rows(problem.C, v, n, first, stop, part)
-        if loaded:
-            force_rows(problem.load, t, h, theta, first, stop, force)
-            for i in range(count):
-                right[i] = h * (force[i] - right[i] - part[i])
-        else:
-            for i in range(count):
-                right[i] = -h * (right[i] + part[i])
+        predict_rows(problem, state, work, h, theta, first, stop)
+        load_rows(problem, work, t, h, theta, first, stop)
 
 
 @compiled_apart
-def correct(problem: Problem, state: State, work: Work, t: float, h: float, theta: float) -> float:
-    """q⁺ and v⁺ from Δv = work.x, and the energies that the step takes, booked. Returns their sum: finite where the
-    solution is."""
+def correct(
+    problem: Problem, state: State, work: Work, t: float, h: float, theta: float, next_t: float, next_h: float
+) -> float:
+    """q⁺ and v⁺ from Δv = work.x, and the energies that the step takes, booked; and :func:`predict` for a step of
+    length ``next_h`` (0: none), while q⁺ and v⁺ are at hand. Returns the sum of the energies: finite where the solution
+    is."""
     q, v, dv, lost, mean, change, force = state.q, state.v, work.x, work.lost, work.d1, work.d2, work.d3
     n, known, origin, loaded = q.size, 0, 0, problem.load.shape[0] > 0
     kinetic, strain, work_done = 0.0, 0.0, 0.0
@@ -71,7 +87,7 @@ def correct(problem: Problem, state: State, work: Work, t: float, h: float, thet
     for first in range(0, n, CHUNK):
         stop = min(first + CHUNK, n)
         start, reach, count = max(first - 3, 0), min(stop + 3, n), stop - first
-        there = known - start  # of the sweep before
+        there = known - start  # of the rows before
         for i in range(there):
             mean[i], change[i] = mean[start - origin + i], change[start - origin + i]
         origin = start
@@ -91,6 +107,9 @@ def correct(problem: Problem, state: State, work: Work, t: float, h: float, thet
             lost[cause] += quadratic_rows(problem.parts[cause], mean, origin, first, stop)
         stiff_rows(problem.K, problem.even, problem.odd, change, origin, first, stop, force)
         strain += dot(force[:count], change[first - origin : stop - origin])
+        if next_h > 0.0:
+            predict_rows(problem, state, work, next_h, theta, first, stop)
+            load_rows(problem, work, next_t, next_h, theta, first, stop)
     add(state.budget, WORK, h * work_done)
     add(state.budget, ALGORITHMIC, (theta - 0.5) * kinetic)
     add(state.budget, ALGORITHMIC, (theta - 0.5) * strain)
@@ -125,7 +144,8 @@ def steps(
         if fresh:
             combine(problem.M, problem.C, problem.K, 1.0, theta * h, theta * theta * h * h, work.place, work.S)
             work.made_with[0] = h
-        predict(problem, state, work, t, h, theta)
+        if k == first:
+            predict(problem, state, work, t, h, theta)
 
         mark_held(problem, law, closed, t, held)
         rows_times_both(dofs, factors, q, v, gap, speed)
@@ -155,6 +175,7 @@ def steps(
                     state.worst[SMALLEST_REACTION] = min(state.worst[SMALLEST_REACTION], p[j])
                 product = abs(p[j] * (change - target[j])) * (h if at_position else 1.0)
                 state.worst[PRODUCT] = max(state.worst[PRODUCT], product)
-        if not math.isfinite(correct(problem, state, work, t, h, theta)):
+        next_h = step_length(times, k + 1, work.made_with) if k + 1 < last else 0.0
+        if not math.isfinite(correct(problem, state, work, t, h, theta, times[k + 1], next_h)):
             return NOT_FINITE, k
     return SOLVED, last
