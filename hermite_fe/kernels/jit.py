@@ -30,7 +30,7 @@ from numba.core.runtime.nrt import rtsys
 
 from hermite_fe.kernels.inference import remember
 
-__all__ = ["compiled", "compiled_apart", "compiled_in_place", "compiled_sums"]
+__all__ = ["compiled", "compiled_apart", "compiled_in_place", "compiled_maxima", "compiled_sums"]
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 
@@ -300,3 +300,9 @@ def compiled_sums(function: Function) -> Function:
     """Compile with sums reordered for speed, for kernels to which their order is nothing and which are else as those of
     :func:`compiled_in_place`."""
     return kernel(function, PlainCompiler, PlainPartCompiler, fastmath={"contract", "reassoc"}, _nrt=False)
+
+
+def compiled_maxima(function: Function) -> Function:
+    """As :func:`compiled_sums`, for largest numbers: what is none (NaN) may count for nothing."""
+    fastmath = {"contract", "reassoc", "nnan", "nsz"}
+    return kernel(function, PlainCompiler, PlainPartCompiler, fastmath=fastmath, _nrt=False)

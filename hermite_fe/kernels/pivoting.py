@@ -106,11 +106,18 @@ def solve_rows(problem: Problem, work: Work, fresh: bool, extent: int, closed: F
 
     Returns SOLVED, SINGULAR or CYCLING.
     """
+    return solve_first_rows(problem, work, fresh, extent, closed, closed.size)
+
+
+@compiled_in_place
+def solve_first_rows(problem: Problem, work: Work, fresh: bool, extent: int, closed: Flags, rows: int) -> int:
+    """:func:`solve_rows` where the rows from number ``rows`` on are open, are known to stay so, and are no candidates;
+    their places in work.p and work.wrong are not looked at."""
     if work.span[0] == 0 and closed.size > 0:
         extend(problem, work, 0)
         fresh = True
     while True:
-        status, row = solve_near(problem, work, fresh, extent, closed)
+        status, row = solve_near(problem, work, fresh, extent, closed, rows)
         if row < 0:
             return status
         extend(problem, work, row)
@@ -118,22 +125,24 @@ def solve_rows(problem: Problem, work: Work, fresh: bool, extent: int, closed: F
 
 
 @compiled_apart
-def solve_near(problem: Problem, work: Work, fresh: bool, extent: int, closed: Flags) -> tuple[int, int]:
-    """:func:`solve_rows` as far as rows have multipliers. Returns (status, −1), or a row that has none and would close
+def solve_near(
+    problem: Problem, work: Work, fresh: bool, extent: int, closed: Flags, rows: int
+) -> tuple[int, int]:
+    """:func:`solve_first_rows` as far as rows have multipliers. Returns (status, −1), or a row that has none and would close
     in place of −1."""
     factors, place, switch, reach = problem.factors, work.place, problem.switch, problem.reach
     S, fixed = work.S, work.fixed
     b, x, p, wrong, excess, twist = work.b, work.x, work.p, work.wrong, work.excess, work.twist
     target, candidate, held = work.target, work.candidate, work.held
-    m, span = closed.size, work.span[0]
+    m, span = rows, work.span[0]
     direct = factors.shape[1] == 1
     shift = 0 if direct else span  # multipliers, all of them before the first unknown of ``far``
     n = b.size + shift
     D, U, z, y = work.D[: n + 4], work.U[: n + 4], work.z[: n + 4], work.y[:n]
     low, top = n, n - 1 if fresh else -1
     last_row, last_closed = -1, -1
-    p[:] = 0.0
-    wrong[:] = False
+    p[:m] = 0.0
+    wrong[:m] = False
     for j in range(m):
         want = held[j] or (closed[j] and candidate[j])
         closed[j] = want
@@ -216,8 +225,8 @@ def solve_near(problem: Problem, work: Work, fresh: bool, extent: int, closed: F
         if rounds % LENIENT_AFTER == 0:
             tolerance *= 10.0
             if tolerance > MOST_LENIENT:
-                if span < m:
-                    return SOLVED, m - 1
+                if span < closed.size:
+                    return SOLVED, closed.size - 1
                 tolerance = ROUND_OFF
                 status, more = solve_monotone(problem, work, closed, tolerance)
                 while status != SOLVED and tolerance < COARSEST:

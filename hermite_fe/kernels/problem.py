@@ -25,6 +25,7 @@ class Problem(NamedTuple):
     """What does not change during a run.
 
     M, C, K, load, dofs … tributary, supports : of the :class:`System` and its rows; even, odd : K's :func:`row_sums`
+    lever : largest sum of a row's |factors| of deflections, and of slopes
     before : rows whose multipliers come before a dof; switch, reach : see above
     """
 
@@ -42,6 +43,7 @@ class Problem(NamedTuple):
     rank: Places
     side: Places
     tributary: Array
+    lever: Array
     supports: Places
     before: Places
     switch: Places
@@ -160,6 +162,8 @@ def problem_of(system: System) -> Problem:
             )
     else:
         switch = rows.dofs[:, 0].copy()
+    slopes = rows.dofs % 2 == 1
+    lever = np.array([np.abs(rows.factors * here).sum(axis=1).max(initial=0.0) for here in (~slopes, slopes)])
     last = rows.dofs.max(axis=1)
     reach = np.maximum(last + before[last], switch) if m else np.zeros(0, np.int64)
     even, odd = row_sums(system.stiffness)
@@ -181,6 +185,7 @@ def problem_of(system: System) -> Problem:
         rank=rows.rank,
         side=rows.side,
         tributary=rows.tributary,
+        lever=lever,
         supports=np.array(system.supports, np.int64),
         before=before,
         switch=switch,

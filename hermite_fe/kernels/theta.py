@@ -18,8 +18,9 @@ from numpy.typing import NDArray
 
 from hermite_fe.kernels.banded import CHUNK, add, combine, dot, multiply_rows, quadratic_rows, stiff_rows
 from hermite_fe.kernels.contact import force_rows, mark_held, row_times, rows_times_both
+from hermite_fe.kernels.far_rows import largest, row_bound, rows_to_look_at, smallest_gap
 from hermite_fe.kernels.jit import compiled_apart, compiled_in_place
-from hermite_fe.kernels.pivoting import solve_rows
+from hermite_fe.kernels.pivoting import solve_first_rows
 from hermite_fe.kernels.problem import (
     ALGORITHMIC,
     IMPACT,
@@ -74,14 +75,15 @@ def predict(problem: Problem, state: State, work: Work, t: float, h: float, thet
 
 @compiled_apart
 def correct(
-    problem: Problem, state: State, work: Work, t: float, h: float, theta: float, next_t: float, next_h: float
-) -> float:
+    problem: Problem, state: State, work: Work, t: float, h: float, theta: float, next_t: float, next_h: float, far: int
+) -> tuple[float, float, float]:
     """q⁺ and v⁺ from Δv = work.x, and the energies that the step takes, booked; and :func:`predict` for a step of
-    length ``next_h`` (0: none), while q⁺ and v⁺ are at hand. Returns the sum of the energies: finite where the solution
-    is."""
+    length ``next_h`` (0: none), while q⁺ and v⁺ are at hand. Returns the sum of the energies, finite where the solution
+    is, and bounds of how far rows moved, and how fast they are, whose dofs are all from ``far`` on."""
     q, v, dv, lost, mean, change, force = state.q, state.v, work.x, work.lost, work.d1, work.d2, work.d3
     n, known, origin, loaded = q.size, 0, 0, problem.load.shape[0] > 0
     kinetic, strain, work_done = 0.0, 0.0, 0.0
+    deflection, slope, speed, turn = 0.0, 0.0, 0.0, 0.0
     for cause in range(lost.size):
         lost[cause] = 0.0
     for first in range(0, n, CHUNK):
@@ -98,6 +100,12 @@ def correct(
             new_change[i] = h * new_mean[i]
             motion[i] += new_change[i]
             rate[i] += jump[i]
+        if reach > far:
+            begin = max(known, far)
+            one, other = largest(new_change[begin - known : reach - known], begin)
+            deflection, slope = max(deflection, one), max(slope, other)
+            one, other = largest(rate[begin - known :], begin)
+            speed, turn = max(speed, one), max(turn, other)
         known = reach
         if loaded:
             force_rows(problem.load, t, h, theta, first, stop, force)
@@ -115,7 +123,42 @@ def correct(
     add(state.budget, ALGORITHMIC, (theta - 0.5) * strain)
     for cause in range(lost.size):
         add(state.budget, problem.slots[cause], h * lost[cause])
-    return work_done + kinetic + strain
+    moved, fastest = row_bound(problem, deflection, slope), row_bound(problem, speed, turn)
+    return work_done + kinetic + strain, moved, fastest
+
+
+@compiled_in_place
+def swing(problem: Problem, v: Array, dv: Array, h: float, theta: float, far: int, scratch: Array) -> float:
+    """Bound of how far rows move in the step, whose dofs are all from ``far`` on."""
+    deflection, slope = 0.0, 0.0
+    for first in range(far, v.size, CHUNK):
+        stop = min(first + CHUNK, v.size)
+        rate, jump = v[first:stop], dv[first:stop]
+        for i in range(stop - first):
+            scratch[i] = rate[i] + theta * jump[i]
+        one, other = largest(scratch[: stop - first], first)
+        deflection, slope = max(deflection, one), max(slope, other)
+    return h * row_bound(problem, deflection, slope)
+
+
+@compiled_in_place
+def look(
+    problem: Problem, law: ContactLaw, state: State, work: Work, h: float, theta: float, at_position: bool, rows: int
+) -> None:
+    """Which of the first ``rows`` rows are candidates, and the change of their velocities that they ask for."""
+    gap0, gap, speed, candidate, target, held = (
+        problem.gap, work.gap, work.speed, work.candidate, work.target, work.held,
+    )
+    rows_times_both(problem.dofs[:rows], problem.factors[:rows], state.q, state.v, gap, speed)
+    if at_position:
+        for j in range(rows):
+            candidate[j] = True
+            target[j] = -((gap0[j] + gap[j]) / h + speed[j]) / theta
+    else:
+        for j in range(rows):
+            # where a row would come to rest if it were closed now
+            candidate[j] = gap0[j] + gap[j] + (1.0 - theta) * h * speed[j] <= 0.0
+            target[j] = -speed[j] if held[j] else -(1.0 + law.restitution) * speed[j]
 
 
 @compiled_in_place
@@ -132,11 +175,11 @@ def steps(
 ) -> tuple[int, int]:
     """Take the steps ``first`` … ``last`` − 1 between the instants ``times``. Returns (status, step
     reached)."""
-    dofs, factors, gap0 = problem.dofs, problem.factors, problem.gap
-    q, v, closed = state.q, state.v, state.closed
-    dv, p, target, candidate, held = work.x, work.p, work.target, work.candidate, work.held
-    gap, speed = work.gap, work.speed
-    n, m = q.size, closed.size
+    dofs, factors, v, closed = problem.dofs, problem.factors, state.v, state.closed
+    dv, p, target, held, speed = work.x, work.p, work.target, work.held, work.speed
+    n, m = v.size, closed.size
+    # rows from number ``rows`` on, whose dofs are all from ``far`` on, have gaps larger than ``clearance``
+    rows, far, clearance, fastest = m, n, 0.0, 0.0
     for k in range(first, last):
         t = times[k]
         h = step_length(times, k, work.made_with)
@@ -148,22 +191,20 @@ def steps(
             predict(problem, state, work, t, h, theta)
 
         mark_held(problem, law, closed, t, held)
-        rows_times_both(dofs, factors, q, v, gap, speed)
-        if at_position:
-            for j in range(m):
-                candidate[j] = True
-                target[j] = -((gap0[j] + gap[j]) / h + speed[j]) / theta
-        else:
-            for j in range(m):
-                # where a row would come to rest if it were closed now
-                candidate[j] = gap0[j] + gap[j] + (1.0 - theta) * h * speed[j] <= 0.0
-                target[j] = -speed[j] if held[j] else -(1.0 + law.restitution) * speed[j]
-        status = solve_rows(problem, work, fresh, n, closed)
+        if not at_position and clearance <= (1.0 - theta) * h * fastest:
+            rows, far = m, n
+        look(problem, law, state, work, h, theta, at_position, rows)
+        status = solve_first_rows(problem, work, fresh, n, closed, rows)
+        if status == SOLVED and at_position and rows < m:
+            if clearance <= swing(problem, v, dv, h, theta, far, work.d1):
+                rows, far = m, n
+                look(problem, law, state, work, h, theta, at_position, rows)
+                status = solve_first_rows(problem, work, False, n, closed, rows)
         if status != SOLVED:
             work.made_with[0] = math.nan
             return status, k
 
-        for j in range(m):
+        for j in range(rows):
             if closed[j]:
                 change = row_times(dofs, factors, dv, j)
                 add(state.budget, IMPACT, -0.5 * p[j] * (2.0 * speed[j] + change))
@@ -175,7 +216,14 @@ def steps(
                     state.worst[SMALLEST_REACTION] = min(state.worst[SMALLEST_REACTION], p[j])
                 product = abs(p[j] * (change - target[j])) * (h if at_position else 1.0)
                 state.worst[PRODUCT] = max(state.worst[PRODUCT], product)
+        if rows == m:
+            rows = rows_to_look_at(closed)
+            if rows < m:
+                clearance, far = smallest_gap(problem, work.gap, rows), dofs[rows, 0]
+                work.candidate[rows:] = False
         next_h = step_length(times, k + 1, work.made_with) if k + 1 < last else 0.0
-        if not math.isfinite(correct(problem, state, work, t, h, theta, times[k + 1], next_h)):
+        total, moved, fastest = correct(problem, state, work, t, h, theta, times[k + 1], next_h, far)
+        if not math.isfinite(total):
             return NOT_FINITE, k
+        clearance -= moved
     return SOLVED, last
