@@ -346,13 +346,13 @@ def back_substitute(U: Array, z: Array, first: int, count: int, way: int, x: Arr
 @compiled_apart
 def fade_out(U: Array, start: int, smallest: float, x: Array) -> int:
     """Go on with :func:`back_substitute`, upwards from unknown ``start``, where z is zero, until four values in a row
-    are below ``smallest``: all that follow are, and x is zero from there on. Returns where that is.
+    are not above ``smallest``: all that follow are, and x is zero from there on. Returns where that is.
     """
     n = x.size
     x1, x2, x3, x4 = four_before(x, start, 1)
     end = n
     for k in range(start, n):
-        if max(max(abs(x1), abs(x2)), max(abs(x3), abs(x4))) < smallest:
+        if max(max(abs(x1), abs(x2)), max(abs(x3), abs(x4))) <= smallest:
             end = k
             break
         value = (-U[k, 4] * x4 - U[k, 3] * x3 - U[k, 2] * x2) - U[k, 1] * x1

@@ -48,9 +48,6 @@ def extend(problem: Problem, work: Work, row: int) -> None:
         work.fixed[switch[j]] = True
     for support in problem.supports:
         work.fixed[place[support]] = True
-    work.D[n + span :] = 1.0  # the four idle rows behind the last unknown
-    work.U[n + span :] = 0.0
-    work.z[n + span :] = 0.0
     work.span[0] = span
 
 

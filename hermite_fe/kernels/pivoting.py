@@ -36,6 +36,7 @@ from hermite_fe.kernels.problem import Problem, Work
 from hermite_fe.kernels.rows import (
     SINGULAR,
     SOLVED,
+    TOO_SHORT,
     first_from,
     largest_in,
     right_side,
@@ -57,7 +58,7 @@ MARGIN = 64  # unknowns beyond the closed rows that every round looks at; the re
 REACH = 5  # unknowns: the twist is so far below a switch, which changes couplings of four unknowns on either side
 ADVANCE = 32  # unknowns that the twist lags at most behind where it may be
 CALMING = 4  # solves in which a row that switched is forgotten for the most part
-FADED = 1e-100  # of the largest unknown: what is smaller, and beyond all loads, is taken as zero
+FADED = 1e-50  # of the largest unknown: what is smaller, and beyond all loads, is taken as zero
 
 
 @compiled_in_place
@@ -106,18 +107,24 @@ def solve_rows(problem: Problem, work: Work, fresh: bool, extent: int, closed: F
 
     Returns SOLVED, SINGULAR or CYCLING.
     """
-    return solve_first_rows(problem, work, fresh, extent, closed, closed.size)
+    return solve_part(problem, work, fresh, extent, closed, closed.size, work.b.size)
 
 
 @compiled_in_place
-def solve_first_rows(problem: Problem, work: Work, fresh: bool, extent: int, closed: Flags, rows: int) -> int:
-    """:func:`solve_rows` where the rows from number ``rows`` on are open, are known to stay so, and are no candidates;
-    their places in work.p and work.wrong are not looked at."""
+def solve_part(
+    problem: Problem, work: Work, fresh: bool, extent: int, closed: Flags, rows: int, length: int
+) -> int:
+    """:func:`solve_rows` for the first ``rows`` rows and the first ``length`` dofs; of the others work.p, work.x and S
+    are not looked at.
+
+    Rows from number ``rows`` on are open, are known to stay so, and touch, as all others do, no dof from ``length`` on
+    (unless that is all of them). Returns TOO_SHORT where the solution does not fade before dof ``length``.
+    """
     if work.span[0] == 0 and closed.size > 0:
         extend(problem, work, 0)
         fresh = True
     while True:
-        status, row = solve_near(problem, work, fresh, extent, closed, rows)
+        status, row = solve_near(problem, work, fresh, extent, closed, rows, length)
         if row < 0:
             return status
         extend(problem, work, row)
@@ -126,9 +133,9 @@ def solve_first_rows(problem: Problem, work: Work, fresh: bool, extent: int, clo
 
 @compiled_apart
 def solve_near(
-    problem: Problem, work: Work, fresh: bool, extent: int, closed: Flags, rows: int
+    problem: Problem, work: Work, fresh: bool, extent: int, closed: Flags, rows: int, length: int
 ) -> tuple[int, int]:
-    """:func:`solve_first_rows` as far as rows have multipliers. Returns (status, −1), or a row that has none and would close
+    """:func:`solve_part` as far as rows have multipliers. Returns (status, −1), or a row that has none and would close
     in place of −1."""
     factors, place, switch, reach = problem.factors, work.place, problem.switch, problem.reach
     S, fixed = work.S, work.fixed
@@ -137,8 +144,12 @@ def solve_near(
     m, span = rows, work.span[0]
     direct = factors.shape[1] == 1
     shift = 0 if direct else span  # multipliers, all of them before the first unknown of ``far``
-    n = b.size + shift
+    n = length + shift
     D, U, z, y = work.D[: n + 4], work.U[: n + 4], work.z[: n + 4], work.y[:n]
+    if fresh:  # the four idle rows
+        D[n:] = 1.0
+        U[n:] = 0.0
+        z[n:] = 0.0
     low, top = n, n - 1 if fresh else -1
     last_row, last_closed = -1, -1
     p[:m] = 0.0
@@ -169,7 +180,7 @@ def solve_near(
     near = min(near, span)
 
     end = n  # of the unknowns with a right-hand side
-    if extent < b.size:
+    if extent < length:
         end = place[extent - 1] + 1 if extent > 0 else 0
         if last_closed >= 0:
             end = max(end, min(switch[last_closed] + 5, n))
@@ -203,6 +214,8 @@ def solve_near(
                 deflection, slope = largest_in(place, y, bottom, zone)
                 smallest = FADED * max(deflection, slope)
             work.extent[0] = substitute_rest(U, z, zone, end, smallest, y)
+            if work.extent[0] == n and length < b.size:
+                return TOO_SHORT, -1
             back_substitute(U, z, bottom - 1, bottom, -1, y)
             if bottom > 0:
                 count, last, worst = wrong_rows(problem, work, closed, 0, first, 0, zone, tolerance)
@@ -225,6 +238,8 @@ def solve_near(
         if rounds % LENIENT_AFTER == 0:
             tolerance *= 10.0
             if tolerance > MOST_LENIENT:
+                if length < b.size:
+                    return TOO_SHORT, -1
                 if span < closed.size:
                     return SOLVED, closed.size - 1
                 tolerance = ROUND_OFF
@@ -273,7 +288,7 @@ def solve_near(
         work.extent[0] = max(work.extent[0] - shift, near)
         for i in range(near):
             x[i] = y[place[i]]
-        rest, found = x[near:], y[near + shift :]
+        rest, found = x[near:length], y[near + shift :]
         for i in range(rest.size):
             rest[i] = found[i]
     work.rounds[0] += 1

@@ -24,7 +24,9 @@ Places = NDArray[np.int64]
 class Problem(NamedTuple):
     """What does not change during a run.
 
-    M, C, K, load, dofs … tributary, supports : of the :class:`System` and its rows; even, odd : K's :func:`row_sums`
+    M, C, K, load, dofs … tributary, supports : of the :class:`System` and its rows
+    even, odd, damping_even, damping_odd : :func:`row_sums` of K and of C; still : dofs before which a translation of the
+        whole beam may raise forces, or a load acts
     lever : largest sum of a row's |factors| of deflections, and of slopes
     before : rows whose multipliers come before a dof; switch, reach : see above
     """
@@ -36,6 +38,9 @@ class Problem(NamedTuple):
     slots: Places  # where in State.budget each part of C is booked
     even: Array
     odd: Array
+    damping_even: Array
+    damping_odd: Array
+    still: int
     load: Array
     dofs: Places
     factors: Array
@@ -123,6 +128,7 @@ class Work(NamedTuple):
     d3: Array
     lost: Array
     made_with: Array  # the step that S was made with, alone
+    length: Places  # and how many dofs it was made for, where that is not all (:mod:`.ahead`)
     twist: NDArray[np.int64]
     extent: NDArray[np.int64]
     rounds: NDArray[np.int64]  # solves, active-set iterations of all of them, most of one
@@ -167,6 +173,10 @@ def problem_of(system: System) -> Problem:
     last = rows.dofs.max(axis=1)
     reach = np.maximum(last + before[last], switch) if m else np.zeros(0, np.int64)
     even, odd = row_sums(system.stiffness)
+    damping_even, damping_odd = row_sums(system.damping)
+    # a translation moves the even dofs alike
+    felt = [np.where(np.arange(system.dofs) % 2 == 0, *sums) for sums in ((even, odd), (damping_even, damping_odd))]
+    forced = np.flatnonzero(np.any([*felt, *system.load], axis=0))
     parts = [bands for _, bands in system.dampings]
     return Problem(
         M=system.mass,
@@ -177,6 +187,9 @@ def problem_of(system: System) -> Problem:
         slots=np.array([SLOTS[cause] for cause, _ in system.dampings], np.int64),
         even=even,
         odd=odd,
+        damping_even=damping_even,
+        damping_odd=damping_odd,
+        still=int(forced[-1]) + 1 if forced.size else 0,
         # nothing for a long beam to read where there is no load
         load=system.load if np.any(system.load) else np.zeros((0, system.dofs)),
         dofs=rows.dofs,
@@ -248,6 +261,7 @@ def work_of(system: System, problem: Problem) -> Work:
         d3=np.zeros(n),
         lost=np.zeros(problem.slots.size),
         made_with=np.full(1, np.nan),
+        length=np.zeros(1, np.int64),
         twist=np.zeros(2, np.int64),
         extent=np.full(1, n),
         rounds=np.zeros(3, np.int64),

@@ -13,7 +13,7 @@ from hermite_fe.kernels.problem import Problem, Work
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
-SOLVED, SINGULAR, CYCLING, NOT_FINITE = 0, 1, 2, 3
+SOLVED, SINGULAR, CYCLING, NOT_FINITE, TOO_SHORT = 0, 1, 2, 3, 4
 
 
 @compiled_in_place

@@ -16,11 +16,12 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from hermite_fe.kernels.banded import CHUNK, add, combine, dot, multiply_rows, quadratic_rows, stiff_rows
+from hermite_fe.kernels.ahead import carry, dofs_to_take, last_nonzero, moving
+from hermite_fe.kernels.banded import CHUNK, add, combine, dot, quadratic_rows, stiff_rows
 from hermite_fe.kernels.contact import force_rows, mark_held, row_times, rows_times_both
 from hermite_fe.kernels.far_rows import largest, row_bound, rows_to_look_at, smallest_gap
 from hermite_fe.kernels.jit import compiled_apart, compiled_in_place
-from hermite_fe.kernels.pivoting import solve_first_rows
+from hermite_fe.kernels.pivoting import solve_part
 from hermite_fe.kernels.problem import (
     ALGORITHMIC,
     IMPACT,
@@ -32,10 +33,11 @@ from hermite_fe.kernels.problem import (
     State,
     Work,
 )
-from hermite_fe.kernels.rows import NOT_FINITE, SOLVED
+from hermite_fe.kernels.rows import NOT_FINITE, SOLVED, TOO_SHORT
 from hermite_fe.kernels.stepping import step_length
 
 Array = NDArray[np.float64]
+STEPS_AHEAD = 2.0  # that no row may touch which is left alone
 
 
 @compiled_in_place
@@ -47,7 +49,7 @@ def predict_rows(problem: Problem, state: State, work: Work, h: float, theta: fl
     for i in range(reach - origin):
         moved[i] = old[i] + theta * h * rate[i]
     stiff_rows(problem.K, problem.even, problem.odd, moved, origin, first, stop, right)
-    multiply_rows(problem.C, v, q.size, first, stop, part)
+    stiff_rows(problem.C, problem.damping_even, problem.damping_odd, v, 0, first, stop, part)
     for i in range(stop - first):
         right[i] = -h * (right[i] + part[i])
 
@@ -64,20 +66,28 @@ def load_rows(problem: Problem, work: Work, t: float, h: float, theta: float, fi
 
 
 @compiled_apart
-def predict(problem: Problem, state: State, work: Work, t: float, h: float, theta: float) -> None:
-    """work.b = h[F_θ − K(q + θhv) − Cv]."""
-    n = state.q.size
-    for first in range(0, n, CHUNK):
-        stop = min(first + CHUNK, n)
+def predict(problem: Problem, state: State, work: Work, t: float, h: float, theta: float, length: int) -> None:
+    """The first ``length`` rows of work.b = h[F_θ − K(q + θhv) − Cv]."""
+    for first in range(0, length, CHUNK):
+        stop = min(first + CHUNK, length)
         predict_rows(problem, state, work, h, theta, first, stop)
         load_rows(problem, work, t, h, theta, first, stop)
 
 
 @compiled_apart
 def correct(
-    problem: Problem, state: State, work: Work, t: float, h: float, theta: float, next_t: float, next_h: float, far: int
+    problem: Problem,
+    state: State,
+    work: Work,
+    t: float,
+    h: float,
+    theta: float,
+    next_t: float,
+    next_h: float,
+    far: int,
+    length: int,
 ) -> tuple[float, float, float]:
-    """q⁺ and v⁺ from Δv = work.x, and the energies that the step takes, booked; and :func:`predict` for a step of
+    """q⁺ and v⁺ of the first ``length`` dofs (and of three more, which move alike) from Δv = work.x, and the energies that the step takes, booked; and :func:`predict` for a step of
     length ``next_h`` (0: none), while q⁺ and v⁺ are at hand. Returns the sum of the energies, finite where the solution
     is, and bounds of how far rows moved, and how fast they are, whose dofs are all from ``far`` on."""
     q, v, dv, lost, mean, change, force = state.q, state.v, work.x, work.lost, work.d1, work.d2, work.d3
@@ -86,8 +96,10 @@ def correct(
     deflection, slope, speed, turn = 0.0, 0.0, 0.0, 0.0
     for cause in range(lost.size):
         lost[cause] = 0.0
-    for first in range(0, n, CHUNK):
-        stop = min(first + CHUNK, n)
+    for i in range(length, min(length + 3, n)):
+        dv[i] = 0.0
+    for first in range(0, length, CHUNK):
+        stop = min(first + CHUNK, length)
         start, reach, count = max(first - 3, 0), min(stop + 3, n), stop - first
         there = known - start  # of the rows before
         for i in range(there):
@@ -128,11 +140,13 @@ def correct(
 
 
 @compiled_in_place
-def swing(problem: Problem, v: Array, dv: Array, h: float, theta: float, far: int, scratch: Array) -> float:
-    """Bound of how far rows move in the step, whose dofs are all from ``far`` on."""
+def swing(
+    problem: Problem, v: Array, dv: Array, h: float, theta: float, far: int, length: int, scratch: Array
+) -> float:
+    """Bound of how far rows move in the step, whose dofs are all from ``far`` on; from ``length`` on all move alike."""
     deflection, slope = 0.0, 0.0
-    for first in range(far, v.size, CHUNK):
-        stop = min(first + CHUNK, v.size)
+    for first in range(far, length, CHUNK):
+        stop = min(first + CHUNK, length)
         rate, jump = v[first:stop], dv[first:stop]
         for i in range(stop - first):
             scratch[i] = rate[i] + theta * jump[i]
@@ -162,6 +176,32 @@ def look(
 
 
 @compiled_in_place
+def look_ahead(
+    problem: Problem, law: ContactLaw, state: State, work: Work, h: float, theta: float, at_position: bool
+) -> tuple[int, int, float]:
+    """:func:`look` at all rows, and leave alone, if they are open and will be for a while, those far ahead. Returns how
+    many have to be looked at, the first dof that only others touch, and their smallest gap (all, dofs, 0)."""
+    n, m = state.q.size, state.closed.size
+    look(problem, law, state, work, h, theta, at_position, m)
+    fastest, far = 0.0, n
+    for j in range(m):
+        fastest = max(fastest, abs(work.speed[j]))
+    near = STEPS_AHEAD * h * fastest
+    rows = rows_to_look_at(state.closed)
+    for j in range(m - 1, rows - 1, -1):
+        if problem.gap[j] + work.gap[j] <= near:  # candidates are among them
+            rows = j + 1
+            break
+    if rows == m:
+        return m, n, 0.0
+    clearance = smallest_gap(problem, work.gap, rows)
+    for i in range(problem.dofs.shape[1]):
+        far = min(far, problem.dofs[rows, i])
+    work.candidate[rows:] = False
+    return rows, far, clearance
+
+
+@compiled_in_place
 def steps(
     problem: Problem,
     law: ContactLaw,
@@ -175,34 +215,60 @@ def steps(
 ) -> tuple[int, int]:
     """Take the steps ``first`` … ``last`` − 1 between the instants ``times``. Returns (status, step
     reached)."""
-    dofs, factors, v, closed = problem.dofs, problem.factors, state.v, state.closed
-    dv, p, target, held, speed = work.x, work.p, work.target, work.held, work.speed
+    dofs, factors, q, v, closed = problem.dofs, problem.factors, state.q, state.v, state.closed
+    b, dv, p, target, held, speed = work.b, work.x, work.p, work.target, work.held, work.speed
     n, m = v.size, closed.size
     # rows from number ``rows`` on, whose dofs are all from ``far`` on, have gaps larger than ``clearance``
     rows, far, clearance, fastest = m, n, 0.0, 0.0
-    for k in range(first, last):
+    length = n  # dofs that steps take: the others move alike
+    status, k = SOLVED, first
+    while k < last:
         t = times[k]
         h = step_length(times, k, work.made_with)
         fresh = work.made_with[0] != h
-        if fresh:
-            combine(problem.M, problem.C, problem.K, 1.0, theta * h, theta * theta * h * h, work.place, work.S)
-            work.made_with[0] = h
-        if k == first:
-            predict(problem, state, work, t, h, theta)
-
         mark_held(problem, law, closed, t, held)
-        if not at_position and clearance <= (1.0 - theta) * h * fastest:
-            rows, far = m, n
-        look(problem, law, state, work, h, theta, at_position, rows)
-        status = solve_first_rows(problem, work, fresh, n, closed, rows)
-        if status == SOLVED and at_position and rows < m:
-            if clearance <= swing(problem, v, dv, h, theta, far, work.d1):
-                rows, far = m, n
-                look(problem, law, state, work, h, theta, at_position, rows)
-                status = solve_first_rows(problem, work, False, n, closed, rows)
+        if rows == m or (not at_position and clearance <= (1.0 - theta) * h * fastest):
+            carry(q, length + 3, n)
+            rows, far, clearance = look_ahead(problem, law, state, work, h, theta, at_position)
+            taken = n
+            if rows < m:
+                needed = max(moving(problem, q, v), far + dofs.shape[1])
+                taken = dofs_to_take(n, needed)
+                if needed < work.length[0] <= taken:
+                    taken = work.length[0]
+            b[length:taken] = 0.0
+            length = taken
+        else:
+            look(problem, law, state, work, h, theta, at_position, rows)
+        if k == first:
+            predict(problem, state, work, t, h, theta, length)
+        while True:
+            fresh = fresh or work.length[0] != length
+            if fresh:
+                combine(
+                    problem.M, problem.C, problem.K, 1.0, theta * h, theta * theta * h * h, work.place[:length], work.S
+                )
+                work.made_with[0], work.length[0] = h, length
+            extent = last_nonzero(b, length)
+            status = TOO_SHORT
+            if length == n or extent < length:
+                status = solve_part(problem, work, fresh, extent, closed, rows, length)
+                fresh = False
+            if status == SOLVED and at_position and rows < m:
+                if clearance <= swing(problem, v, dv, h, theta, far, length, work.d1):
+                    carry(q, length + 3, n)
+                    rows, far = m, n
+                    look(problem, law, state, work, h, theta, at_position, rows)
+                    status = TOO_SHORT
+            if status != TOO_SHORT:
+                break
+            longer = dofs_to_take(n, length) if rows < m else n
+            carry(q, length + 3, min(longer + 3, n))
+            b[length:longer] = 0.0
+            length = longer
         if status != SOLVED:
             work.made_with[0] = math.nan
-            return status, k
+            break
 
         for j in range(rows):
             if closed[j]:
@@ -216,14 +282,12 @@ def steps(
                     state.worst[SMALLEST_REACTION] = min(state.worst[SMALLEST_REACTION], p[j])
                 product = abs(p[j] * (change - target[j])) * (h if at_position else 1.0)
                 state.worst[PRODUCT] = max(state.worst[PRODUCT], product)
-        if rows == m:
-            rows = rows_to_look_at(closed)
-            if rows < m:
-                clearance, far = smallest_gap(problem, work.gap, rows), dofs[rows, 0]
-                work.candidate[rows:] = False
         next_h = step_length(times, k + 1, work.made_with) if k + 1 < last else 0.0
-        total, moved, fastest = correct(problem, state, work, t, h, theta, times[k + 1], next_h, far)
+        total, moved, fastest = correct(problem, state, work, t, h, theta, times[k + 1], next_h, far, length)
         if not math.isfinite(total):
-            return NOT_FINITE, k
+            status = NOT_FINITE
+            break
         clearance -= moved
-    return SOLVED, last
+        k += 1
+    carry(q, length + 3, n)
+    return status, k
