@@ -41,6 +41,13 @@ def dofs_to_take(n: int, needed: int) -> int:
 
 
 @compiled_in_place
+def chosen_length(n: int, needed: int, made_for: int) -> int:
+    """:func:`dofs_to_take`, or as many as the factors at hand are made for, if these are enough and not many more."""
+    taken = dofs_to_take(n, needed)
+    return made_for if needed < made_for <= taken else taken
+
+
+@compiled_in_place
 def carry(q: Array, first: int, stop: int) -> None:
     """Dofs ``first`` … ``stop`` − 1 moved as the two before them."""
     for i in range(first, stop):

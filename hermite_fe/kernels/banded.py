@@ -102,7 +102,7 @@ def stiff_row(A: Array, even: Array, odd: Array, x: Array, origin: int, i: int) 
 
 @compiled_in_place
 def stiff_rows(A: Array, even: Array, odd: Array, x: Array, origin: int, first: int, stop: int, y: Array) -> None:
-    """y = rows ``first`` … ``stop`` − 1 of :func:`stiff_multiply`, y (stop − first,); ``x`` starts with dof ``origin``."""
+    """y = rows ``first`` … ``stop`` − 1 of :func:`stiff_multiply`, y (stop − first,); x[0] is dof ``origin``."""
     n = even.size
     low, high = max(first, 3), min(stop, n - 3)
     for i in range(first, min(low, stop)):

@@ -18,24 +18,32 @@ Flags = NDArray[np.bool_]
 
 FEWEST = 64  # rows that are looked at in every step
 AHEAD = 2  # times as many rows as reach to the last closed one
+STEPS_AHEAD = 2.0  # that the nearest row left alone is off the wall, at least
 
 
 @compiled_in_place
-def rows_to_look_at(closed: Flags) -> int:
-    """Rows that are looked at in every step, up to well ahead of the last closed one."""
-    for j in range(closed.size - 1, -1, -1):
+def leave_alone(problem: Problem, closed: Flags, gap: Array, speed: Array, h: float) -> tuple[int, int, float]:
+    """How many rows are to be looked at, the first dof that only others touch, and what they have as their smallest gap
+    (all, as many dofs as there are, 0 where none can be left alone). ``gap`` and ``speed`` (rows,) are Gq and Gv."""
+    n, m, far = problem.before.size, closed.size, problem.before.size
+    rows, fastest = FEWEST, 0.0
+    for j in range(m):
+        fastest = max(fastest, abs(speed[j]))
         if closed[j]:
-            return min(max(AHEAD * (j + 1), FEWEST), closed.size)
-    return min(FEWEST, closed.size)
-
-
-@compiled_in_place
-def smallest_gap(problem: Problem, change: Array, first: int) -> float:
-    """Of the rows from ``first`` on, at least one; ``change`` (rows,) is G q."""
-    smallest = problem.gap[first] + change[first]
-    for j in range(first + 1, change.size):
-        smallest = min(smallest, problem.gap[j] + change[j])
-    return smallest
+            rows = max(rows, AHEAD * (j + 1))
+    near = STEPS_AHEAD * h * fastest
+    for j in range(m - 1, rows - 1, -1):
+        if problem.gap[j] + gap[j] <= near:
+            rows = j + 1
+            break
+    if rows >= m:
+        return m, n, 0.0
+    clearance = problem.gap[rows] + gap[rows]
+    for j in range(rows + 1, m):
+        clearance = min(clearance, problem.gap[j] + gap[j])
+    for i in range(problem.dofs.shape[1]):
+        far = min(far, problem.dofs[rows, i])
+    return rows, far, clearance
 
 
 @compiled_maxima

@@ -31,14 +31,17 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from hermite_fe.kernels.banded import combine, factor, multiply, stiff_multiply
-from hermite_fe.kernels.contact import force_at, mark_held, row_times, rows_times
+from hermite_fe.kernels.ahead import carry, chosen_length, dofs_to_take, last_nonzero, moving
+from hermite_fe.kernels.banded import CHUNK, combine, factor, multiply, multiply_rows, stiff_rows
+from hermite_fe.kernels.contact import force_rows, mark_held, row_times, rows_times, rows_times_both
+from hermite_fe.kernels.far_rows import largest, leave_alone, row_bound
 from hermite_fe.kernels.jit import compiled, compiled_apart, compiled_in_place
-from hermite_fe.kernels.pivoting import solve_rows
+from hermite_fe.kernels.pivoting import solve_part, solve_rows
 from hermite_fe.kernels.problem import PRODUCT, SMALLEST_REACTION, ContactLaw, Problem, State, Work
-from hermite_fe.kernels.rows import NOT_FINITE, SINGULAR, SOLVED
-from hermite_fe.kernels.stepping import book_step, initial_acceleration, residual_force, step_length
+from hermite_fe.kernels.rows import NOT_FINITE, SINGULAR, SOLVED, TOO_SHORT
+from hermite_fe.kernels.stepping import book_rows, initial_acceleration, residual_force, residual_rows, step_length
 
+Flags = NDArray[np.bool_]
 Array = NDArray[np.float64]
 AT_REST = 1e-10  # of the largest velocity: a closed row slower than this has not rebounded
 
@@ -63,10 +66,11 @@ def scheme_of(spectral_radius: float) -> Scheme:
 
 
 @compiled_in_place
-def combine_smooth(scheme: Scheme, problem: Problem, h: float, work: Work) -> None:
-    """work.S = M + hγsC + h²βsK, the matrix of v̇⁺."""
+def combine_smooth(scheme: Scheme, problem: Problem, h: float, work: Work, length: int) -> None:
+    """work.S = M + hγsC + h²βsK, the matrix of v̇⁺, for the first ``length`` dofs."""
     _, _, gamma, beta, s = scheme
-    combine(problem.M, problem.C, problem.K, 1.0, h * gamma * s, h * h * beta * s, work.place, work.S)
+    combine(problem.M, problem.C, problem.K, 1.0, h * gamma * s, h * h * beta * s, work.place[:length], work.S)
+    work.made_with[0], work.length[0] = h, length
 
 
 class Kept(NamedTuple):
@@ -86,15 +90,16 @@ class Kept(NamedTuple):
 @compiled
 def kept_of(n: int, m: int) -> Kept:
     """Work space for n dofs and m rows."""
-    return Kept(np.empty(n), np.empty(n), np.empty(n), np.empty(n), np.empty(m), np.empty(n), np.zeros(n), np.zeros(n))
+    return Kept(np.empty(n), np.empty(n), np.empty(n), np.empty(n), np.zeros(m), np.empty(n), np.zeros(n), np.zeros(n))
 
 
 @compiled_in_place
-def predict(scheme: Scheme, state: State, h: float, kept: Kept) -> None:
-    """Keep the start of the step and put q*, v* in place of q, v; ``slip`` starts as −h²(β − ½γ)a."""
+def predict(scheme: Scheme, state: State, h: float, kept: Kept, reach: int) -> None:
+    """Keep the start of the step and put q*, v* in place of q, v; ``slip`` starts as −h²(β − ½γ)a. All of the first
+    ``reach`` dofs."""
     alpha_m, alpha_f, gamma, beta, _ = scheme
     q, v, a, rate = state.q, state.v, state.a, state.acceleration
-    for i in range(q.size):
+    for i in range(reach):
         known = (alpha_f * rate[i] - alpha_m * a[i]) / (1.0 - alpha_m)
         kept.q[i] = q[i]
         kept.v[i] = v[i]
@@ -106,11 +111,11 @@ def predict(scheme: Scheme, state: State, h: float, kept: Kept) -> None:
 
 
 @compiled_in_place
-def correct(scheme: Scheme, state: State, h: float, rate: Array, kept: Kept) -> None:
+def correct(scheme: Scheme, state: State, h: float, rate: Array, kept: Kept, length: int) -> None:
     """v̇⁺ = rate and the a⁺, q⁺, v⁺ that follow from it and from what :func:`predict` kept; jumps are not in them."""
     _, _, gamma, beta, s = scheme
     q, v, a = state.q, state.v, state.a
-    for i in range(q.size):
+    for i in range(length):
         a_old = a[i]
         state.acceleration[i] = rate[i]
         a[i] = kept.predicted[i] + s * rate[i]
@@ -132,6 +137,61 @@ def react(scheme: Scheme, state: State, h: float, j: int, force: float, kept: Ke
     impulse[j] += h * gamma * state.reaction_a[j]
 
 
+@compiled_in_place
+def lengthen(state: State, kept: Kept, first: Work, second: Work, length: int, longer: int) -> None:
+    """In the middle of a step, take ``longer`` dofs in place of ``length``: those added move as the beam ahead."""
+    stop = min(longer + 3, state.q.size)
+    carry(state.q, length + 3, stop)
+    carry(kept.q, length + 3, stop)
+    for i in range(length + 3, stop):
+        kept.v[i] = state.v[i]
+        kept.predicted[i] = kept.lag[i] = kept.slip[i] = kept.jump[i] = kept.missed[i] = 0.0
+    first.b[length:longer] = 0.0
+    second.b[length:longer] = 0.0
+
+
+@compiled_in_place
+def solve_growing(
+    scheme: Scheme,
+    problem: Problem,
+    state: State,
+    smooth: Work,
+    work: Work,
+    kept: Kept,
+    h: float,
+    extent: int,
+    closed: Flags,
+    rows: int,
+    length: int,
+) -> tuple[int, int]:
+    """:func:`solve_part` with as many dofs as it takes, whose matrix is made where it is not there yet. ``smooth`` and
+    ``work`` are the works of the step. Returns the status and how many."""
+    n = state.q.size
+    while True:
+        fresh = smooth.made_with[0] != h or smooth.length[0] != length
+        if fresh:
+            combine_smooth(scheme, problem, h, smooth, length)
+        status = TOO_SHORT
+        if length == n or extent < length:
+            status = solve_part(problem, work, fresh, extent, closed, rows, length)
+        elif fresh:
+            smooth.made_with[0] = math.nan  # no factors were made
+        if status != TOO_SHORT:
+            return status, length
+        longer = dofs_to_take(n, length)
+        lengthen(state, kept, smooth, work, length, longer)
+        length = longer
+
+
+@compiled_in_place
+def feels_nothing(problem: Problem, state: State) -> int:
+    """Dofs from which on the beam moves as a whole, and nothing accelerates it."""
+    moved = moving(problem, state.q, state.v)
+    for x in (state.a, state.acceleration, state.jump):
+        moved = max(moved, last_nonzero(x, x.size))
+    return moved
+
+
 @compiled_apart
 def account(
     scheme: Scheme,
@@ -143,37 +203,47 @@ def account(
     h: float,
     impulse: Array,
     filtered: bool,
-) -> bool:
-    """Book a step by the sums in the module's head; False when they are not finite.
+    far: int,
+    length: int,
+) -> tuple[bool, float, float]:
+    """Book a step by the sums in the module's head. Returns whether they are finite, and bounds of how far rows moved,
+    and how fast they are, whose dofs are all from ``far`` on.
 
     kept : the start of the step, with ``slip``, ``jump`` and ``missed`` of this one. impulse : of all reactions over
-        the step. filtered : reactions of v̇ went through its filter.
+        the step. filtered : reactions of v̇ went through its filter. length : dofs from which on all move alike.
     """
     q, v, old_q, old_v, lag = state.q, state.v, kept.q, kept.v, kept.lag
     mean_v, force, product = work.d1, work.d2, work.d3
-    half = 0.5 - scheme.alpha_f
-    for i in range(q.size):
+    half, reach = 0.5 - scheme.alpha_f, min(length + 3, state.q.size)
+    gain, momentum, deflection, slope, speed, turn = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+    for i in range(reach):
         mean_v[i] = 0.5 * (v[i] + old_v[i])
         old_v[i] = 0.5 * (q[i] + old_q[i])
         old_q[i] = q[i] - old_q[i]
         lag[i] = (state.acceleration[i] - state.a[i]) - lag[i]
-    force_at(problem.load, t, h, 0.5, force)
-    stiff_multiply(problem.K, problem.even, problem.odd, old_v, product)
-    gain = 0.0
-    for i in range(q.size):
-        gain += (product[i] - force[i]) * kept.slip[i]
-    multiply(problem.M, lag, product, lag.size)
-    momentum = 0.0
-    for i in range(q.size):
-        momentum += mean_v[i] * (half * product[i] + 0.5 * state.jump[i] + kept.missed[i])
-        state.jump[i] = kept.jump[i]
+    if far < reach:
+        deflection, slope = largest(old_q[far:reach], far)
+        speed, turn = largest(v[far:reach], far)
+    for first in range(0, length, CHUNK):
+        stop = min(first + CHUNK, length)
+        part, loads, slip = product[first:stop], force[first:stop], kept.slip[first:stop]
+        stiff_rows(problem.K, problem.even, problem.odd, old_v, 0, first, stop, part)
+        force_rows(problem.load, t, h, 0.5, first, stop, loads)
+        for i in range(stop - first):
+            gain += (part[i] - loads[i]) * slip[i]
+        multiply_rows(problem.M, lag, q.size, first, stop, part)
+        mean, old_jump, jump, missed = mean_v[first:stop], state.jump[first:stop], kept.jump[first:stop], kept.missed
+        for i in range(stop - first):
+            momentum += mean[i] * (half * part[i] + 0.5 * old_jump[i] + missed[first + i])
+            old_jump[i] = jump[i]
     if filtered:
         for j in range(impulse.size):
             change = state.reaction[j] - state.reaction_a[j] - kept.row_lag[j]
             if change != 0.0:
                 momentum -= half * change * row_times(problem.dofs, problem.factors, mean_v, j)
-    book_step(problem, state, h, force, old_q, mean_v, impulse, -gain - h * momentum)
-    return math.isfinite(gain) and math.isfinite(momentum)
+    book_rows(problem, state, h, force, old_q, mean_v, impulse, -gain - h * momentum, length)
+    finite = math.isfinite(gain) and math.isfinite(momentum)
+    return finite, row_bound(problem, deflection, slope), row_bound(problem, speed, turn)
 
 
 @compiled
@@ -207,39 +277,46 @@ def velocity_steps(
         status = initial_acceleration(problem, state, smooth)
         if status != SOLVED:
             return status, 0
-    for k in range(first, last):
+    # as in hermite_fe.kernels.theta
+    rows, far, clearance, fastest, length = m, n, 0.0, 0.0, n
+    status, k = SOLVED, first
+    while k < last:
         t = times[k]
         h = step_length(times, k, smooth.made_with)
-        fresh = smooth.made_with[0] != h
-        if fresh:
-            combine_smooth(scheme, problem, h, smooth)
-            smooth.made_with[0] = h
-        rows_times(dofs, factors, q, work.gap)
-        rows_times(dofs, factors, v, work.speed)
+        if rows == m or clearance <= h * (1.0 - beta / gamma) * fastest:
+            carry(q, length + 3, n)
+            rows_times_both(dofs, factors, q, v, work.gap, work.speed)
+            rows, far, clearance = leave_alone(problem, closed, work.gap, work.speed, h)
+            work.candidate[rows:] = False
+            needed = max(feels_nothing(problem, state), far + dofs.shape[1])
+            length = chosen_length(n, needed, smooth.length[0]) if rows < m else n
+        else:
+            rows_times_both(dofs[:rows], factors[:rows], q, v, work.gap, work.speed)
         mark_held(problem, law, closed, t, work.held)
-        for j in range(m):
+        for j in range(rows):
             # where a row would come to rest if it were closed now
             work.candidate[j] = problem.gap[j] + work.gap[j] + h * (1.0 - beta / gamma) * work.speed[j] <= 0.0
-        predict(scheme, state, h, kept)
-        residual_force(problem, t + h, q, v, smooth.b, smooth.d1)
-        status = solve_rows(problem, smooth, fresh, n, none)
+        predict(scheme, state, h, kept, min(length + 3, n))
+        residual_rows(problem, t + h, q, v, smooth.b, smooth.d1, length)
+        extent = last_nonzero(smooth.b, length)
+        status, length = solve_growing(
+            scheme, problem, state, smooth, smooth, kept, h, extent, none, rows, length
+        )
         if status != SOLVED:
-            smooth.made_with[0] = math.nan
-            return status, k
-        for i in range(n):
+            break
+        for i in range(length):
             rate[i] = smooth.x[i]
             a[i] = kept.predicted[i] + s * rate[i]
             q[i] += h * h * beta * s * rate[i]
             v[i] += h * gamma * s * rate[i]
-        rows_times(dofs, factors, v, work.gap)
-        for j in range(m):
+        rows_times(dofs[:rows], factors[:rows], v, work.gap)
+        for j in range(rows):
             rebound = 0.0 if work.held[j] else law.restitution
             work.target[j] = -work.gap[j] - rebound * work.speed[j]
-        status = solve_rows(problem, work, False, 0, closed)
+        status, length = solve_growing(scheme, problem, state, smooth, work, kept, h, 0, closed, rows, length)
         if status != SOLVED:
-            smooth.made_with[0] = math.nan
-            return status, k
-        for j in range(m):
+            break
+        for j in range(rows):
             if closed[j]:
                 p = work.p[j]
                 if work.held[j]:
@@ -248,7 +325,7 @@ def velocity_steps(
                     state.worst[SMALLEST_REACTION] = min(state.worst[SMALLEST_REACTION], p)
                 slack = row_times(dofs, factors, work.x, j) - work.target[j]
                 state.worst[PRODUCT] = max(state.worst[PRODUCT], abs(p * slack))
-        end = min(work.extent[0] + 3, n)
+        end, reach = min(work.extent[0] + 3, n), min(length + 3, n)
         multiply(problem.K, work.x, kept.jump, end)
         multiply(problem.C, work.x, work.d1, end)
         for i in range(end):
@@ -257,13 +334,41 @@ def velocity_steps(
             kept.slip[i] += h * (beta / gamma - 0.5) * work.x[i]
             q[i] += h * (beta / gamma) * work.x[i]
             v[i] += work.x[i]
-        kept.jump[end:] = 0.0
-        kept.missed[end:] = 0.0
-        for i in range(n):
+        kept.jump[end:reach] = 0.0
+        kept.missed[end:reach] = 0.0
+        for i in range(length):
             kept.slip[i] += h * h * (beta - 0.5 * gamma) * a[i]
-        if not account(scheme, problem, state, kept, work, t, h, work.p, False):
-            return NOT_FINITE, k
-    return SOLVED, last
+        finite, moved, fastest = account(
+            scheme, problem, state, kept, work, t, h, work.p[:rows], False, far, length
+        )
+        if not finite:
+            status = NOT_FINITE
+            break
+        clearance -= moved
+        k += 1
+    carry(q, length + 3, n)
+    if status != SOLVED:
+        smooth.made_with[0] = math.nan
+    return status, k
+
+
+@compiled_in_place
+def aim(problem: Problem, state: State, position: Work, rows: int) -> None:
+    """Have the first ``rows`` rows ask that their gaps do not become negative."""
+    rows_times(problem.dofs[:rows], problem.factors[:rows], state.q, position.gap)
+    for j in range(rows):
+        position.candidate[j] = True
+        position.target[j] = -(problem.gap[j] + position.gap[j])
+
+
+@compiled_in_place
+def swing(problem: Problem, state: State, jump: Array, kept: Kept, far: int, length: int) -> float:
+    """Bound of how far rows are from where they were at the start of the step, whose dofs are all from ``far`` on."""
+    scratch = kept.jump
+    for i in range(far, length):
+        scratch[i] = state.q[i] + jump[i] - kept.q[i]
+    deflection, slope = largest(scratch[far:length], far)
+    return row_bound(problem, deflection, slope)
 
 
 @compiled
@@ -300,59 +405,78 @@ def sequential_steps(
     q, v, closed, resting = state.q, state.v, state.closed, state.resting
     dofs, factors = problem.dofs, problem.factors
     n, m = q.size, closed.size
-    kept, impulse = kept_of(n, m), np.empty(m)
+    kept, impulse, taking_part = kept_of(n, m), np.zeros(m), np.zeros(m, np.bool_)
     if first == 0:
         status = initial_acceleration(problem, state, velocity)
         if status != SOLVED:
             return status, 0
-    for k in range(first, last):
+    # as in hermite_fe.kernels.theta
+    rows, far, clearance, length = m, n, 0.0, n
+    status, k = SOLVED, first
+    while k < last:
         t = times[k]
         h = step_length(times, k, smooth.made_with)
-        fresh = smooth.made_with[0] != h
-        if fresh:
-            combine_smooth(scheme, problem, h, smooth)
-            smooth.made_with[0] = h
+        if rows == m:
+            carry(q, length + 3, n)
+            rows_times_both(dofs, factors, q, v, position.gap, velocity.speed)
+            for j in range(m):  # a reaction goes on in its filter when its row has opened
+                reacting = state.reaction[j] != 0.0 or state.reaction_a[j] != 0.0
+                taking_part[j] = closed[j] or resting[j] or reacting
+            rows, far, clearance = leave_alone(problem, taking_part, position.gap, velocity.speed, h)
+            needed = max(feels_nothing(problem, state), far + dofs.shape[1])
+            length = chosen_length(n, needed, smooth.length[0]) if rows < m else n
+            for work in (smooth, position, velocity):
+                work.candidate[rows:] = False
+            impulse[rows:] = 0.0
         mark_held(problem, law, closed, t, position.held)
-        rows_times(dofs, factors, v, velocity.speed)
+        rows_times(dofs[:rows], factors[:rows], v, velocity.speed)
 
-        predict(scheme, state, h, kept)
-        residual_force(problem, t + h, q, v, smooth.b, smooth.d1)
-        for j in range(m):
+        predict(scheme, state, h, kept, min(length + 3, n))
+        residual_rows(problem, t + h, q, v, smooth.b, smooth.d1, length)
+        for j in range(rows):
             smooth.candidate[j] = with_acceleration and resting[j]
             smooth.held[j] = smooth.candidate[j] and position.held[j]
             smooth.target[j] = 0.0
-        status = solve_rows(problem, smooth, fresh, n, resting)
+        extent = last_nonzero(smooth.b, length)
+        status, length = solve_growing(
+            scheme, problem, state, smooth, smooth, kept, h, extent, resting, rows, length
+        )
         if status != SOLVED:
-            smooth.made_with[0] = math.nan
-            return status, k
-        correct(scheme, state, h, smooth.x, kept)
-        for j in range(m):
+            break
+        correct(scheme, state, h, smooth.x, kept, length)
+        for j in range(rows):
             react(scheme, state, h, j, smooth.p[j], kept, impulse)
 
-        rows_times(dofs, factors, q, position.gap)
-        for j in range(m):
-            position.candidate[j] = True
-            position.target[j] = -(problem.gap[j] + position.gap[j])
-        status = solve_rows(problem, position, False, 0, closed)
+        aim(problem, state, position, rows)
+        status, length = solve_growing(
+            scheme, problem, state, smooth, position, kept, h, 0, closed, rows, length
+        )
+        if status == SOLVED and rows < m and clearance <= swing(problem, state, position.x, kept, far, length):
+            lengthen(state, kept, position, velocity, length, n)
+            rows, far, length = m, n, n
+            rows_times(dofs, factors, kept.v, velocity.speed)
+            aim(problem, state, position, rows)
+            status, length = solve_growing(
+                scheme, problem, state, smooth, position, kept, h, 0, closed, rows, length
+            )
         if status != SOLVED:
-            smooth.made_with[0] = math.nan
-            return status, k
+            break
 
-        end = min(position.extent[0] + 3, n)
+        end, reach = min(position.extent[0] + 3, n), min(length + 3, n)
         multiply(problem.K, position.x, kept.jump, end)
         for i in range(end):
             q[i] += position.x[i]
             kept.slip[i] += position.x[i]
             kept.missed[i] = -0.5 * kept.jump[i]
             velocity.b[i] = -h * kept.jump[i]
-        kept.jump[end:] = 0.0
-        kept.missed[end:] = 0.0
-        velocity.b[end:] = 0.0
-        rows_times(dofs, factors, v, velocity.gap)
-        largest = 0.0
-        for j in range(m):
-            largest = max(largest, abs(velocity.gap[j]))
-        for j in range(m):
+        kept.jump[end:reach] = 0.0
+        kept.missed[end:reach] = 0.0
+        velocity.b[end:reach] = 0.0
+        rows_times(dofs[:rows], factors[:rows], v, velocity.gap)
+        fastest = 0.0
+        for j in range(rows):
+            fastest = max(fastest, abs(velocity.gap[j]))
+        for j in range(rows):
             velocity.candidate[j] = closed[j] or smooth.p[j] > 0.0
             if impulse[j] != 0.0:
                 for i in range(dofs.shape[1]):
@@ -362,10 +486,11 @@ def sequential_steps(
             rebound = 0.0 if velocity.held[j] else law.restitution
             velocity.target[j] = -velocity.gap[j] - rebound * velocity.speed[j]
             resting[j] = velocity.candidate[j]
-        status = solve_rows(problem, velocity, False, end, resting)
+        status, length = solve_growing(
+            scheme, problem, state, smooth, velocity, kept, h, end, resting, rows, length
+        )
         if status != SOLVED:
-            smooth.made_with[0] = math.nan
-            return status, k
+            break
         end = min(velocity.extent[0] + 3, n)
         multiply(problem.K, velocity.x, velocity.d1, end)
         for i in range(end):
@@ -377,7 +502,7 @@ def sequential_steps(
             for i in range(end):
                 kept.missed[i] += (0.5 - scheme.gamma * scheme.s) * velocity.d1[i]
                 kept.jump[i] += velocity.d1[i]
-        for j in range(m):
+        for j in range(rows):
             impulse[j] = velocity.p[j]
             if closed[j]:
                 p = velocity.p[j]
@@ -391,10 +516,19 @@ def sequential_steps(
                 product = abs(p * slack) if resting[j] else 0.0
                 state.worst[PRODUCT] = max(state.worst[PRODUCT], max(product, abs(position.p[j] * gap) / (h * h)))
             rebounding = row_times(dofs, factors, v, j) if resting[j] else 0.0
-            resting[j] = resting[j] and abs(rebounding) <= AT_REST * largest
-        if not account(scheme, problem, state, kept, velocity, t, h, impulse, True):
-            return NOT_FINITE, k
-    return SOLVED, last
+            resting[j] = resting[j] and abs(rebounding) <= AT_REST * fastest
+        finite, moved, _ = account(
+            scheme, problem, state, kept, velocity, t, h, impulse[:rows], True, far, length
+        )
+        if not finite:
+            status = NOT_FINITE
+            break
+        clearance -= moved
+        k += 1
+    carry(q, length + 3, n)
+    if status != SOLVED:
+        smooth.made_with[0] = math.nan
+    return status, k
 
 
 @compiled
@@ -432,11 +566,10 @@ def penalty_steps(
         h = step_length(times, k, work.made_with)
         fresh = work.made_with[0] != h
         if fresh:
-            combine_smooth(scheme, problem, h, work)
-            work.made_with[0] = h
+            combine_smooth(scheme, problem, h, work, n)
             for j in range(m):
                 touching[j] = False
-        predict(scheme, state, h, kept)
+        predict(scheme, state, h, kept, n)
         residual_force(problem, t + h, q, v, right, work.d1)
         rows_times(dofs, factors, q, work.gap)
         rows_times(dofs, factors, v, work.speed)
@@ -473,7 +606,7 @@ def penalty_steps(
             for j in range(m):
                 if work.wrong[j]:
                     closed[j] = not closed[j]
-        correct(scheme, state, h, work.x, kept)
+        correct(scheme, state, h, work.x, kept, n)
         for j in range(m):
             d, g = dofs[j, 0], factors[j, 0]
             spring, damper = stiffness * problem.tributary[j], damping * problem.tributary[j]
@@ -485,6 +618,6 @@ def penalty_steps(
             if closed[j]:
                 gap = problem.gap[j] + g * q[d]
                 state.worst[PRODUCT] = max(state.worst[PRODUCT], abs(h * force * gap))
-        if not account(scheme, problem, state, kept, work, t, h, work.p, True):
+        if not account(scheme, problem, state, kept, work, t, h, work.p, True, n, n)[0]:
             return NOT_FINITE, k
     return SOLVED, last

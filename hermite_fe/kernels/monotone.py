@@ -23,8 +23,11 @@ MOST = 20  # exchanges a row
 
 @compiled_apart
 def solve_monotone(problem: Problem, work: Work, closed: Flags, tolerance: float) -> tuple[int, int]:
-    """Solve for work.y and work.p from scratch; ``closed`` (rows,) is the answer. All rows must have their multipliers. Returns (status, solutions); CYCLING
-    also where a row is left in the wall because closing it makes it pull: ``tolerance`` is below round-off."""
+    """Solve for work.y and work.p from scratch; ``closed`` (rows,) is the answer. No row may lack its multiplier.
+
+    Returns (status, solutions); CYCLING also where a row is left in the wall because closing it makes it pull:
+    ``tolerance`` is below round-off.
+    """
     switch, place, dofs, factors = problem.switch, work.place, problem.dofs, problem.factors
     S, fixed, y, p = work.S, work.fixed, work.y, work.p
     n, m, width = y.size, closed.size, factors.shape[1]

@@ -45,6 +45,7 @@ from hermite_fe.kernels.rows import (
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
+Places = NDArray[np.int64]
 
 FALLING = 0.75  # share of the wrong rows of the round before, up to which all are exchanged
 FEW = 2  # neighbours that are exchanged together nevertheless
@@ -62,15 +63,16 @@ FADED = 1e-50  # of the largest unknown: what is smaller, and beyond all loads, 
 
 
 @compiled_in_place
-def substitute_rest(U: Array, z: Array, start: int, end: int, smallest: float, y: Array) -> int:
-    """Unknowns from ``start`` on, where right-hand sides are zero from ``end`` on. Returns where they become zero."""
-    if end >= y.size:
-        back_substitute(U, z, start, y.size - start, 1, y)
-        return int(y.size)
+def substitute_rest(U: Array, z: Array, place: Places, bottom: int, start: int, end: int, y: Array) -> int:
+    """Unknowns from ``start`` on, those from ``bottom`` to there being known, where right-hand sides are zero from
+    ``end`` on. Returns where they become zero."""
     if start < end:
         back_substitute(U, z, start, end - start, 1, y)
         start = end
-    return fade_out(U, start, smallest, y)
+    if start >= y.size:
+        return int(y.size)
+    deflection, slope = largest_in(place, y, bottom, start)
+    return fade_out(U, start, FADED * max(deflection, slope), y)
 
 
 @compiled_apart
@@ -114,8 +116,8 @@ def solve_rows(problem: Problem, work: Work, fresh: bool, extent: int, closed: F
 def solve_part(
     problem: Problem, work: Work, fresh: bool, extent: int, closed: Flags, rows: int, length: int
 ) -> int:
-    """:func:`solve_rows` for the first ``rows`` rows and the first ``length`` dofs; of the others work.p, work.x and S
-    are not looked at.
+    """:func:`solve_rows` for the first ``rows`` rows and the first ``length`` dofs; of the others work.p, S and work.x
+    (but for three, which become zero) are not looked at.
 
     Rows from number ``rows`` on are open, are known to stay so, and touch, as all others do, no dof from ``length`` on
     (unless that is all of them). Returns TOO_SHORT where the solution does not fade before dof ``length``.
@@ -204,16 +206,13 @@ def solve_near(
     substitute_down(U, far - 1, bottom, z)
     first = first_from(switch, bottom + 4) if bottom > 0 else 0
 
-    fewest, patience, rounds, tolerance, smallest = m + 1, PATIENCE, 0, ROUND_OFF, 0.0
+    fewest, patience, rounds, tolerance = m + 1, PATIENCE, 0, ROUND_OFF
     lowest, most, few, together, before = low, -1, True, True, m + 1
     while True:
         back_substitute(U[bottom:], z[bottom:], 0, zone - bottom, 1, y[bottom:])
         count, last, worst = wrong_rows(problem, work, closed, first, near, bottom, zone, tolerance)
         if count == 0:
-            if end < n:
-                deflection, slope = largest_in(place, y, bottom, zone)
-                smallest = FADED * max(deflection, slope)
-            work.extent[0] = substitute_rest(U, z, zone, end, smallest, y)
+            work.extent[0] = substitute_rest(U, z, place, bottom, zone, end, y)
             if work.extent[0] == n and length < b.size:
                 return TOO_SHORT, -1
             back_substitute(U, z, bottom - 1, bottom, -1, y)
@@ -291,6 +290,8 @@ def solve_near(
         rest, found = x[near:length], y[near + shift :]
         for i in range(rest.size):
             rest[i] = found[i]
+    for i in range(length, min(length + 3, x.size)):
+        x[i] = 0.0
     work.rounds[0] += 1
     work.rounds[1] += rounds + 1
     work.rounds[2] = max(work.rounds[2], rounds + 1)

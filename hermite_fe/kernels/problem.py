@@ -3,7 +3,8 @@
 Unknowns of a step are the dofs, in order, and between them one multiplier for each row that touches several
 dofs (after the middle one of its dofs: between the two nodes of an element). ``switch`` says which unknown a row fixes
 (the dof itself when it touches only one), ``reach`` the last unknown that a row touches. Rows far ahead of the contact
-zone have no multiplier yet (:mod:`.multipliers`): ``span`` counts those that have, ``place`` says which unknown a dof is.
+zone have no multiplier yet (:mod:`.multipliers`): ``span`` counts those that have, ``place`` says which unknown a dof
+is.
 """
 
 from __future__ import annotations
@@ -25,8 +26,8 @@ class Problem(NamedTuple):
     """What does not change during a run.
 
     M, C, K, load, dofs … tributary, supports : of the :class:`System` and its rows
-    even, odd, damping_even, damping_odd : :func:`row_sums` of K and of C; still : dofs before which a translation of the
-        whole beam may raise forces, or a load acts
+    even, odd, damping_even, damping_odd : :func:`row_sums` of K and of C
+    still : dofs before which a translation of the whole beam may raise forces, or a load acts
     lever : largest sum of a row's |factors| of deflections, and of slopes
     before : rows whose multipliers come before a dof; switch, reach : see above
     """

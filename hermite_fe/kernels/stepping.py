@@ -7,8 +7,8 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from hermite_fe.kernels.banded import add, combine, dot, multiply, quadratic, stiff_multiply
-from hermite_fe.kernels.contact import force_at, row_times
+from hermite_fe.kernels.banded import CHUNK, add, combine, dot, quadratic_rows, stiff_rows
+from hermite_fe.kernels.contact import force_rows, row_times
 from hermite_fe.kernels.jit import compiled, compiled_apart, compiled_in_place
 from hermite_fe.kernels.pivoting import solve_rows
 from hermite_fe.kernels.problem import ALGORITHMIC, IMPACT, WORK, Problem, State, Work
@@ -26,16 +26,28 @@ def step_length(times: Array, k: int, made_with: Array) -> float:
 
 
 @compiled_apart
+def residual_rows(problem: Problem, t: float, q: Array, v: Array, out: Array, scratch: Array, length: int) -> None:
+    """The first ``length`` rows of :func:`residual_force`."""
+    for first in range(0, length, CHUNK):
+        stop = min(first + CHUNK, length)
+        part = out[first:stop]
+        stiff_rows(problem.K, problem.even, problem.odd, q, 0, first, stop, part)
+        for i in range(stop - first):
+            part[i] = -part[i]
+        if problem.slots.size > 0:
+            stiff_rows(problem.C, problem.damping_even, problem.damping_odd, v, 0, first, stop, scratch)
+            for i in range(stop - first):
+                part[i] -= scratch[i]
+        if problem.load.shape[0] > 0:
+            force_rows(problem.load, t, 0.0, 0.0, first, stop, scratch)
+            for i in range(stop - first):
+                part[i] += scratch[i]
+
+
+@compiled_in_place
 def residual_force(problem: Problem, t: float, q: Array, v: Array, out: Array, scratch: Array) -> None:
     """out = F(t) − Cv − Kq."""
-    force_at(problem.load, t, 0.0, 0.0, out)
-    stiff_multiply(problem.K, problem.even, problem.odd, q, scratch)
-    for i in range(q.size):
-        out[i] -= scratch[i]
-    if problem.slots.size > 0:
-        multiply(problem.C, v, scratch, q.size)
-        for i in range(q.size):
-            out[i] -= scratch[i]
+    residual_rows(problem, t, q, v, out, scratch, q.size)
 
 
 @compiled
@@ -53,7 +65,7 @@ def initial_acceleration(problem: Problem, state: State, work: Work) -> int:
     return status
 
 
-@compiled_apart
+@compiled_in_place
 def book_step(
     problem: Problem,
     state: State,
@@ -71,13 +83,29 @@ def book_step(
         reactions. algorithmic : the scheme's own loss, from the scheme's own formula: what is left of Δ(T + V) is
         a run's defect.
     """
+    book_rows(problem, state, h, force, change, mean_v, impulse, algorithmic, change.size)
+
+
+@compiled_apart
+def book_rows(
+    problem: Problem,
+    state: State,
+    h: float,
+    force: Array,
+    change: Array,
+    mean_v: Array,
+    impulse: Array,
+    algorithmic: float,
+    length: int,
+) -> None:
+    """:func:`book_step` where forces arise in the first ``length`` rows alone."""
     contact = 0.0
     for j in range(impulse.size):
         if impulse[j] != 0.0:
             contact += impulse[j] * row_times(problem.dofs, problem.factors, mean_v, j)
             state.impulse[j] += impulse[j]
-    add(state.budget, WORK, dot(force, change))
+    add(state.budget, WORK, dot(force[:length], change[:length]))
     add(state.budget, IMPACT, -contact)
     add(state.budget, ALGORITHMIC, algorithmic)
     for cause in range(problem.slots.size):
-        add(state.budget, problem.slots[cause], h * quadratic(problem.parts[cause], mean_v))
+        add(state.budget, problem.slots[cause], h * quadratic_rows(problem.parts[cause], mean_v, 0, 0, length))

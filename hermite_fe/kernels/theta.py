@@ -16,10 +16,10 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from hermite_fe.kernels.ahead import carry, dofs_to_take, last_nonzero, moving
+from hermite_fe.kernels.ahead import carry, chosen_length, dofs_to_take, last_nonzero, moving
 from hermite_fe.kernels.banded import CHUNK, add, combine, dot, quadratic_rows, stiff_rows
 from hermite_fe.kernels.contact import force_rows, mark_held, row_times, rows_times_both
-from hermite_fe.kernels.far_rows import largest, row_bound, rows_to_look_at, smallest_gap
+from hermite_fe.kernels.far_rows import largest, leave_alone, row_bound
 from hermite_fe.kernels.jit import compiled_apart, compiled_in_place
 from hermite_fe.kernels.pivoting import solve_part
 from hermite_fe.kernels.problem import (
@@ -37,7 +37,6 @@ from hermite_fe.kernels.rows import NOT_FINITE, SOLVED, TOO_SHORT
 from hermite_fe.kernels.stepping import step_length
 
 Array = NDArray[np.float64]
-STEPS_AHEAD = 2.0  # that no row may touch which is left alone
 
 
 @compiled_in_place
@@ -87,17 +86,19 @@ def correct(
     far: int,
     length: int,
 ) -> tuple[float, float, float]:
-    """q⁺ and v⁺ of the first ``length`` dofs (and of three more, which move alike) from Δv = work.x, and the energies that the step takes, booked; and :func:`predict` for a step of
-    length ``next_h`` (0: none), while q⁺ and v⁺ are at hand. Returns the sum of the energies, finite where the solution
-    is, and bounds of how far rows moved, and how fast they are, whose dofs are all from ``far`` on."""
+    """q⁺ and v⁺ of the first ``length`` dofs (and of three more, which move alike) from Δv = work.x, and the energies
+    that the step takes, booked; and :func:`predict` for a step of length ``next_h`` (0: none), while q⁺ and v⁺ are at
+    hand.
+
+    Returns the sum of the energies, finite where the solution is, and bounds of how far rows moved, and how fast they
+    are, whose dofs are all from ``far`` on.
+    """
     q, v, dv, lost, mean, change, force = state.q, state.v, work.x, work.lost, work.d1, work.d2, work.d3
     n, known, origin, loaded = q.size, 0, 0, problem.load.shape[0] > 0
     kinetic, strain, work_done = 0.0, 0.0, 0.0
     deflection, slope, speed, turn = 0.0, 0.0, 0.0, 0.0
     for cause in range(lost.size):
         lost[cause] = 0.0
-    for i in range(length, min(length + 3, n)):
-        dv[i] = 0.0
     for first in range(0, length, CHUNK):
         stop = min(first + CHUNK, length)
         start, reach, count = max(first - 3, 0), min(stop + 3, n), stop - first
@@ -179,24 +180,9 @@ def look(
 def look_ahead(
     problem: Problem, law: ContactLaw, state: State, work: Work, h: float, theta: float, at_position: bool
 ) -> tuple[int, int, float]:
-    """:func:`look` at all rows, and leave alone, if they are open and will be for a while, those far ahead. Returns how
-    many have to be looked at, the first dof that only others touch, and their smallest gap (all, dofs, 0)."""
-    n, m = state.q.size, state.closed.size
-    look(problem, law, state, work, h, theta, at_position, m)
-    fastest, far = 0.0, n
-    for j in range(m):
-        fastest = max(fastest, abs(work.speed[j]))
-    near = STEPS_AHEAD * h * fastest
-    rows = rows_to_look_at(state.closed)
-    for j in range(m - 1, rows - 1, -1):
-        if problem.gap[j] + work.gap[j] <= near:  # candidates are among them
-            rows = j + 1
-            break
-    if rows == m:
-        return m, n, 0.0
-    clearance = smallest_gap(problem, work.gap, rows)
-    for i in range(problem.dofs.shape[1]):
-        far = min(far, problem.dofs[rows, i])
+    """:func:`look` at all rows, and :func:`leave_alone` those far ahead."""
+    look(problem, law, state, work, h, theta, at_position, state.closed.size)
+    rows, far, clearance = leave_alone(problem, state.closed, work.gap, work.speed, h)
     work.candidate[rows:] = False
     return rows, far, clearance
 
@@ -232,10 +218,7 @@ def steps(
             rows, far, clearance = look_ahead(problem, law, state, work, h, theta, at_position)
             taken = n
             if rows < m:
-                needed = max(moving(problem, q, v), far + dofs.shape[1])
-                taken = dofs_to_take(n, needed)
-                if needed < work.length[0] <= taken:
-                    taken = work.length[0]
+                taken = chosen_length(n, max(moving(problem, q, v), far + dofs.shape[1]), work.length[0])
             b[length:taken] = 0.0
             length = taken
         else:

@@ -64,7 +64,7 @@ def test_no_number_of_the_state_is_subnormal(integrator: Integrator, nodes: int)
 def test_without_care_they_would_be(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(running.subnormals, "flush", lambda: 0)
     monkeypatch.setattr(running.subnormals, "restore", lambda before: None)
-    run = long_beam(2000, MoreauJean(1e-3))
+    run = long_beam(2000, INTEGRATORS["penalty"])
     run.advance_to(200)
     assert subnormal(run) > 0
 
