@@ -34,7 +34,8 @@ def main() -> int:
     for row in rows:
         print(row)
     missed = sum(not row.met for row in rows)
-    print(f"{len(rows) - missed} of {len(rows)} goals met")
+    goals = sum(row.goal is not None for row in rows)
+    print(f"{goals - missed} of {goals} goals met")
     return 1 if missed else 0
 
 

@@ -22,19 +22,24 @@ RESULTS = Path(__file__).parent / "results"
 
 @dataclass(frozen=True)
 class Row:
-    """One figure and its goal. at_least : the goal is the least, not the most; about : whatever else is kept."""
+    """One figure and its goal (``None``: it has none, and is there to be known). at_least : the goal is the least, not
+    the most; about : whatever else is kept."""
 
     label: str
     figure: float
-    goal: float
+    goal: float | None
     at_least: bool = False
     about: dict[str, Any] = field(default_factory=dict)
 
     @property
     def met(self) -> bool:
+        if self.goal is None:
+            return True
         return self.figure >= self.goal if self.at_least else self.figure <= self.goal
 
     def __str__(self) -> str:
+        if self.goal is None:
+            return f"{self.label:50}{self.figure:9.3f}  no goal"
         sign = "≥" if self.at_least else "≤"
         return f"{self.label:50}{self.figure:9.3f}  {sign} {self.goal:<6g} {'met' if self.met else 'NOT MET'}"
 
