@@ -20,7 +20,6 @@ from numpy.typing import NDArray
 
 from bent_beam.checks import positive
 from bent_beam.meshes import checked_nodes
-from hermite_fe.kernels.assembly import assemble, assemble_load
 from hermite_fe.kernels.banded import row_sums, stiff_multiply
 
 __all__ = [
@@ -127,8 +126,10 @@ class HermiteBeam:
 
     def assembled(self, element: Array) -> Array:
         """Element matrices (elements, 4, 4) in lower banded form, shape (4, dofs)."""
-        bands = np.zeros((4, self.dofs))
-        assemble(self.lengths, element, bands)
+        bands, end = np.zeros((4, self.dofs)), 2 * len(element)
+        for i in range(4):
+            for j in range(i + 1):
+                bands[i - j, j : j + end : 2] += element[:, i, j]
         return bands
 
     def stiffness(self, weight: Array | None = None) -> Array:
@@ -148,8 +149,9 @@ class HermiteBeam:
         """Consistent nodal loads of a uniform load, N/m: ∫ Nᵀ p dx, shape (dofs,)."""
         l = self.lengths  # noqa: E741
         element = load * np.stack([l / 2, l**2 / 12, l / 2, -(l**2) / 12], axis=1)
-        nodal = np.zeros(self.dofs)
-        assemble_load(element, nodal)
+        nodal, end = np.zeros(self.dofs), 2 * len(element)
+        for i in range(4):
+            nodal[i : i + end : 2] += element[:, i]
         return nodal
 
     def curvature_load(self, curvature: float) -> Array:

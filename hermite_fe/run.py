@@ -17,9 +17,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bent_beam.checks import MOST_INSTANTS, affordable
+from hermite_fe.beam import banded_product
 from hermite_fe.integrators import Integrator
 from hermite_fe.kernels import subnormals
-from hermite_fe.kernels.banded import is_finite, quadratic, stiff_multiply
+from hermite_fe.kernels.banded import stiff_multiply
 from hermite_fe.kernels.problem import (
     ABSORBED,
     ALGORITHMIC,
@@ -196,7 +197,6 @@ class Stepper:
         """Have all kernels compiled, or loaded, by taking no step: the seconds of a run are those of its steps."""
         state, works = deepcopy((self.state, self.works))  # a scheme may prepare its first step in them
         self.integrator.advance(self.problem, self.law, state, works, self.instants, 0, 0)
-        is_finite(self.state.q)
         self.energy()
 
     def advance_to(self, step: int) -> int:
@@ -216,7 +216,7 @@ class Stepper:
             )
         finally:
             subnormals.restore(before)
-        finite = is_finite(self.state.q) and is_finite(self.state.v)
+        finite = bool(np.isfinite(self.state.q).all() and np.isfinite(self.state.v).all())
         return NOT_FINITE if status == SOLVED and not finite else status
 
     def iterations(self) -> tuple[float, int]:
@@ -229,7 +229,7 @@ class Stepper:
         return self._kinetic() + self._strain()
 
     def _kinetic(self) -> float:
-        return 0.5 * float(quadratic(self.problem.M, self.state.v))
+        return 0.5 * float(np.sum(self.state.v * banded_product(self.problem.M, self.state.v)))
 
     def _strain(self) -> float:
         forces = np.zeros(self.state.q.size)

@@ -28,6 +28,7 @@ from numba.core.compiler import Compiler, DefaultPassBuilder
 from numba.core.compiler_machinery import PassManager
 from numba.core.runtime.nrt import rtsys
 
+from hermite_fe.kernels import lowering
 from hermite_fe.kernels.inference import remember
 
 __all__ = ["compiled", "compiled_apart", "compiled_in_place", "compiled_maxima", "compiled_sums"]
@@ -217,6 +218,8 @@ class Plain:
     def define_pipelines(self) -> list[PassManager]:
         plain = PassManager("plain kernel")
         for kind, description in DefaultPassBuilder.define_nopython_pipeline(self.state).passes:  # type: ignore[attr-defined]
+            if kind.__name__ == "NativeLowering":
+                kind = lowering.plain(kind)
             if kind.__name__ not in NOT_IN_PLAIN_KERNELS:
                 plain.add_pass(kind, description)
         plain.finalize()
