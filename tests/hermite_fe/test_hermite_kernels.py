@@ -5,13 +5,15 @@ import shutil
 import subprocess
 import sys
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 import pytest
 from numba.core.caching import CompileResultCacheImpl
+from numba.core.typed_passes import NativeLowering
 from numba.core.types.functions import BaseFunction
 
-from hermite_fe.kernels import jit
+from hermite_fe.kernels import jit, lowering
 
 
 def test_kernels_run_where_nothing_can_be_written(monkeypatch: pytest.MonkeyPatch):
@@ -134,8 +136,9 @@ def test_what_a_cache_cannot_do_is_done_without(before: str, kernels: Path):
     assert answered(kernels, before) == "12.0"
 
 
-def test_types_are_kept_with_the_numba_that_is_locked():
+def test_types_are_kept_and_variables_are_not_with_the_numba_that_is_locked():
     assert hasattr(BaseFunction.get_call_type, "__wrapped__")
+    assert lowering.plain(NativeLowering) is not NativeLowering
 
 
 OTHER_NUMBA = """
@@ -144,6 +147,13 @@ found = BaseFunction.get_call_type
 def get_call_type(self, context, args, kws, more=None):
     return found(self, context, args, kws)
 BaseFunction.get_call_type = get_call_type
+"""
+OTHER_LOWERING = """
+from numba.core.lowering import Lower
+kept = Lower.storevar
+def storevar(self, value, name, argidx=None, more=None):
+    return kept(self, value, name, argidx)
+Lower.storevar = storevar
 """
 NO_CONFIG = """
 import sys
@@ -161,6 +171,59 @@ atexit.register(lambda: print(BaseFunction.get_call_type is here))
 @pytest.mark.parametrize("before", [OTHER_NUMBA, NO_CONFIG], ids=["parameters", "import"])
 def test_kernels_answer_where_numba_is_built_otherwise(before: str, kernels: Path):
     assert answered(kernels, before + LEFT_ALONE).split() == ["12.0", "True"]
+
+
+def test_kernels_answer_where_numba_keeps_variables_otherwise(kernels: Path):
+    outer = kernels / "outer.py"
+    outer.write_text(outer.read_text().replace("compiled", "compiled_in_place"))
+    told = "\nimport atexit\nfrom numba.core.typed_passes import NativeLowering as n\n"
+    told += "from hermite_fe.kernels.lowering import plain\natexit.register(lambda: print(plain(n) is n))\n"
+    assert answered(kernels, OTHER_LOWERING + told).split() == ["12.0", "True"]
+
+
+class Pair(NamedTuple):
+    x: np.ndarray
+    y: np.ndarray
+    factor: float
+
+
+def add_in(pair: Pair, sums: np.ndarray, k: int) -> float:
+    sums[k] += pair.factor * pair.y[k]
+    return sums[k]
+
+
+def walk(one: Pair, other: Pair, sums: np.ndarray) -> float:
+    """Variables that are assigned once, in a branch, in a loop and used after it, carried over, and exchanged."""
+    total, before, largest = 0.0, -1.0, one.factor
+    for k in range(one.x.size):
+        step = one.x[k]
+        if step > 0.0:
+            share = step * other.factor
+            if share > largest:
+                largest = share
+                continue
+            total += share * one.y[k]
+        elif k > 0 and before > 0.0:
+            total -= before
+        one, other = other, one
+        before = added(other, sums, k) - step
+    chosen = one if total > 0.0 else other
+    return total + largest + before + added(chosen, sums, 0)
+
+
+added = jit.compiled_in_place(add_in)
+
+
+def test_a_kernel_computes_what_its_python_does():
+    """Whatever is left out on the way: every variable has the value that it was given last."""
+    random = np.random.default_rng(5)
+    x, y, u, v = random.normal(size=(4, 40))
+    results = []
+    for run in (jit.compiled_in_place(walk), walk):
+        sums = np.zeros(40)
+        results.append((run(Pair(x, y, 0.5), Pair(u, v, 2.0), sums), sums))
+    assert results[0][0] == pytest.approx(results[1][0], rel=1e-13)
+    np.testing.assert_allclose(results[0][1], results[1][1], rtol=1e-13)
 
 
 def test_types_that_are_found_again_are_those_of_the_arguments():
