@@ -22,6 +22,9 @@ from comparison.command_line.group import CommandGroup
 __all__ = ["app", "main", "run"]
 
 INTERRUPTED = 130
+# Matrices are small: where two processes share two cores, a second thread of linear algebra each costs half as much time
+# again, and one is what dask's workers have, so that the bits are the same.
+ONE_THREAD = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 RESUMED = ("match", "gallery", "report", "benchmark")  # keep every run, or every item, as soon as it is finished
 
 app = typer.Typer(
@@ -56,6 +59,8 @@ def bentbeam(
 def main(arguments: Sequence[str] | None = None) -> None:
     """Run the command and leave with its exit code."""
     gc.disable()  # looking for cycles among what is imported is a tenth of a start; what takes long enables it again
+    for name in ONE_THREAD:
+        os.environ.setdefault(name, "1")  # before NumPy is imported, here and in processes started from here
     _open_closed_streams()
     code = run(arguments)
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # nothing is left to interrupt, and leaving takes a moment

@@ -1,6 +1,9 @@
 """The command line is a contract: one JSON document, exit codes, one-line errors."""
 
 import json
+import os
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -246,3 +249,19 @@ def test_match_takes_as_many_processes_as_there_are_cores_and_rows_for_them(
     monkeypatch.setattr("comparison.match.match", lambda asked, *, jobs, **_: taken.append(jobs) or [])
     assert document(capsys, "match", *words)["rows"] == []
     assert taken == [processes]
+
+
+@pytest.mark.parametrize(("asked", "taken"), [(None, "1"), ("3", "3")])
+def test_linear_algebra_takes_one_thread_unless_told(asked, taken):
+    """Set before NumPy is imported, or it would not be heard."""
+    text = (
+        "import os, sys; from comparison.command_line.app import main\n"
+        "assert 'numpy' not in sys.modules\n"
+        "try: main(['--version'])\n"
+        "finally: print(os.environ['OPENBLAS_NUM_THREADS'])"
+    )
+    environment = {name: value for name, value in os.environ.items() if not name.endswith("_NUM_THREADS")}
+    if asked:
+        environment["OPENBLAS_NUM_THREADS"] = asked
+    told = subprocess.run([sys.executable, "-c", text], env=environment, capture_output=True, text=True, check=True)
+    assert told.stdout.split()[-1] == taken
