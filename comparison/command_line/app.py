@@ -22,8 +22,8 @@ from comparison.command_line.group import CommandGroup
 __all__ = ["app", "main", "run"]
 
 INTERRUPTED = 130
-# Matrices are small: where two processes share two cores, a second thread of linear algebra each costs half as much time
-# again, and one is what dask's workers have, so that the bits are the same.
+# Matrices are small: where two processes share two cores, a second thread of linear algebra in each makes both a third
+# to two thirds slower. Dask's workers have one, too.
 ONE_THREAD = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 RESUMED = ("match", "gallery", "report", "benchmark")  # keep every run, or every item, as soon as it is finished
 
