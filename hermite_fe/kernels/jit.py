@@ -4,9 +4,10 @@ The first start pays for every line and every array of every signature. So a ker
 them without a way in from Python, and made machine code once, with the kernel that Python calls, not at every level in
 between; a long one stays a function of its own there; none has a way in from C; where no array is made no references
 are counted, and what numba does for closures and the like is left out; types that have been found are kept
-(:mod:`.inference`); and Python does not look for cycles meanwhile. A first simulation takes 8 s so, and 20 s where long
-kernels are written into others, types are looked for anew and so on. A kernel that Python calls too is compiled a
-second time for it. (Two processes side by side were 5 % faster, on two cores that share one memory.)
+(:mod:`.inference`), variables are not (:mod:`.lowering`); and Python does not look for cycles meanwhile. A first
+simulation takes about 10 s of processor time so, and twice that where long kernels are written into others, types are
+looked for anew and so on. A kernel that Python calls too is compiled a second time for it.
+(Two processes side by side were 5 % faster, on two cores that share one memory.)
 """
 
 from __future__ import annotations
@@ -103,7 +104,7 @@ class KernelCache(FunctionCache):
 @cache
 def _say_once() -> None:
     """To the logger that the command shows on standard error."""
-    logging.getLogger("bent_beam").info("compiling, as always on a new machine or after an update: 10 to 15 seconds")
+    logging.getLogger("bent_beam").info("compiling, as always on a new machine or after an update: about 10 seconds")
 
 
 class PartLibrary(JITCodeLibrary):
