@@ -133,30 +133,18 @@ def solve_part(
         fresh = True
 
 
-@compiled_apart
-def solve_near(
-    problem: Problem, work: Work, fresh: bool, extent: int, closed: Flags, rows: int, length: int
-) -> tuple[int, int]:
-    """:func:`solve_part` as far as rows have multipliers. Returns (status, −1), or a row that has none and would close
-    in place of −1."""
-    factors, place, switch, reach = problem.factors, work.place, problem.switch, problem.reach
-    S, fixed = work.S, work.fixed
-    b, x, p, wrong, excess, twist = work.b, work.x, work.p, work.wrong, work.excess, work.twist
-    target, candidate, held = work.target, work.candidate, work.held
-    m, span = rows, work.span[0]
-    direct = factors.shape[1] == 1
-    shift = 0 if direct else span  # multipliers, all of them before the first unknown of ``far``
-    n = length + shift
-    D, U, z, y = work.D[: n + 4], work.U[: n + 4], work.z[: n + 4], work.y[:n]
-    if fresh:  # the four idle rows
-        D[n:] = 1.0
-        U[n:] = 0.0
-        z[n:] = 0.0
-    low, top = n, n - 1 if fresh else -1
-    last_row, last_closed = -1, -1
-    p[:m] = 0.0
-    wrong[:m] = False
-    for j in range(m):
+@compiled_in_place
+def mark_rows(problem: Problem, work: Work, closed: Flags, rows: int, n: int) -> tuple[int, int, int, int]:
+    """Close the rows that are held, and of those that were closed the ones that take part; p and wrong of all become
+    nothing. Returns between which unknowns that switched, of ``n``, the last row that takes part, the last closed one
+    (−1: none)."""
+    switch, fixed, p, wrong = problem.switch, work.fixed, work.p, work.wrong
+    candidate, held, span = work.candidate, work.held, work.span[0]
+    direct = problem.factors.shape[1] == 1
+    low, top, last_row, last_closed = n, -1, -1, -1
+    for j in range(rows):
+        p[j] = 0.0
+        wrong[j] = False
         want = held[j] or (closed[j] and candidate[j])
         closed[j] = want
         if want:
@@ -170,6 +158,58 @@ def solve_near(
             fixed[k] = want == direct
             low = min(low, k)
             top = max(top, min(k + 4, n - 1))
+    return low, top, last_row, last_closed
+
+
+@compiled_in_place
+def exchange(
+    problem: Problem, work: Work, closed: Flags, last: int, chosen: int, one: bool, together: bool, n: int
+) -> tuple[int, int]:
+    """Switch rows whose sign is wrong, ``last`` being the last of them: ``chosen`` where only ``one`` may, all
+    ``together``, or else of each run of neighbours that are wrong alike the worst (all of a short run). Returns the
+    first unknown that is wrong and the last one, of ``n``, whose factors that changes."""
+    switch, fixed, wrong, excess = problem.switch, work.fixed, work.wrong, work.excess
+    direct = problem.factors.shape[1] == 1
+    low, top, stop, most, few = n, -1, 0, -1, True
+    for j in range(last + 1):
+        if not wrong[j]:
+            continue
+        low = min(low, switch[j])
+        if j >= stop:  # a run of neighbours that are wrong alike
+            shut, stop, most = closed[j], j + 1, j
+            while stop <= last and wrong[stop] and closed[stop] == shut:
+                if excess[stop] > excess[most]:
+                    most = stop
+                stop += 1
+            few = stop - j <= FEW
+        if j == chosen if one else together or few or j == most:
+            closed[j] = not closed[j]
+            fixed[switch[j]] = closed[j] == direct
+            top = max(top, min(switch[j] + 4, n - 1))
+    return low, top
+
+
+@compiled_apart
+def solve_near(
+    problem: Problem, work: Work, fresh: bool, extent: int, closed: Flags, rows: int, length: int
+) -> tuple[int, int]:
+    """:func:`solve_part` as far as rows have multipliers. Returns (status, −1), or a row that has none and would close
+    in place of −1."""
+    factors, place, switch, reach = problem.factors, work.place, problem.switch, problem.reach
+    S, fixed = work.S, work.fixed
+    b, x, target, twist = work.b, work.x, work.target, work.twist
+    m, span = rows, work.span[0]
+    direct = factors.shape[1] == 1
+    shift = 0 if direct else span  # multipliers, all of them before the first unknown of ``far``
+    n = length + shift
+    D, U, z, y = work.D[: n + 4], work.U[: n + 4], work.z[: n + 4], work.y[:n]
+    if fresh:  # the four idle rows
+        D[n:] = 1.0
+        U[n:] = 0.0
+        z[n:] = 0.0
+    low, top, last_row, last_closed = mark_rows(problem, work, closed, m, n)
+    if fresh:
+        top = n - 1
     if last_closed >= span:
         return SOLVED, last_closed
     whole = min(reach[last_row] + 5, n) if last_row >= 0 else 0
@@ -207,7 +247,7 @@ def solve_near(
     first = first_from(switch, bottom + 4) if bottom > 0 else 0
 
     fewest, patience, rounds, tolerance = m + 1, PATIENCE, 0, ROUND_OFF
-    lowest, most, few, together, before = low, -1, True, True, m + 1
+    lowest, together, before = low, True, m + 1
     while True:
         back_substitute(U[bottom:], z[bottom:], 0, zone - bottom, 1, y[bottom:])
         count, last, worst = wrong_rows(problem, work, closed, first, near, bottom, zone, tolerance)
@@ -253,22 +293,7 @@ def solve_near(
                 lowest = 0
                 break
         chosen = worst if patience > -PERSISTENCE else last
-        low, top, stop = n, -1, 0
-        for j in range(last + 1):
-            if not wrong[j]:
-                continue
-            low = min(low, switch[j])
-            if j >= stop:  # a run of neighbours that are wrong alike
-                shut, stop, most = closed[j], j + 1, j
-                while stop <= last and wrong[stop] and closed[stop] == shut:
-                    if excess[stop] > excess[most]:
-                        most = stop
-                    stop += 1
-                few = stop - j <= FEW
-            if j == chosen if patience <= 0 else together or few or j == most:
-                closed[j] = not closed[j]
-                fixed[switch[j]] = closed[j] == direct
-                top = max(top, min(switch[j] + 4, n - 1))
+        low, top = exchange(problem, work, closed, last, chosen, patience <= 0, together, n)
         lowest = min(lowest, low)
         top = refactor(work, D, U, n, low, top, min(bottom, max(0, low - REACH)))
         if top == -2:
