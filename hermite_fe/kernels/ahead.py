@@ -12,8 +12,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from hermite_fe.kernels.jit import compiled_in_place
-from hermite_fe.kernels.problem import Problem
+from hermite_fe.kernels.jit import compiled_apart, compiled_in_place
 
 Array = NDArray[np.float64]
 
@@ -22,15 +21,16 @@ LEAST = 64  # and as many more
 MOST = 0.8  # of the dofs; with more, all are taken
 
 
-@compiled_in_place
-def moving(problem: Problem, q: Array, v: Array) -> int:
-    """Dofs before which the beam does not move as a whole: beyond, no slopes, and all deflections alike."""
+@compiled_apart
+def moving(still: int, q: Array, v: Array) -> int:
+    """Dofs before which the beam does not move as a whole: beyond, no slopes, and all deflections alike, and no force
+    where they are: from ``still`` on, as in :class:`hermite_fe.kernels.problem.Problem`."""
     end = (q.size - 1) // 2 * 2
-    for i in range(q.size - 1, problem.still - 1, -1):
+    for i in range(q.size - 1, still - 1, -1):
         alike = q[i] == q[end] and v[i] == v[end] if i % 2 == 0 else q[i] == 0.0 and v[i] == 0.0
         if not alike:
             return i + 1
-    return problem.still
+    return still
 
 
 @compiled_in_place
@@ -47,14 +47,14 @@ def chosen_length(n: int, needed: int, made_for: int) -> int:
     return made_for if needed < made_for <= taken else taken
 
 
-@compiled_in_place
+@compiled_apart
 def carry(q: Array, first: int, stop: int) -> None:
     """Dofs ``first`` … ``stop`` − 1 moved as the two before them."""
     for i in range(first, stop):
         q[i] = q[i - 2]
 
 
-@compiled_in_place
+@compiled_apart
 def last_nonzero(x: Array, stop: int) -> int:
     """How many of the first ``stop`` numbers there are up to the last that is not zero."""
     for i in range(stop - 1, -1, -1):

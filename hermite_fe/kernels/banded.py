@@ -147,15 +147,6 @@ def dot(x: Array, y: Array) -> float:
 
 
 @compiled_sums
-def is_finite(x: Array) -> bool:
-    """Whether no number of x is infinite or none."""
-    total = 0.0
-    for i in range(x.size):
-        total += 0.0 * x[i]
-    return total == 0.0
-
-
-@compiled_sums
 def quadratic_rows(A: Array, x: Array, origin: int, first: int, stop: int) -> float:
     """What rows ``first`` … ``stop`` − 1 contribute to xᵀ A x; ``x`` starts with dof ``origin``."""
     n, total = A.shape[1], 0.0

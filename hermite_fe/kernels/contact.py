@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hermite_fe.kernels.jit import compiled_apart, compiled_in_place
-from hermite_fe.kernels.problem import ContactLaw, Problem
+from hermite_fe.kernels.problem import ContactLaw
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
@@ -76,10 +76,10 @@ def force_at(load: Array, t: float, h: float, theta: float, force: Array) -> Non
 
 
 @compiled_apart
-def mark_held(problem: Problem, law: ContactLaw, closed: Flags, t: float, held: Flags) -> None:
+def mark_held(rank: Places, side: Places, law: ContactLaw, closed: Flags, t: float, held: Flags) -> None:
     """Rows that stay closed after time t: those whose front is fewer than ``law.hold`` rows further, and before
     ``law.hold_until`` all that are closed."""
-    rank, side, everything = problem.rank, problem.side, t < law.hold_until
+    everything = t < law.hold_until
     if law.hold == 0 and not everything:
         held[:] = False
         return

@@ -10,22 +10,24 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from hermite_fe.kernels.jit import compiled_in_place, compiled_maxima
-from hermite_fe.kernels.problem import Problem
+from hermite_fe.kernels.jit import compiled_apart, compiled_in_place, compiled_maxima
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
+Places = NDArray[np.int64]
 
 FEWEST = 64  # rows that are looked at in every step
 AHEAD = 2  # times as many rows as reach to the last closed one
 STEPS_AHEAD = 2.0  # that the nearest row left alone is off the wall, at least
 
 
-@compiled_in_place
-def leave_alone(problem: Problem, closed: Flags, gap: Array, speed: Array, h: float) -> tuple[int, int, float]:
-    """How many rows are to be looked at, the first dof that only others touch, and what they have as their smallest gap
-    (all, as many dofs as there are, 0 where none can be left alone). ``gap`` and ``speed`` (rows,) are Gq and Gv."""
-    n, m, far = problem.before.size, closed.size, problem.before.size
+@compiled_apart
+def leave_alone(
+    n: int, dofs: Places, gap0: Array, closed: Flags, gap: Array, speed: Array, h: float
+) -> tuple[int, int, float]:
+    """How many rows are to be looked at, the first of ``n`` dofs that only others touch, and what they have as their
+    smallest gap (all, n, 0 where none can be left alone). ``gap`` and ``speed`` (rows,) are Gq and Gv."""
+    m, far = closed.size, n
     rows, fastest = FEWEST, 0.0
     for j in range(m):
         fastest = max(fastest, abs(speed[j]))
@@ -33,16 +35,16 @@ def leave_alone(problem: Problem, closed: Flags, gap: Array, speed: Array, h: fl
             rows = max(rows, AHEAD * (j + 1))
     near = STEPS_AHEAD * h * fastest
     for j in range(m - 1, rows - 1, -1):
-        if problem.gap[j] + gap[j] <= near:
+        if gap0[j] + gap[j] <= near:
             rows = j + 1
             break
     if rows >= m:
         return m, n, 0.0
-    clearance = problem.gap[rows] + gap[rows]
+    clearance = gap0[rows] + gap[rows]
     for j in range(rows + 1, m):
-        clearance = min(clearance, problem.gap[j] + gap[j])
-    for i in range(problem.dofs.shape[1]):
-        far = min(far, problem.dofs[rows, i])
+        clearance = min(clearance, gap0[j] + gap[j])
+    for i in range(dofs.shape[1]):
+        far = min(far, dofs[rows, i])
     return rows, far, clearance
 
 
@@ -60,6 +62,7 @@ def largest(x: Array, first: int) -> tuple[float, float]:
 
 
 @compiled_in_place
-def row_bound(problem: Problem, deflection: float, slope: float) -> float:
-    """What no |G x| exceeds where no deflection and no slope does these."""
-    return problem.lever[0] * deflection + problem.lever[1] * slope
+def row_bound(lever: Array, deflection: float, slope: float) -> float:
+    """What no |G x| exceeds where no deflection and no slope does these; ``lever`` is that of a
+    :class:`hermite_fe.kernels.problem.Problem`."""
+    return lever[0] * deflection + lever[1] * slope

@@ -186,7 +186,7 @@ def solve_growing(
 @compiled_in_place
 def feels_nothing(problem: Problem, state: State) -> int:
     """Dofs from which on the beam moves as a whole, and nothing accelerates it."""
-    moved = moving(problem, state.q, state.v)
+    moved = moving(problem.still, state.q, state.v)
     for x in (state.a, state.acceleration, state.jump):
         moved = max(moved, last_nonzero(x, x.size))
     return moved
@@ -243,7 +243,7 @@ def account(
                 momentum -= half * change * row_times(problem.dofs, problem.factors, mean_v, j)
     book_rows(problem, state, h, force, old_q, mean_v, impulse, -gain - h * momentum, length)
     finite = math.isfinite(gain) and math.isfinite(momentum)
-    return finite, row_bound(problem, deflection, slope), row_bound(problem, speed, turn)
+    return finite, row_bound(problem.lever, deflection, slope), row_bound(problem.lever, speed, turn)
 
 
 @compiled
@@ -286,13 +286,13 @@ def velocity_steps(
         if rows == m or clearance <= h * (1.0 - beta / gamma) * fastest:
             carry(q, length + 3, n)
             rows_times_both(dofs, factors, q, v, work.gap, work.speed)
-            rows, far, clearance = leave_alone(problem, closed, work.gap, work.speed, h)
+            rows, far, clearance = leave_alone(n, dofs, problem.gap, closed, work.gap, work.speed, h)
             work.candidate[rows:] = False
             needed = max(feels_nothing(problem, state), far + dofs.shape[1])
             length = chosen_length(n, needed, smooth.length[0]) if rows < m else n
         else:
             rows_times_both(dofs[:rows], factors[:rows], q, v, work.gap, work.speed)
-        mark_held(problem, law, closed, t, work.held)
+        mark_held(problem.rank, problem.side, law, closed, t, work.held)
         for j in range(rows):
             # where a row would come to rest if it were closed now
             work.candidate[j] = problem.gap[j] + work.gap[j] + h * (1.0 - beta / gamma) * work.speed[j] <= 0.0
@@ -368,7 +368,7 @@ def swing(problem: Problem, state: State, jump: Array, kept: Kept, far: int, len
     for i in range(far, length):
         scratch[i] = state.q[i] + jump[i] - kept.q[i]
     deflection, slope = largest(scratch[far:length], far)
-    return row_bound(problem, deflection, slope)
+    return row_bound(problem.lever, deflection, slope)
 
 
 @compiled
@@ -422,13 +422,14 @@ def sequential_steps(
             for j in range(m):  # a reaction goes on in its filter when its row has opened
                 reacting = state.reaction[j] != 0.0 or state.reaction_a[j] != 0.0
                 taking_part[j] = closed[j] or resting[j] or reacting
-            rows, far, clearance = leave_alone(problem, taking_part, position.gap, velocity.speed, h)
+            gap, speed = position.gap, velocity.speed
+            rows, far, clearance = leave_alone(n, dofs, problem.gap, taking_part, gap, speed, h)
             needed = max(feels_nothing(problem, state), far + dofs.shape[1])
             length = chosen_length(n, needed, smooth.length[0]) if rows < m else n
             for work in (smooth, position, velocity):
                 work.candidate[rows:] = False
             impulse[rows:] = 0.0
-        mark_held(problem, law, closed, t, position.held)
+        mark_held(problem.rank, problem.side, law, closed, t, position.held)
         rows_times(dofs[:rows], factors[:rows], v, velocity.speed)
 
         predict(scheme, state, h, kept, min(length + 3, n))

@@ -37,40 +37,77 @@ from hermite_fe.kernels.rows import NOT_FINITE, SOLVED, TOO_SHORT
 from hermite_fe.kernels.stepping import step_length
 
 Array = NDArray[np.float64]
+Flags = NDArray[np.bool_]
+Places = NDArray[np.int64]
 
 
 @compiled_in_place
-def predict_rows(problem: Problem, state: State, work: Work, h: float, theta: float, first: int, stop: int) -> None:
-    """Rows ``first`` … ``stop`` − 1 of work.b = −h[K(q + θhv) + Cv]."""
-    q, v, moved, part = state.q, state.v, work.z, work.d3
+def predict_rows(
+    K: Array,
+    even: Array,
+    odd: Array,
+    C: Array,
+    damping_even: Array,
+    damping_odd: Array,
+    q: Array,
+    v: Array,
+    h: float,
+    theta: float,
+    first: int,
+    stop: int,
+    moved: Array,
+    part: Array,
+    b: Array,
+) -> None:
+    """Rows ``first`` … ``stop`` − 1 of b = −h[K(q + θhv) + Cv]; ``moved`` and ``part`` are scratch."""
     origin, reach = max(first - 3, 0), min(stop + 3, q.size)
-    old, rate, right = q[origin:reach], v[origin:reach], work.b[first:stop]
+    old, rate, right = q[origin:reach], v[origin:reach], b[first:stop]
     for i in range(reach - origin):
         moved[i] = old[i] + theta * h * rate[i]
-    stiff_rows(problem.K, problem.even, problem.odd, moved, origin, first, stop, right)
-    stiff_rows(problem.C, problem.damping_even, problem.damping_odd, v, 0, first, stop, part)
+    stiff_rows(K, even, odd, moved, origin, first, stop, right)
+    stiff_rows(C, damping_even, damping_odd, v, 0, first, stop, part)
     for i in range(stop - first):
         right[i] = -h * (right[i] + part[i])
 
 
 @compiled_in_place
-def load_rows(problem: Problem, work: Work, t: float, h: float, theta: float, first: int, stop: int) -> None:
-    """Add hF_θ to rows ``first`` … ``stop`` − 1 of work.b, the change of momentum of a step without Δv and without
-    contact."""
-    if problem.load.shape[0] > 0:
-        right, force = work.b[first:stop], work.d3
-        force_rows(problem.load, t, h, theta, first, stop, force)
+def load_rows(
+    load: Array, t: float, h: float, theta: float, first: int, stop: int, force: Array, b: Array
+) -> None:
+    """Add hF_θ to rows ``first`` … ``stop`` − 1 of b, the change of momentum of a step without Δv and without contact;
+    ``force`` is scratch."""
+    if load.shape[0] > 0:
+        right = b[first:stop]
+        force_rows(load, t, h, theta, first, stop, force)
         for i in range(stop - first):
             right[i] += h * force[i]
 
 
 @compiled_apart
-def predict(problem: Problem, state: State, work: Work, t: float, h: float, theta: float, length: int) -> None:
-    """The first ``length`` rows of work.b = h[F_θ − K(q + θhv) − Cv]."""
-    for first in range(0, length, CHUNK):
-        stop = min(first + CHUNK, length)
-        predict_rows(problem, state, work, h, theta, first, stop)
-        load_rows(problem, work, t, h, theta, first, stop)
+def predict(
+    problem: Problem, state: State, work: Work, t: float, h: float, theta: float, first: int, stop: int
+) -> None:
+    """Rows ``first`` … ``stop`` − 1 of work.b = h[F_θ − K(q + θhv) − Cv]."""
+    for start in range(first, stop, CHUNK):
+        end = min(start + CHUNK, stop)
+        predict_rows(
+            problem.K,
+            problem.even,
+            problem.odd,
+            problem.C,
+            problem.damping_even,
+            problem.damping_odd,
+            state.q,
+            state.v,
+            h,
+            theta,
+            start,
+            end,
+            work.z,
+            work.d3,
+            work.b,
+        )
+        load_rows(problem.load, t, h, theta, start, end, work.d3, work.b)
 
 
 @compiled_apart
@@ -129,20 +166,19 @@ def correct(
         stiff_rows(problem.K, problem.even, problem.odd, change, origin, first, stop, force)
         strain += dot(force[:count], change[first - origin : stop - origin])
         if next_h > 0.0:
-            predict_rows(problem, state, work, next_h, theta, first, stop)
-            load_rows(problem, work, next_t, next_h, theta, first, stop)
+            predict(problem, state, work, next_t, next_h, theta, first, stop)
     add(state.budget, WORK, h * work_done)
     add(state.budget, ALGORITHMIC, (theta - 0.5) * kinetic)
     add(state.budget, ALGORITHMIC, (theta - 0.5) * strain)
     for cause in range(lost.size):
         add(state.budget, problem.slots[cause], h * lost[cause])
-    moved, fastest = row_bound(problem, deflection, slope), row_bound(problem, speed, turn)
+    moved, fastest = row_bound(problem.lever, deflection, slope), row_bound(problem.lever, speed, turn)
     return work_done + kinetic + strain, moved, fastest
 
 
 @compiled_in_place
 def swing(
-    problem: Problem, v: Array, dv: Array, h: float, theta: float, far: int, length: int, scratch: Array
+    lever: Array, v: Array, dv: Array, h: float, theta: float, far: int, length: int, scratch: Array
 ) -> float:
     """Bound of how far rows move in the step, whose dofs are all from ``far`` on; from ``length`` on all move alike."""
     deflection, slope = 0.0, 0.0
@@ -153,38 +189,38 @@ def swing(
             scratch[i] = rate[i] + theta * jump[i]
         one, other = largest(scratch[: stop - first], first)
         deflection, slope = max(deflection, one), max(slope, other)
-    return h * row_bound(problem, deflection, slope)
+    return h * row_bound(lever, deflection, slope)
 
 
-@compiled_in_place
+@compiled_apart
 def look(
-    problem: Problem, law: ContactLaw, state: State, work: Work, h: float, theta: float, at_position: bool, rows: int
+    dofs: Places,
+    factors: Array,
+    gap0: Array,
+    restitution: float,
+    q: Array,
+    v: Array,
+    h: float,
+    theta: float,
+    at_position: bool,
+    held: Flags,
+    gap: Array,
+    speed: Array,
+    candidate: Flags,
+    target: Array,
 ) -> None:
-    """Which of the first ``rows`` rows are candidates, and the change of their velocities that they ask for."""
-    gap0, gap, speed, candidate, target, held = (
-        problem.gap, work.gap, work.speed, work.candidate, work.target, work.held,
-    )
-    rows_times_both(problem.dofs[:rows], problem.factors[:rows], state.q, state.v, gap, speed)
+    """Which rows are candidates, and the change of their velocities that they ask for; Gq in ``gap``, Gv in
+    ``speed``."""
+    rows_times_both(dofs, factors, q, v, gap, speed)
     if at_position:
-        for j in range(rows):
+        for j in range(dofs.shape[0]):
             candidate[j] = True
             target[j] = -((gap0[j] + gap[j]) / h + speed[j]) / theta
     else:
-        for j in range(rows):
+        for j in range(dofs.shape[0]):
             # where a row would come to rest if it were closed now
             candidate[j] = gap0[j] + gap[j] + (1.0 - theta) * h * speed[j] <= 0.0
-            target[j] = -speed[j] if held[j] else -(1.0 + law.restitution) * speed[j]
-
-
-@compiled_in_place
-def look_ahead(
-    problem: Problem, law: ContactLaw, state: State, work: Work, h: float, theta: float, at_position: bool
-) -> tuple[int, int, float]:
-    """:func:`look` at all rows, and :func:`leave_alone` those far ahead."""
-    look(problem, law, state, work, h, theta, at_position, state.closed.size)
-    rows, far, clearance = leave_alone(problem, state.closed, work.gap, work.speed, h)
-    work.candidate[rows:] = False
-    return rows, far, clearance
+            target[j] = -speed[j] if held[j] else -(1.0 + restitution) * speed[j]
 
 
 @compiled_in_place
@@ -202,7 +238,8 @@ def steps(
     """Take the steps ``first`` … ``last`` − 1 between the instants ``times``. Returns (status, step
     reached)."""
     dofs, factors, q, v, closed = problem.dofs, problem.factors, state.q, state.v, state.closed
-    b, dv, p, target, held, speed = work.b, work.x, work.p, work.target, work.held, work.speed
+    b, dv, p, target, held, candidate = work.b, work.x, work.p, work.target, work.held, work.candidate
+    gap0, gap, speed, e = problem.gap, work.gap, work.speed, law.restitution
     n, m = v.size, closed.size
     # rows from number ``rows`` on, whose dofs are all from ``far`` on, have gaps larger than ``clearance``
     rows, far, clearance, fastest = m, n, 0.0, 0.0
@@ -212,19 +249,25 @@ def steps(
         t = times[k]
         h = step_length(times, k, work.made_with)
         fresh = work.made_with[0] != h
-        mark_held(problem, law, closed, t, held)
-        if rows == m or (not at_position and clearance <= (1.0 - theta) * h * fastest):
+        mark_held(problem.rank, problem.side, law, closed, t, held)
+        everything = rows == m or (not at_position and clearance <= (1.0 - theta) * h * fastest)
+        if everything:
             carry(q, length + 3, n)
-            rows, far, clearance = look_ahead(problem, law, state, work, h, theta, at_position)
+            rows = m
+        look(
+            dofs[:rows], factors[:rows], gap0, e, q, v, h, theta, at_position, held, gap, speed, candidate, target
+        )
+        if everything:
+            rows, far, clearance = leave_alone(n, dofs, gap0, closed, gap, speed, h)
+            candidate[rows:] = False
             taken = n
             if rows < m:
-                taken = chosen_length(n, max(moving(problem, q, v), far + dofs.shape[1]), work.length[0])
+                needed = max(moving(problem.still, q, v), far + dofs.shape[1])
+                taken = chosen_length(n, needed, work.length[0])
             b[length:taken] = 0.0
             length = taken
-        else:
-            look(problem, law, state, work, h, theta, at_position, rows)
         if k == first:
-            predict(problem, state, work, t, h, theta, length)
+            predict(problem, state, work, t, h, theta, 0, length)
         while True:
             fresh = fresh or work.length[0] != length
             if fresh:
@@ -238,10 +281,10 @@ def steps(
                 status = solve_part(problem, work, fresh, extent, closed, rows, length)
                 fresh = False
             if status == SOLVED and at_position and rows < m:
-                if clearance <= swing(problem, v, dv, h, theta, far, length, work.d1):
+                if clearance <= swing(problem.lever, v, dv, h, theta, far, length, work.d1):
                     carry(q, length + 3, n)
                     rows, far = m, n
-                    look(problem, law, state, work, h, theta, at_position, rows)
+                    look(dofs, factors, gap0, e, q, v, h, theta, at_position, held, gap, speed, candidate, target)
                     status = TOO_SHORT
             if status != TOO_SHORT:
                 break
