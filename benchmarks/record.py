@@ -44,10 +44,11 @@ class Row:
         return f"{self.label:50}{self.figure:9.3f}  {sign} {self.goal:<6g} {'met' if self.met else 'NOT MET'}"
 
 
-def options(name: str, about: str | None, rounds: int) -> argparse.ArgumentParser:
-    """The command line of a benchmark: ``--rounds``, and ``--out`` for what it keeps."""
+def options(name: str, about: str | None, rounds: int | None = None) -> argparse.ArgumentParser:
+    """The command line of a benchmark: ``--rounds``, if it has any, and ``--out`` for what it keeps."""
     parser = argparse.ArgumentParser(description=about, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--rounds", type=int, default=rounds)
+    if rounds is not None:
+        parser.add_argument("--rounds", type=int, default=rounds)
     parser.add_argument("--out", type=Path, default=RESULTS / f"{name}.json")
     return parser
 

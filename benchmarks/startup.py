@@ -1,5 +1,5 @@
 """How long the command takes to answer, over what it cannot do without, each in a fresh interpreter, in turn; and how
-long a small simulation takes, the first on a machine, which compiles, and the next, with their goals on an idle one.
+long a small simulation takes, the first on a machine, which compiles, and the next, likewise.
 Python keeps its bytecode meanwhile, as it does of whatever is installed.
 
 python -m benchmarks.startup [--rounds 15] [--out benchmarks/results/startup.json]
@@ -29,7 +29,8 @@ ROWS = (
     ("--help", [*COMMAND, "--help"], "typer", 1.2),
 )
 SIMULATION = [*COMMAND, "simulate", "cases/thesis_K10.toml", "--json", "--quiet"]
-FIRST, NEXT = 10.0, 1.5  # s, goals
+FIRST, NEXT = 10.0, 1.5  # s, goals on an idle machine, where
+IDLE = 0.3  # s is what the first of the yardsticks takes (the least of thirty: 0.28 to 0.31)
 NEXT_ROUNDS = 3
 
 
@@ -43,14 +44,24 @@ def seconds(words: list[str], **environment: str) -> float:
     return time.perf_counter() - started
 
 
+def against_yardstick(label: str, goal: float, words: list[str], rounds: int = 1, **environment: str) -> Row:
+    """The least seconds of a command, ``rounds`` times, over those of the first yardstick before and after, with a
+    ``goal`` in seconds of an idle machine; prints the row."""
+    name, yardstick = next(iter(YARDSTICKS.items()))
+    before = [seconds(yardstick) for _ in range(4)][1:]
+    taken = [seconds(words, **environment) for _ in range(rounds)]
+    least, unit = min(taken), statistics.median([*before, *(seconds(yardstick) for _ in range(3))])
+    about = {"seconds": round(least, 2), "yardstick": name, "yardstick_seconds": round(unit, 3)}
+    return said(Row(f"{label} ({least:.1f} s) / import", least / unit, round(goal / IDLE, 1), about=about))
+
+
 def measure_simulation() -> list[Row]:
-    """Seconds of a small simulation with kernels to be compiled, and with kernels kept; prints them."""
+    """A small simulation with kernels to be compiled, and with kernels kept."""
     with tempfile.TemporaryDirectory() as folder:
-        first, *later = (seconds(SIMULATION, NUMBA_CACHE_DIR=folder) for _ in range(1 + NEXT_ROUNDS))
-    return [
-        said(Row("first bentbeam simulate, compiling, s", first, FIRST)),
-        said(Row("next bentbeam simulate, s", min(later), NEXT)),
-    ]
+        return [
+            against_yardstick("first simulate, compiling", FIRST, SIMULATION, NUMBA_CACHE_DIR=folder),
+            against_yardstick("next simulate", NEXT, SIMULATION, NEXT_ROUNDS, NUMBA_CACHE_DIR=folder),
+        ]
 
 
 def measure(rounds: int) -> list[Row]:
