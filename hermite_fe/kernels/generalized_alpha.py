@@ -93,7 +93,7 @@ def kept_of(n: int, m: int) -> Kept:
     return Kept(np.empty(n), np.empty(n), np.empty(n), np.empty(n), np.zeros(m), np.empty(n), np.zeros(n), np.zeros(n))
 
 
-@compiled_in_place
+@compiled_apart
 def predict(scheme: Scheme, state: State, h: float, kept: Kept, reach: int) -> None:
     """Keep the start of the step and put q*, v* in place of q, v; ``slip`` starts as −h²(β − ½γ)a. All of the first
     ``reach`` dofs."""
@@ -110,7 +110,7 @@ def predict(scheme: Scheme, state: State, h: float, kept: Kept, reach: int) -> N
         v[i] += h * ((1.0 - gamma) * a[i] + gamma * known)
 
 
-@compiled_in_place
+@compiled_apart
 def correct(scheme: Scheme, state: State, h: float, rate: Array, kept: Kept, length: int) -> None:
     """v̇⁺ = rate and the a⁺, q⁺, v⁺ that follow from it and from what :func:`predict` kept; jumps are not in them."""
     _, _, gamma, beta, s = scheme
@@ -137,7 +137,7 @@ def react(scheme: Scheme, state: State, h: float, j: int, force: float, kept: Ke
     impulse[j] += h * gamma * state.reaction_a[j]
 
 
-@compiled_in_place
+@compiled_apart
 def lengthen(state: State, kept: Kept, first: Work, second: Work, length: int, longer: int) -> None:
     """In the middle of a step, take ``longer`` dofs in place of ``length``: those added move as the beam ahead."""
     stop = min(longer + 3, state.q.size)
@@ -150,7 +150,7 @@ def lengthen(state: State, kept: Kept, first: Work, second: Work, length: int, l
     second.b[length:longer] = 0.0
 
 
-@compiled_in_place
+@compiled_apart
 def solve_growing(
     scheme: Scheme,
     problem: Problem,
@@ -183,7 +183,7 @@ def solve_growing(
         length = longer
 
 
-@compiled_in_place
+@compiled_apart
 def feels_nothing(problem: Problem, state: State) -> int:
     """Dofs from which on the beam moves as a whole, and nothing accelerates it."""
     moved = moving(problem.still, state.q, state.v)
@@ -352,7 +352,7 @@ def velocity_steps(
     return status, k
 
 
-@compiled_in_place
+@compiled_apart
 def aim(problem: Problem, state: State, position: Work, rows: int) -> None:
     """Have the first ``rows`` rows ask that their gaps do not become negative."""
     rows_times(problem.dofs[:rows], problem.factors[:rows], state.q, position.gap)
@@ -361,7 +361,7 @@ def aim(problem: Problem, state: State, position: Work, rows: int) -> None:
         position.target[j] = -(problem.gap[j] + position.gap[j])
 
 
-@compiled_in_place
+@compiled_apart
 def swing(problem: Problem, state: State, jump: Array, kept: Kept, far: int, length: int) -> float:
     """Bound of how far rows are from where they were at the start of the step, whose dofs are all from ``far`` on."""
     scratch = kept.jump

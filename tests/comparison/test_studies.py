@@ -118,6 +118,7 @@ def test_the_thesis_settings_of_its_own_cases() -> None:
 # studies on small cases ----------------------------------------------------------------------
 
 
+@pytest.mark.verify
 def test_the_time_step_is_not_what_lifts_the_beam(tmp_path: Path) -> None:
     seen: list[tuple[int, int]] = []
     result = run_study(
@@ -142,6 +143,7 @@ def test_the_time_step_is_not_what_lifts_the_beam(tmp_path: Path) -> None:
     assert document["conclusion"] == result.conclusion and document["rows"] == result.to_dict()["rows"]
 
 
+@pytest.mark.verify
 def test_shorter_elements_bring_the_reaction_to_theory() -> None:
     result = run_study("mesh", case(1.0, 0.01))
     errors = [abs(r["reaction_error"]) for r in result.rows if "e = 1.25" in r["label"]]

@@ -97,6 +97,7 @@ def test_settings_and_completion_name_it(environment: dict[str, str]) -> None:
         assert python(asked, code).split() == ["differences"], command
 
 
+@pytest.mark.verify
 def test_a_study_varies_what_it_has_and_says_what_it_lacks(environment: dict[str, str], methods_file: str) -> None:
     small = ("cases/thesis_K10.toml", "--set", "run.duration=0.01", "--methods", methods_file, "--refine", "0.25,0.5")
     rows = bentbeam(environment, "study", "far-field", *small, "--json")["rows"]

@@ -182,6 +182,7 @@ def printed(cell: Any) -> str:
     return re.sub(r"[-+]?\d[\d.]*(?:e[-+]?\d+)?", "#", text)
 
 
+@pytest.mark.verify
 def test_tutorial_runs() -> None:
     nbformat = pytest.importorskip("nbformat")
     nbclient = pytest.importorskip("nbclient")
