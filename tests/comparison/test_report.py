@@ -133,6 +133,7 @@ def test_page_without_any_row_is_still_a_page() -> None:
     assert "No row could be computed (1 failed)." in "".join(reader.text)
 
 
+@pytest.mark.verify
 def test_report_is_written_when_rows_fail(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     seen: list[tuple[int, int]] = []
 

@@ -20,7 +20,7 @@ CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shuti
 DRIVER = shutil.which("chromedriver")
 pytestmark = pytest.mark.skipif(CHROMIUM is None or DRIVER is None, reason="Chromium and its driver are not installed")
 
-WIDTHS = (1400, 390)
+WIDTHS = (pytest.param(1400, marks=pytest.mark.verify), 390)
 
 
 @pytest.fixture(scope="module")

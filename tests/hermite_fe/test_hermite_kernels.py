@@ -234,6 +234,7 @@ def test_types_that_are_found_again_are_those_of_the_arguments():
     assert [type(twice(x)) for x in (2, 2.0, 3, 3j)] == [int, float, int, complex]
 
 
+@pytest.mark.verify
 def test_a_change_in_one_module_reaches_kernels_of_another(tmp_path: Path):
     package = tmp_path / "kernels"
     package.mkdir()

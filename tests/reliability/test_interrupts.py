@@ -91,7 +91,7 @@ def started_with_workers(folder: Path) -> subprocess.Popen[str]:
     return process
 
 
-@pytest.mark.parametrize("after", [0.0, 0.3, 1.5])
+@pytest.mark.parametrize("after", [0.0, 0.3, pytest.param(1.5, marks=pytest.mark.verify)])
 def test_workers_end_with_the_command_and_say_nothing(after, tmp_path):
     """Two workers asleep, or still starting: Ctrl-C reaches all processes of a terminal at once."""
     process = started_with_workers(tmp_path)
@@ -102,7 +102,7 @@ def test_workers_end_with_the_command_and_say_nothing(after, tmp_path):
     assert nothing_left_of(process.pid)
 
 
-@pytest.mark.parametrize("how", [signal.SIGKILL, signal.SIGTERM], ids=lambda how: how.name)
+@pytest.mark.parametrize("how", [signal.SIGKILL, pytest.param(signal.SIGTERM, marks=pytest.mark.verify)])
 def test_workers_end_when_the_command_is_killed(how, tmp_path):
     """No line of its own runs then: the workers themselves have to see that it is gone."""
     process = started_with_workers(tmp_path)
