@@ -39,7 +39,14 @@ from hermite_fe.kernels.jit import compiled, compiled_apart, compiled_in_place
 from hermite_fe.kernels.pivoting import solve_part, solve_rows
 from hermite_fe.kernels.problem import PRODUCT, SMALLEST_REACTION, ContactLaw, Problem, State, Work
 from hermite_fe.kernels.rows import NOT_FINITE, SINGULAR, SOLVED, TOO_SHORT
-from hermite_fe.kernels.stepping import book_rows, initial_acceleration, residual_force, residual_rows, step_length
+from hermite_fe.kernels.stepping import (
+    book_step,
+    hand_back,
+    initial_acceleration,
+    residual_force,
+    residual_rows,
+    step_length,
+)
 
 Flags = NDArray[np.bool_]
 Array = NDArray[np.float64]
@@ -184,12 +191,13 @@ def solve_growing(
 
 
 @compiled_apart
-def feels_nothing(problem: Problem, state: State) -> int:
-    """Dofs from which on the beam moves as a whole, and nothing accelerates it."""
-    moved = moving(problem.still, state.q, state.v)
+def dofs_that_move(problem: Problem, state: State, needed: int, made_for: int) -> int:
+    """:func:`chosen_length` where ``needed`` dofs may touch the wall: beyond those that are taken the beam moves as a
+    whole, and nothing accelerates it."""
+    needed = max(needed, moving(problem.still, state.q, state.v))
     for x in (state.a, state.acceleration, state.jump):
-        moved = max(moved, last_nonzero(x, x.size))
-    return moved
+        needed = max(needed, last_nonzero(x, x.size))
+    return chosen_length(state.q.size, needed, made_for)
 
 
 @compiled_apart
@@ -241,7 +249,7 @@ def account(
             change = state.reaction[j] - state.reaction_a[j] - kept.row_lag[j]
             if change != 0.0:
                 momentum -= half * change * row_times(problem.dofs, problem.factors, mean_v, j)
-    book_rows(problem, state, h, force, old_q, mean_v, impulse, -gain - h * momentum, length)
+    book_step(problem, state, h, force[:length], old_q[:length], mean_v, impulse, -gain - h * momentum)
     finite = math.isfinite(gain) and math.isfinite(momentum)
     return finite, row_bound(problem.lever, deflection, slope), row_bound(problem.lever, speed, turn)
 
@@ -288,8 +296,7 @@ def velocity_steps(
             rows_times_both(dofs, factors, q, v, work.gap, work.speed)
             rows, far, clearance = leave_alone(n, dofs, problem.gap, closed, work.gap, work.speed, h)
             work.candidate[rows:] = False
-            needed = max(feels_nothing(problem, state), far + dofs.shape[1])
-            length = chosen_length(n, needed, smooth.length[0]) if rows < m else n
+            length = dofs_that_move(problem, state, far + dofs.shape[1], smooth.length[0]) if rows < m else n
         else:
             rows_times_both(dofs[:rows], factors[:rows], q, v, work.gap, work.speed)
         mark_held(problem.rank, problem.side, law, closed, t, work.held)
@@ -346,9 +353,7 @@ def velocity_steps(
             break
         clearance -= moved
         k += 1
-    carry(q, length + 3, n)
-    if status != SOLVED:
-        smooth.made_with[0] = math.nan
+    hand_back(q, smooth.made_with, length, status)
     return status, k
 
 
@@ -424,8 +429,7 @@ def sequential_steps(
                 taking_part[j] = closed[j] or resting[j] or reacting
             gap, speed = position.gap, velocity.speed
             rows, far, clearance = leave_alone(n, dofs, problem.gap, taking_part, gap, speed, h)
-            needed = max(feels_nothing(problem, state), far + dofs.shape[1])
-            length = chosen_length(n, needed, smooth.length[0]) if rows < m else n
+            length = dofs_that_move(problem, state, far + dofs.shape[1], smooth.length[0]) if rows < m else n
             for work in (smooth, position, velocity):
                 work.candidate[rows:] = False
             impulse[rows:] = 0.0
@@ -526,9 +530,7 @@ def sequential_steps(
             break
         clearance -= moved
         k += 1
-    carry(q, length + 3, n)
-    if status != SOLVED:
-        smooth.made_with[0] = math.nan
+    hand_back(q, smooth.made_with, length, status)
     return status, k
 
 

@@ -7,11 +7,13 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
+from hermite_fe.kernels.ahead import carry
 from hermite_fe.kernels.banded import CHUNK, add, combine, dot, quadratic_rows, stiff_rows
 from hermite_fe.kernels.contact import force_rows, row_times
 from hermite_fe.kernels.jit import compiled, compiled_apart, compiled_in_place
 from hermite_fe.kernels.pivoting import solve_rows
 from hermite_fe.kernels.problem import ALGORITHMIC, IMPACT, WORK, Problem, State, Work
+from hermite_fe.kernels.rows import SOLVED
 
 Array = NDArray[np.float64]
 ROUNDING = 2.0**-51  # of an instant: each of two instants is rounded twice at most
@@ -23,6 +25,15 @@ def step_length(times: Array, k: int, made_with: Array) -> float:
     so that steps that are meant to be alike share their factors."""
     h = times[k + 1] - times[k]
     return made_with[0] if abs(h - made_with[0]) <= ROUNDING * times[k + 1] else h
+
+
+@compiled_in_place
+def hand_back(q: Array, made_with: Array, length: int, status: int) -> None:
+    """Leave a run as it is to be found: the dofs that steps left out have moved on too, and the factors of a step that
+    failed hold no longer."""
+    carry(q, length + 3, q.size)
+    if status != SOLVED:
+        made_with[0] = math.nan
 
 
 @compiled_apart
@@ -65,7 +76,7 @@ def initial_acceleration(problem: Problem, state: State, work: Work) -> int:
     return status
 
 
-@compiled_in_place
+@compiled_apart
 def book_step(
     problem: Problem,
     state: State,
@@ -79,33 +90,17 @@ def book_step(
     """Book a step of length h in state.budget and state.impulse, each term from its cause.
 
     Work of the loads, forceᵀΔq; loss in impacts, −pᵀGv̄; what each cause of damping takes, h v̄ᵀCv̄.
-    force : F̄ (dofs,), mean load of the step; change : Δq; mean_v : v̄ = ½(v + v⁺); impulse : p (rows,), of all
-        reactions. algorithmic : the scheme's own loss, from the scheme's own formula: what is left of Δ(T + V) is
-        a run's defect.
+    force : F̄, mean load of the step, and change : Δq, of the dofs up to the last that feels a force (or of all);
+        mean_v : v̄ = ½(v + v⁺), (dofs,); impulse : p of all rows up to the last that reacts (or of all).
+        algorithmic : the scheme's own loss, from the scheme's own formula: what is left of Δ(T + V) is a run's defect.
     """
-    book_rows(problem, state, h, force, change, mean_v, impulse, algorithmic, change.size)
-
-
-@compiled_apart
-def book_rows(
-    problem: Problem,
-    state: State,
-    h: float,
-    force: Array,
-    change: Array,
-    mean_v: Array,
-    impulse: Array,
-    algorithmic: float,
-    length: int,
-) -> None:
-    """:func:`book_step` where forces arise in the first ``length`` rows alone."""
     contact = 0.0
     for j in range(impulse.size):
         if impulse[j] != 0.0:
             contact += impulse[j] * row_times(problem.dofs, problem.factors, mean_v, j)
             state.impulse[j] += impulse[j]
-    add(state.budget, WORK, dot(force[:length], change[:length]))
+    add(state.budget, WORK, dot(force, change))
     add(state.budget, IMPACT, -contact)
     add(state.budget, ALGORITHMIC, algorithmic)
     for cause in range(problem.slots.size):
-        add(state.budget, problem.slots[cause], h * quadratic_rows(problem.parts[cause], mean_v, 0, 0, length))
+        add(state.budget, problem.slots[cause], h * quadratic_rows(problem.parts[cause], mean_v, 0, 0, change.size))

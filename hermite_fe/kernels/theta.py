@@ -34,7 +34,7 @@ from hermite_fe.kernels.problem import (
     Work,
 )
 from hermite_fe.kernels.rows import NOT_FINITE, SOLVED, TOO_SHORT
-from hermite_fe.kernels.stepping import step_length
+from hermite_fe.kernels.stepping import hand_back, step_length
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
@@ -293,7 +293,6 @@ def steps(
             b[length:longer] = 0.0
             length = longer
         if status != SOLVED:
-            work.made_with[0] = math.nan
             break
 
         for j in range(rows):
@@ -315,5 +314,5 @@ def steps(
             break
         clearance -= moved
         k += 1
-    carry(q, length + 3, n)
+    hand_back(q, work.made_with, length, status)
     return status, k

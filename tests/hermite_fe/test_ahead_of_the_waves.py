@@ -7,10 +7,11 @@ from functools import partial
 
 import numpy as np
 import pytest
+from half_beams import NODES, half_beam, stepper
 
 from bent_beam import Impact
 from bent_beam.meshes import UniformMesh
-from hermite_fe.contacts import Contact, MeanContact, NodeContact
+from hermite_fe.contacts import Contact, MeanContact
 from hermite_fe.far_fields import GridViscosity
 from hermite_fe.integrators import (
     GeneralizedAlphaPenalty,
@@ -20,8 +21,7 @@ from hermite_fe.integrators import (
     SignoriniPosition,
 )
 from hermite_fe.kernels.ahead import moving
-from hermite_fe.model import BeamModel, beam_model
-from hermite_fe.run import Stepper
+from hermite_fe.model import beam_model
 
 INTEGRATORS: dict[str, Integrator] = {
     "moreau_jean": MoreauJean(1e-3),
@@ -32,18 +32,11 @@ INTEGRATORS: dict[str, Integrator] = {
     "position_velocity_acceleration": NonsmoothGeneralizedAlpha(2e-4, growth=1e-2),
 }
 every = pytest.mark.parametrize("integrator", INTEGRATORS.values(), ids=INTEGRATORS)
-NODES, MEANS = NodeContact(hold=0, hold_until=0.0), MeanContact(hold=0, hold_until=0.0)
+MEANS = MeanContact(hold=0, hold_until=0.0)
 STEPS = 120
 
 
-def half_beam(contact: Contact, kappa: float = 0.2, half_length: float = 60.0, nodes: int = 1201) -> BeamModel:
-    impact = Impact.dimensionless(kappa, length=2.0 * half_length)
-    mesh = UniformMesh(half_length / (nodes - 1)).nodes(half_length)
-    return beam_model(impact, mesh, contact, GridViscosity(), full=False)
-
-
-def stepper(model: BeamModel, integrator: Integrator) -> Stepper:
-    return Stepper(model.system, model.displacement, model.velocity, integrator, 1.0)
+beam = partial(half_beam, kappa=0.2, half_length=60.0, nodes=1201)
 
 
 @every
@@ -52,7 +45,7 @@ def test_a_beam_that_waves_have_not_reached_moves_as_if_it_were_computed(
     integrator: Integrator, contact: Contact
 ) -> None:
     """A load of no weight on the last dof has all of the beam computed."""
-    model = half_beam(contact)
+    model = beam(contact)
     load = np.zeros((1, model.system.dofs))
     load[0, -1] = 1e-280
     loaded = replace(model, system=replace(model.system, load=load))
@@ -72,7 +65,7 @@ def test_a_beam_that_waves_have_not_reached_moves_as_if_it_were_computed(
 @every
 def test_the_waves_run_on_to_the_end_of_a_beam_and_back(integrator: Integrator) -> None:
     """From a part of the beam to all of it in one call, and in many: the same to round-off, nothing lost or gained."""
-    model = half_beam(NODES, half_length=6.0, nodes=241)
+    model = beam(half_length=6.0, nodes=241)
     once, often = stepper(model, integrator), stepper(model, integrator)
     start = once.energy()
     last = min(1000, once.instants.size - 1)
@@ -92,7 +85,7 @@ def test_the_waves_run_on_to_the_end_of_a_beam_and_back(integrator: Integrator) 
 def test_a_row_far_ahead_touches_when_its_gap_has_closed(integrator: Integrator, contact: Contact) -> None:
     """One row far ahead of the zone hits a bump of the wall: at the right instant, and it goes no further, in steps of
     which each looks at all rows, and in steps that do not."""
-    model = half_beam(contact)
+    model = beam(contact)
     rows = model.system.contacts
     bump, height = 700, 0.05  # V₀ = 1: it touches at t = 0.05
     gap = rows.gap.copy()
@@ -132,7 +125,7 @@ def test_the_whole_of_a_loaded_or_turning_beam_is_computed() -> None:
 
 
 def test_rows_of_a_penalty_are_looked_at_everywhere() -> None:
-    model = half_beam(NODES)
+    model = beam()
     gap = model.system.contacts.gap.copy()
     gap[700] = 0.01
     model = replace(model, system=replace(model.system, contacts=replace(model.system.contacts, gap=gap)))

@@ -9,7 +9,7 @@ from scipy.linalg import cho_solve_banded, cholesky_banded
 
 from bent_beam.meshes import ScaleFreeMesh
 from hermite_fe.beam import HermiteBeam
-from hermite_fe.contacts import MeanContact
+from hermite_fe.contacts import Contact, MeanContact, NodeContact
 from hermite_fe.kernels import (
     SOLVED,
     combine,
@@ -74,7 +74,7 @@ def ready(random: np.random.Generator) -> tuple[System, Problem, Work]:
     return system, problem, work
 
 
-def whole(random: np.random.Generator) -> tuple[System, Problem, Work]:
+def ready_for_all(random: np.random.Generator) -> tuple[System, Problem, Work]:
     """:func:`ready`, each row with its multiplier."""
     system, problem, work = ready(random)
     if work.span[0] < len(system.contacts):
@@ -139,7 +139,7 @@ def test_the_fall_back_finds_the_same_reactions_from_none() -> None:
     """What takes over when exchanging many rows at once runs in a circle, asked directly."""
     for seed in range(200):
         random = np.random.default_rng(seed)
-        system, problem, work = whole(random)
+        system, problem, work = ready_for_all(random)
         n, m = system.dofs, len(system.contacts)
         b, target = random.normal(size=n), random.normal(size=m)
         candidate, held = random.random(m) < 0.9, random.random(m) < 0.1
@@ -160,7 +160,7 @@ def test_the_fall_back_never_calls_a_row_inside_the_wall_solved(tolerance: float
     given_up = 0
     for seed in range(200):
         random = np.random.default_rng([5, seed])
-        system, problem, work = whole(random)
+        system, problem, work = ready_for_all(random)
         n, m = system.dofs, len(system.contacts)
         none = np.zeros(m, bool)
         b, target = random.normal(size=n), random.normal(size=m)
@@ -243,18 +243,19 @@ def test_loads_are_powers_of_time() -> None:
     assert force == pytest.approx(exact, rel=1e-14)
 
 
-def test_a_load_near_the_contact_moves_nothing_far_away() -> None:
+@pytest.mark.parametrize("contact", [NodeContact(), MeanContact()], ids=["nodes", "elements"])
+def test_a_load_near_the_contact_moves_nothing_far_away(contact: Contact) -> None:
     """A short right-hand side is solved only as far as anything moves, and to the same answer."""
     beam = HermiteBeam(np.linspace(0.0, 40.0, 1601), 1.0, 1.0)
-    rows = ContactRows(dofs=2 * np.arange(20)[:, None], factors=-np.ones((20, 1)), gap=np.zeros(20))
+    rows = contact.rows(beam, np.zeros(3202), full=False)
     system = System(mass=beam.mass(), stiffness=beam.stiffness(), contacts=rows)
     problem = problem_of(system)
     short, whole = works_of(system, problem, 2)
     combine(problem.M, problem.C, problem.K, 1.0, 0.0, 1e-6, short.place, short.S)
     for work, extent, fresh in ((short, 30, True), (whole, system.dofs, False)):
         work.b[:30] = np.sin(np.arange(30))
-        work.candidate[:] = True
-        assert solve_rows(problem, work, fresh, extent, np.zeros(20, bool)) == SOLVED
+        work.candidate[:20] = True
+        assert solve_rows(problem, work, fresh, extent, np.zeros(len(rows), bool)) == SOLVED
     assert 30 < short.extent[0] < 0.9 * system.dofs
     assert np.all(short.x[short.extent[0] :] == 0.0)
     assert np.abs(short.x - whole.x).max() < 1e-15 * np.abs(whole.x).max()
@@ -331,20 +332,3 @@ def test_rows_ahead_of_the_zone_have_no_multiplier_until_it_comes(extent: int) -
         assert np.all(closed[0] == closed[1])
         spans.append(int(late.span[0]))
     assert spans[0] < 100 < spans[3] < spans[6] < 800 == early.span[0]
-
-
-def test_a_load_near_contact_of_elements_moves_nothing_far_away() -> None:
-    """As for contact at the nodes, whose unknowns are the dofs."""
-    beam = HermiteBeam(np.linspace(0.0, 40.0, 1601), 1.0, 1.0)
-    rows = MeanContact().rows(beam, np.zeros(3202), full=False)
-    system = System(mass=beam.mass(), stiffness=beam.stiffness(), contacts=rows)
-    problem = problem_of(system)
-    short, all_of_it = works_of(system, problem, 2)
-    combine(problem.M, problem.C, problem.K, 1.0, 0.0, 1e-6, short.place, short.S)
-    for work, extent, fresh in ((short, 30, True), (all_of_it, system.dofs, False)):
-        work.b[:30] = np.sin(np.arange(30))
-        work.candidate[:20] = True
-        assert solve_rows(problem, work, fresh, extent, np.zeros(len(rows), bool)) == SOLVED
-    assert 30 < short.extent[0] < 0.9 * system.dofs
-    assert np.all(short.x[short.extent[0] :] == 0.0)
-    assert np.abs(short.x - all_of_it.x).max() < 1e-15 * np.abs(all_of_it.x).max()

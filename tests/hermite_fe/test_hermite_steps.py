@@ -8,13 +8,13 @@ from typing import Any
 
 import numpy as np
 import pytest
+from half_beams import half_beam, stepper
 
 from bent_beam import Impact
 from bent_beam.meshes import ScaleFreeMesh, UniformMesh
 from hermite_fe import run as running
 from hermite_fe.beam import HermiteBeam
 from hermite_fe.contacts import NodeContact
-from hermite_fe.far_fields import GridViscosity
 from hermite_fe.integrators import (
     GeneralizedAlphaPenalty,
     Integrator,
@@ -23,7 +23,6 @@ from hermite_fe.integrators import (
     SignoriniPosition,
 )
 from hermite_fe.kernels.subnormals import count_subnormals
-from hermite_fe.model import BeamModel, beam_model
 from hermite_fe.run import Stepper, integrate
 from hermite_fe.simulate import simulate
 from hermite_fe.system import ContactRows, System
@@ -41,10 +40,7 @@ GUIDE = Path(__file__).resolve().parents[2] / "docs/guide/add-integrator.md"
 
 
 def long_beam(nodes: int, integrator: Integrator) -> Stepper:
-    impact = Impact.dimensionless(0.1, length=200.0)
-    mesh = UniformMesh(100.0 / (nodes - 1)).nodes(100.0)
-    model = beam_model(impact, mesh, NodeContact(hold=0, hold_until=0.0), GridViscosity(), full=False)
-    return Stepper(model.system, model.displacement, model.velocity, integrator, 1.0)
+    return stepper(half_beam(kappa=0.1, half_length=100.0, nodes=nodes), integrator)
 
 
 def subnormal(run: Stepper) -> int:
@@ -167,15 +163,9 @@ def test_the_guide_s_integrator_gives_the_impulse_of_the_impact() -> None:
     assert abs(new.energy_budget()["defect"]) < 1e-11 * new.energy_budget()["initial_energy"]
 
 
-def half_beam(nodes: int) -> BeamModel:
-    places = UniformMesh(5.0 / (nodes - 1)).nodes(5.0)
-    contact = NodeContact(hold=0, hold_until=0.0)
-    return beam_model(Impact.dimensionless(0.1, length=10.0), places, contact, GridViscosity(), full=False)
-
-
 @every
 def test_steps_that_differ_by_the_rounding_of_the_instants_share_their_matrix(integrator: Integrator) -> None:
-    system = half_beam(50).system
+    system = half_beam(kappa=0.1, half_length=5.0, nodes=50).system
     run = Stepper(system, np.zeros(system.dofs), np.zeros(system.dofs), integrator, 0.05)
     assert len(set(np.diff(run.instants))) > 1
     run.advance_to(1)
@@ -187,7 +177,6 @@ def test_steps_that_differ_by_the_rounding_of_the_instants_share_their_matrix(in
 
 def test_a_thousand_nodes_nearly_at_rest_on_the_wall_are_sorted_out_in_a_few_hundred_rounds() -> None:
     """With one row at a time in any order, and all signs at round-off's mercy, it was one round a node and more."""
-    model = half_beam(10_000)
-    run = Stepper(model.system, model.displacement, model.velocity, SignoriniPosition(1e-3), 1.0)
+    run = stepper(half_beam(kappa=0.1, half_length=5.0, nodes=10_000), SignoriniPosition(1e-3))
     assert run.advance_to(22) == 0
     assert run.works[0].rounds[2] < 1_000
