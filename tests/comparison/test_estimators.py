@@ -93,6 +93,21 @@ def test_leading_order_is_recovered(kappa):
     assert np.median((reduced.front / np.sqrt(reduced.tau))[20:]) == pytest.approx(exact.lambda0, rel=2e-3)
 
 
+@pytest.mark.parametrize("lift", [0.01, 0.2])
+def test_a_zone_thrown_off_the_wall_may_have_been_pushed_that_much_too_hard(lift):
+    """A reaction that fits, and whose companion is as far off: the lift alone tells that the front was not resolved."""
+    tau = np.geomspace(0.01, 1.0, 100)
+    zero = np.zeros(100)
+    reduced = Moments(tau, 2.0 * SIDE * np.sqrt(tau), SIDE * tau, zero, zero, np.full(100, lift))
+    found = leading_order(reduced, companions=[reduced])
+    assert found.lift == lift
+    if lift > 0.1:
+        assert found.r0.error == pytest.approx(lift * found.r0.value, rel=1e-3)
+    else:
+        assert found.r0.error < 2e-4 * found.r0.value
+    assert found.lambda0.error < 2e-4 * found.lambda0.value
+
+
 @pytest.mark.parametrize(("instants", "spoken"), [(200, 3), (10, 1)])
 def test_the_bar_is_as_wide_as_what_the_parts_of_the_window_say_apart_and_five_instants_say_nothing(instants, spoken):
     rng, window = np.random.default_rng(5), 30.0
