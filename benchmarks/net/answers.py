@@ -13,8 +13,8 @@ from typing import Any
 
 import numpy as np
 
+from benchmarks.net.case import Case
 from bent_beam import ImpactHistory
-from benchmarks.net.cases import Case
 
 __all__ = ["answer"]
 
