@@ -69,4 +69,4 @@ def worst(case: Case, recorded: Numbers, sensitive: Numbers, found: Numbers) -> 
         elif case.kind == "bar" and (key in WATCHED or key.endswith(".value")):
             bar = recorded.get(key[:-5] + "error", 0.0) if key.endswith(".value") else 0.0
             allowed[key] = max(WATCHED.get(key, 1.0) * case.relative, bar / size[name])
-    return max((change[key] / most, key) for key, most in allowed.items())
+    return max((change[key] / max(most, ROUND_OFF), key) for key, most in allowed.items())
