@@ -23,12 +23,12 @@ def whole_impacts() -> list[Case]:
         command = "bounce --kappa-over-nu {n} --damping 0.01 --json --quiet"
         found.append(Case(f"bounce chosen {kappa}", command, kappa, "bar", CHOSEN, 2e-3))
     for name, distance in product(("signorini-half", "moreau", "alpha-pva"), (1.0, 0.7)):
-        stated = hermite(name, mesh="uniform element_length=0.05", steps="time_step=1e-3 growth=0")
+        stated = hermite(name, mesh="uniform element_length=0.047", steps="time_step=1e-3 growth=0")
         more = sets("impact.velocity={n} beam.damping=0.05 wall.opposite=" + str(distance))
         found.append(
             Case(f"two walls {distance} {name}", run(f"{stated} {more}", "run.end_time=6", "{cases}/two_walls.toml"))
         )
-    calm = hermite("moreau", mesh="uniform element_length=0.02", steps="time_step=2e-4 growth=0")
+    calm = hermite("moreau", mesh="uniform element_length=0.021", steps="time_step=2e-4 growth=0")
     for load in ("impact.rotation=0.3", "impact.first_touch=0.2", "wall.curvature=-0.3"):
         found.append(Case(f"whole {load}", run(calm, f"beam.damping=1e-2 run.end_time=0.6 {load}")))
     left = run(calm, "beam.damping=1e-2").replace("simulate", "simulate --until separation", 1)
