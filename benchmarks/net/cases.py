@@ -98,8 +98,8 @@ def against_theory() -> list[Case]:
     for name in ("drill_pipe", "ruler", "rail", "thesis_K10", "thesis_K25_discrete", "thesis_first_order_a0_plus700"):
         found.append(Case(f"predict {name}", f"predict {{cases}}/{name}.toml --time 1e-4 --json --quiet"))
     for text in ("0.1", "0.5", "0.5 --alpha 4", "0.8 --psi 1 --chi -2", "0.3 --axial 2", "2"):
-        kappa, *rest = text.split()
-        found.append(Case(f"theory {text}", f"theory --kappa-over-nu {{n}} {' '.join(rest)} --json", float(kappa)))
+        number, *rest = text.split()
+        found.append(Case(f"theory {text}", f"theory --kappa-over-nu {{n}} {' '.join(rest)} --json", float(number)))
     return found
 
 

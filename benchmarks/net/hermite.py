@@ -77,11 +77,12 @@ def variants() -> list[Case]:
         found.append(short("hold 3", name, contact="node restitution=0 hold=3 hold_until=0"))
         found.append(short("hold until", name, contact="middle restitution=0 hold=0 hold_until=0.002"))
         found.append(short("refined", name, more="hermite.refine=1.5"))
-    for name in ("moreau-half", "alpha-pva"):
+    for name in ("moreau-half", "signorini", "alpha-pva", "penalty"):
         sponge = "sponge end=free viscosity=0.3 strength=0.03 width=0.5"
         found.append(short("sponge", name, far_field=sponge))
         follow = "viscosity end=following viscosity=0.3"
-        found.append(short("domain", name, "impact.acceleration=1", far_field=follow, more="hermite.domain=0.6"))
+        loaded = "impact.acceleration=1 impact.curvature_rate=1 impact.fourth_derivative=-2"  # moments at the ends
+        found.append(short("domain", name, loaded, far_field=follow, more="hermite.domain=0.6"))
     meshes = ("graded element_length=0.01 growth=1.05 zone=0.2 size_ratio=100", "nodes places=[0,0.01,0.03,0.06,0.1,1]")
     for mesh in (*meshes, "square first_element=0.01 zone=0.3 growth=1.1 size_ratio=100"):
         found.append(short(mesh.split()[0], "signorini", mesh=mesh))
