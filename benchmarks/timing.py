@@ -14,6 +14,7 @@ from scipy.linalg import cho_solve_banded, cholesky_banded
 
 from bent_beam.impact import Impact
 from bent_beam.meshes import UniformMesh
+from hermite_fe.constraints import ContactLaw
 from hermite_fe.contacts import Contact, NodeContact
 from hermite_fe.far_fields import GridViscosity
 from hermite_fe.integrators import Integrator, MoreauJean
@@ -60,9 +61,8 @@ def prepared_step(
     )
     contact = contact or NodeContact(hold=16, hold_until=0.0)
     model = _model(nodes, contact, half_length, acceleration)
-    run = Stepper(
-        model.system, model.displacement, model.velocity, integrator, end_time, hold=contact.hold or 0
-    )
+    law = ContactLaw(hold=contact.hold or 0)
+    run = Stepper(model.system, model.displacement, model.velocity, integrator, end_time, law)
     run.advance_to(int(np.searchsorted(run.instants, start * end_time)))
 
     def step() -> None:

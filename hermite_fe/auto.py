@@ -101,7 +101,7 @@ def chosen_integrator(impact: Impact, end_time: float, nodes: Array, integrator:
     growth = min(LARGEST_STEP, STEP_PER_FRONT * bounded_kappa(impact))
     resolved = resolved_time(impact, nodes)
     step = growth * min(max(resolved, 1e-7 * end_time), end_time)
-    return integrator.with_steps(step, growth).suited(impact)
+    return integrator.with_steps(step, growth).with_defaults(impact)
 
 
 def chosen_contact(impact: Impact, end_time: float, nodes: Array, contact: Contact, integrator: Integrator) -> Contact:

@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 
 from bent_beam.checks import positive
 from bent_beam.meshes import checked_nodes
-from hermite_fe.kernels.banded import row_sums, stiff_multiply
+from hermite_fe.banded import row_sums, stiff_multiply
 
 __all__ = [
     "HermiteBeam",
@@ -202,12 +202,12 @@ class HermiteBeam:
         for m in range(4):
             bands[m, : self.dofs - m] *= scale[: self.dofs - m] * scale[m:]
         factor = cholesky_banded(bands, lower=True)
-        even, odd = row_sums(stiffness)
+        sums = row_sums(stiffness)
         q, forces = np.zeros(self.dofs), np.zeros(self.dofs)
         for dof, value in supports.items():
             q[dof] = value
         for _ in range(REFINEMENTS):  # with residuals by differences, which see what 12EI/Δx³·q rounds away
-            stiff_multiply(stiffness, even, odd, q, forces)
+            stiff_multiply(stiffness, sums, q, forces)
             residual = np.where(free, load - forces, 0.0)
             q += scale * cho_solve_banded((factor, True), scale * residual)
         return np.asarray(q)

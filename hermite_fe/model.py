@@ -33,6 +33,7 @@ from hermite_fe.contacts import Contact
 from hermite_fe.far_fields import FarField
 from hermite_fe.masses import ConsistentMass, Mass
 from hermite_fe.system import System
+from hermite_fe.walls import behind, with_opposite_wall
 
 __all__ = ["BeamModel", "beam_model"]
 
@@ -45,6 +46,7 @@ class BeamModel:
     """A system, its start, and how to read it: y = u + ``natural``, and the gap is −(u + ``facing``).
 
     natural, facing : (dofs,), the bow at the first touch, from the axis and from the wall.
+    behind : (rows,), which constraints guard a second wall behind the beam.
     """
 
     beam: HermiteBeam
@@ -53,6 +55,7 @@ class BeamModel:
     velocity: Array
     natural: Array
     facing: Array
+    behind: NDArray[np.bool_]
     full: bool
 
     @property
@@ -101,12 +104,16 @@ def beam_model(
     else:
         pressure = impact.mass_per_length * impact.acceleration + impact.bending_stiffness * impact.fourth_derivative
         load = (pressure / impact.mass_per_length * uniform)[None, :]
+    rows = contact.rows(beam, facing, full=full)
+    if impact.opposite_wall is not None:
+        rows = with_opposite_wall(rows, beam, natural, quartic, impact.opposite_wall)
     system = System(
         mass=inertia,
         stiffness=stiffness,
         dampings=dampings,
         load=load,
-        contacts=contact.rows(beam, facing, full=full),
+        contacts=rows,
         supports=() if full else (1,),
     )
-    return BeamModel(beam, system, quartic, velocity, natural, facing, full)
+    second = behind(len(rows), impact.opposite_wall is not None)
+    return BeamModel(beam, system, quartic, velocity, natural, facing, second, full)

@@ -14,7 +14,6 @@ from bent_beam.history import ImpactHistory
 from bent_beam.impact import FIRST_SPREAD, Impact
 from bent_beam.meshes import Mesh
 from bent_beam.parts import describe
-from bent_beam.storage import GrowingFile
 from hermite_fe import auto
 from hermite_fe.contacts import Contact
 from hermite_fe.far_fields import FarField, GridViscosity
@@ -22,11 +21,9 @@ from hermite_fe.integrators import Integrator
 from hermite_fe.masses import Mass
 from hermite_fe.model import BeamModel, beam_model
 from hermite_fe.run import Stepper, Trajectory, integrate
-from hermite_fe.walls import TwoWalls
 
 __all__ = ["refusal", "simulate"]
 
-MOST_READ = 200  # instants of a history on disk that are looked at for lift
 LARGEST_LIFT = 1e-2  # of V₀t; κ/ν = 0.1: with 0.03 r₀ is 0.5 % off, with 1e-3 0.05 % (docs/numerics.md)
 
 
@@ -69,9 +66,6 @@ def simulate(
     progress : called with the finished fraction now and then.
     until : asked at every saved instant; the run ends with the first at which it says so.
 
-    A history of more than :data:`hermite_fe.run.BLOCK` nodes x instants is written to a file while the run goes on, and
-    read from there (:class:`bent_beam.storage.GrowingFile`).
-
     Raises ``ValueError`` for bad input, :class:`bent_beam.SimulationError` (with the partial history) when a
     run cannot finish.
     """
@@ -90,14 +84,6 @@ def simulate(
         )
     model = beam_model(modelled, choice.nodes, choice.contact, choice.far_field, full=full_beam, mass=choice.mass)
     check_start(model)
-    walls = None if impact.opposite_wall is None else TwoWalls(model, impact.opposite_wall)
-
-    def ends(run: Stepper) -> bool:
-        if walls is not None:
-            walls(run)
-        return until is not None and until(model, run)
-
-    long = LongRecord(impact, model)
     trajectory = integrate(
         model.system,
         model.displacement,
@@ -110,30 +96,22 @@ def simulate(
         hold_ends=FIRST_SPREAD * impact.slow_time_scale,
         save=save,
         progress=progress,
-        until=ends,
-        record=None if walls is not None else long.add,
+        until=None if until is None else lambda run: until(model, run),
     )
-    saved = np.concatenate([*long.times, trajectory.time[bool(long.times) :]])
     ended = until is not None and not trajectory.failure
     settings = {
-        "end_time": float(saved[-1]) if ended else end,
+        "end_time": float(trajectory.time[-1]) if ended else end,
         "full_beam": full_beam,
         "domain": domain,
-        "save": saved[1:].tolist() if ended else np.asarray(save).tolist(),
+        "save": trajectory.time[1:].tolist() if ended else np.asarray(save).tolist(),
         **{name: describe(getattr(choice, name)) for name in ("mesh", "integrator", "contact", "far_field", "mass")},
+        "hold": hold_report(impact, choice.contact, trajectory),
+        "mean_iterations": trajectory.mean_iterations,
+        "most_iterations": trajectory.most_iterations,
     }
-    extremes = np.max([*long.extremes, hold_extremes(trajectory)], axis=0)
-    settings["hold"] = hold_report(impact, choice.contact, trajectory.time[-1], *extremes)
-    settings["mean_iterations"] = trajectory.mean_iterations
-    settings["most_iterations"] = trajectory.most_iterations
-    history = history_of(impact, model, trajectory, settings, (), walls)
-
-    def warnings_of(history: ImpactHistory) -> list[str]:
-        if until is not None or walls is not None or impact.off_centre:
-            return []  # what the choices warn about is a spreading front
-        return [*choice.warnings, *lift_warnings(impact, model, history)]
-
-    history = long.finished(history, warnings_of) if long.times else history.with_warnings(warnings_of(history))
+    history = history_of(impact, model, trajectory, settings)
+    if until is None and impact.opposite_wall is None and not impact.off_centre:  # a front spreads from the middle
+        history = history.with_warnings([*choice.warnings, *lift_warnings(impact, model, history)])
     if trajectory.failure:
         raise SimulationError(
             trajectory.failure,
@@ -155,58 +133,17 @@ def cut(impact: Impact, domain: float | None) -> Impact:
     return impact.replace(length=2.0 * domain)
 
 
-class LongRecord:
-    """The record of a run that is too long for memory: blocks of instants in a file, and what is asked of all of them.
-
-    times : saved instants of the blocks; extremes : :func:`hold_extremes` of each.
-    """
-
-    def __init__(self, impact: Impact, model: BeamModel) -> None:
-        self.impact, self.model = impact, model
-        self.times: list[NDArray[np.float64]] = []
-        self.extremes: list[tuple[float, float]] = []
-        self.file: GrowingFile | None = None
-
-    def add(self, run: Trajectory, instants: int) -> None:
-        """One more block; ``instants`` are saved in all."""
-        if self.file is None:
-            self.file = GrowingFile()
-            self.file.make_room(instants * (1.5 * run.q.shape[1] + 2.0 * run.gap.shape[1]))
-        self._append(history_of(self.impact, self.model, run, {}, ()))
-        self.times.append(run.time[len(self.times) > 0 :].copy())  # the block is used again
-        self.extremes.append(hold_extremes(run))
-
-    def _append(self, block: ImpactHistory) -> None:
-        assert self.file is not None
-        again = 1 if self.file.instants else 0  # a block starts where the one before ended
-        self.file.append(block.dataset.isel(time=slice(again, None)))
-
-    def finished(self, last: ImpactHistory, warnings_of: Callable[[ImpactHistory], list[str]]) -> ImpactHistory:
-        """The whole history, of which ``last`` is the last block, with the warnings that it gives rise to."""
-        self._append(last)
-        assert self.file is not None
-        with self.file.read() as dataset:
-            warned = last.with_warnings(warnings_of(ImpactHistory(dataset, self.file.file)))
-        self.file.describe(dict(warned.attrs))
-        return ImpactHistory(self.file.finished(), self.file.file)
-
-
-def hold_extremes(run: Trajectory) -> tuple[float, float]:
-    """Largest pull where the hold acted and largest push of a contact point between two saved instants, N s."""
+def hold_report(impact: Impact, contact: Contact, run: Trajectory) -> dict[str, float | None] | None:
+    """``{"until": s, "pull": largest pull over largest push}`` of a contact point between two saved instants, pull
+    ``None`` without a push; ``None`` where nothing ever pulled."""
     pull = -float(np.diff(run.held_impulse, axis=0).min(initial=0.0))
-    return pull, float(np.diff(run.impulse, axis=0).max(initial=0.0))
-
-
-def hold_report(
-    impact: Impact, contact: Contact, end: float, pull: float, push: float
-) -> dict[str, float | None] | None:
-    """``{"until": s, "pull": largest pull over largest push}`` of a run to ``end``, s, pull ``None`` without a push;
-    ``None`` where nothing ever pulled."""
+    push = float(np.diff(run.impulse, axis=0).max(initial=0.0))
     if pull == 0.0:
         return None
+    end = float(run.time[-1])
     stated = end if contact.hold else contact.hold_until or 0.0
-    until = min(float(stated), float(end), FIRST_SPREAD * impact.slow_time_scale)
-    return {"until": until, "pull": float(pull / push) if push > 0.0 else None}
+    until = min(float(stated), end, FIRST_SPREAD * impact.slow_time_scale)
+    return {"until": until, "pull": pull / push if push > 0.0 else None}
 
 
 def lift_warnings(impact: Impact, model: BeamModel, history: ImpactHistory) -> list[str]:
@@ -218,8 +155,6 @@ def lift_warnings(impact: Impact, model: BeamModel, history: ImpactHistory) -> l
     places, worst = np.abs(model.system.contacts.places), 0.0
     nodes = np.abs(model.beam.nodes)
     instants = np.flatnonzero(time > 0.1 * end)[1:]
-    if history.file is not None:  # each is read by itself
-        instants = instants[:: -(-instants.size // MOST_READ)]
     for k in instants:
         before = history.array("impulse", int(np.searchsorted(time, 0.9 * time[k]) - 1))
         inside = nodes < 0.8 * np.max(places[history.array("impulse", k) > before], initial=0.0)
@@ -247,25 +182,20 @@ def check_start(model: BeamModel) -> None:
         )
 
 
-def history_of(
-    impact: Impact,
-    model: BeamModel,
-    run: Trajectory,
-    settings: dict[str, Any],
-    warnings: Sequence[str],
-    walls: TwoWalls | None = None,
-) -> ImpactHistory:
+def history_of(impact: Impact, model: BeamModel, run: Trajectory, settings: dict[str, Any]) -> ImpactHistory:
     """The record of a run: fields of the model, sums of the whole beam; of two walls the impulses apart, their sum with
     its sign."""
-    copies = model.copies
+    copies, front, behind = model.copies, ~model.behind, model.behind
     rows = model.system.contacts
+    towards = np.where(behind, -1.0, 1.0)
+    closed = run.closed[:, front] | run.closed[:, behind] if np.any(behind) else run.closed
     fields: dict[str, tuple[Sequence[str], NDArray[Any]]] = {
         "gap": (("time", "x"), -(run.q[:, 0::2] + model.facing[0::2])),
         "velocity": (("time", "x"), run.v[:, 0::2]),
         "slope": (("time", "x"), run.q[:, 1::2] + model.natural[1::2]),
-        "impulse": (("time", "contact"), run.impulse),
-        "in_contact": (("time", "contact"), run.closed),
-        "total_impulse": (("time",), copies * run.impulse.sum(axis=1)),
+        "impulse": (("time", "contact"), run.impulse[:, front]),
+        "in_contact": (("time", "contact"), closed),
+        "total_impulse": (("time",), copies * run.impulse @ towards),
         "held_impulse": (("time",), copies * run.held_impulse.sum(axis=1)),
         "kinetic_energy": (("time",), copies * run.kinetic),
         "strain_energy": (("time",), copies * run.strain),
@@ -279,10 +209,8 @@ def history_of(
         "smallest_reaction": (("time",), run.smallest_reaction),
         "complementarity_product": (("time",), run.product),
     }
-    if walls is not None:
-        front, behind = (np.array(samples[: run.time.size]) for samples in (walls.front, walls.behind))
-        fields["impulse"], fields["opposite_impulse"] = (("time", "contact"), front), (("time", "contact"), behind)
-        fields["total_impulse"] = (("time",), copies * (front - behind).sum(axis=1))
+    if np.any(behind):
+        fields["opposite_impulse"] = (("time", "contact"), run.impulse[:, behind])
     return ImpactHistory.build(
         impact=impact,
         path="hermite",
@@ -290,9 +218,9 @@ def history_of(
         settings=settings,
         time=run.time,
         x=model.beam.nodes,
-        contact_x=rows.places,
+        contact_x=rows.places[front],
         fields=fields,
-        warnings=warnings,
+        warnings=(),
         steps=run.steps,
         seconds=run.seconds,
         completed=not run.failure,

@@ -69,8 +69,9 @@ class ContactRows:
                 raise ValueError(f"contact rows: {name} must have shape ({rows},) (got {value.shape})")
             set_(self, name, np.ascontiguousarray(value, kind))
         first = self.dofs.min(axis=1)
-        if np.any(np.diff(first) <= 0):
-            raise ValueError("contact rows must be sorted by their first dof, each with another one")
+        shared = dofs.shape[1] == 1  # a dof between two walls has a constraint for either
+        if np.any(np.diff(first) < (0 if shared else 1)):
+            raise ValueError("contact rows must be sorted by their first dof, those of several dofs each with another")
 
     def __len__(self) -> int:
         return int(self.gap.size)

@@ -1,9 +1,6 @@
-"""A second wall behind the beam: every contact row guards the nearer of the two.
+"""A second wall behind the beam: every node then has a constraint for either wall.
 
     g = y_w − y ≥ 0 in front,      g = y + D − (y_w at x = 0) ≥ 0 behind: a flat wall at the distance D of the apex
-
-A node cannot get from one wall to the other between two saved instants, so choosing there is exact as long as these are
-closer than the flight from wall to wall.
 """
 
 from __future__ import annotations
@@ -11,53 +8,49 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from hermite_fe.model import BeamModel
-from hermite_fe.run import Stepper
+from hermite_fe.beam import HermiteBeam
+from hermite_fe.system import ContactRows
 
-__all__ = ["TwoWalls"]
+__all__ = ["behind", "with_opposite_wall"]
 
 Array = NDArray[np.float64]
 
 
-class TwoWalls:
-    """Turns the rows of a run to the nearer wall, and keeps the impulses of the two apart.
+def with_opposite_wall(
+    rows: ContactRows, beam: HermiteBeam, natural: Array, displacement: Array, distance: float
+) -> ContactRows:
+    """``rows`` of the wall in front, each followed by the same node's of a wall behind at ``distance``, m.
 
-    Called at every saved instant; ``front`` and ``behind`` hold the impulses of each row so far, as samples.
+    natural, displacement : (dofs,), the bow at the first touch, and the unknowns then.
+
+    Raises ``ValueError`` for contact that is not at nodes, or a distance that leaves the bow no room.
     """
-
-    def __init__(self, model: BeamModel, distance: float) -> None:
-        rows = model.system.contacts
-        if rows.dofs.shape[1] != 1:
-            raise ValueError('opposite_wall takes contact.kind = "node" only')
-        places = np.interp(rows.places, model.beam.nodes, model.natural[0::2])
-        self.dofs = rows.dofs[:, 0]
-        self.faces = (rows.factors, -rows.factors)
-        self.gaps = (rows.gap, places + distance)
-        if np.any(self.gaps[1] + model.displacement[self.dofs] < 0.0):
-            raise ValueError(
-                f"opposite_wall must leave room for the bow of {float(-places.min()):.6g} m behind its apex "
-                f"(got {distance!r})"
-            )
-        self.facing = np.zeros(len(rows), np.int64)
-        self.last = np.zeros(len(rows))
-        self.front: list[Array] = []
-        self.behind: list[Array] = []
-
-    def gap(self, wall: int, q: Array) -> Array:
-        """Distance of the rows to a wall (0: in front, 1: behind)."""
-        return self.gaps[wall] + self.faces[wall][:, 0] * q[self.dofs]
-
-    def __call__(self, run: Stepper) -> bool:
-        gained = run.state.impulse - self.last
-        self.last = run.state.impulse.copy()
-        before = [samples[-1] if samples else np.zeros(gained.size) for samples in (self.front, self.behind)]
-        self.front.append(before[0] + np.where(self.facing == 0, gained, 0.0))
-        self.behind.append(before[1] + np.where(self.facing == 1, gained, 0.0))
-        q = run.state.q
-        self.facing = np.where(self.gap(1, q) < self.gap(0, q), 1, 0)
-        behind = self.facing == 1
-        factors = np.where(behind[:, None], self.faces[1], self.faces[0])
-        run.problem = run.problem._replace(
-            factors=np.ascontiguousarray(factors), gap=np.where(behind, self.gaps[1], self.gaps[0])
+    if rows.dofs.shape[1] != 1:
+        raise ValueError('opposite_wall takes contact.kind = "node" only')
+    bow = np.interp(rows.places, beam.nodes, natural[0::2])
+    gap = bow + distance
+    if np.any(gap + displacement[rows.dofs[:, 0]] < 0.0):
+        raise ValueError(
+            f"opposite_wall must leave room for the bow of {float(-bow.min()):.6g} m behind its apex (got {distance!r})"
         )
-        return False
+    twice = np.repeat(np.arange(len(rows)), 2)
+    factors, gaps = rows.factors[twice], rows.gap[twice]
+    factors[1::2] *= -1.0
+    gaps[1::2] = gap
+    return ContactRows(
+        dofs=rows.dofs[twice],
+        factors=factors,
+        gap=gaps,
+        places=rows.places[twice],
+        rank=rows.rank[twice],
+        side=rows.side[twice],
+        tributary=rows.tributary[twice],
+    )
+
+
+def behind(rows: int, two_walls: bool) -> NDArray[np.bool_]:
+    """Which of ``rows`` constraints guard the wall behind, (rows,)."""
+    marks = np.zeros(rows, bool)
+    if two_walls:
+        marks[1::2] = True
+    return marks

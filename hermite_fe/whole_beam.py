@@ -43,7 +43,7 @@ def with_parts_for_whole_beam(method: C, impact: Impact) -> C:
     mesh = mesh.refined(method.refine)
     shortest = float(np.diff(mesh.nodes(impact.half_length)).min())
     integrator = SignoriniPosition(theta=0.5) if method.integrator is None else method.integrator
-    integrator = integrator.suited(impact)  # before it is refined: what is open cannot be
+    integrator = integrator.with_defaults(impact)  # before it is refined: what is open cannot be
     if integrator.time_step is None:
         integrator = integrator.refined(method.refine**2).with_steps(0.5 * shortest**2 / impact.wave_constant, 0.0)
     else:

@@ -1,5 +1,5 @@
-"""Same inputs at every `make test`; `make fuzz` draws new ones (tests/reliability). Kernels are compiled before worker
-processes start."""
+"""Same inputs at every `make test`; `make fuzz` draws new ones (tests/reliability). Integrators are compiled before
+worker processes start."""
 
 import os
 import subprocess
@@ -17,10 +17,11 @@ settings.load_profile("fresh" if os.environ.get("FUZZ") else "repeatable")
 
 
 def pytest_sessionstart(session: pytest.Session) -> None:
-    """Each worker would compile every kernel for itself, at the same time as the other."""
+    """Each worker would compile every integrator for itself, at the same time as the other."""
     if hasattr(session.config, "workerinput") or not getattr(session.config.option, "numprocesses", None):
         return
-    script = Path(__file__).with_name("compile_kernels.py")
-    compiling = [subprocess.Popen([sys.executable, str(script), *kinds]) for kinds in ("SP", "VA")]
-    for process in compiling:
-        process.wait()
+    kinds = (["signorini_position", "generalized_alpha_penalty"], ["nonsmooth_generalized_alpha"])
+    command = [sys.executable, "-m", "tests.compile_integrators"]
+    compiling = [subprocess.Popen([*command, *names], cwd=Path(__file__).parents[1]) for names in kinds]
+    if any([process.wait() for process in compiling]):
+        raise pytest.UsageError("the integrators could not be compiled: see above")

@@ -1,4 +1,4 @@
-"""What every time integrator shares: its instants, and one compiled call that takes steps."""
+"""What every time integrator shares: its instants, and one call that takes steps."""
 
 from __future__ import annotations
 
@@ -6,14 +6,14 @@ import dataclasses
 import math
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from bent_beam.checks import non_negative, positive
 from bent_beam.impact import Impact
-from hermite_fe.kernels.problem import ContactLaw, Problem, State, Work
+from hermite_fe.stepping import Problem, State
 
 __all__ = ["Integrator"]
 
@@ -22,20 +22,15 @@ MAXIMUM_STEPS = 20_000_000
 
 @dataclass(frozen=True)
 class Integrator(ABC):
-    """Base of the integrators: steps h = max(time_step, growth·t), adjusted down so that they end at the end
-    time.
+    """Base of the integrators: steps h = max(time_step, growth·t), adjusted down so that they end at the end time.
 
     time_step : smallest step, s (``None``: chosen from the problem).
-    growth : step over time since impact, so that every decade of a self-similar motion takes the same number
-        of steps (``None``: 0, constant steps, when ``time_step`` is given; chosen otherwise).
+    growth : step over time since impact, so that every decade of a self-similar motion takes the same number of steps
+        (``None``: 0, constant steps, when ``time_step`` is given; chosen otherwise).
     """
 
-    solves: ClassVar[int] = 1
-    """How many contact problems a step solves one after the other, all with one step matrix: the length of ``works`` in
-    :meth:`advance`."""
-
-    holds: ClassVar[bool] = True
-    """Whether it keeps closed rows closed when asked to (:class:`hermite_fe.contacts.Contact`)."""
+    holds: ClassVar[bool] = False
+    """Whether it keeps closed constraints closed when asked to (:class:`hermite_fe.contacts.Contact`)."""
 
     time_step: float | None = None
     growth: float | None = None
@@ -56,7 +51,7 @@ class Integrator(ABC):
             self, time_step=time_step if self.time_step is None else self.time_step, growth=growth
         )
 
-    def suited(self, impact: Impact) -> Integrator:
+    def with_defaults(self, impact: Impact) -> Integrator:
         """A copy with whatever else it leaves open chosen for ``impact``; itself where there is nothing."""
         return self
 
@@ -89,15 +84,15 @@ class Integrator(ABC):
         return times
 
     @abstractmethod
+    def start(self, problem: Problem, state: State) -> Any:
+        """What the scheme remembers from step to step, and room to work in; asked for once, at t = 0.
+
+        Raises ``ValueError`` where the scheme cannot take the problem.
+        """
+
+    @abstractmethod
     def advance(
-        self,
-        problem: Problem,
-        law: ContactLaw,
-        state: State,
-        works: tuple[Work, ...],
-        times: NDArray[np.float64],
-        first: int,
-        last: int,
+        self, problem: Problem, state: State, memory: Any, times: NDArray[np.float64], first: int, last: int
     ) -> tuple[int, int]:
-        """Take steps ``first`` … ``last`` − 1 in place; returns (status, step reached), status 0 when all
-        went well."""
+        """Take steps ``first`` … ``last`` − 1 between the instants ``times`` in place. Returns a status of
+        :mod:`hermite_fe.solver` and the step reached: SOLVED and ``last`` when all went well."""

@@ -3,28 +3,47 @@
     M v̇⁺ + C v⁺ + K q⁺ = F⁺ + Gᵀλ,    λ_j = −(k_c g_j + d_c ġ_j)·(tributary length of j)  where g_j ≤ 0
 
 that is one spring and damper a node, acting on penetration only, which may pull while it does (Exudyn's
-``ObjectContactCoordinate`` with linear damping). Contact rows must touch one dof each: contact at nodes.
+``ObjectContactCoordinate`` with linear damping). Constraints must touch one dof each: contact at nodes.
 Measured at κ/ν = 0.5 and 0.1, τ = 0.1: with k = 10⁵, d = 10³ λ₀ is 1.6 and 1.1 % off, with the 10⁷ and 3·10⁴ chosen
-here 0.12 and 0.03 %, with 10⁸ and 10⁵ 0.05 and 0.003 %. There is no impact law and no hold; what the rows take in,
-stored or dissipated, is booked as loss in impacts.
+here 0.12 and 0.03 %, with 10⁸ and 10⁵ 0.05 and 0.003 %. There is no impact law and no hold; what springs and dampers
+take in, stored or dissipated, is booked as loss in impacts.
 """
 
 from __future__ import annotations
 
 import dataclasses
 from dataclasses import dataclass
-from typing import ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from bent_beam.checks import between, non_negative, positive, whole
 from bent_beam.impact import Impact
+from hermite_fe.active_set import NOT_FINITE, SOLVED, solve_free
+from hermite_fe.banded import copy
+from hermite_fe.compiled import compiled
+from hermite_fe.constraints import PRODUCT, SMALLEST_REACTION, Constraints, Rows, rows_times
 from hermite_fe.integrators.base import Integrator
-from hermite_fe.kernels import generalized_alpha
-from hermite_fe.kernels.problem import ContactLaw, Problem, State, Work
+from hermite_fe.integrators.generalized_alpha import (
+    AlphaMemory,
+    Reactions,
+    Scheme,
+    Vectors,
+    add_step,
+    alpha_memory,
+    begin,
+    correct,
+    predict,
+    prepare_step,
+    take_reaction,
+)
+from hermite_fe.solver import refactor_from
+from hermite_fe.stepping import Problem, State, forces_at, is_finite
 
 __all__ = ["GeneralizedAlphaPenalty"]
+
+Array = NDArray[np.float64]
+Flags = NDArray[np.bool_]
 
 
 @dataclass(frozen=True)
@@ -35,8 +54,6 @@ class GeneralizedAlphaPenalty(Integrator):
     damping : d_c, N s/m per metre of beam (``None``: chosen, 3e4 μ/t*).
     contact_rounds : most re-solutions a step until contact and penetration agree.
     """
-
-    holds: ClassVar[bool] = False
 
     spectral_radius: float = 0.8
     stiffness: float | None = None
@@ -62,7 +79,7 @@ class GeneralizedAlphaPenalty(Integrator):
             damping=None if self.damping is None else self.damping * factor,
         )
 
-    def suited(self, impact: Impact) -> GeneralizedAlphaPenalty:
+    def with_defaults(self, impact: Impact) -> GeneralizedAlphaPenalty:
         mass, time = impact.mass_per_length, impact.time_scale
         return dataclasses.replace(
             self,
@@ -70,34 +87,109 @@ class GeneralizedAlphaPenalty(Integrator):
             damping=3e4 * mass / time if self.damping is None else self.damping,
         )
 
-    def advance(
-        self,
-        problem: Problem,
-        law: ContactLaw,
-        state: State,
-        works: tuple[Work, ...],
-        times: NDArray[np.float64],
-        first: int,
-        last: int,
-    ) -> tuple[int, int]:
+    def start(self, problem: Problem, state: State) -> AlphaMemory:
         if self.stiffness is None or self.damping is None:
             raise ValueError("integrator.stiffness and integrator.damping are not chosen yet")
-        if problem.dofs.shape[1] != 1:
+        if problem.rows.dofs.shape[1] != 1:
             raise ValueError('generalized_alpha_penalty takes contact.kind = "node" only')
-        if law.restitution > 0.0:
-            raise ValueError(
-                "generalized_alpha_penalty has no impact law: "
-                f"restitution must be 0 (got {law.restitution!r})"
-            )
-        return generalized_alpha.penalty_steps(
-            problem,
-            state,
-            works[0],
-            times,
-            first,
-            last,
-            self.spectral_radius,
-            self.stiffness,
-            self.damping,
-            self.contact_rounds,
+        e = problem.law.restitution
+        if e > 0.0:
+            raise ValueError(f"generalized_alpha_penalty has no impact law: restitution must be 0 (got {e!r})")
+        return alpha_memory(problem, self.spectral_radius)
+
+    def advance(
+        self, problem: Problem, state: State, memory: AlphaMemory, times: NDArray[np.float64], first: int, last: int
+    ) -> tuple[int, int]:
+        assert self.stiffness is not None and self.damping is not None
+        return take_steps(
+            problem, state, memory, times, first, last, self.stiffness, self.damping, self.contact_rounds
         )
+
+
+@compiled
+def take_steps(
+    problem: Problem, state: State, memory: AlphaMemory, times: Array, first: int, last: int, stiffness: float,
+    damping: float, rounds: int
+) -> tuple[int, int]:  # fmt: skip
+    """Take the steps ``first`` … ``last`` − 1 between the instants ``times``; returns (status, step reached)."""
+    matrices, rows, _, solver = problem
+    scheme, vectors, reactions, smooth, _, _ = memory
+    if first == 0 and last > 0:
+        status = begin(matrices, rows, solver, state, vectors)
+        if status != SOLVED:
+            return status, 0
+    for k in range(first, last):
+        t, made_for = times[k], solver.step[0]
+        h = prepare_step(matrices, rows, solver, scheme, times[k + 1] - t, times[k + 1])
+        if h != made_for:
+            reactions.at_rest[:] = False  # the new matrix has no springs yet
+        predict(scheme, state.q, state.v, state.acceleration, vectors, h)
+        forces_at(matrices, t + h, state.q, state.v, vectors.force, vectors.scratch)
+        status = settle(problem, state, scheme, vectors, reactions.at_rest, smooth, h, stiffness, damping, rounds)
+        if status != SOLVED:
+            return status, k
+        correct(scheme, state.q, state.v, state.acceleration, vectors, h)
+        react(rows, state, scheme, reactions, h, stiffness, damping)
+        add_step(matrices, rows, state, scheme, vectors, reactions, t, h)
+        if not is_finite(state):
+            return NOT_FINITE, k
+    return SOLVED, last
+
+
+@compiled
+def settle(
+    problem: Problem, state: State, scheme: Scheme, vectors: Vectors, with_spring: Flags, smooth: Constraints, h: float,
+    stiffness: float, damping: float, rounds: int
+) -> int:  # fmt: skip
+    """Solve for v̇⁺ under ``vectors.force`` and the springs of the constraints in touch, again until those in touch are
+    those that penetrate, at most ``rounds`` times; as Exudyn's discontinuous iteration does.
+
+    with_spring : (rows,), whose springs are in the step matrix.
+    """
+    matrices, rows, _, solver = problem
+    closed, x, b = state.closed, vectors.x, vectors.b
+    position_share, velocity_share = h * h * scheme.beta * scheme.s, h * scheme.gamma * scheme.s
+    rows_times(rows, state.q, smooth.gap)
+    rows_times(rows, state.v, smooth.speed)
+    for attempt in range(rounds + 1):
+        copy(vectors.force, b)
+        for j in range(closed.size):
+            d, g = rows.dofs[j, 0], rows.factors[j, 0]
+            spring, damper = stiffness * rows.tributary[j], damping * rows.tributary[j]
+            if closed[j] != with_spring[j]:
+                with_spring[j] = closed[j]
+                diagonal = matrices.M[0, d] + velocity_share * matrices.C[0, d] + position_share * matrices.K[0, d]
+                if closed[j]:
+                    diagonal += g * g * (position_share * spring + velocity_share * damper)
+                solver.S[0, solver.unknown[d]] = diagonal
+                refactor_from(solver, solver.unknown[d])
+            if closed[j]:
+                b[d] -= g * (spring * (rows.gap[j] + smooth.gap[j]) + damper * smooth.speed[j])
+        status = solve_free(solver, rows, b, x)
+        if status != SOLVED:
+            return status
+        changed = False
+        for j in range(closed.size):
+            new_gap = rows.gap[j] + smooth.gap[j] + position_share * rows.factors[j, 0] * x[rows.dofs[j, 0]]
+            if (new_gap <= 0.0) != closed[j] and attempt < rounds:
+                closed[j] = not closed[j]
+                changed = True
+        if not changed:
+            break
+    return SOLVED
+
+
+@compiled
+def react(
+    rows: Rows, state: State, scheme: Scheme, reactions: Reactions, h: float, stiffness: float, damping: float
+) -> None:
+    """The forces of springs and dampers at the end of the step, and their impulses."""
+    for j in range(rows.gap.size):
+        d, g = rows.dofs[j, 0], rows.factors[j, 0]
+        gap, force = rows.gap[j] + g * state.q[d], 0.0
+        if state.closed[j]:
+            force = -(stiffness * gap + damping * g * state.v[d]) * rows.tributary[j]
+            state.worst[PRODUCT] = max(state.worst[PRODUCT], abs(h * force * gap))
+        take_reaction(scheme, reactions, h, j, force)
+        state.impulse[j] += reactions.impulse[j]
+        state.worst[SMALLEST_REACTION] = min(state.worst[SMALLEST_REACTION], h * force)

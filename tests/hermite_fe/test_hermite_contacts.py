@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -142,9 +143,15 @@ def test_no_hold_acts_once_waves_may_be_back() -> None:
 
 
 def test_a_pull_over_no_push_is_no_number() -> None:
-    assert hold_report(IMPACT, NodeContact(hold=16), 0.3, pull=2.0, push=0.0) == {"until": 0.3, "pull": None}
-    assert hold_report(IMPACT, NodeContact(hold=16), 0.3, pull=2.0, push=8.0) == {"until": 0.3, "pull": 0.25}
-    assert hold_report(IMPACT, NodeContact(hold=16), 0.3, pull=0.0, push=0.0) is None
+    def report(pull: float, push: float) -> object:
+        impulses = SimpleNamespace(
+            time=np.array([0.0, 0.3]), impulse=np.array([[0.0], [push]]), held_impulse=np.array([[0.0], [-pull]])
+        )
+        return hold_report(IMPACT, NodeContact(hold=16), impulses)
+
+    assert report(2.0, 0.0) == {"until": 0.3, "pull": None}
+    assert report(2.0, 8.0) == {"until": 0.3, "pull": 0.25}
+    assert report(0.0, 0.0) is None
 
 
 def test_holds_without_effect_are_errors() -> None:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import math
-from typing import Any
 
 import numpy as np
 import pytest
@@ -243,21 +242,10 @@ def test_saved_times_and_progress() -> None:
     assert fractions[-1] == 1.0 and fractions == sorted(fractions)
 
 
-@pytest.mark.parametrize("until", [None, lambda model, run: run.instants[run.step] > 0.03])
-def test_a_record_too_long_for_memory_is_the_same_from_disk(monkeypatch: pytest.MonkeyPatch, until: Any) -> None:
-    arguments: Any = {"mesh": UniformMesh(0.2), "integrator": MoreauJean(1e-3), "save": 60, "until": until}
-    whole = simulate(SHORT, **arguments)
-    monkeypatch.setattr("hermite_fe.run.BLOCK", 700)  # seven instants of a hundred nodes
-    long = simulate(SHORT, **arguments)
-    assert whole.file is None and long.file is not None and not long.dataset["gap"].variable._in_memory
-    assert long.dataset.equals(whole.dataset)
-    assert long.settings == whole.settings and long.warnings == whole.warnings and long.steps == whole.steps
-
-
 def test_a_run_that_fails_keeps_its_partial_history() -> None:
     class Breaking(MoreauJean):
-        def advance(self, problem, law, state, works, times, first, last):  # type: ignore[no-untyped-def]
-            status, reached = super().advance(problem, law, state, works, times, first, last)
+        def advance(self, problem, state, memory, times, first, last):  # type: ignore[no-untyped-def]
+            status, reached = super().advance(problem, state, memory, times, first, last)
             if times[reached] > 0.03:
                 state.q[3] = np.nan
             return status, reached

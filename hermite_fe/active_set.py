@@ -1,0 +1,247 @@
+"""Which contact constraints are closed at the end of a step:
+
+    S x = b + Gᵀp,      0 ≤ p ⊥ G x − c ≥ 0,      x = 0 at supports.
+
+The closed constraints, G x = c, are guessed; the system is solved (:mod:`hermite_fe.solver`); the constraints whose
+sign is wrong are exchanged, until none is (a primal–dual active set; Hintermüller, Ito, Kunisch 2003, SIAM J. Optim.
+13, 865). All wrong ones are exchanged while their number falls fast; then the worst of each run of neighbours that are
+wrong alike: a beam is stiff over a few nodes, so that it mends the others. When the number has not fallen for
+``PATIENCE`` rounds, only the last is exchanged (Murty's rule; Júdice & Pires 1994, Comput. Oper. Res. 21, 587). After
+``MOST_ROUNDS`` the problem is solved anew by :func:`solve_one_by_one`, which always ends.
+
+Signs are judged against round-off: p against the terms of its equation, a gap against the largest deflection and slope.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hermite_fe.banded import FADED, PAD, copy
+from hermite_fe.compiled import compiled
+from hermite_fe.constraints import Constraints, Rows
+from hermite_fe.solver import Solver, exchange, update
+
+__all__ = ["CYCLING", "NOT_FINITE", "SINGULAR", "SOLVED", "find_wrong", "solve_constrained", "solve_free",
+           "solve_one_by_one"]  # fmt: skip
+
+Array = NDArray[np.float64]
+Flags = NDArray[np.bool_]
+
+SOLVED, SINGULAR, CYCLING, NOT_FINITE = range(4)
+
+ROUND_OFF = 1e-13  # of the terms summed
+MOST_LENIENT = 1e-8  # of them, in the fall-back, for constraints that nearly touch
+FAST = 0.75  # of the wrong constraints of the round before
+FEW = 2  # neighbours that are exchanged together nevertheless
+PATIENCE = 10  # rounds without progress
+MOST_ROUNDS = 500
+MOST_EXCHANGES = 20  # a constraint, in the fall-back
+
+
+@compiled
+def equation(S: Array, y: Array, k: int) -> tuple[float, float]:
+    """Row k of S y, and the sum of its terms' sizes."""
+    term = S[0, k] * y[k]
+    total, size = term, abs(term)
+    for m in range(1, 5):
+        left, right = S[m, k - m] * y[k - m], S[m, k] * y[k + m]
+        total += left + right
+        size += abs(left) + abs(right)
+    return total, size
+
+
+@compiled
+def largest_of_a_kind(x: Array) -> tuple[float, float]:
+    """The largest deflection and the largest slope of x: dofs take turns."""
+    deflection, slope = 0.0, 0.0
+    for i in range(0, x.size - 1, 2):
+        deflection = max(deflection, abs(x[i]))
+        slope = max(slope, abs(x[i + 1]))
+    if x.size % 2 == 1:
+        deflection = max(deflection, abs(x[x.size - 1]))
+    return deflection, slope
+
+
+@compiled
+def find_wrong(
+    solver: Solver, rows: Rows, conditions: Constraints, b: Array, x: Array, tolerance: float
+) -> tuple[int, int]:
+    """Put the impulses in ``conditions.p``, and in ``solver.excess`` by how much the sign of each constraint is
+    wrong, 0 where it is right. Returns how many are wrong, and the last of them (−1: none)."""
+    dofs, factors, p, target = rows.dofs, rows.factors, conditions.p, conditions.target
+    width = dofs.shape[1]
+    deflection, slope = largest_of_a_kind(x)
+    count, last = 0, -1
+    for j in range(p.size):
+        p[j], excess, bound = 0.0, 0.0, 0.0
+        if solver.closed[j]:
+            d = dofs[j, 0]
+            total, size = equation(solver.S, solver.y, solver.unknown[d])
+            if width == 1:
+                p[j] = (total - b[d]) / factors[j, 0]
+            else:
+                p[j] = -solver.y[solver.row_unknown[j]]
+            excess = 0.0 if conditions.held[j] else -p[j]
+            bound = tolerance * (size + abs(b[d])) / abs(factors[j, 0])
+        elif conditions.candidate[j]:
+            excess, bound = target[j], tolerance * abs(target[j])
+            for i in range(width):
+                excess -= factors[j, i] * x[dofs[j, i]]
+                bound += tolerance * abs(factors[j, i]) * (slope if dofs[j, i] % 2 == 1 else deflection)
+        solver.excess[j] = excess if excess > bound else 0.0
+        if excess > bound:
+            count += 1
+            last = j
+    return count, last
+
+
+@compiled
+def begin(solver: Solver, rows: Rows, conditions: Constraints) -> None:
+    """Open and close constraints in the factors as ``conditions`` guesses; the held are closed, and none but candidates
+    and the held."""
+    closed = conditions.closed
+    for j in range(closed.size):
+        closed[j] = conditions.held[j] or (closed[j] and conditions.candidate[j])
+        if solver.closed[j] and not closed[j]:
+            exchange(solver, rows, j)
+    for j in range(closed.size):
+        if closed[j] and not solver.closed[j]:
+            exchange(solver, rows, j)
+
+
+@compiled
+def take_solution(solver: Solver, x: Array) -> None:
+    """x : the dofs among the unknowns; what has faded is zero."""
+    for i in range(x.size):
+        value = solver.y[solver.unknown[i]]
+        x[i] = value if abs(value) > FADED else 0.0
+
+
+@compiled
+def solve_round(
+    solver: Solver, rows: Rows, conditions: Constraints, b: Array, x: Array, last: int, tolerance: float
+) -> tuple[int, int]:
+    """Solve with the constraints as they are closed now; returns :func:`find_wrong`, (−1, −1) where S is singular.
+
+    last : beyond this unknown the right-hand side is as it was in the round before.
+    """
+    if not update(solver, rows, b, conditions.target, last):
+        return -1, -1
+    take_solution(solver, x)
+    return find_wrong(solver, rows, conditions, b, x, tolerance)
+
+
+@compiled
+def exchange_wrong(solver: Solver, rows: Rows, worst_only: bool) -> None:
+    """Exchange the constraints whose sign is wrong: all, or the worst of each run of neighbours that are wrong
+    alike."""
+    excess, closed = solver.excess, solver.closed
+    j, m = 0, excess.size
+    while j < m:
+        if excess[j] == 0.0:
+            j += 1
+            continue
+        end, worst = j + 1, j
+        while end < m and excess[end] > 0.0 and closed[end] == closed[j]:
+            if excess[end] > excess[worst]:
+                worst = end
+            end += 1
+        for i in range(j, end):
+            if i == worst or end - j <= FEW or not worst_only:
+                exchange(solver, rows, i)
+        j = end
+
+
+@compiled
+def solve_constrained(solver: Solver, rows: Rows, conditions: Constraints, b: Array, x: Array) -> int:
+    """Solve for x (dofs,) and ``conditions.p`` from the guess ``conditions.closed``; returns SOLVED, SINGULAR or
+    CYCLING."""
+    begin(solver, rows, conditions)
+    last = solver.y.size - PAD - 1
+    before = fewest = conditions.p.size + 1
+    patience, rounds, status = PATIENCE, 0, CYCLING
+    while status == CYCLING and rounds < MOST_ROUNDS:
+        count, worst = solve_round(solver, rows, conditions, b, x, last, ROUND_OFF)
+        last = -1
+        rounds += 1
+        if count <= 0:
+            status = SOLVED if count == 0 else SINGULAR
+        elif count < fewest:
+            fewest, patience = count, PATIENCE
+        else:
+            patience -= 1
+        if patience <= 0 and count > 0:
+            exchange(solver, rows, worst)
+        else:
+            exchange_wrong(solver, rows, count > FAST * before)
+        before = count
+    if status == CYCLING:
+        status = solve_one_by_one(solver, rows, conditions, b, x)
+    copy(solver.closed, conditions.closed)
+    solver.rounds[0] += 1
+    solver.rounds[1] += rounds
+    solver.rounds[2] = max(solver.rounds[2], rounds)
+    return status
+
+
+@compiled
+def first_to_open(solver: Solver, p: Array, reached: Array) -> tuple[int, float]:
+    """The closed constraint whose reaction is the first to vanish on the way from ``reached`` to p, and the share of
+    the way up to there; −1 and 1 where none of those that are wrong does."""
+    opening, share = -1, 1.0
+    for j in range(p.size):
+        if solver.closed[j] and solver.excess[j] > 0.0:
+            here = reached[j] / (reached[j] - p[j])
+            if here < share:
+                opening, share = j, here
+    return opening, share
+
+
+@compiled
+def solve_one_by_one(solver: Solver, rows: Rows, conditions: Constraints, b: Array, x: Array) -> int:
+    """The fall-back: as :func:`solve_constrained`, from no reactions on, by an active set whose energy falls each time.
+
+    The reactions p ≥ 0 minimise ½pᵀGS⁻¹Gᵀp + pᵀ(GS⁻¹b − c). The constraint that is furthest in the wall is closed;
+    where a reaction then turns negative the step goes only as far as to the first that vanishes, and that one opens
+    (Lawson & Hanson 1974, Solving Least Squares Problems, ch. 23). No set of closed constraints comes back but by
+    round-off: where the one that was closed last opens at once, signs are judged ten times more leniently.
+    """
+    conditions.closed[:] = False
+    begin(solver, rows, conditions)
+    p, tolerance, latest = conditions.p, ROUND_OFF, -1
+    reached = np.zeros(p.size)
+    for _ in range(MOST_EXCHANGES * (p.size + 1)):
+        count, closing = solve_round(solver, rows, conditions, b, x, solver.y.size - PAD - 1, tolerance)
+        if count <= 0:
+            return SOLVED if count == 0 else SINGULAR
+        opening, share = first_to_open(solver, p, reached)
+        for j in range(p.size):
+            reached[j] += share * (p[j] - reached[j])
+        if opening >= 0:
+            reached[opening] = 0.0
+            exchange(solver, rows, opening)
+            if opening == latest:
+                tolerance *= 10.0
+                if tolerance > MOST_LENIENT:
+                    return CYCLING
+            continue
+        for j in range(p.size):
+            if not solver.closed[j] and solver.excess[j] > solver.excess[closing]:
+                closing = j
+        latest = closing
+        exchange(solver, rows, closing)
+    return CYCLING
+
+
+@compiled
+def solve_free(solver: Solver, rows: Rows, b: Array, x: Array) -> int:
+    """Solve S x = b with every constraint open; returns SOLVED or SINGULAR."""
+    for j in range(solver.closed.size):
+        if solver.closed[j]:
+            exchange(solver, rows, j)
+    no_target = b  # none is read where none is closed
+    if not update(solver, rows, b, no_target, solver.y.size - PAD - 1):
+        return SINGULAR
+    take_solution(solver, x)
+    return SOLVED

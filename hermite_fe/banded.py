@@ -1,0 +1,201 @@
+"""Compiled products with symmetric banded matrices, and the factors of a step matrix.
+
+A system's matrices have half bandwidth 3, as Hermite elements need, and scipy's lower form: A[m, i] = A(i + m, i),
+shape (4, dofs). The step matrix has half bandwidth 4: one more where the multiplier of a contact constraint stands
+between the dofs of two nodes. It is S[m, k] = S(k + m, k), shape (5, unknowns + 2·PAD), with ``PAD`` idle entries at
+either end, so that no loop over it needs a special case. The factors
+
+    S = U D Uᵀ,    U[m, k] the entry (k, k + m) of U,    U[0, k] = 1/D_k
+
+run from the last unknown to the first: the contact zone of a half beam is at the first, so that a constraint that
+opens or closes there leaves the factors of all unknowns beyond as they are.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hermite_fe.compiled import compiled
+
+__all__ = ["FADED", "PAD", "combine", "copy", "dot", "factor", "multiply", "row_sums", "stiff_multiply",
+           "substitute_back", "substitute_forward"]  # fmt: skip
+
+Array = NDArray[np.float64]
+Flags = NDArray[np.bool_]
+Places = NDArray[np.int64]
+
+PAD = 4
+FADED = 1e-100
+"""What has faded below this, in any unit, is zero: subnormal numbers, which it would become, slow some processors."""
+
+
+@compiled
+def edge_row(A: Array, x: Array, i: int) -> float:
+    """Row i of A x, anywhere."""
+    total = A[0, i] * x[i]
+    for m in range(1, 4):
+        if i >= m:
+            total += A[m, i - m] * x[i - m]
+        if i + m < x.size:
+            total += A[m, i] * x[i + m]
+    return total
+
+
+@compiled
+def multiply(A: Array, x: Array, y: Array) -> None:
+    """y = A x."""
+    n = x.size
+    for i in range(min(3, n)):
+        y[i] = edge_row(A, x, i)
+    for i in range(max(3, n - 3), n):
+        y[i] = edge_row(A, x, i)
+    for o in range(n - 6):  # row o + 3; counted from its first neighbour, since indices that may be negative are slow
+        y[o + 3] = (
+            A[3, o] * x[o] + A[2, o + 1] * x[o + 1] + A[1, o + 2] * x[o + 2] + A[0, o + 3] * x[o + 3]
+            + A[1, o + 3] * x[o + 4] + A[2, o + 3] * x[o + 5] + A[3, o + 3] * x[o + 6]
+        )  # fmt: skip
+
+
+def row_sums(A: Array) -> Array:
+    """Sums of A's rows over dofs an even and an odd distance away, shape (2, n); round-off is cut to zero.
+
+    Row 0 has no dof to its left to take odd differences from; its odd sum is not used.
+    """
+    n = A.shape[1]
+    sums, sizes = np.zeros((2, n)), np.zeros((2, n))
+    for m in range(4):
+        band = A[m, : n - m]
+        sums[m % 2, : n - m] += band
+        sizes[m % 2, : n - m] += np.abs(band)
+        if m:
+            sums[m % 2, m:] += band
+            sizes[m % 2, m:] += np.abs(band)
+    sums[np.abs(sums) < 1e-12 * sizes] = 0.0
+    return sums
+
+
+@compiled
+def stiff_edge_row(A: Array, sums: Array, x: Array, i: int) -> float:
+    """Row i of :func:`stiff_multiply`, anywhere."""
+    n = x.size
+    left = x[i - 1] if i >= 1 else 0.0
+    total = sums[0, i] * x[i] + (sums[1, i] * left if i >= 1 else 0.0)
+    if i >= 2:
+        total += A[2, i - 2] * (x[i - 2] - x[i])
+    if i + 2 < n:
+        total += A[2, i] * (x[i + 2] - x[i])
+    if i >= 3:
+        total += A[3, i - 3] * (x[i - 3] - left)
+    if i + 1 < n:
+        total += A[1, i] * (x[i + 1] - left)
+    if i + 3 < n:
+        total += A[3, i] * (x[i + 3] - left)
+    return total
+
+
+@compiled
+def stiff_multiply(A: Array, sums: Array, x: Array, y: Array) -> None:
+    """y = A x for a stiffness whose large entries cancel, by differences of neighbouring dofs of a kind.
+
+    A(i, ·)x = Σ_even A(i, j)(x_j − x_i) + even_i x_i + Σ_odd A(i, j)(x_j − x_{i−1}) + odd_i x_{i−1}
+
+    for j − i even or odd, with ``sums`` = (even, odd) of :func:`row_sums`. Round-off is that of the differences, not of
+    12EI/Δx³·x.
+    """
+    n = x.size
+    for i in range(min(3, n)):
+        y[i] = stiff_edge_row(A, sums, x, i)
+    for i in range(max(3, n - 3), n):
+        y[i] = stiff_edge_row(A, sums, x, i)
+    for o in range(n - 6):  # row o + 3
+        left, here = x[o + 2], x[o + 3]
+        y[o + 3] = (
+            (sums[0, o + 3] * here + sums[1, o + 3] * left)
+            + (A[2, o + 1] * (x[o + 1] - here) + A[2, o + 3] * (x[o + 5] - here))
+            + (A[3, o] * (x[o] - left) + A[1, o + 3] * (x[o + 4] - left) + A[3, o + 3] * (x[o + 6] - left))
+        )
+
+
+@compiled
+def copy(x: NDArray[Any], y: NDArray[Any]) -> None:
+    """y = x, of any kind. (A slice that is assigned to takes numba seconds to compile.)"""
+    for i in range(x.size):
+        y[i] = x[i]
+
+
+@compiled
+def dot(x: Array, y: Array) -> float:
+    """x · y."""
+    total = 0.0
+    for i in range(x.size):
+        total += x[i] * y[i]
+    return total
+
+
+@compiled
+def combine(M: Array, C: Array, K: Array, c: float, k: float, unknown: Places, S: Array) -> None:
+    """S = M + cC + kK with the dofs at their places ``unknown`` among the unknowns; multipliers have no part in it."""
+    n = unknown.size
+    S[:] = 0.0
+    if unknown[n - 1] == n - 1 + PAD:  # no multipliers: all dofs next to one another
+        for m in range(4):
+            for i in range(n - m):
+                S[m, i + PAD] = M[m, i] + c * C[m, i] + k * K[m, i]
+        return
+    for i in range(n):
+        here = unknown[i]
+        for m in range(min(4, n - i)):
+            if unknown[i + m] - here < 5:  # else the slope of one node and the next node but one: never coupled
+                S[unknown[i + m] - here, here] = M[m, i] + c * C[m, i] + k * K[m, i]
+
+
+@compiled
+def factor(S: Array, fixed: Flags, sign: Array, last: int, U: Array) -> bool:
+    """The factors of S from unknown ``last`` on, those beyond being as they should; False where S is singular.
+
+    fixed : unknowns whose row and column are those of the identity. sign : of the pivots, 1 for dofs, −1 for
+        multipliers; any other sign means that S is not positive definite on the dofs.
+    """
+    for k in range(last, PAD - 1, -1):
+        if fixed[k]:
+            U[0, k] = 1.0
+            U[1, k] = U[2, k] = U[3, k] = U[4, k] = 0.0
+            continue
+        u4 = 0.0 if fixed[k + 4] else S[4, k]
+        u3 = (0.0 if fixed[k + 3] else S[3, k]) - U[1, k + 3] * u4
+        u2 = (0.0 if fixed[k + 2] else S[2, k]) - U[1, k + 2] * u3 - U[2, k + 2] * u4
+        u1 = (0.0 if fixed[k + 1] else S[1, k]) - U[1, k + 1] * u2 - U[2, k + 1] * u3 - U[3, k + 1] * u4
+        U[1, k] = u1 * U[0, k + 1]
+        U[2, k] = u2 * U[0, k + 2]
+        U[3, k] = u3 * U[0, k + 3]
+        U[4, k] = u4 * U[0, k + 4]
+        pivot = S[0, k] - U[4, k] * u4 - U[3, k] * u3 - U[2, k] * u2 - U[1, k] * u1
+        if not pivot * sign[k] > 0.0:
+            return False
+        U[0, k] = 1.0 / pivot
+    return True
+
+
+@compiled
+def substitute_forward(U: Array, right: Array, last: int, z: Array) -> None:
+    """Solve U z = right from unknown ``last`` on, z beyond being known."""
+    z1, z2, z3, z4 = z[last + 1], z[last + 2], z[last + 3], z[last + 4]
+    for k in range(last, PAD - 1, -1):
+        value = (right[k] - U[4, k] * z4 - U[3, k] * z3 - U[2, k] * z2) - U[1, k] * z1
+        z[k] = value
+        z4, z3, z2, z1 = z3, z2, z1, value
+
+
+@compiled
+def substitute_back(U: Array, z: Array, x: Array) -> None:
+    """Solve D Uᵀ x = z."""
+    x1 = x2 = x3 = x4 = 0.0
+    for k in range(PAD, x.size - PAD):
+        if k % 16 == 0 and abs(x1) + abs(x2) + abs(x3) + abs(x4) < FADED:
+            x1 = x2 = x3 = x4 = 0.0
+        value = (z[k] * U[0, k] - U[4, k - 4] * x4 - U[3, k - 3] * x3 - U[2, k - 2] * x2) - U[1, k - 1] * x1
+        x[k] = value
+        x4, x3, x2, x1 = x3, x2, x1, value

@@ -1,0 +1,80 @@
+"""How this package compiles its loops: plain numba, kept on disk in a folder named by the digest of the sources.
+
+Numba looks at a function's own file only when it decides whether what it kept is stale. A folder for each state of the
+package makes functions that call one another stale together. A file that cannot be read or written costs the time to
+compile, never a wrong answer (:func:`recompiling`).
+"""
+
+from __future__ import annotations
+
+import hashlib
+import logging
+import shutil
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any, TypeVar, cast
+
+import numba
+from platformdirs import user_cache_path
+
+__all__ = ["compiled", "recompiling"]
+
+Function = TypeVar("Function", bound=Callable[..., Any])
+Result = TypeVar("Result")
+
+LEAST_SPACE = 100e6  # bytes that must be free on the disk before anything is kept there
+
+
+def digest_of_sources() -> str:
+    """Digest of every module of this package."""
+    files = sorted(Path(__file__).parent.rglob("*.py"))
+    return hashlib.sha256(b"\0".join(file.read_bytes() for file in files)).hexdigest()[:16]
+
+
+FOLDER = user_cache_path("bentbeam") / f"compiled-{digest_of_sources()}"
+
+
+def can_be_kept() -> bool:
+    """Whether the folder can be made and its disk has room."""
+    try:
+        FOLDER.mkdir(parents=True, exist_ok=True)
+        return shutil.disk_usage(FOLDER).free > LEAST_SPACE
+    except OSError:
+        return False
+
+
+KEPT = can_be_kept()
+
+
+def compiled(function: Function) -> Function:
+    """``function`` compiled at its first call for the types of its arguments, and kept on disk where that is possible.
+
+    Sums may be contracted to fused multiply-adds; nothing else of IEEE arithmetic is given up.
+    """
+    before = numba.config.CACHE_DIR  # type: ignore[attr-defined]
+    numba.config.CACHE_DIR = str(FOLDER)  # type: ignore[attr-defined]
+    try:
+        made = numba.njit(cache=KEPT, error_model="numpy", fastmath={"contract"})(function)
+    finally:
+        numba.config.CACHE_DIR = before  # type: ignore[attr-defined]
+    return cast(Function, made)
+
+
+def recompiling(call: Callable[[], Result]) -> Result:
+    """What ``call`` returns, where it is the first to need compiled functions.
+
+    A torn file in the folder, or a disk that has become full, makes numba raise whatever the file made of it. The
+    folder is then removed and ``call`` tried again; a second failure is the caller's own.
+    """
+    if not any(FOLDER.rglob("*.nbi")):
+        message = "compiling, as always on a new machine or after an update: about 20 seconds"
+        logging.getLogger("bent_beam").info(message)
+    try:
+        return call()
+    except ValueError:  # bad input
+        raise
+    except Exception:
+        if not KEPT:
+            raise
+        shutil.rmtree(FOLDER, ignore_errors=True)
+        return call()

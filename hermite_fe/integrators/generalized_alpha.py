@@ -1,0 +1,234 @@
+"""Compiled pieces of generalised-α (Chung & Hulbert 1993) with jumps, shared by the schemes built on it.
+
+    v⁺ = v + h(1 − γ)a + hγa⁺ + W,    q⁺ = q + hv + h²(½ − β)a + h²βa⁺ + U   (thesis 3.3.10–11)
+    (1 − α_m)a⁺ + α_m a = (1 − α_f)v̇⁺ + α_f v̇                                                (3.3.12)
+
+with the coefficients of (3.3.13–16); W and U are the jumps that the contact makes. With s = (1 − α_f)/(1 − α_m), the
+part of a⁺ that is known, a* = (α_f v̇ − α_m a)/(1 − α_m), and the predictions v*, q* made with it,
+
+    v⁺ = v* + hγs v̇⁺ + W,    q⁺ = q* + h²βs v̇⁺ + U,    (M + hγsC + h²βsK)v̇⁺ = F⁺ − Cv* − Kq* + Gᵀλ.
+
+Energy, per step (bars: means over the step, Δ: changes, p: the impulse of all reactions). The scheme misses momentum
+and motion of the mean state by
+
+    r_p = MΔv − h(F̄ − Cv̄ − Kq̄) − Gᵀp = h(½ − α_f)[MΔ(v̇ − a) − GᵀΔ(λ − λ_a)] + h[½J + ½J⁺ − E⁺],
+    r_q = Δq − h v̄ = h²(β − ½γ)Δa + U − ½hW,                                    J = CW + KU,
+
+λ_a the reactions λ through the filter of (3.3.12), J the forces of a step's jumps, which its v̇⁺ has not felt, E
+those that the jump W was made with. From Δ(T + V) = v̄ᵀMΔv + q̄ᵀKΔq follows, exactly,
+
+    Δ(T + V) = F̄ᵀΔq − h v̄ᵀCv̄ + pᵀGv̄ + v̄ᵀr_p + (Kq̄ − F̄)ᵀr_q:
+
+work of loads, (minus) viscous losses, loss in impacts, algorithmic loss. The last is evaluated on the right-hand
+sides of r_p and r_q, never as what the others leave, so that a wrong force, velocity or energy shows as an energy
+residual.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hermite_fe.active_set import SOLVED, solve_constrained
+from hermite_fe.banded import copy, dot, multiply, stiff_multiply
+from hermite_fe.compiled import compiled
+from hermite_fe.constraints import Constraints, Rows, constraints_of, note_complementarity, row_times
+from hermite_fe.solver import Solver, prepare
+from hermite_fe.stepping import (
+    Matrices,
+    Problem,
+    State,
+    add_energies,
+    forces_at,
+    initial_acceleration,
+    mean_forces,
+)
+
+__all__ = ["AlphaMemory", "Reactions", "Scheme", "Vectors", "add_step", "alpha_memory", "begin",
+           "correct", "predict", "prepare_step", "scheme_of", "smooth_motion",
+           "take_reaction"]  # fmt: skip
+
+Array = NDArray[np.float64]
+Flags = NDArray[np.bool_]
+
+
+class Scheme(NamedTuple):
+    """Coefficients of (3.3.13–16), and s = (1 − α_f)/(1 − α_m)."""
+
+    alpha_m: float
+    alpha_f: float
+    gamma: float
+    beta: float
+    s: float
+
+
+def scheme_of(spectral_radius: float) -> Scheme:
+    """The coefficients for ρ∞."""
+    alpha_m = (2.0 * spectral_radius - 1.0) / (spectral_radius + 1.0)
+    alpha_f = spectral_radius / (spectral_radius + 1.0)
+    gamma = 0.5 + alpha_f - alpha_m
+    return Scheme(alpha_m, alpha_f, gamma, 0.25 * (gamma + 0.5) ** 2, (1.0 - alpha_f) / (1.0 - alpha_m))
+
+
+class Reactions(NamedTuple):
+    """Reactions of the smooth motion, (rows,): λ, λ_a, λ − λ_a at the start of the step, and the impulse p of the step;
+    at_rest : constraints closed without rebound."""
+
+    value: Array
+    filtered: Array
+    lag: Array
+    impulse: Array
+    at_rest: Flags
+
+
+class Vectors(NamedTuple):
+    """Vectors (dofs,). a and jump_force (J) are remembered from step to step.
+
+    Of a step: old_q, old_v; predicted : a*; lag : v̇ − a at the start; new_jump_force : J⁺; missed_momentum : ½J⁺ − E⁺;
+    missed_motion : r_q; b, x, force, scratch : to work in.
+    """
+
+    a: Array
+    jump_force: Array
+    old_q: Array
+    old_v: Array
+    predicted: Array
+    lag: Array
+    new_jump_force: Array
+    missed_momentum: Array
+    missed_motion: Array
+    b: Array
+    x: Array
+    force: Array
+    scratch: Array
+
+
+class AlphaMemory(NamedTuple):
+    """What the scheme remembers from step to step, and the conditions of the three contact problems of a step."""
+
+    scheme: Scheme
+    vectors: Vectors
+    reactions: Reactions
+    smooth: Constraints
+    position: Constraints
+    velocity: Constraints
+
+
+def alpha_memory(problem: Problem, spectral_radius: float) -> AlphaMemory:
+    """Memory at the start: no jumps and no reactions before it."""
+    m, n = problem.rows.gap.size, problem.matrices.M.shape[1]
+    value, filtered, lag, impulse = np.zeros((4, m))
+    return AlphaMemory(
+        scheme_of(spectral_radius),
+        Vectors(*np.zeros((13, n))),
+        Reactions(value, filtered, lag, impulse, np.zeros(m, np.bool_)),
+        *(constraints_of(problem.rows) for _ in range(3)),
+    )
+
+
+@compiled
+def begin(matrices: Matrices, rows: Rows, solver: Solver, state: State, vectors: Vectors) -> int:
+    """v̇ = a at the start; returns the status of the solution."""
+    status = initial_acceleration(matrices, rows, solver, state, vectors.b, vectors.scratch)
+    copy(state.acceleration, vectors.a)
+    return status
+
+
+@compiled
+def prepare_step(matrices: Matrices, rows: Rows, solver: Solver, scheme: Scheme, h: float, t: float) -> float:
+    """Make M + hγsC + h²βsK, the matrix of v̇⁺ and of the jumps, for a step to t; returns the length of the step."""
+    velocity_share, position_share = h * scheme.gamma * scheme.s, h * h * scheme.beta * scheme.s
+    return prepare(solver, rows, matrices.M, matrices.C, matrices.K, velocity_share, position_share, h, t)
+
+
+@compiled
+def predict(scheme: Scheme, q: Array, v: Array, rate: Array, vectors: Vectors, h: float) -> None:
+    """Keep the start of the step, and put q*, v* in place of q, v; rate : v̇."""
+    alpha_m, alpha_f, gamma, beta, _ = scheme
+    a, old_q, old_v, predicted, lag = vectors.a, vectors.old_q, vectors.old_v, vectors.predicted, vectors.lag
+    missed_motion = vectors.missed_motion
+    for i in range(q.size):
+        known = (alpha_f * rate[i] - alpha_m * a[i]) / (1.0 - alpha_m)
+        old_q[i], old_v[i], predicted[i], lag[i] = q[i], v[i], known, rate[i] - a[i]
+        missed_motion[i] = -h * h * (beta - 0.5 * gamma) * a[i]
+        q[i] += h * v[i] + h * h * ((0.5 - beta) * a[i] + beta * known)
+        v[i] += h * ((1.0 - gamma) * a[i] + gamma * known)
+
+
+@compiled
+def correct(scheme: Scheme, q: Array, v: Array, rate: Array, vectors: Vectors, h: float) -> None:
+    """The a⁺, q⁺, v⁺ that follow from v̇⁺ = ``vectors.x``, which ``rate`` becomes; jumps are not in them."""
+    _, _, gamma, beta, s = scheme
+    a, old_q, old_v, x, predicted = vectors.a, vectors.old_q, vectors.old_v, vectors.x, vectors.predicted
+    missed_motion = vectors.missed_motion
+    for i in range(q.size):
+        before = a[i]
+        rate[i] = x[i]
+        a[i] = predicted[i] + s * x[i]
+        q[i] = old_q[i] + h * old_v[i] + h * h * ((0.5 - beta) * before + beta * a[i])
+        v[i] = old_v[i] + h * ((1.0 - gamma) * before + gamma * a[i])
+        missed_motion[i] += h * h * (beta - 0.5 * gamma) * a[i]
+
+
+@compiled
+def take_reaction(scheme: Scheme, reactions: Reactions, h: float, j: int, force: float) -> None:
+    """Constraint j's reaction at the end of the step is ``force``; its impulse over the step follows through the filter
+    that v̇ goes through."""
+    alpha_m, alpha_f, gamma, _, s = scheme
+    value, filtered = reactions.value[j], reactions.filtered[j]
+    new = (alpha_f * value - alpha_m * filtered) / (1.0 - alpha_m) + s * force
+    reactions.lag[j] = value - filtered
+    reactions.value[j], reactions.filtered[j] = force, new
+    reactions.impulse[j] = h * ((1.0 - gamma) * filtered + gamma * new)
+
+
+@compiled
+def smooth_motion(
+    problem: Problem, state: State, scheme: Scheme, vectors: Vectors, reactions: Reactions, smooth: Constraints,
+    t: float, h: float
+) -> int:  # fmt: skip
+    """The step's motion without jumps, under the reactions that ``smooth`` asks for; returns the status."""
+    matrices, rows, _, solver = problem
+    predict(scheme, state.q, state.v, state.acceleration, vectors, h)
+    forces_at(matrices, t + h, state.q, state.v, vectors.b, vectors.scratch)
+    status = solve_constrained(solver, rows, smooth, vectors.b, vectors.x)
+    if status == SOLVED:
+        note_complementarity(rows, smooth, vectors.x, h, h, state.worst)
+        correct(scheme, state.q, state.v, state.acceleration, vectors, h)
+        for j in range(smooth.p.size):
+            take_reaction(scheme, reactions, h, j, smooth.p[j])
+    return status
+
+
+@compiled
+def add_step(
+    matrices: Matrices, rows: Rows, state: State, scheme: Scheme, vectors: Vectors, reactions: Reactions, t: float,
+    h: float
+) -> None:  # fmt: skip
+    """Add the energies of the step, by the sums in the module's head, and pass its jumps on to the next."""
+    q, v, mean_q, mean_v, lag = state.q, state.v, vectors.old_q, vectors.old_v, vectors.lag
+    force, product, change = vectors.force, vectors.scratch, vectors.b
+    a, rate, half = vectors.a, state.acceleration, 0.5 - scheme.alpha_f
+    mean_forces(matrices.load, t, h, 0.5, force)
+    for i in range(q.size):
+        change[i] = q[i] - mean_q[i]
+        mean_q[i] = 0.5 * (q[i] + mean_q[i])
+        mean_v[i] = 0.5 * (v[i] + mean_v[i])
+        lag[i] = (rate[i] - a[i]) - lag[i]
+    stiff_multiply(matrices.K, matrices.K_sums, mean_q, product)
+    missed, motion, momentum = vectors.missed_motion, 0.0, 0.0
+    for i in range(q.size):
+        motion += (product[i] - force[i]) * missed[i]
+    multiply(matrices.M, lag, product)
+    missed, J, new_J = vectors.missed_momentum, vectors.jump_force, vectors.new_jump_force
+    for i in range(q.size):
+        momentum += mean_v[i] * (half * product[i] + 0.5 * J[i] + missed[i])
+        J[i] = new_J[i]
+    for j in range(reactions.value.size):
+        lag_change = reactions.value[j] - reactions.filtered[j] - reactions.lag[j]
+        if lag_change != 0.0:
+            momentum -= half * lag_change * row_times(rows, mean_v, j)
+    work, loss = dot(force, change), -motion - h * momentum
+    add_energies(matrices, rows, h, work, reactions.impulse, mean_v, mean_v, loss, product, state.energy)

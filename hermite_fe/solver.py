@@ -1,0 +1,183 @@
+"""The linear system of a time step under closed contact constraints, on banded matrices:
+
+    S x = b + Gᵀp,      G x = c for the closed constraints,      p = 0 for the open,      x = 0 at supports.
+
+A constraint on one dof fixes that dof while it is closed; p is what its equation lacks. A constraint on several dofs
+has a multiplier −p among the unknowns, fixed at 0 while it is open. Either way to open or close one changes one flag
+in ``fixed``, and the factors from there to the first unknown (:mod:`hermite_fe.banded`). Which are closed is settled
+in :mod:`hermite_fe.active_set`.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hermite_fe.banded import PAD, combine, factor, substitute_back, substitute_forward
+from hermite_fe.compiled import compiled
+from hermite_fe.constraints import Rows
+from hermite_fe.system import System
+
+__all__ = ["Solver", "exchange", "prepare", "refactor_from", "solver_of", "update"]
+
+Array = NDArray[np.float64]
+Flags = NDArray[np.bool_]
+Places = NDArray[np.int64]
+
+SAME_STEP = 2.0**-50  # of the time: step lengths closer than the rounding of two instants are one step length
+
+
+class Solver(NamedTuple):
+    """The step matrix, its factors, and what of the constraints they know.
+
+    unknown : (dofs,), the place of a dof among the unknowns; row_unknown : (rows,), the unknown a constraint fixes.
+    S, U : (5, unknowns + 2 PAD); sign, fixed : (unknowns + 2 PAD,), see :func:`hermite_fe.banded.factor`.
+    right, forward, y : (unknowns + 2 PAD,), the right-hand side, and the solution after either substitution.
+    closed : (rows,), the constraints as the factors have them; excess : (rows,), by how much each sign is wrong.
+    stale : (1,), the last unknown whose factors are out of date, −1: none. step : (1,), s, the step S is made for.
+    rounds : (3,), contact problems solved, rounds of all of them, most rounds of one.
+    """
+
+    unknown: Places
+    row_unknown: Places
+    S: Array
+    U: Array
+    sign: Array
+    fixed: Flags
+    right: Array
+    forward: Array
+    y: Array
+    closed: Flags
+    excess: Array
+    stale: Places
+    step: Array
+    rounds: Places
+
+
+def solver_of(system: System) -> Solver:
+    """The unknowns of ``system`` in order: dofs, and each multiplier after the second dof that its constraint touches.
+
+    Raises ``ValueError`` when constraints on several dofs are not those of neighbouring nodes, one at most for two
+    dofs.
+    """
+    rows, n = system.contacts, system.dofs
+    m, width = rows.dofs.shape
+    unknown = np.arange(n) + PAD
+    if width > 1:
+        before = np.sort(rows.dofs, axis=1)[:, (width - 1) // 2]  # the dof that a multiplier follows
+        unknown += np.searchsorted(before, np.arange(n), side="left")
+        row_unknown = unknown[before] + 1
+        check_width(system, unknown, row_unknown)
+    else:
+        row_unknown = unknown[rows.dofs[:, 0]]
+    size = (n if width == 1 else n + m) + 2 * PAD
+    fixed = np.zeros(size, np.bool_)
+    fixed[unknown[list(system.supports)]] = True
+    sign = np.ones(size)
+    if width > 1:
+        fixed[row_unknown] = True
+        sign[row_unknown] = -1.0
+    U = np.zeros((5, size))
+    U[0] = 1.0
+    return Solver(
+        unknown=unknown,
+        row_unknown=row_unknown,
+        S=np.zeros((5, size)),
+        U=U,
+        sign=sign,
+        fixed=fixed,
+        right=np.zeros(size),
+        forward=np.zeros(size),
+        y=np.zeros(size),
+        closed=np.zeros(m, np.bool_),
+        excess=np.zeros(m),
+        stale=np.array([size - PAD - 1]),
+        step=np.full(1, np.nan),
+        rounds=np.zeros(3, np.int64),
+    )
+
+
+def check_width(system: System, unknown: Places, row_unknown: Places) -> None:
+    """``ValueError`` when some matrix or constraint reaches further than the step matrix is wide."""
+    tight = np.all(np.diff(row_unknown) > 0)
+    tight &= np.abs(unknown[system.contacts.dofs] - row_unknown[:, None]).max(initial=0) <= 4
+    for bands in (system.mass, system.stiffness, system.damping):
+        for k in range(1, 4):
+            tight &= not np.any(bands[k, :-k][unknown[k:] - unknown[:-k] > 4])
+    if not tight:
+        raise ValueError("contact rows must each touch a few neighbouring dofs, at most one row for two dofs")
+
+
+@compiled
+def prepare(
+    solver: Solver, rows: Rows, M: Array, C: Array, K: Array, c: float, k: float, h: float, t: float
+) -> float:
+    """Make S = M + cC + kK for steps of h s at t s, unless it is made for such steps already. Returns its step length,
+    which differs from h by rounding at most."""
+    if abs(solver.step[0] - h) <= SAME_STEP * t:
+        return solver.step[0]
+    combine(M, C, K, c, k, solver.unknown, solver.S)
+    if rows.dofs.shape[1] > 1:
+        for j in range(solver.row_unknown.size):
+            multiplier = solver.row_unknown[j]
+            for i in range(rows.dofs.shape[1]):
+                k_dof = solver.unknown[rows.dofs[j, i]]
+                solver.S[abs(k_dof - multiplier), min(k_dof, multiplier)] = rows.factors[j, i]
+    solver.step[0] = h
+    solver.stale[0] = solver.S.shape[1] - PAD - 1
+    return h
+
+
+@compiled
+def refactor_from(solver: Solver, unknown: int) -> None:
+    """Count the factors of all unknowns up to ``unknown`` as out of date."""
+    solver.stale[0] = max(solver.stale[0], unknown)
+
+
+@compiled
+def exchange(solver: Solver, rows: Rows, j: int) -> None:
+    """Open constraint j where it is closed, close it where it is open."""
+    solver.closed[j] = not solver.closed[j]
+    k = solver.row_unknown[j]
+    solver.fixed[k] = solver.closed[j] == (rows.dofs.shape[1] == 1)
+    refactor_from(solver, k)
+
+
+@compiled
+def right_side(solver: Solver, rows: Rows, b: Array, target: Array) -> None:
+    """The right-hand side of all unknowns, known values taken across."""
+    right, fixed, S = solver.right, solver.fixed, solver.S
+    for i in range(b.size):
+        k = solver.unknown[i]
+        right[k] = 0.0 if fixed[k] else b[i]
+    for j in range(solver.row_unknown.size):
+        k = solver.row_unknown[j]
+        if rows.dofs.shape[1] > 1:
+            right[k] = target[j] if solver.closed[j] else 0.0
+        elif solver.closed[j]:
+            value = target[j] / rows.factors[j, 0]
+            right[k] = value
+            for m in range(1, 5):
+                if not fixed[k - m]:
+                    right[k - m] -= S[m, k - m] * value
+                if not fixed[k + m]:
+                    right[k + m] -= S[m, k] * value
+
+
+@compiled
+def update(solver: Solver, rows: Rows, b: Array, target: Array, last: int) -> bool:
+    """Solve for y with the constraints as they are closed now; False where S is singular.
+
+    last : beyond this unknown the right-hand side is as it was in the solution before.
+    """
+    stale = solver.stale[0]
+    if stale >= 0 and not factor(solver.S, solver.fixed, solver.sign, stale, solver.U):
+        solver.step[0] = np.nan
+        return False
+    solver.stale[0] = -1
+    right_side(solver, rows, b, target)
+    substitute_forward(solver.U, solver.right, max(last, min(stale + 4, solver.y.size - PAD - 1)), solver.forward)
+    substitute_back(solver.U, solver.forward, solver.y)
+    return True

@@ -1,0 +1,168 @@
+"""What a time integrator works on: the arrays of a system and of its motion, and the compiled pieces of a step."""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hermite_fe.active_set import solve_free
+from hermite_fe.banded import dot, multiply, row_sums, stiff_multiply
+from hermite_fe.compiled import compiled
+from hermite_fe.constraints import Constraints, ContactLaw, Rows, row_times, rows_of
+from hermite_fe.solver import Solver, prepare, solver_of
+from hermite_fe.system import System
+
+__all__ = ["ABSORBED", "ALGORITHMIC", "IMPACT", "MATERIAL", "VISCOUS", "WORK", "Matrices", "Problem", "State",
+           "add_energies", "add_impulses", "forces_at", "initial_acceleration", "is_finite", "mean_forces",
+           "problem_of", "state_of"]  # fmt: skip
+
+Array = NDArray[np.float64]
+Flags = NDArray[np.bool_]
+Places = NDArray[np.int64]
+
+WORK, IMPACT, ALGORITHMIC, VISCOUS, MATERIAL, ABSORBED = range(6)
+"""Places in ``State.energy``, J since the start: work of the loads, and what each cause took: impacts, the scheme's own
+damping, viscosity at grid scale, the material's damping, an absorbing layer. Each is computed from its cause, so that
+what they leave of the change of kinetic and strain energy is the energy residual of a run."""
+
+CAUSES = {"viscous": VISCOUS, "material": MATERIAL, "absorbed": ABSORBED}
+
+
+class Matrices(NamedTuple):
+    """Matrices and loads, shapes as in :class:`hermite_fe.system.System`.
+
+    K_sums, C_sums : (2, dofs), :func:`hermite_fe.banded.row_sums` of K and C.
+    parts : (causes, 4, dofs), C by cause; causes : (causes,), where in ``State.energy`` each is booked.
+    """
+
+    M: Array
+    C: Array
+    K: Array
+    K_sums: Array
+    C_sums: Array
+    parts: Array
+    causes: Places
+    load: Array
+
+
+class Problem(NamedTuple):
+    """What does not change during a run, and room for the contact problem of a step."""
+
+    matrices: Matrices
+    rows: Rows
+    law: ContactLaw
+    solver: Solver
+
+
+class State(NamedTuple):
+    """What a step changes.
+
+    q, v, acceleration : (dofs,), the motion; the acceleration where the integrator has one.
+    closed : (rows,). impulse, held_impulse : (rows,), N s since the start, and of it what held constraints pulled.
+    energy : (6,), J, see :data:`WORK`. worst : (2,), see :data:`hermite_fe.constraints.PRODUCT`.
+    """
+
+    q: Array
+    v: Array
+    acceleration: Array
+    closed: Flags
+    impulse: Array
+    held_impulse: Array
+    energy: Array
+    worst: Array
+
+
+def problem_of(system: System, law: ContactLaw) -> Problem:
+    """The arrays of a system."""
+    parts = np.array([bands for _, bands in system.dampings]).reshape(-1, *system.damping.shape)
+    matrices = Matrices(
+        M=system.mass, C=system.damping, K=system.stiffness,
+        K_sums=row_sums(system.stiffness), C_sums=row_sums(system.damping),
+        parts=parts, causes=np.array([CAUSES[cause] for cause, _ in system.dampings], np.int64),
+        load=system.load if np.any(system.load) else np.zeros((0, system.dofs)),
+    )  # fmt: skip
+    return Problem(matrices, rows_of(system.contacts), law, solver_of(system))
+
+
+def state_of(system: System, q: Array, v: Array) -> State:
+    """The state at the start, q and v copied."""
+    n, m = system.dofs, len(system.contacts)
+    return State(
+        q=np.array(q, float), v=np.array(v, float), acceleration=np.zeros(n), closed=np.zeros(m, np.bool_),
+        impulse=np.zeros(m), held_impulse=np.zeros(m), energy=np.zeros(6), worst=np.zeros(2),
+    )  # fmt: skip
+
+
+@compiled
+def is_finite(state: State) -> bool:
+    """Whether a step has gone well: its energies are finite, which all of the motion goes into."""
+    total = state.v[0]
+    for cause in range(state.energy.size):
+        total += state.energy[cause]
+    return math.isfinite(total)
+
+
+@compiled
+def mean_forces(load: Array, t: float, h: float, theta: float, out: Array) -> None:
+    """out = θF(t + h) + (1 − θ)F(t), with F = Σ_k load[k]·t^k."""
+    out[:] = 0.0
+    for power in range(load.shape[0]):
+        mean = theta * (t + h) ** power + (1.0 - theta) * t**power if power > 0 else 1.0
+        for i in range(out.size):
+            out[i] += mean * load[power, i]
+
+
+@compiled
+def forces_at(matrices: Matrices, t: float, q: Array, v: Array, out: Array, scratch: Array) -> None:
+    """out = F(t) − Cv − Kq."""
+    mean_forces(matrices.load, t, 0.0, 1.0, out)
+    stiff_multiply(matrices.K, matrices.K_sums, q, scratch)
+    for i in range(q.size):
+        out[i] -= scratch[i]
+    if matrices.causes.size > 0:
+        stiff_multiply(matrices.C, matrices.C_sums, v, scratch)
+        for i in range(q.size):
+            out[i] -= scratch[i]
+
+
+@compiled
+def initial_acceleration(
+    matrices: Matrices, rows: Rows, solver: Solver, state: State, b: Array, scratch: Array
+) -> int:
+    """``state.acceleration`` = M⁻¹(F − Cv − Kq) at the start, without reactions; returns the status of the solution."""
+    prepare(solver, rows, matrices.M, matrices.C, matrices.K, 0.0, 0.0, 0.0, 0.0)
+    forces_at(matrices, 0.0, state.q, state.v, b, scratch)
+    return solve_free(solver, rows, b, state.acceleration)
+
+
+@compiled
+def add_impulses(state: State, conditions: Constraints) -> None:
+    """Add the impulses of a step to those so far."""
+    for j in range(conditions.p.size):
+        state.impulse[j] += conditions.p[j]
+        if conditions.held[j]:
+            state.held_impulse[j] += min(conditions.p[j], 0.0)
+
+
+@compiled
+def add_energies(
+    matrices: Matrices, rows: Rows, h: float, work: float, impulse: Array, mean_v: Array, damped_v: Array,
+    algorithmic: float, scratch: Array, energy: Array
+) -> None:  # fmt: skip
+    """Add the energies of a step of length h to ``energy``, each from its cause.
+
+    work : of the loads. impulse : p, (rows,); mean_v : v̄ = ½(v + v⁺), (dofs,): impacts take −pᵀGv̄.
+    damped_v : the velocity v_d that the scheme's damping acts on: each cause of damping takes h v_dᵀCv_d.
+    algorithmic : the scheme's own loss, from the scheme's own formula.
+    """
+    energy[WORK] += work
+    for j in range(impulse.size):
+        if impulse[j] != 0.0:
+            energy[IMPACT] -= impulse[j] * row_times(rows, mean_v, j)
+    energy[ALGORITHMIC] += algorithmic
+    for part in range(matrices.causes.size):
+        multiply(matrices.parts[part], damped_v, scratch)
+        energy[matrices.causes[part]] += h * dot(damped_v, scratch)

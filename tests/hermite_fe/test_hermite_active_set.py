@@ -1,0 +1,272 @@
+"""The compiled contact problem and factorisation against truth: every active set tried densely, and LAPACK."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+from scipy.linalg import cho_solve_banded, cholesky_banded
+
+from bent_beam.meshes import ScaleFreeMesh
+from hermite_fe.active_set import CYCLING, SOLVED, find_wrong, solve_constrained, solve_one_by_one
+from hermite_fe.banded import PAD, multiply, row_sums, stiff_multiply
+from hermite_fe.beam import HermiteBeam
+from hermite_fe.constraints import Constraints, ContactLaw, constraints_of, row_times, rows_of, rows_times
+from hermite_fe.contacts import MeanContact
+from hermite_fe.solver import prepare
+from hermite_fe.stepping import Problem, mean_forces, problem_of
+from hermite_fe.system import ContactRows, System
+
+Array = NDArray[np.float64]
+
+
+def dense(bands: Array) -> Array:
+    """The symmetric matrix of lower bands."""
+    n = bands.shape[1]
+    lower = sum(np.diag(bands[m, : n - m], -m) for m in range(min(4, n)))
+    return np.asarray(lower + np.tril(lower, -1).T)
+
+
+def random_system(random: np.random.Generator) -> System:
+    """A positive definite matrix put together from elements; up to seven rows of one dof, or of an element's four."""
+    nodes = int(random.integers(2, 8))
+    n = 2 * nodes
+    full = np.diag(random.uniform(0.1, 4.0, n))
+    for e in range(nodes - 1):  # elements, as in a beam
+        part = random.normal(size=(4, 4)) * random.choice([0.1, 1.0, 10.0])
+        full[2 * e : 2 * e + 4, 2 * e : 2 * e + 4] += part @ part.T
+    bands = np.stack([np.pad(np.diag(full, -m), (0, m)) for m in range(4)])
+    if random.random() < 0.5:
+        dofs = 2 * np.sort(random.choice(nodes, int(random.integers(1, nodes + 1)), replace=False))[:, None]
+    else:
+        elements = np.sort(random.choice(nodes - 1, int(random.integers(1, nodes)), replace=False))
+        dofs = 2 * elements[:, None] + np.arange(4)
+    factors = random.choice([-1.0, 1.0], dofs.shape) * random.uniform(0.5, 2.0, dofs.shape)
+    free = np.setdiff1d(np.arange(n), dofs) if dofs.shape[1] == 1 else np.arange(1, n, 2)
+    supports = tuple(int(d) for d in free[random.random(free.size) < 0.1][:1])
+    return System(
+        mass=bands,
+        stiffness=np.zeros((1, n)),
+        contacts=ContactRows(dofs=dofs, factors=factors, gap=np.zeros(len(dofs))),
+        supports=supports,
+    )
+
+
+def ready(system: System, k: float = 0.0) -> tuple[Problem, Constraints]:
+    """A system with the step matrix M + kK, and one set of conditions."""
+    problem = problem_of(system, ContactLaw())
+    renew(problem, k)
+    return problem, constraints_of(problem.rows)
+
+
+def renew(problem: Problem, k: float) -> None:
+    """The step matrix M + kK."""
+    matrices = problem.matrices
+    prepare(problem.solver, problem.rows, matrices.M, matrices.C, matrices.K, 0.0, k, k + 1.0, 1.0)
+
+
+def truth(system: System, b: Array, target: Array, candidate: Array, held: Array) -> tuple[Array, Array]:
+    """x and p of the one active set, out of all, that breaks no sign (or breaks them least: round-off)."""
+    rows, n = system.contacts, system.dofs
+    m = len(rows)
+    G = np.zeros((m, n))
+    np.put_along_axis(G, rows.dofs, rows.factors, axis=1)
+    keep = np.setdiff1d(np.arange(n), system.supports)
+    inverse = np.zeros((n, n))
+    inverse[np.ix_(keep, keep)] = np.linalg.inv(dense(system.mass)[np.ix_(keep, keep)])
+    W, free = G @ inverse @ G.T, G @ inverse @ b - target
+    sets = (np.arange(2**m)[:, None] >> np.arange(m)) & 1 == 1
+    sets = sets[np.all(sets | ~held, axis=1) & np.all(~sets | candidate | held, axis=1)]
+    both = sets[:, :, None] & sets[:, None, :]
+    p = np.linalg.solve(np.where(both, W, np.eye(m)), np.where(sets, -free, 0.0)[:, :, None])[:, :, 0]
+    slack = p @ W + free
+    worst = np.maximum(np.where(held, 0.0, -p), np.where(candidate & ~sets, -slack, 0.0)).max(axis=1)
+    best = int(np.argmin(worst))
+    return inverse @ (b + G.T @ p[best]), p[best]
+
+
+def check(seed: int) -> None:
+    random = np.random.default_rng(seed)
+    system = random_system(random)
+    problem, conditions = ready(system)
+    n, m = system.dofs, len(system.contacts)
+    b = random.normal(size=n)
+    target = random.normal(size=m)
+    degenerate = random.random()
+    if degenerate < 0.1:
+        b, target = np.round(b), np.zeros(m)
+    elif degenerate < 0.3:  # some rows just touch: no gap and no reaction
+        none = np.zeros(m, bool)
+        x, _ = truth(system, b, target, none, none)
+        touching = np.einsum("jk,jk->j", system.contacts.factors, x[system.contacts.dofs])
+        target = np.where(random.random(m) < 0.5, touching, target)
+    candidate, held = random.random(m) < 0.9, random.random(m) < 0.1
+    exact_x, exact_p = truth(system, b, target, candidate, held)
+    scale = 1.0 + np.abs(exact_x).max() + np.abs(exact_p).max()
+    conditions.target[:], conditions.candidate[:], conditions.held[:] = target, candidate, held
+    x = np.zeros(n)
+    for _ in range(3):  # from one guess to the next the factors are kept
+        conditions.closed[:] = random.random(m) < 0.5
+        assert solve_constrained(problem.solver, problem.rows, conditions, b, x) == SOLVED, seed
+        assert np.abs(x - exact_x).max() < 1e-7 * scale, seed
+        assert np.abs(conditions.p - exact_p).max() < 1e-7 * scale, seed
+
+
+def test_contact_problems_are_solved_as_by_trying_every_active_set() -> None:
+    """300 random problems, degenerate ones among them, each from three wrong guesses."""
+    for seed in range(300):
+        check(seed)
+
+
+def test_the_fall_back_finds_the_same_reactions_from_none() -> None:
+    """What takes over when exchanging many rows at once runs in a circle, asked directly."""
+    for seed in range(200):
+        random = np.random.default_rng(seed)
+        system = random_system(random)
+        problem, conditions = ready(system)
+        n, m = system.dofs, len(system.contacts)
+        b, target = random.normal(size=n), random.normal(size=m)
+        candidate, held = random.random(m) < 0.9, random.random(m) < 0.1
+        conditions.target[:], conditions.candidate[:], conditions.held[:] = target, candidate, held
+        conditions.p[:] = random.normal(size=m)  # whatever was there before
+        exact_x, exact_p = truth(system, b, target, candidate, held)
+        conditions.closed[:] = random.random(m) < 0.5
+        x = np.zeros(n)
+        assert solve_one_by_one(problem.solver, problem.rows, conditions, b, x) == SOLVED, seed
+        scale = 1.0 + np.abs(exact_x).max() + np.abs(exact_p).max()
+        assert np.abs(x - exact_x).max() < 1e-7 * scale, seed
+        assert np.abs(conditions.p - exact_p).max() < 1e-7 * scale, seed
+
+
+def test_the_fall_back_never_calls_a_row_inside_the_wall_solved() -> None:
+    """Rows that just touch: signs are judged more leniently then, but no row may be left out in silence."""
+    for seed in range(200):
+        random = np.random.default_rng([5, seed])
+        system = random_system(random)
+        problem, conditions = ready(system)
+        n, m = system.dofs, len(system.contacts)
+        none = np.zeros(m, bool)
+        b, target = random.normal(size=n), random.normal(size=m)
+        x, _ = truth(system, b, target, none, none)
+        touching = np.einsum("jk,jk->j", system.contacts.factors, x[system.contacts.dofs])
+        conditions.target[:] = np.where(random.random(m) < 0.9, touching, target)
+        conditions.candidate[:] = True
+        status = solve_one_by_one(problem.solver, problem.rows, conditions, b, x)
+        assert status in (SOLVED, CYCLING)
+        if status == SOLVED:
+            assert find_wrong(problem.solver, problem.rows, conditions, b, x, 1e-8)[0] == 0, seed
+
+
+@pytest.mark.verify
+def test_ten_thousand_contact_problems() -> None:
+    for seed in range(1000, 11000):
+        check(seed)
+
+
+def test_the_factors_solve_like_lapack_s() -> None:
+    """The step matrix of a strongly graded beam."""
+    beam = HermiteBeam(ScaleFreeMesh(element_length=1e-3, growth=1.02).nodes(10.0), 1.0, 1.0)
+    system = System(
+        mass=beam.mass(),
+        stiffness=beam.stiffness(),
+        contacts=ContactRows(dofs=[[0]], factors=[[1.0]], gap=[0.0]),
+    )
+    problem, conditions = ready(system, 1e-6)
+    bands = system.mass + 1e-6 * system.stiffness
+    errors = []
+    for seed in range(8):
+        known = np.random.default_rng(seed).normal(size=system.dofs)
+        b, x = dense(bands) @ known, np.zeros(system.dofs)
+        assert solve_constrained(problem.solver, problem.rows, conditions, b, x) == SOLVED
+        lapack = cho_solve_banded((cholesky_banded(bands, lower=True), True), b)
+        errors.append([np.abs(solution - known).max() for solution in (x, lapack)])
+    ours, theirs = np.max(errors, axis=0)
+    assert 0.0 < theirs < 1e-6
+    assert ours < 5.0 * theirs
+
+
+@pytest.mark.parametrize("n", [2, 4, 6, 8, 10, 16, 30])
+def test_products_are_those_of_the_dense_matrix(n: int) -> None:
+    random = np.random.default_rng(n)
+    bands, x, y = random.normal(size=(4, n)), random.normal(size=n), np.zeros(n)
+    for m in range(4):
+        bands[m, max(n - m, 0) :] = 0.0
+    full = dense(bands)
+    multiply(bands, x, y)
+    assert y == pytest.approx(full @ x, rel=1e-13, abs=1e-13)
+    stiff_multiply(bands, row_sums(bands), x, y)
+    assert y == pytest.approx(full @ x, rel=1e-13, abs=1e-13)
+
+
+@pytest.mark.parametrize("width", [1, 4])
+def test_gaps_are_rows_times_displacements(width: int) -> None:
+    random = np.random.default_rng(width)
+    dofs = np.array([[0], [3], [4]]) + np.arange(width)
+    factors, x, out = random.normal(size=(3, width)), random.normal(size=9), np.full(3, 7.0)
+    rows = rows_of(ContactRows(dofs=dofs, factors=factors, gap=np.zeros(3)))
+    exact = (factors * x[dofs]).sum(axis=1)
+    rows_times(rows, x, out)
+    assert out == pytest.approx(exact, rel=1e-14)
+    assert [row_times(rows, x, j) for j in range(3)] == pytest.approx(exact, rel=1e-14)
+
+
+def test_loads_are_powers_of_time() -> None:
+    load, force = np.array([[1.0, -2.0], [0.5, 3.0], [-4.0, 0.25]]), np.full(2, 9.0)
+    t, h, theta = 0.7, 0.2, 0.6
+    mean_forces(load, t, h, theta, force)
+    exact = [theta * np.polyval(c[::-1], t + h) + (1.0 - theta) * np.polyval(c[::-1], t) for c in load.T]
+    assert force == pytest.approx(exact, rel=1e-14)
+
+
+@pytest.mark.parametrize("width", [1, 4])
+def test_a_front_that_runs_and_lifts_leaves_no_sign_wrong(width: int) -> None:
+    """Factors are kept from solve to solve while a front runs over a beam, and now and then something lifts behind
+    it."""
+    for seed in range(10):
+        random = np.random.default_rng(seed)
+        beam = HermiteBeam(np.cumsum(random.uniform(0.5, 1.5, 200)), 1.0, 1.0)
+        m = 200 - (width > 1)
+        dofs = 2 * np.arange(m)[:, None] + np.arange(width)
+        factors = np.tile({1: [-1.0], 4: [-0.5, -0.1, -0.5, 0.1]}[width], (m, 1))
+        rows = ContactRows(dofs=dofs, factors=factors, gap=np.zeros(m))
+        system = System(
+            mass=beam.mass(), stiffness=beam.stiffness(), contacts=rows, supports=(1,) if width == 1 else ()
+        )
+        problem, conditions = ready(system, 0.3)
+        S, G, n = dense(system.mass + 0.3 * system.stiffness), np.zeros((m, system.dofs)), system.dofs
+        np.put_along_axis(G, dofs, factors, axis=1)
+        free, x = np.setdiff1d(np.arange(n), system.supports), np.zeros(n)
+        for step in range(60):
+            if step % 17 == 16:
+                problem.solver.step[0] = np.nan  # a new matrix, as when the step length changes
+                renew(problem, 0.3)
+            b = random.normal(size=n) * 1e-3 + (np.arange(n) % 2 == 0) * np.where(np.arange(n) < 6 * step, 1.0, -0.05)
+            if random.random() < 0.1:
+                b[2 * random.integers(0, 60)] -= 30.0
+            conditions.target[:], conditions.candidate[:] = 1e-3 * random.normal(size=m), True
+            assert solve_constrained(problem.solver, problem.rows, conditions, b, x) == SOLVED
+            residual = (S @ x - b - G.T @ conditions.p)[free]
+            slack = G @ x - conditions.target
+            scale = np.abs(x).max() + np.abs(conditions.p).max()
+            assert np.abs(residual).max() < 1e-9 * scale
+            assert min(conditions.p.min(), slack.min()) > -1e-9 * scale
+            assert np.abs(conditions.p * slack).max() < 1e-9 * scale**2
+
+
+def test_a_constraint_that_opens_leaves_the_factors_beyond_it_alone() -> None:
+    """Factors run from the last unknown to the first: what lies ahead of the front is factored once."""
+    beam = HermiteBeam(np.linspace(0.0, 10.0, 101), 1.0, 1.0)
+    rows = MeanContact().rows(beam, np.zeros(beam.dofs), full=False)
+    system = System(mass=beam.mass(), stiffness=beam.stiffness(), contacts=rows)
+    problem, conditions = ready(system, 1e-4)
+    b, x, solver = np.zeros(beam.dofs), np.zeros(beam.dofs), problem.solver
+    conditions.candidate[:] = True
+    b[:20:2] = 1.0
+    solve_constrained(solver, problem.rows, conditions, b, x)
+    before, front = solver.U.copy(), int(np.flatnonzero(conditions.closed).max())
+    b[20:24:2] = 1.0
+    solve_constrained(solver, problem.rows, conditions, b, x)
+    changed = np.flatnonzero(np.any(solver.U != before, axis=0))
+    assert int(np.flatnonzero(conditions.closed).max()) > front
+    assert changed.max() == solver.row_unknown[np.flatnonzero(conditions.closed).max()]
+    assert changed.min() >= PAD

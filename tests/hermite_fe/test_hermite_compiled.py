@@ -1,0 +1,95 @@
+"""Compiled code on disk: an upgraded package never runs yesterday's code; a torn or missing file costs time alone."""
+
+from __future__ import annotations
+
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import numba
+import pytest
+
+from hermite_fe import compiled as module
+
+ANSWER = "from package.outer import outer; from package.compiled import recompiling as r; print(r(lambda: outer(5.0)))"
+
+
+@pytest.fixture
+def package(tmp_path: Path) -> Path:
+    """A package of two compiled functions, one of which calls the other, with a cache folder of its own."""
+    package = tmp_path / "package"
+    package.mkdir()
+    shutil.copy(module.__file__, package / "compiled.py")
+    (package / "__init__.py").write_text("")
+    (package / "inner.py").write_text(
+        "from package.compiled import compiled\n\n\n@compiled\ndef inner(x):\n    return x + 1.0\n"
+    )
+    (package / "outer.py").write_text(
+        "from package.inner import inner\nfrom package.compiled import compiled\n\n\n"
+        "@compiled\ndef outer(x):\n    return 2.0 * inner(x)\n"
+    )
+    return package
+
+
+def answered(package: Path, before: str = "") -> str:
+    """What a new process prints, by itself."""
+    done = subprocess.run(
+        [sys.executable, "-c", f"{before}\n{ANSWER}"],
+        cwd=package.parent,
+        env={"XDG_CACHE_HOME": str(package.parent / "cache"), "PATH": "", "HOME": str(package.parent)},
+        capture_output=True,
+        text=True,
+        timeout=120,
+    )
+    return done.stdout.strip() or done.stderr
+
+
+def kept(package: Path, kind: str) -> list[Path]:
+    return list((package.parent / "cache").rglob(f"*.{kind}"))
+
+
+@pytest.mark.verify
+def test_a_change_in_one_module_reaches_functions_of_another(package: Path) -> None:
+    assert answered(package) == "12.0" and kept(package, "nbc")
+    inner = package / "inner.py"
+    inner.write_text(inner.read_text().replace("x + 1.0", "x * 3.0"))
+    assert answered(package) == "30.0"
+
+
+@pytest.mark.verify
+@pytest.mark.parametrize("kind", ["nbi", "nbc"])
+@pytest.mark.parametrize("left", [0.0, 0.5])
+def test_files_that_lost_their_end_are_compiled_again(kind: str, left: float, package: Path) -> None:
+    assert answered(package) == "12.0" and kept(package, kind)
+    for file in kept(package, kind):
+        file.write_bytes(file.read_bytes()[: int(left * file.stat().st_size)])
+    assert answered(package) == "12.0"
+
+
+def test_functions_run_where_nothing_can_be_kept(package: Path) -> None:
+    (package.parent / "cache").write_text("a file where the folder should be")
+    assert answered(package) == "12.0"
+
+
+@pytest.mark.verify
+def test_functions_run_on_a_disk_that_is_nearly_full(package: Path) -> None:
+    full = "import shutil; from types import SimpleNamespace as S; shutil.disk_usage = lambda path: S(free=1e6)"
+    assert answered(package, full) == "12.0"
+    assert not kept(package, "nbc")
+
+
+def test_other_users_of_numba_keep_their_own_folder() -> None:
+    assert numba.config.CACHE_DIR != str(module.FOLDER)
+
+
+def test_bad_input_is_not_taken_for_a_torn_file(monkeypatch: pytest.MonkeyPatch) -> None:
+    calls = []
+
+    def bad() -> None:
+        calls.append(1)
+        raise ValueError("no impact law")
+
+    with pytest.raises(ValueError, match="no impact law"):
+        module.recompiling(bad)
+    assert len(calls) == 1
