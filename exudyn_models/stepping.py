@@ -18,9 +18,11 @@ from exudyn_models.integrators.base import Segment
 from exudyn_models.recording import Recorder
 from exudyn_models.settling import Settling
 
-__all__ = ["Stepping", "step_through"]
+__all__ = ["Stepping", "Until", "step_through"]
 
 Array = NDArray[np.float64]
+Until = Callable[[Recorder, float, Array, Array], bool]
+"""Asked with the recorder, the time, q and v (model units): whether the run is to end."""
 
 ADVICE = (
     "a smaller exudyn.integrator.relative_step (or time_step), a smaller spectral_radius, more contact damping "
@@ -56,7 +58,7 @@ class _Reader:
         done: Stepping,
         settling: Settling | None,
         progress: Callable[[float], object] | None,
-        until: Callable[[Recorder, float, Array, Array], bool] | None,
+        until: Until | None,
     ) -> None:
         self.run, self.targets, self.done, self.settling = run, targets, done, settling
         self.progress, self.until = progress, until
@@ -115,7 +117,7 @@ def step_through(
     settling: Settling | None,
     targets: Array,
     progress: Callable[[float], object] | None,
-    until: Callable[[Recorder, float, Array, Array], bool] | None = None,
+    until: Until | None = None,
 ) -> Stepping:
     """Run all segments and save at the first end of a segment at or after each of ``targets`` (model units)."""
     mbs, time, done = run.beam.mbs, settings.timeIntegration, Stepping()
