@@ -14,17 +14,15 @@ import numpy as np
 from bent_beam.impact import FIRST_SPREAD
 from exudyn_models.contacts import Contact, ContactRun, Wall
 from exudyn_models.elements import Beam, Element
-from exudyn_models.elements.beam import Section
+from exudyn_models.elements.beam import VISCOSITY, VISCOSITY_EXPLICIT, Section
 from exudyn_models.geometry import Shape
 from exudyn_models.integrators import Integrator
-from exudyn_models.resolution import reachable
+from exudyn_models.resolution import reachable, thin_front
 from exudyn_models.scaling import Scaling, front_bound
 from exudyn_models.viewer import draw_wall
 
 __all__ = ["assemble", "stable_step"]
 
-VISCOSITY = 0.15  # of √(EIμ)Δx² of an element, λ₀ is off in proportion; tests/exudyn_models/test_exudyn_constants.py
-VISCOSITY_EXPLICIT = 0.003  # more would shorten the stable step
 STRETCH = 1e-4  # largest strain under the axial force in the linear limit: lengths are then right to as much
 TAUT = 1e4  # EAΛ²/EI under it: a strain of N/EA moves the front, too, by 7e-4 of what the force does (λ_N at κ/ν = 0.5)
 
@@ -69,6 +67,7 @@ def assemble(
         half=half,
         front=front_bound(scaling.kappa),
         first_spread=FIRST_SPREAD * scaling.impact.slow_time_scale / scaling.end_time,
+        thin_front=thin_front(scaling.kappa),
         explicit=integrator.explicit,
         stiffness_unit=scaling.stiffness_per_length,
         damping_unit=scaling.damping_per_length,

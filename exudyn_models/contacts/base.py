@@ -35,6 +35,7 @@ class Wall:
     half : only x ≥ 0 is modelled;
     front : rough estimate of where contact ends at the end;
     first_spread : until when (in end times) nothing but the first spread of the zone moves it: waves are back later;
+    thin_front : no mesh of moderate size resolves the bending ahead of the front;
     stiffness_unit, damping_unit : N/m² and N s/m² of the model units.
     """
 
@@ -43,6 +44,7 @@ class Wall:
     half: bool
     front: float
     first_spread: float
+    thin_front: bool
     explicit: bool
     stiffness_unit: float
     damping_unit: float

@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bent_beam.checks import non_negative, positive
-from exudyn_models.elements.beam import Beam, Section
+from exudyn_models.elements.beam import Beam, Section, chosen_viscosity
 from exudyn_models.geometry import Shape
 
 __all__ = ["ANCFCable"]
@@ -95,12 +95,12 @@ class _Cable(Beam):
 class ANCFCable:
     """ANCF cable elements, cubic: the default.
 
-    viscosity : bending viscosity in units of √(EIμ)·Δx² of each element; None: 0.3 under implicit integrators, 0.003
-        under explicit ones (more would shorten their stable step).
+    viscosity : bending viscosity in units of √(EIμ)·Δx² of each element; None: chosen with the integrator, less for
+        explicit ones, whose stable step it shortens.
     axial_stiffness : EA, N; None: 12EI/d² with the true geometry, EI/Λ² in the linear limit (where it has no effect).
     """
 
-    viscosity: float | None = None
+    viscosity: float | None = chosen_viscosity()
     axial_stiffness: float | None = None
 
     def __post_init__(self) -> None:

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any, Protocol
 
 import exudyn.itemInterface as items
@@ -17,9 +17,11 @@ from scipy.sparse import csr_matrix
 
 from exudyn_models.geometry import Shape
 
-__all__ = ["Beam", "Element", "Section"]
+__all__ = ["Beam", "Element", "Section", "chosen_viscosity"]
 
 Array = NDArray[np.float64]
+VISCOSITY = 0.15  # of √(EIμ)Δx² of an element, λ₀ is off in proportion; tests/exudyn_models/test_exudyn_constants.py
+VISCOSITY_EXPLICIT = 0.003  # more would shorten the stable step
 Matrix = Any  # SciPy's sparse matrices carry no types
 
 
@@ -37,6 +39,12 @@ class Section:
     def stretch(self) -> float:
         """Strain under the axial force."""
         return self.axial_force / self.axial_stiffness
+
+
+def chosen_viscosity() -> Any:
+    """The field of an element: None, and what ``bentbeam settings`` prints for it."""
+    chosen = f"{VISCOSITY:g} (explicit: {VISCOSITY_EXPLICIT:g}; whole beam: 0)"
+    return field(default=None, metadata={"chosen": chosen})
 
 
 class Beam(ABC):

@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bent_beam.checks import non_negative, positive
-from exudyn_models.elements.beam import Beam, Section
+from exudyn_models.elements.beam import Beam, Section, chosen_viscosity
 from exudyn_models.geometry import Shape
 
 __all__ = ["GeometricallyExact"]
@@ -83,7 +83,7 @@ class GeometricallyExact:
     rotary_ratio : rotary inertia in units of μΔx²; it only keeps the mass matrix regular.
     """
 
-    viscosity: float | None = None
+    viscosity: float | None = chosen_viscosity()
     axial_stiffness: float | None = None
     shear_ratio: float = 100.0
     rotary_ratio: float = 0.01
