@@ -15,14 +15,13 @@ from dataclasses import dataclass
 from typing import ClassVar, Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
 from bent_beam.checks import between
+from exudyn_models.arrays import Array
 from exudyn_models.scaling import Scaling, front_bound
 
 __all__ = ["GEOMETRIES", "Geometry", "LinearLimit", "Shape", "TrueGeometry"]
 
-Array = NDArray[np.float64]
 
 STEEPEST = 1e-4  # slope in the linear limit: at 2e-3 the energy budget of a whole impact is 8e-6 off
 MOVED = 2.0  # fronts' bounds from the centre: beyond, the beam keeps the shape that it came with

@@ -24,6 +24,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bent_beam import ImpactHistory
+from exudyn_models.arrays import Array, Flags
 from exudyn_models.contacts import ContactRun
 from exudyn_models.elements import Beam
 from exudyn_models.integrators import Averages
@@ -31,7 +32,6 @@ from exudyn_models.scaling import Scaling
 
 __all__ = ["Recorder"]
 
-Array = NDArray[np.float64]
 
 ROWS = 33  # states that are collected before they are summed up
 
@@ -61,7 +61,7 @@ class Record:
     v: list[Array] = field(default_factory=list)
     slope: list[Array] = field(default_factory=list)
     impulse: list[Array] = field(default_factory=list)
-    active: list[NDArray[np.bool_]] = field(default_factory=list)
+    active: list[Flags] = field(default_factory=list)
     total: list[float] = field(default_factory=list)
     kinetic: list[float] = field(default_factory=list)
     strain: list[float] = field(default_factory=list)
@@ -302,7 +302,7 @@ class Recorder:
             **about,
         )
 
-    def _of_two_walls(self, front: NDArray[np.bool_]) -> dict[str, tuple[tuple[str, ...], NDArray[Any]]]:
+    def _of_two_walls(self, front: Flags) -> dict[str, tuple[tuple[str, ...], NDArray[Any]]]:
         """What the two walls gave, apart; contact points of the ``front`` wall come first, then the opposite's."""
         impulse = np.array(self.record.impulse) * self.scaling.impulse
         active = np.array(self.record.active)

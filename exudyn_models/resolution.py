@@ -15,12 +15,12 @@ import math
 from typing import Any, cast
 
 import numpy as np
-from numpy.typing import NDArray
 
 from bent_beam import Impact
 from bent_beam.checks import positive
 from bent_beam.impact import FIRST_SPREAD
 from bent_beam.meshes import Mesh, NodesMesh, ScaleFreeMesh
+from exudyn_models.arrays import Array, Indices
 from exudyn_models.integrators import Integrator
 from exudyn_models.scaling import Scaling, front_bound
 
@@ -36,7 +36,6 @@ __all__ = [
     "thin_front",
 ]
 
-Array = NDArray[np.float64]
 
 GROWTH = 0.01  # neighbours of the chosen mesh: 5 elements over the front's bending length at κ/ν = 0.05, 20 at 0.2
 THIN = 0.05  # κ/ν below which the front passes an element of that mesh about as fast as the element bends
@@ -176,7 +175,7 @@ def refined_choice(
     return laid, chosen_steps(integrator, laid, impact, end_time) if open_steps else integrator
 
 
-def reachable(x: Array, scaling: Scaling, centre: int) -> NDArray[np.int64]:
+def reachable(x: Array, scaling: Scaling, centre: int) -> Indices:
     """Nodes that may touch: half as far again as the free motion would carry the beam into the wall, and all where
     waves from the ends may throw any of them at it."""
     impact = scaling.impact

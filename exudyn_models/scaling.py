@@ -18,13 +18,11 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from bent_beam import Impact
+from exudyn_models.arrays import Array
 
 __all__ = ["Scaling", "front_bound"]
-
-Array = NDArray[np.float64]
 
 
 def front_bound(kappa_over_nu: float) -> float:

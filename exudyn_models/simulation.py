@@ -15,12 +15,12 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from bent_beam import Impact, ImpactHistory, SimulationError
 from bent_beam.checks import MOST_INSTANTS, affordable, whole
 from bent_beam.meshes import NodesMesh, checked_nodes, mirrored
 from bent_beam.parts import describe
+from exudyn_models.arrays import Array
 from exudyn_models.assembly import assemble, stable_step
 from exudyn_models.composition import Chosen, Composition
 from exudyn_models.contacts import ContactRun
@@ -36,7 +36,6 @@ from exudyn_models.warnings_of_run import warnings_of_run
 
 __all__ = ["simulate"]
 
-Array = NDArray[np.float64]
 
 MOST_WORK = 2e9  # steps x nodes: about an hour
 

@@ -12,15 +12,14 @@ from typing import Any
 
 import exudyn as exu
 import numpy as np
-from numpy.typing import NDArray
 
+from exudyn_models.arrays import Array
 from exudyn_models.integrators.base import Segment
 from exudyn_models.recording import Recorder
 from exudyn_models.settling import Settling
 
 __all__ = ["Stepping", "Until", "step_through"]
 
-Array = NDArray[np.float64]
 Until = Callable[[Recorder, float, Array, Array], bool]
 """Asked with the recorder, the time, q and v (model units): whether the run is to end."""
 

@@ -6,8 +6,8 @@ import math
 from collections.abc import Iterator
 
 import numpy as np
-from numpy.typing import NDArray
 
+from exudyn_models.arrays import Array
 from exudyn_models.recording import Recorder
 from exudyn_models.resolution import far_field
 from exudyn_models.scaling import Scaling, front_bound
@@ -15,7 +15,6 @@ from exudyn_models.settling import Settling
 
 __all__ = ["warnings_of_run"]
 
-Array = NDArray[np.float64]
 
 LARGEST_STEP = 0.05  # of the end time: the front then moves by a fortieth of the contact length in one
 MOST_CYCLES = 0.05  # of the steps

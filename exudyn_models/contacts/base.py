@@ -12,9 +12,9 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from bent_beam import Impact
+from exudyn_models.arrays import Array, Flags, Indices
 from exudyn_models.elements import Beam, Element
 from exudyn_models.geometry import Geometry, LinearLimit
 from exudyn_models.integrators import GeneralizedAlpha, Integrator
@@ -22,9 +22,7 @@ from exudyn_models.solvers import NewtonSolver
 
 __all__ = ["Contact", "ContactRun", "Wall"]
 
-Array = NDArray[np.float64]
 TINY = 1e-30  # a gap that is a state and no length
-Flags = NDArray[np.bool_]
 
 
 @dataclass(frozen=True)
@@ -39,7 +37,7 @@ class Wall:
     stiffness_unit, damping_unit : N/m² and N s/m² of the model units.
     """
 
-    nodes: NDArray[np.int64]
+    nodes: Indices
     centre: int
     half: bool
     front: float
@@ -56,7 +54,7 @@ class ContactRun(ABC):
     lengths, each of shape (contacts,)."""
 
     beam: Beam
-    nodes: NDArray[np.int64]
+    nodes: Indices
     contact_s: Array
     iterated = True  # Exudyn finds the contact state by repeating steps
     states = 1  # data coordinates of a connector, the first a gap: the connector is closed where it is not positive

@@ -15,7 +15,7 @@ that of 10 and 3.
 
 Below κ/ν = 0.05 the front passes an element about as fast as the element bends, on any mesh of moderate size. Each node
 then hits the wall by itself, and what it rebounds with is added to the impulse: with D = 3 r₀ is 6.5, 21 and 19 % too
-large at κ/ν = 1/100, 1/400 and 1/1600. There D = 20 makes the hits plastic, and nothing is held at the start, while
+large at κ/ν = 1/100, 1/400 and 1/1600. There D = 40 makes the hits plastic, and nothing is held at the start, while
 nothing but the first spread of the zone moves it and the steps are implicit.
 """
 
@@ -28,19 +28,18 @@ from typing import Any
 
 import exudyn.itemInterface as items
 import numpy as np
-from numpy.typing import NDArray
 
 from bent_beam.checks import between, non_negative, positive, whole
-from exudyn_models.contacts.base import TINY, Contact, ContactRun, Flags, Wall
+from exudyn_models.arrays import Array, Flags, Indices, unless_open
+from exudyn_models.contacts.base import TINY, Contact, ContactRun, Wall
 from exudyn_models.contacts.holding import START, HeldStrip
 from exudyn_models.elements import Beam
 
 __all__ = ["Penalty", "penalty_per_length"]
 
-Array = NDArray[np.float64]
 
 STIFFNESS, DAMPING = 10.0, 3.0  # C and D
-PLASTIC = 20.0  # D behind a thin front
+PLASTIC = 40.0  # D behind a thin front
 
 
 def chosen_stiffness(s: Array, wall: Wall) -> float:
@@ -112,7 +111,7 @@ class _Run(ContactRun):
                 )
 
     @cached_property
-    def _coordinates(self) -> NDArray[np.int64]:
+    def _coordinates(self) -> Indices:
         """Of the contact points in the system's vectors, known once it is assembled."""
         return np.asarray(self.beam.vertical[self.nodes])
 
@@ -207,14 +206,10 @@ class Penalty(Contact):
     hold_start: float | None = None
 
     def __post_init__(self) -> None:
-        if self.stiffness is not None:
-            positive("exudyn.contact.stiffness", self.stiffness)
-        if self.damping is not None:
-            non_negative("exudyn.contact.damping", self.damping)
-        if self.relative_stiffness is not None:
-            positive("exudyn.contact.relative_stiffness", self.relative_stiffness)
-        if self.relative_damping is not None:
-            non_negative("exudyn.contact.relative_damping", self.relative_damping)
+        unless_open(positive, "exudyn.contact.stiffness", self.stiffness)
+        unless_open(non_negative, "exudyn.contact.damping", self.damping)
+        unless_open(positive, "exudyn.contact.relative_stiffness", self.relative_stiffness)
+        unless_open(non_negative, "exudyn.contact.relative_damping", self.relative_damping)
         whole("exudyn.contact.hold", self.hold, 0)
         if self.hold_start is not None:
             between("exudyn.contact.hold_start", self.hold_start, 0.0, START)

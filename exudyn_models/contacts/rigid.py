@@ -24,18 +24,17 @@ from typing import Any
 
 import exudyn.itemInterface as items
 import numpy as np
-from numpy.typing import NDArray
 
 from bent_beam import Impact
 from bent_beam.checks import whole
-from exudyn_models.contacts.base import Contact, ContactRun, Flags, Wall
+from exudyn_models.arrays import Array, Flags, Indices
+from exudyn_models.contacts.base import Contact, ContactRun, Wall
 from exudyn_models.contacts.holding import HeldStrip
 from exudyn_models.elements import Beam, Element
 from exudyn_models.integrators import Integrator, Newmark
 
 __all__ = ["Rigid"]
 
-Array = NDArray[np.float64]
 
 RETURN = 0.2  # of its depth in a step: how fast a captured node is led back to the wall
 
@@ -50,7 +49,7 @@ class _Run(ContactRun):
         self.strip = HeldStrip(wall, hold)
         self.active = np.zeros(wall.nodes.size, bool)
         self.back = np.zeros(wall.nodes.size)  # speed asked of each closed node
-        self.multipliers: NDArray[np.int64] | None = None
+        self.multipliers: Indices | None = None
         self.constraints = [
             beam.mbs.AddObject(
                 items.CoordinateConstraint(

@@ -15,11 +15,11 @@ from dataclasses import dataclass
 
 import exudyn.itemInterface as items
 import numpy as np
-from numpy.typing import NDArray
 
 from bent_beam import Impact
 from bent_beam.checks import non_negative, positive
-from exudyn_models.contacts.base import Contact, ContactRun, Flags, Wall
+from exudyn_models.arrays import Array, Flags, Indices
+from exudyn_models.contacts.base import Contact, ContactRun, Wall
 from exudyn_models.contacts.penalty import penalty_per_length
 from exudyn_models.elements import ANCFCable, Beam, Element
 from exudyn_models.geometry import Geometry, LinearLimit
@@ -28,7 +28,6 @@ from exudyn_models.solvers import NewtonSolver
 
 __all__ = ["SegmentFriction"]
 
-Array = NDArray[np.float64]
 TRUE_SHARE = 0.25  # of the curvature, true geometry
 
 
@@ -39,7 +38,7 @@ class _Run(ContactRun):
 
     states = 3  # gap; stick or slip; where it sticks
 
-    def __init__(self, beam: Beam, elements: NDArray[np.int64], stiffness: Array, damping: Array) -> None:
+    def __init__(self, beam: Beam, elements: Indices, stiffness: Array, damping: Array) -> None:
         self.beam, self.elements = beam, elements
         self.stiffness, self.damping = stiffness, damping
         self.nodes = np.append(elements, elements[-1] + 1)

@@ -14,15 +14,14 @@ from typing import Any
 
 import exudyn.itemInterface as items
 import numpy as np
-from numpy.typing import NDArray
 
 from bent_beam.checks import non_negative, positive
+from exudyn_models.arrays import Array, Indices, unless_open
 from exudyn_models.elements.beam import Beam, Section, chosen_viscosity
 from exudyn_models.geometry import Shape
 
 __all__ = ["ANCFCable"]
 
-Array = NDArray[np.float64]
 
 POINTS, WEIGHTS = np.polynomial.legendre.leggauss(4)
 XI = (POINTS + 1) / 2
@@ -45,7 +44,7 @@ class _Cable(Beam):
     rotation_coordinate = 3
 
     @cached_property
-    def _first(self) -> NDArray[np.int64]:
+    def _first(self) -> Indices:
         """Coordinates (x₁, x₁′, x₂, x₂′) of the elements, known once the system is assembled."""
         left, right = self.horizontal[:-1], self.horizontal[1:]
         return np.stack([left, left + 2, right, right + 2], axis=1)
@@ -104,10 +103,8 @@ class ANCFCable:
     axial_stiffness: float | None = None
 
     def __post_init__(self) -> None:
-        if self.viscosity is not None:
-            non_negative("exudyn.element.viscosity", self.viscosity)
-        if self.axial_stiffness is not None:
-            positive("exudyn.element.axial_stiffness", self.axial_stiffness)
+        unless_open(non_negative, "exudyn.element.viscosity", self.viscosity)
+        unless_open(positive, "exudyn.element.axial_stiffness", self.axial_stiffness)
 
     def build(self, mbs: Any, shape: Shape, section: Section, viscosity: Array) -> Beam:
         beam = _Cable(mbs, shape, section, viscosity)

@@ -12,14 +12,13 @@ from typing import Any, Protocol
 
 import exudyn.itemInterface as items
 import numpy as np
-from numpy.typing import NDArray
 from scipy.sparse import csr_matrix
 
+from exudyn_models.arrays import Array, Indices
 from exudyn_models.geometry import Shape
 
 __all__ = ["Beam", "Element", "Section", "chosen_viscosity"]
 
-Array = NDArray[np.float64]
 VISCOSITY = 0.15  # of √(EIμ)Δx² of an element, λ₀ is off in proportion; tests/exudyn_models/test_exudyn_constants.py
 VISCOSITY_EXPLICIT = 0.003  # more would shorten the stable step
 Matrix = Any  # SciPy's sparse matrices carry no types
@@ -137,7 +136,7 @@ class Beam(ABC):
             rate[place] += slope
         return lambda times: constant + np.multiply.outer(times, rate)
 
-    def _assembled(self, matrices: Array, first: NDArray[np.int64], second: NDArray[np.int64]) -> Matrix:
+    def _assembled(self, matrices: Array, first: Indices, second: Indices) -> Matrix:
         """The system's matrix of element matrices in (first, second) of the left node, then of the right."""
         pairs = [first, second][: matrices.shape[1] // 2]
         at = np.stack([c[s] for s in (slice(None, -1), slice(1, None)) for c in pairs], axis=1)

@@ -14,15 +14,13 @@ from typing import Any
 
 import exudyn.itemInterface as items
 import numpy as np
-from numpy.typing import NDArray
 
 from bent_beam.checks import non_negative, positive
+from exudyn_models.arrays import Array, unless_open
 from exudyn_models.elements.beam import Beam, Section, chosen_viscosity
 from exudyn_models.geometry import Shape
 
 __all__ = ["GeometricallyExact"]
-
-Array = NDArray[np.float64]
 
 
 class _Exact(Beam):
@@ -89,10 +87,8 @@ class GeometricallyExact:
     rotary_ratio: float = 0.01
 
     def __post_init__(self) -> None:
-        if self.viscosity is not None:
-            non_negative("exudyn.element.viscosity", self.viscosity)
-        if self.axial_stiffness is not None:
-            positive("exudyn.element.axial_stiffness", self.axial_stiffness)
+        unless_open(non_negative, "exudyn.element.viscosity", self.viscosity)
+        unless_open(positive, "exudyn.element.axial_stiffness", self.axial_stiffness)
         positive("exudyn.element.shear_ratio", self.shear_ratio)
         positive("exudyn.element.rotary_ratio", self.rotary_ratio)
 
