@@ -38,7 +38,7 @@ __all__ = [
 
 
 GROWTH = 0.01  # neighbours of the chosen mesh: 5 elements over the front's bending length at κ/ν = 0.05, 20 at 0.2
-THIN = 0.05  # κ/ν below which the front passes an element of that mesh about as fast as the element bends
+THIN = 0.04  # κ/ν below which the front passes an element of that mesh about as fast as the element bends
 WAVES, GROWTH_OF_WAVES = 2.0, 0.02  # beyond so many times the front's bound there are waves only, and these neighbours
 OF_ZONE, OF_BENDING = 300.0, 30.0  # the smallest element over the front's bound and over the bending ahead of it
 OF_THIN_FRONT = 3.0  # equal elements over the bending length of a thin front at the end of the run, …

@@ -88,7 +88,7 @@ def simulate(
     with quiet():
         system = _build(layout, chosen, not composition.full_beam, targets.size)
         done = _solve(system, targets, view, progress, until)
-    if done.failure is not None and not system.run.record.time:
+    if done.failure is not None and not system.run.record["time"]:
         raise SimulationError(done.failure, time=0.0, step=0, advice=done.advice)
     settings = {"end_time": end, "save": np.asarray(save).tolist(), "full_beam": composition.full_beam}
     settings |= _described(layout, chosen, system, end)

@@ -35,7 +35,7 @@ def warnings_of_run(
     given : the mesh was asked for; last_step : model units.
     """
     found = [*_of_steps(last_step, settling), *_of_contact(run)]
-    if len(run.record.time) > 1:
+    if len(run.record["time"]) > 1:
         found += _of_front(places, run.scaling)
     if given:
         growth = float((np.diff(places)[1:] / np.diff(places)[:-1]).max())
@@ -65,9 +65,9 @@ def _of_contact(run: Recorder) -> Iterator[str]:
     penetration = run.deepest / run.scaling.amplitude
     if penetration > DEEPEST:
         yield f"the beam enters the wall by up to {penetration:.2%} of V0 t; take a stiffer penalty or smaller steps"
-    lost = np.asarray(run.record.contact_loss)
+    lost = np.asarray(run.record["loss_impact"])
     given_back = float((np.maximum.accumulate(lost) - lost).max(initial=0.0))
-    initial = run.record.kinetic[0] + run.record.strain[0] if lost.size else 0.0
+    initial = run.record["kinetic_energy"][0] + run.record["strain_energy"][0] if lost.size else 0.0
     if given_back > MOST_GIVEN * initial:
         yield (
             f"the contact gave {given_back / initial:.2g} of the initial energy: steps too long for it; take steps of "
@@ -94,13 +94,13 @@ def _of_front(places: Array, scaling: Scaling) -> list[str]:
 
 def _of_shape(run: Recorder) -> Iterator[str]:
     record, shape = run.record, run.beam.shape
-    if record.y:
+    if record["y"]:
         untouchable = np.ones(shape.s.size, bool)
         near = np.searchsorted(shape.s, run.contact.contact_s)
         untouchable[max(0, near.min() - 1) : near.max() + 2] = False
-        if (record.y[-1][untouchable] > 0.0).any():
+        if (record["y"][-1][untouchable] > 0.0).any():
             yield "the beam enters the wall outside the zone given contact points"
-    slope = max((float(np.abs(s + shape.wall_slope).max()) for s in record.slope), default=0.0)
+    slope = max((float(np.abs(s + shape.wall_slope).max()) for s in record["slope"]), default=0.0)
     if slope > STEEPEST and shape.slender:
         yield f"slopes up to {slope:.2g}: linear theory no longer describes this beam, only its first instants"
     elif slope > STEEPEST:
