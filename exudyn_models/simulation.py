@@ -30,7 +30,7 @@ from exudyn_models.recording import Recorder
 from exudyn_models.scaling import Scaling, front_bound
 from exudyn_models.settling import Settling
 from exudyn_models.solvers import quiet
-from exudyn_models.stepping import Stepping, Until, step_through
+from exudyn_models.stepping import Stepping, Until
 from exudyn_models.viewer import open_viewer, wait_until_closed
 from exudyn_models.warnings_of_run import warnings_of_run
 
@@ -172,29 +172,20 @@ def _settling(contact: ContactRun, chosen: Chosen, settings: Any, stepper: Any) 
         return None
     judged = settings.timeIntegration.discontinuous
     return Settling(
-        contact,
-        stepper,
-        judged.maxIterations,
-        judged.iterationTolerance,
-        must_settle=chosen.solver.contact_must_settle,
+        contact, stepper, judged.maxIterations, judged.iterationTolerance, must_settle=chosen.solver.contact_must_settle
     )
 
 
 def _solve(
-    system: _System,
-    targets: Array,
-    view: bool,
-    progress: Callable[[float], object] | None,
-    until: Until | None,
+    system: _System, targets: Array, view: bool, progress: Callable[[float], object] | None, until: Until | None
 ) -> Stepping:
     """Run all steps, watched where asked for. The Exudyn system is given up at the end."""
     mbs = system.run.beam.mbs
     container = mbs.variables["container"]
+    done = Stepping(system.run, targets, system.settling, progress, until)
     viewing = view and open_viewer(container)
     try:
-        done = step_through(
-            system.run, system.segments, system.settings, system.stepper, system.settling, targets, progress, until
-        )
+        done.through(system.segments, system.settings, system.stepper)
         if viewing:
             wait_until_closed(container)
         return done
