@@ -51,19 +51,20 @@ class Wall:
 
 class ContactRun(ABC):
     """A contact at work in one system. ``nodes`` are the beam's nodes that are contact points, ``contact_s`` their arc
-    lengths, each of shape (contacts,)."""
+    lengths, ``wall_y`` the wall there, each of shape (contacts,)."""
 
     beam: Beam
     nodes: Indices
     contact_s: Array
+    wall_y: Array
     iterated = True  # Exudyn finds the contact state by repeating steps
     states = 1  # data coordinates of a connector, the first a gap: the connector is closed where it is not positive
     imposes = False  # states are those of ``closed_by``, not of Exudyn's gaps
     round_off = 0.0  # force in Exudyn's connectors that means nothing: no residual can be made smaller
 
-    @abstractmethod
     def depth(self, q: Array) -> Array:
         """Penetration at the contact points, shape (contacts,)."""
+        return np.asarray(q[self.beam.vertical[self.nodes]] - self.wall_y)
 
     @abstractmethod
     def forces(self, q: Array, v: Array) -> tuple[Array, Flags]:
@@ -81,10 +82,6 @@ class ContactRun(ABC):
     def closed_by(self, q: Array, v: Array) -> Flags:
         """The connectors that a solution shows to be closed, shape (connectors,), for contacts that ``impose`` them."""
         raise TypeError(f"{type(self).__name__} leaves its states to Exudyn")
-
-    def velocity(self, q: Array, v: Array) -> Array:
-        """Velocity of the beam at the contact points, positive into the wall, shape (contacts,)."""
-        return np.asarray(v[self.beam.vertical[self.nodes]])
 
     def contradictions(self, q: Array, v: Array, closed: Flags) -> Array:
         """Force, shape (connectors,), by which a solution contradicts the state that it assumed (0 where it does not):

@@ -122,13 +122,10 @@ class _Run(ContactRun):
     def signs(self) -> Array:
         return self._signs
 
-    def velocity(self, q: Array, v: Array) -> Array:
-        return np.asarray(self._signs * v[self._coordinates])
-
     def _spring_and_dashpot(self, q: Array, v: Array) -> Array:
         if self._of[0] is not q or self._of[1] is not v:  # one solution is looked at more than once
             self._of = q, v
-            self._force = self.stiffness * self.depth(q) + self.damping * self.velocity(q, v)
+            self._force = self.stiffness * self.depth(q) + self.damping * (self._signs * v[self._coordinates])
         return self._force
 
     def closed_by(self, q: Array, v: Array) -> Flags:

@@ -61,9 +61,6 @@ class _Run(ContactRun):
             for node in wall.nodes
         ]
 
-    def depth(self, q: Array) -> Array:
-        return np.asarray(q[self.beam.vertical[self.nodes]] - self.wall_y)
-
     def forces(self, q: Array, v: Array) -> tuple[Array, Flags]:
         data = self.beam.mbs.systemData
         if self.multipliers is None:
@@ -76,7 +73,7 @@ class _Run(ContactRun):
         depth = self.depth(q)
         touching = (depth >= 0.0) & ~self.active
         if time == 0.0:
-            touching &= self.velocity(q, v) > 0.0
+            touching &= v[self.beam.vertical[self.nodes]] > 0.0
         self.strip.captured |= touching
         wanted = (self.active & (force >= 0.0)) | touching | self.strip.wanted(time)
         changed = np.flatnonzero(wanted != self.active)

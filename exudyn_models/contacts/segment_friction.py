@@ -67,9 +67,6 @@ class _Run(ContactRun):
         rate = ((ends[:, :-1] * (1.0 - at) + ends[:, 1:] * at) * normal).sum(axis=0)
         return gap, -(self.stiffness * gap + self.damping * rate), at, vertical
 
-    def depth(self, q: Array) -> Array:
-        return np.asarray(q[self.beam.vertical[self.nodes]] - self.wall_y)
-
     def forces(self, q: Array, v: Array) -> tuple[Array, Flags]:
         gap, force, at, vertical = self._normal_forces(q, v)
         force = np.where(gap <= 0.0, force, 0.0)
