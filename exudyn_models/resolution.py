@@ -69,7 +69,7 @@ def far_field(scaling: Scaling) -> float:
 
 def chosen_half_length(impact: Impact, end_time: float | None = None) -> float:
     """The half length, m, modelled when no mesh is given: the beam's, or less where nothing returns in time."""
-    scaling = Scaling(impact, impact.checked_end_time(end_time), 1.0)
+    scaling = Scaling.of(impact, impact.checked_end_time(end_time))
     return min(impact.half_length, far_field(scaling) * scaling.length)
 
 
@@ -86,7 +86,7 @@ def chosen_mesh(
         count = max((ELEMENT_STEPS / steps_at_one) ** (1.0 / 3.0), FEWEST) / coarsen
         places = np.linspace(0.0, impact.half_length, max(2, round(count)) + 1)
         return NodesMesh(places=tuple(float(place) for place in places))
-    scaling = Scaling(impact, impact.checked_end_time(end_time), 1.0)
+    scaling = Scaling.of(impact, impact.checked_end_time(end_time))
     front = front_bound(scaling.kappa)
     if explicit:
         smallest = min(max(front, 0.5) / 25, (2.0 / front) / 10)
@@ -151,7 +151,7 @@ def _step_over_elements(mesh: Mesh, impact: Impact, end: float) -> float:
     """h/t with which the front, x ~ √t, passes ``PASSED`` elements in the last step."""
     half_length = mesh.places[-1] if isinstance(mesh, NodesMesh) else impact.half_length
     places = mesh.nodes(half_length)
-    front = front_bound(impact.kappa_over_nu) * Scaling(impact, end, 1.0).length
+    front = front_bound(impact.kappa_over_nu) * Scaling.of(impact, end).length
     k = min(max(int(np.searchsorted(places, front)), 1), places.size - 1)
     return 2.0 * PASSED * float(places[k] - places[k - 1]) / float(places[k])
 

@@ -131,9 +131,9 @@ def _lay_out(impact: Impact, end: float, chosen: Chosen, full_beam: bool) -> _La
     mesh, geometry, half_length = chosen.mesh, chosen.geometry, impact.half_length
     if isinstance(mesh, NodesMesh) and mesh.places[-1] <= half_length * (1.0 + 1e-9):
         half_length = mesh.places[-1]
-    unscaled = Scaling(impact, end, 1.0)
+    unscaled = Scaling.of(impact, end)
     places = checked_nodes(mesh.nodes(half_length)) / unscaled.length
-    scaling = Scaling(impact, end, geometry.amplitude_of(unscaled, float(places[-1])))
+    scaling = Scaling.of(impact, end, geometry.amplitude_of(unscaled, float(places[-1])))
     nodes = mirrored(places) if full_beam else places
     return _Layout(half_length, places, scaling, geometry.shape(nodes, scaling, chosen.contact.wall_share(geometry)))
 
