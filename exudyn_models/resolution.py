@@ -36,7 +36,6 @@ __all__ = [
     "thin_front",
 ]
 
-
 GROWTH = 0.01  # neighbours of the chosen mesh: 5 elements over the front's bending length at κ/ν = 0.05, 20 at 0.2
 THIN = 0.04  # κ/ν below which the front passes an element of that mesh about as fast as the element bends
 WAVES, GROWTH_OF_WAVES = 2.0, 0.02  # beyond so many times the front's bound there are waves only, and these neighbours
@@ -89,24 +88,18 @@ def chosen_mesh(
     scaling = Scaling.of(impact, impact.checked_end_time(end_time))
     front = front_bound(scaling.kappa)
     if explicit:
-        smallest = min(max(front, 0.5) / 25, (2.0 / front) / 10)
-        rule = ScaleFreeMesh(smallest * scaling.length * coarsen, 1.0 + 0.02 * coarsen)
+        element, growth, zone = min(max(front, 0.5) / 25, (2.0 / front) / 10), GROWTH_OF_WAVES, None
     elif thin_front(scaling.kappa):
         count = min(max(OF_THIN_FRONT * front**2 / 2.0, LEAST_OF_ZONE), MOST_OF_ZONE)
-        rule = ScaleFreeMesh(
-            front / count * scaling.length * coarsen,
-            1.0,
-            zone=BEYOND * front * scaling.length,
-            growth_outside=1.0 + GROWTH_OF_WAVES * coarsen,
-        )
+        element, growth, zone = front / count, 0.0, BEYOND * front
     else:
-        smallest = min(front / OF_ZONE, (2.0 / front) / OF_BENDING)
-        rule = ScaleFreeMesh(
-            smallest * scaling.length * coarsen,
-            1.0 + GROWTH * coarsen,
-            zone=WAVES * front * scaling.length,
-            growth_outside=1.0 + GROWTH_OF_WAVES * coarsen,
-        )
+        element, growth, zone = min(front / OF_ZONE, (2.0 / front) / OF_BENDING), GROWTH, WAVES * front
+    rule = ScaleFreeMesh(
+        element * scaling.length * coarsen,
+        1.0 + growth * coarsen,
+        zone=None if zone is None else zone * scaling.length,
+        growth_outside=None if zone is None else 1.0 + GROWTH_OF_WAVES * coarsen,
+    )
     nodes = rule.nodes(chosen_half_length(impact, end_time))
     return NodesMesh(places=tuple(float(place) for place in nodes))
 

@@ -36,7 +36,6 @@ from exudyn_models.warnings_of_run import warnings_of_run
 
 __all__ = ["simulate"]
 
-
 MOST_WORK = 2e9  # steps x nodes: about an hour
 
 

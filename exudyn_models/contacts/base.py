@@ -50,17 +50,21 @@ class Wall:
 
 
 class ContactRun(ABC):
-    """A contact at work in one system. ``nodes`` are the beam's nodes that are contact points, ``contact_s`` their arc
-    lengths, ``wall_y`` the wall there, each of shape (contacts,)."""
+    """A contact at work in one system.
 
-    beam: Beam
-    nodes: Indices
-    contact_s: Array
-    wall_y: Array
+    nodes : of the beam, those that are contact points; contact_s : their arc lengths; wall_y : the wall there; signs :
+        +1 for those on the wall, −1 for those on an opposite one. Each of shape (contacts,).
+    """
+
     iterated = True  # Exudyn finds the contact state by repeating steps
     states = 1  # data coordinates of a connector, the first a gap: the connector is closed where it is not positive
     imposes = False  # states are those of ``closed_by``, not of Exudyn's gaps
     round_off = 0.0  # force in Exudyn's connectors that means nothing: no residual can be made smaller
+
+    def __init__(self, beam: Beam, nodes: Indices, wall_y: Array, signs: Array | None = None) -> None:
+        self.beam, self.nodes, self.wall_y = beam, nodes, wall_y
+        self.contact_s = beam.shape.s[nodes]
+        self.signs = np.ones(nodes.size) if signs is None else signs
 
     def depth(self, q: Array) -> Array:
         """Penetration at the contact points, shape (contacts,)."""
@@ -69,11 +73,6 @@ class ContactRun(ABC):
     @abstractmethod
     def forces(self, q: Array, v: Array) -> tuple[Array, Flags]:
         """Contact forces (off the wall positive, off an opposite one negative) and active flags, shape (contacts,)."""
-
-    @property
-    def signs(self) -> Array:
-        """+1 for contact points on the wall, −1 for those on an opposite one, shape (contacts,)."""
-        return np.ones(self.nodes.size)
 
     def stored_energy(self, q: Array) -> float:
         """Energy that the contact's springs hold."""

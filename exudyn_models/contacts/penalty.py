@@ -37,7 +37,6 @@ from exudyn_models.elements import Beam
 
 __all__ = ["Penalty", "penalty_per_length"]
 
-
 STIFFNESS, DAMPING = 10.0, 3.0  # C and D
 PLASTIC = 40.0  # D behind a thin front
 
@@ -59,56 +58,47 @@ class _Run(ContactRun):
     def __init__(
         self, beam: Beam, wall: Wall, stiffness: Array, damping: Array, strip: HeldStrip, chosen: dict[str, float]
     ) -> None:
-        self.chosen = chosen
-        self.beam, self.nodes = beam, wall.nodes
-        self.stiffness, self.damping = stiffness, damping
-        self.wall_y, self._signs = beam.shape.wall_y[wall.nodes], np.ones(wall.nodes.size)
+        nodes, wall_y, signs = wall.nodes, beam.shape.wall_y[wall.nodes], np.ones(wall.nodes.size)
         if wall.opposite is not None:
-            self.nodes = np.concatenate([self.nodes, self.nodes])
-            self.stiffness, self.damping = np.tile(stiffness, 2), np.tile(damping, 2)
-            self.wall_y = np.concatenate([self.wall_y, np.full(wall.nodes.size, wall.opposite)])
-            self._signs = np.concatenate([self._signs, -self._signs])
-        self.contact_s = beam.shape.s[self.nodes]
-        self.strip = strip
-        self.explicit = wall.explicit
-        self.held = np.zeros(self.nodes.size, bool)
+            nodes = np.tile(nodes, 2)
+            stiffness, damping = np.tile(stiffness, 2), np.tile(damping, 2)
+            wall_y = np.concatenate([wall_y, np.full(wall.nodes.size, wall.opposite)])
+            signs = np.concatenate([signs, -signs])
+        super().__init__(beam, nodes, wall_y, signs)
+        self.chosen, self.strip, self.explicit = chosen, strip, wall.explicit
+        self.stiffness, self.damping = stiffness, damping
+        self.held = np.zeros(nodes.size, bool)
         self._of: tuple[Array | None, Array | None] = None, None
-        self._force = np.zeros(self.nodes.size)
-        self.contacts: list[Any] = []
+        self._force = np.zeros(nodes.size)
+        markers = [beam.marker(int(node), beam.vertical_coordinate) for node in nodes]
+        self.contacts = [beam.mbs.AddObject(self._connector(k, marker)) for k, marker in enumerate(markers)]
         self.holders: list[Any] = []
-        mbs = beam.mbs
-        for k, node in enumerate(self.nodes):
-            marker = beam.marker(int(node), beam.vertical_coordinate)
-            # open at t = 0: a closed one would put its damping into the initial accelerations
-            state = mbs.AddNode(
-                items.NodeGenericData(
-                    numberOfDataCoordinates=1,
-                    initialCoordinates=[max(1e-14, float(self._signs[k] * (self.wall_y[k] - beam.shape.y[node])))],
-                )
-            )
-            self.contacts.append(
-                mbs.AddObject(
-                    items.ObjectContactCoordinate(
-                        markerNumbers=[marker, beam.ground_marker][:: int(self._signs[k])],
-                        nodeNumber=state,
-                        contactStiffness=self.stiffness[k],
-                        contactDamping=self.damping[k],
-                        offset=-self._signs[k] * self.wall_y[k],
-                    )
-                )
-            )
-            if self.strip.used:
-                self.holders.append(
-                    mbs.AddObject(
-                        items.ObjectConnectorCoordinateSpringDamper(
-                            markerNumbers=[beam.ground_marker, marker],
-                            stiffness=self.stiffness[k],
-                            damping=self.damping[k],
-                            offset=self.wall_y[k],
-                            activeConnector=False,
-                        )
-                    )
-                )
+        if strip.used:
+            self.holders = [beam.mbs.AddObject(self._holder(k, marker)) for k, marker in enumerate(markers)]
+
+    def _connector(self, k: int, marker: Any) -> Any:
+        """Exudyn's item for the one-sided spring and dashpot of the ``k``-th contact point."""
+        beam, sign = self.beam, self.signs[k]
+        # open at t = 0: a closed one would put its damping into the initial accelerations
+        gap = max(1e-14, float(sign * (self.wall_y[k] - beam.shape.y[self.nodes[k]])))
+        state = items.NodeGenericData(numberOfDataCoordinates=1, initialCoordinates=[gap])
+        return items.ObjectContactCoordinate(
+            markerNumbers=[marker, beam.ground_marker][:: int(sign)],
+            nodeNumber=beam.mbs.AddNode(state),
+            contactStiffness=self.stiffness[k],
+            contactDamping=self.damping[k],
+            offset=-sign * self.wall_y[k],
+        )
+
+    def _holder(self, k: int, marker: Any) -> Any:
+        """Exudyn's item for what holds the ``k``-th contact point, let go at first."""
+        return items.ObjectConnectorCoordinateSpringDamper(
+            markerNumbers=[self.beam.ground_marker, marker],
+            stiffness=self.stiffness[k],
+            damping=self.damping[k],
+            offset=self.wall_y[k],
+            activeConnector=False,
+        )
 
     @cached_property
     def _coordinates(self) -> Indices:
@@ -116,16 +106,12 @@ class _Run(ContactRun):
         return np.asarray(self.beam.vertical[self.nodes])
 
     def depth(self, q: Array) -> Array:
-        return np.asarray(self._signs * (q[self._coordinates] - self.wall_y))
-
-    @property
-    def signs(self) -> Array:
-        return self._signs
+        return np.asarray(self.signs * (q[self._coordinates] - self.wall_y))
 
     def _spring_and_dashpot(self, q: Array, v: Array) -> Array:
         if self._of[0] is not q or self._of[1] is not v:  # one solution is looked at more than once
             self._of = q, v
-            self._force = self.stiffness * self.depth(q) + self.damping * (self._signs * v[self._coordinates])
+            self._force = self.stiffness * self.depth(q) + self.damping * (self.signs * v[self._coordinates])
         return self._force
 
     def closed_by(self, q: Array, v: Array) -> Flags:
@@ -136,7 +122,7 @@ class _Run(ContactRun):
         active = (force > 0.0) | self.held
         if self.strip.used:
             self.strip.captured |= active[: self.strip.captured.size]
-        return np.where(active, self._signs * force, 0.0), active
+        return np.where(active, self.signs * force, 0.0), active
 
     def stored_energy(self, q: Array) -> float:
         depth = self.depth(q)

@@ -35,7 +35,6 @@ from exudyn_models.integrators import Integrator, Newmark
 
 __all__ = ["Rigid"]
 
-
 RETURN = 0.2  # of its depth in a step: how fast a captured node is led back to the wall
 
 
@@ -43,9 +42,7 @@ class _Run(ContactRun):
     iterated = False
 
     def __init__(self, beam: Beam, wall: Wall, hold: int) -> None:
-        self.beam, self.nodes = beam, wall.nodes
-        self.contact_s = beam.shape.s[wall.nodes]
-        self.wall_y = beam.shape.wall_y[wall.nodes]
+        super().__init__(beam, wall.nodes, beam.shape.wall_y[wall.nodes])
         self.strip = HeldStrip(wall, hold)
         self.active = np.zeros(wall.nodes.size, bool)
         self.back = np.zeros(wall.nodes.size)  # speed asked of each closed node

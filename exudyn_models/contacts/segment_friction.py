@@ -39,11 +39,9 @@ class _Run(ContactRun):
     states = 3  # gap; stick or slip; where it sticks
 
     def __init__(self, beam: Beam, elements: Indices, stiffness: Array, damping: Array) -> None:
-        self.beam, self.elements = beam, elements
-        self.stiffness, self.damping = stiffness, damping
-        self.nodes = np.append(elements, elements[-1] + 1)
-        self.contact_s = beam.shape.s[self.nodes]
-        self.wall_y = beam.shape.wall_curvature * self.contact_s**2 / 2
+        nodes = np.append(elements, elements[-1] + 1)
+        super().__init__(beam, nodes, beam.shape.wall_curvature * beam.shape.s[nodes] ** 2 / 2)
+        self.elements, self.stiffness, self.damping = elements, stiffness, damping
         self.radius = 1.0 / beam.shape.wall_curvature
         self.round_off = float(np.finfo(float).eps * self.radius * stiffness.max())
 

@@ -21,7 +21,6 @@ from exudyn_models.geometry import Shape
 
 __all__ = ["ANCFCable"]
 
-
 POINTS, WEIGHTS = np.polynomial.legendre.leggauss(4)
 XI = (POINTS + 1) / 2
 

@@ -19,7 +19,6 @@ from exudyn_models.arrays import Array
 
 __all__ = ["Averages", "Integrator", "Segment", "checked_steps", "growing_segments"]
 
-
 MAXIMUM_STEPS = 5_000_000
 EVEN = 12.5  # steps of one length at least, while steps grow …
 CHANGE = 1.05  # … or as many as it takes them to grow by this factor
