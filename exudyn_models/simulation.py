@@ -25,7 +25,6 @@ from exudyn_models.assembly import assemble, stable_step
 from exudyn_models.composition import Chosen, Composition
 from exudyn_models.contacts import ContactRun
 from exudyn_models.geometry import Shape
-from exudyn_models.integrators.base import Segment
 from exudyn_models.recording import Recorder
 from exudyn_models.scaling import Scaling, front_bound
 from exudyn_models.settling import Settling
@@ -58,7 +57,7 @@ def simulate(
     save : number of saved instants after t = 0, spread evenly in √t, or their times, s; snapped to steps.
     view : watch the run in Exudyn's viewer, until its window is told to go on (Q or Escape); without a display a line
         on standard error says so.
-    progress : called with the fraction done.
+    progress : called with the fraction stepping.
     until : asked at every saved instant; the run ends with the first at which it says so.
     parts : mesh, element and so on, the fields of :class:`exudyn_models.composition.Composition`.
 
@@ -85,17 +84,18 @@ def simulate(
     chosen = composition.chosen(impact, end)
     layout = _lay_out(impact, end, chosen, composition.full_beam)
     with quiet():
-        system = _build(layout, chosen, not composition.full_beam, targets.size)
-        done = _solve(system, targets, view, progress, until)
-    if done.failure is not None and not system.run.record["time"]:
-        raise SimulationError(done.failure, time=0.0, step=0, advice=done.advice)
+        stepping = _build(layout, chosen, not composition.full_beam, targets)
+        stepping.progress, stepping.until = progress, until
+        _solve(stepping, view)
+    if stepping.failure is not None and not stepping.run.record["time"]:
+        raise SimulationError(stepping.failure, time=0.0, step=0, advice=stepping.advice)
     settings = {"end_time": end, "save": np.asarray(save).tolist(), "full_beam": composition.full_beam}
-    settings |= _described(layout, chosen, system, end)
+    settings |= _described(layout, chosen, stepping)
     settings["wall_seconds"] = clock.perf_counter() - began
-    history = _history(impact, layout, system, done, settings, mesh_given=composition.mesh is not None)
-    if done.failure is not None:
+    history = _history(impact, layout, stepping, settings, mesh_given=composition.mesh is not None)
+    if stepping.failure is not None:
         raise SimulationError(
-            done.failure, time=float(history.time[-1]), step=done.steps, advice=done.advice, history=history
+            stepping.failure, time=float(history.time[-1]), step=stepping.steps, advice=stepping.advice, history=history
         )
     return history
 
@@ -137,19 +137,7 @@ def _lay_out(impact: Impact, end: float, chosen: Chosen, full_beam: bool) -> _La
     return _Layout(half_length, places, scaling, geometry.shape(nodes, scaling, chosen.contact.wall_share(geometry)))
 
 
-@dataclass(frozen=True)
-class _System:
-    """An Exudyn system with its solver. stable : the largest stable step of an explicit integrator, model units."""
-
-    run: Recorder
-    segments: list[Segment]
-    stable: float
-    settings: Any
-    stepper: Any
-    settling: Settling | None
-
-
-def _build(layout: _Layout, chosen: Chosen, half: bool, instants: int) -> _System:
+def _build(layout: _Layout, chosen: Chosen, half: bool, targets: Array) -> Stepping:
     """Beam, contact, steps and solver. Raises ``ValueError`` for more work than one run takes."""
     scaling, integrator, nodes = layout.scaling, chosen.integrator, layout.shape.s.size
     beam, contact = assemble(layout.shape, scaling, chosen.element, chosen.contact, integrator, half)
@@ -157,37 +145,33 @@ def _build(layout: _Layout, chosen: Chosen, half: bool, instants: int) -> _Syste
     stable = stable_step(beam, contact, integrator) if integrator.explicit else math.inf
     crossing = min(0.01, (layout.places[1] / front_bound(scaling.kappa)) ** 2)
     segments = integrator.segments(crossing, scaling.end_time, stable)
-    affordable("exudyn.integrator and mesh", sum(s.steps for s in segments), nodes, instants, MOST_WORK)
+    affordable("exudyn.integrator and mesh", sum(s.steps for s in segments), nodes, targets.size, MOST_WORK)
     settings = chosen.solver.settings(scaling.amplitude, contact.round_off)
     integrator.configure(settings)
-    stepper = integrator.solver()
-    settling = None if integrator.explicit else _settling(contact, chosen, settings, stepper)
-    return _System(run, segments, stable, settings, stepper, settling)
+    solver = integrator.solver()
+    settling = None if integrator.explicit else _settling(contact, chosen, settings, solver)
+    return Stepping(run, segments, stable, settings, solver, settling, targets)
 
 
-def _settling(contact: ContactRun, chosen: Chosen, settings: Any, stepper: Any) -> Settling | None:
+def _settling(contact: ContactRun, chosen: Chosen, settings: Any, solver: Any) -> Settling | None:
     """The judge of the contact states of an implicit run (``None``: Exudyn does not repeat steps for them)."""
     if not contact.iterated:
         return None
     judged = settings.timeIntegration.discontinuous
     return Settling(
-        contact, stepper, judged.maxIterations, judged.iterationTolerance, must_settle=chosen.solver.contact_must_settle
+        contact, solver, judged.maxIterations, judged.iterationTolerance, must_settle=chosen.solver.contact_must_settle
     )
 
 
-def _solve(
-    system: _System, targets: Array, view: bool, progress: Callable[[float], object] | None, until: Until | None
-) -> Stepping:
-    """Run all steps, watched where asked for. The Exudyn system is given up at the end."""
-    mbs = system.run.beam.mbs
+def _solve(stepping: Stepping, view: bool) -> None:
+    """Take all steps, watched where asked for. The Exudyn system is given up at the end."""
+    mbs = stepping.run.beam.mbs
     container = mbs.variables["container"]
-    done = Stepping(system.run, targets, system.settling, progress, until)
     viewing = view and open_viewer(container)
     try:
-        done.through(system.segments, system.settings, system.stepper)
+        stepping.through()
         if viewing:
             wait_until_closed(container)
-        return done
     finally:
         if viewing:
             container.renderer.Stop()
@@ -195,9 +179,9 @@ def _solve(
         mbs.variables.clear()  # the container holds the system: break the circle
 
 
-def _described(layout: _Layout, chosen: Chosen, system: _System, end: float) -> dict[str, Any]:
+def _described(layout: _Layout, chosen: Chosen, stepping: Stepping) -> dict[str, Any]:
     """The parts and what was chosen with them, JSON-ready; times in s, lengths in m."""
-    run, scaling = system.run, layout.scaling
+    run, scaling, end = stepping.run, layout.scaling, layout.scaling.end_time
     settings: dict[str, Any] = {name: describe(getattr(chosen, name)) for name in Composition.PARTS}
     settings["contact"] |= run.contact.settings()
     settings |= {
@@ -207,31 +191,31 @@ def _described(layout: _Layout, chosen: Chosen, system: _System, end: float) -> 
         "amplitude": scaling.amplitude,
         "amplitude_of_the_real_beam": scaling.true_amplitude,
         "ends": "moment and shear of the free motion" if scaling.psi or scaling.chi else "free",
-        "first_step": system.segments[0].length * end,
-        "last_step": system.segments[-1].length * end,
+        "first_step": stepping.segments[0].length * end,
+        "last_step": stepping.segments[-1].length * end,
     }
-    if math.isfinite(system.stable):
-        settings["stable_step"] = system.stable * end
-    if system.settling is not None:
-        settings |= {"contact_cycles": system.settling.cycles, "unsettled_steps": system.settling.unsettled}
+    if math.isfinite(stepping.stable):
+        settings["stable_step"] = stepping.stable * end
+    if stepping.settling is not None:
+        settings |= {"contact_cycles": stepping.settling.cycles, "unsettled_steps": stepping.settling.unsettled}
     return settings
 
 
 def _history(
-    impact: Impact, layout: _Layout, system: _System, done: Stepping, settings: dict[str, Any], *, mesh_given: bool
+    impact: Impact, layout: _Layout, stepping: Stepping, settings: dict[str, Any], *, mesh_given: bool
 ) -> ImpactHistory:
-    return system.run.history(
+    return stepping.run.history(
         impact=impact,
         warnings=warnings_of_run(
-            system.run,
+            stepping.run,
             layout.places,
             layout.half_length,
             given=mesh_given,
-            last_step=system.segments[-1].length,
-            settling=system.settling,
+            last_step=stepping.segments[-1].length,
+            settling=stepping.settling,
         ),
-        steps=done.steps,
-        seconds=done.seconds,
-        completed=done.failure is None,
+        steps=stepping.steps,
+        seconds=stepping.seconds,
+        completed=stepping.failure is None,
         settings=settings,
     )

@@ -38,6 +38,8 @@ class Stepping:
     """A run under way, and Exudyn's ``PostStepUserFunction``: it reads every step, saves the state where asked and lets
     the contact switch connectors.
 
+    segments, stable : the steps, and the longest that an explicit integrator bears, model units.
+    settings, solver : Exudyn's.
     targets : times to save, model units; each is saved at the first end of a step at or after it.
     until, progress : see :func:`exudyn_models.simulate`.
     steps : done; seconds : inside Exudyn; failure : what failed, ``None`` when nothing did; advice : what to try then.
@@ -45,8 +47,12 @@ class Stepping:
     """
 
     run: Recorder
-    targets: Array
+    segments: list[Segment]
+    stable: float
+    settings: Any
+    solver: Any
     settling: Settling | None
+    targets: Array
     progress: Callable[[float], object] | None = None
     until: Until | None = None
     steps: int = 0
@@ -92,8 +98,8 @@ class Stepping:
             mbs.solverSignalJacobianUpdate = True
         return True
 
-    def through(self, segments: list[Segment], settings: Any, solver: Any) -> None:
-        """Take all steps of ``segments``, or those up to a failure, which is kept.
+    def through(self) -> None:
+        """Take all steps, or those up to a failure, which is kept.
 
         Raises what the user's functions raise, and ``KeyboardInterrupt``.
         """
@@ -101,11 +107,11 @@ class Stepping:
         if self.settling is not None:
             mbs.SetPostNewtonUserFunction(self.settling)
         try:
-            if self._started(segments[0], settings, solver):
+            if self._started(self.segments[0]):
                 mbs.SetPostStepUserFunction(self)
-                for segment in segments:
+                for segment in self.segments:
                     if self.failure is None and not self.left:
-                        self._step_through(segment, settings, solver)
+                        self._step_through(segment)
         except FloatingPointError as error:
             self.failure = str(error)
         except SystemError as error:  # what was raised while Exudyn ran, an interrupt by the user above all
@@ -116,12 +122,12 @@ class Stepping:
             mbs.SetPostStepUserFunction(0)
             self.run.sum_up()
 
-    def _started(self, first: Segment, settings: Any, solver: Any) -> bool:
+    def _started(self, first: Segment) -> bool:
         """Whether Exudyn took the system; the state at t = 0 is then read and saved."""
-        time, run = settings.timeIntegration, self.run
+        time, run = self.settings.timeIntegration, self.run
         time.startTime, time.endTime, time.numberOfSteps = first.start, first.end, first.steps
         began = clock.perf_counter()
-        if not solver.InitializeSolver(run.beam.mbs, settings):
+        if not self.solver.InitializeSolver(run.beam.mbs, self.settings):
             self.failure = "Exudyn could not initialise"
             return False
         self.seconds += clock.perf_counter() - began
@@ -130,20 +136,20 @@ class Stepping:
         run.contact.between(0.0, first.length, q, v)
         return True
 
-    def _step_through(self, segment: Segment, settings: Any, solver: Any) -> None:
-        time, it, size = settings.timeIntegration, solver.it, segment.length
+    def _step_through(self, segment: Segment) -> None:
+        time, it, size = self.settings.timeIntegration, self.solver.it, segment.length
         self.step = size
         time.startTime, time.endTime, time.numberOfSteps = segment.start, segment.end, segment.steps
         it.startTime, it.endTime, it.numberOfSteps = segment.start, segment.end, segment.steps
         it.currentStepSize = it.initialStepSize = it.maxStepSize = size
         time.minimumStepSize = it.minStepSize = size * 1e-3
         began = clock.perf_counter()
-        solved = solver.SolveSteps(self.run.beam.mbs, settings)
+        solved = self.solver.SolveSteps(self.run.beam.mbs, self.settings)
         self.seconds += clock.perf_counter() - began
         if self.error is not None:
             raise self.error
         if not solved and not self.left:
-            self._failed(str(solver.GetErrorString()))
+            self._failed(str(self.solver.GetErrorString()))
         elif self.settling is not None and self.unsettled:
             self.failure, self.advice = self.settling.failure(), UNSETTLED
 
