@@ -34,19 +34,11 @@ def assemble(
     container = exu.SystemContainer()
     system = container.AddSystem()
     system.variables["container"] = container  # the system must not outlive it
-    true = shape.slender
-    axial = element.axial_stiffness
-    if axial is None and true:
-        axial_stiffness = 12.0 * (scaling.length / scaling.impact.section_height) ** 2
-    elif axial is None:
-        axial_stiffness = max(TAUT, abs(scaling.axial_force) / STRETCH) if scaling.axial_force else 1.0
-    else:
-        axial_stiffness = axial * scaling.length**2 / scaling.impact.bending_stiffness
     factor = element.viscosity
     if factor is None:
         factor = VISCOSITY_EXPLICIT if integrator.explicit else VISCOSITY
     section = Section(
-        axial_stiffness=axial_stiffness,
+        axial_stiffness=_axial_stiffness(element.axial_stiffness, shape.slender, scaling),
         axial_force=scaling.axial_force,
         damping=scaling.impact.damping / scaling.end_time,
     )
@@ -60,24 +52,37 @@ def assemble(
     ends = [(last, 1.0)] if half else [(last, 1.0), (0, -1.0)]
     for node, sign in ends:
         _load_end(beam, node, sign, scaling)
-    opposite = scaling.impact.opposite_wall
-    wall = Wall(
-        nodes=reachable(shape.s, scaling, centre),
-        centre=centre,
-        half=half,
-        front=front_bound(scaling.kappa),
-        first_spread=FIRST_SPREAD * scaling.impact.slow_time_scale / scaling.end_time,
-        thin_front=thin_front(scaling.kappa),
-        explicit=integrator.explicit,
-        stiffness_unit=scaling.stiffness_per_length,
-        damping_unit=scaling.damping_per_length,
-        opposite=None if opposite is None else -opposite / scaling.deflection,
-    )
-    run = contact.attach(beam, wall)
+    run = contact.attach(beam, _wall(shape, scaling, centre, half, integrator.explicit))
     draw_wall(system, min(0.0, float(shape.x[0])), float(shape.x[-1]), shape.wall_curvature)
     system.Assemble()
     beam.locate()
     return beam, run
+
+
+def _axial_stiffness(asked: float | None, true: bool, scaling: Scaling) -> float:
+    """EA in EI/Λ². In the linear limit it matters under an axial force only."""
+    if asked is not None:
+        return asked * scaling.length**2 / scaling.impact.bending_stiffness
+    if true:
+        return 12.0 * (scaling.length / scaling.impact.section_height) ** 2
+    return max(TAUT, abs(scaling.axial_force) / STRETCH) if scaling.axial_force else 1.0
+
+
+def _wall(shape: Shape, scaling: Scaling, centre: int, half: bool, explicit: bool) -> Wall:
+    opposite = scaling.impact.opposite_wall
+    first_spread = FIRST_SPREAD * scaling.impact.slow_time_scale / scaling.end_time
+    return Wall(
+        nodes=reachable(shape.s, scaling, centre),
+        centre=centre,
+        half=half,
+        front=front_bound(scaling.kappa),
+        first_spread=first_spread,
+        plastic=thin_front(scaling.kappa) and first_spread >= 1.0 and not explicit,
+        explicit=explicit,
+        stiffness_unit=scaling.stiffness_per_length,
+        damping_unit=scaling.damping_per_length,
+        opposite=None if opposite is None else -opposite / scaling.deflection,
+    )
 
 
 def _load_end(beam: Beam, node: int, sign: float, scaling: Scaling) -> None:

@@ -33,7 +33,7 @@ class Wall:
     half : only x ≥ 0 is modelled;
     front : rough estimate of where contact ends at the end;
     first_spread : until when (in end times) nothing but the first spread of the zone moves it: waves are back later;
-    thin_front : no mesh of moderate size resolves the bending ahead of the front;
+    plastic : the front is thin, so that nodes that hit must not rebound, and nothing but the first spread moves it;
     stiffness_unit, damping_unit : N/m² and N s/m² of the model units.
     """
 
@@ -42,7 +42,7 @@ class Wall:
     half: bool
     front: float
     first_spread: float
-    thin_front: bool
+    plastic: bool
     explicit: bool
     stiffness_unit: float
     damping_unit: float

@@ -202,17 +202,16 @@ class Penalty(Contact):
         local = length.copy()
         if wall.half:
             local[0] *= 2.0  # the node of symmetry stands for half of its neighbourhood
-        plastic = wall.thin_front and wall.first_spread >= 1.0 and not wall.explicit
         stiffness, damping = self.relative_stiffness, self.relative_damping
         if stiffness is None:
             stiffness = chosen_stiffness(beam.shape.s, wall)
         if damping is None:
-            damping = (PLASTIC if plastic else DAMPING) * math.sqrt(stiffness / STIFFNESS)
+            damping = (PLASTIC if wall.plastic else DAMPING) * math.sqrt(stiffness / STIFFNESS)
         k, d = penalty_per_length(local, stiffness, damping)
         if self.stiffness is not None:
             k = np.full_like(local, self.stiffness / wall.stiffness_unit)
         if self.damping is not None:
             d = np.full_like(local, self.damping / wall.damping_unit)
-        strip = HeldStrip(wall, self.hold, 0.0 if plastic and self.hold_start is None else self.hold_start)
+        strip = HeldStrip(wall, self.hold, 0.0 if wall.plastic and self.hold_start is None else self.hold_start)
         chosen = {"relative_stiffness": stiffness, "relative_damping": damping}
         return _Run(beam, wall, k * length, d * length, strip, chosen)
