@@ -16,7 +16,8 @@ that of 10 and 3.
 Below κ/ν = 0.04 the front passes an element about as fast as the element bends, on any mesh of moderate size. Each node
 then hits the wall by itself, and what it rebounds with is added to the impulse: with D = 3 r₀ is 6.5, 21 and 19 % too
 large at κ/ν = 1/100, 1/400 and 1/1600. There D = 40 makes the hits plastic, and nothing is held at the start, while
-nothing but the first spread of the zone moves it and the steps are implicit.
+nothing but the first spread of the zone moves it and the steps are implicit. Not with a ``hold``: its springs would
+pull nodes that D = 40 has stopped ahead of the wall, and give energy.
 """
 
 from __future__ import annotations
@@ -202,16 +203,17 @@ class Penalty(Contact):
         local = length.copy()
         if wall.half:
             local[0] *= 2.0  # the node of symmetry stands for half of its neighbourhood
+        plastic = wall.plastic and not self.hold
         stiffness, damping = self.relative_stiffness, self.relative_damping
         if stiffness is None:
             stiffness = chosen_stiffness(beam.shape.s, wall)
         if damping is None:
-            damping = (PLASTIC if wall.plastic else DAMPING) * math.sqrt(stiffness / STIFFNESS)
+            damping = (PLASTIC if plastic else DAMPING) * math.sqrt(stiffness / STIFFNESS)
         k, d = penalty_per_length(local, stiffness, damping)
         if self.stiffness is not None:
             k = np.full_like(local, self.stiffness / wall.stiffness_unit)
         if self.damping is not None:
             d = np.full_like(local, self.damping / wall.damping_unit)
-        strip = HeldStrip(wall, self.hold, 0.0 if wall.plastic and self.hold_start is None else self.hold_start)
+        strip = HeldStrip(wall, self.hold, 0.0 if plastic and self.hold_start is None else self.hold_start)
         chosen = {"relative_stiffness": stiffness, "relative_damping": damping}
         return _Run(beam, wall, k * length, d * length, strip, chosen)
