@@ -74,7 +74,8 @@ def _fields(table: str, kind: str | None, part: type) -> Iterator[Setting]:
             continue
         default: str | None = None
         if field.default is not dataclasses.MISSING:
-            absent = "-" if table == "section" else "chosen"  # a section's numbers are known or not
+            # a section's numbers are known or not; a part may say what it chooses
+            absent = "-" if table == "section" else field.metadata.get("chosen", "chosen")
             default = absent if field.default is None else _written(field.default)
         elif field.default_factory is not dataclasses.MISSING:
             default = _written(field.default_factory())

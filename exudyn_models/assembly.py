@@ -14,17 +14,15 @@ import numpy as np
 from bent_beam.impact import FIRST_SPREAD
 from exudyn_models.contacts import Contact, ContactRun, Wall
 from exudyn_models.elements import Beam, Element
-from exudyn_models.elements.beam import Section
+from exudyn_models.elements.beam import VISCOSITY, VISCOSITY_EXPLICIT, Section
 from exudyn_models.geometry import Shape
 from exudyn_models.integrators import Integrator
-from exudyn_models.resolution import reachable
+from exudyn_models.resolution import reachable, thin_front
 from exudyn_models.scaling import Scaling, front_bound
 from exudyn_models.viewer import draw_wall
 
 __all__ = ["assemble", "stable_step"]
 
-VISCOSITY = 0.15  # of √(EIμ)Δx² of an element, λ₀ is off in proportion; tests/exudyn_models/test_exudyn_constants.py
-VISCOSITY_EXPLICIT = 0.003  # more would shorten the stable step
 STRETCH = 1e-4  # largest strain under the axial force in the linear limit: lengths are then right to as much
 TAUT = 1e4  # EAΛ²/EI under it: a strain of N/EA moves the front, too, by 7e-4 of what the force does (λ_N at κ/ν = 0.5)
 
@@ -36,19 +34,11 @@ def assemble(
     container = exu.SystemContainer()
     system = container.AddSystem()
     system.variables["container"] = container  # the system must not outlive it
-    true = shape.slender
-    axial = element.axial_stiffness
-    if axial is None and true:
-        axial_stiffness = 12.0 * (scaling.length / scaling.impact.section_height) ** 2
-    elif axial is None:
-        axial_stiffness = max(TAUT, abs(scaling.axial_force) / STRETCH) if scaling.axial_force else 1.0
-    else:
-        axial_stiffness = axial * scaling.length**2 / scaling.impact.bending_stiffness
     factor = element.viscosity
     if factor is None:
         factor = VISCOSITY_EXPLICIT if integrator.explicit else VISCOSITY
     section = Section(
-        axial_stiffness=axial_stiffness,
+        axial_stiffness=_axial_stiffness(element.axial_stiffness, shape.slender, scaling),
         axial_force=scaling.axial_force,
         damping=scaling.impact.damping / scaling.end_time,
     )
@@ -62,23 +52,37 @@ def assemble(
     ends = [(last, 1.0)] if half else [(last, 1.0), (0, -1.0)]
     for node, sign in ends:
         _load_end(beam, node, sign, scaling)
-    opposite = scaling.impact.opposite_wall
-    wall = Wall(
-        nodes=reachable(shape.s, scaling, centre),
-        centre=centre,
-        half=half,
-        front=front_bound(scaling.kappa),
-        first_spread=FIRST_SPREAD * scaling.impact.slow_time_scale / scaling.end_time,
-        explicit=integrator.explicit,
-        stiffness_unit=scaling.stiffness_per_length,
-        damping_unit=scaling.damping_per_length,
-        opposite=None if opposite is None else -opposite / scaling.deflection,
-    )
-    run = contact.attach(beam, wall)
+    run = contact.attach(beam, _wall(shape, scaling, centre, half, integrator.explicit))
     draw_wall(system, min(0.0, float(shape.x[0])), float(shape.x[-1]), shape.wall_curvature)
     system.Assemble()
     beam.locate()
     return beam, run
+
+
+def _axial_stiffness(asked: float | None, true: bool, scaling: Scaling) -> float:
+    """EA in EI/Λ². In the linear limit it matters under an axial force only."""
+    if asked is not None:
+        return asked * scaling.length**2 / scaling.impact.bending_stiffness
+    if true:
+        return 12.0 * (scaling.length / scaling.impact.section_height) ** 2
+    return max(TAUT, abs(scaling.axial_force) / STRETCH) if scaling.axial_force else 1.0
+
+
+def _wall(shape: Shape, scaling: Scaling, centre: int, half: bool, explicit: bool) -> Wall:
+    opposite = scaling.impact.opposite_wall
+    first_spread = FIRST_SPREAD * scaling.impact.slow_time_scale / scaling.end_time
+    return Wall(
+        nodes=reachable(shape.s, scaling, centre),
+        centre=centre,
+        half=half,
+        front=front_bound(scaling.kappa),
+        first_spread=first_spread,
+        plastic=thin_front(scaling.kappa) and first_spread >= 1.0 and not explicit,
+        explicit=explicit,
+        stiffness_unit=scaling.stiffness_per_length,
+        damping_unit=scaling.damping_per_length,
+        opposite=None if opposite is None else -opposite / scaling.deflection,
+    )
 
 
 def _load_end(beam: Beam, node: int, sign: float, scaling: Scaling) -> None:

@@ -15,14 +15,12 @@ from dataclasses import dataclass
 from typing import ClassVar, Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
 from bent_beam.checks import between
+from exudyn_models.arrays import Array
 from exudyn_models.scaling import Scaling, front_bound
 
 __all__ = ["GEOMETRIES", "Geometry", "LinearLimit", "Shape", "TrueGeometry"]
-
-Array = NDArray[np.float64]
 
 STEEPEST = 1e-4  # slope in the linear limit: at 2e-3 the energy budget of a whole impact is 8e-6 off
 MOVED = 2.0  # fronts' bounds from the centre: beyond, the beam keeps the shape that it came with
@@ -30,7 +28,12 @@ MOVED = 2.0  # fronts' bounds from the centre: beyond, the beam keeps the shape 
 
 @dataclass(frozen=True)
 class Shape:
-    """Places, angles and velocities of the nodes at the first contact in model units, arrays of shape (nodes,)."""
+    """Places, angles and velocities of the nodes at the first contact in model units, arrays of shape (nodes,).
+
+    curvature : stress-free; slender : true geometry, where the axial stiffness of the section matters.
+    wall_curvature : of a wall y = wall_curvature x²/2. It may be given a share of the beam's own; the beam is then laid
+        flatter. first_touch : place that x of the wall is measured from.
+    """
 
     s: Array
     x: Array
@@ -39,12 +42,10 @@ class Shape:
     velocity_x: Array
     velocity_y: Array
     angular_velocity: Array
-    curvature: float  # stress-free
-    slender: bool  # true geometry: the axial stiffness of the section matters
-    wall_curvature: float = (
-        0.0  # of a wall y = wall_curvature x²/2; a share of the beam's own may be given to it, the beam laid flatter
-    )
-    first_touch: float = 0.0  # x above is measured from there
+    curvature: float
+    slender: bool
+    wall_curvature: float = 0.0
+    first_touch: float = 0.0
 
     @property
     def wall_y(self) -> Array:

@@ -1,6 +1,8 @@
 """Mesh, length, steps and contact points that are chosen from the problem by scaling arguments, when none are given.
 
-While nothing but the first spread of the zone moves it, elements and steps grow with distance and time. A run that
+While nothing but the first spread of the zone moves it, elements and steps grow with distance and time. Where κ/ν is
+so small that the front is thin, the elements up to its bound are equal: what counts is that each hit of a node is
+plastic (:mod:`exudyn_models.contacts.penalty`), not the bending ahead. A run that
 lasts until waves are back from the ends needs every part of the beam alike, and steps that resolve the contact: one
 that closes a node in a step much longer than the penalty's own time gives half of the reaction once more in the next,
 and the beam leaves with more energy than it had. There the mesh is uniform and h = ½Δx²√(μ/EI).
@@ -13,12 +15,12 @@ import math
 from typing import Any, cast
 
 import numpy as np
-from numpy.typing import NDArray
 
 from bent_beam import Impact
 from bent_beam.checks import positive
 from bent_beam.impact import FIRST_SPREAD
 from bent_beam.meshes import Mesh, NodesMesh, ScaleFreeMesh
+from exudyn_models.arrays import Array, Indices
 from exudyn_models.integrators import Integrator
 from exudyn_models.scaling import Scaling, front_bound
 
@@ -31,14 +33,17 @@ __all__ = [
     "reachable",
     "refined_choice",
     "resolving_step",
+    "thin_front",
 ]
 
-Array = NDArray[np.float64]
-
 GROWTH = 0.01  # neighbours of the chosen mesh: 5 elements over the front's bending length at κ/ν = 0.05, 20 at 0.2
+THIN = 0.04  # κ/ν below which the front passes an element of that mesh about as fast as the element bends
 WAVES, GROWTH_OF_WAVES = 2.0, 0.02  # beyond so many times the front's bound there are waves only, and these neighbours
 OF_ZONE, OF_BENDING = 300.0, 30.0  # the smallest element over the front's bound and over the bending ahead of it
-FINEST = 3e3  # the front's bound over the smallest element: a finer start moves r₀ by < 0.3 % (κ/ν < 1/100)
+OF_THIN_FRONT = 3.0  # equal elements over the bending length of a thin front at the end of the run, …
+LEAST_OF_ZONE, MOST_OF_ZONE = 300.0, 800.0  # … but so many at least and at most up to the front's bound
+BEYOND = 1.1  # times the front's bound, where these end
+PASSED = 2.0  # elements that a thin front passes in a step
 REACH, REACH_OF_FRONT = 12.0, 8.0  # half length to model, see far_field; tests/exudyn_models/test_exudyn_constants.py
 ELEMENT_STEPS = 4e5  # elements times steps of a run with uniform elements: a few seconds
 FEWEST = 60  # uniform elements of a half beam, from 0.9 T* on; tests/exudyn_models/test_exudyn_constants.py
@@ -63,7 +68,7 @@ def far_field(scaling: Scaling) -> float:
 
 def chosen_half_length(impact: Impact, end_time: float | None = None) -> float:
     """The half length, m, modelled when no mesh is given: the beam's, or less where nothing returns in time."""
-    scaling = Scaling(impact, impact.checked_end_time(end_time), 1.0)
+    scaling = Scaling.of(impact, impact.checked_end_time(end_time))
     return min(impact.half_length, far_field(scaling) * scaling.length)
 
 
@@ -80,19 +85,21 @@ def chosen_mesh(
         count = max((ELEMENT_STEPS / steps_at_one) ** (1.0 / 3.0), FEWEST) / coarsen
         places = np.linspace(0.0, impact.half_length, max(2, round(count)) + 1)
         return NodesMesh(places=tuple(float(place) for place in places))
-    scaling = Scaling(impact, impact.checked_end_time(end_time), 1.0)
+    scaling = Scaling.of(impact, impact.checked_end_time(end_time))
     front = front_bound(scaling.kappa)
     if explicit:
-        smallest = min(max(front, 0.5) / 25, (2.0 / front) / 10)
-        rule = ScaleFreeMesh(smallest * scaling.length * coarsen, 1.0 + 0.02 * coarsen)
+        element, growth, zone = min(max(front, 0.5) / 25, (2.0 / front) / 10), GROWTH_OF_WAVES, None
+    elif thin_front(scaling.kappa):
+        count = min(max(OF_THIN_FRONT * front**2 / 2.0, LEAST_OF_ZONE), MOST_OF_ZONE)
+        element, growth, zone = front / count, 0.0, BEYOND * front
     else:
-        smallest = max(min(front / OF_ZONE, (2.0 / front) / OF_BENDING), front / FINEST)
-        rule = ScaleFreeMesh(
-            smallest * scaling.length * coarsen,
-            1.0 + GROWTH * coarsen,
-            zone=WAVES * front * scaling.length,
-            growth_outside=1.0 + GROWTH_OF_WAVES * coarsen,
-        )
+        element, growth, zone = min(front / OF_ZONE, (2.0 / front) / OF_BENDING), GROWTH, WAVES * front
+    rule = ScaleFreeMesh(
+        element * scaling.length * coarsen,
+        1.0 + growth * coarsen,
+        zone=None if zone is None else zone * scaling.length,
+        growth_outside=None if zone is None else 1.0 + GROWTH_OF_WAVES * coarsen,
+    )
     nodes = rule.nodes(chosen_half_length(impact, end_time))
     return NodesMesh(places=tuple(float(place) for place in nodes))
 
@@ -108,18 +115,38 @@ def resolving_step(mesh: Mesh, impact: Impact) -> float:
     return STEP * float(np.diff(mesh.nodes(impact.half_length)).min()) ** 2 / impact.wave_constant
 
 
-def chosen_steps(integrator: Integrator, mesh: Mesh, impact: Impact, end_time: float | None) -> Integrator:
-    """``integrator``, which nobody asked for, with steps that resolve the contact once waves are back from the ends.
+def thin_front(kappa_over_nu: float) -> bool:
+    """Whether no mesh of moderate size resolves the bending ahead of the front."""
+    return kappa_over_nu < THIN
 
-    With elements so short that this would take more than ``MOST_STEPS`` it stays as it is: the run warns where its
-    contact gives energy.
+
+def chosen_steps(integrator: Integrator, mesh: Mesh, impact: Impact, end_time: float | None) -> Integrator:
+    """``integrator``, which nobody asked for, with steps that resolve the contact once waves are back from the ends,
+    and in which a thin front passes ``PASSED`` elements at most.
+
+    With elements so short that the former would take more than ``MOST_STEPS`` it stays as it is: the run warns where
+    its contact gives energy.
     """
-    if integrator.explicit or not lasts_until_waves_return(impact, end_time):
+    end = impact.checked_end_time(end_time)
+    changed: dict[str, float] = {}
+    if integrator.explicit:
         return integrator
-    step = resolving_step(mesh, impact)
-    if impact.checked_end_time(end_time) > MOST_STEPS * step:
-        return integrator
-    return cast(Integrator, dataclasses.replace(cast(Any, integrator), time_step=step))
+    if lasts_until_waves_return(impact, end_time):
+        step = resolving_step(mesh, impact)
+        if end <= MOST_STEPS * step:
+            changed["time_step"] = step
+    elif thin_front(impact.kappa_over_nu):
+        changed["relative_step"] = min(cast(Any, integrator).relative_step, _step_over_elements(mesh, impact, end))
+    return cast(Integrator, dataclasses.replace(cast(Any, integrator), **changed))
+
+
+def _step_over_elements(mesh: Mesh, impact: Impact, end: float) -> float:
+    """h/t with which the front, x ~ √t, passes ``PASSED`` elements in the last step."""
+    half_length = mesh.places[-1] if isinstance(mesh, NodesMesh) else impact.half_length
+    places = mesh.nodes(half_length)
+    front = front_bound(impact.kappa_over_nu) * Scaling.of(impact, end).length
+    k = min(max(int(np.searchsorted(places, front)), 1), places.size - 1)
+    return 2.0 * PASSED * float(places[k] - places[k - 1]) / float(places[k])
 
 
 def refined_choice(
@@ -141,7 +168,7 @@ def refined_choice(
     return laid, chosen_steps(integrator, laid, impact, end_time) if open_steps else integrator
 
 
-def reachable(x: Array, scaling: Scaling, centre: int) -> NDArray[np.int64]:
+def reachable(x: Array, scaling: Scaling, centre: int) -> Indices:
     """Nodes that may touch: half as far again as the free motion would carry the beam into the wall, and all where
     waves from the ends may throw any of them at it."""
     impact = scaling.impact

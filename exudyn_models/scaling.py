@@ -18,13 +18,11 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from bent_beam import Impact
+from exudyn_models.arrays import Array
 
 __all__ = ["Scaling", "front_bound"]
-
-Array = NDArray[np.float64]
 
 
 def front_bound(kappa_over_nu: float) -> float:
@@ -34,105 +32,73 @@ def front_bound(kappa_over_nu: float) -> float:
 
 @dataclass(frozen=True)
 class Scaling:
-    """Conversions between SI and model units (model × factor = SI) for one impact followed to ``end_time`` (s)."""
+    """Conversions between SI and model units (model × factor = SI) for one impact followed to ``end_time`` (s).
+
+    length : Λ = (EI/μ)^{1/4} √T, m; true_amplitude : V₀T/Λ, at which the model has the shape of the real beam.
+    deflection (m), velocity (m/s), slope, impulse (N s), energy (J), and of a foundation stiffness_per_length (N/m²)
+        and damping_per_length (N s/m²): factors.
+    kappa : of the beam against the wall; beam_kappa, wall_kappa, spin, alpha, chi, psi : of the free motion
+        y₀/amplitude = t(1 + spin x) − κx²/2 + αt²/2 + χx²t/2 + ψx⁴/24, x measured from first_touch (Λ).
+    axial_force : N Λ²/EI; load : uniform load (EI q₀ + μ a₀ + N K) per unit length over amplitude, under which y₀ is
+        the motion without contact.
+    """
 
     impact: Impact
     end_time: float
     amplitude: float
+    true_amplitude: float
+    length: float
+    deflection: float
+    velocity: float
+    slope: float
+    impulse: float
+    energy: float
+    stiffness_per_length: float
+    damping_per_length: float
+    kappa: float
+    beam_kappa: float
+    wall_kappa: float
+    first_touch: float
+    spin: float
+    alpha: float
+    chi: float
+    psi: float
+    axial_force: float
+    load: float
 
-    @property
-    def length(self) -> float:
-        """Λ = (EI/μ)^{1/4} √T, m."""
-        return math.sqrt(self.impact.wave_constant * self.end_time)
-
-    @property
-    def true_amplitude(self) -> float:
-        """V₀T/Λ: the amplitude at which the model has the shape of the real beam."""
-        return self.impact.velocity * self.end_time / self.length
-
-    @property
-    def deflection(self) -> float:
-        return self.impact.velocity * self.end_time / self.amplitude
-
-    @property
-    def velocity(self) -> float:
-        return self.impact.velocity / self.amplitude
-
-    @property
-    def slope(self) -> float:
-        return self.deflection / self.length
-
-    @property
-    def impulse(self) -> float:
-        return self.impact.mass_per_length * self.length * self.velocity
-
-    @property
-    def force(self) -> float:
-        return self.impulse / self.end_time
-
-    @property
-    def energy(self) -> float:
-        return self.impact.mass_per_length * self.length * self.velocity**2
-
-    @property
-    def stiffness_per_length(self) -> float:
-        """Of a foundation, N/m²."""
-        return self.impact.bending_stiffness / self.length**4
-
-    @property
-    def damping_per_length(self) -> float:
-        """Of a foundation, N s/m²."""
-        return self.impact.mass_per_length / self.end_time
-
-    # the free motion in model units, y₀/amplitude = t − κx²/2 + αt²/2 + χx²t/2 + ψx⁴/24 --------------------------
-    @property
-    def kappa(self) -> float:
-        """Of the beam against the wall."""
-        return self.impact.kappa_over_nu
-
-    @property
-    def beam_kappa(self) -> float:
-        return self.impact.curvature * self.impact.length_scale
-
-    @property
-    def wall_kappa(self) -> float:
-        return self.impact.wall_curvature * self.impact.length_scale
-
-    @property
-    def axial_force(self) -> float:
-        """N Λ²/EI."""
-        return self.impact.epsilon_axial * self.duration
-
-    @property
-    def spin(self) -> float:
-        """ωΛ/V₀."""
-        return self.impact.rotation * self.length / self.impact.velocity
-
-    @property
-    def first_touch(self) -> float:
-        return self.impact.first_touch / self.length
-
-    @property
-    def duration(self) -> float:
-        """τ at the end: T/t*."""
-        return self.end_time / self.impact.time_scale
-
-    @property
-    def alpha(self) -> float:
-        return self.impact.epsilon_alpha * self.duration
-
-    @property
-    def chi(self) -> float:
-        return self.impact.epsilon_chi * self.duration
-
-    @property
-    def psi(self) -> float:
-        return self.impact.epsilon_psi * self.duration
-
-    @property
-    def load(self) -> float:
-        """Uniform load (EI q₀ + μ a₀ + N K) per unit length over amplitude: without contact y₀ is then the motion."""
-        return self.alpha + self.psi + self.axial_force * self.beam_kappa
+    @classmethod
+    def of(cls, impact: Impact, end_time: float, amplitude: float = 1.0) -> Scaling:
+        length = math.sqrt(impact.wave_constant * end_time)
+        deflection = impact.velocity * end_time / amplitude
+        velocity = impact.velocity / amplitude
+        duration = end_time / impact.time_scale
+        beam_kappa = impact.curvature * impact.length_scale
+        alpha, psi = impact.epsilon_alpha * duration, impact.epsilon_psi * duration
+        axial_force = impact.epsilon_axial * duration
+        return cls(
+            impact=impact,
+            end_time=end_time,
+            amplitude=amplitude,
+            true_amplitude=impact.velocity * end_time / length,
+            length=length,
+            deflection=deflection,
+            velocity=velocity,
+            slope=deflection / length,
+            impulse=impact.mass_per_length * length * velocity,
+            energy=impact.mass_per_length * length * velocity**2,
+            stiffness_per_length=impact.bending_stiffness / length**4,
+            damping_per_length=impact.mass_per_length / end_time,
+            kappa=impact.kappa_over_nu,
+            beam_kappa=beam_kappa,
+            wall_kappa=impact.wall_curvature * impact.length_scale,
+            first_touch=impact.first_touch / length,
+            spin=impact.rotation * length / impact.velocity,
+            alpha=alpha,
+            chi=impact.epsilon_chi * duration,
+            psi=psi,
+            axial_force=axial_force,
+            load=alpha + psi + axial_force * beam_kappa,
+        )
 
     def free_deflection(self, x: Array, t: Array | float) -> Array:
         """y₀ at places ``x`` and time ``t`` (model units, amplitude 1), broadcast."""

@@ -21,8 +21,8 @@ import math
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from exudyn_models.arrays import Array, Flags
 from exudyn_models.contacts import ContactRun
 from exudyn_models.contacts.base import TINY
 
@@ -49,14 +49,14 @@ class Settling:
         self._repetitions = 0
         self._fewest = math.inf  # contradictions in this step
         self._patience = BLOCK  # repetitions until only one follows its gap
-        self._doubtful: NDArray[np.bool_] | None = None  # connectors whose state this step has had to correct
+        self._doubtful: Flags | None = None  # connectors whose state this step has had to correct
         self._tried: dict[bytes, float] = {}  # what was assumed of them, and by how much it contradicted itself
         self._cycling = False
-        self._imposed: NDArray[np.bool_] | None = None
-        self._gaps: NDArray[np.float64] | None = None  # that stand for it
+        self._imposed: Flags | None = None
+        self._gaps: Array | None = None  # that stand for it
         self._hooked = False
         self._first = ""
-        self.solution: tuple[NDArray[np.float64], NDArray[np.float64]] | None = None  # q, v last looked at
+        self.solution: tuple[Array, Array] | None = None  # q, v last looked at
 
     def __call__(self, mbs: Any, time: float) -> list[float]:
         if time != self._time:
@@ -112,7 +112,7 @@ class Settling:
             self._tried = {}  # under another rule a state may well come back
         return self._patience > 0
 
-    def _returns(self, closed: NDArray[np.bool_], doubtful: NDArray[np.bool_], force: float) -> bool:
+    def _returns(self, closed: Flags, doubtful: Flags, force: float) -> bool:
         """Whether this is the least contradictory of states that come back again and again; else it is remembered."""
         if self._doubtful is None or (doubtful & ~self._doubtful).any():
             # nodes that hover at the wall without force make no difference: a state is that of the others
@@ -128,7 +128,7 @@ class Settling:
         self._tried[state] = force
         return False
 
-    def _set(self, mbs: Any, closed: NDArray[np.bool_]) -> None:
+    def _set(self, mbs: Any, closed: Flags) -> None:
         """Assume ``closed`` in the next repetition, whatever the gaps show."""
         self._assume(closed)
         if not self._hooked:
@@ -136,7 +136,7 @@ class Settling:
             self._hooked = True
         mbs.solverSignalJacobianUpdate = True
 
-    def _assume(self, closed: NDArray[np.bool_]) -> None:
+    def _assume(self, closed: Flags) -> None:
         if closed is not self._imposed:
             self._imposed, self._gaps = closed, np.where(closed, -TINY, TINY)
 
@@ -156,7 +156,7 @@ class Settling:
             self._imposed, self._gaps, self._hooked = None, None, False
             mbs.SetPreNewtonResidualUserFunction(0)
 
-    def _accept(self, mbs: Any, closed: NDArray[np.bool_]) -> list[float]:
+    def _accept(self, mbs: Any, closed: Flags) -> list[float]:
         """No further repetition, whatever Exudyn's own measure says: it goes on when they are used up."""
         if self._contact.imposes:
             if not self._hooked:

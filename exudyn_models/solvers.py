@@ -18,10 +18,7 @@ from bent_beam.checks import one_of, positive, whole
 
 __all__ = ["SOLVERS", "NewtonSolver", "quiet"]
 
-LINEAR = {
-    "sparse": exu.LinearSolverType.EigenSparse,
-    "dense": exu.LinearSolverType.EXUdense,
-}
+LINEAR = {"sparse": exu.LinearSolverType.EigenSparse, "dense": exu.LinearSolverType.EXUdense}
 
 
 @dataclass(frozen=True)

@@ -12,15 +12,16 @@ from typing import Any
 
 import exudyn as exu
 import numpy as np
-from numpy.typing import NDArray
 
+from exudyn_models.arrays import Array
 from exudyn_models.integrators.base import Segment
 from exudyn_models.recording import Recorder
 from exudyn_models.settling import Settling
 
-__all__ = ["Stepping", "step_through"]
+__all__ = ["Stepping", "Until"]
 
-Array = NDArray[np.float64]
+Until = Callable[[Recorder, float, Array, Array], bool]
+"""Asked with the recorder, the time, q and v (model units): whether the run is to end."""
 
 ADVICE = (
     "a smaller exudyn.integrator.relative_step (or time_step), a smaller spectral_radius, more contact damping "
@@ -34,37 +35,35 @@ UNSETTLED = (
 
 @dataclass
 class Stepping:
-    """How far a run has come. seconds : inside Exudyn; failure : what failed, None when nothing did; advice : try."""
+    """A run under way, and Exudyn's ``PostStepUserFunction``: it reads every step, saves the state where asked and lets
+    the contact switch connectors.
 
+    segments, stable : the steps, and the longest that an explicit integrator bears, model units.
+    settings, solver : Exudyn's.
+    targets : times to save, model units; each is saved at the first end of a step at or after it.
+    until, progress : see :func:`exudyn_models.simulate`.
+    steps : done; seconds : inside Exudyn; failure : what failed, ``None`` when nothing did; advice : what to try then.
+    time, step : of the last step, model units; saved : targets; left : ``until`` has ended the run.
+    """
+
+    run: Recorder
+    segments: list[Segment]
+    stable: float
+    settings: Any
+    solver: Any
+    settling: Settling | None
+    targets: Array
+    progress: Callable[[float], object] | None = None
+    until: Until | None = None
     steps: int = 0
     seconds: float = 0.0
     failure: str | None = None
     advice: str = ADVICE
-
-    def failed(self, failure: str, advice: str = ADVICE) -> Stepping:
-        self.failure, self.advice = failure, advice
-        return self
-
-
-class _Reader:
-    """Exudyn's ``PostStepUserFunction``: reads every step, saves the state where asked, switches connectors."""
-
-    def __init__(
-        self,
-        run: Recorder,
-        targets: Array,
-        done: Stepping,
-        settling: Settling | None,
-        progress: Callable[[float], object] | None,
-        until: Callable[[Recorder, float, Array, Array], bool] | None,
-    ) -> None:
-        self.run, self.targets, self.done, self.settling = run, targets, done, settling
-        self.progress, self.until = progress, until
-        self.time = 0.0
-        self.step = 0.0  # of the running segment
-        self.saved = 0
-        self.left = False
-        self.error: BaseException | None = None
+    time: float = 0.0
+    step: float = 0.0
+    saved: int = 0
+    left: bool = False
+    error: BaseException | None = None
 
     @property
     def unsettled(self) -> bool:
@@ -86,79 +85,76 @@ class _Reader:
             return True
         q, v = run.read(time, None if self.settling is None else self.settling.solution)
         self.time = time
-        self.done.steps += 1
+        self.steps += 1
         if self.saved < self.targets.size and time >= self.targets[self.saved] * (1.0 - 1e-9):
             run.save(time, q, v)
             self.saved = int(np.searchsorted(self.targets, time * (1.0 + 1e-9), side="right"))
             if self.progress is not None:
                 self.progress(time)
-            if self.until is not None and self.until(run, time, q, v):
-                self.left = True
+            self.left = self.until is not None and self.until(run, time, q, v)
+            if self.left:
                 return False
         if run.contact.between(time, self.step, q, v):
             mbs.solverSignalJacobianUpdate = True
         return True
 
+    def through(self) -> None:
+        """Take all steps, or those up to a failure, which is kept.
 
-def _failed(done: Stepping, message: str) -> Stepping:
-    """What Exudyn says of a run that it ended; an interrupt by the user within a user function is no failure."""
-    if KeyboardInterrupt.__name__ in message:
-        raise KeyboardInterrupt
-    return done.failed("Exudyn's solver failed: " + " ".join(message.split())[:200])
+        Raises what the user's functions raise, and ``KeyboardInterrupt``.
+        """
+        mbs = self.run.beam.mbs
+        if self.settling is not None:
+            mbs.SetPostNewtonUserFunction(self.settling)
+        try:
+            if self._started(self.segments[0]):
+                mbs.SetPostStepUserFunction(self)
+                for segment in self.segments:
+                    if self.failure is None and not self.left:
+                        self._step_through(segment)
+        except FloatingPointError as error:
+            self.failure = str(error)
+        except SystemError as error:  # what was raised while Exudyn ran, an interrupt by the user above all
+            raise (error.__cause__ or error) from None
+        except (exu.ExudynError, RuntimeError) as error:
+            self._failed(str(error))
+        finally:
+            mbs.SetPostStepUserFunction(0)
+            self.run.sum_up()
 
-
-def step_through(
-    run: Recorder,
-    segments: list[Segment],
-    settings: Any,
-    solver: Any,
-    settling: Settling | None,
-    targets: Array,
-    progress: Callable[[float], object] | None,
-    until: Callable[[Recorder, float, Array, Array], bool] | None = None,
-) -> Stepping:
-    """Run all segments and save at the first end of a segment at or after each of ``targets`` (model units)."""
-    mbs, time, done = run.beam.mbs, settings.timeIntegration, Stepping()
-    if settling is not None:
-        mbs.SetPostNewtonUserFunction(settling)
-    reader = _Reader(run, targets, done, settling, progress, until)
-    try:
-        first = segments[0]
+    def _started(self, first: Segment) -> bool:
+        """Whether Exudyn took the system; the state at t = 0 is then read and saved."""
+        time, run = self.settings.timeIntegration, self.run
         time.startTime, time.endTime, time.numberOfSteps = first.start, first.end, first.steps
         began = clock.perf_counter()
-        if not solver.InitializeSolver(mbs, settings):
-            return done.failed("Exudyn could not initialise")
-        done.seconds += clock.perf_counter() - began
+        if not self.solver.InitializeSolver(run.beam.mbs, self.settings):
+            self.failure = "Exudyn could not initialise"
+            return False
+        self.seconds += clock.perf_counter() - began
         q, v = run.read(0.0)
         run.save(0.0, q, v)
         run.contact.between(0.0, first.length, q, v)
-        mbs.SetPostStepUserFunction(reader)
-        for segment in segments:
-            size = reader.step = segment.length
-            time.startTime, time.endTime, time.numberOfSteps = segment.start, segment.end, segment.steps
-            time.minimumStepSize = size * 1e-3
-            it = solver.it
-            it.startTime, it.endTime, it.numberOfSteps = segment.start, segment.end, segment.steps
-            it.currentStepSize = it.initialStepSize = it.maxStepSize = size
-            it.minStepSize = size * 1e-3
-            began = clock.perf_counter()
-            solved = solver.SolveSteps(mbs, settings)
-            done.seconds += clock.perf_counter() - began
-            if reader.error is not None:
-                raise reader.error
-            if not solved and not reader.left:
-                return _failed(done, str(solver.GetErrorString()))
-            if settling is not None and reader.unsettled:
-                return done.failed(settling.failure(), UNSETTLED)
-            if reader.left:
-                return done
-    except FloatingPointError as error:
-        return done.failed(str(error))
-    except SystemError as error:  # what was raised while Exudyn ran, an interrupt by the user above all
-        raise (error.__cause__ or error) from None
-    except (exu.ExudynError, RuntimeError) as error:
-        return _failed(done, str(error))
-    finally:
-        mbs.SetPostStepUserFunction(0)
-        run.sum_up()
-    return done
+        return True
+
+    def _step_through(self, segment: Segment) -> None:
+        time, it, size = self.settings.timeIntegration, self.solver.it, segment.length
+        self.step = size
+        time.startTime, time.endTime, time.numberOfSteps = segment.start, segment.end, segment.steps
+        it.startTime, it.endTime, it.numberOfSteps = segment.start, segment.end, segment.steps
+        it.currentStepSize = it.initialStepSize = it.maxStepSize = size
+        time.minimumStepSize = it.minStepSize = size * 1e-3
+        began = clock.perf_counter()
+        solved = self.solver.SolveSteps(self.run.beam.mbs, self.settings)
+        self.seconds += clock.perf_counter() - began
+        if self.error is not None:
+            raise self.error
+        if not solved and not self.left:
+            self._failed(str(self.solver.GetErrorString()))
+        elif self.settling is not None and self.unsettled:
+            self.failure, self.advice = self.settling.failure(), UNSETTLED
+
+    def _failed(self, message: str) -> None:
+        """What Exudyn says of a run that it ended; an interrupt by the user within a user function is no failure."""
+        if KeyboardInterrupt.__name__ in message:
+            raise KeyboardInterrupt
+        self.failure = "Exudyn's solver failed: " + " ".join(message.split())[:200]

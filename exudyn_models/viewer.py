@@ -30,19 +30,15 @@ def draw_wall(mbs: Any, left: float, right: float, curvature: float = 0.0) -> No
     mbs.AddObject(items.ObjectGround(visualization=items.VObjectGround(graphicsData=[wall])))
 
 
-def open_viewer(container: Any, nodes: bool = False) -> bool:
-    """Open the viewer on an assembled system; without a display, say so on standard error and return False.
-
-    nodes : draw them (of a mass point there is nothing else to see).
-    """
+def open_viewer(container: Any) -> bool:
+    """Open the viewer on an assembled system; without a display, say so on standard error and return False."""
     reason = missing_display()
     if reason is None:
         settings = container.visualizationSettings
         settings.general.graphicsUpdateInterval = 0.05
         settings.bodies.defaultColor = BLUE
         settings.openGL.lineWidth = 3.0
-        settings.nodes.show, settings.nodes.showBasis = nodes, False
-        for group in (settings.markers, settings.connectors, settings.loads):
+        for group in (settings.nodes, settings.markers, settings.connectors, settings.loads):
             group.show = False
         if container.renderer.Start():
             container.renderer.ZoomAll()

@@ -22,24 +22,23 @@ from collections.abc import Callable
 from typing import TypeVar
 
 import numpy as np
-from numpy.typing import NDArray
 
 from bent_beam.free_flight import Departure
 from bent_beam.history import ImpactHistory
 from bent_beam.impact import Impact
 from bent_beam.meshes import UniformMesh
 from bent_beam.method import made_of, separation_times
+from exudyn_models.arrays import Array
 from exudyn_models.composition import Composition
 from exudyn_models.contacts import Penalty, penalty
 from exudyn_models.elements import ANCFCable
-from exudyn_models.integrators.trapezoidal import Trapezoidal
+from exudyn_models.integrators import Trapezoidal
 from exudyn_models.recording import Recorder
 from exudyn_models.resolution import STEP, resolving_step
 from exudyn_models.simulation import simulate
 
 __all__ = ["ELEMENTS", "cross_checks", "simulate_to_separation", "varied", "with_parts_for_whole_beam"]
 
-Array = NDArray[np.float64]
 C = TypeVar("C", bound=Composition)
 
 CONTACT = Penalty(hold_start=0.0)

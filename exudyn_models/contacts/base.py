@@ -12,9 +12,9 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from bent_beam import Impact
+from exudyn_models.arrays import Array, Flags, Indices
 from exudyn_models.elements import Beam, Element
 from exudyn_models.geometry import Geometry, LinearLimit
 from exudyn_models.integrators import GeneralizedAlpha, Integrator
@@ -22,9 +22,7 @@ from exudyn_models.solvers import NewtonSolver
 
 __all__ = ["Contact", "ContactRun", "Wall"]
 
-Array = NDArray[np.float64]
 TINY = 1e-30  # a gap that is a state and no length
-Flags = NDArray[np.bool_]
 
 
 @dataclass(frozen=True)
@@ -35,14 +33,16 @@ class Wall:
     half : only x ≥ 0 is modelled;
     front : rough estimate of where contact ends at the end;
     first_spread : until when (in end times) nothing but the first spread of the zone moves it: waves are back later;
+    plastic : the front is thin, so that nodes that hit must not rebound, and nothing but the first spread moves it;
     stiffness_unit, damping_unit : N/m² and N s/m² of the model units.
     """
 
-    nodes: NDArray[np.int64]
+    nodes: Indices
     centre: int
     half: bool
     front: float
     first_spread: float
+    plastic: bool
     explicit: bool
     stiffness_unit: float
     damping_unit: float
@@ -50,29 +50,29 @@ class Wall:
 
 
 class ContactRun(ABC):
-    """A contact at work in one system. ``nodes`` are the beam's nodes that are contact points, ``contact_s`` their arc
-    lengths, each of shape (contacts,)."""
+    """A contact at work in one system.
 
-    beam: Beam
-    nodes: NDArray[np.int64]
-    contact_s: Array
+    nodes : of the beam, those that are contact points; contact_s : their arc lengths; wall_y : the wall there; signs :
+        +1 for those on the wall, −1 for those on an opposite one. Each of shape (contacts,).
+    """
+
     iterated = True  # Exudyn finds the contact state by repeating steps
     states = 1  # data coordinates of a connector, the first a gap: the connector is closed where it is not positive
     imposes = False  # states are those of ``closed_by``, not of Exudyn's gaps
     round_off = 0.0  # force in Exudyn's connectors that means nothing: no residual can be made smaller
 
-    @abstractmethod
+    def __init__(self, beam: Beam, nodes: Indices, wall_y: Array, signs: Array | None = None) -> None:
+        self.beam, self.nodes, self.wall_y = beam, nodes, wall_y
+        self.contact_s = beam.shape.s[nodes]
+        self.signs = np.ones(nodes.size) if signs is None else signs
+
     def depth(self, q: Array) -> Array:
         """Penetration at the contact points, shape (contacts,)."""
+        return np.asarray(q[self.beam.vertical[self.nodes]] - self.wall_y)
 
     @abstractmethod
     def forces(self, q: Array, v: Array) -> tuple[Array, Flags]:
         """Contact forces (off the wall positive, off an opposite one negative) and active flags, shape (contacts,)."""
-
-    @property
-    def signs(self) -> Array:
-        """+1 for contact points on the wall, −1 for those on an opposite one, shape (contacts,)."""
-        return np.ones(self.nodes.size)
 
     def stored_energy(self, q: Array) -> float:
         """Energy that the contact's springs hold."""
@@ -81,10 +81,6 @@ class ContactRun(ABC):
     def closed_by(self, q: Array, v: Array) -> Flags:
         """The connectors that a solution shows to be closed, shape (connectors,), for contacts that ``impose`` them."""
         raise TypeError(f"{type(self).__name__} leaves its states to Exudyn")
-
-    def velocity(self, q: Array, v: Array) -> Array:
-        """Velocity of the beam at the contact points, positive into the wall, shape (contacts,)."""
-        return np.asarray(v[self.beam.vertical[self.nodes]])
 
     def contradictions(self, q: Array, v: Array, closed: Flags) -> Array:
         """Force, shape (connectors,), by which a solution contradicts the state that it assumed (0 where it does not):

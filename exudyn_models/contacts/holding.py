@@ -13,8 +13,8 @@ lift what they will.
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from exudyn_models.arrays import Flags
 from exudyn_models.contacts.base import Wall
 
 __all__ = ["START", "HeldStrip"]
@@ -44,7 +44,7 @@ class HeldStrip:
         """Whether any node will ever be held."""
         return self.until > 0.0
 
-    def wanted(self, time: float) -> NDArray[np.bool_]:
+    def wanted(self, time: float) -> Flags:
         """Flags of the contact nodes to hold at ``time`` (of the end time), shape (contacts,)."""
         if time < self.start:
             return self.captured.copy()

@@ -12,29 +12,34 @@ With k and d tied to the element length the contact is as stiff as the elements 
 mesh. Where κ/ν is so small that the front passes an element faster than the element bends, the contact must be as fast
 as the front: it passes Δx at x in t = 2xΔx/λ² √(μ/EI), and C = (λ²Δx/x)² makes √(k/μ) t = 2. The damping ratio stays
 that of 10 and 3.
+
+Below κ/ν = 0.04 the front passes an element about as fast as the element bends, on any mesh of moderate size. Each node
+then hits the wall by itself, and what it rebounds with is added to the impulse: with D = 3 r₀ is 6.5, 21 and 19 % too
+large at κ/ν = 1/100, 1/400 and 1/1600. There D = 40 makes the hits plastic, and nothing is held at the start, while
+nothing but the first spread of the zone moves it and the steps are implicit. Not with a ``hold``: its springs would
+pull nodes that D = 40 has stopped ahead of the wall, and give energy.
 """
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
 
 import exudyn.itemInterface as items
 import numpy as np
-from numpy.typing import NDArray
 
 from bent_beam.checks import between, non_negative, positive, whole
-from exudyn_models.contacts.base import TINY, Contact, ContactRun, Flags, Wall
+from exudyn_models.arrays import Array, Flags, Indices, unless_open
+from exudyn_models.contacts.base import TINY, Contact, ContactRun, Wall
 from exudyn_models.contacts.holding import START, HeldStrip
 from exudyn_models.elements import Beam
 
 __all__ = ["Penalty", "penalty_per_length"]
 
-Array = NDArray[np.float64]
-
 STIFFNESS, DAMPING = 10.0, 3.0  # C and D
+PLASTIC = 40.0  # D behind a thin front
 
 
 def chosen_stiffness(s: Array, wall: Wall) -> float:
@@ -54,76 +59,60 @@ class _Run(ContactRun):
     def __init__(
         self, beam: Beam, wall: Wall, stiffness: Array, damping: Array, strip: HeldStrip, chosen: dict[str, float]
     ) -> None:
-        self.chosen = chosen
-        self.beam, self.nodes = beam, wall.nodes
-        self.stiffness, self.damping = stiffness, damping
-        self.wall_y, self._signs = beam.shape.wall_y[wall.nodes], np.ones(wall.nodes.size)
+        nodes, wall_y, signs = wall.nodes, beam.shape.wall_y[wall.nodes], np.ones(wall.nodes.size)
         if wall.opposite is not None:
-            self.nodes = np.concatenate([self.nodes, self.nodes])
-            self.stiffness, self.damping = np.tile(stiffness, 2), np.tile(damping, 2)
-            self.wall_y = np.concatenate([self.wall_y, np.full(wall.nodes.size, wall.opposite)])
-            self._signs = np.concatenate([self._signs, -self._signs])
-        self.contact_s = beam.shape.s[self.nodes]
-        self.strip = strip
-        self.explicit = wall.explicit
-        self.held = np.zeros(self.nodes.size, bool)
+            nodes = np.tile(nodes, 2)
+            stiffness, damping = np.tile(stiffness, 2), np.tile(damping, 2)
+            wall_y = np.concatenate([wall_y, np.full(wall.nodes.size, wall.opposite)])
+            signs = np.concatenate([signs, -signs])
+        super().__init__(beam, nodes, wall_y, signs)
+        self.chosen, self.strip, self.explicit = chosen, strip, wall.explicit
+        self.stiffness, self.damping = stiffness, damping
+        self.held = np.zeros(nodes.size, bool)
         self._of: tuple[Array | None, Array | None] = None, None
-        self._force = np.zeros(self.nodes.size)
-        self.contacts: list[Any] = []
+        self._force = np.zeros(nodes.size)
+        markers = [beam.marker(int(node), beam.vertical_coordinate) for node in nodes]
+        self.contacts = [beam.mbs.AddObject(self._connector(k, marker)) for k, marker in enumerate(markers)]
         self.holders: list[Any] = []
-        mbs = beam.mbs
-        for k, node in enumerate(self.nodes):
-            marker = beam.marker(int(node), beam.vertical_coordinate)
-            # open at t = 0: a closed one would put its damping into the initial accelerations
-            state = mbs.AddNode(
-                items.NodeGenericData(
-                    numberOfDataCoordinates=1,
-                    initialCoordinates=[max(1e-14, float(self._signs[k] * (self.wall_y[k] - beam.shape.y[node])))],
-                )
-            )
-            self.contacts.append(
-                mbs.AddObject(
-                    items.ObjectContactCoordinate(
-                        markerNumbers=[marker, beam.ground_marker][:: int(self._signs[k])],
-                        nodeNumber=state,
-                        contactStiffness=self.stiffness[k],
-                        contactDamping=self.damping[k],
-                        offset=-self._signs[k] * self.wall_y[k],
-                    )
-                )
-            )
-            if self.strip.used:
-                self.holders.append(
-                    mbs.AddObject(
-                        items.ObjectConnectorCoordinateSpringDamper(
-                            markerNumbers=[beam.ground_marker, marker],
-                            stiffness=self.stiffness[k],
-                            damping=self.damping[k],
-                            offset=self.wall_y[k],
-                            activeConnector=False,
-                        )
-                    )
-                )
+        if strip.used:
+            self.holders = [beam.mbs.AddObject(self._holder(k, marker)) for k, marker in enumerate(markers)]
+
+    def _connector(self, k: int, marker: Any) -> Any:
+        """Exudyn's item for the one-sided spring and dashpot of the ``k``-th contact point."""
+        beam, sign = self.beam, self.signs[k]
+        # open at t = 0: a closed one would put its damping into the initial accelerations
+        gap = max(1e-14, float(sign * (self.wall_y[k] - beam.shape.y[self.nodes[k]])))
+        state = items.NodeGenericData(numberOfDataCoordinates=1, initialCoordinates=[gap])
+        return items.ObjectContactCoordinate(
+            markerNumbers=[marker, beam.ground_marker][:: int(sign)],
+            nodeNumber=beam.mbs.AddNode(state),
+            contactStiffness=self.stiffness[k],
+            contactDamping=self.damping[k],
+            offset=-sign * self.wall_y[k],
+        )
+
+    def _holder(self, k: int, marker: Any) -> Any:
+        """Exudyn's item for what holds the ``k``-th contact point, let go at first."""
+        return items.ObjectConnectorCoordinateSpringDamper(
+            markerNumbers=[self.beam.ground_marker, marker],
+            stiffness=self.stiffness[k],
+            damping=self.damping[k],
+            offset=self.wall_y[k],
+            activeConnector=False,
+        )
 
     @cached_property
-    def _coordinates(self) -> NDArray[np.int64]:
+    def _coordinates(self) -> Indices:
         """Of the contact points in the system's vectors, known once it is assembled."""
         return np.asarray(self.beam.vertical[self.nodes])
 
     def depth(self, q: Array) -> Array:
-        return np.asarray(self._signs * (q[self._coordinates] - self.wall_y))
-
-    @property
-    def signs(self) -> Array:
-        return self._signs
-
-    def velocity(self, q: Array, v: Array) -> Array:
-        return np.asarray(self._signs * v[self._coordinates])
+        return np.asarray(self.signs * (q[self._coordinates] - self.wall_y))
 
     def _spring_and_dashpot(self, q: Array, v: Array) -> Array:
         if self._of[0] is not q or self._of[1] is not v:  # one solution is looked at more than once
             self._of = q, v
-            self._force = self.stiffness * self.depth(q) + self.damping * self.velocity(q, v)
+            self._force = self.stiffness * self.depth(q) + self.damping * (self.signs * v[self._coordinates])
         return self._force
 
     def closed_by(self, q: Array, v: Array) -> Flags:
@@ -134,7 +123,7 @@ class _Run(ContactRun):
         active = (force > 0.0) | self.held
         if self.strip.used:
             self.strip.captured |= active[: self.strip.captured.size]
-        return np.where(active, self._signs * force, 0.0), active
+        return np.where(active, self.signs * force, 0.0), active
 
     def stored_energy(self, q: Array) -> float:
         depth = self.depth(q)
@@ -185,30 +174,26 @@ class Penalty(Contact):
     """Nodal penalty: the default.
 
     stiffness, damping : k in N/m² and d in N s/m² per length of beam; None: from the element length and the next two.
-    relative_stiffness, relative_damping : C and D of the module's text; None: chosen, 10 and 3 for κ/ν ≥ 1/150.
+    relative_stiffness, relative_damping : C in k = C EI/Δx⁴ and D in d = D √(EIμ)/Δx² per length of beam.
     hold : elements behind the front whose captured nodes are held, until waves may be back from the ends; none unless
         asked for.
     hold_start : first share of the run in which all captured nodes are held, for the start is never resolved; None:
-        0.01, but none where the load draws the beam off the wall, none in runs longer than the first spread and none
-        under explicit integrators.
+        0.01, but none where the load draws the beam off the wall, none where the front is thin, none in runs longer
+        than the first spread and none under explicit integrators.
     """
 
     stiffness: float | None = None
     damping: float | None = None
-    relative_stiffness: float | None = None
-    relative_damping: float | None = None
+    relative_stiffness: float | None = field(default=None, metadata={"chosen": f"{STIFFNESS:g} or more"})
+    relative_damping: float | None = field(default=None, metadata={"chosen": f"{DAMPING:g} (thin front: {PLASTIC:g})"})
     hold: int = 0
     hold_start: float | None = None
 
     def __post_init__(self) -> None:
-        if self.stiffness is not None:
-            positive("exudyn.contact.stiffness", self.stiffness)
-        if self.damping is not None:
-            non_negative("exudyn.contact.damping", self.damping)
-        if self.relative_stiffness is not None:
-            positive("exudyn.contact.relative_stiffness", self.relative_stiffness)
-        if self.relative_damping is not None:
-            non_negative("exudyn.contact.relative_damping", self.relative_damping)
+        unless_open(positive, "exudyn.contact.stiffness", self.stiffness)
+        unless_open(non_negative, "exudyn.contact.damping", self.damping)
+        unless_open(positive, "exudyn.contact.relative_stiffness", self.relative_stiffness)
+        unless_open(non_negative, "exudyn.contact.relative_damping", self.relative_damping)
         whole("exudyn.contact.hold", self.hold, 0)
         if self.hold_start is not None:
             between("exudyn.contact.hold_start", self.hold_start, 0.0, START)
@@ -218,16 +203,17 @@ class Penalty(Contact):
         local = length.copy()
         if wall.half:
             local[0] *= 2.0  # the node of symmetry stands for half of its neighbourhood
+        plastic = wall.plastic and not self.hold
         stiffness, damping = self.relative_stiffness, self.relative_damping
         if stiffness is None:
             stiffness = chosen_stiffness(beam.shape.s, wall)
         if damping is None:
-            damping = DAMPING * math.sqrt(stiffness / STIFFNESS)
+            damping = (PLASTIC if plastic else DAMPING) * math.sqrt(stiffness / STIFFNESS)
         k, d = penalty_per_length(local, stiffness, damping)
         if self.stiffness is not None:
             k = np.full_like(local, self.stiffness / wall.stiffness_unit)
         if self.damping is not None:
             d = np.full_like(local, self.damping / wall.damping_unit)
-        strip = HeldStrip(wall, self.hold, self.hold_start)
+        strip = HeldStrip(wall, self.hold, 0.0 if plastic and self.hold_start is None else self.hold_start)
         chosen = {"relative_stiffness": stiffness, "relative_damping": damping}
         return _Run(beam, wall, k * length, d * length, strip, chosen)

@@ -24,18 +24,16 @@ from typing import Any
 
 import exudyn.itemInterface as items
 import numpy as np
-from numpy.typing import NDArray
 
 from bent_beam import Impact
 from bent_beam.checks import whole
-from exudyn_models.contacts.base import Contact, ContactRun, Flags, Wall
+from exudyn_models.arrays import Array, Flags, Indices
+from exudyn_models.contacts.base import Contact, ContactRun, Wall
 from exudyn_models.contacts.holding import HeldStrip
 from exudyn_models.elements import Beam, Element
 from exudyn_models.integrators import Integrator, Newmark
 
 __all__ = ["Rigid"]
-
-Array = NDArray[np.float64]
 
 RETURN = 0.2  # of its depth in a step: how fast a captured node is led back to the wall
 
@@ -44,13 +42,11 @@ class _Run(ContactRun):
     iterated = False
 
     def __init__(self, beam: Beam, wall: Wall, hold: int) -> None:
-        self.beam, self.nodes = beam, wall.nodes
-        self.contact_s = beam.shape.s[wall.nodes]
-        self.wall_y = beam.shape.wall_y[wall.nodes]
+        super().__init__(beam, wall.nodes, beam.shape.wall_y[wall.nodes])
         self.strip = HeldStrip(wall, hold)
         self.active = np.zeros(wall.nodes.size, bool)
         self.back = np.zeros(wall.nodes.size)  # speed asked of each closed node
-        self.multipliers: NDArray[np.int64] | None = None
+        self.multipliers: Indices | None = None
         self.constraints = [
             beam.mbs.AddObject(
                 items.CoordinateConstraint(
@@ -61,9 +57,6 @@ class _Run(ContactRun):
             )
             for node in wall.nodes
         ]
-
-    def depth(self, q: Array) -> Array:
-        return np.asarray(q[self.beam.vertical[self.nodes]] - self.wall_y)
 
     def forces(self, q: Array, v: Array) -> tuple[Array, Flags]:
         data = self.beam.mbs.systemData
@@ -77,7 +70,7 @@ class _Run(ContactRun):
         depth = self.depth(q)
         touching = (depth >= 0.0) & ~self.active
         if time == 0.0:
-            touching &= self.velocity(q, v) > 0.0
+            touching &= v[self.beam.vertical[self.nodes]] > 0.0
         self.strip.captured |= touching
         wanted = (self.active & (force >= 0.0)) | touching | self.strip.wanted(time)
         changed = np.flatnonzero(wanted != self.active)

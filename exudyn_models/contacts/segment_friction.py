@@ -15,11 +15,11 @@ from dataclasses import dataclass
 
 import exudyn.itemInterface as items
 import numpy as np
-from numpy.typing import NDArray
 
 from bent_beam import Impact
 from bent_beam.checks import non_negative, positive
-from exudyn_models.contacts.base import Contact, ContactRun, Flags, Wall
+from exudyn_models.arrays import Array, Flags, Indices
+from exudyn_models.contacts.base import Contact, ContactRun, Wall
 from exudyn_models.contacts.penalty import penalty_per_length
 from exudyn_models.elements import ANCFCable, Beam, Element
 from exudyn_models.geometry import Geometry, LinearLimit
@@ -28,7 +28,6 @@ from exudyn_models.solvers import NewtonSolver
 
 __all__ = ["SegmentFriction"]
 
-Array = NDArray[np.float64]
 TRUE_SHARE = 0.25  # of the curvature, true geometry
 
 
@@ -39,12 +38,10 @@ class _Run(ContactRun):
 
     states = 3  # gap; stick or slip; where it sticks
 
-    def __init__(self, beam: Beam, elements: NDArray[np.int64], stiffness: Array, damping: Array) -> None:
-        self.beam, self.elements = beam, elements
-        self.stiffness, self.damping = stiffness, damping
-        self.nodes = np.append(elements, elements[-1] + 1)
-        self.contact_s = beam.shape.s[self.nodes]
-        self.wall_y = beam.shape.wall_curvature * self.contact_s**2 / 2
+    def __init__(self, beam: Beam, elements: Indices, stiffness: Array, damping: Array) -> None:
+        nodes = np.append(elements, elements[-1] + 1)
+        super().__init__(beam, nodes, beam.shape.wall_curvature * beam.shape.s[nodes] ** 2 / 2)
+        self.elements, self.stiffness, self.damping = elements, stiffness, damping
         self.radius = 1.0 / beam.shape.wall_curvature
         self.round_off = float(np.finfo(float).eps * self.radius * stiffness.max())
 
@@ -67,9 +64,6 @@ class _Run(ContactRun):
         ends = np.stack([v[self.beam.horizontal], v[self.beam.vertical]])[:, self.nodes]
         rate = ((ends[:, :-1] * (1.0 - at) + ends[:, 1:] * at) * normal).sum(axis=0)
         return gap, -(self.stiffness * gap + self.damping * rate), at, vertical
-
-    def depth(self, q: Array) -> Array:
-        return np.asarray(q[self.beam.vertical[self.nodes]] - self.wall_y)
 
     def forces(self, q: Array, v: Array) -> tuple[Array, Flags]:
         gap, force, at, vertical = self._normal_forces(q, v)

@@ -14,15 +14,12 @@ from typing import Any
 
 import exudyn.itemInterface as items
 import numpy as np
-from numpy.typing import NDArray
 
-from bent_beam.checks import non_negative, positive
-from exudyn_models.elements.beam import Beam, Section
+from exudyn_models.arrays import Array, Indices
+from exudyn_models.elements.beam import Beam, Element, Section
 from exudyn_models.geometry import Shape
 
 __all__ = ["ANCFCable"]
-
-Array = NDArray[np.float64]
 
 POINTS, WEIGHTS = np.polynomial.legendre.leggauss(4)
 XI = (POINTS + 1) / 2
@@ -44,8 +41,36 @@ SHAPES = tuple(_shapes(derivative) for derivative in range(3))
 class _Cable(Beam):
     rotation_coordinate = 3
 
+    def node(self, i: int) -> Any:
+        shape, angle, turning = self.shape, self.shape.angle[i], self.shape.angular_velocity[i]
+        cos, sin = np.cos(angle), np.sin(angle)
+        if not (shape.slender or self.section.axial_force):
+            cos, sin = 1.0, angle  # the linear limit: slopes are angles and nothing stretches to first order
+        stretched = 1.0 + self.section.stretch
+        along = -turning * sin if shape.slender else 0.0
+        return items.NodePoint2DSlope1(
+            referenceCoordinates=[shape.s[i], 0.0, 1.0, 0.0],
+            initialCoordinates=[
+                *(stretched * shape.x[i] - shape.s[i], shape.y[i]),
+                *(stretched * cos - 1.0, stretched * sin),
+            ],
+            initialVelocities=[shape.velocity_x[i], shape.velocity_y[i], along, turning * cos],
+        )
+
+    def body(self, i: int) -> Any:
+        return items.ObjectANCFCable2D(
+            length=self.lengths[i],
+            massPerLength=self.section.mass_per_length,
+            bendingStiffness=self.section.bending_stiffness,
+            axialStiffness=self.section.axial_stiffness,
+            bendingDamping=self.viscosity[i],
+            referenceCurvature=self.shape.curvature,
+            nodeNumbers=[self.nodes[i], self.nodes[i + 1]],
+            useReducedOrderIntegration=1,
+        )
+
     @cached_property
-    def _first(self) -> NDArray[np.int64]:
+    def _first(self) -> Indices:
         """Coordinates (x₁, x₁′, x₂, x₂′) of the elements, known once the system is assembled."""
         left, right = self.horizontal[:-1], self.horizontal[1:]
         return np.stack([left, left + 2, right, right + 2], axis=1)
@@ -92,64 +117,8 @@ class _Cable(Beam):
 
 
 @dataclass(frozen=True)
-class ANCFCable:
-    """ANCF cable elements, cubic: the default.
-
-    viscosity : bending viscosity in units of √(EIμ)·Δx² of each element; None: 0.3 under implicit integrators, 0.003
-        under explicit ones (more would shorten their stable step).
-    axial_stiffness : EA, N; None: 12EI/d² with the true geometry, EI/Λ² in the linear limit (where it has no effect).
-    """
-
-    viscosity: float | None = None
-    axial_stiffness: float | None = None
-
-    def __post_init__(self) -> None:
-        if self.viscosity is not None:
-            non_negative("exudyn.element.viscosity", self.viscosity)
-        if self.axial_stiffness is not None:
-            positive("exudyn.element.axial_stiffness", self.axial_stiffness)
+class ANCFCable(Element):
+    """ANCF cable elements, cubic: the default."""
 
     def build(self, mbs: Any, shape: Shape, section: Section, viscosity: Array) -> Beam:
-        beam = _Cable(mbs, shape, section, viscosity)
-        cos, sin = np.cos(shape.angle), np.sin(shape.angle)
-        if not (shape.slender or section.axial_force):
-            # the linear limit: slopes are angles and nothing stretches to first order
-            cos, sin = np.ones_like(cos), shape.angle
-        stretched = 1.0 + section.stretch
-        for i in range(shape.s.size):
-            w = shape.angular_velocity[i]
-            beam.nodes.append(
-                mbs.AddNode(
-                    items.NodePoint2DSlope1(
-                        referenceCoordinates=[shape.s[i], 0.0, 1.0, 0.0],
-                        initialCoordinates=[
-                            stretched * shape.x[i] - shape.s[i],
-                            shape.y[i],
-                            stretched * cos[i] - 1.0,
-                            stretched * sin[i],
-                        ],
-                        initialVelocities=[
-                            shape.velocity_x[i],
-                            shape.velocity_y[i],
-                            -w * sin[i] if shape.slender else 0.0,
-                            w * cos[i],
-                        ],
-                    )
-                )
-            )
-        for i, length in enumerate(beam.lengths):
-            beam.bodies.append(
-                mbs.AddObject(
-                    items.ObjectANCFCable2D(
-                        length=length,
-                        massPerLength=section.mass_per_length,
-                        bendingStiffness=section.bending_stiffness,
-                        axialStiffness=section.axial_stiffness,
-                        bendingDamping=beam.viscosity[i],
-                        referenceCurvature=shape.curvature,
-                        nodeNumbers=[beam.nodes[i], beam.nodes[i + 1]],
-                        useReducedOrderIntegration=1,
-                    )
-                )
-            )
-        return beam
+        return _Cable(mbs, shape, section, viscosity)

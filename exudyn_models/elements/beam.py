@@ -7,19 +7,22 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable
-from dataclasses import dataclass
-from typing import Any, Protocol
+from dataclasses import dataclass, field
+from typing import Any
 
 import exudyn.itemInterface as items
 import numpy as np
-from numpy.typing import NDArray
 from scipy.sparse import csr_matrix
 
+from bent_beam.checks import non_negative, positive
+from exudyn_models.arrays import Array, Indices, unless_open
 from exudyn_models.geometry import Shape
 
 __all__ = ["Beam", "Element", "Section"]
 
-Array = NDArray[np.float64]
+VISCOSITY = 0.15  # of √(EIμ)Δx² of an element, λ₀ is off in proportion; tests/exudyn_models/test_exudyn_constants.py
+VISCOSITY_EXPLICIT = 0.003  # more would shorten the stable step
+CHOSEN_VISCOSITY = f"{VISCOSITY:g} (explicit: {VISCOSITY_EXPLICIT:g}; whole beam: 0)"
 Matrix = Any  # SciPy's sparse matrices carry no types
 
 
@@ -53,10 +56,18 @@ class Beam(ABC):
         self.uniform_load = 0.0
         self.node_loads: list[tuple[int, int, float, float]] = []
         self.lengths = shape.lengths
-        self.nodes: list[Any] = []
-        self.bodies: list[Any] = []
+        self.nodes = [mbs.AddNode(self.node(i)) for i in range(shape.s.size)]
+        self.bodies = [mbs.AddObject(self.body(i)) for i in range(self.lengths.size)]
         ground = mbs.AddNode(items.NodePointGround())
         self.ground_marker = mbs.AddMarker(items.MarkerNodeCoordinate(nodeNumber=ground, coordinate=0))
+
+    @abstractmethod
+    def node(self, i: int) -> Any:
+        """Exudyn's item for the ``i``-th node."""
+
+    @abstractmethod
+    def body(self, i: int) -> Any:
+        """Exudyn's item for the element between the nodes ``i`` and ``i`` + 1."""
 
     @property
     def tributary(self) -> Array:
@@ -129,7 +140,7 @@ class Beam(ABC):
             rate[place] += slope
         return lambda times: constant + np.multiply.outer(times, rate)
 
-    def _assembled(self, matrices: Array, first: NDArray[np.int64], second: NDArray[np.int64]) -> Matrix:
+    def _assembled(self, matrices: Array, first: Indices, second: Indices) -> Matrix:
         """The system's matrix of element matrices in (first, second) of the left node, then of the right."""
         pairs = [first, second][: matrices.shape[1] // 2]
         at = np.stack([c[s] for s in (slice(None, -1), slice(1, None)) for c in pairs], axis=1)
@@ -190,15 +201,22 @@ class Beam(ABC):
         return float(np.sqrt(60.0 * self.section.axial_stiffness / self.section.mass_per_length) / self.lengths.min())
 
 
-class Element(Protocol):
-    """What ``simulate`` asks of an element. ``viscosity`` in units of √(EIμ)·Δx² (None: chosen with the integrator)."""
+@dataclass(frozen=True)
+class Element(ABC):
+    """What every element may be told.
 
-    @property
-    def viscosity(self) -> float | None: ...
+    viscosity : bending viscosity in units of √(EIμ)·Δx² of each element; None: chosen with the integrator, less for
+        explicit ones, whose stable step it shortens.
+    axial_stiffness : EA, N; None: 12EI/d² with the true geometry, EI/Λ² in the linear limit (where it has no effect).
+    """
 
-    @property
-    def axial_stiffness(self) -> float | None: ...
+    viscosity: float | None = field(default=None, metadata={"chosen": CHOSEN_VISCOSITY})
+    axial_stiffness: float | None = None
 
+    def __post_init__(self) -> None:
+        unless_open(non_negative, "exudyn.element.viscosity", self.viscosity)
+        unless_open(positive, "exudyn.element.axial_stiffness", self.axial_stiffness)
+
+    @abstractmethod
     def build(self, mbs: Any, shape: Shape, section: Section, viscosity: Array) -> Beam:
         """Add the beam to ``mbs``; ``viscosity`` is that of each element, shape (elements,)."""
-        ...

@@ -14,21 +14,43 @@ from typing import Any
 
 import exudyn.itemInterface as items
 import numpy as np
-from numpy.typing import NDArray
 
-from bent_beam.checks import non_negative, positive
-from exudyn_models.elements.beam import Beam, Section
+from bent_beam.checks import positive
+from exudyn_models.arrays import Array
+from exudyn_models.elements.beam import Beam, Element, Section
 from exudyn_models.geometry import Shape
 
 __all__ = ["GeometricallyExact"]
 
-Array = NDArray[np.float64]
-
 
 class _Exact(Beam):
     rotation_coordinate = 2
-    rotary_inertia: Array
-    shear_stiffness: Array
+
+    def __init__(self, mbs: Any, shape: Shape, section: Section, viscosity: Array, ratios: GeometricallyExact) -> None:
+        self.shear_stiffness = ratios.shear_ratio * section.bending_stiffness / shape.lengths**2
+        self.rotary_inertia = ratios.rotary_ratio * section.mass_per_length * shape.lengths**2
+        super().__init__(mbs, shape, section, viscosity)
+
+    def node(self, i: int) -> Any:
+        shape, stretched = self.shape, 1.0 + self.section.stretch
+        return items.NodeRigidBody2D(
+            referenceCoordinates=[shape.s[i], 0.0, 0.0],
+            initialCoordinates=[stretched * shape.x[i] - shape.s[i], shape.y[i], shape.angle[i]],
+            initialVelocities=[shape.velocity_x[i], shape.velocity_y[i], shape.angular_velocity[i]],
+        )
+
+    def body(self, i: int) -> Any:
+        return items.ObjectBeamGeometricallyExact2D(
+            nodeNumbers=[self.nodes[i], self.nodes[i + 1]],
+            length=self.lengths[i],
+            massPerLength=self.section.mass_per_length,
+            crossSectionInertia=self.rotary_inertia[i],
+            bendingStiffness=self.section.bending_stiffness,
+            axialStiffness=self.section.axial_stiffness,
+            shearStiffness=self.shear_stiffness[i],
+            bendingDamping=self.viscosity[i],
+            referenceCurvature=self.shape.curvature,
+        )
 
     def slope(self, q: Array) -> Array:
         return np.asarray(np.tan(q[self.rotation])) if self.shape.slender else q[self.rotation]
@@ -75,56 +97,20 @@ class _Exact(Beam):
 
 
 @dataclass(frozen=True)
-class GeometricallyExact:
+class GeometricallyExact(Element):
     """Geometrically exact two-node beam elements: a second opinion, on a mesh twice as fine for the same accuracy.
 
-    viscosity, axial_stiffness : as for the cable.
     shear_ratio : GA in units of EI/Δx² of each element; from 1e2 the shear angle no longer shows.
     rotary_ratio : rotary inertia in units of μΔx²; it only keeps the mass matrix regular.
     """
 
-    viscosity: float | None = None
-    axial_stiffness: float | None = None
     shear_ratio: float = 100.0
     rotary_ratio: float = 0.01
 
     def __post_init__(self) -> None:
-        if self.viscosity is not None:
-            non_negative("exudyn.element.viscosity", self.viscosity)
-        if self.axial_stiffness is not None:
-            positive("exudyn.element.axial_stiffness", self.axial_stiffness)
+        super().__post_init__()
         positive("exudyn.element.shear_ratio", self.shear_ratio)
         positive("exudyn.element.rotary_ratio", self.rotary_ratio)
 
     def build(self, mbs: Any, shape: Shape, section: Section, viscosity: Array) -> Beam:
-        beam = _Exact(mbs, shape, section, viscosity)
-        beam.shear_stiffness = self.shear_ratio * section.bending_stiffness / beam.lengths**2
-        beam.rotary_inertia = self.rotary_ratio * section.mass_per_length * beam.lengths**2
-        stretched = 1.0 + section.stretch
-        for i in range(shape.s.size):
-            beam.nodes.append(
-                mbs.AddNode(
-                    items.NodeRigidBody2D(
-                        referenceCoordinates=[shape.s[i], 0.0, 0.0],
-                        initialCoordinates=[stretched * shape.x[i] - shape.s[i], shape.y[i], shape.angle[i]],
-                        initialVelocities=[shape.velocity_x[i], shape.velocity_y[i], shape.angular_velocity[i]],
-                    )
-                )
-            )
-        for i, length in enumerate(beam.lengths):
-            beam.bodies.append(
-                mbs.AddObject(
-                    items.ObjectBeamGeometricallyExact2D(
-                        nodeNumbers=[beam.nodes[i], beam.nodes[i + 1]],
-                        length=length,
-                        massPerLength=section.mass_per_length,
-                        crossSectionInertia=beam.rotary_inertia[i],
-                        bendingStiffness=section.bending_stiffness,
-                        axialStiffness=section.axial_stiffness,
-                        shearStiffness=beam.shear_stiffness[i],
-                        bendingDamping=beam.viscosity[i],
-                        referenceCurvature=shape.curvature,
-                    )
-                )
-            )
-        return beam
+        return _Exact(mbs, shape, section, viscosity, self)

@@ -1,10 +1,8 @@
-"""Time integrators: each a small file; ``INTEGRATORS`` names them for ``[exudyn.integrator]``."""
+"""Time integrators; ``INTEGRATORS`` names them for ``[exudyn.integrator]``."""
 
 from exudyn_models.integrators.base import Averages, Integrator
 from exudyn_models.integrators.explicit import DOPRI5, RK44, VelocityVerlet
-from exudyn_models.integrators.generalized_alpha import GeneralizedAlpha
-from exudyn_models.integrators.newmark import Newmark
-from exudyn_models.integrators.trapezoidal import Trapezoidal
+from exudyn_models.integrators.implicit import GeneralizedAlpha, Newmark, Trapezoidal
 
 __all__ = [
     "DOPRI5",

@@ -14,13 +14,10 @@ from typing import Any, ClassVar, cast
 
 import exudyn as exu
 import numpy as np
-from numpy.typing import NDArray
 
-from bent_beam.checks import positive
+from exudyn_models.arrays import Array
 
-__all__ = ["Averages", "Implicit", "Integrator", "Segment", "checked_steps", "growing_segments"]
-
-Array = NDArray[np.float64]
+__all__ = ["Averages", "Integrator", "Segment", "checked_steps", "growing_segments"]
 
 MAXIMUM_STEPS = 5_000_000
 EVEN = 12.5  # steps of one length at least, while steps grow …
@@ -133,24 +130,3 @@ class Integrator(ABC):
     def segments(self, first: float, unit: float, stable: float) -> list[Segment]:
         """The plan of steps in model units: ``first`` the time the front needs for the first element, ``unit`` the
         model's time unit in s, ``stable`` the largest stable step of an explicit method."""
-
-
-@dataclass(frozen=True)
-class Implicit(Integrator):
-    """Base of the implicit integrators.
-
-    time_step : constant step, s; None: steps grow with the time since impact.
-    relative_step : their ratio h/t.
-    """
-
-    time_step: float | None = None
-    relative_step: float = 2e-3
-
-    def __post_init__(self) -> None:
-        if self.time_step is not None:
-            positive("exudyn.integrator.time_step", self.time_step)
-        positive("exudyn.integrator.relative_step", self.relative_step)
-
-    def segments(self, first: float, unit: float, stable: float) -> list[Segment]:
-        step = first if self.time_step is None else min(1.0, self.time_step / unit)
-        return growing_segments(step, self.relative_step, constant=self.time_step is not None)

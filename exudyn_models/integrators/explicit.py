@@ -14,6 +14,7 @@ from typing import Any, ClassVar
 import exudyn as exu
 
 from bent_beam.checks import between, positive
+from exudyn_models.arrays import unless_open
 from exudyn_models.integrators.base import Integrator, Segment, checked_steps
 
 __all__ = ["DOPRI5", "RK44", "VelocityVerlet"]
@@ -31,8 +32,7 @@ class _Explicit(Integrator):
     method: ClassVar[Any]
 
     def __post_init__(self) -> None:
-        if self.time_step is not None:
-            positive("exudyn.integrator.time_step", self.time_step)
+        unless_open(positive, "exudyn.integrator.time_step", self.time_step)
         between("exudyn.integrator.safety", self.safety, 1e-6, 1.0)
 
     def configure(self, settings: Any) -> None:

@@ -36,6 +36,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
         view=chosen.view,
     )
     from theory import contact_parameters  # nothing above knows it
+
     found, exact = leading_order(moments(history)), contact_parameters(chosen.kappa_over_nu)
     for name, value, theory in (("lambda0", found.lambda0, exact.lambda0), ("r0", found.r0, exact.r0)):
         print(f"{name} = {value}, theory {float(theory):.6g}, off by {value.value / float(theory) - 1:+.3%}")

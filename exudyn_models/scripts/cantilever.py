@@ -7,10 +7,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-import matplotlib.pyplot as plt
 import numpy as np
 
-from exudyn_models.scripts.static_cable import EI, LENGTH, parser, print_rows, solved
+from exudyn_models.scripts.static_cable import EI, LENGTH, draw, parser, print_rows, solved
 
 
 def main(arguments: Sequence[str] | None = None) -> None:
@@ -28,12 +27,8 @@ def main(arguments: Sequence[str] | None = None) -> None:
         ]
     )
     x = np.linspace(0, LENGTH, 200)
-    figure, axes = plt.subplots(layout="constrained")
-    axes.plot(x, 1e3 * load * x**2 * (3 * LENGTH - x) / (6 * EI), "-", color="black", label="linear theory")
-    axes.plot(np.linspace(0, LENGTH, n + 1) + q[:, 0], q[:, 1] * 1e3, "s", color="#D55E00", label="Exudyn, nodes")
-    axes.set(xlabel="x, m", ylabel="deflection, mm", title=f"cantilever, tip load {load:g} N")
-    axes.legend()
-    figure.savefig(chosen.out, dpi=150)
+    exact = load * x**2 * (3 * LENGTH - x) / (6 * EI)
+    draw(q, exact, f"cantilever, tip load {load:g} N", chosen.out)
 
 
 if __name__ == "__main__":

@@ -9,10 +9,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-import matplotlib.pyplot as plt
 import numpy as np
 
-from exudyn_models.scripts.static_cable import EI, LENGTH, parser, print_rows, solved
+from exudyn_models.scripts.static_cable import EI, LENGTH, draw, parser, print_rows, solved
 
 
 def main(arguments: Sequence[str] | None = None) -> None:
@@ -35,12 +34,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     x = np.linspace(0, LENGTH, 200)
     folded = np.minimum(x, LENGTH - x)
     exact = load * folded * (3 * LENGTH**2 - 4 * folded**2) / (48 * EI)
-    figure, axes = plt.subplots(layout="constrained")
-    axes.plot(x, exact * 1e3, "-", color="black", label="linear theory")
-    axes.plot(np.linspace(0, LENGTH, n + 1) + q[:, 0], q[:, 1] * 1e3, "s", color="#D55E00", label="Exudyn, nodes")
-    axes.set(xlabel="x, m", ylabel="deflection, mm", title=f"simply supported beam, {load:g} N in its middle")
-    axes.legend()
-    figure.savefig(chosen.out, dpi=150)
+    draw(q, exact, f"simply supported beam, {load:g} N in its middle", chosen.out)
 
 
 if __name__ == "__main__":

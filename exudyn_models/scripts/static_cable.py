@@ -9,13 +9,14 @@ from typing import Any
 
 import exudyn as exu
 import exudyn.itemInterface as items
+import matplotlib.pyplot as plt
 import numpy as np
 from numpy.typing import NDArray
 
 from exudyn_models.solvers import quiet
 from exudyn_models.viewer import open_viewer, wait_until_closed
 
-__all__ = ["EI", "LENGTH", "parser", "print_rows", "solved"]
+__all__ = ["EI", "LENGTH", "draw", "parser", "print_rows", "solved"]
 
 LENGTH, EI, EA = 2.0, 1.0, 1e4  # m, N m², N
 
@@ -73,6 +74,17 @@ def solved(
     near = cables[min(loaded, elements - 1)]
     moment = mbs.GetObjectOutputBody(near, exu.OutputVariableType.TorqueLocal, [0.0, 0.0, 0.0])
     return q, abs(float(np.ravel(moment)[-1]))
+
+
+def draw(q: NDArray[np.float64], exact: NDArray[np.float64], title: str, out: str) -> None:
+    """Save a figure of the deflections in ``q`` (m) beside ``exact`` ones, which stand at even distances."""
+    figure, axes = plt.subplots(layout="constrained")
+    axes.plot(np.linspace(0, LENGTH, exact.size), 1e3 * exact, "-", color="black", label="linear theory")
+    places = np.linspace(0, LENGTH, len(q)) + q[:, 0]
+    axes.plot(places, 1e3 * q[:, 1], "s", color="#D55E00", label="Exudyn, nodes")
+    axes.set(xlabel="x, m", ylabel="deflection, mm", title=title)
+    axes.legend()
+    figure.savefig(out, dpi=150)
 
 
 def print_rows(rows: Sequence[tuple[str, float, float]]) -> None:

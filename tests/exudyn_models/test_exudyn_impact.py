@@ -10,6 +10,10 @@ import exudyn_models
 from bent_beam import Impact, ImpactHistory
 from bent_beam.meshes import NodesMesh, ScaleFreeMesh, UniformMesh
 from comparison import estimators
+from comparison.match import Question, answer
+from comparison.settings import settings
+from comparison.store import RunStore
+from exudyn_models import ExudynModel
 from exudyn_models.contacts import Penalty, Rigid, SegmentFriction
 from exudyn_models.elements import ANCFCable, GeometricallyExact
 from exudyn_models.geometry import LinearLimit
@@ -101,6 +105,23 @@ def test_swapped_part_keeps_the_answer(parts):
 @pytest.mark.parametrize("kappa_over_nu", [0.1, 0.5, 0.8])
 def test_leading_order_is_met_with_no_setting_elsewhere(kappa_over_nu):
     assert max(off(exudyn_models.simulate(Impact.dimensionless(kappa_over_nu)), kappa_over_nu)) < 2e-3
+
+
+@pytest.mark.parametrize(
+    "kappa_over_nu", [1 / 100, *(pytest.param(k, marks=pytest.mark.verify) for k in (1 / 40, 1 / 400, 1 / 1600))]
+)
+def test_a_thin_front_is_met_within_its_error_bars_and_nothing_is_held(kappa_over_nu):
+    row = answer(Question(ExudynModel(), kappa_over_nu), RunStore(None))
+    for number in (row.lambda0, row.r0):
+        assert abs(number.relative()) < min(0.003, number.relative_error())
+    assert row.hold is None and row.lift < 0.02
+
+
+def test_the_viscosity_that_settings_print_is_the_one_that_a_run_takes(default):
+    printed = next(s for s in settings() if (s.kind, s.name) == ("ancf_cable", "viscosity"))
+    element = ANCFCable(viscosity=float(printed.default.split()[0]))
+    history = exudyn_models.simulate(HALF, mesh=coarse(HALF), save=100, element=element)
+    assert_allclose(history.array("total_impulse"), default.array("total_impulse"), rtol=1e-12)
 
 
 @pytest.mark.parametrize(

@@ -11,7 +11,7 @@ from bent_beam.meshes import UniformMesh
 from bent_beam.method import made_of
 from exudyn_models import ExudynModel
 from exudyn_models.contacts import Penalty, Rigid, SegmentFriction
-from exudyn_models.integrators.trapezoidal import Trapezoidal
+from exudyn_models.integrators import Trapezoidal
 from exudyn_models.simulation import simulate
 
 PAGE = {
