@@ -8,13 +8,12 @@ export OMP_NUM_THREADS := 1
 export OPENBLAS_NUM_THREADS := 1
 JOBS ?= 2
 
-.PHONY: help report test verify lint bench fuzz mutation docs gallery update lowest newest clean
+.PHONY: help report test verify lint bench fuzz docs gallery update lowest newest clean
 
 help:
 	@echo "make report   match both simulations with the theory and write report/index.html"
 	@echo "make test     the test suite (under four minutes on two cores)"
 	@echo "make verify   longer checks; make fuzz: random input and kills; make bench: speed, as ratios"
-	@echo "make mutation small faults put into the source: which do the tests notice (hours)"
 	@echo "make lint     ruff and mypy; make docs: the guide in site/; make gallery: every figure of the thesis"
 	@echo "make update   renew the locked versions; make lowest, make newest: a quick suite on either end of the ranges"
 
@@ -60,7 +59,6 @@ update: $(STAMP)
 	$(PIP) install uv
 	$(COMPILE) --extra test --extra lint --output-file requirements.lock
 	$(COMPILE) --extra docs --output-file requirements-docs.lock
-	$(COMPILE) --extra mutation --output-file requirements-mutation.lock
 
 # Either end of the ranges that pyproject.toml declares, in an environment of its own: what it takes to install, start,
 # compile and answer on both paths there (AT=3.13: on another Python). The lowest versions are those of what is asked
@@ -75,13 +73,5 @@ lowest newest: $(STAMP)
 	BENTBEAM_STORE=.venv-$@/store .venv-$@/bin/bentbeam match --kappa-over-nu 2
 	.venv-$@/bin/python -m pytest -m "not verify" $(QUICK)
 
-# Which of 500 small faults put into the source the tests notice; hours, and it goes on where it was interrupted.
-MUTANTS := mutation
-mutation: $(STAMP)
-	$(PIP) install --require-hashes --requirement requirements-mutation.lock
-	test -f $(MUTANTS)/mutants.jsonl || $(BIN)/python -m benchmarks.mutation draw --out $(MUTANTS)
-	$(BIN)/python -m benchmarks.mutation run --out $(MUTANTS)
-	$(BIN)/python -m benchmarks.mutation tell --out $(MUTANTS)
-
 clean:
-	rm -rf $(VENV) .venv-lowest .venv-newest mutation report gallery site .pytest_cache .mypy_cache .ruff_cache
+	rm -rf $(VENV) .venv-lowest .venv-newest report gallery site .pytest_cache .mypy_cache .ruff_cache

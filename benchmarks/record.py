@@ -15,7 +15,7 @@ from bent_beam.versions import processor, today
 
 __all__ = ["RESULTS", "Row", "keep", "keep_rows", "options", "said"]
 
-VERSIONS = ("numpy", "scipy", "numba", "llvmlite", "typer", "exudyn", "xarray")
+VERSIONS = ("numpy", "scipy", "numba", "typer", "exudyn", "xarray")
 
 RESULTS = Path(__file__).parent / "results"
 

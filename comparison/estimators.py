@@ -46,7 +46,6 @@ LEAST = 1e-4  # of a leading-order value: what runs keep that no refinement move
 COMPANION = 1.2  # first order in Δx: the coarser run is as far from this one as this one from the truth
 DRIFT = 2.0  # of the spread over the window and its parts
 DRIFT_ALONE = 4.0  # the same where no companion says what the mesh does
-LIFTED = 0.1  # of V₀t: a front that no element resolves throws the zone off, in the coarser run just as much
 
 
 @dataclass(frozen=True)
@@ -236,9 +235,8 @@ def leading_order(found: Moments, *, window: float = 10.0, companions: Sequence[
 
     The error bar is the root of the sum of squares, for the causes are independent, of the drift (spread over the
     window and its parts) taken ``DRIFT`` times, of the largest difference from a companion taken ``COMPANION`` times,
-    and of ``LEAST`` of the value. A zone that has left the wall by more than ``LIFTED`` of V₀t has been thrown off it,
-    and r₀ may be too large by that share: measured with Exudyn at κ/ν from 1/800 to 1/25, r₀ is 22, 21, 14, 6.5, 2.3
-    and 0.6 % too large where the zone lifts by 0.2, 0.2, 0.2, 0.07, 0.03 and 0.01 (``bentbeam match --path exudyn``).
+    of ``LEAST`` of the value and, for r₀, of the lift over V₀t: impacts that throw the zone off the wall push it too
+    hard, by no more than that share and in the coarser run just as much.
 
     Raises ``ValueError`` when fewer than eight instants carry an impulse.
     """
@@ -249,12 +247,11 @@ def leading_order(found: Moments, *, window: float = 10.0, companions: Sequence[
         apart_r0 = max(apart_r0, abs(other_r0 - r0))
         apart_lambda0 = max(apart_lambda0, abs(other_lambda0 - lambda0))
     alone = DRIFT if companions else DRIFT_ALONE
-    thrown = lift if lift > LIFTED else 0.0
     return LeadingEstimate(
         lambda0=Estimate(
             lambda0, math.hypot(COMPANION * apart_lambda0, alone * drift_lambda0, LEAST * max(lambda0, 0.1))
         ),
-        r0=Estimate(r0, math.hypot(COMPANION * apart_r0, alone * drift_r0, LEAST * r0, thrown * r0)),
+        r0=Estimate(r0, math.hypot(COMPANION * apart_r0, alone * drift_r0, LEAST * r0, lift * r0)),
         lift=lift,
         window=times,
     )

@@ -13,7 +13,7 @@ from bent_beam.history import ImpactHistory
 from bent_beam.impact import Impact
 from bent_beam.meshes import MESHES
 from bent_beam.method import Save, made_of
-from hermite_fe import auto, whole_beam
+from hermite_fe import resolution, whole_beam
 from hermite_fe.composition import Composition
 from hermite_fe.contacts import CONTACTS, NodeContact
 from hermite_fe.far_fields import FAR_FIELDS, GridViscosity
@@ -28,7 +28,7 @@ __all__ = ["HermiteFE"]
 class HermiteFE(Composition):
     """Hermite beam elements with unilateral contact and a nonsmooth time integrator, on a fixed mesh.
 
-    mesh, integrator, contact, far_field, mass : parts; ``None``: chosen from the problem (:mod:`hermite_fe.auto`).
+    mesh, integrator, contact, far_field, mass : parts; ``None``: chosen for the problem (:mod:`hermite_fe.resolution`).
     full_beam : model both halves instead of one with a symmetry support.
     domain : half length, m, that is modelled of a longer beam, whose cut ends follow the free motion (``None``: all of
         it, with free ends).
@@ -79,14 +79,14 @@ class HermiteFE(Composition):
         mesh, contact, far_field, domain = self.mesh, self.contact, self.far_field, self.domain
         if impact.loaded:
             if domain is None and far_field is None:
-                domain = auto.chosen_domain(impact, end_time)
+                domain = resolution.chosen_domain(impact, end_time)
             if contact is None and impact.zone_pressure > 0.0 and (self.integrator is None or self.integrator.holds):
-                contact = NodeContact(hold=auto.PRESSED_HOLD)
+                contact = NodeContact(hold=resolution.PRESSED_HOLD)
             if mesh is None:
-                mesh = auto.chosen_mesh(cut(impact, domain), end_time, loaded=True)
+                mesh = resolution.chosen_mesh(cut(impact, domain), end_time, loaded=True)
         if domain is not None and far_field is None:
             far_field = GridViscosity(end="following")
-        choice = auto.choose(
+        choice = resolution.choose(
             cut(impact, domain),
             end_time,
             mesh,

@@ -14,7 +14,7 @@ from bent_beam.history import ImpactHistory
 from bent_beam.impact import FIRST_SPREAD, Impact
 from bent_beam.meshes import Mesh
 from bent_beam.parts import describe
-from hermite_fe import auto
+from hermite_fe import resolution
 from hermite_fe.contacts import Contact
 from hermite_fe.far_fields import FarField, GridViscosity
 from hermite_fe.integrators import Integrator
@@ -54,7 +54,7 @@ def simulate(
     until: Callable[[BeamModel, Stepper], bool] | None = None,
 ) -> ImpactHistory:
     """Simulate the impact on a Hermite beam; every part left out is chosen from the problem
-    (:mod:`hermite_fe.auto`).
+    (:mod:`hermite_fe.resolution`).
 
     end_time : s (by default 0.1 t*, but 0.01 T* at most).
     full_beam : model both halves instead of one with a symmetry support, as is done anyway where the impact is not
@@ -77,7 +77,7 @@ def simulate(
     modelled = cut(impact, domain)
     if domain is not None and far_field is None:
         far_field = GridViscosity(end="following")
-    choice = auto.choose(modelled, end, mesh, integrator, contact, far_field, mass, refine=refine)
+    choice = resolution.choose(modelled, end, mesh, integrator, contact, far_field, mass, refine=refine)
     if domain is not None and choice.far_field.end != "following":
         raise ValueError(
             f'domain cuts the beam where it goes on: far_field.end must be "following" (got {choice.far_field.end!r})'

@@ -22,7 +22,7 @@ from comparison.studies.exact import Exact
 from comparison.studies.outcome import Outcome, outcome_of
 from comparison.studies.sentences import number, signed, smallest_and_largest
 from comparison.studies.thesis import THESIS_MASS
-from hermite_fe import auto
+from hermite_fe import resolution
 from theory import contact_parameters
 
 CURVATURES = tuple(20.0 * k for k in THESIS_KAPPAS)
@@ -69,7 +69,7 @@ def matched() -> list[MatchRow]:
 )
 def parameters(sheet: Sheet) -> str:
     chosen = [
-        auto.choose(given.impact, given.end_time, None, None, None, None)
+        resolution.choose(given.impact, given.end_time, None, None, None, None)
         for given in (case(1 / 80, 0.1), case(10.0, 0.1))
     ]
     lengths = [np.diff(c.nodes) for c in chosen]

@@ -2,17 +2,19 @@
 
     ġ⁺ = −e ġ⁻ where a row closes                                                           (thesis 3.2.4)
 
-**The hold.** Contact is unilateral. Two things may be held against that, for the infinite beam's first instants only:
+**The hold.** Contact is unilateral. Two options keep closed constraints closed against that, for comparison and for the
+infinite beam's first instants only:
 
-- ``hold_until``: nothing that has closed opens before this time. No mesh resolves the first instants, when the front is
-  thinner than an element; the impacts of that phase would leave the zone with a velocity off the wall ("double
-  detachment", thesis 3.3.5). By default until the front is six elements thick, a hundredth of the run at most.
-- ``hold``: a row that has closed is not released until the front is so many rows further (the strip shrinks with the
-  mesh: consistent). Behind a moving front the exact reaction is zero, and noise of either sign there turns into pushes
-  off the wall. Off unless stated.
+- ``hold_until``: nothing that has closed opens before this time (a bilateral start). No mesh resolves the first
+  instants, when the front is thinner than an element; the impacts of that phase may leave the zone with a velocity
+  off the wall ("double detachment", thesis 3.3.5). Off unless stated: a long first step does without (:mod:`hermite_fe.resolution`).
+- ``hold``: a constraint that has closed is not released until the front is so many constraints further (the strip
+  shrinks with the mesh: consistent). Behind a moving front the exact reaction is zero, and noise of either sign there
+  turns into pushes off the wall. Off unless stated, but in runs that measure what a pressing load changes.
 
 Neither acts after t_w = 0.005 T* (:data:`bent_beam.impact.FIRST_SPREAD`), from when on waves from the ends may move the
-zone. A held row may pull; what it pulled is recorded as ``held_impulse``, and how hard as ``hold`` in the settings.
+zone. A held constraint may pull; what it pulled is recorded as ``held_impulse``, and how hard as ``hold`` in the
+settings.
 """
 
 from __future__ import annotations
@@ -38,8 +40,8 @@ class Contact(ABC):
     """Base of the contact discretisations.
 
     restitution : e ∈ [0, 1].
-    hold : rows that the front must be ahead before a closed one may open (``None`` and 0: none).
-    hold_until : s, until when nothing that has closed opens (``None``: chosen from the problem; 0: never held).
+    hold : constraints that the front must be ahead before a closed one may open (``None`` and 0: none).
+    hold_until : s, until when nothing that has closed opens (``None`` and 0: it may at once).
     """
 
     restitution: float = 0.0

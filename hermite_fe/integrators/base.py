@@ -32,6 +32,9 @@ class Integrator(ABC):
     holds: ClassVar[bool] = False
     """Whether it keeps closed constraints closed when asked to (:class:`hermite_fe.contacts.Contact`)."""
 
+    elements_in_first_front: ClassVar[float] = 0.03
+    """Smallest elements that the front is thick after a first step that is chosen (:mod:`hermite_fe.resolution`)."""
+
     time_step: float | None = None
     growth: float | None = None
 

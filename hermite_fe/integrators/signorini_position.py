@@ -27,6 +27,7 @@ class SignoriniPosition(Integrator):
     """theta : θ ∈ [½, 1]; 1 (implicit Euler) is the one to use: θ near ½ makes closed constraints rattle."""
 
     holds: ClassVar[bool] = True
+    elements_in_first_front: ClassVar[float] = 3.0
 
     theta: float = 1.0
 

@@ -101,10 +101,7 @@ def test_a_zone_thrown_off_the_wall_may_have_been_pushed_that_much_too_hard(lift
     reduced = Moments(tau, 2.0 * SIDE * np.sqrt(tau), SIDE * tau, zero, zero, np.full(100, lift))
     found = leading_order(reduced, companions=[reduced])
     assert found.lift == lift
-    if lift > 0.1:
-        assert found.r0.error == pytest.approx(lift * found.r0.value, rel=1e-3)
-    else:
-        assert found.r0.error < 2e-4 * found.r0.value
+    assert found.r0.error == pytest.approx(lift * found.r0.value, rel=1e-3)
     assert found.lambda0.error < 2e-4 * found.lambda0.value
 
 
@@ -326,8 +323,10 @@ def test_what_a_history_on_disk_comes_to_is_found_without_reading_all_of_it(tmp_
     monkeypatch.setattr("comparison.reduction.CHUNK", 8)
     found = summary(there)
     assert max(asked) <= 8 * here.array("gap").shape[1]
-    for name in ("pull", "lift", "peak_moment", "peak_moment_time", "half_contact_length", "r0"):
+    for name in ("pull", "lift", "peak_moment", "peak_moment_time"):
         assert found[name] == known[name]
+    for name in ("half_contact_length", "r0"):  # sums of blocks: the same but for the order of their terms
+        assert found[name].value == pytest.approx(known[name].value, rel=1e-11)
 
 
 def flown(times):

@@ -237,7 +237,7 @@ def spin(seconds):
     return "finished"
 
 
-@pytest.mark.parametrize("module", ["numba.core.dispatcher", "importlib._bootstrap"])
+@pytest.mark.parametrize("module", ["numba.dispatcher", "importlib._bootstrap"])
 def test_the_time_limit_stands_still_while_code_is_compiled_or_imported(module):
     """An alarm in the middle of it left numba with "no compiled object yet" for the rest of the process."""
     preparing = {"__name__": module, "spin": spin}
