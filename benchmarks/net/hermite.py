@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from itertools import product
 
 from benchmarks.net.case import Case, part, sets
@@ -70,7 +71,10 @@ def variants() -> list[Case]:
     """What else a short run can have: each with the schemes that treat it differently."""
     found = []
     for e, name in product((0.5, 1.0), ("moreau", "moreau-half", "alpha-v", "alpha-pva")):
-        found.append(short(f"restitution {e}", name, contact=f"node restitution={e}{STRICT}"))
+        case = short(f"restitution {e}", name, contact=f"node restitution={e}{STRICT}")
+        if e == 0.5 and name == "alpha-pva":  # "at rest" is judged by the largest velocity of the beam now
+            case = replace(case, kind="bar", relative=2e-3)
+        found.append(case)
     for name in ("moreau", "signorini", "alpha-pva"):
         found.append(short("lumped", name, mass="lumped rotary=0.0128"))
         found.append(short("full beam", name, more="hermite.full_beam=true"))

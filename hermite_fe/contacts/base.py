@@ -7,7 +7,8 @@ infinite beam's first instants only:
 
 - ``hold_until``: nothing that has closed opens before this time (a bilateral start). No mesh resolves the first
   instants, when the front is thinner than an element; the impacts of that phase may leave the zone with a velocity
-  off the wall ("double detachment", thesis 3.3.5). Off unless stated: a long first step does without (:mod:`hermite_fe.resolution`).
+  off the wall ("double detachment", thesis 3.3.5). Off unless stated: a long first step makes it needless
+  (:mod:`hermite_fe.resolution`).
 - ``hold``: a constraint that has closed is not released until the front is so many constraints further (the strip
   shrinks with the mesh: consistent). Behind a moving front the exact reaction is zero, and noise of either sign there
   turns into pushes off the wall. Off unless stated, but in runs that measure what a pressing load changes.
