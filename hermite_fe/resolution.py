@@ -50,6 +50,7 @@ LARGEST_STEP = 1e-3  # of the time since impact
 LONGEST_FIRST_STEP = 2e-3  # of the run
 ELEMENTS_IN_THIN_FRONT = 12.0  # in ℓ at the end, for κ/ν < THIN
 MOST_ELEMENTS = 25_000  # over the zone, for κ/ν < THIN
+MOST_OF_A_BEAM = 2_000  # of a half beam that the front runs over before the run ends
 SHORTEST_THIN_STEP = 5e-4  # of the run
 ELEMENTS_PER_FRONT = 2.0  # fewer in ℓ deserve a warning
 LOADED = (1.3e-3, 33.0, 0.005)  # SMALLEST_ELEMENT, ELEMENTS_IN_FRONT, GROWTH of runs that measure what a load changes
@@ -88,7 +89,8 @@ def chosen_mesh(impact: Impact, end_time: float, *, loaded: bool = False) -> Mes
     kappa, half = bounded_kappa(impact), impact.half_length
     zone = min(ZONE * place, half)
     if kappa < THIN:
-        element = max(thickness / ELEMENTS_IN_THIN_FRONT, zone / MOST_ELEMENTS)
+        most = MOST_ELEMENTS if zone < half else MOST_OF_A_BEAM
+        element = max(thickness / ELEMENTS_IN_THIN_FRONT, zone / most)
         return GradedMesh(element_length=element, growth=1.0 + GROWTH_OUTSIDE, zone=zone, size_ratio=1e6)
     smallest, in_front, growth = LOADED if loaded else (SMALLEST_ELEMENT, ELEMENTS_IN_FRONT, GROWTH)
     return ScaleFreeMesh(
@@ -186,7 +188,7 @@ def choose(
 def resolution_warnings(impact: Impact, end_time: float, nodes: Array, integrator: Integrator) -> list[str]:
     """What the mesh and the steps cannot resolve of the front at the end of the run, and by how much."""
     out: list[str] = []
-    if impact.kappa_over_nu >= 1.0:
+    if impact.kappa_over_nu >= 1.0 or impact.kappa_over_nu == 0.0:  # a point, or all of the beam at once: no front
         return out
     place, thickness = front(impact, end_time)
     element = float(
@@ -222,7 +224,7 @@ def end_warnings(impact: Impact, end_time: float, nodes: Array, far_field: FarFi
     out = []
     place, _ = front(impact, end_time)
     half, last = impact.half_length, float(nodes[-1] - nodes[-2])
-    if place > half:
+    if place > half and impact.kappa_over_nu > 0.0:
         out.append(
             f"the contact may reach the end of the beam: it may spread to {place:.3g} m, "
             f"the end is at {half:.3g} m"

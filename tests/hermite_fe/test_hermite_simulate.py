@@ -231,6 +231,13 @@ def test_settings_suffice_to_run_again() -> None:
     assert again.settings == history.settings
 
 
+def test_a_straight_beam_lands_all_at_once_on_defaults() -> None:
+    """κ = 0: no front, the wall takes the momentum μLV₀ of a beam without bounce."""
+    history = simulate(Impact(1.0, 1.0, 2.0, 0.0, 1.0), end_time=0.01)
+    assert history.array("total_impulse")[-1] == pytest.approx(2.0, rel=1e-3)
+    assert not any("front" in warning for warning in history.warnings)
+
+
 def test_saved_times_and_progress() -> None:
     fractions: list[float] = []
     wanted = [0.01, 0.02, 0.05]
