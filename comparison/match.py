@@ -7,8 +7,9 @@ Nothing here knows a path. A method simulates; its history is reduced to moments
 from __future__ import annotations
 
 import math
+import time
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -29,6 +30,7 @@ from comparison.estimators import (
 )
 from comparison.reduction import hold_of, pull_of
 from comparison.store import RunStore, source_of
+from comparison.time_limit import affordable_refinement
 
 __all__ = ["THESIS_KAPPAS", "First", "MatchRow", "Question", "failures", "match", "questions"]
 
@@ -262,11 +264,37 @@ def _raise_if_refused(method: Method, impact: Impact) -> None:
         raise Refused(reason)
 
 
-def answer(question: Question, store: RunStore) -> MatchRow:
+def coarsened(question: Question, store: RunStore, limit: float) -> tuple[Question, list[str]]:
+    """The question at a resolution whose row ends within ``limit``, s, and a warning where that is not the one asked
+    for."""
+    bare = Impact.dimensionless(question.kappa_over_nu)
+
+    def seconds_at(factor: float) -> float:
+        method = refined(question.method, factor * question.refine)
+        if method is None:
+            return 0.0
+        began = time.perf_counter()
+        _reduced(store, method, bare)
+        return time.perf_counter() - began
+
+    runs = 1.0 + sum(factor**2 for factor in COMPANIONS[question.error_bars])
+    factor, expected = affordable_refinement(seconds_at, limit, runs * (1 + len(SHARES) if question.first else 1))
+    if factor == 1.0:
+        return question, []
+    return replace(question, refine=factor * question.refine), [
+        f"coarser than asked for: the row would take about {expected:.0f} s, more than the limit of {limit:g} s; "
+        f"this is the answer at {factor:g} times the resolution, with its own error bar"
+    ]
+
+
+def answer(question: Question, store: RunStore, limit: float | None = None) -> MatchRow:
     """Simulate and estimate one row; companion runs at other resolutions say what the error bar is.
+
+    limit : s; a row that would take longer is made coarser, and says so.
 
     Raises :class:`Refused` for what the method refuses, :class:`bent_beam.SimulationError` when a run cannot finish.
     """
+    question, coarser = (question, []) if limit is None else coarsened(question, store, limit)
     fine = _estimates(question, question.refine, store, None)
     others: list[_Estimates] = []
     lost: list[str] = []
@@ -278,7 +306,7 @@ def answer(question: Question, store: RunStore) -> MatchRow:
             lost.append(without_companion(factor, error))
     leading = leading_order(fine.run.moments, companions=[o.run.moments for o in others])
     estimate = fine.first and with_companions(fine.first, [o.first for o in others if o.first])
-    warnings = [w for r in fine.runs for w in r.warnings] + lost
+    warnings = [w for r in fine.runs for w in r.warnings] + lost + coarser
     if leading.lambda0.error > WIDE * max(leading.lambda0.value, 0.1) or leading.r0.error > WIDE * leading.r0.value:
         warnings.append(f"wide error bar: λ₀ = {leading.lambda0}, r₀ = {leading.r0}")
     if estimate is not None and estimate.r1.error > WIDE_FIRST * max(abs(estimate.r1.value), 1.0):
@@ -335,10 +363,10 @@ def _about(question: Question) -> dict[str, Any]:
     }
 
 
-def _attempt(question: Question, store: RunStore) -> MatchRow:
+def _attempt(question: Question, store: RunStore, limit: float | None) -> MatchRow:
     """One question in a worker: a failure is an answer too, so that the sweep goes on."""
     try:
-        return answer(question, store)
+        return answer(question, store, limit)
     except SimulationError as error:
         return _lost(question, str(error))
     except Refused as error:
@@ -369,7 +397,8 @@ def match(
 ) -> list[MatchRow]:
     """A row for each question, in their order, with ``jobs`` processes or on a dask ``scheduler``.
 
-    limit : seconds that one row may take (``None``: no limit); a row that takes longer says so.
+    limit : seconds that one row may take (``None``: no limit); a row that would take longer is made coarser and says
+        so, one that takes longer nevertheless is a failure.
     The rows are the same, bit for bit, for any number of jobs. ``progress(done, total)`` is called after each.
     """
     from comparison.workers import run_all
@@ -378,7 +407,7 @@ def match(
     return list(
         run_all(
             _attempt,
-            [(question, store) for question in asked],
+            [(question, store, limit) for question in asked],
             jobs=jobs,
             scheduler=scheduler,
             limit=limit,

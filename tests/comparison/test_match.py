@@ -19,6 +19,7 @@ from comparison.match import MatchRow, Question, answer, failures, match, questi
 from comparison.methods import default_methods, methods_from_file, methods_of
 from comparison.store import RunStore
 from comparison.tables import match_document, match_table, write_match
+from comparison.time_limit import affordable_refinement
 from comparison.workers import Expired, limited
 from exudyn_models import ExudynModel
 from hermite_fe import HermiteFE
@@ -228,6 +229,21 @@ def test_what_fails_is_a_row_with_its_reason(tmp_path):
     assert document["rows"][1]["r0"] == {"value": None, "error": None, "theory": rows[0].r0.theory}
     assert [f["label"] for f in document["failures"]] == ["fails", "hangs"]
     assert all(r.reason in match_table(rows) for r in rows if r.reason)
+
+
+def test_a_row_with_a_time_limit_is_as_fine_as_fits():
+    """Work grows fourfold when elements and steps are halved."""
+    for limit, factor in ((100.0, 1.0), (2.0, 1.0), (1.2, 0.5), (0.3, 0.25), (1e-9, 0.125)):
+        found, expected = affordable_refinement(lambda f: f**2, limit, runs=1.0)
+        assert found == factor
+        assert expected == pytest.approx(1.0)
+
+
+def test_a_row_that_would_take_longer_than_its_limit_is_coarser_and_says_so():
+    (row,) = match([Question(HermiteFE(), 0.013)], limit=0.3)
+    assert row.reason is None and row.refine < 1.0
+    assert any("coarser than asked for" in warning for warning in row.warnings)
+    assert abs(row.r0.value - row.r0.theory) < row.r0.error
 
 
 def spin(seconds):
