@@ -84,7 +84,41 @@ def simulate(
         )
     model = beam_model(modelled, choice.nodes, choice.contact, choice.far_field, full=full_beam, mass=choice.mass)
     check_start(model)
-    trajectory = integrate(
+    run = run_of(impact, model, choice, end, save, progress, until)
+    ended = until is not None and not run.failure
+    settings = {
+        "end_time": float(run.time[-1]) if ended else end,
+        "full_beam": full_beam,
+        "domain": domain,
+        "save": run.time[1:].tolist() if ended else np.asarray(save).tolist(),
+        **settings_of_run(impact, choice, run),
+    }
+    history = history_of(impact, model, run, settings)
+    if until is None and impact.opposite_wall is None and not impact.off_centre:  # a front spreads from the middle
+        history = history.with_warnings([*choice.warnings, *lift_warnings(impact, model, history)])
+    if run.failure:
+        raise SimulationError(
+            run.failure,
+            time=run.failure_time,
+            step=run.steps,
+            advice="a smaller integrator.time_step or growth, more damping at grid scale "
+            '(far_field.viscosity), or integrator.kind = "moreau_jean"',
+            history=history,
+        )
+    return history
+
+
+def run_of(
+    impact: Impact,
+    model: BeamModel,
+    choice: resolution.Choice,
+    end: float,
+    save: int | Sequence[float] | NDArray[np.float64],
+    progress: Callable[[float], None] | None,
+    until: Callable[[BeamModel, Stepper], bool] | None,
+) -> Trajectory:
+    """The steps from the start of ``model`` to ``end``, s."""
+    return integrate(
         model.system,
         model.displacement,
         model.velocity,
@@ -98,30 +132,17 @@ def simulate(
         progress=progress,
         until=None if until is None else lambda run: until(model, run),
     )
-    ended = until is not None and not trajectory.failure
-    settings = {
-        "end_time": float(trajectory.time[-1]) if ended else end,
-        "full_beam": full_beam,
-        "domain": domain,
-        "save": trajectory.time[1:].tolist() if ended else np.asarray(save).tolist(),
-        **{name: describe(getattr(choice, name)) for name in ("mesh", "integrator", "contact", "far_field", "mass")},
-        "hold": hold_report(impact, choice.contact, trajectory),
-        "mean_iterations": trajectory.mean_iterations,
-        "most_iterations": trajectory.most_iterations,
+
+
+def settings_of_run(impact: Impact, choice: resolution.Choice, run: Trajectory) -> dict[str, Any]:
+    """The parts of a run as text, what was held, and how many rounds the active set took."""
+    parts = ("mesh", "integrator", "contact", "far_field", "mass")
+    return {
+        **{name: describe(getattr(choice, name)) for name in parts},
+        "hold": hold_report(impact, choice.contact, run),
+        "mean_iterations": run.mean_iterations,
+        "most_iterations": run.most_iterations,
     }
-    history = history_of(impact, model, trajectory, settings)
-    if until is None and impact.opposite_wall is None and not impact.off_centre:  # a front spreads from the middle
-        history = history.with_warnings([*choice.warnings, *lift_warnings(impact, model, history)])
-    if trajectory.failure:
-        raise SimulationError(
-            trajectory.failure,
-            time=trajectory.failure_time,
-            step=trajectory.steps,
-            advice="a smaller integrator.time_step or growth, more damping at grid scale "
-            '(far_field.viscosity), or integrator.kind = "moreau_jean"',
-            history=history,
-        )
-    return history
 
 
 def cut(impact: Impact, domain: float | None) -> Impact:
