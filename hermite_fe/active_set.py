@@ -5,9 +5,9 @@
 The closed constraints, G x = c, are guessed; the system is solved (:mod:`hermite_fe.solver`); the constraints whose
 sign is wrong are exchanged, until none is (a primal–dual active set; Hintermüller, Ito, Kunisch 2003, SIAM J. Optim.
 13, 865). All wrong ones are exchanged while their number falls fast; then the worst of each run of neighbours that are
-wrong alike: a beam is stiff over a few nodes, so that it mends the others. When the number has not fallen for
-``PATIENCE`` rounds, only the last is exchanged (Murty's rule; Júdice & Pires 1994, Comput. Oper. Res. 21, 587). After
-``MOST_ROUNDS`` the problem is solved anew by :func:`solve_one_by_one`, which always ends.
+wrong alike (runs of two whole): a beam is stiff over a few nodes, so that this mends the others. When the number has
+not fallen for ``PATIENCE`` rounds, only the last is exchanged (Murty's rule; Júdice & Pires 1994, Comput. Oper. Res.
+21, 587). After ``MOST_ROUNDS`` the problem is solved anew by :func:`solve_one_by_one`.
 
 Signs are judged against round-off: p against the terms of its equation, a gap against the largest deflection and slope.
 """
@@ -32,8 +32,8 @@ SOLVED, SINGULAR, CYCLING, NOT_FINITE = range(4)
 
 ROUND_OFF = 1e-13  # of the terms summed
 MOST_LENIENT = 1e-8  # of them, in the fall-back, for constraints that nearly touch
-FAST = 0.75  # of the wrong constraints of the round before
-FEW = 2  # neighbours that are exchanged together nevertheless
+FAST = 0.75  # of the round before: all are exchanged while the number falls below this share of it
+FEW = 2  # runs up to this length are exchanged whole
 PATIENCE = 10  # rounds without progress
 MOST_ROUNDS = 500
 MOST_EXCHANGES = 20  # a constraint, in the fall-back
@@ -41,7 +41,7 @@ MOST_EXCHANGES = 20  # a constraint, in the fall-back
 
 @compiled
 def equation(S: Array, y: Array, k: int) -> tuple[float, float]:
-    """Row k of S y, and the sum of its terms' sizes."""
+    """Row k of S y, and the sum of the absolute values of its terms."""
     term = S[0, k] * y[k]
     total, size = term, abs(term)
     for m in range(1, 5):
@@ -53,7 +53,7 @@ def equation(S: Array, y: Array, k: int) -> tuple[float, float]:
 
 @compiled
 def largest_of_a_kind(x: Array) -> tuple[float, float]:
-    """The largest deflection and the largest slope of x: dofs take turns."""
+    """The largest deflection and the largest slope of x: even and odd dofs."""
     deflection, slope = 0.0, 0.0
     for i in range(0, x.size - 1, 2):
         deflection = max(deflection, abs(x[i]))
@@ -98,8 +98,8 @@ def find_wrong(
 
 @compiled
 def begin(solver: Solver, rows: Rows, conditions: Constraints) -> None:
-    """Open and close constraints in the factors as ``conditions`` guesses; the held are closed, and none but candidates
-    and the held."""
+    """Open and close constraints as ``conditions`` guesses. Held constraints are always closed; of the others only
+    candidates may be."""
     closed = conditions.closed
     for j in range(closed.size):
         closed[j] = conditions.held[j] or (closed[j] and conditions.candidate[j])
@@ -112,21 +112,21 @@ def begin(solver: Solver, rows: Rows, conditions: Constraints) -> None:
 
 @compiled
 def take_solution(solver: Solver, x: Array) -> None:
-    """x : the dofs among the unknowns; what has faded is zero."""
+    """Copy the dofs from the solution to x, with negligible values set to zero."""
     for i in range(x.size):
         value = solver.y[solver.unknown[i]]
-        x[i] = value if abs(value) > FADED else 0.0
+        x[i] = 0.0 if abs(value) < FADED else value
 
 
 @compiled
 def solve_round(
-    solver: Solver, rows: Rows, conditions: Constraints, b: Array, x: Array, last: int, tolerance: float
+    solver: Solver, rows: Rows, conditions: Constraints, b: Array, x: Array, changed: int, tolerance: float
 ) -> tuple[int, int]:
     """Solve with the constraints as they are closed now; returns :func:`find_wrong`, (−1, −1) where S is singular.
 
-    last : beyond this unknown the right-hand side is as it was in the round before.
+    changed : beyond this unknown the right-hand side is as it was in the round before.
     """
-    if not update(solver, rows, b, conditions.target, last):
+    if not update(solver, rows, b, conditions.target, changed):
         return -1, -1
     take_solution(solver, x)
     return find_wrong(solver, rows, conditions, b, x, tolerance)
@@ -158,21 +158,22 @@ def solve_constrained(solver: Solver, rows: Rows, conditions: Constraints, b: Ar
     """Solve for x (dofs,) and ``conditions.p`` from the guess ``conditions.closed``; returns SOLVED, SINGULAR or
     CYCLING."""
     begin(solver, rows, conditions)
-    last = solver.y.size - PAD - 1
+    changed = solver.y.size - PAD - 1
     before = fewest = conditions.p.size + 1
     patience, rounds, status = PATIENCE, 0, CYCLING
-    while status == CYCLING and rounds < MOST_ROUNDS:
-        count, worst = solve_round(solver, rows, conditions, b, x, last, ROUND_OFF)
-        last = -1
+    while rounds < MOST_ROUNDS:
+        count, last = solve_round(solver, rows, conditions, b, x, changed, ROUND_OFF)
+        changed = -1
         rounds += 1
         if count <= 0:
             status = SOLVED if count == 0 else SINGULAR
-        elif count < fewest:
+            break
+        if count < fewest:
             fewest, patience = count, PATIENCE
         else:
             patience -= 1
-        if patience <= 0 and count > 0:
-            exchange(solver, rows, worst)
+        if patience <= 0:
+            exchange(solver, rows, last)
         else:
             exchange_wrong(solver, rows, count > FAST * before)
         before = count
@@ -187,8 +188,8 @@ def solve_constrained(solver: Solver, rows: Rows, conditions: Constraints, b: Ar
 
 @compiled
 def first_to_open(solver: Solver, p: Array, reached: Array) -> tuple[int, float]:
-    """The closed constraint whose reaction is the first to vanish on the way from ``reached`` to p, and the share of
-    the way up to there; −1 and 1 where none of those that are wrong does."""
+    """On the straight way from the reactions ``reached`` to p: the constraint of wrong sign whose reaction vanishes
+    first, and the share of the way to there; −1 and 1 where there is none."""
     opening, share = -1, 1.0
     for j in range(p.size):
         if solver.closed[j] and solver.excess[j] > 0.0:
@@ -200,7 +201,7 @@ def first_to_open(solver: Solver, p: Array, reached: Array) -> tuple[int, float]
 
 @compiled
 def solve_one_by_one(solver: Solver, rows: Rows, conditions: Constraints, b: Array, x: Array) -> int:
-    """The fall-back: as :func:`solve_constrained`, from no reactions on, by an active set whose energy falls each time.
+    """The fall-back: as :func:`solve_constrained`, from no reactions on, with an energy that falls each time.
 
     The reactions p ≥ 0 minimise ½pᵀGS⁻¹Gᵀp + pᵀ(GS⁻¹b − c). The constraint that is furthest in the wall is closed;
     where a reaction then turns negative the step goes only as far as to the first that vanishes, and that one opens
@@ -217,7 +218,7 @@ def solve_one_by_one(solver: Solver, rows: Rows, conditions: Constraints, b: Arr
             return SOLVED if count == 0 else SINGULAR
         opening, share = first_to_open(solver, p, reached)
         for j in range(p.size):
-            reached[j] += share * (p[j] - reached[j])
+            reached[j] = max(reached[j] + share * (p[j] - reached[j]), 0.0)
         if opening >= 0:
             reached[opening] = 0.0
             exchange(solver, rows, opening)
@@ -240,7 +241,7 @@ def solve_free(solver: Solver, rows: Rows, b: Array, x: Array) -> int:
     for j in range(solver.closed.size):
         if solver.closed[j]:
             exchange(solver, rows, j)
-    no_target = b  # none is read where none is closed
+    no_target = b  # not used where no constraint is closed
     if not update(solver, rows, b, no_target, solver.y.size - PAD - 1):
         return SINGULAR
     take_solution(solver, x)

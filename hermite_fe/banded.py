@@ -3,12 +3,12 @@
 A system's matrices have half bandwidth 3, as Hermite elements need, and scipy's lower form: A[m, i] = A(i + m, i),
 shape (4, dofs). The step matrix has half bandwidth 4: one more where the multiplier of a contact constraint stands
 between the dofs of two nodes. It is S[m, k] = S(k + m, k), shape (5, unknowns + 2·PAD), with ``PAD`` idle entries at
-either end, so that no loop over it needs a special case. The factors
+either end, so that loops need no case for the ends. The factors
 
     S = U D Uᵀ,    U[m, k] the entry (k, k + m) of U,    U[0, k] = 1/D_k
 
-run from the last unknown to the first: the contact zone of a half beam is at the first, so that a constraint that
-opens or closes there leaves the factors of all unknowns beyond as they are.
+run from the last unknown to the first: a change at unknown k affects the factors of k and of all before it only. The
+contact zone of a half beam is at the first unknowns.
 """
 
 from __future__ import annotations
@@ -28,13 +28,14 @@ Flags = NDArray[np.bool_]
 Places = NDArray[np.int64]
 
 PAD = 4
+BLOCK = 16  # unknowns after which a solution is checked for having faded
 FADED = 1e-100
-"""What has faded below this, in any unit, is zero: subnormal numbers, which it would become, slow some processors."""
+"""Smaller values, in any unit, are set to zero: they would become subnormal numbers, which slow some processors."""
 
 
 @compiled
 def edge_row(A: Array, x: Array, i: int) -> float:
-    """Row i of A x, anywhere."""
+    """Row i of A x, also near the ends."""
     total = A[0, i] * x[i]
     for m in range(1, 4):
         if i >= m:
@@ -52,7 +53,7 @@ def multiply(A: Array, x: Array, y: Array) -> None:
         y[i] = edge_row(A, x, i)
     for i in range(max(3, n - 3), n):
         y[i] = edge_row(A, x, i)
-    for o in range(n - 6):  # row o + 3; counted from its first neighbour, since indices that may be negative are slow
+    for o in range(n - 6):  # row o + 3: indices that may be negative are slow in numba
         y[o + 3] = (
             A[3, o] * x[o] + A[2, o + 1] * x[o + 1] + A[1, o + 2] * x[o + 2] + A[0, o + 3] * x[o + 3]
             + A[1, o + 3] * x[o + 4] + A[2, o + 3] * x[o + 5] + A[3, o + 3] * x[o + 6]
@@ -60,9 +61,9 @@ def multiply(A: Array, x: Array, y: Array) -> None:
 
 
 def row_sums(A: Array) -> Array:
-    """Sums of A's rows over dofs an even and an odd distance away, shape (2, n); round-off is cut to zero.
+    """Sums of A's rows over dofs at even and at odd distances, shape (2, n); sums at round-off are set to zero.
 
-    Row 0 has no dof to its left to take odd differences from; its odd sum is not used.
+    Row 0 has no left neighbour; its odd sum is not used.
     """
     n = A.shape[1]
     sums, sizes = np.zeros((2, n)), np.zeros((2, n))
@@ -98,12 +99,12 @@ def stiff_edge_row(A: Array, sums: Array, x: Array, i: int) -> float:
 
 @compiled
 def stiff_multiply(A: Array, sums: Array, x: Array, y: Array) -> None:
-    """y = A x for a stiffness whose large entries cancel, by differences of neighbouring dofs of a kind.
+    """y = A x for a stiffness whose large entries cancel, by differences between deflections and between slopes.
 
     A(i, ·)x = Σ_even A(i, j)(x_j − x_i) + even_i x_i + Σ_odd A(i, j)(x_j − x_{i−1}) + odd_i x_{i−1}
 
-    for j − i even or odd, with ``sums`` = (even, odd) of :func:`row_sums`. Round-off is that of the differences, not of
-    12EI/Δx³·x.
+    for j − i even or odd, with ``sums`` = (even, odd) of :func:`row_sums`. Round-off errors are those of
+    the differences, not of 12EI/Δx³·x.
     """
     n = x.size
     for i in range(min(3, n)):
@@ -121,7 +122,7 @@ def stiff_multiply(A: Array, sums: Array, x: Array, y: Array) -> None:
 
 @compiled
 def copy(x: NDArray[Any], y: NDArray[Any]) -> None:
-    """y = x, of any kind. (A slice that is assigned to takes numba seconds to compile.)"""
+    """y = x, of any type. (y[:] = x takes numba seconds to compile.)"""
     for i in range(x.size):
         y[i] = x[i]
 
@@ -137,7 +138,7 @@ def dot(x: Array, y: Array) -> float:
 
 @compiled
 def combine(M: Array, C: Array, K: Array, c: float, k: float, unknown: Places, S: Array) -> None:
-    """S = M + cC + kK with the dofs at their places ``unknown`` among the unknowns; multipliers have no part in it."""
+    """S = M + cC + kK with the dofs at their places ``unknown`` among the unknowns; rows of multipliers are zero."""
     n = unknown.size
     S[:] = 0.0
     if unknown[n - 1] == n - 1 + PAD:  # no multipliers: all dofs next to one another
@@ -154,7 +155,7 @@ def combine(M: Array, C: Array, K: Array, c: float, k: float, unknown: Places, S
 
 @compiled
 def factor(S: Array, fixed: Flags, sign: Array, last: int, U: Array) -> bool:
-    """The factors of S from unknown ``last`` on, those beyond being as they should; False where S is singular.
+    """Compute the factors of unknown ``last`` and all before it, those beyond being valid; False where S is singular.
 
     fixed : unknowns whose row and column are those of the identity. sign : of the pivots, 1 for dofs, −1 for
         multipliers; any other sign means that S is not positive definite on the dofs.
@@ -181,7 +182,7 @@ def factor(S: Array, fixed: Flags, sign: Array, last: int, U: Array) -> bool:
 
 @compiled
 def substitute_forward(U: Array, right: Array, last: int, z: Array) -> None:
-    """Solve U z = right from unknown ``last`` on, z beyond being known."""
+    """Solve U z = right for unknown ``last`` and all before it, z beyond being valid."""
     z1, z2, z3, z4 = z[last + 1], z[last + 2], z[last + 3], z[last + 4]
     for k in range(last, PAD - 1, -1):
         value = (right[k] - U[4, k] * z4 - U[3, k] * z3 - U[2, k] * z2) - U[1, k] * z1
@@ -194,7 +195,7 @@ def substitute_back(U: Array, z: Array, x: Array) -> None:
     """Solve D Uᵀ x = z."""
     x1 = x2 = x3 = x4 = 0.0
     for k in range(PAD, x.size - PAD):
-        if k % 16 == 0 and abs(x1) + abs(x2) + abs(x3) + abs(x4) < FADED:
+        if k % BLOCK == 0 and abs(x1) + abs(x2) + abs(x3) + abs(x4) < FADED:
             x1 = x2 = x3 = x4 = 0.0
         value = (z[k] * U[0, k] - U[4, k - 4] * x4 - U[3, k - 3] * x3 - U[2, k - 2] * x2) - U[1, k - 1] * x1
         x[k] = value

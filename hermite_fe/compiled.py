@@ -1,8 +1,7 @@
-"""How this package compiles its loops: plain numba, kept on disk in a folder named by the digest of the sources.
+"""Compilation of this package's loops: plain numba, cached in a folder named by the digest of the sources.
 
-Numba looks at a function's own file only when it decides whether what it kept is stale. A folder for each state of the
-package makes functions that call one another stale together. A file that cannot be read or written costs the time to
-compile, never a wrong answer (:func:`recompiling`).
+Numba checks only a function's own file for changes. A folder for each version of the package invalidates its callers
+too. A file that cannot be read or written costs the time to compile, never a wrong answer (:func:`recompiling`).
 """
 
 from __future__ import annotations
@@ -10,6 +9,7 @@ from __future__ import annotations
 import hashlib
 import logging
 import shutil
+import tempfile
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any, TypeVar, cast
@@ -35,9 +35,10 @@ FOLDER = user_cache_path("bentbeam") / f"compiled-{digest_of_sources()}"
 
 
 def can_be_kept() -> bool:
-    """Whether the folder can be made and its disk has room."""
+    """Whether the folder can be written and its disk has room."""
     try:
         FOLDER.mkdir(parents=True, exist_ok=True)
+        tempfile.TemporaryFile(dir=FOLDER).close()
         return shutil.disk_usage(FOLDER).free > LEAST_SPACE
     except OSError:
         return False
@@ -61,7 +62,7 @@ def compiled(function: Function) -> Function:
 
 
 def recompiling(call: Callable[[], Result]) -> Result:
-    """What ``call`` returns, where it is the first to need compiled functions.
+    """Run ``call``, which may be the first to need compiled functions; return what it returns.
 
     A torn file in the folder, or a disk that has become full, makes numba raise whatever the file made of it. The
     folder is then removed and ``call`` tried again; a second failure is the caller's own.
@@ -71,8 +72,6 @@ def recompiling(call: Callable[[], Result]) -> Result:
         logging.getLogger("bent_beam").info(message)
     try:
         return call()
-    except ValueError:  # bad input
-        raise
     except Exception:
         if not KEPT:
             raise

@@ -1,4 +1,4 @@
-"""The contact constraints of a system as compiled code takes them: g = gap + G q ≥ 0, row by row."""
+"""Contact constraints in the form that compiled code uses: g = gap + G q ≥ 0, one row each."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ Flags = NDArray[np.bool_]
 Places = NDArray[np.int64]
 
 SMALLEST_REACTION, PRODUCT = range(2)
-"""Places in ``worst``: the smallest impulse of a constraint that is not held, and the largest |p·slack|."""
+"""Indices in ``worst``: the smallest impulse of a constraint that is not held, and the largest |p·slack|."""
 
 
 class ContactLaw(NamedTuple):
@@ -46,8 +46,9 @@ class Constraints(NamedTuple):
     """One set of conditions 0 ≤ p ⊥ G x − c ≥ 0 on the constraints, each array (rows,).
 
     target : c; candidate : whether the constraint may close; held : whether it stays closed, whatever the sign of p.
-    closed : the guess on entry of a solution, the answer on return; p : the impulses.
-    gap, speed : for the integrator.
+    closed : the guess on entry of a solution, the answer on return; p : the multipliers, N s unless a scheme says
+        otherwise.
+    Gq, Gv : work arrays of the integrator.
     """
 
     target: Array
@@ -55,8 +56,8 @@ class Constraints(NamedTuple):
     held: Flags
     closed: Flags
     p: Array
-    gap: Array
-    speed: Array
+    Gq: Array
+    Gv: Array
 
 
 def rows_of(contacts: ContactRows) -> Rows:
@@ -65,7 +66,7 @@ def rows_of(contacts: ContactRows) -> Rows:
 
 
 def constraints_of(rows: Rows) -> Constraints:
-    """Room for one set of conditions, all constraints open."""
+    """One set of conditions, all constraints open."""
     m = rows.gap.size
     numbers, flags = np.zeros((4, m)), np.zeros((3, m), np.bool_)
     return Constraints(numbers[0], *flags, *numbers[1:])
@@ -90,7 +91,7 @@ def rows_times(rows: Rows, x: Array, out: Array) -> None:
 @compiled
 def find_held(rows: Rows, law: ContactLaw, closed: Flags, t: float, held: Flags) -> None:
     """Mark the constraints that stay closed after time t: before ``hold_until`` all that are closed, else those whose
-    front is fewer than ``hold`` constraints further."""
+    front is fewer than ``hold`` constraints ahead."""
     held[:] = False
     if t >= law.hold_ends or (law.hold == 0 and t >= law.hold_until):
         return
@@ -109,7 +110,7 @@ def find_held(rows: Rows, law: ContactLaw, closed: Flags, t: float, held: Flags)
 def note_complementarity(
     rows: Rows, conditions: Constraints, x: Array, to_impulse: float, to_speed: float, worst: Array
 ) -> None:
-    """Note in ``worst`` what closed constraints leave of 0 ≤ p ⊥ Gx − c ≥ 0.
+    """Record in ``worst`` how far closed constraints are from 0 ≤ p ⊥ Gx − c ≥ 0.
 
     x : the solution that ``conditions`` were imposed on; to_impulse, to_speed : turn p into N s and Gx into m/s (or m).
     """

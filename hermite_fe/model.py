@@ -28,6 +28,7 @@ from numpy.typing import NDArray
 
 from bent_beam.impact import Impact
 from bent_beam.meshes import checked_nodes, mirrored
+from hermite_fe.banded import row_sums, stiff_multiply
 from hermite_fe.beam import HermiteBeam, banded_product
 from hermite_fe.contacts import Contact
 from hermite_fe.far_fields import FarField
@@ -39,6 +40,13 @@ __all__ = ["BeamModel", "beam_model"]
 
 Array = NDArray[np.float64]
 CONSISTENT = ConsistentMass()
+
+
+def product(stiffness: Array, q: Array) -> Array:
+    """K q by differences, as the integrators compute it: what is to cancel cancels to the last digit."""
+    forces = np.zeros(q.size)
+    stiff_multiply(stiffness, row_sums(stiffness), q, forces)
+    return forces
 
 
 @dataclass(frozen=True)
@@ -98,8 +106,8 @@ def beam_model(
     if far_field.end == "following":
         # all that keeps y₀ up, end forces included (K on Hermite interpolants is exact at nodes), damping
         # undone
-        steady = impact.acceleration * uniform + banded_product(stiffness, quartic)
-        load = np.stack([steady + banded_product(damping, bending), banded_product(stiffness, bending)])
+        steady = impact.acceleration * uniform + product(stiffness, quartic)
+        load = np.stack([steady + product(damping, bending), product(stiffness, bending)])
         load = load if np.any(load[1]) else load[:1]
     else:
         pressure = impact.mass_per_length * impact.acceleration + impact.bending_stiffness * impact.fourth_derivative

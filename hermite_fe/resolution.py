@@ -1,20 +1,21 @@
 """The one place where mesh, steps and parts are chosen from the problem, by scaling alone.
 
-In units of the fast layer (l*, t*), κ = κ/ν: the undisturbed parabola would meet the wall at ξ = √(2τ/κ), so that the
-front moves like λ̂√τ with λ̂ = √(2/κ) as a crude upper estimate, and the beam bends ahead of it over ℓ(τ) = 2√τ/λ̂
-(the front's speed λ̂/2√τ equals the wave number 1/ℓ of the waves that keep up with it). Elements must be a fraction of
-ℓ where the front is, steps a fraction of its travel over ℓ. Nothing here knows λ₀ or r₀.
+In units of the fast layer (l*, t*; :mod:`bent_beam.impact`), with κ for κ/ν: the undisturbed parabola would meet the
+wall at ξ = √(2τ/κ), so that the front moves like λ̂√τ with λ̂ = √(2/κ) as a crude upper estimate. The beam bends ahead of
+it over ℓ(τ) = 2√τ/λ̂: the front's speed λ̂/(2√τ) equals the wave number 1/ℓ of the waves that keep up with it. Elements
+must be a fraction of ℓ where the front is, steps a fraction of its travel over ℓ. Nothing here knows λ₀ or r₀.
 
 - mesh: elements in proportion to the distance, so that every decade of time is resolved alike; for a thin front
   (κ < ``THIN``) even ones over the zone that the run covers.
 - steps: constant at first, then in proportion to the time since impact; for a thin front constant.
-- **the first step** is so long that the front is three smallest elements thick after it. No mesh resolves the first
-  instants. Short steps there let every node hit the wall by itself and leave it again; what they lift, nothing
-  brings back ("double detachment", thesis 3.3.5). A long step of implicit Euler closes those nodes together, at rest.
-  At κ = 0.1 r₀ is 0.48 % too large after short first steps and the zone lifts by 0.026 V₀t; 0.015 % and 0.0007 so.
+- **the first steps** of Signorini's scheme are so long that the front is three smallest elements thick after one of
+  them. No mesh resolves the first instants. With short steps each node strikes the wall separately and rebounds, and
+  the gaps remain ("double detachment", thesis 3.3.5). A long step of implicit Euler closes those nodes together.
+  At κ = 0.1 r₀ is 0.48 % too large after short first steps, and the zone lifts by 0.026 V₀t; after long ones the
+  figures are 0.015 % and 0.0007 V₀t.
 - integrator: Signorini at the new position, which leaves closed constraints exactly on the wall and does not rattle;
   Moreau–Jean when constraints rebound.
-- contact: unilateral; nothing is held unless asked for, but in runs that measure what a pressing load changes.
+- contact: unilateral; nothing is held unless asked for, except in runs that measure what a pressing load changes.
 - far field: viscosity at grid scale.
 
 The constants below are studied in tests/hermite_fe/test_constants.py: halved and doubled they move λ₀ and r₀ by less
@@ -50,7 +51,7 @@ LARGEST_STEP = 1e-3  # of the time since impact
 LONGEST_FIRST_STEP = 2e-3  # of the run
 ELEMENTS_IN_THIN_FRONT = 12.0  # in ℓ at the end, for κ/ν < THIN
 MOST_ELEMENTS = 25_000  # over the zone, for κ/ν < THIN
-MOST_OF_A_BEAM = 2_000  # of a half beam that the front runs over before the run ends
+MOST_ON_A_BEAM = 2_000  # likewise, where the front runs over all of the half beam before the run ends
 SHORTEST_THIN_STEP = 5e-4  # of the run
 ELEMENTS_PER_FRONT = 2.0  # fewer in ℓ deserve a warning
 LOADED = (1.3e-3, 33.0, 0.005)  # SMALLEST_ELEMENT, ELEMENTS_IN_FRONT, GROWTH of runs that measure what a load changes
@@ -89,7 +90,7 @@ def chosen_mesh(impact: Impact, end_time: float, *, loaded: bool = False) -> Mes
     kappa, half = bounded_kappa(impact), impact.half_length
     zone = min(ZONE * place, half)
     if kappa < THIN:
-        most = MOST_ELEMENTS if zone < half else MOST_OF_A_BEAM
+        most = MOST_ELEMENTS if zone < half else MOST_ON_A_BEAM
         element = max(thickness / ELEMENTS_IN_THIN_FRONT, zone / most)
         return GradedMesh(element_length=element, growth=1.0 + GROWTH_OUTSIDE, zone=zone, size_ratio=1e6)
     smallest, in_front, growth = LOADED if loaded else (SMALLEST_ELEMENT, ELEMENTS_IN_FRONT, GROWTH)
@@ -158,12 +159,13 @@ def choose(
 
     refine : elements and steps so many times finer than given or chosen.
     """
+    given = mesh is not None
     chosen = mesh if mesh is not None else chosen_mesh(impact, end_time)
     mesh = chosen.refined(refine)
     try:
         coarse, nodes = chosen.nodes(impact.half_length), mesh.nodes(impact.half_length)
     except ValueError as error:
-        if chosen is mesh:
+        if given:
             raise
         raise ValueError(
             f"curvature: no mesh can be chosen that resolves the contact front at kappa/nu = "
@@ -243,7 +245,7 @@ def end_warnings(impact: Impact, end_time: float, nodes: Array, far_field: FarFi
     free = (
         impact.velocity * end_time
         + 0.5 * impact.acceleration * end_time**2
-        + 0.5 * (impact.curvature_rate * end_time - impact.curvature) * nodes**2
+        + 0.5 * (impact.curvature_rate * end_time - impact.relative_curvature) * nodes**2
         + impact.fourth_derivative * nodes**4 / 24.0
     )
     if far_field.end == "following" and np.any(free[far] >= 0.0):

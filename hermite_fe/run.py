@@ -1,4 +1,4 @@
-"""One run of any :class:`hermite_fe.system.System`: steps between the saved instants, samples at them."""
+"""One run of any :class:`hermite_fe.system.System`: it is stepped, and sampled at the saved instants."""
 
 from __future__ import annotations
 
@@ -47,11 +47,11 @@ class Trajectory:
 
     q, v : (saved, dofs). impulse, held_impulse, gap : (saved, rows); closed : (saved, rows) bool.
     kinetic, strain, work, viscous, material, absorbed, impact, algorithmic : (saved,), J, from ``work`` on since the
-        start, each computed from its cause: kinetic + strain − work + the five losses stays what it was at the start
-        but for what went wrong (:meth:`defect`).
-    smallest_reaction, product : (saved,), worst reaction impulse of constraints that are not held, and worst |p·(…)|
-        since the last sample: complementarity, at round-off when all is well.
-    steps : taken; seconds : spent on them, everything being compiled already.
+        start, each by its own formula: kinetic + strain − work + the five losses is constant, and its change is the
+        energy residual (:meth:`defect`).
+    smallest_reaction, product : (saved,), smallest impulse of constraints that are not held, and largest |p·slack|
+        since the last sample: complementarity, at round-off in a correct run.
+    steps : taken; seconds : spent on them, without compilation.
     mean_iterations, most_iterations : rounds of the active set in one solution.
     failure : why the run did not finish ("": it did); failure_time : s, how far it got.
     """
@@ -88,7 +88,7 @@ class Trajectory:
 
 
 def saved_steps(instants: Array, save: int | Sequence[float] | Array) -> NDArray[np.int64]:
-    """Indices of the instants to keep: an equal number of √t's, or those nearest to given times; the first always.
+    """Indices of the instants to keep: so many, evenly spaced in √t, or those nearest to given times; the first always.
 
     Raises ``ValueError`` for fewer than two, or times that are not increasing, negative or past the end.
     """
@@ -122,11 +122,11 @@ class Stepper:
         self.instants = integrator.instants(end_time)
         self.problem = problem_of(system, law or ContactLaw())
         self.state = state_of(system, q, v)
-        self.memory = recompiling(lambda: integrator.start(self.problem, self.state))
+        self.memory = integrator.start(self.problem, self.state)
         self.step = 0
 
     def compile(self) -> None:
-        """Have everything compiled, or loaded, by taking no step: the seconds of a run are those of its steps."""
+        """Compile or load all functions by taking no step, so that the seconds of a run are those of its steps."""
 
         def no_step() -> None:
             self.integrator.advance(self.problem, self.state, self.memory, self.instants, self.step, self.step)
@@ -145,7 +145,7 @@ class Stepper:
         return NOT_FINITE if status == SOLVED and not finite else status
 
     def iterations(self) -> tuple[float, int]:
-        """Rounds of the active set in one solution so far: mean and most."""
+        """Rounds of the active set per contact problem so far: mean and most."""
         solutions, rounds, most = self.problem.solver.rounds
         return float(rounds) / max(int(solutions), 1), int(most)
 
@@ -234,14 +234,14 @@ def integrate(
     progress: Callable[[float], None] | None = None,
     until: Callable[[Stepper], bool] | None = None,
 ) -> Trajectory:
-    """Step ``system`` from (q, v) at t = 0 to ``end_time``, s.
+    """Step ``system`` from (q, v) at t = 0 to ``end_time``, s, or to the last of given times.
 
     q, v : (dofs,), in the system's units. restitution, hold, hold_until : see :class:`hermite_fe.contacts.Contact`;
         hold_ends : s, nothing is held from then on.
     save : number of saved instants, or times. progress : called with the finished fraction.
-    until : asked at every saved instant; the run ends with the first at which it says so.
+    until : called at every saved instant; the run ends with the first at which it returns True.
 
-    A run that cannot finish returns what it reached, with ``failure`` set. Raises ``ValueError`` for bad input.
+    A run that cannot finish returns the samples so far, with ``failure`` set. Raises ``ValueError`` for bad input.
     """
     law = ContactLaw(float(restitution), int(hold), float(hold_until), float(hold_ends))
     run = Stepper(system, q, v, integrator, end_time, law)
@@ -258,7 +258,7 @@ def integrate(
             break
         samples.add(run)
         if progress is not None:
-            progress(float(step) / float(kept[-1]))
+            progress(float(step) / max(float(kept[-1]), 1.0))
         if until is not None and until(run):
             break
     return samples.trajectory(run, clock.perf_counter() - started, failure, failure_time)

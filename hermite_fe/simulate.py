@@ -1,4 +1,4 @@
-"""One call from an impact to its history."""
+"""Simulate an impact and return its history."""
 
 from __future__ import annotations
 
@@ -24,11 +24,11 @@ from hermite_fe.run import Stepper, Trajectory, integrate
 
 __all__ = ["refusal", "simulate"]
 
-LARGEST_LIFT = 1e-2  # of V₀t; κ/ν = 0.1: with 0.03 r₀ is 0.5 % off, with 1e-3 0.05 % (docs/numerics.md)
+LARGEST_LIFT = 1e-2  # of V₀t; r₀ may be too large by as much (docs/numerics.md)
 
 
 def refusal(impact: Impact) -> str | None:
-    """Which field of ``impact`` a run from here cannot take (``None``: it takes all of them)."""
+    """The reason why ``impact`` cannot be simulated, naming the field (``None``: it can)."""
     if impact.velocity + impact.rotation * impact.first_touch <= 0.0:
         return (
             f"rotation must not take the first touch off the wall: the beam moves there at "
@@ -53,18 +53,16 @@ def simulate(
     progress: Callable[[float], None] | None = None,
     until: Callable[[BeamModel, Stepper], bool] | None = None,
 ) -> ImpactHistory:
-    """Simulate the impact on a Hermite beam; every part left out is chosen from the problem
+    """Simulate the impact on a Hermite beam; parts that are not given are chosen for the problem
     (:mod:`hermite_fe.resolution`).
 
     end_time : s (by default 0.1 t*, but 0.01 T* at most).
-    full_beam : model both halves instead of one with a symmetry support, as is done anyway where the impact is not
-        symmetric.
-    domain : half length, m, that is modelled of a longer beam; the cut ends follow the free motion (all of it
-        unless given).
-    refine : elements and steps so many times finer than the parts say.
+    full_beam : model both halves instead of one with a symmetry support; always so where the impact is not symmetric.
+    domain : half length to model, m; the cut ends of a longer beam follow the free motion (by default all of it).
+    refine : elements and steps are divided by this.
     save : number of saved instants, spread evenly in √t, or their times, s; snapped to steps.
-    progress : called with the finished fraction now and then.
-    until : asked at every saved instant; the run ends with the first at which it says so.
+    progress : called with the finished fraction at every saved instant.
+    until : called at every saved instant; the run ends with the first at which it returns True.
 
     Raises ``ValueError`` for bad input, :class:`bent_beam.SimulationError` (with the partial history) when a
     run cannot finish.
@@ -168,7 +166,7 @@ def hold_report(impact: Impact, contact: Contact, run: Trajectory) -> dict[str, 
 
 
 def lift_warnings(impact: Impact, model: BeamModel, history: ImpactHistory) -> list[str]:
-    """A zone off the wall although nothing lifts it: neither a load nor, before 0.005 T*, waves from the ends."""
+    """A warning where the zone leaves the wall though no load lifts it, and waves from the ends cannot (0.005 T*)."""
     time = history.time
     end = time[-1]
     if impact.zone_pressure < 0.0 or end > FIRST_SPREAD * impact.slow_time_scale:

@@ -2,10 +2,10 @@
 
     S x = b + Gᵀp,      G x = c for the closed constraints,      p = 0 for the open,      x = 0 at supports.
 
-A constraint on one dof fixes that dof while it is closed; p is what its equation lacks. A constraint on several dofs
-has a multiplier −p among the unknowns, fixed at 0 while it is open. Either way to open or close one changes one flag
-in ``fixed``, and the factors from there to the first unknown (:mod:`hermite_fe.banded`). Which are closed is settled
-in :mod:`hermite_fe.active_set`.
+A constraint on one dof fixes that dof while it is closed; p is the residual of its equation. A constraint on several
+dofs has a multiplier −p among the unknowns, fixed at 0 while it is open. To open or close a constraint changes one
+entry of ``fixed``, and makes the factors of that unknown and of all before it stale (:mod:`hermite_fe.banded`): half of
+them on a full beam. Which constraints are closed is decided in :mod:`hermite_fe.active_set`.
 """
 
 from __future__ import annotations
@@ -26,17 +26,19 @@ Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 Places = NDArray[np.int64]
 
-SAME_STEP = 2.0**-50  # of the time: step lengths closer than the rounding of two instants are one step length
+SAME_STEP = 2.0**-50  # of the time: step lengths that differ by less, the rounding of two instants, are the same
+SAME_FACTOR = 1e-6  # likewise of c and k
+
 
 
 class Solver(NamedTuple):
-    """The step matrix, its factors, and what of the constraints they know.
+    """The step matrix, its factors, and the constraints that they are made for.
 
-    unknown : (dofs,), the place of a dof among the unknowns; row_unknown : (rows,), the unknown a constraint fixes.
+    unknown : (dofs,), the index of a dof among the unknowns; row_unknown : (rows,), the one that a constraint fixes.
     S, U : (5, unknowns + 2 PAD); sign, fixed : (unknowns + 2 PAD,), see :func:`hermite_fe.banded.factor`.
     right, forward, y : (unknowns + 2 PAD,), the right-hand side, and the solution after either substitution.
     closed : (rows,), the constraints as the factors have them; excess : (rows,), by how much each sign is wrong.
-    stale : (1,), the last unknown whose factors are out of date, −1: none. step : (1,), s, the step S is made for.
+    stale : (1,), the last unknown whose factors are out of date, −1: none. step : (3,), h (s), c and k of S.
     rounds : (3,), contact problems solved, rounds of all of them, most rounds of one.
     """
 
@@ -94,13 +96,13 @@ def solver_of(system: System) -> Solver:
         closed=np.zeros(m, np.bool_),
         excess=np.zeros(m),
         stale=np.array([size - PAD - 1]),
-        step=np.full(1, np.nan),
+        step=np.full(3, np.nan),
         rounds=np.zeros(3, np.int64),
     )
 
 
 def check_width(system: System, unknown: Places, row_unknown: Places) -> None:
-    """``ValueError`` when some matrix or constraint reaches further than the step matrix is wide."""
+    """``ValueError`` when some matrix or constraint couples unknowns more than four apart."""
     tight = np.all(np.diff(row_unknown) > 0)
     tight &= np.abs(unknown[system.contacts.dofs] - row_unknown[:, None]).max(initial=0) <= 4
     for bands in (system.mass, system.stiffness, system.damping):
@@ -114,9 +116,10 @@ def check_width(system: System, unknown: Places, row_unknown: Places) -> None:
 def prepare(
     solver: Solver, rows: Rows, M: Array, C: Array, K: Array, c: float, k: float, h: float, t: float
 ) -> float:
-    """Make S = M + cC + kK for steps of h s at t s, unless it is made for such steps already. Returns its step length,
-    which differs from h by rounding at most."""
-    if abs(solver.step[0] - h) <= SAME_STEP * t:
+    """Make S = M + cC + kK for steps of length h, s, unless h, c and k are those that it is made for. Returns the step
+    length that it is made for, which differs from h by the rounding of instants at t, s, at most."""
+    same = abs(solver.step[1] - c) <= SAME_FACTOR * c and abs(solver.step[2] - k) <= SAME_FACTOR * k
+    if same and abs(solver.step[0] - h) <= SAME_STEP * t:
         return solver.step[0]
     combine(M, C, K, c, k, solver.unknown, solver.S)
     if rows.dofs.shape[1] > 1:
@@ -125,20 +128,20 @@ def prepare(
             for i in range(rows.dofs.shape[1]):
                 k_dof = solver.unknown[rows.dofs[j, i]]
                 solver.S[abs(k_dof - multiplier), min(k_dof, multiplier)] = rows.factors[j, i]
-    solver.step[0] = h
+    solver.step[0], solver.step[1], solver.step[2] = h, c, k
     solver.stale[0] = solver.S.shape[1] - PAD - 1
     return h
 
 
 @compiled
 def refactor_from(solver: Solver, unknown: int) -> None:
-    """Count the factors of all unknowns up to ``unknown`` as out of date."""
+    """Mark the factors of all unknowns up to ``unknown`` as out of date."""
     solver.stale[0] = max(solver.stale[0], unknown)
 
 
 @compiled
 def exchange(solver: Solver, rows: Rows, j: int) -> None:
-    """Open constraint j where it is closed, close it where it is open."""
+    """Close constraint j if it is open, open it if it is closed."""
     solver.closed[j] = not solver.closed[j]
     k = solver.row_unknown[j]
     solver.fixed[k] = solver.closed[j] == (rows.dofs.shape[1] == 1)
@@ -147,7 +150,7 @@ def exchange(solver: Solver, rows: Rows, j: int) -> None:
 
 @compiled
 def right_side(solver: Solver, rows: Rows, b: Array, target: Array) -> None:
-    """The right-hand side of all unknowns, known values taken across."""
+    """The right-hand side of all unknowns, with the terms of known values moved to it."""
     right, fixed, S = solver.right, solver.fixed, solver.S
     for i in range(b.size):
         k = solver.unknown[i]
@@ -167,10 +170,10 @@ def right_side(solver: Solver, rows: Rows, b: Array, target: Array) -> None:
 
 
 @compiled
-def update(solver: Solver, rows: Rows, b: Array, target: Array, last: int) -> bool:
+def update(solver: Solver, rows: Rows, b: Array, target: Array, changed: int) -> bool:
     """Solve for y with the constraints as they are closed now; False where S is singular.
 
-    last : beyond this unknown the right-hand side is as it was in the solution before.
+    changed : beyond this unknown the right-hand side is as it was in the solution before.
     """
     stale = solver.stale[0]
     if stale >= 0 and not factor(solver.S, solver.fixed, solver.sign, stale, solver.U):
@@ -178,6 +181,6 @@ def update(solver: Solver, rows: Rows, b: Array, target: Array, last: int) -> bo
         return False
     solver.stale[0] = -1
     right_side(solver, rows, b, target)
-    substitute_forward(solver.U, solver.right, max(last, min(stale + 4, solver.y.size - PAD - 1)), solver.forward)
+    substitute_forward(solver.U, solver.right, max(changed, min(stale + 4, solver.y.size - PAD - 1)), solver.forward)
     substitute_back(solver.U, solver.forward, solver.y)
     return True

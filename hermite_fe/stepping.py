@@ -1,4 +1,4 @@
-"""What a time integrator works on: the arrays of a system and of its motion, and the compiled pieces of a step."""
+"""The data of a time integrator, and compiled functions that the schemes share."""
 
 from __future__ import annotations
 
@@ -24,9 +24,9 @@ Flags = NDArray[np.bool_]
 Places = NDArray[np.int64]
 
 WORK, IMPACT, ALGORITHMIC, VISCOUS, MATERIAL, ABSORBED = range(6)
-"""Places in ``State.energy``, J since the start: work of the loads, and what each cause took: impacts, the scheme's own
-damping, viscosity at grid scale, the material's damping, an absorbing layer. Each is computed from its cause, so that
-what they leave of the change of kinetic and strain energy is the energy residual of a run."""
+"""Indices in ``State.energy``, J since the start: the work of the loads, and the losses to impacts, to the scheme's own
+damping, to viscosity at grid scale, to the material's damping, to an absorbing layer. Each has its own formula; the
+difference between their sum and the change of kinetic and strain energy is the energy residual of a run."""
 
 CAUSES = {"viscous": VISCOUS, "material": MATERIAL, "absorbed": ABSORBED}
 
@@ -35,7 +35,7 @@ class Matrices(NamedTuple):
     """Matrices and loads, shapes as in :class:`hermite_fe.system.System`.
 
     K_sums, C_sums : (2, dofs), :func:`hermite_fe.banded.row_sums` of K and C.
-    parts : (causes, 4, dofs), C by cause; causes : (causes,), where in ``State.energy`` each is booked.
+    parts : (causes, 4, dofs), C by cause; causes : (causes,), its index in ``State.energy``.
     """
 
     M: Array
@@ -49,7 +49,7 @@ class Matrices(NamedTuple):
 
 
 class Problem(NamedTuple):
-    """What does not change during a run, and room for the contact problem of a step."""
+    """The constant data of a run, and the solver with its work arrays."""
 
     matrices: Matrices
     rows: Rows
@@ -58,10 +58,10 @@ class Problem(NamedTuple):
 
 
 class State(NamedTuple):
-    """What a step changes.
+    """The variables that a step changes.
 
-    q, v, acceleration : (dofs,), the motion; the acceleration where the integrator has one.
-    closed : (rows,). impulse, held_impulse : (rows,), N s since the start, and of it what held constraints pulled.
+    q, v, acceleration : (dofs,), the motion; acceleration, v̇, where the integrator has one.
+    closed : (rows,). impulse, held_impulse : (rows,), N s since the start, and its tensile part in held constraints.
     energy : (6,), J, see :data:`WORK`. worst : (2,), see :data:`hermite_fe.constraints.PRODUCT`.
     """
 
@@ -98,7 +98,7 @@ def state_of(system: System, q: Array, v: Array) -> State:
 
 @compiled
 def is_finite(state: State) -> bool:
-    """Whether a step has gone well: its energies are finite, which all of the motion goes into."""
+    """Whether v[0] and the energies are finite: any other infinite or undefined number of q or v makes an energy so."""
     total = state.v[0]
     for cause in range(state.energy.size):
         total += state.energy[cause]
@@ -154,8 +154,8 @@ def add_energies(
 ) -> None:  # fmt: skip
     """Add the energies of a step of length h to ``energy``, each from its cause.
 
-    work : of the loads. impulse : p, (rows,); mean_v : v̄ = ½(v + v⁺), (dofs,): impacts take −pᵀGv̄.
-    damped_v : the velocity v_d that the scheme's damping acts on: each cause of damping takes h v_dᵀCv_d.
+    work : of the loads. impulse : p, (rows,); mean_v : v̄ = ½(v + v⁺), (dofs,): impacts dissipate −pᵀGv̄.
+    damped_v : the velocity v_d that the scheme's damping acts on: each cause of damping dissipates h v_dᵀCv_d.
     algorithmic : the scheme's own loss, from the scheme's own formula.
     """
     energy[WORK] += work

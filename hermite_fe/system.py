@@ -1,9 +1,9 @@
-"""A linear mechanical system with unilateral constraints, which knows no beams:
+"""A linear mechanical system with unilateral constraints:
 
     M q̈ + C q̇ + K q = F(t) + Gᵀλ,   0 ≤ λ ⊥ g = g₀ + G q ≥ 0,   q = const. at supports.   (thesis 3.2.5–7)
 
-Everything that steps in time (:mod:`hermite_fe.integrators`) takes a :class:`System`; the bent beam
-(:mod:`hermite_fe.model`), a bouncing ball and an oscillator against a stop are three of them.
+All integrators (:mod:`hermite_fe.integrators`) work on a :class:`System`: the bent beam (:mod:`hermite_fe.model`), a
+bouncing ball, an oscillator against a stop. Round-off is judged for even and odd dofs apart, deflections and slopes.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ __all__ = ["DAMPINGS", "ContactRows", "System"]
 Array = NDArray[np.float64]
 
 DAMPINGS = ("viscous", "material", "absorbed")
-"""Causes of damping that are booked apart: viscosity at grid scale, the material's own, an absorber."""
+"""Causes of damping whose losses are recorded apart: viscosity at grid scale, the material, an absorbing layer."""
 
 WIDTH = 4  # diagonal and three subdiagonals: what Hermite elements need
 
@@ -36,9 +36,9 @@ class ContactRows:
     """Unilateral constraints g_j = gap_j + Σ_k factors[j, k]·q[dofs[j, k]] ≥ 0.
 
     dofs : (rows, w) int; factors : (rows, w); gap : (rows,), the gap at q = 0.
-    places : (rows,), where each sits (for the record).
-    rank : (rows,) int, how many constraints lie between it and the first to touch; side : (rows,) int, 0 or
-        1, which way from there. Both serve only a hold behind a moving front (:class:`hermite_fe.contacts.Contact`).
+    places : (rows,), x of each, m (for the record).
+    rank : (rows,) int, distance from the middle of the beam, in constraints; side : (rows,) int, 0 right of it, 1
+        left. Both serve only a hold behind a moving front (:class:`hermite_fe.contacts.Contact`).
     tributary : (rows,), the length of beam that a row answers for (penalty contact scales with it).
     """
 
@@ -86,7 +86,7 @@ class System:
     """Banded matrices, loads, supports and constraints.
 
     mass, stiffness, damping : symmetric, scipy's lower banded form (≤ 4, dofs): ``mass[m, i] = M(i + m, i)``.
-    dampings : (cause, bands) pairs that add up to C, causes out of :data:`DAMPINGS`; what each takes out is booked
+    dampings : (cause, bands) pairs that add up to C, causes out of :data:`DAMPINGS`; the loss to each is recorded
         under its own name (``Trajectory.viscous``, ``.material``, ``.absorbed``). Give this or ``damping``, which is
         then booked as viscous.
     load : (powers, dofs), F(t) = Σ_k load[k]·t^k.

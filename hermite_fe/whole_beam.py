@@ -42,13 +42,15 @@ def with_parts_for_whole_beam(method: C, impact: Impact) -> C:
     mesh = UniformMesh(impact.half_length / ELEMENTS) if method.mesh is None else method.mesh
     mesh = mesh.refined(method.refine)
     shortest = float(np.diff(mesh.nodes(impact.half_length)).min())
-    integrator = SignoriniPosition(theta=0.5) if method.integrator is None else method.integrator
+    contact = NodeContact() if method.contact is None else method.contact
+    without_rebound = contact.restitution == 0.0
+    chosen = SignoriniPosition(theta=0.5) if without_rebound else MoreauJean(theta=0.5)
+    integrator = chosen if method.integrator is None else method.integrator
     integrator = integrator.with_defaults(impact)  # before it is refined: what is open cannot be
     if integrator.time_step is None:
         integrator = integrator.refined(method.refine**2).with_steps(0.5 * shortest**2 / impact.wave_constant, 0.0)
     else:
         integrator = integrator.with_steps(integrator.time_step, 0.0).refined(method.refine)
-    contact = NodeContact() if method.contact is None else method.contact
     return dataclasses.replace(
         method,
         mesh=mesh,
@@ -71,7 +73,7 @@ def cross_checks(method: C, impact: Impact) -> dict[str, C]:
     step = integrator.time_step
     other = (
         SignoriniPosition(theta=0.5, time_step=step, growth=0.0)
-        if isinstance(integrator, MoreauJean)
+        if isinstance(integrator, MoreauJean) and chosen.contact is not None and chosen.contact.restitution == 0.0
         else MoreauJean(theta=0.5, time_step=step, growth=0.0)
     )
     return {

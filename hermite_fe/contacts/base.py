@@ -64,10 +64,10 @@ class Contact(ABC):
                     )
 
     @abstractmethod
-    def rows(self, beam: HermiteBeam, natural: Array, *, full: bool) -> ContactRows:
-        """The constraint rows of ``beam`` for g = y_w − y = −(u + natural).
+    def rows(self, beam: HermiteBeam, facing: Array, *, full: bool) -> ContactRows:
+        """The constraint rows of ``beam`` for g = y_w − y = −(u + facing).
 
-        u : the unknown dofs; natural : (dofs,), Hermite dofs of the bow as seen from the wall, −(K − K_w)x²/2.
+        u : the unknown dofs; facing : (dofs,), Hermite dofs of the bow as seen from the wall, −(K − K_w)x²/2.
         """
 
     def with_hold(self, hold: int, hold_until: float) -> Contact:

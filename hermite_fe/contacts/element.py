@@ -14,11 +14,11 @@ Array = NDArray[np.float64]
 
 
 def element_rows(
-    beam: HermiteBeam, natural: Array, weights: Array, *, at: float | Array = 0.5, full: bool
+    beam: HermiteBeam, facing: Array, weights: Array, *, at: float | Array = 0.5, full: bool
 ) -> ContactRows:
     """Rows −weights·(w₁, θ₁, w₂, θ₂), one an element.
 
-    weights : (elements, 4). natural : (dofs,), the bow as seen from the wall. at : where in its element each row sits,
+    weights : (elements, 4). facing : (dofs,), the bow as seen from the wall. at : where in its element each row sits,
         0 … 1 from the left, a number or (elements,); the moment of the reactions, and with it λ_c, is taken there.
 
     Raises ``ValueError`` when ``at`` lies outside the elements.
@@ -33,7 +33,7 @@ def element_rows(
     return ContactRows(
         dofs=dofs,
         factors=-weights,
-        gap=-np.einsum("jk,jk->j", weights, natural[dofs]),
+        gap=-np.einsum("jk,jk->j", weights, facing[dofs]),
         places=beam.nodes[:-1] + share * beam.lengths,
         rank=np.where(left, first - 1 - np.arange(count), np.arange(count) - first),
         side=left.astype(np.int64),

@@ -26,6 +26,6 @@ __all__ = ["MeanContact"]
 class MeanContact(Contact):
     """Rows for the mean gaps of the elements."""
 
-    def rows(self, beam: HermiteBeam, natural: NDArray[np.float64], *, full: bool) -> ContactRows:
+    def rows(self, beam: HermiteBeam, facing: NDArray[np.float64], *, full: bool) -> ContactRows:
         l, half = beam.lengths, np.full(beam.lengths.size, 0.5)  # noqa: E741
-        return element_rows(beam, natural, np.stack([half, l / 12, half, -l / 12], axis=1), full=full)
+        return element_rows(beam, facing, np.stack([half, l / 12, half, -l / 12], axis=1), full=full)

@@ -21,6 +21,6 @@ class MiddleContact(Contact):
     """Rows at the element middles; nodes may dip into the wall by KΔx²/8 before their element's row
     closes."""
 
-    def rows(self, beam: HermiteBeam, natural: NDArray[np.float64], *, full: bool) -> ContactRows:
+    def rows(self, beam: HermiteBeam, facing: NDArray[np.float64], *, full: bool) -> ContactRows:
         l, half = beam.lengths, np.full(beam.lengths.size, 0.5)  # noqa: E741
-        return element_rows(beam, natural, np.stack([half, l / 8, half, -l / 8], axis=1), full=full)
+        return element_rows(beam, facing, np.stack([half, l / 8, half, -l / 8], axis=1), full=full)

@@ -18,7 +18,7 @@ __all__ = ["NodeContact"]
 class NodeContact(Contact):
     """Rows at the nodes; a row's tributary length is half of each neighbouring element."""
 
-    def rows(self, beam: HermiteBeam, natural: NDArray[np.float64], *, full: bool) -> ContactRows:
+    def rows(self, beam: HermiteBeam, facing: NDArray[np.float64], *, full: bool) -> ContactRows:
         x, count = beam.nodes, beam.nodes.size
         tributary = np.zeros(count)
         tributary[:-1] += 0.5 * beam.lengths
@@ -27,7 +27,7 @@ class NodeContact(Contact):
         return ContactRows(
             dofs=2 * np.arange(count)[:, None],
             factors=-np.ones((count, 1)),
-            gap=-natural[0::2],
+            gap=-facing[0::2],
             places=x,
             rank=np.abs(np.arange(count) - first),
             side=(np.arange(count) < first).astype(np.int64),

@@ -1,4 +1,4 @@
-"""What every time integrator shares: its instants, and one call that takes steps."""
+"""The base class of time integrators: their instants, and the interface that takes steps."""
 
 from __future__ import annotations
 
@@ -30,10 +30,11 @@ class Integrator(ABC):
     """
 
     holds: ClassVar[bool] = False
-    """Whether it keeps closed constraints closed when asked to (:class:`hermite_fe.contacts.Contact`)."""
+    """Whether the scheme supports the hold (:mod:`hermite_fe.contacts.base`)."""
 
     elements_in_first_front: ClassVar[float] = 0.03
-    """Smallest elements that the front is thick after a first step that is chosen (:mod:`hermite_fe.resolution`)."""
+    """Thickness of the front, in smallest elements, after a first step that is chosen (:mod:`hermite_fe.resolution`).
+    More than one is for schemes that close many nodes in one long step without rebound."""
 
     time_step: float | None = None
     growth: float | None = None
@@ -45,7 +46,7 @@ class Integrator(ABC):
             non_negative("integrator.growth", self.growth)
 
     def with_steps(self, time_step: float, growth: float) -> Integrator:
-        """A copy whose open choices are taken from here."""
+        """A copy whose unset steps are these."""
         if self.growth is not None:
             growth = self.growth
         elif self.time_step is not None:
@@ -55,11 +56,11 @@ class Integrator(ABC):
         )
 
     def with_defaults(self, impact: Impact) -> Integrator:
-        """A copy with whatever else it leaves open chosen for ``impact``; itself where there is nothing."""
+        """A copy with all other unset choices made for ``impact``; itself where there are none."""
         return self
 
     def refined(self, factor: float) -> Integrator:
-        """A copy with steps ``factor`` times shorter; what is not chosen yet stays open."""
+        """A copy with steps ``factor`` times shorter; what is unset stays unset."""
         return dataclasses.replace(
             self,
             time_step=None if self.time_step is None else self.time_step / factor,
@@ -88,7 +89,7 @@ class Integrator(ABC):
 
     @abstractmethod
     def start(self, problem: Problem, state: State) -> Any:
-        """What the scheme remembers from step to step, and room to work in; asked for once, at t = 0.
+        """The memory of the scheme and its work arrays; called once, at t = 0.
 
         Raises ``ValueError`` where the scheme cannot take the problem.
         """
@@ -98,4 +99,4 @@ class Integrator(ABC):
         self, problem: Problem, state: State, memory: Any, times: NDArray[np.float64], first: int, last: int
     ) -> tuple[int, int]:
         """Take steps ``first`` … ``last`` − 1 between the instants ``times`` in place. Returns a status of
-        :mod:`hermite_fe.solver` and the step reached: SOLVED and ``last`` when all went well."""
+        :mod:`hermite_fe.active_set` and the step reached: SOLVED and ``last`` when all went well."""

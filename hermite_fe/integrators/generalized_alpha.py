@@ -1,4 +1,4 @@
-"""Compiled pieces of generalised-α (Chung & Hulbert 1993) with jumps, shared by the schemes built on it.
+"""Compiled pieces of generalised-α (Chung & Hulbert 1993) with jumps, shared by the schemes that are built on it.
 
     v⁺ = v + h(1 − γ)a + hγa⁺ + W,    q⁺ = q + hv + h²(½ − β)a + h²βa⁺ + U   (thesis 3.3.10–11)
     (1 − α_m)a⁺ + α_m a = (1 − α_f)v̇⁺ + α_f v̇                                                (3.3.12)
@@ -19,9 +19,9 @@ those that the jump W was made with. From Δ(T + V) = v̄ᵀMΔv + q̄ᵀKΔq fo
 
     Δ(T + V) = F̄ᵀΔq − h v̄ᵀCv̄ + pᵀGv̄ + v̄ᵀr_p + (Kq̄ − F̄)ᵀr_q:
 
-work of loads, (minus) viscous losses, loss in impacts, algorithmic loss. The last is evaluated on the right-hand
-sides of r_p and r_q, never as what the others leave, so that a wrong force, velocity or energy shows as an energy
-residual.
+the work of the loads, less viscous losses, less loss in impacts −pᵀGv̄, less algorithmic loss. The last is evaluated
+from the right-hand sides of r_p and r_q and not as a remainder, so that a wrong force, velocity or energy shows as an
+energy residual.
 """
 
 from __future__ import annotations
@@ -73,21 +73,25 @@ def scheme_of(spectral_radius: float) -> Scheme:
 
 
 class Reactions(NamedTuple):
-    """Reactions of the smooth motion, (rows,): λ, λ_a, λ − λ_a at the start of the step, and the impulse p of the step;
-    at_rest : constraints closed without rebound."""
+    """Reactions of the smooth motion, (rows,): λ, λ_a, λ − λ_a at the start of the step, and the impulse p of the step.
+
+    at_rest : constraints that are closed and have not rebounded; with_spring : those whose penalty springs are in the
+        step matrix.
+    """
 
     value: Array
     filtered: Array
     lag: Array
     impulse: Array
     at_rest: Flags
+    with_spring: Flags
 
 
 class Vectors(NamedTuple):
-    """Vectors (dofs,). a and jump_force (J) are remembered from step to step.
+    """Vectors (dofs,). a and jump_force (J) persist from step to step.
 
     Of a step: old_q, old_v; predicted : a*; lag : v̇ − a at the start; new_jump_force : J⁺; missed_momentum : ½J⁺ − E⁺;
-    missed_motion : r_q; b, x, force, scratch : to work in.
+    missed_motion : r_q; b, x, force, scratch : work arrays.
     """
 
     a: Array
@@ -117,13 +121,13 @@ class AlphaMemory(NamedTuple):
 
 
 def alpha_memory(problem: Problem, spectral_radius: float) -> AlphaMemory:
-    """Memory at the start: no jumps and no reactions before it."""
+    """The memory at the start: all zero."""
     m, n = problem.rows.gap.size, problem.matrices.M.shape[1]
     value, filtered, lag, impulse = np.zeros((4, m))
     return AlphaMemory(
         scheme_of(spectral_radius),
         Vectors(*np.zeros((13, n))),
-        Reactions(value, filtered, lag, impulse, np.zeros(m, np.bool_)),
+        Reactions(value, filtered, lag, impulse, *np.zeros((2, m), np.bool_)),
         *(constraints_of(problem.rows) for _ in range(3)),
     )
 
@@ -145,7 +149,7 @@ def prepare_step(matrices: Matrices, rows: Rows, solver: Solver, scheme: Scheme,
 
 @compiled
 def predict(scheme: Scheme, q: Array, v: Array, rate: Array, vectors: Vectors, h: float) -> None:
-    """Keep the start of the step, and put q*, v* in place of q, v; rate : v̇."""
+    """Save q and v of the start of the step, and replace them by q*, v*; rate : v̇."""
     alpha_m, alpha_f, gamma, beta, _ = scheme
     a, old_q, old_v, predicted, lag = vectors.a, vectors.old_q, vectors.old_v, vectors.predicted, vectors.lag
     missed_motion = vectors.missed_motion
@@ -159,7 +163,7 @@ def predict(scheme: Scheme, q: Array, v: Array, rate: Array, vectors: Vectors, h
 
 @compiled
 def correct(scheme: Scheme, q: Array, v: Array, rate: Array, vectors: Vectors, h: float) -> None:
-    """The a⁺, q⁺, v⁺ that follow from v̇⁺ = ``vectors.x``, which ``rate`` becomes; jumps are not in them."""
+    """Set ``rate`` to v̇⁺ = ``vectors.x``, and compute a⁺, q⁺, v⁺ without jumps."""
     _, _, gamma, beta, s = scheme
     a, old_q, old_v, x, predicted = vectors.a, vectors.old_q, vectors.old_v, vectors.x, vectors.predicted
     missed_motion = vectors.missed_motion
@@ -174,8 +178,8 @@ def correct(scheme: Scheme, q: Array, v: Array, rate: Array, vectors: Vectors, h
 
 @compiled
 def take_reaction(scheme: Scheme, reactions: Reactions, h: float, j: int, force: float) -> None:
-    """Constraint j's reaction at the end of the step is ``force``; its impulse over the step follows through the filter
-    that v̇ goes through."""
+    """Set constraint j's reaction at the end of the step to ``force``, and compute its impulse over the step by the
+    recursion (3.3.12) of v̇."""
     alpha_m, alpha_f, gamma, _, s = scheme
     value, filtered = reactions.value[j], reactions.filtered[j]
     new = (alpha_f * value - alpha_m * filtered) / (1.0 - alpha_m) + s * force
@@ -189,7 +193,7 @@ def smooth_motion(
     problem: Problem, state: State, scheme: Scheme, vectors: Vectors, reactions: Reactions, smooth: Constraints,
     t: float, h: float
 ) -> int:  # fmt: skip
-    """The step's motion without jumps, under the reactions that ``smooth`` asks for; returns the status."""
+    """The step's motion without jumps, with the contact conditions ``smooth``; returns the status."""
     matrices, rows, _, solver = problem
     predict(scheme, state.q, state.v, state.acceleration, vectors, h)
     forces_at(matrices, t + h, state.q, state.v, vectors.b, vectors.scratch)
@@ -207,7 +211,7 @@ def add_step(
     matrices: Matrices, rows: Rows, state: State, scheme: Scheme, vectors: Vectors, reactions: Reactions, t: float,
     h: float
 ) -> None:  # fmt: skip
-    """Add the energies of the step, by the sums in the module's head, and pass its jumps on to the next."""
+    """Add the energies of the step, by the formulas of the module docstring, and store its jump forces for the next."""
     q, v, mean_q, mean_v, lag = state.q, state.v, vectors.old_q, vectors.old_v, vectors.lag
     force, product, change = vectors.force, vectors.scratch, vectors.b
     a, rate, half = vectors.a, state.acceleration, 0.5 - scheme.alpha_f

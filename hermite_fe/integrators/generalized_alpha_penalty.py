@@ -2,7 +2,7 @@
 
     M v̇⁺ + C v⁺ + K q⁺ = F⁺ + Gᵀλ,    λ_j = −(k_c g_j + d_c ġ_j)·(tributary length of j)  where g_j ≤ 0
 
-that is one spring and damper a node, acting on penetration only, which may pull while it does (Exudyn's
+that is one spring and damper per node, active during penetration only, when their sum may pull (Exudyn's
 ``ObjectContactCoordinate`` with linear damping). Constraints must touch one dof each: contact at nodes.
 Measured at κ/ν = 0.5 and 0.1, τ = 0.1: with k = 10⁵, d = 10³ λ₀ is 1.6 and 1.1 % off, with the 10⁷ and 3·10⁴ chosen
 here 0.12 and 0.03 %, with 10⁸ and 10⁵ 0.05 and 0.003 %. There is no impact law and no hold; what springs and dampers
@@ -52,7 +52,7 @@ class GeneralizedAlphaPenalty(Integrator):
 
     stiffness : k_c, N/m per metre of beam (``None``: chosen, 1e7 μ/t*²).
     damping : d_c, N s/m per metre of beam (``None``: chosen, 3e4 μ/t*).
-    contact_rounds : most re-solutions a step until contact and penetration agree.
+    contact_rounds : most solutions per step until the active springs are those that penetrate.
     """
 
     spectral_radius: float = 0.8
@@ -67,10 +67,10 @@ class GeneralizedAlphaPenalty(Integrator):
             positive("integrator.stiffness", self.stiffness)
         if self.damping is not None:
             non_negative("integrator.damping", self.damping)
-        whole("integrator.contact_rounds", self.contact_rounds, 0)
+        whole("integrator.contact_rounds", self.contact_rounds, 1)
 
     def refined(self, factor: float) -> GeneralizedAlphaPenalty:
-        """Steps shorter, the contact stiffer in proportion to their square: a soft penalty is an error like others."""
+        """Steps shorter, the contact stiffer in proportion to their square: the error of the penalty must fall too."""
         shorter = super().refined(factor)
         assert isinstance(shorter, GeneralizedAlphaPenalty)
         return dataclasses.replace(
@@ -122,14 +122,16 @@ def take_steps(
         t, made_for = times[k], solver.step[0]
         h = prepare_step(matrices, rows, solver, scheme, times[k + 1] - t, times[k + 1])
         if h != made_for:
-            reactions.at_rest[:] = False  # the new matrix has no springs yet
+            reactions.with_spring[:] = False  # the new matrix has no springs yet
         predict(scheme, state.q, state.v, state.acceleration, vectors, h)
         forces_at(matrices, t + h, state.q, state.v, vectors.force, vectors.scratch)
-        status = settle(problem, state, scheme, vectors, reactions.at_rest, smooth, h, stiffness, damping, rounds)
+        status = solve_with_springs(
+            problem, state, scheme, vectors, reactions.with_spring, smooth, h, stiffness, damping, rounds
+        )
         if status != SOLVED:
             return status, k
         correct(scheme, state.q, state.v, state.acceleration, vectors, h)
-        react(rows, state, scheme, reactions, h, stiffness, damping)
+        add_spring_reactions(rows, state, scheme, reactions, h, stiffness, damping)
         add_step(matrices, rows, state, scheme, vectors, reactions, t, h)
         if not is_finite(state):
             return NOT_FINITE, k
@@ -137,20 +139,18 @@ def take_steps(
 
 
 @compiled
-def settle(
+def solve_with_springs(
     problem: Problem, state: State, scheme: Scheme, vectors: Vectors, with_spring: Flags, smooth: Constraints, h: float,
     stiffness: float, damping: float, rounds: int
 ) -> int:  # fmt: skip
-    """Solve for v̇⁺ under ``vectors.force`` and the springs of the constraints in touch, again until those in touch are
+    """Solve for v̇⁺ under ``vectors.force`` and the springs of the closed constraints, and again until the closed are
     those that penetrate, at most ``rounds`` times; as Exudyn's discontinuous iteration does.
-
-    with_spring : (rows,), whose springs are in the step matrix.
     """
     matrices, rows, _, solver = problem
     closed, x, b = state.closed, vectors.x, vectors.b
     position_share, velocity_share = h * h * scheme.beta * scheme.s, h * scheme.gamma * scheme.s
-    rows_times(rows, state.q, smooth.gap)
-    rows_times(rows, state.v, smooth.speed)
+    rows_times(rows, state.q, smooth.Gq)
+    rows_times(rows, state.v, smooth.Gv)
     for attempt in range(rounds + 1):
         copy(vectors.force, b)
         for j in range(closed.size):
@@ -164,13 +164,13 @@ def settle(
                 solver.S[0, solver.unknown[d]] = diagonal
                 refactor_from(solver, solver.unknown[d])
             if closed[j]:
-                b[d] -= g * (spring * (rows.gap[j] + smooth.gap[j]) + damper * smooth.speed[j])
+                b[d] -= g * (spring * (rows.gap[j] + smooth.Gq[j]) + damper * smooth.Gv[j])
         status = solve_free(solver, rows, b, x)
         if status != SOLVED:
             return status
         changed = False
         for j in range(closed.size):
-            new_gap = rows.gap[j] + smooth.gap[j] + position_share * rows.factors[j, 0] * x[rows.dofs[j, 0]]
+            new_gap = rows.gap[j] + smooth.Gq[j] + position_share * rows.factors[j, 0] * x[rows.dofs[j, 0]]
             if (new_gap <= 0.0) != closed[j] and attempt < rounds:
                 closed[j] = not closed[j]
                 changed = True
@@ -180,7 +180,7 @@ def settle(
 
 
 @compiled
-def react(
+def add_spring_reactions(
     rows: Rows, state: State, scheme: Scheme, reactions: Reactions, h: float, stiffness: float, damping: float
 ) -> None:
     """The forces of springs and dampers at the end of the step, and their impulses."""

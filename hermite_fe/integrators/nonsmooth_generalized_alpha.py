@@ -1,14 +1,14 @@
 """Nonsmooth generalised-α: second order in smooth motion, first order across impacts (thesis 3.2, 3.3.10–16;
 :mod:`hermite_fe.integrators.generalized_alpha`).
 
-Where the constraints are asked for:
+The level at which the constraints are imposed (``levels``):
 
 - ``velocity`` : the impact law at velocity level; positions drift (after Chen, Acary, Virlez, Brüls 2013,
   Int. J. Numer. Meth. Eng. 96, 487);
 - ``position_velocity`` : gaps and velocities, one after the other, no drift (after Brüls, Acary, Cardona
   2014, CMAME 281, 131);
-- ``position_velocity_acceleration`` : also the smooth motion carries the reactions of constraints at rest on the
-  wall, so that lasting contact is second order as well (after Brüls, Acary, Cardona 2018, Multibody Syst.
+- ``position_velocity_acceleration`` : also the smooth acceleration obeys the constraints at rest on the wall, so
+  that lasting contact is second order as well (after Brüls, Acary, Cardona 2018, Multibody Syst.
   Dyn. 44): the thesis's solver.
 """
 
@@ -46,13 +46,13 @@ Flags = NDArray[np.bool_]
 
 LEVELS = ("velocity", "position_velocity", "position_velocity_acceleration")
 VELOCITY, POSITION, ACCELERATION = range(3)
-AT_REST = 1e-10  # of the largest velocity: a closed constraint slower than this has not rebounded
+AT_REST = 1e-12  # of the largest rate of a dof: a closed constraint slower than this has not rebounded
 
 
 @dataclass(frozen=True)
 class NonsmoothGeneralizedAlpha(Integrator):
-    """spectral_radius : ρ∞ ∈ [0, 1] at infinite frequency (1: none is damped). levels : where constraints are asked
-    for."""
+    """spectral_radius : ρ∞ ∈ [0, 1] at infinite frequency (1: none is damped). levels : at which constraints are
+    imposed."""
 
     holds: ClassVar[bool] = True
 
@@ -87,11 +87,11 @@ def take_steps(
     for k in range(first, last):
         t, h = times[k], prepare_step(matrices, rows, solver, scheme, times[k + 1] - times[k], times[k + 1])
         find_held(rows, law, state.closed, t, velocity.held)
-        rows_times(rows, state.v, velocity.speed)
+        rows_times(rows, state.v, velocity.Gv)
         if level == VELOCITY:
             status = velocity_step(problem, state, scheme, vectors, reactions, smooth, velocity, t, h)
         else:
-            ask_of_smooth_motion(smooth, reactions.at_rest, velocity.held, level == ACCELERATION)
+            set_smooth_conditions(smooth, reactions.at_rest, velocity.held, level == ACCELERATION)
             status = smooth_motion(problem, state, scheme, vectors, reactions, smooth, t, h)
             if status == SOLVED:
                 copy(velocity.held, position.held)
@@ -107,12 +107,11 @@ def take_steps(
 
 
 @compiled
-def ask_for_velocities(rows: Rows, v: Array, e: float, velocity: Constraints) -> None:
-    """Have the constraints leave the wall with e times the speed of approach, ``velocity.speed`` of before the step."""
-    rows_times(rows, v, velocity.gap)
-    for j in range(velocity.gap.size):
+def set_velocity_targets(rows: Rows, v: Array, e: float, velocity: Constraints) -> None:
+    """Set the targets so that Gv⁺ ≥ −eGv, with Gv of before the step."""
+    for j in range(velocity.target.size):
         rebound = 0.0 if velocity.held[j] else e
-        velocity.target[j] = -velocity.gap[j] - rebound * velocity.speed[j]
+        velocity.target[j] = -row_times(rows, v, j) - rebound * velocity.Gv[j]
 
 
 @compiled
@@ -125,20 +124,20 @@ def velocity_step(
     smooth :    M v̇⁺ + C ṽ + K q̃ = F⁺, the motion without reactions
     velocity :  (M + hγsC + h²βsK)W = Gᵀp,  U = h(β/γ)W (½hW at ρ∞ = 1),   0 ≤ p ⊥ Gv⁺ + eGv ≥ 0
 
-    The jump takes along the elastic forces that it raises within the step: with M W = Gᵀp alone the next smooth
-    accelerations would have to undo them, which a stiff beam does not survive.
+    The matrix of W includes the elastic forces that the jump causes within the step. With M W = Gᵀp alone the next
+    accelerations would have to compensate them, which is unstable for a stiff beam.
     """
     matrices, rows, law, solver = problem
     W, force, damping, q, v = vectors.x, vectors.force, vectors.scratch, state.q, state.v
     share = h * scheme.beta / scheme.gamma
-    rows_times(rows, q, velocity.gap)
+    rows_times(rows, q, velocity.Gq)
     for j in range(rows.gap.size):  # where a constraint would come to rest if it were closed now
-        velocity.candidate[j] = rows.gap[j] + velocity.gap[j] + (h - share) * velocity.speed[j] <= 0.0
+        velocity.candidate[j] = rows.gap[j] + velocity.Gq[j] + (h - share) * velocity.Gv[j] <= 0.0
         smooth.candidate[j] = False
     status = smooth_motion(problem, state, scheme, vectors, reactions, smooth, t, h)
     if status != SOLVED:
         return status
-    ask_for_velocities(rows, v, law.restitution, velocity)
+    set_velocity_targets(rows, v, law.restitution, velocity)
     copy(state.closed, velocity.closed)
     vectors.b[:] = 0.0
     status = solve_constrained(solver, rows, velocity, vectors.b, W)
@@ -161,8 +160,8 @@ def velocity_step(
 
 
 @compiled
-def ask_of_smooth_motion(smooth: Constraints, at_rest: Flags, held: Flags, with_acceleration: bool) -> None:
-    """Let the smooth motion carry the reactions of constraints at rest on the wall (λ of :func:`position_jump`)."""
+def set_smooth_conditions(smooth: Constraints, at_rest: Flags, held: Flags, with_acceleration: bool) -> None:
+    """Impose Gv̇⁺ ≥ 0 on constraints at rest on the wall, where the acceleration level is asked for."""
     for j in range(at_rest.size):
         smooth.candidate[j] = with_acceleration and at_rest[j]
         smooth.held[j] = smooth.candidate[j] and held[j]
@@ -181,18 +180,18 @@ def position_jump(problem: Problem, state: State, vectors: Vectors, position: Co
         for constraints closed at position, or with λ > 0; p = 0 in the others
 
     p_λ is the impulse of λ, through the same filter as v̇, p that of the whole step: momentum is exact. Signorini's
-    condition is asked of p, not of what has to be added to p_λ: so a reaction that the filter trails cannot push a
-    constraint that has left, and for e = 0 the wall does work only where it catches one that was leaving. The jump
-    raises elastic forces within the step, as in :func:`velocity_step`. With (3.2.20) as it stands, M W = −hKU − hCW +
+    condition is imposed on p, not on p − p_λ: the delayed reaction of the filter then cannot push a constraint that has
+    opened, and for e = 0 the wall does work only on constraints that were leaving. The matrix is that of
+    :func:`velocity_step`, for the same reason. With (3.2.20) unchanged, M W = −hKU − hCW +
     GᵀΛ and 0 ≤ Λ, an undamped beam whose shortest waves the steps do not resolve gains energy from the wall (1.8 times
     the initial one at κ/ν = 0.1, 50 elements, h = 1e-3 T*).
     """
     matrices, rows, _, solver = problem
     U, q, b, force = vectors.x, state.q, vectors.b, vectors.new_jump_force
-    rows_times(rows, q, position.gap)
+    rows_times(rows, q, position.Gq)
     for j in range(rows.gap.size):
         position.candidate[j] = True
-        position.target[j] = -(rows.gap[j] + position.gap[j])
+        position.target[j] = -(rows.gap[j] + position.Gq[j])
     copy(state.closed, position.closed)
     b[:] = 0.0
     status = solve_constrained(solver, rows, position, b, U)
@@ -219,7 +218,7 @@ def velocity_jump(
     matrices, rows, law, solver = problem
     W, b, force, damping, v = vectors.x, vectors.b, vectors.force, vectors.scratch, state.v
     at_rest, impulse = reactions.at_rest, reactions.impulse
-    ask_for_velocities(rows, v, law.restitution, velocity)
+    set_velocity_targets(rows, v, law.restitution, velocity)
     for j in range(at_rest.size):
         velocity.candidate[j] = state.closed[j] or smooth_p[j] > 0.0
         velocity.closed[j] = velocity.candidate[j]

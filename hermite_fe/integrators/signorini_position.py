@@ -1,9 +1,10 @@
-"""Implicit θ-stepping with Signorini's condition at the new position: no drift, inelastic.
+"""Implicit θ-stepping with Signorini's condition at the new position: no drift.
 
     M(v⁺ − v) + hC v_θ + hK q_θ = hF_θ + Gᵀp,   q⁺ = q + h v_θ;   0 ≤ p ⊥ g⁺ = g₀ + Gq⁺ ≥ 0
 
-A constraint that reaches the wall within a step is brought to the wall exactly, at rest a step later; the scheme has no
-impact law.
+A constraint that reaches the wall within a step ends it on the wall exactly. The scheme has no impact law: with θ = 1
+the constraint is at rest a step later, with θ = ½ it keeps a share of its speed that depends on when in the step it
+lands.
 """
 
 from __future__ import annotations
@@ -24,7 +25,8 @@ __all__ = ["SignoriniPosition"]
 
 @dataclass(frozen=True)
 class SignoriniPosition(Integrator):
-    """theta : θ ∈ [½, 1]; 1 (implicit Euler) is the one to use: θ near ½ makes closed constraints rattle."""
+    """theta : θ ∈ [½, 1]. For the infinite beam's first instants 1 (implicit Euler): θ near ½ makes closed
+    constraints rattle. For a whole beam with damping of its own ½, which damps nothing but impacts."""
 
     holds: ClassVar[bool] = True
     elements_in_first_front: ClassVar[float] = 3.0

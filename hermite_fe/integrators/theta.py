@@ -6,7 +6,7 @@ Solved for Δv: S Δv = h[F_θ − K(q + θhv) − Cv] + Gᵀp, S = M + θhC + �
 
     Δ(T + V) = h F_θᵀv_θ − h v_θᵀC v_θ + pᵀG(v + ½Δv) − (θ − ½)[Δvᵀ(MΔv − Gᵀp) + h² v_θᵀK v_θ]:
 
-work of loads, viscous loss, (minus) loss in impacts, algorithmic loss.
+the work of the loads, less viscous loss, less loss in impacts −pᵀG(v + ½Δv), less algorithmic loss.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ Array = NDArray[np.float64]
 
 
 class ThetaMemory(NamedTuple):
-    """Room for a step: its constraints, and vectors (dofs,)."""
+    """Work arrays of a step: its conditions, and vectors (dofs,)."""
 
     conditions: Constraints
     b: Array
@@ -49,7 +49,7 @@ class ThetaMemory(NamedTuple):
 
 
 def theta_memory(problem: Problem) -> ThetaMemory:
-    """Room for the steps of ``problem``."""
+    """Work arrays for ``problem``."""
     return ThetaMemory(constraints_of(problem.rows), *np.zeros((6, problem.matrices.M.shape[1])))
 
 
@@ -57,23 +57,24 @@ def theta_memory(problem: Problem) -> ThetaMemory:
 def impose(
     rows: Rows, conditions: Constraints, q: Array, v: Array, h: float, theta: float, e: float, at_position: bool
 ) -> None:
-    """Which constraints may close, and the change of their gaps' velocities that they ask for."""
-    rows_times(rows, q, conditions.gap)
-    rows_times(rows, v, conditions.speed)
+    """Set the candidates and the targets c of GΔv ≥ c."""
+    rows_times(rows, q, conditions.Gq)
+    rows_times(rows, v, conditions.Gv)
     for j in range(rows.gap.size):
-        gap, speed = rows.gap[j] + conditions.gap[j], conditions.speed[j]
-        if at_position:  # no gap at the end of the step
+        gap, speed = rows.gap[j] + conditions.Gq[j], conditions.Gv[j]
+        if at_position:  # g⁺ ≥ 0 at the end of the step
             conditions.candidate[j] = True
             conditions.target[j] = -(gap / h + speed) / theta
-        else:  # no approach, where closing now would leave the constraint on the wall or in it
+        else:  # Gv⁺ ≥ −eGv for constraints that would end the step on the wall or inside it
             conditions.candidate[j] = gap + (1.0 - theta) * h * speed <= 0.0
             conditions.target[j] = -speed if conditions.held[j] else -(1.0 + e) * speed
 
 
 @compiled
-def momentum(matrices: Matrices, q: Array, v: Array, force: Array, h: float, theta: float, b: Array, moved: Array,
-             scratch: Array) -> None:  # fmt: skip
-    """b = h[F_θ − K(q + θhv) − Cv], what the step adds to the momentum without Δv and without contact."""
+def right_side(
+    matrices: Matrices, q: Array, v: Array, force: Array, h: float, theta: float, b: Array, moved: Array, scratch: Array
+) -> None:
+    """b = h[F_θ − K(q + θhv) − Cv]; ``moved`` and ``scratch`` are work arrays."""
     for i in range(q.size):
         moved[i] = q[i] + theta * h * v[i]
     stiff_multiply(matrices.K, matrices.K_sums, moved, b)
@@ -115,7 +116,7 @@ def take_steps(
         find_held(rows, law, state.closed, t, conditions.held)
         impose(rows, conditions, q, v, h, theta, law.restitution, at_position)
         mean_forces(matrices.load, t, h, theta, force)
-        momentum(matrices, q, v, force, h, theta, b, v_theta, scratch)
+        right_side(matrices, q, v, force, h, theta, b, v_theta, scratch)
         copy(state.closed, conditions.closed)
         status = solve_constrained(solver, rows, conditions, b, dv)
         if status != SOLVED:
@@ -127,7 +128,7 @@ def take_steps(
             q[i] += h * v_theta[i]
             v[i] += dv[i]
         add_impulses(state, conditions)
-        note_complementarity(rows, conditions, dv, 1.0, h if at_position else 1.0, state.worst)
+        note_complementarity(rows, conditions, dv, 1.0, theta * h if at_position else 1.0, state.worst)
         work = h * dot(force, v_theta)
         loss = algorithmic_loss(matrices, rows, conditions.p, dv, v_theta, h, theta, scratch)
         add_energies(matrices, rows, h, work, conditions.p, mean_v, v_theta, loss, scratch, state.energy)

@@ -81,15 +81,3 @@ def test_functions_run_on_a_disk_that_is_nearly_full(package: Path) -> None:
 
 def test_other_users_of_numba_keep_their_own_folder() -> None:
     assert numba.config.CACHE_DIR != str(module.FOLDER)
-
-
-def test_bad_input_is_not_taken_for_a_torn_file(monkeypatch: pytest.MonkeyPatch) -> None:
-    calls = []
-
-    def bad() -> None:
-        calls.append(1)
-        raise ValueError("no impact law")
-
-    with pytest.raises(ValueError, match="no impact law"):
-        module.recompiling(bad)
-    assert len(calls) == 1
