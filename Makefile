@@ -65,7 +65,7 @@ update: $(STAMP)
 # for here; what those ask for in turn is the newest.
 AT ?= $(BIN)/python
 QUICK := tests/test_package.py tests/bent_beam tests/theory/test_theory_contact.py tests/theory/test_theory_similarity.py \
-	tests/hermite_fe/test_hermite_kernels.py
+	tests/hermite_fe/test_hermite_compiled.py
 lowest newest: $(STAMP)
 	@$(BIN)/uv --version >/dev/null 2>&1 || $(PIP) install uv
 	$(BIN)/uv venv --quiet --clear --python $(AT) .venv-$@

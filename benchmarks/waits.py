@@ -1,5 +1,5 @@
 """What a user waits for: three commands, each from the start of its interpreter to its last line, in a folder of its
-own with nothing stored, on two processes (match: as many as it takes when nobody says), kernels compiled beforehand.
+own with nothing stored, on two processes (match: as many as it takes when nobody says), all compiled beforehand.
 Each as a multiple of what it takes to import NumPy, SciPy and typer, before and after, with its goal in seconds of an
 idle machine (benchmarks/startup.py).
 
@@ -21,7 +21,7 @@ ROWS: tuple[tuple[str, list[str], float], ...] = (  # name, words (OUT: the fold
 )
 
 
-def compile_kernels() -> None:
+def compile_integrators() -> None:
     """Where they are not kept yet: by a small simulation an integrator."""
     for kind in INTEGRATORS:
         seconds([*SIMULATION, "--set", f"hermite.integrator.kind={kind}"])
@@ -29,7 +29,7 @@ def compile_kernels() -> None:
 
 def measure() -> list[Row]:
     """The least of each command; prints them."""
-    compile_kernels()
+    compile_integrators()
     out = []
     for name, words, goal in ROWS:
         with tempfile.TemporaryDirectory() as folder:

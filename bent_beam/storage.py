@@ -1,7 +1,6 @@
 """Histories on disk: written whole or not at all, and examined in a process apart before they are read.
 
-A history that is larger than ``LARGE`` is not held in memory: a run adds it block by block to a file
-(:class:`GrowingFile`), and its values are read from there as they are asked for.
+A file larger than ``LARGE`` is not held in memory: its values are read as they are asked for.
 """
 
 from __future__ import annotations
@@ -9,13 +8,10 @@ from __future__ import annotations
 import errno
 import io
 import os
-import shutil
 import stat
 import subprocess
 import sys
-import tempfile
 import warnings as python_warnings
-import weakref
 from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -25,13 +21,11 @@ from bent_beam.files import write_atomically
 if TYPE_CHECKING:
     import xarray as xr
 
-__all__ = ["GrowingFile", "blocks", "copy_whole", "open_lazily", "read_dataset", "write_dataset"]
+__all__ = ["blocks", "copy_whole", "open_lazily", "read_dataset", "write_dataset"]
 
 PATIENCE = 120  # s of the clock, beyond the limit of CPU time that ends an examination
 LARGE = 1_000_000_000  # bytes of all values; a larger history is read as it is asked for
 BLOCK = 64_000_000  # bytes that are read of it at a time, where all of it is looked at
-CHUNK = 1_000_000  # bytes of a file's chunk: whole instants, as they are asked for,
-MOST_IN_CHUNK = 1_000  # of them
 
 
 def write_dataset(dataset: xr.Dataset, file: Path) -> None:
@@ -49,69 +43,6 @@ def copy_whole(source: Path, file: Path) -> None:
     """Copy a history's file: a killed run or a full disk leaves either the whole copy or none."""
     with source.open("rb") as content:
         write_atomically(file, content)
-
-
-class GrowingFile:
-    """A netCDF file in the folder for temporary files (``TMPDIR`` names another), to which a run adds its instants.
-
-    It is gone when the dataset that :meth:`finished` returns is.
-    """
-
-    def __init__(self) -> None:
-        self.folder = tempfile.TemporaryDirectory(prefix="bentbeam-", ignore_cleanup_errors=True)
-        self.file = Path(self.folder.name) / "history.nc"
-        self.instants = 0
-
-    def make_room(self, values: float) -> None:
-        """``ValueError`` when the disk has no room for so many numbers."""
-        free = shutil.disk_usage(self.folder.name).free
-        if 8.0 * values > free:
-            raise ValueError(
-                f"save asks for {8e-9 * values:.3g} GB; {self.folder.name} has {1e-9 * free:.3g} GB left: fewer "
-                "instants, larger elements, or another folder in TMPDIR"
-            )
-
-    def append(self, dataset: xr.Dataset) -> None:
-        """Add the instants of ``dataset``, which has the variables and places of those before."""
-        import h5netcdf
-
-        if self.instants == 0:
-            encoding = {v: {"chunksizes": _chunks(dataset[v])} for v in dataset.variables if "time" in dataset[v].dims}
-            dataset.to_netcdf(self.file, engine="h5netcdf", unlimited_dims=["time"], encoding=encoding)
-        else:
-            with h5netcdf.File(self.file, "a") as content:
-                content.resize_dimension("time", self.instants + dataset.sizes["time"])
-                for name, variable in dataset.variables.items():
-                    if "time" in variable.dims:
-                        stored = content.variables[name]
-                        stored[self.instants :] = variable.values.astype(stored.dtype)
-        self.instants += dataset.sizes["time"]
-
-    def describe(self, attributes: dict[str, Any]) -> None:
-        """Replace the attributes."""
-        import h5netcdf
-
-        with h5netcdf.File(self.file, "a") as content:
-            content.attrs.update(attributes)
-
-    def read(self) -> xr.Dataset:
-        """What there is, read as it is asked for; to be closed before more is added."""
-        return open_lazily(self.file)
-
-    def finished(self) -> xr.Dataset:
-        """All of it, read as it is asked for."""
-        dataset = self.read()
-        weakref.finalize(dataset, self.folder.cleanup)
-        return dataset
-
-
-def _chunks(variable: xr.DataArray) -> tuple[int, ...]:
-    """Shape of the chunks of a variable over time."""
-    across = variable.shape[1:]
-    width = variable.dtype.itemsize
-    for length in across:
-        width *= length
-    return (min(max(1, CHUNK // max(width, 1)), MOST_IN_CHUNK), *across)
 
 
 def open_lazily(file: Path) -> xr.Dataset:

@@ -17,8 +17,8 @@ PACKAGES = (
     "comparison",
     "open_benchmark",
 )
-#: Packages whose modules are read in place: compiled kernels, scripts to run, commands, one file a figure or study.
-IN_PLACE = {"kernels", "scripts", "command_line", "gallery", "studies", "report", "adapters"}
+#: Packages whose modules are read in place: scripts to run, commands, one file a figure or study.
+IN_PLACE = {"scripts", "command_line", "gallery", "studies", "report", "adapters"}
 
 
 def modules(package: str) -> list[str]:
