@@ -238,6 +238,20 @@ def test_a_straight_beam_lands_all_at_once_on_defaults() -> None:
     assert not any("front" in warning for warning in history.warnings)
 
 
+def test_a_mesh_that_cannot_be_laid_is_the_user_s_own() -> None:
+    with pytest.raises(ValueError, match=r"^mesh\.element_length is too small"):
+        simulate(SHORT, mesh=UniformMesh(1e-9))
+
+
+def test_a_whole_beam_that_rebounds_is_stepped_by_schemes_with_an_impact_law() -> None:
+    method = HermiteFE(contact=NodeContact(restitution=0.5))
+    impact = Impact.whole_beam(2.0, relative_damping=1e-2)
+    assert isinstance(method.for_whole_beam(impact).integrator, MoreauJean)
+    assert all(isinstance(other.integrator, MoreauJean) for other in method.cross_checks(impact).values())
+    rocking = impact.replace(rotation=0.1)
+    assert method.simulate(rocking, end_time=0.01, save=5).completed
+
+
 def test_saved_times_and_progress() -> None:
     fractions: list[float] = []
     wanted = [0.01, 0.02, 0.05]

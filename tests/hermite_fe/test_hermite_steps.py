@@ -92,6 +92,20 @@ def test_a_step_of_one_ulp_changes_nothing_to_speak_of(integrator: Integrator) -
     assert np.abs(run.state.v - v).max() <= 1e-9
 
 
+@every
+def test_an_undefined_number_in_the_motion_is_found_in_its_step(integrator: Integrator) -> None:
+    run = long_beam(50, integrator)
+    run.advance_to(5)
+    run.state.q[60] = np.nan
+    assert run.advance_to(20) != 0
+    assert run.step == 5
+
+
+def test_a_penalty_that_is_never_settled_is_refused() -> None:
+    with pytest.raises(ValueError, match="contact_rounds must be a whole number of at least 1"):
+        GeneralizedAlphaPenalty(1e-3, contact_rounds=0)
+
+
 def test_beams_of_one_element_or_of_identical_nodes_are_refused() -> None:
     with pytest.raises(ValueError, match="at least two elements"):
         HermiteBeam(np.array([0.0, 1.0]), 1.0, 1.0)
