@@ -101,7 +101,7 @@ def test_a_zone_thrown_off_the_wall_may_have_been_pushed_that_much_too_hard(lift
     reduced = Moments(tau, 2.0 * SIDE * np.sqrt(tau), SIDE * tau, zero, zero, np.full(100, lift))
     found = leading_order(reduced, companions=[reduced])
     assert found.lift == lift
-    assert found.r0.error == pytest.approx(lift * found.r0.value, rel=1e-3)
+    assert found.r0.error == pytest.approx(min(lift / 0.1, 1.0) * lift * found.r0.value, rel=6e-3)
     assert found.lambda0.error < 2e-4 * found.lambda0.value
 
 
