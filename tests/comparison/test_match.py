@@ -292,10 +292,10 @@ def test_a_time_limit_is_the_reason_whatever_the_interrupted_code_makes_of_it():
 def test_an_unexpected_error_does_not_take_the_others_along(monkeypatch):
     whole = matching.answer
 
-    def sometimes(question, store):
+    def sometimes(question, store, limit):
         if question.kappa_over_nu == 0.25:
             raise ArithmeticError("no luck")
-        return whole(question, store)
+        return whole(question, store, limit)
 
     monkeypatch.setattr(matching, "answer", sometimes)
     rows = match(questions(default_methods(["self_similar"]), [0.5, 0.25, 2.0]))
