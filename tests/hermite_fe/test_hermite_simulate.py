@@ -113,11 +113,11 @@ def test_an_ensemble_is_drawn_within_a_factor_of_two_of_one_step() -> None:
 
 
 def test_a_thin_front_is_resolved_too() -> None:
-    impact = Impact(1.0, 1.0, 50.0, 1.0 / 10.0, 20.0)  # κ/ν = 1/200; r₀ → √(π/8)·√(2ν/κ)
+    impact = Impact(1.0, 1.0, 50.0, 1.0 / 10.0, 25.0)  # κ/ν = 1/250; r₀ → √(π/8)·√(2ν/κ)
     for contact in (None, NodeContact(hold=16)):
         history = simulate(impact, contact=contact)
         assert history.warnings == []
-        assert reaction(history) == pytest.approx(math.sqrt(math.pi / 8.0) * 20.0, rel=5e-3)
+        assert reaction(history) == pytest.approx(math.sqrt(math.pi / 8.0 * 500.0), rel=5e-3)
 
 
 @pytest.mark.parametrize(
