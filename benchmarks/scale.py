@@ -55,7 +55,6 @@ def one_run(nodes: int, steps: int, saved: int) -> dict[str, Any]:
         "megabytes": peak(),
         "before": before,
         "history": history.dataset.nbytes / 1e6,
-        "on_disk": history.file is not None,
     }
 
 
@@ -106,14 +105,14 @@ def apart(kind: str, *numbers: int) -> dict[str, Any]:
 def measure() -> list[dict[str, Any]]:
     """All rows; prints them as they come."""
     out = []
-    print("| nodes | steps | saved | seconds | ns a node and step | memory, MB | the history, MB | where it is |")
-    print("| ---: | ---: | ---: | ---: | ---: | ---: | ---: | --- |")
+    print("| nodes | steps | saved | seconds | ns a node and step | memory, MB | the history, MB |")
+    print("| ---: | ---: | ---: | ---: | ---: | ---: | ---: |")
     for nodes, steps, saved in RUNS:
         row = apart("run", nodes, steps, saved)
         each = 1e9 * row["stepping"] / (nodes * steps)
         print(
             f"| {nodes:,} | {steps:,} | {min(saved, steps + 1):,} | {row['seconds']:.2f} | {each:.0f} | "
-            f"{row['megabytes']:.0f} | {row['history']:.0f} | {'disk' if row['on_disk'] else 'memory'} |",
+            f"{row['megabytes']:.0f} | {row['history']:.0f} |",
             flush=True,
         )
         out.append({"nodes": nodes, "steps": steps, "saved": saved, **row})

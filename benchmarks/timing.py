@@ -7,7 +7,6 @@ yardstick = lapack_step(4000)       # call it: cholesky_banded + cho_solve_bande
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
 
 import numpy as np
 from scipy.linalg import cho_solve_banded, cholesky_banded
@@ -27,8 +26,8 @@ STEP = 1e-3  # in units of t*, at κ/ν = 0.1
 HALF_LENGTH = 100.0  # l*
 
 
-def _model(nodes: int, contact: Contact, half_length: float, acceleration: float = 0.0) -> BeamModel:
-    impact = replace(Impact.dimensionless(0.1, length=2.0 * half_length), acceleration=acceleration)
+def _model(nodes: int, contact: Contact, half_length: float) -> BeamModel:
+    impact = Impact.dimensionless(0.1, length=2.0 * half_length)
     places = UniformMesh(half_length / (nodes - 1)).nodes(half_length)
     return beam_model(impact, places, contact, GridViscosity(), full=False)
 
@@ -44,14 +43,12 @@ def prepared_step(
     half_length: float = HALF_LENGTH,
     length: float = STEP,
     steps: int = 1,
-    acceleration: float = 0.0,
 ) -> Callable[[], None]:
     """A half beam of ``nodes`` nodes in the middle of an impact; each call of the result takes ``steps`` more steps.
 
     growing : steps in proportion to time, so that every one makes and factors a new matrix.
     half_length : in l*; the shorter, the more of the nodes are in contact (at most 3 l* of the beam are).
     length : of constant steps, in t*.
-    acceleration : of the beam by a load, in V₀/t*; with one, all of the beam is computed from the start.
     start : how far the run has got, as a fraction of ``end_time`` (in t*), before the first call.
 
     Raises ``RuntimeError`` when a step fails.
@@ -60,7 +57,7 @@ def prepared_step(
         *((0.1 * STEP, 2.0 * STEP) if growing else (length, 0.0))
     )
     contact = contact or NodeContact(hold=16, hold_until=0.0)
-    model = _model(nodes, contact, half_length, acceleration)
+    model = _model(nodes, contact, half_length)
     law = ContactLaw(hold=contact.hold or 0)
     run = Stepper(model.system, model.displacement, model.velocity, integrator, end_time, law)
     run.advance_to(int(np.searchsorted(run.instants, start * end_time)))
