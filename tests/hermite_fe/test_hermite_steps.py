@@ -101,6 +101,17 @@ def test_an_undefined_number_in_the_motion_is_found_in_its_step(integrator: Inte
     assert run.step == 5
 
 
+def test_an_undefined_number_is_found_where_nothing_is_damped_loaded_or_closed() -> None:
+    system = System(
+        mass=[[1.0, 1.0]], stiffness=[[1.0, 1.0]], contacts=ContactRows(dofs=[[0]], factors=[[1.0]], gap=[100.0])
+    )
+    run = Stepper(system, np.zeros(2), np.ones(2), MoreauJean(1e-3, theta=0.5), 1.0)
+    run.advance_to(5)
+    run.state.q[1] = np.nan
+    assert run.advance_to(20) != 0
+    assert run.step == 5
+
+
 def test_a_penalty_that_is_never_settled_is_refused() -> None:
     with pytest.raises(ValueError, match="contact_rounds must be a whole number of at least 1"):
         GeneralizedAlphaPenalty(1e-3, contact_rounds=0)
