@@ -8,12 +8,13 @@ export OMP_NUM_THREADS := 1
 export OPENBLAS_NUM_THREADS := 1
 JOBS ?= 2
 
-.PHONY: help report test verify lint bench fuzz docs gallery update lowest newest clean
+.PHONY: help report test verify lint bench coverage fuzz docs gallery update lowest newest clean
 
 help:
-	@echo "make report   match both simulations with the theory and write report/index.html"
+	@echo "make report   match both simulations with the theory and write out/report/index.html"
 	@echo "make test     the test suite (under four minutes on two cores)"
 	@echo "make verify   longer checks; make fuzz: random input and kills; make bench: speed, as ratios"
+	@echo "make coverage do the error bars hold? methods drawn at random against the theory (SEED=N draws the same again)"
 	@echo "make lint     ruff and mypy; make docs: the guide in site/; make gallery: every figure of the thesis"
 	@echo "make update   renew the locked versions; make lowest, make newest: a quick suite on either end of the ranges"
 
@@ -22,11 +23,12 @@ PIP := $(BIN)/python -m pip --quiet --disable-pip-version-check
 $(STAMP): pyproject.toml requirements.lock
 	@test -x $(BIN)/python || $(PYTHON) -m venv $(VENV)
 	$(PIP) install --require-hashes --requirement requirements.lock
+	rm -rf build *.egg-info  # left by another build, they would hide new commands
 	$(PIP) install --no-deps --no-build-isolation --editable .
 	@touch $@
 
 report: $(STAMP)
-	$(BIN)/bentbeam report --out report --overwrite --jobs $(JOBS)
+	$(BIN)/bentbeam report --out out/report --overwrite --jobs $(JOBS)
 
 test: $(STAMP)
 	$(BIN)/python -m pytest -n $(JOBS) --dist worksteal -m "not verify"
@@ -41,6 +43,9 @@ fuzz: $(STAMP)
 bench: $(STAMP)
 	$(BIN)/python -m benchmarks
 
+coverage: $(STAMP)
+	$(BIN)/python -m benchmarks.coverage --jobs $(JOBS) $(if $(SEED),--seed $(SEED))
+
 lint: $(STAMP)
 	$(BIN)/ruff check .
 	$(BIN)/mypy
@@ -50,7 +55,7 @@ docs: $(STAMP)
 	$(BIN)/mkdocs build --strict
 
 gallery: $(STAMP)
-	$(BIN)/bentbeam gallery --out gallery --jobs $(JOBS)
+	$(BIN)/bentbeam gallery --out out/gallery --jobs $(JOBS)
 
 # One lock for every platform and Python that pyproject.toml allows.
 COMPILE = $(BIN)/uv pip compile --quiet --upgrade --universal --python-version 3.11 --generate-hashes --no-emit-index-url \
@@ -74,4 +79,4 @@ lowest newest: $(STAMP)
 	.venv-$@/bin/python -m pytest -m "not verify" $(QUICK)
 
 clean:
-	rm -rf $(VENV) .venv-lowest .venv-newest report gallery site .pytest_cache .mypy_cache .ruff_cache
+	rm -rf $(VENV) .venv-lowest .venv-newest out site .pytest_cache .mypy_cache .ruff_cache

@@ -1,42 +1,44 @@
-"""All benchmarks that have goals, one after the other, and what they come to.
+"""All benchmarks that have goals, one after the other: ratios, and seconds of this machine.
 
-python -m benchmarks [startup theory exudyn steps waits]
-
-Each keeps its figures in ``benchmarks/results``. Seconds, which are no ratios, are those of this machine.
+python -m benchmarks [startup theory exudyn steps waits] [--out DIR]
 """
 
 from __future__ import annotations
 
+import argparse
 import importlib
-import importlib.metadata
 import sys
 import time
+from pathlib import Path
 
-from benchmarks.record import VERSIONS
-from bent_beam.versions import processor
+from benchmarks.record import RESULTS, Row, keep
+from bent_beam.versions import processor, versions
 
-ALL = ("startup", "theory", "exudyn", "steps", "waits")
+ALL = ("startup", "theory", "exudyn", "steps", "waits")  # the longest come last
 
 
 def main() -> int:
-    names = sys.argv[1:] or ALL
-    if unknown := set(names) - set(ALL):
-        print(f"benchmarks are {', '.join(ALL)} (got {', '.join(sorted(unknown))})", file=sys.stderr)
-        return 2
+    """Measure; 1 when a goal is missed."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("names", nargs="*", metavar="NAME", help=", ".join(ALL))
+    parser.add_argument("--out", type=Path, default=RESULTS, help="folder of NAME.json")
+    asked = parser.parse_args()
+    if unknown := set(asked.names) - set(ALL):
+        parser.error(f"benchmarks are {', '.join(ALL)} (got {', '.join(sorted(unknown))})")
     started = time.perf_counter()
-    rows = []
-    for name in names:
+    rows: list[Row] = []
+    for name in asked.names or ALL:
         print(f"\n{name}", flush=True)
-        rows += importlib.import_module(f"benchmarks.{name}").main([])
-    print(f"\n{len(rows)} rows, {time.perf_counter() - started:.0f} s")
-    print(f"{processor()}, Python {sys.version.split()[0]}")
-    print(", ".join(f"{name} {importlib.metadata.version(name)}" for name in VERSIONS))
-    for row in rows:
-        print(row)
-    missed = sum(not row.met for row in rows)
-    goals = sum(row.goal is not None for row in rows)
-    print(f"{goals - missed} of {goals} goals met")
-    return 1 if missed else 0
+        own = []
+        for row in importlib.import_module(f"benchmarks.{name}").measure():
+            print(row, flush=True)
+            own.append(row)
+        keep(asked.out / f"{name}.json", [row.to_dict() for row in own])
+        rows += own
+    with_goal = [row for row in rows if row.goal is not None]
+    print(f"\n{processor()}, Python {sys.version.split()[0]}, {versions()}")
+    print(f"{sum(row.met for row in with_goal)} of {len(with_goal)} goals met, {time.perf_counter() - started:.0f} s")
+    return 0 if all(row.met for row in with_goal) else 1
 
 
 if __name__ == "__main__":

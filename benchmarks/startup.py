@@ -1,8 +1,5 @@
-"""How long the command takes to answer, over what it cannot do without, each in a fresh interpreter, in turn; and how
-long a small simulation takes, the first on a machine, which compiles, and the next, likewise.
-Python keeps its bytecode meanwhile, as it does of whatever is installed.
-
-python -m benchmarks.startup [--rounds 15] [--out benchmarks/results/startup.json]
+"""Start-up of the command, as a multiple of importing the libraries that it needs, each in a fresh interpreter, in
+turn; and likewise a small simulation: the first on a machine, which compiles, and the next. Python keeps its bytecode.
 """
 
 from __future__ import annotations
@@ -13,25 +10,23 @@ import subprocess
 import sys
 import tempfile
 import time
+from collections.abc import Iterator
 from pathlib import Path
 
-from benchmarks.record import Row, keep, options, said
+from benchmarks.record import Row
 
 ROOT = Path(__file__).resolve().parents[1]
 COMMAND = ["-m", "comparison.command_line"]
-YARDSTICKS = {
-    "numpy, scipy.special, typer": ["-c", "import numpy, scipy.special, typer"],
-    "typer": ["-c", "import typer"],
-}
-ROWS = (
-    ("theory", [*COMMAND, "theory", "--kappa-over-nu", "0.5", "--json"], "numpy, scipy.special, typer", 1.6),
-    ("predict", [*COMMAND, "predict", "cases/drill_pipe.toml", "--json"], "numpy, scipy.special, typer", 1.6),
-    ("--help", [*COMMAND, "--help"], "typer", 1.2),
+YARDSTICKS = {name: ["-c", f"import {name}"] for name in ("numpy, scipy.special, typer", "typer")}
+ROWS = (  # name, words, yardstick, goal
+    ("theory", ["theory", "--kappa-over-nu", "0.5", "--json"], "numpy, scipy.special, typer", 1.6),
+    ("predict", ["predict", "cases/drill_pipe.toml", "--json"], "numpy, scipy.special, typer", 1.6),
+    ("--help", ["--help"], "typer", 1.2),
 )
+ROUNDS = 15
 SIMULATION = [*COMMAND, "simulate", "cases/thesis_K10.toml", "--json", "--quiet"]
 FIRST, NEXT = 20.0, 1.5  # s, goals on an idle machine, where
-IDLE = 0.3  # s is what the first of the yardsticks takes (the least of thirty: 0.28 to 0.31)
-NEXT_ROUNDS = 3
+IDLE = 0.3  # s, of the first of the yardsticks (the least of thirty: 0.28 to 0.31)
 
 
 def seconds(words: list[str], **environment: str) -> float:
@@ -46,42 +41,23 @@ def seconds(words: list[str], **environment: str) -> float:
 
 def against_yardstick(label: str, goal: float, words: list[str], rounds: int = 1, **environment: str) -> Row:
     """The least seconds of a command, ``rounds`` times, over those of the first yardstick before and after, with a
-    ``goal`` in seconds of an idle machine; prints the row."""
+    ``goal`` in seconds of an idle machine."""
     name, yardstick = next(iter(YARDSTICKS.items()))
     before = [seconds(yardstick) for _ in range(4)][1:]
-    taken = [seconds(words, **environment) for _ in range(rounds)]
-    least, unit = min(taken), statistics.median([*before, *(seconds(yardstick) for _ in range(3))])
+    least = min(seconds(words, **environment) for _ in range(rounds))
+    unit = statistics.median([*before, *(seconds(yardstick) for _ in range(3))])
     about = {"seconds": round(least, 2), "yardstick": name, "yardstick_seconds": round(unit, 3)}
-    return said(Row(f"{label} ({least:.1f} s) / import", least / unit, round(goal / IDLE, 1), about=about))
+    return Row(f"{label} ({least:.1f} s) / import", least / unit, round(goal / IDLE, 1), about=about)
 
 
-def measure_simulation() -> list[Row]:
-    """A small simulation with its loops to be compiled, and with them compiled."""
-    with tempfile.TemporaryDirectory() as folder:
-        return [
-            against_yardstick("first simulate, compiling", FIRST, SIMULATION, XDG_CACHE_HOME=folder),
-            against_yardstick("next simulate", NEXT, SIMULATION, NEXT_ROUNDS, XDG_CACHE_HOME=folder),
-        ]
-
-
-def measure(rounds: int) -> list[Row]:
-    """Median ratios of pairs; prints them."""
-    taken: dict[str, list[float]] = {name: [] for name in (*YARDSTICKS, *(row[0] for row in ROWS))}
-    for _ in range(rounds + 1):  # the first round fills caches
-        for name, words in (*YARDSTICKS.items(), *((name, words) for name, words, _, _ in ROWS)):
-            taken[name].append(seconds(words))
-    out = []
+def measure() -> Iterator[Row]:
+    """Median ratios of pairs, and a small simulation with its loops to be compiled, and with them compiled."""
+    commands = YARDSTICKS | {name: [*COMMAND, *words] for name, words, _, _ in ROWS}
+    taken = [{name: seconds(words) for name, words in commands.items()} for _ in range(ROUNDS + 1)][1:]  # caches filled
     for name, _, yardstick, goal in ROWS:
-        ratio = statistics.median(a / b for a, b in zip(taken[name][1:], taken[yardstick][1:]))
-        about = {"seconds": round(min(taken[name][1:]), 3), "yardstick": yardstick}
-        out.append(said(Row(f"bentbeam {name} / import {yardstick}", ratio, goal, about=about)))
-    return out
-
-
-def main(words: list[str] | None = None) -> list[Row]:
-    arguments = options("startup", __doc__, rounds=15).parse_args(words)
-    return keep(arguments.out, [*measure(arguments.rounds), *measure_simulation()])
-
-
-if __name__ == "__main__":
-    main()
+        ratio = statistics.median(one[name] / one[yardstick] for one in taken)
+        about = {"seconds": round(min(one[name] for one in taken), 3), "yardstick": yardstick}
+        yield Row(f"bentbeam {name} / import {yardstick}", ratio, goal, about=about)
+    with tempfile.TemporaryDirectory() as folder:
+        yield against_yardstick("first simulate, compiling", FIRST, SIMULATION, XDG_CACHE_HOME=folder)
+        yield against_yardstick("next simulate", NEXT, SIMULATION, rounds=3, XDG_CACHE_HOME=folder)

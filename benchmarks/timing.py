@@ -1,4 +1,4 @@
-"""What one time step costs, next to LAPACK on a matrix of the same size (for the benchmarks).
+"""One time step, and LAPACK on a matrix of the same size, ready to be timed.
 
 step = prepared_step(4000)          # call it: takes one whole step, active set included
 yardstick = lapack_step(4000)       # call it: cholesky_banded + cho_solve_banded
@@ -24,6 +24,7 @@ __all__ = ["lapack_step", "prepared_step"]
 
 STEP = 1e-3  # in units of t*, at κ/ν = 0.1
 HALF_LENGTH = 100.0  # l*
+END = 1.0  # t*, of the impact
 
 
 def _model(nodes: int, contact: Contact, half_length: float) -> BeamModel:
@@ -39,7 +40,6 @@ def prepared_step(
     *,
     growing: bool = False,
     start: float = 0.5,
-    end_time: float = 1.0,
     half_length: float = HALF_LENGTH,
     length: float = STEP,
     steps: int = 1,
@@ -47,20 +47,18 @@ def prepared_step(
     """A half beam of ``nodes`` nodes in the middle of an impact; each call of the result takes ``steps`` more steps.
 
     growing : steps in proportion to time, so that every one makes and factors a new matrix.
-    half_length : in l*; the shorter, the more of the nodes are in contact (at most 3 l* of the beam are).
-    length : of constant steps, in t*.
-    start : how far the run has got, as a fraction of ``end_time`` (in t*), before the first call.
+    start : of the first call, in t*. half_length : in l*; the shorter, the more of the nodes are in contact (at most
+    3 l* of the beam are). length : of constant steps, in t*.
 
     Raises ``RuntimeError`` when a step fails.
     """
-    integrator = (integrator or MoreauJean()).with_steps(
-        *((0.1 * STEP, 2.0 * STEP) if growing else (length, 0.0))
-    )
+    sizes = (0.1 * STEP, 2.0 * STEP) if growing else (length, 0.0)
+    integrator = (integrator or MoreauJean()).with_steps(*sizes)
     contact = contact or NodeContact(hold=16, hold_until=0.0)
     model = _model(nodes, contact, half_length)
     law = ContactLaw(hold=contact.hold or 0)
-    run = Stepper(model.system, model.displacement, model.velocity, integrator, end_time, law)
-    run.advance_to(int(np.searchsorted(run.instants, start * end_time)))
+    run = Stepper(model.system, model.displacement, model.velocity, integrator, END, law)
+    run.advance_to(int(np.searchsorted(run.instants, start)))
 
     def step() -> None:
         if run.step + steps >= run.instants.size or run.advance_to(run.step + steps) != 0:

@@ -10,21 +10,19 @@ from __future__ import annotations
 import dataclasses
 import math
 import tomllib
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
-
-import pydantic
-from pydantic import BaseModel, ConfigDict
 
 from bent_beam.checks import shortened
 from bent_beam.description import beam_quantities, free_flight, impact_velocity
 from bent_beam.errors import InputError
 from bent_beam.impact import Impact
 from bent_beam.meshes import MESHES, Mesh
-from bent_beam.parts import first_line, nearest, part_from_table, unknown_key
+from bent_beam.parts import made_from, part_from_table, unknown_key
 from bent_beam.section import SECTIONS, Section
-from bent_beam.tables import TABLES, CaseFile
+from bent_beam.tables import TABLES, BeamTable, ImpactTable, RunTable, WallTable
 
 if TYPE_CHECKING:
     from bent_beam.method import Method
@@ -34,11 +32,10 @@ __all__ = ["Case", "case_from_tables", "lay_over", "load_case", "read_toml"]
 MAXIMUM_BYTES = 1_000_000
 
 
-class Case(BaseModel):
+@dataclass(frozen=True)
+class Case:
     """A validated case. ``end_time`` in s; ``mesh`` is ``None`` when it is to be chosen from the problem; ``tables``
     are those of the paths, by name; ``section`` where one was given; ``warnings`` of what the description says."""
-
-    model_config = ConfigDict(frozen=True, arbitrary_types_allowed=True)
 
     title: str
     impact: Impact
@@ -69,86 +66,83 @@ class Case(BaseModel):
         )
 
 
-def _problem(error: pydantic.ValidationError) -> str:
-    problem = error.errors()[0]
-    place = ".".join(str(part) for part in problem["loc"])
-    value = shortened(problem.get("input"))
-    kind = problem["type"]
-    if kind == "extra_forbidden":
-        table = TABLES.get(str(problem["loc"][0]), CaseFile) if len(problem["loc"]) > 1 else CaseFile
-        known = table.model_fields
-        return f"{place} is not a known setting{nearest(str(problem['loc'][-1]), known)}"
-    if kind == "greater_than":
-        return f"{place} must be positive (got {value})"
-    if kind == "greater_than_equal":
-        return f"{place} must not be negative (got {value})"
-    if kind in ("finite_number", "float_type", "float_parsing"):
-        return f"{place} must be a finite number (got {value})"
-    return first_line(error, "")
+KNOWN = ("title", *TABLES, "section", "mesh")
 
 
-def _tables_of_paths(file: CaseFile) -> dict[str, dict[str, Any]]:
+def _tables_of_paths(tables: Mapping[str, Any]) -> dict[str, dict[str, Any]]:
     """The tables that are left over must be those of installed paths."""
-    found = dict(file.model_extra or {})
+    found = {name: table for name, table in tables.items() if name not in KNOWN}
     if not found:
         return {}
     from bent_beam.method import paths
 
     for name, table in found.items():
         if name not in paths():
-            raise unknown_key("", name, {*paths(), *CaseFile.model_fields})
+            raise unknown_key("", name, {*paths(), *KNOWN})
         if not isinstance(table, dict):
             raise InputError(f"{name} must be a table (got {shortened(table)})")
     return found
 
 
-def case_from_tables(tables: dict[str, Any]) -> Case:
+def case_from_tables(tables: Mapping[str, Any]) -> Case:
     """A case from the tables of a TOML file. Raises :class:`InputError` with one line naming field and value."""
-    try:
-        file = CaseFile.model_validate(tables)
-    except pydantic.ValidationError as error:
-        raise InputError(_problem(error)) from None
-    others = _tables_of_paths(file)
-    section = part_from_table(SECTIONS, file.section, "section") if file.section else None
-    beam = beam_quantities(file, section)
-    try:
-        impact = Impact(
-            **beam,
-            velocity=impact_velocity(file.impact, beam["length"]),
-            acceleration=free_flight(file, beam),
-            curvature_rate=file.impact.curvature_rate,
-            fourth_derivative=file.impact.fourth_derivative,
-            rotation=file.impact.rotation,
-            first_touch=file.impact.first_touch,
-            wall_curvature=file.wall.curvature,
-            opposite_wall=file.wall.opposite,
-        )
-    except ValueError as error:
-        raise InputError(str(error)) from None
-    if file.run.end_time is not None and file.run.duration is not None:
-        raise InputError("run.end_time and run.duration exclude each other: give one")
-    end_time = file.run.end_time
-    if file.run.duration is not None:
-        end_time = file.run.duration * impact.time_scale
-    try:
-        end_time = impact.checked_end_time(end_time)
-    except ValueError as error:
-        raise InputError(f"run.{'end_time' if file.run.end_time is not None else 'duration'}: {error}") from None
-    mesh = None
-    if file.mesh.get("kind", "auto") != "auto":
-        mesh = part_from_table(MESHES, file.mesh, "mesh")
-    elif set(file.mesh) - {"kind"}:
-        extra = sorted(set(file.mesh) - {"kind"})[0]
-        raise InputError(f"mesh.kind is required next to mesh.{extra} (one of {', '.join(sorted(MESHES))})")
+    for name in ("beam", "impact"):
+        if name not in tables:
+            raise InputError(f"{name} is required")
+    if not isinstance(tables.get("title", ""), str):
+        raise InputError(f"title must be a text (got {shortened(tables['title'])})")
+    beam = made_from(BeamTable, tables["beam"], "beam")
+    arrival = made_from(ImpactTable, tables["impact"], "impact")
+    wall = made_from(WallTable, tables.get("wall", {}), "wall")
+    others = _tables_of_paths(tables)
+    section = part_from_table(SECTIONS, tables["section"], "section") if tables.get("section") else None
+    impact = _impact(beam, arrival, wall, section)
     return Case(
-        title=file.title,
+        title=tables.get("title", ""),
         impact=impact,
-        end_time=end_time,
-        mesh=mesh,
+        end_time=_end_time(made_from(RunTable, tables.get("run", {}), "run"), impact),
+        mesh=_mesh(tables.get("mesh", {})),
         tables=others,
         section=section,
         warnings=tuple(_warnings(impact)),
     )
+
+
+def _impact(beam: BeamTable, arrival: ImpactTable, wall: WallTable, section: Section | None) -> Impact:
+    """What the tables describe, and as it is whatever they state of the impact itself."""
+    known = {field.name for field in dataclasses.fields(Impact)}
+    values = {name: value for name, value in vars(arrival).items() if name in known}
+    values |= beam_quantities(beam, section)
+    values["velocity"] = impact_velocity(arrival, beam.length)
+    values["acceleration"] = free_flight(arrival, values)
+    values |= {"wall_curvature": wall.curvature, "opposite_wall": wall.opposite}
+    try:
+        return Impact(**values)
+    except ValueError as error:
+        raise InputError(str(error)) from None
+
+
+def _end_time(run: RunTable, impact: Impact) -> float:
+    """In s."""
+    if run.end_time is not None and run.duration is not None:
+        raise InputError("run.end_time and run.duration exclude each other: give one")
+    end_time = run.end_time if run.duration is None else run.duration * impact.time_scale
+    try:
+        return impact.checked_end_time(end_time)
+    except ValueError as error:
+        raise InputError(f"run.{'end_time' if run.end_time is not None else 'duration'}: {error}") from None
+
+
+def _mesh(table: Any) -> Mesh | None:
+    """``None``: it is to be chosen."""
+    if not isinstance(table, Mapping):
+        raise InputError(f"mesh must be a table (got {shortened(table)})")
+    if table.get("kind", "auto") != "auto":
+        return part_from_table(MESHES, table, "mesh")
+    extra = sorted(set(table) - {"kind"})
+    if extra:
+        raise InputError(f"mesh.kind is required next to mesh.{extra[0]} (one of {', '.join(sorted(MESHES))})")
+    return None
 
 
 def _warnings(impact: Impact) -> list[str]:

@@ -11,7 +11,7 @@ from typing import Any
 
 from bent_beam.errors import InputError
 from bent_beam.section import Section
-from bent_beam.tables import BeamTable, CaseFile, ImpactTable
+from bent_beam.tables import BeamTable, ImpactTable
 
 __all__ = ["beam_quantities", "free_flight", "impact_velocity", "one_of_these"]
 
@@ -33,9 +33,8 @@ def one_of_these(where: str, values: Mapping[str, float | None], *, required: bo
     return given[0] if given else (None, 0.0)
 
 
-def beam_quantities(file: CaseFile, section: Section | None) -> dict[str, Any]:
+def beam_quantities(beam: BeamTable, section: Section | None) -> dict[str, Any]:
     """Fields of :class:`bent_beam.Impact` that the beam's tables settle."""
-    beam = file.beam
     found: dict[str, Any] = {"length": beam.length, "axial_force": beam.axial_force}
     found["natural_curvature"] = beam.natural_curvature
     for name in ("bending_stiffness", "mass_per_length"):
@@ -117,12 +116,11 @@ def _gravity(table: ImpactTable) -> float:
     return GRAVITY if table.drop_height is not None else 0.0
 
 
-def free_flight(file: CaseFile, beam: Mapping[str, Any]) -> float:
+def free_flight(table: ImpactTable, beam: Mapping[str, Any]) -> float:
     """a₀, m/s²: as given, or that of free flight under gravity, which tension bends: a₀ = g cos θ − (EI q₀ + N K)/μ.
 
     Without gravity and tension a beam of which no acceleration is given does not accelerate.
     """
-    table = file.impact
     gravity = _gravity(table)
     if table.gravity_angle and not gravity:
         raise InputError(f"impact.gravity_angle has no effect without impact.gravity (got {table.gravity_angle!r})")

@@ -18,8 +18,9 @@ from numpy.typing import NDArray
 
 from bent_beam.history import ImpactHistory
 from bent_beam.impact import Impact
+from bent_beam.loads import loads_of
 
-__all__ = ["LOWEST_PERIOD", "Departure", "bears_free_flight", "cannot_return", "has_left", "pushing"]
+__all__ = ["LOWEST_PERIOD", "Separation", "bears_free_flight", "cannot_return", "has_left", "pushing"]
 
 Array = NDArray[np.float64]
 
@@ -39,7 +40,8 @@ def pushing(impulse: Array) -> NDArray[np.bool_]:
 
 def bears_free_flight(impact: Impact) -> bool:
     """Whether the beam moves without loads once it is off the wall, and towards no other wall."""
-    return impact.uniform_pressure == 0.0 and impact.axial_force == 0.0 and impact.opposite_wall is None
+    forces = [load for load, about in loads_of(Impact).items() if about.powers is None and getattr(impact, load)]
+    return impact.uniform_pressure == 0.0 and not forces and impact.opposite_wall is None
 
 
 def cannot_return(impact: Impact, x: Array, gap: Array, velocity: Array, energy: float) -> bool:
@@ -79,7 +81,7 @@ def has_left(history: ImpactHistory) -> bool:
     )
 
 
-class Departure:
+class Separation:
     """Says in the course of a run when the beam is off the wall for good: it cannot return, or, where that cannot be
     told, it has not pushed for a period of its lowest mode."""
 

@@ -29,9 +29,9 @@ from __future__ import annotations
 
 import json
 import unicodedata
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
-from functools import cached_property, lru_cache
+from functools import lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -40,7 +40,7 @@ from numpy.typing import NDArray
 
 from bent_beam.checks import one_of, shortened
 from bent_beam.impact import Impact
-from bent_beam.storage import blocks, copy_whole, open_lazily, read_dataset, write_dataset
+from bent_beam.storage import read_dataset, write_dataset
 from bent_beam.versions import versions
 
 if TYPE_CHECKING:
@@ -50,82 +50,23 @@ __all__ = ["ImpactHistory"]
 
 Array = NDArray[np.float64]
 
-UNITS = {
-    "time": "s",
-    "x": "m",
-    "contact_x": "m",
-    "position": "m",
-    "contact_position": "m",
-    "gap": "m",
-    "velocity": "m/s",
-    "slope": "1",
-    "impulse": "N s",
-    "opposite_impulse": "N s",
-    "total_impulse": "N s",
-    "held_impulse": "N s",
-    "kinetic_energy": "J",
-    "strain_energy": "J",
-    "contact_energy": "J",
-    "work_of_loads": "J",
-    "loss_impact": "J",
-    "loss_algorithmic": "J",
-    "loss_viscous": "J",
-    "loss_material": "J",
-    "loss_absorbed": "J",
-}
+LOSSES = tuple(f"loss_{cause}" for cause in ("impact", "algorithmic", "viscous", "material", "absorbed"))
+ENERGIES = ("kinetic_energy", "strain_energy", "contact_energy", "work_of_loads", *LOSSES)
+IMPULSES = ("impulse", "opposite_impulse", "total_impulse", "held_impulse")
+UNITS = {"time": "s", "velocity": "m/s", "slope": "1"}
+UNITS |= dict.fromkeys(("x", "contact_x", "position", "contact_position", "gap"), "m")
+UNITS |= dict.fromkeys(IMPULSES, "N s") | dict.fromkeys(ENERGIES, "J")
 COORDINATES = ("time", "x", "contact_x")
 REQUIRED = ("time", "x", "contact_x", "gap", "impulse", "total_impulse", "kinetic_energy", "strain_energy")
 FORMAT = "bent-beam-impact history 2"
 CONTROL = {"Cc", "Cf", "Cs"}  # of Unicode
 
 
-@dataclass(frozen=True)
-class Record:
-    """The variables and attributes of a history before they are a dataset: a run that is only reduced to numbers does
-    without xarray, which takes longer to import than a small run takes.
-
-    variables : name → (dimensions, values); attrs : as of the dataset.
-    """
-
-    variables: Mapping[str, tuple[tuple[str, ...], NDArray[Any]]]
-    attrs: Mapping[str, Any]
-
-    def __post_init__(self) -> None:
-        sizes: dict[str, int] = {}
-        for name, (dims, values) in self.variables.items():
-            if len(dims) != values.ndim:
-                raise ValueError(f"history field {name} must have dimensions {dims} (got shape {values.shape})")
-            for dim, size in zip(dims, values.shape):
-                if sizes.setdefault(dim, size) != size:
-                    raise ValueError(f"history field {name} must have {sizes[dim]} of {dim} (got {size})")
-
-    def dataset(self) -> xr.Dataset:
-        """The same as a dataset; values are shared."""
-        import xarray as xr
-
-        def variable(name: str) -> tuple[Any, ...]:
-            return (*self.variables[name], {"units": UNITS[name]} if name in UNITS else {})
-
-        data = {name: variable(name) for name in self.variables if name not in COORDINATES}
-        return xr.Dataset(data, coords={name: variable(name) for name in COORDINATES}, attrs=dict(self.attrs))
-
-
 @dataclass(frozen=True, eq=False)
 class ImpactHistory:
-    """What a simulation returns: :attr:`dataset` (see the module's table) with typed access to what is asked often.
+    """What a simulation returns: :attr:`dataset` (see the module's table) with typed access to what is asked often."""
 
-    source : the dataset, or what it is made of when somebody asks for it.
-    file : where the values are read from each time that they are asked for (``None``: they are in memory). Ask such a
-        history for instants, ``array("gap", k)``, or for ``blocks("gap")``, not for all of a variable.
-    """
-
-    source: xr.Dataset | Record
-    file: Path | None = None
-
-    @cached_property
-    def dataset(self) -> xr.Dataset:
-        """The variables of the module's table, with their units."""
-        return self.source.dataset() if isinstance(self.source, Record) else self.source
+    dataset: xr.Dataset
 
     # making -------------------------------------------------------------------------------------------
     @classmethod
@@ -152,13 +93,16 @@ class ImpactHistory:
         steps, seconds : time steps taken and wall seconds spent in the solver.
         Raises ``ValueError`` when a field is not finite.
         """
+        import xarray as xr
+
         given = {**fields, "time": (("time",), time), "x": (("x",), x), "contact_x": (("contact",), contact_x)}
-        variables: dict[str, tuple[tuple[str, ...], NDArray[Any]]] = {}
+        variables: dict[str, tuple[Any, ...]] = {}
         for name, (dims, values) in given.items():
             array = np.asarray(values, float if name in COORDINATES else None)
             if array.dtype.kind == "f" and not np.all(np.isfinite(array)):
                 raise ValueError(f"history field {name} is not finite")
-            variables[name] = (tuple(dims), array)
+            variables[name] = (tuple(dims), array, {"units": UNITS[name]} if name in UNITS else {})
+        coordinates = {name: variables.pop(name) for name in COORDINATES}
         attrs = {
             "format": FORMAT,
             "path": path,
@@ -171,25 +115,17 @@ class ImpactHistory:
             "seconds": float(seconds),
             "completed": int(completed),
         }
-        return cls(Record(variables, attrs))
+        return cls(xr.Dataset(variables, coords=coordinates, attrs=attrs))
 
     def with_warnings(self, warnings: Sequence[str]) -> ImpactHistory:
-        """The same with other warnings. ``ValueError`` for one on disk, whose warnings are its file's."""
-        if self.file is not None:
-            raise ValueError(f"file {self.file} holds the warnings of this history: they cannot be replaced in memory")
-        now, attrs = self._now, {**self.attrs, "warnings": json.dumps(list(warnings))}
-        return replace(self, source=replace(now, attrs=attrs) if isinstance(now, Record) else now.assign_attrs(attrs))
+        """The same with other warnings."""
+        return replace(self, dataset=self.dataset.assign_attrs(warnings=json.dumps(list(warnings))))
 
     # reading ------------------------------------------------------------------------------------------
     @property
     def attrs(self) -> Mapping[str, Any]:
-        """The attributes of the dataset, which need not be made for them."""
-        return self._now.attrs
-
-    @property
-    def _now(self) -> xr.Dataset | Record:
-        """The dataset once there is one: it is what somebody may have changed."""
-        return self.__dict__.get("dataset", self.source)
+        """The attributes of the dataset."""
+        return self.dataset.attrs
 
     @property
     def impact(self) -> Impact:
@@ -248,23 +184,12 @@ class ImpactHistory:
 
     def __contains__(self, name: str) -> bool:
         """Whether the history has this variable."""
-        return name in self._now.variables
+        return name in self.dataset.variables
 
     def array(self, name: str, k: int | slice | NDArray[np.intp] | None = None) -> NDArray[Any]:
-        """The values of one variable, at saved instant ``k`` alone where one is given, or at a few of them: a slice,
-        or their numbers in rising order."""
-        now = self._now
-        if isinstance(now, Record):
-            values = now.variables[name][1]
-        elif self.file is not None and k is not None:
-            return np.asarray(now.variables[name][k].values)
-        else:
-            values = now[name].values
-        return np.asarray(values if k is None else values[k])
-
-    def blocks(self, name: str) -> Iterator[NDArray[Any]]:
-        """The values of one variable, instants of a few megabytes at a time where they are on disk."""
-        return iter([self.array(name)]) if self.file is None else blocks(self.dataset.variables[name])
+        """The values of one variable, of all saved instants or of those numbered ``k``."""
+        values = np.asarray(self.dataset.variables[name].values)
+        return values if k is None else np.asarray(values[k])
 
     def energy(self, name: str) -> Array:
         """One of the energies of the module's table, J, shape (times,): nothing where the path has no such term."""
@@ -277,21 +202,7 @@ class ImpactHistory:
             values = self.array(name)
             return float(values[-1] - values[0])
 
-        budget = {
-            name: change(name)
-            for name in (
-                "kinetic_energy",
-                "strain_energy",
-                "contact_energy",
-                "work_of_loads",
-                "loss_impact",
-                "loss_algorithmic",
-                "loss_viscous",
-                "loss_material",
-                "loss_absorbed",
-            )
-            if name in self
-        }
+        budget = {name: change(name) for name in ENERGIES if name in self}
         balance = budget.get("kinetic_energy", 0.0) + budget.get("strain_energy", 0.0)
         balance += budget.get("contact_energy", 0.0) - budget.get("work_of_loads", 0.0)
         balance += sum(v for k, v in budget.items() if k.startswith("loss_"))
@@ -301,29 +212,17 @@ class ImpactHistory:
 
     # keeping ------------------------------------------------------------------------------------------
     def save(self, file: str | Path) -> Path:
-        """Write netCDF: a killed run or a full disk leaves either the whole file or none. Returns the path.
-
-        Of a history on disk this is a copy of its file; ``ValueError`` when attributes were changed since.
-        """
-        if self.file is None:
-            write_dataset(self.dataset, Path(file))
-        else:
-            with open_lazily(self.file) as kept:
-                changed = [name for name, value in self.attrs.items() if kept.attrs.get(name) != value]
-            if changed:
-                raise ValueError(f"{changed[0]} was changed, but {self.file}, which save copies, holds the old value")
-            copy_whole(self.file, Path(file))
+        """Write netCDF: a killed run or a full disk leaves either the whole file or none. Returns the path."""
+        write_dataset(self.dataset, Path(file))
         return Path(file)
 
     @classmethod
     def load(cls, file: str | Path) -> ImpactHistory:
-        """Read a history back; ``ValueError`` when the file is none, or holds anything that a history does not. Of a
-        large one (:data:`bent_beam.storage.LARGE`) the values stay on disk until they are asked for."""
+        """Read a history; ``ValueError`` when the file is none, or holds anything that a history does not."""
         source = Path(file)
-        dataset, large = read_dataset(source)
-        if dataset.attrs.get("format") != FORMAT:
+        history = cls(read_dataset(source))
+        if history.attrs.get("format") != FORMAT:
             raise ValueError(f"{source} is not a history of this project")
-        history = cls(dataset, source if large else None)
         try:
             history._check()
         except (ValueError, TypeError, KeyError, OverflowError, RecursionError) as error:
@@ -353,7 +252,7 @@ class ImpactHistory:
                 raise TypeError(f"{label} must hold numbers (got {variable.dtype})")
             if not set(variable.dims) <= {"time", "x", "contact"}:
                 raise ValueError(f"{label} must have dimensions time, x and contact (got {variable.dims})")
-            if not all(np.all(np.isfinite(values)) for values in blocks(variable)):
+            if not np.isfinite(variable.values).all():
                 raise ValueError(f"{label} is not finite")
         if self.time.size < 1 or np.any(np.diff(self.time) <= 0.0):
             raise ValueError("time must increase")

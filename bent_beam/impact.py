@@ -4,7 +4,7 @@
 
 y > 0 points into the wall y_w = −K_w x²/2; x = 0 touches first, at t = 0. The free motion close to the contact is
 
-    y₀ = V₀ t − K x²/2 + a₀ t²/2 + c₀ x² t/2 + q₀ x⁴/24.                      (thesis 2.2.30)
+    y₀ = V₀ t − K x²/2 + a₀ t²/2 + c₀ x² t/2 + q₀ x⁴/24.                      (thesis 2.2.30; bent_beam/loads.py)
 """
 
 from __future__ import annotations
@@ -12,8 +12,11 @@ from __future__ import annotations
 import dataclasses
 import math
 from dataclasses import dataclass
+from typing import Annotated
 
-from bent_beam.checks import finite, non_negative, positive
+from bent_beam.checks import non_negative, positive
+from bent_beam.fields import Part, Quantity
+from bent_beam.loads import FreeMotion, Load, loads_of
 
 __all__ = ["Impact"]
 
@@ -21,74 +24,55 @@ RANGE = 1e60  # of every number of a problem, in SI and in its own units: its fo
 LONGEST = 1e30  # time, and change of the free motion by the loads, in the problem's own units
 DEFAULT_DURATION = 0.1  # t*
 FIRST_SPREAD = 0.005  # T*: measured, from when on a finite beam's impulse is 1 % off the infinite beam's (κ/ν = 0.5)
-BEFORE_WAVES_RETURN = 0.01  # T*: the earliest that they change the answer by 2 % (comparison/whole_impact/ends.py)
+BEFORE_WAVES_RETURN = 0.01  # T*: the earliest that they change the impulse by 2 %
+POSITIVE = ("bending_stiffness", "mass_per_length", "length", "velocity", "section_height")
+SCALES = ("wave_constant", "time_scale", "length_scale", "slow_time_scale", "epsilon")
+GROUPS = ("epsilon_alpha", "epsilon_chi", "epsilon_psi", "epsilon_axial", "relative_damping", "kappa_over_nu")
 
 
 @dataclass(frozen=True)
-class Impact:
+class Impact(Part):
     """A bent beam, symmetric about x = 0, about to hit a rigid wall (SI units).
 
-    Parameters
-    ----------
-    bending_stiffness : EI, N m².
-    mass_per_length : μ, kg/m.
-    length : L of the whole beam, m.
-    curvature : K ≥ 0 of the stress-free beam, 1/m.
-    velocity : V₀ > 0 towards the wall, m/s.
-    acceleration : a₀ = ∂²y₀/∂t² at the first contact, m/s² (the thesis's α).
-    curvature_rate : c₀ = ∂³y₀/∂x²∂t there, 1/(m s) (χ).
-    fourth_derivative : q₀ = ∂⁴y₀/∂x⁴ there, 1/m³ (ψ).
-    section_height : height d of the section, m; only the Exudyn path uses it, for EA = 12 EI/d².
-    axial_force : N, N, tension positive.
-    damping : η ≥ 0, s: Kelvin–Voigt damping of the beam's own material, moment EI(y_xx + η y_txx).
-    wall_curvature : K_w, 1/m, positive where the wall is hollow, bent the same way as the beam; K_w < K.
-    natural_curvature : curvature of the beam free of stress, 1/m (``None``: all of ``curvature``); it enters the
-        stress alone.
-    rotation : ω, rad/s: the beam rocks about its middle while it flies; only runs of the full beam take it.
-    first_touch : place of the bow's apex along the beam, m from its middle; only runs of the full beam take it.
-    opposite_wall : distance of a second wall behind the beam's apex, m (``None``: none).
+    Units, meanings and ranges of the fields stand at the fields.
 
     Raises
     ------
     ValueError : a field is not finite, or has the wrong sign; the message names field and value.
     """
 
-    bending_stiffness: float
-    mass_per_length: float
-    length: float
-    curvature: float
-    velocity: float
-    acceleration: float = 0.0
-    curvature_rate: float = 0.0
-    fourth_derivative: float = 0.0
-    section_height: float = 0.01
-    axial_force: float = 0.0
-    damping: float = 0.0
-    wall_curvature: float = 0.0
-    natural_curvature: float | None = None
-    rotation: float = 0.0
-    first_touch: float = 0.0
-    opposite_wall: float | None = None
+    bending_stiffness: Annotated[float, Quantity("N m²", "EI", above=0.0)]
+    mass_per_length: Annotated[float, Quantity("kg/m", "μ", above=0.0)]
+    length: Annotated[float, Quantity("m", "L of the whole beam", above=0.0)]
+    curvature: Annotated[float, Quantity("1/m", "K, the bow at the first touch", least=0.0)]
+    velocity: Annotated[float, Quantity("m/s", "V₀ towards the wall", above=0.0)]
+    acceleration: Annotated[
+        float,
+        Load("m/s²", "a₀ at the first touch; free flight unless given", group="alpha", powers=(0, 2)),
+    ] = 0.0
+    curvature_rate: Annotated[float, Load("1/(m s)", "c₀ = ∂³y₀/∂x²∂t", group="chi", powers=(2, 1))] = 0.0
+    fourth_derivative: Annotated[float, Load("1/m³", "q₀ = ∂⁴y₀/∂x⁴", group="psi", powers=(4, 0))] = 0.0
+    section_height: Annotated[
+        float, Quantity("m", "d, for EA = 12 EI/d² on the Exudyn path; from the [section]", above=0.0)
+    ] = 0.01
+    axial_force: Annotated[float, Load("N", "N, tension positive", group="axial")] = 0.0
+    damping: Annotated[float, Quantity("s", "η, Kelvin–Voigt damping of the beam's own material", least=0.0)] = 0.0
+    wall_curvature: Annotated[float, Quantity("1/m", "K_w, positive where the wall is hollow; less than K")] = 0.0
+    natural_curvature: Annotated[
+        float | None, Quantity("1/m", "curvature of the beam free of stress; all of the bow unless given")
+    ] = None
+    rotation: Annotated[
+        float, Load("rad/s", "rocking about the middle (runs of the full beam)", powers=(1, 1))
+    ] = 0.0
+    first_touch: Annotated[
+        float, Quantity("m", "place of the bow's apex from the middle (runs of the full beam)")
+    ] = 0.0
+    opposite_wall: Annotated[
+        float | None, Quantity("m", "distance of a second wall behind the bow's apex", above=0.0)
+    ] = None
 
     def __post_init__(self) -> None:
-        for name in ("bending_stiffness", "mass_per_length", "length", "velocity", "section_height"):
-            object.__setattr__(self, name, positive(name, getattr(self, name)))
-        object.__setattr__(self, "curvature", non_negative("curvature", self.curvature))
-        for name in (
-            "acceleration",
-            "curvature_rate",
-            "fourth_derivative",
-            "axial_force",
-            "wall_curvature",
-            "rotation",
-            "first_touch",
-        ):
-            object.__setattr__(self, name, finite(name, getattr(self, name)))
-        object.__setattr__(self, "damping", non_negative("damping", self.damping))
-        if self.natural_curvature is not None:
-            object.__setattr__(self, "natural_curvature", finite("natural_curvature", self.natural_curvature))
-        if self.opposite_wall is not None:
-            object.__setattr__(self, "opposite_wall", positive("opposite_wall", self.opposite_wall))
+        super().__post_init__()
         if abs(self.first_touch) >= self.half_length:
             raise ValueError(
                 f"first_touch must lie on the beam, within {self.half_length!r} m of its middle "
@@ -99,35 +83,22 @@ class Impact:
                 f"wall_curvature must be less than the beam's curvature {self.curvature!r}, or no point touches first "
                 f"(got {self.wall_curvature!r})"
             )
-        for name in (
-            "wave_constant",
-            "time_scale",
-            "length_scale",
-            "slow_time_scale",
-            "epsilon",
-            "epsilon_alpha",
-            "epsilon_chi",
-            "epsilon_psi",
-            "epsilon_axial",
-            "relative_damping",
-            "kappa_over_nu",
-        ):
+        for name in (*SCALES, *GROUPS):
             try:
                 value = abs(getattr(self, name))
             except (OverflowError, ZeroDivisionError):
                 value = math.inf
-            scale = name in ("wave_constant", "time_scale", "length_scale", "slow_time_scale", "epsilon")
-            if not value <= RANGE or (scale and value < 1.0 / RANGE):
+            if not value <= RANGE or (name in SCALES and value < 1.0 / RANGE):
                 raise ValueError(
                     f"length, curvature, velocity, bending_stiffness and mass_per_length put {name} beyond "
                     f"{RANGE:g} or below its inverse (got L = {self.length!r}, K = {self.curvature!r}, "
                     f"V0 = {self.velocity!r}, EI = {self.bending_stiffness!r}, mu = {self.mass_per_length!r})"
                 )
         for name in (f.name for f in dataclasses.fields(self)):
-            if abs(getattr(self, name) or 0.0) > RANGE:
+            value = abs(getattr(self, name) or 0.0)
+            if value > RANGE:
                 raise ValueError(f"{name} must not exceed {RANGE:g} (got {getattr(self, name)!r})")
-        for name in ("bending_stiffness", "mass_per_length", "length", "velocity", "section_height"):
-            if getattr(self, name) < 1.0 / RANGE:
+            if name in POSITIVE and value < 1.0 / RANGE:
                 raise ValueError(f"{name} must be at least {1.0 / RANGE:g} (got {getattr(self, name)!r})")
 
     @classmethod
@@ -184,9 +155,8 @@ class Impact:
         time = non_negative(name, value) / self.time_scale
         if time > LONGEST:
             raise ValueError(f"{name} must not exceed {LONGEST:g} t* (got {value!r}, t* = {self.time_scale!r} s)")
-        loads = {"acceleration": "alpha", "curvature_rate": "chi", "fourth_derivative": "psi"}
-        for load, group in loads.items():
-            if abs(getattr(self, f"epsilon_{group}")) * time > LONGEST:
+        for load, about in loads_of(Impact).items():
+            if about.powers and about.group and abs(self.group(load)) * time > LONGEST:
                 raise ValueError(
                     f"{load} is out of all proportion to a time of {value:.6g} s (got {getattr(self, load)!r})"
                 )
@@ -228,7 +198,21 @@ class Impact:
         """ε = t*/T*, dimensionless: the small parameter of the expansion."""
         return (self.length_scale / self.half_length) ** 2
 
-    # dimensionless groups, ν = 1 ----------------------------------------------------------------------
+    # the free motion and its groups, ν = 1 -------------------------------------------------------------
+    def free_motion(self, bow: float) -> FreeMotion:
+        """y₀ with −``bow`` x²/2 in place of −Kx²/2, SI units, x from the first touch."""
+        terms = {(0, 1): self.velocity + self.rotation * self.first_touch, (2, 0): -bow}
+        terms |= {about.powers: getattr(self, load) for load, about in loads_of(Impact).items() if about.powers}
+        return FreeMotion(terms)
+
+    def group(self, load: str) -> float:
+        """The dimensionless group of a load with ν = 1: its term of y₀ in units of the fast layer, or n = N/(μV₀²)."""
+        value, powers = getattr(self, load), loads_of(Impact)[load].powers
+        if powers is None:
+            return value / (self.mass_per_length * self.velocity**2)
+        i, j = powers  # V₀t* = l*
+        return value * self.length_scale ** (i - 1) * self.time_scale**j
+
     @property
     def kappa_over_nu(self) -> float:
         """κ/ν = K √(EI/μ)/V₀: the one parameter of the leading order."""
@@ -244,60 +228,41 @@ class Impact:
         """p = μa₀ + EI q₀ + N K, N/m: the uniform load under which the free motion is y₀."""
         return self._load_against(0.0)
 
+    @property
+    def zone_pressure(self) -> float:
+        """p − N K_w, N/m: what presses a contact zone that lies on the wall; it lifts off where this is negative."""
+        return self._load_against(self.wall_curvature)
+
     def _load_against(self, curvature: float) -> float:
         """μa₀ + EI q₀ + N(K − ``curvature``), N/m; nothing where the terms cancel to rounding."""
+        motion = self.free_motion(0.0)
         terms = (
-            self.mass_per_length * self.acceleration,
-            self.bending_stiffness * self.fourth_derivative,
+            self.mass_per_length * float(motion(0.0, by_t=2)),
+            self.bending_stiffness * float(motion(0.0, by_x=4)),
             self.axial_force * (self.curvature - curvature),
         )
         total = math.fsum(terms)
         return total if abs(total) > 1e-14 * max(abs(term) for term in terms) else 0.0
 
     @property
-    def zone_pressure(self) -> float:
-        """p − N K_w, N/m: what presses a contact zone that lies on the wall; it lifts off where this is negative."""
-        return self._load_against(self.wall_curvature)
-
-    @property
     def epsilon_alpha(self) -> float:
         """εα/ν = a₀ t*/V₀."""
-        return self.acceleration * (self.time_scale / self.velocity)
+        return self.group("acceleration")
 
     @property
     def epsilon_chi(self) -> float:
         """εχ/ν = c₀ l*²/V₀."""
-        return self.curvature_rate * self.length_scale * (self.length_scale / self.velocity)
+        return self.group("curvature_rate")
 
     @property
     def epsilon_psi(self) -> float:
-        """εψ/ν = q₀ l*⁴/(V₀ t*) = q₀ l*³."""
-        return self.fourth_derivative * self.length_scale**3
+        """εψ/ν = q₀ l*⁴/(V₀ t*)."""
+        return self.group("fourth_derivative")
 
     @property
     def epsilon_axial(self) -> float:
         """n = N/(μV₀²)."""
-        return self.axial_force / (self.mass_per_length * self.velocity**2)
-
-    @property
-    def axial(self) -> float:
-        """n/ε with ν = 1, next to α, ψ, χ."""
-        return self.epsilon_axial / self.epsilon
-
-    @property
-    def loaded(self) -> bool:
-        """Whether terms of first order act: a₀, q₀, c₀ or an axial force."""
-        return any((self.acceleration, self.fourth_derivative, self.curvature_rate, self.axial_force))
-
-    @property
-    def off_centre(self) -> bool:
-        """Whether the impact is not symmetric about the middle: only a model of the full beam takes it."""
-        return bool(self.rotation or self.first_touch)
-
-    @property
-    def relative_damping(self) -> float:
-        """η/T*."""
-        return self.damping / self.slow_time_scale
+        return self.group("axial_force")
 
     @property
     def alpha(self) -> float:
@@ -313,3 +278,23 @@ class Impact:
     def psi(self) -> float:
         """ψ with ν = 1."""
         return self.epsilon_psi / self.epsilon
+
+    @property
+    def axial(self) -> float:
+        """n/ε with ν = 1, next to α, ψ, χ."""
+        return self.epsilon_axial / self.epsilon
+
+    @property
+    def loaded(self) -> bool:
+        """Whether loads of first order act: those that have a group."""
+        return any(getattr(self, load) for load, about in loads_of(Impact).items() if about.group)
+
+    @property
+    def off_centre(self) -> bool:
+        """Whether the impact is not symmetric about the middle: only a model of the full beam takes it."""
+        return bool(self.rotation or self.first_touch)
+
+    @property
+    def relative_damping(self) -> float:
+        """η/T*."""
+        return self.damping / self.slow_time_scale

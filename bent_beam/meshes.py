@@ -10,12 +10,13 @@ from __future__ import annotations
 import dataclasses
 import math
 from dataclasses import dataclass
-from typing import Protocol, runtime_checkable
+from typing import Annotated, ClassVar, Protocol, runtime_checkable
 
 import numpy as np
 from numpy.typing import NDArray
 
-from bent_beam.checks import at_least, finite, positive
+from bent_beam.checks import at_least, finite, shortened
+from bent_beam.fields import Part, Quantity
 
 __all__ = [
     "MESHES",
@@ -73,17 +74,20 @@ def _count(half_length: float, element_length: float) -> int:
     return max(2, math.ceil(half_length / element_length - 1e-9))
 
 
+Length = Annotated[float, Quantity("m", "Δx, shortest element", above=0.0)]
+Growth = Annotated[float, Quantity("", "ratio of neighbouring elements where they grow", least=1.0)]
+SizeRatio = Annotated[float, Quantity("", "largest element over the smallest of the zone, at most", least=1.0)]
+
+
+class _Mesh(Part):
+    where: ClassVar[str] = "mesh"
+
+
 @dataclass(frozen=True)
-class UniformMesh:
-    """Elements of one length (adjusted down so that a whole number of them fits).
+class UniformMesh(_Mesh):
+    """Elements of one length (adjusted down so that a whole number of them fits)."""
 
-    element_length : Δx, m.
-    """
-
-    element_length: float
-
-    def __post_init__(self) -> None:
-        positive("mesh.element_length", self.element_length)
+    element_length: Length
 
     def nodes(self, half_length: float) -> Array:
         return np.linspace(0.0, half_length, _count(half_length, self.element_length) + 1)
@@ -111,26 +115,17 @@ def _grown(start: float, first: float, growth: float, end: float, largest: float
 
 
 @dataclass(frozen=True)
-class GradedMesh:
+class GradedMesh(_Mesh):
     """Uniform elements over the contact zone, then each larger than the last (thesis 3.3.3).
 
-    element_length : Δx of the zone, m.
-    growth : e, ratio of neighbouring elements outside it; the thesis uses 1.25, which reflects: 1.02 is better.
-    zone : half length of the uniform zone, m (25 elements unless given, the thesis's Table 3.2).
-    size_ratio : largest element over smallest; the thesis caps it at 10³ against ill-conditioning.
+    The thesis lets elements grow by 1.25, which reflects: 1.02 is better. It caps their size at 10³ against
+    ill-conditioning, and has 25 elements in the zone (Table 3.2).
     """
 
-    element_length: float
-    growth: float = 1.02
-    zone: float | None = None
-    size_ratio: float = 1e3
-
-    def __post_init__(self) -> None:
-        positive("mesh.element_length", self.element_length)
-        at_least("mesh.growth", self.growth, 1.0)
-        at_least("mesh.size_ratio", self.size_ratio, 1.0)
-        if self.zone is not None:
-            positive("mesh.zone", self.zone)
+    element_length: Length
+    growth: Growth = 1.02
+    zone: Annotated[float | None, Quantity("m", "half length of the zone", above=0.0, absent="25 elements")] = None
+    size_ratio: SizeRatio = 1e3
 
     def nodes(self, half_length: float) -> Array:
         zone = 25 * self.element_length if self.zone is None else self.zone
@@ -154,23 +149,13 @@ class GradedMesh:
 
 
 @dataclass(frozen=True)
-class SquareMesh:
-    """The thesis's "square" mesh (3.3.5–9): x_i = first_element·√i, so a front x ∝ √t spends the same time in each.
+class SquareMesh(_Mesh):
+    """The thesis's "square" mesh (3.3.5–9): x_i = first_element·√i, so a front x ∝ √t spends the same time in each."""
 
-    first_element : length of the first element, m (thesis: λ₀√(ah), so that a step count a fits into each).
-    zone : half length over which the rule holds, m; outside it elements grow by ``growth``.
-    """
-
-    first_element: float
-    zone: float
-    growth: float = 1.25
-    size_ratio: float = 1e3
-
-    def __post_init__(self) -> None:
-        positive("mesh.first_element", self.first_element)
-        positive("mesh.zone", self.zone)
-        at_least("mesh.growth", self.growth, 1.0)
-        at_least("mesh.size_ratio", self.size_ratio, 1.0)
+    first_element: Annotated[float, Quantity("m", "thesis: λ₀√(ah), so that a steps fit into each", above=0.0)]
+    zone: Annotated[float, Quantity("m", "half length over which the rule holds; elements grow outside", above=0.0)]
+    growth: Growth = 1.25
+    size_ratio: SizeRatio = 1e3
 
     def nodes(self, half_length: float) -> Array:
         end = min(self.zone, half_length)
@@ -194,24 +179,21 @@ class SquareMesh:
 
 
 @dataclass(frozen=True)
-class ScaleFreeMesh:
-    """Elements in proportion to the distance from the centre, so that every decade of time is resolved alike.
+class ScaleFreeMesh(_Mesh):
+    """Elements in proportion to the distance from the centre, so that every decade of time is resolved alike."""
 
-    element_length : smallest element, at the centre, m.
-    growth : ratio of neighbours where elements grow, 1.01 to 1.02.
-    largest : no element above this, m (none by default).
-    zone : half length, m, beyond which elements grow by ``growth_outside`` instead; one goes with the other.
-    """
-
-    element_length: float
-    growth: float = 1.01
-    largest: float | None = None
-    zone: float | None = None
-    growth_outside: float | None = None
+    element_length: Length
+    growth: Growth = 1.01
+    largest: Annotated[float | None, Quantity("m", "no element above this", above=0.0, absent="-")] = None
+    zone: Annotated[
+        float | None, Quantity("m", "half length, elements grow by growth_outside beyond", above=0.0, absent="-")
+    ] = None
+    growth_outside: Annotated[
+        float | None, Quantity("", "ratio of neighbours outside the zone", least=1.0, absent="-")
+    ] = None
 
     def __post_init__(self) -> None:
-        positive("mesh.element_length", self.element_length)
-        at_least("mesh.growth", self.growth, 1.0)
+        super().__post_init__()
         if self.largest is not None:
             at_least("mesh.largest", self.largest, self.element_length)
         if (self.zone is None) != (self.growth_outside is None):
@@ -219,9 +201,6 @@ class ScaleFreeMesh:
                 "mesh.zone and mesh.growth_outside go together: neither has an effect without the other "
                 f"(got {self.zone!r} and {self.growth_outside!r})"
             )
-        if self.zone is not None and self.growth_outside is not None:
-            positive("mesh.zone", self.zone)
-            at_least("mesh.growth_outside", self.growth_outside, 1.0)
 
     def nodes(self, half_length: float) -> Array:
         largest = math.inf if self.largest is None else self.largest
@@ -247,15 +226,14 @@ class ScaleFreeMesh:
 
 
 @dataclass(frozen=True)
-class NodesMesh:
-    """Node places given one by one.
+class NodesMesh(_Mesh):
+    """Node places given one by one."""
 
-    places : m, strictly increasing from 0 to the half length.
-    """
-
-    places: tuple[float, ...]
+    places: Annotated[tuple[float, ...], Quantity("m", "strictly increasing from 0 to the half length")]
 
     def __post_init__(self) -> None:
+        if not isinstance(self.places, list | tuple):
+            raise ValueError(f"mesh.places must be a list of numbers (got {shortened(self.places)})")
         places = [finite("mesh.places", place) for place in self.places]
         object.__setattr__(self, "places", tuple(checked_nodes(np.array(places)).tolist()))
         if self.places[0] != 0.0:

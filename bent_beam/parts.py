@@ -1,7 +1,7 @@
 """Parts of a run from the tables of a case file: ``kind = "…"`` names a frozen dataclass, the rest are its fields.
 
-One mechanism serves meshes, integrators, contacts and elements of every path: a package offers a registry
-``{"kind": Dataclass}`` and :func:`part_from_table` does the rest, errors included.
+One mechanism serves the fixed tables, and meshes, integrators, contacts and elements of every path: a package offers a
+registry ``{"kind": Dataclass}`` and :func:`part_from_table` does the rest, errors included.
 """
 
 from __future__ import annotations
@@ -9,14 +9,14 @@ from __future__ import annotations
 import dataclasses
 import difflib
 from collections.abc import Iterable, Mapping
-from typing import Any
-
-import pydantic
+from typing import Any, TypeVar
 
 from bent_beam.checks import shortened
 from bent_beam.errors import InputError
 
-__all__ = ["InputError", "describe", "nearest", "part_from_table", "unknown_key"]
+__all__ = ["InputError", "describe", "made_from", "nearest", "part_from_table", "unknown_key"]
+
+T = TypeVar("T")
 
 
 def nearest(word: str, known: Iterable[str]) -> str:
@@ -31,26 +31,30 @@ def unknown_key(where: str, key: str, known: Iterable[str]) -> InputError:
     return InputError(f"{where + '.' if where else ''}{key} is not a known setting{nearest(key, known)}")
 
 
-def first_line(error: pydantic.ValidationError, where: str) -> str:
-    """One line for the first problem of a pydantic error: field, what is wrong, the value got."""
-    problem = error.errors()[0]
-    place = ".".join([where, *(str(part) for part in problem["loc"])]).strip(".")
-    cause = problem.get("ctx", {}).get("error")
-    if isinstance(cause, ValueError):  # raised by a part's own check: it names its field already
-        return str(cause)
-    if problem["type"] == "missing":
-        return f"{place} is required"
-    return f"{place}: {problem['msg'][0].lower() + problem['msg'][1:]} (got {shortened(problem.get('input'))})"
+def made_from(part: type[T], values: Any, where: str, more: Iterable[str] = ()) -> T:
+    """The dataclass ``part`` from the table ``values``; ``more``: further keys that the error for an unknown one names.
+
+    Raises :class:`InputError` for an unknown key (naming the nearest), a missing field, or a value that is refused.
+    """
+    if not isinstance(values, Mapping):
+        raise InputError(f"{where} must be a table (got {shortened(values)})")
+    fields = {field.name: field for field in dataclasses.fields(part) if field.init}  # type: ignore[arg-type]
+    for key in values:
+        if key not in fields:
+            raise unknown_key(where, str(key), {*fields, *more})
+    for name, field in fields.items():
+        if name not in values and field.default is field.default_factory is dataclasses.MISSING:
+            raise InputError(f"{where}.{name} is required")
+    try:
+        return part(**values)
+    except (TypeError, ValueError) as error:
+        raise InputError(str(error)) from None
 
 
-def part_from_table(kinds: Mapping[str, type], table: Mapping[str, Any], where: str, default: str | None = None) -> Any:
-    """Make the part that ``table["kind"]`` names, its other keys being the part's fields.
+def part_from_table(kinds: Mapping[str, type], table: Any, where: str, default: str | None = None) -> Any:
+    """The part that ``table["kind"]`` names, its other keys being the part's fields.
 
-    By hand and not as one of pydantic's tagged unions, which would ask every part, somebody else's too, for a field
-    ``kind`` and a configuration that forbids unknown keys.
-
-    Raises :class:`InputError` for an unknown kind or key (naming the nearest), a missing field, a wrong type
-    or a value that the part refuses.
+    Raises :class:`InputError` for an unknown kind, and as :func:`made_from`.
     """
     if not isinstance(table, Mapping):
         raise InputError(f"{where} must be a table (got {shortened(table)})")
@@ -59,16 +63,8 @@ def part_from_table(kinds: Mapping[str, type], table: Mapping[str, Any], where: 
         raise InputError(f"{where}.kind is required (one of {', '.join(sorted(kinds))})")
     if not isinstance(kind, str) or kind not in kinds:
         raise InputError(f"{where}.kind: {shortened(kind)} is not known{nearest(str(kind), kinds)}")
-    part = kinds[kind]
-    fields = {f.name for f in dataclasses.fields(part)}
     values = {key: value for key, value in table.items() if key != "kind"}
-    for key in values:
-        if key not in fields:
-            raise unknown_key(where, str(key), fields | {"kind"})
-    try:
-        return pydantic.TypeAdapter(part).validate_python(values)
-    except pydantic.ValidationError as error:
-        raise InputError(first_line(error, where)) from None
+    return made_from(kinds[kind], values, where, more=("kind",))
 
 
 def describe(part: Any) -> dict[str, Any]:

@@ -9,33 +9,24 @@ from __future__ import annotations
 import math
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
+from typing import Annotated, ClassVar
 
-from bent_beam.checks import between, finite, non_negative, positive
+from bent_beam.fields import Part, Quantity
 
 __all__ = ["SECTIONS", "General", "Pipe", "Rectangle", "RoundBar", "Section"]
 
 
 @dataclass(frozen=True, kw_only=True)
-class Section(ABC):
-    """What all sections have.
+class Section(Part, ABC):
+    """What all sections have."""
 
-    youngs_modulus : E, Pa. density : of the material, kg/m³. yield_stress : Pa (``None``: not compared).
-    added_mass : moves along outside, kg/m of beam (mud, cladding). poisson_ratio : for shear.
-    """
+    where: ClassVar[str] = "section"
 
-    youngs_modulus: float
-    density: float
-    yield_stress: float | None = None
-    added_mass: float = 0.0
-    poisson_ratio: float = 0.3
-
-    def __post_init__(self) -> None:
-        positive("section.youngs_modulus", self.youngs_modulus)
-        positive("section.density", self.density)
-        non_negative("section.added_mass", self.added_mass)
-        between("section.poisson_ratio", self.poisson_ratio, -0.99, 0.5)
-        if self.yield_stress is not None:
-            positive("section.yield_stress", self.yield_stress)
+    youngs_modulus: Annotated[float, Quantity("Pa", "E", above=0.0)]
+    density: Annotated[float, Quantity("kg/m³", "of the material", above=0.0)]
+    yield_stress: Annotated[float | None, Quantity("Pa", "stresses are compared with it", above=0.0, absent="-")] = None
+    added_mass: Annotated[float, Quantity("kg/m", "moves along outside (mud, cladding)", least=0.0)] = 0.0
+    poisson_ratio: Annotated[float, Quantity("", "for shear", least=-0.99, most=0.5)] = 0.3
 
     @property
     @abstractmethod
@@ -96,32 +87,28 @@ class Section(ABC):
 
 @dataclass(frozen=True, kw_only=True)
 class Pipe(Section):
-    """A pipe.
+    """A pipe."""
 
-    outer_diameter : m. inner_diameter, wall_thickness : m, one of the two. fluid_density : of what fills it, kg/m³.
-    """
-
-    outer_diameter: float
-    inner_diameter: float | None = None
-    wall_thickness: float | None = None
-    fluid_density: float = 0.0
+    outer_diameter: Annotated[float, Quantity("m", "", above=0.0)]
+    inner_diameter: Annotated[float | None, Quantity("m", "or wall_thickness", least=0.0, absent="-")] = None
+    wall_thickness: Annotated[float | None, Quantity("m", "or inner_diameter", above=0.0, absent="-")] = None
+    fluid_density: Annotated[float, Quantity("kg/m³", "of what fills it", least=0.0)] = 0.0
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        outer = positive("section.outer_diameter", self.outer_diameter)
-        non_negative("section.fluid_density", self.fluid_density)
+        outer = self.outer_diameter
         if (self.inner_diameter is None) == (self.wall_thickness is None):
             raise ValueError(
                 "section.inner_diameter and section.wall_thickness say the same: give one of them "
                 f"(got {self.inner_diameter!r} and {self.wall_thickness!r})"
             )
         if self.wall_thickness is not None:
-            if not 0.0 < finite("section.wall_thickness", self.wall_thickness) < outer / 2.0:
+            if self.wall_thickness >= outer / 2.0:
                 raise ValueError(
-                    f"section.wall_thickness must lie between 0 and half the outer diameter {outer!r}, or the walls "
+                    f"section.wall_thickness must be less than half the outer diameter {outer!r}, or the walls "
                     f"cross (got {self.wall_thickness!r})"
                 )
-        elif not 0.0 <= finite("section.inner_diameter", self.inner_diameter or 0.0) < outer:
+        elif (self.inner_diameter or 0.0) >= outer:
             raise ValueError(
                 f"section.inner_diameter must be less than the outer diameter {outer!r}, or the walls cross "
                 f"(got {self.inner_diameter!r})"
@@ -159,13 +146,9 @@ class Pipe(Section):
 
 @dataclass(frozen=True, kw_only=True)
 class RoundBar(Section):
-    """A solid round bar. diameter : m."""
+    """A solid round bar."""
 
-    diameter: float
-
-    def __post_init__(self) -> None:
-        super().__post_init__()
-        positive("section.diameter", self.diameter)
+    diameter: Annotated[float, Quantity("m", "", above=0.0)]
 
     @property
     def area(self) -> float:
@@ -186,15 +169,10 @@ class RoundBar(Section):
 
 @dataclass(frozen=True, kw_only=True)
 class Rectangle(Section):
-    """A rectangle. width : m. thickness : in the plane of bending, m."""
+    """A rectangle."""
 
-    width: float
-    thickness: float
-
-    def __post_init__(self) -> None:
-        super().__post_init__()
-        positive("section.width", self.width)
-        positive("section.thickness", self.thickness)
+    width: Annotated[float, Quantity("m", "", above=0.0)]
+    thickness: Annotated[float, Quantity("m", "in the plane of bending", above=0.0)]
 
     @property
     def area(self) -> float:
@@ -215,19 +193,11 @@ class Rectangle(Section):
 
 @dataclass(frozen=True, kw_only=True)
 class General(Section):
-    """Any section by its properties, as a catalogue of rails gives them.
+    """Any section by its properties, as a catalogue of rails gives them."""
 
-    area_of_section : m². second_moment_of_area : m⁴.
-    section_height : m, twice the distance of the outermost fibre."""
-
-    area_of_section: float
-    second_moment_of_area: float
-    section_height: float
-
-    def __post_init__(self) -> None:
-        super().__post_init__()
-        for name in ("area_of_section", "second_moment_of_area", "section_height"):
-            positive(f"section.{name}", getattr(self, name))
+    area_of_section: Annotated[float, Quantity("m²", "A", above=0.0)]
+    second_moment_of_area: Annotated[float, Quantity("m⁴", "I", above=0.0)]
+    section_height: Annotated[float, Quantity("m", "twice the distance of the outermost fibre", above=0.0)]
 
     @property
     def area(self) -> float:

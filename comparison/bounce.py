@@ -22,13 +22,29 @@ from bent_beam.impact import Impact
 from bent_beam.method import Method, for_whole_beam, refined, settings_of, simulate_to_separation
 from bent_beam.section import Section
 from bent_beam.versions import versions
-from comparison.whole_impact.number import NUMBERS, Number
-from comparison.whole_impact.outcome import SHORTEST_SEPARATION, WholeImpact, whole_impact
 from comparison.workers import run_all
+from measure.balance import balance_of
+from measure.measured import Band, Measured
+from measure.whole_impact import SHORTEST_SEPARATION, WholeImpact, whole_impact
 
-__all__ = ["Bounce", "Number", "bounce", "bounce_document", "problem", "scales"]
+__all__ = ["NUMBERS", "Bounce", "Number", "bounce", "bounce_document", "problem", "scales"]
 
 Progress = Callable[[int, int], None]
+Number = Measured | Band
+NUMBERS = (
+    "restitution",
+    "impulse",
+    "last_contact",
+    "separations",
+    "peak_moment",
+    "peak_moment_place",
+    "peak_moment_time",
+    "midspan_moment",
+    "translation",
+    "vibration",
+    "dissipated",
+)
+"""Fields of :class:`measure.whole_impact.WholeImpact` that get error bars."""
 RUNS = 24  # of a band
 SEED = 15
 LARGEST_KAPPA = 100.0  # beyond, and long before, the beam touches in one point: infinity is calculated as this
@@ -37,8 +53,9 @@ TIMES = ("last_contact", "peak_moment_time")
 
 @dataclass(frozen=True)
 class Bounce:
-    """A whole impact: ``numbers`` by name (:data:`comparison.whole_impact.number.NUMBERS`), dimensionless.
+    """A whole impact: ``numbers`` by name (:data:`NUMBERS`), dimensionless; bands where the beam has no damping.
 
+    parts : of each error bar, by cause.
     history : of the run that the values come from (one of the ensemble, for a band); outcome : what it came to.
     left : whether the beam is off the wall for good in every run that a number or its error bar comes from.
     settings : of that run's method; seconds : of all runs together; seed : of the ensemble.
@@ -46,7 +63,8 @@ class Bounce:
     """
 
     impact: Impact
-    numbers: dict[str, Number]
+    numbers: Mapping[str, Number]
+    parts: Mapping[str, Mapping[str, float]]
     history: ImpactHistory
     outcome: WholeImpact
     left: bool
@@ -56,6 +74,11 @@ class Bounce:
     section: Section | None = None
 
     @property
+    def units(self) -> dict[str, float]:
+        """SI units of the numbers (:func:`scales`); shares of energy are of what the loads have worked, too."""
+        return scales(self.impact) | {"energy": self.outcome.supplied}
+
+    @property
     def peak_stress(self) -> Number | None:
         """Largest normal stress, Pa, |M|/W + |N|/A at the place and time of the largest moment; ``None`` without a
         section."""
@@ -63,7 +86,7 @@ class Bounce:
             return None
         unit = scales(self.impact)["moment"]
         axial = self.section.stress(0.0, self.impact.axial_force)
-        return self.numbers["peak_moment"].scaled(unit / self.section.section_modulus).shifted(axial)
+        return self.numbers["peak_moment"].scaled(unit / self.section.section_modulus, axial)
 
     @property
     def warnings(self) -> list[str]:
@@ -76,7 +99,9 @@ class Bounce:
             )
         if not self.left:
             found.append("the beam had not left the wall for good when a run ended: the numbers are not final")
-        return found
+        elif self.impact.uniform_pressure > 0.0:
+            found.append("the loads press the beam to the wall: it comes back; these numbers are of its first hit")
+        return [*found, *balance_of(self.history).warnings]
 
 
 def problem(kappa_over_nu: float, damping: float) -> Impact:
@@ -119,10 +144,14 @@ def bounce(
         return _band(impact, method, section, runs, seed, save, jobs, progress)
     checks = _cross_checks(method, impact)
     history, (outcome, *found), about = _one_and_others([method, *checks.values()], impact, save, jobs, progress)
-    others = dict(zip(checks, found))
+    parts = {name: _parts(name, outcome, dict(zip(checks, found))) for name in NUMBERS}
     return Bounce(
         impact=impact,
-        numbers={name: _number(name, outcome, others) for name in NUMBERS},
+        numbers={
+            name: Measured(float(getattr(outcome, name)), sum(parts[name].values()) if checks else None)
+            for name in NUMBERS
+        },
+        parts=parts,
         history=history,
         outcome=outcome,
         settings=settings_of(for_whole_beam(method, impact)),
@@ -158,12 +187,13 @@ def _cross_checks(method: Method, impact: Impact) -> dict[str, Method]:
     return {} if coarser is None else {"mesh_and_step": coarser}
 
 
-def _number(name: str, outcome: WholeImpact, others: Mapping[str, WholeImpact]) -> Number:
+def _parts(name: str, outcome: WholeImpact, others: Mapping[str, WholeImpact]) -> dict[str, float]:
+    """The error bar of a number, by cause."""
     value = float(getattr(outcome, name))
     parts = {cause: abs(float(getattr(other, name)) - value) for cause, other in others.items()}
     if name in TIMES:
         parts["saved_instants"] = 0.5 * outcome.spacing
-    return Number(value, sum(parts.values()) if others else None, parts)
+    return parts
 
 
 def _band(
@@ -181,7 +211,8 @@ def _band(
     history, outcomes, about = _one_and_others(methods, impact, save, jobs, progress)
     return Bounce(
         impact=impact,
-        numbers={name: _spread([float(getattr(o, name)) for o in outcomes]) for name in NUMBERS},
+        numbers={name: Band.of([float(getattr(o, name)) for o in outcomes]) for name in NUMBERS},
+        parts={name: {} for name in NUMBERS},
         history=history,
         outcome=outcomes[0],
         settings=settings_of(for_whole_beam(methods[0], impact)),
@@ -204,10 +235,6 @@ def _varied(method: Method, impact: Impact, random: np.random.Generator) -> Meth
             "nor steps; state a damping"
         )
     return coarser
-
-
-def _spread(values: Sequence[float]) -> Number:
-    return Number(mean=float(np.mean(values)), std=float(np.std(values, ddof=1)), runs=len(values))
 
 
 def scales(impact: Impact) -> dict[str, float]:
@@ -237,7 +264,7 @@ ENERGY = ("translation", "vibration", "dissipated")
 
 def bounce_document(found: Bounce) -> dict[str, Any]:
     """The contract of ``bentbeam bounce --json``."""
-    unit, stress = scales(found.impact), found.peak_stress
+    unit, stress = found.units, found.peak_stress
     document: dict[str, Any] = {
         "kappa_over_nu": found.impact.kappa_over_nu,
         "damping": found.impact.relative_damping,
@@ -251,9 +278,10 @@ def bounce_document(found: Bounce) -> dict[str, Any]:
         "yield_stress": None if found.section is None else found.section.yield_stress,
         "shortest_separation": SHORTEST_SEPARATION,
         "contacts": [list(times) for times in found.outcome.contacts],
-        "error_parts": {name: dict(number.parts) for name, number in found.numbers.items()},
+        "error_parts": {name: dict(parts) for name, parts in found.parts.items()},
         "energy_defect": found.outcome.energy_defect,
         "energy_gain": found.outcome.energy_gain,
+        "momentum_residual": balance_of(found.history).momentum,
         "left": found.left,
         "steps": found.history.steps,
         "seconds": found.seconds,

@@ -10,8 +10,8 @@ import numpy as np
 from scipy.interpolate import CubicHermiteSpline
 
 from bent_beam.history import ImpactHistory
-from comparison.reduction import peak_moment
 from comparison.text_table import text_table
+from measure.reduction import peak_moment
 
 __all__ = ["compare_histories", "comparison_text"]
 

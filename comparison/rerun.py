@@ -8,12 +8,11 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-import pydantic
 
 from bent_beam.checks import finite, shortened, whole
 from bent_beam.history import ImpactHistory
 from bent_beam.method import Method, method_type
-from bent_beam.parts import InputError, first_line
+from bent_beam.parts import InputError, made_from
 from bent_beam.versions import versions
 
 __all__ = ["rerun_history"]
@@ -33,9 +32,9 @@ def _rebuild(described: Any, known: Mapping[str, type], where: str) -> Any:
             nested = isinstance(value, Mapping) and "kind" in value
             values[field.name] = _rebuild(value, known, f"{where}.{field.name}") if nested else value
     try:
-        return pydantic.TypeAdapter(part).validate_python(values)
-    except pydantic.ValidationError as error:
-        raise InputError(f"history's {first_line(error, where)}") from None
+        return made_from(part, values, where)
+    except InputError as error:
+        raise InputError(f"history's {error}") from None
 
 
 def rerun_history(

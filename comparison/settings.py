@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import dataclasses
 import inspect
-import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from bent_beam.fields import declared
 from bent_beam.meshes import MESHES
 from bent_beam.method import method_type, paths
 from bent_beam.section import SECTIONS
@@ -33,7 +33,7 @@ class Setting:
 
 def settings() -> list[Setting]:
     """All settings, table by table; those of installed paths last."""
-    found = [field for table in TABLES for field in _fields_of_table(table)]
+    found = [field for table, part in TABLES.items() for field in _fields(table, None, part)]
     found += _kinds("section", SECTIONS)
     found += _kinds("mesh", MESHES)
     for path in paths():
@@ -46,18 +46,6 @@ def settings() -> list[Setting]:
     return found
 
 
-def _fields_of_table(table: str) -> Iterator[Setting]:
-    for name, field in TABLES[table].model_fields.items():
-        extra = field.json_schema_extra if isinstance(field.json_schema_extra, dict) else {}
-        bounds = {type(rule).__name__: rule for rule in field.metadata}
-        signs = {"Gt": ("gt", ">"), "Ge": ("ge", "≥"), "Le": ("le", "≤")}
-        allowed = [f"{sign} {getattr(bounds[k], key):g}" for k, (key, sign) in signs.items() if k in bounds]
-        default = None if field.is_required() else "-" if field.default is None else f"{field.default:g}"
-        yield Setting(
-            table, None, name, str(extra.get("unit", "")), default, ", ".join(allowed), field.description or ""
-        )
-
-
 def _kinds(table: str, kinds: Mapping[str, type]) -> list[Setting]:
     found = []
     for kind, part in kinds.items():
@@ -68,51 +56,27 @@ def _kinds(table: str, kinds: Mapping[str, type]) -> list[Setting]:
 
 
 def _fields(table: str, kind: str | None, part: type) -> Iterator[Setting]:
-    said = _said(part)
+    """The fields of a part as their annotations declare them."""
     for field in dataclasses.fields(part):
         if not field.init:
             continue
+        quantity = declared(part)[field.name].quantity
         default: str | None = None
-        if field.default is not dataclasses.MISSING:
-            # a section's numbers are known or not; a part may say what it chooses
-            absent = "-" if table == "section" else field.metadata.get("chosen", "chosen")
-            default = absent if field.default is None else _written(field.default)
+        if field.default is None:
+            default = quantity.absent or ("-" if table in TABLES else "chosen")
+        elif field.default is not dataclasses.MISSING:
+            default = _written(field.default)
         elif field.default_factory is not dataclasses.MISSING:
             default = _written(field.default_factory())
-        yield Setting(table, kind, field.name, *_unit_apart(said.get(field.name, ""), default))
-
-
-ROLE = re.compile(r":\w+:`~?([^`]+)`")
-ABSENT = re.compile(r"`?\bNone\b`?: ")
-UNITS = "kg/m³|kg/m|N s/m²|N/m²|1/m|Pa|m⁴|m²|m|s|N"
-UNIT = re.compile(rf"^({UNITS})(?:, |(?= \()|\.?$)|, ({UNITS})(?: of beam)?(?=\.?$| \()")
-
-
-def _unit_apart(sentence: str, default: str | None) -> tuple[str, str | None, str, str]:
-    """Unit, default, allowed range (not known) and what is left of a field's sentence without its unit."""
-    found = UNIT.search(sentence)
-    if found is None:
-        return "", default, "", sentence
-    return found[1] or found[2], default, "", (sentence[: found.start()] + sentence[found.end() :]).strip()
+        yield Setting(table, kind, field.name, quantity.unit, default, quantity.allowed, quantity.text)
 
 
 def _written(value: Any) -> str:
     if dataclasses.is_dataclass(value):
         return type(value).__name__
-    return {True: "true", False: "false"}.get(value, str(value)) if isinstance(value, bool) else str(value)
-
-
-def _said(part: type) -> dict[str, str]:
-    """What the docstrings of a class and its bases say of each field: lines "name, other : text"."""
-    found: dict[str, str] = {}
-    for kind in reversed(part.__mro__[:-1]):
-        text = inspect.cleandoc(kind.__doc__ or "")
-        pieces = re.split(r"(?:^|(?<=\. )|(?<=\n))((?:[a-z_]+)(?:, [a-z_]+)*) : ", text)
-        for names, sentence in zip(pieces[1::2], pieces[2::2]):
-            for name in names.split(", "):
-                text = ROLE.sub(r"`\1`", " ".join(sentence.split("\n\n")[0].split())).replace("``", "`")
-                found[name] = ABSENT.sub("unless given: ", text)
-    return found
+    if isinstance(value, bool):
+        return str(value).lower()
+    return f"{value:g}" if isinstance(value, float) else str(value)
 
 
 def settings_text() -> str:

@@ -6,15 +6,16 @@ or from other versions is never read as good.
 
 from __future__ import annotations
 
-import errno
 import hashlib
 import inspect
 import json
 import os
 import tempfile
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import cache
+from importlib.metadata import entry_points
 from pathlib import Path
 from typing import Any
 
@@ -28,17 +29,18 @@ from bent_beam.versions import versions
 
 __all__ = ["RunStore", "check_writable", "default_store", "source_of", "write_atomically"]
 
+PACKAGES = ("bent_beam", "measure", "theory", "hermite_fe", "self_similar_fe", "exudyn_models", "comparison")
+CODE = (".py", ".so", ".pyd")
+
 
 def check_writable(out: Path, *, folder: bool) -> None:
     """``InputError`` when ``out`` (or a file in it, a ``folder``) cannot be written: asked before the work."""
     place = out if folder else out.parent
     try:
-        if not folder and out.is_dir():
-            raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR))
+        if not folder and out.exists() and not out.is_file():  # a device would be replaced by the file
+            raise ValueError("it is a directory" if out.is_dir() else "it is no regular file")
         place.mkdir(parents=True, exist_ok=True)
-        handle, name = tempfile.mkstemp(prefix=".", suffix=".part", dir=place)
-        os.close(handle)
-        os.unlink(name)
+        tempfile.TemporaryFile(dir=place).close()
     except (OSError, ValueError) as error:
         why = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
         raise InputError(f"out: {out} cannot be written: {why.lower()}") from None
@@ -60,25 +62,38 @@ def _digest(text: str) -> str:
     return hashlib.sha256(text.encode()).hexdigest()
 
 
+def _digest_of_files(files: Iterable[Path], root: Path) -> str:
+    digest = hashlib.sha256()
+    for file in sorted(files):
+        digest.update(file.relative_to(root).as_posix().encode())
+        digest.update(file.read_bytes())
+    return digest.hexdigest()
+
+
 @cache
 def source_digest() -> str:
     """Digest of this project's own sources: a changed solver must not be served an old answer."""
     root = Path(__file__).resolve().parent.parent
-    digest = hashlib.sha256()
-    for package in ("bent_beam", "theory", "hermite_fe", "self_similar_fe", "exudyn_models", "comparison"):
-        for file in sorted((root / package).rglob("*.py")):
-            digest.update(file.relative_to(root).as_posix().encode())
-            digest.update(file.read_bytes())
-    return digest.hexdigest()
+    return _digest_of_files((f for package in PACKAGES for f in (root / package).rglob("*.py")), root)
 
 
+@cache
 def source_of(kind: type) -> str:
-    """Digest of the file that defines a class: somebody else's method is told from its older versions by it."""
+    """A method's class, and what tells it from its older versions: for somebody else's method the digest of its whole
+    package (or module) and the version of its distribution."""
+    name, top = f"{kind.__module__}.{kind.__qualname__}", kind.__module__.partition(".")[0]
+    if top in PACKAGES:  # in every key
+        return name
     try:
-        source = Path(inspect.getfile(kind)).read_bytes()
+        # a class of a script comes to a worker by value: only its code still knows the file
+        file = Path(inspect.getfile(kind.simulate if top == "__main__" and hasattr(kind, "simulate") else kind))
+        root = next((parent for parent in file.parents if parent.name == top), None)
+        files = [file] if root is None else [f for f in root.rglob("*") if f.suffix in CODE]
+        source = _digest_of_files(files, file.parent if root is None else root)
     except (OSError, TypeError):  # made at a prompt
-        source = repr(kind).encode()
-    return f"{kind.__module__}.{kind.__qualname__} {hashlib.sha256(source).hexdigest()}"
+        source = _digest(repr(kind))
+    registered = (e for e in entry_points(group="bentbeam.methods") if e.module.partition(".")[0] == top)
+    return " ".join([name, source, *sorted({f"{e.dist.name} {e.dist.version}" for e in registered if e.dist})])
 
 
 @dataclass(frozen=True)
@@ -89,25 +104,19 @@ class RunStore:
 
     def file(self, question: Mapping[str, Any]) -> Path | None:
         """Where the answer to ``question`` (JSON-ready, also where nothing is kept) is kept."""
-        _canonical(dict(question))
-        if self.folder is None:
-            return None
         key = _digest(_canonical({"question": dict(question), "versions": versions(), "source": source_digest()}))
-        return self.folder / f"{key[:40]}.json"
+        return None if self.folder is None else self.folder / f"{key[:40]}.json"
 
     def answer(self, question: Mapping[str, Any], compute: Callable[[], dict[str, Any]]) -> dict[str, Any]:
         """The kept answer, or ``compute()``'s, kept from now on. Answers are finite JSON data."""
         file = self.file(question)
-        if file is not None:
-            kept = self._read(file)
-            if kept is not None:
-                return kept
+        kept = None if file is None else self._read(file)
+        if kept is not None:
+            return kept
         found: dict[str, Any] = json.loads(_canonical(compute()))
         if file is not None:
-            try:
+            with suppress(OSError):  # a full or read-only cache costs time, not the answer
                 write_atomically(file, _canonical({"answer": found, "sha256": _digest(_canonical(found))}))
-            except OSError:
-                pass  # a full or read-only cache costs time, not the answer
         return found
 
     def array(self, function: Callable[..., NDArray[np.float64]], *arguments: Any) -> NDArray[np.float64]:
@@ -120,8 +129,7 @@ class RunStore:
         try:
             kept = json.loads(file.read_text())
             answer = kept["answer"]
-            if kept["sha256"] != _digest(_canonical(answer)) or not isinstance(answer, dict):
-                return None
+            whole = isinstance(answer, dict) and kept["sha256"] == _digest(_canonical(answer))
         except (OSError, ValueError, KeyError, TypeError, RecursionError):
             return None
-        return answer
+        return answer if whole else None

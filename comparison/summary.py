@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import asdict
+from collections.abc import Callable, Sequence
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -13,36 +13,63 @@ from bent_beam.history import ImpactHistory
 from bent_beam.impact import Impact
 from bent_beam.method import Method, refined
 from bent_beam.section import Section
-from comparison.compared import Compared
-from comparison.estimators import Estimate, Moments, leading_order, moments
-from comparison.match import COMPANIONS, INSTANTS, without_companion
-from comparison.reduction import hold_of, peak_moment, pull_of
+from comparison.match import INSTANTS, without_companion
+from comparison.rows import COMPANIONS
 from comparison.text_table import text_table
-from comparison.whole_impact.hits import hits
+from measure.balance import balance_of
+from measure.estimators import leading_order
+from measure.hits import hits
+from measure.measured import MISSING, Measured
+from measure.moments import Moments, moments
+from measure.reduction import hold_of, peak_moment, pull_of
 from theory import predict
 
-__all__ = ["companions", "run_table", "summary"]
+__all__ = ["Companion", "companions", "energy_at_end", "loss_warnings", "numerical_loss", "run_table", "summary"]
+
+NUMBERS = ("half_contact_length", "total_impulse", "peak_moment")
+BAR = 1.5  # times what another resolution changes
+NOTABLE_LOSS = 0.02  # of the initial energy
+
+
+@dataclass(frozen=True)
+class Companion:
+    """What a run at another resolution says: half contact length, m, impulse, N s, and largest moment, N m, at its
+    end; moments : for the error bars of λ₀ and r₀."""
+
+    half_contact_length: float
+    total_impulse: float
+    peak_moment: float
+    moments: Moments
+
+    @classmethod
+    def of(cls, history: ImpactHistory) -> Companion:
+        found = moments(history)
+        return cls(
+            float(found.front[-1]) * history.impact.length_scale,
+            float(history.array("total_impulse")[-1]),
+            peak_moment(history).moment,
+            found,
+        )
 
 
 def companions(
-    method: Method, impact: Impact, end_time: float, error_bars: str
-) -> tuple[list[Moments], list[str]]:
-    """Runs at other resolutions, reduced, for the error bars of λ₀ and r₀, and a warning for each that could not
-    finish; neither where λ₀ and r₀ are not estimated.
+    method: Method, run: Callable[[Method, int], ImpactHistory], error_bars: str
+) -> tuple[list[Companion], list[str]]:
+    """Runs at other resolutions, reduced, for error bars, and a warning for each that could not finish.
 
-    error_bars : a key of :data:`comparison.match.COMPANIONS`.
+    run : simulates with a method and a number of saved instants. error_bars : a key of
+    :data:`comparison.match.COMPANIONS`.
     """
     one_of("error_bars", error_bars, COMPANIONS)
-    found: list[Moments] = []
+    found: list[Companion] = []
     lost: list[str] = []
-    if comparable(impact) and not impact.loaded and predict(impact, [end_time]).times[0].valid:
-        for factor in COMPANIONS[error_bars]:
-            other = refined(method, factor)
-            if other is not None:
-                try:
-                    found.append(moments(other.simulate(impact, end_time=end_time, save=INSTANTS)))
-                except (SimulationError, ValueError) as error:  # a coarser run may be too coarse
-                    lost.append(without_companion(factor, error))
+    for factor in COMPANIONS[error_bars]:
+        other = refined(method, factor)
+        if other is not None:
+            try:
+                found.append(Companion.of(run(other, INSTANTS)))
+            except (SimulationError, ValueError) as error:  # a coarser run may be too coarse
+                lost.append(without_companion(factor, error))
     return found, lost
 
 
@@ -55,7 +82,7 @@ def summary(
     history: ImpactHistory,
     file: Path | None = None,
     section: Section | None = None,
-    others: Sequence[Moments] = (),
+    others: Sequence[Companion] = (),
 ) -> dict[str, Any]:
     """What a run did and found, SI units; the theory's numbers only where it claims to hold, stress with a section."""
     impact, time = history.impact, history.time
@@ -66,11 +93,13 @@ def summary(
     leading = None
     if row and not impact.loaded:
         try:
-            leading = leading_order(found, companions=others)
+            leading = leading_order(found, companions=[other.moments for other in others])
         except ValueError:
             pass
-    front = found.front[-1]
-    peak = peak_moment(history)
+    own, peak = Companion.of(history), peak_moment(history)
+    bars = {name: _bar(getattr(own, name), [getattr(other, name) for other in others]) for name in NUMBERS}
+    stress = None if section is None else section.stress(peak.moment, impact.axial_force)
+    energy, balance = energy_at_end(history), balance_of(history)
     return {
         "path": history.path,
         "symmetry": history.symmetry,
@@ -79,8 +108,10 @@ def summary(
         "steps": history.steps,
         "seconds": history.seconds,
         "time": end,
-        "half_contact_length": Compared(front * impact.length_scale, None, row.half_contact_length if row else None),
-        "total_impulse": Compared(history.array("total_impulse")[-1], None, row.impulse if row else None),
+        "half_contact_length": Measured(
+            own.half_contact_length, bars["half_contact_length"], row.half_contact_length if row else None
+        ),
+        "total_impulse": Measured(own.total_impulse, bars["total_impulse"], row.impulse if row else None),
         "lambda0": _estimated(
             None if leading is None else leading.lambda0, None if infinite is None else infinite.lambda0
         ),
@@ -89,15 +120,39 @@ def summary(
         "pull": pull_of(history),
         "hold": hold_of(history),
         "peak_moment": peak.moment,
+        "peak_moment_error": bars["peak_moment"],
         "peak_moment_place": peak.place,
         "peak_moment_time": peak.time,
-        "peak_stress": None if section is None else section.stress(peak.moment, impact.axial_force),
+        "peak_stress": stress,
+        "peak_stress_error": None if section is None or others == [] else section.stress(bars["peak_moment"] or 0.0),
         "yield_stress": None if section is None else section.yield_stress,
-        "energy": energy_at_end(history),
+        "energy": energy,
+        "numerical_loss": numerical_loss(energy),
+        "momentum_residual": balance.momentum,
+        "initial_energy_residual": balance.initial_energy,
+        "gap_of_push": balance.gap_of_push,
         "hits": [asdict(hit) for hit in hits(history)] if _hits_apart(impact) else None,
-        "warnings": history.warnings,
+        "warnings": [*history.warnings, *loss_warnings(numerical_loss(energy)), *balance.warnings],
         "file": None if file is None else str(file),
     }
+
+
+def _bar(value: float, others: Sequence[float]) -> float | None:
+    """What other resolutions change, with a margin for elements of first order; ``None`` without any."""
+    return BAR * max(abs(other - value) for other in others) if others else None
+
+
+def numerical_loss(energy: dict[str, float | None]) -> float:
+    """Share of the initial energy that the scheme, the mesh and its viscosity took."""
+    taken = sum(energy[name] or 0.0 for name in ("loss_algorithmic", "loss_viscous"))
+    return taken / (energy["initial"] or 1.0)
+
+
+def loss_warnings(share: float) -> list[str]:
+    """A warning where :func:`numerical_loss` is notable."""
+    if share < NOTABLE_LOSS:
+        return []
+    return [f"time integration and grid viscosity took {100.0 * share:.2g} % of the initial energy"]
 
 
 def _hits_apart(impact: Impact) -> bool:
@@ -105,8 +160,8 @@ def _hits_apart(impact: Impact) -> bool:
     return impact.opposite_wall is not None or impact.off_centre
 
 
-def _estimated(found: Estimate | None, theory: float | None) -> Compared:
-    return Compared(theory=theory) if found is None else Compared(found.value, found.error, theory)
+def _estimated(found: Measured | None, theory: float | None) -> Measured:
+    return replace(found or MISSING, theory=theory)
 
 
 def energy_at_end(history: ImpactHistory) -> dict[str, float | None]:
@@ -128,6 +183,9 @@ def run_table(found: dict[str, Any]) -> str:
     def number(value: float | None) -> str:
         return "-" if value is None else f"{value:.6g}"
 
+    def bar(value: float | None) -> str:
+        return "" if value is None else f"{value:.1g}"
+
     lines = []
     for name, key, unit in (
         ("half contact length", "half_contact_length", "m"),
@@ -138,20 +196,23 @@ def run_table(found: dict[str, Any]) -> str:
         c = found[key]
         if c.measured or c.theory is not None:
             theory = "outside its range" if c.theory is None else number(c.theory)
-            bar = "" if c.error is None else f"{c.error:.1g}"
-            lines.append([name, number(c.value), bar, unit, theory])
+            lines.append([name, number(c.value), bar(c.error), unit, theory])
     lines += [
-        ["largest bending moment", number(found["peak_moment"]), "", "N m", ""],
-        *([["largest stress", number(found["peak_stress"]), "", "Pa", ""]] if found["peak_stress"] is not None else []),
+        ["largest bending moment", number(found["peak_moment"]), bar(found["peak_moment_error"]), "N m", ""],
+        *_stress_line(found),
         ["lift of the zone over V0 t", number(found["lift"]), "", "1", ""],
         ["largest pull over largest push", number(found["pull"]), "", "1", ""],
     ]
     energy = found["energy"]
     for name, value in energy.items():
-        if value is not None:
+        if value is not None and name != "defect":
             titles = {"kinetic": "kinetic energy at the end", "strain": "strain energy at the end"}
             title = titles.get(name, "initial energy" if name == "initial" else name.replace("_", " "))
             lines.append([title, number(value), "", "J", ""])
+    lines += [
+        ["energy residual", number(energy["defect"]), "", "J", ""],
+        ["momentum residual over mu L V0", number(found["momentum_residual"]), "", "1", ""],
+    ]
     text = [
         f"{found['path']}, {found['time']:.6g} s after first contact; "
         f"{found['steps']} steps took {found['seconds']:.2f} s",
@@ -171,6 +232,13 @@ def run_table(found: dict[str, Any]) -> str:
     if found["file"]:
         text.append(f"history: {found['file']}")
     return "\n".join(text)
+
+
+def _stress_line(found: dict[str, Any]) -> list[list[str]]:
+    if found["peak_stress"] is None:
+        return []
+    bar = "" if found["peak_stress_error"] is None else f"{1e-6 * found['peak_stress_error']:.1g}"
+    return [["largest stress", f"{1e-6 * found['peak_stress']:.6g}", bar, "MPa", ""]]
 
 
 def _hits_table(rows: Sequence[dict[str, Any]]) -> str:

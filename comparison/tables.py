@@ -9,11 +9,11 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
-from comparison.compared import Compared
-from comparison.match import MatchRow, failures
 from comparison.plain import json_text, plain
+from comparison.rows import MatchRow, failures
 from comparison.store import write_atomically
 from comparison.text_table import text_table
+from measure.measured import Measured
 
 __all__ = ["LEAST", "match_document", "match_table", "write_match"]
 
@@ -65,7 +65,7 @@ def row_name(row: MatchRow) -> str:
     return text + (f", refined {row.refine:g} times" if row.refine != 1.0 else "")
 
 
-def _cells(number: Compared, least: float) -> list[str]:
+def _cells(number: Measured, least: float) -> list[str]:
     if not number.measured:
         return ["-", "-"]
     off = number.relative(least)

@@ -79,23 +79,21 @@ def _wall(shape: Shape, scaling: Scaling, centre: int, half: bool, explicit: boo
         first_spread=first_spread,
         plastic=thin_front(scaling.kappa) and first_spread >= 1.0 and not explicit,
         explicit=explicit,
-        stiffness_unit=scaling.stiffness_per_length,
-        damping_unit=scaling.damping_per_length,
         opposite=None if opposite is None else -opposite / scaling.deflection,
     )
 
 
 def _load_end(beam: Beam, node: int, sign: float, scaling: Scaling) -> None:
     """The moment, shear and axial force that the free motion y₀ has at an end of the modelled beam."""
-    amplitude, end, force = scaling.amplitude, beam.shape.s[-1], beam.section.axial_force
-    psi, chi = amplitude * scaling.psi, amplitude * scaling.chi
-    # bending at the rate χ also takes the moment ηχ of the viscosity
-    viscous = beam.viscosity[node if node == 0 else -1] * chi
-    beam.load_node(node, beam.rotation_coordinate, sign * (psi * end**2 / 2 + viscous), sign * chi)
-    # the axial force acts along the beam's own end
-    angle = float(beam.shape.angle[node])
+    loads, a, x, force = scaling.loads, scaling.amplitude, float(beam.shape.s[node]), beam.section.axial_force
+    angle = float(beam.shape.angle[node])  # the axial force acts along the beam's own end
+    bending_rate = a * float(loads(x, by_x=2, by_t=1))
+    # bending at a rate also takes the moment of the viscosity
+    moment = a * float(loads(x, by_x=2)) + beam.viscosity[node if node == 0 else -1] * bending_rate
+    beam.load_node(node, beam.rotation_coordinate, sign * moment, sign * bending_rate)
     beam.load_node(node, beam.horizontal_coordinate, sign * force * math.cos(angle))
-    beam.load_node(node, beam.vertical_coordinate, -psi * end + sign * force * math.sin(angle), force * chi * end)
+    shear, turning = a * float(loads(x, by_x=3)), a * float(loads(x, by_x=1, by_t=1))
+    beam.load_node(node, beam.vertical_coordinate, sign * (force * math.sin(angle) - shear), sign * force * turning)
 
 
 def stable_step(beam: Beam, contact: ContactRun, integrator: Integrator) -> float:

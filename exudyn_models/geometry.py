@@ -10,13 +10,13 @@ and for small angles y = −Ks²/2 + q₀s⁴/24, ẏ = V₀ + c₀s²/2, the fr
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
-from typing import ClassVar, Protocol
+from typing import Annotated, ClassVar, Protocol
 
 import numpy as np
 
-from bent_beam.checks import between
+from bent_beam.fields import Part, Quantity
+from bent_beam.loads import FreeMotion
 from exudyn_models.arrays import Array
 from exudyn_models.scaling import Scaling, front_bound
 
@@ -62,8 +62,9 @@ class Shape:
         return np.diff(self.s)
 
 
-def _arc(s: Array, angle: Callable[[Array], Array], rate: float) -> tuple[Array, Array, Array, Array]:
-    """x, y and their velocities beyond V₀ of an unstretched line of given angles, turning at the rate ``rate``·s.
+def _arc(s: Array, motion: FreeMotion, amplitude: float) -> tuple[Array, Array, Array, Array]:
+    """x, y and their velocities beyond V₀ of an unstretched line of the angles, and turning at the rates, of the slopes
+    of ``motion`` times ``amplitude``.
 
     Four-point Gauss per element: exact to round-off for the small change of angle within one.
     """
@@ -74,7 +75,7 @@ def _arc(s: Array, angle: Callable[[Array], Array], rate: float) -> tuple[Array,
     def integral(values: Array) -> Array:
         return np.concatenate([[0.0], np.cumsum((values * weight).sum(axis=1))])
 
-    theta, turning = angle(at), rate * at
+    theta, turning = amplitude * motion(at, by_x=1), amplitude * motion(at, by_x=1, by_t=1)
     fields = (np.cos(theta), np.sin(theta), -turning * np.sin(theta), turning * np.cos(theta))
     centre = int(np.argmin(np.abs(s)))
     x, y, vx, vy = (f - f[centre] for f in map(integral, fields))
@@ -97,44 +98,41 @@ class Geometry(Protocol):
 
 
 @dataclass(frozen=True)
-class LinearLimit:
+class LinearLimit(Part):
     """Deflections scaled down until the beam is linear: the comparison with linear theory.
 
-    amplitude : deflection V₀T over the length Λ = (EI/μ)^{1/4}√T in the model; the history is scaled back. None: such
-        that slopes of the free motion stay below 1e-4 where the impact moves the beam, their square being what is left
-        of geometry.
+    The history is scaled back. The amplitude is chosen so that slopes of the free motion stay below 1e-4 where the
+    impact moves the beam, their square being what is left of geometry.
     """
 
+    where: ClassVar[str] = "exudyn.geometry"
     true: ClassVar[bool] = False
 
-    amplitude: float | None = None
-
-    def __post_init__(self) -> None:
-        if self.amplitude is not None:
-            between("geometry.amplitude", self.amplitude, 1e-9, 1.0)
+    amplitude: Annotated[
+        float | None,
+        Quantity("", "V₀T over (EI/μ)^{1/4}√T in the model", least=1e-9, most=1.0, absent=f"{STEEPEST:g} or less"),
+    ] = None
 
     def amplitude_of(self, scaling: Scaling, reach: float) -> float:
         if self.amplitude is not None:
             return self.amplitude
         far = min(reach, MOVED * front_bound(scaling.kappa)) + abs(scaling.first_touch)
-        bow = max(abs(scaling.kappa), abs(scaling.beam_kappa)) * far + abs(scaling.psi) * far**3 / 6
-        return STEEPEST / max(1.0, bow + abs(scaling.spin) + abs(scaling.chi) * far)
+        motion = scaling.motion_of(max(abs(scaling.kappa), abs(scaling.beam_kappa)))
+        largest = FreeMotion({powers: abs(c) for powers, c in motion.terms.items()})
+        return STEEPEST / max(1.0, float(largest(far, 1.0, by_x=1)))
 
     def shape(self, s: Array, scaling: Scaling, wall_share: float = 0.0) -> Shape:
-        k, c, q, a = scaling.beam_kappa - scaling.kappa * wall_share, scaling.chi, scaling.psi, scaling.amplitude
-        x = s
-        if scaling.axial_force:
-            # what carries a force must not be stretched by its own slope
-            x = _arc(s, lambda at: a * (-k * at + q * at**3 / 6), 0.0)[0]
-        bow = s - scaling.first_touch
+        k, a = scaling.beam_kappa - scaling.kappa * wall_share, scaling.amplitude
+        bow, motion = s - scaling.first_touch, scaling.motion_of(k)
         return Shape(
             s=s,
-            x=x,
-            y=a * (-k * bow**2 / 2 + q * bow**4 / 24),
-            angle=a * (-k * bow + q * bow**3 / 6),
+            # what carries a force must not be stretched by its own slope
+            x=_arc(s, motion, a)[0] if scaling.axial_force else s,
+            y=a * motion(bow),
+            angle=a * motion(bow, by_x=1),
             velocity_x=np.zeros_like(s),
-            velocity_y=a * (1 + scaling.spin * s + c * bow**2 / 2),
-            angular_velocity=a * (scaling.spin + c * bow),
+            velocity_y=a * motion(bow, by_t=1),
+            angular_velocity=a * motion(bow, by_x=1, by_t=1),
             curvature=-a * k,
             slender=False,
             wall_curvature=a * (scaling.kappa * wall_share - scaling.wall_kappa),
@@ -155,25 +153,23 @@ class TrueGeometry:
         return scaling.true_amplitude
 
     def shape(self, s: Array, scaling: Scaling, wall_share: float = 0.0) -> Shape:
-        k, c, q, a = scaling.beam_kappa - scaling.kappa * wall_share, scaling.chi, scaling.psi, scaling.amplitude
-
-        def angle(at: Array) -> Array:
-            return np.asarray(a * (-k * at + q * at**3 / 6))
-
-        if np.max(np.abs(angle(s))) > np.pi / 2:
+        k, a = scaling.beam_kappa - scaling.kappa * wall_share, scaling.amplitude
+        motion = scaling.motion_of(k)
+        angle = a * motion(s, by_x=1)
+        if np.max(np.abs(angle)) > np.pi / 2:
             raise ValueError(
                 f"geometry true: the modelled beam of half length {s[-1] * scaling.length:.4g} m turns by more "
                 "than a right angle; shorten run.end_time or beam.length, or use the linear limit"
             )
-        x, y, vx, vy = _arc(s, angle, a * c)
+        x, y, vx, vy = _arc(s, motion, a)
         return Shape(
             s=s,
             x=x,
             y=y,
-            angle=angle(s),
+            angle=angle,
             velocity_x=vx,
             velocity_y=a + vy,
-            angular_velocity=a * c * s,
+            angular_velocity=a * motion(s, by_x=1, by_t=1),
             curvature=-a * k,
             slender=True,
             wall_curvature=a * (scaling.kappa * wall_share - scaling.wall_kappa),

@@ -7,20 +7,17 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import ClassVar
 
+from bent_beam.free_flight import Separation
 from bent_beam.history import ImpactHistory
 from bent_beam.impact import Impact
-from bent_beam.method import Save, made_of
-from exudyn_models import whole_beam
+from bent_beam.method import Save, made_of, separation_times
+from exudyn_models import resolution
+from exudyn_models.arrays import Array
 from exudyn_models.composition import Composition
-from exudyn_models.contacts import Contact, Penalty
-from exudyn_models.resolution import thin_front
+from exudyn_models.recording import Recorder
 from exudyn_models.simulation import simulate
 
 __all__ = ["ExudynModel"]
-
-FIRST_ORDER_HOLD = 16  # elements behind the front; it ends when waves may be back, and every run states it
-FIRST_ORDER_STEPS = 4.0  # so many times shorter steps: λ₁ of (−1, −1, 0) at κ/ν = 0.8 is 5 % off without, 0.4 % with
-
 
 @dataclass(frozen=True)
 class ExudynModel(Composition):
@@ -35,10 +32,9 @@ class ExudynModel(Composition):
 
     label: str = "Exudyn"
 
-    for_whole_beam = whole_beam.with_parts_for_whole_beam
-    cross_checks = whole_beam.cross_checks
-    varied = whole_beam.varied
-    simulate_to_separation = whole_beam.simulate_to_separation
+    for_whole_beam = resolution.for_whole_beam
+    cross_checks = resolution.cross_checks
+    varied = resolution.varied
 
     def simulate(
         self,
@@ -53,8 +49,7 @@ class ExudynModel(Composition):
 
     def chosen_for(self, impact: Impact, end_time: float) -> ExudynModel:
         """A copy with mesh, element, steps and hold chosen for ``impact``: other impacts then run on the same ones."""
-        shorter = FIRST_ORDER_STEPS if self.integrator is None and impact.loaded else 1.0
-        chosen = dataclasses.replace(self, contact=self._held_for(impact)).chosen(impact, end_time, shorter)
+        chosen = resolution.choose(self, impact, end_time, for_loads=True)
         return dataclasses.replace(
             self,
             mesh=chosen.mesh,
@@ -64,13 +59,33 @@ class ExudynModel(Composition):
             refine=1.0,
         )
 
-    def _held_for(self, impact: Impact) -> Contact:
-        """The contact with the hold that suits the load, for the runs with and without load."""
-        contact = Penalty() if self.contact is None else self.contact
-        if impact.zone_pressure > 0.0 and self.contact is None and not thin_front(impact.kappa_over_nu):
-            # The load first closes what the rebound of the first instants has left. λ₁ of (4, 0, 0) at κ/ν = 0.5 is
-            # 12 % off without the hold, 0.1 % with it. Behind a thin front nothing rebounds.
-            return Penalty(hold=FIRST_ORDER_HOLD)
-        if impact.zone_pressure < 0.0 and isinstance(contact, Penalty) and contact.hold_start is None:
-            return dataclasses.replace(contact, hold_start=0.0)  # the load lifts the zone: no start is held
-        return contact
+    def simulate_to_separation(
+        self,
+        impact: Impact,
+        *,
+        longest: float | None = None,
+        save: int = 2000,
+        progress: Callable[[float], None] | None = None,
+    ) -> ImpactHistory:
+        """Follow ``impact`` until the beam has left for good (:func:`bent_beam.method.simulate_to_separation`)."""
+        times, separation = separation_times(impact, longest, save), Separation(impact)
+
+        def until(run: Recorder, t: float, q: Array, v: Array) -> bool:
+            scaling, beam = run.scaling, run.beam
+
+            def state() -> tuple[Array, Array, Array, float]:
+                energy = float(beam.kinetic_energy(v) + beam.strain_energy(q)) * scaling.energy
+                return (
+                    beam.shape.s * scaling.length,
+                    (run.wall_y - beam.deflection(q)) * scaling.deflection,
+                    v[beam.vertical] * scaling.velocity,
+                    energy * (2.0 if run.half else 1.0),
+                )
+
+            closed = bool(run.active.any())
+            if not closed:
+                run.sum_up()
+            return separation(t * scaling.end_time, run.pushed, state, closed=closed)
+
+        parts = made_of(self.for_whole_beam(impact))
+        return simulate(impact, end_time=float(times[-1]), save=times, progress=progress, until=until, **parts)

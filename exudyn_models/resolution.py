@@ -6,35 +6,57 @@ plastic (:mod:`exudyn_models.contacts.penalty`), not the bending ahead. A run th
 lasts until waves are back from the ends needs every part of the beam alike, and steps that resolve the contact: one
 that closes a node in a step much longer than the penalty's own time gives half of the reaction once more in the next,
 and the beam leaves with more energy than it had. There the mesh is uniform and h = ½Δx²√(μ/EI).
+
+**The whole beam**, from the first touch to the last separation, asks for something else: nothing may be held, nothing
+damped but by the beam itself, and every part of it matters alike. So
+
+    a uniform mesh,   constant steps,   the trapezoidal rule,   no viscosity at grid scale.
+
+A beam that touches in a point takes h = ½Δx²√(μ/EI) and the penalty as it is. Where a zone spreads, e is off by what
+elements lose that land, about in proportion to Δx; how stiff the penalty is, how it is damped and how long the steps
+are matters less, as long as the steps resolve the penalty. So there elements are shorter, steps √2 times as long for
+them, and the penalty half as stiff, with the same damping ratio: kh² and dh stay what they are. With a mesh, steps or
+contact of somebody's own, and where the beam is so flat that its front asks for a stiffer penalty, steps and penalty
+are as for a point; elements are shorter wherever no mesh is given.
 """
 
 from __future__ import annotations
 
 import dataclasses
 import math
-from typing import Any, cast
+from dataclasses import dataclass
+from typing import Any, TypeVar, cast
 
 import numpy as np
 
 from bent_beam import Impact
 from bent_beam.checks import positive
 from bent_beam.impact import FIRST_SPREAD
-from bent_beam.meshes import Mesh, NodesMesh, ScaleFreeMesh
+from bent_beam.meshes import Mesh, NodesMesh, ScaleFreeMesh, UniformMesh
 from exudyn_models.arrays import Array, Indices
-from exudyn_models.integrators import Integrator
+from exudyn_models.composition import Composition
+from exudyn_models.contacts import Contact, Penalty, penalty
+from exudyn_models.elements import ANCFCable, Element
+from exudyn_models.geometry import Geometry
+from exudyn_models.integrators import Integrator, Trapezoidal
 from exudyn_models.scaling import Scaling, front_bound
+from exudyn_models.solvers import NewtonSolver
 
 __all__ = [
+    "Chosen",
+    "choose",
     "chosen_half_length",
     "chosen_mesh",
-    "chosen_steps",
+    "cross_checks",
     "far_field",
-    "lasts_until_waves_return",
+    "for_whole_beam",
+    "held_for",
     "reachable",
-    "refined_choice",
-    "resolving_step",
     "thin_front",
+    "varied",
 ]
+
+C = TypeVar("C", bound=Composition)
 
 GROWTH = 0.01  # neighbours of the chosen mesh: 5 elements over the front's bending length at κ/ν = 0.05, 20 at 0.2
 THIN = 0.04  # κ/ν below which the front passes an element of that mesh about as fast as the element bends
@@ -49,6 +71,53 @@ ELEMENT_STEPS = 4e5  # elements times steps of a run with uniform elements: a fe
 FEWEST = 60  # uniform elements of a half beam, from 0.9 T* on; tests/exudyn_models/test_exudyn_constants.py
 STEP = 0.5  # h/(Δx²√(μ/EI)) that resolves the contact
 MOST_STEPS = 200_000  # that an open time step may ask for
+FIRST_ORDER_HOLD = 16  # elements behind the front; it ends when waves may be back, and every run states it
+FIRST_ORDER_STEPS = 4.0  # so many times shorter steps: λ₁ of (−1, −1, 0) at κ/ν = 0.8 is 5 % off without, 0.4 % with
+CONTACT = Penalty(hold_start=0.0)
+POINT_ELEMENTS = 100  # of a half beam that touches in a point; half as many: e moves by 4e-5
+ZONE_ELEMENTS = 240  # where a zone spreads, κ/ν < 1; 220 to 300: e within 1.5e-4 at κ/ν = 0.4, η/T* = 1e-2, the worst
+SLOWER = math.sqrt(2.0)  # its steps; the penalty is softer by the square
+FLATTEST = 1.0 / 150.0  # κ/ν down to which the front does not ask for a stiffer penalty
+
+
+@dataclass(frozen=True)
+class Chosen:
+    """The parts of one run, none of them open."""
+
+    mesh: Mesh
+    element: Element
+    integrator: Integrator
+    contact: Contact
+    geometry: Geometry
+    solver: NewtonSolver
+
+
+def choose(parts: Composition, impact: Impact, end_time: float, *, for_loads: bool = False) -> Chosen:
+    """The parts of a run of ``impact`` to ``end_time`` (s).
+
+    for_loads : the run measures what the loads of ``impact`` change: open steps are shorter, an open contact holds.
+    """
+    shorter = FIRST_ORDER_STEPS if for_loads and parts.integrator is None and impact.loaded else 1.0
+    if for_loads:
+        parts = dataclasses.replace(parts, contact=held_for(parts.contact, impact))
+    contact, element, integrator, geometry, solver = parts.joined()
+    mesh = parts.mesh or chosen_mesh(impact, end_time, explicit=integrator.explicit)
+    mesh, integrator = mesh.refined(parts.refine), integrator.refined(parts.refine * shorter)
+    if parts.integrator is None:
+        integrator = chosen_steps(integrator, mesh, impact, end_time)
+    return Chosen(mesh, element, integrator, contact, geometry, solver)
+
+
+def held_for(contact: Contact | None, impact: Impact) -> Contact:
+    """The contact with the hold that suits the load, for the runs with and without load."""
+    if impact.zone_pressure > 0.0 and contact is None and not thin_front(impact.kappa_over_nu):
+        # The load first closes what the rebound of the first instants has left. λ₁ of (4, 0, 0) at κ/ν = 0.5 is
+        # 12 % off without the hold, 0.1 % with it. Behind a thin front nothing rebounds.
+        return Penalty(hold=FIRST_ORDER_HOLD)
+    contact = contact or Penalty()
+    if impact.zone_pressure < 0.0 and isinstance(contact, Penalty) and contact.hold_start is None:
+        return dataclasses.replace(contact, hold_start=0.0)  # the load lifts the zone: no start is held
+    return contact
 
 
 def far_field(scaling: Scaling) -> float:
@@ -60,9 +129,10 @@ def far_field(scaling: Scaling) -> float:
     kappa = scaling.kappa
     reach = REACH + REACH_OF_FRONT * math.sqrt(2.0 / max(kappa, 2e-3))
     # a growing velocity (χ > 0) or an upward bent end (ψ > 0) would bring the far field to the wall: stay well inside
-    spread = kappa - max(scaling.chi, 0.0)
-    if scaling.psi > 0.0 and spread > 0.0:
-        reach = min(reach, 0.6 * math.sqrt(12.0 * spread / scaling.psi))
+    chi, psi = scaling.motion.terms[2, 1], scaling.motion.terms[4, 0]
+    spread = kappa - max(chi, 0.0)
+    if psi > 0.0 and spread > 0.0:
+        reach = min(reach, 0.6 * math.sqrt(12.0 * spread / psi))
     return reach
 
 
@@ -149,35 +219,81 @@ def _step_over_elements(mesh: Mesh, impact: Impact, end: float) -> float:
     return 2.0 * PASSED * float(places[k] - places[k - 1]) / float(places[k])
 
 
-def refined_choice(
-    mesh: Mesh | None,
-    integrator: Integrator,
-    impact: Impact,
-    end_time: float | None,
-    *,
-    open_steps: bool,
-    refine: float,
-    shorter: float = 1.0,
-) -> tuple[Mesh, Integrator]:
-    """Mesh, chosen where none is given, and integrator, both ``refine`` times finer, steps ``shorter`` times more.
-
-    open_steps : nobody asked for the integrator, so that its steps may be chosen, too.
-    """
-    laid = chosen_mesh(impact, end_time, explicit=integrator.explicit) if mesh is None else mesh
-    laid, integrator = laid.refined(refine), integrator.refined(refine * shorter)
-    return laid, chosen_steps(integrator, laid, impact, end_time) if open_steps else integrator
-
-
 def reachable(x: Array, scaling: Scaling, centre: int) -> Indices:
     """Nodes that may touch: half as far again as the free motion would carry the beam into the wall, and all where
     waves from the ends may throw any of them at it."""
     impact = scaling.impact
-    if impact.opposite_wall is not None or scaling.spin or lasts_until_waves_return(impact, scaling.end_time):
+    if impact.opposite_wall is not None or impact.rotation or lasts_until_waves_return(impact, scaling.end_time):
         return np.arange(x.size)
     times = np.linspace(0.05, 1.0, 20)[:, None]
-    inside = (scaling.free_deflection(x[None, :], times) > 0.0).any(axis=0)
+    inside = (scaling.motion(x[None, :] - scaling.first_touch, times) > 0.0).any(axis=0)
     place = np.abs(x - scaling.first_touch)
     reach = 1.5 * place[inside].max(initial=0.0)
     wide = place <= reach * (1.0 + 1e-9)  # a node right there belongs, whatever its round-off
     wide[max(0, centre - 20) : centre + 21] = True
     return np.flatnonzero(wide)
+
+
+def for_whole_beam(method: C, impact: Impact) -> C:
+    """A copy of ``method`` whose open parts are those of the module's head; its ``refine`` is worked in."""
+    elements = ZONE_ELEMENTS if impact.kappa_over_nu < 1.0 else POINT_ELEMENTS
+    chosen = method.mesh is None and method.contact is None and method.integrator is None
+    slower = SLOWER if chosen and FLATTEST <= impact.kappa_over_nu < 1.0 else 1.0
+    mesh = UniformMesh(impact.half_length / elements) if method.mesh is None else method.mesh
+    mesh = mesh.refined(method.refine)
+    integrator = method.integrator
+    if integrator is None:
+        integrator = Trapezoidal(time_step=slower * resolving_step(mesh, impact))
+    else:
+        integrator = integrator.refined(method.refine)
+    contact = method.contact
+    if contact is None:
+        contact = CONTACT if slower == 1.0 else _softer(CONTACT, slower**-2)
+    return dataclasses.replace(
+        method,
+        mesh=mesh,
+        element=ANCFCable(viscosity=0.0) if method.element is None else method.element,
+        integrator=integrator,
+        contact=contact,
+        full_beam=method.full_beam or impact.off_centre,
+        refine=1.0,
+    )
+
+
+def cross_checks(method: C, impact: Impact) -> dict[str, C]:
+    """What stands beside ``method`` for error bars, by cause: half as many elements (and steps in proportion to their
+    square), steps twice as long, and, of a penalty, a quarter of the stiffness, whose own time is twice as long, with
+    these steps too."""
+    chosen = for_whole_beam(method, impact)
+    mesh, integrator, contact = chosen.mesh, chosen.integrator, chosen.contact
+    assert mesh is not None and integrator is not None
+    checks = {
+        "mesh": dataclasses.replace(chosen, mesh=mesh.refined(0.5), integrator=integrator.refined(0.25)),
+        "step": dataclasses.replace(chosen, integrator=integrator.refined(0.5)),
+    }
+    if isinstance(contact, Penalty):
+        softer = _softer(contact, 0.25)
+        checks["contact_law"] = dataclasses.replace(chosen, integrator=integrator.refined(0.5), contact=softer)
+    return checks
+
+
+def _softer(contact: Penalty, factor: float) -> Penalty:
+    """A penalty of ``factor`` times the stiffness with the same damping ratio; damping left open follows by itself."""
+
+    stiffness, damping = contact.relative_stiffness or penalty.STIFFNESS, contact.relative_damping
+    return dataclasses.replace(
+        contact,
+        relative_stiffness=stiffness * factor,
+        relative_damping=None if damping is None else damping * math.sqrt(factor),
+    )
+
+
+def varied(method: C, impact: Impact, random: np.random.Generator) -> C:
+    """A method for an ensemble: elements, steps and stiffness of the penalty drawn at random."""
+    elements = int(random.integers(2 * POINT_ELEMENTS // 5, 4 * POINT_ELEMENTS // 5))
+    length = impact.half_length / elements
+    step = STEP * 2.0 ** random.uniform(-0.5, 0.5) * length**2 / impact.wave_constant
+    contact = _softer(CONTACT, 2.0 ** random.uniform(-2.0, 0.0))
+    return dataclasses.replace(
+        method, mesh=UniformMesh(length), integrator=Trapezoidal(time_step=step), contact=contact
+    )

@@ -17,10 +17,8 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-import numpy as np
-
 from bent_beam import Impact
-from exudyn_models.arrays import Array
+from bent_beam.loads import FreeMotion
 
 __all__ = ["Scaling", "front_bound"]
 
@@ -35,12 +33,11 @@ class Scaling:
     """Conversions between SI and model units (model × factor = SI) for one impact followed to ``end_time`` (s).
 
     length : Λ = (EI/μ)^{1/4} √T, m; true_amplitude : V₀T/Λ, at which the model has the shape of the real beam.
-    deflection (m), velocity (m/s), slope, impulse (N s), energy (J), and of a foundation stiffness_per_length (N/m²)
-        and damping_per_length (N s/m²): factors.
-    kappa : of the beam against the wall; beam_kappa, wall_kappa, spin, alpha, chi, psi : of the free motion
-        y₀/amplitude = t(1 + spin x) − κx²/2 + αt²/2 + χx²t/2 + ψx⁴/24, x measured from first_touch (Λ).
-    axial_force : N Λ²/EI; load : uniform load (EI q₀ + μ a₀ + N K) per unit length over amplitude, under which y₀ is
-        the motion without contact.
+    deflection (m), velocity (m/s), slope, impulse (N s), energy (J) : factors.
+    kappa : of the beam against the wall; beam_kappa, wall_kappa : of each.
+    motion : y₀ − y_w over amplitude, x from first_touch (Λ); loads : its terms by which the ends are loaded.
+    axial_force : N Λ²/EI; load : uniform load per unit length over amplitude, under which y₀ is the motion without
+        contact.
     """
 
     impact: Impact
@@ -53,16 +50,11 @@ class Scaling:
     slope: float
     impulse: float
     energy: float
-    stiffness_per_length: float
-    damping_per_length: float
     kappa: float
     beam_kappa: float
     wall_kappa: float
     first_touch: float
-    spin: float
-    alpha: float
-    chi: float
-    psi: float
+    motion: FreeMotion
     axial_force: float
     load: float
 
@@ -71,10 +63,6 @@ class Scaling:
         length = math.sqrt(impact.wave_constant * end_time)
         deflection = impact.velocity * end_time / amplitude
         velocity = impact.velocity / amplitude
-        duration = end_time / impact.time_scale
-        beam_kappa = impact.curvature * impact.length_scale
-        alpha, psi = impact.epsilon_alpha * duration, impact.epsilon_psi * duration
-        axial_force = impact.epsilon_axial * duration
         return cls(
             impact=impact,
             end_time=end_time,
@@ -86,22 +74,19 @@ class Scaling:
             slope=deflection / length,
             impulse=impact.mass_per_length * length * velocity,
             energy=impact.mass_per_length * length * velocity**2,
-            stiffness_per_length=impact.bending_stiffness / length**4,
-            damping_per_length=impact.mass_per_length / end_time,
             kappa=impact.kappa_over_nu,
-            beam_kappa=beam_kappa,
+            beam_kappa=impact.curvature * impact.length_scale,
             wall_kappa=impact.wall_curvature * impact.length_scale,
             first_touch=impact.first_touch / length,
-            spin=impact.rotation * length / impact.velocity,
-            alpha=alpha,
-            chi=impact.epsilon_chi * duration,
-            psi=psi,
-            axial_force=axial_force,
-            load=alpha + psi + axial_force * beam_kappa,
+            motion=impact.free_motion(impact.relative_curvature).scaled(length, end_time, impact.velocity * end_time),
+            axial_force=impact.epsilon_axial * end_time / impact.time_scale,
+            load=impact.uniform_pressure * end_time / (impact.mass_per_length * impact.velocity),
         )
 
-    def free_deflection(self, x: Array, t: Array | float) -> Array:
-        """y₀ at places ``x`` and time ``t`` (model units, amplitude 1), broadcast."""
-        spin, x = self.spin * x, x - self.first_touch
-        bow = -self.kappa * x**2 / 2 + self.psi * x**4 / 24
-        return np.asarray(bow + t * (1 + spin) + self.alpha * t**2 / 2 + self.chi * x**2 * t / 2)
+    def motion_of(self, kappa: float) -> FreeMotion:
+        """``motion`` of a beam of curvature ``kappa``."""
+        return FreeMotion({**self.motion.terms, (2, 0): -kappa})
+
+    @property
+    def loads(self) -> FreeMotion:
+        return self.motion_of(0.0).bending()

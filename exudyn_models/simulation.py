@@ -22,10 +22,11 @@ from bent_beam.meshes import NodesMesh, checked_nodes, mirrored
 from bent_beam.parts import describe
 from exudyn_models.arrays import Array
 from exudyn_models.assembly import assemble, stable_step
-from exudyn_models.composition import Chosen, Composition
+from exudyn_models.composition import Composition
 from exudyn_models.contacts import ContactRun
 from exudyn_models.geometry import Shape
 from exudyn_models.recording import Recorder
+from exudyn_models.resolution import Chosen, choose
 from exudyn_models.scaling import Scaling, front_bound
 from exudyn_models.settling import Settling
 from exudyn_models.solvers import quiet
@@ -81,7 +82,7 @@ def simulate(
     if reason:
         raise ValueError(reason)
     began = clock.perf_counter()
-    chosen = composition.chosen(impact, end)
+    chosen = choose(composition, impact, end)
     layout = _lay_out(impact, end, chosen, composition.full_beam)
     with quiet():
         stepping = _build(layout, chosen, not composition.full_beam, targets)
@@ -190,7 +191,7 @@ def _described(layout: _Layout, chosen: Chosen, stepping: Stepping) -> dict[str,
         "modelled_half_length": float(layout.half_length),
         "amplitude": scaling.amplitude,
         "amplitude_of_the_real_beam": scaling.true_amplitude,
-        "ends": "moment and shear of the free motion" if scaling.psi or scaling.chi else "free",
+        "ends": "moment and shear of the free motion" if any(scaling.loads.terms.values()) else "free",
         "first_step": stepping.segments[0].length * end,
         "last_step": stepping.segments[-1].length * end,
     }

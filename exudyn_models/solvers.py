@@ -10,65 +10,57 @@ from __future__ import annotations
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
-from typing import Any
+from typing import Annotated, Any, ClassVar
 
 import exudyn as exu
 
-from bent_beam.checks import one_of, positive, whole
+from bent_beam.fields import Part, Quantity
 
 __all__ = ["SOLVERS", "NewtonSolver", "quiet"]
 
-LINEAR = {"sparse": exu.LinearSolverType.EigenSparse, "dense": exu.LinearSolverType.EXUdense}
-
 
 @dataclass(frozen=True)
-class NewtonSolver:
+class NewtonSolver(Part):
     """How each implicit step is solved.
 
-    absolute_tolerance, relative_tolerance : of the residual; the absolute one in units of the model's amplitude. It and
-        ``contact_tolerance`` are raised to the round-off of the contact's own forces where those are larger.
-    contact_tolerance : force, in the same units, below which a change of the contact state does not repeat the step.
-    iterations : most Newton iterations a step.
-    contact_iterations : most repetitions of a step until its contact state has settled (:mod:`exudyn_models.settling`).
-    contact_must_settle : fail when they run out; otherwise the run goes on and a warning counts the steps.
-    halve_steps : let Exudyn shorten a step that fails (down to 1/1000) before giving up.
-    modified_newton : keep the Jacobian while it converges.
-    linear_solver : "sparse" or "dense".
-    initial_accelerations : solve for the accelerations at t = 0 instead of starting from none.
+    The absolute tolerance and that of the contact are in units of the model's amplitude, and raised to the round-off of
+    the contact's own forces where those are larger.
     """
 
-    absolute_tolerance: float = 1e-8
-    relative_tolerance: float = 1e-5
-    contact_tolerance: float = 1e-4
-    iterations: int = 25
-    contact_iterations: int = 300
-    contact_must_settle: bool = True
-    halve_steps: bool = False
-    modified_newton: bool = True
-    linear_solver: str = "sparse"
-    initial_accelerations: bool = True
+    where: ClassVar[str] = "exudyn.solver"
 
-    def __post_init__(self) -> None:
-        positive("exudyn.solver.absolute_tolerance", self.absolute_tolerance)
-        positive("exudyn.solver.relative_tolerance", self.relative_tolerance)
-        positive("exudyn.solver.contact_tolerance", self.contact_tolerance)
-        whole("exudyn.solver.iterations", self.iterations, 1)
-        whole("exudyn.solver.contact_iterations", self.contact_iterations, 1)
-        one_of("exudyn.solver.linear_solver", self.linear_solver, LINEAR)
+    absolute_tolerance: Annotated[float, Quantity("", "of the residual", above=0.0)] = 1e-8
+    relative_tolerance: Annotated[float, Quantity("", "of the residual", above=0.0)] = 1e-5
+    contact_tolerance: Annotated[
+        float, Quantity("", "force below which a change of the contact state does not repeat the step", above=0.0)
+    ] = 1e-4
+    iterations: Annotated[int, Quantity("", "most Newton iterations a step", least=1)] = 25
+    contact_iterations: Annotated[
+        int, Quantity("", "most repetitions of a step until its contact state has settled", least=1)
+    ] = 300
+    contact_must_settle: Annotated[
+        bool, Quantity("", "fail when they run out; otherwise a warning counts the steps")
+    ] = True
+    halve_steps: Annotated[
+        bool, Quantity("", "let Exudyn shorten a step that fails (down to 1/1000) before giving up")
+    ] = False
+    initial_accelerations: Annotated[
+        bool, Quantity("", "solve for the accelerations at t = 0 instead of starting from none")
+    ] = True
 
     def settings(self, amplitude: float, round_off: float = 0.0) -> Any:
         """Fresh ``exudyn.SimulationSettings`` with these choices and no files; ``round_off`` of the contact forces."""
         settings = exu.SimulationSettings()
         settings.solution.file.write = False
         settings.solution.sensors.active = False
-        settings.linearSolver.solverType = LINEAR[self.linear_solver]
-        settings.linearSolver.reuseAnalyzedPattern = self.linear_solver == "sparse"
+        settings.linearSolver.solverType = exu.LinearSolverType.EigenSparse
+        settings.linearSolver.reuseAnalyzedPattern = True
         time = settings.timeIntegration
         time.verboseMode = 0
         time.stepInformation = 0
         time.adaptiveStep = self.halve_steps
         time.generalizedAlpha.computeInitialAccelerations = self.initial_accelerations
-        time.newton.useModifiedNewton = self.modified_newton
+        time.newton.useModifiedNewton = True
         time.newton.absoluteTolerance = max(self.absolute_tolerance * amplitude, round_off)
         time.newton.relativeTolerance = self.relative_tolerance
         time.newton.maxIterations = self.iterations

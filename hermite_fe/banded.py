@@ -20,8 +20,8 @@ from numpy.typing import NDArray
 
 from hermite_fe.compiled import compiled
 
-__all__ = ["FADED", "PAD", "combine", "copy", "dot", "factor", "multiply", "row_sums", "stiff_multiply",
-           "substitute_back", "substitute_forward"]  # fmt: skip
+__all__ = ["FADED", "PAD", "combine", "copy", "dot", "factor", "multiply", "product", "row_sums", "stiff_multiply",
+           "stiff_product", "substitute_back", "substitute_forward"]  # fmt: skip
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
@@ -34,30 +34,14 @@ FADED = 1e-100
 
 
 @compiled
-def edge_row(A: Array, x: Array, i: int) -> float:
-    """Row i of A x, also near the ends."""
-    total = A[0, i] * x[i]
-    for m in range(1, 4):
-        if i >= m:
-            total += A[m, i - m] * x[i - m]
-        if i + m < x.size:
-            total += A[m, i] * x[i + m]
-    return total
-
-
-@compiled
 def multiply(A: Array, x: Array, y: Array) -> None:
     """y = A x."""
-    n = x.size
-    for i in range(min(3, n)):
-        y[i] = edge_row(A, x, i)
-    for i in range(max(3, n - 3), n):
-        y[i] = edge_row(A, x, i)
-    for o in range(n - 6):  # row o + 3: indices that may be negative are slow in numba
-        y[o + 3] = (
-            A[3, o] * x[o] + A[2, o + 1] * x[o + 1] + A[1, o + 2] * x[o + 2] + A[0, o + 3] * x[o + 3]
-            + A[1, o + 3] * x[o + 4] + A[2, o + 3] * x[o + 5] + A[3, o + 3] * x[o + 6]
-        )  # fmt: skip
+    for i in range(x.size):
+        y[i] = A[0, i] * x[i]
+    for m in range(1, 4):
+        for i in range(x.size - m):
+            y[i] += A[m, i] * x[i + m]
+            y[i + m] += A[m, i] * x[i]
 
 
 def row_sums(A: Array) -> Array:
@@ -79,45 +63,43 @@ def row_sums(A: Array) -> Array:
 
 
 @compiled
-def stiff_edge_row(A: Array, sums: Array, x: Array, i: int) -> float:
-    """Row i of :func:`stiff_multiply`, anywhere."""
-    n = x.size
-    left = x[i - 1] if i >= 1 else 0.0
-    total = sums[0, i] * x[i] + (sums[1, i] * left if i >= 1 else 0.0)
-    if i >= 2:
-        total += A[2, i - 2] * (x[i - 2] - x[i])
-    if i + 2 < n:
-        total += A[2, i] * (x[i + 2] - x[i])
-    if i >= 3:
-        total += A[3, i - 3] * (x[i - 3] - left)
-    if i + 1 < n:
-        total += A[1, i] * (x[i + 1] - left)
-    if i + 3 < n:
-        total += A[3, i] * (x[i + 3] - left)
-    return total
-
-
-@compiled
 def stiff_multiply(A: Array, sums: Array, x: Array, y: Array) -> None:
     """y = A x for a stiffness whose large entries cancel, by differences between deflections and between slopes.
 
     A(i, ·)x = Σ_even A(i, j)(x_j − x_i) + even_i x_i + Σ_odd A(i, j)(x_j − x_{i−1}) + odd_i x_{i−1}
 
-    for j − i even or odd, with ``sums`` = (even, odd) of :func:`row_sums`. Round-off errors are those of
-    the differences, not of 12EI/Δx³·x.
+    for j − i even or odd, with ``sums`` = (even, odd) of :func:`row_sums`, and x_{−1} = 0. Round-off errors are those
+    of the differences, not of 12EI/Δx³·x.
     """
-    n = x.size
-    for i in range(min(3, n)):
-        y[i] = stiff_edge_row(A, sums, x, i)
-    for i in range(max(3, n - 3), n):
-        y[i] = stiff_edge_row(A, sums, x, i)
-    for o in range(n - 6):  # row o + 3
-        left, here = x[o + 2], x[o + 3]
-        y[o + 3] = (
-            (sums[0, o + 3] * here + sums[1, o + 3] * left)
-            + (A[2, o + 1] * (x[o + 1] - here) + A[2, o + 3] * (x[o + 5] - here))
-            + (A[3, o] * (x[o] - left) + A[1, o + 3] * (x[o + 4] - left) + A[3, o + 3] * (x[o + 6] - left))
-        )
+    n, left = x.size, 0.0
+    for i in range(n):
+        y[i] = sums[0, i] * x[i] + sums[1, i] * left
+        left = x[i]
+    for i in range(n - 2):
+        change = A[2, i] * (x[i + 2] - x[i])
+        y[i] += change
+        y[i + 2] -= change
+    left = 0.0
+    for i in range(n - 1):
+        y[i] += A[1, i] * (x[i + 1] - left)
+        if i + 3 < n:
+            y[i] += A[3, i] * (x[i + 3] - left)
+            y[i + 3] += A[3, i] * (x[i] - x[i + 2])
+        left = x[i]
+
+
+def product(A: Array, x: Array) -> Array:
+    """A x."""
+    y = np.empty(x.size)
+    multiply(A, x, y)
+    return y
+
+
+def stiff_product(A: Array, x: Array) -> Array:
+    """A x by differences, as the integrators compute it: what is to cancel cancels to the last digit."""
+    y = np.empty(x.size)
+    stiff_multiply(A, row_sums(A), x, y)
+    return y
 
 
 @compiled

@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 
 from bent_beam.checks import positive
 from bent_beam.meshes import checked_nodes
-from hermite_fe.banded import row_sums, stiff_multiply
+from hermite_fe.banded import stiff_product
 
 __all__ = [
     "HermiteBeam",
@@ -154,16 +154,6 @@ class HermiteBeam:
             nodal[i : i + end : 2] += element[:, i]
         return nodal
 
-    def curvature_load(self, curvature: float) -> Array:
-        """K q₀ of a stress-free shape of curvature w″ (uniform, 1/m): end moments EI w″, shape (dofs,).
-
-        ½(q − q₀)ᵀK(q − q₀) has the forces −K(q − q₀); the part of q₀ is this load.
-        """
-        nodal = np.zeros(self.dofs)
-        nodal[1] -= self.bending_stiffness * curvature
-        nodal[-1] += self.bending_stiffness * curvature
-        return nodal
-
     def interpolate(self, value: Array, slope: Array) -> Array:
         """Nodal dofs (value, slope interleaved), shape (dofs,), from fields at the nodes."""
         q = np.empty(self.dofs)
@@ -202,24 +192,13 @@ class HermiteBeam:
         for m in range(4):
             bands[m, : self.dofs - m] *= scale[: self.dofs - m] * scale[m:]
         factor = cholesky_banded(bands, lower=True)
-        sums = row_sums(stiffness)
-        q, forces = np.zeros(self.dofs), np.zeros(self.dofs)
+        q = np.zeros(self.dofs)
         for dof, value in supports.items():
             q[dof] = value
         for _ in range(REFINEMENTS):  # with residuals by differences, which see what 12EI/Δx³·q rounds away
-            stiff_multiply(stiffness, sums, q, forces)
-            residual = np.where(free, load - forces, 0.0)
+            residual = np.where(free, load - stiff_product(stiffness, q), 0.0)
             q += scale * cho_solve_banded((factor, True), scale * residual)
         return np.asarray(q)
-
-
-def banded_product(bands: Array, x: Array) -> Array:
-    """A x for A in lower banded form."""
-    y = bands[0] * x
-    for m in range(1, bands.shape[0]):
-        y[m:] += bands[m, :-m] * x[:-m]
-        y[:-m] += bands[m, :-m] * x[m:]
-    return np.asarray(y)
 
 
 def deflection(nodes: Array, q: Array, x: Array, derivative: int = 0) -> Array:

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import dataclasses
 from dataclasses import dataclass
-from typing import Self
+from typing import Annotated, Self
 
-from bent_beam.checks import positive
+from bent_beam.fields import Part, Quantity
 from bent_beam.meshes import Mesh
 from hermite_fe.contacts import Contact
 from hermite_fe.far_fields import FarField
@@ -17,24 +17,20 @@ __all__ = ["Composition"]
 
 
 @dataclass(frozen=True)
-class Composition:
-    """Parts of :class:`hermite_fe.HermiteFE`, which says what they are."""
+class Composition(Part):
+    """What a run is made of; parts that are ``None`` are chosen for the problem (:mod:`hermite_fe.resolution`)."""
 
     mesh: Mesh | None = None
     integrator: Integrator | None = None
     contact: Contact | None = None
     far_field: FarField | None = None
     mass: Mass | None = None
-    full_beam: bool = False
-    domain: float | None = None
-    refine: float = 1.0
-
-    def __post_init__(self) -> None:
-        if not isinstance(self.full_beam, bool):
-            raise ValueError(f"full_beam must be true or false (got {self.full_beam!r})")
-        positive("refine", self.refine)
-        if self.domain is not None:
-            positive("domain", self.domain)
+    full_beam: Annotated[bool, Quantity("", "both halves instead of one with a symmetry support")] = False
+    domain: Annotated[
+        float | None,
+        Quantity("m", "half length to model; cut ends follow the free motion", above=0.0, absent="all of it"),
+    ] = None
+    refine: Annotated[float, Quantity("", "elements and steps so many times finer", above=0.0)] = 1.0
 
     def refined(self, factor: float) -> Self:
         """A copy with elements and steps ``factor`` times finer."""

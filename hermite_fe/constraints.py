@@ -22,7 +22,7 @@ SMALLEST_REACTION, PRODUCT = range(2)
 
 
 class ContactLaw(NamedTuple):
-    """The impact law and what is held against it (:mod:`hermite_fe.contacts.base`); nothing from ``hold_ends``, s,
+    """The impact law and what is held against it (:mod:`hermite_fe.contacts`); nothing from ``hold_ends``, s,
     on."""
 
     restitution: float = 0.0

@@ -9,17 +9,20 @@ from typing import ClassVar
 
 import numpy as np
 
+from bent_beam.free_flight import Separation
 from bent_beam.history import ImpactHistory
 from bent_beam.impact import Impact
 from bent_beam.meshes import MESHES
-from bent_beam.method import Save, made_of
-from hermite_fe import resolution, whole_beam
+from bent_beam.method import Save, made_of, separation_times
+from hermite_fe import resolution
 from hermite_fe.composition import Composition
-from hermite_fe.contacts import CONTACTS, NodeContact
-from hermite_fe.far_fields import FAR_FIELDS, GridViscosity
+from hermite_fe.contacts import CONTACTS
+from hermite_fe.far_fields import FAR_FIELDS
 from hermite_fe.integrators import INTEGRATORS
 from hermite_fe.masses import MASSES
-from hermite_fe.simulate import cut, refusal, simulate
+from hermite_fe.model import BeamModel
+from hermite_fe.run import Stepper
+from hermite_fe.simulate import refusal, simulate
 
 __all__ = ["HermiteFE"]
 
@@ -28,12 +31,7 @@ __all__ = ["HermiteFE"]
 class HermiteFE(Composition):
     """Hermite beam elements with unilateral contact and a nonsmooth time integrator, on a fixed mesh.
 
-    mesh, integrator, contact, far_field, mass : parts; ``None``: chosen for the problem (:mod:`hermite_fe.resolution`).
-    full_beam : model both halves instead of one with a symmetry support.
-    domain : half length, m, that is modelled of a longer beam, whose cut ends follow the free motion (``None``: all of
-        it, with free ends).
-    refine : elements and steps so many times finer than the parts say, for studies of convergence.
-    label : how rows and curves call it.
+    The parts are those of :class:`hermite_fe.composition.Composition`.
     """
 
     path: ClassVar[str] = "hermite"
@@ -70,54 +68,23 @@ class HermiteFE(Composition):
         return simulate(impact, end_time=end_time, save=save, progress=progress, **made_of(chosen))
 
     def chosen_for(self, impact: Impact, end_time: float) -> HermiteFE:
-        """A copy with every open part chosen for ``impact``: other impacts then run on the same mesh and steps.
-
-        It measures what the loads of ``impact`` change. So a long beam is cut where nothing arrives, its ends following
-        the free motion, and a zone that the load presses on is held behind the front (``contact.hold``): what lift the
-        bare impact leaves would otherwise take up the load before the wall does. Neither without loads.
-        """
-        mesh, contact, far_field, domain = self.mesh, self.contact, self.far_field, self.domain
-        if impact.loaded:
-            if domain is None and far_field is None:
-                domain = resolution.chosen_domain(impact, end_time)
-            if contact is None and impact.zone_pressure > 0.0 and (self.integrator is None or self.integrator.holds):
-                contact = NodeContact(hold=resolution.PRESSED_HOLD)
-            if mesh is None:
-                mesh = resolution.chosen_mesh(cut(impact, domain), end_time, loaded=True)
-        if domain is not None and far_field is None:
-            far_field = GridViscosity(end="following")
-        choice = resolution.choose(
-            cut(impact, domain),
-            end_time,
-            mesh,
-            self.integrator,
-            contact,
-            far_field,
-            self.mass,
-            refine=self.refine,
-        )
+        """A copy with every open part chosen for ``impact`` (:func:`hermite_fe.resolution.for_loads`): other impacts
+        then run on the same mesh and steps."""
+        parts = resolution.for_loads(self, impact, end_time)
+        choice = resolution.choose(impact, end_time, parts)
         return dataclasses.replace(
-            self,
+            parts,
             mesh=choice.mesh,
             integrator=choice.integrator,
             contact=choice.contact,
             far_field=choice.far_field,
             mass=choice.mass,
-            domain=domain,
             refine=1.0,
         )
 
-    def for_whole_beam(self, impact: Impact) -> HermiteFE:
-        """A copy whose open parts suit the whole beam until it has left: strictly unilateral, nothing absorbed."""
-        return whole_beam.with_parts_for_whole_beam(self, impact)
-
-    def cross_checks(self, impact: Impact) -> dict[str, HermiteFE]:
-        """Coarser elements, longer steps, another impact law: what error bars of a whole impact come from."""
-        return whole_beam.cross_checks(self, impact)
-
-    def varied(self, impact: Impact, random: np.random.Generator) -> HermiteFE:
-        """A copy with elements, steps and impact law drawn at random, for an ensemble."""
-        return whole_beam.varied(self, impact, random)
+    for_whole_beam = resolution.for_whole_beam
+    cross_checks = resolution.cross_checks
+    varied = resolution.varied
 
     def simulate_to_separation(
         self,
@@ -128,4 +95,16 @@ class HermiteFE(Composition):
         progress: Callable[[float], None] | None = None,
     ) -> ImpactHistory:
         """Follow ``impact`` until the beam has left for good (:func:`bent_beam.method.simulate_to_separation`)."""
-        return whole_beam.simulate_to_separation(self, impact, longest=longest, save=save, progress=progress)
+        times, separation = separation_times(impact, longest, save), Separation(impact)
+
+        def until(model: BeamModel, run: Stepper) -> bool:
+            state = run.state
+            return separation(
+                float(run.instants[run.step]),
+                float(state.impulse.sum()),
+                lambda: (model.beam.nodes, model.gap(state.q), state.v[0::2], model.copies * run.energy()),
+                closed=bool(np.any(state.closed)),
+            )
+
+        parts = made_of(self.for_whole_beam(impact))
+        return simulate(impact, end_time=float(times[-1]), save=times, progress=progress, until=until, **parts)

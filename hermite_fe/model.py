@@ -28,25 +28,22 @@ from numpy.typing import NDArray
 
 from bent_beam.impact import Impact
 from bent_beam.meshes import checked_nodes, mirrored
-from hermite_fe.banded import row_sums, stiff_multiply
-from hermite_fe.beam import HermiteBeam, banded_product
+from hermite_fe.banded import product, stiff_product
+from hermite_fe.beam import HermiteBeam
 from hermite_fe.contacts import Contact
-from hermite_fe.far_fields import FarField
+from hermite_fe.far_fields import Dampings, FarField
 from hermite_fe.masses import ConsistentMass, Mass
 from hermite_fe.system import System
 from hermite_fe.walls import behind, with_opposite_wall
 
-__all__ = ["BeamModel", "beam_model"]
+__all__ = ["LOADS", "BeamModel", "beam_model"]
 
 Array = NDArray[np.float64]
 CONSISTENT = ConsistentMass()
 
 
-def product(stiffness: Array, q: Array) -> Array:
-    """K q by differences, as the integrators compute it: what is to cancel cancels to the last digit."""
-    forces = np.zeros(q.size)
-    stiff_multiply(stiffness, row_sums(stiffness), q, forces)
-    return forces
+LOADS = ("acceleration", "curvature_rate", "fourth_derivative", "axial_force", "rotation")
+"""The loads that are modelled here."""
 
 
 @dataclass(frozen=True)
@@ -92,36 +89,47 @@ def beam_model(
         beam.interpolate(-0.5 * curvature * s**2, -curvature * s)
         for curvature in (impact.curvature, impact.relative_curvature)
     )
-    quartic = beam.interpolate(impact.fourth_derivative * s**4 / 24.0, impact.fourth_derivative * s**3 / 6.0)
-    bending = beam.interpolate(impact.curvature_rate * s**2 / 2.0, impact.curvature_rate * s)
-    rigid = beam.interpolate(impact.velocity + impact.rotation * x, np.full(x.size, impact.rotation))
-    velocity = rigid + bending
+    motion = impact.free_motion(0.0)
+    displacement = beam.interpolate(motion(s), motion(s, by_x=1))
+    velocity = beam.interpolate(motion(s, by_t=1), motion(s, by_x=1, by_t=1))
     bending_stiffness, inertia = beam.stiffness(), mass.matrix(beam)
     stiffness = bending_stiffness + impact.axial_force * beam.geometric_stiffness()
-    uniform = banded_product(inertia, beam.interpolate(np.ones(x.size), np.zeros(x.size)))  # M·1
     dampings = far_field.dampings(beam, impact)
     if impact.damping > 0.0:  # Kelvin–Voigt: C = ηK
         dampings += (("material", impact.damping * bending_stiffness),)
-    damping = np.sum([bands for _, bands in dampings], axis=0)
-    if far_field.end == "following":
-        # all that keeps y₀ up, end forces included (K on Hermite interpolants is exact at nodes), damping
-        # undone
-        steady = impact.acceleration * uniform + product(stiffness, quartic)
-        load = np.stack([steady + product(damping, bending), product(stiffness, bending)])
-        load = load if np.any(load[1]) else load[:1]
-    else:
-        pressure = impact.mass_per_length * impact.acceleration + impact.bending_stiffness * impact.fourth_derivative
-        load = (pressure / impact.mass_per_length * uniform)[None, :]
     rows = contact.rows(beam, facing, full=full)
     if impact.opposite_wall is not None:
-        rows = with_opposite_wall(rows, beam, natural, quartic, impact.opposite_wall)
+        rows = with_opposite_wall(rows, beam, natural, displacement, impact.opposite_wall)
     system = System(
         mass=inertia,
         stiffness=stiffness,
         dampings=dampings,
-        load=load,
+        load=nodal_loads(impact, beam, s, inertia, stiffness, dampings, follows=far_field.end == "following"),
         contacts=rows,
         supports=() if full else (1,),
     )
     second = behind(len(rows), impact.opposite_wall is not None)
-    return BeamModel(beam, system, quartic, velocity, natural, facing, second, full)
+    return BeamModel(beam, system, displacement, velocity, natural, facing, second, full)
+
+
+def nodal_loads(
+    impact: Impact, beam: HermiteBeam, s: Array, inertia: Array, stiffness: Array, dampings: Dampings, *, follows: bool
+) -> Array:
+    """F(t) = Σ_k load[k]·t^k, shape (powers, dofs), of all loads; s : the nodes from the first touch, m.
+
+    follows : with the end forces of y₀, F = Mü + Cu̇ + Ku of its displacement u, in which K on Hermite interpolants is
+        exact at nodes; else of free ends, where the uniform load alone acts.
+    """
+    motion = impact.free_motion(0.0)
+    uniform = product(inertia, beam.interpolate(np.ones(s.size), np.zeros(s.size)))  # M·1
+    acceleration = float(motion(0.0, by_t=2))
+    if not follows:
+        pressure = impact.mass_per_length * acceleration + impact.bending_stiffness * float(motion(0.0, by_x=4))
+        return (pressure / impact.mass_per_length * uniform)[None, :]
+    bent = motion.bending()
+    shape = beam.interpolate(bent(s), bent(s, by_x=1))
+    rate = beam.interpolate(bent(s, by_t=1), bent(s, by_x=1, by_t=1))
+    steady = acceleration * uniform + stiff_product(stiffness, shape)
+    steady += sum((stiff_product(bands, rate) for _, bands in dampings), np.zeros(beam.dofs))
+    load = np.stack([steady, stiff_product(stiffness, rate)])
+    return load if np.any(load[1]) else load[:1]

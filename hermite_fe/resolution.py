@@ -18,28 +18,40 @@ must be a fraction of ℓ where the front is, steps a fraction of its travel ove
 - contact: unilateral; nothing is held unless asked for, except in runs that measure what a pressing load changes.
 - far field: viscosity at grid scale.
 
+The whole beam, until it has left the wall, asks for something else: nothing may be absorbed, nothing held behind a
+front (a hold glues the zone when waves come back), and every part of the beam matters alike. So
+
+    a uniform mesh,   steps h = ½Δx²√(μ/EI),   Signorini's law alone,   the beam's own damping alone.
+
+Signorini's condition at the new position with θ = ½, which damps nothing but in impacts, comes nearest to converged
+values on a given mesh (docs/whole_impact.md); Moreau–Jean asks for the same at velocity level.
+
 The constants below are studied in tests/hermite_fe/test_constants.py: halved and doubled they move λ₀ and r₀ by less
 than the error bar that goes with them.
 """
 
 from __future__ import annotations
 
+import dataclasses
 import math
 from dataclasses import dataclass
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from bent_beam.impact import Impact
-from bent_beam.meshes import GradedMesh, Mesh, ScaleFreeMesh
+from bent_beam.meshes import GradedMesh, Mesh, ScaleFreeMesh, UniformMesh
+from hermite_fe.composition import Composition
 from hermite_fe.contacts import Contact, NodeContact
 from hermite_fe.far_fields import FarField, GridViscosity
 from hermite_fe.integrators import Integrator, MoreauJean, SignoriniPosition
 from hermite_fe.masses import ConsistentMass, Mass
 
-__all__ = ["Choice", "choose", "chosen_domain", "chosen_mesh", "front"]
+__all__ = ["ELEMENTS", "Choice", "choose", "cross_checks", "for_loads", "for_whole_beam", "front", "varied"]
 
 Array = NDArray[np.float64]
+C = TypeVar("C", bound=Composition)
 
 THIN = 0.005  # κ/ν below which scale-free elements all the way would be too many
 ZONE = 1.2  # of the front's place at the end: elements are fine up to there
@@ -53,15 +65,15 @@ ELEMENTS_IN_THIN_FRONT = 12.0  # in ℓ at the end, for κ/ν < THIN
 MOST_ELEMENTS = 25_000  # over the zone, for κ/ν < THIN
 MOST_ON_A_BEAM = 2_000  # likewise, where the front runs over all of the half beam before the run ends
 SHORTEST_THIN_STEP = 5e-4  # of the run
-ELEMENTS_PER_FRONT = 2.0  # fewer in ℓ deserve a warning
 LOADED = (1.3e-3, 33.0, 0.005)  # SMALLEST_ELEMENT, ELEMENTS_IN_FRONT, GROWTH of runs that measure what a load changes
 PRESSED_HOLD = 16  # constraints, of runs that measure what a load changes and presses the zone on
 DOMAIN = 24.0  # √(t/t*) l*: least half length for such a run; 12 and 48 are as good, at 6 waves come back
+ELEMENTS = 200  # of a half beam that is followed until it has left
 
 
 @dataclass(frozen=True)
 class Choice:
-    """All parts of a run, and what to warn of."""
+    """All parts of a run; nodes : of the half beam, m."""
 
     mesh: Mesh
     nodes: Array
@@ -69,7 +81,39 @@ class Choice:
     contact: Contact
     far_field: FarField
     mass: Mass
-    warnings: tuple[str, ...]
+
+
+def choose(impact: Impact, end_time: float, parts: Composition | None = None) -> Choice:
+    """The parts of a run to ``end_time``, s; what ``parts`` leaves open is chosen.
+
+    Raises ``ValueError`` for parts that cannot work together, or where no mesh can be chosen.
+    """
+    parts = parts or Composition()
+    half_length = modelled_half_length(impact, parts.domain)
+    mesh, coarse = _mesh(impact, half_length, end_time, parts)
+    contact = parts.contact or NodeContact()
+    integrator = parts.integrator or (SignoriniPosition() if contact.restitution == 0.0 else MoreauJean())
+    # from the mesh before it is refined: then the first step is refined like all others
+    integrator = chosen_integrator(impact, end_time, coarse, integrator).refined(parts.refine)
+    for name in () if integrator.holds else ("hold", "hold_until"):
+        if getattr(contact, name):
+            raise ValueError(
+                f"contact.{name} has no effect with this integrator, whose rows may always open "
+                f"(got {getattr(contact, name)!r})"
+            )
+    far_field = parts.far_field or GridViscosity(end="free" if parts.domain is None else "following")
+    if parts.domain is not None and far_field.end != "following":
+        raise ValueError(
+            f'domain cuts the beam where it goes on: far_field.end must be "following" (got {far_field.end!r})'
+        )
+    return Choice(mesh, mesh.nodes(half_length), integrator, contact, far_field, parts.mass or ConsistentMass())
+
+
+def modelled_half_length(impact: Impact, domain: float | None) -> float:
+    """Half length, m, of what is modelled; ``ValueError`` when ``domain`` is longer than the beam."""
+    if domain is not None and domain > impact.half_length:
+        raise ValueError(f"domain must not exceed the half length {impact.half_length!r} of the beam (got {domain!r})")
+    return impact.half_length if domain is None else domain
 
 
 def bounded_kappa(impact: Impact) -> float:
@@ -84,11 +128,10 @@ def front(impact: Impact, time: float) -> tuple[float, float]:
     return speed * spread, 2.0 * spread / speed
 
 
-def chosen_mesh(impact: Impact, end_time: float, *, loaded: bool = False) -> Mesh:
+def chosen_mesh(impact: Impact, half: float, end_time: float, *, loaded: bool = False) -> Mesh:
     """Scale-free elements; for a thin front even ones over the zone. ``loaded``: to measure what a load changes."""
     place, thickness = front(impact, end_time)
-    kappa, half = bounded_kappa(impact), impact.half_length
-    zone = min(ZONE * place, half)
+    kappa, zone = bounded_kappa(impact), min(ZONE * place, half)
     if kappa < THIN:
         most = MOST_ELEMENTS if zone < half else MOST_ON_A_BEAM
         element = max(thickness / ELEMENTS_IN_THIN_FRONT, zone / most)
@@ -101,28 +144,53 @@ def chosen_mesh(impact: Impact, end_time: float, *, loaded: bool = False) -> Mes
     )
 
 
+def _mesh(impact: Impact, half_length: float, end_time: float, parts: Composition) -> tuple[Mesh, Array]:
+    """The mesh, and its nodes (m) before it is refined."""
+    chosen = parts.mesh or chosen_mesh(impact, half_length, end_time)
+    mesh = chosen.refined(parts.refine)
+    try:
+        mesh.nodes(half_length)
+        return mesh, chosen.nodes(half_length)
+    except ValueError as error:
+        if parts.mesh is not None:
+            raise
+        raise ValueError(
+            f"curvature: no mesh can be chosen that resolves the contact front at kappa/nu = "
+            f"{impact.kappa_over_nu:g} ({error}); give [mesh]"
+        ) from None
+
+
 def chosen_integrator(impact: Impact, end_time: float, nodes: Array, integrator: Integrator) -> Integrator:
     """``integrator`` with what it leaves open filled in."""
     kappa = bounded_kappa(impact)
     if kappa < THIN:
         step, growth = end_time * max(min(LARGEST_STEP, kappa), SHORTEST_THIN_STEP), 0.0
     else:
-        first = integrator.elements_in_first_front**2 * resolved_time(impact, nodes)
+        # when the front is as thick as the smallest element
+        resolved = impact.time_scale * (float(np.diff(nodes).min()) / front(impact, impact.time_scale)[1]) ** 2
+        first = integrator.elements_in_first_front**2 * resolved
         step = min(max(first, 1e-10 * end_time), LONGEST_FIRST_STEP * end_time)
         growth = LARGEST_STEP
     return integrator.with_steps(step, growth).with_defaults(impact)
 
 
-def chosen_contact(contact: Contact, integrator: Integrator) -> Contact:
-    """``contact`` with what it leaves open filled in; ``ValueError`` for a hold that the integrator does not know."""
-    if not integrator.holds:
-        for name in ("hold", "hold_until"):
-            if getattr(contact, name):
-                raise ValueError(
-                    f"contact.{name} has no effect with this integrator, whose rows may always open "
-                    f"(got {getattr(contact, name)!r})"
-                )
-    return contact.with_hold(0, 0.0)
+def for_loads(parts: C, impact: Impact, end_time: float) -> C:
+    """A copy of ``parts`` for a run that measures what the loads of ``impact`` change.
+
+    A long beam is cut where nothing arrives, its ends following the free motion, and a zone that the load presses on is
+    held behind the front: what lift the bare impact leaves would otherwise take up the load before the wall does.
+    Neither without loads.
+    """
+    if not impact.loaded:
+        return parts
+    contact, domain, mesh = parts.contact, parts.domain, parts.mesh
+    if domain is None and parts.far_field is None:
+        domain = chosen_domain(impact, end_time)
+    if contact is None and impact.zone_pressure > 0.0 and (parts.integrator is None or parts.integrator.holds_zone):
+        contact = NodeContact(hold=PRESSED_HOLD)
+    if mesh is None:
+        mesh = chosen_mesh(impact, modelled_half_length(impact, domain), end_time, loaded=True)
+    return dataclasses.replace(parts, mesh=mesh, contact=contact, domain=domain)
 
 
 def chosen_domain(impact: Impact, end_time: float) -> float | None:
@@ -138,119 +206,62 @@ def chosen_domain(impact: Impact, end_time: float) -> float | None:
     return reach
 
 
-def resolved_time(impact: Impact, nodes: Array) -> float:
-    """When the front is as thick as the smallest element, s."""
-    _, thickness = front(impact, impact.time_scale)
-    return impact.time_scale * (float(np.diff(nodes).min()) / thickness) ** 2
-
-
-def choose(
-    impact: Impact,
-    end_time: float,
-    mesh: Mesh | None,
-    integrator: Integrator | None,
-    contact: Contact | None,
-    far_field: FarField | None,
-    mass: Mass | None = None,
-    *,
-    refine: float = 1.0,
-) -> Choice:
-    """Fill in what was left open, and warn where what was given by hand cannot resolve the front.
-
-    refine : elements and steps so many times finer than given or chosen.
-    """
-    given = mesh is not None
-    chosen = mesh if mesh is not None else chosen_mesh(impact, end_time)
-    mesh = chosen.refined(refine)
-    try:
-        coarse, nodes = chosen.nodes(impact.half_length), mesh.nodes(impact.half_length)
-    except ValueError as error:
-        if given:
-            raise
-        raise ValueError(
-            f"curvature: no mesh can be chosen that resolves the contact front at kappa/nu = "
-            f"{impact.kappa_over_nu:g} ({error}); give [mesh]"
-        ) from None
-    if contact is None:
-        contact = NodeContact()
-    if integrator is None:
-        integrator = SignoriniPosition() if contact.restitution == 0.0 else MoreauJean()
-    # from the mesh before it is refined: then the first step is refined like all others
-    integrator = chosen_integrator(impact, end_time, coarse, integrator).refined(refine)
-    contact = chosen_contact(contact, integrator)
-    if far_field is None:
-        far_field = GridViscosity()
-    warnings = [
-        *resolution_warnings(impact, end_time, nodes, integrator),
-        *end_warnings(impact, end_time, nodes, far_field),
-    ]
-    return Choice(mesh, nodes, integrator, contact, far_field, mass or ConsistentMass(), tuple(warnings))
-
-
-def resolution_warnings(impact: Impact, end_time: float, nodes: Array, integrator: Integrator) -> list[str]:
-    """What the mesh and the steps cannot resolve of the front at the end of the run, and by how much."""
-    out: list[str] = []
-    if impact.kappa_over_nu >= 1.0 or impact.kappa_over_nu == 0.0:  # a point, or all of the beam at once: no front
-        return out
-    place, thickness = front(impact, end_time)
-    element = float(
-        np.diff(nodes)[min(int(np.searchsorted(nodes, min(place, nodes[-1]))), nodes.size - 1) - 1]
+def for_whole_beam(parts: C, impact: Impact) -> C:
+    """A copy of ``parts`` whose open ones are those of a whole beam; its ``refine`` is worked in."""
+    mesh = (parts.mesh or UniformMesh(impact.half_length / ELEMENTS)).refined(parts.refine)
+    shortest = float(np.diff(mesh.nodes(impact.half_length)).min())
+    contact = parts.contact or NodeContact()
+    without_rebound = contact.restitution == 0.0
+    chosen = SignoriniPosition(theta=0.5) if without_rebound else MoreauJean(theta=0.5)
+    integrator = (parts.integrator or chosen).with_defaults(impact)  # before it is refined: what is open cannot be
+    if integrator.time_step is None:
+        integrator = integrator.refined(parts.refine**2).with_steps(0.5 * shortest**2 / impact.wave_constant, 0.0)
+    else:
+        integrator = integrator.with_steps(integrator.time_step, 0.0).refined(parts.refine)
+    return dataclasses.replace(
+        parts,
+        mesh=mesh,
+        integrator=integrator,
+        contact=contact,
+        far_field=parts.far_field or GridViscosity(viscosity=0.0),
+        full_beam=parts.full_beam or impact.off_centre,
+        domain=None,
+        refine=1.0,
     )
-    if thickness < ELEMENTS_PER_FRONT * element:
-        short = ELEMENTS_PER_FRONT * element / thickness
-        out.append(
-            "the mesh cannot resolve the contact front: about "
-            f"{thickness:.3g} m thick at the end of the run, it spans {thickness / element:.2g} elements "
-            f"({element:.3g} m there); {ELEMENTS_PER_FRONT:g} are the least, "
-            f"elements {short:.2g} times shorter"
-        )
-    step = max(integrator.time_step or 0.0, (integrator.growth or 0.0) * end_time)
-    travel, room = place * 0.5 * step / end_time, 0.5 * max(thickness, element)
-    if travel > room:
-        out.append(
-            f"the time steps cannot resolve the contact front: it runs about {travel:.3g} m in the last one; "
-            f"{room:.3g} m (half its thickness or half an element) is the most, "
-            f"steps {travel / room:.2g} times shorter"
-        )
-    return out
 
 
-def end_warnings(impact: Impact, end_time: float, nodes: Array, far_field: FarField) -> list[str]:
-    """What the ends of the beam may do to the contact within the run.
-
-    A wave of number k travels at 2k√(EI/μ). The front radiates waves of its own number 1/ℓ(t), the shorter
-    the earlier, with an energy in proportion to √t: those of the first hundredth of the run carry a tenth.
-    The rest is looked at here, as far as the elements at the end carry it (k Δx < 1; shorter waves are
-    absorbed at grid scale).
-    """
-    out = []
-    place, _ = front(impact, end_time)
-    half, last = impact.half_length, float(nodes[-1] - nodes[-2])
-    if place > half and impact.kappa_over_nu > 0.0:
-        out.append(
-            f"the contact may reach the end of the beam: it may spread to {place:.3g} m, "
-            f"the end is at {half:.3g} m"
-        )
-    emitted = end_time * np.geomspace(0.01, 1.0, 40)
-    number = np.array([1.0 / front(impact, t)[1] for t in emitted])
-    arrival = emitted + max(2.0 * half - place, 0.0) / (2.0 * number * impact.wave_constant)
-    returning = arrival[(number * last < 1.0) & (arrival < end_time)]
-    if returning.size:
-        out.append(
-            f"waves may run to the ends of the beam (x = {half:.3g} m) and be back at the contact from about "
-            f"t = {float(returning.min()):.2g} s on, before the run ends at {end_time:.2g} s: from then on "
-            "it is no longer the impact of an infinitely long beam (a longer beam or an earlier end avoids it)"
-        )
-    far = nodes > 1.5 * place
-    free = (
-        impact.velocity * end_time
-        + 0.5 * impact.acceleration * end_time**2
-        + 0.5 * (impact.curvature_rate * end_time - impact.relative_curvature) * nodes**2
-        + impact.fourth_derivative * nodes**4 / 24.0
+def cross_checks(parts: C, impact: Impact) -> dict[str, C]:
+    """What stands beside ``parts`` for error bars, by cause: half as many elements (and steps in proportion to their
+    square), steps twice as long, and the impact law of another scheme, with these steps too (half of the work; the bar
+    then counts the step twice)."""
+    chosen = for_whole_beam(parts, impact)
+    mesh, integrator = chosen.mesh, chosen.integrator
+    assert mesh is not None and integrator is not None and chosen.contact is not None
+    step = integrator.time_step
+    other = (
+        SignoriniPosition(theta=0.5, time_step=step, growth=0.0)
+        if isinstance(integrator, MoreauJean) and chosen.contact.restitution == 0.0
+        else MoreauJean(theta=0.5, time_step=step, growth=0.0)
     )
-    if far_field.end == "following" and np.any(free[far] >= 0.0):
-        out.append(
-            "the free motion itself meets the wall away from the contact, at x = "
-            f"{float(nodes[far][free[far] >= 0.0][0]):.3g} m, before the run ends: shorten the beam"
-        )
-    return out
+    return {
+        "mesh": dataclasses.replace(chosen, mesh=mesh.refined(0.5), integrator=integrator.refined(0.25)),
+        "step": dataclasses.replace(chosen, integrator=integrator.refined(0.5)),
+        "contact_law": dataclasses.replace(chosen, integrator=other.refined(0.5)),
+    }
+
+
+def varied(parts: C, impact: Impact, random: np.random.Generator) -> C:
+    """A copy for an ensemble: elements, steps and impact law drawn at random.
+
+    Moreau–Jean with θ = ½ throughout, which keeps the energy between impacts.
+    """
+    elements = int(random.integers(2 * ELEMENTS // 5, 4 * ELEMENTS // 5))
+    length = impact.half_length / elements
+    step = 2.0 ** random.uniform(-1.0, 1.0) * length**2 / impact.wave_constant
+    restitution = (0.0, 0.5, 1.0)[int(random.integers(3))]
+    return dataclasses.replace(
+        parts,
+        mesh=UniformMesh(length),
+        integrator=MoreauJean(theta=0.5, time_step=step, growth=0.0),
+        contact=NodeContact(restitution=restitution),
+    )

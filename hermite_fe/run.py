@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from bent_beam.checks import MOST_INSTANTS, affordable
 from hermite_fe.active_set import CYCLING, NOT_FINITE, SINGULAR, SOLVED
-from hermite_fe.banded import multiply, stiff_multiply
+from hermite_fe.banded import product, stiff_product
 from hermite_fe.compiled import recompiling
 from hermite_fe.constraints import PRODUCT, SMALLEST_REACTION, ContactLaw
 from hermite_fe.integrators import Integrator
@@ -34,6 +34,7 @@ __all__ = ["Stepper", "Trajectory", "integrate", "saved_steps"]
 Array = NDArray[np.float64]
 
 MOST_WORK = 1e11  # steps x nodes: about an hour
+UNSTABLE = 1e12  # times the energy that a beam has been given; steps that do not resolve a stiff spring pass 1e6
 FAILURES = {
     SINGULAR: "the step matrix is not positive definite",
     CYCLING: "the active set of the contact does not settle",
@@ -154,14 +155,10 @@ class Stepper:
         return self._kinetic() + self._strain()
 
     def _kinetic(self) -> float:
-        momentum = np.zeros(self.state.v.size)
-        multiply(self.problem.matrices.M, self.state.v, momentum)
-        return 0.5 * float(self.state.v @ momentum)
+        return 0.5 * float(self.state.v @ product(self.problem.matrices.M, self.state.v))
 
     def _strain(self) -> float:
-        forces = np.zeros(self.state.q.size)
-        stiff_multiply(self.problem.matrices.K, self.problem.matrices.K_sums, self.state.q, forces)
-        return 0.5 * float(forces @ self.state.q)
+        return 0.5 * float(self.state.q @ stiff_product(self.problem.matrices.K, self.state.q))
 
     def sums(self) -> dict[str, float]:
         """Energies now, J, what they lost since the start, and the worst complementarity since the last call."""
@@ -202,6 +199,12 @@ class Samples:
         self.arrays["closed"][s] = state.closed
         self.sums.append(run.sums())
         self.size += 1
+
+    def energy_gain(self) -> float:
+        """Energy now over that of the start and the most that the loads have worked."""
+        first, last = self.sums[0], self.sums[-1]
+        given = first["kinetic"] + first["strain"] + max(abs(sums["work"]) for sums in self.sums)
+        return (last["kinetic"] + last["strain"]) / given if given > 0.0 else 0.0
 
     def trajectory(self, run: Stepper, seconds: float, failure: str, failure_time: float) -> Trajectory:
         """The instants kept so far, at least one."""
@@ -257,6 +260,10 @@ def integrate(
             failure, failure_time = FAILURES[status], float(run.instants[run.step])
             break
         samples.add(run)
+        if samples.energy_gain() > UNSTABLE:
+            failure = "the scheme is unstable: its energy grows without bound"
+            failure_time = float(run.instants[run.step])
+            break
         if progress is not None:
             progress(float(step) / max(float(kept[-1]), 1.0))
         if until is not None and until(run):

@@ -81,14 +81,21 @@ class ContactRows:
         return np.asarray(self.gap + np.einsum("jk,jk->j", self.factors, q[self.dofs]))
 
 
+def _bands(name: str, value: Array, dofs: int) -> Array:
+    """``value`` in lower banded form, shape (4, dofs)."""
+    bands = np.atleast_2d(np.asarray(value, float))
+    if bands.shape[1] != dofs or bands.shape[0] > WIDTH:
+        raise ValueError(f"system.{name} must have shape (≤ {WIDTH}, {dofs}) (got {bands.shape})")
+    return np.pad(bands, ((0, WIDTH - bands.shape[0]), (0, 0)))
+
+
 @dataclass(frozen=True)
 class System:
     """Banded matrices, loads, supports and constraints.
 
-    mass, stiffness, damping : symmetric, scipy's lower banded form (≤ 4, dofs): ``mass[m, i] = M(i + m, i)``.
+    mass, stiffness : symmetric, scipy's lower banded form (≤ 4, dofs): ``mass[m, i] = M(i + m, i)``.
     dampings : (cause, bands) pairs that add up to C, causes out of :data:`DAMPINGS`; the loss to each is recorded
-        under its own name (``Trajectory.viscous``, ``.material``, ``.absorbed``). Give this or ``damping``, which is
-        then booked as viscous.
+        under its own name (``Trajectory.viscous``, ``.material``, ``.absorbed``).
     load : (powers, dofs), F(t) = Σ_k load[k]·t^k.
     contacts : unilateral constraints. supports : dofs that keep their initial value.
 
@@ -99,21 +106,20 @@ class System:
     mass: Array
     stiffness: Array
     contacts: ContactRows
-    damping: Array = field(default_factory=_left_out)
+    dampings: tuple[tuple[str, Array], ...] = ()
     load: Array = field(default_factory=_left_out)
     supports: tuple[int, ...] = ()
-    dampings: tuple[tuple[str, Array], ...] = ()
 
     def __post_init__(self) -> None:
         set_ = object.__setattr__
-        mass = np.atleast_2d(np.asarray(self.mass, float))
-        n = mass.shape[1]
-        for name, value in (("mass", mass), ("stiffness", self.stiffness), ("damping", self.damping)):
-            bands = np.zeros((1, n)) if np.size(value) == 0 else np.atleast_2d(np.asarray(value, float))
-            if bands.shape[1] != n or bands.shape[0] > WIDTH:
-                raise ValueError(f"system.{name} must have shape (≤ {WIDTH}, {n}) (got {bands.shape})")
-            set_(self, name, np.pad(bands, ((0, WIDTH - bands.shape[0]), (0, 0))))
-        self._split_damping(n)
+        n = np.atleast_2d(np.asarray(self.mass, float)).shape[1]
+        set_(self, "mass", _bands("mass", self.mass, n))
+        set_(self, "stiffness", _bands("stiffness", self.stiffness, n))
+        causes = [cause for cause, _ in self.dampings]
+        if not set(causes) <= set(DAMPINGS) or len(set(causes)) < len(causes):
+            raise ValueError(f"system.dampings must name each of {DAMPINGS} at most once (got {causes})")
+        dampings = tuple((cause, _bands(f"dampings[{cause!r}]", bands, n)) for cause, bands in self.dampings)
+        set_(self, "dampings", tuple((cause, bands) for cause, bands in dampings if np.any(bands)))
         load = np.zeros((1, n)) if np.size(self.load) == 0 else np.atleast_2d(np.asarray(self.load, float))
         if load.shape[1] != n:
             raise ValueError(f"system.load must have shape (powers, {n}) (got {load.shape})")
@@ -126,25 +132,10 @@ class System:
         if dofs.shape[1] == 1 and np.intersect1d(dofs, self.supports).size:
             raise ValueError("system.supports and contact rows must not share a dof")
 
-    def _split_damping(self, n: int) -> None:
-        """Make ``dampings`` and ``damping`` say the same; causes that damp nothing are left out."""
-        causes = [cause for cause, _ in self.dampings]
-        if not set(causes) <= set(DAMPINGS) or len(set(causes)) < len(causes):
-            raise ValueError(f"system.dampings must name each of {DAMPINGS} at most once (got {causes})")
-        parts: list[tuple[str, Array]] = []
-        total = np.zeros((WIDTH, n))
-        for cause, value in self.dampings or (("viscous", self.damping),):
-            bands = np.atleast_2d(np.asarray(value, float))
-            if bands.shape[1] != n or bands.shape[0] > WIDTH:
-                raise ValueError(f"system.dampings[{cause!r}] must have shape (≤ {WIDTH}, {n}) (got {bands.shape})")
-            bands = np.pad(bands, ((0, WIDTH - bands.shape[0]), (0, 0)))
-            total += bands
-            if np.any(bands):
-                parts.append((cause, bands))
-        if self.dampings and np.any(self.damping) and not np.allclose(self.damping, total, rtol=1e-12, atol=0.0):
-            raise ValueError("system.damping must be the sum of system.dampings: give one of them")
-        object.__setattr__(self, "damping", total)
-        object.__setattr__(self, "dampings", tuple(parts))
+    @property
+    def damping(self) -> Array:
+        """C, shape (4, dofs)."""
+        return sum((bands for _, bands in self.dampings), np.zeros_like(self.mass))
 
     @property
     def dofs(self) -> int:

@@ -7,7 +7,8 @@ adapters are run under limits. docs/benchmark.md describes both files.
 
 from open_benchmark.judgement import Score
 from open_benchmark.problem import Problem, problem, shipped_ids
-from open_benchmark.result import Result, ResultError, load_result
+from open_benchmark.reading import load_result
+from open_benchmark.result import Result, ResultError
 from open_benchmark.score import score
 
 __all__ = ["Problem", "Result", "ResultError", "Score", "load_result", "problem", "score", "shipped_ids"]

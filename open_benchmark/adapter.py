@@ -10,10 +10,14 @@ import hashlib
 import os
 import subprocess
 import sys
+import sysconfig
 import tomllib
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
+
+from platformdirs import user_cache_path
 
 from bent_beam.parts import InputError, nearest
 from bent_beam.versions import versions
@@ -24,6 +28,7 @@ __all__ = ["ADAPTERS", "RESOLUTIONS", "Adapter", "chosen_adapters", "environment
 
 ADAPTERS = Path(__file__).parent / "adapters"
 RESOLUTIONS = ("coarse", "medium", "fine")
+WINDOWS = os.name == "nt"
 SYSTEM_PYTHON = "/usr/bin/python3"
 INSTALL_SECONDS = 900.0
 
@@ -47,14 +52,22 @@ class Adapter:
         return not self.kinds or asked.kind in self.kinds
 
     @property
+    def folder(self) -> Path:
+        """Of its environment."""
+        return environments() / (self.environment or self.name)
+
+    @property
     def python(self) -> Path:
         """The interpreter it runs with."""
         if self.debian:
             return Path(SYSTEM_PYTHON)
-        return environments() / self.environment / "bin" / "python" if self.install else Path(sys.executable)
+        if not self.install:
+            return Path(sys.executable)
+        scripts = sysconfig.get_path("scripts", "nt_venv" if WINDOWS else "posix_venv", {"base": str(self.folder)})
+        return Path(scripts) / ("python.exe" if WINDOWS else "python")
 
     def command(self, problem_file: Path, result_file: Path, resolution: str) -> list[str]:
-        """What is run."""
+        """The words of its command line."""
         start = [str(self.python), str(self.file)] if self.file.suffix == ".py" else [str(self.file)]
         return [*start, str(problem_file), str(result_file), resolution, *self.arguments]
 
@@ -62,21 +75,20 @@ class Adapter:
         """Why it cannot run here (``None``: it can)."""
         if not self.file.exists():
             return f"{self.file} does not exist"
-        if self.file.suffix == ".py":
-            how = f"apt-get install {self.debian}" if self.debian else f"bentbeam benchmark --install {self.name}"
-            if not self.python.exists():
-                return how
-            if self.module:
-                look = f"import importlib.util as u, sys; sys.exit(u.find_spec({self.module.split('.')[0]!r}) is None)"
-                found = subprocess.run([str(self.python), "-c", look], capture_output=True, check=False)
-                return how if found.returncode else None
-        elif not os.access(self.file, os.X_OK):
-            return f"{self.file} is not executable"
-        return None
+        if self.file.suffix != ".py":
+            return None if os.access(self.file, os.X_OK) else f"{self.file} is not executable"
+        how = f"apt-get install {self.debian}" if self.debian else f"bentbeam benchmark --install {self.name}"
+        if not self.python.exists():
+            return how
+        if not self.module:
+            return None
+        search = f"import importlib.util as u, sys; sys.exit(u.find_spec({self.module.split('.')[0]!r}) is None)"
+        found = subprocess.run([str(self.python), "-c", search], capture_output=True, check=False)
+        return how if found.returncode else None
 
     def digest(self) -> str:
-        """Of everything that decides its answers but the problem: source, arguments, pinned versions; of a method of
-        this project its solver's source and what that runs with."""
+        """Digest of source, arguments and pinned versions; for this project's own methods also of the solver's source
+        and the installed versions."""
         text = repr((self.arguments, self.install, self.debian)).encode()
         if self.module and not (self.install or self.debian):
             text += repr((source_digest(), versions())).encode()
@@ -86,28 +98,17 @@ class Adapter:
 def environments() -> Path:
     """Where environments are made: ``$BENTBEAM_ENVIRONMENTS``, or the user's cache folder."""
     given = os.environ.get("BENTBEAM_ENVIRONMENTS")
-    if given:
-        return Path(given).resolve()
-    cache = os.environ.get("XDG_CACHE_HOME") or str(Path.home() / ".cache")
-    return Path(cache) / "bent-beam-impact" / "environments"
+    return Path(given).resolve() if given else user_cache_path("bent-beam-impact", appauthor=False) / "environments"
 
 
 def shipped_adapters() -> dict[str, Adapter]:
     """The adapters that are shipped, by name."""
     with open(ADAPTERS / "adapters.toml", "rb") as stream:
-        table = tomllib.load(stream)
+        tables = tomllib.load(stream)
     found = {}
-    for name, values in table.items():
-        found[name] = Adapter(
-            name,
-            ADAPTERS / values["file"],
-            arguments=tuple(values.get("arguments", ())),
-            module=values.get("module", ""),
-            environment=values.get("environment", name),
-            install=tuple(values.get("install", ())),
-            debian=values.get("debian", ""),
-            kinds=tuple(values.get("kinds", ())),
-        )
+    for name, table in tables.items():
+        fields: dict[str, Any] = {key: tuple(v) if isinstance(v, list) else v for key, v in table.items()}
+        found[name] = Adapter(name, ADAPTERS / fields.pop("file"), **fields)
     return found
 
 
@@ -120,36 +121,33 @@ def chosen_adapters(names: Sequence[str] = (), own: Sequence[Path] = ()) -> list
     for name in names:
         if name not in shipped:
             raise InputError(f"solver: {name!r} is not known{nearest(name, shipped)}")
-    chosen = [shipped[name] for name in names] if names else ([] if own else list(shipped.values()))
     for file in own:
         if not file.is_file():
             raise InputError(f"adapter: {file} is not a file")
-        chosen.append(Adapter(file.stem, file.resolve()))
-    return chosen
+    chosen = [shipped[name] for name in names] if names or own else list(shipped.values())
+    return [*chosen, *(Adapter(file.stem, file.resolve()) for file in own)]
 
 
-def install(name: str) -> str:
-    """Make the environment of a shipped adapter from its pinned versions; what was done, in one line.
+def install(adapter: Adapter) -> str:
+    """Make the environment of an adapter from its pinned versions; returns a line of text about it.
 
-    Raises :class:`InputError` for a name that none has, and :class:`RuntimeError` when the packages cannot be had.
+    Raises :class:`InputError` when the packages cannot be had.
     """
-    adapter = chosen_adapters([name])[0]
+    name, folder = adapter.name, adapter.folder
     if adapter.debian:
         return f"{name}: apt-get install {adapter.debian} (a package of the system's Python, not installed from here)"
     if not adapter.install:
         return f"{name}: runs with this Python, nothing to install"
-    place = environments() / adapter.environment
-    steps = [
-        [sys.executable, "-m", "venv", "--clear", str(place)],
+    folder.parent.mkdir(parents=True, exist_ok=True)
+    for step in (
+        [sys.executable, "-m", "venv", "--clear", str(folder)],
         [str(adapter.python), "-m", "pip", "install", "--quiet", "--disable-pip-version-check", *adapter.install],
-    ]
-    place.parent.mkdir(parents=True, exist_ok=True)
-    for step in steps:
+    ):
         try:
             done = subprocess.run(step, capture_output=True, text=True, timeout=INSTALL_SECONDS, check=False)
         except subprocess.TimeoutExpired:
-            raise RuntimeError(f"{name}: installing took more than {INSTALL_SECONDS:g} s") from None
+            raise InputError(f"install: {name}: installing took more than {INSTALL_SECONDS:g} s") from None
         if done.returncode:
-            lines = [line for line in done.stderr.splitlines() if line.strip()] or ["no message"]
-            raise RuntimeError(f"{name}: {' '.join(lines[-1].split())}")
-    return f"{name}: {', '.join(adapter.install)} in {place}"
+            lines = [" ".join(line.split()) for line in done.stderr.splitlines() if line.strip()]
+            raise InputError(f"install: {name}: {lines[-1] if lines else 'no message'}")
+    return f"{name}: {', '.join(adapter.install)} in {folder}"

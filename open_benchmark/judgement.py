@@ -1,22 +1,26 @@
-"""What the judge says of a result: its score, the limits it is held to, and a fault that was found."""
+"""The judge's score of a result, its limits, and the fault that was found."""
 
 from __future__ import annotations
 
 from dataclasses import asdict, dataclass, field
 from typing import Any
 
-from comparison.compared import Compared
 from comparison.plain import plain
+from measure.measured import Measured
 from open_benchmark.result import plain_number
 
-__all__ = ["LIMITS", "MEASURES", "TOLERANCE", "Finding", "Score", "invalid"]
+__all__ = ["LIMITS", "TOLERANCE", "Finding", "Score", "invalid"]
 
-#: What the judge calls a result beyond (benchmark.md; each about ten times what the best strictly unilateral code shows
-#: on its finest mesh at κ/ν = 0.5): tensile impulse over J, penetration over V₀τ, gap in the zone over V₀τ, noise.
-LIMITS = {"adhesive": 0.01, "leaky": 0.01, "lifted": 0.01, "unsettled": 0.005}
-MEASURES = {"adhesive": "adhesion", "leaky": "penetration", "lifted": "lift", "unsettled": "noise"}
-#: A restitution that is further from its reference than both error bars and this is called "off": what the best codes
-#: differ by on meshes of a hundred elements, three times.
+#: Measure → its limit, and the outcome's addition beyond it (benchmark.md). Each limit is about ten times what the best
+#: strictly unilateral code shows on its finest mesh at κ/ν = 0.5.
+LIMITS = {
+    "adhesion": (0.01, "adhesive"),
+    "penetration": (0.01, "leaky"),
+    "lift": (0.01, "lifted"),
+    "noise": (0.005, "unsettled"),
+}
+#: A restitution is "off" when it is further from its reference than both error bars and this: three times the
+#: differences between the best codes on meshes of a hundred elements.
 TOLERANCE = 0.005
 
 
@@ -28,14 +32,10 @@ class Finding:
     evidence: str = ""
     advice: str = ""
 
-    def to_dict(self) -> dict[str, Any]:
-        """Ready for JSON."""
-        return {"name": self.name, "evidence": self.evidence, "advice": self.advice}
-
 
 @dataclass(frozen=True)
 class Score:
-    """What the judge says of one result; a number is ``None`` where it is not reported or means nothing.
+    """The judge's score of one result; a number is ``None`` where it is not reported or means nothing.
 
     outcome : the adapter's, with the judge's additions after a comma ("completed, lifted"). reason : one line for
     anything but "completed". measured : name → value, error bar and exact value. lift, penetration (over V₀τ),
@@ -47,7 +47,7 @@ class Score:
     problem: str
     outcome: str
     reason: str | None = None
-    measured: dict[str, Compared] = field(default_factory=dict)
+    measured: dict[str, Measured] = field(default_factory=dict)
     lift: float | None = None
     penetration: float | None = None
     adhesion: float | None = None
@@ -57,32 +57,46 @@ class Score:
     diagnosis: tuple[Finding, ...] = ()
     metadata: dict[str, Any] = field(default_factory=dict)
 
+    @property
+    def completed(self) -> bool:
+        """Whether there is a result to judge."""
+        return self.outcome.startswith("completed")
+
+    @property
+    def brief(self) -> str:
+        """The outcome in one or two words."""
+        return self.outcome.split("(")[0].replace("_", " ")
+
     def error(self, name: str) -> float | None:
         """Relative error of one measured number against its exact value; ``None`` where either is missing."""
         found = self.measured.get(name)
         return found.relative() if found is not None and found.theory else None
 
     @property
+    def gained(self) -> float | None:
+        """Largest gain of energy over J V₀."""
+        return (self.energy or {}).get("gained")
+
+    @property
     def seconds(self) -> float | None:
         """Of the time loop, as the adapter reports them; ``None`` when it does not."""
-        said = plain_number(self.metadata.get("seconds"))
-        return said if said is not None and said > 0.0 else None
+        seconds = plain_number(self.metadata.get("seconds"))
+        return seconds if seconds is not None and seconds > 0.0 else None
 
     def to_dict(self) -> dict[str, Any]:
         """Ready for JSON: finite numbers or ``None``."""
         document: dict[str, Any] = {"problem": self.problem, "outcome": self.outcome, "reason": self.reason}
         for name in dict.fromkeys(("lambda0", "r0", "lambda1", "r1", *self.measured)):
             document[name] = asdict(self.measured[name]) if name in self.measured else None
-        for name in ("lift", "penetration", "adhesion", "noise"):
+        for name in ("lift", "penetration", "adhesion", "noise", "energy"):
             document[name] = getattr(self, name)
-        document["energy"] = self.energy
         document["reference"] = self.reference or None
         document["diagnosis"] = [finding.name for finding in self.diagnosis]
-        document["advice"] = [finding.to_dict() for finding in self.diagnosis if finding.name != "clean"]
+        document["advice"] = [asdict(finding) for finding in self.diagnosis if finding.name != "clean"]
         document["metadata"] = self.metadata
         return dict(plain(document))
 
 
-def invalid(reason: str, name: str = "") -> Score:
-    """The score of a result that cannot be read."""
-    return Score(problem=name, outcome="invalid", reason=reason)
+def invalid(reason: str, name: str = "", outcome: str = "invalid") -> Score:
+    """The score of a result that cannot be read, or of a run that left none."""
+    return Score(problem=name, outcome=outcome, reason=reason)

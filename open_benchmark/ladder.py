@@ -10,7 +10,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -34,8 +33,10 @@ from open_benchmark.references import reference
 __all__ = ["INTEGRATORS", "RUNGS", "Rung", "ladder_table", "ladder_text", "observed_order"]
 
 Array = NDArray[np.float64]
+Scheme = Callable[[float], Integrator]  # of a time step
+Found = tuple[float, float]  # error of the impulse, energy at the end over that at the start
 
-INTEGRATORS: dict[str, Callable[[float], Integrator]] = {
+INTEGRATORS: dict[str, Scheme] = {
     "Moreau–Jean θ = 1": lambda h: MoreauJean(theta=1.0, time_step=h, growth=0.0),
     "Moreau–Jean θ = ½": lambda h: MoreauJean(theta=0.5, time_step=h, growth=0.0),
     "Signorini, new position": lambda h: SignoriniPosition(theta=1.0, time_step=h, growth=0.0),
@@ -46,13 +47,16 @@ INTEGRATORS: dict[str, Callable[[float], Integrator]] = {
         spectral_radius=0.8, stiffness=0.1 / h**2, damping=0.3 / h, time_step=h, growth=0.0
     ),
 }
+CELLS = 50  # of bar and string at refinement 1
+COURANT = 0.437  # of their steps
+# Where in its step an impact falls is chance: errors are means over step sizes that differ by a few per cent.
+PHASES = (1.0, 0.93, 0.87, 0.81)
 
 
 @dataclass(frozen=True)
 class Rung:
-    """One integrator on one rung: error at each refinement (mean over step sizes that differ by a few per cent, since
-    where in its step an impact falls is chance), observed order, energy at the end over that at the start (finest);
-    ``reason`` when the integrator cannot take it."""
+    """One integrator on one rung: error at each refinement, observed order, energy at the end over that at the start
+    (finest); ``reason`` when the integrator cannot take it."""
 
     errors: tuple[float, ...] = ()
     order: float | None = None
@@ -67,146 +71,107 @@ def observed_order(refinements: Sequence[int], errors: Sequence[float]) -> float
     return float(-np.polyfit(np.log(refinements), np.log(errors), 1)[0])
 
 
-def ball(make: Callable[[float], Integrator], refine: int) -> Trajectory:
+def _judged(name: str, time: Array, impulse: Array, energy: Array) -> Found:
+    exact = reference(problem(name)).impulse
+    assert exact is not None
+    expected = exact(time)
+    return float(np.mean(np.abs(impulse - expected)) / np.abs(expected).max()), float(energy[-1] / energy[0])
+
+
+def _of_system(name: str, run: Trajectory, floor: float = 0.0) -> Found:
+    """floor : energy at the start beside the kinetic and the strain energy."""
+    if run.failure:
+        raise ValueError(run.failure)
+    return _judged(name, run.time, run.impulse.sum(axis=1), run.kinetic + run.strain - run.work + floor)
+
+
+def _ball(scheme: Scheme, refine: int) -> Found:
     """A unit mass dropped from ½ with restitution 1: ten impacts by t = 20."""
-    given = LADDER["ball"][1]
+    given, end = LADDER["ball"]
     one = np.ones((1, 1))
-    system = System(
-        mass=given["mass"] * one,
-        stiffness=0.0 * one,
-        load=-given["mass"] * given["gravity"] * one,
-        contacts=ContactRows(np.array([[0]]), one, np.zeros(1)),
+    weight = given["mass"] * given["gravity"]
+    contacts = ContactRows(np.array([[0]]), one, np.zeros(1))
+    system = System(mass=given["mass"] * one, stiffness=0.0 * one, load=-weight * one, contacts=contacts)
+    start, step = np.array([given["height"]]), 0.0137 / refine  # steps that do not divide the flights
+    run = integrate(
+        system, start, np.zeros(1), scheme(step), end, restitution=given["restitution"], save=np.linspace(0, end, 1001)
     )
-    # steps that do not divide the flights: an impact falls anywhere in its step
-    step = 0.0137 / refine
-    return integrate(
-        system, np.array([given["height"]]), np.zeros(1), make(step), LADDER["ball"][2],
-        restitution=given["restitution"], save=np.linspace(0.0, LADDER["ball"][2], 1001),
-    )  # fmt: skip
+    return _of_system("ball", run, weight * given["height"])
 
 
-def _line(cells: int, tangent: float, line: float, length: float) -> tuple[Array, Array]:
-    """Mass (lumped) and stiffness of linear elements in a row, banded."""
-    size = length / cells
-    mass = np.full((1, cells + 1), line * size)
+def _line(cells: int, tangent: float, line: float) -> tuple[Array, Array]:
+    """Mass (lumped) and stiffness of linear elements in a row of length 1, banded."""
+    mass = np.full((1, cells + 1), line / cells)
+    stiffness = np.full((2, cells + 1), -tangent * cells)
+    stiffness[0] *= -2.0
+    stiffness[1, -1] = 0.0
     mass[0, [0, -1]] /= 2.0
-    stiffness = np.zeros((2, cells + 1))
-    stiffness[0] = 2.0 * tangent / size
     stiffness[0, [0, -1]] /= 2.0
-    stiffness[1, :-1] = -tangent / size
     return mass, stiffness
 
 
-def bar(make: Callable[[float], Integrator], refine: int) -> Trajectory:
+def _bar(scheme: Scheme, refine: int) -> Found:
     """A bar flying at the wall, in contact for 2L/c, off again at the speed it came with."""
-    given, end = LADDER["bar"][1], LADDER["bar"][2]
-    cells = 50 * refine
-    mass, stiffness = _line(cells, given["axial_stiffness"], given["mass_per_length"], given["length"])
-    system = System(
-        mass=mass,
-        stiffness=stiffness,
-        contacts=ContactRows(np.array([[0]]), np.ones((1, 1)), np.array([given["gap"]])),
-    )
-    rest = np.zeros(cells + 1)
-    step = 0.437 * given["length"] / cells
-    return integrate(system, rest, rest - given["velocity"], make(step), end, save=np.linspace(0.0, end, 601))
+    given, end = LADDER["bar"]
+    cells = CELLS * refine
+    mass, stiffness = _line(cells, given["axial_stiffness"], given["mass_per_length"])
+    contacts = ContactRows(np.array([[0]]), np.ones((1, 1)), np.array([given["gap"]]))
+    system, rest = System(mass=mass, stiffness=stiffness, contacts=contacts), np.zeros(cells + 1)
+    save = np.linspace(0.0, end, 601)
+    return _of_system("bar", integrate(system, rest, rest - given["velocity"], scheme(COURANT / cells), end, save=save))
 
 
-def string(make: Callable[[float], Integrator], refine: int) -> Trajectory:
+def _string(scheme: Scheme, refine: int) -> Found:
     """A string that lands all at once, elastically, four times."""
-    given, end = LADDER["string"][1], LADDER["string"][2]
-    cells = 50 * refine
-    mass, stiffness = _line(cells, given["tension"], given["mass_per_length"], given["length"])
-    x = np.linspace(0.0, 1.0, cells + 1)
-    inner = np.arange(1, cells)
-    system = System(
-        mass=mass,
-        stiffness=stiffness,
-        contacts=ContactRows(inner[:, None], np.ones((cells - 1, 1)), np.zeros(cells - 1)),
-        supports=(0, cells),
-    )
+    given, end = LADDER["string"]
+    cells = CELLS * refine
+    mass, stiffness = _line(cells, given["tension"], given["mass_per_length"])
+    contacts = ContactRows(np.arange(1, cells)[:, None], np.ones((cells - 1, 1)), np.zeros(cells - 1))
+    system = System(mass=mass, stiffness=stiffness, contacts=contacts, supports=(0, cells))
+    x, save = np.linspace(0.0, 1.0, cells + 1), np.linspace(0.0, end, 801)
     start = 4.0 * given["height"] * x * (1.0 - x)
-    step = 0.437 / cells
-    return integrate(
-        system, start, 0.0 * x, make(step), end, restitution=1.0, save=np.linspace(0.0, end, 801)
-    )  # fmt: skip
+    run = integrate(system, start, 0.0 * x, scheme(COURANT / cells), end, restitution=1.0, save=save)
+    return _of_system("string", run)
 
 
-def _impulse_error(name: str, run: Trajectory) -> float:
-    exact = reference(problem(name)).impulse
-    assert exact is not None
-    expected = exact(run.time)
-    found = run.impulse.sum(axis=1)
-    return float(np.mean(np.abs(found - expected)) / np.abs(expected).max())
-
-
-def _on_system(name: str, build: Callable[[Callable[[float], Integrator], int], Trajectory]) -> Any:
-    def measured(make: Callable[[float], Integrator], refine: int) -> tuple[float, float]:
-        run = build(make, refine)
-        if run.failure:
-            raise ValueError(run.failure)
-        energy = run.kinetic + run.strain - run.work
-        if name == "ball":  # the weight's work is counted from the start: the floor is the ball's zero
-            energy = energy + LADDER["ball"][1]["gravity"] * LADDER["ball"][1]["height"]
-        return _impulse_error(name, run), float(energy[-1] / energy[0])
-
-    return measured
-
-
-def _stopped_beam(make: Callable[[float], Integrator], refine: int) -> tuple[float, float]:
+def _stopped_beam(scheme: Scheme, refine: int) -> Found:
     """The free beam of κ/ν = 2 with its own damping, until before the wall first lets go."""
     asked = problem("stopped-beam")
-    impact = Impact(
-        bending_stiffness=1.0, mass_per_length=1.0, length=2.0, curvature=asked.kappa_over_nu, velocity=1.0,
-        damping=asked.damping,
-    )  # fmt: skip
-    cells = 25 * refine
+    impact = Impact.dimensionless(asked.kappa_over_nu, damping=asked.damping, length=2.0)
     method = HermiteFE(
-        mesh=UniformMesh(element_length=1.0 / cells),
-        integrator=make(0.25 / 25.0**2 / refine),
+        mesh=UniformMesh(element_length=1.0 / (25 * refine)),
+        integrator=scheme(0.25 / 25.0**2 / refine),
         contact=NodeContact(hold=0, hold_until=0.0),
     )
     history = method.simulate(impact, end_time=asked.end_time, save=np.linspace(0.0, asked.end_time, 101))
-    exact = reference(asked).impulse
-    assert exact is not None
-    expected = exact(history.time)
-    found = history.array("total_impulse")
     energy = history.array("kinetic_energy") + history.array("strain_energy")
-    return float(np.mean(np.abs(found - expected)) / expected.max()), float(energy[-1] / energy[0])
+    return _judged(asked.id, history.time, history.array("total_impulse"), energy)
 
 
-RUNGS: dict[str, Callable[[Callable[[float], Integrator], int], tuple[float, float]]] = {
-    "ball": _on_system("ball", ball),
-    "bar": _on_system("bar", bar),
-    "string": _on_system("string", string),
-    "stopped-beam": _stopped_beam,
-}
-
-
-PHASES = (1.0, 0.93, 0.87, 0.81)
+RUNGS = {"ball": _ball, "bar": _bar, "string": _string, "stopped-beam": _stopped_beam}
 
 
 def ladder_table(
     refinements: Sequence[int] = (1, 2, 4, 8), integrators: Sequence[str] = tuple(INTEGRATORS)
 ) -> dict[str, dict[str, Rung]]:
-    """Integrator → rung → what was measured."""
+    """Integrator → rung → errors, order and energy."""
     return {name: {rung: _rung(INTEGRATORS[name], rung, refinements) for rung in RUNGS} for name in integrators}
 
 
-def _rung(make: Callable[[float], Integrator], rung: str, refinements: Sequence[int]) -> Rung:
-    errors, energy = [], 0.0
+def _rung(scheme: Scheme, rung: str, refinements: Sequence[int]) -> Rung:
+    means = []
     try:
         for refine in refinements:
-            found = [RUNGS[rung](_shifted(make, phase), refine) for phase in PHASES]
-            errors.append(float(np.mean([error for error, _ in found])))
-            energy = float(np.mean([kept for _, kept in found]))
+            found = [RUNGS[rung](_shifted(scheme, phase), refine) for phase in PHASES]
+            means.append(np.mean(found, axis=0))
     except ValueError as error:
         return Rung(reason=" ".join(str(error).split()))
-    return Rung(tuple(errors), observed_order(refinements, errors), energy)
+    errors = tuple(float(error) for error, _ in means)
+    return Rung(errors, observed_order(refinements, errors), float(means[-1][1]))
 
 
-def _shifted(make: Callable[[float], Integrator], phase: float) -> Callable[[float], Integrator]:
-    return lambda step: make(phase * step)
+def _shifted(scheme: Scheme, phase: float) -> Scheme:
+    return lambda step: scheme(phase * step)
 
 
 def ladder_text(table: dict[str, dict[str, Rung]]) -> str:

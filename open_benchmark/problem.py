@@ -13,10 +13,11 @@ known. A file holds no reference value and nothing numerical.
 
 from __future__ import annotations
 
+import json
 import re
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 from bent_beam.checks import finite, non_negative, positive, shortened
 from bent_beam.parts import InputError
@@ -28,15 +29,31 @@ END = 0.1  # τ; the leading order is self-similar, any end will do (the thesis 
 LOAD = 0.2  # ε times the sum of the loads' sizes: εr₁τ/r₀ ends at about 5 %, so its square is small and it is not
 EQUIVALENTS = ("half beam", "small amplitude", "straight beam on a curved wall")
 NUMBER = r"(-?\d+(?:\.\d+)?(?:e-?\d+)?)"
+IDS = {
+    kind: re.compile("-".join([kind, *[NUMBER] * count]) + optional)
+    for kind, count, optional in (
+        ("leading", 1, ""),
+        ("point", 1, ""),
+        ("first", 4, f"(?:-{NUMBER})?"),
+        ("bounce", 2, ""),
+    )
+}
 
-#: The ladder: its table's name and keys, and the end of the record, all in units that make the numbers simple.
-LADDER: dict[str, tuple[str, dict[str, float], float]] = {
+
+class Rung(NamedTuple):
+    """A problem of the ladder without bending: the given numbers, and the end of the record, in units of its own."""
+
+    given: dict[str, float]
+    end_time: float
+
+
+LADDER = {
     # lands at t = 1, and again every 2: ten impacts by the end
-    "ball": ("ball", {"mass": 1.0, "gravity": 1.0, "height": 0.5, "velocity": 0.0, "restitution": 1.0}, 20.0),
+    "ball": Rung({"mass": 1.0, "gravity": 1.0, "height": 0.5, "velocity": 0.0, "restitution": 1.0}, 20.0),
     # in contact from 0.5 to 2.5
-    "bar": ("bar", {"axial_stiffness": 1.0, "mass_per_length": 1.0, "length": 1.0, "velocity": 1.0, "gap": 0.5}, 3.0),
+    "bar": Rung({"axial_stiffness": 1.0, "mass_per_length": 1.0, "length": 1.0, "velocity": 1.0, "gap": 0.5}, 3.0),
     # a parabola of height 1 over an obstacle at rest through its ends: lands at 0.5, 1.5, 2.5 and 3.5
-    "string": ("string", {"tension": 1.0, "mass_per_length": 1.0, "length": 1.0, "height": 1.0}, 4.0),
+    "string": Rung({"tension": 1.0, "mass_per_length": 1.0, "length": 1.0, "height": 1.0}, 4.0),
 }
 STOPPED_DAMPING, STOPPED_END = 0.01, 0.1  # the wall first lets go at 0.1516
 
@@ -59,7 +76,7 @@ class Problem:
     length: float | None = None
     damping: float = 0.0
     end_time: float = END
-    snapshots: tuple[float, ...] = field(default=(0.02, 0.05, 0.1))
+    snapshots: tuple[float, ...] = (0.02, 0.05, 0.1)
 
     @property
     def fit_window(self) -> tuple[float, float]:
@@ -78,7 +95,7 @@ class Problem:
 
     @property
     def uniform_load(self) -> float:
-        """What presses the resting zone on the wall, in μV₀/t*: ε(α + ψ + nκ), 0 when it lifts off (statics).
+        """The load that presses the resting zone on the wall, in μV₀/t*: ε(α + ψ + nκ), 0 when it lifts off (statics).
 
         In the zone the beam lies on the wall and does not move, so the wall carries the load p of the free motion,
         p = μa₀ + EI q₀ + N K.
@@ -100,8 +117,8 @@ def first_order_problem(
     positive("kappa_over_nu", kappa_over_nu)
     snapshots = (0.2 * end_time, 0.5 * end_time, end_time)
     if not any(loads):
-        kind = "leading" if kappa_over_nu < 1.0 else "point"
-        return Problem(_front_id(kappa_over_nu), kind, kappa_over_nu, end_time=end_time, snapshots=snapshots)
+        name = _front_id(kappa_over_nu)
+        return Problem(name, name.partition("-")[0], kappa_over_nu, end_time=end_time, snapshots=snapshots)
     shown = loads if loads[3] else loads[:3]
     name = "-".join(["first", f"{kappa_over_nu:.12g}", *(f"{value:.12g}" for value in shown)])
     return Problem(name, "first", kappa_over_nu, loads, epsilon, end_time=end_time, snapshots=snapshots)
@@ -111,64 +128,51 @@ def problem(name: str) -> Problem:
     """The problem of an id. Raises :class:`InputError` for an id that none has."""
     if not isinstance(name, str) or len(name) > 200:
         raise InputError(f"problem: {shortened(name)} is not the id of a problem")
-    try:
-        found = _front(name) or _bounce(name) or _ladder(name)
-    except ValueError as error:
-        raise InputError(f"problem: {name}: {error}") from None
-    if found is None:
-        raise InputError(
-            f"problem: {shortened(name)} is not the id of a problem (leading-K, point-K, first-K-A-P-C[-N], "
-            f"bounce-K-D, {', '.join(LADDER)}, stopped-beam; shipped: {', '.join(shipped_ids())})"
-        )
-    return found
+    if name in LADDER:
+        return Problem(name, name, end_time=LADDER[name].end_time, snapshots=())
+    if name == "stopped-beam":
+        end, half = STOPPED_END, (0.5 * STOPPED_END,)
+        return Problem(name, name, 2.0, length=2.0, damping=STOPPED_DAMPING, end_time=end, snapshots=half)
+    for kind, pattern in IDS.items():
+        if match := pattern.fullmatch(name):
+            try:
+                return _of_numbers(name, kind, [float(word or 0.0) for word in match.groups()])
+            except ValueError as error:
+                raise InputError(f"problem: {name}: {error}") from None
+    raise InputError(
+        f"problem: {shortened(name)} is not the id of a problem (leading-K, point-K, first-K-A-P-C[-N], "
+        f"bounce-K-D, {', '.join(LADDER)}, stopped-beam; shipped: {', '.join(shipped_ids())})"
+    )
 
 
-def _front(name: str) -> Problem | None:
-    match = re.fullmatch(f"(leading|point)-{NUMBER}", name)
-    if match:
-        kind, kappa = match[1], positive("K", float(match[2]))
-        if (kappa < 1.0) != (kind == "leading"):
-            raise ValueError(f"K must be {'below' if kind == 'leading' else 'at least'} 1 (got {kappa:g})")
-        return Problem(name, kind, kappa)
-    match = re.fullmatch(f"first-{NUMBER}-{NUMBER}-{NUMBER}-{NUMBER}(?:-{NUMBER})?", name)
-    if match:
-        kappa = positive("K", float(match[1]))
-        alpha, psi, chi, axial = (finite("load", float(value or 0.0)) for value in match.groups()[1:])
+def _of_numbers(name: str, kind: str, numbers: list[float]) -> Problem:
+    """The problem of an id with the numbers in it. Raises ``ValueError``."""
+    kappa = positive("K", numbers[0])
+    if kind == "bounce":
+        damping = non_negative("D", numbers[1])
+        # the last contact is before T* for every κ/ν that was tried (whole-impact study); half as much again is free
+        return Problem(name, kind, kappa, length=2.0, damping=damping, end_time=1.5, snapshots=(0.5, 1.0, 1.5))
+    if kind == "first":
+        alpha, psi, chi, axial = (finite("load", value) for value in numbers[1:])
         total = abs(alpha) + abs(psi) + abs(chi) + abs(axial)
         if total == 0.0:
             raise ValueError("at least one load must not be zero (without loads it is leading-K)")
-        return Problem(name, "first", kappa, (alpha, psi, chi, axial), LOAD / total)
-    return None
-
-
-def _bounce(name: str) -> Problem | None:
-    match = re.fullmatch(f"bounce-{NUMBER}-{NUMBER}", name)
-    if not match:
-        return None
-    kappa, damping = positive("K", float(match[1])), non_negative("D", float(match[2]))
-    # the last contact is before T* for every κ/ν that was tried (whole-impact study); half as much again is free
-    return Problem(name, "bounce", kappa, length=2.0, damping=damping, end_time=1.5, snapshots=(0.5, 1.0, 1.5))
-
-
-def _ladder(name: str) -> Problem | None:
-    if name == "stopped-beam":
-        return Problem(
-            name, name, 2.0, length=2.0, damping=STOPPED_DAMPING, end_time=STOPPED_END, snapshots=(0.5 * STOPPED_END,)
-        )
-    if name not in LADDER:
-        return None
-    return Problem(name, name, end_time=LADDER[name][2], snapshots=())
+        return Problem(name, kind, kappa, (alpha, psi, chi, axial), LOAD / total)
+    if (kappa < 1.0) != (kind == "leading"):
+        raise ValueError(f"K must be {'below' if kind == 'leading' else 'at least'} 1 (got {kappa:g})")
+    return Problem(name, kind, kappa)
 
 
 def problem_text(asked: Problem) -> str:
-    """The TOML file of a problem: what an adapter reads."""
+    """The TOML file of a problem, for an adapter."""
     lines = [f'schema = "{SCHEMA}"', f'id = "{asked.id}"', ""]
-    for table, values in tables(asked).items():
-        lines += [f"[{table}]", *(f"{key} = {_toml(value)}" for key, value in values.items()), ""]
+    for table, values in _tables(asked).items():
+        # a number, a text and a list of either are written alike in TOML and JSON
+        lines += [f"[{table}]", *(f"{key} = {json.dumps(value)}" for key, value in values.items()), ""]
     return "\n".join(lines)
 
 
-def tables(asked: Problem) -> dict[str, dict[str, Any]]:
+def _tables(asked: Problem) -> dict[str, dict[str, Any]]:
     """The tables of a problem's file."""
     record = {
         "end_time": asked.end_time,
@@ -176,8 +180,7 @@ def tables(asked: Problem) -> dict[str, dict[str, Any]]:
         "snapshots": list(asked.snapshots),
     }
     if asked.kind in LADDER:
-        name, values, _ = LADDER[asked.kind]
-        return {name: dict(values), "record": record}
+        return {asked.kind: LADDER[asked.kind].given, "record": record}
     alpha, psi, chi, axial = (asked.epsilon * value for value in asked.loads)
     return {
         "beam": {
@@ -194,14 +197,6 @@ def tables(asked: Problem) -> dict[str, dict[str, Any]]:
         "record": record,
         "allowed": {"equivalents": list(EQUIVALENTS)},
     }
-
-
-def _toml(value: Any) -> str:
-    if isinstance(value, str):
-        return f'"{value}"'
-    if isinstance(value, list):
-        return "[" + ", ".join(_toml(item) for item in value) + "]"
-    return repr(float(value))
 
 
 def shipped_ids() -> list[str]:

@@ -7,7 +7,6 @@ by ``python -m open_benchmark.bounce_reference``) and the map of the whole impac
 
 from __future__ import annotations
 
-import json
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import cache
@@ -17,9 +16,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from comparison.stored import read
 from open_benchmark.problem import LADDER, Problem
+from theory import contact_parameters
 
-__all__ = ["BOUNCES", "Reference", "reference"]
+__all__ = ["BOUNCES", "Reference", "reference", "stored_bounces"]
 
 BOUNCES = Path(__file__).with_name("bounce_reference.json")
 
@@ -46,19 +47,14 @@ def reference(asked: Problem) -> Reference:
         return Reference(_front(asked))
     if asked.kind == "bounce":
         return _bounce(asked)
-    impulse = {"ball": _ball, "bar": _bar, "string": _string, "stopped-beam": _stopped_beam}.get(asked.kind)
-    return Reference(impulse=None if impulse is None else impulse(asked))
+    return Reference(impulse=IMPULSES[asked.kind](asked))
 
 
 def _front(asked: Problem) -> dict[str, float]:
-    from theory import contact_parameters
-
     alpha, psi, chi, axial = asked.loads
     found = contact_parameters(asked.kappa_over_nu, alpha, psi, chi, **({"axial": axial} if axial else {}))
-    values = {"lambda0": float(found.lambda0), "r0": float(found.r0)}
-    if asked.kind == "first":
-        values |= {"lambda1": float(found.lambda1), "r1": float(found.r1)}
-    return values
+    names = ("lambda0", "r0", "lambda1", "r1") if asked.kind == "first" else ("lambda0", "r0")
+    return {name: float(getattr(found, name)) for name in names}
 
 
 def _bounce(asked: Problem) -> Reference:
@@ -79,28 +75,25 @@ def _bounce(asked: Problem) -> Reference:
 @cache
 def stored_bounces() -> dict[str, Any]:
     """``bounce_reference.json``."""
-    return dict(json.loads(BOUNCES.read_text(encoding="utf-8")))
+    return read(BOUNCES)
+
+
+# Imported inside: the command line loads this module, and SciPy takes a tenth of a second.
 
 
 def _ball(asked: Problem) -> Callable[[Array], Array]:
     from theory.ladder import BouncingBall
 
-    given = LADDER["ball"][1]
-    names = ("height", "velocity", "gravity", "restitution")
-    return lambda tau: np.asarray(given["mass"] * BouncingBall(**{name: given[name] for name in names}).impulse(tau))
+    given = dict(LADDER["ball"].given)
+    mass = given.pop("mass")
+    return lambda tau: np.asarray(mass * BouncingBall(**given).impulse(tau))
 
 
 def _bar(asked: Problem) -> Callable[[Array], Array]:
     from theory.ladder import FlyingBar
 
-    given = LADDER["bar"][1]
-    bar = FlyingBar(
-        length=given["length"],
-        stiffness=given["axial_stiffness"],
-        mass_per_length=given["mass_per_length"],
-        velocity=given["velocity"],
-        gap=given["gap"],
-    )
+    given = dict(LADDER["bar"].given)
+    bar = FlyingBar(stiffness=given.pop("axial_stiffness"), **given)
     return lambda tau: np.asarray(bar.impulse(tau))
 
 
@@ -121,3 +114,6 @@ def _stopped_beam(asked: Problem) -> Callable[[Array], Array]:
         return out
 
     return impulse
+
+
+IMPULSES = {"ball": _ball, "bar": _bar, "string": _string, "stopped-beam": _stopped_beam}

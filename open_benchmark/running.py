@@ -1,4 +1,4 @@
-"""One run of one adapter under limits: of time, of what it writes, and of nothing else of the machine.
+"""One run of one adapter under limits of time and of the bytes that it writes.
 
 An adapter that hangs, crashes, writes rubbish or fills the disk is an outcome with a reason. It runs in a process group
 and a folder of its own; both are gone afterwards.
@@ -9,20 +9,26 @@ from __future__ import annotations
 import contextlib
 import json
 import os
-import resource
 import shutil
 import signal
 import subprocess
 import tempfile
 import time
 import uuid
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
 from bent_beam.files import write_atomically
 from open_benchmark.adapter import Adapter
 from open_benchmark.problem import Problem, problem_text
-from open_benchmark.result import ResultError, load_result
+from open_benchmark.reading import load_result
+from open_benchmark.result import ResultError
+
+try:
+    import resource
+except ImportError:  # Windows has none
+    resource = None  # type: ignore[assignment]
 
 __all__ = ["Limits", "Run", "run_adapter"]
 
@@ -40,11 +46,15 @@ class Limits:
 
 @dataclass(frozen=True)
 class Run:
-    """How a run ended: ``outcome`` and ``reason`` of the judge ("" : the result file says), wall seconds."""
+    """The end of a run: ``outcome`` and ``reason`` of the judge ("" : the result file says), wall seconds.
+
+    unlimited : limits that this system cannot set ("" : none).
+    """
 
     outcome: str
     reason: str
     seconds: float
+    unlimited: str = ""
 
 
 def run_adapter(adapter: Adapter, asked: Problem, resolution: str, kept: Path, limits: Limits) -> Run:
@@ -58,12 +68,44 @@ def run_adapter(adapter: Adapter, asked: Problem, resolution: str, kept: Path, l
     folder = Path(tempfile.mkdtemp(prefix=".run-", dir=kept.parent)).resolve()  # the adapter runs in it
     try:
         write_atomically(folder / "problem.toml", problem_text(asked))
-        return _run(adapter, asked, resolution, folder, kept, limits)
+        began = time.perf_counter()
+        code, (outcome, reason) = _ended(adapter, resolution, folder, limits)
+        seconds = time.perf_counter() - began
+        if not outcome:
+            outcome, reason = _taken(folder, asked, kept, code)
     finally:
         shutil.rmtree(folder, ignore_errors=True)
+    return Run(outcome, reason, seconds, "" if resource else "size of a single file")
 
 
-def _run(adapter: Adapter, asked: Problem, resolution: str, folder: Path, kept: Path, limits: Limits) -> Run:
+def _ended(adapter: Adapter, resolution: str, folder: Path, limits: Limits) -> tuple[int, tuple[str, str]]:
+    """Run the adapter in ``folder`` to its end: exit status, and outcome and reason where it did not end by itself."""
+    command = adapter.command(folder / "problem.toml", folder / "result.npz", resolution)
+    mark = uuid.uuid4().hex
+    # one thread each: a race for cores would be measured, not the codes
+    surroundings = {**os.environ, "OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
+    surroundings |= {"BENTBEAM_RUN": mark, "TMPDIR": str(folder)}
+    if adapter.install or adapter.debian:
+        surroundings.pop("PYTHONPATH", None)  # nothing of this project is in reach of a foreign adapter
+    with open(folder / "out.txt", "wb") as out, open(folder / "err.txt", "wb") as err:
+        try:
+            process = subprocess.Popen(
+                command, cwd=folder, stdin=subprocess.DEVNULL, stdout=out, stderr=err, env=surroundings,
+                start_new_session=True, preexec_fn=_file_size(limits),
+            )  # fmt: skip
+        except OSError as error:
+            return 0, ("crashed", f"could not be started: {error.strerror or error}")
+        try:
+            ended = _watch(process, folder, limits)
+        finally:
+            _end(process, f"BENTBEAM_RUN={mark}")
+    return process.returncode, ended
+
+
+def _file_size(limits: Limits) -> Callable[[], None] | None:
+    """Sets the limit of a file's size and forbids core dumps, in the process that is started (``None``: cannot)."""
+    if resource is None:
+        return None
     allowed = resource.getrlimit(resource.RLIMIT_FSIZE)[1]  # which nobody may raise
     most = limits.output_bytes if allowed == resource.RLIM_INFINITY else min(limits.output_bytes, allowed)
 
@@ -71,58 +113,32 @@ def _run(adapter: Adapter, asked: Problem, resolution: str, folder: Path, kept: 
         resource.setrlimit(resource.RLIMIT_FSIZE, (most, most))
         resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
 
-    command = adapter.command(folder / "problem.toml", folder / "result.npz", resolution)
-    # one thread each: a race for cores would be measured, not the codes
-    mark = f"BENTBEAM_RUN={uuid.uuid4().hex}"
-    surroundings = {
-        **os.environ,
-        **dict([mark.split("=")]),
-        "OMP_NUM_THREADS": "1",
-        "OPENBLAS_NUM_THREADS": "1",
-        "TMPDIR": str(folder),
-    }
-    if adapter.install or adapter.debian:
-        surroundings.pop("PYTHONPATH", None)  # nothing of this project is in reach of a foreign adapter
-    began = time.perf_counter()
-    with open(folder / "out.txt", "wb") as out, open(folder / "err.txt", "wb") as err:
-        try:
-            process = subprocess.Popen(
-                command, cwd=folder, stdin=subprocess.DEVNULL, stdout=out, stderr=err, env=surroundings,
-                start_new_session=True, preexec_fn=limit,
-            )  # fmt: skip
-        except OSError as error:
-            return Run("crashed", f"could not be started: {error.strerror or error}", 0.0)
-        try:
-            ended = _watch(process, folder, began, limits)
-        finally:
-            _end(process, mark)
-    spent = time.perf_counter() - began
-    if ended:
-        return Run(ended[0], ended[1], spent)
-    return _taken(folder, asked, kept, process.returncode, spent)
+    return limit
 
 
-def _watch(process: subprocess.Popen[bytes], folder: Path, began: float, limits: Limits) -> tuple[str, str] | None:
+def _watch(process: subprocess.Popen[bytes], folder: Path, limits: Limits) -> tuple[str, str]:
     """Wait for the end; outcome and reason when a limit ended it."""
+    began = time.perf_counter()
     while process.poll() is None:
-        if time.perf_counter() - began > limits.seconds:
+        passed = time.perf_counter() - began
+        if passed > limits.seconds:
             return "timeout", f"more than {limits.seconds:g} s"
         size, files = _written(folder)
         if size > limits.output_bytes or files > MOST_FILES:
             return "crashed", f"wrote {size} bytes in {files} files, {limits.output_bytes} are the most"
-        time.sleep(GRACE if time.perf_counter() - began > 1.0 else GRACE / 5)
-    return None
+        time.sleep(GRACE if passed > 1.0 else GRACE / 5)
+    return "", ""
 
 
 def _written(folder: Path) -> tuple[int, int]:
+    """Bytes and files under ``folder``; counting ends where there are too many."""
     size = files = 0
     for place, _, names in os.walk(folder):
         for name in names:
-            try:
-                size += os.lstat(os.path.join(place, name)).st_blocks * 512
-            except OSError:
-                continue
-            files += 1
+            with contextlib.suppress(OSError):
+                about = os.lstat(os.path.join(place, name))
+                size += about.st_blocks * 512 if hasattr(about, "st_blocks") else about.st_size
+                files += 1
         if files > MOST_FILES:
             break
     return size, files
@@ -131,7 +147,10 @@ def _written(folder: Path) -> tuple[int, int]:
 def _end(process: subprocess.Popen[bytes], mark: str) -> None:
     """Kill the whole process group, and whatever of this run has left it (it carries the run's mark)."""
     with contextlib.suppress(ProcessLookupError):
-        os.killpg(process.pid, signal.SIGKILL)
+        if hasattr(os, "killpg"):
+            os.killpg(process.pid, signal.SIGKILL)
+        else:
+            process.kill()
     process.wait()
     for place in Path("/proc").glob("[0-9]*/environ"):
         with contextlib.suppress(OSError):
@@ -139,9 +158,8 @@ def _end(process: subprocess.Popen[bytes], mark: str) -> None:
                 os.kill(int(place.parent.name), signal.SIGKILL)
 
 
-def _taken(folder: Path, asked: Problem, kept: Path, code: int, spent: float) -> Run:
-    """Keep what the adapter left, if it can be read and answers the problem."""
-    said = _last_line(folder / "err.txt")
+def _taken(folder: Path, asked: Problem, kept: Path, code: int) -> tuple[str, str]:
+    """Keep the adapter's result, if it can be read and answers the problem; else outcome and reason."""
     for name in ("result.npz", "result.json"):
         file = folder / name
         if file.is_symlink() or not file.is_file():
@@ -149,16 +167,16 @@ def _taken(folder: Path, asked: Problem, kept: Path, code: int, spent: float) ->
         try:
             result = load_result(file)
         except ResultError as error:
-            return Run("invalid", str(error).replace(f"{folder}/", ""), spent)
+            return "invalid", str(error).replace(f"{folder}{os.sep}", "")
         if result.problem.id != asked.id:
-            return Run("invalid", f"problem is {result.problem.id}, asked was {asked.id}", spent)
+            return "invalid", f"problem is {result.problem.id}, asked was {asked.id}"
         for part in (file, file.with_suffix(".csv")):
             if part.is_file():
                 os.replace(part, kept.with_suffix(part.suffix))
-        return Run("", "", spent)
-    if code < 0:
-        said = f"signal {signal.Signals(-code).name}" + (f": {said}" if said else "")
-    return Run("crashed", said or (f"exit status {code}" if code else "left no result.npz or result.json"), spent)
+        return "", ""
+    reasons = [f"signal {signal.Signals(-code).name}"] if code < 0 else []
+    reasons += [line] if (line := _last_line(folder / "err.txt")) else []
+    return "crashed", ": ".join(reasons) or (f"exit status {code}" if code else "left no result.npz or result.json")
 
 
 def _last_line(file: Path) -> str:

@@ -5,11 +5,12 @@ from __future__ import annotations
 import dataclasses
 import math
 from dataclasses import dataclass
+from typing import Annotated, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-from bent_beam.checks import at_least, between, positive, whole
+from bent_beam.fields import Part, Quantity
 
 __all__ = ["MESHES", "ExpandingMesh"]
 
@@ -18,38 +19,29 @@ MAXIMUM_NODES = 100_000
 
 
 @dataclass(frozen=True)
-class ExpandingMesh:
-    """Mesh x = ζ l* √(t/t*) of an infinite beam; lengths below are in ζ unless said otherwise.
+class ExpandingMesh(Part):
+    """Mesh x = ζ l* √(t/t*) of an infinite beam; lengths are in ζ unless said otherwise."""
 
-    front_resolution : element at the front over the front's thickness 2/√(1 + λ²), or over 2λ where that is less.
-    growth : growth of elements away from the front, per length (0.02: 2 % an element).
-    elements_per_wave : elements per wavelength 4π/ζ of what the impact radiates.
-    interior_elements : at least so many elements inside the contact zone.
-    absorber_start, absorber_length : clear distance ahead of the front, and length of the absorbing ramp.
-    absorber_strength : σ at its end over ζ/length there; the wave leaves with exp(−strength/4) twice.
-    step_ratio : h/t of the time steps.
-    decades : decades of time simulated before ``end_time``.
-    """
+    where: ClassVar[str] = "mesh"
 
-    front_resolution: float = 0.01
-    growth: float = 0.02
-    elements_per_wave: int = 20
-    interior_elements: int = 40
-    absorber_start: float = 8.0
-    absorber_length: float = 16.0
-    absorber_strength: float = 40.0
-    step_ratio: float = 0.02
-    decades: float = 4.0
-
-    def __post_init__(self) -> None:
-        between("mesh.front_resolution", positive("mesh.front_resolution", self.front_resolution), 0.0, 0.5)
-        between("mesh.growth", positive("mesh.growth", self.growth), 0.0, 0.2)
-        whole("mesh.elements_per_wave", self.elements_per_wave, 6)
-        whole("mesh.interior_elements", self.interior_elements, 4)
-        for name in ("absorber_start", "absorber_length", "absorber_strength"):
-            positive(f"mesh.{name}", getattr(self, name))
-        between("mesh.step_ratio", positive("mesh.step_ratio", self.step_ratio), 0.0, 0.5)
-        between("mesh.decades", at_least("mesh.decades", self.decades, 0.5), 0.5, 12.0)
+    front_resolution: Annotated[
+        float,
+        Quantity("", "element at the front over its thickness 2/√(1 + λ²), or over 2λ where less", above=0.0, most=0.5),
+    ] = 0.01
+    growth: Annotated[
+        float, Quantity("", "of elements away from the front, per length (0.02: 2 % an element)", above=0.0, most=0.2)
+    ] = 0.02
+    elements_per_wave: Annotated[int, Quantity("", "per wavelength 4π/ζ of what the impact radiates", least=6)] = 20
+    interior_elements: Annotated[int, Quantity("", "at least, inside the contact zone", least=4)] = 40
+    absorber_start: Annotated[float, Quantity("", "clear distance ahead of the front", above=0.0)] = 8.0
+    absorber_length: Annotated[float, Quantity("", "of the absorbing ramp", above=0.0)] = 16.0
+    absorber_strength: Annotated[
+        float, Quantity("", "σ at its end over ζ/length; the wave leaves with exp(−strength/4) twice", above=0.0)
+    ] = 40.0
+    step_ratio: Annotated[float, Quantity("", "h/t of the time steps", above=0.0, most=0.5)] = 0.02
+    decades: Annotated[
+        float, Quantity("", "decades of time simulated before the end time", least=0.5, most=12.0)
+    ] = 4.0
 
     def lay(self, front: float) -> tuple[Array, float]:
         """Nodes ζ (n,) from 0 around a front at ``front``, fine there, and where the absorber starts."""

@@ -5,23 +5,25 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import Annotated, ClassVar
 
+from bent_beam.fields import Part, Quantity
 from bent_beam.history import ImpactHistory
 from bent_beam.impact import Impact
+from bent_beam.loads import unmodelled
 from bent_beam.method import Save
 from self_similar_fe.mesh import MESHES, ExpandingMesh
 from self_similar_fe.run import simulate_expanding
 
 __all__ = ["SelfSimilarFE"]
 
+LOADS = ("acceleration", "curvature_rate", "fourth_derivative", "axial_force")
+"""The loads that :mod:`self_similar_fe.run` models."""
+
 
 @dataclass(frozen=True)
-class SelfSimilarFE:
-    """Finite elements in similarity coordinates: an infinite beam, steady at leading order.
-
-    mesh : ``None``: chosen from the load. label : how rows and curves call it.
-    """
+class SelfSimilarFE(Part):
+    """Finite elements in similarity coordinates: an infinite beam, steady at leading order."""
 
     path: ClassVar[str] = "self_similar"
     perturbation: ClassVar[float] = 0.025
@@ -33,7 +35,7 @@ class SelfSimilarFE:
     PARTS: ClassVar[dict[str, dict[str, type]]] = {"mesh": MESHES}
 
     mesh: ExpandingMesh | None = None
-    refine: float = 1.0
+    refine: Annotated[float, Quantity("", "elements and steps so many times finer", above=0.0)] = 1.0
     label: str = "Self-similar"
 
     def refuses(self, impact: Impact) -> str | None:
@@ -43,7 +45,7 @@ class SelfSimilarFE:
                 return f"{name} breaks the self-similarity that this path rests on (got {getattr(impact, name)!r})"
         if impact.relative_curvature == 0.0:
             return "curvature must be positive: a flat beam meets the wall everywhere at once (got 0.0)"
-        return None
+        return unmodelled(impact, LOADS)
 
     def simulate(
         self,

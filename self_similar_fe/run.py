@@ -40,46 +40,14 @@ from bent_beam.checks import affordable, whole
 from bent_beam.errors import SimulationError
 from bent_beam.history import ImpactHistory
 from bent_beam.impact import Impact
-from bent_beam.parts import describe
 from self_similar_fe.mesh import ExpandingMesh
-from self_similar_fe.similarity import Similarity
+from self_similar_fe.record import history_of
+from self_similar_fe.similarity import leading_obstacle, similarity
 
-__all__ = ["similarity", "simulate_expanding"]
+__all__ = ["Run", "simulate_expanding"]
 
 Array = NDArray[np.float64]
 MOST_WORK = 1e9  # steps x nodes: about an hour
-
-
-def _leading_obstacle(zeta: Array, kappa: float) -> Array:
-    return 1.0 - 0.5 * kappa * zeta**2
-
-
-def similarity(kappa_over_nu: float, mesh: ExpandingMesh) -> Similarity:
-    """The held start on a mesh laid around the front that coarser starts located; κ/ν ≥ 1 contacts at 0 alone."""
-    front = 0.0 if kappa_over_nu >= 1.0 else math.sqrt(2.0 / kappa_over_nu)  # free beam's reach: 1 = κζ²/2
-    coarse = ExpandingMesh(
-        front_resolution=max(0.05, mesh.front_resolution),
-        growth=max(0.05, mesh.growth),
-        interior_elements=40,
-        absorber_start=mesh.absorber_start,
-        absorber_length=mesh.absorber_length,
-        absorber_strength=mesh.absorber_strength,
-    )
-    for _ in range(40 if front > 0.0 else 0):
-        state = Similarity(*coarse.lay(front), coarse.absorber_strength)
-        state.hold_start(_leading_obstacle(state.zeta, kappa_over_nu))
-        found = max(state.front, 0.3 * front)
-        settled = abs(found - front) < 0.02 * front
-        front = found
-        if settled:
-            break
-    front = float(f"{front:.6e}")  # the same mesh for the same problem in other units, whose front differs by round-off
-    state = Similarity(*mesh.lay(front), mesh.absorber_strength)
-    state.hold_start(_leading_obstacle(state.zeta, kappa_over_nu))
-    return state
-
-
-# --- the run ---------------------------------------------------------------------------------------------------
 
 
 def simulate_expanding(
@@ -107,7 +75,7 @@ def simulate_expanding(
     whole("save", wanted, 2)
     began = clock.perf_counter()
     try:
-        run = _Run(impact, mesh, end_time, int(wanted))
+        run = Run(impact, mesh, end_time, int(wanted))
     except ArithmeticError as error:
         raise SimulationError(str(error), time=0.0, step=0, advice="a larger mesh.front_resolution") from None
     failure: ArithmeticError | None = None
@@ -115,7 +83,7 @@ def simulate_expanding(
         run.follow(progress)
     except ArithmeticError as error:
         failure = error
-    history = run.history(mesh, clock.perf_counter() - began, failure is None) if len(run.records) > 1 else None
+    history = history_of(run, mesh, clock.perf_counter() - began, failure is None) if len(run.records) > 1 else None
     if failure is not None or history is None:
         raise SimulationError(
             str(failure),
@@ -127,7 +95,7 @@ def simulate_expanding(
     return history
 
 
-class _Run:
+class Run:
     """Time loop of one run in the units of the fast layer, and its record."""
 
     def __init__(self, impact: Impact, mesh: ExpandingMesh, end_time: float, saves: int) -> None:
@@ -144,8 +112,10 @@ class _Run:
         recorded = min(self.total, math.ceil(min(3.0, mesh.decades) * math.log(10.0) / math.log(self.ratio)))
         self.stride = max(1, math.ceil(recorded / max(saves - 1, 1)))
         self.first_saved = self.total - (recorded // self.stride) * self.stride
-        leading = _leading_obstacle(zeta, impact.kappa_over_nu)
-        first = 0.5 * (impact.epsilon_alpha + impact.epsilon_chi * zeta**2) + impact.epsilon_psi * zeta**4 / 24.0
+        leading = leading_obstacle(zeta, impact.kappa_over_nu)
+        units = impact.length_scale, impact.time_scale, impact.deflection_scale
+        self.loads = impact.free_motion(0.0).scaled(*units).first_order()  # at ξ = ζ√τ: τ² of what they are at ζ, τ = 1
+        first = self.loads(zeta, 1.0)
         # The free motion is a Taylor polynomial: far from the contact its terms mean nothing, so nothing touches there.
         self.near = zeta <= 1.5 * self.front + 0.5
         self.leading, self.first = np.where(self.near, leading, -1.0), np.where(self.near, first, 0.0)
@@ -167,8 +137,7 @@ class _Run:
 
     def rate_of_obstacle(self, tau: float) -> Array:
         """∂w₀/∂τ at the nodes: what the wall must undo there."""
-        e = self.impact
-        return 1.0 + tau * (e.epsilon_alpha + 0.5 * e.epsilon_chi * self.state.zeta**2)
+        return np.asarray(1.0 + tau * self.loads(self.state.zeta, 1.0, by_t=1))
 
     def absorber_power(self) -> float:
         """Power of the absorber divided by its τ^−1/2: ∫σ η_τ² dζ."""
@@ -242,9 +211,8 @@ class _Run:
         eta = state.eta
         gap = -tau * (obstacle - eta[0::2])
         kinetic = 0.5 * float(velocity @ (state.operators.mass @ velocity)) * root
-        slope_free = -self.impact.curvature * self.impact.length_scale * state.zeta + tau * (
-            self.impact.epsilon_chi * state.zeta + self.impact.epsilon_psi * state.zeta**3 / 6.0
-        )
+        bow = self.impact.curvature * self.impact.length_scale
+        slope_free = -bow * state.zeta + tau * self.loads(state.zeta, 1.0, by_x=1)
         zone = state.zeta <= 0.9 * state.front
         self.records.append(
             {
@@ -279,75 +247,3 @@ class _Run:
         squares = 2.0 * (left**2 + right**2 + (left + right) * middle) + 8.0 * middle**2 - left * right
         tension = float(np.sum(h * squares)) / 15.0  # ∫ of the square of a quadratic slope
         return bending + 0.5 * self.axial * tau * tension
-
-    def history(self, mesh: ExpandingMesh, seconds: float, completed: bool) -> ImpactHistory:
-        """The record in SI units."""
-        p = self.impact
-        column = {k: np.array([r[k] for r in self.records]) for k in self.records[0]}
-        force_time = p.mass_per_length * p.length_scale * p.velocity  # μ l* V₀, N s
-        energy = force_time * p.velocity
-        deflection = p.deflection_scale
-        units: dict[str, tuple[tuple[str, ...], float]] = {
-            "position": (("time", "x"), p.length_scale),
-            "gap": (("time", "x"), deflection),
-            "velocity": (("time", "x"), p.velocity),
-            "slope": (("time", "x"), deflection / p.length_scale),
-            "impulse": (("time", "contact"), force_time),
-            "total_impulse": (("time",), force_time),
-            "held_impulse": (("time",), force_time),
-            "impulse_moment": (("time",), force_time * p.length_scale),
-            "smallest_gap": (("time",), deflection),
-            "smallest_reaction": (("time",), force_time / p.time_scale),
-            "complementarity_product": (("time",), force_time / p.time_scale * deflection),
-            "lift": (("time",), deflection),
-            **{
-                k: (("time",), energy)
-                for k in ("kinetic_energy", "strain_energy", "work_of_loads", "loss_absorbed", "loss_algorithmic")
-            },
-        }
-        fields: dict[str, tuple[Sequence[str], NDArray[Any]]] = {
-            name: (dims, column[name] * unit) for name, (dims, unit) in units.items()
-        }
-        fields["contact_position"] = (("time", "contact"), fields["position"][1])
-        fields["in_contact"] = (("time", "contact"), column["in_contact"])
-        final = fields["position"][1][-1]
-        return ImpactHistory.build(
-            impact=p,
-            path="self_similar",
-            symmetry="half",
-            settings={
-                "mesh": describe(mesh),
-                "end_time": self.end_time,
-                "save": self.saves,
-                "integrator": "implicit Euler, steps ∝ time",
-                "contact": "node, Signorini at position level",
-                "nodes": int(self.state.zeta.size),
-                "iterations": self.state.iterations,
-                "gap_tolerance": self.state.gap_tolerance,
-                "energies": "of the fast part z = y0 - y",
-            },
-            time=column["time"] * p.time_scale,
-            x=final,
-            contact_x=final,
-            fields=fields,
-            warnings=self.warnings(),
-            steps=self.steps,
-            seconds=seconds,
-            completed=completed,
-        )
-
-    def warnings(self) -> list[str]:
-        found = []
-        reach = self.state.zeta[-1] * math.sqrt(self.end) * self.impact.length_scale
-        thickness = 2.0 / math.sqrt(1.0 + self.front**2)
-        moved = abs(self.state.front - self.front) / max(self.front, thickness)
-        if reach > self.impact.half_length and self.impact.length < 999.0 * self.impact.length_scale:
-            found.append(
-                f"an infinite beam was simulated: the waves followed here reach {reach:.3g} m, beyond the half length "
-                f"{self.impact.half_length:.3g} m"
-            )
-        if moved > 0.3:
-            found.append(
-                f"the front moved by {moved:.0%} of the contact length, out of the mesh's finest part"
-            )
-        return found

@@ -7,6 +7,7 @@ with the Galerkin matrices of D(D + 1) + σ(D + 1) + ∂⁴ − nτ∂², D = �
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
@@ -16,7 +17,9 @@ from numpy.polynomial import polynomial
 from numpy.typing import NDArray
 from scipy.linalg.lapack import dgbtrf, dgbtrs
 
-__all__ = ["Similarity"]
+from self_similar_fe.mesh import ExpandingMesh
+
+__all__ = ["Similarity", "leading_obstacle", "similarity"]
 
 Array = NDArray[np.float64]
 GAP_ROUND_OFF = 1e-11  # in W, that is in units of V₀t
@@ -83,9 +86,6 @@ def _shapes(point: float, length: Array, derivative: int) -> Array:
     scale = np.ones((length.size, 4))
     scale[:, 1::2] = length[:, None]
     return np.asarray(unit * scale / length[:, None] ** derivative)
-
-
-# --- one state in similarity coordinates -----------------------------------------------------------------------
 
 
 class Similarity:
@@ -226,3 +226,33 @@ class Similarity:
     def velocity(self) -> Array:
         """η_τ = (D + 1) η at the nodes."""
         return self.rate[0::2] + self.eta[0::2] - 0.5 * self.zeta * self.eta[1::2]
+
+
+def leading_obstacle(zeta: Array, kappa_over_nu: float) -> Array:
+    """W₀ without loads."""
+    return 1.0 - 0.5 * kappa_over_nu * zeta**2
+
+
+def similarity(kappa_over_nu: float, mesh: ExpandingMesh) -> Similarity:
+    """The held start on a mesh laid around the front that coarser starts located; κ/ν ≥ 1 contacts at 0 alone."""
+    front = 0.0 if kappa_over_nu >= 1.0 else math.sqrt(2.0 / kappa_over_nu)  # free beam's reach: 1 = κζ²/2
+    coarse = ExpandingMesh(
+        front_resolution=max(0.05, mesh.front_resolution),
+        growth=max(0.05, mesh.growth),
+        interior_elements=40,
+        absorber_start=mesh.absorber_start,
+        absorber_length=mesh.absorber_length,
+        absorber_strength=mesh.absorber_strength,
+    )
+    for _ in range(40 if front > 0.0 else 0):
+        state = Similarity(*coarse.lay(front), coarse.absorber_strength)
+        state.hold_start(leading_obstacle(state.zeta, kappa_over_nu))
+        found = max(state.front, 0.3 * front)
+        settled = abs(found - front) < 0.02 * front
+        front = found
+        if settled:
+            break
+    front = float(f"{front:.6e}")  # the same mesh for the same problem in other units, whose front differs by round-off
+    state = Similarity(*mesh.lay(front), mesh.absorber_strength)
+    state.hold_start(leading_obstacle(state.zeta, kappa_over_nu))
+    return state

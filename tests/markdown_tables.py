@@ -29,8 +29,3 @@ def lines_after(page: str, words: str) -> list[list[str]]:
     lines = text[text.index(words) :].splitlines()
     first = next(k for k, line in enumerate(lines) if line.startswith("|"))
     return [cells(line) for line in itertools.takewhile(lambda line: line.startswith("|"), lines[first:])]
-
-
-def table_after(page: str, words: str) -> dict[str, list[str]]:
-    """The same by the first cells of its lines."""
-    return {first: others for first, *others in lines_after(page, words)}

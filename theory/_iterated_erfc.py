@@ -13,6 +13,7 @@ from math import factorial
 
 import numpy as np
 from numpy.typing import ArrayLike
+from scipy.special import wofz
 
 from theory._fresnel import ComplexArray, scaled_erfc
 
@@ -29,8 +30,6 @@ _SERIES = {
 
 def scaled_iterated_erfc(z: ComplexArray) -> _Four:
     """e^{z²} iⁿerfc(z) for n = 0…3 with absolute error 1e-13; any shape, |arg z| ≤ π/2 where |z| > 12."""
-    from scipy.special import wofz  # here, because it takes longer to import than all of theory
-
     return _integrated(z, np.asarray(wofz(1j * z)))
 
 

@@ -104,22 +104,7 @@ def contact_parameters(
         ValueError: κ/ν or ν not positive and finite, κ/ν < 1e-60, α, ψ, χ or the axial force not finite, any
             beyond 1e100.
     """
-    given = {
-        "kappa_over_nu": kappa_over_nu,
-        "alpha": alpha,
-        "psi": psi,
-        "chi": chi,
-        "nu": nu,
-        "axial": axial,
-    }
-    arrays = {name: np.asarray(value, dtype=np.float64) for name, value in given.items()}
-    for name, values in arrays.items():
-        _check(name, values, positive=name in ("kappa_over_nu", "nu"))
-    if np.any(arrays["kappa_over_nu"] < FLATTEST):
-        raise ValueError(
-            f"kappa_over_nu must be at least {FLATTEST:g} (got {np.min(arrays['kappa_over_nu'])}): "
-            "so flat a beam touches over its whole length at once"
-        )
+    arrays = _checked(kappa_over_nu=kappa_over_nu, alpha=alpha, psi=psi, chi=chi, nu=nu, axial=axial)
     shape = np.broadcast_shapes(*(v.shape for v in arrays.values()))
     ratio, a, p, c, n, axial = (np.ascontiguousarray(v).ravel() for v in np.broadcast_arrays(*arrays.values()))
 
@@ -151,6 +136,19 @@ def contact_parameters(
     return ContactParameters(
         *map(shaped, (ratio, a, p, c, n, regime, lambda0, r0, lambda1, r1, axial, lambda_axial, r_axial, uniform))
     )
+
+
+def _checked(**given: ArrayLike) -> dict[str, FloatArray]:
+    """The arguments as arrays. Raises ``ValueError`` for one out of range."""
+    arrays = {name: np.asarray(value, dtype=np.float64) for name, value in given.items()}
+    for name, values in arrays.items():
+        _check(name, values, positive=name in ("kappa_over_nu", "nu"))
+    if np.any(arrays["kappa_over_nu"] < FLATTEST):
+        raise ValueError(
+            f"kappa_over_nu must be at least {FLATTEST:g} (got {np.min(arrays['kappa_over_nu'])}): "
+            "so flat a beam touches over its whole length at once"
+        )
+    return arrays
 
 
 def _check(name: str, values: FloatArray, *, positive: bool) -> None:

@@ -28,6 +28,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike
+from scipy.integrate import quad_vec
 
 from theory._fresnel import ComplexArray, FloatArray
 from theory._iterated_erfc import scaled_iterated_erfc
@@ -157,8 +158,6 @@ class ImpactFields:
 
     def _convolve(self, xi: FloatArray, tau: FloatArray) -> FloatArray:
         """(η, η_ξ, η_ξξ, η_τ) of shape (4, n) at ξ ≥ 0 and τ > 0 of shape (n,)."""
-        from scipy.integrate import quad_vec  # here, because it takes longer to import than all of theory
-
         p, e = self.parameters, self.epsilon
         path = _Path(
             x=xi / np.sqrt(tau),

@@ -22,6 +22,7 @@ from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike
+from scipy.integrate import quad
 
 from theory import phi
 from theory._fresnel import ComplexArray, FloatArray, scaled_erfc
@@ -109,8 +110,6 @@ class SelfSimilarWave:
     @property
     def energy(self) -> float:
         """½∫(η_τ² + η_ξξ²)dξ/√τ, kinetic and bending energy of the fast layer; relative error 1e-11."""
-        from scipy.integrate import quad  # here, because it takes longer to import than all of theory
-
         p = self.parameters
 
         def outside(y: float) -> float:

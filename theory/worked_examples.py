@@ -14,6 +14,7 @@ from collections.abc import Callable
 
 import numpy as np
 from numpy.typing import ArrayLike
+from scipy.integrate import solve_ivp
 
 from theory._fresnel import FloatArray
 
@@ -45,8 +46,6 @@ def duffing_multiple_scales(times: ArrayLike, epsilon: float) -> FloatArray:
 
 def duffing_numerical(times: ArrayLike, epsilon: float) -> FloatArray:
     """y(t) of (2.2.4) by direct integration at times ≥ 0 in ascending order, shape (n,); error below 1e-9."""
-    from scipy.integrate import solve_ivp  # here, because it takes longer to import than all of theory
-
     t = np.asarray(times, dtype=np.float64)
 
     def rate(_: float, state: FloatArray) -> FloatArray:

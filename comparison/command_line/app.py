@@ -1,34 +1,44 @@
 """The ``bentbeam`` command: each command is a file of its own beside this one.
 
 Exit codes: 0 done; 2 bad input (one line naming field and value); 3 a solver could not finish; 130 interrupted.
-Nothing heavy is imported here or at the head of the commands' files: ``bentbeam --help`` answers at once.
+The library's commands are listed here; programs on top of it add theirs by the entry-point group
+``bentbeam.commands``. A command imports what is heavy inside its function: ``bentbeam --help`` answers at once.
 """
 
 from __future__ import annotations
 
-import gc
 import os
 import signal
 import sys
 import warnings
 from collections.abc import Sequence
+from functools import cache
+from importlib.metadata import entry_points
 from typing import Annotated
 
 import typer
 
 from bent_beam.errors import SimulationError
-from comparison.command_line.group import CommandGroup
+from comparison.command_line.bounce import bounce
+from comparison.command_line.compare import compare
+from comparison.command_line.match import match
+from comparison.command_line.new import new
+from comparison.command_line.plot import plot
+from comparison.command_line.predict import predict
+from comparison.command_line.rerun import rerun
+from comparison.command_line.settings import settings
+from comparison.command_line.simulate import simulate
+from comparison.command_line.theory import theory
 
-__all__ = ["app", "main", "run"]
+__all__ = ["COMMANDS", "add_programs", "app", "main", "run"]
+
+COMMANDS = (theory, new, settings, predict, simulate, bounce, match, rerun, plot, compare)
+"""Of the library, in the order of ``bentbeam --help``."""
 
 INTERRUPTED = 130
-# Matrices are small: where two processes share two cores, a second thread of linear algebra in each makes both a third
-# to two thirds slower. Dask's workers have one, too.
-ONE_THREAD = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 RESUMED = ("match", "gallery", "report", "benchmark")  # keep every run, or every item, as soon as it is finished
 
 app = typer.Typer(
-    cls=CommandGroup,
     help="A naturally bent beam hits a rigid wall: theory, simulations, and how well they agree.",
     rich_markup_mode=None,
     pretty_exceptions_enable=False,
@@ -56,14 +66,27 @@ def bentbeam(
         print(context.get_help())
 
 
+for command in COMMANDS:
+    app.command()(command)
+
+
+@cache
+def add_programs() -> None:
+    """Add the commands of programs, which the library's own need not wait for."""
+    for entry in sorted(entry_points(group="bentbeam.commands")):
+        app.command()(entry.load())
+
+
 def main(arguments: Sequence[str] | None = None) -> None:
     """Run the command and leave with its exit code."""
-    gc.disable()  # looking for cycles among what is imported is a tenth of a start; what takes long enables it again
-    for name in ONE_THREAD:
-        os.environ.setdefault(name, "1")  # before NumPy is imported, here and in processes started from here
     _open_closed_streams()
+    ends = [getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name)]
+    for end in ends:
+        if signal.getsignal(end) is signal.SIG_DFL:  # under nohup, SIGHUP stays ignored
+            signal.signal(end, signal.default_int_handler)  # as Ctrl-C: no half of a file is left
     code = run(arguments)
-    signal.signal(signal.SIGINT, signal.SIG_IGN)  # nothing is left to interrupt, and leaving takes a moment
+    for end in ends:
+        signal.signal(end, signal.SIG_IGN)  # nothing is left to interrupt, and leaving takes a moment
     try:
         sys.stdout.flush()
     except OSError as error:
@@ -84,8 +107,11 @@ def _open_closed_streams() -> None:
 def run(arguments: Sequence[str] | None = None) -> int:
     """Run the command; returns its exit code, prints one line on standard error when it is not 0."""
     warnings.simplefilter("ignore", RuntimeWarning)  # every result is checked to be finite
+    words = list(sys.argv[1:] if arguments is None else arguments)
     try:
-        code = app(args=None if arguments is None else list(arguments), prog_name="bentbeam", standalone_mode=False)
+        if words[:1] not in [[command.__name__] for command in COMMANDS]:
+            add_programs()
+        code = app(args=words, prog_name="bentbeam", standalone_mode=False)
         if code == INTERRUPTED:  # Typer makes this of Ctrl-C, without a word
             raise KeyboardInterrupt
         return int(code or 0)
@@ -101,7 +127,7 @@ def run(arguments: Sequence[str] | None = None) -> int:
     except MemoryError:
         return _refuse("not enough memory; fewer nodes, steps or saved instants need less", 3)
     except (KeyboardInterrupt, typer.Abort):
-        return _refuse(f"interrupted; {how_to_go_on(sys.argv[1:] if arguments is None else arguments)}", INTERRUPTED)
+        return _refuse(f"interrupted; {how_to_go_on(words)}", INTERRUPTED)
 
 
 def how_to_go_on(arguments: Sequence[str]) -> str:

@@ -29,14 +29,16 @@ def bounce(
     assignments: Set = None,
     runs: Annotated[int, typer.Option(min=2, max=1000, help="Runs of the ensemble without damping.")] = 24,
     seed: Annotated[int, typer.Option(min=0, help="Of the ensemble.")] = 15,
+    hits: Annotated[int, typer.Option(min=1, max=20, help="Hits to follow, of a beam that loads bring back.")] = 1,
     out: Annotated[Path | None, typer.Option(help="Folder for document, figure and animation.")] = None,
     jobs: Jobs = 1,
     as_json: Json = False,
     quiet: Quiet = False,
 ) -> None:
-    """Follow the whole impact to the last separation.
+    """Follow the whole impact to its last separation.
 
-    Gives restitution, contact times, the largest moment and stress, each with an error bar.
+    Gives restitution, contact times, the largest moment and stress of the first hit, each with an error bar. A hit is a
+    time of contact whose gaps are shorter than a period of the first mode.
 
     Example: bentbeam bounce --kappa-over-nu 2 --damping 0.01
     """
@@ -46,8 +48,9 @@ def bounce(
     from comparison.bounce import bounce as follow
     from comparison.bounce import bounce_document, problem
     from comparison.methods import methods_of
+    from comparison.several_hits import follow_hits
     from comparison.store import check_writable
-    from comparison.whole_impact.table import bounce_table
+    from comparison.whole_impact.table import bounce_table, hits_table
 
     if (case is None) == (kappa_over_nu is None):
         raise InputError("bounce takes a case file or --kappa-over-nu, one of them")
@@ -68,9 +71,12 @@ def bounce(
         check_writable(out, folder=True)
     with Console(quiet).progress(f"{path}: the whole impact") as bar:
         found = follow(impact, method, section=section, runs=runs, seed=seed, jobs=jobs, progress=bar.count)
+        followed = follow_hits(impact, method, hits, progress=bar.fraction) if hits > 1 else []
     document = bounce_document(found)
+    if hits > 1:
+        document["hits"] = [{**vars(hit), "restitution": hit.restitution} for hit in followed]
     if out is not None:
         from comparison.whole_impact.figures import write_bounce
 
         document["files"] = [str(file) for file in write_bounce(found, out)]
-    emit(document, as_json, lambda: bounce_table(found))
+    emit(document, as_json, lambda: "\n".join([bounce_table(found), *hits_table(followed)]))

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import gc
 import logging
 import sys
 from collections.abc import Callable, Iterator
@@ -24,19 +23,11 @@ class Bar:
         self._task = progress.add_task(title, total=1.0) if progress is not None else None
 
     def fraction(self, done: float) -> None:
-        _collect_from_here()
         if self._progress is not None and self._task is not None:
             self._progress.update(self._task, completed=done)
 
     def count(self, done: int, total: int) -> None:
         self.fraction(done / max(total, 1))
-
-
-def _collect_from_here() -> None:
-    """Look for cycles again, which ``main`` has put off: what was imported and compiled until now stays."""
-    if not gc.isenabled():
-        gc.freeze()
-        gc.enable()
 
 
 class Console:
@@ -48,14 +39,6 @@ class Console:
 
     @contextmanager
     def progress(self, title: str) -> Iterator[Bar]:
-        try:
-            with self._bar(title) as bar:
-                yield bar
-        finally:
-            _collect_from_here()
-
-    @contextmanager
-    def _bar(self, title: str) -> Iterator[Bar]:
         if self.quiet:
             yield Bar(None, title)
             return

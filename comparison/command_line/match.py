@@ -64,9 +64,9 @@ def match(
     import os
     import sys
 
-    from comparison.match import THESIS_KAPPAS, failures, questions
     from comparison.match import match as match_all
     from comparison.methods import chosen_methods
+    from comparison.rows import THESIS_KAPPAS, failures, questions
     from comparison.store import RunStore, check_writable, default_store
     from comparison.tables import match_document, match_table, write_match
 

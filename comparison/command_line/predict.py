@@ -15,27 +15,32 @@ __all__ = ["predict"]
 def predict(
     case: CaseFile,
     time: Annotated[list[float] | None, typer.Option(help="Time after first contact, s; repeatable.")] = None,
-    simulate: Annotated[
-        bool, typer.Option("--simulate", help="Answer by the whole-beam solver too, ends and loads included.")
+    theory_only: Annotated[
+        bool, typer.Option("--theory-only", help="The closed forms alone, at once; nothing is simulated.")
     ] = False,
     assignments: Set = None,
     as_json: Json = False,
     quiet: Quiet = False,
 ) -> None:
-    """Predict contact, force and stress of a case by theory.
+    """Predict contact and stress: theory beside a simulation.
 
-    The answer says until when it holds and what ends it.
+    The answer says until when the theory holds, what ends it, and what the whole impact brings.
 
     Example: bentbeam predict cases/drill_pipe.toml --time 0.005 --time 0.01
     """
     from bent_beam.cases import load_case
-    from comparison.verdict import verdict, verdict_text
+    from bent_beam.errors import InputError
+    from comparison.prediction import predict_case
+    from comparison.prediction_text import prediction_text
 
     loaded = load_case(case, assignments or ())
+    loaded.method("hermite")  # every table of the case is looked at, also where nothing is simulated
     times = time or [loaded.end_time]
-    if simulate:
-        with Console(quiet or as_json).progress(f"the whole beam: {case.name}") as bar:
-            document = verdict(loaded, times, simulate=True, progress=bar.fraction)
-    else:  # at once: a bar would take longer to set up
-        document = verdict(loaded, times)
-    emit(document, as_json, lambda: verdict_text(document))
+    for one in times:
+        try:
+            loaded.impact.checked_time("time", one)
+        except ValueError as error:
+            raise InputError(f"--time: {error}") from None
+    with Console(quiet or as_json or theory_only).progress(f"the whole beam: {case.name}") as bar:
+        document = predict_case(loaded, times, theory_only=theory_only, progress=bar.fraction)
+    emit(document, as_json, lambda: prediction_text(document))

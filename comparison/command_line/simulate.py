@@ -11,7 +11,11 @@ from comparison.command_line.console import Console
 from comparison.command_line.options import CaseFile, Json, Overwrite, Quiet, Set, check_out, emit, path_names
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from bent_beam.errors import SimulationError
+    from bent_beam.history import ImpactHistory
+    from bent_beam.method import Method
 
 __all__ = ["simulate"]
 
@@ -49,12 +53,15 @@ def simulate(
     if until not in (None, "separation"):
         raise InputError(f'--until takes "separation" (got {until!r}); an end time is run.end_time')
     check_out(out, overwrite)
+
+    def run(chosen: Method, instants: int, progress: Callable[[float], None] | None = None) -> ImpactHistory:
+        if until is None:
+            return chosen.simulate(loaded.impact, end_time=loaded.end_time, save=instants, progress=progress)
+        return simulate_to_separation(chosen, loaded.impact, save=instants, progress=progress)
+
     try:
         with Console(quiet).progress(f"{path}: {case.name}") as bar:
-            if until is None:
-                history = method.simulate(loaded.impact, end_time=loaded.end_time, save=save, progress=bar.fraction)
-            else:
-                history = simulate_to_separation(method, loaded.impact, save=save, progress=bar.fraction)
+            history = run(method, save, bar.fraction)
     except SimulationError as error:
         raise _kept(error, out) from None
     problem = None
@@ -63,7 +70,7 @@ def simulate(
             history.save(out)
         except OSError as error:  # the run's answer is worth more than its file
             problem, out = f"out: {out} could not be written: {error.strerror or error}", None
-    others, lost = ([], []) if until else companions(method, loaded.impact, loaded.end_time, error_bars)
+    others, lost = companions(method, run, error_bars)
     found = summary(history, out, loaded.section, others)
     found["warnings"] = [*loaded.warnings, *found["warnings"], *lost]
     emit(found, as_json, lambda: run_table(found))

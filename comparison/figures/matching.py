@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from comparison.figures import style
-from comparison.match import First, MatchRow
+from comparison.rows import First, MatchRow
 from theory import contact_parameters
 
 __all__ = ["draw_first_order", "draw_leading", "draw_matching"]

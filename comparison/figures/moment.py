@@ -24,8 +24,8 @@ from bent_beam.method import Method, refined
 from bent_beam.versions import stamp
 from comparison.figures import style
 from comparison.methods import default_methods
-from comparison.reduction import bending_moments
 from comparison.store import write_atomically
+from measure.reduction import bending_moments
 from theory.moment import peak_moment
 
 __all__ = ["KAPPAS", "MeasuredMoment", "draw_moments", "measure_moment", "moment_over_time"]

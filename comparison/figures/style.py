@@ -1,7 +1,6 @@
 """The one style of all figures: theory is always the black line, Hermite always blue circles, Self-similar green
-diamonds, Exudyn vermilion squares; any other path has a mark of its own (:func:`mark`). The wall is below: y,
-positive into
-the wall, points downwards (:func:`wall_below`).
+diamonds, Exudyn vermilion squares; any other path has a mark of its own (:func:`mark`). The wall is below: y, positive
+into the wall, points downwards (:func:`wall_below`).
 
 Colours are those of Okabe and Ito (2008), told apart by the colour-blind; sizes are those of a journal column.
 """
@@ -29,7 +28,6 @@ __all__ = [
     "EXUDYN",
     "FORMATS",
     "HERMITE",
-    "OLD",
     "PAGE",
     "SELF_SIMILAR",
     "SEQUENCE",
@@ -61,27 +59,11 @@ COLOURS = {
 SEQUENCE = [COLOURS[c] for c in ("blue", "vermilion", "green", "purple", "sky", "orange", "grey")]
 
 THEORY: dict[str, Any] = {"color": COLOURS["black"], "lw": 1.2, "ls": "-", "marker": "", "label": "theory"}
-HERMITE: dict[str, Any] = {
-    "color": COLOURS["blue"],
-    "ls": "",
-    "marker": "o",
-    "ms": 4.5,
-    "mfc": "none",
-    "mew": 1.0,
-    "label": "Hermite",
-}
-EXUDYN: dict[str, Any] = {
-    "color": COLOURS["vermilion"],
-    "ls": "",
-    "marker": "s",
-    "ms": 3.5,
-    "mfc": "none",
-    "mew": 1.0,
-    "label": "Exudyn",
-}
-OLD: dict[str, Any] = {"color": COLOURS["grey"], "lw": 0.8, "ls": "--", "marker": "", "label": "thesis's settings"}
 WALL: dict[str, Any] = {"color": COLOURS["grey"], "lw": 0.8, "ls": ":", "label": "wall"}
-SELF_SIMILAR: dict[str, Any] = {**HERMITE, "color": COLOURS["green"], "marker": "D", "ms": 3.8, "label": "Self-similar"}
+_OPEN: dict[str, Any] = {"ls": "", "ms": 4.0, "mfc": "none", "mew": 1.0}
+HERMITE: dict[str, Any] = {**_OPEN, "color": COLOURS["blue"], "marker": "o", "ms": 4.5, "label": "Hermite"}
+SELF_SIMILAR: dict[str, Any] = {**_OPEN, "color": COLOURS["green"], "marker": "D", "ms": 3.8, "label": "Self-similar"}
+EXUDYN: dict[str, Any] = {**_OPEN, "color": COLOURS["vermilion"], "marker": "s", "ms": 3.5, "label": "Exudyn"}
 MARKERS = {"hermite": HERMITE, "self_similar": SELF_SIMILAR, "exudyn": EXUDYN}
 MARKS = "^vP<>Xhd*p"
 
@@ -90,23 +72,14 @@ def marks(labels: Iterable[str]) -> dict[str, dict[str, Any]]:
     """Marker and colour of each method, by its label in order of first appearance: the same label, the same mark within
     one figure. The three that nearly every figure shows always look alike."""
     known = {mark["label"]: mark for mark in MARKERS.values()}
-    found: dict[str, dict[str, Any]] = {}
     free = [c for c in SEQUENCE if c not in {mark["color"] for mark in known.values()}]
-    for label in dict.fromkeys(labels):
-        if label in known:
-            found[label] = known[label]
-            continue
-        place = len([name for name in found if name not in known])
-        found[label] = {
-            "color": free[place % len(free)],
-            "ls": "",
-            "marker": MARKS[place % len(MARKS)],
-            "ms": 4.0,
-            "mfc": "none",
-            "mew": 1.0,
-            "label": label,
-        }
-    return found
+    names = list(dict.fromkeys(labels))
+    others = [label for label in names if label not in known]
+    own = {
+        label: {**_OPEN, "color": free[i % len(free)], "marker": MARKS[i % len(MARKS)], "label": label}
+        for i, label in enumerate(others)
+    }
+    return {label: (known | own)[label] for label in names}
 
 
 RC: Any = {

@@ -15,7 +15,7 @@ from typing import Any
 from matplotlib.ticker import FormatStrFormatter, LogLocator, NullFormatter
 
 from comparison.figures import style
-from comparison.match import MatchRow
+from comparison.rows import MatchRow
 
 __all__ = ["draw_work_precision"]
 

@@ -16,6 +16,7 @@ from __future__ import annotations
 
 import argparse
 import dataclasses
+import random
 import sys
 import time as clock
 from collections.abc import Callable, Sequence
@@ -24,13 +25,13 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from bent_beam.method import for_whole_beam, method_from_tables
-from bent_beam.versions import stamp
+from comparison import stored
 from comparison.bounce import RUNS, SEED, bounce, problem
-from comparison.plain import json_text
-from comparison.store import RunStore, default_store, write_atomically
-from comparison.whole_impact.outcome import SHORTEST_SEPARATION
+from comparison.store import RunStore, default_store
 from comparison.whole_impact.stored_map import DATA, POINT
 from comparison.workers import run_all
+from measure.measured import Band, Measured
+from measure.whole_impact import SHORTEST_SEPARATION
 
 __all__ = ["DAMPINGS", "KAPPAS", "Point", "grid", "measure_map", "measure_point"]
 
@@ -41,6 +42,7 @@ KAPPAS = (
 DAMPINGS = (1e-4, 3e-4, 1e-3, 3e-3, 1e-2, 3e-2, 1e-1)
 BANDS = (0.05, 0.1, 0.2, 0.35, 0.5, 0.65, 0.8, 1.0, 1.25, 1.5, 2.0, 2.5)
 PATH, OTHER = "hermite", "exudyn"
+PACKAGES = ("bent_beam", "measure", "hermite_fe", "exudyn_models")
 OTHERS = tuple((kappa, damping) for damping in (1e-3, 1e-2) for kappa in (0.4, 0.7, 1.5, POINT))
 FLAT, FINER = 0.35, 2.0  # below this κ/ν elements so many times shorter
 LONGER = 2.0  # steps than a single bounce takes: half of the work, and e moves by less than by half of the elements
@@ -78,11 +80,13 @@ def measure_point(point: Point) -> dict[str, Any]:
     found = bounce(problem(point.kappa_over_nu, point.damping), point.method(), save=SAVED)
     asked = {**point._asdict(), "left": found.left, "seconds": found.seconds}
     if point.damping == 0.0:
-        bands = {name: [number.mean, number.std] for name, number in found.numbers.items()}
+        bands = {name: [number.mean, number.std] for name, number in found.numbers.items() if isinstance(number, Band)}
         return {**asked, "runs": RUNS, "seed": SEED, "band": bands}
     return {
         **asked,
-        "numbers": {name: [number.value, number.error] for name, number in found.numbers.items()},
+        "numbers": {
+            name: [number.value, number.error] for name, number in found.numbers.items() if isinstance(number, Measured)
+        },
         "energy_defect": found.outcome.energy_defect,
         "energy_gain": found.outcome.energy_gain,
         "steps": found.history.steps,
@@ -130,29 +134,58 @@ def write_map(
 ) -> Path:
     """Write ``map.json``. bands : of the undamped beam; others : points of another path, to draw on the map; run : what
     the command took, see :func:`_main`."""
-    document = {
-        "what": "the whole impact of a free-free bent beam, units L/2 = EI = mu = V0 = 1: number -> [value, error bar]",
-        **stamp("python -m comparison.whole_impact.map"),
-        "settings": rows[-1]["settings"],
-        "finer": {"kappa_over_nu_below": FLAT, "refine": FINER},
-        "shortest_separation": SHORTEST_SEPARATION,
-        "kappa_over_nu": sorted({row["kappa_over_nu"] for row in rows}),
-        "damping": sorted({row["damping"] for row in rows}),
-        "seconds": sum(row["seconds"] for row in (*rows, *bands, *others)),
-        "run": run,
-        "points": [{k: v for k, v in row.items() if k != "settings"} for row in rows],
-        "bands": list(bands),
-        "others": [{k: v for k, v in row.items() if k != "settings"} for row in others],
-    }
-    write_atomically(DATA, json_text(document, indent=1) + "\n")
-    return DATA
+    return stored.write(
+        DATA,
+        "the whole impact of a free-free bent beam, units L/2 = EI = mu = V0 = 1: number -> [value, error bar]",
+        "python -m comparison.whole_impact.map",
+        PACKAGES,
+        {
+            **rows[-1]["settings"],
+            "finer": {"kappa_over_nu_below": FLAT, "refine": FINER},
+            "shortest_separation": SHORTEST_SEPARATION,
+        },
+        {
+            "kappa_over_nu": sorted({row["kappa_over_nu"] for row in rows}),
+            "damping": sorted({row["damping"] for row in rows}),
+            "seconds": sum(row["seconds"] for row in (*rows, *bands, *others)),
+            "run": run,
+            "points": [_without_settings(row) for row in rows],
+            "bands": list(bands),
+            "others": [_without_settings(row) for row in others],
+        },
+    )
+
+
+def _without_settings(row: dict[str, Any]) -> dict[str, Any]:
+    return {key: value for key, value in row.items() if key != "settings"}
+
+
+def outside_their_bars(count: int, seed: int) -> list[str]:
+    """Numbers of ``count`` points drawn at random that, measured again, are outside the bars of both."""
+    found = []
+    points = {(p["kappa_over_nu"], p["damping"]): p["numbers"] for p in stored.read(DATA)["points"]}
+    for point in random.Random(seed).sample(grid(), count):
+        before, again = points[point.kappa_over_nu, point.damping], measure_point(point)["numbers"]
+        found += [
+            f"{name} at kappa/nu = {point.kappa_over_nu:g}, eta/T* = {point.damping:g}: {again[name]}, stored {number}"
+            for name, number in before.items()
+            if abs(again[name][0] - number[0]) > again[name][1] + number[1] + 1e-9 * abs(number[0])
+        ]
+    return found
 
 
 def _main() -> int:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--scheduler", default=None)
+    parser.add_argument("--confirm", type=int, metavar="N", help="measure N points again; if they agree, keep the map")
     asked = parser.parse_args()
+    if asked.confirm:
+        wrong = outside_their_bars(asked.confirm, seed=int(clock.time()))
+        if not wrong:
+            stored.confirm(DATA)
+        print("\n".join(wrong) or f"{DATA.name}: {asked.confirm} points agree")
+        return 1 if wrong else 0
     store = RunStore(default_store())
     parts = grid(), [Point(PATH, kappa, 0.0) for kappa in BANDS], [Point(OTHER, *at, COARSER) for at in OTHERS]
     points = list(chain(*parts))

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import json
 import math
+from collections.abc import Mapping
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -13,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bent_beam.checks import finite, non_negative, positive
-from comparison.whole_impact.number import NUMBERS, Number
+from measure.measured import Band, Measured
 
 __all__ = ["DATA", "POINT", "bounce_from_map", "stored_map"]
 
@@ -35,13 +36,13 @@ def _grids() -> tuple[Array, Array, dict[str, tuple[Array, Array]]]:
     kappas, dampings = np.array(table["kappa_over_nu"]), np.array(table["damping"])
     at = {(p["damping"], p["kappa_over_nu"]): p["numbers"] for p in table["points"]}
     found = {}
-    for name in NUMBERS:
+    for name in table["points"][0]["numbers"]:
         pairs = np.array([[at[d, k][name] for k in kappas] for d in dampings], float)
         found[name] = (pairs[..., 0], pairs[..., 1])
     return kappas, dampings, found
 
 
-def bounce_from_map(kappa_over_nu: float, damping: float) -> dict[str, Number] | None:
+def bounce_from_map(kappa_over_nu: float, damping: float) -> Mapping[str, Measured | Band] | None:
     """Every number of the whole impact at κ/ν and η/T*, interpolated between the map's points; ``None`` off the map
     (κ/ν < 0.05, η/T* > 1e-1). Without damping, and with less than the map's least (1e-4), which is as irregular, the
     band between the nearest bands.
@@ -67,21 +68,20 @@ def bounce_from_map(kappa_over_nu: float, damping: float) -> dict[str, Number] |
         value = float(np.sum(values[i : i + 2, j : j + 2] * weights))
         spread = 2.0 * u * (1.0 - u) * _bend(values[:, j : j + 2], i)
         spread += 2.0 * v * (1.0 - v) * _bend(values[i : i + 2].T, j)
-        parts = {"map": float(errors[i : i + 2, j : j + 2][used].max()), "interpolation": spread}
-        found[name] = Number(value, math.hypot(*parts.values()), parts)
+        found[name] = Measured(value, math.hypot(float(errors[i : i + 2, j : j + 2][used].max()), spread))
     return found
 
 
-def _band(kappa: float) -> dict[str, Number]:
+def _band(kappa: float) -> dict[str, Band]:
     bands = stored_map()["bands"]
     at = np.log([band["kappa_over_nu"] for band in bands])
     return {
-        name: Number(
+        name: Band(
             mean=float(np.interp(math.log(kappa), at, [band["band"][name][0] for band in bands])),
             std=float(np.interp(math.log(kappa), at, [band["band"][name][1] for band in bands])),
             runs=int(bands[0]["runs"]),
         )
-        for name in NUMBERS
+        for name in bands[0]["band"]
     }
 
 

@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-from comparison.bounce import SI, Bounce, scales
-from comparison.text_table import text_table
-from comparison.whole_impact.outcome import SHORTEST_SEPARATION
+from collections.abc import Sequence
 
-__all__ = ["bounce_table"]
+from comparison.bounce import SI, Bounce
+from comparison.text_table import text_table
+from measure.whole_impact import SHORTEST_SEPARATION, WallHit
+
+__all__ = ["bounce_table", "hits_table"]
 
 TITLES = {
-    "restitution": "velocity after over before, e",
-    "impulse": "impulse of the wall",
+    "restitution": "coefficient of restitution e",
+    "impulse": "impulse",
     "last_contact": "last contact",
     "separations": "separations",
     "peak_moment": "largest bending moment",
@@ -25,7 +27,7 @@ TITLES = {
 
 def bounce_table(found: Bounce) -> str:
     """Every number with its error bar, in units of the beam and in SI."""
-    impact, unit = found.impact, scales(found.impact)
+    impact, unit = found.impact, found.units
     rows = []
     for name, title in TITLES.items():
         number = found.numbers[name]
@@ -42,8 +44,21 @@ def bounce_table(found: Bounce) -> str:
         "",
         text_table(["", "beam's units", "SI", ""], rows),
         "",
-        "Beam's units: L/2 = EI = mu = V0 = 1; energies are shares of the initial one, at the last contact.",
+        "Beam's units: L/2 = EI = mu = V0 = 1; energies are shares of the initial one and the work of loads, at the",
+        "last contact.",
         f"A separation lasts at least {SHORTEST_SEPARATION:g} T* ({SHORTEST_SEPARATION * unit['time']:.3g} s).",
         *(f"warning: {w}" for w in found.warnings),
     ]
     return "\n".join(lines)
+
+
+def hits_table(hits: Sequence[WallHit]) -> list[str]:
+    """The hits that were followed, as a table; nothing for none."""
+    if not hits:
+        return []
+    head = ["hit", "from, s", "to, s", "impulse, N s", "velocity before, m/s", "after, m/s", "restitution"]
+    body = [
+        [str(number), *(f"{v:.5g}" for v in (h.begin, h.end, h.impulse, h.before, h.after, h.restitution))]
+        for number, h in enumerate(hits, 1)
+    ]
+    return ["", text_table(head, body)]

@@ -9,11 +9,12 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
 from bent_beam import Impact
+from bent_beam.fields import Part
 from exudyn_models.arrays import Array, Flags, Indices
 from exudyn_models.elements import Beam, Element
 from exudyn_models.geometry import Geometry, LinearLimit
@@ -34,7 +35,6 @@ class Wall:
     front : rough estimate of where contact ends at the end;
     first_spread : until when (in end times) nothing but the first spread of the zone moves it: waves are back later;
     plastic : the front is thin, so that nodes that hit must not rebound, and nothing but the first spread moves it;
-    stiffness_unit, damping_unit : N/m² and N s/m² of the model units.
     """
 
     nodes: Indices
@@ -44,8 +44,6 @@ class Wall:
     first_spread: float
     plastic: bool
     explicit: bool
-    stiffness_unit: float
-    damping_unit: float
     opposite: float | None  # y of a second, flat wall behind the beam
 
 
@@ -107,8 +105,11 @@ class ContactRun(ABC):
         return {}
 
 
-class Contact(ABC):
+@dataclass(frozen=True)
+class Contact(Part, ABC):
     """A kind of contact: what it can work with, what goes with it when nothing else is asked for, its connectors."""
+
+    where: ClassVar[str] = "exudyn.contact"
 
     def refuses(self, impact: Impact, element: Element, integrator: Integrator) -> str | None:
         """Why this contact cannot work with a beam, an element or an integrator (None: it can)."""

@@ -12,14 +12,20 @@ lift what they will.
 
 from __future__ import annotations
 
+from typing import Annotated
+
 import numpy as np
 
+from bent_beam.fields import Quantity
 from exudyn_models.arrays import Flags
 from exudyn_models.contacts.base import Wall
 
-__all__ = ["START", "HeldStrip"]
+__all__ = ["START", "HeldStrip", "Hold"]
 
 START = 0.01  # of the end time
+Hold = Annotated[
+    int, Quantity("", "elements behind the front whose captured nodes are held, until waves may be back", least=0)
+]
 
 
 class HeldStrip:

@@ -23,17 +23,17 @@ pull nodes that D = 40 has stopped ahead of the wall, and give energy.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import Annotated, Any
 
 import exudyn.itemInterface as items
 import numpy as np
 
-from bent_beam.checks import between, non_negative, positive, whole
-from exudyn_models.arrays import Array, Flags, Indices, unless_open
+from bent_beam.fields import Quantity
+from exudyn_models.arrays import Array, Flags, Indices
 from exudyn_models.contacts.base import TINY, Contact, ContactRun, Wall
-from exudyn_models.contacts.holding import START, HeldStrip
+from exudyn_models.contacts.holding import START, HeldStrip, Hold
 from exudyn_models.elements import Beam
 
 __all__ = ["Penalty", "penalty_per_length"]
@@ -171,32 +171,25 @@ class _Run(ContactRun):
 
 @dataclass(frozen=True)
 class Penalty(Contact):
-    """Nodal penalty: the default.
+    """Nodal penalty: the default."""
 
-    stiffness, damping : k in N/m² and d in N s/m² per length of beam; None: from the element length and the next two.
-    relative_stiffness, relative_damping : C in k = C EI/Δx⁴ and D in d = D √(EIμ)/Δx² per length of beam.
-    hold : elements behind the front whose captured nodes are held, until waves may be back from the ends; none unless
-        asked for.
-    hold_start : first share of the run in which all captured nodes are held, for the start is never resolved; None:
-        0.01, but none where the load draws the beam off the wall, none where the front is thin, none in runs longer
-        than the first spread and none under explicit integrators.
-    """
-
-    stiffness: float | None = None
-    damping: float | None = None
-    relative_stiffness: float | None = field(default=None, metadata={"chosen": f"{STIFFNESS:g} or more"})
-    relative_damping: float | None = field(default=None, metadata={"chosen": f"{DAMPING:g} (thin front: {PLASTIC:g})"})
-    hold: int = 0
-    hold_start: float | None = None
-
-    def __post_init__(self) -> None:
-        unless_open(positive, "exudyn.contact.stiffness", self.stiffness)
-        unless_open(non_negative, "exudyn.contact.damping", self.damping)
-        unless_open(positive, "exudyn.contact.relative_stiffness", self.relative_stiffness)
-        unless_open(non_negative, "exudyn.contact.relative_damping", self.relative_damping)
-        whole("exudyn.contact.hold", self.hold, 0)
-        if self.hold_start is not None:
-            between("exudyn.contact.hold_start", self.hold_start, 0.0, START)
+    relative_stiffness: Annotated[
+        float | None, Quantity("", "C in k = C EI/Δx⁴ per length of beam", above=0.0, absent=f"{STIFFNESS:g} or more")
+    ] = None
+    relative_damping: Annotated[
+        float | None,
+        Quantity(
+            "", "D in d = D √(EIμ)/Δx²", least=0.0, absent=f"{DAMPING:g}√(C/10) (thin front: {PLASTIC:g}√(C/10))"
+        ),
+    ] = None
+    hold: Hold = 0
+    hold_start: Annotated[
+        float | None,
+        Quantity(
+            "", "first share of the run in which all captured nodes are held", least=0.0, most=START,
+            absent=f"{START:g}; 0 where the load lifts the zone, the front is thin, waves are back, steps are explicit",
+        ),
+    ] = None  # fmt: skip
 
     def attach(self, beam: Beam, wall: Wall) -> ContactRun:
         length = beam.tributary[wall.nodes]
@@ -210,10 +203,6 @@ class Penalty(Contact):
         if damping is None:
             damping = (PLASTIC if plastic else DAMPING) * math.sqrt(stiffness / STIFFNESS)
         k, d = penalty_per_length(local, stiffness, damping)
-        if self.stiffness is not None:
-            k = np.full_like(local, self.stiffness / wall.stiffness_unit)
-        if self.damping is not None:
-            d = np.full_like(local, self.damping / wall.damping_unit)
         strip = HeldStrip(wall, self.hold, 0.0 if plastic and self.hold_start is None else self.hold_start)
         chosen = {"relative_stiffness": stiffness, "relative_damping": damping}
         return _Run(beam, wall, k * length, d * length, strip, chosen)

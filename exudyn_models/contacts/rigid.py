@@ -26,10 +26,9 @@ import exudyn.itemInterface as items
 import numpy as np
 
 from bent_beam import Impact
-from bent_beam.checks import whole
 from exudyn_models.arrays import Array, Flags, Indices
 from exudyn_models.contacts.base import Contact, ContactRun, Wall
-from exudyn_models.contacts.holding import HeldStrip
+from exudyn_models.contacts.holding import HeldStrip, Hold
 from exudyn_models.elements import Beam, Element
 from exudyn_models.integrators import Integrator, Newmark
 
@@ -93,15 +92,9 @@ class _Run(ContactRun):
 
 @dataclass(frozen=True)
 class Rigid(Contact):
-    """Constraints switched with the contact state; needs the Newmark integrator with γ > ½.
+    """Constraints switched with the contact state; needs the Newmark integrator with γ > ½."""
 
-    hold : elements behind the front whose captured nodes are not released; as for the penalty.
-    """
-
-    hold: int = 0
-
-    def __post_init__(self) -> None:
-        whole("exudyn.contact.hold", self.hold, 0)
+    hold: Hold = 0
 
     def integrator(self) -> Integrator:
         return Newmark()

@@ -12,12 +12,13 @@ nothing in the linear limit and little for a real, axially stiff beam.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Annotated
 
 import exudyn.itemInterface as items
 import numpy as np
 
 from bent_beam import Impact
-from bent_beam.checks import non_negative, positive
+from bent_beam.fields import Quantity
 from exudyn_models.arrays import Array, Flags, Indices
 from exudyn_models.contacts.base import Contact, ContactRun, Wall
 from exudyn_models.contacts.penalty import penalty_per_length
@@ -84,23 +85,14 @@ class _Run(ContactRun):
 
 @dataclass(frozen=True)
 class SegmentFriction(Contact):
-    """Penalty on the segments of ANCF cables, with friction.
+    """Penalty on the segments of ANCF cables, with friction."""
 
-    friction : Coulomb's coefficient.
-    relative_stiffness, relative_damping : as for the nodal penalty, in EI/Δx⁴ and √(EIμ)/Δx².
-    relative_friction_damping : tangential force per sliding velocity below Coulomb's limit, in √(EIμ)/Δx².
-    """
-
-    friction: float = 0.0
-    relative_stiffness: float = 10.0
-    relative_damping: float = 10.0
-    relative_friction_damping: float = 1.0
-
-    def __post_init__(self) -> None:
-        non_negative("exudyn.contact.friction", self.friction)
-        positive("exudyn.contact.relative_stiffness", self.relative_stiffness)
-        non_negative("exudyn.contact.relative_damping", self.relative_damping)
-        positive("exudyn.contact.relative_friction_damping", self.relative_friction_damping)
+    friction: Annotated[float, Quantity("", "Coulomb's coefficient", least=0.0)] = 0.0
+    relative_stiffness: Annotated[float, Quantity("", "as for the nodal penalty, in EI/Δx⁴", above=0.0)] = 10.0
+    relative_damping: Annotated[float, Quantity("", "likewise, in √(EIμ)/Δx²", least=0.0)] = 10.0
+    relative_friction_damping: Annotated[
+        float, Quantity("", "tangential force per sliding velocity below Coulomb's limit, in √(EIμ)/Δx²", above=0.0)
+    ] = 1.0
 
     def refuses(self, impact: Impact, element: Element, integrator: Integrator) -> str | None:
         if impact.opposite_wall is not None:

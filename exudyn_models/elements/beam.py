@@ -7,15 +7,15 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable
-from dataclasses import dataclass, field
-from typing import Any
+from dataclasses import dataclass
+from typing import Annotated, Any, ClassVar
 
 import exudyn.itemInterface as items
 import numpy as np
 from scipy.sparse import csr_matrix
 
-from bent_beam.checks import non_negative, positive
-from exudyn_models.arrays import Array, Indices, unless_open
+from bent_beam.fields import Part, Quantity
+from exudyn_models.arrays import Array, Indices
 from exudyn_models.geometry import Shape
 
 __all__ = ["Beam", "Element", "Section"]
@@ -202,20 +202,18 @@ class Beam(ABC):
 
 
 @dataclass(frozen=True)
-class Element(ABC):
-    """What every element may be told.
+class Element(Part, ABC):
+    """What every element may be told. Viscosity shortens the stable step of explicit integrators; the axial stiffness
+    has no effect in the linear limit."""
 
-    viscosity : bending viscosity in units of √(EIμ)·Δx² of each element; None: chosen with the integrator, less for
-        explicit ones, whose stable step it shortens.
-    axial_stiffness : EA, N; None: 12EI/d² with the true geometry, EI/Λ² in the linear limit (where it has no effect).
-    """
+    where: ClassVar[str] = "exudyn.element"
 
-    viscosity: float | None = field(default=None, metadata={"chosen": CHOSEN_VISCOSITY})
-    axial_stiffness: float | None = None
-
-    def __post_init__(self) -> None:
-        unless_open(non_negative, "exudyn.element.viscosity", self.viscosity)
-        unless_open(positive, "exudyn.element.axial_stiffness", self.axial_stiffness)
+    viscosity: Annotated[
+        float | None, Quantity("", "of bending, in √(EIμ)·Δx² of each element", least=0.0, absent=CHOSEN_VISCOSITY)
+    ] = None
+    axial_stiffness: Annotated[
+        float | None, Quantity("N", "EA", above=0.0, absent="12EI/d² (true), EI/Λ² (linear)")
+    ] = None
 
     @abstractmethod
     def build(self, mbs: Any, shape: Shape, section: Section, viscosity: Array) -> Beam:

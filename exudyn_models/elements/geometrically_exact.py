@@ -10,12 +10,12 @@ cable is of fourth.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from typing import Annotated, Any
 
 import exudyn.itemInterface as items
 import numpy as np
 
-from bent_beam.checks import positive
+from bent_beam.fields import Quantity
 from exudyn_models.arrays import Array
 from exudyn_models.elements.beam import Beam, Element, Section
 from exudyn_models.geometry import Shape
@@ -98,19 +98,14 @@ class _Exact(Beam):
 
 @dataclass(frozen=True)
 class GeometricallyExact(Element):
-    """Geometrically exact two-node beam elements: a second opinion, on a mesh twice as fine for the same accuracy.
+    """Geometrically exact two-node beam elements: a second opinion, on a mesh twice as fine for the same accuracy."""
 
-    shear_ratio : GA in units of EI/Δx² of each element; from 1e2 the shear angle no longer shows.
-    rotary_ratio : rotary inertia in units of μΔx²; it only keeps the mass matrix regular.
-    """
-
-    shear_ratio: float = 100.0
-    rotary_ratio: float = 0.01
-
-    def __post_init__(self) -> None:
-        super().__post_init__()
-        positive("exudyn.element.shear_ratio", self.shear_ratio)
-        positive("exudyn.element.rotary_ratio", self.rotary_ratio)
+    shear_ratio: Annotated[
+        float, Quantity("", "GA in EI/Δx² of each element; from 1e2 the shear angle no longer shows", above=0.0)
+    ] = 100.0
+    rotary_ratio: Annotated[
+        float, Quantity("", "rotary inertia in μΔx²; it only keeps the mass matrix regular", above=0.0)
+    ] = 0.01
 
     def build(self, mbs: Any, shape: Shape, section: Section, viscosity: Array) -> Beam:
         return _Exact(mbs, shape, section, viscosity, self)

@@ -15,6 +15,7 @@ from typing import Any, ClassVar, cast
 import exudyn as exu
 import numpy as np
 
+from bent_beam.fields import Part
 from exudyn_models.arrays import Array
 
 __all__ = ["Averages", "Integrator", "Segment", "checked_steps", "growing_segments"]
@@ -98,9 +99,10 @@ def growing_segments(first: float, relative: float, constant: bool = False) -> l
     return segments
 
 
-class Integrator(ABC):
-    """Base of the integrators. ``time_step`` in s (None: chosen)."""
+class Integrator(Part, ABC):
+    """Base of the integrators."""
 
+    where: ClassVar[str] = "exudyn.integrator"
     explicit: ClassVar[bool] = False
     limit: ClassVar[float] = math.inf  # of step × largest frequency
     time_step: float | None

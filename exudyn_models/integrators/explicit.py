@@ -9,12 +9,11 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any, ClassVar
+from typing import Annotated, Any, ClassVar
 
 import exudyn as exu
 
-from bent_beam.checks import between, positive
-from exudyn_models.arrays import unless_open
+from bent_beam.fields import Quantity
 from exudyn_models.integrators.base import Integrator, Segment, checked_steps
 
 __all__ = ["DOPRI5", "RK44", "VelocityVerlet"]
@@ -22,18 +21,13 @@ __all__ = ["DOPRI5", "RK44", "VelocityVerlet"]
 
 @dataclass(frozen=True)
 class _Explicit(Integrator):
-    """time_step : s, not above the stable step (``ValueError`` names it); None: ``safety`` × the stable step.
-    safety : share of the stable step that is taken."""
-
-    time_step: float | None = None
-    safety: float = 0.8
+    time_step: Annotated[
+        float | None, Quantity("s", "not above the stable step", above=0.0, absent="safety × the stable step")
+    ] = None
+    safety: Annotated[float, Quantity("", "share of the stable step that is taken", least=1e-6, most=1.0)] = 0.8
 
     explicit: ClassVar[bool] = True
     method: ClassVar[Any]
-
-    def __post_init__(self) -> None:
-        unless_open(positive, "exudyn.integrator.time_step", self.time_step)
-        between("exudyn.integrator.safety", self.safety, 1e-6, 1.0)
 
     def configure(self, settings: Any) -> None:
         settings.timeIntegration.solverType = self.method

@@ -3,31 +3,27 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from typing import Annotated, Any
 
 import exudyn as exu
 
-from bent_beam.checks import between, positive
-from exudyn_models.arrays import unless_open
+from bent_beam.checks import between
+from bent_beam.fields import Quantity
 from exudyn_models.integrators.base import Averages, Integrator, Segment, growing_segments
 
 __all__ = ["GeneralizedAlpha", "Implicit", "Newmark", "Trapezoidal"]
 
+RelativeStep = Annotated[float, Quantity("", "h/t, where steps grow", above=0.0)]
+
 
 @dataclass(frozen=True)
 class Implicit(Integrator):
-    """Base of the implicit integrators.
+    """Base of the implicit integrators."""
 
-    time_step : constant step, s; None: steps grow with the time since impact.
-    relative_step : their ratio h/t.
-    """
-
-    time_step: float | None = None
-    relative_step: float = 2e-3
-
-    def __post_init__(self) -> None:
-        unless_open(positive, "exudyn.integrator.time_step", self.time_step)
-        positive("exudyn.integrator.relative_step", self.relative_step)
+    time_step: Annotated[
+        float | None, Quantity("s", "constant step", above=0.0, absent="grows with the time since impact")
+    ] = None
+    relative_step: RelativeStep = 2e-3
 
     def segments(self, first: float, unit: float, stable: float) -> list[Segment]:
         step = first if self.time_step is None else min(1.0, self.time_step / unit)
@@ -36,17 +32,12 @@ class Implicit(Integrator):
 
 @dataclass(frozen=True)
 class GeneralizedAlpha(Implicit):
-    """Generalised-α (Chung and Hulbert 1993), of second order: what the step cannot resolve is damped to ρ∞.
+    """Generalised-α (Chung and Hulbert 1993), of second order: what the step cannot resolve is damped to ρ∞."""
 
-    spectral_radius : ρ∞ in [0, 1]; 1 damps nothing and lets contact rattle, 0 annihilates what is unresolved.
-    """
-
-    relative_step: float = 8e-3  # second order: 4e-3 moves λ₀ and r₀ by 6e-6 at κ/ν = 0.1, 0.25 and 0.5
-    spectral_radius: float = 0.5
-
-    def __post_init__(self) -> None:
-        super().__post_init__()
-        between("exudyn.integrator.spectral_radius", self.spectral_radius, 0.0, 1.0)
+    relative_step: RelativeStep = 8e-3  # second order: 4e-3 moves λ₀ and r₀ by 6e-6 at κ/ν = 0.1, 0.25 and 0.5
+    spectral_radius: Annotated[
+        float, Quantity("", "ρ∞; 1 damps nothing, and contact rattles; 0: annihilates", least=0.0, most=1.0)
+    ] = 0.5
 
     def averages(self) -> Averages:
         rho = self.spectral_radius
@@ -68,18 +59,17 @@ def _configure_newmark(settings: Any, kind: Any, gamma: float, beta: float) -> N
 
 @dataclass(frozen=True)
 class Newmark(Implicit):
-    """Newmark's method: v⁺ = v + h[(1−γ)a + γa⁺], u⁺ = u + hv + h²[(½−β)a + βa⁺]; constraints at velocity level.
+    """Newmark's method: v⁺ = v + h[(1−γ)a + γa⁺], u⁺ = u + hv + h²[(½−β)a + βa⁺]; constraints at velocity level."""
 
-    gamma : γ from ½ to 2; above ½ it damps what the step cannot resolve, and the accuracy is of first order.
-    beta : β from γ/2 to 2; None: (γ+½)²/4, which damps high frequencies most.
-    """
-
-    gamma: float = 0.6
-    beta: float | None = None
+    gamma: Annotated[
+        float, Quantity("", "γ; above ½ it damps what the step cannot resolve, at first order", least=0.5, most=2.0)
+    ] = 0.6
+    beta: Annotated[
+        float | None, Quantity("", "β, γ/2 at least", least=0.25, most=2.0, absent="(γ+½)²/4, which damps most")
+    ] = None
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        between("exudyn.integrator.gamma", self.gamma, 0.5, 2.0)
         if self.beta is not None:
             between("exudyn.integrator.beta", self.beta, self.gamma / 2, 2.0)
 

@@ -6,12 +6,12 @@ import dataclasses
 import math
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
-from typing import Any, ClassVar
+from typing import Annotated, Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-from bent_beam.checks import non_negative, positive
+from bent_beam.fields import Part, Quantity
 from bent_beam.impact import Impact
 from hermite_fe.stepping import Problem, State
 
@@ -21,29 +21,28 @@ MAXIMUM_STEPS = 20_000_000
 
 
 @dataclass(frozen=True)
-class Integrator(ABC):
+class Integrator(Part, ABC):
     """Base of the integrators: steps h = max(time_step, growth·t), adjusted down so that they end at the end time.
 
-    time_step : smallest step, s (``None``: chosen from the problem).
-    growth : step over time since impact, so that every decade of a self-similar motion takes the same number of steps
-        (``None``: 0, constant steps, when ``time_step`` is given; chosen otherwise).
+    With growth every decade of a self-similar motion takes the same number of steps.
     """
 
+    where: ClassVar[str] = "integrator"
+
     holds: ClassVar[bool] = False
-    """Whether the scheme supports the hold (:mod:`hermite_fe.contacts.base`)."""
+    """Whether the scheme supports the hold (:mod:`hermite_fe.contacts`)."""
+
+    holds_zone: ClassVar[bool] = False
+    """Whether a hold of the whole zone, as in runs that measure what a pressing load changes, is stable."""
 
     elements_in_first_front: ClassVar[float] = 0.03
     """Thickness of the front, in smallest elements, after a first step that is chosen (:mod:`hermite_fe.resolution`).
     More than one is for schemes that close many nodes in one long step without rebound."""
 
-    time_step: float | None = None
-    growth: float | None = None
-
-    def __post_init__(self) -> None:
-        if self.time_step is not None:
-            positive("integrator.time_step", self.time_step)
-        if self.growth is not None:
-            non_negative("integrator.growth", self.growth)
+    time_step: Annotated[float | None, Quantity("s", "smallest step", above=0.0)] = None
+    growth: Annotated[
+        float | None, Quantity("", "step over time since impact", least=0.0, absent="chosen; 0 with a time_step")
+    ] = None
 
     def with_steps(self, time_step: float, growth: float) -> Integrator:
         """A copy whose unset steps are these."""

@@ -26,14 +26,15 @@ energy residual.
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Annotated, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from bent_beam.fields import Quantity
 from hermite_fe.active_set import SOLVED, solve_constrained
-from hermite_fe.banded import copy, dot, multiply, stiff_multiply
-from hermite_fe.compiled import compiled
+from hermite_fe.banded import dot, multiply, stiff_multiply
+from hermite_fe.compiled import compiled, recompiling
 from hermite_fe.constraints import Constraints, Rows, constraints_of, note_complementarity, row_times
 from hermite_fe.solver import Solver, prepare
 from hermite_fe.stepping import (
@@ -46,12 +47,13 @@ from hermite_fe.stepping import (
     mean_forces,
 )
 
-__all__ = ["AlphaMemory", "Reactions", "Scheme", "Vectors", "add_step", "alpha_memory", "begin",
+__all__ = ["AlphaMemory", "Reactions", "Scheme", "SpectralRadius", "Vectors", "add_step", "alpha_memory",
            "correct", "predict", "prepare_step", "scheme_of", "smooth_motion",
            "take_reaction"]  # fmt: skip
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
+SpectralRadius = Annotated[float, Quantity("", "ρ∞ at infinite frequency (1: none is damped)", least=0.0, most=1.0)]
 
 
 class Scheme(NamedTuple):
@@ -120,24 +122,22 @@ class AlphaMemory(NamedTuple):
     velocity: Constraints
 
 
-def alpha_memory(problem: Problem, spectral_radius: float) -> AlphaMemory:
-    """The memory at the start: all zero."""
+def alpha_memory(problem: Problem, state: State, spectral_radius: float) -> AlphaMemory:
+    """The memory at the start: v̇ = a, all else zero. Raises ``ValueError`` for a mass matrix that is singular."""
     m, n = problem.rows.gap.size, problem.matrices.M.shape[1]
     value, filtered, lag, impulse = np.zeros((4, m))
+    vectors = Vectors(*np.zeros((13, n)))
+    matrices, rows, _, solver = problem
+    status = recompiling(lambda: initial_acceleration(matrices, rows, solver, state, vectors.b, vectors.scratch))
+    if status != SOLVED:
+        raise ValueError("mass must be positive definite for generalised-α, which starts with the accelerations")
+    vectors.a[:] = state.acceleration
     return AlphaMemory(
         scheme_of(spectral_radius),
-        Vectors(*np.zeros((13, n))),
+        vectors,
         Reactions(value, filtered, lag, impulse, *np.zeros((2, m), np.bool_)),
         *(constraints_of(problem.rows) for _ in range(3)),
     )
-
-
-@compiled
-def begin(matrices: Matrices, rows: Rows, solver: Solver, state: State, vectors: Vectors) -> int:
-    """v̇ = a at the start; returns the status of the solution."""
-    status = initial_acceleration(matrices, rows, solver, state, vectors.b, vectors.scratch)
-    copy(state.acceleration, vectors.a)
-    return status
 
 
 @compiled

@@ -13,11 +13,12 @@ from __future__ import annotations
 
 import dataclasses
 from dataclasses import dataclass
+from typing import Annotated
 
 import numpy as np
 from numpy.typing import NDArray
 
-from bent_beam.checks import between, non_negative, positive, whole
+from bent_beam.fields import Quantity
 from bent_beam.impact import Impact
 from hermite_fe.active_set import NOT_FINITE, SOLVED, solve_free
 from hermite_fe.banded import copy
@@ -28,10 +29,10 @@ from hermite_fe.integrators.generalized_alpha import (
     AlphaMemory,
     Reactions,
     Scheme,
+    SpectralRadius,
     Vectors,
     add_step,
     alpha_memory,
-    begin,
     correct,
     predict,
     prepare_step,
@@ -48,26 +49,18 @@ Flags = NDArray[np.bool_]
 
 @dataclass(frozen=True)
 class GeneralizedAlphaPenalty(Integrator):
-    """spectral_radius : ρ∞ ∈ [0, 1].
+    """Generalised-α with a spring and damper at each node while it penetrates."""
 
-    stiffness : k_c, N/m per metre of beam (``None``: chosen, 1e7 μ/t*²).
-    damping : d_c, N s/m per metre of beam (``None``: chosen, 3e4 μ/t*).
-    contact_rounds : most solutions per step until the active springs are those that penetrate.
-    """
-
-    spectral_radius: float = 0.8
-    stiffness: float | None = None
-    damping: float | None = None
-    contact_rounds: int = 20
-
-    def __post_init__(self) -> None:
-        super().__post_init__()
-        between("integrator.spectral_radius", self.spectral_radius, 0.0, 1.0)
-        if self.stiffness is not None:
-            positive("integrator.stiffness", self.stiffness)
-        if self.damping is not None:
-            non_negative("integrator.damping", self.damping)
-        whole("integrator.contact_rounds", self.contact_rounds, 1)
+    spectral_radius: SpectralRadius = 0.8
+    stiffness: Annotated[
+        float | None, Quantity("N/m²", "k_c, per length of beam", above=0.0, absent="chosen, 1e7 μ/t*²")
+    ] = None
+    damping: Annotated[
+        float | None, Quantity("N s/m²", "d_c, per length of beam", least=0.0, absent="chosen, 3e4 μ/t*")
+    ] = None
+    contact_rounds: Annotated[
+        int, Quantity("", "most solutions a step until the active springs are those that penetrate", least=1)
+    ] = 20
 
     def refined(self, factor: float) -> GeneralizedAlphaPenalty:
         """Steps shorter, the contact stiffer in proportion to their square: the error of the penalty must fall too."""
@@ -95,7 +88,7 @@ class GeneralizedAlphaPenalty(Integrator):
         e = problem.law.restitution
         if e > 0.0:
             raise ValueError(f"generalized_alpha_penalty has no impact law: restitution must be 0 (got {e!r})")
-        return alpha_memory(problem, self.spectral_radius)
+        return alpha_memory(problem, state, self.spectral_radius)
 
     def advance(
         self, problem: Problem, state: State, memory: AlphaMemory, times: NDArray[np.float64], first: int, last: int
@@ -114,10 +107,6 @@ def take_steps(
     """Take the steps ``first`` … ``last`` − 1 between the instants ``times``; returns (status, step reached)."""
     matrices, rows, _, solver = problem
     scheme, vectors, reactions, smooth, _, _ = memory
-    if first == 0 and last > 0:
-        status = begin(matrices, rows, solver, state, vectors)
-        if status != SOLVED:
-            return status, 0
     for k in range(first, last):
         t, made_for = times[k], solver.step[0]
         h = prepare_step(matrices, rows, solver, scheme, times[k + 1] - t, times[k + 1])

@@ -10,12 +10,12 @@ A constraint takes part when closing it now would leave it in the wall or on it;
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import Annotated, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-from bent_beam.checks import between
+from bent_beam.fields import Quantity
 from hermite_fe.integrators.base import Integrator
 from hermite_fe.integrators.theta import ThetaMemory, take_steps, theta_memory
 from hermite_fe.stepping import Problem, State
@@ -25,15 +25,14 @@ __all__ = ["MoreauJean"]
 
 @dataclass(frozen=True)
 class MoreauJean(Integrator):
-    """theta : θ ∈ [½, 1]; ½ keeps smooth motion's energy, 1 damps most at grid scale."""
+    """A θ-scheme with the impact law at velocity level."""
 
     holds: ClassVar[bool] = True
+    holds_zone: ClassVar[bool] = True
 
-    theta: float = 1.0
-
-    def __post_init__(self) -> None:
-        super().__post_init__()
-        between("integrator.theta", self.theta, 0.5, 1.0)
+    theta: Annotated[
+        float, Quantity("", "θ; ½ keeps smooth motion's energy, 1 damps most at grid scale", least=0.5, most=1.0)
+    ] = 1.0
 
     def start(self, problem: Problem, state: State) -> ThetaMemory:
         return theta_memory(problem)

@@ -15,25 +15,25 @@ The level at which the constraints are imposed (``levels``):
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import Annotated, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-from bent_beam.checks import between, one_of
+from bent_beam.fields import Quantity
 from hermite_fe.active_set import NOT_FINITE, SOLVED, solve_constrained
 from hermite_fe.banded import copy, multiply
 from hermite_fe.compiled import compiled
-from hermite_fe.constraints import Constraints, Rows, find_held, note_complementarity, row_times, rows_times
+from hermite_fe.constraints import Constraints, find_held, note_complementarity, row_times, rows_times
 from hermite_fe.integrators.base import Integrator
 from hermite_fe.integrators.generalized_alpha import (
     AlphaMemory,
     Reactions,
     Scheme,
+    SpectralRadius,
     Vectors,
     add_step,
     alpha_memory,
-    begin,
     prepare_step,
     smooth_motion,
 )
@@ -51,21 +51,15 @@ AT_REST = 1e-12  # of the largest rate of a dof: a closed constraint slower than
 
 @dataclass(frozen=True)
 class NonsmoothGeneralizedAlpha(Integrator):
-    """spectral_radius : ρ∞ ∈ [0, 1] at infinite frequency (1: none is damped). levels : at which constraints are
-    imposed."""
+    """Generalised-α with jumps, its constraints imposed at the levels asked for."""
 
     holds: ClassVar[bool] = True
 
-    spectral_radius: float = 0.8
-    levels: str = "position_velocity_acceleration"
-
-    def __post_init__(self) -> None:
-        super().__post_init__()
-        between("integrator.spectral_radius", self.spectral_radius, 0.0, 1.0)
-        one_of("integrator.levels", self.levels, LEVELS)
+    spectral_radius: SpectralRadius = 0.8
+    levels: Annotated[str, Quantity("", "at which constraints are imposed", choices=LEVELS)] = LEVELS[-1]
 
     def start(self, problem: Problem, state: State) -> AlphaMemory:
-        return alpha_memory(problem, self.spectral_radius)
+        return alpha_memory(problem, state, self.spectral_radius)
 
     def advance(
         self, problem: Problem, state: State, memory: AlphaMemory, times: NDArray[np.float64], first: int, last: int
@@ -80,10 +74,6 @@ def take_steps(
     """Take the steps ``first`` … ``last`` − 1 between the instants ``times``; returns (status, step reached)."""
     matrices, rows, law, solver = problem
     scheme, vectors, reactions, smooth, position, velocity = memory
-    if first == 0 and last > 0:
-        status = begin(matrices, rows, solver, state, vectors)
-        if status != SOLVED:
-            return status, 0
     for k in range(first, last):
         t, h = times[k], prepare_step(matrices, rows, solver, scheme, times[k + 1] - times[k], times[k + 1])
         find_held(rows, law, state.closed, t, velocity.held)
@@ -97,7 +87,7 @@ def take_steps(
                 copy(velocity.held, position.held)
                 status = position_jump(problem, state, vectors, position, h)
             if status == SOLVED:
-                status = velocity_jump(problem, state, scheme, vectors, reactions, smooth.p, velocity, h)
+                status = velocity_after_position(problem, state, scheme, vectors, reactions, smooth.p, velocity, h)
         if status != SOLVED:
             return status, k
         add_step(matrices, rows, state, scheme, vectors, reactions, t, h)
@@ -107,11 +97,27 @@ def take_steps(
 
 
 @compiled
-def set_velocity_targets(rows: Rows, v: Array, e: float, velocity: Constraints) -> None:
-    """Set the targets so that Gv⁺ ≥ −eGv, with Gv of before the step."""
+def velocity_jump(
+    problem: Problem, state: State, vectors: Vectors, reactions: Reactions, velocity: Constraints
+) -> int:
+    """The jump W (``vectors.x``) of (M + hγsC + h²βsK)W = b + Gᵀp, 0 ≤ p ⊥ Gv⁺ + eGv ≥ 0, v⁺ += W, Gv of before the
+    step, b = ``vectors.b``. Puts KW in ``vectors.force``, CW in ``vectors.scratch``; returns the status."""
+    matrices, rows, law, solver = problem
+    W, v = vectors.x, state.v
     for j in range(velocity.target.size):
-        rebound = 0.0 if velocity.held[j] else e
+        rebound = 0.0 if velocity.held[j] else law.restitution
         velocity.target[j] = -row_times(rows, v, j) - rebound * velocity.Gv[j]
+    status = solve_constrained(solver, rows, velocity, vectors.b, W)
+    if status != SOLVED:
+        return status
+    copy(velocity.p, reactions.impulse)
+    add_impulses(state, velocity)
+    note_complementarity(rows, velocity, W, 1.0, 1.0, state.worst)
+    multiply(matrices.K, W, vectors.force)
+    multiply(matrices.C, W, vectors.scratch)
+    for i in range(v.size):
+        v[i] += W[i]
+    return SOLVED
 
 
 @compiled
@@ -127,8 +133,7 @@ def velocity_step(
     The matrix of W includes the elastic forces that the jump causes within the step. With M W = Gᵀp alone the next
     accelerations would have to compensate them, which is unstable for a stiff beam.
     """
-    matrices, rows, law, solver = problem
-    W, force, damping, q, v = vectors.x, vectors.force, vectors.scratch, state.q, state.v
+    rows, q = problem.rows, state.q
     share = h * scheme.beta / scheme.gamma
     rows_times(rows, q, velocity.Gq)
     for j in range(rows.gap.size):  # where a constraint would come to rest if it were closed now
@@ -137,25 +142,19 @@ def velocity_step(
     status = smooth_motion(problem, state, scheme, vectors, reactions, smooth, t, h)
     if status != SOLVED:
         return status
-    set_velocity_targets(rows, v, law.restitution, velocity)
     copy(state.closed, velocity.closed)
     vectors.b[:] = 0.0
-    status = solve_constrained(solver, rows, velocity, vectors.b, W)
+    status = velocity_jump(problem, state, vectors, reactions, velocity)
     if status != SOLVED:
         return status
     copy(velocity.closed, state.closed)
-    copy(velocity.p, reactions.impulse)
-    add_impulses(state, velocity)
-    note_complementarity(rows, velocity, W, 1.0, 1.0, state.worst)
-    multiply(matrices.K, W, force)
-    multiply(matrices.C, W, damping)
+    W, force, damping = vectors.x, vectors.force, vectors.scratch
     J, missed_momentum, missed_motion = vectors.new_jump_force, vectors.missed_momentum, vectors.missed_motion
     for i in range(W.size):
         J[i] = share * force[i] + damping[i]
         missed_momentum[i] = (0.5 - scheme.gamma * scheme.s) * J[i]
         missed_motion[i] += (share - 0.5 * h) * W[i]
         q[i] += share * W[i]
-        v[i] += W[i]
     return SOLVED
 
 
@@ -210,34 +209,27 @@ def position_jump(problem: Problem, state: State, vectors: Vectors, position: Co
 
 
 @compiled
-def velocity_jump(
+def velocity_after_position(
     problem: Problem, state: State, scheme: Scheme, vectors: Vectors, reactions: Reactions, smooth_p: Array,
     velocity: Constraints, h: float
 ) -> int:  # fmt: skip
     """W of :func:`position_jump`, and which constraints are at rest after it. ``vectors.b`` is −hKU."""
-    matrices, rows, law, solver = problem
-    W, b, force, damping, v = vectors.x, vectors.b, vectors.force, vectors.scratch, state.v
+    rows, b, v = problem.rows, vectors.b, state.v
     at_rest, impulse = reactions.at_rest, reactions.impulse
-    set_velocity_targets(rows, v, law.restitution, velocity)
     for j in range(at_rest.size):
         velocity.candidate[j] = state.closed[j] or smooth_p[j] > 0.0
         velocity.closed[j] = velocity.candidate[j]
         for i in range(rows.dofs.shape[1]):
             b[rows.dofs[j, i]] -= rows.factors[j, i] * impulse[j]
-    status = solve_constrained(solver, rows, velocity, b, W)
+    status = velocity_jump(problem, state, vectors, reactions, velocity)
     if status != SOLVED:
         return status
-    copy(velocity.p, impulse)
-    add_impulses(state, velocity)
-    note_complementarity(rows, velocity, W, 1.0, 1.0, state.worst)
-    multiply(matrices.K, W, force)
-    multiply(matrices.C, W, damping)
+    W, force, damping = vectors.x, vectors.force, vectors.scratch
     J, missed_momentum, missed_motion = vectors.new_jump_force, vectors.missed_momentum, vectors.missed_motion
     for i in range(W.size):
         missed_momentum[i] += (0.5 - scheme.gamma * scheme.s) * damping[i] - h * scheme.beta * scheme.s * force[i]
         missed_motion[i] -= 0.5 * h * W[i]
         J[i] += damping[i]
-        v[i] += W[i]
     fastest = 0.0
     for i in range(v.size):
         fastest = max(fastest, abs(v[i]))

@@ -10,12 +10,12 @@ lands.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import Annotated, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-from bent_beam.checks import between
+from bent_beam.fields import Quantity
 from hermite_fe.integrators.base import Integrator
 from hermite_fe.integrators.theta import ThetaMemory, take_steps, theta_memory
 from hermite_fe.stepping import Problem, State
@@ -25,17 +25,17 @@ __all__ = ["SignoriniPosition"]
 
 @dataclass(frozen=True)
 class SignoriniPosition(Integrator):
-    """theta : θ ∈ [½, 1]. For the infinite beam's first instants 1 (implicit Euler): θ near ½ makes closed
-    constraints rattle. For a whole beam with damping of its own ½, which damps nothing but impacts."""
+    """A θ-scheme with Signorini's condition at the new position.
+
+    For the infinite beam's first instants θ = 1: θ near ½ makes closed constraints rattle. For a whole beam with
+    damping of its own ½, which damps nothing but impacts.
+    """
 
     holds: ClassVar[bool] = True
+    holds_zone: ClassVar[bool] = True
     elements_in_first_front: ClassVar[float] = 3.0
 
-    theta: float = 1.0
-
-    def __post_init__(self) -> None:
-        super().__post_init__()
-        between("integrator.theta", self.theta, 0.5, 1.0)
+    theta: Annotated[float, Quantity("", "θ; 1: implicit Euler", least=0.5, most=1.0)] = 1.0
 
     def start(self, problem: Problem, state: State) -> ThetaMemory:
         e = problem.law.restitution

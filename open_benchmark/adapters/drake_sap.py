@@ -34,6 +34,25 @@ SIZES = {"coarse": 0.04, "medium": 0.03, "fine": 0.02}  # link length over l*
 HALF_LENGTH, AMPLITUDE, VISCOSITY = 4.0, 1e-3, 0.3  # viscosity of a hinge over sqrt(EI mu) size
 
 
+def reactions(found, node):
+    """Force of the wall on each node; node: index of a body -> number of its node."""
+    forces = np.zeros(len(node))
+    for j in range(found.num_point_pair_contacts()):
+        pair = found.point_pair_contact_info(j)
+        i = node.get(int(pair.bodyA_index()), node.get(int(pair.bodyB_index())))
+        forces[i] += abs(pair.contact_force()[2])
+    return forces
+
+
+def metadata(resolution, steps, dt, size, set_up, seconds):
+    about = {"tool": "Drake", "version": version("drake"), "resolution": resolution, "steps": steps,
+             "seconds": seconds, "set_up_seconds": set_up, "lines": len(open(__file__).readlines()),
+             "settings": {"contact": "point, SAP", "relaxation_time": dt},
+             "model": {"theory": "chain of rigid links", "half_length": HALF_LENGTH, "smallest_element": size,
+                       "time_step": dt, "amplitude": AMPLITUDE, "deviations": []}}  # fmt: skip
+    return json.dumps(about)
+
+
 def main(problem_file, result_file, resolution="medium"):
     began = time.perf_counter()
     with open(problem_file, "rb") as stream:
@@ -93,23 +112,14 @@ def main(problem_file, result_file, resolution="medium"):
     set_up, began = time.perf_counter() - began, time.perf_counter()
     for k in range(1, steps + 1):
         simulator.AdvanceTo(k * dt)
-        found = plant.get_contact_results_output_port().Eval(context)
-        push = np.zeros(n + 1)
-        for j in range(found.num_point_pair_contacts()):
-            pair = found.point_pair_contact_info(j)
-            i = node.get(int(pair.bodyA_index()), node.get(int(pair.bodyB_index())))
-            push[i] += abs(pair.contact_force()[2]) * dt / AMPLITUDE
+        push = dt / AMPLITUDE * reactions(plant.get_contact_results_output_port().Eval(context), node)
         tau[k], J[k], Jm[k] = k * dt, J[k - 1] + 2 * push.sum(), Jm[k - 1] + push @ x
         if k in snapshots:
             angle = np.cumsum([hinge.get_angle(context) for hinge in hinges])
             heights = slider.get_translation(context) - radius + size * np.concatenate([[0], np.cumsum(np.sin(angle))])
             snaps.append(heights / AMPLITUDE)
-    about = {"tool": "Drake", "version": version("drake"), "resolution": resolution, "steps": steps,
-             "seconds": time.perf_counter() - began, "set_up_seconds": set_up, "lines": len(open(__file__).readlines()),
-             "settings": {"contact": "point, SAP", "relaxation_time": dt},
-             "model": {"theory": "chain of rigid links", "half_length": HALF_LENGTH, "smallest_element": size,
-                       "time_step": dt, "amplitude": AMPLITUDE, "deviations": []}}  # fmt: skip
-    np.savez(result_file, outcome="completed", problem=problem["id"], metadata=json.dumps(about), tau=tau, J=J, Jm=Jm,
+    about = metadata(resolution, steps, dt, size, set_up, time.perf_counter() - began)
+    np.savez(result_file, outcome="completed", problem=problem["id"], metadata=about, tau=tau, J=J, Jm=Jm,
              J_minus=0 * tau, x=x, snap_tau=list(snapshots.values()), snap_gap=snaps)  # fmt: skip
 
 

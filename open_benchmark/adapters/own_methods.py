@@ -7,8 +7,9 @@ import tomllib
 
 from bent_beam import Impact, SimulationError
 from bent_beam.method import chosen_for, for_whole_beam, method_type, refined
+from open_benchmark.histories import result_from_history
 from open_benchmark.problem import problem as problem_of
-from open_benchmark.result import Result, result_from_history, save_result
+from open_benchmark.result import Result, save_result
 
 REFINEMENT = {  # of the method's own choice for the problem
     "exudyn": {"coarse": 0.25, "medium": 0.5, "fine": 1.0},

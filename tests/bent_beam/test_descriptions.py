@@ -18,7 +18,7 @@ def case(beam=None, section=PIPE, impact=None, **more):
     return case_from_tables(tables | ({"section": section} if section else {}))
 
 
-def test_pipe_is_outer_less_inner_bar():
+def test_pipe_is_outer_less_inner_bar_with_what_it_carries_along():
     pipe = Pipe(outer_diameter=0.127, inner_diameter=0.1086, **STEEL)
     outer, inner = RoundBar(diameter=0.127, **STEEL), RoundBar(diameter=0.1086, **STEEL)
     assert pipe.bending_stiffness == pytest.approx(outer.bending_stiffness - inner.bending_stiffness, rel=1e-13)
@@ -27,19 +27,18 @@ def test_pipe_is_outer_less_inner_bar():
     assert walled.bore == pytest.approx(0.1086, rel=1e-13)
     assert walled.area == pytest.approx(math.pi * 0.0092 * (0.127 - 0.0092), rel=1e-13)  # along its middle line
     assert pipe.section_modulus == pytest.approx(pipe.second_moment / 0.0635, rel=1e-13)
+    wet = Pipe(outer_diameter=0.127, inner_diameter=0.1086, fluid_density=1000.0, added_mass=3.0, **STEEL)
+    carried = 1000.0 * math.pi * 0.0543**2 + 3.0
+    assert wet.mass_per_length - pipe.mass_per_length == pytest.approx(carried, rel=1e-12)
+    assert wet.bending_stiffness == pipe.bending_stiffness
 
 
 def test_shear_coefficients_are_cowpers():
-    thin = Pipe(outer_diameter=0.1, inner_diameter=0.0999, poisson_ratio=0.3, **STEEL)
-    assert thin.shear_coefficient == pytest.approx(2 * 1.3 / (4 + 3 * 0.3), rel=2e-3)  # thin round tube
-    assert Pipe(outer_diameter=0.1, inner_diameter=0.0, **STEEL).shear_coefficient == pytest.approx(
-        RoundBar(diameter=0.1, **STEEL).shear_coefficient
-    )
-    # Cowper 1966, Table 1: 6(1 + ν)/(7 + 6ν) and 10(1 + ν)/(12 + 11ν)
-    assert RoundBar(diameter=0.1, poisson_ratio=0.3, **STEEL).shear_coefficient == pytest.approx(0.8864, abs=1e-4)
-    assert Rectangle(width=1.0, thickness=0.1, poisson_ratio=0.3, **STEEL).shear_coefficient == pytest.approx(
-        0.8497, abs=1e-4
-    )
+    """Cowper 1966, Table 1: 6(1 + ν)/(7 + 6ν) and 10(1 + ν)/(12 + 11ν); a thin round tube; a tube without a bore."""
+    bar, flat = RoundBar(diameter=0.1, **STEEL), Rectangle(width=1.0, thickness=0.1, **STEEL)
+    thin, thick = (Pipe(outer_diameter=0.1, inner_diameter=bore, **STEEL) for bore in (0.0999, 0.0))
+    for section, expected in ((bar, 0.8864), (flat, 0.8497), (thin, 2 * 1.3 / (4 + 3 * 0.3)), (thick, 0.8864)):
+        assert section.shear_coefficient == pytest.approx(expected, rel=2e-3)
 
 
 def test_stress_of_a_rectangle_under_moment_and_tension():
@@ -49,34 +48,26 @@ def test_stress_of_a_rectangle_under_moment_and_tension():
     assert section.radius_of_gyration == pytest.approx(0.002 / math.sqrt(12.0), rel=1e-13)
 
 
-def test_fluid_and_added_mass_move_along():
-    dry = Pipe(outer_diameter=0.1, inner_diameter=0.08, **STEEL)
-    wet = Pipe(outer_diameter=0.1, inner_diameter=0.08, fluid_density=1000.0, added_mass=3.0, **STEEL)
-    assert wet.mass_per_length - dry.mass_per_length == pytest.approx(1000.0 * math.pi * 0.04**2 + 3.0, rel=1e-12)
-    assert wet.bending_stiffness == dry.bending_stiffness
-
-
-def test_a_circle_through_ends_and_middle_has_the_sagitta():
-    found = case({"sagitta": 0.3, "sagitta_length": 20.0}).impact.curvature
-    radius = 1.0 / found
+def test_the_bow_by_its_sagitta_or_its_dogleg():
+    """The circle through both ends and the middle; degrees in thirty metres."""
+    radius = 1.0 / case({"sagitta": 0.3, "sagitta_length": 20.0}).impact.curvature
     assert radius - math.sqrt(radius**2 - 100.0) == pytest.approx(0.3, rel=1e-12)
-
-
-def test_dogleg_is_degrees_in_thirty_metres():
     assert case({"dogleg": 3.0}).impact.curvature * 30.0 == pytest.approx(math.radians(3.0), rel=1e-14)
 
 
-def test_dropped_beam_has_the_velocity_of_its_fall_and_falls_on():
-    found = case(impact={"drop_height": 0.5, "gravity": 9.0}).impact
-    assert found.velocity == pytest.approx(3.0, rel=1e-14)
-    assert found.acceleration == pytest.approx(9.0, rel=1e-14)
-    sloped = case(impact={"velocity": 1.0, "gravity": 9.0, "gravity_angle": 60.0}).impact
-    assert sloped.acceleration == pytest.approx(4.5, rel=1e-12)
-
-
-def test_a_swing_arrives_with_arm_times_speed():
-    assert case(impact={"angular_speed": 0.2}).impact.velocity == pytest.approx(3.0)
-    assert case(impact={"angular_speed": 0.2, "angular_arm": 5.0}).impact.velocity == pytest.approx(1.0)
+@pytest.mark.parametrize(
+    ("impact", "velocity", "acceleration"),
+    [
+        ({"drop_height": 0.5, "gravity": 9.0}, 3.0, 9.0),  # it falls on
+        ({"velocity": 1.0, "gravity": 9.0, "gravity_angle": 60.0}, 1.0, 4.5),
+        ({"angular_speed": 0.2}, 3.0, 0.0),
+        ({"angular_speed": 0.2, "angular_arm": 5.0}, 1.0, 0.0),
+    ],
+)
+def test_a_beam_arrives_as_it_falls_or_swings(impact, velocity, acceleration):
+    found = case(impact=impact).impact
+    assert found.velocity == pytest.approx(velocity, rel=1e-14)
+    assert found.acceleration == pytest.approx(acceleration, rel=1e-12)
 
 
 def test_free_flight_under_tension_straightens_the_bow():
@@ -100,21 +91,16 @@ def test_damping_ratio_and_loss_factor_are_the_same_time_constant():
     [
         ({"beam": {"curvature": 0.1, "sagitta": 0.1}}, "beam.curvature = 0.1 and beam.sagitta = 0.1"),
         ({"beam": {}}, "beam.curvature is required"),
-        ({"beam": {"curvature": 0.1, "sagitta_length": 1.0}}, "sagitta_length has no effect"),
         ({"beam": {"sagitta": 20.0}}, "beam.sagitta must be less than half"),
         ({"beam": {"sagitta": 0.1, "sagitta_length": 40.0}}, "must not exceed beam.length"),
         ({"beam": {"curvature": 0.1, "bending_stiffness": 1.0}}, "beam.bending_stiffness = 1.0 and"),
         ({"section": None}, "beam.bending_stiffness is required"),
         ({"section": PIPE | {"wall_thickness": 0.1}}, "walls cross"),
         ({"section": PIPE | {"inner_diameter": 0.1}}, "say the same"),
-        ({"section": PIPE | {"diameter": 0.1}}, "section.diameter is not a known"),
         ({"section": PIPE | {"kind": "tube"}}, "tube"),
         ({"impact": {}}, "impact.velocity is required"),
         ({"impact": {"velocity": 1.0, "drop_height": 1.0}}, "impact.velocity = 1.0 and impact.drop_height"),
         ({"impact": {"drop_height": 1.0, "gravity_angle": 90.0001}}, "needs gravity towards the wall"),
-        ({"impact": {"velocity": 1.0, "acceleration": 1.0, "gravity": 9.8}}, "impact.acceleration = 1.0 and"),
-        ({"impact": {"velocity": 1.0, "gravity_angle": 5.0}}, "gravity_angle has no effect"),
-        ({"beam": {"curvature": 0.1, "damping": 0.1, "damping_ratio": 0.1}}, "beam.damping = 0.1 and"),
         ({"beam": {"curvature": 0.1, "loss_factor": 0.1}}, "loss_frequency is required"),
         ({"wall": {"curvature": 0.002}}, "wall_curvature must be less"),
     ],
@@ -151,13 +137,3 @@ def test_a_new_case_can_be_used_as_it_is(kind, tmp_path):
     file = tmp_path / "mine.toml"
     file.write_text(new_case(kind))
     assert load_case(file).section is not None
-
-
-def test_every_setting_of_a_case_is_listed():
-    from comparison.settings import settings, settings_markdown
-
-    found = {(s.table, s.name) for s in settings()}
-    some = {("beam", "dogleg"), ("section", "yield_stress"), ("hermite.integrator", "theta"), ("mesh", "growth")}
-    assert some <= found
-    assert all(s.text for s in settings() if s.table in ("beam", "impact", "wall", "run"))
-    assert "| `dogleg` | °/30 m |" in settings_markdown()

@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 from bent_beam import Impact, ImpactHistory
-from bent_beam.storage import blocks
 
 
 def small(gap=None):
@@ -46,12 +45,6 @@ def test_a_history_is_read_back_equal(tmp_path):
     assert [f.name for f in tmp_path.iterdir()] == ["run.nc"]  # no part left behind
 
 
-def test_an_energy_that_a_path_does_not_have_is_nothing():
-    history = small()
-    assert history.energy("loss_impact").tolist() == [0.0, 0.5, 1.0]
-    assert history.energy("work_of_loads").tolist() == [0.0, 0.0, 0.0]
-
-
 def test_a_failed_write_leaves_the_old_file(tmp_path, monkeypatch):
     file = small().save(tmp_path / "run.nc")
     before = file.read_bytes()
@@ -86,26 +79,3 @@ def test_the_budget_adds_up():
     assert budget["defect"] == pytest.approx(0.0)
     assert budget["initial_energy"] == 5.0
     assert json.dumps(budget, allow_nan=False)
-
-
-def test_a_large_file_is_read_as_it_is_asked_for(tmp_path, monkeypatch):
-    whole = small()
-    copy = whole.save(tmp_path / "copy.nc")
-    monkeypatch.setattr("bent_beam.storage.LARGE", 10)
-    again = ImpactHistory.load(copy)
-    assert again.file == copy and again.dataset.equals(whole.dataset)
-    assert not again.dataset["gap"].variable._in_memory
-    assert np.array_equal(again.array("gap", 1), whole.dataset["gap"].values[1])
-    with pytest.raises(ValueError, match="cannot be replaced in memory"):
-        again.with_warnings(["other"])
-    again.dataset.attrs["steps"] = 9
-    with pytest.raises(ValueError, match=r"steps was changed, but .*copy\.nc"):
-        again.save(tmp_path / "other.nc")
-
-
-@pytest.mark.parametrize("block", [1, 2, 100])
-def test_all_of_a_variable_is_seen_block_by_block(monkeypatch, block):
-    monkeypatch.setattr("bent_beam.storage.BLOCK", 8 * 4 * block)
-    gap = small().dataset["gap"].variable
-    parts = list(blocks(gap))
-    assert len(parts) == -(-3 // min(block, 3)) and np.array_equal(np.concatenate(parts), gap.values)

@@ -5,9 +5,9 @@ import pytest
 
 from bent_beam import Impact
 from bent_beam.meshes import UniformMesh
-from comparison.reduction import peak_moment
 from exudyn_models import ExudynModel
 from hermite_fe import HermiteFE
+from measure.reduction import peak_moment
 
 HOLLOW = Impact.whole_beam(0.4, relative_damping=1e-2).replace(wall_curvature=0.1)
 ROCKING = HOLLOW.replace(rotation=0.2, first_touch=0.05)

@@ -8,10 +8,10 @@ from markdown_tables import lines_after, stated
 
 from bent_beam.impact import Impact
 from bent_beam.method import simulate_to_separation
-from comparison.whole_impact.outcome import whole_impact
 from hermite_fe import HermiteFE
 from hermite_fe.integrators import MoreauJean, NonsmoothGeneralizedAlpha, SignoriniPosition
-from hermite_fe.whole_beam import ELEMENTS
+from hermite_fe.resolution import ELEMENTS
+from measure.whole_impact import whole_impact
 
 RESTITUTIONS = [
     pytest.param(float(kappa), stated(damping.replace("10", "1e", 1))[0], hermite, id=f"{kappa}-{damping}")

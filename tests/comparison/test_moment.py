@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-from pathlib import Path
 
 import pytest
 
@@ -13,8 +12,6 @@ from comparison.figures.moment import (
     KAPPAS,
     PATHS,
     MeasuredMoment,
-    aitken,
-    draw_moments,
     measure_moment,
 )
 from comparison.methods import default_methods
@@ -33,25 +30,10 @@ def test_stored_points_are_within_half_a_percent_of_theory() -> None:
         assert abs(p.value / p.theory - 1.0) < WITHIN, p
 
 
-def test_extrapolation_knows_any_order() -> None:
-    for factor in (0.25, 0.4, 0.5):
-        assert aitken(*(2.0 - 0.1 * factor**k for k in range(3))) == pytest.approx(2.0, rel=1e-12)
-    assert aitken(1.0, 1.1, 1.3) == 1.3
-    assert aitken(1.0, 1.1, 1.05) == 1.05
-    assert aitken(1.0, 1.0, 1.0) == 1.0
-
-
 def test_moment_of_a_quick_run_is_that_of_theory_and_steady() -> None:
     found = measure_moment(HermiteFE(), 0.5)
     assert found.value == pytest.approx(found.theory, rel=WITHIN)
     assert found.error < 0.01 * found.theory
-
-
-def test_figure_is_drawn_from_points(tmp_path: Path) -> None:
-    exact = {kappa: float(peak_moment(kappa).largest) for kappa in KAPPAS}
-    points = [MeasuredMoment("Hermite", kappa, 1.001 * m, 1e-3, m) for kappa, m in exact.items()]
-    (file,) = draw_moments(points, tmp_path)
-    assert file.stat().st_size > 10_000
 
 
 @pytest.mark.verify

@@ -41,7 +41,9 @@ def test_nodal_gaps_of_both_codes_agree(damping, gaps, impulse):
         save=times,
         element=exudyn_models.ELEMENTS["ancf_cable"](viscosity=0.0),
         integrator=EXUDYN_INTEGRATORS["generalized_alpha"](spectral_radius=0.5, time_step=step),
-        contact=EXUDYN_CONTACTS["penalty"](stiffness=stiffness, damping=damping, hold=0, hold_start=0.0),
+        contact=EXUDYN_CONTACTS["penalty"](
+            relative_stiffness=stiffness * 0.05**4, relative_damping=damping * 0.05**2, hold_start=0.0
+        ),
         geometry=exudyn_models.GEOMETRIES["linear"](amplitude=1e-5),
         solver=SOLVERS["newton"](contact_iterations=20, contact_tolerance=1e-10, initial_accelerations=False),
     )

@@ -7,18 +7,18 @@ import pytest
 from numpy.testing import assert_allclose
 
 import exudyn_models
-from bent_beam import Impact, ImpactHistory
+from bent_beam import Impact
 from bent_beam.meshes import NodesMesh, ScaleFreeMesh, UniformMesh
-from comparison import estimators
-from comparison.match import Question, answer
-from comparison.settings import settings
+from comparison.match import answer
+from comparison.rows import Question
 from comparison.store import RunStore
 from exudyn_models import ExudynModel
 from exudyn_models.contacts import Penalty, Rigid, SegmentFriction
 from exudyn_models.elements import ANCFCable, GeometricallyExact
 from exudyn_models.geometry import LinearLimit
-from exudyn_models.integrators import DOPRI5, RK44, GeneralizedAlpha, Newmark, Trapezoidal, VelocityVerlet
-from exudyn_models.solvers import NewtonSolver
+from exudyn_models.integrators import DOPRI5, RK44, GeneralizedAlpha, Newmark, VelocityVerlet
+from measure import estimators
+from measure.moments import moments
 
 EXACT = {
     0.05: (6.23692857563, 3.93727884942),
@@ -28,6 +28,7 @@ EXACT = {
     0.8: (0.296846693037, 1.01915199895),
 }
 HALF = Impact.dimensionless(0.5)
+NO_WALL = Penalty(relative_stiffness=1e-20, relative_damping=0.0)
 
 
 def coarse(impact, growth=1.02, elements=60, end_time=None):
@@ -39,7 +40,7 @@ def coarse(impact, growth=1.02, elements=60, end_time=None):
 
 
 def leading_order(history):
-    found = estimators.leading_order(estimators.moments(history))
+    found = estimators.leading_order(moments(history))
     return found.lambda0.value, found.r0.value
 
 
@@ -53,9 +54,10 @@ def default():
     return exudyn_models.simulate(HALF, mesh=coarse(HALF), save=100)
 
 
-def test_leading_order_is_met_with_no_setting():
-    history = exudyn_models.simulate(Impact.dimensionless(0.25))
-    assert max(off(history, 0.25)) < 1e-3
+@pytest.mark.parametrize("kappa_over_nu", [0.25, *(pytest.param(k, marks=pytest.mark.verify) for k in (0.1, 0.5, 0.8))])
+def test_leading_order_is_met_with_no_setting(kappa_over_nu):
+    history = exudyn_models.simulate(Impact.dimensionless(kappa_over_nu))
+    assert max(off(history, kappa_over_nu)) < (1e-3 if kappa_over_nu == 0.25 else 2e-3)
     assert history.warnings == []
 
 
@@ -87,12 +89,10 @@ def test_nothing_is_held_once_waves_may_be_back():
     "parts",
     [
         {"integrator": GeneralizedAlpha(spectral_radius=0.0)},
-        {"integrator": GeneralizedAlpha(spectral_radius=0.8)},
         {"integrator": Newmark()},
-        {"integrator": Trapezoidal()},
         {"element": GeometricallyExact()},
-        {"full_beam": True},
-        {"geometry": LinearLimit(1e-2)},
+        {"contact": Rigid()},
+        {"geometry": LinearLimit(1e-2), "integrator": GeneralizedAlpha(spectral_radius=0.8)},
         {"contact": Penalty(relative_stiffness=3.0, relative_damping=1.0, hold=4)},
     ],
     ids=str,
@@ -102,26 +102,12 @@ def test_swapped_part_keeps_the_answer(parts):
 
 
 @pytest.mark.verify
-@pytest.mark.parametrize("kappa_over_nu", [0.1, 0.5, 0.8])
-def test_leading_order_is_met_with_no_setting_elsewhere(kappa_over_nu):
-    assert max(off(exudyn_models.simulate(Impact.dimensionless(kappa_over_nu)), kappa_over_nu)) < 2e-3
-
-
-@pytest.mark.parametrize(
-    "kappa_over_nu", [1 / 100, *(pytest.param(k, marks=pytest.mark.verify) for k in (1 / 40, 1 / 400, 1 / 1600))]
-)
+@pytest.mark.parametrize("kappa_over_nu", [1 / 40, 1 / 100, 1 / 400, 1 / 1600])
 def test_a_thin_front_is_met_within_its_error_bars_and_nothing_is_held(kappa_over_nu):
     row = answer(Question(ExudynModel(), kappa_over_nu), RunStore(None))
     for number in (row.lambda0, row.r0):
         assert abs(number.relative()) < min(0.003, number.relative_error())
     assert row.hold is None and row.lift < 0.02
-
-
-def test_the_viscosity_that_settings_print_is_the_one_that_a_run_takes(default):
-    printed = next(s for s in settings() if (s.kind, s.name) == ("ancf_cable", "viscosity"))
-    element = ANCFCable(viscosity=float(printed.default.split()[0]))
-    history = exudyn_models.simulate(HALF, mesh=coarse(HALF), save=100, element=element)
-    assert_allclose(history.array("total_impulse"), default.array("total_impulse"), rtol=1e-12)
 
 
 @pytest.mark.parametrize(
@@ -138,14 +124,14 @@ def test_explicit_integrator_is_stable_at_its_own_step(integrator):
     assert abs(budget["defect"]) < 0.03 * lost
 
 
-def test_segment_contact_meets_the_theory_and_friction_changes_nothing_in_the_linear_limit(default):
-    for friction in (0.0, 0.3):
-        history = exudyn_models.simulate(HALF, mesh=coarse(HALF), contact=SegmentFriction(friction=friction), save=100)
-        assert max(off(history)) < 5e-3
-        assert_allclose(history.array("gap")[0], 0.25 * history.array("x") ** 2, atol=1e-12)
+def test_segment_contact_meets_the_theory_and_friction_changes_nothing_in_the_linear_limit():
+    history = exudyn_models.simulate(HALF, mesh=coarse(HALF), contact=SegmentFriction(friction=0.3), save=100)
+    assert max(off(history)) < 5e-3
+    assert_allclose(history.array("gap")[0], 0.25 * history.array("x") ** 2, atol=1e-12)
 
 
-@pytest.mark.parametrize(("kappa_over_nu", "elements"), [(0.5, 140), pytest.param(0.8, 300, marks=pytest.mark.verify)])
+@pytest.mark.verify
+@pytest.mark.parametrize(("kappa_over_nu", "elements"), [(0.5, 140), (0.8, 300)])
 def test_constraints_meet_the_theory_on_a_flat_wall(kappa_over_nu, elements):
     """Nodes are led back to the wall: what is left of their depths would press and pull without end.
 
@@ -161,24 +147,11 @@ def test_constraints_meet_the_theory_on_a_flat_wall(kappa_over_nu, elements):
 
 def test_full_and_half_beam_agree(default):
     full = exudyn_models.simulate(HALF, mesh=coarse(HALF), full_beam=True, save=100)
+    assert max(off(full)) < 5e-3
     assert_allclose(full.array("total_impulse")[-1], default.array("total_impulse")[-1], rtol=1e-4)
     assert_allclose(full.array("kinetic_energy")[-1], default.array("kinetic_energy")[-1], rtol=1e-4)
     gap = full.array("gap")
     assert_allclose(gap, gap[:, ::-1], atol=1e-7)
-
-
-def test_a_physical_beam_gives_the_same_numbers_in_si_units():
-    unit = math.sqrt(2.1e3 / 4.0) / 3.0
-    beam = Impact(
-        bending_stiffness=2.1e3, mass_per_length=4.0, length=HALF.length * unit, curvature=0.5 / unit, velocity=3.0
-    )
-    assert beam.kappa_over_nu == pytest.approx(0.5)
-    tight = NewtonSolver(absolute_tolerance=1e-10, relative_tolerance=1e-9)  # where Newton stops is round-off too
-    unitless, history = (
-        exudyn_models.simulate(impact, mesh=coarse(impact), solver=tight, save=100) for impact in (HALF, beam)
-    )
-    assert_allclose(leading_order(history), leading_order(unitless), rtol=1e-8)
-    assert history.array("velocity")[0] == pytest.approx(3.0)
 
 
 def test_impulse_is_the_lost_momentum_and_energies_balance(default):
@@ -189,84 +162,20 @@ def test_impulse_is_the_lost_momentum_and_energies_balance(default):
     budget = default.energy_budget()
     assert abs(budget["defect"]) < 1e-3 * abs(budget["kinetic_energy"])
     assert abs(budget["loss_algorithmic"]) < 0.02 * abs(budget["kinetic_energy"])
-
-
-@pytest.mark.parametrize(
-    ("name", "share"), [("strain_energy", 2.0), ("kinetic_energy", 2.0), ("forces", 1.0), ("viscosity", 0.5)]
-)
-def test_a_falsified_energy_or_force_is_a_defect_of_its_size(name, share, monkeypatch):
-    """Energies come from what causes them, not from the balance."""
-    from exudyn_models.contacts import penalty
-    from exudyn_models.elements.ancf_cable import _Cable
-
-    if name == "forces":
-        right = penalty._Run.forces
-        monkeypatch.setattr(
-            penalty._Run, "forces", lambda self, q, v: (right(self, q, v)[0] * (1 + share), right(self, q, v)[1])
-        )
-    elif name == "viscosity":
-        right = _Cable.damping_matrices
-        monkeypatch.setattr(_Cable, "damping_matrices", lambda self: tuple((1 + share) * m for m in right(self)))
-    else:
-        right = getattr(_Cable, name)
-        monkeypatch.setattr(_Cable, name, lambda self, *state: (1 + share) * right(self, *state))
-    budget = exudyn_models.simulate(HALF, mesh=coarse(HALF, elements=30), save=20).energy_budget()
-    cause = {"forces": "loss_impact", "viscosity": "loss_viscous"}.get(name, name)
-    wrong = share / (1 + share) * budget[cause]
-    assert abs(wrong) > 1e-5
-    assert budget["defect"] == pytest.approx(wrong, rel=0.02, abs=2e-4)
-
-
-def test_the_beam_stays_at_the_wall_behind_the_front_and_outside_it_ahead(default):
-    gap, x = default.array("gap")[-1], default.array("x")
-    front = 1.0189 * math.sqrt(0.1)
-    assert np.abs(gap[x < 0.8 * front]).max() < 1e-4 * 0.1
-    assert gap.min() > -1e-3 * 0.1
-    assert np.all(gap[x > 1.3 * front] > 0)
+    gap, front = default.array("gap")[-1], 1.0189 * math.sqrt(0.1)
+    assert np.abs(gap[x < 0.8 * front]).max() < 1e-4 * 0.1  # behind the front at the wall, and outside it ahead
+    assert gap.min() > -1e-3 * 0.1 and np.all(gap[x > 1.3 * front] > 0)
 
 
 @pytest.mark.parametrize("element", [ANCFCable(), GeometricallyExact()], ids=lambda e: type(e).__name__)
 def test_without_contact_y0_is_the_motion(element):
     impact = Impact.dimensionless(0.5, epsilon_alpha=0.4, epsilon_psi=0.3, epsilon_chi=0.2)
     mesh = NodesMesh(tuple(np.linspace(0.0, 2.0, 41)))
-    history = exudyn_models.simulate(
-        impact, mesh=mesh, element=element, contact=Penalty(stiffness=1e-12, damping=0.0, hold=0), end_time=0.5
-    )
+    history = exudyn_models.simulate(impact, mesh=mesh, element=element, contact=NO_WALL, end_time=0.5)
     x, t = history.array("x"), history.time[-1]
     y0 = t - 0.25 * x**2 + 0.2 * t**2 + 0.1 * x**2 * t + 0.3 * x**4 / 24
     # the two-node element interpolates y0 at second order, the cable exactly but for the shape of a quartic
     assert_allclose(-history.array("gap")[-1], y0, atol=2e-3 if isinstance(element, GeometricallyExact) else 2e-5)
-
-
-@pytest.mark.verify
-def test_first_order_with_all_three_parameters():
-    exact = {(4, 0, 0): (5.66465632402, 10.6928065607), (-1, -1, 0): (-1.77288819407, -4.18053010088)}
-    for (alpha, psi, chi), (lambda1, r1) in exact.items():
-        contact = Penalty(hold_start=0.0) if alpha + psi < 0 else Penalty(hold=16)
-        mesh = coarse(Impact.dimensionless(0.5, epsilon_psi=0.1), growth=1.015, elements=100)
-        base = estimators.moments(exudyn_models.simulate(HALF, mesh=mesh, contact=contact))
-        runs = []
-        for epsilon in (0.1, 0.2):
-            impact = Impact.dimensionless(
-                0.5, epsilon_alpha=epsilon * alpha, epsilon_psi=epsilon * psi, epsilon_chi=epsilon * chi
-            )
-            run = exudyn_models.simulate(impact, mesh=mesh, contact=contact)
-            runs.append((epsilon, estimators.moments(run, uniform=True)))
-        found = estimators.first_order(runs, base, estimators.leading_order(base))
-        assert found.lambda1.value == pytest.approx(lambda1, rel=0.04)
-        assert found.r1.value == pytest.approx(r1, rel=0.03)
-
-
-def test_history_round_trips_and_saves_where_asked(tmp_path):
-    times = [0.02, 0.05, 0.1]
-    seen = []
-    history = exudyn_models.simulate(HALF, mesh=coarse(HALF, elements=30), save=times, progress=seen.append)
-    assert_allclose(history.time[1:], times, rtol=0.02)
-    assert seen[-1] == 1.0
-    again = ImpactHistory.load(history.save(tmp_path / "run.nc"))
-    assert again.dataset.equals(history.dataset)
-    assert again.settings["contact"]["kind"] == "Penalty"
-    assert 0.0 < again.settings["amplitude"] <= 1e-4
 
 
 def test_discrete_regime_keeps_one_point_in_contact():
@@ -275,10 +184,3 @@ def test_discrete_regime_keeps_one_point_in_contact():
     assert leading_order(history)[1] == pytest.approx(1.0, rel=5e-3)
     impulse = history.array("impulse")[-1]
     assert impulse[0] > 0.95 * impulse.sum()
-
-
-def test_a_uniform_mesh_is_laid_over_the_whole_beam():
-    impact = Impact.dimensionless(0.5, length=8.0)
-    history = exudyn_models.simulate(impact, mesh=UniformMesh(0.05), save=20)
-    assert history.array("x")[-1] == 4.0
-    assert history.settings["modelled_half_length"] == 4.0

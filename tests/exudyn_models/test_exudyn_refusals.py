@@ -3,7 +3,6 @@
 import math
 import warnings
 
-import exudyn as exu
 import numpy as np
 import pytest
 
@@ -11,8 +10,9 @@ import exudyn_models
 from bent_beam import Impact, InputError, SimulationError
 from bent_beam.meshes import UniformMesh
 from bent_beam.method import method_from_tables
-from exudyn_models.contacts import Penalty, Rigid, SegmentFriction
+from exudyn_models.contacts import Rigid, SegmentFriction
 from exudyn_models.elements import GeometricallyExact
+from exudyn_models.geometry import TrueGeometry
 from exudyn_models.integrators import RK44, GeneralizedAlpha, Trapezoidal, VelocityVerlet
 from exudyn_models.solvers import NewtonSolver
 
@@ -36,33 +36,25 @@ def test_unstable_explicit_step_is_refused_with_the_stable_one(integrator):
         ({"contact": Rigid(), "integrator": Trapezoidal()}, "gamma above 0.5"),
         ({"contact": SegmentFriction(), "element": GeometricallyExact()}, "ancf_cable"),
         ({"contact": SegmentFriction(), "integrator": RK44()}, "implicit"),
-        ({"geometry": "round"}, "geometry"),
         ({"save": 0}, "save"),
-        ({"save": [2.0]}, "save"),
         ({"end_time": math.nan}, "end_time"),
+        ({"impact": Impact.dimensionless(0.5, length=100.0), "geometry": TrueGeometry()}, "right angle"),
     ],
 )
 def test_parts_that_cannot_work_are_refused(parts, message):
     with pytest.raises(ValueError, match=message):
-        exudyn_models.simulate(SHORT, mesh=MESH, **parts)
-
-
-def test_true_geometry_refuses_a_beam_rolled_up():
-    with pytest.raises(ValueError, match="right angle"):
-        exudyn_models.simulate(Impact.dimensionless(0.5, length=100.0), mesh=UniformMesh(1.0), geometry="true")
+        exudyn_models.simulate(**({"impact": SHORT, "mesh": MESH} | parts))
 
 
 @pytest.mark.parametrize(
     ("table", "message"),
     [
         ({"integrator": {"kind": "generalized_alpha", "spectral_radus": 0.5}}, "spectral_radius"),
-        ({"integrator": {"kind": "generalised_alpha"}}, "generalized_alpha"),
         ({"integrator": {"kind": "newmark", "gamma": 1e300}}, "integrator.gamma"),
         ({"contact": {"kind": "penalty", "relative_stiffness": -1.0}}, "relative_stiffness must be positive"),
-        ({"contact": {"kind": "penalty", "damping": math.nan}}, "damping must be a finite number"),
-        ({"element": {"kind": "ancf_cable", "viscosity": -0.1}}, "viscosity"),
+        ({"contact": {"kind": "penalty", "relative_damping": math.nan}}, "damping must be a finite number"),
         ({"geometry": {"kind": "linear", "amplitude": 0.0}}, "amplitude"),
-        ({"solver": {"kind": "newton", "linear_solver": "magic"}}, "linear_solver"),
+        ({"solver": {"kind": "newton", "halve_steps": 1}}, "halve_steps must be true or false"),
         ({"contacts": {"kind": "penalty"}}, "did you mean contact"),
     ],
 )
@@ -71,14 +63,7 @@ def test_case_file_tables_name_what_is_wrong(table, message):
         method_from_tables("exudyn", table)
 
 
-def test_every_kind_can_be_made_from_a_table():
-    for name, kinds in exudyn_models.ExudynModel.PARTS.items():
-        for kind in kinds if name != "mesh" else ():  # a mesh has fields that must be given
-            made = method_from_tables("exudyn", {name: {"kind": kind}})
-            assert isinstance(getattr(made, name), kinds[kind])
-
-
-def test_failed_newton_carries_time_step_advice_and_partial_history():
+def test_failed_newton_carries_time_step_advice_and_partial_history(capfd):
     with pytest.raises(SimulationError) as failure:
         exudyn_models.simulate(
             SHORT, mesh=MESH, solver=NewtonSolver(absolute_tolerance=1e-18, relative_tolerance=1e-18, iterations=1)
@@ -87,13 +72,7 @@ def test_failed_newton_carries_time_step_advice_and_partial_history():
     assert error.history is not None and not error.history.completed
     assert np.isfinite(error.history.array("gap")).all()
     assert error.time >= 0.0 and "try" in str(error)
-
-
-def test_a_solver_that_does_not_start_says_so(monkeypatch):
-    monkeypatch.setattr(exu.MainSolverImplicitSecondOrder, "InitializeSolver", lambda *_: False)
-    with pytest.raises(SimulationError, match="could not initialise at t = 0") as failure:
-        exudyn_models.simulate(SHORT, mesh=MESH)
-    assert failure.value.history is None and failure.value.step == 0
+    assert not any(capfd.readouterr())
 
 
 def test_divergence_ends_as_an_error_and_never_as_a_history(monkeypatch):
@@ -105,24 +84,7 @@ def test_divergence_ends_as_an_error_and_never_as_a_history(monkeypatch):
 def test_nothing_is_printed_and_nothing_deprecated_is_used(capfd):
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        exudyn_models.simulate(SHORT, mesh=MESH, save=5)
         exudyn_models.simulate(SHORT, mesh=MESH, save=5, integrator=RK44())
         exudyn_models.simulate(SHORT, mesh=MESH, save=5, element=GeometricallyExact(), contact=Rigid())
-    with pytest.raises(SimulationError):
-        exudyn_models.simulate(
-            SHORT, mesh=MESH, solver=NewtonSolver(absolute_tolerance=1e-18, relative_tolerance=1e-18, iterations=1)
-        )
     printed = capfd.readouterr()
     assert printed.out == "" and printed.err == ""
-
-
-def test_warnings_name_a_soft_penalty_a_coarse_front_and_a_graded_mesh():
-    from bent_beam.meshes import GradedMesh
-
-    history = exudyn_models.simulate(
-        SHORT, mesh=GradedMesh(0.3, growth=1.25, zone=0.6), contact=Penalty(stiffness=20.0, hold=0), save=10
-    )
-    text = " ".join(history.warnings)
-    assert "enters the wall" in text
-    assert "under-resolved front" in text
-    assert "an element" in text

@@ -8,11 +8,8 @@ from numpy.testing import assert_allclose
 from bent_beam import Impact
 from bent_beam.free_flight import pushing
 from bent_beam.meshes import UniformMesh
-from bent_beam.method import made_of
 from exudyn_models import ExudynModel
-from exudyn_models.contacts import Penalty, Rigid, SegmentFriction
-from exudyn_models.integrators import Trapezoidal
-from exudyn_models.simulation import simulate
+from exudyn_models.contacts import Rigid, SegmentFriction
 
 PAGE = {
     (float(kappa), stated(damping.replace("10", "1e", 1))[0]): stated(value)[0]
@@ -35,12 +32,16 @@ def closes(history, tolerance=1e-6):
     assert history.array("held_impulse")[-1] == 0.0
 
 
-def test_a_bounce_ends_when_the_beam_cannot_come_back_and_keeps_its_energy_account():
-    history = COARSE.simulate_to_separation(Impact.whole_beam(2.0, relative_damping=1e-2))
+@pytest.mark.parametrize("kappa_over_nu", [2.0, 4.0])
+def test_a_bounce_ends_when_the_beam_cannot_come_back_and_keeps_its_energy_account(kappa_over_nu):
+    """What is left of geometry is the square of the slopes: at amplitude 1e-3 of V₀T it was 8e-6 of the energy."""
+    history = COARSE.simulate_to_separation(Impact.whole_beam(kappa_over_nu, relative_damping=1e-2))
     assert restitution(history) == pytest.approx(0.5663, abs=2e-3)
     assert history.array("gap")[-1].min() > 0.0
     assert history.energy_budget()["loss_viscous"] == 0.0 and history.energy_budget()["loss_material"] > 0.4
-    closes(history)
+    closes(history, 1e-7)
+    scale = history.settings["amplitude"] / history.settings["amplitude_of_the_real_beam"]
+    assert np.abs(history.array("slope")).max() * scale < 3e-4
 
 
 @pytest.mark.verify
@@ -72,38 +73,6 @@ def test_restitution_is_that_of_the_hermite_path_and_of_the_page(kappa_over_nu, 
     closes(history)
 
 
-@pytest.mark.parametrize(
-    "given",
-    [
-        {},
-        {"relative_stiffness": 100.0},
-        {"relative_damping": 1.0},
-        {"stiffness": 1e5, "damping": 1e2},
-        {"stiffness": 1e5},
-        {"damping": 1e2},
-    ],
-    ids=lambda given: ", ".join(given) or "chosen",
-)
-def test_a_softer_contact_keeps_its_damping_ratio(given):
-    """A quarter of k and half of d, whether they are given, in proportion to the element's own or chosen."""
-    impact, step = Impact.whole_beam(2.0), 1e-4
-    method = ExudynModel(
-        mesh=UniformMesh(0.25), integrator=Trapezoidal(time_step=step), contact=Penalty(**given)
-    ).for_whole_beam(impact)
-    softer = method.cross_checks(impact)["contact_law"]
-    assembled = []
-
-    def keep(run, time, q, v):
-        assembled.append((run.contact.stiffness, run.contact.damping))
-        return True
-
-    for each in (method, softer):
-        simulate(impact, end_time=2 * step, save=1, until=keep, **made_of(each))
-    (k, d), (k_softer, d_softer) = assembled
-    assert_allclose(k_softer, 0.25 * k, rtol=1e-12)
-    assert_allclose(d_softer, 0.5 * d, rtol=1e-12)
-
-
 def test_a_stopped_beam_gathers_its_exact_impulse_until_the_first_release():
     """Modes of the clamped–free half beam with Kelvin–Voigt damping η = 1e-3 (9 digits): t_s, J(t_s)."""
     release, impulse = 0.080315740, 0.912963645
@@ -127,43 +96,6 @@ def test_a_rocking_beam_is_the_mirror_image_of_one_rocking_the_other_way():
     assert right.array("total_impulse")[-1] == pytest.approx(left.array("total_impulse")[-1], rel=1e-6)
     assert right.array("gap")[-1, 0] != pytest.approx(right.array("gap")[-1, -1], rel=0.1)
     closes(right)
-
-
-def test_between_two_walls_every_hit_turns_the_beam_and_costs_energy():
-    impact = Impact.whole_beam(2.0, relative_damping=1e-2).replace(opposite_wall=1.2)
-    method = COARSE.for_whole_beam(impact)
-    history = method.simulate(impact, end_time=4.0, save=800)
-    impulse = history.array("total_impulse")
-    gained = np.where(np.abs(np.diff(impulse)) > 1e-9, np.sign(np.diff(impulse)), 0.0)
-    hits = gained[gained != 0.0]
-    hits = hits[np.r_[True, np.diff(hits) != 0.0]]
-    assert hits.size >= 3 and np.all(hits == [(-1.0) ** k for k in range(hits.size)])
-    assert history.array("gap").min() > -0.02 and history.array("gap").max() < 1.22
-    closes(history, 1e-4)
-
-
-def test_a_steep_bow_is_laid_flat_enough_for_its_energy_account():
-    """What is left of geometry is the square of the slopes: at amplitude 1e-3 of V₀T it was 8e-6 of the energy."""
-    history = COARSE.simulate_to_separation(Impact.whole_beam(4.0, relative_damping=1e-2))
-    closes(history, 1e-7)
-    scale = history.settings["amplitude"] / history.settings["amplitude_of_the_real_beam"]
-    assert np.abs(history.array("slope")).max() * scale < 3e-4
-
-
-def test_softer_contacts_go_with_the_longer_steps_that_are_chosen_with_them():
-    """kh² stays what it is for a point; with somebody's own steps the penalty is that of a point."""
-    point, zone = (Impact.whole_beam(kappa, relative_damping=1e-2) for kappa in (2.0, 0.5))
-
-    def stiffness_of_steps(method, impact):
-        chosen = method.for_whole_beam(impact)
-        relative = chosen.integrator.time_step * (2.0 * chosen.mesh.nodes(impact.half_length).size - 2.0) ** 2
-        stiffness = chosen.contact.relative_stiffness
-        return relative, 10.0 if stiffness is None else stiffness
-
-    (h, k), (longer, softer) = (stiffness_of_steps(ExudynModel(), impact) for impact in (point, zone))
-    assert longer > 1.4 * h and softer * longer**2 == pytest.approx(k * h**2)
-    own = ExudynModel(integrator=Trapezoidal(time_step=1e-5))
-    assert own.for_whole_beam(zone).contact == own.for_whole_beam(point).contact
 
 
 def test_what_a_part_cannot_model_is_refused():

@@ -9,12 +9,12 @@ from scipy.linalg import cho_solve_banded, cholesky_banded
 
 from bent_beam.meshes import ScaleFreeMesh
 from hermite_fe.active_set import CYCLING, SOLVED, find_wrong, solve_constrained, solve_one_by_one
-from hermite_fe.banded import PAD, multiply, row_sums, stiff_multiply
+from hermite_fe.banded import PAD
 from hermite_fe.beam import HermiteBeam
-from hermite_fe.constraints import Constraints, ContactLaw, constraints_of, row_times, rows_of, rows_times
+from hermite_fe.constraints import Constraints, ContactLaw, constraints_of
 from hermite_fe.contacts import MeanContact
 from hermite_fe.solver import prepare
-from hermite_fe.stepping import Problem, mean_forces, problem_of
+from hermite_fe.stepping import Problem, problem_of
 from hermite_fe.system import ContactRows, System
 
 Array = NDArray[np.float64]
@@ -110,37 +110,21 @@ def check(seed: int) -> None:
         assert solve_constrained(problem.solver, problem.rows, conditions, b, x) == SOLVED, seed
         assert np.abs(x - exact_x).max() < 1e-7 * scale, seed
         assert np.abs(conditions.p - exact_p).max() < 1e-7 * scale, seed
-
-
-def test_contact_problems_are_solved_as_by_trying_every_active_set() -> None:
-    """300 random problems, degenerate ones among them, each from three wrong guesses."""
-    for seed in range(300):
-        check(seed)
-
-
-def test_the_fall_back_finds_the_same_reactions_from_none() -> None:
-    """What takes over when exchanging many rows at once runs in a circle, asked directly."""
-    for seed in range(200):
-        random = np.random.default_rng(seed)
-        system = random_system(random)
-        problem, conditions = ready(system)
-        n, m = system.dofs, len(system.contacts)
-        b, target = random.normal(size=n), random.normal(size=m)
-        candidate, held = random.random(m) < 0.9, random.random(m) < 0.1
-        conditions.target[:], conditions.candidate[:], conditions.held[:] = target, candidate, held
-        conditions.p[:] = random.normal(size=m)  # whatever was there before
-        exact_x, exact_p = truth(system, b, target, candidate, held)
-        conditions.closed[:] = random.random(m) < 0.5
-        x = np.zeros(n)
+    if degenerate >= 0.3:  # what takes over when exchanging many rows at once runs in a circle
         assert solve_one_by_one(problem.solver, problem.rows, conditions, b, x) == SOLVED, seed
-        scale = 1.0 + np.abs(exact_x).max() + np.abs(exact_p).max()
         assert np.abs(x - exact_x).max() < 1e-7 * scale, seed
         assert np.abs(conditions.p - exact_p).max() < 1e-7 * scale, seed
 
 
+def test_contact_problems_are_solved_as_by_trying_every_active_set() -> None:
+    """Random problems, degenerate ones among them, each from three wrong guesses, and by the fall-back from none."""
+    for seed in range(80):
+        check(seed)
+
+
 def test_the_fall_back_never_calls_a_row_inside_the_wall_solved() -> None:
     """Rows that just touch: signs are judged more leniently then, but no row may be left out in silence."""
-    for seed in range(200):
+    for seed in range(100):
         random = np.random.default_rng([5, seed])
         system = random_system(random)
         problem, conditions = ready(system)
@@ -185,44 +169,11 @@ def test_the_factors_solve_like_lapack_s() -> None:
     assert ours < 5.0 * theirs
 
 
-@pytest.mark.parametrize("n", [2, 4, 6, 8, 10, 16, 30])
-def test_products_are_those_of_the_dense_matrix(n: int) -> None:
-    random = np.random.default_rng(n)
-    bands, x, y = random.normal(size=(4, n)), random.normal(size=n), np.zeros(n)
-    for m in range(4):
-        bands[m, max(n - m, 0) :] = 0.0
-    full = dense(bands)
-    multiply(bands, x, y)
-    assert y == pytest.approx(full @ x, rel=1e-13, abs=1e-13)
-    stiff_multiply(bands, row_sums(bands), x, y)
-    assert y == pytest.approx(full @ x, rel=1e-13, abs=1e-13)
-
-
-@pytest.mark.parametrize("width", [1, 4])
-def test_gaps_are_rows_times_displacements(width: int) -> None:
-    random = np.random.default_rng(width)
-    dofs = np.array([[0], [3], [4]]) + np.arange(width)
-    factors, x, out = random.normal(size=(3, width)), random.normal(size=9), np.full(3, 7.0)
-    rows = rows_of(ContactRows(dofs=dofs, factors=factors, gap=np.zeros(3)))
-    exact = (factors * x[dofs]).sum(axis=1)
-    rows_times(rows, x, out)
-    assert out == pytest.approx(exact, rel=1e-14)
-    assert [row_times(rows, x, j) for j in range(3)] == pytest.approx(exact, rel=1e-14)
-
-
-def test_loads_are_powers_of_time() -> None:
-    load, force = np.array([[1.0, -2.0], [0.5, 3.0], [-4.0, 0.25]]), np.full(2, 9.0)
-    t, h, theta = 0.7, 0.2, 0.6
-    mean_forces(load, t, h, theta, force)
-    exact = [theta * np.polyval(c[::-1], t + h) + (1.0 - theta) * np.polyval(c[::-1], t) for c in load.T]
-    assert force == pytest.approx(exact, rel=1e-14)
-
-
 @pytest.mark.parametrize("width", [1, 4])
 def test_a_front_that_runs_and_lifts_leaves_no_sign_wrong(width: int) -> None:
     """Factors are kept from solve to solve while a front runs over a beam, and now and then something lifts behind
     it."""
-    for seed in range(10):
+    for seed in range(4):
         random = np.random.default_rng(seed)
         beam = HermiteBeam(np.cumsum(random.uniform(0.5, 1.5, 200)), 1.0, 1.0)
         m = 200 - (width > 1)

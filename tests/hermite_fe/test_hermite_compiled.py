@@ -7,10 +7,13 @@ import subprocess
 import sys
 from pathlib import Path
 
-import numba
 import pytest
 
+from bent_beam import Impact
 from hermite_fe import compiled as module
+from hermite_fe import simulate
+from hermite_fe.contacts import NodeContact
+from hermite_fe.integrators import MoreauJean, SignoriniPosition
 
 ANSWER = "from package.outer import outer; from package.compiled import recompiling as r; print(r(lambda: outer(5.0)))"
 
@@ -79,5 +82,15 @@ def test_functions_run_on_a_disk_that_is_nearly_full(package: Path) -> None:
     assert not kept(package, "nbc")
 
 
-def test_other_users_of_numba_keep_their_own_folder() -> None:
-    assert numba.config.CACHE_DIR != str(module.FOLDER)
+def test_bad_input_leaves_what_is_compiled_alone() -> None:
+    """What cannot be read is removed and compiled anew; an integrator that refuses a problem is no such thing."""
+    simulate(Impact.dimensionless(0.5, length=8.0), end_time=0.01, integrator=MoreauJean(1e-3))
+    before = sorted(module.FOLDER.rglob("*.nbi"))
+    with pytest.raises(ValueError, match="restitution must be 0"):
+        simulate(
+            Impact.dimensionless(0.5, length=8.0),
+            end_time=0.01,
+            integrator=SignoriniPosition(1e-3),
+            contact=NodeContact(restitution=0.5),
+        )
+    assert before and sorted(module.FOLDER.rglob("*.nbi")) == before

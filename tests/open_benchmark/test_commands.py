@@ -1,74 +1,50 @@
 """``bentbeam problem``, ``score`` and ``benchmark`` as they are called."""
 
-from __future__ import annotations
-
 import json
-from pathlib import Path
 
 import numpy as np
 import pytest
-
-from comparison.command_line.app import run
-
-POINT = """
-import sys, numpy as np
-tau = np.linspace(0, 0.1, 300)
-np.savez(sys.argv[2], outcome="completed", problem="point-2", metadata='{"seconds": 0.5}',
-         tau=tau, J=4 * np.sqrt(2 / np.pi) * np.sqrt(tau), Jm=0 * tau)
-"""
+from called import answered, command, refused
 
 
-def result(file: Path, **changes: object) -> Path:
+def result(file, **changes):
+    """The exact answer to point-2: r₀ = 1."""
     tau = np.linspace(0.0, 0.1, 300)
-    fields: dict[str, object] = {"outcome": "completed", "problem": "point-2", "metadata": "{}"}
-    np.savez(file, **{**fields, "tau": tau, "J": 4 * np.sqrt(2 / np.pi) * np.sqrt(tau), "Jm": 0 * tau, **changes})  # type: ignore[arg-type]
+    fields = {"outcome": "completed", "problem": "point-2", "metadata": "{}"}
+    np.savez(file, **{**fields, "tau": tau, "J": 4 * np.sqrt(2 / np.pi) * np.sqrt(tau), "Jm": 0 * tau, **changes})
     return file
 
 
-def test_a_problem_is_written_and_not_over_what_is_there(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    out = str(tmp_path / "problem.toml")
-    assert run(["problem", "leading-0.5", "--out", out]) == 0
-    assert run(["problem", "leading-0.5", "--out", out]) == 2
-    assert "exists already" in capsys.readouterr().err
-    assert run(["problem", "leading-2"]) == 2
+def test_a_problem_is_written_and_not_over_what_is_there(tmp_path):
+    asked = ("problem", "leading-0.5", "--out", tmp_path / "problem.toml")
+    assert command(*asked)[0] == 0 and "exists already" in refused(*asked)
+    refused("problem", "leading-2")
 
 
-def test_score_prints_one_document(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    assert run(["score", str(result(tmp_path / "a.npz")), "--json"]) == 0
-    document = json.loads(capsys.readouterr().out)
+def test_score_prints_one_document_with_the_work_precision_line_of_several(tmp_path):
+    files = [str(result(tmp_path / f"{k}.npz", metadata=json.dumps({"seconds": float(k)}))) for k in (3, 1, 2)]
+    document = answered("score", files[0])
     assert document["outcome"] == "completed" and document["diagnosis"] == ["clean"]
     assert document["r0"] == pytest.approx({"value": 1.0, "error": 0.0, "theory": 1.0}, abs=1e-3)
-    assert {document[name] for name in ("lift", "penetration", "adhesion", "lambda1", "r1")} == {None}
-
-
-def test_several_results_come_with_their_work_precision_line(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    files = [str(result(tmp_path / f"{k}.npz", metadata=json.dumps({"seconds": float(k)}))) for k in (3, 1, 2)]
-    assert run(["score", *files, "--json"]) == 0
-    document = json.loads(capsys.readouterr().out)
+    assert {document[name] for name in ("lift", "penetration", "adhesion", "energy", "lambda1", "r1")} == {None}
+    document = answered("score", *files)
     assert [point["seconds"] for point in document["work_precision"]] == [1.0, 2.0, 3.0]
     assert len(document["results"]) == 3
 
 
-def test_a_result_that_cannot_be_read_is_exit_code_2_and_no_score(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_result_that_cannot_be_read_is_exit_code_2_and_no_score(tmp_path):
     bad = result(tmp_path / "bad.npz", J=np.full(300, np.nan))
-    assert run(["score", str(bad), "--json"]) == 2
-    said = capsys.readouterr()
-    assert len(said.err.strip().splitlines()) == 1 and "J[0] is nan" in said.err
-    document = json.loads(said.out)
+    code, out, err = command("score", bad, "--json")
+    assert code == 2 and err.count("\n") == 1 and "J[0] is nan" in err
+    document = json.loads(out)
     assert document["outcome"] == "invalid" and document["r0"] is None and document["diagnosis"] == []
 
 
-def test_benchmark_writes_a_page_for_an_adapter_of_ones_own(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    file = tmp_path / "mine.py"
-    file.write_text(POINT)
-    out = tmp_path / "out"
-    assert run(["benchmark", "--adapter", str(file), "--problem", "point-2", "--out", str(out), "--json"]) == 0
-    document = json.loads(capsys.readouterr().out)
+def test_benchmark_writes_a_page_for_an_adapter_of_ones_own(tmp_path):
+    exact, file, out = result(tmp_path / "exact.npz"), tmp_path / "mine.py", tmp_path / "out"
+    file.write_text(f"import shutil, sys; shutil.copy({str(exact)!r}, sys.argv[2])")
+    document = answered("benchmark", "--adapter", file, "--problem", "point-2", "--out", out)
     assert [row["outcome"] for row in document["rows"]] == ["completed"] * 3
     assert (out / "index.html").read_text().count("<h2") >= 3 and json.loads((out / "benchmark.json").read_text())
-    assert run(["benchmark", "--solver", "nothing"]) == 2
-    assert run(["benchmark", "--install", "nothing"]) == 2
+    refused("benchmark", "--solver", "nothing")
+    refused("benchmark", "--install", "nothing")

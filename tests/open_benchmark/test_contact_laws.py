@@ -1,11 +1,9 @@
 """What docs/benchmark.md says of contact laws on velocities."""
 
-from __future__ import annotations
-
 from open_benchmark.contact_laws import LAWS, PROBLEMS, compared_laws, laws_text
 
 
-def test_a_law_on_gaps_keeps_the_first_order_that_a_law_on_velocities_loses() -> None:
+def test_a_law_on_gaps_keeps_the_first_order_that_a_law_on_velocities_loses():
     size = 0.02
     found = compared_laws(sizes=(size,))
     velocities, positions = (found[name, size] for name in LAWS)

@@ -1,7 +1,5 @@
 """The adapter of docs/guide/enter.md, taken from the page, is scored first time."""
 
-from __future__ import annotations
-
 import re
 import subprocess
 import sys
@@ -9,19 +7,19 @@ from pathlib import Path
 
 from open_benchmark.adapter import chosen_adapters
 from open_benchmark.campaign import campaign
-from open_benchmark.result import load_result
+from open_benchmark.reading import load_result
 from open_benchmark.score import score
 
 PAGE = Path(__file__).resolve().parents[2] / "docs" / "guide" / "enter.md"
 
 
-def snippet(name: str) -> str:
+def snippet(name):
     found = re.search(rf'^```python title="{name}"\n(.*?)^```', PAGE.read_text(), re.S | re.M)
     assert found, name
     return found[1]
 
 
-def test_the_sixty_lines_converge(tmp_path: Path) -> None:
+def test_the_sixty_lines_converge(tmp_path):
     source = snippet("mine.py")
     assert len([line for line in source.splitlines() if line.strip()]) <= 60
     assert not re.search(r"import (?!json|sys|time|tomllib|numpy)", source)
@@ -35,7 +33,7 @@ def test_the_sixty_lines_converge(tmp_path: Path) -> None:
     assert [finding.name for finding in medium.diagnosis] == ["clean"]
 
 
-def test_a_table_is_scored(tmp_path: Path) -> None:
+def test_a_table_is_scored(tmp_path):
     subprocess.run([sys.executable, "-c", snippet("from_table.py")], cwd=tmp_path, check=True)
     found = score(load_result(tmp_path / "result.csv"))
     assert found.outcome == "completed" and abs(found.error("r0") or 1.0) < 1e-9

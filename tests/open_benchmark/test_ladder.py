@@ -1,14 +1,12 @@
 """This project's integrators against the closed forms of the ladder."""
 
-from __future__ import annotations
-
 import pytest
 
 from open_benchmark.ladder import INTEGRATORS, RUNGS, ladder_table
 
 
 @pytest.mark.parametrize("name", [n for n in INTEGRATORS if "Signorini" not in n and "penalty" not in n])
-def test_ten_elastic_impacts_of_a_ball_are_found_to_first_order(name: str) -> None:
+def test_ten_elastic_impacts_of_a_ball_are_found_to_first_order(name):
     make = INTEGRATORS[name]
     coarse, fine = (RUNGS["ball"](make, refine) for refine in (1, 8))
     assert fine[0] < 0.4 * coarse[0] < 0.03
@@ -16,13 +14,13 @@ def test_ten_elastic_impacts_of_a_ball_are_found_to_first_order(name: str) -> No
 
 
 @pytest.mark.parametrize("rung", ["bar", "stopped-beam"])
-def test_the_wall_gives_the_impulse_of_the_closed_form(rung: str) -> None:
+def test_the_wall_gives_the_impulse_of_the_closed_form(rung):
     for name, make in INTEGRATORS.items():
         (coarse, _), (fine, energy) = RUNGS[rung](make, 1), RUNGS[rung](make, 4)
         assert fine < 0.7 * coarse < 0.02, name
         assert energy <= 1.0 + 1e-9, name
 
 
-def test_an_integrator_without_an_impact_law_says_so() -> None:
+def test_an_integrator_without_an_impact_law_says_so():
     found = ladder_table(refinements=(1,), integrators=["Signorini, new position"])["Signorini, new position"]
     assert "restitution must be 0" in found["ball"].reason and not found["bar"].reason

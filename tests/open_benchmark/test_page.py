@@ -1,31 +1,25 @@
 """The page's tables say what the scores say."""
 
-from __future__ import annotations
-
-import numpy as np
 import pytest
 
+from measure.measured import Measured
 from open_benchmark.campaign import Row
-from open_benchmark.page import PROPERTIES, errors_table, in_words
-from open_benchmark.problem import problem
-from open_benchmark.references import reference
-from open_benchmark.result import Result
-from open_benchmark.score import score
+from open_benchmark.judgement import Score
+from open_benchmark.properties import properties
 
 
-def test_the_table_of_errors_holds_those_of_the_ladder() -> None:
-    """The impulse a hundredth too large at all times: an error of a hundredth of its mean over its largest."""
-    asked = problem("bar")
-    exact = reference(asked).impulse
-    assert exact is not None
-    tau = np.linspace(0.0, asked.end_time, 400)
-    found = score(Result("completed", "", asked, {}, tau, 1.01 * exact(tau)))
-    mean = np.mean(exact(tau)) / exact(tau).max()
-    row = Row("mine", "bar", "fine", 2.0, found)
-    assert errors_table([row], ["mine"]).splitlines()[-1] == f"| mine | {mean:+.3f} (2) |"
-
-
-@pytest.mark.parametrize(("loads", "word"), [("-0.5-0-0-1", "tension"), ("0.5-0-0--1", "compression")])
-def test_an_axial_force_is_called_by_its_sign(loads: str, word: str) -> None:
-    assert in_words(problem(f"first-0.5-{loads}")).endswith(f": {word}")
-    assert f"first order, {word}" in PROPERTIES
+@pytest.mark.parametrize(
+    ("errors", "verdict"),
+    [
+        ((3e-3, 1e-3), "1 of 1 problems"),
+        ((1e-3, 1.5e-3), "0 of 1 problems"),
+        ((1e-2, 5e-3), "0 of 1 problems"),
+        ((), "no result"),
+    ],
+)
+def test_a_code_converges_where_its_error_falls_and_ends_small(errors, verdict):
+    scores = [Score("leading-0.5", "completed", measured={"r0": Measured(1.0 + e, None, 1.0)}) for e in errors]
+    rows = [Row("mine", "leading-0.5", name, 1.0, found) for name, found in zip(("coarse", "fine"), scores)]
+    rows += [] if errors else [Row("mine", "leading-0.5", "fine", 1.0, Score("leading-0.5", "timeout"))]
+    table = properties(rows, "mine")
+    assert table["converges"] == verdict and table["noise"] == ("not reported" if errors else "timeout")

@@ -19,12 +19,3 @@ def pytest_terminal_summary(terminalreporter):
 def in_a_folder_of_its_own(tmp_path, monkeypatch):
     """A run that fails keeps its partial history where the command was started: not in the project."""
     monkeypatch.chdir(tmp_path)
-
-
-@pytest.fixture
-def examined_here(monkeypatch):
-    """Files are examined in this process: the same refusals, without a second a file."""
-    from bent_beam import storage
-    from bent_beam.examination import examine
-
-    monkeypatch.setattr(storage, "examine_apart", lambda file, patience: examine(file))

@@ -12,10 +12,10 @@ import exudyn_models
 import hermite_fe
 from bent_beam import Impact
 from bent_beam.meshes import UniformMesh
-from exudyn_models.contacts import Penalty, Rigid, SegmentFriction
+from exudyn_models.contacts import Rigid, SegmentFriction
 from exudyn_models.elements import GeometricallyExact
 from exudyn_models.geometry import TrueGeometry
-from exudyn_models.integrators import RK44, GeneralizedAlpha, Newmark
+from exudyn_models.integrators import RK44, Newmark
 from hermite_fe.integrators import SignoriniPosition
 from self_similar_fe.mesh import ExpandingMesh
 from self_similar_fe.run import simulate_expanding
@@ -111,28 +111,17 @@ def test_the_expanding_mesh_gives_twins_the_same_history_to_round_off(scales):
     assert largest_difference(run(Impact.dimensionless(0.5)), run(twin(*scales))) < 1e-8
 
 
-def numbers_in_si(impact):
-    """A constant time step, a penalty and its damping, each given as a number in SI units."""
-    stiffness = 3e6 * impact.bending_stiffness / impact.length_scale**4
-    damping = 2e3 * impact.mass_per_length / impact.time_scale
-    return {
-        "contact": Penalty(stiffness=stiffness, damping=damping),
-        "integrator": GeneralizedAlpha(time_step=5e-4 * impact.time_scale),
-    }
-
-
 # How near twins come. Bending takes second differences of deflections, which multiplies round-off by the square of the
 # number of elements: 64² · 2·10⁻¹⁶ ~ 10⁻¹². Thousands of explicit steps, shear and large rotations add a digit. The
 # gap to a circle is a difference of lengths of the order of its radius, thousands of times what the beam deflects.
 # A hundred times as much is let pass.
 EXUDYN = {
-    "chosen parts": (lambda impact: {}, 1e-10),
-    "numbers in SI units": (numbers_in_si, 1e-10),
-    "rigid contact": (lambda impact: {"contact": Rigid(), "integrator": Newmark()}, 1e-10),
-    "explicit steps": (lambda impact: {"integrator": RK44()}, 1e-9),
-    "geometrically exact": (lambda impact: {"element": GeometricallyExact()}, 1e-9),
-    "true geometry": (lambda impact: {"geometry": TrueGeometry()}, 1e-9),
-    "a circle for a wall": (lambda impact: {"contact": SegmentFriction(friction=0.2)}, 1e-6),
+    "chosen parts": ({}, 1e-10),
+    "rigid contact": ({"contact": Rigid(), "integrator": Newmark()}, 1e-10),
+    "explicit steps": ({"integrator": RK44()}, 1e-9),
+    "geometrically exact": ({"element": GeometricallyExact()}, 1e-9),
+    "true geometry": ({"geometry": TrueGeometry()}, 1e-9),
+    "a circle for a wall": ({"contact": SegmentFriction(friction=0.2)}, 1e-6),
 }
 
 
@@ -144,7 +133,7 @@ def exudyn(scales, kind):
         end_time=0.1 * impact.time_scale,
         mesh=UniformMesh(impact.half_length / 64),
         save=10,
-        **EXUDYN[kind][0](impact),
+        **EXUDYN[kind][0],
     )
     assert history.array("total_impulse")[-1] > 0.0
     names = ("gap", "velocity", "slope", "impulse", "total_impulse", "strain_energy", "kinetic_energy")
@@ -155,26 +144,9 @@ def exudyn(scales, kind):
     return found
 
 
-@pytest.mark.parametrize("scales", TWINS)
+@pytest.mark.parametrize("scales", TWINS[::2])
 @pytest.mark.parametrize("kind", EXUDYN)
 def test_exudyn_gives_twins_the_same_history_to_round_off(kind, scales):
     difference = largest_difference(exudyn(None, kind), exudyn(scales, kind))
     print(f"twins on the Exudyn path, {kind}: {difference:.1e}")
     assert difference < EXUDYN[kind][1]
-
-
-def test_the_full_beam_moves_symmetrically_to_round_off():
-    impact = Impact.dimensionless(0.3, length=20.0, epsilon_alpha=0.5)
-    history = hermite_fe.simulate(
-        impact,
-        end_time=0.1,
-        mesh=UniformMesh(0.05),
-        integrator=SignoriniPosition(time_step=1e-5, growth=5e-3),
-        full_beam=True,
-        save=10,
-    )
-    for name in ("gap", "velocity", "impulse"):
-        values = history.array(name)
-        assert np.abs(values - values[:, ::-1]).max() < 1e-9 * np.abs(values).max(), name
-    slope = history.array("slope")
-    assert np.abs(slope + slope[:, ::-1]).max() < 1e-9 * np.abs(slope).max()

@@ -7,21 +7,15 @@ from functools import lru_cache
 import mpmath as mp
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
+from many_digits import iterated_erfc, phi_pair, row
 
-from theory import contact_parameters, phi
+from theory import contact_parameters
 
 PARAMETERS = ("lambda0", "r0", "lambda1", "r1")
 COEFFICIENTS = st.integers(-1000, 1000).map(lambda n: n / 100.0)
 DIGITS = 110
-
-
-def phi_pair(lam: mp.mpf) -> tuple[mp.mpf, mp.mpf]:
-    x, phase = lam / mp.sqrt(2 * mp.pi), lam**2 / 4
-    s, c = mp.fresnels(x), mp.fresnelc(x)
-    sine, cosine = mp.sin(phase), mp.cos(phase)
-    return cosine * (1 - 2 * s) - sine * (1 - 2 * c), cosine * (1 - 2 * c) + sine * (1 - 2 * s)
 
 
 @lru_cache(maxsize=256)
@@ -66,108 +60,25 @@ def multiprecision(ratio: float, alpha: float, psi: float, chi: float, nu: float
         return dict(zip(PARAMETERS, (x, r0, lambda1, r1), strict=True))
 
 
-def assert_exact(ratio: float, alpha: float, psi: float, chi: float, nu: float = 1.0) -> None:
-    found, reference = (
-        contact_parameters(ratio, alpha, psi, chi, nu),
-        multiprecision(ratio, alpha, psi, chi, nu),
-    )
-    # first order is linear in (α, ψ, χ): an error is measured by the largest of the three contributions
-    same = "continuous" if alpha + psi >= 0.0 else "detached"
-    parts = [(alpha, 0.0, 0.0), (0.0, psi, 0.0), (0.0, 0.0, chi)]
+def assert_exact(ratio: float, loads: tuple[float, float, float], nu: float = 1.0) -> None:
+    """To 1e-12 of the largest contribution of a single load: first order is linear in (α, ψ, χ)."""
+    found, reference = contact_parameters(ratio, *loads, nu), multiprecision(ratio, *loads, nu)
+    same = "continuous" if loads[0] + loads[1] >= 0.0 else "detached"
     for name in PARAMETERS:
         scale = abs(float(reference[name]))
-        if name in ("lambda1", "r1"):
-            for part in parts:
-                sign = 1.0 if contact_parameters(ratio, *part, nu).regime in (same, "discrete") else -1.0
-                value = getattr(contact_parameters(ratio, *(sign * v for v in part), nu), name)
-                scale = max(scale, abs(value))
+        for k in range(3) if name in ("lambda1", "r1") else ():
+            part = np.where(np.arange(3) == k, loads, 0.0)
+            sign = 1.0 if contact_parameters(ratio, *part, nu).regime in (same, "discrete") else -1.0
+            scale = max(scale, abs(getattr(contact_parameters(ratio, *(sign * part), nu), name)))
         error = abs(float(mp.mpf(getattr(found, name)) - reference[name]))
         assert error <= 1e-12 * scale, (name, getattr(found, name), float(reference[name]))
 
 
 def test_parameters_are_exact_from_flat_to_strongly_curved() -> None:
     rng = np.random.default_rng(11)
-    ratios = [
-        *10.0 ** rng.uniform(-8, 0, 25),
-        *(1.0 - 10.0 ** rng.uniform(-9, -1, 15)),
-        *10.0 ** rng.uniform(0, 4, 4),
-    ]
-    for ratio in ratios:
-        assert_exact(ratio, *rng.normal(size=3), 10.0 ** rng.uniform(-2, 2))
-
-
-@pytest.mark.parametrize("ratio", [1e-8, 1e-6, 1e-3, 0.1, 0.5, 0.9, 0.999999])
-@pytest.mark.parametrize("index", [0, 1, 2])
-@pytest.mark.parametrize("sign", [1.0, -1.0])
-def test_every_coefficient_of_first_order_is_exact_on_its_own(ratio: float, index: int, sign: float) -> None:
-    loads = [0.0, 0.0, 0.0]
-    loads[index] = sign
-    found, reference = contact_parameters(ratio, *loads), multiprecision(ratio, *loads, 1.0)
-    for name in PARAMETERS:
-        assert getattr(found, name) == pytest.approx(float(reference[name]), rel=1e-11)
-
-
-@pytest.mark.parametrize(
-    ("ratio", "lambda0", "r0"),
-    [
-        (1 / 1600, 56.5684099145, 35.4490354773),
-        (0.05, 6.23692857563, 3.93727884942),
-        (0.1, 4.25760478009, 2.74499113477),
-        (0.25, 2.26148623298, 1.66800147203),
-        (0.5, 1.01886591389, 1.17721208090),
-        (0.8, 0.296846693037, 1.01915199895),
-    ],
-)
-def test_leading_order_table(ratio: float, lambda0: float, r0: float) -> None:
-    found = contact_parameters(ratio)
-    assert (found.lambda0, found.r0) == pytest.approx((lambda0, r0), rel=5e-12)
-    assert (found.lambda1, found.r1, found.regime) == (0.0, 0.0, "continuous")
-
-
-@pytest.mark.parametrize(
-    ("ratio", "loads", "r1", "lambda1"),
-    [
-        (0.5, (4, 0, 0), 10.6928065607, 5.66465632402),
-        (0.5, (1, 1, 0), 1.83706066099, 2.44897173395),
-        (0.5, (0, 2, 0), -1.67228195835, 2.06561530589),
-        (0.5, (-1, -1, 0), -4.18053010088, -1.77288819407),
-        (0.3, (-1, -1, 1), 5.30283507602, 3.58296616170),
-        (0.1, (1, 0, 0), 5.26139050270, 1.50003675838),
-        (0.1, (-1, 0, 0), -5.44939483102, -1.40283570044),
-    ],
-)
-def test_first_order_table(ratio: float, loads: tuple[int, int, int], r1: float, lambda1: float) -> None:
-    found = contact_parameters(ratio, *loads)
-    assert (found.r1, found.lambda1) == pytest.approx((r1, lambda1), rel=5e-12)
-
-
-@given(ratio=st.floats(1e-6, 1.0, exclude_max=True), alpha=COEFFICIENTS, chi=COEFFICIENTS)
-def test_both_first_order_systems_agree_without_uniform_reaction(
-    ratio: float, alpha: float, chi: float
-) -> None:
-    from theory.contact import _continuous, _detached
-
-    found = contact_parameters(ratio)
-    at = phi.Argument.of(np.array([found.lambda0]))
-    arguments = [at, *(np.array([v]) for v in (found.r0, alpha, -alpha, chi, 0.0))]
-    with_zone, without = _continuous(*arguments), _detached(*arguments)
-    for one, other, index in zip(with_zone, without, (0, 1), strict=True):
-        scale = max(
-            abs(_continuous(*arguments[:2], *map(np.array, part))[index])
-            for part in (
-                ([alpha], [0.0], [0.0], [alpha]),
-                ([0.0], [-alpha], [0.0], [-alpha]),
-                ([0.0], [0.0], [chi], [0.0]),
-            )
-        )
-        assert abs(one - other) <= 1e-11 * scale
-
-
-def iterated_erfc(z: mp.mpc, order: int) -> list[mp.mpc]:
-    values = [mp.erfc(z), mp.exp(-(z**2)) / mp.sqrt(mp.pi) - z * mp.erfc(z)]
-    for n in range(2, order + 1):
-        values.append((values[-2] - 2 * z * values[-1]) / (2 * n))
-    return values
+    near_one, beyond = 1.0 - 10.0 ** rng.uniform(-9, -1, 15), 10.0 ** rng.uniform(0, 4, 4)
+    for ratio in (*10.0 ** rng.uniform(-8, 0, 25), *near_one, *beyond):
+        assert_exact(ratio, tuple(rng.normal(size=3)), 10.0 ** rng.uniform(-2, 2))
 
 
 def without_phi(ratio: float, alpha: float, psi: float, chi: float) -> tuple[float, ...]:
@@ -184,57 +95,32 @@ def without_phi(ratio: float, alpha: float, psi: float, chi: float) -> tuple[flo
         e = iterated_erfc(step * x, 4)
         first = -2 * step / mp.sqrt(mp.pi) * mp.exp(-((step * x) ** 2))  # d erfc/dx
         second = -2 * step**2 * x * first  # d² erfc/dx²
-        row = lambda c: [mp.re(c), -mp.im(c)]  # noqa: E731
         # leading order: slope and curvature fix B₀; deflection and third derivative give r₀ and a check
-        b0 = mp.lu_solve(
-            mp.matrix([row(-step * e[1]), row(step**2 * e[0])]), mp.matrix([-ratio * x, -mp.mpf(ratio)])
-        )
+        b0 = mp.lu_solve(mp.matrix([row(-step * e[1]), row(step**2 * e[0])]), mp.matrix([-ratio * x, -mp.mpf(ratio)]))
         b0 = mp.mpc(b0[0], b0[1])
         residual = mp.re(b0 * e[2]) - (1 - ratio * x**2 / 2)
         third, fourth = mp.re(b0 * step**2 * first), mp.re(b0 * step**2 * second)
         r0 = third / mp.sqrt(2 / mp.pi)
         outside = [row(e[4]), row(-step * e[3]), row(step**2 * e[2]), row(-(step**3) * e[1])]
-        slow = [
-            psi * x**4 / 24 + chi * x**2 / 2 + mp.mpf(alpha) / 2,
-            psi * x**3 / 6 + chi * x,
-            psi * x**2 / 2 + chi,
-            psi * x,
-        ]
-        q2 = mp.sqrt(2 / mp.pi)
-        if alpha + psi >= 0:
-            # unknowns Re B₁, Im B₁, λ₁, r₁
-            matrix = [
-                [*outside[0], 0, 0],
-                [*outside[1], 0, 0],
-                [*outside[2], third, 0],
-                [*outside[3], fourth, -q2],
-            ]
-            solution = mp.lu_solve(mp.matrix(matrix), mp.matrix(slow))
-            lambda1, r1 = solution[2], solution[3]
+        slow = [psi * x**4 / 24 + chi * x**2 / 2 + mp.mpf(alpha) / 2, psi * x**3 / 6 + chi * x]
+        slow += [psi * x**2 / 2 + chi, psi * x]
+        jump = [[0, 0], [0, 0], [third, 0], [fourth, -mp.sqrt(2 / mp.pi)]]  # by λ₁ and r₁
+        if alpha + psi >= 0:  # unknowns Re B₁, Im B₁, λ₁, r₁
+            matrix, right = [[*o, *j] for o, j in zip(outside, jump)], slow
         else:
             # unknowns Re B₁, Im B₁, a, b, λ₁, r₁; the front moves along the wall, so that η₀ adds nothing
             # to deflection and slope
-            inside = [
-                [1 - x**4 / 12, x**2],
-                [-(x**3) / 3, 2 * x],
-                [-(x**2), 2],
-                [-2 * x, 0],
-            ]
-            matrix = [[*outside[0], 0, 0, 0, 0], [*outside[1], 0, 0, 0, 0]]
+            inside = [[1 - x**4 / 12, x**2], [-(x**3) / 3, 2 * x], [-(x**2), 2], [-2 * x, 0]]
+            matrix = [[*outside[i], 0, 0, 0, 0] for i in (0, 1)]
+            matrix += [[*o, *(-v for v in i), *j] for o, i, j in zip(outside, inside, jump)]
             right = [*slow[:2], 0, 0, 0, 0]
-            extra = [[0, 0], [0, 0], [third, 0], [fourth, -q2]]
-            for i in range(4):
-                matrix.append([*outside[i], *(-v for v in inside[i]), *extra[i]])
-            solution = mp.lu_solve(mp.matrix(matrix), mp.matrix(right))
-            lambda1, r1 = solution[4], solution[5]
+        *_, lambda1, r1 = mp.lu_solve(mp.matrix(matrix), mp.matrix(right))
         return float(lambda1), float(r1), float(residual), float(r0)
 
 
 @pytest.mark.parametrize("ratio", [0.9, 0.5, 0.1, 0.01])
 @pytest.mark.parametrize("loads", [(1, 0, 0), (1, 1, -2), (0, 2, 1), (-1, -1, 0), (-2, 1, 1), (0, -1, 3)])
-def test_patched_waves_give_the_same_solution_without_any_phi(
-    ratio: float, loads: tuple[float, float, float]
-) -> None:
+def test_patched_waves_give_the_same_solution_without_any_phi(ratio: float, loads: tuple[float, float, float]) -> None:
     found = contact_parameters(ratio, *loads)
     lambda1, r1, residual, r0 = without_phi(ratio, *loads)
     assert residual == pytest.approx(0.0, abs=1e-20)
@@ -243,32 +129,23 @@ def test_patched_waves_give_the_same_solution_without_any_phi(
     assert found.r1 == pytest.approx(r1, rel=1e-11)
 
 
-def test_flat_beam_limit() -> None:
-    found = contact_parameters(1e-8)
-    assert found.lambda0 == pytest.approx(np.sqrt(2e8), rel=1e-7)
-    assert found.r0 == pytest.approx(np.sqrt(np.pi / 8.0) * found.lambda0, rel=1e-7)
+def test_limits_of_the_flat_beam_and_of_one_point() -> None:
+    flat = contact_parameters(1e-8)
+    assert flat.lambda0 == pytest.approx(np.sqrt(2e8), rel=1e-7)
+    assert flat.r0 == pytest.approx(np.sqrt(np.pi / 8.0) * flat.lambda0, rel=1e-7)
+    nearly = contact_parameters(1.0 - 2.0**-40, alpha=3.0, psi=-1.0, chi=2.0)
+    assert nearly.lambda0 == pytest.approx(np.sqrt(np.pi / 2.0) * 2.0**-40, rel=1e-11)
+    assert (nearly.r0, nearly.r1) == pytest.approx((1.0, 6.0), rel=1e-11)
+    assert nearly.lambda1 == pytest.approx(np.sqrt(np.pi / 2.0) * 5.0, rel=1e-11)
+    point = contact_parameters(7.0, alpha=-1.5, psi=4.0, chi=2.0, nu=3.0)
+    assert (point.lambda0, point.r0, point.lambda1, point.r1) == (0.0, 3.0, 0.0, -3.0)
 
 
-def test_limit_of_one_point() -> None:
-    found = contact_parameters(1.0 - 2.0**-40, alpha=3.0, psi=-1.0, chi=2.0)
-    assert found.lambda0 == pytest.approx(np.sqrt(np.pi / 2.0) * 2.0**-40, rel=1e-11)
-    assert (found.r0, found.r1) == pytest.approx((1.0, 6.0), rel=1e-11)
-    assert found.lambda1 == pytest.approx(np.sqrt(np.pi / 2.0) * 5.0, rel=1e-11)
-
-
-def test_regimes_and_their_borders() -> None:
-    assert contact_parameters(1.0).regime == "discrete"
-    assert contact_parameters(np.nextafter(1.0, 0.0)).regime == "continuous"
-    assert contact_parameters(0.5, 1.0, -1.0).regime == "continuous"
-    assert contact_parameters(0.5, 1.0, -1.0 - 1e-12).regime == "detached"
-    found = contact_parameters(7.0, alpha=-1.5, psi=4.0, chi=2.0, nu=3.0)
-    assert (found.lambda0, found.r0, found.lambda1, found.r1) == (0.0, 3.0, 0.0, -3.0)
-
-
-def test_uniform_reaction_exists_in_the_continuous_regime_only() -> None:
-    found = contact_parameters([0.5, 0.5, 2.0], alpha=[1.0, -1.0, 1.0], psi=0.25)
-    np.testing.assert_array_equal(found.uniform_reaction, [1.25, 0.0, 0.0])
-    assert contact_parameters(0.5, 1.0).uniform_reaction == 1.0
+def test_regimes_their_borders_and_the_uniform_reaction_of_the_continuous_one() -> None:
+    ratios, psis = [1.0, np.nextafter(1.0, 0.0), 0.5, 0.5, 0.5], [0.0, 0.0, -1.0, -1.0 - 1e-12, 0.25]
+    found = contact_parameters(ratios, [0.0, 0.0, 1.0, 1.0, 1.0], psis)
+    assert list(found.regime) == ["discrete", "continuous", "continuous", "detached", "continuous"]
+    np.testing.assert_array_equal(found.uniform_reaction, [0.0, 0.0, 0.0, 0.0, 1.25])
 
 
 @given(
@@ -288,28 +165,15 @@ def test_first_order_is_linear_and_scales_with_velocity(
     assert (twice.r1, twice.lambda1) == pytest.approx((2.0 * one.r1, 2.0 * one.lambda1), rel=1e-12)
 
 
-@given(low=st.floats(1e-9, 0.999), factor=st.floats(1.001, 10.0))
-def test_flatter_beams_spread_faster_and_press_harder(low: float, factor: float) -> None:
-    found = contact_parameters([low, low * factor])
-    assert found.lambda0[0] > found.lambda0[1]
-    assert found.r0[0] > found.r0[1]
-
-
-@settings(max_examples=30)
-@given(shape=st.sampled_from([(), (1,), (4,), (2, 3), (0,)]))
-def test_arguments_broadcast(shape: tuple[int, ...]) -> None:
-    found = contact_parameters(np.full(shape, 0.5), alpha=1.0)
-    assert np.shape(found.lambda0) == np.shape(found.regime) == np.shape(found.chi) == shape
-    if not shape:
-        assert isinstance(found.lambda0, float) and isinstance(found.regime, str)
-
-
-def test_arrays_equal_scalars() -> None:
+def test_arguments_broadcast_and_arrays_equal_scalars() -> None:
+    for shape in ((), (1,), (4,), (2, 3), (0,)):
+        found = contact_parameters(np.full(shape, 0.5), alpha=1.0)
+        assert np.shape(found.lambda0) == np.shape(found.regime) == np.shape(found.chi) == shape
     ratio, alpha, psi = np.meshgrid([1e-5, 0.02, 0.6, 3.0], [-1.0, 0.0, 2.0], [-0.5, 1.0])
     found = contact_parameters(ratio, alpha, psi, 0.3)
     for index in np.ndindex(ratio.shape):
         single = contact_parameters(ratio[index], alpha[index], psi[index], 0.3)
-        assert found.regime[index] == single.regime
+        assert isinstance(single.lambda0, float) and found.regime[index] == single.regime
         for name in PARAMETERS:
             assert getattr(found, name)[index] == pytest.approx(getattr(single, name), rel=1e-13)
 
@@ -318,16 +182,10 @@ def test_arrays_equal_scalars() -> None:
     ("arguments", "message"),
     [
         ({"kappa_over_nu": 0.0}, r"kappa_over_nu must be positive and finite \(got 0.0\)"),
-        ({"kappa_over_nu": -0.5}, r"kappa_over_nu must be positive and finite \(got -0.5\)"),
         ({"kappa_over_nu": np.nan}, r"kappa_over_nu must be positive and finite \(got nan\)"),
-        ({"kappa_over_nu": [0.5, np.inf]}, r"kappa_over_nu must be positive and finite \(got inf\)"),
-        ({"kappa_over_nu": 1e-80}, r"kappa_over_nu must be at least 1e-60 \(got 1e-80\)"),
-        ({"kappa_over_nu": 1e308}, r"kappa_over_nu must not exceed 1e\+100 in size \(got 1e\+308\)"),
         ({"kappa_over_nu": 0.5, "alpha": -1e200}, r"alpha must not exceed 1e\+100 in size \(got -1e\+200\)"),
         ({"kappa_over_nu": 0.5, "nu": 0.0}, r"nu must be positive and finite \(got 0.0\)"),
         ({"kappa_over_nu": 0.5, "alpha": np.nan}, r"alpha must be finite \(got nan\)"),
-        ({"kappa_over_nu": 0.5, "psi": -np.inf}, r"psi must be finite \(got -inf\)"),
-        ({"kappa_over_nu": 0.5, "chi": np.inf}, r"chi must be finite \(got inf\)"),
     ],
 )
 def test_bad_input_is_named(arguments: dict[str, float], message: str) -> None:

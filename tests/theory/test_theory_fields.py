@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 import pytest
 from hypothesis import assume, given, settings
@@ -9,6 +11,7 @@ from hypothesis import strategies as st
 from scipy.integrate import simpson
 
 from theory import ImpactFields, SelfSimilarWave, contact_parameters, kernel
+from theory.contact import ContactParameters
 
 NAMES = ("deflection", "slope", "curvature", "velocity")
 ZONE = np.linspace(-1.0, 1.0, 41)
@@ -19,13 +22,6 @@ def test_leading_order_touches_on_the_whole_zone(ratio: float) -> None:
     fields = ImpactFields(contact_parameters(ratio))
     for tau in (0.1, 0.5, 7.0):
         assert np.max(np.abs(fields.complementarity_residual(ZONE, tau))) < 1e-9 * tau
-
-
-def test_inside_the_zone_the_beam_is_straight_and_at_rest() -> None:
-    fields = ImpactFields(contact_parameters(0.2))
-    beam = fields.beam(0.99 * ZONE * fields.half_contact_length(0.6), 0.6)
-    for name in NAMES:
-        assert np.max(np.abs(getattr(beam, name))) < 1e-9
 
 
 @pytest.mark.parametrize(
@@ -39,14 +35,11 @@ def test_inside_the_zone_the_beam_is_straight_and_at_rest() -> None:
         (0.05, (-1, 0, 0), 0.3),
     ],
 )
-def test_first_order_touches_up_to_epsilon_squared(
-    ratio: float, loads: tuple[float, float, float], tau: float
-) -> None:
+def test_first_order_touches_up_to_epsilon_squared(ratio: float, loads: tuple[float, float, float], tau: float) -> None:
     parameters = contact_parameters(ratio, *loads)
     touching = ZONE[::4] if parameters.regime == "continuous" else np.array([-1.0, 1.0])
     residuals = [
-        np.max(np.abs(ImpactFields(parameters, e).complementarity_residual(touching, tau)))
-        for e in (0.02, 0.01, 0.005)
+        np.max(np.abs(ImpactFields(parameters, e).complementarity_residual(touching, tau))) for e in (0.02, 0.01, 0.005)
     ]
     ratios = np.divide(residuals[:-1], residuals[1:])
     assert np.all((ratios > 3.7) & (ratios < 4.2)), ratios
@@ -83,7 +76,8 @@ def plain_convolution(fields: ImpactFields, xi: float, tau: float) -> float:
     s, root = tau * v**2 / (1.0 + v**2), np.sqrt(tau / (1.0 + v**2))
     front = np.sqrt(s) * (p.lambda0 + e * p.lambda1 * s)
     left, right = (xi + front) / root, (xi - front) / root
-    point = 2.0 / np.pi * (p.r0 + e * p.r1 * s) * root**2 * (kernel.H(left) + kernel.H(right))
+    of_points = sum(kernel.H(beta) + e * p.axial * root**2 * kernel.H_axial(beta) for beta in (left, right))
+    point = 2.0 / np.pi * (p.r0 + e * p.r1 * s) * root**2 * of_points
     zone = fields.uniform_reaction / np.sqrt(2.0 * np.pi) * root**2 * (kernel.P(left) - kernel.P(right))
     values = (point + zone * 2.0 * np.sqrt(s) * root) / (1.0 + v**2)
     # where P(left) − P(right) tends to √(2π), which does not oscillate, the rest is known
@@ -91,26 +85,28 @@ def plain_convolution(fields: ImpactFields, xi: float, tau: float) -> float:
     return float(0.01 * np.tile(weights, 3000) @ values) + rest
 
 
-@pytest.mark.parametrize("loads", [(1, 1, 0), (-1, -1, 1)])
-def test_convolution_equals_the_integral_as_it_stands(loads: tuple[float, float, float]) -> None:
-    for ratio in (0.5, 2.0):
-        fields = ImpactFields(contact_parameters(ratio, *loads), epsilon=0.1)
-        for xi in (0.2, 1.2, 1.9):
-            found = fields.fast_layer(xi, 0.4).deflection
-            assert found == pytest.approx(plain_convolution(fields, xi, 0.4), abs=1e-10)
+@pytest.mark.parametrize("ratio", [0.5, 2.0])
+@pytest.mark.parametrize("loads", [(1, 1, 0, 0), (-1, -1, 1, 0), (None, 0, 0, 1)], ids=["pressed", "lifted", "tension"])
+def test_convolution_equals_the_integral_as_it_stands(ratio: float, loads: tuple[float | None, ...]) -> None:
+    alpha, psi, chi, axial = loads
+    parameters = contact_parameters(ratio, -ratio if alpha is None else alpha, psi, chi, axial=axial)
+    fields = ImpactFields(parameters, epsilon=0.1)
+    for xi in (0.2, 1.2, 1.9):
+        assert fields.fast_layer(xi, 0.4).deflection == pytest.approx(plain_convolution(fields, xi, 0.4), abs=1e-10)
 
 
 @settings(max_examples=25, deadline=None)
 @given(
     ratio=st.sampled_from([0.02, 0.4, 0.9, 1.5]),
-    loads=st.tuples(*[st.sampled_from([-1.0, 0.0, 0.5])] * 3),
+    loads=st.tuples(*[st.sampled_from([-1.0, 0.0, 0.5])] * 4),
     xi=st.floats(0.05, 4.0),
     tau=st.floats(0.2, 0.6),
 )
 def test_slope_curvature_and_velocity_are_derivatives_of_the_deflection(
-    ratio: float, loads: tuple[float, float, float], xi: float, tau: float
+    ratio: float, loads: tuple[float, ...], xi: float, tau: float
 ) -> None:
-    fields, h = ImpactFields(contact_parameters(ratio, *loads), epsilon=0.01), 1e-3
+    parameters = contact_parameters(ratio, *loads[:3], axial=loads[3])
+    fields, h = ImpactFields(parameters, epsilon=0.01), 1e-3
     p = fields.parameters
     assume(p.lambda0 == 0.0 or p.lambda0 + 4.0 * fields.epsilon * p.lambda1 * tau > 0.0)
     assume(abs(xi - fields.half_contact_length(tau)) > 0.05)
@@ -128,7 +124,7 @@ def test_momentum_equals_impulse_at_first_order() -> None:
     tau, e = 0.3, 0.1
     fields = ImpactFields(contact_parameters(0.5, 1.0, 1.0), epsilon=e)
     p = fields.parameters
-    xi = np.linspace(0.0, 12.0, 6001)
+    xi = np.linspace(0.0, 12.0, 3001)
     found = 2.0 * simpson(fields.fast_layer(xi, tau).deflection, x=xi)
     point = 8.0 / 3.0 * np.sqrt(2.0 / np.pi) * tau**1.5 * (p.r0 + e * p.r1 * tau / 5.0)
     zone = fields.uniform_reaction * 8.0 * tau**2.5 * (p.lambda0 / 15.0 + e * p.lambda1 * tau / 35.0)
@@ -145,52 +141,18 @@ def test_symmetry_and_similarity() -> None:
     np.testing.assert_allclose(later.velocity, right.velocity, atol=1e-10)
 
 
-def test_a_looser_tolerance_is_still_kept() -> None:
-    parameters, xi = contact_parameters(0.1), np.linspace(0.0, 20.0, 50)
-    loose, tight = (ImpactFields(parameters, tolerance=t).fast_layer(xi, 1.0) for t in (1e-4, 1e-11))
-    for name in NAMES:
-        assert np.max(np.abs(getattr(loose, name) - getattr(tight, name))) < 1e-4
-
-
-def test_before_contact_nothing_has_happened() -> None:
-    fast = ImpactFields(contact_parameters(0.5)).fast_layer([0.0, 1.0], 0.0)
-    assert all(np.all(getattr(fast, name) == 0.0) for name in NAMES)
-
-
-def test_reactions_and_contact_length_are_those_of_the_ansatz() -> None:
-    fields = ImpactFields(contact_parameters(0.5, 1.0, 1.0), epsilon=0.1)
-    p = fields.parameters
-    assert fields.half_contact_length(0.25) == pytest.approx(0.5 * (p.lambda0 + 0.025 * p.lambda1))
-    expected = 2.0 * np.sqrt(2.0 / np.pi) * (p.r0 + 0.025 * p.r1) / 0.5
-    assert fields.concentrated_reaction(0.25) == pytest.approx(expected)
-    assert fields.concentrated_reaction(0.0) == np.inf
-    assert fields.uniform_reaction == pytest.approx(0.2)
-
-
-def test_refusals_name_what_is_wrong() -> None:
-    parameters = contact_parameters(0.5, -1.0, -1.0)
-    with pytest.raises(ValueError, match="epsilon"):
-        ImpactFields(parameters, epsilon=-0.1)
-    with pytest.raises(ValueError, match="tolerance"):
-        ImpactFields(parameters, tolerance=0.0)
-    with pytest.raises(ValueError, match="parameters"):
-        ImpactFields(contact_parameters([0.5, 0.6]))
-    fields = ImpactFields(parameters, epsilon=0.1)
-    with pytest.raises(ValueError, match="tau must not be negative"):
-        fields.beam(0.0, -1.0)
-    with pytest.raises(ValueError, match="xi must be finite"):
-        fields.beam(np.nan, 1.0)
-    with pytest.raises(ValueError, match="turns the front back"):
-        fields.beam(0.0, 5.0)
-    with pytest.raises(ValueError, match=r"a must lie in \[-1, 1\]"):
-        fields.complementarity_residual(1.5, 0.1)
-
-
-def test_a_front_that_turns_back_is_refused_from_the_time_that_is_named() -> None:
-    # λ_c = √τ(λ₀ + ελ₁τ) turns back where λ₀ + 3ελ₁τ = 0
-    fields = ImpactFields(contact_parameters(0.5, -2.0, 0.0, 0.0), epsilon=0.5)
-    p = fields.parameters
-    last = p.lambda0 / (-3.0 * 0.5 * p.lambda1)
-    with pytest.raises(ValueError, match=f"tau must be below {last:.6g}"):
-        fields.half_contact_length(1.001 * last)
-    assert fields.half_contact_length(0.999 * last) > 0.0
+@pytest.mark.parametrize(
+    ("call", "named"),
+    [
+        (lambda p: ImpactFields(p, epsilon=-0.1), "epsilon"),
+        (lambda p: ImpactFields(p, tolerance=0.0), "tolerance"),
+        (lambda p: ImpactFields(contact_parameters([0.5, 0.6])), "parameters"),
+        (lambda p: ImpactFields(p).beam(0.0, -1.0), "tau must not be negative"),
+        (lambda p: ImpactFields(p).beam(np.nan, 1.0), "xi must be finite"),
+        (lambda p: ImpactFields(p, epsilon=0.1).beam(0.0, 5.0), "turns the front back"),
+        (lambda p: ImpactFields(p).complementarity_residual(1.5, 0.1), r"a must lie in \[-1, 1\]"),
+    ],
+)
+def test_refusals_name_what_is_wrong(call: Callable[[ContactParameters], object], named: str) -> None:
+    with pytest.raises(ValueError, match=named):
+        call(contact_parameters(0.5, -1.0, -1.0))

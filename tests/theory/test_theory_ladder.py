@@ -43,41 +43,6 @@ def test_infinitely_many_impacts_end_in_finite_time() -> None:
     assert BouncingBall(restitution=1.0).rest == np.inf
 
 
-def test_each_impact_takes_its_share_of_energy_and_reverses_the_velocity() -> None:
-    ball = BouncingBall(restitution=0.8)
-    for k in (1, 2, 3, 20):
-        t = float(ball.impact_time(k))
-        before, after = ball.velocity_at(t - 1e-9), ball.velocity_at(t + 1e-9)
-        assert after == pytest.approx(-0.8 * before, abs=5e-9)
-        assert ball.energy(t + 1e-9) == pytest.approx(0.64**k, rel=1e-12)
-    elastic = BouncingBall(restitution=1.0)
-    np.testing.assert_allclose(elastic.energy([0.0, 1e3 + 0.1]), 1.0, rtol=1e-12)
-
-
-@pytest.mark.parametrize(
-    ("arguments", "name"),
-    [
-        ({"height": -1.0}, "height"),
-        ({"height": 0.0}, "height"),
-        ({"gravity": 0.0}, "gravity"),
-        ({"restitution": 1.1}, "restitution"),
-        ({"velocity": np.nan}, "velocity"),
-    ],
-)
-def test_ball_refusals(arguments: dict[str, float], name: str) -> None:
-    with pytest.raises(ValueError, match=name):
-        BouncingBall(**arguments)
-    with pytest.raises(ValueError, match="times"):
-        BouncingBall().position(-1.0)
-
-
-@pytest.mark.parametrize("name", ["length", "stiffness", "mass_per_length", "velocity", "gap"])
-@pytest.mark.parametrize("value", [-1.0, np.inf, np.nan])
-def test_bar_refusals(name: str, value: float) -> None:
-    with pytest.raises(ValueError, match=f"{name} must be .*finite"):
-        FlyingBar(**{name: value})
-
-
 # bars
 X, H = np.linspace(0.013, 0.987, 41), 1e-6
 BARS = [
@@ -170,24 +135,8 @@ def test_the_string_stays_above_the_obstacle_and_keeps_its_energy(string: String
 def test_the_string_obeys_the_wave_equation_between_landings() -> None:
     string, h = StringOnObstacle(lambda x: np.sin(np.pi * x), lambda x: np.pi * np.cos(np.pi * x)), 1e-5
     t = np.linspace(0.02, 2.97, 38)
-    np.testing.assert_allclose(
-        string.displacement(0.3, t), np.abs(np.cos(np.pi * t)) * np.sin(0.3 * np.pi), atol=1e-14
-    )
+    np.testing.assert_allclose(string.displacement(0.3, t), np.abs(np.cos(np.pi * t)) * np.sin(0.3 * np.pi), atol=1e-14)
     rate = (string.displacement(0.3, t + h) - string.displacement(0.3, t - h)) / (2.0 * h)
     slope = (string.displacement(0.3 + h, t) - string.displacement(0.3 - h, t)) / (2.0 * h)
     np.testing.assert_allclose(string.velocity_at(0.3, t), rate, atol=1e-8)
     np.testing.assert_allclose(string.strain(0.3, t), slope, atol=1e-8)
-
-
-@pytest.mark.parametrize(
-    ("shape", "why"),
-    [
-        (lambda x: 1.0 + 0.0 * x, "0 at the ends"),
-        (lambda x: x, r"got 0\.0, 1\.0|got np.float64\(0.0\), np.float64\(1.0\)"),
-        (lambda x: x**2 * (1.0 - x), "symmetric"),
-        (lambda x: np.sin(np.pi * x) ** 2, "concave"),
-    ],
-)
-def test_strings_that_would_land_piecemeal_are_refused(shape: object, why: str) -> None:
-    with pytest.raises(ValueError, match=why):
-        StringOnObstacle(shape)  # type: ignore[arg-type]

@@ -14,15 +14,10 @@ RATIOS = [1e-6, 1 / 1600, 0.05, 0.5, 0.9999, 1.0, 2.0, 50.0]
 
 
 @pytest.mark.parametrize("ratio", RATIOS)
-def test_momentum_equals_impulse(ratio: float) -> None:
-    wave = SelfSimilarWave(contact_parameters(ratio))
-    assert wave.momentum == pytest.approx(wave.impulse, rel=1e-12)
-
-
-@pytest.mark.parametrize("ratio", RATIOS)
-def test_the_impact_conserves_energy(ratio: float) -> None:
+def test_momentum_equals_impulse_and_the_impact_conserves_energy(ratio: float) -> None:
     # beam: ½∫[(ν−η_τ)² − ν²] + ½∫η_ξξ² = energy of the fast layer − ν × its momentum
     wave = SelfSimilarWave(contact_parameters(ratio, nu=1.7))
+    assert wave.momentum == pytest.approx(wave.impulse, rel=1e-12)
     assert wave.energy == pytest.approx(1.7 * wave.impulse, rel=1e-11)
 
 
@@ -78,11 +73,3 @@ def test_the_far_field_dies_like_the_third_and_second_power(ratio: float) -> Non
         peak = np.max(np.abs(values) * x**power)
         assert peak < bound * (1.0 + 1e-2)
         assert peak == pytest.approx(bound, rel=2e-2)
-
-
-def test_the_wave_is_the_kernel_convolved_at_the_middle_of_one_point() -> None:
-    # (2.6.36) at ξ = 0 and its slope
-    wave = SelfSimilarWave(contact_parameters(2.0, nu=3.0))
-    assert wave.deflection(0.0)[0] == pytest.approx(3.0, rel=1e-14)
-    assert wave.slope(1e-9)[0] == pytest.approx(0.0, abs=1e-8)
-    assert wave.curvature(1e-12)[0] == pytest.approx(-3.0, rel=1e-10)

@@ -1,0 +1,120 @@
+"""What a field of a part is: unit, meaning and range, stated once, in its annotation.
+
+    element_length: Annotated[float, Quantity("m", "Δx of the zone", above=0.0)]
+
+From this follow the check when a part is made (:class:`Part`), case files and ``--set`` (:mod:`bent_beam.parts`),
+``bentbeam settings`` and the documentation (:mod:`comparison.settings`).
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import types
+from dataclasses import dataclass
+from functools import cache
+from typing import Annotated, Any, ClassVar, Union, get_args, get_origin, get_type_hints
+
+from bent_beam import checks
+
+__all__ = ["Declared", "Part", "Quantity", "declared"]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Declared:
+    """A field as its annotation declares it. kind : float, int, bool, str, or ``None`` for anything else."""
+
+    kind: type | None
+    optional: bool
+    quantity: Quantity
+
+    def checked(self, name: str, value: Any) -> Any:
+        """``value`` as this field holds it. Raises ``ValueError`` naming ``name`` and the value."""
+        if value is None and self.optional:
+            return None
+        if self.kind is bool and not isinstance(value, bool):
+            raise ValueError(f"{name} must be true or false (got {checks.shortened(value)})")
+        if self.kind is str:
+            return self.quantity.checked_text(name, value)
+        if self.kind in (int, float):
+            return self.quantity.checked_number(name, value, whole=self.kind is int)
+        return value
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """Unit, meaning and range of a field.
+
+    above, least, most : the range, above excluded. choices : of a text. absent : what ``settings`` prints where the
+    default is ``None``.
+    """
+
+    unit: str
+    text: str
+    above: float | None = None
+    least: float | None = None
+    most: float | None = None
+    choices: tuple[str, ...] = ()
+    absent: str = ""
+
+    @property
+    def allowed(self) -> str:
+        """The range as a text."""
+        signs = (("> ", self.above), ("≥ ", self.least), ("≤ ", self.most))
+        return ", ".join([*(f"{sign}{bound:g}" for sign, bound in signs if bound is not None), *self.choices])
+
+    def checked_text(self, name: str, value: Any) -> str:
+        """``value``, a text among the choices where there are any. Raises ``ValueError``."""
+        if not isinstance(value, str):
+            raise ValueError(f"{name} must be a text (got {checks.shortened(value)})")
+        return checks.one_of(name, value, self.choices) if self.choices else value
+
+    def checked_number(self, name: str, value: Any, *, whole: bool) -> float:
+        """``value`` as a finite float (or int) in the range. Raises ``ValueError``."""
+        if whole:
+            return checks.whole(name, value, int(self.least or 0))
+        if self.above == 0.0:
+            checks.positive(name, value)
+        if self.most is not None:
+            return checks.between(name, value, (self.above if self.least is None else self.least) or 0.0, self.most)
+        if self.least == 0.0:
+            return checks.non_negative(name, value)
+        return checks.finite(name, value) if self.least is None else checks.at_least(name, value, self.least)
+
+
+PLAIN = Quantity("", "")
+
+
+@cache
+def declared(part: type) -> dict[str, Declared]:
+    """The fields of a dataclass that may be given, by name."""
+    try:
+        hints = get_type_hints(part, include_extras=True)
+    except NameError:  # somebody else's annotations, of names that are imported for type checkers alone
+        hints = {}
+    return {field.name: _declared(hints.get(field.name)) for field in dataclasses.fields(part) if field.init}
+
+
+def _declared(hint: Any) -> Declared:
+    quantity = PLAIN
+    if get_origin(hint) is Annotated:
+        hint, *said = get_args(hint)
+        quantity = next((one for one in said if isinstance(one, Quantity)), PLAIN)
+    kinds = get_args(hint) if get_origin(hint) in (Union, types.UnionType) else (hint,)
+    plain = [kind for kind in kinds if kind is not types.NoneType]
+    kind = plain[0] if len(plain) == 1 and plain[0] in (float, int, bool, str) else None
+    return Declared(kind=kind, optional=types.NoneType in kinds, quantity=quantity)
+
+
+@dataclass(frozen=True)
+class Part:
+    """Base of frozen dataclasses that check their own fields, once, when they are made.
+
+    where : the table of a case file that holds the fields; messages name a field ``where.field``.
+    """
+
+    where: ClassVar[str] = ""
+
+    def __post_init__(self) -> None:
+        for name, field in declared(type(self)).items():  # type: ignore[arg-type]
+            value = field.checked(f"{self.where}.{name}".lstrip("."), getattr(self, name))
+            object.__setattr__(self, name, value)

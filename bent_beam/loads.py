@@ -1,0 +1,80 @@
+"""The loads of an impact, and the motion of the beam under them without a wall.
+
+    y₀(x, t) = Σ c xⁱtʲ/(i! j!):    V₀ (0, 1),   −K (2, 0),   a₀ (0, 2),   c₀ (2, 1),   q₀ (4, 0)           (2.2.30)
+
+A load stands in one place: the field of :class:`bent_beam.Impact` that holds it, annotated by a :class:`Load`. With a
+term of y₀ the load has a dimensionless group, a share of the uniform load μ∂²y₀/∂t² + EI ∂⁴y₀/∂x⁴ + N K, and a share of
+the end forces of y₀; every solver asks :class:`FreeMotion` for these. A load without a term is a force of its own,
+which a solver adds. A solver names the loads that it models, and refuses the rest (:func:`unmodelled`).
+
+To add a load: its field in ``impact.py``, its key in ``tables.py``, and, where it has no term, its force in a solver
+(``hermite_fe/model.py``).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from bent_beam.fields import Quantity, declared
+
+__all__ = ["FreeMotion", "Load", "loads_of", "unmodelled"]
+
+Powers = tuple[int, int]
+
+
+@dataclass(frozen=True)
+class Load(Quantity):
+    """A field that is a load.
+
+    group : its dimensionless group with ν = 1, as theory calls it ("": it has none).
+    powers : (i, j) of its term of y₀ (``None``: it has none).
+    """
+
+    group: str = ""
+    powers: Powers | None = None
+
+
+def loads_of(kind: type) -> dict[str, Load]:
+    """The loads among the fields of :class:`bent_beam.Impact`, by name."""
+    return {name: field.quantity for name, field in declared(kind).items() if isinstance(field.quantity, Load)}
+
+
+def unmodelled(impact: Any, modelled: Collection[str]) -> str | None:
+    """Why a solver of the loads ``modelled`` cannot take an impact, naming the field (``None``: it can)."""
+    for name in loads_of(type(impact)):
+        if name not in modelled and getattr(impact, name):
+            return f"{name} is not modelled by this method (got {getattr(impact, name)!r})"
+    return None
+
+
+@dataclass(frozen=True)
+class FreeMotion:
+    """y₀ as the terms {(i, j): c} of the module's head, in any consistent units; x counts from the first touch."""
+
+    terms: Mapping[Powers, float]
+
+    def __call__(self, x: Any, t: Any = 0.0, *, by_x: int = 0, by_t: int = 0) -> Any:
+        """y₀ or a derivative of it at places and times, which are broadcast."""
+        total = np.zeros(np.broadcast_shapes(np.shape(x), np.shape(t)))
+        for (i, j), c in self.terms.items():
+            if c and i >= by_x and j >= by_t:
+                i, j = i - by_x, j - by_t
+                total = total + c * np.power(x, i) * np.power(t, j) / (math.factorial(i) * math.factorial(j))
+        return total
+
+    def scaled(self, length: float, time: float, deflection: float) -> FreeMotion:
+        """The same motion in these units."""
+        return FreeMotion({(i, j): c * (length**i * time**j / deflection) for (i, j), c in self.terms.items()})
+
+    def bending(self) -> FreeMotion:
+        """Its terms that bend the beam."""
+        return FreeMotion({powers: c for powers, c in self.terms.items() if powers[0] >= 2})
+
+    def first_order(self) -> FreeMotion:
+        """Its terms that grow like t² where x ~ √t, against the t of V₀t and Kx²/2."""
+        return FreeMotion({(i, j): c for (i, j), c in self.terms.items() if i + 2 * j == 4})

@@ -1,0 +1,173 @@
+"""What a match asks and what it answers: questions and rows."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+from bent_beam.checks import finite, one_of, positive
+from bent_beam.method import Method, settings_of
+from measure.measured import MISSING, Measured
+
+__all__ = [
+    "COMPANIONS",
+    "THESIS_KAPPAS",
+    "First",
+    "MatchRow",
+    "Question",
+    "about",
+    "failures",
+    "lost_row",
+    "questions",
+    "with_theory",
+]
+
+First = tuple[float, float, float, float]
+"""(α, ψ, χ, N) with ν = 1."""
+
+THESIS_KAPPAS = (1 / 1600, 1 / 800, 1 / 400, 1 / 200, 1 / 100, 1 / 40, 1 / 20, 1 / 4, 1 / 2)
+"""κ/ν of the thesis's Table 3.4."""
+
+COMPANIONS: dict[str, tuple[float, ...]] = {"drift": (), "quick": (0.5,), "thorough": (0.5, 2.0)}
+"""Resolutions of the companion runs that error bars come from, by name."""
+
+
+@dataclass(frozen=True)
+class Question:
+    """One row to be matched. ``first`` : (α, ψ, χ, N), or ``None`` for the leading order alone; ``refine`` : elements
+    and steps so many times finer than the method's own; ``error_bars`` : "drift" (of the run alone), "quick" (a
+    companion at half the resolution, a quarter of the work), "thorough" (one at twice the resolution too)."""
+
+    method: Method
+    kappa_over_nu: float
+    first: First | None = None
+    refine: float = 1.0
+    error_bars: str = "quick"
+
+    def __post_init__(self) -> None:
+        positive("kappa_over_nu", self.kappa_over_nu)
+        positive("refine", self.refine)
+        one_of("error_bars", self.error_bars, COMPANIONS)
+        if self.first is not None:
+            for name, value in zip(("alpha", "psi", "chi", "axial"), self.first):
+                finite(name, value)
+            object.__setattr__(self, "first", (*self.first, 0.0)[:4] if any(self.first) else None)
+
+
+@dataclass(frozen=True)
+class MatchRow:
+    """One row of the matching table; the command line prints it as it stands here.
+
+    lift : the largest gap inside the zone over V₀t in the last decade of time; pull : the largest negative contact
+    impulse over the largest positive one, after the start; hold : ``{"until": s, "pull": …}`` where any contact was
+    held; seconds : of all runs of the row; epsilons : of the runs of first order.
+    reason : why there are no numbers (``None``: there are); refused : the method had said so before the run.
+    """
+
+    label: str
+    path: str
+    settings: dict[str, Any]
+    kappa_over_nu: float
+    alpha: float
+    psi: float
+    chi: float
+    axial: float
+    refine: float
+    regime: str | None = None
+    lambda0: Measured = MISSING
+    r0: Measured = MISSING
+    lambda1: Measured = MISSING
+    r1: Measured = MISSING
+    lift: float | None = None
+    pull: float | None = None
+    hold: dict[str, float | None] | None = None
+    seconds: float | None = None
+    steps: int | None = None
+    epsilons: list[float] = field(default_factory=list)
+    warnings: list[str] = field(default_factory=list)
+    reason: str | None = None
+    refused: bool = False
+
+    @property
+    def first(self) -> First:
+        return (self.alpha, self.psi, self.chi, self.axial)
+
+    @property
+    def of_first_order(self) -> bool:
+        return any(self.first)
+
+    @property
+    def of_tension_alone(self) -> bool:
+        """Whether it is about a bow free of stress under an axial force in free flight: λ₁/N = λ_N, r₁/N = r_N."""
+        flight = math.isclose(self.alpha, -self.kappa_over_nu * self.axial, rel_tol=1e-9)
+        return self.axial != 0.0 and flight and self.psi == self.chi == 0.0
+
+    def compared(self) -> dict[str, Measured]:
+        """The numbers that this row is about."""
+        names = ("lambda1", "r1") if self.of_first_order else ("lambda0", "r0")
+        return {name: getattr(self, name) for name in names}
+
+
+def questions(
+    methods: Sequence[Method],
+    kappas: Iterable[float],
+    firsts: Sequence[Sequence[float | None]] = (),
+    refines: Sequence[float] = (1.0,),
+    error_bars: str = "quick",
+) -> list[Question]:
+    """Every method × κ/ν × (α, ψ, χ[, N]) × refinement; without ``firsts`` the leading order alone. α = ``None``: what
+    the axial force makes of a bow free of stress in free flight, α = −κN."""
+
+    def load(first: Sequence[float | None] | None, kappa: float) -> Any:
+        if first is None:
+            return None
+        alpha, psi, chi, axial = (*first, 0.0)[:4]
+        return (-kappa * (axial or 0.0) if alpha is None else alpha, psi, chi, axial)
+
+    asked: list[Sequence[float | None] | None] = [*firsts] or [None]
+    return [
+        Question(m, k, load(f, k), r, error_bars) for k in kappas for m in methods for f in asked for r in refines
+    ]
+
+
+def with_theory(question: Question, leading: Any, estimate: Any) -> dict[str, Any]:
+    """The numbers of a row with the theory's beside them."""
+    from theory import contact_parameters
+
+    alpha, psi, chi, axial = question.first or (0.0,) * 4
+    exact = contact_parameters(question.kappa_over_nu, alpha, psi, chi, axial=axial)
+    row: dict[str, Any] = {"regime": str(exact.regime)}
+    for name, source in (("lambda0", leading), ("r0", leading), ("lambda1", estimate), ("r1", estimate)):
+        number = None if source is None else getattr(source, name)
+        theory = getattr(exact, name) if name in ("lambda0", "r0") or question.first else None
+        row[name] = Measured(number and number.value, number and number.error, theory)
+    return row
+
+
+def about(question: Question) -> dict[str, Any]:
+    """The fields of a row that its question says."""
+    alpha, psi, chi, axial = question.first or (0.0,) * 4
+    return {
+        "label": question.method.label,
+        "path": question.method.path,
+        "settings": settings_of(question.method),
+        "kappa_over_nu": question.kappa_over_nu,
+        "alpha": alpha,
+        "psi": psi,
+        "chi": chi,
+        "axial": axial,
+        "refine": question.refine,
+    }
+
+
+def lost_row(question: Question, reason: str, *, refused: bool = False) -> MatchRow:
+    """The row of a question without an answer."""
+    row = about(question) | with_theory(question, None, None)
+    return MatchRow(**row, reason=" ".join(reason.split()), refused=refused)
+
+
+def failures(rows: Iterable[MatchRow]) -> list[MatchRow]:
+    """The rows that failed though nothing had said that they must."""
+    return [row for row in rows if row.reason is not None and not row.refused]

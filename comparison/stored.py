@@ -1,0 +1,84 @@
+"""Numbers that were measured once and are shipped. Each file says what made it, and shows when it is stale.
+
+A file is JSON: ``what`` it holds, the command that makes it anew, the day, the versions, the packages and settings that
+its numbers come from, and the digest of both. The digest leaves out comments, docstrings and blank lines, so that only
+a change of code or settings makes a file stale. A stale file is measured again, or confirmed: a sample is measured
+anew, agrees within its error bars, and the file gets today's digest.
+"""
+
+from __future__ import annotations
+
+import ast
+import hashlib
+import io
+import json
+import tokenize
+from collections.abc import Mapping, Sequence
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+from bent_beam.files import write_atomically
+from bent_beam.versions import stamp, today
+from comparison.plain import json_text, plain
+
+__all__ = ["confirm", "digest_of", "is_stale", "read", "write"]
+
+ROOT = Path(__file__).resolve().parent.parent
+
+
+def write(
+    file: Path, what: str, made_by: str, packages: Sequence[str], settings: Mapping[str, Any], data: Mapping[str, Any]
+) -> Path:
+    """Write ``data`` to ``file`` with what made it.
+
+    made_by : the command that makes the file anew. packages : of this project, whose code the numbers depend on.
+    settings : JSON-ready.
+    """
+    made = {"what": what, **stamp(made_by), "packages": list(packages), "settings": plain(settings)}
+    made["digest"] = digest_of(packages, made["settings"])
+    write_atomically(file, json_text(made | dict(data), indent=1) + "\n")
+    return file
+
+
+def read(file: Path) -> dict[str, Any]:
+    """The whole document. Raises ``OSError`` or ``ValueError`` where there is none."""
+    return dict(json.loads(file.read_text(encoding="utf-8")))
+
+
+def is_stale(file: Path) -> bool:
+    """Whether code or settings that made ``file`` are others today, or unknown: it has no digest."""
+    stored = read(file)
+    return "digest" not in stored or bool(stored["digest"] != digest_of(stored["packages"], stored["settings"]))
+
+
+def confirm(file: Path) -> None:
+    """Give ``file`` today's digest; only for who has measured a sample of it again and found it inside its bars."""
+    stored = read(file)
+    stored |= {"digest": digest_of(stored["packages"], stored["settings"]), "confirmed": today()}
+    write_atomically(file, json_text(stored, indent=1) + "\n")
+
+
+def digest_of(packages: Sequence[str], settings: Mapping[str, Any]) -> str:
+    """Digest of the code of packages and of settings."""
+    digest = hashlib.sha256(json.dumps(settings, sort_keys=True).encode())
+    for package in packages:
+        for file in sorted((ROOT / package).rglob("*.py")):
+            digest.update(file.relative_to(ROOT).as_posix().encode())
+            digest.update(_code(file).encode())
+    return digest.hexdigest()
+
+
+@cache
+def _code(file: Path) -> str:
+    """Source without comments, docstrings, indentation and blank lines."""
+    source = file.read_text(encoding="utf-8")
+    lines = source.splitlines()
+    for token in tokenize.generate_tokens(io.StringIO(source).readline):
+        if token.type == tokenize.COMMENT:
+            row, column = token.start
+            lines[row - 1] = lines[row - 1][:column]
+    for node in ast.walk(ast.parse(source)):
+        if isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant) and isinstance(node.value.value, str):
+            lines[node.lineno - 1 : node.end_lineno] = [""] * ((node.end_lineno or node.lineno) - node.lineno + 1)
+    return "\n".join(line.strip() for line in lines if line.strip())

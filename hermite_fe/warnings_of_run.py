@@ -1,0 +1,119 @@
+"""What a reader of a result should know: what the mesh, the steps and the ends of the beam may have done to it."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bent_beam.history import ImpactHistory
+from bent_beam.impact import FIRST_SPREAD, Impact
+from hermite_fe.far_fields import FarField
+from hermite_fe.integrators import Integrator
+from hermite_fe.model import BeamModel
+from hermite_fe.resolution import Choice, front
+
+__all__ = ["warnings_of_run"]
+
+Array = NDArray[np.float64]
+
+ELEMENTS_PER_FRONT = 2.0  # fewer in ℓ deserve a warning
+LARGEST_LIFT = 1e-2  # of V₀t; r₀ may be too large by as much (docs/numerics.md)
+
+
+def warnings_of_run(
+    impact: Impact, choice: Choice, end_time: float, model: BeamModel, history: ImpactHistory
+) -> list[str]:
+    """Sentences about a run to ``end_time``, s, of a front that spreads from the middle."""
+    return [
+        *resolution_warnings(impact, end_time, choice.nodes, choice.integrator),
+        *end_warnings(impact, end_time, choice.nodes, choice.far_field),
+        *lift_warnings(impact, model, history),
+    ]
+
+
+def resolution_warnings(impact: Impact, end_time: float, nodes: Array, integrator: Integrator) -> list[str]:
+    """What the mesh and the steps cannot resolve of the front at the end of the run, and by how much."""
+    out: list[str] = []
+    if impact.kappa_over_nu >= 1.0 or impact.kappa_over_nu == 0.0:  # a point, or all of the beam at once: no front
+        return out
+    place, thickness = front(impact, end_time)
+    element = float(
+        np.diff(nodes)[min(int(np.searchsorted(nodes, min(place, nodes[-1]))), nodes.size - 1) - 1]
+    )
+    if thickness < ELEMENTS_PER_FRONT * element:
+        short = ELEMENTS_PER_FRONT * element / thickness
+        out.append(
+            "the mesh cannot resolve the contact front: about "
+            f"{thickness:.3g} m thick at the end of the run, it spans {thickness / element:.2g} elements "
+            f"({element:.3g} m there); {ELEMENTS_PER_FRONT:g} are the least, "
+            f"elements {short:.2g} times shorter"
+        )
+    step = max(integrator.time_step or 0.0, (integrator.growth or 0.0) * end_time)
+    travel, room = place * 0.5 * step / end_time, 0.5 * max(thickness, element)
+    if travel > room:
+        out.append(
+            f"the time steps cannot resolve the contact front: it runs about {travel:.3g} m in the last one; "
+            f"{room:.3g} m (half its thickness or half an element) is the most, "
+            f"steps {travel / room:.2g} times shorter"
+        )
+    return out
+
+
+def end_warnings(impact: Impact, end_time: float, nodes: Array, far_field: FarField) -> list[str]:
+    """What the ends of the beam may do to the contact within the run.
+
+    A wave of number k travels at 2k√(EI/μ). The front radiates waves of its own number 1/ℓ(t), the shorter
+    the earlier, with an energy in proportion to √t: those of the first hundredth of the run carry a tenth.
+    The rest is looked at here, as far as the elements at the end carry it (k Δx < 1; shorter waves are
+    absorbed at grid scale).
+    """
+    out = []
+    place, _ = front(impact, end_time)
+    half, last = float(nodes[-1]), float(nodes[-1] - nodes[-2])
+    if place > half and impact.kappa_over_nu > 0.0:
+        out.append(
+            f"the contact may reach the end of the beam: it may spread to {place:.3g} m, "
+            f"the end is at {half:.3g} m"
+        )
+    emitted = end_time * np.geomspace(0.01, 1.0, 40)
+    number = np.array([1.0 / front(impact, t)[1] for t in emitted])
+    arrival = emitted + max(2.0 * half - place, 0.0) / (2.0 * number * impact.wave_constant)
+    returning = arrival[(number * last < 1.0) & (arrival < end_time)]
+    if returning.size:
+        out.append(
+            f"waves may run to the ends of the beam (x = {half:.3g} m) and be back at the contact from about "
+            f"t = {float(returning.min()):.2g} s on, before the run ends at {end_time:.2g} s: from then on "
+            "it is no longer the impact of an infinitely long beam (a longer beam or an earlier end avoids it)"
+        )
+    far = nodes > 1.5 * place
+    free = impact.free_motion(impact.relative_curvature)(nodes, end_time)
+    if far_field.end == "following" and np.any(free[far] >= 0.0):
+        out.append(
+            "the free motion itself meets the wall away from the contact, at x = "
+            f"{float(nodes[far][free[far] >= 0.0][0]):.3g} m, before the run ends: shorten the beam"
+        )
+    return out
+
+
+def lift_warnings(impact: Impact, model: BeamModel, history: ImpactHistory) -> list[str]:
+    """A warning where the zone leaves the wall though no load lifts it, and waves from the ends cannot (0.005 T*)."""
+    time = history.time
+    end = time[-1]
+    if impact.zone_pressure < 0.0 or end > FIRST_SPREAD * impact.slow_time_scale:
+        return []
+    places, worst = np.abs(model.system.contacts.places), 0.0
+    nodes = np.abs(model.beam.nodes)
+    instants = np.flatnonzero(time > 0.1 * end)[1:]
+    for k in instants:
+        before = history.array("impulse", int(np.searchsorted(time, 0.9 * time[k]) - 1))
+        inside = nodes < 0.8 * np.max(places[history.array("impulse", k) > before], initial=0.0)
+        lift = np.max(history.array("gap", k)[inside], initial=0.0)
+        worst = max(worst, float(lift) / (impact.velocity * time[k]))
+    if worst <= LARGEST_LIFT:
+        return []
+    return [
+        f"the contact zone lifts off the wall by up to {worst:.2g} V₀t in the last decade of time (numbers good to "
+        f"1 % need {LARGEST_LIFT:g}): impacts of the unresolved start, or the contact law, have thrown it off; use "
+        "finer elements at the centre, a later end time, or Signorini's condition at the new position with contact "
+        "at nodes (signorini_position, node)"
+    ]

@@ -1,0 +1,166 @@
+"""What a run of the whole impact comes to, in the units ℓ = L/2, T* = ℓ²√(μ/EI), V₀ (so EI = μ = 1 as well).
+
+A hit is a time of contact whose gaps are shorter than a period of the first mode; these numbers are of the first:
+
+    e = −velocity of the centre of mass after it/V₀,   J = impulse until then/(μℓV₀), without loads 2(1 + e),
+
+its last contact T_c/T*, how often the beam was off the wall, the largest bending moment of the elastic strain
+EI u_xx/(V₀√(EIμ)) with place and time, and the shares of energy then, of what the beam had and the loads have worked.
+
+A separation is a time of at least :data:`SHORTEST_SEPARATION` T* without a push: without a smallest duration there is
+no such number (the reaction of a beam that is stopped at a point changes sign arbitrarily fast).
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bent_beam.free_flight import LOWEST_PERIOD, bears_free_flight, has_left, pushing
+from bent_beam.history import ImpactHistory
+from measure.reduction import peak_moment
+
+__all__ = ["SHORTEST_SEPARATION", "WallHit", "WholeImpact", "pushes", "wall_hits", "whole_impact"]
+
+Array = NDArray[np.float64]
+
+SHORTEST_SEPARATION = 2e-3
+"""Shortest time without a push that counts as a separation, T*: four saved instants of a run to separation."""
+
+
+@dataclass(frozen=True)
+class WholeImpact:
+    """One run's whole impact, dimensionless (see the module's head).
+
+    spacing : of the saved instants around the last contact, which lies between two of them: ``last_contact`` is their
+        middle.
+    contacts : begin and end of each contact, separations shorter than the shortest ignored.
+    peak_moment_place : |x|/ℓ. translation, vibration, dissipated : shares of the initial energy and the work of the
+        loads, altogether one.
+    supplied : the initial energy and the work of the loads until then, J.
+    energy_defect : what the independently computed terms of the budget leave, of the initial energy; energy_gain : the
+        largest rise of the energy, what springs of the wall hold included, above what loads have worked, likewise.
+    left : whether the beam is off the wall for good; None of the numbers is final otherwise.
+    """
+
+    restitution: float
+    impulse: float
+    last_contact: float
+    separations: int
+    peak_moment: float
+    peak_moment_place: float
+    peak_moment_time: float
+    midspan_moment: float
+    translation: float
+    vibration: float
+    dissipated: float
+    supplied: float
+    spacing: float
+    contacts: tuple[tuple[float, float], ...]
+    energy_defect: float
+    energy_gain: float
+    left: bool
+
+
+def pushes(time: Array, impulse: Array, shortest: float) -> list[tuple[int, int]]:
+    """Saved instants at which contacts begin and end, separations shorter than ``shortest`` (s) ignored."""
+    pushed = np.flatnonzero(pushing(impulse))
+    if pushed.size == 0:
+        return []
+    apart = np.flatnonzero(time[pushed[1:]] - time[pushed[:-1] + 1] >= shortest * (1.0 - 1e-9))
+    begin = np.concatenate([pushed[:1], pushed[apart + 1]])
+    end = np.concatenate([pushed[apart], pushed[-1:]]) + 1
+    return [(int(i), int(k)) for i, k in zip(begin, end)]
+
+
+def whole_impact(history: ImpactHistory, *, shortest: float = SHORTEST_SEPARATION) -> WholeImpact:
+    """Reduce a run. ``shortest`` : separations that count, T*.
+
+    Raises ``ValueError`` when the wall was never touched.
+    """
+    impact, time = history.impact, history.time
+    unit = impact.slow_time_scale
+    total = history.array("total_impulse")
+    contacts = pushes(time, total, shortest * unit)
+    if not contacts:
+        raise ValueError("the run ends before the wall was touched")
+    mass = impact.mass_per_length * impact.length
+    hit = _grouped(contacts, time, LOWEST_PERIOD * unit)[0]
+    end = hit[-1][1]
+    impulse = float(total[end]) / (mass * impact.velocity)
+    moment = impact.velocity * math.sqrt(impact.bending_stiffness * impact.mass_per_length)
+    peak = peak_moment(history)
+    energy = history.array("kinetic_energy") + history.array("strain_energy")
+    held = history.energy("contact_energy")  # by springs of the wall
+    initial = float(energy[0])
+    supplied = initial + history.energy("work_of_loads")
+    restitution = impulse - 1.0 if bears_free_flight(impact) else -_mean_velocity(history, end) / impact.velocity
+    translation = 0.5 * mass * (restitution * impact.velocity) ** 2 / float(supplied[end])
+    return WholeImpact(
+        restitution=restitution,
+        impulse=2.0 * impulse,
+        last_contact=0.5 * float(time[end - 1] + time[end]) / unit,
+        separations=len(hit) - (0 if len(contacts) > len(hit) or has_left(history) else 1),
+        peak_moment=peak.moment / moment,
+        peak_moment_place=abs(peak.place) / impact.half_length,
+        peak_moment_time=peak.time / unit,
+        midspan_moment=peak.midspan / moment,
+        translation=translation,
+        vibration=float(energy[end] / supplied[end]) - translation,
+        dissipated=float(1.0 - energy[end] / supplied[end]),
+        supplied=float(supplied[end]),
+        spacing=float(time[end] - time[end - 1]) / unit,
+        contacts=tuple((float(time[i]) / unit, float(time[j]) / unit) for i, j in hit),
+        energy_defect=abs(history.energy_budget()["defect"]) / initial,
+        energy_gain=float(np.max(np.diff(energy + held - supplied), initial=0.0)) / initial,
+        left=has_left(history),
+    )
+
+
+@dataclass(frozen=True)
+class WallHit:
+    """One hit of a beam on its wall: begin, end : s; impulse : N s; before, after : velocity of the centre of mass into
+    the wall, m/s."""
+
+    begin: float
+    end: float
+    impulse: float
+    before: float
+    after: float
+
+    @property
+    def restitution(self) -> float:
+        """−after/before."""
+        return -self.after / self.before
+
+
+def wall_hits(history: ImpactHistory) -> list[WallHit]:
+    """All hits of a run, in order; the last may not be over yet."""
+    time, total = history.time, history.array("total_impulse")
+    unit = history.impact.slow_time_scale
+    found = []
+    for hit in _grouped(pushes(time, total, SHORTEST_SEPARATION * unit), time, LOWEST_PERIOD * unit):
+        i, k = hit[0][0], hit[-1][1]
+        before, after = (_mean_velocity(history, at) for at in (i, k))
+        found.append(WallHit(float(time[i]), float(time[k]), float(total[k] - total[i]), before, after))
+    return found
+
+
+def _grouped(contacts: list[tuple[int, int]], time: Array, longest: float) -> list[list[tuple[int, int]]]:
+    """Contacts of one hit together: gaps between them are shorter than ``longest``, s."""
+    groups: list[list[tuple[int, int]]] = []
+    for contact in contacts:
+        if groups and time[contact[0]] - time[groups[-1][-1][1]] < longest:
+            groups[-1].append(contact)
+        else:
+            groups.append([contact])
+    return groups
+
+
+def _mean_velocity(history: ImpactHistory, k: int) -> float:
+    """Velocity of the centre of mass into the wall at saved instant ``k``, m/s."""
+    x = history.positions(k)
+    return float(np.trapezoid(history.array("velocity", k), x) / (x[-1] - x[0]))

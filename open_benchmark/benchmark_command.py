@@ -1,0 +1,73 @@
+"""``bentbeam benchmark``."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from comparison.command_line.console import Console
+from comparison.command_line.options import Json, Quiet, complete, emit
+from open_benchmark.problem_command import problem_ids
+
+__all__ = ["benchmark"]
+
+
+def solver_names(incomplete: str) -> list[str]:
+    """Completion of a code's name: the shipped adapters."""
+    from open_benchmark.adapter import shipped_adapters
+
+    return complete(list(shipped_adapters()), incomplete)
+
+
+def benchmark(
+    solver: Annotated[
+        list[str] | None, typer.Option(help="A shipped adapter; repeatable (all).", autocompletion=solver_names)
+    ] = None,
+    problem: Annotated[
+        list[str] | None, typer.Option(metavar="ID", help="Repeatable (the standard set).", autocompletion=problem_ids)
+    ] = None,
+    adapter: Annotated[
+        list[Path] | None, typer.Option(metavar="FILE", help="An adapter of your own; repeatable.")
+    ] = None,
+    out: Annotated[Path, typer.Option(metavar="DIR", help="Results and the page; resumed when it is there.")] = Path(
+        "benchmark"
+    ),
+    seconds: Annotated[float, typer.Option(min=1.0, help="Wall seconds that one run may take.")] = 120.0,
+    install: Annotated[
+        list[str] | None,
+        typer.Option(metavar="NAME", help="Make an adapter's environment from pinned versions, and stop; repeatable."),
+    ] = None,
+    as_json: Json = False,
+    quiet: Quiet = False,
+) -> int:
+    """Run codes on the open benchmark and write one page.
+
+    Each problem is solved at three resolutions. An adapter that hangs, crashes, writes rubbish or is not installed is
+    a row that says so. Runs that are there are not run again.
+
+    Example: bentbeam benchmark --install scikit-fem
+    """
+    from comparison.store import check_writable
+    from open_benchmark.adapter import chosen_adapters
+    from open_benchmark.adapter import install as install_environment
+    from open_benchmark.campaign import STANDARD, campaign
+    from open_benchmark.page import document, write_page
+    from open_benchmark.problem import problem as problem_of
+    from open_benchmark.running import Limits
+
+    if install:
+        lines = [install_environment(one) for one in chosen_adapters(install)]
+        emit({"installed": lines}, as_json, lambda: "\n".join(lines))
+        return 0
+    adapters = chosen_adapters(solver or (), adapter or ())
+    names = [problem_of(name).id for name in problem or STANDARD]
+    check_writable(out, folder=True)
+    with Console(quiet).progress("benchmark") as bar:
+        rows = campaign(adapters, names, out, limits=Limits(seconds=seconds), progress=bar.count)
+    about = document(rows, adapters)
+    page = write_page(rows, adapters, out, about)
+    lines = [f"{r.solver:>20} {r.problem:>22} {r.resolution:>7} {r.score.outcome}" for r in rows]
+    emit({"page": str(page), **about}, as_json, lambda: "\n".join([*lines, f"page: {page}"]))
+    return 0

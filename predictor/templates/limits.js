@@ -1,0 +1,39 @@
+"use strict";
+// From and until when the first instants hold: formulas, of the undamped theory.
+const Limits = (() => {
+  const { sqrt, max } = Math;
+  const TOLERANCE = 0.02;
+  const AHEAD = 10, FLAT = 3; // distances of `theory.validity`
+  const SLOPE = sqrt(12 * TOLERANCE); // an arch is lower than its parabola by θ²/12
+  const SHEAR = { zone: 100, point: 20 }; // times √(EIμ)/(κ_s G A): Timoshenko's beam against Euler and Bernoulli's
+  const AGE = 1 / (8 * TOLERANCE); // t/η from which one point's impulse is that without damping
+
+  /** Until when, s, by cause. Waves are back from an end once the half length is less than 10√(ct) beyond the front. */
+  function until({ contact, timeScale, slow }) {
+    const { lambda0, change, steepest } = contact;
+    return {
+      ends: slow / max(lambda0 + AHEAD, FLAT * lambda0) ** 2,
+      loads: sqrt(TOLERANCE) / change * timeScale, // the second order is about the square of the first
+      slope: (SLOPE / steepest) ** 2 * timeScale,
+    };
+  }
+
+  /** From when, s, by cause. */
+  function from({ b, contact }) {
+    const point = contact.regime === "discrete";
+    return {
+      shear: SHEAR[point ? "point" : "zone"] * sqrt(b.stiffness * b.mass) / b.shear,
+      damping: b.damping === 0 ? 0 : point ? AGE * b.damping : Infinity, // a zone has no such formula
+    };
+  }
+
+  /** `from` and `until` (s) with the cause of each; from ≥ until where the first instants hold at no time. */
+  function limits(problem) {
+    const ends = until(problem), starts = from(problem);
+    const last = Object.keys(ends).reduce((a, b) => (ends[a] <= ends[b] ? a : b));
+    const first = Object.keys(starts).reduce((a, b) => (starts[a] >= starts[b] ? a : b));
+    return { from: starts[first], after: first, until: ends[last], by: last };
+  }
+
+  return { limits };
+})();

@@ -1,0 +1,39 @@
+"""The study of the error bars draws what it says, counts what misses, and keeps it to be run again."""
+
+import numpy as np
+import pytest
+
+from benchmarks.coverage import coverage, draw, write_misses
+from comparison.methods import methods_from_file
+from comparison.rows import MatchRow
+from measure.measured import Measured
+
+
+def drawn(seed, count):
+    random = np.random.default_rng(seed)
+    return [draw(random) for _ in range(count)]
+
+
+def row(error, bar):
+    number = Measured(1.0 + error, bar, 1.0)
+    return MatchRow("x", "x", {}, 0.5, 0.0, 0.0, 0.0, 0.0, 1.0, lambda0=number, r0=number)
+
+
+def test_a_bar_that_misses_is_counted_and_kept_as_a_method_that_can_be_read(tmp_path):
+    rows = [row(1e-3, 2e-3), row(1e-2, 2e-3), MatchRow("x", "x", {}, 0.5, 0, 0, 0, 0, 1.0)]
+    found = coverage(rows)
+    assert (found.share, found.runs) == (0.5, 3)
+    assert found.ratio == pytest.approx(1.1)  # of bars over errors: 2, 2, 0.2, 0.2
+    assert found.lost == pytest.approx(1 / 3)
+    asked = drawn(11, 3)
+    file, other = write_misses(found, asked, tmp_path)
+    assert methods_from_file(file) == methods_from_file(other) == [asked[1].question.method]
+    assert f"--kappa-over-nu {asked[1].kappa_over_nu!r}" in file.read_text() and "off by 1.00e-02" in file.read_text()
+
+
+@pytest.mark.parametrize(
+    ("misses", "holds"), [([], True), ([1.5e-3] * 6, True), ([1.5e-3] * 7, False), ([2.1e-3], False)]
+)
+def test_error_bars_hold_with_94_of_100_numbers_covered_and_none_two_bars_off(misses, holds):
+    covered = [row(5e-4, 1e-3)] * (100 - len(misses))
+    assert coverage([*covered, *(row(error, 1e-3) for error in misses)]).holds == holds

@@ -1,0 +1,39 @@
+"""``bentbeam`` as it is called, inside this process."""
+
+from __future__ import annotations
+
+import contextlib
+import io
+import json
+from typing import Any
+
+from comparison.command_line.app import run
+
+__all__ = ["answered", "command", "refused"]
+
+
+def command(*words: object) -> tuple[int, str, str]:
+    """Exit code, standard output and standard error, without what a machine says that is new to the kernels."""
+    out, err = io.StringIO(), io.StringIO()
+    with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
+        code = run([str(word) for word in words])
+    lines = err.getvalue().splitlines(keepends=True)
+    return code, out.getvalue(), "".join(line for line in lines if not line.startswith("compiling, as always"))
+
+
+def finite(name: str) -> None:
+    raise AssertionError(f"{name} in JSON")
+
+
+def answered(*words: object) -> Any:
+    """The one document, of finite numbers, of a command that succeeds."""
+    code, out, err = command(*words, "--json")
+    assert code == 0, err
+    return json.loads(out, parse_constant=finite)
+
+
+def refused(*words: object) -> str:
+    """The one line of a command that is refused."""
+    code, out, err = command(*words)
+    assert (code, out, err.count("\n")) == (2, "", 1) and err.startswith("error: "), (code, out, err)
+    return err

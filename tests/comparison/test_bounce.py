@@ -1,0 +1,151 @@
+"""A bounce: error bars from other elements, steps and contact laws; without damping a band; the command."""
+
+import dataclasses
+import json
+from typing import ClassVar
+
+import pytest
+from called import answered, refused
+from histories import pushed_until
+
+from bent_beam.free_flight import has_left
+from bent_beam.history import ImpactHistory
+from bent_beam.meshes import UniformMesh
+from bent_beam.method import method_from_tables
+from comparison.bounce import bounce, bounce_document, problem
+from hermite_fe import HermiteFE
+from measure.measured import Band
+
+PATHS = ["hermite", "exudyn"]
+COARSE = HermiteFE(mesh=UniformMesh(1.0 / 50))
+
+
+@pytest.mark.parametrize(("path", "elements", "widest"), [("hermite", 50, 0.02), ("exudyn", 20, 0.03)])
+def test_error_bars_of_a_bounce_hold_the_converged_value(path, elements, widest) -> None:
+    method = dataclasses.replace(method_from_tables(path, {}), mesh=UniformMesh(1.0 / elements))
+    found = bounce(problem(0.5, 1e-2), method)
+    restitution, parts = found.numbers["restitution"], found.parts["restitution"]
+    assert set(parts) == {"mesh", "step", "contact_law"} and restitution.error == sum(parts.values())
+    assert abs(restitution.value - 0.33636) <= restitution.error < widest
+    document = bounce_document(found)
+    assert json.loads(json.dumps(document)) == document
+    assert document["si"]["impulse"]["value"] == pytest.approx(2.0 * (1.0 + restitution.value))
+
+
+def test_without_damping_a_seeded_band_takes_the_place_of_a_number() -> None:
+    told = []
+    first, again, other = (
+        bounce(problem(2.0, 0.0), COARSE, runs=2, save=500, seed=seed, progress=lambda *at: told.append(at))
+        for seed in (3, 3, 4)
+    )
+    band = first.numbers["restitution"]
+    assert isinstance(band, Band) and band == again.numbers["restitution"] != other.numbers["restitution"]
+    assert band.mean == pytest.approx(0.6, abs=0.1) and band.runs == 2
+    assert any("no damping" in warning and "band" in warning for warning in first.warnings)
+    assert told == [(0, 2), (1, 2), (2, 2)] * 3  # complete when all runs are
+    document = bounce_document(first)
+    stated = {"mean": band.mean, "std": band.std, "runs": 2}
+    assert document["seed"] == 3 and document["restitution"] == {"value": None, "error": None, "band": stated}
+
+
+@dataclasses.dataclass(frozen=True)
+class Scripted:
+    """Its beam leaves at 0.5 T*; with ``other``, as its cross-check and some of an ensemble, much later."""
+
+    label: str = "scripted"
+    path: ClassVar[str] = "scripted"
+    other: bool = False
+
+    def refuses(self, impact):
+        return None
+
+    def for_whole_beam(self, impact):
+        return self
+
+    def simulate_to_separation(self, impact, **_):
+        return pushed_until(9.0 if self.other else 0.5)
+
+    def cross_checks(self, impact):
+        return {"step": Scripted(other=True)}
+
+    def varied(self, impact, random):
+        return Scripted(other=bool(random.random() < 0.5))
+
+
+@pytest.mark.parametrize("damping", [1e-3, 0.0])
+def test_a_single_run_that_ends_at_the_wall_is_told_with_the_numbers_that_it_enters(damping) -> None:
+    found = bounce(problem(2.0, damping), Scripted(), runs=4, seed=0)
+    assert found.outcome.left and not found.left and bounce_document(found)["left"] is False
+    assert any("not left the wall" in warning for warning in found.warnings)
+
+
+BEAM = """
+[section]
+kind = "rectangle"
+width = 0.03
+thickness = 0.001
+youngs_modulus = 2.1e11
+density = 7850.0
+[beam]
+length = 1.0
+curvature = 0.05
+damping = {damping}
+[impact]
+velocity = 0.05
+[mesh]
+kind = "uniform"
+element_length = {element}
+{more}
+"""
+
+
+def ruler(folder, damping=1e-3, element=0.025, more="") -> str:
+    """A steel ruler's case file."""
+    file = folder / "ruler.toml"
+    file.write_text(BEAM.format(damping=damping, element=element, more=more))
+    return str(file)
+
+
+@pytest.mark.parametrize("path", PATHS)
+def test_a_run_until_separation_ends_off_the_wall_on_either_path(path, tmp_path) -> None:
+    kept, asked = tmp_path / "run.nc", ("simulate", ruler(tmp_path), "--path", path, "--until", "separation")
+    found = answered(*asked, "--out", str(kept))
+    history = ImpactHistory.load(kept)
+    assert has_left(history) and history.array("gap")[-1].min() > 0.0 and found["hits"] is None
+    assert found["time"] == history.time[-1] < 3.0 * history.impact.slow_time_scale
+    assert abs(found["energy"]["defect"]) < 1e-5 * found["energy"]["initial"]
+    mass = history.impact.mass_per_length * history.impact.length
+    assert 1.1 < found["total_impulse"]["value"] / (mass * history.impact.velocity) < 2.0
+    walls = ruler(tmp_path, damping=1e-2, element=0.05, more="[wall]\nopposite = 0.01\n")
+    found = answered("simulate", walls, "--path", path, "--set", "run.end_time=0.5", "--save", "2000")
+    assert [hit["wall"] for hit in found["hits"][:2]] == ["front", "opposite"]
+    assert all(hit["impulse"] > 0.0 and hit["lost"] > 0.0 for hit in found["hits"][:2])
+    assert "opposite_wall" in refused(*asked)  # no separation is the last
+
+
+def test_the_command_gives_numbers_with_bars_figures_and_the_stress_of_the_largest_moment(tmp_path) -> None:
+    out = tmp_path / "out"
+    found = answered("bounce", ruler(tmp_path), "--out", str(out))
+    assert {file.name for file in out.iterdir()} == {"bounce.json", "bounce.png", "bounce.gif"}
+    assert set(found["energy"]) == {"translation", "vibration", "dissipated"}
+    assert {"restitution", "impulse", "last_contact", "separations", "peak_moment", "midspan_moment"} <= set(found)
+    assert 0.0 < found["restitution"]["value"] < 1.0 and found["left"]
+    modulus = 0.03 * 0.001**2 / 6.0
+    for key in ("value", "error"):
+        assert found["peak_stress"][key] == pytest.approx(found["si"]["peak_moment"][key] / modulus, rel=1e-12)
+    assert found["si"]["peak_moment_time"]["value"] > 0.0
+    assert 0.0 <= found["si"]["peak_moment_place"]["value"] <= 0.5
+
+
+@pytest.mark.parametrize(
+    ("arguments", "named"),
+    [
+        ([], "--kappa-over-nu"),
+        (["--kappa-over-nu", "2"], "--damping"),
+        (["--kappa-over-nu", "2", "--damping", "-1"], "damping"),
+        (["--kappa-over-nu", "-2", "--damping", "0.1"], "kappa_over_nu"),
+        (["--kappa-over-nu", "2", "--damping", "0.1", "--path", "self_similar"], "exudyn and hermite have"),
+    ],
+)
+def test_what_bounce_cannot_take_is_named(arguments, named) -> None:
+    assert named in refused("bounce", *arguments)

@@ -1,0 +1,52 @@
+"""Integrators and small systems that tests of the Hermite path share."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from hermite_fe.integrators import (
+    GeneralizedAlphaPenalty,
+    Integrator,
+    MoreauJean,
+    NonsmoothGeneralizedAlpha,
+    SignoriniPosition,
+)
+from hermite_fe.integrators.nonsmooth_generalized_alpha import LEVELS
+from hermite_fe.system import ContactRows, System
+
+GRAVITY, DROP = 9.81, 0.5  # thesis Fig. 3.6
+Make = Callable[..., Integrator]
+
+
+def at_level(level: str) -> Make:
+    return lambda h=None, **more: NonsmoothGeneralizedAlpha(h, levels=level, **more)
+
+
+WITH_IMPACT_LAW: dict[str, Make] = {"moreau_jean": lambda h=None, **more: MoreauJean(h, theta=0.5, **more)}
+WITH_IMPACT_LAW |= {level: at_level(level) for level in LEVELS}
+ALL: dict[str, Make] = WITH_IMPACT_LAW | {
+    "moreau_jean_implicit": MoreauJean,
+    "signorini_position": SignoriniPosition,
+    "penalty": lambda h=None, **more: GeneralizedAlphaPenalty(h, stiffness=1e5, damping=1e3, **more),
+}
+FIRST_ORDER = ("moreau_jean_implicit", "signorini_position")
+
+
+def ball() -> System:
+    return System(mass=[[1.0]], stiffness=[[0.0]], load=[[-GRAVITY]], contacts=ContactRows([[0]], [[1.0]], [0.0]))
+
+
+def oscillator() -> System:
+    """ω = 2, a stop at its position of rest."""
+    return System(mass=[[2.0]], stiffness=[[8.0]], contacts=ContactRows([[0]], [[1.0]], [0.0]))
+
+
+def chain(gap: float, load: list[list[float]]) -> System:
+    """Two damped, forced masses and a stop."""
+    return System(
+        mass=[[1.0, 2.0]],
+        stiffness=[[3.0, 2.0], [-1.0, 0.0]],
+        dampings=(("viscous", [[0.1, 0.2]]),),
+        load=load,
+        contacts=ContactRows([[0]], [[1.0]], [gap]),
+    )

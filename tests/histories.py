@@ -1,0 +1,60 @@
+"""Histories made by hand, for what reads histories, and the rod that falls."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from bent_beam import Impact, ImpactHistory
+
+__all__ = ["ROD", "history_of", "pushed_until"]
+
+# A steel rod, Ø 20 mm × 1 m with a sagitta of 10 mm, as a case file.
+ROD = """
+[section]
+kind = "round_bar"
+diameter = 0.02
+youngs_modulus = 2.1e11
+density = 7850.0
+yield_stress = 3.55e8
+[beam]
+length = 1.0
+sagitta = 0.01
+damping_ratio = 0.01
+[impact]
+velocity = 1.0
+"""
+
+
+def history_of(
+    time: Any, x: Any, *, impact: Impact | None = None, symmetry: str = "half", **fields: Any
+) -> ImpactHistory:
+    """A history with ``fields`` by name, of shape (times,), (times, nodes) or, for impulses, (times, contacts); what a
+    history must have besides is zero. Contacts are the nodes."""
+    time, x = np.asarray(time, float), np.asarray(x, float)
+    still = np.zeros((time.size, x.size))
+    energies = dict.fromkeys(("total_impulse", "kinetic_energy", "strain_energy"), 0.0 * time)
+    values = {"gap": still, "impulse": still, **energies} | fields
+    places = dict.fromkeys(("impulse", "contact_position", "in_contact"), "contact")
+    return ImpactHistory.build(
+        impact=impact or Impact.dimensionless(0.5), path="bare", symmetry=symmetry, settings={}, time=time, x=x,
+        contact_x=x, fields={n: (("time", places.get(n, "x"))[: np.ndim(v)], v) for n, v in values.items()},
+    )  # fmt: skip
+
+
+def pushed_until(end: float, *, last: float = 2.0, again: float | None = None) -> ImpactHistory:
+    """A rigid beam that the wall pushes from first touch to ``end``, and as long from ``again`` on, T*, at 5.8 μℓV₀ a
+    T*; saved until ``last``, T*."""
+    time, x = np.linspace(0.0, last, round(20 * last) + 1), np.linspace(0.0, 1.0, 5)
+    impulse = np.zeros((time.size, x.size))
+    impulse[:, 0] = 2.9 * np.minimum(time, end)
+    if again is not None:
+        impulse[:, 0] += 2.9 * np.clip(time - again, 0.0, end)
+    away = np.maximum(time[:, None] - end, 0.0) * np.ones(x.size)
+    one = np.ones(time.size)
+    return history_of(
+        time, x, impact=Impact.whole_beam(2.0), gap=away, slope=0.0 * away,
+        velocity=(1.0 - impulse[:, :1]) * np.ones(5),
+        impulse=impulse, total_impulse=2.0 * impulse[:, 0], kinetic_energy=one, strain_energy=0.0 * one,
+    )  # fmt: skip

@@ -1,0 +1,37 @@
+"""Momentum, initial energy and gaps of pushes, from the state of a run: a falsified run shows."""
+
+import pytest
+
+from bent_beam import Impact, ImpactHistory
+from bent_beam.meshes import UniformMesh
+from exudyn_models import ExudynModel
+from hermite_fe import HermiteFE
+from measure.balance import balance_of
+
+WHOLE = Impact.whole_beam(0.5, relative_damping=1e-2)
+
+
+@pytest.mark.parametrize("loads", [{}, {"acceleration": 5.0}, {"axial_force": 3.0, "fourth_derivative": 2.0}])
+def test_a_run_keeps_its_momentum_and_a_falsified_impulse_energy_or_gap_shows_in_proportion(loads) -> None:
+    impact = WHOLE.replace(**loads)
+    history = HermiteFE(mesh=UniformMesh(1.0 / 50)).for_whole_beam(impact).simulate(impact, end_time=0.3, save=600)
+    sound = balance_of(history)
+    assert sound.momentum < 5e-4 and sound.gap_of_push < 1e-3 and sound.warnings == []
+    assert (sound.initial_energy is None) == bool(loads)
+    data = history.dataset
+    more = balance_of(ImpactHistory(data.assign(total_impulse=1.1 * data["total_impulse"])))
+    assert more.momentum == pytest.approx(0.1 * history.array("total_impulse")[-1] / 2.0, abs=1e-3)
+    assert "impulse" in more.warnings[0]
+    less = balance_of(ImpactHistory(data.assign(kinetic_energy=0.97 * data["kinetic_energy"])))
+    assert bool(loads) or less.initial_energy == pytest.approx(-0.03, abs=1e-9)
+    assert bool(loads) or "mass is missing" in less.warnings[0]
+    assert balance_of(ImpactHistory(data.assign(gap=data["gap"] + 0.01))).gap_of_push > 0.03
+
+
+def test_exudyn_keeps_momentum_under_an_axial_force_too() -> None:
+    impact = WHOLE.replace(axial_force=3.0)
+    history = ExudynModel(mesh=UniformMesh(1.0 / 50)).simulate(impact, end_time=0.3, save=300)
+    assert balance_of(history).momentum < 5e-4
+    bent = impact.replace(fourth_derivative=2.0)  # its ends carry the shear of the free motion, which is not recorded
+    short = ExudynModel(mesh=UniformMesh(1.0 / 20)).simulate(bent, end_time=0.02, save=20)
+    assert balance_of(short).momentum is None

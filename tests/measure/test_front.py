@@ -1,0 +1,40 @@
+"""Half contact length and reaction as a run of any beam shows them, against theory and against a second measurement."""
+
+import numpy as np
+import pytest
+from histories import history_of
+
+from bent_beam import Impact
+from bent_beam.meshes import UniformMesh
+from hermite_fe import HermiteFE
+from measure.front import half_contact_length, mean_reaction
+from theory import predict
+
+
+@pytest.mark.parametrize("kappa", [0.3, 0.5])
+def test_the_front_of_a_damped_run_is_where_nodes_are_touched_first_and_late_on_where_the_theory_has_it(kappa) -> None:
+    """Within two elements. So little damping is over after some millionths of T*; the theory is the undamped one."""
+    element, impact = 1.0 / 200, Impact.whole_beam(kappa, relative_damping=1e-4)
+    method = HermiteFE(mesh=UniformMesh(element)).for_whole_beam(impact)
+    history = method.simulate(impact, end_time=0.02, save=np.linspace(0.0, 0.02, 801)[1:])
+    x, impulse = history.contact_positions(0), history.array("impulse")
+    touched = impulse > 1e-9 * impulse.max()
+    first = np.where(touched.any(axis=0), history.time[touched.argmax(axis=0)], np.inf)
+    for time in (0.003, 0.006, 0.01, 0.014, 0.018):
+        k = int(np.argmin(np.abs(history.time - time)))
+        found = half_contact_length(history, k)
+        (theory,) = predict(impact.replace(damping=0.0), history.time[k]).times
+        assert found == pytest.approx(theory.half_contact_length, abs=2.0 * element)
+        assert found == pytest.approx(x[first <= history.time[k]].max(), abs=2.0 * element)
+        assert mean_reaction(history, k) == pytest.approx(theory.reaction, rel=0.05)
+
+
+def test_a_middle_that_lifts_off_does_not_shorten_the_contact_and_a_late_push_alone_makes_it() -> None:
+    x, time = np.linspace(0.0, 1.0, 11), np.linspace(0.0, 1.0, 101)
+    impulse = np.zeros((time.size, x.size))
+    impulse[:, 4] = time  # two points at 0.4, nothing between them
+    impulse[:, 8] = np.maximum(time - 0.88, 0.0)  # and late at 0.8
+    history = history_of(time, x, impulse=impulse, total_impulse=2.0 * impulse.sum(axis=1))
+    assert [half_contact_length(history, k) for k in (0, 75, 100)] == pytest.approx([0.0, 0.4, 0.8])
+    assert mean_reaction(history, 0) is None and mean_reaction(history, 100) is None  # no tenth after the end
+    assert mean_reaction(history, 75) == pytest.approx(2.0, rel=1e-9)

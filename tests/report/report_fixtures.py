@@ -1,0 +1,92 @@
+"""Made-up rows and real reduced impacts, small enough for every test of the report."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import cache
+from pathlib import Path
+
+from bent_beam.meshes import ScaleFreeMesh
+from comparison.rows import MatchRow
+from comparison.stored import write
+from hermite_fe import HermiteFE
+from measure.measured import Measured
+from report.impacts import SHOWN, ShownImpact, show
+from report.pipe import Pipe, pipe_prediction
+from report.render import Content
+from report.studies import stored_studies
+from self_similar_fe import SelfSimilarFE
+from theory import contact_parameters
+
+LABELS = {"hermite": "Hermite", "exudyn": "Exudyn"}
+
+
+def row(path: str, kappa: float, first: tuple[float, float, float] | None = None, off: float = 1e-4) -> MatchRow:
+    """A row that is ``off`` (relative) from theory, with an error bar twice that."""
+    alpha, psi, chi = first or (0.0, 0.0, 0.0)
+    exact = contact_parameters(kappa, alpha, psi, chi)
+    numbers = {
+        name: Measured(value + sign * off * max(abs(value), least), 2 * off * max(abs(value), least), value)
+        for name, sign, least in (("lambda0", 1, 0.0), ("r0", -1, 0.0), ("lambda1", 1, 1.0), ("r1", 1, 1.0))
+        if (value := float(getattr(exact, name))) is not None and (first or name.endswith("0"))
+    }
+    return MatchRow(
+        label=LABELS[path], path=path, settings={}, kappa_over_nu=kappa, alpha=alpha, psi=psi, chi=chi, axial=0.0,
+        refine=1.0, regime=str(exact.regime), lift=1e-9, pull=0.0, seconds=0.5 if path == "hermite" else 5.0,
+        epsilons=[0.1, 0.2] if first else [], **numbers,
+    )  # fmt: skip
+
+
+def lost(path: str, kappa: float, reason: str) -> MatchRow:
+    """A row that failed."""
+    return MatchRow(
+        label=LABELS[path], path=path, settings={}, kappa_over_nu=kappa, alpha=1.0, psi=0.0, chi=0.0, axial=0.0,
+        refine=1.0, reason=reason,
+    )  # fmt: skip
+
+
+def rows() -> list[MatchRow]:
+    """Leading and first order on both paths; one row of each grade."""
+    leading = [row(path, k) for k in (1 / 1600, 1 / 20, 0.25, 0.5) for path in ("hermite", "exudyn")]
+    coarse = [replace(row(path, 0.5, off=4e-4), refine=0.5, seconds=0.1) for path in ("hermite", "exudyn")]
+    return [
+        *leading,
+        *coarse,
+        row("hermite", 0.5, (4, 0, 0), 2e-3),
+        row("exudyn", 0.5, (4, 0, 0), 2.5e-2),
+        row("hermite", 0.1, (1, 0, 0), 4e-2),
+        row("hermite", 0.8, (-1, -1, 1), 0.2),
+    ]
+
+
+METHODS = (SelfSimilarFE(), HermiteFE(mesh=ScaleFreeMesh(element_length=4e-3, growth=1.02)))
+
+
+@cache
+def impacts() -> tuple[ShownImpact, ...]:
+    """Every impact by two methods, on meshes of a second."""
+    return tuple(show(shown, method) for shown in SHOWN for method in METHODS)
+
+
+def studies(folder: Path, text: str = "Finer elements bring the errors down.") -> Path:
+    """A file of stored studies with every kind of cell, and one study that failed."""
+    study = {"name": "mesh", "title": "Mesh", "case": "κ/ν = 0.5", "conclusion": text, "failed": False, "reason": None,
+             "date": "2026-01-02", "columns": {"element": "element length", "lambda0": "λ₀", "note": "note"},
+             "rows": [{"element": 0.05, "lambda0": {"value": 0.98, "error": 0.002}, "note": None}]}  # fmt: skip
+    failed = study | {"name": "penalty", "title": "Penalty", "rows": [], "failed": True, "reason": text}
+    return write(folder / "studies.json", "studies", "a test", ["measure"], {}, {"studies": [study, failed]})
+
+
+@cache
+def pipe() -> Pipe | None:
+    return pipe_prediction()
+
+
+def content(folder: Path, text: str = "an ordinary warning") -> Content:
+    """All that a page shows, with ``text`` wherever a string comes from files or methods."""
+    every = [*rows(), lost("exudyn", 0.3, text)]
+    every[0].warnings.append(text)
+    return Content(
+        rows=every, impacts=impacts(), lost_impacts=[text], pipe=pipe(),
+        studies=stored_studies(studies(folder, text)), seconds=12.0, jobs=2,
+    )  # fmt: skip

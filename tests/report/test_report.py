@@ -1,0 +1,213 @@
+"""The report's page: it stands alone, escapes what it shows, and says what the rows say."""
+
+from __future__ import annotations
+
+import re
+import sys
+from html.parser import HTMLParser
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from comparison.figures.force_map import force_map, spread
+from comparison.store import RunStore
+from report import page
+from report.impacts import FRAMES, SHOWN, kept_instants, theory_of
+from report.render import Content, render
+from report.rows import first_order_rows, leading_rows, report_questions, table_row, tolerance
+from report.studies import stored_studies
+from report.summary import acceleration_rows, headline, summary
+from report.work import stored_measurements
+
+sys.path.insert(0, str(Path(__file__).parent))
+from report_fixtures import content, impacts, lost, row, rows
+
+NASTY = "<script>alert('x')</script> & \"quotes\" </script>"
+LABELS = ("Hermite", "Self-similar", "Exudyn")
+VOID = {"meta", "link", "br", "img", "input", "line", "circle", "rect", "path"}
+
+
+class Reader(HTMLParser):
+    """Tags, attributes and visible text of a page; raises on tags that do not close in order."""
+
+    def __init__(self, page: str) -> None:
+        super().__init__()
+        self.open: list[str] = []
+        self.attributes: list[tuple[str, str, str]] = []
+        self.text = ""
+        self.tags: list[str] = []
+        self.feed(page)
+        self.close()
+        assert self.open == []
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        self.handle_startendtag(tag, attrs)
+        if tag not in VOID:
+            self.open.append(tag)
+
+    def handle_startendtag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        self.tags.append(tag)
+        self.attributes += [(tag, name, value or "") for name, value in attrs]
+
+    def handle_endtag(self, tag: str) -> None:
+        if tag not in VOID:
+            assert self.open and self.open[-1] == tag, f"</{tag}> closes {self.open[-3:]}"
+            self.open.pop()
+
+    def handle_data(self, data: str) -> None:
+        if not {"script", "style"} & set(self.open):
+            self.text += data
+
+
+@pytest.fixture(scope="module")
+def plain(tmp_path_factory: pytest.TempPathFactory) -> str:
+    return render(content(tmp_path_factory.mktemp("plain")))
+
+
+def test_page_refers_to_nothing_outside_itself_and_its_links_lead_somewhere(plain: str) -> None:
+    reader = Reader(plain)
+    ids = [value for _, name, value in reader.attributes if name == "id"]
+    assert len(ids) == len(set(ids))
+    for tag, name, value in reader.attributes:
+        if name in ("src", "href", "srcset", "action", "poster", "data"):
+            assert value.startswith("data:") or value.removeprefix("#") in ids, (tag, name, value[:80])
+    style = plain[plain.index("<style>") : plain.index("</style>")]
+    assert "@import" not in style and "url(" not in style
+    inside = re.search(r'<script type="application/json" id="data">(.*?)</script>', plain, re.S)
+    assert inside is not None and "NaN" not in inside[1] and "Infinity" not in inside[1]
+
+
+def test_strings_from_files_are_escaped(plain: str, tmp_path: Path) -> None:
+    text = render(content(tmp_path, NASTY))
+    assert NASTY not in text
+    reader = Reader(text)  # markup let through would unbalance the tags or add scripts
+    assert reader.tags.count("script") == Reader(plain).tags.count("script")
+    assert NASTY in reader.text
+
+
+def test_page_shows_every_row_the_failure_and_the_stored_studies(plain: str) -> None:
+    text = re.sub(r"[ \n]+", " ", Reader(plain).text)
+    for r in [*leading_rows(rows()), *first_order_rows(rows())]:
+        for c in r.cells:
+            assert c.value_text in text and c.error_text in text
+    assert "Exudyn, κ/ν = 0.3, (α, ψ, χ, N) = (1, 0, 0, 0): an ordinary warning" in text
+    assert "Rows failed: 1." in text
+    assert "0.98 ± 0.002" in text
+    assert "Left out: an ordinary warning" in text
+    assert "Rows failed: 1." in Reader(render(Content(rows=[lost("hermite", 0.5, "no reason")]))).text
+
+
+def test_report_is_written_when_rows_fail(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    seen: list[tuple[int, int]] = []
+
+    def match(asked, *, store, jobs, scheduler, progress):  # type: ignore[no-untyped-def]
+        progress(1, len(asked))
+        return [*rows(), lost("exudyn", 0.5, "the solver gave up")]
+
+    monkeypatch.setattr(page, "match", match)
+    monkeypatch.setattr(page, "warm_up", lambda methods: None)
+    monkeypatch.setattr(page, "show_all", lambda *_, **__: (list(impacts()), []))
+    monkeypatch.setattr(page, "pipe_prediction", lambda: None)
+    found = page.write_report(tmp_path, store=RunStore(None), jobs=1, progress=lambda a, b: seen.append((a, b)))
+    assert set(found) == {"page", "files", "headline", "failures", "rows"}
+    assert all(Path(f).stat().st_size > 0 for f in found["files"])
+    assert found["failures"][0]["reason"] == "the solver gave up"
+    text = (tmp_path / "index.html").read_text()
+    assert "the solver gave up" in text and found["headline"] in Reader(text).text
+    assert seen[-1][0] == seen[-1][1]
+    # matching, work and precision, map of whole impacts, maps of reaction, acceleration; what is stored
+    images = sum(tag == "img" for tag in Reader(text).tags)
+    assert images == 6 + len(stored_measurements()) + sum(s.picture.exists() for s in stored_studies())
+
+
+def test_questions_ask_every_method_the_same() -> None:
+    asked = report_questions()
+    each = {label: {(q.kappa_over_nu, q.first, q.refine) for q in asked if q.method.label == label} for label in LABELS}
+    assert each["Hermite"] == each["Exudyn"] == each["Self-similar"]
+    assert (1 / 1600, None, 1.0) in each["Hermite"] and (0.5, (4, 0, 0, 0), 1.0) in each["Hermite"]
+
+
+@pytest.mark.parametrize(("off", "grade"), [(2e-4, "good"), (8e-4, "fair"), (2e-3, "poor"), (2e-2, "bad")])
+def test_grade_is_error_against_tolerance(off: float, grade: str) -> None:
+    cells = table_row(row("hermite", 0.25, None, off)).cells
+    assert [c.grade for c in cells] == [grade, grade]
+    assert [c.error for c in cells] == pytest.approx([off, -off])
+    assert cells[0].error_text.startswith("+") and cells[1].error_text.startswith("−")
+    assert (tolerance("r0", 0.5), tolerance("r1", 0.5), tolerance("r1", 0.1)) == (0.001, 0.01, 0.03)
+
+
+def test_summary_and_headline_come_from_the_rows() -> None:
+    leading, first = leading_rows(rows()), first_order_rows(rows())
+    found = {(r.order, r.label): r for r in summary(leading, first)}
+    exudyn, hermite = found["first order", "Exudyn"], found["first order", "Hermite"]
+    assert (exudyn.rows, exudyn.numbers, exudyn.within, exudyn.covered) == (1, 2, 0, 2)
+    assert (exudyn.largest, hermite.largest) == pytest.approx((0.025, 0.2))
+    assert (hermite.numbers, hermite.within) == (6, 2)  # one pair lies between the tolerance and twice it
+    exudyn = found["leading order", "Exudyn"]
+    assert (exudyn.rows, exudyn.seconds) == (4, 5.0)  # the coarse row is not among them
+    assert "first order Hermite 20 %, Exudyn 2.5 %" in headline(leading, first, 0)
+
+
+# --- the shown impacts --------------------------------------------------------------------------------------
+
+
+def shown(name: str, label: str) -> dict[str, Any]:
+    return dict(next(i.data for i in impacts() if (i.shown.name, i.label) == (name, label)))
+
+
+@pytest.mark.parametrize(("label", "off", "lift"), [("Self-similar", 5e-3, 1e-6), ("Hermite", 2e-2, 2e-2)])
+def test_shown_impact_without_acceleration_is_the_leading_order(label: str, off: float, lift: float) -> None:
+    data, theory = shown("plain", label), theory_of(SHOWN[0])
+    for what in ("front", "reaction"):
+        assert np.allclose(data[what][10:], theory[what][10:], rtol=off)
+    assert max(data["lift"]) < lift
+    if label == "Hermite":  # energies balance, and the resting wall does no work
+        assert not any(data["energy"]["work_of_loads"])
+        total = sum(np.array(values) for values in data["energy"].values())
+        assert np.abs(total).max() < 2e-3 * np.abs(data["energy"]["kinetic_energy"]).max()
+
+
+@pytest.mark.parametrize("shown_impact", SHOWN[:2], ids=lambda s: s.name)
+def test_theory_and_simulation_have_the_same_shape_on_the_timeline(shown_impact: Any) -> None:
+    theory, data = theory_of(shown_impact), shown(shown_impact.name, "Self-similar")
+    gap, exact = np.array(data["gap"], float), np.array(theory["gap"])
+    assert gap.shape == exact.shape == (FRAMES, len(theory["x"]))
+    assert np.allclose(gap[10:], exact[10:], rtol=3e-3, atol=3e-3)
+
+
+def test_pressed_zone_carries_the_uniform_reaction_of_theory_up_to_the_front() -> None:
+    edge = 0.12  # of the front: four of Hermite's elements, over which its concentrated force is spread
+    for label in ("Self-similar", "Hermite"):
+        data = shown("pressed", label)
+        assert data["pressure"][-1] == pytest.approx(SHOWN[1].pressure, rel=0.02)
+        x, force = np.array(data["map"]["x"]), np.array(data["map"]["force"])[-5:].mean(axis=0)
+        inside = x < (1.0 - edge) * data["front"][-6]
+        assert np.allclose(force[inside], SHOWN[1].pressure, rtol=0.2), label
+
+
+def test_acceleration_into_the_wall_spreads_the_zone_and_one_away_from_it_lifts_the_middle() -> None:
+    assert 1e-3 < max(shown("released", "Self-similar")["lift"]) < 2e-2
+    table = acceleration_rows(impacts())
+    assert len(table) == 4  # two impacts with acceleration, two methods
+    for pressed, released in zip(table[:2], table[2:]):
+        assert (pressed.uniform, pressed.theory, released.theory) == ("1.00", "1.00", "0.00")
+        assert pressed.zone.startswith("+") and pressed.reaction.startswith("+")
+        assert released.zone.startswith("−") and released.reaction.startswith("−")
+
+
+def test_map_holds_the_whole_impulse_of_one_side() -> None:
+    from self_similar_fe.mesh import ExpandingMesh
+    from self_similar_fe.run import simulate_expanding
+
+    history = simulate_expanding(SHOWN[1].impact, ExpandingMesh(decades=2.0), end_time=0.1, save=60)
+    kept = kept_instants(history.time, 10)
+    edges = np.linspace(0.0, 1.0, 41)
+    gathered = (force_map(history, kept, edges) * np.diff(edges)).sum(axis=1) * np.diff(history.time[kept])
+    assert np.allclose(gathered, np.diff(history.array("impulse").sum(axis=1)[kept]), rtol=1e-9)
+    bins = spread(np.array([0.0, 0.1, 0.4, 0.5]), np.array([1.0, 2.0, 0.5, 4.0]), np.linspace(0.0, 0.6, 7))
+    assert bins.sum() == pytest.approx(7.5) and bins[-1] == pytest.approx(0.0, abs=1e-12)
+
+
+# --- what is stored -----------------------------------------------------------------------------------------

@@ -1,0 +1,271 @@
+"""Studies: the theory they are compared with, and what their runs show on small cases."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, ClassVar
+
+import numpy as np
+import pytest
+
+from bent_beam.cases import Case
+from bent_beam.impact import Impact
+from bent_beam.meshes import UniformMesh
+from comparison.command_line.app import run
+from exudyn_models import ExudynModel
+from hermite_fe import HermiteFE
+from hermite_fe.integrators import SignoriniPosition
+from self_similar_fe import SelfSimilarFE
+from theory import predict
+from thesis.studies import STUDIES, first_order_case, of_exudyn, run_study
+from thesis.studies.exact import Exact
+from thesis.studies.of_methods import runs_of_methods
+from thesis.studies.outcome import Outcome
+from thesis.studies.panels import unit
+from thesis.studies.thesis import Variant, run_variants, thesis_settings
+
+SLOW = pytest.mark.verify
+
+
+def case(curvature: float, duration: float, **changes: float) -> Case:
+    usual = {"bending_stiffness": 1.0, "mass_per_length": 1.0, "length": 50.0, "velocity": 20.0}
+    impact = Impact(**{**usual, "curvature": curvature, **changes})
+    end = duration * impact.time_scale
+    return Case(title=f"K = {curvature:g} 1/m", impact=impact, end_time=end, mesh=None, tables={})
+
+
+def by_label(result: Any) -> dict[str, dict[str, Any]]:
+    return {row["label"]: row for row in result.rows}
+
+
+# theory in SI units --------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    "load", [{}, {"axial_force": 40.0}, {"axial_force": -40.0}, {"acceleration": 70.0}, {"acceleration": -70.0}]
+)
+def test_the_exact_answer_of_a_study_is_that_of_the_theory_with_its_loads(load: dict[str, float]) -> None:
+    impact = Impact.whole_beam(0.5).replace(**load)
+    exact, time = Exact(impact), np.array([1e-3, 2e-3])
+    rows = predict(impact, time).times
+    assert exact.leading == (not load)
+    for found, name in ((exact.front(time), "half_contact_length"), (2.0 * exact.side_reaction(time), "reaction"),
+                        (exact.impulse(time), "impulse")):  # fmt: skip
+        assert found == pytest.approx([getattr(row, name) for row in rows], rel=1e-9)
+    if min(load.values(), default=0.0) >= 0.0:
+        places = np.linspace(0.0, float(exact.front(2e-3)), 9)
+        assert np.abs(exact.gap(places, 2e-3)).max() < 1e-2 * 2e-3  # of second order
+
+
+def test_the_fast_layer_holds_the_work_of_the_wall_and_a_quarter_of_it_and_more_is_strain() -> None:
+    shares = []
+    for curvature in (1.0 / 80.0, 1.0, 10.0, 25.0):
+        exact = Exact(case(curvature, 0.1).impact)
+        assert float(exact.fast_energy(2.5e-4)) == pytest.approx(20.0 * float(exact.impulse(2.5e-4)), rel=1e-9)
+        shares.append(exact.strain_share)
+    assert shares[0] == pytest.approx(0.25, abs=2e-5)
+    assert shares == sorted(shares) and shares[-1] < 0.5
+
+
+@pytest.mark.parametrize(("sign", "expected"), [(1.0, 300.0), (-1.0, -280.6)])
+def test_the_fit_of_the_thesis_recovers_the_prediction_of_theory(sign: float, expected: float) -> None:
+    impact = first_order_case.accelerated(Impact(1.0, 1.0, 2.0, 0.35, 3.5), sign)
+    assert impact.acceleration == 700.0 * sign
+    assert first_order_case.predicted(impact) == pytest.approx(expected, abs=0.05)
+    times = np.linspace(0.0, 2e-3, 400)
+    none = np.zeros_like(times)
+    exact = Outcome("x", impact, sign, times, Exact(impact).front(times), none, none, none, none, none, {})
+    assert first_order_case.fitted(exact) == pytest.approx(expected, rel=1e-3)
+
+
+def test_the_thesis_settings_of_its_own_cases_and_the_units_of_its_figures() -> None:
+    given = case(1.0, 0.01)
+    found = thesis_settings(given.impact, given.end_time)
+    assert (found.element_length, found.time_step) == pytest.approx((2.5e-3, 2.5e-8))
+    assert found.zone == pytest.approx(0.0624, abs=2e-4)
+    assert unit(2.5e-5, "s") == (1e6, "µs") and unit(0.03, "m") == (1e3, "mm") and unit(12e3, "N")[1] == "kN"
+
+
+# runs ----------------------------------------------------------------------------------------------------------------
+
+
+def test_unknown_studies_and_flat_beams_are_refused() -> None:
+    with pytest.raises(ValueError, match="mess"):
+        run_study("mess", case(1.0, 0.01))
+    with pytest.raises(ValueError, match="curvature"):
+        run_study("mesh", case(0.0, 0.01))
+
+
+def test_a_solver_that_cannot_finish_is_a_row_of_its_own_without_numbers() -> None:
+    given = case(1.0, 0.01)
+
+    class Broken(HermiteFE):
+        def simulate(self, *args: Any, **kwargs: Any) -> Any:
+            raise ArithmeticError("no luck")
+
+    (found,) = run_variants([Variant("broken", given.impact, given.end_time, Broken())])
+    assert found.failure == "no luck" and found.row()["lift"] is None
+    with pytest.raises(ValueError, match="broken: no lift"):
+        _ = found.lift
+
+
+@SLOW
+def test_the_time_step_does_not_change_the_lift(tmp_path: Path) -> None:
+    seen: list[tuple[int, int]] = []
+    given = case(1.0, 0.01)
+    result = run_study("time-step", given, out=tmp_path, progress=lambda done, total: seen.append((done, total)))
+    rows = by_label(result)
+    fine = [rows[f"h = {h} s"] for h in ("5e-08", "2.5e-08", "1e-08")]
+    assert all(0.25 < row["lift"] < 0.31 and 15.0 < row["reaction_error"] < 25.0 for row in fine)
+    for name, error, lift in (("Hermite", 0.2, 5e-3), ("Self-similar", 0.01, 1e-4)):
+        ours = rows[name]
+        assert abs(ours["reaction_error"]) < error and abs(ours["contact_length_error"]) < error and ours["lift"] < lift
+    assert seen[-1] == (7, 7)
+    files = [tmp_path / f"time-step{end}" for end in (".png", ".csv", "-table.csv", ".json")]
+    assert result.files == [str(f) for f in files] and all(f.stat().st_size > 100 for f in files)
+    assert json.loads(files[-1].read_text()) == result.to_dict()
+
+
+@SLOW
+def test_each_parameter_has_the_effect_that_the_thesis_and_theory_give_it() -> None:
+    """3.3.2–3.3.5; a tenth of the lift with nodes needs lumped masses; coarse elements far away reflect waves."""
+    given = case(1.0, 0.01)
+    errors = [abs(r["reaction_error"]) for r in run_study("mesh", given).rows if "e = 1.25" in r["label"]]
+    assert errors == sorted(errors, reverse=True) and errors[0] > 30.0 and errors[-1] < 5.0
+    rows = by_label(run_study("restitution", given))
+    assert rows["restitution 0"]["lost_impact"] > 10.0 and abs(rows["restitution 1"]["lost_impact"]) < 1e-9
+    assert rows["restitution 1"]["lift"] > rows["restitution 0"]["lift"]
+    rows = by_label(run_study("damping", given))
+    lifts = [rows[f"ρ∞ = {r}"]["lift"] for r in ("1", "0.8", "0.5", "0.2", "0")]
+    assert max(lifts) < 1.25 * min(lifts)
+    rows = by_label(run_study("contact-point", given))
+    assert rows["nodes, lumped"]["value"] == 0.0 > rows["nodes, consistent"]["value"] > rows["middles, lumped"]["value"]
+    assert rows["nodes, lumped"]["lift"] < 0.4 * rows["middles, lumped"]["lift"]
+    assert 0.5 < rows["nodes, consistent"]["lift"] / rows["middles, consistent"]["lift"] < 2.0
+    rows = by_label(run_study("far-field", case(10.0, 0.01)))
+    assert rows["e = 1.25"]["noise"] > 1.5 * rows["e = 1.02"]["noise"]
+    assert rows["e = 1.25, grid viscosity 0.3"]["noise"] < 0.05 * rows["e = 1.25"]["noise"]
+
+
+@SLOW
+def test_true_geometry_drifts_with_the_slopes(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(of_exudyn, "DURATIONS", (3e-2,))
+    rows = by_label(run_study("amplitude", case(10.0, 0.1)))
+    drift = rows["true, τ = 0.03"]["reaction_error"] - rows["linear, τ = 0.03"]["reaction_error"]
+    assert 0.4 < drift < 0.9
+
+
+@SLOW
+def test_the_condition_of_the_matrix_is_that_of_its_units_and_the_runs_close_their_budget() -> None:
+    rows = run_study("conditioning", case(1.0, 0.01)).rows
+    assert all(row["scaled"] < 1e-3 * row["raw"] and row["defect"] < 1e-9 for row in rows)
+    assert [row["elements"] for row in rows] == sorted(row["elements"] for row in rows)
+
+
+# studies of any methods --------------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class Plain:  # a method of somebody else's without any parts
+
+    path: ClassVar[str] = "plain"
+    label: str = "Plain"
+
+    def refuses(self, impact: Impact) -> str | None:
+        return "axial_force is not modelled" if impact.axial_force else None
+
+
+USES = {  # study: methods it can use, of hermite, self_similar, exudyn and one without parts
+    "time-step": {"hermite", "exudyn"},
+    "mesh": {"hermite", "self_similar", "exudyn"},
+    "damping": {"hermite", "exudyn"},
+    "restitution": {"hermite"},
+    "contact-point": {"hermite", "exudyn"},
+    "far-field": {"hermite", "self_similar", "exudyn", "plain"},
+    "penalty": {"exudyn"},
+    "amplitude": {"exudyn"},
+    "friction": set(),  # until it is given a contact with friction
+    "first-order-case": {"hermite", "self_similar", "exudyn", "plain"},
+    "conditioning": set(),
+}
+
+
+def asked_of(name: str, given: Case, method: Any, refine: float = 1.0) -> dict[str, Any]:
+    """Runs (or the refusal) by the name of their setting."""
+    found = runs_of_methods(STUDIES[name].vary, given, [method], [refine])
+    by_name = {one.setting: one for one in found}
+    assert len(by_name) == len(found)
+    return by_name
+
+
+def test_a_study_varies_the_methods_that_have_its_parameter_and_names_what_the_others_lack() -> None:
+    given = case(10.0, 0.01)
+    assert set(USES) == set(STUDIES)
+    for name, usable in USES.items():
+        for method in (HermiteFE(), SelfSimilarFE(), ExudynModel(), Plain()):
+            found = list(asked_of(name, given, method).values())
+            assert all(one.label == method.label for one in found)
+            if method.path in usable:
+                assert len({(one.method, one.impact, one.end_time) for one in found}) == len(found) > 1
+            else:
+                (row,) = found
+                assert row.refused and "not varied: " in row.failure
+
+
+def test_a_study_varies_one_thing() -> None:
+    """Longer steps on the same mesh, longer elements with the same steps, ρ∞ as the θ of the same amplification."""
+    given, method = case(10.0, 0.01), HermiteFE()
+    steps = asked_of("time-step", given, method)
+    once, longer = (steps[f"h × {f}"].method for f in (1, 4))
+    assert longer.integrator.growth == 4.0 * once.integrator.growth and longer.mesh == once.mesh
+    meshes = asked_of("mesh", given, method, 2.0)
+    once, longer = (meshes[f"Δx × {f}"].method for f in (1, 2))
+    assert longer.mesh.element_length == pytest.approx(2.0 * once.mesh.element_length)
+    assert longer.integrator == once.integrator
+    damped = asked_of("damping", given, method)
+    assert [damped[f"ρ∞ = {radius}"].method.integrator.theta for radius in (1, 0)] == [0.5, 1.0]
+
+
+def test_the_refusal_of_a_method_is_a_row_with_its_reason() -> None:
+    (row,) = asked_of("far-field", case(10.0, 0.01, axial_force=1.0), Plain()).values()
+    assert row.refused and row.failure == "axial_force is not modelled"
+    (row,) = asked_of("far-field", case(10.0, 0.01), Plain(), 2.0).values()
+    assert row.refused and "does not know how to be refined" in row.failure
+    law = HermiteFE(mesh=UniformMesh(0.05), integrator=SignoriniPosition())
+    rows = run_study("restitution", case(10.0, 0.01, length=2.0), methods=[law]).rows
+    assert [row["refused"] for row in rows] == [False, True, True]
+    assert all("restitution" in row["failure"] for row in rows[1:])
+
+
+def test_the_command_takes_methods_and_every_row_plot_and_table_carries_the_label(tmp_path: Path, capsys: Any) -> None:
+    """The labels are those of the file; a method that cannot be used is a row among the others, and no error."""
+    file = tmp_path / "methods.toml"
+    file.write_text(
+        '[[method]]\nlabel = "Mine"\npath = "hermite"\nmesh = {kind = "uniform", element_length = 0.05}\n'
+        'integrator = {kind = "moreau_jean"}\n[[method]]\nlabel = "Endless"\npath = "self_similar"\n'
+    )
+    small = ["--set", "beam.length=2.0", "--set", "run.duration=0.01"]
+    arguments = ["study", "damping", "cases/thesis_K10.toml", *small, "--json", "--out", str(tmp_path / "out")]
+    assert run([*arguments, "--methods", str(file), "--refine", "1,2"]) == 0
+    document = json.loads(capsys.readouterr().out)
+    rows = document["rows"]
+    labels = [("Mine", 1)] * 5 + [("Mine", 2)] * 5 + [("Endless", 1), ("Endless", 2)]
+    assert [(r["label"], r["refine"]) for r in rows] == labels
+    assert [r["setting"] for r in rows[5:10]] == ["ρ∞ = 1", "ρ∞ = 0.8", "ρ∞ = 0.5", "ρ∞ = 0.2", "ρ∞ = 0"]
+    assert all(r["reaction_error"] is not None and r["failure"] is None for r in rows[:10])
+    assert all(r["failure"] == "not varied: self_similar has no integrator" and r["refused"] for r in rows[10:])
+    drawn, table = ((tmp_path / "out" / f"damping{end}.csv").read_text() for end in ("", "-table"))
+    assert "Mine" in drawn and "Mine, refined 2 times" in drawn and "Endless" in table
+
+
+def test_the_command_takes_paths_and_settings_and_refuses_both_ways_at_once(capsys: Any) -> None:
+    settings = ("beam.length=2.0", "run.duration=0.01", "hermite.mesh.kind=uniform", "hermite.mesh.element_length=0.05")
+    arguments = ["study", "restitution", "cases/thesis_K10.toml", "--json"]
+    arguments += [word for setting in settings for word in ("--set", setting)]
+    assert run([*arguments, "--path", "hermite"]) == 0
+    (label,) = {row["label"] for row in json.loads(capsys.readouterr().out)["rows"]}
+    assert label == "Hermite, mesh=uniform, mesh.element_length=0.05"
+    assert run([*arguments, "--methods", "cases/methods/one_of_each.toml"]) == 2
+    assert "names the methods" in capsys.readouterr().err

@@ -1,0 +1,94 @@
+"""Every figure and table of the thesis by its number, drawn from this project's own computations, each with its data
+as CSV.
+
+    from pathlib import Path
+    from thesis.gallery import draw_all
+
+    draw_all(["fig-2.7a", "table-3.1"], Path("gallery"))
+
+One small module a theme; :mod:`thesis.gallery.base` defines an item.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from importlib import import_module
+from pathlib import Path
+from pkgutil import iter_modules
+from typing import Any
+
+from comparison.figures.style import FORMATS
+from comparison.store import write_atomically
+from comparison.workers import run_all
+from thesis.gallery.base import ITEMS as _REGISTERED
+from thesis.gallery.base import Item, draw_item, order
+from thesis.sheet import shown
+
+__all__ = ["ITEMS", "Item", "draw_all", "listing"]
+
+for _module in iter_modules(__path__):  # each registers its items
+    import_module(f"{__name__}.{_module.name}")
+
+ITEMS: dict[str, Item] = {name: _REGISTERED[name] for name in sorted(_REGISTERED, key=order)}
+"""Items in the order of the thesis."""
+
+
+def listing() -> list[dict[str, str]]:
+    """All items: id, title and caption of each."""
+    return [{"id": i.id, "title": i.title, "caption": i.caption} for i in ITEMS.values()]
+
+
+def _draw_group(names: Sequence[str], out: Path, formats: Sequence[str]) -> list[dict[str, Any]]:
+    """Items of one module, one after the other in one process."""
+    return [draw_item(name, out, formats) for name in names]
+
+
+def draw_all(
+    ids: Sequence[str],
+    out: Path,
+    *,
+    formats: Sequence[str] = ("png",),
+    jobs: int = 1,
+    progress: Callable[[int, int], None] | None = None,
+) -> tuple[list[dict[str, Any]], list[dict[str, Any]]]:
+    """Draw items into ``out``; what an interrupted call has drawn is not drawn again (unless the sources changed).
+
+    Returns (drawn, failures): drawn = [{"id", "title", "caption", "numbers", "files": [picture(s) …, csv], "seconds"}],
+    failures = [{"id", "reason"}]. ``index.md`` in ``out`` shows all that was drawn, with captions and numbers.
+    ``progress`` counts modules. Raises ``ValueError`` for an unknown id or format.
+    """
+    for name in ids:
+        if name not in ITEMS:
+            raise ValueError(f"gallery {name!r} is not known")
+    for kind in formats:
+        if kind not in FORMATS:
+            raise ValueError(f"format must be one of {', '.join(FORMATS)} (got {kind!r})")
+    groups: dict[str, list[str]] = {}
+    for name in dict.fromkeys(ids):
+        groups.setdefault(ITEMS[name].module, []).append(name)
+    asked = list(groups.values())
+    found = run_all(
+        _draw_group,
+        [(names, Path(out), tuple(formats)) for names in asked],
+        jobs=jobs,
+        progress=progress,
+        on_death=lambda i, why: [{"id": name, "reason": why} for name in asked[i]],
+    )
+    entries = sorted((entry for group in found for entry in group), key=lambda e: order(e["id"]))
+    drawn = [e for e in entries if "reason" not in e]
+    if drawn:
+        write_atomically(Path(out) / "index.md", _index(drawn))
+    return drawn, [e for e in entries if "reason" in e]
+
+
+def _index(drawn: Sequence[dict[str, Any]]) -> str:
+    """The gallery as one Markdown page."""
+    parts = ["# Figures and tables of the thesis, regenerated\n"]
+    for entry in drawn:
+        picture, data = Path(entry["files"][0]).name, Path(entry["files"][-1]).name
+        picture = f"[the table]({picture})" if picture.endswith(".md") else f"![{entry['id']}]({picture})"
+        parts.append(f"## {entry['id']}: {entry['title']}\n\n{picture}\n\n{entry['caption']} ([data]({data}))\n")
+        if entry["numbers"]:
+            rows = [f"| {name.replace('|', chr(92) + '|')} | {shown(v)} |" for name, v in entry["numbers"].items()]
+            parts.append("\n".join(["| number | value |", "| --- | --- |", *rows, ""]))
+    return "\n".join(parts)

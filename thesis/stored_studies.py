@@ -1,0 +1,144 @@
+"""The parameter studies on the thesis's own cases, stored for the report: they take minutes.
+
+``python -m thesis.stored_studies`` writes ``comparison/stored_studies/studies.json``, {"studies": [{"name", "title",
+"case", "columns", "rows", "conclusion", "failed", "reason", "date"}]}, and ``NAME.png`` beside it. With names it runs
+those studies alone and keeps the others. ``--confirm`` runs the named studies (default: the first) and, where their
+numbers are the stored ones, gives the file today's digest (:mod:`comparison.stored`).
+"""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Sequence
+from io import BytesIO
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Any
+
+from PIL import Image
+
+from bent_beam.cases import Case, case_from_tables
+from bent_beam.errors import SimulationError
+from bent_beam.versions import today
+from comparison import stored
+from comparison.store import write_atomically
+from comparison.workers import run_all
+from thesis.studies import STUDIES, run_study
+
+FILE = Path(__file__).resolve().parents[1] / "comparison" / "stored_studies" / "studies.json"
+PACKAGES = ("hermite_fe", "exudyn_models", "self_similar_fe", "measure", "thesis")
+COLOURS = 64  # of a picture: enough for lines, and a third of the bytes
+
+BEAM = {"bending_stiffness": 1.0, "mass_per_length": 1.0}
+USUAL: dict[str, Any] = {
+    "title": "thesis, K = 10 1/m, V₀ = 20 m/s (κ/ν = 0.5)",
+    "beam": {**BEAM, "length": 50.0, "curvature": 10.0},
+    "impact": {"velocity": 20.0},
+    "run": {"duration": 0.1},
+}
+FIRST_ORDER: dict[str, Any] = {
+    "title": "thesis, V₀ = 3.5 m/s, K = 0.35 1/m, L = 2 m (κ/ν = 0.1)",
+    "beam": {**BEAM, "length": 2.0, "curvature": 0.35},
+    "impact": {"velocity": 3.5, "acceleration": 700.0},
+    "run": {"duration": 0.05},
+}
+CASES = {name: FIRST_ORDER if name == "first-order-case" else USUAL for name in STUDIES}
+COMPARED = ("contact_length_error", "reaction_error", "fit_1")
+WITHIN = 0.02  # of a number and, for the errors in per cent, absolute
+
+
+def case_of(name: str) -> Case:
+    """The thesis's case that a study runs on."""
+    return case_from_tables(CASES[name])
+
+
+def note_of(name: str, folder: Path) -> dict[str, Any]:
+    """Run one study; its picture, made small, goes to ``folder``."""
+    note = lost(name, "")
+    try:
+        with TemporaryDirectory() as work:
+            found = run_study(name, case_of(name), out=Path(work)).to_dict()
+            with Image.open(Path(work) / f"{name}.png") as image:
+                stream = BytesIO()
+                image.convert("RGB").quantize(COLOURS).save(stream, format="PNG", optimize=True)
+    except (ArithmeticError, ValueError, OSError, SimulationError) as error:
+        return note | {"reason": " ".join(str(error).split())}
+    write_atomically(folder / f"{name}.png", stream.getvalue())
+    return note | {"columns": found["columns"], "rows": found["rows"], "failed": False}
+
+
+def lost(name: str, reason: str) -> dict[str, Any]:
+    """The note of a study that could not be run."""
+    study = STUDIES[name]
+    return {
+        "name": name,
+        "title": study.title,
+        "case": case_of(name).title,
+        "columns": {},
+        "rows": [],
+        "conclusion": study.conclusion,
+        "failed": True,
+        "reason": reason,
+        "date": today(),
+    }
+
+
+def notes_of(names: Sequence[str], folder: Path, jobs: int) -> dict[str, dict[str, Any]]:
+    """Name → note of each study. Raises ``ValueError`` for an unknown name."""
+    if unknown := sorted(set(names) - set(STUDIES)):
+        raise ValueError(f"no study is called {', '.join(unknown)}; there are {', '.join(STUDIES)}")
+    folder.mkdir(parents=True, exist_ok=True)
+    calls = [(name, folder) for name in names]
+    notes = run_all(note_of, calls, jobs=jobs, on_death=lambda i, why: lost(names[i], why))
+    return dict(zip(names, notes))
+
+
+def store_studies(names: Sequence[str] = (), *, file: Path = FILE, jobs: int = 1) -> Path:
+    """Run the studies (default: all) and store them; studies that are not named stay as they are stored.
+
+    Raises ``ValueError`` for an unknown name, and where stored studies would be kept that other code or settings made.
+    """
+    kept = {note["name"]: note for note in stored.read(file)["studies"]} if names and file.exists() else {}
+    if set(kept) - set(names) and stored.is_stale(file):
+        raise ValueError(f"{file.name}: other code or settings made the studies that would be kept; run all of them")
+    found = kept | notes_of(names or list(STUDIES), file.parent, jobs)
+    data = {"studies": [found[name] for name in STUDIES if name in found]}
+    return stored.write(
+        file, "parameter studies of the thesis", "python -m thesis.stored_studies", PACKAGES, {"cases": CASES}, data
+    )
+
+
+def confirm_studies(names: Sequence[str] = (), *, file: Path = FILE, jobs: int = 1) -> None:
+    """Run a sample of the stored studies again and give the file today's digest.
+
+    Raises ``ValueError`` naming the first number that differs by more than 2 % (and 0.02 of a per cent).
+    """
+    before = {note["name"]: note for note in stored.read(file)["studies"]}
+    with TemporaryDirectory() as work:
+        sample = notes_of(names or list(STUDIES)[:1], Path(work), jobs)
+    for name, note in sample.items():
+        pairs = {row["label"]: row for row in before.get(name, {"rows": []})["rows"]}
+        if pairs.keys() != {row["label"] for row in note["rows"]}:
+            raise ValueError(f"{name}: the stored rows are others ({note['reason'] or 'run it again'})")
+        for row in note["rows"]:
+            for key in COMPARED:
+                old, new = pairs[row["label"]].get(key), row.get(key)
+                if (old is None) != (new is None) or (old is not None and abs(new - old) > WITHIN * (1.0 + abs(old))):
+                    raise ValueError(f"{name}, {row['label']}: {key} is {new}, stored {old}; run the study again")
+    stored.confirm(file)
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("names", nargs="*", metavar="NAME", help="studies (default: all; to confirm: the first)")
+    parser.add_argument("--jobs", type=int, default=1, help="studies at the same time")
+    parser.add_argument("--confirm", action="store_true", help="run a sample again and renew the digest")
+    given = parser.parse_args()
+    try:
+        (confirm_studies if given.confirm else store_studies)(given.names, jobs=given.jobs)
+    except ValueError as error:
+        parser.error(str(error))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,144 @@
+"""Studies of time step, mesh and far field."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from bent_beam.cases import Case
+from bent_beam.meshes import ScaleFreeMesh, SquareMesh
+from bent_beam.method import Method
+from thesis.studies import variation
+from thesis.studies.base import Study
+from thesis.studies.exact import Exact
+from thesis.studies.thesis import Runs, Settings, Variant, references, thesis_settings, varied
+from thesis.studies.variation import NotVaried, Setting, grown, part_of, resolution, with_field
+
+# The time step h (thesis 3.3.1, Figs 3.7–3.9, Table 3.1): 40, 4, 2, 1 and 0.4 times 10⁻⁵ t*, the rest as in the
+# thesis.
+
+STEPS_TRIED = (40.0, 4.0, 2.0, 1.0, 0.4)
+STEP_FACTORS = (4.0, 2.0, 1.0, 0.5)  # times a method's own
+STEPS = ("time_step", "growth", "relative_step")  # fields of an integrator that give the length of its steps
+
+
+def time_step_variants(case: Case) -> list[Variant]:
+    """Time step h
+
+    Lift, impulse and noise for several time steps on the thesis's mesh: errors that the step does not change are those
+    of the mesh, which the last rows resolve.
+    """
+    base = thesis_settings(case.impact, case.end_time)
+    steps = [f * base.time_step for f in STEPS_TRIED]
+    return varied(case, base, {f"h = {h:.2g} s": (h, {"time_step": h}) for h in steps})
+
+
+def time_step_vary(method: Method, case: Case) -> list[Setting]:
+    """Steps so many times longer; the mesh stays."""
+    integrator = part_of(method, "integrator", case, filled=True)
+    steps = {name: value for name in STEPS if (value := getattr(integrator, name, None)) is not None}
+    if not steps:
+        raise NotVaried(f"its integrator ({type(integrator).__name__}) takes its step from the mesh")
+    fixed = variation.with_parts(method, integrator=integrator)
+    return [
+        Setting(f"h × {f:g}", with_field(fixed, "integrator", case, **{n: f * v for n, v in steps.items()}), f)
+        for f in STEP_FACTORS
+    ]
+
+
+TIME_STEP = Study("time-step", "time step", time_step_variants, time_step_vary)
+
+
+# The mesh (thesis 3.3.2, Figs 3.10–3.16): element length, growth outside the contact zone, "square" and scale-free
+# elements.
+
+LENGTHS = (2.0, 1.0, 0.6, 0.3)
+GROWTHS = (1.05, 1.02)
+LENGTH_FACTORS = (2.0, 1.0, 0.5)  # times the elements of a method's own mesh
+PER_ELEMENT = 5.0  # the thesis's a: steps a front spends in each element of the square mesh
+MOST = 6000  # elements of a square mesh
+
+
+def square_mesh(case: Case, settings: Settings, per_element: float = PER_ELEMENT) -> SquareMesh | None:
+    """x_i = λ₀√(ah)·√i over the zone (3.3.5–9), ``None`` if the contact does not spread or needs too many elements."""
+    first = float(Exact(case.impact).front(per_element * settings.time_step))
+    if first <= 0.0 or (settings.zone / first) ** 2 > MOST:
+        return None
+    return SquareMesh(first_element=first, zone=settings.zone, growth=settings.growth)
+
+
+def mesh_variants(case: Case) -> list[Variant]:
+    """Mesh
+
+    Lift, r₀ and noise over the element length, the growth of the elements outside the zone and the kind of mesh: the
+    reaction is right where an element is short against the front, and noise tells of waves that coarse elements
+    reflect.
+    """
+    base = thesis_settings(case.impact, case.end_time)
+    own = base.element_length
+    runs: Runs = {
+        f"Δx = {f * own:.2g} m, e = 1.25": (f * own, {"element_length": f * own}) for f in LENGTHS
+    }
+    runs |= {f"Δx = {own:.2g} m, e = {e}": (e, {"growth": e}) for e in GROWTHS}
+    square = square_mesh(case, base)
+    if square is not None:
+        runs['"square" mesh'] = None, {"mesh": square}
+    even = ScaleFreeMesh(element_length=0.1 * own, growth=1.02)
+    runs["scale-free, held, damped"] = None, {"mesh": even, "hold": 16, "viscosity": 0.3}
+    return varied(case, base, runs)
+
+
+def mesh_vary(method: Method, case: Case) -> list[Setting]:
+    """Elements so many times longer, then other growths; the steps stay."""
+    mesh, laid_on = resolution(method, case)
+    lengths = [Setting(f"Δx × {f:g}", laid_on(mesh.refined(1.0 / f)), f) for f in LENGTH_FACTORS]
+    return lengths + grown(method, case, GROWTHS)
+
+
+MESH = Study("mesh", "mesh", mesh_variants, mesh_vary)
+
+
+# The waves that leave: growth of the elements, absorption at grid scale, a sponge, a longer beam.
+
+FAR_GROWTHS = (1.25, 1.1, 1.05, 1.02)
+ABSORBERS = ("far_field", "element")  # parts that may have a viscosity of the grid
+
+
+def far_field_variants(case: Case) -> list[Variant]:
+    """Far field
+
+    Noise, lift and r₀ for several growths of the elements, with and without absorption, and on half the beam: noise
+    tells of waves that coarse elements reflect, a change of r₀ on half the beam of waves from its ends.
+    """
+    # Nodes held behind the front and elements of half the thesis's length, so that the far field makes the errors.
+    base = thesis_settings(case.impact, case.end_time)
+    base = base.replace(contact="node", hold=16, element_length=0.5 * base.element_length)
+    slow: dict[str, Any] = {"growth": 1.02, "viscosity": 0.3}
+    runs: Runs = {f"e = {e:g}": (e, {"growth": e}) for e in FAR_GROWTHS}
+    runs["e = 1.25, grid viscosity 0.3"] = None, {"viscosity": 0.3}
+    runs["e = 1.02, grid viscosity 0.3"] = None, slow
+    runs["e = 1.02, grid viscosity 0.3, sponge"] = None, {**slow, "sponge": True}
+    found = varied(case, base, runs)
+    short = case.impact.replace(length=0.5 * case.impact.length)
+    half = Variant("e = 1.02, grid viscosity 0.3, half the length", short, case.end_time, base.replace(**slow).method())
+    count = len(references(case.impact, case.end_time))
+    return [*found[:-count], half, *found[-count:]]
+
+
+def far_field_vary(method: Method, case: Case) -> list[Setting]:
+    """The method as it is, on half the beam, and, where it has them, with other growths, viscosities and absorbers."""
+    half = case.impact.replace(length=0.5 * case.impact.length)
+    found = [Setting("as it is", method), Setting("half the length", method, impact=half)]
+    if variation.has_part(method, "mesh"):
+        found += grown(method, case, FAR_GROWTHS)
+    for name in ABSORBERS:
+        if variation.has_part(method, name) and hasattr(part_of(method, name, case), "viscosity"):
+            found += [Setting(f"viscosity {v:g}", with_field(method, name, case, viscosity=v), v) for v in (0.0, 0.3)]
+    if variation.has_part(method, "far_field"):
+        part = part_of(method, "far_field", case)
+        for name, kind in variation.kinds_of(method, "far_field").items():
+            if kind is not type(part):
+                found.append(Setting(name, variation.with_parts(method, far_field=variation.of_kind(kind, part))))
+    return found
+
+
+FAR_FIELD = Study("far-field", "far field", far_field_variants, far_field_vary)
