@@ -55,7 +55,7 @@ def _block(block: str) -> str:
     if all(line.startswith("    ") for line in lines):  # equations and tables, laid out by hand
         return "```text\n" + textwrap.dedent("\n".join(lines)) + "\n```"
     if all(line.startswith("|") for line in lines):
-        return block
+        return re.sub(r"([*_])", r"\\\1", block)
     if len(lines) > 1 and UNDERLINE.fullmatch(lines[1].strip()):
         rest = _block("\n".join(lines[2:])) if lines[2:] else ""
         return f"**{lines[0].strip()}**\n\n{rest}"
