@@ -26,8 +26,12 @@ from theory import damped_point
 from theory.contact import DISCRETE, ContactParameters, contact_parameters
 from theory.moment import PeakMoment, peak_moment_of
 from theory.validity import validity
+from theory.wall_prediction import WallPrediction, on_elastic_wall
 
-MODELLED = ("acceleration", "curvature_rate", "fourth_derivative", "axial_force", "rotation")
+MODELLED = (
+    *("acceleration", "curvature_rate", "fourth_derivative", "axial_force", "rotation"),
+    *("wall_stiffness", "wall_damping"),
+)
 """Features of an impact that the theory has, or refuses with reasons of its own."""
 
 
@@ -92,6 +96,9 @@ class Prediction:
         valid_after: what spoils them before valid_from, one of the names in `theory.validity`; None: nothing does.
         limited_by: what ends it, one of these names.
         yields: whether the peak stress is beyond the yield stress; None if either is not known.
+        peak_force: the largest force on the whole zone, N; None on a rigid wall, where it is infinite.
+        wall: the same with its error, when it acts, penetration and pressure; None for a rigid wall. Everything else
+            is that of a rigid wall.
     """
 
     kappa_over_nu: float
@@ -122,6 +129,8 @@ class Prediction:
     valid_after: str | None
     valid_until: float
     limited_by: str
+    peak_force: float | None
+    wall: WallPrediction | None
     times: tuple[PredictionAtTime, ...]
 
     def to_dict(self) -> dict[str, Any]:
@@ -156,9 +165,11 @@ def predict(impact: Impact, times: Iterable[float] | float = (), *, section: Sec
     stress = bending.stress(peak)
     limit = None if section is None else section.yield_stress
     yields = None if stress is None or limit is None else stress > limit
+    wall = on_elastic_wall(impact, solved)
     holds = validity(
         impact,
         solved,
+        rigid_from=0.0 if wall is None else wall.rigid_from,
         shear_stiffness=None if section is None else section.shear_stiffness,
         yields=bool(yields),
     )
@@ -192,6 +203,8 @@ def predict(impact: Impact, times: Iterable[float] | float = (), *, section: Sec
         valid_after=holds.begins_after,
         valid_until=holds.until,
         limited_by=holds.limited_by,
+        peak_force=None if wall is None else wall.peak_force,
+        wall=wall,
         times=rows,
     )
 
