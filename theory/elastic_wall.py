@@ -30,7 +30,7 @@ from theory._iterated_erfc import iterated_erfc_of_wave
 #: Range of κ/ν and the largest ζ; `theory.elastic_wall_limits` takes over beyond these κ/ν.
 FLATTEST, SHARPEST, MOST_DAMPED = 1e-6, 1e6, 5.0
 _CELLS = 24  # of the coarsest grid, two steps of time a cell
-_SETTLED = 1e-11  # change of the loads over the force at which a step is solved
+_SETTLED = 1e-9  # change of the loads over the force at which a step is solved
 _MOST_ITERATIONS = 100
 
 
@@ -162,7 +162,7 @@ def _solve(
     for n in range(1, steps + 1):
         past = slice(n - 1, 0, -1)
         displacement, velocity = (np.einsum("ij,ij->j", g[past], spectra[1:n]) for g in (of_place, of_velocity))
-        spectra[n] = spectra[n - 1]
+        spectra[n] = 2.0 * spectra[n - 1] - spectra[max(n - 2, 0)]
         for _ in range(_MOST_ITERATIONS):
             p = time[n] - kappa_over_nu * x**2 / 2.0 - evenly(displacement + of_place[0] * spectra[n])
             rate = 1.0 - evenly(velocity + of_velocity[0] * spectra[n])

@@ -39,8 +39,8 @@ from theory.moment import peak_moment_of
 from theory.second_order import second_order
 from theory.similarity import SelfSimilarWave
 
-#: What force, impulse and half length may lack. The half length is the place of the force: with shear, or on a wall that
-#: gives way, the force is spread over some length behind the rim, whose distance from its place is constant.
+#: What force, impulse and half length may lack. The half length is the place of the force. With shear, or on a wall
+#: that gives way, this is spread over some length; the rim is a constant distance ahead of its place.
 TOLERANCE = 0.02
 #: Distance between the ends of contact and beam over √(ct), at which waves from the ends begin to matter.
 DISTANCE = 10.0
@@ -125,10 +125,10 @@ def validity(
 def shear_times(solved: ContactParameters) -> float:
     """t_s after which force, impulse and half length are within 2 % of a Timoshenko beam's.
 
-    Measured on κ_sG/E = 0.2 and 0.33 (``python -m benchmarks.shear``). One point: what the impulse lacks falls as 1/t. A
-    zone: its force acts on √(EI/κ_sGA) behind the rim, which is that much ahead of λ₀√(ct). The force's place is right
-    once that length is short against λ₀√(ct). A flat zone outruns shear waves at first. Its impulse, larger for that,
-    is remembered for (ν/κ)² t_s; flatter than `FLATTEST_SHEARED` for longer than was computed.
+    Measured for κ_sG/E = 0.2 and 0.33 (``python -m benchmarks.shear``). One point: what the impulse lacks falls as 1/t.
+    A zone: its force is spread over about √(EI/κ_sGA) behind the rim; its place is right once λ₀√(ct) is longer than
+    that by `SHEAR_LENGTHS`. A flat zone outruns shear waves at first, and its impulse is larger for it. That is
+    forgotten after (ν/κ)² t_s; flatter than `FLATTEST_SHEARED` after longer than was computed.
     """
     if solved.regime == DISCRETE:
         return SHEAR_TIMES["point"]
