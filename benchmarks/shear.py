@@ -1,7 +1,7 @@
 r"""Timoshenko's beam on a rigid or an elastic wall: from when it is Euler and Bernoulli's; shear and the largest force.
 
-``python -m benchmarks.shear`` prints both (two minutes). Units t_s = √(EIμ)/(κ_sGA), ℓ_s = √(EI/κ_sGA), V₀ leave κ/ν and
-the ratio g = κ_sG/E (0.2: pipe, 0.33: solid section). For the displacement η by the wall and the angle φ
+``python -m benchmarks.shear`` prints both (two minutes). Units t_s = √(EIμ)/(κ_sGA), ℓ_s = √(EI/κ_sGA), V₀ leave κ/ν
+and g = κ_sG/E (pipe 0.2, solid section 0.33). For the displacement η by the wall and the angle φ
 
     η_tt = Q_x + R,   Q = η_x − φ,   gφ_tt = M_x + Q,   M = φ_x,   R ≥ 0 where p = t − (κ/ν)x²/2 − η ≥ 0,
 
@@ -53,7 +53,7 @@ def run(kappa_over_nu: float, end: float, dx: float, ratio: float, wall_time: fl
         shear += dt * (np.diff(velocity) / dx - turning)
         moment[:-1] += dt / dx * np.concatenate([[2.0 * turning[0]], np.diff(turning)])
         touched = np.flatnonzero(push)
-        rim = x[touched[-1]] + 0.5 * dx if touched.size else 0.0
+        rim = x[touched[-1]] if touched.size else 0.0
         found[:, k] = (push @ width) / dt, push @ width, rim, push @ (width * x) / dt
     found[1] = np.cumsum(found[1])
     return Run(times, *found)
