@@ -49,7 +49,7 @@ from bent_beam.versions import versions
 if TYPE_CHECKING:
     import xarray as xr
 
-__all__ = ["ImpactHistory"]
+__all__ = ["LOSSES", "ImpactHistory"]
 
 Array = NDArray[np.float64]
 

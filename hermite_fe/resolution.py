@@ -17,6 +17,7 @@ must be a fraction of ℓ where the front is, steps a fraction of its travel ove
   Moreau–Jean when constraints rebound.
 - contact: unilateral; nothing is held unless asked for, except in runs that measure what a pressing load changes.
 - far field: viscosity at grid scale.
+- a wall that gives way has scales of its own: :mod:`hermite_fe.elastic_resolution`.
 
 The whole beam, until it has left the wall, asks for something else: nothing may be absorbed, nothing held behind a
 front (a hold glues the zone when waves come back), and every part of the beam matters alike. So
@@ -40,11 +41,12 @@ from typing import TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from bent_beam.elastic_wall import WallScales, wall_scales
+from bent_beam.elastic_wall import wall_scales
 from bent_beam.impact import Impact
 from bent_beam.meshes import GradedMesh, Mesh, ScaleFreeMesh, UniformMesh
 from hermite_fe.composition import Composition
 from hermite_fe.contacts import Contact, NodeContact
+from hermite_fe.elastic_resolution import ELASTIC_STEP, elastic_mesh, even_element
 from hermite_fe.far_fields import FarField, GridViscosity
 from hermite_fe.integrators import Integrator, Midpoint, MoreauJean, SignoriniPosition
 from hermite_fe.masses import ConsistentMass, Mass
@@ -70,9 +72,6 @@ SHORTEST_THIN_STEP = 5e-4  # of the run
 LOADED = (1.3e-3, 33.0, 0.005)  # SMALLEST_ELEMENT, ELEMENTS_IN_FRONT, GROWTH of runs that measure what a load changes
 PRESSED_HOLD = 16  # constraints, of runs that measure what a load changes and presses the zone on
 DOMAIN = 24.0  # √(t/t*) l*: least half length for such a run; 12 and 48 are as good, at 6 waves come back
-ELASTIC_ELEMENT, LARGEST_ELASTIC = 0.08, 0.25  # of ℓ_k: smallest and largest element over the zone
-ELASTIC_STEP = 0.01  # of t_k
-REACH = 4.0  # ℓ_k beyond the front that elements are fine for
 ELEMENTS = 200  # of a half beam that is followed until it has left
 
 
@@ -151,7 +150,7 @@ def chosen_mesh(impact: Impact, half: float, end_time: float, *, loaded: bool = 
     kappa, zone = bounded_kappa(impact), min(ZONE * place, half)
     wall = wall_scales(impact)
     if wall is not None:
-        return elastic_mesh(impact, wall, half, min(ZONE * place + REACH * wall.length, half))
+        return elastic_mesh(impact, wall, half, ZONE * place)
     if kappa < THIN:
         most = MOST_ELEMENTS if zone < half else MOST_ON_A_BEAM
         element = max(thickness / ELEMENTS_IN_THIN_FRONT, zone / most)
@@ -160,18 +159,6 @@ def chosen_mesh(impact: Impact, half: float, end_time: float, *, loaded: bool = 
     return ScaleFreeMesh(
         element_length=min(smallest * thickness, 1e-3 * half),
         growth=1.0 + min(growth, kappa / in_front),
-        **({} if zone == half else {"zone": zone, "growth_outside": 1.0 + GROWTH_OUTSIDE}),
-    )
-
-
-def elastic_mesh(impact: Impact, wall: WallScales, half: float, zone: float) -> Mesh:
-    """Elements that resolve ℓ_k all over the zone of a wall that gives way, and the zone at the largest force, whose
-    half length is about ℓ_k(κ/ν)^−⅜ where it is short (:mod:`hermite_fe.elastic_wall`)."""
-    element = min(ELASTIC_ELEMENT * wall.length * min(1.0, max(impact.kappa_over_nu, 1e-9) ** -0.375), 0.1 * half)
-    return ScaleFreeMesh(
-        element_length=element,
-        growth=1.0 + GROWTH,
-        largest=max(element, LARGEST_ELASTIC * wall.length, zone / MOST_ON_A_BEAM),
         **({} if zone == half else {"zone": zone, "growth_outside": 1.0 + GROWTH_OUTSIDE}),
     )
 
@@ -244,7 +231,7 @@ def for_whole_beam(parts: C, impact: Impact) -> C:
     """A copy of ``parts`` whose open ones are those of a whole beam; its ``refine`` is worked in."""
     wall, element = wall_scales(impact), impact.half_length / ELEMENTS
     if wall is not None:
-        element = min(element, max(LARGEST_ELASTIC * wall.length, impact.half_length / MOST_ON_A_BEAM))
+        element = min(element, even_element(wall, impact.half_length))
     mesh = (parts.mesh or UniformMesh(element)).refined(parts.refine)
     shortest = float(np.diff(mesh.nodes(impact.half_length)).min())
     contact = parts.contact or NodeContact()

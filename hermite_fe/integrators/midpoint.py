@@ -88,6 +88,9 @@ def solve_step(problem: Problem, state: State, memory: MidpointMemory, h: float)
             new[i] = q[i] + h * (v[i] + 0.5 * dv[i])
         total, loss, touched = push(matrices.springs, q, new, h, memory.wall, memory.tangent, memory.peaks)
         if converged:
+            solver.rounds[0] += 1
+            solver.rounds[1] += k
+            solver.rounds[2] = max(solver.rounds[2], k)
             return SOLVED, total, loss
         multiply(memory.tangent, dv, memory.right)
         for i in range(q.size):
