@@ -23,6 +23,7 @@ from bent_beam.elastic_wall import wall_scales
 from bent_beam.impact import Impact
 from theory.contact import ContactParameters
 from theory.elastic_wall import FLATTEST, MOST_DAMPED, SHARPEST, peak_force
+from theory.validity import DAMPING, validity
 
 #: κ/ν of the flattest zone, and the least ζ, whose force and impulse were seen to come back to the rigid wall's.
 FLATTEST_SETTLED, LEAST_DAMPED = 0.35, 0.25
@@ -30,6 +31,8 @@ FLATTEST_SETTLED, LEAST_DAMPED = 0.35, 0.25
 ZONE_TIME, ZONE_LENGTHS = 120.0, 4.2
 #: t_k (κ/ν)^{1/4} after which the impulse of one point does.
 POINT_TIME = 14.0
+#: η/t_k from which the beam's own damping changes the largest force by more than 2 % (κ/ν ≤ 5; measured).
+MOST_OWN_DAMPING = 0.2
 
 
 @dataclass(frozen=True)
@@ -37,7 +40,7 @@ class WallPrediction:
     """One impact on an elastic wall, SI units.
 
     The numbers of the largest force are None where κ/ν or ζ is beyond the range of `theory.elastic_wall`. They are
-    those of an infinite undamped beam without loads.
+    those of an infinite undamped beam without loads; `spoiled_by` names what makes this one another.
 
     Attributes:
         time_scale, length_scale: t_k, s, and ℓ_k, m.
@@ -45,6 +48,8 @@ class WallPrediction:
         peak_force, peak_force_error, peak_force_time: the largest force on the whole zone, N, and when it acts, s.
         half_contact_length: of the zone then, m.
         penetration, pressure: the largest anywhere, m and N/m.
+        spoiled_by: what changes force and penetration before they are largest, one of the names in `theory.validity`;
+            None: nothing. Shear does not count: docs/wall.md.
         zone_offset: what the zone is longer by later, m; 0 for one point, whose zone shrinks.
         rigid_from: time after which force, its place and impulse are those of the rigid wall to 2 %, s; infinite where
             none is known.
@@ -59,6 +64,7 @@ class WallPrediction:
     half_contact_length: float | None
     penetration: float | None
     pressure: float | None
+    spoiled_by: str | None
     zone_offset: float
     rigid_from: float
 
@@ -93,9 +99,17 @@ def on_elastic_wall(impact: Impact, solved: ContactParameters) -> WallPrediction
         half_contact_length=found and scales.length * found.half_contact_length,
         penetration=found and deep * found.penetration,
         pressure=found and impact.wall_stiffness * deep * found.pressure,
+        spoiled_by=None if found is None else _spoiled_by(impact, solved, scales.time, scales.time * found.time),
         zone_offset=scales.length * zone_offset(ratio),
         rigid_from=scales.time * _rigid_from(ratio, damping, float(solved.lambda0)),
     )
+
+
+def _spoiled_by(impact: Impact, solved: ContactParameters, wall_time: float, peak_time: float) -> str | None:
+    """What the infinite beam lacks when the force is largest."""
+    if impact.damping > MOST_OWN_DAMPING * wall_time:
+        return DAMPING
+    return validity(impact.replace(damping=0.0), solved).spoiled_by(peak_time)
 
 
 def _rigid_from(ratio: float, damping: float, lambda0: float) -> float:

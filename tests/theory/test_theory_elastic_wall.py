@@ -77,6 +77,8 @@ def test_prediction_in_si_units() -> None:
     assert found.wall.pressure == pytest.approx(2.0 * math.sqrt(2e8 * 29.0) * f.pressure, rel=1e-12)
     assert found.wall.zone_offset == pytest.approx((4.0 * 1.2e6 / 2e8) ** 0.25, rel=1e-12)
     assert found.limited_by == "wall"  # so flat a zone remembers how it landed
+    assert found.wall.spoiled_by is None
+    assert predict(pipe.replace(length=4.0)).wall.spoiled_by == "waves back from the ends"
     rigid = predict(pipe.replace(wall_stiffness=None, wall_damping=0.0))
     assert (rigid.peak_force, rigid.wall) == (None, None) and rigid.valid_until > 0.0
 
