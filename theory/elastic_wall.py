@@ -88,8 +88,9 @@ def peak_force(kappa_over_nu: float, wall_damping_ratio: float = 0.0) -> PeakFor
     # the first run finds the time scale, the second what happens on it
     end = 3.5 * max(1.0, kappa_over_nu**0.25)
     scout = _solve(kappa_over_nu, wall_damping_ratio, end, _landing(kappa_over_nu, end), _CELLS)
-    whole = _again(scout, max(scout.force.argmax(), scout.penetration.argmax()), 3, kappa_over_nu, wall_damping_ratio)
-    runs = [_again(whole, whole.force.argmax(), n, kappa_over_nu, wall_damping_ratio) for n in (1, 2, 4)]
+    late = int(max(scout.force.argmax(), scout.penetration.argmax()))
+    whole = _again(scout, late, 3, kappa_over_nu, wall_damping_ratio)
+    runs = [_again(whole, int(whole.force.argmax()), n, kappa_over_nu, wall_damping_ratio) for n in (1, 2, 4)]
     (_, coarsest), (_, coarse), (time, fine) = (_largest(run.time, run.force) for run in runs)
     step = (fine - coarse) / 3.0
     return PeakForce(
@@ -150,7 +151,7 @@ def _solve(
     steps = steps or 2 * cells
     dt, dx = end / steps, width / cells
     x = dx * np.arange(cells + 1)
-    time = dt * np.arange(steps + 1)
+    time: FloatArray = dt * np.arange(steps + 1.0)
     of_place, of_velocity = (_responses(cells, dx, steps, dt, m) for m in (1, 0))
     spectra = np.zeros((steps + 1, 2 * cells + 1))  # of the loads, which are even in x
     loads, rows = np.zeros(cells + 1), np.zeros((steps + 1, 4))
@@ -180,9 +181,9 @@ def _solve(
 def _responses(cells: int, dx: float, steps: int, dt: float, m: int) -> FloatArray:
     """Spectra over place of the displacement (m = 1) or velocity (m = 0), 0…steps steps after a load whose share of
     place and time is a hat of width 2dx and 2dt; shape (steps + 1, 2 cells + 1)."""
-    x = dx * np.abs(np.arange(-1, 2 * cells + 2))
+    x: FloatArray = dx * np.abs(np.arange(-1.0, 2.0 * cells + 2.0))
     ramps = np.zeros((steps + 2, x.size))
-    ramps[1:] = _integrals(x, dt * np.arange(1, steps + 2)[:, None], m + 2)
+    ramps[1:] = _integrals(x, dt * np.arange(1.0, steps + 2.0)[:, None], m + 2)
     hats = np.diff(ramps, 2, axis=1) / dx**2
     hats = np.concatenate([hats[1:2], np.diff(hats, 2, axis=0)]) / dt
     return np.asarray(rfft(np.concatenate([hats, hats[:, -2:0:-1]], axis=1), axis=1).real)

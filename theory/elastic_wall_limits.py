@@ -65,7 +65,7 @@ class SharpLimit:
 def sharp_limit() -> SharpLimit:
     """Product integration: Φ is linear between steps."""
     dt = _LATEST / _STEPS
-    t = dt * np.arange(_STEPS + 2)
+    t: FloatArray = dt * np.arange(_STEPS + 2.0)
     of_root = _weights(4.0 / 15.0 * t**2.5, dt) / math.sqrt(2.0 * math.pi)
     of_inverse = _weights(4.0 / 3.0 * t**1.5, dt) / math.sqrt(8.0 * math.pi)
     place, force, place1, force1, moment, spread = np.zeros((6, _STEPS + 1))

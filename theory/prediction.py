@@ -28,10 +28,7 @@ from theory.moment import PeakMoment, peak_moment_of
 from theory.validity import validity
 from theory.wall_prediction import WallPrediction, on_elastic_wall
 
-MODELLED = (
-    *("acceleration", "curvature_rate", "fourth_derivative", "axial_force", "rotation"),
-    *("wall_stiffness", "wall_damping"),
-)
+MODELLED = "acceleration curvature_rate fourth_derivative axial_force rotation wall_stiffness wall_damping".split()
 """Features of an impact that the theory has, or refuses with reasons of its own."""
 
 
@@ -97,8 +94,7 @@ class Prediction:
         limited_by: what ends it, one of these names.
         yields: whether the peak stress is beyond the yield stress; None if either is not known.
         peak_force: the largest force on the whole zone, N; None on a rigid wall, where it is infinite.
-        wall: the same with its error, when it acts, penetration and pressure; None for a rigid wall. Everything else
-            is that of a rigid wall.
+        wall: that with all about a wall that gives way. Everything else is that of a rigid wall.
     """
 
     kappa_over_nu: float

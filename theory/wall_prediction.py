@@ -89,16 +89,20 @@ def on_elastic_wall(impact: Impact, solved: ContactParameters) -> WallPrediction
     unit = impact.velocity * impact.wall_stiffness * scales.length * scales.time  # V₀√μ(EI k)^{1/4}
     deep = impact.velocity * scales.time
     found = peak_force(ratio, damping) if FLATTEST <= ratio <= SHARPEST and damping <= MOST_DAMPED else None
+
+    def scaled(name: str, unit: float) -> float | None:
+        return None if found is None else unit * float(getattr(found, name))
+
     return WallPrediction(
         time_scale=scales.time,
         length_scale=scales.length,
         damping_ratio=damping,
-        peak_force=found and unit * found.value,
-        peak_force_error=found and unit * found.error,
-        peak_force_time=found and scales.time * found.time,
-        half_contact_length=found and scales.length * found.half_contact_length,
-        penetration=found and deep * found.penetration,
-        pressure=found and impact.wall_stiffness * deep * found.pressure,
+        peak_force=scaled("value", unit),
+        peak_force_error=scaled("error", unit),
+        peak_force_time=scaled("time", scales.time),
+        half_contact_length=scaled("half_contact_length", scales.length),
+        penetration=scaled("penetration", deep),
+        pressure=scaled("pressure", impact.wall_stiffness * deep),
         spoiled_by=None if found is None else _spoiled_by(impact, solved, scales.time, scales.time * found.time),
         zone_offset=scales.length * zone_offset(ratio),
         rigid_from=scales.time * _rigid_from(ratio, damping, float(solved.lambda0)),

@@ -55,8 +55,8 @@ def draw_peak_force(out: Path) -> list[Path]:
             flat = ratios[ratios < 0.3]
             axis.loglog(flat, flat_limit(damping)[0] / np.sqrt(flat), color=colour, lw=0.8, ls=":")
         sharp = ratios[ratios > 1.0]
-        values = sharp**-0.125 * (limit.value + limit.correction / sharp)
-        axis.loglog(sharp, values, color="black", lw=0.8, ls="--", label=r"$\kappa/\nu\to\infty,\ \zeta=0$")
+        in_limit = sharp**-0.125 * (limit.value + limit.correction / sharp)
+        axis.loglog(sharp, in_limit, color="black", lw=0.8, ls="--", label=r"$\kappa/\nu\to\infty,\ \zeta=0$")
         axis.plot([], [], color="black", lw=0.8, ls=":", label=r"$\kappa/\nu\to0$")
         axis.set_xlabel(r"$\kappa/\nu$  (1)")
         axis.set_ylabel(rf"$F_{{\max}}/{UNIT}$  (1)")
