@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from comparison.text_table import text_table
+from comparison.wall_text import wall_lines
 from measure.measured import Band, Measured
 
 __all__ = ["prediction_text"]
@@ -21,8 +22,10 @@ LIMITS = {
     "damping": "material damping has no closed form once the contact spreads",
     "slope": "slopes are no longer small",
     "shear": "shear deformation, which is not modelled, matters for as long as the theory would hold without it",
+    "wall": "the wall gives way for as long as the theory of a rigid wall would hold, or longer",
     "section": "the section yields",
 }
+BEFORE = {"shear": "shear deformation matters", "wall": "the wall gives way"}
 UNITS = {
     "half_contact_length": ("half contact", "m", 1.0),
     "reaction": ("reaction", "kN", 1e-3),
@@ -42,6 +45,7 @@ def prediction_text(document: dict[str, Any]) -> str:
             _table(document),
             "",
             *_agreement(document),
+            *wall_lines(document),
             *_stress(document),
             *_whole(document),
             *(f"warning: {text}" for text in document["warnings"]),
@@ -53,7 +57,8 @@ def _validity(document: dict[str, Any]) -> str:
     why = LIMITS[document["limited_by"]]
     if not document["valid_until"]:
         return f"The theory covers no time: {why}."
-    start = f"from {_ms(document['valid_from'])} (before, shear deformation matters) " if document["valid_from"] else ""
+    before = BEFORE.get(document["valid_after"], "")
+    start = f"from {_ms(document['valid_from'])} (before, {before}) " if before else ""
     return f"The theory holds to 2 % {start}until {_ms(document['valid_until'])}: then {why}."
 
 

@@ -21,10 +21,15 @@ from dataclasses import asdict, dataclass, replace
 from typing import Any, Protocol
 
 from bent_beam.impact import Impact
+from bent_beam.loads import unmodelled
 from theory import damped_point
 from theory.contact import DISCRETE, ContactParameters, contact_parameters
 from theory.moment import PeakMoment, peak_moment_of
 from theory.validity import validity
+from theory.wall_prediction import WallPrediction, on_elastic_wall
+
+MODELLED = "acceleration curvature_rate fourth_derivative axial_force rotation wall_stiffness wall_damping".split()
+"""Features of an impact that the theory has, or refuses with reasons of its own."""
 
 
 class Section(Protocol):
@@ -88,6 +93,8 @@ class Prediction:
         valid_after: what spoils them before valid_from, one of the names in `theory.validity`; None: nothing does.
         limited_by: what ends it, one of these names.
         yields: whether the peak stress is beyond the yield stress; None if either is not known.
+        peak_force: the largest force on the whole zone, N; None on a rigid wall, where it is infinite.
+        wall: that with all about a wall that gives way. Everything else is that of a rigid wall.
     """
 
     kappa_over_nu: float
@@ -118,6 +125,8 @@ class Prediction:
     valid_after: str | None
     valid_until: float
     limited_by: str
+    peak_force: float | None
+    wall: WallPrediction | None
     times: tuple[PredictionAtTime, ...]
 
     def to_dict(self) -> dict[str, Any]:
@@ -138,8 +147,8 @@ def predict(impact: Impact, times: Iterable[float] | float = (), *, section: Sec
         what `valid_until` is about.
 
     Raises:
-        ValueError: a beam as curved as its wall (K = K_w), one that rocks (rotation, first_touch), or a time that is
-            negative, not finite or beyond 1e30 t*.
+        ValueError: a beam as curved as its wall (K = K_w), one that rocks (rotation, first_touch), a wall or supports
+            that the theory does not have, or a time that is negative, not finite or beyond 1e30 t*.
     """
     _check(impact)
     given = [times] if isinstance(times, int | float) else times
@@ -152,9 +161,11 @@ def predict(impact: Impact, times: Iterable[float] | float = (), *, section: Sec
     stress = bending.stress(peak)
     limit = None if section is None else section.yield_stress
     yields = None if stress is None or limit is None else stress > limit
+    wall = on_elastic_wall(impact, solved)
     holds = validity(
         impact,
         solved,
+        rigid_from=0.0 if wall is None else wall.rigid_from,
         shear_stiffness=None if section is None else section.shear_stiffness,
         yields=bool(yields),
     )
@@ -188,6 +199,8 @@ def predict(impact: Impact, times: Iterable[float] | float = (), *, section: Sec
         valid_after=holds.begins_after,
         valid_until=holds.until,
         limited_by=holds.limited_by,
+        peak_force=None if wall is None else wall.peak_force,
+        wall=wall,
         times=rows,
     )
 
@@ -199,6 +212,9 @@ def _check(impact: Impact) -> None:
             f"curvature must be more than the wall's (got {impact.curvature!r}): a beam as straight as its wall has "
             "kappa/nu = 0, touches over its whole length at once, and lambda0 is infinite"
         )
+    reason = unmodelled(impact, MODELLED)
+    if reason is not None:
+        raise ValueError(reason)
     for name in ("rotation", "first_touch"):
         if getattr(impact, name) != 0.0:
             raise ValueError(

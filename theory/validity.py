@@ -20,7 +20,8 @@ r"""Until when the theory of the first instants holds for a real beam. Every lim
   has one as long as it is one point, until T_p η.
 - **opening**: one point spreads when the loads have taken the curvature κ − ν of its gap away.
 - **slope**: an arch is lower than its parabola by θ²/12. This is about the slope that the impact adds.
-- **shear**: Euler and Bernoulli's beam is that of Timoshenko after many times t_s = √(EIμ)/(κ_sGA).
+- **shear**: Euler and Bernoulli's beam is that of Timoshenko after many times t_s = √(EIμ)/(κ_sGA), `shear_times`.
+- **wall**: one that gives way counts as rigid after many times √(μ/k) (`theory.wall_prediction`).
 - **section**: the leading order's stress is beyond the yield stress from the first instant on.
 """
 
@@ -38,7 +39,8 @@ from theory.moment import peak_moment_of
 from theory.second_order import second_order
 from theory.similarity import SelfSimilarWave
 
-#: What half length, force and impulse may lack.
+#: What force, impulse and half length may lack. The half length is the place of the force. With shear, or on a wall
+#: that gives way, this is spread over some length; the rim is a constant distance ahead of its place.
 TOLERANCE = 0.02
 #: Distance between the ends of contact and beam over √(ct), at which waves from the ends begin to matter.
 DISTANCE = 10.0
@@ -50,8 +52,12 @@ SMALL = 0.3
 FLATTEST = 3e-3
 #: Slope at which an arch is 2 % lower than its parabola, θ²/12.
 SLOPE_LIMIT = math.sqrt(12.0 * TOLERANCE)
-#: Shear times t_s after which shear is left out, for a zone and for one point.
+#: Shear times t_s after which shear is left out, for a zone and for one point; see `shear_times` for a zone.
 SHEAR_TIMES = {"zone": 100.0, "point": 20.0}
+#: λ₀√(ct) over √(EI/κ_sGA) at which the place of a zone's force is free of shear.
+SHEAR_LENGTHS = 3.3
+#: κ/ν of the flattest zone whose impulse loses the memory of shear in a time that was computed.
+FLATTEST_SHEARED = 0.05
 
 ENDS = "waves back from the ends"
 FIRST_ORDER = "first-order correction"
@@ -59,6 +65,7 @@ TENSION = "tension"
 DAMPING = "damping"
 SLOPE = "slope"
 SHEAR = "shear"
+WALL = "wall"
 SECTION = "section"
 
 
@@ -82,7 +89,12 @@ class Validity:
 
 
 def validity(
-    impact: Impact, solved: ContactParameters, *, shear_stiffness: float | None = None, yields: bool = False
+    impact: Impact,
+    solved: ContactParameters,
+    *,
+    shear_stiffness: float | None = None,
+    rigid_from: float = 0.0,
+    yields: bool = False,
 ) -> Validity:
     """The interval in which half length, force and impulse are within 2 % of those of the beam.
 
@@ -90,6 +102,7 @@ def validity(
         impact: the physical problem.
         solved: its contact parameters with ε = 1 (α stands for εα and so on).
         shear_stiffness: κ_sGA, N; None: shear is left out.
+        rigid_from: time after which a wall that gives way counts as rigid, s (`theory.wall_prediction`).
         yields: whether the leading order's bending stress is beyond the material's yield stress.
     """
     if yields:
@@ -99,11 +112,29 @@ def validity(
         limits.append((_until_damping(impact, solved), DAMPING))
     until, limited_by = min(limits)
     until *= impact.time_scale
-    if shear_stiffness is None:
+    starts = [(rigid_from, WALL)]
+    if shear_stiffness is not None:
+        shear_time = math.sqrt(impact.bending_stiffness * impact.mass_per_length) / shear_stiffness
+        starts.append((shear_times(solved) * shear_time, SHEAR))
+    begins, after = max(starts)
+    if begins == 0.0:
         return Validity(0.0, until, limited_by)
-    shear_time = math.sqrt(impact.bending_stiffness * impact.mass_per_length) / shear_stiffness
-    begins = SHEAR_TIMES["point" if solved.regime == DISCRETE else "zone"] * shear_time
-    return Validity(begins, until, limited_by, SHEAR) if begins < until else Validity(0.0, 0.0, SHEAR)
+    return Validity(begins, until, limited_by, after) if begins < until else Validity(0.0, 0.0, after)
+
+
+def shear_times(solved: ContactParameters) -> float:
+    """t_s after which force, impulse and half length are within 2 % of a Timoshenko beam's.
+
+    Measured for κ_sG/E = 0.2 and 0.33 (``python -m benchmarks.shear``). One point: what the impulse lacks falls as 1/t.
+    A zone: its force is spread over about √(EI/κ_sGA) behind the rim; its place is right once λ₀√(ct) is longer than
+    that by `SHEAR_LENGTHS`. A flat zone outruns shear waves at first, and its impulse is larger for it. That is
+    forgotten after (ν/κ)² t_s; flatter than `FLATTEST_SHEARED` after longer than was computed.
+    """
+    if solved.regime == DISCRETE:
+        return SHEAR_TIMES["point"]
+    if solved.kappa_over_nu < FLATTEST_SHEARED:
+        return math.inf
+    return max(SHEAR_TIMES["zone"], (SHEAR_LENGTHS / solved.lambda0) ** 2, solved.kappa_over_nu**-2.0)
 
 
 def _until_ends(impact: Impact, solved: ContactParameters) -> float:

@@ -5,7 +5,7 @@ const Limits = (() => {
   const TOLERANCE = 0.02;
   const AHEAD = 10, FLAT = 3; // distances of `theory.validity`
   const SLOPE = sqrt(12 * TOLERANCE); // an arch is lower than its parabola by θ²/12
-  const SHEAR = { zone: 100, point: 20 }; // times √(EIμ)/(κ_s G A): Timoshenko's beam against Euler and Bernoulli's
+  const SHEAR = { zone: 100, point: 20, lengths: 3.3, flattest: 0.05 }; // `shear_times` of `theory.validity`
   const AGE = 1 / (8 * TOLERANCE); // t/η from which one point's impulse is that without damping
 
   /** Until when, s, by cause. Waves are back from an end once the half length is less than 10√(ct) beyond the front. */
@@ -18,11 +18,17 @@ const Limits = (() => {
     };
   }
 
+  /** Times √(EIμ)/(κ_s G A) after which Euler and Bernoulli's beam is Timoshenko's. */
+  function shearTimes({ regime, ratio, lambda0 }) {
+    if (regime === "discrete") return SHEAR.point;
+    return ratio < SHEAR.flattest ? Infinity : max(SHEAR.zone, (SHEAR.lengths / lambda0) ** 2, ratio ** -2);
+  }
+
   /** From when, s, by cause. */
   function from({ b, contact }) {
     const point = contact.regime === "discrete";
     return {
-      shear: SHEAR[point ? "point" : "zone"] * sqrt(b.stiffness * b.mass) / b.shear,
+      shear: shearTimes(contact) * sqrt(b.stiffness * b.mass) / b.shear,
       damping: b.damping === 0 ? 0 : point ? AGE * b.damping : Infinity, // a zone has no such formula
     };
   }

@@ -75,8 +75,8 @@ def answers(impacts: list[Impact]) -> list[dict[str, Any]]:
     )
 
 
-def limits(impact: Impact) -> tuple[float | None, float]:
-    """From and until when (s), by the formulas; ``None``: a damped zone."""
+def limits(impact: Impact, lambda0: float) -> tuple[float | None, float]:
+    """From and until when (s), by the formulas; ``None``: a damped or flat zone."""
     exact = contact_parameters(impact.kappa_over_nu, impact.epsilon_alpha, axial=impact.epsilon_axial)
     point, tension, wave = exact.lambda0 == 0.0, impact.epsilon_axial, SelfSimilarWave(exact)
     change = (abs(exact.r1 - tension * exact.r_axial) + abs(tension * exact.r_axial)) / exact.r0
@@ -87,9 +87,11 @@ def limits(impact: Impact) -> tuple[float | None, float]:
     until = [impact.slow_time_scale / max(exact.lambda0 + 10.0, 3.0 * exact.lambda0) ** 2]
     until += [np.sqrt(0.02) / change * impact.time_scale] if change else []
     until += [12.0 * 0.02 / steepest**2 * impact.time_scale]
-    sheared = (20.0 if point else 100.0) * np.sqrt(impact.bending_stiffness * impact.mass_per_length) / SHEAR
-    if impact.damping and not point:
+    ratio = impact.kappa_over_nu
+    if not point and (impact.damping or ratio < 0.05):
         return None, min(until)
+    times = 20.0 if point else max(100.0, (3.3 / lambda0) ** 2, ratio**-2)
+    sheared = times * np.sqrt(impact.bending_stiffness * impact.mass_per_length) / SHEAR
     return max(sheared, 6.25 * impact.damping), min(until)
 
 
@@ -109,7 +111,7 @@ def test_page_is_the_theory_on_random_beams() -> None:
         x = np.linspace(0.0, 10.0, 21)
         gap = np.where(x > exact.lambda0, wave.deflection(x) - 1.0 + impact.kappa_over_nu * x**2 / 2.0, 0.0)
         assert found["gap"] == pytest.approx(gap, rel=1e-8, abs=1e-8)
-        begins, until = limits(impact)
+        begins, until = limits(impact, contact["lambda0"])
         assert found["limits"]["until"] == pytest.approx(until, rel=1e-6)
         assert found["limits"]["from"] == (None if begins is None else pytest.approx(begins, rel=SAME))
 

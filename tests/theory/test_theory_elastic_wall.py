@@ -1,0 +1,89 @@
+"""A wall of springs and dashpots: limits, a modal solution, and how the rigid wall's law comes back."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from scipy.fft import dct, idct
+
+from bent_beam import Impact
+from theory import contact_parameters, predict
+from theory.elastic_wall import peak_force, wall_history
+from theory.elastic_wall_limits import flat_limit, sharp_limit
+
+
+def largest_force_by_modes(kappa_over_nu: float, damping_ratio: float, end: float, half: float, dx: float) -> float:
+    """Cosine modes of a long beam, each turned exactly in time between kicks by springs at the points of a grid."""
+    dt = 0.1 * dx
+    x = dx * (np.arange(round(half / dx)) + 0.5)
+    omega = (np.pi * np.arange(x.size) / half) ** 2
+    place, rate, largest = np.zeros(x.size), np.zeros(x.size), 0.0
+    cosine, sine = np.cos(omega * dt), np.sin(omega * dt)
+    over = np.where(omega > 0.0, sine / np.where(omega > 0.0, omega, 1.0), dt)
+    for k in range(1, round(end / dt) + 1):
+        place, rate = cosine * place + over * rate, cosine * rate - omega * sine * place
+        p = k * dt - kappa_over_nu * x**2 / 2.0 - idct(place, norm="ortho")
+        pressure = np.where(p > 0.0, p + 2.0 * damping_ratio * (1.0 - idct(rate, norm="ortho")), 0.0)
+        pressure = np.maximum(pressure, 0.0) / (1.0 + damping_ratio * dt)  # half a kick on
+        rate = rate + dt * dct(pressure, norm="ortho")
+        largest = max(largest, 2.0 * dx * float(pressure.sum()))
+    return largest
+
+
+@pytest.mark.parametrize(
+    ("kappa_over_nu", "damping_ratio", "dx", "agree"), [(0.5, 0.0, 0.04, 3e-4), (2.0, 0.25, 0.01, 4e-3)]
+)
+def test_largest_force_is_that_of_the_beams_modes(
+    kappa_over_nu: float, damping_ratio: float, dx: float, agree: float
+) -> None:
+    found = peak_force(kappa_over_nu, damping_ratio)
+    modes = largest_force_by_modes(kappa_over_nu, damping_ratio, 1.1 * found.time, 30.0, dx)
+    assert found.value == pytest.approx(modes, rel=agree)
+    assert found.error < 2e-4 * found.value
+
+
+@pytest.mark.parametrize("damping_ratio", [0.0, 2.0])
+def test_a_flat_beam_lands_as_oscillators(damping_ratio: float) -> None:
+    found, (value, time) = peak_force(1e-4, damping_ratio), flat_limit(damping_ratio)
+    assert found.value / 100.0 == pytest.approx(value, rel=3e-4)
+    assert found.time == pytest.approx(time, rel=0.02)
+
+
+def test_a_sharp_bow_is_pushed_at_one_point() -> None:
+    """f (κ/ν)^{1/8} with its correction of order ν/κ; what is left is of order (ν/κ)^{3/2}."""
+    limit, found = sharp_limit(), peak_force(100.0)
+    scaled = found.value * 100.0**0.125
+    assert scaled - limit.value == pytest.approx(limit.correction / 100.0, abs=100.0**-1.5)
+    assert found.penetration == pytest.approx(limit.penetration * 100.0**0.25, rel=0.01)
+    assert found.time == pytest.approx(limit.time * 100.0**0.25, rel=0.01)
+
+
+def test_after_a_damped_wall_the_rigid_ones_law_comes_back_with_a_longer_zone() -> None:
+    ratio, end = 0.5, 60.0
+    found, rigid = wall_history(ratio, 1.0, end=end, cells=60, steps=240), contact_parameters(ratio)
+    assert found.impulse[-1] == pytest.approx(4.0 * math.sqrt(2.0 / math.pi * end) * rigid.r0, rel=2e-3)
+    offset = found.half_contact_length[-1] - rigid.lambda0 * math.sqrt(end)
+    assert offset == pytest.approx(math.sqrt(2.0), abs=0.15)
+
+
+def test_prediction_in_si_units() -> None:
+    pipe = Impact(1.2e6, 29.0, 90.0, 0.002, 2.0, wall_stiffness=2e8, wall_damping=3e4)
+    found, f = predict(pipe), peak_force(pipe.kappa_over_nu, 3e4 / (2.0 * math.sqrt(2e8 * 29.0)))
+    assert found.wall is not None
+    assert found.peak_force == pytest.approx(2.0 * math.sqrt(29.0) * (1.2e6 * 2e8) ** 0.25 * f.value, rel=1e-12)
+    assert found.wall.peak_force_time == pytest.approx(math.sqrt(29.0 / 2e8) * f.time, rel=1e-12)
+    assert found.wall.pressure == pytest.approx(2.0 * math.sqrt(2e8 * 29.0) * f.pressure, rel=1e-12)
+    assert found.wall.zone_offset == pytest.approx((4.0 * 1.2e6 / 2e8) ** 0.25, rel=1e-12)
+    assert found.limited_by == "wall"  # so flat a zone remembers how it landed
+    assert found.wall.spoiled_by is None
+    assert predict(pipe.replace(length=4.0)).wall.spoiled_by == "waves back from the ends"
+    rigid = predict(pipe.replace(wall_stiffness=None, wall_damping=0.0))
+    assert (rigid.peak_force, rigid.wall) == (None, None) and rigid.valid_until > 0.0
+
+
+@pytest.mark.parametrize(("arguments", "field"), [((0.0,), "kappa_over_nu"), ((0.5, -0.1), "wall_damping_ratio")])
+def test_numbers_out_of_range_are_refused_by_name(arguments: tuple[float, ...], field: str) -> None:
+    with pytest.raises(ValueError, match=field):
+        peak_force(*arguments)

@@ -1,0 +1,221 @@
+r"""A wall of stiffness k and damping c: the beam's Green's function with springs and dashpots that never pull (new).
+
+The wall pushes with R = max(0, k p + c ṗ) per length where the penetration p = V₀t − Kx²/2 − η is positive. In units
+t_k = √(μ/k), ℓ_k = (EI/k)^{1/4}, V₀, with ζ = c/(2√(kμ)) and κ/ν for K,
+
+    p = t − (κ/ν)x²/2 − η,   R = max(0, p + 2ζṗ) where p > 0,   η(x,t) = ∫∫ G(x−x′, t−t′) R(x′,t′) dx′dt′,
+    Ġ = Re S,   S = e^{ix²/4t}/√(4πit),                                                  (thesis 2.3.1–3)
+
+so that the force F = ∫R dx has the largest value f(κ/ν, ζ) V₀√μ(EI k)^{1/4}. S obeys a heat equation, S_t = iS_xx.
+Its n-fold integral over place and m-fold integral over time are therefore iterated error functions,
+
+    S_n = ½(2√(it))^{n−1} i^{n−1}erfc z,   z = e^{−iπ/4}x/(2√t),   ∫…∫S_n = S_{n+2m}/i^m.
+
+The Volterra equation is solved step by step. Loads are linear in time between steps and, between points of a grid,
+linear in place; the rim of the zone lies anywhere between two points, and R is integrated up to it. Both errors are of
+second order. Richardson's rule over a grid and one twice as fine takes them away, and its step is the error bar.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.fft import irfft, rfft
+
+from theory._fresnel import FloatArray
+from theory._iterated_erfc import iterated_erfc_of_wave
+
+#: Range of κ/ν and the largest ζ; `theory.elastic_wall_limits` takes over beyond these κ/ν.
+FLATTEST, SHARPEST, MOST_DAMPED = 1e-6, 1e6, 5.0
+_CELLS = 24  # of the coarsest grid, two steps of time a cell
+_SETTLED = 1e-9  # change of the loads over the force at which a step is solved
+_MOST_ITERATIONS = 100
+
+
+@dataclass(frozen=True)
+class WallHistory:
+    """The zone as a whole over time, arrays of one shape, in t_k, V₀√μ(EI k)^{1/4}, ℓ_k, V₀t_k and kV₀t_k.
+
+    Attributes:
+        half_contact_length: distance of the outermost point that the wall pushes from the middle; 0: no contact.
+        penetration, pressure: the largest of any point at the time.
+    """
+
+    time: FloatArray
+    force: FloatArray
+    half_contact_length: FloatArray
+    penetration: FloatArray
+    pressure: FloatArray
+
+    @property
+    def impulse(self) -> FloatArray:
+        """∫F dt from 0 to each time, V₀√μ(EI k)^{1/4} t_k."""
+        steps = 0.5 * np.diff(self.time) * (self.force[1:] + self.force[:-1])
+        return np.concatenate([[0.0], np.cumsum(steps)])
+
+
+@dataclass(frozen=True)
+class PeakForce:
+    """The largest force with its error bar and the largest penetration and pressure, units as above.
+
+    Attributes:
+        error: what Richardson's rule adds, and how far it is from the same rule on grids twice as coarse.
+        time, half_contact_length: when the force is largest, to 1 % and 2 %.
+        penetration, pressure: the largest at any place and time; relative error 1e-2.
+    """
+
+    value: float
+    error: float
+    time: float
+    half_contact_length: float
+    penetration: float
+    pressure: float
+
+
+def peak_force(kappa_over_nu: float, wall_damping_ratio: float = 0.0) -> PeakForce:
+    """f(κ/ν, ζ), in V₀√μ(EI k)^{1/4}.
+
+    Args:
+        kappa_over_nu: κ/ν = K√(EI/μ)/V₀, 1e-6 to 1e6.
+        wall_damping_ratio: ζ = c/(2√(kμ)), 0 to 5.
+
+    Raises:
+        ValueError: a value outside its range.
+    """
+    _check(kappa_over_nu, wall_damping_ratio)
+    # the first run finds the time scale, the second what happens on it
+    end = 3.5 * max(1.0, kappa_over_nu**0.25)
+    scout = _solve(kappa_over_nu, wall_damping_ratio, end, _landing(kappa_over_nu, end), _CELLS)
+    late = int(max(scout.force.argmax(), scout.penetration.argmax()))
+    whole = _again(scout, late, 3, kappa_over_nu, wall_damping_ratio)
+    runs = [_again(whole, int(whole.force.argmax()), n, kappa_over_nu, wall_damping_ratio) for n in (1, 2, 4)]
+    (_, coarsest), (_, coarse), (time, fine) = (_largest(run.time, run.force) for run in runs)
+    step = (fine - coarse) / 3.0
+    return PeakForce(
+        value=fine + step,
+        error=abs(step) + abs(fine + step - coarse - (coarse - coarsest) / 3.0),
+        time=time,
+        half_contact_length=float(runs[-1].half_contact_length[runs[-1].force.argmax()]),
+        penetration=_largest(whole.time, whole.penetration)[1],
+        pressure=float(max(whole.pressure.max(), runs[-1].pressure.max())),
+    )
+
+
+def _again(run: WallHistory, instant: int, factor: int, kappa_over_nu: float, damping_ratio: float) -> WallHistory:
+    """A run until a little after an instant of another, on a grid as wide as its zone and `factor` times as fine."""
+    end = 1.1 * float(run.time[instant])
+    width = 1.1 * float(run.half_contact_length[run.time <= end].max())
+    return _solve(kappa_over_nu, damping_ratio, end, width, factor * _CELLS)
+
+
+def wall_history(
+    kappa_over_nu: float, wall_damping_ratio: float = 0.0, *, end: float, cells: int = 64, steps: int = 256
+) -> WallHistory:
+    """Force, zone, penetration and pressure until `end` (t_k), on a grid of `cells` over half the zone.
+
+    Raises:
+        ValueError: a value outside its range.
+    """
+    _check(kappa_over_nu, wall_damping_ratio)
+    if not (math.isfinite(end) and end > 0.0):
+        raise ValueError(f"end must be positive, in t_k (got {end!r})")
+    return _solve(kappa_over_nu, wall_damping_ratio, end, _landing(kappa_over_nu, end), cells, steps)
+
+
+def _check(kappa_over_nu: float, wall_damping_ratio: float) -> None:
+    if not FLATTEST <= kappa_over_nu <= SHARPEST:
+        raise ValueError(f"kappa_over_nu must be {FLATTEST:g} to {SHARPEST:g} on an elastic wall (got {kappa_over_nu})")
+    if not 0.0 <= wall_damping_ratio <= MOST_DAMPED:
+        raise ValueError(f"wall_damping_ratio must be 0 to {MOST_DAMPED:g} (got {wall_damping_ratio})")
+
+
+def _landing(kappa_over_nu: float, time: float) -> float:
+    """Half length of a grid that holds the zone: a little more than that of a beam that does not bend."""
+    return 1.1 * math.sqrt(2.0 * time / kappa_over_nu)
+
+
+def _largest(time: FloatArray, values: FloatArray) -> tuple[float, float]:
+    """Time and height of the parabola's top through the largest value and its neighbours."""
+    i = min(max(int(values.argmax()), 1), values.size - 2)
+    before, here, after = values[i - 1 : i + 2]
+    bend = before - 2.0 * here + after
+    shift = 0.5 * (before - after) / bend if bend < 0.0 else 0.0
+    return float(time[i] + shift * (time[i] - time[i - 1])), float(here - 0.25 * (before - after) * shift)
+
+
+def _solve(
+    kappa_over_nu: float, damping_ratio: float, end: float, width: float, cells: int, steps: int | None = None
+) -> WallHistory:
+    steps = steps or 2 * cells
+    dt, dx = end / steps, width / cells
+    x = dx * np.arange(cells + 1)
+    time: FloatArray = dt * np.arange(steps + 1.0)
+    of_place, of_velocity = (_responses(cells, dx, steps, dt, m) for m in (1, 0))
+    spectra = np.zeros((steps + 1, 2 * cells + 1))  # of the loads, which are even in x
+    loads, rows = np.zeros(cells + 1), np.zeros((steps + 1, 4))
+    rows[0, 3] = 2.0 * damping_ratio  # a dashpot pushes at once
+
+    def evenly(spectrum: FloatArray) -> FloatArray:
+        return np.asarray(irfft(spectrum, 4 * cells)[: cells + 1])
+
+    for n in range(1, steps + 1):
+        past = slice(n - 1, 0, -1)
+        displacement, velocity = (np.einsum("ij,ij->j", g[past], spectra[1:n]) for g in (of_place, of_velocity))
+        spectra[n] = 2.0 * spectra[n - 1] - spectra[max(n - 2, 0)]
+        for _ in range(_MOST_ITERATIONS):
+            p = time[n] - kappa_over_nu * x**2 / 2.0 - evenly(displacement + of_place[0] * spectra[n])
+            rate = 1.0 - evenly(velocity + of_velocity[0] * spectra[n])
+            pressure = p + 2.0 * damping_ratio * rate
+            before, (loads, force, rim) = loads, _loads(p, pressure, dx)
+            spectra[n] = rfft(np.concatenate([loads, np.zeros(2 * cells - 1), loads[:0:-1]])).real
+            if np.abs(loads - before).max() <= _SETTLED * (1.0 + force):
+                break
+        else:
+            raise ArithmeticError(f"the loads did not settle at t = {time[n]:.4g} t_k: take more steps")
+        rows[n] = force, rim, p.max(), max(0.0, float(pressure[p > 0.0].max(initial=0.0)))
+    return WallHistory(time, *rows.T)
+
+
+def _responses(cells: int, dx: float, steps: int, dt: float, m: int) -> FloatArray:
+    """Spectra over place of the displacement (m = 1) or velocity (m = 0), 0…steps steps after a load whose share of
+    place and time is a hat of width 2dx and 2dt; shape (steps + 1, 2 cells + 1)."""
+    x: FloatArray = dx * np.abs(np.arange(-1.0, 2.0 * cells + 2.0))
+    ramps = np.zeros((steps + 2, x.size))
+    ramps[1:] = _integrals(x, dt * np.arange(1.0, steps + 2.0)[:, None], m + 2)
+    hats = np.diff(ramps, 2, axis=1) / dx**2
+    hats = np.concatenate([hats[1:2], np.diff(hats, 2, axis=0)]) / dt
+    return np.asarray(rfft(np.concatenate([hats, hats[:, -2:0:-1]], axis=1), axis=1).real)
+
+
+def _integrals(x: FloatArray, t: FloatArray, m: int) -> FloatArray:
+    """The m-fold integral of Re S over time and its twofold integral over place, even in x (x ≥ 0, t > 0)."""
+    root = np.sqrt(t)
+    z = np.exp(-0.25j * np.pi) * x / (2.0 * root)
+    _, _, before, last = iterated_erfc_of_wave(x / root)
+    for n in range(4, 2 + 2 * m):
+        before, last = last, (before - 2.0 * z * last) / (2.0 * n)
+    wave = 0.5 * (2.0 * np.exp(0.25j * np.pi) * root) ** (1 + 2 * m) * np.exp(-(z**2)) * last
+    return np.asarray((wave / 1j**m).real + x * t**m / (2.0 * math.factorial(m)))
+
+
+def _loads(p: FloatArray, pressure: FloatArray, dx: float) -> tuple[FloatArray, float, float]:
+    """Loads of the points, force on the whole zone and its rim; p and pressure are linear between points."""
+    low, high = np.zeros(p.size - 1), np.ones(p.size - 1)
+    for a, b in ((p[:-1], p[1:]), (pressure[:-1], pressure[1:])):
+        with np.errstate(divide="ignore", invalid="ignore"):
+            crossing = a / (a - b)
+        low = np.where((a <= 0.0) & (b > 0.0), np.maximum(low, crossing), low)
+        high = np.where((a > 0.0) & (b <= 0.0), np.minimum(high, crossing), high)
+        high = np.where((a <= 0.0) & (b <= 0.0), 0.0, high)
+    high = np.maximum(low, high)
+    start, slope = pressure[:-1], np.diff(pressure)
+    total = dx * (start * (high - low) + slope * (high**2 - low**2) / 2.0)
+    right = dx * (start * (high**2 - low**2) / 2.0 + slope * (high**3 - low**3) / 3.0)
+    loads = np.append(total - right, 0.0)
+    loads[1:] += right
+    loads[0] *= 2.0  # both sides
+    touched = np.flatnonzero(high > low)
+    rim = float(dx * (touched[-1] + high[touched[-1]])) if touched.size else 0.0
+    return loads, 2.0 * float(total.sum()), rim

@@ -1,0 +1,125 @@
+r"""What the theory says about an impact on a wall that gives way, SI units (`theory.elastic_wall`).
+
+    F_max = f(κ/ν, ζ) V₀√μ(EI k)^{1/4},   t_k = √(μ/k),   ℓ_k = (EI/k)^{1/4},   ζ = c/(2√(kμ)).
+
+How the rigid wall's law comes back. Behind the rim the beam rests on springs, EI y⁗ + ky = 0, and decays inwards from
+y = 0 at the rim; ahead of it y is the cubic whose zone would end 1/β = (4EI/k)^{1/4} earlier. Hence, for κ/ν < 1,
+
+    λ_c(t) → λ₀√(ct) + (4EI/k)^{1/4},
+
+while the force acts at λ₀√(ct), 1/β behind the rim. The place of the force is within 2 % of that once λ₀√(ct) is more
+than 4.2 ℓ_k. The impulse of one point is within 2 % after 14 (κ/ν)^{1/4} t_k, that of a zone of κ/ν ≥ 0.35 and ζ ≥ ¼
+after 120 t_k; all of it is read off `theory.elastic_wall`. A zone with less damping bounces on and on, a flatter one
+lands faster than it bends. What the wall gives back then stays in the impulse for thousands of t_k, and no time is
+given.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from bent_beam.elastic_wall import wall_scales
+from bent_beam.impact import Impact
+from theory.contact import ContactParameters
+from theory.elastic_wall import FLATTEST, MOST_DAMPED, SHARPEST, peak_force
+from theory.validity import DAMPING, validity
+
+#: κ/ν of the flattest zone, and the least ζ, whose force and impulse were seen to come back to the rigid wall's.
+FLATTEST_SETTLED, LEAST_DAMPED = 0.35, 0.25
+#: t_k after which the impulse of a zone does, and λ₀√(ct)/ℓ_k at which the place of its force does.
+ZONE_TIME, ZONE_LENGTHS = 120.0, 4.2
+#: t_k (κ/ν)^{1/4} after which the impulse of one point does.
+POINT_TIME = 14.0
+#: η/t_k from which the beam's own damping changes the largest force by more than 2 % (κ/ν ≤ 5; measured).
+MOST_OWN_DAMPING = 0.2
+
+
+@dataclass(frozen=True)
+class WallPrediction:
+    """One impact on an elastic wall, SI units.
+
+    The numbers of the largest force are None where κ/ν or ζ is beyond the range of `theory.elastic_wall`. They are
+    those of an infinite undamped beam without loads; `spoiled_by` names what makes this one another.
+
+    Attributes:
+        time_scale, length_scale: t_k, s, and ℓ_k, m.
+        damping_ratio: ζ.
+        peak_force, peak_force_error, peak_force_time: the largest force on the whole zone, N, and when it acts, s.
+        half_contact_length: of the zone then, m.
+        penetration, pressure: the largest anywhere, m and N/m.
+        spoiled_by: what changes force and penetration before they are largest, one of the names in `theory.validity`;
+            None: nothing. Shear does not count: docs/wall.md.
+        zone_offset: what the zone is longer by later, m; 0 for one point, whose zone shrinks.
+        rigid_from: time after which force, its place and impulse are those of the rigid wall to 2 %, s; infinite where
+            none is known.
+    """
+
+    time_scale: float
+    length_scale: float
+    damping_ratio: float
+    peak_force: float | None
+    peak_force_error: float | None
+    peak_force_time: float | None
+    half_contact_length: float | None
+    penetration: float | None
+    pressure: float | None
+    spoiled_by: str | None
+    zone_offset: float
+    rigid_from: float
+
+
+def zone_offset(kappa_over_nu: float) -> float:
+    """What an elastic wall adds to the half contact length of a rigid one in the end, (EI/k)^{1/4}; 0 for one point."""
+    return math.sqrt(2.0) if kappa_over_nu < 1.0 else 0.0
+
+
+def on_elastic_wall(impact: Impact, solved: ContactParameters) -> WallPrediction | None:
+    """The largest force and the range of the rigid wall's law; None for a rigid wall.
+
+    Args:
+        impact: the physical problem.
+        solved: its contact parameters.
+    """
+    scales = wall_scales(impact)
+    if scales is None or impact.wall_stiffness is None:
+        return None
+    ratio = float(solved.kappa_over_nu)
+    damping = impact.wall_damping / (2.0 * math.sqrt(impact.wall_stiffness * impact.mass_per_length))
+    unit = impact.velocity * impact.wall_stiffness * scales.length * scales.time  # V₀√μ(EI k)^{1/4}
+    deep = impact.velocity * scales.time
+    found = peak_force(ratio, damping) if FLATTEST <= ratio <= SHARPEST and damping <= MOST_DAMPED else None
+
+    def scaled(name: str, unit: float) -> float | None:
+        return None if found is None else unit * float(getattr(found, name))
+
+    return WallPrediction(
+        time_scale=scales.time,
+        length_scale=scales.length,
+        damping_ratio=damping,
+        peak_force=scaled("value", unit),
+        peak_force_error=scaled("error", unit),
+        peak_force_time=scaled("time", scales.time),
+        half_contact_length=scaled("half_contact_length", scales.length),
+        penetration=scaled("penetration", deep),
+        pressure=scaled("pressure", impact.wall_stiffness * deep),
+        spoiled_by=None if found is None else _spoiled_by(impact, solved, scales.time, scales.time * found.time),
+        zone_offset=scales.length * zone_offset(ratio),
+        rigid_from=scales.time * _rigid_from(ratio, damping, float(solved.lambda0)),
+    )
+
+
+def _spoiled_by(impact: Impact, solved: ContactParameters, wall_time: float, peak_time: float) -> str | None:
+    """What the infinite beam lacks when the force is largest."""
+    if impact.damping > MOST_OWN_DAMPING * wall_time:
+        return DAMPING
+    return validity(impact.replace(damping=0.0), solved).spoiled_by(peak_time)
+
+
+def _rigid_from(ratio: float, damping: float, lambda0: float) -> float:
+    """t_k after which force, its place and impulse are within 2 % of those on a rigid wall."""
+    if ratio >= 1.0:
+        return POINT_TIME * ratio**0.25
+    if ratio < FLATTEST_SETTLED or damping < LEAST_DAMPED:
+        return math.inf
+    return max(ZONE_TIME, (ZONE_LENGTHS / lambda0) ** 2)
