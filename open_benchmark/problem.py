@@ -89,6 +89,11 @@ class Problem:
         return self.kind in ("leading", "point", "first")
 
     @property
+    def is_rung(self) -> bool:
+        """A problem of the ladder without bending."""
+        return self.kind in LADDER
+
+    @property
     def base_id(self) -> str | None:
         """The problem without loads that a first-order problem is compared with."""
         return _front_id(self.kappa_over_nu) if self.kind == "first" else None
