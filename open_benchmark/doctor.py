@@ -35,7 +35,7 @@ FEWEST_SNAPSHOTS = 10
 UNGRADED = 1.02  # largest ratio of neighbouring elements that reflects next to nothing
 FEWEST_STEPS = 150  # to the end of the record: a first-order scheme then has lost a per cent
 EXACT = 1e-10  # noise below that of any simulation
-MOMENTUM = 0.03  # of J, and four times the noise: short waves on coarse elements carry momentum to and fro
+MOMENTUM = 0.03  # of J, and 2.5 times the noise: short waves on coarse elements carry momentum to and fro
 FACTORS = (1.0, 2.0, 0.5, *(10.0**n for n in (*range(-12, 0), *range(1, 13))))
 NEAR = 0.03  # of a factor
 FALLS = 5e-3  # of J: how far it falls without a tensile impulse that is reported
@@ -110,7 +110,7 @@ RULES = {
         "sign of what the wall gives",
     ),
     "momentum": Rule(
-        lambda s: abs(s.momentum) > max(MOMENTUM, 4.0 * np.nan_to_num(s.noise)),
+        lambda s: abs(s.momentum) > max(MOMENTUM, 2.5 * np.nan_to_num(s.noise)),
         ("momentum",),
         "sum what every step applied at every contact point, and report velocities of the same run: ∫μ(V₀ − v)dx = J",
     ),

@@ -1,4 +1,4 @@
-"""Problems of the open benchmark: ids, their physics, and the TOML file that an adapter reads (schema beam-impact/1).
+"""Problems of the open benchmark: ids, their physics, and the TOML file that an adapter reads (schema beam-impact/2).
 
     leading-K              the infinite beam at leading order, κ/ν = K; contact spreads for K < 1
     point-K                the same with K ≥ 1: one point in contact
@@ -14,6 +14,7 @@ known. A file holds no reference value and nothing numerical.
 from __future__ import annotations
 
 import json
+import math
 import re
 from dataclasses import dataclass
 from pathlib import Path
@@ -24,7 +25,7 @@ from bent_beam.parts import InputError
 
 __all__ = ["LADDER", "SCHEMA", "Problem", "first_order_problem", "problem", "problem_text", "shipped_ids"]
 
-SCHEMA = "beam-impact/1"
+SCHEMA = "beam-impact/2"
 END = 0.1  # τ; the leading order is self-similar, any end will do (the thesis ends here)
 LOAD = 0.2  # ε times the sum of the loads' sizes: εr₁τ/r₀ ends at about 5 %, so its square is small and it is not
 EQUIVALENTS = ("half beam", "small amplitude", "straight beam on a curved wall")
@@ -92,6 +93,18 @@ class Problem:
     def is_rung(self) -> bool:
         """A problem of the ladder without bending."""
         return self.kind in LADDER
+
+    @property
+    def largest_half_length(self) -> float:
+        """The half length up to which the free motion leaves the gap open until the end of the record, infinite where
+        every one does: the outer root of K x²/2 − q₀x⁴/24 − (V₀ + c₀x²/2)T − a₀T²/2 = 0. Beyond, the beam would be bent
+        into the wall."""
+        alpha, psi, chi, _ = (self.epsilon * load for load in self.loads)
+        if psi <= 0.0:
+            return math.inf
+        T, curved = self.end_time, (self.kappa_over_nu - chi * self.end_time) / 2.0
+        square = curved**2 - psi / 6.0 * (T + alpha * T**2 / 2.0)
+        return math.sqrt((curved + math.sqrt(max(square, 0.0))) / (psi / 12.0))
 
     @property
     def base_id(self) -> str | None:
@@ -187,12 +200,14 @@ def _tables(asked: Problem) -> dict[str, dict[str, Any]]:
     if asked.kind in LADDER:
         return {asked.kind: LADDER[asked.kind].given, "record": record}
     alpha, psi, chi, axial = (asked.epsilon * value for value in asked.loads)
+    reach = asked.largest_half_length
     return {
         "beam": {
             "bending_stiffness": 1.0,
             "mass_per_length": 1.0,
             "curvature": asked.kappa_over_nu,
             "length": "infinite" if asked.length is None else asked.length,
+            **({"largest_half_length": reach} if math.isfinite(reach) else {}),
             "axial_force": axial,
             # T* = √(μℓ⁴/EI) is one for the half length ℓ = 1
             "damping": asked.damping,

@@ -246,7 +246,9 @@ def _nodes(fields: Mapping[str, Any], tau: Array) -> tuple[tuple[Array | None, A
         return (None, None), {}
     x, impulse = (_numbers(fields, name) for name in ("node_x", "node_impulse"))
     if x.ndim != 1 or impulse.shape != (tau.size, x.size) or not x.size:
-        raise ResultError(f"node_impulse must have shape ({tau.size}, points of node_x) (got {impulse.shape}, {x.shape})")
+        raise ResultError(
+            f"node_impulse must have shape ({tau.size}, points of node_x) (got {impulse.shape}, {x.shape})"
+        )
     sides = 1.0 if x.min() < -1e-9 * np.abs(x).max() else 2.0
     pulled = -np.minimum(np.diff(impulse, axis=0, prepend=0.0), 0.0).sum(axis=1).cumsum()
     declared = _series(fields, "J_minus", tau.size) if "J_minus" in fields else 0.0

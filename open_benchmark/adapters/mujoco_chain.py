@@ -59,8 +59,8 @@ def main(problem_file, result_file, resolution="medium"):
     data.qpos[1:] = curvature[:n] * size / share
     data.qvel[0] = -AMPLITUDE * impact["velocity"]
     data.qvel[1:] = -AMPLITUDE * impact["curvature_rate"] * size / share
-    tau, J, Jm = np.zeros(steps + 1), np.zeros(steps + 1), np.zeros(steps + 1)
-    snapshots, snaps = {round(s / dt): s for s in problem["record"]["snapshots"]}, []
+    tau, pushed = dt * np.arange(steps + 1), np.zeros((steps + 1, n + 1))
+    snapshots, snaps, speeds = {round(s / dt): s for s in problem["record"]["snapshots"]}, [], []
     force = np.zeros(6)
     set_up, began = time.perf_counter() - began, time.perf_counter()
     for k in range(1, steps + 1):
@@ -69,17 +69,21 @@ def main(problem_file, result_file, resolution="medium"):
         for j in range(data.ncon):
             mujoco.mj_contactForce(model, data, j, force)
             push[max(data.contact[j].geom) - 1] += force[0] * dt / AMPLITUDE
-        tau[k], J[k], Jm[k] = k * dt, J[k - 1] + 2 * push.sum(), Jm[k - 1] + push @ x
+        pushed[k] = pushed[k - 1] + push
         if k in snapshots:
-            heights = data.qpos[0] + size * np.concatenate([[0], np.cumsum(np.sin(np.cumsum(data.qpos[1:])))])
+            angle, rate = np.cumsum(data.qpos[1:]), np.cumsum(data.qvel[1:])
+            heights = data.qpos[0] + size * np.concatenate([[0], np.cumsum(np.sin(angle))])
             snaps.append(heights / AMPLITUDE)
+            turning = size * np.concatenate([[0], np.cumsum(rate * np.cos(angle))])
+            speeds.append(-(data.qvel[0] + turning) / AMPLITUDE)
     about = {"tool": "MuJoCo", "version": mujoco.__version__, "resolution": resolution, "steps": steps,
              "seconds": time.perf_counter() - began, "set_up_seconds": set_up, "lines": len(open(__file__).readlines()),
              "settings": {"integrator": "implicitfast", "solref": [2 * dt, 1.0], "impedance": 0.9999},
              "model": {"theory": "chain of rigid links", "half_length": HALF_LENGTH, "smallest_element": size,
                        "time_step": dt, "amplitude": AMPLITUDE, "deviations": ["soft contact"]}}  # fmt: skip
-    np.savez(result_file, outcome="completed", problem=problem["id"], metadata=json.dumps(about), tau=tau, J=J, Jm=Jm,
-             J_minus=0 * tau, x=x, snap_tau=list(snapshots.values()), snap_gap=snaps)  # fmt: skip
+    np.savez(result_file, outcome="completed", problem=problem["id"], metadata=json.dumps(about), tau=tau, node_x=x,
+             node_impulse=pushed, J_minus=0 * tau, x=x, snap_tau=list(snapshots.values()), snap_gap=snaps,
+             snap_v=speeds)  # fmt: skip
 
 
 main(*sys.argv[1:])

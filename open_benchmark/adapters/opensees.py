@@ -63,7 +63,7 @@ def main(problem_file, result_file, resolution="medium"):
     ops.test("NormUnbalance", 1e-9 * 12 * beam["bending_stiffness"] / size**2, 30)
     ops.integrator("Newmark", GAMMA, BETA)
     ops.analysis("Transient")
-    tau, J, Jm = np.zeros(steps + 1), np.zeros(steps + 1), np.zeros(steps + 1)
+    tau, pushed, speeds = h * np.arange(steps + 1), np.zeros((steps + 1, n + 1)), []
     snapshots = {round(s / h): s for s in problem["record"]["snapshots"]}
     snaps, force, outcome = [], np.zeros(n + 1), "completed"
     set_up, began = time.perf_counter() - began, time.perf_counter()
@@ -78,18 +78,18 @@ def main(problem_file, result_file, resolution="medium"):
             break
         y = np.array([ops.nodeDisp(i, 2) for i in range(1, n + 2)])
         before, force = force, spring * np.maximum(y - np.maximum(gap, 1e-15), 0.0)
-        push = h * ((1 - GAMMA) * before + GAMMA * force)  # the impulse that Newmark's velocity update applies
-        tau[k], J[k], Jm[k] = k * h, J[k - 1] + 2 * push.sum(), Jm[k - 1] + push @ x
+        pushed[k] = pushed[k - 1] + h * ((1 - GAMMA) * before + GAMMA * force)  # as Newmark's velocity update applies it
         if k in snapshots:
             snaps.append(gap - y)
+            speeds.append([ops.nodeVel(i, 2) for i in range(1, n + 2)])
     when = list(snapshots.values())
     about = {"tool": "OpenSeesPy", "version": ops.version(), "resolution": resolution, "steps": steps,
              "seconds": time.perf_counter() - began, "set_up_seconds": set_up, "lines": len(open(__file__).readlines()),
              "settings": {"integrator": f"Newmark {GAMMA}, {BETA}", "contact": f"ElasticPPGap, {STIFFNESS:g}"},
              "model": {"theory": "Euler-Bernoulli, half beam", "half_length": HALF_LENGTH, "smallest_element": size,
                        "time_step": h, "amplitude": 1.0, "deviations": ["stiff springs for the wall"]}}  # fmt: skip
-    np.savez(result_file, outcome=outcome, problem=problem["id"], metadata=json.dumps(about), tau=tau, J=J, Jm=Jm,
-             J_minus=np.zeros(steps + 1), x=x, snap_tau=when[: len(snaps)], snap_gap=snaps)  # fmt: skip
+    np.savez(result_file, outcome=outcome, problem=problem["id"], metadata=json.dumps(about), tau=tau, node_x=x,
+             node_impulse=pushed, x=x, snap_tau=when[: len(snaps)], snap_gap=snaps, snap_v=speeds)  # fmt: skip
 
 
 main(*sys.argv[1:])

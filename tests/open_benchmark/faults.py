@@ -126,8 +126,12 @@ def energy_gained(rng: Rng) -> Run:
 
 def ratio(rng: Rng, good: Result) -> Result:
     """Half or twice the force, a power of ten, a sign: of the impulse, of its moment, or of both."""
-    factor = float(rng.choice([0.5, 2.0, -1.0, *(10.0 ** rng.integers(1, 6) * np.array([1.0])), 10.0 ** -rng.integers(1, 6)]))
-    of_impulse, of_moment = [(factor, factor), (factor, 1.0), (1.0, abs(factor) if factor != -1.0 else 2.0)][rng.integers(3)]
+    factor = float(
+        rng.choice([0.5, 2.0, -1.0, *(10.0 ** rng.integers(1, 6) * np.array([1.0])), 10.0 ** -rng.integers(1, 6)])
+    )
+    of_impulse, of_moment = [(factor, factor), (factor, 1.0), (1.0, abs(factor) if factor != -1.0 else 2.0)][
+        rng.integers(3)
+    ]
     return replace(good, J=of_impulse * good.J, Jm=of_moment * good.Jm, snap_v=None)
 
 

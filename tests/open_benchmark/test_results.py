@@ -197,8 +197,13 @@ def test_the_judge_adds_up_nodal_histories_of_half_and_whole_beams_and_holds_the
     gap, lost = np.zeros((2, 41)), 2.0 * np.sqrt(when)[:, None] / 4.0 * np.ones((2, 41))
     snaps = {"x": x, "snap_tau": when, "snap_gap": gap, "snap_v": 1.0 - lost}
     half = load_result(written(tmp_path, J=None, Jm=None, node_x=x, node_impulse=impulse, **snaps))
-    both = {"node_x": np.r_[-x[:0:-1], x], "node_impulse": np.c_[impulse[:, :0:-1], 2.0 * impulse[:, :1], impulse[:, 1:]]}
+    both = {
+        "node_x": np.r_[-x[:0:-1], x],
+        "node_impulse": np.c_[impulse[:, :0:-1], 2.0 * impulse[:, :1], impulse[:, 1:]],
+    }
     whole = load_result(written(tmp_path, J=None, Jm=None, **both))
-    assert half.J == pytest.approx(2.0 * np.sqrt(tau)) and half.Jm == pytest.approx(np.sqrt(tau) * (x @ share) / share.sum())
+    assert half.J == pytest.approx(2.0 * np.sqrt(tau)) and half.Jm == pytest.approx(
+        np.sqrt(tau) * (x @ share) / share.sum()
+    )
     assert whole.J == pytest.approx(half.J) and whole.Jm == pytest.approx(half.Jm)
-    assert score(half).raw and abs(score(half).momentum_residual) < 1e-12
+    assert score(half).raw and abs(score(half).momentum_residual) < 1e-6
