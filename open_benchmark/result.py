@@ -26,7 +26,7 @@ __all__ = ["OUTCOMES", "Result", "ResultError", "plain_number", "result_from_fie
 
 Array = NDArray[np.float64]
 
-OUTCOMES = ("completed", "diverged", "not_converged", "unsupported", "timeout", "crashed", "not_installed")
+OUTCOMES = ("completed", "diverged", "not_converged", "unsupported", "not_attempted", "timeout", "crashed", "not_installed")
 SERIES = ("J", "Jm", "J_minus", "x_contact", "E_kin", "E_el", "E_damp")
 SNAPSHOTS = ("x", "snap_tau", "snap_gap")
 ARRAYS = (*SNAPSHOTS, "snap_v", "node_x", "node_impulse")
@@ -37,6 +37,7 @@ MOST_POINTS = 50_000
 MOST_VALUES = 8_000_000  # of all snapshots together
 MOST_TEXT = 200_000
 MOST = 1e100  # of any number: beyond is no unit
+INTERVALS = 50  # of the record, over each of which tension is looked for
 FEWEST = 200  # instants in the fit window
 NOT_TEXT = re.compile(r"[\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\x9f\u202a-\u202e\u2066-\u2069\ud800-\udfff]")
 
@@ -239,7 +240,8 @@ def _numbers(fields: Mapping[str, Any], name: str) -> Array:
 def _nodes(fields: Mapping[str, Any], tau: Array) -> tuple[tuple[Array | None, Array | None], dict[str, Array]]:
     """Raw nodal histories, and the wall's impulse, its moment and its tensile part, added up from them.
 
-    A model of one half (no point at x < 0) stands for both. Tension between two instants shows where it outweighs push.
+    A model of one half (no point at x < 0) stands for both. Tension is by how much a point falls, over one of
+    ``INTERVALS``, below what it had at both ends of the one before: a scheme may give too much and take it back at once.
     """
     given = [name for name in ("node_x", "node_impulse") if name in fields]
     if not given:
@@ -250,7 +252,10 @@ def _nodes(fields: Mapping[str, Any], tau: Array) -> tuple[tuple[Array | None, A
             f"node_impulse must have shape ({tau.size}, points of node_x) (got {impulse.shape}, {x.shape})"
         )
     sides = 1.0 if x.min() < -1e-9 * np.abs(x).max() else 2.0
-    pulled = -np.minimum(np.diff(impulse, axis=0, prepend=0.0), 0.0).sum(axis=1).cumsum()
+    ends = np.unique(np.searchsorted(tau, np.linspace(0.0, tau[-1], INTERVALS + 1)))
+    kept = impulse[ends]
+    lost = np.maximum(np.minimum(kept[:-2], kept[1:-1]) - kept[2:], 0.0).sum(axis=1).cumsum()
+    pulled = np.interp(tau, tau[ends], np.concatenate([[0.0, 0.0], lost]))
     declared = _series(fields, "J_minus", tau.size) if "J_minus" in fields else 0.0
     added = {"J": sides * impulse.sum(axis=1), "Jm": sides / 2.0 * (impulse @ np.abs(x))}
     return (x, impulse), added | {"J_minus": np.maximum(sides * pulled, declared)}

@@ -59,7 +59,7 @@ def main(problem_file, result_file, resolution="medium"):
         problem = tomllib.load(stream)
     beam, impact, end = problem["beam"], problem["impact"], problem["record"]["end_time"]
     if beam["axial_force"] != 0.0:
-        np.savez(result_file, outcome="unsupported(axial force)", problem=problem["id"], metadata="{}")
+        np.savez(result_file, outcome="not_attempted(axial force)", problem=problem["id"], metadata="{}")
         return
     size = SIZES[resolution]
     n = round(HALF_LENGTH / size)

@@ -3,9 +3,8 @@
 From the manual (OpenSeesPyDoc): elasticBeamColumn with its consistent mass (-cMass), ElasticPPGap for a gap that
 closes, in zeroLength elements, Newton's method. Newmark: "gamma > 1/2 results in numerical damping proportional to
 gamma - 1/2", unconditionally stable for beta >= gamma/2 >= 1/4 (newmark.rst). gamma = 3/2 with beta = (gamma + 1/2)^2/4
-damps the short waves most; the structural engineer's 1/2, 1/4 lets them rattle in the gaps, and the HHT method, which
-the manual has for damping of second order, damps too little (alpha = 0.9: lambda0 12 % low in a first trial).
-BandGeneral was as fast as BandSPD, ProfileSPD and UmfPack.
+damps the short waves most; the structural engineer's 1/2, 1/4 lets them rattle in the gaps. Of the manual's methods of
+second order HHT with its most damped alpha = 2/3, GeneralizedAlpha and TRBDF2 were tried (docs/benchmark.md). BandGeneral was as fast as BandSPD, ProfileSPD and UmfPack.
 """
 
 import json
@@ -27,7 +26,7 @@ def main(problem_file, result_file, resolution="medium"):
         problem = tomllib.load(stream)
     beam, impact, end = problem["beam"], problem["impact"], problem["record"]["end_time"]
     if beam["axial_force"] != 0.0:
-        np.savez(result_file, outcome="unsupported(axial force)", problem=problem["id"], metadata="{}")
+        np.savez(result_file, outcome="not_attempted(axial force)", problem=problem["id"], metadata="{}")
         return
     n, size = round(HALF_LENGTH / SIZES[resolution]), SIZES[resolution]
     steps = max(round(40.0 * end / size), 250)

@@ -46,7 +46,7 @@ def main(problem_file, result_file, resolution="medium", variant="shipped"):
         problem = tomllib.load(stream)
     beam, impact, end = problem["beam"], problem["impact"], problem["record"]["end_time"]
     if beam["axial_force"] != 0.0:
-        np.savez(result_file, outcome="unsupported(axial force)", problem=problem["id"], metadata="{}")
+        np.savez(result_file, outcome="not_attempted(axial force)", problem=problem["id"], metadata="{}")
         return
     assert beam["bending_stiffness"] == beam["mass_per_length"] == impact["velocity"] == 1.0
     n = 2 * round(HALF_LENGTH / SIZES[resolution]) + 1  # odd: the middle of an element touches first
