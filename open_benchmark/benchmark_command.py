@@ -50,7 +50,8 @@ def benchmark(
     """Run codes on the open benchmark and write one page.
 
     Each problem is solved at three resolutions, and besides one like it whose parameters are drawn now: only what was
-    run here on drawn problems, with nodal histories, is verified; the rest is self-declared. An adapter that hangs, crashes, writes rubbish or is not installed is
+    run here on drawn problems, with nodal histories, is verified; the rest is self-declared.
+    An adapter that hangs, crashes, writes rubbish or is not installed is
     a row that says so. Runs that are there are not run again.
 
     Example: bentbeam benchmark --install scikit-fem

@@ -46,8 +46,8 @@ STANDARD = (
 @dataclass(frozen=True)
 class Row:
     """One code on one problem at one resolution. seconds : wall clock of the process, the least of ``repeats`` runs
-    (``None``: not run here). drawn : whether the problem was drawn at run time. made_by : digest of the source, arguments
-    and versions. unlimited : limits that this system cannot set."""
+    (``None``: not run here). drawn : whether the problem was drawn at run time. made_by : digest of the source,
+    arguments and versions. unlimited : limits that this system cannot set."""
 
     solver: str
     problem: str

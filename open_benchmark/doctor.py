@@ -1,9 +1,10 @@
 """The likeliest fault of a result, and what to change.
 
 A decision list over the signs of a result, strongest evidence first; the first rule that holds is the diagnosis, for a
-fault has consequences that look like others. "clean" needs an error that was looked at and is small. Scales as in docs/numerics.md: with λ̂ = √(2/κ) for the front's speed, the
-beam bends ahead of it over ℓ(τ) = 2√τ/λ̂, and the front runs λ̂/(2√τ) h in a step h. Thresholds were set on results with
-one seeded fault each (tests/open_benchmark/faults.py) and are checked on others.
+fault has consequences that look like others. "clean" needs an error that was looked at and is small.
+Scales as in docs/numerics.md: with λ̂ = √(2/κ) for the front's speed, the beam bends ahead of it over ℓ(τ) = 2√τ/λ̂, and
+the front runs λ̂/(2√τ) h in a step h. Thresholds were set on results with one seeded fault each
+(tests/open_benchmark/faults.py) and are checked on others.
 """
 
 from __future__ import annotations
@@ -45,11 +46,11 @@ FALLS = 5e-3  # of J: how far it falls without a tensile impulse that is reporte
 class Signs:
     """The numbers that rules compare; NaN where they are not reported, so that no comparison holds.
 
-    element : length at the front at the end of the record; growth : largest ratio of neighbours; half_length;
-    end : of the record; thickness : of the front then; travel : of the front in the last step; steps : how many such make the record;
-    unsteady : see ``UNSTEADY``. ratio_J, ratio_Jm : over the exact ones; factor : how many of them are off by a factor of
-    ``FACTORS`` or its negative; worst : largest error over its limit; falls : of J that no tensile impulse explains, over
-    J; unknown : numbers whose bar exceeds them. Lengths in l*.
+    element : length at the front at the end of the record; growth : largest ratio of neighbours; half_length; end : of
+    the record; thickness : of the front then; travel : of the front in the last step; steps : how many such make the
+    record; unsteady : see ``UNSTEADY``; ratio_J, ratio_Jm : over the exact ones; factor : how many of these are one of
+    ``FACTORS``; off : largest error over its limit; falls : of J that no tensile impulse explains, over J; unknown :
+    numbers whose bar exceeds them. Lengths in l*.
     """
 
     gained: float
@@ -106,8 +107,8 @@ RULES = {
     "ratio": Rule(
         lambda s: s.factor > 0.0 and not s.falls > FALLS,
         ("ratio_J", "ratio_Jm"),
-        "½ or 2: J is the whole wall's, Jm that of one half; a power of ten: units, or forces without the step; −1: the "
-        "sign of what the wall gives",
+        "½ or 2: J is the whole wall's, Jm that of one half; a power of ten: units, or forces without the step; −1: "
+        "the sign of what the wall gives",
     ),
     "momentum": Rule(
         lambda s: abs(s.momentum) > max(MOMENTUM, 2.5 * np.nan_to_num(s.noise)),

@@ -6,6 +6,7 @@ impacts, at most quadratic. The stopped beam: ``theory.stopped_beam``, as a cubi
 
 from __future__ import annotations
 
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -63,7 +64,7 @@ def _rung(asked: Problem) -> dict[str, Any]:
         x = (np.arange(64) + 0.5)[:, None] / 64.0
         events, impulse = [0.5, 1.5, 2.5, 3.5], lambda t: StringOnObstacle().impulse(x, t[None, :]).mean(axis=0)
     breaks = np.unique([0.0, *(t for t in events if t < end), end])
-    return _pieces("time", breaks, np.array([_parabola(impulse, a, b) for a, b in zip(breaks, breaks[1:])]))
+    return _pieces("time", breaks, np.array([_parabola(impulse, a, b) for a, b in pairwise(breaks)]))
 
 
 def _parabola(impulse: Any, start: float, stop: float) -> Any:

@@ -26,7 +26,16 @@ __all__ = ["OUTCOMES", "Result", "ResultError", "plain_number", "result_from_fie
 
 Array = NDArray[np.float64]
 
-OUTCOMES = ("completed", "diverged", "not_converged", "unsupported", "not_attempted", "timeout", "crashed", "not_installed")
+OUTCOMES = (
+    "completed",
+    "diverged",
+    "not_converged",
+    "unsupported",
+    "not_attempted",
+    "timeout",
+    "crashed",
+    "not_installed",
+)
 SERIES = ("J", "Jm", "J_minus", "x_contact", "E_kin", "E_el", "E_damp")
 SNAPSHOTS = ("x", "snap_tau", "snap_gap")
 ARRAYS = (*SNAPSHOTS, "snap_v", "node_x", "node_impulse")
@@ -57,7 +66,7 @@ class Result:
     outcome : as the adapter states it; ``detail`` is its text in brackets. problem : the problem it answers.
     tau, J, Jm : shape (n,), empty unless completed; optional series of shape (n,) in ``series``; x (m,), snap_tau (s,),
     snap_gap (s, m) or, on a mesh that moves, x of shape (s, m); snap_v, the velocity into the wall, of snap_gap's
-    shape. node_x (m,), node_impulse (n, m) : raw histories; with them J and Jm are their sums. metadata : of the adapter.
+    shape. node_x (m,), node_impulse (n, m) : raw histories, whose sums J and Jm then are. metadata : of the adapter.
     """
 
     outcome: str
@@ -241,7 +250,7 @@ def _nodes(fields: Mapping[str, Any], tau: Array) -> tuple[tuple[Array | None, A
     """Raw nodal histories, and the wall's impulse, its moment and its tensile part, added up from them.
 
     A model of one half (no point at x < 0) stands for both. Tension is by how much a point falls, over one of
-    ``INTERVALS``, below what it had at both ends of the one before: a scheme may give too much and take it back at once.
+    ``INTERVALS``, below what it had at both ends of the one before: a scheme may give too much and take it back.
     """
     given = [name for name in ("node_x", "node_impulse") if name in fields]
     if not given:

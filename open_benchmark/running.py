@@ -39,8 +39,8 @@ MOST_FILES = 10_000
 
 @dataclass(frozen=True)
 class Limits:
-    """Of one run: wall seconds, and bytes of all that it writes. ``repeats``: runs at most, of which the fastest counts,
-    as long as all together take no more than a tenth of the seconds."""
+    """Of one run: wall seconds, and bytes of all that it writes. ``repeats``: runs at most, of which the fastest
+    counts, as long as all together take no more than a tenth of the seconds."""
 
     seconds: float = 120.0
     output_bytes: int = 300_000_000

@@ -4,7 +4,8 @@ From the manual (OpenSeesPyDoc): elasticBeamColumn with its consistent mass (-cM
 closes, in zeroLength elements, Newton's method. Newmark: "gamma > 1/2 results in numerical damping proportional to
 gamma - 1/2", unconditionally stable for beta >= gamma/2 >= 1/4 (newmark.rst). gamma = 3/2 with beta = (gamma + 1/2)^2/4
 damps the short waves most; the structural engineer's 1/2, 1/4 lets them rattle in the gaps. Of the manual's methods of
-second order HHT with its most damped alpha = 2/3, GeneralizedAlpha and TRBDF2 were tried (docs/benchmark.md). BandGeneral was as fast as BandSPD, ProfileSPD and UmfPack.
+second order HHT with its most damped alpha = 2/3, GeneralizedAlpha and TRBDF2 were tried (docs/benchmark.md).
+BandGeneral was as fast as BandSPD, ProfileSPD and UmfPack.
 """
 
 import json
@@ -77,7 +78,9 @@ def main(problem_file, result_file, resolution="medium"):
             break
         y = np.array([ops.nodeDisp(i, 2) for i in range(1, n + 2)])
         before, force = force, spring * np.maximum(y - np.maximum(gap, 1e-15), 0.0)
-        pushed[k] = pushed[k - 1] + h * ((1 - GAMMA) * before + GAMMA * force)  # as Newmark's velocity update applies it
+        pushed[k] = pushed[k - 1] + h * (
+            (1 - GAMMA) * before + GAMMA * force
+        )  # as Newmark's velocity update applies it
         if k in snapshots:
             snaps.append(gap - y)
             speeds.append([ops.nodeVel(i, 2) for i in range(1, n + 2)])

@@ -27,7 +27,7 @@ def test_an_integrator_without_an_impact_law_says_so():
 
 
 def test_the_bouncing_bar_has_the_period_and_the_impulse_of_its_closed_form():
-    """The closed form and finite elements, two ways to one answer: J to a hundredth, half the error with twice the mesh."""
+    """The closed form and finite elements, two ways to one answer: half the error with twice the mesh."""
     scheme = INTEGRATORS["Moreau–Jean θ = ½"]
     (coarse, _), (fine, _) = (RUNGS["bar"](scheme, refine, "bouncing-bar") for refine in (1, 2))
     assert fine < 0.7 * coarse < 0.02

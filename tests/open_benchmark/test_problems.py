@@ -13,7 +13,6 @@ from open_benchmark.problem import PROBLEMS, SCHEMA, document, problem_text
 from open_benchmark.references import REFERENCES, reference
 from open_benchmark.references import SCHEMA as REFERENCE_SCHEMA
 
-
 TABLES = {  # of schema beam-impact/2: whoever changes a key changes the version
     "beam": "axial_force bending_stiffness curvature damping length mass_per_length",
     "impact": "acceleration curvature_rate fourth_derivative velocity",
@@ -43,7 +42,9 @@ def test_stored_references_are_what_the_theory_says():
         for kind, stored in known.items():
             today = computed(problem(name))[kind]
             for key, numbers in stored.items():
-                same = numbers == today[key] if isinstance(numbers, str) else np.allclose(numbers, today[key], 1e-9, 1e-12)
+                same = (
+                    numbers == today[key] if isinstance(numbers, str) else np.allclose(numbers, today[key], 1e-9, 1e-12)
+                )
                 assert same, (name, key)
 
 

@@ -10,8 +10,8 @@ from bent_beam.meshes import UniformMesh
 from bent_beam.method import method_type
 from open_benchmark import Result, ResultError, load_result, problem, score
 from open_benchmark.histories import result_from_history
-from open_benchmark.result import save_result
 from open_benchmark.references import reference
+from open_benchmark.result import save_result
 from theory import contact_parameters
 
 SIDE = np.sqrt(2.0 / np.pi)

@@ -7,7 +7,7 @@ wall pushes with r = EA v/c for 2L/c, the bar leaves at v, free of strain (d'Ale
 A. Ern, S. Piperno, Time-integration schemes for the finite element dynamic Signorini problem, SIAM J. Sci. Comput. 33
 (2011) 223–249).
 
-`DroppedBar` falls from rest under gravity g and meets the wall at v. Meanwhile its wave p(t) = v + gt raises the reaction
+`DroppedBar` falls from rest under gravity g and meets the wall at v. Its wave p(t) = v + gt raises the reaction
 to r = Z(v + gt), Z = √(EAμ), until it is back at T = 2L/c; there r would be Z(gT − v) < 0, and the bar leaves with the
 uniform speed v and the strain −2g(L − x)/c². Its fundamental period is T, too: after the flight of 2v/g, a whole number
 of T, it lands with that strain, contact runs backwards, r = Z(v + g(T − t)), and it leaves free of strain as it fell.
