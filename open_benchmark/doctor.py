@@ -36,9 +36,10 @@ FEWEST_SNAPSHOTS = 10
 UNGRADED = 1.02  # largest ratio of neighbouring elements that reflects next to nothing
 FEWEST_STEPS = 150  # to the end of the record: a first-order scheme then has lost a per cent
 EXACT = 1e-10  # noise below that of any simulation
-MOMENTUM = 0.03  # of J, and 2.5 times the noise: short waves on coarse elements carry momentum to and fro
+MOMENTUM = 0.015  # of J, and 2.5 times the noise: short waves on coarse elements carry momentum to and fro
 FACTORS = (1.0, 2.0, 0.5, *(10.0**n for n in (*range(-12, 0), *range(1, 13))))
 NEAR = 0.03  # of a factor
+VAGUE = 0.03  # a relative error that its bar still holds, and that is not clean all the same
 FALLS = 5e-3  # of J: how far it falls without a tensile impulse that is reported
 
 
@@ -50,7 +51,7 @@ class Signs:
     the record; thickness : of the front then; travel : of the front in the last step; steps : how many such make the
     record; unsteady : see ``UNSTEADY``; ratio_J, ratio_Jm : over the exact ones; factor : how many of these are one of
     ``FACTORS``; off : largest error over its limit; falls : of J that no tensile impulse explains, over J; unknown :
-    numbers whose bar exceeds them. Lengths in l*.
+    numbers whose bar exceeds them; vague : largest error within its bars, without loads. Lengths in l*.
     """
 
     gained: float
@@ -73,6 +74,7 @@ class Signs:
     off: float
     falls: float
     unknown: float
+    vague: float
 
 
 @dataclass(frozen=True)
@@ -164,8 +166,10 @@ RULES = {
 }
 RULES |= {
     "unsettled": Rule(
-        lambda s: s.noise > LIMITS["noise"][0] or s.falls > FALLS or s.unknown > 0.0,
-        ("noise", "falls", "unknown"),
+        lambda s: (
+            s.noise > LIMITS["noise"][0] or s.falls > FALLS or s.unknown > 0.0 or (s.vague > VAGUE and s.off <= 1.0)
+        ),
+        ("noise", "falls", "unknown", "vague"),
         "cumulated impulses of every step, not forces, filtered or sampled; a smoother run, or a longer record",
     ),
     "off": Rule(
@@ -195,6 +199,7 @@ WORDS = {
     "off": "largest error over its limit",
     "falls": "fall of the impulse / J",
     "unknown": "numbers below their error bar",
+    "vague": "largest error within its bars",
 }
 
 
@@ -240,7 +245,12 @@ def _signs(result: Result, found: Score) -> Signs:
         off=found.excess,
         falls=_falls(result),
         unknown=sum(number.value is None for number in found.measured.values()),
+        vague=_vague(found) if asked.kind == "leading" else math.nan,
     )
+
+
+def _vague(found: Score) -> float:
+    return max((abs(found.error(name) or 0.0) for name in found.measured if name not in found.off), default=0.0)
 
 
 def _is_factor(ratio: float) -> bool:

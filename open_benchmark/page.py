@@ -117,7 +117,7 @@ def write_page(
     rows: Sequence[Row], adapters: Sequence[Adapter], out: Path, about: dict[str, Any] | None = None
 ) -> Path:
     """Write ``index.html``, the same as ``benchmark.json``, the errors of either table (``errors-TABLE.md``) and
-    its figures (``sheets/PROBLEM-MEASURE.svg``); returns the page. ``about`` : :func:`document` of both."""
+    its figures (``sheets/TABLE/PROBLEM-MEASURE.svg``); returns the page. ``about`` : :func:`document` of both."""
     about = about or document(rows, adapters)
     solvers = list(dict.fromkeys([*(a.name for a in adapters), *(row.solver for row in rows)]))
     tables = {"verified": [r for r in rows if not r.unverified], "self-declared": [r for r in rows if r.unverified]}
@@ -126,7 +126,7 @@ def write_page(
         loader=jinja2.FileSystemLoader(TEMPLATES), autoescape=True, trim_blocks=True, lstrip_blocks=True
     )
     html = loader.get_template("benchmark.html.j2").render(
-        tables={name: _sheets(own, solvers, out / "sheets") for name, own in tables.items()},
+        tables={name: _sheets(own, solvers, out / "sheets" / name) for name, own in tables.items()},
         seed=about["seed"],
         solvers=about["solvers"],
         versions=versions,

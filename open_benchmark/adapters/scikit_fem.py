@@ -65,7 +65,7 @@ def main(problem_file, result_file, resolution="medium"):
             known[held] = wanted[active]
             part, matrix = right - system @ known, band.copy()
             for offset in range(4):
-                matrix[offset, held] = matrix[offset, np.maximum(held - offset, 0)] = 0.0
+                matrix[offset, held] = matrix[offset, held[held >= offset] - offset] = 0.0
             matrix[0, held] = 1.0
             part[held] = wanted[active]
             v = solveh_banded(matrix, part, lower=True, check_finite=False)
