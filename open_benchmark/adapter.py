@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import hashlib
 import os
+import re
 import subprocess
 import sys
 import sysconfig
@@ -36,7 +37,9 @@ INSTALL_SECONDS = 900.0
 @dataclass(frozen=True)
 class Adapter:
     """One code. ``install``: pinned packages of its environment; ``debian``: a package of the system's Python
-    instead; neither: this Python. ``kinds``: kinds of problems it takes (empty: any)."""
+    instead; neither: this Python. ``kinds``: kinds of problems it takes (empty: any). ``host``: of this project.
+    ``chosen``: whether its mesh and steps are the same in every problem. ``manual``: statements about the code, each
+    with the page that supports it."""
 
     name: str
     file: Path
@@ -46,6 +49,14 @@ class Adapter:
     install: tuple[str, ...] = ()
     debian: str = ""
     kinds: tuple[str, ...] = ()
+    host: bool = False
+    chosen: str = "not stated"
+    manual: tuple[tuple[str, str], ...] = ()
+
+    @property
+    def label(self) -> str:
+        """Its name in tables: the host's own methods are marked."""
+        return f"{self.name} (host)" if self.host else self.name
 
     def takes(self, asked: Problem) -> bool:
         """Whether the code is asked this problem at all."""
@@ -86,11 +97,17 @@ class Adapter:
         found = subprocess.run([str(self.python), "-c", search], capture_output=True, check=False)
         return how if found.returncode else None
 
+    def made_by(self) -> dict[str, Any]:
+        """What stands beside a result: digest of the adapter's source, its arguments, and the versions it runs with."""
+        packages = list(self.install) or ([self.debian] if self.debian else versions())
+        source = hashlib.sha256(self.file.read_bytes()).hexdigest() if self.file.is_file() else None
+        return {"source": source, "arguments": list(self.arguments), "packages": packages}
+
     def digest(self) -> str:
         """Digest of source, arguments and pinned versions; for this project's own methods also of the solver's source
         and the installed versions."""
         text = repr((self.arguments, self.install, self.debian)).encode()
-        if self.module and not (self.install or self.debian):
+        if self.host:
             text += repr((source_digest(), versions())).encode()
         return hashlib.sha256(self.file.read_bytes() + text).hexdigest()
 
@@ -108,6 +125,7 @@ def shipped_adapters() -> dict[str, Adapter]:
     found = {}
     for name, table in tables.items():
         fields: dict[str, Any] = {key: tuple(v) if isinstance(v, list) else v for key, v in table.items()}
+        fields["manual"] = tuple((statement, page) for statement, page in table.get("manual", ()))
         found[name] = Adapter(name, ADAPTERS / fields.pop("file"), **fields)
     return found
 
@@ -115,7 +133,8 @@ def shipped_adapters() -> dict[str, Adapter]:
 def chosen_adapters(names: Sequence[str] = (), own: Sequence[Path] = ()) -> list[Adapter]:
     """Shipped adapters by name (all when neither is given), then one's own files.
 
-    Raises :class:`InputError` for a name that none has and a file that is not there.
+    Raises :class:`InputError` for a name that none has, a file that is not there, and two of one name: results are kept
+    in folders of these names.
     """
     shipped = shipped_adapters()
     for name in names:
@@ -124,8 +143,16 @@ def chosen_adapters(names: Sequence[str] = (), own: Sequence[Path] = ()) -> list
     for file in own:
         if not file.is_file():
             raise InputError(f"adapter: {file} is not a file")
-    chosen = [shipped[name] for name in names] if names or own else list(shipped.values())
-    return [*chosen, *(Adapter(file.stem, file.resolve()) for file in own)]
+    chosen = [shipped[name] for name in dict.fromkeys(names)] if names or own else list(shipped.values())
+    for file in own:
+        if not re.fullmatch(r"[A-Za-z0-9_][\w.-]*", file.stem):
+            raise InputError(
+                f"adapter: {file}: its name must begin with a letter or a digit and hold nothing but these"
+            )
+        if file.stem in {one.name for one in chosen}:
+            raise InputError(f"adapter: {file}: there is another adapter of the name {file.stem}; rename the file")
+        chosen.append(Adapter(file.stem, file.resolve()))
+    return chosen
 
 
 def install(adapter: Adapter) -> str:

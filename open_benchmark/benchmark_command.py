@@ -34,6 +34,11 @@ def benchmark(
     out: Annotated[Path, typer.Option(metavar="DIR", help="Results and the page; resumed when it is there.")] = Path(
         "benchmark"
     ),
+    result: Annotated[
+        list[Path] | None,
+        typer.Option(metavar="FILE", help="A result that was run elsewhere: it is self-declared; repeatable."),
+    ] = None,
+    seed: Annotated[int | None, typer.Option(min=0, help="Of the drawn problems (a new one, kept in --out).")] = None,
     seconds: Annotated[float, typer.Option(min=1.0, help="Wall seconds that one run may take.")] = 120.0,
     install: Annotated[
         list[str] | None,
@@ -44,7 +49,9 @@ def benchmark(
 ) -> int:
     """Run codes on the open benchmark and write one page.
 
-    Each problem is solved at three resolutions. An adapter that hangs, crashes, writes rubbish or is not installed is
+    Each problem is solved at three resolutions, and besides one like it whose parameters are drawn now: only what was
+    run here on drawn problems, with nodal histories, is verified; the rest is self-declared.
+    An adapter that hangs, crashes, writes rubbish or is not installed is
     a row that says so. Runs that are there are not run again.
 
     Example: bentbeam benchmark --install scikit-fem
@@ -52,7 +59,7 @@ def benchmark(
     from comparison.store import check_writable
     from open_benchmark.adapter import chosen_adapters
     from open_benchmark.adapter import install as install_environment
-    from open_benchmark.campaign import STANDARD, campaign
+    from open_benchmark.campaign import STANDARD, campaign, declared_rows, drawn_once
     from open_benchmark.page import document, write_page
     from open_benchmark.problem import problem as problem_of
     from open_benchmark.running import Limits
@@ -64,10 +71,14 @@ def benchmark(
     adapters = chosen_adapters(solver or (), adapter or ())
     names = [problem_of(name).id for name in problem or STANDARD]
     check_writable(out, folder=True)
+    rows = declared_rows(result or ())
+    drawn = drawn_once(out, seed)
     with Console(quiet).progress("benchmark") as bar:
-        rows = campaign(adapters, names, out, limits=Limits(seconds=seconds), progress=bar.count)
-    about = document(rows, adapters)
+        rows = campaign(adapters, names, out, limits=Limits(seconds=seconds), seed=drawn, progress=bar.count) + rows
+    about = document(rows, adapters, drawn)
     page = write_page(rows, adapters, out, about)
-    lines = [f"{r.solver:>20} {r.problem:>22} {r.resolution:>7} {r.score.outcome}" for r in rows]
+    lines = [f"seed of the drawn problems: {drawn}"]
+    for r in rows:
+        lines.append(f"{r.solver:>20} {r.problem:>22} {r.resolution:>7} {r.to_dict()['table']:>13} {r.score.outcome}")
     emit({"page": str(page), **about}, as_json, lambda: "\n".join([*lines, f"page: {page}"]))
     return 0

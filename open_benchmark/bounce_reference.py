@@ -18,7 +18,7 @@ from comparison.bounce import problem as beam
 from comparison.stored import confirm, write
 from hermite_fe import HermiteFE
 from open_benchmark.problem import Problem, problem, shipped_ids
-from open_benchmark.references import BOUNCES, stored_bounces
+from open_benchmark.references import BOUNCES, stored
 
 __all__ = ["agrees", "measure"]
 
@@ -45,7 +45,7 @@ def measure(asked: Problem, elements: int = ELEMENTS) -> dict[str, Any]:
 
 def agrees(name: str, elements: int = SAMPLE) -> bool:
     """Whether a coarser mesh gives the stored restitution within both error bars, its own the larger one."""
-    value, error = stored_bounces()["problems"][name]["restitution"]
+    value, error = stored(BOUNCES)["problems"][name]["restitution"]
     coarse, bar = measure(problem(name), elements)["restitution"]
     print(f"{name}: {coarse:.7g} ± {bar:.1g} with {elements} elements, stored {value:.7g} ± {error:.1g}", flush=True)
     return bool(abs(coarse - value) <= bar + error and bar > error)
@@ -62,7 +62,7 @@ def _main() -> None:
             parser.exit(1, "the stored references are stale: measure them anew\n")
         confirm(BOUNCES)
         return
-    kept = dict(stored_bounces()["problems"]) if BOUNCES.exists() else {}
+    kept = dict(stored(BOUNCES)["problems"]) if BOUNCES.exists() else {}
     for name in names:
         kept[name] = measure(problem(name))
         print(name, kept[name]["restitution"], flush=True)

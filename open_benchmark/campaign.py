@@ -1,5 +1,8 @@
 """All codes on all problems at three resolutions: run, kept, scored, resumed.
 
+A row is *verified* when the runner ran the adapter itself, on a problem drawn at run time, and the judge added up J and
+its moment from nodal histories. Every other row is self-declared, and says why.
+
 The folder of a campaign holds ``results/CODE/PROBLEM-RESOLUTION.npz`` (written by the adapter), a row of JSON beside it
 (the end of the run, and the digest of its input), and the page. A row whose adapter, problem and limits are unchanged
 is not run again; scores are always taken anew from the results.
@@ -9,21 +12,24 @@ from __future__ import annotations
 
 import hashlib
 import json
+import secrets
 from collections.abc import Callable, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
 from bent_beam.files import write_atomically
+from bent_beam.parts import InputError
 from open_benchmark.adapter import RESOLUTIONS, Adapter
+from open_benchmark.draw import drawn
 from open_benchmark.judgement import Score, invalid
 from open_benchmark.problem import problem, problem_text
 from open_benchmark.reading import load_result
 from open_benchmark.result import Result, ResultError
 from open_benchmark.running import Limits, Run, run_adapter
-from open_benchmark.score import score
+from open_benchmark.score import resolution_ignored, score
 
-__all__ = ["STANDARD", "Row", "campaign", "with_bases"]
+__all__ = ["STANDARD", "Row", "campaign", "declared_rows", "drawn_once", "with_bases"]
 
 #: Default problems of ``bentbeam benchmark``: 0.5 ranks codes, 0.1 is the stress test of the first
 #: instants, then one point, and the three regimes of loads (pressed on, lifted off, under tension).
@@ -39,19 +45,39 @@ STANDARD = (
 
 @dataclass(frozen=True)
 class Row:
-    """One code on one problem at one resolution. ``unlimited``: limits that this system cannot set."""
+    """One code on one problem at one resolution. seconds : wall clock of the process, the least of ``repeats`` runs
+    (``None``: not run here). drawn : whether the problem was drawn at run time. made_by : digest of the source,
+    arguments and versions. unlimited : limits that this system cannot set."""
 
     solver: str
     problem: str
     resolution: str
-    seconds: float
+    seconds: float | None
     score: Score
     unlimited: str = ""
+    repeats: int = 0
+    drawn: bool = False
+    made_by: dict[str, Any] = field(default_factory=dict)
+
+    @property
+    def unverified(self) -> str:
+        """Why the row is not verified ("": it is)."""
+        exact = any(finding.name == "too_exact" for finding in self.score.diagnosis)
+        checks = {
+            "not run here": self.seconds is None,
+            self.score.brief: not self.score.completed,
+            "too exact": exact,
+            "no nodal histories": not self.score.raw,
+            "a problem whose answer is published": not self.drawn,
+        }
+        return next((why for why, holds in checks.items() if holds), "")
 
     def to_dict(self) -> dict[str, Any]:
         """Ready for JSON."""
         names = {"solver": self.solver, "resolution": self.resolution, "wall_seconds": self.seconds}
-        return {**names, **self.score.to_dict(), "unlimited": self.unlimited or None}
+        table = {"table": "self-declared" if self.unverified else "verified", "unverified": self.unverified or None}
+        about = {"repeats": self.repeats, "made_by": self.made_by, "unlimited": self.unlimited or None}
+        return {**names, **table, **self.score.to_dict(), **about}
 
 
 def campaign(
@@ -61,11 +87,16 @@ def campaign(
     *,
     limits: Limits | None = None,
     resolutions: Sequence[str] = RESOLUTIONS,
+    seed: int | None = None,
     progress: Callable[[int, int], None] | None = None,
 ) -> list[Row]:
-    """Do the runs that are missing, and score all. A first-order problem brings its base along."""
+    """Do the runs that are missing, and score all. A first-order problem brings its base along.
+
+    seed : of the drawn problems that are run besides, one like each of ``problems``; ``None``: none.
+    """
     limits = limits or Limits()
-    asked = [problem(name) for name in with_bases(problems)]
+    drawn_ids = with_bases(drawn(problems, seed)) if seed is not None else []
+    asked = [problem(name) for name in [*with_bases(problems), *drawn_ids]]
     pairs = [(adapter, item) for adapter in adapters for item in asked if adapter.takes(item)]
     runs = [(adapter, item, resolution) for adapter, item in pairs for resolution in resolutions]
     for done, (adapter, item, resolution) in enumerate(runs):
@@ -78,7 +109,38 @@ def campaign(
         if old.get("key") != key or old.get("outcome") == "not_installed":
             run = run_adapter(adapter, item, resolution, kept, limits)
             write_atomically(kept.with_suffix(".row.json"), json.dumps({"key": key, **asdict(run)}))
-    return [_row(adapter.name, item.id, resolution, out) for adapter, item, resolution in runs]
+    rows = [_row(adapter, item.id, resolution, out, item.id in drawn_ids) for adapter, item, resolution in runs]
+    for name in {row.solver for row in rows}:
+        own = [k for k, row in enumerate(rows) if row.solver == name]
+        for k, found in zip(own, resolution_ignored([rows[k].score for k in own])):
+            rows[k] = replace(rows[k], score=found)
+    return rows
+
+
+def drawn_once(out: Path, seed: int | None) -> int:
+    """The seed of a campaign's drawn problems: as asked, as it was when the folder was made, or a new one."""
+    file = out / "draw.json"
+    try:
+        kept = json.loads(file.read_text(encoding="utf-8"))["seed"] if file.is_file() else None
+    except (OSError, ValueError, KeyError, TypeError):
+        raise InputError(f"out: {file} cannot be read: delete it, and problems are drawn anew") from None
+    chosen = seed if seed is not None else kept if isinstance(kept, int) else secrets.randbelow(2**31)
+    write_atomically(file, json.dumps({"seed": chosen}))
+    return chosen
+
+
+def declared_rows(files: Sequence[Path]) -> list[Row]:
+    """Rows of results that others ran, as they declare them."""
+    rows = []
+    for file in files:
+        try:
+            result = load_result(file)
+        except ResultError as error:
+            raise InputError(f"result: {error}") from None
+        about = result.metadata
+        name = str(about.get("tool") or file.stem)[:40]
+        rows.append(Row(name, result.problem.id, str(about.get("resolution", "–"))[:20], None, score(result)))
+    return rows
 
 
 def with_bases(problems: Sequence[str]) -> list[str]:
@@ -93,8 +155,9 @@ def _kept(out: Path, solver: str, name: str, resolution: str) -> Path:
 
 
 def _stored_row(kept: Path) -> dict[str, Any]:
+    file = kept.with_suffix(".row.json")
     try:
-        found = json.loads(kept.with_suffix(".row.json").read_text(encoding="utf-8"))
+        found = json.loads(file.read_text(encoding="utf-8")) if file.is_file() else None
     except (OSError, ValueError):
         return {}
     return found if isinstance(found, dict) else {}
@@ -104,18 +167,20 @@ def _stored(kept: Path) -> tuple[Run, Result | None]:
     """The end of a run and its result; a file that somebody broke since is an invalid result."""
     row = _stored_row(kept)
     try:
-        run = Run(str(row["outcome"]), str(row["reason"]), float(row["seconds"]), str(row.get("unlimited", "")))
+        known = {name: row[name] for name in ("unlimited", "repeats") if name in row}
+        run = Run(str(row["outcome"]), str(row["reason"]), float(row["seconds"]), **known)
     except (ValueError, KeyError, TypeError):
         return Run("invalid", "its row cannot be read", 0.0), None
     if run.outcome:
         return run, None
     try:
-        return run, load_result(kept if kept.exists() else kept.with_suffix(".json"))
+        return run, load_result(kept if kept.is_file() else kept.with_suffix(".json"))
     except ResultError as error:
         return Run("invalid", str(error), run.seconds, run.unlimited), None
 
 
-def _row(solver: str, name: str, resolution: str, out: Path) -> Row:
+def _row(adapter: Adapter, name: str, resolution: str, out: Path, drawn: bool) -> Row:
+    solver = adapter.name
     run, result = _stored(_kept(out, solver, name, resolution))
     if result is None:
         found = invalid(run.reason, name, run.outcome)
@@ -126,4 +191,4 @@ def _row(solver: str, name: str, resolution: str, out: Path) -> Row:
             found = score(result, base if base is not None and base.outcome == "completed" else None)
         except ResultError as error:
             found = invalid(str(error), name)
-    return Row(solver, name, resolution, run.seconds, found, run.unlimited)
+    return Row(solver, name, resolution, run.seconds, found, run.unlimited, run.repeats, drawn, adapter.made_by())

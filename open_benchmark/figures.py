@@ -1,4 +1,8 @@
-"""Work–precision figures: relative error against seconds, a line a code from its coarse to its fine mesh."""
+"""Work–precision figures: relative error against the runner's wall seconds, a line a code from coarse to fine mesh.
+
+A code has the same colour and mark in every figure; a point whose contact zone is lifted off is open, one whose wall
+pulls is crossed out.
+"""
 
 from __future__ import annotations
 
@@ -9,21 +13,15 @@ import matplotlib
 import numpy as np
 from matplotlib.figure import Figure
 
-from open_benchmark.adapter import RESOLUTIONS
+from open_benchmark.adapter import RESOLUTIONS, shipped_adapters
 from open_benchmark.campaign import Row
 from open_benchmark.problem import problem
 
-__all__ = ["MEASURES", "row_seconds", "svg", "work_precision_figures"]
+__all__ = ["MEASURES", "svg", "work_precision_figures"]
 
 MEASURES = {"lambda0": "λ₀", "r0": "r₀", "lambda1": "λ₁", "r1": "r₁", "restitution": "e", "impulse_error": "J(t)"}
-MARKS = "osD^vPX*<>hp"
+MARKS = "osD^vP*<>hp8d"
 LEAST = 1e-7  # relative error that a figure still shows
-
-
-def row_seconds(row: Row) -> float | None:
-    """Of the time loop as the adapter says, never more than the wall clock of the whole run."""
-    seconds = [value for value in (row.score.seconds, row.seconds) if value]
-    return min(seconds, default=None)
 
 
 def work_precision_figures(rows: Sequence[Row], name: str, solvers: Sequence[str]) -> dict[str, Figure]:
@@ -39,7 +37,9 @@ def work_precision_figures(rows: Sequence[Row], name: str, solvers: Sequence[str
 def _panel(rows: Sequence[Row], measure: str, solvers: Sequence[str]) -> Figure:
     figure = Figure(figsize=(5.2, 4.3), layout="constrained")
     axis = figure.subplots()
-    for k, solver in enumerate(solvers):
+    styles = {name: k for k, name in enumerate([*shipped_adapters(), *sorted(set(solvers) - set(shipped_adapters()))])}
+    for solver in solvers:
+        k = styles[solver]
         own = [r for name in RESOLUTIONS for r in rows if r.solver == solver and r.resolution == name]
         points = [p for row in own if (p := _point(row, measure))]
         if points:
@@ -48,9 +48,14 @@ def _panel(rows: Sequence[Row], measure: str, solvers: Sequence[str]) -> Figure:
             axis.vlines(seconds, errors, tops, color=color, lw=0.8, alpha=0.35)
             mark = MARKS[k % len(MARKS)]
             axis.loglog(seconds, errors, marker=mark, ms=5, lw=1.2, color=color, ls=style, label=solver)
+            for word, over in (("lifted", {"marker": mark, "mfc": "white"}), ("adhesive", {"marker": "x"})):
+                marked = [p[:2] for row in own if word in row.score.outcome and (p := _point(row, measure))]
+                axis.loglog(
+                    *np.array(marked).reshape(-1, 2).T, ls="", ms=5, color=color if over.get("mfc") else "k", **over
+                )
     low, high = axis.get_ylim()
     axis.set_ylim(10.0 ** np.floor(np.log10(low)), 10.0 ** np.ceil(np.log10(high)))
-    axis.set(xlabel="time loop, s", ylabel=f"relative error of {MEASURES[measure]}")
+    axis.set(xlabel="wall clock of the whole process, s", ylabel=f"relative error of {MEASURES[measure]}")
     axis.grid(True, which="major", lw=0.4, color="0.85")
     axis.spines[["top", "right"]].set_visible(False)
     figure.legend(loc="outside lower center", ncols=3, frameon=False, fontsize=8)
@@ -59,7 +64,7 @@ def _panel(rows: Sequence[Row], measure: str, solvers: Sequence[str]) -> Figure:
 
 def _point(row: Row, measure: str) -> tuple[float, float, float] | None:
     """Seconds, relative error, and that with the error bar on top."""
-    found, seconds = row.score.measured.get(measure), row_seconds(row)
+    found, seconds = row.score.measured.get(measure), row.seconds
     if found is None or found.difference is None or seconds is None or (found.theory == 0.0 and measure == "lambda0"):
         return None
     error = max(abs(found.relative() or 0.0), LEAST)

@@ -55,6 +55,7 @@ def result_from_history(history: ImpactHistory, asked: Problem | None = None) ->
         places,
         tau[keep],
         history.array("gap", keep) / length,
+        history.array("velocity", keep) / impact.velocity if "velocity" in history else None,
     )
 
 

@@ -2,26 +2,26 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass, field
+import math
+from dataclasses import asdict, dataclass, field, replace
 from typing import Any
 
-from comparison.plain import plain
 from measure.measured import Measured
 from open_benchmark.result import plain_number
 
-__all__ = ["LIMITS", "TOLERANCE", "Finding", "Score", "invalid"]
+__all__ = ["LIMITS", "PART", "Finding", "Score", "invalid"]
 
-#: Measure → its limit, and the outcome's addition beyond it (benchmark.md). Each limit is about ten times what the best
-#: strictly unilateral code shows on its finest mesh at κ/ν = 0.5.
+#: The judge's one limit: a hundredth of the quantity. An error below it is no verdict, whatever the error bar says.
+PART = 0.01
+#: Measure → its limit, and the outcome's addition beyond it: a hundredth of the wall's impulse, of the way V₀τ, and for
+#: noise, a root mean square, half of that, for its peaks are about twice as high.
 LIMITS = {
-    "adhesion": (0.01, "adhesive"),
-    "penetration": (0.01, "leaky"),
-    "lift": (0.01, "lifted"),
-    "noise": (0.005, "unsettled"),
+    "adhesion": (PART, "adhesive"),
+    "penetration": (PART, "leaky"),
+    "lift": (PART, "lifted"),
+    "noise": (PART / 2.0, "unsettled"),
 }
-#: A restitution is "off" when it is further from its reference than both error bars and this: three times the
-#: differences between the best codes on meshes of a hundred elements.
-TOLERANCE = 0.005
+BARS = 3.0  # error bars beyond which a value is off
 
 
 @dataclass(frozen=True)
@@ -40,7 +40,8 @@ class Score:
     outcome : the adapter's, with the judge's additions after a comma ("completed, lifted"). reason : one line for
     anything but "completed". measured : name → value, error bar and exact value. lift, penetration (over V₀τ),
     adhesion (tensile over largest whole impulse), noise (residual of the fit over the impulse), energy (shares of
-    J V₀).
+    J V₀), momentum_residual (momentum that the beam lost, without the loads', over J, less 1), ratios (J and Jm over
+    the exact ones), raw (whether J and Jm were added up from nodal histories).
     reference : name → error bar and source of a value in ``measured`` that is held against a simulation.
     """
 
@@ -53,6 +54,9 @@ class Score:
     adhesion: float | None = None
     noise: float | None = None
     energy: dict[str, float | None] | None = None
+    momentum_residual: float | None = None
+    ratios: dict[str, float] = field(default_factory=dict)
+    raw: bool = False
     reference: dict[str, dict[str, Any]] = field(default_factory=dict)
     diagnosis: tuple[Finding, ...] = ()
     metadata: dict[str, Any] = field(default_factory=dict)
@@ -73,6 +77,25 @@ class Score:
         return found.relative() if found is not None and found.theory else None
 
     @property
+    def off(self) -> list[str]:
+        """Names of the numbers whose error exceeds three bars and a hundredth: a bar of 0 is no bar."""
+        return [name for name in self.measured if self._excess(name) > 1.0]
+
+    @property
+    def excess(self) -> float:
+        """The largest error over its limit."""
+        return max(map(self._excess, self.measured), default=0.0)
+
+    def _excess(self, name: str) -> float:
+        found = self.measured[name]
+        bar = (found.error or 0.0) + self.reference.get(name, {}).get("error", 0.0)
+        return abs(found.difference or 0.0) / max(BARS * bar, PART * (abs(found.theory or 0.0) or 1.0))
+
+    def with_diagnosis(self, *findings: Finding) -> Score:
+        """The same with other findings."""
+        return replace(self, diagnosis=findings)
+
+    @property
     def gained(self) -> float | None:
         """Largest gain of energy over J V₀."""
         return (self.energy or {}).get("gained")
@@ -88,13 +111,22 @@ class Score:
         document: dict[str, Any] = {"problem": self.problem, "outcome": self.outcome, "reason": self.reason}
         for name in dict.fromkeys(("lambda0", "r0", "lambda1", "r1", *self.measured)):
             document[name] = asdict(self.measured[name]) if name in self.measured else None
-        for name in ("lift", "penetration", "adhesion", "noise", "energy"):
+        for name in ("lift", "penetration", "adhesion", "noise", "energy", "momentum_residual", "raw"):
             document[name] = getattr(self, name)
         document["reference"] = self.reference or None
         document["diagnosis"] = [finding.name for finding in self.diagnosis]
         document["advice"] = [asdict(finding) for finding in self.diagnosis if finding.name != "clean"]
         document["metadata"] = self.metadata
-        return dict(plain(document))
+        return dict(_plain(document))
+
+
+def _plain(value: Any) -> Any:
+    """``value`` for JSON: numbers finite or ``None``."""
+    if isinstance(value, dict):
+        return {str(key): _plain(item) for key, item in value.items()}
+    if isinstance(value, list | tuple):
+        return [_plain(item) for item in value]
+    return None if isinstance(value, float) and not math.isfinite(value) else value
 
 
 def invalid(reason: str, name: str = "", outcome: str = "invalid") -> Score:

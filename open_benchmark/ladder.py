@@ -110,15 +110,17 @@ def _line(cells: int, tangent: float, line: float) -> tuple[Array, Array]:
     return mass, stiffness
 
 
-def _bar(scheme: Scheme, refine: int) -> Found:
-    """A bar flying at the wall, in contact for 2L/c, off again at the speed it came with."""
-    given, end = LADDER["bar"]
-    cells = CELLS * refine
-    mass, stiffness = _line(cells, given["axial_stiffness"], given["mass_per_length"])
+def _bar(scheme: Scheme, refine: int, name: str = "bar") -> Found:
+    """A bar flying or falling at the wall, in contact for 2L/c, off again at the speed it came with."""
+    given, end = LADDER[name]
+    cells, length = CELLS * refine, given["length"]
+    mass, stiffness = _line(cells, given["axial_stiffness"] / length, given["mass_per_length"] * length)
     contacts = ContactRows(np.array([[0]]), np.ones((1, 1)), np.array([given["gap"]]))
-    system, rest = System(mass=mass, stiffness=stiffness, contacts=contacts), np.zeros(cells + 1)
-    save = np.linspace(0.0, end, 601)
-    return _of_system("bar", integrate(system, rest, rest - given["velocity"], scheme(COURANT / cells), end, save=save))
+    system = System(mass=mass, stiffness=stiffness, load=-given["gravity"] * mass[0], contacts=contacts)
+    step = COURANT / cells * length * (given["mass_per_length"] / given["axial_stiffness"]) ** 0.5
+    save, rest = np.linspace(0.0, end, 601), np.zeros(cells + 1)
+    run = integrate(system, rest, rest - given["velocity"], scheme(step), end, save=save)
+    return _of_system(name, run, given["gravity"] * given["gap"] * given["mass_per_length"] * length)
 
 
 def _string(scheme: Scheme, refine: int) -> Found:

@@ -1,11 +1,12 @@
-"""Problems of the open benchmark: ids, their physics, and the TOML file that an adapter reads (schema beam-impact/1).
+"""Problems of the open benchmark: ids, their physics, and the TOML file that an adapter reads (schema beam-impact/2).
 
     leading-K              the infinite beam at leading order, κ/ν = K; contact spreads for K < 1
     point-K                the same with K ≥ 1: one point in contact
     first-K-A-P-C[-N]      the same with small loads (α, ψ, χ[, n]) = (A, P, C[, N]), compared with leading-K
     bounce-K-D             the free beam of finite length until it has left the wall, η/T* = D
     stopped-beam           the same until its first release: one point that holds
-    ball  bar  string      the ladder's lower rungs: closed forms without bending
+    ball  chattering-ball  bar  released-bar  bouncing-bar  string
+                           the ladder's lower rungs: closed forms without bending
 
 All problems are posed in units that make the stiffness, the mass and the velocity one, in which every reference is
 known. A file holds no reference value and nothing numerical.
@@ -14,17 +15,20 @@ known. A file holds no reference value and nothing numerical.
 from __future__ import annotations
 
 import json
+import math
 import re
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 from typing import Any, NamedTuple
 
 from bent_beam.checks import finite, non_negative, positive, shortened
 from bent_beam.parts import InputError
 
-__all__ = ["LADDER", "SCHEMA", "Problem", "first_order_problem", "problem", "problem_text", "shipped_ids"]
+__all__ = ["LADDER", "SCHEMA", "Problem", "document", "first_order_problem", "problem", "problem_text", "shipped_ids"]
 
-SCHEMA = "beam-impact/1"
+PROBLEMS = Path(__file__).with_name("problems.json")
+SCHEMA = "beam-impact/2"
 END = 0.1  # τ; the leading order is self-similar, any end will do (the thesis ends here)
 LOAD = 0.2  # ε times the sum of the loads' sizes: εr₁τ/r₀ ends at about 5 %, so its square is small and it is not
 EQUIVALENTS = ("half beam", "small amplitude", "straight beam on a curved wall")
@@ -43,17 +47,39 @@ IDS = {
 class Rung(NamedTuple):
     """A problem of the ladder without bending: the given numbers, and the end of the record, in units of its own."""
 
-    given: dict[str, float]
+    given: dict[str, Any]
     end_time: float
 
 
+BAR = {"axial_stiffness": 1.0, "mass_per_length": 1.0, "length": 1.0}
 LADDER = {
     # lands at t = 1, and again every 2: ten impacts by the end
     "ball": Rung({"mass": 1.0, "gravity": 1.0, "height": 0.5, "velocity": 0.0, "restitution": 1.0}, 20.0),
+    # infinitely many impacts until it rests at t = 3
+    "chattering-ball": Rung({"mass": 1.0, "gravity": 1.0, "height": 0.5, "velocity": 0.0, "restitution": 0.5}, 4.0),
     # in contact from 0.5 to 2.5
-    "bar": Rung({"axial_stiffness": 1.0, "mass_per_length": 1.0, "length": 1.0, "velocity": 1.0, "gap": 0.5}, 3.0),
-    # a parabola of height 1 over an obstacle at rest through its ends: lands at 0.5, 1.5, 2.5 and 3.5
-    "string": Rung({"tension": 1.0, "mass_per_length": 1.0, "length": 1.0, "height": 1.0}, 4.0),
+    "bar": Rung(
+        {**BAR, "velocity": 1.0, "gap": 0.5, "gravity": 0.0, "shape": "0", "far_end": "free"},
+        3.0,
+    ),
+    # held at its far end, let go stretched: in contact from 1 to 2, 4 to 5, 7 to 8
+    "released-bar": Rung(
+        {**BAR, "velocity": 0.0, "gap": 0.0, "gravity": 0.0, "shape": "(length - x)/(2 length)", "far_end": "held"},
+        8.5,
+    ),
+    # the bouncing bar of Doyen, Ern and Piperno (2011): two periods of 16/3
+    "bouncing-bar": Rung(
+        {"axial_stiffness": 900.0, "mass_per_length": 1.0, "length": 10.0, "velocity": 0.0, "gap": 5.0}
+        | {"gravity": 10.0, "shape": "0", "far_end": "free"},
+        11.0,
+    ),
+    # lands on the obstacle through its ends at 0.5, 1.5, 2.5 and 3.5
+    "string": Rung(
+        {"tension": 1.0, "mass_per_length": 1.0, "length": 1.0, "height": 1.0}
+        | {"shape": "4 height x (length - x)/length^2", "velocity": 0.0, "ends": "fixed", "obstacle": 0.0}
+        | {"restitution": 1.0},
+        4.0,
+    ),
 }
 STOPPED_DAMPING, STOPPED_END = 0.01, 0.1  # the wall first lets go at 0.1516
 
@@ -87,6 +113,23 @@ class Problem:
     def is_front(self) -> bool:
         """The infinite beam: λ₀ and r₀ mean something."""
         return self.kind in ("leading", "point", "first")
+
+    @property
+    def is_rung(self) -> bool:
+        """A problem of the ladder without bending."""
+        return self.kind in LADDER
+
+    @property
+    def largest_half_length(self) -> float:
+        """The half length up to which the free motion leaves the gap open until the end of the record, infinite where
+        every one does: the outer root of K x²/2 − q₀x⁴/24 − (V₀ + c₀x²/2)T − a₀T²/2 = 0. Beyond, the beam would be bent
+        into the wall."""
+        alpha, psi, chi, _ = (self.epsilon * load for load in self.loads)
+        if psi <= 0.0:
+            return math.inf
+        T, curved = self.end_time, (self.kappa_over_nu - chi * self.end_time) / 2.0
+        square = curved**2 - psi / 6.0 * (T + alpha * T**2 / 2.0)
+        return math.sqrt((curved + math.sqrt(max(square, 0.0))) / (psi / 12.0))
 
     @property
     def base_id(self) -> str | None:
@@ -163,8 +206,13 @@ def _of_numbers(name: str, kind: str, numbers: list[float]) -> Problem:
     return Problem(name, kind, kappa)
 
 
+def document(asked: Problem) -> dict[str, Any]:
+    """A problem as JSON: schema, id, and the tables of its file."""
+    return {"schema": SCHEMA, "id": asked.id, **_tables(asked)}
+
+
 def problem_text(asked: Problem) -> str:
-    """The TOML file of a problem, for an adapter."""
+    """The TOML file of a problem, for an adapter: the same as :func:`document`."""
     lines = [f'schema = "{SCHEMA}"', f'id = "{asked.id}"', ""]
     for table, values in _tables(asked).items():
         # a number, a text and a list of either are written alike in TOML and JSON
@@ -180,14 +228,16 @@ def _tables(asked: Problem) -> dict[str, dict[str, Any]]:
         "snapshots": list(asked.snapshots),
     }
     if asked.kind in LADDER:
-        return {asked.kind: LADDER[asked.kind].given, "record": record}
+        return {asked.kind.rpartition("-")[2]: LADDER[asked.kind].given, "record": record}
     alpha, psi, chi, axial = (asked.epsilon * value for value in asked.loads)
+    reach = asked.largest_half_length
     return {
         "beam": {
             "bending_stiffness": 1.0,
             "mass_per_length": 1.0,
             "curvature": asked.kappa_over_nu,
             "length": "infinite" if asked.length is None else asked.length,
+            **({"largest_half_length": reach} if math.isfinite(reach) else {}),
             "axial_force": axial,
             # T* = √(μℓ⁴/EI) is one for the half length ℓ = 1
             "damping": asked.damping,
@@ -199,8 +249,7 @@ def _tables(asked: Problem) -> dict[str, dict[str, Any]]:
     }
 
 
-def shipped_ids() -> list[str]:
-    """Ids of the problem files that are shipped, in the benchmark's order."""
-    order = ("leading", "first", "point", *LADDER, "stopped-beam", "bounce")
-    names = (file.stem for file in (Path(__file__).parent / "problems").glob("*.toml"))
-    return sorted(names, key=lambda name: (next(i for i, o in enumerate(order) if name.startswith(o)), name))
+@cache
+def shipped_ids() -> tuple[str, ...]:
+    """Ids of the problems that are shipped (``problems.json``), in the benchmark's order."""
+    return tuple(json.loads(PROBLEMS.read_text(encoding="utf-8"))["problems"])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 from typing import Annotated
 
@@ -16,7 +17,7 @@ def problem_ids(incomplete: str) -> list[str]:
     """Completion of a problem's id: the shipped problems."""
     from open_benchmark.problem import shipped_ids
 
-    return complete(shipped_ids(), incomplete)
+    return complete(list(shipped_ids()), incomplete)
 
 
 def problem(
@@ -24,12 +25,12 @@ def problem(
         str,
         typer.Argument(
             metavar="ID",
-            help="leading-K, point-K, first-K-A-P-C[-N], bounce-K-D, ball, bar, string or stopped-beam.",
+            help="leading-K, point-K, first-K-A-P-C[-N], bounce-K-D, stopped-beam, or one of the ladder: ball, bar, …",
             autocompletion=problem_ids,
         ),
     ],
     out: Annotated[
-        Path | None, typer.Option(metavar="FILE.toml", help="Where to; standard output when left out.")
+        Path | None, typer.Option(metavar="FILE.toml", help="Where to, .toml or .json; standard output when left out.")
     ] = None,
     overwrite: Overwrite = False,
 ) -> None:
@@ -38,10 +39,11 @@ def problem(
     Example: bentbeam problem leading-0.5 --out problem.toml
     """
     from bent_beam.files import write_atomically
+    from open_benchmark.problem import document, problem_text
     from open_benchmark.problem import problem as problem_of
-    from open_benchmark.problem import problem_text
 
-    text = problem_text(problem_of(name))
+    asked = problem_of(name)
+    text = json.dumps(document(asked), indent=1) if out and out.suffix == ".json" else problem_text(asked)
     if out is None:
         print(text)
         return

@@ -18,13 +18,11 @@ from typing import Any, TextIO
 import numpy as np
 
 from bent_beam.checks import shortened
-from bent_beam.history import ImpactHistory
 from bent_beam.parts import nearest
-from open_benchmark.histories import result_from_history
 from open_benchmark.result import (
+    ARRAYS,
     MOST_INSTANTS,
     SERIES,
-    SNAPSHOTS,
     TEXTS,
     Array,
     Result,
@@ -35,7 +33,7 @@ from open_benchmark.result import (
 __all__ = ["load_result"]
 
 COLUMNS = ("tau", *SERIES)
-BESIDE = (*TEXTS, *SNAPSHOTS, "events")  # names allowed in the JSON file beside a table
+BESIDE = (*TEXTS, *ARRAYS, "events")  # names allowed in the JSON file beside a table
 NUMBER = re.compile(r"\s*[-+]?(?:(?:\d+\.?\d*|\.\d+)(?:[ed][-+]?\d+)?|nan|inf(?:inity)?)\s*", re.I)
 MOST_BYTES = 200_000_000
 MOST_JSON = 10_000_000  # bytes: five million empty lists, the worst of that size, take half a gigabyte of memory
@@ -77,6 +75,9 @@ def _check_names(names: Collection[str], known: Collection[str], kind: str, wher
 
 
 def _history(source: Path) -> Result:
+    from bent_beam.history import ImpactHistory  # files of other codes need none of this
+    from open_benchmark.histories import result_from_history
+
     return result_from_history(ImpactHistory.load(source))
 
 
@@ -128,7 +129,7 @@ def _check_directory(source: Path) -> None:
 
 def _table(source: Path) -> Result:
     table, about = source.with_suffix(".csv"), source.with_suffix(".json")
-    if not about.exists():
+    if not about.is_file():  # a pipe would never end
         raise ResultError(f"needs {about.name} beside it (outcome, problem, metadata)")
     if about.stat().st_size > MOST_JSON:
         raise ResultError(f"{about.name}: {about.stat().st_size} bytes, {MOST_JSON} are the most (NPZ takes more)")
@@ -139,7 +140,7 @@ def _table(source: Path) -> Result:
     if not isinstance(record, dict):
         raise ResultError(f"{about.name} must hold one JSON object")
     _check_names(record, BESIDE, "field", f"{about.name}: ")
-    if table.exists():
+    if table.is_file():
         record |= _columns(table)
     elif record.get("outcome") == "completed":
         raise ResultError(f"needs {table.name} beside it (tau, J, Jm)")

@@ -1,8 +1,10 @@
 """One result of the open benchmark: its fields and their validation.
 
-Required fields: ``outcome``, ``problem`` (texts), ``tau`` (n), ``J`` (n), ``Jm`` (n), ``metadata`` (one JSON text).
-All numbers are in units of μ, V₀, l* and t*: J in μV₀l*, its first moment Jm over x ≥ 0 in μV₀l*², energies in μV₀²l*,
-gaps in l*. A missing field is ``None`` or empty, never zero. open_benchmark.reading reads the files.
+Required fields: ``outcome``, ``problem`` (texts), ``tau`` (n), ``metadata`` (one JSON text), and what the wall gave:
+``node_x`` (m) with ``node_impulse`` (n, m), the impulse of each contact point up to each instant, from which J and Jm
+are added up here; or ``J`` (n) and ``Jm`` (n), declared. All numbers are in units of μ, V₀, l* and t*: J in μV₀l*, its
+first moment Jm over x ≥ 0 in μV₀l*², energies in μV₀²l*, gaps in l*. A missing field is ``None`` or empty, never zero.
+open_benchmark.reading reads the files.
 """
 
 from __future__ import annotations
@@ -24,9 +26,19 @@ __all__ = ["OUTCOMES", "Result", "ResultError", "plain_number", "result_from_fie
 
 Array = NDArray[np.float64]
 
-OUTCOMES = ("completed", "diverged", "not_converged", "unsupported", "timeout", "crashed", "not_installed")
+OUTCOMES = (
+    "completed",
+    "diverged",
+    "not_converged",
+    "unsupported",
+    "not_attempted",
+    "timeout",
+    "crashed",
+    "not_installed",
+)
 SERIES = ("J", "Jm", "J_minus", "x_contact", "E_kin", "E_el", "E_damp")
 SNAPSHOTS = ("x", "snap_tau", "snap_gap")
+ARRAYS = (*SNAPSHOTS, "snap_v", "node_x", "node_impulse")
 TEXTS = ("outcome", "problem", "metadata")
 MOST_INSTANTS = 200_000
 MOST_SNAPSHOTS = 2_000
@@ -34,6 +46,7 @@ MOST_POINTS = 50_000
 MOST_VALUES = 8_000_000  # of all snapshots together
 MOST_TEXT = 200_000
 MOST = 1e100  # of any number: beyond is no unit
+INTERVALS = 50  # of the record, over each of which tension is looked for
 FEWEST = 200  # instants in the fit window
 NOT_TEXT = re.compile(r"[\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\x9f\u202a-\u202e\u2066-\u2069\ud800-\udfff]")
 
@@ -52,7 +65,8 @@ class Result:
 
     outcome : as the adapter states it; ``detail`` is its text in brackets. problem : the problem it answers.
     tau, J, Jm : shape (n,), empty unless completed; optional series of shape (n,) in ``series``; x (m,), snap_tau (s,),
-    snap_gap (s, m) or, on a mesh that moves, x of shape (s, m). metadata : of the adapter.
+    snap_gap (s, m) or, on a mesh that moves, x of shape (s, m); snap_v, the velocity into the wall, of snap_gap's
+    shape. node_x (m,), node_impulse (n, m) : raw histories, whose sums J and Jm then are. metadata : of the adapter.
     """
 
     outcome: str
@@ -66,6 +80,9 @@ class Result:
     x: Array | None = None
     snap_tau: Array | None = None
     snap_gap: Array | None = None
+    snap_v: Array | None = None
+    node_x: Array | None = None
+    node_impulse: Array | None = None
 
     @property
     def stated(self) -> str:
@@ -100,7 +117,7 @@ def plain_number(value: Any) -> float | None:
 
 def save_result(file: str | Path, result: Result) -> None:
     """Write a result as NPZ."""
-    arrays: dict[str, Any] = {name: getattr(result, name) for name in ("tau", "J", "Jm", *SNAPSHOTS)}
+    arrays: dict[str, Any] = {name: getattr(result, name) for name in ("tau", "J", "Jm", *ARRAYS)}
     arrays = {name: array for name, array in arrays.items() if array is not None and array.size} | result.series
     arrays |= {"outcome": result.stated, "problem": result.problem.id, "metadata": json.dumps(result.metadata)}
     np.savez_compressed(file, **arrays)
@@ -124,12 +141,14 @@ def result_from_fields(fields: Mapping[str, Any]) -> Result:
     if match[1] != "completed":
         return Result(match[1], detail, asked, metadata)
     tau = _instants(fields, asked)
+    raw, added = _nodes(fields, tau)
     needed = ("J", "Jm") if asked.is_front else ("J",)
-    series = {name: _series(fields, name, tau.size) for name in SERIES if name in fields or name in needed}
+    declared = [name for name in SERIES if name not in added and (name in fields or name in needed)]
+    series = added | {name: _series(fields, name, tau.size) for name in declared}
     if "J_minus" in series and series["J_minus"].min() < -1e-12 * (np.abs(series["J_minus"]).max() + 1e-300):
         raise ResultError("J_minus is the size of the tensile impulse so far: it must not be negative")
     impulse, moment = series.pop("J"), series.pop("Jm", _empty())
-    return Result("completed", detail, asked, metadata, tau, impulse, moment, series, *_snapshots(fields))
+    return Result("completed", detail, asked, metadata, tau, impulse, moment, series, *_snapshots(fields), *raw)
 
 
 def _text(fields: Mapping[str, Any], name: str) -> str:
@@ -227,16 +246,40 @@ def _numbers(fields: Mapping[str, Any], name: str) -> Array:
     return array
 
 
-def _snapshots(fields: Mapping[str, Any]) -> tuple[Array | None, Array | None, Array | None]:
+def _nodes(fields: Mapping[str, Any], tau: Array) -> tuple[tuple[Array | None, Array | None], dict[str, Array]]:
+    """Raw nodal histories, and the wall's impulse, its moment and its tensile part, added up from them.
+
+    A model of one half (no point at x < 0) stands for both. Tension is by how much a point falls, over one of
+    ``INTERVALS``, below what it had at both ends of the one before: a scheme may give too much and take it back.
+    """
+    given = [name for name in ("node_x", "node_impulse") if name in fields]
+    if not given:
+        return (None, None), {}
+    x, impulse = (_numbers(fields, name) for name in ("node_x", "node_impulse"))
+    if x.ndim != 1 or impulse.shape != (tau.size, x.size) or not x.size:
+        raise ResultError(
+            f"node_impulse must have shape ({tau.size}, points of node_x) (got {impulse.shape}, {x.shape})"
+        )
+    sides = 1.0 if x.min() < -1e-9 * np.abs(x).max() else 2.0
+    ends = np.unique(np.searchsorted(tau, np.linspace(0.0, tau[-1], INTERVALS + 1)))
+    kept = impulse[ends]
+    lost = np.maximum(np.minimum(kept[:-2], kept[1:-1]) - kept[2:], 0.0).sum(axis=1).cumsum()
+    pulled = np.interp(tau, tau[ends], np.concatenate([[0.0, 0.0], lost]))
+    declared = _series(fields, "J_minus", tau.size) if "J_minus" in fields else 0.0
+    added = {"J": sides * impulse.sum(axis=1), "Jm": sides / 2.0 * (impulse @ np.abs(x))}
+    return (x, impulse), added | {"J_minus": np.maximum(sides * pulled, declared)}
+
+
+def _snapshots(fields: Mapping[str, Any]) -> tuple[Array | None, Array | None, Array | None, Array | None]:
     given = [name for name in SNAPSHOTS if name in fields]
     missing = [name for name in SNAPSHOTS if name not in fields]
     if not given:
-        return None, None, None
+        return None, None, None, None
     if missing:
         raise ResultError(f"{missing[0]} is missing next to {given[0]}")
     x, when, gap = (_numbers(fields, name) for name in SNAPSHOTS)
     if when.size == 0 and gap.size == 0:
-        return None, None, None  # an empty list is not reported
+        return None, None, None, None  # an empty list is not reported
     if gap.size == 0:
         raise ResultError(f"snap_gap is empty (shape {gap.shape}) for {when.size} instants in snap_tau")
     if when.ndim != 1 or when.size > MOST_SNAPSHOTS:
@@ -247,4 +290,7 @@ def _snapshots(fields: Mapping[str, Any]) -> tuple[Array | None, Array | None, A
         raise ResultError(f"x must have shape ({gap.shape[1]},) or {gap.shape} (got {x.shape})")
     if when.min() < 0.0:
         raise ResultError(f"snap_tau must not be negative (got {when.min():g})")
-    return x, when, gap
+    velocity = _numbers(fields, "snap_v") if "snap_v" in fields else None
+    if velocity is not None and velocity.shape != gap.shape:
+        raise ResultError(f"snap_v must have the shape of snap_gap, {gap.shape} (got {velocity.shape})")
+    return x, when, gap, velocity

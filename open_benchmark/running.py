@@ -16,11 +16,12 @@ import tempfile
 import time
 import uuid
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import IO
 
 from bent_beam.files import write_atomically
-from open_benchmark.adapter import Adapter
+from open_benchmark.adapter import ADAPTERS, Adapter
 from open_benchmark.problem import Problem, problem_text
 from open_benchmark.reading import load_result
 from open_benchmark.result import ResultError
@@ -38,15 +39,18 @@ MOST_FILES = 10_000
 
 @dataclass(frozen=True)
 class Limits:
-    """Of one run: wall seconds, and bytes of all that it writes."""
+    """Of one run: wall seconds, and bytes of all that it writes. ``repeats``: runs at most, of which the fastest
+    counts, as long as all together take no more than a tenth of the seconds."""
 
     seconds: float = 120.0
     output_bytes: int = 300_000_000
+    repeats: int = 3
 
 
 @dataclass(frozen=True)
 class Run:
-    """The end of a run: ``outcome`` and ``reason`` of the judge ("" : the result file says), wall seconds.
+    """The end of a run: ``outcome`` and ``reason`` of the judge ("" : the result file says), wall seconds of the whole
+    process, start included, the least of so many ``repeats``.
 
     unlimited : limits that this system cannot set ("" : none).
     """
@@ -55,10 +59,18 @@ class Run:
     reason: str
     seconds: float
     unlimited: str = ""
+    repeats: int = 1
 
 
 def run_adapter(adapter: Adapter, asked: Problem, resolution: str, kept: Path, limits: Limits) -> Run:
     """Run an adapter on a problem; a readable result is left in ``kept`` (``kept.json`` and ``.csv`` for a pair)."""
+    runs = [_once(adapter, asked, resolution, kept, limits)]
+    while not runs[-1].outcome and len(runs) < limits.repeats and sum(r.seconds for r in runs) < limits.seconds / 10.0:
+        runs.append(_once(adapter, asked, resolution, kept, limits))
+    return replace(runs[-1], seconds=min(run.seconds for run in runs), repeats=len(runs))
+
+
+def _once(adapter: Adapter, asked: Problem, resolution: str, kept: Path, limits: Limits) -> Run:
     for old in (kept, kept.with_suffix(".csv"), kept.with_suffix(".json")):
         old.unlink(missing_ok=True)
     missing = adapter.missing()
@@ -69,37 +81,39 @@ def run_adapter(adapter: Adapter, asked: Problem, resolution: str, kept: Path, l
     try:
         write_atomically(folder / "problem.toml", problem_text(asked))
         began = time.perf_counter()
-        code, (outcome, reason) = _ended(adapter, resolution, folder, limits)
+        code, (outcome, reason), said = _ended(adapter, resolution, folder, limits)
         seconds = time.perf_counter() - began
         if not outcome:
-            outcome, reason = _taken(folder, asked, kept, code)
+            outcome, reason = _taken(folder, asked, kept, code, said)
     finally:
         shutil.rmtree(folder, ignore_errors=True)
     return Run(outcome, reason, seconds, "" if resource else "size of a single file")
 
 
-def _ended(adapter: Adapter, resolution: str, folder: Path, limits: Limits) -> tuple[int, tuple[str, str]]:
-    """Run the adapter in ``folder`` to its end: exit status, and outcome and reason where it did not end by itself."""
+def _ended(adapter: Adapter, resolution: str, folder: Path, limits: Limits) -> tuple[int, tuple[str, str], str]:
+    """Run the adapter in ``folder`` to its end: exit status, outcome and reason where it did not end by itself, and the
+    last line of its standard error."""
     command = adapter.command(folder / "problem.toml", folder / "result.npz", resolution)
     mark = uuid.uuid4().hex
     # one thread each: a race for cores would be measured, not the codes
     surroundings = {**os.environ, "OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
     surroundings |= {"BENTBEAM_RUN": mark, "TMPDIR": str(folder)}
-    if adapter.install or adapter.debian:
-        surroundings.pop("PYTHONPATH", None)  # nothing of this project is in reach of a foreign adapter
-    with open(folder / "out.txt", "wb") as out, open(folder / "err.txt", "wb") as err:
+    foreign = adapter.install or adapter.debian  # nothing of this project is in its reach, of others no answers
+    reach = [str(ADAPTERS / "blocked"), *([] if foreign else [surroundings.get("PYTHONPATH", "")])]
+    surroundings["PYTHONPATH"] = os.pathsep.join(filter(None, reach))
+    with open(folder / "out.txt", "wb") as out, open(folder / "err.txt", "w+b") as err:
         try:
             process = subprocess.Popen(
                 command, cwd=folder, stdin=subprocess.DEVNULL, stdout=out, stderr=err, env=surroundings,
                 start_new_session=True, preexec_fn=_file_size(limits),
             )  # fmt: skip
         except OSError as error:
-            return 0, ("crashed", f"could not be started: {error.strerror or error}")
+            return 0, ("crashed", f"could not be started: {error.strerror or error}"), ""
         try:
             ended = _watch(process, folder, limits)
         finally:
             _end(process, f"BENTBEAM_RUN={mark}")
-    return process.returncode, ended
+        return process.returncode, ended, _last_line(err)
 
 
 def _file_size(limits: Limits) -> Callable[[], None] | None:
@@ -158,7 +172,7 @@ def _end(process: subprocess.Popen[bytes], mark: str) -> None:
                 os.kill(int(place.parent.name), signal.SIGKILL)
 
 
-def _taken(folder: Path, asked: Problem, kept: Path, code: int) -> tuple[str, str]:
+def _taken(folder: Path, asked: Problem, kept: Path, code: int, said: str) -> tuple[str, str]:
     """Keep the adapter's result, if it can be read and answers the problem; else outcome and reason."""
     for name in ("result.npz", "result.json"):
         file = folder / name
@@ -171,19 +185,18 @@ def _taken(folder: Path, asked: Problem, kept: Path, code: int) -> tuple[str, st
         if result.problem.id != asked.id:
             return "invalid", f"problem is {result.problem.id}, asked was {asked.id}"
         for part in (file, file.with_suffix(".csv")):
-            if part.is_file():
+            if part.is_file() and not part.is_symlink():
                 os.replace(part, kept.with_suffix(part.suffix))
         return "", ""
     reasons = [f"signal {signal.Signals(-code).name}"] if code < 0 else []
-    reasons += [line] if (line := _last_line(folder / "err.txt")) else []
+    reasons += [said] if said else []
     return "crashed", ": ".join(reasons) or (f"exit status {code}" if code else "left no result.npz or result.json")
 
 
-def _last_line(file: Path) -> str:
-    """The last line of standard error, short."""
-    with open(file, "rb") as stream:
-        stream.seek(0, os.SEEK_END)
-        stream.seek(max(stream.tell() - 4000, 0))
-        lines = stream.read().decode("utf-8", "replace").splitlines()
+def _last_line(stream: IO[bytes]) -> str:
+    """The last line of standard error, short; of the open file, for its name may be another's by now."""
+    stream.seek(0, os.SEEK_END)
+    stream.seek(max(stream.tell() - 4000, 0))
+    lines = stream.read().decode("utf-8", "replace").splitlines()
     line = next((" ".join(text.split()) for text in reversed(lines) if text.strip()), "")
     return json.dumps(line[:200], ensure_ascii=False).strip('"')

@@ -1,4 +1,4 @@
-"""Scores: λ₀, r₀ (λ₁, r₁ with a base), error bars, lift, penetration, adhesion, noise, energy of one result.
+"""Scores: λ₀, r₀ (λ₁, r₁ with a base), error bars, lift, penetration, adhesion, noise, energy, momentum of one result.
 
 A score is a function of the result's numbers alone, so that scoring a saved result again gives the same bits. The
 exact values come from open_benchmark.references, the estimates with their error bars from ``measure``.
@@ -11,16 +11,17 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
+from scipy.interpolate import CubicSpline
 
 from measure.estimators import first_order, leading_order
 from measure.measured import Measured
 from measure.moments import Moments
 from open_benchmark import doctor
-from open_benchmark.judgement import LIMITS, TOLERANCE, Score
+from open_benchmark.judgement import LIMITS, Finding, Score
 from open_benchmark.references import reference
 from open_benchmark.result import Array, Result, ResultError
 
-__all__ = ["score", "work_precision"]
+__all__ = ["resolution_ignored", "score", "work_precision"]
 
 
 def score(result: Result, base: Result | None = None) -> Score:
@@ -29,7 +30,7 @@ def score(result: Result, base: Result | None = None) -> Score:
     Raises :class:`ResultError` when ``base`` does not belong to the result's problem.
     """
     asked = result.problem
-    found = Score(asked.id, result.stated, metadata=result.metadata)
+    found = Score(asked.id, result.stated, metadata=result.metadata, raw=result.node_impulse is not None)
     if result.outcome != "completed":
         return replace(found, reason=result.detail or result.outcome)
     if not asked.is_front:
@@ -46,7 +47,8 @@ def score(result: Result, base: Result | None = None) -> Score:
     if asked.kind == "first" and base is None:
         measured = {}  # with loads λ₀ and r₀ mean nothing
     found = replace(found, measured=measured, lift=lift, penetration=penetration, adhesion=_adhesion(result))
-    return _judged(replace(found, noise=_noise(result), energy=_energy(result)), result)
+    found = replace(found, noise=_noise(result), energy=_energy(result), momentum_residual=_momentum(result))
+    return _judged(replace(found, ratios=_ratios(base or result)), result)
 
 
 def _check_base(result: Result, base: Result | None) -> None:
@@ -64,17 +66,24 @@ def _check_base(result: Result, base: Result | None) -> None:
 
 
 def _estimates(result: Result, base: Result | None) -> dict[str, Measured]:
-    """λ₀ and r₀ of the base or of the result itself, λ₁ and r₁ where there is a base."""
+    """λ₀ and r₀ of the base or of the result itself, λ₁ and r₁ where there is a base. A number that neither exceeds its
+    bar nor is held against a larger one is none."""
     asked = result.problem
     low, high = asked.fit_window
-    leading = leading_order(_moments(base or result), window=high / low)
-    estimates = {"lambda0": leading.lambda0, "r0": leading.r0}
+    sign = -1.0 if (base or result).J[-1] < 0.0 else 1.0  # an impulse of the wrong sign is measured and named
+    leading = leading_order(_moments(base or result, sign=sign), window=high / low)
+    estimates = {"lambda0": leading.lambda0, "r0": leading.r0.scaled(sign)}
     if base is not None:
         loaded = _moments(result, load=asked.uniform_load, lambda0=leading.lambda0.known)
         change = first_order([(asked.epsilon, loaded)], _moments(_sampled(base, result.tau)), leading)
         estimates |= {"lambda1": change.lambda1, "r1": change.r1}
     exact = reference(asked)
-    return {name: Measured(number.value, number.error, exact[name]) for name, number in estimates.items()}
+    return {name: _number(number, exact[name]) for name, number in estimates.items()}
+
+
+def _number(found: Measured, exact: float | None) -> Measured:
+    known = found.bar <= max(abs(found.value or 0.0), abs(exact or 0.0)) or not exact
+    return Measured(found.value if known else None, abs(found.error or 0.0) if known else None, exact)
 
 
 def _sampled(base: Result, tau: Array) -> Result:
@@ -84,7 +93,7 @@ def _sampled(base: Result, tau: Array) -> Result:
     return replace(base, tau=tau, J=np.interp(tau, base.tau, base.J), Jm=np.interp(tau, base.tau, base.Jm))
 
 
-def _moments(result: Result, *, load: float = 0.0, lambda0: float = 0.0) -> Moments:
+def _moments(result: Result, *, load: float = 0.0, lambda0: float = 0.0, sign: float = 1.0) -> Moments:
     """The concentrated part of one side's impulse and first moment, as the estimators take it.
 
     A uniform load rests on the wall in the zone: p λ_c and p λ_c²/2 with λ_c = λ₀√τ are taken out of the rates; the
@@ -94,8 +103,8 @@ def _moments(result: Result, *, load: float = 0.0, lambda0: float = 0.0) -> Mome
     zero = np.zeros(tau.size)
     return Moments(
         tau=tau,
-        impulse=result.J / 2.0 - load * lambda0 * tau**1.5 / 1.5,
-        moment=result.Jm - load * lambda0**2 * tau**2 / 4.0,
+        impulse=sign * result.J / 2.0 - load * lambda0 * tau**1.5 / 1.5,
+        moment=sign * result.Jm - load * lambda0**2 * tau**2 / 4.0,
         pressure=zero + load,
         front=lambda0 * np.sqrt(tau),
         lift=zero,
@@ -133,11 +142,39 @@ def _gaps(result: Result, lambda0: float) -> tuple[float | None, float | None]:
     return max(lifts, default=None), max(depths, default=None)
 
 
+def _momentum(result: Result) -> float | None:
+    """Momentum that the beam has lost against the free motion, ∫μ(V₀ + c₀x²/2 + a₀τ − v)dx, over J, less 1: the median
+    over the snapshots of the record's second half. ``None`` where velocities are not reported."""
+    if result.snap_v is None or result.snap_tau is None or result.x is None:
+        return None
+    alpha, _, chi, _ = (result.problem.epsilon * load for load in result.problem.loads)
+    found = []
+    late = result.in_window(result.snap_tau) & (result.snap_tau >= 0.5 * result.problem.end_time)
+    for k in np.flatnonzero(late):
+        when, x = float(result.snap_tau[k]), result.x if result.x.ndim == 1 else result.x[k]
+        given = float(np.interp(when, result.tau, result.J))
+        if given == 0.0 or np.any(np.diff(x) <= 0.0):
+            continue
+        lost = CubicSpline(x, 1.0 + chi * x**2 / 2.0 + alpha * when - result.snap_v[k]).integrate(x[0], x[-1])
+        found.append(float(lost) * (1.0 if x[0] < -1e-9 * x[-1] else 2.0) / given - 1.0)
+    return float(np.median(found)) if found else None
+
+
+def _ratios(result: Result) -> dict[str, float]:
+    """J and Jm over the exact ones, at the window's end; J alone where the contact has no extent."""
+    exact = reference(result.problem)
+    r0, lambda0 = exact["r0"] or 0.0, exact["lambda0"] or 0.0
+    side, tau = np.sqrt(2.0 / np.pi), float(result.tau[-1])
+    found = {"J": float(result.J[-1] / (4.0 * side * r0 * np.sqrt(tau)))} if r0 else {}
+    return found | ({"Jm": float(result.Jm[-1] / (side * r0 * lambda0 * tau))} if lambda0 else {})
+
+
 def _energy(result: Result) -> dict[str, float | None] | None:
     """Energy gained at most and lost at the end, over J V₀, the energy that goes through the contact."""
     scale = float(np.abs(result.J).max())
-    if not {"E_kin", "E_el"} <= result.series.keys() or result.problem.kind == "first" or scale <= 0.0:
-        return None  # with loads the loads work, which nobody reports
+    loaded = result.problem.kind == "first" or result.problem.is_rung  # the loads' work is not reported
+    if not {"E_kin", "E_el"} <= result.series.keys() or loaded or scale <= 0.0:
+        return None
     total = result.series["E_kin"] + result.series["E_el"]
     return {
         "gained": max(float((total - total[0]).max()), 0.0) / scale,
@@ -150,18 +187,22 @@ def _ladder(result: Result) -> dict[str, Any]:
     """A problem with a fixed contact: the impulse against the closed form, or the restitution of a whole impact."""
     asked, exact = result.problem, reference(result.problem)
     measured: dict[str, Measured] = {}
+    ratios: dict[str, float] = {}
     if asked.kind == "bounce":
         free = result.tau >= 0.9 * asked.end_time  # out of contact by then: any change is an error
         rest = result.J[free] / (asked.length or 2.0) - 1.0
-        measured["restitution"] = Measured(float(rest[-1]), float(np.ptp(rest)), exact["restitution"])
+        measured["restitution"] = Measured(float(rest[-1]), float(np.ptp(rest)) or None, exact["restitution"])
+        gained = 1.0 + (exact["restitution"] or np.nan)
+        ratios = {"J": float(1.0 + rest[-1]) / gained}
     elif exact.impulse is not None:
         expected = exact.impulse(result.tau)
         # mean, not largest: where the impulse jumps, a jump at a slightly wrong time is a small error
         mean = float(np.mean(np.abs(result.J - expected)) / np.abs(expected).max())
         measured["impulse_error"] = Measured(mean, None, 0.0)
         measured["impulse"] = Measured(float(result.J[-1]), None, float(expected[-1]))
+        ratios = {"J": float(result.J @ expected / (expected @ expected))}
     about = {name: {"error": error, "source": exact.source} for name, error in exact.errors.items()}
-    return {"measured": measured, "reference": about}
+    return {"measured": measured, "reference": about, "ratios": {k: v for k, v in ratios.items() if np.isfinite(v)}}
 
 
 # --- the judge -----------------------------------------------------------------------------------------------------
@@ -175,15 +216,25 @@ def _judged(found: Score, result: Result) -> Score:
         if value is not None and value > limit:
             additions.append(addition)
             reasons.append(f"{measure} {value:.2g} (limit {limit:g})")
-    for name, about in found.reference.items():
-        number = found.measured[name]
-        off = number.difference
-        if off is not None and abs(off) > about["error"] + (number.error or 0.0) + TOLERANCE:
-            additions.append("off")
-            reasons.append(f"{name} {number.value:.4g}, reference {number.theory:.4g} ± {about['error']:.1g}")
+    for name in found.off:
+        number, about = found.measured[name], found.reference.get(name)
+        bar = f" ± {about['error']:.1g}" if about else ""
+        additions.append("off")
+        reasons.append(f"{name} {number}, {'reference' if about else 'exact'} {number.theory:.6g}{bar}")
     stated = ", ".join([found.outcome, *dict.fromkeys(additions)])
-    findings = (doctor.diagnose(result, found),) if result.problem.is_front else ()
-    return replace(found, outcome=stated, reason="; ".join(reasons) or None, diagnosis=findings)
+    found = replace(found, outcome=stated, reason="; ".join(reasons) or None)
+    return found.with_diagnosis(*doctor.diagnose(result, found))
+
+
+def resolution_ignored(scores: Sequence[Score]) -> list[Score]:
+    """The scores of one code at several resolutions; three of one problem with the very same numbers are flagged."""
+    alike: dict[str, list[Score]] = {}
+    for found in scores:
+        if found.completed:
+            alike.setdefault(repr((found.problem, found.measured, found.noise)), []).append(found)
+    flagged = [id(found) for group in alike.values() if len(group) >= 3 for found in group]
+    finding = Finding("too_exact", "the very same numbers at three resolutions", "mesh and steps that differ")
+    return [found.with_diagnosis(finding) if id(found) in flagged else found for found in scores]
 
 
 def work_precision(scores: Sequence[Score]) -> list[dict[str, Any]]:

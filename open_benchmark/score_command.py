@@ -36,8 +36,8 @@ def score(
     from open_benchmark.judgement import invalid
     from open_benchmark.reading import load_result
     from open_benchmark.result import ResultError
+    from open_benchmark.score import resolution_ignored, work_precision
     from open_benchmark.score import score as score_of
-    from open_benchmark.score import work_precision
 
     found, code = [], 0
     reference = None if base is None else load_result(base)
@@ -51,6 +51,7 @@ def score(
             named = reason if reason.startswith(printable(str(file))) else f"{file}: {reason}"
             print(printable(f"error: {named}"), file=sys.stderr)
             code = 2
+    found = resolution_ignored(found)
     document: dict[str, Any] = found[0].to_dict()
     if len(found) > 1:
         document = {"results": [s.to_dict() for s in found], "work_precision": work_precision(found)}
@@ -68,9 +69,9 @@ def _text(found: Score) -> str:
             exact = f", reference {value.theory:.6g} ± {found.reference[name]['error']:.1g}"
         error = found.error(name)
         lines.append(f"{name:>14} = {value}{exact}" + ("" if error is None else f" ({100 * error:+.3f} %)"))
-    for name in ("lift", "penetration", "adhesion", "noise"):
+    for name in ("lift", "penetration", "adhesion", "noise", "momentum_residual"):
         number = getattr(found, name)
-        lines.append(f"{name:>14} = " + ("not reported" if number is None else f"{number:.2g}"))
+        lines.append(f"{name.partition('_')[0]:>14} = " + ("not reported" if number is None else f"{number:.2g}"))
     for finding in found.diagnosis:
         about = [text for text in (finding.evidence, finding.advice) if text]
         lines += [f"diagnosis: {finding.name.replace('_', ' ')}", *(f"    {text}" for text in about)]

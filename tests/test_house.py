@@ -118,18 +118,30 @@ def command(words):
     return f"from comparison.command_line.app import run\nassert run({words.split()!r}) == 0"
 
 
+SCORED = """
+import numpy as np, os, tempfile
+tau = np.linspace(0, 0.1, 300)
+file = os.path.join(tempfile.mkdtemp(), "result.npz")
+np.savez(file, outcome="completed", problem="point-2", metadata="{}", tau=tau, J=3.2 * np.sqrt(tau), Jm=0 * tau)
+from comparison.command_line.app import run
+assert run(["score", file, "--json"]) == 0
+"""
+
+
 @pytest.mark.parametrize(
     ("code", "allowed"),
     [
         ("import theory, theory.prediction", {"numpy", "scipy"}),
         (command("theory --kappa-over-nu 0.5 --alpha 4 --json"), {"numpy", "scipy"}),
+        (SCORED, {"numpy", "scipy", "measure"}),
         (command("predict cases/ruler.toml --theory-only --json"), {"numpy", "scipy", "numba", "hermite_fe"}),
     ],
-    ids=["import", "theory", "predict"],
+    ids=["import", "theory", "score", "predict"],
 )
 def test_only_what_is_needed_is_loaded(code, allowed):
     loaded = loaded_by(code)
-    assert loaded & (LEAN | set(PATHS)) <= allowed | {"theory"}
+    rooms = {"theory"} if "measure" not in allowed else set()  # scoring needs no theory
+    assert loaded & (LEAN | set(PATHS)) <= allowed | rooms
 
 
 WITHOUT_THEORY = """

@@ -59,7 +59,7 @@ def main(problem_file, result_file, resolution="medium"):
         problem = tomllib.load(stream)
     beam, impact, end = problem["beam"], problem["impact"], problem["record"]["end_time"]
     if beam["axial_force"] != 0.0:
-        np.savez(result_file, outcome="unsupported(axial force)", problem=problem["id"], metadata="{}")
+        np.savez(result_file, outcome="not_attempted(axial force)", problem=problem["id"], metadata="{}")
         return
     size = SIZES[resolution]
     n = round(HALF_LENGTH / size)
@@ -107,20 +107,24 @@ def main(problem_file, result_file, resolution="medium"):
         hinge.set_angle(context, curvature[i] * size / share)
         hinge.set_angular_rate(context, -AMPLITUDE * impact["curvature_rate"] * size / share)
     node = {int(body.index()): i for i, body in enumerate(bodies)}
-    tau, J, Jm = np.zeros(steps + 1), np.zeros(steps + 1), np.zeros(steps + 1)
-    snapshots, snaps = {round(s / dt): s for s in problem["record"]["snapshots"]}, []
+    tau, pushed = dt * np.arange(steps + 1), np.zeros((steps + 1, n + 1))
+    snapshots, snaps, speeds = {round(s / dt): s for s in problem["record"]["snapshots"]}, [], []
     set_up, began = time.perf_counter() - began, time.perf_counter()
     for k in range(1, steps + 1):
         simulator.AdvanceTo(k * dt)
-        push = dt / AMPLITUDE * reactions(plant.get_contact_results_output_port().Eval(context), node)
-        tau[k], J[k], Jm[k] = k * dt, J[k - 1] + 2 * push.sum(), Jm[k - 1] + push @ x
+        forces = reactions(plant.get_contact_results_output_port().Eval(context), node)
+        pushed[k] = pushed[k - 1] + dt / AMPLITUDE * forces
         if k in snapshots:
             angle = np.cumsum([hinge.get_angle(context) for hinge in hinges])
             heights = slider.get_translation(context) - radius + size * np.concatenate([[0], np.cumsum(np.sin(angle))])
             snaps.append(heights / AMPLITUDE)
+            rates = np.cumsum([hinge.get_angular_rate(context) for hinge in hinges])
+            turning = size * np.concatenate([[0], np.cumsum(rates * np.cos(angle))])
+            speeds.append(-(slider.get_translation_rate(context) + turning) / AMPLITUDE)
     about = metadata(resolution, steps, dt, size, set_up, time.perf_counter() - began)
-    np.savez(result_file, outcome="completed", problem=problem["id"], metadata=about, tau=tau, J=J, Jm=Jm,
-             J_minus=0 * tau, x=x, snap_tau=list(snapshots.values()), snap_gap=snaps)  # fmt: skip
+    np.savez(result_file, outcome="completed", problem=problem["id"], metadata=about, tau=tau, node_x=x,
+             node_impulse=pushed, J_minus=0 * tau, x=x, snap_tau=list(snapshots.values()), snap_gap=snaps,
+             snap_v=speeds)  # fmt: skip
 
 
 main(*sys.argv[1:])

@@ -3,8 +3,8 @@
 From the manual (OpenSeesPyDoc): elasticBeamColumn with its consistent mass (-cMass), ElasticPPGap for a gap that
 closes, in zeroLength elements, Newton's method. Newmark: "gamma > 1/2 results in numerical damping proportional to
 gamma - 1/2", unconditionally stable for beta >= gamma/2 >= 1/4 (newmark.rst). gamma = 3/2 with beta = (gamma + 1/2)^2/4
-damps the short waves most; the structural engineer's 1/2, 1/4 lets them rattle in the gaps, and the HHT method, which
-the manual has for damping of second order, damps too little (alpha = 0.9: lambda0 12 % low in a first trial).
+damps the short waves most; the structural engineer's 1/2, 1/4 lets them rattle in the gaps. Of the manual's methods of
+second order HHT with its most damped alpha = 2/3, GeneralizedAlpha and TRBDF2 were tried (docs/benchmark.md).
 BandGeneral was as fast as BandSPD, ProfileSPD and UmfPack.
 """
 
@@ -27,7 +27,7 @@ def main(problem_file, result_file, resolution="medium"):
         problem = tomllib.load(stream)
     beam, impact, end = problem["beam"], problem["impact"], problem["record"]["end_time"]
     if beam["axial_force"] != 0.0:
-        np.savez(result_file, outcome="unsupported(axial force)", problem=problem["id"], metadata="{}")
+        np.savez(result_file, outcome="not_attempted(axial force)", problem=problem["id"], metadata="{}")
         return
     n, size = round(HALF_LENGTH / SIZES[resolution]), SIZES[resolution]
     steps = max(round(40.0 * end / size), 250)
@@ -63,7 +63,7 @@ def main(problem_file, result_file, resolution="medium"):
     ops.test("NormUnbalance", 1e-9 * 12 * beam["bending_stiffness"] / size**2, 30)
     ops.integrator("Newmark", GAMMA, BETA)
     ops.analysis("Transient")
-    tau, J, Jm = np.zeros(steps + 1), np.zeros(steps + 1), np.zeros(steps + 1)
+    tau, pushed, speeds = h * np.arange(steps + 1), np.zeros((steps + 1, n + 1)), []
     snapshots = {round(s / h): s for s in problem["record"]["snapshots"]}
     snaps, force, outcome = [], np.zeros(n + 1), "completed"
     set_up, began = time.perf_counter() - began, time.perf_counter()
@@ -78,18 +78,20 @@ def main(problem_file, result_file, resolution="medium"):
             break
         y = np.array([ops.nodeDisp(i, 2) for i in range(1, n + 2)])
         before, force = force, spring * np.maximum(y - np.maximum(gap, 1e-15), 0.0)
-        push = h * ((1 - GAMMA) * before + GAMMA * force)  # the impulse that Newmark's velocity update applies
-        tau[k], J[k], Jm[k] = k * h, J[k - 1] + 2 * push.sum(), Jm[k - 1] + push @ x
+        pushed[k] = pushed[k - 1] + h * (
+            (1 - GAMMA) * before + GAMMA * force
+        )  # as Newmark's velocity update applies it
         if k in snapshots:
             snaps.append(gap - y)
+            speeds.append([ops.nodeVel(i, 2) for i in range(1, n + 2)])
     when = list(snapshots.values())
     about = {"tool": "OpenSeesPy", "version": ops.version(), "resolution": resolution, "steps": steps,
              "seconds": time.perf_counter() - began, "set_up_seconds": set_up, "lines": len(open(__file__).readlines()),
              "settings": {"integrator": f"Newmark {GAMMA}, {BETA}", "contact": f"ElasticPPGap, {STIFFNESS:g}"},
              "model": {"theory": "Euler-Bernoulli, half beam", "half_length": HALF_LENGTH, "smallest_element": size,
                        "time_step": h, "amplitude": 1.0, "deviations": ["stiff springs for the wall"]}}  # fmt: skip
-    np.savez(result_file, outcome=outcome, problem=problem["id"], metadata=json.dumps(about), tau=tau, J=J, Jm=Jm,
-             J_minus=np.zeros(steps + 1), x=x, snap_tau=when[: len(snaps)], snap_gap=snaps)  # fmt: skip
+    np.savez(result_file, outcome=outcome, problem=problem["id"], metadata=json.dumps(about), tau=tau, node_x=x,
+             node_impulse=pushed, x=x, snap_tau=when[: len(snaps)], snap_gap=snaps, snap_v=speeds)  # fmt: skip
 
 
 main(*sys.argv[1:])

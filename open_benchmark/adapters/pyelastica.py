@@ -46,7 +46,7 @@ def main(problem_file, result_file, resolution="medium", variant="shipped"):
         problem = tomllib.load(stream)
     beam, impact, end = problem["beam"], problem["impact"], problem["record"]["end_time"]
     if beam["axial_force"] != 0.0:
-        np.savez(result_file, outcome="unsupported(axial force)", problem=problem["id"], metadata="{}")
+        np.savez(result_file, outcome="not_attempted(axial force)", problem=problem["id"], metadata="{}")
         return
     assert beam["bending_stiffness"] == beam["mass_per_length"] == impact["velocity"] == 1.0
     n = 2 * round(HALF_LENGTH / SIZES[resolution]) + 1  # odd: the middle of an element touches first
@@ -83,20 +83,21 @@ def main(problem_file, result_file, resolution="medium", variant="shipped"):
     Recording.impulse[:], Recording.pulled = 0.0, 0.0
     every, unit = max(steps // 1000, 1), AMPLITUDE * SCALE * SCALE
     snaps_at = {round(s / dt): s for s in problem["record"]["snapshots"]}
-    rows, snaps, initial = [[0.0] * 6], [], [rod.compute_translational_energy(), 0.0]
-    rows[0][4] = initial[0] / (AMPLITUDE * SCALE) ** 2 / SCALE
+    start = rod.compute_translational_energy() / (AMPLITUDE * SCALE) ** 2 / SCALE
+    rows, pushed, snaps, speeds = [[0.0, 0.0, start, 0.0]], [np.zeros(n + 1)], [], []
     set_up, began = time.perf_counter() - began, time.perf_counter()
     for k in range(1, steps + 1):
         now = stepper.step(simulator, now, np.float64(dt))
         if k % every == 0 or k == steps:
-            moment = Recording.impulse @ np.abs(x) / 2
             energy = rod.compute_bending_energy() + rod.compute_shear_energy()
-            rows.append([k * dt, Recording.impulse.sum() / unit, moment / unit, Recording.pulled / unit,
+            pushed.append(Recording.impulse / unit)
+            rows.append([k * dt, Recording.pulled / unit,
                          rod.compute_translational_energy() / unit**2 * SCALE, energy / unit**2 * SCALE])  # fmt: skip
         if k in snaps_at:
             snaps.append(rod.position_collection[2] / (SCALE * AMPLITUDE) - RADIUS / AMPLITUDE)
+            speeds.append(-rod.velocity_collection[2] / (SCALE * AMPLITUDE))
     ok = np.isfinite(np.array(rows)).all()
-    tau, J, Jm, pulled, kinetic, elastic = np.array(rows).T
+    tau, pulled, kinetic, elastic = np.array(rows).T
     about = {"tool": f"PyElastica, {variant}", "version": ea.version.VERSION if hasattr(ea, "version") else "1.0.0",
              "resolution": resolution, "steps": steps, "seconds": time.perf_counter() - began,
              "set_up_seconds": set_up, "lines": len(open(__file__).readlines()),
@@ -104,8 +105,8 @@ def main(problem_file, result_file, resolution="medium", variant="shipped"):
              "model": {"theory": "Cosserat rod", "half_length": HALF_LENGTH, "smallest_element": size, "time_step": dt,
                        "amplitude": AMPLITUDE, "deviations": ["shear and rotary inertia"]}}  # fmt: skip
     np.savez(result_file, outcome="completed" if ok else "diverged", problem=problem["id"], metadata=json.dumps(about),
-             tau=tau, J=J, Jm=Jm, J_minus=pulled, E_kin=kinetic, E_el=elastic, x=x,
-             snap_tau=list(snaps_at.values()), snap_gap=snaps)  # fmt: skip
+             tau=tau, node_x=x, node_impulse=pushed, J_minus=pulled, E_kin=kinetic, E_el=elastic, x=x,
+             snap_tau=list(snaps_at.values()), snap_gap=snaps, snap_v=speeds)  # fmt: skip
 
 
 main(*sys.argv[1:])

@@ -1,12 +1,15 @@
-"""Results with one seeded fault each, made by the project's nonsmooth solver, for the doctor to find.
+"""Files of results with one drawn fault each, for the doctor to find: faults of a run, and of what is booked.
 
-A fault is a function of a random generator that returns κ/ν, half length and the parts of the method.
+A fault of a run is a function of a random generator that returns κ/ν, half length and the parts of the method; a fault
+of the books changes the result of a good run.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -18,9 +21,11 @@ from hermite_fe.contacts import NodeContact
 from hermite_fe.far_fields import GridViscosity
 from hermite_fe.integrators import GeneralizedAlphaPenalty, MoreauJean, SignoriniPosition
 from open_benchmark.histories import result_from_history
-from open_benchmark.result import Result
+from open_benchmark.problem import problem
+from open_benchmark.result import Result, save_result
+from theory import contact_parameters
 
-__all__ = ["FAULTS", "made"]
+__all__ = ["FAULTS", "written"]
 
 END = 0.1
 Rng = np.random.Generator
@@ -112,11 +117,65 @@ def steps_too_long(rng: Rng) -> Run:
 
 
 def energy_gained(rng: Rng) -> Run:
-    stiffness = 10.0 ** float(rng.uniform(6.3, 7.0))
+    stiffness = 10.0 ** float(rng.uniform(7.8, 8.2))
     return float(rng.uniform(0.2, 0.6)), 5.0, penalty(stiffness, 0.0, 3.0 / math.sqrt(stiffness), 1.0, 0.0)
 
 
-FAULTS: dict[str, Callable[[Rng], Run]] = {
+# --- faults of the books -------------------------------------------------------------------------------------------
+
+
+def ratio(rng: Rng, good: Result) -> Result:
+    """Half or twice the force, a power of ten, a sign: of the impulse, of its moment, or of both."""
+    factor = float(
+        rng.choice([0.5, 2.0, -1.0, *(10.0 ** rng.integers(1, 6) * np.array([1.0])), 10.0 ** -rng.integers(1, 6)])
+    )
+    of_impulse, of_moment = [(factor, factor), (factor, 1.0), (1.0, abs(factor) if factor != -1.0 else 2.0)][
+        rng.integers(3)
+    ]
+    return replace(good, J=of_impulse * good.J, Jm=of_moment * good.Jm, snap_v=None)
+
+
+def momentum(rng: Rng, good: Result) -> Result:
+    """Impulses that are not booked: a share from the start, or all of some time."""
+    kept = np.full(good.tau.size, rng.uniform(0.6, 0.93))
+    if rng.random() < 0.5:
+        kept = np.where(good.tau > rng.uniform(0.02, 0.05), kept - 0.2, 1.0)
+    books = (np.cumsum(kept * np.diff(series, prepend=0.0)) for series in (good.J, good.Jm))
+    return replace(good, J=next(books), Jm=next(books))
+
+
+def unsettled(rng: Rng, good: Result) -> Result:
+    """Impulses that jitter, or a force in place of an impulse."""
+    if rng.random() < 0.3:
+        force = np.gradient(good.J, good.tau)
+        return replace(good, J=force / force.max(), Jm=np.gradient(good.Jm, good.tau), snap_v=None)
+    jitter = 1.0 + rng.uniform(0.01, 0.05) * rng.standard_normal(good.tau.size)
+    return replace(good, J=jitter * good.J, snap_v=None)
+
+
+def off(rng: Rng, good: Result) -> Result:
+    """Another speed, another clock, or the answer to another problem."""
+    kind, factor = rng.integers(3), float(rng.choice([rng.uniform(0.6, 0.9), rng.uniform(1.15, 1.7)]))
+    if kind == 0:
+        return replace(good, J=factor * good.J, Jm=factor * good.Jm, snap_v=None)
+    if kind == 1:
+        slower = [np.interp(0.8 * good.tau, good.tau, series) for series in (good.J, good.Jm)]
+        return replace(good, J=slower[0], Jm=slower[1], snap_v=None)
+    other = problem(f"leading-{good.problem.kappa_over_nu * (0.8 if rng.random() < 0.5 else 1.12):.6f}")
+    return replace(good, problem=other)
+
+
+def too_exact(rng: Rng, good: Result) -> Result:
+    """The closed form, printed."""
+    found, side = contact_parameters(good.problem.kappa_over_nu), math.sqrt(2.0 / math.pi)
+    J, Jm = 4.0 * side * found.r0 * np.sqrt(good.tau), side * found.r0 * found.lambda0 * good.tau
+    return replace(good, J=J, Jm=Jm, snap_v=None)
+
+
+BOOKS: dict[str, Callable[[Rng, Result], Result]] = {
+    f.__name__: f for f in (ratio, momentum, unsettled, off, too_exact)
+}
+RUNS: dict[str, Callable[[Rng], Run]] = {
     f.__name__: f
     for f in (
         reflection,
@@ -132,10 +191,25 @@ FAULTS: dict[str, Callable[[Rng], Run]] = {
 }
 
 
-def made(name: str, seed: int) -> Result:
-    """One result of a fault, or a clean one, of a seed."""
-    rng = np.random.default_rng([seed, sorted(FAULTS).index(name) if name in FAULTS else 99])
-    kappa, half_length, parts = (FAULTS | {"clean": clean})[name](rng)
+FAULTS = (*RUNS, *BOOKS)
+
+
+def written(folder: Path, name: str, *seed: int) -> Path:
+    """The file of one result with the fault, or of a clean one."""
+    rng = np.random.default_rng([*seed, FAULTS.index(name) if name in FAULTS else 99])
+    kappa, half_length, parts = RUNS.get(name, clean)(rng)
     strict = {"contact": NodeContact(hold=0, hold_until=0.0)}
     impact = Impact.dimensionless(kappa, length=2.0 * half_length)
-    return result_from_history(simulate(impact, end_time=END, save=500, **strict | parts))
+    found = result_from_history(simulate(impact, end_time=END, save=500, **strict | parts))
+    found = _sampled(found) if found.tau.size < 230 else found
+    file = folder / f"{name}.npz"
+    save_result(file, BOOKS[name](rng, found) if name in BOOKS else found)
+    return file
+
+
+def _sampled(found: Result) -> Result:
+    """At as many instants as a file needs: what is cumulated is linear within a step."""
+    tau = np.linspace(0.0, END, 400)
+    series = {name: np.interp(tau, found.tau, values) for name, values in found.series.items()}
+    J, Jm = (np.interp(tau, found.tau, values) for values in (found.J, found.Jm))
+    return replace(found, tau=tau, J=J, Jm=Jm, series=series)

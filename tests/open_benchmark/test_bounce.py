@@ -7,7 +7,7 @@ from comparison.stored import is_stale
 from comparison.whole_impact.stored_map import bounce_from_map
 from open_benchmark.bounce_reference import agrees
 from open_benchmark.problem import problem, shipped_ids
-from open_benchmark.references import BOUNCES, Reference, reference, stored_bounces
+from open_benchmark.references import BOUNCES, Reference, reference, stored
 from open_benchmark.result import Result
 from open_benchmark.score import score
 
@@ -41,7 +41,7 @@ def test_a_restitution_is_held_against_its_reference_within_bars_and_tolerance(n
 @pytest.mark.parametrize("name", SHIPPED)
 def test_the_stored_reference_and_the_map_agree_within_their_bars(name):
     asked = problem(name)
-    value, error = stored_bounces()["problems"][name]["restitution"]
+    value, error = stored(BOUNCES)["problems"][name]["restitution"]
     on_map = bounce_from_map(asked.kappa_over_nu, asked.damping)
     assert on_map is not None and on_map["restitution"].value is not None
     assert abs(on_map["restitution"].value - value) <= error + (on_map["restitution"].error or 0.0)

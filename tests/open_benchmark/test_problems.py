@@ -1,24 +1,68 @@
 """Problems: what an id means, and the files that are shipped."""
 
+import json
 import tomllib
-from pathlib import Path
 
 import numpy as np
 import pytest
 
-import open_benchmark
 from bent_beam.parts import InputError
 from open_benchmark import problem, shipped_ids
-from open_benchmark.problem import SCHEMA, problem_text
-from open_benchmark.references import reference
+from open_benchmark.exact import computed
+from open_benchmark.problem import PROBLEMS, SCHEMA, document, problem_text
+from open_benchmark.references import REFERENCES, reference
+from open_benchmark.references import SCHEMA as REFERENCE_SCHEMA
+
+TABLES = {  # of schema beam-impact/2: whoever changes a key changes the version
+    "beam": "axial_force bending_stiffness curvature damping length mass_per_length",
+    "impact": "acceleration curvature_rate fourth_derivative velocity",
+    "wall": "adhesion curvature friction side",
+    "allowed": "equivalents",
+    "record": "end_time fit_window snapshots",
+    "ball": "gravity height mass restitution velocity",
+    "bar": "axial_stiffness far_end gap gravity length mass_per_length shape velocity",
+    "string": "ends height length mass_per_length obstacle restitution shape tension velocity",
+}
+
+
+def test_the_schemas_are_frozen():
+    assert (SCHEMA, REFERENCE_SCHEMA) == ("beam-impact/2", "beam-impact-references/1")
+    for name in shipped_ids():
+        tables = document(problem(name))
+        for table in tables.keys() - {"schema", "id"}:
+            assert sorted(tables[table].keys() - {"largest_half_length"}) == TABLES[table].split(), (name, table)
+    for known in json.loads(REFERENCES.read_text())["problems"].values():
+        assert known.keys() <= {"values", "impulse"}
+        assert known.get("values", {}).keys() <= {"lambda0", "r0", "lambda1", "r1"}
+        assert known.get("impulse", {}).keys() <= {"variable", "breaks", "coefficients"}
+
+
+def test_stored_references_are_what_the_theory_says():
+    for name, known in json.loads(REFERENCES.read_text())["problems"].items():
+        for kind, stored in known.items():
+            today = computed(problem(name))[kind]
+            for key, numbers in stored.items():
+                same = (
+                    numbers == today[key] if isinstance(numbers, str) else np.allclose(numbers, today[key], 1e-9, 1e-12)
+                )
+                assert same, (name, key)
+
+
+def test_the_largest_half_length_is_where_the_free_motion_closes_the_gap():
+    asked = problem("first-0.5-1-1-1")
+    far, load = asked.largest_half_length, asked.epsilon
+    x = far * np.array([0.5, 0.999, 1.001])
+    gap = 0.25 * x**2 - load * x**4 / 24 - (1 + load * x**2 / 2) * 0.1 - load * 0.1**2 / 2
+    assert (gap > 0.0).tolist() == [True, True, False]
+    assert "largest_half_length" not in document(problem("leading-0.5"))["beam"]
 
 
 def test_a_shipped_file_is_what_its_id_says_and_tells_no_answer():
     assert {"leading-0.5", "ball", "bounce-2-1e-3"} <= set(shipped_ids())
     for name in shipped_ids():
-        text = (Path(open_benchmark.__file__).parent / "problems" / f"{name}.toml").read_text()
-        assert text == problem_text(problem(name)), name
+        text = problem_text(problem(name))
         tables = tomllib.loads(text)
+        assert tables == document(problem(name)) == json.loads(PROBLEMS.read_text())["problems"][name]
         assert tables["schema"] == SCHEMA and tables["id"] == name
         assert not any(word in text for word in ("lambda", "r0", "theory", "step", "mesh"))
 
@@ -59,7 +103,10 @@ def test_an_id_that_none_has_is_refused_in_one_line(name):
     ("name", "momentum"),
     [
         ("ball", 20.0),  # ten impacts, each reverses unit speed of a unit mass
+        ("chattering-ball", 4.0),  # falls from rest and rests at the end: its weight all the time
         ("bar", 2.0),  # arrives and leaves at unit speed
+        ("released-bar", 1.5),  # a reaction of ½ for three units of time
+        ("bouncing-bar", 2.0 * 100.0 * 16.0 / 3.0),  # its weight over two periods
         ("string", 16.0),  # four landings of −2∫w_t dx = 4 each
     ],
 )

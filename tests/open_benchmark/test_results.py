@@ -10,6 +10,7 @@ from bent_beam.meshes import UniformMesh
 from bent_beam.method import method_type
 from open_benchmark import Result, ResultError, load_result, problem, score
 from open_benchmark.histories import result_from_history
+from open_benchmark.references import reference
 from open_benchmark.result import save_result
 from theory import contact_parameters
 
@@ -130,7 +131,7 @@ def test_a_wall_that_pulls_is_adhesive_even_where_it_pulls_more_than_it_pushes(p
     pushed, pulled = np.minimum(2.0 * share, 1.0), pull * np.maximum(2.0 * share - 1.0, 0.0)
     asked = problem("stopped-beam")
     found = score(Result("completed", "", asked, {}, TAU, pushed - pulled, series={"J_minus": pulled}))
-    assert found.outcome == "completed, adhesive" and found.adhesion == pytest.approx(adhesion, rel=0.02)
+    assert "adhesive" in found.outcome and found.adhesion == pytest.approx(adhesion, rel=0.02)
 
 
 def test_gaps_in_the_zone_and_penetration_are_measured_over_the_way_travelled(tmp_path):
@@ -173,3 +174,36 @@ def test_a_history_of_another_impact_than_the_exact_solution_s_is_refused(name, 
     history = method.simulate(impact, end_time=1e-3, save=4)
     with pytest.raises(ResultError, match=f"{name} is {value:g}"):
         result_from_history(history)
+
+
+@pytest.mark.parametrize(
+    ("name", "factor", "verdict"),
+    [("bar", 0.5, "ratio"), ("ball", -1.0, "ratio"), ("string", 1.07, "off"), ("stopped-beam", 1.0, "clean")],
+)
+def test_the_ladder_has_verdicts_too(name, factor, verdict):
+    asked = problem(name)
+    tau = np.linspace(0.0, asked.end_time, 600)
+    exact = reference(asked).impulse
+    found = score(Result("completed", "", asked, {}, tau, factor * exact(tau)))
+    assert [finding.name for finding in found.diagnosis] == [verdict] and ("off" in found.outcome) == (factor != 1.0)
+
+
+def test_the_judge_adds_up_nodal_histories_of_half_and_whole_beams_and_holds_them_against_momentum(tmp_path):
+    x, tau = np.linspace(0.0, 2.0, 41), TAU
+    share = np.exp(-20.0 * x)
+    impulse = np.sqrt(tau)[:, None] * share / share.sum()
+    when = np.array([0.05, 0.1])
+    # a beam that has lost the momentum 2√τ at one rate all along
+    gap, lost = np.zeros((2, 41)), 2.0 * np.sqrt(when)[:, None] / 4.0 * np.ones((2, 41))
+    snaps = {"x": x, "snap_tau": when, "snap_gap": gap, "snap_v": 1.0 - lost}
+    half = load_result(written(tmp_path, J=None, Jm=None, node_x=x, node_impulse=impulse, **snaps))
+    both = {
+        "node_x": np.r_[-x[:0:-1], x],
+        "node_impulse": np.c_[impulse[:, :0:-1], 2.0 * impulse[:, :1], impulse[:, 1:]],
+    }
+    whole = load_result(written(tmp_path, J=None, Jm=None, **both))
+    assert half.J == pytest.approx(2.0 * np.sqrt(tau)) and half.Jm == pytest.approx(
+        np.sqrt(tau) * (x @ share) / share.sum()
+    )
+    assert whole.J == pytest.approx(half.J) and whole.Jm == pytest.approx(half.Jm)
+    assert score(half).raw and abs(score(half).momentum_residual) < 1e-6

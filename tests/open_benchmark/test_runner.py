@@ -7,8 +7,10 @@ from pathlib import Path
 
 import pytest
 
+from bent_beam.parts import InputError
 from open_benchmark.adapter import Adapter, chosen_adapters, shipped_adapters
-from open_benchmark.campaign import campaign
+from open_benchmark.campaign import STANDARD, campaign
+from open_benchmark.draw import drawn
 from open_benchmark.page import write_page
 from open_benchmark.problem import problem
 from open_benchmark.running import Limits, run_adapter
@@ -36,7 +38,7 @@ def adapter(tmp_path, name, source):
 def outcome(tmp_path, source, seconds=30.0, output_bytes=20_000_000):
     one = adapter(tmp_path, "one", source)
     kept = tmp_path / "kept" / "r.npz"
-    run = run_adapter(one, problem("point-2"), "coarse", kept, Limits(seconds, output_bytes))
+    run = run_adapter(one, problem("point-2"), "coarse", kept, Limits(seconds, output_bytes, repeats=1))
     assert not list((tmp_path / "kept").glob(".run-*")), "the run's folder is gone"
     return run
 
@@ -58,6 +60,9 @@ FULL = (
         ("import sys, os; os.symlink('/etc/passwd', sys.argv[2])", "crashed", "left no result"),
         ("import sys; open(sys.argv[2], 'wb').write(b'rubbish')", "invalid", "result.npz: is not a readable NPZ"),
         (GOOD.replace("point-2", "point-3"), "invalid", "problem is point-3, asked was point-2"),
+        ("import theory", "crashed", "ModuleNotFoundError: theory is out of reach"),
+        ("import os; os.unlink('err.txt'); os.mkfifo('err.txt')", "crashed", "left no result"),
+        ("import sys, os; os.mkfifo(sys.argv[2])", "crashed", "left no result"),
         (GOOD + "sys.exit(7)", "", ""),  # a result counts whatever the exit status says
         *((source, "crashed", "") for source in FULL),
     ],
@@ -98,7 +103,8 @@ def test_one_bad_adapter_is_a_row_and_only_what_changed_is_run_again(tmp_path, m
     none = Adapter("none", fine.file, install=("nothing==1",), environment="not-there", module="nothing")
 
     def run():
-        return campaign([bad, none, fine], ["point-2"], Path("out"))  # relative to where one stands
+        # relative to where one stands
+        return campaign([bad, none, fine], ["point-2"], Path("out"), limits=Limits(repeats=1))
 
     run()
     rows = run()
@@ -107,6 +113,7 @@ def test_one_bad_adapter_is_a_row_and_only_what_changed_is_run_again(tmp_path, m
     assert rows[3].score.reason == "bentbeam benchmark --install none"
     assert abs(rows[-1].score.error("r0") or 1.0) < 1e-9
     page = write_page(rows, [bad, none, fine], tmp_path / "out").read_text()
+    assert {row.score.diagnosis[0].name for row in rows[-3:]} == {"too_exact"}
     assert page.count("<svg") == 1 and "cannot" in page and "not installed" in page
     adapter(tmp_path, "good", good(tmp_path) + "# better")
     run()
@@ -118,15 +125,69 @@ def test_a_changed_solver_of_this_project_runs_again_and_no_foreign_one(monkeypa
     shipped = shipped_adapters()
     before = {key: one.digest() for key, one in shipped.items()}
     monkeypatch.setattr(f"open_benchmark.adapter.{name}", lambda: "of tomorrow")
-    assert {key for key, one in shipped.items() if one.digest() != before[key]} == {"hermite", "exudyn"}
+    assert {key for key, one in shipped.items() if one.digest() != before[key]} == {
+        "hermite",
+        "hermite-strict",
+        "exudyn",
+    }
 
 
 def test_foreign_adapters_import_nothing_of_this_project():
     for one in shipped_adapters().values():
-        if one.install or one.debian:
+        if not one.host:
             source = one.file.read_text()
             known = [n for n in ("bent_beam", "hermite_fe", "theory import", "open_benchmark") if n in source]
             assert not known, (one.name, known)
+
+
+NODES = """
+import sys, tomllib, numpy as np
+problem = tomllib.load(open(sys.argv[1], "rb"))
+tau, shape = np.linspace(0, 0.1, 300), np.exp(-np.arange(9.0))
+noise = 1e-4 * np.random.default_rng(len(sys.argv[3])).standard_normal(300).cumsum() * np.sqrt(tau / 300)
+of_wall = 2 * np.sqrt(2 / np.pi) * (np.sqrt(tau) + noise) * (tau > 0)
+nodes = {"node_x": np.r_[0.0, 1e-9], "node_impulse": np.c_[of_wall, 0 * tau]}
+np.savez(sys.argv[2], outcome="completed", problem=problem["id"], metadata="{}", tau=tau, **nodes)
+"""
+DECLARED = NODES.replace('nodes = {"node_x": np.r_[0.0, 1e-9], "node_impulse": np.c_[of_wall, 0 * tau]}',
+                         'nodes = {"J": 2 * of_wall, "Jm": 0 * tau}')  # fmt: skip
+CHEAT = "import theory\n" + NODES
+
+
+def test_only_nodal_histories_of_drawn_problems_are_verified_and_theory_is_out_of_reach(tmp_path):
+    names = {"clean": NODES, "declared": DECLARED, "cheat": CHEAT}
+    adapters = [adapter(tmp_path, name, source) for name, source in names.items()]
+    rows = campaign(adapters, ["point-2"], tmp_path / "out", limits=Limits(repeats=2), seed=4)
+    tables = {(row.solver, row.problem == "point-2"): row.unverified for row in rows}
+    assert tables == {
+        ("clean", True): "a problem whose answer is published",
+        ("clean", False): "",
+        ("declared", True): "no nodal histories",
+        ("declared", False): "no nodal histories",
+        ("cheat", True): "crashed",
+        ("cheat", False): "crashed",
+    }
+    verified = next(row for row in rows if not row.unverified)
+    assert abs(verified.score.error("r0") or 1.0) < 0.01 and verified.repeats == 2
+    assert len(verified.made_by["source"]) == 64 and "numpy" in verified.made_by["packages"]
+    page = write_page(rows, adapters, tmp_path / "out").read_text()
+    assert page.index('id="verified"') < page.index(verified.problem) < page.index('id="self-declared"')
+
+
+def test_drawn_problems_are_near_the_named_ones_share_their_base_and_differ_with_the_seed():
+    once, again, other = (drawn(STANDARD, seed) for seed in (1, 1, 2))
+    assert once == again and not set(once) & {*other, *STANDARD} and len(once) == len(STANDARD)
+    for given, name in zip(map(problem, STANDARD), map(problem, once)):
+        assert name.kind == given.kind and 0.8 < name.kappa_over_nu / given.kappa_over_nu < 1.2
+        assert name.base_id in (None, *once) and (name.uniform_load > 0.0) == (given.uniform_load > 0.0)
+    assert drawn(["ball", "bounce-2-1e-3"], 1) == []
+
+
+@pytest.mark.parametrize("name", ["...py", "-x.py", "hermite.py"])
+def test_the_name_of_an_adapter_stays_in_the_folder_of_results_and_is_its_own(tmp_path, name):
+    (tmp_path / name).write_text("")
+    with pytest.raises(InputError, match="adapter: "):
+        chosen_adapters(["hermite"], own=[tmp_path / name])
 
 
 def test_an_executable_in_any_language_is_an_adapter(tmp_path):

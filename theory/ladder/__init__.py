@@ -6,7 +6,7 @@ once), and the stopped beam (bending waves, one fixed point: `theory.stopped_bea
 """
 
 from theory.ladder.ball import BouncingBall
-from theory.ladder.bar import FlyingBar, ReleasedBar
+from theory.ladder.bar import DroppedBar, FlyingBar, ReleasedBar
 from theory.ladder.string import StringOnObstacle
 
-__all__ = ["BouncingBall", "FlyingBar", "ReleasedBar", "StringOnObstacle"]
+__all__ = ["BouncingBall", "DroppedBar", "FlyingBar", "ReleasedBar", "StringOnObstacle"]
