@@ -37,6 +37,9 @@ STANDARD = (
 )
 
 
+AGAIN = ("not_installed", "invalid", "crashed")  # what may be the machine's fault, as a full disk, is asked anew
+
+
 @dataclass(frozen=True)
 class Row:
     """One code on one problem at one resolution. ``unlimited``: limits that this system cannot set."""
@@ -75,7 +78,7 @@ def campaign(
         decisive = json.dumps([adapter.digest(), problem_text(item), resolution, asdict(limits)])
         key = hashlib.sha256(decisive.encode()).hexdigest()
         old = _stored_row(kept)
-        if old.get("key") != key or old.get("outcome") == "not_installed":
+        if old.get("key") != key or old.get("outcome") in AGAIN:
             run = run_adapter(adapter, item, resolution, kept, limits)
             write_atomically(kept.with_suffix(".row.json"), json.dumps({"key": key, **asdict(run)}))
     return [_row(adapter.name, item.id, resolution, out) for adapter, item, resolution in runs]
