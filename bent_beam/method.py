@@ -20,12 +20,12 @@ from typing import Any, ClassVar, Protocol, TypeVar, runtime_checkable
 import numpy as np
 from numpy.typing import NDArray
 
+from bent_beam.checks import shortened
 from bent_beam.errors import ANY_FAILURE, SimulationError, TimeLimitError
+from bent_beam.fields import declared
 from bent_beam.free_flight import has_left
 from bent_beam.history import ImpactHistory
 from bent_beam.impact import Impact
-from bent_beam.checks import shortened
-from bent_beam.fields import declared
 from bent_beam.parts import InputError, describe, nearest, part_from_table, unknown_key
 
 __all__ = [

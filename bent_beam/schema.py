@@ -28,15 +28,15 @@ def check_variables(dataset: xr.Dataset, units: Mapping[str, str]) -> None:
         if expected is None and set(variable.dims) <= {"time", "x", "contact"}:
             continue
         if variable.dims != expected:
-            asked = expected or ("time", "x", "contact")
-            raise ValueError(f"{name} must have dimensions {', '.join(asked)} (got {', '.join(map(str, variable.dims))})")
+            asked, got = ", ".join(expected or ("time", "x", "contact")), ", ".join(map(str, variable.dims))
+            raise ValueError(f"{name} must have dimensions {asked} (got {got})")
         if variable.attrs.get("units", "") != units.get(name, ""):
             raise ValueError(f"{name} must be in {units.get(name, 'no unit')} (got {variable.attrs.get('units')!r})")
-    for name, variable in dataset.variables.items():
-        if not np.isfinite(variable.values).all():
-            raise ValueError(f"{name} is not finite")
-        if np.abs(variable.values.astype(float)).max(initial=0.0) > LARGEST:
-            raise ValueError(f"{name} must not exceed {LARGEST:g}")
+    for label, one in dataset.variables.items():
+        if not np.isfinite(one.values).all():
+            raise ValueError(f"{label} is not finite")
+        if np.abs(one.values.astype(float)).max(initial=0.0) > LARGEST:
+            raise ValueError(f"{label} must not exceed {LARGEST:g}")
     if dataset.sizes["time"] < 1 or dataset["time"].values[0] < 0.0:
         raise ValueError("time must hold instants from 0 on")
     for name in ("time", "x", "position"):

@@ -1,4 +1,4 @@
-"""``python -m comparison.command_line`` and the ``bentbeam`` command; light, so that an early interrupt is caught too."""
+"""``python -m comparison.command_line`` and the ``bentbeam`` command; light: interrupts are caught from the start."""
 
 import sys
 
