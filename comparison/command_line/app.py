@@ -38,6 +38,8 @@ COMMANDS = (theory, new, settings, predict, simulate, bounce, match, rerun, plot
 """Of the library, in the order of ``bentbeam --help``."""
 
 INTERRUPTED = 130
+AGAIN = (signal.SIGALRM,) if hasattr(signal, "SIGALRM") else ()
+PATIENCE = 4.0  # s between an interrupt and the next: workers and files are cleared away meanwhile
 RESUMED = ("match", "gallery", "report", "benchmark")  # keep every run, or every item, as soon as it is finished
 
 app = typer.Typer(
@@ -84,10 +86,10 @@ def main(arguments: Sequence[str] | None = None) -> None:
     _open_closed_streams()
     ends = [getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name)]
     for end in ends:
-        if signal.getsignal(end) is signal.SIG_DFL:  # under nohup, SIGHUP stays ignored
-            signal.signal(end, signal.default_int_handler)  # as Ctrl-C: no half of a file is left
+        if signal.getsignal(end) in (signal.SIG_DFL, signal.default_int_handler):  # under nohup, SIGHUP stays ignored
+            signal.signal(end, interrupt)  # as Ctrl-C: no half of a file is left
     code = run(arguments)
-    for end in ends:
+    for end in (*ends, *AGAIN):
         signal.signal(end, signal.SIG_IGN)  # nothing is left to interrupt, and leaving takes a moment
     try:
         sys.stdout.flush()
@@ -96,6 +98,14 @@ def main(arguments: Sequence[str] | None = None) -> None:
         if not isinstance(error, BrokenPipeError):
             code = _refuse(f"standard output cannot be written: {error.strerror}", 2)
     sys.exit(code)
+
+
+def interrupt(*_: object) -> None:
+    """Raise ``KeyboardInterrupt``, and again until one has come through: a solver's callback may swallow it."""
+    for number in AGAIN:
+        signal.signal(number, interrupt)
+        signal.setitimer(signal.ITIMER_REAL, PATIENCE)
+    raise KeyboardInterrupt
 
 
 def _open_closed_streams() -> None:
