@@ -131,7 +131,8 @@ def _check_workers(client: Any, scheduler: str) -> None:
         client.wait_for_workers(1, timeout=FIRST_WORKER)
         workers = list(client.scheduler_info(n_workers=-1)["workers"])
         asked = [client.submit(this_code, workers=[w], pure=False, priority=100) for w in workers]
-        wait(asked, timeout=FIRST_WORKER)
+        with client.as_current():
+            wait(asked, timeout=FIRST_WORKER)
     except TimeoutError:
         raise ValueError(
             f"scheduler: workers at {scheduler} are missing, frozen or busy: not all answered within {FIRST_WORKER:g} s"
