@@ -247,7 +247,7 @@ class ImpactHistory:
         one_of("attribute symmetry", self.dataset.attrs["symmetry"], ("half", "full"))
         _ = self.impact, self.steps, self.seconds, self.completed
         for required in REQUIRED:
-            _ = self.dataset[required]
+            _ = self.dataset.variables[required]  # the dataset itself makes coordinates up
         check_variables(self.dataset, UNITS)
         finite("attribute seconds", self.seconds)
         beyond = np.abs([self.positions(0)[0], self.positions(0)[-1]]).max() > self.impact.half_length * (1.0 + 1e-6)

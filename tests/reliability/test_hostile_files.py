@@ -125,6 +125,7 @@ MISREAD = {
     "nodes from right to left": changed("x", lambda d, v, a: (d, v[::-1], a)),
     "a time before the impact": changed("time", lambda d, v, a: (d, v - 0.5, a)),
     "sizes that overflow": changed("gap", lambda d, v, a: (d, 1e200 * v, a)),
+    "no times": lambda data: data.drop_vars("time"),
     "a half beam to the left": lambda data: data.assign_coords(x=("x", data.x.values - 9.0, data.x.attrs)),
     "a beam longer than itself": lambda data: data.assign_coords(x=("x", 1e4 * data.x.values, data.x.attrs)),
     "the half said to be the full beam": lambda data: data.assign_attrs(symmetry="full"),
