@@ -18,10 +18,15 @@ help:
 	@echo "make lint     ruff and mypy; make docs: the guide in site/; make gallery: every figure of the thesis"
 	@echo "make update   renew the locked versions; make lowest, make newest: a quick suite on either end of the ranges"
 
+# An environment of an older Python, or a broken one, is made anew.
+RECENT := 'import sys; sys.exit(sys.version_info < (3, 11))'
+ABLE := 'import sys, pip; sys.exit(sys.version_info < (3, 11))'
+
 # Versions and hashes are locked; where the packages come from is the machine's own business (no index is named).
 PIP := $(BIN)/python -m pip --quiet --disable-pip-version-check
 $(STAMP): pyproject.toml requirements.lock
-	@test -x $(BIN)/python || $(PYTHON) -m venv $(VENV)
+	@$(BIN)/python -c $(ABLE) 2>/dev/null || { $(PYTHON) -c $(RECENT) && $(PYTHON) -m venv --clear $(VENV); } || \
+		{ echo "needs Python 3.11 or newer, $(PYTHON) is $$($(PYTHON) --version 2>&1): make PYTHON=python3.11 ..." >&2; exit 2; }
 	$(PIP) install --require-hashes --requirement requirements.lock
 	rm -rf build *.egg-info  # left by another build, they would hide new commands
 	$(PIP) install --no-deps --no-build-isolation --editable .

@@ -11,6 +11,8 @@ from typing import Any
 
 from bent_beam.checks import one_of, shortened
 from bent_beam.errors import InputError
+from bent_beam.fields import declared
+from bent_beam.impact import Impact
 from bent_beam.section import Section
 from bent_beam.supports import ENDS
 from bent_beam.tables import BeamTable, ImpactTable, WallTable
@@ -45,7 +47,7 @@ def beam_quantities(beam: BeamTable, section: Section | None) -> dict[str, Any]:
             raise InputError(f"beam.{name} is required (or a [section])")
         if section is not None and value is not None:
             raise InputError(f"beam.{name} = {value!r} and [section] say the same thing: give one of them")
-        found[name] = value if section is None else getattr(section, name)
+        found[name] = value if section is None else _of_section(section, name)
     if beam.section_height is not None:
         if section is not None:
             raise InputError(f"beam.section_height = {beam.section_height!r} and [section] clash: give one")
@@ -89,6 +91,14 @@ def wall_quantities(wall: WallTable, mass_per_length: float) -> dict[str, Any]:
         "wall_from": wall.from_,
         "wall_to": wall.to,
     }
+
+
+def _of_section(section: Section, name: str) -> float:
+    """EI or μ of a section. Raises :class:`InputError` where sizes that are each allowed make one that is not."""
+    try:
+        return float(declared(Impact)[name].checked(f"section: {name}", getattr(section, name)))
+    except ValueError as error:
+        raise InputError(str(error)) from None
 
 
 def _curvature(beam: BeamTable) -> float:

@@ -18,6 +18,8 @@ from bent_beam import checks
 
 __all__ = ["Declared", "Part", "Quantity", "declared", "key_of"]
 
+LARGEST = 1e60  # of every number, and its inverse of what is positive: fourth powers can still be calculated with
+
 
 @dataclass(frozen=True, kw_only=True)
 class Declared:
@@ -72,6 +74,11 @@ class Quantity:
         """``value`` as a finite float (or int) in the range. Raises ``ValueError``."""
         if whole:
             return checks.whole(name, value, int(self.least or 0))
+        size = abs(checks.finite(name, value))
+        if size > LARGEST:
+            raise ValueError(f"{name} must not exceed {LARGEST:g} (got {checks.shortened(value)})")
+        if self.above == 0.0 and 0.0 < size < 1.0 / LARGEST:
+            raise ValueError(f"{name} must be at least {1.0 / LARGEST:g} (got {checks.shortened(value)})")
         if self.above == 0.0:
             checks.positive(name, value)
         if self.most is not None:

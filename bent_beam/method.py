@@ -20,6 +20,9 @@ from typing import Any, ClassVar, Protocol, TypeVar, runtime_checkable
 import numpy as np
 from numpy.typing import NDArray
 
+from bent_beam.checks import shortened
+from bent_beam.errors import ANY_FAILURE, SimulationError, TimeLimitError
+from bent_beam.fields import declared
 from bent_beam.free_flight import has_left
 from bent_beam.history import ImpactHistory
 from bent_beam.impact import Impact
@@ -40,6 +43,7 @@ __all__ = [
     "separation_times",
     "settings_of",
     "simulate_to_separation",
+    "simulated",
 ]
 
 GROUP = "bentbeam.methods"
@@ -107,6 +111,22 @@ def for_whole_beam(method: M, impact: Impact) -> M:
     return method if choose is None else choose(impact)
 
 
+def simulated(run: Callable[..., ImpactHistory], impact: Impact, **how: Any) -> ImpactHistory:
+    """The history that ``run``, a method's, returns.
+
+    Raises what a method may raise, and :class:`bent_beam.SimulationError` for all else that somebody's method does.
+    """
+    try:
+        history = run(impact, **how)
+    except (ValueError, SimulationError, TimeLimitError, MemoryError):
+        raise
+    except ANY_FAILURE as error:
+        raise SimulationError(f"the method failed: {type(error).__name__}: {error}") from error
+    if not isinstance(history, ImpactHistory):
+        raise SimulationError(f"the method failed: it returned {type(history).__name__}, not a history")
+    return history
+
+
 LONGEST = 8.0  # T*: a beam that then still touches is not about to leave
 
 
@@ -140,13 +160,12 @@ def simulate_to_separation(
     """
     own = getattr(method, "simulate_to_separation", None)
     if own is not None:
-        return own(impact, longest=longest, save=save, progress=progress)
+        return simulated(own, impact, longest=longest, save=save, progress=progress)
     last = float(separation_times(impact, longest, save)[-1])
     end = min(1.5 * impact.slow_time_scale, last)
     while True:
-        history = method.simulate(
-            impact, end_time=end, save=separation_times(impact, end, save), progress=progress
-        )
+        saved = separation_times(impact, end, save)
+        history = simulated(method.simulate, impact, end_time=end, save=saved, progress=progress)
         if end >= last or has_left(history):
             return history
         end = min(2.0 * end, last)
@@ -185,14 +204,21 @@ def paths_with(choice: str) -> list[str]:
 
 
 def method_type(path: str) -> type[Any]:
-    """The class of a path. Raises :class:`InputError` for a name that is not installed, or that does not load."""
+    """The class of a path. Raises :class:`InputError` for a name that is not installed, that does not load, or that is
+    no method."""
     if path not in _found():
         raise InputError(f"path: {path!r} is not known{nearest(str(path), _found())}")
     try:
-        return _found()[path].load()
-    except Exception as error:  # somebody else's package may fail in any way
+        kind = _found()[path].load()
+    except ANY_FAILURE as error:  # somebody else's package may fail in any way
         reason = " ".join(str(error).split())
         raise InputError(f"path: {path!r} is installed but does not load ({type(error).__name__}: {reason})") from None
+    if not (isinstance(kind, type) and dataclasses.is_dataclass(kind)):
+        raise InputError(f"path: {path!r} is installed but is no dataclass (got {shortened(kind)})")
+    for name in ("path", "label", "refuses", "simulate"):
+        if not hasattr(kind, name) and name not in declared(kind):
+            raise InputError(f"path: {path!r} is installed but its class {kind.__name__} has no {name}")
+    return kind
 
 
 def method_from_tables(path: str, tables: Mapping[str, Any], *, label: str | None = None) -> Any:
@@ -219,7 +245,9 @@ def method_from_tables(path: str, tables: Mapping[str, Any], *, label: str | Non
         else:
             values[name] = part_from_table(registries[name], value, f"{path}.{name}")
     try:
-        made = kind(**values)
-    except (TypeError, ValueError) as error:
+        made = kind(**values) if label is None else dataclasses.replace(kind(**values), label=label)
+    except ANY_FAILURE as error:
         raise InputError(f"{path}: {error}") from None
-    return made if label is None else dataclasses.replace(made, label=label)
+    if not isinstance(made.label, str):
+        raise InputError(f"{path}: label must be a text (got {shortened(made.label)})")
+    return made

@@ -13,10 +13,10 @@ from typing import Any
 
 import numpy as np
 
-from bent_beam.checks import positive
-from bent_beam.errors import SimulationError
+from bent_beam.checks import between, positive
+from bent_beam.errors import ANY_FAILURE, SimulationError
 from bent_beam.impact import Impact
-from bent_beam.method import Method, chosen_for, refined, settings_of
+from bent_beam.method import Method, chosen_for, refined, settings_of, simulated
 from comparison.rows import COMPANIONS, First, MatchRow, Question, about, lost_row, with_theory
 from comparison.store import RunStore, source_of
 from comparison.time_limit import Clock, TimeLimitError, affordable_refinement
@@ -30,6 +30,7 @@ DURATION = 0.1  # τ of the end: any will do at ε = 0 (self-similar); the thesi
 INSTANTS = 250
 SHARES = (0.35, 0.7, 1.0)  # of the largest ε
 PERTURBATION = 0.05  # see first_order_epsilon (tests: half, twice); a method may carry its own ``perturbation``
+EXTREME = 1e30  # of ε: its powers are calculated with
 WIDE = 0.02  # of a leading-order number: a wider error bar deserves a warning
 WIDE_FIRST = 0.1  # of max(|r₁|, 1), likewise
 
@@ -73,7 +74,9 @@ def _reduced(
     def compute() -> dict[str, Any]:
         try:
             asked = None if clock is None else clock.progress()
-            history = method.simulate(impact, end_time=DURATION * impact.time_scale, save=INSTANTS, progress=asked)
+            history = simulated(
+                method.simulate, impact, end_time=DURATION * impact.time_scale, save=INSTANTS, progress=asked
+            )
         except ValueError as error:
             raise Refused(str(error)) from None
         found = moments(history, uniform=uniform)
@@ -103,7 +106,8 @@ def first_order_epsilon(leading: LeadingEstimate, first: First, perturbation: fl
     part = perturbation
     if first[0] + first[1] <= 0.0 and front > 0.0:
         part *= front / (front + 0.2)
-    return part / (DURATION * (alpha / 2 + chi * z**2 / 2 + psi * z**4 / 24 + axial / 2))
+    top = part / (DURATION * (alpha / 2 + chi * z**2 / 2 + psi * z**4 / 24 + axial / 2))
+    return between("first_order: the largest ε of the runs, from alpha, psi, chi and N,", top, 1 / EXTREME, EXTREME)
 
 
 @dataclass(frozen=True)
@@ -156,7 +160,7 @@ def _raise_if_refused(method: Method, impact: Impact) -> None:
     """Ask the method before its run. Raises :class:`Refused` with its reason."""
     reason = method.refuses(impact)
     if reason:
-        raise Refused(reason)
+        raise Refused(str(reason))
 
 
 def coarsened(question: Question, store: RunStore, clock: Clock) -> tuple[Question, list[str]]:
@@ -240,8 +244,8 @@ def _attempt(question: Question, store: RunStore, limit: float | None) -> MatchR
         return lost_row(question, str(error))
     except Refused as error:
         return lost_row(question, str(error), refused=True)
-    except Exception as error:  # a sweep of hours must not end because one of its runs did
-        return lost_row(question, f"{type(error).__name__}: {error}")
+    except ANY_FAILURE as error:  # a sweep of hours must not end because one of its runs did
+        return lost_row(question, str(error) if isinstance(error, ValueError) else f"{type(error).__name__}: {error}")
 
 
 def match(

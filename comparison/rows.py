@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -164,7 +165,9 @@ def about(question: Question) -> dict[str, Any]:
 
 def lost_row(question: Question, reason: str, *, refused: bool = False) -> MatchRow:
     """The row of a question without an answer."""
-    row = about(question) | with_theory(question, None, None)
+    row = about(question)
+    with suppress(ValueError):  # of which the theory has nothing to say either
+        row |= with_theory(question, None, None)
     return MatchRow(**row, reason=" ".join(reason.split()), refused=refused)
 
 

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import dataclasses
 import inspect
+import logging
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from bent_beam.errors import InputError
 from bent_beam.fields import declared, key_of
 from bent_beam.meshes import MESHES
 from bent_beam.method import method_type, paths
@@ -37,7 +39,11 @@ def settings() -> list[Setting]:
     found += _kinds("section", SECTIONS)
     found += _kinds("mesh", MESHES)
     for path in paths():
-        method = method_type(path)
+        try:
+            method = method_type(path)
+        except InputError as error:
+            logging.getLogger("bent_beam").warning("left out: %s", error)
+            continue
         parts: Mapping[str, Mapping[str, type]] = getattr(method, "PARTS", {})
         found += [f for f in _fields(path, None, method) if f.name not in (*parts, "label")]
         for name, kinds in parts.items():

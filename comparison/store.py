@@ -7,15 +7,12 @@ or from other versions is never read as good.
 from __future__ import annotations
 
 import hashlib
-import inspect
 import json
 import os
 import tempfile
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Mapping
 from contextlib import suppress
 from dataclasses import dataclass
-from functools import cache
-from importlib.metadata import entry_points
 from pathlib import Path
 from typing import Any
 
@@ -26,12 +23,9 @@ from numpy.typing import NDArray
 from bent_beam.errors import InputError
 from bent_beam.files import write_atomically
 from bent_beam.versions import versions
+from comparison.sources import source_digest, source_of
 
-__all__ = ["RunStore", "check_writable", "default_store", "source_of", "write_atomically"]
-
-PACKAGES = ("bent_beam", "measure", "theory", "hermite_fe", "self_similar_fe", "exudyn_models", "comparison")
-CODE = (".py", ".so", ".pyd")
-
+__all__ = ["RunStore", "check_writable", "default_store", "source_digest", "source_of", "write_atomically"]
 
 def check_writable(out: Path, *, folder: bool) -> None:
     """``InputError`` when ``out`` (or a file in it, a ``folder``) cannot be written: asked before the work."""
@@ -60,40 +54,6 @@ def _canonical(value: Any) -> str:
 
 def _digest(text: str) -> str:
     return hashlib.sha256(text.encode()).hexdigest()
-
-
-def _digest_of_files(files: Iterable[Path], root: Path) -> str:
-    digest = hashlib.sha256()
-    for file in sorted(files):
-        digest.update(file.relative_to(root).as_posix().encode())
-        digest.update(file.read_bytes())
-    return digest.hexdigest()
-
-
-@cache
-def source_digest() -> str:
-    """Digest of this project's own sources: a changed solver must not be served an old answer."""
-    root = Path(__file__).resolve().parent.parent
-    return _digest_of_files((f for package in PACKAGES for f in (root / package).rglob("*.py")), root)
-
-
-@cache
-def source_of(kind: type) -> str:
-    """A method's class, and what tells it from its older versions: for somebody else's method the digest of its whole
-    package (or module) and the version of its distribution."""
-    name, top = f"{kind.__module__}.{kind.__qualname__}", kind.__module__.partition(".")[0]
-    if top in PACKAGES:  # in every key
-        return name
-    try:
-        # a class of a script comes to a worker by value: only its code still knows the file
-        file = Path(inspect.getfile(kind.simulate if top == "__main__" and hasattr(kind, "simulate") else kind))
-        root = next((parent for parent in file.parents if parent.name == top), None)
-        files = [file] if root is None else [f for f in root.rglob("*") if f.suffix in CODE]
-        source = _digest_of_files(files, file.parent if root is None else root)
-    except (OSError, TypeError):  # made at a prompt
-        source = _digest(repr(kind))
-    registered = (e for e in entry_points(group="bentbeam.methods") if e.module.partition(".")[0] == top)
-    return " ".join([name, source, *sorted({f"{e.dist.name} {e.dist.version}" for e in registered if e.dist})])
 
 
 @dataclass(frozen=True)

@@ -6,14 +6,12 @@ import time
 from collections.abc import Callable
 from dataclasses import dataclass
 
+from bent_beam.errors import TimeLimitError
+
 __all__ = ["Clock", "TimeLimitError", "affordable_refinement"]
 
 FACTORS = (0.125, 0.25, 0.5)  # of the resolution asked for, tried in turn
 GROWTH = 6.0  # of a run's time when elements and steps are halved: 4, and half as much for a busy machine
-
-
-class TimeLimitError(Exception):
-    """A row cannot be finished within its limit."""
 
 
 @dataclass

@@ -2,20 +2,23 @@
 
 from __future__ import annotations
 
+import asyncio
 import signal
 import warnings
 from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import CancelledError
+from concurrent.futures import CancelledError, ThreadPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import closing, contextmanager
 from multiprocessing import get_context
 from typing import Any
 
 from bent_beam.checks import whole
+from comparison.sources import this_code
 
 __all__ = ["run_all"]
 
 FIRST_ANSWER = 8.0  # s that a scheduler has to answer
+FIRST_WORKER = 15.0  # s until one is there, and again until all have answered
 IDLE = 10  # s until a worker without work ends: also when this process was killed and could tell nobody
 DIED = "the worker died: out of memory?"
 
@@ -114,6 +117,35 @@ def interrupts_held() -> Iterator[None]:
         signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
+async def _shake_hands(scheduler: str) -> None:
+    from distributed.comm import connect
+
+    await (await connect(scheduler, timeout=FIRST_ANSWER)).close()
+
+
+def _check_workers(client: Any, scheduler: str) -> None:
+    """Raise ``ValueError`` unless workers are there, answer, and have this project's sources and versions."""
+    from distributed import wait
+
+    try:
+        client.wait_for_workers(1, timeout=FIRST_WORKER)
+        workers = list(client.scheduler_info(n_workers=-1)["workers"])
+        asked = [client.submit(this_code, workers=[w], pure=False, priority=100) for w in workers]
+        with client.as_current():
+            wait(asked, timeout=FIRST_WORKER)
+    except TimeoutError:
+        raise ValueError(
+            f"scheduler: workers at {scheduler} are missing, frozen or busy: not all answered within {FIRST_WORKER:g} s"
+        ) from None
+    for worker, answer in zip(workers, asked):
+        theirs = answer.result() if answer.status == "finished" else answer.exception()
+        if theirs != this_code():
+            raise ValueError(
+                f"scheduler: the worker {worker} has other sources or versions, so its numbers would be others "
+                f"(theirs: {theirs}; here: {this_code()})"
+            )
+
+
 def _on_cluster(
     function: Callable[..., Any],
     arguments: Sequence[tuple[Any, ...]],
@@ -127,11 +159,14 @@ def _on_cluster(
     except ImportError:
         raise ValueError("scheduler: needs the extra [cluster] (pip install 'bent-beam-impact[cluster]')") from None
     try:
+        with ThreadPoolExecutor(1) as thread:  # a client that fails to connect would linger
+            thread.submit(asyncio.run, _shake_hands(scheduler)).result()
         # not the default: who asked may use dask, or xarray, for something else
         client = Client(scheduler, timeout=FIRST_ANSWER, set_as_default=False)
-    except (OSError, ValueError) as error:
+    except Exception as error:  # each kind of address has its own
         raise ValueError(f"scheduler: none answers at {scheduler} ({error})") from None
     with client:
+        _check_workers(client, scheduler)
         numbers = {client.submit(function, *a, pure=False): i for i, a in enumerate(arguments)}
         for future in as_completed(list(numbers), loop=client.loop):
             i = numbers.pop(future)

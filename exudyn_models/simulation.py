@@ -36,6 +36,7 @@ from exudyn_models.warnings_of_run import warnings_of_run
 
 __all__ = ["simulate"]
 
+MOST_NODES = 200_000  # Exudyn takes 10 kB for each: 2 GB
 MOST_WORK = 2e9  # steps x nodes: about an hour
 
 
@@ -141,6 +142,8 @@ def _lay_out(impact: Impact, end: float, chosen: Chosen, full_beam: bool) -> _La
 def _build(layout: _Layout, chosen: Chosen, half: bool, targets: Array) -> Stepping:
     """Beam, contact, steps and solver. Raises ``ValueError`` for more work than one run takes."""
     scaling, integrator, nodes = layout.scaling, chosen.integrator, layout.shape.s.size
+    if nodes > MOST_NODES:
+        raise ValueError(f"mesh: {nodes} nodes on the Exudyn path, {MOST_NODES} are the most (memory); larger elements")
     beam, contact = assemble(layout.shape, scaling, chosen.element, chosen.contact, integrator, half)
     run = Recorder(beam, contact, scaling, half, integrator.averages())
     stable = stable_step(beam, contact, integrator) if integrator.explicit else math.inf

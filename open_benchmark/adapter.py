@@ -22,7 +22,7 @@ from platformdirs import user_cache_path
 
 from bent_beam.parts import InputError, nearest
 from bent_beam.versions import versions
-from comparison.store import source_digest
+from comparison.sources import behind, source_digest
 from open_benchmark.problem import Problem
 
 __all__ = ["ADAPTERS", "RESOLUTIONS", "Adapter", "chosen_adapters", "environments", "install", "shipped_adapters"]
@@ -109,6 +109,8 @@ class Adapter:
         text = repr((self.arguments, self.install, self.debian)).encode()
         if self.host:
             text += repr((source_digest(), versions())).encode()
+        if self.file.suffix == ".py" and not (self.install or self.debian):  # with the modules beside it
+            text += repr(behind([self.file], self.file.parent)).encode()
         return hashlib.sha256(self.file.read_bytes() + text).hexdigest()
 
 

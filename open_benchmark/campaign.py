@@ -43,6 +43,9 @@ STANDARD = (
 )
 
 
+AGAIN = ("not_installed", "invalid", "crashed")  # what may be the machine's fault, as a full disk, is asked anew
+
+
 @dataclass(frozen=True)
 class Row:
     """One code on one problem at one resolution. seconds : wall clock of the process, the least of ``repeats`` runs
@@ -106,7 +109,7 @@ def campaign(
         decisive = json.dumps([adapter.digest(), problem_text(item), resolution, asdict(limits)])
         key = hashlib.sha256(decisive.encode()).hexdigest()
         old = _stored_row(kept)
-        if old.get("key") != key or old.get("outcome") == "not_installed":
+        if old.get("key") != key or old.get("outcome") in AGAIN:
             run = run_adapter(adapter, item, resolution, kept, limits)
             write_atomically(kept.with_suffix(".row.json"), json.dumps({"key": key, **asdict(run)}))
     rows = [_row(adapter, item.id, resolution, out, item.id in drawn_ids) for adapter, item, resolution in runs]

@@ -34,7 +34,7 @@ __all__ = ["load_result"]
 
 COLUMNS = ("tau", *SERIES)
 BESIDE = (*TEXTS, *ARRAYS, "events")  # names allowed in the JSON file beside a table
-NUMBER = re.compile(r"\s*[-+]?(?:(?:\d+\.?\d*|\.\d+)(?:[ed][-+]?\d+)?|nan|inf(?:inity)?)\s*", re.I)
+NUMBER = re.compile(r"\s*[-+]?(?:(?:\d+\.?\d*|\.\d+)(?:[ed][-+]?\d+)?|nan|inf(?:inity)?)\s*", re.A | re.I)
 MOST_BYTES = 200_000_000
 MOST_JSON = 10_000_000  # bytes: five million empty lists, the worst of that size, take half a gigabyte of memory
 MOST_DIRECTORY = 100_000  # bytes of an NPZ's table of contents

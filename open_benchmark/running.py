@@ -132,6 +132,24 @@ def _file_size(limits: Limits) -> Callable[[], None] | None:
 
 def _watch(process: subprocess.Popen[bytes], folder: Path, limits: Limits) -> tuple[str, str]:
     """Wait for the end; outcome and reason when a limit ended it."""
+    guard = _guard(process, folder)
+    try:
+        return _waited(process, folder, limits)
+    finally:
+        if guard is not None:
+            guard.kill()
+            guard.communicate()
+
+
+def _guard(process: subprocess.Popen[bytes], folder: Path) -> subprocess.Popen[bytes] | None:
+    """A shell that ends the adapter's group and its folder when this process is killed: its pipe closes then."""
+    if os.name != "posix":
+        return None
+    last = f'read _; kill -9 -{process.pid}; rm -rf "$0"'
+    return subprocess.Popen(["sh", "-c", last, str(folder)], stdin=subprocess.PIPE, start_new_session=True)
+
+
+def _waited(process: subprocess.Popen[bytes], folder: Path, limits: Limits) -> tuple[str, str]:
     began = time.perf_counter()
     while process.poll() is None:
         passed = time.perf_counter() - began

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 
-from bent_beam.errors import SimulationError
+from bent_beam.errors import ANY_FAILURE
 from bent_beam.history import ImpactHistory
 from bent_beam.impact import Impact
 from bent_beam.method import Method, chosen_for, settings_of
@@ -122,7 +122,7 @@ def widest(shown: Shown) -> float:
 
 
 def show(shown: Shown, method: Method) -> ShownImpact:
-    """Simulate with ``method`` and reduce. Raises ``ValueError`` for what it refuses, :class:`SimulationError`."""
+    """Simulate with ``method`` and reduce. Raises ``ValueError`` for what it refuses."""
     impact = shown.impact
     reason = method.refuses(impact)
     if reason:
@@ -156,7 +156,7 @@ def _kept(shown: Shown, method: Method, store: RunStore) -> ShownImpact | str:
 
     try:
         kept = store.answer(question, compute)
-    except (SimulationError, ValueError, ArithmeticError) as error:
+    except ANY_FAILURE as error:
         return f"{method.label}, {shown.title}: {' '.join(str(error).split())}"
     return ShownImpact(shown, method.label, **{**kept, "warnings": tuple(kept["warnings"])})
 

@@ -13,6 +13,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
+from bent_beam.errors import ANY_FAILURE
 from bent_beam.files import write_atomically
 from bent_beam.method import Method, refined
 from comparison.figures.work_precision import draw_work_precision
@@ -103,7 +104,7 @@ def warm_up(methods: Sequence[Method]) -> None:
     for method in methods:
         try:
             (refined(method, 0.25) or method).simulate(impact, end_time=END * impact.time_scale, save=8)
-        except Exception:  # whatever a method of somebody else's raises is the reason of its rows
+        except ANY_FAILURE:  # whatever a method of somebody else's raises is the reason of its rows
             continue
 
 

@@ -16,6 +16,17 @@ PACKAGES = sorted(
 )
 
 
+def test_set_up_with_an_old_python_names_the_one_it_needs_and_leaves_nothing(tmp_path):
+    old = tmp_path / "old"
+    old.write_text('#!/bin/sh\ncase "$*" in *--version*) echo Python 3.10.12;; *version_info*) exit 1;; esac\n')
+    old.chmod(0o755)
+    for name in ("pyproject.toml", "requirements.lock"):
+        (tmp_path / name).touch()
+    line = ["make", "-f", str(ROOT / "Makefile"), f"PYTHON={old}", ".venv/.installed"]
+    done = subprocess.run(line, cwd=tmp_path, capture_output=True, text=True)
+    assert done.returncode == 2 and "needs Python 3.11" in done.stderr and not (tmp_path / ".venv").exists()
+
+
 @pytest.fixture(scope="module")
 def installed(tmp_path_factory):
     """The wheel of a copy of the sources, unpacked where nothing else is."""

@@ -74,3 +74,5 @@ def study(
     with Console(quiet).progress(f"study {name}") as bar:
         found = run_study(name, loaded, methods=varied, refines=refines, out=out, jobs=jobs, progress=bar.count)
     emit(found.to_dict(), as_json, found.text)
+    if found.problem:
+        raise InputError(found.problem)

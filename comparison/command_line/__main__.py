@@ -1,5 +1,19 @@
-"""``python -m comparison.command_line`` is the ``bentbeam`` command."""
+"""``python -m comparison.command_line`` and the ``bentbeam`` command; light: interrupts are caught from the start."""
 
-from comparison.command_line.app import main
+import sys
 
-main()
+__all__ = ["main"]
+
+
+def main() -> None:
+    """Load the command line and run it."""
+    try:
+        from comparison.command_line import app
+    except KeyboardInterrupt:
+        print("error: interrupted; nothing had begun", file=sys.stderr)
+        sys.exit(130)
+    app.main()
+
+
+if __name__ == "__main__":
+    main()

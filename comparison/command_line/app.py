@@ -7,7 +7,9 @@ The library's commands are listed here; programs on top of it add theirs by the 
 
 from __future__ import annotations
 
+import io
 import os
+import re
 import signal
 import sys
 import warnings
@@ -18,7 +20,7 @@ from typing import Annotated
 
 import typer
 
-from bent_beam.errors import SimulationError
+from bent_beam.errors import InputError, SimulationError
 from comparison.command_line.bounce import bounce
 from comparison.command_line.compare import compare
 from comparison.command_line.match import match
@@ -36,6 +38,8 @@ COMMANDS = (theory, new, settings, predict, simulate, bounce, match, rerun, plot
 """Of the library, in the order of ``bentbeam --help``."""
 
 INTERRUPTED = 130
+AGAIN = (signal.SIGALRM,) if hasattr(signal, "SIGALRM") else ()
+PATIENCE = 4.0  # s between an interrupt and the next: workers and files are cleared away meanwhile
 RESUMED = ("match", "gallery", "report", "benchmark")  # keep every run, or every item, as soon as it is finished
 
 app = typer.Typer(
@@ -82,10 +86,10 @@ def main(arguments: Sequence[str] | None = None) -> None:
     _open_closed_streams()
     ends = [getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name)]
     for end in ends:
-        if signal.getsignal(end) is signal.SIG_DFL:  # under nohup, SIGHUP stays ignored
-            signal.signal(end, signal.default_int_handler)  # as Ctrl-C: no half of a file is left
+        if signal.getsignal(end) in (signal.SIG_DFL, signal.default_int_handler):  # under nohup, SIGHUP stays ignored
+            signal.signal(end, interrupt)  # as Ctrl-C: no half of a file is left
     code = run(arguments)
-    for end in ends:
+    for end in (*ends, *AGAIN):
         signal.signal(end, signal.SIG_IGN)  # nothing is left to interrupt, and leaving takes a moment
     try:
         sys.stdout.flush()
@@ -96,12 +100,22 @@ def main(arguments: Sequence[str] | None = None) -> None:
     sys.exit(code)
 
 
+def interrupt(*_: object) -> None:
+    """Raise ``KeyboardInterrupt``, and again until one has come through: a solver's callback may swallow it."""
+    for number in AGAIN:
+        signal.signal(number, interrupt)
+        signal.setitimer(signal.ITIMER_REAL, PATIENCE)
+    raise KeyboardInterrupt
+
+
 def _open_closed_streams() -> None:
     """Open what was closed (``>&-``, some daemons) on the null device: Python has ``None`` in its place, and the first
     file that is opened would take its number, and with it whatever a library prints."""
     for name, mode in (("stdin", "r"), ("stdout", "w"), ("stderr", "w")):
         if getattr(sys, name) is None:
             setattr(sys, name, open(os.devnull, mode, encoding="utf-8"))
+    if isinstance(sys.stdout, io.TextIOWrapper):
+        sys.stdout.reconfigure(errors="replace")  # a terminal without Greek letters costs them, not the answer
 
 
 def run(arguments: Sequence[str] | None = None) -> int:
@@ -109,6 +123,7 @@ def run(arguments: Sequence[str] | None = None) -> int:
     warnings.simplefilter("ignore", RuntimeWarning)  # every result is checked to be finite
     words = list(sys.argv[1:] if arguments is None else arguments)
     try:
+        check_numbers(words)
         if words[:1] not in [[command.__name__] for command in COMMANDS]:
             add_programs()
         code = app(args=words, prog_name="bentbeam", standalone_mode=False)
@@ -126,8 +141,28 @@ def run(arguments: Sequence[str] | None = None) -> int:
         return _refuse(str(error), 2)
     except MemoryError:
         return _refuse("not enough memory; fewer nodes, steps or saved instants need less", 3)
+    except SystemExit as ended:
+        if isinstance(ended.__context__, BrokenPipeError):  # click takes `| head` for a failure
+            os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
+            return 0
+        return _refuse(f"something that was called ended the program: {ended}", 3)
     except (KeyboardInterrupt, typer.Abort):
         return _refuse(f"interrupted; {how_to_go_on(words)}", INTERRUPTED)
+
+
+NUMBER = re.compile(r"\s*[-+]?(?:(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?|nan|inf(?:inity)?)\s*", re.A | re.I)
+
+
+def check_numbers(words: Sequence[str]) -> None:
+    """``InputError`` for what Python reads as a number and a reader may not: 1_0, digits of other scripts."""
+    for word in words:
+        for text in (word.partition("=")[2] if word.startswith("--") else word).split(","):
+            try:
+                float(text)
+            except ValueError:
+                continue
+            if not NUMBER.fullmatch(text):
+                raise InputError(f"{word} is not a plain number: digits 0 to 9, without _")
 
 
 def how_to_go_on(arguments: Sequence[str]) -> str:

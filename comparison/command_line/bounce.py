@@ -72,11 +72,16 @@ def bounce(
     with Console(quiet).progress(f"{path}: the whole impact") as bar:
         found = follow(impact, method, section=section, runs=runs, seed=seed, jobs=jobs, progress=bar.count)
         followed = follow_hits(impact, method, hits, progress=bar.fraction) if hits > 1 else []
-    document = bounce_document(found)
+    document, problem_of_files = bounce_document(found), ""
     if hits > 1:
         document["hits"] = [{**vars(hit), "restitution": hit.restitution} for hit in followed]
     if out is not None:
         from comparison.whole_impact.figures import write_bounce
 
-        document["files"] = [str(file) for file in write_bounce(found, out)]
+        try:
+            document["files"] = [str(file) for file in write_bounce(found, out)]
+        except OSError as error:  # the answer is worth more than its files
+            problem_of_files = f"out: {error}"
     emit(document, as_json, lambda: "\n".join([bounce_table(found), *hits_table(followed)]))
+    if problem_of_files:
+        raise InputError(problem_of_files)

@@ -80,12 +80,12 @@ def match(
         jobs = max(1, min(os.cpu_count() or 1, len(asked) // LEAST_ROWS))
     with Console(quiet).progress(f"{len(asked)} rows") as bar:
         rows = match_all(asked, store=store, jobs=jobs, scheduler=scheduler, limit=limit, progress=bar.count)
-    if out is not None:
-        write_match(rows, out)
     emit(match_document(rows), as_json, lambda: match_table(rows))
     lost = failures(rows)
     for row in lost:
         print(printable(f"error: {row.label}, kappa/nu = {row.kappa_over_nu:g}: {row.reason}"), file=sys.stderr)
+    if out is not None:
+        write_match(rows, out)  # after the answer, which a full disk must not cost
     if lost:
         raise typer.Exit(3)
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Annotated, Any
@@ -110,7 +111,12 @@ def emit(document: Any, as_json: bool, text: Callable[[], str]) -> None:
 
         from comparison.plain import json_text
 
-        print("".join(c if c.isprintable() else json.dumps(c)[1:-1] for c in json_text(document)))
+        unicode = (sys.stdout.encoding or "utf-8").lower().startswith("utf")
+
+        def plain(c: str) -> bool:
+            return c.isprintable() and (unicode or c.isascii())
+
+        print("".join(c if plain(c) else json.dumps(c)[1:-1] for c in json_text(document)))
     else:
         print(printable(text()))
 

@@ -26,7 +26,11 @@ def plot(
     from comparison.figures.history import draw_history
     from comparison.store import check_writable
 
-    histories = [(file.stem, ImpactHistory.load(file)) for file in files]
+    histories: dict[str, ImpactHistory] = {}
+    for file in files:
+        name = next(n for n in (file.stem, *(f"{file.stem}-{k}" for k in range(2, 10**6))) if n not in histories)
+        histories[name] = ImpactHistory.load(file)
     check_writable(out, folder=True)
-    drawn = [str(f) for name, history in histories for f in draw_history(history, out, name, format)]
+    kinds = list(dict.fromkeys(format))
+    drawn = [str(f) for name, history in histories.items() for f in draw_history(history, out, name, kinds)]
     emit({"files": drawn}, as_json, lambda: "\n".join(drawn))

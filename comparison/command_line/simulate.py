@@ -44,7 +44,7 @@ def simulate(
     """
     from bent_beam.cases import load_case
     from bent_beam.errors import SimulationError
-    from bent_beam.method import simulate_to_separation
+    from bent_beam.method import simulate_to_separation, simulated
     from bent_beam.parts import InputError
     from comparison.summary import companions, run_table, summary
 
@@ -56,7 +56,8 @@ def simulate(
 
     def run(chosen: Method, instants: int, progress: Callable[[float], None] | None = None) -> ImpactHistory:
         if until is None:
-            return chosen.simulate(loaded.impact, end_time=loaded.end_time, save=instants, progress=progress)
+            run_to = {"end_time": loaded.end_time, "save": instants, "progress": progress}
+            return simulated(chosen.simulate, loaded.impact, **run_to)
         return simulate_to_separation(chosen, loaded.impact, save=instants, progress=progress)
 
     try:

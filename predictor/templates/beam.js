@@ -76,7 +76,7 @@ const Beam = (() => {
       const value = inputs[field.name];
       if (!field.shown(inputs)) continue;
       const rule = field.ok === positive ? "be positive" : "not be negative";
-      if (!Number.isFinite(value)) list.push([field.name, `${field.label} needs a number.`]);
+      if (!Number.isFinite(value)) list.push([field.name, `${field.label} needs a number, without thousands separators.`]);
       else if (!field.ok(value)) list.push([field.name, `${field.label} must ${rule}.`]);
     }
     if (inputs.section === "pipe" && inputs.inner_diameter >= inputs.outer_diameter)

@@ -40,8 +40,9 @@
       "aria-describedby": `unit-${field.name} wrong-${field.name}`,
     });
     input.addEventListener("input", () => {
-      const typed = input.value.trim().replace(",", ".").replace("−", "-");
-      const plain = /^[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?$/i.test(typed);
+      const text = input.value.trim(), typed = text.replace(",", ".").replace("−", "-");
+      // 1,000 is a thousand to some and one to others
+      const plain = /^[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?$/i.test(typed) && !/[1-9]\d{0,2},\d{3}(e|$)/i.test(text);
       inputs[field.name] = plain ? Number(typed) * unit(field.quantity)[1] : NaN;
       update();
     });
@@ -85,7 +86,7 @@
   function fromLink() {
     const given = new URLSearchParams(location.hash.slice(1));
     inputs = { ...START };
-    for (const { name, options } of CHOICES) if (given.get(name) in options) inputs[name] = given.get(name);
+    for (const { name, options } of CHOICES) if (Object.hasOwn(options, given.get(name))) inputs[name] = given.get(name);
     for (const { name } of FIELDS) {
       const value = Number(given.get(name) || NaN);
       if (Number.isFinite(value)) inputs[name] = value;

@@ -62,5 +62,19 @@ def test_a_scheduler_that_does_not_answer_is_bad_input_within_ten_seconds(monkey
     pytest.importorskip("distributed")
     assert workers.FIRST_ANSWER < 9.0
     monkeypatch.setattr(workers, "FIRST_ANSWER", 0.5)
-    with pytest.raises(ValueError, match=r"scheduler: none answers at tcp://127\.0\.0\.1:1 "):
-        run_all(root, [(4.0,)], scheduler="tcp://127.0.0.1:1")
+    for address in ("tcp://127.0.0.1:1", "tls://127.0.0.1:1", "nothing://1", ""):
+        with pytest.raises(ValueError, match=rf"scheduler: none answers at {address} "):
+            run_all(root, [(4.0,)], scheduler=address)
+
+
+def test_workers_that_are_missing_or_have_other_sources_are_told_before_the_work(cluster, monkeypatch):
+    assert workers.FIRST_ANSWER + 2.0 * workers.FIRST_WORKER < 40.0
+    monkeypatch.setattr("comparison.sources.versions", lambda: {"numpy": "of tomorrow"})
+    with pytest.raises(ValueError, match="other sources or versions"):
+        run_all(root, [(4.0,)], scheduler=cluster)
+    monkeypatch.undo()
+    monkeypatch.setattr(workers, "FIRST_WORKER", 0.3)
+    distributed = pytest.importorskip("distributed")
+    with distributed.LocalCluster(n_workers=0, processes=False, dashboard_address=None) as empty:
+        with pytest.raises(ValueError, match="missing, frozen or busy"):
+            run_all(root, [(4.0,)], scheduler=empty.scheduler_address)

@@ -37,6 +37,7 @@ def test_unstable_explicit_step_is_refused_with_the_stable_one(integrator):
         ({"contact": SegmentFriction(), "element": GeometricallyExact()}, "ancf_cable"),
         ({"contact": SegmentFriction(), "integrator": RK44()}, "implicit"),
         ({"save": 0}, "save"),
+        ({"mesh": UniformMesh(1e-5)}, "200000 are the most"),
         ({"end_time": math.nan}, "end_time"),
         ({"impact": Impact.dimensionless(0.5, length=100.0), "geometry": TrueGeometry()}, "right angle"),
     ],

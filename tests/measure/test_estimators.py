@@ -90,7 +90,7 @@ def test_the_first_moment_is_that_of_where_the_pushes_were(symmetry):
     sides = [1.0] if symmetry == "half" else [-1.0, 1.0]
     places = np.sqrt(time)[:, None] * np.array(sides)
     history = history_of(
-        time, places[0], symmetry=symmetry, impulse=np.outer(time, np.ones(len(sides))), total_impulse=2.0 * time,
+        time, places[-1], symmetry=symmetry, impulse=np.outer(time, np.ones(len(sides))), total_impulse=2.0 * time,
         contact_position=places,
     )  # fmt: skip
     impulse, moment = one_side(history)

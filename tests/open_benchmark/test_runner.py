@@ -1,6 +1,7 @@
 """An adapter that misbehaves is a row with a reason; the others go on, and what was done is not done again."""
 
 import os
+import subprocess
 import sys
 import time
 from pathlib import Path
@@ -87,6 +88,39 @@ time.sleep(60)
     while _alive(int(pid.read_text())):
         assert time.monotonic() < end
         time.sleep(0.05)
+
+
+def test_a_killed_command_takes_its_adapter_and_its_folder_along(tmp_path):
+    adapter(tmp_path, "slow", "import os, time\nopen('pid', 'w').write(str(os.getpid()))\ntime.sleep(60)")
+    program = f"""
+from pathlib import Path
+from open_benchmark.adapter import Adapter
+from open_benchmark.problem import problem
+from open_benchmark.running import Limits, run_adapter
+run_adapter(Adapter("slow", Path({str(tmp_path / "slow.py")!r})), problem("point-2"), "coarse", Path("kept/r.npz"), Limits())
+"""
+    command = subprocess.Popen([sys.executable, "-c", program], cwd=tmp_path)
+    while not (pids := [f for f in tmp_path.glob("kept/.run-*/pid") if f.read_text()]):
+        assert command.poll() is None
+        time.sleep(0.02)
+    number = int(pids[0].read_text())
+    command.kill()
+    command.wait()
+    end = time.monotonic() + 10.0
+    while _alive(number) or list(tmp_path.glob("kept/.run-*")):
+        assert time.monotonic() < end
+        time.sleep(0.05)
+
+
+def test_what_a_full_disk_may_have_spoilt_and_what_has_another_helper_is_run_again(tmp_path):
+    source = f"open({str(tmp_path / 'log')!r}, 'a').write('x')\nimport sys\nopen(sys.argv[2], 'wb').write(b'PK')"
+    one = adapter(tmp_path, "torn", source + "\nimport helper")
+    for _ in range(2):
+        rows = campaign([one], ["point-2"], tmp_path / "out", resolutions=["coarse"])
+    assert rows[0].score.outcome == "invalid" and (tmp_path / "log").read_text() == "xx"
+    before = one.digest()
+    (tmp_path / "helper.py").write_text("h = 1")
+    assert one.digest() != before
 
 
 def _alive(number):

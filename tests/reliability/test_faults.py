@@ -64,8 +64,8 @@ def whole_runs_in(store):
 @pytest.mark.parametrize(
     ("path", "kills"),
     [
-        pytest.param("hermite", 20 if FUZZ else 1, marks=pytest.mark.verify),
-        pytest.param("exudyn", 4, marks=pytest.mark.skipif(not FUZZ, reason="half a minute: FUZZ=1")),
+        pytest.param("hermite", 6 if FUZZ else 1, marks=pytest.mark.verify),
+        pytest.param("exudyn", 2, marks=pytest.mark.skipif(not FUZZ, reason="half a minute: FUZZ=1")),
     ],
 )
 def test_a_killed_match_starts_again_and_ends_with_the_same_rows(path, kills, tmp_path):

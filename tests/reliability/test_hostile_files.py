@@ -105,6 +105,43 @@ def test_a_hostile_history_is_refused_before_its_values_are_read(name, good, tmp
     assert "\n" not in said and len(said) < 500 and "\x1b" not in said, said
 
 
+def changed(name, change):
+    """One variable made anew: (dims, values, attributes) in, the same out."""
+
+    def make(data):
+        old = data[name]
+        dims, values, attributes = change(old.dims, old.values, dict(old.attrs))
+        return data.drop_vars(name).assign({name: (dims, values, attributes)})
+
+    return make
+
+
+MISREAD = {
+    "transposed": changed("gap", lambda d, v, a: (d[::-1], v.T, a)),
+    "a field of one instant": changed("gap", lambda d, v, a: (("x",), v[0], a)),
+    "an impulse at the nodes": changed("impulse", lambda d, v, a: (("time", "x"), v, a)),
+    "an energy of nodes": changed("kinetic_energy", lambda d, v, a: (("x",), v, a)),
+    "millimetres": changed("gap", lambda d, v, a: (d, 1e3 * v, a | {"units": "mm"})),
+    "nodes from right to left": changed("x", lambda d, v, a: (d, v[::-1], a)),
+    "a time before the impact": changed("time", lambda d, v, a: (d, v - 0.5, a)),
+    "sizes that overflow": changed("gap", lambda d, v, a: (d, 1e200 * v, a)),
+    "no times": lambda data: data.drop_vars("time"),
+    "a half beam to the left": lambda data: data.assign_coords(x=("x", data.x.values - 9.0, data.x.attrs)),
+    "a beam longer than itself": lambda data: data.assign_coords(x=("x", 1e4 * data.x.values, data.x.attrs)),
+    "the half said to be the full beam": lambda data: data.assign_attrs(symmetry="full"),
+}
+
+
+@pytest.mark.parametrize("name", MISREAD)
+def test_a_history_that_would_be_misread_is_refused(name, tmp_path):
+    """Square, so that its shape tells nothing."""
+    time = np.linspace(0.0, 1.0, 12)
+    history = history_of(time, 4.0 * time, gap=np.outer(time, time), impulse=np.outer(time, time))
+    ImpactHistory.load(history.save(tmp_path / "good.nc"))
+    with pytest.raises(ValueError, match=r"bad\.nc is not a good history"):
+        ImpactHistory.load(ImpactHistory(MISREAD[name](history.dataset)).save(tmp_path / "bad.nc"))
+
+
 def test_a_pipe_that_nobody_writes_into_is_not_waited_for(tmp_path):
     os.mkfifo(tmp_path / "pipe.nc")
     with pytest.raises(ValueError, match="no regular file"):

@@ -76,9 +76,13 @@ def draw_all(
     )
     entries = sorted((entry for group in found for entry in group), key=lambda e: order(e["id"]))
     drawn = [e for e in entries if "reason" not in e]
-    if drawn:
-        write_atomically(Path(out) / "index.md", _index(drawn))
-    return drawn, [e for e in entries if "reason" in e]
+    failures = [e for e in entries if "reason" in e]
+    try:
+        if drawn:
+            write_atomically(Path(out) / "index.md", _index(drawn))
+    except OSError as error:
+        failures.append({"id": "index.md", "reason": str(error)})
+    return drawn, failures
 
 
 def _index(drawn: Sequence[dict[str, Any]]) -> str:

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from bent_beam.errors import SimulationError
+from bent_beam.errors import ANY_FAILURE
 from comparison.plain import plain
 from comparison.store import write_atomically
 from comparison.stored import digest_of
@@ -85,17 +85,17 @@ def draw_item(name: str, out: Path, formats: Sequence[str]) -> dict[str, Any]:
     try:
         chosen.draw(sheet)
         files = sheet.save(out, name, formats)
-    except (SimulationError, ArithmeticError, ValueError, LookupError, OSError) as error:
+        drawn: dict[str, Any] = {
+            "id": name,
+            "title": chosen.title,
+            "caption": chosen.caption,
+            "numbers": plain(sheet.numbers),
+            "files": [str(f) for f in files],
+            "seconds": round(clock.perf_counter() - began, 2),
+        }
+        write_atomically(mark, json.dumps({"key": key, "drawn": drawn}, indent=1))
+    except ANY_FAILURE as error:
         return {"id": name, "reason": f"{type(error).__name__}: {' '.join(str(error).split())}"}
     finally:
         sheet.close()
-    drawn: dict[str, Any] = {
-        "id": name,
-        "title": chosen.title,
-        "caption": chosen.caption,
-        "numbers": plain(sheet.numbers),
-        "files": [str(f) for f in files],
-        "seconds": round(clock.perf_counter() - began, 2),
-    }
-    write_atomically(mark, json.dumps({"key": key, "drawn": drawn}, indent=1))
     return drawn

@@ -51,7 +51,7 @@ class Study:
 
 @dataclass
 class StudyResult:
-    """Result of a study. columns : key → heading; rows : JSON-ready dictionaries."""
+    """Result of a study. columns : key → heading; rows : JSON-ready dictionaries. problem : why files are missing."""
 
     name: str
     title: str
@@ -61,6 +61,7 @@ class StudyResult:
     conclusion: str
     files: list[str]
     warnings: list[str]
+    problem: str | None = None
 
     def to_dict(self) -> dict[str, Any]:
         """JSON-ready; numbers finite or null."""
@@ -142,7 +143,10 @@ def perform(
             draw_methods(sheet, study.heading, outcomes)
         else:
             study.draw(sheet, outcomes)
-        _write(result, sheet, out)
+        try:
+            _write(result, sheet, out)
+        except OSError as error:  # the answer is worth more than its files
+            result.problem = f"out: {error}"
     return result
 
 

@@ -10,6 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.ticker import NullFormatter
 
 from bent_beam.cases import Case
+from bent_beam.errors import ANY_FAILURE
 from bent_beam.method import Method, refined
 from comparison.figures import style
 from thesis.sheet import Sheet
@@ -41,18 +42,16 @@ def runs_of_methods(
 
 
 def _runs(vary: Vary, case: Case, method: Method, factor: float) -> list[Variant | Outcome]:
-    finer = refined(method, factor)
-    if finer is None:
-        reason = f"refine: {method.path} does not know how to be refined (got {factor:g})"
-    else:
-        reason = finer.refuses(case.impact) or ""
-    if finer is not None and not reason:
-        try:
+    reason = f"refine: {method.path} does not know how to be refined (got {factor:g})"
+    try:
+        finer = refined(method, factor)
+        reason = reason if finer is None else str(finer.refuses(case.impact) or "")
+        if finer is not None and not reason:
             return [_run(method.label, one, case, factor) for one in vary(finer, case)]
-        except NotVaried as error:
-            reason = f"not varied: {error}"
-        except ValueError as error:
-            reason = str(error)
+    except NotVaried as error:
+        reason = f"not varied: {error}"
+    except ANY_FAILURE as error:
+        reason = str(error)
     return [failed(method.label, case.impact, None, reason, refine=factor, refused=True)]
 
 

@@ -17,11 +17,11 @@ from dataclasses import dataclass
 from typing import Any
 
 from bent_beam.cases import Case
-from bent_beam.errors import SimulationError
+from bent_beam.errors import ANY_FAILURE, SimulationError
 from bent_beam.history import ImpactHistory
 from bent_beam.impact import Impact
 from bent_beam.meshes import GradedMesh, Mesh, UniformMesh
-from bent_beam.method import Method, Save
+from bent_beam.method import Method, Save, simulated
 from comparison.workers import run_all
 from hermite_fe import CONTACTS, FAR_FIELDS, INTEGRATORS, HermiteFE
 from hermite_fe.masses import ConsistentMass, LumpedMass, Mass
@@ -129,7 +129,7 @@ class Variant:
     def history(self) -> ImpactHistory:
         """The run itself."""
         save = saved_times(self.end_time) if self.save is None else self.save
-        return self.method.simulate(self.impact, end_time=self.end_time, save=save)
+        return simulated(self.method.simulate, self.impact, end_time=self.end_time, save=save)
 
 
 Runs = dict[str, tuple[float | None, dict[str, Any]]]
@@ -164,11 +164,9 @@ def _outcome(variant: Variant) -> Outcome:
         return variant.lost(str(error))
     except ValueError as error:
         return variant.lost(str(error), refused=True)
-    except Exception as error:  # of somebody else's method: the other runs go on
-        return variant.lost(f"{type(error).__name__}: {error}")
     try:
         return outcome_of(history, variant.label, value=variant.value, **variant.about)
-    except (ValueError, ArithmeticError, KeyError) as error:
+    except ANY_FAILURE as error:
         return variant.lost(f"no number can be estimated from this run: {error}")
 
 
