@@ -24,9 +24,8 @@ from measure.estimators import FirstOrderEstimate, LeadingEstimate, first_order,
 from measure.moments import Moments, moments
 from measure.reduction import hold_of, pull_of
 
-__all__ = ["DURATION", "INSTANTS", "coarsened", "match", "without_companion"]
+__all__ = ["INSTANTS", "coarsened", "match", "without_companion"]
 
-DURATION = 0.1  # τ of the end: any will do at ε = 0 (self-similar); the thesis ends here
 INSTANTS = 250
 SHARES = (0.35, 0.7, 1.0)  # of the largest ε
 PERTURBATION = 0.05  # see first_order_epsilon (tests: half, twice); a method may carry its own ``perturbation``
@@ -58,22 +57,29 @@ def _loaded(bare: Impact, epsilon: float, first: First) -> Impact:
 
 
 def _reduced(
-    store: RunStore, method: Method, impact: Impact, *, uniform: bool = False, clock: Clock | None = None
+    store: RunStore,
+    method: Method,
+    impact: Impact,
+    duration: float,
+    *,
+    uniform: bool = False,
+    clock: Clock | None = None,
 ) -> _Reduced:
-    """A run reduced to moments, from the store where it is there; ``uniform``: see :func:`moments`. The run without
-    loads must be reduced as the loaded ones are, or the noise that they share does not drop out."""
+    """A run to ``duration`` (t*) reduced to moments, from the store where it is there; ``uniform``: see
+    :func:`moments`. The run without loads must be reduced as the loaded ones are, or the noise that they share does
+    not drop out."""
     question = {
         "settings": settings_of(method) | {"label": ""},
         "source": source_of(type(method)),
         "impact": asdict(impact),
-        "duration": DURATION,
+        "duration": duration,
         "uniform": uniform,
     }
 
     def compute() -> dict[str, Any]:
         try:
             asked = None if clock is None else clock.progress()
-            history = method.simulate(impact, end_time=DURATION * impact.time_scale, save=INSTANTS, progress=asked)
+            history = method.simulate(impact, end_time=duration * impact.time_scale, save=INSTANTS, progress=asked)
         except ValueError as error:
             raise Refused(str(error)) from None
         found = moments(history, uniform=uniform)
@@ -91,7 +97,7 @@ def _reduced(
     return _Reduced(**kept)
 
 
-def first_order_epsilon(leading: LeadingEstimate, first: First, perturbation: float) -> float:
+def first_order_epsilon(leading: LeadingEstimate, first: First, perturbation: float, duration: float) -> float:
     """The largest ε of the runs: the loads change the free motion by a small part of V₀t over the contact zone.
 
     ε τ (|α|/2 + |χ|z²/2 + |ψ|z⁴/24 + |N|/2) = ``perturbation`` at the end, z being the zone measured at ε = 0 and half
@@ -103,7 +109,7 @@ def first_order_epsilon(leading: LeadingEstimate, first: First, perturbation: fl
     part = perturbation
     if first[0] + first[1] <= 0.0 and front > 0.0:
         part *= front / (front + 0.2)
-    return part / (DURATION * (alpha / 2 + chi * z**2 / 2 + psi * z**4 / 24 + axial / 2))
+    return part / (duration * (alpha / 2 + chi * z**2 / 2 + psi * z**4 / 24 + axial / 2))
 
 
 @dataclass(frozen=True)
@@ -129,22 +135,25 @@ def _estimates(
         raise Refused(f"refine: {asked.path} does not know how to be refined (got {factor:g})")
     bare = Impact.dimensionless(question.kappa_over_nu)
     _raise_if_refused(method, bare)
-    run = _reduced(store, method, bare, clock=clock)
+    run = _reduced(store, method, bare, question.duration, clock=clock)
     runs = [run]
     leading = leading_order(run.moments)
     estimate = None
     if first is not None:
         top = epsilon
         if top is None:
-            top = first_order_epsilon(leading, first, getattr(asked, "perturbation", PERTURBATION))
+            top = first_order_epsilon(leading, first, getattr(asked, "perturbation", PERTURBATION), question.duration)
         largest = _loaded(bare, top, first)
         _raise_if_refused(method, largest)
-        fixed = chosen_for(method, largest, DURATION * bare.time_scale)
+        fixed = chosen_for(method, largest, question.duration * bare.time_scale)
         # only a load that presses the zone leaves a uniform reaction to take out, of the bare run too
         pressed = largest.zone_pressure > 0.0
         shares = (0.0, *SHARES)
         found = [
-            (s * top, _reduced(store, fixed, _loaded(bare, s * top, first), uniform=pressed, clock=clock))
+            (
+                s * top,
+                _reduced(store, fixed, _loaded(bare, s * top, first), question.duration, uniform=pressed, clock=clock),
+            )
             for s in shares
         ]
         runs += [run for _, run in found]
@@ -169,7 +178,7 @@ def coarsened(question: Question, store: RunStore, clock: Clock) -> tuple[Questi
         if method is None:
             return 0.0
         try:
-            return _reduced(store, method, bare, clock=clock).seconds
+            return _reduced(store, method, bare, question.duration, clock=clock).seconds
         except (Refused, SimulationError):  # too coarse for the method: a finer one may do
             return 0.0
 

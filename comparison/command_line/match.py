@@ -46,6 +46,7 @@ def match(
     error_bars: Annotated[
         str, typer.Option(help="quick (a companion run at half the resolution), thorough (and one at twice), or drift.")
     ] = "quick",
+    duration: Annotated[float, typer.Option(help="End of the runs, t*.")] = 0.1,
     limit: Annotated[float | None, typer.Option(help="Seconds that one row may take.")] = None,
     jobs: Annotated[
         int | None,
@@ -72,7 +73,7 @@ def match(
 
     compared = chosen_methods(path or (), assignments or (), methods)
     loads = [_load(text) for text in first_order or ()]
-    asked = questions(compared, kappa_over_nu or THESIS_KAPPAS, loads, factors(refine), error_bars)
+    asked = questions(compared, kappa_over_nu or THESIS_KAPPAS, loads, factors(refine), error_bars, duration)
     if out is not None:
         check_writable(out, folder=True)
     store = RunStore(None if fresh else default_store())
