@@ -20,7 +20,7 @@ from bent_beam.method import Method, chosen_for, refined, settings_of
 from comparison.rows import COMPANIONS, First, MatchRow, Question, about, lost_row, with_theory
 from comparison.store import RunStore, source_of
 from comparison.time_limit import Clock, TimeLimitError, affordable_refinement
-from measure.estimators import FirstOrderEstimate, LeadingEstimate, first_order, leading_order, with_companions
+from measure.estimators import FirstOrderEstimate, LeadingEstimate, first_order, leading_order
 from measure.moments import Moments, moments
 from measure.reduction import hold_of, pull_of
 
@@ -114,12 +114,24 @@ def first_order_epsilon(leading: LeadingEstimate, first: First, perturbation: fl
 
 @dataclass(frozen=True)
 class _Estimates:
-    """What the runs at one resolution gave: ``run`` alone without loads, ``runs`` all of them."""
+    """What the runs at one resolution gave: ``run`` alone without loads, ``runs`` all of them; ``base`` without loads
+    and ``loaded`` at each ε on the mesh for first order; ``pressure`` on the zone over ε."""
 
     run: _Reduced
     runs: list[_Reduced]
-    leading: LeadingEstimate
-    first: FirstOrderEstimate | None
+    base: Moments | None = None
+    loaded: Sequence[tuple[float, Moments]] = ()
+    pressure: float = 0.0
+
+    def leading(self, others: Sequence[_Estimates] = ()) -> LeadingEstimate:
+        return leading_order(self.run.moments, companions=[o.run.moments for o in others])
+
+    def first(self, others: Sequence[_Estimates] = ()) -> FirstOrderEstimate | None:
+        """``None`` where first order was not asked for."""
+        if self.base is None:
+            return None
+        companions = [found for found in (o.first() for o in others) if found]
+        return first_order(self.loaded, self.base, self.leading(others), pressure=self.pressure, companions=companions)
 
 
 def _estimates(
@@ -136,29 +148,28 @@ def _estimates(
     bare = Impact.dimensionless(question.kappa_over_nu)
     _raise_if_refused(method, bare)
     run = _reduced(store, method, bare, question.duration, clock=clock)
-    runs = [run]
-    leading = leading_order(run.moments)
-    estimate = None
-    if first is not None:
-        top = epsilon
-        if top is None:
-            top = first_order_epsilon(leading, first, getattr(asked, "perturbation", PERTURBATION), question.duration)
-        largest = _loaded(bare, top, first)
-        _raise_if_refused(method, largest)
-        fixed = chosen_for(method, largest, question.duration * bare.time_scale)
-        # only a load that presses the zone leaves a uniform reaction to take out, of the bare run too
-        pressed = largest.zone_pressure > 0.0
-        shares = (0.0, *SHARES)
-        found = [
-            (
-                s * top,
-                _reduced(store, fixed, _loaded(bare, s * top, first), question.duration, uniform=pressed, clock=clock),
-            )
-            for s in shares
-        ]
-        runs += [run for _, run in found]
-        estimate = first_order([(e, run.moments) for e, run in found[1:]], found[0][1].moments, leading)
-    return _Estimates(run, runs, leading, estimate)
+    if first is None:
+        return _Estimates(run, [run])
+    top = epsilon
+    if top is None:
+        perturbation = getattr(asked, "perturbation", PERTURBATION)
+        top = first_order_epsilon(leading_order(run.moments), first, perturbation, question.duration)
+    largest = _loaded(bare, top, first)
+    _raise_if_refused(method, largest)
+    fixed = chosen_for(method, largest, question.duration * bare.time_scale)
+    # only a load that presses the zone leaves a uniform reaction to take out, of the bare run too
+    pressed = largest.zone_pressure > 0.0
+    found = [
+        _reduced(store, fixed, _loaded(bare, s * top, first), question.duration, uniform=pressed, clock=clock)
+        for s in (0.0, *SHARES)
+    ]
+    return _Estimates(
+        run,
+        [run, *found],
+        found[0].moments,
+        [(s * top, one.moments) for s, one in zip(SHARES, found[1:])],
+        max(largest.zone_pressure, 0.0) / top,
+    )
 
 
 def _raise_if_refused(method: Method, impact: Impact) -> None:
@@ -205,14 +216,13 @@ def answer(question: Question, store: RunStore, limit: float | None = None) -> M
     fine = _estimates(question, question.refine, store, None, clock)
     others: list[_Estimates] = []
     lost: list[str] = []
-    epsilon = None if fine.first is None else fine.first.epsilons[-1]
+    epsilon = fine.loaded[-1][0] if fine.loaded else None
     for factor in COMPANIONS[question.error_bars]:
         try:
             others.append(_estimates(question, factor * question.refine, store, epsilon, clock))
         except (ValueError, SimulationError) as error:
             lost.append(without_companion(factor, error))
-    leading = leading_order(fine.run.moments, companions=[o.run.moments for o in others])
-    estimate = fine.first and with_companions(fine.first, [o.first for o in others if o.first])
+    leading, estimate = fine.leading(others), fine.first(others)
     warnings = [w for r in fine.runs for w in r.warnings] + lost + coarser
     if leading.lambda0.bar > WIDE * max(leading.lambda0.known, 0.1) or leading.r0.bar > WIDE * leading.r0.known:
         warnings.append(f"wide error bar: λ₀ = {leading.lambda0}, r₀ = {leading.r0}")

@@ -34,7 +34,8 @@ def match(
         list[float] | None, typer.Option(help="κ/ν; repeatable. Default: the thesis's Table 3.4.")
     ] = None,
     first_order: Annotated[
-        list[str] | None, typer.Option(
+        list[str] | None,
+        typer.Option(
             metavar="A,P,C[,N]",
             help="α,ψ,χ[,N] of a first-order match, α = free: a bow free of stress in free flight, −κN; repeatable.",
         ),
