@@ -6,14 +6,14 @@ Every run draws anew and prints its seed. It fails when fewer than 94 % of the n
 one is more than two bars off. Each miss becomes a methods file in ``out/coverage`` that says how to run it.
 
 The distribution (:func:`draw`): κ/ν log-uniform from 0.05 to 0.95, the end of the runs from 0.01 to 1 t*. Half of the
-rows are about first order: loads log-uniform from 0.3 to 300, which is what gravity is for a beam that falls by itself
-and for a slender one that arrives slowly; α alone twice as often as (α, ψ, χ) or an axial force in free flight, of
-either sign. Eight of ten on the Hermite path, one each on the self-similar and the Exudyn path. Hermite: mesh chosen, uniform, graded or scale-free alike, with elements log-uniform
-from 1/50 to 2/5 of the front's thickness 2√(κτ/2) at the end and growth log-uniform from 0.5 to 10 % an element; the
-four integrators, Signorini at the new position twice as often, θ = 1, 0.8 or 0.6 and ρ∞ = 0.8 or 0.5; contact at nodes
-(twice as often), middles or means. Self-similar: resolution of the front log-uniform from 0.5 to 10 %, growth 1 to 6 %,
-steps 1 to 6 % of the time, two to five decades. Exudyn: three implicit integrators, everything up to three times
-coarser than chosen.
+rows are about first order: loads log-uniform from 0.3 to 300, what gravity is, gT*/V₀, for slender beams that arrive at
+metres to millimetres per second; α alone twice as often as (α, ψ, χ) or an axial force in free flight, of either sign.
+Eight of ten on the Hermite path, one each on the self-similar and the Exudyn path. Hermite: mesh chosen, uniform,
+graded or scale-free alike, with elements log-uniform from 1/50 to 2/5 of the front's thickness 2√(κτ/2) at the end and
+growth log-uniform from 0.5 to 10 % an element; the four integrators, Signorini at the new position twice as often,
+θ = 1, 0.8 or 0.6 and ρ∞ = 0.8 or 0.5; contact at nodes (twice as often), middles or means. Self-similar: resolution of
+the front log-uniform from 0.5 to 10 %, growth 1 to 6 %, steps 1 to 6 % of the time, two to five decades. Exudyn: three
+implicit integrators, everything up to three times coarser than chosen.
 """
 
 from __future__ import annotations
@@ -175,7 +175,7 @@ class Coverage:
 
 
 def coverage(rows: Sequence[MatchRow]) -> Coverage:
-    """Coverage of λ₀ and r₀ among matched rows."""
+    """Coverage of λ₀ and r₀, or λ₁ and r₁, among matched rows."""
     points = []
     for k, row in enumerate(rows):
         for name, number in row.compared().items():
@@ -208,9 +208,12 @@ def draw_figure(found: Coverage, out: Path, formats: Sequence[str] = ("png",)) -
     from comparison.figures import style
 
     with style.figure(1, 1, width=style.COLUMN, height=3.2) as (fig, axis):
-        for measure, symbol, mark in (("lambda0", r"$\lambda_0$", style.HERMITE), ("r0", "$r_0$", style.EXUDYN)):
-            mine = [(p.bar, max(p.error, 1e-7)) for p in found.points if p.name == measure]
-            axis.plot(*zip(*mine), **{**mark, "label": symbol, "ms": 3})
+        for names, label, mark in (
+            (("lambda0", "r0"), r"$\lambda_0$, $r_0$", style.HERMITE),
+            (("lambda1", "r1"), r"$\lambda_1$, $r_1$", style.EXUDYN),
+        ):
+            mine = [(p.bar, max(p.error, 1e-7)) for p in found.points if p.name in names]
+            axis.plot(*np.array(mine).reshape(-1, 2).T, **{**mark, "label": label, "ms": 3})
         bars = [p.bar for p in found.points if p.bar > 0.0]
         ends = np.array([0.5 * min(bars, default=1e-4), 2.0 * max(bars, default=1e-1)])
         axis.plot(ends, ends, color="black", lw=1.0, label="error = bar")
@@ -234,7 +237,7 @@ def main(words: Sequence[str] | None = None) -> int:
     found = coverage(match([one.question for one in drawn], jobs=asked.jobs))
     figures, settings = asked.figure or asked.out, {"rows": asked.rows, "seed": asked.seed}
     command = f"python -m benchmarks.coverage --rows {asked.rows} --seed {asked.seed} --figure docs/figures"
-    about = "errors of λ₀ and r₀ and their error bars, of methods drawn at random"
+    about = "errors of λ₀, r₀, λ₁, r₁ and their error bars, of methods drawn at random"
     write(figures / "error-bars.json", about, command, PACKAGES, settings, dataclasses.asdict(found))
     draw_figure(found, figures)
     print(f"covered {found.share:.1%}, median bar over error {found.ratio:.2g}, without a number {found.lost:.1%}")
