@@ -20,6 +20,7 @@ from bent_beam.method import Method, chosen_for, refined, settings_of
 from comparison.rows import COMPANIONS, First, MatchRow, Question, about, lost_row, with_theory
 from comparison.store import RunStore, source_of
 from comparison.time_limit import Clock, TimeLimitError, affordable_refinement
+from measure.balance import balance_of
 from measure.estimators import FirstOrderEstimate, LeadingEstimate, first_order, leading_order
 from measure.moments import Moments, moments
 from measure.reduction import hold_of, pull_of
@@ -87,7 +88,7 @@ def _reduced(
             "moments": {name: values.tolist() for name, values in vars(found).items()},
             "pull": pull_of(history),
             "hold": hold_of(history),
-            "warnings": history.warnings,
+            "warnings": [*history.warnings, *balance_of(history).warnings],
             "seconds": history.seconds,
             "steps": history.steps,
         }
