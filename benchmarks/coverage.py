@@ -1,17 +1,19 @@
-"""Do the error bars hold the truth? Methods drawn at random, matched at leading order, error over error bar.
+"""Do the error bars hold the truth? Methods drawn at random, matched at leading and first order, error over error bar.
 
     make coverage                                    (python -m benchmarks.coverage [--rows 200] [--seed N])
 
 Every run draws anew and prints its seed. It fails when fewer than 94 % of the numbers lie within their bars, or when
 one is more than two bars off. Each miss becomes a methods file in ``out/coverage`` that says how to run it.
 
-The distribution (:func:`draw`): κ/ν log-uniform from 0.05 to 0.95. Eight of ten on the Hermite path, one each on the
-self-similar and the Exudyn path. Hermite: mesh chosen, uniform, graded or scale-free alike, with elements log-uniform
-from 1/50 to 2/5 of the front's thickness 2√(κτ/2) at the end and growth log-uniform from 0.5 to 10 % an element; the
-four integrators, Signorini at the new position twice as often, θ = 1, 0.8 or 0.6 and ρ∞ = 0.8 or 0.5; contact at nodes
-(twice as often), middles or means. Self-similar: resolution of the front log-uniform from 0.5 to 10 %, growth 1 to 6 %,
-steps 1 to 6 % of the time, two to five decades. Exudyn: three implicit integrators, everything up to three times
-coarser than chosen.
+The distribution (:func:`draw`): κ/ν log-uniform from 0.05 to 0.95, the end of the runs from 0.01 to 1 t*. Half of the
+rows are about first order: loads log-uniform from 0.3 to 300, what gravity is, gT*/V₀, for slender beams that arrive at
+metres to millimetres per second; α alone twice as often as (α, ψ, χ) or an axial force in free flight, of either sign.
+Eight of ten on the Hermite path, one each on the self-similar and the Exudyn path. Hermite: mesh chosen, uniform,
+graded or scale-free alike, with elements log-uniform from 1/50 to 2/5 of the front's thickness 2√(κτ/2) at the end and
+growth log-uniform from 0.5 to 10 % an element; the four integrators, Signorini at the new position twice as often,
+θ = 1, 0.8 or 0.6 and ρ∞ = 0.8 or 0.5; contact at nodes (twice as often), middles or means. Self-similar: resolution of
+the front log-uniform from 0.5 to 10 %, growth 1 to 6 %, steps 1 to 6 % of the time, two to five decades. Exudyn: three
+implicit integrators, everything up to three times coarser than chosen.
 """
 
 from __future__ import annotations
@@ -31,8 +33,8 @@ import numpy as np
 
 from bent_beam.files import write_atomically
 from bent_beam.method import method_from_tables
-from comparison.match import DURATION, match
-from comparison.rows import MatchRow, Question
+from comparison.match import match
+from comparison.rows import First, MatchRow, Question
 from comparison.stored import write
 
 __all__ = ["Coverage", "Draw", "coverage", "draw", "draw_figure", "write_misses"]
@@ -45,11 +47,14 @@ PACKAGES = ("bent_beam", "measure", "hermite_fe", "self_similar_fe", "exudyn_mod
 
 @dataclass(frozen=True)
 class Draw:
-    """One row: the tables of a method, as in a methods file, κ/ν, and how much finer than they say it is run."""
+    """One row: the tables of a method, as in a methods file, κ/ν, the load (α, ψ, χ, N), the end of the runs, t*, and
+    how much finer than the tables say it is run."""
 
     path: str
     tables: dict[str, dict[str, Any]]
     kappa_over_nu: float
+    first: First | None = None
+    duration: float = 0.1
     refine: float = 1.0
 
     @property
@@ -61,11 +66,13 @@ class Draw:
     def question(self) -> Question:
         """The row of ``match``."""
         method = method_from_tables(self.path, self.tables, label=self.label)
-        return Question(method, self.kappa_over_nu, None, self.refine)
+        return Question(method, self.kappa_over_nu, self.first, self.refine, duration=self.duration)
 
     def text(self, file: Path, found: str) -> str:
         """A methods file of this method alone."""
         asked = f"bentbeam match --methods {file} --kappa-over-nu {self.kappa_over_nu!r} --refine {self.refine!r}"
+        asked += f" --duration {self.duration!r}"
+        asked += f" --first-order={','.join(map(repr, self.first))}" if self.first else ""
         lines = [f"# {found}", f"# {asked}", "[[method]]"]
         lines += [f"label = {json.dumps(self.label)}", f"path = {json.dumps(self.path)}"]
         for name, table in self.tables.items():
@@ -75,20 +82,30 @@ class Draw:
 
 def draw(random: np.random.Generator) -> Draw:
     """One row of the distribution above."""
-    kappa = _log_uniform(random, 0.05, 0.95)
+    kappa, duration = _log_uniform(random, 0.05, 0.95), _log_uniform(random, 0.01, 1.0)
     path = str(random.choice(["hermite"] * 8 + ["self_similar", "exudyn"]))
-    tables, refine = {"hermite": _hermite, "self_similar": _self_similar, "exudyn": _exudyn}[path](random, kappa)
-    return Draw(path, tables, kappa, refine)
+    parts = {"hermite": _hermite, "self_similar": _self_similar, "exudyn": _exudyn}[path]
+    tables, refine = parts(random, kappa, duration)
+    return Draw(path, tables, kappa, _load(random, kappa), duration, refine)
+
+
+def _load(random: np.random.Generator, kappa: float) -> First | None:
+    if random.random() < 0.5:
+        return None
+    size = _log_uniform(random, 0.3, 300.0) * float(random.choice([-1.0, 1.0]))
+    alpha, psi, chi = (float(size * part) for part in random.uniform(-1.0, 1.0, 3))
+    options: list[First] = [(size, 0.0, 0.0, 0.0)] * 2 + [(alpha, psi, chi, 0.0), (-kappa * size, 0.0, 0.0, size)]
+    return options[random.integers(len(options))]
 
 
 def _log_uniform(random: np.random.Generator, low: float, high: float) -> float:
     return float(np.exp(random.uniform(math.log(low), math.log(high))))
 
 
-def _hermite(random: np.random.Generator, kappa: float) -> tuple[dict[str, Any], float]:
-    element = 2.0 * math.sqrt(DURATION * kappa / 2.0) * _log_uniform(random, 0.02, 0.4)
+def _hermite(random: np.random.Generator, kappa: float, duration: float) -> tuple[dict[str, Any], float]:
+    element = 2.0 * math.sqrt(duration * kappa / 2.0) * _log_uniform(random, 0.02, 0.4)
     growth = 1.0 + _log_uniform(random, 0.005, 0.1)
-    zone = float(random.uniform(1.0, 4.0)) * math.sqrt(2.0 * DURATION / kappa)
+    zone = float(random.uniform(1.0, 4.0)) * math.sqrt(2.0 * duration / kappa)
     meshes: list[dict[str, Any]] = [
         {"kind": "auto"},
         {"kind": "uniform", "element_length": max(element, 0.05)},  # 10,000 elements of 500 l*
@@ -108,7 +125,7 @@ def _hermite(random: np.random.Generator, kappa: float) -> tuple[dict[str, Any],
     return {"mesh": mesh, "integrator": scheme, "contact": {"kind": "node" if only_nodes else contact}}, 1.0
 
 
-def _self_similar(random: np.random.Generator, kappa: float) -> tuple[dict[str, Any], float]:
+def _self_similar(random: np.random.Generator, kappa: float, duration: float) -> tuple[dict[str, Any], float]:
     mesh = {
         "kind": "expanding",
         "front_resolution": _log_uniform(random, 0.005, 0.1),
@@ -119,7 +136,7 @@ def _self_similar(random: np.random.Generator, kappa: float) -> tuple[dict[str, 
     return {"mesh": mesh}, 1.0
 
 
-def _exudyn(random: np.random.Generator, kappa: float) -> tuple[dict[str, Any], float]:
+def _exudyn(random: np.random.Generator, kappa: float, duration: float) -> tuple[dict[str, Any], float]:
     kind = str(random.choice(["generalized_alpha", "newmark", "trapezoidal"]))
     return {"integrator": {"kind": kind}}, 1.0 / _log_uniform(random, 1.0, 3.0)
 
@@ -158,7 +175,7 @@ class Coverage:
 
 
 def coverage(rows: Sequence[MatchRow]) -> Coverage:
-    """Coverage of λ₀ and r₀ among matched rows."""
+    """Coverage of λ₀ and r₀, or λ₁ and r₁, among matched rows."""
     points = []
     for k, row in enumerate(rows):
         for name, number in row.compared().items():
@@ -191,9 +208,12 @@ def draw_figure(found: Coverage, out: Path, formats: Sequence[str] = ("png",)) -
     from comparison.figures import style
 
     with style.figure(1, 1, width=style.COLUMN, height=3.2) as (fig, axis):
-        for measure, symbol, mark in (("lambda0", r"$\lambda_0$", style.HERMITE), ("r0", "$r_0$", style.EXUDYN)):
-            mine = [(p.bar, max(p.error, 1e-7)) for p in found.points if p.name == measure]
-            axis.plot(*zip(*mine), **{**mark, "label": symbol, "ms": 3})
+        for names, label, mark in (
+            (("lambda0", "r0"), r"$\lambda_0$, $r_0$", style.HERMITE),
+            (("lambda1", "r1"), r"$\lambda_1$, $r_1$", style.EXUDYN),
+        ):
+            mine = [(p.bar, max(p.error, 1e-7)) for p in found.points if p.name in names]
+            axis.plot(*np.array(mine).reshape(-1, 2).T, **{**mark, "label": label, "ms": 3})
         bars = [p.bar for p in found.points if p.bar > 0.0]
         ends = np.array([0.5 * min(bars, default=1e-4), 2.0 * max(bars, default=1e-1)])
         axis.plot(ends, ends, color="black", lw=1.0, label="error = bar")
@@ -217,7 +237,7 @@ def main(words: Sequence[str] | None = None) -> int:
     found = coverage(match([one.question for one in drawn], jobs=asked.jobs))
     figures, settings = asked.figure or asked.out, {"rows": asked.rows, "seed": asked.seed}
     command = f"python -m benchmarks.coverage --rows {asked.rows} --seed {asked.seed} --figure docs/figures"
-    about = "errors of λ₀ and r₀ and their error bars, of methods drawn at random"
+    about = "errors of λ₀, r₀, λ₁, r₁ and their error bars, of methods drawn at random"
     write(figures / "error-bars.json", about, command, PACKAGES, settings, dataclasses.asdict(found))
     draw_figure(found, figures)
     print(f"covered {found.share:.1%}, median bar over error {found.ratio:.2g}, without a number {found.lost:.1%}")

@@ -20,13 +20,13 @@ from bent_beam.method import Method, chosen_for, refined, settings_of, simulated
 from comparison.rows import COMPANIONS, First, MatchRow, Question, about, lost_row, with_theory
 from comparison.store import RunStore, source_of
 from comparison.time_limit import Clock, TimeLimitError, affordable_refinement
-from measure.estimators import FirstOrderEstimate, LeadingEstimate, first_order, leading_order, with_companions
+from measure.balance import balance_of
+from measure.estimators import FirstOrderEstimate, LeadingEstimate, first_order, leading_order
 from measure.moments import Moments, moments
 from measure.reduction import hold_of, pull_of
 
-__all__ = ["DURATION", "INSTANTS", "coarsened", "match", "without_companion"]
+__all__ = ["INSTANTS", "coarsened", "match", "without_companion"]
 
-DURATION = 0.1  # τ of the end: any will do at ε = 0 (self-similar); the thesis ends here
 INSTANTS = 250
 SHARES = (0.35, 0.7, 1.0)  # of the largest ε
 PERTURBATION = 0.05  # see first_order_epsilon (tests: half, twice); a method may carry its own ``perturbation``
@@ -59,15 +59,22 @@ def _loaded(bare: Impact, epsilon: float, first: First) -> Impact:
 
 
 def _reduced(
-    store: RunStore, method: Method, impact: Impact, *, uniform: bool = False, clock: Clock | None = None
+    store: RunStore,
+    method: Method,
+    impact: Impact,
+    duration: float,
+    *,
+    uniform: bool = False,
+    clock: Clock | None = None,
 ) -> _Reduced:
-    """A run reduced to moments, from the store where it is there; ``uniform``: see :func:`moments`. The run without
-    loads must be reduced as the loaded ones are, or the noise that they share does not drop out."""
+    """A run to ``duration`` (t*) reduced to moments, from the store where it is there; ``uniform``: see
+    :func:`moments`. The run without loads must be reduced as the loaded ones are, or the noise that they share does
+    not drop out."""
     question = {
         "settings": settings_of(method) | {"label": ""},
         "source": source_of(type(method)),
         "impact": asdict(impact),
-        "duration": DURATION,
+        "duration": duration,
         "uniform": uniform,
     }
 
@@ -75,7 +82,7 @@ def _reduced(
         try:
             asked = None if clock is None else clock.progress()
             history = simulated(
-                method.simulate, impact, end_time=DURATION * impact.time_scale, save=INSTANTS, progress=asked
+                method.simulate, impact, end_time=duration * impact.time_scale, save=INSTANTS, progress=asked
             )
         except ValueError as error:
             raise Refused(str(error)) from None
@@ -84,7 +91,7 @@ def _reduced(
             "moments": {name: values.tolist() for name, values in vars(found).items()},
             "pull": pull_of(history),
             "hold": hold_of(history),
-            "warnings": history.warnings,
+            "warnings": [*history.warnings, *balance_of(history).warnings],
             "seconds": history.seconds,
             "steps": history.steps,
         }
@@ -94,7 +101,7 @@ def _reduced(
     return _Reduced(**kept)
 
 
-def first_order_epsilon(leading: LeadingEstimate, first: First, perturbation: float) -> float:
+def first_order_epsilon(leading: LeadingEstimate, first: First, perturbation: float, duration: float) -> float:
     """The largest ε of the runs: the loads change the free motion by a small part of V₀t over the contact zone.
 
     ε τ (|α|/2 + |χ|z²/2 + |ψ|z⁴/24 + |N|/2) = ``perturbation`` at the end, z being the zone measured at ε = 0 and half
@@ -106,18 +113,30 @@ def first_order_epsilon(leading: LeadingEstimate, first: First, perturbation: fl
     part = perturbation
     if first[0] + first[1] <= 0.0 and front > 0.0:
         part *= front / (front + 0.2)
-    top = part / (DURATION * (alpha / 2 + chi * z**2 / 2 + psi * z**4 / 24 + axial / 2))
+    top = part / (duration * (alpha / 2 + chi * z**2 / 2 + psi * z**4 / 24 + axial / 2))
     return between("first_order: the largest ε of the runs, from alpha, psi, chi and N,", top, 1 / EXTREME, EXTREME)
 
 
 @dataclass(frozen=True)
 class _Estimates:
-    """What the runs at one resolution gave: ``run`` alone without loads, ``runs`` all of them."""
+    """What the runs at one resolution gave: ``run`` alone without loads, ``runs`` all of them; ``base`` without loads
+    and ``loaded`` at each ε on the mesh for first order; ``pressure`` on the zone over ε."""
 
     run: _Reduced
     runs: list[_Reduced]
-    leading: LeadingEstimate
-    first: FirstOrderEstimate | None
+    base: Moments | None = None
+    loaded: Sequence[tuple[float, Moments]] = ()
+    pressure: float = 0.0
+
+    def leading(self, others: Sequence[_Estimates] = ()) -> LeadingEstimate:
+        return leading_order(self.run.moments, companions=[o.run.moments for o in others])
+
+    def first(self, others: Sequence[_Estimates] = ()) -> FirstOrderEstimate | None:
+        """``None`` where first order was not asked for."""
+        if self.base is None:
+            return None
+        companions = [found for found in (o.first() for o in others) if found]
+        return first_order(self.loaded, self.base, self.leading(others), pressure=self.pressure, companions=companions)
 
 
 def _estimates(
@@ -133,27 +152,29 @@ def _estimates(
         raise Refused(f"refine: {asked.path} does not know how to be refined (got {factor:g})")
     bare = Impact.dimensionless(question.kappa_over_nu)
     _raise_if_refused(method, bare)
-    run = _reduced(store, method, bare, clock=clock)
-    runs = [run]
-    leading = leading_order(run.moments)
-    estimate = None
-    if first is not None:
-        top = epsilon
-        if top is None:
-            top = first_order_epsilon(leading, first, getattr(asked, "perturbation", PERTURBATION))
-        largest = _loaded(bare, top, first)
-        _raise_if_refused(method, largest)
-        fixed = chosen_for(method, largest, DURATION * bare.time_scale)
-        # only a load that presses the zone leaves a uniform reaction to take out, of the bare run too
-        pressed = largest.zone_pressure > 0.0
-        shares = (0.0, *SHARES)
-        found = [
-            (s * top, _reduced(store, fixed, _loaded(bare, s * top, first), uniform=pressed, clock=clock))
-            for s in shares
-        ]
-        runs += [run for _, run in found]
-        estimate = first_order([(e, run.moments) for e, run in found[1:]], found[0][1].moments, leading)
-    return _Estimates(run, runs, leading, estimate)
+    run = _reduced(store, method, bare, question.duration, clock=clock)
+    if first is None:
+        return _Estimates(run, [run])
+    top = epsilon
+    if top is None:
+        perturbation = getattr(asked, "perturbation", PERTURBATION)
+        top = first_order_epsilon(leading_order(run.moments), first, perturbation, question.duration)
+    largest = _loaded(bare, top, first)
+    _raise_if_refused(method, largest)
+    fixed = chosen_for(method, largest, question.duration * bare.time_scale)
+    # only a load that presses the zone leaves a uniform reaction to take out, of the bare run too
+    pressed = largest.zone_pressure > 0.0
+    found = [
+        _reduced(store, fixed, _loaded(bare, s * top, first), question.duration, uniform=pressed, clock=clock)
+        for s in (0.0, *SHARES)
+    ]
+    return _Estimates(
+        run,
+        [run, *found],
+        found[0].moments,
+        [(s * top, one.moments) for s, one in zip(SHARES, found[1:])],
+        max(largest.zone_pressure, 0.0) / top,
+    )
 
 
 def _raise_if_refused(method: Method, impact: Impact) -> None:
@@ -173,7 +194,7 @@ def coarsened(question: Question, store: RunStore, clock: Clock) -> tuple[Questi
         if method is None:
             return 0.0
         try:
-            return _reduced(store, method, bare, clock=clock).seconds
+            return _reduced(store, method, bare, question.duration, clock=clock).seconds
         except (Refused, SimulationError):  # too coarse for the method: a finer one may do
             return 0.0
 
@@ -200,14 +221,13 @@ def answer(question: Question, store: RunStore, limit: float | None = None) -> M
     fine = _estimates(question, question.refine, store, None, clock)
     others: list[_Estimates] = []
     lost: list[str] = []
-    epsilon = None if fine.first is None else fine.first.epsilons[-1]
+    epsilon = fine.loaded[-1][0] if fine.loaded else None
     for factor in COMPANIONS[question.error_bars]:
         try:
             others.append(_estimates(question, factor * question.refine, store, epsilon, clock))
         except (ValueError, SimulationError) as error:
             lost.append(without_companion(factor, error))
-    leading = leading_order(fine.run.moments, companions=[o.run.moments for o in others])
-    estimate = fine.first and with_companions(fine.first, [o.first for o in others if o.first])
+    leading, estimate = fine.leading(others), fine.first(others)
     warnings = [w for r in fine.runs for w in r.warnings] + lost + coarser
     if leading.lambda0.bar > WIDE * max(leading.lambda0.known, 0.1) or leading.r0.bar > WIDE * leading.r0.known:
         warnings.append(f"wide error bar: λ₀ = {leading.lambda0}, r₀ = {leading.r0}")

@@ -14,6 +14,7 @@ from measure.measured import MISSING, Measured
 
 __all__ = [
     "COMPANIONS",
+    "DURATION",
     "THESIS_KAPPAS",
     "First",
     "MatchRow",
@@ -28,6 +29,7 @@ __all__ = [
 First = tuple[float, float, float, float]
 """(α, ψ, χ, N) with ν = 1."""
 
+DURATION = 0.1  # t*
 THESIS_KAPPAS = (1 / 1600, 1 / 800, 1 / 400, 1 / 200, 1 / 100, 1 / 40, 1 / 20, 1 / 4, 1 / 2)
 """κ/ν of the thesis's Table 3.4."""
 
@@ -39,17 +41,20 @@ COMPANIONS: dict[str, tuple[float, ...]] = {"drift": (), "quick": (0.5,), "thoro
 class Question:
     """One row to be matched. ``first`` : (α, ψ, χ, N), or ``None`` for the leading order alone; ``refine`` : elements
     and steps so many times finer than the method's own; ``error_bars`` : "drift" (of the run alone), "quick" (a
-    companion at half the resolution, a quarter of the work), "thorough" (one at twice the resolution too)."""
+    companion at half the resolution, a quarter of the work), "thorough" (one at twice the resolution too); ``duration``
+    : end of the runs, t*. Any will do at ε = 0, which is self-similar; the thesis ends at 0.1."""
 
     method: Method
     kappa_over_nu: float
     first: First | None = None
     refine: float = 1.0
     error_bars: str = "quick"
+    duration: float = DURATION
 
     def __post_init__(self) -> None:
         positive("kappa_over_nu", self.kappa_over_nu)
         positive("refine", self.refine)
+        positive("duration", self.duration)
         one_of("error_bars", self.error_bars, COMPANIONS)
         if self.first is not None:
             for name, value in zip(("alpha", "psi", "chi", "axial"), self.first):
@@ -117,6 +122,7 @@ def questions(
     firsts: Sequence[Sequence[float | None]] = (),
     refines: Sequence[float] = (1.0,),
     error_bars: str = "quick",
+    duration: float = DURATION,
 ) -> list[Question]:
     """Every method × κ/ν × (α, ψ, χ[, N]) × refinement; without ``firsts`` the leading order alone. α = ``None``: what
     the axial force makes of a bow free of stress in free flight, α = −κN."""
@@ -129,7 +135,11 @@ def questions(
 
     asked: list[Sequence[float | None] | None] = [*firsts] or [None]
     return [
-        Question(m, k, load(f, k), r, error_bars) for k in kappas for m in methods for f in asked for r in refines
+        Question(m, k, load(f, k), r, error_bars, duration)
+        for k in kappas
+        for m in methods
+        for f in asked
+        for r in refines
     ]
 
 

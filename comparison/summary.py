@@ -140,6 +140,8 @@ def summary(
         "energy": energy,
         "numerical_loss": numerical_loss(energy),
         "momentum_residual": balance.momentum,
+        "second_moment_residual": balance.second_moment,
+        "contact_points_residual": balance.points,
         "initial_energy_residual": balance.initial_energy,
         "gap_of_push": balance.gap_of_push,
         "hits": [asdict(hit) for hit in hits(history)] if _hits_apart(impact) else None,
@@ -234,7 +236,7 @@ def run_table(found: dict[str, Any]) -> str:
             lines.append([title, number(value), "", "J", ""])
     lines += [
         ["energy residual", number(energy["defect"]), "", "J", ""],
-        ["momentum residual over mu L V0", number(found["momentum_residual"]), "", "1", ""],
+        ["momentum residual over impulse", number(found["momentum_residual"]), "", "1", ""],
     ]
     text = [
         f"{found['path']}, {found['time']:.6g} s after first contact; "

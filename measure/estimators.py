@@ -14,7 +14,6 @@ both share, the start above all, drops out.
 
 from __future__ import annotations
 
-import dataclasses
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -30,18 +29,21 @@ __all__ = [
     "LeadingEstimate",
     "first_order",
     "leading_order",
-    "with_companions",
 ]
 
 Array = NDArray[np.float64]
 SIDE = math.sqrt(2.0 / math.pi)
-FLOOR = 2e-3  # of a first-order value: what halving mesh and steps moves it by
-# The error bar, held against 200 methods drawn at random (benchmarks/coverage.py, make verify):
+FLOOR = 2e-3  # of the larger of λ₁ and r₁: what halving mesh and steps moves them by
+# The error bar, held against 200 methods drawn at random (benchmarks/coverage.py, make coverage):
 LEAST = 1e-4  # of a leading-order value: what runs keep that no refinement moves any more
 COMPANION = 1.2  # first order in Δx: the coarser run is as far from this one as this one from the truth
-DRIFT = 2.0  # of the spread over the window and its parts
+DRIFT = 1.5  # of the spread over the window and its parts
 DRIFT_ALONE = 4.0  # the same where no companion says what the mesh does
 LIFTED = 0.1  # of V₀t: a larger lift counts whole, a smaller one in proportion to itself
+INSIDE = 0.5  # of what the lift does to r₀, to λ₀: pushes off the zone act anywhere behind the front
+COMPANION_FIRST = 1.5  # at first order likewise: fronts that pass elements at other times add noise to the difference
+SPREAD_FIRST = 2.0  # of the largest change by a term more, half the window or one run alone
+MISSING_FIRST = 2.5  # of the zone's length times what its uniform reaction lacks: a zone off the wall moves the front
 
 
 @dataclass(frozen=True)
@@ -94,10 +96,11 @@ def leading_order(found: Moments, *, window: float = 10.0, companions: Sequence[
 
     The error bar is the root of the sum of squares, for the causes are independent, of the drift (spread over the
     window and its parts) taken ``DRIFT`` times, of the largest difference from a companion taken ``COMPANION`` times,
-    of ``LEAST`` of the value and, for r₀, of the lift over V₀t, times lift/``LIFTED`` where that is less than 1:
-    impacts that throw the zone off the wall push it too hard, in the coarser run just as much. With Exudyn at κ/ν from
-    1/800 to 1/25 r₀ was 22, 21, 14, 6.5, 2.3 and 0.6 % too large where the zone lifted by 0.2, 0.2, 0.2, 0.07, 0.03 and
-    0.01 V₀t.
+    of ``LEAST`` of the value and of the lift over V₀t, times lift/``LIFTED`` where that is less than 1: impacts that
+    throw the zone off the wall push it too hard, in the coarser run just as much. With Exudyn at κ/ν from 1/800 to 1/25
+    r₀ was 22, 21, 14, 6.5, 2.3 and 0.6 % too large where the zone lifted by 0.2, 0.2, 0.2, 0.07, 0.03 and 0.01 V₀t. Of
+    λ₀ it is ``INSIDE`` of that: velocity-level laws at κ/ν = 0.06 lift the zone by 0.03 to 0.14 V₀t, r₀ is 0.4 to 2.2 %
+    too large and λ₀ 0.14 to 0.7 % too small.
 
     Raises ``ValueError`` when fewer than eight instants carry an impulse.
     """
@@ -108,13 +111,18 @@ def leading_order(found: Moments, *, window: float = 10.0, companions: Sequence[
         apart_r0 = max(apart_r0, abs(other_r0 - r0))
         apart_lambda0 = max(apart_lambda0, abs(other_lambda0 - lambda0))
     alone = DRIFT if companions else DRIFT_ALONE
+    lifted = min(lift / LIFTED, 1.0) * lift
     return LeadingEstimate(
         lambda0=Measured(
-            lambda0, math.hypot(COMPANION * apart_lambda0, alone * drift_lambda0, LEAST * max(lambda0, 0.1))
+            lambda0,
+            math.hypot(
+                COMPANION * apart_lambda0,
+                alone * drift_lambda0,
+                LEAST * max(lambda0, 0.1),
+                INSIDE * lifted * lambda0,
+            ),
         ),
-        r0=Measured(
-            r0, math.hypot(COMPANION * apart_r0, alone * drift_r0, LEAST * r0, min(lift / LIFTED, 1.0) * lift * r0)
-        ),
+        r0=Measured(r0, math.hypot(COMPANION * apart_r0, alone * drift_r0, LEAST * r0, lifted * r0)),
         lift=lift,
         window=times,
     )
@@ -156,15 +164,28 @@ def _same_times(run: Moments, base: Moments) -> None:
 
 
 def first_order(
-    runs: Sequence[tuple[float, Moments]], base: Moments, leading: LeadingEstimate, *, window: float = 8.0
+    runs: Sequence[tuple[float, Moments]],
+    base: Moments,
+    leading: LeadingEstimate,
+    *,
+    window: float = 8.0,
+    pressure: float | None = None,
+    companions: Sequence[FirstOrderEstimate] = (),
 ) -> FirstOrderEstimate:
     """λ₁ and r₁ from runs at several ε (their α, ψ, χ in one ratio) against ``base`` at ε = 0 on the same mesh.
 
     runs : (ε, moments taken with ``uniform=True``), ε of the asked-for (α, ψ, χ): the run's εα is ε·α and so on.
+    pressure : what presses the zone, over ε, in the units of the moments; the zone's reaction tends to it once the load
+        has closed what the start left open. ``None``: its own mean.
+    companions : what the same runs at other resolutions gave.
 
-    Each run gives polynomials in δ = ετ; all runs are fitted together, so ε → 0 is reached by the terms in δ², δ³. The
-    error bar is the spread over degrees, windows and single runs. Raises ``ValueError`` without runs or when saved
-    times differ.
+    Each run gives polynomials in δ = ετ; all runs are fitted together, so ε → 0 is reached by the terms in δ², δ³.
+
+    The error bar is the root of the sum of squares of the spread (the largest change by a term more, half the window,
+    or one run alone, whose noise counts in proportion to its ε), taken ``SPREAD_FIRST`` times; of the largest
+    difference from a companion, ``COMPANION_FIRST`` times; of what the uniform reaction lacks, which moves r₁ by
+    λ₀/√(2/π) of itself at least and λ₁ by about half of that times λ₀/r₀, ``MISSING_FIRST`` times; of what λ₁ inherits
+    from the bars of λ₀ and r₀; and of ``FLOOR``. Raises ``ValueError`` without runs or when saved times differ.
     """
     if not runs:
         raise ValueError("runs must hold at least one run at ε > 0")
@@ -172,42 +193,42 @@ def first_order(
     rows = []
     for epsilon, run in runs:
         _same_times(run, base)
-        rows.append((epsilon, run.tau, (run.impulse - base.impulse) / SIDE, (run.moment - base.moment) / SIDE, run))
+        rows.append((epsilon, run.tau, (run.impulse - base.impulse) / SIDE, (run.moment - base.moment) / SIDE))
 
-    def solve(chosen: Sequence[int], degree: int, cut: tuple[float, float]) -> tuple[float, float]:
-        r1, product = _coefficients([rows[c][:4] for c in chosen], degree, cut)
-        return r1, (2.0 * product - r1 * lambda0) / r0
+    def solve(chosen: Sequence[int], degree: int, start: float) -> Array:
+        """r₁ and λ₁."""
+        r1, product = _coefficients([rows[c] for c in chosen], degree, (start, 1.0))
+        return np.array([r1, (2.0 * product - r1 * lambda0) / r0])
 
-    every = list(range(len(rows)))
-    best = solve(every, 2, (window, 1.0))
-    variants = [
-        best,
-        solve(every, 3, (window, 1.0)),
-        solve(every, 2, (window / 2.0, 1.0)),
-        solve(every, 2, (2 * window, 1.2)),
-    ]
-    if len(rows) > 1:
-        variants += [solve([i], 2, (window, 1.0)) for i in every]
-    tail = rows[-1][4]
+    every, largest = list(range(len(rows))), max(epsilon for epsilon, _ in runs)
+    best = solve(every, 2, window)
+    changes = [solve(every, 3, window) - best, solve(every, 2, window / 2.0) - best]
+    changes += [(solve([i], 2, window) - best) * runs[i][0] / largest for i in every if len(rows) > 1]
+    epsilon, tail = runs[-1]
     late = tail.tau >= tail.tau[-1] / window
-    pressure = float(np.mean(tail.pressure[late])) / rows[-1][0]
-    # What the base leaves uncertain, 0.2 % for steps and mesh, and a uniform reaction that is not yet steady: taken
-    # out of the impulse wrongly by dp, it moves r₁ by dp λ₀/√(2/π), and λ₁ by about half of that times λ₀/r₀.
-    inherited = abs(best[0]) * leading.lambda0.bar / r0 + abs(best[1]) * leading.r0.bar / r0
-    unsteady = float(np.std(tail.pressure[late])) / rows[-1][0] * lambda0 / SIDE
+    reaction = tail.pressure[late] / epsilon
+    wanted = float(reaction.mean()) if pressure is None else pressure
+    missing = math.sqrt(float(np.mean((reaction - wanted) ** 2))) * lambda0 / SIDE
+    bars = np.sqrt(
+        (SPREAD_FIRST * np.abs(changes).max(axis=0)) ** 2
+        + (COMPANION_FIRST * _apart(best, companions)) ** 2
+        + (MISSING_FIRST * missing * np.array([1.0, 0.5 * lambda0 / r0])) ** 2
+        + np.array([0.0, math.hypot(best[0] * leading.lambda0.bar, best[1] * leading.r0.bar) / r0]) ** 2
+        + (FLOOR * np.abs(best).max()) ** 2
+    )
     return FirstOrderEstimate(
-        lambda1=Measured(
-            best[1],
-            _spread([v[1] for v in variants])
-            + inherited
-            + 0.5 * unsteady * lambda0 / r0
-            + FLOOR * max(abs(best[1]), 1.0),
-        ),
-        r1=Measured(best[0], _spread([v[0] for v in variants]) + unsteady + FLOOR * max(abs(best[0]), 1.0)),
-        uniform_reaction=pressure,
+        lambda1=Measured(best[1], bars[1]),
+        r1=Measured(best[0], bars[0]),
+        uniform_reaction=float(reaction.mean()),
         epsilons=tuple(row[0] for row in rows),
         window=(float(tail.tau[late][0]), float(tail.tau[-1])),
     )
+
+
+def _apart(best: Array, companions: Sequence[FirstOrderEstimate]) -> Array:
+    """Largest differences of r₁ and λ₁ from those of companion runs at other resolutions."""
+    others = [np.abs([c.r1.known - best[0], c.lambda1.known - best[1]]) for c in companions]
+    return np.max(others, axis=0) if others else np.zeros(2)
 
 
 def _coefficients(
@@ -231,20 +252,6 @@ def _coefficients(
     of_impulse = _lstsq(np.concatenate(blocks_i), np.concatenate(right_i))[len(rows)]
     of_moment = _lstsq(np.concatenate(blocks_j), np.concatenate(right_j))[len(rows)]
     return 1.5 * float(of_impulse), float(of_moment)
-
-
-def with_companions(found: FirstOrderEstimate, companions: Sequence[FirstOrderEstimate]) -> FirstOrderEstimate:
-    """``found`` with error bars that hold its largest difference from companion runs at other resolutions."""
-
-    def widened(number: Measured, others: Sequence[Measured]) -> Measured:
-        apart = max((abs(o.known - number.known) for o in others), default=0.0)
-        return Measured(number.value, number.bar + COMPANION * apart)
-
-    return dataclasses.replace(
-        found,
-        lambda1=widened(found.lambda1, [c.lambda1 for c in companions]),
-        r1=widened(found.r1, [c.r1 for c in companions]),
-    )
 
 
 def _lstsq(matrix: Array, right: Array) -> Array:

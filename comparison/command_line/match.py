@@ -34,7 +34,8 @@ def match(
         list[float] | None, typer.Option(help="κ/ν; repeatable. Default: the thesis's Table 3.4.")
     ] = None,
     first_order: Annotated[
-        list[str] | None, typer.Option(
+        list[str] | None,
+        typer.Option(
             metavar="A,P,C[,N]",
             help="α,ψ,χ[,N] of a first-order match, α = free: a bow free of stress in free flight, −κN; repeatable.",
         ),
@@ -46,6 +47,7 @@ def match(
     error_bars: Annotated[
         str, typer.Option(help="quick (a companion run at half the resolution), thorough (and one at twice), or drift.")
     ] = "quick",
+    duration: Annotated[float, typer.Option(help="End of the runs, t*.")] = 0.1,
     limit: Annotated[float | None, typer.Option(help="Seconds that one row may take.")] = None,
     jobs: Annotated[
         int | None,
@@ -72,7 +74,7 @@ def match(
 
     compared = chosen_methods(path or (), assignments or (), methods)
     loads = [_load(text) for text in first_order or ()]
-    asked = questions(compared, kappa_over_nu or THESIS_KAPPAS, loads, factors(refine), error_bars)
+    asked = questions(compared, kappa_over_nu or THESIS_KAPPAS, loads, factors(refine), error_bars, duration)
     if out is not None:
         check_writable(out, folder=True)
     store = RunStore(None if fresh else default_store())

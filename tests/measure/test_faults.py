@@ -1,0 +1,74 @@
+"""Each fault, put into a copy of the code as one changed line, is seen by a check; the code as it is passes all."""
+
+import json
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[2]
+SOUND = {"momentum": 3e-3, "second_moment": 5e-3, "points": 1e-9, "initial_energy": 1e-9, "mass": 1e-9, "energy": 1e-3}
+"""What a sound run of 16 elements keeps to."""
+
+TOTAL = "copies * run.impulse @ towards"
+POINTS = 'run.impulse[:, front]),\n        "in_contact"'
+STEP = "state.impulse[j] += conditions.p[j]"
+MASS = "self.element(beam.lengths, beam.mass_per_length)"
+LOST = "np.where(np.arange({}.size) == 3, 0.5, 1.0)[:, None, None]"  # half of an element's mass: that of half a node
+MOMENTUM = 'self.start_momentum + after["load_impulse"] - v @ self.momentum'
+GAIN = "gain + (missing / np.where(whole > 0.0, whole, 1.0))[:, None] * weight"
+PER_LENGTH = "self.section.mass_per_length"
+WORK = "parts[key] += dl * factor * left[:, :, None] * right[:, None, :]"
+
+# path → (what is wrong, the check that sees it, file, code, what stands in its place)
+FAULTS = {
+    "hermite_fe": [
+        ("total impulse", "momentum", "simulate.py", TOTAL, f"0.99 * {TOTAL}"),
+        ("impulses of the steps", "momentum", "stepping.py", STEP, "state.impulse[j] += 0.99 * conditions.p[j]"),
+        ("impulses of the points", "points", "simulate.py", POINTS, f"0.99 * {POINTS}"),
+        ("points mixed up", "second_moment", "simulate.py", POINTS, POINTS.replace("front", "::-1")),
+        ("pulls recorded as pushes", "momentum", "stepping.py", STEP, "state.impulse[j] += abs(conditions.p[j])"),
+        ("half a node's mass", "initial_energy", "masses.py", MASS, f"{MASS} * {LOST.format('beam.lengths')}"),
+        ("half a node's mass", "mass", "masses.py", MASS, f"{MASS} * {LOST.format('beam.lengths')}"),
+    ],
+    "exudyn_models": [
+        ("total impulse", "momentum", "recording.py", MOMENTUM, f"0.99 * ({MOMENTUM})"),
+        ("impulses of the points", "points", "recording.py", "impulse[k].copy()", "0.99 * impulse[k]"),
+        ("points mixed up", "second_moment", "recording.py", GAIN, f"np.roll({GAIN}, 1, axis=1)"),
+        ("pulls recorded as pushes", "energy", "contacts/penalty.py", "self.signs * force, 0.0)", "abs(force), 0.0)"),
+        ("half a node's mass, in Exudyn", "mass", "elements/ancf_cable.py", f"massPerLength={PER_LENGTH}",
+         f"massPerLength={PER_LENGTH} * (0.5 if i == 3 else 1.0)"),
+        ("half a node's mass, recorded", "momentum", "elements/beam.py", "mass, _, _ = self.element_matrices()",
+         f"mass = self.element_matrices()[0] * {LOST.format('self.lengths')}"),
+    ],
+    "self_similar_fe": [
+        ("total impulse", "momentum", "run.py", "2.0 * float(self.impulse.sum())", "1.98 * float(self.impulse.sum())"),
+        ("impulses of the steps", "momentum", "run.py", "+ mean * roots", "+ 0.99 * mean * roots"),
+        ("impulses of the points", "points", "run.py", "self.impulse.copy()", "0.99 * self.impulse"),
+        ("half a node's mass", "mass", "similarity.py", WORK, f"{WORK} * {LOST.format('length')}"),
+    ],
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("path", FAULTS)
+def test_a_changed_line_shows_and_the_code_as_it_is_is_sound(tmp_path, path):
+    folders = [ROOT]
+    for number, (_, _, file, code, other) in enumerate(FAULTS[path]):
+        folders.append(tmp_path / str(number))
+        copy = shutil.copytree(ROOT / path, folders[-1] / path, ignore=shutil.ignore_patterns("__pycache__")) / file
+        text = copy.read_text()
+        assert text.count(code) == 1
+        copy.write_text(text.replace(code, other))
+    command = [sys.executable, Path(__file__).with_name("faulty_runs.py"), path, *folders]
+    told = subprocess.run(
+        command, cwd=ROOT, env={**os.environ, "PYTHONPATH": str(ROOT)}, check=True, capture_output=True
+    )
+    sound, *faulty = map(json.loads, told.stdout.splitlines())
+    wrong = [[name for name, most in SOUND.items() if abs(found[name] or 0.0) > most] for found in (sound, *faulty)]
+    assert wrong[0] == [] and sound["warnings"] == []
+    for (fault, check, *_), found, seen in zip(FAULTS[path], faulty, wrong[1:]):
+        assert check in seen, fault
+        assert check in ("mass", "energy") or found["warnings"], fault  # whoever runs it is told
