@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from comparison import stored
+from comparison.readable import readable
 
 __all__ = ["STUDIES", "StoredStudy", "stored_studies"]
 
@@ -58,7 +59,5 @@ def _text(value: Any) -> str:
     """A cell: a number in four digits, with its error bar where it has one."""
     if isinstance(value, Mapping):
         bar = value.get("error")
-        return _text(value.get("value")) + ("" if bar is None else f" ± {bar:.1g}")
-    if value is None:
-        return "–"
-    return f"{value:.4g}" if isinstance(value, float) else str(value)
+        return readable(value.get("value")) + ("" if bar is None else f" ± {readable(bar, 1)}")
+    return readable(value)

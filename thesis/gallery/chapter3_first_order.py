@@ -22,6 +22,7 @@ from thesis.studies.panels import contact_length, geometry, reaction
 from thesis.studies.thesis import Variant
 
 DURATION = 0.05
+THESIS_STEP = 2.5e-8  # s
 ZONES = (0.35, 0.53, 0.7)
 """Where the fine elements end, m, in runs that show how much the lift depends on it (0.544 m by Table 3.2's rule)."""
 CASE = "V₀ = 3.5 m/s, K = 0.35 1/m, L = 2 m, Δx = 2.5·10⁻³ m, h = 2.5·10⁻⁷ s, e = 1.25, ρ∞ = 0.8, nodes"

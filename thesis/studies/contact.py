@@ -9,9 +9,8 @@ from bent_beam.cases import Case
 from bent_beam.method import Method
 from hermite_fe import CONTACTS
 from hermite_fe.delassus import impact_coupling
-from hermite_fe.masses import ConsistentMass
 from thesis.studies.base import Study
-from thesis.studies.thesis import THESIS_MASS, Runs, Variant, thesis_settings, varied
+from thesis.studies.thesis import MASSES, Runs, Variant, thesis_settings, varied
 from thesis.studies.variation import NotVaried, Setting, has_part, kinds_of, of_kind, part_of, with_field, with_parts
 
 # Contact at nodes, element middles or mean gaps, each with the consistent and with a lumped mass matrix (thesis 3.3.5,
@@ -21,7 +20,6 @@ from thesis.studies.variation import NotVaried, Setting, has_part, kinds_of, of_
 # (:mod:`hermite_fe.delassus`): with c < 0 the neighbour that has just come to rest is thrown off the wall.
 
 NAMES = {"node": "nodes", "middle": "middles", "mean": "mean gaps"}
-MASSES = {"consistent": ConsistentMass(), "lumped": THESIS_MASS}
 
 
 def contact_point_variants(case: Case) -> list[Variant]:
