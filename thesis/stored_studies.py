@@ -30,19 +30,35 @@ PACKAGES = ("hermite_fe", "exudyn_models", "self_similar_fe", "measure", "thesis
 COLOURS = 64  # of a picture: enough for lines, and a third of the bytes
 
 BEAM = {"bending_stiffness": 1.0, "mass_per_length": 1.0}
-USUAL: dict[str, Any] = {
-    "title": "thesis, K = 10 1/m, V₀ = 20 m/s (κ/ν = 0.5)",
-    "beam": {**BEAM, "length": 50.0, "curvature": 10.0},
-    "impact": {"velocity": 20.0},
-    "run": {"duration": 0.1},
-}
+
+
+def of_leading_order(name: str, curvature: float, ratio: str, tau: float) -> dict[str, Any]:
+    """A case of the thesis at V₀ = 20 m/s, L = 50 m; name : of its curvature (1/m); ratio : of κ/ν."""
+    return {
+        "title": f"thesis, K = {name} 1/m, V₀ = 20 m/s (κ/ν = {ratio}), τ = {tau:g}",
+        "beam": {**BEAM, "length": 50.0, "curvature": curvature},
+        "impact": {"velocity": 20.0},
+        "run": {"duration": tau},
+    }
+
+
+BENT = of_leading_order("10", 10.0, "0.5", 0.1)
+STEPPED = of_leading_order("1", 1.0, "0.05", 0.01)
 FIRST_ORDER: dict[str, Any] = {
     "title": "thesis, V₀ = 3.5 m/s, K = 0.35 1/m, L = 2 m (κ/ν = 0.1)",
     "beam": {**BEAM, "length": 2.0, "curvature": 0.35},
     "impact": {"velocity": 3.5, "acceleration": 700.0},
     "run": {"duration": 0.05},
 }
-CASES = {name: FIRST_ORDER if name == "first-order-case" else USUAL for name in STUDIES}
+CASES: dict[str, dict[str, Any]] = dict.fromkeys(STUDIES, BENT) | {  # those that the thesis made: its own cases
+    "time-step": STEPPED,  # 3.3.1
+    "mesh": STEPPED,  # 3.3.2
+    "conditioning": STEPPED,  # 3.3.2
+    "damping": of_leading_order("1/40", 1.0 / 40.0, "1/800", 0.01),  # 3.3.3
+    "restitution": of_leading_order("1/40", 1.0 / 40.0, "1/800", 0.1),  # 3.3.4
+    "contact-point": of_leading_order("1/80", 1.0 / 80.0, "1/1600", 0.1),  # 3.3.5
+    "first-order-case": FIRST_ORDER,  # 3.5
+}
 COMPARED = ("contact_length_error", "reaction_error", "fit_1")
 WITHIN = 0.02  # of a number and, for the errors in per cent, absolute
 

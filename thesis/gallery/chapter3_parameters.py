@@ -13,7 +13,7 @@ from thesis.gallery.base import item
 from thesis.gallery.drawing import FILTER, LEGEND, REACTION, filtered_scatter, legend_below, plain_line, run_items
 from thesis.gallery.runs import Series
 from thesis.sheet import Sheet
-from thesis.studies.panels import contact_length, energy, energy_off, filtered, geometry, geometry_off, length_off
+from thesis.studies.panels import contact_length, energy, filtered, geometry, geometry_off, less
 from thesis.studies.steps import CUT_OFF, Steps
 
 COARSE = 1.0  # 1/m
@@ -39,10 +39,11 @@ run_items(__name__, (
     ("fig-3.7", "Time step: geometry", (geometry, geometry_off(BASE_STEP)), lambda: STEPS,
      f"Impact zone for several time steps, and differences from {BASE_STEP}; {COARSE_CASE}. The thesis finds a "
      "detachment of 2·10⁻⁴ m whatever h."),
-    ("fig-3.8", "Time step: contact length", (contact_length, length_off), lambda: STEPS,
-     f"Contact length λ_c for several time steps, and less theory's; {COARSE_CASE}. Steps of the lines are the "
-     "elements; where a line falls back, the outermost node is off the wall for a moment. Read as in the thesis (3.3.5): "
-     "the first node from outside that touches or has the smallest gap."),
+    ("fig-3.8", "Time step: contact length", (contact_length, less(BASE_STEP, "front", r"$\lambda_c$", "m")),
+     lambda: STEPS,
+     f"Contact length λ_c for several time steps, and less that of {BASE_STEP}; {COARSE_CASE}. Steps of "
+     "the lines are the elements; where a line falls back, the outermost node is off the wall for a moment. Read as in "
+     "the thesis (3.3.5): the first node from outside that touches or has the smallest gap."),
     ("fig-3.9", "Time step: reaction", REACTION, lambda: STEPS,
      f"Reaction of one side for several time steps: {FILTER}; {COARSE_CASE}. The thesis excludes 10⁻⁶ and 10⁻⁷ s, "
      "which miss 1/√t at the start: the filter smooths over a number of steps, that is 40 and 4 times as long there "
@@ -50,7 +51,7 @@ run_items(__name__, (
     ("fig-3.17", "Spectral radius: geometry", (geometry, geometry_off("ρ∞ = 0.8")), lambda: RADII,
      f"Geometry at τ = 0.01 for several spectral radii, and differences from ρ∞ = 0.8; {DAMPED_CASE}. The values of "
      "the thesis's legend are not in its text; it sees no major change."),
-    ("fig-3.18", "Spectral radius: energy", (energy, energy_off("ρ∞ = 0.8")), lambda: RADII,
+    ("fig-3.18", "Spectral radius: energy", (energy, less("ρ∞ = 0.8", "energy", "$E$", "J")), lambda: RADII,
      f"Energy of the beam until τ = 0.01 for several spectral radii, and differences from ρ∞ = 0.8; {DAMPED_CASE}. As "
      "the thesis says, numerical dissipation is small against the loss in impacts, which it takes for physics. Theory "
      "conserves energy."),
@@ -74,10 +75,11 @@ def filter_decides(sheet: Sheet) -> None:
     """The filter decides h
 
     Reaction of one side, {case}, middles, lumped mass, the time steps of Fig. 3.9: (a) filtered as the thesis does, the
-    cut-off a share of half the sampling rate, so that a step of 10⁻⁶ s is smoothed over 40 times the time of one of
-    2.5·10⁻⁸ s; (b) the same runs, all smoothed over as many seconds as the thesis's 2.5·10⁻⁸ s; (c) scatter about theory in the
-    second half of the run over h. With the filter per step it grows as h falls and 1/√t is lost as h grows; with the
-    filter in seconds it hardly depends on h. So Fig. 3.9 shows the filter more than the scheme.
+    cut-off a share of half the sampling rate: runs with h = 10⁻⁶ s are smoothed over 40 times as many seconds as those
+    with 2.5·10⁻⁸ s; (b) the same runs, all smoothed over as many seconds as with 2.5·10⁻⁸ s (10⁻⁶ s: not at all, its
+    steps are longer); (c) scatter about theory in the second half of the run. With the filter per step the scatter
+    grows as h falls, and at 10⁻⁶ s 1/√t is lost; with the filter in seconds all steps up to 10⁻⁷ s scatter alike. What
+    the thesis compares in Fig. 3.9 to choose h is for the most part its filter.
     """
     outcomes = [o for o in STEPS.outcomes("lumped", steps=True) if o.steps is not None]
     same = [replace(o, steps=in_seconds(o.steps)) for o in outcomes if o.steps is not None]

@@ -87,11 +87,12 @@ def run_figure(sheet: Sheet, series: Series, panels: Sequence[Panel]) -> None:
                 if o.steps is not None:
                     sheet.numbers[f"filtered reaction, scatter about theory, {o.label}, {mass}"] = filtered_scatter(o)
             reference = True
-        for row in grid:
-            low, high = zip(*(axis.get_ylim() for axis in row))
-            for axis in row:  # an inverted axis has its wall below
-                axis.set_ylim((min if low[0] < high[0] else max)(low), (max if low[0] < high[0] else min)(high))
-            row[1].set_ylabel("")
+        for left, right in grid:
+            (low, high), (one, other) = left.get_ylim(), right.get_ylim()
+            if left.get_ylabel() == right.get_ylabel() and low < high:  # one unit, and no wall below
+                for axis in (left, right):
+                    axis.set_ylim(min(low, one), max(high, other))
+                right.set_ylabel("")
         sheet.letter(grid, [f"{mass} mass" for mass in MASSES] * rows)
         legend_below(fig, grid[0, 0], 4, fontsize=7.0)
 

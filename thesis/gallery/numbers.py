@@ -178,11 +178,11 @@ def contacts() -> Iterator[Printed]:
                   lambda mass: float(thesis("", 1.0, 0.01, mass=MASSES[mass]).gap[0]), "middles, ")
     for contact, name, high, strain, rough in (("node", "nodes", "1.7e-4", "3.8", "1.5e-4"),
                                                ("middle", "middles", "1.7e-3", "38", "1.5e-3")):
-        yield on_runs("3.3.5", f"lift at 2.5·10⁻⁴ s, {name}, m", high, lambda mass: run(contact, mass).lift, "")
+        yield on_runs("3.3.5", f"lift at 2.5·10⁻⁴ s, {name}, m", high, lambda mass, c=contact: run(c, mass).lift, "")
         yield on_runs("3.4", f"“numerical errors” at τ = 0.1, {name}, m", rough,
-                      lambda mass: run(contact, mass).lift, "the same lift; ")
+                      lambda mass, c=contact: run(c, mass).lift, "the same lift; ")
         yield on_runs("3.3.5", f"strain energy at 2.5·10⁻⁴ s, {name}, J", strain,
-                      lambda mass: float(run(contact, mass).strain[-1]), "")
+                      lambda mass, c=contact: float(run(c, mass).strain[-1]), "")
     lines = "the thesis joins nodes by straight lines (3.3.5), which gives {}; the shape functions (A.6) KΔx²/8"
     for where, curvature, name, element, depth, delay in (
         ("3.3.5, A.7", FLAT, "1/80", 2.5e-3, "1.45e-8", "7e-10"),
@@ -209,7 +209,7 @@ def discrete() -> Iterator[Printed]:
                   lambda mass: first_impact(ELEMENT, MASSES[mass])[1], "")
     for element, impulse in ((5e-2, "1"), (1e-2, "0.2")):
         yield on_runs("3.4, Fig. 3.32d", f"impulse of the first impact, Δx = {element:g} m, N s", impulse,
-                      lambda mass: first_impact(element, MASSES[mass])[0], "")
+                      lambda mass, dx=element: first_impact(dx, MASSES[mass])[0], "")
     yield on_runs("3.4", "the same for h = 10⁻¹⁰ s, Δx = 0.05 m, N s", "1",
                   lambda mass: first_impact(ELEMENT, MASSES[mass], 1e-10)[0], "")
 
@@ -229,7 +229,8 @@ def first_order() -> Iterator[Printed]:
     for sign, printed in FITTED.items():
         a = 700.0 * sign
         yield Printed("3.5", f"λ₁ fitted to the thesis's run, a₀ = {readable(a)} m/s², m/s^1.5", f"{printed:g}",
-                      fitted(own[a]), f"{masses}; theory predicts {predicted(first.impact(a)):.1f} for t → 0", read=True)
+                      fitted(own[a]), f"{masses}; theory predicts {predicted(first.impact(a)):.1f} for t → 0",
+                      read=True)
     last = first.last_push(first.old(-700.0, time_step=first.THESIS_STEP))
     yield Printed("3.5", "the beam leaves the wall, a₀ = −700 m/s², s", "3.7e-3", last,
                   f"open; {masses}; ours: the last push of the wall", read=True)
@@ -245,16 +246,18 @@ HEAD = """\
 Made by `bentbeam gallery table-numbers --out FOLDER`; each row is in one class, by rules that are the same for all:
 
 - **within rounding**: ours rounds to the printed digits;
-- **same order**: a number that the thesis read off a run or a mesh, or prints as an order of magnitude, and ours is between half
-  and twice as large;
-- **other rule, stated by the thesis**: the printed number follows, to one digit, from a rule that the thesis states and that is not ours;
+- **same order**: a number that the thesis read off a run or a mesh, or prints as an order of magnitude, and ours is
+  between half and twice as large;
+- **other rule, stated by the thesis**: the printed number follows, to one digit, from a rule that the thesis states and
+  that is not ours;
 - **inferred from axes**: no number is printed, an axis shows how large it can be;
 - **off**: the others.
 
-Runs have the thesis's settings: h = 2.5·10⁻⁸ s, Δx = 2.5·10⁻³ m, e = 1.25, ρ∞ = 0.8, nonsmooth generalised-α, restitution 0. Which mass
-matrix it used is not known for certain: ours is lumped, as [numerics](numerics.md) argues; the number with the printed one, (3.1.8), and its class
-stand in the last column. The seconds and iterations of Table 3.1 stand beside ours in the gallery's table-3.1, the case that took
-10–12 days in extra-a0-17, and the uniform mesh in extra-uniform.
+Runs have the thesis's settings: h = 2.5·10⁻⁸ s, Δx = 2.5·10⁻³ m, e = 1.25, ρ∞ = 0.8, nonsmooth generalised-α,
+restitution 0. It is not known for certain which mass matrix made the thesis's numbers: ours is lumped, as
+[numerics](numerics.md) argues; the number with the printed one, (3.1.8), and its class stand in the last column. The
+seconds and iterations of Table 3.1 stand beside ours in the gallery's table-3.1, the case that took 10–12 days in
+extra-a0-17, and the uniform mesh in extra-uniform.
 """
 
 

@@ -107,12 +107,13 @@ def _over_time(
     cut: bool = False,
     bottom: float | None = 0.0,
     before: float = 0.0,
+    thin: bool = False,
 ) -> None:
     """A quantity of every run over t, theory's on top.
 
     name : of the SI unit. curve : times and values of a run. largest : value that sets the unit, if not the largest of
     theory and runs. root : an axis of √t, along which marks are even. cut : the axis ends at ``largest``. before :
-    share of the run that is drawn before the first contact, in free flight.
+    share of the run that is drawn before the first contact, in free flight. thin : where lines would hide one another.
     """
     runs = [(o, line, *curve(o, line)) for o, line in _finished(outcomes)]
     exact, end = runs[0][0].exact, float(runs[0][0].time[-1])
@@ -128,6 +129,8 @@ def _over_time(
         if before and not line["marker"]:
             t, y = np.concatenate([[-before * end, 0.0], t]), np.concatenate([y[:1], y[:1], y])
         kept = _thin(np.sqrt(t) if root else t, line)
+        if thin and not line["marker"]:
+            line = {**line, "lw": 0.6}
         sheet.line(axis, st * t[kept], sy * y[kept], series=o.label, **line)
     if theory is not None:
         sheet.line(axis, st * times, sy * values, series="theory", **THEORY)
@@ -173,7 +176,7 @@ strain = partial(
 """Strain energy of the whole beam over t; ``theory`` = None leaves its line out where it is far above."""
 
 filtered: Panel = partial(
-    _over_time, label="reaction of one side", name="N", theory=Exact.side_reaction, cut=True,
+    _over_time, label="reaction of one side", name="N", theory=Exact.side_reaction, cut=True, thin=True,
     curve=lambda o, line: (o.steps.time, o.steps.filtered()) if o.steps else o.reaction(MARKS),
     largest=lambda exact, end: 2.4 * float(exact.side_reaction(0.02 * end)),
 )  # fmt: skip
@@ -181,7 +184,7 @@ filtered: Panel = partial(
 
 # differences, where curves lie on one another
 
-_NOTHING: dict[str, Any] = {"theory": lambda exact, t: 0.0 * t, "bottom": None}
+_NOTHING: dict[str, Any] = {"theory": lambda exact, t: 0.0 * t, "bottom": None, "thin": True}
 
 length_off: Panel = partial(
     _over_time, label=r"$\lambda_c$ $-$ theory", name="m", **_NOTHING,
@@ -197,17 +200,17 @@ impulse_off: Panel = partial(
 """Impulse of one side less theory's."""
 
 
-def energy_off(base: str) -> Panel:
-    """Energy less that of the run labelled ``base``."""
+def less(base: str, what: str, label: str, name: str) -> Panel:
+    """A curve (a field of :class:`Outcome`) less that of the run ``base``; label, name : its symbol and unit."""
 
     def draw(sheet: Sheet, axis: Axes, outcomes: Sequence[Outcome]) -> None:
         (first,) = (o for o in outcomes if o.label == base)
 
         def curve(o: Outcome, line: dict[str, Any]) -> tuple[Array, Array]:
-            return o.time, o.energy - np.interp(o.time, first.time, first.energy)
+            return o.time, getattr(o, what) - np.interp(o.time, first.time, getattr(first, what))
 
-        lines = [o for o in outcomes if o.mark is None]
-        _over_time(sheet, axis, lines, label=f"$E$ $-$ that of {base}", name="J", curve=curve, theory=None, bottom=None)
+        lines, title = [o for o in outcomes if o.mark is None], f"{label} $-$ that of {base}"
+        _over_time(sheet, axis, lines, label=title, name=name, curve=curve, theory=None, bottom=None)
 
     return draw
 
