@@ -17,12 +17,14 @@ STUDIES = Path(stored.__file__).parent / "stored_studies" / "studies.json"
 
 @dataclass(frozen=True)
 class StoredStudy:
-    """One study as it is stored. cells : its table's rows as text; stale : code has changed since."""
+    """One study as it is stored. says : what the thesis says of it, and whether it is so; cells : its table's rows as
+    text; stale : code has changed since."""
 
     name: str
     title: str
     case: str
     conclusion: str
+    says: str
     headings: Sequence[str]
     cells: Sequence[Sequence[str]]
     reason: str
@@ -46,6 +48,7 @@ def _study(study: Mapping[str, Any], folder: Path, stale: bool) -> StoredStudy:
         study["title"],
         study["case"],
         study["conclusion"],
+        study.get("says", ""),
         list(columns.values()),
         [[_text(row.get(key)) for key in columns] for row in study["rows"]],
         (study.get("reason") or "no reason given") if study["failed"] else "",

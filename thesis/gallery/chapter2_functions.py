@@ -142,7 +142,7 @@ def solution(
 ) -> None:
     """r₁ or λ₁ over κ/ν for several (α, ψ, χ); the number beside it is that of ``load`` at κ/ν = ``at``."""
     symbol, short = {"r1": ("$r_1$", "r₁"), "lambda1": (r"$\lambda_1$", "λ₁")}[name]
-    spread = [np.geomspace(SMALLEST, 0.2, 100), np.linspace(0.2, 1.2, 400), [0.3, 0.5, 0.8, 1.0]]
+    spread = np.geomspace(SMALLEST, 0.2, 100), np.linspace(0.2, 1.2, 400), np.array([0.3, 0.5, 0.8, 1.0])
     ratios = np.unique(np.concatenate(spread))
     with sheet.figure(width=4.2, height=2.9) as (_, axis):
         axis.set(xlabel=r"$\kappa/\nu$  (1)", ylabel=f"{symbol}  (1)", ylim=limits)

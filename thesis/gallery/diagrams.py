@@ -226,7 +226,7 @@ def nodes_and_middles(sheet: Sheet) -> None:
                 sheet.line(axis, x, shift - x**2, series=name, **line)
             x = np.arange(-1.5, 2.0)
             straight = shift - 0.5 * ((x - 0.5) ** 2 + (x + 0.5) ** 2)
-            square = {"color": GREY, "ls": "", "marker": "s", "ms": 4.5, "mfc": "none"}
+            square: dict[str, Any] = {"color": GREY, "ls": "", "marker": "s", "ms": 4.5, "mfc": "none"}
             sheet.line(axis, x, straight, series="middles, straight lines", **square)
         sheet.letter(axes, ["node method", "middle method"])
         legend_below(fig, axes[1])

@@ -101,6 +101,21 @@ def on_runs(where: str, what: str, printed: str, measured: Callable[[str], float
     return Printed(where, what, printed, measured("lumped"), why, read=True)
 
 
+def lift(contact: str) -> Callable[[str], float]:
+    """Lift of 3.3.5 with a mass, m."""
+    return lambda mass: run(contact, mass).lift
+
+
+def strain_energy(contact: str) -> Callable[[str], float]:
+    """Strain energy of 3.3.5 with a mass, J."""
+    return lambda mass: float(run(contact, mass).strain[-1])
+
+
+def first_impulse(element: float) -> Callable[[str], float]:
+    """Impulse of the first impact of 3.4 with a mass, N s."""
+    return lambda mass: first_impact(element, MASSES[mass])[0]
+
+
 def of_theory(name: str, *load: float) -> float:
     """A number of the theory at κ/ν = 0.5."""
     return float(getattr(contact_parameters(0.5, *load), name))
@@ -178,11 +193,11 @@ def contacts() -> Iterator[Printed]:
                   lambda mass: float(thesis("", 1.0, 0.01, mass=MASSES[mass]).gap[0]), "middles, ")
     for contact, name, high, strain, rough in (("node", "nodes", "1.7e-4", "3.8", "1.5e-4"),
                                                ("middle", "middles", "1.7e-3", "38", "1.5e-3")):
-        yield on_runs("3.3.5", f"lift at 2.5·10⁻⁴ s, {name}, m", high, lambda mass, c=contact: run(c, mass).lift, "")
+        yield on_runs("3.3.5", f"lift at 2.5·10⁻⁴ s, {name}, m", high, lift(contact), "")
         yield on_runs("3.4", f"“numerical errors” at τ = 0.1, {name}, m", rough,
-                      lambda mass, c=contact: run(c, mass).lift, "the same lift; ")
+                      lift(contact), "the same lift; ")
         yield on_runs("3.3.5", f"strain energy at 2.5·10⁻⁴ s, {name}, J", strain,
-                      lambda mass, c=contact: float(run(c, mass).strain[-1]), "")
+                      strain_energy(contact), "")
     lines = "the thesis joins nodes by straight lines (3.3.5), which gives {}; the shape functions (A.6) KΔx²/8"
     for where, curvature, name, element, depth, delay in (
         ("3.3.5, A.7", FLAT, "1/80", 2.5e-3, "1.45e-8", "7e-10"),
@@ -209,7 +224,7 @@ def discrete() -> Iterator[Printed]:
                   lambda mass: first_impact(ELEMENT, MASSES[mass])[1], "")
     for element, impulse in ((5e-2, "1"), (1e-2, "0.2")):
         yield on_runs("3.4, Fig. 3.32d", f"impulse of the first impact, Δx = {element:g} m, N s", impulse,
-                      lambda mass, dx=element: first_impact(dx, MASSES[mass])[0], "")
+                      first_impulse(element), "")
     yield on_runs("3.4", "the same for h = 10⁻¹⁰ s, Δx = 0.05 m, N s", "1",
                   lambda mass: first_impact(ELEMENT, MASSES[mass], 1e-10)[0], "")
 
@@ -226,9 +241,9 @@ def first_order() -> Iterator[Printed]:
     yield Printed("3.5, Fig. 3.33", "lift, a₀ = 700 m/s², m", "3.2e-4", own[700.0].lift,
                   f"open; {masses}. It hangs on waves that come back from where the fine elements end, {rule:.3g} m by "
                   f"the rule of Table 3.2; with steps ten times as long: {zones}", read=True)
-    for sign, printed in FITTED.items():
+    for sign, slope in FITTED.items():
         a = 700.0 * sign
-        yield Printed("3.5", f"λ₁ fitted to the thesis's run, a₀ = {readable(a)} m/s², m/s^1.5", f"{printed:g}",
+        yield Printed("3.5", f"λ₁ fitted to the thesis's run, a₀ = {readable(a)} m/s², m/s^1.5", f"{slope:g}",
                       fitted(own[a]), f"{masses}; theory predicts {predicted(first.impact(a)):.1f} for t → 0",
                       read=True)
     last = first.last_push(first.old(-700.0, time_step=first.THESIS_STEP))
