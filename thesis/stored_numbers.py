@@ -18,8 +18,9 @@ from PIL import Image
 from comparison import stored
 from comparison.store import write_atomically
 from thesis.gallery import ITEMS
-from thesis.gallery.numbers import CLASSES, markdown
+from thesis.gallery.numbers import markdown
 from thesis.stored_studies import COLOURS, FILE, PACKAGES
+from thesis.verdicts import CLASSES
 
 SHOWN = ("fig-3.9", "extra-filter", "fig-3.14", "fig-3.23", "fig-3.24", "fig-3.26", "fig-3.30", "fig-3.32", "fig-3.34")
 WIDTH = 640  # of a small picture, pixels

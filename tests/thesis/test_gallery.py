@@ -19,10 +19,11 @@ from theory import contact_parameters, kernel
 from thesis.gallery import ITEMS, base, draw_all, listing
 from thesis.gallery.animation import impact_frames
 from thesis.gallery.base import order
-from thesis.gallery.numbers import CLASSES, rows
+from thesis.gallery.numbers import rows
 from thesis.gallery.runs import case
 from thesis.studies.exact import Exact
 from thesis.studies.thesis import MASSES
+from thesis.verdicts import CLASSES
 
 DOCS = Path(__file__).parents[2] / "docs"
 LAST = {"fig-2": 18, "fig-3": 36, "fig-A": 3, "table-3": 4}  # of the thesis's figures and tables
@@ -293,34 +294,29 @@ def test_the_animation_moves(tmp_path: Path) -> None:
     assert fronts == sorted(fronts) and fronts[-1] > 0.0
 
 
-def value(cell: str) -> tuple[float, float]:
-    """A printed number and half a unit of its last digit."""
+def value(cell: str) -> tuple[float, int]:
+    """A printed number and how many significant digits it has."""
     plain = cell.translate(str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻−", "0123456789--"))
-    mantissa, _, power = plain.partition("·10") if "·" in plain else (plain, "", "0")
-    if plain.startswith("10-"):
-        mantissa, power = "1", plain[2:]
-    digits = len(mantissa.partition(".")[2])
-    return float(f"{mantissa}e{power}"), 0.5 * 10.0 ** (int(power) - digits)
+    text = "1e" + plain[2:] if plain.startswith("10-") else plain.replace("·10", "e")
+    return float(text), len(text.partition("e")[0].replace(".", "").lstrip("-0"))
 
 
 def test_every_printed_number_is_in_the_class_that_its_cells_ask_for() -> None:
     lines = (DOCS / "thesis_numbers.md").read_text().splitlines()
-    table = [[c.strip() for c in line.replace(r"\|", "/").split(" | ")] for line in lines if line.startswith("| ")]
+    table = [[c.strip() for c in line.strip("| ").replace(r"\|", "/").split("|")] for line in lines if line[:2] == "| "]
     assert len(table) > 60
-    for _, what, thesis, ours, _, verdict, why in table[2:]:
-        (printed, half), (found, bar) = value(thesis), value(ours)
-        near = abs(found - printed) <= (half + bar) * (1.0 + 1e-9)
+    for _, what, thesis, ours, _, verdict, *why in table[2:]:
+        (printed, digits), (found, _) = value(thesis), value(ours)
+        near = float(f"{found:.{digits - 1}e}") == printed
+        reason = " ".join(why)
         assert verdict in CLASSES, what
-        if verdict == "within rounding":
-            assert near, what
-        elif verdict == "same order":
-            assert not near and 0.5 <= found / printed <= 2.0, what
+        if verdict == "inferred from axes":
+            assert "no number is printed" in reason, what
         elif verdict == "other rule, stated by the thesis":
-            assert "straight lines" in why or "assumes" in why or why.startswith("as above"), what
-        elif verdict == "inferred from axes":
-            assert "no number is printed" in why, what
+            assert any(word in reason for word in ("straight lines", "assumes", "rounded", "as above")), what
         else:
-            assert abs(found - printed) > half, what
+            assert near == (verdict == "within rounding"), what
+            assert verdict != "same order" or 0.5 <= found / printed <= 2.0, what
 
 
 @SLOW

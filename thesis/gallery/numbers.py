@@ -1,22 +1,9 @@
-"""The table of printed numbers: every one that this project can compute, section by section, beside its own.
-
-Five classes, by rules that are the same for all:
-
-- within rounding: ours differs by no more than half a unit of the last printed digit;
-- other rule, stated by the thesis: the text states a rule that is not ours, and it gives the printed number to one
-  digit;
-- inferred from axes: the thesis prints no number; an axis of a figure shows how large it can be;
-- same order: a number that was read off a run or a mesh, or printed as an order of magnitude, and ours lies between
-  half and twice of it;
-- off: all others. A number that follows from a formula has no same order.
-"""
+"""The table of printed numbers: every one that this project can compute, section by section, beside its own."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
-from decimal import Decimal
 
 import numpy as np
 
@@ -33,65 +20,7 @@ from thesis.sheet import Sheet
 from thesis.studies.exact import Exact
 from thesis.studies.first_order_case import FITTED, fitted, old_settings, predicted
 from thesis.studies.thesis import MASSES
-
-ROUNDING, SAME, OFF = "within rounding", "same order", "off"
-RULE, AXES = "other rule, stated by the thesis", "inferred from axes"
-CLASSES = (ROUNDING, SAME, OFF, RULE, AXES)
-FACTOR = 2.0
-"""Of the same order: at most so many times larger or smaller."""
-
-
-def within_rounding(printed: str, value: float) -> bool:
-    """Whether a value rounds to the printed digits."""
-    half = 0.5 * 10.0 ** int(Decimal(printed).as_tuple().exponent)
-    return abs(value - float(printed)) <= half * (1.0 + 1e-9)
-
-
-def class_of(printed: str, ours: float, *, read: bool = False, rule: float | None = None, axes: bool = False) -> str:
-    """The class of a printed number. read, rule, axes : see :class:`Printed`."""
-    if axes:
-        return AXES
-    if within_rounding(printed, ours):
-        return ROUNDING
-    value = float(printed)
-    if rule is not None and f"{rule:.0e}" == f"{value:.0e}":
-        return RULE
-    return SAME if read and 1.0 / FACTOR <= ours / value <= FACTOR else OFF
-
-
-@dataclass(frozen=True)
-class Printed:
-    """One printed number.
-
-    where : section, equation, figure or table; what : of what, with its unit; printed : its digits, as they stand.
-    ours : computed; why : how it was measured, what is wrong or stays open.
-    read : the thesis read it off a run or a mesh, or prints an order of magnitude. rule : what the thesis's own rule
-    gives, where that is another than ours. axes : no number is printed, an axis ends there.
-    """
-
-    where: str
-    what: str
-    printed: str
-    ours: float
-    why: str = ""
-    read: bool = False
-    rule: float | None = None
-    axes: bool = False
-
-    @property
-    def verdict(self) -> str:
-        """One of the five classes."""
-        return class_of(self.printed, self.ours, read=self.read, rule=self.rule, axes=self.axes)
-
-    def row(self) -> list[str]:
-        """Cells: where, what, printed, computed, their ratio, class, why."""
-        ratio = f"{self.ours / float(self.printed):.3g}" if not self.axes else "–"
-        return [self.where, self.what, shown(self.printed), readable(self.ours, 5), ratio, self.verdict, self.why]
-
-
-def shown(printed: str) -> str:
-    """A printed number with all of its digits."""
-    return readable(float(printed), len(Decimal(printed).as_tuple().digits)) if "e" in printed else printed
+from thesis.verdicts import CLASSES, RULE, Printed, class_of
 
 
 def on_runs(where: str, what: str, printed: str, measured: Callable[[str], float], how: str) -> Printed:
@@ -127,7 +56,8 @@ def chapter2() -> Iterator[Printed]:
     yield Printed("2.7.1", "λ₀ at κ/ν = 0.5", "1.019", lambda0)
     yield Printed("2.7.1", "λ₁ at κ/ν = 0.5 for (α, ψ, χ) = (4, 0, 0)", "5.665", pushed)
     for tau, leading, correction in ((0.1, "0.3222", "0.0179"), (0.5, "0.7205", "0.2003")):
-        yield Printed("2.7.1", f"λ₀√τ at τ = {tau}", leading, math.sqrt(tau) * lambda0)
+        yield Printed("2.7.1", f"λ₀√τ at τ = {tau}", leading, math.sqrt(tau) * lambda0, "from the rounded 1.019",
+                      rule=math.sqrt(tau) * 1.019)
         yield Printed("2.7.1", f"ελ₁τ√τ at τ = {tau}, ε = 0.1", correction, 0.1 * tau**1.5 * pushed)
     yield Printed("2.7.2, Fig. 2.18", "λ₀ at κ/ν = 0.5", "1.1089", lambda0, "digits: the same page prints 1.0189")
     yield Printed("2.7.2", "λ₁ at κ/ν = 0.5 for (−1, −1, 0)", "-1.7729", pulled)
@@ -206,12 +136,14 @@ def contacts() -> Iterator[Printed]:
     ):
         ours = curvature * element**2 / 8.0
         what, at = "before a middle closes", f"K = {name} 1/m, Δx = {element:g} m"
-        for quantity, printed, own in (("penetration", depth, ours), ("time", delay, ours / 20.0)):
-            unit = "m" if quantity == "penetration" else "s"
-            yield Printed(where, f"{quantity} {what}, {at}, {unit}", printed, own,
-                          lines.format(f"{readable(2.0 * own, 5)} {unit}"), rule=2.0 * own)
-    yield Printed("3.4", "the last time in τ", "0.3", MIDDLE / case(CURVATURE, 0.1).impact.time_scale,
-                  "as above", rule=2.0 * MIDDLE / case(CURVATURE, 0.1).impact.time_scale)
+        found = Printed(where, f"penetration {what}, {at}, m", depth, ours, lines.format(f"{readable(2.0 * ours)} m"),
+                        rule=2.0 * ours)
+        yield found
+        theirs = (float(depth) if found.verdict == RULE else 2.0 * ours) / 20.0
+        yield Printed(where, f"time {what}, {at}, s", delay, ours / 20.0, lines.format(f"{readable(theirs)} s"),
+                      rule=theirs)
+    scale = case(CURVATURE, 0.1).impact.time_scale
+    yield Printed("3.4", "the last time in τ", "0.3", MIDDLE / scale, "as above", rule=float("7.85e-4") / scale)
 
 
 def discrete() -> Iterator[Printed]:
@@ -244,7 +176,7 @@ def first_order() -> Iterator[Printed]:
     for sign, slope in FITTED.items():
         a = 700.0 * sign
         yield Printed("3.5", f"λ₁ fitted to the thesis's run, a₀ = {readable(a)} m/s², m/s^1.5", f"{slope:g}",
-                      fitted(own[a]), f"{masses}; theory predicts {predicted(first.impact(a)):.1f} for t → 0",
+                      fitted(own[a]), f"{masses}; theory predicts {readable(predicted(first.impact(a)))} for t → 0",
                       read=True)
     last = first.last_push(first.old(-700.0, time_step=first.THESIS_STEP))
     yield Printed("3.5", "the beam leaves the wall, a₀ = −700 m/s², s", "3.7e-3", last,
@@ -260,11 +192,11 @@ HEAD = """\
 
 Made by `bentbeam gallery table-numbers --out FOLDER`; each row is in one class, by rules that are the same for all:
 
-- **within rounding**: ours rounds to the printed digits;
+- **within rounding**: ours, rounded to as many digits as are printed, is the printed number;
 - **same order**: a number that the thesis read off a run or a mesh, or prints as an order of magnitude, and ours is
   between half and twice as large;
-- **other rule, stated by the thesis**: the printed number follows, to one digit, from a rule that the thesis states and
-  that is not ours;
+- **other rule, stated by the thesis**: the printed number follows, to one unit of its last digit, from a rule that the
+  thesis states and that is not ours;
 - **inferred from axes**: no number is printed, an axis shows how large it can be;
 - **off**: the others.
 

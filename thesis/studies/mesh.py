@@ -11,7 +11,7 @@ from comparison.readable import readable
 from thesis.studies import variation
 from thesis.studies.base import Study
 from thesis.studies.exact import Exact
-from thesis.studies.thesis import CONSISTENT, Runs, Settings, Variant, references, thesis_settings, varied
+from thesis.studies.thesis import Runs, Settings, Variant, references, thesis_settings, varied
 from thesis.studies.variation import NotVaried, Setting, grown, part_of, resolution, with_field
 
 # The time step h (thesis 3.3.1, Figs 3.7–3.9, Table 3.1): 40, 4, 2, 1 and 0.4 times 10⁻⁵ t*, the rest as in the
@@ -103,14 +103,14 @@ ABSORBERS = ("far_field", "element")  # parts that may have a viscosity of the g
 
 
 def far_field_variants(case: Case) -> list[Variant]:
-    """Far field, nodes, consistent mass
+    """Far field, nodes, lumped mass
 
     Noise, lift and r₀ for several growths of the elements, with and without absorption, and on half the beam: noise
     tells of waves that coarse elements reflect, a change of r₀ on half the beam of waves from its ends.
     """
     # Nodes held behind the front and elements of half the thesis's length, so that the far field makes the errors.
     base = thesis_settings(case.impact, case.end_time)
-    base = base.replace(contact="node", hold=16, element_length=0.5 * base.element_length, mass=CONSISTENT)
+    base = base.replace(contact="node", hold=16, element_length=0.5 * base.element_length)
     slow: dict[str, Any] = {"growth": 1.02, "viscosity": 0.3}
     runs: Runs = {f"e = {e:g}": (e, {"growth": e}) for e in FAR_GROWTHS}
     runs["e = 1.25, grid viscosity 0.3"] = None, {"viscosity": 0.3}
