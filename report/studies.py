@@ -41,8 +41,11 @@ def stored_studies(file: Path = STUDIES) -> list[StoredStudy]:
     return [_study(study, file.parent, stale) for study in stored.read(file)["studies"]]
 
 
+LEFT_OUT = ("strain", "nodes", "steps", "seconds")  # of the tables: what says nothing of accuracy
+
+
 def _study(study: Mapping[str, Any], folder: Path, stale: bool) -> StoredStudy:
-    columns = study["columns"]
+    columns = {key: heading for key, heading in study["columns"].items() if key not in LEFT_OUT}
     return StoredStudy(
         study["name"],
         study["title"],
@@ -59,8 +62,8 @@ def _study(study: Mapping[str, Any], folder: Path, stale: bool) -> StoredStudy:
 
 
 def _text(value: Any) -> str:
-    """A cell: a number in four digits, with its error bar where it has one."""
+    """A cell: a number in three digits, with its error bar where it has one."""
     if isinstance(value, Mapping):
         bar = value.get("error")
-        return readable(value.get("value")) + ("" if bar is None else f" ± {readable(bar, 1)}")
-    return readable(value)
+        return readable(value.get("value"), 3) + ("" if bar is None else f" ± {readable(bar, 1)}")
+    return readable(value, 3)
