@@ -93,7 +93,7 @@ def test_page_shows_every_row_the_failure_and_the_stored_studies(plain: str) -> 
     for r in [*leading_rows(rows()), *first_order_rows(rows())]:
         for c in r.cells:
             assert c.value_text in text and c.error_text in text
-    assert "Exudyn 0.3 (1, 0, 0, 0) an ordinary warning" in text
+    assert "Exudyn0.3(1, 0, 0, 0)an ordinary warning" in text
     assert "Rows failed: 1." in text
     assert "0.98 ± 0.002" in text
     assert "Left out: an ordinary warning" in text
