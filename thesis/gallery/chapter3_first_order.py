@@ -149,14 +149,14 @@ def all_of_it(sheet: Sheet) -> None:
         for column, acceleration in enumerate((700.0, -700.0)):
             name = SIGNS[acceleration]
             plain = replace(old_outcome(0.0), label=f"{study.OLD}, {SIGNS[0.0]}", steps=steps(0.0))
-            runs = [plain, replace(old_outcome(acceleration), steps=steps(acceleration)), *ours(acceleration)]
+            runs = [replace(old_outcome(acceleration), steps=steps(acceleration)), plain, *ours(acceleration)]
             evolution(sheet, axes[0, column], acceleration)
             contact_length(sheet, axes[1, column], runs)
             filtered(sheet, axes[2, column], runs)
             for axis, what in ((axes[1, column], "front"), (axes[2, column], "side_reaction")):
                 leading(sheet, axis, what, float(runs[0].time[-1]))
             sheet.numbers[f"λ₁, {name}, theory"] = study.predicted(impact(acceleration))
-            sheet.numbers |= {f"λ₁, {name}, {o.label}": study.fitted(o) for o in runs[1:]}
+            sheet.numbers |= {f"λ₁, {name}, {o.label}": study.fitted(o) for o in runs if o is not plain}
             sheet.numbers[f"λ₁, {name}, {runs[-1].label}, first 5 %"] = study.fitted(runs[-1], 0.05)
         sheet.letter(axes, [SIGNS[700.0], SIGNS[-700.0]])
         legend_below(fig, axes[1, 0], 3)
