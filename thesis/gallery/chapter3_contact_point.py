@@ -204,7 +204,8 @@ def unfiltered(sheet: Sheet) -> None:
 
     Reaction of one side in every step, unfiltered, on a logarithmic axis, on which steps without a reaction are left
     out: lumped mass (a, b), consistent (c, d); {shown}. The numbers are its scatter about theory in the second half,
-    root mean square over theory. The thesis finds middles quieter: with lumped masses they are.
+    root mean square over theory. The thesis finds middles quieter: with lumped masses they are. The line at the top of
+    (a) is μΔxV₀/h, the impact of one lumped node, again and again.
     """
     with sheet.figure(2, 2, width=style.PAGE, height=4.4, sharex=True, sharey=True) as (_, axes):
         for axis, (mass, contact) in zip(axes.flat, PAIRS):
