@@ -24,6 +24,7 @@ from comparison.store import RunStore
 from comparison.tables import write_match
 from comparison.whole_impact.figures import draw_map
 from report.impacts import END, SHOWN, ShownImpact, show_all
+from report.numbers import stored_numbers
 from report.pipe import pipe_prediction
 from report.render import Content, render
 from report.rows import PATHS, convergence_rows, first_order_rows, leading_rows, report_questions
@@ -77,6 +78,7 @@ def write_report(
         impacts=impacts,
         lost_impacts=lost,
         pipe=pipe_prediction(),
+        numbers=stored_numbers(),
         studies=stored_studies(),
         work=stored_measurements(),
         pictures=[f for f in files if f.suffix == ".png"],

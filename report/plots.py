@@ -22,10 +22,14 @@ __all__ = ["error_plot", "first_order_plot", "leading_plot", "plots"]
 Plot = dict[str, Any]
 Points = list[tuple[TableRow, Cell]]
 SYMBOLS = {"lambda0": "λ<sub>0</sub>", "r0": "r<sub>0</sub>/ν", "lambda1": "λ<sub>1</sub>", "r1": "r<sub>1</sub>"}
-SHAPES = ("circle", "square", "diamond", "triangle-up", "triangle-down", "cross", "x", "star", "hexagon", "pentagon")
+SHAPES = {"o": "circle", "D": "diamond", "s": "square", "^": "triangle-up", "v": "triangle-down", "P": "cross",
+          "<": "triangle-left", ">": "triangle-right", "X": "x", "h": "hexagon", "d": "diamond-tall", "*": "star",
+          "p": "pentagon"}  # fmt: skip
+"""Marker of the still pictures → the same of plotly."""
 LOG: Plot = {"type": "log", "exponentformat": "power", "dtick": 1}
 LOG_RATIO: Plot = {**LOG, "minor": {"ticks": "outside", "ticklen": 3}}
 SMALLEST = 1e-5  # per cent; smaller errors are drawn there
+SMALLEST_RATIO = 0.08  # κ/ν, where curves of first order begin
 
 
 def plots(leading: Sequence[TableRow], first: Sequence[TableRow]) -> dict[str, Plot]:
@@ -74,9 +78,9 @@ def curve(x: ArrayLike, y: ArrayLike, name: str, line: Plot, **more: Any) -> Plo
 
 def series(rows: Sequence[TableRow], what: str) -> Iterator[tuple[str, Plot, Points]]:
     """Label, marker and points of each method that has the number ``what``."""
-    for i, (label, mark) in enumerate(marks(labels(r.row for r in rows)).items()):
+    for label, mark in marks(labels(r.row for r in rows)).items():
         both = [(r, c) for r in rows if r.row.label == label for c in r.cells if c.what == what]
-        shape = SHAPES[i % len(SHAPES)] + ("-open" if what.startswith("lambda") else "")
+        shape = SHAPES[mark["marker"]] + ("-open" if what.startswith("lambda") else "")
         colour = str(mark["color"])
         if both:
             yield label, {"symbol": shape, "size": 9, "color": colour, "line": {"width": 1.8, "color": colour}}, both
@@ -120,7 +124,7 @@ def first_order_plot(rows: Sequence[TableRow], what: str) -> Plot:
         line = {"color": SEQUENCE[i % len(SEQUENCE)], "width": 1.5}
         line["dash"] = ("solid", "dash")[i // len(SEQUENCE) % 2]
         mine = [r for r in rows if r.row.first == first]
-        ratio = np.linspace(0.1 if min(r.row.kappa_over_nu for r in mine) < 0.2 else 0.25, 0.99, 120)
+        ratio = np.linspace(SMALLEST_RATIO, 0.99, 180)
         exact = getattr(contact_parameters(ratio, *first[:3], axial=first[3]), what)
         load = mine[0].first_text
         data.append(curve(ratio, exact, load, line, legendgroup=load))
@@ -132,7 +136,7 @@ def first_order_plot(rows: Sequence[TableRow], what: str) -> Plot:
         "layout": layout(
             "κ/ν",
             SYMBOLS[what] + " (ν = 1)",
-            xaxis={"range": [0.08, 1.0]},
+            xaxis={"range": [SMALLEST_RATIO, 1.0]},
             yaxis={"range": visible(rows, what)},
             legend={"title": {"text": "(α, ψ, χ, N)"}},
         ),

@@ -21,6 +21,7 @@ from bent_beam.versions import processor, versions
 from comparison.figures.style import marks
 from comparison.rows import MatchRow, failures
 from report.impacts import ENERGIES, ShownImpact, theory_of
+from report.numbers import StoredNumbers
 from report.pipe import COLUMNS, Pipe
 from report.plots import plots
 from report.rows import first_order_rows, labels, leading_rows
@@ -42,6 +43,7 @@ class Content:
     impacts: Sequence[ShownImpact] = ()
     lost_impacts: Sequence[str] = ()
     pipe: Pipe | None = None
+    numbers: StoredNumbers | None = None
     studies: Sequence[StoredStudy] = ()
     work: Sequence[StoredMeasurement] = ()
     pictures: Sequence[Path] = ()

@@ -31,6 +31,7 @@ __all__ = [
 PATHS = ("hermite", "self_similar", "exudyn")
 LEADING = (1 / 1600, 1 / 20, 1 / 4, 1 / 2, 0.8)
 MIDDLE = 0.5
+ALONG = (0.25, MIDDLE, 0.8)  # κ/ν of first order
 FIRST: tuple[First, ...] = ((4, 0, 0, 0), (-1, -1, 0, 0))  # a pressed zone and a lifting one
 REFINES = (0.5, 1.0)
 
@@ -41,15 +42,16 @@ def true_minus(text: str) -> str:
 
 
 def report_questions(methods: Sequence[Method] | None = None, refines: Sequence[float] = REFINES) -> list[Question]:
-    """Every row of the report, few enough for a minute and a half.
+    """Every row of the report, few enough for two minutes.
 
-    Leading order over κ/ν; convergence and two loads of first order at κ/ν = 0.5. The longest come first, so that no
-    core idles at the end, and a method's two loads apart, so that the second finds the run without loads in the store.
+    Leading order over κ/ν; two loads of first order at three κ/ν; convergence at κ/ν = 0.5. The longest come first, so
+    that no core idles at the end, and a method's two loads apart, so that the second finds the run without loads in the
+    store.
     """
     methods = default_methods(PATHS) if methods is None else methods
     return [
         *(Question(m, LEADING[0]) for m in reversed(methods)),
-        *(Question(m, MIDDLE, load) for load in FIRST for m in reversed(methods)),
+        *(Question(m, k, load) for load in FIRST for k in ALONG for m in reversed(methods)),
         *(Question(m, k) for k in LEADING[1:] for m in reversed(methods)),
         *(Question(m, MIDDLE, None, r) for m in methods for r in refines if r != 1.0),
     ]

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from comparison import stored
+from comparison.readable import readable
 
 __all__ = ["STUDIES", "StoredStudy", "stored_studies"]
 
@@ -16,12 +17,14 @@ STUDIES = Path(stored.__file__).parent / "stored_studies" / "studies.json"
 
 @dataclass(frozen=True)
 class StoredStudy:
-    """One study as it is stored. cells : its table's rows as text; stale : code has changed since."""
+    """One study as it is stored. says : what the thesis says of it, and whether it is so; cells : its table's rows as
+    text; stale : code has changed since."""
 
     name: str
     title: str
     case: str
     conclusion: str
+    says: str
     headings: Sequence[str]
     cells: Sequence[Sequence[str]]
     reason: str
@@ -38,13 +41,17 @@ def stored_studies(file: Path = STUDIES) -> list[StoredStudy]:
     return [_study(study, file.parent, stale) for study in stored.read(file)["studies"]]
 
 
+LEFT_OUT = ("strain", "nodes", "steps", "seconds")  # of the tables: what says nothing of accuracy
+
+
 def _study(study: Mapping[str, Any], folder: Path, stale: bool) -> StoredStudy:
-    columns = study["columns"]
+    columns = {key: heading for key, heading in study["columns"].items() if key not in LEFT_OUT}
     return StoredStudy(
         study["name"],
         study["title"],
         study["case"],
         study["conclusion"],
+        study.get("says", ""),
         list(columns.values()),
         [[_text(row.get(key)) for key in columns] for row in study["rows"]],
         (study.get("reason") or "no reason given") if study["failed"] else "",
@@ -55,10 +62,8 @@ def _study(study: Mapping[str, Any], folder: Path, stale: bool) -> StoredStudy:
 
 
 def _text(value: Any) -> str:
-    """A cell: a number in four digits, with its error bar where it has one."""
+    """A cell: a number in three digits, with its error bar where it has one."""
     if isinstance(value, Mapping):
         bar = value.get("error")
-        return _text(value.get("value")) + ("" if bar is None else f" ± {bar:.1g}")
-    if value is None:
-        return "–"
-    return f"{value:.4g}" if isinstance(value, float) else str(value)
+        return readable(value.get("value"), 3) + ("" if bar is None else f" ± {readable(bar, 1)}")
+    return readable(value, 3)

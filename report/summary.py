@@ -37,10 +37,25 @@ class SummaryRow:
     seconds: float | None
 
 
+THIN = 0.02  # κ/ν; below it the front is so thin that it is a case of its own
+
+
+def bands(leading: Sequence[TableRow]) -> list[tuple[str, list[TableRow]]]:
+    """Rows of leading order by range of κ/ν, named."""
+    thick = [r for r in leading if r.row.kappa_over_nu >= THIN]
+    thin = [r for r in leading if r.row.kappa_over_nu < THIN]
+    named = []
+    for rows in (thick, thin):
+        if rows:
+            ends = dict.fromkeys(f(rows, key=lambda r: r.row.kappa_over_nu).ratio_text for f in (min, max))
+            named.append((f"leading order, κ/ν = {' to '.join(ends)}", rows))
+    return named
+
+
 def summary(leading: Sequence[TableRow], first: Sequence[TableRow]) -> list[SummaryRow]:
-    """A row for each order and method that has a number."""
+    """A row for each order, range of κ/ν and method that has a number."""
     found = []
-    for order, rows in (("leading order", leading), ("first order", first)):
+    for order, rows in (*bands(leading), ("first order", first)):
         for label in labels(r.row for r in rows):
             mine = [r for r in rows if r.row.label == label]
             cells = [c for r in mine for c in r.cells]

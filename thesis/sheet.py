@@ -20,6 +20,7 @@ from matplotlib.figure import Figure
 from numpy.typing import ArrayLike, NDArray
 
 from comparison.figures import style
+from comparison.readable import readable
 from comparison.store import write_atomically
 
 NAMES = "lambda kappa nu tau xi beta eta alpha psi chi varphi varepsilon rho theta mu infty Delta partial tilde sqrt"
@@ -32,15 +33,6 @@ def without_tex(label: str) -> str:
     for tex, text in TEX.items():
         label = label.replace(tex, text)
     return re.sub(r"\s+", " ", re.sub(r"[${}\\]", "", label)).strip()
-
-
-def shown(value: Any) -> str:
-    """A table cell for a reader: four digits of a number, a dash for nothing."""
-    if value is None:
-        return "–"
-    if isinstance(value, (float, np.floating)):
-        return f"{value:.4g}".replace("-", "−", 1) if value < 0.0 else f"{value:.4g}"
-    return str(value)
 
 
 @dataclass
@@ -113,7 +105,7 @@ class Sheet:
     def table(self, columns: Sequence[str], rows: Sequence[Sequence[Any]], *, width: float = style.PAGE) -> None:
         """A table as picture and CSV. Cells are shown as given (strings) or with four digits (numbers)."""
         self.data(columns, rows)
-        cells = [[shown(v) for v in row] for row in rows]
+        cells = [[readable(v) for v in row] for row in rows]
         lengths = [max(map(len, column)) + 2 for column in zip(self.rows[0], *cells)]
         with self.figure(width=width, height=0.21 * (len(rows) + 1) + 0.12) as (_, axis):
             axis.axis("off")

@@ -151,6 +151,13 @@
     }], layout(along(), axis("√τ"), { shapes: [instantLine] }), config);
   }
 
+  /** One scale for the energies of all methods. */
+  function energyRange() {
+    const all = impact.methods.flatMap((m) => Object.values(m.energy).flat()).concat(0);
+    const low = Math.min(...all), high = Math.max(...all), room = 0.05 * (high - low || 1);
+    return [low - room, high + room];
+  }
+
   function drawEnergy(place, m) {
     const time = impact.theory.time, ends = [time[0], time[time.length - 1]];
     const zero = curve(ends, [0, 0], "work of the wall", { color: black, width: 1.2, dash: "dot" });
@@ -158,7 +165,7 @@
     const curves = drawn.map(([name, { title, colour, dash }]) => curve(
       time, m.energy[name], title, { color: colour, width: 1.8, dash: dash ? "dash" : "solid" },
       { hovertemplate: title + " %{y:.4g}<extra></extra>" }));
-    const y = axis("energy / (μV<sub>0</sub>²l<sub>*</sub>)");
+    const y = axis("energy / (μV<sub>0</sub>²l<sub>*</sub>)", { range: energyRange() });
     Plotly.react(place, [zero, ...curves], layout(tau(), y, { shapes: [vertical(0)] }), config);
   }
 

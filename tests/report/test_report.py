@@ -15,6 +15,7 @@ from comparison.figures.force_map import force_map, spread
 from comparison.store import RunStore
 from report import page
 from report.impacts import FRAMES, SHOWN, kept_instants, theory_of
+from report.numbers import stored_numbers
 from report.render import Content, render
 from report.rows import first_order_rows, leading_rows, report_questions, table_row, tolerance
 from report.studies import stored_studies
@@ -92,7 +93,7 @@ def test_page_shows_every_row_the_failure_and_the_stored_studies(plain: str) -> 
     for r in [*leading_rows(rows()), *first_order_rows(rows())]:
         for c in r.cells:
             assert c.value_text in text and c.error_text in text
-    assert "Exudyn, κ/ν = 0.3, (α, ψ, χ, N) = (1, 0, 0, 0): an ordinary warning" in text
+    assert "Exudyn0.3(1, 0, 0, 0)an ordinary warning" in text
     assert "Rows failed: 1." in text
     assert "0.98 ± 0.002" in text
     assert "Left out: an ordinary warning" in text
@@ -119,7 +120,10 @@ def test_report_is_written_when_rows_fail(tmp_path: Path, monkeypatch: pytest.Mo
     assert seen[-1][0] == seen[-1][1]
     # matching, work and precision, map of whole impacts, maps of reaction, acceleration; what is stored
     images = sum(tag == "img" for tag in Reader(text).tags)
-    assert images == 6 + len(stored_measurements()) + sum(s.picture.exists() for s in stored_studies())
+    printed = stored_numbers()
+    assert printed is not None and text.index('id="thesis"') < text.index('id="problem"')
+    stored = len(stored_measurements()) + sum(s.picture.exists() for s in stored_studies()) + len(printed.figures)
+    assert images == 6 + stored
 
 
 def test_questions_ask_every_method_the_same() -> None:
@@ -141,12 +145,14 @@ def test_grade_is_error_against_tolerance(off: float, grade: str) -> None:
 def test_summary_and_headline_come_from_the_rows() -> None:
     leading, first = leading_rows(rows()), first_order_rows(rows())
     found = {(r.order, r.label): r for r in summary(leading, first)}
+    thin, thick = "leading order, κ/ν = 1/1600", "leading order, κ/ν = 1/20 to 0.5"
     exudyn, hermite = found["first order", "Exudyn"], found["first order", "Hermite"]
     assert (exudyn.rows, exudyn.numbers, exudyn.within, exudyn.covered) == (1, 2, 0, 2)
     assert (exudyn.largest, hermite.largest) == pytest.approx((0.025, 0.2))
     assert (hermite.numbers, hermite.within) == (6, 2)  # one pair lies between the tolerance and twice it
-    exudyn = found["leading order", "Exudyn"]
-    assert (exudyn.rows, exudyn.seconds) == (4, 5.0)  # the coarse row is not among them
+    exudyn = found[thick, "Exudyn"]
+    assert (exudyn.rows, exudyn.seconds) == (3, 5.0)  # the coarse row is not among them
+    assert found[thin, "Exudyn"].rows == 1
     assert "first order Hermite 20 %, Exudyn 2.5 %" in headline(leading, first, 0)
 
 

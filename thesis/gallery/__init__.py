@@ -18,11 +18,11 @@ from pkgutil import iter_modules
 from typing import Any
 
 from comparison.figures.style import FORMATS
+from comparison.readable import readable
 from comparison.store import write_atomically
 from comparison.workers import run_all
 from thesis.gallery.base import ITEMS as _REGISTERED
 from thesis.gallery.base import Item, draw_item, order
-from thesis.sheet import shown
 
 __all__ = ["ITEMS", "Item", "draw_all", "listing"]
 
@@ -93,6 +93,6 @@ def _index(drawn: Sequence[dict[str, Any]]) -> str:
         picture = f"[the table]({picture})" if picture.endswith(".md") else f"![{entry['id']}]({picture})"
         parts.append(f"## {entry['id']}: {entry['title']}\n\n{picture}\n\n{entry['caption']} ([data]({data}))\n")
         if entry["numbers"]:
-            rows = [f"| {name.replace('|', chr(92) + '|')} | {shown(v)} |" for name, v in entry["numbers"].items()]
+            rows = [f"| {name.replace('|', chr(92) + '|')} | {readable(v)} |" for name, v in entry["numbers"].items()]
             parts.append("\n".join(["| number | value |", "| --- | --- |", *rows, ""]))
     return "\n".join(parts)

@@ -20,6 +20,7 @@ IN_TURN: list[dict[str, Any]] = [{"color": colour, "ls": dashes} for colour, das
 PUSHED = ((4.0, 0.0, 0.0), (2.0, 0.0, 0.0), (1.0, 1.0, 0.0), (1.0, 1.0, 1.0), (0.0, 2.0, 0.0))
 PULLED = ((-1.0, -1.0, 0.0), (-1.0, -1.0, 1.0), (-2.0, 0.0, 0.0), (0.0, -2.0, 0.0), (-4.0, 0.0, 0.0))
 Load = tuple[float, float, float]
+SMALLEST = 0.03  # κ/ν, where r₁ and λ₁ are drawn from
 
 
 @item("fig-2.2")
@@ -141,8 +142,8 @@ def solution(
 ) -> None:
     """r₁ or λ₁ over κ/ν for several (α, ψ, χ); the number beside it is that of ``load`` at κ/ν = ``at``."""
     symbol, short = {"r1": ("$r_1$", "r₁"), "lambda1": (r"$\lambda_1$", "λ₁")}[name]
-    smallest = 0.2 if name == "r1" and loads is PULLED else 0.08
-    ratios = np.unique(np.concatenate([np.linspace(smallest, 1.2, 400), [0.3, 0.5, 0.8, 1.0]]))
+    spread = np.geomspace(SMALLEST, 0.2, 100), np.linspace(0.2, 1.2, 400), np.array([0.3, 0.5, 0.8, 1.0])
+    ratios = np.unique(np.concatenate(spread))
     with sheet.figure(width=4.2, height=2.9) as (_, axis):
         axis.set(xlabel=r"$\kappa/\nu$  (1)", ylabel=f"{symbol}  (1)", ylim=limits)
         for one, line in zip(loads, IN_TURN):
@@ -151,7 +152,7 @@ def solution(
                 values[ratios == 1.0] = np.nan  # it jumps to 0 there: no line across
             sheet.line(axis, ratios, values, series=text_of(one), **line)
         guide(axis, x=1.0, y=0.0)
-        axis.set_xlim(0.0 if smallest < 0.1 else smallest, 1.2)
+        axis.set_xlim(SMALLEST, 1.2)
         axis.legend(title=r"$\alpha$, $\psi$, $\chi$", loc="center left", bbox_to_anchor=(1.0, 0.5))
     found = float(getattr(contact_parameters(at, *load), name))
     sheet.numbers[f"{short} for ({text_of(load)}) at κ/ν = {at:g}"] = found

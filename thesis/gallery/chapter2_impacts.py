@@ -10,6 +10,7 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from comparison.figures import style
+from comparison.readable import readable
 from theory import ImpactFields, contact_parameters
 from thesis.gallery.base import item
 from thesis.gallery.drawing import THEORY, beam_panel, legend_below, plain_line
@@ -25,19 +26,21 @@ def zone_panel(axis: Axes, symbol: str) -> None:
     axis.set(xlabel="$a$  (1)", ylabel=f"{symbol}  (1)")
     for edge in (-1.0, 1.0):
         axis.axvline(edge, color=style.COLOURS["vermilion"], lw=0.6, ls=":")
+    axis.yaxis.set_major_formatter(lambda value, _: readable(value, 3))
 
 
 @item("fig-2.8")
 def leading_zone(sheet: Sheet) -> None:
     """No penetration over the contact zone, leading order
 
-    Free motion (2.6.31) and fast layer (2.6.32) at ξ = aλ₀√τ, ν = 1: where they agree, the beam lies on the wall.
+    Free motion (2.6.31) and fast layer (2.6.32) at ξ = aλ₀√τ, ν = 1, and their difference (below): where they agree,
+    the beam lies on the wall.
     (2.6.25–26) of the thesis lack the factor r₀/π that (2.6.29) has; with it they agree.
     """
     shown = ((0.5, 0.1), (0.5, 0.5), (0.8, 0.1), (0.8, 0.5))
     worst = []
-    with sheet.figure(2, 2, width=style.PAGE, height=4.6) as (fig, axes):
-        for axis, (kappa, tau) in zip(axes.flat, shown):
+    with sheet.figure(4, 2, width=style.PAGE, height=6.8) as (fig, axes):
+        for axis, below, (kappa, tau) in zip(axes[0::2].flat, axes[1::2].flat, shown):
             fields = ImpactFields(contact_parameters(kappa))
             xi = PLACES * float(fields.half_contact_length(tau))
             free, fast = fields.slow_motion(xi, tau).deflection, fields.fast_layer(xi, tau).deflection
@@ -45,7 +48,10 @@ def leading_zone(sheet: Sheet) -> None:
             zone_panel(axis, r"$\eta_0$")
             sheet.line(axis, PLACES, free, series="free motion", **plain_line("grey", "--", 1.4))
             sheet.line(axis, PLACES, fast, series="fast layer", **THEORY)
-        sheet.letter(axes, [rf"$\kappa = {kappa}$, $\tau = {tau}$" for kappa, tau in shown])
+            zone_panel(below, r"free $-$ fast")
+            sheet.line(below, PLACES, free - fast, series="free motion less fast layer", **THEORY)
+        texts = [rf"$\kappa = {kappa}$, $\tau = {tau}$" for kappa, tau in shown]
+        sheet.letter(axes, [*texts[:2], "", "", *texts[2:]])
         legend_below(fig, axes[0, 0])
     sheet.numbers["largest difference within |a| ≤ 1"] = max(worst)
 
@@ -55,14 +61,14 @@ def first_order_zone(sheet: Sheet) -> None:
     """No penetration over the contact zone, first order
 
     Free motion (2.7.41) as printed, truncated after the first order in ε, and fast layer (2.7.42) at ξ = aλ_c(τ);
-    dotted, the free motion with λ_c² not truncated. ν = 1, χ = 0, ε = 0.1. In (d) ελ₁τ is a quarter of λ₀ and more: the
-    expansion, not the solution, ends there, as the thesis says.
+    dotted, the free motion with λ_c² not truncated; below each, their differences from the fast layer. ν = 1, χ = 0,
+    ε = 0.1. In (f) ελ₁τ is a quarter of λ₀ and more: the expansion, not the solution, ends there, as the thesis says.
     """
     loads = ((0.8, 0.0, 2.0), (0.5, 4.0, 0.0))
     shown = [(*load, tau) for tau in (0.1, 0.5) for load in loads]
     inside = np.abs(PLACES) <= 1.0
-    with sheet.figure(2, 2, width=style.PAGE, height=4.6) as (fig, axes):
-        for axis, letter, (kappa, alpha, psi, tau) in zip(axes.flat, "abcd", shown):
+    with sheet.figure(4, 2, width=style.PAGE, height=6.8) as (fig, axes):
+        for axis, below, letter, (kappa, alpha, psi, tau) in zip(axes[0::2].flat, axes[1::2].flat, "abef", shown):
             fields = ImpactFields(contact_parameters(kappa, alpha, psi), epsilon=EPSILON)
             p, xi = fields.parameters, PLACES * float(fields.half_contact_length(tau))
             free, fast = fields.slow_motion(xi, tau).deflection, fields.fast_layer(xi, tau).deflection
@@ -74,12 +80,20 @@ def first_order_zone(sheet: Sheet) -> None:
             sheet.line(axis, PLACES, printed, series="free motion (2.7.41)", **plain_line("grey", "--", 1.4))
             sheet.line(axis, PLACES, free, series="not truncated", **plain_line("purple", ":", 1.2))
             sheet.line(axis, PLACES, fast, series="fast layer", **THEORY)
+            zone_panel(below, r"free $-$ fast")
+            below.set(xlim=(-1.1, 1.1))
+            kept = np.abs(PLACES) <= 1.1
+            for series, off, line in (
+                ("(2.7.41) less fast layer", printed - fast, plain_line("grey", "--", 1.4)),
+                ("not truncated less fast layer", free - fast, plain_line("purple", ":", 1.2)),
+            ):
+                sheet.line(below, PLACES[kept], off[kept], series=series, **line)
             sheet.numbers[f"({letter}) fast layer less printed free motion at a = 1"] = float(
                 (fast - printed)[inside][-1]
             )
             sheet.numbers[f"({letter}) largest difference, not truncated"] = float(np.abs(free - fast)[inside].max())
         texts = [rf"$\kappa = {k}$, $\alpha = {a:g}$, $\psi = {p:g}$, $\tau = {t}$" for k, a, p, t in shown]
-        sheet.letter(axes, texts)
+        sheet.letter(axes, [*texts[:2], "", "", *texts[2:]])
         legend_below(fig, axes[0, 0], 3)
 
 

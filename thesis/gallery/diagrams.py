@@ -47,7 +47,8 @@ def ground(axis: Axes, x: Point, deep: float) -> None:
 def problem(sheet: Sheet) -> None:
     """The problem
 
-    A beam of natural curvature K arrives at a rigid wall with velocity V₀; y is positive into the wall.
+    A beam of natural curvature K under the load p arrives at a rigid wall with velocity V₀; the wall's reaction r
+    pushes back. y is positive into the wall.
     """
     x = np.linspace(-2.0, 2.0, 101)
     with sheet.figure(width=4.2, height=2.0) as (_, axis):
@@ -56,8 +57,13 @@ def problem(sheet: Sheet) -> None:
         sheet.line(axis, x, -0.18 - 0.2 * x**2, series="beam", color=BLUE, lw=2.5)
         for place in (-1.2, -0.4, 0.4, 1.2):
             base = -0.18 - 0.2 * place**2
-            arrow(axis, (place, base - 0.42), (place, base - 0.06), RED)
-        axis.text(0.48, -0.5, "$V_0$", color=RED)
+            arrow(axis, (place, base - 0.36), (place, base - 0.06), RED)
+        axis.text(0.48, -0.5, "$p$", color=RED)
+        for place in (-0.2, 0.2):
+            arrow(axis, (place, 0.32), (place, 0.02), RED)
+        axis.text(0.28, 0.3, "$r$", color=RED)
+        arrow(axis, (1.9, -1.25), (1.9, -1.0), GREY)
+        axis.text(1.98, -1.08, "$V_0$")
         arrow(axis, (0.0, 0.0), (2.55, 0.0))
         arrow(axis, (0.0, -1.2), (0.0, 0.4))
         axis.text(2.47, -0.07, "$x$")
@@ -204,8 +210,8 @@ def nodes_and_middles(sheet: Sheet) -> None:
 
     Nodes (circles) and middles (crosses) of the elements next to the centre of a bent beam at first contact at nodes,
     and when the middle method closes: the central node has then entered the wall by KΔx²/8. With the Hermite shape
-    functions a middle lies on the bent beam; the thesis's estimate of twice this penetration joins the nodes by
-    straight lines.
+    functions a middle lies on the bent beam. Squares: middles of straight lines between nodes, on which the thesis
+    estimates twice this penetration (3.3.5).
     """
     curves: tuple[tuple[str, np.ndarray, dict[str, Any]], ...] = (
         ("beam", np.linspace(-2.0, 2.0, 161), {"color": BLUE, "lw": 1.6}),
@@ -218,5 +224,9 @@ def nodes_and_middles(sheet: Sheet) -> None:
             ground(axis, (-2.2, 2.2), 0.35)
             for name, x, line in curves:
                 sheet.line(axis, x, shift - x**2, series=name, **line)
+            x = np.arange(-1.5, 2.0)
+            straight = shift - 0.5 * ((x - 0.5) ** 2 + (x + 0.5) ** 2)
+            square: dict[str, Any] = {"color": GREY, "ls": "", "marker": "s", "ms": 4.5, "mfc": "none"}
+            sheet.line(axis, x, straight, series="middles, straight lines", **square)
         sheet.letter(axes, ["node method", "middle method"])
         legend_below(fig, axes[1])

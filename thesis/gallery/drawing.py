@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Callable, Iterable, Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -11,14 +13,21 @@ from matplotlib.axes import Axes
 from bent_beam.history import ImpactHistory
 from comparison.figures import style
 from theory import ImpactFields
+from thesis.gallery.base import ITEMS, Item
+from thesis.gallery.runs import Series
 from thesis.sheet import Sheet
 from thesis.studies.outcome import MEASURES, Outcome
-from thesis.studies.panels import THEORY, Panel, contact_length, energy, geometry, impulse, legend_below, reaction
+from thesis.studies.panels import THEORY, Panel, contact_length, energy, filtered, geometry, impulse_off, legend_below
+from thesis.studies.steps import scatter
+from thesis.studies.thesis import MASSES
+
+RunFigure = tuple[str, str, Sequence[Panel], Callable[[], Series], str]
+"""Id, title, panels, runs and caption of a figure of runs."""
 
 NUMBERS: dict[Panel, tuple[str, ...]] = {
     geometry: ("lift",),
     contact_length: ("contact_length_error",),
-    reaction: ("reaction_error", "noise"),
+    filtered: ("reaction_error",),
     energy: ("lost_impact", "lost_damping"),
 }
 """Measures that go with a panel."""
@@ -63,22 +72,60 @@ def numbers_of(sheet: Sheet, outcomes: Sequence[Outcome], *names: str) -> None:
         sheet.numbers |= {f"{MEASURES[name]}, {o.label}": o.measures.get(name) for o in outcomes}
 
 
-def run_figure(sheet: Sheet, runs: Callable[[], Sequence[Outcome]], panels: Sequence[Panel], columns: int = 0) -> None:
-    """Panels of the runs in a row, one legend below and the runs' numbers beside them.
+def run_figure(sheet: Sheet, series: Series, panels: Sequence[Panel]) -> None:
+    """Panels of the runs below one another, a column a mass; one legend, and the runs' numbers beside them."""
+    rows, reference = len(panels), False
+    with sheet.figure(rows, 2, width=style.PAGE, height=2.3 * rows + 0.4, sharex="row") as (fig, axes):
+        grid = np.reshape(axes, (rows, 2))
+        for column, mass in zip(grid.T, MASSES):
+            outcomes = series.outcomes(mass, steps=filtered in panels)
+            for axis, panel in zip(column, panels):
+                panel(sheet, axis, outcomes)
+            for panel in panels:
+                numbers_of(sheet, named(outcomes, mass, reference), *NUMBERS.get(panel, ()))
+            for o in outcomes:
+                if o.steps is not None:
+                    sheet.numbers[f"filtered reaction, scatter about theory, {o.label}, {mass}"] = filtered_scatter(o)
+            reference = True
+        for left, right in grid:
+            (low, high), (one, other) = left.get_ylim(), right.get_ylim()
+            if left.get_ylabel() == right.get_ylabel() and low < high:  # one unit, and no wall below
+                for axis in (left, right):
+                    axis.set_ylim(min(low, one), max(high, other))
+                right.set_ylabel("")
+        sheet.letter(grid, [f"{mass} mass" for mass in MASSES] * rows)
+        legend_below(fig, grid[0, 0], 4, fontsize=7.0)
 
-    columns : of the legend, two a panel if not given.
-    """
-    outcomes = runs()
-    width = 4.6 if len(panels) == 1 else style.PAGE
-    with sheet.figure(1, len(panels), width=width, height=3.0) as (fig, axes):
-        for axis, panel in zip(np.ravel(axes), panels):
-            panel(sheet, axis, outcomes)
-            numbers_of(sheet, outcomes, *NUMBERS.get(panel, ()))
-        legend_below(fig, np.ravel(axes)[-1], columns or 2 * len(panels), fontsize=7.0)
+
+def filtered_scatter(outcome: Outcome) -> float | None:
+    """Of the filtered reaction about theory."""
+    s = outcome.steps
+    return None if s is None else scatter(s.time, s.filtered(), outcome.exact.side_reaction(s.time))
 
 
-REACTION = (reaction, impulse)
-"""The reaction, averaged, as the thesis shows it, and its impulse, on which 1/√t is a straight line."""
+def run_items(module: str, figures: Iterable[RunFigure]) -> None:
+    """Register figures of runs under their numbers."""
+    for name, title, panels, series, caption in figures:
+        draw = functools.partial(_late_figure, series=series, panels=panels)
+        ITEMS[name] = Item(name, title, caption, module, draw)
+
+
+def _late_figure(sheet: Sheet, series: Callable[[], Series], panels: Sequence[Panel]) -> None:
+    run_figure(sheet, series(), panels)
+
+
+def named(outcomes: Sequence[Outcome], mass: str, only_own: bool) -> list[Outcome]:
+    """Outcomes of the thesis's settings with the mass in their labels; references as they are, if at all."""
+    own = [replace(o, label=f"{o.label}, {mass}") for o in outcomes if o.mark is None]
+    return own if only_own else own + [o for o in outcomes if o.mark is not None]
+
+
+LEGEND = (
+    "contact at element middles, lumped (r = 1/105) and consistent mass (3.1.8); the thesis's other settings (lines), "
+    "Hermite (circles) and Self-similar (diamonds) with their own choices, theory (black)"
+)
+FILTER = "every step, filtered as the thesis does (above), and the impulse less theory's, unfiltered (below)"
+REACTION: tuple[Panel, ...] = (filtered, impulse_off)
 
 
 def beam_panel(

@@ -7,13 +7,15 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Mapping
+from dataclasses import dataclass, replace
 from typing import Any
 
 from bent_beam.cases import Case
 from bent_beam.history import ImpactHistory
 from bent_beam.impact import Impact
 from thesis.studies.outcome import Outcome, outcome_of
-from thesis.studies.thesis import Variant, references, thesis_settings
+from thesis.studies.steps import Steps, every_step
+from thesis.studies.thesis import MASSES, Variant, references, thesis_settings
 
 
 def case(curvature: float, duration: float) -> Case:
@@ -31,8 +33,16 @@ def thesis_history(curvature: float, duration: float, **changes: Any) -> ImpactH
     return Variant("", given.impact, given.end_time, settings.method()).history()
 
 
+@functools.cache
+def thesis_steps(curvature: float, duration: float, **changes: Any) -> Steps:
+    """The reaction of every step of the same run."""
+    given = case(curvature, duration)
+    settings = thesis_settings(given.impact, given.end_time).replace(**changes)
+    return every_step(given.impact, given.end_time, settings.method())
+
+
 def thesis(label: str, curvature: float, duration: float, **changes: Any) -> Outcome:
-    """The same, reduced to its curves."""
+    """The run reduced to its curves."""
     return outcome_of(thesis_history(curvature, duration, **changes), label)
 
 
@@ -52,7 +62,20 @@ def reference_runs(curvature: float, duration: float) -> list[Outcome]:
     ]
 
 
-def compared(curvature: float, duration: float, changes: Mapping[str, dict[str, Any]]) -> list[Outcome]:
-    """Runs with the thesis's settings, label → changes, and the references."""
-    runs = [thesis(label, curvature, duration, **changed) for label, changed in changes.items()]
-    return runs + reference_runs(curvature, duration)
+@dataclass(frozen=True)
+class Series:
+    """Runs with the thesis's settings, label → changes, with both masses; the references beside them."""
+
+    curvature: float
+    duration: float
+    runs: Mapping[str, dict[str, Any]]
+
+    def outcomes(self, mass: str, *, steps: bool = False) -> list[Outcome]:
+        """Those of a mass (a key of ``MASSES``); steps : with the reaction of every step."""
+        found = []
+        for label, changed in self.runs.items():
+            chosen = {**changed, "mass": MASSES[mass]}
+            outcome = thesis(label, self.curvature, self.duration, **chosen)
+            every = thesis_steps(self.curvature, self.duration, **chosen) if steps else None
+            found.append(replace(outcome, steps=every))
+        return found + reference_runs(self.curvature, self.duration)

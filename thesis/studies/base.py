@@ -11,8 +11,9 @@ from typing import Any
 from bent_beam.cases import Case
 from bent_beam.method import Method
 from comparison.plain import plain
+from comparison.readable import readable
 from comparison.store import write_atomically
-from thesis.sheet import Sheet, shown
+from thesis.sheet import Sheet
 from thesis.studies.of_methods import CONCLUSION, draw_methods, runs_of_methods
 from thesis.studies.outcome import MEASURES, Outcome
 from thesis.studies.panels import draw_outcomes
@@ -73,7 +74,7 @@ class StudyResult:
 
     def text(self) -> str:
         """Table and conclusion for a terminal."""
-        cells = [list(self.columns.values()), *([shown(v) for v in row] for row in self.table())]
+        cells = [list(self.columns.values()), *([readable(v) for v in row] for row in self.table())]
         widths = [max(map(len, column)) for column in zip(*cells)]
         lines = [
             "  ".join([row[0].ljust(widths[0]), *(c.rjust(w) for c, w in zip(row[1:], widths[1:]))]).rstrip()

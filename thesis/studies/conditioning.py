@@ -21,6 +21,7 @@ from bent_beam.cases import Case
 from bent_beam.meshes import GradedMesh
 from bent_beam.method import Method
 from comparison.figures import style
+from comparison.readable import readable
 from hermite_fe.beam import HermiteBeam
 from hermite_fe.contacts import NodeContact
 from thesis.sheet import Sheet
@@ -67,7 +68,7 @@ def mesh_of(case: Case, length: float) -> GradedMesh:
 
 
 def variants(case: Case) -> list[Variant]:
-    """Conditioning of the step's matrix
+    """Conditioning of the step's matrix, nodes, lumped mass
 
     Condition of the step's matrix over the element length, as it stands and in one unit for deflections and rotations
     with the multipliers eliminated, and the energy residual of the runs: the ratio of the two conditions is that of the
@@ -76,8 +77,9 @@ def variants(case: Case) -> list[Variant]:
     base = thesis_settings(case.impact, case.end_time).replace(contact="node")
     lengths = [factor * base.element_length for factor in FACTORS]
     return [
-        Variant(f"Δx = {dx:.2g} m", case.impact, case.end_time, base.replace(mesh=mesh_of(case, dx)).method(), dx)
+        Variant(f"Δx = {readable(dx, 2)} m", case.impact, case.end_time, run.method(), dx)
         for dx in lengths
+        for run in [base.replace(mesh=mesh_of(case, dx))]
     ]
 
 

@@ -9,27 +9,25 @@ from bent_beam.cases import Case
 from bent_beam.method import Method
 from hermite_fe import CONTACTS
 from hermite_fe.delassus import impact_coupling
-from hermite_fe.masses import ConsistentMass
 from thesis.studies.base import Study
-from thesis.studies.thesis import THESIS_MASS, Runs, Variant, thesis_settings, varied
+from thesis.studies.thesis import MASSES, Runs, Variant, thesis_settings, varied
 from thesis.studies.variation import NotVaried, Setting, has_part, kinds_of, of_kind, part_of, with_field, with_parts
 
 # Contact at nodes, element middles or mean gaps, each with the consistent and with a lumped mass matrix (thesis 3.3.5,
 # Figs 3.22–3.28); then nodes with a bilateral start.
 #
-# An impact at one constraint changes the velocities of its neighbours by c = W_{j,j±1}/W_jj of its own change
-# (:mod:`hermite_fe.delassus`): with c < 0 the neighbour that has just come to rest is thrown off the wall.
+# An impact at one constraint changes the gap velocities of its neighbours by c = W_{j,j±1}/W_jj of its own change
+# (:mod:`hermite_fe.delassus`).
 
 NAMES = {"node": "nodes", "middle": "middles", "mean": "mean gaps"}
-MASSES = {"consistent": ConsistentMass(), "lumped": THESIS_MASS}
 
 
 def contact_point_variants(case: Case) -> list[Variant]:
     """Contact at nodes or middles, consistent or lumped mass
 
-    Lift and noise for contact at nodes, middles and mean gaps with both mass matrices: an impact at one constraint
-    moves its neighbours by the coupling c, and throws them off the wall where c is negative. Shorter elements, slow
-    growth and nodes held behind the front show the rest of the lift.
+    Lift and noise for contact at nodes, middles and mean gaps with both mass matrices, each with its coupling c: an
+    impact at one constraint changes the gap velocity of the next by cV₀. Shorter elements, slow growth and nodes held
+    behind the front show the rest of the lift.
     """
     base = thesis_settings(case.impact, case.end_time)
     runs: Runs = {
@@ -62,10 +60,10 @@ COEFFICIENTS = (0.0, 0.5, 1.0)
 
 
 def restitution_variants(case: Case) -> list[Variant]:
-    """Coefficient of restitution
+    """Coefficient of restitution, middles, lumped mass
 
-    Lift, noise and lost energy for three coefficients of restitution. The thesis takes the loss at restitution 0 for
-    that of a real impact; in theory the contact points move on without work, and nothing is lost.
+    Lift, noise and lost energy for three coefficients of restitution. In theory the contact points move on without
+    work, and nothing is lost.
     """
     runs: Runs = {f"restitution {e:g}": (e, {"restitution": e}) for e in COEFFICIENTS}
     return varied(case, thesis_settings(case.impact, case.end_time), runs)
@@ -92,7 +90,7 @@ with β = (γ + ½)²/4 by (3/2 − γ)/(γ + ½) (Hughes 2000, 9.3)."""
 
 
 def damping_variants(case: Case) -> list[Variant]:
-    """Numerical damping
+    """Numerical damping, middles, lumped mass
 
     Lift, r₀, noise and lost energy for several spectral radii and with viscosity at grid scale; theory loses no energy,
     so that all of the loss is numerical.

@@ -55,7 +55,7 @@ def old_settings(impact: Impact, end: float) -> Settings:
 
 
 def variants(case: Case) -> list[Variant]:
-    """The thesis's first-order case
+    """The thesis's first-order case, nodes, lumped mass
 
     The thesis's fit of λ₁ over ever shorter parts of the run beside theory: on the infinite beam it tends to theory as
     the part shrinks; the finite beam adds the waves that come back from its ends. The link between a₀ and α is (3.5.5)

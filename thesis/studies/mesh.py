@@ -7,6 +7,7 @@ from typing import Any
 from bent_beam.cases import Case
 from bent_beam.meshes import ScaleFreeMesh, SquareMesh
 from bent_beam.method import Method
+from comparison.readable import readable
 from thesis.studies import variation
 from thesis.studies.base import Study
 from thesis.studies.exact import Exact
@@ -22,14 +23,14 @@ STEPS = ("time_step", "growth", "relative_step")  # fields of an integrator that
 
 
 def time_step_variants(case: Case) -> list[Variant]:
-    """Time step h
+    """Time step h, middles, lumped mass
 
     Lift, impulse and noise for several time steps on the thesis's mesh: errors that the step does not change are those
     of the mesh, which the last rows resolve.
     """
     base = thesis_settings(case.impact, case.end_time)
     steps = [f * base.time_step for f in STEPS_TRIED]
-    return varied(case, base, {f"h = {h:.2g} s": (h, {"time_step": h}) for h in steps})
+    return varied(case, base, {f"h = {readable(h, 2)} s": (h, {"time_step": h}) for h in steps})
 
 
 def time_step_vary(method: Method, case: Case) -> list[Setting]:
@@ -67,7 +68,7 @@ def square_mesh(case: Case, settings: Settings, per_element: float = PER_ELEMENT
 
 
 def mesh_variants(case: Case) -> list[Variant]:
-    """Mesh
+    """Mesh, middles, lumped mass
 
     Lift, r₀ and noise over the element length, the growth of the elements outside the zone and the kind of mesh: the
     reaction is right where an element is short against the front, and noise tells of waves that coarse elements
@@ -75,10 +76,8 @@ def mesh_variants(case: Case) -> list[Variant]:
     """
     base = thesis_settings(case.impact, case.end_time)
     own = base.element_length
-    runs: Runs = {
-        f"Δx = {f * own:.2g} m, e = 1.25": (f * own, {"element_length": f * own}) for f in LENGTHS
-    }
-    runs |= {f"Δx = {own:.2g} m, e = {e}": (e, {"growth": e}) for e in GROWTHS}
+    runs: Runs = {f"Δx = {readable(f * own, 2)} m, e = 1.25": (f * own, {"element_length": f * own}) for f in LENGTHS}
+    runs |= {f"Δx = {readable(own, 2)} m, e = {e}": (e, {"growth": e}) for e in GROWTHS}
     square = square_mesh(case, base)
     if square is not None:
         runs['"square" mesh'] = None, {"mesh": square}
@@ -104,7 +103,7 @@ ABSORBERS = ("far_field", "element")  # parts that may have a viscosity of the g
 
 
 def far_field_variants(case: Case) -> list[Variant]:
-    """Far field
+    """Far field, nodes, lumped mass
 
     Noise, lift and r₀ for several growths of the elements, with and without absorption, and on half the beam: noise
     tells of waves that coarse elements reflect, a change of r₀ on half the beam of waves from its ends.

@@ -22,6 +22,7 @@ from bent_beam.impact import Impact
 from measure.estimators import leading_order
 from measure.moments import moments
 from thesis.studies.exact import Exact
+from thesis.studies.steps import Steps
 
 Array = NDArray[np.float64]
 WINDOWS = 50
@@ -58,7 +59,7 @@ class Outcome:
     mark : the path of a reference, whose mark it is drawn with; ``None`` for varied settings, which are lines.
     failure : why a run did not finish; then the arrays are empty. refused : the method had said so before.
     setting, refine : of the varied parameter and of the resolution, where methods are varied; ``label`` is then the
-        method's.
+        method's. steps : the reaction of every step, where it was asked for.
     """
 
     label: str
@@ -78,6 +79,7 @@ class Outcome:
     refused: bool = False
     setting: str = ""
     refine: float = 1.0
+    steps: Steps | None = None
 
     @property
     def method(self) -> str:

@@ -106,11 +106,14 @@ def _over_time(
     root: bool = False,
     cut: bool = False,
     bottom: float | None = 0.0,
+    before: float = 0.0,
+    thin: bool = False,
 ) -> None:
     """A quantity of every run over t, theory's on top.
 
     name : of the SI unit. curve : times and values of a run. largest : value that sets the unit, if not the largest of
-    theory and runs. root : an axis of √t, along which marks are even. cut : the axis ends at ``largest``.
+    theory and runs. root : an axis of √t, along which marks are even. cut : the axis ends at ``largest``. before :
+    share of the run that is drawn before the first contact, in free flight. thin : where lines would hide one another.
     """
     runs = [(o, line, *curve(o, line)) for o, line in _finished(outcomes)]
     exact, end = runs[0][0].exact, float(runs[0][0].time[-1])
@@ -123,13 +126,17 @@ def _over_time(
     (st, mt), (sy, my) = unit(end, "s"), unit(max(top, 1e-12), name)
     axis.set(xlabel=f"$t$  ({mt})" + (", scaled as $\\sqrt{t}$" if root else ""), ylabel=f"{label}  ({my})")
     for o, line, t, y in runs:
+        if before and not line["marker"]:
+            t, y = np.concatenate([[-before * end, 0.0], t]), np.concatenate([y[:1], y[:1], y])
         kept = _thin(np.sqrt(t) if root else t, line)
+        if thin and not line["marker"]:
+            line = {**line, "lw": 0.6}
         sheet.line(axis, st * t[kept], sy * y[kept], series=o.label, **line)
     if theory is not None:
         sheet.line(axis, st * times, sy * values, series="theory", **THEORY)
     if root:
         axis.set_xscale("function", functions=ROOT)
-    axis.set_xlim(0.0, st * end)
+    axis.set_xlim(-before * st * end, st * end)
     axis.set_ylim(bottom, sy * top if cut else None)
 
 
@@ -157,15 +164,76 @@ impulse: Panel = partial(
 """Impulse of one side, ∫R dt, over t on an axis of √t: a straight line where R ∝ 1/√t, with the slope 2R√t."""
 
 energy: Panel = partial(
-    _over_time, label=r"$E - E(0)$", name="J", theory=lambda exact, t: 0.0 * t, bottom=None,
+    _over_time, label=r"$E - E(0)$", name="J", theory=lambda exact, t: 0.0 * t, bottom=None, before=0.04,
     curve=lambda o, line: (o.time, o.energy),
 )  # fmt: skip
 """Energy of the whole beam over its value at the first contact: exactly conserved by the theory."""
 
 strain = partial(
-    _over_time, label="strain energy", name="J", theory=Exact.strain_energy, curve=lambda o, line: (o.time, o.strain)
-)
+    _over_time, label="strain energy", name="J", theory=Exact.strain_energy, before=0.04,
+    curve=lambda o, line: (o.time, o.strain),
+)  # fmt: skip
 """Strain energy of the whole beam over t; ``theory`` = None leaves its line out where it is far above."""
+
+filtered: Panel = partial(
+    _over_time, label="reaction of one side", name="N", theory=Exact.side_reaction, cut=True, thin=True,
+    curve=lambda o, line: (o.steps.time, o.steps.filtered()) if o.steps else o.reaction(MARKS),
+    largest=lambda exact, end: 2.4 * float(exact.side_reaction(0.02 * end)),
+)  # fmt: skip
+"""Reaction of one side of every step, filtered as the thesis does; references in windows. Peaks are cut."""
+
+# differences, where curves lie on one another
+
+_NOTHING: dict[str, Any] = {"theory": lambda exact, t: 0.0 * t, "bottom": None, "thin": True}
+
+length_off: Panel = partial(
+    _over_time, label=r"$\lambda_c$ $-$ theory", name="m", **_NOTHING,
+    curve=lambda o, line: (_front(o, line)[0], _front(o, line)[1] - o.exact.front(_front(o, line)[0])),
+)  # fmt: skip
+"""λ_c less theory's."""
+
+impulse_off: Panel = partial(
+    _over_time, label="impulse $-$ theory", name="N s", root=True, **_NOTHING,
+    curve=lambda o, line: (o.time, o.side_impulse - o.side_impulse[0] - 0.5 * (
+        o.exact.impulse(np.maximum(o.time, 0.0)) - o.exact.impulse(max(float(o.time[0]), 0.0)))),
+)  # fmt: skip
+"""Impulse of one side less theory's."""
+
+
+def less(base: str, what: str, label: str, name: str) -> Panel:
+    """A curve (a field of :class:`Outcome`) less that of the run ``base``; label, name : its symbol and unit."""
+
+    def draw(sheet: Sheet, axis: Axes, outcomes: Sequence[Outcome]) -> None:
+        (first,) = (o for o in outcomes if o.label == base)
+
+        def curve(o: Outcome, line: dict[str, Any]) -> tuple[Array, Array]:
+            return o.time, getattr(o, what) - np.interp(o.time, first.time, getattr(first, what))
+
+        lines, title = [o for o in outcomes if o.mark is None], f"{label} $-$ that of {base}"
+        _over_time(sheet, axis, lines, label=title, name=name, curve=curve, theory=None, bottom=None)
+
+    return draw
+
+
+def geometry_off(base: str) -> Panel:
+    """Deflection at the end less that of the run labelled ``base``, inside the contact zone."""
+
+    def draw(sheet: Sheet, axis: Axes, outcomes: Sequence[Outcome]) -> None:
+        (first,) = (o for o in outcomes if o.label == base)
+        edge = 1.25 * float(first.exact.front(float(first.time[-1])))
+        curves = [
+            (o, line, x, np.interp(x, first.x, first.gap) - o.gap[o.x <= edge])
+            for o, line in _finished(outcomes)
+            if o.mark is None
+            for x in [o.x[o.x <= edge]]
+        ]
+        largest = max(float(np.abs(y).max()) for *_, y in curves)
+        (sx, mx), (sy, my) = unit(edge, "m"), unit(max(largest, 1e-12), "m")
+        axis.set(xlabel=f"$x$  ({mx})", ylabel=f"$y$ $-$ that of {base}  ({my})", xlim=(0.0, sx * edge))
+        for o, line, x, y in curves:
+            sheet.line(axis, sx * x, sy * y, series=o.label, **line)
+
+    return draw
 
 
 def legend_below(fig: Any, axis: Axes, columns: int = 3, **drawn: Any) -> None:

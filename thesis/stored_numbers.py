@@ -1,0 +1,55 @@
+"""The page of printed numbers and a few figures of the gallery, stored for the report.
+
+``bentbeam gallery --out GALLERY && python -m thesis.stored_numbers GALLERY`` writes ``numbers.json`` beside the stored
+studies, {"columns", "classes", "rows", "figures": [{"id", "title"}]}, a small picture of each figure, and the page
+``docs/thesis_numbers.md``: all from what the gallery has drawn.
+"""
+
+from __future__ import annotations
+
+import argparse
+import csv
+from collections.abc import Sequence
+from io import BytesIO
+from pathlib import Path
+
+from PIL import Image
+
+from comparison import stored
+from comparison.store import write_atomically
+from thesis.gallery import ITEMS
+from thesis.gallery.numbers import markdown
+from thesis.stored_studies import COLOURS, FILE, PACKAGES
+from thesis.verdicts import CLASSES
+
+SHOWN = ("fig-3.9", "extra-filter", "fig-3.14", "fig-3.23", "fig-3.24", "fig-3.26", "fig-3.28", "fig-3.32", "fig-3.34")
+WIDTH = 640  # of a small picture, pixels
+PAGE = Path(__file__).resolve().parents[1] / "docs" / "thesis_numbers.md"
+
+
+def store_numbers(gallery: Path, *, folder: Path = FILE.parent, page: Path | None = PAGE) -> Path:
+    """Store the table and the figures that a gallery folder holds. Raises ``OSError`` for one that it lacks."""
+    with (gallery / "table-numbers.csv").open(encoding="utf-8") as stream:
+        columns, *rows = csv.reader(stream)
+    for name in SHOWN:
+        with Image.open(gallery / f"{name}.png") as image:
+            small = image.convert("RGB").resize((WIDTH, round(WIDTH * image.height / image.width)))
+            stream_of = BytesIO()
+            small.quantize(COLOURS).save(stream_of, format="PNG", optimize=True)
+        write_atomically(folder / f"{name}.png", stream_of.getvalue())
+    if page is not None:
+        write_atomically(page, markdown(rows))
+    made_by = "bentbeam gallery --out GALLERY && python -m thesis.stored_numbers GALLERY"
+    figures = [{"id": name, "title": ITEMS[name].title} for name in SHOWN]
+    data = {"columns": columns, "classes": list(CLASSES), "rows": rows, "figures": figures}
+    return stored.write(folder / "numbers.json", "printed numbers of the thesis", made_by, PACKAGES, {}, data)
+
+
+def main(words: Sequence[str] | None = None) -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("gallery", type=Path, metavar="GALLERY", help="a folder that bentbeam gallery has drawn")
+    print(store_numbers(parser.parse_args(words).gallery))
+
+
+if __name__ == "__main__":
+    main()

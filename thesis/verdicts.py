@@ -1,0 +1,82 @@
+"""Printed numbers of the thesis and the class of each.
+
+Five classes, by rules that are the same for all:
+
+- within rounding: ours, rounded to as many digits as are printed, is the printed number;
+- other rule, stated by the thesis: the text states a rule that is not ours, and it gives the printed number to one
+  unit of its last digit;
+- inferred from axes: the thesis prints no number; an axis of a figure shows how large it can be;
+- same order: a number that was read off a run or a mesh, or printed as an order of magnitude, and ours lies between
+  half and twice of it;
+- off: all others. A number that follows from a formula has no same order.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from decimal import Decimal
+
+from comparison.readable import readable
+
+ROUNDING, SAME, OFF = "within rounding", "same order", "off"
+RULE, AXES = "other rule, stated by the thesis", "inferred from axes"
+CLASSES = (ROUNDING, SAME, OFF, RULE, AXES)
+FACTOR = 2.0
+"""Of the same order: at most so many times larger or smaller."""
+
+
+def digits(printed: str) -> int:
+    """How many significant digits are printed."""
+    return len(Decimal(printed).as_tuple().digits)
+
+
+def within_rounding(printed: str, value: float) -> bool:
+    """Whether a value rounds to the printed digits."""
+    return float(f"{value:.{digits(printed) - 1}e}") == float(printed)
+
+
+def class_of(printed: str, ours: float, *, read: bool = False, rule: float | None = None, axes: bool = False) -> str:
+    """The class of a printed number. read, rule, axes : see :class:`Printed`."""
+    if axes:
+        return AXES
+    if within_rounding(printed, ours):
+        return ROUNDING
+    value, unit = float(printed), 10.0 ** int(Decimal(printed).as_tuple().exponent)
+    if rule is not None and abs(rule - value) <= unit:
+        return RULE
+    return SAME if read and 1.0 / FACTOR <= ours / value <= FACTOR else OFF
+
+
+@dataclass(frozen=True)
+class Printed:
+    """One printed number.
+
+    where : section, equation, figure or table; what : of what, with its unit; printed : its digits, as they stand.
+    ours : computed; why : how it was measured, what is wrong or stays open.
+    read : the thesis read it off a run or a mesh, or prints an order of magnitude. rule : what the thesis's own rule
+    gives, where that is another than ours. axes : no number is printed, an axis ends there.
+    """
+
+    where: str
+    what: str
+    printed: str
+    ours: float
+    why: str = ""
+    read: bool = False
+    rule: float | None = None
+    axes: bool = False
+
+    @property
+    def verdict(self) -> str:
+        """One of the five classes."""
+        return class_of(self.printed, self.ours, read=self.read, rule=self.rule, axes=self.axes)
+
+    def row(self) -> list[str]:
+        """Cells: where, what, printed, computed, their ratio, class, why."""
+        ratio = f"{self.ours / float(self.printed):.3g}" if not self.axes else "–"
+        return [self.where, self.what, shown(self.printed), readable(self.ours, 5), ratio, self.verdict, self.why]
+
+
+def shown(printed: str) -> str:
+    """A printed number with all of its digits."""
+    return readable(float(printed), digits(printed)) if "e" in printed else printed.replace("-", "−")
