@@ -95,13 +95,13 @@ def first_order_epsilon(leading: LeadingEstimate, first: First, perturbation: fl
     """The largest ε of the runs: the loads change the free motion by a small part of V₀t over the contact zone.
 
     ε τ (|α|/2 + |χ|z²/2 + |ψ|z⁴/24 + |N|/2) = ``perturbation`` at the end, z being the zone measured at ε = 0 and half
-    the front's thickness. Where nothing presses, ε is reduced for a front near the centre, which would move too far.
+    the front's thickness. ε is reduced for a front near the centre, which would move too far.
     """
-    front = leading.lambda0.known
+    front = leading.front
     z = front + 1.0 / math.sqrt(1.0 + front**2)
     alpha, psi, chi, axial = (abs(v) for v in first)
     part = perturbation
-    if first[0] + first[1] <= 0.0 and front > 0.0:
+    if front > 0.0:
         part *= front / (front + 0.2)
     return part / (DURATION * (alpha / 2 + chi * z**2 / 2 + psi * z**4 / 24 + axial / 2))
 

@@ -59,14 +59,16 @@ __all__ = [
 C = TypeVar("C", bound=Composition)
 
 GROWTH = 0.01  # neighbours of the chosen mesh: 5 elements over the front's bending length at κ/ν = 0.05, 20 at 0.2
-THIN = 0.04  # κ/ν below which the front passes an element of that mesh about as fast as the element bends
+THIN = 0.12  # κ/ν below which hits of nodes at the front of that mesh lift the zone; 0.07 without: λ₁ 23 % off
 WAVES, GROWTH_OF_WAVES = 2.0, 0.02  # beyond so many times the front's bound there are waves only, and these neighbours
-OF_ZONE, OF_BENDING = 300.0, 30.0  # the smallest element over the front's bound and over the bending ahead of it
+OF_ZONE, OF_BENDING = 300.0, 30.0  # the smallest element over the front's bound and over the bending ahead of it …
+OF_SHORT_ZONE, SHORTEST = 60.0, 0.01  # … and over bound (1 − κ/ν), which the zone shrinks with, down to this 1 − κ/ν
 OF_THIN_FRONT = 3.0  # equal elements over the bending length of a thin front at the end of the run, …
 LEAST_OF_ZONE, MOST_OF_ZONE = 300.0, 800.0  # … but so many at least and at most up to the front's bound
 BEYOND = 1.1  # times the front's bound, where these end
 PASSED = 2.0  # elements that a thin front passes in a step
 REACH, REACH_OF_FRONT = 12.0, 8.0  # half length to model, see far_field; tests/exudyn_models/test_exudyn_constants.py
+INSIDE = 0.6  # of where a bent-up end would itself be at the wall: beyond, nothing touches
 ELEMENT_STEPS = 4e5  # elements times steps of a run with uniform elements: a few seconds
 FEWEST = 60  # uniform elements of a half beam, from 0.9 T* on; tests/exudyn_models/test_exudyn_constants.py
 STEP = 0.5  # h/(Δx²√(μ/EI)) that resolves the contact
@@ -110,9 +112,10 @@ def choose(parts: Composition, impact: Impact, end_time: float, *, for_loads: bo
 
 def held_for(contact: Contact | None, impact: Impact) -> Contact:
     """The contact with the hold that suits the load, for the runs with and without load."""
-    if impact.zone_pressure > 0.0 and contact is None and not thin_front(impact.kappa_over_nu):
+    spreads = not thin_front(impact.kappa_over_nu) and impact.kappa_over_nu < 1.0
+    if impact.zone_pressure > 0.0 and contact is None and spreads:
         # The load first closes what the rebound of the first instants has left. λ₁ of (4, 0, 0) at κ/ν = 0.5 is
-        # 12 % off without the hold, 0.1 % with it. Behind a thin front nothing rebounds.
+        # 12 % off without the hold, 0.1 % with it. Behind a thin front nothing rebounds, behind a point nothing is.
         return Penalty(hold=FIRST_ORDER_HOLD)
     contact = contact or Penalty()
     if impact.zone_pressure < 0.0 and isinstance(contact, Penalty) and contact.hold_start is None:
@@ -126,14 +129,7 @@ def far_field(scaling: Scaling) -> float:
 
     Waves of the front's length 2/λ₀ travel ~ 2λ₀ by the end and longer ones less; beyond 12 the kernel H has decayed.
     """
-    kappa = scaling.kappa
-    reach = REACH + REACH_OF_FRONT * math.sqrt(2.0 / max(kappa, 2e-3))
-    # a growing velocity (χ > 0) or an upward bent end (ψ > 0) would bring the far field to the wall: stay well inside
-    chi, psi = scaling.motion.terms[2, 1], scaling.motion.terms[4, 0]
-    spread = kappa - max(chi, 0.0)
-    if psi > 0.0 and spread > 0.0:
-        reach = min(reach, 0.6 * math.sqrt(12.0 * spread / psi))
-    return reach
+    return REACH + REACH_OF_FRONT * math.sqrt(2.0 / max(scaling.kappa, 2e-3))
 
 
 def chosen_half_length(impact: Impact, end_time: float | None = None) -> float:
@@ -164,6 +160,8 @@ def chosen_mesh(
         element, growth, zone = front / count, 0.0, BEYOND * front
     else:
         element, growth, zone = min(front / OF_ZONE, (2.0 / front) / OF_BENDING), GROWTH, WAVES * front
+        if scaling.kappa < 1.0:
+            element = min(element, front * max(1.0 - scaling.kappa, SHORTEST) / OF_SHORT_ZONE)
     rule = ScaleFreeMesh(
         element * scaling.length * coarsen,
         1.0 + growth * coarsen,
@@ -221,14 +219,19 @@ def _step_over_elements(mesh: Mesh, impact: Impact, end: float) -> float:
 
 def reachable(x: Array, scaling: Scaling, centre: int) -> Indices:
     """Nodes that may touch: half as far again as the free motion would carry the beam into the wall, and all where
-    waves from the ends may throw any of them at it."""
+    waves from the ends may throw any of them at it.
+
+    A growing velocity (χ > 0) or an upward bent end (ψ > 0) would bring the far field to the wall: it is let through."""
     impact = scaling.impact
     if impact.opposite_wall is not None or impact.rotation or lasts_until_waves_return(impact, scaling.end_time):
         return np.arange(x.size)
     times = np.linspace(0.05, 1.0, 20)[:, None]
     inside = (scaling.motion(x[None, :] - scaling.first_touch, times) > 0.0).any(axis=0)
     place = np.abs(x - scaling.first_touch)
-    reach = 1.5 * place[inside].max(initial=0.0)
+    chi, psi = scaling.motion.terms[2, 1], scaling.motion.terms[4, 0]
+    spread = scaling.kappa - max(chi, 0.0)
+    let = INSIDE * math.sqrt(12.0 * spread / psi) if psi > 0.0 and spread > 0.0 else math.inf
+    reach = min(1.5 * place[inside & (place < let)].max(initial=0.0), let)
     wide = place <= reach * (1.0 + 1e-9)  # a node right there belongs, whatever its round-off
     wide[max(0, centre - 20) : centre + 21] = True
     return np.flatnonzero(wide)
