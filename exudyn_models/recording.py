@@ -164,7 +164,8 @@ class Recorder:
         self.impulse, self.total = impulse[-1], float(total[-1])
         late = np.flatnonzero(time > 0.01)
         if late.size:
-            depth = (q[late][:, self.beam.vertical] - self.wall_y).max(axis=1)
+            near = self.contact.nodes  # what lies beyond them is let through
+            depth = (q[late][:, self.beam.vertical[near]] - self.wall_y[near]).max(axis=1)
             self.deepest = max(self.deepest, float((depth / time[late]).max()))
         self.pending.clear()
         self.rows = self.rows[-1:]

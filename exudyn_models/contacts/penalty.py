@@ -13,7 +13,7 @@ mesh. Where κ/ν is so small that the front passes an element faster than the e
 as the front: it passes Δx at x in t = 2xΔx/λ² √(μ/EI), and C = (λ²Δx/x)² makes √(k/μ) t = 2. The damping ratio stays
 that of 10 and 3.
 
-Below κ/ν = 0.04 the front passes an element about as fast as the element bends, on any mesh of moderate size. Each node
+Below κ/ν = 0.12 the front passes an element about as fast as the element bends, on any mesh of moderate size. Each node
 then hits the wall by itself, and what it rebounds with is added to the impulse: with D = 3 r₀ is 6.5, 21 and 19 % too
 large at κ/ν = 1/100, 1/400 and 1/1600. There D = 40 makes the hits plastic, and nothing is held at the start, while
 nothing but the first spread of the zone moves it and the steps are implicit. Not with a ``hold``: its springs would
