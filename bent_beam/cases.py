@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from bent_beam.checks import shortened
-from bent_beam.description import beam_quantities, free_flight, impact_velocity
+from bent_beam.description import beam_quantities, free_flight, impact_velocity, wall_quantities
 from bent_beam.errors import InputError
 from bent_beam.impact import Impact
 from bent_beam.meshes import MESHES, Mesh
@@ -113,9 +113,9 @@ def _impact(beam: BeamTable, arrival: ImpactTable, wall: WallTable, section: Sec
     known = {field.name for field in dataclasses.fields(Impact)}
     values = {name: value for name, value in vars(arrival).items() if name in known}
     values |= beam_quantities(beam, section)
-    values["velocity"] = impact_velocity(arrival, beam.length)
+    values["velocity"] = impact_velocity(arrival, beam.length, (values["left_end"], values["right_end"]))
     values["acceleration"] = free_flight(arrival, values)
-    values |= {"wall_curvature": wall.curvature, "opposite_wall": wall.opposite}
+    values |= wall_quantities(wall, values["mass_per_length"])
     try:
         return Impact(**values)
     except ValueError as error:

@@ -9,11 +9,13 @@ import math
 from collections.abc import Mapping
 from typing import Any
 
+from bent_beam.checks import one_of, shortened
 from bent_beam.errors import InputError
 from bent_beam.section import Section
-from bent_beam.tables import BeamTable, ImpactTable
+from bent_beam.supports import ENDS
+from bent_beam.tables import BeamTable, ImpactTable, WallTable
 
-__all__ = ["beam_quantities", "free_flight", "impact_velocity", "one_of_these"]
+__all__ = ["beam_quantities", "free_flight", "impact_velocity", "one_of_these", "wall_quantities"]
 
 GRAVITY = 9.80665  # m/s², standard (3rd General Conference on Weights and Measures, 1901)
 FIRST_MODE = 4.730040744862704  # first root of cos z cosh z = 1, the free–free beam
@@ -54,7 +56,39 @@ def beam_quantities(beam: BeamTable, section: Section | None) -> dict[str, Any]:
     found["curvature"] = _curvature(beam)
     wave = math.sqrt(found["bending_stiffness"] / found["mass_per_length"])
     found["damping"] = _damping(beam, wave)
+    found["left_end"], found["right_end"] = _ends(beam)
     return found
+
+
+def _ends(beam: BeamTable) -> tuple[str, str]:
+    """How the left and the right end are held."""
+    pair = (beam.ends, beam.ends) if isinstance(beam.ends, str) else beam.ends
+    if not isinstance(pair, list | tuple) or len(pair) != 2:
+        raise InputError(f"beam.ends must be one of {', '.join(ENDS)}, or a pair of these (got {shortened(beam.ends)})")
+    try:
+        left, right = (one_of("beam.ends", end, ENDS) for end in pair)
+    except ValueError as error:
+        raise InputError(str(error)) from None
+    return left, right
+
+
+def wall_quantities(wall: WallTable, mass_per_length: float) -> dict[str, Any]:
+    """Fields of :class:`bent_beam.Impact` that the wall's table settles."""
+    way, amount = one_of_these("wall", {"damping": wall.damping, "damping_ratio": wall.damping_ratio}, required=False)
+    if way is not None and wall.stiffness is None:
+        raise InputError(f"wall.{way} has no effect on a rigid wall: give wall.stiffness too (got {amount!r})")
+    if way == "damping_ratio":
+        if wall.from_ is not None and wall.from_ == wall.to:
+            raise InputError(f"wall.damping_ratio means nothing at a stop: give wall.damping, N s/m (got {amount!r})")
+        amount *= 2.0 * math.sqrt((wall.stiffness or 0.0) * mass_per_length)
+    return {
+        "wall_curvature": wall.curvature,
+        "opposite_wall": wall.opposite,
+        "wall_stiffness": wall.stiffness,
+        "wall_damping": amount,
+        "wall_from": wall.from_,
+        "wall_to": wall.to,
+    }
 
 
 def _curvature(beam: BeamTable) -> float:
@@ -90,12 +124,21 @@ def _damping(beam: BeamTable, wave: float) -> float:
     return amount / (2.0 * math.pi * beam.loss_frequency)
 
 
-def impact_velocity(table: ImpactTable, length: float) -> float:
-    """V₀, m/s."""
+def impact_velocity(table: ImpactTable, length: float, ends: tuple[str, str] = ("free", "free")) -> float:
+    """V₀, m/s, of the first touch, where an end is held of the middle."""
     ways = {"velocity": table.velocity, "drop_height": table.drop_height, "angular_speed": table.angular_speed}
     way, given = one_of_these("impact", ways)
     if way != "angular_speed" and table.angular_arm is not None:
         raise InputError(f"impact.angular_arm has no effect without impact.angular_speed (got {table.angular_arm!r})")
+    if way == "angular_speed" and ends != ("free", "free"):
+        if sorted(ends) != ["free", "hinged"]:
+            raise InputError(
+                f"impact.angular_speed needs one hinge to swing about: give impact.velocity (got {given!r})"
+            )
+        if table.angular_arm is not None:
+            raise InputError(
+                f"impact.angular_arm has no effect on a beam that swings about its hinge (got {table.angular_arm!r})"
+            )
     if way == "velocity":
         return given
     if way == "angular_speed":

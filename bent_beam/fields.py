@@ -16,7 +16,7 @@ from typing import Annotated, Any, ClassVar, Union, get_args, get_origin, get_ty
 
 from bent_beam import checks
 
-__all__ = ["Declared", "Part", "Quantity", "declared"]
+__all__ = ["Declared", "Part", "Quantity", "declared", "key_of"]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -105,6 +105,11 @@ def _declared(hint: Any) -> Declared:
     return Declared(kind=kind, optional=types.NoneType in kinds, quantity=quantity)
 
 
+def key_of(name: str) -> str:
+    """The key of a case file for a field: what Python reserves, as ``from``, ends in _ in code."""
+    return name.removesuffix("_")
+
+
 @dataclass(frozen=True)
 class Part:
     """Base of frozen dataclasses that check their own fields, once, when they are made.
@@ -116,5 +121,5 @@ class Part:
 
     def __post_init__(self) -> None:
         for name, field in declared(type(self)).items():  # type: ignore[arg-type]
-            value = field.checked(f"{self.where}.{name}".lstrip("."), getattr(self, name))
+            value = field.checked(f"{self.where}.{key_of(name)}".lstrip("."), getattr(self, name))
             object.__setattr__(self, name, value)

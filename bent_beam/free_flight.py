@@ -39,7 +39,10 @@ def pushing(impulse: Array) -> NDArray[np.bool_]:
 
 
 def bears_free_flight(impact: Impact) -> bool:
-    """Whether the beam moves without loads once it is off the wall, and towards no other wall."""
+    """Whether the beam moves without loads and supports once it is off the wall, and towards no other wall; off a plate
+    or a stop that cannot be told."""
+    if impact.supported or impact.wall_in_part:
+        return False
     forces = [load for load, about in loads_of(Impact).items() if about.powers is None and getattr(impact, load)]
     return impact.uniform_pressure == 0.0 and not forces and impact.opposite_wall is None
 

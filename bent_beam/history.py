@@ -12,13 +12,16 @@ Dimensions: ``time`` (the saved instants) and ``x`` (nodes) and ``contact`` (con
 | opposite_impulse | time, contact | N s | the same of a second wall behind the beam, where there is one |
 | total_impulse | time | N s | over the whole beam (both halves); of the wall less that of the opposite one |
 | kinetic_energy, strain_energy | time | J | whole beam |
-| contact_energy | time | J | in the springs of a penalty contact, change since t = 0 |
+| contact_energy | time | J | in springs of the wall or of a penalty contact, change since t = 0 |
 | work_of_loads | time | J | whole beam, since t = 0 |
 | loss_impact | time | J | energy taken out by impacts since t = 0 |
 | loss_algorithmic | time | J | by the time integration's algorithmic damping |
 | loss_viscous | time | J | by artificial viscosity of bending at grid scale |
 | loss_material | time | J | by the damping of the beam itself |
 | loss_absorbed | time | J | by a sponge or an absorbing end |
+| loss_wall | time | J | by the dashpots of a wall that gives way |
+| peak_force, peak_force_time | time | N, s | of such a wall, the largest force on the whole zone of all steps so far |
+| peak_penetration, peak_pressure | time | m, N/m | likewise, anywhere (of a stop its force, N) |
 | held_impulse | time | N s | what held contact points pulled since t = 0, never positive |
 
 A moving mesh adds ``position`` (time, x) and ``contact_position`` (time, contact), m.
@@ -46,15 +49,16 @@ from bent_beam.versions import versions
 if TYPE_CHECKING:
     import xarray as xr
 
-__all__ = ["ImpactHistory"]
+__all__ = ["LOSSES", "ImpactHistory"]
 
 Array = NDArray[np.float64]
 
-LOSSES = tuple(f"loss_{cause}" for cause in ("impact", "algorithmic", "viscous", "material", "absorbed"))
+LOSSES = tuple(f"loss_{cause}" for cause in ("impact", "algorithmic", "viscous", "material", "absorbed", "wall"))
 ENERGIES = ("kinetic_energy", "strain_energy", "contact_energy", "work_of_loads", *LOSSES)
 IMPULSES = ("impulse", "opposite_impulse", "total_impulse", "held_impulse")
 UNITS = {"time": "s", "velocity": "m/s", "slope": "1"}
 UNITS |= dict.fromkeys(("x", "contact_x", "position", "contact_position", "gap"), "m")
+UNITS |= {"peak_force": "N", "peak_force_time": "s", "peak_penetration": "m", "peak_pressure": "N/m"}
 UNITS |= dict.fromkeys(IMPULSES, "N s") | dict.fromkeys(ENERGIES, "J")
 COORDINATES = ("time", "x", "contact_x")
 REQUIRED = ("time", "x", "contact_x", "gap", "impulse", "total_impulse", "kinetic_energy", "strain_energy")

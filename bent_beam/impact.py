@@ -1,4 +1,4 @@
-"""The physical problem: a naturally bent Euler–Bernoulli beam arriving at a rigid wall.
+"""The physical problem: a naturally bent Euler–Bernoulli beam arriving at a wall.
 
     μ y_tt + EI(y_xxxx + η y_txxxx) − N y_xx = p − r,     0 ≤ r ⊥ g = y_w − y ≥ 0         (thesis 2.1.1–2; N, η added)
 
@@ -12,27 +12,25 @@ from __future__ import annotations
 import dataclasses
 import math
 from dataclasses import dataclass
-from typing import Annotated
+from typing import Annotated, Any
 
 from bent_beam.checks import non_negative, positive
+from bent_beam.consistency import check_consistency
 from bent_beam.fields import Part, Quantity
-from bent_beam.loads import FreeMotion, Load, loads_of
+from bent_beam.loads import Feature, FreeMotion, Load, loads_of
+from bent_beam.supports import ENDS
 
 __all__ = ["Impact"]
 
-RANGE = 1e60  # of every number of a problem, in SI and in its own units: its fourth power can still be calculated with
 LONGEST = 1e30  # time, and change of the free motion by the loads, in the problem's own units
 DEFAULT_DURATION = 0.1  # t*
 FIRST_SPREAD = 0.005  # T*: measured, from when on a finite beam's impulse is 1 % off the infinite beam's (κ/ν = 0.5)
 BEFORE_WAVES_RETURN = 0.01  # T*: the earliest that they change the impulse by 2 %
-POSITIVE = ("bending_stiffness", "mass_per_length", "length", "velocity", "section_height")
-SCALES = ("wave_constant", "time_scale", "length_scale", "slow_time_scale", "epsilon")
-GROUPS = ("epsilon_alpha", "epsilon_chi", "epsilon_psi", "epsilon_axial", "relative_damping", "kappa_over_nu")
 
 
 @dataclass(frozen=True)
 class Impact(Part):
-    """A bent beam, symmetric about x = 0, about to hit a rigid wall (SI units).
+    """A bent beam about to hit a wall (SI units); free, rigid and symmetric about x = 0 unless said otherwise.
 
     Units, meanings and ranges of the fields stand at the fields.
 
@@ -70,36 +68,20 @@ class Impact(Part):
     opposite_wall: Annotated[
         float | None, Quantity("m", "distance of a second wall behind the bow's apex", above=0.0)
     ] = None
+    wall_stiffness: Annotated[
+        float | None, Feature("N/m²", "k per length of beam, of a stop in N/m; rigid unless given", above=0.0)
+    ] = None
+    wall_damping: Annotated[
+        float, Feature("N s/m²", "c beside k: the wall gives max(0, k p + c ṗ); of a stop in N s/m", least=0.0)
+    ] = 0.0
+    wall_from: Annotated[float | None, Feature("m", "where the wall begins, from the middle of the beam")] = None
+    wall_to: Annotated[float | None, Feature("m", "where it ends; where it begins: a stop at a point")] = None
+    left_end: Annotated[str, Feature("", "how the end at x = −L/2 is held", choices=ENDS)] = "free"
+    right_end: Annotated[str, Feature("", "how the end at x = L/2 is held", choices=ENDS)] = "free"
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        if abs(self.first_touch) >= self.half_length:
-            raise ValueError(
-                f"first_touch must lie on the beam, within {self.half_length!r} m of its middle "
-                f"(got {self.first_touch!r})"
-            )
-        if self.wall_curvature and self.wall_curvature >= self.curvature:
-            raise ValueError(
-                f"wall_curvature must be less than the beam's curvature {self.curvature!r}, or no point touches first "
-                f"(got {self.wall_curvature!r})"
-            )
-        for name in (*SCALES, *GROUPS):
-            try:
-                value = abs(getattr(self, name))
-            except (OverflowError, ZeroDivisionError):
-                value = math.inf
-            if not value <= RANGE or (name in SCALES and value < 1.0 / RANGE):
-                raise ValueError(
-                    f"length, curvature, velocity, bending_stiffness and mass_per_length put {name} beyond "
-                    f"{RANGE:g} or below its inverse (got L = {self.length!r}, K = {self.curvature!r}, "
-                    f"V0 = {self.velocity!r}, EI = {self.bending_stiffness!r}, mu = {self.mass_per_length!r})"
-                )
-        for name in (f.name for f in dataclasses.fields(self)):
-            value = abs(getattr(self, name) or 0.0)
-            if value > RANGE:
-                raise ValueError(f"{name} must not exceed {RANGE:g} (got {getattr(self, name)!r})")
-            if name in POSITIVE and value < 1.0 / RANGE:
-                raise ValueError(f"{name} must be at least {1.0 / RANGE:g} (got {getattr(self, name)!r})")
+        check_consistency(self)
 
     @classmethod
     def dimensionless(
@@ -132,7 +114,7 @@ class Impact(Part):
         """The free–free beam in units of its half length: EI = μ = V₀ = L/2 = 1, so T* = 1; damping is η/T*."""
         return cls.dimensionless(kappa_over_nu, damping=relative_damping, length=2.0)
 
-    def replace(self, **changes: float) -> Impact:
+    def replace(self, **changes: Any) -> Impact:
         """A copy with some fields changed, validated again."""
         return dataclasses.replace(self, **changes)
 
@@ -292,7 +274,24 @@ class Impact(Part):
     @property
     def off_centre(self) -> bool:
         """Whether the impact is not symmetric about the middle: only a model of the full beam takes it."""
-        return bool(self.rotation or self.first_touch)
+        begin, end = self.wall_span
+        return bool(self.rotation or self.first_touch or self.left_end != self.right_end or begin != -end)
+
+    @property
+    def supported(self) -> bool:
+        """Whether an end is held."""
+        return (self.left_end, self.right_end) != ("free", "free")
+
+    @property
+    def wall_span(self) -> tuple[float, float]:
+        """Where the wall begins and ends, m from the middle; the ends of the beam unless given."""
+        half = self.half_length
+        return -half if self.wall_from is None else self.wall_from, half if self.wall_to is None else self.wall_to
+
+    @property
+    def wall_in_part(self) -> bool:
+        """Whether the wall is a plate or a stop, and not all along the beam."""
+        return self.wall_span != (-self.half_length, self.half_length)
 
     @property
     def relative_damping(self) -> float:

@@ -5,7 +5,8 @@
 A load stands in one place: the field of :class:`bent_beam.Impact` that holds it, annotated by a :class:`Load`. With a
 term of y₀ the load has a dimensionless group, a share of the uniform load μ∂²y₀/∂t² + EI ∂⁴y₀/∂x⁴ + N K, and a share of
 the end forces of y₀; every solver asks :class:`FreeMotion` for these. A load without a term is a force of its own,
-which a solver adds. A solver names the loads that it models, and refuses the rest (:func:`unmodelled`).
+which a solver adds. A solver names the loads and other features that it models, and refuses the rest
+(:func:`unmodelled`).
 
 To add a load: its field in ``impact.py``, its key in ``tables.py``, and, where it has no term, its force in a solver
 (``hermite_fe/model.py``).
@@ -13,6 +14,7 @@ To add a load: its field in ``impact.py``, its key in ``tables.py``, and, where 
 
 from __future__ import annotations
 
+import dataclasses
 import math
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass
@@ -22,13 +24,18 @@ import numpy as np
 
 from bent_beam.fields import Quantity, declared
 
-__all__ = ["FreeMotion", "Load", "loads_of", "unmodelled"]
+__all__ = ["Feature", "FreeMotion", "Load", "loads_of", "unmodelled"]
 
 Powers = tuple[int, int]
 
 
 @dataclass(frozen=True)
-class Load(Quantity):
+class Feature(Quantity):
+    """A field that not every solver models: those that do name it, the others refuse it."""
+
+
+@dataclass(frozen=True)
+class Load(Feature):
     """A field that is a load.
 
     group : its dimensionless group with ν = 1, as theory calls it ("": it has none).
@@ -45,10 +52,13 @@ def loads_of(kind: type) -> dict[str, Load]:
 
 
 def unmodelled(impact: Any, modelled: Collection[str]) -> str | None:
-    """Why a solver of the loads ``modelled`` cannot take an impact, naming the field (``None``: it can)."""
-    for name in loads_of(type(impact)):
-        if name not in modelled and getattr(impact, name):
-            return f"{name} is not modelled by this method (got {getattr(impact, name)!r})"
+    """Why a solver of the features ``modelled``, loads among them, cannot take an impact, naming the field (``None``:
+    it can)."""
+    about = declared(type(impact))  # type: ignore[arg-type]
+    for field in dataclasses.fields(impact):
+        value = getattr(impact, field.name)
+        if isinstance(about[field.name].quantity, Feature) and field.name not in modelled and value != field.default:
+            return f"{field.name} is not modelled by this method (got {value!r})"
     return None
 
 

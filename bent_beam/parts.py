@@ -13,6 +13,7 @@ from typing import Any, TypeVar
 
 from bent_beam.checks import shortened
 from bent_beam.errors import InputError
+from bent_beam.fields import key_of
 
 __all__ = ["InputError", "describe", "made_from", "nearest", "part_from_table", "unknown_key"]
 
@@ -38,7 +39,7 @@ def made_from(part: type[T], values: Any, where: str, more: Iterable[str] = ()) 
     """
     if not isinstance(values, Mapping):
         raise InputError(f"{where} must be a table (got {shortened(values)})")
-    fields = {field.name: field for field in dataclasses.fields(part) if field.init}  # type: ignore[arg-type]
+    fields = {key_of(field.name): field for field in dataclasses.fields(part) if field.init}  # type: ignore[arg-type]
     for key in values:
         if key not in fields:
             raise unknown_key(where, str(key), {*fields, *more})
@@ -46,7 +47,7 @@ def made_from(part: type[T], values: Any, where: str, more: Iterable[str] = ()) 
         if name not in values and field.default is field.default_factory is dataclasses.MISSING:
             raise InputError(f"{where}.{name} is required")
     try:
-        return part(**values)
+        return part(**{fields[key].name: value for key, value in values.items()})
     except (TypeError, ValueError) as error:
         raise InputError(str(error)) from None
 

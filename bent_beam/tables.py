@@ -43,6 +43,9 @@ class BeamTable(Part):
         float | None, Quantity("1", "the same as loss factor at loss_frequency", least=0.0)
     ] = None
     loss_frequency: Annotated[float | None, Quantity("Hz", "where the loss factor was measured", above=0.0)] = None
+    ends: Annotated[
+        str | tuple[str, str], Quantity("", "free, hinged or clamped; a pair for the left and the right one")
+    ] = "free"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -77,12 +80,17 @@ class ImpactTable(Part):
 
 @dataclass(frozen=True, kw_only=True)
 class WallTable(Part):
-    """The wall, flat unless said otherwise."""
+    """The wall: flat, rigid, and all along the beam unless said otherwise."""
 
     where: ClassVar[str] = "wall"
 
     curvature: Annotated[float, of_impact("wall_curvature")] = 0.0
     opposite: Annotated[float | None, of_impact("opposite_wall")] = None
+    stiffness: Annotated[float | None, of_impact("wall_stiffness")] = None
+    damping: Annotated[float | None, of_impact("wall_damping")] = None
+    damping_ratio: Annotated[float | None, Quantity("1", "the same as ζ = c/(2√(kμ))", least=0.0, absent="-")] = None
+    from_: Annotated[float | None, of_impact("wall_from")] = None
+    to: Annotated[float | None, of_impact("wall_to")] = None
 
 
 @dataclass(frozen=True, kw_only=True)

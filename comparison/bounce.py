@@ -144,13 +144,11 @@ def bounce(
         return _band(impact, method, section, runs, seed, save, jobs, progress)
     checks = _cross_checks(method, impact)
     history, (outcome, *found), about = _one_and_others([method, *checks.values()], impact, save, jobs, progress)
-    parts = {name: _parts(name, outcome, dict(zip(checks, found))) for name in NUMBERS}
+    names = _names(outcome)
+    parts = {name: _parts(name, outcome, dict(zip(checks, found))) for name in names}
     return Bounce(
         impact=impact,
-        numbers={
-            name: Measured(float(getattr(outcome, name)), sum(parts[name].values()) if checks else None)
-            for name in NUMBERS
-        },
+        numbers={n: Measured(float(getattr(outcome, n)), sum(parts[n].values()) if checks else None) for n in names},
         parts=parts,
         history=history,
         outcome=outcome,
@@ -177,6 +175,11 @@ def _one_and_others(
     outcomes = [outcome, *(other for other, _ in found)]
     seconds = history.seconds + sum(seconds for _, seconds in found)
     return history, outcomes, {"left": all(o.left for o in outcomes), "seconds": seconds}
+
+
+def _names(outcome: WholeImpact) -> tuple[str, ...]:
+    """Of the numbers: the largest force where the wall gives way."""
+    return NUMBERS if outcome.peak_force is None else (*NUMBERS, "peak_force")
 
 
 def _cross_checks(method: Method, impact: Impact) -> dict[str, Method]:
@@ -211,8 +214,8 @@ def _band(
     history, outcomes, about = _one_and_others(methods, impact, save, jobs, progress)
     return Bounce(
         impact=impact,
-        numbers={name: Band.of([float(getattr(o, name)) for o in outcomes]) for name in NUMBERS},
-        parts={name: {} for name in NUMBERS},
+        numbers={name: Band.of([float(getattr(o, name)) for o in outcomes]) for name in _names(outcomes[0])},
+        parts={name: {} for name in _names(outcomes[0])},
         history=history,
         outcome=outcomes[0],
         settings=settings_of(for_whole_beam(methods[0], impact)),
@@ -245,6 +248,7 @@ def scales(impact: Impact) -> dict[str, float]:
         "moment": impact.velocity * math.sqrt(impact.bending_stiffness * impact.mass_per_length),
         "energy": 0.5 * impact.mass_per_length * impact.length * impact.velocity**2,
         "length": impact.half_length,
+        "force": impact.mass_per_length * impact.half_length * impact.velocity / impact.slow_time_scale,
     }
 
 
@@ -255,6 +259,7 @@ SI = {
     "peak_moment_place": ("length", "m"),
     "peak_moment_time": ("time", "s"),
     "midspan_moment": ("moment", "N m"),
+    "peak_force": ("force", "N"),
     "translation": ("energy", "J"),
     "vibration": ("energy", "J"),
     "dissipated": ("energy", "J"),
@@ -273,6 +278,7 @@ def bounce_document(found: Bounce) -> dict[str, Any]:
         "si": {
             name: {**found.numbers[name].scaled(unit[scale]).to_dict(), "unit": text}
             for name, (scale, text) in SI.items()
+            if name in found.numbers
         },
         "peak_stress": None if stress is None else {**stress.to_dict(), "unit": "Pa"},
         "yield_stress": None if found.section is None else found.section.yield_stress,

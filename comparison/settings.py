@@ -8,7 +8,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from bent_beam.fields import declared
+from bent_beam.fields import declared, key_of
 from bent_beam.meshes import MESHES
 from bent_beam.method import method_type, paths
 from bent_beam.section import SECTIONS
@@ -68,7 +68,7 @@ def _fields(table: str, kind: str | None, part: type) -> Iterator[Setting]:
             default = _written(field.default)
         elif field.default_factory is not dataclasses.MISSING:
             default = _written(field.default_factory())
-        yield Setting(table, kind, field.name, quantity.unit, default, quantity.allowed, quantity.text)
+        yield Setting(table, kind, key_of(field.name), quantity.unit, default, quantity.allowed, quantity.text)
 
 
 def _written(value: Any) -> str:

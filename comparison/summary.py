@@ -9,8 +9,9 @@ from typing import Any
 
 from bent_beam.checks import one_of
 from bent_beam.errors import SimulationError
-from bent_beam.history import ImpactHistory
+from bent_beam.history import LOSSES, ImpactHistory
 from bent_beam.impact import Impact
+from bent_beam.loads import unmodelled
 from bent_beam.method import Method, refined
 from bent_beam.section import Section
 from comparison.match import INSTANTS, without_companion
@@ -21,12 +22,19 @@ from measure.estimators import leading_order
 from measure.hits import hits
 from measure.measured import MISSING, Measured
 from measure.moments import Moments, moments
-from measure.reduction import hold_of, peak_moment, pull_of
+from measure.reduction import WallPeaks, hold_of, peak_moment, pull_of, wall_peaks
 from theory import predict
+from theory.prediction import MODELLED
 
 __all__ = ["Companion", "companions", "energy_at_end", "loss_warnings", "numerical_loss", "run_table", "summary"]
 
 NUMBERS = ("half_contact_length", "total_impulse", "peak_moment")
+ENERGY_TITLES = {
+    "initial": "initial energy",
+    "kinetic": "kinetic energy at the end",
+    "strain": "strain energy at the end",
+    "wall": "energy in the springs of the wall",
+}
 BAR = 1.5  # times what another resolution changes
 NOTABLE_LOSS = 0.02  # of the initial energy
 
@@ -34,11 +42,12 @@ NOTABLE_LOSS = 0.02  # of the initial energy
 @dataclass(frozen=True)
 class Companion:
     """What a run at another resolution says: half contact length, m, impulse, N s, and largest moment, N m, at its
-    end; moments : for the error bars of λ₀ and r₀."""
+    end; peaks : of a wall that gives way; moments : for the error bars of λ₀ and r₀."""
 
     half_contact_length: float
     total_impulse: float
     peak_moment: float
+    peaks: WallPeaks | None
     moments: Moments
 
     @classmethod
@@ -48,6 +57,7 @@ class Companion:
             float(found.front[-1]) * history.impact.length_scale,
             float(history.array("total_impulse")[-1]),
             peak_moment(history).moment,
+            wall_peaks(history),
             found,
         )
 
@@ -74,8 +84,8 @@ def companions(
 
 
 def comparable(impact: Impact) -> bool:
-    """Whether the theory has an answer at all: a bow, symmetric about its first touch."""
-    return impact.relative_curvature > 0.0 and not impact.off_centre
+    """Whether the theory has an answer at all: a bow, symmetric about its first touch, before a wall that it knows."""
+    return impact.relative_curvature > 0.0 and not impact.off_centre and unmodelled(impact, MODELLED) is None
 
 
 def summary(
@@ -126,6 +136,7 @@ def summary(
         "peak_stress": stress,
         "peak_stress_error": None if section is None or others == [] else section.stress(bars["peak_moment"] or 0.0),
         "yield_stress": None if section is None else section.yield_stress,
+        **_wall_peaks(own, others),
         "energy": energy,
         "numerical_loss": numerical_loss(energy),
         "momentum_residual": balance.momentum,
@@ -135,6 +146,17 @@ def summary(
         "warnings": [*history.warnings, *loss_warnings(numerical_loss(energy)), *balance.warnings],
         "file": None if file is None else str(file),
     }
+
+
+def _wall_peaks(own: Companion, others: Sequence[Companion]) -> dict[str, float | None]:
+    """Largest force, its time, largest penetration and pressure with their error bars; ``None`` of a rigid wall."""
+    found: dict[str, float | None] = {"peak_force_time": None if own.peaks is None else own.peaks.time}
+    for name in ("force", "penetration", "pressure"):
+        value = None if own.peaks is None else getattr(own.peaks, name)
+        coarser = [getattr(other.peaks, name) for other in others if other.peaks is not None]
+        found[f"peak_{name}"] = value
+        found[f"peak_{name}_error"] = None if value is None else _bar(value, coarser)
+    return found
 
 
 def _bar(value: float, others: Sequence[float]) -> float | None:
@@ -167,11 +189,12 @@ def _estimated(found: Measured | None, theory: float | None) -> Measured:
 def energy_at_end(history: ImpactHistory) -> dict[str, float | None]:
     """The energies at the end, J, what was lost on the way, by cause, and the defect: what these do not explain."""
     budget = history.energy_budget()
-    names = ("work_of_loads", "loss_impact", "loss_algorithmic", "loss_viscous", "loss_material", "loss_absorbed")
+    names = ("work_of_loads", *LOSSES)
     return {
         "initial": budget["initial_energy"],
         "kinetic": float(history.array("kinetic_energy")[-1]),
         "strain": float(history.array("strain_energy")[-1]),
+        "wall": budget.get("contact_energy"),
         **{name: budget.get(name) for name in names},
         "defect": budget["defect"],
     }
@@ -200,14 +223,14 @@ def run_table(found: dict[str, Any]) -> str:
     lines += [
         ["largest bending moment", number(found["peak_moment"]), bar(found["peak_moment_error"]), "N m", ""],
         *_stress_line(found),
+        *_wall_lines(found),
         ["lift of the zone over V0 t", number(found["lift"]), "", "1", ""],
         ["largest pull over largest push", number(found["pull"]), "", "1", ""],
     ]
     energy = found["energy"]
     for name, value in energy.items():
         if value is not None and name != "defect":
-            titles = {"kinetic": "kinetic energy at the end", "strain": "strain energy at the end"}
-            title = titles.get(name, "initial energy" if name == "initial" else name.replace("_", " "))
+            title = ENERGY_TITLES.get(name, name.replace("_", " "))
             lines.append([title, number(value), "", "J", ""])
     lines += [
         ["energy residual", number(energy["defect"]), "", "J", ""],
@@ -239,6 +262,22 @@ def _stress_line(found: dict[str, Any]) -> list[list[str]]:
         return []
     bar = "" if found["peak_stress_error"] is None else f"{1e-6 * found['peak_stress_error']:.1g}"
     return [["largest stress", f"{1e-6 * found['peak_stress']:.6g}", bar, "MPa", ""]]
+
+
+def _wall_lines(found: dict[str, Any]) -> list[list[str]]:
+    """Of a wall that gives way."""
+    if found["peak_force"] is None:
+        return []
+    lines = [["its time", f"{found['peak_force_time']:.6g}", "", "s", ""]]
+    for name, title, unit in (
+        ("force", "largest force on the wall", "N"),
+        ("penetration", "largest penetration", "m"),
+        ("pressure", "largest pressure", "N/m"),
+    ):
+        bar = found[f"peak_{name}_error"]
+        lines.append([title, f"{found[f'peak_{name}']:.6g}", "" if bar is None else f"{bar:.1g}", unit, ""])
+    lines[:2] = lines[1::-1]
+    return lines
 
 
 def _hits_table(rows: Sequence[dict[str, Any]]) -> str:

@@ -22,7 +22,7 @@ from hermite_fe.integrators import INTEGRATORS
 from hermite_fe.masses import MASSES
 from hermite_fe.model import BeamModel
 from hermite_fe.run import Stepper
-from hermite_fe.simulate import refusal, simulate
+from hermite_fe.simulate import refusal, simulate, spreads
 
 __all__ = ["HermiteFE"]
 
@@ -61,10 +61,10 @@ class HermiteFE(Composition):
     ) -> ImpactHistory:
         """Follow ``impact`` to ``end_time`` (s); see :func:`hermite_fe.simulate`.
 
-        What is no impact of a front that spreads from the middle (rocking, a second wall) gets the parts that suit the
-        whole beam.
+        What is no impact of a front that spreads from the middle (rocking, a second wall, supports, a stop) gets the
+        parts that suit the whole beam.
         """
-        chosen = self.for_whole_beam(impact) if impact.off_centre or impact.opposite_wall is not None else self
+        chosen = self if spreads(impact) else self.for_whole_beam(impact)
         return simulate(impact, end_time=end_time, save=save, progress=progress, **made_of(chosen))
 
     def chosen_for(self, impact: Impact, end_time: float) -> HermiteFE:

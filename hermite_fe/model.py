@@ -10,7 +10,8 @@ starts the run (u = q₀x⁴/24, u̇ = V₀ + c₀x²/2) and fixes the load. Wit
 
     μü + EI(u_xxxx + ηu̇_xxxx) − Nu_xx = p − NK − r,      p − NK = μa₀ + EI q₀
 
-so neither K nor K_w is left but in the gap. A beam that rocks starts with V₀ + ωx in place of V₀; where the bow's apex
+so neither K nor K_w is left but in the gap. Where an end is held the start is V₀φ, φ the lowest mode of these ends
+(:mod:`bent_beam.supports`). A beam that rocks starts with V₀ + ωx in place of V₀; where the bow's apex
 is off the middle, x counts from it in y₀ and from the middle in ωx; both need the full beam.
 
 **The ends** carry N in the direction that the bow has there at the first touch, which they keep (a dead load):
@@ -28,13 +29,14 @@ from numpy.typing import NDArray
 
 from bent_beam.impact import Impact
 from bent_beam.meshes import checked_nodes, mirrored
+from bent_beam.supports import lowest_mode
 from hermite_fe.banded import product, stiff_product
 from hermite_fe.beam import HermiteBeam
 from hermite_fe.contacts import Contact
 from hermite_fe.far_fields import Dampings, FarField
 from hermite_fe.masses import ConsistentMass, Mass
 from hermite_fe.system import System
-from hermite_fe.walls import behind, with_opposite_wall
+from hermite_fe.walls import before_the_wall, behind, held_dofs, springs_of, with_opposite_wall
 
 __all__ = ["LOADS", "BeamModel", "beam_model"]
 
@@ -42,8 +44,9 @@ Array = NDArray[np.float64]
 CONSISTENT = ConsistentMass()
 
 
-LOADS = ("acceleration", "curvature_rate", "fourth_derivative", "axial_force", "rotation")
-"""The loads that are modelled here."""
+LOADS = ("acceleration", "curvature_rate", "fourth_derivative", "axial_force", "rotation", "wall_stiffness",
+         "wall_damping", "wall_from", "wall_to", "left_end", "right_end")  # fmt: skip
+"""The loads and other features that are modelled here."""
 
 
 @dataclass(frozen=True)
@@ -92,12 +95,16 @@ def beam_model(
     motion = impact.free_motion(0.0)
     displacement = beam.interpolate(motion(s), motion(s, by_x=1))
     velocity = beam.interpolate(motion(s, by_t=1), motion(s, by_x=1, by_t=1))
+    if impact.supported:
+        mode, slope = lowest_mode(impact.left_end, impact.right_end, impact.half_length, x)
+        velocity = impact.velocity * beam.interpolate(mode, slope)
     bending_stiffness, inertia = beam.stiffness(), mass.matrix(beam)
     stiffness = bending_stiffness + impact.axial_force * beam.geometric_stiffness()
     dampings = far_field.dampings(beam, impact)
     if impact.damping > 0.0:  # Kelvin–Voigt: C = ηK
         dampings += (("material", impact.damping * bending_stiffness),)
-    rows = contact.rows(beam, facing, full=full)
+    supports = held_dofs(impact, beam, full=full)
+    rows = before_the_wall(contact.rows(beam, facing, full=full), impact, supports)
     if impact.opposite_wall is not None:
         rows = with_opposite_wall(rows, beam, natural, displacement, impact.opposite_wall)
     system = System(
@@ -106,7 +113,8 @@ def beam_model(
         dampings=dampings,
         load=nodal_loads(impact, beam, s, inertia, stiffness, dampings, follows=far_field.end == "following"),
         contacts=rows,
-        supports=() if full else (1,),
+        supports=supports,
+        springs=springs_of(impact, beam, facing, full=full),
     )
     second = behind(len(rows), impact.opposite_wall is not None)
     return BeamModel(beam, system, displacement, velocity, natural, facing, second, full)

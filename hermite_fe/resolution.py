@@ -17,6 +17,7 @@ must be a fraction of ℓ where the front is, steps a fraction of its travel ove
   Moreau–Jean when constraints rebound.
 - contact: unilateral; nothing is held unless asked for, except in runs that measure what a pressing load changes.
 - far field: viscosity at grid scale.
+- a wall that gives way has scales of its own: :mod:`hermite_fe.elastic_resolution`.
 
 The whole beam, until it has left the wall, asks for something else: nothing may be absorbed, nothing held behind a
 front (a hold glues the zone when waves come back), and every part of the beam matters alike. So
@@ -40,13 +41,16 @@ from typing import TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
+from bent_beam.elastic_wall import wall_scales
 from bent_beam.impact import Impact
 from bent_beam.meshes import GradedMesh, Mesh, ScaleFreeMesh, UniformMesh
 from hermite_fe.composition import Composition
 from hermite_fe.contacts import Contact, NodeContact
+from hermite_fe.elastic_resolution import ELASTIC_STEP, elastic_mesh, even_element
 from hermite_fe.far_fields import FarField, GridViscosity
-from hermite_fe.integrators import Integrator, MoreauJean, SignoriniPosition
+from hermite_fe.integrators import Integrator, Midpoint, MoreauJean, SignoriniPosition
 from hermite_fe.masses import ConsistentMass, Mass
+from hermite_fe.walls import snapped
 
 __all__ = ["ELEMENTS", "Choice", "choose", "cross_checks", "for_loads", "for_whole_beam", "front", "varied"]
 
@@ -92,7 +96,11 @@ def choose(impact: Impact, end_time: float, parts: Composition | None = None) ->
     half_length = modelled_half_length(impact, parts.domain)
     mesh, coarse = _mesh(impact, half_length, end_time, parts)
     contact = parts.contact or NodeContact()
-    integrator = parts.integrator or (SignoriniPosition() if contact.restitution == 0.0 else MoreauJean())
+    if impact.wall_stiffness is not None and parts.contact is not None:
+        raise ValueError(
+            f"contact has no effect on a wall with a stiffness: leave it out (got {type(contact).__name__})"
+        )
+    integrator = parts.integrator or scheme_for(impact, contact)
     # from the mesh before it is refined: then the first step is refined like all others
     integrator = chosen_integrator(impact, end_time, coarse, integrator).refined(parts.refine)
     for name in () if integrator.holds else ("hold", "hold_until"):
@@ -106,7 +114,15 @@ def choose(impact: Impact, end_time: float, parts: Composition | None = None) ->
         raise ValueError(
             f'domain cuts the beam where it goes on: far_field.end must be "following" (got {far_field.end!r})'
         )
-    return Choice(mesh, mesh.nodes(half_length), integrator, contact, far_field, parts.mass or ConsistentMass())
+    nodes = snapped(mesh.nodes(half_length), impact)
+    return Choice(mesh, nodes, integrator, contact, far_field, parts.mass or ConsistentMass())
+
+
+def scheme_for(impact: Impact, contact: Contact, theta: float = 1.0) -> Integrator:
+    """The integrator that is chosen; θ of those before a rigid wall."""
+    if impact.wall_stiffness is not None:
+        return Midpoint()
+    return SignoriniPosition(theta=theta) if contact.restitution == 0.0 else MoreauJean(theta=theta)
 
 
 def modelled_half_length(impact: Impact, domain: float | None) -> float:
@@ -124,14 +140,17 @@ def bounded_kappa(impact: Impact) -> float:
 def front(impact: Impact, time: float) -> tuple[float, float]:
     """Crude estimates of the front's place and thickness at ``time``, m, by scaling."""
     spread = math.sqrt(time / impact.time_scale) * impact.length_scale
-    speed = math.sqrt(2.0 / bounded_kappa(impact))
-    return speed * spread, 2.0 * spread / speed
+    speed, wall = math.sqrt(2.0 / bounded_kappa(impact)), wall_scales(impact)
+    return speed * spread, max(2.0 * spread / speed, 0.0 if wall is None else wall.length)
 
 
 def chosen_mesh(impact: Impact, half: float, end_time: float, *, loaded: bool = False) -> Mesh:
     """Scale-free elements; for a thin front even ones over the zone. ``loaded``: to measure what a load changes."""
     place, thickness = front(impact, end_time)
     kappa, zone = bounded_kappa(impact), min(ZONE * place, half)
+    wall = wall_scales(impact)
+    if wall is not None:
+        return elastic_mesh(impact, wall, half, ZONE * place)
     if kappa < THIN:
         most = MOST_ELEMENTS if zone < half else MOST_ON_A_BEAM
         element = max(thickness / ELEMENTS_IN_THIN_FRONT, zone / most)
@@ -162,8 +181,10 @@ def _mesh(impact: Impact, half_length: float, end_time: float, parts: Compositio
 
 def chosen_integrator(impact: Impact, end_time: float, nodes: Array, integrator: Integrator) -> Integrator:
     """``integrator`` with what it leaves open filled in."""
-    kappa = bounded_kappa(impact)
-    if kappa < THIN:
+    kappa, wall = bounded_kappa(impact), wall_scales(impact)
+    if wall is not None:
+        step, growth = min(ELASTIC_STEP * wall.time, LONGEST_FIRST_STEP * end_time), LARGEST_STEP
+    elif kappa < THIN:
         step, growth = end_time * max(min(LARGEST_STEP, kappa), SHORTEST_THIN_STEP), 0.0
     else:
         # when the front is as thick as the smallest element
@@ -181,7 +202,7 @@ def for_loads(parts: C, impact: Impact, end_time: float) -> C:
     held behind the front: what lift the bare impact leaves would otherwise take up the load before the wall does.
     Neither without loads.
     """
-    if not impact.loaded:
+    if not impact.loaded or impact.wall_stiffness is not None:
         return parts
     contact, domain, mesh = parts.contact, parts.domain, parts.mesh
     if domain is None and parts.far_field is None:
@@ -208,13 +229,17 @@ def chosen_domain(impact: Impact, end_time: float) -> float | None:
 
 def for_whole_beam(parts: C, impact: Impact) -> C:
     """A copy of ``parts`` whose open ones are those of a whole beam; its ``refine`` is worked in."""
-    mesh = (parts.mesh or UniformMesh(impact.half_length / ELEMENTS)).refined(parts.refine)
+    wall, element = wall_scales(impact), impact.half_length / ELEMENTS
+    if wall is not None:
+        element = min(element, even_element(wall, impact.half_length))
+    mesh = (parts.mesh or UniformMesh(element)).refined(parts.refine)
     shortest = float(np.diff(mesh.nodes(impact.half_length)).min())
     contact = parts.contact or NodeContact()
-    without_rebound = contact.restitution == 0.0
-    chosen = SignoriniPosition(theta=0.5) if without_rebound else MoreauJean(theta=0.5)
+    chosen = scheme_for(impact, contact, theta=0.5)
     integrator = (parts.integrator or chosen).with_defaults(impact)  # before it is refined: what is open cannot be
-    if integrator.time_step is None:
+    if integrator.time_step is None and wall is not None:
+        integrator = integrator.with_steps(ELASTIC_STEP * wall.time, 0.0).refined(parts.refine)
+    elif integrator.time_step is None:
         integrator = integrator.refined(parts.refine**2).with_steps(0.5 * shortest**2 / impact.wave_constant, 0.0)
     else:
         integrator = integrator.with_steps(integrator.time_step, 0.0).refined(parts.refine)
@@ -222,7 +247,7 @@ def for_whole_beam(parts: C, impact: Impact) -> C:
         parts,
         mesh=mesh,
         integrator=integrator,
-        contact=contact,
+        contact=contact if wall is None else parts.contact,
         far_field=parts.far_field or GridViscosity(viscosity=0.0),
         full_beam=parts.full_beam or impact.off_centre,
         domain=None,
@@ -236,7 +261,12 @@ def cross_checks(parts: C, impact: Impact) -> dict[str, C]:
     then counts the step twice)."""
     chosen = for_whole_beam(parts, impact)
     mesh, integrator = chosen.mesh, chosen.integrator
-    assert mesh is not None and integrator is not None and chosen.contact is not None
+    assert mesh is not None and integrator is not None
+    coarser = dataclasses.replace(chosen, mesh=mesh.refined(0.5), integrator=integrator.refined(0.25))
+    longer = dataclasses.replace(chosen, integrator=integrator.refined(0.5))
+    if integrator.elastic:
+        return {"mesh": coarser, "step": longer}
+    assert chosen.contact is not None
     step = integrator.time_step
     other = (
         SignoriniPosition(theta=0.5, time_step=step, growth=0.0)
@@ -244,8 +274,8 @@ def cross_checks(parts: C, impact: Impact) -> dict[str, C]:
         else MoreauJean(theta=0.5, time_step=step, growth=0.0)
     )
     return {
-        "mesh": dataclasses.replace(chosen, mesh=mesh.refined(0.5), integrator=integrator.refined(0.25)),
-        "step": dataclasses.replace(chosen, integrator=integrator.refined(0.5)),
+        "mesh": coarser,
+        "step": longer,
         "contact_law": dataclasses.replace(chosen, integrator=other.refined(0.5)),
     }
 
@@ -253,8 +283,11 @@ def cross_checks(parts: C, impact: Impact) -> dict[str, C]:
 def varied(parts: C, impact: Impact, random: np.random.Generator) -> C:
     """A copy for an ensemble: elements, steps and impact law drawn at random.
 
-    Moreau–Jean with θ = ½ throughout, which keeps the energy between impacts.
+    Moreau–Jean with θ = ½ throughout, which keeps the energy between impacts; where the wall gives way, what is chosen
+    for it.
     """
+    if impact.wall_stiffness is not None:
+        return for_whole_beam(parts.refined(2.0 ** random.uniform(-1.0, 0.0)), impact)
     elements = int(random.integers(2 * ELEMENTS // 5, 4 * ELEMENTS // 5))
     length = impact.half_length / elements
     step = 2.0 ** random.uniform(-1.0, 1.0) * length**2 / impact.wave_constant

@@ -16,6 +16,7 @@ from hermite_fe.active_set import CYCLING, NOT_FINITE, SINGULAR, SOLVED
 from hermite_fe.banded import product, stiff_product
 from hermite_fe.compiled import recompiling
 from hermite_fe.constraints import PRODUCT, SMALLEST_REACTION, ContactLaw
+from hermite_fe.elastic_wall import FORCE, FORCE_TIME, PENETRATION, PRESSURE, stored_energy
 from hermite_fe.integrators import Integrator
 from hermite_fe.stepping import (
     ABSORBED,
@@ -23,6 +24,7 @@ from hermite_fe.stepping import (
     IMPACT,
     MATERIAL,
     VISCOUS,
+    WALL,
     WORK,
     problem_of,
     state_of,
@@ -47,9 +49,11 @@ class Trajectory:
     """Samples of a run, first axis ``time`` (saved,), s.
 
     q, v : (saved, dofs). impulse, held_impulse, gap : (saved, rows); closed : (saved, rows) bool.
-    kinetic, strain, work, viscous, material, absorbed, impact, algorithmic : (saved,), J, from ``work`` on since the
-        start, each by its own formula: kinetic + strain − work + the five losses is constant, and its change is the
-        energy residual (:meth:`defect`).
+    kinetic, strain, springs, work, viscous, material, absorbed, impact, algorithmic, wall : (saved,), J, ``springs``
+        stored in those of the wall, from ``work`` on since the start, each by its own formula: kinetic + strain +
+        springs − work + the six losses is constant, and its change is the energy residual (:meth:`defect`).
+    peak_force, peak_force_time, peak_penetration, peak_pressure : (saved,), the largest of all steps so far
+        (:data:`hermite_fe.elastic_wall.FORCE`); zero before a rigid wall.
     smallest_reaction, product : (saved,), smallest impulse of constraints that are not held, and largest |p·slack|
         since the last sample: complementarity, at round-off in a correct run.
     steps : taken; seconds : spent on them, without compilation.
@@ -66,12 +70,18 @@ class Trajectory:
     closed: NDArray[np.bool_]
     kinetic: Array
     strain: Array
+    springs: Array
     work: Array
     viscous: Array
     material: Array
     absorbed: Array
     impact: Array
     algorithmic: Array
+    wall: Array
+    peak_force: Array
+    peak_force_time: Array
+    peak_penetration: Array
+    peak_pressure: Array
     smallest_reaction: Array
     product: Array
     steps: int
@@ -83,8 +93,8 @@ class Trajectory:
 
     def defect(self) -> Array:
         """The energy residual: what the budget does not explain, (saved,), J."""
-        losses = self.viscous + self.material + self.absorbed + self.impact + self.algorithmic
-        total = self.kinetic + self.strain - self.work + losses
+        losses = self.viscous + self.material + self.absorbed + self.impact + self.algorithmic + self.wall
+        total = self.kinetic + self.strain + self.springs - self.work + losses
         return np.asarray(total - total[0])
 
 
@@ -119,6 +129,11 @@ class Stepper:
     def __init__(
         self, system: System, q: Array, v: Array, integrator: Integrator, end_time: float, law: ContactLaw | None = None
     ) -> None:
+        if integrator.elastic != (system.springs.stiffness > 0.0):
+            raise ValueError(
+                "integrator.kind: midpoint is for a wall with a stiffness, the others for a rigid one; leave it out "
+                f"(got {type(integrator).__name__})"
+            )
         self.integrator = integrator
         self.instants = integrator.instants(end_time)
         self.problem = problem_of(system, law or ContactLaw())
@@ -162,17 +177,23 @@ class Stepper:
 
     def sums(self) -> dict[str, float]:
         """Energies now, J, what they lost since the start, and the worst complementarity since the last call."""
-        energy, worst = self.state.energy, self.state.worst.copy()
+        energy, worst, peaks = self.state.energy, self.state.worst.copy(), self.state.peaks
         self.state.worst[:] = 0.0
         return {
             "kinetic": self._kinetic(),
             "strain": self._strain(),
+            "springs": stored_energy(self.problem.matrices.springs, self.state.q),
             "work": energy[WORK],
             "viscous": energy[VISCOUS],
             "material": energy[MATERIAL],
             "absorbed": energy[ABSORBED],
             "impact": energy[IMPACT],
             "algorithmic": energy[ALGORITHMIC],
+            "wall": energy[WALL],
+            "peak_force": peaks[FORCE],
+            "peak_force_time": peaks[FORCE_TIME],
+            "peak_penetration": peaks[PENETRATION],
+            "peak_pressure": peaks[PRESSURE],
             "smallest_reaction": worst[SMALLEST_REACTION],
             "product": worst[PRODUCT],
         }

@@ -20,7 +20,7 @@ from hermite_fe.model import LOADS, BeamModel, beam_model
 from hermite_fe.run import Stepper, Trajectory, integrate
 from hermite_fe.warnings_of_run import warnings_of_run
 
-__all__ = ["refusal", "simulate"]
+__all__ = ["refusal", "simulate", "spreads"]
 
 
 def refusal(impact: Impact) -> str | None:
@@ -30,7 +30,16 @@ def refusal(impact: Impact) -> str | None:
             f"rotation must not take the first touch off the wall: the beam moves there at "
             f"{impact.velocity + impact.rotation * impact.first_touch:.6g} m/s (got {impact.rotation!r})"
         )
+    if impact.opposite_wall is not None and (impact.wall_stiffness is not None or impact.wall_in_part):
+        name = "wall_stiffness" if impact.wall_stiffness is not None else "wall_from"
+        return f"opposite_wall is not modelled together with {name} (got {impact.opposite_wall!r})"
     return unmodelled(impact, LOADS)
+
+
+def spreads(impact: Impact) -> bool:
+    """Whether a front spreads from the middle, on a wall all along a beam without supports."""
+    alone = impact.opposite_wall is None and not impact.off_centre
+    return alone and not impact.supported and not impact.wall_in_part
 
 
 def simulate(
@@ -86,7 +95,7 @@ def simulate(
         **settings_of_run(impact, choice, run),
     }
     history = history_of(impact, model, run, settings)
-    if until is None and impact.opposite_wall is None and not impact.off_centre:  # a front spreads from the middle
+    if until is None and spreads(impact):
         history = history.with_warnings(warnings_of_run(impact, choice, end, model, history))
     if run.failure:
         raise SimulationError(
@@ -163,6 +172,15 @@ def history_of(impact: Impact, model: BeamModel, run: Trajectory, settings: dict
         "smallest_reaction": (("time",), run.smallest_reaction),
         "complementarity_product": (("time",), run.product),
     }
+    if impact.wall_stiffness is not None:
+        fields |= {
+            "contact_energy": (("time",), copies * (run.springs - run.springs[0])),
+            "loss_wall": (("time",), copies * run.wall),
+            "peak_force": (("time",), copies * run.peak_force),
+            "peak_force_time": (("time",), run.peak_force_time),
+            "peak_penetration": (("time",), run.peak_penetration),
+            "peak_pressure": (("time",), (copies if model.system.springs.stop >= 0 else 1) * run.peak_pressure),
+        }
     if np.any(behind):
         fields["opposite_impulse"] = (("time", "contact"), run.impulse[:, behind])
     return ImpactHistory.build(

@@ -12,10 +12,11 @@ from hermite_fe.active_set import solve_free
 from hermite_fe.banded import dot, multiply, row_sums, stiff_multiply
 from hermite_fe.compiled import compiled
 from hermite_fe.constraints import Constraints, ContactLaw, Rows, row_times, rows_of
+from hermite_fe.elastic_wall import Springs
 from hermite_fe.solver import Solver, prepare, solver_of
 from hermite_fe.system import System
 
-__all__ = ["ABSORBED", "ALGORITHMIC", "IMPACT", "MATERIAL", "VISCOUS", "WORK", "Matrices", "Problem", "State",
+__all__ = ["ABSORBED", "ALGORITHMIC", "IMPACT", "MATERIAL", "VISCOUS", "WALL", "WORK", "Matrices", "Problem", "State",
            "add_energies", "add_impulses", "forces_at", "initial_acceleration", "is_finite", "mean_forces",
            "problem_of", "state_of"]  # fmt: skip
 
@@ -23,10 +24,11 @@ Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 Places = NDArray[np.int64]
 
-WORK, IMPACT, ALGORITHMIC, VISCOUS, MATERIAL, ABSORBED = range(6)
+WORK, IMPACT, ALGORITHMIC, VISCOUS, MATERIAL, ABSORBED, WALL = range(7)
 """Indices in ``State.energy``, J since the start: the work of the loads, and the losses to impacts, to the scheme's own
-damping, to viscosity at grid scale, to the material's damping, to an absorbing layer. Each has its own formula; the
-difference between their sum and the change of kinetic and strain energy is the energy residual of a run."""
+damping, to viscosity at grid scale, to the material's damping, to an absorbing layer, to the dashpots of the wall. Each
+has its own formula; the difference between their sum and the change of kinetic, strain and the wall's energy is the
+energy residual of a run."""
 
 CAUSES = {"viscous": VISCOUS, "material": MATERIAL, "absorbed": ABSORBED}
 
@@ -36,6 +38,7 @@ class Matrices(NamedTuple):
 
     K_sums, C_sums : (2, dofs), :func:`hermite_fe.banded.row_sums` of K and C.
     parts : (causes, 4, dofs), C by cause; causes : (causes,), its index in ``State.energy``.
+    springs : of a wall that gives way.
     """
 
     M: Array
@@ -46,6 +49,7 @@ class Matrices(NamedTuple):
     parts: Array
     causes: Places
     load: Array
+    springs: Springs
 
 
 class Problem(NamedTuple):
@@ -62,7 +66,8 @@ class State(NamedTuple):
 
     q, v, acceleration : (dofs,), the motion; acceleration, v̇, where the integrator has one.
     closed : (rows,). impulse, held_impulse : (rows,), N s since the start, and its tensile part in held constraints.
-    energy : (6,), J, see :data:`WORK`. worst : (2,), see :data:`hermite_fe.constraints.PRODUCT`.
+    energy : (7,), J, see :data:`WORK`. worst : (2,), see :data:`hermite_fe.constraints.PRODUCT`.
+    peaks : (4,), see :data:`hermite_fe.elastic_wall.FORCE`.
     """
 
     q: Array
@@ -73,6 +78,7 @@ class State(NamedTuple):
     held_impulse: Array
     energy: Array
     worst: Array
+    peaks: Array
 
 
 def problem_of(system: System, law: ContactLaw) -> Problem:
@@ -82,7 +88,7 @@ def problem_of(system: System, law: ContactLaw) -> Problem:
         M=system.mass, C=system.damping, K=system.stiffness,
         K_sums=row_sums(system.stiffness), C_sums=row_sums(system.damping),
         parts=parts, causes=np.array([CAUSES[cause] for cause, _ in system.dampings], np.int64),
-        load=system.load if np.any(system.load) else np.zeros((0, system.dofs)),
+        load=system.load if np.any(system.load) else np.zeros((0, system.dofs)), springs=system.springs,
     )  # fmt: skip
     return Problem(matrices, rows_of(system.contacts), law, solver_of(system))
 
@@ -92,7 +98,8 @@ def state_of(system: System, q: Array, v: Array) -> State:
     n, m = system.dofs, len(system.contacts)
     return State(
         q=np.array(q, float), v=np.array(v, float), acceleration=np.zeros(n), closed=np.zeros(m, np.bool_),
-        impulse=np.zeros(m), held_impulse=np.zeros(m), energy=np.zeros(6), worst=np.zeros(2),
+        impulse=np.zeros(m), held_impulse=np.zeros(m), energy=np.zeros(7), worst=np.zeros(2),
+        peaks=np.zeros(4),
     )  # fmt: skip
 
 

@@ -13,6 +13,8 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
+from hermite_fe.elastic_wall import NO_SPRINGS, Springs
+
 __all__ = ["DAMPINGS", "ContactRows", "System"]
 
 Array = NDArray[np.float64]
@@ -97,7 +99,8 @@ class System:
     dampings : (cause, bands) pairs that add up to C, causes out of :data:`DAMPINGS`; the loss to each is recorded
         under its own name (``Trajectory.viscous``, ``.material``, ``.absorbed``).
     load : (powers, dofs), F(t) = Σ_k load[k]·t^k.
-    contacts : unilateral constraints. supports : dofs that keep their initial value.
+    contacts : unilateral constraints; before a wall that gives way by ``springs`` they only say where impulses are
+        recorded. supports : dofs that keep their initial value.
 
     Raises ``ValueError`` when shapes disagree, a cause of damping is unknown or named twice, or a support carries a
     constraint of its own.
@@ -109,6 +112,7 @@ class System:
     dampings: tuple[tuple[str, Array], ...] = ()
     load: Array = field(default_factory=_left_out)
     supports: tuple[int, ...] = ()
+    springs: Springs = NO_SPRINGS
 
     def __post_init__(self) -> None:
         set_ = object.__setattr__

@@ -55,14 +55,14 @@ def balance_of(history: ImpactHistory) -> Balance:
 
 
 def _momentum_residual(history: ImpactHistory) -> float | None:
-    """``None`` where ends or an absorbing layer act on the beam, or the mesh moves along it."""
+    """``None`` where ends, supports or an absorbing layer act on the beam, or the mesh moves along it."""
     impact, far = history.impact, history.settings.get("far_field") or {}
     absorbs = history.energy("loss_absorbed")[-1] != 0.0
     bent = impact.fourth_derivative or (impact.axial_force and impact.curvature_rate)  # ends that follow carry forces
     if "position" in history or "velocity" not in history or absorbs or _end(far) == "following" or (bent and not far):
         return None
     x, time = history.positions(0), history.time
-    if abs(2.0 * float(np.abs(x).max()) / impact.length - 1.0) > 1e-4:  # a part of the beam
+    if impact.supported or abs(2.0 * float(np.abs(x).max()) / impact.length - 1.0) > 1e-4:  # a part of the beam
         return None
     mass = impact.mass_per_length * impact.length
     velocity = np.stack([_mean(x, history.array("velocity", k)) for k in range(time.size)])
@@ -84,7 +84,7 @@ def _mean(x: Array, v: Array) -> float:
 
 def _initial_energy(history: ImpactHistory) -> float | None:
     impact = history.impact
-    if impact.loaded or impact.rotation or "position" in history or "kinetic_energy" not in history:
+    if impact.loaded or impact.rotation or impact.supported or "position" in history or "kinetic_energy" not in history:
         return None
     modelled = 2.0 * float(np.abs(history.positions(0)).max())
     whole = 0.5 * impact.mass_per_length * modelled * impact.velocity**2
@@ -92,7 +92,9 @@ def _initial_energy(history: ImpactHistory) -> float | None:
 
 
 def _gap_of_push(history: ImpactHistory) -> float | None:
-    """``None`` where contact points are no nodes, or nothing pushed."""
+    """``None`` where contact points are no nodes, nothing pushed, or the wall gives way."""
+    if history.impact.wall_stiffness is not None:
+        return None
     places, x = history.contact_positions(0), history.positions(0)
     if "contact_position" in history or "position" in history or not np.all(np.isin(places, x)):
         return None

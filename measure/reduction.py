@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from bent_beam.history import ImpactHistory
 
-__all__ = ["PeakMoment", "bending_moments", "hold_of", "peak_moment", "pull_of"]
+__all__ = ["PeakMoment", "WallPeaks", "bending_moments", "hold_of", "peak_moment", "pull_of", "wall_peaks"]
 
 Array = NDArray[np.float64]
 CHUNK = 256  # saved instants at once
@@ -25,6 +25,25 @@ class PeakMoment(NamedTuple):
     place: float
     time: float
     midspan: float
+
+
+class WallPeaks(NamedTuple):
+    """The largest force on the whole zone of a wall that gives way, N, and its time, s; the largest penetration, m, and
+    pressure, N/m (of a stop its force, N); of all steps, not only of the saved instants."""
+
+    force: float
+    time: float
+    penetration: float
+    pressure: float
+
+
+def wall_peaks(history: ImpactHistory, until: float | None = None) -> WallPeaks | None:
+    """The peaks up to ``until`` (s; ``None``: the end); ``None`` where the wall is rigid, or the path has none."""
+    if "peak_force" not in history:
+        return None
+    k = int(np.searchsorted(history.time, math.inf if until is None else until * (1.0 + 1e-9), side="right")) - 1
+    names = ("peak_force", "peak_force_time", "peak_penetration", "peak_pressure")
+    return WallPeaks(*(float(history.array(name)[k]) for name in names))
 
 
 def hold_of(history: ImpactHistory) -> dict[str, float | None] | None:

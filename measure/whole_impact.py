@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 
 from bent_beam.free_flight import LOWEST_PERIOD, bears_free_flight, has_left, pushing
 from bent_beam.history import ImpactHistory
-from measure.reduction import peak_moment
+from measure.reduction import peak_moment, wall_peaks
 
 __all__ = ["SHORTEST_SEPARATION", "WallHit", "WholeImpact", "pushes", "wall_hits", "whole_impact"]
 
@@ -40,6 +40,7 @@ class WholeImpact:
     contacts : begin and end of each contact, separations shorter than the shortest ignored.
     peak_moment_place : |x|/ℓ. translation, vibration, dissipated : shares of the initial energy and the work of the
         loads, altogether one.
+    peak_force : on the zone of a wall that gives way, over μℓV₀/T*; ``None`` of a rigid one.
     supplied : the initial energy and the work of the loads until then, J.
     energy_defect : what the independently computed terms of the budget leave, of the initial energy; energy_gain : the
         largest rise of the energy, what springs of the wall hold included, above what loads have worked, likewise.
@@ -57,6 +58,7 @@ class WholeImpact:
     translation: float
     vibration: float
     dissipated: float
+    peak_force: float | None
     supplied: float
     spacing: float
     contacts: tuple[tuple[float, float], ...]
@@ -92,7 +94,7 @@ def whole_impact(history: ImpactHistory, *, shortest: float = SHORTEST_SEPARATIO
     end = hit[-1][1]
     impulse = float(total[end]) / (mass * impact.velocity)
     moment = impact.velocity * math.sqrt(impact.bending_stiffness * impact.mass_per_length)
-    peak = peak_moment(history)
+    peak, wall = peak_moment(history), wall_peaks(history)
     energy = history.array("kinetic_energy") + history.array("strain_energy")
     held = history.energy("contact_energy")  # by springs of the wall
     initial = float(energy[0])
@@ -111,6 +113,7 @@ def whole_impact(history: ImpactHistory, *, shortest: float = SHORTEST_SEPARATIO
         translation=translation,
         vibration=float(energy[end] / supplied[end]) - translation,
         dissipated=float(1.0 - energy[end] / supplied[end]),
+        peak_force=None if wall is None else 2.0 * wall.force * unit / (mass * impact.velocity),
         supplied=float(supplied[end]),
         spacing=float(time[end] - time[end - 1]) / unit,
         contacts=tuple((float(time[i]) / unit, float(time[j]) / unit) for i, j in hit),

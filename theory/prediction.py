@@ -21,10 +21,14 @@ from dataclasses import asdict, dataclass, replace
 from typing import Any, Protocol
 
 from bent_beam.impact import Impact
+from bent_beam.loads import unmodelled
 from theory import damped_point
 from theory.contact import DISCRETE, ContactParameters, contact_parameters
 from theory.moment import PeakMoment, peak_moment_of
 from theory.validity import validity
+
+MODELLED = ("acceleration", "curvature_rate", "fourth_derivative", "axial_force", "rotation")
+"""Features of an impact that the theory has, or refuses with reasons of its own."""
 
 
 class Section(Protocol):
@@ -138,8 +142,8 @@ def predict(impact: Impact, times: Iterable[float] | float = (), *, section: Sec
         what `valid_until` is about.
 
     Raises:
-        ValueError: a beam as curved as its wall (K = K_w), one that rocks (rotation, first_touch), or a time that is
-            negative, not finite or beyond 1e30 t*.
+        ValueError: a beam as curved as its wall (K = K_w), one that rocks (rotation, first_touch), a wall or supports
+            that the theory does not have, or a time that is negative, not finite or beyond 1e30 t*.
     """
     _check(impact)
     given = [times] if isinstance(times, int | float) else times
@@ -199,6 +203,9 @@ def _check(impact: Impact) -> None:
             f"curvature must be more than the wall's (got {impact.curvature!r}): a beam as straight as its wall has "
             "kappa/nu = 0, touches over its whole length at once, and lambda0 is infinite"
         )
+    reason = unmodelled(impact, MODELLED)
+    if reason is not None:
+        raise ValueError(reason)
     for name in ("rotation", "first_touch"):
         if getattr(impact, name) != 0.0:
             raise ValueError(

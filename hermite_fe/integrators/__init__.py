@@ -2,6 +2,7 @@
 
 from hermite_fe.integrators.base import Integrator
 from hermite_fe.integrators.generalized_alpha_penalty import GeneralizedAlphaPenalty
+from hermite_fe.integrators.midpoint import Midpoint
 from hermite_fe.integrators.moreau_jean import MoreauJean
 from hermite_fe.integrators.nonsmooth_generalized_alpha import NonsmoothGeneralizedAlpha
 from hermite_fe.integrators.signorini_position import SignoriniPosition
@@ -10,6 +11,7 @@ __all__ = [
     "INTEGRATORS",
     "GeneralizedAlphaPenalty",
     "Integrator",
+    "Midpoint",
     "MoreauJean",
     "NonsmoothGeneralizedAlpha",
     "SignoriniPosition",
@@ -20,5 +22,6 @@ INTEGRATORS: dict[str, type] = {
     "nonsmooth_generalized_alpha": NonsmoothGeneralizedAlpha,
     "signorini_position": SignoriniPosition,
     "generalized_alpha_penalty": GeneralizedAlphaPenalty,
+    "midpoint": Midpoint,
 }
 """Kinds of a case file's ``[hermite.integrator]`` table."""

@@ -6,6 +6,7 @@ import pytest
 
 from bent_beam import InputError, load_case
 from bent_beam.cases import case_from_tables
+from bent_beam.elastic_wall import wall_scales
 from bent_beam.section import General, Pipe, Rectangle, RoundBar
 
 STEEL = {"youngs_modulus": 206e9, "density": 7850.0}
@@ -70,6 +71,17 @@ def test_a_beam_arrives_as_it_falls_or_swings(impact, velocity, acceleration):
     assert found.acceleration == pytest.approx(acceleration, rel=1e-12)
 
 
+def test_a_wall_that_gives_way_and_the_ends_are_what_the_tables_say():
+    found = case({"curvature": 0.002, "ends": ["hinged", "free"]}, wall={"stiffness": 1e6, "damping_ratio": 0.5}).impact
+    assert found.wall_damping == pytest.approx(math.sqrt(1e6 * found.mass_per_length), rel=1e-14)
+    assert (found.left_end, found.right_end, found.off_centre) == ("hinged", "free", True)
+    length, time = wall_scales(found)
+    assert length**4 == pytest.approx(found.bending_stiffness / 1e6)
+    assert time**2 == pytest.approx(found.mass_per_length / 1e6)
+    stop = case({"curvature": 0.002}, wall={"stiffness": 1e6, "from": 0.0, "to": 0.0}).impact
+    assert wall_scales(stop).length ** 3 == pytest.approx(stop.bending_stiffness / 1e6)
+
+
 def test_free_flight_under_tension_straightens_the_bow():
     found = case({"curvature": 0.002, "axial_force": 1e5}).impact
     assert found.acceleration == pytest.approx(-1e5 * 0.002 / found.mass_per_length, rel=1e-12)
@@ -103,6 +115,12 @@ def test_damping_ratio_and_loss_factor_are_the_same_time_constant():
         ({"impact": {"drop_height": 1.0, "gravity_angle": 90.0001}}, "needs gravity towards the wall"),
         ({"beam": {"curvature": 0.1, "loss_factor": 0.1}}, "loss_frequency is required"),
         ({"wall": {"curvature": 0.002}}, "wall_curvature must be less"),
+        ({"wall": {"damping": 1.0}}, "wall.damping has no effect on a rigid wall"),
+        ({"wall": {"stiffness": 1e6, "damping": 1.0, "damping_ratio": 0.1}}, "say the same"),
+        ({"wall": {"stiffness": 1e6, "damping_ratio": 0.1, "from": 1.0, "to": 1.0}}, "nothing at a stop"),
+        ({"wall": {"from": 16.0}}, "wall_from must lie on the beam"),
+        ({"beam": {"curvature": 0.1, "ends": ["free", "glued"]}}, "beam.ends must be one of .*'glued'"),
+        ({"beam": {"curvature": 0.1, "ends": "hinged"}, "impact": {"angular_speed": 1.0}}, "needs one hinge"),
     ],
 )
 def test_what_clashes_is_named(tables, message):

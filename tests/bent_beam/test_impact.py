@@ -9,6 +9,9 @@ from hypothesis import strategies as st
 
 from bent_beam import Impact
 from bent_beam.loads import unmodelled
+from bent_beam.supports import ENDS, lowest_mode
+from self_similar_fe import SelfSimilarFE
+from theory import predict
 
 THESIS = dict(bending_stiffness=1.0, mass_per_length=1.0, length=50.0, curvature=10.0, velocity=20.0)
 
@@ -38,6 +41,37 @@ def test_a_load_that_a_solver_does_not_know_is_refused_by_name():
     impact = Impact(**THESIS, curvature_rate=0.1)
     assert unmodelled(impact, ("acceleration", "curvature_rate")) is None
     assert "curvature_rate is not modelled" in unmodelled(impact, ("acceleration",))
+
+
+@pytest.mark.parametrize(
+    "feature",
+    [
+        {"wall_stiffness": 1e4, "wall_damping": 2.0},
+        {"wall_from": -0.1, "wall_to": 0.1},
+        {"left_end": "hinged"},
+    ],
+)
+def test_a_wall_or_an_end_that_no_formula_has_is_refused_by_name(feature):
+    impact = Impact(**THESIS, **feature)
+    with pytest.raises(ValueError, match=next(iter(feature))):
+        predict(impact, [1e-3])
+    assert next(iter(feature)) in SelfSimilarFE().refuses(impact)
+
+
+@pytest.mark.parametrize("left", ENDS)
+@pytest.mark.parametrize("right", ENDS)
+def test_the_beam_arrives_in_the_lowest_mode_that_its_ends_allow(left, right):
+    x = np.linspace(-1.5, 1.5, 3001)
+    mode, slope = lowest_mode(left, right, 1.5, x)
+    curvature = np.gradient(slope, x, edge_order=2)
+    assert mode[1500] == pytest.approx(1.0) and slope == pytest.approx(np.gradient(mode, x, edge_order=2), abs=1e-4)
+    for end, at in ((left, 0), (right, -1)):
+        assert end == "free" or abs(mode[at]) < 1e-9
+        assert end != "clamped" or abs(slope[at]) < 1e-9
+        assert end == "clamped" or abs(curvature[at]) < 1e-4
+    bent = np.gradient(np.gradient(curvature, x, edge_order=2), x, edge_order=2)[20:-20]
+    shares = bent[np.abs(mode[20:-20]) > 0.5] / mode[20:-20][np.abs(mode[20:-20]) > 0.5]
+    assert np.ptp(shares) < 1e-3 * (1.0 + shares.max())  # φ⁗ ∝ φ
 
 
 def test_loads_that_cancel_press_with_nothing_at_all():

@@ -1,0 +1,204 @@
+"""A wall that gives way: springs and dashpots along the beam that never pull.
+
+Per length of beam, p = u + facing the penetration and x₊ = max(x, 0),
+
+    R = max(0, k p + c ṗ) where p > 0,     W = ½k ∫ p₊² dx.
+
+Over a step in which every point moves from p to p⁺ at a constant speed, each point's spring does the work −Δ(½k p₊²)
+and its dashpot acts while p > 0. The mean of R over the step is then
+
+    R̄ = max(0, G + D),     G = ½k (p₊⁺² − p₊²)/Δp,     D = c (p₊⁺ − p₊)/h.
+
+G is a discrete gradient (Gonzalez 1996, J. Nonlinear Sci. 6, 449): G Δp is the change of the spring's energy exactly,
+and (R̄ − G)Δp ≥ 0 is what the dashpot takes, all of the spring's own energy where the beam leaves faster than the wall
+can follow. R̄ is continuous in p⁺: a point that lands within a step does not jump.
+
+Forces are f = ∫Nᵀ R̄ dx with the cubic p of Hermite elements, split where p or p⁺ changes sign, so that partly covered
+elements are integrated as exactly as covered ones: four Gauss points on each piece are exact for W and for G Δp. A stop
+is one such spring at a node.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hermite_fe.compiled import compiled
+
+__all__ = ["FORCE", "FORCE_TIME", "NO_SPRINGS", "PENETRATION", "PRESSURE", "Springs", "push", "stored_energy"]
+
+Array = NDArray[np.float64]
+
+FORCE, FORCE_TIME, PENETRATION, PRESSURE = range(4)
+"""Indices in ``State.peaks``: the largest force on the whole zone of all steps, N, and its time, s; the largest
+penetration, m, and pressure, N/m (at a stop force, N)."""
+
+POINTS, WEIGHTS = (0.5 * (values + shift) for values, shift in zip(np.polynomial.legendre.leggauss(4), (1.0, 0.0)))
+HALVINGS = 60  # of an interval that holds a zero
+
+
+class Springs(NamedTuple):
+    """stiffness, damping : k, N/m², and c, N s/m²; of a stop N/m and N s/m. facing : (dofs,), p = q + facing, m.
+
+    lengths : (elements,), m; elements ``first`` to ``last`` − 1 stand before the wall. stop : the dof of a stop, or −1.
+    """
+
+    stiffness: float
+    damping: float
+    facing: Array
+    lengths: Array
+    first: int
+    last: int
+    stop: int
+
+
+NO_SPRINGS = Springs(0.0, 0.0, np.zeros(0), np.zeros(0), 0, 0, -1)
+"""A rigid wall."""
+
+
+@compiled
+def shapes(at: float, length: float) -> tuple[float, float, float, float]:
+    """N₁ … N₄ at ξ = ``at`` (:mod:`hermite_fe.beam`)."""
+    square, cube = at * at, at * at * at
+    return (1.0 - 3.0 * square + 2.0 * cube, length * (at - 2.0 * square + cube), 3.0 * square - 2.0 * cube,
+            length * (cube - square))  # fmt: skip
+
+
+@compiled
+def depth(springs: Springs, q: Array, e: int, at: float) -> float:
+    """p at ξ = ``at`` of element e."""
+    n1, n2, n3, n4 = shapes(at, springs.lengths[e])
+    i, face = 2 * e, springs.facing
+    return (n1 * (q[i] + face[i]) + n2 * (q[i + 1] + face[i + 1])
+            + n3 * (q[i + 2] + face[i + 2]) + n4 * (q[i + 3] + face[i + 3]))  # fmt: skip
+
+
+@compiled
+def reaction(p: float, new: float, h: float, stiffness: float, damping: float) -> tuple[float, float, float]:
+    """R̄, dR̄/dp⁺ and the dashpot's loss (R̄ − G)Δp of one point."""
+    before, after = max(p, 0.0), max(new, 0.0)
+    if before == 0.0 and after == 0.0:
+        return 0.0, 0.0, 0.0
+    if before > 0.0 and after > 0.0:
+        spring, slope = 0.5 * stiffness * (p + new), 0.5 * stiffness
+    else:
+        spring = 0.5 * stiffness * (after * after - before * before) / (new - p)
+        slope = (stiffness * after - spring) / (new - p)
+    force = spring + damping * (after - before) / h
+    if force <= 0.0:
+        return 0.0, 0.0, -spring * (new - p)
+    return force, slope + (damping / h if after > 0.0 else 0.0), (force - spring) * (new - p)
+
+
+@compiled
+def bernstein(a: float, b: float, c: float, d: float, at: float) -> float:
+    """The cubic with the Bernstein coefficients a … d at ξ = ``at``."""
+    rest = 1.0 - at
+    return rest * rest * (rest * a + 3.0 * at * b) + at * at * (3.0 * rest * c + at * d)
+
+
+@compiled
+def add_zeros(springs: Springs, q: Array, e: int, places: Array, count: int) -> int:
+    """Add the places 0 < ξ < 1 where p of element e changes sign to ``places``; returns how many there are now.
+
+    Between its turning points a cubic is monotone; a change of sign there is found by halving.
+    """
+    i, face, third = 2 * e, springs.facing, springs.lengths[e] / 3.0
+    a, d = q[i] + face[i], q[i + 2] + face[i + 2]
+    b, c = a + third * (q[i + 1] + face[i + 1]), d - third * (q[i + 3] + face[i + 3])
+    if max(a, b, c, d) <= 0.0 or min(a, b, c, d) >= 0.0:
+        return count
+    first, bend, curve = b - a, c - 2.0 * b + a, d - 3.0 * c + 3.0 * b - a  # p′/3 = first + 2 bend ξ + curve ξ²
+    root = math.sqrt(max(bend * bend - curve * first, 0.0))
+    turn = -(bend + math.copysign(root, bend))
+    one = turn / curve if curve != 0.0 else 0.0
+    other = first / turn if turn != 0.0 else 0.0
+    low = 0.0
+    for end in (min(max(min(one, other), 0.0), 1.0), min(max(max(one, other), 0.0), 1.0), 1.0):
+        left, high = low, end
+        below = bernstein(a, b, c, d, left) > 0.0
+        if end > low and below != (bernstein(a, b, c, d, high) > 0.0):
+            for _ in range(HALVINGS):
+                middle = 0.5 * (left + high)
+                if (bernstein(a, b, c, d, middle) > 0.0) == below:
+                    left = middle
+                else:
+                    high = middle
+            places[count] = 0.5 * (left + high)
+            count += 1
+        low = end
+    return count
+
+
+@compiled
+def split(springs: Springs, q: Array, new: Array, e: int, places: Array) -> int:
+    """Put 0, the places where p or p⁺ of element e changes sign, and 1 into ``places``, in order; returns how many."""
+    places[0] = 0.0
+    count = add_zeros(springs, new, e, places, add_zeros(springs, q, e, places, 1))
+    places[count] = 1.0
+    places[: count + 1].sort()
+    return count + 1
+
+
+@compiled
+def push(
+    springs: Springs, q: Array, new: Array, h: float, force: Array, tangent: Array, peaks: Array
+) -> tuple[float, float, int]:
+    """f = ∫Nᵀ R̄ dx, (dofs,), of a step from q to ``new``, and ∂f/∂q⁺ in lower banded form, (4, dofs).
+
+    Returns the whole force, N, the dashpots' loss over the step, J, and the last dof that is touched, −1: none.
+    ``peaks`` takes the largest penetration and pressure.
+    """
+    force[:] = 0.0
+    tangent[:] = 0.0
+    total, loss, touched, places = 0.0, 0.0, -1, np.zeros(8)
+    peaks[PENETRATION] = peaks[PRESSURE] = 0.0
+    for e in range(springs.first, springs.last):
+        length, i, count = springs.lengths[e], 2 * e, split(springs, q, new, e, places)
+        for piece in range(count - 1):
+            span = places[piece + 1] - places[piece]
+            for point in range(4):
+                at = places[piece] + span * POINTS[point]
+                p, after = depth(springs, q, e, at), depth(springs, new, e, at)
+                if p <= 0.0 and after <= 0.0:
+                    break  # nowhere on this piece
+                pressure, slope, taken = reaction(p, after, h, springs.stiffness, springs.damping)
+                weight = WEIGHTS[point] * span * length
+                total += weight * pressure
+                loss += weight * taken
+                touched = i + 3
+                peaks[PENETRATION] = max(peaks[PENETRATION], after)
+                peaks[PRESSURE] = max(peaks[PRESSURE], pressure)
+                N = shapes(at, length)
+                for j in range(4):
+                    force[i + j] += weight * pressure * N[j]
+                    for m in range(j + 1):
+                        tangent[j - m, i + m] += weight * slope * N[j] * N[m]
+    if springs.stop >= 0:
+        i = springs.stop
+        after = new[i] + springs.facing[i]
+        pressure, slope, taken = reaction(q[i] + springs.facing[i], after, h, springs.stiffness, springs.damping)
+        total, loss, touched = pressure, taken, i
+        peaks[PENETRATION], peaks[PRESSURE] = max(after, 0.0), pressure
+        force[i], tangent[0, i] = pressure, slope
+    return total, loss, touched
+
+
+@compiled
+def stored_energy(springs: Springs, q: Array) -> float:
+    """W, J."""
+    energy, places = 0.0, np.zeros(8)
+    for e in range(springs.first, springs.last):
+        count = split(springs, q, q, e, places)
+        for piece in range(count - 1):
+            span = places[piece + 1] - places[piece]
+            for point in range(4):
+                p = max(depth(springs, q, e, places[piece] + span * POINTS[point]), 0.0)
+                energy += 0.5 * springs.stiffness * p * p * WEIGHTS[point] * span * springs.lengths[e]
+    if springs.stop >= 0:
+        p = max(q[springs.stop] + springs.facing[springs.stop], 0.0)
+        energy += 0.5 * springs.stiffness * p * p
+    return energy
