@@ -19,6 +19,7 @@ import numpy as np
 
 from bent_beam import Impact
 from bent_beam.checks import positive
+from bent_beam.elastic_wall import WallScales, wall_scales
 from bent_beam.impact import FIRST_SPREAD
 from bent_beam.meshes import Mesh, NodesMesh, ScaleFreeMesh
 from exudyn_models.arrays import Array, Indices
@@ -41,6 +42,7 @@ __all__ = [
     "near_buckling",
     "reachable",
     "resolving_step",
+    "step_of_wall",
     "thin_front",
 ]
 
@@ -58,6 +60,8 @@ INSIDE = 0.6  # of where a bent-up end would itself be at the wall: beyond, noth
 ELEMENT_STEPS = 4e5  # elements times steps of a run with uniform elements: a few seconds
 FEWEST = 60  # uniform elements of a half beam, from 0.9 T* on; tests/exudyn_models/test_exudyn_constants.py
 STEP = 0.5  # h/(Δx²√(μ/EI)) that resolves the contact
+OF_WALL, BEYOND_WALL = 0.08, 4.0  # ℓ_k: elements before a wall that gives way, up to so far beyond the front's bound
+STEP_OF_WALL, LONGEST_OF_WALL = 0.125, 0.02  # h/t_k over Δx/ℓ_k, and at most
 MOST_STEPS = 200_000  # that an open time step may ask for
 FIRST_ORDER_HOLD = 16  # elements behind the front; it ends when waves may be back, and every run states it
 FIRST_ORDER_STEPS = 4.0  # so many times shorter steps: λ₁ of (−1, −1, 0) at κ/ν = 0.8 is 5 % off without, 0.4 % with
@@ -81,9 +85,9 @@ def choose(parts: Composition, impact: Impact, end_time: float, *, for_loads: bo
     for_loads : the run measures what the loads of ``impact`` change: open steps are shorter, an open contact holds.
     """
     shorter = FIRST_ORDER_STEPS if for_loads and parts.integrator is None and impact.loaded else 1.0
-    if for_loads:
+    if for_loads and impact.wall_stiffness is None:
         parts = dataclasses.replace(parts, contact=held_for(parts.contact, impact))
-    contact, element, integrator, geometry, solver = parts.joined()
+    contact, element, integrator, geometry, solver = parts.joined(impact)
     mesh = parts.mesh or chosen_mesh(impact, end_time, explicit=integrator.explicit)
     mesh, integrator = mesh.refined(parts.refine), integrator.refined(parts.refine * shorter)
     if parts.integrator is None:
@@ -127,14 +131,17 @@ def chosen_mesh(
     coarsen : factor on every element's length.
     """
     positive("coarsen", coarsen)
-    if lasts_until_waves_return(impact, end_time):
+    if lasts_until_waves_return(impact, end_time) and impact.wall_stiffness is None:
         steps_at_one = 2.0 * impact.checked_end_time(end_time) / impact.slow_time_scale  # with one element
         count = max((ELEMENT_STEPS / steps_at_one) ** (1.0 / 3.0), FEWEST) * near_buckling(impact) / coarsen
         places = np.linspace(0.0, impact.half_length, max(2, round(count)) + 1)
         return NodesMesh(places=tuple(float(place) for place in places))
     scaling = Scaling.of(impact, impact.checked_end_time(end_time))
-    front = front_bound(scaling.kappa)
-    if explicit:
+    front, wall = front_bound(scaling.kappa), wall_scales(impact)
+    if wall is not None:
+        ratio = wall.length / scaling.length
+        element, growth, zone = OF_WALL * min(1.0, scaling.kappa**-0.375) * ratio, 0.0, front + BEYOND_WALL * ratio
+    elif explicit:
         element, growth, zone = min(max(front, 0.5) / 25, (2.0 / front) / 10), GROWTH_OF_WAVES, None
     elif thin_front(scaling.kappa):
         count = min(max(OF_THIN_FRONT * front**2 / 2.0, LEAST_OF_ZONE), MOST_OF_ZONE)
@@ -167,6 +174,13 @@ def near_buckling(impact: Impact) -> float:
     return min(max(1.0 + share, 1.5**-2), 1.0) ** -0.5
 
 
+def step_of_wall(mesh: Mesh, impact: Impact, wall: WallScales) -> float:
+    """The time step, s, before a wall that gives way."""
+    half_length = mesh.places[-1] if isinstance(mesh, NodesMesh) else impact.half_length
+    element = float(np.diff(mesh.nodes(half_length)).min())
+    return min(STEP_OF_WALL * element / wall.length, LONGEST_OF_WALL) * wall.time
+
+
 def resolving_step(mesh: Mesh, impact: Impact) -> float:
     """The time step, s, that resolves the contact of the shortest element: ½Δx²√(μ/EI)."""
     return STEP * float(np.diff(mesh.nodes(impact.half_length)).min()) ** 2 / impact.wave_constant
@@ -188,7 +202,10 @@ def chosen_steps(integrator: Integrator, mesh: Mesh, impact: Impact, end_time: f
     changed: dict[str, float] = {}
     if integrator.explicit:
         return integrator
-    if lasts_until_waves_return(impact, end_time):
+    wall = wall_scales(impact)
+    if wall is not None:
+        changed["time_step"] = step_of_wall(mesh, impact, wall)
+    elif lasts_until_waves_return(impact, end_time):
         step = resolving_step(mesh, impact)
         if end <= MOST_STEPS * step:
             changed["time_step"] = step

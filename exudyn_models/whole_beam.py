@@ -22,12 +22,13 @@ from typing import TypeVar
 import numpy as np
 
 from bent_beam import Impact
+from bent_beam.elastic_wall import wall_scales
 from bent_beam.meshes import UniformMesh
 from exudyn_models.composition import Composition
 from exudyn_models.contacts import Penalty, penalty
 from exudyn_models.elements import ANCFCable
 from exudyn_models.integrators import Trapezoidal
-from exudyn_models.resolution import STEP, near_buckling, resolving_step
+from exudyn_models.resolution import STEP, near_buckling, resolving_step, step_of_wall
 
 __all__ = ["cross_checks", "for_whole_beam", "varied"]
 
@@ -37,12 +38,16 @@ CONTACT = Penalty(hold_start=0.0)
 POINT_ELEMENTS = 100  # of a half beam that touches in a point; half as many: e moves by 4e-5
 ZONE_ELEMENTS = 240  # where a zone spreads, κ/ν < 1; 220 to 300: e within 1.5e-4 at κ/ν = 0.4, η/T* = 1e-2, the worst
 SLOWER = math.sqrt(2.0)  # its steps; the penalty is softer by the square
+LARGEST_OF_WALL = 0.25  # ℓ_k: elements before a wall that gives way
 FLATTEST = 1.0 / 150.0  # κ/ν down to which the front does not ask for a stiffer penalty
 
 
 def for_whole_beam(method: C, impact: Impact) -> C:
     """A copy of ``method`` whose open parts are those of the module's head; its ``refine`` is worked in."""
     elements = ZONE_ELEMENTS if impact.kappa_over_nu < 1.0 else POINT_ELEMENTS
+    wall = wall_scales(impact)
+    if wall is not None:
+        elements = max(elements, round(impact.half_length / (LARGEST_OF_WALL * wall.length)))
     chosen = method.mesh is None and method.contact is None and method.integrator is None
     slower = SLOWER if chosen and FLATTEST <= impact.kappa_over_nu < 1.0 else 1.0
     elements = round(elements * near_buckling(impact))
@@ -50,11 +55,12 @@ def for_whole_beam(method: C, impact: Impact) -> C:
     mesh = mesh.refined(method.refine)
     integrator = method.integrator
     if integrator is None:
-        integrator = Trapezoidal(time_step=slower * resolving_step(mesh, impact))
+        step = slower * resolving_step(mesh, impact) if wall is None else step_of_wall(mesh, impact, wall)
+        integrator = Trapezoidal(time_step=step)
     else:
         integrator = integrator.refined(method.refine)
     contact = method.contact
-    if contact is None:
+    if contact is None and wall is None:
         contact = CONTACT if slower == 1.0 else _softer(CONTACT, slower**-2)
     return dataclasses.replace(
         method,
@@ -100,7 +106,7 @@ def varied(method: C, impact: Impact, random: np.random.Generator) -> C:
     elements = int(random.integers(2 * POINT_ELEMENTS // 5, 4 * POINT_ELEMENTS // 5))
     length = impact.half_length / elements
     step = STEP * 2.0 ** random.uniform(-0.5, 0.5) * length**2 / impact.wave_constant
-    contact = _softer(CONTACT, 2.0 ** random.uniform(-2.0, 0.0))
+    contact = _softer(CONTACT, 2.0 ** random.uniform(-2.0, 0.0)) if impact.wall_stiffness is None else None
     return dataclasses.replace(
         method, mesh=UniformMesh(length), integrator=Trapezoidal(time_step=step), contact=contact
     )

@@ -36,7 +36,7 @@ from exudyn_models.contacts.base import TINY, Contact, ContactRun, Wall
 from exudyn_models.contacts.holding import START, HeldStrip, Hold
 from exudyn_models.elements import Beam
 
-__all__ = ["Penalty", "penalty_per_length"]
+__all__ = ["Penalty", "PenaltyRun", "penalty_per_length"]
 
 STIFFNESS, DAMPING = 10.0, 3.0  # C and D
 PLASTIC = 40.0  # D behind a thin front
@@ -53,7 +53,9 @@ def penalty_per_length(lengths: Array, relative_stiffness: float, relative_dampi
     return relative_stiffness / lengths**4, relative_damping / lengths**2
 
 
-class _Run(ContactRun):
+class PenaltyRun(ContactRun):
+    """Springs and dashpots at the nodes; ``stiffness`` and ``damping`` of each contact point, shape (contacts,)."""
+
     imposes = True
 
     def __init__(
@@ -205,4 +207,4 @@ class Penalty(Contact):
         k, d = penalty_per_length(local, stiffness, damping)
         strip = HeldStrip(wall, self.hold, 0.0 if plastic and self.hold_start is None else self.hold_start)
         chosen = {"relative_stiffness": stiffness, "relative_damping": damping}
-        return _Run(beam, wall, k * length, d * length, strip, chosen)
+        return PenaltyRun(beam, wall, k * length, d * length, strip, chosen)
