@@ -54,7 +54,7 @@ def loads_of(kind: type) -> dict[str, Load]:
 def unmodelled(impact: Any, modelled: Collection[str]) -> str | None:
     """Why a solver of the features ``modelled``, loads among them, cannot take an impact, naming the field (``None``:
     it can)."""
-    about = declared(type(impact))
+    about = declared(type(impact))  # type: ignore[arg-type]
     for field in dataclasses.fields(impact):
         value = getattr(impact, field.name)
         if isinstance(about[field.name].quantity, Feature) and field.name not in modelled and value != field.default:

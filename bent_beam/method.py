@@ -133,8 +133,13 @@ LONGEST = 8.0  # T*: a beam that then still touches is not about to leave
 def separation_times(impact: Impact, longest: float | None = None, save: int = 2000) -> NDArray[np.float64]:
     """Saved instants, s, of a run until separation: ``save`` to a T*, evenly, up to ``longest`` (s; 8 T*).
 
-    Raises ``ValueError`` between two walls, which no separation is the last of.
+    Raises ``ValueError`` between two walls, or where supports bring the beam back: no separation is then the last.
     """
+    if impact.supported and {impact.left_end, impact.right_end} != {"hinged", "free"}:
+        raise ValueError(
+            f"left_end {impact.left_end!r}, right_end {impact.right_end!r}: supports bring the beam back, and no "
+            "separation is the last; give an end time"
+        )
     if impact.opposite_wall is not None:
         raise ValueError(
             f"opposite_wall {impact.opposite_wall!r}: between two walls no separation is the last; leave it out, or "

@@ -22,8 +22,9 @@ from comparison.store import RunStore, source_of
 from comparison.time_limit import Clock, TimeLimitError, affordable_refinement
 from measure.balance import balance_of
 from measure.estimators import FirstOrderEstimate, LeadingEstimate, first_order, leading_order
+from measure.measured import MISSING, Measured
 from measure.moments import Moments, moments
-from measure.reduction import hold_of, pull_of
+from measure.reduction import hold_of, pull_of, wall_peaks
 
 __all__ = ["INSTANTS", "coarsened", "match", "without_companion"]
 
@@ -45,6 +46,7 @@ class Refused(ValueError):
 @dataclass(frozen=True)
 class _Reduced:
     moments: Moments
+    peak_force: float | None
     pull: float | None
     hold: dict[str, float | None] | None
     warnings: list[str]
@@ -86,9 +88,11 @@ def _reduced(
             )
         except ValueError as error:
             raise Refused(str(error)) from None
-        found = moments(history, uniform=uniform)
+        found, peaks = moments(history, uniform=uniform), wall_peaks(history)
+        unit = (impact.wall_stiffness or 1.0) ** 0.25  # EI = μ = V₀ = 1
         return {
             "moments": {name: values.tolist() for name, values in vars(found).items()},
+            "peak_force": None if peaks is None else peaks.force / unit,
             "pull": pull_of(history),
             "hold": hold_of(history),
             "warnings": [*history.warnings, *balance_of(history).warnings],
@@ -105,13 +109,13 @@ def first_order_epsilon(leading: LeadingEstimate, first: First, perturbation: fl
     """The largest ε of the runs: the loads change the free motion by a small part of V₀t over the contact zone.
 
     ε τ (|α|/2 + |χ|z²/2 + |ψ|z⁴/24 + |N|/2) = ``perturbation`` at the end, z being the zone measured at ε = 0 and half
-    the front's thickness. Where nothing presses, ε is reduced for a front near the centre, which would move too far.
+    the front's thickness. ε is reduced for a front near the centre, which would move too far.
     """
-    front = leading.lambda0.known
+    front = leading.front
     z = front + 1.0 / math.sqrt(1.0 + front**2)
     alpha, psi, chi, axial = (abs(v) for v in first)
     part = perturbation
-    if first[0] + first[1] <= 0.0 and front > 0.0:
+    if front > 0.0:
         part *= front / (front + 0.2)
     top = part / (duration * (alpha / 2 + chi * z**2 / 2 + psi * z**4 / 24 + axial / 2))
     return between("first_order: the largest ε of the runs, from alpha, psi, chi and N,", top, 1 / EXTREME, EXTREME)
@@ -150,7 +154,7 @@ def _estimates(
     method = refined(asked, factor)
     if method is None:
         raise Refused(f"refine: {asked.path} does not know how to be refined (got {factor:g})")
-    bare = Impact.dimensionless(question.kappa_over_nu)
+    bare = question.bare
     _raise_if_refused(method, bare)
     run = _reduced(store, method, bare, question.duration, clock=clock)
     if first is None:
@@ -187,7 +191,7 @@ def _raise_if_refused(method: Method, impact: Impact) -> None:
 def coarsened(question: Question, store: RunStore, clock: Clock) -> tuple[Question, list[str]]:
     """The question at a resolution whose row ends within the clock's limit, and a warning where that is not the one
     asked for."""
-    bare = Impact.dimensionless(question.kappa_over_nu)
+    bare = question.bare
 
     def seconds_at(factor: float) -> float:
         method = refined(question.method, factor * question.refine)
@@ -237,6 +241,7 @@ def answer(question: Question, store: RunStore, limit: float | None = None) -> M
     return MatchRow(
         **about(question),
         **with_theory(question, leading, estimate),
+        peak_force=_peak_force(fine.run, [o.run for o in others]),
         lift=leading.lift,
         pull=_largest(r.pull for r in fine.runs),
         hold={name: _largest(h[name] for h in holds) for name in ("until", "pull")} if holds else None,
@@ -245,6 +250,14 @@ def answer(question: Question, store: RunStore, limit: float | None = None) -> M
         epsilons=list(estimate.epsilons) if estimate else [],
         warnings=sorted(set(warnings)),
     )
+
+
+def _peak_force(run: _Reduced, others: Sequence[_Reduced]) -> Measured:
+    """The largest force on a wall that gives way; its error bar is what other resolutions change."""
+    if run.peak_force is None:
+        return MISSING
+    apart = [abs(other.peak_force - run.peak_force) for other in others if other.peak_force is not None]
+    return Measured(run.peak_force, max(apart) if apart else None)
 
 
 def _largest(values: Iterable[float | None]) -> float | None:

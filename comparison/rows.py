@@ -8,7 +8,8 @@ from contextlib import suppress
 from dataclasses import dataclass, field
 from typing import Any
 
-from bent_beam.checks import finite, one_of, positive
+from bent_beam.checks import finite, non_negative, one_of, positive
+from bent_beam.impact import Impact
 from bent_beam.method import Method, settings_of
 from measure.measured import MISSING, Measured
 
@@ -42,7 +43,8 @@ class Question:
     """One row to be matched. ``first`` : (α, ψ, χ, N), or ``None`` for the leading order alone; ``refine`` : elements
     and steps so many times finer than the method's own; ``error_bars`` : "drift" (of the run alone), "quick" (a
     companion at half the resolution, a quarter of the work), "thorough" (one at twice the resolution too); ``duration``
-    : end of the runs, t*. Any will do at ε = 0, which is self-similar; the thesis ends at 0.1."""
+    : end of the runs, t*. Any will do at ε = 0, which is self-similar; the thesis ends at 0.1; ``wall`` : stiffness of the wall over μ/t*² and its
+    damping ratio, ``None`` of a rigid one."""
 
     method: Method
     kappa_over_nu: float
@@ -50,12 +52,25 @@ class Question:
     refine: float = 1.0
     error_bars: str = "quick"
     duration: float = DURATION
+    wall: tuple[float, float] | None = None
+
+    @property
+    def bare(self) -> Impact:
+        """The impact without loads, in units of the fast layer."""
+        impact = Impact.dimensionless(self.kappa_over_nu)
+        if self.wall is None:
+            return impact
+        stiffness, ratio = self.wall
+        return impact.replace(wall_stiffness=stiffness, wall_damping=2.0 * ratio * math.sqrt(stiffness))
 
     def __post_init__(self) -> None:
         positive("kappa_over_nu", self.kappa_over_nu)
         positive("refine", self.refine)
         positive("duration", self.duration)
         one_of("error_bars", self.error_bars, COMPANIONS)
+        if self.wall is not None:
+            positive("--wall", self.wall[0])
+            non_negative("--wall", self.wall[1])
         if self.first is not None:
             for name, value in zip(("alpha", "psi", "chi", "axial"), self.first):
                 finite(name, value)
@@ -69,6 +84,7 @@ class MatchRow:
     lift : the largest gap inside the zone over V₀t in the last decade of time; pull : the largest negative contact
     impulse over the largest positive one, after the start; hold : ``{"until": s, "pull": …}`` where any contact was
     held; seconds : of all runs of the row; epsilons : of the runs of first order.
+    wall : of the question; peak_force : the largest on it, in V₀√μ(EI k)^¼.
     reason : why there are no numbers (``None``: there are); refused : the method had said so before the run.
     """
 
@@ -81,11 +97,13 @@ class MatchRow:
     chi: float
     axial: float
     refine: float
+    wall: tuple[float, float] | None = None
     regime: str | None = None
     lambda0: Measured = MISSING
     r0: Measured = MISSING
     lambda1: Measured = MISSING
     r1: Measured = MISSING
+    peak_force: Measured = MISSING
     lift: float | None = None
     pull: float | None = None
     hold: dict[str, float | None] | None = None
@@ -123,9 +141,12 @@ def questions(
     refines: Sequence[float] = (1.0,),
     error_bars: str = "quick",
     duration: float = DURATION,
+    wall: tuple[float, float] | None = None,
 ) -> list[Question]:
-    """Every method × κ/ν × (α, ψ, χ[, N]) × refinement; without ``firsts`` the leading order alone. α = ``None``: what
-    the axial force makes of a bow free of stress in free flight, α = −κN."""
+    """Every method × κ/ν × (α, ψ, χ[, N]) × refinement, before ``wall``; without ``firsts`` the leading order alone.
+
+    α = ``None``: what the axial force makes of a bow free of stress in free flight, α = −κN.
+    """
 
     def load(first: Sequence[float | None] | None, kappa: float) -> Any:
         if first is None:
@@ -135,7 +156,7 @@ def questions(
 
     asked: list[Sequence[float | None] | None] = [*firsts] or [None]
     return [
-        Question(m, k, load(f, k), r, error_bars, duration)
+        Question(m, k, load(f, k), r, error_bars, duration, wall)
         for k in kappas
         for m in methods
         for f in asked
@@ -170,6 +191,7 @@ def about(question: Question) -> dict[str, Any]:
         "chi": chi,
         "axial": axial,
         "refine": question.refine,
+        "wall": question.wall,
     }
 
 

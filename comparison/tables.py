@@ -38,6 +38,8 @@ def match_table(rows: Sequence[MatchRow]) -> str:
     head += ["alpha,psi,chi,N"] if first else []
     head += ["lambda0", "%", "r0", "%"]
     head += ["lambda1", "%", "r1", "%"] if first else []
+    elastic = any(r.wall for r in rows)
+    head += ["F/(V0 sqrt(mu)(EI k)^1/4)"] if elastic else []
     head += ["lift/(V0 t)", "pull", "held", "s"]
     body = []
     for r in rows:
@@ -46,6 +48,7 @@ def match_table(rows: Sequence[MatchRow]) -> str:
         line += [",".join(f"{v:g}" for v in r.first) if r.of_first_order else "-"] if first else []
         for name in ("lambda0", "r0", "lambda1", "r1")[: 4 if first else 2]:
             line += _cells(getattr(r, name), LEAST[name])
+        line += [str(r.peak_force) if r.peak_force.measured else "-"] if elastic else []
         line += [
             "-" if r.lift is None else f"{r.lift:.0e}",
             "-" if r.pull is None else f"{r.pull:.0e}",

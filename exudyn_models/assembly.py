@@ -17,7 +17,7 @@ from exudyn_models.elements import Beam, Element
 from exudyn_models.elements.beam import VISCOSITY, VISCOSITY_EXPLICIT, Section
 from exudyn_models.geometry import Shape
 from exudyn_models.integrators import Integrator
-from exudyn_models.resolution import reachable, thin_front
+from exudyn_models.resolution import lasts_until_waves_return, reachable, thin_front
 from exudyn_models.scaling import Scaling, front_bound
 from exudyn_models.viewer import draw_wall
 
@@ -25,6 +25,7 @@ __all__ = ["assemble", "stable_step"]
 
 STRETCH = 1e-4  # largest strain under the axial force in the linear limit: lengths are then right to as much
 TAUT = 1e4  # EAΛ²/EI under it: a strain of N/EA moves the front, too, by 7e-4 of what the force does (λ_N at κ/ν = 0.5)
+STRETCH_LATER = 1e-7  # likewise once waves are back: else waves along the beam take up to 1e-2 of the energy
 
 
 def assemble(
@@ -65,11 +66,14 @@ def _axial_stiffness(asked: float | None, true: bool, scaling: Scaling) -> float
         return asked * scaling.length**2 / scaling.impact.bending_stiffness
     if true:
         return 12.0 * (scaling.length / scaling.impact.section_height) ** 2
-    return max(TAUT, abs(scaling.axial_force) / STRETCH) if scaling.axial_force else 1.0
+    if not scaling.axial_force:
+        return 1.0
+    later = lasts_until_waves_return(scaling.impact, scaling.end_time)
+    return max(TAUT, abs(scaling.axial_force) / (STRETCH_LATER if later else STRETCH))
 
 
 def _wall(shape: Shape, scaling: Scaling, centre: int, half: bool, explicit: bool) -> Wall:
-    opposite = scaling.impact.opposite_wall
+    opposite, stiffness = scaling.impact.opposite_wall, scaling.impact.wall_stiffness
     first_spread = FIRST_SPREAD * scaling.impact.slow_time_scale / scaling.end_time
     return Wall(
         nodes=reachable(shape.s, scaling, centre),
@@ -80,6 +84,7 @@ def _wall(shape: Shape, scaling: Scaling, centre: int, half: bool, explicit: boo
         plastic=thin_front(scaling.kappa) and first_spread >= 1.0 and not explicit,
         explicit=explicit,
         opposite=None if opposite is None else -opposite / scaling.deflection,
+        stiffness=None if stiffness is None else stiffness * scaling.length**4 / scaling.impact.bending_stiffness,
     )
 
 

@@ -10,7 +10,7 @@ from bent_beam.fields import Part, Quantity
 from bent_beam.impact import Impact
 from bent_beam.loads import unmodelled
 from bent_beam.meshes import MESHES, Mesh
-from exudyn_models.contacts import CONTACTS, Contact, Penalty
+from exudyn_models.contacts import CONTACTS, Contact, Penalty, Springs
 from exudyn_models.elements import ELEMENTS, ANCFCable, Element
 from exudyn_models.geometry import GEOMETRIES, Geometry
 from exudyn_models.integrators import INTEGRATORS, Integrator
@@ -18,8 +18,8 @@ from exudyn_models.solvers import SOLVERS, NewtonSolver
 
 __all__ = ["Composition"]
 
-LOADS = ("acceleration", "curvature_rate", "fourth_derivative", "axial_force", "rotation")
-"""The loads that :mod:`exudyn_models.assembly` models."""
+LOADS = ("acceleration", "curvature_rate", "fourth_derivative", "axial_force", "rotation", "wall_stiffness")
+"""The loads and features that :mod:`exudyn_models.assembly` models."""
 
 
 @dataclass(frozen=True)
@@ -53,9 +53,9 @@ class Composition(Part):
         """A copy with elements and steps ``factor`` times finer."""
         return dataclasses.replace(self, refine=self.refine * factor)
 
-    def joined(self) -> tuple[Contact, Element, Integrator, Geometry, NewtonSolver]:
+    def joined(self, impact: Impact) -> tuple[Contact, Element, Integrator, Geometry, NewtonSolver]:
         """The parts that do not depend on the problem; what is open goes with the contact."""
-        contact = self.contact or Penalty()
+        contact = self.contact or (Penalty() if impact.wall_stiffness is None else Springs())
         return (
             contact,
             self.element or ANCFCable(),
@@ -66,7 +66,9 @@ class Composition(Part):
 
     def refuses(self, impact: Impact) -> str | None:
         """Why the model cannot take ``impact`` (``None``: it can)."""
-        contact, element, integrator, geometry, _ = self.joined()
+        if impact.wall_stiffness is not None and self.contact is not None:
+            return f"exudyn.contact has no effect on a wall with a stiffness: leave it out (got {self.contact!r})"
+        contact, element, integrator, geometry, _ = self.joined(impact)
         reason = unmodelled(impact, LOADS) or self._refuses_asymmetry(impact)
         reason = reason or contact.refuses(impact, element, integrator)
         if not reason and geometry.true and impact.off_centre:

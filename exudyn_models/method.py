@@ -11,7 +11,7 @@ from bent_beam.free_flight import Separation
 from bent_beam.history import ImpactHistory
 from bent_beam.impact import Impact
 from bent_beam.method import Save, made_of, separation_times
-from exudyn_models import resolution
+from exudyn_models import resolution, whole_beam
 from exudyn_models.arrays import Array
 from exudyn_models.composition import Composition
 from exudyn_models.recording import Recorder
@@ -32,9 +32,9 @@ class ExudynModel(Composition):
 
     label: str = "Exudyn"
 
-    for_whole_beam = resolution.for_whole_beam
-    cross_checks = resolution.cross_checks
-    varied = resolution.varied
+    for_whole_beam = whole_beam.for_whole_beam
+    cross_checks = whole_beam.cross_checks
+    varied = whole_beam.varied
 
     def simulate(
         self,

@@ -99,6 +99,7 @@ class Recorder:
         self.sums = {name: np.zeros(()) for name in (*SAVED_SUMS, *OTHER_SUMS)}
         self.total = self.start_stored = self.deepest = 0.0
         self.start_momentum = math.nan
+        self.peaks = np.zeros(3)  # of a wall that gives way, see _of_springs
         self.fastest = float(np.abs(shape.velocity_y).max())
 
     def read(self, t: float, solution: tuple[Array, Array] | None = None) -> tuple[Array, Array]:
@@ -148,6 +149,8 @@ class Recorder:
         dt = np.diff(time)
         gains = self._of_energy(time, q, v, a) | self._of_contact(dt, q, force)
         after = {name: _onwards(self.sums[name], gain) for name, gain in gains.items()}
+        if self.scaling.impact.wall_stiffness is not None:
+            self._of_springs(time, q, force)
         total = self.start_momentum + after["load_impulse"] - v @ self.momentum
         impulse = _onwards(self.impulse, self._impulses(dt, q, force, np.diff(total)))
         record = self.record
@@ -164,7 +167,8 @@ class Recorder:
         self.impulse, self.total = impulse[-1], float(total[-1])
         late = np.flatnonzero(time > 0.01)
         if late.size:
-            depth = (q[late][:, self.beam.vertical] - self.wall_y).max(axis=1)
+            near = self.contact.nodes  # what lies beyond them is let through
+            depth = (q[late][:, self.beam.vertical[near]] - self.wall_y[near]).max(axis=1)
             self.deepest = max(self.deepest, float((depth / time[late]).max()))
         self.pending.clear()
         self.rows = self.rows[-1:]
@@ -201,6 +205,16 @@ class Recorder:
             "held_impulse": pulls.sum(axis=1),
             "pushed": np.maximum(pushes, 0.0).sum(axis=1),
         }
+
+    def _of_springs(self, time: Array, q: Array, force: Array) -> None:
+        """The largest force on the zone, when, and the largest penetration of all steps so far, where they are saved."""
+        depth = np.maximum(q[:, self.beam.vertical[self.contact.nodes]] - self.contact.wall_y, 0.0).max(axis=1)
+        for k, pushed in enumerate(force.sum(axis=1)):
+            if pushed > self.peaks[0]:
+                self.peaks[:2] = pushed, time[k]
+            self.peaks[2] = max(self.peaks[2], depth[k])
+            if k in self.pending:
+                self.record["peaks"].append(self.peaks.copy())
 
     def _impulses(self, dt: Array, q: Array, force: Array, total: Array) -> Array:
         """Impulse of each contact point in each step, (steps, contacts), ``total`` (steps,) being all of them."""
@@ -250,6 +264,15 @@ class Recorder:
             fields[name] = of_time, saved[name] * both * s.impulse
         for name in (*ENERGIES, "loss_impact", *SAVED_SUMS[:-1]):
             fields[name] = of_time, saved[name] * both * s.energy
+        if "peaks" in saved:
+            force, when, depth = saved["peaks"].T
+            fields |= {
+                "peak_force": (of_time, force * both * s.impulse / s.end_time),
+                "peak_force_time": (of_time, when * s.end_time),
+                "peak_penetration": (of_time, depth * s.deflection),
+                "peak_pressure": (of_time, depth * s.deflection * (s.impact.wall_stiffness or 0.0)),
+                "loss_wall": (of_time, 0.0 * depth),
+            }
         if not front.all():
             fields |= self._of_two_walls(fields, front)
         return ImpactHistory.build(

@@ -6,18 +6,6 @@ plastic (:mod:`exudyn_models.contacts.penalty`), not the bending ahead. A run th
 lasts until waves are back from the ends needs every part of the beam alike, and steps that resolve the contact: one
 that closes a node in a step much longer than the penalty's own time gives half of the reaction once more in the next,
 and the beam leaves with more energy than it had. There the mesh is uniform and h = ½Δx²√(μ/EI).
-
-**The whole beam**, from the first touch to the last separation, asks for something else: nothing may be held, nothing
-damped but by the beam itself, and every part of it matters alike. So
-
-    a uniform mesh,   constant steps,   the trapezoidal rule,   no viscosity at grid scale.
-
-A beam that touches in a point takes h = ½Δx²√(μ/EI) and the penalty as it is. Where a zone spreads, e is off by what
-elements lose that land, about in proportion to Δx; how stiff the penalty is, how it is damped and how long the steps
-are matters less, as long as the steps resolve the penalty. So there elements are shorter, steps √2 times as long for
-them, and the penalty half as stiff, with the same damping ratio: kh² and dh stay what they are. With a mesh, steps or
-contact of somebody's own, and where the beam is so flat that its front asks for a stiffer penalty, steps and penalty
-are as for a point; elements are shorter wherever no mesh is given.
 """
 
 from __future__ import annotations
@@ -25,20 +13,21 @@ from __future__ import annotations
 import dataclasses
 import math
 from dataclasses import dataclass
-from typing import Any, TypeVar, cast
+from typing import Any, cast
 
 import numpy as np
 
 from bent_beam import Impact
 from bent_beam.checks import positive
+from bent_beam.elastic_wall import WallScales, wall_scales
 from bent_beam.impact import FIRST_SPREAD
-from bent_beam.meshes import Mesh, NodesMesh, ScaleFreeMesh, UniformMesh
+from bent_beam.meshes import Mesh, NodesMesh, ScaleFreeMesh
 from exudyn_models.arrays import Array, Indices
 from exudyn_models.composition import Composition
-from exudyn_models.contacts import Contact, Penalty, penalty
-from exudyn_models.elements import ANCFCable, Element
+from exudyn_models.contacts import Contact, Penalty
+from exudyn_models.elements import Element
 from exudyn_models.geometry import Geometry
-from exudyn_models.integrators import Integrator, Trapezoidal
+from exudyn_models.integrators import Integrator
 from exudyn_models.scaling import Scaling, front_bound
 from exudyn_models.solvers import NewtonSolver
 
@@ -47,37 +36,35 @@ __all__ = [
     "choose",
     "chosen_half_length",
     "chosen_mesh",
-    "cross_checks",
     "far_field",
-    "for_whole_beam",
     "held_for",
+    "lasts_until_waves_return",
+    "near_buckling",
     "reachable",
+    "resolving_step",
+    "step_of_wall",
     "thin_front",
-    "varied",
 ]
 
-C = TypeVar("C", bound=Composition)
-
 GROWTH = 0.01  # neighbours of the chosen mesh: 5 elements over the front's bending length at κ/ν = 0.05, 20 at 0.2
-THIN = 0.04  # κ/ν below which the front passes an element of that mesh about as fast as the element bends
+THIN = 0.12  # κ/ν below which hits of nodes at the front of that mesh lift the zone; 0.07 without: λ₁ 23 % off
 WAVES, GROWTH_OF_WAVES = 2.0, 0.02  # beyond so many times the front's bound there are waves only, and these neighbours
-OF_ZONE, OF_BENDING = 300.0, 30.0  # the smallest element over the front's bound and over the bending ahead of it
+OF_ZONE, OF_BENDING = 300.0, 30.0  # the smallest element over the front's bound and over the bending ahead of it …
+OF_SHORT_ZONE, SHORTEST = 60.0, 0.01  # … and over bound (1 − κ/ν), which the zone shrinks with, down to this 1 − κ/ν
 OF_THIN_FRONT = 3.0  # equal elements over the bending length of a thin front at the end of the run, …
 LEAST_OF_ZONE, MOST_OF_ZONE = 300.0, 800.0  # … but so many at least and at most up to the front's bound
 BEYOND = 1.1  # times the front's bound, where these end
 PASSED = 2.0  # elements that a thin front passes in a step
 REACH, REACH_OF_FRONT = 12.0, 8.0  # half length to model, see far_field; tests/exudyn_models/test_exudyn_constants.py
+INSIDE = 0.6  # of where a bent-up end would itself be at the wall: beyond, nothing touches
 ELEMENT_STEPS = 4e5  # elements times steps of a run with uniform elements: a few seconds
 FEWEST = 60  # uniform elements of a half beam, from 0.9 T* on; tests/exudyn_models/test_exudyn_constants.py
 STEP = 0.5  # h/(Δx²√(μ/EI)) that resolves the contact
+OF_WALL, BEYOND_WALL = 0.08, 4.0  # ℓ_k: elements before a wall that gives way, up to so far beyond the front's bound
+STEP_OF_WALL, LONGEST_OF_WALL = 0.125, 0.02  # h/t_k over Δx/ℓ_k, and at most
 MOST_STEPS = 200_000  # that an open time step may ask for
 FIRST_ORDER_HOLD = 16  # elements behind the front; it ends when waves may be back, and every run states it
 FIRST_ORDER_STEPS = 4.0  # so many times shorter steps: λ₁ of (−1, −1, 0) at κ/ν = 0.8 is 5 % off without, 0.4 % with
-CONTACT = Penalty(hold_start=0.0)
-POINT_ELEMENTS = 100  # of a half beam that touches in a point; half as many: e moves by 4e-5
-ZONE_ELEMENTS = 240  # where a zone spreads, κ/ν < 1; 220 to 300: e within 1.5e-4 at κ/ν = 0.4, η/T* = 1e-2, the worst
-SLOWER = math.sqrt(2.0)  # its steps; the penalty is softer by the square
-FLATTEST = 1.0 / 150.0  # κ/ν down to which the front does not ask for a stiffer penalty
 
 
 @dataclass(frozen=True)
@@ -98,9 +85,9 @@ def choose(parts: Composition, impact: Impact, end_time: float, *, for_loads: bo
     for_loads : the run measures what the loads of ``impact`` change: open steps are shorter, an open contact holds.
     """
     shorter = FIRST_ORDER_STEPS if for_loads and parts.integrator is None and impact.loaded else 1.0
-    if for_loads:
+    if for_loads and impact.wall_stiffness is None:
         parts = dataclasses.replace(parts, contact=held_for(parts.contact, impact))
-    contact, element, integrator, geometry, solver = parts.joined()
+    contact, element, integrator, geometry, solver = parts.joined(impact)
     mesh = parts.mesh or chosen_mesh(impact, end_time, explicit=integrator.explicit)
     mesh, integrator = mesh.refined(parts.refine), integrator.refined(parts.refine * shorter)
     if parts.integrator is None:
@@ -110,9 +97,10 @@ def choose(parts: Composition, impact: Impact, end_time: float, *, for_loads: bo
 
 def held_for(contact: Contact | None, impact: Impact) -> Contact:
     """The contact with the hold that suits the load, for the runs with and without load."""
-    if impact.zone_pressure > 0.0 and contact is None and not thin_front(impact.kappa_over_nu):
+    spreads = not thin_front(impact.kappa_over_nu) and impact.kappa_over_nu < 1.0
+    if impact.zone_pressure > 0.0 and contact is None and spreads:
         # The load first closes what the rebound of the first instants has left. λ₁ of (4, 0, 0) at κ/ν = 0.5 is
-        # 12 % off without the hold, 0.1 % with it. Behind a thin front nothing rebounds.
+        # 12 % off without the hold, 0.1 % with it. Behind a thin front nothing rebounds, behind a point nothing is.
         return Penalty(hold=FIRST_ORDER_HOLD)
     contact = contact or Penalty()
     if impact.zone_pressure < 0.0 and isinstance(contact, Penalty) and contact.hold_start is None:
@@ -126,14 +114,7 @@ def far_field(scaling: Scaling) -> float:
 
     Waves of the front's length 2/λ₀ travel ~ 2λ₀ by the end and longer ones less; beyond 12 the kernel H has decayed.
     """
-    kappa = scaling.kappa
-    reach = REACH + REACH_OF_FRONT * math.sqrt(2.0 / max(kappa, 2e-3))
-    # a growing velocity (χ > 0) or an upward bent end (ψ > 0) would bring the far field to the wall: stay well inside
-    chi, psi = scaling.motion.terms[2, 1], scaling.motion.terms[4, 0]
-    spread = kappa - max(chi, 0.0)
-    if psi > 0.0 and spread > 0.0:
-        reach = min(reach, 0.6 * math.sqrt(12.0 * spread / psi))
-    return reach
+    return REACH + REACH_OF_FRONT * math.sqrt(2.0 / max(scaling.kappa, 2e-3))
 
 
 def chosen_half_length(impact: Impact, end_time: float | None = None) -> float:
@@ -150,20 +131,25 @@ def chosen_mesh(
     coarsen : factor on every element's length.
     """
     positive("coarsen", coarsen)
-    if lasts_until_waves_return(impact, end_time):
+    if lasts_until_waves_return(impact, end_time) and impact.wall_stiffness is None:
         steps_at_one = 2.0 * impact.checked_end_time(end_time) / impact.slow_time_scale  # with one element
-        count = max((ELEMENT_STEPS / steps_at_one) ** (1.0 / 3.0), FEWEST) / coarsen
+        count = max((ELEMENT_STEPS / steps_at_one) ** (1.0 / 3.0), FEWEST) * near_buckling(impact) / coarsen
         places = np.linspace(0.0, impact.half_length, max(2, round(count)) + 1)
         return NodesMesh(places=tuple(float(place) for place in places))
     scaling = Scaling.of(impact, impact.checked_end_time(end_time))
-    front = front_bound(scaling.kappa)
-    if explicit:
+    front, wall = front_bound(scaling.kappa), wall_scales(impact)
+    if wall is not None:
+        ratio = wall.length / scaling.length
+        element, growth, zone = OF_WALL * min(1.0, scaling.kappa**-0.375) * ratio, 0.0, front + BEYOND_WALL * ratio
+    elif explicit:
         element, growth, zone = min(max(front, 0.5) / 25, (2.0 / front) / 10), GROWTH_OF_WAVES, None
     elif thin_front(scaling.kappa):
         count = min(max(OF_THIN_FRONT * front**2 / 2.0, LEAST_OF_ZONE), MOST_OF_ZONE)
         element, growth, zone = front / count, 0.0, BEYOND * front
     else:
         element, growth, zone = min(front / OF_ZONE, (2.0 / front) / OF_BENDING), GROWTH, WAVES * front
+        if scaling.kappa < 1.0:
+            element = min(element, front * max(1.0 - scaling.kappa, SHORTEST) / OF_SHORT_ZONE)
     rule = ScaleFreeMesh(
         element * scaling.length * coarsen,
         1.0 + growth * coarsen,
@@ -178,6 +164,21 @@ def lasts_until_waves_return(impact: Impact, end_time: float | None) -> bool:
     """Whether waves from the ends of the beam are back before the end time, s."""
     end = impact.checked_end_time(end_time)
     return end > FIRST_SPREAD * impact.slow_time_scale and chosen_half_length(impact, end) == impact.half_length
+
+
+def near_buckling(impact: Impact) -> float:
+    """(1 − |N|/N_cr)^{−1/2} under compression, at most 1.5: the beam bends 1/(1 − |N|/N_cr) times as far, and what
+    elements miss, ~ Δx², counts as much more. At 0.73 N_cr and κ/ν = 2 J is 0.35 % off with 50 elements, 0.1 % with
+    100."""
+    share = impact.axial_force * impact.length**2 / (math.pi**2 * impact.bending_stiffness)
+    return min(max(1.0 + share, 1.5**-2), 1.0) ** -0.5
+
+
+def step_of_wall(mesh: Mesh, impact: Impact, wall: WallScales) -> float:
+    """The time step, s, before a wall that gives way."""
+    half_length = mesh.places[-1] if isinstance(mesh, NodesMesh) else impact.half_length
+    element = float(np.diff(mesh.nodes(half_length)).min())
+    return min(STEP_OF_WALL * element / wall.length, LONGEST_OF_WALL) * wall.time
 
 
 def resolving_step(mesh: Mesh, impact: Impact) -> float:
@@ -201,7 +202,10 @@ def chosen_steps(integrator: Integrator, mesh: Mesh, impact: Impact, end_time: f
     changed: dict[str, float] = {}
     if integrator.explicit:
         return integrator
-    if lasts_until_waves_return(impact, end_time):
+    wall = wall_scales(impact)
+    if wall is not None:
+        changed["time_step"] = step_of_wall(mesh, impact, wall)
+    elif lasts_until_waves_return(impact, end_time):
         step = resolving_step(mesh, impact)
         if end <= MOST_STEPS * step:
             changed["time_step"] = step
@@ -221,79 +225,19 @@ def _step_over_elements(mesh: Mesh, impact: Impact, end: float) -> float:
 
 def reachable(x: Array, scaling: Scaling, centre: int) -> Indices:
     """Nodes that may touch: half as far again as the free motion would carry the beam into the wall, and all where
-    waves from the ends may throw any of them at it."""
+    waves from the ends may throw any of them at it.
+
+    A growing velocity (χ > 0) or an upward bent end (ψ > 0) would bring the far field to the wall: let through."""
     impact = scaling.impact
     if impact.opposite_wall is not None or impact.rotation or lasts_until_waves_return(impact, scaling.end_time):
         return np.arange(x.size)
     times = np.linspace(0.05, 1.0, 20)[:, None]
     inside = (scaling.motion(x[None, :] - scaling.first_touch, times) > 0.0).any(axis=0)
     place = np.abs(x - scaling.first_touch)
-    reach = 1.5 * place[inside].max(initial=0.0)
+    chi, psi = scaling.motion.terms[2, 1], scaling.motion.terms[4, 0]
+    spread = scaling.kappa - max(chi, 0.0)
+    let = INSIDE * math.sqrt(12.0 * spread / psi) if psi > 0.0 and spread > 0.0 else math.inf
+    reach = min(1.5 * place[inside & (place < let)].max(initial=0.0), let)
     wide = place <= reach * (1.0 + 1e-9)  # a node right there belongs, whatever its round-off
     wide[max(0, centre - 20) : centre + 21] = True
     return np.flatnonzero(wide)
-
-
-def for_whole_beam(method: C, impact: Impact) -> C:
-    """A copy of ``method`` whose open parts are those of the module's head; its ``refine`` is worked in."""
-    elements = ZONE_ELEMENTS if impact.kappa_over_nu < 1.0 else POINT_ELEMENTS
-    chosen = method.mesh is None and method.contact is None and method.integrator is None
-    slower = SLOWER if chosen and FLATTEST <= impact.kappa_over_nu < 1.0 else 1.0
-    mesh = UniformMesh(impact.half_length / elements) if method.mesh is None else method.mesh
-    mesh = mesh.refined(method.refine)
-    integrator = method.integrator
-    if integrator is None:
-        integrator = Trapezoidal(time_step=slower * resolving_step(mesh, impact))
-    else:
-        integrator = integrator.refined(method.refine)
-    contact = method.contact
-    if contact is None:
-        contact = CONTACT if slower == 1.0 else _softer(CONTACT, slower**-2)
-    return dataclasses.replace(
-        method,
-        mesh=mesh,
-        element=ANCFCable(viscosity=0.0) if method.element is None else method.element,
-        integrator=integrator,
-        contact=contact,
-        full_beam=method.full_beam or impact.off_centre,
-        refine=1.0,
-    )
-
-
-def cross_checks(method: C, impact: Impact) -> dict[str, C]:
-    """What stands beside ``method`` for error bars, by cause: half as many elements (and steps in proportion to their
-    square), steps twice as long, and, of a penalty, a quarter of the stiffness, whose own time is twice as long, with
-    these steps too."""
-    chosen = for_whole_beam(method, impact)
-    mesh, integrator, contact = chosen.mesh, chosen.integrator, chosen.contact
-    assert mesh is not None and integrator is not None
-    checks = {
-        "mesh": dataclasses.replace(chosen, mesh=mesh.refined(0.5), integrator=integrator.refined(0.25)),
-        "step": dataclasses.replace(chosen, integrator=integrator.refined(0.5)),
-    }
-    if isinstance(contact, Penalty):
-        softer = _softer(contact, 0.25)
-        checks["contact_law"] = dataclasses.replace(chosen, integrator=integrator.refined(0.5), contact=softer)
-    return checks
-
-
-def _softer(contact: Penalty, factor: float) -> Penalty:
-    """A penalty of ``factor`` times the stiffness with the same damping ratio; damping left open follows by itself."""
-
-    stiffness, damping = contact.relative_stiffness or penalty.STIFFNESS, contact.relative_damping
-    return dataclasses.replace(
-        contact,
-        relative_stiffness=stiffness * factor,
-        relative_damping=None if damping is None else damping * math.sqrt(factor),
-    )
-
-
-def varied(method: C, impact: Impact, random: np.random.Generator) -> C:
-    """A method for an ensemble: elements, steps and stiffness of the penalty drawn at random."""
-    elements = int(random.integers(2 * POINT_ELEMENTS // 5, 4 * POINT_ELEMENTS // 5))
-    length = impact.half_length / elements
-    step = STEP * 2.0 ** random.uniform(-0.5, 0.5) * length**2 / impact.wave_constant
-    contact = _softer(CONTACT, 2.0 ** random.uniform(-2.0, 0.0))
-    return dataclasses.replace(
-        method, mesh=UniformMesh(length), integrator=Trapezoidal(time_step=step), contact=contact
-    )

@@ -8,12 +8,12 @@ from __future__ import annotations
 
 from bent_beam.elastic_wall import WallScales
 from bent_beam.impact import Impact
-from bent_beam.meshes import Mesh, ScaleFreeMesh
+from bent_beam.meshes import GradedMesh, Mesh
 
 __all__ = ["ELASTIC_STEP", "elastic_mesh", "even_element"]
 
-SMALLEST, LARGEST = 0.08, 0.25  # of ℓ_k: elements over the zone
-GROWTH, GROWTH_OUTSIDE = 1.01, 1.015
+ELEMENT, LARGEST = 0.08, 0.25  # of ℓ_k: elements over the zone, and of a whole beam
+GROWTH_OUTSIDE = 1.015
 REACH = 4.0  # ℓ_k beyond the front
 MOST_ELEMENTS = 2_000  # over the zone
 ELASTIC_STEP = 0.01  # of t_k
@@ -23,13 +23,8 @@ def elastic_mesh(impact: Impact, wall: WallScales, half: float, front: float) ->
     """Elements over the zone up to the crude place ``front``, m, of its end and some ℓ_k beyond."""
     zone = min(front + REACH * wall.length, half)
     short = min(1.0, max(impact.kappa_over_nu, 1e-9) ** -0.375)
-    element = min(SMALLEST * short * wall.length, 0.1 * half)
-    return ScaleFreeMesh(
-        element_length=element,
-        growth=GROWTH,
-        largest=max(element, LARGEST * wall.length, zone / MOST_ELEMENTS),
-        **({} if zone == half else {"zone": zone, "growth_outside": GROWTH_OUTSIDE}),
-    )
+    element = min(max(ELEMENT * short * wall.length, zone / MOST_ELEMENTS), 0.1 * half)
+    return GradedMesh(element_length=element, growth=GROWTH_OUTSIDE, zone=zone, size_ratio=1e6)
 
 
 def even_element(wall: WallScales, half: float) -> float:

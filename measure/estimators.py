@@ -55,6 +55,11 @@ class LeadingEstimate:
     lift: float
     window: tuple[float, float]
 
+    @property
+    def front(self) -> float:
+        """λ₀, or 0 where it does not exceed its error bar: the run then shows a contact in one point."""
+        return self.lambda0.known if self.lambda0.known > self.lambda0.bar else 0.0
+
 
 @dataclass(frozen=True)
 class FirstOrderEstimate:
@@ -189,7 +194,7 @@ def first_order(
     """
     if not runs:
         raise ValueError("runs must hold at least one run at ε > 0")
-    r0, lambda0 = leading.r0.known, leading.lambda0.known
+    r0, lambda0 = leading.r0.known, leading.front
     rows = []
     for epsilon, run in runs:
         _same_times(run, base)

@@ -40,6 +40,10 @@ def match(
             help="α,ψ,χ[,N] of a first-order match, α = free: a bow free of stress in free flight, −κN; repeatable.",
         ),
     ] = None,
+    wall: Annotated[
+        str | None,
+        typer.Option(metavar="K[,ZETA]", help="A wall that gives way: stiffness per length over μ/t*², damping ratio."),
+    ] = None,
     refine: Annotated[
         str,
         typer.Option(metavar="1,2,4", help="Elements and steps so many times finer, each a row: work and precision."),
@@ -74,7 +78,8 @@ def match(
 
     compared = chosen_methods(path or (), assignments or (), methods)
     loads = [_load(text) for text in first_order or ()]
-    asked = questions(compared, kappa_over_nu or THESIS_KAPPAS, loads, factors(refine), error_bars, duration)
+    kappas = kappa_over_nu or THESIS_KAPPAS
+    asked = questions(compared, kappas, loads, factors(refine), error_bars, duration, _wall(wall))
     if out is not None:
         check_writable(out, folder=True)
     store = RunStore(None if fresh else default_store())
@@ -90,6 +95,14 @@ def match(
         write_match(rows, out)  # after the answer, which a full disk must not cost
     if lost:
         raise typer.Exit(3)
+
+
+def _wall(text: str | None) -> tuple[float, float] | None:
+    """(stiffness, damping ratio) of ``--wall``."""
+    if text is None:
+        return None
+    stiffness, ratio = (*numbers("--wall", text, (1, 2), "stiffness[,damping ratio]"), 0.0)[:2]
+    return stiffness, ratio
 
 
 def _load(text: str) -> tuple[float | None, ...]:

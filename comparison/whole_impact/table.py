@@ -19,6 +19,7 @@ TITLES = {
     "peak_moment_place": "its place, from the middle",
     "peak_moment_time": "its time",
     "midspan_moment": "largest moment at the middle",
+    "peak_force": "largest force on the wall",
     "translation": "energy left in translation",
     "vibration": "energy left in vibration",
     "dissipated": "energy dissipated",
@@ -30,6 +31,8 @@ def bounce_table(found: Bounce) -> str:
     impact, unit = found.impact, found.units
     rows = []
     for name, title in TITLES.items():
+        if name not in found.numbers:  # of a rigid wall
+            continue
         number = found.numbers[name]
         si = ["", ""]
         if name in SI:

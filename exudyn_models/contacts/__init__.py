@@ -4,7 +4,8 @@ from exudyn_models.contacts.base import Contact, ContactRun, Wall
 from exudyn_models.contacts.penalty import Penalty
 from exudyn_models.contacts.rigid import Rigid
 from exudyn_models.contacts.segment_friction import SegmentFriction
+from exudyn_models.contacts.springs import Springs
 
-__all__ = ["CONTACTS", "Contact", "ContactRun", "Penalty", "Rigid", "SegmentFriction", "Wall"]
+__all__ = ["CONTACTS", "Contact", "ContactRun", "Penalty", "Rigid", "SegmentFriction", "Springs", "Wall"]
 
 CONTACTS: dict[str, type] = {"penalty": Penalty, "rigid": Rigid, "segment_friction": SegmentFriction}

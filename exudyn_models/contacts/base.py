@@ -45,6 +45,7 @@ class Wall:
     plastic: bool
     explicit: bool
     opposite: float | None  # y of a second, flat wall behind the beam
+    stiffness: float | None = None  # per length, of a wall that gives way
 
 
 class ContactRun(ABC):

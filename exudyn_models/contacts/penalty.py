@@ -13,7 +13,7 @@ mesh. Where κ/ν is so small that the front passes an element faster than the e
 as the front: it passes Δx at x in t = 2xΔx/λ² √(μ/EI), and C = (λ²Δx/x)² makes √(k/μ) t = 2. The damping ratio stays
 that of 10 and 3.
 
-Below κ/ν = 0.04 the front passes an element about as fast as the element bends, on any mesh of moderate size. Each node
+Below κ/ν = 0.12 the front passes an element about as fast as the element bends, on any mesh of moderate size. Each node
 then hits the wall by itself, and what it rebounds with is added to the impulse: with D = 3 r₀ is 6.5, 21 and 19 % too
 large at κ/ν = 1/100, 1/400 and 1/1600. There D = 40 makes the hits plastic, and nothing is held at the start, while
 nothing but the first spread of the zone moves it and the steps are implicit. Not with a ``hold``: its springs would
@@ -36,7 +36,7 @@ from exudyn_models.contacts.base import TINY, Contact, ContactRun, Wall
 from exudyn_models.contacts.holding import START, HeldStrip, Hold
 from exudyn_models.elements import Beam
 
-__all__ = ["Penalty", "penalty_per_length"]
+__all__ = ["Penalty", "PenaltyRun", "penalty_per_length"]
 
 STIFFNESS, DAMPING = 10.0, 3.0  # C and D
 PLASTIC = 40.0  # D behind a thin front
@@ -53,7 +53,9 @@ def penalty_per_length(lengths: Array, relative_stiffness: float, relative_dampi
     return relative_stiffness / lengths**4, relative_damping / lengths**2
 
 
-class _Run(ContactRun):
+class PenaltyRun(ContactRun):
+    """Springs and dashpots at the nodes; ``stiffness`` and ``damping`` of each contact point, shape (contacts,)."""
+
     imposes = True
 
     def __init__(
@@ -205,4 +207,4 @@ class Penalty(Contact):
         k, d = penalty_per_length(local, stiffness, damping)
         strip = HeldStrip(wall, self.hold, 0.0 if plastic and self.hold_start is None else self.hold_start)
         chosen = {"relative_stiffness": stiffness, "relative_damping": damping}
-        return _Run(beam, wall, k * length, d * length, strip, chosen)
+        return PenaltyRun(beam, wall, k * length, d * length, strip, chosen)

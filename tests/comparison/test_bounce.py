@@ -32,6 +32,17 @@ def test_error_bars_of_a_bounce_hold_the_converged_value(path, elements, widest)
     assert document["si"]["impulse"]["value"] == pytest.approx(2.0 * (1.0 + restitution.value))
 
 
+def test_a_bounce_off_a_wall_that_gives_way_has_its_largest_force_and_gives_its_energy_back() -> None:
+    soft = problem(0.5, 1e-2).replace(wall_stiffness=1e3)
+    found = bounce(soft, HermiteFE(mesh=UniformMesh(0.04)))
+    assert set(found.parts["peak_force"]) == {"mesh", "step"} and found.numbers["peak_force"].bar < 0.01
+    document = bounce_document(found)
+    assert document["si"]["peak_force"]["value"] == pytest.approx(found.history.array("peak_force")[-1])
+    assert found.numbers["restitution"].known > 0.34  # more than off a rigid wall, whose impacts lose 1 − e²
+    budget = found.history.energy_budget()
+    assert budget["contact_energy"] == budget["loss_impact"] == 0.0 and budget["loss_material"] > 0.0
+
+
 def test_without_damping_a_seeded_band_takes_the_place_of_a_number() -> None:
     told = []
     first, again, other = (

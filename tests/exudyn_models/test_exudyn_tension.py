@@ -8,10 +8,12 @@ from numpy.testing import assert_allclose
 
 import exudyn_models
 from bent_beam import Impact
-from bent_beam.meshes import NodesMesh
+from bent_beam.meshes import NodesMesh, UniformMesh
+from exudyn_models import ExudynModel
 from exudyn_models.contacts import Penalty
 from exudyn_models.elements import ANCFCable, GeometricallyExact
 from exudyn_models.geometry import LinearLimit, TrueGeometry
+from exudyn_models.resolution import chosen_half_length, held_for
 from measure import estimators
 from measure.moments import moments
 
@@ -51,6 +53,35 @@ def test_a_straight_beam_on_a_bulging_wall_is_the_bent_beam_on_a_flat_one():
     for history in curved:
         assert_allclose(history.array("total_impulse"), flat.array("total_impulse"), rtol=1e-4, atol=1e-6)
         assert_allclose(history.array("gap"), flat.array("gap"), rtol=5e-5, atol=1e-6)
+
+
+@pytest.mark.parametrize(("kappa_over_nu", "force"), [(2.0, 1.8), (2.0, -1.8), (0.3, -1.0), (2.0, 0.01)])
+def test_the_budget_of_a_whole_impact_closes_under_axial_force(kappa_over_nu, force):
+    """In units of EI/ℓ²; such a beam buckles at −2.47."""
+    beam = Impact.whole_beam(kappa_over_nu, relative_damping=1e-2)
+    impact = beam.replace(axial_force=force, acceleration=-force * kappa_over_nu)
+    history = ExudynModel(mesh=UniformMesh(1 / 25)).for_whole_beam(impact).simulate(impact, end_time=0.4)
+    budget = history.energy_budget()
+    assert abs(budget["defect"]) < 1e-6 * budget["initial_energy"]
+
+
+def test_a_beam_that_is_nearly_buckled_gets_more_elements():
+    beam = Impact.whole_beam(2.0)
+    free, taut, pressed = (
+        ExudynModel().for_whole_beam(beam.replace(axial_force=n)).mesh.nodes(1.0).size for n in (0.0, 1.8, -1.8)
+    )
+    assert free == taut < pressed
+
+
+def test_what_no_theory_of_a_zone_needs_is_left_alone():
+    """One point is not held, and a load that bends the ends up does not shorten the beam; they do not touch."""
+    point, zone = (Impact.dimensionless(kappa, epsilon_psi=0.3) for kappa in (1.1, 0.3))
+    assert held_for(None, point).hold == 0 < held_for(None, zone).hold
+    assert chosen_half_length(zone, 0.1) == chosen_half_length(Impact.dimensionless(0.3), 0.1)
+    mesh = exudyn_models.chosen_mesh(zone, 0.1, coarsen=4.0)
+    history = exudyn_models.simulate(zone, mesh=mesh, end_time=0.1, save=5)
+    assert history.array("gap")[-1].min() < -1.0  # of what would be inside the wall without one, and far away
+    assert not any("enters the wall" in warning for warning in history.warnings)
 
 
 @pytest.mark.verify

@@ -163,6 +163,8 @@ def test_ends_that_are_held_stay_where_they_are_and_the_beam_swings_in_its_mode(
     middle = moved.shape[1] // 2
     assert moved[:, middle] == pytest.approx(1e-6 * np.sin(frequency * history.time) / frequency, rel=1e-3)
     assert np.abs(moved[:, [0, -1]]).max() == 0.0
+    with pytest.raises(ValueError, match="supports bring the beam back"):
+        HermiteFE().simulate_to_separation(impact)
 
 
 def test_a_rigid_stop_holds_one_point_and_a_plate_its_part() -> None:

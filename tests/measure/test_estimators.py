@@ -11,7 +11,7 @@ from histories import history_of
 
 from bent_beam import Impact, ImpactHistory
 from comparison.compare import compare_histories
-from measure.estimators import COMPANION_FIRST, INSIDE, SIDE, first_order, leading_order
+from measure.estimators import COMPANION_FIRST, INSIDE, SIDE, LeadingEstimate, first_order, leading_order
 from measure.measured import Measured
 from measure.moments import Moments, local_front, moments, one_side
 from measure.reduction import bending_moments, peak_moment
@@ -230,3 +230,10 @@ def test_one_run_saved_at_other_times_and_further_is_the_same_run():
         found = compare_histories(*pair)
         assert found["largest_difference"]["gap"] < 1e-4  # the nearest saved instants are 0.7 and 1.4 % apart
         assert sorted(found["end"]["peak_moment"]) == pytest.approx([0.9929**2, 1.0], abs=1e-3)  # not 4, at t = 2
+
+
+@pytest.mark.parametrize(("found", "front"), [(1e-18, 0.0), (9e-6, 0.0), (2e-5, 2e-5)])
+def test_a_front_within_its_error_bar_is_none(found, front):
+    """Round-off of a contact in one point must not set the size of the loads, nor λ₁."""
+    leading = LeadingEstimate(Measured(found, 1e-5), Measured(1.0, 1e-4), lift=0.0, window=(0.01, 0.1))
+    assert leading.front == front

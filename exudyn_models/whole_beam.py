@@ -1,0 +1,112 @@
+"""The method of a whole impact, and what it is held against for error bars.
+
+From the first touch to the last separation nothing may be held, nothing damped but by the beam itself, and every part
+of the beam matters alike. So
+
+    a uniform mesh,   constant steps,   the trapezoidal rule,   no viscosity at grid scale.
+
+A beam that touches in a point takes h = ½Δx²√(μ/EI) and the penalty as it is. Where a zone spreads, e is off by what
+elements lose that land, about in proportion to Δx; how stiff the penalty is, how it is damped and how long the steps
+are matters less, as long as the steps resolve the penalty. So there elements are shorter, steps √2 times as long for
+them, and the penalty half as stiff, with the same damping ratio: kh² and dh stay what they are. With a mesh, steps or
+contact of somebody's own, and where the beam is so flat that its front asks for a stiffer penalty, steps and penalty
+are as for a point; elements are shorter wherever no mesh is given.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from typing import TypeVar
+
+import numpy as np
+
+from bent_beam import Impact
+from bent_beam.elastic_wall import wall_scales
+from bent_beam.meshes import UniformMesh
+from exudyn_models.composition import Composition
+from exudyn_models.contacts import Penalty, penalty
+from exudyn_models.elements import ANCFCable
+from exudyn_models.integrators import Trapezoidal
+from exudyn_models.resolution import STEP, near_buckling, resolving_step, step_of_wall
+
+__all__ = ["cross_checks", "for_whole_beam", "varied"]
+
+C = TypeVar("C", bound=Composition)
+
+CONTACT = Penalty(hold_start=0.0)
+POINT_ELEMENTS = 100  # of a half beam that touches in a point; half as many: e moves by 4e-5
+ZONE_ELEMENTS = 240  # where a zone spreads, κ/ν < 1; 220 to 300: e within 1.5e-4 at κ/ν = 0.4, η/T* = 1e-2, the worst
+SLOWER = math.sqrt(2.0)  # its steps; the penalty is softer by the square
+LARGEST_OF_WALL = 0.25  # ℓ_k: elements before a wall that gives way
+FLATTEST = 1.0 / 150.0  # κ/ν down to which the front does not ask for a stiffer penalty
+
+
+def for_whole_beam(method: C, impact: Impact) -> C:
+    """A copy of ``method`` whose open parts are those of the module's head; its ``refine`` is worked in."""
+    elements = ZONE_ELEMENTS if impact.kappa_over_nu < 1.0 else POINT_ELEMENTS
+    wall = wall_scales(impact)
+    if wall is not None:
+        elements = max(elements, round(impact.half_length / (LARGEST_OF_WALL * wall.length)))
+    chosen = method.mesh is None and method.contact is None and method.integrator is None
+    slower = SLOWER if chosen and FLATTEST <= impact.kappa_over_nu < 1.0 else 1.0
+    elements = round(elements * near_buckling(impact))
+    mesh = UniformMesh(impact.half_length / elements) if method.mesh is None else method.mesh
+    mesh = mesh.refined(method.refine)
+    integrator = method.integrator
+    if integrator is None:
+        step = slower * resolving_step(mesh, impact) if wall is None else step_of_wall(mesh, impact, wall)
+        integrator = Trapezoidal(time_step=step)
+    else:
+        integrator = integrator.refined(method.refine)
+    contact = method.contact
+    if contact is None and wall is None:
+        contact = CONTACT if slower == 1.0 else _softer(CONTACT, slower**-2)
+    return dataclasses.replace(
+        method,
+        mesh=mesh,
+        element=ANCFCable(viscosity=0.0) if method.element is None else method.element,
+        integrator=integrator,
+        contact=contact,
+        full_beam=method.full_beam or impact.off_centre,
+        refine=1.0,
+    )
+
+
+def cross_checks(method: C, impact: Impact) -> dict[str, C]:
+    """What stands beside ``method`` for error bars, by cause: half as many elements (and steps in proportion to their
+    square), steps twice as long, and, of a penalty, a quarter of the stiffness, whose own time is twice as long, with
+    these steps too."""
+    chosen = for_whole_beam(method, impact)
+    mesh, integrator, contact = chosen.mesh, chosen.integrator, chosen.contact
+    assert mesh is not None and integrator is not None
+    checks = {
+        "mesh": dataclasses.replace(chosen, mesh=mesh.refined(0.5), integrator=integrator.refined(0.25)),
+        "step": dataclasses.replace(chosen, integrator=integrator.refined(0.5)),
+    }
+    if isinstance(contact, Penalty):
+        softer = _softer(contact, 0.25)
+        checks["contact_law"] = dataclasses.replace(chosen, integrator=integrator.refined(0.5), contact=softer)
+    return checks
+
+
+def _softer(contact: Penalty, factor: float) -> Penalty:
+    """A penalty of ``factor`` times the stiffness with the same damping ratio; damping left open follows by itself."""
+
+    stiffness, damping = contact.relative_stiffness or penalty.STIFFNESS, contact.relative_damping
+    return dataclasses.replace(
+        contact,
+        relative_stiffness=stiffness * factor,
+        relative_damping=None if damping is None else damping * math.sqrt(factor),
+    )
+
+
+def varied(method: C, impact: Impact, random: np.random.Generator) -> C:
+    """A method for an ensemble: elements, steps and stiffness of the penalty drawn at random."""
+    elements = int(random.integers(2 * POINT_ELEMENTS // 5, 4 * POINT_ELEMENTS // 5))
+    length = impact.half_length / elements
+    step = STEP * 2.0 ** random.uniform(-0.5, 0.5) * length**2 / impact.wave_constant
+    contact = _softer(CONTACT, 2.0 ** random.uniform(-2.0, 0.0)) if impact.wall_stiffness is None else None
+    return dataclasses.replace(
+        method, mesh=UniformMesh(length), integrator=Trapezoidal(time_step=step), contact=contact
+    )
