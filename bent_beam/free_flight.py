@@ -41,7 +41,7 @@ def pushing(impulse: Array) -> NDArray[np.bool_]:
 def bears_free_flight(impact: Impact) -> bool:
     """Whether the beam moves without loads once it is off the wall, and towards no other wall."""
     forces = [load for load, about in loads_of(Impact).items() if about.powers is None and getattr(impact, load)]
-    return impact.uniform_pressure == 0.0 and not forces and impact.opposite_wall is None
+    return impact.net_load == 0.0 and not forces and impact.opposite_wall is None
 
 
 def cannot_return(impact: Impact, x: Array, gap: Array, velocity: Array, energy: float) -> bool:

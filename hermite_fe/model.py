@@ -13,10 +13,10 @@ starts the run (u = q₀x⁴/24, u̇ = V₀ + c₀x²/2) and fixes the load. Wit
 so neither K nor K_w is left but in the gap. A beam that rocks starts with V₀ + ωx in place of V₀; where the bow's apex
 is off the middle, x counts from it in y₀ and from the middle in ωx; both need the full beam.
 
-**The ends** carry N in the direction that the bow has there at the first touch, which they keep (a dead load):
-EI(u_xxx + ηu̇_xxx) − Nu_x = 0. Its transverse part −NKL/2 at either end balances the pull −NK per length of the bow, so
-no wave starts at an end and a₀ is the acceleration of the whole beam. A force that turned with the end would have no
-potential; one along x would set the ends swinging at once.
+**The ends** carry N as a dead load. Along the axis, EI(u_xxx + ηu̇_xxx) − Ny_x = 0: against u that is a transverse
+force NKL/2 at either end, which starts a wave at once. Along the tangent of the bow at the first touch,
+EI(u_xxx + ηu̇_xxx) − Nu_x = 0: its transverse part −NKL/2 balances the pull −NK per length of the bow, no wave starts,
+and a₀ is the acceleration of the whole beam. A force that turned with the end would have no potential.
 """
 
 from __future__ import annotations
@@ -118,14 +118,18 @@ def nodal_loads(
     """F(t) = Σ_k load[k]·t^k, shape (powers, dofs), of all loads; s : the nodes from the first touch, m.
 
     follows : with the end forces of y₀, F = Mü + Cu̇ + Ku of its displacement u, in which K on Hermite interpolants is
-        exact at nodes; else of free ends, where the uniform load alone acts.
+        exact at nodes; else of free ends, where the uniform load acts, and what the bow makes of an axial force.
     """
     motion = impact.free_motion(0.0)
     uniform = product(inertia, beam.interpolate(np.ones(s.size), np.zeros(s.size)))  # M·1
     acceleration = float(motion(0.0, by_t=2))
     if not follows:
         pressure = impact.mass_per_length * acceleration + impact.bending_stiffness * float(motion(0.0, by_x=4))
-        return (pressure / impact.mass_per_length * uniform)[None, :]
+        load = pressure / impact.mass_per_length * uniform
+        if impact.tension_direction == "axis":
+            ends = [0, -1] if beam.nodes[0] < 0.0 else [-1]
+            load[0::2][ends] += impact.axial_force * impact.curvature * np.abs(s[ends])
+        return load[None, :]
     bent = motion.bending()
     shape = beam.interpolate(bent(s), bent(s, by_x=1))
     rate = beam.interpolate(bent(s, by_t=1), bent(s, by_x=1, by_t=1))

@@ -3,7 +3,7 @@
 The momentum of the beam is integrated from the saved velocities, its mass taken from the problem, so that a wrong
 impulse, a lost mass or a missing load shows, whatever the solver books:
 
-    [∫μ v dx]₀ᵗ = (p − NK)L t − J,    p the uniform load; N pulls at the ends along the tangents of the free bow.
+    [∫μ v dx]₀ᵗ = pL t − J,    p the uniform load, less NK where N pulls along the tangents of the bow's ends.
 
 v is taken as piecewise cubic: ∫v = Σ [h/2 (v₁ + v₂) + h²/12 (v₁′ − v₂′)], slopes by differences.
 """
@@ -66,7 +66,7 @@ def _momentum_residual(history: ImpactHistory) -> float | None:
         return None
     mass = impact.mass_per_length * impact.length
     velocity = np.stack([_mean(x, history.array("velocity", k)) for k in range(time.size)])
-    force = (impact.uniform_pressure - impact.axial_force * impact.curvature) * impact.length
+    force = impact.net_load * impact.length
     residual = mass * (velocity - velocity[0]) - force * time + history.array("total_impulse")
     return float(np.abs(residual).max() / (mass * impact.velocity))
 

@@ -42,6 +42,8 @@ def bounce(
 
     Example: bentbeam bounce --kappa-over-nu 2 --damping 0.01
     """
+    from dataclasses import asdict
+
     from bent_beam.cases import load_case
     from bent_beam.method import paths_with
     from bent_beam.parts import InputError
@@ -74,7 +76,7 @@ def bounce(
         followed = follow_hits(impact, method, hits, progress=bar.fraction) if hits > 1 else []
     document = bounce_document(found)
     if hits > 1:
-        document["hits"] = [{**vars(hit), "restitution": hit.restitution} for hit in followed]
+        document["hits"] = [{**asdict(hit), "restitution": hit.restitution} for hit in followed]
     if out is not None:
         from comparison.whole_impact.figures import write_bounce
 

@@ -6,7 +6,8 @@ from collections.abc import Sequence
 
 from comparison.bounce import SI, Bounce
 from comparison.text_table import text_table
-from measure.whole_impact import SHORTEST_SEPARATION, WallHit
+from measure.hits import Hit
+from measure.whole_impact import SHORTEST_SEPARATION
 
 __all__ = ["bounce_table", "hits_table"]
 
@@ -52,7 +53,7 @@ def bounce_table(found: Bounce) -> str:
     return "\n".join(lines)
 
 
-def hits_table(hits: Sequence[WallHit]) -> list[str]:
+def hits_table(hits: Sequence[Hit]) -> list[str]:
     """The hits that were followed, as a table; nothing for none."""
     if not hits:
         return []
