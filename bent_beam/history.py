@@ -19,6 +19,8 @@ Dimensions: ``time`` (the saved instants) and ``x`` (nodes) and ``contact`` (con
 | loss_viscous | time | J | by artificial viscosity of bending at grid scale |
 | loss_material | time | J | by the damping of the beam itself |
 | loss_absorbed | time | J | by a sponge or an absorbing end |
+| largest_moment, largest_midspan_moment | time | N m | largest bending moment, anywhere and at x = 0, of all steps since the instant before |
+| largest_moment_place | time | m | its place |
 | held_impulse | time | N s | what held contact points pulled since t = 0, never positive |
 
 A moving mesh adds ``position`` (time, x) and ``contact_position`` (time, contact), m.
@@ -54,7 +56,8 @@ LOSSES = tuple(f"loss_{cause}" for cause in ("impact", "algorithmic", "viscous",
 ENERGIES = ("kinetic_energy", "strain_energy", "contact_energy", "work_of_loads", *LOSSES)
 IMPULSES = ("impulse", "opposite_impulse", "total_impulse", "held_impulse")
 UNITS = {"time": "s", "velocity": "m/s", "slope": "1"}
-UNITS |= dict.fromkeys(("x", "contact_x", "position", "contact_position", "gap"), "m")
+UNITS |= dict.fromkeys(("x", "contact_x", "position", "contact_position", "gap", "largest_moment_place"), "m")
+UNITS |= dict.fromkeys(("largest_moment", "largest_midspan_moment"), "N m")
 UNITS |= dict.fromkeys(IMPULSES, "N s") | dict.fromkeys(ENERGIES, "J")
 COORDINATES = ("time", "x", "contact_x")
 REQUIRED = ("time", "x", "contact_x", "gap", "impulse", "total_impulse", "kinetic_energy", "strain_energy")

@@ -33,7 +33,7 @@ from hermite_fe.beam import HermiteBeam
 from hermite_fe.contacts import Contact
 from hermite_fe.far_fields import Dampings, FarField
 from hermite_fe.masses import ConsistentMass, Mass
-from hermite_fe.system import System
+from hermite_fe.system import Bending, System
 from hermite_fe.walls import behind, with_opposite_wall
 
 __all__ = ["LOADS", "BeamModel", "beam_model"]
@@ -107,9 +107,16 @@ def beam_model(
         load=nodal_loads(impact, beam, s, inertia, stiffness, dampings, follows=far_field.end == "following"),
         contacts=rows,
         supports=() if full else (1,),
+        bending=Bending(beam.lengths, impact.bending_stiffness, free_moment(impact), half.size - 1 if full else 0),
     )
     second = behind(len(rows), impact.opposite_wall is not None)
     return BeamModel(beam, system, displacement, velocity, natural, facing, second, full)
+
+
+def free_moment(impact: Impact) -> float:
+    """Bending moment of the bow at the first touch, N m: nothing unless a part of it is elastic."""
+    natural = impact.curvature if impact.natural_curvature is None else impact.natural_curvature
+    return impact.bending_stiffness * (natural - impact.curvature)
 
 
 def nodal_loads(

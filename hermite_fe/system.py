@@ -9,11 +9,12 @@ bouncing ball, an oscillator against a stop. Round-off is judged for even and od
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["DAMPINGS", "ContactRows", "System"]
+__all__ = ["DAMPINGS", "Bending", "ContactRows", "System"]
 
 Array = NDArray[np.float64]
 
@@ -89,6 +90,19 @@ def _bands(name: str, value: Array, dofs: int) -> Array:
     return np.pad(bands, ((0, WIDTH - bands.shape[0]), (0, 0)))
 
 
+class Bending(NamedTuple):
+    """What bending moments need: M = EI w_xx + ``free``.
+
+    lengths : (elements,), m, none of a system that is no beam; stiffness : EI, N m²; free : moment at q = 0, N m;
+    middle : number of the node in the middle.
+    """
+
+    lengths: Array = _left_out()
+    stiffness: float = 0.0
+    free: float = 0.0
+    middle: int = 0
+
+
 @dataclass(frozen=True)
 class System:
     """Banded matrices, loads, supports and constraints.
@@ -97,7 +111,7 @@ class System:
     dampings : (cause, bands) pairs that add up to C, causes out of :data:`DAMPINGS`; the loss to each is recorded
         under its own name (``Trajectory.viscous``, ``.material``, ``.absorbed``).
     load : (powers, dofs), F(t) = Σ_k load[k]·t^k.
-    contacts : unilateral constraints. supports : dofs that keep their initial value.
+    contacts : unilateral constraints. supports : dofs that keep their initial value. bending : of a beam.
 
     Raises ``ValueError`` when shapes disagree, a cause of damping is unknown or named twice, or a support carries a
     constraint of its own.
@@ -109,6 +123,7 @@ class System:
     dampings: tuple[tuple[str, Array], ...] = ()
     load: Array = field(default_factory=_left_out)
     supports: tuple[int, ...] = ()
+    bending: Bending = Bending()
 
     def __post_init__(self) -> None:
         set_ = object.__setattr__

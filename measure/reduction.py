@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from bent_beam.history import ImpactHistory
 
-__all__ = ["PeakMoment", "bending_moments", "hold_of", "peak_moment", "pull_of"]
+__all__ = ["PeakMoment", "bending_moments", "end_curvatures", "hold_of", "peak_moment", "pull_of"]
 
 Array = NDArray[np.float64]
 CHUNK = 256  # saved instants at once
@@ -18,8 +18,8 @@ START = 0.01  # of the run: while this lasts, a start may be held
 
 
 class PeakMoment(NamedTuple):
-    """Largest bending moment, N m (its size), its place, m, and its time, s, among the saved instants; ``midspan`` :
-    the largest at x = 0, N m."""
+    """Largest bending moment, N m (its size), its place, m, and its time, s (the next saved instant); ``midspan`` : the
+    largest at x = 0, N m."""
 
     moment: float
     place: float
@@ -59,19 +59,29 @@ def bending_moments(history: ImpactHistory, k: int | slice) -> tuple[Array, Arra
     y = -history.array("gap", k) - 0.5 * impact.wall_curvature * (x - impact.first_touch) ** 2
     given = "slope" in history
     slope = history.array("slope", k) if given else np.gradient(y, x, axis=-1, edge_order=2)
+    natural = impact.curvature if impact.natural_curvature is None else impact.natural_curvature
+    moment = impact.bending_stiffness * (end_curvatures(x, y, slope) + natural)
+    return moment, np.stack([x[:-1], x[1:]], axis=1)
+
+
+def end_curvatures(x: Array, y: Array, slope: Array) -> Array:
+    """y_xx at both ends of each element of the cubics through deflections and slopes, (…, nodes): (…, elements, 2)."""
     h = np.diff(x)
     rise = np.diff(y, axis=-1) / h
     left = (6.0 * rise - 4.0 * slope[..., :-1] - 2.0 * slope[..., 1:]) / h
     right = (-6.0 * rise + 2.0 * slope[..., :-1] + 4.0 * slope[..., 1:]) / h
-    natural = impact.curvature if impact.natural_curvature is None else impact.natural_curvature
-    moment = impact.bending_stiffness * (np.stack([left, right], axis=-1) + natural)
-    return moment, np.stack([x[:-1], x[1:]], axis=1)
+    return np.stack([left, right], axis=-1)
 
 
 def peak_moment(history: ImpactHistory, until: float | None = None) -> PeakMoment:
-    """The largest bending moment anywhere, and in the middle, at any saved instant after the first, up to ``until`` (s;
-    ``None``: the last)."""
+    """The largest bending moment anywhere, and in the middle, up to ``until`` (s; ``None``: the last instant): of all
+    steps where a history has them, otherwise at the saved instants after the first."""
     count = int(np.searchsorted(history.time, math.inf if until is None else until * (1.0 + 1e-9), side="right"))
+    if "largest_moment" in history and count > 1:
+        sizes = history.array("largest_moment", slice(1, count))
+        k = 1 + int(np.argmax(sizes))
+        place, middle = history.array("largest_moment_place")[k], history.array("largest_midspan_moment")[1:count]
+        return PeakMoment(float(sizes.max()), float(place), float(history.time[k]), float(middle.max()))
     best = PeakMoment(0.0, 0.0, float(history.time[0]), 0.0)
     midspan = 0.0
     moving = "position" in history
