@@ -136,7 +136,8 @@ class Impact(Part):
     @classmethod
     def whole_beam(cls, kappa_over_nu: float, *, relative_damping: float = 0.0) -> Impact:
         """The free–free beam in units of its half length: EI = μ = V₀ = L/2 = 1, so T* = 1; damping is η/T*."""
-        return cls.dimensionless(kappa_over_nu, damping=relative_damping, length=2.0)
+        infinite = cls.dimensionless(kappa_over_nu, damping=relative_damping, length=2.0)
+        return dataclasses.replace(infinite, tension_direction="axis")
 
     def replace(self, **changes: float) -> Impact:
         """A copy with some fields changed, validated again."""

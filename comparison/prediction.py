@@ -69,7 +69,7 @@ def predict_case(
     document = prediction.to_dict()
     rows = document["times"]
     document["times"] = rows[: len(times)]
-    document["warnings"] = [*case.warnings, *_warnings(impact)]
+    document["warnings"] = _warnings(impact)
     document["agreement"] = None
     if method is not None:
         told = progress or (lambda _: None)

@@ -72,7 +72,7 @@ def simulate(
             problem, out = f"out: {out} could not be written: {error.strerror or error}", None
     others, lost = companions(method, run, error_bars)
     found = summary(history, out, loaded.section, others)
-    found["warnings"] = [*loaded.warnings, *found["warnings"], *lost]
+    found["warnings"] = [*found["warnings"], *lost]
     emit(found, as_json, lambda: run_table(found))
     if problem:
         raise InputError(problem)
