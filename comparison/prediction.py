@@ -1,16 +1,13 @@
 """One beam: the theory of its first instants beside a simulation of the beam as it is, and its whole impact.
 
 The theory says what closed forms and formulas allow (:mod:`theory.validity`). The simulation runs the whole beam with
-its ends, loads, damping and wall. Times that are early for the beam (before :data:`EARLY` T*) are simulated on elements
-that resolve them, later ones on even elements. An error bar is what a run on elements and steps twice as long changes;
-an undamped beam, whose motion does not converge, is run on four resolutions, and its numbers are their means with two
-standard deviations.
+its ends, loads, damping and wall. Early times are simulated on elements that resolve them, later ones on even elements.
+Error bars are those of :mod:`comparison.companions`.
 """
 
 from __future__ import annotations
 
 import math
-import statistics
 from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
@@ -22,6 +19,7 @@ from bent_beam.free_flight import LOWEST_PERIOD
 from bent_beam.history import ImpactHistory
 from bent_beam.impact import Impact
 from bent_beam.method import Method, for_whole_beam, refined, simulate_to_separation
+from comparison.companions import EARLY, companions_of, number_of
 from comparison.summary import energy_at_end, loss_warnings, numerical_loss
 from comparison.whole_impact.stored_map import bounce_from_map
 from measure.front import half_contact_length, mean_reaction
@@ -36,17 +34,14 @@ PATH = "hermite"
 COMPARED = ("half_contact_length", "reaction", "impulse", "peak_moment", "peak_stress")
 """What theory and simulation both say at a time."""
 
-EARLY = 0.003  # T*
 BEYOND = 1.15  # times the last time: readings take a tenth of the time before and after
 INSTANTS = 400  # saved of a run
 CHECKED = 24  # instants between a hundredth of the last time and the last, at which theory and simulation are compared
 AGREE = 0.02  # of the theory's number, beyond the error bar
-COARSER = (0.5,)  # resolutions of the companions over the run's own
-COARSER_UNDAMPED = (0.5, 0.63, 0.8)
-BAR = 1.5  # times the difference from the companion: elements are of first order
 FINEST, USUAL_END = 2.0, 0.05  # resolution of the whole beam's own choice, up to this time, T*; later ones are coarser
 WIDE = 0.05  # error bar of the map's largest moment over its value, beyond which the beam is simulated
 LATEST = 20.0  # T*: later times are not simulated
+COARSE, INSTANTS_OF_IMPACT = 0.5, 1000  # resolution and saved instants a T* of a whole impact
 LONGEST = 3.0  # T*: a loaded beam that is then still at the wall is not followed further
 DAMPING_RATIOS = (0.002, 0.01, 0.05)  # of the first mode: of a plain steel bar, of one with joints, of a damped one
 STEEP = 0.3  # slope of the bow at the beam's ends from which the small-slope theory deserves a warning
@@ -139,24 +134,20 @@ def _runs(
     """One run and its companions, read at ``times``."""
     end = BEYOND * max(times)
     save = np.unique(np.concatenate([np.linspace(0.0, end, INSTANTS + 1)[1:], times]))
-    factors = (1.0, *(COARSER if case.impact.damping > 0.0 else COARSER_UNDAMPED))
+    methods = [method, *companions_of(method, case.impact, end)]
     read, warnings = [], []
-    for i, factor in enumerate(factors):
-        chosen = refined(method, factor)
-        if chosen is None:
-            continue
+    for i, chosen in enumerate(methods):
+        told = _part_of(progress, 1.0 / len(methods), i)
         try:
-            history = chosen.simulate(
-                case.impact, end_time=end, save=save, progress=_part_of(progress, 1.0 / len(factors), i)
-            )
+            history = chosen.simulate(case.impact, end_time=end, save=save, progress=told)
         except SimulationError as error:
             if i == 0:
                 raise
-            warnings.append(f"no companion run at {factor:g} times the resolution: {error}")
+            warnings.append(f"no companion run: {error}")
             continue
         read.append([_reading(case, history, t) for t in times])
         warnings += loss_warnings(numerical_loss(energy_at_end(history))) if i == 0 else []
-    return [_with_bars([run[i] for run in read], case.impact.damping > 0.0) for i in range(len(times))], warnings
+    return [_with_bars([run[i] for run in read], case.impact) for i in range(len(times))], warnings
 
 
 def _reading(case: Case, history: ImpactHistory, time: float) -> dict[str, float | None]:
@@ -181,20 +172,14 @@ def _element_at(history: ImpactHistory, k: int, place: float) -> float:
     return float(x[at] - x[at - 1])
 
 
-def _with_bars(runs: Sequence[dict[str, float | None]], damped: bool) -> dict[str, Measured]:
+def _with_bars(runs: Sequence[dict[str, float | None]], impact: Impact) -> dict[str, Measured]:
     """The numbers of one time from the run and its companions."""
     found = {}
     for name in COMPARED:
-        values = [run[name] for run in runs]
-        known = [value for value in values if value is not None]
-        if len(known) < len(values) or not known:
-            continue
-        least = runs[0]["element"] or 0.0 if name == "half_contact_length" else 0.0
-        if damped or len(known) < 3:
-            bar = BAR * max((abs(v - known[0]) for v in known[1:]), default=0.0) if len(known) > 1 else None
-            found[name] = Measured(known[0], None if bar is None else max(bar, least))
-        else:
-            found[name] = Measured(statistics.fmean(known), max(2.0 * statistics.stdev(known), least))
+        values = [value for run in runs if (value := run[name]) is not None]
+        if len(values) == len(runs):
+            element = runs[0]["element"] or 0.0
+            found[name] = number_of(values, impact, element if name == "half_contact_length" else 0.0)
     return found
 
 
@@ -266,17 +251,18 @@ def _over_damping(case: Case) -> list[dict[str, Any]]:
     return found
 
 
-def _followed(impact: Impact, method: Method) -> dict[str, Measured]:
-    """The whole impact by one run and its companion; restitution is missing where the beam has not left."""
-    outcomes = []
-    for factor in (0.5, 0.35) if impact.damping > 0.0 else (0.5, 0.4, 0.32, 0.25):
-        chosen = for_whole_beam(refined(method, factor) or method, impact)
-        history = simulate_to_separation(chosen, impact, longest=LONGEST * impact.slow_time_scale, save=1000)
-        outcomes.append(whole_impact(history))
-    found = {}
+def _followed(impact: Impact, method: Method) -> dict[str, Measured | Band]:
+    """The whole impact by one run and its companions; restitution is missing where the beam has not left."""
+    chosen = for_whole_beam(refined(method, COARSE) or method, impact)
+    longest = LONGEST * impact.slow_time_scale
+    outcomes = [
+        whole_impact(simulate_to_separation(one, impact, longest=longest, save=INSTANTS_OF_IMPACT))
+        for one in (chosen, *companions_of(chosen, impact, longest))
+    ]
+    left = all(outcome.left for outcome in outcomes)
+    found: dict[str, Measured | Band] = {}
     for name in ("restitution", "last_contact", "peak_moment"):
         values = [float(getattr(outcome, name)) for outcome in outcomes]
-        bar = max(abs(v - values[0]) for v in values[1:])
-        left = all(outcome.left for outcome in outcomes)
-        found[name] = Measured(values[0], 2.0 * bar) if left or name == "peak_moment" else Measured()
+        number = number_of(values, impact) if impact.damping else Band.of(values)
+        found[name] = number if left or name == "peak_moment" else Measured()
     return found

@@ -1,0 +1,54 @@
+"""Error bars of one beam's run from other runs of it: which to make, and what they say.
+
+- early (before :data:`EARLY` T*): elements and steps twice as long;
+- later, with damping: half as many elements, and another contact law on the same ones; the change of scheme is a bound
+  from below of what no refinement of one scheme shows;
+- later, without damping, where motion does not converge: three other resolutions. Numbers are the means of all four with
+  two standard deviations.
+"""
+
+from __future__ import annotations
+
+import math
+import statistics
+from collections.abc import Sequence
+
+from bent_beam.impact import Impact
+from bent_beam.method import Method, for_whole_beam, refined
+from measure.measured import Measured
+
+__all__ = ["companions_of", "is_late", "number_of", "suited"]
+
+EARLY = 0.003  # T*
+BAR = 1.5  # times what another run changes: elements are of first order
+LEAST = 1e-3  # of a value: what two codes differ by where everything is resolved
+COARSER, COARSER_UNDAMPED = (0.5,), (0.5, 0.63, 0.8)
+
+
+def is_late(impact: Impact, end: float) -> bool:
+    """Whether a run to ``end``, s, is one of the whole beam."""
+    return end > EARLY * impact.slow_time_scale
+
+
+def suited(method: Method, impact: Impact, end: float) -> Method:
+    """``method`` with what it leaves open chosen for a run to ``end``, s: a whole beam's choices lose no energy."""
+    return for_whole_beam(method, impact) if is_late(impact, end) else method
+
+
+def companions_of(method: Method, impact: Impact, end: float) -> list[Method]:
+    """Runs to compare one to ``end``, s, with."""
+    late = is_late(impact, end)
+    coarser = (refined(method, f) for f in (COARSER_UNDAMPED if late and not impact.damping else COARSER))
+    checks = getattr(method, "cross_checks", None) if late and impact.damping else None
+    others = {} if checks is None else checks(impact)
+    return [*(m for m in coarser if m is not None), *(m for cause, m in others.items() if cause == "contact_law")]
+
+
+def number_of(values: Sequence[float], impact: Impact, least: float = 0.0) -> Measured:
+    """A number from the run's own value and its companions'; its error bar is at least ``least``."""
+    first, *others = values
+    if not others:
+        return Measured(first)
+    if impact.damping == 0.0 and len(others) > 1:
+        return Measured(statistics.fmean(values), max(2.0 * statistics.stdev(values), least, LEAST * abs(first)))
+    return Measured(first, max(BAR * math.hypot(*(v - first for v in others)), least, LEAST * abs(first)))
