@@ -1,10 +1,10 @@
 """Error bars of one beam's run from other runs of it: which to make, and what they say.
 
 - early (before :data:`EARLY` T*): elements and steps twice as long;
-- later, with damping: half as many elements, and another contact law on the same ones; the change of scheme is a bound
-  from below of what no refinement of one scheme shows;
-- later, without damping, where motion does not converge: three other resolutions. Numbers are the means of all four with
-  two standard deviations.
+- later, with damping: half as many elements, and another contact law on the same ones: no refinement of one scheme
+  shows what the scheme does;
+- later, without damping, where motion does not converge: other resolutions and the other law. Numbers are the means of
+  all with two standard deviations.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ def companions_of(method: Method, impact: Impact, end: float) -> list[Method]:
     """Runs to compare one to ``end``, s, with."""
     late = is_late(impact, end)
     coarser = (refined(method, f) for f in (COARSER_UNDAMPED if late and not impact.damping else COARSER))
-    checks = getattr(method, "cross_checks", None) if late and impact.damping else None
+    checks = getattr(method, "cross_checks", None) if late else None
     others = {} if checks is None else checks(impact)
     return [*(m for m in coarser if m is not None), *(m for cause, m in others.items() if cause == "contact_law")]
 

@@ -15,17 +15,15 @@ import numpy as np
 
 from bent_beam.cases import Case
 from bent_beam.errors import SimulationError
-from bent_beam.free_flight import LOWEST_PERIOD
 from bent_beam.history import ImpactHistory
 from bent_beam.impact import Impact
-from bent_beam.method import Method, for_whole_beam, refined, simulate_to_separation
+from bent_beam.method import Method, for_whole_beam, refined
 from comparison.companions import EARLY, companions_of, number_of
 from comparison.summary import energy_at_end, loss_warnings, numerical_loss
-from comparison.whole_impact.stored_map import bounce_from_map
-from measure.front import half_contact_length, mean_reaction
-from measure.measured import Band, Measured
+from comparison.whole_impact.predicted import predicted_impact
+from measure.front import element_at, half_contact_length, mean_reaction
+from measure.measured import Measured
 from measure.reduction import peak_moment
-from measure.whole_impact import whole_impact
 from theory import Prediction, predict
 
 __all__ = ["COMPARED", "predict_case"]
@@ -39,11 +37,7 @@ INSTANTS = 400  # saved of a run
 CHECKED = 24  # instants between a hundredth of the last time and the last, at which theory and simulation are compared
 AGREE = 0.02  # of the theory's number, beyond the error bar
 FINEST, USUAL_END = 2.0, 0.05  # resolution of the whole beam's own choice, up to this time, T*; later ones are coarser
-WIDE = 0.05  # error bar of the map's largest moment over its value, beyond which the beam is simulated
 LATEST = 20.0  # T*: later times are not simulated
-COARSE, INSTANTS_OF_IMPACT = 0.5, 1000  # resolution and saved instants a T* of a whole impact
-LONGEST = 3.0  # T*: a loaded beam that is then still at the wall is not followed further
-DAMPING_RATIOS = (0.002, 0.01, 0.05)  # of the first mode: of a plain steel bar, of one with joints, of a damped one
 STEEP = 0.3  # slope of the bow at the beam's ends from which the small-slope theory deserves a warning
 
 Progress = Callable[[float], None]
@@ -65,7 +59,7 @@ def predict_case(
     rows = document["times"]
     document["times"] = rows[: len(times)]
     document["warnings"] = _warnings(impact)
-    document["agreement"] = None
+    document["agreement"], document["yield_stress"] = None, getattr(case.section, "yield_stress", None)
     if method is not None:
         told = progress or (lambda _: None)
         simulated, warnings = _simulated(case, method, [*times, *checked], told)
@@ -73,7 +67,7 @@ def predict_case(
             row["simulation"] = {name: number.to_dict() for name, number in found.items()}
         document["agreement"] = _agreement(checked, prediction, simulated, len(times))
         document["warnings"] += warnings
-    document["whole_impact"] = _whole_impact(case, method)
+    document["whole_impact"] = predicted_impact(case, method)
     return document
 
 
@@ -161,15 +155,8 @@ def _reading(case: Case, history: ImpactHistory, time: float) -> dict[str, float
         "impulse": float(history.array("total_impulse")[k]),
         "peak_moment": moment,
         "peak_stress": None if case.section is None else case.section.stress(moment, case.impact.axial_force),
-        "element": _element_at(history, k, front),
+        "element": element_at(history, k, front),
     }
-
-
-def _element_at(history: ImpactHistory, k: int, place: float) -> float:
-    """Length of the element at ``place`` from the middle, m."""
-    x = np.unique(np.abs(history.positions(k)))
-    at = min(max(int(np.searchsorted(x, place)), 1), x.size - 1)
-    return float(x[at] - x[at - 1])
 
 
 def _with_bars(runs: Sequence[dict[str, float | None]], impact: Impact) -> dict[str, Measured]:
@@ -201,68 +188,3 @@ def _agreement(
             begin = i + 1
     length, begin = best[0], -best[1]
     return {"from": checked[begin], "until": checked[begin + length - 1]} if length else None
-
-
-# --- the whole impact -----------------------------------------------------------------------------------------------
-
-
-def _whole_impact(case: Case, method: Method | None) -> dict[str, Any] | None:
-    """Restitution, last contact, largest moment and stress of the whole impact, SI; ``None`` where nothing says them.
-
-    From the stored map where it reaches and is sure: a beam without loads, a second wall or rocking. Otherwise by
-    simulation.
-    """
-    impact = case.impact
-    free = not (impact.loaded or impact.off_centre) and impact.opposite_wall is None
-    found: Any = bounce_from_map(impact.kappa_over_nu, impact.relative_damping) if free else None
-    source = "stored map"
-    wide = found is not None and impact.damping > 0.0 and found["peak_moment"].error > WIDE * found["peak_moment"].value
-    if (found is None or wide) and method is not None and impact.opposite_wall is None:
-        found, source = _followed(impact, method), "simulation"
-    if found is None:
-        return None
-    return {
-        "restitution": found["restitution"].to_dict(),
-        "last_contact": found["last_contact"].scaled(impact.slow_time_scale).to_dict(),
-        **_peaks(case, found["peak_moment"]),
-        "peak_force": None,
-        "source": source,
-        "over_damping": _over_damping(case) if free else [],
-    }
-
-
-def _peaks(case: Case, largest: Measured | Band) -> dict[str, Any]:
-    """Largest moment, N m, and stress, Pa, from the moment over V₀√(μEI)."""
-    impact, section = case.impact, case.section
-    moment = largest.scaled(impact.velocity * (impact.bending_stiffness * impact.mass_per_length) ** 0.5)
-    stress = None
-    if section is not None:
-        stress = moment.scaled(1.0 / section.section_modulus, section.stress(0.0, impact.axial_force)).to_dict()
-    return {"peak_moment": moment.to_dict(), "peak_stress": stress}
-
-
-def _over_damping(case: Case) -> list[dict[str, Any]]:
-    """Largest moment and stress of the whole impact over a plausible range of the material's damping ratio."""
-    found = []
-    for ratio in DAMPING_RATIOS:
-        numbers = bounce_from_map(case.impact.kappa_over_nu, ratio * LOWEST_PERIOD / math.pi)
-        if numbers is not None:
-            found.append({"damping_ratio": ratio, **_peaks(case, numbers["peak_moment"])})
-    return found
-
-
-def _followed(impact: Impact, method: Method) -> dict[str, Measured | Band]:
-    """The whole impact by one run and its companions; restitution is missing where the beam has not left."""
-    chosen = for_whole_beam(refined(method, COARSE) or method, impact)
-    longest = LONGEST * impact.slow_time_scale
-    outcomes = [
-        whole_impact(simulate_to_separation(one, impact, longest=longest, save=INSTANTS_OF_IMPACT))
-        for one in (chosen, *companions_of(chosen, impact, longest))
-    ]
-    left = all(outcome.left for outcome in outcomes)
-    found: dict[str, Measured | Band] = {}
-    for name in ("restitution", "last_contact", "peak_moment"):
-        values = [float(getattr(outcome, name)) for outcome in outcomes]
-        number = number_of(values, impact) if impact.damping else Band.of(values)
-        found[name] = number if left or name == "peak_moment" else Measured()
-    return found

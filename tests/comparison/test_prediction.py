@@ -43,7 +43,7 @@ def agrees(row: dict[str, Any], name: str) -> bool:
 def test_theory_and_simulation_agree_before_reflections(
     kappa: float, damping: float, loads: dict[str, float], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("comparison.prediction.LONGEST", 0.2)  # the whole impact is not the question here
+    monkeypatch.setattr("comparison.whole_impact.predicted.LONGEST", 0.2)  # the whole impact is not the question here
     impact = Impact.whole_beam(kappa, relative_damping=damping).replace(**loads)
     told: list[float] = []
     found = predict_case(case_of(impact), [1e-5, 2e-3, 4e-3], progress=told.append)
