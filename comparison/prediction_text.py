@@ -105,7 +105,8 @@ def _largest(document: dict[str, Any]) -> list[str]:
         lines.append(f"  {until} (simulation): {_scaled(last['simulation'][name], scale)}")
     if whole is None:
         return [*lines, "  of the whole impact: not known here, it may be larger (bentbeam bounce)"]
-    lines.append(f"  of the whole impact ({whole['source']}): {_scaled(whole[name], scale)}")
+    whole_impact = "of the whole impact" if _scaled(whole["last_contact"], 1.0) != "-" else "of the first 3 T*"
+    lines.append(f"  {whole_impact} ({whole['source']}): {_scaled(whole[name], scale)}")
     lines += over_damping_lines(whole["over_damping"], name, scale)
     if document["yield_stress"]:
         lines.append(f"  the material yields at: {document['yield_stress'] * 1e-6:.4g}")

@@ -18,6 +18,7 @@ from comparison.companions import companions_of, is_late, number_of
 from comparison.match import INSTANTS
 from comparison.rows import COMPANIONS
 from comparison.text_table import text_table
+from comparison.units import unit_for
 from measure.balance import balance_of
 from measure.estimators import leading_order
 from measure.front import element_at, half_contact_length
@@ -196,11 +197,12 @@ def energy_at_end(history: ImpactHistory) -> dict[str, float | None]:
 def run_table(found: dict[str, Any], verbose: bool = False) -> str:
     """The summary of one run for a reader; ``verbose``: with what tells an expert how good it is."""
     until = f"until {1e3 * found['time']:.4g} ms"
-    moment = Measured(found["peak_moment"], found["peak_moment_error"]).scaled(1e-3)
+    scale, unit = unit_for("N m", [found["peak_moment"]])
+    moment = Measured(found["peak_moment"], found["peak_moment_error"]).scaled(scale)
     lines = [
         _compared("half contact length", found["half_contact_length"], "m"),
         _compared("impulse", found["total_impulse"], "N s"),
-        [f"largest bending moment, {until}", str(moment), "kN m", ""],
+        [f"largest bending moment, {until}", str(moment), unit, ""],
     ]
     if found["peak_stress"] is not None:
         stress = Measured(found["peak_stress"], found["peak_stress_error"]).scaled(1e-6)
