@@ -3,8 +3,8 @@
 - early (before :data:`EARLY` T*): elements and steps twice as long;
 - later, with damping: half as many elements, and another contact law on the same ones: no refinement of one scheme
   shows what the scheme does;
-- later, without damping, where motion does not converge: other resolutions and the other law. Numbers are the means of
-  all with two standard deviations.
+- later, without damping, where motion does not converge: other elements, steps and contact laws, drawn at random from a
+  seed. Numbers are the means of all with two standard deviations.
 """
 
 from __future__ import annotations
@@ -12,6 +12,8 @@ from __future__ import annotations
 import math
 import statistics
 from collections.abc import Sequence
+
+import numpy as np
 
 from bent_beam.impact import Impact
 from bent_beam.method import Method, for_whole_beam, refined
@@ -21,8 +23,9 @@ __all__ = ["companions_of", "is_late", "number_of", "suited"]
 
 EARLY = 0.003  # T*
 BAR = 1.5  # times what another run changes: elements are of first order
-LEAST = 1e-3  # of a value: what two codes differ by where everything is resolved
-COARSER, COARSER_UNDAMPED = (0.5,), (0.5, 0.63, 0.8)
+LEAST = 2e-3  # of a value: what two codes differ by where both resolve everything
+COARSER = 0.5
+DRAWN, SEED = 5, 15  # runs without damping
 
 
 def is_late(impact: Impact, end: float) -> bool:
@@ -37,11 +40,15 @@ def suited(method: Method, impact: Impact, end: float) -> Method:
 
 def companions_of(method: Method, impact: Impact, end: float) -> list[Method]:
     """Runs to compare one to ``end``, s, with."""
-    late = is_late(impact, end)
-    coarser = (refined(method, f) for f in (COARSER_UNDAMPED if late and not impact.damping else COARSER))
-    checks = getattr(method, "cross_checks", None) if late else None
-    others = {} if checks is None else checks(impact)
-    return [*(m for m in coarser if m is not None), *(m for cause, m in others.items() if cause == "contact_law")]
+    coarser = refined(method, COARSER)
+    others = [] if coarser is None else [coarser]
+    if not is_late(impact, end):
+        return others
+    if impact.damping == 0.0 and hasattr(method, "varied"):
+        random = np.random.default_rng(SEED)
+        return [method.varied(impact, random) for _ in range(DRAWN)]
+    checks = method.cross_checks(impact) if hasattr(method, "cross_checks") else {}
+    return [*others, *(other for cause, other in checks.items() if cause == "contact_law")]
 
 
 def number_of(values: Sequence[float], impact: Impact, least: float = 0.0) -> Measured:
