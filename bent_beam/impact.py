@@ -12,7 +12,7 @@ from __future__ import annotations
 import dataclasses
 import math
 from dataclasses import dataclass
-from typing import Annotated
+from typing import Annotated, Any
 
 from bent_beam.checks import non_negative, positive
 from bent_beam.fields import Part, Quantity
@@ -137,9 +137,9 @@ class Impact(Part):
     def whole_beam(cls, kappa_over_nu: float, *, relative_damping: float = 0.0) -> Impact:
         """The free–free beam in units of its half length: EI = μ = V₀ = L/2 = 1, so T* = 1; damping is η/T*."""
         infinite = cls.dimensionless(kappa_over_nu, damping=relative_damping, length=2.0)
-        return dataclasses.replace(infinite, tension_direction="axis")
+        return infinite.replace(tension_direction="axis")
 
-    def replace(self, **changes: float) -> Impact:
+    def replace(self, **changes: Any) -> Impact:
         """A copy with some fields changed, validated again."""
         return dataclasses.replace(self, **changes)
 

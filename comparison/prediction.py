@@ -7,7 +7,6 @@ Error bars are those of :mod:`comparison.companions`.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 

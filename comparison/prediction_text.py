@@ -54,7 +54,8 @@ def _validity(document: dict[str, Any]) -> str:
     why = LIMITS[document["limited_by"]]
     if not document["valid_until"]:
         return f"The theory covers no time: {why}."
-    start = f"from {milliseconds(document['valid_from'])} (before, shear deformation matters) " if document["valid_from"] else ""
+    begin = milliseconds(document["valid_from"])
+    start = f"from {begin} (before, shear deformation matters) " if document["valid_from"] else ""
     return f"The theory holds to 2 % {start}until {milliseconds(document['valid_until'])}: then {why}."
 
 

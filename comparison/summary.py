@@ -257,7 +257,8 @@ def _hold_text(hold: dict[str, Any]) -> str:
 
 
 def _hits_table(rows: Sequence[dict[str, Any]]) -> str:
-    head = ["hit", "wall", "from, s", "to, s", "mean |x|, m", "impulse, N s", "V before, m/s", "after, m/s", "energy, J", "lost, J"]
+    head = ["hit", "wall", "from, s", "to, s", "mean |x|, m", "impulse, N s", "V before, m/s", "after, m/s"]
+    head += ["energy, J", "lost, J"]
     names = ("begin", "end", "place", "impulse", "before", "after", "energy", "lost")
     body = [[str(i), row["wall"], *(f"{row[name]:.5g}" for name in names)] for i, row in enumerate(rows, 1)]
     return text_table(head, body)

@@ -24,12 +24,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bent_beam import ImpactHistory
+from bent_beam.bending import end_curvatures
 from exudyn_models.arrays import Array, Flags
 from exudyn_models.contacts import ContactRun
 from exudyn_models.elements import Beam
 from exudyn_models.integrators import Averages
 from exudyn_models.scaling import Scaling
-from measure.reduction import end_curvatures
 
 __all__ = ["Recorder"]
 

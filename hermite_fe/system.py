@@ -123,7 +123,7 @@ class System:
     dampings: tuple[tuple[str, Array], ...] = ()
     load: Array = field(default_factory=_left_out)
     supports: tuple[int, ...] = ()
-    bending: Bending = Bending()
+    bending: Bending = field(default_factory=Bending)
 
     def __post_init__(self) -> None:
         set_ = object.__setattr__

@@ -16,6 +16,7 @@ from measure.whole_impact import pushes
 
 __all__ = ["Hit", "hits"]
 
+
 @dataclass(frozen=True)
 class Hit:
     """wall : "front" or "opposite"; begin, end : s; place : mean |x| of the push, m; impulse : N s, always positive.
@@ -64,6 +65,6 @@ def hits(history: ImpactHistory) -> list[Hit]:
     for i, k, wall in spans:
         given = rows[wall][k] - rows[wall][i]
         place = float(given @ np.abs(history.contact_positions(0))) / float(given.sum())
-        numbers = (time[i], time[k], place, given.sum(), velocity[i], velocity[k], energy[k] + work[k])
-        found.append(Hit(wall, *map(float, numbers), lost=float(energy[i] - energy[k])))
+        numbers = (place, given.sum(), velocity[i], velocity[k], energy[k] + work[k], energy[i] - energy[k])
+        found.append(Hit(wall, float(time[i]), float(time[k]), *map(float, numbers)))
     return found

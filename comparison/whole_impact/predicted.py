@@ -1,5 +1,6 @@
-"""The whole impact of one case for a prediction: from the stored map where it reaches and is sure (a beam without loads, a
-second wall or rocking), otherwise by a run and its companions on coarse elements; and over a plausible range of damping."""
+"""The whole impact of one case for a prediction, and over a plausible range of damping: from the stored map where it
+reaches and is sure (a beam without loads, a second wall or rocking), otherwise by a run and its companions on coarse
+elements."""
 
 from __future__ import annotations
 
@@ -49,7 +50,7 @@ def predicted_impact(case: Case, method: Method | None) -> dict[str, Any] | None
 
 
 def over_damping(impact: Impact, section: Section | None, method: Method | None) -> list[dict[str, Any]]:
-    """Largest moment, N m, and stress, Pa, of the whole impact over a plausible range of the material's damping ratio."""
+    """Largest moment, N m, and stress, Pa, of the whole impact over a plausible range of the damping ratio."""
     found = []
     for ratio in DAMPING_RATIOS:
         damped = impact.replace(damping=ratio * LOWEST_PERIOD / math.pi * impact.slow_time_scale)

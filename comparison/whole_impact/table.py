@@ -50,8 +50,8 @@ def bounce_table(found: Bounce, over_damping: Sequence[dict[str, Any]] = (), *, 
     lines = [
         text_table(["", "value", "", *(["beam's units"] if verbose else [])], rows),
         "",
-        "± is the error bar; a band is mean ± standard deviation of runs. Energies are shares of the initial energy and",
-        "the work of the loads, at the last contact.",
+        "± is the error bar; a band is mean ± standard deviation of runs. Energies are shares of the initial energy",
+        "and the work of the loads, at the last contact.",
         *(f"{line[0].upper()}{line[1:]} ({unit})." for line in over),
     ]
     if verbose:
