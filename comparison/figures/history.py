@@ -65,7 +65,7 @@ def _shapes(axis: Any, history: ImpactHistory) -> None:
     axis.axhline(0.0, **{**style.WALL, "label": None})
     axis.set_xlabel("$x$  (m)")
     axis.set_ylabel("gap  (mm)")
-    axis.legend(title="$t$", ncols=2)
+    axis.legend(title="$t$", ncols=2, frameon=True, framealpha=0.85, edgecolor="none")
 
 
 def _map(fig: Any, axis: Any, history: ImpactHistory) -> None:
