@@ -1,6 +1,6 @@
 """Error bars of one beam's run from other runs of it: which to make, and what they say.
 
-- early (before :data:`EARLY` T*): elements and steps twice as long;
+- early (before :data:`EARLY` T*; without damping before waves return from the ends): elements and steps twice as long;
 - later, with damping: half as many elements, and another contact law on the same ones: no refinement of one scheme
   shows what the scheme does;
 - later, without damping, where motion does not converge: other elements, steps and contact laws, drawn at random from a
@@ -15,7 +15,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from bent_beam.impact import Impact
+from bent_beam.impact import BEFORE_WAVES_RETURN, Impact
 from bent_beam.method import Method, for_whole_beam, refined
 from measure.measured import Measured
 
@@ -30,7 +30,7 @@ DRAWN, SEED = 5, 15  # runs without damping
 
 def is_late(impact: Impact, end: float) -> bool:
     """Whether a run to ``end``, s, is one of the whole beam."""
-    return end > EARLY * impact.slow_time_scale
+    return end > (EARLY if impact.damping else BEFORE_WAVES_RETURN) * impact.slow_time_scale
 
 
 def suited(method: Method, impact: Impact, end: float) -> Method:
@@ -38,15 +38,16 @@ def suited(method: Method, impact: Impact, end: float) -> Method:
     return for_whole_beam(method, impact) if is_late(impact, end) else method
 
 
-def companions_of(method: Method, impact: Impact, end: float) -> list[Method]:
-    """Runs to compare one to ``end``, s, with."""
+def companions_of(method: Method, impact: Impact, end: float, refine: float = 1.0) -> list[Method]:
+    """Runs to compare one to ``end``, s, with. refine : how much finer ``method`` is than a whole beam's choice."""
     coarser = refined(method, COARSER)
     others = [] if coarser is None else [coarser]
     if not is_late(impact, end):
         return others
     if impact.damping == 0.0 and hasattr(method, "varied"):
         random = np.random.default_rng(SEED)
-        return [method.varied(impact, random) for _ in range(DRAWN)]
+        drawn = [method.varied(impact, random) for _ in range(DRAWN)]
+        return [refined(one, refine) or one for one in drawn]
     checks = method.cross_checks(impact) if hasattr(method, "cross_checks") else {}
     return [*others, *(other for cause, other in checks.items() if cause == "contact_law")]
 

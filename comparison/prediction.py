@@ -17,7 +17,7 @@ from bent_beam.errors import SimulationError
 from bent_beam.history import ImpactHistory
 from bent_beam.impact import Impact
 from bent_beam.method import Method, for_whole_beam, refined
-from comparison.companions import EARLY, companions_of, number_of
+from comparison.companions import companions_of, is_late, number_of
 from comparison.summary import energy_at_end, loss_warnings, numerical_loss
 from comparison.whole_impact.predicted import predicted_impact
 from measure.front import element_at, half_contact_length, mean_reaction
@@ -35,7 +35,7 @@ BEYOND = 1.15  # times the last time: readings take a tenth of the time before a
 INSTANTS = 400  # saved of a run
 CHECKED = 24  # instants between a hundredth of the last time and the last, at which theory and simulation are compared
 AGREE = 0.02  # of the theory's number, beyond the error bar
-FINEST, USUAL_END = 2.0, 0.05  # resolution of the whole beam's own choice, up to this time, T*; later ones are coarser
+FINEST, USUAL_END = 2.0, 0.05  # resolution over the whole beam's own choice, up to this time, T*
 LATEST = 20.0  # T*: later times are not simulated
 STEEP = 0.3  # slope of the bow at the beam's ends from which the small-slope theory deserves a warning
 
@@ -94,13 +94,15 @@ def _simulated(
 ) -> tuple[list[dict[str, Measured]], list[str]]:
     """What the runs say at each time, and their warnings."""
     impact = case.impact
-    bound, last = EARLY * impact.slow_time_scale, LATEST * impact.slow_time_scale
-    early, late = [t for t in times if 0.0 < t <= bound], [t for t in times if bound < t <= last]
+    last = LATEST * impact.slow_time_scale
+    early = [t for t in times if t > 0.0 and not is_late(impact, t)]
+    late = [t for t in times if is_late(impact, t) and t <= last]
     found: dict[float, dict[str, Measured]] = {t: {} for t in times}
     warnings: list[str] = []
     if max(times) > last:
         warnings.append(f"times beyond {last:.4g} s ({LATEST:g} T*) are not simulated here: bentbeam simulate")
-    groups = [(early, method), (late, _for_late_times(method, impact, max(late, default=0.0)))]
+    refine = _fineness(impact, max(late, default=0.0))
+    groups = [(early, method), (late, for_whole_beam(refined(method, refine) or method, impact))]
     share = 1.0 / sum(bool(group) for group, _ in groups) if early or late else 1.0
     for group, chosen in groups:
         if group:
@@ -115,10 +117,9 @@ def _part_of(progress: Progress, share: float, before: int) -> Progress:
     return lambda part: progress(share * (before + part))
 
 
-def _for_late_times(method: Method, impact: Impact, end: float) -> Method:
-    """``method`` for the whole beam, the finer the sooner the run ends."""
-    factor = FINEST * min(1.0, (USUAL_END * impact.slow_time_scale / end) ** (1.0 / 3.0)) if end > 0.0 else 1.0
-    return for_whole_beam(refined(method, factor) or method, impact)
+def _fineness(impact: Impact, end: float) -> float:
+    """Of a run of the whole beam over its usual choice: the finer the sooner the run ends."""
+    return FINEST * min(1.0, (USUAL_END * impact.slow_time_scale / end) ** (1.0 / 3.0)) if end > 0.0 else 1.0
 
 
 def _runs(
@@ -127,7 +128,8 @@ def _runs(
     """One run and its companions, read at ``times``."""
     end = BEYOND * max(times)
     save = np.unique(np.concatenate([np.linspace(0.0, end, INSTANTS + 1)[1:], times]))
-    methods = [method, *companions_of(method, case.impact, end)]
+    last = max(times)
+    methods = [method, *companions_of(method, case.impact, last, _fineness(case.impact, last))]
     read, warnings = [], []
     for i, chosen in enumerate(methods):
         told = _part_of(progress, 1.0 / len(methods), i)

@@ -142,9 +142,12 @@ def test_a_rail_is_its_catalogue_entry():
 
 
 @pytest.mark.parametrize("kind", ["pipe", "round_bar", "rectangle", "general"])
-def test_a_new_case_can_be_used_as_it_is(kind, tmp_path):
+def test_a_new_case_can_be_used_once_its_damping_is_stated(kind, tmp_path):
     from comparison.new_case import new_case
 
     file = tmp_path / "mine.toml"
     file.write_text(new_case(kind))
-    assert load_case(file).section is not None
+    with pytest.raises(InputError, match="beam.damping_ratio .*0.002 plain steel, 0.01 with joints"):
+        load_case(file)
+    file.write_text(new_case(kind, 0.01))
+    assert load_case(file).section is not None and load_case(file).impact.damping > 0.0
