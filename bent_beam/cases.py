@@ -35,7 +35,7 @@ MAXIMUM_BYTES = 1_000_000
 @dataclass(frozen=True)
 class Case:
     """A validated case. ``end_time`` in s; ``mesh`` is ``None`` when it is to be chosen from the problem; ``tables``
-    are those of the paths, by name; ``section`` where one was given; ``warnings`` of what the description says."""
+    are those of the paths, by name; ``section`` where one was given."""
 
     title: str
     impact: Impact
@@ -43,7 +43,6 @@ class Case:
     mesh: Mesh | None
     tables: dict[str, dict[str, Any]]
     section: Section | None = None
-    warnings: tuple[str, ...] = ()
 
     def method(self, path: str, *, label: str | None = None) -> Method:
         """The method of ``path`` with the parts that this case sets for it.
@@ -97,6 +96,7 @@ def case_from_tables(tables: Mapping[str, Any]) -> Case:
     others = _tables_of_paths(tables)
     section = part_from_table(SECTIONS, tables["section"], "section") if tables.get("section") else None
     impact = _impact(beam, arrival, wall, section)
+    _check_buckling(impact)
     return Case(
         title=tables.get("title", ""),
         impact=impact,
@@ -104,7 +104,6 @@ def case_from_tables(tables: Mapping[str, Any]) -> Case:
         mesh=_mesh(tables.get("mesh", {})),
         tables=others,
         section=section,
-        warnings=tuple(_warnings(impact)),
     )
 
 
@@ -145,15 +144,14 @@ def _mesh(table: Any) -> Mesh | None:
     return None
 
 
-def _warnings(impact: Impact) -> list[str]:
-    """What a description says that its author may not have meant."""
+def _check_buckling(impact: Impact) -> None:
+    """Raise :class:`InputError` for a compression under which no bow is at rest."""
     buckling = math.pi**2 * impact.bending_stiffness / impact.length**2
     if impact.axial_force < -buckling:
-        return [
-            f"beam.axial_force: a compression of {-impact.axial_force:.6g} N is beyond {buckling:.6g} N = π² EI/L², at "
-            "which a straight beam on hinges buckles"
-        ]
-    return []
+        raise InputError(
+            f"beam.axial_force must not press with more than {buckling:.6g} N = π² EI/L², at which a straight beam "
+            f"buckles (got {impact.axial_force!r})"
+        )
 
 
 def lay_over(tables: dict[str, Any], assignment: str) -> None:

@@ -41,6 +41,12 @@ def beam_quantities(beam: BeamTable, section: Section | None) -> dict[str, Any]:
     """Fields of :class:`bent_beam.Impact` that the beam's tables settle."""
     found: dict[str, Any] = {"length": beam.length, "axial_force": beam.axial_force}
     found["natural_curvature"] = beam.natural_curvature
+    if beam.tension_direction is not None:
+        if not beam.axial_force:
+            raise InputError(
+                f"beam.tension_direction has no effect without beam.axial_force (got {beam.tension_direction!r})"
+            )
+        found["tension_direction"] = beam.tension_direction
     for name in ("bending_stiffness", "mass_per_length"):
         value = getattr(beam, name)
         if section is None and value is None:

@@ -44,7 +44,7 @@ def bears_free_flight(impact: Impact) -> bool:
     if impact.supported or impact.wall_in_part:
         return False
     forces = [load for load, about in loads_of(Impact).items() if about.powers is None and getattr(impact, load)]
-    return impact.uniform_pressure == 0.0 and not forces and impact.opposite_wall is None
+    return impact.net_load == 0.0 and not forces and impact.opposite_wall is None
 
 
 def cannot_return(impact: Impact, x: Array, gap: Array, velocity: Array, energy: float) -> bool:

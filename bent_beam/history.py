@@ -22,6 +22,9 @@ Dimensions: ``time`` (the saved instants) and ``x`` (nodes) and ``contact`` (con
 | loss_wall | time | J | by the dashpots of a wall that gives way |
 | peak_force, peak_force_time | time | N, s | of such a wall, the largest force on the whole zone of all steps so far |
 | peak_penetration, peak_pressure | time | m, N/m | likewise, anywhere (of a stop its force, N) |
+| largest_moment | time | N m | largest bending moment of all steps since the instant before |
+| largest_moment_place | time | m | its place |
+| largest_midspan_moment | time | N m | the same at x = 0 |
 | held_impulse | time | N s | what held contact points pulled since t = 0, never positive |
 
 A moving mesh adds ``position`` (time, x) and ``contact_position`` (time, contact), m.
@@ -31,7 +34,6 @@ Attributes hold the case, the settings, versions and warnings as JSON text.
 from __future__ import annotations
 
 import json
-import unicodedata
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
 from functools import lru_cache
@@ -41,7 +43,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from bent_beam.checks import finite, one_of, shortened
+from bent_beam.bending import end_curvatures
+from bent_beam.contents import check_contents
 from bent_beam.impact import Impact
 from bent_beam.schema import check_variables
 from bent_beam.storage import read_dataset, write_dataset
@@ -58,16 +61,15 @@ LOSSES = tuple(f"loss_{cause}" for cause in ("impact", "algorithmic", "viscous",
 ENERGIES = ("kinetic_energy", "strain_energy", "contact_energy", "work_of_loads", *LOSSES)
 IMPULSES = ("impulse", "opposite_impulse", "total_impulse", "held_impulse")
 UNITS = {"time": "s", "velocity": "m/s", "slope": "1"}
-UNITS |= dict.fromkeys(("x", "contact_x", "position", "contact_position", "gap"), "m")
 UNITS |= {"peak_force": "N", "peak_force_time": "s", "peak_penetration": "m", "peak_pressure": "N/m"}
+UNITS |= dict.fromkeys(("x", "contact_x", "position", "contact_position", "gap", "largest_moment_place"), "m")
+UNITS |= dict.fromkeys(("largest_moment", "largest_midspan_moment"), "N m")
 UNITS |= dict.fromkeys(IMPULSES, "N s") | dict.fromkeys(ENERGIES, "J")
 COORDINATES = ("time", "x", "contact_x")
-REQUIRED = ("time", "x", "contact_x", "gap", "impulse", "total_impulse", "kinetic_energy", "strain_energy")
 FORMAT = "bent-beam-impact history 2"
-CONTROL = {"Cc", "Cf", "Cs"}  # of Unicode
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class ImpactHistory:
     """What a simulation returns: :attr:`dataset` (see the module's table) with typed access to what is asked often."""
 
@@ -125,6 +127,11 @@ class ImpactHistory:
     def with_warnings(self, warnings: Sequence[str]) -> ImpactHistory:
         """The same with other warnings."""
         return replace(self, dataset=self.dataset.assign_attrs(warnings=json.dumps(list(warnings))))
+
+    def with_section(self, section: Any) -> ImpactHistory:
+        """The same that knows its section (:class:`bent_beam.section.Section`), for stresses."""
+        held = {"area": section.area, "section_modulus": section.section_modulus}
+        return replace(self, dataset=self.dataset.assign_attrs(section=json.dumps(held)))
 
     # reading ------------------------------------------------------------------------------------------
     @property
@@ -187,6 +194,52 @@ class ImpactHistory:
         """Contact point places at saved instant ``k``, m, shape (contacts,)."""
         return self.array("contact_position", k) if "contact_position" in self else self.array("contact_x")
 
+    def bending_moments(self, k: int | slice) -> tuple[Array, Array]:
+        """Bending moment EI(y_xx + K₀), N m, at both ends of each element at saved instant ``k``, and its places, m,
+        both of shape (elements, 2); K₀ is the curvature of the beam free of stress. For a slice of instants, of a fixed
+        mesh, the moments have these in front.
+
+        y_xx is that of the Hermite cubic through deflections and slopes (by differences where a history has none); the
+        part η y_txx of a damped beam is left out.
+        """
+        impact, x = self.impact, self.positions(k if isinstance(k, int) else 0)
+        y = -self.array("gap", k) - 0.5 * impact.wall_curvature * (x - impact.first_touch) ** 2
+        given = "slope" in self
+        slope = self.array("slope", k) if given else np.gradient(y, x, axis=-1, edge_order=2)
+        natural = impact.curvature if impact.natural_curvature is None else impact.natural_curvature
+        moment = impact.bending_stiffness * (end_curvatures(x, y, slope) + natural)
+        return moment, np.stack([x[:-1], x[1:]], axis=1)
+
+    @property
+    def force(self) -> Array:
+        """Mean force of the wall since the saved instant before, N, shape (times,)."""
+        return np.diff(self.array("total_impulse"), prepend=0.0) / np.diff(self.time, prepend=-1.0)
+
+    @property
+    def moment(self) -> Array:
+        """Largest bending moment, N m, shape (times,): of all steps since the saved instant before where the path knows
+        it, otherwise at the instant."""
+        if "largest_moment" in self:
+            return self.array("largest_moment")
+        return np.array([np.abs(self.bending_moments(k)[0]).max() for k in range(self.time.size)])
+
+    @property
+    def stress(self) -> Array | None:
+        """Largest normal stress |M|/W + |N|/A, Pa, shape (times,); ``None`` where the section is not known."""
+        if "section" not in self.attrs:
+            return None
+        section = json.loads(self.attrs["section"])
+        return self.moment / section["section_modulus"] + abs(self.impact.axial_force) / section["area"]
+
+    def plot(self) -> Any:
+        """Force and stress (without a section moment) over time as a Matplotlib figure."""
+        from bent_beam.pictures import force_and_stress
+
+        return force_and_stress(self)
+
+    def __repr__(self) -> str:
+        return f"<ImpactHistory: {self.path}, {self.time.size} instants until {self.time[-1]:.4g} s>"
+
     def __contains__(self, name: str) -> bool:
         """Whether the history has this variable."""
         return name in self.dataset.variables
@@ -229,48 +282,11 @@ class ImpactHistory:
         if history.attrs.get("format") != FORMAT:
             raise ValueError(f"{source} is not a history of this project")
         try:
-            history._check()
+            check_contents(history, UNITS)
         except (ValueError, TypeError, KeyError, OverflowError, RecursionError) as error:
             what = f"{error} is missing" if isinstance(error, KeyError) else str(error)
             raise ValueError(f"{source} is not a good history: {what}") from None
         return history
-
-    def _check(self) -> None:
-        """Raise when an attribute or a variable is not what a history holds: numbers and JSON, nothing else."""
-        for name in ("impact", "settings", "versions", "warnings", "path", "symmetry"):
-            if not isinstance(self.dataset.attrs[name], str):
-                raise TypeError(f"attribute {name} must be text")
-        for name, kind in (("impact", dict), ("settings", dict), ("versions", dict), ("warnings", list)):
-            held = json.loads(self.dataset.attrs[name])
-            if not isinstance(held, kind):
-                raise TypeError(f"attribute {name} must hold a JSON {kind.__name__}")
-            _plain_text(held, f"attribute {name}")
-        _plain_text([self.path, *map(str, self.dataset.variables)], "attribute path or a variable's name")
-        if not all(isinstance(line, str) for line in self.warnings):
-            raise TypeError("attribute warnings must hold texts")
-        one_of("attribute symmetry", self.dataset.attrs["symmetry"], ("half", "full"))
-        _ = self.impact, self.steps, self.seconds, self.completed
-        for required in REQUIRED:
-            _ = self.dataset.variables[required]  # the dataset itself makes coordinates up
-        check_variables(self.dataset, UNITS)
-        finite("attribute seconds", self.seconds)
-        beyond = np.abs([self.positions(0)[0], self.positions(0)[-1]]).max() > self.impact.half_length * (1.0 + 1e-6)
-        if beyond or (self.positions(0)[0] < 0.0) != (self.symmetry == "full"):
-            raise ValueError(f"x must lie on the {self.symmetry} beam of length {self.impact.length!r}")
-
-
-def _plain_text(value: Any, where: str) -> None:
-    """Raise ``ValueError`` for a text with control characters, which could tell a terminal what to do."""
-    if isinstance(value, str):
-        if not all(unicodedata.category(c) not in CONTROL or c in "\n\t" for c in value):
-            raise ValueError(f"{where} holds control characters ({shortened(value)})")
-    elif isinstance(value, dict):
-        for key, item in value.items():
-            _plain_text(key, where)
-            _plain_text(item, where)
-    elif isinstance(value, list):
-        for item in value:
-            _plain_text(item, where)
 
 
 @lru_cache(maxsize=16)

@@ -26,6 +26,7 @@ LONGEST = 1e30  # time, and change of the free motion by the loads, in the probl
 DEFAULT_DURATION = 0.1  # t*
 FIRST_SPREAD = 0.005  # T*: measured, from when on a finite beam's impulse is 1 % off the infinite beam's (κ/ν = 0.5)
 BEFORE_WAVES_RETURN = 0.01  # T*: the earliest that they change the impulse by 2 %
+DIRECTIONS = ("axis", "tangent")
 
 
 @dataclass(frozen=True)
@@ -54,6 +55,9 @@ class Impact(Part):
         float, Quantity("m", "d, for EA = 12 EI/d² on the Exudyn path; from the [section]", above=0.0)
     ] = 0.01
     axial_force: Annotated[float, Load("N", "N, tension positive", group="axial")] = 0.0
+    tension_direction: Annotated[
+        str, Quantity("", "of the axial force at the ends: along x, or along the bow's ends", choices=DIRECTIONS)
+    ] = "axis"
     damping: Annotated[float, Quantity("s", "η, Kelvin–Voigt damping of the beam's own material", least=0.0)] = 0.0
     wall_curvature: Annotated[float, Quantity("1/m", "K_w, positive where the wall is hollow; less than K")] = 0.0
     natural_curvature: Annotated[
@@ -95,7 +99,8 @@ class Impact(Part):
         damping: float = 0.0,
         length: float = 1e3,
     ) -> Impact:
-        """The impact in units of the fast layer: EI = μ = V₀ = 1, so l* = t* = 1 and ν = 1."""
+        """The impact in units of the fast layer: EI = μ = V₀ = 1, so l* = t* = 1 and ν = 1. The beam stands for an
+        infinite one, which goes on at its ends: an axial force follows the bow there."""
         return cls(
             bending_stiffness=1.0,
             mass_per_length=1.0,
@@ -106,13 +111,15 @@ class Impact(Part):
             fourth_derivative=epsilon_psi,
             curvature_rate=epsilon_chi,
             axial_force=epsilon_axial,
+            tension_direction="tangent",
             damping=damping,
         )
 
     @classmethod
     def whole_beam(cls, kappa_over_nu: float, *, relative_damping: float = 0.0) -> Impact:
         """The free–free beam in units of its half length: EI = μ = V₀ = L/2 = 1, so T* = 1; damping is η/T*."""
-        return cls.dimensionless(kappa_over_nu, damping=relative_damping, length=2.0)
+        infinite = cls.dimensionless(kappa_over_nu, damping=relative_damping, length=2.0)
+        return infinite.replace(tension_direction="axis")
 
     def replace(self, **changes: Any) -> Impact:
         """A copy with some fields changed, validated again."""
@@ -214,6 +221,12 @@ class Impact(Part):
     def zone_pressure(self) -> float:
         """p − N K_w, N/m: what presses a contact zone that lies on the wall; it lifts off where this is negative."""
         return self._load_against(self.wall_curvature)
+
+    @property
+    def net_load(self) -> float:
+        """Sum of all loads over L, N/m: μ times the acceleration of the centre of mass without a wall. Forces along the
+        ends of the bow pull at it with −NK."""
+        return self._load_against(self.curvature if self.tension_direction == "tangent" else 0.0)
 
     def _load_against(self, curvature: float) -> float:
         """μa₀ + EI q₀ + N(K − ``curvature``), N/m; nothing where the terms cancel to rounding."""

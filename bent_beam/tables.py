@@ -35,6 +35,7 @@ class BeamTable(Part):
     natural_curvature: Annotated[float | None, of_impact("natural_curvature")] = None
     section_height: Annotated[float | None, of_impact("section_height")] = None
     axial_force: Annotated[float, of_impact("axial_force")] = 0.0
+    tension_direction: Annotated[str | None, of_impact("tension_direction")] = None
     damping: Annotated[float | None, of_impact("damping")] = None
     damping_ratio: Annotated[
         float | None, Quantity("1", "the same as damping ratio of the first free–free bending mode", least=0.0)

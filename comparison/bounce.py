@@ -99,8 +99,11 @@ class Bounce:
             )
         if not self.left:
             found.append("the beam had not left the wall for good when a run ended: the numbers are not final")
-        elif self.impact.uniform_pressure > 0.0:
-            found.append("the loads press the beam to the wall: it comes back; these numbers are of its first hit")
+        elif self.impact.net_load > 0.0:
+            found.append(
+                "the loads press the beam to the wall: it comes back; these numbers are of its first hit (--hits "
+                "follows more)"
+            )
         return [*found, *balance_of(self.history).warnings]
 
 

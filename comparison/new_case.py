@@ -37,8 +37,8 @@ yield_stress = 7.24e8       # Pa; leave out when not of interest
 [beam]
 length = {length}               # m, of the whole beam
 sagitta = {sagitta}             # m, height of the bow over its length (or curvature, 1/m, or dogleg, degrees in 30 m)
-# axial_force = 50e3        # N, tension positive
-damping_ratio = 0.005       # of the first bending mode (or damping, s, or loss_factor at loss_frequency)
+# axial_force = 50e3        # N, tension positive, along x (or tension_direction = "tangent": along the bow)
+damping_ratio = {damping}  # of the first bending mode (or damping, s, or loss_factor at loss_frequency)
 
 [impact]
 velocity = {velocity}              # m/s towards the wall (or drop_height, m, or angular_speed, rad/s)
@@ -52,13 +52,19 @@ end_time = {end_time}            # s
 """
 
 
-def new_case(kind: str) -> str:
-    """The text of a case with a section of ``kind``. Raises :class:`InputError` for an unknown one."""
+UNSTATED = '"state it: 0.002 plain steel, 0.01 with joints, 0.05 damped, 0 none"'
+"""In place of a damping ratio: whoever reads the case is told the choices."""
+
+
+def new_case(kind: str, damping_ratio: float | None = None) -> str:
+    """The text of a case with a section of ``kind``; a damping ratio of ``None`` is left to be stated, and the case
+    refused until then. Raises :class:`InputError` for an unknown kind."""
     if kind not in SECTION_LINES:
         raise InputError(f"--section: {shortened(kind)} is not known{nearest(kind, SECTION_LINES)}")
     long = kind in ("pipe", "general")
     return TEXT.format(
         kind=kind,
+        damping=UNSTATED if damping_ratio is None else f"{damping_ratio:g}",
         lines=SECTION_LINES[kind],
         length=30.0 if long else 1.0,
         sagitta=0.2 if long else 0.01,

@@ -1,16 +1,12 @@
 """One beam: the theory of its first instants beside a simulation of the beam as it is, and its whole impact.
 
 The theory says what closed forms and formulas allow (:mod:`theory.validity`). The simulation runs the whole beam with
-its ends, loads, damping and wall. Times that are early for the beam (before :data:`EARLY` T*) are simulated on elements
-that resolve them, later ones on even elements. An error bar is what a run on elements and steps twice as long changes;
-an undamped beam, whose motion does not converge, is run on four resolutions, and its numbers are their means with two
-standard deviations.
+its ends, loads, damping and wall. Early times are simulated on elements that resolve them, later ones on even elements.
+Error bars are those of :mod:`comparison.companions`.
 """
 
 from __future__ import annotations
 
-import math
-import statistics
 from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
@@ -18,16 +14,15 @@ import numpy as np
 
 from bent_beam.cases import Case
 from bent_beam.errors import SimulationError
-from bent_beam.free_flight import LOWEST_PERIOD
 from bent_beam.history import ImpactHistory
 from bent_beam.impact import Impact
-from bent_beam.method import Method, for_whole_beam, refined, simulate_to_separation
+from bent_beam.method import Method, for_whole_beam, refined
+from comparison.companions import companions_of, is_late, number_of
 from comparison.summary import energy_at_end, loss_warnings, numerical_loss
-from comparison.whole_impact.stored_map import bounce_from_map
-from measure.front import half_contact_length, mean_reaction
-from measure.measured import Band, Measured
+from comparison.whole_impact.predicted import predicted_impact
+from measure.front import element_at, half_contact_length, mean_reaction
+from measure.measured import Measured
 from measure.reduction import peak_moment
-from measure.whole_impact import whole_impact
 from theory import Prediction, predict
 
 __all__ = ["COMPARED", "predict_case"]
@@ -36,19 +31,12 @@ PATH = "hermite"
 COMPARED = ("half_contact_length", "reaction", "impulse", "peak_moment", "peak_stress")
 """What theory and simulation both say at a time."""
 
-EARLY = 0.003  # T*
 BEYOND = 1.15  # times the last time: readings take a tenth of the time before and after
 INSTANTS = 400  # saved of a run
 CHECKED = 24  # instants between a hundredth of the last time and the last, at which theory and simulation are compared
 AGREE = 0.02  # of the theory's number, beyond the error bar
-COARSER = (0.5,)  # resolutions of the companions over the run's own
-COARSER_UNDAMPED = (0.5, 0.63, 0.8)
-BAR = 1.5  # times the difference from the companion: elements are of first order
-FINEST, USUAL_END = 2.0, 0.05  # resolution of the whole beam's own choice, up to this time, T*; later ones are coarser
-WIDE = 0.05  # error bar of the map's largest moment over its value, beyond which the beam is simulated
+FINEST, USUAL_END = 2.0, 0.05  # resolution over the whole beam's own choice, up to this time, T*
 LATEST = 20.0  # T*: later times are not simulated
-LONGEST = 3.0  # T*: a loaded beam that is then still at the wall is not followed further
-DAMPING_RATIOS = (0.002, 0.01, 0.05)  # of the first mode: of a plain steel bar, of one with joints, of a damped one
 STEEP = 0.3  # slope of the bow at the beam's ends from which the small-slope theory deserves a warning
 
 Progress = Callable[[float], None]
@@ -69,8 +57,8 @@ def predict_case(
     document = prediction.to_dict()
     rows = document["times"]
     document["times"] = rows[: len(times)]
-    document["warnings"] = [*case.warnings, *_warnings(impact)]
-    document["agreement"] = None
+    document["warnings"] = _warnings(impact)
+    document["agreement"], document["yield_stress"] = None, getattr(case.section, "yield_stress", None)
     if method is not None:
         told = progress or (lambda _: None)
         simulated, warnings = _simulated(case, method, [*times, *checked], told)
@@ -78,7 +66,7 @@ def predict_case(
             row["simulation"] = {name: number.to_dict() for name, number in found.items()}
         document["agreement"] = _agreement(checked, prediction, simulated, len(times))
         document["warnings"] += warnings
-    document["whole_impact"] = _whole_impact(case, method)
+    document["whole_impact"] = predicted_impact(case, method)
     return document
 
 
@@ -106,13 +94,15 @@ def _simulated(
 ) -> tuple[list[dict[str, Measured]], list[str]]:
     """What the runs say at each time, and their warnings."""
     impact = case.impact
-    bound, last = EARLY * impact.slow_time_scale, LATEST * impact.slow_time_scale
-    early, late = [t for t in times if 0.0 < t <= bound], [t for t in times if bound < t <= last]
+    last = LATEST * impact.slow_time_scale
+    early = [t for t in times if t > 0.0 and not is_late(impact, t)]
+    late = [t for t in times if is_late(impact, t) and t <= last]
     found: dict[float, dict[str, Measured]] = {t: {} for t in times}
     warnings: list[str] = []
     if max(times) > last:
         warnings.append(f"times beyond {last:.4g} s ({LATEST:g} T*) are not simulated here: bentbeam simulate")
-    groups = [(early, method), (late, _for_late_times(method, impact, max(late, default=0.0)))]
+    refine = _fineness(impact, max(late, default=0.0))
+    groups = [(early, method), (late, for_whole_beam(refined(method, refine) or method, impact))]
     share = 1.0 / sum(bool(group) for group, _ in groups) if early or late else 1.0
     for group, chosen in groups:
         if group:
@@ -127,10 +117,9 @@ def _part_of(progress: Progress, share: float, before: int) -> Progress:
     return lambda part: progress(share * (before + part))
 
 
-def _for_late_times(method: Method, impact: Impact, end: float) -> Method:
-    """``method`` for the whole beam, the finer the sooner the run ends."""
-    factor = FINEST * min(1.0, (USUAL_END * impact.slow_time_scale / end) ** (1.0 / 3.0)) if end > 0.0 else 1.0
-    return for_whole_beam(refined(method, factor) or method, impact)
+def _fineness(impact: Impact, end: float) -> float:
+    """Of a run of the whole beam over its usual choice: the finer the sooner the run ends."""
+    return FINEST * min(1.0, (USUAL_END * impact.slow_time_scale / end) ** (1.0 / 3.0)) if end > 0.0 else 1.0
 
 
 def _runs(
@@ -139,24 +128,21 @@ def _runs(
     """One run and its companions, read at ``times``."""
     end = BEYOND * max(times)
     save = np.unique(np.concatenate([np.linspace(0.0, end, INSTANTS + 1)[1:], times]))
-    factors = (1.0, *(COARSER if case.impact.damping > 0.0 else COARSER_UNDAMPED))
+    last = max(times)
+    methods = [method, *companions_of(method, case.impact, last, _fineness(case.impact, last))]
     read, warnings = [], []
-    for i, factor in enumerate(factors):
-        chosen = refined(method, factor)
-        if chosen is None:
-            continue
+    for i, chosen in enumerate(methods):
+        told = _part_of(progress, 1.0 / len(methods), i)
         try:
-            history = chosen.simulate(
-                case.impact, end_time=end, save=save, progress=_part_of(progress, 1.0 / len(factors), i)
-            )
+            history = chosen.simulate(case.impact, end_time=end, save=save, progress=told)
         except SimulationError as error:
             if i == 0:
                 raise
-            warnings.append(f"no companion run at {factor:g} times the resolution: {error}")
+            warnings.append(f"no companion run: {error}")
             continue
         read.append([_reading(case, history, t) for t in times])
         warnings += loss_warnings(numerical_loss(energy_at_end(history))) if i == 0 else []
-    return [_with_bars([run[i] for run in read], case.impact.damping > 0.0) for i in range(len(times))], warnings
+    return [_with_bars([run[i] for run in read], case.impact) for i in range(len(times))], warnings
 
 
 def _reading(case: Case, history: ImpactHistory, time: float) -> dict[str, float | None]:
@@ -170,31 +156,18 @@ def _reading(case: Case, history: ImpactHistory, time: float) -> dict[str, float
         "impulse": float(history.array("total_impulse")[k]),
         "peak_moment": moment,
         "peak_stress": None if case.section is None else case.section.stress(moment, case.impact.axial_force),
-        "element": _element_at(history, k, front),
+        "element": element_at(history, k, front),
     }
 
 
-def _element_at(history: ImpactHistory, k: int, place: float) -> float:
-    """Length of the element at ``place`` from the middle, m."""
-    x = np.unique(np.abs(history.positions(k)))
-    at = min(max(int(np.searchsorted(x, place)), 1), x.size - 1)
-    return float(x[at] - x[at - 1])
-
-
-def _with_bars(runs: Sequence[dict[str, float | None]], damped: bool) -> dict[str, Measured]:
+def _with_bars(runs: Sequence[dict[str, float | None]], impact: Impact) -> dict[str, Measured]:
     """The numbers of one time from the run and its companions."""
     found = {}
     for name in COMPARED:
-        values = [run[name] for run in runs]
-        known = [value for value in values if value is not None]
-        if len(known) < len(values) or not known:
-            continue
-        least = runs[0]["element"] or 0.0 if name == "half_contact_length" else 0.0
-        if damped or len(known) < 3:
-            bar = BAR * max((abs(v - known[0]) for v in known[1:]), default=0.0) if len(known) > 1 else None
-            found[name] = Measured(known[0], None if bar is None else max(bar, least))
-        else:
-            found[name] = Measured(statistics.fmean(known), max(2.0 * statistics.stdev(known), least))
+        values = [value for run in runs if (value := run[name]) is not None]
+        if len(values) == len(runs):
+            element = runs[0]["element"] or 0.0
+            found[name] = number_of(values, impact, element if name == "half_contact_length" else 0.0)
     return found
 
 
@@ -216,68 +189,3 @@ def _agreement(
             begin = i + 1
     length, begin = best[0], -best[1]
     return {"from": checked[begin], "until": checked[begin + length - 1]} if length else None
-
-
-# --- the whole impact -----------------------------------------------------------------------------------------------
-
-
-def _whole_impact(case: Case, method: Method | None) -> dict[str, Any] | None:
-    """Restitution, last contact, largest moment and stress of the whole impact, SI; ``None`` where nothing says them.
-
-    From the stored map where it reaches and is sure: a beam without loads, a second wall or rocking. Otherwise by
-    simulation.
-    """
-    impact = case.impact
-    free = not (impact.loaded or impact.off_centre) and impact.opposite_wall is None
-    found: Any = bounce_from_map(impact.kappa_over_nu, impact.relative_damping) if free else None
-    source = "stored map"
-    largest = None if found is None else found["peak_moment"]
-    wide = isinstance(largest, Measured) and largest.bar > WIDE * largest.known  # a band always is
-    if (found is None or wide) and method is not None and impact.opposite_wall is None:
-        found, source = _followed(impact, method), "simulation"
-    if found is None:
-        return None
-    return {
-        "restitution": found["restitution"].to_dict(),
-        "last_contact": found["last_contact"].scaled(impact.slow_time_scale).to_dict(),
-        **_peaks(case, found["peak_moment"]),
-        "peak_force": None,
-        "source": source,
-        "over_damping": _over_damping(case) if free else [],
-    }
-
-
-def _peaks(case: Case, largest: Measured | Band) -> dict[str, Any]:
-    """Largest moment, N m, and stress, Pa, from the moment over V₀√(μEI)."""
-    impact, section = case.impact, case.section
-    moment = largest.scaled(impact.velocity * (impact.bending_stiffness * impact.mass_per_length) ** 0.5)
-    stress = None
-    if section is not None:
-        stress = moment.scaled(1.0 / section.section_modulus, section.stress(0.0, impact.axial_force)).to_dict()
-    return {"peak_moment": moment.to_dict(), "peak_stress": stress}
-
-
-def _over_damping(case: Case) -> list[dict[str, Any]]:
-    """Largest moment and stress of the whole impact over a plausible range of the material's damping ratio."""
-    found = []
-    for ratio in DAMPING_RATIOS:
-        numbers = bounce_from_map(case.impact.kappa_over_nu, ratio * LOWEST_PERIOD / math.pi)
-        if numbers is not None:
-            found.append({"damping_ratio": ratio, **_peaks(case, numbers["peak_moment"])})
-    return found
-
-
-def _followed(impact: Impact, method: Method) -> dict[str, Measured]:
-    """The whole impact by one run and its companion; restitution is missing where the beam has not left."""
-    outcomes = []
-    for factor in (0.5, 0.35) if impact.damping > 0.0 else (0.5, 0.4, 0.32, 0.25):
-        chosen = for_whole_beam(refined(method, factor) or method, impact)
-        history = simulate_to_separation(chosen, impact, longest=LONGEST * impact.slow_time_scale, save=1000)
-        outcomes.append(whole_impact(history))
-    found = {}
-    for name in ("restitution", "last_contact", "peak_moment"):
-        values = [float(getattr(outcome, name)) for outcome in outcomes]
-        bar = max(abs(v - values[0]) for v in values[1:])
-        left = all(outcome.left for outcome in outcomes)
-        found[name] = Measured(values[0], 2.0 * bar) if left or name == "peak_moment" else Measured()
-    return found

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 from comparison.text_table import text_table
+from comparison.units import milliseconds, number_from, unit_for
 from comparison.wall_text import wall_lines
-from measure.measured import Band, Measured
 
-__all__ = ["prediction_text"]
+__all__ = ["over_damping_lines", "prediction_text"]
 
 REGIMES = {
     "discrete": "The contact stays one point.",
@@ -19,19 +20,19 @@ LIMITS = {
     "waves back from the ends": "reflections from the beam's ends arrive",
     "first-order correction": "the loads change the contact by more than first order covers",
     "tension": "the axial force changes the contact by more than first order covers",
-    "damping": "material damping has no closed form once the contact spreads",
+    "damping": "the contact spreads, for which material damping has no closed form",
     "slope": "slopes are no longer small",
     "shear": "shear deformation, which is not modelled, matters for as long as the theory would hold without it",
     "wall": "the wall gives way for as long as the theory of a rigid wall would hold, or longer",
     "section": "the section yields",
 }
 BEFORE = {"shear": "shear deformation matters", "wall": "the wall gives way"}
-UNITS = {
-    "half_contact_length": ("half contact", "m", 1.0),
-    "reaction": ("reaction", "kN", 1e-3),
-    "impulse": ("impulse", "N s", 1.0),
-    "peak_moment": ("moment", "kN m", 1e-3),
-    "peak_stress": ("stress", "MPa", 1e-6),
+COLUMNS = {
+    "half_contact_length": ("half contact", "m"),
+    "reaction": ("reaction", "N"),
+    "impulse": ("impulse", "N s"),
+    "peak_moment": ("moment", "N m"),
+    "peak_stress": ("stress", "Pa"),
 }
 
 
@@ -46,7 +47,7 @@ def prediction_text(document: dict[str, Any]) -> str:
             "",
             *_agreement(document),
             *wall_lines(document),
-            *_stress(document),
+            *_largest(document),
             *_whole(document),
             *(f"warning: {text}" for text in document["warnings"]),
         ]
@@ -58,82 +59,77 @@ def _validity(document: dict[str, Any]) -> str:
     if not document["valid_until"]:
         return f"The theory covers no time: {why}."
     before = BEFORE.get(document["valid_after"], "")
-    start = f"from {_ms(document['valid_from'])} (before, {before}) " if before else ""
-    return f"The theory holds to 2 % {start}until {_ms(document['valid_until'])}: then {why}."
-
-
-def _ms(time: float) -> str:
-    return f"{1e3 * time:.3g} ms"
+    start = f"from {milliseconds(document['valid_from'])} (before, {before}) " if before else ""
+    return f"The theory holds to 2 % {start}until {milliseconds(document['valid_until'])}: then {why}."
 
 
 def _table(document: dict[str, Any]) -> str:
-    head = ["time", "", *(f"{title}, {unit}" for title, unit, _ in UNITS.values())]
+    rows = document["times"]
+    units = {name: unit_for(unit, (row[name] for row in rows)) for name, (_, unit) in COLUMNS.items()}
+    head = ["time", "", *(f"{title}, {units[name][1]}" for name, (title, _) in COLUMNS.items())]
     body = []
-    for row in document["times"]:
-        theory = [_digits(row[name], scale) for name, (_, _, scale) in UNITS.items()]
-        body.append([_ms(row["time"]), "theory" if row["valid"] else "theory, beyond its range", *theory])
+    for row in rows:
+        theory = ["-" if row[name] is None else f"{row[name] * scale:.4g}" for name, (scale, _) in units.items()]
+        body.append([milliseconds(row["time"]), "theory" if row["valid"] else "theory, beyond its range", *theory])
         if "simulation" in row:
-            cells = [_number(row["simulation"].get(name), scale) for name, (_, _, scale) in UNITS.items()]
+            cells = [_scaled(row["simulation"].get(name), scale) for name, (scale, _) in units.items()]
             body.append(["", "simulation", *cells])
     return text_table(head, body, left=(0, 1))
 
 
-def _digits(value: float | None, scale: float) -> str:
-    return "-" if value is None else f"{value * scale:.4g}"
-
-
-def _number(found: dict[str, Any] | None, scale: float) -> str:
-    if not found:
-        return "-"
-    if found.get("band"):
-        return str(Band(**found["band"]).scaled(scale))
-    return str(Measured(found["value"], found["error"]).scaled(scale))
+def _scaled(found: dict[str, Any] | None, scale: float) -> str:
+    return str(number_from(found).scaled(scale))
 
 
 def _agreement(document: dict[str, Any]) -> list[str]:
     if not any("simulation" in row for row in document["times"]):
         return []
     lines = [
-        "Half contact and reactions of the simulation are means over a tenth of the time before and after;",
-        "its moments and stresses are the largest until then.",
+        "Half contact and reactions of the simulation are means over a tenth of the time before and after; its moments",
+        "and stresses are the largest of all steps until then.",
     ]
     agreement = document["agreement"]
     if agreement is None:
         return [*lines, "Theory and simulation do not agree at any of the times compared."]
-    begin, end = _ms(agreement["from"]), _ms(agreement["until"])
+    begin, end = milliseconds(agreement["from"]), milliseconds(agreement["until"])
     agree = f"Half length and impulse of theory and simulation agree from {begin} to {end} (within bars and 2 %)."
     return [*lines, agree]
 
 
-def _stress(document: dict[str, Any]) -> list[str]:
-    """The largest stress, with the time range of each value."""
-    if document["peak_stress"] is None:
-        return []
-    lines = [f"Largest stress of the first instants (theory, undamped): {_digits(document['peak_stress'], 1e-6)} MPa."]
-    last = max(document["times"], key=lambda row: row["time"])
-    if last.get("simulation", {}).get("peak_stress"):
-        value = _number(last["simulation"]["peak_stress"], 1e-6)
-        lines.append(f"Largest stress until {_ms(last['time'])} (simulation): {value} MPa.")
-    whole = document["whole_impact"]
-    if whole and whole["peak_stress"]:
-        value = _number(whole["peak_stress"], 1e-6)
-        lines.append(f"Largest stress of the whole impact ({whole['source']}): {value} MPa.")
-        rows = [(_number(row["peak_stress"], 1e-6), 100.0 * row["damping_ratio"]) for row in whole["over_damping"]]
-        over = [f"{stress} at {ratio:g} %" for stress, ratio in rows]
-        lines += [f"Over the material's damping ratio, MPa: {', '.join(over)}."] if over else []
-    else:
-        lines.append("The whole impact may stress the beam more: bentbeam bounce.")
+def _largest(document: dict[str, Any]) -> list[str]:
+    """The largest stress, or without a section the largest moment, each value with its time range."""
+    name, title = ("peak_moment", "bending moment") if document["peak_stress"] is None else ("peak_stress", "stress")
+    last, whole = max(document["times"], key=lambda row: row["time"]), document["whole_impact"]
+    scale, unit = unit_for(COLUMNS[name][1], [document[name]])
+    lines = [f"Largest {title}, {unit}:"]
+    if document["valid_until"]:
+        until = f"until {milliseconds(document['valid_until'])}, when {LIMITS[document['limited_by']]}"
+        lines.append(f"  {until} (theory): {document[name] * scale:.4g}")
+    if last.get("simulation", {}).get(name):
+        until = f"until {milliseconds(last['time'])}"
+        lines.append(f"  {until} (simulation): {_scaled(last['simulation'][name], scale)}")
+    if whole is None:
+        return [*lines, "  of the whole impact: not known here, it may be larger (bentbeam bounce)"]
+    whole_impact = "of the whole impact" if _scaled(whole["last_contact"], 1.0) != "-" else "of the first 3 T*"
+    lines.append(f"  {whole_impact} ({whole['source']}): {_scaled(whole[name], scale)}")
+    lines += over_damping_lines(whole["over_damping"], name, scale)
+    if document["yield_stress"]:
+        lines.append(f"  the material yields at: {document['yield_stress'] * 1e-6:.4g}")
     return lines
+
+
+def over_damping_lines(rows: Sequence[dict[str, Any]], name: str, scale: float) -> list[str]:
+    """How the largest ``name`` of the whole impact moves with the material's damping ratio; nothing without rows."""
+    over = ", ".join(f"{_scaled(row[name], scale)} at {100.0 * row['damping_ratio']:g} %" for row in rows)
+    return [f"  of the whole impact over the material's damping ratio: {over}"] if over else []
 
 
 def _whole(document: dict[str, Any]) -> list[str]:
     whole = document["whole_impact"]
     if not whole:
         return []
-    last = _number(whole["last_contact"], 1e3)
+    last = _scaled(whole["last_contact"], 1e3)
     if last == "-":
         return ["The whole impact: the beam does not leave the wall within 3 T* (bentbeam bounce follows it)."]
-    restitution = _number(whole["restitution"], 1.0)
+    restitution = _scaled(whole["restitution"], 1.0)
     return [f"The whole impact ({whole['source']}): coefficient of restitution {restitution}, last contact {last} ms."]
-
-

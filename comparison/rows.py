@@ -43,8 +43,8 @@ class Question:
     """One row to be matched. ``first`` : (α, ψ, χ, N), or ``None`` for the leading order alone; ``refine`` : elements
     and steps so many times finer than the method's own; ``error_bars`` : "drift" (of the run alone), "quick" (a
     companion at half the resolution, a quarter of the work), "thorough" (one at twice the resolution too); ``duration``
-    : end of the runs, t*. Any will do at ε = 0, which is self-similar; the thesis ends at 0.1; ``wall`` : stiffness of the wall over μ/t*² and its
-    damping ratio, ``None`` of a rigid one."""
+    : end of the runs, t*. Any will do at ε = 0, which is self-similar; the thesis ends at 0.1; ``wall`` : stiffness of
+    the wall over μ/t*² and its damping ratio, ``None`` of a rigid one."""
 
     method: Method
     kappa_over_nu: float

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from bent_beam.free_flight import LOWEST_PERIOD
 from bent_beam.impact import Impact
 from bent_beam.method import Method, for_whole_beam
-from measure.whole_impact import WallHit, wall_hits
+from measure.hits import Hit, hits
 
 __all__ = ["follow_hits"]
 
@@ -17,7 +17,7 @@ INSTANTS = 200  # saved a T*
 
 def follow_hits(
     impact: Impact, method: Method, count: int, *, progress: Callable[[float], None] | None = None
-) -> list[WallHit]:
+) -> list[Hit]:
     """The first ``count`` hits of a beam on its wall by one run, fewer where it does not come back.
 
     Raises ``ValueError`` for what the method refuses, and between two walls.
@@ -25,11 +25,11 @@ def follow_hits(
     if impact.opposite_wall is not None:
         raise ValueError("--hits: follows one wall; between two, bentbeam simulate lists the hits")
     chosen, period = for_whole_beam(method, impact), LOWEST_PERIOD * impact.slow_time_scale
-    fall = impact.uniform_pressure / impact.mass_per_length  # acceleration back to the wall, m/s²
+    fall = impact.net_load / impact.mass_per_length  # acceleration back to the wall, m/s²
     end, longest = 2.0 * period, LONGEST * impact.slow_time_scale
     while True:
         save = round(INSTANTS * end / impact.slow_time_scale)
-        found = wall_hits(chosen.simulate(impact, end_time=end, save=save, progress=progress))
+        found = hits(chosen.simulate(impact, end_time=end, save=save, progress=progress))
         over = [hit for hit in found if end - hit.end >= period]
         if len(over) >= count or end >= longest or (over and fall <= 0.0):
             return over[:count]

@@ -9,77 +9,89 @@ from typing import Any
 
 from bent_beam.checks import one_of
 from bent_beam.errors import SimulationError
+from bent_beam.free_flight import has_left
 from bent_beam.history import LOSSES, ImpactHistory
 from bent_beam.impact import Impact
 from bent_beam.loads import unmodelled
 from bent_beam.method import Method, refined
 from bent_beam.section import Section
-from comparison.match import INSTANTS, without_companion
+from comparison.companions import companions_of, is_late, number_of
+from comparison.match import INSTANTS
 from comparison.rows import COMPANIONS
 from comparison.text_table import text_table
+from comparison.units import unit_for
 from measure.balance import balance_of
 from measure.estimators import leading_order
+from measure.front import element_at, half_contact_length
 from measure.hits import hits
 from measure.measured import MISSING, Measured
 from measure.moments import Moments, moments
 from measure.reduction import WallPeaks, hold_of, peak_moment, pull_of, wall_peaks
+from measure.whole_impact import whole_impact
 from theory import predict
 from theory.prediction import MODELLED
 
 __all__ = ["Companion", "companions", "energy_at_end", "loss_warnings", "numerical_loss", "run_table", "summary"]
 
-NUMBERS = ("half_contact_length", "total_impulse", "peak_moment")
+NUMBERS = ("half_contact_length", "total_impulse", "peak_moment", "restitution")
 ENERGY_TITLES = {
     "initial": "initial energy",
     "kinetic": "kinetic energy at the end",
     "strain": "strain energy at the end",
     "wall": "energy in the springs of the wall",
 }
-BAR = 1.5  # times what another resolution changes
 NOTABLE_LOSS = 0.02  # of the initial energy
 
 
 @dataclass(frozen=True)
 class Companion:
-    """What a run at another resolution says: half contact length, m, impulse, N s, and largest moment, N m, at its
-    end; peaks : of a wall that gives way; moments : for the error bars of λ₀ and r₀."""
+    """What a run at another resolution says at its end: half contact length, m, impulse, N s, and largest moment, N m;
+    restitution once the beam has left; peaks : of a wall that gives way; moments : for the error bars of λ₀ and r₀;
+    element : the length of one at the contact's end, m, where the half length is the place of one."""
 
     half_contact_length: float
     total_impulse: float
     peak_moment: float
+    restitution: float | None
     peaks: WallPeaks | None
     moments: Moments
+    element: float
 
     @classmethod
     def of(cls, history: ImpactHistory) -> Companion:
-        found = moments(history)
+        impact, found, last = history.impact, moments(history), history.time.size - 1
+        late = is_late(impact, float(history.time[-1]))
+        front = half_contact_length(history, last) if late else float(found.front[-1]) * impact.length_scale
+        left = has_left(history) and impact.opposite_wall is None
         return cls(
-            float(found.front[-1]) * history.impact.length_scale,
+            front,
             float(history.array("total_impulse")[-1]),
             peak_moment(history).moment,
+            whole_impact(history).restitution if left else None,
             wall_peaks(history),
             found,
+            element_at(history, last, front) if late else 0.0,
         )
 
 
 def companions(
-    method: Method, run: Callable[[Method, int], ImpactHistory], error_bars: str
+    method: Method, impact: Impact, end: float, run: Callable[[Method, int], ImpactHistory], error_bars: str
 ) -> tuple[list[Companion], list[str]]:
-    """Runs at other resolutions, reduced, for error bars, and a warning for each that could not finish.
+    """Other runs to ``end``, s, reduced, for error bars, and a warning for each that could not finish.
 
     run : simulates with a method and a number of saved instants. error_bars : a key of
-    :data:`comparison.match.COMPANIONS`.
+    :data:`comparison.match.COMPANIONS`; "thorough" adds a finer run.
     """
     one_of("error_bars", error_bars, COMPANIONS)
+    others = [] if error_bars == "drift" else companions_of(method, impact, end)
+    finer = refined(method, 2.0) if error_bars == "thorough" else None
     found: list[Companion] = []
     lost: list[str] = []
-    for factor in COMPANIONS[error_bars]:
-        other = refined(method, factor)
-        if other is not None:
-            try:
-                found.append(Companion.of(run(other, INSTANTS)))
-            except (SimulationError, ValueError) as error:  # a coarser run may be too coarse
-                lost.append(without_companion(factor, error))
+    for other in others if finer is None else [*others, finer]:
+        try:
+            found.append(Companion.of(run(other, INSTANTS)))
+        except (SimulationError, ValueError) as error:  # a coarser run may be too coarse
+            lost.append(f"no companion run: {error}")
     return found, lost
 
 
@@ -107,7 +119,7 @@ def summary(
         except ValueError:
             pass
     own, peak = Companion.of(history), peak_moment(history)
-    bars = {name: _bar(getattr(own, name), [getattr(other, name) for other in others]) for name in NUMBERS}
+    bars = {name: _bar(name, [own, *others], impact) for name in NUMBERS}
     stress = None if section is None else section.stress(peak.moment, impact.axial_force)
     energy, balance = energy_at_end(history), balance_of(history)
     return {
@@ -122,6 +134,7 @@ def summary(
             own.half_contact_length, bars["half_contact_length"], row.half_contact_length if row else None
         ),
         "total_impulse": Measured(own.total_impulse, bars["total_impulse"], row.impulse if row else None),
+        "restitution": Measured(own.restitution, bars["restitution"]),
         "lambda0": _estimated(
             None if leading is None else leading.lambda0, None if infinite is None else infinite.lambda0
         ),
@@ -136,7 +149,7 @@ def summary(
         "peak_stress": stress,
         "peak_stress_error": None if section is None or others == [] else section.stress(bars["peak_moment"] or 0.0),
         "yield_stress": None if section is None else section.yield_stress,
-        **_wall_peaks(own, others),
+        **_wall_peaks([own, *others], impact),
         "energy": energy,
         "numerical_loss": numerical_loss(energy),
         "momentum_residual": balance.momentum,
@@ -150,20 +163,28 @@ def summary(
     }
 
 
-def _wall_peaks(own: Companion, others: Sequence[Companion]) -> dict[str, float | None]:
+def _bar(name: str, runs: Sequence[Companion], impact: Impact) -> float | None:
+    """The error bar of the first run's number; ``None`` without others."""
+    values = [value for run in runs if (value := getattr(run, name)) is not None]
+    return _bar_of(values, impact, runs[0].element if name == "half_contact_length" else 0.0)
+
+
+def _bar_of(values: Sequence[float], impact: Impact, least: float = 0.0) -> float | None:
+    if len(values) < 2:
+        return None
+    number = number_of(values, impact, least)
+    return number.bar + abs(number.known - values[0])
+
+
+def _wall_peaks(runs: Sequence[Companion], impact: Impact) -> dict[str, float | None]:
     """Largest force, its time, largest penetration and pressure with their error bars; ``None`` of a rigid wall."""
-    found: dict[str, float | None] = {"peak_force_time": None if own.peaks is None else own.peaks.time}
+    peaks = [run.peaks for run in runs if run.peaks is not None]
+    found: dict[str, float | None] = {"peak_force_time": peaks[0].time if peaks else None}
     for name in ("force", "penetration", "pressure"):
-        value = None if own.peaks is None else getattr(own.peaks, name)
-        coarser = [getattr(other.peaks, name) for other in others if other.peaks is not None]
-        found[f"peak_{name}"] = value
-        found[f"peak_{name}_error"] = None if value is None else _bar(value, coarser)
+        values = [getattr(one, name) for one in peaks]
+        found[f"peak_{name}"] = values[0] if values else None
+        found[f"peak_{name}_error"] = _bar_of(values, impact)
     return found
-
-
-def _bar(value: float, others: Sequence[float]) -> float | None:
-    """What other resolutions change, with a margin for elements of first order; ``None`` without any."""
-    return BAR * max(abs(other - value) for other in others) if others else None
 
 
 def numerical_loss(energy: dict[str, float | None]) -> float:
@@ -202,55 +223,33 @@ def energy_at_end(history: ImpactHistory) -> dict[str, float | None]:
     }
 
 
-def run_table(found: dict[str, Any]) -> str:
-    """The summary of one run for a reader."""
-
-    def number(value: float | None) -> str:
-        return "-" if value is None else f"{value:.6g}"
-
-    def bar(value: float | None) -> str:
-        return "" if value is None else f"{value:.1g}"
-
-    lines = []
-    for name, key, unit in (
-        ("half contact length", "half_contact_length", "m"),
-        ("total impulse", "total_impulse", "N s"),
-        ("lambda0", "lambda0", "1"),
-        ("r0", "r0", "1"),
-    ):
-        c = found[key]
-        if c.measured or c.theory is not None:
-            theory = "outside its range" if c.theory is None else number(c.theory)
-            lines.append([name, number(c.value), bar(c.error), unit, theory])
-    lines += [
-        ["largest bending moment", number(found["peak_moment"]), bar(found["peak_moment_error"]), "N m", ""],
-        *_stress_line(found),
-        *_wall_lines(found),
-        ["lift of the zone over V0 t", number(found["lift"]), "", "1", ""],
-        ["largest pull over largest push", number(found["pull"]), "", "1", ""],
+def run_table(found: dict[str, Any], verbose: bool = False) -> str:
+    """The summary of one run for a reader; ``verbose``: with what tells an expert how good it is."""
+    until = f"until {1e3 * found['time']:.4g} ms"
+    scale, unit = unit_for("N m", [found["peak_moment"]])
+    moment = Measured(found["peak_moment"], found["peak_moment_error"]).scaled(scale)
+    lines = [
+        _compared("half contact length", found["half_contact_length"], "m"),
+        _compared("impulse", found["total_impulse"], "N s"),
+        [f"largest bending moment, {until}", str(moment), unit, ""],
     ]
-    energy = found["energy"]
-    for name, value in energy.items():
-        if value is not None and name != "defect":
-            title = ENERGY_TITLES.get(name, name.replace("_", " "))
-            lines.append([title, number(value), "", "J", ""])
-    lines += [
-        ["energy residual", number(energy["defect"]), "", "J", ""],
-        ["momentum residual over impulse", number(found["momentum_residual"]), "", "1", ""],
-    ]
+    if found["peak_stress"] is not None:
+        stress = Measured(found["peak_stress"], found["peak_stress_error"]).scaled(1e-6)
+        lines.append([f"largest stress, {until}", str(stress), "MPa", ""])
+    lines += _wall_lines(found)
+    if found["restitution"].measured:
+        lines.append(_compared("coefficient of restitution", found["restitution"], ""))
+    lines.append(["lost to steps and mesh", f"{100.0 * found['numerical_loss']:.2g}", "% of the energy", ""])
     text = [
-        f"{found['path']}, {found['time']:.6g} s after first contact; "
-        f"{found['steps']} steps took {found['seconds']:.2f} s",
+        f"{found['path']}, {1e3 * found['time']:.4g} ms after first contact ({found['seconds']:.2g} s for one run)",
         "",
-        text_table(["", "value", "error bar", "unit", "theory"], lines),
+        text_table(["", "value", "unit", "theory"], lines + (_expert_lines(found) if verbose else [])),
+        "",
+        "± is the error bar by other runs of the same beam; theory: the closed form where it holds to 2 %. Moment and",
+        "stress are the largest of all steps until then; later ones may be larger (bentbeam bounce).",
     ]
-    if found["hold"]:
-        hold = found["hold"]
-        pulled = "" if hold["pull"] is None else f" and pulled at most {hold['pull']:.2g} of the largest push"
-        text.append(
-            f"held: contact points were held until {hold['until']:.3g} s{pulled}; the gap of the zone up to then is "
-            "imposed"
-        )
+    if found["hold"] and verbose:
+        text.append(_hold_text(found["hold"]))
     if found["hits"]:
         text += ["", _hits_table(found["hits"])]
     text += [f"warning: {w}" for w in found["warnings"]]
@@ -259,31 +258,50 @@ def run_table(found: dict[str, Any]) -> str:
     return "\n".join(text)
 
 
-def _stress_line(found: dict[str, Any]) -> list[list[str]]:
-    if found["peak_stress"] is None:
-        return []
-    bar = "" if found["peak_stress_error"] is None else f"{1e-6 * found['peak_stress_error']:.1g}"
-    return [["largest stress", f"{1e-6 * found['peak_stress']:.6g}", bar, "MPa", ""]]
+def _compared(title: str, number: Measured, unit: str) -> list[str]:
+    return [title, str(number), unit, "-" if number.theory is None else f"{number.theory:.4g}"]
+
+
+def _expert_lines(found: dict[str, Any]) -> list[list[str]]:
+    def plain(title: str, value: float | None, unit: str = "") -> list[str]:
+        return [title, "-" if value is None else f"{value:.4g}", unit, ""]
+
+    energy = dict(found["energy"])
+    residual = energy.pop("defect")
+    return [
+        *(_compared(name, found[name], "") for name in ("lambda0", "r0") if found[name].measured),
+        plain("lift of the zone over V0 t", found["lift"]),
+        plain("largest pull over largest push", found["pull"]),
+        *(plain(ENERGY_TITLES.get(n, n.replace("_", " ")), v, "J") for n, v in energy.items() if v is not None),
+        plain("energy residual", residual, "J"),
+        plain("momentum residual over the impulse", found["momentum_residual"]),
+        plain("steps", found["steps"]),
+    ]
+
+
+def _hold_text(hold: dict[str, Any]) -> str:
+    pulled = "" if hold["pull"] is None else f" and pulled at most {hold['pull']:.2g} of the largest push"
+    until = f"held: contact points were held until {hold['until']:.3g} s"
+    return f"{until}{pulled}; the gap of the zone up to then is imposed"
 
 
 def _wall_lines(found: dict[str, Any]) -> list[list[str]]:
     """Of a wall that gives way."""
     if found["peak_force"] is None:
         return []
-    lines = [["its time", f"{found['peak_force_time']:.6g}", "", "s", ""]]
+    lines = []
     for name, title, unit in (
-        ("force", "largest force on the wall", "N"),
+        ("force", f"largest force on the wall, at {1e3 * found['peak_force_time']:.4g} ms", "N"),
         ("penetration", "largest penetration", "m"),
         ("pressure", "largest pressure", "N/m"),
     ):
-        bar = found[f"peak_{name}_error"]
-        lines.append([title, f"{found[f'peak_{name}']:.6g}", "" if bar is None else f"{bar:.1g}", unit, ""])
-    lines[:2] = lines[1::-1]
+        lines.append([title, str(Measured(found[f"peak_{name}"], found[f"peak_{name}_error"])), unit, ""])
     return lines
 
 
 def _hits_table(rows: Sequence[dict[str, Any]]) -> str:
-    head = ["hit", "wall", "from, s", "to, s", "mean |x|, m", "impulse, N s", "V after, m/s", "energy, J", "lost, J"]
-    names = ("begin", "end", "place", "impulse", "velocity", "energy", "lost")
+    head = ["hit", "wall", "from, s", "to, s", "mean |x|, m", "impulse, N s", "V before, m/s", "after, m/s"]
+    head += ["energy, J", "lost, J"]
+    names = ("begin", "end", "place", "impulse", "before", "after", "energy", "lost")
     body = [[str(i), row["wall"], *(f"{row[name]:.5g}" for name in names)] for i, row in enumerate(rows, 1)]
     return text_table(head, body)

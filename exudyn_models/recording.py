@@ -24,6 +24,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bent_beam import ImpactHistory
+from bent_beam.bending import end_curvatures
 from exudyn_models.arrays import Array, Flags
 from exudyn_models.contacts import ContactRun
 from exudyn_models.elements import Beam
@@ -100,6 +101,7 @@ class Recorder:
         self.total = self.start_stored = self.deepest = 0.0
         self.start_momentum = math.nan
         self.peaks = np.zeros(3)  # of a wall that gives way, see _of_springs
+        self.largest = np.zeros(3)  # see _note_moments
         self.fastest = float(np.abs(shape.velocity_y).max())
 
     def read(self, t: float, solution: tuple[Array, Array] | None = None) -> tuple[Array, Array]:
@@ -153,6 +155,7 @@ class Recorder:
             self._of_springs(time, q, force)
         total = self.start_momentum + after["load_impulse"] - v @ self.momentum
         impulse = _onwards(self.impulse, self._impulses(dt, q, force, np.diff(total)))
+        self._note_moments(q)
         record = self.record
         record["kinetic_energy"] += self.beam.kinetic_energy(v[self.pending]).tolist()
         record["strain_energy"] += self.beam.strain_energy(q[self.pending]).tolist()
@@ -172,6 +175,27 @@ class Recorder:
             self.deepest = max(self.deepest, float((depth / time[late]).max()))
         self.pending.clear()
         self.rows = self.rows[-1:]
+
+    def _note_moments(self, q: Array) -> None:
+        """Of all states since the saved instant before: the largest bending moment, its place, and the one in the
+        middle, model units; kept with each instant that is saved."""
+        beam, impact, unit = self.beam, self.scaling.impact, self.scaling.slope / self.scaling.length
+        natural = impact.curvature if impact.natural_curvature is None else impact.natural_curvature
+        bent = end_curvatures(beam.shape.x, beam.deflection(q) - self.wall_y, beam.slope(q) - beam.shape.wall_slope)
+        ends = np.abs(bent + (natural - impact.wall_curvature) / unit)
+        nodes = np.pad(ends[..., 0], ((0, 0), (0, 1)))
+        nodes[:, 1:] = np.maximum(nodes[:, 1:], ends[..., 1])
+        sizes, middle = nodes.max(axis=1), nodes[:, np.argmin(np.abs(beam.shape.s))]
+        begin = 1
+        for k in [*self.pending, len(q) - 1]:
+            for row in range(begin, k + 1):
+                if sizes[row] > self.largest[0]:
+                    self.largest[:2] = sizes[row], beam.shape.x[np.argmax(nodes[row])]
+                self.largest[2] = max(self.largest[2], middle[row])
+            if len(self.record["largest"]) < len(self.record["time"]):
+                self.record["largest"].append(self.largest.copy())
+                self.largest[:] = 0.0
+            begin = k + 1
 
     def _of_energy(self, time: Array, q: Array, v: Array, a: Array) -> dict[str, Array]:
         """Work of the loads, their impulse and the losses in each step, each (steps,)."""
@@ -207,7 +231,7 @@ class Recorder:
         }
 
     def _of_springs(self, time: Array, q: Array, force: Array) -> None:
-        """The largest force on the zone, when, and the largest penetration of all steps so far, where they are saved."""
+        """The largest force on the zone, when, and the largest penetration, of all steps until each saved instant."""
         depth = np.maximum(q[:, self.beam.vertical[self.contact.nodes]] - self.contact.wall_y, 0.0).max(axis=1)
         for k, pushed in enumerate(force.sum(axis=1)):
             if pushed > self.peaks[0]:
@@ -273,6 +297,10 @@ class Recorder:
                 "peak_pressure": (of_time, depth * s.deflection * (s.impact.wall_stiffness or 0.0)),
                 "loss_wall": (of_time, 0.0 * depth),
             }
+        largest, moment = saved["largest"].T, s.impact.bending_stiffness * s.slope / s.length
+        fields["largest_moment"] = of_time, largest[0] * moment
+        fields["largest_moment_place"] = of_time, largest[1] * s.length
+        fields["largest_midspan_moment"] = of_time, largest[2] * moment
         if not front.all():
             fields |= self._of_two_walls(fields, front)
         return ImpactHistory.build(

@@ -14,10 +14,10 @@ so neither K nor K_w is left but in the gap. Where an end is held the start is V
 (:mod:`bent_beam.supports`). A beam that rocks starts with V₀ + ωx in place of V₀; where the bow's apex
 is off the middle, x counts from it in y₀ and from the middle in ωx; both need the full beam.
 
-**The ends** carry N in the direction that the bow has there at the first touch, which they keep (a dead load):
-EI(u_xxx + ηu̇_xxx) − Nu_x = 0. Its transverse part −NKL/2 at either end balances the pull −NK per length of the bow, so
-no wave starts at an end and a₀ is the acceleration of the whole beam. A force that turned with the end would have no
-potential; one along x would set the ends swinging at once.
+**The ends** carry N as a dead load. Along the axis, EI(u_xxx + ηu̇_xxx) − Ny_x = 0: against u that is a transverse
+force NKL/2 at either end, which starts a wave at once. Along the tangent of the bow at the first touch,
+EI(u_xxx + ηu̇_xxx) − Nu_x = 0: its transverse part −NKL/2 balances the pull −NK per length of the bow, no wave starts,
+and a₀ is the acceleration of the whole beam. A force that turned with the end would have no potential.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ from hermite_fe.beam import HermiteBeam
 from hermite_fe.contacts import Contact
 from hermite_fe.far_fields import Dampings, FarField
 from hermite_fe.masses import ConsistentMass, Mass
-from hermite_fe.system import System
+from hermite_fe.system import Bending, System
 from hermite_fe.walls import before_the_wall, behind, held_dofs, springs_of, with_opposite_wall
 
 __all__ = ["LOADS", "BeamModel", "beam_model"]
@@ -115,9 +115,16 @@ def beam_model(
         contacts=rows,
         supports=supports,
         springs=springs_of(impact, beam, facing, full=full),
+        bending=Bending(beam.lengths, impact.bending_stiffness, free_moment(impact), half.size - 1 if full else 0),
     )
     second = behind(len(rows), impact.opposite_wall is not None)
     return BeamModel(beam, system, displacement, velocity, natural, facing, second, full)
+
+
+def free_moment(impact: Impact) -> float:
+    """Bending moment of the bow at the first touch, N m: nothing unless a part of it is elastic."""
+    natural = impact.curvature if impact.natural_curvature is None else impact.natural_curvature
+    return impact.bending_stiffness * (natural - impact.curvature)
 
 
 def nodal_loads(
@@ -126,14 +133,18 @@ def nodal_loads(
     """F(t) = Σ_k load[k]·t^k, shape (powers, dofs), of all loads; s : the nodes from the first touch, m.
 
     follows : with the end forces of y₀, F = Mü + Cu̇ + Ku of its displacement u, in which K on Hermite interpolants is
-        exact at nodes; else of free ends, where the uniform load alone acts.
+        exact at nodes; else of free ends, where the uniform load acts, and what the bow makes of an axial force.
     """
     motion = impact.free_motion(0.0)
     uniform = product(inertia, beam.interpolate(np.ones(s.size), np.zeros(s.size)))  # M·1
     acceleration = float(motion(0.0, by_t=2))
     if not follows:
         pressure = impact.mass_per_length * acceleration + impact.bending_stiffness * float(motion(0.0, by_x=4))
-        return (pressure / impact.mass_per_length * uniform)[None, :]
+        load = pressure / impact.mass_per_length * uniform
+        if impact.tension_direction == "axis":
+            ends = [0, -1] if beam.nodes[0] < 0.0 else [-1]
+            load[0::2][ends] += impact.axial_force * impact.curvature * np.abs(s[ends])
+        return load[None, :]
     bent = motion.bending()
     shape = beam.interpolate(bent(s), bent(s, by_x=1))
     rate = beam.interpolate(bent(s, by_t=1), bent(s, by_x=1, by_t=1))

@@ -56,6 +56,7 @@ class Trajectory:
         (:data:`hermite_fe.elastic_wall.FORCE`); zero before a rigid wall.
     smallest_reaction, product : (saved,), smallest impulse of constraints that are not held, and largest |p·slack|
         since the last sample: complementarity, at round-off in a correct run.
+    largest_moment, largest_moment_node, largest_midspan_moment : (saved,), of all steps since the last sample.
     steps : taken; seconds : spent on them, without compilation.
     mean_iterations, most_iterations : rounds of the active set in one solution.
     failure : why the run did not finish ("": it did); failure_time : s, how far it got.
@@ -84,6 +85,9 @@ class Trajectory:
     peak_pressure: Array
     smallest_reaction: Array
     product: Array
+    largest_moment: Array
+    largest_moment_node: Array
+    largest_midspan_moment: Array
     steps: int
     seconds: float
     mean_iterations: float
@@ -176,9 +180,11 @@ class Stepper:
         return 0.5 * float(self.state.q @ stiff_product(self.problem.matrices.K, self.state.q))
 
     def sums(self) -> dict[str, float]:
-        """Energies now, J, what they lost since the start, and the worst complementarity since the last call."""
-        energy, worst, peaks = self.state.energy, self.state.worst.copy(), self.state.peaks
-        self.state.worst[:] = 0.0
+        """Energies now, J, what they lost since the start, and since the last call the worst complementarity and the
+        largest bending moments."""
+        energy, worst, largest = self.state.energy, self.state.worst.copy(), self.state.largest.copy()
+        peaks = self.state.peaks
+        self.state.worst[:] = self.state.largest[:] = 0.0
         return {
             "kinetic": self._kinetic(),
             "strain": self._strain(),
@@ -196,6 +202,7 @@ class Stepper:
             "peak_pressure": peaks[PRESSURE],
             "smallest_reaction": worst[SMALLEST_REACTION],
             "product": worst[PRODUCT],
+            **dict(zip(("largest_moment", "largest_moment_node", "largest_midspan_moment"), largest)),
         }
 
 

@@ -171,6 +171,9 @@ def history_of(impact: Impact, model: BeamModel, run: Trajectory, settings: dict
         "smallest_gap": (("time",), run.gap.min(axis=1)),
         "smallest_reaction": (("time",), run.smallest_reaction),
         "complementarity_product": (("time",), run.product),
+        "largest_moment": (("time",), run.largest_moment),
+        "largest_moment_place": (("time",), model.beam.nodes[run.largest_moment_node.astype(int)]),
+        "largest_midspan_moment": (("time",), run.largest_midspan_moment),
     }
     if impact.wall_stiffness is not None:
         fields |= {

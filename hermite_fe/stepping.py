@@ -14,10 +14,10 @@ from hermite_fe.compiled import compiled
 from hermite_fe.constraints import Constraints, ContactLaw, Rows, row_times, rows_of
 from hermite_fe.elastic_wall import Springs
 from hermite_fe.solver import Solver, prepare, solver_of
-from hermite_fe.system import System
+from hermite_fe.system import Bending, System
 
 __all__ = ["ABSORBED", "ALGORITHMIC", "IMPACT", "MATERIAL", "VISCOUS", "WALL", "WORK", "Matrices", "Problem", "State",
-           "add_energies", "add_impulses", "forces_at", "initial_acceleration", "is_finite", "mean_forces",
+           "add_energies", "add_impulses", "end_step", "forces_at", "initial_acceleration", "mean_forces",
            "problem_of", "state_of"]  # fmt: skip
 
 Array = NDArray[np.float64]
@@ -68,6 +68,8 @@ class State(NamedTuple):
     closed : (rows,). impulse, held_impulse : (rows,), N s since the start, and its tensile part in held constraints.
     energy : (7,), J, see :data:`WORK`. worst : (2,), see :data:`hermite_fe.constraints.PRODUCT`.
     peaks : (4,), see :data:`hermite_fe.elastic_wall.FORCE`.
+    largest : (3,), of all steps since it was last set to 0: largest bending moment |M|, N m, its node, and the largest
+        in the middle, N m.
     """
 
     q: Array
@@ -79,6 +81,8 @@ class State(NamedTuple):
     energy: Array
     worst: Array
     peaks: Array
+    largest: Array
+    bending: Bending
 
 
 def problem_of(system: System, law: ContactLaw) -> Problem:
@@ -100,12 +104,32 @@ def state_of(system: System, q: Array, v: Array) -> State:
         q=np.array(q, float), v=np.array(v, float), acceleration=np.zeros(n), closed=np.zeros(m, np.bool_),
         impulse=np.zeros(m), held_impulse=np.zeros(m), energy=np.zeros(7), worst=np.zeros(2),
         peaks=np.zeros(4),
+        largest=np.zeros(3), bending=Bending(np.array(system.bending.lengths, float), *system.bending[1:]),
     )  # fmt: skip
 
 
 @compiled
-def is_finite(state: State) -> bool:
-    """Whether v[0] and the energies are finite: any other infinite or undefined number of q or v makes an energy so."""
+def note_moments(bending: Bending, q: Array, largest: Array) -> None:
+    """Note the largest bending moments of the cubics through q, at both ends of each element."""
+    for e in range(bending.lengths.size):
+        length = bending.lengths[e]
+        rise = 6.0 * (q[2 * e + 2] - q[2 * e]) / length
+        first, second = q[2 * e + 1], q[2 * e + 3]
+        left = abs(bending.stiffness * (rise - 4.0 * first - 2.0 * second) / length + bending.free)
+        right = abs(bending.stiffness * (2.0 * first + 4.0 * second - rise) / length + bending.free)
+        if max(left, right) > largest[0]:
+            largest[0], largest[1] = max(left, right), e if left > right else e + 1
+        if e == bending.middle and left > largest[2]:
+            largest[2] = left
+        if e + 1 == bending.middle and right > largest[2]:
+            largest[2] = right
+
+
+@compiled
+def end_step(state: State) -> bool:
+    """Note the moments of a finished step. Whether v[0] and the energies are finite: any other infinite or undefined
+    number of q or v makes an energy so."""
+    note_moments(state.bending, state.q, state.largest)
     total = state.v[0]
     for cause in range(state.energy.size):
         total += state.energy[cause]

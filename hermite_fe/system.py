@@ -9,13 +9,14 @@ bouncing ball, an oscillator against a stop. Round-off is judged for even and od
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from hermite_fe.elastic_wall import NO_SPRINGS, Springs
 
-__all__ = ["DAMPINGS", "ContactRows", "System"]
+__all__ = ["DAMPINGS", "Bending", "ContactRows", "System"]
 
 Array = NDArray[np.float64]
 
@@ -91,6 +92,19 @@ def _bands(name: str, value: Array, dofs: int) -> Array:
     return np.pad(bands, ((0, WIDTH - bands.shape[0]), (0, 0)))
 
 
+class Bending(NamedTuple):
+    """What bending moments need: M = EI w_xx + ``free``.
+
+    lengths : (elements,), m, none of a system that is no beam; stiffness : EI, N m²; free : moment at q = 0, N m;
+    middle : number of the node in the middle.
+    """
+
+    lengths: Array = _left_out()
+    stiffness: float = 0.0
+    free: float = 0.0
+    middle: int = 0
+
+
 @dataclass(frozen=True)
 class System:
     """Banded matrices, loads, supports and constraints.
@@ -100,7 +114,7 @@ class System:
         under its own name (``Trajectory.viscous``, ``.material``, ``.absorbed``).
     load : (powers, dofs), F(t) = Σ_k load[k]·t^k.
     contacts : unilateral constraints; before a wall that gives way by ``springs`` they only say where impulses are
-        recorded. supports : dofs that keep their initial value.
+        recorded. supports : dofs that keep their initial value. bending : of a beam.
 
     Raises ``ValueError`` when shapes disagree, a cause of damping is unknown or named twice, or a support carries a
     constraint of its own.
@@ -113,6 +127,7 @@ class System:
     load: Array = field(default_factory=_left_out)
     supports: tuple[int, ...] = ()
     springs: Springs = NO_SPRINGS
+    bending: Bending = field(default_factory=Bending)
 
     def __post_init__(self) -> None:
         set_ = object.__setattr__

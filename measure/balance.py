@@ -3,7 +3,7 @@
 Momenta of the modelled beam are integrated from the saved velocities, its mass taken from the problem, so that a wrong
 impulse, a lost mass or a missing load shows, whatever the solver books. With the test functions 1 and x²,
 
-    [∫μ v dx]₀ᵗ    = P t − J,                                 P = (p − NK)L for free ends, μa₀L for ends that follow y₀
+    [∫μ v dx]₀ᵗ    = P t − J,                                 P : all loads, less EI q₀L where the ends follow y₀
     [∫μ x² v dx]₀ᵗ = P L²t/12 − 2EI [∫₀ᵗθ dt + ηθ]₀ᵗ − Σ x_i² J_i,          θ = y_x + Kx, less at −L/2 from at L/2
 
 the second for a bow free of stress with free ends, without N and without viscosity at grid scale: it sees where the
@@ -91,9 +91,9 @@ def _momentum(history: ImpactHistory) -> float | None:
     turned = impact.fourth_derivative or impact.curvature_rate
     if impact.supported or not _is_whole(history) or (impact.axial_force and turned and _ends_follow(history)):
         return None
-    load = impact.mass_per_length * float(motion(0.0, by_t=2))
-    if not _ends_follow(history):
-        load += impact.bending_stiffness * float(motion(0.0, by_x=4))
+    load = impact.net_load
+    if _ends_follow(history):
+        load -= impact.bending_stiffness * float(motion(0.0, by_x=4))
     gained = impact.mass_per_length * _integrals(history, 0)
     total = history.array("total_impulse")
     return _residual(gained - gained[0] - load * _length(history) * history.time + total, total)

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from bent_beam.history import ImpactHistory
 
-__all__ = ["half_contact_length", "last_tenth", "mean_reaction"]
+__all__ = ["element_at", "half_contact_length", "last_tenth", "mean_reaction"]
 
 AROUND = 0.1  # of the time, before and after
 PUSH = 1e-9  # of the largest impulse of a contact point: less is round-off
@@ -45,3 +45,10 @@ def mean_reaction(history: ImpactHistory, k: int) -> float | None:
         return None
     before, after = np.interp(span, time, total)
     return float((after - before) / (span[1] - span[0]))
+
+
+def element_at(history: ImpactHistory, k: int, place: float) -> float:
+    """Length of the element at ``place`` from the middle, m: a half length is no surer."""
+    x = np.unique(np.abs(history.positions(k)))
+    at = min(max(int(np.searchsorted(x, place)), 1), x.size - 1)
+    return float(x[at] - x[at - 1])

@@ -1,6 +1,7 @@
-"""Hits of a beam that rocks on a wall or goes back and forth between two: impulse and energy of each.
+"""Hits of a beam that comes back to a wall, rocks on it or goes back and forth between two: impulse and energy of each.
 
-A hit is what one wall gives without a break of :data:`LONGEST_BREAK` T* and without the other wall in between.
+A hit is a time of contact with one wall whose gaps are shorter than a period of the first mode, without the other wall
+in between.
 """
 
 from __future__ import annotations
@@ -9,21 +10,19 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from bent_beam.free_flight import LOWEST_PERIOD
 from bent_beam.history import ImpactHistory
 from measure.whole_impact import pushes
 
 __all__ = ["Hit", "hits"]
-
-LONGEST_BREAK = 0.5
-"""Break without a push that ends a hit, T*: half a period of the lowest mode, as long as one lasts."""
 
 
 @dataclass(frozen=True)
 class Hit:
     """wall : "front" or "opposite"; begin, end : s; place : mean |x| of the push, m; impulse : N s, always positive.
 
-    velocity : of the centre of mass after it, m/s, positive towards the front wall; energy : kinetic, strain and in
-    springs of the wall after it, J; lost : what the energy fell by between its begin and its end, J.
+    before, after : velocities of the centre of mass, m/s, positive towards the front wall; energy : kinetic, strain and
+    in springs of the wall after it, J; lost : what the energy and the work of the loads fell by meanwhile, J.
     """
 
     wall: str
@@ -31,13 +30,19 @@ class Hit:
     end: float
     place: float
     impulse: float
-    velocity: float
+    before: float
+    after: float
     energy: float
     lost: float
 
+    @property
+    def restitution(self) -> float:
+        """−after/before."""
+        return -self.after / self.before
 
-def hits(history: ImpactHistory, *, longest_break: float = LONGEST_BREAK) -> list[Hit]:
-    """All hits of a run, in order of time."""
+
+def hits(history: ImpactHistory) -> list[Hit]:
+    """All hits of a run, in order of time; the last may not be over yet."""
     impact, time = history.impact, history.time
     copies = 2.0 / history.sides
     names = {"front": "impulse", "opposite": "opposite_impulse"}
@@ -46,7 +51,7 @@ def hits(history: ImpactHistory, *, longest_break: float = LONGEST_BREAK) -> lis
     parts = [(i, k, wall) for wall, total in sums.items() for i, k in pushes(time, total, 0.0)]
     spans: list[tuple[int, int, str]] = []
     for i, k, wall in sorted(parts):
-        broken = time[i] - time[spans[-1][1]] > longest_break * impact.slow_time_scale if spans else True
+        broken = time[i] - time[spans[-1][1]] >= LOWEST_PERIOD * impact.slow_time_scale if spans else True
         if spans and spans[-1][2] == wall and not broken:
             spans[-1] = (spans[-1][0], k, wall)
         else:
@@ -54,22 +59,12 @@ def hits(history: ImpactHistory, *, longest_break: float = LONGEST_BREAK) -> lis
     work = history.energy("work_of_loads")
     energy = history.array("kinetic_energy") + history.array("strain_energy") - work + history.energy("contact_energy")
     mass = impact.mass_per_length * impact.length
-    carried = history.array("total_impulse")
+    gained = impact.net_load * impact.length * time - history.array("total_impulse")
+    velocity = impact.velocity + gained / mass
     found = []
     for i, k, wall in spans:
         given = rows[wall][k] - rows[wall][i]
         place = float(given @ np.abs(history.contact_positions(0))) / float(given.sum())
-        momentum = float(carried[k]) - impact.uniform_pressure * impact.length * float(time[k])
-        found.append(
-            Hit(
-                wall,
-                float(time[i]),
-                float(time[k]),
-                place,
-                float(given.sum()),
-                impact.velocity - momentum / mass,
-                float(energy[k] + work[k]),
-                float(energy[i] - energy[k]),
-            )
-        )
+        numbers = (place, given.sum(), velocity[i], velocity[k], energy[k] + work[k], energy[i] - energy[k])
+        found.append(Hit(wall, float(time[i]), float(time[k]), *map(float, numbers)))
     return found

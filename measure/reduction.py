@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from bent_beam.history import ImpactHistory
 
-__all__ = ["PeakMoment", "WallPeaks", "bending_moments", "hold_of", "peak_moment", "pull_of", "wall_peaks"]
+__all__ = ["PeakMoment", "WallPeaks", "hold_of", "peak_moment", "pull_of", "wall_peaks"]
 
 Array = NDArray[np.float64]
 CHUNK = 256  # saved instants at once
@@ -18,8 +18,8 @@ START = 0.01  # of the run: while this lasts, a start may be held
 
 
 class PeakMoment(NamedTuple):
-    """Largest bending moment, N m (its size), its place, m, and its time, s, among the saved instants; ``midspan`` :
-    the largest at x = 0, N m."""
+    """Largest bending moment, N m (its size), its place, m, and its time, s (the next saved instant); ``midspan`` : the
+    largest at x = 0, N m."""
 
     moment: float
     place: float
@@ -65,37 +65,20 @@ def pull_of(history: ImpactHistory) -> float | None:
     return None if most <= 0.0 else (0.0 - least) / most  # nothing pulled: 0, not −0
 
 
-def bending_moments(history: ImpactHistory, k: int | slice) -> tuple[Array, Array]:
-    """Bending moment EI(y_xx + K₀), N m, at both ends of each element at saved instant ``k``, and its places, m, both
-    of shape (elements, 2); K₀ is the curvature of the beam free of stress. For a slice of instants, of a fixed mesh,
-    the moments have these in front.
-
-    y_xx is that of the Hermite cubic through deflections and slopes (by differences where a history has none); the
-    part η y_txx of a damped beam is left out.
-    """
-    impact = history.impact
-    x = history.positions(k if isinstance(k, int) else 0)
-    y = -history.array("gap", k) - 0.5 * impact.wall_curvature * (x - impact.first_touch) ** 2
-    given = "slope" in history
-    slope = history.array("slope", k) if given else np.gradient(y, x, axis=-1, edge_order=2)
-    h = np.diff(x)
-    rise = np.diff(y, axis=-1) / h
-    left = (6.0 * rise - 4.0 * slope[..., :-1] - 2.0 * slope[..., 1:]) / h
-    right = (-6.0 * rise + 2.0 * slope[..., :-1] + 4.0 * slope[..., 1:]) / h
-    natural = impact.curvature if impact.natural_curvature is None else impact.natural_curvature
-    moment = impact.bending_stiffness * (np.stack([left, right], axis=-1) + natural)
-    return moment, np.stack([x[:-1], x[1:]], axis=1)
-
-
 def peak_moment(history: ImpactHistory, until: float | None = None) -> PeakMoment:
-    """The largest bending moment anywhere, and in the middle, at any saved instant after the first, up to ``until`` (s;
-    ``None``: the last)."""
+    """The largest bending moment anywhere, and in the middle, up to ``until`` (s; ``None``: the last instant): of all
+    steps where a history has them, otherwise at the saved instants after the first."""
     count = int(np.searchsorted(history.time, math.inf if until is None else until * (1.0 + 1e-9), side="right"))
+    if "largest_moment" in history and count > 1:
+        sizes = history.array("largest_moment", slice(1, count))
+        k = 1 + int(np.argmax(sizes))
+        place, middle = history.array("largest_moment_place")[k], history.array("largest_midspan_moment")[1:count]
+        return PeakMoment(float(sizes.max()), float(place), float(history.time[k]), float(middle.max()))
     best = PeakMoment(0.0, 0.0, float(history.time[0]), 0.0)
     midspan = 0.0
     moving = "position" in history
     for first in range(1, count, 1 if moving else CHUNK):
-        moments, place = bending_moments(history, first if moving else slice(first, min(first + CHUNK, count)))
+        moments, place = history.bending_moments(first if moving else slice(first, min(first + CHUNK, count)))
         sizes = np.abs(moments).reshape(-1, *place.shape)
         j, *worst = np.unravel_index(int(np.argmax(sizes)), sizes.shape)
         if sizes[j, *worst] > best.moment:

@@ -23,7 +23,7 @@ from bent_beam.free_flight import LOWEST_PERIOD, bears_free_flight, has_left, pu
 from bent_beam.history import ImpactHistory
 from measure.reduction import peak_moment, wall_peaks
 
-__all__ = ["SHORTEST_SEPARATION", "WallHit", "WholeImpact", "pushes", "wall_hits", "whole_impact"]
+__all__ = ["SHORTEST_SEPARATION", "WholeImpact", "pushes", "whole_impact"]
 
 Array = NDArray[np.float64]
 
@@ -121,35 +121,6 @@ def whole_impact(history: ImpactHistory, *, shortest: float = SHORTEST_SEPARATIO
         energy_gain=float(np.max(np.diff(energy + held - supplied), initial=0.0)) / initial,
         left=has_left(history),
     )
-
-
-@dataclass(frozen=True)
-class WallHit:
-    """One hit of a beam on its wall: begin, end : s; impulse : N s; before, after : velocity of the centre of mass into
-    the wall, m/s."""
-
-    begin: float
-    end: float
-    impulse: float
-    before: float
-    after: float
-
-    @property
-    def restitution(self) -> float:
-        """−after/before."""
-        return -self.after / self.before
-
-
-def wall_hits(history: ImpactHistory) -> list[WallHit]:
-    """All hits of a run, in order; the last may not be over yet."""
-    time, total = history.time, history.array("total_impulse")
-    unit = history.impact.slow_time_scale
-    found = []
-    for hit in _grouped(pushes(time, total, SHORTEST_SEPARATION * unit), time, LOWEST_PERIOD * unit):
-        i, k = hit[0][0], hit[-1][1]
-        before, after = (_mean_velocity(history, at) for at in (i, k))
-        found.append(WallHit(float(time[i]), float(time[k]), float(total[k] - total[i]), before, after))
-    return found
 
 
 def _grouped(contacts: list[tuple[int, int]], time: Array, longest: float) -> list[list[tuple[int, int]]]:

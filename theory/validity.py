@@ -14,6 +14,8 @@ r"""Until when the theory of the first instants holds for a real beam. Every lim
   the short waves, which come first. A free motion with q₀ needs moments EI q₀ℓ²/2 at the ends. Without them waves start
   there at once, with a quarter of that phase. They swing the force by √2 |q₀|c/(r₀V₀), units ℓ = T* = 1, and change the
   impulse by 2√2 |q₀|ct/(r₀V₀). If the swing is more than 2 %, the limit is 2 % of the impulse or twice the distance.
+  An axial force along x pushes the ends of the bow across with NKℓ. That wave swings the force by 4√2 NKt/(μV₀r₀), and
+  changes the impulse by 2ct/ℓ² of as much; the limits are the same.
 - **loads**: the second order (`theory.second_order`) over what first order predicts, and the first order over the
   leading one, which has to be small.
 - **damping**: one point has a closed form (`theory.damped_point`), under an axial force up to its share in r₁. A zone
@@ -142,9 +144,14 @@ def _until_ends(impact: Impact, solved: ContactParameters) -> float:
     slow = impact.slow_time_scale / impact.time_scale
     time = max(DISTANCE + solved.lambda0, FLAT * solved.lambda0) ** -2.0  # T*
     quartic = abs(impact.fourth_derivative) * impact.half_length**4 / (impact.velocity * impact.slow_time_scale)
+    twice = (2.0 * DISTANCE + solved.lambda0) ** -2.0
     if math.sqrt(2.0) * quartic > TOLERANCE * solved.r0:
-        twice = (2.0 * DISTANCE + solved.lambda0) ** -2.0
         time = min(time, twice, TOLERANCE * solved.r0 / (2.0 * math.sqrt(2.0) * quartic))
+    if impact.tension_direction == "axis":
+        pull = abs(impact.axial_force) * impact.curvature * impact.slow_time_scale
+        swing = 4.0 * math.sqrt(2.0) * pull / (impact.mass_per_length * impact.velocity * solved.r0)  # a T*
+        if swing * time > TOLERANCE:
+            time = min(time, max(TOLERANCE / swing, min(twice, math.sqrt(TOLERANCE / (2.0 * swing)))))
     return time * slow
 
 

@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 
 from comparison.command_line.console import Console
-from comparison.command_line.options import Jobs, Json, Quiet, Set, emit, path_names
+from comparison.command_line.options import Jobs, Json, Quiet, Set, Verbose, emit, path_names
 
 __all__ = ["bounce"]
 
@@ -32,6 +32,7 @@ def bounce(
     hits: Annotated[int, typer.Option(min=1, max=20, help="Hits to follow, of a beam that loads bring back.")] = 1,
     out: Annotated[Path | None, typer.Option(help="Folder for document, figure and animation.")] = None,
     jobs: Jobs = 1,
+    verbose: Verbose = False,
     as_json: Json = False,
     quiet: Quiet = False,
 ) -> None:
@@ -42,6 +43,8 @@ def bounce(
 
     Example: bentbeam bounce --kappa-over-nu 2 --damping 0.01
     """
+    from dataclasses import asdict
+
     from bent_beam.cases import load_case
     from bent_beam.method import paths_with
     from bent_beam.parts import InputError
@@ -50,6 +53,7 @@ def bounce(
     from comparison.methods import methods_of
     from comparison.several_hits import follow_hits
     from comparison.store import check_writable
+    from comparison.whole_impact.predicted import over_damping
     from comparison.whole_impact.table import bounce_table, hits_table
 
     if (case is None) == (kappa_over_nu is None):
@@ -72,9 +76,10 @@ def bounce(
     with Console(quiet).progress(f"{path}: the whole impact") as bar:
         found = follow(impact, method, section=section, runs=runs, seed=seed, jobs=jobs, progress=bar.count)
         followed = follow_hits(impact, method, hits, progress=bar.fraction) if hits > 1 else []
-    document, problem_of_files = bounce_document(found), ""
+        over = over_damping(impact, section, method)
+    document, problem_of_files = {**bounce_document(found), "over_damping": over}, ""
     if hits > 1:
-        document["hits"] = [{**vars(hit), "restitution": hit.restitution} for hit in followed]
+        document["hits"] = [{**asdict(hit), "restitution": hit.restitution} for hit in followed]
     if out is not None:
         from comparison.whole_impact.figures import write_bounce
 
@@ -82,6 +87,6 @@ def bounce(
             document["files"] = [str(file) for file in write_bounce(found, out)]
         except OSError as error:  # the answer is worth more than its files
             problem_of_files = f"out: {error}"
-    emit(document, as_json, lambda: "\n".join([bounce_table(found), *hits_table(followed)]))
+    emit(document, as_json, lambda: "\n".join([bounce_table(found, over, verbose=verbose), *hits_table(followed)]))
     if problem_of_files:
         raise InputError(problem_of_files)

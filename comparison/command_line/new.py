@@ -24,6 +24,9 @@ def new(
     section: Annotated[
         str, typer.Option(help="pipe, round_bar, rectangle or general.", autocompletion=section_kinds)
     ] = "pipe",
+    damping_ratio: Annotated[
+        float | None, typer.Option(min=0.0, help="Of the first bending mode; left to be stated in the file without it.")
+    ] = None,
     overwrite: Overwrite = False,
     as_json: Json = False,
 ) -> None:
@@ -34,11 +37,11 @@ def new(
     from comparison.new_case import new_case
     from comparison.store import write_atomically
 
-    text = new_case(section)
+    text = new_case(section, damping_ratio)
     check_out(out, overwrite)
     write_atomically(out, text)
     emit(
         {"file": str(out), "section": section},
         as_json,
-        lambda: f"{out}: change the numbers, then bentbeam predict {out}",
+        lambda: f"{out}: change the numbers, state the damping, then bentbeam predict {out}",
     )

@@ -19,6 +19,7 @@ __all__ = [
     "Quiet",
     "Scheduler",
     "Set",
+    "Verbose",
     "check_out",
     "complete",
     "emit",
@@ -51,6 +52,7 @@ def complete(known: list[str], incomplete: str) -> list[str]:
 
 Json = Annotated[bool, typer.Option("--json", help="Print one JSON document on standard output and nothing else.")]
 Quiet = Annotated[bool, typer.Option("--quiet", "-q", help="No progress on standard error.")]
+Verbose = Annotated[bool, typer.Option("--verbose", "-v", help="With what tells an expert how good the answer is.")]
 CaseFile = Annotated[
     Path, typer.Argument(metavar="CASE.toml", help="Case file (see cases/; `bentbeam new` writes one).")
 ]

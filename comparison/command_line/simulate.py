@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from comparison.command_line.console import Console
-from comparison.command_line.options import CaseFile, Json, Overwrite, Quiet, Set, check_out, emit, path_names
+from comparison.command_line.options import CaseFile, Json, Overwrite, Quiet, Set, Verbose, check_out, emit, path_names
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -35,6 +35,7 @@ def simulate(
     out: Annotated[Path | None, typer.Option(metavar="FILE.nc", help="Keep the history as netCDF.")] = None,
     overwrite: Overwrite = False,
     save: Annotated[int, typer.Option(min=8, max=20000, help="Number of saved instants.")] = 200,
+    verbose: Verbose = False,
     as_json: Json = False,
     quiet: Quiet = False,
 ) -> None:
@@ -44,8 +45,9 @@ def simulate(
     """
     from bent_beam.cases import load_case
     from bent_beam.errors import SimulationError
-    from bent_beam.method import simulate_to_separation, simulated
+    from bent_beam.method import LONGEST, simulate_to_separation, simulated
     from bent_beam.parts import InputError
+    from comparison.companions import suited
     from comparison.summary import companions, run_table, summary
 
     loaded = load_case(case, assignments or ())
@@ -53,6 +55,8 @@ def simulate(
     if until not in (None, "separation"):
         raise InputError(f'--until takes "separation" (got {until!r}); an end time is run.end_time')
     check_out(out, overwrite)
+    end = loaded.end_time if until is None else LONGEST * loaded.impact.slow_time_scale
+    method = suited(method, loaded.impact, end)
 
     def run(chosen: Method, instants: int, progress: Callable[[float], None] | None = None) -> ImpactHistory:
         if until is None:
@@ -68,13 +72,13 @@ def simulate(
     problem = None
     if out is not None:
         try:
-            history.save(out)
+            (history if loaded.section is None else history.with_section(loaded.section)).save(out)
         except OSError as error:  # the run's answer is worth more than its file
             problem, out = f"out: {out} could not be written: {error.strerror or error}", None
-    others, lost = companions(method, run, error_bars)
+    others, lost = companions(method, loaded.impact, end, run, error_bars)
     found = summary(history, out, loaded.section, others)
-    found["warnings"] = [*loaded.warnings, *found["warnings"], *lost]
-    emit(found, as_json, lambda: run_table(found))
+    found["warnings"] = [*found["warnings"], *lost]
+    emit(found, as_json, lambda: run_table(found, verbose))
     if problem:
         raise InputError(problem)
 

@@ -1,4 +1,5 @@
-"""One run on one sheet: the beam at several instants, where and when the wall pushes, the impulse, the energies."""
+"""One run on one sheet: force and stress over time, the beam at several instants, where and when the wall pushes, the
+impulse, the energies."""
 
 from __future__ import annotations
 
@@ -10,6 +11,7 @@ import numpy as np
 from matplotlib.colors import LogNorm
 
 from bent_beam.history import ImpactHistory
+from bent_beam.pictures import draw_force, draw_stress
 from comparison.figures import style
 from comparison.figures.force_map import force_map
 
@@ -28,12 +30,14 @@ LOSSES = {
 
 def draw_history(history: ImpactHistory, out: Path, name: str, formats: Sequence[str] = ("png",)) -> list[Path]:
     """``name.png`` in ``out``; returns the files. The theory is drawn where it claims to hold."""
-    with style.figure(2, 2, width=style.PAGE, height=5.0) as (fig, axes):
-        _shapes(axes[0, 0], history)
-        _map(fig, axes[0, 1], history)
-        _impulse(axes[1, 0], history)
-        _energies(axes[1, 1], history)
-        for axis, letter in zip(axes.flat, "abcd"):
+    with style.figure(3, 2, width=style.PAGE, height=7.2) as (fig, axes):
+        draw_force(axes[0, 0], history, color=style.COLOURS["blue"])
+        draw_stress(axes[0, 1], history, color=style.COLOURS["vermilion"])
+        _shapes(axes[1, 0], history)
+        _map(fig, axes[1, 1], history)
+        _impulse(axes[2, 0], history)
+        _energies(axes[2, 1], history)
+        for axis, letter in zip(axes.flat, "abcdef"):
             style.panel_label(axis, f"({letter})")
         return style.save(fig, out, name, formats)
 
@@ -57,11 +61,11 @@ def _shapes(axis: Any, history: ImpactHistory) -> None:
             x, gap = np.concatenate([-x[::-1], x]), np.concatenate([gap[::-1], gap])
         inside = np.abs(x) <= reach
         colour = style.SEQUENCE[i % len(style.SEQUENCE)]
-        axis.plot(x[inside], gap[inside], color=colour, label=f"{history.time[k]:.3g} s")
+        axis.plot(x[inside], 1e3 * gap[inside], color=colour, label=f"{1e3 * history.time[k]:.3g} ms")
     axis.axhline(0.0, **{**style.WALL, "label": None})
     axis.set_xlabel("$x$  (m)")
-    axis.set_ylabel("gap  (m)")
-    axis.legend(title="$t$", ncols=2)
+    axis.set_ylabel("gap  (mm)")
+    axis.legend(title="$t$", ncols=2, frameon=True, framealpha=0.85, edgecolor="none")
 
 
 def _map(fig: Any, axis: Any, history: ImpactHistory) -> None:
@@ -74,14 +78,14 @@ def _map(fig: Any, axis: Any, history: ImpactHistory) -> None:
     force = force * impact.mass_per_length * impact.velocity / impact.time_scale
     top = float(np.abs(force).max(initial=0.0))
     axis.set_xlabel("$x$  (m)")
-    axis.set_ylabel("$t$  (s)")
+    axis.set_ylabel("$t$  (ms)")
     axis.grid(False)
     if top <= 0.0:
         axis.text(0.5, 0.5, "no push", transform=axis.transAxes, ha="center")
         return
     mesh = axis.pcolormesh(
         edges,
-        history.time[kept],
+        1e3 * history.time[kept],
         np.ma.masked_less_equal(force, 0.0),
         norm=LogNorm(top * 10.0**-DECADES, top),
         cmap="YlGnBu",
@@ -94,19 +98,19 @@ def _impulse(axis: Any, history: ImpactHistory) -> None:
     from comparison.summary import comparable
     from theory import predict
 
-    axis.plot(history.time, history.array("total_impulse"), color=style.COLOURS["blue"], label=history.path)
+    axis.plot(1e3 * history.time, history.array("total_impulse"), color=style.COLOURS["blue"], label=history.path)
     if comparable(history.impact):
         found = predict(history.impact, history.time[1:])
-        shown = [(row.time, row.impulse) for row in found.times if row.valid and row.impulse is not None]
+        shown = [(1e3 * row.time, row.impulse) for row in found.times if row.valid and row.impulse is not None]
         if shown:
             axis.plot(*zip(*shown), **{**style.THEORY, "ls": "--"})
-    axis.set_xlabel("$t$  (s)")
+    axis.set_xlabel("$t$  (ms)")
     axis.set_ylabel("impulse  (N s)")
     axis.legend()
 
 
 def _energies(axis: Any, history: ImpactHistory) -> None:
-    time = history.time
+    time = 1e3 * history.time
     for name, label, colour in (("kinetic_energy", "kinetic", "blue"), ("strain_energy", "strain", "vermilion")):
         values = history.array(name)
         axis.plot(time, values - values[0], color=style.COLOURS[colour], label=f"change of {label} energy")
@@ -116,6 +120,6 @@ def _energies(axis: Any, history: ImpactHistory) -> None:
             axis.plot(time, history.array(name), ls="--", color=next(colours), label=f"lost in {label}")
     if "work_of_loads" in history and np.any(history.array("work_of_loads")):
         axis.plot(time, history.array("work_of_loads"), ls=":", color="black", label="work of loads")
-    axis.set_xlabel("$t$  (s)")
+    axis.set_xlabel("$t$  (ms)")
     axis.set_ylabel("energy  (J)")
     axis.legend(frameon=True, framealpha=0.85, edgecolor="none", fontsize=6.5)

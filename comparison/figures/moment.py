@@ -25,7 +25,6 @@ from bent_beam.versions import stamp
 from comparison.figures import style
 from comparison.methods import default_methods
 from comparison.store import write_atomically
-from measure.reduction import bending_moments
 from theory.moment import peak_moment
 
 __all__ = ["KAPPAS", "MeasuredMoment", "draw_moments", "measure_moment", "moment_over_time"]
@@ -55,7 +54,7 @@ def moment_over_time(history: ImpactHistory) -> tuple[np.ndarray[Any, Any], np.n
     """τ and the largest bending moment anywhere over V₀√(EIμ), at the saved instants after the first."""
     impact = history.impact
     unit = impact.velocity * np.sqrt(impact.bending_stiffness * impact.mass_per_length)
-    sizes = [np.abs(bending_moments(history, k)[0]).max() for k in range(1, history.time.size)]
+    sizes = [np.abs(history.bending_moments(k)[0]).max() for k in range(1, history.time.size)]
     return history.time[1:] / impact.time_scale, np.array(sizes) / unit
 
 

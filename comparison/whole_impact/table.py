@@ -3,59 +3,83 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any
 
-from comparison.bounce import SI, Bounce
+from comparison.bounce import ENERGY, SI, Bounce
+from comparison.prediction_text import over_damping_lines
 from comparison.text_table import text_table
-from measure.whole_impact import SHORTEST_SEPARATION, WallHit
+from comparison.units import unit_for
+from measure.hits import Hit
+from measure.measured import Band, Measured
+from measure.whole_impact import SHORTEST_SEPARATION
 
 __all__ = ["bounce_table", "hits_table"]
 
 TITLES = {
-    "restitution": "coefficient of restitution e",
+    "restitution": "coefficient of restitution",
     "impulse": "impulse",
     "last_contact": "last contact",
-    "separations": "separations",
     "peak_moment": "largest bending moment",
-    "peak_moment_place": "its place, from the middle",
-    "peak_moment_time": "its time",
-    "midspan_moment": "largest moment at the middle",
     "peak_force": "largest force on the wall",
     "translation": "energy left in translation",
     "vibration": "energy left in vibration",
     "dissipated": "energy dissipated",
 }
+EXPERT = {
+    "peak_moment_place": "place of the largest moment, from the middle",
+    "peak_moment_time": "its time",
+    "midspan_moment": "largest moment at the middle",
+    "separations": "separations",
+}
+Number = Measured | Band
 
 
-def bounce_table(found: Bounce) -> str:
-    """Every number with its error bar, in units of the beam and in SI."""
-    impact, unit = found.impact, found.units
+def bounce_table(found: Bounce, over_damping: Sequence[dict[str, Any]] = (), *, verbose: bool = False) -> str:
+    """Every number with its error bar, in SI; ``verbose``: also in units of the beam, with places and times."""
     rows = []
-    for name, title in TITLES.items():
+    for name, title in {**TITLES, **(EXPERT if verbose else {})}.items():
         if name not in found.numbers:  # of a rigid wall
             continue
         number = found.numbers[name]
-        si = ["", ""]
-        if name in SI:
-            scale, text = SI[name]
-            si = [str(number.scaled(unit[scale])), text]
-        rows.append([title, str(number), *si])
+        own = [str(number)] if verbose else []
+        rows.append([title, *_in_si(found, name, number), *own])
         if name == "peak_moment" and found.peak_stress is not None:
-            rows.append(["largest stress, there and then", "", str(found.peak_stress), "Pa"])
+            rows.append(["largest stress", str(found.peak_stress.scaled(1e-6)), "MPa", *([""] if verbose else [])])
+    name, unit = ("peak_moment", "N m") if found.section is None else ("peak_stress", "Pa")
+    values = [row[name]["value"] for row in over_damping]
+    scale, unit = unit_for(unit, values)
+    over = [line.strip() for line in over_damping_lines(over_damping, name, scale)]
+    impact = found.impact
     lines = [
-        f"kappa/nu = {impact.kappa_over_nu:.6g}, eta/T* = {impact.relative_damping:.6g}, "
-        f"T* = {impact.slow_time_scale:.6g} s; {found.history.steps} steps, {found.seconds:.1f} s for all runs",
+        text_table(["", "value", "", *(["beam's units"] if verbose else [])], rows),
         "",
-        text_table(["", "beam's units", "SI", ""], rows),
-        "",
-        "Beam's units: L/2 = EI = mu = V0 = 1; energies are shares of the initial one and the work of loads, at the",
-        "last contact.",
-        f"A separation lasts at least {SHORTEST_SEPARATION:g} T* ({SHORTEST_SEPARATION * unit['time']:.3g} s).",
-        *(f"warning: {w}" for w in found.warnings),
+        "± is the error bar; a band is mean ± standard deviation of runs. Energies are shares of the initial energy",
+        "and the work of the loads, at the last contact.",
+        *(f"{line[0].upper()}{line[1:]} ({unit})." for line in over),
     ]
-    return "\n".join(lines)
+    if verbose:
+        lines += [
+            f"kappa/nu = {impact.kappa_over_nu:.6g}, eta/T* = {impact.relative_damping:.6g}, "
+            f"T* = {impact.slow_time_scale:.6g} s; {found.history.steps} steps, {found.seconds:.1f} s for all runs.",
+            "Beam's units: L/2 = EI = mu = V0 = 1. A separation lasts at least "
+            f"{SHORTEST_SEPARATION:g} T* ({SHORTEST_SEPARATION * found.units['time']:.3g} s).",
+        ]
+    return "\n".join([*lines, *(f"warning: {w}" for w in found.warnings)])
 
 
-def hits_table(hits: Sequence[WallHit]) -> list[str]:
+def _in_si(found: Bounce, name: str, number: Number) -> list[str]:
+    """Value and unit: shares of energy in per cent."""
+    if name in ENERGY:
+        return [str(number.scaled(100.0)), "%"]
+    if name not in SI:
+        return [str(number), ""]
+    quantity, unit = SI[name]
+    size = found.units[quantity] * (number.mean if isinstance(number, Band) else number.value or 0.0)
+    scale, text = unit_for(unit, [size])
+    return [str(number.scaled(found.units[quantity] * scale)), text]
+
+
+def hits_table(hits: Sequence[Hit]) -> list[str]:
     """The hits that were followed, as a table; nothing for none."""
     if not hits:
         return []

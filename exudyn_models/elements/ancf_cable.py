@@ -86,7 +86,7 @@ class _Cable(Beam):
         return np.asarray((values * (self.lengths[:, None] * WEIGHTS / 2)).sum(axis=(-2, -1)))
 
     def slope(self, q: Array) -> Array:
-        return np.asarray(q[self.rotation] / (1.0 + q[self.horizontal + 2]))
+        return np.asarray(q[..., self.rotation] / (1.0 + q[..., self.horizontal + 2]))
 
     def kinetic_energy(self, v: Array) -> Array:
         (along,), (across,) = self._fields(v, 0, 0), self._fields(v, 1, 0)

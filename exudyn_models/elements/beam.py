@@ -174,7 +174,7 @@ class Beam(ABC):
 
     def deflection(self, q: Array) -> Array:
         """y at the nodes (the reference lies on y = 0)."""
-        return q[self.vertical]
+        return np.asarray(q[..., self.vertical])
 
     @abstractmethod
     def slope(self, q: Array) -> Array:

@@ -53,7 +53,8 @@ class _Exact(Beam):
         )
 
     def slope(self, q: Array) -> Array:
-        return np.asarray(np.tan(q[self.rotation])) if self.shape.slender else q[self.rotation]
+        slopes = q[..., self.rotation]
+        return np.asarray(np.tan(slopes) if self.shape.slender else slopes)
 
     def _square(self, values: Array) -> Array:
         """∫ of the square of a linearly interpolated field over each element, over its length."""

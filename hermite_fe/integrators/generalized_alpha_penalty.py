@@ -39,7 +39,7 @@ from hermite_fe.integrators.generalized_alpha import (
     take_reaction,
 )
 from hermite_fe.solver import refactor_from
-from hermite_fe.stepping import Problem, State, forces_at, is_finite
+from hermite_fe.stepping import Problem, State, end_step, forces_at
 
 __all__ = ["GeneralizedAlphaPenalty"]
 
@@ -122,7 +122,7 @@ def take_steps(
         correct(scheme, state.q, state.v, state.acceleration, vectors, h)
         add_spring_reactions(rows, state, scheme, reactions, h, stiffness, damping)
         add_step(matrices, rows, state, scheme, vectors, reactions, t, h)
-        if not is_finite(state):
+        if not end_step(state):
             return NOT_FINITE, k
     return SOLVED, last
 

@@ -24,7 +24,7 @@ from hermite_fe.elastic_wall import FORCE, FORCE_TIME, PENETRATION, PRESSURE, pu
 from hermite_fe.integrators.base import Integrator
 from hermite_fe.integrators.theta import right_side
 from hermite_fe.solver import prepare, refactor_from
-from hermite_fe.stepping import WALL, Problem, State, add_energies, is_finite, mean_forces
+from hermite_fe.stepping import WALL, Problem, State, add_energies, end_step, mean_forces
 
 __all__ = ["Midpoint"]
 
@@ -154,6 +154,6 @@ def take_steps(
         work = h * dot(memory.force, mean_v)
         add_energies(matrices, rows, h, work, memory.impulse, mean_v, mean_v, 0.0, memory.scratch, state.energy)
         state.energy[WALL] += loss
-        if not is_finite(state):
+        if not end_step(state):
             return NOT_FINITE, k
     return SOLVED, last

@@ -37,7 +37,7 @@ from hermite_fe.integrators.generalized_alpha import (
     prepare_step,
     smooth_motion,
 )
-from hermite_fe.stepping import Problem, State, add_impulses, is_finite
+from hermite_fe.stepping import Problem, State, add_impulses, end_step
 
 __all__ = ["LEVELS", "NonsmoothGeneralizedAlpha"]
 
@@ -91,7 +91,7 @@ def take_steps(
         if status != SOLVED:
             return status, k
         add_step(matrices, rows, state, scheme, vectors, reactions, t, h)
-        if not is_finite(state):
+        if not end_step(state):
             return NOT_FINITE, k
     return SOLVED, last
 

@@ -29,7 +29,7 @@ from hermite_fe.constraints import (
     rows_times,
 )
 from hermite_fe.solver import prepare
-from hermite_fe.stepping import Matrices, Problem, State, add_energies, add_impulses, is_finite, mean_forces
+from hermite_fe.stepping import Matrices, Problem, State, add_energies, add_impulses, end_step, mean_forces
 
 __all__ = ["ThetaMemory", "take_steps", "theta_memory"]
 
@@ -132,6 +132,6 @@ def take_steps(
         work = h * dot(force, v_theta)
         loss = algorithmic_loss(matrices, rows, conditions.p, dv, v_theta, h, theta, scratch)
         add_energies(matrices, rows, h, work, conditions.p, mean_v, v_theta, loss, scratch, state.energy)
-        if not is_finite(state):
+        if not end_step(state):
             return NOT_FINITE, k
     return SOLVED, last

@@ -128,11 +128,22 @@ def test_what_clashes_is_named(tables, message):
         case(**tables)
 
 
-def test_compression_beyond_buckling_is_a_warning_with_the_number():
-    found = case({"curvature": 0.002, "axial_force": -1e5})
+def test_compression_beyond_buckling_is_refused_with_the_load():
+    found = case({"curvature": 0.002, "axial_force": -1e3})
     limit = math.pi**2 * found.impact.bending_stiffness / 30.0**2
-    assert f"{limit:.6g} N" in found.warnings[0]
-    assert case({"curvature": 0.002, "axial_force": -1e3}).warnings == ()
+    with pytest.raises(InputError, match=f"axial_force must not press with more than {limit:.6g} N"):
+        case({"curvature": 0.002, "axial_force": -1.001 * limit})
+
+
+def test_tension_along_the_axis_pulls_no_beam_to_its_wall_and_a_direction_without_tension_is_refused():
+    """Two forces along one line have no sum; along the bow's ends theirs is −NKL."""
+    axis, tangent = (
+        case({"curvature": 0.002, "axial_force": 1e3, **more}).impact for more in ({}, {"tension_direction": "tangent"})
+    )
+    assert axis.tension_direction == "axis" and axis.net_load == pytest.approx(0.0, abs=1e-9)
+    assert tangent.net_load == pytest.approx(-1e3 * 0.002, rel=1e-12)
+    with pytest.raises(InputError, match="tension_direction has no effect"):
+        case({"curvature": 0.002, "tension_direction": "axis"})
 
 
 @pytest.mark.parametrize("name", ["drill_pipe", "ruler", "glass_fibre_rod", "rail"])
@@ -149,9 +160,12 @@ def test_a_rail_is_its_catalogue_entry():
 
 
 @pytest.mark.parametrize("kind", ["pipe", "round_bar", "rectangle", "general"])
-def test_a_new_case_can_be_used_as_it_is(kind, tmp_path):
+def test_a_new_case_can_be_used_once_its_damping_is_stated(kind, tmp_path):
     from comparison.new_case import new_case
 
     file = tmp_path / "mine.toml"
     file.write_text(new_case(kind))
-    assert load_case(file).section is not None
+    with pytest.raises(InputError, match=r"beam\.damping_ratio .*0\.002 plain steel, 0\.01 with joints"):
+        load_case(file)
+    file.write_text(new_case(kind, 0.01))
+    assert load_case(file).section is not None and load_case(file).impact.damping > 0.0

@@ -14,7 +14,7 @@ from comparison.compare import compare_histories
 from measure.estimators import COMPANION_FIRST, INSIDE, SIDE, LeadingEstimate, first_order, leading_order
 from measure.measured import Measured
 from measure.moments import Moments, local_front, moments, one_side
-from measure.reduction import bending_moments, peak_moment
+from measure.reduction import peak_moment
 from theory import contact_parameters
 
 
@@ -169,10 +169,10 @@ def test_the_moment_of_a_cubic_is_exact_and_the_peak_is_where_it_is_largest(with
     slope = {"slope": np.outer(time, 2 * a * x + 3 * b * x**2)} if with_slope else {}
     history = history_of(np.arange(4.0), x, impact=impact, gap=-y - 0.5 * wall * x**2, **slope)
     exact = stiffness * (np.multiply.outer(time, 2 * a + 6 * b * x) + (0.2 if natural is None else natural))
-    found, place = bending_moments(history, slice(None))
+    found, place = history.bending_moments(slice(None))
     assert found[..., 0] == pytest.approx(exact[:, :-1], rel=1e-12)
     assert found[..., 1] == pytest.approx(exact[:, 1:], rel=1e-12)
-    assert bending_moments(history, 2)[0] == pytest.approx(found[2], rel=1e-15)
+    assert history.bending_moments(2)[0] == pytest.approx(found[2], rel=1e-15)
     assert np.all(place == np.stack([x[:-1], x[1:]], axis=1))
     peak = peak_moment(history)
     assert peak.time == 2.0 and (peak.place == 2.0 or not with_slope)
@@ -186,7 +186,7 @@ def test_moments_of_a_mesh_that_moves_stand_where_its_nodes_are_then():
     bent = {"gap": -0.3 * position**2, "slope": 0.6 * position}
     history = history_of(time, x, impact=Impact(2.5, 1.0, 4.0, 0.2, 1.0), position=position, **bent)
     for k in range(3):
-        found, place = bending_moments(history, k)
+        found, place = history.bending_moments(k)
         assert found == pytest.approx(2.5 * (0.6 + 0.2), rel=1e-12)
         assert np.all(place[:, 1] == position[k, 1:])
 

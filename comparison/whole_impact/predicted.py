@@ -1,0 +1,97 @@
+"""The whole impact of one case for a prediction, and over a plausible range of damping: from the stored map where it
+reaches and is sure (a beam without loads, a second wall or rocking), otherwise by a run and its companions on coarse
+elements."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import Any
+
+from bent_beam.cases import Case
+from bent_beam.free_flight import LOWEST_PERIOD
+from bent_beam.impact import Impact
+from bent_beam.loads import unmodelled
+from bent_beam.method import Method, for_whole_beam, refined, simulate_to_separation
+from bent_beam.section import Section
+from comparison.companions import companions_of, number_of
+from comparison.whole_impact.stored_map import bounce_from_map
+from measure.measured import Band, Measured
+from measure.whole_impact import whole_impact
+
+__all__ = ["over_damping", "predicted_impact"]
+
+Number = Measured | Band
+NUMBERS = ("restitution", "last_contact", "peak_moment")
+WIDE = 0.05  # error bar of the map's largest moment over its value, beyond which the beam is simulated
+COARSE, INSTANTS = 0.5, 1000  # resolution, and saved instants a T*
+LONGEST = 3.0  # T*: a loaded beam that is then still at the wall is not followed further
+DAMPING_RATIOS = (0.002, 0.01, 0.05)  # of the first mode: of a plain steel bar, of one with joints, of a damped one
+
+
+def predicted_impact(case: Case, method: Method | None) -> dict[str, Any] | None:
+    """Restitution, last contact, largest moment and stress of the whole impact, SI; ``None`` where nothing says them.
+
+    method : to simulate with (``None``: nothing is simulated).
+    """
+    impact = case.impact
+    found, source = _from_map(impact), "stored map"
+    if found is None and method is not None and impact.opposite_wall is None:
+        found, source = _simulated(impact, method), "simulation"
+    if found is None:
+        return None
+    return {
+        "restitution": found["restitution"].to_dict(),
+        "last_contact": found["last_contact"].scaled(impact.slow_time_scale).to_dict(),
+        **_peaks(impact, case.section, found["peak_moment"]),
+        "peak_force": None,
+        "source": source,
+        "over_damping": over_damping(impact, case.section, method),
+    }
+
+
+def over_damping(impact: Impact, section: Section | None, method: Method | None) -> list[dict[str, Any]]:
+    """Largest moment, N m, and stress, Pa, of the whole impact over a plausible range of the damping ratio."""
+    found = []
+    for ratio in DAMPING_RATIOS:
+        damped = impact.replace(damping=ratio * LOWEST_PERIOD / math.pi * impact.slow_time_scale)
+        numbers = _from_map(damped)
+        if numbers is None and method is not None and impact.opposite_wall is None:
+            numbers = _simulated(damped, method)
+        if numbers is not None:
+            found.append({"damping_ratio": ratio, **_peaks(impact, section, numbers["peak_moment"])})
+    return found
+
+
+def _from_map(impact: Impact) -> Mapping[str, Number] | None:
+    if impact.loaded or impact.off_centre or unmodelled(impact, ()) is not None:
+        return None
+    found = bounce_from_map(impact.kappa_over_nu, impact.relative_damping)
+    moment = None if found is None else found["peak_moment"]
+    return None if isinstance(moment, Measured) and moment.bar > WIDE * moment.known else found
+
+
+def _peaks(impact: Impact, section: Section | None, largest: Number) -> dict[str, Any]:
+    """Largest moment, N m, and stress, Pa, from the moment over V₀√(μEI)."""
+    moment = largest.scaled(impact.velocity * (impact.bending_stiffness * impact.mass_per_length) ** 0.5)
+    stress = None
+    if section is not None:
+        stress = moment.scaled(1.0 / section.section_modulus, section.stress(0.0, impact.axial_force)).to_dict()
+    return {"peak_moment": moment.to_dict(), "peak_stress": stress}
+
+
+def _simulated(impact: Impact, method: Method) -> dict[str, Number]:
+    """The whole impact by one run and its companions; restitution is missing where the beam has not left."""
+    chosen, longest = for_whole_beam(refined(method, COARSE) or method, impact), LONGEST * impact.slow_time_scale
+    outcomes = [
+        whole_impact(simulate_to_separation(one, impact, longest=longest, save=INSTANTS))
+        for one in (chosen, *companions_of(chosen, impact, longest))
+    ]
+    left = all(outcome.left for outcome in outcomes)
+    found: dict[str, Number] = {}
+    for name in NUMBERS:
+        values = [float(getattr(outcome, name)) for outcome in outcomes]
+        least = 0.5 * outcomes[0].spacing if name == "last_contact" else 0.0
+        number = number_of(values, impact, least) if impact.damping else Band.of(values)
+        found[name] = number if left or name == "peak_moment" else Measured()
+    return found
