@@ -136,7 +136,7 @@ def summary(
         "peak_stress": stress,
         "peak_stress_error": None if section is None or others == [] else section.stress(bars["peak_moment"] or 0.0),
         "yield_stress": None if section is None else section.yield_stress,
-        **_wall_peaks(own, others),
+        **_wall_peaks(impact, own, others),
         "energy": energy,
         "numerical_loss": numerical_loss(energy),
         "momentum_residual": balance.momentum,
@@ -148,11 +148,14 @@ def summary(
     }
 
 
-def _wall_peaks(own: Companion, others: Sequence[Companion]) -> dict[str, float | None]:
-    """Largest force, its time, largest penetration and pressure with their error bars; ``None`` of a rigid wall."""
+def _wall_peaks(impact: Impact, own: Companion, others: Sequence[Companion]) -> dict[str, float | None]:
+    """Largest force, its time, largest penetration and pressure with their error bars; ``None`` of a rigid wall, and
+    the pressure of a stop."""
+    begin, end = impact.wall_span
     found: dict[str, float | None] = {"peak_force_time": None if own.peaks is None else own.peaks.time}
     for name in ("force", "penetration", "pressure"):
-        value = None if own.peaks is None else getattr(own.peaks, name)
+        missing = own.peaks is None or (name == "pressure" and begin == end)
+        value = None if missing else getattr(own.peaks, name)
         coarser = [getattr(other.peaks, name) for other in others if other.peaks is not None]
         found[f"peak_{name}"] = value
         found[f"peak_{name}_error"] = None if value is None else _bar(value, coarser)
@@ -275,6 +278,8 @@ def _wall_lines(found: dict[str, Any]) -> list[list[str]]:
         ("pressure", "largest pressure", "N/m"),
     ):
         bar = found[f"peak_{name}_error"]
+        if found[f"peak_{name}"] is None:
+            continue
         lines.append([title, f"{found[f'peak_{name}']:.6g}", "" if bar is None else f"{bar:.1g}", unit, ""])
     lines[:2] = lines[1::-1]
     return lines

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from bent_beam.history import ImpactHistory
-from measure.whole_impact import pushes
+from measure.whole_impact import mean_velocity, pushes
 
 __all__ = ["Hit", "hits"]
 
@@ -67,7 +67,7 @@ def hits(history: ImpactHistory, *, longest_break: float = LONGEST_BREAK) -> lis
                 float(time[k]),
                 place,
                 float(given.sum()),
-                impact.velocity - momentum / mass,
+                mean_velocity(history, k) if impact.supported else impact.velocity - momentum / mass,
                 float(energy[k] + work[k]),
                 float(energy[i] - energy[k]),
             )
