@@ -177,13 +177,15 @@ def _bar_of(values: Sequence[float], impact: Impact, least: float = 0.0) -> floa
 
 
 def _wall_peaks(runs: Sequence[Companion], impact: Impact) -> dict[str, float | None]:
-    """Largest force, its time, largest penetration and pressure with their error bars; ``None`` of a rigid wall."""
+    """Largest force, its time, largest penetration and pressure with their error bars; ``None`` of a rigid wall, and
+    the pressure of a stop."""
     peaks = [run.peaks for run in runs if run.peaks is not None]
     found: dict[str, float | None] = {"peak_force_time": peaks[0].time if peaks else None}
     for name in ("force", "penetration", "pressure"):
         values = [getattr(one, name) for one in peaks]
-        found[f"peak_{name}"] = values[0] if values else None
-        found[f"peak_{name}_error"] = _bar_of(values, impact)
+        known = bool(values) and not (name == "pressure" and impact.wall_span[0] == impact.wall_span[1])
+        found[f"peak_{name}"] = values[0] if known else None
+        found[f"peak_{name}_error"] = _bar_of(values, impact) if known else None
     return found
 
 
@@ -295,7 +297,8 @@ def _wall_lines(found: dict[str, Any]) -> list[list[str]]:
         ("penetration", "largest penetration", "m"),
         ("pressure", "largest pressure", "N/m"),
     ):
-        lines.append([title, str(Measured(found[f"peak_{name}"], found[f"peak_{name}_error"])), unit, ""])
+        if found[f"peak_{name}"] is not None:
+            lines.append([title, str(Measured(found[f"peak_{name}"], found[f"peak_{name}_error"])), unit, ""])
     return lines
 
 

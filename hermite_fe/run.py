@@ -179,6 +179,11 @@ class Stepper:
     def _strain(self) -> float:
         return 0.5 * float(self.state.q @ stiff_product(self.problem.matrices.K, self.state.q))
 
+    def _stored(self) -> float:
+        """In the springs of the wall; a rigid one has no need to compile this."""
+        springs = self.problem.matrices.springs
+        return stored_energy(springs, self.state.q) if springs.stiffness > 0.0 else 0.0
+
     def sums(self) -> dict[str, float]:
         """Energies now, J, what they lost since the start, and since the last call the worst complementarity and the
         largest bending moments."""
@@ -188,7 +193,7 @@ class Stepper:
         return {
             "kinetic": self._kinetic(),
             "strain": self._strain(),
-            "springs": stored_energy(self.problem.matrices.springs, self.state.q),
+            "springs": self._stored(),
             "work": energy[WORK],
             "viscous": energy[VISCOUS],
             "material": energy[MATERIAL],

@@ -12,7 +12,7 @@ import numpy as np
 
 from bent_beam.free_flight import LOWEST_PERIOD
 from bent_beam.history import ImpactHistory
-from measure.whole_impact import pushes
+from measure.whole_impact import mean_velocity, pushes
 
 __all__ = ["Hit", "hits"]
 
@@ -61,6 +61,8 @@ def hits(history: ImpactHistory) -> list[Hit]:
     mass = impact.mass_per_length * impact.length
     gained = impact.net_load * impact.length * time - history.array("total_impulse")
     velocity = impact.velocity + gained / mass
+    if impact.supported:  # by forces that no history holds
+        velocity = np.array([mean_velocity(history, k) for k in range(time.size)])
     found = []
     for i, k, wall in spans:
         given = rows[wall][k] - rows[wall][i]

@@ -23,7 +23,7 @@ from bent_beam.free_flight import LOWEST_PERIOD, bears_free_flight, has_left, pu
 from bent_beam.history import ImpactHistory
 from measure.reduction import peak_moment, wall_peaks
 
-__all__ = ["SHORTEST_SEPARATION", "WholeImpact", "pushes", "whole_impact"]
+__all__ = ["SHORTEST_SEPARATION", "WholeImpact", "mean_velocity", "pushes", "whole_impact"]
 
 Array = NDArray[np.float64]
 
@@ -99,7 +99,7 @@ def whole_impact(history: ImpactHistory, *, shortest: float = SHORTEST_SEPARATIO
     held = history.energy("contact_energy")  # by springs of the wall
     initial = float(energy[0])
     supplied = initial + history.energy("work_of_loads")
-    restitution = impulse - 1.0 if bears_free_flight(impact) else -_mean_velocity(history, end) / impact.velocity
+    restitution = impulse - 1.0 if bears_free_flight(impact) else -mean_velocity(history, end) / impact.velocity
     translation = 0.5 * mass * (restitution * impact.velocity) ** 2 / float(supplied[end])
     return WholeImpact(
         restitution=restitution,
@@ -134,7 +134,7 @@ def _grouped(contacts: list[tuple[int, int]], time: Array, longest: float) -> li
     return groups
 
 
-def _mean_velocity(history: ImpactHistory, k: int) -> float:
+def mean_velocity(history: ImpactHistory, k: int) -> float:
     """Velocity of the centre of mass into the wall at saved instant ``k``, m/s."""
     x = history.positions(k)
     return float(np.trapezoid(history.array("velocity", k), x) / (x[-1] - x[0]))

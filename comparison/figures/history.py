@@ -25,6 +25,7 @@ LOSSES = {
     "loss_viscous": "grid viscosity",
     "loss_material": "material",
     "loss_absorbed": "absorber",
+    "loss_wall": "wall",
 }
 
 
@@ -70,6 +71,13 @@ def _shapes(axis: Any, history: ImpactHistory) -> None:
 
 def _map(fig: Any, axis: Any, history: ImpactHistory) -> None:
     impact = history.impact
+    if history.contact_positions(-1).size == 1:  # a stop: its force has no length to be spread over
+        time = history.time
+        force = np.diff(history.array("total_impulse")) / np.diff(time)
+        axis.plot(0.5 * (time[1:] + time[:-1]), force, color=style.COLOURS["blue"])
+        axis.set_xlabel("$t$  (s)")
+        axis.set_ylabel("reaction  (N)")
+        return
     kept = np.unique(np.linspace(0, history.time.size - 1, min(ROWS, history.time.size)).astype(int))
     sided = history.contact_positions(-1).min() >= 0.0
     edge = _reach(history)
@@ -118,6 +126,8 @@ def _energies(axis: Any, history: ImpactHistory) -> None:
     for name, label in LOSSES.items():
         if name in history and np.any(history.array(name)):
             axis.plot(time, history.array(name), ls="--", color=next(colours), label=f"lost in {label}")
+    if np.any(history.energy("contact_energy")):
+        axis.plot(time, history.array("contact_energy"), color=style.COLOURS["green"], label="energy in the wall")
     if "work_of_loads" in history and np.any(history.array("work_of_loads")):
         axis.plot(time, history.array("work_of_loads"), ls=":", color="black", label="work of loads")
     axis.set_xlabel("$t$  (ms)")
