@@ -55,8 +55,14 @@ def report(
     from bent_beam.parts import InputError
     from comparison.methods import chosen_methods
     from comparison.store import RunStore, check_writable, default_store
-    from report.page import write_report
-    from report.rows import PATHS, report_questions
+
+    try:
+        from report.page import write_report
+        from report.rows import PATHS, report_questions
+    except ModuleNotFoundError as error:
+        raise InputError(
+            f"report: {error.name} is missing, of the extra [report] (pip install 'bent-beam-impact[report]')"
+        ) from None
 
     page = out / "index.html"
     if page.exists() and not overwrite:

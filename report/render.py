@@ -15,6 +15,7 @@ from typing import Any
 
 import jinja2
 from markupsafe import Markup
+from plotly.offline import get_plotlyjs
 
 from bent_beam.versions import processor, versions
 from comparison.figures.style import marks
@@ -50,8 +51,6 @@ class Content:
 
 def render(content: Content) -> str:
     """The whole page as text. Nothing in it refers to anything outside it; every string is escaped."""
-    from plotly.offline import get_plotlyjs
-
     environment = jinja2.Environment(
         loader=jinja2.FileSystemLoader(TEMPLATES),
         autoescape=True,

@@ -170,13 +170,6 @@ def test_tutorial_runs() -> None:
     assert [printed(cell) for cell in notebook.cells] == stored, "run docs/tutorial.ipynb and store its outputs"
 
 
-def test_version_is_the_same_everywhere() -> None:
-    import tomllib
-
-    version = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]["version"]
-    assert f"version: {version}\n" in (ROOT / "CITATION.cff").read_text(encoding="utf-8")
-    assert f"## {version}" in (ROOT / "CHANGELOG.md").read_text(encoding="utf-8")
-
 
 def test_the_files_that_hold_the_facts_exist() -> None:
     text = (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8")
