@@ -1,12 +1,17 @@
 """Momentum, initial energy and gaps of pushes, from the state of a run: a falsified run shows."""
 
+import dataclasses
+
+import numpy as np
 import pytest
 
 from bent_beam import Impact, ImpactHistory
 from bent_beam.meshes import UniformMesh
+from bent_beam.method import for_whole_beam, method_from_tables
 from exudyn_models import ExudynModel
 from hermite_fe import HermiteFE
 from measure.balance import balance_of
+from measure.reduction import peak_moment
 from self_similar_fe import ExpandingMesh, SelfSimilarFE
 
 WHOLE = Impact.whole_beam(0.5, relative_damping=1e-2)
@@ -43,3 +48,19 @@ def test_exudyn_keeps_momentum_under_an_axial_force_too() -> None:
     bent = impact.replace(fourth_derivative=2.0)  # its ends pull at a tangent that turns
     short = ExudynModel(mesh=UniformMesh(1.0 / 20)).simulate(bent, end_time=0.02, save=20)
     assert balance_of(short).momentum is None
+
+
+@pytest.mark.parametrize("path", ["hermite", "exudyn"])
+def test_tension_along_the_axis_moves_no_centre_of_mass_and_the_largest_moment_is_that_of_all_steps(path):
+    """Forces along the bow's ends take −NKL t; forces along x take nothing: the wall gives all that the beam gains."""
+    impact = Impact.whole_beam(0.5, relative_damping=1e-2).replace(axial_force=3.0, acceleration=-1.5)
+    method = dataclasses.replace(method_from_tables(path, {}), mesh=UniformMesh(1.0 / 20))
+    for direction, drawn in (("axis", 0.0), ("tangent", -1.5)):
+        turned = impact.replace(tension_direction=direction)
+        runs = [for_whole_beam(method, turned).simulate(turned, end_time=0.2, save=save) for save in (10, 100)]
+        for history in runs:
+            v, x = history.array("velocity", -1), history.positions(0)
+            gained = 2.0 * float(np.trapezoid(v, x)) - 2.0
+            assert gained == pytest.approx(2.0 * drawn * 0.2 - history.array("total_impulse")[-1], abs=5e-3)
+        few, many = (peak_moment(history).moment for history in runs)
+        assert few == pytest.approx(many, rel=1e-12)
