@@ -128,7 +128,7 @@ def _check_directory(source: Path) -> None:
 
 def _table(source: Path) -> Result:
     table, about = source.with_suffix(".csv"), source.with_suffix(".json")
-    if not about.exists():
+    if not about.is_file():  # a pipe would never end
         raise ResultError(f"needs {about.name} beside it (outcome, problem, metadata)")
     if about.stat().st_size > MOST_JSON:
         raise ResultError(f"{about.name}: {about.stat().st_size} bytes, {MOST_JSON} are the most (NPZ takes more)")
@@ -139,7 +139,7 @@ def _table(source: Path) -> Result:
     if not isinstance(record, dict):
         raise ResultError(f"{about.name} must hold one JSON object")
     _check_names(record, BESIDE, "field", f"{about.name}: ")
-    if table.exists():
+    if table.is_file():
         record |= _columns(table)
     elif record.get("outcome") == "completed":
         raise ResultError(f"needs {table.name} beside it (tau, J, Jm)")
