@@ -27,6 +27,7 @@ from comparison.sources import source_digest, source_of
 
 __all__ = ["RunStore", "check_writable", "default_store", "source_digest", "source_of", "write_atomically"]
 
+
 def check_writable(out: Path, *, folder: bool) -> None:
     """``InputError`` when ``out`` (or a file in it, a ``folder``) cannot be written: asked before the work."""
     place = out if folder else out.parent

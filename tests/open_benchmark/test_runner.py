@@ -97,7 +97,8 @@ from pathlib import Path
 from open_benchmark.adapter import Adapter
 from open_benchmark.problem import problem
 from open_benchmark.running import Limits, run_adapter
-run_adapter(Adapter("slow", Path({str(tmp_path / "slow.py")!r})), problem("point-2"), "coarse", Path("kept/r.npz"), Limits())
+slow = Adapter("slow", Path({str(tmp_path / "slow.py")!r}))
+run_adapter(slow, problem("point-2"), "coarse", Path("kept/r.npz"), Limits())
 """
     command = subprocess.Popen([sys.executable, "-c", program], cwd=tmp_path)
     while not (pids := [f for f in tmp_path.glob("kept/.run-*/pid") if f.read_text()]):

@@ -99,7 +99,9 @@ def test_a_full_disk_under_out_costs_the_files_and_no_answer(monkeypatch, tmp_pa
 
     monkeypatch.setattr("comparison.tables.write_match", full)
     install(monkeypatch, lambda: Theirs)
-    code, out, err = command("match", "--path", "theirs", "--kappa-over-nu", "2", "--fresh", "--out", tmp_path, "--json")
+    code, out, err = command(
+        "match", "--path", "theirs", "--kappa-over-nu", "2", "--fresh", "--out", tmp_path, "--json"
+    )
     assert code == 2 and len(json.loads(out)["rows"]) == 1 and "No space left" in err
 
 
@@ -166,7 +168,9 @@ def test_a_number_is_written_with_digits(words):
 def test_two_histories_of_one_name_are_two_pictures(monkeypatch):
     drawn = []
     monkeypatch.setattr("bent_beam.history.ImpactHistory.load", lambda file: file)
-    monkeypatch.setattr("comparison.figures.history.draw_history", lambda history, out, name, kinds: drawn.append(name) or [])
+    monkeypatch.setattr(
+        "comparison.figures.history.draw_history", lambda history, out, name, kinds: drawn.append(name) or []
+    )
     plot.plot([plot.Path(name) for name in ("a/run.nc", "b/run.nc", "run-2.nc")])
     assert drawn == ["run", "run-2", "run-2-2"]
 
