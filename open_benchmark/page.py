@@ -69,8 +69,9 @@ def errors_table(rows: Sequence[Row], solvers: Sequence[str]) -> str:
 
 def _in_short(row: Row) -> str:
     wanted = ("lambda1", "r1") if problem(row.problem).kind == "first" else IN_SHORT
-    errors = [f"{100 * error:+.3f}" for name in wanted if (error := _error(row, name)) is not None]
-    if not errors:
+    known = [_error(row, name) for name in wanted if name in row.score.measured]
+    errors = ["–" if error is None else f"{100 * error:+.3f}" for error in known]
+    if not any(error is not None for error in known):
         return row.score.brief
     words = row.score.outcome.partition(", ")[2]
     about = [] if row.seconds is None else [f"{row.seconds:.2g}"]

@@ -192,7 +192,7 @@ CHEAT = "import theory\n" + NODES
 def test_only_nodal_histories_of_drawn_problems_are_verified_and_theory_is_out_of_reach(tmp_path):
     names = {"clean": NODES, "declared": DECLARED, "cheat": CHEAT}
     adapters = [adapter(tmp_path, name, source) for name, source in names.items()]
-    rows = campaign(adapters, ["point-2"], tmp_path / "out", limits=Limits(repeats=2), seed=4)
+    rows = campaign(adapters, ["point-2"], tmp_path / "out", limits=Limits(repeats=2), resolutions=["coarse"], seed=4)
     tables = {(row.solver, row.problem == "point-2"): row.unverified for row in rows}
     assert tables == {
         ("clean", True): "a problem whose answer is published",
