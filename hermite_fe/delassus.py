@@ -1,13 +1,12 @@
 """How an impact at one contact row moves its neighbours: the Delassus operator W = G M⁻¹ Gᵀ.
 
-A row j that stops from the velocity V₀ takes the impulse V₀/W_jj, and this changes the velocity of row i towards the
-wall
-by −(W_ij/W_jj)V₀. With
+A row j that stops from the velocity V₀ takes the impulse V₀/W_jj, and this changes the gap velocity of row i by
+(W_ij/W_jj)V₀. With
 
     c = W_{j,j±1}/W_jj
 
-the neighbour that has just come to rest is thrown off the wall at |c|V₀ when c < 0, and pressed on, which only
-costs another impulse, when c > 0. On equal elements (l = 1, μ = 1) lumped masses with the rotary part r give
+the neighbour that has just come to rest is thrown off the wall at cV₀ when c > 0, and pressed on, which only costs
+another impulse, when c < 0. On equal elements (l = 1, μ = 1) lumped masses with the rotary part r give
 
     nodes: W = 1, c = 0;    middles: W = ½ + 1/(64 r),  c = (¼ − 1/(128 r))/W: zero at r = 1/32.
 """

@@ -11,7 +11,7 @@ beam, and the literature has several values of r:
 | --- | --- |
 | 1/24 | half the element as a rod that turns about its end (Cook, Malkus, Plesha, Witt 2002, § 11.3) |
 | 1/78 | the diagonal of the consistent matrix, scaled to the element's mass (Hinton, Rock, Zienkiewicz 1976) |
-| 1/105 | the diagonal of the consistent matrix as it is |
+| 1/105 | the rotary diagonal of the consistent matrix, unscaled |
 | 1/420 | the row sum of its rotational block |
 | → 0 | rotations without inertia |
 
