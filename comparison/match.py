@@ -177,7 +177,7 @@ def _estimates(
         [run, *found],
         found[0].moments,
         [(s * top, one.moments) for s, one in zip(SHARES, found[1:])],
-        max(largest.zone_pressure, 0.0) / top,
+        largest.zone_pressure / top,
     )
 
 

@@ -43,6 +43,7 @@ LIFTED = 0.1  # of V₀t: a larger lift counts whole, a smaller one in proportio
 INSIDE = 0.5  # of what the lift does to r₀, to λ₀: pushes off the zone act anywhere behind the front
 COMPANION_FIRST = 1.5  # at first order likewise: fronts that pass elements at other times add noise to the difference
 SPREAD_FIRST = 2.0  # of the largest change by a term more, half the window or one run alone
+STUCK_FIRST = 0.4  # likewise of a load that should lift the zone and does not: springs push on, or no node is there
 MISSING_FIRST = 2.5  # of the zone's length times what its uniform reaction lacks: a zone off the wall moves the front
 
 
@@ -181,15 +182,16 @@ def first_order(
 
     runs : (ε, moments taken with ``uniform=True``), ε of the asked-for (α, ψ, χ): the run's εα is ε·α and so on.
     pressure : what presses the zone, over ε, in the units of the moments; the zone's reaction tends to it once the load
-        has closed what the start left open. ``None``: its own mean.
+        has closed what the start left open. Where it is negative the zone should lift. ``None``: its own mean.
     companions : what the same runs at other resolutions gave.
 
     Each run gives polynomials in δ = ετ; all runs are fitted together, so ε → 0 is reached by the terms in δ², δ³.
 
     The error bar is the root of the sum of squares of the spread (the largest change by a term more, half the window,
     or one run alone, whose noise counts in proportion to its ε), taken ``SPREAD_FIRST`` times; of the largest
-    difference from a companion, ``COMPANION_FIRST`` times; of what the uniform reaction lacks, which moves r₁ by
-    λ₀/√(2/π) of itself at least and λ₁ by about half of that times λ₀/r₀, ``MISSING_FIRST`` times; of what λ₁ inherits
+    difference from a companion, ``COMPANION_FIRST`` times; of what the uniform reaction lacks (of a zone that should
+    lift and does not, ``STUCK_FIRST`` of the load), which moves r₁ by λ₀/√(2/π) of itself at least and λ₁ by about half
+    of that times λ₀/r₀, ``MISSING_FIRST`` times; of what λ₁ inherits
     from the bars of λ₀ and r₀; and of ``FLOOR``. Raises ``ValueError`` without runs or when saved times differ.
     """
     if not runs:
@@ -212,8 +214,9 @@ def first_order(
     epsilon, tail = runs[-1]
     late = tail.tau >= tail.tau[-1] / window
     reaction = tail.pressure[late] / epsilon
-    wanted = float(reaction.mean()) if pressure is None else pressure
-    missing = math.sqrt(float(np.mean((reaction - wanted) ** 2))) * lambda0 / SIDE
+    wanted = float(reaction.mean()) if pressure is None else max(pressure, 0.0)
+    stuck = STUCK_FIRST * min(pressure or 0.0, 0.0) * (tail.lift[late] == 0.0)
+    missing = math.sqrt(float(np.mean((reaction - wanted + stuck) ** 2))) * lambda0 / SIDE
     bars = np.sqrt(
         (SPREAD_FIRST * np.abs(changes).max(axis=0)) ** 2
         + (COMPANION_FIRST * _apart(best, companions)) ** 2

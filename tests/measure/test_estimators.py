@@ -158,6 +158,15 @@ def test_a_uniform_reaction_that_does_not_reach_the_load_widens_the_error_bars()
     assert open_zone.r1.error > 0.5 and open_zone.lambda1.error > 0.25 > 5.0 * full.lambda1.error
 
 
+def test_a_zone_that_should_lift_and_does_not_widens_the_error_bars():
+    runs = [(0.1, moments(synthetic(0.5, (-1.0, 0.0, 0.0), 0.1), uniform=False))]
+    base = moments(synthetic(0.5))
+    lifted = [(e, dataclasses.replace(run, lift=run.tau)) for e, run in runs]
+    free, stuck = (first_order(some, base, leading_order(base), pressure=-1.0) for some in (lifted, runs))
+    whole = contact_parameters(0.5).lambda0 / SIDE  # of the load
+    assert stuck.r1.error == pytest.approx(np.hypot(free.r1.error, whole), rel=0.02)
+
+
 @pytest.mark.parametrize("with_slope", [True, False])
 @pytest.mark.parametrize("natural", [None, 0.1])
 def test_the_moment_of_a_cubic_is_exact_and_the_peak_is_where_it_is_largest(with_slope, natural):
