@@ -74,6 +74,7 @@ def _axial_stiffness(asked: float | None, true: bool, scaling: Scaling) -> float
 
 def _wall(shape: Shape, scaling: Scaling, centre: int, half: bool, explicit: bool) -> Wall:
     opposite, stiffness = scaling.impact.opposite_wall, scaling.impact.wall_stiffness
+    unit = scaling.impact.bending_stiffness / scaling.length**4
     first_spread = FIRST_SPREAD * scaling.impact.slow_time_scale / scaling.end_time
     return Wall(
         nodes=reachable(shape.s, scaling, centre),
@@ -84,7 +85,8 @@ def _wall(shape: Shape, scaling: Scaling, centre: int, half: bool, explicit: boo
         plastic=thin_front(scaling.kappa) and first_spread >= 1.0 and not explicit,
         explicit=explicit,
         opposite=None if opposite is None else -opposite / scaling.deflection,
-        stiffness=None if stiffness is None else stiffness * scaling.length**4 / scaling.impact.bending_stiffness,
+        stiffness=None if stiffness is None else stiffness / unit,
+        damping=scaling.impact.wall_damping / (unit * scaling.end_time),
     )
 
 

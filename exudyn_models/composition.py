@@ -18,7 +18,15 @@ from exudyn_models.solvers import SOLVERS, NewtonSolver
 
 __all__ = ["Composition"]
 
-LOADS = ("acceleration", "curvature_rate", "fourth_derivative", "axial_force", "rotation", "wall_stiffness")
+LOADS = (
+    "acceleration",
+    "curvature_rate",
+    "fourth_derivative",
+    "axial_force",
+    "rotation",
+    "wall_stiffness",
+    "wall_damping",
+)
 """The loads and features that :mod:`exudyn_models.assembly` models."""
 
 

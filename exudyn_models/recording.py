@@ -30,6 +30,7 @@ from exudyn_models.contacts import ContactRun
 from exudyn_models.elements import Beam
 from exudyn_models.integrators import Averages
 from exudyn_models.scaling import Scaling
+from exudyn_models.sums import Largest, means, onwards, products
 
 __all__ = ["Recorder"]
 
@@ -37,38 +38,8 @@ Field = tuple[tuple[str, ...], NDArray[Any]]
 
 ROWS = 33  # states that are collected before they are summed up
 ENERGIES = ("kinetic_energy", "strain_energy", "contact_energy")
-SAVED_SUMS = ("work_of_loads", "loss_viscous", "loss_material", "loss_algorithmic", "held_impulse")
+SAVED_SUMS = ("work_of_loads", "loss_viscous", "loss_material", "loss_algorithmic", "loss_wall", "held_impulse")
 OTHER_SUMS = ("contact_work", "pushed", "load_impulse")
-
-
-def _products(first: Array, second: Array) -> Array:
-    """Scalar products of the rows."""
-    return np.asarray(np.einsum("ij,ij->i", first, second))
-
-
-def _onwards(before: Array, gains: Array) -> Array:
-    """Sums after each gain, ``before`` first."""
-    return np.concatenate([before[None], before + np.cumsum(gains, axis=0)])
-
-
-def _means(rows: Array) -> Array:
-    """Of neighbouring rows."""
-    return np.asarray((rows[1:] + rows[:-1]) / 2)
-
-
-class _Largest:
-    """The largest gain of any contact point between two saved instants."""
-
-    def __init__(self, contacts: int) -> None:
-        self.now, self.saved = np.zeros(contacts), np.zeros(contacts)
-        self.value = 0.0
-
-    def add(self, gains: Array, saved: list[int]) -> None:
-        """What the points gained in more steps, (steps, contacts), and after how many of these was saved."""
-        sums = _onwards(self.now, gains)
-        kept = np.concatenate([self.saved[None], sums[saved]])
-        self.value = max(self.value, float(np.diff(kept, axis=0).max(initial=0.0)))
-        self.now, self.saved = sums[-1], kept[-1]
 
 
 class Recorder:
@@ -96,7 +67,7 @@ class Recorder:
         self.averaged = np.zeros(contacts)  # contact force after the scheme's averages
         self.rows: list[tuple[float, Array, Array, Array, Array]] = []  # time, q, v, a, contact force; the first is old
         self.pending: list[int] = []  # rows that are saved
-        self.largest_pull, self.largest_push = _Largest(contacts), _Largest(contacts)
+        self.largest_pull, self.largest_push = Largest(contacts), Largest(contacts)
         self.sums = {name: np.zeros(()) for name in (*SAVED_SUMS, *OTHER_SUMS)}
         self.total = self.start_stored = self.deepest = 0.0
         self.start_momentum = math.nan
@@ -150,11 +121,12 @@ class Recorder:
         time, q, v, a, force = (np.array(column) for column in zip(*self.rows))
         dt = np.diff(time)
         gains = self._of_energy(time, q, v, a) | self._of_contact(dt, q, force)
-        after = {name: _onwards(self.sums[name], gain) for name, gain in gains.items()}
+        gains["loss_wall"] = self._of_dashpots(q, force)
+        after = {name: onwards(self.sums[name], gain) for name, gain in gains.items()}
         if self.scaling.impact.wall_stiffness is not None:
             self._of_springs(time, q, force)
         total = self.start_momentum + after["load_impulse"] - v @ self.momentum
-        impulse = _onwards(self.impulse, self._impulses(dt, q, force, np.diff(total)))
+        impulse = onwards(self.impulse, self._impulses(dt, q, force, np.diff(total)))
         self._note_moments(q)
         record = self.record
         record["kinetic_energy"] += self.beam.kinetic_energy(v[self.pending]).tolist()
@@ -165,7 +137,7 @@ class Recorder:
             for name in SAVED_SUMS:
                 record[name].append(float(after[name][k]))
             stored = record["contact_energy"][len(record["loss_impact"])]
-            record["loss_impact"].append(float(after["contact_work"][k]) - stored)
+            record["loss_impact"].append(float(after["contact_work"][k]) - stored - record["loss_wall"][-1])
         self.sums = {name: values[-1] for name, values in after.items()}
         self.impulse, self.total = impulse[-1], float(total[-1])
         late = np.flatnonzero(time > 0.01)
@@ -199,39 +171,48 @@ class Recorder:
 
     def _of_energy(self, time: Array, q: Array, v: Array, a: Array) -> dict[str, Array]:
         """Work of the loads, their impulse and the losses in each step, each (steps,)."""
-        moved, mean_v = np.diff(q, axis=0), _means(v)
+        moved, mean_v = np.diff(q, axis=0), means(v)
         inertia = (self.mass @ a.T).T
-        kinetic = _products(v, (self.mass @ v.T).T) / 2
+        kinetic = products(v, (self.mass @ v.T).T) / 2
         nothing = np.zeros(time.size - 1)
         gains = {
-            "loss_algorithmic": (_products(moved, inertia[1:]) + _products(moved, inertia[:-1])) / 2 - np.diff(kinetic),
+            "loss_algorithmic": (products(moved, inertia[1:]) + products(moved, inertia[:-1])) / 2 - np.diff(kinetic),
             "work_of_loads": nothing,
             "load_impulse": nothing,
         }
         for name, matrix in self.damping.items():
-            gains[name] = nothing if matrix is None else _products(mean_v, (matrix @ moved.T).T)
+            gains[name] = nothing if matrix is None else products(mean_v, (matrix @ moved.T).T)
         if self.loaded:
-            load = _means(self.loads(time))
-            gains |= {"work_of_loads": _products(moved, load), "load_impulse": load @ self.upward * np.diff(time)}
+            load = means(self.loads(time))
+            gains |= {"work_of_loads": products(moved, load), "load_impulse": load @ self.upward * np.diff(time)}
         return gains
 
     def _of_contact(self, dt: Array, q: Array, force: Array) -> dict[str, Array]:
         """Work and impulses of the contact forces in each step, each (steps,)."""
-        means = _means(force)
+        mean = means(force)
         places = q[:, self.beam.vertical[self.contact.nodes]]
-        pushes = means * self.contact.signs * dt[:, None]
+        pushes = mean * self.contact.signs * dt[:, None]
         pulls = np.minimum(pushes, 0.0)
         if self.contact.held_until:  # no other law pulls
             self.largest_pull.add(-pulls, self.pending)
             self.largest_push.add(pushes, self.pending)
         return {
-            "contact_work": _products(means, np.diff(places, axis=0)),
+            "contact_work": products(mean, np.diff(places, axis=0)),
             "held_impulse": pulls.sum(axis=1),
             "pushed": np.maximum(pushes, 0.0).sum(axis=1),
         }
 
+    def _of_dashpots(self, q: Array, force: Array) -> Array:
+        """Loss in the dashpots of a wall that gives way in each step, (steps,); of a rigid one nothing."""
+        stiffness = self.contact.wall_springs
+        if stiffness is None:
+            return np.zeros(force.shape[0] - 1)
+        depth = q[:, self.beam.vertical[self.contact.nodes]] - self.contact.wall_y
+        dashpots = np.where(depth > 0.0, force - stiffness * depth, 0.0)  # which also slow what would pull
+        return products(means(dashpots), np.diff(depth, axis=0))
+
     def _of_springs(self, time: Array, q: Array, force: Array) -> None:
-        """The largest force on the zone, when, and the largest penetration, of all steps until each saved instant."""
+        """Save the largest force on the zone, when, and the largest penetration of all steps so far."""
         depth = np.maximum(q[:, self.beam.vertical[self.contact.nodes]] - self.contact.wall_y, 0.0).max(axis=1)
         for k, pushed in enumerate(force.sum(axis=1)):
             if pushed > self.peaks[0]:
@@ -288,14 +269,15 @@ class Recorder:
             fields[name] = of_time, saved[name] * both * s.impulse
         for name in (*ENERGIES, "loss_impact", *SAVED_SUMS[:-1]):
             fields[name] = of_time, saved[name] * both * s.energy
-        if "peaks" in saved:
+        if "peaks" not in saved:
+            del fields["loss_wall"]
+        else:
             force, when, depth = saved["peaks"].T
             fields |= {
                 "peak_force": (of_time, force * both * s.impulse / s.end_time),
                 "peak_force_time": (of_time, when * s.end_time),
                 "peak_penetration": (of_time, depth * s.deflection),
                 "peak_pressure": (of_time, depth * s.deflection * (s.impact.wall_stiffness or 0.0)),
-                "loss_wall": (of_time, 0.0 * depth),
             }
         largest, moment = saved["largest"].T, s.impact.bending_stiffness * s.slope / s.length
         fields["largest_moment"] = of_time, largest[0] * moment

@@ -46,6 +46,7 @@ class Wall:
     explicit: bool
     opposite: float | None  # y of a second, flat wall behind the beam
     stiffness: float | None = None  # per length, of a wall that gives way
+    damping: float = 0.0  # beside it
 
 
 class ContactRun(ABC):
@@ -58,6 +59,7 @@ class ContactRun(ABC):
     iterated = True  # Exudyn finds the contact state by repeating steps
     states = 1  # data coordinates of a connector, the first a gap: the connector is closed where it is not positive
     imposes = False  # states are those of ``closed_by``, not of Exudyn's gaps
+    wall_springs: Array | None = None  # stiffness at the contact points of a wall that gives way, (contacts,)
     round_off = 0.0  # force in Exudyn's connectors that means nothing: no residual can be made smaller
 
     def __init__(self, beam: Beam, nodes: Indices, wall_y: Array, signs: Array | None = None) -> None:

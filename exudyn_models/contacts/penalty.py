@@ -122,7 +122,7 @@ class PenaltyRun(ContactRun):
 
     def forces(self, q: Array, v: Array) -> tuple[Array, Flags]:
         force = self._spring_and_dashpot(q, v)
-        active = (force > 0.0) | self.held
+        active = self.closed_by(q, v) | self.held
         if self.strip.used:
             self.strip.captured |= active[: self.strip.captured.size]
         return np.where(active, self.signs * force, 0.0), active
@@ -133,7 +133,7 @@ class PenaltyRun(ContactRun):
 
     def contradictions(self, q: Array, v: Array, closed: Flags) -> Array:
         force = self._spring_and_dashpot(q, v)
-        return np.where(((force > 0.0) != closed) & ~self.held, np.abs(force), 0.0)
+        return np.where((self.closed_by(q, v) != closed) & ~self.held, np.abs(force), 0.0)
 
     def between(self, time: float, step: float, q: Array, v: Array) -> bool:
         changed = self._held_or_let_go(time) if self.strip.used else 0

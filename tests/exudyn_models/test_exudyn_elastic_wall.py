@@ -1,0 +1,66 @@
+"""A wall that gives way: its springs and dashpots are the wall's own."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+
+from bent_beam import Impact
+from bent_beam.meshes import UniformMesh
+from exudyn_models import ExudynModel
+from exudyn_models.contacts import Penalty
+
+STIFFNESS = 1e4  # EI = μ = V₀ = 1
+
+
+def run(kappa_over_nu: float, ratio: float = 0.0, refine: float = 1.0, end: float = 4.0):
+    wall = {"wall_stiffness": STIFFNESS, "wall_damping": 2.0 * ratio * math.sqrt(STIFFNESS)}
+    impact = Impact.dimensionless(kappa_over_nu).replace(**wall)
+    return ExudynModel(refine=refine).simulate(impact, end_time=end / math.sqrt(STIFFNESS), save=40)
+
+
+def share(history, name: str) -> float:
+    budget = history.energy_budget()
+    return budget[name] / budget["initial_energy"]
+
+
+def test_the_springs_give_back_what_they_took() -> None:
+    history = run(2.0, refine=0.5, end=6.0)
+    held = history.array("contact_energy")
+    assert held[0] == 0.0 and held.max() > 0.01 * history.energy_budget()["initial_energy"]
+    assert held[-1] < 0.5 * held.max()
+    assert abs(share(history, "defect")) < 1e-6 and abs(share(history, "loss_impact")) < 1e-5
+    assert share(history, "loss_wall") == 0.0
+    assert history.array("peak_pressure")[-1] == pytest.approx(STIFFNESS * history.array("peak_penetration")[-1])
+
+
+@pytest.mark.parametrize("refine", [0.5, 1.0])
+def test_the_largest_force_before_an_elastic_wall_does_not_depend_on_the_mesh(refine: float) -> None:
+    """F = f V₀√μ(EI k)^¼ with f(0.5) = 4.596; a penalty of the elements' own would grow with 1/Δx."""
+    assert run(0.5, refine=refine).array("peak_force")[-1] / STIFFNESS**0.25 == pytest.approx(4.596, rel=3e-3)
+
+
+def test_dashpots_take_energy_and_push_earlier() -> None:
+    elastic, damped = run(1.0, refine=0.5), run(1.0, 0.5, refine=0.25)
+    assert share(damped, "loss_wall") > 0.01 > abs(share(damped, "loss_impact"))
+    assert abs(share(damped, "defect")) < 1e-6
+    assert damped.array("peak_force")[-1] < elastic.array("peak_force")[-1]
+    assert damped.array("peak_force_time")[-1] < elastic.array("peak_force_time")[-1]
+
+
+def test_a_contact_of_ones_own_has_no_effect_there_and_is_refused() -> None:
+    impact = Impact.dimensionless(0.5).replace(wall_stiffness=STIFFNESS)
+    with pytest.raises(ValueError, match=r"exudyn\.contact has no effect"):
+        ExudynModel(contact=Penalty()).simulate(impact)
+    with pytest.raises(ValueError, match="opposite_wall"):
+        ExudynModel().simulate(impact.replace(opposite_wall=1.0))
+
+
+@pytest.mark.verify
+def test_a_whole_beam_bounces_off_an_elastic_wall() -> None:
+    """What it keeps and what the impulse says of it agree; nothing is lost but in the material."""
+    impact = Impact.whole_beam(2.0, relative_damping=1e-2).replace(wall_stiffness=1e3)
+    history = ExudynModel(mesh=UniformMesh(1 / 20)).simulate_to_separation(impact)
+    assert abs(share(history, "defect")) < 1e-6 and abs(share(history, "loss_impact")) < 1e-4
+    assert history.array("contact_energy")[-1] == 0.0
