@@ -53,8 +53,9 @@ def _panel(rows: Sequence[Row], measure: str, solvers: Sequence[str]) -> Figure:
                 axis.loglog(
                     *np.array(marked).reshape(-1, 2).T, ls="", ms=5, color=color if over.get("mfc") else "k", **over
                 )
-    low, high = axis.get_ylim()
-    axis.set_ylim(10.0 ** np.floor(np.log10(low)), 10.0 ** np.ceil(np.log10(high)))
+    for (low, high), bound in ((axis.get_ylim(), axis.set_ylim), (axis.get_xlim(), axis.set_xlim)):
+        bound(10.0 ** np.floor(np.log10(low)), 10.0 ** np.ceil(np.log10(high)))
+    axis.xaxis.set_minor_formatter("")
     axis.set(xlabel="wall clock of the whole process, s", ylabel=f"relative error of {MEASURES[measure]}")
     axis.grid(True, which="major", lw=0.4, color="0.85")
     axis.spines[["top", "right"]].set_visible(False)

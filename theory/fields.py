@@ -86,7 +86,9 @@ class ImpactFields:
         time = self._times(tau)
         p = self.parameters
         with np.errstate(divide="ignore"):
-            return np.asarray(2.0 * np.sqrt(2.0 / np.pi) * (p.r0 + self.epsilon * p.r1 * time) / np.sqrt(time))
+            return np.asarray(
+                2.0 * np.sqrt(2.0 / np.pi) * (p.r0 + self.epsilon * p.r1 * time) / np.sqrt(time)
+            )
 
     @property
     def uniform_reaction(self) -> float:
@@ -249,7 +251,9 @@ class _Path:
             total += self._element(np.full_like(length, a) + rise, step, 1.0, np.ones_like(length))
         return total
 
-    def _element(self, u: ComplexArray, du: ComplexArray | complex, side: float, branch: FloatArray) -> FloatArray:
+    def _element(
+        self, u: ComplexArray, du: ComplexArray | complex, side: float, branch: FloatArray
+    ) -> FloatArray:
         """Integrand of one reaction, β = x cosh u + side Λ sinh u, on the branch of sign(β) → branch."""
         sech, tanh = 1.0 / np.cosh(u), np.tanh(u)
         sinh_sech2 = tanh * sech

@@ -63,7 +63,9 @@ def H(beta: ArrayLike) -> FloatArray | float:
     near = b < SWITCH
     x = b[near]
     s_integral, c_integral = fresnel_integrals(x)
-    result[near] = np.sqrt(np.pi / 2.0) * x * (s_integral - c_integral) + np.cos(x**2 / 4.0) + np.sin(x**2 / 4.0)
+    result[near] = (
+        np.sqrt(np.pi / 2.0) * x * (s_integral - c_integral) + np.cos(x**2 / 4.0) + np.sin(x**2 / 4.0)
+    )
     x = b[~near]
     q = x**2 / 4.0
     m = scaled_moments(q)
@@ -108,9 +110,9 @@ def P(beta: ArrayLike) -> FloatArray | float:
     x = b[near]
     s_integral, c_integral = fresnel_integrals(x)
     half = x**2 / 2.0
-    result[near] = np.sqrt(np.pi / 2.0) * ((half + 1.0) * s_integral - (half - 1.0) * c_integral) + x / 2.0 * (
-        np.sin(x**2 / 4.0) + np.cos(x**2 / 4.0)
-    )
+    result[near] = np.sqrt(np.pi / 2.0) * (
+        (half + 1.0) * s_integral - (half - 1.0) * c_integral
+    ) + x / 2.0 * (np.sin(x**2 / 4.0) + np.cos(x**2 / 4.0))
     x = b[~near]
     q = x**2 / 4.0
     m = scaled_moments(q)

@@ -134,7 +134,9 @@ def phi_q(lam: ArrayLike | Argument) -> Any:
     return _evaluate(
         lam,
         lambda x, nu, kappa: (
-            np.sqrt(2.0 / np.pi) * x**3 + (x**6 - 36.0 * x**2) / 24.0 * kappa + (12.0 - 7.0 * x**4) / 12.0 * nu
+            np.sqrt(2.0 / np.pi) * x**3
+            + (x**6 - 36.0 * x**2) / 24.0 * kappa
+            + (12.0 - 7.0 * x**4) / 12.0 * nu
         ),
         lambda q, m: (8.0 / 3.0 * m[5] - 28.0 / 3.0 * m[4] + 6.0 * m[3] - m[2]) * q**-2.5,
     )
@@ -158,7 +160,9 @@ def phi_s(lam: ArrayLike | Argument) -> Any:
     return _evaluate(
         lam,
         lambda x, nu, kappa: (
-            x**2 * (36.0 - x**4) / 48.0 * nu + (4.0 - x**4) / 4.0 * kappa + x * (x**4 - 24.0) / (12.0 * _ROOT_TWO_PI)
+            x**2 * (36.0 - x**4) / 48.0 * nu
+            + (4.0 - x**4) / 4.0 * kappa
+            + x * (x**4 - 24.0) / (12.0 * _ROOT_TWO_PI)
         ),
         lambda q, m: (m[1] - 3.0 * m[2] + 4.0 * m[3] - 4.0 / 3.0 * m[4]) * q**-1.5,
     )
@@ -213,7 +217,9 @@ def phi_kappa_minus_s(lam: ArrayLike | Argument) -> Any:
     return _evaluate(
         lam,
         lambda x, nu, kappa: (
-            -(x**2) * (36.0 - x**4) / 48.0 * nu + x**4 / 4.0 * kappa - x * (x**4 - 24.0) / (12.0 * _ROOT_TWO_PI)
+            -(x**2) * (36.0 - x**4) / 48.0 * nu
+            + x**4 / 4.0 * kappa
+            - x * (x**4 - 24.0) / (12.0 * _ROOT_TWO_PI)
         ),
         lambda q, m: (4.0 / 3.0 * m[4] - 4.0 * m[3] + 3.0 * m[2]) * q**-1.5,
     )
