@@ -172,7 +172,8 @@ def test_an_interrupt_leaves_whole_files_and_says_how_to_go_on(name, tmp_path):
         process, began = command(name, place), time.perf_counter()  # from ``ready`` on
         _, err = process.communicate(timeout=500)
         assert process.returncode == 0, err
-        return time.perf_counter() - began, sorted(f.relative_to(place) for f in (place / "out").rglob("*") if f.is_file())
+        seconds, found = time.perf_counter() - began, (place / "out").rglob("*")
+        return seconds, sorted(f.relative_to(place) for f in found if f.is_file())
 
     seconds, made = finished(whole)
     assert made and all(readable(whole / f) for f in made)
