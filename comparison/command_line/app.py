@@ -39,7 +39,7 @@ COMMANDS = (theory, new, settings, predict, simulate, bounce, match, rerun, plot
 
 INTERRUPTED = 130
 AGAIN = (signal.SIGALRM,) if hasattr(signal, "SIGALRM") else ()
-PATIENCE = 4.0  # s between an interrupt and the next: workers and files are cleared away meanwhile
+PATIENCE = 10.0  # s between an interrupt and the next: workers and files are cleared away meanwhile
 RESUMED = ("match", "gallery", "report", "benchmark")  # keep every run, or every item, as soon as it is finished
 
 app = typer.Typer(
