@@ -142,6 +142,8 @@ def run(arguments: Sequence[str] | None = None) -> int:
     except MemoryError:
         return _refuse("not enough memory; fewer nodes, steps or saved instants need less", 3)
     except SystemExit as ended:
+        if not ended.code:  # the shell's completion ends so
+            return 0
         if isinstance(ended.__context__, BrokenPipeError):  # click takes `| head` for a failure
             os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
             return 0

@@ -87,6 +87,8 @@ const Beam = (() => {
       list.push(["sagitta_length", "The length of the sagitta must not exceed that of the beam."]);
     if (!list.length && inputs.wall_curvature && inputs.wall_curvature >= bow(inputs))
       list.push(["wall_curvature", "The wall must be less curved than the beam, or no point touches first."]);
+    if (!list.length && inputs.tension < -(PI ** 2) * section(inputs).stiffness / inputs.length ** 2)
+      list.push(["tension", "The axial force must not exceed the load at which a straight beam buckles."]);
     return list;
   }
 

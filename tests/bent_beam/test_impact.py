@@ -46,7 +46,6 @@ def test_a_load_that_a_solver_does_not_know_is_refused_by_name():
 @pytest.mark.parametrize(
     "feature",
     [
-        {"wall_stiffness": 1e4, "wall_damping": 2.0},
         {"wall_from": -0.1, "wall_to": 0.1},
         {"left_end": "hinged"},
     ],

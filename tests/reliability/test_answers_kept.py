@@ -90,7 +90,7 @@ def test_an_impossible_row_costs_itself():
     assert "must not exceed" in row.reason and not row.refused and row.r0.value is None
     leading = SimpleNamespace(lambda0=SimpleNamespace(known=0.0))
     with pytest.raises(ValueError, match="first_order"):
-        first_order_epsilon(leading, (1e-100, 0.0, 0.0, 0.0), PERTURBATION)
+        first_order_epsilon(leading, (1e-100, 0.0, 0.0, 0.0), PERTURBATION, 0.1)
 
 
 def test_a_full_disk_under_out_costs_the_files_and_no_answer(monkeypatch, tmp_path):
