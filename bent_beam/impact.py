@@ -17,7 +17,7 @@ from typing import Annotated, Any
 from bent_beam.checks import non_negative, positive
 from bent_beam.consistency import check_consistency
 from bent_beam.fields import Part, Quantity
-from bent_beam.loads import Feature, FreeMotion, Load, loads_of
+from bent_beam.loads import Feature, FreeMotion, Load, load_against, loads_of
 from bent_beam.supports import ENDS
 
 __all__ = ["Impact"]
@@ -187,7 +187,6 @@ class Impact(Part):
         """ε = t*/T*, dimensionless: the small parameter of the expansion."""
         return (self.length_scale / self.half_length) ** 2
 
-    # the free motion and its groups, ν = 1 -------------------------------------------------------------
     def free_motion(self, bow: float) -> FreeMotion:
         """y₀ with −``bow`` x²/2 in place of −Kx²/2, SI units, x from the first touch."""
         terms = {(0, 1): self.velocity + self.rotation * self.first_touch, (2, 0): -bow}
@@ -215,29 +214,18 @@ class Impact(Part):
     @property
     def uniform_pressure(self) -> float:
         """p = μa₀ + EI q₀ + N K, N/m: the uniform load under which the free motion is y₀."""
-        return self._load_against(0.0)
+        return load_against(self, 0.0)
 
     @property
     def zone_pressure(self) -> float:
         """p − N K_w, N/m: what presses a contact zone that lies on the wall; it lifts off where this is negative."""
-        return self._load_against(self.wall_curvature)
+        return load_against(self, self.wall_curvature)
 
     @property
     def net_load(self) -> float:
         """Sum of all loads over L, N/m: μ times the acceleration of the centre of mass without a wall. Forces along the
         ends of the bow pull at it with −NK."""
-        return self._load_against(self.curvature if self.tension_direction == "tangent" else 0.0)
-
-    def _load_against(self, curvature: float) -> float:
-        """μa₀ + EI q₀ + N(K − ``curvature``), N/m; nothing where the terms cancel to rounding."""
-        motion = self.free_motion(0.0)
-        terms = (
-            self.mass_per_length * float(motion(0.0, by_t=2)),
-            self.bending_stiffness * float(motion(0.0, by_x=4)),
-            self.axial_force * (self.curvature - curvature),
-        )
-        total = math.fsum(terms)
-        return total if abs(total) > 1e-14 * max(abs(term) for term in terms) else 0.0
+        return load_against(self, self.curvature if self.tension_direction == "tangent" else 0.0)
 
     @property
     def epsilon_alpha(self) -> float:

@@ -24,7 +24,7 @@ import numpy as np
 
 from bent_beam.fields import Quantity, declared
 
-__all__ = ["Feature", "FreeMotion", "Load", "loads_of", "unmodelled"]
+__all__ = ["Feature", "FreeMotion", "Load", "load_against", "loads_of", "unmodelled"]
 
 Powers = tuple[int, int]
 
@@ -88,3 +88,15 @@ class FreeMotion:
     def first_order(self) -> FreeMotion:
         """Its terms that grow like t² where x ~ √t, against the t of V₀t and Kx²/2."""
         return FreeMotion({(i, j): c for (i, j), c in self.terms.items() if i + 2 * j == 4})
+
+
+def load_against(impact: Any, curvature: float) -> float:
+    """μa₀ + EI q₀ + N(K − ``curvature``), N/m; nothing where the terms cancel to rounding."""
+    motion = impact.free_motion(0.0)
+    terms = (
+        impact.mass_per_length * float(motion(0.0, by_t=2)),
+        impact.bending_stiffness * float(motion(0.0, by_x=4)),
+        impact.axial_force * (impact.curvature - curvature),
+    )
+    total = math.fsum(terms)
+    return total if abs(total) > 1e-14 * max(abs(term) for term in terms) else 0.0

@@ -21,13 +21,12 @@ from bent_beam.history import ImpactHistory
 from bent_beam.impact import Impact
 from bent_beam.method import Method, for_whole_beam, refined, settings_of, simulate_to_separation
 from bent_beam.section import Section
-from bent_beam.versions import versions
 from comparison.workers import run_all
 from measure.balance import balance_of
 from measure.measured import Band, Measured
-from measure.whole_impact import SHORTEST_SEPARATION, WholeImpact, whole_impact
+from measure.whole_impact import WholeImpact, whole_impact
 
-__all__ = ["NUMBERS", "Bounce", "Number", "bounce", "bounce_document", "problem", "scales"]
+__all__ = ["NUMBERS", "Bounce", "Number", "bounce", "problem", "scales"]
 
 Progress = Callable[[int, int], None]
 Number = Measured | Band
@@ -253,51 +252,3 @@ def scales(impact: Impact) -> dict[str, float]:
         "length": impact.half_length,
         "force": impact.mass_per_length * impact.half_length * impact.velocity / impact.slow_time_scale,
     }
-
-
-SI = {
-    "impulse": ("impulse", "N s"),
-    "last_contact": ("time", "s"),
-    "peak_moment": ("moment", "N m"),
-    "peak_moment_place": ("length", "m"),
-    "peak_moment_time": ("time", "s"),
-    "midspan_moment": ("moment", "N m"),
-    "peak_force": ("force", "N"),
-    "translation": ("energy", "J"),
-    "vibration": ("energy", "J"),
-    "dissipated": ("energy", "J"),
-}
-ENERGY = ("translation", "vibration", "dissipated")
-
-
-def bounce_document(found: Bounce) -> dict[str, Any]:
-    """The contract of ``bentbeam bounce --json``."""
-    unit, stress = found.units, found.peak_stress
-    document: dict[str, Any] = {
-        "kappa_over_nu": found.impact.kappa_over_nu,
-        "damping": found.impact.relative_damping,
-        **{name: number.to_dict() for name, number in found.numbers.items() if name not in ENERGY},
-        "energy": {name: found.numbers[name].to_dict() for name in ENERGY},
-        "si": {
-            name: {**found.numbers[name].scaled(unit[scale]).to_dict(), "unit": text}
-            for name, (scale, text) in SI.items()
-            if name in found.numbers
-        },
-        "peak_stress": None if stress is None else {**stress.to_dict(), "unit": "Pa"},
-        "yield_stress": None if found.section is None else found.section.yield_stress,
-        "shortest_separation": SHORTEST_SEPARATION,
-        "contacts": [list(times) for times in found.outcome.contacts],
-        "error_parts": {name: dict(parts) for name, parts in found.parts.items()},
-        "energy_defect": found.outcome.energy_defect,
-        "energy_gain": found.outcome.energy_gain,
-        "momentum_residual": balance_of(found.history).momentum,
-        "left": found.left,
-        "steps": found.history.steps,
-        "seconds": found.seconds,
-        "seed": found.seed,
-        "settings": found.settings,
-        "versions": versions(),
-        "warnings": found.warnings,
-    }
-    document["si"]["time_unit"] = unit["time"]
-    return document

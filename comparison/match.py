@@ -6,17 +6,17 @@ Nothing here knows a path. A method simulates; its history is reduced to moments
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import asdict, dataclass, replace
 from typing import Any
 
 import numpy as np
 
-from bent_beam.checks import between, positive
+from bent_beam.checks import positive
 from bent_beam.errors import ANY_FAILURE, SimulationError
 from bent_beam.impact import Impact
 from bent_beam.method import Method, chosen_for, refined, settings_of, simulated
+from comparison.perturbation import first_order_epsilon
 from comparison.rows import COMPANIONS, First, MatchRow, Question, about, lost_row, with_theory
 from comparison.store import RunStore, source_of
 from comparison.time_limit import Clock, TimeLimitError, affordable_refinement
@@ -31,7 +31,6 @@ __all__ = ["INSTANTS", "coarsened", "match", "without_companion"]
 INSTANTS = 250
 SHARES = (0.35, 0.7, 1.0)  # of the largest ε
 PERTURBATION = 0.05  # see first_order_epsilon (tests: half, twice); a method may carry its own ``perturbation``
-EXTREME = 1e30  # of ε: its powers are calculated with
 WIDE = 0.02  # of a leading-order number: a wider error bar deserves a warning
 WIDE_FIRST = 0.1  # of max(|r₁|, 1), likewise
 
@@ -103,22 +102,6 @@ def _reduced(
     kept = store.answer(question, compute)
     kept["moments"] = Moments(**{name: np.array(values) for name, values in kept["moments"].items()})
     return _Reduced(**kept)
-
-
-def first_order_epsilon(leading: LeadingEstimate, first: First, perturbation: float, duration: float) -> float:
-    """The largest ε of the runs: the loads change the free motion by a small part of V₀t over the contact zone.
-
-    ε τ (|α|/2 + |χ|z²/2 + |ψ|z⁴/24 + |N|/2) = ``perturbation`` at the end, z being the zone measured at ε = 0 and half
-    the front's thickness. ε is reduced for a front near the centre, which would move too far.
-    """
-    front = leading.front
-    z = front + 1.0 / math.sqrt(1.0 + front**2)
-    alpha, psi, chi, axial = (abs(v) for v in first)
-    part = perturbation
-    if front > 0.0:
-        part *= front / (front + 0.2)
-    top = part / (duration * (alpha / 2 + chi * z**2 / 2 + psi * z**4 / 24 + axial / 2))
-    return between("first_order: the largest ε of the runs, from alpha, psi, chi and N,", top, 1 / EXTREME, EXTREME)
 
 
 @dataclass(frozen=True)

@@ -18,8 +18,6 @@ from bent_beam.section import Section
 from comparison.companions import companions_of, is_late, number_of
 from comparison.match import INSTANTS
 from comparison.rows import COMPANIONS
-from comparison.text_table import text_table
-from comparison.units import unit_for
 from measure.balance import balance_of
 from measure.estimators import leading_order
 from measure.front import element_at, half_contact_length
@@ -31,15 +29,9 @@ from measure.whole_impact import whole_impact
 from theory import predict
 from theory.prediction import MODELLED
 
-__all__ = ["Companion", "companions", "energy_at_end", "loss_warnings", "numerical_loss", "run_table", "summary"]
+__all__ = ["Companion", "companions", "energy_at_end", "loss_warnings", "numerical_loss", "summary"]
 
 NUMBERS = ("half_contact_length", "total_impulse", "peak_moment", "restitution")
-ENERGY_TITLES = {
-    "initial": "initial energy",
-    "kinetic": "kinetic energy at the end",
-    "strain": "strain energy at the end",
-    "wall": "energy in the springs of the wall",
-}
 NOTABLE_LOSS = 0.02  # of the initial energy
 
 
@@ -223,88 +215,3 @@ def energy_at_end(history: ImpactHistory) -> dict[str, float | None]:
         **{name: budget.get(name) for name in names},
         "defect": budget["defect"],
     }
-
-
-def run_table(found: dict[str, Any], verbose: bool = False) -> str:
-    """The summary of one run for a reader; ``verbose``: with what tells an expert how good it is."""
-    until = f"until {1e3 * found['time']:.4g} ms"
-    scale, unit = unit_for("N m", [found["peak_moment"]])
-    moment = Measured(found["peak_moment"], found["peak_moment_error"]).scaled(scale)
-    lines = [
-        _compared("half contact length", found["half_contact_length"], "m"),
-        _compared("impulse", found["total_impulse"], "N s"),
-        [f"largest bending moment, {until}", str(moment), unit, ""],
-    ]
-    if found["peak_stress"] is not None:
-        stress = Measured(found["peak_stress"], found["peak_stress_error"]).scaled(1e-6)
-        lines.append([f"largest stress, {until}", str(stress), "MPa", ""])
-    lines += _wall_lines(found)
-    if found["restitution"].measured:
-        lines.append(_compared("coefficient of restitution", found["restitution"], ""))
-    lines.append(["lost to steps and mesh", f"{100.0 * found['numerical_loss']:.2g}", "% of the energy", ""])
-    text = [
-        f"{found['path']}, {1e3 * found['time']:.4g} ms after first contact ({found['seconds']:.2g} s for one run)",
-        "",
-        text_table(["", "value", "unit", "theory"], lines + (_expert_lines(found) if verbose else [])),
-        "",
-        "± is the error bar by other runs of the same beam; theory: the closed form where it holds to 2 %. Moment and",
-        "stress are the largest of all steps until then; later ones may be larger (bentbeam bounce).",
-    ]
-    if found["hold"] and verbose:
-        text.append(_hold_text(found["hold"]))
-    if found["hits"]:
-        text += ["", _hits_table(found["hits"])]
-    text += [f"warning: {w}" for w in found["warnings"]]
-    if found["file"]:
-        text.append(f"history: {found['file']}")
-    return "\n".join(text)
-
-
-def _compared(title: str, number: Measured, unit: str) -> list[str]:
-    return [title, str(number), unit, "-" if number.theory is None else f"{number.theory:.4g}"]
-
-
-def _expert_lines(found: dict[str, Any]) -> list[list[str]]:
-    def plain(title: str, value: float | None, unit: str = "") -> list[str]:
-        return [title, "-" if value is None else f"{value:.4g}", unit, ""]
-
-    energy = dict(found["energy"])
-    residual = energy.pop("defect")
-    return [
-        *(_compared(name, found[name], "") for name in ("lambda0", "r0") if found[name].measured),
-        plain("lift of the zone over V0 t", found["lift"]),
-        plain("largest pull over largest push", found["pull"]),
-        *(plain(ENERGY_TITLES.get(n, n.replace("_", " ")), v, "J") for n, v in energy.items() if v is not None),
-        plain("energy residual", residual, "J"),
-        plain("momentum residual over the impulse", found["momentum_residual"]),
-        plain("steps", found["steps"]),
-    ]
-
-
-def _hold_text(hold: dict[str, Any]) -> str:
-    pulled = "" if hold["pull"] is None else f" and pulled at most {hold['pull']:.2g} of the largest push"
-    until = f"held: contact points were held until {hold['until']:.3g} s"
-    return f"{until}{pulled}; the gap of the zone up to then is imposed"
-
-
-def _wall_lines(found: dict[str, Any]) -> list[list[str]]:
-    """Of a wall that gives way."""
-    if found["peak_force"] is None:
-        return []
-    lines = []
-    for name, title, unit in (
-        ("force", f"largest force on the wall, at {1e3 * found['peak_force_time']:.4g} ms", "N"),
-        ("penetration", "largest penetration", "m"),
-        ("pressure", "largest pressure", "N/m"),
-    ):
-        if found[f"peak_{name}"] is not None:
-            lines.append([title, str(Measured(found[f"peak_{name}"], found[f"peak_{name}_error"])), unit, ""])
-    return lines
-
-
-def _hits_table(rows: Sequence[dict[str, Any]]) -> str:
-    head = ["hit", "wall", "from, s", "to, s", "mean |x|, m", "impulse, N s", "V before, m/s", "after, m/s"]
-    head += ["energy, J", "lost, J"]
-    names = ("begin", "end", "place", "impulse", "before", "after", "energy", "lost")
-    body = [[str(i), row["wall"], *(f"{row[name]:.5g}" for name in names)] for i, row in enumerate(rows, 1)]
-    return text_table(head, body)

@@ -25,12 +25,12 @@ from numpy.typing import NDArray
 
 from bent_beam import ImpactHistory
 from bent_beam.bending import end_curvatures
-from exudyn_models.arrays import Array, Flags
+from exudyn_models.arrays import Array
 from exudyn_models.contacts import ContactRun
 from exudyn_models.elements import Beam
 from exudyn_models.integrators import Averages
 from exudyn_models.scaling import Scaling
-from exudyn_models.sums import Largest, means, onwards, products
+from exudyn_models.sums import Largest, means, of_two_walls, onwards, products
 
 __all__ = ["Recorder"]
 
@@ -39,6 +39,7 @@ Field = tuple[tuple[str, ...], NDArray[Any]]
 ROWS = 33  # states that are collected before they are summed up
 ENERGIES = ("kinetic_energy", "strain_energy", "contact_energy")
 SAVED_SUMS = ("work_of_loads", "loss_viscous", "loss_material", "loss_algorithmic", "loss_wall", "held_impulse")
+LARGEST = ("largest_moment", "largest_moment_place", "largest_midspan_moment")
 OTHER_SUMS = ("contact_work", "pushed", "load_impulse")
 
 
@@ -280,11 +281,10 @@ class Recorder:
                 "peak_pressure": (of_time, depth * s.deflection * (s.impact.wall_stiffness or 0.0)),
             }
         largest, moment = saved["largest"].T, s.impact.bending_stiffness * s.slope / s.length
-        fields["largest_moment"] = of_time, largest[0] * moment
-        fields["largest_moment_place"] = of_time, largest[1] * s.length
-        fields["largest_midspan_moment"] = of_time, largest[2] * moment
+        for name, values, unit in zip(LARGEST, largest, (moment, s.length, moment)):
+            fields[name] = of_time, values * unit
         if not front.all():
-            fields |= self._of_two_walls(fields, front)
+            fields |= of_two_walls(fields, front)
         return ImpactHistory.build(
             path="exudyn",
             symmetry="half" if self.half else "full",
@@ -294,12 +294,3 @@ class Recorder:
             fields=fields,
             **about,
         )
-
-    def _of_two_walls(self, fields: dict[str, Field], front: Flags) -> dict[str, Field]:
-        """What the two walls gave, apart; contact points of the ``front`` wall come first, then the opposite's."""
-        (dims, impulse), (_, active) = fields["impulse"], fields["in_contact"]
-        return {
-            "impulse": (dims, impulse[:, front]),
-            "opposite_impulse": (dims, -impulse[:, ~front]),
-            "in_contact": (dims, active[:, front] | active[:, ~front]),
-        }

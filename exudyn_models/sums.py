@@ -1,12 +1,14 @@
-"""Sums over the steps of a run."""
+"""Sums over the steps of a run, and over contact points."""
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
-from exudyn_models.arrays import Array
+from exudyn_models.arrays import Array, Flags
 
-__all__ = ["Largest", "means", "onwards", "products"]
+__all__ = ["Largest", "means", "of_two_walls", "onwards", "products"]
 
 
 def products(first: Array, second: Array) -> Array:
@@ -22,6 +24,16 @@ def onwards(before: Array, gains: Array) -> Array:
 def means(rows: Array) -> Array:
     """Of neighbouring rows."""
     return np.asarray((rows[1:] + rows[:-1]) / 2)
+
+
+def of_two_walls(fields: dict[str, tuple[Any, Any]], front: Flags) -> dict[str, tuple[Any, Any]]:
+    """What the two walls gave, apart; contact points of the ``front`` wall come first, then the opposite's."""
+    (dims, impulse), (_, active) = fields["impulse"], fields["in_contact"]
+    return {
+        "impulse": (dims, impulse[:, front]),
+        "opposite_impulse": (dims, -impulse[:, ~front]),
+        "in_contact": (dims, active[:, front] | active[:, ~front]),
+    }
 
 
 class Largest:

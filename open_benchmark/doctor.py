@@ -17,6 +17,7 @@ import numpy as np
 
 from open_benchmark.judgement import LIMITS, Finding, Score
 from open_benchmark.result import Result
+from open_benchmark.symptoms import mesh_of, number, unsteadiness
 
 __all__ = ["NAMES", "diagnose"]
 
@@ -32,7 +33,6 @@ TRAVEL = 0.5  # of the front in a step, over the larger of its thickness and an 
 OF_LIFT = 0.03  # noise over lift: waves that come back show in the impulse first, a lifted zone in the gap
 UNSTEADY = 6e-3  # deviation of the lift's logarithm from a straight line over that of time
 NOISE_WITHOUT_GAPS = 4.5e-4  # the noise that tells the same where gaps are reported at too few instants
-FEWEST_SNAPSHOTS = 10
 UNGRADED = 1.02  # largest ratio of neighbouring elements that reflects next to nothing
 FEWEST_STEPS = 150  # to the end of the record: a first-order scheme then has lost a per cent
 EXACT = 1e-10  # noise below that of any simulation
@@ -222,14 +222,14 @@ def _signs(result: Result, found: Score) -> Signs:
     asked, front = result.problem, result.problem.is_front
     speed = _front_speed(result)
     root = math.sqrt(asked.end_time)
-    element, growth, half_length = _mesh(result, speed * root) if front else (math.nan,) * 3
+    element, growth, half_length = mesh_of(result, speed * root) if front else (math.nan,) * 3
     step = _step(result) if front else math.nan
     return Signs(
-        gained=_number(found.gained),
-        adhesion=_number(found.adhesion),
-        penetration=_number(found.penetration),
-        lift=_number(found.lift),
-        noise=_number(found.noise),
+        gained=number(found.gained),
+        adhesion=number(found.adhesion),
+        penetration=number(found.penetration),
+        lift=number(found.lift),
+        noise=number(found.noise),
         thickness=2.0 * root / speed,
         element=element,
         growth=growth,
@@ -237,8 +237,8 @@ def _signs(result: Result, found: Score) -> Signs:
         end=asked.end_time,
         travel=speed / (2.0 * root) * step,
         steps=asked.end_time / step,
-        unsteady=_unsteadiness(result) if front else math.nan,
-        momentum=_number(found.momentum_residual),
+        unsteady=unsteadiness(result) if front else math.nan,
+        momentum=number(found.momentum_residual),
         ratio_J=found.ratios.get("J", math.nan),
         ratio_Jm=found.ratios.get("Jm", math.nan),
         factor=sum(map(_is_factor, found.ratios.values())) if found.off else 0.0,
@@ -276,35 +276,6 @@ def _step(result: Result) -> float:
     return max(result.model("time_step") or 0.0, seen) or math.nan
 
 
-def _number(value: float | None) -> float:
-    return math.nan if value is None else value
-
-
 def _front_speed(result: Result) -> float:
     """λ̂ = √(2/κ) in l*/√t*, of κ = 1 where one point is in contact."""
     return math.sqrt(2.0 / min(max(result.problem.kappa_over_nu, 1e-9), 1.0))
-
-
-def _mesh(result: Result, front: float) -> tuple[float, float, float]:
-    """Element at ``front``, largest growth and half length: off the nodes, or as the adapter declares them."""
-    declared = _number(result.model("smallest_element")), math.nan, _number(result.model("half_length"))
-    if result.x is None:
-        return declared
-    nodes = np.unique(np.abs(result.x if result.x.ndim == 1 else result.x[-1]))
-    sizes = np.diff(nodes)
-    if sizes.size < 3:
-        return declared
-    at = min(int(np.searchsorted(nodes, front)), sizes.size) - 1
-    growth = float((sizes[2:] / sizes[1:-1]).max()) if sizes.size > 3 else math.nan
-    return float(sizes[max(at, 0)]), growth, float(nodes[-1])
-
-
-def _unsteadiness(result: Result) -> float:
-    """Standard deviation of ln(lift) about its straight line over ln τ, at ten snapshots of the window or more."""
-    inner = 0.6 * math.sqrt(2.0 / max(result.problem.kappa_over_nu, 1e-9))
-    zones = [(when, gap[places <= inner * math.sqrt(when)]) for when, places, gap in result.snapshots()]
-    lifts = [(math.log(when), math.log(gap.max() / when)) for when, gap in zones if gap.size and gap.max() > 0.0]
-    if len(lifts) < FEWEST_SNAPSHOTS:
-        return math.nan
-    times, heights = np.array(lifts).T
-    return float(np.std(heights - np.polyval(np.polyfit(times, heights, 1), times)))

@@ -49,7 +49,8 @@ def bounce(
     from bent_beam.method import paths_with
     from bent_beam.parts import InputError
     from comparison.bounce import bounce as follow
-    from comparison.bounce import bounce_document, problem
+    from comparison.bounce import problem
+    from comparison.bounce_document import bounce_document
     from comparison.methods import methods_of
     from comparison.several_hits import follow_hits
     from comparison.store import check_writable

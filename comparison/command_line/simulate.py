@@ -48,7 +48,8 @@ def simulate(
     from bent_beam.method import LONGEST, simulate_to_separation, simulated
     from bent_beam.parts import InputError
     from comparison.companions import suited
-    from comparison.summary import companions, run_table, summary
+    from comparison.summary import companions, summary
+    from comparison.summary_text import run_table
 
     loaded = load_case(case, assignments or ())
     method = loaded.method(path)

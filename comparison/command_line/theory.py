@@ -24,8 +24,8 @@ def theory(
 ) -> None:
     """Print λ₀, r₀, λ₁, r₁ and the largest moment of theory.
 
-    With --wall-damping also the largest force on an elastic wall. This force f is in V₀√μ(EI k)^{1/4}, its time in √(μ/k), the zone's offset in (EI/k)^{1/4}; k is the wall's
-    stiffness per length.
+    With --wall-damping also the largest force on an elastic wall, in V₀√μ(EI k)^{1/4}, its time in √(μ/k), and the
+    zone's offset in (EI/k)^{1/4}; k is the wall's stiffness per length.
 
     Example: bentbeam theory --kappa-over-nu 0.5 --wall-damping 0.1
     """

@@ -15,7 +15,8 @@ from numpy.typing import NDArray
 
 from bent_beam.free_flight import pushing
 from bent_beam.history import ImpactHistory
-from comparison.bounce import Bounce, bounce_document
+from comparison.bounce import Bounce
+from comparison.bounce_document import bounce_document
 from comparison.figures import style
 from comparison.figures.gif import Film, write_gif
 from comparison.plain import json_text

@@ -14,6 +14,7 @@ from bent_beam.impact import Impact
 from bent_beam.loads import unmodelled
 from bent_beam.method import Method, for_whole_beam, refined, simulate_to_separation
 from bent_beam.section import Section
+from comparison.bounce import scales
 from comparison.companions import companions_of, number_of
 from comparison.whole_impact.stored_map import bounce_from_map
 from measure.measured import Band, Measured
@@ -44,7 +45,7 @@ def predicted_impact(case: Case, method: Method | None) -> dict[str, Any] | None
         "restitution": found["restitution"].to_dict(),
         "last_contact": found["last_contact"].scaled(impact.slow_time_scale).to_dict(),
         **_peaks(impact, case.section, found["peak_moment"]),
-        "peak_force": None,
+        "peak_force": found["peak_force"].scaled(scales(impact)["force"]).to_dict() if "peak_force" in found else None,
         "source": source,
         "over_damping": over_damping(impact, case.section, method),
     }
@@ -89,9 +90,9 @@ def _simulated(impact: Impact, method: Method) -> dict[str, Number]:
     ]
     left = all(outcome.left for outcome in outcomes)
     found: dict[str, Number] = {}
-    for name in NUMBERS:
+    for name in NUMBERS if outcomes[0].peak_force is None else (*NUMBERS, "peak_force"):
         values = [float(getattr(outcome, name)) for outcome in outcomes]
         least = 0.5 * outcomes[0].spacing if name == "last_contact" else 0.0
         number = number_of(values, impact, least) if impact.damping else Band.of(values)
-        found[name] = number if left or name == "peak_moment" else Measured()
+        found[name] = number if left or name in ("peak_moment", "peak_force") else Measured()
     return found

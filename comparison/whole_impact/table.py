@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from comparison.bounce import ENERGY, SI, Bounce
+from comparison.bounce import Bounce
+from comparison.bounce_document import ENERGY, SI
 from comparison.prediction_text import over_damping_lines
 from comparison.text_table import text_table
 from comparison.units import unit_for

@@ -12,7 +12,8 @@ from bent_beam.free_flight import has_left
 from bent_beam.history import ImpactHistory
 from bent_beam.meshes import UniformMesh
 from bent_beam.method import method_from_tables
-from comparison.bounce import bounce, bounce_document, problem
+from comparison.bounce import bounce, problem
+from comparison.bounce_document import bounce_document
 from hermite_fe import HermiteFE
 from measure.measured import Band
 

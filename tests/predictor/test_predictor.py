@@ -184,7 +184,7 @@ def test_case_means_what_the_page_shows() -> None:
     found = evaluated(expression, inputs)
     for given, row in zip(inputs, found, strict=True):
         buckled = row["b"]["tension"] < -((math.pi / row["b"]["length"]) ** 2) * row["b"]["stiffness"]
-        if buckled or given.get("bow") == "sagitta" and given["sagitta"] >= given["sagitta_length"] / 2.0:
+        if buckled or (given.get("bow") == "sagitta" and given["sagitta"] >= given["sagitta_length"] / 2.0):
             assert row["wrong"]
             continue
         assert row["wrong"] == []

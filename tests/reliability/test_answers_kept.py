@@ -16,7 +16,8 @@ from bent_beam import method as methods
 from comparison.command_line import __main__ as start
 from comparison.command_line import app, plot
 from comparison.command_line.options import emit
-from comparison.match import PERTURBATION, first_order_epsilon, match
+from comparison.match import PERTURBATION, match
+from comparison.perturbation import first_order_epsilon
 from comparison.rows import Question
 from comparison.sources import behind
 from hermite_fe import HermiteFE
