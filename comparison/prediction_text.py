@@ -128,8 +128,12 @@ def _whole(document: dict[str, Any]) -> list[str]:
     whole = document["whole_impact"]
     if not whole:
         return []
+    force = whole["peak_force"]
+    largest = [f"Largest force of the whole impact ({whole['source']}): {_scaled(force, 1e-3)} kN."] if force else []
     last = _scaled(whole["last_contact"], 1e3)
     if last == "-":
-        return ["The whole impact: the beam does not leave the wall within 3 T* (bentbeam bounce follows it)."]
+        stays = "The whole impact: the beam does not leave the wall within 3 T* (bentbeam bounce follows it)."
+        return [*largest, stays]
     restitution = _scaled(whole["restitution"], 1.0)
-    return [f"The whole impact ({whole['source']}): coefficient of restitution {restitution}, last contact {last} ms."]
+    ends = f"coefficient of restitution {restitution}, last contact {last} ms."
+    return [*largest, f"The whole impact ({whole['source']}): {ends}"]

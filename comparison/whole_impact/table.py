@@ -56,7 +56,7 @@ def bounce_table(found: Bounce, over_damping: Sequence[dict[str, Any]] = (), *, 
         "",
         "± is the error bar; a band is mean ± standard deviation of runs. Energies are shares of the initial energy",
         "and the work of the loads, at the last contact.",
-        *(f"{line[0].upper()}{line[1:]} ({unit})." for line in over),
+        *(f"Largest {'moment' if found.section is None else 'stress'}, {unit}, {line}." for line in over),
     ]
     if verbose:
         lines += [

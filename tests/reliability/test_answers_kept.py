@@ -89,7 +89,7 @@ def test_what_is_no_method_is_refused_by_name_and_ends_no_other_command(load, mo
 def test_an_impossible_row_costs_itself():
     (row,) = match([Question(HermiteFE(), 1e300)])
     assert "must not exceed" in row.reason and not row.refused and row.r0.value is None
-    leading = SimpleNamespace(lambda0=SimpleNamespace(known=0.0))
+    leading = SimpleNamespace(front=0.0)
     with pytest.raises(ValueError, match="first_order"):
         first_order_epsilon(leading, (1e-100, 0.0, 0.0, 0.0), PERTURBATION, 0.1)
 
