@@ -21,12 +21,13 @@ from bent_beam.history import ImpactHistory
 from bent_beam.impact import Impact
 from bent_beam.method import Method, for_whole_beam, refined, settings_of, simulate_to_separation
 from bent_beam.section import Section
+from comparison.units import scales
 from comparison.workers import run_all
 from measure.balance import balance_of
 from measure.measured import Band, Measured
 from measure.whole_impact import WholeImpact, whole_impact
 
-__all__ = ["NUMBERS", "Bounce", "Number", "bounce", "problem", "scales"]
+__all__ = ["NUMBERS", "Bounce", "Number", "bounce", "problem"]
 
 Progress = Callable[[int, int], None]
 Number = Measured | Band
@@ -240,15 +241,3 @@ def _varied(method: Method, impact: Impact, random: np.random.Generator) -> Meth
             "nor steps; state a damping"
         )
     return coarser
-
-
-def scales(impact: Impact) -> dict[str, float]:
-    """SI units of the dimensionless numbers: N s, s, N m, J."""
-    return {
-        "impulse": impact.mass_per_length * impact.half_length * impact.velocity,
-        "time": impact.slow_time_scale,
-        "moment": impact.velocity * math.sqrt(impact.bending_stiffness * impact.mass_per_length),
-        "energy": 0.5 * impact.mass_per_length * impact.length * impact.velocity**2,
-        "length": impact.half_length,
-        "force": impact.mass_per_length * impact.half_length * impact.velocity / impact.slow_time_scale,
-    }

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable
 from typing import Any
 
+from bent_beam.impact import Impact
 from measure.measured import Band, Measured
 
-__all__ = ["milliseconds", "number_from", "unit_for"]
+__all__ = ["milliseconds", "number_from", "scales", "unit_for"]
 
 
 def unit_for(unit: str, values: Iterable[float | None]) -> tuple[float, str]:
@@ -30,3 +32,15 @@ def number_from(found: dict[str, Any] | None) -> Measured | Band:
 def milliseconds(time: float) -> str:
     """A time, s, for a sentence."""
     return f"{1e3 * time:.3g} ms"
+
+
+def scales(impact: Impact) -> dict[str, float]:
+    """SI units of the dimensionless numbers: N s, s, N m, J."""
+    return {
+        "impulse": impact.mass_per_length * impact.half_length * impact.velocity,
+        "time": impact.slow_time_scale,
+        "moment": impact.velocity * math.sqrt(impact.bending_stiffness * impact.mass_per_length),
+        "energy": 0.5 * impact.mass_per_length * impact.length * impact.velocity**2,
+        "length": impact.half_length,
+        "force": impact.mass_per_length * impact.half_length * impact.velocity / impact.slow_time_scale,
+    }

@@ -2,7 +2,7 @@
 
 Five classes, by rules that are the same for all:
 
-- within rounding: ours, rounded to as many digits as are printed, is the printed number;
+- within rounding: ours differs from the printed number by half a unit of its last digit at most;
 - other rule, stated by the thesis: the text states a rule that is not ours, and it gives the printed number to one
   unit of its last digit;
 - inferred from axes: the thesis prints no number; an axis of a figure shows how large it can be;
@@ -30,9 +30,14 @@ def digits(printed: str) -> int:
     return len(Decimal(printed).as_tuple().digits)
 
 
+def unit_of(printed: str) -> float:
+    """One unit of the last printed digit."""
+    return 10.0 ** int(Decimal(printed).as_tuple().exponent)
+
+
 def within_rounding(printed: str, value: float) -> bool:
-    """Whether a value rounds to the printed digits."""
-    return float(f"{value:.{digits(printed) - 1}e}") == float(printed)
+    """Whether a value rounds to the printed digits; one half-way between two may go either way."""
+    return abs(value - float(printed)) <= (0.5 + 1e-9) * unit_of(printed)
 
 
 def class_of(printed: str, ours: float, *, read: bool = False, rule: float | None = None, axes: bool = False) -> str:
@@ -41,8 +46,8 @@ def class_of(printed: str, ours: float, *, read: bool = False, rule: float | Non
         return AXES
     if within_rounding(printed, ours):
         return ROUNDING
-    value, unit = float(printed), 10.0 ** int(Decimal(printed).as_tuple().exponent)
-    if rule is not None and abs(rule - value) <= unit:
+    value = float(printed)
+    if rule is not None and abs(rule - value) <= unit_of(printed):
         return RULE
     return SAME if read and 1.0 / FACTOR <= ours / value <= FACTOR else OFF
 

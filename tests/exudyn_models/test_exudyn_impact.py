@@ -62,8 +62,8 @@ def test_leading_order_is_met_with_no_setting(kappa_over_nu):
 
 
 def test_a_hold_behind_the_front_says_until_when_and_how_hard_it_pulled():
-    history = exudyn_models.simulate(Impact.dimensionless(0.2), contact=Penalty(hold=16))
-    assert max(off(history, 0.2)) < 1e-3
+    history = exudyn_models.simulate(Impact.dimensionless(0.25), contact=Penalty(hold=16))
+    assert max(off(history, 0.25)) < 1e-3
     hold = history.settings["hold"]
     assert hold["until"] == pytest.approx(0.1) and 0.0 < hold["pull"] < 0.3
     gains = np.diff(history.array("impulse"), axis=0)  # of each point; the scheme averages forces, the hold does not

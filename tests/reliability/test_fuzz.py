@@ -249,7 +249,7 @@ loads = st.one_of(st.just(0.0), st.floats(-10.0, 10.0))
 counts = st.one_of(st.integers(3, 40), st.sampled_from([1, 10**7, 10**300]))
 
 
-@fuzz(40, 900)
+@fuzz(16, 900)
 @given(
     problems(loads),
     counts,
@@ -261,7 +261,7 @@ def test_the_hermite_path_finishes_or_says_why_not(tables, elements, growth, cho
     simulated("hermite", tables, elements, chosen | {"hermite.integrator.growth": repr(growth)})
 
 
-@fuzz(15, 250)
+@fuzz(6, 250)
 @given(
     problems(loads),
     st.integers(3, 16),
