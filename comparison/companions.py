@@ -38,14 +38,22 @@ def suited(method: Method, impact: Impact, end: float) -> Method:
     return for_whole_beam(method, impact) if is_late(impact, end) else method
 
 
-def companions_of(method: Method, impact: Impact, end: float, refine: float = 1.0) -> list[Method]:
-    """Runs to compare one to ``end``, s, with. refine : how much finer ``method`` is than a whole beam's choice."""
+def companions_of(
+    method: Method, impact: Impact, end: float, refine: float = 1.0, *, stated: bool = False
+) -> list[Method]:
+    """Runs to compare one to ``end``, s, with.
+
+    refine : how much finer ``method`` is than a whole beam's choice. stated : its mesh is the user's own, so that
+    without damping it is coarsened at random, and no other parts are drawn.
+    """
     coarser = refined(method, COARSER)
     others = [] if coarser is None else [coarser]
     if not is_late(impact, end):
         return others
+    random = np.random.default_rng(SEED)
+    if impact.damping == 0.0 and stated:
+        return [one for _ in range(DRAWN) if (one := refined(method, 2.0 ** random.uniform(-1.0, 0.0))) is not None]
     if impact.damping == 0.0 and hasattr(method, "varied"):
-        random = np.random.default_rng(SEED)
         drawn = [method.varied(impact, random) for _ in range(DRAWN)]
         return [refined(one, refine) or one for one in drawn]
     checks = method.cross_checks(impact) if hasattr(method, "cross_checks") else {}

@@ -67,15 +67,21 @@ class Companion:
 
 
 def companions(
-    method: Method, impact: Impact, end: float, run: Callable[[Method, int], ImpactHistory], error_bars: str
+    method: Method,
+    impact: Impact,
+    end: float,
+    run: Callable[[Method, int], ImpactHistory],
+    error_bars: str,
+    *,
+    stated: bool = False,
 ) -> tuple[list[Companion], list[str]]:
     """Other runs to ``end``, s, reduced, for error bars, and a warning for each that could not finish.
 
     run : simulates with a method and a number of saved instants. error_bars : a key of
-    :data:`comparison.match.COMPANIONS`; "thorough" adds a finer run.
+    :data:`comparison.match.COMPANIONS`; "thorough" adds a finer run. stated : the user has stated the mesh.
     """
     one_of("error_bars", error_bars, COMPANIONS)
-    others = [] if error_bars == "drift" else companions_of(method, impact, end)
+    others = [] if error_bars == "drift" else companions_of(method, impact, end, stated=stated)
     finer = refined(method, 2.0) if error_bars == "thorough" else None
     found: list[Companion] = []
     lost: list[str] = []

@@ -57,6 +57,7 @@ def simulate(
         raise InputError(f'--until takes "separation" (got {until!r}); an end time is run.end_time')
     check_out(out, overwrite)
     end = loaded.end_time if until is None else LONGEST * loaded.impact.slow_time_scale
+    stated = getattr(method, "mesh", None) is not None
     method = suited(method, loaded.impact, end)
 
     def run(chosen: Method, instants: int, progress: Callable[[float], None] | None = None) -> ImpactHistory:
@@ -76,7 +77,7 @@ def simulate(
             (history if loaded.section is None else history.with_section(loaded.section)).save(out)
         except OSError as error:  # the run's answer is worth more than its file
             problem, out = f"out: {out} could not be written: {error.strerror or error}", None
-    others, lost = companions(method, loaded.impact, end, run, error_bars)
+    others, lost = companions(method, loaded.impact, end, run, error_bars, stated=stated)
     found = summary(history, out, loaded.section, others)
     found["warnings"] = [*found["warnings"], *lost]
     emit(found, as_json, lambda: run_table(found, verbose))

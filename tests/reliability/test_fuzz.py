@@ -240,8 +240,8 @@ def simulated(path, tables, elements, chosen):
     arguments = ["--path", path, "--json", "--save", 12, "--out", file.with_name("history.nc"), *assigned(chosen)]
     found = check(*command("simulate", file, *arguments))
     files = [f.name for f in file.parent.iterdir() if f != file]
-    assert files == ([] if found is None else ["history.nc"])
-    if files:
+    assert files in ([[], ["history.partial.nc"]] if found is None else [["history.nc"]])
+    if found is not None:
         ImpactHistory.load(file.with_name("history.nc"))
 
 
@@ -249,7 +249,7 @@ loads = st.one_of(st.just(0.0), st.floats(-10.0, 10.0))
 counts = st.one_of(st.integers(3, 40), st.sampled_from([1, 10**7, 10**300]))
 
 
-@fuzz(16, 900)
+@fuzz(40, 900)
 @given(
     problems(loads),
     counts,
@@ -261,7 +261,7 @@ def test_the_hermite_path_finishes_or_says_why_not(tables, elements, growth, cho
     simulated("hermite", tables, elements, chosen | {"hermite.integrator.growth": repr(growth)})
 
 
-@fuzz(6, 250)
+@fuzz(15, 250)
 @given(
     problems(loads),
     st.integers(3, 16),
