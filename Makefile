@@ -12,7 +12,7 @@ JOBS ?= 2
 
 help:
 	@echo "make report   match both simulations with the theory and write out/report/index.html"
-	@echo "make test     the test suite (under four minutes on two cores)"
+	@echo "make test     the test suite (about five minutes on two cores)"
 	@echo "make verify   longer checks; make fuzz: random input and kills; make bench: speed, as ratios"
 	@echo "make coverage do the error bars hold? methods drawn at random against the theory (SEED=N draws the same again)"
 	@echo "make lint     ruff and mypy; make docs: the guide in site/; make gallery: every figure of the thesis"
