@@ -2,13 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from comparison.command_line.console import Console
 from comparison.command_line.options import Jobs, Json, Quiet, Set, Verbose, emit, path_names
+
+if TYPE_CHECKING:
+    from bent_beam.impact import Impact
+    from bent_beam.method import Method
+    from bent_beam.section import Section
 
 __all__ = ["bounce"]
 
@@ -45,30 +51,16 @@ def bounce(
     """
     from dataclasses import asdict
 
-    from bent_beam.cases import load_case
     from bent_beam.method import paths_with
     from bent_beam.parts import InputError
     from comparison.bounce import bounce as follow
-    from comparison.bounce import problem
     from comparison.bounce_document import bounce_document
-    from comparison.methods import methods_of
     from comparison.several_hits import follow_hits
     from comparison.store import check_writable
     from comparison.whole_impact.predicted import over_damping
     from comparison.whole_impact.table import bounce_table, hits_table
 
-    if (case is None) == (kappa_over_nu is None):
-        raise InputError("bounce takes a case file or --kappa-over-nu, one of them")
-    if case is not None:
-        if damping is not None:
-            raise InputError(f"--damping {damping!r} goes with --kappa-over-nu; in a case set beam.damping (s)")
-        loaded = load_case(case, assignments or ())
-        impact, method, section = loaded.impact, loaded.method(path), loaded.section
-    else:
-        if damping is None:
-            raise InputError("--damping is required next to --kappa-over-nu (eta/T*; 0 for none)")
-        impact, section = problem(kappa_over_nu or 0.0, damping), None
-        method = methods_of([path], assignments or ())[0]
+    impact, method, section = _asked(case, kappa_over_nu, damping, path, assignments or ())
     if not hasattr(method, "for_whole_beam"):
         able = paths_with("for_whole_beam")
         raise InputError(f"path: {path} has no choices for the whole beam ({' and '.join(able)} have)")
@@ -91,3 +83,24 @@ def bounce(
     emit(document, as_json, lambda: "\n".join([bounce_table(found, over, verbose=verbose), *hits_table(followed)]))
     if problem_of_files:
         raise InputError(problem_of_files)
+
+
+def _asked(
+    case: Path | None, kappa_over_nu: float | None, damping: float | None, path: str, assignments: Sequence[str]
+) -> tuple[Impact, Method, Section | None]:
+    """The impact, its method and its section, from a case or from the two numbers."""
+    from bent_beam.cases import load_case
+    from bent_beam.parts import InputError
+    from comparison.bounce import problem
+    from comparison.methods import methods_of
+
+    if (case is None) == (kappa_over_nu is None):
+        raise InputError("bounce takes a case file or --kappa-over-nu, one of them")
+    if case is not None:
+        if damping is not None:
+            raise InputError(f"--damping {damping!r} goes with --kappa-over-nu; in a case set beam.damping (s)")
+        loaded = load_case(case, assignments)
+        return loaded.impact, loaded.method(path), loaded.section
+    if damping is None:
+        raise InputError("--damping is required next to --kappa-over-nu (eta/T*; 0 for none)")
+    return problem(kappa_over_nu or 0.0, damping), methods_of([path], assignments)[0], None
