@@ -168,13 +168,21 @@ def _on_cluster(
     with client:
         _check_workers(client, scheduler)
         numbers = {client.submit(function, *a, pure=False): i for i, a in enumerate(arguments)}
+        suspects = []  # a call that waits on a worker is blamed when another kills it: each is asked once more, alone
         for future in as_completed(list(numbers), loop=client.loop):
             i = numbers.pop(future)
             try:
                 result = future.result()
             except KilledWorker:
-                died(i)
+                suspects.append(i)
             except CancelledError:
                 died(i, f"the scheduler at {scheduler} went away; ask again and only what is left is done")
+            else:
+                done(i, result)
+        for i in suspects:
+            try:
+                result = client.submit(function, *arguments[i], pure=False).result()
+            except KilledWorker:
+                died(i)
             else:
                 done(i, result)

@@ -22,7 +22,7 @@ def root(number):
 @pytest.fixture(scope="module")
 def cluster():
     distributed = pytest.importorskip("distributed")
-    with distributed.LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None) as started:
+    with distributed.LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=":0") as started:
         yield started.scheduler_address
 
 
@@ -75,6 +75,6 @@ def test_workers_that_are_missing_or_have_other_sources_are_told_before_the_work
     monkeypatch.undo()
     monkeypatch.setattr(workers, "FIRST_WORKER", 0.3)
     distributed = pytest.importorskip("distributed")
-    with distributed.LocalCluster(n_workers=0, processes=False, dashboard_address=None) as empty:
+    with distributed.LocalCluster(n_workers=0, processes=False, dashboard_address=":0") as empty:
         with pytest.raises(ValueError, match="missing, frozen or busy"):
             run_all(root, [(4.0,)], scheduler=empty.scheduler_address)
