@@ -8,7 +8,7 @@ import warnings
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import CancelledError, ThreadPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
-from contextlib import closing, contextmanager
+from contextlib import ExitStack, closing, contextmanager
 from multiprocessing import get_context
 from typing import Any
 
@@ -85,17 +85,15 @@ def _together(
             under_way.add(i)
             yield delayed(_numbered)(i, function, arguments[i])
 
-    pool = Parallel(
-        jobs, "loky", "generator_unordered", batch_size=1, max_nbytes=None, idle_worker_timeout=IDLE
-    )
+    pool = Parallel(jobs, "loky", "generator_unordered", batch_size=1, max_nbytes=None, idle_worker_timeout=IDLE)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", UserWarning)  # loky renews a worker that has grown, drops what is interrupted
         try:
             for kind in ("loky", "spawn"):  # starts the trackers of locks, which would let interrupts in below
                 get_context(kind).Lock()
-            with interrupts_held():
-                answers = pool(tasks())
-            with closing(answers):
+            with ExitStack() as stack:
+                with interrupts_held():  # an interrupt that waited finds the answers to close
+                    answers = stack.enter_context(closing(pool(tasks())))
                 for i, result in answers:
                     under_way.discard(i)
                     done(i, result)

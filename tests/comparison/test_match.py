@@ -1,6 +1,7 @@
 """The point of the project: any method is held against the theory, and those of this project agree with it."""
 
 import json
+import time
 from dataclasses import dataclass
 from itertools import product
 from pathlib import Path
@@ -138,6 +139,7 @@ class Stub:
             raise SimulationError("no luck", time=1.0, step=3, advice="another day")
         if self.trouble == "creeps":
             while True:
+                time.sleep(0.01)
                 progress(0.0)
         return SelfSimilarFE().simulate(impact, end_time=end_time, save=save, progress=progress)
 

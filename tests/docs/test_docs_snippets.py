@@ -170,7 +170,6 @@ def test_tutorial_runs() -> None:
     assert [printed(cell) for cell in notebook.cells] == stored, "run docs/tutorial.ipynb and store its outputs"
 
 
-
 def test_the_files_that_hold_the_facts_exist() -> None:
     text = (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8")
     table = text[text.index("## Facts that the tests hold") : text.index("## Habits")]

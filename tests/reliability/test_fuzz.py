@@ -163,7 +163,7 @@ rubbish = st.one_of(
 )
 
 
-@fuzz(140, 3000)
+@fuzz(70, 3000)
 @given(st.one_of(problems(), damaged(), rubbish), st.lists(st.one_of(powers, st.just(0.0)), max_size=3))
 def test_predict_answers_or_refuses_any_case(content, times):
     case = case_file(tables_text(content) if isinstance(content, dict) else content)
@@ -179,7 +179,7 @@ RUBBISH = (
 ).split()
 
 
-@fuzz(40, 800)
+@fuzz(25, 800)
 @given(
     st.sampled_from(["theory", "predict", "simulate", "match", "rerun", "study", "nothing", ""]),
     st.lists(
@@ -249,7 +249,7 @@ loads = st.one_of(st.just(0.0), st.floats(-10.0, 10.0))
 counts = st.one_of(st.integers(3, 40), st.sampled_from([1, 10**7, 10**300]))
 
 
-@fuzz(40, 900)
+@fuzz(20, 900)
 @given(
     problems(loads),
     counts,

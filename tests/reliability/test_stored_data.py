@@ -168,8 +168,11 @@ def test_unreadable_case_files_are_refused(kind, tmp_path):
 @pytest.mark.parametrize(
     "table",
     [
-        *(pytest.param(name, marks=pytest.mark.verify) for name in ("beam", "mesh", "section", "impact", "run")),
-        *("hermite", "hermite.mesh", "nonsense"),
+        *(
+            pytest.param(name, marks=pytest.mark.verify)
+            for name in ("beam", "mesh", "section", "impact", "run", "hermite", "nonsense")
+        ),
+        "hermite.mesh",
     ],
 )
 def test_tables_nested_without_end_are_refused_in_one_line(table, tmp_path):
@@ -219,7 +222,10 @@ def test_a_full_standard_output_is_an_error():
     assert done.returncode == 2 and done.stderr.count("\n") == 1, done.stderr
 
 
-@pytest.mark.parametrize(("closed", "number"), [("<&-", 0), (">&-", 1), ("2>&-", 2)])
+@pytest.mark.parametrize(
+    ("closed", "number"),
+    [pytest.param("<&-", 0, marks=pytest.mark.verify), pytest.param(">&-", 1, marks=pytest.mark.verify), ("2>&-", 2)],
+)
 def test_a_closed_standard_stream_is_no_file_that_is_opened_later(closed, number, case):
     """As cron jobs and daemons are started: nothing is said there, and nothing of it lands anywhere else."""
     for file, code in ((case, 0), (case.with_name("missing.toml"), 2)):

@@ -56,11 +56,11 @@ def test_one_point_touches_exactly_at_every_order(loads: tuple[float, float, flo
     assert np.max(np.abs(fields.complementarity_residual(0.0, [0.1, 0.5, 3.0]))) < 1e-10
 
 
-@pytest.mark.parametrize("ratio", [1 / 1600, 0.1, 0.5, 0.999, 1.0, 3.0])
+@pytest.mark.parametrize("ratio", [1 / 1600, 0.5, 0.999, 3.0])
 def test_convolution_equals_the_closed_form_everywhere(ratio: float) -> None:
     parameters = contact_parameters(ratio)
     wave, tau = SelfSimilarWave(parameters), 0.7
-    ahead = parameters.lambda0 + np.logspace(-10, 2, 40)
+    ahead = parameters.lambda0 + np.logspace(-10, 2, 20)
     x = np.concatenate([-ahead, np.linspace(0.0, parameters.lambda0, 11), ahead])
     fast = ImpactFields(parameters).fast_layer(x * np.sqrt(tau), tau)
     for name, scale in zip(NAMES, (tau, np.sqrt(tau), 1.0, 1.0), strict=True):
@@ -95,7 +95,7 @@ def test_convolution_equals_the_integral_as_it_stands(ratio: float, loads: tuple
         assert fields.fast_layer(xi, 0.4).deflection == pytest.approx(plain_convolution(fields, xi, 0.4), abs=1e-10)
 
 
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=10, deadline=None)
 @given(
     ratio=st.sampled_from([0.02, 0.4, 0.9, 1.5]),
     loads=st.tuples(*[st.sampled_from([-1.0, 0.0, 0.5])] * 4),
@@ -124,7 +124,7 @@ def test_momentum_equals_impulse_at_first_order() -> None:
     tau, e = 0.3, 0.1
     fields = ImpactFields(contact_parameters(0.5, 1.0, 1.0), epsilon=e)
     p = fields.parameters
-    xi = np.linspace(0.0, 12.0, 3001)
+    xi = np.linspace(0.0, 12.0, 1501)
     found = 2.0 * simpson(fields.fast_layer(xi, tau).deflection, x=xi)
     point = 8.0 / 3.0 * np.sqrt(2.0 / np.pi) * tau**1.5 * (p.r0 + e * p.r1 * tau / 5.0)
     zone = fields.uniform_reaction * 8.0 * tau**2.5 * (p.lambda0 / 15.0 + e * p.lambda1 * tau / 35.0)
