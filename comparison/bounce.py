@@ -18,6 +18,7 @@ import numpy as np
 
 from bent_beam.checks import finite
 from bent_beam.history import ImpactHistory
+from bent_beam.hysteresis import is_damped
 from bent_beam.impact import Impact
 from bent_beam.method import Method, for_whole_beam, refined, settings_of, simulate_to_separation
 from bent_beam.section import Section
@@ -143,7 +144,7 @@ def bounce(
     reason = method.refuses(impact)
     if reason is not None:
         raise ValueError(reason)
-    if impact.damping == 0.0:
+    if not is_damped(impact):
         return _band(impact, method, section, runs, seed, save, jobs, progress)
     checks = _cross_checks(method, impact)
     history, (outcome, *found), about = _one_and_others([method, *checks.values()], impact, save, jobs, progress)
