@@ -1,21 +1,25 @@
-"""Maxwell branches beside the beam's bending stiffness, as θ-steps see them (:mod:`bent_beam.hysteresis`).
+"""Maxwell branches beside the beam's bending stiffness, as steps of θ-schemes see them (:mod:`bent_beam.hysteresis`).
 
 Each branch is a spring g_jK in series with a dashpot of relaxation time τ_j; z_j, the stretch of its spring, obeys
 ż_j = ė − z_j/τ_j, and the beam feels K(e + Σ g_j z_j). Bending strains e = Bq of an element, θ₁ − c and θ₂ − c with the
-slope c of its chord, hold z_j: two numbers an element, no rigid motion in them. A θ-step with ė_θ = Bv_θ,
+slope c of its chord, hold z_j: two numbers an element, no rigid motion in them. With the strain rate ė = Bv_θ constant
+over a step, z and its mean z̄ are known exactly, and need no further unknown:
 
-    z_θ = (z + θh ė_θ)/(1 + θh/τ),     z⁺ = z + h(ė_θ − z_θ/τ),
+    z̄ = (z + ϑh ė)/(1 + ϑh/τ),     z⁺ = z + h(ė − z̄/τ),     ϑ = 1/(1 − exp(−h/τ)) − τ/h,
 
-needs no further unknown: its matrix is M + θhC + θ²h²K(1 + Σ g/(1 + θh/τ)). Exactly, per step,
+the matrix of a step is M + θhC + θ²h²K + θh²KΣ ϑg/(1 + ϑh/τ), and
 
-    Δ ½Σ g zᵀKz = h v_θᵀKΣ g z_θ − Σ (hg/τ) z_θᵀKz_θ − (θ − ½)Σ g ΔzᵀKΔz:
+    Δ ½Σ g zᵀKz = h v_θᵀKΣ g z̄ − Σ g [(h/τ) z̄ᵀKz̄ + (ϑ − ½) ΔzᵀKΔz],
 
-the work of the beam, less the dashpots' loss, less algorithmic loss. (Simo, Hughes, Computational Inelasticity, 1998,
-section 10.3, and Kaliske, Rothert, Computational Mechanics 19 (1997) 228–239, integrate z exactly for constant ė; the
-θ-rule in its place is what closes the energies.)
+the work of the beam less the dashpots' loss, which is never negative: ϑ runs from ½ (τ ≫ h) to 1. Branches shorter
+than a step do not ring, as they do with ϑ = θ = ½. (Exact recursions for constant ė: Simo, Hughes, Computational
+Inelasticity, 1998, section 10.3; Kaliske, Rothert, Computational Mechanics 19 (1997) 228–239. The mean z̄ closes the
+energies.)
 """
 
 from __future__ import annotations
+
+import math
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,18 +28,20 @@ from hermite_fe.compiled import compiled
 from hermite_fe.solver import Solver
 from hermite_fe.system import Bending
 
-__all__ = ["add_branch_forces", "branch_energy", "stiffen", "step_branches"]
+__all__ = ["add_branch_forces", "branch_energy", "step_branches", "stiffen", "strains_of"]
 
 Array = NDArray[np.float64]
 
 
 @compiled
 def stiffen(bending: Bending, h: float, theta: float, solver: Solver) -> None:
-    """Add θ²h²KΣ g/(1 + θh/τ) to a step matrix that is just made, and keep the weights 1/(1 + θh/τ)."""
+    """Add θh²KΣ ϑg/(1 + ϑh/τ) to a step matrix that is just made, and keep the ϑ and the weights 1/(1 + ϑh/τ)."""
     share, n = 0.0, bending.matrix.shape[1]
     for j in range(bending.shares.size):
-        bending.weights[j] = 1.0 / (1.0 + theta * h * bending.rates[j])
-        share += theta * theta * h * h * bending.shares[j] * bending.weights[j]
+        x = h * bending.rates[j]
+        bending.means[j] = 0.5 + x / 12.0 if x < 1e-3 else -1.0 / math.expm1(-x) - 1.0 / x
+        bending.weights[j] = 1.0 / (1.0 + bending.means[j] * x)
+        share += theta * h * h * bending.means[j] * bending.shares[j] * bending.weights[j]
     for i in range(n):
         for m in range(min(4, n - i)):
             apart = solver.unknown[i + m] - solver.unknown[i]
@@ -57,14 +63,14 @@ def form(first: float, second: float) -> float:
 
 
 @compiled
-def add_branch_forces(bending: Bending, z: Array, v: Array, h: float, theta: float, b: Array) -> None:
-    """b −= hKΣ g(z + θhBv)/(1 + θh/τ): what the branches do at v, of which Δv is still to be added."""
-    count, moved = z.shape[1], theta * h
+def add_branch_forces(bending: Bending, z: Array, v: Array, h: float, b: Array) -> None:
+    """b −= hKΣ g(z + ϑhBv)/(1 + ϑh/τ): what the branches do at v, of which Δv is still to be added."""
+    count = z.shape[1]
     for e in range(bending.lengths.size if count > 0 else 0):
         rates = strains_of(bending, v, e)
         first = second = 0.0
         for j in range(count):
-            share = bending.shares[j] * bending.weights[j]
+            share, moved = bending.shares[j] * bending.weights[j], h * bending.means[j]
             first += share * (z[2 * e, j] + moved * rates[0])
             second += share * (z[2 * e + 1, j] + moved * rates[1])
         stiffness = h * bending.stiffness / bending.lengths[e]
@@ -77,25 +83,24 @@ def add_branch_forces(bending: Bending, z: Array, v: Array, h: float, theta: flo
 
 
 @compiled
-def step_branches(bending: Bending, v_theta: Array, h: float, theta: float, z: Array) -> tuple[float, float]:
-    """z⁺ in place of z; returns the loss in the dashpots and the algorithmic one, J."""
-    loss = algorithmic = 0.0
-    count, moved = z.shape[1], theta * h
+def step_branches(bending: Bending, v_theta: Array, h: float, z: Array, stretch: Array) -> float:
+    """z⁺ in place of z, and Σ g z̄ into ``stretch``; returns the loss in the dashpots, J."""
+    count, loss = z.shape[1], 0.0
     for e in range(bending.lengths.size if count > 0 else 0):
         rates = strains_of(bending, v_theta, e)
-        lost = own = 0.0
+        stretch[2 * e] = stretch[2 * e + 1] = lost = 0.0
         for j in range(count):
-            share, rate, weight = bending.shares[j], bending.rates[j], bending.weights[j]
-            first, second = weight * (z[2 * e, j] + moved * rates[0]), weight * (z[2 * e + 1, j] + moved * rates[1])
-            lost += share * rate * form(first, second)
-            first, second = h * (rates[0] - rate * first), h * (rates[1] - rate * second)
-            own += share * form(first, second)
-            z[2 * e, j] += first
-            z[2 * e + 1, j] += second
-        stiffness = 4.0 * bending.stiffness / bending.lengths[e]
-        loss += h * stiffness * lost
-        algorithmic += (theta - 0.5) * stiffness * own
-    return loss, algorithmic
+            mean, x, weight = bending.means[j], h * bending.rates[j], bending.weights[j]
+            first = weight * (z[2 * e, j] + mean * h * rates[0])
+            second = weight * (z[2 * e + 1, j] + mean * h * rates[1])
+            change, other = h * rates[0] - x * first, h * rates[1] - x * second
+            lost += bending.shares[j] * (x * form(first, second) + (mean - 0.5) * form(change, other))
+            stretch[2 * e] += bending.shares[j] * first
+            stretch[2 * e + 1] += bending.shares[j] * second
+            z[2 * e, j] += change
+            z[2 * e + 1, j] += other
+        loss += 4.0 * bending.stiffness / bending.lengths[e] * lost
+    return loss
 
 
 @compiled

@@ -51,9 +51,10 @@ class Trajectory:
     """Samples of a run, first axis ``time`` (saved,), s.
 
     q, v : (saved, dofs). impulse, held_impulse, gap : (saved, rows); closed : (saved, rows) bool.
-    kinetic, strain, springs, work, viscous, material, absorbed, impact, algorithmic, wall : (saved,), J, ``springs``
-        stored in those of the wall, ``branches`` the part of ``strain`` that Maxwell branches hold, from ``work`` on since the start, each by its own formula: kinetic + strain +
-        springs − work + the six losses is constant, and its change is the energy residual (:meth:`defect`).
+    kinetic, strain, springs, work, viscous, material, absorbed, impact, algorithmic, wall : (saved,), J, ``branches``
+        the part of ``strain`` in Maxwell branches, ``springs`` stored in those of the wall, from ``work`` on since the
+        start, each by its own formula: kinetic + strain + springs − work + the six losses is constant, and its change
+        is the energy residual (:meth:`defect`).
     peak_force, peak_force_time, peak_penetration, peak_pressure : (saved,), the largest of all steps so far
         (:data:`hermite_fe.elastic_wall.FORCE`); zero before a rigid wall.
     smallest_reaction, product : (saved,), smallest impulse of constraints that are not held, and largest |p·slack|
@@ -122,8 +123,8 @@ class Stepper:
             )
         if system.bending.shares.size and not integrator.hysteretic:
             raise ValueError(
-                "integrator.kind: hysteretic_loss needs moreau_jean, signorini_position or, for a wall with a stiffness, "
-                f"midpoint; leave it out (got {type(integrator).__name__})"
+                "integrator.kind: hysteretic_loss needs moreau_jean or signorini_position, before a wall with a "
+                f"stiffness midpoint; leave it out (got {type(integrator).__name__})"
             )
         self.integrator = integrator
         self.instants = integrator.instants(end_time)

@@ -146,7 +146,7 @@ def take_steps(
             memory.base[:] = solver.S
         mean_forces(matrices.load, t, h, 0.5, memory.force)
         right_side(matrices, q, v, memory.force, h, 0.5, memory.b, memory.new, memory.scratch)
-        add_branch_forces(state.bending, state.branches, v, h, 0.5, memory.b)
+        add_branch_forces(state.bending, state.branches, v, h, memory.b)
         status, total, loss = solve_step(problem, state, memory, h)
         if status != SOLVED:
             return status, k
@@ -158,7 +158,7 @@ def take_steps(
         work = h * dot(memory.force, mean_v)
         add_energies(matrices, rows, h, work, memory.impulse, mean_v, mean_v, 0.0, memory.scratch, state.energy)
         state.energy[WALL] += loss
-        state.energy[MATERIAL] += step_branches(state.bending, mean_v, h, 0.5, state.branches)[0]
+        state.energy[MATERIAL] += step_branches(state.bending, mean_v, h, state.branches, state.stretch)
         if not end_step(state):
             return NOT_FINITE, k
     return SOLVED, last

@@ -121,7 +121,7 @@ def take_steps(
         impose(rows, conditions, q, v, h, theta, law.restitution, at_position)
         mean_forces(matrices.load, t, h, theta, force)
         right_side(matrices, q, v, force, h, theta, b, v_theta, scratch)
-        add_branch_forces(state.bending, state.branches, v, h, theta, b)
+        add_branch_forces(state.bending, state.branches, v, h, b)
         copy(state.closed, conditions.closed)
         status = solve_constrained(solver, rows, conditions, b, dv)
         if status != SOLVED:
@@ -135,9 +135,8 @@ def take_steps(
         add_impulses(state, conditions)
         note_complementarity(rows, conditions, dv, 1.0, theta * h if at_position else 1.0, state.worst)
         work = h * dot(force, v_theta)
-        lost, loss = step_branches(state.bending, v_theta, h, theta, state.branches)
-        state.energy[MATERIAL] += lost
-        loss += algorithmic_loss(matrices, rows, conditions.p, dv, v_theta, h, theta, scratch)
+        state.energy[MATERIAL] += step_branches(state.bending, v_theta, h, state.branches, state.stretch)
+        loss = algorithmic_loss(matrices, rows, conditions.p, dv, v_theta, h, theta, scratch)
         add_energies(matrices, rows, h, work, conditions.p, mean_v, v_theta, loss, scratch, state.energy)
         if not end_step(state):
             return NOT_FINITE, k
