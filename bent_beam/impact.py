@@ -59,8 +59,9 @@ class Impact(Part):
     ] = "axis"
     damping: Annotated[float, Quantity("s", "η, Kelvin–Voigt damping of the beam's own material", least=0.0)] = 0.0
     hysteretic_loss: Annotated[
-        float, Feature("1", "loss factor of the beam's material, nearly that of all frequencies", least=0.0, most=1.0)
-    ] = 0.0
+        float, Feature("1", "loss factor of the material, nearly that of all frequencies", least=0.0, most=1.0,
+                       instead=": take the Hermite path, or damping in its place")
+    ] = 0.0  # fmt: skip
     loss_frequency: Annotated[float | None, Quantity("Hz", "where EI and hysteretic_loss hold", above=0.0)] = None
     wall_curvature: Annotated[float, Quantity("1/m", "K_w, positive where the wall is hollow; less than K")] = 0.0
     natural_curvature: Annotated[float | None, Quantity("1/m", "K free of stress; all of the bow unless given")] = None

@@ -74,7 +74,9 @@ def test_the_first_mode_swings_at_its_frequency_and_loses_in_each_period_what_is
     assert decrement == pytest.approx(math.pi * loss, rel=0.02)
     lasted = 2.0 * (run.time[turns[-1]] - run.time[turns[0]]) / (turns.size - 1)
     assert lasted == pytest.approx(period, rel=2e-3)
-    bent = abs(swing[turns[:2]]).max() * z**2 * 2.0 / (1.0 / np.cos(z) + 1.0 / np.cosh(z) - 2.0)  # EI = 1 at x = 0
+    # the moment is that of EI(1 + iη) at this frequency, not of the relaxed 0.87 EI
+    bent = 0.5 * widths[0] * z**2 * (1.0 / np.cosh(z) - 1.0 / np.cos(z)) / (2.0 - 1.0 / np.cos(z) - 1.0 / np.cosh(z))
+    assert run.largest_midspan_moment[turns[0] - 9 : turns[1] + 9].max() == pytest.approx(abs(bent), rel=0.05)
 
 
 def conserved(model: BeamModel, run: Trajectory) -> None:
@@ -84,7 +86,8 @@ def conserved(model: BeamModel, run: Trajectory) -> None:
     uniform = np.zeros(model.system.dofs)
     uniform[0::2] = 1.0
     momentum = run.v @ product(model.system.mass, uniform)
-    assert np.abs(momentum - momentum[0] + run.impulse.sum(axis=1)).max() < 1e-11 * momentum[0]
+    gained = momentum - momentum[0] - float(uniform @ model.system.load[0]) * run.time
+    assert np.abs(gained + run.impulse.sum(axis=1)).max() < 1e-11 * momentum[0]
     assert np.all(np.diff(run.material) > 0.0) and run.branches[-1] > 0.0
 
 
@@ -112,8 +115,8 @@ def test_who_has_no_branches_refuses_by_field_and_value() -> None:
         assert "hysteretic_loss is not modelled by this method (got 0.1): take the Hermite path" in str(
             method.refuses(impact)
         )
-    with pytest.raises(ValueError, match=r"hysteretic_loss is not modelled .*got 0.1"):
-        predict(impact, 1e-3)
+    theory = predict(impact, 1e-3)
+    assert theory.valid_until == 0.0 and theory.limited_by == theory.times[0].spoiled_by == "hysteretic loss"
     with pytest.raises(ValueError, match=r"integrator.kind: hysteretic_loss needs .*GeneralizedAlphaPenalty"):
         HermiteFE(integrator=GeneralizedAlphaPenalty()).simulate(impact)
 
