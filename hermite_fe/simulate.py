@@ -115,7 +115,7 @@ def settings_of_run(impact: Impact, choice: resolution.Choice, run: Trajectory) 
     parts = ("mesh", "integrator", "contact", "far_field", "mass")
     branches = branches_of(impact)
     return {
-        **({} if branches is None else {"hysteretic_loss": branches.about}),
+        **({} if branches is None else {"hysteretic_loss": {"loss": impact.hysteretic_loss, **branches.about}}),
         **{name: describe(getattr(choice, name)) for name in parts},
         "hold": hold_report(impact, choice.contact, run),
         "mean_iterations": run.mean_iterations,

@@ -115,7 +115,7 @@ def test_damping_ratio_and_loss_factor_are_the_same_time_constant():
         ({"impact": {"drop_height": 1.0, "gravity_angle": 90.0001}}, "needs gravity towards the wall"),
         ({"beam": {"curvature": 0.1, "loss_factor": 0.1}}, "loss_frequency is required"),
         ({"beam": {"curvature": 0.1, "hysteretic_loss": 0.1}}, "hysteretic_loss .got 0.1 alone.* is at [0-9.]+ Hz"),
-        ({"beam": {"curvature": 0.1, "hysteretic_loss": 0.1, "loss_frequency": 1e9}}, "loss_frequency .*got 1000000000.0"),
+        ({"beam": {"curvature": 0.1, "hysteretic_loss": 0.1, "loss_frequency": 1e9}}, "loss_frequency .*got 10{9}.0"),
         ({"beam": {"curvature": 0.1, "hysteretic_loss": 0.1, "loss_factor": 0.1}}, "loss_factor = 0.1 and beam.hyst"),
         ({"beam": {"curvature": 0.1, "loss_frequency": 10.0}}, "loss_frequency has no effect"),
         ({"wall": {"curvature": 0.002}}, "wall_curvature must be less"),
