@@ -1,6 +1,6 @@
 """A material whose loss hardly depends on the frequency: a spring and Maxwell branches beside it.
 
-    EI(s) = EI_∞ (1 + Σ_j g_j sτ_j/(1 + sτ_j)),     |EI(2πif)| real part EI and loss factor η at the loss frequency f
+    EI(s) = EI_∞ (1 + Σ_j g_j sτ_j/(1 + sτ_j)),     EI(2πif) = EI(1 + iη) at the loss frequency f
 
 g ≥ 0, so that no motion gains energy. That the loss factor is η at ω is linear in g,
 
@@ -18,13 +18,10 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import TYPE_CHECKING
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-
-if TYPE_CHECKING:
-    from bent_beam.impact import Impact
 
 __all__ = ["FIRST_MODE", "Branches", "branches_of", "check_loss", "converges", "first_mode"]
 
@@ -34,7 +31,7 @@ FIRST_MODE = 4.730040744862704  # first root of cos z cosh z = 1, the free–fre
 BELOW, ABOVE, EARLIEST = 0.1, 1e6, 1e-4  # of the first mode, of the first mode, t*
 PER_DECADE, BEYOND = 1.5, math.sqrt(10.0)  # branches, and how far they go beyond either end of the range
 EXACT = 100.0  # weight of the loss frequency over that of any other
-LEAST_LOSS = 0.05  # measured: with less, restitution scatters by hundredths from mesh to mesh
+LEAST_LOSS = 0.05  # with less, meshes, steps and contact laws scatter restitution by hundredths (docs/damping.md)
 NEAR = (1e-3, 1e6)  # times the first mode: where a loss frequency may lie
 
 
@@ -66,18 +63,18 @@ class Branches:
         return np.asarray(self.relaxed * (1.0 + (self.shares * s / (1.0 + s)).sum(axis=-1)))
 
 
-def first_mode(impact: Impact) -> float:
+def first_mode(impact: Any) -> float:
     """Frequency of the first free–free bending mode, Hz."""
-    return FIRST_MODE**2 * impact.wave_constant / impact.length**2 / (2.0 * math.pi)
+    return float(FIRST_MODE**2 * impact.wave_constant / impact.length**2 / (2.0 * math.pi))
 
 
-def converges(impact: Impact) -> bool:
+def converges(impact: Any) -> bool:
     """Whether a whole impact has numbers that finer elements come to: not without damping, nor with little hysteretic
-    loss, which damps short waves no more than long ones (docs/whole_impact.md)."""
-    return impact.damping > 0.0 or impact.hysteretic_loss >= LEAST_LOSS
+    loss, which damps short waves no more than long ones (docs/damping.md)."""
+    return bool(impact.damping > 0.0 or impact.hysteretic_loss >= LEAST_LOSS)
 
 
-def branches_of(impact: Impact) -> Branches | None:
+def branches_of(impact: Any) -> Branches | None:
     """The branches of ``impact.hysteretic_loss``; ``None`` without."""
     if not impact.hysteretic_loss or impact.loss_frequency is None:
         return None
@@ -106,7 +103,7 @@ def _fitted(loss: float, frequency: float, lowest: float, highest: float) -> Bra
     return Branches(1.0 / float(modulus[-1].real), shares, times, lowest, highest, deviation)
 
 
-def check_loss(impact: Impact) -> None:
+def check_loss(impact: Any) -> None:
     """``ValueError`` where loss and loss frequency do not go together; it names field and value."""
     if not impact.hysteretic_loss:
         if impact.loss_frequency is not None:
