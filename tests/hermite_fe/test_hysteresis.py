@@ -102,9 +102,7 @@ def conserved(model: BeamModel, run: Trajectory) -> None:
 def test_energy_and_momentum_close_to_round_off_and_the_branches_take_their_share(integrator, more) -> None:
     model = modelled(lossy(0.5, 0.2, **more), 10)
     restitution = 0.5 if isinstance(integrator, MoreauJean) else 0.0
-    run = integrate(
-        model.system, model.displacement, model.velocity, integrator, 0.6, restitution=restitution, save=40
-    )
+    run = integrate(model.system, model.displacement, model.velocity, integrator, 0.6, restitution=restitution, save=40)
     conserved(model, run)
     assert run.material[-1] > 0.05 * run.kinetic[0]
 
