@@ -6,6 +6,8 @@ import dataclasses
 import math
 from typing import Any
 
+from bent_beam.hysteresis import check_loss
+
 __all__ = ["check_consistency"]
 
 RANGE = 1e60  # of every number of a problem, in SI and in its own units: its fourth power can still be calculated with
@@ -19,6 +21,7 @@ def check_consistency(impact: Any) -> None:
     """``ValueError`` naming field and value: a size that cannot be calculated with, or fields that contradict."""
     check_arrangement(impact)
     check_sizes(impact)
+    check_loss(impact)
 
 
 def check_sizes(impact: Any) -> None:

@@ -12,6 +12,7 @@ from typing import Any
 from bent_beam.checks import one_of, shortened
 from bent_beam.errors import InputError
 from bent_beam.fields import declared
+from bent_beam.hysteresis import FIRST_MODE
 from bent_beam.impact import Impact
 from bent_beam.section import Section
 from bent_beam.supports import ENDS
@@ -20,7 +21,6 @@ from bent_beam.tables import BeamTable, ImpactTable, WallTable
 __all__ = ["beam_quantities", "free_flight", "impact_velocity", "one_of_these", "wall_quantities"]
 
 GRAVITY = 9.80665  # m/s², standard (3rd General Conference on Weights and Measures, 1901)
-FIRST_MODE = 4.730040744862704  # first root of cos z cosh z = 1, the free–free beam
 
 
 def one_of_these(where: str, values: Mapping[str, float | None], *, required: bool = True) -> tuple[str | None, float]:
@@ -63,7 +63,7 @@ def beam_quantities(beam: BeamTable, section: Section | None) -> dict[str, Any]:
         found["section_height"] = math.sqrt(12.0) * section.radius_of_gyration
     found["curvature"] = _curvature(beam)
     wave = math.sqrt(found["bending_stiffness"] / found["mass_per_length"])
-    found["damping"] = _damping(beam, wave)
+    found |= _damping(beam, wave)
     found["left_end"], found["right_end"] = _ends(beam)
     return found
 
@@ -125,19 +125,29 @@ def _curvature(beam: BeamTable) -> float:
     return 8.0 * bow / (chord**2 + 4.0 * bow**2)
 
 
-def _damping(beam: BeamTable, wave: float) -> float:
-    """η, s: ζ = ηω/2 for the damping ratio of a mode, ηω for the loss factor."""
+def _damping(beam: BeamTable, wave: float) -> dict[str, Any]:
+    """η, s: ζ = ηω/2 for the damping ratio of a mode, ηω for the loss factor; or the hysteretic loss as it is."""
     ways = {"damping": beam.damping, "damping_ratio": beam.damping_ratio, "loss_factor": beam.loss_factor}
-    way, amount = one_of_these("beam", ways, required=False)
-    if way != "loss_factor" and beam.loss_frequency is not None:
-        raise InputError(f"beam.loss_frequency has no effect without beam.loss_factor (got {beam.loss_frequency!r})")
-    if way is None or way == "damping":
-        return amount
+    way, amount = one_of_these("beam", ways | {"hysteretic_loss": beam.hysteretic_loss or None}, required=False)
+    if way not in ("loss_factor", "hysteretic_loss"):
+        if beam.loss_frequency is not None:
+            raise InputError(
+                f"beam.loss_frequency has no effect without beam.loss_factor or beam.hysteretic_loss "
+                f"(got {beam.loss_frequency!r})"
+            )
+    elif beam.loss_frequency is None:
+        mode = FIRST_MODE**2 * wave / (2.0 * math.pi * beam.length**2)
+        raise InputError(
+            f"beam.loss_frequency is required next to beam.{way} (got {amount!r} alone): the frequency, Hz, "
+            f"at which it was measured; this beam's first free–free mode is at {mode:.4g} Hz"
+        )
+    if way == "hysteretic_loss":
+        return {"hysteretic_loss": amount, "loss_frequency": beam.loss_frequency}
     if way == "damping_ratio":
-        return 2.0 * amount * (beam.length / FIRST_MODE) ** 2 / wave
-    if beam.loss_frequency is None:
-        raise InputError(f"beam.loss_frequency is required next to beam.loss_factor (got {amount!r} alone)")
-    return amount / (2.0 * math.pi * beam.loss_frequency)
+        amount *= 2.0 * (beam.length / FIRST_MODE) ** 2 / wave
+    if way == "loss_factor":
+        amount /= 2.0 * math.pi * (beam.loss_frequency or 0.0)
+    return {"damping": amount}
 
 
 def impact_velocity(table: ImpactTable, length: float, ends: tuple[str, str] = ("free", "free")) -> float:

@@ -5,7 +5,8 @@ what is left of the total without them, can only fall. Its elastic deflection is
 
     |u_e(x)| ≤ √(2E L³/(105 EI)),                                                                            (1)
 
-L³/(105 EI) being the compliance of the beam's end with its rigid motion taken out (Σφ_j²/ω_j² of the free–free modes).
+L³/(105 EI) being the compliance of the beam's end with its rigid motion taken out (Σφ_j²/ω_j² of the free–free modes);
+EI is the relaxed one of a material with Maxwell branches, whose energy may all go to the spring beside them.
 """
 
 from __future__ import annotations
@@ -17,6 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bent_beam.history import ImpactHistory
+from bent_beam.hysteresis import branches_of
 from bent_beam.impact import Impact
 from bent_beam.loads import loads_of
 
@@ -62,7 +64,9 @@ def cannot_return(impact: Impact, x: Array, gap: Array, velocity: Array, energy:
     mass = impact.mass_per_length * impact.length
     rigid = 0.5 * mass * (speed**2 + spin**2 * impact.length**2 / 12.0)
     elastic = max(energy - rigid, 0.0)
-    reach = math.sqrt(2.0 * elastic * impact.length**3 / (105.0 * impact.bending_stiffness))
+    branches = branches_of(impact)
+    stiffness = impact.bending_stiffness * (1.0 if branches is None else branches.relaxed)
+    reach = math.sqrt(2.0 * elastic * impact.length**3 / (105.0 * stiffness))
     clear = gap - free + distance + tilt * x >= reach
     return bool(np.all(clear) and np.all(speed + spin * x >= 0.0))
 

@@ -12,6 +12,7 @@ Dimensions: ``time`` (the saved instants) and ``x`` (nodes) and ``contact`` (con
 | opposite_impulse | time, contact | N s | the same of a second wall behind the beam, where there is one |
 | total_impulse | time | N s | over the whole beam (both halves); of the wall less that of the opposite one |
 | kinetic_energy, strain_energy | time | J | whole beam |
+| branch_energy | time | J | the part of strain_energy in Maxwell branches |
 | contact_energy | time | J | in springs of the wall or of a penalty contact, change since t = 0 |
 | work_of_loads | time | J | whole beam, since t = 0 |
 | loss_impact | time | J | energy taken out by impacts since t = 0 |
@@ -64,7 +65,7 @@ UNITS = {"time": "s", "velocity": "m/s", "slope": "1"}
 UNITS |= {"peak_force": "N", "peak_force_time": "s", "peak_penetration": "m", "peak_pressure": "N/m"}
 UNITS |= dict.fromkeys(("x", "contact_x", "position", "contact_position", "gap", "largest_moment_place"), "m")
 UNITS |= dict.fromkeys(("largest_moment", "largest_midspan_moment"), "N m")
-UNITS |= dict.fromkeys(IMPULSES, "N s") | dict.fromkeys(ENERGIES, "J")
+UNITS |= dict.fromkeys(IMPULSES, "N s") | dict.fromkeys(("branch_energy", *ENERGIES), "J")
 COORDINATES = ("time", "x", "contact_x")
 FORMAT = "bent-beam-impact history 2"
 

@@ -46,8 +46,7 @@ class Impact(Part):
     curvature: Annotated[float, Quantity("1/m", "K, the bow at the first touch", least=0.0)]
     velocity: Annotated[float, Quantity("m/s", "V₀ towards the wall", above=0.0)]
     acceleration: Annotated[
-        float,
-        Load("m/s²", "a₀ at the first touch; free flight unless given", group="alpha", powers=(0, 2)),
+        float, Load("m/s²", "a₀ at the first touch; free flight unless given", group="alpha", powers=(0, 2))
     ] = 0.0
     curvature_rate: Annotated[float, Load("1/(m s)", "c₀ = ∂³y₀/∂x²∂t", group="chi", powers=(2, 1))] = 0.0
     fourth_derivative: Annotated[float, Load("1/m³", "q₀ = ∂⁴y₀/∂x⁴", group="psi", powers=(4, 0))] = 0.0
@@ -59,13 +58,14 @@ class Impact(Part):
         str, Quantity("", "of the axial force at the ends: along x, or along the bow's ends", choices=DIRECTIONS)
     ] = "axis"
     damping: Annotated[float, Quantity("s", "η, Kelvin–Voigt damping of the beam's own material", least=0.0)] = 0.0
+    hysteretic_loss: Annotated[
+        float, Feature("1", "loss factor of the material, nearly that of all frequencies", least=0.0, most=1.0,
+                       instead=": take the Hermite path, or damping in its place")
+    ] = 0.0  # fmt: skip
+    loss_frequency: Annotated[float | None, Quantity("Hz", "where EI and hysteretic_loss hold", above=0.0)] = None
     wall_curvature: Annotated[float, Quantity("1/m", "K_w, positive where the wall is hollow; less than K")] = 0.0
-    natural_curvature: Annotated[
-        float | None, Quantity("1/m", "curvature of the beam free of stress; all of the bow unless given")
-    ] = None
-    rotation: Annotated[
-        float, Load("rad/s", "rocking about the middle (runs of the full beam)", powers=(1, 1))
-    ] = 0.0
+    natural_curvature: Annotated[float | None, Quantity("1/m", "K free of stress; all of the bow unless given")] = None
+    rotation: Annotated[float, Load("rad/s", "rocking about the middle (runs of the full beam)", powers=(1, 1))] = 0.0
     first_touch: Annotated[
         float, Quantity("m", "place of the bow's apex from the middle (runs of the full beam)")
     ] = 0.0

@@ -31,7 +31,9 @@ Powers = tuple[int, int]
 
 @dataclass(frozen=True)
 class Feature(Quantity):
-    """A field that not every solver models: those that do name it, the others refuse it."""
+    """A field that not every solver models: those that do name it, the others refuse it, and say what to do instead."""
+
+    instead: str = ""
 
 
 @dataclass(frozen=True)
@@ -56,9 +58,9 @@ def unmodelled(impact: Any, modelled: Collection[str]) -> str | None:
     it can)."""
     about = declared(type(impact))  # type: ignore[arg-type]
     for field in dataclasses.fields(impact):
-        value = getattr(impact, field.name)
-        if isinstance(about[field.name].quantity, Feature) and field.name not in modelled and value != field.default:
-            return f"{field.name} is not modelled by this method (got {value!r})"
+        value, quantity = getattr(impact, field.name), about[field.name].quantity
+        if isinstance(quantity, Feature) and field.name not in modelled and value != field.default:
+            return f"{field.name} is not modelled by this method (got {value!r}){quantity.instead}"
     return None
 
 

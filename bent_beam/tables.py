@@ -43,7 +43,10 @@ class BeamTable(Part):
     loss_factor: Annotated[
         float | None, Quantity("1", "the same as loss factor at loss_frequency", least=0.0)
     ] = None
-    loss_frequency: Annotated[float | None, Quantity("Hz", "where the loss factor was measured", above=0.0)] = None
+    hysteretic_loss: Annotated[float, of_impact("hysteretic_loss")] = 0.0
+    loss_frequency: Annotated[
+        float | None, Quantity("Hz", "where loss_factor or hysteretic_loss was measured", above=0.0)
+    ] = None
     ends: Annotated[
         str | tuple[str, str], Quantity("", "free, hinged or clamped; a pair for the left and the right one")
     ] = "free"

@@ -3,7 +3,8 @@
 Each number comes from one run; its error bar is the sum of what it moves by when elements, steps and the contact law
 change (``cross_checks`` of the method), and half a saved interval where it is a time. The sum, not the root of squares:
 all schemes come from the same side, and halving elements moves e by little more than what is left.
-**Without damping** of the beam itself the numbers do not converge (docs/whole_impact.md): an ensemble of runs, meshes,
+**Without damping** of the beam itself, or with little hysteretic loss, the numbers do not converge
+(docs/whole_impact.md): an ensemble of runs, meshes,
 steps and contact laws drawn at random from a seed, gives mean and standard deviation instead.
 """
 
@@ -18,6 +19,7 @@ import numpy as np
 
 from bent_beam.checks import finite
 from bent_beam.history import ImpactHistory
+from bent_beam.hysteresis import converges
 from bent_beam.impact import Impact
 from bent_beam.method import Method, for_whole_beam, refined, settings_of, simulate_to_separation
 from bent_beam.section import Section
@@ -93,8 +95,10 @@ class Bounce:
         """What a reader must know of the numbers."""
         found = []
         if self.seed is not None:
+            loss = self.impact.hysteretic_loss
+            own = f"a hysteretic loss of {loss:g} and no other damping" if loss else "no damping"
             found.append(
-                "the beam has no damping of its own: the outcome is irregular and does not converge, so a band is "
+                f"the beam has {own} of its own: the outcome is irregular and does not converge, so a band is "
                 "given; state [beam] damping (or --damping) for numbers"
             )
         if not self.left:
@@ -143,7 +147,7 @@ def bounce(
     reason = method.refuses(impact)
     if reason is not None:
         raise ValueError(reason)
-    if impact.damping == 0.0:
+    if not converges(impact):
         return _band(impact, method, section, runs, seed, save, jobs, progress)
     checks = _cross_checks(method, impact)
     history, (outcome, *found), about = _one_and_others([method, *checks.values()], impact, save, jobs, progress)

@@ -32,6 +32,7 @@ def bounce_document(found: Bounce) -> dict[str, Any]:
     document: dict[str, Any] = {
         "kappa_over_nu": found.impact.kappa_over_nu,
         "damping": found.impact.relative_damping,
+        "hysteretic_loss": found.history.settings.get("hysteretic_loss"),
         **{name: number.to_dict() for name, number in found.numbers.items() if name not in ENERGY},
         "energy": {name: found.numbers[name].to_dict() for name in ENERGY},
         "si": {

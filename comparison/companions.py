@@ -15,6 +15,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from bent_beam.hysteresis import converges
 from bent_beam.impact import BEFORE_WAVES_RETURN, Impact
 from bent_beam.method import Method, for_whole_beam, refined
 from measure.measured import Measured
@@ -30,7 +31,7 @@ DRAWN, SEED = 5, 15  # runs without damping
 
 def is_late(impact: Impact, end: float) -> bool:
     """Whether a run to ``end``, s, is one of the whole beam."""
-    return end > (EARLY if impact.damping else BEFORE_WAVES_RETURN) * impact.slow_time_scale
+    return end > (EARLY if converges(impact) else BEFORE_WAVES_RETURN) * impact.slow_time_scale
 
 
 def suited(method: Method, impact: Impact, end: float) -> Method:
@@ -51,9 +52,9 @@ def companions_of(
     if not is_late(impact, end):
         return others
     random = np.random.default_rng(SEED)
-    if impact.damping == 0.0 and stated:
+    if not converges(impact) and stated:
         return [one for _ in range(DRAWN) if (one := refined(method, 2.0 ** random.uniform(-1.0, 0.0))) is not None]
-    if impact.damping == 0.0 and hasattr(method, "varied"):
+    if not converges(impact) and hasattr(method, "varied"):
         drawn = [method.varied(impact, random) for _ in range(DRAWN)]
         return [refined(one, refine) or one for one in drawn]
     checks = method.cross_checks(impact) if hasattr(method, "cross_checks") else {}
@@ -65,6 +66,6 @@ def number_of(values: Sequence[float], impact: Impact, least: float = 0.0) -> Me
     first, *others = values
     if not others:
         return Measured(first)
-    if impact.damping == 0.0 and len(others) > 1:
+    if not converges(impact) and len(others) > 1:
         return Measured(statistics.fmean(values), max(2.0 * statistics.stdev(values), least, LEAST * abs(first)))
     return Measured(first, max(BAR * math.hypot(*(v - first for v in others)), least, LEAST * abs(first)))

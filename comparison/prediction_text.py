@@ -21,6 +21,7 @@ LIMITS = {
     "first-order correction": "the loads change the contact by more than first order covers",
     "tension": "the axial force changes the contact by more than first order covers",
     "damping": "the contact spreads, for which material damping has no closed form",
+    "hysteretic loss": "the stiffness grows with the frequency, for which there is no closed form",
     "slope": "slopes are no longer small",
     "shear": "shear deformation, which is not modelled, matters for as long as the theory would hold without it",
     "wall": "the wall gives way for as long as the theory of a rigid wall would hold, or longer",

@@ -27,6 +27,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from bent_beam.hysteresis import branches_of
 from bent_beam.impact import Impact
 from bent_beam.meshes import checked_nodes, mirrored
 from bent_beam.supports import lowest_mode
@@ -44,8 +45,8 @@ Array = NDArray[np.float64]
 CONSISTENT = ConsistentMass()
 
 
-LOADS = ("acceleration", "curvature_rate", "fourth_derivative", "axial_force", "rotation", "wall_stiffness",
-         "wall_damping", "wall_from", "wall_to", "left_end", "right_end")  # fmt: skip
+LOADS = ("acceleration", "curvature_rate", "fourth_derivative", "axial_force", "rotation", "hysteretic_loss",
+         "wall_stiffness", "wall_damping", "wall_from", "wall_to", "left_end", "right_end")  # fmt: skip
 """The loads and other features that are modelled here."""
 
 
@@ -87,7 +88,9 @@ def beam_model(
     half = checked_nodes(nodes)
     x = mirrored(half) if full else half
     s = x - impact.first_touch
-    beam = HermiteBeam(x, impact.bending_stiffness, impact.mass_per_length)
+    branches = branches_of(impact)
+    relaxed = impact.bending_stiffness * (1.0 if branches is None else branches.relaxed)
+    beam = HermiteBeam(x, relaxed, impact.mass_per_length)
     natural, facing = (
         beam.interpolate(-0.5 * curvature * s**2, -curvature * s)
         for curvature in (impact.curvature, impact.relative_curvature)
@@ -103,6 +106,9 @@ def beam_model(
     dampings = far_field.dampings(beam, impact)
     if impact.damping > 0.0:  # Kelvin–Voigt: C = ηK
         dampings += (("material", impact.damping * bending_stiffness),)
+    bending = Bending(beam.lengths, relaxed, free_moment(impact), half.size - 1 if full else 0)
+    if branches is not None:  # slack at the start
+        bending = bending._replace(shares=branches.shares, rates=1.0 / branches.times, matrix=bending_stiffness)
     supports = held_dofs(impact, beam, full=full)
     rows = before_the_wall(contact.rows(beam, facing, full=full), impact, supports)
     if impact.opposite_wall is not None:
@@ -115,7 +121,7 @@ def beam_model(
         contacts=rows,
         supports=supports,
         springs=springs_of(impact, beam, facing, full=full),
-        bending=Bending(beam.lengths, impact.bending_stiffness, free_moment(impact), half.size - 1 if full else 0),
+        bending=bending,
     )
     second = behind(len(rows), impact.opposite_wall is not None)
     return BeamModel(beam, system, displacement, velocity, natural, facing, second, full)

@@ -18,6 +18,7 @@ from hermite_fe.compiled import recompiling
 from hermite_fe.constraints import PRODUCT, SMALLEST_REACTION, ContactLaw
 from hermite_fe.elastic_wall import FORCE, FORCE_TIME, PENETRATION, PRESSURE, stored_energy
 from hermite_fe.integrators import Integrator
+from hermite_fe.maxwell import branch_energy
 from hermite_fe.saved_steps import saved_steps
 from hermite_fe.stepping import (
     ABSORBED,
@@ -50,9 +51,10 @@ class Trajectory:
     """Samples of a run, first axis ``time`` (saved,), s.
 
     q, v : (saved, dofs). impulse, held_impulse, gap : (saved, rows); closed : (saved, rows) bool.
-    kinetic, strain, springs, work, viscous, material, absorbed, impact, algorithmic, wall : (saved,), J, ``springs``
-        stored in those of the wall, from ``work`` on since the start, each by its own formula: kinetic + strain +
-        springs − work + the six losses is constant, and its change is the energy residual (:meth:`defect`).
+    kinetic, strain, springs, work, viscous, material, absorbed, impact, algorithmic, wall : (saved,), J, ``branches``
+        the part of ``strain`` in Maxwell branches, ``springs`` stored in those of the wall, from ``work`` on since the
+        start, each by its own formula: kinetic + strain + springs − work + the six losses is constant, and its change
+        is the energy residual (:meth:`defect`).
     peak_force, peak_force_time, peak_penetration, peak_pressure : (saved,), the largest of all steps so far
         (:data:`hermite_fe.elastic_wall.FORCE`); zero before a rigid wall.
     smallest_reaction, product : (saved,), smallest impulse of constraints that are not held, and largest |p·slack|
@@ -72,6 +74,7 @@ class Trajectory:
     closed: NDArray[np.bool_]
     kinetic: Array
     strain: Array
+    branches: Array
     springs: Array
     work: Array
     viscous: Array
@@ -118,6 +121,11 @@ class Stepper:
                 "integrator.kind: midpoint is for a wall with a stiffness, the others for a rigid one; leave it out "
                 f"(got {type(integrator).__name__})"
             )
+        if system.bending.shares.size and not integrator.hysteretic:
+            raise ValueError(
+                "integrator.kind: hysteretic_loss needs moreau_jean or signorini_position, before a wall with a "
+                f"stiffness midpoint; leave it out (got {type(integrator).__name__})"
+            )
         self.integrator = integrator
         self.instants = integrator.instants(end_time)
         self.problem = problem_of(system, law or ContactLaw())
@@ -157,7 +165,11 @@ class Stepper:
         return 0.5 * float(self.state.v @ product(self.problem.matrices.M, self.state.v))
 
     def _strain(self) -> float:
-        return 0.5 * float(self.state.q @ stiff_product(self.problem.matrices.K, self.state.q))
+        return 0.5 * float(self.state.q @ stiff_product(self.problem.matrices.K, self.state.q)) + self._branches()
+
+    def _branches(self) -> float:
+        """In the springs of Maxwell branches, a part of the strain energy."""
+        return branch_energy(self.state.bending, self.state.branches) if self.state.branches.size else 0.0
 
     def _stored(self) -> float:
         """In the springs of the wall; a rigid one has no need to compile this."""
@@ -173,6 +185,7 @@ class Stepper:
         return {
             "kinetic": self._kinetic(),
             "strain": self._strain(),
+            "branches": self._branches(),
             "springs": self._stored(),
             "work": energy[WORK],
             "viscous": energy[VISCOUS],

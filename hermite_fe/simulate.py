@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from bent_beam.errors import SimulationError
 from bent_beam.history import ImpactHistory
+from bent_beam.hysteresis import branches_of
 from bent_beam.impact import FIRST_SPREAD, Impact
 from bent_beam.loads import unmodelled
 from bent_beam.parts import describe
@@ -112,7 +113,9 @@ def simulate(
 def settings_of_run(impact: Impact, choice: resolution.Choice, run: Trajectory) -> dict[str, Any]:
     """The parts of a run as text, what was held, and how many rounds the active set took."""
     parts = ("mesh", "integrator", "contact", "far_field", "mass")
+    branches = branches_of(impact)
     return {
+        **({} if branches is None else {"hysteretic_loss": {"loss": impact.hysteretic_loss, **branches.about}}),
         **{name: describe(getattr(choice, name)) for name in parts},
         "hold": hold_report(impact, choice.contact, run),
         "mean_iterations": run.mean_iterations,
@@ -184,6 +187,8 @@ def history_of(impact: Impact, model: BeamModel, run: Trajectory, settings: dict
             "peak_penetration": (("time",), run.peak_penetration),
             "peak_pressure": (("time",), (copies if model.system.springs.stop >= 0 else 1) * run.peak_pressure),
         }
+    if impact.hysteretic_loss:
+        fields["branch_energy"] = (("time",), copies * run.branches)
     if np.any(behind):
         fields["opposite_impulse"] = (("time", "contact"), run.impulse[:, behind])
     return ImpactHistory.build(

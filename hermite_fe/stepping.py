@@ -13,6 +13,7 @@ from hermite_fe.banded import dot, multiply, row_sums, stiff_multiply
 from hermite_fe.compiled import compiled
 from hermite_fe.constraints import Constraints, ContactLaw, Rows, row_times, rows_of
 from hermite_fe.elastic_wall import Springs
+from hermite_fe.maxwell import strains_of
 from hermite_fe.solver import Solver, prepare, solver_of
 from hermite_fe.system import Bending, System
 
@@ -68,6 +69,8 @@ class State(NamedTuple):
     closed : (rows,). impulse, held_impulse : (rows,), N s since the start, and its tensile part in held constraints.
     energy : (7,), J, see :data:`WORK`. worst : (2,), see :data:`hermite_fe.constraints.PRODUCT`.
     peaks : (4,), see :data:`hermite_fe.elastic_wall.FORCE`.
+    branches : (2 elements, branches), the stretches z of Maxwell branches; stretch : (2 elements,), their weighted sum,
+        mean over the last step.
     largest : (3,), of all steps since it was last set to 0: largest bending moment |M|, N m, its node, and the largest
         in the middle, N m.
     """
@@ -83,6 +86,8 @@ class State(NamedTuple):
     peaks: Array
     largest: Array
     bending: Bending
+    branches: Array
+    stretch: Array
 
 
 def problem_of(system: System, law: ContactLaw) -> Problem:
@@ -99,24 +104,28 @@ def problem_of(system: System, law: ContactLaw) -> Problem:
 
 def state_of(system: System, q: Array, v: Array) -> State:
     """The state at the start, q and v copied."""
-    n, m = system.dofs, len(system.contacts)
+    n, m, bending = system.dofs, len(system.contacts), system.bending
+    strains, count = 2 * bending.lengths.size, bending.shares.size
     return State(
         q=np.array(q, float), v=np.array(v, float), acceleration=np.zeros(n), closed=np.zeros(m, np.bool_),
         impulse=np.zeros(m), held_impulse=np.zeros(m), energy=np.zeros(7), worst=np.zeros(2),
         peaks=np.zeros(4),
-        largest=np.zeros(3), bending=Bending(np.array(system.bending.lengths, float), *system.bending[1:]),
+        largest=np.zeros(3), branches=np.zeros((strains, count)), stretch=np.zeros(strains),
+        bending=bending._replace(
+            lengths=np.array(bending.lengths, float), means=np.zeros(count), weights=np.zeros(count)
+        ),
     )  # fmt: skip
 
 
 @compiled
-def note_moments(bending: Bending, q: Array, largest: Array) -> None:
-    """Note the largest bending moments of the cubics through q, at both ends of each element."""
+def note_moments(bending: Bending, q: Array, stretch: Array, largest: Array) -> None:
+    """Note the largest bending moments of the cubics through q and of the branches, at both ends of each element."""
     for e in range(bending.lengths.size):
-        length = bending.lengths[e]
-        rise = 6.0 * (q[2 * e + 2] - q[2 * e]) / length
-        first, second = q[2 * e + 1], q[2 * e + 3]
-        left = abs(bending.stiffness * (rise - 4.0 * first - 2.0 * second) / length + bending.free)
-        right = abs(bending.stiffness * (2.0 * first + 4.0 * second - rise) / length + bending.free)
+        first, second = strains_of(bending, q, e)
+        first += stretch[2 * e]
+        second += stretch[2 * e + 1]
+        left = abs(bending.free - bending.stiffness / bending.lengths[e] * (4.0 * first + 2.0 * second))
+        right = abs(bending.free + bending.stiffness / bending.lengths[e] * (2.0 * first + 4.0 * second))
         if max(left, right) > largest[0]:
             largest[0], largest[1] = max(left, right), e if left > right else e + 1
         if e == bending.middle and left > largest[2]:
@@ -129,7 +138,7 @@ def note_moments(bending: Bending, q: Array, largest: Array) -> None:
 def end_step(state: State) -> bool:
     """Note the moments of a finished step. Whether v[0] and the energies are finite: any other infinite or undefined
     number of q or v makes an energy so."""
-    note_moments(state.bending, state.q, state.largest)
+    note_moments(state.bending, state.q, state.stretch, state.largest)
     total = state.v[0]
     for cause in range(state.energy.size):
         total += state.energy[cause]

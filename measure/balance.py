@@ -101,10 +101,11 @@ def _momentum(history: ImpactHistory) -> float | None:
 
 def _second_moment(history: ImpactHistory) -> float | None:
     """``None`` where a layer, viscosity at grid scale or N acts, where ends that follow carry moments, and before a
-    plate or a stop, whose moment is small or given."""
+    plate or a stop, whose moment is small or given, and with Maxwell branches, whose stretch is not kept."""
     impact, time = history.impact, history.time
     bent = impact.fourth_derivative or impact.curvature_rate or impact.natural_curvature is not None
     free = _is_whole(history) and history.energy("loss_viscous")[-1] == 0.0 and not impact.wall_in_part
+    free = free and not impact.hysteretic_loss
     if not free or impact.supported or impact.axial_force or (bent and _ends_follow(history)) or "slope" not in history:
         return None
     x, both = history.positions(0), 2.0 / history.sides

@@ -28,7 +28,8 @@ from theory.moment import PeakMoment, peak_moment_of
 from theory.validity import validity
 from theory.wall_prediction import WallPrediction, on_elastic_wall
 
-MODELLED = "acceleration curvature_rate fourth_derivative axial_force rotation wall_stiffness wall_damping".split()
+MODELLED = ("acceleration", "curvature_rate", "fourth_derivative", "axial_force", "rotation", "hysteretic_loss",
+            "wall_stiffness", "wall_damping")  # fmt: skip
 """Features of an impact that the theory has, or refuses with reasons of its own."""
 
 

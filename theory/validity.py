@@ -20,6 +20,7 @@ r"""Until when the theory of the first instants holds for a real beam. Every lim
   leading one, which has to be small.
 - **damping**: one point has a closed form (`theory.damped_point`), under an axial force up to its share in r₁. A zone
   has one as long as it is one point, until T_p η.
+- **hysteretic loss**: a modulus that grows with the frequency leaves no self-similar contact; never valid.
 - **opening**: one point spreads when the loads have taken the curvature κ − ν of its gap away.
 - **slope**: an arch is lower than its parabola by θ²/12. This is about the slope that the impact adds.
 - **shear**: Euler and Bernoulli's beam is that of Timoshenko after many times t_s = √(EIμ)/(κ_sGA), `shear_times`.
@@ -65,6 +66,7 @@ ENDS = "waves back from the ends"
 FIRST_ORDER = "first-order correction"
 TENSION = "tension"
 DAMPING = "damping"
+HYSTERESIS = "hysteretic loss"
 SLOPE = "slope"
 SHEAR = "shear"
 WALL = "wall"
@@ -109,6 +111,8 @@ def validity(
     """
     if yields:
         return Validity(0.0, 0.0, SECTION)
+    if impact.hysteretic_loss > 0.0:
+        return Validity(0.0, 0.0, HYSTERESIS)
     limits = [(_until_ends(impact, solved), ENDS), _until_loads(solved), (_until_slope(solved), SLOPE)]
     if impact.damping > 0.0:
         limits.append((_until_damping(impact, solved), DAMPING))

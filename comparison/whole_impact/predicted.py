@@ -10,6 +10,7 @@ from typing import Any
 
 from bent_beam.cases import Case
 from bent_beam.free_flight import LOWEST_PERIOD
+from bent_beam.hysteresis import converges
 from bent_beam.impact import Impact
 from bent_beam.loads import unmodelled
 from bent_beam.method import Method, for_whole_beam, refined, simulate_to_separation
@@ -55,7 +56,8 @@ def over_damping(impact: Impact, section: Section | None, method: Method | None)
     """Largest moment, N m, and stress, Pa, of the whole impact over a plausible range of the damping ratio."""
     found = []
     for ratio in DAMPING_RATIOS:
-        damped = impact.replace(damping=ratio * LOWEST_PERIOD / math.pi * impact.slow_time_scale)
+        damping = ratio * LOWEST_PERIOD / math.pi * impact.slow_time_scale
+        damped = impact.replace(damping=damping, hysteretic_loss=0.0, loss_frequency=None)
         numbers = _from_map(damped)
         if numbers is None and method is not None and impact.opposite_wall is None:
             numbers = _simulated(damped, method)
@@ -93,6 +95,6 @@ def _simulated(impact: Impact, method: Method) -> dict[str, Number]:
     for name in NUMBERS if outcomes[0].peak_force is None else (*NUMBERS, "peak_force"):
         values = [float(getattr(outcome, name)) for outcome in outcomes]
         least = 0.5 * outcomes[0].spacing if name == "last_contact" else 0.0
-        number = number_of(values, impact, least) if impact.damping else Band.of(values)
+        number = number_of(values, impact, least) if converges(impact) else Band.of(values)
         found[name] = number if left or name in ("peak_moment", "peak_force") else Measured()
     return found

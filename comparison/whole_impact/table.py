@@ -60,12 +60,21 @@ def bounce_table(found: Bounce, over_damping: Sequence[dict[str, Any]] = (), *, 
     ]
     if verbose:
         lines += [
-            f"kappa/nu = {impact.kappa_over_nu:.6g}, eta/T* = {impact.relative_damping:.6g}, "
+            f"kappa/nu = {impact.kappa_over_nu:.6g}, {_damping_of(found)}, "
             f"T* = {impact.slow_time_scale:.6g} s; {found.history.steps} steps, {found.seconds:.1f} s for all runs.",
             "Beam's units: L/2 = EI = mu = V0 = 1. A separation lasts at least "
             f"{SHORTEST_SEPARATION:g} T* ({SHORTEST_SEPARATION * found.units['time']:.3g} s).",
         ]
     return "\n".join([*lines, *(f"warning: {w}" for w in found.warnings)])
+
+
+def _damping_of(found: Bounce) -> str:
+    """Of the beam itself: eta/T*, or the hysteretic loss and where it holds."""
+    loss = found.history.settings.get("hysteretic_loss")
+    if loss is None:
+        return f"eta/T* = {found.impact.relative_damping:.6g}"
+    held = f"{loss['lowest_frequency']:.3g} to {loss['highest_frequency']:.3g} Hz"
+    return f"hysteretic loss {loss['loss']:g} within {100.0 * loss['deviation']:.1g} % from {held}"
 
 
 def _in_si(found: Bounce, name: str, number: Number) -> list[str]:

@@ -38,6 +38,9 @@ class Integrator(Part, ABC):
     elastic: ClassVar[bool] = False
     """Whether the scheme is for a wall that gives way (:mod:`hermite_fe.elastic_wall`), and not for a rigid one."""
 
+    hysteretic: ClassVar[bool] = False
+    """Whether the scheme steps Maxwell branches (:mod:`hermite_fe.maxwell`)."""
+
     elements_in_first_front: ClassVar[float] = 0.03
     """Thickness of the front, in smallest elements, after a first step that is chosen (:mod:`hermite_fe.resolution`).
     More than one is for schemes that close many nodes in one long step without rebound."""

@@ -23,8 +23,9 @@ from hermite_fe.compiled import compiled
 from hermite_fe.elastic_wall import FORCE, FORCE_TIME, PENETRATION, PRESSURE, push
 from hermite_fe.integrators.base import Integrator
 from hermite_fe.integrators.theta import right_side
+from hermite_fe.maxwell import add_branch_forces, step_branches, stiffen
 from hermite_fe.solver import prepare, refactor_from
-from hermite_fe.stepping import WALL, Problem, State, add_energies, end_step, mean_forces
+from hermite_fe.stepping import MATERIAL, WALL, Problem, State, add_energies, end_step, mean_forces
 
 __all__ = ["Midpoint"]
 
@@ -41,6 +42,7 @@ class Midpoint(Integrator):
     """The implicit midpoint rule, for a wall that gives way."""
 
     elastic: ClassVar[bool] = True
+    hysteretic: ClassVar[bool] = True
 
     def start(self, problem: Problem, state: State) -> MidpointMemory:
         n, m = problem.matrices.M.shape[1], problem.rows.gap.size
@@ -140,9 +142,11 @@ def take_steps(
         h = times[k + 1] - t
         h = prepare(solver, rows, matrices.M, matrices.C, matrices.K, 0.5 * h, 0.25 * h * h, h, times[k + 1])
         if h != made_for:
+            stiffen(state.bending, h, 0.5, solver)
             memory.base[:] = solver.S
         mean_forces(matrices.load, t, h, 0.5, memory.force)
         right_side(matrices, q, v, memory.force, h, 0.5, memory.b, memory.new, memory.scratch)
+        add_branch_forces(state.bending, state.branches, v, h, memory.b)
         status, total, loss = solve_step(problem, state, memory, h)
         if status != SOLVED:
             return status, k
@@ -154,6 +158,7 @@ def take_steps(
         work = h * dot(memory.force, mean_v)
         add_energies(matrices, rows, h, work, memory.impulse, mean_v, mean_v, 0.0, memory.scratch, state.energy)
         state.energy[WALL] += loss
+        state.energy[MATERIAL] += step_branches(state.bending, mean_v, h, state.branches, state.stretch)
         if not end_step(state):
             return NOT_FINITE, k
     return SOLVED, last

@@ -28,6 +28,7 @@ class MoreauJean(Integrator):
     """A θ-scheme with the impact law at velocity level."""
 
     holds: ClassVar[bool] = True
+    hysteretic: ClassVar[bool] = True
     holds_zone: ClassVar[bool] = True
 
     theta: Annotated[

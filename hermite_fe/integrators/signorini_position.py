@@ -32,6 +32,7 @@ class SignoriniPosition(Integrator):
     """
 
     holds: ClassVar[bool] = True
+    hysteretic: ClassVar[bool] = True
     holds_zone: ClassVar[bool] = True
     elements_in_first_front: ClassVar[float] = 3.0
 

@@ -6,7 +6,8 @@ Solved for Δv: S Δv = h[F_θ − K(q + θhv) − Cv] + Gᵀp, S = M + θhC + �
 
     Δ(T + V) = h F_θᵀv_θ − h v_θᵀC v_θ + pᵀG(v + ½Δv) − (θ − ½)[Δvᵀ(MΔv − Gᵀp) + h² v_θᵀK v_θ]:
 
-the work of the loads, less viscous loss, less loss in impacts −pᵀG(v + ½Δv), less algorithmic loss.
+the work of the loads, less viscous loss, less loss in impacts −pᵀG(v + ½Δv), less algorithmic loss. Maxwell branches
+add to S, to the right side and to the energies (:mod:`hermite_fe.maxwell`).
 """
 
 from __future__ import annotations
@@ -28,8 +29,9 @@ from hermite_fe.constraints import (
     row_times,
     rows_times,
 )
+from hermite_fe.maxwell import add_branch_forces, step_branches, stiffen
 from hermite_fe.solver import prepare
-from hermite_fe.stepping import Matrices, Problem, State, add_energies, add_impulses, end_step, mean_forces
+from hermite_fe.stepping import MATERIAL, Matrices, Problem, State, add_energies, add_impulses, end_step, mean_forces
 
 __all__ = ["ThetaMemory", "take_steps", "theta_memory"]
 
@@ -109,14 +111,17 @@ def take_steps(
     conditions, b, dv, v_theta, mean_v, force, scratch = memory
     q, v = state.q, state.v
     for k in range(first, last):
-        t, h = times[k], times[k + 1] - times[k]
+        t, h, made_for = times[k], times[k + 1] - times[k], solver.step[0]
         h = prepare(
             solver, rows, matrices.M, matrices.C, matrices.K, theta * h, theta * theta * h * h, h, times[k + 1]
         )
+        if h != made_for:
+            stiffen(state.bending, h, theta, solver)
         find_held(rows, law, state.closed, t, conditions.held)
         impose(rows, conditions, q, v, h, theta, law.restitution, at_position)
         mean_forces(matrices.load, t, h, theta, force)
         right_side(matrices, q, v, force, h, theta, b, v_theta, scratch)
+        add_branch_forces(state.bending, state.branches, v, h, b)
         copy(state.closed, conditions.closed)
         status = solve_constrained(solver, rows, conditions, b, dv)
         if status != SOLVED:
@@ -130,6 +135,7 @@ def take_steps(
         add_impulses(state, conditions)
         note_complementarity(rows, conditions, dv, 1.0, theta * h if at_position else 1.0, state.worst)
         work = h * dot(force, v_theta)
+        state.energy[MATERIAL] += step_branches(state.bending, v_theta, h, state.branches, state.stretch)
         loss = algorithmic_loss(matrices, rows, conditions.p, dv, v_theta, h, theta, scratch)
         add_energies(matrices, rows, h, work, conditions.p, mean_v, v_theta, loss, scratch, state.energy)
         if not end_step(state):

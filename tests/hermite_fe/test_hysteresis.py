@@ -1,0 +1,143 @@
+"""hysteretic_loss: a loss that hardly depends on the frequency, by Maxwell branches."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from bent_beam import Impact
+from bent_beam.hysteresis import branches_of, first_mode
+from bent_beam.meshes import UniformMesh
+from exudyn_models import ExudynModel
+from hermite_fe import HermiteFE
+from hermite_fe.banded import product
+from hermite_fe.contacts import NodeContact
+from hermite_fe.far_fields import GridViscosity
+from hermite_fe.integrators import Midpoint, MoreauJean, SignoriniPosition
+from hermite_fe.integrators.generalized_alpha_penalty import GeneralizedAlphaPenalty
+from hermite_fe.model import BeamModel, beam_model
+from hermite_fe.run import Trajectory, integrate
+from measure.whole_impact import whole_impact
+from self_similar_fe import SelfSimilarFE
+from theory import predict
+
+
+def lossy(kappa: float, loss: float, times: float = 1.0, **more: object) -> Impact:
+    """The free–free beam in units of its half length, its loss stated at ``times`` the first mode."""
+    beam = Impact.whole_beam(kappa)
+    return beam.replace(hysteretic_loss=loss, loss_frequency=times * first_mode(beam), **more)
+
+
+def modelled(impact: Impact, elements: int) -> BeamModel:
+    nodes = UniformMesh(1.0 / elements).nodes(1.0)
+    return beam_model(impact, nodes, NodeContact(), GridViscosity(viscosity=0.0), full=False)
+
+
+@pytest.mark.parametrize("loss", [1e-4, 0.1, 0.3, 1.0])
+@pytest.mark.parametrize("times", [0.01, 1.0, 3e4])
+def test_the_loss_is_constant_within_a_tenth_over_the_stated_range_and_modulus_and_loss_hold_where_they_are_asked_for(
+    loss: float, times: float
+) -> None:
+    impact = lossy(2.0, loss, times)
+    assert impact.loss_frequency is not None
+    branches = branches_of(impact)
+    assert branches is not None and np.all(branches.shares >= 0.0)
+    assert branches.lowest <= min(0.1 * first_mode(impact), impact.loss_frequency) * 1.000001
+    assert branches.highest >= 1e6 * first_mode(impact) and branches.times.size <= 20
+    at = 2.0 * math.pi * np.append(np.geomspace(branches.lowest, branches.highest, 997), impact.loss_frequency)
+    wt = at[:, None] * branches.times
+    storage = branches.relaxed * (1.0 + (branches.shares * wt**2 / (1.0 + wt**2)).sum(axis=1))
+    lost = branches.relaxed * (branches.shares * wt / (1.0 + wt**2)).sum(axis=1)
+    assert np.abs(lost / storage / loss - 1.0).max() < 0.1
+    assert storage[-1] == pytest.approx(1.0, rel=1e-6) and lost[-1] == pytest.approx(loss, rel=1e-3)
+
+
+def test_the_first_mode_swings_at_its_frequency_and_loses_in_each_period_what_is_asked_for() -> None:
+    impact, loss = lossy(2.0, 0.05), 0.05
+    model = modelled(impact, 12)
+    x, z = model.beam.nodes, 4.730040744862704 / 2.0
+    shape = np.cos(z * x) / np.cos(z) + np.cosh(z * x) / np.cosh(z)
+    slope = z * (-np.sin(z * x) / np.cos(z) + np.sinh(z * x) / np.cosh(z))
+    away = model.beam.interpolate(np.full(x.size, -50.0), np.zeros(x.size))
+    period = 1.0 / first_mode(impact)
+    run = integrate(
+        model.system, away, model.beam.interpolate(shape, slope),
+        SignoriniPosition(theta=0.5, time_step=period / 800.0, growth=0.0), 8.0 * period, save=6400,
+    )  # fmt: skip
+    swing = run.q[:, -2] - run.q[:, 0]
+    turns = np.flatnonzero(np.diff(np.sign(np.diff(swing)))) + 1
+    turns = turns[4:]  # the branches have forgotten the start
+    widths = np.abs(np.diff(swing[turns]))
+    decrement = -2.0 * np.polyfit(np.arange(widths.size), np.log(widths), 1)[0]
+    assert decrement == pytest.approx(math.pi * loss, rel=0.02)
+    lasted = 2.0 * (run.time[turns[-1]] - run.time[turns[0]]) / (turns.size - 1)
+    assert lasted == pytest.approx(period, rel=2e-3)
+    # the moment is that of EI(1 + iη) at this frequency, not of the relaxed 0.87 EI
+    bent = 0.5 * widths[0] * z**2 * (1.0 / np.cosh(z) - 1.0 / np.cos(z)) / (2.0 - 1.0 / np.cos(z) - 1.0 / np.cosh(z))
+    assert run.largest_midspan_moment[turns[0] - 9 : turns[1] + 9].max() == pytest.approx(abs(bent), rel=0.05)
+
+
+def conserved(model: BeamModel, run: Trajectory) -> None:
+    """Energy to round-off, momentum too, and dashpots that only take."""
+    energy = run.kinetic[0]
+    assert np.abs(run.defect()).max() < 1e-11 * energy
+    uniform = np.zeros(model.system.dofs)
+    uniform[0::2] = 1.0
+    momentum = run.v @ product(model.system.mass, uniform)
+    gained = momentum - momentum[0] - float(uniform @ model.system.load[0]) * run.time
+    assert np.abs(gained + run.impulse.sum(axis=1)).max() < 1e-11 * momentum[0]
+    assert np.all(np.diff(run.material) > 0.0) and run.branches[-1] > 0.0
+
+
+@pytest.mark.parametrize(
+    ("integrator", "more"),
+    [
+        (MoreauJean(theta=0.7, time_step=1e-3, growth=0.0), {}),
+        (SignoriniPosition(theta=1.0, time_step=1e-3, growth=1e-2), {"axial_force": 3.0}),
+        (Midpoint(time_step=2e-3, growth=0.0), {"wall_stiffness": 1e3}),
+    ],
+)
+def test_energy_and_momentum_close_to_round_off_and_the_branches_take_their_share(integrator, more) -> None:
+    model = modelled(lossy(0.5, 0.2, **more), 10)
+    restitution = 0.5 if isinstance(integrator, MoreauJean) else 0.0
+    run = integrate(model.system, model.displacement, model.velocity, integrator, 0.6, restitution=restitution, save=40)
+    conserved(model, run)
+    assert run.material[-1] > 0.05 * run.kinetic[0]
+
+
+def test_who_has_no_branches_refuses_by_field_and_value() -> None:
+    impact = lossy(0.5, 0.1)
+    for method in (ExudynModel(), SelfSimilarFE()):
+        assert "hysteretic_loss is not modelled by this method (got 0.1): take the Hermite path" in str(
+            method.refuses(impact)
+        )
+    theory = predict(impact, 1e-3)
+    assert theory.valid_until == 0.0 and theory.limited_by == theory.times[0].spoiled_by == "hysteretic loss"
+    with pytest.raises(ValueError, match=r"integrator.kind: hysteretic_loss needs .*GeneralizedAlphaPenalty"):
+        HermiteFE(integrator=GeneralizedAlphaPenalty()).simulate(impact)
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ({"loss_frequency": None}, r"loss_frequency must say where .* \(got None\)"),
+        ({"loss_frequency": 1e-9}, r"loss_frequency must say where .* \(got 1e-09\)"),
+        ({"hysteretic_loss": 0.0}, "loss_frequency has no effect without hysteretic_loss"),
+        ({"hysteretic_loss": 1.5}, r"hysteretic_loss .*1.5"),
+        ({"damping": 1e-3}, "damping = 0.001 and hysteretic_loss = 0.1"),
+        ({"fourth_derivative": 0.1}, r"fourth_derivative must be 0 with hysteretic_loss.*0.1"),
+    ],
+)
+def test_contradictions_are_named(change, message) -> None:
+    with pytest.raises(ValueError, match=message):
+        lossy(0.5, 0.1).replace(**change)
+
+
+@pytest.mark.verify
+def test_restitution_of_a_lossy_beam_that_touches_at_one_point() -> None:
+    """κ/ν = 2, η = 0.1 at the first mode: 0.5736 on all meshes."""
+    for elements in (50, 100):
+        history = HermiteFE(mesh=UniformMesh(1.0 / elements)).simulate_to_separation(lossy(2.0, 0.1))
+        assert whole_impact(history).restitution == pytest.approx(0.5735, abs=1e-3)
