@@ -109,7 +109,7 @@ class Adapter:
         text = repr((self.arguments, self.install, self.debian)).encode()
         if self.host:
             text += repr((source_digest(), versions())).encode()
-        if self.file.suffix == ".py" and not (self.install or self.debian):  # with the modules beside it
+        elif self.file.suffix == ".py" and not (self.install or self.debian):  # with the modules beside it
             text += repr(behind([self.file], self.file.parent)).encode()
         return hashlib.sha256(self.file.read_bytes() + text).hexdigest()
 

@@ -112,8 +112,8 @@ class Problem:
     id : its name. kind : "leading", "point", "first", "bounce" or one of the ladder.
     kappa_over_nu : κ/ν. loads : (α, ψ, χ, n) with ν = 1, scaled by ``epsilon``; zeros at leading order.
     length : of the whole beam, ``None`` for an infinite one. damping : Kelvin–Voigt time η over T*.
-    end_time, fit_window : in t* (the ladder: in the problem's own unit of time). given : the numbers of a problem with a
-    table of its own: the ladder's lower rungs, elastic walls and stops.
+    end_time, fit_window : in t* (the ladder: in the problem's own unit of time). given : the numbers of a problem that
+    has a table of its own: the ladder's lower rungs, elastic walls and stops.
     """
 
     id: str

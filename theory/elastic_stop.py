@@ -5,15 +5,14 @@ w(L,t) = Σ q_j the equations are
 
     m_j q̈_j + m_j ω_j² q_j = −k max(w(L,t), 0),      ω_j = (β_j/L)²√(EI/μ),  tan β_j = tanh β_j,
 
-where m_0 = μL/3 and β_0 = 0 (rotation), and m_j = μL/4 for every other mode that is one at L: the integral of the square
-of a mode is ¼L times the square at an end that is free, and nothing comes from an end that is hinged. In either state
-the system is linear: the solution is exact but for the number of modes, from one change of state to the next. The case of
+where m_0 = μL/3 and β_0 = 0 (rotation), and m_j = μL/4 for every other mode that is one at L: the integral of the
+square of a mode is ¼L times its square at a free end, and a hinged end adds nothing. In either state the system is
+linear: from one change of state to the next the solution is exact but for the number of modes. This is the case of
 Code_Aster's test SDNL32 (V5.02.032), here without damping.
 """
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -51,23 +50,19 @@ class SwungBeam:
         time, found, now, pushed = np.linspace(0.0, end, SAMPLES + 1), np.zeros(SAMPLES + 1), 0.0, True
         while now < end:
             values, shapes = states[pushed]
-            rate = np.sqrt(np.maximum(values, 0.0))
-            at_tip, place, speed = root @ shapes, shapes.T @ z, shapes.T @ v
-
-            def moved(t: float) -> tuple[FloatArray, FloatArray]:
-                sine = t * np.sinc(rate * t / np.pi)
-                return place * np.cos(rate * t) + speed * sine, speed * np.cos(rate * t) - rate**2 * place * sine
-
+            motion = np.sqrt(np.maximum(values, 0.0)), shapes.T @ z, shapes.T @ v
+            at_tip = root @ shapes
             later = np.flatnonzero(time > now)
-            ahead = np.array([at_tip @ moved(t - now)[0] for t in time[later]])
+            ahead = np.array([_tip(t - now, at_tip, *motion) for t in time[later]])
             wrong = np.flatnonzero((ahead < 0.0) == pushed)
             count = int(wrong[0]) if wrong.size else later.size
             found[later[:count]] = ahead[:count]
             if not wrong.size:
                 break
             begin = float(time[later[count - 1]]) - now if count else 1e-9 * end
-            step = brentq(lambda t: float(at_tip @ moved(t)[0]), begin, float(time[later[count]]) - now, xtol=1e-16 * end)
-            z, v = (shapes @ part for part in moved(step))
+            until = float(time[later[count]]) - now
+            step = brentq(_tip, begin, until, args=(at_tip, *motion), xtol=1e-16 * end)
+            z, v = (shapes @ part for part in _moved(step, *motion))
             now, pushed = now + step, not pushed
         return time, found
 
@@ -77,3 +72,13 @@ class SwungBeam:
         k = min(max(int(found.argmax()), 1), found.size - 2)
         a, b, c = np.polyfit(time[k - 1 : k + 2] - time[k], found[k - 1 : k + 2], 2)
         return self.stop_stiffness * float(c - b * b / (4.0 * a)), float(time[k] - b / (2.0 * a))
+
+
+def _moved(t: float, rate: FloatArray, place: FloatArray, speed: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Places and speeds of oscillators of these rates after t; a rate of 0 is free motion."""
+    sine = t * np.sinc(rate * t / np.pi)
+    return place * np.cos(rate * t) + speed * sine, speed * np.cos(rate * t) - rate**2 * place * sine
+
+
+def _tip(t: float, at_tip: FloatArray, *motion: FloatArray) -> float:
+    return float(at_tip @ _moved(t, *motion)[0])

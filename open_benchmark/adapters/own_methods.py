@@ -7,7 +7,6 @@ uniform mesh and constant steps, the same for every problem, and contact that ma
 import dataclasses
 import json
 import sys
-import time
 import tomllib
 
 import numpy as np
@@ -64,7 +63,6 @@ def posed(given):
 
 
 def main(problem_file, result_file, resolution="medium", path="hermite", choice="chosen"):
-    began = time.perf_counter()
     with open(problem_file, "rb") as stream:
         given = tomllib.load(stream)
     load, end = {**given.get("impact", {}), **given.get("beam", {})}, given["record"]["end_time"]
@@ -85,7 +83,6 @@ def main(problem_file, result_file, resolution="medium", path="hermite", choice=
     x, last = history.positions(0), np.diff(history.time)[-1]
     about = {"tool": f"bent-beam-impact, {history.path}", "version": history.versions.get("bent-beam-impact", ""),
              "resolution": resolution, "steps": history.steps, "seconds": history.seconds,
-             "set_up_seconds": time.perf_counter() - began - history.seconds, "lines": len(open(__file__).readlines()),
              "settings": {"mesh and steps": choice, **history.settings},
              "model": {"theory": "Euler-Bernoulli", "half_length": float(np.abs(x).max()),
                        "smallest_element": float(np.diff(np.sort(x)).min()), "time_step": float(last),

@@ -139,25 +139,27 @@ def test_one_bad_adapter_is_a_row_and_only_what_changed_is_run_again(tmp_path, m
 
     def run():
         # relative to where one stands
-        return campaign([bad, none, fine], ["point-2"], Path("out"), limits=Limits(repeats=1))
+        return campaign([bad, none, fine], ["point-2"], Path("out"), limits=Limits(repeats=1), resolutions=["coarse"])
 
     run()
     rows = run()
-    assert (tmp_path / "log").read_text().split() == ["coarse", "medium", "fine"], "the second ran nothing again"
-    assert [r.score.outcome for r in rows] == ["crashed"] * 3 + ["not_installed"] * 3 + ["completed"] * 3
-    assert rows[3].score.reason == "bentbeam benchmark --install none"
+    assert (tmp_path / "log").read_text().split() == ["coarse"], "the second ran nothing again"
+    assert [r.score.outcome for r in rows] == ["crashed", "not_installed", "completed"]
+    assert rows[1].score.reason == "bentbeam benchmark --install none"
     assert abs(rows[-1].score.error("r0") or 1.0) < 1e-9
     page = write_page(rows, [bad, none, fine], tmp_path / "out").read_text()
-    assert {row.score.diagnosis[0].name for row in rows[-3:]} == {"too_exact"}
+    assert rows[-1].score.diagnosis[0].name == "too_exact"
     assert page.count("<svg") == 1 and "cannot" in page and "not installed" in page
     adapter(tmp_path, "good", good(tmp_path) + "# better")
     run()
-    assert len((tmp_path / "log").read_text().split()) == 6, "a changed adapter runs again"
+    assert len((tmp_path / "log").read_text().split()) == 2, "a changed adapter runs again"
 
 
 @pytest.mark.parametrize("name", ["source_digest", "versions"])
 def test_a_changed_solver_of_this_project_runs_again_and_no_foreign_one(monkeypatch, name):
     shipped = shipped_adapters()
+    for one in ("source_digest", "versions"):
+        monkeypatch.setattr(f"open_benchmark.adapter.{one}", lambda: "of today")
     before = {key: one.digest() for key, one in shipped.items()}
     monkeypatch.setattr(f"open_benchmark.adapter.{name}", lambda: "of tomorrow")
     assert {key for key, one in shipped.items() if one.digest() != before[key]} == {
@@ -230,5 +232,7 @@ def test_an_executable_in_any_language_is_an_adapter(tmp_path):
     file.write_text(f"#!{sys.executable}\n" + good(tmp_path))
     assert chosen_adapters(own=[file])[0].missing() == f"{file} is not executable"
     os.chmod(file, 0o755)
-    rows = campaign(chosen_adapters(own=[file]), ["point-2"], tmp_path / "out", resolutions=["coarse"])
-    assert rows[0].score.outcome == "completed"
+    run = run_adapter(
+        chosen_adapters(own=[file])[0], problem("point-2"), "coarse", tmp_path / "r.npz", Limits(repeats=1)
+    )
+    assert not run.outcome and (tmp_path / "r.npz").is_file()
