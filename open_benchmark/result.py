@@ -251,8 +251,8 @@ def _nodes(
 ) -> tuple[tuple[Array | None, Array | None], dict[str, Array]]:
     """Raw nodal histories, and the wall's impulse, its moment and its tensile part, added up from them.
 
-    A model of one half (no point at x < 0) of a symmetric problem stands for both. Tension is by how much a point falls,
-    over one of ``INTERVALS``, below what it had at both ends of the one before: a scheme may give and take back.
+    A model of one half (no point at x < 0) of a symmetric problem stands for both. Tension is by how much a point
+    falls, over one of ``INTERVALS``, below what it had at both ends of the one before: a scheme may give and take back.
     """
     given = [name for name in ("node_x", "node_impulse") if name in fields]
     if not given:

@@ -1,7 +1,7 @@
 """Drake: a chain of rigid links, springs and dampers in its hinges, discrete contact by the SAP solver.
 
-From its documentation: a discrete plant; rigid contact is "approximated with very stiff compliance" (Modeling Compliant
-Contact), which SAP bounds by itself: sap_near_rigid_threshold = 1 is "a conservative choice", and where it softens
+From its documentation: a discrete plant; rigid contact is "approximated with very stiff compliance" (Contact Modeling
+in Drake), which SAP bounds by itself: sap_near_rigid_threshold = 1 is "a conservative choice", and where it softens
 too much 0 is advised (MultibodyPlantConfig): errors here are the same to 0.002 %. DiscreteContactApproximation prefers
 kSimilar for strong transients because of friction, which is absent here; the approximations then differ in damping
 alone. Tried on the coarse chain: kSimilar with Hunt and Crossley's d = 10 to 1000/V0 is as good without loads (r0 +0.05

@@ -1,8 +1,8 @@
 """MuJoCo: a chain of rigid links with springs and dampers in its hinges, soft contact made stiff.
 
-From its documentation (pages: adapters.toml): discrete, the integrator for stiff springs together with contacts;
-speculative contacts, which act on the gap at the end of the step, for geoms that travel by more than half their size
-in one: so the spheres are a tenth of a step's way; solref's time constant "at least two times larger than the
+From its documentation (pages: adapters.toml): discrete, the integrator that is implicit in the stiffness of springs;
+speculative contacts, which act on the gap at the end of the step, for geoms that are fast for their size: so the
+spheres are a tenth of a step's way; solref's time constant "at least two times larger than the
 simulation time step" and a damping ratio that "would normally be set to 1": the stiffest of that; an impedance that is
 constant and as close to one as MuJoCo lets it be (0.9999), which gives the least penetration; condim 1 on both geoms,
 because the larger counts; Newton's solver, its default, without an early stop.

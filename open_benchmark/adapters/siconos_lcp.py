@@ -1,11 +1,10 @@
 """Siconos: Hermite beam elements, Moreau and Jean's time stepping, an LCP over the nodes' contacts.
 
 As in its own example (siconos-tutorials, examples/mechanics/FEM/ImpactingEulerBernouilliBeam): LagrangianLinearTIDS
-with the user's matrices, one Interaction a node, NewtonImpactNSL with restitution 0, TimeStepping with MoreauJeanOSI,
-"the work horse" of its schemes (MoreauJeanOSI.hpp), and an LCP. The example takes theta = 1/2 to keep energy; here
-theta = 1: "theta > 1/2 offers better stability" where the dynamics are stiff (devel_guide/notes/DevNotes.rst). Tried on
-the coarse mesh and no better: theta = 1/2 (r0 +0.4, lambda0 -0.7 %), gamma = 1, four times shorter steps, projection on
-the gaps (TimeSteppingDirectProjection, TimeSteppingCombinedProjection: lambda0 -0.3 % as without). Matrices are dense.
+with the user's matrices, one Interaction a node, NewtonImpactNSL with restitution 0, TimeStepping with MoreauJeanOSI
+and an LCP. theta = 1 damps the short waves of the mesh. Tried on the coarse mesh and no better: theta = 1/2 (r0 +0.4,
+lambda0 -0.7 %), gamma = 1, four times shorter steps, projection on the gaps (TimeSteppingDirectProjection,
+TimeSteppingCombinedProjection: lambda0 -0.3 % as without). Matrices are dense.
 """
 
 import json
