@@ -126,6 +126,7 @@ def shipped_adapters() -> dict[str, Adapter]:
         tables = tomllib.load(stream)
     found = {}
     for name, table in tables.items():
+        table = tables.get(table.get("environment"), {}) | table
         fields: dict[str, Any] = {key: tuple(v) if isinstance(v, list) else v for key, v in table.items()}
         fields["manual"] = tuple((statement, page) for statement, page in table.get("manual", ()))
         found[name] = Adapter(name, ADAPTERS / fields.pop("file"), **fields)

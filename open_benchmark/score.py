@@ -21,7 +21,7 @@ from open_benchmark.judgement import LIMITS, Finding, Score
 from open_benchmark.references import reference
 from open_benchmark.result import Array, Result, ResultError
 
-__all__ = ["resolution_ignored", "score", "work_precision"]
+__all__ = ["resolution_ignored", "score"]
 
 
 def score(result: Result, base: Result | None = None) -> Score:
@@ -248,18 +248,3 @@ def resolution_ignored(scores: Sequence[Score]) -> list[Score]:
     flagged = [id(found) for group in alike.values() if len(group) >= 3 for found in group]
     finding = Finding("too_exact", "the very same numbers at three resolutions", "mesh and steps that differ")
     return [found.with_diagnosis(finding) if id(found) in flagged else found for found in scores]
-
-
-def work_precision(scores: Sequence[Score]) -> list[dict[str, Any]]:
-    """Points of the work–precision line: seconds, steps and relative errors of the results of one code and problem."""
-    points = [
-        {
-            "problem": found.problem,
-            "resolution": found.metadata.get("resolution"),
-            "seconds": found.seconds,
-            "steps": found.metadata.get("steps"),
-            "errors": {name: found.error(name) for name in found.measured},
-        }
-        for found in scores
-    ]
-    return sorted(points, key=lambda point: (point["problem"], point["seconds"] is None, point["seconds"] or 0.0))
