@@ -14,7 +14,9 @@ from open_benchmark.campaign import STANDARD, campaign
 from open_benchmark.draw import drawn
 from open_benchmark.page import write_page
 from open_benchmark.problem import problem
+from open_benchmark.reading import load_result
 from open_benchmark.running import Limits, run_adapter
+from open_benchmark.score import score
 
 GOOD = """
 import sys, numpy as np
@@ -96,7 +98,9 @@ def test_a_killed_command_takes_its_adapter_and_its_folder_along(tmp_path):
 from pathlib import Path
 from open_benchmark.adapter import Adapter
 from open_benchmark.problem import problem
+from open_benchmark.reading import load_result
 from open_benchmark.running import Limits, run_adapter
+from open_benchmark.score import score
 slow = Adapter("slow", Path({str(tmp_path / "slow.py")!r}))
 run_adapter(slow, problem("point-2"), "coarse", Path("kept/r.npz"), Limits())
 """
@@ -131,6 +135,13 @@ def _alive(number):
         return False
 
 
+@pytest.fixture
+def alone(monkeypatch):
+    """Adapters without modules of their own beside them: to look for those takes longer than to run the adapter."""
+    monkeypatch.setattr("open_benchmark.adapter.behind", lambda files, folder: [])
+
+
+@pytest.mark.usefixtures("alone")
 def test_one_bad_adapter_is_a_row_and_only_what_changed_is_run_again(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     fine = adapter(tmp_path, "good", good(tmp_path))
@@ -191,6 +202,7 @@ DECLARED = NODES.replace('nodes = {"node_x": np.r_[0.0, 1e-9], "node_impulse": n
 CHEAT = "import theory\n" + NODES
 
 
+@pytest.mark.usefixtures("alone")
 def test_only_nodal_histories_of_drawn_problems_are_verified_and_theory_is_out_of_reach(tmp_path):
     names = {"clean": NODES, "declared": DECLARED, "cheat": CHEAT}
     adapters = [adapter(tmp_path, name, source) for name, source in names.items()]
@@ -237,3 +249,12 @@ def test_an_executable_in_any_language_is_an_adapter(tmp_path):
         chosen_adapters(own=[file])[0], problem("point-2"), "coarse", tmp_path / "r.npz", Limits(repeats=1)
     )
     assert not run.outcome and (tmp_path / "r.npz").is_file()
+
+
+@pytest.mark.verify
+@pytest.mark.parametrize("name", ["elastic-wall-0.5-0", "elastic-wall-0.1-0.5", "elastic-stop-45000"])
+def test_two_ways_give_one_largest_force(tmp_path, name):
+    """The theory's, by a Volterra equation or modes, and that of Hermite elements as an adapter."""
+    run_adapter(shipped_adapters()["hermite"], problem(name), "coarse", tmp_path / "r.npz", Limits(repeats=1))
+    found = score(load_result(tmp_path / "r.npz"))
+    assert abs(found.error("peak_force") or 1.0) < 2e-4 and found.outcome == "completed"
