@@ -109,7 +109,7 @@ class Adapter:
         text = repr((self.arguments, self.install, self.debian)).encode()
         if self.host:
             text += repr((source_digest(), versions())).encode()
-        if self.file.suffix == ".py" and not (self.install or self.debian):  # with the modules beside it
+        elif self.file.suffix == ".py" and not (self.install or self.debian):  # with the modules beside it
             text += repr(behind([self.file], self.file.parent)).encode()
         return hashlib.sha256(self.file.read_bytes() + text).hexdigest()
 
@@ -126,6 +126,7 @@ def shipped_adapters() -> dict[str, Adapter]:
         tables = tomllib.load(stream)
     found = {}
     for name, table in tables.items():
+        table = tables.get(table.get("environment"), {}) | table
         fields: dict[str, Any] = {key: tuple(v) if isinstance(v, list) else v for key, v in table.items()}
         fields["manual"] = tuple((statement, page) for statement, page in table.get("manual", ()))
         found[name] = Adapter(name, ADAPTERS / fields.pop("file"), **fields)

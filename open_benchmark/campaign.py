@@ -102,11 +102,12 @@ def campaign(
     asked = [problem(name) for name in [*with_bases(problems), *drawn_ids]]
     pairs = [(adapter, item) for adapter in adapters for item in asked if adapter.takes(item)]
     runs = [(adapter, item, resolution) for adapter, item in pairs for resolution in resolutions]
+    digests = {adapter.name: adapter.digest() for adapter in adapters}
     for done, (adapter, item, resolution) in enumerate(runs):
         if progress:
             progress(done, len(runs))
         kept = _kept(out, adapter.name, item.id, resolution)
-        decisive = json.dumps([adapter.digest(), problem_text(item), resolution, asdict(limits)])
+        decisive = json.dumps([digests[adapter.name], problem_text(item), resolution, asdict(limits)])
         key = hashlib.sha256(decisive.encode()).hexdigest()
         old = _stored_row(kept)
         if old.get("key") != key or old.get("outcome") in AGAIN:

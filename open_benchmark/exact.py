@@ -1,7 +1,8 @@
 """Exact references from the theory, for open_benchmark.release and for problems of other parameters.
 
 The infinite beam: ``theory.contact``. The ladder: ``theory.ladder``, whose J(t) is polynomial between
-impacts, at most quadratic. The stopped beam: ``theory.stopped_beam``, as a cubic spline over τ^¼.
+impacts, at most quadratic. The stopped beam: ``theory.stopped_beam``, as a cubic spline over τ^¼. Walls and stops that
+give way: ``theory.elastic_wall``, ``theory.elastic_stop``, with error bars.
 """
 
 from __future__ import annotations
@@ -12,13 +13,16 @@ from typing import Any
 import numpy as np
 from scipy.interpolate import CubicSpline
 
-from open_benchmark.problem import LADDER, Problem
+from open_benchmark.problem import Problem
 from theory import contact_parameters
+from theory.elastic_stop import MODES, SwungBeam
+from theory.elastic_wall import peak_force
 from theory.ladder import BouncingBall, DroppedBar, FlyingBar, ReleasedBar, StringOnObstacle
 from theory.stopped_beam import StoppedBeam
 
 __all__ = ["computed"]
 
+PEAK_TIME = 0.01  # to which the theory finds when the force of an elastic wall is largest
 KNOTS = 300  # of the stopped beam's spline: its J is within 1e-6 of the closed form
 
 
@@ -26,6 +30,8 @@ def computed(asked: Problem) -> dict[str, Any]:
     """The references of a problem, as they stand in ``references.json``."""
     if asked.is_front:
         return {"values": _front(asked)}
+    if asked.kind.startswith("elastic"):
+        return _largest_force(asked)
     if asked.kind == "stopped-beam":
         return {"impulse": _stopped_beam(asked)}
     return {"impulse": _rung(asked)}
@@ -38,6 +44,18 @@ def _front(asked: Problem) -> dict[str, float]:
     return {name: float(getattr(found, name)) for name in names}
 
 
+def _largest_force(asked: Problem) -> dict[str, Any]:
+    """Of a wall that gives way, by a Volterra equation; of a stop, by modes: the bar is what half of them change."""
+    if asked.kind == "elastic-wall":
+        peak = peak_force(asked.kappa_over_nu, asked.given["wall_damping"] / 2.0)
+        values, errors = (peak.value, peak.time), (peak.error, PEAK_TIME * peak.time)
+    else:
+        values, few = (SwungBeam(**asked.given, modes=n).peak_force(asked.end_time) for n in (MODES, MODES // 2))
+        errors = abs(values[0] - few[0]), abs(values[1] - few[1])
+    names = ("peak_force", "peak_time")
+    return {"values": dict(zip(names, values)), "errors": dict(zip(names, errors))}
+
+
 def _stopped_beam(asked: Problem) -> dict[str, Any]:
     roots = np.linspace(0.0, asked.end_time**0.25, KNOTS)
     impulse = np.concatenate([[0.0], StoppedBeam(asked.damping).impulse(roots[1:] ** 4)])
@@ -46,7 +64,7 @@ def _stopped_beam(asked: Problem) -> dict[str, Any]:
 
 def _rung(asked: Problem) -> dict[str, Any]:
     """J between the instants at which its formula changes: the parabola through three points of each piece."""
-    given, end = LADDER[asked.kind]
+    given, end = asked.given, asked.end_time
     if "restitution" in given and "mass" in given:
         ball = BouncingBall(**{name: given[name] for name in ("height", "velocity", "gravity", "restitution")})
         events, impulse = [*ball.impact_time(np.arange(1, 60)), ball.rest], lambda t: given["mass"] * ball.impulse(t)

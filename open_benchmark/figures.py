@@ -20,6 +20,7 @@ from open_benchmark.problem import problem
 __all__ = ["MEASURES", "svg", "work_precision_figures"]
 
 MEASURES = {"lambda0": "λ₀", "r0": "r₀", "lambda1": "λ₁", "r1": "r₁", "restitution": "e", "impulse_error": "J(t)"}
+MEASURES |= {"peak_force": "the largest force", "peak_time": "its time"}
 MARKS = "osD^vP*<>hp8d"
 LEAST = 1e-7  # relative error that a figure still shows
 

@@ -7,7 +7,6 @@ from dataclasses import asdict, dataclass, field, replace
 from typing import Any
 
 from measure.measured import Measured
-from open_benchmark.result import plain_number
 
 __all__ = ["LIMITS", "PART", "Finding", "Score", "invalid"]
 
@@ -99,12 +98,6 @@ class Score:
     def gained(self) -> float | None:
         """Largest gain of energy over J V₀."""
         return (self.energy or {}).get("gained")
-
-    @property
-    def seconds(self) -> float | None:
-        """Of the time loop, as the adapter reports them; ``None`` when it does not."""
-        seconds = plain_number(self.metadata.get("seconds"))
-        return seconds if seconds is not None and seconds > 0.0 else None
 
     def to_dict(self) -> dict[str, Any]:
         """Ready for JSON: finite numbers or ``None``."""

@@ -87,7 +87,7 @@ def _of_system(name: str, run: Trajectory, floor: float = 0.0) -> Found:
 
 def _ball(scheme: Scheme, refine: int) -> Found:
     """A unit mass dropped from ½ with restitution 1: ten impacts by t = 20."""
-    given, end = LADDER["ball"]
+    _, given, end = LADDER["ball"]
     one = np.ones((1, 1))
     weight = given["mass"] * given["gravity"]
     contacts = ContactRows(np.array([[0]]), one, np.zeros(1))
@@ -112,7 +112,7 @@ def _line(cells: int, tangent: float, line: float) -> tuple[Array, Array]:
 
 def _bar(scheme: Scheme, refine: int, name: str = "bar") -> Found:
     """A bar flying or falling at the wall, in contact for 2L/c, off again at the speed it came with."""
-    given, end = LADDER[name]
+    _, given, end = LADDER[name]
     cells, length = CELLS * refine, given["length"]
     mass, stiffness = _line(cells, given["axial_stiffness"] / length, given["mass_per_length"] * length)
     contacts = ContactRows(np.array([[0]]), np.ones((1, 1)), np.array([given["gap"]]))
@@ -125,7 +125,7 @@ def _bar(scheme: Scheme, refine: int, name: str = "bar") -> Found:
 
 def _string(scheme: Scheme, refine: int) -> Found:
     """A string that lands all at once, elastically, four times."""
-    given, end = LADDER["string"]
+    _, given, end = LADDER["string"]
     cells = CELLS * refine
     mass, stiffness = _line(cells, given["tension"], given["mass_per_length"])
     contacts = ContactRows(np.arange(1, cells)[:, None], np.ones((cells - 1, 1)), np.zeros(cells - 1))

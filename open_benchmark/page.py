@@ -24,7 +24,14 @@ from open_benchmark.properties import in_words, properties
 __all__ = ["document", "errors_table", "write_page"]
 
 TEMPLATES = Path(__file__).parent / "templates"
-IN_SHORT = ("lambda0", "r0", "restitution", "impulse_error")  # of the table of errors, where no loads act
+IN_SHORT = (
+    "lambda0",
+    "r0",
+    "restitution",
+    "impulse_error",
+    "peak_force",
+    "peak_time",
+)  # of the table of errors, where no loads act
 
 
 def document(rows: Sequence[Row], adapters: Sequence[Adapter], seed: int | None = None) -> dict[str, Any]:

@@ -7,9 +7,11 @@
     stopped-beam           the same until its first release: one point that holds
     ball  chattering-ball  bar  released-bar  bouncing-bar  string
                            the ladder's lower rungs: closed forms without bending
+    elastic-wall-K-Z       the infinite beam on a wall that gives way, κ/ν = K, ζ = c/(2√(kμ)) = Z: the largest force
+    elastic-stop-S         a hinged beam swung on a stop of stiffness S, N/m: the largest force
 
-All problems are posed in units that make the stiffness, the mass and the velocity one, in which every reference is
-known. A file holds no reference value and nothing numerical.
+All problems but those with a table of their own are posed in units that make the stiffness, the mass and the velocity
+one, in which every reference is known. A file holds no reference value and nothing numerical.
 """
 
 from __future__ import annotations
@@ -17,7 +19,7 @@ from __future__ import annotations
 import json
 import math
 import re
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cache
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -40,13 +42,16 @@ IDS = {
         ("point", 1, ""),
         ("first", 4, f"(?:-{NUMBER})?"),
         ("bounce", 2, ""),
+        ("elastic-wall", 2, ""),
+        ("elastic-stop", 1, ""),
     )
 }
 
 
 class Rung(NamedTuple):
-    """A problem of the ladder without bending: the given numbers, and the end of the record, in units of its own."""
+    """A problem of the ladder without bending: in words, the given numbers and the end of the record in its units."""
 
+    words: str
     given: dict[str, Any]
     end_time: float
 
@@ -54,33 +59,49 @@ class Rung(NamedTuple):
 BAR = {"axial_stiffness": 1.0, "mass_per_length": 1.0, "length": 1.0}
 LADDER = {
     # lands at t = 1, and again every 2: ten impacts by the end
-    "ball": Rung({"mass": 1.0, "gravity": 1.0, "height": 0.5, "velocity": 0.0, "restitution": 1.0}, 20.0),
+    "ball": Rung(
+        "bouncing ball, ten elastic impacts",
+        {"mass": 1.0, "gravity": 1.0, "height": 0.5, "velocity": 0.0, "restitution": 1.0},
+        20.0,
+    ),
     # infinitely many impacts until it rests at t = 3
-    "chattering-ball": Rung({"mass": 1.0, "gravity": 1.0, "height": 0.5, "velocity": 0.0, "restitution": 0.5}, 4.0),
+    "chattering-ball": Rung(
+        "ball that comes to rest after infinitely many impacts",
+        {"mass": 1.0, "gravity": 1.0, "height": 0.5, "velocity": 0.0, "restitution": 0.5},
+        4.0,
+    ),
     # in contact from 0.5 to 2.5
     "bar": Rung(
+        "elastic bar that meets the wall end on and leaves",
         {**BAR, "velocity": 1.0, "gap": 0.5, "gravity": 0.0, "shape": "0", "far_end": "free"},
         3.0,
     ),
     # held at its far end, let go stretched: in contact from 1 to 2, 4 to 5, 7 to 8
     "released-bar": Rung(
+        "bar let go from stretched in front of the wall",
         {**BAR, "velocity": 0.0, "gap": 0.0, "gravity": 0.0, "shape": "(length - x)/(2 length)", "far_end": "held"},
         8.5,
     ),
     # the bouncing bar of Doyen, Ern and Piperno (2011): two periods of 16/3
     "bouncing-bar": Rung(
+        "elastic bar that falls on the floor, twice",
         {"axial_stiffness": 900.0, "mass_per_length": 1.0, "length": 10.0, "velocity": 0.0, "gap": 5.0}
         | {"gravity": 10.0, "shape": "0", "far_end": "free"},
         11.0,
     ),
     # lands on the obstacle through its ends at 0.5, 1.5, 2.5 and 3.5
     "string": Rung(
+        "string that lands on an obstacle all at once, four times",
         {"tension": 1.0, "mass_per_length": 1.0, "length": 1.0, "height": 1.0}
         | {"shape": "4 height x (length - x)/length^2", "velocity": 0.0, "ends": "fixed", "obstacle": 0.0}
         | {"restitution": 1.0},
         4.0,
     ),
 }
+# Code_Aster's test SDNL32 (V5.02.032), without damping: a square bar of 14 mm, E = 67 GPa, in SI units
+SWUNG = {"bending_stiffness": 6.7e10 * 0.014**4 / 12.0, "mass_per_length": 2400.0 * 0.014**2, "length": 0.783}
+SWUNG |= {"angular_velocity": 3.8}
+SWUNG_END = 0.012  # s
 STOPPED_DAMPING, STOPPED_END = 0.01, 0.1  # the wall first lets go at 0.1516
 
 
@@ -91,7 +112,8 @@ class Problem:
     id : its name. kind : "leading", "point", "first", "bounce" or one of the ladder.
     kappa_over_nu : κ/ν. loads : (α, ψ, χ, n) with ν = 1, scaled by ``epsilon``; zeros at leading order.
     length : of the whole beam, ``None`` for an infinite one. damping : Kelvin–Voigt time η over T*.
-    end_time, fit_window : in t* (the ladder: in the problem's own unit of time).
+    end_time, fit_window : in t* (the ladder: in the problem's own unit of time). given : the numbers of a problem that
+    has a table of its own: the ladder's lower rungs, elastic walls and stops.
     """
 
     id: str
@@ -103,6 +125,7 @@ class Problem:
     damping: float = 0.0
     end_time: float = END
     snapshots: tuple[float, ...] = (0.02, 0.05, 0.1)
+    given: dict[str, Any] = field(default_factory=dict, hash=False)
 
     @property
     def fit_window(self) -> tuple[float, float]:
@@ -115,9 +138,9 @@ class Problem:
         return self.kind in ("leading", "point", "first")
 
     @property
-    def is_rung(self) -> bool:
-        """A problem of the ladder without bending."""
-        return self.kind in LADDER
+    def is_symmetric(self) -> bool:
+        """Whether one half of the beam, x ≥ 0, may stand for both."""
+        return not self.given or self.kind == "elastic-wall"
 
     @property
     def largest_half_length(self) -> float:
@@ -172,7 +195,7 @@ def problem(name: str) -> Problem:
     if not isinstance(name, str) or len(name) > 200:
         raise InputError(f"problem: {shortened(name)} is not the id of a problem")
     if name in LADDER:
-        return Problem(name, name, end_time=LADDER[name].end_time, snapshots=())
+        return Problem(name, name, end_time=LADDER[name].end_time, snapshots=(), given=LADDER[name].given)
     if name == "stopped-beam":
         end, half = STOPPED_END, (0.5 * STOPPED_END,)
         return Problem(name, name, 2.0, length=2.0, damping=STOPPED_DAMPING, end_time=end, snapshots=half)
@@ -183,14 +206,22 @@ def problem(name: str) -> Problem:
             except ValueError as error:
                 raise InputError(f"problem: {name}: {error}") from None
     raise InputError(
-        f"problem: {shortened(name)} is not the id of a problem (leading-K, point-K, first-K-A-P-C[-N], "
-        f"bounce-K-D, {', '.join(LADDER)}, stopped-beam; shipped: {', '.join(shipped_ids())})"
+        f"problem: {shortened(name)} is not the id of a problem (leading-K, point-K, first-K-A-P-C[-N], bounce-K-D, "
+        f"elastic-wall-K-Z, elastic-stop-S, {', '.join(LADDER)}, stopped-beam; shipped: {', '.join(shipped_ids())})"
     )
 
 
 def _of_numbers(name: str, kind: str, numbers: list[float]) -> Problem:
     """The problem of an id with the numbers in it. Raises ``ValueError``."""
+    if kind == "elastic-stop":
+        given = {**SWUNG, "stop_stiffness": positive("S", numbers[0])}
+        return Problem(name, kind, end_time=SWUNG_END, snapshots=(), given=given)
     kappa = positive("K", numbers[0])
+    if kind == "elastic-wall":
+        units = {name: 1.0 for name in ("bending_stiffness", "mass_per_length", "velocity", "wall_stiffness")}
+        given = {**units, "curvature": kappa, "wall_damping": 2.0 * non_negative("Z", numbers[1])}
+        # as long as a force may last: that of a straight beam is over at π, a sharp one's grows with κ^¼
+        return Problem(name, kind, kappa, end_time=4.0 * max(1.0, kappa**0.25), snapshots=(), given=given)
     if kind == "bounce":
         damping = non_negative("D", numbers[1])
         # the last contact is before T* for every κ/ν that was tried (whole-impact study); half as much again is free
@@ -227,8 +258,9 @@ def _tables(asked: Problem) -> dict[str, dict[str, Any]]:
         "fit_window": list(asked.fit_window),
         "snapshots": list(asked.snapshots),
     }
-    if asked.kind in LADDER:
-        return {asked.kind.rpartition("-")[2]: LADDER[asked.kind].given, "record": record}
+    if asked.given:
+        table = asked.kind.rpartition("-")[2] if asked.kind in LADDER else asked.kind.replace("-", "_")
+        return {table: asked.given, "record": record}
     alpha, psi, chi, axial = (asked.epsilon * value for value in asked.loads)
     reach = asked.largest_half_length
     return {

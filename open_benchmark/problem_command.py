@@ -25,7 +25,7 @@ def problem(
         str,
         typer.Argument(
             metavar="ID",
-            help="leading-K, point-K, first-K-A-P-C[-N], bounce-K-D, stopped-beam, or one of the ladder: ball, bar, …",
+            help="leading-K, point-K, first-K-A-P-C[-N], bounce-K-D, elastic-wall-K-Z, elastic-stop-S, ball, bar, …",
             autocompletion=problem_ids,
         ),
     ],

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from open_benchmark.adapter import RESOLUTIONS
 from open_benchmark.campaign import Row
 from open_benchmark.judgement import Score
-from open_benchmark.problem import Problem, problem
+from open_benchmark.problem import LADDER, Problem, problem
 
 __all__ = ["PROPERTIES", "in_words", "properties"]
 
@@ -20,16 +20,16 @@ WORDS = {
     "first": "infinite beam, κ/ν = {p.kappa_over_nu:g}, first order in the loads (α, ψ, χ, n) = ({loads}): {regime}",
     "bounce": "free beam, κ/ν = {p.kappa_over_nu:g}, damping η/T* = {p.damping:g}, until it has left the wall",
     "stopped-beam": "free beam with damping, before the wall first lets go",
-    "ball": "bouncing ball, ten elastic impacts",
-    "bar": "elastic bar that meets the wall end on and leaves",
-    "string": "string that lands on an obstacle all at once",
-}
+    "elastic-wall": "infinite beam on a wall that gives way, κ/ν = {p.kappa_over_nu:g}, ζ = {ratio:g}",
+    "elastic-stop": "hinged beam swung on a stop of {p.given[stop_stiffness]:g} N/m",
+} | {name: rung.words for name, rung in LADDER.items()}
 
 
 def in_words(asked: Problem) -> str:
     """A problem in words, for a heading."""
     loads = ", ".join(f"{value:g}".replace("-", "−") for value in asked.loads)
-    return WORDS[asked.kind].format(p=asked, loads=loads, regime=_regime(asked))
+    ratio = asked.given.get("wall_damping", 0.0) / 2.0
+    return WORDS[asked.kind].format(p=asked, loads=loads, regime=_regime(asked), ratio=ratio)
 
 
 def _regime(asked: Problem) -> str:

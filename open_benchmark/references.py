@@ -1,4 +1,4 @@
-"""Values that results are held against, as data: ``references.json`` (schema beam-impact-references/1).
+"""Values that results are held against, as data: ``references.json`` (schema beam-impact-references/2).
 
 Exact numbers of the infinite beam and of the ladder stand in ``references.json``, for the problems that are shipped, so
 that scoring needs no theory. A problem of other parameters has its references computed (open_benchmark.exact). A whole
@@ -27,7 +27,7 @@ __all__ = ["BOUNCES", "REFERENCES", "SCHEMA", "Reference", "reference", "stored"
 
 BOUNCES = Path(__file__).with_name("bounce_reference.json")
 REFERENCES = Path(__file__).with_name("references.json")
-SCHEMA = "beam-impact-references/1"
+SCHEMA = "beam-impact-references/2"
 VARIABLES: dict[str, Callable[[Any], Any]] = {"time": np.asarray, "fourth root of time": lambda t: np.sqrt(np.sqrt(t))}
 
 Array = NDArray[np.float64]
@@ -56,7 +56,9 @@ def reference(asked: Problem) -> Reference:
         from open_benchmark.exact import computed
 
         known = computed(asked)
-    return Reference(known.get("values", {}), _impulse(known["impulse"]) if "impulse" in known else None)
+    impulse = _impulse(known["impulse"]) if "impulse" in known else None
+    errors = known.get("errors", {})
+    return Reference(known.get("values", {}), impulse, errors, "open_benchmark.exact" if errors else "")
 
 
 def _impulse(table: Mapping[str, Any]) -> Callable[[Array], Array]:

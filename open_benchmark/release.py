@@ -22,6 +22,7 @@ SHIPPED = (
     *(f"leading-{kappa:g}" for kappa in (0.1, 0.25, 0.5, 0.8)),
     *(f"first-0.5-{loads}" for loads in ("-0.5-0-0-1", "-1--1-0", "1-1-1", "4-0-0")),
     *("point-2", *LADDER, "stopped-beam", "bounce-0.5-1e-3", "bounce-2-1e-3"),
+    *("elastic-wall-0.5-0", "elastic-wall-0.1-0.5", "elastic-stop-18000", "elastic-stop-45000"),
 )
 
 

@@ -141,7 +141,7 @@ def result_from_fields(fields: Mapping[str, Any]) -> Result:
     if match[1] != "completed":
         return Result(match[1], detail, asked, metadata)
     tau = _instants(fields, asked)
-    raw, added = _nodes(fields, tau)
+    raw, added = _nodes(fields, tau, asked.is_symmetric)
     needed = ("J", "Jm") if asked.is_front else ("J",)
     declared = [name for name in SERIES if name not in added and (name in fields or name in needed)]
     series = added | {name: _series(fields, name, tau.size) for name in declared}
@@ -246,11 +246,13 @@ def _numbers(fields: Mapping[str, Any], name: str) -> Array:
     return array
 
 
-def _nodes(fields: Mapping[str, Any], tau: Array) -> tuple[tuple[Array | None, Array | None], dict[str, Array]]:
+def _nodes(
+    fields: Mapping[str, Any], tau: Array, symmetric: bool
+) -> tuple[tuple[Array | None, Array | None], dict[str, Array]]:
     """Raw nodal histories, and the wall's impulse, its moment and its tensile part, added up from them.
 
-    A model of one half (no point at x < 0) stands for both. Tension is by how much a point falls, over one of
-    ``INTERVALS``, below what it had at both ends of the one before: a scheme may give too much and take it back.
+    A model of one half (no point at x < 0) of a symmetric problem stands for both. Tension is by how much a point
+    falls, over one of ``INTERVALS``, below what it had at both ends of the one before: a scheme may give and take back.
     """
     given = [name for name in ("node_x", "node_impulse") if name in fields]
     if not given:
@@ -260,7 +262,7 @@ def _nodes(fields: Mapping[str, Any], tau: Array) -> tuple[tuple[Array | None, A
         raise ResultError(
             f"node_impulse must have shape ({tau.size}, points of node_x) (got {impulse.shape}, {x.shape})"
         )
-    sides = 1.0 if x.min() < -1e-9 * np.abs(x).max() else 2.0
+    sides = 2.0 if symmetric and x.min() >= -1e-9 * np.abs(x).max() else 1.0
     ends = np.unique(np.searchsorted(tau, np.linspace(0.0, tau[-1], INTERVALS + 1)))
     kept = impulse[ends]
     lost = np.maximum(np.minimum(kept[:-2], kept[1:-1]) - kept[2:], 0.0).sum(axis=1).cumsum()

@@ -21,7 +21,7 @@ from open_benchmark.judgement import LIMITS, Finding, Score
 from open_benchmark.references import reference
 from open_benchmark.result import Array, Result, ResultError
 
-__all__ = ["resolution_ignored", "score", "work_precision"]
+__all__ = ["resolution_ignored", "score"]
 
 
 def score(result: Result, base: Result | None = None) -> Score:
@@ -172,7 +172,7 @@ def _ratios(result: Result) -> dict[str, float]:
 def _energy(result: Result) -> dict[str, float | None] | None:
     """Energy gained at most and lost at the end, over J V₀, the energy that goes through the contact."""
     scale = float(np.abs(result.J).max())
-    loaded = result.problem.kind == "first" or result.problem.is_rung  # the loads' work is not reported
+    loaded = result.problem.kind == "first" or result.problem.given  # work and springs are not reported
     if not {"E_kin", "E_el"} <= result.series.keys() or loaded or scale <= 0.0:
         return None
     total = result.series["E_kin"] + result.series["E_el"]
@@ -184,7 +184,7 @@ def _energy(result: Result) -> dict[str, float | None] | None:
 
 
 def _ladder(result: Result) -> dict[str, Any]:
-    """A problem with a fixed contact: the impulse against the closed form, or the restitution of a whole impact."""
+    """The impulse against the closed form, the restitution of a whole impact, or the largest force and when it acts."""
     asked, exact = result.problem, reference(result.problem)
     measured: dict[str, Measured] = {}
     ratios: dict[str, float] = {}
@@ -194,6 +194,11 @@ def _ladder(result: Result) -> dict[str, Any]:
         measured["restitution"] = Measured(float(rest[-1]), float(np.ptp(rest)) or None, exact["restitution"])
         gained = 1.0 + (exact["restitution"] or np.nan)
         ratios = {"J": float(1.0 + rest[-1]) / gained}
+    elif "peak_force" in exact.values:
+        force, when = _largest_force(result)
+        measured["peak_force"] = Measured(force, None, exact["peak_force"])
+        measured["peak_time"] = Measured(when, None, exact["peak_time"])
+        ratios = {"J": force / exact.values["peak_force"]}
     elif exact.impulse is not None:
         expected = exact.impulse(result.tau)
         # mean, not largest: where the impulse jumps, a jump at a slightly wrong time is a small error
@@ -203,6 +208,14 @@ def _ladder(result: Result) -> dict[str, Any]:
         ratios = {"J": float(result.J @ expected / (expected @ expected))}
     about = {name: {"error": error, "source": exact.source} for name, error in exact.errors.items()}
     return {"measured": measured, "reference": about, "ratios": {k: v for k, v in ratios.items() if np.isfinite(v)}}
+
+
+def _largest_force(result: Result) -> tuple[float, float]:
+    """Top of the parabola through the largest force, the slope of J, and its neighbours, and its time."""
+    when, force = (result.tau[1:] + result.tau[:-1]) / 2.0, np.diff(result.J) / np.diff(result.tau)
+    k = min(max(int(force.argmax()), 1), force.size - 2)
+    a, b, c = np.polyfit(when[k - 1 : k + 2] - when[k], force[k - 1 : k + 2], 2)
+    return (float(c - b * b / (4.0 * a)), float(when[k] - b / (2.0 * a))) if a < 0.0 else (float(c), float(when[k]))
 
 
 # --- the judge -----------------------------------------------------------------------------------------------------
@@ -235,18 +248,3 @@ def resolution_ignored(scores: Sequence[Score]) -> list[Score]:
     flagged = [id(found) for group in alike.values() if len(group) >= 3 for found in group]
     finding = Finding("too_exact", "the very same numbers at three resolutions", "mesh and steps that differ")
     return [found.with_diagnosis(finding) if id(found) in flagged else found for found in scores]
-
-
-def work_precision(scores: Sequence[Score]) -> list[dict[str, Any]]:
-    """Points of the work–precision line: seconds, steps and relative errors of the results of one code and problem."""
-    points = [
-        {
-            "problem": found.problem,
-            "resolution": found.metadata.get("resolution"),
-            "seconds": found.seconds,
-            "steps": found.metadata.get("steps"),
-            "errors": {name: found.error(name) for name in found.measured},
-        }
-        for found in scores
-    ]
-    return sorted(points, key=lambda point: (point["problem"], point["seconds"] is None, point["seconds"] or 0.0))

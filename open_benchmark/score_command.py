@@ -28,7 +28,7 @@ def score(
 ) -> int:
     """Score results of any code against the exact solution.
 
-    The likeliest fault of each is named. Several results of one code and problem come with their work–precision line.
+    The likeliest fault of each is named, and three results of one problem with the very same numbers are flagged.
     Exit code 2 when a result cannot be read; the others are scored all the same.
 
     Example: bentbeam score coarse.npz medium.npz fine.npz
@@ -36,7 +36,7 @@ def score(
     from open_benchmark.judgement import invalid
     from open_benchmark.reading import load_result
     from open_benchmark.result import ResultError
-    from open_benchmark.score import resolution_ignored, work_precision
+    from open_benchmark.score import resolution_ignored
     from open_benchmark.score import score as score_of
 
     found, code = [], 0
@@ -54,7 +54,7 @@ def score(
     found = resolution_ignored(found)
     document: dict[str, Any] = found[0].to_dict()
     if len(found) > 1:
-        document = {"results": [s.to_dict() for s in found], "work_precision": work_precision(found)}
+        document = {"results": [s.to_dict() for s in found]}
     readable = [s for s in found if s.outcome != "invalid"]
     if as_json or readable:
         emit(document, as_json, lambda: "\n\n".join(_text(s) for s in readable))

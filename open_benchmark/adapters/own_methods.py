@@ -7,7 +7,6 @@ uniform mesh and constant steps, the same for every problem, and contact that ma
 import dataclasses
 import json
 import sys
-import time
 import tomllib
 
 import numpy as np
@@ -18,13 +17,17 @@ from bent_beam.method import chosen_for, for_whole_beam, method_type, refined
 
 REFINEMENT = {"exudyn": {"coarse": 0.25, "medium": 0.5, "fine": 1.0}}  # of the method's own choice for the problem
 OTHERS = {"coarse": 0.5, "medium": 1.0, "fine": 2.0}
+ON_SPRINGS = {"coarse": 1.0, "medium": 2.0, "fine": 4.0}
 STRICT = {"coarse": 0.02, "medium": 0.01, "fine": 0.005}  # element length over l*
+LONG = 120.0  # ℓ_k: length of a beam on an elastic wall, whose force is over before a wave is back
 HALF_LENGTH = 4.0  # l*: a beam with a fourth derivative must not be bent into the wall further out
 
 
 def chosen(path, choice, bare, end, infinite, resolution):
     """The method: mesh and steps are those of the problem without loads, so that both can be subtracted."""
     method = method_type(path)()
+    if bare.wall_stiffness is not None:  # nothing is subtracted: what is left open is chosen when it runs
+        return refined(method, ON_SPRINGS[resolution])
     if not infinite:
         method = for_whole_beam(method, bare)  # nothing held, nothing absorbed
     elif path == "hermite":  # cut where the beam goes on: its ends follow the free motion
@@ -42,22 +45,30 @@ def chosen(path, choice, bare, end, infinite, resolution):
     return chosen_for(method, bare, end)
 
 
+def posed(given):
+    """The impact of a problem's file without its loads, and whether the beam goes on beyond the ends of the model."""
+    if stop := given.get("elastic_stop"):
+        half = stop["length"] / 2
+        at_end = {"left_end": "hinged", "wall_from": half, "wall_to": half, "wall_stiffness": stop["stop_stiffness"]}
+        speed = stop["angular_velocity"] * half
+        stiffness, mass = stop["bending_stiffness"], stop["mass_per_length"]
+        return Impact(stiffness, mass, stop["length"], 0.0, speed, **at_end), False
+    if wall := given.get("elastic_wall"):
+        return Impact(length=LONG, **wall), False
+    beam = given["beam"]
+    infinite = beam["length"] == "infinite"
+    names = ("bending_stiffness", "mass_per_length", "curvature", "damping")
+    length = 2 * HALF_LENGTH if infinite else beam["length"]
+    return Impact(length=length, velocity=given["impact"]["velocity"], **{name: beam[name] for name in names}), infinite
+
+
 def main(problem_file, result_file, resolution="medium", path="hermite", choice="chosen"):
-    began = time.perf_counter()
     with open(problem_file, "rb") as stream:
         given = tomllib.load(stream)
-    beam, load, end = given["beam"], given["impact"], given["record"]["end_time"]
-    infinite = beam["length"] == "infinite"
-    bare = Impact(
-        bending_stiffness=beam["bending_stiffness"],
-        mass_per_length=beam["mass_per_length"],
-        length=2 * HALF_LENGTH if infinite else beam["length"],
-        curvature=beam["curvature"],
-        velocity=load["velocity"],
-        damping=beam["damping"],
-    )
-    changes = {name: load[name] for name in ("acceleration", "curvature_rate", "fourth_derivative") if load[name]}
-    changes |= {"axial_force": beam["axial_force"]} if beam["axial_force"] else {}
+    load, end = {**given.get("impact", {}), **given.get("beam", {})}, given["record"]["end_time"]
+    bare, infinite = posed(given)
+    names = ("acceleration", "curvature_rate", "fourth_derivative", "axial_force")
+    changes = {name: load[name] for name in names if load.get(name)}
     method = chosen(path, choice, bare, end, infinite, resolution)
     try:
         impact = bare.replace(**changes)
@@ -72,7 +83,6 @@ def main(problem_file, result_file, resolution="medium", path="hermite", choice=
     x, last = history.positions(0), np.diff(history.time)[-1]
     about = {"tool": f"bent-beam-impact, {history.path}", "version": history.versions.get("bent-beam-impact", ""),
              "resolution": resolution, "steps": history.steps, "seconds": history.seconds,
-             "set_up_seconds": time.perf_counter() - began - history.seconds, "lines": len(open(__file__).readlines()),
              "settings": {"mesh and steps": choice, **history.settings},
              "model": {"theory": "Euler-Bernoulli", "half_length": float(np.abs(x).max()),
                        "smallest_element": float(np.diff(np.sort(x)).min()), "time_step": float(last),

@@ -21,15 +21,14 @@ def test_a_problem_is_written_and_not_over_what_is_there(tmp_path):
     refused("problem", "leading-2")
 
 
-def test_score_prints_one_document_with_the_work_precision_line_of_several(tmp_path):
+def test_score_prints_one_document_and_a_list_of_several(tmp_path):
     files = [str(result(tmp_path / f"{k}.npz", metadata=json.dumps({"seconds": float(k)}))) for k in (3, 1, 2)]
     document = answered("score", files[0])
     assert document["outcome"] == "completed" and document["diagnosis"] == ["too_exact"], "no solver is that smooth"
     assert document["r0"] == pytest.approx({"value": 1.0, "error": 0.0, "theory": 1.0}, abs=1e-3)
     assert {document[name] for name in ("lift", "penetration", "adhesion", "energy", "lambda1", "r1")} == {None}
     document = answered("score", *files)
-    assert [point["seconds"] for point in document["work_precision"]] == [1.0, 2.0, 3.0]
-    assert len(document["results"]) == 3
+    assert [one["metadata"]["seconds"] for one in document["results"]] == [3.0, 1.0, 2.0]
 
 
 def test_a_result_that_cannot_be_read_is_exit_code_2_and_no_score(tmp_path):
@@ -43,7 +42,7 @@ def test_a_result_that_cannot_be_read_is_exit_code_2_and_no_score(tmp_path):
 def test_benchmark_writes_a_page_for_an_adapter_of_ones_own(tmp_path):
     exact, file, out = result(tmp_path / "exact.npz"), tmp_path / "mine.py", tmp_path / "out"
     file.write_text(f"import shutil, sys; shutil.copy({str(exact)!r}, sys.argv[2])")
-    document = answered("benchmark", "--adapter", file, "--problem", "point-2", "--out", out)
+    document = answered("benchmark", "--adapter", file, "--problem", "point-2", "--out", out, "--seconds", 9)
     # besides the problem that is asked, one like it is drawn, which a copied answer does not fit
     assert [row["outcome"] for row in document["rows"]] == ["completed"] * 3 + ["invalid"] * 3
     assert {row["table"] for row in document["rows"]} == {"self-declared"} and document["seed"] >= 0

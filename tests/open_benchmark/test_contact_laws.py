@@ -40,7 +40,7 @@ def _result(name: str, law: str, size: float) -> Result:
     return result_from_history(method.simulate(impact, end_time=asked.end_time, save=600), asked)
 
 
-def compared_laws(sizes: Sequence[float] = (0.04, 0.02, 0.01, 0.005)) -> dict[tuple[str, float], dict[str, Errors]]:
+def compared_laws(sizes: Sequence[float], names: Sequence[str]) -> dict[tuple[str, float], dict[str, Errors]]:
     """(Law, element length) → problem → relative errors of λ₀ and r₀, of λ₁ and r₁ where loads act."""
     found: dict[tuple[str, float], dict[str, Errors]] = {}
     for size in sizes:
@@ -48,7 +48,7 @@ def compared_laws(sizes: Sequence[float] = (0.04, 0.02, 0.01, 0.005)) -> dict[tu
             base = _result(PROBLEMS[0], law, size)
             of_base = score(base)
             errors: dict[str, Errors] = {PROBLEMS[0]: (of_base.error("lambda0"), of_base.error("r0"))}
-            for name in PROBLEMS[1:]:
+            for name in names:
                 loaded = score(_result(name, law, size), base)
                 errors[name] = loaded.error("lambda1"), loaded.error("r1")
             found[law, size] = errors
@@ -57,20 +57,22 @@ def compared_laws(sizes: Sequence[float] = (0.04, 0.02, 0.01, 0.005)) -> dict[tu
 
 def laws_text(found: dict[tuple[str, float], dict[str, Errors]]) -> str:
     """The same as a Markdown table, in per cent."""
-    lines = [f"| law on | Δx | {' | '.join(f'`{name}`' for name in PROBLEMS)} |", "| --- " * (2 + len(PROBLEMS)) + "|"]
+    names = list(next(iter(found.values())))
+    lines = [f"| law on | Δx | {' | '.join(f'`{name}`' for name in names)} |", "| --- " * (2 + len(names)) + "|"]
     for (law, size), errors in found.items():
-        cells = [" / ".join("–" if e is None else f"{100 * e:+.2f}" for e in errors[name]) for name in PROBLEMS]
+        cells = [" / ".join("–" if e is None else f"{100 * e:+.2f}" for e in errors[name]) for name in names]
         lines.append(f"| {law} | {size:g} | {' | '.join(cells)} |")
     return "\n".join(lines)
 
 
 def test_a_law_on_gaps_keeps_the_first_order_that_a_law_on_velocities_loses():
     sizes = [float(size) for size in os.environ.get("LAWS", "0.02").split(",")]
-    found, size = compared_laws(sizes), 0.02
+    names = PROBLEMS[1:] if "LAWS" in os.environ else PROBLEMS[1:2]
+    found, size = compared_laws(sizes, names), 0.02
     velocities, positions = (found[name, size] for name in LAWS)
     # without loads both are as good
     assert max(abs(e or 1.0) for errors in (velocities, positions) for e in errors[PROBLEMS[0]]) < 4e-3
     # with loads the roughness of the law on velocities is of the order of the answer
-    rough, smooth = (max(abs(e or 1.0) for name in PROBLEMS[1:] for e in law[name]) for law in (velocities, positions))
+    rough, smooth = (max(abs(e or 1.0) for name in names for e in law[name]) for law in (velocities, positions))
     assert smooth < 0.08 < 0.2 < rough
     print(laws_text(found))

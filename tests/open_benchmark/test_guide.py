@@ -8,6 +8,7 @@ from pathlib import Path
 from open_benchmark.adapter import chosen_adapters
 from open_benchmark.campaign import campaign
 from open_benchmark.reading import load_result
+from open_benchmark.running import Limits
 from open_benchmark.score import score
 
 PAGE = Path(__file__).resolve().parents[2] / "docs" / "guide" / "enter.md"
@@ -25,7 +26,8 @@ def test_the_sixty_lines_converge(tmp_path):
     assert not re.search(r"import (?!json|sys|time|tomllib|numpy)", source)
     file = tmp_path / "mine.py"
     file.write_text(source)
-    rows = campaign(chosen_adapters(own=[file]), ["leading-0.5"], tmp_path / "out", resolutions=["coarse", "medium"])
+    two, once = ["coarse", "medium"], Limits(repeats=1)
+    rows = campaign(chosen_adapters(own=[file]), ["leading-0.5"], tmp_path / "out", resolutions=two, limits=once)
     coarse, medium = (row.score for row in rows)
     assert medium.outcome == "completed"
     for name in ("lambda0", "r0"):

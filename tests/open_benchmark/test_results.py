@@ -207,3 +207,27 @@ def test_the_judge_adds_up_nodal_histories_of_half_and_whole_beams_and_holds_the
     )
     assert whole.J == pytest.approx(half.J) and whole.Jm == pytest.approx(half.Jm)
     assert score(half).raw and abs(score(half).momentum_residual) < 1e-6
+
+
+@pytest.mark.parametrize(
+    ("name", "place", "share"), [("elastic-stop-18000", 0.783, 1.0), ("elastic-wall-0.5-0", 0.0, 2.0)]
+)
+def test_the_largest_force_is_the_top_of_what_the_nodes_give_and_a_stop_stands_on_one_side_alone(
+    tmp_path, name, place, share
+):
+    end = problem(name).end_time
+    tau = np.linspace(0.0, end, 300)
+    pushed = 100.0 * 2.0 * end / np.pi * (1.0 - np.cos(0.5 * np.pi * tau / (0.5 * end)))[:, None] / 2.0
+    np.savez(
+        tmp_path / "r.npz",
+        outcome="completed",
+        problem=name,
+        metadata="{}",
+        tau=tau,
+        node_x=[place],
+        node_impulse=pushed,
+    )
+    found = score(load_result(tmp_path / "r.npz"))
+    assert found.measured["peak_force"].value == pytest.approx(share * 100.0, rel=1e-4)
+    assert found.measured["peak_time"].value == pytest.approx(0.5 * end, rel=1e-4)
+    assert found.outcome == "completed, off" and found.reference["peak_force"]["error"] > 0.0
