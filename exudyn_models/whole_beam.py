@@ -29,6 +29,7 @@ from exudyn_models.contacts import Penalty, penalty
 from exudyn_models.elements import ANCFCable
 from exudyn_models.integrators import Trapezoidal
 from exudyn_models.resolution import STEP, near_buckling, resolving_step, step_of_wall
+from exudyn_models.supports import supports_or_plate
 
 __all__ = ["cross_checks", "for_whole_beam", "varied"]
 
@@ -62,6 +63,8 @@ def for_whole_beam(method: C, impact: Impact) -> C:
     contact = method.contact
     if contact is None and wall is None:
         contact = CONTACT if slower == 1.0 else _softer(CONTACT, slower**-2)
+        if supports_or_plate(impact):  # whose flat beams meet all of a plate at once, without a front
+            contact = dataclasses.replace(contact, relative_stiffness=penalty.STIFFNESS, relative_damping=penalty.PLASTIC)
     return dataclasses.replace(
         method,
         mesh=mesh,
