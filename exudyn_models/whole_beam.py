@@ -45,10 +45,11 @@ FLATTEST = 1.0 / 150.0  # κ/ν down to which the front does not ask for a stiff
 
 def for_whole_beam(method: C, impact: Impact) -> C:
     """A copy of ``method`` whose open parts are those of the module's head; its ``refine`` is worked in."""
-    elements = ZONE_ELEMENTS if impact.kappa_over_nu < 1.0 else POINT_ELEMENTS
     wall = wall_scales(impact)
     if wall is not None:
-        elements = max(elements, round(impact.half_length / (LARGEST_OF_WALL * wall.length)))
+        elements = max(POINT_ELEMENTS, round(impact.half_length / (LARGEST_OF_WALL * wall.length)))
+    else:
+        elements = ZONE_ELEMENTS if impact.kappa_over_nu < 1.0 else POINT_ELEMENTS
     chosen = method.mesh is None and method.contact is None and method.integrator is None
     slower = SLOWER if chosen and FLATTEST <= impact.kappa_over_nu < 1.0 else 1.0
     elements = round(elements * near_buckling(impact))
