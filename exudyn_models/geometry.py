@@ -130,9 +130,7 @@ class LinearLimit(Part):
         bow, motion, impact = s - scaling.first_touch, scaling.motion_of(k), scaling.impact
         velocity, turning = motion(bow, by_t=1), motion(bow, by_x=1, by_t=1)
         if impact.supported:
-            velocity, turning = lowest_mode(
-                impact.left_end, impact.right_end, impact.half_length / scaling.length, s
-            )
+            velocity, turning = lowest_mode(impact.left_end, impact.right_end, impact.half_length / scaling.length, s)
         return Shape(
             s=s,
             # what carries a force must not be stretched by its own slope

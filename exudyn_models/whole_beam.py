@@ -65,7 +65,9 @@ def for_whole_beam(method: C, impact: Impact) -> C:
     if contact is None and wall is None:
         contact = CONTACT if slower == 1.0 else _softer(CONTACT, slower**-2)
         if supports_or_plate(impact):  # whose flat beams meet all of a plate at once, without a front
-            contact = dataclasses.replace(contact, relative_stiffness=penalty.STIFFNESS, relative_damping=penalty.PLASTIC)
+            contact = dataclasses.replace(
+                contact, relative_stiffness=penalty.STIFFNESS, relative_damping=penalty.PLASTIC
+            )
     return dataclasses.replace(
         method,
         mesh=mesh,
