@@ -119,7 +119,7 @@ def _force() -> list[float]:
 
 @cache
 def coefficients() -> dict[str, Any]:
-    """``breaks`` of u, and ``functions``: name → ``power`` and ``pieces``, the coefficients on each interval; ``force``.
+    """``breaks`` of u, and ``functions``: name → ``power`` and ``pieces``, the coefficients on each interval.
 
     ``wave_real``, ``wave_imaginary``: S(x) = e^{z²} i²erfc z, z = e^{−iπ/4}x/2, likewise with x in place of b.
     """
