@@ -28,6 +28,7 @@ __all__ = [
     "UniformMesh",
     "checked_nodes",
     "mirrored",
+    "snapped",
 ]
 
 Array = NDArray[np.float64]
@@ -58,6 +59,21 @@ def checked_nodes(nodes: Array) -> Array:
     if not np.all(np.diff(x) > 0.0):
         raise ValueError(f"mesh.nodes must increase strictly (element {int(np.argmin(np.diff(x)))} does not)")
     return x
+
+
+def snapped(nodes: Array, wall_span: tuple[float, float]) -> Array:
+    """``nodes`` of the half beam with those nearest to the edges of the wall moved onto them, m.
+
+    Raises ``ValueError`` where the elements are too large to have a node at every edge.
+    """
+    moved = nodes.copy()
+    edges = np.unique(np.abs([edge for edge in wall_span if abs(edge) < nodes[-1]]))
+    for edge in edges[edges > 0.0]:
+        moved[1 + np.argmin(np.abs(nodes[1:-1] - edge))] = edge
+    if not np.all(np.isin(edges, moved)) or np.any(np.diff(moved) <= 0.0):
+        raise ValueError(f"mesh has too large elements for a wall from {wall_span[0]!r} to "
+                         f"{wall_span[1]!r} m: each edge takes a node of its own")  # fmt: skip
+    return moved
 
 
 def mirrored(nodes: Array) -> Array:

@@ -19,6 +19,7 @@ from exudyn_models.geometry import Shape
 from exudyn_models.integrators import Integrator
 from exudyn_models.resolution import lasts_until_waves_return, reachable, thin_front
 from exudyn_models.scaling import Scaling, front_bound
+from exudyn_models.supports import before_the_wall, hold_ends, supports_or_plate
 from exudyn_models.viewer import draw_wall
 
 __all__ = ["assemble", "stable_step"]
@@ -48,6 +49,7 @@ def assemble(
     if half:
         hold = beam.hold_by_inertia if integrator.explicit else beam.fix
         hold(0, beam.horizontal_coordinate, beam.rotation_coordinate)
+    hold_ends(beam, scaling.impact, half=half, by_inertia=integrator.explicit)
     if scaling.load:
         beam.load_uniformly(scaling.load * scaling.amplitude)
     ends = [(last, 1.0)] if half else [(last, 1.0), (0, -1.0)]
@@ -74,15 +76,18 @@ def _axial_stiffness(asked: float | None, true: bool, scaling: Scaling) -> float
 
 def _wall(shape: Shape, scaling: Scaling, centre: int, half: bool, explicit: bool) -> Wall:
     opposite, stiffness = scaling.impact.opposite_wall, scaling.impact.wall_stiffness
-    unit = scaling.impact.bending_stiffness / scaling.length**4
     first_spread = FIRST_SPREAD * scaling.impact.slow_time_scale / scaling.end_time
+    before, lengths = before_the_wall(shape.s, scaling)
+    thin = thin_front(scaling.kappa) and not supports_or_plate(scaling.impact)
+    unit = scaling.impact.bending_stiffness / scaling.length ** (4 if lengths.any() else 3)
     return Wall(
-        nodes=reachable(shape.s, scaling, centre),
+        nodes=np.intersect1d(reachable(shape.s, scaling, centre), np.flatnonzero(before)),
+        lengths=lengths,
         centre=centre,
         half=half,
         front=front_bound(scaling.kappa),
         first_spread=first_spread,
-        plastic=thin_front(scaling.kappa) and first_spread >= 1.0 and not explicit,
+        plastic=thin and first_spread >= 1.0 and not explicit,
         explicit=explicit,
         opposite=None if opposite is None else -opposite / scaling.deflection,
         stiffness=None if stiffness is None else stiffness / unit,

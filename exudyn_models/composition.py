@@ -26,6 +26,10 @@ LOADS = (
     "rotation",
     "wall_stiffness",
     "wall_damping",
+    "wall_from",
+    "wall_to",
+    "left_end",
+    "right_end",
 )
 """The loads and features that :mod:`exudyn_models.assembly` models."""
 
@@ -78,10 +82,25 @@ class Composition(Part):
             return f"exudyn.contact has no effect on a wall with a stiffness: leave it out (got {self.contact!r})"
         contact, element, integrator, geometry, _ = self.joined(impact)
         reason = unmodelled(impact, LOADS) or self._refuses_asymmetry(impact)
+        reason = reason or self._refuses_supports(impact, contact, geometry)
         reason = reason or contact.refuses(impact, element, integrator)
         if not reason and geometry.true and impact.off_centre:
             reason = "exudyn.geometry.kind true knows the symmetric bow only: with rotation or first_touch take linear"
         return reason
+
+    def _refuses_supports(self, impact: Impact, contact: Contact, geometry: Geometry) -> str | None:
+        """Ends that are held, and walls along a part of the beam."""
+        name = "ends" if impact.supported else "wall_from, wall_to" if impact.wall_in_part else None
+        if name is None:
+            return None
+        if not isinstance(contact, Penalty | Springs):
+            return f"{name}: exudyn.contact.kind must be penalty (got {type(contact).__name__})"
+        if geometry.true and impact.supported:
+            return "left_end, right_end: exudyn.geometry.kind true knows free ends only: take linear"
+        for other in ("opposite_wall", "axial_force"):
+            if getattr(impact, other):
+                return f"{other} is not modelled together with {name} (got {getattr(impact, other)!r})"
+        return None
 
     def _refuses_asymmetry(self, impact: Impact) -> str | None:
         asymmetry = next((name for name in ("rotation", "first_touch") if getattr(impact, name)), None)

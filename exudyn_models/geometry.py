@@ -17,12 +17,14 @@ import numpy as np
 
 from bent_beam.fields import Part, Quantity
 from bent_beam.loads import FreeMotion
+from bent_beam.supports import lowest_mode
 from exudyn_models.arrays import Array
 from exudyn_models.scaling import Scaling, front_bound
 
 __all__ = ["GEOMETRIES", "Geometry", "LinearLimit", "Shape", "TrueGeometry"]
 
 STEEPEST = 1e-4  # slope in the linear limit: at 2e-3 the energy budget of a whole impact is 8e-6 off
+MODE_SLOPE = 6.0  # of the lowest mode of any ends, V₀/(L/2): clamped and free, at the tip
 MOVED = 2.0  # fronts' bounds from the centre: beyond, the beam keeps the shape that it came with
 
 
@@ -116,14 +118,19 @@ class LinearLimit(Part):
     def amplitude_of(self, scaling: Scaling, reach: float) -> float:
         if self.amplitude is not None:
             return self.amplitude
-        far = min(reach, MOVED * front_bound(scaling.kappa)) + abs(scaling.first_touch)
+        held, moved = scaling.impact.supported, MOVED * front_bound(scaling.kappa)
+        far = (reach if held else min(reach, moved)) + abs(scaling.first_touch)
         motion = scaling.motion_of(max(abs(scaling.kappa), abs(scaling.beam_kappa)))
         largest = FreeMotion({powers: abs(c) for powers, c in motion.terms.items()})
-        return STEEPEST / max(1.0, float(largest(far, 1.0, by_x=1)))
+        swings = MODE_SLOPE * scaling.length / scaling.impact.half_length if held else 0.0
+        return STEEPEST / max(1.0, float(largest(far, 1.0, by_x=1)), swings)
 
     def shape(self, s: Array, scaling: Scaling, wall_share: float = 0.0) -> Shape:
         k, a = scaling.beam_kappa - scaling.kappa * wall_share, scaling.amplitude
-        bow, motion = s - scaling.first_touch, scaling.motion_of(k)
+        bow, motion, impact = s - scaling.first_touch, scaling.motion_of(k), scaling.impact
+        velocity, turning = motion(bow, by_t=1), motion(bow, by_x=1, by_t=1)
+        if impact.supported:
+            velocity, turning = lowest_mode(impact.left_end, impact.right_end, impact.half_length / scaling.length, s)
         return Shape(
             s=s,
             # what carries a force must not be stretched by its own slope
@@ -131,8 +138,8 @@ class LinearLimit(Part):
             y=a * motion(bow),
             angle=a * motion(bow, by_x=1),
             velocity_x=np.zeros_like(s),
-            velocity_y=a * motion(bow, by_t=1),
-            angular_velocity=a * motion(bow, by_x=1, by_t=1),
+            velocity_y=a * velocity,
+            angular_velocity=a * turning,
             curvature=-a * k,
             slender=False,
             wall_curvature=a * (scaling.kappa * wall_share - scaling.wall_kappa),

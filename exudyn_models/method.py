@@ -16,6 +16,7 @@ from exudyn_models.arrays import Array
 from exudyn_models.composition import Composition
 from exudyn_models.recording import Recorder
 from exudyn_models.simulation import simulate
+from exudyn_models.supports import supports_or_plate
 
 __all__ = ["ExudynModel"]
 
@@ -44,8 +45,12 @@ class ExudynModel(Composition):
         save: Save = 200,
         progress: Callable[[float], None] | None = None,
     ) -> ImpactHistory:
-        """Follow ``impact`` to ``end_time`` (s); see :func:`exudyn_models.simulate`."""
-        return simulate(impact, end_time=end_time, save=save, progress=progress, **made_of(self))
+        """Follow ``impact`` to ``end_time`` (s); see :func:`exudyn_models.simulate`.
+
+        Supports and a wall along a part of the beam get the parts that suit the whole beam.
+        """
+        chosen = self.for_whole_beam(impact) if supports_or_plate(impact) else self
+        return simulate(impact, end_time=end_time, save=save, progress=progress, **made_of(chosen))
 
     def chosen_for(self, impact: Impact, end_time: float) -> ExudynModel:
         """A copy with mesh, element, steps and hold chosen for ``impact``: other impacts then run on the same ones."""

@@ -7,8 +7,8 @@ mean of both ends, q̈ the accelerations in equilibrium with all forces (Mq̈ = 
     taken by the integration       (Mq̈)¯ᵀΔq − Δ(½vᵀMv)    the scheme's own kinematics, without force or stiffness
     lost in the contact            f̄_cᵀΔy_c − Δ(energy in its springs), f_c pushing against y
 
-The total impulse is what the momentum of the modelled beam lacks: exact, whatever happens within a step. The impulse of
-each contact point passes through the averages that the scheme applies to accelerations; their sum is that total.
+The total impulse is what the momentum of the modelled beam lacks, exact whatever happens within a step; with held ends
+it is the sum of the points' impulses. These pass through the averages that the scheme applies to accelerations.
 
 States are collected after each step and summed up many steps at a time: of the time that a run takes, next to all is
 Exudyn's.
@@ -128,6 +128,8 @@ class Recorder:
             self._of_springs(time, q, force)
         total = self.start_momentum + after["load_impulse"] - v @ self.momentum
         impulse = onwards(self.impulse, self._impulses(dt, q, force, np.diff(total)))
+        if self.scaling.impact.supported:
+            total = impulse @ self.contact.signs
         self._note_moments(q)
         record = self.record
         record["kinetic_energy"] += self.beam.kinetic_energy(v[self.pending]).tolist()
@@ -226,6 +228,8 @@ class Recorder:
         """Impulse of each contact point in each step, (steps, contacts), ``total`` (steps,) being all of them."""
         gain, self.averaged = self.averages.impulses(force, self.averaged)
         gain *= dt[:, None]
+        if self.scaling.impact.supported:  # supports take momentum, too
+            return gain
         missing = total - gain.sum(axis=1)  # what acted within the step only, and what the solver left over
         weight = np.abs(gain)
         for free in np.flatnonzero((missing != 0.0) & ~weight.any(axis=1)):

@@ -60,7 +60,7 @@ INSIDE = 0.6  # of where a bent-up end would itself be at the wall: beyond, noth
 ELEMENT_STEPS = 4e5  # elements times steps of a run with uniform elements: a few seconds
 FEWEST = 60  # uniform elements of a half beam, from 0.9 T* on; tests/exudyn_models/test_exudyn_constants.py
 STEP = 0.5  # h/(Δx²√(μ/EI)) that resolves the contact
-OF_WALL, OF_DAMPED_WALL = 0.08, 0.015  # ℓ_k: elements before a wall that gives way, …
+OF_WALL = 0.08  # ℓ_k: elements before a wall that gives way, …
 BEYOND_WALL = 4.0  # … up to so far beyond the front's bound
 STEP_OF_WALL, LONGEST_OF_WALL = 0.125, 0.02  # h/t_k over Δx/ℓ_k, and at most
 MOST_STEPS = 200_000  # that an open time step may ask for
@@ -141,7 +141,7 @@ def chosen_mesh(
     front, wall = front_bound(scaling.kappa), wall_scales(impact)
     if wall is not None:
         ratio = wall.length / scaling.length
-        element = (OF_DAMPED_WALL if impact.wall_damping else OF_WALL) * min(1.0, scaling.kappa**-0.375) * ratio
+        element = OF_WALL * min(1.0, scaling.kappa**-0.375) * ratio
         growth, zone = 0.0, front + BEYOND_WALL * ratio
     elif explicit:
         element, growth, zone = min(max(front, 0.5) / 25, (2.0 / front) / 10), GROWTH_OF_WAVES, None

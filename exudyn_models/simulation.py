@@ -18,7 +18,7 @@ import numpy as np
 
 from bent_beam import Impact, ImpactHistory, SimulationError
 from bent_beam.checks import MOST_INSTANTS, affordable, whole
-from bent_beam.meshes import NodesMesh, checked_nodes, mirrored
+from bent_beam.meshes import NodesMesh, checked_nodes, mirrored, snapped
 from bent_beam.parts import describe
 from exudyn_models.arrays import Array
 from exudyn_models.assembly import assemble, stable_step
@@ -83,15 +83,15 @@ def simulate(
     if reason:
         raise ValueError(reason)
     began = clock.perf_counter()
-    chosen = choose(composition, impact, end)
-    layout = _lay_out(impact, end, chosen, composition.full_beam)
+    chosen, full_beam = choose(composition, impact, end), composition.full_beam or impact.off_centre
+    layout = _lay_out(impact, end, chosen, full_beam)
     with quiet():
-        stepping = _build(layout, chosen, not composition.full_beam, targets)
+        stepping = _build(layout, chosen, not full_beam, targets)
         stepping.progress, stepping.until = progress, until
         _solve(stepping, view)
     if stepping.failure is not None and not stepping.run.record["time"]:
         raise SimulationError(stepping.failure, time=0.0, step=0, advice=stepping.advice)
-    settings = {"end_time": end, "save": np.asarray(save).tolist(), "full_beam": composition.full_beam}
+    settings = {"end_time": end, "save": np.asarray(save).tolist(), "full_beam": full_beam}
     settings |= _described(layout, chosen, stepping)
     settings["wall_seconds"] = clock.perf_counter() - began
     history = _history(impact, layout, stepping, settings, mesh_given=composition.mesh is not None)
@@ -133,7 +133,7 @@ def _lay_out(impact: Impact, end: float, chosen: Chosen, full_beam: bool) -> _La
     if isinstance(mesh, NodesMesh) and mesh.places[-1] <= half_length * (1.0 + 1e-9):
         half_length = mesh.places[-1]
     unscaled = Scaling.of(impact, end)
-    places = checked_nodes(mesh.nodes(half_length)) / unscaled.length
+    places = checked_nodes(snapped(mesh.nodes(half_length), impact.wall_span)) / unscaled.length
     scaling = Scaling.of(impact, end, geometry.amplitude_of(unscaled, float(places[-1])))
     nodes = mirrored(places) if full_beam else places
     return _Layout(half_length, places, scaling, geometry.shape(nodes, scaling, chosen.contact.wall_share(geometry)))

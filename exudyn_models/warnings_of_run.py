@@ -12,6 +12,7 @@ from exudyn_models.recording import Recorder
 from exudyn_models.resolution import far_field
 from exudyn_models.scaling import Scaling, front_bound
 from exudyn_models.settling import Settling
+from exudyn_models.supports import supports_or_plate
 
 __all__ = ["warnings_of_run"]
 
@@ -34,6 +35,8 @@ def warnings_of_run(
     given : the mesh was asked for; last_step : model units.
     """
     found = [*_of_steps(last_step, settling), *_of_contact(run)]
+    if supports_or_plate(run.scaling.impact):
+        return [*found, *_of_slopes(run)]
     if len(run.record["time"]) > 1:
         found += _of_front(places, run.scaling)
     if given:
@@ -45,7 +48,7 @@ def warnings_of_run(
         found.append(
             f"the end lies at {reach:.3g} sqrt(sqrt(EI/mu) T): waves reflected there come back before the end time"
         )
-    return [*found, *_of_shape(run)]
+    return [*found, *_of_depth(run), *_of_slopes(run)]
 
 
 def _of_steps(last_step: float, settling: Settling | None) -> Iterator[str]:
@@ -91,7 +94,7 @@ def _of_front(places: Array, scaling: Scaling) -> list[str]:
     return []
 
 
-def _of_shape(run: Recorder) -> Iterator[str]:
+def _of_depth(run: Recorder) -> Iterator[str]:
     record, shape = run.record, run.beam.shape
     if record["y"]:
         untouchable = np.ones(shape.s.size, bool)
@@ -100,6 +103,10 @@ def _of_shape(run: Recorder) -> Iterator[str]:
         free = shape.y + record["time"][-1] * shape.velocity_y - shape.wall_y  # what enters so is let through
         if (record["y"][-1][untouchable & (free <= 0.0)] > 0.0).any():
             yield "the beam enters the wall outside the zone given contact points"
+
+
+def _of_slopes(run: Recorder) -> Iterator[str]:
+    record, shape = run.record, run.beam.shape
     slope = max((float(np.abs(s + shape.wall_slope).max()) for s in record["slope"]), default=0.0)
     if slope > STEEPEST and shape.slender:
         yield f"slopes up to {slope:.2g}: linear theory no longer describes this beam, only its first instants"

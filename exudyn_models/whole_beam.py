@@ -29,6 +29,7 @@ from exudyn_models.contacts import Penalty, penalty
 from exudyn_models.elements import ANCFCable
 from exudyn_models.integrators import Trapezoidal
 from exudyn_models.resolution import STEP, near_buckling, resolving_step, step_of_wall
+from exudyn_models.supports import supports_or_plate
 
 __all__ = ["cross_checks", "for_whole_beam", "varied"]
 
@@ -44,10 +45,11 @@ FLATTEST = 1.0 / 150.0  # κ/ν down to which the front does not ask for a stiff
 
 def for_whole_beam(method: C, impact: Impact) -> C:
     """A copy of ``method`` whose open parts are those of the module's head; its ``refine`` is worked in."""
-    elements = ZONE_ELEMENTS if impact.kappa_over_nu < 1.0 else POINT_ELEMENTS
     wall = wall_scales(impact)
     if wall is not None:
-        elements = max(elements, round(impact.half_length / (LARGEST_OF_WALL * wall.length)))
+        elements = max(POINT_ELEMENTS, round(impact.half_length / (LARGEST_OF_WALL * wall.length)))
+    else:
+        elements = ZONE_ELEMENTS if impact.kappa_over_nu < 1.0 else POINT_ELEMENTS
     chosen = method.mesh is None and method.contact is None and method.integrator is None
     slower = SLOWER if chosen and FLATTEST <= impact.kappa_over_nu < 1.0 else 1.0
     elements = round(elements * near_buckling(impact))
@@ -62,6 +64,10 @@ def for_whole_beam(method: C, impact: Impact) -> C:
     contact = method.contact
     if contact is None and wall is None:
         contact = CONTACT if slower == 1.0 else _softer(CONTACT, slower**-2)
+        if supports_or_plate(impact):  # whose flat beams meet all of a plate at once, without a front
+            contact = dataclasses.replace(
+                contact, relative_stiffness=penalty.STIFFNESS, relative_damping=penalty.PLASTIC
+            )
     return dataclasses.replace(
         method,
         mesh=mesh,

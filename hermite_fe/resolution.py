@@ -43,14 +43,13 @@ from numpy.typing import NDArray
 
 from bent_beam.elastic_wall import wall_scales
 from bent_beam.impact import Impact
-from bent_beam.meshes import GradedMesh, Mesh, ScaleFreeMesh, UniformMesh
+from bent_beam.meshes import GradedMesh, Mesh, ScaleFreeMesh, UniformMesh, snapped
 from hermite_fe.composition import Composition
 from hermite_fe.contacts import Contact, NodeContact
 from hermite_fe.elastic_resolution import ELASTIC_STEP, elastic_mesh, even_element
 from hermite_fe.far_fields import FarField, GridViscosity
 from hermite_fe.integrators import Integrator, Midpoint, MoreauJean, SignoriniPosition
 from hermite_fe.masses import ConsistentMass, Mass
-from hermite_fe.walls import snapped
 
 __all__ = ["ELEMENTS", "Choice", "choose", "cross_checks", "for_loads", "for_whole_beam", "front", "varied"]
 
@@ -114,7 +113,7 @@ def choose(impact: Impact, end_time: float, parts: Composition | None = None) ->
         raise ValueError(
             f'domain cuts the beam where it goes on: far_field.end must be "following" (got {far_field.end!r})'
         )
-    nodes = snapped(mesh.nodes(half_length), impact)
+    nodes = snapped(mesh.nodes(half_length), impact.wall_span)
     return Choice(mesh, nodes, integrator, contact, far_field, parts.mass or ConsistentMass())
 
 

@@ -17,27 +17,12 @@ from hermite_fe.beam import HermiteBeam
 from hermite_fe.elastic_wall import NO_SPRINGS, Springs
 from hermite_fe.system import ContactRows
 
-__all__ = ["before_the_wall", "behind", "held_dofs", "snapped", "springs_of", "with_opposite_wall"]
+__all__ = ["before_the_wall", "behind", "held_dofs", "springs_of", "with_opposite_wall"]
 
 Array = NDArray[np.float64]
 
 NEAR = 1e-9  # of the length: a node so near an edge of the wall lies on it
 HELD = {"free": 0, "hinged": 1, "clamped": 2}  # dofs of the end node
-
-
-def snapped(nodes: Array, impact: Impact) -> Array:
-    """``nodes`` of the half beam, m, with those nearest to the edges of the wall moved onto them.
-
-    Raises ``ValueError`` where the elements are too large to have a node at every edge.
-    """
-    moved = nodes.copy()
-    edges = np.unique(np.abs([edge for edge in impact.wall_span if abs(edge) < nodes[-1]]))
-    for edge in edges[edges > 0.0]:
-        moved[1 + np.argmin(np.abs(nodes[1:-1] - edge))] = edge
-    if not np.all(np.isin(edges, moved)) or np.any(np.diff(moved) <= 0.0):
-        raise ValueError(f"mesh has too large elements for a wall from {impact.wall_span[0]!r} to "
-                         f"{impact.wall_span[1]!r} m: each edge takes a node of its own")  # fmt: skip
-    return moved
 
 
 def held_dofs(impact: Impact, beam: HermiteBeam, *, full: bool) -> tuple[int, ...]:

@@ -9,6 +9,10 @@ series in 1/λ₀ at ∞. Hence
     f(κ/ν) = (1 + b)^p Σ c_k T_k(u),   u = (b − 3)/(b + 3) ∈ [−1, 1),
 
 with p the power with which f grows (κ/ν)^{−p/2}. Where the beam touches in one point, κ/ν ≥ 1, b = 0 is the limit.
+
+The largest force on an undamped wall that gives way has other powers at both ends:
+
+    f(κ/ν) = (κ/ν)^{−1/2} (1 + κ/ν)^{3/8} Σ c_k T_k(u),   u = (κ/ν − 1)/(κ/ν + 1).
 """
 
 from __future__ import annotations
@@ -24,6 +28,7 @@ from numpy.typing import NDArray
 from scipy.special import wofz
 
 from theory import contact_parameters
+from theory.elastic_wall import peak_force
 from theory.moment import peak_moment
 
 __all__ = ["coefficients"]
@@ -33,6 +38,7 @@ Function = Callable[[Array], Array]
 MIDDLE = 3.0  # b where u = 0
 BREAKS = (-1.0, -0.5, 0.5, 1.0)
 NODES = 40
+NODES_OF_FORCE = 12  # f within 2e-4; the theory's own error is 1e-4
 DIGITS = 13  # of the largest coefficient: smaller ones are left out
 SLOPE = np.sqrt(2.0 / np.pi)
 TURN = np.exp(-0.25j * np.pi) / 2.0  # z = TURN·x
@@ -103,6 +109,14 @@ def _fit(scaled: Function) -> list[list[float]]:
     return pieces
 
 
+def _force() -> list[float]:
+    """Coefficients of the largest force on a wall that gives way, over V₀√μ(EI k)^¼."""
+    u = chebyshev.chebpts1(NODES_OF_FORCE)
+    ratio = (1.0 + u) / (1.0 - u)
+    scaled = [peak_force(float(k)).value * np.sqrt(k) * (1.0 + k) ** -0.375 for k in ratio]
+    return list(chebyshev.chebfit(u, scaled, NODES_OF_FORCE - 1).round(7).tolist())
+
+
 @cache
 def coefficients() -> dict[str, Any]:
     """``breaks`` of u, and ``functions``: name → ``power`` and ``pieces``, the coefficients on each interval.
@@ -123,4 +137,4 @@ def coefficients() -> dict[str, Any]:
     }
     functions["wave_real"] = {"power": 0, "pieces": _fit(lambda u: wave(u).real)}
     functions["wave_imaginary"] = {"power": 0, "pieces": _fit(lambda u: wave(u).imag)}
-    return {"breaks": list(BREAKS), "middle": MIDDLE, "functions": functions}
+    return {"breaks": list(BREAKS), "middle": MIDDLE, "functions": functions, "force": _force()}

@@ -31,6 +31,7 @@ class Wall:
     """Where and how the beam may touch, in model units.
 
     nodes : numbers of the beam's nodes that may touch, ascending; centre : the node at x = 0;
+    lengths : of the beam's elements before the wall, 0 of others, (elements,); all are 0 before a stop;
     half : only x ≥ 0 is modelled;
     front : rough estimate of where contact ends at the end;
     first_spread : until when (in end times) nothing but the first spread of the zone moves it: waves are back later;
@@ -38,6 +39,7 @@ class Wall:
     """
 
     nodes: Indices
+    lengths: Array
     centre: int
     half: bool
     front: float
@@ -45,8 +47,22 @@ class Wall:
     plastic: bool
     explicit: bool
     opposite: float | None  # y of a second, flat wall behind the beam
-    stiffness: float | None = None  # per length, of a wall that gives way
+    stiffness: float | None = None  # per length, of a wall that gives way; of a stop itself
     damping: float = 0.0  # beside it
+
+    @property
+    def stop(self) -> bool:
+        """Whether the wall is a point."""
+        return not self.lengths.any()
+
+    @property
+    def weights(self) -> Array:
+        """Length of wall that each of ``nodes`` stands for, of a stop its share in the modelled beam."""
+        if self.stop:
+            return np.full(self.nodes.size, 0.5 if self.half and self.nodes[0] == self.centre else 1.0)
+        half = np.append(self.lengths, 0.0) / 2
+        half[1:] += self.lengths / 2
+        return np.asarray(half[self.nodes])
 
 
 class ContactRun(ABC):

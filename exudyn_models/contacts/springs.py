@@ -1,9 +1,11 @@
 """The springs and dashpots of a wall that gives way, at the nodes:
 
-    R_i = b_i max(0, k y_i + c ẏ_i) where y_i > 0, 0 elsewhere,   b_i the length of beam that node i stands for.
+    R_i = max(0, k b_i y_i + c w_i ẏ_i) where y_i > 0, 0 elsewhere,   b_i the length of wall that node i stands for.
 
 They are the wall's own, not a numerical device: k and c do not change with the mesh, what the springs hold is an
-energy. With c each node that lands adds b c V₀ at once: the largest force is too high by a part that falls like Δx.
+energy. A dashpot pushes as soon as it is touched: with w_i = b_i each node that lands would add c b_i V₀ at once. So
+w_i is the length that is covered. Of an element with both nodes in the wall each has Δx/2, and node i alone has sΔx,
+s = y_i/(y_i − y_{i+1}), where the velocities carry the beam by the end of the next step.
 """
 
 from __future__ import annotations
@@ -24,7 +26,31 @@ from exudyn_models.solvers import NewtonSolver
 __all__ = ["Springs"]
 
 
+def covered(depth: Array, lengths: Array) -> Array:
+    """w of all nodes, (nodes,), at such depths, elements of ``lengths``, (nodes − 1,), between them."""
+    left, right, found = depth[:-1], depth[1:], np.zeros(depth.size)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        for node, other, end in ((left, right, found[:-1]), (right, left, found[1:])):
+            share = np.where(other > 0.0, 0.5, node / (node - other))
+            end += np.where(node > 0.0, share, 0.0) * lengths
+    return found
+
+
 class _Run(PenaltyRun):
+    def __init__(self, beam: Beam, wall: Wall, stiffness: float) -> None:
+        self.wall, strip = wall, HeldStrip(wall, hold=0, start=0.0)
+        super().__init__(beam, wall, stiffness * wall.weights, wall.damping * wall.weights, strip, {})
+
+    def between(self, time: float, step: float, q: Array, v: Array) -> bool:
+        if self.wall.damping and not self.wall.stop:
+            at, wall_y = self.beam.vertical, self.beam.shape.wall_y
+            share = covered(q[at] + step * v[at] - wall_y, self.wall.lengths)
+            damping = self.wall.damping * share[self.nodes]
+            for k in np.flatnonzero(damping != self.damping):
+                self.beam.mbs.SetObjectParameter(self.contacts[k], "contactDamping", float(damping[k]))
+            self.damping = damping
+        return False
+
     @property
     def wall_springs(self) -> Array:  # type: ignore[override]
         return self.stiffness
@@ -54,6 +80,4 @@ class Springs(Contact):
 
     def attach(self, beam: Beam, wall: Wall) -> ContactRun:
         assert wall.stiffness is not None
-        length = beam.tributary[wall.nodes]
-        strip = HeldStrip(wall, hold=0, start=0.0)
-        return _Run(beam, wall, wall.stiffness * length, wall.damping * length, strip, {})
+        return _Run(beam, wall, wall.stiffness)

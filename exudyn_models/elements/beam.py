@@ -82,11 +82,11 @@ class Beam(ABC):
         return self.mbs.AddMarker(items.MarkerNodeCoordinate(nodeNumber=self.nodes[node], coordinate=coordinate))
 
     def fix(self, node: int, *coordinates: int) -> None:
-        """Hold coordinates of a node at zero displacement."""
+        """Hold coordinates of a node where they are at first."""
         for coordinate in coordinates:
-            self.mbs.AddObject(
-                items.CoordinateConstraint(markerNumbers=[self.ground_marker, self.marker(node, coordinate)])
-            )
+            place = float(self.node(node).initialCoordinates[coordinate])
+            markers = [self.ground_marker, self.marker(node, coordinate)]
+            self.mbs.AddObject(items.CoordinateConstraint(markerNumbers=markers, offset=place))
 
     def hold_by_inertia(self, node: int, *coordinates: int, inertia: float = 1e9) -> None:
         """Hold coordinates of a node by an inertia too large to move.

@@ -11,7 +11,7 @@ const Beam = (() => {
       section: ["mm", 1e-3], length: ["m", 1], modulus: ["GPa", 1e9], density: ["kg/m³", 1], line: ["kg/m", 1],
       curvature: ["1/m", 1], sagitta: ["mm", 1e-3], dogleg: ["°/30 m", PI / 180 / 30],
       velocity: ["m/s", 1], drop: ["m", 1],
-      tension: ["kN", 1e3], load: ["N/m", 1], stress: ["MPa", 1e6], share: ["%", 0.01],
+      tension: ["kN", 1e3], load: ["N/m", 1], stress: ["MPa", 1e6], share: ["%", 0.01], stiffness: ["MN/m²", 1e6],
       time: [["µs", 1e-6], ["ms", 1e-3], ["s", 1]], force: [["N", 1], ["kN", 1e3], ["MN", 1e6]],
       impulse: [["mN s", 1e-3], ["N s", 1], ["kN s", 1e3]], moment: [["N m", 1], ["kN m", 1e3]],
       place: [["mm", 1e-3], ["m", 1]], gap: [["µm", 1e-6], ["mm", 1e-3], ["m", 1]],
@@ -22,7 +22,7 @@ const Beam = (() => {
       line: ["lb/ft", 1.488163943570], curvature: ["1/ft", 1 / 0.3048], sagitta: ["in", 0.0254],
       dogleg: ["°/100 ft", PI / 180 / 30.48], velocity: ["ft/s", 0.3048], drop: ["ft", 0.3048],
       tension: ["klbf", 4448.2216152605], load: ["lbf/ft", 14.593902937206],
-      stress: ["ksi", 6.894757293168e6], share: ["%", 0.01],
+      stress: ["ksi", 6.894757293168e6], share: ["%", 0.01], stiffness: ["klbf/in²", 6.894757293168e6],
       time: [["µs", 1e-6], ["ms", 1e-3], ["s", 1]], force: [["lbf", 4.4482216152605], ["klbf", 4448.2216152605]],
       impulse: [["lbf s", 4.4482216152605]], moment: [["ft lbf", 1.3558179483314], ["ft klbf", 1355.8179483314]],
       place: [["in", 0.0254], ["ft", 0.3048]], gap: [["mil", 2.54e-5], ["in", 0.0254], ["ft", 0.3048]],
@@ -63,6 +63,7 @@ const Beam = (() => {
     ["Loads", "load", "Load towards the wall", "load", 0, any],
     ["Beam", "damping_ratio", "Damping ratio, 1st mode", "share", 0, whole],
     ["Wall", "wall_curvature", "Wall curvature along the beam (+ concave)", "curvature", 0, any],
+    ["Wall", "wall_stiffness", "Stiffness per length of beam (0: rigid)", "stiffness", 0, whole],
   ].map(([group, name, label, quantity, start, ok, shown = any]) => (
     { group, name, label, quantity, start, ok, shown }
   ));
@@ -127,7 +128,7 @@ const Beam = (() => {
       stiffness, mass, length: i.length, curvature, tension: i.tension, area, shear, modulus: second / (height / 2),
       velocity: i.approach === "drop" ? sqrt(2 * GRAVITY * i.drop_height) : i.velocity,
       acceleration: weight + (i.load - i.tension * curvature) / mass,
-      wallCurvature: i.wall_curvature, naturalCurvature: i.natural_share * curvature,
+      wallCurvature: i.wall_curvature, wallStiffness: i.wall_stiffness, naturalCurvature: i.natural_share * curvature,
       damping: 2 * i.damping_ratio * (i.length / FIRST_MODE) ** 2 / sqrt(stiffness / mass),
     };
   }
@@ -141,7 +142,9 @@ const Beam = (() => {
     const contact = Theory.contact(ratio, alpha, n);
     const solved = { b, c, half, timeScale, slow, contact }, limits = Limits.limits(solved);
     // where nothing holds the numbers are shown as far as they would without what spoils them
-    return { ...solved, limits, shownUntil: limits.until, first: bending(solved), whole: wholeImpact(solved) };
+    const unit = b.velocity * sqrt(b.mass) * (b.stiffness * b.wallStiffness) ** 0.25;
+    const peakForce = b.wallStiffness ? unit * Theory.peakForce(ratio) : null; // of a wall that gives way
+    return { ...solved, limits, peakForce, shownUntil: limits.until, first: bending(solved), whole: wholeImpact(solved) };
   }
 
   /** Stress of a bending moment together with the axial force, Pa. */

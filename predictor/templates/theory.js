@@ -58,5 +58,10 @@ const Theory = (() => {
     return turned[0] * S[0] - turned[1] * S[1] - 1 + ratio * x * x / 2;
   }
 
-  return { s, number, contact, gap };
+  /** Largest force on an undamped wall that gives way, over V₀√μ(EI k)^¼: (κ/ν)^{−1/2} (1 + κ/ν)^{3/8} Σ c_k T_k(u). */
+  function peakForce(ratio) {
+    return (1 + ratio) ** 0.375 / sqrt(ratio) * clenshaw(COEFFICIENTS.force, (ratio - 1) / (ratio + 1));
+  }
+
+  return { s, number, contact, gap, peakForce };
 })();

@@ -2,7 +2,7 @@
 // The page: inputs ↔ link, numbers, plots. No number of mechanics is made here.
 (() => {
   const { UNITS, CHOICES, FIELDS, START } = Beam, { text, draw, axes, path } = Draw;
-  const { REGIMES, CAUSES, YIELDS, SIMULATE } = Words;
+  const { REGIMES, CAUSES, YIELDS, GIVES_WAY, SIMULATE } = Words;
   const find = (selector) => document.querySelector(selector);
   let inputs = { ...START }, predicted = null;
 
@@ -239,10 +239,11 @@
     if (complain()) return;
     const b = Beam.impact(inputs);
     predicted = Beam.solve(b);
-    const { contact, limits } = predicted, [verdict, why] = REGIMES[contact.regime];
+    const { contact, limits, peakForce } = predicted, [verdict, why] = REGIMES[contact.regime];
     const words = {
       verdict, why, brief: `Largest stress: ${stresses(predicted)} ↓`,
       peak: `Largest stress: ${stresses(predicted)}.`,
+      force: peakForce ? `Largest force on the wall: ${quantity("force", peakForce, 4)} ± ${GIVES_WAY}` : "",
       yields: yields(predicted) ? YIELDS : "",
       holds: holding(predicted),
       damped: b.damping > 0 ? `The first instants are those of an undamped beam. For this one, ${SIMULATE}.` : "",

@@ -35,14 +35,18 @@ def test_the_springs_give_back_what_they_took() -> None:
     assert history.array("peak_pressure")[-1] == pytest.approx(STIFFNESS * history.array("peak_penetration")[-1])
 
 
-@pytest.mark.parametrize("refine", [0.5, 1.0])
-def test_the_largest_force_before_an_elastic_wall_does_not_depend_on_the_mesh(refine: float) -> None:
-    """F = f V₀√μ(EI k)^¼ with f(0.5) = 4.596; a penalty of the elements' own would grow with 1/Δx."""
-    assert run(0.5, refine=refine).array("peak_force")[-1] / STIFFNESS**0.25 == pytest.approx(4.596, rel=3e-3)
+@pytest.mark.parametrize(("ratio", "refine", "exact"), [(0.0, 0.5, 4.596), (0.0, 1.0, 4.596), (1.0, 1.0, 3.392)])
+def test_the_largest_force_before_an_elastic_wall_does_not_depend_on_the_mesh(
+    ratio: float, refine: float, exact: float
+) -> None:
+    """F = f V₀√μ(EI k)^¼ with f(0.5, ζ) of the theory; a penalty of the elements' own would grow with 1/Δx, and
+    dashpots of whole elements push 2.6 % more."""
+    force = run(0.5, ratio, refine=refine).array("peak_force")[-1] / STIFFNESS**0.25
+    assert force == pytest.approx(exact, rel=3e-3)
 
 
 def test_dashpots_take_energy_and_push_earlier() -> None:
-    elastic, damped = run(1.0, refine=0.5), run(1.0, 0.5, refine=0.25)
+    elastic, damped = run(1.0, refine=0.5), run(1.0, 0.5, refine=0.5)
     assert share(damped, "loss_wall") > 0.01 > abs(share(damped, "loss_impact"))
     assert abs(share(damped, "defect")) < 1e-6
     assert damped.array("peak_force")[-1] < elastic.array("peak_force")[-1]

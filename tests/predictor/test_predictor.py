@@ -21,6 +21,8 @@ from comparison.command_line.app import run
 from comparison.whole_impact.stored_map import bounce_from_map
 from predictor.page import page, script, write_page
 from theory import SelfSimilarWave, contact_parameters
+from theory import predict as theory_predict
+from theory.elastic_wall import peak_force
 from theory.moment import peak_moment
 
 ROOT = Path(__file__).parents[2]
@@ -64,8 +66,8 @@ NAMES = {"stiffness": "bending_stiffness", "mass": "mass_per_length", "length": 
 AREA, MODULUS, SHEAR = 2.0, 0.5, 1e4
 
 
-def answers(impacts: list[Impact]) -> list[dict[str, Any]]:
-    section = {"area": AREA, "modulus": MODULUS, "shear": SHEAR}
+def answers(impacts: list[Impact], **more: float) -> list[dict[str, Any]]:
+    section = {"area": AREA, "modulus": MODULUS, "shear": SHEAR} | more
     beams = [{here: getattr(i, there) for here, there in NAMES.items()} | section for i in impacts]
     x = np.linspace(0.0, 10.0, 21).tolist()
     return evaluated(
@@ -144,6 +146,16 @@ def test_impulse_is_the_time_integral_of_the_force_and_momentum_that_of_the_wave
 
 
 @needs_node
+def test_the_largest_force_on_a_wall_that_gives_way_is_that_of_the_theory() -> None:
+    ratios = [0.003, 0.07, 0.4, 1.3, 30.0]
+    exact = [peak_force(ratio).value for ratio in ratios]
+    assert evaluated("given.map((ratio) => Theory.peakForce(ratio))", ratios) == pytest.approx(exact, rel=3e-4)
+    impact = Impact(2.0, 3.0, 1e3, 0.4, 0.5, wall_stiffness=7.0)
+    given = answers([impact], wallStiffness=7.0)[0]
+    assert given["peakForce"] == pytest.approx(theory_predict(impact).peak_force, rel=3e-4)
+
+
+@needs_node
 def test_whole_impact_is_the_stored_map_where_it_reaches() -> None:
     rng = np.random.default_rng(4)
     asked = [[k, d] for k, d in zip(10.0 ** rng.uniform(-1.4, 0.8, 60), 10.0 ** rng.uniform(-4.5, -0.9, 60))]
@@ -166,7 +178,8 @@ def random_inputs(count: int) -> list[dict[str, Any]]:
         choices = {"section": ["pipe", "round_bar", "rectangle"], "bow": ["curvature", "sagitta", "dogleg"],
                    "approach": ["velocity", "drop"], "fluid_density": [0.0, 1100.0], "added_mass": [0.0, 0.3],
                    "natural_share": [1.0, 0.0, 0.4], "wall_curvature": [0.0, -0.01, 1e-9],
-                   "damping_ratio": [0.0, 0.01], "tension": [0.0, 300.0, -20.0], "load": [0.0, 7.0, -7.0]}  # fmt: skip
+                   "damping_ratio": [0.0, 0.01], "tension": [0.0, 300.0, -20.0], "load": [0.0, 7.0, -7.0],
+                   "wall_stiffness": [0.0, 2e7]}  # fmt: skip
         sizes = {"outer_diameter": outer, "inner_diameter": outer * rng.uniform(0.1, 0.99), "diameter": outer,
                  "thickness": outer, "width": outer * rng.uniform(0.2, 20.0), "length": length,
                  "curvature": 10.0 ** rng.uniform(-4.0, 0.0) / length, "dogleg": 10.0 ** rng.uniform(-4.0, -1.0),
@@ -193,6 +206,7 @@ def test_case_means_what_the_page_shows() -> None:
             value = getattr(case.impact, there)
             value = case.impact.curvature if value is None else value
             assert row["b"][here] == pytest.approx(value, rel=1e-12, abs=1e-12), (here, row["case"])
+        assert (row["b"]["wallStiffness"] or None) == case.impact.wall_stiffness
         assert case.end_time == row["until"]
         assert case.section is not None
         for here, there in {"modulus": "section_modulus", "area": "area", "shear": "shear_stiffness"}.items():

@@ -1,0 +1,81 @@
+"""Ends that are held, plates and stops, by Exudyn: closed forms, and the Hermite path's answers."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+from bent_beam import Impact
+from exudyn_models import ExudynModel
+from exudyn_models.contacts import Rigid
+from exudyn_models.contacts.springs import covered
+from exudyn_models.geometry import TrueGeometry
+from hermite_fe import HermiteFE
+from measure.balance import balance_of
+
+HINGED = {"left_end": "hinged", "right_end": "hinged"}
+COARSE = ExudynModel(refine=0.15)
+
+
+def agree(impact: Impact, end: float, tolerance: float, refine: float = 0.25):
+    """Both codes' histories, whose impulses, moments and forces agree within ``tolerance``."""
+    histories = [kind(refine=refine).simulate(impact, end_time=end, save=40) for kind in (ExudynModel, HermiteFE)]
+    names = ["total_impulse", "largest_moment"] + ["peak_force"] * (impact.wall_stiffness is not None)
+    for name in names:
+        exudyn, hermite = (float(np.abs(history.array(name)).max()) for history in histories)
+        assert exudyn == pytest.approx(hermite, rel=tolerance), name
+    for history in histories:
+        assert abs(history.energy_budget()["defect"]) < 1e-6 * history.energy_budget()["initial_energy"]
+    return histories
+
+
+def test_a_hinged_beam_swings_in_its_first_mode_and_a_clamped_one_in_its_own() -> None:
+    for ends, beta in ((HINGED, np.pi), (dict.fromkeys(HINGED, "clamped"), 4.730040744862704)):
+        impact = Impact(1.0, 1.0, 2.0, 1e-3, 1e-6, wall_from=0.5, wall_to=0.6, **ends)  # the wall is out of reach
+        omega = beta**2 / 4.0
+        history = COARSE.simulate(impact, end_time=1.0 / omega, save=10)
+        moved = history.array("gap", 0) - history.array("gap")
+        middle = int(np.argmin(np.abs(history.positions(0))))
+        assert moved[:, middle] == pytest.approx(1e-6 * np.sin(omega * history.time) / omega, rel=1e-3, abs=1e-12)
+        assert np.abs(moved[:, -1]).max() < 1e-15
+
+
+def test_a_beam_swung_on_an_elastic_stop_and_a_hinged_one_on_a_plate_are_those_of_the_other_path() -> None:
+    stop = Impact(1.0, 1.0, 2.0, 0.0, 1.0, left_end="hinged", wall_stiffness=300.0, wall_from=1.0, wall_to=1.0)
+    agree(stop, 0.5, 4e-3, refine=0.5)
+    agree(stop.replace(wall_from=0.0, wall_to=0.0, **HINGED), 0.2, 4e-3)  # half of it before half of the beam
+    plate = Impact(
+        1.0, 1.0, 2.0, 0.1, 1.0, wall_from=-0.2, wall_to=0.2, wall_stiffness=3e3, wall_damping=30.0, **HINGED
+    )
+    agree(plate, 0.3, 4e-3, refine=0.5)
+
+
+def test_a_rigid_stop_and_a_plate_hold_their_part_of_the_beam_and_let_the_rest_pass() -> None:
+    stop = Impact(1.0, 1.0, 2.0, 0.0, 1.0, damping=1e-2, wall_from=0.0, wall_to=0.0, **HINGED)
+    plate = Impact(1.0, 1.0, 2.0, 0.3, 1.0, damping=1e-2, wall_from=-0.3, wall_to=0.2)
+    for impact, where in ((stop, [0.0, 0.0]), (plate, [-0.3, 0.2])):
+        history = agree(impact, 0.15, 0.01)[0]
+        places, gap = history.contact_positions(0), history.array("gap")
+        assert_allclose(places[[0, -1]], where, atol=1e-12)
+        assert gap[:, np.searchsorted(history.positions(0), places - 1e-9)].min() > -1e-3
+        assert gap[-1].min() < -0.02
+    assert balance_of(history).momentum < 0.01
+
+
+def test_the_covered_length_of_a_straight_rim_is_exact_and_grows_without_jumps() -> None:
+    x = np.array([-1.0, -0.7, -0.2, 0.0, 0.5, 1.0])
+    for rim in np.linspace(-0.9, 0.9, 37):
+        assert covered(rim - x, np.diff(x)).sum() == pytest.approx(1.0 + rim)
+        assert covered(x - rim, np.diff(x)).sum() == pytest.approx(1.0 - rim)
+
+
+def test_what_supports_and_plates_do_not_go_with_is_refused() -> None:
+    impact = Impact.whole_beam(0.5).replace(**HINGED)
+    for method, other in (
+        (ExudynModel(contact=Rigid()), impact.replace(wall_to=0.1)),
+        (ExudynModel(geometry=TrueGeometry()), impact),
+        (COARSE, impact.replace(axial_force=1.0)),
+        (COARSE, impact.replace(opposite_wall=1.0)),
+    ):
+        assert method.refuses(other), other
