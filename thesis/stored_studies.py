@@ -72,8 +72,8 @@ SAYS = {
     "with lumped masses, while with the consistent matrix nodes and middles are alike.",
     "conditioning": "The thesis (3.3.2) gives up Δx = 10⁻⁴ m, where its matrix is close to singular: here it runs and "
     "closes its energy budget.",
-    "first-order-case": "The thesis (3.5) fits 227 and −270.8 m/s^1.5 over all of its run, and has no value of theory "
-    "to compare with.",
+    "first-order-case": "The thesis (3.5) fits 227 and −270.8 m/s^1.5, does not say over which part of its run, and has "
+    "no value of theory to compare with.",
 }
 """What the thesis says of a study, and whether it is so, on its own case."""
 COMPARED = ("contact_length_error", "reaction_error", "fit_1")

@@ -118,8 +118,8 @@ def lengths(sheet: Sheet) -> None:
 def reactions(sheet: Sheet) -> None:
     """Nodes and middles: reaction
 
-    Reaction of one side until τ = 0.1, nodes and middles with both masses; {shown}: (a) every step, filtered as the
-    thesis does, peaks cut; (b) the impulse less theory's, unfiltered. The thesis finds the general behaviour of 1/√t
+    Reaction of one side until τ = 0.1, nodes and middles with both masses; {shown}: (a) every step, filtered as in
+    3.3.1, peaks cut; (b) the impulse less theory's, unfiltered. The thesis finds the general behaviour of 1/√t
     with both. In impulse lumped nodes are nearest to theory and lumped middles furthest from it.
     """
     compare(sheet, (filtered, impulse_off), "reaction_error")

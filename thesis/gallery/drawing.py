@@ -124,7 +124,7 @@ LEGEND = (
     "contact at element middles, lumped (r = 1/105) and consistent mass (3.1.8); the thesis's other settings (lines), "
     "Hermite (circles) and Self-similar (diamonds) with their own choices, theory (black)"
 )
-FILTER = "every step, filtered as the thesis does (above), and the impulse less theory's, unfiltered (below)"
+FILTER = "every step, filtered as in 3.3.1 (above), and the impulse less theory's, unfiltered (below)"
 REACTION: tuple[Panel, ...] = (filtered, impulse_off)
 
 
