@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 
 import numpy as np
 
@@ -12,13 +11,13 @@ from comparison.figures import style
 from thesis.gallery.base import item
 from thesis.gallery.drawing import THEORY, beam_at_times, filtered_scatter, legend_below, numbers_of
 from thesis.gallery.maps import CellForces, draw_maps
-from thesis.gallery.runs import reference_runs, thesis, thesis_history, thesis_steps
+from thesis.gallery.runs import reference_runs, thesis, thesis_history, thesis_run
 from thesis.sheet import Sheet
 from thesis.studies.contact import NAMES
 from thesis.studies.exact import Exact
 from thesis.studies.outcome import Outcome
 from thesis.studies.panels import Panel, contact_length, energy, filtered, impulse_off, length_off, strain
-from thesis.studies.steps import Steps, scatter
+from thesis.studies.steps import scatter
 from thesis.studies.thesis import MASSES
 
 FLAT, BENT = 1.0 / 80.0, 1.0
@@ -38,11 +37,6 @@ def history(contact: str, mass: str) -> ImpactHistory:
     return thesis_history(FLAT, 0.1, contact=contact, mass=MASSES[mass])
 
 
-def every(contact: str, mass: str) -> Steps:
-    """Its reaction of every step."""
-    return thesis_steps(FLAT, 0.1, contact=contact, mass=MASSES[mass])
-
-
 def four() -> list[Outcome]:
     """Nodes and middles, both masses."""
     return [run(contact, mass) for mass, contact in PAIRS]
@@ -51,8 +45,6 @@ def four() -> list[Outcome]:
 def compare(sheet: Sheet, panels: Sequence[Panel], *measures: str) -> None:
     """Panels of the four and of the references in a row, one legend, their numbers beside them."""
     own = four()
-    if filtered in panels:
-        own = [replace(o, steps=every(contact, mass)) for o, (mass, contact) in zip(own, PAIRS)]
     outcomes = own + reference_runs(FLAT, 0.1)
     with sheet.figure(1, len(panels), width=style.PAGE if len(panels) > 1 else 4.6, height=3.0) as (fig, axes):
         for axis, panel in zip(np.ravel(axes), panels):
@@ -209,8 +201,8 @@ def unfiltered(sheet: Sheet) -> None:
     """
     with sheet.figure(2, 2, width=style.PAGE, height=4.4, sharex=True, sharey=True) as (_, axes):
         for axis, (mass, contact) in zip(axes.flat, PAIRS):
-            found, name = every(contact, mass), f"{NAMES[contact]}, {mass}"
-            time, target = found.time, Exact(history(contact, mass).impact).side_reaction(found.time)
+            whole, found = thesis_run(FLAT, 0.1, contact=contact, mass=MASSES[mass])
+            name, time, target = f"{NAMES[contact]}, {mass}", found.time, Exact(whole.impact).side_reaction(found.time)
             sheet.numbers[f"scatter, {name} mass"] = scatter(time, found.reaction, target)
             sheet.numbers[f"steps without a reaction (%), {name} mass"] = 100.0 * float(np.mean(found.reaction <= 0.0))
             colour = style.SEQUENCE[CONTACT.index(contact)]

@@ -32,7 +32,9 @@ RESTITUTIONS = Series(1.0 / 40.0, 0.1, {f"restitution {e:g}": {"restitution": e}
 
 
 COARSE_CASE = f"K = 1 1/m, t_f = 2.5·10⁻⁵ s, h = 2.5·10⁻⁸ s; {LEGEND}"
-DAMPED_CASE = f"K = 1/40 1/m (κ/ν = 1.25·10⁻³; the thesis prints 1.3·10⁻³), h = 2.5·10⁻⁸ s, Δx = 2.5·10⁻³ m, e = 1.25; {LEGEND}"
+DAMPED_CASE = (
+    f"K = 1/40 1/m (κ/ν = 1.25·10⁻³; the thesis prints 1.3·10⁻³), h = 2.5·10⁻⁸ s, Δx = 2.5·10⁻³ m, e = 1.25; {LEGEND}"
+)
 BASE = 2.5e-8  # s, the thesis's choice
 BASE_STEP = f"h = {readable(BASE)} s"
 run_items(__name__, (
@@ -47,8 +49,8 @@ run_items(__name__, (
      "in the thesis below 10⁻⁶ m."),
     ("fig-3.9", "Time step: reaction", REACTION, lambda: STEPS,
      f"Reaction of one side for several time steps: {FILTER}; {COARSE_CASE}. The thesis excludes 10⁻⁶ and 10⁻⁷ s, "
-     "which miss 1/√t at the start, and finds 5·10⁻⁸ s too long: the filter smooths over a number of steps, that is 40 and 4 times as long there "
-     "(extra-filter). The impulse differs little below 10⁻⁶ s."),
+     "which miss 1/√t at the start, and finds 5·10⁻⁸ s too long: the filter smooths over a number of steps, that is "
+     "40, 4 and 2 times as long there (extra-filter). The impulse differs little below 10⁻⁶ s."),
     ("fig-3.17", "Spectral radius: geometry", (geometry, geometry_off("ρ∞ = 0.8")), lambda: RADII,
      f"Geometry at τ = 0.01 for several spectral radii, and differences from ρ∞ = 0.8; {DAMPED_CASE}. The values of "
      "the thesis's legend are not in its text; it sees no major change."),
@@ -82,7 +84,7 @@ def filter_decides(sheet: Sheet) -> None:
     grows as h falls, and at 10⁻⁶ s 1/√t is lost; with the filter in seconds all steps up to 10⁻⁷ s scatter alike. What
     the thesis compares in Fig. 3.9 to choose h is for the most part its filter.
     """
-    outcomes = [o for o in STEPS.outcomes("lumped", steps=True) if o.steps is not None]
+    outcomes = [o for o in STEPS.outcomes("lumped") if o.steps is not None]
     same = [replace(o, steps=in_seconds(o.steps)) for o in outcomes if o.steps is not None]
     with sheet.figure(1, 3, width=style.PAGE, height=2.7) as (fig, axes):
         for axis, shown in zip(axes, (outcomes, same)):

@@ -49,7 +49,7 @@ def whole_beam(sheet: Sheet) -> None:
 def fine(sheet: Sheet) -> None:
     """Elements of 10⁻⁴ m
 
-    Δx = 10⁻⁴ m, where the thesis's matrix was close to singular, with its other settings and no cap on the ratio of lengths,
+    Δx = 10⁻⁴ m, where the thesis's matrix was close to singular, its other settings, no cap on the ratio of lengths,
     K = 1 1/m, τ = 0.01: (a) contact length, (b) geometry at the end, beside its own Δx = 2.5·10⁻³ m. It runs, and
     closes its energy budget to rounding.
     """
@@ -57,7 +57,8 @@ def fine(sheet: Sheet) -> None:
     zone = thesis_settings(given.impact, given.end_time).zone
     found = [
         outcome_of(
-            thesis_history(1.0, 0.01, mesh=GradedMesh(dx, 1.25, zone=zone, size_ratio=study.UNCAPPED)), f"Δx = {readable(dx)} m"
+            thesis_history(1.0, 0.01, mesh=GradedMesh(dx, 1.25, zone=zone, size_ratio=study.UNCAPPED)),
+            f"Δx = {readable(dx)} m",
         )
         for dx in (2.5e-3, 1e-4)
     ]

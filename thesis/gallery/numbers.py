@@ -95,8 +95,8 @@ def scales() -> Iterator[Printed]:
     whole, p = Exact(strong), Exact(strong).parameters
     share = float(whole.side_reaction(1e-4) / Exact(plain).side_reaction(1e-4)) - 1.0
     yield Printed("3.5, (3.5.10)", "first order over leading order of R at ±λ_c at 10⁻⁴ s, a₀ = 700 m/s²", "1e-4",
-                  float(p.r1 * whole.tau(1e-4) / p.r0), "it assumes that r₁ and r₀ are of one order, though their units "
-                  "differ by a time: t = 10⁻⁴ is left; with the uniform reaction beside it the whole side has "
+                  float(p.r1 * whole.tau(1e-4) / p.r0), "it assumes that r₁ and r₀ are of one order, though their "
+                  "units differ by a time: t = 10⁻⁴ is left; with the uniform reaction beside it the whole side has "
                   f"{100.0 * share:.2g} %", rule=1e-4)
 
 
@@ -168,7 +168,7 @@ def first_order() -> Iterator[Printed]:
     strong = first.impact(700.0)
     rule = old_settings(strong, first.DURATION * strong.time_scale).zone
     zones = ", ".join(f"{1e3 * first.old_outcome(700.0, zone=z).lift:.2g} mm for {z:g} m" for z in first.ZONES)
-    own = {a: first.old_outcome(a, time_step=first.THESIS_STEP) for a in (0.0, 700.0, -700.0)}
+    own = {a: first.own(a) for a in (0.0, 700.0, -700.0)}
     masses = "nodes, lumped masses, r = 1/105"
     for printed, where, digits in (("4.1e-4", "3.5, Fig. 3.33", ""), ("4e-4", "3.5", "“in the order of”; ")):
         yield Printed(where, "lift, a₀ = 0, m", printed, own[0.0].lift, digits + masses, read=True)
@@ -180,7 +180,7 @@ def first_order() -> Iterator[Printed]:
         yield Printed("3.5", f"λ₁ fitted to the thesis's run, a₀ = {readable(a)} m/s², m/s^1.5", f"{slope:g}",
                       fitted(own[a]), f"{masses}; theory predicts {readable(predicted(first.impact(a)))} for t → 0",
                       read=True)
-    last = first.last_push(first.old(-700.0, time_step=first.THESIS_STEP))
+    last = first.last_push(first.own_history(-700.0))
     yield Printed("3.5", "the beam leaves the wall, a₀ = −700 m/s², s", "3.7e-3", last,
                   f"open; {masses}; ours: the last push of the wall", read=True)
 # fmt: on
@@ -228,7 +228,7 @@ def markdown(found: list[list[str]]) -> str:
     return f"{HEAD}\n{summary}; of {len(found)}.\n\n{lines}\n"
 
 
-@item("table-numbers")
+@item("table-numbers", beside=first.__name__)
 def numbers(sheet: Sheet) -> None:
     """Every printed number that can be computed
 
