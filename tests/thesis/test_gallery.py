@@ -6,24 +6,22 @@ import csv
 import dataclasses
 import functools
 import io
-import json
-import math
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 
-from bent_beam import Impact, ImpactHistory
 from hermite_fe import HermiteFE
 from self_similar_fe import SelfSimilarFE
 from theory import contact_parameters, kernel
 from thesis.gallery import ITEMS, base, draw_all, listing
-from thesis.gallery.animation import impact_frames
 from thesis.gallery.base import order
-from thesis.gallery.runs import case
+from thesis.gallery.drawing import REACTION, run_figure
+from thesis.gallery.runs import Series, case
 from thesis.sheet import Sheet
 from thesis.studies.exact import Exact
+from thesis.studies.panels import contact_length
 from thesis.studies.thesis import MASSES
 
 DOCS = Path(__file__).parents[2] / "docs"
@@ -31,7 +29,7 @@ LAST = {"fig-2": 18, "fig-3": 36, "fig-A": 3, "table-3": 4}  # of the thesis's f
 PAIRS = ("fig-2.7", "fig-2.12", "fig-2.16")  # drawn as a and b
 OTHERS = "filter counts uniform fine conditioning signorini coupling masses a0-17"
 QUICK = [*(name for name in ITEMS if name.startswith("fig-2")), "fig-A.1", "table-3.2", "table-3.4", "extra-counts"]
-QUICK += [f"fig-3.{n}" for n in (1, 2, 3, 4, 5, 6, 10, 11, 12, 22)]
+QUICK += [f"fig-3.{n}" for n in (1, 2, 3, 4, 5, 6, 22)]
 OURS = (HermiteFE().label, SelfSimilarFE().label)
 SLOW = pytest.mark.verify
 
@@ -152,7 +150,6 @@ POINTS = [  # figure, panel, series, x, y, tolerance
     ("fig-3.5", "", "Hermite", 0.0, -8e5 * 5.0**3 / 3.0 / 9.345e3 / 500.0, 1e-5),
     ("fig-3.6", "a", "theory", 0.0, 0.5, 1e-9),
     ("fig-A.1", "b", "N2", 0.5, 0.125, 1e-9),
-    ("fig-3.11", "a", "theory", 25.0, 1e3 * 6.23692857563 * math.sqrt(2.5e-5), 1e-6),
 ]
 
 
@@ -174,6 +171,22 @@ def test_free_motion_and_fast_layer_agree_in_the_contact_zone() -> None:
         assert np.abs(free - fast)[np.abs(a) > 1.2].max() > 10.0 * inside
 
 
+def test_a_figure_of_runs_has_a_column_a_mass_and_our_methods_on_theory() -> None:
+    sheet = Sheet()
+    run_figure(sheet, Series(10.0, 0.002, {"own": {}}), (contact_length, *REACTION))
+    sheet.close()
+    curves = {(sheet.panels[id(c.axis)], c.series): (c.x, c.y) for c in sheet.curves}
+    for panel in "abcd":  # contact length and reaction, lumped and consistent
+        t, exact = curves[panel, "theory"]
+        assert (panel, "own") in curves
+        for method in OURS:
+            x, y = curves[panel, method]
+            late = x > 0.2 * x[-1]
+            np.testing.assert_allclose(y[late], np.interp(x[late], t, exact), rtol=2e-2)
+    assert all(abs(sheet.numbers[f"r₀ error (%), {method}"] or 1.0) < 0.2 for method in OURS)
+
+
+@SLOW
 def test_our_methods_lie_on_the_wall_and_follow_theory_and_the_thesis_settings_do_not() -> None:
     for panel in "ab":  # lumped, consistent
         for method in OURS:
@@ -220,19 +233,6 @@ def test_the_bouncing_ball_turns_within_a_step_of_the_wall_and_a_pulled_beam_lif
     assert apex == pytest.approx(0.5 * 0.9**2, rel=1e-4)
     assert -4e-3 < height.min() < 4e-3
     assert np.abs(height - np.interp(t, times, exact))[t < 0.5].max() < 0.01
-
-
-def test_the_beam_without_the_wall_is_drawn_over_a_curved_wall_too() -> None:
-    """A wall bent like the beam and a beam bent more, by as much, are the same impact."""
-    flat = SelfSimilarFE().simulate(Impact.dimensionless(0.5, length=20.0), end_time=0.1, save=20)
-    dataset = flat.dataset.copy()
-    bent = flat.impact.replace(curvature=0.8, wall_curvature=0.3)
-    dataset.attrs["impact"] = json.dumps(dataclasses.asdict(bent))
-    for over_flat, over_curved in zip(impact_frames(flat, 4), impact_frames(ImpactHistory(dataset), 4), strict=True):
-        far = np.abs(over_flat.x) > 0.9 * over_flat.x.max()
-        assert np.allclose(over_curved.free, over_flat.free, rtol=0.0, atol=1e-12)
-        assert np.allclose(over_curved.y, over_flat.y, rtol=0.0, atol=1e-12)
-        assert np.all(over_flat.free[far] < 0.0)
 
 
 @SLOW
@@ -287,11 +287,3 @@ def test_matched_runs_follow_theory() -> None:
     exact = contact_parameters(x).lambda0
     # below κ/ν = 0.009 the mesh over the thin front is even, and its error bar is 1 %
     assert np.all(np.abs(values / exact - 1.0) < np.where(x > 0.009, 1e-3, 1e-2))
-
-
-@SLOW
-def test_the_animation_moves(tmp_path: Path) -> None:
-    entries(tmp_path, "animation")
-    assert (tmp_path / "animation.gif").stat().st_size > 50_000
-    fronts = [float(r["half contact length (m)"]) for r in cells("animation")]
-    assert fronts == sorted(fronts) and fronts[-1] > 0.0

@@ -111,7 +111,7 @@ def cost(sheet: Sheet) -> None:
     Iterations: Newton's in the thesis, rounds of the active set in ours.
     """
     found = STEPS.outcomes("lumped")
-    printed = [[readable(h), *numbers] for h, numbers in COST.items()]
+    printed = [[readable(h), *(readable(v, 6) for v in numbers)] for h, numbers in COST.items()]
     printed += [[o.label, None, None, None] for o in found[len(COST) :]]
     columns = ("h (s)", "thesis: time (s)", "most iterations", "mean", "ours: time (s)", "most", "mean")
     rows = [row + our_columns(o.measures) for row, o in zip(printed, found)]
