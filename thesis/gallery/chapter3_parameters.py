@@ -112,7 +112,7 @@ def cost(sheet: Sheet) -> None:
     """
     found = STEPS.outcomes("lumped")
     printed = [[readable(h), *(readable(v, 6) for v in numbers)] for h, numbers in COST.items()]
-    printed += [[o.label, None, None, None] for o in found[len(COST) :]]
+    printed += [[o.label, *3 * [readable(None)]] for o in found[len(COST) :]]
     columns = ("h (s)", "thesis: time (s)", "most iterations", "mean", "ours: time (s)", "most", "mean")
     rows = [row + our_columns(o.measures) for row, o in zip(printed, found)]
     sheet.table([*columns, "steps", "lift/(V₀t)", "r₀ error (%)"], rows)
