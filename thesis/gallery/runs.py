@@ -20,7 +20,7 @@ from thesis.studies.steps import Steps, every_step
 from thesis.studies.thesis import MASSES, references, thesis_settings
 
 HALF = 0.5
-"""Of Hermite's resolution, for references with a thin front: 0.1 % off, which no circle shows, a quarter of the time."""
+"""Of Hermite's resolution, for references with thin fronts: 0.1 % off, which no circle shows, a quarter of the time."""
 
 
 def case(curvature: float, duration: float) -> Case:
