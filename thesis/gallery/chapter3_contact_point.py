@@ -8,6 +8,7 @@ import numpy as np
 
 from bent_beam.history import ImpactHistory
 from comparison.figures import style
+from comparison.readable import readable
 from thesis.gallery.base import item
 from thesis.gallery.drawing import THEORY, beam_at_times, filtered_scatter, legend_below, numbers_of
 from thesis.gallery.maps import CellForces, draw_maps
@@ -62,11 +63,11 @@ def evolution(sheet: Sheet, contact: str) -> None:
         for axis, mass in zip(axes, MASSES):
             found = history(contact, mass)
             exact = Exact(found.impact)
-            beam_at_times(sheet, axis, found, TIMES, 1.1, lambda t: f"t = {1e4 * t:g}·10⁻⁴ s")
+            beam_at_times(sheet, axis, found, TIMES, 1.1, lambda t: f"t = {readable(t, 3)} s")
             for t, colour in zip(TIMES, style.SEQUENCE):
                 axis.plot(float(exact.front(t)), 0.0, marker="^", ms=5, color=colour, clip_on=False, zorder=5)
             flat = -1e3 * exact.gap(places, last)
-            sheet.line(axis, places, flat, series=f"theory, t = {1e4 * last:g}·10⁻⁴ s", **THEORY)
+            sheet.line(axis, places, flat, series=f"theory, t = {readable(last, 3)} s", **THEORY)
             style.wall_below(axis, -2.3, 0.4)
             sheet.numbers[f"largest lift inside the zone (mm), {mass} mass"] = 1e3 * run(contact, mass).lift
         sheet.letter(axes, [f"{mass} mass" for mass in MASSES])
