@@ -77,6 +77,6 @@ def draw_acceleration(impacts: Sequence[ShownImpact], out: Path) -> list[Path]:
             axis.set_ylabel(f"{symbol}  (1)")
         for mark in marks.values():
             axes[1].plot([], [], **mark)
-        axes[0].legend(fontsize=6)
+        fig.legend(*axes[0].get_legend_handles_labels(), loc="outside lower center", ncols=3, fontsize=6)
         axes[1].legend(fontsize=6)
         return style.save(fig, out, "acceleration")
