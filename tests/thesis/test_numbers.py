@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from thesis.gallery.numbers import PRINTED, chapter2, scales
-from thesis.verdicts import CLASSES, Printed
+from thesis.verdicts import CLASSES, Printed, within_rounding
 
 PAGE = Path(__file__).parents[2] / "docs" / "thesis_numbers.md"
 
@@ -55,3 +55,8 @@ def test_the_page_of_printed_numbers_is_what_is_computed(part: Callable[[], Iter
         row = page[where, what, thesis]
         assert row[5] == verdict, what
         assert value(row[3])[0] == pytest.approx(value(ours)[0], rel=2e-3), what
+
+
+def test_a_value_is_within_rounding_where_as_many_digits_of_it_are_those_printed() -> None:
+    near = {"1": (0.588, 0.96), "2e-4": (2.6e-4, 1.94e-4), "8e-3": (7.4e-3, 8.163e-3), "0.0312": (0.0314, 0.03125)}
+    assert [[within_rounding(printed, v) for v in pair] for printed, pair in near.items()] == 4 * [[False, True]]
