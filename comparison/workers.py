@@ -85,7 +85,9 @@ def _together(
             under_way.add(i)
             yield delayed(_numbered)(i, function, arguments[i])
 
-    pool = Parallel(jobs, "loky", "generator_unordered", batch_size=1, max_nbytes=None, idle_worker_timeout=IDLE)
+    pool = Parallel(
+        jobs, "loky", "generator_unordered", batch_size=1, max_nbytes=None, idle_worker_timeout=IDLE
+    )
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", UserWarning)  # loky renews a worker that has grown, drops what is interrupted
         try:

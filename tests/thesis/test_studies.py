@@ -169,6 +169,7 @@ def test_the_condition_of_the_matrix_is_that_of_its_units_and_the_runs_close_the
 
 @dataclass(frozen=True)
 class Plain:  # a method of somebody else's without any parts
+
     path: ClassVar[str] = "plain"
     label: str = "Plain"
 

@@ -44,7 +44,6 @@ def penalty_variants(case: Case) -> list[Variant]:
     Errors of λ₀ and r₀, lift and noise over stiffness and damping of the penalty and over the spectral radius, without
     viscosity of the grid; then with it, and two other paths on the same case.
     """
-
     def run(label: str, method: Method, value: float | None = None, reference: bool = False) -> Variant:
         return Variant(label, case.impact, case.end_time, method, value, reference, SAVED)
 
