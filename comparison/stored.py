@@ -52,9 +52,12 @@ def is_stale(file: Path) -> bool:
     return "digest" not in stored or bool(stored["digest"] != digest_of(stored["packages"], stored["settings"]))
 
 
-def confirm(file: Path) -> None:
-    """Give ``file`` today's digest; only for who has measured a sample of it again and found it inside its bars."""
-    stored = read(file)
+def confirm(file: Path, **words: Any) -> None:
+    """Give ``file`` today's digest; only for who has measured a sample of it again and found it inside its bars.
+
+    words : entries to replace, whose numbers are the same.
+    """
+    stored = read(file) | words
     stored |= {"digest": digest_of(stored["packages"], stored["settings"]), "confirmed": today()}
     write_atomically(file, json_text(stored, indent=1) + "\n")
 

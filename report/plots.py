@@ -1,7 +1,8 @@
 """The report's interactive plots as plain plotly dictionaries: ``{"data": […], "layout": {…}}``.
 
-Every trace carries ``meta.label`` ("theory" or a method's label), which the page's switches act on. Markers: open for
-λ, filled for r.
+Every trace carries ``meta.label`` ("theory" or a method's label), which the page's switches act on. A method has its
+marker and colour of the still pictures; marks are open, so that those of one place can all be seen, and filled for r
+where they stand beside those of λ.
 """
 
 from __future__ import annotations
@@ -13,7 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from comparison.figures.style import SEQUENCE, marks
+from comparison.figures.style import marks
 from report.rows import Cell, TableRow, labels
 from theory import contact_parameters
 
@@ -28,6 +29,7 @@ SHAPES = {"o": "circle", "D": "diamond", "s": "square", "^": "triangle-up", "v":
 """Marker of the still pictures → the same of plotly."""
 LOG: Plot = {"type": "log", "exponentformat": "power", "dtick": 1}
 LOG_RATIO: Plot = {**LOG, "minor": {"ticks": "outside", "ticklen": 3}}
+DASHES = ("solid", "dash", "dot", "dashdot", "longdash", "longdashdot")
 SMALLEST = 1e-5  # per cent; smaller errors are drawn there
 SMALLEST_RATIO = 0.08  # κ/ν, where curves of first order begin
 
@@ -76,11 +78,11 @@ def curve(x: ArrayLike, y: ArrayLike, name: str, line: Plot, **more: Any) -> Plo
     }
 
 
-def series(rows: Sequence[TableRow], what: str) -> Iterator[tuple[str, Plot, Points]]:
-    """Label, marker and points of each method that has the number ``what``."""
+def series(rows: Sequence[TableRow], what: str, fill: str = "-open") -> Iterator[tuple[str, Plot, Points]]:
+    """Label, marker and points of each method that has the number ``what``; fill : "" for filled markers."""
     for label, mark in marks(labels(r.row for r in rows)).items():
         both = [(r, c) for r in rows if r.row.label == label for c in r.cells if c.what == what]
-        shape = SHAPES[mark["marker"]] + ("-open" if what.startswith("lambda") else "")
+        shape = SHAPES[mark["marker"]] + fill
         colour = str(mark["color"])
         if both:
             yield label, {"symbol": shape, "size": 9, "color": colour, "line": {"width": 1.8, "color": colour}}, both
@@ -121,16 +123,14 @@ def first_order_plot(rows: Sequence[TableRow], what: str) -> Plot:
     """λ₁ or r₁ over κ/ν: a curve of theory for each (α, ψ, χ, N), and every method's points on it."""
     data: list[Plot] = []
     for i, first in enumerate(dict.fromkeys(r.row.first for r in rows)):
-        line = {"color": SEQUENCE[i % len(SEQUENCE)], "width": 1.5}
-        line["dash"] = ("solid", "dash")[i // len(SEQUENCE) % 2]
+        line = {"color": "#000", "width": 1.3, "dash": DASHES[i % len(DASHES)]}
         mine = [r for r in rows if r.row.first == first]
         ratio = np.linspace(SMALLEST_RATIO, 0.99, 180)
         exact = getattr(contact_parameters(ratio, *first[:3], axial=first[3]), what)
         load = mine[0].first_text
         data.append(curve(ratio, exact, load, line, legendgroup=load))
         for label, marker, both in series(mine, what):
-            painted = {**marker, "color": line["color"], "line": {"width": 1.8, "color": line["color"]}}
-            data.append(points(label, both, marker=painted, legendgroup=load, showlegend=False))
+            data.append(points(label, both, marker=marker, showlegend=i == 0))
     return {
         "data": data,
         "layout": layout(
@@ -156,7 +156,7 @@ def error_plot(rows: Sequence[TableRow], names: Sequence[str]) -> Plot:
     data: list[Plot] = []
     logarithmic = "lambda0" in names
     for what in names:
-        for label, marker, both in series(rows, what):
+        for label, marker, both in series(rows, what, "-open" if what.startswith("lambda") else ""):
             shift = len(data) - 1.5  # beside one another, so that points do not hide others
             trace = points(label, both, marker=marker, legendgroup=f"{label}-{what}")
             data.append(

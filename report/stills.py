@@ -63,21 +63,20 @@ def draw_acceleration(impacts: Sequence[ShownImpact], out: Path) -> list[Path]:
             axes, ("front", "reaction"), (-0.5, 0.5), (r"$\lambda_c/\sqrt{\tau}$", r"$(R/2)\sqrt{\tau}$")
         ):
             for i, (shown, runs) in enumerate(grouped(impacts).items()):
-                theory, colour = theory_of(shown), style.SEQUENCE[i]
+                theory, dash = theory_of(shown), ("-", "--", ":")[i % 3]
                 time = np.array(theory["time"])
                 axis.plot(
                     time,
                     np.array(theory[what]) * time**power,
-                    color=colour,
-                    label=shown.title if what == "front" else None,
+                    **{**style.THEORY, "ls": dash, "label": shown.title if what == "front" else None},
                 )
                 for j, run in enumerate(runs):
-                    mark = {**marks[run.label], "color": colour, "label": None}
+                    mark = {**marks[run.label], "label": None}
                     axis.plot(time[2 * j :: 7], (np.array(run.data[what]) * time**power)[2 * j :: 7], **mark)
             axis.set_xlabel(r"$\tau = t/t_*$  (1)")
             axis.set_ylabel(f"{symbol}  (1)")
         for mark in marks.values():
-            axes[1].plot([], [], **{**mark, "color": style.COLOURS["black"]})
-        axes[0].legend(fontsize=6)
+            axes[1].plot([], [], **mark)
+        fig.legend(*axes[0].get_legend_handles_labels(), loc="outside lower center", ncols=3, fontsize=6)
         axes[1].legend(fontsize=6)
         return style.save(fig, out, "acceleration")

@@ -72,8 +72,8 @@ SAYS = {
     "with lumped masses, while with the consistent matrix nodes and middles are alike.",
     "conditioning": "The thesis (3.3.2) gives up Δx = 10⁻⁴ m, where its matrix is close to singular: here it runs and "
     "closes its energy budget.",
-    "first-order-case": "The thesis (3.5) fits 227 and −270.8 m/s^1.5 over all of its run, and has no value of theory "
-    "to compare with.",
+    "first-order-case": "The thesis (3.5) fits 227 and −270.8 m/s^1.5, does not say over which part of its run, and "
+    "has no value of theory to compare with.",
 }
 """What the thesis says of a study, and whether it is so, on its own case."""
 COMPARED = ("contact_length_error", "reaction_error", "fit_1")
@@ -102,19 +102,14 @@ def note_of(name: str, folder: Path) -> dict[str, Any]:
 
 def lost(name: str, reason: str) -> dict[str, Any]:
     """The note of a study that could not be run."""
-    study = STUDIES[name]
-    return {
-        "name": name,
-        "title": study.title,
-        "case": case_of(name).title,
-        "columns": {},
-        "rows": [],
-        "conclusion": study.conclusion,
-        "says": SAYS.get(name, ""),
-        "failed": True,
-        "reason": reason,
-        "date": today(),
-    }
+    found = {"columns": {}, "rows": [], "failed": True, "reason": reason, "date": today()}
+    return {"name": name, **words_of(name), **found}
+
+
+def words_of(name: str) -> dict[str, str]:
+    """What is said of a study, whatever its numbers."""
+    study, case = STUDIES[name], case_of(name)
+    return {"title": study.title, "case": case.title, "conclusion": study.conclusion, "says": SAYS.get(name, "")}
 
 
 def notes_of(names: Sequence[str], folder: Path, jobs: int) -> dict[str, dict[str, Any]]:
@@ -143,7 +138,7 @@ def store_studies(names: Sequence[str] = (), *, file: Path = FILE, jobs: int = 1
 
 
 def confirm_studies(names: Sequence[str] = (), *, file: Path = FILE, jobs: int = 1) -> None:
-    """Run a sample of the stored studies again and give the file today's digest.
+    """Run a sample of the stored studies again and give the file today's digest and words.
 
     Raises ``ValueError`` naming the first number that differs by more than 2 % (and 0.02 of a per cent).
     """
@@ -159,7 +154,7 @@ def confirm_studies(names: Sequence[str] = (), *, file: Path = FILE, jobs: int =
                 old, new = pairs[row["label"]].get(key), row.get(key)
                 if (old is None) != (new is None) or (old is not None and abs(new - old) > WITHIN * (1.0 + abs(old))):
                     raise ValueError(f"{name}, {row['label']}: {key} is {new}, stored {old}; run the study again")
-    stored.confirm(file)
+    stored.confirm(file, studies=[note | words_of(note["name"]) for note in before.values()])
 
 
 def main() -> None:

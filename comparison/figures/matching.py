@@ -19,6 +19,10 @@ from theory import contact_parameters
 __all__ = ["draw_first_order", "draw_leading", "draw_matching"]
 
 
+DASHES = ("-", "--", ":", "-.")
+"""Of theory's curves, a kind for each load."""
+
+
 def draw_matching(rows: Sequence[MatchRow], out: Path, formats: Sequence[str] = ("png",)) -> list[Path]:
     """Every matching plot that the rows have data for; returns the files. The finest refinement is drawn."""
     finest: dict[Any, MatchRow] = {}
@@ -105,7 +109,6 @@ def draw_first_order(
             axis = axes[column]
             largest = 1.0
             for i, first in enumerate(firsts):
-                colour = style.SEQUENCE[i % len(style.SEQUENCE)]
                 mine = [r for r in asked if (None if r.of_tension_alone else r.first) == first]
                 shown = curve[curve >= 0.8 * min(r.kappa_over_nu for r in mine)]
                 if first is None:
@@ -114,8 +117,8 @@ def draw_first_order(
                 else:
                     values = getattr(contact_parameters(shown, *first[:3], axial=first[3]), what)
                     named = f"({', '.join(f'{v:g}' for v in first[: 4 if tension else 3])})".replace("-", "−")
-                dash = ("-", "--", ":")[i // len(style.SEQUENCE) % 3]
-                axis.plot(shown, values, lw=1.1, ls=dash, color=colour, label=named if column == 0 else None)
+                line = {**style.THEORY, "lw": 0.9, "ls": DASHES[i % len(DASHES)]}
+                axis.plot(shown, values, **{**line, "label": named if column == 0 else None})
                 for label, mark in marks.items():
                     points = [
                         (r.kappa_over_nu, getattr(r, what), r.axial if first is None else 1.0)
@@ -129,7 +132,7 @@ def draw_first_order(
                             yerr=[(c.error or 0.0) / abs(unit) for _, c, unit in points],
                             elinewidth=0.8,
                             capsize=2,
-                            **{**mark, "color": colour, "label": None},
+                            **{**mark, "label": None},
                         )
                         largest = max(largest, *(abs(c.value / unit) for _, c, unit in points))
             axis.set_yscale("symlog", linthresh=1.0) if largest > 30 else None
@@ -138,9 +141,8 @@ def draw_first_order(
             style.panel_label(axis, "(a)" if column == 0 else "(b)")
         symbols = r"($\alpha$, $\psi$, $\chi$, $N$)" if tension else r"($\alpha$, $\psi$, $\chi$)"
         axes[0].legend(title=symbols if any(firsts) else None, ncols=1 if None in firsts else 2)
-        for mark in marks.values():
-            axes[1].plot([], [], **{**mark, "color": style.COLOURS["black"]})
-        axes[1].plot([], [], **style.THEORY)
+        for mark in [*marks.values(), style.THEORY]:
+            axes[1].plot([], [], **mark)
         axes[1].legend()
         _say_what_is_missing(fig, [r for r in asked if not r.lambda1.measured])
         return style.save(fig, out, name, formats)

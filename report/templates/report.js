@@ -159,14 +159,13 @@
   }
 
   function drawEnergy(place, m) {
-    const time = impact.theory.time, ends = [time[0], time[time.length - 1]];
-    const zero = curve(ends, [0, 0], "work of the wall", { color: black, width: 1.2, dash: "dot" });
+    const { time } = impact.theory;
     const drawn = Object.entries(data.energies).filter(([name]) => (m.energy[name] || []).some((v) => v !== 0));
     const curves = drawn.map(([name, { title, colour, dash }]) => curve(
       time, m.energy[name], title, { color: colour, width: 1.8, dash: dash ? "dash" : "solid" },
       { hovertemplate: title + " %{y:.4g}<extra></extra>" }));
     const y = axis("energy / (μV<sub>0</sub>²l<sub>*</sub>)", { range: energyRange() });
-    Plotly.react(place, [zero, ...curves], layout(tau(), y, { shapes: [vertical(0)] }), config);
+    Plotly.react(place, curves, layout(tau(), y, { shapes: [vertical(0)] }), config);
   }
 
   /** Maps and energies: a column a method; a method without this impact has an empty one. */

@@ -26,12 +26,16 @@ def test_the_filter_is_that_of_butterworth_both_ways(share: float) -> None:
     assert Steps(n, np.ones_like(n)).filtered() == pytest.approx(1.0)
 
 
-def test_every_step_gives_the_impulse_of_the_run() -> None:
+def test_taking_every_step_by_itself_gives_the_same_run_and_its_impulse() -> None:
     given = case(10.0, 0.002)
     method = thesis_settings(given.impact, given.end_time).method()
-    steps = every_step(given.impact, given.end_time, method)
-    whole = method.simulate(given.impact, end_time=given.end_time, save=5).array("total_impulse")[-1]
-    assert 2.0 * float(steps.reaction @ np.diff(steps.time, prepend=0.0)) == pytest.approx(float(whole), rel=1e-12)
+    saved = np.linspace(0.0, given.end_time, 6)
+    history, steps = every_step(given.impact, given.end_time, method, saved)
+    whole = method.simulate(given.impact, end_time=given.end_time, save=saved)
+    for name in ("time", "gap", "total_impulse", "kinetic_energy", "loss_impact"):
+        assert np.array_equal(history.array(name), whole.array(name))
+    impulse = float(whole.array("total_impulse")[-1])
+    assert 2.0 * float(steps.reaction @ np.diff(steps.time, prepend=0.0)) == pytest.approx(impulse, rel=1e-12)
 
 
 def test_report_and_gallery_show_one_result() -> None:

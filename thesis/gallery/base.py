@@ -38,15 +38,16 @@ class Item:
     draw: Draw
 
 
-def item(name: str, **parts: str) -> Callable[[Draw], Draw]:
+def item(name: str, *, beside: str = "", **parts: str) -> Callable[[Draw], Draw]:
     """Decorator that registers a drawing function under its number.
 
+    beside : the module whose items the same process draws, for it shares their runs (default: its own).
     The first line of its docstring is the title, the rest the caption, in which {part} stands for a text of ``parts``.
     """
 
     def register(draw: Draw) -> Draw:
         title, _, caption = (draw.__doc__ or "").partition("\n\n")
-        ITEMS[name] = Item(name, title, " ".join(caption.split()).format(**parts), draw.__module__, draw)
+        ITEMS[name] = Item(name, title, " ".join(caption.split()).format(**parts), beside or draw.__module__, draw)
         return draw
 
     return register

@@ -9,6 +9,7 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from comparison.figures import style
+from comparison.readable import readable
 from theory import contact_parameters, kernel, phi, worked_examples
 from thesis.gallery.base import item
 from thesis.gallery.drawing import THEORY, guide, plain_line
@@ -159,7 +160,7 @@ def solution(
 
 
 def text_of(load: Load) -> str:
-    return ", ".join(f"{v:g}" for v in load)
+    return ", ".join(readable(v) for v in load)
 
 
 SETS = "The sets (α, ψ, χ) of the thesis's legend are not in its text; these include all that its text names"

@@ -151,8 +151,8 @@ def lifting(sheet: Sheet) -> None:
     """A beam against the wall, the middle lifting off
 
     First order with ν = 1, κ = 0.5, α = ψ = −1, χ = 0, ε = 0.1; zooms on the contact to the right. The penetration near
-    ±λ_c is the expansion's O(ε²). λ₀ = 1.0189 (the thesis's text prints 1.1089 once, and 1.0189); the thesis compares
-    |λ₁|τ√τ with λ₀√τ and leaves out ε = 0.1.
+    ±λ_c is the expansion's O(ε²). λ₀ = 1.0189 (the thesis's text prints 1.1089 once, and 1.0189). The thesis compares
+    |λ₁|τ√τ, without ε, with λ₀√τ; its caption gives no ε, that of Fig. 2.14 has 0.1.
     """
     fields = ImpactFields(contact_parameters(0.5, -1.0, -1.0), epsilon=EPSILON)
     times = (0.1, 0.25, 0.5)

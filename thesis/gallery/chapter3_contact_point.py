@@ -3,22 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 
 import numpy as np
 
 from bent_beam.history import ImpactHistory
 from comparison.figures import style
+from comparison.readable import readable
 from thesis.gallery.base import item
 from thesis.gallery.drawing import THEORY, beam_at_times, filtered_scatter, legend_below, numbers_of
 from thesis.gallery.maps import CellForces, draw_maps
-from thesis.gallery.runs import reference_runs, thesis, thesis_history, thesis_steps
+from thesis.gallery.runs import reference_runs, thesis, thesis_history, thesis_run
 from thesis.sheet import Sheet
 from thesis.studies.contact import NAMES
 from thesis.studies.exact import Exact
 from thesis.studies.outcome import Outcome
 from thesis.studies.panels import Panel, contact_length, energy, filtered, impulse_off, length_off, strain
-from thesis.studies.steps import Steps, scatter
+from thesis.studies.steps import scatter
 from thesis.studies.thesis import MASSES
 
 FLAT, BENT = 1.0 / 80.0, 1.0
@@ -38,11 +38,6 @@ def history(contact: str, mass: str) -> ImpactHistory:
     return thesis_history(FLAT, 0.1, contact=contact, mass=MASSES[mass])
 
 
-def every(contact: str, mass: str) -> Steps:
-    """Its reaction of every step."""
-    return thesis_steps(FLAT, 0.1, contact=contact, mass=MASSES[mass])
-
-
 def four() -> list[Outcome]:
     """Nodes and middles, both masses."""
     return [run(contact, mass) for mass, contact in PAIRS]
@@ -51,8 +46,6 @@ def four() -> list[Outcome]:
 def compare(sheet: Sheet, panels: Sequence[Panel], *measures: str) -> None:
     """Panels of the four and of the references in a row, one legend, their numbers beside them."""
     own = four()
-    if filtered in panels:
-        own = [replace(o, steps=every(contact, mass)) for o, (mass, contact) in zip(own, PAIRS)]
     outcomes = own + reference_runs(FLAT, 0.1)
     with sheet.figure(1, len(panels), width=style.PAGE if len(panels) > 1 else 4.6, height=3.0) as (fig, axes):
         for axis, panel in zip(np.ravel(axes), panels):
@@ -70,11 +63,11 @@ def evolution(sheet: Sheet, contact: str) -> None:
         for axis, mass in zip(axes, MASSES):
             found = history(contact, mass)
             exact = Exact(found.impact)
-            beam_at_times(sheet, axis, found, TIMES, 1.1, lambda t: f"t = {1e4 * t:g}·10⁻⁴ s")
+            beam_at_times(sheet, axis, found, TIMES, 1.1, lambda t: f"t = {readable(t, 3)} s")
             for t, colour in zip(TIMES, style.SEQUENCE):
                 axis.plot(float(exact.front(t)), 0.0, marker="^", ms=5, color=colour, clip_on=False, zorder=5)
             flat = -1e3 * exact.gap(places, last)
-            sheet.line(axis, places, flat, series=f"theory, t = {1e4 * last:g}·10⁻⁴ s", **THEORY)
+            sheet.line(axis, places, flat, series=f"theory, t = {readable(last, 3)} s", **THEORY)
             style.wall_below(axis, -2.3, 0.4)
             sheet.numbers[f"largest lift inside the zone (mm), {mass} mass"] = 1e3 * run(contact, mass).lift
         sheet.letter(axes, [f"{mass} mass" for mass in MASSES])
@@ -118,8 +111,8 @@ def lengths(sheet: Sheet) -> None:
 def reactions(sheet: Sheet) -> None:
     """Nodes and middles: reaction
 
-    Reaction of one side until τ = 0.1, nodes and middles with both masses; {shown}: (a) every step, filtered as the
-    thesis does, peaks cut; (b) the impulse less theory's, unfiltered. The thesis finds the general behaviour of 1/√t
+    Reaction of one side until τ = 0.1, nodes and middles with both masses; {shown}: (a) every step, filtered as in
+    3.3.1, peaks cut; (b) the impulse less theory's, unfiltered. The thesis finds the general behaviour of 1/√t
     with both. In impulse lumped nodes are nearest to theory and lumped middles furthest from it.
     """
     compare(sheet, (filtered, impulse_off), "reaction_error")
@@ -209,8 +202,8 @@ def unfiltered(sheet: Sheet) -> None:
     """
     with sheet.figure(2, 2, width=style.PAGE, height=4.4, sharex=True, sharey=True) as (_, axes):
         for axis, (mass, contact) in zip(axes.flat, PAIRS):
-            found, name = every(contact, mass), f"{NAMES[contact]}, {mass}"
-            time, target = found.time, Exact(history(contact, mass).impact).side_reaction(found.time)
+            whole, found = thesis_run(FLAT, 0.1, contact=contact, mass=MASSES[mass])
+            name, time, target = f"{NAMES[contact]}, {mass}", found.time, Exact(whole.impact).side_reaction(found.time)
             sheet.numbers[f"scatter, {name} mass"] = scatter(time, found.reaction, target)
             sheet.numbers[f"steps without a reaction (%), {name} mass"] = 100.0 * float(np.mean(found.reaction <= 0.0))
             colour = style.SEQUENCE[CONTACT.index(contact)]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -19,10 +20,9 @@ from thesis.gallery.maps import draw_maps
 from thesis.sheet import Sheet
 from thesis.studies import first_order_case as study
 from thesis.studies.exact import Exact
-from thesis.studies.outcome import Outcome, outcome_of
-from thesis.studies.panels import contact_length, filtered, geometry
-from thesis.studies.steps import CUT_OFF, Steps, every_step
-from thesis.studies.thesis import Variant
+from thesis.studies.outcome import Outcome, outcome_of, saved_times
+from thesis.studies.panels import WINDOWS, contact_length, filtered, geometry
+from thesis.studies.steps import Steps, every_step
 
 DURATION = 0.05
 THESIS_STEP = 2.5e-8  # s
@@ -30,7 +30,7 @@ ZONES = (0.35, 0.53, 0.7)
 """Where the fine elements end, m, in runs that show how much the lift depends on it (0.544 m by Table 3.2's rule)."""
 CASE = (
     "V₀ = 3.5 m/s, K = 0.35 1/m, L = 2 m, Δx = 2.5·10⁻³ m, e = 1.25, ρ∞ = 0.8, nodes, lumped mass (r = 1/105), "
-    "h = 2.5·10⁻⁷ s, ten times the thesis's (table-numbers has the numbers with its own)"
+    "h = 2.5·10⁻⁸ s"
 )
 SIGNS = {-700.0: "a₀ = −700 m/s²", 0.0: "a₀ = 0", 700.0: "a₀ = 700 m/s²"}
 EDGE = 0.45  # m, of the figures
@@ -43,16 +43,28 @@ def impact(acceleration: float) -> Impact:
 
 
 @functools.cache
-def old(acceleration: float, **changes: Any) -> ImpactHistory:
-    """A run with the study's settings of the thesis but for ``changes``."""
+def old_run(acceleration: float, **changes: Any) -> tuple[ImpactHistory, Steps]:
+    """A run with the study's settings of the thesis, steps ten times as long as its own, but for ``changes``."""
     given = impact(acceleration)
     end = DURATION * given.time_scale
-    return Variant("", given, end, study.old_settings(given, end).replace(**changes).method()).history()
+    settings = study.old_settings(given, end).replace(**changes)
+    return every_step(given, end, settings.method(), saved_times(end))
 
 
 def old_outcome(acceleration: float, **changes: Any) -> Outcome:
+    """The same, reduced to its curves, with the reaction of every step."""
+    history, steps = old_run(acceleration, **changes)
+    return outcome_of(history, study.OLD, steps=steps)
+
+
+def own_history(acceleration: float) -> ImpactHistory:
+    """The run with the thesis's own step."""
+    return old_run(acceleration, time_step=THESIS_STEP)[0]
+
+
+def own(acceleration: float) -> Outcome:
     """The same, reduced to its curves."""
-    return outcome_of(old(acceleration, **changes), study.OLD)
+    return old_outcome(acceleration, time_step=THESIS_STEP)
 
 
 @functools.cache
@@ -88,7 +100,7 @@ def shapes(sheet: Sheet) -> None:
     with sheet.figure(width=5.2, height=3.4) as (fig, axis):
         axis.set(xlabel="$x$  (m)", ylabel="deflection $y$  (mm)", xlim=(0, EDGE))
         for (acceleration, name), colour in zip(SIGNS.items(), ("vermilion", "grey", "purple")):
-            thesis_run, finite = old_outcome(acceleration), ours(acceleration)[0]
+            thesis_run, finite = own(acceleration), ours(acceleration)[0]
             legend, near = acceleration == 0.0, thesis_run.x <= EDGE
             y = -1e3 * thesis_run.gap[near]
             sheet.line(axis, thesis_run.x[near], y, series=name, **plain_line(colour, width=1.3))
@@ -106,25 +118,16 @@ def shapes(sheet: Sheet) -> None:
         fig.legend([handle for handle, _ in pairs], short, loc="outside lower center", ncols=5, fontsize=7.0)
     for zone in ZONES:
         lift = 1e3 * old_outcome(700.0, zone=zone).lift
-        sheet.numbers[f"lift (mm), {SIGNS[700.0]}, thesis's settings, fine to {zone:g} m"] = lift
+        sheet.numbers[f"lift (mm), {SIGNS[700.0]}, h = 2.5·10⁻⁷ s, fine to {zone:g} m"] = lift
 
 
 def evolution(sheet: Sheet, axis: Axes, acceleration: float) -> None:
     """Geometry at several times with the thesis's settings."""
-    history = old(acceleration)
+    history = own_history(acceleration)
     times = float(history.time[-1]) * np.array([0.25, 0.5, 0.75, 1.0])
     beam_at_times(sheet, axis, history, times, EDGE, lambda t: f"t = {1e3 * t:.2g} ms")
     style.wall_below(axis, -8.0, 1.0)
     axis.legend(fontsize=6.5, loc="upper left" if acceleration > 0.0 else "upper right")
-
-
-@functools.cache
-def steps(acceleration: float) -> Steps:
-    """The reaction of every step, for a filter that smooths over as many seconds as the thesis's with its step."""
-    given = impact(acceleration)
-    end = DURATION * given.time_scale
-    settings = study.old_settings(given, end)
-    return replace(every_step(given, end, settings.method()), cut_off=CUT_OFF * settings.time_step / THESIS_STEP)
 
 
 def leading(sheet: Sheet, axis: Axes, what: str, end: float) -> None:
@@ -134,25 +137,35 @@ def leading(sheet: Sheet, axis: Axes, what: str, end: float) -> None:
     sheet.line(axis, 1e3 * t, values, series="theory, leading order", **{**THEORY, "ls": ":"})
 
 
+def means(sheet: Sheet, axis: Axes, runs: Sequence[Outcome]) -> None:
+    """Mean reactions in windows, over the filtered ones, which fade."""
+    for o, line in zip(runs, axis.lines[: len(runs)]):
+        line.set_alpha(0.25)
+        t, reaction = o.reaction(WINDOWS)
+        sheet.line(axis, 1e3 * t, 1e-3 * reaction, series=f"{o.label}, means", color=line.get_color(), lw=1.4)
+
+
 @item("fig-3.34", case=CASE)
 def all_of_it(sheet: Sheet) -> None:
     """First order: geometry, contact length, reaction
 
     (a, b) geometry at several times with the thesis's settings, (c, d) contact length, (e, f) reaction of one side,
-    every step, filtered over as many seconds as the thesis's, for a₀ = 700 (left) and −700 m/s² (right), beside a₀ = 0;
+    every step, filtered as in 3.3.1, for a₀ = 700 (left) and −700 m/s² (right), beside a₀ = 0;
     {case}. Hermite and Self-similar with their own choices; theory of leading order (dotted), which the thesis draws,
-    and of first order, εα = a₀√(EI/μ)/V₀³ by (3.5.5) × t*. So filtered, the reaction is mostly noise from 0.6 ms on.
+    and of first order, εα = a₀√(EI/μ)/V₀³ by (3.5.5) × t*. So filtered (pale), the reaction is mostly noise from 0.6 ms
+    on; thick lines are its means in windows.
     The numbers are λ₁ in m/s^(3/2) by the thesis's fit (it prints 227 and −270.8): the fit tends to theory's as the
     part of the run shrinks.
     """
     with sheet.figure(3, 2, width=style.PAGE, height=7.2) as (fig, axes):
         for column, acceleration in enumerate((700.0, -700.0)):
             name = SIGNS[acceleration]
-            plain = replace(old_outcome(0.0), label=f"{study.OLD}, {SIGNS[0.0]}", steps=steps(0.0))
-            runs = [replace(old_outcome(acceleration), steps=steps(acceleration)), plain, *ours(acceleration)]
+            plain = replace(own(0.0), label=f"{study.OLD}, {SIGNS[0.0]}")
+            runs = [own(acceleration), plain, *ours(acceleration)]
             evolution(sheet, axes[0, column], acceleration)
             contact_length(sheet, axes[1, column], runs)
             filtered(sheet, axes[2, column], runs)
+            means(sheet, axes[2, column], runs[:2])
             for axis, what in ((axes[1, column], "front"), (axes[2, column], "side_reaction")):
                 leading(sheet, axis, what, float(runs[0].time[-1]))
             sheet.numbers[f"λ₁, {name}, theory"] = study.predicted(impact(acceleration))
@@ -164,7 +177,7 @@ def all_of_it(sheet: Sheet) -> None:
 
 def one_map(sheet: Sheet, acceleration: float) -> None:
     """Thesis's settings and Hermite with its own choices, one colour scale."""
-    draw_maps(sheet, {study.OLD: old(acceleration), study.FINITE: resolved(acceleration)}, 1, 3.0)
+    draw_maps(sheet, {study.OLD: own_history(acceleration), study.FINITE: resolved(acceleration)}, 1, 3.0)
 
 
 MAP = (
@@ -192,7 +205,7 @@ def pulled(sheet: Sheet) -> None:
     the thesis say. Then the beam leaves the wall: with its settings earlier than the 3.7 ms of the thesis.
     """
     one_map(sheet, -700.0)
-    sheet.numbers["last reaction with the thesis's settings (ms)"] = 1e3 * last_push(old(-700.0))
+    sheet.numbers["last reaction with the thesis's settings (ms)"] = 1e3 * last_push(own_history(-700.0))
 
 
 def last_push(history: ImpactHistory) -> float:

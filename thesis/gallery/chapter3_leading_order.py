@@ -75,7 +75,7 @@ def parameters(sheet: Sheet) -> None:
     """Numerical parameters selected
 
     Numerical parameters of the thesis, and what Hermite chooses for K = 1/80 and K = 10 1/m at τ = 0.1. Table 3.3
-    prints g = 1; the thesis's conclusion and runs have g = 0.
+    prints g = 1; 3.3.4 concludes g = 0, and 3.3.3 and 3.4 say that the runs have it.
     """
     chosen = [resolution.choose(given.impact, given.end_time) for given in (case(1 / 80, 0.1), case(10.0, 0.1))]
     lengths = [np.diff(c.nodes) for c in chosen]
@@ -239,7 +239,7 @@ def discrete(sheet: Sheet) -> None:
         sheet.numbers |= {f"first impact, {name} (N s)": impulse, f"first impact, {name} (J)": energy}
     sheet.numbers["first impact, lumped, h = 10⁻¹⁰ s (N s)"] = first_impact(ELEMENT, THESIS_MASS, 1e-10)[0]
     for element in FINE:
-        sheet.numbers[f"first step, Δx = {element:g} m (N s)"] = first_impact(element, THESIS_MASS)[0]
+        sheet.numbers[f"first step, Δx = {readable(element)} m (N s)"] = first_impact(element, THESIS_MASS)[0]
 
 
 def energies(sheet: Sheet, axis: Axes) -> None:
@@ -262,7 +262,7 @@ def impulses(sheet: Sheet, axis: Axes) -> None:
         edges = np.concatenate([time[:11], np.linspace(time[10], END, 41)[1:]])
         force = np.diff(np.interp(edges, time, history.array("total_impulse"))) / np.diff(edges)
         middle = 0.5 * (edges[1:] + edges[:-1])
-        sheet.line(axis, 1e6 * middle, 1e-3 * force, series=f"Δx = {element:g} m", color=colour, lw=0.9)
+        sheet.line(axis, 1e6 * middle, 1e-3 * force, series=f"Δx = {readable(element)} m", color=colour, lw=0.9)
     t = np.geomspace(0.5 * STEP, END, 200)
     exact = Exact(case(CURVATURE, DURATION).impact)
     sheet.line(axis, 1e6 * t, 2e-3 * exact.side_reaction(t), series="theory", **THEORY)

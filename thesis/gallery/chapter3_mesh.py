@@ -67,7 +67,7 @@ run_items(__name__, (
      "and misses 1/√t at the beginning with 1.5 mm."),
     ("fig-3.14", "Square mesh: geometry", (geometry,), meshes,
      f"Geometry at τ = 0.01 on both meshes; {SQUARE_CASE}. The first constraint of the square mesh is at the middle of "
-     "its first element and does not stop the central node: the thesis has it 1.8·10⁻⁴ m inside the wall."),
+     "its first element and does not stop the central node: the thesis has it some 1.8·10⁻⁴ m inside the wall."),
     ("fig-3.16", "Square mesh: reaction", REACTION, meshes,
      f"Reaction of one side until τ = 0.01 on both meshes: {FILTER}; {SQUARE_CASE}. Neither mesh resolves the front."),
 ))  # fmt: skip
@@ -155,8 +155,8 @@ def square_nodes(sheet: Sheet) -> None:
 def square_length(sheet: Sheet) -> None:
     """Square mesh: contact length
 
-    Contact length until τ = 0.01 on both meshes (above) and its last part (below); {square_case}. λ_c rests for shorter
-    times on the square mesh, as the thesis found, but it does rest.
+    Contact length until τ = 0.01 on both meshes (above) and its last part (below); {square_case}. The thesis sees
+    steps on the uniform mesh and none on the square one: there λ_c rests for a third of the time, but it does rest.
     """
     with sheet.figure(2, 2, width=style.PAGE, height=4.6) as (fig, axes):
         for column, mass in zip(axes.T, MASSES):

@@ -32,22 +32,25 @@ RESTITUTIONS = Series(1.0 / 40.0, 0.1, {f"restitution {e:g}": {"restitution": e}
 
 
 COARSE_CASE = f"K = 1 1/m, t_f = 2.5·10⁻⁵ s, h = 2.5·10⁻⁸ s; {LEGEND}"
-DAMPED_CASE = f"K = 1/40 1/m (κ/ν = 1.25·10⁻³), h = 2.5·10⁻⁸ s, Δx = 2.5·10⁻³ m, e = 1.25; {LEGEND}"
+DAMPED_CASE = (
+    f"K = 1/40 1/m (κ/ν = 1.25·10⁻³; the thesis prints 1.3·10⁻³), h = 2.5·10⁻⁸ s, Δx = 2.5·10⁻³ m, e = 1.25; {LEGEND}"
+)
 BASE = 2.5e-8  # s, the thesis's choice
 BASE_STEP = f"h = {readable(BASE)} s"
 run_items(__name__, (
     ("fig-3.7", "Time step: geometry", (geometry, geometry_off(BASE_STEP)), lambda: STEPS,
      f"Impact zone for several time steps, and differences from {BASE_STEP}; {COARSE_CASE}. The thesis finds a "
-     "detachment of 2·10⁻⁴ m whatever h."),
+     "detachment of the order of 2·10⁻⁴ m whatever h."),
     ("fig-3.8", "Time step: contact length", (contact_length, less(BASE_STEP, "front", r"$\lambda_c$", "m")),
      lambda: STEPS,
      f"Contact length λ_c for several time steps, and less that of {BASE_STEP}; {COARSE_CASE}. Steps of "
      "the lines are the elements; where a line falls back, the outermost node is off the wall for a moment. Read as in "
-     "the thesis (3.3.5): the first node from outside that touches or has the smallest gap."),
+     "the thesis (3.3.5): the first node from outside that touches or has a minimal gap; it touches below 10⁻⁶ V₀t, "
+     "in the thesis below 10⁻⁶ m."),
     ("fig-3.9", "Time step: reaction", REACTION, lambda: STEPS,
      f"Reaction of one side for several time steps: {FILTER}; {COARSE_CASE}. The thesis excludes 10⁻⁶ and 10⁻⁷ s, "
-     "which miss 1/√t at the start: the filter smooths over a number of steps, that is 40 and 4 times as long there "
-     "(extra-filter). The impulse differs little below 10⁻⁶ s."),
+     "which miss 1/√t at the start, and finds 5·10⁻⁸ s too long: the filter smooths over a number of steps, that is "
+     "40, 4 and 2 times as long there (extra-filter). The impulse differs little below 10⁻⁶ s."),
     ("fig-3.17", "Spectral radius: geometry", (geometry, geometry_off("ρ∞ = 0.8")), lambda: RADII,
      f"Geometry at τ = 0.01 for several spectral radii, and differences from ρ∞ = 0.8; {DAMPED_CASE}. The values of "
      "the thesis's legend are not in its text; it sees no major change."),
@@ -74,14 +77,14 @@ def in_seconds(steps: Steps) -> Steps:
 def filter_decides(sheet: Sheet) -> None:
     """The filter decides h
 
-    Reaction of one side, {case}, middles, lumped mass, the time steps of Fig. 3.9: (a) filtered as the thesis does, the
+    Reaction of one side, {case}, middles, lumped mass, the time steps of Fig. 3.9: (a) filtered as in 3.3.1, the
     cut-off a share of half the sampling rate: runs with h = 10⁻⁶ s are smoothed over 40 times as many seconds as those
     with 2.5·10⁻⁸ s; (b) the same runs, all smoothed over as many seconds as with 2.5·10⁻⁸ s (10⁻⁶ s: not at all, its
     steps are longer); (c) scatter about theory in the second half of the run. With the filter per step the scatter
     grows as h falls, and at 10⁻⁶ s 1/√t is lost; with the filter in seconds all steps up to 10⁻⁷ s scatter alike. What
     the thesis compares in Fig. 3.9 to choose h is for the most part its filter.
     """
-    outcomes = [o for o in STEPS.outcomes("lumped", steps=True) if o.steps is not None]
+    outcomes = [o for o in STEPS.outcomes("lumped") if o.steps is not None]
     same = [replace(o, steps=in_seconds(o.steps)) for o in outcomes if o.steps is not None]
     with sheet.figure(1, 3, width=style.PAGE, height=2.7) as (fig, axes):
         for axis, shown in zip(axes, (outcomes, same)):
@@ -103,13 +106,13 @@ def filter_decides(sheet: Sheet) -> None:
 def cost(sheet: Sheet) -> None:
     """Time step: cost
 
-    Seconds for each time step, the thesis's (Matlab on a personal computer of 2019) and ours on the same mesh and steps
-    (on the machine that draws this); then Hermite and Self-similar with their own choices, which resolve the front.
+    Seconds for each time step, the thesis's (on its author's computer) and ours on the same mesh and steps (on the
+    machine that draws this); then Hermite and Self-similar with their own choices, which resolve the front.
     Iterations: Newton's in the thesis, rounds of the active set in ours.
     """
     found = STEPS.outcomes("lumped")
-    printed = [[f"{h:g}", *numbers] for h, numbers in COST.items()]
-    printed += [[o.label, None, None, None] for o in found[len(COST) :]]
+    printed = [[readable(h), *(readable(v, 6) for v in numbers)] for h, numbers in COST.items()]
+    printed += [[o.label, *3 * [readable(None)]] for o in found[len(COST) :]]
     columns = ("h (s)", "thesis: time (s)", "most iterations", "mean", "ours: time (s)", "most", "mean")
     rows = [row + our_columns(o.measures) for row, o in zip(printed, found)]
     sheet.table([*columns, "steps", "lift/(V₀t)", "r₀ error (%)"], rows)

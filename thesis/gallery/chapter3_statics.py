@@ -48,7 +48,7 @@ def supported(sheet: Sheet) -> None:
     """Deflection of a beam on two supports
 
     Beam on two supports, L = 5 m, P = 5·10⁵ N in the middle, 52 elements, against (3.1.12). {printed}. The thesis's
-    "fixed at both ends" is simply supported.
+    caption says "encastre"; its text blocks the deflection alone, as here.
     """
     s, force = np.minimum(NODES, LENGTH - NODES), 5e5
     exact = force * s * (3.0 * LENGTH**2 - 4.0 * s**2) / (48.0 * AXIS_STIFFNESS)

@@ -183,7 +183,7 @@ def supported(sheet: Sheet) -> None:
     """A beam on two supports
 
     Beam on two supports under a force P in its middle, with its bending moment (largest PL/4). The thesis calls it
-    "fixed at both ends"; its moment and its solution (3.1.12) are those of simple supports.
+    "fixed at both ends", but blocks the deflection alone: its moment and its solution (3.1.12) are of simple supports.
     """
     x = np.linspace(0.0, 1.0, 101)
     axis = beam_and_moment(sheet, 0.5 * np.minimum(x, 1.0 - x), r"$\frac{PL}{4}$", "+", 0.5)
@@ -197,7 +197,7 @@ def cantilever(sheet: Sheet) -> None:
     """A cantilever
 
     Cantilever under a force P at its free end x = 0, with its bending moment (largest PL, at the clamp x = L). The
-    thesis's text and its caption disagree about the clamped end; its solution (3.1.15) is clamped at x = L, as drawn.
+    thesis's text clamps x = 0, the caption of its Fig. 3.5 x = L; its solution (3.1.15) is clamped at x = L, as drawn.
     """
     axis = beam_and_moment(sheet, -np.linspace(0.0, 1.0, 101), r"$-PL$", "−", 0.0)
     axis.fill_between([1.0, 1.06], -0.35, 0.35, facecolor="#DDDDDD", edgecolor=GREY, hatch="////", lw=0)

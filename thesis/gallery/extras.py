@@ -9,6 +9,7 @@ import numpy as np
 from bent_beam.history import ImpactHistory
 from bent_beam.meshes import GradedMesh, UniformMesh
 from comparison.figures import style
+from comparison.readable import readable
 from hermite_fe import HermiteFE
 from thesis.gallery.base import item
 from thesis.gallery.drawing import legend_below, numbers_of, plain_line
@@ -48,7 +49,7 @@ def whole_beam(sheet: Sheet) -> None:
 def fine(sheet: Sheet) -> None:
     """Elements of 10⁻⁴ m
 
-    Δx = 10⁻⁴ m, where the thesis's matrix became singular, with its other settings and no cap on the ratio of lengths,
+    Δx = 10⁻⁴ m, where the thesis's matrix was close to singular, its other settings, no cap on the ratio of lengths,
     K = 1 1/m, τ = 0.01: (a) contact length, (b) geometry at the end, beside its own Δx = 2.5·10⁻³ m. It runs, and
     closes its energy budget to rounding.
     """
@@ -56,7 +57,8 @@ def fine(sheet: Sheet) -> None:
     zone = thesis_settings(given.impact, given.end_time).zone
     found = [
         outcome_of(
-            thesis_history(1.0, 0.01, mesh=GradedMesh(dx, 1.25, zone=zone, size_ratio=study.UNCAPPED)), f"Δx = {dx:g} m"
+            thesis_history(1.0, 0.01, mesh=GradedMesh(dx, 1.25, zone=zone, size_ratio=study.UNCAPPED)),
+            f"Δx = {readable(dx)} m",
         )
         for dx in (2.5e-3, 1e-4)
     ]
@@ -88,7 +90,7 @@ def signorini(sheet: Sheet) -> None:
     The two integrals of (4.0.6) over time, K = 10 1/m: ∫y² dx over the contact zone, in units of (V₀t)²λ_c, and the
     impulse of the reaction, whose product must vanish: the thesis's settings with nodes, and Hermite with its own
     choices. (4.0.6) asks one number of the whole zone; complementarity at every node and step, which implies it, is
-    what the solver here asks. Its second integral must be ≥ 0 for a wall that pushes: the printed sign is wrong.
+    what the solver here asks. By (3.2.7) its second integral is ≥ 0, where ≤ 0 is printed.
     """
     old = plain_line("vermilion", width=1.1)
     runs = {

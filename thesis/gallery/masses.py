@@ -11,6 +11,7 @@ from comparison.readable import readable
 from hermite_fe import CONTACTS
 from hermite_fe.delassus import impact_coupling
 from hermite_fe.masses import LumpedMass, Mass
+from thesis.gallery import chapter3_contact_point as contact_point
 from thesis.gallery import chapter3_first_order as first
 from thesis.gallery.base import item
 from thesis.gallery.chapter3_contact_point import CONTACT, FLAT, SHOWN
@@ -31,7 +32,7 @@ def coupled(contact: str, mass: Mass) -> tuple[float, float]:
     return impact_coupling(CONTACTS[contact](), mass).neighbour, 1e3 * lift
 
 
-@item("extra-coupling", shown=SHOWN)
+@item("extra-coupling", beside=contact_point.__name__, shown=SHOWN)
 def coupling(sheet: Sheet) -> None:
     """Lift, mass matrix and coupling
 
@@ -77,7 +78,7 @@ CANDIDATES = {
 """Mass matrices that the thesis's numbers were tried on; sources in :mod:`hermite_fe.masses.lumped`."""
 
 
-@item("extra-masses", shown=SHOWN)
+@item("extra-masses", beside=contact_point.__name__, shown=SHOWN)
 def masses(sheet: Sheet) -> None:
     """Which mass matrix the thesis's numbers ask for
 

@@ -2,9 +2,9 @@
 
     λ_c(t) = (EI/μ)^{1/4} √t (λ₀ + ελ₁ t/t*),   the thesis's fitted "λ₁" = ελ₁ (EI/μ)^{1/4}/t*  in m/s^{3/2}
 
-fitted as in the thesis (λ₀ given, least squares in λ_c over 0 ≤ t ≤ t_f) to the contact length on the thesis's finite
-beam with the thesis's settings, on a finite beam that is resolved, and on an infinite one. The fit tends to ελ₁ only as
-t_f → 0: at the thesis's t_f the correction is a third of the leading order.
+fitted as in the thesis (λ₀ given, least squares in λ_c; it does not say over which time, here 0 ≤ t ≤ t_f) to the
+contact length on the thesis's finite beam with the thesis's settings, on a finite beam that is resolved, and on an
+infinite one. The fit tends to ελ₁ only as t_f → 0: at the thesis's t_f the correction is a third of the leading order.
 """
 
 from __future__ import annotations
@@ -120,7 +120,10 @@ def draw(sheet: Sheet, outcomes: Sequence[Outcome]) -> None:
 
 
 STUDY = Study(
-    "first-order-case", "acceleration", variants, vary,
+    "first-order-case",
+    "acceleration",
+    variants,
+    vary,
     columns={
         "theory": "theory (m/s^1.5)",
         **{f"fit_{w:g}": f"fit over {100 * w:g} %" for w in WINDOWS},

@@ -9,17 +9,22 @@ usual one.
 
 from __future__ import annotations
 
+import time as clock
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
+from bent_beam.history import ImpactHistory
 from bent_beam.impact import Impact
 from hermite_fe import HermiteFE, resolution
 from hermite_fe.composition import Composition
 from hermite_fe.constraints import ContactLaw
 from hermite_fe.model import beam_model
-from hermite_fe.run import Stepper
+from hermite_fe.run import Samples, Stepper
+from hermite_fe.saved_steps import saved_steps
+from hermite_fe.simulate import history_of, settings_of_run
 
 Array = NDArray[np.float64]
 CUT_OFF = 0.04
@@ -43,8 +48,10 @@ class Steps:
         return np.asarray(filtfilt(b, a, self.reaction, padlen=3))  # Matlab's length of the reflected ends
 
 
-def every_step(impact: Impact, end_time: float, method: HermiteFE) -> Steps:
-    """Run to ``end_time``, s, step by step, on half the beam.
+def every_step(
+    impact: Impact, end_time: float, method: HermiteFE, save: Sequence[float] | Array
+) -> tuple[ImpactHistory, Steps]:
+    """Run to ``end_time``, s, step by step, on half the beam: its history at the instants ``save``, s, and all steps.
 
     Raises ``ArithmeticError`` for a step without a solution.
     """
@@ -53,12 +60,19 @@ def every_step(impact: Impact, end_time: float, method: HermiteFE) -> Steps:
     model = beam_model(impact, chosen.nodes, chosen.contact, chosen.far_field, full=False, mass=chosen.mass)
     law = ContactLaw(restitution=chosen.contact.restitution)
     run = Stepper(model.system, model.displacement, model.velocity, chosen.integrator, end_time, law)
-    total = np.zeros(run.instants.size)
-    for k in range(1, total.size):
+    kept = saved_steps(run.instants, save)
+    samples, total, wanted = Samples(model.system, kept.size), np.zeros(run.instants.size), set(kept.tolist())
+    run.compile()
+    began = clock.perf_counter()
+    for k in range(total.size):
         if status := run.advance_to(k):
             raise ArithmeticError(f"step {k} of {total.size - 1} has no solution (status {status})")
         total[k] = run.state.impulse.sum()
-    return Steps(run.instants[1:], np.diff(total) / np.diff(run.instants))
+        if k in wanted:
+            samples.add(run)
+    found = samples.trajectory(run, clock.perf_counter() - began, "", 0.0)
+    history = history_of(impact, model, found, settings_of_run(impact, chosen, found))
+    return history, Steps(run.instants[1:], np.diff(total) / np.diff(run.instants))
 
 
 def scatter(time: Array, reaction: Array, exact: Array) -> float:

@@ -1,0 +1,62 @@
+"""The page of printed numbers: each is in the class that its cells ask for, and is what is computed."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import pytest
+
+from thesis.gallery.numbers import PRINTED, chapter2, scales
+from thesis.verdicts import CLASSES, Printed, within_rounding
+
+PAGE = Path(__file__).parents[2] / "docs" / "thesis_numbers.md"
+
+
+def on_page() -> list[list[str]]:
+    """Rows of the page, their bars of absolute values as /."""
+    lines = [line for line in PAGE.read_text().splitlines() if line.startswith("| ")]
+    return [[c.strip() for c in line.strip("| ").replace(r"\|", "/").split("|")] for line in lines[2:]]
+
+
+def value(cell: str) -> tuple[float, int]:
+    """A printed number and how many significant digits it has."""
+    plain = cell.translate(str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻−", "0123456789--"))
+    text = "1e" + plain[2:] if plain.startswith("10-") else plain.replace("·10", "e")
+    return float(text), len(text.partition("e")[0].replace(".", "").lstrip("-0"))
+
+
+def test_every_printed_number_is_in_the_class_that_its_cells_ask_for() -> None:
+    assert len(on_page()) > 60
+    for _, what, thesis, ours, _, verdict, *why in on_page():
+        (printed, digits), (found, _) = value(thesis), value(ours)
+        unit = 10.0 ** (math.floor(math.log10(abs(printed))) + 1 - digits) if printed else 1.0
+        near = abs(found - printed) <= 0.501 * unit
+        reason = " ".join(why)
+        assert verdict in CLASSES, what
+        if verdict == "inferred from axes":
+            assert "no number is printed" in reason, what
+        elif verdict == "other rule, stated by the thesis":
+            assert any(word in reason for word in ("straight lines", "assumes", "rounded", "as above")), what
+        else:
+            assert near == (verdict == "within rounding"), what
+            assert verdict != "same order" or 0.5 <= found / printed <= 2.0, what
+
+
+QUICK = (chapter2, scales)
+
+
+@pytest.mark.parametrize("part", [pytest.param(p, marks=() if p in QUICK else pytest.mark.verify) for p in PRINTED])
+def test_the_page_of_printed_numbers_is_what_is_computed(part: Callable[[], Iterator[Printed]]) -> None:
+    page = {tuple(row[:3]): row for row in on_page()}
+    for printed in part():
+        where, what, thesis, ours, _, verdict, _ = (cell.replace("|", "/") for cell in printed.row())
+        row = page[where, what, thesis]
+        assert row[5] == verdict, what
+        assert value(row[3])[0] == pytest.approx(value(ours)[0], rel=2e-3), what
+
+
+def test_a_value_is_within_rounding_where_as_many_digits_of_it_are_those_printed() -> None:
+    near = {"1": (0.588, 0.96), "2e-4": (2.6e-4, 1.94e-4), "8e-3": (7.4e-3, 8.163e-3), "0.0312": (0.0314, 0.03125)}
+    assert [[within_rounding(printed, v) for v in pair] for printed, pair in near.items()] == 4 * [[False, True]]
