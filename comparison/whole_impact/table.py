@@ -55,7 +55,8 @@ def bounce_table(found: Bounce, over_damping: Sequence[dict[str, Any]] = (), *, 
         text_table(["", "value", "", *(["beam's units"] if verbose else [])], rows),
         "",
         "± is the error bar; a band is mean ± standard deviation of runs. Energies are shares of the initial energy",
-        "and the work of the loads, at the last contact.",
+        "and the work of the loads, at the last contact: the end of the first hit, after which the beam is off the wall",
+        "for a period of its first mode at least.",
         *(f"Largest {'moment' if found.section is None else 'stress'}, {unit}, {line}." for line in over),
     ]
     if verbose:
