@@ -51,6 +51,8 @@ class _Reduced:
     warnings: list[str]
     seconds: float
     steps: int
+    momentum_residual: float | None = None
+    gap_of_push: float | None = None
 
 
 def _loaded(bare: Impact, epsilon: float, first: First) -> Impact:
@@ -87,16 +89,18 @@ def _reduced(
             )
         except ValueError as error:
             raise Refused(str(error)) from None
-        found, peaks = moments(history, uniform=uniform), wall_peaks(history)
+        found, peaks, balance = moments(history, uniform=uniform), wall_peaks(history), balance_of(history)
         unit = (impact.wall_stiffness or 1.0) ** 0.25  # EI = μ = V₀ = 1
         return {
             "moments": {name: values.tolist() for name, values in vars(found).items()},
             "peak_force": None if peaks is None else peaks.force / unit,
             "pull": pull_of(history),
             "hold": hold_of(history),
-            "warnings": [*history.warnings, *balance_of(history).warnings],
+            "warnings": [*history.warnings, *balance.warnings],
             "seconds": history.seconds,
             "steps": history.steps,
+            "momentum_residual": balance.momentum,
+            "gap_of_push": balance.gap_of_push,
         }
 
     kept = store.answer(question, compute)
@@ -227,6 +231,8 @@ def answer(question: Question, store: RunStore, limit: float | None = None) -> M
         peak_force=_peak_force(fine.run, [o.run for o in others]),
         lift=leading.lift,
         pull=_largest(r.pull for r in fine.runs),
+        momentum_residual=_largest(r.momentum_residual for r in fine.runs),
+        gap_of_push=_largest(r.gap_of_push for r in fine.runs),
         hold={name: _largest(h[name] for h in holds) for name in ("until", "pull")} if holds else None,
         seconds=sum(r.seconds for r in fine.runs),
         steps=sum(r.steps for r in fine.runs),

@@ -101,8 +101,8 @@ def end_warnings(impact: Impact, end_time: float, nodes: Array, far_field: FarFi
 def lift_warnings(impact: Impact, model: BeamModel, history: ImpactHistory) -> list[str]:
     """A warning where the zone leaves the wall though nothing lifts it: no load, no waves from the ends (0.005 T*).
 
-    Material damping η does. It stops sections as they land until t ≈ η; the bow's middle then swings back. Elements that
-    resolve how far bending runs until then, √(cη), show the beam's own lift.
+    Material damping η does. It stops sections as they land until t ≈ η; the bow's middle then swings back. Elements
+    that resolve how far bending runs until then, √(cη), show the beam's own lift.
     """
     time = history.time
     end = time[-1]

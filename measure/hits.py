@@ -19,8 +19,8 @@ __all__ = ["Hit", "hits"]
 
 @dataclass(frozen=True)
 class Hit:
-    """wall : "front" or "opposite"; begin, end : s, the end in the middle of its saved interval; place : mean |x| of the push, m;
-    impulse : N s, always positive.
+    """wall : "front" or "opposite"; begin, end : s, the end in the middle of its saved interval; place : mean |x| of
+    the push, m; impulse : N s, always positive.
 
     before, after : velocities of the centre of mass, m/s, positive towards the front wall; energy : kinetic, strain and
     in springs of the wall after it, J; lost : what the energy and the work of the loads fell by meanwhile, J.

@@ -52,9 +52,7 @@ def predicted_impact(case: Case, method: Method | None) -> dict[str, Any] | None
     }
 
 
-def over_damping(
-    impact: Impact, section: Section | None, method: Method | None, own: Number
-) -> list[dict[str, Any]]:
+def over_damping(impact: Impact, section: Section | None, method: Method | None, own: Number) -> list[dict[str, Any]]:
     """Largest moment, N m, and stress, Pa, of the whole impact over a plausible range of the damping ratio.
 
     own : the largest moment of ``impact`` itself over V₀√(μEI), the number at its own damping ratio.
