@@ -120,8 +120,8 @@ def summary(
     own, peak = Companion.of(history), peak_moment(history)
     bars = {name: _bar(name, [own, *others], impact) for name in NUMBERS}
     for name, share in zip(("total_impulse", "half_contact_length"), lift_shares(_thrown_off(history, found))):
-        if share and bars[name] is not None:
-            bars[name] = math.hypot(bars[name], share * getattr(own, name))
+        if share and (bar := bars[name]) is not None:
+            bars[name] = math.hypot(bar, share * getattr(own, name))
     stress = None if section is None else section.stress(peak.moment, impact.axial_force)
     energy, balance = energy_at_end(history), balance_of(history)
     return {
