@@ -50,6 +50,7 @@ bench: $(STAMP)
 
 coverage: $(STAMP)
 	$(BIN)/python -m benchmarks.coverage --jobs $(JOBS) $(if $(SEED),--seed $(SEED))
+	$(BIN)/python -m benchmarks.beams --jobs $(JOBS) $(if $(SEED),--seed $(SEED))
 
 lint: $(STAMP)
 	$(BIN)/ruff check .

@@ -28,7 +28,7 @@ ENERGY = ("translation", "vibration", "dissipated")
 
 def bounce_document(found: Bounce) -> dict[str, Any]:
     """The contract of ``bentbeam bounce --json``."""
-    unit, stress = found.units, found.peak_stress
+    unit, stress, balance = found.units, found.peak_stress, balance_of(found.history)
     document: dict[str, Any] = {
         "kappa_over_nu": found.impact.kappa_over_nu,
         "damping": found.impact.relative_damping,
@@ -47,7 +47,8 @@ def bounce_document(found: Bounce) -> dict[str, Any]:
         "error_parts": {name: dict(parts) for name, parts in found.parts.items()},
         "energy_defect": found.outcome.energy_defect,
         "energy_gain": found.outcome.energy_gain,
-        "momentum_residual": balance_of(found.history).momentum,
+        "momentum_residual": balance.momentum,
+        "gap_of_push": balance.gap_of_push,
         "left": found.left,
         "steps": found.history.steps,
         "seconds": found.seconds,

@@ -51,6 +51,8 @@ class _Reduced:
     warnings: list[str]
     seconds: float
     steps: int
+    momentum_residual: float | None = None
+    gap_of_push: float | None = None
 
 
 def _loaded(bare: Impact, epsilon: float, first: First) -> Impact:
@@ -87,16 +89,18 @@ def _reduced(
             )
         except ValueError as error:
             raise Refused(str(error)) from None
-        found, peaks = moments(history, uniform=uniform), wall_peaks(history)
+        found, peaks, balance = moments(history, uniform=uniform), wall_peaks(history), balance_of(history)
         unit = (impact.wall_stiffness or 1.0) ** 0.25  # EI = μ = V₀ = 1
         return {
             "moments": {name: values.tolist() for name, values in vars(found).items()},
             "peak_force": None if peaks is None else peaks.force / unit,
             "pull": pull_of(history),
             "hold": hold_of(history),
-            "warnings": [*history.warnings, *balance_of(history).warnings],
+            "warnings": [*history.warnings, *balance.warnings],
             "seconds": history.seconds,
             "steps": history.steps,
+            "momentum_residual": balance.momentum,
+            "gap_of_push": balance.gap_of_push,
         }
 
     kept = store.answer(question, compute)
@@ -166,8 +170,7 @@ def _estimates(
 
 def _raise_if_refused(method: Method, impact: Impact) -> None:
     """Ask the method before its run. Raises :class:`Refused` with its reason."""
-    reason = method.refuses(impact)
-    if reason:
+    if reason := method.refuses(impact):
         raise Refused(str(reason))
 
 
@@ -206,8 +209,7 @@ def answer(question: Question, store: RunStore, limit: float | None = None) -> M
     clock = None if limit is None else Clock(limit)
     question, coarser = (question, []) if clock is None else coarsened(question, store, clock)
     fine = _estimates(question, question.refine, store, None, clock)
-    others: list[_Estimates] = []
-    lost: list[str] = []
+    others, lost = list[_Estimates](), list[str]()
     epsilon = fine.loaded[-1][0] if fine.loaded else None
     for factor in COMPANIONS[question.error_bars]:
         try:
@@ -221,12 +223,14 @@ def answer(question: Question, store: RunStore, limit: float | None = None) -> M
     if estimate is not None and estimate.r1.bar > WIDE_FIRST * max(abs(estimate.r1.known), 1.0):
         warnings.append(f"wide error bar: r₁ = {estimate.r1}")
     holds = [r.hold for r in fine.runs if r.hold]
+    names = ("pull", "momentum_residual", "gap_of_push")
+    checks: dict[str, Any] = {name: _largest(getattr(r, name) for r in fine.runs) for name in names}
     return MatchRow(
         **about(question),
         **with_theory(question, leading, estimate),
         peak_force=_peak_force(fine.run, [o.run for o in others]),
         lift=leading.lift,
-        pull=_largest(r.pull for r in fine.runs),
+        **checks,
         hold={name: _largest(h[name] for h in holds) for name in ("until", "pull")} if holds else None,
         seconds=sum(r.seconds for r in fine.runs),
         steps=sum(r.steps for r in fine.runs),

@@ -136,5 +136,5 @@ def _whole(document: dict[str, Any]) -> list[str]:
         stays = "The whole impact: the beam does not leave the wall within 3 T* (bentbeam bounce follows it)."
         return [*largest, stays]
     restitution = _scaled(whole["restitution"], 1.0)
-    ends = f"coefficient of restitution {restitution}, last contact {last} ms."
+    ends = f"coefficient of restitution {restitution}, last contact {last} ms (the end of the first hit)."
     return [*largest, f"The whole impact ({whole['source']}): {ends}"]

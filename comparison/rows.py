@@ -83,7 +83,8 @@ class MatchRow:
 
     lift : the largest gap inside the zone over V₀t in the last decade of time; pull : the largest negative contact
     impulse over the largest positive one, after the start; hold : ``{"until": s, "pull": …}`` where any contact was
-    held; seconds : of all runs of the row; epsilons : of the runs of first order.
+    held; momentum_residual, gap_of_push : the largest of the runs (:class:`measure.balance.Balance`); seconds : of all
+    runs of the row; epsilons : of the runs of first order.
     wall : of the question; peak_force : the largest on it, in V₀√μ(EI k)^¼.
     reason : why there are no numbers (``None``: there are); refused : the method had said so before the run.
     """
@@ -107,6 +108,8 @@ class MatchRow:
     lift: float | None = None
     pull: float | None = None
     hold: dict[str, float | None] | None = None
+    momentum_residual: float | None = None
+    gap_of_push: float | None = None
     seconds: float | None = None
     steps: int | None = None
     epsilons: list[float] = field(default_factory=list)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from bent_beam.free_flight import LOWEST_PERIOD
+from bent_beam.history import ImpactHistory
 from bent_beam.impact import Impact
 from bent_beam.method import Method, for_whole_beam
 from measure.hits import Hit, hits
@@ -16,10 +17,16 @@ INSTANTS = 200  # saved a T*
 
 
 def follow_hits(
-    impact: Impact, method: Method, count: int, *, progress: Callable[[float], None] | None = None
+    impact: Impact,
+    method: Method,
+    count: int,
+    *,
+    first: ImpactHistory,
+    progress: Callable[[float], None] | None = None,
 ) -> list[Hit]:
     """The first ``count`` hits of a beam on its wall by one run, fewer where it does not come back.
 
+    first : the run that a first hit has been read from: the first row is its own.
     Raises ``ValueError`` for what the method refuses, and between two walls.
     """
     if impact.opposite_wall is not None:
@@ -32,6 +39,6 @@ def follow_hits(
         found = hits(chosen.simulate(impact, end_time=end, save=save, progress=progress))
         over = [hit for hit in found if end - hit.end >= period]
         if len(over) >= count or end >= longest or (over and fall <= 0.0):
-            return over[:count]
+            return [*hits(first)[:1], *over[1:count]]
         flight = 2.0 * max(-over[-1].after, 0.0) / fall if over else end
         end = min(end + flight + 2.0 * period, longest)

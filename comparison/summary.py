@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
@@ -19,7 +20,7 @@ from comparison.companions import companions_of, is_late, number_of
 from comparison.match import INSTANTS
 from comparison.rows import COMPANIONS
 from measure.balance import balance_of
-from measure.estimators import leading_order
+from measure.estimators import leading_order, lift_shares
 from measure.front import element_at, half_contact_length
 from measure.hits import hits
 from measure.measured import MISSING, Measured
@@ -118,6 +119,9 @@ def summary(
             pass
     own, peak = Companion.of(history), peak_moment(history)
     bars = {name: _bar(name, [own, *others], impact) for name in NUMBERS}
+    for name, share in zip(("total_impulse", "half_contact_length"), lift_shares(_thrown_off(history, found))):
+        if share and (bar := bars[name]) is not None:
+            bars[name] = math.hypot(bar, share * getattr(own, name))
     stress = None if section is None else section.stress(peak.moment, impact.axial_force)
     energy, balance = energy_at_end(history), balance_of(history)
     return {
@@ -159,6 +163,16 @@ def summary(
         "warnings": [*history.warnings, *loss_warnings(numerical_loss(energy)), *balance.warnings],
         "file": None if file is None else str(file),
     }
+
+
+def _thrown_off(history: ImpactHistory, found: Moments) -> float:
+    """The largest lift of the last decade of time, V₀t, where the scheme makes it: neither a load nor damping, nor a
+    wall that gives way, nor waves from the ends. The companion is thrown off, too, so that it does not show."""
+    impact, time = history.impact, history.time
+    may = impact.zone_pressure < 0.0 or impact.damping or impact.wall_stiffness is not None
+    if may or impact.off_centre or is_late(impact, float(time[-1])):
+        return 0.0
+    return float(found.lift[time >= 0.1 * time[-1]].max())
 
 
 def _bar(name: str, runs: Sequence[Companion], impact: Impact) -> float | None:

@@ -71,6 +71,7 @@ def _expert_lines(found: dict[str, Any]) -> list[list[str]]:
         *(plain(ENERGY_TITLES.get(n, n.replace("_", " ")), v, "J") for n, v in energy.items() if v is not None),
         plain("energy residual", residual, "J"),
         plain("momentum residual over the impulse", found["momentum_residual"]),
+        plain("largest gap of a push over V0 t", found["gap_of_push"]),
         plain("steps", found["steps"]),
     ]
 

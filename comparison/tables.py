@@ -40,7 +40,7 @@ def match_table(rows: Sequence[MatchRow]) -> str:
     head += ["lambda1", "%", "r1", "%"] if first else []
     elastic = any(r.wall for r in rows)
     head += ["F/(V0 sqrt(mu)(EI k)^1/4)"] if elastic else []
-    head += ["lift/(V0 t)", "pull", "held", "s"]
+    head += ["lift/(V0 t)", "pull", "momentum", "gap of push", "held", "s"]
     body = []
     for r in rows:
         line = [r.label, f"{r.kappa_over_nu:.6g}"]
@@ -50,8 +50,7 @@ def match_table(rows: Sequence[MatchRow]) -> str:
             line += _cells(getattr(r, name), LEAST[name])
         line += [str(r.peak_force) if r.peak_force.measured else "-"] if elastic else []
         line += [
-            "-" if r.lift is None else f"{r.lift:.0e}",
-            "-" if r.pull is None else f"{r.pull:.0e}",
+            *("-" if v is None else f"{v:.0e}" for v in (r.lift, r.pull, r.momentum_residual, r.gap_of_push)),
             "-" if r.hold is None else f"until {r.hold['until']:.2g}",
             "-" if r.seconds is None else f"{r.seconds:.1f}",
         ]

@@ -29,6 +29,7 @@ __all__ = [
     "LeadingEstimate",
     "first_order",
     "leading_order",
+    "lift_shares",
 ]
 
 Array = NDArray[np.float64]
@@ -117,7 +118,7 @@ def leading_order(found: Moments, *, window: float = 10.0, companions: Sequence[
         apart_r0 = max(apart_r0, abs(other_r0 - r0))
         apart_lambda0 = max(apart_lambda0, abs(other_lambda0 - lambda0))
     alone = DRIFT if companions else DRIFT_ALONE
-    lifted = min(lift / LIFTED, 1.0) * lift
+    lifted, lifted_lambda0 = lift_shares(lift)
     return LeadingEstimate(
         lambda0=Measured(
             lambda0,
@@ -125,13 +126,20 @@ def leading_order(found: Moments, *, window: float = 10.0, companions: Sequence[
                 COMPANION * apart_lambda0,
                 alone * drift_lambda0,
                 LEAST * max(lambda0, 0.1),
-                INSIDE * lifted * lambda0,
+                lifted_lambda0 * lambda0,
             ),
         ),
         r0=Measured(r0, math.hypot(COMPANION * apart_r0, alone * drift_r0, LEAST * r0, lifted * r0)),
         lift=lift,
         window=times,
     )
+
+
+def lift_shares(lift: float) -> tuple[float, float]:
+    """What a zone that its scheme has thrown off the wall by ``lift`` V₀t may be off by: shares of the push, r₀, and of
+    its place, λ₀ (:func:`leading_order`)."""
+    lifted = min(lift / LIFTED, 1.0) * lift
+    return lifted, INSIDE * lifted
 
 
 def _leading_values(found: Moments, window: float) -> tuple[float, float, float, float, float, tuple[float, float]]:

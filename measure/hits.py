@@ -19,7 +19,8 @@ __all__ = ["Hit", "hits"]
 
 @dataclass(frozen=True)
 class Hit:
-    """wall : "front" or "opposite"; begin, end : s; place : mean |x| of the push, m; impulse : N s, always positive.
+    """wall : "front" or "opposite"; begin, end : s, the end in the middle of its saved interval; place : mean |x| of
+    the push, m; impulse : N s, always positive.
 
     before, after : velocities of the centre of mass, m/s, positive towards the front wall; energy : kinetic, strain and
     in springs of the wall after it, J; lost : what the energy and the work of the loads fell by meanwhile, J.
@@ -68,5 +69,5 @@ def hits(history: ImpactHistory) -> list[Hit]:
         given = rows[wall][k] - rows[wall][i]
         place = float(given @ np.abs(history.contact_positions(0))) / float(given.sum())
         numbers = (place, given.sum(), velocity[i], velocity[k], energy[k] + work[k], energy[i] - energy[k])
-        found.append(Hit(wall, float(time[i]), float(time[k]), *map(float, numbers)))
+        found.append(Hit(wall, float(time[i]), 0.5 * float(time[k - 1] + time[k]), *map(float, numbers)))
     return found

@@ -37,7 +37,8 @@ class WholeImpact:
 
     spacing : of the saved instants around the last contact, which lies between two of them: ``last_contact`` is their
         middle.
-    contacts : begin and end of each contact, separations shorter than the shortest ignored.
+    contacts : begin and end of each contact, separations shorter than the shortest ignored; the last ends at the last
+        contact.
     peak_moment_place : |x|/ℓ. translation, vibration, dissipated : shares of the initial energy and the work of the
         loads, altogether one.
     peak_force : on the zone of a wall that gives way, over μℓV₀/T*; ``None`` of a rigid one.
@@ -116,7 +117,7 @@ def whole_impact(history: ImpactHistory, *, shortest: float = SHORTEST_SEPARATIO
         peak_force=None if wall is None else 2.0 * wall.force * unit / (mass * impact.velocity),
         supplied=float(supplied[end]),
         spacing=float(time[end] - time[end - 1]) / unit,
-        contacts=tuple((float(time[i]) / unit, float(time[j]) / unit) for i, j in hit),
+        contacts=tuple((float(time[i]) / unit, 0.5 * float(time[j - 1] + time[j]) / unit) for i, j in hit),
         energy_defect=abs(history.energy_budget()["defect"]) / initial,
         energy_gain=float(np.max(np.diff(energy + held - supplied), initial=0.0)) / initial,
         left=has_left(history),

@@ -68,8 +68,8 @@ def bounce(
         check_writable(out, folder=True)
     with Console(quiet).progress(f"{path}: the whole impact") as bar:
         found = follow(impact, method, section=section, runs=runs, seed=seed, jobs=jobs, progress=bar.count)
-        followed = follow_hits(impact, method, hits, progress=bar.fraction) if hits > 1 else []
-        over = over_damping(impact, section, method)
+        followed = follow_hits(impact, method, hits, first=found.history, progress=bar.fraction) if hits > 1 else []
+        over = over_damping(impact, section, method, found.numbers["peak_moment"])
     document, problem_of_files = {**bounce_document(found), "over_damping": over}, ""
     if hits > 1:
         document["hits"] = [{**asdict(hit), "restitution": hit.restitution} for hit in followed]

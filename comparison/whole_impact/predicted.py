@@ -28,6 +28,7 @@ NUMBERS = ("restitution", "last_contact", "peak_moment")
 WIDE = 0.05  # error bar of the map's largest moment over its value, beyond which the beam is simulated
 COARSE, INSTANTS = 0.5, 1000  # resolution, and saved instants a T*
 LONGEST = 3.0  # T*: a loaded beam that is then still at the wall is not followed further
+SAME = 1e-6  # relative: dampings that are one
 DAMPING_RATIOS = (0.002, 0.01, 0.05)  # of the first mode: of a plain steel bar, of one with joints, of a damped one
 
 
@@ -48,22 +49,31 @@ def predicted_impact(case: Case, method: Method | None) -> dict[str, Any] | None
         **_peaks(impact, case.section, found["peak_moment"]),
         "peak_force": found["peak_force"].scaled(scales(impact)["force"]).to_dict() if "peak_force" in found else None,
         "source": source,
-        "over_damping": over_damping(impact, case.section, method),
+        "over_damping": over_damping(impact, case.section, method, found["peak_moment"]),
     }
 
 
-def over_damping(impact: Impact, section: Section | None, method: Method | None) -> list[dict[str, Any]]:
-    """Largest moment, N m, and stress, Pa, of the whole impact over a plausible range of the damping ratio."""
+def over_damping(impact: Impact, section: Section | None, method: Method | None, own: Number) -> list[dict[str, Any]]:
+    """Largest moment, N m, and stress, Pa, of the whole impact over a plausible range of the damping ratio.
+
+    own : the largest moment of ``impact`` itself over V₀√(μEI), the number at its own damping ratio.
+    """
     found = []
     for ratio in DAMPING_RATIOS:
         damping = ratio * LOWEST_PERIOD / math.pi * impact.slow_time_scale
-        damped = impact.replace(damping=damping, hysteretic_loss=0.0, loss_frequency=None)
-        numbers = _from_map(damped)
-        if numbers is None and method is not None and impact.opposite_wall is None:
-            numbers = _simulated(damped, method)
-        if numbers is not None:
-            found.append({"damping_ratio": ratio, **_peaks(impact, section, numbers["peak_moment"])})
+        moment = own if math.isclose(damping, impact.damping, rel_tol=SAME) else _moment(impact, method, damping)
+        if moment is not None:
+            found.append({"damping_ratio": ratio, **_peaks(impact, section, moment)})
     return found
+
+
+def _moment(impact: Impact, method: Method | None, damping: float) -> Number | None:
+    """The largest moment of the whole impact with another ``damping``, s."""
+    damped = impact.replace(damping=damping, hysteretic_loss=0.0, loss_frequency=None)
+    found = _from_map(damped)
+    if found is None and method is not None and impact.opposite_wall is None:
+        found = _simulated(damped, method)
+    return None if found is None else found["peak_moment"]
 
 
 def _from_map(impact: Impact) -> Mapping[str, Number] | None:

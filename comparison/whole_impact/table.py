@@ -10,6 +10,7 @@ from comparison.bounce_document import ENERGY, SI
 from comparison.prediction_text import over_damping_lines
 from comparison.text_table import text_table
 from comparison.units import unit_for
+from measure.balance import balance_of
 from measure.hits import Hit
 from measure.measured import Band, Measured
 from measure.whole_impact import SHORTEST_SEPARATION
@@ -55,11 +56,15 @@ def bounce_table(found: Bounce, over_damping: Sequence[dict[str, Any]] = (), *, 
         text_table(["", "value", "", *(["beam's units"] if verbose else [])], rows),
         "",
         "± is the error bar; a band is mean ± standard deviation of runs. Energies are shares of the initial energy",
-        "and the work of the loads, at the last contact.",
+        "and the work of the loads, at the last contact: the end of the first hit, after which the beam is off the",
+        "wall for a period of its first mode at least.",
         *(f"Largest {'moment' if found.section is None else 'stress'}, {unit}, {line}." for line in over),
     ]
     if verbose:
+        balance = balance_of(found.history)
+        checks = ("-" if value is None else f"{value:.1g}" for value in (balance.momentum, balance.gap_of_push))
         lines += [
+            "Read from the state: momentum residual {} of the impulse, largest gap of a push {} V0 t.".format(*checks),
             f"kappa/nu = {impact.kappa_over_nu:.6g}, {_damping_of(found)}, "
             f"T* = {impact.slow_time_scale:.6g} s; {found.history.steps} steps, {found.seconds:.1f} s for all runs.",
             "Beam's units: L/2 = EI = mu = V0 = 1. A separation lasts at least "

@@ -33,12 +33,12 @@ const Limits = (() => {
     };
   }
 
-  /** `from` and `until` (s) with the cause of each; from ≥ until where the first instants hold at no time. */
+  /** `from` and `until` (s) with the cause of each; from ≥ until where the first instants hold at no time; sheared: even without damping. */
   function limits(problem) {
     const ends = until(problem), starts = from(problem);
     const last = Object.keys(ends).reduce((a, b) => (ends[a] <= ends[b] ? a : b));
     const first = Object.keys(starts).reduce((a, b) => (starts[a] >= starts[b] ? a : b));
-    return { from: starts[first], after: first, until: ends[last], by: last };
+    return { from: starts[first], after: first, until: ends[last], by: last, sheared: starts.shear >= ends[last] };
   }
 
   return { limits };

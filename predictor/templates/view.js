@@ -2,7 +2,7 @@
 // The page: inputs ↔ link, numbers, plots. No number of mechanics is made here.
 (() => {
   const { UNITS, CHOICES, FIELDS, START } = Beam, { text, draw, axes, path } = Draw;
-  const { REGIMES, CAUSES, YIELDS, GIVES_WAY, SIMULATE } = Words;
+  const { REGIMES, CAUSES, YIELDS, GIVES_WAY, SIMULATE, SHEARED } = Words;
   const find = (selector) => document.querySelector(selector);
   let inputs = { ...START }, predicted = null;
 
@@ -165,15 +165,18 @@
     return `${text(value / size, 3)} ± ${text(error / size, 1)} ${symbol}`.trim();
   }
 
+  /** What there is beside the page: no simulation where shear is the obstacle. */
+  const otherwise = ({ sheared }) => (sheared ? SHEARED : SIMULATE);
+
   /** The largest stress: of the first instants and until when, and of the whole impact. */
-  function stresses({ first, whole, shownUntil }) {
+  function stresses({ first, whole, shownUntil, limits }) {
     const known = whole && whole.stress;
     return `first instants, until ${quantity("time", shownUntil, 3)}: ${quantity("stress", first.stress)}; `
-      + `whole impact: ${known ? withBar("stress", known) : SIMULATE}`;
+      + `whole impact: ${known ? withBar("stress", known) : otherwise(limits)}`;
   }
 
-  function wholeImpact({ whole }) {
-    if (!whole) return `The stored map has no loads, no weight, and not every κ/ν and damping: ${SIMULATE}.`;
+  function wholeImpact({ whole, limits }) {
+    if (!whole) return `The stored map has no loads, no weight, and not every κ/ν and damping: ${otherwise(limits)}.`;
     const moment = whole.moment ? `, largest bending moment ${withBar("moment", whole.moment)}` : "";
     const scatter = whole.band ? " (no damping: mean ± scatter of many runs)" : "";
     return `The whole impact${scatter}: coefficient of restitution ${withBar("", whole.restitution)}, `
@@ -246,7 +249,7 @@
       force: peakForce ? `Largest force on the wall: ${quantity("force", peakForce, 4)} ± ${GIVES_WAY}` : "",
       yields: yields(predicted) ? YIELDS : "",
       holds: holding(predicted),
-      damped: b.damping > 0 ? `The first instants are those of an undamped beam. For this one, ${SIMULATE}.` : "",
+      damped: b.damping > 0 ? `The first instants are those of an undamped beam. For this one: ${otherwise(limits)}.` : "",
       whole: wholeImpact(predicted),
       groups: [
         `κ/ν = ${b.wallCurvature ? "(K − K of the wall)" : "K"}√(EI/μ)/V₀ = ${text(contact.ratio, 5)}`,

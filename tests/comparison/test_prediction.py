@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 from pathlib import Path
 from typing import Any
 
@@ -12,10 +13,13 @@ from histories import ROD
 
 from bent_beam import Impact
 from bent_beam.cases import Case, load_case
+from bent_beam.free_flight import LOWEST_PERIOD
 from comparison.prediction import COMPARED, predict_case
 from comparison.prediction_text import prediction_text
+from comparison.whole_impact.predicted import over_damping
 from hermite_fe import HermiteFE
 from hermite_fe.integrators import MoreauJean
+from measure.measured import Measured
 
 CASES = Path(__file__).resolve().parents[2] / "cases"
 K10 = str(CASES / "thesis_K10.toml")
@@ -92,6 +96,14 @@ def test_theory_only_simulates_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
     assert found["whole_impact"]["source"] == "stored map"
     loaded = answered("predict", pipe, "--theory-only", "--set", "impact.acceleration=1.0")
     assert loaded["whole_impact"] is None
+
+
+def test_at_its_own_damping_the_range_of_damping_has_the_number_of_the_run_itself() -> None:
+    """No second run, on other elements, beside it: ζ = 1 % of the first mode is the middle row."""
+    impact = Impact.whole_beam(0.75, relative_damping=0.01 * LOWEST_PERIOD / math.pi).replace(acceleration=0.1)
+    own = Measured(1.4, 1e-3)
+    assert [row["peak_moment"] for row in over_damping(impact, None, None, own)] == [own.to_dict()]
+    assert over_damping(impact.replace(damping=1.1 * impact.damping), None, None, own) == []  # no method to run with
 
 
 def test_the_tables_of_the_case_are_those_of_the_simulation(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -89,9 +89,11 @@ def test_hits_are_contacts_whose_gaps_are_shorter_than_a_period_of_the_first_mod
     """Numbers are those of the first hit: a contact 2.5 T* later is another hit, one 0.5 T* later belongs to it."""
     twice = pushed_until(0.5, last=4.0, again=3.0)
     found = whole_impact(twice)
-    assert found.contacts == ((0.0, 0.5),) and found.restitution == pytest.approx(0.45)
+    assert found.contacts == ((0.0, pytest.approx(0.5, abs=found.spacing)),)
+    assert found.contacts[-1][1] == found.last_contact == hits(twice)[0].end  # one last contact
+    assert found.restitution == pytest.approx(0.45)
     soon = whole_impact(pushed_until(0.5, last=4.0, again=1.0))
-    assert np.array(soon.contacts) == pytest.approx(np.array([[0.0, 0.5], [1.0, 1.5]]))
+    assert np.array(soon.contacts) == pytest.approx(np.array([[0.0, 0.5], [1.0, 1.5]]), abs=soon.spacing)
     assert soon.restitution == pytest.approx(1.9)
     for hit, begin, before, after in zip(hits(twice), (0.0, 3.0), (1.0, -0.45), (-0.45, -1.9), strict=True):
         assert (hit.begin, hit.before, hit.after) == pytest.approx((begin, before, after))
