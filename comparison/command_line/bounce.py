@@ -79,7 +79,7 @@ def bounce(
         try:
             document["files"] = [str(file) for file in write_bounce(found, out)]
         except OSError as error:  # the answer is worth more than its files
-            problem_of_files = f"out: {error}"
+            problem_of_files = f"--out: {error}"
     emit(document, as_json, lambda: "\n".join([bounce_table(found, over, verbose=verbose), *hits_table(followed)]))
     if problem_of_files:
         raise InputError(problem_of_files)

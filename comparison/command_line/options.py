@@ -136,5 +136,5 @@ def check_out(out: Path | None, overwrite: bool) -> None:
     from comparison.store import check_writable
 
     if out.exists() and not overwrite:
-        raise InputError(f"out: {out} exists already (give another name, or --overwrite)")
+        raise InputError(f"--out: {out} exists already (give another name, or --overwrite)")
     check_writable(out, folder=False)

@@ -76,7 +76,7 @@ def simulate(
         try:
             (history if loaded.section is None else history.with_section(loaded.section)).save(out)
         except OSError as error:  # the run's answer is worth more than its file
-            problem, out = f"out: {out} could not be written: {error.strerror or error}", None
+            problem, out = f"--out: {out} could not be written: {error.strerror or error}", None
     others, lost = companions(method, loaded.impact, end, run, error_bars, stated=stated)
     found = summary(history, out, loaded.section, others)
     found["warnings"] = [*found["warnings"], *lost]
