@@ -197,7 +197,12 @@ def read_toml(path: Path, what: str) -> dict[str, Any]:
 def load_case(file: str | Path, assignments: Sequence[str] = ()) -> Case:
     """Read and validate a case file, with ``table.key=value`` assignments laid over it.
 
-    Raises :class:`InputError` when the file cannot be read, is no TOML, or holds what is not allowed.
+    Raises :class:`InputError` when the file cannot be read, is no TOML, or has an unknown key or a wrong value.
+
+    >>> from bent_beam import load_case
+    >>> case = load_case("cases/tube.toml", ["impact.velocity=2.0"])
+    >>> round(case.impact.kappa_over_nu, 3), case.section.yield_stress
+    (0.377, 240000000.0)
     """
     tables = read_toml(Path(file), "case file")
     for assignment in assignments:

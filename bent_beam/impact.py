@@ -38,6 +38,11 @@ class Impact(Part):
     Raises
     ------
     ValueError : a field is not finite, or has the wrong sign; the message names field and value.
+
+    >>> from bent_beam import Impact
+    >>> pipe = Impact(bending_stiffness=1.224e6, mass_per_length=29.02, length=90.0, curvature=0.002, velocity=2.0)
+    >>> round(pipe.kappa_over_nu, 3)
+    0.205
     """
 
     bending_stiffness: Annotated[float, Quantity("N m²", "EI", above=0.0)]

@@ -21,8 +21,8 @@ LEAST = {"lambda0": 0.0, "r0": 0.0, "lambda1": 1.0, "r1": 1.0}
 """Errors are relative to the larger of |theory| and this."""
 
 LEGEND = (
-    "± is the error bar, % the difference from theory. lift: largest gap inside the contact zone; pull: largest adhesive",
-    "over largest contact impulse; held: end of the bilateral start; s: seconds of the run.",
+    "± is the error bar, % the difference from theory. lift: largest gap inside the contact zone; pull: largest",
+    "adhesive over largest contact impulse; held: end of the bilateral start; s: seconds of the run.",
 )
 
 

@@ -23,7 +23,14 @@ LOADS = ("acceleration", "curvature_rate", "fourth_derivative", "axial_force")
 
 @dataclass(frozen=True)
 class SelfSimilarFE(Part):
-    """Finite elements in similarity coordinates: an infinite beam, steady at leading order."""
+    """Finite elements in similarity coordinates: an infinite beam, steady at leading order.
+
+    >>> from bent_beam import Impact
+    >>> from self_similar_fe import SelfSimilarFE
+    >>> history = SelfSimilarFE().simulate(Impact.dimensionless(0.5), end_time=0.1)
+    >>> bool(abs(history.array("total_impulse")[-1] - 1.188) < 0.001)
+    True
+    """
 
     path: ClassVar[str] = "self_similar"
     perturbation: ClassVar[float] = 0.025
