@@ -64,9 +64,9 @@ class Impact(Part):
         str, Quantity("", "of the axial force at the ends: along x, or along the bow's ends", choices=DIRECTIONS)
     ] = "axis"
     damping: Annotated[float, Quantity("s", "η, Kelvin–Voigt damping of the beam's own material", least=0.0)] = 0.0
-    wall_curvature: Annotated[float, Quantity("1/m", "K_w, positive where the wall is hollow; less than K")] = 0.0
+    wall_curvature: Annotated[float, Quantity("1/m", "K_w, positive where the wall is concave; less than K")] = 0.0
     natural_curvature: Annotated[
-        float | None, Quantity("1/m", "curvature of the beam free of stress; all of the bow unless given")
+        float | None, Quantity("1/m", "stress-free curvature; that of the whole bow unless given")
     ] = None
     rotation: Annotated[
         float, Load("rad/s", "rocking about the middle (runs of the full beam)", powers=(1, 1))

@@ -101,8 +101,8 @@ def comparison_text(found: dict[str, Any], first: str, second: str) -> str:
     lines = [
         text_table(["", first, second, "unit", "largest difference"], rows),
         "",
-        "Numbers are those at the end of the common time. A difference is the largest of the whole curve, as a share of",
-        "the first run's largest value.",
+        "Numbers at the end of the common time. Differences: the largest over the curve, as a share of the first run's",
+        "largest value.",
         "The two impacts are the same." if found["same_impact"] else "The two impacts differ.",
     ]
     changed = [row for part in ("settings", "versions") for row in _changed(found[part])]

@@ -27,10 +27,10 @@ def simulate(
     ] = "hermite",
     assignments: Set = None,
     until: Annotated[
-        str | None, typer.Option(help='"separation": until the beam has left the wall, whatever [run] says.')
+        str | None, typer.Option(help='"separation": until the beam has left the wall; overrides [run].')
     ] = None,
     error_bars: Annotated[
-        str, typer.Option(help="quick (a companion run at half the resolution), thorough (and one at twice), or drift.")
+        str, typer.Option(help="quick (one companion run, half resolution), thorough (also twice), drift (none).")
     ] = "quick",
     out: Annotated[Path | None, typer.Option(metavar="FILE.nc", help="Keep the history as netCDF.")] = None,
     overwrite: Overwrite = False,
