@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Any
 from bent_beam.checks import shortened
 from bent_beam.description import beam_quantities, free_flight, impact_velocity, wall_quantities
 from bent_beam.errors import InputError
-from bent_beam.fields import declared, key_of
+from bent_beam.fields import key_of
 from bent_beam.impact import Impact
 from bent_beam.meshes import MESHES, Mesh
 from bent_beam.parts import made_from, part_from_table, unknown_key
@@ -78,7 +78,7 @@ def _tables_of_paths(tables: Mapping[str, Any]) -> dict[str, dict[str, Any]]:
 
     for name, table in found.items():
         if name not in paths():
-            places = [f"{table}.{name}" for table, part in TABLES.items() if name in map(key_of, declared(part))]
+            places = [f"{table}.{name}" for table, part in TABLES.items() if name in map(key_of, part.__dataclass_fields__)]
             if places:
                 raise InputError(f"{name} is not a table (did you mean {' or '.join(places)}?)")
             raise unknown_key("", name, {*paths(), *KNOWN})
