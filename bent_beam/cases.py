@@ -78,7 +78,8 @@ def _tables_of_paths(tables: Mapping[str, Any]) -> dict[str, dict[str, Any]]:
 
     for name, table in found.items():
         if name not in paths():
-            places = [f"{table}.{name}" for table, part in TABLES.items() if name in map(key_of, part.__dataclass_fields__)]
+            keys_of = {at: map(key_of, part.__dataclass_fields__) for at, part in TABLES.items()}
+            places = [f"{at}.{name}" for at, keys in keys_of.items() if name in keys]
             if places:
                 raise InputError(f"{name} is not a table (did you mean {' or '.join(places)}?)")
             raise unknown_key("", name, {*paths(), *KNOWN})
