@@ -1,4 +1,4 @@
-"""What every path shares: the impact problem, case files, meshes, the record of a run, and what a method is."""
+"""The impact problem, case files, meshes, the record of a run and the protocol of a method, shared by all paths."""
 
 from __future__ import annotations
 

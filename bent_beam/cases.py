@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING, Any
 from bent_beam.checks import shortened
 from bent_beam.description import beam_quantities, free_flight, impact_velocity, wall_quantities
 from bent_beam.errors import InputError
+from bent_beam.fields import key_of
 from bent_beam.impact import Impact
 from bent_beam.meshes import MESHES, Mesh
 from bent_beam.parts import made_from, part_from_table, unknown_key
@@ -77,6 +78,10 @@ def _tables_of_paths(tables: Mapping[str, Any]) -> dict[str, dict[str, Any]]:
 
     for name, table in found.items():
         if name not in paths():
+            keys_of = {at: map(key_of, part.__dataclass_fields__) for at, part in TABLES.items()}
+            places = [f"{at}.{name}" for at, keys in keys_of.items() if name in keys]
+            if places:
+                raise InputError(f"{name} is not a table (did you mean {' or '.join(places)}?)")
             raise unknown_key("", name, {*paths(), *KNOWN})
         if not isinstance(table, dict):
             raise InputError(f"{name} must be a table (got {shortened(table)})")
@@ -193,7 +198,12 @@ def read_toml(path: Path, what: str) -> dict[str, Any]:
 def load_case(file: str | Path, assignments: Sequence[str] = ()) -> Case:
     """Read and validate a case file, with ``table.key=value`` assignments laid over it.
 
-    Raises :class:`InputError` when the file cannot be read, is no TOML, or holds what is not allowed.
+    Raises :class:`InputError` when the file cannot be read, is no TOML, or has an unknown key or a wrong value.
+
+    >>> from bent_beam import load_case
+    >>> case = load_case("cases/tube.toml", ["impact.velocity=2.0"])
+    >>> round(case.impact.kappa_over_nu, 3), case.section.yield_stress
+    (0.377, 240000000.0)
     """
     tables = read_toml(Path(file), "case file")
     for assignment in assignments:

@@ -72,7 +72,16 @@ FORMAT = "bent-beam-impact history 2"
 
 @dataclass(frozen=True, eq=False, repr=False)
 class ImpactHistory:
-    """What a simulation returns: :attr:`dataset` (see the module's table) with typed access to what is asked often."""
+    """The result of a simulation: :attr:`dataset` (see the module's table) with typed access to common quantities.
+
+    >>> from bent_beam import Impact
+    >>> from self_similar_fe import SelfSimilarFE
+    >>> history = SelfSimilarFE().simulate(Impact.dimensionless(0.5), end_time=0.1, save=50)
+    >>> history.array("total_impulse").shape == history.time.shape
+    True
+    >>> sorted(history.energy_budget())[:3]
+    ['defect', 'initial_energy', 'kinetic_energy']
+    """
 
     dataset: xr.Dataset
 

@@ -33,11 +33,12 @@ DIRECTIONS = ("axis", "tangent")
 class Impact(Part):
     """A bent beam about to hit a wall (SI units); free, rigid and symmetric about x = 0 unless said otherwise.
 
-    Units, meanings and ranges of the fields stand at the fields.
+    Units, meanings and ranges of the fields stand at the fields. Raises ``ValueError`` naming field and value.
 
-    Raises
-    ------
-    ValueError : a field is not finite, or has the wrong sign; the message names field and value.
+    >>> from bent_beam import Impact
+    >>> pipe = Impact(bending_stiffness=1.224e6, mass_per_length=29.02, length=90.0, curvature=0.002, velocity=2.0)
+    >>> round(pipe.kappa_over_nu, 3)
+    0.205
     """
 
     bending_stiffness: Annotated[float, Quantity("N m²", "EI", above=0.0)]
@@ -63,12 +64,10 @@ class Impact(Part):
                        instead=": take the Hermite path, or damping in its place")
     ] = 0.0  # fmt: skip
     loss_frequency: Annotated[float | None, Quantity("Hz", "where EI and hysteretic_loss hold", above=0.0)] = None
-    wall_curvature: Annotated[float, Quantity("1/m", "K_w, positive where the wall is hollow; less than K")] = 0.0
-    natural_curvature: Annotated[float | None, Quantity("1/m", "K free of stress; all of the bow unless given")] = None
+    wall_curvature: Annotated[float, Quantity("1/m", "K_w, positive where the wall is concave; less than K")] = 0.0
+    natural_curvature: Annotated[float | None, Quantity("1/m", "stress-free K; the whole bow's unless given")] = None
     rotation: Annotated[float, Load("rad/s", "rocking about the middle (runs of the full beam)", powers=(1, 1))] = 0.0
-    first_touch: Annotated[
-        float, Quantity("m", "place of the bow's apex from the middle (runs of the full beam)")
-    ] = 0.0
+    first_touch: Annotated[float, Quantity("m", "the bow's apex from the middle (runs of the full beam)")] = 0.0
     opposite_wall: Annotated[
         float | None, Quantity("m", "distance of a second wall behind the bow's apex", above=0.0)
     ] = None

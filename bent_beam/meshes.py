@@ -202,7 +202,7 @@ class ScaleFreeMesh(_Mesh):
     growth: Growth = 1.01
     largest: Annotated[float | None, Quantity("m", "no element above this", above=0.0, absent="-")] = None
     zone: Annotated[
-        float | None, Quantity("m", "half length, elements grow by growth_outside beyond", above=0.0, absent="-")
+        float | None, Quantity("m", "half length; beyond it elements grow by growth_outside", above=0.0, absent="-")
     ] = None
     growth_outside: Annotated[
         float | None, Quantity("", "ratio of neighbours outside the zone", least=1.0, absent="-")

@@ -24,8 +24,8 @@ class Section(Part, ABC):
 
     youngs_modulus: Annotated[float, Quantity("Pa", "E", above=0.0)]
     density: Annotated[float, Quantity("kg/m³", "of the material", above=0.0)]
-    yield_stress: Annotated[float | None, Quantity("Pa", "stresses are compared with it", above=0.0, absent="-")] = None
-    added_mass: Annotated[float, Quantity("kg/m", "moves along outside (mud, cladding)", least=0.0)] = 0.0
+    yield_stress: Annotated[float | None, Quantity("Pa", "limit for the largest stress", above=0.0, absent="-")] = None
+    added_mass: Annotated[float, Quantity("kg/m", "outer mass moving with the beam (mud, cladding)", least=0.0)] = 0.0
     poisson_ratio: Annotated[float, Quantity("", "for shear", least=-0.99, most=0.5)] = 0.3
 
     @property
@@ -92,7 +92,7 @@ class Pipe(Section):
     outer_diameter: Annotated[float, Quantity("m", "", above=0.0)]
     inner_diameter: Annotated[float | None, Quantity("m", "or wall_thickness", least=0.0, absent="-")] = None
     wall_thickness: Annotated[float | None, Quantity("m", "or inner_diameter", above=0.0, absent="-")] = None
-    fluid_density: Annotated[float, Quantity("kg/m³", "of what fills it", least=0.0)] = 0.0
+    fluid_density: Annotated[float, Quantity("kg/m³", "density of the contents", least=0.0)] = 0.0
 
     def __post_init__(self) -> None:
         super().__post_init__()

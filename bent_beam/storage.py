@@ -40,8 +40,11 @@ def read_dataset(file: Path) -> xr.Dataset:
             # no scales, offsets or fill values: they would turn small numbers into large arrays
             dataset = xr.load_dataset(file, engine="h5netcdf", decode_times=False, mask_and_scale=False)
     except FileNotFoundError:
-        raise
+        raise FileNotFoundError(f"history {file}: no such file") from None
     except Exception as error:  # h5py raises many kinds for a broken file
+        if file.suffix == ".toml":
+            wanted = f"a history is wanted, bentbeam simulate {file} --out FILE.nc writes one"
+            raise ValueError(f"{file} is a case file: {wanted}") from None
         raise ValueError(f"{file} is not a readable history: {' '.join(str(error).split())}") from None
     for variable in dataset.variables.values():
         variable.attrs.pop("_FillValue", None)

@@ -105,8 +105,8 @@ class Bounce:
             found.append("the beam had not left the wall for good when a run ended: the numbers are not final")
         elif self.impact.net_load > 0.0:
             found.append(
-                "the loads press the beam to the wall: it comes back; these numbers are of its first hit (--hits "
-                "follows more)"
+                "the loads bring the beam back to the wall; these numbers are those of the first hit (--hits follows "
+                "more)"
             )
         return [*found, *balance_of(self.history).warnings]
 

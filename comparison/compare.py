@@ -11,6 +11,7 @@ from scipy.interpolate import CubicHermiteSpline
 
 from bent_beam.history import ImpactHistory
 from comparison.text_table import text_table
+from comparison.units import unit_for
 from measure.reduction import peak_moment
 
 __all__ = ["compare_histories", "comparison_text"]
@@ -89,49 +90,41 @@ def _gap_apart(a: ImpactHistory, b: ImpactHistory, end: float) -> float | None:
 
 
 def comparison_text(found: dict[str, Any], first: str, second: str) -> str:
-    """The same for a reader."""
+    """The same for a reader: a table of numbers, and one of the settings and versions that differ."""
     units = {"time": "s", "total_impulse": "N s", "kinetic_energy": "J", "strain_energy": "J", "peak_moment": "N m"}
-    rows = []
+    rows, apart = [], found["largest_difference"]
     for name, (a, b) in found["end"].items():
-        apart = found["largest_difference"].get(name)
-        rows.append(
-            [name.replace("_", " "), f"{a:.6g}", f"{b:.6g}", units[name], "-" if apart is None else f"{apart:.2g}"]
-        )
-    gap = found["largest_difference"]["gap"]
+        scale, unit = unit_for(units[name], [a, b])
+        values = [f"{scale * a:.6g}", f"{scale * b:.6g}"]
+        rows.append([name.replace("_", " "), *values, unit, _share(apart.get(name))])
+    rows.append(["gap at the end", "", "", "V0 t", _share(apart["gap"])])
     lines = [
         text_table(["", first, second, "unit", "largest difference"], rows),
-        f"largest difference of the gaps at the end of the common time: {'-' if gap is None else f'{gap:.2g}'} V0 t",
-        "same impact" if found["same_impact"] else "the impacts differ",
+        "",
+        "Numbers at the end of the common time. Differences: the largest over the curve, as a share of the first run's",
+        "largest value.",
+        "The two impacts are the same." if found["same_impact"] else "The two impacts differ.",
     ]
+    changed = [row for part in ("settings", "versions") for row in _changed(found[part])]
+    return "\n".join([*lines, "", text_table(["setting or version", first, second], changed)] if changed else lines)
+
+
+def _share(value: float | None) -> str:
+    return "-" if value is None else f"{value:.2g}"
+
+
+def _changed(pairs: dict[str, Any], where: str = "") -> list[list[str]]:
+    """A row for each entry that differs; entries of tables by their full name."""
     shown = Repr()
-    shown.maxlist, shown.maxdict, shown.maxstring, shown.maxother = 4, 50, 200, 200  # a mesh may name all its nodes
-    changed = {**found["settings"], **found["versions"]}
-    lines += [f"{key}: {_told_apart(a, b, shown)}" for key, (a, b) in changed.items()]
-    return "\n".join(lines)
-
-
-def _told_apart(a: Any, b: Any, shown: Repr) -> str:
-    """Both; where they differ in what is not shown of them, what stands at the first place at which they do."""
-    place = ""
-    while shown.repr(a) == shown.repr(b) and (key := _first_difference(a, b)) is not None:
-        place += f"[{key!r}]"
-        if isinstance(a, str):
-            a, b = a[key:], b[key:]
-        elif isinstance(a, dict):
-            a, b = a.get(key), b.get(key)
-        elif key < min(len(a), len(b)):
-            a, b = a[key], b[key]
+    shown.maxlist, shown.maxstring, shown.maxother = 4, 60, 60  # a mesh may name all its nodes
+    rows = []
+    for key, (a, b) in pairs.items():
+        if isinstance(a, dict) and isinstance(b, dict):
+            inner = {k: [a.get(k), b.get(k)] for k in sorted({*a, *b}, key=str) if a.get(k) != b.get(k)}
+            rows += _changed(inner, f"{where}{key}.")
+        elif shown.repr(a) == shown.repr(b) and isinstance(a, (str, list, tuple)):
+            at = next((i for i, (x, y) in enumerate(zip(a, b)) if x != y), min(len(a), len(b)))
+            rows += _changed({f"{key}[{at}:]": [a[at:], b[at:]]}, where)
         else:
-            return f"{len(a)} values | {len(b)} values, the same up to {place}"
-    where = f"first differ at {place}: " if place else ""
-    return f"{where}{shown.repr(a)} | {shown.repr(b)}"
-
-
-def _first_difference(a: Any, b: Any) -> Any:
-    """Its key or index; ``None`` : not two dictionaries, two lists or two strings, or none is found."""
-    if isinstance(a, dict) and isinstance(b, dict):
-        return next((k for k in sorted({*a, *b}, key=str) if a.get(k) != b.get(k)), None)
-    for kind in (str, (list, tuple)):
-        if isinstance(a, kind) and isinstance(b, kind) and a != b:
-            return next((i for i, (x, y) in enumerate(zip(a, b)) if x != y), min(len(a), len(b)))
-    return None
+            rows.append([f"{where}{key}", *("-" if v is None else shown.repr(v).strip("'") for v in (a, b))])
+    return rows

@@ -282,6 +282,13 @@ def match(
     limit : seconds that one row may take (``None``: no limit); a row that would take longer is made coarser and says
         so, one that takes longer nevertheless is a failure.
     The rows are the same, bit for bit, for any number of jobs. ``progress(done, total)`` is called after each.
+
+    >>> from comparison.match import match
+    >>> from comparison.rows import Question
+    >>> from self_similar_fe import SelfSimilarFE
+    >>> row = match([Question(SelfSimilarFE(), 0.5)])[0]
+    >>> row.label, row.r0.covered
+    ('Self-similar', True)
     """
     from comparison.workers import run_all
 

@@ -32,7 +32,7 @@ kind = "{kind}"
 {lines}youngs_modulus = 206e9      # Pa
 density = 7850.0            # kg/m³
 yield_stress = 7.24e8       # Pa; leave out when not of interest
-# added_mass = 5.0          # kg/m, moves along outside
+# added_mass = 5.0          # kg/m, mass outside that moves with the beam
 
 [beam]
 length = {length}               # m, of the whole beam
@@ -45,7 +45,7 @@ velocity = {velocity}              # m/s towards the wall (or drop_height, m, or
 # gravity = 9.81            # m/s², with gravity_angle = 0.0 degrees onto a floor, 90.0 onto an upright wall
 
 # [wall]
-# curvature = 0.0           # 1/m, positive where the wall is hollow
+# curvature = 0.0           # 1/m, positive where the wall is concave
 
 [run]
 end_time = {end_time}            # s

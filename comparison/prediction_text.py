@@ -14,7 +14,7 @@ __all__ = ["over_damping_lines", "prediction_text"]
 REGIMES = {
     "discrete": "The contact stays one point.",
     "continuous": "The contact spreads: a zone with a concentrated force at each end.",
-    "detached": "The contact spreads as two points; the beam lifts off between them.",
+    "detached": "The contact is two points that move apart; the beam lifts off between them.",
 }
 LIMITS = {
     "waves back from the ends": "reflections from the beam's ends arrive",
@@ -23,8 +23,8 @@ LIMITS = {
     "damping": "the contact spreads, for which material damping has no closed form",
     "hysteretic loss": "the stiffness grows with the frequency, for which there is no closed form",
     "slope": "slopes are no longer small",
-    "shear": "shear deformation, which is not modelled, matters for as long as the theory would hold without it",
-    "wall": "the wall gives way for as long as the theory of a rigid wall would hold, or longer",
+    "shear": "shear deformation (not modelled) matters until another limit ends it",
+    "wall": "the wall does not act as a rigid one before another limit ends it",
     "section": "the section yields",
 }
 BEFORE = {"shear": "shear deformation matters", "wall": "the wall gives way"}
@@ -86,8 +86,8 @@ def _agreement(document: dict[str, Any]) -> list[str]:
     if not any("simulation" in row for row in document["times"]):
         return []
     lines = [
-        "Half contact and reactions of the simulation are means over a tenth of the time before and after; its moments",
-        "and stresses are the largest of all steps until then.",
+        "Half contact and reaction of the simulation: means over a tenth of the time before and after. Moment and",
+        "stress: the largest of all steps until then.",
     ]
     agreement = document["agreement"]
     if agreement is None:
@@ -122,7 +122,7 @@ def _largest(document: dict[str, Any]) -> list[str]:
 def over_damping_lines(rows: Sequence[dict[str, Any]], name: str, scale: float) -> list[str]:
     """How the largest ``name`` of the whole impact moves with the material's damping ratio; nothing without rows."""
     over = ", ".join(f"{_scaled(row[name], scale)} at {100.0 * row['damping_ratio']:g} %" for row in rows)
-    return [f"  of the whole impact over the material's damping ratio: {over}"] if over else []
+    return [f"  of the whole impact, by damping ratio of the material: {over}"] if over else []
 
 
 def _whole(document: dict[str, Any]) -> list[str]:
@@ -133,7 +133,7 @@ def _whole(document: dict[str, Any]) -> list[str]:
     largest = [f"Largest force of the whole impact ({whole['source']}): {_scaled(force, 1e-3)} kN."] if force else []
     last = _scaled(whole["last_contact"], 1e3)
     if last == "-":
-        stays = "The whole impact: the beam does not leave the wall within 3 T* (bentbeam bounce follows it)."
+        stays = "The whole impact: the beam does not leave the wall within 3 T* (bentbeam bounce continues)."
         return [*largest, stays]
     restitution = _scaled(whole["restitution"], 1.0)
     ends = f"coefficient of restitution {restitution}, last contact {last} ms (the end of the first hit)."

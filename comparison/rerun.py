@@ -14,8 +14,9 @@ from bent_beam.history import ImpactHistory
 from bent_beam.method import Method, method_type
 from bent_beam.parts import InputError, made_from
 from bent_beam.versions import versions
+from comparison.text_table import text_table
 
-__all__ = ["rerun_history"]
+__all__ = ["rerun_history", "rerun_text"]
 
 
 def _rebuild(described: Any, known: Mapping[str, type], where: str) -> Any:
@@ -61,6 +62,20 @@ def rerun_history(
         "versions_changed": {k: [v, now.get(k)] for k, v in old.versions.items() if now.get(k) != v},
         "file": None if out is None else str(out),
     }
+
+
+def rerun_text(found: dict[str, Any]) -> str:
+    """The comparison for a reader; shares are of a variable's largest value."""
+    lines = ["The new run is the same, bit for bit." if found["identical"] else "The new run differs."]
+    apart = [
+        [n, "missing, or of another size" if v is None else f"{v:.2g}"] for n, v in found["largest_difference"].items()
+    ]
+    if apart:
+        lines += ["", text_table(["variable", "largest difference over its largest value"], apart)]
+    changed = [[name, *map(str, pair)] for name, pair in found["versions_changed"].items()]
+    if changed:
+        lines += ["", text_table(["version of", "then", "now"], changed)]
+    return "\n".join(lines if found["file"] is None else [*lines, f"history: {found['file']}"])
 
 
 def _run(old: ImpactHistory, progress: Callable[[float], None] | None) -> ImpactHistory:

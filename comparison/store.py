@@ -38,7 +38,7 @@ def check_writable(out: Path, *, folder: bool) -> None:
         tempfile.TemporaryFile(dir=place).close()
     except (OSError, ValueError) as error:
         why = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
-        raise InputError(f"out: {out} cannot be written: {why.lower()}") from None
+        raise InputError(f"--out: {out} cannot be written: {why.lower()}") from None
 
 
 def default_store() -> Path:

@@ -20,6 +20,11 @@ __all__ = ["LEAST", "match_document", "match_table", "write_match"]
 LEAST = {"lambda0": 0.0, "r0": 0.0, "lambda1": 1.0, "r1": 1.0}
 """Errors are relative to the larger of |theory| and this."""
 
+LEGEND = (
+    "± is the error bar, % the difference from theory. lift: largest gap inside the contact zone; pull: largest",
+    "adhesive over largest contact impulse; held: end of the bilateral start; s: seconds of the run.",
+)
+
 
 def match_document(rows: Sequence[MatchRow]) -> dict[str, Any]:
     """The contract of ``bentbeam match --json``: ``rows``, and ``failures``, those that failed unexpectedly."""
@@ -57,7 +62,7 @@ def match_table(rows: Sequence[MatchRow]) -> str:
         body.append(line)
     notes = [f"{row_name(r)}: {r.reason}" for r in rows if r.reason]
     notes += [f"warning: {row_name(r)}: {w}" for r in rows for w in r.warnings]
-    return "\n".join([text_table(head, body), *notes])
+    return "\n".join([text_table(head, body), "", *LEGEND, *notes])
 
 
 def row_name(row: MatchRow) -> str:

@@ -14,7 +14,7 @@ def wall_lines(document: dict[str, Any]) -> list[str]:
     if wall is None:
         return []
     if wall["peak_force"] is None:
-        return ["The theory does not know the largest force for so damped a wall, or so flat or sharp a bow."]
+        return ["The theory has no largest force for this damping of the wall or this kappa/nu."]
     force, time = 1e-3 * wall["peak_force"], 1e3 * wall["peak_force_time"]
     lines = [
         f"Largest force on the wall (theory, an infinite beam): {force:.4g} kN at {time:.3g} ms, over a zone of "
@@ -23,5 +23,5 @@ def wall_lines(document: dict[str, Any]) -> list[str]:
         f"Half or twice the stiffness: {force * 0.5**0.25:.4g} or {force * 2.0**0.25:.4g} kN.",
     ]
     if wall["spoiled_by"] is not None:
-        lines.append(f"This beam differs before the force is largest ({wall['spoiled_by']}): simulate it.")
+        lines.append(f"This force does not hold for this beam (limit: {wall['spoiled_by']}): use the simulation.")
     return lines

@@ -59,7 +59,7 @@ class Composition(Part):
     geometry: Geometry | None = None
     solver: NewtonSolver | None = None
     full_beam: Annotated[bool, Quantity("", "both halves instead of one with a symmetry support")] = False
-    refine: Annotated[float, Quantity("", "elements and steps so many times finer", above=0.0)] = 1.0
+    refine: Annotated[float, Quantity("", "refinement factor of elements and steps", above=0.0)] = 1.0
 
     def refined(self, factor: float) -> Self:
         """A copy with elements and steps ``factor`` times finer."""

@@ -32,20 +32,20 @@ class NewtonSolver(Part):
     absolute_tolerance: Annotated[float, Quantity("", "of the residual", above=0.0)] = 1e-8
     relative_tolerance: Annotated[float, Quantity("", "of the residual", above=0.0)] = 1e-5
     contact_tolerance: Annotated[
-        float, Quantity("", "force below which a change of the contact state does not repeat the step", above=0.0)
+        float, Quantity("", "force below which a changed contact state does not repeat the step", above=0.0)
     ] = 1e-4
-    iterations: Annotated[int, Quantity("", "most Newton iterations a step", least=1)] = 25
+    iterations: Annotated[int, Quantity("", "largest number of Newton iterations a step", least=1)] = 25
     contact_iterations: Annotated[
-        int, Quantity("", "most repetitions of a step until its contact state has settled", least=1)
+        int, Quantity("", "largest number of repetitions of a step until its contact state has settled", least=1)
     ] = 300
     contact_must_settle: Annotated[
         bool, Quantity("", "fail when they run out; otherwise a warning counts the steps")
     ] = True
     halve_steps: Annotated[
-        bool, Quantity("", "let Exudyn shorten a step that fails (down to 1/1000) before giving up")
+        bool, Quantity("", "let Exudyn shorten a failed step (down to 1/1000)")
     ] = False
     initial_accelerations: Annotated[
-        bool, Quantity("", "solve for the accelerations at t = 0 instead of starting from none")
+        bool, Quantity("", "start from the accelerations at t = 0 instead of from zero")
     ] = True
 
     def settings(self, amplitude: float, round_off: float = 0.0) -> Any:

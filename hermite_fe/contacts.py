@@ -52,9 +52,9 @@ class Contact(Part, ABC):
 
     restitution: Annotated[float, Quantity("", "e", least=0.0, most=1.0)] = 0.0
     hold: Annotated[
-        int, Quantity("", "constraints that the front must be ahead before a closed one may open", least=0)
+        int, Quantity("", "constraints in the bilateral strip behind the front", least=0)
     ] = 0
-    hold_until: Annotated[float, Quantity("s", "until then nothing that has closed opens", least=0.0)] = 0.0
+    hold_until: Annotated[float, Quantity("s", "until then closed constraints do not open", least=0.0)] = 0.0
 
     def __post_init__(self) -> None:
         super().__post_init__()

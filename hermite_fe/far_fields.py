@@ -48,7 +48,7 @@ class FarField(Part, ABC):
 
     where: ClassVar[str] = "far_field"
 
-    end: Annotated[str, Quantity("", "of the beam: as it is, or as if the beam went on", choices=ENDS)] = "free"
+    end: Annotated[str, Quantity("", "end of the beam: free, or moving as a continued beam", choices=ENDS)] = "free"
 
     @abstractmethod
     def dampings(self, beam: HermiteBeam, impact: Impact) -> Dampings:
@@ -74,7 +74,7 @@ class Sponge(FarField):
 
     viscosity: Viscosity = 0.3
     strength: Annotated[float, Quantity("", "b", least=0.0)] = 0.03
-    width: Annotated[float, Quantity("", "w over the half length that is modelled", least=0.0, most=1.0)] = 0.5
+    width: Annotated[float, Quantity("", "width over the modelled half length", least=0.0, most=1.0)] = 0.5
 
     def dampings(self, beam: HermiteBeam, impact: Impact) -> Dampings:
         middles, half_length = 0.5 * (beam.nodes[:-1] + beam.nodes[1:]), float(beam.nodes[-1])

@@ -63,7 +63,7 @@ class LumpedMass(Mass):
     """Half of an element's mass at each node, with a rotary inertia."""
 
     rotary: Annotated[
-        float, Quantity("", "r, the rotary inertia that an element gives to each of its nodes over μl³", above=0.0)
+        float, Quantity("", "r: rotary inertia of an element at each of its nodes over μl³", above=0.0)
     ] = 1.0 / 78.0
 
     def element(self, lengths: Array, mass_per_length: float) -> Array:

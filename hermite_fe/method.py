@@ -32,6 +32,13 @@ class HermiteFE(Composition):
     """Hermite beam elements with unilateral contact and a nonsmooth time integrator, on a fixed mesh.
 
     The parts are those of :class:`hermite_fe.composition.Composition`.
+
+    >>> from bent_beam import Impact
+    >>> from hermite_fe import HermiteFE
+    >>> from hermite_fe.integrators import MoreauJean
+    >>> history = HermiteFE(integrator=MoreauJean(theta=1.0)).simulate(Impact.dimensionless(0.5), end_time=0.1)
+    >>> bool(abs(history.array("total_impulse")[-1] - 1.188) < 0.01)
+    True
     """
 
     path: ClassVar[str] = "hermite"

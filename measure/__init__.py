@@ -1,2 +1,2 @@
-"""What a history says: λ₀, r₀, λ₁, r₁, impulse, hits and peaks, each with its error bar. Nothing here knows a path or
-the theory."""
+"""Evaluation of a history: λ₀, r₀, λ₁, r₁, impulse, hits and peaks, each with its error bar, independent of paths and
+theory."""

@@ -174,8 +174,8 @@ def _integral(x: Array, v: Array) -> float:
 
 def _initial_energy(history: ImpactHistory) -> float | None:
     impact = history.impact
-    moves_alike = not (impact.curvature_rate or impact.rotation or impact.supported)
-    if not moves_alike or "position" in history or history.time[0] > 0.0:
+    moving = impact.curvature_rate or impact.rotation or impact.supported  # velocities differ along the beam
+    if moving or "position" in history or history.time[0] > 0.0:
         return None
     whole = 0.5 * impact.mass_per_length * _length(history) * impact.velocity**2
     return float(history.array("kinetic_energy")[0]) / whole - 1.0

@@ -110,6 +110,14 @@ def leading_order(found: Moments, *, window: float = 10.0, companions: Sequence[
     too large and λ₀ 0.14 to 0.7 % too small.
 
     Raises ``ValueError`` when fewer than eight instants carry an impulse.
+
+    >>> from bent_beam import Impact
+    >>> from measure.estimators import leading_order
+    >>> from measure.moments import moments
+    >>> from self_similar_fe import SelfSimilarFE
+    >>> found = leading_order(moments(SelfSimilarFE().simulate(Impact.dimensionless(0.5), end_time=0.1)))
+    >>> bool(abs(found.lambda0.value - 1.018866) < 1e-3)
+    True
     """
     r0, lambda0, drift_r0, drift_lambda0, lift, times = _leading_values(found, window)
     apart_r0 = apart_lambda0 = 0.0

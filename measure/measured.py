@@ -115,9 +115,14 @@ class Band:
 
 
 def _with_bar(value: float, error: float) -> str:
-    """``value`` ± ``error``, the value to a digit more than the error's first."""
-    if not SMALL <= abs(value) < LARGE or error <= 0.0:
+    """``value`` ± ``error``, both to the first digit of the error."""
+    if error <= 0.0:
         return f"{value:.6g} ± {error:.1g}"
-    digits = 1 - math.floor(math.log10(error))
-    size = f"{error:.1g}" if error < 10.0 else f"{round(error, digits - 1):.0f}"
-    return f"{round(value, digits):.{min(max(0, digits), 12)}f} ± {size}"
+    error = float(f"{error:.1g}")
+    power = math.floor(math.log10(max(abs(value), error)))
+    if not SMALL <= 10.0**power < LARGE:
+        return f"({_with_bar(value / 10.0**power, error / 10.0**power)})e{power:+03d}"
+    digits = -math.floor(math.log10(error))
+    places = min(max(0, digits), 12)
+    size = f"{error:.{places}f}" if digits <= places else f"{error:.1g}"
+    return f"{round(value, digits):.{places}f} ± {size}"

@@ -66,7 +66,7 @@ def report(
 
     page = out / "index.html"
     if page.exists() and not overwrite:
-        raise InputError(f"out: {page} exists already (give another folder, or --overwrite)")
+        raise InputError(f"--out: {page} exists already (give another folder, or --overwrite)")
     named = path or (PATHS if methods is None else ())
     chosen, refines = chosen_methods(named, assignments or (), methods), factors(refine)
     check_writable(out, folder=True)

@@ -1,7 +1,7 @@
 """The self-similar path: finite elements in similarity coordinates, for the infinite beam.
 
-Steady at leading order: its first state already is the self-similar solution, found with the nodes behind the front
-held. It is the sharpest numerical reference there is and no evidence for a time integrator.
+Steady at leading order: its first state is the self-similar solution, found with bilateral constraints behind the
+front. It is a sharp numerical reference, but no evidence for a time integrator.
 """
 
 from self_similar_fe.mesh import ExpandingMesh

@@ -31,7 +31,7 @@ class ExpandingMesh(Part):
     growth: Annotated[
         float, Quantity("", "of elements away from the front, per length (0.02: 2 % an element)", above=0.0, most=0.2)
     ] = 0.02
-    elements_per_wave: Annotated[int, Quantity("", "per wavelength 4π/ζ of what the impact radiates", least=6)] = 20
+    elements_per_wave: Annotated[int, Quantity("", "elements per radiated wavelength 4π/ζ", least=6)] = 20
     interior_elements: Annotated[int, Quantity("", "at least, inside the contact zone", least=4)] = 40
     absorber_start: Annotated[float, Quantity("", "clear distance ahead of the front", above=0.0)] = 8.0
     absorber_length: Annotated[float, Quantity("", "of the absorbing ramp", above=0.0)] = 16.0

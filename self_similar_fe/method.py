@@ -23,7 +23,14 @@ LOADS = ("acceleration", "curvature_rate", "fourth_derivative", "axial_force")
 
 @dataclass(frozen=True)
 class SelfSimilarFE(Part):
-    """Finite elements in similarity coordinates: an infinite beam, steady at leading order."""
+    """Finite elements in similarity coordinates: an infinite beam, steady at leading order.
+
+    >>> from bent_beam import Impact
+    >>> from self_similar_fe import SelfSimilarFE
+    >>> history = SelfSimilarFE().simulate(Impact.dimensionless(0.5), end_time=0.1)
+    >>> bool(abs(history.array("total_impulse")[-1] - 1.188) < 0.001)
+    True
+    """
 
     path: ClassVar[str] = "self_similar"
     perturbation: ClassVar[float] = 0.025
@@ -35,7 +42,7 @@ class SelfSimilarFE(Part):
     PARTS: ClassVar[dict[str, dict[str, type]]] = {"mesh": MESHES}
 
     mesh: ExpandingMesh | None = None
-    refine: Annotated[float, Quantity("", "elements and steps so many times finer", above=0.0)] = 1.0
+    refine: Annotated[float, Quantity("", "refinement factor of elements and steps", above=0.0)] = 1.0
     label: str = "Self-similar"
 
     def refuses(self, impact: Impact) -> str | None:

@@ -1,9 +1,9 @@
 """The semi-analytic path: two-scale theory of a bent beam's impact on a rigid wall (thesis, chapter 2).
 
 `contact_parameters` solves the contact point, `ImpactFields` gives the beam around it, `SelfSimilarWave` the leading
-order in closed form, `peak_moment` its largest bending moment, and `predict` says what that means for a physical
-impact and until when. The kernel is in `theory.kernel`, the φ functions in `theory.phi`. All of it is closed forms:
-no number here was measured on a simulation.
+order in closed form, `peak_moment` its largest bending moment, and `predict` gives them for a physical
+impact with their range. The kernel is in `theory.kernel`, the φ functions in `theory.phi`. No number here comes from
+a simulation.
 """
 
 from theory.contact import ContactParameters, contact_parameters

@@ -103,6 +103,11 @@ def contact_parameters(
     Raises:
         ValueError: κ/ν or ν not positive and finite, κ/ν < 1e-60, α, ψ, χ or the axial force not finite, any
             beyond 1e100.
+
+    >>> from theory import contact_parameters
+    >>> found = contact_parameters(0.5, alpha=4.0)
+    >>> found.regime, round(found.lambda0, 4), round(found.r0, 4), round(found.lambda1, 3)
+    ('continuous', 1.0189, 1.1772, 5.665)
     """
     arrays = _checked(kappa_over_nu=kappa_over_nu, alpha=alpha, psi=psi, chi=chi, nu=nu, axial=axial)
     shape = np.broadcast_shapes(*(v.shape for v in arrays.values()))

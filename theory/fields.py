@@ -28,7 +28,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.integrate import quad_vec
 
 from theory._fresnel import ComplexArray, FloatArray
 from theory._iterated_erfc import scaled_iterated_erfc
@@ -86,9 +85,7 @@ class ImpactFields:
         time = self._times(tau)
         p = self.parameters
         with np.errstate(divide="ignore"):
-            return np.asarray(
-                2.0 * np.sqrt(2.0 / np.pi) * (p.r0 + self.epsilon * p.r1 * time) / np.sqrt(time)
-            )
+            return np.asarray(2.0 * np.sqrt(2.0 / np.pi) * (p.r0 + self.epsilon * p.r1 * time) / np.sqrt(time))
 
     @property
     def uniform_reaction(self) -> float:
@@ -158,6 +155,8 @@ class ImpactFields:
 
     def _convolve(self, xi: FloatArray, tau: FloatArray) -> FloatArray:
         """(η, η_ξ, η_ξξ, η_τ) of shape (4, n) at ξ ≥ 0 and τ > 0 of shape (n,)."""
+        from scipy.integrate import quad_vec  # slow to load, and wanted here alone
+
         p, e = self.parameters, self.epsilon
         path = _Path(
             x=xi / np.sqrt(tau),
@@ -251,9 +250,7 @@ class _Path:
             total += self._element(np.full_like(length, a) + rise, step, 1.0, np.ones_like(length))
         return total
 
-    def _element(
-        self, u: ComplexArray, du: ComplexArray | complex, side: float, branch: FloatArray
-    ) -> FloatArray:
+    def _element(self, u: ComplexArray, du: ComplexArray | complex, side: float, branch: FloatArray) -> FloatArray:
         """Integrand of one reaction, β = x cosh u + side Λ sinh u, on the branch of sign(β) → branch."""
         sech, tanh = 1.0 / np.cosh(u), np.tanh(u)
         sinh_sech2 = tanh * sech

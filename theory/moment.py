@@ -60,6 +60,10 @@ def peak_moment(kappa_over_nu: ArrayLike, nu: ArrayLike = 1.0) -> PeakMoment:
 
     Raises:
         ValueError: as `theory.contact_parameters`.
+
+    >>> from theory import peak_moment
+    >>> round(float(peak_moment(0.5).largest), 5)  # over V₀√(EIμ)
+    0.62406
     """
     return peak_moment_of(contact_parameters(kappa_over_nu, nu=nu))
 

@@ -150,6 +150,13 @@ def predict(impact: Impact, times: Iterable[float] | float = (), *, section: Sec
     Raises:
         ValueError: a beam as curved as its wall (K = K_w), one that rocks (rotation, first_touch), a wall or supports
             that the theory does not have, or a time that is negative, not finite or beyond 1e30 t*.
+
+    >>> from bent_beam import Impact
+    >>> from theory import predict
+    >>> pipe = Impact(bending_stiffness=1.224e6, mass_per_length=29.02, length=90.0, curvature=0.002, velocity=2.0)
+    >>> found = predict(pipe, [0.010])
+    >>> found.regime, round(found.times[0].half_contact_length, 2), found.limited_by
+    ('continuous', 3.8, 'waves back from the ends')
     """
     _check(impact)
     given = [times] if isinstance(times, int | float) else times

@@ -24,18 +24,18 @@ def bounce(
         Path | None, typer.Argument(metavar="[CASE.toml]", help="Case file; or give --kappa-over-nu and --damping.")
     ] = None,
     kappa_over_nu: Annotated[
-        float | None, typer.Option(help="κ/ν of a beam in units of its half length, with --damping (inf: a point).")
+        float | None, typer.Option(help="κ/ν, with --damping, in place of a case (inf: one point).")
     ] = None,
     damping: Annotated[
-        float | None, typer.Option(help="η/T*, the material's damping time; 0: none, the outcome is a band.")
+        float | None, typer.Option(help="η/T*, damping time of the material; 0 gives a band.")
     ] = None,
     path: Annotated[str, typer.Option(help="hermite, exudyn or an installed one.", autocompletion=path_names)] = (
         "hermite"
     ),
     assignments: Set = None,
     runs: Annotated[int, typer.Option(min=2, max=1000, help="Runs of the ensemble without damping.")] = 24,
-    seed: Annotated[int, typer.Option(min=0, help="Of the ensemble.")] = 15,
-    hits: Annotated[int, typer.Option(min=1, max=20, help="Hits to follow, of a beam that loads bring back.")] = 1,
+    seed: Annotated[int, typer.Option(min=0, help="Seed of the ensemble.")] = 15,
+    hits: Annotated[int, typer.Option(min=1, max=20, help="Number of hits to follow under loads.")] = 1,
     out: Annotated[Path | None, typer.Option(help="Folder for document, figure and animation.")] = None,
     jobs: Jobs = 1,
     verbose: Verbose = False,
@@ -79,7 +79,7 @@ def bounce(
         try:
             document["files"] = [str(file) for file in write_bounce(found, out)]
         except OSError as error:  # the answer is worth more than its files
-            problem_of_files = f"out: {error}"
+            problem_of_files = f"--out: {error}"
     emit(document, as_json, lambda: "\n".join([bounce_table(found, over, verbose=verbose), *hits_table(followed)]))
     if problem_of_files:
         raise InputError(problem_of_files)

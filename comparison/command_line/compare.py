@@ -14,7 +14,7 @@ __all__ = ["compare"]
 
 def compare(
     first: Annotated[Path, typer.Argument(metavar="A.nc", help="A history written by simulate --out.")],
-    second: Annotated[Path, typer.Argument(metavar="B.nc", help="Another one.")],
+    second: Annotated[Path, typer.Argument(metavar="B.nc", help="The history to compare with it.")],
     as_json: Json = False,
 ) -> None:
     """Compare two stored runs: their numbers and their settings.

@@ -37,29 +37,29 @@ def match(
         list[str] | None,
         typer.Option(
             metavar="A,P,C[,N]",
-            help="α,ψ,χ[,N] of a first-order match, α = free: a bow free of stress in free flight, −κN; repeatable.",
+            help="α,ψ,χ[,N] of a first-order match (α = free: −κN, a stress-free bow in free flight); repeatable.",
         ),
     ] = None,
     wall: Annotated[
         str | None,
-        typer.Option(metavar="K[,ZETA]", help="A wall that gives way: stiffness per length over μ/t*², damping ratio."),
+        typer.Option(metavar="K[,ZETA]", help="Elastic wall: stiffness per length over μ/t*², and damping ratio."),
     ] = None,
     refine: Annotated[
         str,
-        typer.Option(metavar="1,2,4", help="Elements and steps so many times finer, each a row: work and precision."),
+        typer.Option(metavar="1,2,4", help="Factors by which elements and steps are refined, a row each."),
     ] = "1",
     error_bars: Annotated[
-        str, typer.Option(help="quick (a companion run at half the resolution), thorough (and one at twice), or drift.")
+        str, typer.Option(help="quick (one companion run, half resolution), thorough (also twice), drift (none).")
     ] = "quick",
     duration: Annotated[float, typer.Option(help="End of the runs, t*.")] = 0.1,
-    limit: Annotated[float | None, typer.Option(help="Seconds that one row may take.")] = None,
+    limit: Annotated[float | None, typer.Option(help="Time limit of a row, s.")] = None,
     jobs: Annotated[
         int | None,
-        typer.Option("--jobs", "-j", min=1, help="Processes on this machine. Default: one a core, for four rows each."),
+        typer.Option("--jobs", "-j", min=1, help="Processes on this machine. Default: one per core and four rows."),
     ] = None,
     scheduler: Scheduler = None,
     out: Annotated[Path | None, typer.Option(help="Folder for the table and the plots.")] = None,
-    fresh: Annotated[bool, typer.Option("--fresh", help="Do not use runs kept from before.")] = False,
+    fresh: Annotated[bool, typer.Option("--fresh", help="Ignore stored runs.")] = False,
     as_json: Json = False,
     quiet: Quiet = False,
 ) -> None:

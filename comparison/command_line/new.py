@@ -25,7 +25,7 @@ def new(
         str, typer.Option(help="pipe, round_bar, rectangle or general.", autocompletion=section_kinds)
     ] = "pipe",
     damping_ratio: Annotated[
-        float | None, typer.Option(min=0.0, help="Of the first bending mode; left to be stated in the file without it.")
+        float | None, typer.Option(min=0.0, help="Of the first bending mode; otherwise state it in the file.")
     ] = None,
     overwrite: Overwrite = False,
     as_json: Json = False,

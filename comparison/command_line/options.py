@@ -52,7 +52,7 @@ def complete(known: list[str], incomplete: str) -> list[str]:
 
 Json = Annotated[bool, typer.Option("--json", help="Print one JSON document on standard output and nothing else.")]
 Quiet = Annotated[bool, typer.Option("--quiet", "-q", help="No progress on standard error.")]
-Verbose = Annotated[bool, typer.Option("--verbose", "-v", help="With what tells an expert how good the answer is.")]
+Verbose = Annotated[bool, typer.Option("--verbose", "-v", help="Also numbers for experts.")]
 CaseFile = Annotated[
     Path, typer.Argument(metavar="CASE.toml", help="Case file (see cases/; `bentbeam new` writes one).")
 ]
@@ -65,7 +65,7 @@ Set = Annotated[
     typer.Option(
         "--set",
         metavar="TABLE.KEY=VALUE",
-        help="Lay a setting over the file's; repeatable.",
+        help="Override a setting of the file; repeatable.",
         autocompletion=setting_names,
     ),
 ]
@@ -79,9 +79,9 @@ Paths = Annotated[
 ]
 Methods = Annotated[
     Path | None,
-    typer.Option(metavar="FILE.toml", help="Labelled methods (see cases/methods/) in place of --path."),
+    typer.Option(metavar="FILE.toml", help="File of methods (see cases/methods/), in place of --path."),
 ]
-Overwrite = Annotated[bool, typer.Option("--overwrite", help="Replace what is there.")]
+Overwrite = Annotated[bool, typer.Option("--overwrite", help="Replace existing files.")]
 
 
 def numbers(option: str, text: str, counts: Sequence[int], what: str) -> tuple[float, ...]:
@@ -136,5 +136,5 @@ def check_out(out: Path | None, overwrite: bool) -> None:
     from comparison.store import check_writable
 
     if out.exists() and not overwrite:
-        raise InputError(f"out: {out} exists already (give another name, or --overwrite)")
+        raise InputError(f"--out: {out} exists already (give another name, or --overwrite)")
     check_writable(out, folder=False)

@@ -22,13 +22,16 @@ def plot(
 
     Example: bentbeam plot run.nc --out pictures
     """
+    from itertools import chain, count
+
     from bent_beam.history import ImpactHistory
     from comparison.figures.history import draw_history
     from comparison.store import check_writable
 
     histories: dict[str, ImpactHistory] = {}
     for file in files:
-        name = next(n for n in (file.stem, *(f"{file.stem}-{k}" for k in range(2, 10**6))) if n not in histories)
+        names = chain([file.stem], (f"{file.stem}-{k}" for k in count(2)))
+        name = next(n for n in names if n not in histories)
         histories[name] = ImpactHistory.load(file)
     check_writable(out, folder=True)
     kinds = list(dict.fromkeys(format))

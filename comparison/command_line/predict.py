@@ -16,7 +16,7 @@ def predict(
     case: CaseFile,
     time: Annotated[list[float] | None, typer.Option(help="Time after first contact, s; repeatable.")] = None,
     theory_only: Annotated[
-        bool, typer.Option("--theory-only", help="The closed forms alone, at once; nothing is simulated.")
+        bool, typer.Option("--theory-only", help="Closed forms only, without simulation.")
     ] = False,
     assignments: Set = None,
     as_json: Json = False,
@@ -24,7 +24,7 @@ def predict(
 ) -> None:
     """Predict contact and stress: theory beside a simulation.
 
-    The answer says until when the theory holds, what ends it, and what the whole impact brings.
+    Prints contact, force, impulse, moment and stress, the time range of the theory, and the whole impact.
 
     Example: bentbeam predict cases/drill_pipe.toml --time 0.005 --time 0.01
     """

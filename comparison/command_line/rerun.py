@@ -25,12 +25,9 @@ def rerun(
     Example: bentbeam rerun out/K10.nc
     """
     from bent_beam.history import ImpactHistory
-    from bent_beam.parts import InputError
-    from comparison.rerun import rerun_history
+    from comparison.rerun import rerun_history, rerun_text
 
-    if not file.exists():
-        raise InputError(f"history {file}: no such file")
     check_out(out, overwrite)
     with Console(quiet).progress(f"again: {file.name}") as bar:
         found = rerun_history(ImpactHistory.load(file), out, bar.fraction)
-    emit(found, as_json, lambda: "\n".join(f"{k}: {v}" for k, v in found.items()))
+    emit(found, as_json, lambda: rerun_text(found))

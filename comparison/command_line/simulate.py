@@ -27,10 +27,10 @@ def simulate(
     ] = "hermite",
     assignments: Set = None,
     until: Annotated[
-        str | None, typer.Option(help='"separation": until the beam has left the wall, whatever [run] says.')
+        str | None, typer.Option(help='"separation": until the beam has left the wall; overrides [run].')
     ] = None,
     error_bars: Annotated[
-        str, typer.Option(help="quick (a companion run at half the resolution), thorough (and one at twice), or drift.")
+        str, typer.Option(help="quick (one companion run, half resolution), thorough (also twice), drift (none).")
     ] = "quick",
     out: Annotated[Path | None, typer.Option(metavar="FILE.nc", help="Keep the history as netCDF.")] = None,
     overwrite: Overwrite = False,
@@ -76,7 +76,7 @@ def simulate(
         try:
             (history if loaded.section is None else history.with_section(loaded.section)).save(out)
         except OSError as error:  # the run's answer is worth more than its file
-            problem, out = f"out: {out} could not be written: {error.strerror or error}", None
+            problem, out = f"--out: {out} could not be written: {error.strerror or error}", None
     others, lost = companions(method, loaded.impact, end, run, error_bars, stated=stated)
     found = summary(history, out, loaded.section, others)
     found["warnings"] = [*found["warnings"], *lost]

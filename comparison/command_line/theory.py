@@ -12,13 +12,13 @@ __all__ = ["theory"]
 
 
 def theory(
-    kappa_over_nu: Annotated[float, typer.Option(help="κ/ν = K √(EI/μ)/V₀, the one parameter of the leading order.")],
-    alpha: Annotated[float, typer.Option(help="First-order acceleration α, ν = 1, of the true free motion.")] = 0.0,
+    kappa_over_nu: Annotated[float, typer.Option(help="κ/ν = K √(EI/μ)/V₀.")],
+    alpha: Annotated[float, typer.Option(help="First-order acceleration α of the free motion, ν = 1.")] = 0.0,
     psi: Annotated[float, typer.Option(help="First-order fourth derivative ψ.")] = 0.0,
     chi: Annotated[float, typer.Option(help="First-order rate of curvature χ.")] = 0.0,
     axial: Annotated[float, typer.Option(help="First-order axial force N, tension positive.")] = 0.0,
     wall_damping: Annotated[
-        float | None, typer.Option(help="Damping ratio ζ = c/(2√(kμ)) of an elastic wall: adds its largest force.")
+        float | None, typer.Option(help="Damping ratio ζ = c/(2√(kμ)) of an elastic wall; adds the largest force.")
     ] = None,
     as_json: Json = False,
 ) -> None:

@@ -18,7 +18,6 @@ from theory.wall_prediction import zone_offset
 
 __all__ = ["draw_force", "draw_peak_force", "draw_return"]
 
-FOLDER = Path(__file__).resolve().parents[2] / "docs" / "figures"
 RATIOS = (0.05, 0.2, 0.5, 1.0, 5.0)
 DAMPINGS = (0.0, 0.1, 0.25, 0.5, 1.0)
 TIME = r"$t/t_k$  (1)"
@@ -95,5 +94,6 @@ def draw_return(out: Path) -> list[Path]:
 
 
 if __name__ == "__main__":
+    folder = style.asked_folder()
     for draw in (draw_force, draw_peak_force, draw_return):
-        print(*draw(FOLDER))
+        print(*draw(folder))

@@ -131,22 +131,23 @@ def draw_moments(found: Sequence[MeasuredMoment], out: Path, formats: Sequence[s
         return style.save(fig, out, "peak-moment", formats)
 
 
-def write(found: Sequence[MeasuredMoment]) -> list[Path]:
-    """Store the points and draw them."""
+def write(found: Sequence[MeasuredMoment], folder: Path) -> list[Path]:
+    """Store the points and draw them in ``folder``."""
     document = {
         **stamp("python -m comparison.figures.moment"),
         "points": [asdict(m) for m in found],
     }
-    write_atomically(FOLDER / "peak-moment.json", json.dumps(document, indent=1) + "\n")
-    return draw_moments(found, FOLDER)
+    write_atomically(folder / "peak-moment.json", json.dumps(document, indent=1) + "\n")
+    return draw_moments(found, folder)
 
 
 def _main() -> None:
+    folder = style.asked_folder()
     asked = [(method, kappa) for method in default_methods(PATHS) for kappa in KAPPAS if kappa >= FLATTEST[method.path]]
     found = [measure_moment(method, kappa) for method, kappa in asked]
     for m in found:
         print(f"{m.label:14s} {m.kappa_over_nu:6g}  {m.value:.5f} ± {m.error:.1g}  theory {m.theory:.5f}")
-    print(*write(found))
+    print(*write(found, folder))
 
 
 if __name__ == "__main__":

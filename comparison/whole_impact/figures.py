@@ -5,7 +5,6 @@
 
 from __future__ import annotations
 
-import argparse
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -213,9 +212,7 @@ def animate_bounce(history: ImpactHistory, file: Path, *, frames: int = FRAMES, 
 
 
 def _main() -> None:
-    parser = argparse.ArgumentParser(description="Draw the stored map.")
-    parser.add_argument("--out", type=Path, default=Path("docs/figures"))
-    for file in draw_map(parser.parse_args().out):
+    for file in draw_map(style.asked_folder()):
         print(file)
 
 

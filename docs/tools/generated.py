@@ -9,7 +9,7 @@ from mkdocs.structure.files import File, Files
 
 #: Page → the modules whose public names (``__all__``) it documents.
 API = {
-    "bent_beam": ("bent_beam", "bent_beam.meshes", "bent_beam.method"),
+    "bent_beam": ("bent_beam", "bent_beam.meshes"),
     "measure": ("measure.measured", "measure.moments", "measure.estimators"),
     "theory": ("theory",),
     "hermite_fe": (

@@ -102,7 +102,7 @@ class GeometricallyExact(Element):
     """Geometrically exact two-node beam elements: a second opinion, on a mesh twice as fine for the same accuracy."""
 
     shear_ratio: Annotated[
-        float, Quantity("", "GA in EI/Δx² of each element; from 1e2 the shear angle no longer shows", above=0.0)
+        float, Quantity("", "GA in EI/Δx² of each element; shear has no visible effect from 1e2 on", above=0.0)
     ] = 100.0
     rotary_ratio: Annotated[
         float, Quantity("", "rotary inertia in μΔx²; it only keeps the mass matrix regular", above=0.0)

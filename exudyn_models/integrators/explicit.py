@@ -24,7 +24,7 @@ class _Explicit(Integrator):
     time_step: Annotated[
         float | None, Quantity("s", "not above the stable step", above=0.0, absent="safety × the stable step")
     ] = None
-    safety: Annotated[float, Quantity("", "share of the stable step that is taken", least=1e-6, most=1.0)] = 0.8
+    safety: Annotated[float, Quantity("", "time step over the stable one", least=1e-6, most=1.0)] = 0.8
 
     explicit: ClassVar[bool] = True
     method: ClassVar[Any]

@@ -36,7 +36,7 @@ class GeneralizedAlpha(Implicit):
 
     relative_step: RelativeStep = 8e-3  # second order: 4e-3 moves λ₀ and r₀ by 6e-6 at κ/ν = 0.1, 0.25 and 0.5
     spectral_radius: Annotated[
-        float, Quantity("", "ρ∞; 1 damps nothing, and contact rattles; 0: annihilates", least=0.0, most=1.0)
+        float, Quantity("", "ρ∞; 1: no damping, and contact rattles; 0: full damping", least=0.0, most=1.0)
     ] = 0.5
 
     def averages(self) -> Averages:
@@ -62,7 +62,7 @@ class Newmark(Implicit):
     """Newmark's method: v⁺ = v + h[(1−γ)a + γa⁺], u⁺ = u + hv + h²[(½−β)a + βa⁺]; constraints at velocity level."""
 
     gamma: Annotated[
-        float, Quantity("", "γ; above ½ it damps what the step cannot resolve, at first order", least=0.5, most=2.0)
+        float, Quantity("", "γ; above ½ unresolved waves are damped, at first order", least=0.5, most=2.0)
     ] = 0.6
     beta: Annotated[
         float | None, Quantity("", "β, γ/2 at least", least=0.25, most=2.0, absent="(γ+½)²/4, which damps most")

@@ -59,7 +59,7 @@ class GeneralizedAlphaPenalty(Integrator):
         float | None, Quantity("N s/m²", "d_c, per length of beam", least=0.0, absent="chosen, 3e4 μ/t*")
     ] = None
     contact_rounds: Annotated[
-        int, Quantity("", "most solutions a step until the active springs are those that penetrate", least=1)
+        int, Quantity("", "limit on solutions a step for the set of active springs", least=1)
     ] = 20
 
     def refined(self, factor: float) -> GeneralizedAlphaPenalty:

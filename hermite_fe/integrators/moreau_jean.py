@@ -32,7 +32,7 @@ class MoreauJean(Integrator):
     holds_zone: ClassVar[bool] = True
 
     theta: Annotated[
-        float, Quantity("", "θ; ½ keeps smooth motion's energy, 1 damps most at grid scale", least=0.5, most=1.0)
+        float, Quantity("", "θ; ½ conserves energy between impacts, 1 damps unresolved waves", least=0.5, most=1.0)
     ] = 1.0
 
     def start(self, problem: Problem, state: State) -> ThetaMemory:

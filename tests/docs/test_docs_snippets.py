@@ -1,6 +1,7 @@
 """Every command and snippet of README and docs runs; the tutorial runs; the repository's papers are in order.
 
 A fence whose info line says "not run" (with the reason) or ``no-run`` is only read, "make verify" that it runs there.
+TOML with a file's name as its title is a case, which is read and written to the folder for the commands below it.
 """
 
 from __future__ import annotations
@@ -13,6 +14,8 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+
+from bent_beam.cases import load_case
 
 ROOT = Path(__file__).resolve().parents[2]
 GENERATED = re.compile(r"(?:^|/)(?:settings|api/\w+)\.md")  # by docs/tools/generated.py
@@ -107,6 +110,9 @@ def run_blocks(page: Path, chosen: list[Block], capsys: pytest.CaptureFixture[st
         for block in chosen:
             if block.shows_output:
                 assert without_digits(capsys.readouterr().out) == without_digits(block.body), name_of(page)
+            elif block.language == "toml" and (title := re.search(r'title="(\w+\.toml)"', block.options)):
+                Path(title[1]).write_text(block.body, encoding="utf-8")
+                load_case(title[1]).method("hermite")
             elif block.language not in LANGUAGES or not block.runs:
                 continue
             elif block.language == "python":
