@@ -16,8 +16,8 @@ from bent_beam.checks import positive
 from bent_beam.errors import ANY_FAILURE, SimulationError
 from bent_beam.impact import Impact
 from bent_beam.method import Method, chosen_for, refined, settings_of, simulated
-from comparison.perturbation import first_order_epsilon
-from comparison.rows import COMPANIONS, First, MatchRow, Question, about, lost_row, with_theory
+from comparison.perturbation import first_order_epsilon, loaded
+from comparison.rows import COMPANIONS, MatchRow, Question, about, lost_row, with_theory
 from comparison.store import RunStore, source_of
 from comparison.time_limit import Clock, TimeLimitError, affordable_refinement
 from measure.balance import balance_of
@@ -53,12 +53,6 @@ class _Reduced:
     steps: int
     momentum_residual: float | None = None
     gap_of_push: float | None = None
-
-
-def _loaded(bare: Impact, epsilon: float, first: First) -> Impact:
-    """``bare`` with (εα, εψ, εχ, n) = ε·(α, ψ, χ, N)."""
-    alpha, psi, chi, axial = (epsilon * value for value in first)
-    return bare.replace(acceleration=alpha, fourth_derivative=psi, curvature_rate=chi, axial_force=axial)
 
 
 def _reduced(
@@ -150,13 +144,13 @@ def _estimates(
     if top is None:
         perturbation = getattr(asked, "perturbation", PERTURBATION)
         top = first_order_epsilon(leading_order(run.moments), first, perturbation, question.duration)
-    largest = _loaded(bare, top, first)
+    largest = loaded(bare, top, first)
     _raise_if_refused(method, largest)
     fixed = chosen_for(method, largest, question.duration * bare.time_scale)
     # only a load that presses the zone leaves a uniform reaction to take out, of the bare run too
     pressed = largest.zone_pressure > 0.0
     found = [
-        _reduced(store, fixed, _loaded(bare, s * top, first), question.duration, uniform=pressed, clock=clock)
+        _reduced(store, fixed, loaded(bare, s * top, first), question.duration, uniform=pressed, clock=clock)
         for s in (0.0, *SHARES)
     ]
     return _Estimates(
@@ -203,8 +197,7 @@ def answer(question: Question, store: RunStore, limit: float | None = None) -> M
 
     limit : s; a row that would take longer is made coarser, and says so.
 
-    Raises :class:`Refused` for what the method refuses, :class:`bent_beam.SimulationError` when a run cannot finish,
-    :class:`TimeLimitError` when none of the resolutions tried ends in time.
+    Raises :class:`Refused`, :class:`bent_beam.SimulationError`, :class:`TimeLimitError` when no resolution is in time.
     """
     clock = None if limit is None else Clock(limit)
     question, coarser = (question, []) if clock is None else coarsened(question, store, clock)

@@ -1,14 +1,15 @@
-"""How large loads may be in the runs from which first order is read off."""
+"""The loads of the runs from which first order is read off, and how large they may be."""
 
 from __future__ import annotations
 
 import math
 
 from bent_beam.checks import between
+from bent_beam.impact import Impact
 from comparison.rows import First
 from measure.estimators import LeadingEstimate
 
-__all__ = ["first_order_epsilon"]
+__all__ = ["first_order_epsilon", "loaded"]
 
 EXTREME = 1e30  # of ε: its powers are calculated with
 
@@ -27,3 +28,9 @@ def first_order_epsilon(leading: LeadingEstimate, first: First, perturbation: fl
         part *= front / (front + 0.2)
     top = part / (duration * (alpha / 2 + chi * z**2 / 2 + psi * z**4 / 24 + axial / 2))
     return between("first_order: the largest ε of the runs, from alpha, psi, chi and N,", top, 1 / EXTREME, EXTREME)
+
+
+def loaded(bare: Impact, epsilon: float, first: First) -> Impact:
+    """``bare`` with (εα, εψ, εχ, n) = ε·(α, ψ, χ, N)."""
+    alpha, psi, chi, axial = (epsilon * value for value in first)
+    return bare.replace(acceleration=alpha, fourth_derivative=psi, curvature_rate=chi, axial_force=axial)

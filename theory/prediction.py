@@ -18,10 +18,11 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable
 from dataclasses import asdict, dataclass, replace
-from typing import Any, Protocol
+from typing import Any
 
 from bent_beam.impact import Impact
 from bent_beam.loads import unmodelled
+from bent_beam.section import Section
 from theory import damped_point
 from theory.contact import DISCRETE, ContactParameters, contact_parameters
 from theory.moment import PeakMoment, peak_moment_of
@@ -31,26 +32,6 @@ from theory.wall_prediction import WallPrediction, on_elastic_wall
 MODELLED = ("acceleration", "curvature_rate", "fourth_derivative", "axial_force", "rotation", "hysteretic_loss",
             "wall_stiffness", "wall_damping")  # fmt: skip
 """Features of an impact that the theory has, or refuses with reasons of its own."""
-
-
-class Section(Protocol):
-    """What stress and shear need to know of a section, SI units; None where it is not known."""
-
-    @property
-    def area(self) -> float:
-        """A, m²."""
-
-    @property
-    def section_modulus(self) -> float:
-        """EI/E over the outermost fibre's distance, m³."""
-
-    @property
-    def yield_stress(self) -> float | None:
-        """Pa."""
-
-    @property
-    def shear_stiffness(self) -> float | None:
-        """κ_s G A, N."""
 
 
 @dataclass(frozen=True)
