@@ -172,7 +172,7 @@ def test_a_history_of_another_impact_than_the_exact_solution_s_is_refused(name, 
     impact = Impact.whole_beam(0.5).replace(**{name: value})
     method = method_type("hermite")(mesh=UniformMesh(element_length=0.1))
     history = method.simulate(impact, end_time=1e-3, save=4)
-    with pytest.raises(ResultError, match=f"{name} is {value:g}"):
+    with pytest.raises(ResultError, match=f"{name} is "):
         result_from_history(history)
 
 

@@ -54,6 +54,8 @@ def test_the_exact_answer_of_a_study_is_that_of_the_theory_with_its_loads(load: 
     for found, name in ((exact.front(time), "half_contact_length"), (2.0 * exact.side_reaction(time), "reaction"),
                         (exact.impulse(time), "impulse")):  # fmt: skip
         assert found == pytest.approx([getattr(row, name) for row in rows], rel=1e-9)
+    with pytest.raises(ValueError, match="wall_stiffness is not modelled by the theory"):
+        Exact(impact.replace(wall_stiffness=1e3))
     if min(load.values(), default=0.0) >= 0.0:
         places = np.linspace(0.0, float(exact.front(2e-3)), 9)
         assert np.abs(exact.gap(places, 2e-3)).max() < 1e-2 * 2e-3  # of second order

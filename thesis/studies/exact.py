@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from bent_beam.impact import Impact
+from bent_beam.loads import loads_of, unmodelled
 from theory import ContactParameters, ImpactFields, SelfSimilarWave, contact_parameters
 
 Array = NDArray[np.float64]
@@ -27,6 +28,11 @@ class Exact:
     """Theory of ``impact``; first order included where the impact has a₀, c₀, q₀ or an axial force."""
 
     impact: Impact
+
+    def __post_init__(self) -> None:
+        reason = unmodelled(self.impact, [name for name, load in loads_of(Impact).items() if load.group])
+        if reason is not None:
+            raise ValueError(reason.replace("this method", "the theory"))
 
     @cached_property
     def parameters(self) -> ContactParameters:
