@@ -7,7 +7,7 @@ import hashlib
 import inspect
 import sys
 import sysconfig
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from functools import cache
 from importlib.metadata import entry_points, packages_distributions, version
 from importlib.util import find_spec
@@ -60,6 +60,12 @@ def source_of(kind: type) -> str:
     return " ".join([name, *source, *sorted({f"{e.dist.name} {e.dist.version}" for e in registered if e.dist})])
 
 
+@cache
+def _distributions() -> Mapping[str, list[str]]:
+    """Which distributions a package comes from; to ask takes a second where many are installed."""
+    return packages_distributions()
+
+
 def _code_in(folder: Path) -> list[Path]:
     return [file for file in folder.rglob("*") if file.suffix in CODE]
 
@@ -79,7 +85,7 @@ def behind(files: Iterable[Path], folder: Path) -> list[str]:
             if origin is None:
                 continue
             if any(origin.resolve().is_relative_to(place) for place in installed):
-                found |= {f"{one} {version(one)}" for one in packages_distributions().get(name, ())}
+                found |= {f"{one} {version(one)}" for one in _distributions().get(name, ())}
                 continue
             mine = _code_in(origin.parent) if origin.stem == "__init__" else [origin]
             found.add(f"{name} {_digest_of_files(mine, origin.parent)}")
