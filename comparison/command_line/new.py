@@ -43,5 +43,5 @@ def new(
     emit(
         {"file": str(out), "section": section},
         as_json,
-        lambda: f"{out}: change the numbers, state the damping, then bentbeam predict {out}",
+        lambda: f"{out}: change every number or delete its line, then bentbeam predict {out}",
     )

@@ -14,7 +14,9 @@ __all__ = ["predict"]
 
 def predict(
     case: CaseFile,
-    time: Annotated[list[float] | None, typer.Option(help="Time after first contact, s; repeatable.")] = None,
+    time: Annotated[
+        list[float] | None, typer.Option(help="Time after first contact, s, in place of end_time; repeatable.")
+    ] = None,
     theory_only: Annotated[
         bool, typer.Option("--theory-only", help="Closed forms only, without simulation.")
     ] = False,
@@ -24,7 +26,7 @@ def predict(
 ) -> None:
     """Predict contact and stress: theory beside a simulation.
 
-    Prints contact, force, impulse, moment and stress, the time range of the theory, and the whole impact.
+    Prints contact, force, impulse, moment, stress and rebound. For plates, stops and supports: simulate.
 
     Example: bentbeam predict cases/drill_pipe.toml --time 0.005 --time 0.01
     """
