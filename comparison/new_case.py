@@ -11,7 +11,7 @@ __all__ = ["new_case"]
 SECTION_LINES = {
     "pipe": """outer_diameter = 0.127      # m
 wall_thickness = 0.00919    # m (or inner_diameter)
-fluid_density = 1200.0      # kg/m³, what fills it; leave out when empty
+# fluid_density = 1200.0    # kg/m³, what fills it
 """,
     "round_bar": "diameter = 0.02              # m\n",
     "rectangle": """width = 0.03                # m
