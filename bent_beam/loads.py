@@ -9,8 +9,8 @@ which a solver adds. A solver names the loads and other features that it models,
 (:func:`unmodelled`).
 
 To add a load: its field in ``impact.py``, its key in ``tables.py``, and, where it has no term, its force in
-``Impact.net_load``, in a solver (``hermite_fe/model.py``) and, unless it is uniform, in ``measure/balance.py`` for a part
-of a beam. What compares with theory refuses it by itself (:func:`unmodelled`).
+``Impact.net_load``, in a solver (``hermite_fe/model.py``) and, unless it is uniform, in ``measure/balance.py`` for a
+part of a beam. What compares with theory refuses it by itself (:func:`unmodelled`).
 """
 
 from __future__ import annotations
