@@ -233,16 +233,16 @@ def test_the_largest_force_is_the_top_of_what_the_nodes_give_and_a_stop_stands_o
     assert found.outcome == "completed, off" and found.reference["peak_force"]["error"] > 0.0
 
 
-MIDDLES = np.linspace(0.1, 3.9, 20)
+MIDDLES = np.linspace(0.005, 3.995, 400)
 
 
 @pytest.mark.parametrize(
     "force",
-    [9.0 - MIDDLES - 0.05 * MIDDLES**2, 1.0 + MIDDLES - 0.01 * MIDDLES**2, np.append(9.0, np.zeros(19))],
+    [9.0 - MIDDLES - 0.05 * MIDDLES**2, 1.0 + MIDDLES - 0.01 * MIDDLES**2, np.append(9.0, np.zeros(399))],
     ids=["falls", "grows", "jolt"],
 )
 def test_the_largest_force_at_an_end_of_the_record_is_not_extrapolated(force):
-    history = {"tau": np.linspace(0.0, 4.0, 21), "J": np.append(0.0, np.cumsum(0.2 * force))}
+    history = {"tau": np.linspace(0.0, 4.0, 401), "J": np.append(0.0, np.cumsum(0.01 * force))}
     found = score(
         result_from_fields({"outcome": "completed", "problem": "elastic-wall-0.5-0", "metadata": "{}", **history})
     )
