@@ -24,7 +24,7 @@ from functools import cache
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from bent_beam.checks import finite, non_negative, positive, shortened
+from bent_beam.checks import between, finite, non_negative, positive, shortened
 from bent_beam.parts import InputError
 
 __all__ = ["LADDER", "SCHEMA", "Problem", "document", "first_order_problem", "problem", "problem_text", "shipped_ids"]
@@ -102,6 +102,8 @@ LADDER = {
 SWUNG = {"bending_stiffness": 6.7e10 * 0.014**4 / 12.0, "mass_per_length": 2400.0 * 0.014**2, "length": 0.783}
 SWUNG |= {"angular_velocity": 3.8}
 SWUNG_END = 0.012  # s
+STOPS = (3e3, 1e7)  # N/m: a softer one pushes most after that, stiffer ones need more modes than the exact answer has
+WALLS, RATIOS = (1e-6, 1e6), (0.0, 5.0)  # κ/ν and ζ for which the largest force on an elastic wall is known
 STOPPED_DAMPING, STOPPED_END = 0.01, 0.1  # the wall first lets go at 0.1516
 
 
@@ -214,12 +216,14 @@ def problem(name: str) -> Problem:
 def _of_numbers(name: str, kind: str, numbers: list[float]) -> Problem:
     """The problem of an id with the numbers in it. Raises ``ValueError``."""
     if kind == "elastic-stop":
-        given = {**SWUNG, "stop_stiffness": positive("S", numbers[0])}
+        given = {**SWUNG, "stop_stiffness": between("S", numbers[0], *STOPS)}
         return Problem(name, kind, end_time=SWUNG_END, snapshots=(), given=given)
     kappa = positive("K", numbers[0])
     if kind == "elastic-wall":
+        ratio = between("Z", numbers[1], *RATIOS)
+        between("K", kappa, *WALLS)
         units = {name: 1.0 for name in ("bending_stiffness", "mass_per_length", "velocity", "wall_stiffness")}
-        given = {**units, "curvature": kappa, "wall_damping": 2.0 * non_negative("Z", numbers[1])}
+        given = {**units, "curvature": kappa, "wall_damping": 2.0 * ratio}
         # as long as a force may last: that of a straight beam is over at π, a sharp one's grows with κ^¼
         return Problem(name, kind, kappa, end_time=4.0 * max(1.0, kappa**0.25), snapshots=(), given=given)
     if kind == "bounce":

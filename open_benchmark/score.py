@@ -211,11 +211,16 @@ def _ladder(result: Result) -> dict[str, Any]:
 
 
 def _largest_force(result: Result) -> tuple[float, float]:
-    """Top of the parabola through the largest force, the slope of J, and its neighbours, and its time."""
+    """Top of the parabola through the largest force, the slope of J, and its neighbours, and its time; at either end
+    of the record the force itself."""
     when, force = (result.tau[1:] + result.tau[:-1]) / 2.0, np.diff(result.J) / np.diff(result.tau)
-    k = min(max(int(force.argmax()), 1), force.size - 2)
-    a, b, c = np.polyfit(when[k - 1 : k + 2] - when[k], force[k - 1 : k + 2], 2)
-    return (float(c - b * b / (4.0 * a)), float(when[k] - b / (2.0 * a))) if a < 0.0 else (float(c), float(when[k]))
+    k = int(force.argmax())
+    if not 0 < k < force.size - 1:  # a parabola would rise beyond the record
+        return float(force[k]), float(when[k])
+    near = when[k - 1 : k + 2] - when[k]
+    fit = np.polyfit(near, force[k - 1 : k + 2], 2)
+    top = float(np.clip(-fit[1] / (2.0 * fit[0]), near[0], near[2])) if fit[0] < 0.0 else 0.0
+    return float(np.polyval(fit, top)), float(when[k]) + top
 
 
 # --- the judge -----------------------------------------------------------------------------------------------------

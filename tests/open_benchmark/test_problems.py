@@ -111,6 +111,16 @@ def test_an_id_that_none_has_is_refused_in_one_line(name):
     assert "\n" not in str(error.value)
 
 
+def test_an_elastic_problem_has_its_largest_force_within_its_record_or_is_refused():
+    """A softer stop is still being pressed when its record ends, and the theory of a wall has its range."""
+    for name in ("elastic-stop-3e3", "elastic-wall-1e-6-5"):
+        asked = problem(name)
+        assert 0.0 < computed(asked)["values"]["peak_time"] < asked.end_time
+    for name in ("elastic-stop-1e3", "elastic-stop-1e12", "elastic-wall-1e-9-0", "elastic-wall-0.5-50"):
+        with pytest.raises(InputError, match=r"must lie in \["):
+            problem(name)
+
+
 @pytest.mark.parametrize(
     ("name", "momentum"),
     [

@@ -11,7 +11,7 @@ from bent_beam.method import method_type
 from open_benchmark import Result, ResultError, load_result, problem, score
 from open_benchmark.histories import result_from_history
 from open_benchmark.references import reference
-from open_benchmark.result import save_result
+from open_benchmark.result import result_from_fields, save_result
 from theory import contact_parameters
 
 SIDE = np.sqrt(2.0 / np.pi)
@@ -231,3 +231,20 @@ def test_the_largest_force_is_the_top_of_what_the_nodes_give_and_a_stop_stands_o
     assert found.measured["peak_force"].value == pytest.approx(share * 100.0, rel=1e-4)
     assert found.measured["peak_time"].value == pytest.approx(0.5 * end, rel=1e-4)
     assert found.outcome == "completed, off" and found.reference["peak_force"]["error"] > 0.0
+
+
+MIDDLES = np.linspace(0.005, 3.995, 400)
+
+
+@pytest.mark.parametrize(
+    "force",
+    [9.0 - MIDDLES - 0.05 * MIDDLES**2, 1.0 + MIDDLES - 0.01 * MIDDLES**2, np.append(9.0, np.zeros(399))],
+    ids=["falls", "grows", "jolt"],
+)
+def test_the_largest_force_at_an_end_of_the_record_is_not_extrapolated(force):
+    history = {"tau": np.linspace(0.0, 4.0, 401), "J": np.append(0.0, np.cumsum(0.01 * force))}
+    found = score(
+        result_from_fields({"outcome": "completed", "problem": "elastic-wall-0.5-0", "metadata": "{}", **history})
+    )
+    assert found.measured["peak_force"].value == pytest.approx(force.max())
+    assert 0.0 < (found.measured["peak_time"].value or 0.0) < 4.0
