@@ -166,6 +166,7 @@ def _on_cluster(
     with client:
         _check_workers(client, scheduler)
         numbers = {client.submit(function, *a, pure=False): i for i, a in enumerate(arguments)}
+        away = f"the scheduler at {scheduler} went away; ask again and only what is left is done"
         suspects = []  # a call that waits on a worker is blamed when another kills it: each is asked once more, alone
         for future in as_completed(list(numbers), loop=client.loop):
             i = numbers.pop(future)
@@ -174,7 +175,7 @@ def _on_cluster(
             except KilledWorker:
                 suspects.append(i)
             except CancelledError:
-                died(i, f"the scheduler at {scheduler} went away; ask again and only what is left is done")
+                died(i, away)
             else:
                 done(i, result)
         for i in suspects:
@@ -182,5 +183,7 @@ def _on_cluster(
                 result = client.submit(function, *arguments[i], pure=False).result()
             except KilledWorker:
                 died(i)
+            except CancelledError:
+                died(i, away)
             else:
                 done(i, result)
