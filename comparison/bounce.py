@@ -3,7 +3,7 @@
 Each number comes from one run; its error bar is the sum of what it moves by when elements, steps and the contact law
 change (``cross_checks`` of the method), and half a saved interval where it is a time. The sum, not the root of squares:
 all schemes come from the same side, and halving elements moves e by little more than what is left.
-**Without damping** of the beam itself, or with little hysteretic loss, the numbers do not converge
+Without damping of the beam itself, or with little hysteretic loss, the numbers do not converge
 (docs/whole_impact.md): an ensemble of runs, meshes,
 steps and contact laws drawn at random from a seed, gives mean and standard deviation instead.
 """

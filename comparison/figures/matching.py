@@ -78,8 +78,8 @@ def draw_leading(
             below.set_yscale("symlog", linthresh=1e-2)
             below.set_yticks([-10, -1, -0.1, 0, 0.1, 1, 10], ["−10", "−1", "−0.1", "0", "0.1", "1", "10"])
             compared = [getattr(r, what) for r in leading]
-            furthest = max((abs(100 * (c.relative() or 0.0)) for c in compared if c.theory), default=0.0)
-            limit = max(2.0, 1.5 * furthest)  # every point has its place
+            reach = [abs(c.relative() or 0.0) + (c.relative_error() or 0.0) for c in compared if c.theory]
+            limit = max(2.0, 150 * max(reach, default=0.0))  # every point and its bar have their place
             below.set_ylim(-limit, limit)
             below.set_xlabel(r"$\kappa/\nu$  (1)")
             style.panel_label(top, "(a)" if column == 0 else "(b)")

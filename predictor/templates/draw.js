@@ -12,6 +12,18 @@ const Draw = (() => {
     return String(Number(value.toPrecision(digits))).replace("-", "−");
   }
 
+  /** Both to the first digit of the error, as Python writes them (measure/measured.py). */
+  function bar(value, error) {
+    if (!(error > 0)) return `${text(value, 6)} ± ${text(error, 1)}`;
+    const first = Number(error.toExponential(0)), size = Math.max(Math.abs(value), first);
+    const power = Math.floor(Math.log10(size)), digits = -Math.floor(Math.log10(first));
+    if (power >= 6 || power < -4)
+      return `(${bar(value / 10 ** power, first / 10 ** power)})·${text(10 ** power, 1).slice(2)}`;
+    const unit = 10 ** Math.abs(digits), rounded = digits < 0 ? Math.round(value / unit) * unit : value;
+    const places = Math.max(0, digits);
+    return `${rounded.toFixed(places)} ± ${first.toFixed(places)}`.replace("-", "−");
+  }
+
   const SVG = "http://www.w3.org/2000/svg";
   const draw = (parent, name, attributes, content) => {
     const made = document.createElementNS(SVG, name);
@@ -52,5 +64,5 @@ const Draw = (() => {
   }
   const path = (points) => points.map(([x, y], i) => `${i ? "L" : "M"}${x.toFixed(2)},${y.toFixed(2)}`).join("");
 
-  return { text, draw, axes, path };
+  return { text, bar, draw, axes, path };
 })();

@@ -1,7 +1,7 @@
 "use strict";
 // The page: inputs ↔ link, numbers, plots. No number of mechanics is made here.
 (() => {
-  const { UNITS, CHOICES, FIELDS, START } = Beam, { text, draw, axes, path } = Draw;
+  const { UNITS, CHOICES, FIELDS, START } = Beam, { text, bar, draw, axes, path } = Draw;
   const { REGIMES, CAUSES, YIELDS, GIVES_WAY, SIMULATE, SHEARED } = Words;
   const find = (selector) => document.querySelector(selector);
   let inputs = { ...START }, predicted = null;
@@ -162,7 +162,7 @@
   /** A number with its error bar in the unit that suits it; without damping a band of many runs. */
   function withBar(name, { value, error }) {
     const [symbol, size] = name ? unit(name, value) : ["", 1];
-    return `${text(value / size, 3)} ± ${text(error / size, 1)} ${symbol}`.trim();
+    return `${bar(value / size, error / size)} ${symbol}`.trim();
   }
 
   /** What there is beside the page: no simulation where shear is the obstacle. */

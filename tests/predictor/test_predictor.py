@@ -19,6 +19,7 @@ from bent_beam.cases import case_from_tables, load_case
 from bent_beam.impact import Impact
 from comparison.command_line.app import run
 from comparison.whole_impact.stored_map import bounce_from_map
+from measure.measured import Measured
 from predictor.page import page, script, write_page
 from theory import SelfSimilarWave, contact_parameters
 from theory import predict as theory_predict
@@ -32,7 +33,7 @@ needs_node = pytest.mark.skipif(shutil.which("node") is None, reason="Node.js is
 
 def evaluated(expression: str, argument: Any) -> Any:
     """What the page's scripts make of ``expression`` with ``given``, JSON in and out."""
-    parts = [script(("theory.js", "limits.js", "whole_impact.js", "beam.js", "case.js"))]
+    parts = [script(("theory.js", "limits.js", "whole_impact.js", "beam.js", "case.js", "draw.js"))]
     parts += [f"const given = {json.dumps(argument)};", f"console.log(JSON.stringify({expression}));"]
     done = subprocess.run(["node", "-"], input="\n".join(parts), capture_output=True, text=True, check=True)
     return json.loads(done.stdout)
@@ -237,3 +238,16 @@ def test_the_page_of_the_guide_is_what_the_command_writes() -> None:
     assert number.sub("#", shipped) == number.sub("#", current), "bentbeam predictor --out docs/predictor.html"
     old, new = ([float(v) for v in number.findall(text)] for text in (shipped, current))
     assert old == pytest.approx(new, rel=1e-6, abs=1e-10)
+
+
+@needs_node
+def test_a_value_is_rounded_to_the_first_digit_of_its_bar_as_python_writes_it() -> None:
+    rng = np.random.default_rng(8)
+    values = rng.choice([-1.0, 1.0], 300) * 10.0 ** rng.uniform(-7.0, 9.0, 300)
+    pairs = [(408.3, 48.0), (0.97, 0.096), (3.0, 20.0), (2.0, 0.0)]
+    pairs += zip(values.tolist(), (abs(values) * 10.0 ** rng.uniform(-5.0, 0.5, 300)).tolist(), strict=True)
+    written = evaluated("given.map(([value, error]) => Draw.bar(value, error))", pairs)
+    power = re.compile(r"·10([⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+)")
+    digits = str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "-0123456789")
+    plain = [power.sub(lambda m: f"e{int(m[1].translate(digits)):+03d}", text).replace("−", "-") for text in written]
+    assert plain == [str(Measured(*pair)) if pair[1] else "2 ± 0" for pair in pairs]
