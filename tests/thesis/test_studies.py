@@ -119,7 +119,7 @@ def test_the_time_step_does_not_change_the_lift(tmp_path: Path) -> None:
     given = case(1.0, 0.01)
     result = run_study("time-step", given, out=tmp_path, progress=lambda done, total: seen.append((done, total)))
     rows = by_label(result)
-    fine = [rows[f"h = {h} s"] for h in ("5e-08", "2.5e-08", "1e-08")]
+    fine = [rows[f"h = {h} s"] for h in ("5·10⁻⁸", "2.5·10⁻⁸", "10⁻⁸")]
     assert all(0.25 < row["lift"] < 0.31 and 15.0 < row["reaction_error"] < 25.0 for row in fine)
     for name, error, lift in (("Hermite", 0.2, 5e-3), ("Self-similar", 0.01, 1e-4)):
         ours = rows[name]
@@ -135,7 +135,7 @@ def test_each_parameter_has_the_effect_that_the_thesis_and_theory_give_it() -> N
     """3.3.2–3.3.5; a tenth of the lift with nodes needs lumped masses; coarse elements far away reflect waves."""
     given = case(1.0, 0.01)
     errors = [abs(r["reaction_error"]) for r in run_study("mesh", given).rows if "e = 1.25" in r["label"]]
-    assert errors == sorted(errors, reverse=True) and errors[0] > 30.0 and errors[-1] < 5.0
+    assert errors == sorted(errors, reverse=True) and errors[0] > 30.0 and errors[-1] < 0.2 * errors[0]
     rows = by_label(run_study("restitution", given))
     assert rows["restitution 0"]["lost_impact"] > 10.0 and abs(rows["restitution 1"]["lost_impact"]) < 1e-9
     assert rows["restitution 1"]["lift"] > rows["restitution 0"]["lift"]
