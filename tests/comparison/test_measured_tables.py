@@ -142,7 +142,7 @@ def test_a_fresh_run_gives_the_stated_numbers(command: str, text: str, monkeypat
 @pytest.mark.parametrize(("command", "text"), HITS)
 def test_the_hits_of_a_page_are_those_of_its_command(command: str, text: str, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(ROOT)
-    names = {"begins": "begin", "impulse": "impulse", "velocity after": "velocity", "energy lost": "lost"}
+    names = {"begins": "begin", "impulse": "impulse", "velocity after": "after", "energy lost": "lost"}
     head, _, *body = (cells(line) for line in text.splitlines())
     for row, hit in zip(body, fresh(command + " --quiet")["hits"], strict=True):
         assert row[1].startswith(hit["wall"])
