@@ -3,9 +3,9 @@
 Each number comes from one run; its error bar is the sum of what it moves by when elements, steps and the contact law
 change (``cross_checks`` of the method), and half a saved interval where it is a time. The sum, not the root of squares:
 all schemes come from the same side, and halving elements moves e by little more than what is left.
-Without damping of the beam itself, or with little hysteretic loss, the numbers do not converge
-(docs/whole_impact.md): an ensemble of runs, meshes,
-steps and contact laws drawn at random from a seed, gives mean and standard deviation instead.
+Without damping of the beam itself, or with little hysteretic loss, the numbers do not converge (docs/whole_impact.md):
+an ensemble of runs, meshes, steps and contact laws drawn at random from a seed, gives mean and standard deviation
+instead.
 """
 
 from __future__ import annotations
@@ -13,6 +13,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -25,7 +26,7 @@ from bent_beam.method import Method, for_whole_beam, refined, settings_of, simul
 from bent_beam.section import Section
 from comparison.units import scales
 from comparison.workers import run_all
-from measure.balance import balance_of
+from measure.balance import Balance, balance_of
 from measure.measured import Band, Measured
 from measure.whole_impact import WholeImpact, whole_impact
 
@@ -90,6 +91,11 @@ class Bounce:
         axial = self.section.stress(0.0, self.impact.axial_force)
         return self.numbers["peak_moment"].scaled(unit / self.section.section_modulus, axial)
 
+    @cached_property
+    def balance(self) -> Balance:
+        """Momentum, energy and contact of that run, read from its state."""
+        return balance_of(self.history)
+
     @property
     def warnings(self) -> list[str]:
         """What a reader must know of the numbers."""
@@ -108,7 +114,7 @@ class Bounce:
                 "the loads bring the beam back to the wall; these numbers are those of the first hit (--hits follows "
                 "more)"
             )
-        return [*found, *balance_of(self.history).warnings]
+        return [*found, *self.balance.warnings]
 
 
 def problem(kappa_over_nu: float, damping: float) -> Impact:

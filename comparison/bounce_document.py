@@ -6,7 +6,6 @@ from typing import Any
 
 from bent_beam.versions import versions
 from comparison.bounce import Bounce
-from measure.balance import balance_of
 from measure.whole_impact import SHORTEST_SEPARATION
 
 __all__ = ["ENERGY", "SI", "bounce_document"]
@@ -28,7 +27,7 @@ ENERGY = ("translation", "vibration", "dissipated")
 
 def bounce_document(found: Bounce) -> dict[str, Any]:
     """The contract of ``bentbeam bounce --json``."""
-    unit, stress, balance = found.units, found.peak_stress, balance_of(found.history)
+    unit, stress, balance = found.units, found.peak_stress, found.balance
     document: dict[str, Any] = {
         "kappa_over_nu": found.impact.kappa_over_nu,
         "damping": found.impact.relative_damping,

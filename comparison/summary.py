@@ -107,8 +107,8 @@ def summary(
 ) -> dict[str, Any]:
     """What a run did and found, SI units; the theory's numbers only where it claims to hold, stress with a section."""
     impact, time = history.impact, history.time
-    found = moments(history)
-    end = float(time[-1])
+    own, peak = Companion.of(history), peak_moment(history)
+    found, end = own.moments, float(time[-1])
     infinite = predict(impact, [end]) if comparable(impact) else None
     row = infinite.times[0] if infinite and infinite.times[0].valid else None
     leading = None
@@ -117,7 +117,6 @@ def summary(
             leading = leading_order(found, companions=[other.moments for other in others])
         except ValueError:
             pass
-    own, peak = Companion.of(history), peak_moment(history)
     bars = {name: _bar(name, [own, *others], impact) for name in NUMBERS}
     for name, share in zip(("total_impulse", "half_contact_length"), lift_shares(_thrown_off(history, found))):
         if share and (bar := bars[name]) is not None:

@@ -10,7 +10,6 @@ from comparison.bounce_document import ENERGY, SI
 from comparison.prediction_text import over_damping_lines
 from comparison.text_table import text_table
 from comparison.units import unit_for
-from measure.balance import balance_of
 from measure.hits import Hit
 from measure.measured import Band, Measured
 from measure.whole_impact import SHORTEST_SEPARATION
@@ -61,8 +60,8 @@ def bounce_table(found: Bounce, over_damping: Sequence[dict[str, Any]] = (), *, 
         *(f"Largest {'moment' if found.section is None else 'stress'}, {unit}, {line}." for line in over),
     ]
     if verbose:
-        balance = balance_of(found.history)
-        checks = ("-" if value is None else f"{value:.1g}" for value in (balance.momentum, balance.gap_of_push))
+        residuals = (found.balance.momentum, found.balance.gap_of_push)
+        checks = ("-" if value is None else f"{value:.1g}" for value in residuals)
         lines += [
             "Read from the state: momentum residual {} of the impulse, largest gap of a push {} V0 t.".format(*checks),
             f"kappa/nu = {impact.kappa_over_nu:.6g}, {_damping_of(found)}, "
