@@ -21,7 +21,7 @@ from comparison.match import INSTANTS
 from comparison.rows import COMPANIONS
 from measure.balance import balance_of
 from measure.estimators import leading_order, lift_shares
-from measure.front import element_at, half_contact_length
+from measure.front import element_at, first_front, half_contact_length
 from measure.hits import hits
 from measure.measured import MISSING, Measured
 from measure.moments import Moments, moments
@@ -54,7 +54,7 @@ class Companion:
     def of(cls, history: ImpactHistory) -> Companion:
         impact, found, last = history.impact, moments(history), history.time.size - 1
         late = is_late(impact, float(history.time[-1]))
-        front = half_contact_length(history, last) if late else float(found.front[-1]) * impact.length_scale
+        front = half_contact_length(history, last) if late else _early_front(history, found)
         left = has_left(history) and impact.opposite_wall is None
         return cls(
             front,
@@ -65,6 +65,13 @@ class Companion:
             found,
             element_at(history, last, front) if late else 0.0,
         )
+
+
+def _early_front(history: ImpactHistory, found: Moments) -> float:
+    """Half contact length, m, at the end of the first spread; contact points that move with it gather on their way."""
+    if "contact_position" in history:
+        return float(found.front[-1]) * history.impact.length_scale
+    return first_front(history, history.time.size - 1)
 
 
 def companions(

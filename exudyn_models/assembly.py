@@ -30,9 +30,15 @@ STRETCH_LATER = 1e-7  # likewise once waves are back: else waves along the beam 
 
 
 def assemble(
-    shape: Shape, scaling: Scaling, element: Element, contact: Contact, integrator: Integrator, half: bool
+    shape: Shape,
+    scaling: Scaling,
+    element: Element,
+    contact: Contact,
+    integrator: Integrator,
+    half: bool,
+    plastic: float = 1.0,
 ) -> tuple[Beam, ContactRun]:
-    """The Exudyn system: beam, loads, symmetry, contact."""
+    """The Exudyn system: beam, loads, symmetry, contact; ``plastic``: see :class:`Wall`, at a thin front."""
     container = exu.SystemContainer()
     system = container.AddSystem()
     system.variables["container"] = container  # the system must not outlive it
@@ -55,7 +61,7 @@ def assemble(
     ends = [(last, 1.0)] if half else [(last, 1.0), (0, -1.0)]
     for node, sign in ends:
         _load_end(beam, node, sign, scaling)
-    run = contact.attach(beam, _wall(shape, scaling, centre, half, integrator.explicit))
+    run = contact.attach(beam, _wall(shape, scaling, centre, half, integrator.explicit, plastic))
     draw_wall(system, min(0.0, float(shape.x[0])), float(shape.x[-1]), shape.wall_curvature)
     system.Assemble()
     beam.locate()
@@ -74,7 +80,7 @@ def _axial_stiffness(asked: float | None, true: bool, scaling: Scaling) -> float
     return max(TAUT, abs(scaling.axial_force) / (STRETCH_LATER if later else STRETCH))
 
 
-def _wall(shape: Shape, scaling: Scaling, centre: int, half: bool, explicit: bool) -> Wall:
+def _wall(shape: Shape, scaling: Scaling, centre: int, half: bool, explicit: bool, plastic: float) -> Wall:
     opposite, stiffness = scaling.impact.opposite_wall, scaling.impact.wall_stiffness
     first_spread = FIRST_SPREAD * scaling.impact.slow_time_scale / scaling.end_time
     before, lengths = before_the_wall(shape.s, scaling)
@@ -87,7 +93,7 @@ def _wall(shape: Shape, scaling: Scaling, centre: int, half: bool, explicit: boo
         half=half,
         front=front_bound(scaling.kappa),
         first_spread=first_spread,
-        plastic=thin and first_spread >= 1.0 and not explicit,
+        plastic=plastic if thin and first_spread >= 1.0 and not explicit else 0.0,
         explicit=explicit,
         opposite=None if opposite is None else -opposite / scaling.deflection,
         stiffness=None if stiffness is None else stiffness / unit,

@@ -144,13 +144,13 @@ def _build(layout: _Layout, chosen: Chosen, half: bool, targets: Array) -> Stepp
     scaling, integrator, nodes = layout.scaling, chosen.integrator, layout.shape.s.size
     if nodes > MOST_NODES:
         raise ValueError(f"mesh: {nodes} nodes on the Exudyn path, {MOST_NODES} are the most (memory); larger elements")
-    beam, contact = assemble(layout.shape, scaling, chosen.element, chosen.contact, integrator, half)
+    beam, contact = assemble(layout.shape, scaling, chosen.element, chosen.contact, integrator, half, chosen.plastic)
     run = Recorder(beam, contact, scaling, half, integrator.averages())
     stable = stable_step(beam, contact, integrator) if integrator.explicit else math.inf
     crossing = min(0.01, (layout.places[1] / front_bound(scaling.kappa)) ** 2)
     segments = integrator.segments(crossing, scaling.end_time, stable)
     affordable("exudyn.integrator and mesh", sum(s.steps for s in segments), nodes, targets.size, MOST_WORK)
-    settings = chosen.solver.settings(scaling.amplitude, contact.round_off)
+    settings = chosen.solver.settings(scaling.amplitude, max(contact.round_off, beam.round_off(scaling.amplitude)))
     integrator.configure(settings)
     solver = integrator.solver()
     settling = None if integrator.explicit else _settling(contact, chosen, settings, solver)
