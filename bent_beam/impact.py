@@ -17,7 +17,7 @@ from typing import Annotated, Any
 from bent_beam.checks import non_negative, positive
 from bent_beam.consistency import check_consistency
 from bent_beam.fields import Part, Quantity
-from bent_beam.loads import Feature, FreeMotion, Load, load_against, loads_of
+from bent_beam.loads import SIMULATED, Feature, FreeMotion, Load, load_against, loads_of
 from bent_beam.supports import ENDS
 
 __all__ = ["Impact"]
@@ -77,10 +77,10 @@ class Impact(Part):
     wall_damping: Annotated[
         float, Feature("N s/m²", "c beside k: the wall gives max(0, k p + c ṗ); of a stop in N s/m", least=0.0)
     ] = 0.0
-    wall_from: Annotated[float | None, Feature("m", "where the wall begins, from the middle of the beam")] = None
-    wall_to: Annotated[float | None, Feature("m", "where it ends; where it begins: a stop at a point")] = None
-    left_end: Annotated[str, Feature("", "how the end at x = −L/2 is held", choices=ENDS)] = "free"
-    right_end: Annotated[str, Feature("", "how the end at x = L/2 is held", choices=ENDS)] = "free"
+    wall_from: Annotated[float | None, Feature("m", "where the wall begins, from the middle", instead=SIMULATED)] = None
+    wall_to: Annotated[float | None, Feature("m", "where it ends; at wall_from: a stop", instead=SIMULATED)] = None
+    left_end: Annotated[str, Feature("", "how the end at x = −L/2 is held", choices=ENDS, instead=SIMULATED)] = "free"
+    right_end: Annotated[str, Feature("", "how the end at x = L/2 is held", choices=ENDS, instead=SIMULATED)] = "free"
 
     def __post_init__(self) -> None:
         super().__post_init__()

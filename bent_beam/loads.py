@@ -25,9 +25,10 @@ import numpy as np
 
 from bent_beam.fields import Quantity, declared
 
-__all__ = ["Feature", "FreeMotion", "Load", "load_against", "loads_of", "unmodelled"]
+__all__ = ["Feature", "FreeMotion", "Load", "beyond_first_order", "load_against", "loads_of", "unmodelled"]
 
 Powers = tuple[int, int]
+SIMULATED = ": bentbeam simulate follows it, on the Hermite and the Exudyn path"
 
 
 @dataclass(frozen=True)
@@ -52,6 +53,11 @@ class Load(Feature):
 def loads_of(kind: type) -> dict[str, Load]:
     """The loads among the fields of :class:`bent_beam.Impact`, by name."""
     return {name: field.quantity for name, field in declared(kind).items() if isinstance(field.quantity, Load)}
+
+
+def beyond_first_order(impact: Any) -> str | None:
+    """Why theory to first order cannot take an impact, naming the field (``None``: it can)."""
+    return unmodelled(impact, [name for name, load in loads_of(type(impact)).items() if load.group])
 
 
 def unmodelled(impact: Any, modelled: Collection[str]) -> str | None:

@@ -138,12 +138,12 @@ def separation_times(impact: Impact, longest: float | None = None, save: int = 2
     if impact.supported and {impact.left_end, impact.right_end} != {"hinged", "free"}:
         raise ValueError(
             f"left_end {impact.left_end!r}, right_end {impact.right_end!r}: supports bring the beam back, and no "
-            "separation is the last; give an end time"
+            "separation is the last; simulate to an end time (bentbeam simulate)"
         )
     if impact.opposite_wall is not None:
         raise ValueError(
             f"opposite_wall {impact.opposite_wall!r}: between two walls no separation is the last; leave it out, or "
-            "give an end time"
+            "simulate to an end time (bentbeam simulate)"
         )
     end = LONGEST * impact.slow_time_scale if longest is None else impact.checked_end_time(longest)
     return np.linspace(0.0, end, max(8, round(save * end / impact.slow_time_scale)) + 1)[1:]

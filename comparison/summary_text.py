@@ -42,7 +42,7 @@ def run_table(found: dict[str, Any], verbose: bool = False) -> str:
         text_table(["", "value", "unit", "theory"], lines + (_expert_lines(found) if verbose else [])),
         "",
         "± is the error bar by other runs of the same beam; theory: the closed form where it holds to 2 %. Moment and",
-        "stress are the largest of all steps until then; later ones may be larger (bentbeam bounce).",
+        "stress are the largest of all steps until then; a longer run may show larger ones.",
     ]
     if found["hold"] and verbose:
         text.append(_hold_text(found["hold"]))
@@ -87,13 +87,15 @@ def _wall_lines(found: dict[str, Any]) -> list[list[str]]:
     if found["peak_force"] is None:
         return []
     lines = []
-    for name, title, unit in (
+    for name, title, si in (
         ("force", f"largest force on the wall, at {1e3 * found['peak_force_time']:.4g} ms", "N"),
         ("penetration", "largest penetration", "m"),
         ("pressure", "largest pressure", "N/m"),
     ):
-        if found[f"peak_{name}"] is not None:
-            lines.append([title, str(Measured(found[f"peak_{name}"], found[f"peak_{name}_error"])), unit, ""])
+        number = Measured(found[f"peak_{name}"], found[f"peak_{name}_error"])
+        if number.measured:
+            scale, unit = unit_for(si, [number.value])
+            lines.append([title, str(number.scaled(scale)), unit, ""])
     return lines
 
 

@@ -1,4 +1,5 @@
-"""Numbers as engineers write them: kN and kN m from a hundred on, MPa, ms; as many digits as the error bar carries."""
+"""Numbers as engineers write them: kN and kN m from a hundred on, mm below a centimetre, MPa, ms; as many digits as
+the error bar carries."""
 
 from __future__ import annotations
 
@@ -13,12 +14,14 @@ __all__ = ["milliseconds", "number_from", "scales", "unit_for"]
 
 
 def unit_for(unit: str, values: Iterable[float | None]) -> tuple[float, str]:
-    """Factor and name of the unit in which ``values`` (N, N m, Pa, s) are written."""
+    """Factor and name of the unit in which ``values`` (N, N m, N/m, m, Pa, s) are written."""
     if unit == "Pa":
         return 1e-6, "MPa"
     if unit == "s":
         return 1e3, "ms"
     largest = max((abs(value) for value in values if value is not None), default=0.0)
+    if unit == "m":
+        return (1e3, "mm") if largest < 1e-2 else (1.0, unit)
     return (1e-3, f"k{unit}") if unit.startswith("N") and unit != "N s" and largest >= 100.0 else (1.0, unit)
 
 

@@ -11,7 +11,7 @@ import math
 import exudyn as exu
 import numpy as np
 
-from bent_beam.impact import FIRST_SPREAD
+from bent_beam.impact import BEFORE_WAVES_RETURN
 from exudyn_models.contacts import Contact, ContactRun, Wall
 from exudyn_models.elements import Beam, Element
 from exudyn_models.elements.beam import VISCOSITY, VISCOSITY_EXPLICIT, Section
@@ -82,7 +82,7 @@ def _axial_stiffness(asked: float | None, true: bool, scaling: Scaling) -> float
 
 def _wall(shape: Shape, scaling: Scaling, centre: int, half: bool, explicit: bool, plastic: float) -> Wall:
     opposite, stiffness = scaling.impact.opposite_wall, scaling.impact.wall_stiffness
-    first_spread = FIRST_SPREAD * scaling.impact.slow_time_scale / scaling.end_time
+    first_spread = BEFORE_WAVES_RETURN * scaling.impact.slow_time_scale / scaling.end_time
     before, lengths = before_the_wall(shape.s, scaling)
     thin = thin_front(scaling.kappa) and not supports_or_plate(scaling.impact)
     unit = scaling.impact.bending_stiffness / scaling.length ** (4 if lengths.any() else 3)

@@ -20,7 +20,7 @@ import numpy as np
 from bent_beam import Impact
 from bent_beam.checks import positive
 from bent_beam.elastic_wall import WallScales, wall_scales
-from bent_beam.impact import FIRST_SPREAD
+from bent_beam.impact import BEFORE_WAVES_RETURN
 from bent_beam.meshes import Mesh, NodesMesh, ScaleFreeMesh
 from exudyn_models.arrays import Array, Indices
 from exudyn_models.composition import Composition
@@ -105,10 +105,10 @@ def held_for(contact: Contact | None, impact: Impact, *, for_loads: bool = False
         # 12 % off without the hold, 0.1 % with it. Behind a thin front nothing rebounds, behind a point nothing is.
         return Penalty(hold=FIRST_ORDER_HOLD)
     contact = contact or Penalty()
-    lifts = impact.zone_pressure < 0.0 or impact.damping > 0.0
+    lifts = impact.zone_pressure < 0.0 or impact.damping > 0.0 or impact.kappa_over_nu >= 1.0
     if lifts and isinstance(contact, Penalty) and contact.hold_start is None:
-        # Load or damping lift the zone from the first: no start is held. With one the largest moment of a damped beam
-        # (κ/ν = 0.32, ζ = 0.2 %, 0.003 T*) is 5 % too large.
+        # Load or damping lifts the zone from the first, or there is none: no start is held. With one the largest moment
+        # of a damped beam (κ/ν = 0.32, ζ = 0.2 %, 0.003 T*) is 5 % too large, that of a point (κ/ν = 1.2) 15 %.
         return dataclasses.replace(contact, hold_start=0.0)
     return contact
 
@@ -123,7 +123,10 @@ def far_field(scaling: Scaling) -> float:
 
 
 def chosen_half_length(impact: Impact, end_time: float | None = None) -> float:
-    """The half length, m, modelled when no mesh is given: the beam's, or less where nothing returns in time."""
+    """The half length, m, modelled when no mesh is given: the beam's, or less where nothing returns in time. A tension
+    along x bends the ends of a bow: the beam is then modelled as long as it is."""
+    if impact.axial_force and impact.tension_direction == "axis":
+        return impact.half_length
     scaling = Scaling.of(impact, impact.checked_end_time(end_time))
     return min(impact.half_length, far_field(scaling) * scaling.length)
 
@@ -169,7 +172,7 @@ def chosen_mesh(
 def lasts_until_waves_return(impact: Impact, end_time: float | None) -> bool:
     """Whether waves from the ends of the beam are back before the end time, s."""
     end = impact.checked_end_time(end_time)
-    return end > FIRST_SPREAD * impact.slow_time_scale and chosen_half_length(impact, end) == impact.half_length
+    return end > BEFORE_WAVES_RETURN * impact.slow_time_scale and chosen_half_length(impact, end) == impact.half_length
 
 
 def near_buckling(impact: Impact) -> float:

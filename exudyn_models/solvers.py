@@ -49,7 +49,7 @@ class NewtonSolver(Part):
     ] = True
 
     def settings(self, amplitude: float, round_off: float = 0.0) -> Any:
-        """Fresh ``exudyn.SimulationSettings`` with these choices and no files; ``round_off`` of contact and viscous forces."""
+        """Fresh ``exudyn.SimulationSettings`` with these choices and no files; ``round_off`` of its forces."""
         settings = exu.SimulationSettings()
         settings.solution.file.write = False
         settings.solution.sensors.active = False

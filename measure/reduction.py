@@ -14,6 +14,7 @@ __all__ = ["PeakMoment", "WallPeaks", "hold_of", "peak_moment", "pull_of", "wall
 
 Array = NDArray[np.float64]
 CHUNK = 256  # saved instants at once
+RESOLVED = 10.0  # elements that a bending wave must have passed before a moment is one of the beam, not of its mesh
 START = 0.01  # of the run: while this lasts, a start may be held
 
 
@@ -67,12 +68,16 @@ def pull_of(history: ImpactHistory) -> float | None:
 
 def peak_moment(history: ImpactHistory, until: float | None = None) -> PeakMoment:
     """The largest bending moment anywhere, and in the middle, up to ``until`` (s; ``None``: the last instant): of all
-    steps where a history has them, otherwise at the saved instants after the first."""
+    steps where a history has them, otherwise at the saved instants after the first.
+
+    The first instants of all steps are left out: the first touch of a mesh bends it the more the stiffer its contact is
+    (κ/ν = 2.5: 1.42 V₀√(EIμ) on every mesh, where the beam has 1)."""
     count = int(np.searchsorted(history.time, math.inf if until is None else until * (1.0 + 1e-9), side="right"))
     if "largest_moment" in history and count > 1:
-        sizes = history.array("largest_moment", slice(1, count))
-        k = 1 + int(np.argmax(sizes))
-        place, middle = history.array("largest_moment_place")[k], history.array("largest_midspan_moment")[1:count]
+        first = _first_resolved(history, count)
+        sizes = history.array("largest_moment", slice(first, count))
+        k = first + int(np.argmax(sizes))
+        place, middle = history.array("largest_moment_place")[k], history.array("largest_midspan_moment")[first:count]
         return PeakMoment(float(sizes.max()), float(place), float(history.time[k]), float(middle.max()))
     best = PeakMoment(0.0, 0.0, float(history.time[0]), 0.0)
     midspan = 0.0
@@ -88,3 +93,11 @@ def peak_moment(history: ImpactHistory, until: float | None = None) -> PeakMomen
         there = (1.0 - share) * moments[..., middle, 0] + share * moments[..., middle, 1]
         midspan = max(midspan, float(np.abs(there).max(initial=0.0)))
     return best._replace(midspan=midspan)
+
+
+def _first_resolved(history: ImpactHistory, count: int) -> int:
+    """The first saved instant whose steps all lie behind the time in which a bending wave, √(EI/μ)t = x², passes
+    :data:`RESOLVED` of the shortest elements; at most a tenth of the time of the last of ``count``."""
+    element = float(np.diff(np.unique(history.positions(0))).min())
+    time = min((RESOLVED * element) ** 2 / history.impact.wave_constant, 0.1 * float(history.time[count - 1]))
+    return min(int(np.searchsorted(history.time, time)) + 1, count - 1)

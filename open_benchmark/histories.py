@@ -7,8 +7,7 @@ from typing import Any
 import numpy as np
 
 from bent_beam.history import ImpactHistory
-from bent_beam.impact import Impact
-from bent_beam.loads import loads_of, unmodelled
+from bent_beam.loads import beyond_first_order
 from measure.moments import one_side
 from open_benchmark.problem import Problem, first_order_problem
 from open_benchmark.result import Array, Result, ResultError
@@ -68,7 +67,7 @@ def _problem_of(history: ImpactHistory) -> Problem:
     for name, why in BEYOND.items():
         if getattr(impact, name):
             raise ResultError(f"{name} is {getattr(impact, name):g}: {why}")
-    reason = unmodelled(impact, [name for name, load in loads_of(Impact).items() if load.group])
+    reason = beyond_first_order(impact)
     if reason is not None:
         raise ResultError(reason.replace("this method", "the exact solution"))
     loads = (impact.alpha, impact.psi, impact.chi, impact.axial)

@@ -196,14 +196,14 @@ def predict(impact: Impact, times: Iterable[float] | float = (), *, section: Sec
 
 def _check(impact: Impact) -> None:
     """Raise ``ValueError`` for what the theory does not cover."""
+    reason = unmodelled(impact, MODELLED)
+    if reason is not None:
+        raise ValueError(reason)
     if not impact.relative_curvature > 0.0:
         raise ValueError(
             f"curvature must be more than the wall's (got {impact.curvature!r}): a beam as straight as its wall has "
             "kappa/nu = 0, touches over its whole length at once, and lambda0 is infinite"
         )
-    reason = unmodelled(impact, MODELLED)
-    if reason is not None:
-        raise ValueError(reason)
     for name in ("rotation", "first_touch"):
         if getattr(impact, name) != 0.0:
             raise ValueError(

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from bent_beam.impact import Impact
-from bent_beam.loads import loads_of, unmodelled
+from bent_beam.loads import beyond_first_order
 from theory import ContactParameters, ImpactFields, SelfSimilarWave, contact_parameters
 
 Array = NDArray[np.float64]
@@ -30,7 +30,7 @@ class Exact:
     impact: Impact
 
     def __post_init__(self) -> None:
-        reason = unmodelled(self.impact, [name for name, load in loads_of(Impact).items() if load.group])
+        reason = beyond_first_order(self.impact)
         if reason is not None:
             raise ValueError(reason.replace("this method", "the theory"))
 

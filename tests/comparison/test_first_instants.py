@@ -1,0 +1,73 @@
+"""The first instants of a beam on both paths: what its contact, its start and its mesh must not add."""
+
+import math
+from typing import Any
+
+import pytest
+
+from bent_beam import Impact, ImpactHistory
+from comparison.match import answer
+from comparison.rows import Question
+from comparison.store import RunStore
+from exudyn_models import ExudynModel
+from hermite_fe import HermiteFE
+from measure.front import first_front
+from measure.reduction import peak_moment
+
+BEAM = {"bending_stiffness": 1.0, "mass_per_length": 1.0, "length": 2.0, "velocity": 1.0}
+
+
+def simulated(end: float, **beam: Any) -> tuple[ImpactHistory, ImpactHistory]:
+    """By Hermite elements and by Exudyn up to ``end``, T* of the beam of half length 1."""
+    impact = Impact(**BEAM, **beam)
+    hermite, exudyn = (method.simulate(impact, end_time=end, save=100) for method in (HermiteFE(), ExudynModel()))
+    return hermite, exudyn
+
+
+@pytest.mark.parametrize("kappa_over_nu", [1.2, 2.5])
+def test_a_beam_that_touches_in_a_point_bends_by_the_step_in_velocity(kappa_over_nu: float) -> None:
+    """V₀√(EIμ) from the first instant on: the stiff contact of a mesh bends it more, for a few steps."""
+    for history in simulated(0.004, curvature=kappa_over_nu):
+        assert peak_moment(history).moment == pytest.approx(1.0, rel=2e-3)
+
+
+def test_both_paths_bend_a_damped_beam_alike() -> None:
+    """Damping lifts the zone from the first instant: nothing may hold it."""
+    moments = [peak_moment(history).moment for history in simulated(0.003, curvature=0.32, damping=8e-4)]
+    assert moments[1] == pytest.approx(moments[0], rel=0.01)
+
+
+def test_a_lifted_zone_bears_no_load_that_the_half_length_could_lose() -> None:
+    """Damping keeps the zone off the wall: all of the reaction is at the front."""
+    hermite, exudyn = simulated(0.004, curvature=0.29, damping=3e-3, acceleration=4.9)
+    fronts = [first_front(history, history.time.size - 1) for history in (hermite, exudyn)]
+    assert fronts[1] == pytest.approx(fronts[0], rel=0.01)
+
+
+def test_a_pressed_zone_ends_where_theory_says() -> None:
+    from theory import predict
+
+    histories = simulated(0.0032, curvature=0.1325, acceleration=5.25)
+    theory = predict(histories[0].impact, [0.0032]).times[0].half_contact_length
+    for history in histories:
+        assert first_front(history, history.time.size - 1) == pytest.approx(theory, rel=3e-3)
+
+
+def test_an_early_thin_front_gets_its_impulse_from_the_velocity_alone() -> None:
+    """Nodes of a mesh that rebound one by one would add 8 %."""
+    hermite, exudyn = (history.array("total_impulse")[-1] for history in simulated(0.0057, curvature=0.086))
+    assert exudyn == pytest.approx(hermite, rel=0.005)
+
+
+def test_a_tension_along_x_bends_the_ends_of_a_bow() -> None:
+    """N κ L/2 across the ends: the beam is modelled up to there. The largest moment is there, too."""
+    hermite, exudyn = simulated(0.002, curvature=2.1, damping=2.4e-3, axial_force=56.0)
+    assert peak_moment(exudyn).moment == pytest.approx(peak_moment(hermite).moment, rel=0.03)
+    assert abs(peak_moment(exudyn).place) > 0.8
+
+
+def test_the_bar_of_exudyns_r0_holds_what_its_hits_add() -> None:
+    """A coarser run with the same dashpot is wrong by the same."""
+    row = answer(Question(ExudynModel(), 0.05), RunStore(None))
+    assert row.r0.covered and row.lambda0.covered
+    assert math.isfinite(row.r0.bar) and row.r0.bar < 3e-3 * row.r0.known
