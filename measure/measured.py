@@ -111,7 +111,8 @@ class Band:
         return {"value": None, "error": None, "band": {"mean": self.mean, "std": self.std, "runs": self.runs}}
 
     def __str__(self) -> str:
-        return f"{_with_bar(self.mean, self.std)} (band of {self.runs} runs)"
+        band = _with_bar(self.mean, self.std) if math.isfinite(self.mean) and math.isfinite(self.std) else "-"
+        return f"{band} (band of {self.runs} runs)"
 
 
 def _with_bar(value: float, error: float) -> str:
@@ -125,4 +126,4 @@ def _with_bar(value: float, error: float) -> str:
     digits = -math.floor(math.log10(error))
     places = min(max(0, digits), 12)
     size = f"{error:.{places}f}" if digits <= places else f"{error:.1g}"
-    return f"{round(value, digits):.{places}f} ± {size}"
+    return f"{round(value, digits) + 0.0:.{places}f} ± {size}"  # not −0

@@ -97,7 +97,7 @@ def peak_moment(history: ImpactHistory, until: float | None = None) -> PeakMomen
 
 def _first_resolved(history: ImpactHistory, count: int) -> int:
     """The first saved instant whose steps all lie behind the time in which a bending wave, √(EI/μ)t = x², passes
-    :data:`RESOLVED` of the shortest elements; at most a tenth of the time of the last of ``count``."""
+    :data:`RESOLVED` of the shortest elements; at most a fiftieth of the time of the last of ``count``."""
     element = float(np.diff(np.unique(history.positions(0))).min())
-    time = min((RESOLVED * element) ** 2 / history.impact.wave_constant, 0.1 * float(history.time[count - 1]))
+    time = min((RESOLVED * element) ** 2 / history.impact.wave_constant, 0.02 * float(history.time[count - 1]))
     return min(int(np.searchsorted(history.time, time)) + 1, count - 1)

@@ -67,8 +67,13 @@ class SwungBeam:
         return time, found
 
     def peak_force(self, end: float) -> tuple[float, float]:
-        """The largest force of the stop until ``end``, N, and when it acts, s."""
+        """The largest force of the stop until ``end``, N, and when it acts, s.
+
+        Raises ``ValueError`` where the force still grows at ``end``: it is then not the largest.
+        """
         time, found = self.tip(end)
+        if found.argmax() == found.size - 1:
+            raise ValueError(f"end must lie after the largest force, which still grows (got {end!r})")
         k = min(max(int(found.argmax()), 1), found.size - 2)
         a, b, c = np.polyfit(time[k - 1 : k + 2] - time[k], found[k - 1 : k + 2], 2)
         return self.stop_stiffness * float(c - b * b / (4.0 * a)), float(time[k] - b / (2.0 * a))

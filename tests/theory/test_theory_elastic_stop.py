@@ -24,3 +24,8 @@ def test_modes_converge_and_a_bending_beam_hits_its_stop_again():
     touching = np.diff((many.tip(0.012)[1] > 0.0).astype(int))
     assert touching.tolist().count(1) == 2, "at the start and once more"
     assert many.peak_force(0.005)[0] < many.peak_force(0.012)[0]
+
+
+def test_a_force_that_still_grows_is_not_the_largest():
+    with pytest.raises(ValueError, match="end must lie after the largest force"):
+        SwungBeam(1e4, 0.5, 0.8, 2.0, 300.0, modes=6).peak_force(0.01)
