@@ -45,6 +45,7 @@ INSIDE = 0.5  # of what the lift does to r₀, to λ₀: pushes off the zone act
 COMPANION_FIRST = 1.5  # at first order likewise: fronts that pass elements at other times add noise to the difference
 SPREAD_FIRST = 2.0  # of the largest change by a term more, half the window or one run alone
 STUCK_FIRST = 0.4  # likewise of a load that should lift the zone and does not: springs push on, or no node is there
+LIFTED_FIRST = 2.0  # of what the lift does to r₀ and λ₀: a load moves the front of a lifted zone differently
 MISSING_FIRST = 2.5  # of the zone's length times what its uniform reaction lacks: a zone off the wall moves the front
 
 
@@ -207,8 +208,10 @@ def first_order(
     or one run alone, whose noise counts in proportion to its ε), taken ``SPREAD_FIRST`` times; of the largest
     difference from a companion, ``COMPANION_FIRST`` times; of what the uniform reaction lacks (of a zone that should
     lift and does not, ``STUCK_FIRST`` of the load), which moves r₁ by λ₀/√(2/π) of itself at least and λ₁ by about half
-    of that times λ₀/r₀, ``MISSING_FIRST`` times; of what λ₁ inherits
-    from the bars of λ₀ and r₀; and of ``FLOOR``. Raises ``ValueError`` without runs or when saved times differ.
+    of that times λ₀/r₀, ``MISSING_FIRST`` times; of the shares of :func:`lift_shares`, ``LIFTED_FIRST`` times; of what
+    λ₁ inherits from the bars of λ₀ and r₀; and of ``FLOOR``.
+
+    Raises ``ValueError`` without runs or when saved times differ.
     """
     if not runs:
         raise ValueError("runs must hold at least one run at ε > 0")
@@ -237,6 +240,7 @@ def first_order(
         (SPREAD_FIRST * np.abs(changes).max(axis=0)) ** 2
         + (COMPANION_FIRST * _apart(best, companions)) ** 2
         + (MISSING_FIRST * missing * np.array([1.0, 0.5 * lambda0 / r0])) ** 2
+        + (LIFTED_FIRST * np.array(lift_shares(leading.lift)) * np.abs(best)) ** 2
         + np.array([0.0, math.hypot(best[0] * leading.lambda0.bar, best[1] * leading.r0.bar) / r0]) ** 2
         + (FLOOR * np.abs(best).max()) ** 2
     )
