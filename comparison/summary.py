@@ -55,8 +55,8 @@ class Companion:
     @classmethod
     def of(cls, history: ImpactHistory) -> Companion:
         impact, found, last = history.impact, moments(history), history.time.size - 1
-        late = is_late(impact, float(history.time[-1]))
-        front = half_contact_length(history, last) if late else _early_front(history, found)
+        spreads = _spreads_first(impact, float(history.time[-1]))
+        front = _early_front(history, found) if spreads else half_contact_length(history, last)
         left = has_left(history) and impact.opposite_wall is None
         return cls(
             front,
@@ -65,8 +65,14 @@ class Companion:
             whole_impact(history).restitution if left else None,
             wall_peaks(history),
             found,
-            element_at(history, last, front) if late else 0.0,
+            0.0 if spreads else element_at(history, last, front),
         )
+
+
+def _spreads_first(impact: Impact, end: float) -> bool:
+    """Whether a run to ``end``, s, shows the first spread of a zone about the middle of a beam before a rigid wall."""
+    other = impact.wall_stiffness is not None or impact.off_centre or impact.wall_in_part or impact.supported
+    return not other and not is_late(impact, end)
 
 
 def _early_front(history: ImpactHistory, found: Moments) -> float:

@@ -38,7 +38,7 @@ def assemble(
     half: bool,
     plastic: float = 1.0,
 ) -> tuple[Beam, ContactRun]:
-    """The Exudyn system: beam, loads, symmetry, contact; ``plastic``: see :class:`Wall`, at a thin front."""
+    """The Exudyn system: beam, loads, symmetry, contact; ``plastic`` is that of :class:`Wall` at a thin front."""
     container = exu.SystemContainer()
     system = container.AddSystem()
     system.variables["container"] = container  # the system must not outlive it
@@ -81,11 +81,12 @@ def _axial_stiffness(asked: float | None, true: bool, scaling: Scaling) -> float
 
 
 def _wall(shape: Shape, scaling: Scaling, centre: int, half: bool, explicit: bool, plastic: float) -> Wall:
-    opposite, stiffness = scaling.impact.opposite_wall, scaling.impact.wall_stiffness
-    first_spread = BEFORE_WAVES_RETURN * scaling.impact.slow_time_scale / scaling.end_time
+    impact = scaling.impact
+    opposite, stiffness = impact.opposite_wall, impact.wall_stiffness
+    first_spread = BEFORE_WAVES_RETURN * impact.slow_time_scale / scaling.end_time
     before, lengths = before_the_wall(shape.s, scaling)
-    thin = thin_front(scaling.kappa) and not supports_or_plate(scaling.impact)
-    unit = scaling.impact.bending_stiffness / scaling.length ** (4 if lengths.any() else 3)
+    thin = thin_front(scaling.kappa) and not supports_or_plate(impact)
+    unit = impact.bending_stiffness / scaling.length ** (4 if lengths.any() else 3)
     return Wall(
         nodes=np.intersect1d(reachable(shape.s, scaling, centre), np.flatnonzero(before)),
         lengths=lengths,
@@ -94,10 +95,11 @@ def _wall(shape: Shape, scaling: Scaling, centre: int, half: bool, explicit: boo
         front=front_bound(scaling.kappa),
         first_spread=first_spread,
         plastic=plastic if thin and first_spread >= 1.0 and not explicit else 0.0,
+        lifts=impact.zone_pressure < 0.0 or impact.damping > 0.0 or impact.kappa_over_nu >= 1.0,
         explicit=explicit,
         opposite=None if opposite is None else -opposite / scaling.deflection,
         stiffness=None if stiffness is None else stiffness / unit,
-        damping=scaling.impact.wall_damping / (unit * scaling.end_time),
+        damping=impact.wall_damping / (unit * scaling.end_time),
     )
 
 

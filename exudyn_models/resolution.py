@@ -56,6 +56,7 @@ LEAST_OF_ZONE, MOST_OF_ZONE = 300.0, 800.0  # … but so many at least and at mo
 BEYOND = 1.1  # times the front's bound, where these end
 PASSED = 2.0  # elements that a thin front passes in a step
 REACH, REACH_OF_FRONT = 12.0, 8.0  # half length to model, see far_field; tests/exudyn_models/test_exudyn_constants.py
+LONGEST = 2e3  # Λ of a half beam whose ends an axial force bends
 INSIDE = 0.6  # of where a bent-up end would itself be at the wall: beyond, nothing touches
 ELEMENT_STEPS = 4e5  # elements times steps of a run with uniform elements: a few seconds
 FEWEST = 60  # uniform elements of a half beam, from 0.9 T* on; tests/exudyn_models/test_exudyn_constants.py
@@ -87,8 +88,8 @@ def choose(parts: Composition, impact: Impact, end_time: float, *, for_loads: bo
     for_loads : the run measures what the loads of ``impact`` change: open steps are shorter, an open contact holds.
     """
     shorter = FIRST_ORDER_STEPS if for_loads and parts.integrator is None and impact.loaded else 1.0
-    if impact.wall_stiffness is None:
-        parts = dataclasses.replace(parts, contact=held_for(parts.contact, impact, for_loads=for_loads))
+    if for_loads and impact.wall_stiffness is None:
+        parts = dataclasses.replace(parts, contact=held_for(parts.contact, impact))
     contact, element, integrator, geometry, solver = parts.joined(impact)
     mesh = parts.mesh or chosen_mesh(impact, end_time, explicit=integrator.explicit)
     mesh, integrator = mesh.refined(parts.refine), integrator.refined(parts.refine * shorter)
@@ -97,19 +98,16 @@ def choose(parts: Composition, impact: Impact, end_time: float, *, for_loads: bo
     return Chosen(mesh, element, integrator, contact, geometry, solver, plastic=min(parts.refine, 1.0))
 
 
-def held_for(contact: Contact | None, impact: Impact, *, for_loads: bool = False) -> Contact:
-    """The contact with the hold that suits load and damping; ``for_loads``: for the runs with and without load."""
+def held_for(contact: Contact | None, impact: Impact) -> Contact:
+    """The contact with the hold that suits the load, for the runs with and without load."""
     spreads = not thin_front(impact.kappa_over_nu) and impact.kappa_over_nu < 1.0
-    if for_loads and impact.zone_pressure > 0.0 and contact is None and spreads:
+    if impact.zone_pressure > 0.0 and contact is None and spreads:
         # The load first closes what the rebound of the first instants has left. λ₁ of (4, 0, 0) at κ/ν = 0.5 is
         # 12 % off without the hold, 0.1 % with it. Behind a thin front nothing rebounds, behind a point nothing is.
         return Penalty(hold=FIRST_ORDER_HOLD)
     contact = contact or Penalty()
-    lifts = impact.zone_pressure < 0.0 or impact.damping > 0.0 or impact.kappa_over_nu >= 1.0
-    if lifts and isinstance(contact, Penalty) and contact.hold_start is None:
-        # Load or damping lifts the zone from the first, or there is none: no start is held. With one the largest moment
-        # of a damped beam (κ/ν = 0.32, ζ = 0.2 %, 0.003 T*) is 5 % too large, that of a point (κ/ν = 1.2) 15 %.
-        return dataclasses.replace(contact, hold_start=0.0)
+    if impact.zone_pressure < 0.0 and isinstance(contact, Penalty) and contact.hold_start is None:
+        return dataclasses.replace(contact, hold_start=0.0)  # of the run without the load, too
     return contact
 
 
@@ -123,11 +121,12 @@ def far_field(scaling: Scaling) -> float:
 
 
 def chosen_half_length(impact: Impact, end_time: float | None = None) -> float:
-    """The half length, m, modelled when no mesh is given: the beam's, or less where nothing returns in time. A tension
-    along x bends the ends of a bow: the beam is then modelled as long as it is."""
-    if impact.axial_force and impact.tension_direction == "axis":
-        return impact.half_length
+    """The half length, m, modelled when no mesh is given: the beam's, or less where nothing returns in time. An axial
+    force along x bends the ends of a bow: the beam is then modelled as long as it is, up to :data:`LONGEST`."""
     scaling = Scaling.of(impact, impact.checked_end_time(end_time))
+    bent = bool(impact.axial_force) and impact.tension_direction == "axis"
+    if bent and impact.half_length <= LONGEST * scaling.length:
+        return impact.half_length
     return min(impact.half_length, far_field(scaling) * scaling.length)
 
 

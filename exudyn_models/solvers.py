@@ -24,7 +24,7 @@ class NewtonSolver(Part):
     """How each implicit step is solved.
 
     The absolute tolerance and that of the contact are in units of the model's amplitude, and raised to the round-off of
-    the contact's own forces where those are larger.
+    contact and viscous forces where that is larger.
     """
 
     where: ClassVar[str] = "exudyn.solver"
@@ -49,7 +49,7 @@ class NewtonSolver(Part):
     ] = True
 
     def settings(self, amplitude: float, round_off: float = 0.0) -> Any:
-        """Fresh ``exudyn.SimulationSettings`` with these choices and no files; ``round_off`` of its forces."""
+        """Fresh ``exudyn.SimulationSettings`` with these choices and no files; ``round_off`` of a force."""
         settings = exu.SimulationSettings()
         settings.solution.file.write = False
         settings.solution.sensors.active = False

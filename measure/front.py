@@ -1,7 +1,7 @@
 """Where and how hard the wall pushes around one instant of a run.
 
-All readings take the tenth of the time before the instant, those of any beam also a tenth after it: a beam without
-damping swings its front and its reaction, and what does not converge has at least a mean.
+Places and forces are read over the tenth of the time before the instant, those of any beam also a tenth after it: a
+beam without damping swings its front and its reaction, and what does not converge has at least a mean.
 """
 
 from __future__ import annotations
@@ -28,25 +28,28 @@ def first_front(history: ImpactHistory, k: int) -> float:
     are: the centroid of what was pushed over the last tenth of the time, less what the zone behind bears; 0 without a
     push.
 
-    The zone bears as much per length everywhere as within :data:`ZONE` of the front, where it is summed as it was
-    pushed: nothing is assumed of a zone that damping or its start keeps off the wall. The centroid lies where the front
-    was at the mean of √t, and is carried to the instant: exact for λ_c ~ √t.
+    The zone bears as much per length everywhere as within :data:`ZONE` of where the front was at first, where it is
+    summed as it was pushed: nothing is assumed of a zone that damping or its start keeps off the wall. The centroid
+    lies where the front was at the mean of √t, and is carried to the instant: exact for λ_c ~ √t.
     """
+    if k == 0:
+        return 0.0
     first = last_tenth(history.time, k)
+    roots = np.sqrt(history.time[[first, k]])
+    share = ZONE * float(roots[0] / roots.mean())
     pushed = history.array("impulse", k) - history.array("impulse", first)
     places = np.abs(history.contact_positions(k))
     force, moment = float(pushed.sum()), float(pushed @ places)
     front = moment / force if force > 0.0 else 0.0
     for _ in range(6):  # the front and what lies behind it depend on each other: contracts fast
-        behind = places < ZONE * front
+        behind = places < share * front
         borne = float(pushed[behind].sum())
-        ahead = borne * (1.0 - ZONE) / ZONE
+        ahead = borne * (1.0 - share) / share if share else 0.0
         if force - borne - ahead <= 0.0:
             break
-        left = moment - float(pushed[behind] @ places[behind]) - ahead * 0.5 * (1.0 + ZONE) * front
+        left = moment - float(pushed[behind] @ places[behind]) - ahead * 0.5 * (1.0 + share) * front
         front = left / (force - borne - ahead)
-    roots = np.sqrt(history.time[[first, k]])
-    return front * float(roots[1] / roots.mean())
+    return max(front * float(roots[1] / roots.mean()), 0.0)
 
 
 def half_contact_length(history: ImpactHistory, k: int) -> float:

@@ -14,6 +14,7 @@ __all__ = ["PeakMoment", "WallPeaks", "hold_of", "peak_moment", "pull_of", "wall
 
 Array = NDArray[np.float64]
 CHUNK = 256  # saved instants at once
+OF_RUN, OF_BEAM = 0.02, 0.002  # see _first_resolved
 RESOLVED = 10.0  # elements that a bending wave must have passed before a moment is one of the beam, not of its mesh
 START = 0.01  # of the run: while this lasts, a start may be held
 
@@ -97,7 +98,16 @@ def peak_moment(history: ImpactHistory, until: float | None = None) -> PeakMomen
 
 def _first_resolved(history: ImpactHistory, count: int) -> int:
     """The first saved instant whose steps all lie behind the time in which a bending wave, √(EI/μ)t = x², passes
-    :data:`RESOLVED` of the shortest elements; at most a fiftieth of the time of the last of ``count``."""
+    :data:`RESOLVED` of the shortest elements. At most :data:`OF_RUN` of the time of the last of ``count`` is left out,
+    and :data:`OF_BEAM` of T*: a coarse mesh or few saved instants hide no maximum. With a hysteretic loss the moment
+    of the first instants is the beam's own."""
+    impact, time = history.impact, history.time
+    if impact.hysteretic_loss:
+        return 1
     element = float(np.diff(np.unique(history.positions(0))).min())
-    time = min((RESOLVED * element) ** 2 / history.impact.wave_constant, 0.02 * float(history.time[count - 1]))
-    return min(int(np.searchsorted(history.time, time)) + 1, count - 1)
+    most = min(OF_RUN * float(time[count - 1]), OF_BEAM * impact.slow_time_scale)
+    begin = min((RESOLVED * element) ** 2 / impact.wave_constant, most)
+    first = min(int(np.searchsorted(time, begin)) + 1, count - 1)
+    while first > 1 and time[first - 1] > most:
+        first -= 1
+    return first

@@ -35,6 +35,7 @@ class Wall:
     half : only x ≥ 0 is modelled;
     front : rough estimate of where contact ends at the end;
     first_spread : until when (in end times) nothing but the first spread of the zone moves it: waves are back later;
+    lifts : load or damping lifts the zone from the first, or the beam touches in a point: no start is held;
     plastic : the front is thin, so that nodes that hit must not rebound, and nothing but the first spread moves it: how
         much of the damping that such hits take the run asks for; 0 elsewhere;
     """
@@ -46,6 +47,7 @@ class Wall:
     front: float
     first_spread: float
     plastic: float
+    lifts: bool
     explicit: bool
     opposite: float | None  # y of a second, flat wall behind the beam
     stiffness: float | None = None  # per length, of a wall that gives way; of a stop itself

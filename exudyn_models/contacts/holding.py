@@ -2,7 +2,8 @@
 
 The first instants are never resolved, whatever the mesh: the front is then faster than any element. What their node
 impacts leave behind would lift the zone for a long time, so all captured nodes are held for a first share ``START`` of
-the run, but not where the load draws the beam off the wall, nor in runs that last longer than the first spread.
+the run, but not in runs that last longer than the first spread, nor where load or damping draws the beam off the wall
+or it touches in a point: a held start makes the largest moment 5 % too large at κ/ν = 0.32 with ζ = 0.2 %, 15 % at 1.2.
 
 Behind the front the exact reaction vanishes; a one-sided law turns the numerical noise there into pushes that lift the
 beam. A hold of so many elements, where asked for, keeps each captured node until the front is that much further: the
@@ -36,7 +37,7 @@ class HeldStrip:
     """
 
     def __init__(self, wall: Wall, hold: int, start: float | None = None) -> None:
-        if wall.explicit or wall.first_spread < 1.0:
+        if wall.explicit or wall.first_spread < 1.0 or wall.lifts:
             start = start or 0.0
         self.hold = hold
         self.start = min(START if start is None else start, wall.first_spread)
