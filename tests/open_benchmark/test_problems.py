@@ -5,6 +5,7 @@ import tomllib
 
 import numpy as np
 import pytest
+from scipy.interpolate import PPoly
 
 from bent_beam.parts import InputError
 from open_benchmark import problem, shipped_ids
@@ -48,16 +49,22 @@ def test_the_schemas_are_frozen():
     ids=["some", "all"],
 )
 def test_stored_references_are_what_the_theory_says(names):
+    """To 1e-9, or to a hundredth of a stated error: the rest is rounding, which differs between processors."""
     shipped = json.loads(REFERENCES.read_text())["problems"]
     for name in names or shipped:
-        known = shipped[name]
-        for kind, stored in known.items():
-            today = computed(problem(name))[kind]
-            for key, numbers in stored.items():
-                same = (
-                    numbers == today[key] if isinstance(numbers, str) else np.allclose(numbers, today[key], 1e-9, 1e-12)
-                )
-                assert same, (name, key)
+        stored, today = shipped[name], computed(problem(name))
+        assert stored.keys() == today.keys()
+        for key, error in stored.get("errors", {}).items():
+            assert today["errors"][key] == pytest.approx(error, rel=0.01), (name, key)
+        for key, value in stored.get("values", {}).items():
+            near = 0.01 * stored["errors"][key] if "errors" in stored else 1e-9 * abs(value) + 1e-12
+            assert today["values"][key] == pytest.approx(value, rel=0.0, abs=near), (name, key)
+        if "impulse" in stored:
+            before, now = (PPoly(np.transpose(one["impulse"]["coefficients"]), one["impulse"]["breaks"])
+                           for one in (stored, today))  # fmt: skip
+            assert stored["impulse"]["variable"] == today["impulse"]["variable"]
+            at = np.linspace(before.x[0], before.x[-1], 2001)
+            assert now(at) == pytest.approx(before(at), rel=1e-9, abs=1e-9 * np.abs(before(at)).max()), name
 
 
 def test_the_largest_half_length_is_where_the_free_motion_closes_the_gap():
