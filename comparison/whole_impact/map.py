@@ -47,6 +47,7 @@ OTHERS = tuple((kappa, damping) for damping in (1e-3, 1e-2) for kappa in (0.4, 0
 FLAT, FINER = 0.35, 2.0  # below this κ/ν elements so many times shorter
 LONGER = 2.0  # steps than a single bounce takes: half of the work, and e moves by less than by half of the elements
 COARSER = 0.5  # of the other path
+ELEMENT = 0.01  # of the half length: the longest of the map
 SAVED = 2000
 
 
@@ -160,6 +161,11 @@ def _without_settings(row: dict[str, Any]) -> dict[str, Any]:
     return {key: value for key, value in row.items() if key != "settings"}
 
 
+def _rounding(name: str, value: float) -> float:
+    """What rounding may move a number by: a place by an element, for a largest moment is flat there."""
+    return ELEMENT if name.endswith("_place") else 1e-9 * abs(value)
+
+
 def outside_their_bars(count: int, seed: int) -> list[str]:
     """Numbers of ``count`` points drawn at random that, measured again, are outside the bars of both."""
     found = []
@@ -169,7 +175,7 @@ def outside_their_bars(count: int, seed: int) -> list[str]:
         found += [
             f"{name} at kappa/nu = {point.kappa_over_nu:g}, eta/T* = {point.damping:g}: {again[name]}, stored {number}"
             for name, number in before.items()
-            if abs(again[name][0] - number[0]) > again[name][1] + number[1] + 1e-9 * abs(number[0])
+            if abs(again[name][0] - number[0]) > again[name][1] + number[1] + _rounding(name, number[0])
         ]
     return found
 

@@ -21,7 +21,8 @@ const Draw = (() => {
       return `(${bar(value / 10 ** power, first / 10 ** power)})·${text(10 ** power, 1).slice(2)}`;
     const unit = 10 ** Math.abs(digits), rounded = digits < 0 ? Math.round(value / unit) * unit : value;
     const places = Math.max(0, digits);
-    return `${rounded.toFixed(places)} ± ${first.toFixed(places)}`.replace("-", "−");
+    const written = rounded.toFixed(places), sign = Number(written) < 0 ? "−" : "";  // no sign before a zero
+    return `${sign}${written.replace("-", "")} ± ${first.toFixed(places)}`;
   }
 
   const SVG = "http://www.w3.org/2000/svg";

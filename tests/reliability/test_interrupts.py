@@ -50,7 +50,7 @@ COMMANDS = {
     "report": "report --path hermite --out out --jobs 2 --overwrite",
     "gallery": "gallery fig-2.5 fig-2.7a fig-2.9 --out out --format png --format pdf",
     "study": "study mesh case.toml --path hermite --refine 0.5,1 --out out",
-    "benchmark": "benchmark --solver hermite --problem point-2 --out out",
+    "benchmark": "benchmark --solver hermite --problem point-2 --seed 34 --out out",
     "new": "new out/beam.toml --overwrite",
 }
 QUICK = ("new",)
