@@ -91,7 +91,7 @@ def test_pictures_and_data_are_written_and_indexed(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("name", [pytest.param(n, marks=() if n in QUICK else SLOW) for n in ITEMS])
 def test_every_item_has_data(name: str) -> None:
-    assert name == "table-numbers" or len(cells(name)) >= 2
+    assert name == "table-numbers" or len(cells(name)) >= (2 if name == "extra-uniform" else 3)  # it has two lengths
 
 
 def test_an_item_is_drawn_again_when_a_file_is_missing_or_sources_or_caption_changed(
