@@ -29,7 +29,7 @@ from scipy.special import wofz
 
 from theory import contact_parameters
 from theory.elastic_wall import peak_force
-from theory.moment import peak_moment
+from theory.similarity import peak_moment, wave_amplitude
 
 __all__ = ["coefficients"]
 
@@ -59,17 +59,10 @@ def _erfc(x: Array) -> NDArray[np.complex128]:
     return np.asarray(wofz(1j * TURN * x))
 
 
-def _amplitude(kappa: Array) -> NDArray[np.complex128]:
-    """A of the wave E = Re[A e^{i(x² − λ₀²)/4} S(x)], S = e^{z²} i²erfc z, from E″ = −κ and E‴ = √(2/π) r₀ at λ₀."""
-    contact = contact_parameters(kappa)
-    jump = -2.0 / np.sqrt(np.pi) * TURN**3
-    row, rise = TURN**2 * _erfc(contact.lambda0) / jump, SLOPE * contact.r0
-    return np.asarray((rise + 1j * (rise * row.real + kappa) / row.imag) / jump)
-
-
 def _steepest(kappa: Array) -> Array:
     """Largest slope |E′|: where E″ = 0, between the front and the largest moment ahead of it; found by halving."""
-    front, amplitude = contact_parameters(kappa).lambda0, _amplitude(kappa)
+    contact = contact_parameters(kappa)
+    front, amplitude = contact.lambda0, wave_amplitude(contact)
     low, high = front, peak_moment(kappa).place
     for _ in range(60):
         x = (low + high) / 2.0
@@ -80,7 +73,10 @@ def _steepest(kappa: Array) -> Array:
 
 
 def _functions() -> dict[str, tuple[int, Function]]:
-    """Name → (p, f), ν = 1. λ₁ and r₁ per unit of α, whose sign decides between continuous and detached contact."""
+    """Name → (p, f), ν = 1. λ₁ and r₁ per unit of α, whose sign decides between continuous and detached contact.
+
+    The gap's wave is E = Re[A e^{i(x² − λ₀²)/4} S(x)], S = e^{z²} i²erfc z, with the amplitude A.
+    """
     of = contact_parameters
     return {
         "lambda0": (1, lambda k: of(k).lambda0),
@@ -94,8 +90,8 @@ def _functions() -> dict[str, tuple[int, Function]]:
         "moment_ahead": (0, lambda k: peak_moment(k).ahead),
         "place_ahead": (1, lambda k: peak_moment(k).place),
         "steepest": (-1, _steepest),
-        "amplitude_real": (2, lambda k: _amplitude(k).real),
-        "amplitude_imaginary": (2, lambda k: _amplitude(k).imag),
+        "amplitude_real": (2, lambda k: wave_amplitude(of(k)).real),
+        "amplitude_imaginary": (2, lambda k: wave_amplitude(of(k)).imag),
     }
 
 

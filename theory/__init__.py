@@ -8,9 +8,8 @@ a simulation.
 
 from theory.contact import ContactParameters, contact_parameters
 from theory.fields import FieldValues, ImpactFields
-from theory.moment import PeakMoment, peak_moment
 from theory.prediction import Prediction, PredictionAtTime, predict
-from theory.similarity import SelfSimilarWave
+from theory.similarity import PeakMoment, SelfSimilarWave, peak_moment
 
 __all__ = [
     "ContactParameters",

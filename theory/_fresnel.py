@@ -1,4 +1,4 @@
-r"""Auxiliary Fresnel functions as Laplace moments, the common root of the kernel and of every φ.
+r"""Auxiliary Fresnel functions as Laplace moments, the common root of the kernel and of every φ; error functions.
 
     I_k(q) = (√2/π) ∫₀^∞ e^{−qt} t^{k−1/2}/(1+t²) dt,      q = λ²/4,
     φ_ν(λ) = 2f = I₀,   φ_κ(λ) = 2g = I₁                                        (A.5.1), (A.5.2)
@@ -9,12 +9,18 @@ powers of λ that cancel in a closed form are exactly its right-hand sides, so r
 removes them before any digit is lost.
 
 Every decaying bending wave is made of the same two: with z = e^{−iπ/4}x/2, e^{z²} erfc z = (φ_κ(x) + iφ_ν(x))/(1 + i)
-(DLMF 7.5.10).
+(DLMF 7.5.10). With it come the iterated integrals of the complementary error function,
+
+    i⁰erfc = erfc,   iⁿerfc(z) = ∫_z^∞ iⁿ⁻¹erfc,   2n iⁿerfc = iⁿ⁻²erfc − 2z iⁿ⁻¹erfc
+    iⁿerfc(z) ~ (2/√π) e^{−z²}/(2z)ⁿ⁺¹ Σ_m (−1)^m (2m+n)!/(n! m!) (2z)^{−2m},   |arg z| < 3π/4
+
+whose recurrence loses digits for large |z|, where the series has all of them.
 """
 
 from __future__ import annotations
 
-from math import pi, sqrt
+from math import factorial, pi, sqrt
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -22,6 +28,9 @@ from scipy.special import fresnel, wofz
 
 FloatArray = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
+
+#: z = TURN·x on the ray of a bending wave that decays ahead of x ≥ 0.
+TURN = complex(np.exp(-0.25j * np.pi) / 2.0)
 
 #: Below it the closed forms lose less than two digits, above it the moments have all of theirs.
 SWITCH = 1.5
@@ -90,4 +99,29 @@ def twice_auxiliary(lam: FloatArray) -> tuple[FloatArray, FloatArray]:
 
 def scaled_erfc(x: ArrayLike) -> ComplexArray:
     """e^{z²} erfc z at z = e^{−iπ/4}x/2 for x ≥ 0 of any shape; relative error below 1e-14."""
-    return np.asarray(wofz(np.exp(0.25j * np.pi) / 2.0 * np.asarray(x, dtype=np.float64)))
+    return np.asarray(wofz(1j * TURN * np.asarray(x, dtype=np.float64)))
+
+
+# From here on 14 terms of the series give 1e-16, and the recurrence has lost no more than that absolutely.
+_FAR = 12.0
+_SERIES = {
+    n: [(-1) ** m * factorial(2 * m + n) / (factorial(n) * factorial(m)) for m in range(14)]
+    for n in (1, 2, 3)
+}
+
+
+def scaled_iterated_erfc(z: NDArray[np.complexfloating[Any, Any]]) -> tuple[ComplexArray, ...]:
+    """e^{z²} iⁿerfc(z) for n = 0…3, any shape, |arg z| ≤ π/2 where |z| > 12.
+
+    Absolute error 1e-13, on the ray z = TURN·x, x ≥ 0, of a wave that decays ahead of x 1e-14.
+    """
+    zeroth = np.asarray(wofz(1j * z))
+    first = 1.0 / np.sqrt(np.pi) - z * zeroth
+    second = 0.25 * (zeroth - 2.0 * z * first)
+    third = (first - 2.0 * z * second) / 6.0
+    far = np.abs(z) > _FAR
+    if np.any(far):
+        twice = 2.0 * z[far]
+        for n, values in ((1, first), (2, second), (3, third)):
+            values[far] = 2.0 / np.sqrt(np.pi) / twice ** (n + 1) * np.polyval(_SERIES[n][::-1], twice**-2.0)
+    return zeroth, first, second, third

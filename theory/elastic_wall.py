@@ -24,8 +24,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.fft import irfft, rfft
 
-from theory._fresnel import FloatArray
-from theory._iterated_erfc import iterated_erfc_of_wave
+from theory._fresnel import TURN, FloatArray, scaled_iterated_erfc
 
 #: Range of κ/ν and the largest ζ; `theory.elastic_wall_limits` takes over beyond these κ/ν.
 FLATTEST, SHARPEST, MOST_DAMPED = 1e-6, 1e6, 5.0
@@ -192,8 +191,8 @@ def _responses(cells: int, dx: float, steps: int, dt: float, m: int) -> FloatArr
 def _integrals(x: FloatArray, t: FloatArray, m: int) -> FloatArray:
     """The m-fold integral of Re S over time and its twofold integral over place, even in x (x ≥ 0, t > 0)."""
     root = np.sqrt(t)
-    z = np.exp(-0.25j * np.pi) * x / (2.0 * root)
-    _, _, before, last = iterated_erfc_of_wave(x / root)
+    z = TURN * x / root
+    _, _, before, last = scaled_iterated_erfc(z)
     for n in range(4, 2 + 2 * m):
         before, last = last, (before - 2.0 * z * last) / (2.0 * n)
     wave = 0.5 * (2.0 * np.exp(0.25j * np.pi) * root) ** (1 + 2 * m) * np.exp(-(z**2)) * last

@@ -29,8 +29,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from theory._fresnel import ComplexArray, FloatArray
-from theory._iterated_erfc import scaled_iterated_erfc
+from theory._fresnel import TURN, ComplexArray, FloatArray, scaled_iterated_erfc
 from theory.contact import DISCRETE, ContactParameters
 
 # At the front itself the least |β| is at u = ∞; what lies beyond is e^{-18}, and integrated all the same.
@@ -255,7 +254,7 @@ class _Path:
         sech, tanh = 1.0 / np.cosh(u), np.tanh(u)
         sinh_sech2 = tanh * sech
         beta = branch * (self.x / sech + side * (self.front * tanh / sech - self.change * sinh_sech2))
-        z = np.exp(-0.25j * np.pi) * beta / 2.0
+        z = TURN * beta
         wave = np.exp(-(z**2))
         erfc, ierfc, i2erfc, i3erfc = (wave * values for values in scaled_iterated_erfc(z))
         h2 = -0.5 * (1.0 + 1.0j) * wave

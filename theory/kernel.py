@@ -23,8 +23,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
-from theory._fresnel import SWITCH, FloatArray, fresnel_integrals, scaled_moments
-from theory._iterated_erfc import iterated_erfc_of_wave
+from theory._fresnel import SWITCH, TURN, FloatArray, fresnel_integrals, scaled_iterated_erfc, scaled_moments
 
 # Past it β³ would overflow; H, H′ and P − √(π/2) are zero to double precision long before.
 _LARGEST = 1e100
@@ -127,7 +126,7 @@ def H_axial(beta: ArrayLike) -> FloatArray | float:
     """H_N, even: what an axial force nτ = 1 adds to H; β of any shape, absolute error below 1e-15."""
     _, b, _ = _prepare(beta)
     turn = np.exp(0.25j * np.pi)
-    _, first, _, third = iterated_erfc_of_wave(b)
+    _, first, _, third = scaled_iterated_erfc(TURN * b)
     c, s = _phase(b)
     return _finish(np.sqrt(2.0 * np.pi) * (turn * (c + 1j * s) * (2.0 * third - 0.5 * first)).real, beta)
 

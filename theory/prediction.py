@@ -25,7 +25,7 @@ from bent_beam.loads import unmodelled
 from bent_beam.section import Section
 from theory import damped_point
 from theory.contact import DISCRETE, ContactParameters, contact_parameters
-from theory.moment import PeakMoment, peak_moment_of
+from theory.similarity import PeakMoment, peak_moment_of
 from theory.validity import validity
 from theory.wall_prediction import WallPrediction, on_elastic_wall
 

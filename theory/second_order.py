@@ -22,10 +22,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from theory._fresnel import FloatArray, scaled_erfc
+from theory._fresnel import TURN, FloatArray, scaled_erfc
 from theory.contact import DETACHED, ContactParameters
 
-_TURN = np.exp(-0.25j * np.pi) / 2.0
 _SLOPE = float(np.sqrt(2.0 / np.pi))
 _NEAR = 1.0  # |z| below which the recurrence of iⁿerfc may run upwards
 _LAST, _LAST_NEAR = 30, 220.0  # n from which it runs downwards: _LAST + _LAST_NEAR/|z|²
@@ -66,7 +65,7 @@ def _scaled(x: float) -> dict[int, complex]:
     The recurrence 2n iⁿerfc = iⁿ⁻²erfc − 2z iⁿ⁻¹erfc loses digits upwards, where iⁿerfc is its minimal solution; so
     their ratios r_n = iⁿ/iⁿ⁻¹ are taken downwards, r_{n−1} = 1/(2z + 2n r_n), from where the start is forgotten.
     """
-    z = complex(_TURN * x)
+    z = complex(TURN * x)
     gauss = 2.0 / np.sqrt(np.pi)
     values: dict[int, complex] = {-1: complex(gauss)}
     values[-2] = 2.0 * z * values[-1]
@@ -96,7 +95,7 @@ class _Front:
 
     def wave(self, order: int) -> list[complex]:
         """i^{order}erfc and its derivatives in x, per amplitude at the front."""
-        return [(-_TURN) ** m * self.erfc[order - m] for m in range(6)]
+        return [(-TURN) ** m * self.erfc[order - m] for m in range(6)]
 
     def free(self, order: int) -> list[float]:
         """Derivatives 0…4 of the free motion's term in τ^{order}, at the front."""

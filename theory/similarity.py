@@ -13,23 +13,41 @@ solves (2.6.37) without an integral and gives independently the λ₀ and r₀ o
 
 the second because the contact moves with ν in the fast layer, at rest in the beam: the reactions do no work
 and the beam's energy is conserved. Ahead of the front η_τ² + η_ξξ² = |B erfc(z)|²/16 does not oscillate.
+
+The largest bending moment is constant in time, M = V₀√(EIμ) m(κ/ν):
+
+    E″(x) = Re[B (e^{−iπ/4}/2)² erfc z],   E‴(x) = ρ cos((x² − λ₀²)/4 + θ),   E″ = −κ, E‴ = √(2/π) r₀ at x = λ₀.
+
+In the zone the beam is straightened, so the wall bends it by κ. Ahead of it E‴ is a pure oscillation in x²/4: E″ has
+its extrema at known places, the first where (x_p² − λ₀²)/4 = π/2 − θ. The arches of E‴ shrink with x, so the
+extrema lie nested around 0 and the first, which bends the beam further, is the largest (docs/theory.md; not in
+the thesis). At one point, κ/ν ≥ 1, the largest is at the contact: ν.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 from scipy.integrate import quad
 
 from theory import phi
-from theory._fresnel import ComplexArray, FloatArray, scaled_erfc
-from theory._iterated_erfc import iterated_erfc_of_wave
-from theory.contact import ContactParameters
+from theory._fresnel import TURN, ComplexArray, FloatArray, scaled_erfc, scaled_iterated_erfc
+from theory.contact import ContactParameters, contact_parameters
 
-_TURN = np.exp(-0.25j * np.pi) / 2.0
+_JUMP = -2.0 / np.sqrt(np.pi) * TURN**3  # E‴ of a wave with amplitude 1 at the front
+
+
+def wave_amplitude(parameters: ContactParameters) -> ComplexArray:
+    """B e^{−z²} at the front, from E″ = −κ and E‴ = √(2/π)r₀ there; of one point the limit λ₀ = 0, κ = ν."""
+    lam, rise = np.asarray(parameters.lambda0), np.sqrt(2.0 / np.pi) * np.asarray(parameters.r0)
+    row = TURN**2 * scaled_erfc(lam) / _JUMP
+    # the amplitude times `_JUMP` is rise + i turn, Re[row (rise + i turn)] = −κ
+    turn = (rise * row.real + parameters.r0 * phi.phi_kappa(lam)) / row.imag
+    return np.asarray((rise + 1j * turn) / _JUMP)
 
 
 @dataclass(frozen=True)
@@ -43,51 +61,36 @@ class SelfSimilarWave:
 
     @cached_property
     def _amplitude(self) -> complex:
-        """B e^{−z²} at the front, from E″ = −κ = −r₀φ_κ and E‴ = √(2/π)r₀ there.
-
-        In the discrete regime E′(0) = 0 takes the place of E″, which the front's zone no longer sets.
-        """
-        p = self.parameters
-        front = complex(scaled_erfc(p.lambda0))
-        if p.lambda0 > 0.0:
-            row, value = _TURN**2 * front, -p.r0 * float(phi.phi_kappa(p.lambda0))
-        else:
-            row, value = -_TURN / np.sqrt(np.pi), 0.0
-        jump = -2.0 / np.sqrt(np.pi) * _TURN**3
-        # Re[A row] = value, Re[A jump] = √(2/π) r₀ for the real and imaginary part of A
-        matrix = np.array([[row.real, -row.imag], [jump.real, -jump.imag]])
-        real, imaginary = np.linalg.solve(matrix, [value, np.sqrt(2.0 / np.pi) * p.r0])
-        return complex(real, imaginary)
+        return complex(wave_amplitude(self.parameters))
 
     def _wave(self, x: FloatArray) -> tuple[ComplexArray, ...]:
         """B iⁿerfc(z), n = 0…3, at x ≥ λ₀."""
         wave = self._amplitude * np.exp(0.25j * (x**2 - self.parameters.lambda0**2))
-        return tuple(wave * values for values in iterated_erfc_of_wave(np.atleast_1d(x)))
+        return tuple(wave * values for values in scaled_iterated_erfc(TURN * np.atleast_1d(x)))
+
+    def _field(self, x: ArrayLike, n: int, factor: complex, inside: ArrayLike) -> FloatArray:
+        """Re[factor·B iⁿerfc(z)] ahead of the front, `inside` in the zone."""
+        s, front = np.abs(np.asarray(x, dtype=np.float64)), self.parameters.lambda0
+        outside = (factor * self._wave(np.maximum(s, front))[n]).real
+        return np.where(s >= front, outside, inside)
 
     def deflection(self, x: ArrayLike) -> FloatArray:
         """η/τ at x = ξ/√τ."""
-        p, s = self.parameters, np.abs(np.asarray(x, dtype=np.float64))
-        outside = self._wave(np.maximum(s, p.lambda0))[2].real
-        return np.where(s >= p.lambda0, outside, p.nu - p.kappa * s**2 / 2.0)
+        p = self.parameters
+        return self._field(x, 2, 1.0, p.nu - p.kappa * np.asarray(x) ** 2 / 2.0)
 
     def slope(self, x: ArrayLike) -> FloatArray:
         """η_ξ/√τ at x = ξ/√τ."""
-        p, position = self.parameters, np.asarray(x, dtype=np.float64)
-        s = np.abs(position)
-        outside = -(_TURN * self._wave(np.maximum(s, p.lambda0))[1]).real
-        return np.copysign(1.0, position) * np.where(s >= p.lambda0, outside, -p.kappa * s)
+        side = np.copysign(1.0, x)
+        return side * self._field(x, 1, -TURN, -self.parameters.kappa * np.abs(x))
 
     def curvature(self, x: ArrayLike) -> FloatArray:
         """η_ξξ at x = ξ/√τ."""
-        p, s = self.parameters, np.abs(np.asarray(x, dtype=np.float64))
-        outside = (_TURN**2 * self._wave(np.maximum(s, p.lambda0))[0]).real
-        return np.where(s >= p.lambda0, outside, -p.kappa)
+        return self._field(x, 0, TURN**2, -self.parameters.kappa)
 
     def velocity(self, x: ArrayLike) -> FloatArray:
         """η_τ at x = ξ/√τ."""
-        p, s = self.parameters, np.abs(np.asarray(x, dtype=np.float64))
-        outside = -(_TURN**2 * self._wave(np.maximum(s, p.lambda0))[0]).imag
-        return np.where(s >= p.lambda0, outside, p.nu)
+        return self._field(x, 0, 1j * TURN**2, self.parameters.nu)
 
     def gap(self, x: ArrayLike) -> FloatArray:
         """−w/τ at x = ξ/√τ: 0 in the contact zone, positive outside."""
@@ -105,7 +108,7 @@ class SelfSimilarWave:
         p = self.parameters
         i3erfc = self._wave(np.asarray(p.lambda0))[3][0]
         inside = p.nu * p.lambda0 - p.kappa * p.lambda0**3 / 6.0
-        return float(3.0 * (inside + (i3erfc / _TURN).real))
+        return float(3.0 * (inside + (i3erfc / TURN).real))
 
     @property
     def energy(self) -> float:
@@ -125,3 +128,56 @@ class SelfSimilarWave:
         """(A, A′): |η/τ| < A/|x|³ and |η_ξ/√τ| < A′/|x|² ahead of the front, tight as x → ∞ (2.2.37)."""
         size = abs(self._amplitude)
         return 2.0 * size / np.sqrt(np.pi), size / np.sqrt(np.pi)
+
+
+@dataclass(frozen=True)
+class PeakMoment:
+    """Bending moments of one impact or of many, in V₀√(EIμ); floats for a scalar κ/ν, arrays otherwise.
+
+    Attributes:
+        at_contact: what straightens the beam in the contact zone: κ, or ν where the beam touches in one point.
+        ahead: the largest ahead of the zone, of opposite sign: there the beam bends further.
+        place: where that is, x = ξ/√τ > λ₀.
+    """
+
+    at_contact: Any
+    ahead: Any
+    place: Any
+
+    @property
+    def largest(self) -> Any:
+        """m, the larger of the two."""
+        return np.maximum(self.at_contact, self.ahead)[()]
+
+    @property
+    def place_of_largest(self) -> Any:
+        """x = ξ/√τ of the larger of the two, 0 for the contact zone (all of which bears κ)."""
+        return np.where(np.asarray(self.ahead) > self.at_contact, self.place, 0.0)[()]
+
+
+def peak_moment(kappa_over_nu: ArrayLike, nu: ArrayLike = 1.0) -> PeakMoment:
+    """Largest bending moments at leading order; relative error below 1e-12.
+
+    Args:
+        kappa_over_nu: curvature over velocity κ/ν > 0.
+        nu: velocity ν > 0; both moments are proportional to it.
+
+    Raises:
+        ValueError: as `theory.contact_parameters`.
+
+    >>> from theory import peak_moment
+    >>> round(float(peak_moment(0.5).largest), 5)  # over V₀√(EIμ)
+    0.62406
+    """
+    return peak_moment_of(contact_parameters(kappa_over_nu, nu=nu))
+
+
+def peak_moment_of(parameters: ContactParameters) -> PeakMoment:
+    """`peak_moment` of an impact that has been solved already."""
+    lam = np.asarray(parameters.lambda0)
+    at_contact = np.where(lam > 0.0, parameters.kappa, parameters.nu)
+    push = wave_amplitude(parameters) * _JUMP
+    # from the front to the zero of E‴ the phase turns push e^{iφ} into i|push|
+    place = np.sqrt(lam**2 + 4.0 * np.arctan2(push.real, push.imag))
+    ahead = np.abs(push) * (1j * TURN**2 * scaled_erfc(place) / _JUMP).real
+    return PeakMoment(*(v if lam.ndim else v.item() for v in (at_contact, ahead, place)))

@@ -38,9 +38,8 @@ import numpy as np
 from bent_beam.impact import Impact
 from theory import damped_point
 from theory.contact import DISCRETE, ContactParameters, contact_parameters
-from theory.moment import peak_moment_of
 from theory.second_order import second_order
-from theory.similarity import SelfSimilarWave
+from theory.similarity import SelfSimilarWave, peak_moment_of
 
 #: What force, impulse and half length may lack. The half length is the place of the force. With shear, or on a wall
 #: that gives way, this is spread over some length; the rim is a constant distance ahead of its place.

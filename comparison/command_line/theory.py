@@ -30,7 +30,7 @@ def theory(
     Example: bentbeam theory --kappa-over-nu 0.5 --wall-damping 0.1
     """
     from theory.contact import contact_parameters
-    from theory.moment import peak_moment
+    from theory.similarity import peak_moment
 
     found = contact_parameters(kappa_over_nu, alpha, psi, chi, axial=axial)
     names = ("kappa_over_nu", "alpha", "psi", "chi", "axial", "regime", "lambda0", "r0", "lambda1", "r1")

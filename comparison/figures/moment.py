@@ -25,7 +25,7 @@ from bent_beam.versions import stamp
 from comparison.figures import style
 from comparison.methods import default_methods
 from comparison.store import write_atomically
-from theory.moment import peak_moment
+from theory.similarity import peak_moment
 
 __all__ = ["KAPPAS", "MeasuredMoment", "draw_moments", "measure_moment", "moment_over_time"]
 

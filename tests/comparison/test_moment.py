@@ -16,7 +16,7 @@ from comparison.figures.moment import (
 )
 from comparison.methods import default_methods
 from hermite_fe import HermiteFE
-from theory.moment import peak_moment
+from theory.similarity import peak_moment
 
 WITHIN = 0.005
 

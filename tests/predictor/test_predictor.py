@@ -24,7 +24,7 @@ from predictor.page import page, script, write_page
 from theory import SelfSimilarWave, contact_parameters
 from theory import predict as theory_predict
 from theory.elastic_wall import peak_force
-from theory.moment import peak_moment
+from theory.similarity import peak_moment
 
 ROOT = Path(__file__).parents[2]
 SAME = 1e-9

@@ -4,7 +4,7 @@ import pytest
 from markdown_tables import lines_after, stated
 
 from theory.contact import contact_parameters
-from theory.moment import peak_moment
+from theory.similarity import peak_moment
 from theory.stopped_beam import StoppedBeam
 
 PAGE = "docs/theory.md"
