@@ -19,11 +19,15 @@ of the loads' own free motion.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
+from numpy.polynomial import Polynomial
+from numpy.typing import NDArray
 
 from theory._fresnel import TURN, FloatArray, scaled_erfc
 from theory.contact import DETACHED, ContactParameters
+from theory.similarity import wave_amplitude
 
 _SLOPE = float(np.sqrt(2.0 / np.pi))
 _NEAR = 1.0  # |z| below which the recurrence of iⁿerfc may run upwards
@@ -56,7 +60,57 @@ def second_order(parameters: ContactParameters) -> SecondOrder:
         raise ValueError("parameters must be those of one impact (got arrays)")
     if p.nu != 1.0:
         raise ValueError(f"nu must be 1 (got {p.nu!r})")
-    return _Front(p).solve()
+    x, n, lifts = float(p.lambda0), float(p.axial), p.regime == DETACHED
+    jump = _SLOPE * p.r0
+    erfc = _scaled(x)
+    # i²erfc, i⁴erfc, i⁶erfc and their derivatives in x, per amplitude at the front
+    w0, w1, w2 = (np.array([(-TURN) ** m * erfc[order - m] for m in range(6)]) for order in (2, 4, 6))
+    b0 = complex(wave_amplitude(p))
+
+    # what there is beyond the unknowns, less the free motion; the middle, less the free motion
+    flight = _even(x, p.alpha / 2.0, p.chi / 2.0, p.psi / 24.0)
+    rest, a1, b1, middle = (-0.5j * n * b0 * w0).real[:5] - flight, 0.0, 0.0, np.zeros(5)
+    if lifts:
+        shapes = _even(x, 1.0, 0.0, -1.0 / 12.0), _even(x, 0.0, 1.0)
+        middle, a1, b1 = _resting(_even(x, -n * p.kappa / 2.0) - flight, *shapes)
+    amplitude, lambda1, r1 = _solved(w1, rest - middle, jump, x)
+    outside = rest + (amplitude * w1[:5]).real
+
+    flight = _even(x, n * p.chi / 6.0, n * p.psi / 4.0)
+    rest = (-0.5j * n * amplitude * w1 - n**2 / 8.0 * b0 * w0 + n**2 / 2.0 * b0 * w1).real[:5] - flight
+    rest[1] += lambda1 * outside[2] + 0.5 * lambda1**2 * jump
+    rest[2] += lambda1 * (outside[3] - middle[3])
+    rest[3] += lambda1 * (outside[4] - middle[4]) + 0.5 * lambda1**2 * (b0 * w0[5]).real  # E₀⁗ vanishes at the front
+    if lifts:
+        shapes = _even(x, 1.0, 0.0, -1.0 / 4.0), _even(x, 0.0, 1.0, 0.0, -1.0 / 180.0)
+        known = _even(x, n * b1 / 3.0, -n * a1 / 2.0) - flight
+        found, _, _ = _resting(known, *shapes, slope=lambda1 * middle[2])
+        rest[2:] -= found[2:]  # in deflection and slope the wave meets the free motion, not the middle
+    _, lambda2, r2 = _solved(w2, rest, jump, x)
+    return SecondOrder(lambda1, r1, lambda2, r2, float(outside[2]))
+
+
+def _even(x: float, *coefficients: float) -> FloatArray:
+    """Derivatives 0…4 of c₀ + c₁x² + c₂x⁴ + …"""
+    polynomial = Polynomial(coefficients)(Polynomial([0.0, 0.0, 1.0]))
+    return np.array([polynomial.deriv(m)(x) for m in range(5)])
+
+
+def _resting(
+    known: FloatArray, first: FloatArray, second: FloatArray, slope: float = 0.0
+) -> tuple[FloatArray, float, float]:
+    """known + a first + b second, a and b, which leave the front no deflection and `slope` less than none."""
+    a, b = np.linalg.solve(np.array([first[:2], second[:2]]).T, -known[:2] - np.array([0.0, slope]))
+    return known + a * first + b * second, a, b
+
+
+def _solved(w: NDArray[Any], rest: FloatArray, jump: float, x: float) -> tuple[complex, float, float]:
+    """(B, λ, r) with Re[B w] + rest = 0, 0, −λ·jump, √(2/π) r for derivatives 0…3; λ = 0 for one point, x = 0."""
+    rows = np.array([w.real, -w.imag]).T
+    real, imaginary = np.linalg.solve(rows[:2], -rest[:2])
+    amplitude = complex(real, imaginary)
+    second, third = (float((amplitude * w[m]).real + rest[m]) for m in (2, 3))
+    return amplitude, -second / jump if x > 0.0 else 0.0, third / _SLOPE
 
 
 def _scaled(x: float) -> dict[int, complex]:
@@ -84,90 +138,3 @@ def _scaled(x: float) -> dict[int, complex]:
     for n in range(7):
         values[n] = values[n - 1] * ratios[n]
     return values
-
-
-class _Front:
-    """Values and derivatives at x = λ₀ of everything above, and the two linear systems."""
-
-    def __init__(self, p: ContactParameters) -> None:
-        self.p, self.x, self.n = p, float(p.lambda0), float(p.axial)
-        self.erfc = _scaled(self.x)
-
-    def wave(self, order: int) -> list[complex]:
-        """i^{order}erfc and its derivatives in x, per amplitude at the front."""
-        return [(-TURN) ** m * self.erfc[order - m] for m in range(6)]
-
-    def free(self, order: int) -> list[float]:
-        """Derivatives 0…4 of the free motion's term in τ^{order}, at the front."""
-        p, x, n = self.p, self.x, self.n
-        if order == 1:
-            return [
-                p.alpha / 2.0 + p.chi * x**2 / 2.0 + p.psi * x**4 / 24.0,
-                p.chi * x + p.psi * x**3 / 6.0,
-                p.chi + p.psi * x**2 / 2.0,
-                p.psi * x,
-                p.psi,
-            ]
-        return [n * (p.chi / 6.0 + p.psi * x**2 / 4.0), n * p.psi * x / 2.0, n * p.psi / 2.0, 0.0, 0.0]
-
-    def solve(self) -> SecondOrder:
-        x, n, p = self.x, self.n, self.p
-        jump = _SLOPE * p.r0
-        b0 = self._amplitude()
-        w0, w1, w2 = (np.array(self.wave(order)) for order in (2, 4, 6))
-        fifth = (b0 * w0[5]).real  # E₀⁗ vanishes at the front
-
-        # first order: D₁ = known₁ + Re[B₁w₁] − free₁
-        known = (-0.5j * n * b0 * w0).real[:5]
-        rest = known - np.array(self.free(1))
-        if p.regime == DETACHED:
-            quartic = np.array([1.0 - x**4 / 12.0, -(x**3) / 3.0, -(x**2), -2.0 * x, -2.0])
-            square = np.array([x**2, 2.0 * x, 2.0, 0.0, 0.0])
-            inside = np.array([-n * p.kappa / 2.0, 0.0, 0.0, 0.0, 0.0]) - np.array(self.free(1))
-            a1, b1 = np.linalg.solve(np.array([quartic[:2], square[:2]]).T, -inside[:2])
-            g1 = inside + a1 * quartic + b1 * square
-        else:
-            a1 = b1 = 0.0
-            g1 = np.zeros(5)
-        amplitude1, lambda1, r1 = self._system(w1, rest[:4] - g1[:4], jump)
-        d1 = rest + (amplitude1 * w1[:5]).real
-
-        # second order
-        known2 = (-0.5j * n * amplitude1 * w1 - n**2 / 8.0 * b0 * w0 + n**2 / 2.0 * b0 * w1).real[:5]
-        rest2 = known2 - np.array(self.free(2))
-        moved = np.array(
-            [
-                0.0,
-                lambda1 * d1[2] + 0.5 * lambda1**2 * jump,
-                lambda1 * (d1[3] - g1[3]),
-                lambda1 * (d1[4] - g1[4]) + 0.5 * lambda1**2 * fifth,
-            ]
-        )
-        g2 = np.zeros(5)
-        if p.regime == DETACHED:
-            sextic = np.array([x**2 - x**6 / 180.0, 2.0 * x - x**5 / 30.0, 2.0 - x**4 / 6.0, -2.0 * x**3 / 3.0, 0.0])
-            quartic = np.array([1.0 - x**4 / 4.0, -(x**3), -3.0 * x**2, -6.0 * x, 0.0])
-            inside = np.array([n * (b1 / 3.0 - a1 * x**2 / 2.0), -n * a1 * x, -n * a1, 0.0, 0.0])
-            inside -= np.array(self.free(2))
-            moving = np.array([0.0, lambda1 * g1[2]])
-            a2, b2 = np.linalg.solve(np.array([quartic[:2], sextic[:2]]).T, -(inside[:2] + moving))
-            g2 = inside + a2 * quartic + b2 * sextic
-            g2[:2] = 0.0  # the wave meets the free motion, not the middle, in deflection and slope
-        _, lambda2, r2 = self._system(w2, rest2[:4] + moved - g2[:4], jump)
-        return SecondOrder(lambda1, r1, lambda2, r2, float(d1[2]))
-
-    def _amplitude(self) -> complex:
-        """B₀ at the front: slope and third derivative for one point, curvature and third derivative for a zone."""
-        p, w = self.p, self.wave(2)
-        row, value = (w[2], -p.kappa) if p.lambda0 > 0.0 else (w[1], 0.0)
-        matrix = np.array([[row.real, -row.imag], [w[3].real, -w[3].imag]])
-        real, imaginary = np.linalg.solve(matrix, [value, _SLOPE * p.r0])
-        return complex(real, imaginary)
-
-    def _system(self, w: FloatArray, rest: FloatArray, jump: float) -> tuple[complex, float, float]:
-        """(B, λ, r) with Re[B w] + rest = 0, 0, −λ·jump, √(2/π) r for derivatives 0…3; λ = 0 for one point."""
-        rows = [[w[m].real, -w[m].imag] for m in range(4)]
-        real, imaginary = np.linalg.solve(np.array(rows[:2]), -rest[:2])
-        amplitude = complex(real, imaginary)
-        second, third = (float((amplitude * w[m]).real + rest[m]) for m in (2, 3))
-        return amplitude, -second / jump if self.p.lambda0 > 0.0 else 0.0, third / _SLOPE
