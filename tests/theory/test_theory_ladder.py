@@ -35,7 +35,7 @@ def test_infinitely_many_impacts_end_in_finite_time() -> None:
     assert ball.rest == pytest.approx(3.0 * np.sqrt(2.0), rel=1e-15)
     assert ball.impacts(ball.rest) == np.inf and ball.impacts(ball.rest * (1.0 - 1e-9)) == 30.0
     after = np.array([ball.rest, 10.0])
-    for field in (ball.position, ball.velocity_at, ball.energy):
+    for field in (ball.position, ball.velocity_at):
         np.testing.assert_array_equal(field(after), 0.0)
     # at rest the floor has stopped it and carries its weight
     np.testing.assert_allclose(ball.impulse(after), after, rtol=1e-15)
@@ -113,30 +113,28 @@ def test_the_flying_bar_leaves_as_it_came() -> None:
     np.testing.assert_array_equal(bar.velocity_at(x, 2.0), 10.0)
 
 
-# string
-def plucked() -> StringOnObstacle:
-    return StringOnObstacle(lambda x: 1.0 - np.abs(2.0 * x - 1.0), lambda x: np.where(x < 0.5, 2.0, -2.0))
-
-
-@pytest.mark.parametrize("string", [StringOnObstacle(), plucked()])
-def test_the_string_stays_above_the_obstacle_and_keeps_its_energy(string: StringOnObstacle) -> None:
+def test_the_string_stays_above_the_obstacle_keeps_its_energy_and_obeys_the_wave_equation() -> None:
+    string = StringOnObstacle()
     x, t = np.meshgrid((np.arange(2000) + 0.5) / 2000, np.array([0.0, 0.3, 0.4999, 0.5001, 0.77, 1.0, 1.4, 7.1]))
     assert np.all(string.displacement(x, t) >= 0.0)
     energy = np.mean(string.velocity_at(x, t) ** 2 + string.strain(x, t) ** 2, axis=1)
     np.testing.assert_allclose(energy, energy[0], rtol=1e-3)
+    np.testing.assert_allclose(string.displacement(X, 0.0), 4.0 * X * (1.0 - X), atol=1e-15)
     np.testing.assert_allclose(string.displacement(X, 3.2), string.displacement(X, 0.2), atol=1e-14)
     # the whole string lands at t = ½
     assert np.max(string.displacement(X, 0.5)) < 1e-15
     jump = string.velocity_at(X, 0.5 + 1e-9) - string.velocity_at(X, 0.5 - 1e-9)
     np.testing.assert_allclose(jump, string.impulse(X, 0.6), atol=1e-7)
     assert np.all(jump > 0.0)
+    # u_t and u_x are the derivatives of u, and u_tt = u_xx between the landings
+    x, t, h = 0.3, np.linspace(0.02, 2.97, 38), 1e-5
 
+    def rate(field):
+        return (field(x, t + h) - field(x, t - h)) / (2.0 * h)
 
-def test_the_string_obeys_the_wave_equation_between_landings() -> None:
-    string, h = StringOnObstacle(lambda x: np.sin(np.pi * x), lambda x: np.pi * np.cos(np.pi * x)), 1e-5
-    t = np.linspace(0.02, 2.97, 38)
-    np.testing.assert_allclose(string.displacement(0.3, t), np.abs(np.cos(np.pi * t)) * np.sin(0.3 * np.pi), atol=1e-14)
-    rate = (string.displacement(0.3, t + h) - string.displacement(0.3, t - h)) / (2.0 * h)
-    slope = (string.displacement(0.3 + h, t) - string.displacement(0.3 - h, t)) / (2.0 * h)
-    np.testing.assert_allclose(string.velocity_at(0.3, t), rate, atol=1e-8)
-    np.testing.assert_allclose(string.strain(0.3, t), slope, atol=1e-8)
+    def slope(field):
+        return (field(x + h, t) - field(x - h, t)) / (2.0 * h)
+
+    np.testing.assert_allclose(string.velocity_at(x, t), rate(string.displacement), atol=1e-7)
+    np.testing.assert_allclose(string.strain(x, t), slope(string.displacement), atol=1e-7)
+    np.testing.assert_allclose(rate(string.velocity_at), slope(string.strain), atol=1e-7)

@@ -1,4 +1,4 @@
-r"""An elastic bar against a wall: one wave equation, one contact point, contact that lasts.
+r"""An elastic bar against a wall: one wave equation, one contact point, contact that lasts. Exact to round-off.
 
     u_tt = c² u_xx,   0 ≤ x ≤ L,   u(0,t) ≥ 0 ⊥ r = −EA u_x(0,t) ≥ 0
 
@@ -17,8 +17,7 @@ Doyen, Ern and Piperno: L = 10, EA = 900, μ = 1, g = 10, height 5: period 16/3,
 `ReleasedBar` is held at x = L and released from u = (L − x)/(2L): with L = c = EA = 1 it swings with period 3, in
 contact for 1 ≤ t ≤ 2 (F. Dabaghi, A. Petrov, J. Pousin, Y. Renard, A robust finite element redistribution approach
 for elastodynamic contact problems, hal-00917450; GetFEM's `demo_dynamic_contact_1D.py`). With u = f(t + x) + g(t − x),
-g′ = f′ while it flies, g′ = −f′ in contact, and
-f′(s) = −g′(s − 2) from the held end:
+g′ = f′ while it flies, g′ = −f′ in contact, and f′(s) = −g′(s − 2) from the held end:
 
     f′ = −¼, −¼, +¼   and   g′ = −¼, +¼, +¼   on (0,1), (1,2), (2,3), again from there.
 """
@@ -30,21 +29,15 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
+from bent_beam.checks import non_negative, positive
 from theory._fresnel import FloatArray
 
 
 @dataclass(frozen=True)
 class FlyingBar:
-    """A bar flying at the wall; any consistent units, exact to round-off.
+    """A bar flying at the wall at ``velocity`` > 0, its near end (x = 0) ``gap`` ≥ 0 away; any consistent units.
 
-    Attributes:
-        length: L.
-        stiffness: EA.
-        mass_per_length: μ; c = √(EA/μ).
-        velocity: v > 0 towards the wall.
-        gap: of the near end at t = 0, ≥ 0.
-
-    Positions x (0 the near end) and times t ≥ 0 broadcast.
+    ``stiffness`` is EA, ``mass_per_length`` μ; c = √(EA/μ).
 
     Raises:
         ValueError: an attribute out of its range, x off the bar, a negative time.
@@ -58,10 +51,8 @@ class FlyingBar:
 
     def __post_init__(self) -> None:
         for name in ("length", "stiffness", "mass_per_length", "velocity"):
-            if not 0.0 < getattr(self, name) < np.inf:
-                raise ValueError(f"{name} must be positive and finite (got {getattr(self, name)!r})")
-        if not 0.0 <= self.gap < np.inf:
-            raise ValueError(f"gap must be finite and not negative (got {self.gap!r})")
+            positive(name, getattr(self, name))
+        non_negative("gap", self.gap)
 
     @property
     def wave_speed(self) -> float:
@@ -76,16 +67,13 @@ class FlyingBar:
 
     def displacement(self, x: ArrayLike, times: ArrayLike) -> FloatArray:
         """u, the gap of the near end included."""
-        position, t = _inside(x, times, self.length)
+        position, t = placed(x, times, self.length)
         touch, release = self.contact
-        age = t - touch
-        held = -self.velocity * np.minimum(np.minimum(age, position / self.wave_speed), release - t)
-        after = np.where(t > release, self.velocity * (t - release), held)
-        return np.where(age < 0.0, self.gap - self.velocity * t, after)
+        return self.velocity * np.maximum(np.maximum(touch - t, -position / self.wave_speed), t - release)
 
     def velocity_at(self, x: ArrayLike, times: ArrayLike) -> FloatArray:
         """u_t."""
-        position, t = _inside(x, times, self.length)
+        position, t = placed(x, times, self.length)
         touch, release = self.contact
         way = position / self.wave_speed
         return self.velocity * np.where(t - touch < way, -1.0, np.where(release - t < way, 1.0, 0.0))
@@ -102,13 +90,12 @@ class FlyingBar:
     def impulse(self, times: ArrayLike) -> FloatArray:
         """∫r; 2μLv in all."""
         t, (touch, release) = np.asarray(times, dtype=np.float64), self.contact
-        age = np.clip(t, touch, release) - touch
-        return np.asarray(self.stiffness * self.velocity / self.wave_speed * age)
+        return np.asarray(self.stiffness * self.velocity / self.wave_speed * (np.clip(t, touch, release) - touch))
 
 
 @dataclass(frozen=True)
 class DroppedBar:
-    """A bar dropped from a height, exact to round-off; any consistent units, the defaults those of Doyen, Ern, Piperno.
+    """A bar dropped from a height; any consistent units, the defaults those of Doyen, Ern, Piperno.
 
     Raises:
         ValueError: the flight is no whole number of 2L/c, or the bar is so soft that it stays for longer.
@@ -141,7 +128,7 @@ class DroppedBar:
         return 2.0 * self.landing_speed / self.gravity
 
     def impulse(self, times: ArrayLike) -> FloatArray:
-        """∫r, of times t ≥ 0 of any shape."""
+        """∫r."""
         v, g, T = self.landing_speed, self.gravity, self.contact
         count, age = np.divmod(np.asarray(times, dtype=np.float64) - self.flight / 2.0, T + self.flight)
         t = np.clip(age, 0.0, T)
@@ -152,17 +139,12 @@ class DroppedBar:
         return np.asarray(impedance * np.where(count < 0.0, 0.0, whole + one))
 
 
-@dataclass(frozen=True)
 class ReleasedBar:
-    """The bar of period 3, L = c = EA = 1, exact to round-off; x and times t ≥ 0 broadcast.
-
-    Raises:
-        ValueError: x off [0, 1], a negative time.
-    """
+    """The bar of period 3, L = c = EA = 1; ``ValueError`` for x off [0, 1] or a negative time."""
 
     def displacement(self, x: ArrayLike, times: ArrayLike) -> FloatArray:
         """u(x,t)."""
-        position, t = _inside(x, times, 1.0)
+        position, t = placed(x, times)
         ahead, back = t + position, t - position
         # f and g less their drift of −¼ and +¼ a period, which is −x/6 together
         f = 0.25 * (-np.mod(ahead, 3.0) + 2.0 * np.maximum(np.mod(ahead, 3.0) - 2.0, 0.0) - np.floor(ahead / 3.0))
@@ -190,16 +172,17 @@ class ReleasedBar:
         return np.asarray(0.5 * (np.floor(t / 3.0) + np.clip(np.mod(t, 3.0) - 1.0, 0.0, 1.0)))
 
     def _waves(self, x: ArrayLike, times: ArrayLike) -> tuple[FloatArray, FloatArray]:
-        position, t = _inside(x, times, 1.0)
+        position, t = placed(x, times)
         f = np.where(np.mod(t + position, 3.0) < 2.0, -0.25, 0.25)
         g = np.where(np.mod(t - position, 3.0) < 1.0, -0.25, 0.25)
         return f, g
 
 
-def _inside(x: ArrayLike, times: ArrayLike, length: float) -> tuple[FloatArray, FloatArray]:
+def placed(x: ArrayLike, times: ArrayLike, length: float = 1.0) -> tuple[FloatArray, FloatArray]:
+    """x in [0, length] and t ≥ 0, broadcast."""
     position, t = np.broadcast_arrays(np.asarray(x, dtype=np.float64), np.asarray(times, dtype=np.float64))
     if not np.all((position >= 0.0) & (position <= length)):
-        raise ValueError(f"x must lie on the bar, [0, {length!r}] (got {x!r})")
+        raise ValueError(f"x must lie in [0, {length!r}] (got {x!r})")
     if not np.all(t >= 0.0):
         raise ValueError(f"times must not be negative or NaN (got {times!r})")
     return position, t
