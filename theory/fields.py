@@ -25,10 +25,12 @@ e^{iβ²/4} decays on all of it; it comes back to the axis only at the least |β
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+from bent_beam.checks import non_negative, positive
 from theory._fresnel import TURN, ComplexArray, FloatArray, scaled_iterated_erfc
 from theory.contact import DISCRETE, ContactParameters
 
@@ -44,6 +46,9 @@ class FieldValues:
     slope: FloatArray
     curvature: FloatArray
     velocity: FloatArray
+
+    def __sub__(self, other: FieldValues) -> FieldValues:
+        return FieldValues(*(mine - its for mine, its in zip(vars(self).values(), vars(other).values())))
 
 
 @dataclass(frozen=True)
@@ -68,10 +73,8 @@ class ImpactFields:
     def __post_init__(self) -> None:
         if np.ndim(self.parameters.lambda0):
             raise ValueError("parameters must be those of one impact (got arrays)")
-        if not (np.isfinite(self.epsilon) and self.epsilon >= 0.0):
-            raise ValueError(f"epsilon must be non-negative and finite (got {self.epsilon})")
-        if not (np.isfinite(self.tolerance) and self.tolerance > 0.0):
-            raise ValueError(f"tolerance must be positive and finite (got {self.tolerance})")
+        non_negative("epsilon", self.epsilon)
+        positive("tolerance", self.tolerance)
 
     def half_contact_length(self, tau: ArrayLike) -> FloatArray:
         """λ_c(τ) = √τ(λ₀ + ελ₁τ) (2.7.6)."""
@@ -120,13 +123,7 @@ class ImpactFields:
 
     def beam(self, xi: ArrayLike, tau: ArrayLike) -> FieldValues:
         """Deflection w = y/(εy*), slope, curvature and velocity of the beam: slow motion less fast layer."""
-        slow, fast = self.slow_motion(xi, tau), self.fast_layer(xi, tau)
-        return FieldValues(
-            slow.deflection - fast.deflection,
-            slow.slope - fast.slope,
-            slow.curvature - fast.curvature,
-            slow.velocity - fast.velocity,
-        )
+        return self.slow_motion(xi, tau) - self.fast_layer(xi, tau)
 
     def complementarity_residual(self, a: ArrayLike, tau: ArrayLike) -> FloatArray:
         """Beam deflection at ξ = aλ_c(τ), a ∈ [−1, 1]: 0 wherever there is contact.
@@ -159,7 +156,7 @@ class ImpactFields:
         p, e = self.parameters, self.epsilon
         path = _Path(
             x=xi / np.sqrt(tau),
-            lambda0=np.full_like(tau, p.lambda0),
+            lambda0=p.lambda0,
             change=e * p.lambda1 * tau,
             r0=p.r0,
             growth=e * p.r1 * tau,
@@ -168,15 +165,9 @@ class ImpactFields:
         )
         # the phase x²/4 is known to a rounding of its size, over a stretch of u that shrinks like 1/x
         rounding = 4.0 * np.finfo(float).eps * p.r0 * max(1.0, float(np.max(path.x)), p.lambda0)
+        epsabs = max(self.tolerance, rounding)
         values, error, info = quad_vec(
-            path.integrand,
-            0.0,
-            1.0,
-            epsabs=max(self.tolerance, rounding),
-            epsrel=0.0,
-            norm="max",
-            limit=500,
-            full_output=True,
+            path.integrand, 0.0, 1.0, epsabs=epsabs, epsrel=0.0, norm="max", limit=500, full_output=True
         )
         if info.status == 1:
             raise ArithmeticError(
@@ -193,44 +184,48 @@ def _finite(name: str, values: ArrayLike) -> FloatArray:
     return array
 
 
+@dataclass(frozen=True)
 class _Path:
     """The convolution integrals of n points, each on its own path in u, mapped to one t ∈ [0, 1].
 
-    β_− falls to its least modulus at u = `lowest` and grows beyond; β_+ grows from u = 0.
+    Places x (n,) and, times the power of τ that makes them functions of x alone, λ₁, r₁, r̃ and n.
     """
 
-    def __init__(
-        self,
-        x: FloatArray,
-        lambda0: FloatArray,
-        change: FloatArray,
-        r0: float,
-        growth: FloatArray,
-        uniform: FloatArray,
-        axial: FloatArray,
-    ) -> None:
-        self.x, self.change, self.r0, self.growth, self.uniform = x, change, r0, growth, uniform
-        self.axial = axial
-        self.front = lambda0 + change
-        self.ahead = np.where(x >= self.front, 1.0, -1.0)
-        self.lowest = self._lowest(lambda0)
+    x: FloatArray
+    lambda0: float
+    change: FloatArray
+    r0: float
+    growth: FloatArray
+    uniform: FloatArray
+    axial: FloatArray
 
-    def _lowest(self, lambda0: FloatArray) -> FloatArray:
-        """u where |β_−| is least: its zero behind the front, its stationary point ahead of it.
+    @cached_property
+    def front(self) -> FloatArray:
+        return self.lambda0 + self.change
+
+    @cached_property
+    def ahead(self) -> FloatArray:
+        return np.where(self.x >= self.front, 1.0, -1.0)
+
+    @cached_property
+    def lowest(self) -> FloatArray:
+        """u where |β_−| is least: its zero behind the front, its stationary point ahead of it; β_+ grows from u = 0.
 
         In y = tanh u these are roots of polynomials that change sign on [0, 1]; a bisection will do, for
         the path may turn anywhere near.
         """
+        if self.lambda0 == 0.0:
+            return np.zeros_like(self.x)
         low, high = np.zeros_like(self.x), np.full_like(self.x, np.tanh(_FARTHEST))
         for _ in range(40):
             y = 0.5 * (low + high)
             before = np.where(
                 self.ahead > 0.0,
                 self.x * y - self.front + self.change * (1.0 - y**2) * (1.0 - 2.0 * y**2) < 0.0,
-                y * (lambda0 + self.change * y**2) < self.x,
+                y * (self.lambda0 + self.change * y**2) < self.x,
             )
             low, high = np.where(before, y, low), np.where(before, high, y)
-        return np.where(lambda0 > 0.0, np.arctanh(low), 0.0)
+        return np.arctanh(low)
 
     def integrand(self, t: float) -> FloatArray:
         """d(η/τ, η_ξ/√τ, η_ξξ, η_τ)/dt, shape (4, n)."""

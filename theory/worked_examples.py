@@ -10,8 +10,6 @@ The term t sin t grows without bound, the oscillator does not: the reason for tw
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 import numpy as np
 from numpy.typing import ArrayLike
 from scipy.integrate import solve_ivp
@@ -55,11 +53,3 @@ def duffing_numerical(times: ArrayLike, epsilon: float) -> FloatArray:
         rate, (0.0, float(t[-1])), [1.0, 0.0], method="DOP853", t_eval=t, rtol=1e-12, atol=1e-13
     )
     return np.asarray(solution.y[0])
-
-
-#: The three curves of Fig. 2.2 by name.
-DUFFING: dict[str, Callable[[ArrayLike, float], FloatArray]] = {
-    "direct integration": duffing_numerical,
-    "regular expansion": duffing_regular,
-    "multiple scales": duffing_multiple_scales,
-}
