@@ -24,6 +24,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.fft import irfft, rfft
 
+from bent_beam.checks import between, positive
 from theory._fresnel import TURN, FloatArray, scaled_iterated_erfc
 
 #: Range of κ/ν and the largest ζ; `theory.elastic_wall_limits` takes over beyond these κ/ν.
@@ -83,10 +84,10 @@ def peak_force(kappa_over_nu: float, wall_damping_ratio: float = 0.0) -> PeakFor
     Raises:
         ValueError: a value outside its range.
     """
-    _check(kappa_over_nu, wall_damping_ratio)
+    between("kappa_over_nu", kappa_over_nu, FLATTEST, SHARPEST)
     # the first run finds the time scale, the second what happens on it
     end = 3.5 * max(1.0, kappa_over_nu**0.25)
-    scout = _solve(kappa_over_nu, wall_damping_ratio, end, _landing(kappa_over_nu, end), _CELLS)
+    scout = wall_history(kappa_over_nu, wall_damping_ratio, end=end, cells=_CELLS, steps=2 * _CELLS)
     late = int(max(scout.force.argmax(), scout.penetration.argmax()))
     whole = _again(scout, late, 3, kappa_over_nu, wall_damping_ratio)
     runs = [_again(whole, int(whole.force.argmax()), n, kappa_over_nu, wall_damping_ratio) for n in (1, 2, 4)]
@@ -104,35 +105,9 @@ def peak_force(kappa_over_nu: float, wall_damping_ratio: float = 0.0) -> PeakFor
 
 def _again(run: WallHistory, instant: int, factor: int, kappa_over_nu: float, damping_ratio: float) -> WallHistory:
     """A run until a little after an instant of another, on a grid as wide as its zone and `factor` times as fine."""
-    end = 1.1 * float(run.time[instant])
+    end, cells = 1.1 * float(run.time[instant]), factor * _CELLS
     width = 1.1 * float(run.half_contact_length[run.time <= end].max())
-    return _solve(kappa_over_nu, damping_ratio, end, width, factor * _CELLS)
-
-
-def wall_history(
-    kappa_over_nu: float, wall_damping_ratio: float = 0.0, *, end: float, cells: int = 64, steps: int = 256
-) -> WallHistory:
-    """Force, zone, penetration and pressure until `end` (t_k), on a grid of `cells` over half the zone.
-
-    Raises:
-        ValueError: a value outside its range.
-    """
-    _check(kappa_over_nu, wall_damping_ratio)
-    if not (math.isfinite(end) and end > 0.0):
-        raise ValueError(f"end must be positive, in t_k (got {end!r})")
-    return _solve(kappa_over_nu, wall_damping_ratio, end, _landing(kappa_over_nu, end), cells, steps)
-
-
-def _check(kappa_over_nu: float, wall_damping_ratio: float) -> None:
-    if not FLATTEST <= kappa_over_nu <= SHARPEST:
-        raise ValueError(f"kappa_over_nu must be {FLATTEST:g} to {SHARPEST:g} on an elastic wall (got {kappa_over_nu})")
-    if not 0.0 <= wall_damping_ratio <= MOST_DAMPED:
-        raise ValueError(f"wall_damping_ratio must be 0 to {MOST_DAMPED:g} (got {wall_damping_ratio})")
-
-
-def _landing(kappa_over_nu: float, time: float) -> float:
-    """Half length of a grid that holds the zone: a little more than that of a beam that does not bend."""
-    return 1.1 * math.sqrt(2.0 * time / kappa_over_nu)
+    return wall_history(kappa_over_nu, damping_ratio, end=end, cells=cells, steps=2 * cells, width=width)
 
 
 def _largest(time: FloatArray, values: FloatArray) -> tuple[float, float]:
@@ -144,17 +119,33 @@ def _largest(time: FloatArray, values: FloatArray) -> tuple[float, float]:
     return float(time[i] + shift * (time[i] - time[i - 1])), float(here - 0.25 * (before - after) * shift)
 
 
-def _solve(
-    kappa_over_nu: float, damping_ratio: float, end: float, width: float, cells: int, steps: int | None = None
+def wall_history(
+    kappa_over_nu: float,
+    wall_damping_ratio: float = 0.0,
+    *,
+    end: float,
+    cells: int,
+    steps: int,
+    width: float | None = None,
 ) -> WallHistory:
-    steps = steps or 2 * cells
+    """Force, zone, penetration and pressure until `end` (t_k) in `steps`, on a grid of `cells` over half the zone.
+
+    width: half length of the grid, ℓ_k; by default a little more than the zone of a beam that does not bend.
+
+    Raises:
+        ValueError: a value outside its range.
+    """
+    between("kappa_over_nu", kappa_over_nu, FLATTEST, SHARPEST)
+    between("wall_damping_ratio", wall_damping_ratio, 0.0, MOST_DAMPED)
+    positive("end", end)
+    width = width or 1.1 * math.sqrt(2.0 * end / kappa_over_nu)
     dt, dx = end / steps, width / cells
     x = dx * np.arange(cells + 1)
     time: FloatArray = dt * np.arange(steps + 1.0)
     of_place, of_velocity = (_responses(cells, dx, steps, dt, m) for m in (1, 0))
     spectra = np.zeros((steps + 1, 2 * cells + 1))  # of the loads, which are even in x
     loads, rows = np.zeros(cells + 1), np.zeros((steps + 1, 4))
-    rows[0, 3] = 2.0 * damping_ratio  # a dashpot pushes at once
+    rows[0, 3] = 2.0 * wall_damping_ratio  # a dashpot pushes at once
 
     def evenly(spectrum: FloatArray) -> FloatArray:
         return np.asarray(irfft(spectrum, 4 * cells)[: cells + 1])
@@ -166,7 +157,7 @@ def _solve(
         for _ in range(_MOST_ITERATIONS):
             p = time[n] - kappa_over_nu * x**2 / 2.0 - evenly(displacement + of_place[0] * spectra[n])
             rate = 1.0 - evenly(velocity + of_velocity[0] * spectra[n])
-            pressure = p + 2.0 * damping_ratio * rate
+            pressure = p + 2.0 * wall_damping_ratio * rate
             before, (loads, force, rim) = loads, _loads(p, pressure, dx)
             spectra[n] = rfft(np.concatenate([loads, np.zeros(2 * cells - 1), loads[:0:-1]])).real
             if np.abs(loads - before).max() <= _SETTLED * (1.0 + force):

@@ -151,7 +151,7 @@ class ImpactFields:
 
     def _convolve(self, xi: FloatArray, tau: FloatArray) -> FloatArray:
         """(η, η_ξ, η_ξξ, η_τ) of shape (4, n) at ξ ≥ 0 and τ > 0 of shape (n,)."""
-        from scipy.integrate import quad_vec  # slow to load, and wanted here alone
+        from scipy.integrate import quad_vec  # slow to load
 
         p, e = self.parameters, self.epsilon
         path = _Path(

@@ -33,6 +33,12 @@ MODELLED = ("acceleration", "curvature_rate", "fourth_derivative", "axial_force"
             "wall_stiffness", "wall_damping")  # fmt: skip
 """Features of an impact that the theory has, or refuses with reasons of its own."""
 
+_OF_IMPACT = (
+    "kappa_over_nu", "epsilon_alpha", "epsilon_psi", "epsilon_chi", "epsilon_axial", "alpha", "psi", "chi", "axial",
+    "epsilon", "time_scale", "length_scale", "slow_time_scale", "deflection_scale",
+)  # fmt: skip
+_OF_CONTACT = ("regime", "lambda0", "r0", "lambda_axial", "r_axial")
+
 
 @dataclass(frozen=True)
 class PredictionAtTime:
@@ -113,7 +119,8 @@ class Prediction:
 
     def to_dict(self) -> dict[str, Any]:
         """Plain dictionaries, lists and finite numbers, ready for JSON; None where a value is missing."""
-        return _finite(asdict(self))
+        found = asdict(self, dict_factory=_finite)
+        return found | {"times": list(found["times"])}
 
 
 def predict(impact: Impact, times: Iterable[float] | float = (), *, section: Section | None = None) -> Prediction:
@@ -142,7 +149,6 @@ def predict(impact: Impact, times: Iterable[float] | float = (), *, section: Sec
     _check(impact)
     given = [times] if isinstance(times, int | float) else times
     instants = [impact.checked_time("times", t) for t in given]
-    epsilon = impact.epsilon
     loads = (impact.epsilon_alpha, impact.epsilon_psi, impact.epsilon_chi)
     solved = contact_parameters(impact.kappa_over_nu, *loads, axial=impact.epsilon_axial)
     bending = _Bending(impact, peak_moment_of(solved), section)
@@ -160,27 +166,10 @@ def predict(impact: Impact, times: Iterable[float] | float = (), *, section: Sec
     )
     rows = tuple(_at_time(impact, solved, bending, t, holds.spoiled_by(t)) for t in instants)
     return Prediction(
-        kappa_over_nu=impact.kappa_over_nu,
-        epsilon_alpha=impact.epsilon_alpha,
-        epsilon_psi=impact.epsilon_psi,
-        epsilon_chi=impact.epsilon_chi,
-        epsilon_axial=impact.epsilon_axial,
-        alpha=impact.alpha,
-        psi=impact.psi,
-        chi=impact.chi,
-        axial=impact.axial,
-        epsilon=epsilon,
-        time_scale=impact.time_scale,
-        length_scale=impact.length_scale,
-        slow_time_scale=impact.slow_time_scale,
-        deflection_scale=impact.deflection_scale,
-        regime=solved.regime,
-        lambda0=solved.lambda0,
-        r0=solved.r0,
-        lambda1=solved.lambda1 / epsilon,
-        r1=solved.r1 / epsilon,
-        lambda_axial=solved.lambda_axial,
-        r_axial=solved.r_axial,
+        **{name: getattr(impact, name) for name in _OF_IMPACT},
+        **{name: getattr(solved, name) for name in _OF_CONTACT},
+        lambda1=solved.lambda1 / impact.epsilon,
+        r1=solved.r1 / impact.epsilon,
         peak_moment=peak,
         peak_stress=stress,
         yields=yields,
@@ -278,11 +267,5 @@ def _at_time(
     )
 
 
-def _finite(value: Any) -> Any:
-    if isinstance(value, dict):
-        return {key: _finite(item) for key, item in value.items()}
-    if isinstance(value, list | tuple):
-        return [_finite(item) for item in value]
-    if isinstance(value, float) and not math.isfinite(value):
-        return None
-    return value
+def _finite(items: list[tuple[str, Any]]) -> dict[str, Any]:
+    return {name: None if isinstance(value, float) and not math.isfinite(value) else value for name, value in items}

@@ -15,6 +15,7 @@ where the denominator is positive. The spin is that of a rigid shaft: v_s does n
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable
 from dataclasses import dataclass
 
@@ -88,19 +89,23 @@ def sideways(
     prediction = predict(impact, times)
     sticks_at = _sticks_at(impact, prediction, surface_speed / friction)
     ratio = surface_speed / impact.velocity if sticks_at == 0.0 else friction
-    rows = []
-    for row in prediction.times:
-        push, impulse = (None if v is None else ratio * v for v in (row.reaction, row.impulse))
-        rows.append(
-            SidewaysAtTime(
-                time=row.time,
-                push=push,
-                push_impulse=impulse,
-                torque_impulse=None if impulse is None or radius is None else radius * impulse,
-                valid=row.valid and (sticks_at is None or sticks_at == 0.0 or row.time <= sticks_at),
-            )
+    # a beam that slides is no longer what was predicted once it sticks
+    last = sticks_at if sticks_at else math.inf
+    rows = tuple(
+        SidewaysAtTime(
+            time=row.time,
+            push=_scaled(row.reaction, ratio),
+            push_impulse=_scaled(row.impulse, ratio),
+            torque_impulse=_scaled(_scaled(row.impulse, ratio), radius),
+            valid=row.valid and row.time <= last,
         )
-    return Sideways(STICKS if sticks_at == 0.0 else SLIDES, ratio, sticks_at, tuple(rows))
+        for row in prediction.times
+    )
+    return Sideways(STICKS if sticks_at == 0.0 else SLIDES, ratio, sticks_at, rows)
+
+
+def _scaled(value: float | None, by: float | None) -> float | None:
+    return None if value is None or by is None else by * value
 
 
 def _sticks_at(impact: Impact, prediction: Prediction, speed: float) -> float | None:

@@ -32,7 +32,6 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.integrate import quad
 
 from theory import phi
 from theory._fresnel import TURN, ComplexArray, FloatArray, scaled_erfc, scaled_iterated_erfc
@@ -113,6 +112,8 @@ class SelfSimilarWave:
     @property
     def energy(self) -> float:
         """½∫(η_τ² + η_ξξ²)dξ/√τ, kinetic and bending energy of the fast layer; relative error 1e-11."""
+        from scipy.integrate import quad  # slow to load
+
         p = self.parameters
 
         def outside(y: float) -> float:

@@ -18,6 +18,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Any
 
 from bent_beam.elastic_wall import wall_scales
 from bent_beam.impact import Impact
@@ -35,7 +36,7 @@ POINT_TIME = 14.0
 MOST_OWN_DAMPING = 0.2
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class WallPrediction:
     """One impact on an elastic wall, SI units.
 
@@ -58,13 +59,13 @@ class WallPrediction:
     time_scale: float
     length_scale: float
     damping_ratio: float
-    peak_force: float | None
-    peak_force_error: float | None
-    peak_force_time: float | None
-    half_contact_length: float | None
-    penetration: float | None
-    pressure: float | None
-    spoiled_by: str | None
+    peak_force: float | None = None
+    peak_force_error: float | None = None
+    peak_force_time: float | None = None
+    half_contact_length: float | None = None
+    penetration: float | None = None
+    pressure: float | None = None
+    spoiled_by: str | None = None
     zone_offset: float
     rigid_from: float
 
@@ -86,26 +87,26 @@ def on_elastic_wall(impact: Impact, solved: ContactParameters) -> WallPrediction
         return None
     ratio = float(solved.kappa_over_nu)
     damping = impact.wall_damping / (2.0 * math.sqrt(impact.wall_stiffness * impact.mass_per_length))
-    unit = impact.velocity * impact.wall_stiffness * scales.length * scales.time  # V₀√μ(EI k)^{1/4}
-    deep = impact.velocity * scales.time
-    found = peak_force(ratio, damping) if FLATTEST <= ratio <= SHARPEST and damping <= MOST_DAMPED else None
-
-    def scaled(name: str, unit: float) -> float | None:
-        return None if found is None else unit * float(getattr(found, name))
-
+    largest: dict[str, Any] = {}
+    if FLATTEST <= ratio <= SHARPEST and damping <= MOST_DAMPED:
+        found, deep = peak_force(ratio, damping), impact.velocity * scales.time
+        unit = deep * impact.wall_stiffness * scales.length  # V₀√μ(EI k)^{1/4}
+        largest = {
+            "peak_force": unit * found.value,
+            "peak_force_error": unit * found.error,
+            "peak_force_time": scales.time * found.time,
+            "half_contact_length": scales.length * found.half_contact_length,
+            "penetration": deep * found.penetration,
+            "pressure": impact.wall_stiffness * deep * found.pressure,
+            "spoiled_by": _spoiled_by(impact, solved, scales.time, scales.time * found.time),
+        }
     return WallPrediction(
         time_scale=scales.time,
         length_scale=scales.length,
         damping_ratio=damping,
-        peak_force=scaled("value", unit),
-        peak_force_error=scaled("error", unit),
-        peak_force_time=scaled("time", scales.time),
-        half_contact_length=scaled("half_contact_length", scales.length),
-        penetration=scaled("penetration", deep),
-        pressure=scaled("pressure", impact.wall_stiffness * deep),
-        spoiled_by=None if found is None else _spoiled_by(impact, solved, scales.time, scales.time * found.time),
         zone_offset=scales.length * zone_offset(ratio),
         rigid_from=scales.time * _rigid_from(ratio, damping, float(solved.lambda0)),
+        **largest,
     )
 
 
