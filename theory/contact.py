@@ -147,22 +147,19 @@ def _checked(**given: ArrayLike) -> dict[str, FloatArray]:
     """The arguments as arrays. Raises ``ValueError`` for one out of range."""
     arrays = {name: np.asarray(value, dtype=np.float64) for name, value in given.items()}
     for name, values in arrays.items():
-        _check(name, values, positive=name in ("kappa_over_nu", "nu"))
+        positive = name in ("kappa_over_nu", "nu")
+        good = np.isfinite(values) & (values > (0.0 if positive else -np.inf))
+        if not np.all(good):
+            need = "positive and finite" if positive else "finite"
+            raise ValueError(f"{name} must be {need} (got {values[~good][0]})")
+        if np.any(large := np.abs(values) > _LARGEST):
+            raise ValueError(f"{name} must not exceed {_LARGEST:g} in size (got {values[large][0]:g})")
     if np.any(arrays["kappa_over_nu"] < FLATTEST):
         raise ValueError(
             f"kappa_over_nu must be at least {FLATTEST:g} (got {np.min(arrays['kappa_over_nu'])}): "
             "so flat a beam touches over its whole length at once"
         )
     return arrays
-
-
-def _check(name: str, values: FloatArray, *, positive: bool) -> None:
-    good = np.isfinite(values) & (values > 0.0) if positive else np.isfinite(values)
-    if not np.all(good):
-        need = "positive and finite" if positive else "finite"
-        raise ValueError(f"{name} must be {need} (got {values[~good].ravel()[0]})")
-    if np.any(np.abs(values) > _LARGEST):
-        raise ValueError(f"{name} must not exceed {_LARGEST:g} in size (got {values[np.abs(values) > _LARGEST][0]:g})")
 
 
 _SLOPE = float(np.sqrt(2.0 / np.pi))

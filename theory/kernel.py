@@ -20,6 +20,8 @@ Relative error below 1e-13 of the value, next to a zero of the envelope, for |β
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 from numpy.typing import ArrayLike
 
@@ -45,90 +47,76 @@ def _phase(beta: FloatArray) -> tuple[FloatArray, FloatArray]:
     return c * dc - s * ds, s * dc + c * ds
 
 
-def _prepare(beta: ArrayLike) -> tuple[FloatArray, FloatArray, FloatArray]:
-    values = np.asarray(beta, dtype=np.float64)
-    flat = values.ravel()
-    return flat, np.minimum(np.abs(flat), _LARGEST), np.empty_like(flat)
+def _size(beta: ArrayLike) -> FloatArray:
+    return np.asarray(np.minimum(np.abs(np.asarray(beta, dtype=np.float64)), _LARGEST))
 
 
-def _finish(result: FloatArray, beta: ArrayLike) -> FloatArray | float:
-    shape = np.shape(beta)
-    return result.reshape(shape) if shape else float(result[0])
+def _evaluate(beta: ArrayLike, closed: Callable[..., FloatArray], reduced: Callable[..., FloatArray]) -> FloatArray:
+    """A function of |β| by closed(|β|, S, C) near 0, by reduced(|β|, q, scaled moments, c, s) beyond."""
+    b = _size(beta)
+    near, result = b < SWITCH, np.empty_like(b)
+    x = b[near]
+    result[near] = closed(x, *fresnel_integrals(x))
+    x = b[~near]
+    q = x**2 / 4.0
+    result[~near] = reduced(x, q, scaled_moments(q), *_phase(x))
+    return result
 
 
 def H(beta: ArrayLike) -> FloatArray | float:
     """Shape of the deflection under an impulse (2.3.3); β of any shape, H(0) = 1, even."""
-    _, b, result = _prepare(beta)
-    near = b < SWITCH
-    x = b[near]
-    s_integral, c_integral = fresnel_integrals(x)
-    result[near] = (
-        np.sqrt(np.pi / 2.0) * x * (s_integral - c_integral) + np.cos(x**2 / 4.0) + np.sin(x**2 / 4.0)
-    )
-    x = b[~near]
-    q = x**2 / 4.0
-    m = scaled_moments(q)
-    c, s = _phase(x)
-    # √(π/8) β q^{-3/2} = √(π/2)/q
-    result[~near] = np.sqrt(np.pi / 2.0) / q * ((c + s) * m[2] / q + (c - s) * m[1])
-    return _finish(result, beta)
+    return _evaluate(
+        beta,
+        lambda x, S, C: np.sqrt(np.pi / 2.0) * x * (S - C) + np.cos(x**2 / 4.0) + np.sin(x**2 / 4.0),
+        # √(π/8) β q^{-3/2} = √(π/2)/q
+        lambda x, q, m, c, s: np.sqrt(np.pi / 2.0) / q * ((c + s) * m[2] / q + (c - s) * m[1]),
+    )[()]
 
 
 def H1(beta: ArrayLike) -> FloatArray | float:
     """H′, odd; β of any shape."""
-    signed, b, result = _prepare(beta)
-    near = b < SWITCH
-    s_integral, c_integral = fresnel_integrals(b[near])
-    result[near] = np.sqrt(np.pi / 2.0) * (s_integral - c_integral)
-    x = b[~near]
-    q = x**2 / 4.0
-    m = scaled_moments(q)
-    c, s = _phase(x)
-    result[~near] = np.sqrt(np.pi / 2.0) / x * ((c - s) * m[1] / q - (c + s) * m[0])
-    return _finish(np.copysign(1.0, signed) * result, beta)
+    size = _evaluate(
+        beta,
+        lambda x, S, C: np.sqrt(np.pi / 2.0) * (S - C),
+        lambda x, q, m, c, s: np.sqrt(np.pi / 2.0) / x * ((c - s) * m[1] / q - (c + s) * m[0]),
+    )
+    return (np.copysign(1.0, beta) * size)[()]
 
 
 def H2(beta: ArrayLike) -> FloatArray | float:
     """H″, even, which oscillates without decay; β of any shape."""
-    _, b, _ = _prepare(beta)
-    c, s = _phase(b)
-    return _finish(0.5 * (s - c), beta)
+    c, s = _phase(_size(beta))
+    return (0.5 * (s - c))[()]
 
 
 def H3(beta: ArrayLike) -> FloatArray | float:
     """H‴, odd, which oscillates and grows like β; β of any shape."""
-    signed, b, _ = _prepare(beta)
-    c, s = _phase(b)
-    return _finish(signed / 4.0 * (c + s), beta)
+    c, s = _phase(_size(beta))
+    return (np.asarray(beta, dtype=np.float64) / 4.0 * (c + s))[()]
 
 
 def P(beta: ArrayLike) -> FloatArray | float:
     """∫₀^β H (2.7.12), odd, P(∞) = √(π/2); β of any shape."""
-    signed, b, result = _prepare(beta)
-    near = b < SWITCH
-    x = b[near]
-    s_integral, c_integral = fresnel_integrals(x)
-    half = x**2 / 2.0
-    result[near] = np.sqrt(np.pi / 2.0) * (
-        (half + 1.0) * s_integral - (half - 1.0) * c_integral
-    ) + x / 2.0 * (np.sin(x**2 / 4.0) + np.cos(x**2 / 4.0))
-    x = b[~near]
-    q = x**2 / 4.0
-    m = scaled_moments(q)
-    c, s = _phase(x)
-    result[~near] = np.sqrt(np.pi / 2.0) * (
-        1.0 + 0.5 * ((s - c) * (2.0 * m[3] - m[2]) / q + (s + c) * (2.0 * m[2] - m[1])) / (q * np.sqrt(q))
-    )
-    return _finish(np.copysign(1.0, signed) * result, beta)
+
+    def closed(x: FloatArray, S: FloatArray, C: FloatArray) -> FloatArray:
+        phase, half = x**2 / 4.0, x**2 / 2.0
+        integrals = (half + 1.0) * S - (half - 1.0) * C
+        return np.asarray(np.sqrt(np.pi / 2.0) * integrals + x / 2.0 * (np.sin(phase) + np.cos(phase)))
+
+    def reduced(x: FloatArray, q: FloatArray, m: FloatArray, c: FloatArray, s: FloatArray) -> FloatArray:
+        wave = ((s - c) * (2.0 * m[3] - m[2]) / q + (s + c) * (2.0 * m[2] - m[1])) / (q * np.sqrt(q))
+        return np.asarray(np.sqrt(np.pi / 2.0) * (1.0 + 0.5 * wave))
+
+    return (np.copysign(1.0, beta) * _evaluate(beta, closed, reduced))[()]
 
 
 def H_axial(beta: ArrayLike) -> FloatArray | float:
     """H_N, even: what an axial force nτ = 1 adds to H; β of any shape, absolute error below 1e-15."""
-    _, b, _ = _prepare(beta)
-    turn = np.exp(0.25j * np.pi)
+    b = np.atleast_1d(_size(beta))
     _, first, _, third = scaled_iterated_erfc(TURN * b)
     c, s = _phase(b)
-    return _finish(np.sqrt(2.0 * np.pi) * (turn * (c + 1j * s) * (2.0 * third - 0.5 * first)).real, beta)
+    wave = np.exp(0.25j * np.pi) * (c + 1j * s) * (2.0 * third - 0.5 * first)
+    return (np.sqrt(2.0 * np.pi) * wave.real).reshape(np.shape(beta))[()]
 
 
 def K(xi: ArrayLike, tau: ArrayLike) -> FloatArray | float:

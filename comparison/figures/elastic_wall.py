@@ -12,8 +12,7 @@ import numpy as np
 
 from comparison.figures import style
 from theory.contact import contact_parameters
-from theory.elastic_wall import peak_force, wall_history
-from theory.elastic_wall_limits import flat_limit, sharp_limit
+from theory.elastic_wall import flat_limit, peak_force, sharp_limit, wall_history
 from theory.wall_prediction import zone_offset
 
 __all__ = ["draw_force", "draw_peak_force", "draw_return"]

@@ -3,8 +3,7 @@
 import pytest
 
 from benchmarks.shear import late, peak, run
-from theory.elastic_wall import peak_force
-from theory.elastic_wall_limits import flat_limit
+from theory.elastic_wall import flat_limit, peak_force
 
 
 def test_shear_waves_of_one_point_take_their_momentum() -> None:

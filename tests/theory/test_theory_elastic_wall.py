@@ -10,8 +10,7 @@ from scipy.fft import dct, idct
 
 from bent_beam import Impact
 from theory import contact_parameters, predict
-from theory.elastic_wall import peak_force, wall_history
-from theory.elastic_wall_limits import flat_limit, sharp_limit
+from theory.elastic_wall import flat_limit, peak_force, sharp_limit, wall_history
 
 
 def largest_force_by_modes(kappa_over_nu: float, damping_ratio: float, end: float, half: float, dx: float) -> float:
