@@ -269,21 +269,10 @@ def _axial(at: phi.Argument, r0: FloatArray) -> tuple[FloatArray, FloatArray]:
     slope, near = _SLOPE, at.near
     lambda_axial, r_axial = np.empty_like(r0), np.empty_like(r0)
     x, (a, b) = at.lam[near], at.integrals
-    determinant = (
-        4.0 * slope * a
-        + 2.0 * slope * x**2 * b
-        + slope * x**4 * a
-        - slope**2 * x**3
-        - (a**2 + b**2) * (3.0 * x + x**5 / 4.0)
-    )
+    size = a**2 + b**2  # of the wave
+    determinant = slope * (4.0 * a + 2.0 * x**2 * b + x**4 * a - slope * x**3) - size * (3.0 * x + x**5 / 4.0)
     lambda_axial[near] = (
-        -(a**2)
-        - 3.0 * b**2
-        + 4.0 * slope * x * b
-        + slope * x**3 * a
-        - slope**2 * x**2
-        - x**2 * a * b
-        - x**4 * (a**2 + b**2) / 4.0
+        slope * x * (4.0 * b + x**2 * a - slope * x) - a**2 - 3.0 * b**2 - x**2 * a * b - x**4 * size / 4.0
     ) / determinant
     r_axial[near] = r0[near] * (x * a - 2.0 * slope) * (6.0 * b - 2.0 * slope * x + x**2 * a) / (2.0 * determinant)
 

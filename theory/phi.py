@@ -23,10 +23,6 @@ from theory._fresnel import SWITCH, FloatArray, fresnel_integrals, scaled_moment
 
 _ROOT_TWO_PI = np.sqrt(2.0 * np.pi)
 
-# (λ, φ_ν, φ_κ) → φ and (q, moments q^{k+1/2} I_k) → φ
-_Closed = Callable[[FloatArray, FloatArray, FloatArray], FloatArray]
-_Reduced = Callable[[FloatArray, FloatArray], FloatArray]
-
 
 @dataclass(frozen=True)
 class Argument:
@@ -60,7 +56,10 @@ class Argument:
         )
 
 
-def _evaluate(lam: ArrayLike | Argument, closed: _Closed, reduced: _Reduced) -> Any:
+def _evaluate(
+    lam: ArrayLike | Argument, closed: Callable[..., FloatArray], reduced: Callable[..., FloatArray]
+) -> Any:
+    """closed(λ, φ_ν, φ_κ) for λ < SWITCH, reduced(q, moments q^{k+1/2} I_k) beyond."""
     if isinstance(lam, Argument):
         result = np.empty_like(lam.lam)
         result[lam.near] = closed(lam.lam[lam.near], *lam.integrals)
@@ -134,9 +133,7 @@ def phi_q(lam: ArrayLike | Argument) -> Any:
     return _evaluate(
         lam,
         lambda x, nu, kappa: (
-            np.sqrt(2.0 / np.pi) * x**3
-            + (x**6 - 36.0 * x**2) / 24.0 * kappa
-            + (12.0 - 7.0 * x**4) / 12.0 * nu
+            np.sqrt(2.0 / np.pi) * x**3 + (x**6 - 36.0 * x**2) / 24.0 * kappa + (12.0 - 7.0 * x**4) / 12.0 * nu
         ),
         lambda q, m: (8.0 / 3.0 * m[5] - 28.0 / 3.0 * m[4] + 6.0 * m[3] - m[2]) * q**-2.5,
     )

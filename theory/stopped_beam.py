@@ -178,33 +178,21 @@ class StoppedBeam:
         """q̇ and q + ηq̇, shape (times, modes), each by the form that does not cancel for its damping."""
         eta, time = self.damping, t[:, None]
         a = 0.5 * eta * omega**2
-        rate, force = np.empty((t.size, omega.size)), np.empty((t.size, omega.size))
-
-        underdamped = a <= omega
-        frequency = np.sqrt((omega - a)[underdamped] * (omega + a)[underdamped])
-        decay = np.exp(-a[underdamped] * time)
-        q = decay * time * np.sinc(frequency * time / np.pi)
-        cosine = decay * np.cos(frequency * time)
-        rate[:, underdamped] = cosine - a[underdamped] * q
-        force[:, underdamped] = q * (1.0 - eta * a[underdamped]) + eta * cosine
-
-        # roots −a ± root: the slow one without cancellation, 1 + η·slow = −(ω/(a + root))²
-        damped = ~underdamped
-        w, a = omega[damped], a[damped]
-        root = np.sqrt((a - w) * (a + w))
+        # roots −a ± root, imaginary below critical damping: the slow one without cancellation, 1 + η·slow = −(ω/fast)²
+        root = np.sqrt((a - omega) * (a + omega) + 0.0j)
         fast = a + root
-        slow = w**2 / fast
+        slow = omega**2 / fast
         slow_decay, fast_decay = np.exp(-slow * time), np.exp(-fast * time)
         with np.errstate(divide="ignore", invalid="ignore"):
-            apart = (fast * fast_decay - slow * slow_decay) / (2.0 * root)
-            push = (-((w / fast) ** 2) * slow_decay - (1.0 - eta * fast) * fast_decay) / (2.0 * root)
+            rate = (fast * fast_decay - slow * slow_decay) / (2.0 * root)
+            force = (-((omega / fast) ** 2) * slow_decay - (1.0 - eta * fast) * fast_decay) / (2.0 * root)
         # the roots nearly meet: sinh as one function
-        near = root < 0.1 * a
-        difference = np.where(root > 0.0, -np.expm1(-2.0 * root * time) / np.where(root > 0.0, 2.0 * root, 1.0), time)
-        q, cosh = slow_decay * difference, 0.5 * (slow_decay + fast_decay)
-        rate[:, damped] = np.where(near, cosh - a * q, apart)
-        force[:, damped] = np.where(near, q * (1.0 - eta * a) + eta * cosh, push)
-        return rate, force
+        near = np.abs(root) < 0.1 * a
+        a, root = a[near], root[near]
+        sinh = np.where(root == 0.0, time, -np.expm1(-2.0 * root * time) / np.where(root == 0.0, 1.0, 2.0 * root))
+        q, cosh = slow_decay[:, near] * sinh, 0.5 * (slow_decay + fast_decay)[:, near]
+        rate[:, near], force[:, near] = cosh - a * q, q * (1.0 - eta * a) + eta * cosh
+        return rate.real, force.real
 
 
 def _cantilever(modes: int) -> tuple[FloatArray, FloatArray]:
