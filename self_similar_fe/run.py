@@ -130,8 +130,8 @@ class Run:
         self.held = float(np.minimum(self.impulse, 0.0).sum())  # what the held start pulled; nothing is held after it
         self.moment = reaction * self.front * self.tau
         self.work = 2.0 * float(self.state.reaction @ self.rate_of_obstacle(0.0)) * root
-        self.absorbed = 2.0 * self.absorber_power() * root
-        self.energy, self.power = self.stored_and_power()
+        self.energy, self.power, absorbing = self.stored_and_powers()
+        self.absorbed = 2.0 * absorbing * root
         self.dissipated = 0.0  # by implicit Euler and the motion of the mesh
         self.records: list[dict[str, Any]] = []
 
@@ -139,16 +139,12 @@ class Run:
         """∂w₀/∂τ at the nodes: what the wall must undo there."""
         return np.asarray(1.0 + tau * self.loads(self.state.zeta, 1.0, by_t=1))
 
-    def absorber_power(self) -> float:
-        """Power of the absorber divided by its τ^−1/2: ∫σ η_τ² dζ."""
-        state = self.state
-        velocity = self.full_velocity()
-        return float(velocity @ (state.operators.damping @ velocity))
-
-    def stored_and_power(self) -> tuple[float, float]:
-        """Kinetic and strain energy, and the power of the scheme's internal forces divided by its τ^−1/2."""
-        velocity = self.full_velocity()
-        return math.sqrt(self.tau) * self.state.stored(velocity), float(velocity @ self.state.internal_force())
+    def stored_and_powers(self) -> tuple[float, float, float]:
+        """Kinetic and strain energy, and the powers of the scheme's internal forces and of the absorber, ∫σ η_τ² dζ,
+        both divided by their τ^−1/2."""
+        state, velocity = self.state, self.full_velocity()
+        absorbed = float(velocity @ (state.operators.damping @ velocity))
+        return math.sqrt(self.tau) * state.stored(velocity), float(velocity @ state.internal_force()), absorbed
 
     def full_velocity(self) -> Array:
         """η_τ as Hermite degrees of freedom (value and ζ-derivative), the latter from the curvature of both elements.
@@ -190,10 +186,10 @@ class Run:
             self.impulse = self.impulse + mean * roots
             self.moment += float(mean @ state.zeta) * (self.tau - tau_old)
             self.work += float(mean @ self.rate_of_obstacle(0.5 * (self.tau + tau_old))) * roots
-            self.absorbed += self.absorber_power() * roots
             # what the scheme's own forces took in, less what is found to be stored
             stored, power = self.energy, self.power
-            self.energy, self.power = self.stored_and_power()
+            self.energy, self.power, absorbing = self.stored_and_powers()
+            self.absorbed += absorbing * roots
             self.dissipated += 0.5 * (power + self.power) * roots - (self.energy - stored)
             if state.active[self.near][-3:].any():
                 raise ArithmeticError("the contact has left the finely meshed zone")

@@ -7,6 +7,7 @@ with the Galerkin matrices of D(D + 1) + σ(D + 1) + ∂⁴ − nτ∂², D = �
 
 from __future__ import annotations
 
+import dataclasses
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -30,15 +31,16 @@ BAND = 3  # half-bandwidth of Hermite elements: two nodes of two degrees of free
 
 @dataclass(frozen=True)
 class _Operators:
-    """mass M, drift C, steady A of M η_ss + C η_s + A η = ρ, absorber included, and parts of them; CSR, (2n, 2n)."""
+    """M η_ss + C η_s + A η = ρ: mass M, C less its absorber's part, A less its absorber's part, and parts of them; CSR,
+    (2n, 2n)."""
 
     mass: sparse.csr_matrix
     drift: sparse.csr_matrix
     steady: sparse.csr_matrix
     bending: sparse.csr_matrix  # ∫ N″ N″ᵀ, a part of A
     tension: sparse.csr_matrix  # ∫ N′ N′ᵀ
-    damping: sparse.csr_matrix  # ∫ σ N Nᵀ, a part of C and A
-    damped: sparse.csr_matrix  # ∫ σ N (D₀N)ᵀ, D₀ = −(ζ/2)∂_ζ, a part of A
+    damping: sparse.csr_matrix  # ∫ σ N Nᵀ, the absorber in C and, with the next, in A
+    damped: sparse.csr_matrix  # ∫ σ N (D₀N)ᵀ, D₀ = −(ζ/2)∂_ζ
 
 
 GAUSS, WEIGHTS = np.polynomial.legendre.leggauss(6)
@@ -46,46 +48,42 @@ GAUSS, WEIGHTS = np.polynomial.legendre.leggauss(6)
 
 def _operators(zeta: Array, sigma: Callable[[Array], Array]) -> _Operators:
     """Galerkin matrices of D(D + 1) + σ(D + 1) + ∂⁴ on Hermite elements; D's second factor is integrated by parts."""
-    length = np.diff(zeta)
-    n = zeta.size
-    parts: dict[str, Array] = {k: np.zeros((n - 1, 4, 4)) for k in ("m", "g", "s", "k", "t", "ms", "gs")}
-    for point, weight in zip((GAUSS + 1.0) / 2.0, WEIGHTS / 2.0):
-        place = (zeta[:-1] + point * length)[:, None]
-        shape, slope, bend = (_shapes(point, length, d) for d in (0, 1, 2))
-        advected = -0.5 * place * slope  # −(ζ/2) N′
-        tested = 0.5 * place * slope + 0.5 * shape  # its adjoint: ∂(ζ/2 ·) moved to the test function
-        dl = (weight * length)[:, None, None]
-        absorbed = sigma(place)[:, :, None]
-        for key, left, right, factor in (
-            ("m", shape, shape, 1.0),
-            ("g", shape, advected, 1.0),
-            ("s", tested, advected, 1.0),
-            ("k", bend, bend, 1.0),
-            ("t", slope, slope, 1.0),
-            ("ms", shape, shape, absorbed),
-            ("gs", shape, advected, absorbed),
-        ):
-            parts[key] += dl * factor * left[:, :, None] * right[:, None, :]
+    length, n = np.diff(zeta), zeta.size
+    points = (GAUSS[:, None] + 1.0) / 2.0
+    place, dl = zeta[:-1] + points * length, WEIGHTS[:, None] / 2.0 * length
+    shape, slope, bend = (_shapes(points, length, d) for d in (0, 1, 2))
+    advected = -0.5 * place[:, :, None] * slope  # −(ζ/2) N′
     dofs = 2 * np.arange(n - 1)[:, None] + np.arange(4)
     rows, columns = np.repeat(dofs, 4, axis=1).ravel(), np.tile(dofs, (1, 4)).ravel()
-    m, g, s, k, t, ms, gs = (
-        sparse.csr_matrix((parts[key].ravel(), (rows, columns)), shape=(2 * n, 2 * n))
-        for key in ("m", "g", "s", "k", "t", "ms", "gs")
+
+    def integral(left: Array, right: Array, weight: float | Array = 1.0) -> sparse.csr_matrix:
+        blocks = np.einsum("ge,gei,gej->eij", weight * dl, left, right)
+        return sparse.csr_matrix((blocks.ravel(), (rows, columns)), shape=(2 * n, 2 * n))
+
+    mass, advection, bending = integral(shape, shape), integral(shape, advected), integral(bend, bend)
+    twice = integral(0.5 * shape - advected, advected)  # the first D's adjoint is on the test function
+    return _Operators(
+        mass=mass,
+        drift=mass + 2.0 * advection,
+        steady=twice + advection + bending,
+        bending=bending,
+        tension=integral(slope, slope),
+        damping=integral(shape, shape, sigma(place)),
+        damped=integral(shape, advected, sigma(place)),
     )
-    drift, steady = m + 2.0 * g + ms, s + g + k + ms + gs
-    return _Operators(mass=m, drift=drift, steady=steady, bending=k, tension=t, damping=ms, damped=gs)
 
 
 CUBICS = np.array([[1.0, 0.0, -3.0, 2.0], [0.0, 1.0, -2.0, 1.0], [0.0, 0.0, 3.0, -2.0], [0.0, 0.0, -1.0, 1.0]])
 """Hermite's four cubics on [0, 1] (thesis A.6), coefficients by rising power."""
 
 
-def _shapes(point: float, length: Array, derivative: int) -> Array:
-    """Hermite shape functions of elements of several lengths at ``point`` ∈ [0, 1], d/dx, shape (elements, 4)."""
-    unit = polynomial.polyval(point, polynomial.polyder(CUBICS, derivative, axis=1).T)
+def _shapes(points: Array, length: Array, derivative: int) -> Array:
+    """Hermite shape functions of elements of several lengths at ``points`` ∈ [0, 1] (g, 1), d/dx, shape
+    (g, elements, 4)."""
+    unit = polynomial.polyval(points, polynomial.polyder(CUBICS, derivative, axis=1).T)
     scale = np.ones((length.size, 4))
     scale[:, 1::2] = length[:, None]
-    return np.asarray(unit * scale / length[:, None] ** derivative)
+    return np.asarray(np.moveaxis(unit, 0, -1) * scale / length[:, None] ** derivative)
 
 
 class Similarity:
@@ -113,11 +111,11 @@ class Similarity:
         """
         self.backward, self.tension = backward, tension
         o = self.operators
-        self.matrix = (backward**2 * o.mass + backward * o.drift + o.steady + tension * o.tension).tocsr()
+        absorber = (backward + 1.0) * o.damping + o.damped
+        self.matrix = (backward**2 * o.mass + backward * o.drift + o.steady + tension * o.tension + absorber).tocsr()
         bands = np.zeros((3 * BAND + 1, self.dofs), order="F")
         for k in range(-BAND, BAND + 1):
-            diagonal = self.matrix.diagonal(k)
-            bands[2 * BAND - k, max(k, 0) : self.dofs + min(k, 0)] = diagonal
+            bands[2 * BAND - k, max(k, 0) : self.dofs + min(k, 0)] = self.matrix.diagonal(k)
         self._bands = bands
         self._factored: NDArray[np.bool_] | None = None
         # a deflection is known to some ulp of 1, so a reaction to that times the stiffness it is computed with
@@ -175,7 +173,7 @@ class Similarity:
         """
         b, o = self.backward, self.operators
         old, old_rate = b * self.eta, b * self.rate
-        right = o.mass @ (b * old + old_rate) + o.drift @ old
+        right = o.mass @ (b * old + old_rate) + (o.drift + o.damping) @ old
         active = self.active
         fewest, patience, slack = self.zeta.size + 1, PATIENCE, 1.0
         for _ in range(MOST_SWAPS):
@@ -211,11 +209,11 @@ class Similarity:
         return float((self.reaction @ self.zeta) / total) if total > 0.0 else 0.0
 
     def internal_force(self) -> Array:
-        """M η_ss + (C − M_σ) η_s + (A − M_σ − G_σ + nτG) η of the last step, (dofs,): inertia and stiffness as the
-        scheme has them, without the absorber."""
+        """M η_ss + C η_s + (A + nτG) η of the last step, (dofs,): inertia and stiffness as the scheme has them, without
+        the absorber."""
         o = self.operators
-        force = o.mass @ self.inertia + (o.drift - o.damping) @ self.rate
-        return np.asarray(force + (o.steady - o.damping - o.damped + self.tension * o.tension) @ self.eta)
+        force = o.mass @ self.inertia + o.drift @ self.rate + o.steady @ self.eta
+        return np.asarray(force + self.tension * (o.tension @ self.eta))
 
     def stored(self, velocity: Array) -> float:
         """½vᵀMv + ½ηᵀ(K + nτG)η: kinetic and strain energy over √τ."""
@@ -236,13 +234,12 @@ def leading_obstacle(zeta: Array, kappa_over_nu: float) -> Array:
 def similarity(kappa_over_nu: float, mesh: ExpandingMesh) -> Similarity:
     """The held start on a mesh laid around the front that coarser starts located; κ/ν ≥ 1 contacts at 0 alone."""
     front = 0.0 if kappa_over_nu >= 1.0 else math.sqrt(2.0 / kappa_over_nu)  # free beam's reach: 1 = κζ²/2
-    coarse = ExpandingMesh(
+    coarse = dataclasses.replace(
+        mesh,
         front_resolution=max(0.05, mesh.front_resolution),
         growth=max(0.05, mesh.growth),
-        interior_elements=40,
-        absorber_start=mesh.absorber_start,
-        absorber_length=mesh.absorber_length,
-        absorber_strength=mesh.absorber_strength,
+        elements_per_wave=ExpandingMesh.elements_per_wave,
+        interior_elements=ExpandingMesh.interior_elements,
     )
     for _ in range(40 if front > 0.0 else 0):
         state = Similarity(*coarse.lay(front), coarse.absorber_strength)
