@@ -30,7 +30,7 @@ FloatArray = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
 
 #: z = TURN·x on the ray of a bending wave that decays ahead of x ≥ 0.
-TURN = complex(np.exp(-0.25j * np.pi) / 2.0)
+TURN = (1.0 - 1.0j) * sqrt(0.125)
 
 #: Below it the closed forms lose less than two digits, above it the moments have all of theirs.
 SWITCH = 1.5

@@ -14,6 +14,7 @@ Code_Aster's test SDNL32 (V5.02.032), here without damping.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from scipy.optimize import brentq
@@ -53,7 +54,7 @@ class SwungBeam:
             motion = np.sqrt(np.maximum(values, 0.0)), shapes.T @ z, shapes.T @ v
             at_tip = root @ shapes
             later = np.flatnonzero(time > now)
-            ahead = np.array([_tip(t - now, at_tip, *motion) for t in time[later]])
+            ahead = _tip(time[later] - now, at_tip, *motion)
             wrong = np.flatnonzero((ahead < 0.0) == pushed)
             count = int(wrong[0]) if wrong.size else later.size
             found[later[:count]] = ahead[:count]
@@ -79,11 +80,11 @@ class SwungBeam:
         return self.stop_stiffness * float(c - b * b / (4.0 * a)), float(time[k] - b / (2.0 * a))
 
 
-def _moved(t: float, rate: FloatArray, place: FloatArray, speed: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Places and speeds of oscillators of these rates after t; a rate of 0 is free motion."""
-    sine = t * np.sinc(rate * t / np.pi)
-    return place * np.cos(rate * t) + speed * sine, speed * np.cos(rate * t) - rate**2 * place * sine
+def _moved(t: Any, rate: FloatArray, place: FloatArray, speed: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Places and speeds of oscillators of these rates after t, of shape (…, 1) or a scalar; a rate of 0 is free."""
+    cosine, sine = np.cos(rate * t), t * np.sinc(rate * t / np.pi)
+    return place * cosine + speed * sine, speed * cosine - rate**2 * place * sine
 
 
-def _tip(t: float, at_tip: FloatArray, *motion: FloatArray) -> float:
-    return float(at_tip @ _moved(t, *motion)[0])
+def _tip(t: Any, at_tip: FloatArray, *motion: FloatArray) -> Any:
+    return _moved(np.asarray(t)[..., None], *motion)[0] @ at_tip

@@ -201,7 +201,7 @@ def _responses(cells: int, dx: float, steps: int, dt: float, m: int) -> FloatArr
 def _integrals(x: FloatArray, t: FloatArray, m: int) -> FloatArray:
     """The m-fold integral of Re S over time and its twofold integral over place, even in x (x ≥ 0, t > 0)."""
     root = np.sqrt(t)
-    z = TURN * x / root
+    z = TURN / root * x
     _, _, before, last = scaled_iterated_erfc(z)
     for n in range(4, 2 + 2 * m):
         before, last = last, (before - 2.0 * z * last) / (2.0 * n)
