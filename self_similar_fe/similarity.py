@@ -31,16 +31,15 @@ BAND = 3  # half-bandwidth of Hermite elements: two nodes of two degrees of free
 
 @dataclass(frozen=True)
 class _Operators:
-    """M η_ss + C η_s + A η = ρ: mass M, C less its absorber's part, A less its absorber's part, and parts of them; CSR,
-    (2n, 2n)."""
+    """mass M, drift C, steady A of M η_ss + C η_s + A η = ρ, absorber included, and parts of them; CSR, (2n, 2n)."""
 
     mass: sparse.csr_matrix
     drift: sparse.csr_matrix
     steady: sparse.csr_matrix
     bending: sparse.csr_matrix  # ∫ N″ N″ᵀ, a part of A
     tension: sparse.csr_matrix  # ∫ N′ N′ᵀ
-    damping: sparse.csr_matrix  # ∫ σ N Nᵀ, the absorber in C and, with the next, in A
-    damped: sparse.csr_matrix  # ∫ σ N (D₀N)ᵀ, D₀ = −(ζ/2)∂_ζ
+    damping: sparse.csr_matrix  # ∫ σ N Nᵀ, a part of C and A
+    damped: sparse.csr_matrix  # ∫ σ N (D₀N)ᵀ, D₀ = −(ζ/2)∂_ζ, a part of A
 
 
 GAUSS, WEIGHTS = np.polynomial.legendre.leggauss(6)
@@ -57,20 +56,16 @@ def _operators(zeta: Array, sigma: Callable[[Array], Array]) -> _Operators:
     rows, columns = np.repeat(dofs, 4, axis=1).ravel(), np.tile(dofs, (1, 4)).ravel()
 
     def integral(left: Array, right: Array, weight: float | Array = 1.0) -> sparse.csr_matrix:
-        blocks = np.einsum("ge,gei,gej->eij", weight * dl, left, right)
+        blocks = np.zeros((n - 1, 4, 4))
+        for w, tested, trial in zip((weight * dl)[:, :, None, None], left, right):
+            blocks += w * tested[:, :, None] * trial[:, None, :]
         return sparse.csr_matrix((blocks.ravel(), (rows, columns)), shape=(2 * n, 2 * n))
 
-    mass, advection, bending = integral(shape, shape), integral(shape, advected), integral(bend, bend)
-    twice = integral(0.5 * shape - advected, advected)  # the first D's adjoint is on the test function
-    return _Operators(
-        mass=mass,
-        drift=mass + 2.0 * advection,
-        steady=twice + advection + bending,
-        bending=bending,
-        tension=integral(slope, slope),
-        damping=integral(shape, shape, sigma(place)),
-        damped=integral(shape, advected, sigma(place)),
-    )
+    m, g, k = integral(shape, shape), integral(shape, advected), integral(bend, bend)
+    s = integral(0.5 * shape - advected, advected)  # the first D's adjoint is on the test function
+    ms, gs = integral(shape, shape, sigma(place)), integral(shape, advected, sigma(place))
+    drift, steady = m + 2.0 * g + ms, s + g + k + ms + gs
+    return _Operators(m, drift, steady, bending=k, tension=integral(slope, slope), damping=ms, damped=gs)
 
 
 CUBICS = np.array([[1.0, 0.0, -3.0, 2.0], [0.0, 1.0, -2.0, 1.0], [0.0, 0.0, 3.0, -2.0], [0.0, 0.0, -1.0, 1.0]])
@@ -97,6 +92,8 @@ class Similarity:
         top = strength * 0.5 * (absorber + end) / (end - absorber)
         self.zeta = zeta
         self.operators = _operators(zeta, lambda z: top * np.clip((z - absorber) / (end - absorber), 0.0, None) ** 3)
+        o = self.operators
+        self._undamped_drift, self._undamped_steady = o.drift - o.damping, o.steady - o.damping - o.damped
         self.dofs = 2 * zeta.size
         self.eta = np.zeros(self.dofs)
         self.rate = np.zeros(self.dofs)
@@ -111,8 +108,7 @@ class Similarity:
         """
         self.backward, self.tension = backward, tension
         o = self.operators
-        absorber = (backward + 1.0) * o.damping + o.damped
-        self.matrix = (backward**2 * o.mass + backward * o.drift + o.steady + tension * o.tension + absorber).tocsr()
+        self.matrix = (backward**2 * o.mass + backward * o.drift + o.steady + tension * o.tension).tocsr()
         bands = np.zeros((3 * BAND + 1, self.dofs), order="F")
         for k in range(-BAND, BAND + 1):
             bands[2 * BAND - k, max(k, 0) : self.dofs + min(k, 0)] = self.matrix.diagonal(k)
@@ -173,7 +169,7 @@ class Similarity:
         """
         b, o = self.backward, self.operators
         old, old_rate = b * self.eta, b * self.rate
-        right = o.mass @ (b * old + old_rate) + (o.drift + o.damping) @ old
+        right = o.mass @ (b * old + old_rate) + o.drift @ old
         active = self.active
         fewest, patience, slack = self.zeta.size + 1, PATIENCE, 1.0
         for _ in range(MOST_SWAPS):
@@ -209,11 +205,10 @@ class Similarity:
         return float((self.reaction @ self.zeta) / total) if total > 0.0 else 0.0
 
     def internal_force(self) -> Array:
-        """M η_ss + C η_s + (A + nτG) η of the last step, (dofs,): inertia and stiffness as the scheme has them, without
-        the absorber."""
-        o = self.operators
-        force = o.mass @ self.inertia + o.drift @ self.rate + o.steady @ self.eta
-        return np.asarray(force + self.tension * (o.tension @ self.eta))
+        """M η_ss + C η_s + (A + nτG) η of the last step, (dofs,), without the absorber in C and A: inertia and stiffness
+        as the scheme has them."""
+        force = self.operators.mass @ self.inertia + self._undamped_drift @ self.rate + self._undamped_steady @ self.eta
+        return np.asarray(force + self.tension * (self.operators.tension @ self.eta))
 
     def stored(self, velocity: Array) -> float:
         """½vᵀMv + ½ηᵀ(K + nτG)η: kinetic and strain energy over √τ."""

@@ -21,7 +21,7 @@ LOST = "np.where(np.arange({}.size) == 3, 0.5, 1.0)[:, None, None]"  # half of a
 MOMENTUM = 'self.start_momentum + after["load_impulse"] - v @ self.momentum'
 GAIN = "gain + (missing / np.where(whole > 0.0, whole, 1.0))[:, None] * weight"
 PER_LENGTH = "self.section.mass_per_length"
-WORK = 'np.einsum("ge,gei,gej->eij", weight * dl, left, right)'
+WORK = "blocks += w * tested[:, :, None] * trial[:, None, :]"
 
 # path → (what is wrong, the check that sees it, file, code, what stands in its place)
 FAULTS = {
