@@ -205,8 +205,8 @@ class Similarity:
         return float((self.reaction @ self.zeta) / total) if total > 0.0 else 0.0
 
     def internal_force(self) -> Array:
-        """M η_ss + C η_s + (A + nτG) η of the last step, (dofs,), without the absorber in C and A: inertia and stiffness
-        as the scheme has them."""
+        """M η_ss + C η_s + (A + nτG) η of the last step, (dofs,), without the absorber in C and A: inertia and
+        stiffness as the scheme has them."""
         force = self.operators.mass @ self.inertia + self._undamped_drift @ self.rate + self._undamped_steady @ self.eta
         return np.asarray(force + self.tension * (self.operators.tension @ self.eta))
 

@@ -17,11 +17,10 @@ NAMES = ("deflection", "slope", "curvature", "velocity")
 ZONE = np.linspace(-1.0, 1.0, 41)
 
 
-@pytest.mark.parametrize("ratio", [1 / 1600, 0.05, 0.5, 0.8, 0.999])
+@pytest.mark.parametrize("ratio", [0.05, 0.5, 0.8])
 def test_leading_order_touches_on_the_whole_zone(ratio: float) -> None:
-    fields = ImpactFields(contact_parameters(ratio))
-    for tau in (0.1, 0.5, 7.0):
-        assert np.max(np.abs(fields.complementarity_residual(ZONE, tau))) < 1e-9 * tau
+    residual = ImpactFields(contact_parameters(ratio)).complementarity_residual(ZONE, 0.5)
+    assert np.max(np.abs(residual)) < 1e-9 * 0.5
 
 
 @pytest.mark.parametrize(
@@ -60,8 +59,8 @@ def test_one_point_touches_exactly_at_every_order(loads: tuple[float, float, flo
 def test_convolution_equals_the_closed_form_everywhere(ratio: float) -> None:
     parameters = contact_parameters(ratio)
     wave, tau = SelfSimilarWave(parameters), 0.7
-    ahead = parameters.lambda0 + np.logspace(-10, 2, 20)
-    x = np.concatenate([-ahead, np.linspace(0.0, parameters.lambda0, 11), ahead])
+    ahead = parameters.lambda0 + np.logspace(-10, 2, 12)
+    x = np.concatenate([np.linspace(0.0, parameters.lambda0, 11), ahead])
     fast = ImpactFields(parameters).fast_layer(x * np.sqrt(tau), tau)
     for name, scale in zip(NAMES, (tau, np.sqrt(tau), 1.0, 1.0), strict=True):
         np.testing.assert_allclose(getattr(fast, name), scale * getattr(wave, name)(x), rtol=0.0, atol=1e-9)
@@ -119,12 +118,27 @@ def test_slope_curvature_and_velocity_are_derivatives_of_the_deflection(
     assert at.velocity == pytest.approx(first @ later / (0.1 * h), abs=1e-6)
 
 
+@pytest.mark.parametrize(("ratio", "alpha"), [(0.05, 0.0), (0.5, 0.4), (0.9, 0.0), (2.0, 0.4)])
+def test_the_zone_stays_on_the_wall_at_first_order_in_the_tension(ratio: float, alpha: float) -> None:
+    places, e = np.array([0.0, 0.3, 0.6, 0.9, 1.0]) * (ratio < 1.0), 1e-4
+
+    def residual(axial: float) -> np.ndarray:
+        parameters = contact_parameters(ratio, alpha - axial * ratio, axial=axial)
+        return ImpactFields(parameters, e).complementarity_residual(places, 1.0)
+
+    with_, without, against = residual(1.0), residual(0.0), residual(-1.0)
+    linear = (with_ - against) / (2.0 * e)
+    assert np.max(np.abs(linear)) < 2e-7 + 3.0 * e
+    # what is left is of second order, and the kernel's change is of first: without it this fails by 0.1
+    assert np.max(np.abs(with_ - without)) < 3.0 * e**2
+
+
 def test_momentum_equals_impulse_at_first_order() -> None:
     # ∫η dξ = ∬(R̃ + 2λ_c r̃) dτ dτ; ahead of the front η oscillates and falls like ξ⁻³
     tau, e = 0.3, 0.1
     fields = ImpactFields(contact_parameters(0.5, 1.0, 1.0), epsilon=e)
     p = fields.parameters
-    xi = np.linspace(0.0, 12.0, 1501)
+    xi = np.linspace(0.0, 12.0, 601)
     found = 2.0 * simpson(fields.fast_layer(xi, tau).deflection, x=xi)
     point = 8.0 / 3.0 * np.sqrt(2.0 / np.pi) * tau**1.5 * (p.r0 + e * p.r1 * tau / 5.0)
     zone = fields.uniform_reaction * 8.0 * tau**2.5 * (p.lambda0 / 15.0 + e * p.lambda1 * tau / 35.0)

@@ -83,3 +83,16 @@ def test_K_carries_unit_momentum_starts_from_rest_and_refuses_the_past() -> None
     assert kernel.K(0.2, 0.0) == 0.0
     with pytest.raises(ValueError, match="tau"):
         kernel.K(0.2, -1.0)
+
+
+def test_the_kernel_under_tension_is_that_of_the_dispersion_relation() -> None:
+    # ω² = k⁴ + nk² and K = (1/π)∫ cos(kξ) sin(ωτ)/ω dk, so ∂K/∂n at n = 0, τ = 1 has [cos k²/k² − sin k²/k⁴]/2
+    k = np.linspace(0.05, 60.0, 300_001)
+    smooth = np.exp(-((k / 25.0) ** 4))  # in place of the Abel limit
+    rate = 0.5 * (np.cos(k**2) / k**2 - np.sin(k**2) / k**4) * smooth
+    start = -(0.05**3) / 18.0  # of the integral up to 0.05, where the two terms would cancel
+    for beta in (0.0, 0.3, 1.0, 2.0, 3.0, 5.0):
+        integral = (np.trapezoid(rate * np.cos(k * beta), k) + start) / np.pi
+        assert kernel.H_axial(beta) == pytest.approx(np.sqrt(2.0 * np.pi) * integral, abs=1e-5)
+    assert kernel.H_axial(0.0) == pytest.approx(-1.0 / 6.0, rel=1e-14)
+    assert kernel.H_axial(-1.7) == kernel.H_axial(1.7)
