@@ -2,9 +2,48 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import mpmath as mp
 
-__all__ = ["iterated_erfc", "phi_pair", "row"]
+__all__ = ["CLOSED", "closed_form", "iterated_erfc", "phi_pair", "row"]
+
+PI = mp.pi
+with mp.workdps(130):
+    ROOT = mp.sqrt(2 * mp.pi)
+    Q2 = mp.sqrt(2 / mp.pi)
+
+# coefficients of φ_ν, φ_κ and 1 in the closed forms
+CLOSED: dict[str, Callable[[mp.mpf], tuple[mp.mpf, mp.mpf, mp.mpf]]] = {
+    "phi_nu": lambda x: (1, 0, 0),
+    "phi_kappa": lambda x: (0, 1, 0),
+    "phi_p": lambda x: (mp.sqrt(PI / 8) * x, 0, 0),
+    "phi_pdot": lambda x: (0, x, 0),
+    "phi_alpha": lambda x: (1, -(x**2) / 2, 0),
+    "phi_lambda": lambda x: (x**4 / 8, 3 * x**2 / 4, -(x**3) / 2 / ROOT),
+    "phi_kappadot": lambda x: (x**2 / 2, 1, -Q2 * x),
+    "phi_lambdadot": lambda x: (-3 * x**2, x**4 / 2, 4 * Q2 * x),
+    "phi_q": lambda x: ((12 - 7 * x**4) / 12, (x**6 - 36 * x**2) / 24, Q2 * x**3),
+    "phi_r": lambda x: (
+        x**3 * (x**4 - 84) / 192,
+        x * (3 * x**4 - 44) / 32,
+        -(x**2) * (x**4 - 60) / 48 / ROOT,
+    ),
+    "phi_s": lambda x: (x**2 * (36 - x**4) / 48, (4 - x**4) / 4, x * (x**4 - 24) / 12 / ROOT),
+    "phi_t": lambda x: (x**3 / 3, x * (12 - x**4) / 24, -(x**2) / ROOT),
+    "one_minus_phi_p": lambda x: (-mp.sqrt(PI / 8) * x, 0, 1),
+    "phi_nu_minus_kappa": lambda x: (1, -1, 0),
+    "phi_r_plus_lambda_phi_kappa": lambda x: (
+        x**3 * (x**4 - 84) / 192,
+        x * (3 * x**4 - 12) / 32,
+        -(x**2) * (x**4 - 60) / 48 / ROOT,
+    ),
+    "phi_kappa_minus_s": lambda x: (
+        -(x**2) * (36 - x**4) / 48,
+        x**4 / 4,
+        -x * (x**4 - 24) / 12 / ROOT,
+    ),
+}
 
 
 def phi_pair(x: mp.mpf) -> tuple[mp.mpf, mp.mpf]:
@@ -25,3 +64,9 @@ def iterated_erfc(z: mp.mpc, order: int) -> list[mp.mpc]:
 def row(c: mp.mpc) -> list[mp.mpf]:
     """Coefficients of Re B and Im B in Re(Bc)."""
     return [mp.re(c), -mp.im(c)]
+
+
+def closed_form(name: str, lam: mp.mpf | float, pair: tuple[mp.mpf, mp.mpf] | None = None) -> mp.mpf:
+    """A φ function, or a difference of two, as the thesis writes it (A.5); ``pair``: φ_ν and φ_κ if they are known."""
+    x = mp.mpf(lam)
+    return sum(w * v for w, v in zip(CLOSED[name](x), (*(pair or phi_pair(x)), mp.mpf(1)), strict=True))

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from many_digits import iterated_erfc, phi_pair, row
+from many_digits import CLOSED, closed_form, iterated_erfc, phi_pair, row
 
 from theory import contact_parameters
 
@@ -39,22 +39,15 @@ def multiprecision(ratio: float, alpha: float, psi: float, chi: float, nu: float
         if k >= 1:
             return dict(zip(PARAMETERS, (mp.mpf(0), v, mp.mpf(0), 2 * a), strict=True))
         x = front(ratio)
-        n, g = phi_pair(x)
-        root, q2 = mp.sqrt(2 * mp.pi), mp.sqrt(2 / mp.pi)
-        r0, kappa = v / n, k * v
+        pair = phi_pair(x)
+        of = {name: closed_form(name, x, pair) for name in CLOSED}
+        r0, kappa = v / of["phi_nu"], k * v
         if a + p >= 0:
-            alpha_, p_, pdot = n - x**2 / 2 * g, mp.sqrt(mp.pi / 8) * x * n, x * g
-            lambda_ = 3 * x**2 / 4 * g - x**3 / 2 / root + x**4 / 8 * n
-            kappadot = g - q2 * x + x**2 / 2 * n
-            lambdadot = 4 * x * q2 - 3 * x**2 * n + x**4 / 2 * g
-            matrix = [[alpha_, -2 * r0 * lambda_ / x], [-2 * kappadot, r0 * lambdadot / x]]
-            right = [2 * a - 2 * (a + p) * p_, 4 * c + root * (a + p) * pdot]
+            matrix = [[of["phi_alpha"], -2 * r0 * of["phi_lambda"] / x]]
+            matrix += [[-2 * of["phi_kappadot"], r0 * of["phi_lambdadot"] / x]]
+            right = [2 * a - 2 * (a + p) * of["phi_p"], 4 * c + mp.sqrt(2 * mp.pi) * (a + p) * of["phi_pdot"]]
         else:
-            q = q2 * x**3 + (x**6 - 36 * x**2) / 24 * g + (12 - 7 * x**4) / 12 * n
-            r = x**3 * (x**4 - 84) / 192 * n + x * (3 * x**4 - 44) / 32 * g - x**2 * (x**4 - 60) / 48 / root
-            s = x**2 * (36 - x**4) / 48 * n + (4 - x**4) / 4 * g + x * (x**4 - 24) / 12 / root
-            t = x**3 / 3 * n + x * (12 - x**4) / 24 * g - x**2 / root
-            matrix = [[q / 4, r0 * r + kappa * x], [-t, kappa - r0 * s]]
+            matrix = [[of["phi_q"] / 4, r0 * of["phi_r"] + kappa * x], [-of["phi_t"], kappa - r0 * of["phi_s"]]]
             right = [p * x**4 / 24 + c * x**2 / 2 + a / 2, p * x**3 / 6 + c * x]
         r1, lambda1 = mp.lu_solve(mp.matrix(matrix), mp.matrix(right))
         return dict(zip(PARAMETERS, (x, r0, lambda1, r1), strict=True))

@@ -7,16 +7,11 @@ from collections.abc import Callable
 import mpmath as mp
 import numpy as np
 import pytest
-from many_digits import phi_pair
+from many_digits import CLOSED, closed_form
 from scipy import special
 from scipy.integrate import quad
 
 from theory import phi
-
-PI = mp.pi
-with mp.workdps(130):
-    ROOT = mp.sqrt(2 * mp.pi)
-    Q2 = mp.sqrt(2 / mp.pi)
 
 # which derivative of H (or P) is weighed, and how
 INTEGRALS: dict[str, tuple[str, Callable[[complex, float], complex]]] = {
@@ -33,45 +28,6 @@ INTEGRALS: dict[str, tuple[str, Callable[[complex, float], complex]]] = {
     "phi_s": ("H2", lambda b, x: -8 / np.pi * b**2 * x * (b**4 + 3 * x**4) / (b**2 + x**2) ** 4),
     "phi_t": ("H1", lambda b, x: -8 / np.pi * b * x**2 * (b**2 - x**2) ** 2 / (b**2 + x**2) ** 4),
 }
-
-# coefficients of φ_ν, φ_κ and 1 in the closed forms
-CLOSED: dict[str, Callable[[mp.mpf], tuple[mp.mpf, mp.mpf, mp.mpf]]] = {
-    "phi_nu": lambda x: (1, 0, 0),
-    "phi_kappa": lambda x: (0, 1, 0),
-    "phi_p": lambda x: (mp.sqrt(PI / 8) * x, 0, 0),
-    "phi_pdot": lambda x: (0, x, 0),
-    "phi_alpha": lambda x: (1, -(x**2) / 2, 0),
-    "phi_lambda": lambda x: (x**4 / 8, 3 * x**2 / 4, -(x**3) / 2 / ROOT),
-    "phi_kappadot": lambda x: (x**2 / 2, 1, -Q2 * x),
-    "phi_lambdadot": lambda x: (-3 * x**2, x**4 / 2, 4 * Q2 * x),
-    "phi_q": lambda x: ((12 - 7 * x**4) / 12, (x**6 - 36 * x**2) / 24, Q2 * x**3),
-    "phi_r": lambda x: (
-        x**3 * (x**4 - 84) / 192,
-        x * (3 * x**4 - 44) / 32,
-        -(x**2) * (x**4 - 60) / 48 / ROOT,
-    ),
-    "phi_s": lambda x: (x**2 * (36 - x**4) / 48, (4 - x**4) / 4, x * (x**4 - 24) / 12 / ROOT),
-    "phi_t": lambda x: (x**3 / 3, x * (12 - x**4) / 24, -(x**2) / ROOT),
-    "one_minus_phi_p": lambda x: (-mp.sqrt(PI / 8) * x, 0, 1),
-    "phi_nu_minus_kappa": lambda x: (1, -1, 0),
-    "phi_r_plus_lambda_phi_kappa": lambda x: (
-        x**3 * (x**4 - 84) / 192,
-        x * (3 * x**4 - 12) / 32,
-        -(x**2) * (x**4 - 60) / 48 / ROOT,
-    ),
-    "phi_kappa_minus_s": lambda x: (
-        -(x**2) * (36 - x**4) / 48,
-        x**4 / 4,
-        -x * (x**4 - 24) / 12 / ROOT,
-    ),
-}
-
-
-def closed_form(name: str, lam: float) -> mp.mpf:
-    x = mp.mpf(lam)
-    weights = CLOSED[name](x)
-    return sum(w * v for w, v in zip(weights, (*phi_pair(x), mp.mpf(1)), strict=True))
-
 
 def by_integration(name: str, lam: float) -> float:
     """The defining integral, turned into the sector where the kernel does not oscillate but decays.
