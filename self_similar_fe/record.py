@@ -15,40 +15,20 @@ from self_similar_fe.mesh import ExpandingMesh
 
 __all__ = ["history_of"]
 
+OF_CONTACTS = ("impulse", "in_contact")  # all else along the beam is at its nodes
+
 
 def history_of(run: Any, mesh: ExpandingMesh, seconds: float, completed: bool) -> ImpactHistory:
     """The record of a :class:`self_similar_fe.run.Run` in SI units."""
-    p = run.impact
-    column = {k: np.array([r[k] for r in run.records]) for k in run.records[0]}
-    force_time = p.mass_per_length * p.length_scale * p.velocity  # μ l* V₀, N s
-    energy = force_time * p.velocity
-    deflection = p.deflection_scale
-    units: dict[str, tuple[tuple[str, ...], float]] = {
-        "position": (("time", "x"), p.length_scale),
-        "gap": (("time", "x"), deflection),
-        "velocity": (("time", "x"), p.velocity),
-        "slope": (("time", "x"), deflection / p.length_scale),
-        "impulse": (("time", "contact"), force_time),
-        "total_impulse": (("time",), force_time),
-        "held_impulse": (("time",), force_time),
-        "impulse_moment": (("time",), force_time * p.length_scale),
-        "smallest_gap": (("time",), deflection),
-        "smallest_reaction": (("time",), force_time / p.time_scale),
-        "complementarity_product": (("time",), force_time / p.time_scale * deflection),
-        "lift": (("time",), deflection),
-        **{
-            k: (("time",), energy)
-            for k in ("kinetic_energy", "strain_energy", "work_of_loads", "loss_absorbed", "loss_algorithmic")
-        },
-    }
+    column = {name: np.array([record[name] for record in run.records]) for name in run.records[0]}
+    time, nodes = column.pop("time"), column["position"][-1]
     fields: dict[str, tuple[Sequence[str], NDArray[Any]]] = {
-        name: (dims, column[name] * unit) for name, (dims, unit) in units.items()
+        name: (("time", "contact" if name in OF_CONTACTS else "x")[: values.ndim], values)
+        for name, values in column.items()
     }
-    fields["contact_position"] = (("time", "contact"), fields["position"][1])
-    fields["in_contact"] = (("time", "contact"), column["in_contact"])
-    final = fields["position"][1][-1]
+    fields["contact_position"] = (("time", "contact"), column["position"])
     return ImpactHistory.build(
-        impact=p,
+        impact=run.impact,
         path="self_similar",
         symmetry="half",
         settings={
@@ -62,9 +42,9 @@ def history_of(run: Any, mesh: ExpandingMesh, seconds: float, completed: bool) -
             "gap_tolerance": run.state.gap_tolerance,
             "energies": "of the fast part z = y0 - y",
         },
-        time=column["time"] * p.time_scale,
-        x=final,
-        contact_x=final,
+        time=time,
+        x=nodes,
+        contact_x=nodes,
         fields=fields,
         warnings=warnings_of(run),
         steps=run.steps,
@@ -85,7 +65,5 @@ def warnings_of(run: Any) -> list[str]:
             f"{run.impact.half_length:.3g} m"
         )
     if moved > 0.3:
-        found.append(
-            f"the front moved by {moved:.0%} of the contact length, out of the mesh's finest part"
-        )
+        found.append(f"the front moved by {moved:.0%} of the contact length, out of the mesh's finest part")
     return found

@@ -199,38 +199,39 @@ class Run:
                     progress(self.steps / self.total)
 
     def record(self) -> None:
-        state, tau = self.state, self.tau
+        """One more instant, SI units."""
+        state, tau, p = self.state, self.tau, self.impact
         leading, first = self.free
         obstacle = leading + tau * first
         root = math.sqrt(tau)
-        velocity = self.full_velocity()
-        eta = state.eta
-        gap = -tau * (obstacle - eta[0::2])
+        velocity, eta = self.full_velocity(), state.eta
+        deflection, push = p.deflection_scale, p.mass_per_length * p.length_scale * p.velocity  # μ l* V₀, N s
+        energy, force = push * p.velocity, push / p.time_scale
+        gap = -tau * (obstacle - eta[0::2]) * deflection
         kinetic = 0.5 * float(velocity @ (state.operators.mass @ velocity)) * root
-        bow = self.impact.curvature * self.impact.length_scale
-        slope_free = -bow * state.zeta + tau * self.loads(state.zeta, 1.0, by_x=1)
-        zone = state.zeta <= 0.9 * state.front
+        slope_free = -p.curvature * p.length_scale * state.zeta + tau * self.loads(state.zeta, 1.0, by_x=1)
+        product = float(np.abs(state.reaction * (eta[0::2] - obstacle)).max()) * root
         self.records.append(
             {
-                "time": tau,
-                "position": state.zeta * root,
+                "time": tau * p.time_scale,
+                "position": state.zeta * root * p.length_scale,
                 "gap": gap,
-                "velocity": self.rate_of_obstacle(tau) - velocity[0::2],
-                "slope": root * (slope_free - eta[1::2]),
-                "impulse": self.impulse.copy(),
-                "in_contact": state.active.copy(),
-                "total_impulse": 2.0 * float(self.impulse.sum()),
-                "impulse_moment": self.moment,
-                "kinetic_energy": 2.0 * kinetic,
-                "strain_energy": 2.0 * self._strain(tau) * root,
-                "loss_algorithmic": 2.0 * self.dissipated,
-                "work_of_loads": 2.0 * self.work,
-                "loss_absorbed": 2.0 * self.absorbed,
-                "held_impulse": 2.0 * self.held,
+                "velocity": (self.rate_of_obstacle(tau) - velocity[0::2]) * p.velocity,
+                "slope": root * (slope_free - eta[1::2]) * (deflection / p.length_scale),
+                "impulse": self.impulse * push,
+                "in_contact": state.active,
+                "total_impulse": 2.0 * float(self.impulse.sum()) * push,
+                "impulse_moment": self.moment * push * p.length_scale,
+                "kinetic_energy": 2.0 * kinetic * energy,
+                "strain_energy": 2.0 * self._strain(tau) * root * energy,
+                "loss_algorithmic": 2.0 * self.dissipated * energy,
+                "work_of_loads": 2.0 * self.work * energy,
+                "loss_absorbed": 2.0 * self.absorbed * energy,
+                "held_impulse": 2.0 * self.held * push,
                 "smallest_gap": float(np.min(gap[self.near])),
-                "smallest_reaction": float(state.reaction.min()) / root,
-                "complementarity_product": float(np.abs(state.reaction * (eta[0::2] - obstacle)).max()) * root,
-                "lift": float(np.max(gap[zone], initial=0.0)),
+                "smallest_reaction": float(state.reaction.min()) / root * force,
+                "complementarity_product": product * force * deflection,
+                "lift": float(np.max(gap[state.zeta <= 0.9 * state.front], initial=0.0)),
             }
         )
 

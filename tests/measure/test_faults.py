@@ -47,7 +47,7 @@ FAULTS = {
     "self_similar_fe": [
         ("total impulse", "momentum", "run.py", "2.0 * float(self.impulse.sum())", "1.98 * float(self.impulse.sum())"),
         ("impulses of the steps", "momentum", "run.py", "+ mean * roots", "+ 0.99 * mean * roots"),
-        ("impulses of the points", "points", "run.py", "self.impulse.copy()", "0.99 * self.impulse"),
+        ("impulses of the points", "points", "run.py", "self.impulse * push", "0.99 * self.impulse * push"),
         ("half a node's mass", "mass", "similarity.py", WORK, f"{WORK} * {LOST.format('length')}"),
     ],
 }  # fmt: skip
