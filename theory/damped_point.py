@@ -20,10 +20,10 @@ A zone (κ/ν < 1) starts as one point, too. Its elastic moment is erf √T of t
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 from scipy.special import erf, erfinv, gamma, hyp1f1
 
-FloatArray = NDArray[np.float64]
+from theory._fresnel import FloatArray
 
 
 def reaction_ratio(age: ArrayLike) -> FloatArray:

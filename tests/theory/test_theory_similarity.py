@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from scipy.integrate import quad
 
 from theory import SelfSimilarWave, contact_parameters, peak_moment, phi
 
@@ -20,20 +19,6 @@ def test_momentum_equals_impulse_and_the_impact_conserves_energy(ratio: float) -
     wave = SelfSimilarWave(contact_parameters(ratio, nu=1.7))
     assert wave.momentum == pytest.approx(wave.impulse, rel=1e-12)
     assert wave.energy == pytest.approx(1.7 * wave.impulse, rel=1e-11)
-
-
-def test_energy_summed_over_the_beam_converges_to_the_conserved_one() -> None:
-    # the wave carries |B|²/(4π x²) far ahead: what is missing beyond X falls like 1/X
-    wave = SelfSimilarWave(contact_parameters(0.5))
-
-    def density(x: float) -> float:
-        return float(wave.velocity(x)[0] ** 2 + wave.curvature(x)[0] ** 2)
-
-    missing = [
-        wave.impulse - quad(density, 0.0, end, limit=400, points=[wave.parameters.lambda0])[0] for end in (20.0, 40.0)
-    ]
-    assert missing[0] / missing[1] == pytest.approx(2.0, rel=1e-3)
-    assert abs(2.0 * missing[1] - missing[0]) < 1e-5 * wave.impulse
 
 
 @pytest.mark.parametrize("ratio", [1 / 1600, 0.05, 0.5, 0.8, 0.99])
