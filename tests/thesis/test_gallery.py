@@ -15,11 +15,11 @@ import pytest
 from hermite_fe import HermiteFE
 from self_similar_fe import SelfSimilarFE
 from theory import contact_parameters, kernel
-from thesis.gallery import ITEMS, base, draw_all, listing
-from thesis.gallery.base import order
+from thesis import gallery
+from thesis.gallery import ITEMS, draw_all, listing
 from thesis.gallery.drawing import REACTION, run_figure
 from thesis.gallery.runs import Series, case
-from thesis.sheet import Sheet
+from thesis.sheet import Sheet, order
 from thesis.studies.exact import Exact
 from thesis.studies.panels import contact_length
 from thesis.studies.thesis import MASSES
@@ -97,16 +97,16 @@ def test_every_item_has_data(name: str) -> None:
 def test_an_item_is_drawn_again_when_a_file_is_missing_or_sources_or_caption_changed(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(base, "digest_of", lambda packages, settings: str(settings))
+    monkeypatch.setattr(gallery, "digest_of", lambda packages, settings: str(settings))
     first = entries(tmp_path, "fig-2.3", "fig-2.7b")
     picture, data = tmp_path / "fig-2.3.png", tmp_path / "fig-2.7b.csv"
     stamp = picture.stat().st_mtime_ns
     data.unlink()
     assert entries(tmp_path, "fig-2.3", "fig-2.7b")["fig-2.3"] == first["fig-2.3"]
     assert picture.stat().st_mtime_ns == stamp and data.is_file()
-    monkeypatch.setitem(base.ITEMS, "fig-2.7b", dataclasses.replace(ITEMS["fig-2.7b"], caption="Another."))
+    monkeypatch.setitem(gallery.ITEMS, "fig-2.7b", dataclasses.replace(ITEMS["fig-2.7b"], caption="Another."))
     assert entries(tmp_path, "fig-2.7b")["fig-2.7b"]["caption"] == "Another."
-    monkeypatch.setattr(base, "digest_of", lambda packages, settings: "of tomorrow")
+    monkeypatch.setattr(gallery, "digest_of", lambda packages, settings: "of tomorrow")
     entries(tmp_path, "fig-2.3")
     assert picture.stat().st_mtime_ns > stamp
 
@@ -122,7 +122,7 @@ def test_unknown_ids_and_formats_are_refused_and_a_failing_item_leaves_the_other
     def broken(sheet: Any) -> None:
         raise ArithmeticError("no luck")
 
-    monkeypatch.setitem(base.ITEMS, "fig-2.3", dataclasses.replace(ITEMS["fig-2.3"], draw=broken))
+    monkeypatch.setitem(gallery.ITEMS, "fig-2.3", dataclasses.replace(ITEMS["fig-2.3"], draw=broken))
     found, failures = draw_all(["fig-2.3", "fig-2.7a"], tmp_path)
     assert [d["id"] for d in found] == ["fig-2.7a"]
     assert failures == [{"id": "fig-2.3", "reason": "ArithmeticError: no luck"}]

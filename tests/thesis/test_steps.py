@@ -8,10 +8,9 @@ import numpy as np
 import pytest
 
 from comparison.readable import readable
-from thesis.gallery.runs import case, thesis, thesis_history
+from thesis.gallery.runs import case, every_step, thesis, thesis_history
 from thesis.stored_studies import FILE
-from thesis.studies.outcome import MEASURES
-from thesis.studies.steps import CUT_OFF, Steps, every_step
+from thesis.studies.outcome import CUT_OFF, MEASURES, Steps
 from thesis.studies.thesis import thesis_settings
 
 

@@ -12,9 +12,8 @@ from matplotlib.axes import Axes
 from comparison.figures import style
 from comparison.readable import readable
 from theory import ImpactFields, contact_parameters
-from thesis.gallery.base import item
 from thesis.gallery.drawing import THEORY, beam_panel, legend_below, plain_line
-from thesis.sheet import Sheet
+from thesis.sheet import Sheet, item
 
 EPSILON = 0.1
 PLACES = np.linspace(-1.5, 1.5, 121)

@@ -22,10 +22,9 @@ from comparison.store import RunStore, default_store
 from hermite_fe import resolution
 from hermite_fe.masses import Mass
 from theory import contact_parameters
-from thesis.gallery.base import item
 from thesis.gallery.drawing import THEORY, nearest, plain_line
 from thesis.gallery.runs import case, thesis
-from thesis.sheet import Sheet
+from thesis.sheet import Sheet, item
 from thesis.studies.exact import Exact
 from thesis.studies.outcome import Outcome
 from thesis.studies.thesis import CONSISTENT, THESIS_MASS, Settings

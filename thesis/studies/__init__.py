@@ -15,13 +15,14 @@ from pathlib import Path
 
 from bent_beam.cases import Case
 from bent_beam.method import Method
-from thesis.studies import conditioning, contact, first_order_case, mesh, of_exudyn
+from thesis.studies import conditioning, first_order_case, numerical, of_exudyn
 from thesis.studies.base import Study, StudyResult, perform
 
 __all__ = ["STUDIES", "Study", "StudyResult", "run_study"]
 
 LISTED = (
-    *(mesh.TIME_STEP, mesh.MESH, contact.DAMPING, contact.RESTITUTION, contact.CONTACT_POINT, mesh.FAR_FIELD),
+    *(numerical.TIME_STEP, numerical.MESH, numerical.DAMPING, numerical.RESTITUTION, numerical.CONTACT_POINT),
+    numerical.FAR_FIELD,
     *(of_exudyn.PENALTY, of_exudyn.AMPLITUDE, of_exudyn.FRICTION, first_order_case.STUDY, conditioning.STUDY),
 )
 STUDIES: dict[str, Study] = {study.name: study for study in LISTED}

@@ -14,11 +14,10 @@ from comparison.plain import plain
 from comparison.readable import readable
 from comparison.store import write_atomically
 from thesis.sheet import Sheet
-from thesis.studies.of_methods import CONCLUSION, draw_methods, runs_of_methods
+from thesis.studies.of_methods import CONCLUSION, Vary, draw_methods, runs_of_methods
 from thesis.studies.outcome import MEASURES, Outcome
 from thesis.studies.panels import draw_outcomes
 from thesis.studies.thesis import Progress, Variant, run_variants
-from thesis.studies.variation import Vary
 
 SAME = 30  # characters of a warning that tell its kind: its numbers differ from run to run
 

@@ -26,9 +26,9 @@ from hermite_fe.beam import HermiteBeam
 from hermite_fe.contacts import NodeContact
 from thesis.sheet import Sheet
 from thesis.studies.base import Study
+from thesis.studies.of_methods import NotVaried, Setting
 from thesis.studies.outcome import Outcome
 from thesis.studies.thesis import Variant, thesis_settings
-from thesis.studies.variation import NotVaried, Setting
 
 FACTORS = (4.0, 2.0, 1.0, 0.4, 0.2, 0.1, 0.04)
 UNCAPPED = 1e9
