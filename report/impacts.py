@@ -23,17 +23,6 @@ from measure.moments import moments
 from theory import contact_parameters
 from theory.fields import ImpactFields
 
-__all__ = [
-    "ENERGIES",
-    "SHOWN",
-    "Shown",
-    "ShownImpact",
-    "reduce_history",
-    "show",
-    "show_all",
-    "theory_of",
-]
-
 Array = NDArray[np.float64]
 FRAMES = 50
 POINTS = 121
@@ -100,9 +89,7 @@ class ShownImpact:
     label: str
     data: Mapping[str, Any]
     settings: Mapping[str, Any]
-    seconds: float
-    steps: int
-    warnings: tuple[str, ...] = ()
+    warnings: Sequence[str]
 
 
 def frames() -> Array:
@@ -130,15 +117,7 @@ def show(shown: Shown, method: Method) -> ShownImpact:
     end = END * impact.time_scale
     fixed = chosen_for(method, impact, end) if shown.epsilon else method
     history = fixed.simulate(impact, end_time=end, save=INSTANTS)
-    return ShownImpact(
-        shown,
-        method.label,
-        reduce_history(history, shown),
-        settings_of(method),
-        history.seconds,
-        history.steps,
-        tuple(history.warnings),
-    )
+    return ShownImpact(shown, method.label, reduce_history(history, shown), settings_of(method), history.warnings)
 
 
 def _kept(shown: Shown, method: Method, store: RunStore) -> ShownImpact | str:
@@ -151,14 +130,13 @@ def _kept(shown: Shown, method: Method, store: RunStore) -> ShownImpact | str:
 
     def compute() -> dict[str, Any]:
         found = show(shown, method)
-        return {"data": dict(found.data), "settings": dict(found.settings), "seconds": found.seconds,
-                "steps": found.steps, "warnings": list(found.warnings)}  # fmt: skip
+        return {"data": dict(found.data), "settings": dict(found.settings), "warnings": list(found.warnings)}
 
     try:
         kept = store.answer(question, compute)
     except ANY_FAILURE as error:
         return f"{method.label}, {shown.title}: {' '.join(str(error).split())}"
-    return ShownImpact(shown, method.label, **{**kept, "warnings": tuple(kept["warnings"])})
+    return ShownImpact(shown, method.label, kept["data"], kept["settings"], kept["warnings"])
 
 
 def show_all(

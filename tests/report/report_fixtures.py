@@ -12,9 +12,9 @@ from comparison.stored import write
 from hermite_fe import HermiteFE
 from measure.measured import Measured
 from report.impacts import SHOWN, ShownImpact, show
-from report.pipe import Pipe, pipe_prediction
-from report.render import Content
+from report.page import Content
 from report.studies import stored_studies
+from report.summary import pipe_prediction
 from self_similar_fe import SelfSimilarFE
 from theory import contact_parameters
 
@@ -59,6 +59,7 @@ def rows() -> list[MatchRow]:
     ]
 
 
+pipe = cache(pipe_prediction)
 METHODS = (SelfSimilarFE(), HermiteFE(mesh=ScaleFreeMesh(element_length=4e-3, growth=1.02)))
 
 
@@ -75,11 +76,6 @@ def studies(folder: Path, text: str = "Finer elements bring the errors down.") -
              "rows": [{"element": 0.05, "lambda0": {"value": 0.98, "error": 0.002}, "note": None}]}  # fmt: skip
     failed = study | {"name": "penalty", "title": "Penalty", "rows": [], "failed": True, "reason": text}
     return write(folder / "studies.json", "studies", "a test", ["measure"], {}, {"studies": [study, failed]})
-
-
-@cache
-def pipe() -> Pipe | None:
-    return pipe_prediction()
 
 
 def content(folder: Path, text: str = "an ordinary warning") -> Content:
