@@ -86,13 +86,13 @@ def numbers_of(sheet: Sheet, outcomes: Sequence[Outcome], *names: str) -> None:
         sheet.numbers |= {f"{MEASURES[name]}, {o.label}": o.measures.get(name) for o in outcomes}
 
 
-def run_figure(sheet: Sheet, series: Series, panels: Sequence[Panel]) -> None:
+def run_figure(sheet: Sheet, series: Callable[[], Series], panels: Sequence[Panel]) -> None:
     """Panels of the runs below one another, a column a mass; one legend, and the runs' numbers beside them."""
     rows, reference = len(panels), False
     with sheet.figure(rows, 2, width=style.PAGE, height=2.3 * rows + 0.4, sharex="row") as (fig, axes):
         grid = np.reshape(axes, (rows, 2))
         for column, mass in zip(grid.T, MASSES):
-            outcomes = series.outcomes(mass)
+            outcomes = series().outcomes(mass)
             for axis, panel in zip(column, panels):
                 panel(sheet, axis, outcomes)
             for panel in panels:
@@ -120,12 +120,8 @@ def filtered_scatter(outcome: Outcome) -> float | None:
 def run_items(module: str, figures: Iterable[RunFigure]) -> None:
     """Register figures of runs under their numbers."""
     for name, title, panels, series, caption in figures:
-        draw = functools.partial(_late_figure, series=series, panels=panels)
+        draw = functools.partial(run_figure, series=series, panels=panels)
         ITEMS[name] = Item(name, title, caption, module, draw)
-
-
-def _late_figure(sheet: Sheet, series: Callable[[], Series], panels: Sequence[Panel]) -> None:
-    run_figure(sheet, series(), panels)
 
 
 def named(outcomes: Sequence[Outcome], mass: str, only_own: bool) -> list[Outcome]:

@@ -19,13 +19,14 @@ from thesis.sheet import Sheet, item
 from thesis.studies.exact import Exact
 from thesis.studies.first_order_case import FITTED, fitted, old_settings, predicted
 from thesis.studies.thesis import MASSES
-from thesis.verdicts import CLASSES, RULE, Printed, class_of
+from thesis.verdicts import CLASSES, RULE, Printed
 
 
 def on_runs(where: str, what: str, printed: str, measured: Callable[[str], float], how: str) -> Printed:
     """A number read off runs: ours with lumped masses, with the printed matrix beside it. measured : of a mass."""
     other = measured("consistent")
-    why = f"{how}lumped masses, r = 1/105; with (3.1.8) {readable(other, 3)}: {class_of(printed, other, read=True)}"
+    verdict = Printed(where, what, printed, other, read=True).verdict
+    why = f"{how}lumped masses, r = 1/105; with (3.1.8) {readable(other, 3)}: {verdict}"
     return Printed(where, what, printed, measured("lumped"), why, read=True)
 
 

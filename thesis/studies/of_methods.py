@@ -145,11 +145,11 @@ def runs_of_methods(
 
 
 def _runs(vary: Vary, case: Case, method: Method, factor: float) -> list[Variant | Outcome]:
-    reason = f"refine: {method.path} does not know how to be refined (got {factor:g})"
     try:
         finer = refined(method, factor)
-        reason = reason if finer is None else str(finer.refuses(case.impact) or "")
-        if finer is not None and not reason:
+        if finer is None:
+            reason = f"refine: {method.path} does not know how to be refined (got {factor:g})"
+        elif not (reason := finer.refuses(case.impact) or ""):
             return [_run(method.label, one, case, factor) for one in vary(finer, case)]
     except NotVaried as error:
         reason = f"not varied: {error}"
@@ -159,7 +159,7 @@ def _runs(vary: Vary, case: Case, method: Method, factor: float) -> list[Variant
 
 
 def _run(label: str, one: Setting, case: Case, factor: float) -> Variant:
-    impact, end = one.impact or case.impact, case.end_time if one.end_time is None else one.end_time
+    impact, end = one.impact or case.impact, one.end_time or case.end_time
     return Variant(label, impact, end, one.method, one.value, setting=one.name, refine=factor)
 
 
