@@ -51,15 +51,9 @@ class Measurement:
 
 MEASUREMENTS = (
     Measurement("work-precision", "all integrators with all contacts, leading order", "all.toml", (1.0, 2.0)),
-    Measurement(
-        "work-precision-first-order",
-        "integrators, first order",
-        "first_order.toml",
-        (0.5, 1.0),
-        ((4.0, 0.0, 0.0, 0.0),),
-        limit=120.0,
-    ),
-)
+    Measurement("work-precision-first-order", "integrators, first order", "first_order.toml", (0.5, 1.0),
+                ((4.0, 0.0, 0.0, 0.0),), limit=120.0),
+)  # fmt: skip
 
 
 def store_measurement(measurement: Measurement, *, jobs: int = 1) -> Path:

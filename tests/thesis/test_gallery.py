@@ -80,37 +80,33 @@ def test_every_figure_and_table_is_listed_in_the_order_of_the_thesis_and_in_the_
         assert entry["caption"].endswith((".", ")"))
 
 
-def test_pictures_and_data_are_written_and_indexed(tmp_path: Path) -> None:
-    drawn = entries(tmp_path, "fig-2.12a", "table-3.2")
+def test_pictures_and_data_are_written_and_again_when_a_file_is_missing_or_sources_or_caption_changed(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(gallery, "digest_of", lambda packages, settings: str(settings))
+    first = entries(tmp_path, "fig-2.12a", "table-3.2")
     index = (tmp_path / "index.md").read_text()
-    for name, entry in drawn.items():
+    for name, entry in first.items():
         files = [Path(f) for f in entry["files"]]
         assert files == [tmp_path / f"{name}.png", tmp_path / f"{name}.csv"]
         assert files[0].stat().st_size > 3000 and files[1].read_text() == sheet_of(name).csv()
         assert f"## {name}" in index and entry["caption"] == ITEMS[name].caption
     assert "| r₁ for (0, 2, 0) at κ/ν = 0.5 | −1.672 |" in index
+    picture, data = tmp_path / "fig-2.12a.png", tmp_path / "table-3.2.csv"
+    stamp = picture.stat().st_mtime_ns
+    data.unlink()
+    assert entries(tmp_path, *first)["fig-2.12a"] == first["fig-2.12a"]
+    assert picture.stat().st_mtime_ns == stamp and data.is_file()
+    monkeypatch.setitem(gallery.ITEMS, "table-3.2", dataclasses.replace(ITEMS["table-3.2"], caption="Another."))
+    assert entries(tmp_path, "table-3.2")["table-3.2"]["caption"] == "Another."
+    monkeypatch.setattr(gallery, "digest_of", lambda packages, settings: "of tomorrow")
+    entries(tmp_path, "fig-2.12a")
+    assert picture.stat().st_mtime_ns > stamp
 
 
 @pytest.mark.parametrize("name", [pytest.param(n, marks=() if n in QUICK else SLOW) for n in ITEMS])
 def test_every_item_has_data(name: str) -> None:
     assert name == "table-numbers" or len(cells(name)) >= (2 if name == "extra-uniform" else 3)  # it has two lengths
-
-
-def test_an_item_is_drawn_again_when_a_file_is_missing_or_sources_or_caption_changed(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr(gallery, "digest_of", lambda packages, settings: str(settings))
-    first = entries(tmp_path, "fig-2.3", "fig-2.7b")
-    picture, data = tmp_path / "fig-2.3.png", tmp_path / "fig-2.7b.csv"
-    stamp = picture.stat().st_mtime_ns
-    data.unlink()
-    assert entries(tmp_path, "fig-2.3", "fig-2.7b")["fig-2.3"] == first["fig-2.3"]
-    assert picture.stat().st_mtime_ns == stamp and data.is_file()
-    monkeypatch.setitem(gallery.ITEMS, "fig-2.7b", dataclasses.replace(ITEMS["fig-2.7b"], caption="Another."))
-    assert entries(tmp_path, "fig-2.7b")["fig-2.7b"]["caption"] == "Another."
-    monkeypatch.setattr(gallery, "digest_of", lambda packages, settings: "of tomorrow")
-    entries(tmp_path, "fig-2.3")
-    assert picture.stat().st_mtime_ns > stamp
 
 
 def test_unknown_ids_and_formats_are_refused_and_a_failing_item_leaves_the_others(

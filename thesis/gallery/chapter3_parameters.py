@@ -279,10 +279,8 @@ def square_length(sheet: Sheet) -> None:
                 contact_length(sheet, axis, found)
             column[1].set(xlim=(0.6e6 * end, 1e6 * end), ylim=(0.97e3 * low, 1.03e3 * high))
             numbers_of(sheet, named(found, mass, mass != "lumped"), "contact_length_error")
-            for o in found[:2]:
-                sheet.numbers[f"longest rest of λ_c in the last two fifths (µs), {o.label}, {mass}"] = (
-                    1e6 * longest_rest(o)
-                )
+            rest = "longest rest of λ_c in the last two fifths (µs)"
+            sheet.numbers |= {f"{rest}, {o.label}, {mass}": 1e6 * longest_rest(o) for o in found[:2]}
         sheet.letter(axes, [f"{mass} mass" for mass in MASSES] * 2)
         legend_below(fig, axes[0, 0], 5, fontsize=7.0)
 
