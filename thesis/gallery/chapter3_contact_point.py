@@ -14,9 +14,9 @@ from thesis.gallery.drawing import (
     CellForces,
     beam_at_times,
     draw_maps,
-    filtered_scatter,
     legend_below,
     numbers_of,
+    scatters_of,
 )
 from thesis.gallery.runs import reference_runs, thesis, thesis_history, thesis_run
 from thesis.sheet import Sheet, item
@@ -58,7 +58,7 @@ def compare(sheet: Sheet, panels: Sequence[Panel], *measures: str) -> None:
         numbers_of(sheet, outcomes, *measures)
         legend_below(fig, np.ravel(axes)[0], 2 + len(panels), fontsize=7.0)
     if filtered in panels:
-        sheet.numbers |= {f"filtered reaction, scatter about theory, {o.label}": filtered_scatter(o) for o in own}
+        scatters_of(sheet, own)
 
 
 def evolution(sheet: Sheet, contact: str) -> None:

@@ -88,19 +88,16 @@ def numbers_of(sheet: Sheet, outcomes: Sequence[Outcome], *names: str) -> None:
 
 def run_figure(sheet: Sheet, series: Callable[[], Series], panels: Sequence[Panel]) -> None:
     """Panels of the runs below one another, a column a mass; one legend, and the runs' numbers beside them."""
-    rows, reference = len(panels), False
+    rows = len(panels)
     with sheet.figure(rows, 2, width=style.PAGE, height=2.3 * rows + 0.4, sharex="row") as (fig, axes):
         grid = np.reshape(axes, (rows, 2))
-        for column, mass in zip(grid.T, MASSES):
+        for i, (column, mass) in enumerate(zip(grid.T, MASSES)):
             outcomes = series().outcomes(mass)
             for axis, panel in zip(column, panels):
                 panel(sheet, axis, outcomes)
-            for panel in panels:
-                numbers_of(sheet, named(outcomes, mass, reference), *NUMBERS.get(panel, ()))
-            for o in outcomes:
-                if o.steps is not None and filtered in panels:
-                    sheet.numbers[f"filtered reaction, scatter about theory, {o.label}, {mass}"] = filtered_scatter(o)
-            reference = True
+                numbers_of(sheet, named(outcomes, mass, only_own=i > 0), *NUMBERS.get(panel, ()))
+            if filtered in panels:
+                scatters_of(sheet, named(outcomes, mass, only_own=True))
         for left, right in grid:
             (low, high), (one, other) = left.get_ylim(), right.get_ylim()
             if left.get_ylabel() == right.get_ylabel() and low < high:  # one unit, and no wall below
@@ -115,6 +112,11 @@ def filtered_scatter(outcome: Outcome) -> float | None:
     """Of the filtered reaction about theory."""
     s = outcome.steps
     return None if s is None else scatter(s.time, s.filtered(), outcome.exact.side_reaction(s.time))
+
+
+def scatters_of(sheet: Sheet, outcomes: Sequence[Outcome]) -> None:
+    """The scatter of each run's filtered reaction beside the figure."""
+    sheet.numbers |= {f"filtered reaction, scatter about theory, {o.label}": filtered_scatter(o) for o in outcomes}
 
 
 def run_items(module: str, figures: Iterable[RunFigure]) -> None:
