@@ -120,6 +120,7 @@ def test_unknown_ids_and_formats_are_refused_and_a_failing_item_leaves_the_other
     def broken(sheet: Any) -> None:
         raise ArithmeticError("no luck")
 
+    monkeypatch.setattr(gallery, "digest_of", lambda packages, settings: "")
     monkeypatch.setitem(gallery.ITEMS, "fig-2.3", dataclasses.replace(ITEMS["fig-2.3"], draw=broken))
     found, failures = draw_all(["fig-2.3", "fig-2.7a"], tmp_path)
     assert [d["id"] for d in found] == ["fig-2.7a"]

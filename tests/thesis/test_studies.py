@@ -293,16 +293,16 @@ def test_the_command_takes_methods_and_every_row_plot_and_table_carries_the_labe
         'integrator = {kind = "moreau_jean"}\n[[method]]\nlabel = "Endless"\npath = "self_similar"\n'
     )
     small = ["--set", "beam.length=2.0", "--set", "run.duration=0.01"]
-    arguments = ["study", "damping", "cases/thesis_K10.toml", *small, "--json", "--out", str(tmp_path / "out")]
+    arguments = ["study", "restitution", "cases/thesis_K10.toml", *small, "--json", "--out", str(tmp_path / "out")]
     assert run([*arguments, "--methods", str(file), "--refine", "1,2"]) == 0
     document = json.loads(capsys.readouterr().out)
     rows = document["rows"]
-    labels = [("Mine", 1)] * 5 + [("Mine", 2)] * 5 + [("Endless", 1), ("Endless", 2)]
+    labels = [("Mine", 1)] * 3 + [("Mine", 2)] * 3 + [("Endless", 1), ("Endless", 2)]
     assert [(r["label"], r["refine"]) for r in rows] == labels
-    assert [r["setting"] for r in rows[5:10]] == ["ρ∞ = 1", "ρ∞ = 0.8", "ρ∞ = 0.5", "ρ∞ = 0.2", "ρ∞ = 0"]
-    assert all(r["reaction_error"] is not None and r["failure"] is None for r in rows[:10])
-    assert all(r["failure"] == "not varied: self_similar has no integrator" and r["refused"] for r in rows[10:])
-    drawn, table = ((tmp_path / "out" / f"damping{end}.csv").read_text() for end in ("", "-table"))
+    assert [r["setting"] for r in rows[3:6]] == ["restitution 0", "restitution 0.5", "restitution 1"]
+    assert all(r["reaction_error"] is not None and r["failure"] is None for r in rows[:6])
+    assert all(r["failure"] == "not varied: self_similar has no contact" and r["refused"] for r in rows[6:])
+    drawn, table = ((tmp_path / "out" / f"restitution{end}.csv").read_text() for end in ("", "-table"))
     assert "Mine" in drawn and "Mine, refined 2 times" in drawn and "Endless" in table
 
 
