@@ -9,26 +9,12 @@ from typing import Annotated
 import typer
 
 from comparison.command_line.console import Console
-from comparison.command_line.options import (
-    Json,
-    Methods,
-    Overwrite,
-    Quiet,
-    Scheduler,
-    Set,
-    emit,
-    factors,
-    path_names,
-)
-
-__all__ = ["report"]
+from comparison.command_line.options import Json, Methods, Overwrite, Quiet, Scheduler, Set, emit, factors, path_names
 
 
 def report(
     out: Annotated[Path, typer.Option(help="Folder to write into.")] = Path("out/report"),
-    jobs: Annotated[int, typer.Option("--jobs", "-j", min=1, help="Processes on this machine.")] = max(
-        1, os.cpu_count() or 1
-    ),
+    jobs: Annotated[int, typer.Option("--jobs", "-j", min=1, help="Processes on this machine.")] = os.cpu_count() or 1,
     scheduler: Scheduler = None,
     path: Annotated[
         list[str] | None,
@@ -72,15 +58,8 @@ def report(
     check_writable(out, folder=True)
     store = RunStore(None if fresh else default_store())
     with Console(quiet).progress("report") as bar:
-        found = write_report(
-            out,
-            methods=chosen,
-            questions=report_questions(chosen, refines),
-            store=store,
-            jobs=jobs,
-            scheduler=scheduler,
-            progress=bar.count,
-        )
+        asked = report_questions(chosen, refines)
+        found = write_report(out, chosen, asked, store=store, jobs=jobs, scheduler=scheduler, progress=bar.count)
     emit(found, as_json, lambda: f"{found['headline']}\nReport: {page}")
     if found["failures"]:
         raise typer.Exit(3)

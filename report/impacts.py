@@ -23,17 +23,6 @@ from measure.moments import moments
 from theory import contact_parameters
 from theory.fields import ImpactFields
 
-__all__ = [
-    "ENERGIES",
-    "SHOWN",
-    "Shown",
-    "ShownImpact",
-    "reduce_history",
-    "show",
-    "show_all",
-    "theory_of",
-]
-
 Array = NDArray[np.float64]
 FRAMES = 50
 POINTS = 121
@@ -71,13 +60,8 @@ class Shown:
 
     @property
     def impact(self) -> Impact:
-        alpha, psi, chi = self.first
-        return Impact.dimensionless(
-            self.kappa_over_nu,
-            epsilon_alpha=self.epsilon * alpha,
-            epsilon_psi=self.epsilon * psi,
-            epsilon_chi=self.epsilon * chi,
-        )
+        alpha, psi, chi = (self.epsilon * load for load in self.first)
+        return Impact.dimensionless(self.kappa_over_nu, epsilon_alpha=alpha, epsilon_psi=psi, epsilon_chi=chi)
 
     @property
     def pressure(self) -> float:
@@ -100,9 +84,7 @@ class ShownImpact:
     label: str
     data: Mapping[str, Any]
     settings: Mapping[str, Any]
-    seconds: float
-    steps: int
-    warnings: tuple[str, ...] = ()
+    warnings: Sequence[str]
 
 
 def frames() -> Array:
@@ -130,15 +112,7 @@ def show(shown: Shown, method: Method) -> ShownImpact:
     end = END * impact.time_scale
     fixed = chosen_for(method, impact, end) if shown.epsilon else method
     history = fixed.simulate(impact, end_time=end, save=INSTANTS)
-    return ShownImpact(
-        shown,
-        method.label,
-        reduce_history(history, shown),
-        settings_of(method),
-        history.seconds,
-        history.steps,
-        tuple(history.warnings),
-    )
+    return ShownImpact(shown, method.label, reduce_history(history, shown), settings_of(method), history.warnings)
 
 
 def _kept(shown: Shown, method: Method, store: RunStore) -> ShownImpact | str:
@@ -151,14 +125,13 @@ def _kept(shown: Shown, method: Method, store: RunStore) -> ShownImpact | str:
 
     def compute() -> dict[str, Any]:
         found = show(shown, method)
-        return {"data": dict(found.data), "settings": dict(found.settings), "seconds": found.seconds,
-                "steps": found.steps, "warnings": list(found.warnings)}  # fmt: skip
+        return {"data": dict(found.data), "settings": dict(found.settings), "warnings": list(found.warnings)}
 
     try:
         kept = store.answer(question, compute)
     except ANY_FAILURE as error:
         return f"{method.label}, {shown.title}: {' '.join(str(error).split())}"
-    return ShownImpact(shown, method.label, **{**kept, "warnings": tuple(kept["warnings"])})
+    return ShownImpact(shown, method.label, kept["data"], kept["settings"], kept["warnings"])
 
 
 def show_all(
@@ -172,14 +145,13 @@ def show_all(
     """Every impact by every method, impact by impact, and a sentence for each that could not be shown."""
     asked = [(shown, method, store) for shown in wanted for method in methods]
     slowest_first = sorted(range(len(asked)), key=lambda i: -asked[i][0].epsilon)
-    found = run_all(
-        _kept,
-        [asked[i] for i in slowest_first],
-        jobs=jobs,
-        progress=progress,
-        on_death=lambda i, why: f"{asked[slowest_first[i]][1].label}, {asked[slowest_first[i]][0].title}: {why}",
-    )
-    each = [one for _, one in sorted(zip(slowest_first, found))]
+    calls = [asked[i] for i in slowest_first]
+
+    def died(i: int, why: str) -> str:
+        return f"{calls[i][1].label}, {calls[i][0].title}: {why}"
+
+    found = dict(zip(slowest_first, run_all(_kept, calls, jobs=jobs, progress=progress, on_death=died)))
+    each = [found[i] for i in range(len(asked))]
     return [e for e in each if isinstance(e, ShownImpact)], [e for e in each if isinstance(e, str)]
 
 
@@ -200,18 +172,14 @@ def theory_of(shown: Shown) -> dict[str, Any]:
     for t, r in zip(tau, root):
         profile = np.array([np.interp(t, times, column) for column in profiles.T])
         gap.append(_short(CubicSpline(z, profile)(x / r)))
-    return dict(
-        plain(
-            {
-                "time": _short(tau),
-                "x": _short(x),
-                "gap": gap,
-                "front": _short(root * (exact.lambda0 + shown.epsilon * exact.lambda1 * tau)),
-                "reaction": _short(np.sqrt(2.0 / np.pi) * (exact.r0 + shown.epsilon * exact.r1 * tau) / root),
-                "pressure": shown.pressure,
-            }
-        )
-    )
+    return {
+        "time": _short(tau),
+        "x": _short(x),
+        "gap": gap,
+        "front": _short(root * (exact.lambda0 + shown.epsilon * exact.lambda1 * tau)),
+        "reaction": _short(np.sqrt(2.0 / np.pi) * (exact.r0 + shown.epsilon * exact.r1 * tau) / root),
+        "pressure": shown.pressure,
+    }
 
 
 def kept_instants(time: Array, count: int = FRAMES) -> NDArray[np.int64]:
@@ -232,16 +200,12 @@ def reduce_history(history: ImpactHistory, shown: Shown) -> dict[str, Any]:
     tau, wanted, x = found.tau, frames(), places(shown)
     root = np.sqrt(tau)
     reaction = np.gradient(found.impulse, root) / (2.0 * np.sqrt(np.maximum(tau, 1e-300)))  # I ~ √τ
-    half = [history.positions(k) >= 0.0 for k in range(tau.size)]  # a full beam is drawn by its right half
-    gap = np.array(
-        [
-            np.interp(
-                x, history.positions(k)[half[k]] / impact.length_scale, history.array("gap", k)[half[k]], right=np.nan
-            )
-            / (impact.velocity * max(history.time[k], 1e-300))
-            for k in range(tau.size)
-        ]
-    )
+    gap = np.zeros((tau.size, x.size))
+    for k, t in enumerate(history.time):
+        nodes = history.positions(k) / impact.length_scale
+        half = nodes >= 0.0  # a full beam is drawn by its right half
+        shape = np.interp(x, nodes[half], history.array("gap", k)[half], right=np.nan)
+        gap[k] = shape / (impact.velocity * max(t, 1e-300))
 
     def at(values: Array) -> Array:
         return np.interp(wanted, tau, values)
@@ -249,23 +213,19 @@ def reduce_history(history: ImpactHistory, shown: Shown) -> dict[str, Any]:
     kept = kept_instants(history.time)
     edges = np.linspace(0.0, widest(shown), BINS + 1)
     energy = impact.mass_per_length * impact.length_scale * impact.velocity**2
-    return dict(
-        plain(
-            {
-                "gap": [_short(row) for row in np.array([at(column) for column in gap.T]).T],
-                "front": _short(at(found.front)),
-                "reaction": _short(at(reaction)),
-                "pressure": _short(at(found.pressure)),
-                "lift": _short(at(found.lift)),
-                "map": {
-                    "x": _short(0.5 * (edges[1:] + edges[:-1])),
-                    "root_time": _short(root[kept][1:]),
-                    "force": [_short(row) for row in force_map(history, kept, edges)],
-                },
-                "energy": {n: _short(at(values) / energy) for n, values in energies(history).items()},
-            }
-        )
-    )
+    force = {
+        "x": _short(0.5 * (edges[1:] + edges[:-1])),
+        "root_time": _short(root[kept][1:]),
+        "force": [_short(row) for row in force_map(history, kept, edges)],
+    }
+    curves = {"front": found.front, "reaction": reaction, "pressure": found.pressure, "lift": found.lift}
+    reduced = {
+        "gap": [_short(row) for row in np.array([at(column) for column in gap.T]).T],
+        **{name: _short(at(values)) for name, values in curves.items()},
+        "map": force,
+        "energy": {name: _short(at(values) / energy) for name, values in energies(history).items()},
+    }
+    return dict(plain(reduced))
 
 
 def energies(history: ImpactHistory) -> dict[str, Array]:

@@ -1,78 +1,97 @@
 """The main job's result: every method matched with the theory, as one HTML page that needs no network.
 
 ``write_report`` computes the rows (:mod:`report.rows`) and a few impacts to look at (:mod:`report.impacts`), takes the
-parameter studies, the sheets of work and precision and the map of whole impacts as they are stored, and has
-:mod:`report.render` put all of it into the page. Whatever fails is named on the page, and the page is written all the
-same.
+parameter studies, the sheets of work and precision and the map of whole impacts as they are stored, and puts all of it
+into ``templates/report.html.j2``, with plotly.js inside. Whatever fails is named on the page, and the page is written
+all the same.
 """
 
 from __future__ import annotations
 
+import base64
+import json
+import os
+import platform
 import time as clock
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from datetime import UTC, datetime
+from importlib.metadata import version
 from pathlib import Path
 from typing import Any
+
+import jinja2
+from markupsafe import Markup
+from plotly.offline import get_plotlyjs
 
 from bent_beam.errors import ANY_FAILURE
 from bent_beam.files import write_atomically
 from bent_beam.method import Method, refined
+from bent_beam.versions import processor, versions
+from comparison.figures.style import marks
 from comparison.figures.work_precision import draw_work_precision
 from comparison.match import match
-from comparison.methods import default_methods
-from comparison.rows import Question, failures
+from comparison.rows import MatchRow, Question, failures
 from comparison.store import RunStore
 from comparison.tables import write_match
 from comparison.whole_impact.figures import draw_map
-from report.impacts import END, SHOWN, ShownImpact, show_all
-from report.numbers import stored_numbers
-from report.pipe import pipe_prediction
-from report.render import Content, render
-from report.rows import PATHS, convergence_rows, first_order_rows, leading_rows, report_questions
-from report.stills import draw_acceleration, draw_maps
-from report.studies import stored_studies
-from report.summary import headline
+from report.impacts import END, ENERGIES, SHOWN, ShownImpact, show_all, theory_of
+from report.plots import plots
+from report.rows import convergence_rows, first_order_rows, labels, leading_rows
+from report.stills import draw_acceleration, draw_maps, grouped
+from report.studies import stored_numbers, stored_studies
+from report.summary import COLUMNS, acceleration_rows, headline, percent, pipe_prediction, summary
 from report.work import stored_measurements
 
-__all__ = ["write_report"]
+TEMPLATES = Path(__file__).resolve().parent / "templates"
 
-Progress = Callable[[int, int], None]
+
+@dataclass(frozen=True)
+class Content:
+    """All that the page shows."""
+
+    rows: Sequence[MatchRow]
+    impacts: Sequence[ShownImpact] = ()
+    lost_impacts: Sequence[str] = ()
+    pipe: Mapping[str, Any] | None = None
+    numbers: Mapping[str, Any] | None = None
+    studies: Sequence[Mapping[str, Any]] = ()
+    work: Sequence[Mapping[str, Any]] = ()
+    pictures: Sequence[Path] = ()
+    seconds: float = 0.0
+    jobs: int = 1
 
 
 def write_report(
     out: Path,
+    methods: Sequence[Method],
+    questions: Sequence[Question],
     *,
     store: RunStore,
     jobs: int = 1,
     scheduler: str | None = None,
-    progress: Progress | None = None,
-    methods: Sequence[Method] | None = None,
-    questions: Sequence[Question] | None = None,
+    progress: Callable[[int, int], None] = lambda done, total: None,
 ) -> dict[str, Any]:
     """Compute everything and write ``out/index.html``, with its rows and still pictures in ``out/data``.
 
-    methods : to report on instead of one of each path. questions : rows to ask for instead of the usual ones.
-    progress : called with (done, total) as rows finish.
+    methods : to report on. questions : rows to ask for. progress : called with (done, total) as rows finish.
 
     Returns ``page``, ``files``, ``headline``, ``failures`` (JSON-ready) and ``rows`` (their number).
     A row that fails is listed, not raised.
     """
     began = clock.perf_counter()
-    shown_methods = default_methods(PATHS) if methods is None else list(methods)
-    asked = list(report_questions(shown_methods) if questions is None else questions)
-    total = len(asked) + len(SHOWN) * len(shown_methods) + 1
-
-    def count(done: int) -> None:
-        if progress is not None:
-            progress(done, total)
-
-    warm_up(shown_methods)
-    rows = match(asked, store=store, jobs=jobs, scheduler=scheduler, progress=lambda done, _: count(done))
+    asked = len(questions)
+    total = asked + len(SHOWN) * len(methods) + 1
+    warm_up(methods)
+    rows = match(questions, store=store, jobs=jobs, scheduler=scheduler, progress=lambda done, _: progress(done, total))
     impacts, lost = show_all(
-        SHOWN, shown_methods, store=store, jobs=jobs, progress=lambda done, _: count(len(asked) + done)
+        SHOWN, methods, store=store, jobs=jobs, progress=lambda done, _: progress(asked + done, total)
     )
     files = write_match(rows, out / "data")
     files += [f for f in draw_work_precision(convergence_rows(rows), out / "data") if f not in files]
-    files += draw_map(out / "data") + still_pictures(impacts, out / "data")
+    files += draw_map(out / "data")
+    if impacts:  # for paper and for readers without JavaScript
+        files += draw_maps(impacts, out / "data") + draw_acceleration(impacts, out / "data")
     content = Content(
         rows=rows,
         impacts=impacts,
@@ -87,12 +106,13 @@ def write_report(
     )
     index = out / "index.html"
     write_atomically(index, render(content))
-    count(total)
+    progress(total, total)
+    failed = failures(rows)
     return {
         "page": str(index),
         "files": [str(f) for f in [index, *files]],
-        "headline": headline(leading_rows(rows), first_order_rows(rows), len(failures(rows))),
-        "failures": [{"label": r.label, "kappa_over_nu": r.kappa_over_nu, "reason": r.reason} for r in failures(rows)],
+        "headline": headline(leading_rows(rows), first_order_rows(rows), len(failed)),
+        "failures": [{"label": r.label, "kappa_over_nu": r.kappa_over_nu, "reason": r.reason} for r in failed],
         "rows": len(rows),
     }
 
@@ -110,6 +130,94 @@ def warm_up(methods: Sequence[Method]) -> None:
             continue
 
 
-def still_pictures(impacts: Sequence[ShownImpact], out: Path) -> list[Path]:
-    """The impacts as still pictures, for paper and for readers without JavaScript."""
-    return draw_maps(impacts, out) + draw_acceleration(impacts, out) if impacts else []
+def render(content: Content) -> str:
+    """The whole page as text. Nothing in it refers to anything outside it; every string is escaped."""
+    environment = jinja2.Environment(
+        loader=jinja2.FileSystemLoader(TEMPLATES),
+        autoescape=True,
+        undefined=jinja2.StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+    environment.filters |= {"percent": percent, "picture": picture}
+    leading, first = leading_rows(content.rows), first_order_rows(content.rows)
+    methods, groups = labels(content.rows), grouped(content.impacts)
+    return environment.get_template("report.html.j2").render(
+        content=content,
+        headline=headline(leading, first, len(failures(content.rows))),
+        summary=summary(leading, first),
+        leading=leading,
+        first=first,
+        failures=[row for row in content.rows if row.reason],
+        warnings=[(r, w) for r in [*leading, *first] for w in r.row.warnings],
+        methods=methods,
+        colours={label: mark["color"] for label, mark in marks(methods).items()},
+        groups=groups,
+        shown_methods=list(dict.fromkeys(i.label for i in content.impacts)),
+        energies=[
+            style
+            for name, style in ENERGIES.items()
+            if any(any(i.data["energy"].get(name, ())) for i in content.impacts)
+        ],
+        acceleration=acceleration_rows(content.impacts),
+        pipe_headings=[heading for heading, _ in COLUMNS.values()],
+        pictures={file.stem: picture(file) for file in content.pictures},
+        facts=facts(content),
+        settings=settings(content),
+        data={
+            "plots": plots(leading, first),
+            "energies": ENERGIES,
+            "impacts": [impact_data(runs) for runs in groups.values()],
+        },
+        plotly=inline_script(get_plotlyjs()),
+        script=inline_script((TEMPLATES / "report.js").read_text(encoding="utf-8")),
+        style=Markup((TEMPLATES / "report.css").read_text(encoding="utf-8")),
+    )
+
+
+def inline_script(text: str) -> Markup:
+    """Our own or plotly's script, safe between script tags."""
+    return Markup(text.replace("</script", "<\\/script").replace("<!--", "<\\!--"))
+
+
+def picture(file: Path) -> str:
+    """A PNG as a data URL; empty where there is none."""
+    return "data:image/png;base64," + base64.b64encode(file.read_bytes()).decode("ascii") if file.exists() else ""
+
+
+def impact_data(runs: Sequence[ShownImpact]) -> dict[str, Any]:
+    """An impact as the page's script reads it: theory and every method on one timeline."""
+    shown = runs[0].shown
+    colours = marks(run.label for run in runs)
+    return {
+        "name": shown.name,
+        "title": shown.title,
+        "kappa": shown.kappa_over_nu,
+        "epsilon": shown.epsilon,
+        "theory": theory_of(shown),
+        "methods": [{"label": run.label, "colour": colours[run.label]["color"], **run.data} for run in runs],
+    }
+
+
+def facts(content: Content) -> dict[str, str]:
+    """Versions, machine and times."""
+    return {
+        "written": datetime.now(UTC).strftime("%Y-%m-%d %H:%M UTC"),
+        "rows": f"{len(content.rows)} asked for, {len(failures(content.rows))} failed",
+        "time for this report": f"{content.seconds:.0f} s, {content.jobs} processes at most",
+        "time in the rows": f"{sum(r.seconds or 0.0 for r in content.rows):.0f} s "
+        "(runs kept from before count what they took then)",
+        "processor": processor(),
+        "cores": str(os.cpu_count() or "unknown"),
+        "system": f"{platform.system()} {platform.release()} ({platform.machine()})",
+        "Python": platform.python_version(),
+        **versions(),
+        "plotly": version("plotly"),
+    }
+
+
+def settings(content: Content) -> dict[str, str]:
+    """Settings of the runs: title → JSON text."""
+    found: dict[str, Any] = {f"Method: {row.label}": row.settings for row in content.rows}
+    found |= {f"Shown impact: {i.label}, {i.shown.title}": dict(i.settings) for i in content.impacts}
+    return {title: json.dumps(value, indent=1, ensure_ascii=False) for title, value in found.items()}

@@ -18,8 +18,6 @@ from comparison.figures.style import marks
 from report.rows import Cell, TableRow, labels
 from theory import contact_parameters
 
-__all__ = ["error_plot", "first_order_plot", "leading_plot", "plots"]
-
 Plot = dict[str, Any]
 Points = list[tuple[TableRow, Cell]]
 SYMBOLS = {"lambda0": "λ<sub>0</sub>", "r0": "r<sub>0</sub>/ν", "lambda1": "λ<sub>1</sub>", "r1": "r<sub>1</sub>"}

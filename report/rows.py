@@ -7,26 +7,9 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 from bent_beam.method import Method
-from comparison.methods import default_methods
 from comparison.rows import First, MatchRow, Question
 from comparison.tables import LEAST
 from measure.measured import Measured
-
-__all__ = [
-    "FIRST",
-    "MIDDLE",
-    "PATHS",
-    "Cell",
-    "TableRow",
-    "convergence_rows",
-    "first_order_rows",
-    "labels",
-    "leading_rows",
-    "report_questions",
-    "table_row",
-    "tolerance",
-    "true_minus",
-]
 
 PATHS = ("hermite", "self_similar", "exudyn")
 LEADING = (1 / 1600, 1 / 20, 1 / 4, 1 / 2, 0.8)
@@ -41,14 +24,13 @@ def true_minus(text: str) -> str:
     return text.replace("-", "−")
 
 
-def report_questions(methods: Sequence[Method] | None = None, refines: Sequence[float] = REFINES) -> list[Question]:
+def report_questions(methods: Sequence[Method], refines: Sequence[float] = REFINES) -> list[Question]:
     """Every row of the report, few enough for two minutes.
 
     Leading order over κ/ν; two loads of first order at three κ/ν; convergence at κ/ν = 0.5. The longest come first, so
     that no core idles at the end, and a method's two loads apart, so that the second finds the run without loads in the
     store.
     """
-    methods = default_methods(PATHS) if methods is None else methods
     return [
         *(Question(m, LEADING[0]) for m in reversed(methods)),
         *(Question(m, k, load) for load in FIRST for k in ALONG for m in reversed(methods)),

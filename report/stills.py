@@ -11,8 +11,6 @@ from matplotlib.colors import LogNorm
 from comparison.figures import style
 from report.impacts import Shown, ShownImpact, theory_of
 
-__all__ = ["draw_acceleration", "draw_maps", "grouped"]
-
 
 def grouped(impacts: Sequence[ShownImpact]) -> dict[Shown, list[ShownImpact]]:
     """The runs of each impact, in order."""

@@ -18,10 +18,8 @@ from comparison import stored
 from comparison.figures.work_precision import draw_work_precision
 from comparison.match import match
 from comparison.methods import methods_from_file
-from comparison.rows import First, MatchRow, questions
+from comparison.rows import First, questions
 from comparison.store import RunStore, default_store
-
-__all__ = ["MEASUREMENTS", "Measurement", "StoredMeasurement", "store_measurement", "stored_measurements"]
 
 STORED = Path(__file__).with_name("stored")
 LISTS = Path(__file__).resolve().parents[1] / "cases" / "methods"
@@ -53,29 +51,9 @@ class Measurement:
 
 MEASUREMENTS = (
     Measurement("work-precision", "all integrators with all contacts, leading order", "all.toml", (1.0, 2.0)),
-    Measurement(
-        "work-precision-first-order",
-        "integrators, first order",
-        "first_order.toml",
-        (0.5, 1.0),
-        ((4.0, 0.0, 0.0, 0.0),),
-        limit=120.0,
-    ),
-)
-
-
-@dataclass(frozen=True)
-class StoredMeasurement:
-    """A measurement as it is stored. lost : its rows without a number, with the reason of each; stale : code has
-    changed since."""
-
-    name: str
-    title: str
-    command: str
-    date: str
-    lost: tuple[tuple[str, str], ...]
-    stale: bool
-    picture: Path
+    Measurement("work-precision-first-order", "integrators, first order", "first_order.toml", (0.5, 1.0),
+                ((4.0, 0.0, 0.0, 0.0),), limit=120.0),
+)  # fmt: skip
 
 
 def store_measurement(measurement: Measurement, *, jobs: int = 1) -> Path:
@@ -89,40 +67,34 @@ def store_measurement(measurement: Measurement, *, jobs: int = 1) -> Path:
         f"python -m report.work {measurement.name}",
         PACKAGES,
         {row.label: row.settings for row in rows},
-        {"command": measurement.command, "rows": [_kept(row) for row in rows]},
+        {"command": measurement.command, "rows": [{name: asdict(row)[name] for name in KEPT} for row in rows]},
     )
 
 
-def _kept(row: MatchRow) -> dict[str, Any]:
-    whole = asdict(row)
-    return {name: whole[name] for name in KEPT}
-
-
-def stored_measurements() -> list[StoredMeasurement]:
-    """What is stored, in the order of :data:`MEASUREMENTS`."""
+def stored_measurements() -> list[dict[str, Any]]:
+    """What is stored, in the order of :data:`MEASUREMENTS`: title, command, date, picture; ``lost``: label and reason
+    of the rows without a number; ``stale``: code has changed since.
+    """
     found = []
     for measurement in MEASUREMENTS:
         file = STORED / f"{measurement.name}.json"
-        if not file.exists():
-            continue
-        document = stored.read(file)
-        lost = tuple({row["label"]: row["reason"] for row in document["rows"] if row["reason"]}.items())
-        origin = (document["command"], document["date"])
-        picture = STORED / f"{measurement.name}.png"
-        stale = stored.is_stale(file)
-        found.append(StoredMeasurement(measurement.name, measurement.title, *origin, lost, stale, picture))
+        if file.exists():
+            document = stored.read(file)
+            lost = {row["label"]: row["reason"] for row in document["rows"] if row["reason"]}
+            shown = {"title": measurement.title, "lost": list(lost.items()), "picture": file.with_suffix(".png")}
+            found.append(document | shown | {"stale": stored.is_stale(file)})
     return found
 
 
 def main(names: Sequence[str]) -> None:
     """Store the measurements of these names (none: all). Raises ``SystemExit`` for a name that none has."""
-    known = [measurement.name for measurement in MEASUREMENTS]
+    known = {measurement.name: measurement for measurement in MEASUREMENTS}
     for name in names:
         if name not in known:
             raise SystemExit(f"{name} is not a measurement (known: {', '.join(known)})")
-    for measurement in MEASUREMENTS:
-        if not names or measurement.name in names:
-            print(store_measurement(measurement, jobs=max(1, os.cpu_count() or 1)))
+    for name, measurement in known.items():
+        if not names or name in names:
+            print(store_measurement(measurement, jobs=os.cpu_count() or 1))
 
 
 if __name__ == "__main__":

@@ -1,4 +1,5 @@
-"""A figure or table with its data: every curve drawn through a :class:`Sheet` is also in its CSV.
+"""A figure or table with its data: every curve drawn through a :class:`Sheet` is also in its CSV. An item of the
+gallery is a number of the thesis and a function that draws it on a sheet (:func:`item`).
 
 CSV columns: panel, series, x_quantity, x, y_quantity, y; the quantities are the axis labels, units included.
 """
@@ -151,3 +152,45 @@ class Sheet:
         files.append(out / f"{name}.csv")
         write_atomically(files[-1], self.csv())
         return files
+
+
+Draw = Callable[[Sheet], None]
+ITEMS: dict[str, Item] = {}
+"""Every figure and table by its id; filled by the modules of :mod:`thesis.gallery`."""
+
+
+@dataclass(frozen=True)
+class Item:
+    """id : "fig-2.7a", "table-3.1" …; caption : its content, and the difference from the thesis."""
+
+    id: str
+    title: str
+    caption: str
+    module: str
+    draw: Draw
+
+
+def item(name: str, *, beside: str = "", **parts: str) -> Callable[[Draw], Draw]:
+    """Decorator that registers a drawing function under its number.
+
+    beside : the module whose items the same process draws, for it shares their runs (default: its own).
+    The first line of its docstring is the title, the rest the caption, in which {part} stands for a text of ``parts``.
+    """
+
+    def register(draw: Draw) -> Draw:
+        title, _, caption = (draw.__doc__ or "").partition("\n\n")
+        ITEMS[name] = Item(name, title, " ".join(caption.split()).format(**parts), beside or draw.__module__, draw)
+        return draw
+
+    return register
+
+
+def order(name: str) -> tuple[int, int, int, str]:
+    """Place of an id in the thesis: chapters, then the appendix, tables after the figures of their section, the
+    animation last.
+    """
+    found = re.fullmatch(r"(fig|table)-(\d+|A)\.(\d+)([a-z]?)", name)
+    if found is None:
+        return (99, 0, 0, name)
+    chapter = 50 if found[2] == "A" else int(found[2])
+    return (chapter, 1 if found[1] == "table" else 0, int(found[3]), found[4])

@@ -45,18 +45,6 @@ def within_rounding(printed: str, value: float) -> bool:
     return abs(value - float(printed)) <= (0.5 + 1e-9) * min(unit_of(printed), own)
 
 
-def class_of(printed: str, ours: float, *, read: bool = False, rule: float | None = None, axes: bool = False) -> str:
-    """The class of a printed number. read, rule, axes : see :class:`Printed`."""
-    if axes:
-        return AXES
-    if within_rounding(printed, ours):
-        return ROUNDING
-    value = float(printed)
-    if rule is not None and abs(rule - value) <= unit_of(printed):
-        return RULE
-    return SAME if read and 1.0 / FACTOR <= ours / value <= FACTOR else OFF
-
-
 @dataclass(frozen=True)
 class Printed:
     """One printed number.
@@ -79,7 +67,14 @@ class Printed:
     @property
     def verdict(self) -> str:
         """One of the five classes."""
-        return class_of(self.printed, self.ours, read=self.read, rule=self.rule, axes=self.axes)
+        if self.axes:
+            return AXES
+        if within_rounding(self.printed, self.ours):
+            return ROUNDING
+        value = float(self.printed)
+        if self.rule is not None and abs(self.rule - value) <= unit_of(self.printed):
+            return RULE
+        return SAME if self.read and 1.0 / FACTOR <= self.ours / value <= FACTOR else OFF
 
     def row(self) -> list[str]:
         """Cells: where, what, printed, computed, their ratio, class, why."""

@@ -12,14 +12,14 @@ import numpy as np
 import pytest
 
 from comparison.figures.force_map import force_map, spread
+from comparison.methods import default_methods
 from comparison.store import RunStore
 from hermite_fe import HermiteFE
 from report import page
 from report.impacts import FRAMES, SHOWN, energies, kept_instants, theory_of
-from report.numbers import stored_numbers
-from report.render import Content, render
-from report.rows import first_order_rows, leading_rows, report_questions, table_row, tolerance
-from report.studies import stored_studies
+from report.page import Content, render
+from report.rows import PATHS, first_order_rows, leading_rows, report_questions, table_row, tolerance
+from report.studies import stored_numbers, stored_studies
 from report.summary import acceleration_rows, headline, summary
 from report.work import stored_measurements
 
@@ -112,7 +112,9 @@ def test_report_is_written_when_rows_fail(tmp_path: Path, monkeypatch: pytest.Mo
     monkeypatch.setattr(page, "warm_up", lambda methods: None)
     monkeypatch.setattr(page, "show_all", lambda *_, **__: (list(impacts()), []))
     monkeypatch.setattr(page, "pipe_prediction", lambda: None)
-    found = page.write_report(tmp_path, store=RunStore(None), jobs=1, progress=lambda a, b: seen.append((a, b)))
+    methods = default_methods(PATHS)
+    asked = report_questions(methods)
+    found = page.write_report(tmp_path, methods, asked, store=RunStore(None), progress=lambda *of: seen.append(of))
     assert set(found) == {"page", "files", "headline", "failures", "rows"}
     assert all(Path(f).stat().st_size > 0 for f in found["files"])
     assert found["failures"][0]["reason"] == "the solver gave up"
@@ -123,12 +125,12 @@ def test_report_is_written_when_rows_fail(tmp_path: Path, monkeypatch: pytest.Mo
     images = sum(tag == "img" for tag in Reader(text).tags)
     printed = stored_numbers()
     assert printed is not None and text.index('id="thesis"') < text.index('id="problem"')
-    stored = len(stored_measurements()) + sum(s.picture.exists() for s in stored_studies()) + len(printed.figures)
+    stored = len(stored_measurements()) + sum(s["picture"].exists() for s in stored_studies()) + len(printed["figures"])
     assert images == 6 + stored
 
 
 def test_questions_ask_every_method_the_same() -> None:
-    asked = report_questions()
+    asked = report_questions(default_methods(PATHS))
     each = {label: {(q.kappa_over_nu, q.first, q.refine) for q in asked if q.method.label == label} for label in LABELS}
     assert each["Hermite"] == each["Exudyn"] == each["Self-similar"]
     assert (1 / 1600, None, 1.0) in each["Hermite"] and (0.5, (4, 0, 0, 0), 1.0) in each["Hermite"]
@@ -145,15 +147,15 @@ def test_grade_is_error_against_tolerance(off: float, grade: str) -> None:
 
 def test_summary_and_headline_come_from_the_rows() -> None:
     leading, first = leading_rows(rows()), first_order_rows(rows())
-    found = {(r.order, r.label): r for r in summary(leading, first)}
+    found = {(r["order"], r["label"]): r for r in summary(leading, first)}
     thin, thick = "leading order, κ/ν = 1/1600", "leading order, κ/ν = 1/20 to 0.5"
     exudyn, hermite = found["first order", "Exudyn"], found["first order", "Hermite"]
-    assert (exudyn.rows, exudyn.numbers, exudyn.within, exudyn.covered) == (1, 2, 0, 2)
-    assert (exudyn.largest, hermite.largest) == pytest.approx((0.025, 0.2))
-    assert (hermite.numbers, hermite.within) == (6, 2)  # one pair lies between the tolerance and twice it
+    assert [exudyn[key] for key in ("rows", "numbers", "within", "covered")] == [1, 2, 0, 2]
+    assert (exudyn["largest"], hermite["largest"]) == pytest.approx((0.025, 0.2))
+    assert (hermite["numbers"], hermite["within"]) == (6, 2)  # one pair lies between the tolerance and twice it
     exudyn = found[thick, "Exudyn"]
-    assert (exudyn.rows, exudyn.seconds) == (3, 5.0)  # the coarse row is not among them
-    assert found[thin, "Exudyn"].rows == 1
+    assert (exudyn["rows"], exudyn["seconds"]) == (3, 5.0)  # the coarse row is not among them
+    assert found[thin, "Exudyn"]["rows"] == 1
     assert "first order Hermite 20 %, Exudyn 2.5 %" in headline(leading, first, 0)
 
 
@@ -208,9 +210,9 @@ def test_acceleration_into_the_wall_spreads_the_zone_and_one_away_from_it_lifts_
     table = acceleration_rows(impacts())
     assert len(table) == 4  # two impacts with acceleration, two methods
     for pressed, released in zip(table[:2], table[2:]):
-        assert (pressed.uniform, pressed.theory, released.theory) == ("1.00", "1.00", "0.00")
-        assert pressed.zone.startswith("+") and pressed.reaction.startswith("+")
-        assert released.zone.startswith("−") and released.reaction.startswith("−")
+        assert (pressed["uniform"], pressed["theory"], released["theory"]) == ("1.00", "1.00", "0.00")
+        assert pressed["zone"].startswith("+") and pressed["reaction"].startswith("+")
+        assert released["zone"].startswith("−") and released["reaction"].startswith("−")
 
 
 def test_map_holds_the_whole_impulse_of_one_side() -> None:

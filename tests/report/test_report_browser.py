@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 
-from report.render import render
+from report.page import render
 from tests.chromium import ask, assert_quiet, beyond_the_edge, chromium, needs_chromium, opened  # noqa: F401
 
 sys.path.insert(0, str(Path(__file__).parent))

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 
+from comparison.readable import readable
 from thesis.gallery.numbers import PRINTED, chapter2, scales
 from thesis.verdicts import CLASSES, Printed, within_rounding
 
@@ -60,3 +61,8 @@ def test_the_page_of_printed_numbers_is_what_is_computed(part: Callable[[], Iter
 def test_a_value_is_within_rounding_where_as_many_digits_of_it_are_those_printed() -> None:
     near = {"1": (0.588, 0.96), "2e-4": (2.6e-4, 1.94e-4), "8e-3": (7.4e-3, 8.163e-3), "0.0312": (0.0314, 0.03125)}
     assert [[within_rounding(printed, v) for v in pair] for printed, pair in near.items()] == 4 * [[False, True]]
+
+
+def test_numbers_are_written_with_powers_of_ten() -> None:
+    shown = {2.5e-8: "2.5·10⁻⁸", 1e-6: "10⁻⁶", -1e-6: "−10⁻⁶", 0.0025: "0.0025", 0.0: "0", 12345.6: "12350", None: "–"}
+    assert {value: readable(value) for value in shown} == shown

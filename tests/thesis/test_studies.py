@@ -1,28 +1,35 @@
-"""Studies: the theory they are compared with, and what their runs show on small cases."""
+"""Studies: the theory they are compared with, what their runs show on small cases, the thesis's filter, and what is
+stored for the report.
+"""
 
 from __future__ import annotations
 
 import json
+from contextlib import nullcontext
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, ClassVar
 
 import numpy as np
 import pytest
+from PIL import Image
 
 from bent_beam.cases import Case
 from bent_beam.impact import Impact
 from bent_beam.meshes import UniformMesh
+from comparison import stored
 from comparison.command_line.app import run
 from exudyn_models import ExudynModel
 from hermite_fe import HermiteFE
 from hermite_fe.integrators import SignoriniPosition
 from self_similar_fe import SelfSimilarFE
 from theory import predict
+from thesis import stored_studies
+from thesis.gallery.runs import every_step, thesis, thesis_history
 from thesis.studies import STUDIES, first_order_case, of_exudyn, run_study
 from thesis.studies.exact import Exact
 from thesis.studies.of_methods import runs_of_methods
-from thesis.studies.outcome import Outcome
+from thesis.studies.outcome import CUT_OFF, MEASURES, Outcome, Steps
 from thesis.studies.panels import unit
 from thesis.studies.thesis import Variant, run_variants, thesis_settings
 
@@ -167,6 +174,42 @@ def test_the_condition_of_the_matrix_is_that_of_its_units_and_the_runs_close_the
     assert [row["elements"] for row in rows] == sorted(row["elements"] for row in rows)
 
 
+# every step, and the filter ------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("share", [0.25, 1.0, 4.0])
+def test_the_filter_is_that_of_butterworth_both_ways(share: float) -> None:
+    """Of order 1 it passes 1/(1 + (tan πf/2 / tan πf_c/2)²) of an amplitude both ways, without a shift: ½ at f_c."""
+    n = np.arange(6000.0)
+    wave = np.cos(np.pi * share * CUT_OFF * n)
+    passed = 1.0 / (1.0 + (np.tan(0.5 * np.pi * share * CUT_OFF) / np.tan(0.5 * np.pi * CUT_OFF)) ** 2)
+    middle = slice(2000, 4000)
+    assert Steps(n, wave).filtered()[middle] == pytest.approx(passed * wave[middle], abs=1e-6)
+    assert Steps(n, np.ones_like(n)).filtered() == pytest.approx(1.0)
+
+
+def test_taking_every_step_by_itself_gives_the_same_run_and_its_impulse() -> None:
+    given = case(10.0, 0.002)
+    method = thesis_settings(given.impact, given.end_time).method()
+    saved = np.linspace(0.0, given.end_time, 6)
+    history, steps = every_step(given.impact, given.end_time, method, saved)
+    whole = method.simulate(given.impact, end_time=given.end_time, save=saved)
+    for name in ("time", "gap", "total_impulse", "kinetic_energy", "loss_impact"):
+        assert np.array_equal(history.array(name), whole.array(name))
+    impulse = float(whole.array("total_impulse")[-1])
+    assert 2.0 * float(steps.reaction @ np.diff(steps.time, prepend=0.0)) == pytest.approx(impulse, rel=1e-12)
+
+
+def test_report_and_gallery_show_one_result() -> None:
+    """The stored study of 3.3.3, on the thesis's own case, is the run that the gallery draws."""
+    (study,) = (s for s in json.loads(stored_studies.FILE.read_text())["studies"] if s["name"] == "damping")
+    (row,) = (r for r in study["rows"] if r["label"] == "ρ∞ = 0.8")
+    found = thesis("", 1.0 / 40.0, 0.01).measures
+    assert thesis_history(1.0 / 40.0, 0.01).steps == row["steps"]
+    for name in ("contact_length_error", "reaction_error", "lift", "lost_impact"):
+        assert found[name] == pytest.approx(row[name], rel=1e-6), MEASURES[name]
+
+
 # studies of any methods --------------------------------------------------------------------------------------------
 
 
@@ -250,16 +293,16 @@ def test_the_command_takes_methods_and_every_row_plot_and_table_carries_the_labe
         'integrator = {kind = "moreau_jean"}\n[[method]]\nlabel = "Endless"\npath = "self_similar"\n'
     )
     small = ["--set", "beam.length=2.0", "--set", "run.duration=0.01"]
-    arguments = ["study", "damping", "cases/thesis_K10.toml", *small, "--json", "--out", str(tmp_path / "out")]
+    arguments = ["study", "restitution", "cases/thesis_K10.toml", *small, "--json", "--out", str(tmp_path / "out")]
     assert run([*arguments, "--methods", str(file), "--refine", "1,2"]) == 0
     document = json.loads(capsys.readouterr().out)
     rows = document["rows"]
-    labels = [("Mine", 1)] * 5 + [("Mine", 2)] * 5 + [("Endless", 1), ("Endless", 2)]
+    labels = [("Mine", 1)] * 3 + [("Mine", 2)] * 3 + [("Endless", 1), ("Endless", 2)]
     assert [(r["label"], r["refine"]) for r in rows] == labels
-    assert [r["setting"] for r in rows[5:10]] == ["ρ∞ = 1", "ρ∞ = 0.8", "ρ∞ = 0.5", "ρ∞ = 0.2", "ρ∞ = 0"]
-    assert all(r["reaction_error"] is not None and r["failure"] is None for r in rows[:10])
-    assert all(r["failure"] == "not varied: self_similar has no integrator" and r["refused"] for r in rows[10:])
-    drawn, table = ((tmp_path / "out" / f"damping{end}.csv").read_text() for end in ("", "-table"))
+    assert [r["setting"] for r in rows[3:6]] == ["restitution 0", "restitution 0.5", "restitution 1"]
+    assert all(r["reaction_error"] is not None and r["failure"] is None for r in rows[:6])
+    assert all(r["failure"] == "not varied: self_similar has no contact" and r["refused"] for r in rows[6:])
+    drawn, table = ((tmp_path / "out" / f"restitution{end}.csv").read_text() for end in ("", "-table"))
     assert "Mine" in drawn and "Mine, refined 2 times" in drawn and "Endless" in table
 
 
@@ -272,3 +315,40 @@ def test_the_command_takes_paths_and_settings_and_refuses_both_ways_at_once(caps
     assert label == "Hermite, mesh=uniform, mesh.element_length=0.05"
     assert run([*arguments, "--methods", "cases/methods/one_of_each.toml"]) == 2
     assert "names the methods" in capsys.readouterr().err
+
+
+# what is stored for the report -----------------------------------------------------------------------------------
+
+
+def test_stored_studies_carry_their_tables_and_pictures_and_are_confirmed_by_a_run(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    small = case(10.0, 0.01, length=2.0)
+    monkeypatch.setattr(stored_studies, "case_of", lambda name: small)
+    file = tmp_path / "studies.json"
+    stored_studies.store_studies(["restitution"], file=file)
+    (note,) = stored.read(file)["studies"]
+    assert [row["label"] for row in note["rows"][:3]] == ["restitution 0", "restitution 0.5", "restitution 1"]
+    assert note["columns"].keys() <= note["rows"][0].keys()
+    assert not note["failed"] and note["reason"] == ""
+    with Image.open(tmp_path / "restitution.png") as picture:
+        assert len(picture.getcolors()) <= 64
+    monkeypatch.setattr(stored_studies, "note_of", lambda name, folder: stored_studies.lost(name, "no luck"))
+    stored_studies.store_studies(["friction"], file=file)
+    kept, lost = stored.read(file)["studies"]
+    assert kept == note and lost["failed"] and lost["reason"] == "no luck" and lost["rows"] == []
+    document = stored.read(file) | {"digest": "of yesterday"}
+    file.write_text(json.dumps(document))
+    with pytest.raises(ValueError, match="other code or settings"):
+        stored_studies.store_studies(["friction"], file=file)
+    with pytest.raises(ValueError, match="no study is called mess"):
+        stored_studies.store_studies(["mess"], file=tmp_path / "none.json")
+    with pytest.raises(ValueError, match=r"restitution: .*no luck"):
+        stored_studies.confirm_studies(["restitution"], file=file)
+    for worse, refused in ((0.0, False), (1.0, True)):
+        rows = [{**row, "reaction_error": row["reaction_error"] + worse} for row in note["rows"]]
+        monkeypatch.setattr(stored_studies, "note_of", lambda name, folder, rows=rows: {**note, "rows": rows})
+        file.write_text(json.dumps(document))
+        with pytest.raises(ValueError, match="reaction_error") if refused else nullcontext():
+            stored_studies.confirm_studies(["restitution"], file=file)
+        assert stored.is_stale(file) == refused

@@ -6,25 +6,33 @@ as CSV.
 
     draw_all(["fig-2.7a", "table-3.1"], Path("gallery"))
 
-One small module a theme; :mod:`thesis.gallery.base` defines an item.
+One small module a theme; the items of a module share runs, so one process draws them. A docstring gives the title and
+the caption; ``sheet.numbers`` are printed below the caption.
 """
 
 from __future__ import annotations
 
+import json
+import time as clock
 from collections.abc import Callable, Sequence
 from importlib import import_module
 from pathlib import Path
 from pkgutil import iter_modules
 from typing import Any
 
+from bent_beam.errors import ANY_FAILURE
 from comparison.figures.style import FORMATS
+from comparison.plain import plain
 from comparison.readable import readable
 from comparison.store import write_atomically
+from comparison.stored import digest_of
 from comparison.workers import run_all
-from thesis.gallery.base import ITEMS as _REGISTERED
-from thesis.gallery.base import Item, draw_item, order
+from thesis.sheet import ITEMS as _REGISTERED
+from thesis.sheet import Item, Sheet, order
 
 __all__ = ["ITEMS", "Item", "draw_all", "listing"]
+
+PACKAGES = ("bent_beam", "measure", "theory", "hermite_fe", "self_similar_fe", "exudyn_models", "comparison", "thesis")
 
 for _module in iter_modules(__path__):  # each registers its items
     import_module(f"{__name__}.{_module.name}")
@@ -36,6 +44,44 @@ ITEMS: dict[str, Item] = {name: _REGISTERED[name] for name in sorted(_REGISTERED
 def listing() -> list[dict[str, str]]:
     """All items: id, title and caption of each."""
     return [{"id": i.id, "title": i.title, "caption": i.caption} for i in ITEMS.values()]
+
+
+def _kept(mark: Path, key: str) -> dict[str, Any] | None:
+    """The entry of an item that was drawn before with the same sources and formats and is still there."""
+    if not mark.is_file():
+        return None
+    kept = json.loads(mark.read_text())
+    same = kept["key"] == key and all(Path(f).is_file() for f in kept["drawn"]["files"])
+    return dict(kept["drawn"]) if same else None
+
+
+def draw_item(name: str, out: Path, formats: Sequence[str]) -> dict[str, Any]:
+    """Draw one item, or find it drawn already. Returns an entry of ``drawn``, or of ``failures`` (with "reason")."""
+    chosen, mark = ITEMS[name], out / ".drawn" / f"{name}.json"
+    about = {"item": name, "caption": chosen.caption, "title": chosen.title, "formats": sorted(formats)}
+    key = digest_of(PACKAGES, about)
+    kept = _kept(mark, key)
+    if kept is not None:
+        return kept
+    began = clock.perf_counter()
+    sheet = Sheet()
+    try:
+        chosen.draw(sheet)
+        files = sheet.save(out, name, formats)
+        drawn: dict[str, Any] = {
+            "id": name,
+            "title": chosen.title,
+            "caption": chosen.caption,
+            "numbers": plain(sheet.numbers),
+            "files": [str(f) for f in files],
+            "seconds": round(clock.perf_counter() - began, 2),
+        }
+        write_atomically(mark, json.dumps({"key": key, "drawn": drawn}, indent=1))
+    except ANY_FAILURE as error:
+        return {"id": name, "reason": f"{type(error).__name__}: {' '.join(str(error).split())}"}
+    finally:
+        sheet.close()
+    return drawn
 
 
 def _draw_group(names: Sequence[str], out: Path, formats: Sequence[str]) -> list[dict[str, Any]]:

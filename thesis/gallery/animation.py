@@ -12,10 +12,9 @@ from bent_beam.history import ImpactHistory
 from comparison.figures import style
 from comparison.figures.gif import Film, write_gif
 from self_similar_fe import SelfSimilarFE
-from thesis.gallery.base import item
 from thesis.gallery.drawing import FREE, nearest
 from thesis.gallery.runs import reference_history
-from thesis.sheet import Sheet
+from thesis.sheet import Sheet, item
 from thesis.studies.exact import Exact
 from thesis.studies.outcome import Outcome, outcome_of
 from thesis.studies.panels import unit

@@ -11,9 +11,8 @@ from matplotlib.axes import Axes
 from comparison.figures import style
 from comparison.readable import readable
 from theory import contact_parameters, kernel, phi, worked_examples
-from thesis.gallery.base import item
 from thesis.gallery.drawing import THEORY, guide, plain_line
-from thesis.sheet import Sheet
+from thesis.sheet import Sheet, item
 
 DUFFING = 0.2
 DASHES = ("-", "--", "-.", ":", (0, (5, 1, 1, 1, 1, 1)))

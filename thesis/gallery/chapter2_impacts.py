@@ -12,9 +12,8 @@ from matplotlib.axes import Axes
 from comparison.figures import style
 from comparison.readable import readable
 from theory import ImpactFields, contact_parameters
-from thesis.gallery.base import item
 from thesis.gallery.drawing import THEORY, beam_panel, legend_below, plain_line
-from thesis.sheet import Sheet
+from thesis.sheet import Sheet, item
 
 EPSILON = 0.1
 PLACES = np.linspace(-1.5, 1.5, 121)
@@ -88,10 +87,10 @@ def first_order_zone(sheet: Sheet) -> None:
                 ("not truncated less fast layer", free - fast, plain_line("purple", ":", 1.2)),
             ):
                 sheet.line(below, PLACES[kept], off[kept], series=series, **line)
-            sheet.numbers[f"({letter}) fast layer less printed free motion at a = 1"] = float(
-                (fast - printed)[inside][-1]
-            )
-            sheet.numbers[f"({letter}) largest difference, not truncated"] = float(np.abs(free - fast)[inside].max())
+            sheet.numbers |= {
+                f"({letter}) fast layer less printed free motion at a = 1": float((fast - printed)[inside][-1]),
+                f"({letter}) largest difference, not truncated": float(np.abs(free - fast)[inside].max()),
+            }
         texts = [rf"$\kappa = {k}$, $\alpha = {a:g}$, $\psi = {p:g}$, $\tau = {t}$" for k, a, p, t in shown]
         sheet.letter(axes, [*texts[:2], "", "", *texts[2:]])
         legend_below(fig, axes[0, 0], 3)

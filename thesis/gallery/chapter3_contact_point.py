@@ -9,16 +9,21 @@ import numpy as np
 from bent_beam.history import ImpactHistory
 from comparison.figures import style
 from comparison.readable import readable
-from thesis.gallery.base import item
-from thesis.gallery.drawing import THEORY, beam_at_times, filtered_scatter, legend_below, numbers_of
-from thesis.gallery.maps import CellForces, draw_maps
+from thesis.gallery.drawing import (
+    THEORY,
+    CellForces,
+    beam_at_times,
+    draw_maps,
+    legend_below,
+    numbers_of,
+    scatters_of,
+)
 from thesis.gallery.runs import reference_runs, thesis, thesis_history, thesis_run
-from thesis.sheet import Sheet
-from thesis.studies.contact import NAMES
+from thesis.sheet import Sheet, item
 from thesis.studies.exact import Exact
-from thesis.studies.outcome import Outcome
+from thesis.studies.numerical import NAMES
+from thesis.studies.outcome import Outcome, scatter
 from thesis.studies.panels import Panel, contact_length, energy, filtered, impulse_off, length_off, strain
-from thesis.studies.steps import scatter
 from thesis.studies.thesis import MASSES
 
 FLAT, BENT = 1.0 / 80.0, 1.0
@@ -53,7 +58,7 @@ def compare(sheet: Sheet, panels: Sequence[Panel], *measures: str) -> None:
         numbers_of(sheet, outcomes, *measures)
         legend_below(fig, np.ravel(axes)[0], 2 + len(panels), fontsize=7.0)
     if filtered in panels:
-        sheet.numbers |= {f"filtered reaction, scatter about theory, {o.label}": filtered_scatter(o) for o in own}
+        scatters_of(sheet, own)
 
 
 def evolution(sheet: Sheet, contact: str) -> None:

@@ -14,15 +14,13 @@ from bent_beam.history import ImpactHistory
 from bent_beam.impact import Impact
 from comparison.figures import style
 from hermite_fe import HermiteFE
-from thesis.gallery.base import item
-from thesis.gallery.drawing import THEORY, beam_at_times, legend_below, numbers_of, plain_line
-from thesis.gallery.maps import draw_maps
-from thesis.sheet import Sheet
+from thesis.gallery.drawing import THEORY, beam_at_times, draw_maps, legend_below, numbers_of, plain_line
+from thesis.gallery.runs import every_step
+from thesis.sheet import Sheet, item
 from thesis.studies import first_order_case as study
 from thesis.studies.exact import Exact
-from thesis.studies.outcome import Outcome, outcome_of, saved_times
+from thesis.studies.outcome import Outcome, Steps, outcome_of, saved_times
 from thesis.studies.panels import WINDOWS, contact_length, filtered, geometry
-from thesis.studies.steps import Steps, every_step
 
 DURATION = 0.05
 THESIS_STEP = 2.5e-8  # s

@@ -22,10 +22,9 @@ from comparison.store import RunStore, default_store
 from hermite_fe import resolution
 from hermite_fe.masses import Mass
 from theory import contact_parameters
-from thesis.gallery.base import item
 from thesis.gallery.drawing import THEORY, nearest, plain_line
 from thesis.gallery.runs import case, thesis
-from thesis.sheet import Sheet
+from thesis.sheet import Sheet, item
 from thesis.studies.exact import Exact
 from thesis.studies.outcome import Outcome
 from thesis.studies.thesis import CONSISTENT, THESIS_MASS, Settings
@@ -182,7 +181,7 @@ FINE = (5e-2, 1e-2, 2.5e-3, 5e-4)
 @functools.cache
 def run(contact: str, element: float, length: float, end: float, step: float, mass: Mass = CONSISTENT) -> ImpactHistory:
     """A run on a uniform mesh, the thesis's other settings, its first steps saved one by one."""
-    settings = Settings(element, step, 1.0, growth=1.0, contact=contact, mass=mass, mesh=UniformMesh(element))
+    settings = Settings(element, step, 1.0, contact=contact, mass=mass, mesh=UniformMesh(element))
     times = np.unique(np.concatenate([np.arange(11) * step, np.linspace(0.0, end, 201)]))
     impact = case(CURVATURE, DURATION).impact.replace(length=length)
     return settings.method().simulate(impact, end_time=end, save=times)

@@ -9,9 +9,8 @@ from hermite_fe import INTEGRATORS
 from hermite_fe.beam import HermiteBeam, shape_functions
 from hermite_fe.run import integrate
 from hermite_fe.system import ContactRows, System
-from thesis.gallery.base import item
 from thesis.gallery.drawing import THEORY, guide, legend_below, plain_line
-from thesis.sheet import Sheet
+from thesis.sheet import Sheet, item
 
 LENGTH, STIFFNESS, ELEMENTS = 5.0, 9.345e3, 52
 NODES = np.linspace(0.0, LENGTH, ELEMENTS + 1)

@@ -11,9 +11,8 @@ from matplotlib.axes import Axes
 
 from comparison.figures import style
 from hermite_fe.beam import shape_functions
-from thesis.gallery.base import item
 from thesis.gallery.drawing import THEORY, legend_below
-from thesis.sheet import Sheet
+from thesis.sheet import Sheet, item
 
 BLUE, RED, GREY = (style.COLOURS[name] for name in ("blue", "vermilion", "grey"))
 Point = tuple[float, float]

@@ -1,24 +1,38 @@
-"""Lines and panels that several items share."""
+"""Lines, panels and maps of the reaction that several items share."""
 
 from __future__ import annotations
 
 import functools
-from collections.abc import Callable, Iterable, Sequence
-from dataclasses import replace
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
+from matplotlib import colormaps
 from matplotlib.axes import Axes
+from matplotlib.collections import QuadMesh
+from matplotlib.colors import LogNorm
 
 from bent_beam.history import ImpactHistory
 from comparison.figures import style
+from comparison.figures.force_map import force_map
 from theory import ImpactFields
-from thesis.gallery.base import ITEMS, Item
 from thesis.gallery.runs import Series
-from thesis.sheet import Sheet
-from thesis.studies.outcome import MEASURES, Outcome
-from thesis.studies.panels import THEORY, Panel, contact_length, energy, filtered, geometry, impulse_off, legend_below
-from thesis.studies.steps import scatter
+from thesis.sheet import ITEMS, Item, Sheet
+from thesis.studies.exact import Exact
+from thesis.studies.outcome import MEASURES, Outcome, scatter
+from thesis.studies.panels import (
+    ROOT,
+    THEORY,
+    Panel,
+    contact_length,
+    energy,
+    filtered,
+    geometry,
+    impulse_off,
+    legend_below,
+    unit,
+)
 from thesis.studies.thesis import MASSES
 
 RunFigure = tuple[str, str, Sequence[Panel], Callable[[], Series], str]
@@ -72,21 +86,18 @@ def numbers_of(sheet: Sheet, outcomes: Sequence[Outcome], *names: str) -> None:
         sheet.numbers |= {f"{MEASURES[name]}, {o.label}": o.measures.get(name) for o in outcomes}
 
 
-def run_figure(sheet: Sheet, series: Series, panels: Sequence[Panel]) -> None:
+def run_figure(sheet: Sheet, series: Callable[[], Series], panels: Sequence[Panel]) -> None:
     """Panels of the runs below one another, a column a mass; one legend, and the runs' numbers beside them."""
-    rows, reference = len(panels), False
+    rows = len(panels)
     with sheet.figure(rows, 2, width=style.PAGE, height=2.3 * rows + 0.4, sharex="row") as (fig, axes):
         grid = np.reshape(axes, (rows, 2))
-        for column, mass in zip(grid.T, MASSES):
-            outcomes = series.outcomes(mass)
+        for i, (column, mass) in enumerate(zip(grid.T, MASSES)):
+            outcomes = series().outcomes(mass)
             for axis, panel in zip(column, panels):
                 panel(sheet, axis, outcomes)
-            for panel in panels:
-                numbers_of(sheet, named(outcomes, mass, reference), *NUMBERS.get(panel, ()))
-            for o in outcomes:
-                if o.steps is not None and filtered in panels:
-                    sheet.numbers[f"filtered reaction, scatter about theory, {o.label}, {mass}"] = filtered_scatter(o)
-            reference = True
+                numbers_of(sheet, named(outcomes, mass, only_own=i > 0), *NUMBERS.get(panel, ()))
+            if filtered in panels:
+                scatters_of(sheet, named(outcomes, mass, only_own=True))
         for left, right in grid:
             (low, high), (one, other) = left.get_ylim(), right.get_ylim()
             if left.get_ylabel() == right.get_ylabel() and low < high:  # one unit, and no wall below
@@ -103,15 +114,16 @@ def filtered_scatter(outcome: Outcome) -> float | None:
     return None if s is None else scatter(s.time, s.filtered(), outcome.exact.side_reaction(s.time))
 
 
+def scatters_of(sheet: Sheet, outcomes: Sequence[Outcome]) -> None:
+    """The scatter of each run's filtered reaction beside the figure."""
+    sheet.numbers |= {f"filtered reaction, scatter about theory, {o.label}": filtered_scatter(o) for o in outcomes}
+
+
 def run_items(module: str, figures: Iterable[RunFigure]) -> None:
     """Register figures of runs under their numbers."""
     for name, title, panels, series, caption in figures:
-        draw = functools.partial(_late_figure, series=series, panels=panels)
+        draw = functools.partial(run_figure, series=series, panels=panels)
         ITEMS[name] = Item(name, title, caption, module, draw)
-
-
-def _late_figure(sheet: Sheet, series: Callable[[], Series], panels: Sequence[Panel]) -> None:
-    run_figure(sheet, series(), panels)
 
 
 def named(outcomes: Sequence[Outcome], mass: str, only_own: bool) -> list[Outcome]:
@@ -154,3 +166,72 @@ def beam_panel(
     mark = plain_line("vermilion", "", marker="v", ms=5, clip_on=False)
     sheet.line(axis, np.unique([-front, front]), 0.0, series="contact points", **mark)
     style.wall_below(axis, *limits)
+
+
+# Reaction over space and time, with one scale for all maps of a figure.
+
+TIMES, PLACES = 60, 80
+DECADES = 4.0  # of the colour scale: below is noise of no consequence, pale
+REACH = 1.25  # contact lengths shown
+
+
+@dataclass(frozen=True)
+class CellForces:
+    """Reaction per cell: places and times are edges, m and s; force (times, places), N, of one side of the beam."""
+
+    places: np.ndarray
+    times: np.ndarray
+    force: np.ndarray
+
+
+def cell_forces(history: ImpactHistory) -> CellForces:
+    """Mean over cells even in √t (between the saved instants next to them), sum over cells of place."""
+    exact, impact, end = Exact(history.impact), history.impact, float(history.time[-1])
+    edge = REACH * float(exact.front(np.linspace(0.0, end, 200)).max())
+    wanted, places = end * np.linspace(0.0, 1.0, TIMES + 1) ** 2, np.linspace(0.0, edge, PLACES // 2 + 1)
+    kept = np.unique(np.searchsorted(history.time, wanted).clip(0, history.time.size - 1))
+    force = force_map(history, kept, places / impact.length_scale)
+    per_length = impact.mass_per_length * impact.velocity / impact.time_scale
+    return CellForces(places, history.time[kept], force * per_length * np.diff(places))
+
+
+def draw_maps(sheet: Sheet, histories: Mapping[str, ImpactHistory], rows: int, height: float) -> list[CellForces]:
+    """A map of each history, two in a row, its name beside the letter; returns their cells."""
+    cells = [cell_forces(history) for history in histories.values()]
+    largest = max(float(c.force.max()) for c in cells)
+    norm = LogNorm(largest / 10.0**DECADES, largest)
+    with sheet.figure(rows, 2, width=style.PAGE, height=height, sharex=rows > 1, sharey=True) as (fig, axes):
+        for axis, history, found in zip(axes.flat, histories.values(), cells):
+            drawn = one_map(sheet, axis, history, found, norm)
+            if rows > 1:
+                axis.label_outer()
+        sheet.letter(axes, list(histories))
+        fig.colorbar(drawn, ax=axes, label="reaction of a cell  (N)", pad=0.02, extend="min", aspect=30)
+    return cells
+
+
+def one_map(sheet: Sheet, axis: Axes, history: ImpactHistory, cells: CellForces, norm: LogNorm) -> QuadMesh:
+    """Reaction (N) of both sides over x and √t (so that the front is a straight line), mirrored about x = 0.
+
+    The CSV holds, for each cell of time, place and reaction of the cells that carry any.
+    """
+    exact, end = Exact(history.impact), float(history.time[-1])
+    places, times, force = cells.places, cells.times, cells.force
+    st, mt = unit(end, "s")
+    whole = np.concatenate([-places[:0:-1], places])
+    pushing = np.ma.masked_less_equal(np.hstack([force[:, ::-1], force]), 0.0)
+    colours = colormaps["YlGnBu"].with_extremes(under="#F4F4EC")
+    drawn = axis.pcolormesh(whole, st * times, pushing, norm=norm, cmap=colours, rasterized=True)
+    axis.set(xlabel="$x$  (m)", ylabel=f"$t$  ({mt})")
+    middle = 0.5 * (places[1:] + places[:-1])
+    for row, at in zip(force, st * 0.5 * (times[1:] + times[:-1])):
+        carried = row > 0.0
+        sheet.record(axis, middle[carried], row[carried], f"t = {at:.4g} {mt}", "reaction (N)")
+    t = end * np.linspace(0.0, 1.0, 200) ** 2
+    for side in (-1.0, 1.0):
+        line = plain_line("vermilion", width=0.6)
+        sheet.line(axis, side * exact.front(t), st * t, series=f"theory, side {side:+.0f}", **line)
+    axis.set_yscale("function", functions=ROOT)
+    axis.grid(False)
+    axis.set(xlim=(-places[-1], places[-1]), ylim=(0.0, st * end))
+    return drawn

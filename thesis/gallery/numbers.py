@@ -11,22 +11,22 @@ from comparison.readable import readable
 from comparison.store import write_atomically
 from theory import contact_parameters
 from thesis.gallery import chapter3_first_order as first
-from thesis.gallery.base import item
 from thesis.gallery.chapter3_contact_point import FLAT, run
 from thesis.gallery.chapter3_leading_order import CURVATURE, DURATION, ELEMENT, MIDDLE, first_impact
-from thesis.gallery.chapter3_mesh import ELEMENTS, count_of, square_middle, table_nodes
+from thesis.gallery.chapter3_parameters import ELEMENTS, count_of, square_middle, table_nodes
 from thesis.gallery.runs import case, thesis
-from thesis.sheet import Sheet
+from thesis.sheet import Sheet, item
 from thesis.studies.exact import Exact
 from thesis.studies.first_order_case import FITTED, fitted, old_settings, predicted
 from thesis.studies.thesis import MASSES
-from thesis.verdicts import CLASSES, RULE, Printed, class_of
+from thesis.verdicts import CLASSES, RULE, Printed
 
 
 def on_runs(where: str, what: str, printed: str, measured: Callable[[str], float], how: str) -> Printed:
     """A number read off runs: ours with lumped masses, with the printed matrix beside it. measured : of a mass."""
     other = measured("consistent")
-    why = f"{how}lumped masses, r = 1/105; with (3.1.8) {readable(other, 3)}: {class_of(printed, other, read=True)}"
+    verdict = Printed(where, what, printed, other, read=True).verdict
+    why = f"{how}lumped masses, r = 1/105; with (3.1.8) {readable(other, 3)}: {verdict}"
     return Printed(where, what, printed, measured("lumped"), why, read=True)
 
 

@@ -6,17 +6,25 @@ V₀ = 20 m/s, EI = 1 N m², μ = 1 kg/m, L = 50 m throughout (3.2.1, 3.4); K an
 from __future__ import annotations
 
 import functools
-from collections.abc import Mapping
+import time as clock
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
+
+import numpy as np
 
 from bent_beam.cases import Case
 from bent_beam.history import ImpactHistory
 from bent_beam.impact import Impact
 from bent_beam.method import refined
 from hermite_fe import HermiteFE, resolution
-from thesis.studies.outcome import Outcome, outcome_of, saved_times
-from thesis.studies.steps import Steps, every_step
+from hermite_fe.composition import Composition
+from hermite_fe.constraints import ContactLaw
+from hermite_fe.model import beam_model
+from hermite_fe.run import Samples, Stepper
+from hermite_fe.saved_steps import saved_steps
+from hermite_fe.simulate import history_of, settings_of_run
+from thesis.studies.outcome import Array, Outcome, Steps, outcome_of, saved_times
 from thesis.studies.thesis import MASSES, references, thesis_settings
 
 HALF = 0.5
@@ -28,6 +36,33 @@ def case(curvature: float, duration: float) -> Case:
     impact = Impact(bending_stiffness=1.0, mass_per_length=1.0, length=50.0, curvature=curvature, velocity=20.0)
     title = f"K = {curvature:.4g} 1/m, τ = {duration:g}"
     return Case(title=title, impact=impact, end_time=duration * impact.time_scale, mesh=None, tables={})
+
+
+def every_step(
+    impact: Impact, end_time: float, method: HermiteFE, save: Sequence[float] | Array
+) -> tuple[ImpactHistory, Steps]:
+    """Run to ``end_time``, s, step by step, on half the beam: its history at the instants ``save``, s, and all steps.
+
+    Raises ``ArithmeticError`` for a step without a solution.
+    """
+    parts = {name: getattr(method, name) for name in ("mesh", "integrator", "contact", "far_field", "mass")}
+    chosen = resolution.choose(impact, end_time, Composition(**parts))
+    model = beam_model(impact, chosen.nodes, chosen.contact, chosen.far_field, full=False, mass=chosen.mass)
+    law = ContactLaw(restitution=chosen.contact.restitution)
+    run = Stepper(model.system, model.displacement, model.velocity, chosen.integrator, end_time, law)
+    kept = saved_steps(run.instants, save)
+    samples, total, wanted = Samples(model.system, kept.size), np.zeros(run.instants.size), set(kept.tolist())
+    run.compile()
+    began = clock.perf_counter()
+    for k in range(total.size):
+        if status := run.advance_to(k):
+            raise ArithmeticError(f"step {k} of {total.size - 1} has no solution (status {status})")
+        total[k] = run.state.impulse.sum()
+        if k in wanted:
+            samples.add(run)
+    found = samples.trajectory(run, clock.perf_counter() - began, "", 0.0)
+    history = history_of(impact, model, found, settings_of_run(impact, chosen, found))
+    return history, Steps(run.instants[1:], np.diff(total) / np.diff(run.instants))
 
 
 @functools.cache

@@ -2,25 +2,18 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, dataclass, field, replace
-from pathlib import Path
 from typing import Any
 
 from bent_beam.cases import Case
-from bent_beam.method import Method
 from comparison.plain import plain
 from comparison.readable import readable
-from comparison.store import write_atomically
 from thesis.sheet import Sheet
-from thesis.studies.of_methods import CONCLUSION, draw_methods, runs_of_methods
+from thesis.studies.of_methods import Vary
 from thesis.studies.outcome import MEASURES, Outcome
 from thesis.studies.panels import draw_outcomes
 from thesis.studies.thesis import Progress, Variant, run_variants
-from thesis.studies.variation import Vary
-
-SAME = 30  # characters of a warning that tell its kind: its numbers differ from run to run
 
 
 @dataclass(frozen=True)
@@ -96,77 +89,3 @@ def outcomes_of(study: Study, case: Case, *, jobs: int = 1, progress: Progress |
         replace(outcome, measures={**outcome.measures, **study.more(run, outcome)})
         for run, outcome in zip(runs, run_variants(runs, jobs=jobs, progress=progress))
     ]
-
-
-def _on_methods(
-    study: Study, case: Case, methods: Sequence[Method], refines: Sequence[float], jobs: int, progress: Progress | None
-) -> list[Outcome]:
-    asked = runs_of_methods(study.vary, case, methods, refines)
-    runs = [one for one in asked if isinstance(one, Variant)]
-    done = iter(run_variants(runs, jobs=jobs, progress=progress))
-    return [next(done) if isinstance(one, Variant) else one for one in asked]
-
-
-def perform(
-    study: Study,
-    case: Case,
-    methods: Sequence[Method] = (),
-    refines: Sequence[float] = (1.0,),
-    *,
-    out: Path | None = None,
-    jobs: int = 1,
-    progress: Progress | None = None,
-) -> StudyResult:
-    """Run a study on a case, with the thesis's settings or on ``methods``, each with elements and steps ``refines``
-    times finer; with ``out`` its picture, data and result are written there.
-    """
-    heads = {"label": study.heading}
-    if methods:
-        outcomes = _on_methods(study, case, methods, refines, jobs, progress)
-        heads = {"label": "method", **({"refine": "refine"} if set(refines) != {1.0} else {}), "setting": study.heading}
-    else:
-        outcomes = outcomes_of(study, case, jobs=jobs, progress=progress)
-    rows = [o.row() for o in outcomes]
-    measured = MEASURES if methods else study.columns
-    result = StudyResult(
-        name=study.name,
-        title=study.title,
-        case=case.title,
-        columns=heads | {k: h for k, h in measured.items() if any(r.get(k) is not None for r in rows)},
-        rows=rows,
-        conclusion=CONCLUSION if methods else study.conclusion,
-        files=[],
-        warnings=_warnings([o for o in outcomes if methods or o.mark is not None]),
-    )
-    if out is not None:
-        sheet = Sheet()
-        if methods:
-            draw_methods(sheet, study.heading, outcomes)
-        else:
-            study.draw(sheet, outcomes)
-        try:
-            _write(result, sheet, out)
-        except OSError as error:  # the answer is worth more than its files
-            result.problem = f"out: {error}"
-    return result
-
-
-def _warnings(outcomes: Sequence[Outcome]) -> list[str]:
-    """Each kind of warning of a method once, with its first run."""
-    found: dict[tuple[str, str], str] = {}
-    for o in outcomes:
-        for text in o.warnings:
-            found.setdefault((o.method, text[:SAME]), f"{o.name}: {text}")
-    return list(found.values())
-
-
-def _write(result: StudyResult, sheet: Sheet, out: Path) -> None:
-    """Picture with its curves' CSV, the table's CSV, and the result as JSON."""
-    if sheet.figure_ is not None:
-        result.files += [str(f) for f in sheet.save(out, result.name)]
-    table, document = out / f"{result.name}-table.csv", out / f"{result.name}.json"
-    cells = Sheet()
-    cells.data(list(result.columns.values()), result.table())
-    write_atomically(table, cells.csv())
-    result.files += [str(table), str(document)]
-    write_atomically(document, json.dumps(result.to_dict(), indent=1, allow_nan=False))

@@ -26,9 +26,9 @@ from hermite_fe.beam import HermiteBeam
 from hermite_fe.contacts import NodeContact
 from thesis.sheet import Sheet
 from thesis.studies.base import Study
+from thesis.studies.of_methods import NotVaried, Setting
 from thesis.studies.outcome import Outcome
 from thesis.studies.thesis import Variant, thesis_settings
-from thesis.studies.variation import NotVaried, Setting
 
 FACTORS = (4.0, 2.0, 1.0, 0.4, 0.2, 0.1, 0.04)
 UNCAPPED = 1e9
@@ -61,12 +61,6 @@ def full(bands: NDArray[np.float64]) -> Any:
     return csc_array(lower + lower.T - dia_array((bands[:1], [0]), shape=(n, n)))
 
 
-def mesh_of(case: Case, length: float) -> GradedMesh:
-    """The thesis's mesh with other elements and no cap."""
-    base = thesis_settings(case.impact, case.end_time)
-    return GradedMesh(length, base.growth, zone=base.zone, size_ratio=UNCAPPED)
-
-
 def variants(case: Case) -> list[Variant]:
     """Conditioning of the step's matrix, nodes, lumped mass
 
@@ -75,12 +69,12 @@ def variants(case: Case) -> list[Variant]:
     units, and no digit is left at 5·10¹⁵.
     """
     base = thesis_settings(case.impact, case.end_time).replace(contact="node")
-    lengths = [factor * base.element_length for factor in FACTORS]
-    return [
-        Variant(f"Δx = {readable(dx, 2)} m", case.impact, case.end_time, run.method(), dx)
-        for dx in lengths
-        for run in [base.replace(mesh=mesh_of(case, dx))]
-    ]
+    found = []
+    for length in (factor * base.element_length for factor in FACTORS):
+        mesh = GradedMesh(length, base.growth, zone=base.zone, size_ratio=UNCAPPED)
+        method = base.replace(mesh=mesh).method()
+        found.append(Variant(f"Δx = {readable(length, 2)} m", case.impact, case.end_time, method, length))
+    return found
 
 
 def conditions(variant: Variant, outcome: Outcome) -> dict[str, float | None]:

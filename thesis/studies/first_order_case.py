@@ -23,10 +23,10 @@ from self_similar_fe import ExpandingMesh, SelfSimilarFE
 from thesis.sheet import Sheet
 from thesis.studies.base import Study
 from thesis.studies.exact import Exact
+from thesis.studies.of_methods import Setting
 from thesis.studies.outcome import MEASURES, Outcome
 from thesis.studies.panels import contact_length, geometry, legend_below, reaction
 from thesis.studies.thesis import THESIS_MASS, Settings, Variant, thesis_settings
-from thesis.studies.variation import Setting
 
 FITTED = {1.0: 227.0, -1.0: -270.8}  # m/s^{3/2}, the thesis's fits for a₀ = ±700 m/s²
 WINDOWS = (1.0, 0.5, 0.25, 0.1, 0.05)

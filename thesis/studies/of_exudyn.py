@@ -8,8 +8,8 @@ from bent_beam.method import Method
 from exudyn_models import CONTACTS, ELEMENTS, INTEGRATORS, ExudynModel
 from exudyn_models.geometry import GEOMETRIES
 from thesis.studies.base import Study
+from thesis.studies.of_methods import Setting, kinds_of, with_field, with_parts
 from thesis.studies.thesis import Variant, references
-from thesis.studies.variation import Setting, kinds_of, with_field, with_parts
 
 # Exudyn's penalty contact: stiffness C EI/Δx⁴, damping D √(EIμ)/Δx², spectral radius ρ∞.
 #

@@ -1,4 +1,4 @@
-"""Panels that compare runs of one impact with theory: geometry, contact length, reaction, impulse, energies.
+"""Panels that compare runs of one impact with theory: geometry, contact length, reaction, energies, differences.
 
 Varied settings are thin coloured lines, references the markers of their path, theory is the black line. The wall is
 below.
@@ -155,13 +155,6 @@ reaction: Panel = partial(
     largest=lambda exact, end: 1.2 * float(exact.side_reaction(0.02 * end)),
 )  # fmt: skip
 """Mean reaction of one side over t, in windows even in √t; peaks of the start are cut."""
-
-impulse: Panel = partial(
-    _over_time, label="impulse of one side", name="N s", theory=lambda exact, t: 0.5 * exact.impulse(t), root=True,
-    curve=lambda o, line: (o.time - min(float(o.time[0]), 0.0), o.side_impulse),
-    largest=lambda exact, end: 0.5 * float(exact.impulse(end)),
-)  # fmt: skip
-"""Impulse of one side, ∫R dt, over t on an axis of √t: a straight line where R ∝ 1/√t, with the slope 2R√t."""
 
 energy: Panel = partial(
     _over_time, label=r"$E - E(0)$", name="J", theory=lambda exact, t: 0.0 * t, bottom=None, before=0.04,

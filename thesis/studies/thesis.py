@@ -20,7 +20,7 @@ from bent_beam.cases import Case
 from bent_beam.errors import ANY_FAILURE, SimulationError
 from bent_beam.history import ImpactHistory
 from bent_beam.impact import Impact
-from bent_beam.meshes import GradedMesh, Mesh, UniformMesh
+from bent_beam.meshes import GradedMesh, Mesh
 from bent_beam.method import Method, Save, simulated
 from comparison.workers import run_all
 from hermite_fe import CONTACTS, FAR_FIELDS, INTEGRATORS, HermiteFE
@@ -64,18 +64,10 @@ class Settings:
         """A copy with other fields."""
         return dataclasses.replace(self, **changes)
 
-    def laid(self) -> Mesh:
-        """The mesh."""
-        if self.mesh is not None:
-            return self.mesh
-        if self.growth == 1.0:
-            return UniformMesh(self.element_length)
-        return GradedMesh(self.element_length, self.growth, zone=self.zone)
-
     def method(self) -> HermiteFE:
         """The Hermite path with these settings."""
         return HermiteFE(
-            mesh=self.laid(),
+            mesh=self.mesh or GradedMesh(self.element_length, self.growth, zone=self.zone),
             integrator=INTEGRATORS["nonsmooth_generalized_alpha"](
                 time_step=self.time_step, spectral_radius=self.spectral_radius
             ),
