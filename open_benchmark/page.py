@@ -51,7 +51,7 @@ def document(rows: Sequence[Row], adapters: Sequence[Adapter], seed: int | None 
                 "adapter": a.file.name,
                 "installed": missing is None,
                 "missing": missing,
-                "packages": list(a.install) or ([a.debian] if a.debian else []),
+                "packages": a.packages,
                 "properties": properties(rows, a.name),
             }
             for a, missing in [(a, a.missing()) for a in adapters]

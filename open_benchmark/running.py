@@ -98,8 +98,8 @@ def _ended(adapter: Adapter, resolution: str, folder: Path, limits: Limits) -> t
     # one thread each: a race for cores would be measured, not the codes
     surroundings = {**os.environ, "OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
     surroundings |= {"BENTBEAM_RUN": mark, "TMPDIR": str(folder)}
-    foreign = adapter.install or adapter.debian  # nothing of this project is in its reach, of others no answers
-    reach = [str(ADAPTERS / "blocked"), *([] if foreign else [surroundings.get("PYTHONPATH", "")])]
+    # nothing of this project is in the reach of a code with packages of its own, and in that of others no answers
+    reach = [str(ADAPTERS / "blocked"), "" if adapter.packages else surroundings.get("PYTHONPATH", "")]
     surroundings["PYTHONPATH"] = os.pathsep.join(filter(None, reach))
     with open(folder / "out.txt", "wb") as out, open(folder / "err.txt", "w+b") as err:
         try:
@@ -109,10 +109,14 @@ def _ended(adapter: Adapter, resolution: str, folder: Path, limits: Limits) -> t
             )  # fmt: skip
         except OSError as error:
             return 0, ("crashed", f"could not be started: {error.strerror or error}"), ""
+        guard = _guard(process, folder)
         try:
-            ended = _watch(process, folder, limits)
+            ended = _waited(process, folder, limits)
         finally:
             _end(process, f"BENTBEAM_RUN={mark}")
+            if guard is not None:
+                guard.kill()
+                guard.communicate()
         return process.returncode, ended, _last_line(err)
 
 
@@ -130,17 +134,6 @@ def _file_size(limits: Limits) -> Callable[[], None] | None:
     return limit
 
 
-def _watch(process: subprocess.Popen[bytes], folder: Path, limits: Limits) -> tuple[str, str]:
-    """Wait for the end; outcome and reason when a limit ended it."""
-    guard = _guard(process, folder)
-    try:
-        return _waited(process, folder, limits)
-    finally:
-        if guard is not None:
-            guard.kill()
-            guard.communicate()
-
-
 def _guard(process: subprocess.Popen[bytes], folder: Path) -> subprocess.Popen[bytes] | None:
     """A shell that ends the adapter's group and its folder when this process is killed: its pipe closes then."""
     if os.name != "posix":
@@ -150,6 +143,7 @@ def _guard(process: subprocess.Popen[bytes], folder: Path) -> subprocess.Popen[b
 
 
 def _waited(process: subprocess.Popen[bytes], folder: Path, limits: Limits) -> tuple[str, str]:
+    """Wait for the end; outcome and reason when a limit ended it."""
     began = time.perf_counter()
     while process.poll() is None:
         passed = time.perf_counter() - began
@@ -206,9 +200,9 @@ def _taken(folder: Path, asked: Problem, kept: Path, code: int, said: str) -> tu
             if part.is_file() and not part.is_symlink():
                 os.replace(part, kept.with_suffix(part.suffix))
         return "", ""
-    reasons = [f"signal {signal.Signals(-code).name}"] if code < 0 else []
-    reasons += [said] if said else []
-    return "crashed", ": ".join(reasons) or (f"exit status {code}" if code else "left no result.npz or result.json")
+    reasons = [f"signal {signal.Signals(-code).name}" if code < 0 else "", said]
+    silent = f"exit status {code}" if code else "left no result.npz or result.json"
+    return "crashed", ": ".join(filter(None, reasons)) or silent
 
 
 def _last_line(stream: IO[bytes]) -> str:

@@ -10,8 +10,7 @@ import pytest
 
 from bent_beam.parts import InputError
 from open_benchmark.adapter import Adapter, chosen_adapters, shipped_adapters
-from open_benchmark.campaign import STANDARD, campaign
-from open_benchmark.draw import drawn
+from open_benchmark.campaign import STANDARD, campaign, drawn
 from open_benchmark.page import write_page
 from open_benchmark.problem import problem
 from open_benchmark.reading import load_result
