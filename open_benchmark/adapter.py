@@ -126,7 +126,7 @@ def shipped_adapters() -> dict[str, Adapter]:
     found = {}
     for name, table in tables.items():
         table = tables.get(table.get("environment"), {}) | table
-        fields: dict[str, Any] = {key: tuple(value) if isinstance(value, list) else value for key, value in table.items()}
+        fields: dict[str, Any] = {k: tuple(v) if isinstance(v, list) else v for k, v in table.items()}
         found[name] = Adapter(name, ADAPTERS / fields.pop("file"), **fields)
     return found
 
