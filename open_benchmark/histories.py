@@ -97,12 +97,9 @@ def _last_step(history: ImpactHistory) -> float:
     """The last step, s: as the settings say, or the mean one."""
     end = float(history.time[-1])
     table = history.settings.get("integrator")
-    if isinstance(table, dict):
-        sizes = [table.get("time_step"), (table.get("growth") or 0.0) * end]
-        given = [float(size) for size in sizes if isinstance(size, int | float) and size > 0.0]
-        if given:
-            return max(given)
-    return end / max(history.steps, 1)
+    sizes = [table.get("time_step"), (table.get("growth") or 0.0) * end] if isinstance(table, dict) else []
+    given = [float(size) for size in sizes if isinstance(size, int | float) and size > 0.0]
+    return max(given, default=end / max(history.steps, 1))
 
 
 def _tensile_impulse(history: ImpactHistory) -> Array:

@@ -70,16 +70,16 @@ def _impulse(table: Mapping[str, Any]) -> Callable[[Array], Array]:
 def _bounce(asked: Problem) -> Reference:
     shipped = stored(BOUNCES)
     if asked.id in shipped["problems"]:
-        value, error = shipped["problems"][asked.id]["restitution"]
-        return Reference({"restitution": value}, errors={"restitution": error}, source=shipped["made_by"])
-    from comparison.whole_impact.stored_map import bounce_from_map
+        (value, error), source = shipped["problems"][asked.id]["restitution"], shipped["made_by"]
+    else:
+        from comparison.whole_impact.stored_map import bounce_from_map
 
-    found = bounce_from_map(asked.kappa_over_nu, asked.damping) if asked.damping > 0.0 else None
-    number = None if found is None else found["restitution"]
-    if number is None or number.value is None or number.error is None:
-        return Reference()  # off the map, or without damping, where no number exists
-    source = "comparison/whole_impact/map.json, interpolated"
-    return Reference({"restitution": number.value}, errors={"restitution": number.error}, source=source)
+        found = bounce_from_map(asked.kappa_over_nu, asked.damping) if asked.damping > 0.0 else None
+        if found is None or found["restitution"].value is None or found["restitution"].error is None:
+            return Reference()  # off the map, or without damping, where no number exists
+        value, error = found["restitution"].value, found["restitution"].error
+        source = "comparison/whole_impact/map.json, interpolated"
+    return Reference({"restitution": value}, errors={"restitution": error}, source=source)
 
 
 @cache

@@ -5,7 +5,7 @@ import pytest
 from measure.measured import Measured
 from open_benchmark.campaign import Row
 from open_benchmark.judgement import Score
-from open_benchmark.properties import properties
+from open_benchmark.page import properties
 
 
 @pytest.mark.parametrize(
