@@ -9,9 +9,11 @@ from pathlib import Path
 import pytest
 
 from bent_beam.parts import InputError
+from measure.measured import Measured
 from open_benchmark.adapter import Adapter, chosen_adapters, shipped_adapters
-from open_benchmark.campaign import STANDARD, campaign, drawn
-from open_benchmark.page import write_page
+from open_benchmark.campaign import STANDARD, Row, campaign, drawn
+from open_benchmark.judgement import Score
+from open_benchmark.page import properties, write_page
 from open_benchmark.problem import problem
 from open_benchmark.reading import load_result
 from open_benchmark.running import Limits, run_adapter
@@ -86,9 +88,16 @@ time.sleep(60)
 """
     assert outcome(tmp_path, source, seconds=3.0).outcome == "timeout"
     end = time.monotonic() + 3.0
-    while _alive(int(pid.read_text())):
+    while alive(int(pid.read_text())):
         assert time.monotonic() < end
         time.sleep(0.05)
+
+
+def alive(number):
+    try:
+        return Path(f"/proc/{number}/stat").read_text().rsplit(")", 1)[1].split()[0] != "Z"
+    except OSError:
+        return False
 
 
 def test_a_killed_command_takes_its_adapter_and_its_folder_along(tmp_path):
@@ -97,9 +106,7 @@ def test_a_killed_command_takes_its_adapter_and_its_folder_along(tmp_path):
 from pathlib import Path
 from open_benchmark.adapter import Adapter
 from open_benchmark.problem import problem
-from open_benchmark.reading import load_result
 from open_benchmark.running import Limits, run_adapter
-from open_benchmark.score import score
 slow = Adapter("slow", Path({str(tmp_path / "slow.py")!r}))
 run_adapter(slow, problem("point-2"), "coarse", Path("kept/r.npz"), Limits())
 """
@@ -111,7 +118,7 @@ run_adapter(slow, problem("point-2"), "coarse", Path("kept/r.npz"), Limits())
     command.kill()
     command.wait()
     end = time.monotonic() + 10.0
-    while _alive(number) or list(tmp_path.glob("kept/.run-*")):
+    while alive(number) or list(tmp_path.glob("kept/.run-*")):
         assert time.monotonic() < end
         time.sleep(0.05)
 
@@ -125,13 +132,6 @@ def test_what_a_full_disk_may_have_spoilt_and_what_has_another_helper_is_run_aga
     before = one.digest()
     (tmp_path / "helper.py").write_text("h = 1")
     assert one.digest() != before
-
-
-def _alive(number):
-    try:
-        return Path(f"/proc/{number}/stat").read_text().rsplit(")", 1)[1].split()[0] != "Z"
-    except OSError:
-        return False
 
 
 @pytest.fixture
@@ -158,7 +158,6 @@ def test_one_bad_adapter_is_a_row_and_only_what_changed_is_run_again(tmp_path, m
     assert rows[1].score.reason == "bentbeam benchmark --install none"
     assert abs(rows[-1].score.error("r0") or 1.0) < 1e-9
     page = write_page(rows, [bad, none, fine], tmp_path / "out").read_text()
-    assert rows[-1].score.diagnosis[0].name == "too_exact"
     assert page.count("<svg") == 1 and "cannot" in page and "not installed" in page
     adapter(tmp_path, "good", good(tmp_path) + "# better")
     run()
@@ -172,11 +171,8 @@ def test_a_changed_solver_of_this_project_runs_again_and_no_foreign_one(monkeypa
         monkeypatch.setattr(f"open_benchmark.adapter.{one}", lambda: "of today")
     before = {key: one.digest() for key, one in shipped.items()}
     monkeypatch.setattr(f"open_benchmark.adapter.{name}", lambda: "of tomorrow")
-    assert {key for key, one in shipped.items() if one.digest() != before[key]} == {
-        "hermite",
-        "hermite-strict",
-        "exudyn",
-    }
+    changed = {key for key, one in shipped.items() if one.digest() != before[key]}
+    assert changed == {"hermite", "hermite-strict", "exudyn"}
 
 
 def test_foreign_adapters_import_nothing_of_this_project():
@@ -242,12 +238,28 @@ def test_the_name_of_an_adapter_stays_in_the_folder_of_results_and_is_its_own(tm
 def test_an_executable_in_any_language_is_an_adapter(tmp_path):
     file = tmp_path / "mine"
     file.write_text(f"#!{sys.executable}\n" + good(tmp_path))
-    assert chosen_adapters(own=[file])[0].missing() == f"{file} is not executable"
+    (mine,) = chosen_adapters(own=[file])
+    assert mine.missing() == f"{file} is not executable"
     os.chmod(file, 0o755)
-    run = run_adapter(
-        chosen_adapters(own=[file])[0], problem("point-2"), "coarse", tmp_path / "r.npz", Limits(repeats=1)
-    )
+    run = run_adapter(mine, problem("point-2"), "coarse", tmp_path / "r.npz", Limits(repeats=1))
     assert not run.outcome and (tmp_path / "r.npz").is_file()
+
+
+@pytest.mark.parametrize(
+    ("errors", "verdict"),
+    [
+        ((3e-3, 1e-3), "1 of 1 problems"),
+        ((1e-3, 1.5e-3), "0 of 1 problems"),
+        ((1e-2, 5e-3), "0 of 1 problems"),
+        ((), "no result"),
+    ],
+)
+def test_a_code_converges_where_its_error_falls_and_ends_small(errors, verdict):
+    scores = [Score("leading-0.5", "completed", measured={"r0": Measured(1.0 + e, None, 1.0)}) for e in errors]
+    rows = [Row("mine", "leading-0.5", name, 1.0, found) for name, found in zip(("coarse", "fine"), scores)]
+    rows += [] if errors else [Row("mine", "leading-0.5", "fine", 1.0, Score("leading-0.5", "timeout"))]
+    table = properties(rows, "mine")
+    assert table["converges"] == verdict and table["noise"] == ("not reported" if errors else "timeout")
 
 
 @pytest.mark.verify
