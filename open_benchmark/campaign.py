@@ -79,13 +79,18 @@ class Row:
         }
         return next((why for why, holds in checks.items() if holds), "")
 
+    @property
+    def table(self) -> str:
+        """The one that it stands in."""
+        return "self-declared" if self.unverified else "verified"
+
     def to_dict(self) -> dict[str, Any]:
         """Ready for JSON."""
         return {
             "solver": self.solver,
             "resolution": self.resolution,
             "wall_seconds": self.seconds,
-            "table": "self-declared" if self.unverified else "verified",
+            "table": self.table,
             "unverified": self.unverified or None,
             **self.score.to_dict(),
             "repeats": self.repeats,
@@ -119,8 +124,7 @@ def campaign(
             progress(done, len(runs))
         kept = _kept(out, adapter.name, item.id, resolution)
         decisive = json.dumps([digests[adapter.name], problem_text(item), resolution, asdict(limits)])
-        key = hashlib.sha256(decisive.encode()).hexdigest()
-        old = _stored_row(kept)
+        key, old = hashlib.sha256(decisive.encode()).hexdigest(), _stored_row(kept)
         if old.get("key") != key or old.get("outcome") in AGAIN:
             run = run_adapter(adapter, item, resolution, kept, limits)
             write_atomically(kept.with_suffix(".row.json"), json.dumps({"key": key, **asdict(run)}))
@@ -193,12 +197,10 @@ def _kept(out: Path, solver: str, name: str, resolution: str) -> Path:
 
 
 def _stored_row(kept: Path) -> dict[str, Any]:
-    file = kept.with_suffix(".row.json")
     try:
-        found = json.loads(file.read_text(encoding="utf-8")) if file.is_file() else None
-    except (OSError, ValueError):
+        return dict(json.loads(kept.with_suffix(".row.json").read_text(encoding="utf-8")))
+    except (OSError, ValueError, TypeError):  # none, or one that somebody broke
         return {}
-    return found if isinstance(found, dict) else {}
 
 
 def _stored(kept: Path) -> tuple[Run, Result | None]:

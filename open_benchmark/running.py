@@ -9,7 +9,6 @@ from __future__ import annotations
 import contextlib
 import json
 import os
-import shutil
 import signal
 import subprocess
 import tempfile
@@ -77,16 +76,14 @@ def _once(adapter: Adapter, asked: Problem, resolution: str, kept: Path, limits:
     if missing:
         return Run("not_installed", missing, 0.0)
     kept.parent.mkdir(parents=True, exist_ok=True)
-    folder = Path(tempfile.mkdtemp(prefix=".run-", dir=kept.parent)).resolve()  # the adapter runs in it
-    try:
+    with tempfile.TemporaryDirectory(prefix=".run-", dir=kept.parent, ignore_cleanup_errors=True) as place:
+        folder = Path(place).resolve()  # the adapter runs in it
         write_atomically(folder / "problem.toml", problem_text(asked))
         began = time.perf_counter()
         code, (outcome, reason), said = _ended(adapter, resolution, folder, limits)
         seconds = time.perf_counter() - began
         if not outcome:
             outcome, reason = _taken(folder, asked, kept, code, said)
-    finally:
-        shutil.rmtree(folder, ignore_errors=True)
     return Run(outcome, reason, seconds, "" if resource else "size of a single file")
 
 
