@@ -106,8 +106,9 @@ def _ended(adapter: Adapter, resolution: str, folder: Path, limits: Limits) -> t
             )  # fmt: skip
         except OSError as error:
             return 0, ("crashed", f"could not be started: {error.strerror or error}"), ""
-        guard = _guard(process, folder)
+        guard = None
         try:
+            guard = _guard(process, folder)
             ended = _waited(process, folder, limits)
         finally:
             _end(process, f"BENTBEAM_RUN={mark}")
