@@ -53,11 +53,6 @@ class Adapter:
     chosen: str = "not stated"
     manual: tuple[Sequence[str], ...] = ()
 
-    @property
-    def label(self) -> str:
-        """Its name in tables: the host's own methods are marked."""
-        return f"{self.name} (host)" if self.host else self.name
-
     def takes(self, asked: Problem) -> bool:
         """Whether the code is asked this problem at all."""
         return not self.kinds or asked.kind in self.kinds

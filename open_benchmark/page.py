@@ -59,7 +59,7 @@ def document(rows: Sequence[Row], adapters: Sequence[Adapter], seed: int | None 
         "solvers": [
             {
                 "name": a.name,
-                "label": a.label,
+                "label": f"{a.name} (host)" if a.host else a.name,
                 "host": a.host,
                 "mesh and steps": a.chosen,
                 "manual": [{"statement": statement, "page": page} for statement, page in a.manual],

@@ -13,7 +13,6 @@ import json
 import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -22,7 +21,7 @@ from numpy.typing import NDArray
 from bent_beam.checks import shortened
 from open_benchmark.problem import Problem, problem
 
-__all__ = ["OUTCOMES", "Result", "ResultError", "plain_number", "result_from_fields", "save_result"]
+__all__ = ["OUTCOMES", "Result", "ResultError", "plain_number", "result_from_fields"]
 
 Array = NDArray[np.float64]
 
@@ -106,14 +105,6 @@ def plain_number(value: Any) -> float | None:
     if not isinstance(value, int | float) or isinstance(value, bool) or not -MOST <= value <= MOST:
         return None
     return float(value)
-
-
-def save_result(file: str | Path, result: Result) -> None:
-    """Write a result as NPZ."""
-    arrays: dict[str, Any] = {name: getattr(result, name) for name in ("tau", "J", "Jm", *ARRAYS)}
-    arrays = {name: array for name, array in arrays.items() if array is not None and array.size} | result.series
-    arrays |= {"outcome": result.stated, "problem": result.problem.id, "metadata": json.dumps(result.metadata)}
-    np.savez_compressed(file, **arrays)
 
 
 # --- validation ----------------------------------------------------------------------------------------------------

@@ -1,4 +1,4 @@
-"""Files of results with one drawn fault each, for the doctor to find: faults of a run, and of what is booked.
+"""Results with one drawn fault each, for the doctor to find: faults of a run, and of what is booked.
 
 A fault of a run is a function of a random generator that returns κ/ν, half length and the parts of the method; a fault
 of the books changes the result of a good run.
@@ -10,7 +10,6 @@ import math
 from collections.abc import Callable
 from dataclasses import replace
 from functools import lru_cache
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -23,10 +22,10 @@ from hermite_fe.far_fields import GridViscosity
 from hermite_fe.integrators import GeneralizedAlphaPenalty, MoreauJean, SignoriniPosition
 from open_benchmark.histories import result_from_history
 from open_benchmark.problem import problem
-from open_benchmark.result import Result, save_result
+from open_benchmark.result import Result
 from theory import contact_parameters
 
-__all__ = ["FAULTS", "written"]
+__all__ = ["FAULTS", "faulty"]
 
 END = 0.1
 Rng = np.random.Generator
@@ -178,11 +177,12 @@ RUNS: dict[str, Callable[[Rng], Run]] = {
 FAULTS = (*RUNS, *BOOKS)
 
 
-def written(folder: Path, name: str, *seed: int) -> Path:
-    """The file of one result with the fault, or of a clean one."""
-    file, rng = folder / f"{name}.npz", np.random.default_rng([*seed, FAULTS.index(name) if name in FAULTS else 99])
-    save_result(file, BOOKS[name](rng, good(*seed)) if name in BOOKS else result(RUNS.get(name, clean)(rng)))
-    return file
+def faulty(name: str, *seed: int) -> Result:
+    """A result with the fault, or a clean one."""
+    if name not in FAULTS:
+        return good(*seed)
+    rng = np.random.default_rng([*seed, FAULTS.index(name)])
+    return BOOKS[name](rng, good(*seed)) if name in BOOKS else result(RUNS[name](rng))
 
 
 @lru_cache(maxsize=1)
@@ -192,7 +192,7 @@ def good(*seed: int) -> Result:
 
 
 def result(run: Run) -> Result:
-    """Of a run, at as many instants as a file needs: what is cumulated is linear within a step."""
+    """Of a run, at as many instants as a result needs: what is cumulated is linear within a step."""
     kappa, half_length, parts = run
     impact = Impact.dimensionless(kappa, length=2.0 * half_length)
     parts = {"contact": NodeContact(hold=0, hold_until=0.0), **parts}

@@ -11,7 +11,7 @@ from bent_beam.method import method_type
 from open_benchmark import Result, ResultError, load_result, problem, score
 from open_benchmark.histories import result_from_history
 from open_benchmark.references import reference
-from open_benchmark.result import result_from_fields, save_result
+from open_benchmark.result import result_from_fields
 from theory import contact_parameters
 
 SIDE = np.sqrt(2.0 / np.pi)
@@ -58,17 +58,15 @@ def test_the_exact_impulse_and_moment_give_lambda0_and_r0_to_rounding(tmp_path, 
     assert abs(found.error("lambda0") or 1.0) < 1e-9 and abs(found.error("r0") or 1.0) < 1e-9
 
 
-def test_a_result_that_is_saved_or_written_as_csv_scores_the_same_bits(tmp_path):
+def test_a_result_that_is_written_as_csv_scores_the_same_bits(tmp_path):
     fields = exact_fields()
     fields["J"] += np.random.default_rng(5).normal(0.0, 1e-3, TAU.size)
     first = load_result(written(tmp_path, **fields))
-    save_result(tmp_path / "again.npz", first)
     table = np.column_stack([fields[name] for name in ("tau", "J", "Jm")])
     lines = ["tau,J,Jm", *(",".join(repr(float(v)).replace("e", "D") for v in row) for row in table)]
     (tmp_path / "run.csv").write_text("\n".join(lines))
     (tmp_path / "run.json").write_text(STARTED.replace("point-2", "leading-0.5") + '{"tool": "exact"}}')
-    results = [first, load_result(tmp_path / "again.npz"), load_result(tmp_path / "run.csv")]
-    assert len({json.dumps(score(result).to_dict()) for result in results}) == 1
+    assert score(first).to_dict() == score(load_result(tmp_path / "run.csv")).to_dict()
 
 
 @pytest.mark.parametrize(
