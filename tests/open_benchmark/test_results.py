@@ -12,6 +12,7 @@ from open_benchmark import Result, ResultError, load_result, problem, score
 from open_benchmark.histories import result_from_history
 from open_benchmark.references import reference
 from open_benchmark.result import result_from_fields
+from open_benchmark.score import resolution_ignored
 from theory import contact_parameters
 
 SIDE = np.sqrt(2.0 / np.pi)
@@ -123,6 +124,13 @@ def test_a_malformed_table_gets_one_line_naming_the_file_once_and_the_field(tmp_
 def test_a_result_without_numbers_is_kept_with_its_reason_and_not_scored(tmp_path, changes, outcome, reason):
     found = score(load_result(written(tmp_path, **changes)))
     assert found.outcome == outcome and found.measured == {} and reason in str(found.reason)
+
+
+def test_three_results_with_the_very_same_numbers_are_no_resolutions(tmp_path):
+    J = exact_fields()["J"] + 1e-4 * np.sin(300.0 * TAU) * np.sqrt(TAU)
+    found = score(load_result(written(tmp_path, J=J)))
+    assert {one.diagnosis[0].name for one in resolution_ignored([found, found])} == {"clean"}
+    assert {one.diagnosis[0].name for one in resolution_ignored([found] * 3)} == {"too_exact"}
 
 
 @pytest.mark.parametrize(("pull", "adhesion"), [(0.03, 0.03), (0.5, 0.5), (1.0, 1.0), (3.0, 1.5)])
