@@ -15,16 +15,15 @@ half the bow.
 
 from __future__ import annotations
 
-import argparse
 import math
 import sys
-import time
 from collections.abc import Sequence
+from functools import partial
 from pathlib import Path
 
 import numpy as np
 
-from benchmarks.coverage import Coverage, Point
+from benchmarks.coverage import Coverage, Point, log_uniform, options
 from bent_beam.cases import load_case
 from bent_beam.errors import SimulationError
 from bent_beam.files import write_atomically
@@ -38,7 +37,6 @@ from measure.measured import Measured
 
 __all__ = ["beams", "draw", "numbers"]
 
-ROWS = 20
 PATHS = ("hermite", "exudyn")
 NAMES = ("half_contact_length", "total_impulse", "peak_moment")
 BUCKLING = math.pi**2 / 4.0  # π²EI/L²
@@ -46,10 +44,7 @@ BUCKLING = math.pi**2 / 4.0  # π²EI/L²
 
 def draw(random: np.random.Generator) -> str:
     """A case file of the distribution above."""
-
-    def size(low: float, high: float) -> float:
-        return float(np.exp(random.uniform(math.log(low), math.log(high))))
-
+    size = partial(log_uniform, random)
     kappa = size(0.05, 3.0)
     beam = {"bending_stiffness": 1.0, "mass_per_length": 1.0, "length": 2.0, "curvature": kappa}
     beam["damping_ratio"] = size(2e-3, 5e-2) if random.random() < 0.75 else 0.0
@@ -96,30 +91,19 @@ def beams(files: Sequence[Path], jobs: int = 1) -> Coverage:
             unit = max(abs(a.known), abs(b.known)) or 1.0
             error, bar = abs(a.known - b.known) / unit, math.hypot(a.bar, b.bar) / unit
             points.append(Point(k, load_case(file).impact.kappa_over_nu, file.name, name, error, bar))
-    return Coverage(
-        runs=len(files),
-        share=float(np.mean([p.error <= p.bar for p in points])),
-        ratio=float(np.median([p.bar / max(p.error, 1e-12) for p in points])),
-        lost=1.0 - len(points) / (len(NAMES) * len(files)),
-        points=points,
-    )
+    return Coverage.of(points, len(files), 1.0 - len(points) / (len(NAMES) * len(files)))
 
 
 def main(words: Sequence[str] | None = None) -> int:
     """Draw, simulate, count; 1 when the error bars do not hold."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--rows", type=int, default=ROWS)
-    parser.add_argument("--seed", type=int, default=time.time_ns() % 2**31, help="the clock's unless given")
-    parser.add_argument("--jobs", type=int, default=2)
-    parser.add_argument("--out", type=Path, default=Path("out/beams"), help="of the misses")
-    asked = parser.parse_args(words)
+    asked = options(__doc__, 20, Path("out/beams"), "of the misses").parse_args(words)
     print(f"seed {asked.seed}", flush=True)
     random = np.random.default_rng(asked.seed)
     files = [asked.out / f"beam-{k}.toml" for k in range(asked.rows)]
     for file in files:
         write_atomically(file, draw(random))
     found = beams(files, asked.jobs)
-    print(f"covered {found.share:.1%}, median bar over error {found.ratio:.2g}, without a number {found.lost:.1%}")
+    print(found)
     for p in found.misses:
         print(f"missed: {files[p.row]}: {p.name}, {p.error / p.bar:.2g} bars off, the bar is {p.bar:.2g}")
     for k in set(range(asked.rows)) - {p.row for p in found.misses}:

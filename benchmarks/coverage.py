@@ -37,9 +37,8 @@ from comparison.match import match
 from comparison.rows import First, MatchRow, Question
 from comparison.stored import write
 
-__all__ = ["Coverage", "Draw", "coverage", "draw", "draw_figure", "write_misses"]
+__all__ = ["Coverage", "Draw", "coverage", "draw", "log_uniform", "options", "write_misses"]
 
-ROWS = 200
 LEAST_SHARE = 0.94  # of the numbers within their bars; the bars are meant for 95 %
 MOST_BARS = 2.0  # that a number may be off
 PACKAGES = ("bent_beam", "measure", "hermite_fe", "self_similar_fe", "exudyn_models")
@@ -82,7 +81,7 @@ class Draw:
 
 def draw(random: np.random.Generator) -> Draw:
     """One row of the distribution above."""
-    kappa, duration = _log_uniform(random, 0.05, 0.95), _log_uniform(random, 0.01, 1.0)
+    kappa, duration = log_uniform(random, 0.05, 0.95), log_uniform(random, 0.01, 1.0)
     path = str(random.choice(["hermite"] * 8 + ["self_similar", "exudyn"]))
     parts = {"hermite": _hermite, "self_similar": _self_similar, "exudyn": _exudyn}[path]
     tables, refine = parts(random, kappa, duration)
@@ -92,19 +91,20 @@ def draw(random: np.random.Generator) -> Draw:
 def _load(random: np.random.Generator, kappa: float) -> First | None:
     if random.random() < 0.5:
         return None
-    size = _log_uniform(random, 0.3, 300.0) * float(random.choice([-1.0, 1.0]))
+    size = log_uniform(random, 0.3, 300.0) * float(random.choice([-1.0, 1.0]))
     alpha, psi, chi = (float(size * part) for part in random.uniform(-1.0, 1.0, 3))
     options: list[First] = [(size, 0.0, 0.0, 0.0)] * 2 + [(alpha, psi, chi, 0.0), (-kappa * size, 0.0, 0.0, size)]
     return options[random.integers(len(options))]
 
 
-def _log_uniform(random: np.random.Generator, low: float, high: float) -> float:
+def log_uniform(random: np.random.Generator, low: float, high: float) -> float:
+    """Drawn evenly in the logarithm."""
     return float(np.exp(random.uniform(math.log(low), math.log(high))))
 
 
 def _hermite(random: np.random.Generator, kappa: float, duration: float) -> tuple[dict[str, Any], float]:
-    element = 2.0 * math.sqrt(duration * kappa / 2.0) * _log_uniform(random, 0.02, 0.4)
-    growth = 1.0 + _log_uniform(random, 0.005, 0.1)
+    element = 2.0 * math.sqrt(duration * kappa / 2.0) * log_uniform(random, 0.02, 0.4)
+    growth = 1.0 + log_uniform(random, 0.005, 0.1)
     zone = float(random.uniform(1.0, 4.0)) * math.sqrt(2.0 * duration / kappa)
     meshes: list[dict[str, Any]] = [
         {"kind": "auto"},
@@ -128,7 +128,7 @@ def _hermite(random: np.random.Generator, kappa: float, duration: float) -> tupl
 def _self_similar(random: np.random.Generator, kappa: float, duration: float) -> tuple[dict[str, Any], float]:
     mesh = {
         "kind": "expanding",
-        "front_resolution": _log_uniform(random, 0.005, 0.1),
+        "front_resolution": log_uniform(random, 0.005, 0.1),
         "growth": float(random.uniform(0.01, 0.06)),
         "step_ratio": float(random.uniform(0.01, 0.06)),
         "decades": float(random.uniform(2.0, 5.0)),
@@ -138,7 +138,7 @@ def _self_similar(random: np.random.Generator, kappa: float, duration: float) ->
 
 def _exudyn(random: np.random.Generator, kappa: float, duration: float) -> tuple[dict[str, Any], float]:
     kind = str(random.choice(["generalized_alpha", "newmark", "trapezoidal"]))
-    return {"integrator": {"kind": kind}}, 1.0 / _log_uniform(random, 1.0, 3.0)
+    return {"integrator": {"kind": kind}}, 1.0 / log_uniform(random, 1.0, 3.0)
 
 
 class Point(NamedTuple):
@@ -163,10 +163,19 @@ class Coverage:
     lost: float
     points: list[Point]
 
+    @classmethod
+    def of(cls, points: list[Point], runs: int, lost: float) -> Coverage:
+        """What the points say."""
+        share = float(np.mean([p.error <= p.bar for p in points]))
+        return cls(runs, share, float(np.median([p.bar / max(p.error, 1e-12) for p in points])), lost, points)
+
     @property
     def misses(self) -> list[Point]:
         """The numbers whose bars do not reach the theory, furthest first."""
         return sorted((p for p in self.points if p.error > p.bar), key=lambda p: p.bar / p.error)
+
+    def __str__(self) -> str:
+        return f"covered {self.share:.1%}, median bar over error {self.ratio:.2g}, without a number {self.lost:.1%}"
 
     @property
     def holds(self) -> bool:
@@ -182,13 +191,7 @@ def coverage(rows: Sequence[MatchRow]) -> Coverage:
             off, bar = number.relative(), number.relative_error()
             if off is not None and bar is not None:
                 points.append(Point(k, row.kappa_over_nu, row.label, name, abs(off), bar))
-    return Coverage(
-        runs=len(rows),
-        share=float(np.mean([p.error <= p.bar for p in points])),
-        ratio=float(np.median([p.bar / max(p.error, 1e-12) for p in points])),
-        lost=float(np.mean([not row.r0.measured for row in rows])),
-        points=points,
-    )
+    return Coverage.of(points, len(rows), float(np.mean([not row.r0.measured for row in rows])))
 
 
 def write_misses(found: Coverage, drawn: Sequence[Draw], out: Path) -> list[Path]:
@@ -203,7 +206,7 @@ def write_misses(found: Coverage, drawn: Sequence[Draw], out: Path) -> list[Path
     return files
 
 
-def draw_figure(found: Coverage, out: Path, formats: Sequence[str] = ("png",)) -> list[Path]:
+def draw_figure(found: Coverage, out: Path) -> None:
     """``error-bars.png``: the error of every number over its error bar."""
     from comparison.figures import style
 
@@ -219,18 +222,24 @@ def draw_figure(found: Coverage, out: Path, formats: Sequence[str] = ("png",)) -
         axis.plot(ends, ends, color="black", lw=1.0, label="error = bar")
         axis.set(xscale="log", yscale="log", xlabel="error bar / theory  (1)", ylabel="|error| / theory  (1)")
         axis.legend()
-        return style.save(fig, out, "error-bars", formats)
+        style.save(fig, out, "error-bars", ("png",))
 
 
-def main(words: Sequence[str] | None = None) -> int:
-    """Draw, match, count; 1 when the error bars do not hold."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--rows", type=int, default=ROWS)
+def options(about: str | None, rows: int, out: Path, of: str) -> argparse.ArgumentParser:
+    """The options of a study that draws."""
+    parser = argparse.ArgumentParser(description=about, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--rows", type=int, default=rows)
     parser.add_argument("--seed", type=int, default=time.time_ns() % 2**31, help="the clock's unless given")
     parser.add_argument("--jobs", type=int, default=2)
-    parser.add_argument("--out", type=Path, default=Path("out/coverage"), help="of misses and of the figure")
+    parser.add_argument("--out", type=Path, default=out, help=of)
+    return parser
+
+
+def main() -> int:
+    """Draw, match, count; 1 when the error bars do not hold."""
+    parser = options(__doc__, 200, Path("out/coverage"), "of misses and of the figure")
     parser.add_argument("--figure", type=Path, help="another folder for the figure")
-    asked = parser.parse_args(words)
+    asked = parser.parse_args()
     print(f"seed {asked.seed}", flush=True)
     random = np.random.default_rng(asked.seed)
     drawn = [draw(random) for _ in range(asked.rows)]
@@ -240,7 +249,7 @@ def main(words: Sequence[str] | None = None) -> int:
     about = "errors of λ₀, r₀, λ₁, r₁ and their error bars, of methods drawn at random"
     write(figures / "error-bars.json", about, command, PACKAGES, settings, dataclasses.asdict(found))
     draw_figure(found, figures)
-    print(f"covered {found.share:.1%}, median bar over error {found.ratio:.2g}, without a number {found.lost:.1%}")
+    print(found)
     for p, file in zip(found.misses, write_misses(found, drawn, asked.out)):
         print(f"missed: {p.label}, kappa/nu = {p.kappa_over_nu:.4g}: {p.name}, {p.error / p.bar:.2g} bars off; {file}")
     return 0 if found.holds else 1

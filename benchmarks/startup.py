@@ -1,5 +1,9 @@
 """Start-up of the command, as a multiple of importing the libraries that it needs, each in a fresh interpreter, in
 turn; and likewise a small simulation: the first on a machine, which compiles, and the next. Python keeps its bytecode.
+
+The waits of a user: three commands, each from the start of its interpreter to its last line, in a folder of its own
+with nothing stored, on two processes (match: its default), all compiled beforehand. Each is a multiple of importing
+NumPy, SciPy and typer, before and after, with its goal in seconds of an idle machine.
 """
 
 from __future__ import annotations
@@ -14,6 +18,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from benchmarks.record import Row
+from hermite_fe.integrators import INTEGRATORS
 
 ROOT = Path(__file__).resolve().parents[1]
 COMMAND = ["-m", "comparison.command_line"]
@@ -22,6 +27,11 @@ ROWS = (  # name, words, yardstick, goal
     ("theory", ["theory", "--kappa-over-nu", "0.5", "--json"], "numpy, scipy.special, typer", 1.6),
     ("predict", ["predict", "cases/drill_pipe.toml", "--json"], "numpy, scipy.special, typer", 1.6),
     ("--help", ["--help"], "typer", 1.2),
+)
+WAITS = (  # name, words (OUT: the folder), goal
+    ("match", ["match"], 45.0),
+    ("report", ["report", "--jobs", "2", "--out", "OUT/report"], 90.0),
+    ("gallery", ["gallery", "--jobs", "2", "--out", "OUT/gallery"], 150.0),
 )
 ROUNDS = 15
 SIMULATION = [*COMMAND, "simulate", "cases/thesis_K10.toml", "--json", "--quiet"]
@@ -61,3 +71,13 @@ def measure() -> Iterator[Row]:
     with tempfile.TemporaryDirectory() as folder:
         yield against_yardstick("first simulate, compiling", FIRST, SIMULATION, XDG_CACHE_HOME=folder)
         yield against_yardstick("next simulate", NEXT, SIMULATION, rounds=3, XDG_CACHE_HOME=folder)
+
+
+def waits() -> Iterator[Row]:
+    """The commands, after a small simulation an integrator, which compiles what is not in the cache."""
+    for kind in INTEGRATORS:
+        seconds([*SIMULATION, "--set", f"hermite.integrator.kind={kind}"])
+    for name, words, goal in WAITS:
+        with tempfile.TemporaryDirectory() as folder:
+            here = [word.replace("OUT", folder) for word in words]
+            yield against_yardstick(name, goal, [*COMMAND, *here, "--quiet"], BENTBEAM_STORE=f"{folder}/store")

@@ -25,7 +25,7 @@ from bent_beam.versions import versions
 from comparison.sources import behind, source_digest
 from open_benchmark.problem import Problem
 
-__all__ = ["ADAPTERS", "RESOLUTIONS", "Adapter", "chosen_adapters", "environments", "install", "shipped_adapters"]
+__all__ = ["ADAPTERS", "RESOLUTIONS", "Adapter", "chosen_adapters", "install", "shipped_adapters"]
 
 ADAPTERS = Path(__file__).parent / "adapters"
 RESOLUTIONS = ("coarse", "medium", "fine")
@@ -51,12 +51,7 @@ class Adapter:
     kinds: tuple[str, ...] = ()
     host: bool = False
     chosen: str = "not stated"
-    manual: tuple[tuple[str, str], ...] = ()
-
-    @property
-    def label(self) -> str:
-        """Its name in tables: the host's own methods are marked."""
-        return f"{self.name} (host)" if self.host else self.name
+    manual: tuple[Sequence[str], ...] = ()
 
     def takes(self, asked: Problem) -> bool:
         """Whether the code is asked this problem at all."""
@@ -64,8 +59,9 @@ class Adapter:
 
     @property
     def folder(self) -> Path:
-        """Of its environment."""
-        return environments() / (self.environment or self.name)
+        """Of its environment: in ``$BENTBEAM_ENVIRONMENTS``, or in the user's cache folder."""
+        own = user_cache_path("bent-beam-impact", appauthor=False) / "environments"
+        return Path(os.environ.get("BENTBEAM_ENVIRONMENTS") or own).resolve() / (self.environment or self.name)
 
     @property
     def python(self) -> Path:
@@ -99,9 +95,13 @@ class Adapter:
 
     def made_by(self) -> dict[str, Any]:
         """What stands beside a result: digest of the adapter's source, its arguments, and the versions it runs with."""
-        packages = list(self.install) or ([self.debian] if self.debian else versions())
         source = hashlib.sha256(self.file.read_bytes()).hexdigest() if self.file.is_file() else None
-        return {"source": source, "arguments": list(self.arguments), "packages": packages}
+        return {"source": source, "arguments": list(self.arguments), "packages": self.packages or versions()}
+
+    @property
+    def packages(self) -> list[str]:
+        """What is installed for it alone: pinned packages, or one of the system's."""
+        return [*self.install, *([self.debian] if self.debian else [])]
 
     def digest(self) -> str:
         """Digest of source, arguments and pinned versions; for this project's own methods also of the solver's source
@@ -109,15 +109,9 @@ class Adapter:
         text = repr((self.arguments, self.install, self.debian)).encode()
         if self.host:
             text += repr((source_digest(), versions())).encode()
-        elif self.file.suffix == ".py" and not (self.install or self.debian):  # with the modules beside it
+        elif self.file.suffix == ".py" and not self.packages:  # with the modules beside it
             text += repr(behind([self.file], self.file.parent)).encode()
         return hashlib.sha256(self.file.read_bytes() + text).hexdigest()
-
-
-def environments() -> Path:
-    """Where environments are made: ``$BENTBEAM_ENVIRONMENTS``, or the user's cache folder."""
-    given = os.environ.get("BENTBEAM_ENVIRONMENTS")
-    return Path(given).resolve() if given else user_cache_path("bent-beam-impact", appauthor=False) / "environments"
 
 
 def shipped_adapters() -> dict[str, Adapter]:
@@ -127,8 +121,7 @@ def shipped_adapters() -> dict[str, Adapter]:
     found = {}
     for name, table in tables.items():
         table = tables.get(table.get("environment"), {}) | table
-        fields: dict[str, Any] = {key: tuple(v) if isinstance(v, list) else v for key, v in table.items()}
-        fields["manual"] = tuple((statement, page) for statement, page in table.get("manual", ()))
+        fields: dict[str, Any] = {k: tuple(v) if isinstance(v, list) else v for k, v in table.items()}
         found[name] = Adapter(name, ADAPTERS / fields.pop("file"), **fields)
     return found
 
@@ -143,11 +136,10 @@ def chosen_adapters(names: Sequence[str] = (), own: Sequence[Path] = ()) -> list
     for name in names:
         if name not in shipped:
             raise InputError(f"solver: {name!r} is not known{nearest(name, shipped)}")
+    chosen = [shipped[name] for name in dict.fromkeys(names)] if names or own else list(shipped.values())
     for file in own:
         if not file.is_file():
             raise InputError(f"adapter: {file} is not a file")
-    chosen = [shipped[name] for name in dict.fromkeys(names)] if names or own else list(shipped.values())
-    for file in own:
         if not re.fullmatch(r"[A-Za-z0-9_][\w.-]*", file.stem):
             raise InputError(
                 f"adapter: {file}: its name must begin with a letter or a digit and hold nothing but these"
@@ -178,6 +170,6 @@ def install(adapter: Adapter) -> str:
         except subprocess.TimeoutExpired:
             raise InputError(f"install: {name}: installing took more than {INSTALL_SECONDS:g} s") from None
         if done.returncode:
-            lines = [" ".join(line.split()) for line in done.stderr.splitlines() if line.strip()]
-            raise InputError(f"install: {name}: {lines[-1] if lines else 'no message'}")
+            last = " ".join((done.stderr.strip() or "no message").splitlines()[-1].split())
+            raise InputError(f"install: {name}: {last}")
     return f"{name}: {', '.join(adapter.install)} in {folder}"

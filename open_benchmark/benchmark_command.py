@@ -77,8 +77,7 @@ def benchmark(
         rows = campaign(adapters, names, out, limits=Limits(seconds=seconds), seed=drawn, progress=bar.count) + rows
     about = document(rows, adapters, drawn)
     page = write_page(rows, adapters, out, about)
-    lines = [f"seed of the drawn problems: {drawn}"]
-    for r in rows:
-        lines.append(f"{r.solver:>20} {r.problem:>22} {r.resolution:>7} {r.to_dict()['table']:>13} {r.score.outcome}")
-    emit({"page": str(page), **about}, as_json, lambda: "\n".join([*lines, f"page: {page}"]))
+    told = [f"{r.solver:>20} {r.problem:>22} {r.resolution:>7} {r.table:>13} {r.score.outcome}" for r in rows]
+    lines = [f"seed of the drawn problems: {drawn}", *told, f"page: {page}"]
+    emit({"page": str(page), **about}, as_json, lambda: "\n".join(lines))
     return 0

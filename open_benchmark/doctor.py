@@ -11,13 +11,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field, fields
+from typing import Any
 
 import numpy as np
 
 from open_benchmark.judgement import LIMITS, Finding, Score
 from open_benchmark.result import Result
-from open_benchmark.symptoms import mesh_of, number, unsteadiness
 
 __all__ = ["NAMES", "diagnose"]
 
@@ -40,41 +40,45 @@ MOMENTUM = 0.015  # of J, and 2.5 times the noise: short waves on coarse element
 FACTORS = (1.0, 2.0, 0.5, *(10.0**n for n in (*range(-12, 0), *range(1, 13))))
 NEAR = 0.03  # of a factor
 VAGUE = 0.03  # a relative error that its bar still holds, and that is not clean all the same
+FEWEST_SNAPSHOTS = 10  # from which unsteadiness is read off
 FALLS = 5e-3  # of J: how far it falls without a tensile impulse that is reported
+
+
+def sign(words: str = "") -> Any:
+    """A number that rules compare, as the evidence words it; NaN, so that no comparison holds, where there is none."""
+    return field(default=math.nan, metadata={"words": words})
 
 
 @dataclass(frozen=True)
 class Signs:
-    """The numbers that rules compare; NaN where they are not reported, so that no comparison holds.
+    """The numbers that rules compare. element : its length at the front at the end of the record. travel : of the front
+    in the last step. unsteady : see ``UNSTEADY``. factor : how many of the ratios are one of ``FACTORS``. falls : of J
+    that no tensile impulse explains. unknown : numbers whose bar exceeds them. vague : without loads."""
 
-    element : length at the front at the end of the record; growth : largest ratio of neighbours; half_length; end : of
-    the record; thickness : of the front then; travel : of the front in the last step; steps : how many such make the
-    record; unsteady : see ``UNSTEADY``; ratio_J, ratio_Jm : over the exact ones; factor : how many of these are one of
-    ``FACTORS``; off : largest error over its limit; falls : of J that no tensile impulse explains, over J; unknown :
-    numbers whose bar exceeds them; vague : largest error within its bars, without loads. Lengths in l*.
-    """
+    gained: float = sign("energy gained / JV₀")
+    adhesion: float = sign("tensile impulse / J")
+    penetration: float = sign("penetration / V₀t")
+    lift: float = sign("lift / V₀t")
+    noise: float = sign("noise of the impulse")
+    thickness: float = sign("thickness of the front / l*")
+    element: float = sign("element at the front / l*")
+    growth: float = sign("largest ratio of neighbouring elements")
+    half_length: float = sign("half length / l*")
+    end: float = sign()
+    travel: float = sign("way of the front in the last step / l*")
+    steps: float = sign("steps of that length in the record")
+    unsteady: float = sign("unsteadiness of the lift")
+    momentum: float = sign("momentum that the beam lost / J, less 1")
+    ratio_J: float = sign("J / the exact J")
+    ratio_Jm: float = sign("Jm / the exact Jm")
+    factor: float = sign()
+    off: float = sign("largest error over its limit")
+    falls: float = sign("fall of the impulse / J")
+    unknown: float = sign("numbers below their error bar")
+    vague: float = sign("largest error within its bars")
 
-    gained: float
-    adhesion: float
-    penetration: float
-    lift: float
-    noise: float
-    thickness: float
-    element: float
-    growth: float
-    half_length: float
-    end: float
-    travel: float
-    steps: float
-    unsteady: float
-    momentum: float
-    ratio_J: float
-    ratio_Jm: float
-    factor: float
-    off: float
-    falls: float
-    unknown: float
-    vague: float
+
+WORDS = {one.name: one.metadata["words"] for one in fields(Signs)}
 
 
 @dataclass(frozen=True)
@@ -163,8 +167,6 @@ RULES = {
         ("lift", "unsteady", "noise"),
         "smaller elements near the first touch, or all closed nodes held until the front is some elements thick",
     ),
-}
-RULES |= {
     "unsettled": Rule(
         lambda s: (
             s.noise > LIMITS["noise"][0] or s.falls > FALLS or s.unknown > 0.0 or (s.vague > VAGUE and s.off <= 1.0)
@@ -179,28 +181,6 @@ RULES |= {
     ),
 }
 NAMES = ("clean", *RULES)
-
-WORDS = {
-    "gained": "energy gained / JV₀",
-    "adhesion": "tensile impulse / J",
-    "penetration": "penetration / V₀t",
-    "lift": "lift / V₀t",
-    "noise": "noise of the impulse",
-    "thickness": "thickness of the front / l*",
-    "element": "element at the front / l*",
-    "growth": "largest ratio of neighbouring elements",
-    "half_length": "half length / l*",
-    "travel": "way of the front in the last step / l*",
-    "steps": "steps of that length in the record",
-    "unsteady": "unsteadiness of the lift",
-    "momentum": "momentum that the beam lost / J, less 1",
-    "ratio_J": "J / the exact J",
-    "ratio_Jm": "Jm / the exact Jm",
-    "off": "largest error over its limit",
-    "falls": "fall of the impulse / J",
-    "unknown": "numbers below their error bar",
-    "vague": "largest error within its bars",
-}
 
 
 def diagnose(result: Result, found: Score) -> tuple[Finding, ...]:
@@ -219,34 +199,54 @@ def diagnose(result: Result, found: Score) -> tuple[Finding, ...]:
 
 
 def _signs(result: Result, found: Score) -> Signs:
-    asked, front = result.problem, result.problem.is_front
-    speed = _front_speed(result)
-    root = math.sqrt(asked.end_time)
-    element, growth, half_length = mesh_of(result, speed * root) if front else (math.nan,) * 3
-    step = _step(result) if front else math.nan
-    return Signs(
-        gained=number(found.gained),
-        adhesion=number(found.adhesion),
-        penetration=number(found.penetration),
-        lift=number(found.lift),
-        noise=number(found.noise),
-        thickness=2.0 * root / speed,
-        element=element,
-        growth=growth,
-        half_length=half_length,
-        end=asked.end_time,
-        travel=speed / (2.0 * root) * step,
-        steps=asked.end_time / step,
-        unsteady=unsteadiness(result) if front else math.nan,
-        momentum=number(found.momentum_residual),
-        ratio_J=found.ratios.get("J", math.nan),
-        ratio_Jm=found.ratios.get("Jm", math.nan),
-        factor=sum(map(_is_factor, found.ratios.values())) if found.off else 0.0,
-        off=found.excess,
-        falls=_falls(result),
-        unknown=sum(number.value is None for number in found.measured.values()),
-        vague=_vague(found) if asked.kind == "leading" else math.nan,
-    )
+    asked, end = result.problem, result.problem.end_time
+    signs = {
+        "gained": found.gained,
+        "adhesion": found.adhesion,
+        "penetration": found.penetration,
+        "lift": found.lift,
+        "noise": found.noise,
+        "end": end,
+        "momentum": found.momentum_residual,
+        "factor": sum(map(_is_factor, found.ratios.values())) if found.off else 0.0,
+        "off": found.excess,
+        "falls": _falls(result),
+        "unknown": sum(number.value is None for number in found.measured.values()),
+        "vague": _vague(found) if asked.kind == "leading" else None,
+        **{f"ratio_{name}": ratio for name, ratio in found.ratios.items()},
+    }
+    if asked.is_front:
+        # λ̂ = √(2/κ) in l*/√t*, of κ = 1 where one point is in contact
+        speed, step = math.sqrt(2.0 / min(max(asked.kappa_over_nu, 1e-9), 1.0)), _step(result)
+        signs |= {"thickness": 2.0 * math.sqrt(end) / speed, "unsteady": _unsteadiness(result)}
+        signs |= {"travel": speed / (2.0 * math.sqrt(end)) * step, "steps": end / step}
+        signs |= _mesh(result, speed * math.sqrt(end))
+    return Signs(**{name: math.nan if value is None else value for name, value in signs.items()})
+
+
+def _mesh(result: Result, front: float) -> dict[str, float | None]:
+    """Element at ``front``, largest growth and half length: off the nodes, or as the adapter declares them."""
+    declared = {"element": result.model("smallest_element"), "half_length": result.model("half_length")}
+    if result.x is None:
+        return declared
+    nodes = np.unique(np.abs(result.x if result.x.ndim == 1 else result.x[-1]))
+    sizes = np.diff(nodes)
+    if sizes.size < 3:
+        return declared
+    at = min(int(np.searchsorted(nodes, front)), sizes.size) - 1
+    growth = float((sizes[2:] / sizes[1:-1]).max()) if sizes.size > 3 else None
+    return {"element": float(sizes[max(at, 0)]), "growth": growth, "half_length": float(nodes[-1])}
+
+
+def _unsteadiness(result: Result) -> float | None:
+    """Standard deviation of ln(lift) about its straight line over ln τ, at ten snapshots of the window or more."""
+    inner = 0.6 * math.sqrt(2.0 / max(result.problem.kappa_over_nu, 1e-9))
+    zones = [(when, gap[places <= inner * math.sqrt(when)]) for when, places, gap in result.snapshots()]
+    lifts = [(math.log(when), math.log(gap.max() / when)) for when, gap in zones if gap.size and gap.max() > 0.0]
+    if len(lifts) < FEWEST_SNAPSHOTS:
+        return None
+    times, heights = np.array(lifts).T
+    return float(np.std(heights - np.polyval(np.polyfit(times, heights, 1), times)))
 
 
 def _vague(found: Score) -> float:
@@ -274,8 +274,3 @@ def _step(result: Result) -> float:
     lines = np.diff(turns)[slope[turns[:-1]] > 0.1 * np.median(slope)][-20:]
     seen = float(np.median(lines)) * float(np.diff(result.tau)[-1]) if lines.size and np.median(lines) > 2 else 0.0
     return max(result.model("time_step") or 0.0, seen) or math.nan
-
-
-def _front_speed(result: Result) -> float:
-    """λ̂ = √(2/κ) in l*/√t*, of κ = 1 where one point is in contact."""
-    return math.sqrt(2.0 / min(max(result.problem.kappa_over_nu, 1e-9), 1.0))

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 
 from bent_beam.history import ImpactHistory
@@ -37,18 +35,32 @@ def result_from_history(history: ImpactHistory, asked: Problem | None = None) ->
     energy = impulse * impact.velocity
     tau = history.time / time
     series = {"J_minus": _tensile_impulse(history) / impulse}
-    for name, source in (("E_kin", "kinetic_energy"), ("E_el", "strain_energy")):
-        # a mesh that expands takes in energy with the beam that it takes in
-        if source in history and "position" not in history:
-            series[name] = history.array(source) / energy
+    if "position" not in history:  # a mesh that expands takes in energy with the beam that it takes in
+        sources = {"E_kin": "kinetic_energy", "E_el": "strain_energy"}
+        series |= {name: history.array(source) / energy for name, source in sources.items() if source in history}
     keep = np.unique(np.linspace(0, tau.size - 1, min(tau.size, MOST_SNAPSHOTS)).round().astype(int))
     keep = keep[tau[keep] > 0.0]
     places = np.array([history.positions(int(k)) for k in keep]) / length
+    nodes = np.sort(np.abs(places[-1]))
+    model = {
+        "time_step": _last_step(history) / time,
+        "half_length": float(nodes[-1]),
+        "smallest_element": float(np.diff(np.unique(nodes)).min()),
+        "theory": "Euler-Bernoulli",
+    }
+    metadata = {
+        "tool": f"bent-beam-impact, {history.path}",
+        "version": history.versions.get("bent-beam-impact", ""),
+        "seconds": history.seconds,
+        "steps": history.steps,
+        "settings": history.settings,
+        "model": model,
+    }
     return Result(
         "completed" if history.completed else "diverged",
         "" if history.completed else f"{tau[-1]:g}",
         asked,
-        _metadata(history, np.sort(np.abs(places[-1]))),
+        metadata,
         tau,
         history.array("total_impulse") / impulse,
         one_side(history)[1] / (impulse * length),
@@ -75,34 +87,13 @@ def _problem_of(history: ImpactHistory) -> Problem:
     return first_order_problem(impact.kappa_over_nu, loads, impact.epsilon, end)
 
 
-def _metadata(history: ImpactHistory, nodes: Array) -> dict[str, Any]:
-    """The metadata of an adapter. nodes : their distances from the middle, sorted, in l*."""
-    model = {
-        "time_step": _last_step(history) / history.impact.time_scale,
-        "half_length": float(nodes[-1]),
-        "smallest_element": float(np.diff(np.unique(nodes)).min()),
-        "theory": "Euler-Bernoulli",
-    }
-    return {
-        "tool": f"bent-beam-impact, {history.path}",
-        "version": history.versions.get("bent-beam-impact", ""),
-        "seconds": history.seconds,
-        "steps": history.steps,
-        "settings": history.settings,
-        "model": model,
-    }
-
-
 def _last_step(history: ImpactHistory) -> float:
     """The last step, s: as the settings say, or the mean one."""
     end = float(history.time[-1])
     table = history.settings.get("integrator")
-    if isinstance(table, dict):
-        sizes = [table.get("time_step"), (table.get("growth") or 0.0) * end]
-        given = [float(size) for size in sizes if isinstance(size, int | float) and size > 0.0]
-        if given:
-            return max(given)
-    return end / max(history.steps, 1)
+    sizes = [table.get("time_step"), (table.get("growth") or 0.0) * end] if isinstance(table, dict) else []
+    given = [float(size) for size in sizes if isinstance(size, int | float) and size > 0.0]
+    return max(given, default=end / max(history.steps, 1))
 
 
 def _tensile_impulse(history: ImpactHistory) -> Array:

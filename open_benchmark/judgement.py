@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import math
-from dataclasses import asdict, dataclass, field, replace
+from dataclasses import asdict, dataclass, field
 from typing import Any
 
 from measure.measured import Measured
 
-__all__ = ["LIMITS", "PART", "Finding", "Score", "invalid"]
+__all__ = ["LIMITS", "PART", "Finding", "Score"]
 
 #: The judge's one limit: a hundredth of the quantity. An error below it is no verdict, whatever the error bar says.
 PART = 0.01
@@ -90,10 +90,6 @@ class Score:
         bar = (found.error or 0.0) + self.reference.get(name, {}).get("error", 0.0)
         return abs(found.difference or 0.0) / max(BARS * bar, PART * (abs(found.theory or 0.0) or 1.0))
 
-    def with_diagnosis(self, *findings: Finding) -> Score:
-        """The same with other findings."""
-        return replace(self, diagnosis=findings)
-
     @property
     def gained(self) -> float | None:
         """Largest gain of energy over J V₀."""
@@ -101,16 +97,13 @@ class Score:
 
     def to_dict(self) -> dict[str, Any]:
         """Ready for JSON: finite numbers or ``None``."""
-        document: dict[str, Any] = {"problem": self.problem, "outcome": self.outcome, "reason": self.reason}
-        for name in dict.fromkeys(("lambda0", "r0", "lambda1", "r1", *self.measured)):
-            document[name] = asdict(self.measured[name]) if name in self.measured else None
-        for name in ("lift", "penetration", "adhesion", "noise", "energy", "momentum_residual", "raw"):
-            document[name] = getattr(self, name)
-        document["reference"] = self.reference or None
+        numbers = dict.fromkeys(("lambda0", "r0", "lambda1", "r1")) | {k: asdict(v) for k, v in self.measured.items()}
+        measures = ("lift", "penetration", "adhesion", "noise", "energy", "momentum_residual", "raw")
+        document = {"problem": self.problem, "outcome": self.outcome, "reason": self.reason, **numbers}
+        document |= {name: getattr(self, name) for name in measures} | {"reference": self.reference or None}
         document["diagnosis"] = [finding.name for finding in self.diagnosis]
         document["advice"] = [asdict(finding) for finding in self.diagnosis if finding.name != "clean"]
-        document["metadata"] = self.metadata
-        return dict(_plain(document))
+        return dict(_plain(document | {"metadata": self.metadata}))
 
 
 def _plain(value: Any) -> Any:
@@ -121,7 +114,3 @@ def _plain(value: Any) -> Any:
         return [_plain(item) for item in value]
     return None if isinstance(value, float) and not math.isfinite(value) else value
 
-
-def invalid(reason: str, name: str = "", outcome: str = "invalid") -> Score:
-    """The score of a result that cannot be read, or of a run that left none."""
-    return Score(problem=name, outcome=outcome, reason=reason)

@@ -1,37 +1,52 @@
 """The benchmark's page: a work–precision sheet per problem, property × code, adapters' sources, how to enter.
 
-HTML that needs no network, and the same in JSON.
+HTML that needs no network, and the same in JSON. A property is one number over the rows of one code. Figures show the
+relative error against the runner's wall seconds, a line a code from coarse to fine mesh: a code has the same colour and
+mark in every figure; a point whose contact zone is lifted off is open, one whose wall pulls is crossed out.
 """
 
 from __future__ import annotations
 
+import io
 import json
 import platform
-from collections.abc import Sequence
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import jinja2
+import matplotlib
+import numpy as np
+from matplotlib.figure import Figure
 
 from bent_beam.files import write_atomically
 from bent_beam.versions import processor
-from open_benchmark.adapter import Adapter
+from open_benchmark.adapter import RESOLUTIONS, Adapter, shipped_adapters
 from open_benchmark.campaign import Row
-from open_benchmark.figures import MEASURES, svg, work_precision_figures
-from open_benchmark.problem import problem
-from open_benchmark.properties import in_words, properties
+from open_benchmark.judgement import Score
+from open_benchmark.problem import LADDER, Problem, problem
 
-__all__ = ["document", "errors_table", "write_page"]
+__all__ = ["document", "errors_table", "properties", "write_page"]
 
+MEASURES = {"lambda0": "λ₀", "r0": "r₀", "lambda1": "λ₁", "r1": "r₁", "restitution": "e", "impulse_error": "J(t)"}
+MEASURES |= {"peak_force": "the largest force", "peak_time": "its time"}
+MARKS = "osD^vP*<>hp8d"
+LEAST = 1e-7  # relative error that a figure still shows
 TEMPLATES = Path(__file__).parent / "templates"
-IN_SHORT = (
-    "lambda0",
-    "r0",
-    "restitution",
-    "impulse_error",
-    "peak_force",
-    "peak_time",
-)  # of the table of errors, where no loads act
+LOADED = ("lambda1", "r1")  # shown where loads act
+IN_SHORT = ("lambda0", "r0", "restitution", "impulse_error", "peak_force", "peak_time")  # errors where no loads act
+CONVERGED = 0.002  # relative error on the finest mesh that a converging code reaches (strict codes do)
+
+WORDS = {
+    "leading": "infinite beam, κ/ν = {p.kappa_over_nu:g}: the contact spreads",
+    "point": "infinite beam, κ/ν = {p.kappa_over_nu:g}: one point in contact",
+    "first": "infinite beam, κ/ν = {p.kappa_over_nu:g}, first order in the loads (α, ψ, χ, n) = ({loads}): {regime}",
+    "bounce": "free beam, κ/ν = {p.kappa_over_nu:g}, damping η/T* = {p.damping:g}, until it has left the wall",
+    "stopped-beam": "free beam with damping, before the wall first lets go",
+    "elastic-wall": "infinite beam on a wall that gives way, κ/ν = {p.kappa_over_nu:g}, ζ = {ratio:g}",
+    "elastic-stop": "hinged beam swung on a stop of {p.given[stop_stiffness]:g} N/m",
+} | {name: rung.words for name, rung in LADDER.items()}
 
 
 def document(rows: Sequence[Row], adapters: Sequence[Adapter], seed: int | None = None) -> dict[str, Any]:
@@ -44,14 +59,14 @@ def document(rows: Sequence[Row], adapters: Sequence[Adapter], seed: int | None 
         "solvers": [
             {
                 "name": a.name,
-                "label": a.label,
+                "label": f"{a.name} (host)" if a.host else a.name,
                 "host": a.host,
                 "mesh and steps": a.chosen,
                 "manual": [{"statement": statement, "page": page} for statement, page in a.manual],
                 "adapter": a.file.name,
                 "installed": missing is None,
                 "missing": missing,
-                "packages": list(a.install) or ([a.debian] if a.debian else []),
+                "packages": a.packages,
                 "properties": properties(rows, a.name),
             }
             for a, missing in [(a, a.missing()) for a in adapters]
@@ -75,7 +90,7 @@ def errors_table(rows: Sequence[Row], solvers: Sequence[str]) -> str:
 
 
 def _in_short(row: Row) -> str:
-    wanted = ("lambda1", "r1") if problem(row.problem).kind == "first" else IN_SHORT
+    wanted = LOADED if problem(row.problem).kind == "first" else IN_SHORT
     known = [_error(row, name) for name in wanted if name in row.score.measured]
     errors = ["–" if error is None else f"{100 * error:+.3f}" for error in known]
     if not any(error is not None for error in known):
@@ -98,17 +113,15 @@ def _cell(row: Row, measure: str) -> str:
     return f"{found.value:.3g}" if error is None else f"{100 * error:+.3f} %"
 
 
-def _sheets(rows: Sequence[Row], solvers: Sequence[str], out: Path) -> list[dict[str, Any]]:
-    """The problems' parts of a table; their figures are written to ``out``, too."""
-    return [_sheet([r for r in rows if r.problem == name], name, solvers, out) for name in _names(rows)]
-
-
 def _names(rows: Sequence[Row]) -> list[str]:
     return list(dict.fromkeys(row.problem for row in rows))
 
 
-def _sheet(own: Sequence[Row], name: str, solvers: Sequence[str], out: Path) -> dict[str, Any]:
-    figures = {measure: svg(figure) for measure, figure in work_precision_figures(own, name, solvers).items()}
+def _sheet(rows: Sequence[Row], name: str, solvers: Sequence[str], out: Path) -> dict[str, Any]:
+    """A problem's part of a table; its figures are written to ``out``, too."""
+    own = [row for row in rows if row.problem == name]
+    wanted = LOADED if problem(name).kind == "first" else MEASURES
+    figures = {m: _svg(_figure(own, m, solvers)) for m in wanted if any(_point(row, m) for row in own)}
     for measure, text in figures.items():
         write_atomically(out / f"{name}-{measure}.svg", text)
     shown = [measure for measure in MEASURES if any(measure in row.score.measured for row in own)]
@@ -121,6 +134,21 @@ def _sheet(own: Sequence[Row], name: str, solvers: Sequence[str], out: Path) -> 
     }
 
 
+def in_words(asked: Problem) -> str:
+    """A problem in words, for a heading."""
+    loads = ", ".join(f"{value:g}".replace("-", "−") for value in asked.loads)
+    ratio = asked.given.get("wall_damping", 0.0) / 2.0
+    return WORDS[asked.kind].format(p=asked, loads=loads, regime=_regime(asked), ratio=ratio)
+
+
+def _regime(asked: Problem) -> str:
+    """Which loads act on an infinite beam."""
+    alpha, psi, _, axial = asked.loads
+    if axial:
+        return "tension" if axial > 0.0 else "compression"
+    return "lift-off" if alpha + psi < 0.0 else "pressed"
+
+
 def write_page(
     rows: Sequence[Row], adapters: Sequence[Adapter], out: Path, about: dict[str, Any] | None = None
 ) -> Path:
@@ -128,13 +156,16 @@ def write_page(
     its figures (``sheets/TABLE/PROBLEM-MEASURE.svg``); returns the page. ``about`` : :func:`document` of both."""
     about = about or document(rows, adapters)
     solvers = list(dict.fromkeys([*(a.name for a in adapters), *(row.solver for row in rows)]))
-    tables = {"verified": [r for r in rows if not r.unverified], "self-declared": [r for r in rows if r.unverified]}
+    tables = {name: [row for row in rows if row.table == name] for name in ("verified", "self-declared")}
     versions = {row.solver: version for row in rows if (version := row.score.metadata.get("version"))}
     loader = jinja2.Environment(
         loader=jinja2.FileSystemLoader(TEMPLATES), autoescape=True, trim_blocks=True, lstrip_blocks=True
     )
     html = loader.get_template("benchmark.html.j2").render(
-        tables={name: _sheets(own, solvers, out / "sheets" / name) for name, own in tables.items()},
+        tables={
+            table: [_sheet(own, name, solvers, out / "sheets" / table) for name in _names(own)]
+            for table, own in tables.items()
+        },
         seed=about["seed"],
         solvers=about["solvers"],
         versions=versions,
@@ -150,3 +181,117 @@ def write_page(
         write_atomically(out / f"errors-{name}.md", errors_table(own, solvers))
     write_atomically(out / "index.html", html)
     return out / "index.html"
+
+
+# --- property × code -----------------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class Property:
+    """The largest of ``numbers`` of the scores of the problems ``asked``, at the finest resolution alone or at all."""
+
+    numbers: Callable[[Score], Iterable[float | None]]
+    asked: Callable[[Problem], bool]
+    finest: bool = True
+
+
+def _without_loads(asked: Problem) -> bool:
+    return asked.kind in ("leading", "point")
+
+
+def _first_order(regime: str) -> Property:
+    return Property(
+        lambda found: [found.error("lambda1"), found.error("r1")],
+        lambda asked: asked.kind == "first" and _regime(asked) == regime,
+    )
+
+
+PROPERTIES: dict[str, Property] = {
+    "unilateral": Property(lambda found: [found.adhesion], _without_loads, finest=False),
+    "energy": Property(lambda found: [found.gained], _without_loads, finest=False),
+    "noise": Property(lambda found: [found.noise], _without_loads),
+    "lift": Property(lambda found: [found.lift], lambda asked: asked.kind == "leading"),
+    **{f"first order, {name}": _first_order(name) for name in ("pressed", "lift-off", "tension", "compression")},
+}
+
+
+def properties(rows: Sequence[Row], solver: str) -> dict[str, str]:
+    """One code's column of the table."""
+    own = [row for row in rows if row.solver == solver]
+    return {"converges": _converges(own), **{name: _largest(own, rule) for name, rule in PROPERTIES.items()}}
+
+
+def _largest(rows: Sequence[Row], rule: Property) -> str:
+    """The number, the outcome where no row has a result, or why there is none."""
+    resolutions = RESOLUTIONS[-1:] if rule.finest else RESOLUTIONS
+    chosen = [row for row in rows if rule.asked(problem(row.problem)) and row.resolution in resolutions]
+    if not chosen:
+        return "not asked"
+    numbers = [abs(number) for row in chosen for number in rule.numbers(row.score) if number is not None]
+    if numbers:
+        return f"{max(numbers):.1e}" if any(numbers) else "0"
+    outcomes = {row.score.brief for row in chosen if not row.score.completed}
+    return " or ".join(sorted(outcomes)) or "not reported"
+
+
+def _converges(rows: Sequence[Row]) -> str:
+    """Of the problems without loads, those in which the larger of the errors of λ₀ and r₀ falls and ends small."""
+    errors: dict[str, dict[str, float]] = {}
+    for row in rows:
+        worst = [abs(error) for name in ("lambda0", "r0") if (error := row.score.error(name)) is not None]
+        if _without_loads(problem(row.problem)) and worst:
+            errors.setdefault(row.problem, {})[row.resolution] = max(worst)
+    pairs = [(own.get(RESOLUTIONS[0]), own.get(RESOLUTIONS[-1])) for own in errors.values()]
+    converged = [a is not None and b is not None and b <= max(a, CONVERGED / 10) and b < CONVERGED for a, b in pairs]
+    return f"{sum(converged)} of {len(converged)} problems" if converged else "no result"
+
+
+# --- work and precision --------------------------------------------------------------------------------------------
+
+
+def _figure(rows: Sequence[Row], measure: str, solvers: Sequence[str]) -> Figure:
+    """Of one number. A faint line above a point ends at the error plus the error bar."""
+    figure = Figure(figsize=(5.2, 4.3), layout="constrained")
+    axis = figure.subplots()
+    styles = {name: k for k, name in enumerate([*shipped_adapters(), *sorted(set(solvers) - set(shipped_adapters()))])}
+    for solver in solvers:
+        k = styles[solver]
+        own = [r for name in RESOLUTIONS for r in rows if r.solver == solver and r.resolution == name]
+        points = [p for row in own if (p := _point(row, measure))]
+        if points:
+            seconds, errors, tops = zip(*points)
+            color, style = f"C{k % 10}", "-" if k < 10 else "--"
+            axis.vlines(seconds, errors, tops, color=color, lw=0.8, alpha=0.35)
+            mark = MARKS[k % len(MARKS)]
+            axis.loglog(seconds, errors, marker=mark, ms=5, lw=1.2, color=color, ls=style, label=solver)
+            for word, over in (("lifted", {"marker": mark, "mfc": "white"}), ("adhesive", {"marker": "x"})):
+                marked = [p[:2] for row in own if word in row.score.outcome and (p := _point(row, measure))]
+                axis.loglog(
+                    *np.array(marked).reshape(-1, 2).T, ls="", ms=5, color=color if over.get("mfc") else "k", **over
+                )
+    for (low, high), bound in ((axis.get_ylim(), axis.set_ylim), (axis.get_xlim(), axis.set_xlim)):
+        bound(10.0 ** np.floor(np.log10(low)), 10.0 ** np.ceil(np.log10(high)))
+    axis.xaxis.set_minor_formatter("")
+    axis.set(xlabel="wall clock of the whole process, s", ylabel=f"relative error of {MEASURES[measure]}")
+    axis.grid(True, which="major", lw=0.4, color="0.85")
+    axis.spines[["top", "right"]].set_visible(False)
+    figure.legend(loc="outside lower center", ncols=3, frameon=False, fontsize=8)
+    return figure
+
+
+def _point(row: Row, measure: str) -> tuple[float, float, float] | None:
+    """Seconds, relative error, and that with the error bar on top."""
+    found, seconds = row.score.measured.get(measure), row.seconds
+    if found is None or found.difference is None or seconds is None or (found.theory == 0.0 and measure == "lambda0"):
+        return None
+    error = max(abs(found.relative() or 0.0), LEAST)
+    return seconds, error, error + (found.relative_error() or 0.0)
+
+
+def _svg(figure: Figure) -> str:
+    """The figure as an SVG element, the same bits for the same numbers."""
+    stream = io.StringIO()
+    with matplotlib.rc_context({"svg.hashsalt": "beam-impact", "svg.fonttype": "path"}):
+        figure.savefig(stream, format="svg", metadata={"Date": None})
+    text = stream.getvalue()
+    return text[text.index("<svg") :]

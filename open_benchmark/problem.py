@@ -35,17 +35,9 @@ END = 0.1  # τ; the leading order is self-similar, any end will do (the thesis 
 LOAD = 0.2  # ε times the sum of the loads' sizes: εr₁τ/r₀ ends at about 5 %, so its square is small and it is not
 EQUIVALENTS = ("half beam", "small amplitude", "straight beam on a curved wall")
 NUMBER = r"(-?\d+(?:\.\d+)?(?:e-?\d+)?)"
-IDS = {
-    kind: re.compile("-".join([kind, *[NUMBER] * count]) + optional)
-    for kind, count, optional in (
-        ("leading", 1, ""),
-        ("point", 1, ""),
-        ("first", 4, f"(?:-{NUMBER})?"),
-        ("bounce", 2, ""),
-        ("elastic-wall", 2, ""),
-        ("elastic-stop", 1, ""),
-    )
-}
+COUNTS = {"leading": 1, "point": 1, "first": 4, "bounce": 2, "elastic-wall": 2, "elastic-stop": 1}  # of numbers in ids
+IDS = {kind: re.compile("-".join([kind, *[NUMBER] * count])) for kind, count in COUNTS.items()}
+IDS["first"] = re.compile(f"{IDS['first'].pattern}(?:-{NUMBER})?")
 
 
 class Rung(NamedTuple):
@@ -56,37 +48,26 @@ class Rung(NamedTuple):
     end_time: float
 
 
-BAR = {"axial_stiffness": 1.0, "mass_per_length": 1.0, "length": 1.0}
+BALL = {"mass": 1.0, "gravity": 1.0, "height": 0.5, "velocity": 0.0}
+BAR = {"axial_stiffness": 1.0, "mass_per_length": 1.0, "length": 1.0, "velocity": 0.0, "gap": 0.0, "gravity": 0.0}
+FREE = {"shape": "0", "far_end": "free"}
 LADDER = {
     # lands at t = 1, and again every 2: ten impacts by the end
-    "ball": Rung(
-        "bouncing ball, ten elastic impacts",
-        {"mass": 1.0, "gravity": 1.0, "height": 0.5, "velocity": 0.0, "restitution": 1.0},
-        20.0,
-    ),
-    # infinitely many impacts until it rests at t = 3
-    "chattering-ball": Rung(
-        "ball that comes to rest after infinitely many impacts",
-        {"mass": 1.0, "gravity": 1.0, "height": 0.5, "velocity": 0.0, "restitution": 0.5},
-        4.0,
-    ),
+    "ball": Rung("bouncing ball, ten elastic impacts", BALL | {"restitution": 1.0}, 20.0),
+    # rests at t = 3
+    "chattering-ball": Rung("ball that comes to rest after infinitely many impacts", BALL | {"restitution": 0.5}, 4.0),
     # in contact from 0.5 to 2.5
-    "bar": Rung(
-        "elastic bar that meets the wall end on and leaves",
-        {**BAR, "velocity": 1.0, "gap": 0.5, "gravity": 0.0, "shape": "0", "far_end": "free"},
-        3.0,
-    ),
+    "bar": Rung("elastic bar that meets the wall end on and leaves", BAR | {"velocity": 1.0, "gap": 0.5} | FREE, 3.0),
     # held at its far end, let go stretched: in contact from 1 to 2, 4 to 5, 7 to 8
     "released-bar": Rung(
         "bar let go from stretched in front of the wall",
-        {**BAR, "velocity": 0.0, "gap": 0.0, "gravity": 0.0, "shape": "(length - x)/(2 length)", "far_end": "held"},
+        BAR | {"shape": "(length - x)/(2 length)", "far_end": "held"},
         8.5,
     ),
     # the bouncing bar of Doyen, Ern and Piperno (2011): two periods of 16/3
     "bouncing-bar": Rung(
         "elastic bar that falls on the floor, twice",
-        {"axial_stiffness": 900.0, "mass_per_length": 1.0, "length": 10.0, "velocity": 0.0, "gap": 5.0}
-        | {"gravity": 10.0, "shape": "0", "far_end": "free"},
+        BAR | {"axial_stiffness": 900.0, "length": 10.0, "gap": 5.0, "gravity": 10.0} | FREE,
         11.0,
     ),
     # lands on the obstacle through its ends at 0.5, 1.5, 2.5 and 3.5
@@ -241,43 +222,30 @@ def _of_numbers(name: str, kind: str, numbers: list[float]) -> Problem:
     return Problem(name, kind, kappa)
 
 
-def document(asked: Problem) -> dict[str, Any]:
-    """A problem as JSON: schema, id, and the tables of its file."""
-    return {"schema": SCHEMA, "id": asked.id, **_tables(asked)}
-
-
 def problem_text(asked: Problem) -> str:
     """The TOML file of a problem, for an adapter: the same as :func:`document`."""
-    lines = [f'schema = "{SCHEMA}"', f'id = "{asked.id}"', ""]
-    for table, values in _tables(asked).items():
-        # a number, a text and a list of either are written alike in TOML and JSON
+    tables = document(asked)
+    # a number, a text and a list of either are written alike in TOML and JSON
+    lines = [*(f"{key} = {json.dumps(tables.pop(key))}" for key in ("schema", "id")), ""]
+    for table, values in tables.items():
         lines += [f"[{table}]", *(f"{key} = {json.dumps(value)}" for key, value in values.items()), ""]
     return "\n".join(lines)
 
 
-def _tables(asked: Problem) -> dict[str, dict[str, Any]]:
-    """The tables of a problem's file."""
-    record = {
-        "end_time": asked.end_time,
-        "fit_window": list(asked.fit_window),
-        "snapshots": list(asked.snapshots),
-    }
+def document(asked: Problem) -> dict[str, Any]:
+    """A problem as JSON: schema, id, and the tables of its file."""
+    names = {"schema": SCHEMA, "id": asked.id}
+    record = {"end_time": asked.end_time, "fit_window": [*asked.fit_window], "snapshots": [*asked.snapshots]}
     if asked.given:
         table = asked.kind.rpartition("-")[2] if asked.kind in LADDER else asked.kind.replace("-", "_")
-        return {table: asked.given, "record": record}
+        return {**names, table: asked.given, "record": record}
     alpha, psi, chi, axial = (asked.epsilon * value for value in asked.loads)
     reach = asked.largest_half_length
+    beam: dict[str, Any] = {"bending_stiffness": 1.0, "mass_per_length": 1.0, "curvature": asked.kappa_over_nu}
+    beam |= {"length": asked.length or "infinite"} | ({"largest_half_length": reach} if math.isfinite(reach) else {})
     return {
-        "beam": {
-            "bending_stiffness": 1.0,
-            "mass_per_length": 1.0,
-            "curvature": asked.kappa_over_nu,
-            "length": "infinite" if asked.length is None else asked.length,
-            **({"largest_half_length": reach} if math.isfinite(reach) else {}),
-            "axial_force": axial,
-            # T* = √(μℓ⁴/EI) is one for the half length ℓ = 1
-            "damping": asked.damping,
-        },
+        **names,
+        "beam": beam | {"axial_force": axial, "damping": asked.damping},  # T* = √(μℓ⁴/EI) is one for ℓ = 1
         "impact": {"velocity": 1.0, "acceleration": alpha, "curvature_rate": chi, "fourth_derivative": psi},
         "wall": {"curvature": 0.0, "side": "one-sided", "friction": 0.0, "adhesion": 0.0},
         "record": record,

@@ -13,7 +13,7 @@ import re
 import zipfile
 from collections.abc import Collection, Iterator
 from pathlib import Path
-from typing import Any, TextIO
+from typing import TextIO
 
 import numpy as np
 
@@ -86,7 +86,7 @@ def _history(source: Path) -> Result:
 
 def _npz(source: Path) -> Result:
     _check_directory(source)
-    found: dict[str, Any] = {}
+    found, where = {}, "is not a readable NPZ file"
     try:
         with zipfile.ZipFile(source) as archive:
             total = sum(item.file_size for item in archive.infolist())
@@ -95,22 +95,15 @@ def _npz(source: Path) -> Result:
         with np.load(source, allow_pickle=False) as stored:
             _check_names(stored.files, (*COLUMNS, *BESIDE), "field")
             for name in stored.files:
-                found[name] = _stored_array(stored, name)
+                where = f"{name} cannot be read"
+                found[name] = stored[name]
+                if not isinstance(found[name], np.ndarray):
+                    raise ResultError(f"{name} is no array")
     except ResultError:
         raise
     except Exception as error:  # zipfile and NumPy raise many kinds for a broken file
-        raise ResultError(f"is not a readable NPZ file: {_one_line(error)}") from None
+        raise ResultError(f"{where}: {_one_line(error)}") from None
     return result_from_fields(found)
-
-
-def _stored_array(stored: Any, name: str) -> Any:
-    try:
-        array = stored[name]
-    except (ValueError, OSError, EOFError, zipfile.BadZipFile, KeyError, TypeError, MemoryError) as error:
-        raise ResultError(f"{name} cannot be read: {_one_line(error)}") from None
-    if not isinstance(array, np.ndarray):
-        raise ResultError(f"{name} is no array")
-    return array
 
 
 def _check_directory(source: Path) -> None:

@@ -28,7 +28,7 @@ __all__ = ["BOUNCES", "REFERENCES", "SCHEMA", "Reference", "reference", "stored"
 BOUNCES = Path(__file__).with_name("bounce_reference.json")
 REFERENCES = Path(__file__).with_name("references.json")
 SCHEMA = "beam-impact-references/2"
-VARIABLES: dict[str, Callable[[Any], Any]] = {"time": np.asarray, "fourth root of time": lambda t: np.sqrt(np.sqrt(t))}
+POWERS = {"time": 1.0, "fourth root of time": 0.25}  # of the variable that J(t) is a polynomial of
 
 Array = NDArray[np.float64]
 
@@ -62,24 +62,23 @@ def reference(asked: Problem) -> Reference:
 
 
 def _impulse(table: Mapping[str, Any]) -> Callable[[Array], Array]:
-    variable = VARIABLES[table["variable"]]
     pieces = PPoly(np.array(table["coefficients"]).T, np.array(table["breaks"]))
-    return lambda tau: np.asarray(pieces(variable(tau)))
+    return lambda tau: np.asarray(pieces(tau ** POWERS[table["variable"]]))
 
 
 def _bounce(asked: Problem) -> Reference:
     shipped = stored(BOUNCES)
     if asked.id in shipped["problems"]:
-        value, error = shipped["problems"][asked.id]["restitution"]
-        return Reference({"restitution": value}, errors={"restitution": error}, source=shipped["made_by"])
-    from comparison.whole_impact.stored_map import bounce_from_map
+        (value, error), source = shipped["problems"][asked.id]["restitution"], shipped["made_by"]
+    else:
+        from comparison.whole_impact.stored_map import bounce_from_map
 
-    found = bounce_from_map(asked.kappa_over_nu, asked.damping) if asked.damping > 0.0 else None
-    number = None if found is None else found["restitution"]
-    if number is None or number.value is None or number.error is None:
-        return Reference()  # off the map, or without damping, where no number exists
-    source = "comparison/whole_impact/map.json, interpolated"
-    return Reference({"restitution": number.value}, errors={"restitution": number.error}, source=source)
+        found = bounce_from_map(asked.kappa_over_nu, asked.damping) if asked.damping > 0.0 else None
+        if found is None or found["restitution"].value is None or found["restitution"].error is None:
+            return Reference()  # off the map, or without damping, where no number exists
+        value, error = found["restitution"].value, found["restitution"].error
+        source = "comparison/whole_impact/map.json, interpolated"
+    return Reference({"restitution": value}, errors={"restitution": error}, source=source)
 
 
 @cache

@@ -13,7 +13,6 @@ import json
 import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -22,20 +21,13 @@ from numpy.typing import NDArray
 from bent_beam.checks import shortened
 from open_benchmark.problem import Problem, problem
 
-__all__ = ["OUTCOMES", "Result", "ResultError", "plain_number", "result_from_fields", "save_result"]
+__all__ = ["OUTCOMES", "Result", "ResultError", "plain_number", "result_from_fields"]
 
 Array = NDArray[np.float64]
 
 OUTCOMES = (
-    "completed",
-    "diverged",
-    "not_converged",
-    "unsupported",
-    "not_attempted",
-    "timeout",
-    "crashed",
-    "not_installed",
-)
+    "completed", "diverged", "not_converged", "unsupported", "not_attempted", "timeout", "crashed", "not_installed",
+)  # fmt: skip
 SERIES = ("J", "Jm", "J_minus", "x_contact", "E_kin", "E_el", "E_damp")
 SNAPSHOTS = ("x", "snap_tau", "snap_gap")
 ARRAYS = (*SNAPSHOTS, "snap_v", "node_x", "node_impulse")
@@ -115,14 +107,6 @@ def plain_number(value: Any) -> float | None:
     return float(value)
 
 
-def save_result(file: str | Path, result: Result) -> None:
-    """Write a result as NPZ."""
-    arrays: dict[str, Any] = {name: getattr(result, name) for name in ("tau", "J", "Jm", *ARRAYS)}
-    arrays = {name: array for name, array in arrays.items() if array is not None and array.size} | result.series
-    arrays |= {"outcome": result.stated, "problem": result.problem.id, "metadata": json.dumps(result.metadata)}
-    np.savez_compressed(file, **arrays)
-
-
 # --- validation ----------------------------------------------------------------------------------------------------
 
 
@@ -141,14 +125,14 @@ def result_from_fields(fields: Mapping[str, Any]) -> Result:
     if match[1] != "completed":
         return Result(match[1], detail, asked, metadata)
     tau = _instants(fields, asked)
-    raw, added = _nodes(fields, tau, asked.is_symmetric)
+    arrays = _nodes(fields, tau, asked.is_symmetric)
     needed = ("J", "Jm") if asked.is_front else ("J",)
-    declared = [name for name in SERIES if name not in added and (name in fields or name in needed)]
-    series = added | {name: _series(fields, name, tau.size) for name in declared}
+    declared = [name for name in SERIES if name not in arrays and (name in fields or name in needed)]
+    arrays |= {name: _series(fields, name, tau.size) for name in declared}
+    series = {name: arrays.pop(name) for name in SERIES[2:] if name in arrays}
     if "J_minus" in series and series["J_minus"].min() < -1e-12 * (np.abs(series["J_minus"]).max() + 1e-300):
         raise ResultError("J_minus is the size of the tensile impulse so far: it must not be negative")
-    impulse, moment = series.pop("J"), series.pop("Jm", _empty())
-    return Result("completed", detail, asked, metadata, tau, impulse, moment, series, *_snapshots(fields), *raw)
+    return Result("completed", detail, asked, metadata, tau, series=series, **arrays, **_snapshots(fields))
 
 
 def _text(fields: Mapping[str, Any], name: str) -> str:
@@ -246,17 +230,14 @@ def _numbers(fields: Mapping[str, Any], name: str) -> Array:
     return array
 
 
-def _nodes(
-    fields: Mapping[str, Any], tau: Array, symmetric: bool
-) -> tuple[tuple[Array | None, Array | None], dict[str, Array]]:
+def _nodes(fields: Mapping[str, Any], tau: Array, symmetric: bool) -> dict[str, Array]:
     """Raw nodal histories, and the wall's impulse, its moment and its tensile part, added up from them.
 
     A model of one half (no point at x < 0) of a symmetric problem stands for both. Tension is by how much a point
     falls, over one of ``INTERVALS``, below what it had at both ends of the one before: a scheme may give and take back.
     """
-    given = [name for name in ("node_x", "node_impulse") if name in fields]
-    if not given:
-        return (None, None), {}
+    if not fields.keys() & {"node_x", "node_impulse"}:
+        return {}
     x, impulse = (_numbers(fields, name) for name in ("node_x", "node_impulse"))
     if x.ndim != 1 or impulse.shape != (tau.size, x.size) or not x.size:
         raise ResultError(
@@ -268,20 +249,25 @@ def _nodes(
     lost = np.maximum(np.minimum(kept[:-2], kept[1:-1]) - kept[2:], 0.0).sum(axis=1).cumsum()
     pulled = np.interp(tau, tau[ends], np.concatenate([[0.0, 0.0], lost]))
     declared = _series(fields, "J_minus", tau.size) if "J_minus" in fields else 0.0
-    added = {"J": sides * impulse.sum(axis=1), "Jm": sides / 2.0 * (impulse @ np.abs(x))}
-    return (x, impulse), added | {"J_minus": np.maximum(sides * pulled, declared)}
+    return {
+        "node_x": x,
+        "node_impulse": impulse,
+        "J": sides * impulse.sum(axis=1),
+        "Jm": sides / 2.0 * (impulse @ np.abs(x)),
+        "J_minus": np.maximum(sides * pulled, declared),
+    }
 
 
-def _snapshots(fields: Mapping[str, Any]) -> tuple[Array | None, Array | None, Array | None, Array | None]:
+def _snapshots(fields: Mapping[str, Any]) -> dict[str, Array]:
     given = [name for name in SNAPSHOTS if name in fields]
     missing = [name for name in SNAPSHOTS if name not in fields]
     if not given:
-        return None, None, None, None
+        return {}
     if missing:
         raise ResultError(f"{missing[0]} is missing next to {given[0]}")
     x, when, gap = (_numbers(fields, name) for name in SNAPSHOTS)
     if when.size == 0 and gap.size == 0:
-        return None, None, None, None  # an empty list is not reported
+        return {}  # an empty list is not reported
     if gap.size == 0:
         raise ResultError(f"snap_gap is empty (shape {gap.shape}) for {when.size} instants in snap_tau")
     if when.ndim != 1 or when.size > MOST_SNAPSHOTS:
@@ -292,7 +278,9 @@ def _snapshots(fields: Mapping[str, Any]) -> tuple[Array | None, Array | None, A
         raise ResultError(f"x must have shape ({gap.shape[1]},) or {gap.shape} (got {x.shape})")
     if when.min() < 0.0:
         raise ResultError(f"snap_tau must not be negative (got {when.min():g})")
-    velocity = _numbers(fields, "snap_v") if "snap_v" in fields else None
-    if velocity is not None and velocity.shape != gap.shape:
-        raise ResultError(f"snap_v must have the shape of snap_gap, {gap.shape} (got {velocity.shape})")
-    return x, when, gap, velocity
+    found = {"x": x, "snap_tau": when, "snap_gap": gap}
+    if "snap_v" in fields:
+        found["snap_v"] = velocity = _numbers(fields, "snap_v")
+        if velocity.shape != gap.shape:
+            raise ResultError(f"snap_v must have the shape of snap_gap, {gap.shape} (got {velocity.shape})")
+    return found

@@ -9,7 +9,6 @@ from __future__ import annotations
 import contextlib
 import json
 import os
-import shutil
 import signal
 import subprocess
 import tempfile
@@ -77,16 +76,14 @@ def _once(adapter: Adapter, asked: Problem, resolution: str, kept: Path, limits:
     if missing:
         return Run("not_installed", missing, 0.0)
     kept.parent.mkdir(parents=True, exist_ok=True)
-    folder = Path(tempfile.mkdtemp(prefix=".run-", dir=kept.parent)).resolve()  # the adapter runs in it
-    try:
+    with tempfile.TemporaryDirectory(prefix=".run-", dir=kept.parent, ignore_cleanup_errors=True) as place:
+        folder = Path(place).resolve()  # the adapter runs in it
         write_atomically(folder / "problem.toml", problem_text(asked))
         began = time.perf_counter()
         code, (outcome, reason), said = _ended(adapter, resolution, folder, limits)
         seconds = time.perf_counter() - began
         if not outcome:
             outcome, reason = _taken(folder, asked, kept, code, said)
-    finally:
-        shutil.rmtree(folder, ignore_errors=True)
     return Run(outcome, reason, seconds, "" if resource else "size of a single file")
 
 
@@ -98,8 +95,8 @@ def _ended(adapter: Adapter, resolution: str, folder: Path, limits: Limits) -> t
     # one thread each: a race for cores would be measured, not the codes
     surroundings = {**os.environ, "OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
     surroundings |= {"BENTBEAM_RUN": mark, "TMPDIR": str(folder)}
-    foreign = adapter.install or adapter.debian  # nothing of this project is in its reach, of others no answers
-    reach = [str(ADAPTERS / "blocked"), *([] if foreign else [surroundings.get("PYTHONPATH", "")])]
+    # nothing of this project is in the reach of a code with packages of its own, and in that of others no answers
+    reach = [str(ADAPTERS / "blocked"), "" if adapter.packages else surroundings.get("PYTHONPATH", "")]
     surroundings["PYTHONPATH"] = os.pathsep.join(filter(None, reach))
     with open(folder / "out.txt", "wb") as out, open(folder / "err.txt", "w+b") as err:
         try:
@@ -109,10 +106,15 @@ def _ended(adapter: Adapter, resolution: str, folder: Path, limits: Limits) -> t
             )  # fmt: skip
         except OSError as error:
             return 0, ("crashed", f"could not be started: {error.strerror or error}"), ""
+        guard = None
         try:
-            ended = _watch(process, folder, limits)
+            guard = _guard(process, folder)
+            ended = _waited(process, folder, limits)
         finally:
             _end(process, f"BENTBEAM_RUN={mark}")
+            if guard is not None:
+                guard.kill()
+                guard.communicate()
         return process.returncode, ended, _last_line(err)
 
 
@@ -130,17 +132,6 @@ def _file_size(limits: Limits) -> Callable[[], None] | None:
     return limit
 
 
-def _watch(process: subprocess.Popen[bytes], folder: Path, limits: Limits) -> tuple[str, str]:
-    """Wait for the end; outcome and reason when a limit ended it."""
-    guard = _guard(process, folder)
-    try:
-        return _waited(process, folder, limits)
-    finally:
-        if guard is not None:
-            guard.kill()
-            guard.communicate()
-
-
 def _guard(process: subprocess.Popen[bytes], folder: Path) -> subprocess.Popen[bytes] | None:
     """A shell that ends the adapter's group and its folder when this process is killed: its pipe closes then."""
     if os.name != "posix":
@@ -150,6 +141,7 @@ def _guard(process: subprocess.Popen[bytes], folder: Path) -> subprocess.Popen[b
 
 
 def _waited(process: subprocess.Popen[bytes], folder: Path, limits: Limits) -> tuple[str, str]:
+    """Wait for the end; outcome and reason when a limit ended it."""
     began = time.perf_counter()
     while process.poll() is None:
         passed = time.perf_counter() - began
@@ -206,9 +198,9 @@ def _taken(folder: Path, asked: Problem, kept: Path, code: int, said: str) -> tu
             if part.is_file() and not part.is_symlink():
                 os.replace(part, kept.with_suffix(part.suffix))
         return "", ""
-    reasons = [f"signal {signal.Signals(-code).name}"] if code < 0 else []
-    reasons += [said] if said else []
-    return "crashed", ": ".join(reasons) or (f"exit status {code}" if code else "left no result.npz or result.json")
+    reasons = [f"signal {signal.Signals(-code).name}" if code < 0 else "", said]
+    silent = f"exit status {code}" if code else "left no result.npz or result.json"
+    return "crashed", ": ".join(filter(None, reasons)) or silent
 
 
 def _last_line(stream: IO[bytes]) -> str:

@@ -35,31 +35,31 @@ def score(result: Result, base: Result | None = None) -> Score:
         return replace(found, reason=result.detail or result.outcome)
     if not asked.is_front:
         return _judged(replace(found, adhesion=_adhesion(result), energy=_energy(result), **_ladder(result)), result)
-    _check_base(result, base)
+    if base is not None and asked.base_id != base.problem.id:
+        needed = f"(that is {asked.base_id})" if asked.base_id else "(it needs none)"
+        raise ResultError(f"base: {base.problem.id} is not the base of {asked.id} {needed}")
+    if base is not None and base.outcome != "completed":
+        raise ResultError(f"base: its outcome is {base.outcome}")
     try:
         measured = _estimates(result, base)
     except (ValueError, np.linalg.LinAlgError) as error:
         fields = "J and Jm" if base is None else "J and Jm next to their base"
         reason = f"{fields}: no estimate can be read off ({' '.join(str(error).split())})"
         return replace(found, outcome="invalid", reason=reason)
-    lambda0 = measured["lambda0"].value or 0.0
-    lift, penetration = _gaps(result, lambda0 if asked.kind != "point" else 0.0)
-    if asked.kind == "first" and base is None:
-        measured = {}  # with loads λ₀ and r₀ mean nothing
-    found = replace(found, measured=measured, lift=lift, penetration=penetration, adhesion=_adhesion(result))
-    found = replace(found, noise=_noise(result), energy=_energy(result), momentum_residual=_momentum(result))
-    return _judged(replace(found, ratios=_ratios(base or result)), result)
-
-
-def _check_base(result: Result, base: Result | None) -> None:
-    if base is None:
-        return
-    asked = result.problem
-    if asked.base_id != base.problem.id:
-        needed = f"(that is {asked.base_id})" if asked.base_id else "(it needs none)"
-        raise ResultError(f"base: {base.problem.id} is not the base of {asked.id} {needed}")
-    if base.outcome != "completed":
-        raise ResultError(f"base: its outcome is {base.outcome}")
+    lambda0 = 0.0 if asked.kind == "point" else measured["lambda0"].value or 0.0
+    lift, penetration = _gaps(result, lambda0)
+    found = replace(
+        found,
+        measured={} if asked.kind == "first" and base is None else measured,  # with loads λ₀ and r₀ mean nothing
+        lift=lift,
+        penetration=penetration,
+        adhesion=_adhesion(result),
+        noise=_noise(result),
+        energy=_energy(result),
+        momentum_residual=_momentum(result),
+        ratios=_ratios(base or result),
+    )
+    return _judged(found, result)
 
 
 # --- λ₀, r₀, λ₁, r₁ ------------------------------------------------------------------------------------------------
@@ -187,27 +187,26 @@ def _ladder(result: Result) -> dict[str, Any]:
     """The impulse against the closed form, the restitution of a whole impact, or the largest force and when it acts."""
     asked, exact = result.problem, reference(result.problem)
     measured: dict[str, Measured] = {}
-    ratios: dict[str, float] = {}
+    ratio = np.nan
     if asked.kind == "bounce":
         free = result.tau >= 0.9 * asked.end_time  # out of contact by then: any change is an error
         rest = result.J[free] / (asked.length or 2.0) - 1.0
         measured["restitution"] = Measured(float(rest[-1]), float(np.ptp(rest)) or None, exact["restitution"])
-        gained = 1.0 + (exact["restitution"] or np.nan)
-        ratios = {"J": float(1.0 + rest[-1]) / gained}
+        ratio = float(1.0 + rest[-1]) / (1.0 + (exact["restitution"] or np.nan))
     elif "peak_force" in exact.values:
         force, when = _largest_force(result)
         measured["peak_force"] = Measured(force, None, exact["peak_force"])
         measured["peak_time"] = Measured(when, None, exact["peak_time"])
-        ratios = {"J": force / exact.values["peak_force"]}
+        ratio = force / exact.values["peak_force"]
     elif exact.impulse is not None:
         expected = exact.impulse(result.tau)
         # mean, not largest: where the impulse jumps, a jump at a slightly wrong time is a small error
         mean = float(np.mean(np.abs(result.J - expected)) / np.abs(expected).max())
         measured["impulse_error"] = Measured(mean, None, 0.0)
         measured["impulse"] = Measured(float(result.J[-1]), None, float(expected[-1]))
-        ratios = {"J": float(result.J @ expected / (expected @ expected))}
+        ratio = float(result.J @ expected / (expected @ expected))
     about = {name: {"error": error, "source": exact.source} for name, error in exact.errors.items()}
-    return {"measured": measured, "reference": about, "ratios": {k: v for k, v in ratios.items() if np.isfinite(v)}}
+    return {"measured": measured, "reference": about, "ratios": {"J": ratio} if np.isfinite(ratio) else {}}
 
 
 def _largest_force(result: Result) -> tuple[float, float]:
@@ -241,15 +240,12 @@ def _judged(found: Score, result: Result) -> Score:
         reasons.append(f"{name} {number}, {'reference' if about else 'exact'} {number.theory:.6g}{bar}")
     stated = ", ".join([found.outcome, *dict.fromkeys(additions)])
     found = replace(found, outcome=stated, reason="; ".join(reasons) or None)
-    return found.with_diagnosis(*doctor.diagnose(result, found))
+    return replace(found, diagnosis=doctor.diagnose(result, found))
 
 
 def resolution_ignored(scores: Sequence[Score]) -> list[Score]:
     """The scores of one code at several resolutions; three of one problem with the very same numbers are flagged."""
-    alike: dict[str, list[Score]] = {}
-    for found in scores:
-        if found.completed:
-            alike.setdefault(repr((found.problem, found.measured, found.noise)), []).append(found)
-    flagged = [id(found) for group in alike.values() if len(group) >= 3 for found in group]
-    finding = Finding("too_exact", "the very same numbers at three resolutions", "mesh and steps that differ")
-    return [found.with_diagnosis(finding) if id(found) in flagged else found for found in scores]
+    numbers = [repr((found.problem, found.measured, found.noise)) if found.completed else "" for found in scores]
+    same = (Finding("too_exact", "the very same numbers at three resolutions", "mesh and steps that differ"),)
+    flagged = [bool(own) and numbers.count(own) >= 3 for own in numbers]
+    return [replace(found, diagnosis=same) if alike else found for found, alike in zip(scores, flagged)]

@@ -33,7 +33,7 @@ def score(
 
     Example: bentbeam score coarse.npz medium.npz fine.npz
     """
-    from open_benchmark.judgement import invalid
+    from open_benchmark.judgement import Score
     from open_benchmark.reading import load_result
     from open_benchmark.result import ResultError
     from open_benchmark.score import resolution_ignored
@@ -45,7 +45,7 @@ def score(
         try:
             found.append(score_of(load_result(file), reference))
         except ResultError as error:
-            found.append(invalid(printable(str(error))))
+            found.append(Score("", "invalid", printable(str(error))))
         if found[-1].outcome == "invalid":
             reason = str(found[-1].reason)
             named = reason if reason.startswith(printable(str(file))) else f"{file}: {reason}"

@@ -1,4 +1,4 @@
-"""Files of results with one drawn fault each, for the doctor to find: faults of a run, and of what is booked.
+"""Results with one drawn fault each, for the doctor to find: faults of a run, and of what is booked.
 
 A fault of a run is a function of a random generator that returns κ/ν, half length and the parts of the method; a fault
 of the books changes the result of a good run.
@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import replace
-from pathlib import Path
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -22,19 +22,14 @@ from hermite_fe.far_fields import GridViscosity
 from hermite_fe.integrators import GeneralizedAlphaPenalty, MoreauJean, SignoriniPosition
 from open_benchmark.histories import result_from_history
 from open_benchmark.problem import problem
-from open_benchmark.result import Result, save_result
+from open_benchmark.result import Result
 from theory import contact_parameters
 
-__all__ = ["FAULTS", "written"]
+__all__ = ["FAULTS", "faulty"]
 
 END = 0.1
 Rng = np.random.Generator
 Run = tuple[float, float, dict[str, Any]]
-
-
-def spread(kappa: float) -> float:
-    """λ₀ as roughly as needed to place a fault."""
-    return math.sqrt(2.0 / kappa)
 
 
 def signorini(step: float) -> SignoriniPosition:
@@ -69,14 +64,14 @@ def reflection(rng: Rng) -> Run:
     parts = uniform(size, far_field=GridViscosity(viscosity=0.0))
     if rng.random() < 0.5:
         return kappa, float(rng.uniform(0.55, 1.0)), parts
-    zone = 1.3 * spread(kappa) * math.sqrt(END) * 0.7
+    zone = 0.91 * math.sqrt(2.0 / kappa * END)  # about λ₀√τ, as roughly as a fault needs it
     mesh = GradedMesh(element_length=size, growth=float(rng.uniform(1.2, 1.35)), zone=zone)
     return kappa, 5.0, {**parts, "mesh": mesh}
 
 
 def front_unresolved(rng: Rng) -> Run:
     kappa = float(rng.uniform(0.05, 0.3))
-    thickness = 2.0 * math.sqrt(END) / spread(kappa)
+    thickness = math.sqrt(2.0 * kappa * END)
     return kappa, 5.0, uniform(thickness * float(rng.uniform(0.6, 1.2)), 400.0)
 
 
@@ -126,12 +121,9 @@ def energy_gained(rng: Rng) -> Run:
 
 def ratio(rng: Rng, good: Result) -> Result:
     """Half or twice the force, a power of ten, a sign: of the impulse, of its moment, or of both."""
-    factor = float(
-        rng.choice([0.5, 2.0, -1.0, *(10.0 ** rng.integers(1, 6) * np.array([1.0])), 10.0 ** -rng.integers(1, 6)])
-    )
-    of_impulse, of_moment = [(factor, factor), (factor, 1.0), (1.0, abs(factor) if factor != -1.0 else 2.0)][
-        rng.integers(3)
-    ]
+    factor = float(rng.choice([0.5, 2.0, -1.0, 10.0 ** rng.integers(1, 6), 10.0 ** -rng.integers(1, 6)]))
+    pairs = (factor, factor), (factor, 1.0), (1.0, 2.0 if factor == -1.0 else factor)
+    of_impulse, of_moment = pairs[rng.integers(3)]
     return replace(good, J=of_impulse * good.J, Jm=of_moment * good.Jm, snap_v=None)
 
 
@@ -173,42 +165,40 @@ def too_exact(rng: Rng, good: Result) -> Result:
 
 
 BOOKS: dict[str, Callable[[Rng, Result], Result]] = {
-    f.__name__: f for f in (ratio, momentum, unsettled, off, too_exact)
+    fault.__name__: fault for fault in (ratio, momentum, unsettled, off, too_exact)
 }
 RUNS: dict[str, Callable[[Rng], Run]] = {
-    f.__name__: f
-    for f in (
-        reflection,
-        front_unresolved,
-        start_unresolved,
-        rectified_noise,
-        adhesion,
-        soft_penalty,
-        rattling,
-        steps_too_long,
-        energy_gained,
+    fault.__name__: fault
+    for fault in (
+        reflection, front_unresolved, start_unresolved, rectified_noise, adhesion, soft_penalty, rattling,
+        steps_too_long, energy_gained,
     )
-}
-
-
+}  # fmt: skip
 FAULTS = (*RUNS, *BOOKS)
 
 
-def written(folder: Path, name: str, *seed: int) -> Path:
-    """The file of one result with the fault, or of a clean one."""
-    rng = np.random.default_rng([*seed, FAULTS.index(name) if name in FAULTS else 99])
-    kappa, half_length, parts = RUNS.get(name, clean)(rng)
-    strict = {"contact": NodeContact(hold=0, hold_until=0.0)}
+def faulty(name: str, *seed: int) -> Result:
+    """A result with the fault, or a clean one."""
+    if name not in FAULTS:
+        return good(*seed)
+    rng = np.random.default_rng([*seed, FAULTS.index(name)])
+    return BOOKS[name](rng, good(*seed)) if name in BOOKS else result(RUNS[name](rng))
+
+
+@lru_cache(maxsize=1)
+def good(*seed: int) -> Result:
+    """The clean result of a seed, to which faults of the books are done."""
+    return result(clean(np.random.default_rng([*seed, 99])))
+
+
+def result(run: Run) -> Result:
+    """Of a run, at as many instants as a result needs: what is cumulated is linear within a step."""
+    kappa, half_length, parts = run
     impact = Impact.dimensionless(kappa, length=2.0 * half_length)
-    found = result_from_history(simulate(impact, end_time=END, save=500, **strict | parts))
-    found = _sampled(found) if found.tau.size < 230 else found
-    file = folder / f"{name}.npz"
-    save_result(file, BOOKS[name](rng, found) if name in BOOKS else found)
-    return file
-
-
-def _sampled(found: Result) -> Result:
-    """At as many instants as a file needs: what is cumulated is linear within a step."""
+    parts = {"contact": NodeContact(hold=0, hold_until=0.0), **parts}
+    found = result_from_history(simulate(impact, end_time=END, save=500, **parts))
+    if found.tau.size >= 230:
+        return found
     tau = np.linspace(0.0, END, 400)
     series = {name: np.interp(tau, found.tau, values) for name, values in found.series.items()}
     J, Jm = (np.interp(tau, found.tau, values) for values in (found.J, found.Jm))

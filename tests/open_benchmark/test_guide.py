@@ -1,4 +1,4 @@
-"""The adapter of docs/guide/enter.md, taken from the page, is scored first time."""
+"""Programs of the guide, taken from its pages: an adapter that is scored first time, and Exudyn's reproducer."""
 
 import re
 import subprocess
@@ -11,11 +11,11 @@ from open_benchmark.reading import load_result
 from open_benchmark.running import Limits
 from open_benchmark.score import score
 
-PAGE = Path(__file__).resolve().parents[2] / "docs" / "guide" / "enter.md"
+DOCS = Path(__file__).resolve().parents[2] / "docs"
 
 
-def snippet(name):
-    found = re.search(rf'^```python title="{name}"\n(.*?)^```', PAGE.read_text(), re.S | re.M)
+def snippet(name, page="guide/enter.md"):
+    found = re.search(rf'^```python title="{name}"\n(.*?)^```', (DOCS / page).read_text(), re.S | re.M)
     assert found, name
     return found[1]
 
@@ -39,3 +39,14 @@ def test_a_table_is_scored(tmp_path):
     subprocess.run([sys.executable, "-c", snippet("from_table.py")], cwd=tmp_path, check=True)
     found = score(load_result(tmp_path / "result.csv"))
     assert found.outcome == "completed" and abs(found.error("r0") or 1.0) < 1e-9
+
+
+def test_capturing_steps_use_up_their_repetitions_and_do_not_with_the_fix():
+    """The reproducer for Exudyn's authors: short, on its own, and it still shows what the page says."""
+    space = {"__name__": "reproducer"}
+    exec(snippet("contact_state.py", "exudyn_contact_state.md"), space)
+    run = space["run"]
+    (steps, before, exhausted, _), (again, after, left, contradictory) = run(False), run(True)
+    assert steps == again == 400
+    assert exhausted > 20 and left == 0 and contradictory == 0
+    assert after < 0.5 * before
