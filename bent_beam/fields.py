@@ -18,8 +18,6 @@ from bent_beam import checks
 
 __all__ = ["Declared", "Part", "Quantity", "declared", "key_of"]
 
-LARGEST = 1e60  # of every number, and its inverse of what is positive: fourth powers can still be calculated with
-
 
 @dataclass(frozen=True, kw_only=True)
 class Declared:
@@ -47,7 +45,7 @@ class Quantity:
     """Unit, meaning and range of a field.
 
     above, least, most : the range, above excluded. choices : of a text. absent : what ``settings`` prints where the
-    default is ``None``.
+    default is ``None``. table : of a case file, for a field of :class:`bent_beam.Impact` that stands in it as it is.
     """
 
     unit: str
@@ -57,6 +55,7 @@ class Quantity:
     most: float | None = None
     choices: tuple[str, ...] = ()
     absent: str = ""
+    table: str = ""
 
     @property
     def allowed(self) -> str:
@@ -75,10 +74,10 @@ class Quantity:
         if whole:
             return checks.whole(name, value, int(self.least or 0))
         size = abs(checks.finite(name, value))
-        if size > LARGEST:
-            raise ValueError(f"{name} must not exceed {LARGEST:g} (got {checks.shortened(value)})")
-        if self.above == 0.0 and 0.0 < size < 1.0 / LARGEST:
-            raise ValueError(f"{name} must be at least {1.0 / LARGEST:g} (got {checks.shortened(value)})")
+        if size > checks.LARGEST:
+            raise ValueError(f"{name} must not exceed {checks.LARGEST:g} (got {checks.shortened(value)})")
+        if self.above == 0.0 and 0.0 < size < 1.0 / checks.LARGEST:
+            raise ValueError(f"{name} must be at least {1.0 / checks.LARGEST:g} (got {checks.shortened(value)})")
         if self.above == 0.0:
             checks.positive(name, value)
         if self.most is not None:

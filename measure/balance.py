@@ -91,12 +91,12 @@ def _momentum(history: ImpactHistory) -> float | None:
     turned = impact.fourth_derivative or impact.curvature_rate
     if impact.supported or not _is_whole(history) or (impact.axial_force and turned and _ends_follow(history)):
         return None
-    load = impact.net_load
+    load = impact.load_within(0.5 * _length(history))
     if _ends_follow(history):
-        load -= impact.bending_stiffness * float(motion(0.0, by_x=4))
+        load -= impact.bending_stiffness * float(motion(0.0, by_x=4)) * _length(history)
     gained = impact.mass_per_length * _integrals(history, 0)
     total = history.array("total_impulse")
-    return _residual(gained - gained[0] - load * _length(history) * history.time + total, total)
+    return _residual(gained - gained[0] - load * history.time + total, total)
 
 
 def _second_moment(history: ImpactHistory) -> float | None:
@@ -112,7 +112,7 @@ def _second_moment(history: ImpactHistory) -> float | None:
     turn = both * (history.array("slope")[:, -1] + impact.curvature * x[-1])
     turn -= (history.array("slope")[:, 0] + impact.curvature * x[0]) if history.sides == 2 else 0.0
     turned = np.concatenate([[0.0], np.cumsum(0.5 * (turn[1:] + turn[:-1]) * np.diff(time))])
-    force = impact.uniform_pressure * _length(history) ** 3 / 12.0 * time
+    force = impact.load_within(0.5 * _length(history), 2) * time
     force -= 2.0 * impact.bending_stiffness * (turned + impact.damping * (turn - turn[0]))
     impulse = history.array("impulse") - (history.array("opposite_impulse") if "opposite_impulse" in history else 0.0)
     pushed = both * impulse @ history.contact_positions(0) ** 2

@@ -60,7 +60,7 @@ def hits(history: ImpactHistory) -> list[Hit]:
     work = history.energy("work_of_loads")
     energy = history.array("kinetic_energy") + history.array("strain_energy") - work + history.energy("contact_energy")
     mass = impact.mass_per_length * impact.length
-    gained = impact.net_load * impact.length * time - history.array("total_impulse")
+    gained = impact.load_within(impact.half_length) * time - history.array("total_impulse")
     velocity = impact.velocity + gained / mass
     if impact.supported:  # by forces that no history holds
         velocity = np.array([mean_velocity(history, k) for k in range(time.size)])

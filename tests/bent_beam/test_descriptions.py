@@ -6,7 +6,7 @@ import pytest
 
 from bent_beam import InputError, load_case
 from bent_beam.cases import case_from_tables
-from bent_beam.elastic_wall import wall_scales
+from bent_beam.loads import wall_scales
 from bent_beam.section import General, Pipe, Rectangle, RoundBar
 
 STEEL = {"youngs_modulus": 206e9, "density": 7850.0}

@@ -8,8 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from bent_beam import Impact
-from bent_beam.loads import unmodelled
-from bent_beam.supports import ENDS, lowest_mode
+from bent_beam.loads import ENDS, lowest_mode, unmodelled
 from self_similar_fe import SelfSimilarFE
 from theory import predict
 
