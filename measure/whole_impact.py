@@ -9,6 +9,9 @@ EI u_xx/(V₀√(EIμ)) with place and time, and the shares of energy then, of w
 
 A separation is a time of at least :data:`SHORTEST_SEPARATION` T* without a push: without a smallest duration there is
 no such number (the reaction of a beam that is stopped at a point changes sign arbitrarily fast).
+
+A beam may come back to the wall, rock on it or go back and forth between two: :func:`hits` lists all; each is of one
+wall, without the other in between.
 """
 
 from __future__ import annotations
@@ -23,7 +26,7 @@ from bent_beam.free_flight import LOWEST_PERIOD, bears_free_flight, has_left, pu
 from bent_beam.history import ImpactHistory
 from measure.reduction import peak_moment, wall_peaks
 
-__all__ = ["SHORTEST_SEPARATION", "WholeImpact", "mean_velocity", "pushes", "whole_impact"]
+__all__ = ["SHORTEST_SEPARATION", "Hit", "WholeImpact", "hits", "pushes", "whole_impact"]
 
 Array = NDArray[np.float64]
 
@@ -100,7 +103,7 @@ def whole_impact(history: ImpactHistory, *, shortest: float = SHORTEST_SEPARATIO
     held = history.energy("contact_energy")  # by springs of the wall
     initial = float(energy[0])
     supplied = initial + history.energy("work_of_loads")
-    restitution = impulse - 1.0 if bears_free_flight(impact) else -mean_velocity(history, end) / impact.velocity
+    restitution = impulse - 1.0 if bears_free_flight(impact) else -_mean_velocity(history, end) / impact.velocity
     translation = 0.5 * mass * (restitution * impact.velocity) ** 2 / float(supplied[end])
     return WholeImpact(
         restitution=restitution,
@@ -135,7 +138,63 @@ def _grouped(contacts: list[tuple[int, int]], time: Array, longest: float) -> li
     return groups
 
 
-def mean_velocity(history: ImpactHistory, k: int) -> float:
+def _mean_velocity(history: ImpactHistory, k: int) -> float:
     """Velocity of the centre of mass into the wall at saved instant ``k``, m/s."""
     x = history.positions(k)
     return float(np.trapezoid(history.array("velocity", k), x) / (x[-1] - x[0]))
+
+
+@dataclass(frozen=True)
+class Hit:
+    """wall : "front" or "opposite"; begin, end : s, the end in the middle of its saved interval; place : mean |x| of
+    the push, m; impulse : N s, always positive.
+
+    before, after : velocities of the centre of mass, m/s, positive towards the front wall; energy : kinetic, strain and
+    in springs of the wall after it, J; lost : what the energy and the work of the loads fell by meanwhile, J.
+    """
+
+    wall: str
+    begin: float
+    end: float
+    place: float
+    impulse: float
+    before: float
+    after: float
+    energy: float
+    lost: float
+
+    @property
+    def restitution(self) -> float:
+        """−after/before."""
+        return -self.after / self.before
+
+
+def hits(history: ImpactHistory) -> list[Hit]:
+    """All hits of a run, in order of time; the last may not be over yet."""
+    impact, time = history.impact, history.time
+    copies = 2.0 / history.sides
+    names = {"front": "impulse", "opposite": "opposite_impulse"}
+    rows = {wall: copies * history.array(name) for wall, name in names.items() if name in history}
+    sums = {wall: values.sum(axis=1) for wall, values in rows.items()}
+    parts = [(i, k, wall) for wall, total in sums.items() for i, k in pushes(time, total, 0.0)]
+    spans: list[tuple[int, int, str]] = []
+    for i, k, wall in sorted(parts):
+        broken = time[i] - time[spans[-1][1]] >= LOWEST_PERIOD * impact.slow_time_scale if spans else True
+        if spans and spans[-1][2] == wall and not broken:
+            spans[-1] = (spans[-1][0], k, wall)
+        else:
+            spans.append((i, k, wall))
+    work = history.energy("work_of_loads")
+    energy = history.array("kinetic_energy") + history.array("strain_energy") - work + history.energy("contact_energy")
+    mass = impact.mass_per_length * impact.length
+    gained = impact.load_within(impact.half_length) * time - history.array("total_impulse")
+    velocity = impact.velocity + gained / mass
+    if impact.supported:  # by forces that no history holds
+        velocity = np.array([_mean_velocity(history, k) for k in range(time.size)])
+    found = []
+    for i, k, wall in spans:
+        given = rows[wall][k] - rows[wall][i]
+        place = float(given @ np.abs(history.contact_positions(0))) / float(given.sum())
+        numbers = (place, given.sum(), velocity[i], velocity[k], energy[k] + work[k], energy[i] - energy[k])
+        found.append(Hit(wall, float(time[i]), 0.5 * float(time[k - 1] + time[k]), *map(float, numbers)))
+    return found
