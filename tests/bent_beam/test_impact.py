@@ -36,24 +36,15 @@ def test_the_free_motion_is_that_of_the_thesis_and_so_are_its_derivatives():
     assert impact.uniform_pressure == pytest.approx(3.0 * 0.7 + 2.0 * 0.2)
 
 
-def test_a_load_that_a_solver_does_not_know_is_refused_by_name():
+def test_a_load_a_wall_or_an_end_that_a_path_does_not_know_is_refused_by_name():
     impact = Impact(**THESIS, curvature_rate=0.1)
     assert unmodelled(impact, ("acceleration", "curvature_rate")) is None
     assert "curvature_rate is not modelled" in unmodelled(impact, ("acceleration",))
-
-
-@pytest.mark.parametrize(
-    "feature",
-    [
-        {"wall_from": -0.1, "wall_to": 0.1},
-        {"left_end": "hinged"},
-    ],
-)
-def test_a_wall_or_an_end_that_no_formula_has_is_refused_by_name(feature):
-    impact = Impact(**THESIS, **feature)
-    with pytest.raises(ValueError, match=next(iter(feature))):
-        predict(impact, [1e-3])
-    assert next(iter(feature)) in SelfSimilarFE().refuses(impact)
+    for feature in ({"wall_from": -0.1, "wall_to": 0.1}, {"left_end": "hinged"}):
+        impact = Impact(**THESIS, **feature)
+        with pytest.raises(ValueError, match=next(iter(feature))):
+            predict(impact, [1e-3])
+        assert next(iter(feature)) in SelfSimilarFE().refuses(impact)
 
 
 @pytest.mark.parametrize("left", ENDS)
