@@ -20,7 +20,7 @@ from bent_beam.errors import InputError
 from bent_beam.fields import key_of
 from bent_beam.impact import Impact
 from bent_beam.meshes import MESHES, Mesh
-from bent_beam.parts import made_from, part_from_table, unknown_key
+from bent_beam.parts import made_from, part_from_table, part_or_auto, unknown_key
 from bent_beam.section import SECTIONS, Section
 from bent_beam.tables import TABLES, BeamTable, ImpactTable, RunTable, WallTable, impact_of
 
@@ -108,7 +108,7 @@ def case_from_tables(tables: Mapping[str, Any]) -> Case:
         title=tables.get("title", ""),
         impact=impact,
         end_time=_end_time(made_from(RunTable, tables.get("run", {}), "run"), impact),
-        mesh=_mesh(tables.get("mesh", {})),
+        mesh=part_or_auto(MESHES, tables.get("mesh", {}), "mesh"),
         tables=others,
         section=section,
     )
@@ -123,18 +123,6 @@ def _end_time(run: RunTable, impact: Impact) -> float:
         return impact.checked_end_time(end_time)
     except ValueError as error:
         raise InputError(f"run.{'end_time' if run.end_time is not None else 'duration'}: {error}") from None
-
-
-def _mesh(table: Any) -> Mesh | None:
-    """``None``: it is to be chosen."""
-    if not isinstance(table, Mapping):
-        raise InputError(f"mesh must be a table (got {shortened(table)})")
-    if table.get("kind", "auto") != "auto":
-        return part_from_table(MESHES, table, "mesh")
-    extra = sorted(set(table) - {"kind"})
-    if extra:
-        raise InputError(f"mesh.kind is required next to mesh.{extra[0]} (one of {', '.join(sorted(MESHES))})")
-    return None
 
 
 def _check_buckling(impact: Impact) -> None:

@@ -16,7 +16,7 @@ from typing import Annotated, Any, ClassVar, Union, get_args, get_origin, get_ty
 
 from bent_beam import checks
 
-__all__ = ["Declared", "Part", "Quantity", "declared", "key_of"]
+__all__ = ["Declared", "Part", "Quantity", "declared", "describe", "key_of"]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -129,3 +129,14 @@ class Part:
         for name, field in declared(type(self)).items():  # type: ignore[arg-type]
             value = field.checked(f"{self.where}.{key_of(name)}".lstrip("."), getattr(self, name))
             object.__setattr__(self, name, value)
+
+
+def describe(part: Any) -> dict[str, Any]:
+    """A part as JSON-ready settings: its class name and fields (nested parts too)."""
+    out: dict[str, Any] = {"kind": type(part).__name__}
+    for field in dataclasses.fields(part):
+        value = getattr(part, field.name)
+        if dataclasses.is_dataclass(value) and not isinstance(value, type):
+            value = describe(value)
+        out[field.name] = list(value) if isinstance(value, tuple) else value
+    return out

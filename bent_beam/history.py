@@ -252,12 +252,8 @@ class ImpactHistory:
 
     def energy_budget(self) -> dict[str, float]:
         """Where the energy went between the first and the last saved instant, J, and the ``defect`` of the sum."""
-
-        def change(name: str) -> float:
-            values = self.array(name)
-            return float(values[-1] - values[0])
-
-        budget = {name: change(name) for name in ENERGIES if name in self}
+        terms = {name: self.array(name) for name in ENERGIES if name in self}
+        budget = {name: float(values[-1] - values[0]) for name, values in terms.items()}
         defect = sum(-value if name == "work_of_loads" else value for name, value in budget.items())
         initial = float(self.array("kinetic_energy")[0] + self.array("strain_energy")[0])
         return budget | {"initial_energy": initial, "defect": defect}
