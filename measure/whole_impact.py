@@ -24,6 +24,7 @@ from numpy.typing import NDArray
 
 from bent_beam.free_flight import LOWEST_PERIOD, bears_free_flight, has_left, pushing
 from bent_beam.history import ImpactHistory
+from bent_beam.impact import Impact
 from measure.reduction import peak_moment, wall_peaks
 
 __all__ = ["SHORTEST_SEPARATION", "Hit", "WholeImpact", "hits", "pushes", "whole_impact"]
@@ -94,11 +95,11 @@ def whole_impact(history: ImpactHistory, *, shortest: float = SHORTEST_SEPARATIO
     if not contacts:
         raise ValueError("the run ends before the wall was touched")
     mass = impact.mass_per_length * impact.length
-    hit = _grouped(contacts, time, LOWEST_PERIOD * unit)[0]
-    end = hit[-1][1]
+    hit = _grouped([(i, k, "front") for i, k in contacts], impact, time)[0]
+    _, end, _ = hit[-1]
     impulse = float(total[end]) / (mass * impact.velocity)
     moment = impact.velocity * math.sqrt(impact.bending_stiffness * impact.mass_per_length)
-    peak, wall = peak_moment(history), wall_peaks(history)
+    peak, wall, left = peak_moment(history), wall_peaks(history), has_left(history)
     energy = history.array("kinetic_energy") + history.array("strain_energy")
     held = history.energy("contact_energy")  # by springs of the wall
     initial = float(energy[0])
@@ -109,7 +110,7 @@ def whole_impact(history: ImpactHistory, *, shortest: float = SHORTEST_SEPARATIO
         restitution=restitution,
         impulse=2.0 * impulse,
         last_contact=0.5 * float(time[end - 1] + time[end]) / unit,
-        separations=len(hit) - (0 if len(contacts) > len(hit) or has_left(history) else 1),
+        separations=len(hit) - (0 if len(contacts) > len(hit) or left else 1),
         peak_moment=peak.moment / moment,
         peak_moment_place=abs(peak.place) / impact.half_length,
         peak_moment_time=peak.time / unit,
@@ -120,21 +121,23 @@ def whole_impact(history: ImpactHistory, *, shortest: float = SHORTEST_SEPARATIO
         peak_force=None if wall is None else 2.0 * wall.force * unit / (mass * impact.velocity),
         supplied=float(supplied[end]),
         spacing=float(time[end] - time[end - 1]) / unit,
-        contacts=tuple((float(time[i]) / unit, 0.5 * float(time[j - 1] + time[j]) / unit) for i, j in hit),
+        contacts=tuple((float(time[i]) / unit, 0.5 * float(time[j - 1] + time[j]) / unit) for i, j, _ in hit),
         energy_defect=abs(history.energy_budget()["defect"]) / initial,
         energy_gain=float(np.max(np.diff(energy + held - supplied), initial=0.0)) / initial,
-        left=has_left(history),
+        left=left,
     )
 
 
-def _grouped(contacts: list[tuple[int, int]], time: Array, longest: float) -> list[list[tuple[int, int]]]:
-    """Contacts of one hit together: gaps between them are shorter than ``longest``, s."""
-    groups: list[list[tuple[int, int]]] = []
-    for contact in contacts:
-        if groups and time[contact[0]] - time[groups[-1][-1][1]] < longest:
-            groups[-1].append(contact)
+def _grouped(contacts: list[tuple[int, int, str]], impact: Impact, time: Array) -> list[list[tuple[int, int, str]]]:
+    """Contacts (begin, end, wall) of one hit together: with one wall, gaps between them shorter than a period of the
+    first mode."""
+    groups: list[list[tuple[int, int, str]]] = []
+    for begin, end, wall in contacts:
+        _, last, before = groups[-1][-1] if groups else (0, 0, "")
+        if wall == before and time[begin] - time[last] < LOWEST_PERIOD * impact.slow_time_scale:
+            groups[-1].append((begin, end, wall))
         else:
-            groups.append([contact])
+            groups.append([(begin, end, wall)])
     return groups
 
 
@@ -175,15 +178,7 @@ def hits(history: ImpactHistory) -> list[Hit]:
     copies = 2.0 / history.sides
     names = {"front": "impulse", "opposite": "opposite_impulse"}
     rows = {wall: copies * history.array(name) for wall, name in names.items() if name in history}
-    sums = {wall: values.sum(axis=1) for wall, values in rows.items()}
-    parts = [(i, k, wall) for wall, total in sums.items() for i, k in pushes(time, total, 0.0)]
-    spans: list[tuple[int, int, str]] = []
-    for i, k, wall in sorted(parts):
-        broken = time[i] - time[spans[-1][1]] >= LOWEST_PERIOD * impact.slow_time_scale if spans else True
-        if spans and spans[-1][2] == wall and not broken:
-            spans[-1] = (spans[-1][0], k, wall)
-        else:
-            spans.append((i, k, wall))
+    parts = [(i, k, wall) for wall, given in rows.items() for i, k in pushes(time, given.sum(axis=1), 0.0)]
     work = history.energy("work_of_loads")
     energy = history.array("kinetic_energy") + history.array("strain_energy") - work + history.energy("contact_energy")
     mass = impact.mass_per_length * impact.length
@@ -192,7 +187,8 @@ def hits(history: ImpactHistory) -> list[Hit]:
     if impact.supported:  # by forces that no history holds
         velocity = np.array([_mean_velocity(history, k) for k in range(time.size)])
     found = []
-    for i, k, wall in spans:
+    for group in _grouped(sorted(parts), impact, time):
+        i, k, wall = group[0][0], group[-1][1], group[0][2]
         given = rows[wall][k] - rows[wall][i]
         place = float(given @ np.abs(history.contact_positions(0))) / float(given.sum())
         numbers = (place, given.sum(), velocity[i], velocity[k], energy[k] + work[k], energy[i] - energy[k])
