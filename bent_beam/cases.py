@@ -16,14 +16,13 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from bent_beam.checks import shortened
-from bent_beam.description import beam_quantities, free_flight, impact_velocity, wall_quantities
 from bent_beam.errors import InputError
 from bent_beam.fields import key_of
 from bent_beam.impact import Impact
 from bent_beam.meshes import MESHES, Mesh
-from bent_beam.parts import made_from, part_from_table, unknown_key
+from bent_beam.parts import made_from, part_from_table, part_or_auto, unknown_key
 from bent_beam.section import SECTIONS, Section
-from bent_beam.tables import TABLES, BeamTable, ImpactTable, RunTable, WallTable
+from bent_beam.tables import TABLES, BeamTable, ImpactTable, RunTable, WallTable, impact_of
 
 if TYPE_CHECKING:
     from bent_beam.method import Method
@@ -100,30 +99,19 @@ def case_from_tables(tables: Mapping[str, Any]) -> Case:
     wall = made_from(WallTable, tables.get("wall", {}), "wall")
     others = _tables_of_paths(tables)
     section = part_from_table(SECTIONS, tables["section"], "section") if tables.get("section") else None
-    impact = _impact(beam, arrival, wall, section)
+    try:
+        impact = impact_of(beam, arrival, wall, section)
+    except ValueError as error:
+        raise InputError(str(error)) from None
     _check_buckling(impact)
     return Case(
         title=tables.get("title", ""),
         impact=impact,
         end_time=_end_time(made_from(RunTable, tables.get("run", {}), "run"), impact),
-        mesh=_mesh(tables.get("mesh", {})),
+        mesh=part_or_auto(MESHES, tables.get("mesh", {}), "mesh"),
         tables=others,
         section=section,
     )
-
-
-def _impact(beam: BeamTable, arrival: ImpactTable, wall: WallTable, section: Section | None) -> Impact:
-    """What the tables describe, and as it is whatever they state of the impact itself."""
-    known = {field.name for field in dataclasses.fields(Impact)}
-    values = {name: value for name, value in vars(arrival).items() if name in known}
-    values |= beam_quantities(beam, section)
-    values["velocity"] = impact_velocity(arrival, beam.length, (values["left_end"], values["right_end"]))
-    values["acceleration"] = free_flight(arrival, values)
-    values |= wall_quantities(wall, values["mass_per_length"])
-    try:
-        return Impact(**values)
-    except ValueError as error:
-        raise InputError(str(error)) from None
 
 
 def _end_time(run: RunTable, impact: Impact) -> float:
@@ -135,18 +123,6 @@ def _end_time(run: RunTable, impact: Impact) -> float:
         return impact.checked_end_time(end_time)
     except ValueError as error:
         raise InputError(f"run.{'end_time' if run.end_time is not None else 'duration'}: {error}") from None
-
-
-def _mesh(table: Any) -> Mesh | None:
-    """``None``: it is to be chosen."""
-    if not isinstance(table, Mapping):
-        raise InputError(f"mesh must be a table (got {shortened(table)})")
-    if table.get("kind", "auto") != "auto":
-        return part_from_table(MESHES, table, "mesh")
-    extra = sorted(set(table) - {"kind"})
-    if extra:
-        raise InputError(f"mesh.kind is required next to mesh.{extra[0]} (one of {', '.join(sorted(MESHES))})")
-    return None
 
 
 def _check_buckling(impact: Impact) -> None:

@@ -36,14 +36,3 @@ class SimulationError(RuntimeError):
     ) -> None:
         super().__init__(message if time is None else f"{message} at t = {time:.6g} s (step {step}); try: {advice}")
         self.time, self.step, self.advice, self.history = time, step, advice, history
-
-    def __reduce__(self) -> tuple[object, ...]:  # survives the way back from a worker process
-        return _restored, (self.args, self.time, self.step, self.advice, self.history)
-
-
-def _restored(
-    args: tuple[str, ...], time: float | None, step: int, advice: str, history: ImpactHistory | None
-) -> SimulationError:
-    error = SimulationError("", time=time, step=step, advice=advice, history=history)
-    error.args = args
-    return error

@@ -16,9 +16,7 @@ from typing import Annotated, Any, ClassVar, Union, get_args, get_origin, get_ty
 
 from bent_beam import checks
 
-__all__ = ["Declared", "Part", "Quantity", "declared", "key_of"]
-
-LARGEST = 1e60  # of every number, and its inverse of what is positive: fourth powers can still be calculated with
+__all__ = ["Declared", "Part", "Quantity", "declared", "describe", "key_of"]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -47,7 +45,7 @@ class Quantity:
     """Unit, meaning and range of a field.
 
     above, least, most : the range, above excluded. choices : of a text. absent : what ``settings`` prints where the
-    default is ``None``.
+    default is ``None``. table : of a case file, for a field of :class:`bent_beam.Impact` that stands in it as it is.
     """
 
     unit: str
@@ -57,6 +55,7 @@ class Quantity:
     most: float | None = None
     choices: tuple[str, ...] = ()
     absent: str = ""
+    table: str = ""
 
     @property
     def allowed(self) -> str:
@@ -75,10 +74,10 @@ class Quantity:
         if whole:
             return checks.whole(name, value, int(self.least or 0))
         size = abs(checks.finite(name, value))
-        if size > LARGEST:
-            raise ValueError(f"{name} must not exceed {LARGEST:g} (got {checks.shortened(value)})")
-        if self.above == 0.0 and 0.0 < size < 1.0 / LARGEST:
-            raise ValueError(f"{name} must be at least {1.0 / LARGEST:g} (got {checks.shortened(value)})")
+        if size > checks.LARGEST:
+            raise ValueError(f"{name} must not exceed {checks.LARGEST:g} (got {checks.shortened(value)})")
+        if self.above == 0.0 and 0.0 < size < 1.0 / checks.LARGEST:
+            raise ValueError(f"{name} must be at least {1.0 / checks.LARGEST:g} (got {checks.shortened(value)})")
         if self.above == 0.0:
             checks.positive(name, value)
         if self.most is not None:
@@ -130,3 +129,14 @@ class Part:
         for name, field in declared(type(self)).items():  # type: ignore[arg-type]
             value = field.checked(f"{self.where}.{key_of(name)}".lstrip("."), getattr(self, name))
             object.__setattr__(self, name, value)
+
+
+def describe(part: Any) -> dict[str, Any]:
+    """A part as JSON-ready settings: its class name and fields (nested parts too)."""
+    out: dict[str, Any] = {"kind": type(part).__name__}
+    for field in dataclasses.fields(part):
+        value = getattr(part, field.name)
+        if dataclasses.is_dataclass(value) and not isinstance(value, type):
+            value = describe(value)
+        out[field.name] = list(value) if isinstance(value, tuple) else value
+    return out

@@ -1,14 +1,70 @@
-"""Files that are whole or not there."""
+"""Files that are whole or not there, and histories (:class:`bent_beam.ImpactHistory`) in them: netCDF, checked.
+
+netCDF is HDF5, which can point to other files, hold objects, and unpack a few kilobytes to gigabytes. A history needs
+little: variables of numbers in the root group, attributes of text and numbers. Everything else is refused, before a
+value is read (:func:`examine`).
+"""
 
 from __future__ import annotations
 
+import errno
+import io
+import json
 import os
+import re
 import secrets
+import unicodedata
+import warnings
+from math import prod
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
-__all__ = ["write_atomically"]
+import numpy as np
+
+from bent_beam.checks import finite, one_of, shortened
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+__all__ = [
+    "ENERGIES", "LOSSES", "UNITS", "check_contents", "check_variables", "read_dataset", "write_atomically",
+    "write_dataset",
+]  # fmt: skip
+
+LOSSES = tuple(f"loss_{cause}" for cause in ("impact", "algorithmic", "viscous", "material", "absorbed", "wall"))
+ENERGIES = ("kinetic_energy", "strain_energy", "contact_energy", "work_of_loads", *LOSSES)
+REQUIRED = ("time", "x", "contact_x", "gap", "impulse", "total_impulse", "kinetic_energy", "strain_energy")
+
+# dimensions → the variables of them → their units
+KNOWN: dict[tuple[str, ...], dict[str, str]] = {
+    ("x",): {"x": "m"},
+    ("contact",): {"contact_x": "m"},
+    ("time", "x"): {"gap": "m", "position": "m", "velocity": "m/s", "slope": "1"},
+    ("time", "contact"): {
+        "impulse": "N s", "opposite_impulse": "N s", "contact_position": "m", "in_contact": "",
+    },
+    ("time",): {
+        "time": "s", "total_impulse": "N s", "held_impulse": "N s",
+        **dict.fromkeys(("branch_energy", *ENERGIES), "J"),
+        "peak_force": "N", "peak_force_time": "s", "peak_penetration": "m", "peak_pressure": "N/m",
+        "largest_moment": "N m", "largest_moment_place": "m", "largest_midspan_moment": "N m",
+    },
+}  # fmt: skip
+DIMENSIONS = {name: dimensions for dimensions, units in KNOWN.items() for name in units}
+UNITS = {name: unit for units in KNOWN.values() for name, unit in units.items() if unit}
+
+LARGEST_VALUE = 1e150  # its square can still be calculated with
+NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]{0,63}")
+MOST_VARIABLES = 64
+MOST_ATTRIBUTES = 32  # of one object
+MOST_TEXT = 16_000_000  # bytes of one attribute: the nodes and saved instants of the largest run fit
+LARGEST = 8_000_000_000  # bytes of all values
+SMALL, RATIO = 250_000_000, 20  # bytes that any file may unpack to; beyond, times the file's size
+OF_NETCDF = {"DIMENSION_LIST", "REFERENCE_LIST"}  # references between variables and their dimensions, no text
+CONTROL = {"Cc", "Cf", "Cs"}  # of Unicode
 
 
+# writing --------------------------------------------------------------------------------------------------
 def write_atomically(file: Path, content: str | bytes | memoryview) -> None:
     """Write a file so that a reader sees either nothing or all of it, and a killed run leaves no half of it.
 
@@ -26,3 +82,156 @@ def write_atomically(file: Path, content: str | bytes | memoryview) -> None:
         raise OSError(error.errno, error.strerror or str(error), str(file)) from error
     finally:
         part.unlink(missing_ok=True)
+
+
+def write_dataset(dataset: xr.Dataset, file: Path) -> None:
+    """Write netCDF, compressed, whole or not at all. ``OSError`` names the file."""
+    encoding = {v: {"compression": "gzip", "compression_opts": 1} for v in dataset.variables if dataset[v].ndim == 2}
+    content = io.BytesIO()  # HDF5 itself does not survive a full disk: only finished bytes go there
+    try:
+        dataset.to_netcdf(content, engine="h5netcdf", encoding=encoding)
+    except OSError as error:
+        raise OSError(error.errno or errno.EIO, error.strerror or str(error), str(file)) from error
+    write_atomically(file, content.getbuffer())
+
+
+# reading --------------------------------------------------------------------------------------------------
+def read_dataset(file: Path) -> xr.Dataset:
+    """All of a netCDF file. ``ValueError`` in one line for what is none, or holds what a history does not."""
+    import xarray as xr
+
+    try:
+        examine(file)
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # what a foreign file lacks is said by whoever asks for it
+            # no scales, offsets or fill values: they would turn small numbers into large arrays
+            dataset = xr.load_dataset(file, engine="h5netcdf", decode_times=False, mask_and_scale=False)
+    except FileNotFoundError:
+        raise FileNotFoundError(f"history {file}: no such file") from None
+    except Exception as error:  # h5py raises many kinds for a broken file
+        if file.suffix == ".toml":
+            wanted = f"a history is wanted, bentbeam simulate {file} --out FILE.nc writes one"
+            raise ValueError(f"{file} is a case file: {wanted}") from None
+        raise ValueError(f"{file} is not a readable history: {' '.join(str(error).split())}") from None
+    for variable in dataset.variables.values():
+        variable.attrs.pop("_FillValue", None)
+    return dataset
+
+
+def examine(file: Path) -> None:
+    """Raise ``ValueError`` for anything that ``file`` says of itself and that a history does not hold."""
+    import h5py
+
+    if file.exists() and not file.is_file():  # a pipe that nobody writes into would be waited for
+        raise ValueError("it is no regular file")
+    most = min(LARGEST, SMALL + RATIO * file.stat().st_size)
+    with h5py.File(file, "r") as content:
+        if len(content) > MOST_VARIABLES:
+            raise ValueError(f"it holds {len(content)} variables; {MOST_VARIABLES} are the most")
+        _check_attributes(content, "the file")
+        total = sum(_bytes_of(content, name) for name in content)
+    if total > most:
+        raise ValueError(f"it would take {total:.2g} bytes of memory or more ({most:.2g} are let in)")
+
+
+def _bytes_of(content: Any, name: str) -> int:
+    """Bytes of a variable's values and of one of its chunks, read from its description alone."""
+    import h5py
+
+    if not NAME.fullmatch(name):
+        raise ValueError(f"the name {name[:40]!r} is not that of a variable")
+    link = content.get(name, getlink=True)
+    if not isinstance(link, h5py.HardLink):
+        raise ValueError(f"{name} is a link to elsewhere ({type(link).__name__}), which is not followed")
+    if content.get(name, getclass=True) is not h5py.Dataset:
+        raise ValueError(f"{name} must be a variable in the root group (no groups, no types)")
+    variable = content[name]
+    if variable.dtype.kind not in "fiub" or variable.dtype.itemsize > 8:
+        raise ValueError(f"{name} must hold numbers (got {variable.dtype})")
+    if variable.external or variable.is_virtual:
+        raise ValueError(f"{name} keeps its values in another file, which is not followed")
+    if len(variable.shape) > 2:
+        raise ValueError(f"{name} must have at most two dimensions (got {len(variable.shape)})")
+    _check_attributes(variable, name)
+    items = prod(map(int, variable.shape))
+    return int(variable.dtype.itemsize * (items + (prod(map(int, variable.chunks or (0,))) if items else 0)))
+
+
+def _check_attributes(thing: Any, name: str) -> None:
+    """Each attribute is one text or a few numbers."""
+    import h5py
+
+    if len(thing.attrs) > MOST_ATTRIBUTES:
+        raise ValueError(f"{name} has {len(thing.attrs)} attributes; {MOST_ATTRIBUTES} are the most")
+    for key in set(thing.attrs) - OF_NETCDF:
+        about = thing.attrs.get_id(key)
+        text = about.dtype.kind == "S" or h5py.check_string_dtype(about.dtype) is not None
+        items = prod(map(int, about.shape))
+        if not (items == 1 if text else about.dtype.kind in "fiub" and items <= 16):
+            raise ValueError(f"attribute {key[:40]!r} of {name} must be one text or a few numbers")
+        if text and max(about.get_storage_size(), len(thing.attrs[key])) > MOST_TEXT:
+            raise ValueError(f"attribute {key[:40]!r} of {name} is too long")
+
+
+# what a history holds -------------------------------------------------------------------------------------
+def check_variables(dataset: xr.Dataset) -> None:
+    """Raise ``ValueError`` for a variable that is not what a history holds: dimensions, units, order and size of its
+    values."""
+    for name, variable in ((str(label), one) for label, one in dataset.variables.items()):
+        if variable.dtype.kind not in "fiub":
+            raise ValueError(f"{name} must hold numbers (got {variable.dtype})")
+        expected, unit = DIMENSIONS.get(name), UNITS.get(name, "")
+        unknown = expected is None and set(variable.dims) <= {"time", "x", "contact"}
+        if not unknown and variable.dims != expected:
+            asked, got = ", ".join(expected or ("time", "x", "contact")), ", ".join(map(str, variable.dims))
+            raise ValueError(f"{name} must have dimensions {asked} (got {got})")
+        if not unknown and variable.attrs.get("units", "") != unit:
+            raise ValueError(f"{name} must be in {unit or 'no unit'} (got {variable.attrs.get('units')!r})")
+        if not np.isfinite(variable.values).all():
+            raise ValueError(f"{name} is not finite")
+        if np.abs(variable.values.astype(float)).max(initial=0.0) > LARGEST_VALUE:
+            raise ValueError(f"{name} must not exceed {LARGEST_VALUE:g}")
+    if dataset.sizes["time"] < 1 or dataset.sizes["x"] < 1 or dataset["time"].values[0] < 0.0:
+        raise ValueError("time must hold instants from 0 on, and x at least one node")
+    for name in ("time", "x", "position"):
+        if name in dataset.variables and np.any(np.diff(dataset[name].values) <= 0.0):
+            raise ValueError(f"{name} must increase")
+
+
+def check_contents(history: Any) -> None:
+    """Raise when an attribute or a variable of a stored history is not what it holds: numbers and JSON, nothing
+    else."""
+    attributes, variables = history.attrs, history.dataset.variables
+    for name in ("impact", "settings", "versions", "warnings", "path", "symmetry"):
+        if not isinstance(attributes[name], str):
+            raise TypeError(f"attribute {name} must be text")
+    for name, kind in (("impact", dict), ("settings", dict), ("versions", dict), ("warnings", list)):
+        held = json.loads(attributes[name])
+        if not isinstance(held, kind):
+            raise TypeError(f"attribute {name} must hold a JSON {kind.__name__}")
+        _plain_text(held, f"attribute {name}")
+    _plain_text([history.path, *map(str, variables)], "attribute path or a variable's name")
+    if not all(isinstance(line, str) for line in history.warnings):
+        raise TypeError("attribute warnings must hold texts")
+    if "section" in attributes and not all(value > 0.0 for value in json.loads(attributes["section"]).values()):
+        raise ValueError("attribute section must hold positive numbers")
+    one_of("attribute symmetry", attributes["symmetry"], ("half", "full"))
+    _ = history.impact, history.steps, history.completed
+    for required in REQUIRED:
+        _ = variables[required]  # the dataset itself makes coordinates up
+    check_variables(history.dataset)
+    finite("attribute seconds", history.seconds)
+    places = history.positions(0)
+    beyond = np.abs([places[0], places[-1]]).max() > history.impact.half_length * (1.0 + 1e-6)
+    if beyond or (places[0] < 0.0) != (history.symmetry == "full"):
+        raise ValueError(f"x must lie on the {history.symmetry} beam of length {history.impact.length!r}")
+
+
+def _plain_text(value: Any, where: str) -> None:
+    """Raise ``ValueError`` for a text with control characters, which could tell a terminal what to do."""
+    if isinstance(value, str):
+        if not all(unicodedata.category(c) not in CONTROL or c in "\n\t" for c in value):
+            raise ValueError(f"{where} holds control characters ({shortened(value)})")
+    elif isinstance(value, dict | list):
+        for item in [*value, *value.values()] if isinstance(value, dict) else value:
+            _plain_text(item, where)

@@ -71,21 +71,29 @@ def cannot_return(impact: Impact, x: Array, gap: Array, velocity: Array, energy:
     return bool(np.all(clear) and np.all(speed + spin * x >= 0.0))
 
 
+State = tuple[Array, Array, Array, float]
+
+
 def has_left(history: ImpactHistory) -> bool:
     """Whether a run ends with the beam off the wall for good: it cannot return, or, where that cannot be told, has not
     pushed for a period of its lowest mode."""
-    impact, impulse = history.impact, history.array("total_impulse")
-    pushed = np.flatnonzero(pushing(impulse))
-    if pushed.size == 0:
-        return False
-    if not bears_free_flight(impact):
-        quiet = float(history.time[-1] - history.time[pushed[-1] + 1])
+    pushed = np.flatnonzero(pushing(history.array("total_impulse")))
+
+    def last() -> State:
+        energy = float(history.array("kinetic_energy")[-1] + history.array("strain_energy")[-1])
+        return history.positions(-1), history.array("gap", -1), history.array("velocity", -1), energy
+
+    quiet = history.time[-1] - history.time[pushed[-1] + 1] if pushed.size else 0.0
+    return pushed.size > 0 and _is_off(history.impact, bears_free_flight(history.impact), float(quiet), last)
+
+
+def _is_off(impact: Impact, told: bool, quiet: float, state: Callable[[], State]) -> bool:
+    """Whether a beam that has not pushed for ``quiet`` s is off for good; ``told``: whether :func:`cannot_return` tells
+    it, of ``state``."""
+    if not told:
         return quiet >= LOWEST_PERIOD * impact.slow_time_scale
-    gap = history.array("gap", -1)
-    energy = float(history.array("kinetic_energy")[-1] + history.array("strain_energy")[-1])
-    return bool(gap.min() > 0.0) and cannot_return(
-        impact, history.positions(-1), gap, history.array("velocity", -1), energy
-    )
+    x, gap, velocity, energy = state()
+    return bool(gap.min() > 0.0) and cannot_return(impact, x, gap, velocity, energy)
 
 
 class Separation:
@@ -98,14 +106,7 @@ class Separation:
         self.impulse = 0.0
         self.since = 0.0
 
-    def __call__(
-        self,
-        time: float,
-        impulse: float,
-        state: Callable[[], tuple[Array, Array, Array, float]],
-        *,
-        closed: bool = False,
-    ) -> bool:
+    def __call__(self, time: float, impulse: float, state: Callable[[], State], *, closed: bool = False) -> bool:
         """Whether the beam has left at ``time`` (s), asked at increasing times.
 
         impulse : of the pushes so far, N s. closed : whether a contact point is closed, pushing or not.
@@ -114,12 +115,7 @@ class Separation:
         if closed or impulse > self.impulse:
             self.impulse, self.since = impulse, time
             return False
-        if impulse == 0.0:
-            return False
-        if not self.told:
-            return time - self.since >= LOWEST_PERIOD * self.impact.slow_time_scale
-        x, gap, velocity, energy = state()
-        return bool(gap.min() > 0.0) and cannot_return(self.impact, x, gap, velocity, energy)
+        return impulse != 0.0 and _is_off(self.impact, self.told, time - self.since, state)
 
 
 def _rigid(x: Array, field: Array, half: bool) -> tuple[float, float]:

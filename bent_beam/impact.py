@@ -11,25 +11,21 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from dataclasses import dataclass
 from typing import Annotated, Any
 
-from bent_beam.checks import non_negative, positive
-from bent_beam.consistency import check_consistency
+from bent_beam.checks import check_arrangement, check_scales, non_negative, positive
 from bent_beam.fields import Part, Quantity
-from bent_beam.loads import SIMULATED, Feature, FreeMotion, Load, load_against, loads_of
-from bent_beam.supports import ENDS
+from bent_beam.hysteresis import check_loss
+from bent_beam.loads import ENDS, SIMULATED, Feature, FreeMotion, Load, load_against, loads_of
 
 __all__ = ["Impact"]
 
 LONGEST = 1e30  # time, and change of the free motion by the loads, in the problem's own units
-DEFAULT_DURATION = 0.1  # t*
 FIRST_SPREAD = 0.005  # T*: measured, from when on a finite beam's impulse is 1 % off the infinite beam's (κ/ν = 0.5)
 BEFORE_WAVES_RETURN = 0.01  # T*: the earliest that they change the impulse by 2 %
-DIRECTIONS = ("axis", "tangent")
 
 
-@dataclass(frozen=True)
+@dataclasses.dataclass(frozen=True)
 class Impact(Part):
     """A bent beam about to hit a wall (SI units); free, rigid and symmetric about x = 0 unless said otherwise.
 
@@ -56,18 +52,20 @@ class Impact(Part):
     ] = 0.01
     axial_force: Annotated[float, Load("N", "N, tension positive", group="axial")] = 0.0
     tension_direction: Annotated[
-        str, Quantity("", "of the axial force at the ends: along x, or along the bow's ends", choices=DIRECTIONS)
+        str,
+        Quantity("", "of the axial force at the ends: along x, or along the bow's ends", choices=("axis", "tangent")),
     ] = "axis"
     damping: Annotated[float, Quantity("s", "η, Kelvin–Voigt damping of the beam's own material", least=0.0)] = 0.0
     hysteretic_loss: Annotated[
         float, Feature("1", "loss factor of the material, nearly that of all frequencies", least=0.0, most=1.0,
-                       instead=": take the Hermite path, or damping in its place")
-    ] = 0.0  # fmt: skip
+                       instead=": take the Hermite path, or damping in its place")] = 0.0  # fmt: skip
     loss_frequency: Annotated[float | None, Quantity("Hz", "where EI and hysteretic_loss hold", above=0.0)] = None
     wall_curvature: Annotated[float, Quantity("1/m", "K_w, positive where the wall is concave; less than K")] = 0.0
     natural_curvature: Annotated[float | None, Quantity("1/m", "stress-free K; the whole bow's unless given")] = None
     rotation: Annotated[float, Load("rad/s", "rocking about the middle (runs of the full beam)", powers=(1, 1))] = 0.0
-    first_touch: Annotated[float, Quantity("m", "the bow's apex from the middle (runs of the full beam)")] = 0.0
+    first_touch: Annotated[
+        float, Quantity("m", "the bow's apex from the middle (runs of the full beam)", table="impact")
+    ] = 0.0
     opposite_wall: Annotated[
         float | None, Quantity("m", "distance of a second wall behind the bow's apex", above=0.0)
     ] = None
@@ -84,7 +82,9 @@ class Impact(Part):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        check_consistency(self)
+        check_arrangement(self)
+        check_scales(self)
+        check_loss(self)
 
     @classmethod
     def dimensionless(
@@ -117,21 +117,18 @@ class Impact(Part):
     @classmethod
     def whole_beam(cls, kappa_over_nu: float, *, relative_damping: float = 0.0) -> Impact:
         """The free–free beam in units of its half length: EI = μ = V₀ = L/2 = 1, so T* = 1; damping is η/T*."""
-        infinite = cls.dimensionless(kappa_over_nu, damping=relative_damping, length=2.0)
-        return infinite.replace(tension_direction="axis")
+        return cls.dimensionless(kappa_over_nu, damping=relative_damping, length=2.0).replace(tension_direction="axis")
 
     def replace(self, **changes: Any) -> Impact:
         """A copy with some fields changed, validated again."""
         return dataclasses.replace(self, **changes)
 
     def checked_end_time(self, end_time: float | None = None) -> float:
-        """``end_time`` (s) of a simulation, or ``ValueError`` when it is out of all proportion to t*.
-
-        ``None``: 0.1 t*, the longest time that the thesis computes, but 0.01 T* at most: then waves come back from the
-        ends and what is asked without a time, the first spread of the contact, is over.
-        """
+        """``end_time`` (s) of a simulation, or ``ValueError`` when it is out of all proportion to t*. ``None``: 0.1 t*,
+        the longest time that the thesis computes, but 0.01 T* at most: then waves come back from the ends and what is
+        asked without a time, the first spread of the contact, is over."""
         if end_time is None:
-            end_time = min(DEFAULT_DURATION * self.time_scale, BEFORE_WAVES_RETURN * self.slow_time_scale)
+            end_time = min(0.1 * self.time_scale, BEFORE_WAVES_RETURN * self.slow_time_scale)
         if positive("end_time", end_time) / self.time_scale < 1.0 / LONGEST:
             raise ValueError(
                 f"end_time must be at least {1 / LONGEST:g} t* (got {end_time!r}, t* = {self.time_scale!r} s)"
@@ -144,10 +141,9 @@ class Impact(Part):
         if time > LONGEST:
             raise ValueError(f"{name} must not exceed {LONGEST:g} t* (got {value!r}, t* = {self.time_scale!r} s)")
         for load, about in loads_of(Impact).items():
+            given = getattr(self, load)
             if about.powers and about.group and abs(self.group(load)) * time > LONGEST:
-                raise ValueError(
-                    f"{load} is out of all proportion to a time of {value:.6g} s (got {getattr(self, load)!r})"
-                )
+                raise ValueError(f"{load} is out of all proportion to a time of {value:.6g} s (got {given!r})")
         return float(value)
 
     # scales (theory.md, section 2; thesis 2.2.16, 2.2.36–37) -----------------------------------------
@@ -220,11 +216,16 @@ class Impact(Part):
         """p − N K_w, N/m: what presses a contact zone that lies on the wall; it lifts off where this is negative."""
         return load_against(self, self.wall_curvature)
 
+    def load_within(self, half: float, power: int = 0) -> float:
+        """∫xⁿp dx over |x| ≤ ``half`` from the middle, of all loads together, N mⁿ, for an even n = ``power``. Forces
+        along the ends of the bow pull at it with −NK."""
+        pressure = load_against(self, self.curvature if self.tension_direction == "tangent" else 0.0)
+        return pressure * 2.0 * half ** (power + 1) / (power + 1)
+
     @property
     def net_load(self) -> float:
-        """Sum of all loads over L, N/m: μ times the acceleration of the centre of mass without a wall. Forces along the
-        ends of the bow pull at it with −NK."""
-        return load_against(self, self.curvature if self.tension_direction == "tangent" else 0.0)
+        """Sum of all loads over L, N/m: μ times the acceleration of the centre of mass without a wall."""
+        return self.load_within(self.half_length) / self.length
 
     @property
     def epsilon_alpha(self) -> float:

@@ -1,16 +1,33 @@
-"""The loads of an impact, and the motion of the beam under them without a wall.
+"""What acts on the beam: loads, and its motion under them without a wall; supports; a wall that gives way.
 
     y₀(x, t) = Σ c xⁱtʲ/(i! j!):    V₀ (0, 1),   −K (2, 0),   a₀ (0, 2),   c₀ (2, 1),   q₀ (4, 0)           (2.2.30)
 
-A load stands in one place: the field of :class:`bent_beam.Impact` that holds it, annotated by a :class:`Load`. With a
-term of y₀ the load has a dimensionless group, a share of the uniform load μ∂²y₀/∂t² + EI ∂⁴y₀/∂x⁴ + N K, and a share of
-the end forces of y₀; every solver asks :class:`FreeMotion` for these. A load without a term is a force of its own,
-which a solver adds. A solver names the loads and other features that it models, and refuses the rest
-(:func:`unmodelled`).
+A load stands in one place: the field of :class:`bent_beam.Impact` that holds it, annotated by a :class:`Load`: unit,
+meaning and range, and so its key in ``[impact]`` of a case file, its check, and the page of settings. With a term of y₀
+it has a dimensionless group, a share of the uniform load μ∂²y₀/∂t² + EI ∂⁴y₀/∂x⁴ + N K, and a share of the end forces
+of y₀; every solver asks :class:`FreeMotion` for these. A load without a term is a force of its own, which a solver
+adds. A solver names the loads and other features that it models in its ``LOADS``, and refuses the rest; theory and what
+compares with it do the same (:func:`unmodelled`).
 
-To add a load: its field in ``impact.py``, its key in ``tables.py``, and, where it has no term, its force in
-``Impact.net_load``, in a solver (``hermite_fe/model.py``) and, unless it is uniform, in ``measure/balance.py`` for a
-part of a beam. What compares with theory refuses it by itself (:func:`unmodelled`).
+To add a load: its field in ``impact.py``; its name in the ``LOADS`` of each path that is to model it. Where it has no
+term, also its share in ``Impact.load_within``, of which momentum, balances and hits follow, and its force in the path
+(``nodal_loads`` in ``hermite_fe/model.py``). These are two files for a path, one more for its test, and, as for any
+feature, a row in ``docs/guide/problems.md`` and a line in ``CHANGELOG.md``.
+
+A beam with held ends,
+
+    free       EI y_xx = EI y_xxx = 0        hinged     y = const., EI y_xx = 0        clamped     y, y_x = const.
+
+arrives unbent from its bow, in the lowest mode φ that its ends allow, with V₀ in its middle: on a single hinge it
+swings about it, any other passes its rest position in its first bending mode
+
+    φ ∝ cosh βξ − cos βξ − σ(sinh βξ − sin βξ),    ξ = 0 … 1 from the clamp,    φ = sin πξ on two hinges
+
+(Blevins 1979, Formulas for Natural Frequency and Mode Shape, table 8-1).
+
+A wall that gives way pushes with R = max(0, k p + c ṗ) per length of beam where the penetration p is positive:
+
+    ℓ_k = (EI/k)^¼,   t_k = ℓ_k²√(μ/EI) = √(μ/k),   ζ = c/(2√(kμ));      of a stop, k in N/m:   ℓ_k = (EI/k)^⅓
 """
 
 from __future__ import annotations
@@ -19,14 +36,19 @@ import dataclasses
 import math
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from bent_beam.fields import Quantity, declared
 
-__all__ = ["Feature", "FreeMotion", "Load", "beyond_first_order", "load_against", "loads_of", "unmodelled"]
+__all__ = [
+    "ENDS", "Feature", "FreeMotion", "Load", "WallScales", "beyond_first_order", "load_against", "loads_of",
+    "lowest_mode", "unmodelled", "wall_scales",
+]  # fmt: skip
 
+Array = NDArray[np.float64]
 Powers = tuple[int, int]
 SIMULATED = ": bentbeam simulate follows it, on the Hermite and the Exudyn path"
 
@@ -40,12 +62,13 @@ class Feature(Quantity):
 
 @dataclass(frozen=True)
 class Load(Feature):
-    """A field that is a load.
+    """A field that is a load. It stands in ``[impact]`` of a case file as it is, unless a table states it otherwise.
 
     group : its dimensionless group with ν = 1, as theory calls it ("": it has none).
     powers : (i, j) of its term of y₀ (``None``: it has none).
     """
 
+    table: str = "impact"
     group: str = ""
     powers: Powers | None = None
 
@@ -109,3 +132,48 @@ def load_against(impact: Any, curvature: float) -> float:
     )
     total = math.fsum(terms)
     return total if abs(total) > 1e-14 * max(abs(term) for term in terms) else 0.0
+
+
+ENDS = ("free", "hinged", "clamped")
+CLAMPED = {"clamped": 4.730040744862704, "hinged": 3.926602312047919, "free": 1.875104068711961}
+"""β of a beam with one end clamped, by its other end: cos β cosh β = 1, tan β = tanh β, cos β cosh β = −1."""
+
+
+def lowest_mode(left: str, right: str, half_length: float, x: Array) -> tuple[Array, Array]:
+    """φ, 1 in the middle, and φ′, 1/m, at the places x, m from the middle; ends out of :data:`ENDS`."""
+    length = 2.0 * half_length
+    if left == right == "free":
+        return np.ones_like(x), np.zeros_like(x)
+    if left == right == "hinged":
+        return np.cos(np.pi * x / length), -np.pi / length * np.sin(np.pi * x / length)
+    if ENDS.index(right) > ENDS.index(left):  # the end that is held more firmly on the left
+        shape, slope = lowest_mode(right, left, half_length, -x)
+        return shape, -slope
+    if left == "hinged":  # and free on the right
+        return 1.0 + x / half_length, np.full_like(x, 1.0 / half_length)
+    beta, sign = CLAMPED[right], 1.0 if right == "free" else -1.0
+    sigma = (np.cosh(beta) + sign * np.cos(beta)) / (np.sinh(beta) + sign * np.sin(beta))
+
+    def shape_of(z: Array) -> Array:
+        return np.asarray(np.cosh(z) - np.cos(z) - sigma * (np.sinh(z) - np.sin(z)))
+
+    z = beta * (0.5 + x / length)
+    slope = beta / length * (np.sinh(z) + np.sin(z) - sigma * (np.cosh(z) - np.cos(z)))
+    middle = shape_of(np.array(0.5 * beta))
+    return shape_of(z) / middle, slope / middle
+
+
+class WallScales(NamedTuple):
+    """ℓ_k, m, and t_k, s, see the module's head."""
+
+    length: float
+    time: float
+
+
+def wall_scales(impact: Any) -> WallScales | None:
+    """The scales of the wall of ``impact``; ``None`` of a rigid one."""
+    if impact.wall_stiffness is None:
+        return None
+    begin, end = impact.wall_span
+    length = (impact.bending_stiffness / impact.wall_stiffness) ** (1.0 / 3.0 if begin == end else 0.25)
+    return WallScales(length, length**2 / impact.wave_constant)

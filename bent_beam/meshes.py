@@ -143,25 +143,21 @@ class GradedMesh(_Mesh):
     zone: Annotated[float | None, Quantity("m", "half length of the zone", above=0.0, absent="25 elements")] = None
     size_ratio: SizeRatio = 1e3
 
+    @property
+    def _zone(self) -> float:
+        return 25 * self.element_length if self.zone is None else self.zone
+
     def nodes(self, half_length: float) -> Array:
-        zone = 25 * self.element_length if self.zone is None else self.zone
-        count = _count(min(zone, half_length), self.element_length)
-        end = min(count * self.element_length, half_length)
-        if half_length - end < 0.5 * self.element_length:  # no sliver at the end of the beam
+        shortest = self.element_length
+        count = _count(min(self._zone, half_length), shortest)
+        end = min(count * shortest, half_length)
+        if half_length - end < 0.5 * shortest:  # no sliver at the end of the beam
             end = half_length
-        inner = np.linspace(0.0, end, count + 1)
-        outer = _grown(
-            inner[-1],
-            self.element_length * self.growth,
-            self.growth,
-            half_length,
-            self.element_length * self.size_ratio,
-        )
-        return checked_nodes(np.concatenate([inner, outer]))
+        outer = _grown(end, shortest * self.growth, self.growth, half_length, shortest * self.size_ratio)
+        return checked_nodes(np.concatenate([np.linspace(0.0, end, count + 1), outer]))
 
     def refined(self, factor: float) -> GradedMesh:
-        zone = 25 * self.element_length if self.zone is None else self.zone
-        return GradedMesh(self.element_length / factor, self.growth ** (1.0 / factor), zone, self.size_ratio)
+        return GradedMesh(self.element_length / factor, self.growth ** (1.0 / factor), self._zone, self.size_ratio)
 
 
 @dataclass(frozen=True)

@@ -21,12 +21,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bent_beam.checks import shortened
-from bent_beam.errors import ANY_FAILURE, SimulationError, TimeLimitError
-from bent_beam.fields import declared
+from bent_beam.errors import ANY_FAILURE, InputError, SimulationError, TimeLimitError
+from bent_beam.fields import declared, describe
 from bent_beam.free_flight import has_left
 from bent_beam.history import ImpactHistory
 from bent_beam.impact import Impact
-from bent_beam.parts import InputError, describe, nearest, part_from_table, unknown_key
+from bent_beam.parts import nearest, part_or_auto, unknown_key
 
 __all__ = [
     "GROUP",
@@ -241,14 +241,8 @@ def method_from_tables(path: str, tables: Mapping[str, Any], *, label: str | Non
             raise unknown_key(path, str(name), known)
         if name not in registries:
             values[name] = value
-        elif isinstance(value, Mapping) and value.get("kind", "auto") == "auto":
-            extra = [key for key in value if key != "kind"]
-            if extra:
-                raise InputError(
-                    f"{path}.{name}.kind is required next to {extra[0]} (one of {', '.join(sorted(registries[name]))})"
-                )
-        else:
-            values[name] = part_from_table(registries[name], value, f"{path}.{name}")
+        elif (part := part_or_auto(registries[name], value, f"{path}.{name}")) is not None:
+            values[name] = part
     try:
         made = kind(**values) if label is None else dataclasses.replace(kind(**values), label=label)
     except ANY_FAILURE as error:

@@ -15,7 +15,7 @@ from bent_beam.checks import shortened
 from bent_beam.errors import InputError
 from bent_beam.fields import key_of
 
-__all__ = ["InputError", "describe", "made_from", "nearest", "part_from_table", "unknown_key"]
+__all__ = ["InputError", "made_from", "nearest", "part_from_table", "part_or_auto", "unknown_key"]
 
 T = TypeVar("T")
 
@@ -52,30 +52,27 @@ def made_from(part: type[T], values: Any, where: str, more: Iterable[str] = ()) 
         raise InputError(str(error)) from None
 
 
-def part_from_table(kinds: Mapping[str, type], table: Any, where: str, default: str | None = None) -> Any:
+def part_from_table(kinds: Mapping[str, type], table: Any, where: str) -> Any:
     """The part that ``table["kind"]`` names, its other keys being the part's fields.
 
     Raises :class:`InputError` for an unknown kind, and as :func:`made_from`.
     """
     if not isinstance(table, Mapping):
         raise InputError(f"{where} must be a table (got {shortened(table)})")
-    kind = table.get("kind", default)
-    if kind is None:
+    if "kind" not in table:
         raise InputError(f"{where}.kind is required (one of {', '.join(sorted(kinds))})")
+    kind = table["kind"]
     if not isinstance(kind, str) or kind not in kinds:
         raise InputError(f"{where}.kind: {shortened(kind)} is not known{nearest(str(kind), kinds)}")
     values = {key: value for key, value in table.items() if key != "kind"}
     return made_from(kinds[kind], values, where, more=("kind",))
 
 
-def describe(part: Any) -> dict[str, Any]:
-    """A part as JSON-ready settings: its class name and fields (nested parts too)."""
-    out: dict[str, Any] = {"kind": type(part).__name__}
-    for field in dataclasses.fields(part):
-        value = getattr(part, field.name)
-        if dataclasses.is_dataclass(value) and not isinstance(value, type):
-            value = describe(value)
-        elif isinstance(value, tuple):
-            value = list(value)
-        out[field.name] = value
-    return out
+def part_or_auto(kinds: Mapping[str, type], table: Any, where: str) -> Any:
+    """The same; ``None``, to be chosen, of an empty table or where the kind is "auto"."""
+    if not isinstance(table, Mapping) or table.get("kind", "auto") != "auto":
+        return part_from_table(kinds, table, where)
+    for key in table:
+        if key != "kind":
+            raise InputError(f"{where}.kind is required next to {where}.{key} (one of {', '.join(sorted(kinds))})")
+    return None

@@ -86,7 +86,31 @@ class Section(Part, ABC):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Pipe(Section):
+class _Round(Section, ABC):
+    """A round section of diameter ``height``."""
+
+    @property
+    def bore(self) -> float:
+        """Inner diameter, m: nothing of a solid one."""
+        return 0.0
+
+    @property
+    def area(self) -> float:
+        return math.pi / 4.0 * (self.height**2 - self.bore**2)
+
+    @property
+    def second_moment(self) -> float:
+        return math.pi / 64.0 * (self.height**4 - self.bore**4)
+
+    @property
+    def shear_coefficient(self) -> float:
+        n, square = self.poisson_ratio, (self.bore / self.height) ** 2
+        rim = (1.0 + square) ** 2
+        return 6.0 * (1.0 + n) * rim / ((7.0 + 6.0 * n) * rim + (20.0 + 12.0 * n) * square)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Pipe(_Round):
     """A pipe."""
 
     outer_diameter: Annotated[float, Quantity("m", "", above=0.0)]
@@ -116,28 +140,13 @@ class Pipe(Section):
 
     @property
     def bore(self) -> float:
-        """Inner diameter, m."""
         if self.wall_thickness is not None:
             return self.outer_diameter - 2.0 * self.wall_thickness
         return self.inner_diameter or 0.0
 
     @property
-    def area(self) -> float:
-        return math.pi / 4.0 * (self.outer_diameter**2 - self.bore**2)
-
-    @property
-    def second_moment(self) -> float:
-        return math.pi / 64.0 * (self.outer_diameter**4 - self.bore**4)
-
-    @property
     def height(self) -> float:
         return self.outer_diameter
-
-    @property
-    def shear_coefficient(self) -> float:
-        n, square = self.poisson_ratio, (self.bore / self.outer_diameter) ** 2
-        rim = (1.0 + square) ** 2
-        return 6.0 * (1.0 + n) * rim / ((7.0 + 6.0 * n) * rim + (20.0 + 12.0 * n) * square)
 
     @property
     def mass_per_length(self) -> float:
@@ -145,26 +154,14 @@ class Pipe(Section):
 
 
 @dataclass(frozen=True, kw_only=True)
-class RoundBar(Section):
+class RoundBar(_Round):
     """A solid round bar."""
 
     diameter: Annotated[float, Quantity("m", "", above=0.0)]
 
     @property
-    def area(self) -> float:
-        return math.pi / 4.0 * self.diameter**2
-
-    @property
-    def second_moment(self) -> float:
-        return math.pi / 64.0 * self.diameter**4
-
-    @property
     def height(self) -> float:
         return self.diameter
-
-    @property
-    def shear_coefficient(self) -> float:
-        return 6.0 * (1.0 + self.poisson_ratio) / (7.0 + 6.0 * self.poisson_ratio)
 
 
 @dataclass(frozen=True, kw_only=True)

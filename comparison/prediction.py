@@ -20,8 +20,8 @@ from bent_beam.method import Method, for_whole_beam, refined
 from comparison.companions import companions_of, is_late, number_of
 from comparison.summary import energy_at_end, loss_warnings, numerical_loss
 from comparison.whole_impact.predicted import predicted_impact
-from measure.front import element_at, half_contact_length, mean_reaction
 from measure.measured import Measured
+from measure.moments import element_at, half_contact_length, mean_reaction
 from measure.reduction import peak_moment
 from theory import Prediction, predict
 

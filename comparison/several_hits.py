@@ -8,7 +8,7 @@ from bent_beam.free_flight import LOWEST_PERIOD
 from bent_beam.history import ImpactHistory
 from bent_beam.impact import Impact
 from bent_beam.method import Method, for_whole_beam
-from measure.hits import Hit, hits
+from measure.whole_impact import Hit, hits
 
 __all__ = ["follow_hits"]
 

@@ -22,12 +22,10 @@ from comparison.match import INSTANTS
 from comparison.rows import COMPANIONS
 from measure.balance import balance_of
 from measure.estimators import leading_order, lift_shares
-from measure.front import element_at, first_front, half_contact_length
-from measure.hits import hits
 from measure.measured import MISSING, Measured
-from measure.moments import Moments, moments
+from measure.moments import Moments, element_at, first_front, half_contact_length, moments
 from measure.reduction import WallPeaks, hold_of, peak_moment, pull_of, wall_peaks
-from measure.whole_impact import whole_impact
+from measure.whole_impact import hits, whole_impact
 from theory import predict
 from theory.prediction import MODELLED
 

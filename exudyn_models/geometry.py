@@ -16,8 +16,7 @@ from typing import Annotated, ClassVar, Protocol
 import numpy as np
 
 from bent_beam.fields import Part, Quantity
-from bent_beam.loads import FreeMotion
-from bent_beam.supports import lowest_mode
+from bent_beam.loads import FreeMotion, lowest_mode
 from exudyn_models.arrays import Array
 from exudyn_models.scaling import Scaling, front_bound
 

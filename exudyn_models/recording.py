@@ -24,7 +24,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bent_beam import ImpactHistory
-from bent_beam.bending import end_curvatures
+from bent_beam.history import end_curvatures
 from exudyn_models.arrays import Array
 from exudyn_models.contacts import ContactRun
 from exudyn_models.elements import Beam

@@ -19,8 +19,8 @@ import numpy as np
 
 from bent_beam import Impact
 from bent_beam.checks import positive
-from bent_beam.elastic_wall import WallScales, wall_scales
 from bent_beam.impact import BEFORE_WAVES_RETURN
+from bent_beam.loads import WallScales, wall_scales
 from bent_beam.meshes import Mesh, NodesMesh, ScaleFreeMesh
 from exudyn_models.arrays import Array, Indices
 from exudyn_models.composition import Composition

@@ -18,8 +18,8 @@ import numpy as np
 
 from bent_beam import Impact, ImpactHistory, SimulationError
 from bent_beam.checks import MOST_INSTANTS, affordable, whole
+from bent_beam.fields import describe
 from bent_beam.meshes import NodesMesh, checked_nodes, mirrored, snapped
-from bent_beam.parts import describe
 from exudyn_models.arrays import Array
 from exudyn_models.assembly import assemble, stable_step
 from exudyn_models.composition import Composition

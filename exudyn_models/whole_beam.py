@@ -22,7 +22,7 @@ from typing import TypeVar
 import numpy as np
 
 from bent_beam import Impact
-from bent_beam.elastic_wall import wall_scales
+from bent_beam.loads import wall_scales
 from bent_beam.meshes import UniformMesh
 from exudyn_models.composition import Composition
 from exudyn_models.contacts import Penalty, penalty

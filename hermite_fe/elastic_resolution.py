@@ -1,4 +1,4 @@
-"""Mesh and steps before a wall that gives way: its scales ℓ_k and t_k (:mod:`bent_beam.elastic_wall`) rule.
+"""Mesh and steps before a wall that gives way: its scales ℓ_k and t_k (:mod:`bent_beam.loads`) rule.
 
 The pressure falls off at the rim of the zone over some ℓ_k, and the force rises and falls over some t_k, whatever the
 zone does. A zone that is short when the force is largest, κ/ν > 1, has then a half length of about ℓ_k(κ/ν)^−⅜.
@@ -6,8 +6,8 @@ zone does. A zone that is short when the force is largest, κ/ν > 1, has then a
 
 from __future__ import annotations
 
-from bent_beam.elastic_wall import WallScales
 from bent_beam.impact import Impact
+from bent_beam.loads import WallScales
 from bent_beam.meshes import GradedMesh, Mesh
 
 __all__ = ["ELASTIC_STEP", "elastic_mesh", "even_element"]

@@ -11,7 +11,7 @@ starts the run (u = q₀x⁴/24, u̇ = V₀ + c₀x²/2) and fixes the load. Wit
     μü + EI(u_xxxx + ηu̇_xxxx) − Nu_xx = p − NK − r,      p − NK = μa₀ + EI q₀
 
 so neither K nor K_w is left but in the gap. Where an end is held the start is V₀φ, φ the lowest mode of these ends
-(:mod:`bent_beam.supports`). A beam that rocks starts with V₀ + ωx in place of V₀; where the bow's apex
+(:func:`bent_beam.loads.lowest_mode`). A beam that rocks starts with V₀ + ωx in place of V₀; where the bow's apex
 is off the middle, x counts from it in y₀ and from the middle in ωx; both need the full beam.
 
 **The ends** carry N as a dead load. Along the axis, EI(u_xxx + ηu̇_xxx) − Ny_x = 0: against u that is a transverse
@@ -29,8 +29,8 @@ from numpy.typing import NDArray
 
 from bent_beam.hysteresis import branches_of
 from bent_beam.impact import Impact
+from bent_beam.loads import lowest_mode
 from bent_beam.meshes import checked_nodes, mirrored
-from bent_beam.supports import lowest_mode
 from hermite_fe.banded import product, stiff_product
 from hermite_fe.beam import HermiteBeam
 from hermite_fe.contacts import Contact

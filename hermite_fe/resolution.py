@@ -41,8 +41,8 @@ from typing import TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from bent_beam.elastic_wall import wall_scales
 from bent_beam.impact import Impact
+from bent_beam.loads import wall_scales
 from bent_beam.meshes import GradedMesh, Mesh, ScaleFreeMesh, UniformMesh, snapped
 from hermite_fe.composition import Composition
 from hermite_fe.contacts import Contact, NodeContact

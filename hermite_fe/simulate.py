@@ -9,11 +9,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bent_beam.errors import SimulationError
+from bent_beam.fields import describe
 from bent_beam.history import ImpactHistory
 from bent_beam.hysteresis import branches_of
 from bent_beam.impact import FIRST_SPREAD, Impact
 from bent_beam.loads import unmodelled
-from bent_beam.parts import describe
 from hermite_fe import resolution
 from hermite_fe.composition import Composition
 from hermite_fe.contacts import Contact

@@ -91,12 +91,12 @@ def _momentum(history: ImpactHistory) -> float | None:
     turned = impact.fourth_derivative or impact.curvature_rate
     if impact.supported or not _is_whole(history) or (impact.axial_force and turned and _ends_follow(history)):
         return None
-    load = impact.net_load
+    load = impact.load_within(0.5 * _length(history))
     if _ends_follow(history):
-        load -= impact.bending_stiffness * float(motion(0.0, by_x=4))
+        load -= impact.bending_stiffness * float(motion(0.0, by_x=4)) * _length(history)
     gained = impact.mass_per_length * _integrals(history, 0)
     total = history.array("total_impulse")
-    return _residual(gained - gained[0] - load * _length(history) * history.time + total, total)
+    return _residual(gained - gained[0] - load * history.time + total, total)
 
 
 def _second_moment(history: ImpactHistory) -> float | None:
@@ -112,7 +112,7 @@ def _second_moment(history: ImpactHistory) -> float | None:
     turn = both * (history.array("slope")[:, -1] + impact.curvature * x[-1])
     turn -= (history.array("slope")[:, 0] + impact.curvature * x[0]) if history.sides == 2 else 0.0
     turned = np.concatenate([[0.0], np.cumsum(0.5 * (turn[1:] + turn[:-1]) * np.diff(time))])
-    force = impact.uniform_pressure * _length(history) ** 3 / 12.0 * time
+    force = impact.load_within(0.5 * _length(history), 2) * time
     force -= 2.0 * impact.bending_stiffness * (turned + impact.damping * (turn - turn[0]))
     impulse = history.array("impulse") - (history.array("opposite_impulse") if "opposite_impulse" in history else 0.0)
     pushed = both * impulse @ history.contact_positions(0) ** 2
@@ -122,14 +122,12 @@ def _second_moment(history: ImpactHistory) -> float | None:
 
 def _of_fast_part(history: ImpactHistory) -> float | None:
     """Momentum of z = y₀ − y, of an infinite beam on a mesh that expands with it, both sides."""
-    rate, total = history.impact.free_motion(0.0), history.array("total_impulse")
-    left = total.copy()
+    rate, mass = history.impact.free_motion(0.0), history.impact.mass_per_length
+    total, left = history.array("total_impulse"), []
     for k, t in enumerate(history.time):
         x = history.positions(k)
-        left[k] -= (
-            2.0 * history.impact.mass_per_length * _integral(x, rate(x, t, by_t=1) - history.array("velocity", k))
-        )
-    return _residual(left, total)
+        left.append(2.0 * mass * _integral(x, rate(x, t, by_t=1) - history.array("velocity", k)))
+    return _residual(total - np.array(left), total)
 
 
 def _points(history: ImpactHistory) -> float | None:
@@ -162,14 +160,14 @@ def _length(history: ImpactHistory) -> float:
 def _integrals(history: ImpactHistory, power: int) -> Array:
     """∫xⁿ v dx at the saved instants, both sides."""
     x = history.positions(0)
-    values = [_integral(x, x**power * history.array("velocity", k)) for k in range(history.time.size)]
-    return 2.0 / history.sides * np.array(values)
+    return 2.0 / history.sides * _integral(x, x**power * history.array("velocity"))
 
 
-def _integral(x: Array, v: Array) -> float:
-    """∫v dx of a piecewise cubic through node values."""
-    h, slope = np.diff(x), np.gradient(v, x, edge_order=2)
-    return float(np.sum(0.5 * h * (v[1:] + v[:-1]) + h**2 / 12.0 * (slope[:-1] - slope[1:])))
+def _integral(x: Array, v: Array) -> Array:
+    """∫v dx of piecewise cubics through node values, (…, nodes)."""
+    h, slope = np.diff(x), np.gradient(v, x, axis=-1, edge_order=2)
+    pieces = 0.5 * h * (v[..., 1:] + v[..., :-1]) + h**2 / 12.0 * (slope[..., :-1] - slope[..., 1:])
+    return np.asarray(pieces.sum(axis=-1))
 
 
 def _initial_energy(history: ImpactHistory) -> float | None:
@@ -188,19 +186,11 @@ def _gap_of_push(history: ImpactHistory) -> float | None:
     places, x = history.contact_positions(0), history.positions(0)
     if "contact_position" in history or "position" in history or not np.all(np.isin(places, x)):
         return None
-    nodes = np.searchsorted(x, places)
-    first = int(np.searchsorted(history.time, LAST * history.time[-1]))
-    largest, most = 0.0, 0.0
-    before = history.array("impulse", first)
-    gains, gaps = [], []
-    for k in range(first + 1, history.time.size):
-        impulse = history.array("impulse", k)
-        gains.append(impulse - before)
-        gaps.append(np.abs(history.array("gap", k)[nodes]) / (history.impact.velocity * history.time[k]))
-        before = impulse
-    most = max((float(gain.max()) for gain in gains), default=0.0)
+    nodes, first = np.searchsorted(x, places), int(np.searchsorted(history.time, LAST * history.time[-1]))
+    gains = np.diff(history.array("impulse", slice(first, None)), axis=0)
+    most = float(gains.max(initial=0.0))
     if most <= 0.0:
         return None
-    for gain, gap in zip(gains, gaps):
-        largest = max(largest, float(gap[gain > PUSH * most].max(initial=0.0)))
-    return largest
+    fallen = history.impact.velocity * history.time[first + 1 :, None]
+    gaps = np.abs(history.array("gap", slice(first + 1, None))[:, nodes]) / fallen
+    return float(gaps[gains > PUSH * most].max(initial=0.0))

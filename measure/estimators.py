@@ -78,18 +78,22 @@ class FirstOrderEstimate:
 # --- least squares with a scatter that is not white ---------------------------------------------------------------
 
 
-def _fit(tau: Array, values: Array, powers: Sequence[float], weight_power: float) -> Array:
-    """Coefficients of Σ c_p τ^p (+ an offset, which takes the start's error), rows weighted by τ^−weight_power."""
+def _fit(tau: Array, values: Array, power: float, weight_power: float) -> float:
+    """c of c τ^power (+ an offset, which takes the start's error), rows weighted by τ^−weight_power."""
     weight = tau**-weight_power
-    columns = [np.ones_like(tau), *(tau**p for p in powers)]
-    scale = np.array([np.linalg.norm(c * weight) for c in columns])
-    matrix = np.stack([c * weight / s for c, s in zip(columns, scale)], axis=1)
-    solution, *_ = np.linalg.lstsq(matrix, values * weight, rcond=None)
-    return np.asarray(solution / scale)[1:]
+    return float(_lstsq(np.stack([weight, tau**power * weight], axis=1), values * weight)[1])
 
 
-def _spread(values: Sequence[float]) -> float:
-    return float(max(values) - min(values)) if len(values) else 0.0
+def _lstsq(matrix: Array, right: Array) -> Array:
+    scale = np.linalg.norm(matrix, axis=0)
+    scale[scale == 0.0] = 1.0
+    solution, *_ = np.linalg.lstsq(matrix / scale, right, rcond=None)
+    return np.asarray(solution / scale)
+
+
+def _apart(best: Array, companions: Sequence[Array]) -> Array:
+    """Largest differences from the values of companion runs at other resolutions."""
+    return np.asarray(np.abs(np.array([best, *companions]) - best).max(axis=0))
 
 
 # --- leading order ---------------------------------------------------------------------------------------------
@@ -120,28 +124,14 @@ def leading_order(found: Moments, *, window: float = 10.0, companions: Sequence[
     >>> bool(abs(found.lambda0.value - 1.018866) < 1e-3)
     True
     """
-    r0, lambda0, drift_r0, drift_lambda0, lift, times = _leading_values(found, window)
-    apart_r0 = apart_lambda0 = 0.0
-    for companion in companions:
-        other_r0, other_lambda0, *_ = _leading_values(companion, window)
-        apart_r0 = max(apart_r0, abs(other_r0 - r0))
-        apart_lambda0 = max(apart_lambda0, abs(other_lambda0 - lambda0))
-    alone = DRIFT if companions else DRIFT_ALONE
-    lifted, lifted_lambda0 = lift_shares(lift)
-    return LeadingEstimate(
-        lambda0=Measured(
-            lambda0,
-            math.hypot(
-                COMPANION * apart_lambda0,
-                alone * drift_lambda0,
-                LEAST * max(lambda0, 0.1),
-                lifted_lambda0 * lambda0,
-            ),
-        ),
-        r0=Measured(r0, math.hypot(COMPANION * apart_r0, alone * drift_r0, LEAST * r0, lifted * r0)),
-        lift=lift,
-        window=times,
+    best, drift, lift, times = _leading_values(found, window)
+    bars = np.sqrt(
+        (COMPANION * _apart(best, [_leading_values(companion, window)[0] for companion in companions])) ** 2
+        + ((DRIFT if companions else DRIFT_ALONE) * drift) ** 2
+        + (LEAST * np.maximum(best, [0.0, 0.1])) ** 2
+        + (np.array(lift_shares(lift)) * best) ** 2
     )
+    return LeadingEstimate(Measured(best[1], bars[1]), Measured(best[0], bars[0]), lift, times)
 
 
 def lift_shares(lift: float) -> tuple[float, float]:
@@ -151,39 +141,27 @@ def lift_shares(lift: float) -> tuple[float, float]:
     return lifted, INSIDE * lifted
 
 
-def _leading_values(found: Moments, window: float) -> tuple[float, float, float, float, float, tuple[float, float]]:
-    """r₀, λ₀, their drift over the window, the largest lift in it, and its ends."""
+def _leading_values(found: Moments, window: float) -> tuple[Array, Array, float, tuple[float, float]]:
+    """r₀ and λ₀, their drift over the window, the largest lift in it, and its ends."""
     tau, last = found.tau, found.tau[-1]
     inside = (tau >= last / window * (1 - 1e-9)) & (tau > 0.0) & (found.impulse > 0.0)
     if inside.sum() < 8:
         raise ValueError(f"history must hold at least 8 instants with contact in the last factor {window:g} of time")
 
-    def values(low: float, high: float) -> tuple[float, float]:
+    def values(low: float, high: float) -> Array:
         part = inside & (tau >= low * (1 - 1e-9)) & (tau <= high * (1 + 1e-9))
-        r0 = _fit(tau[part], found.impulse[part], (0.5,), 0.25)[0] / (2.0 * SIDE)
-        product = _fit(tau[part], found.moment[part], (1.0,), 0.5)[0] / SIDE
-        return r0, max(product / r0, 0.0)
+        r0 = _fit(tau[part], found.impulse[part], 0.5, 0.25) / (2.0 * SIDE)
+        product = _fit(tau[part], found.moment[part], 1.0, 0.5) / SIDE
+        return np.array([r0, max(product / r0, 0.0)])
 
-    r0, lambda0 = values(last / window, last)
+    best = values(last / window, last)
     cuts = [(last / window, last / window**0.4), (last / window**0.7, last / window**0.2), (last / window**0.5, last)]
     usable = [c for c in cuts if (inside & (tau >= c[0]) & (tau <= c[1])).sum() >= 6]
-    others = [(r0, lambda0), *(values(*c) for c in usable)]
-    return (
-        r0,
-        lambda0,
-        _spread([o[0] for o in others]),
-        _spread([o[1] for o in others]),
-        float(found.lift[inside].max()),
-        (float(tau[inside][0]), float(last)),
-    )
+    drift = np.ptp([best, *(values(*c) for c in usable)], axis=0)
+    return best, drift, float(found.lift[inside].max()), (float(tau[inside][0]), float(last))
 
 
 # --- first order -----------------------------------------------------------------------------------------------
-
-
-def _same_times(run: Moments, base: Moments) -> None:
-    if run.tau.size != base.tau.size or not np.allclose(run.tau, base.tau, rtol=1e-9, atol=0.0):
-        raise ValueError("the runs at ε and at ε = 0 must be saved at the same times (same mesh, steps and end time)")
 
 
 def first_order(
@@ -218,12 +196,16 @@ def first_order(
     r0, lambda0 = leading.r0.known, leading.front
     rows = []
     for epsilon, run in runs:
-        _same_times(run, base)
+        if run.tau.size != base.tau.size or not np.allclose(run.tau, base.tau, rtol=1e-9, atol=0.0):
+            raise ValueError(
+                "the runs at ε and at ε = 0 must be saved at the same times (same mesh, steps and end time)"
+            )
         rows.append((epsilon, run.tau, (run.impulse - base.impulse) / SIDE, (run.moment - base.moment) / SIDE))
 
     def solve(chosen: Sequence[int], degree: int, start: float) -> Array:
-        """r₁ and λ₁."""
-        r1, product = _coefficients([rows[c] for c in chosen], degree, (start, 1.0))
+        """r₁ and λ₁, from I and J."""
+        r1 = 1.5 * _coefficient([rows[c][:3] for c in chosen], 0.5, degree, start)
+        product = _coefficient([(*rows[c][:2], rows[c][3]) for c in chosen], 1.0, degree, start)
         return np.array([r1, (2.0 * product - r1 * lambda0) / r0])
 
     every, largest = list(range(len(rows))), max(epsilon for epsilon, _ in runs)
@@ -238,7 +220,7 @@ def first_order(
     missing = math.sqrt(float(np.mean((reaction - wanted + stuck) ** 2))) * lambda0 / SIDE
     bars = np.sqrt(
         (SPREAD_FIRST * np.abs(changes).max(axis=0)) ** 2
-        + (COMPANION_FIRST * _apart(best, companions)) ** 2
+        + (COMPANION_FIRST * _apart(best, [np.array([c.r1.known, c.lambda1.known]) for c in companions])) ** 2
         + (MISSING_FIRST * missing * np.array([1.0, 0.5 * lambda0 / r0])) ** 2
         + (LIFTED_FIRST * np.array(lift_shares(leading.lift)) * np.abs(best)) ** 2
         + np.array([0.0, math.hypot(best[0] * leading.lambda0.bar, best[1] * leading.r0.bar) / r0]) ** 2
@@ -253,37 +235,17 @@ def first_order(
     )
 
 
-def _apart(best: Array, companions: Sequence[FirstOrderEstimate]) -> Array:
-    """Largest differences of r₁ and λ₁ from those of companion runs at other resolutions."""
-    others = [np.abs([c.r1.known - best[0], c.lambda1.known - best[1]]) for c in companions]
-    return np.max(others, axis=0) if others else np.zeros(2)
-
-
-def _coefficients(
-    rows: Sequence[tuple[float, Array, Array, Array]], degree: int, cut: tuple[float, float]
-) -> tuple[float, float]:
-    """r₁, and half of r₁λ₀ + r₀λ₁, from ε, τ, ΔI and ΔJ of each run, within the times τ_end/cut.
-
-    δ = ετ collapses all runs: √ε·ΔI and ε·ΔJ are polynomials in δ alone, with an offset a run.
-    """
-    blocks_i, blocks_j, right_i, right_j = [], [], [], []
-    for place, (epsilon, tau, impulse, moment) in enumerate(rows):
-        inside = (tau >= tau[-1] / cut[0] * (1 - 1e-9)) & (tau <= tau[-1] / cut[1] * (1 + 1e-9))
+def _coefficient(rows: Sequence[tuple[float, Array, Array]], power: float, degree: int, start: float) -> float:
+    """c₁ of ε^p Δ = Σ c_n δ^(n + p), δ = ετ, p = ``power``, and an offset a run, to which all runs collapse: from ε, τ
+    and Δ of each run, from the time τ_end/start on."""
+    blocks, right = [], []
+    for place, (epsilon, tau, change) in enumerate(rows):
+        inside = tau >= tau[-1] / start * (1 - 1e-9)
         d = epsilon * tau[inside]
+        weight = d ** -(1.0 + power)
         offset = np.zeros((d.size, len(rows)))
         offset[:, place] = 1.0
-        wi, wj = d**-1.5, d**-2.0
-        blocks_i.append(np.column_stack([offset * wi[:, None], *((d ** (n + 0.5)) * wi for n in range(1, degree + 1))]))
-        blocks_j.append(np.column_stack([offset * wj[:, None], *((d ** (n + 1.0)) * wj for n in range(1, degree + 1))]))
-        right_i.append(math.sqrt(epsilon) * impulse[inside] * wi)
-        right_j.append(epsilon * moment[inside] * wj)
-    of_impulse = _lstsq(np.concatenate(blocks_i), np.concatenate(right_i))[len(rows)]
-    of_moment = _lstsq(np.concatenate(blocks_j), np.concatenate(right_j))[len(rows)]
-    return 1.5 * float(of_impulse), float(of_moment)
-
-
-def _lstsq(matrix: Array, right: Array) -> Array:
-    scale = np.linalg.norm(matrix, axis=0)
-    scale[scale == 0.0] = 1.0
-    solution, *_ = np.linalg.lstsq(matrix / scale, right, rcond=None)
-    return np.asarray(solution / scale)
+        columns = np.column_stack([offset, *(d ** (n + power) for n in range(1, degree + 1))])
+        blocks.append(columns * weight[:, None])
+        right.append(epsilon**power * change[inside] * weight)
+    return float(_lstsq(np.concatenate(blocks), np.concatenate(right))[len(rows)])

@@ -1,23 +1,32 @@
-"""A history reduced to moments of one side's impulse: what the estimators read.
+"""Where and how hard the wall pushes: a history reduced to moments of one side's impulse, which the estimators read,
+and the front, the half length and the reaction around one instant.
 
 The uniform reaction p that a pressed zone bears is measured well inside the zone, and ∫pλ_c dτ and ∫pλ_c²/2 dτ are
-taken out of the impulse and its first moment.
+taken out of the impulse and its first moment. A centroid of what was pushed in a time lies where the front was at the
+mean of √t, and is carried to the end of the time: exact for λ_c ~ √t.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from bent_beam.history import ImpactHistory
-from measure.front import last_tenth
 
-__all__ = ["Moments", "local_front", "moments", "one_side"]
+__all__ = [
+    "Moments", "element_at", "first_front", "half_contact_length", "local_front", "mean_reaction", "moments",
+    "one_side",
+]  # fmt: skip
 
 Array = NDArray[np.float64]
+
+ZONE = 0.7  # of the front: what pushes there is what the zone behind the front bears
+AROUND = 0.1  # of the time, before and after
+PUSH = 1e-9  # of the largest impulse of a contact point: less is round-off
 
 
 @dataclass(frozen=True)
@@ -53,9 +62,6 @@ def one_side(history: ImpactHistory) -> tuple[Array, Array]:
         places = np.abs(history.contact_positions(0))
         moment = history.array("impulse") @ places
     return total, moment / history.sides
-
-
-ZONE = 0.7  # of the front, within which the uniform reaction is read off
 
 
 def _outwards(history: ImpactHistory) -> Iterator[tuple[Array, Array, Array]]:
@@ -98,52 +104,46 @@ def _pressure(time: Array, outwards: Iterable[tuple[Array, Array, Array]], front
 def moments(history: ImpactHistory, *, uniform: bool | None = None) -> Moments:
     """Concentrated impulse and first moment of one side. ``uniform``: a uniform reaction may act and is taken out
     (``None``: where something presses the zone)."""
-    impact = history.impact
+    impact, time = history.impact, history.time
     uniform = impact.zone_pressure > 0.0 if uniform is None else uniform
     total, moment = one_side(history)
-    time = history.time
-    step = np.diff(time, prepend=time[0])
-    pressure = np.zeros(time.size)
-    front = np.zeros(time.size)
-    force, torque = np.diff(total, prepend=total[0]), np.diff(moment, prepend=moment[0])
+    step, force, torque = (np.diff(values, prepend=values[0]) for values in (time, total, moment))
     carrying = np.maximum.accumulate(np.maximum(total, 0.0)) > 0.0
-    front[1:] = np.where(force[1:] > 0.0, torque[1:] / np.where(force[1:] > 0.0, force[1:], 1.0), 0.0)
-    front = np.where(carrying, np.clip(front, 0.0, None), 0.0)
+    pressure = np.zeros(time.size)
+    front = np.where(carrying, _centroids(torque, force, pressure), 0.0)
     if uniform:
         kept = list(_outwards(history))
         for _ in range(6):  # the front and the part of the uniform reaction depend on each other: contracts fast
             pressure = _smooth(time, _pressure(time, kept, front))
-            part, turn = pressure * front * step, pressure * front**2 / 2.0 * step
-            left = force - part
-            front = np.where(left > 0.0, (torque - turn) / np.where(left > 0.0, left, 1.0), front)
-            front = np.clip(front, 0.0, None)
+            left, turned = force - pressure * front * step, torque - pressure * front**2 / 2.0 * step
+            front = _centroids(turned, left, front)
         total = np.cumsum(force - pressure * front * step) + total[0]
         moment = np.cumsum(torque - pressure * front**2 / 2.0 * step) + moment[0]
     unit = impact.mass_per_length * impact.length_scale * impact.velocity
-    # the centroid so far is the mean over an interval, that is of √t: carry it to the interval's end
-    before = np.sqrt(np.concatenate([time[:1], time[:-1]]))
-    front = front * np.sqrt(time) / np.where(time > 0.0, 0.5 * (np.sqrt(time) + before), 1.0)
     return Moments(
         tau=time / impact.time_scale,
         impulse=total / unit,
         moment=moment / (unit * impact.length_scale),
         pressure=pressure / (unit / impact.length_scale / impact.time_scale),
-        front=front / impact.length_scale,
+        front=_carried(front, np.concatenate([time[:1], time[:-1]]), time) / impact.length_scale,
         lift=_lift(history),
     )
+
+
+def _centroids(moment: Array, impulse: Array, otherwise: Array) -> Array:
+    """moment/impulse, not negative, where there is an impulse."""
+    return np.maximum(np.where(impulse > 0.0, moment / np.where(impulse > 0.0, impulse, 1.0), otherwise), 0.0)
 
 
 def _smooth(time: Array, values: Array) -> Array:
     """Running average over the times from a quarter of each to as much beyond: the uniform reaction is steady, its
     measurement is not."""
-    out = values.copy()
     gathered = np.concatenate([[0.0], np.cumsum(values[1:] * np.diff(time))])
-    for k in range(1, time.size):
-        first = int(np.searchsorted(time, 0.25 * time[k]))
-        last = min(int(np.searchsorted(time, 1.75 * time[k])), time.size - 1)
-        if last > first:
-            out[k] = (gathered[last] - gathered[first]) / (time[last] - time[first])
-    return out
+    first = np.searchsorted(time, 0.25 * time)
+    last = np.minimum(np.searchsorted(time, 1.75 * time), time.size - 1)
+    last[0] = first[0]  # nothing was measured before the first instant
+    span = np.where(last > first, time[last] - time[first], 1.0)
+    return np.where(last > first, (gathered[last] - gathered[first]) / span, values)
 
 
 def _lift(history: ImpactHistory) -> Array:
@@ -157,17 +157,81 @@ def _lift(history: ImpactHistory) -> Array:
     return lift
 
 
+# --- around one instant ------------------------------------------------------------------------------------------
+
+
+def _last_tenth(time: Array) -> NDArray[np.intp]:
+    """The saved instants at which the last tenth of the time of each begins."""
+    return np.maximum(0, np.minimum(np.searchsorted(time, 0.9 * time), np.arange(time.size) - 1))
+
+
+def _carried(centroid: Any, begin: Any, end: Any) -> Any:
+    """The front at the times ``end`` from centroids of what was pushed since ``begin`` (see the module's head)."""
+    mean = 0.5 * (np.sqrt(begin) + np.sqrt(end))
+    return centroid * np.sqrt(end) / np.where(mean > 0.0, mean, 1.0)
+
+
 def local_front(time: Array, impulse: Array, moment: Array) -> Array:
     """λ_c at the instants ``time`` from one side's ``impulse`` and its first ``moment``, all of shape (times,), in the
-    unit of moment/impulse: the centroid of what was gathered over the last tenth of each instant's time.
+    unit of moment/impulse: the centroid of what was gathered over the last tenth of each instant's time."""
+    first = _last_tenth(time)
+    centroids = _centroids(moment - moment[first], impulse - impulse[first], 0.0 * time)
+    return np.asarray(_carried(centroids, time[first], time))
 
-    That lies where the front was at the mean of √t, and is carried to the instant: exact for λ_c ~ √t.
+
+def first_front(history: ImpactHistory, k: int) -> float:
+    """Half contact length, m, at instant ``k`` of the first spread of a zone, of contact points that stay where they
+    are: the centroid of what was pushed over the last tenth of the time, less what the zone behind bears; 0 without a
+    push.
+
+    The zone bears as much per length everywhere as within :data:`ZONE` of where the front was at first, where it is
+    summed as it was pushed: nothing is assumed of a zone that damping or its start keeps off the wall.
     """
-    front = np.zeros(time.size)
-    for k in range(1, time.size):
-        j = last_tenth(time, k)
-        if impulse[k] > impulse[j]:
-            roots = np.sqrt(time[[j, k]])
-            centroid = (moment[k] - moment[j]) / (impulse[k] - impulse[j])
-            front[k] = max(centroid * roots[1] / roots.mean(), 0.0)
-    return front
+    if k == 0:
+        return 0.0
+    first = _last_tenth(history.time)[k]
+    begin, end = history.time[first], history.time[k]
+    share = ZONE * float(_carried(1.0, end, begin))  # the front at first over the centroid
+    pushed = history.array("impulse", k) - history.array("impulse", first)
+    places = np.abs(history.contact_positions(k))
+    force, moment = float(pushed.sum()), float(pushed @ places)
+    front = moment / force if force > 0.0 else 0.0
+    for _ in range(6):  # the front and what lies behind it depend on each other: contracts fast
+        behind = places < share * front
+        borne = float(pushed[behind].sum())
+        ahead = borne * (1.0 - share) / share if share else 0.0
+        if force - borne - ahead <= 0.0:
+            break
+        left = moment - float(pushed[behind] @ places[behind]) - ahead * 0.5 * (1.0 + share) * front
+        front = left / (force - borne - ahead)
+    return max(float(_carried(front, begin, end)), 0.0)
+
+
+def half_contact_length(history: ImpactHistory, k: int) -> float:
+    """Distance of the outermost push from the middle, m: the median over the saved intervals around instant ``k`` in
+    which the wall pushes; 0 without one. Nothing is assumed about what presses inside, and a middle that has lifted
+    off does not count less."""
+    time = history.time
+    last = max(int(np.searchsorted(time, (1.0 + AROUND) * time[k], side="right")), k + 1)
+    pushed = np.diff(history.array("impulse", slice(_last_tenth(time)[k], last)), axis=0)
+    pushes = pushed > PUSH * float(np.abs(history.array("impulse", -1)).max(initial=0.0))
+    outermost = np.where(pushes, np.abs(history.contact_positions(k)), -1.0).max(axis=1)
+    return float(np.median(outermost[outermost >= 0.0])) if np.any(outermost >= 0.0) else 0.0
+
+
+def mean_reaction(history: ImpactHistory, k: int) -> float | None:
+    """Mean reaction around instant ``k``, N: of a force that falls like 1/√t it is 0.1 % too large. ``None`` at the
+    first instant, and where the record ends before."""
+    time, total = history.time, history.array("total_impulse")
+    span = time[k] * np.array([1.0 - AROUND, 1.0 + AROUND])
+    if k == 0 or span[1] > time[-1] * (1.0 + 1e-9):
+        return None
+    before, after = np.interp(span, time, total)
+    return float((after - before) / (span[1] - span[0]))
+
+
+def element_at(history: ImpactHistory, k: int, place: float) -> float:
+    """Length of the element at ``place`` from the middle, m: a half length is no surer."""
+    x = np.unique(np.abs(history.positions(k)))
+    at = min(max(int(np.searchsorted(x, place)), 1), x.size - 1)
+    return float(x[at] - x[at - 1])

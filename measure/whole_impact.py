@@ -9,6 +9,9 @@ EI u_xx/(V₀√(EIμ)) with place and time, and the shares of energy then, of w
 
 A separation is a time of at least :data:`SHORTEST_SEPARATION` T* without a push: without a smallest duration there is
 no such number (the reaction of a beam that is stopped at a point changes sign arbitrarily fast).
+
+A beam may come back to the wall, rock on it or go back and forth between two: :func:`hits` lists all; each is of one
+wall, without the other in between.
 """
 
 from __future__ import annotations
@@ -21,9 +24,10 @@ from numpy.typing import NDArray
 
 from bent_beam.free_flight import LOWEST_PERIOD, bears_free_flight, has_left, pushing
 from bent_beam.history import ImpactHistory
+from bent_beam.impact import Impact
 from measure.reduction import peak_moment, wall_peaks
 
-__all__ = ["SHORTEST_SEPARATION", "WholeImpact", "mean_velocity", "pushes", "whole_impact"]
+__all__ = ["SHORTEST_SEPARATION", "Hit", "WholeImpact", "hits", "pushes", "whole_impact"]
 
 Array = NDArray[np.float64]
 
@@ -91,22 +95,22 @@ def whole_impact(history: ImpactHistory, *, shortest: float = SHORTEST_SEPARATIO
     if not contacts:
         raise ValueError("the run ends before the wall was touched")
     mass = impact.mass_per_length * impact.length
-    hit = _grouped(contacts, time, LOWEST_PERIOD * unit)[0]
-    end = hit[-1][1]
+    hit = _grouped([(i, k, "front") for i, k in contacts], impact, time)[0]
+    _, end, _ = hit[-1]
     impulse = float(total[end]) / (mass * impact.velocity)
     moment = impact.velocity * math.sqrt(impact.bending_stiffness * impact.mass_per_length)
-    peak, wall = peak_moment(history), wall_peaks(history)
+    peak, wall, left = peak_moment(history), wall_peaks(history), has_left(history)
     energy = history.array("kinetic_energy") + history.array("strain_energy")
     held = history.energy("contact_energy")  # by springs of the wall
     initial = float(energy[0])
     supplied = initial + history.energy("work_of_loads")
-    restitution = impulse - 1.0 if bears_free_flight(impact) else -mean_velocity(history, end) / impact.velocity
+    restitution = impulse - 1.0 if bears_free_flight(impact) else -_mean_velocity(history, end) / impact.velocity
     translation = 0.5 * mass * (restitution * impact.velocity) ** 2 / float(supplied[end])
     return WholeImpact(
         restitution=restitution,
         impulse=2.0 * impulse,
         last_contact=0.5 * float(time[end - 1] + time[end]) / unit,
-        separations=len(hit) - (0 if len(contacts) > len(hit) or has_left(history) else 1),
+        separations=len(hit) - (0 if len(contacts) > len(hit) or left else 1),
         peak_moment=peak.moment / moment,
         peak_moment_place=abs(peak.place) / impact.half_length,
         peak_moment_time=peak.time / unit,
@@ -117,25 +121,76 @@ def whole_impact(history: ImpactHistory, *, shortest: float = SHORTEST_SEPARATIO
         peak_force=None if wall is None else 2.0 * wall.force * unit / (mass * impact.velocity),
         supplied=float(supplied[end]),
         spacing=float(time[end] - time[end - 1]) / unit,
-        contacts=tuple((float(time[i]) / unit, 0.5 * float(time[j - 1] + time[j]) / unit) for i, j in hit),
+        contacts=tuple((float(time[i]) / unit, 0.5 * float(time[j - 1] + time[j]) / unit) for i, j, _ in hit),
         energy_defect=abs(history.energy_budget()["defect"]) / initial,
         energy_gain=float(np.max(np.diff(energy + held - supplied), initial=0.0)) / initial,
-        left=has_left(history),
+        left=left,
     )
 
 
-def _grouped(contacts: list[tuple[int, int]], time: Array, longest: float) -> list[list[tuple[int, int]]]:
-    """Contacts of one hit together: gaps between them are shorter than ``longest``, s."""
-    groups: list[list[tuple[int, int]]] = []
-    for contact in contacts:
-        if groups and time[contact[0]] - time[groups[-1][-1][1]] < longest:
-            groups[-1].append(contact)
+def _grouped(contacts: list[tuple[int, int, str]], impact: Impact, time: Array) -> list[list[tuple[int, int, str]]]:
+    """Contacts (begin, end, wall) of one hit together: with one wall, gaps between them shorter than a period of the
+    first mode."""
+    groups: list[list[tuple[int, int, str]]] = []
+    for begin, end, wall in contacts:
+        _, last, before = groups[-1][-1] if groups else (0, 0, "")
+        if wall == before and time[begin] - time[last] < LOWEST_PERIOD * impact.slow_time_scale:
+            groups[-1].append((begin, end, wall))
         else:
-            groups.append([contact])
+            groups.append([(begin, end, wall)])
     return groups
 
 
-def mean_velocity(history: ImpactHistory, k: int) -> float:
+def _mean_velocity(history: ImpactHistory, k: int) -> float:
     """Velocity of the centre of mass into the wall at saved instant ``k``, m/s."""
     x = history.positions(k)
     return float(np.trapezoid(history.array("velocity", k), x) / (x[-1] - x[0]))
+
+
+@dataclass(frozen=True)
+class Hit:
+    """wall : "front" or "opposite"; begin, end : s, the end in the middle of its saved interval; place : mean |x| of
+    the push, m; impulse : N s, always positive.
+
+    before, after : velocities of the centre of mass, m/s, positive towards the front wall; energy : kinetic, strain and
+    in springs of the wall after it, J; lost : what the energy and the work of the loads fell by meanwhile, J.
+    """
+
+    wall: str
+    begin: float
+    end: float
+    place: float
+    impulse: float
+    before: float
+    after: float
+    energy: float
+    lost: float
+
+    @property
+    def restitution(self) -> float:
+        """−after/before."""
+        return -self.after / self.before
+
+
+def hits(history: ImpactHistory) -> list[Hit]:
+    """All hits of a run, in order of time; the last may not be over yet."""
+    impact, time = history.impact, history.time
+    copies = 2.0 / history.sides
+    names = {"front": "impulse", "opposite": "opposite_impulse"}
+    rows = {wall: copies * history.array(name) for wall, name in names.items() if name in history}
+    parts = [(i, k, wall) for wall, given in rows.items() for i, k in pushes(time, given.sum(axis=1), 0.0)]
+    work = history.energy("work_of_loads")
+    energy = history.array("kinetic_energy") + history.array("strain_energy") - work + history.energy("contact_energy")
+    mass = impact.mass_per_length * impact.length
+    gained = impact.load_within(impact.half_length) * time - history.array("total_impulse")
+    velocity = impact.velocity + gained / mass
+    if impact.supported:  # by forces that no history holds
+        velocity = np.array([_mean_velocity(history, k) for k in range(time.size)])
+    found = []
+    for group in _grouped(sorted(parts), impact, time):
+        i, k, wall = group[0][0], group[-1][1], group[0][2]
+        given = rows[wall][k] - rows[wall][i]
+        place = float(given @ np.abs(history.contact_positions(0))) / float(given.sum())
+        numbers = (place, given.sum(), velocity[i], velocity[k], energy[k] + work[k], energy[i] - energy[k])
+        found.append(Hit(wall, float(time[i]), 0.5 * float(time[k - 1] + time[k]), *map(float, numbers)))
+    return found

@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from bent_beam.fields import describe
 from bent_beam.history import ImpactHistory
-from bent_beam.parts import describe
 from self_similar_fe.mesh import ExpandingMesh
 
 __all__ = ["history_of"]

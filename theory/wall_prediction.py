@@ -20,8 +20,8 @@ import math
 from dataclasses import dataclass
 from typing import Any
 
-from bent_beam.elastic_wall import wall_scales
 from bent_beam.impact import Impact
+from bent_beam.loads import wall_scales
 from theory.contact import ContactParameters
 from theory.elastic_wall import FLATTEST, MOST_DAMPED, SHARPEST, peak_force
 from theory.validity import DAMPING, validity

@@ -10,9 +10,8 @@ from comparison.bounce_document import ENERGY, SI
 from comparison.prediction_text import over_damping_lines
 from comparison.text_table import text_table
 from comparison.units import unit_for
-from measure.hits import Hit
 from measure.measured import Band, Measured
-from measure.whole_impact import SHORTEST_SEPARATION
+from measure.whole_impact import SHORTEST_SEPARATION, Hit
 
 __all__ = ["bounce_table", "hits_table"]
 

@@ -19,19 +19,14 @@ def test_every_case_file_loads_and_the_thesis_sweep_is_complete():
     assert ratios == pytest.approx([1 / 1600, 1 / 800, 1 / 400, 1 / 200, 1 / 100, 1 / 40, 1 / 20, 1 / 4, 1 / 2, 1.25])
 
 
-def test_parts_and_assignments():
+def test_assignments_are_laid_over_and_a_mistake_for_one_path_is_found_with_another():
     case = load_case(
         CASES / "thesis_K10.toml",
         ["mesh.kind=graded", "mesh.element_length=2.5e-3", "mesh.growth=1.25", "hermite.contact.kind=node"],
     )
     assert case.mesh == GradedMesh(element_length=2.5e-3, growth=1.25)
     assert case.tables == {"hermite": {"contact": {"kind": "node"}}}
-
-
-def test_a_mesh_is_the_method_s_and_a_mistake_for_one_path_is_found_with_another():
-    assert case_from_tables(GOOD).method("hermite").mesh is None
-    meshed = case_from_tables({**GOOD, "mesh": {"kind": "graded", "element_length": 0.01, "growth": 1.1}})
-    assert meshed.method("hermite").mesh == GradedMesh(element_length=0.01, growth=1.1)
+    assert case.method("hermite").mesh == case.mesh and case_from_tables(GOOD).method("hermite").mesh is None
     mistaken = case_from_tables({**GOOD, "exudyn": {"contact": {"kind": "rigit"}}})
     with pytest.raises(InputError, match="rigit"):
         mistaken.method("hermite")

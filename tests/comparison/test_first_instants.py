@@ -12,7 +12,7 @@ from comparison.store import RunStore
 from exudyn_models import ExudynModel
 from exudyn_models.contacts import CONTACTS
 from hermite_fe import HermiteFE
-from measure.front import first_front
+from measure.moments import first_front
 from measure.reduction import peak_moment
 
 BEAM = {"bending_stiffness": 1.0, "mass_per_length": 1.0, "length": 2.0, "velocity": 1.0}

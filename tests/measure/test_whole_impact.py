@@ -14,8 +14,7 @@ from bent_beam.meshes import UniformMesh
 from bent_beam.method import for_whole_beam, method_from_tables
 from hermite_fe import HermiteFE
 from hermite_fe.integrators import MoreauJean, NonsmoothGeneralizedAlpha, SignoriniPosition
-from measure.hits import hits
-from measure.whole_impact import pushes, whole_impact
+from measure.whole_impact import hits, pushes, whole_impact
 from theory.stopped_beam import StoppedBeam
 
 SCHEMES = [MoreauJean(theta=0.5), NonsmoothGeneralizedAlpha(), SignoriniPosition(theta=0.5)]
