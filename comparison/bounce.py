@@ -19,18 +19,19 @@ from typing import Any
 import numpy as np
 
 from bent_beam.checks import finite
+from bent_beam.free_flight import LOWEST_PERIOD
 from bent_beam.history import ImpactHistory
 from bent_beam.hysteresis import converges
 from bent_beam.impact import Impact
 from bent_beam.method import Method, for_whole_beam, refined, settings_of, simulate_to_separation
 from bent_beam.section import Section
-from comparison.units import scales
 from comparison.workers import run_all
 from measure.balance import Balance, balance_of
+from measure.hits import Hit, hits
 from measure.measured import Band, Measured
 from measure.whole_impact import WholeImpact, whole_impact
 
-__all__ = ["NUMBERS", "Bounce", "Number", "bounce", "problem"]
+__all__ = ["NUMBERS", "Bounce", "Number", "bounce", "follow_hits", "problem", "scales"]
 
 Progress = Callable[[int, int], None]
 Number = Measured | Band
@@ -51,6 +52,8 @@ NUMBERS = (
 RUNS = 24  # of a band
 SEED = 15
 LARGEST_KAPPA = 100.0  # beyond, and long before, the beam touches in one point: infinity is calculated as this
+LONGEST = 100.0  # T*: the longest run that follows hits
+INSTANTS = 200  # saved a T* of it
 TIMES = ("last_contact", "peak_moment_time")
 
 
@@ -251,3 +254,43 @@ def _varied(method: Method, impact: Impact, random: np.random.Generator) -> Meth
             "nor steps; state a damping"
         )
     return coarser
+
+
+def scales(impact: Impact) -> dict[str, float]:
+    """SI units of the dimensionless numbers: N s, s, N m, J."""
+    return {
+        "impulse": impact.mass_per_length * impact.half_length * impact.velocity,
+        "time": impact.slow_time_scale,
+        "moment": impact.velocity * math.sqrt(impact.bending_stiffness * impact.mass_per_length),
+        "energy": 0.5 * impact.mass_per_length * impact.length * impact.velocity**2,
+        "length": impact.half_length,
+        "force": impact.mass_per_length * impact.half_length * impact.velocity / impact.slow_time_scale,
+    }
+
+
+def follow_hits(
+    impact: Impact,
+    method: Method,
+    count: int,
+    *,
+    first: ImpactHistory,
+    progress: Callable[[float], None] | None = None,
+) -> list[Hit]:
+    """The first ``count`` hits of a beam on its wall by one run, fewer where it does not come back.
+
+    first : the run that a first hit has been read from: the first row is its own.
+    Raises ``ValueError`` for what the method refuses, and between two walls.
+    """
+    if impact.opposite_wall is not None:
+        raise ValueError("--hits: follows one wall; between two, bentbeam simulate lists the hits")
+    chosen, period = for_whole_beam(method, impact), LOWEST_PERIOD * impact.slow_time_scale
+    fall = impact.net_load / impact.mass_per_length  # acceleration back to the wall, m/s²
+    end, longest = 2.0 * period, LONGEST * impact.slow_time_scale
+    while True:
+        save = round(INSTANTS * end / impact.slow_time_scale)
+        found = hits(chosen.simulate(impact, end_time=end, save=save, progress=progress))
+        over = [hit for hit in found if end - hit.end >= period]
+        if len(over) >= count or end >= longest or (over and fall <= 0.0):
+            return [*hits(first)[:1], *over[1:count]]
+        flight = 2.0 * max(-over[-1].after, 0.0) / fall if over else end
+        end = min(end + flight + 2.0 * period, longest)

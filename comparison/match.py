@@ -13,13 +13,12 @@ from typing import Any
 import numpy as np
 
 from bent_beam.checks import positive
-from bent_beam.errors import ANY_FAILURE, SimulationError
+from bent_beam.errors import ANY_FAILURE, SimulationError, TimeLimitError
 from bent_beam.impact import Impact
 from bent_beam.method import Method, chosen_for, refined, settings_of, simulated
-from comparison.perturbation import first_order_epsilon, loaded
-from comparison.rows import COMPANIONS, MatchRow, Question, about, lost_row, with_theory
+from comparison.rows import COMPANIONS, MatchRow, Question, about, first_order_epsilon, loaded, lost_row, with_theory
 from comparison.store import RunStore, source_of
-from comparison.time_limit import Clock, TimeLimitError, affordable_refinement
+from comparison.workers import Clock, affordable_refinement, run_all
 from measure.balance import balance_of
 from measure.estimators import FirstOrderEstimate, LeadingEstimate, first_order, leading_order
 from measure.measured import MISSING, Measured
@@ -283,8 +282,6 @@ def match(
     >>> row.label, row.r0.covered
     ('Self-similar', True)
     """
-    from comparison.workers import run_all
-
     store = store or RunStore(None)
     if limit is not None:
         positive("limit", limit)

@@ -8,9 +8,10 @@ from contextlib import suppress
 from dataclasses import dataclass, field
 from typing import Any
 
-from bent_beam.checks import finite, non_negative, one_of, positive
+from bent_beam.checks import between, finite, non_negative, one_of, positive
 from bent_beam.impact import Impact
 from bent_beam.method import Method, settings_of
+from measure.estimators import LeadingEstimate
 from measure.measured import MISSING, Measured
 
 __all__ = [
@@ -22,6 +23,8 @@ __all__ = [
     "Question",
     "about",
     "failures",
+    "first_order_epsilon",
+    "loaded",
     "lost_row",
     "questions",
     "with_theory",
@@ -36,6 +39,8 @@ THESIS_KAPPAS = (1 / 1600, 1 / 800, 1 / 400, 1 / 200, 1 / 100, 1 / 40, 1 / 20, 1
 
 COMPANIONS: dict[str, tuple[float, ...]] = {"drift": (), "quick": (0.5,), "thorough": (0.5, 2.0)}
 """Resolutions of the companion runs that error bars come from, by name."""
+
+EXTREME = 1e30  # of ε: its powers are calculated with
 
 
 @dataclass(frozen=True)
@@ -209,3 +214,25 @@ def lost_row(question: Question, reason: str, *, refused: bool = False) -> Match
 def failures(rows: Iterable[MatchRow]) -> list[MatchRow]:
     """The rows that failed though nothing had said that they must."""
     return [row for row in rows if row.reason is not None and not row.refused]
+
+
+def first_order_epsilon(leading: LeadingEstimate, first: First, perturbation: float, duration: float) -> float:
+    """The largest ε of the runs: the loads change the free motion by a small part of V₀t over the contact zone.
+
+    ε τ (|α|/2 + |χ|z²/2 + |ψ|z⁴/24 + |N|/2) = ``perturbation`` at the end, z being the zone measured at ε = 0 and half
+    the front's thickness. ε is reduced for a front near the centre, which would move too far.
+    """
+    front = leading.front
+    z = front + 1.0 / math.sqrt(1.0 + front**2)
+    alpha, psi, chi, axial = (abs(v) for v in first)
+    part = perturbation
+    if front > 0.0:
+        part *= front / (front + 0.2)
+    top = part / (duration * (alpha / 2 + chi * z**2 / 2 + psi * z**4 / 24 + axial / 2))
+    return between("first_order: the largest ε of the runs, from alpha, psi, chi and N,", top, 1 / EXTREME, EXTREME)
+
+
+def loaded(bare: Impact, epsilon: float, first: First) -> Impact:
+    """``bare`` with (εα, εψ, εχ, n) = ε·(α, ψ, χ, N)."""
+    alpha, psi, chi, axial = (epsilon * value for value in first)
+    return bare.replace(acceleration=alpha, fourth_derivative=psi, curvature_rate=chi, axial_force=axial)

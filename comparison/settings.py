@@ -15,7 +15,7 @@ from bent_beam.meshes import MESHES
 from bent_beam.method import method_type, paths
 from bent_beam.section import SECTIONS
 from bent_beam.tables import TABLES
-from comparison.text_table import text_table
+from comparison.readable import text_table
 
 __all__ = ["Setting", "settings", "settings_markdown", "settings_text"]
 

@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from comparison.text_table import text_table
-from comparison.units import unit_for
+from comparison.readable import text_table, unit_for
 from measure.measured import Measured
 
 __all__ = ["run_table"]

@@ -10,9 +10,9 @@ from pathlib import Path
 from typing import Any
 
 from comparison.plain import json_text, plain
+from comparison.readable import text_table
 from comparison.rows import MatchRow, failures
 from comparison.store import write_atomically
-from comparison.text_table import text_table
 from measure.measured import Measured
 
 __all__ = ["LEAST", "match_document", "match_table", "write_match"]

@@ -1,4 +1,4 @@
-"""The ``bentbeam`` command: each command is a file of its own beside this one.
+"""The ``bentbeam`` command: its commands stand beside this file.
 
 Exit codes: 0 done; 2 bad input (one line naming field and value); 3 a solver could not finish; 130 interrupted.
 The library's commands are listed here; programs on top of it add theirs by the entry-point group
@@ -22,14 +22,9 @@ import typer
 
 from bent_beam.errors import InputError, SimulationError
 from comparison.command_line.bounce import bounce
-from comparison.command_line.compare import compare
+from comparison.command_line.cases import new, predict, settings, simulate
+from comparison.command_line.histories import compare, plot, rerun
 from comparison.command_line.match import match
-from comparison.command_line.new import new
-from comparison.command_line.plot import plot
-from comparison.command_line.predict import predict
-from comparison.command_line.rerun import rerun
-from comparison.command_line.settings import settings
-from comparison.command_line.simulate import simulate
 from comparison.command_line.theory import theory
 
 __all__ = ["COMMANDS", "add_programs", "app", "main", "run"]

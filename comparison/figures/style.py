@@ -15,10 +15,13 @@ from pathlib import Path
 from typing import Any
 
 import matplotlib
+import numpy as np
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
+from matplotlib.artist import Artist
 from matplotlib.axes import Axes
+from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 from comparison.store import write_atomically
@@ -34,6 +37,7 @@ __all__ = [
     "SEQUENCE",
     "THEORY",
     "WALL",
+    "Film",
     "asked_folder",
     "figure",
     "mark",
@@ -41,10 +45,12 @@ __all__ = [
     "panel_label",
     "save",
     "wall_below",
+    "write_gif",
 ]
 
 COLUMN = 3.4  # width of one column, inches
 PAGE = 7.0  # width of both
+DPI = 110  # of an animation
 FORMATS = ("png", "pdf", "svg")
 
 COLOURS = {
@@ -169,3 +175,44 @@ def wall_below(axis: Axes, low: float, high: float) -> None:
 def panel_label(axis: Axes, text: str) -> None:
     """(a), (b) … in the upper left corner, outside the data."""
     axis.text(0.0, 1.02, text, transform=axis.transAxes, ha="left", va="bottom", fontweight="bold", fontsize=8.5)
+
+
+class Film:
+    """Pictures of a figure in which only some artists move: the rest is drawn once, which takes nearly all the time.
+
+    moving : what changes from picture to picture, drawn over the rest in this order.
+    """
+
+    def __init__(self, fig: Figure, moving: Sequence[Artist]) -> None:
+        self.fig, self.moving = fig, moving
+        for artist in moving:
+            artist.set_animated(True)
+        fig.set_dpi(DPI)
+        self.canvas = FigureCanvasAgg(fig)
+        self.canvas.draw()
+        self.still = self.canvas.copy_from_bbox(fig.bbox)
+
+    def picture(self) -> Any:
+        """The figure as it stands, as one picture of 64 colours."""
+        from PIL import Image
+
+        self.canvas.restore_region(self.still)
+        for artist in self.moving:
+            self.fig.draw_artist(artist)
+        pixels = np.asarray(self.canvas.buffer_rgba())[..., :3]
+        return Image.fromarray(pixels).convert("P", palette=Image.Palette.ADAPTIVE, colors=64)
+
+
+def write_gif(frames: Sequence[Any], file: Path, per_second: int) -> None:
+    """Write ``frames`` to ``file``, atomically, to be shown over and over."""
+    stream = BytesIO()
+    frames[0].save(
+        stream,
+        format="GIF",
+        save_all=True,
+        append_images=frames[1:],
+        duration=1000 // per_second,
+        loop=0,
+        optimize=True,
+    )
+    write_atomically(file, stream.getvalue())

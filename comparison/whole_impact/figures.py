@@ -15,12 +15,12 @@ from numpy.typing import NDArray
 from bent_beam.free_flight import pushing
 from bent_beam.history import ImpactHistory
 from comparison.bounce import Bounce
-from comparison.bounce_document import bounce_document
 from comparison.figures import style
-from comparison.figures.gif import Film, write_gif
+from comparison.figures.style import Film, write_gif
 from comparison.plain import json_text
 from comparison.store import write_atomically
 from comparison.whole_impact.stored_map import stored_map
+from comparison.whole_impact.table import bounce_document
 
 __all__ = ["animate_bounce", "draw_bounce", "draw_map", "write_bounce"]
 

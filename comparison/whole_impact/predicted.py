@@ -15,8 +15,8 @@ from bent_beam.impact import Impact
 from bent_beam.loads import unmodelled
 from bent_beam.method import Method, for_whole_beam, refined, simulate_to_separation
 from bent_beam.section import Section
+from comparison.bounce import scales
 from comparison.companions import companions_of, number_of
-from comparison.units import scales
 from comparison.whole_impact.stored_map import bounce_from_map
 from measure.measured import Band, Measured
 from measure.whole_impact import whole_impact

@@ -13,7 +13,7 @@ from bent_beam.history import ImpactHistory
 from bent_beam.meshes import UniformMesh
 from bent_beam.method import method_from_tables
 from comparison.bounce import bounce, problem
-from comparison.bounce_document import bounce_document
+from comparison.whole_impact.table import bounce_document
 from hermite_fe import HermiteFE
 from measure.measured import Band
 

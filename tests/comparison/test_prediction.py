@@ -16,7 +16,7 @@ from bent_beam.cases import Case, load_case
 from bent_beam.free_flight import LOWEST_PERIOD
 from comparison.prediction import COMPARED, predict_case
 from comparison.prediction_text import prediction_text
-from comparison.units import number_from
+from comparison.readable import number_from
 from comparison.whole_impact.predicted import over_damping
 from hermite_fe import HermiteFE
 from hermite_fe.integrators import MoreauJean
