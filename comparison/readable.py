@@ -10,7 +10,7 @@ from typing import Any
 
 from measure.measured import Band, Measured
 
-__all__ = ["milliseconds", "number_from", "readable", "text_table", "unit_for"]
+__all__ = ["in_unit", "milliseconds", "number_from", "readable", "text_table", "unit_for"]
 
 RAISED = str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻")
 SMALL, LARGE = 1e-3, 1e5  # beyond them a power of ten
@@ -47,6 +47,12 @@ def unit_for(unit: str, values: Iterable[float | None]) -> tuple[float, str]:
     if unit == "m":
         return (1e3, "mm") if largest < 1e-2 else (1.0, unit)
     return (1e-3, f"k{unit}") if unit.startswith("N") and unit != "N s" and largest >= 100.0 else (1.0, unit)
+
+
+def in_unit(number: Measured | Band, unit: str) -> list[str]:
+    """``number``, in ``unit``, in the unit in which it is written, and that unit."""
+    scale, name = unit_for(unit, [number.mean if isinstance(number, Band) else number.value])
+    return [str(number.scaled(scale)), name]
 
 
 def number_from(found: dict[str, Any] | None) -> Measured | Band:

@@ -17,6 +17,7 @@ from measure.measured import MISSING, Measured
 __all__ = [
     "COMPANIONS",
     "DURATION",
+    "LEAST",
     "THESIS_KAPPAS",
     "First",
     "MatchRow",
@@ -36,6 +37,9 @@ First = tuple[float, float, float, float]
 DURATION = 0.1  # t*
 THESIS_KAPPAS = (1 / 1600, 1 / 800, 1 / 400, 1 / 200, 1 / 100, 1 / 40, 1 / 20, 1 / 4, 1 / 2)
 """κ/ν of the thesis's Table 3.4."""
+
+LEAST = {"lambda0": 0.0, "r0": 0.0, "lambda1": 1.0, "r1": 1.0}
+"""Errors are relative to the larger of |theory| and this."""
 
 COMPANIONS: dict[str, tuple[float, ...]] = {"drift": (), "quick": (0.5,), "thorough": (0.5, 2.0)}
 """Resolutions of the companion runs that error bars come from, by name."""

@@ -11,14 +11,11 @@ from typing import Any
 
 from comparison.plain import json_text, plain
 from comparison.readable import text_table
-from comparison.rows import MatchRow, failures
+from comparison.rows import LEAST, MatchRow, failures
 from comparison.store import write_atomically
 from measure.measured import Measured
 
 __all__ = ["LEAST", "match_document", "match_table", "write_match"]
-
-LEAST = {"lambda0": 0.0, "r0": 0.0, "lambda1": 1.0, "r1": 1.0}
-"""Errors are relative to the larger of |theory| and this."""
 
 LEGEND = (
     "± is the error bar, % the difference from theory. lift: largest gap inside the contact zone; pull: largest",

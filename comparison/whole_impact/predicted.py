@@ -15,7 +15,7 @@ from bent_beam.impact import Impact
 from bent_beam.loads import unmodelled
 from bent_beam.method import Method, for_whole_beam, refined, simulate_to_separation
 from bent_beam.section import Section
-from comparison.bounce import scales
+from comparison.bounce import Number, largest_stress, scales
 from comparison.companions import companions_of, number_of
 from comparison.whole_impact.stored_map import bounce_from_map
 from measure.measured import Band, Measured
@@ -23,7 +23,6 @@ from measure.whole_impact import whole_impact
 
 __all__ = ["over_damping", "predicted_impact"]
 
-Number = Measured | Band
 NUMBERS = ("restitution", "last_contact", "peak_moment")
 WIDE = 0.05  # error bar of the map's largest moment over its value, beyond which the beam is simulated
 COARSE, INSTANTS = 0.5, 1000  # resolution, and saved instants a T*
@@ -86,11 +85,8 @@ def _from_map(impact: Impact) -> Mapping[str, Number] | None:
 
 def _peaks(impact: Impact, section: Section | None, largest: Number) -> dict[str, Any]:
     """Largest moment, N m, and stress, Pa, from the moment over V₀√(μEI)."""
-    moment = largest.scaled(impact.velocity * (impact.bending_stiffness * impact.mass_per_length) ** 0.5)
-    stress = None
-    if section is not None:
-        stress = moment.scaled(1.0 / section.section_modulus, section.stress(0.0, impact.axial_force)).to_dict()
-    return {"peak_moment": moment.to_dict(), "peak_stress": stress}
+    moment, stress = largest.scaled(scales(impact)["moment"]), largest_stress(largest, impact, section)
+    return {"peak_moment": moment.to_dict(), "peak_stress": None if stress is None else stress.to_dict()}
 
 
 def _simulated(impact: Impact, method: Method) -> dict[str, Number]:
