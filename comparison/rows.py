@@ -5,7 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Sequence
 from contextlib import suppress
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
+from itertools import product
 from typing import Any
 
 from bent_beam.checks import between, finite, non_negative, one_of, positive
@@ -25,7 +26,6 @@ __all__ = [
     "about",
     "failures",
     "first_order_epsilon",
-    "loaded",
     "lost_row",
     "questions",
     "with_theory",
@@ -33,6 +33,8 @@ __all__ = [
 
 First = tuple[float, float, float, float]
 """(α, ψ, χ, N) with ν = 1."""
+
+LOADS = ("alpha", "psi", "chi", "axial")
 
 DURATION = 0.1  # t*
 THESIS_KAPPAS = (1 / 1600, 1 / 800, 1 / 400, 1 / 200, 1 / 100, 1 / 40, 1 / 20, 1 / 4, 1 / 2)
@@ -72,6 +74,16 @@ class Question:
         stiffness, ratio = self.wall
         return impact.replace(wall_stiffness=stiffness, wall_damping=2.0 * ratio * math.sqrt(stiffness))
 
+    @property
+    def loads(self) -> dict[str, float]:
+        """α, ψ, χ and N by name."""
+        return dict(zip(LOADS, self.first or (0.0,) * 4))
+
+    def loaded(self, epsilon: float) -> Impact:
+        """The impact with (εα, εψ, εχ, n) = ε·(α, ψ, χ, N)."""
+        alpha, psi, chi, axial = (epsilon * value for value in self.loads.values())
+        return self.bare.replace(acceleration=alpha, fourth_derivative=psi, curvature_rate=chi, axial_force=axial)
+
     def __post_init__(self) -> None:
         positive("kappa_over_nu", self.kappa_over_nu)
         positive("refine", self.refine)
@@ -81,7 +93,7 @@ class Question:
             positive("--wall", self.wall[0])
             non_negative("--wall", self.wall[1])
         if self.first is not None:
-            for name, value in zip(("alpha", "psi", "chi", "axial"), self.first):
+            for name, value in zip(LOADS, self.first):
                 finite(name, value)
             object.__setattr__(self, "first", (*self.first, 0.0)[:4] if any(self.first) else None)
 
@@ -161,18 +173,13 @@ def questions(
     """
 
     def load(first: Sequence[float | None] | None, kappa: float) -> Any:
-        if first is None:
-            return None
-        alpha, psi, chi, axial = (*first, 0.0)[:4]
-        return (-kappa * (axial or 0.0) if alpha is None else alpha, psi, chi, axial)
+        if first is None or first[0] is not None:
+            return first
+        return (-kappa * ((*first, 0.0)[3] or 0.0), *first[1:])
 
-    asked: list[Sequence[float | None] | None] = [*firsts] or [None]
     return [
-        Question(m, k, load(f, k), r, error_bars, duration, wall)
-        for k in kappas
-        for m in methods
-        for f in asked
-        for r in refines
+        Question(method, kappa, load(first, kappa), refine, error_bars, duration, wall)
+        for kappa, method, first, refine in product(kappas, methods, firsts or [None], refines)
     ]
 
 
@@ -180,28 +187,23 @@ def with_theory(question: Question, leading: Any, estimate: Any) -> dict[str, An
     """The numbers of a row with the theory's beside them."""
     from theory import contact_parameters
 
-    alpha, psi, chi, axial = question.first or (0.0,) * 4
-    exact = contact_parameters(question.kappa_over_nu, alpha, psi, chi, axial=axial)
+    exact = contact_parameters(question.kappa_over_nu, **question.loads)
     row: dict[str, Any] = {"regime": str(exact.regime)}
     for name, source in (("lambda0", leading), ("r0", leading), ("lambda1", estimate), ("r1", estimate)):
-        number = None if source is None else getattr(source, name)
+        number = MISSING if source is None else getattr(source, name)
         theory = getattr(exact, name) if name in ("lambda0", "r0") or question.first else None
-        row[name] = Measured(number and number.value, number and number.error, theory)
+        row[name] = replace(number, theory=theory)
     return row
 
 
 def about(question: Question) -> dict[str, Any]:
     """The fields of a row that its question says."""
-    alpha, psi, chi, axial = question.first or (0.0,) * 4
     return {
         "label": question.method.label,
         "path": question.method.path,
         "settings": settings_of(question.method),
         "kappa_over_nu": question.kappa_over_nu,
-        "alpha": alpha,
-        "psi": psi,
-        "chi": chi,
-        "axial": axial,
+        **question.loads,
         "refine": question.refine,
         "wall": question.wall,
     }
@@ -234,9 +236,3 @@ def first_order_epsilon(leading: LeadingEstimate, first: First, perturbation: fl
         part *= front / (front + 0.2)
     top = part / (duration * (alpha / 2 + chi * z**2 / 2 + psi * z**4 / 24 + axial / 2))
     return between("first_order: the largest ε of the runs, from alpha, psi, chi and N,", top, 1 / EXTREME, EXTREME)
-
-
-def loaded(bare: Impact, epsilon: float, first: First) -> Impact:
-    """``bare`` with (εα, εψ, εχ, n) = ε·(α, ψ, χ, N)."""
-    alpha, psi, chi, axial = (epsilon * value for value in first)
-    return bare.replace(acceleration=alpha, fourth_derivative=psi, curvature_rate=chi, axial_force=axial)
