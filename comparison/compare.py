@@ -43,23 +43,19 @@ def compare_histories(a: ImpactHistory, b: ImpactHistory) -> dict[str, Any]:
         apart[name] = float(np.abs(mine - other).max()) / largest if largest > 0.0 else None
     numbers["peak_moment"] = [peak_moment(h, until=end).moment for h in (a, b)]
     apart["gap"] = _gap_apart(a, b, end)
-    settings = {
-        key: [a.settings.get(key), b.settings.get(key)]
-        for key in sorted({*a.settings, *b.settings})
-        if a.settings.get(key) != b.settings.get(key)
-    }
     return {
         "paths": [a.path, b.path],
         "same_impact": a.impact == b.impact,
         "end": numbers,
         "largest_difference": apart,
-        "settings": settings,
-        "versions": {
-            k: [a.versions.get(k), b.versions.get(k)]
-            for k in sorted({*a.versions, *b.versions})
-            if a.versions.get(k) != b.versions.get(k)
-        },
+        "settings": _apart(a.settings, b.settings),
+        "versions": _apart(a.versions, b.versions),
     }
+
+
+def _apart(a: Mapping[str, Any], b: Mapping[str, Any]) -> dict[str, Any]:
+    """The entries that differ, a pair of values each; ``None`` where one has none."""
+    return {key: [a.get(key), b.get(key)] for key in sorted({*a, *b}, key=str) if a.get(key) != b.get(key)}
 
 
 def _gap_apart(a: ImpactHistory, b: ImpactHistory, end: float) -> float | None:
@@ -125,8 +121,7 @@ def _changed(pairs: dict[str, Any], where: str = "") -> list[list[str]]:
     rows = []
     for key, (a, b) in pairs.items():
         if isinstance(a, dict) and isinstance(b, dict):
-            inner = {k: [a.get(k), b.get(k)] for k in sorted({*a, *b}, key=str) if a.get(k) != b.get(k)}
-            rows += _changed(inner, f"{where}{key}.")
+            rows += _changed(_apart(a, b), f"{where}{key}.")
         elif shown.repr(a) == shown.repr(b) and isinstance(a, (str, list, tuple)):
             at = next((i for i, (x, y) in enumerate(zip(a, b)) if x != y), min(len(a), len(b)))
             rows += _changed({f"{key}[{at}:]": [a[at:], b[at:]]}, where)
@@ -159,7 +154,7 @@ def rerun_history(
 ) -> dict[str, Any]:
     """Simulate ``old``'s case with its settings and compare: ``identical`` (bit for bit), ``largest_difference``
     (relative, per variable) and versions that differ. Keeps the new history in ``out``."""
-    new = _run(old, progress)
+    new = _again(old, progress)
     if out is not None:
         new.save(out)
     differences: dict[str, float | None] = {}
@@ -194,23 +189,24 @@ def rerun_text(found: dict[str, Any]) -> str:
     return "\n".join(lines if found["file"] is None else [*lines, f"history: {found['file']}"])
 
 
-def _run(old: ImpactHistory, progress: Callable[[float], None] | None) -> ImpactHistory:
-    settings = old.settings
-    save: Any = settings.get("save", old.time.size)
-    if isinstance(save, list):
-        save = np.array([finite("history's save", time) for time in save])
+def _again(old: ImpactHistory, progress: Callable[[float], None] | None) -> ImpactHistory:
+    settings, saved = old.settings, old.settings.get("save", old.time.size)
+    save: Any
+    if isinstance(saved, list):
+        save = np.array([finite("history's save", time) for time in saved])
     else:
-        save = whole("history's save", save, 1)
+        save = whole("history's save", saved, 1)
     if "end_time" not in settings:
         raise InputError("history's settings lack end_time: it cannot be run again")
     method = method_type(old.path)
     values: dict[str, Any] = {}
     for field in dataclasses.fields(method):
-        if field.name not in settings:
-            continue
-        kinds = method.PARTS.get(field.name)
-        value = settings[field.name]
-        known = {} if kinds is None else {cls.__name__: cls for cls in kinds.values()}
-        values[field.name] = value if kinds is None else _rebuild(value, known, field.name)
+        if field.name in settings:
+            value, kinds = settings[field.name], method.PARTS.get(field.name)
+            values[field.name] = value if kinds is None else _rebuild(value, _by_class(kinds), field.name)
     made: Method = method(**values)
     return made.simulate(old.impact, end_time=settings["end_time"], save=save, progress=progress)
+
+
+def _by_class(kinds: Mapping[str, type]) -> dict[str, type]:
+    return {kind.__name__: kind for kind in kinds.values()}

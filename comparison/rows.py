@@ -177,9 +177,10 @@ def questions(
             return first
         return (-kappa * ((*first, 0.0)[3] or 0.0), *first[1:])
 
+    asked: Sequence[Sequence[float | None] | None] = firsts or [None]
     return [
         Question(method, kappa, load(first, kappa), refine, error_bars, duration, wall)
-        for kappa, method, first, refine in product(kappas, methods, firsts or [None], refines)
+        for kappa, method, first, refine in product(kappas, methods, asked, refines)
     ]
 
 

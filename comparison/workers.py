@@ -175,26 +175,23 @@ def _on_cluster(
         _check_workers(client, scheduler)
         numbers = {client.submit(function, *a, pure=False): i for i, a in enumerate(arguments)}
         away = f"the scheduler at {scheduler} went away; ask again and only what is left is done"
-        suspects = []  # a call that waits on a worker is blamed when another kills it: each is asked once more, alone
-        for future in as_completed(list(numbers), loop=client.loop):
-            i = numbers.pop(future)
+        # a call that waits on a worker is blamed when another kills it: each is asked once more, alone
+        suspects: list[int] = []
+
+        def settle(i: int, future: Any, killed: Callable[[int], None]) -> None:
             try:
                 result = future.result()
             except KilledWorker:
-                suspects.append(i)
+                killed(i)
             except CancelledError:
                 died(i, away)
             else:
                 done(i, result)
+
+        for future in as_completed(list(numbers), loop=client.loop):
+            settle(numbers.pop(future), future, suspects.append)
         for i in suspects:
-            try:
-                result = client.submit(function, *arguments[i], pure=False).result()
-            except KilledWorker:
-                died(i)
-            except CancelledError:
-                died(i, away)
-            else:
-                done(i, result)
+            settle(i, client.submit(function, *arguments[i], pure=False), died)
 
 
 @dataclass

@@ -10,6 +10,7 @@ import typer
 from comparison.command_line.console import Console
 from comparison.command_line.options import (
     CaseFile,
+    ErrorBars,
     Json,
     Overwrite,
     Quiet,
@@ -123,9 +124,7 @@ def simulate(
     until: Annotated[
         str | None, typer.Option(help='"separation": until the beam has left the wall; overrides [run].')
     ] = None,
-    error_bars: Annotated[
-        str, typer.Option(help="quick (one companion run, half resolution), thorough (also twice), drift (none).")
-    ] = "quick",
+    error_bars: ErrorBars = "quick",
     out: Annotated[Path | None, typer.Option(metavar="FILE.nc", help="Keep the history as netCDF.")] = None,
     overwrite: Overwrite = False,
     save: Annotated[int, typer.Option(min=8, max=20000, help="Number of saved instants.")] = 200,
@@ -188,10 +187,10 @@ def _kept(error: SimulationError, out: Path | None) -> SimulationError:
     while target.exists():
         number += 1
         target = target.with_name(f"{target.name.split('.')[0]}.partial-{number}.nc")
+    where = f"is in {target}"
     try:
         error.history.save(target)
     except OSError as problem:
-        error.args = (f"{error.args[0]}; the partial history could not be kept in {target} ({problem.strerror})",)
-    else:
-        error.args = (f"{error.args[0]}; the partial history is in {target}",)
+        where = f"could not be kept in {target} ({problem.strerror})"
+    error.args = (f"{error.args[0]}; the partial history {where}",)
     return error

@@ -69,9 +69,10 @@ def _compare(top: Axes, below: Axes, rows: Sequence[MatchRow], what: str) -> Non
             continue
         x = np.array([k for k, _ in mine])
         top.plot(x, [c.value for _, c in mine], **mark)
-        percent = np.array([(100 * c.relative(), 100 * (c.relative_error() or 0.0)) for _, c in mine]).T
-        style.bars(below, x * 1.015 ** (i - (len(marks) - 1) / 2), *percent, {**mark, "label": None})
-        limit = max(limit, 1.5 * float(np.abs(percent).sum(axis=0).max()))  # every point and its bar have their place
+        off = np.array([100 * c.relative() for _, c in mine])
+        bars = np.array([100 * (c.relative_error() or 0.0) for _, c in mine])
+        style.bars(below, x * 1.015 ** (i - (len(marks) - 1) / 2), off, bars, {**mark, "label": None})
+        limit = max(limit, 1.5 * float(np.max(np.abs(off) + bars)))  # every point and its bar have their place
     below.set(xlabel=r"$\kappa/\nu$  (1)", ylabel="difference  (%)")
     below.set_yscale("symlog", linthresh=1e-2)
     below.set_yticks([-10, -1, -0.1, 0, 0.1, 1, 10], ["−10", "−1", "−0.1", "0", "0.1", "1", "10"])
