@@ -37,9 +37,7 @@ def predicted_impact(case: Case, method: Method | None) -> dict[str, Any] | None
     method : to simulate with (``None``: nothing is simulated).
     """
     impact = case.impact
-    found, source = _from_map(impact), "stored map"
-    if found is None and method is not None and impact.opposite_wall is None:
-        found, source = _simulated(impact, method), "simulation"
+    found, source = _found(impact, method)
     if found is None:
         return None
     return {
@@ -60,19 +58,20 @@ def over_damping(impact: Impact, section: Section | None, method: Method | None,
     found = []
     for ratio in DAMPING_RATIOS:
         damping = ratio * LOWEST_PERIOD / math.pi * impact.slow_time_scale
-        moment = own if math.isclose(damping, impact.damping, rel_tol=SAME) else _moment(impact, method, damping)
-        if moment is not None:
-            found.append({"damping_ratio": ratio, **_peaks(impact, section, moment)})
+        numbers: Mapping[str, Number] | None = {"peak_moment": own}
+        if not math.isclose(damping, impact.damping, rel_tol=SAME):
+            numbers, _ = _found(impact.replace(damping=damping, hysteretic_loss=0.0, loss_frequency=None), method)
+        if numbers is not None:
+            found.append({"damping_ratio": ratio, **_peaks(impact, section, numbers["peak_moment"])})
     return found
 
 
-def _moment(impact: Impact, method: Method | None, damping: float) -> Number | None:
-    """The largest moment of the whole impact with another ``damping``, s."""
-    damped = impact.replace(damping=damping, hysteretic_loss=0.0, loss_frequency=None)
-    found = _from_map(damped)
+def _found(impact: Impact, method: Method | None) -> tuple[Mapping[str, Number] | None, str]:
+    """The numbers of the whole impact, and where they come from; ``None`` where nothing says them."""
+    found = _from_map(impact)
     if found is None and method is not None and impact.opposite_wall is None:
-        found = _simulated(damped, method)
-    return None if found is None else found["peak_moment"]
+        return _simulated(impact, method), "simulation"
+    return found, "stored map"
 
 
 def _from_map(impact: Impact) -> Mapping[str, Number] | None:
