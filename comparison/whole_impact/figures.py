@@ -27,7 +27,7 @@ __all__ = ["animate_bounce", "draw_bounce", "draw_map", "write_bounce"]
 Array = NDArray[np.float64]
 WINDOWS = 160  # of the force: what is quicker is noise of the reader's eye
 SHAPES = 7
-FRAMES = 90
+FRAMES, PER_SECOND = 90, 18
 PANELS = {
     "restitution": r"restitution $e$",
     "last_contact": r"last contact $t/T^*$",
@@ -162,11 +162,11 @@ def _power(damping: float) -> str:
     return rf"$10^{{{int(power)}}}$" if digit == "1" else rf"${digit}\cdot10^{{{int(power)}}}$"
 
 
-def animate_bounce(history: ImpactHistory, file: Path, *, frames: int = FRAMES, per_second: int = 18) -> Path:
+def animate_bounce(history: ImpactHistory, file: Path) -> Path:
     """The beam over the wall with the points that push, and the force so far, as an animated GIF."""
     time = history.time / history.impact.slow_time_scale
     end = float(time[-1])
-    chosen = [int(np.argmin(np.abs(time - t))) for t in np.linspace(0.0, end, frames)]
+    chosen = [int(np.argmin(np.abs(time - t))) for t in np.linspace(0.0, end, FRAMES)]
     edges, force = _force(history, end)
     when, place = _contacts(history)
     shapes = [_whole(history, k) for k in chosen]
@@ -187,12 +187,12 @@ def animate_bounce(history: ImpactHistory, file: Path, *, frames: int = FRAMES, 
         film = Film(fig, (beam, touch, clock, past))
         for k, (x, y) in zip(chosen, shapes):
             beam.set_data(x, y)
-            near = np.abs(when - time[k]) <= 0.5 * end / frames
+            near = np.abs(when - time[k]) <= 0.5 * end / FRAMES
             touch.set_data(place[near], np.zeros(int(near.sum())))
             clock.set_text(f"$t/T^*$ = {time[k]:.3f}")
             past.set_xdata([time[k], time[k]])
             pictures.append(film.picture())
-    write_gif(pictures, file, per_second)
+    write_gif(pictures, file, PER_SECOND)
     return file
 
 
