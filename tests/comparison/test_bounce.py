@@ -148,17 +148,3 @@ def test_the_command_gives_numbers_with_bars_figures_and_the_stress_of_the_large
         assert found["peak_stress"][key] == pytest.approx(found["si"]["peak_moment"][key] / modulus, rel=1e-12)
     assert found["si"]["peak_moment_time"]["value"] > 0.0
     assert 0.0 <= found["si"]["peak_moment_place"]["value"] <= 0.5
-
-
-@pytest.mark.parametrize(
-    ("arguments", "named"),
-    [
-        ([], "--kappa-over-nu"),
-        (["--kappa-over-nu", "2"], "--damping"),
-        (["--kappa-over-nu", "2", "--damping", "-1"], "damping"),
-        (["--kappa-over-nu", "-2", "--damping", "0.1"], "kappa_over_nu"),
-        (["--kappa-over-nu", "2", "--damping", "0.1", "--path", "self_similar"], "exudyn and hermite have"),
-    ],
-)
-def test_what_bounce_cannot_take_is_named(arguments, named) -> None:
-    assert named in refused("bounce", *arguments)
