@@ -11,7 +11,7 @@ instead.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -19,20 +19,19 @@ from typing import Any
 import numpy as np
 
 from bent_beam.checks import finite
+from bent_beam.free_flight import LOWEST_PERIOD
 from bent_beam.history import ImpactHistory
 from bent_beam.hysteresis import converges
 from bent_beam.impact import Impact
 from bent_beam.method import Method, for_whole_beam, refined, settings_of, simulate_to_separation
 from bent_beam.section import Section
-from comparison.units import scales
 from comparison.workers import run_all
 from measure.balance import Balance, balance_of
 from measure.measured import Band, Measured
-from measure.whole_impact import WholeImpact, whole_impact
+from measure.whole_impact import Hit, WholeImpact, hits, whole_impact
 
-__all__ = ["NUMBERS", "Bounce", "Number", "bounce", "problem"]
+__all__ = ["NUMBERS", "Bounce", "Number", "bounce", "follow_hits", "problem", "scales"]
 
-Progress = Callable[[int, int], None]
 Number = Measured | Band
 NUMBERS = (
     "restitution",
@@ -51,6 +50,8 @@ NUMBERS = (
 RUNS = 24  # of a band
 SEED = 15
 LARGEST_KAPPA = 100.0  # beyond, and long before, the beam touches in one point: infinity is calculated as this
+LONGEST = 100.0  # T*: the longest run that follows hits
+INSTANTS = 200  # saved a T* of it
 TIMES = ("last_contact", "peak_moment_time")
 
 
@@ -83,13 +84,8 @@ class Bounce:
 
     @property
     def peak_stress(self) -> Number | None:
-        """Largest normal stress, Pa, |M|/W + |N|/A at the place and time of the largest moment; ``None`` without a
-        section."""
-        if self.section is None:
-            return None
-        unit = scales(self.impact)["moment"]
-        axial = self.section.stress(0.0, self.impact.axial_force)
-        return self.numbers["peak_moment"].scaled(unit / self.section.section_modulus, axial)
+        """Largest normal stress, Pa; ``None`` without a section."""
+        return largest_stress(self.numbers["peak_moment"], self.impact, self.section)
 
     @cached_property
     def balance(self) -> Balance:
@@ -123,14 +119,9 @@ def problem(kappa_over_nu: float, damping: float) -> Impact:
     return Impact.whole_beam(min(kappa, LARGEST_KAPPA), relative_damping=damping)
 
 
-def _run(method: Method, impact: Impact, save: int) -> tuple[WholeImpact, ImpactHistory]:
-    history = simulate_to_separation(method, impact, save=save)
-    return whole_impact(history), history
-
-
 def _outcome(method: Method, impact: Impact, save: int) -> tuple[WholeImpact, float]:
-    found, history = _run(method, impact, save)
-    return found, history.seconds
+    history = simulate_to_separation(method, impact, save=save)
+    return whole_impact(history), history.seconds
 
 
 def bounce(
@@ -142,7 +133,7 @@ def bounce(
     seed: int = SEED,
     save: int = 2000,
     jobs: int = 1,
-    progress: Progress | None = None,
+    progress: Callable[[int, int], None] | None = None,
 ) -> Bounce:
     """Follow ``impact`` to its last separation by ``method``, and by what it names to compare with.
 
@@ -153,46 +144,45 @@ def bounce(
     reason = method.refuses(impact)
     if reason is not None:
         raise ValueError(reason)
-    if not converges(impact):
-        return _band(impact, method, section, runs, seed, save, jobs, progress)
-    checks = _cross_checks(method, impact)
-    history, (outcome, *found), about = _one_and_others([method, *checks.values()], impact, save, jobs, progress)
-    names = _names(outcome)
-    parts = {name: _parts(name, outcome, dict(zip(checks, found))) for name in names}
-    return Bounce(
-        impact=impact,
-        numbers={n: Measured(float(getattr(outcome, n)), sum(parts[n].values()) if checks else None) for n in names},
-        parts=parts,
-        history=history,
-        outcome=outcome,
-        settings=settings_of(for_whole_beam(method, impact)),
-        section=section,
-        **about,
+    random = np.random.default_rng(seed)
+    checks = _cross_checks(method, impact) if converges(impact) else {}
+    methods = (
+        [method, *checks.values()] if converges(impact) else [_varied(method, impact, random) for _ in range(runs)]
     )
-
-
-def _one_and_others(
-    methods: Sequence[Method], impact: Impact, save: int, jobs: int, progress: Progress | None
-) -> tuple[ImpactHistory, list[WholeImpact], dict[str, Any]]:
-    """The first method's run, what each came to, and ``left`` and ``seconds`` of all of them."""
 
     def told(done: int) -> None:
         if progress is not None:
             progress(done, len(methods))
 
     told(0)
-    outcome, history = _run(methods[0], impact, save)
+    history = simulate_to_separation(methods[0], impact, save=save)
     told(1)
-    asked = [(other, impact, save) for other in methods[1:]]
-    found = run_all(_outcome, asked, jobs=jobs, progress=lambda done, _: told(1 + done))
-    outcomes = [outcome, *(other for other, _ in found)]
-    seconds = history.seconds + sum(seconds for _, seconds in found)
-    return history, outcomes, {"left": all(o.left for o in outcomes), "seconds": seconds}
-
-
-def _names(outcome: WholeImpact) -> tuple[str, ...]:
-    """Of the numbers: the largest force where the wall gives way."""
-    return NUMBERS if outcome.peak_force is None else (*NUMBERS, "peak_force")
+    others = [(other, impact, save) for other in methods[1:]]
+    found = run_all(_outcome, others, jobs=jobs, progress=lambda done, _: told(1 + done))
+    outcomes = [whole_impact(history), *(outcome for outcome, _ in found)]
+    numbers: dict[str, Number] = {}
+    parts: dict[str, dict[str, float]] = {}
+    for name in NUMBERS if outcomes[0].peak_force is None else (*NUMBERS, "peak_force"):
+        value, *moved = (float(getattr(outcome, name)) for outcome in outcomes)
+        parts[name] = {cause: abs(other - value) for cause, other in zip(checks, moved)}
+        if not converges(impact):
+            numbers[name] = Band.of([value, *moved])
+            continue
+        if name in TIMES:
+            parts[name]["saved_instants"] = 0.5 * outcomes[0].spacing
+        numbers[name] = Measured(value, sum(parts[name].values()) if checks else None)
+    return Bounce(
+        impact=impact,
+        numbers=numbers,
+        parts=parts,
+        history=history,
+        outcome=outcomes[0],
+        left=all(outcome.left for outcome in outcomes),
+        settings=settings_of(for_whole_beam(methods[0], impact)),
+        seconds=history.seconds + sum(seconds for _, seconds in found),
+        seed=None if converges(impact) else seed,
+        section=section,
+    )
 
 
 def _cross_checks(method: Method, impact: Impact) -> dict[str, Method]:
@@ -201,41 +191,6 @@ def _cross_checks(method: Method, impact: Impact) -> dict[str, Method]:
         return dict(own(impact))
     coarser = refined(for_whole_beam(method, impact), 0.5)
     return {} if coarser is None else {"mesh_and_step": coarser}
-
-
-def _parts(name: str, outcome: WholeImpact, others: Mapping[str, WholeImpact]) -> dict[str, float]:
-    """The error bar of a number, by cause."""
-    value = float(getattr(outcome, name))
-    parts = {cause: abs(float(getattr(other, name)) - value) for cause, other in others.items()}
-    if name in TIMES:
-        parts["saved_instants"] = 0.5 * outcome.spacing
-    return parts
-
-
-def _band(
-    impact: Impact,
-    method: Method,
-    section: Section | None,
-    runs: int,
-    seed: int,
-    save: int,
-    jobs: int,
-    progress: Progress | None,
-) -> Bounce:
-    random = np.random.default_rng(seed)
-    methods = [_varied(method, impact, random) for _ in range(runs)]
-    history, outcomes, about = _one_and_others(methods, impact, save, jobs, progress)
-    return Bounce(
-        impact=impact,
-        numbers={name: Band.of([float(getattr(o, name)) for o in outcomes]) for name in _names(outcomes[0])},
-        parts={name: {} for name in _names(outcomes[0])},
-        history=history,
-        outcome=outcomes[0],
-        settings=settings_of(for_whole_beam(methods[0], impact)),
-        seed=seed,
-        section=section,
-        **about,
-    )
 
 
 def _varied(method: Method, impact: Impact, random: np.random.Generator) -> Method:
@@ -251,3 +206,53 @@ def _varied(method: Method, impact: Impact, random: np.random.Generator) -> Meth
             "nor steps; state a damping"
         )
     return coarser
+
+
+def scales(impact: Impact) -> dict[str, float]:
+    """SI units of the dimensionless numbers: N s, s, N m, J, m, N."""
+    impulse = impact.mass_per_length * impact.half_length * impact.velocity
+    return {
+        "impulse": impulse,
+        "time": impact.slow_time_scale,
+        "moment": impact.velocity * math.sqrt(impact.bending_stiffness * impact.mass_per_length),
+        "energy": impulse * impact.velocity,
+        "length": impact.half_length,
+        "force": impulse / impact.slow_time_scale,
+    }
+
+
+def largest_stress(moment: Number, impact: Impact, section: Section | None) -> Number | None:
+    """Largest normal stress, Pa, |M|/W + |N|/A at the place and time of the largest ``moment``, in V₀√(μEI); ``None``
+    without a section."""
+    if section is None:
+        return None
+    unit = scales(impact)["moment"] / section.section_modulus
+    return moment.scaled(unit, section.stress(0.0, impact.axial_force))
+
+
+def follow_hits(
+    impact: Impact,
+    method: Method,
+    count: int,
+    *,
+    first: ImpactHistory,
+    progress: Callable[[float], None] | None = None,
+) -> list[Hit]:
+    """The first ``count`` hits of a beam on its wall by one run, fewer where it does not come back.
+
+    first : the run that a first hit has been read from: the first row is its own.
+    Raises ``ValueError`` for what the method refuses, and between two walls.
+    """
+    if impact.opposite_wall is not None:
+        raise ValueError("--hits: follows one wall; between two, bentbeam simulate lists the hits")
+    chosen, period = for_whole_beam(method, impact), LOWEST_PERIOD * impact.slow_time_scale
+    fall = impact.net_load / impact.mass_per_length  # acceleration back to the wall, m/s²
+    end, longest = 2.0 * period, LONGEST * impact.slow_time_scale
+    while True:
+        save = round(INSTANTS * end / impact.slow_time_scale)
+        found = hits(chosen.simulate(impact, end_time=end, save=save, progress=progress))
+        over = [hit for hit in found if end - hit.end >= period]
+        if len(over) >= count or end >= longest or (over and fall <= 0.0):
+            return [*hits(first)[:1], *over[1:count]]
+        flight = 2.0 * max(-over[-1].after, 0.0) / fall if over else end
+        end = min(end + flight + 2.0 * period, longest)

@@ -2,19 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import dataclasses
+from collections.abc import Callable, Mapping
+from pathlib import Path
 from reprlib import Repr
 from typing import Any
 
 import numpy as np
 from scipy.interpolate import CubicHermiteSpline
 
+from bent_beam.checks import finite, shortened, whole
 from bent_beam.history import ImpactHistory
-from comparison.text_table import text_table
-from comparison.units import unit_for
+from bent_beam.method import Method, method_type
+from bent_beam.parts import InputError, made_from
+from bent_beam.versions import versions
+from comparison.readable import text_table, unit_for
 from measure.reduction import peak_moment
 
-__all__ = ["compare_histories", "comparison_text"]
+__all__ = ["compare_histories", "comparison_text", "rerun_history", "rerun_text"]
 
 CURVES = ("total_impulse", "kinetic_energy", "strain_energy")
 
@@ -38,23 +43,19 @@ def compare_histories(a: ImpactHistory, b: ImpactHistory) -> dict[str, Any]:
         apart[name] = float(np.abs(mine - other).max()) / largest if largest > 0.0 else None
     numbers["peak_moment"] = [peak_moment(h, until=end).moment for h in (a, b)]
     apart["gap"] = _gap_apart(a, b, end)
-    settings = {
-        key: [a.settings.get(key), b.settings.get(key)]
-        for key in sorted({*a.settings, *b.settings})
-        if a.settings.get(key) != b.settings.get(key)
-    }
     return {
         "paths": [a.path, b.path],
         "same_impact": a.impact == b.impact,
         "end": numbers,
         "largest_difference": apart,
-        "settings": settings,
-        "versions": {
-            k: [a.versions.get(k), b.versions.get(k)]
-            for k in sorted({*a.versions, *b.versions})
-            if a.versions.get(k) != b.versions.get(k)
-        },
+        "settings": _apart(a.settings, b.settings),
+        "versions": _apart(a.versions, b.versions),
     }
+
+
+def _apart(a: Mapping[str, Any], b: Mapping[str, Any]) -> dict[str, Any]:
+    """The entries that differ, a pair of values each; ``None`` where one has none."""
+    return {key: [a.get(key), b.get(key)] for key in sorted({*a, *b}, key=str) if a.get(key) != b.get(key)}
 
 
 def _gap_apart(a: ImpactHistory, b: ImpactHistory, end: float) -> float | None:
@@ -120,11 +121,92 @@ def _changed(pairs: dict[str, Any], where: str = "") -> list[list[str]]:
     rows = []
     for key, (a, b) in pairs.items():
         if isinstance(a, dict) and isinstance(b, dict):
-            inner = {k: [a.get(k), b.get(k)] for k in sorted({*a, *b}, key=str) if a.get(k) != b.get(k)}
-            rows += _changed(inner, f"{where}{key}.")
+            rows += _changed(_apart(a, b), f"{where}{key}.")
         elif shown.repr(a) == shown.repr(b) and isinstance(a, (str, list, tuple)):
             at = next((i for i, (x, y) in enumerate(zip(a, b)) if x != y), min(len(a), len(b)))
             rows += _changed({f"{key}[{at}:]": [a[at:], b[at:]]}, where)
         else:
             rows.append([f"{where}{key}", *("-" if v is None else shown.repr(v).strip("'") for v in (a, b))])
     return rows
+
+
+def _rebuild(described: Any, known: Mapping[str, type], where: str) -> Any:
+    """The part that :func:`bent_beam.parts.describe` described; nested parts too. Only known classes are ever made."""
+    if described is None:
+        return None
+    if not isinstance(described, Mapping) or str(described.get("kind")) not in known:
+        raise InputError(f"history's {where} cannot be made again (got {shortened(described)})")
+    part = known[described["kind"]]
+    values = {}
+    for field in dataclasses.fields(part):
+        if field.name in described and field.init:
+            value = described[field.name]
+            nested = isinstance(value, Mapping) and "kind" in value
+            values[field.name] = _rebuild(value, known, f"{where}.{field.name}") if nested else value
+    try:
+        return made_from(part, values, where)
+    except InputError as error:
+        raise InputError(f"history's {error}") from None
+
+
+def rerun_history(
+    old: ImpactHistory, out: Path | None = None, progress: Callable[[float], None] | None = None
+) -> dict[str, Any]:
+    """Simulate ``old``'s case with its settings and compare: ``identical`` (bit for bit), ``largest_difference``
+    (relative, per variable) and versions that differ. Keeps the new history in ``out``."""
+    new = _again(old, progress)
+    if out is not None:
+        new.save(out)
+    differences: dict[str, float | None] = {}
+    for name in sorted({str(v) for v in (*old.dataset.data_vars, *new.dataset.data_vars)}):
+        if name not in old.dataset or name not in new.dataset or old.dataset[name].shape != new.dataset[name].shape:
+            differences[name] = None
+            continue
+        a, b = old.array(name), new.array(name)
+        if not np.array_equal(a, b):
+            scale = float(np.abs(a).max()) or 1.0
+            differences[name] = float(np.abs(a.astype(float) - b.astype(float)).max()) / scale
+    now = versions()
+    return {
+        "identical": not differences,
+        "largest_difference": differences,
+        "versions_changed": {k: [v, now.get(k)] for k, v in old.versions.items() if now.get(k) != v},
+        "file": None if out is None else str(out),
+    }
+
+
+def rerun_text(found: dict[str, Any]) -> str:
+    """The comparison for a reader; shares are of a variable's largest value."""
+    lines = ["The new run is the same, bit for bit." if found["identical"] else "The new run differs."]
+    apart = [
+        [n, "missing, or of another size" if v is None else f"{v:.2g}"] for n, v in found["largest_difference"].items()
+    ]
+    if apart:
+        lines += ["", text_table(["variable", "largest difference over its largest value"], apart)]
+    changed = [[name, *map(str, pair)] for name, pair in found["versions_changed"].items()]
+    if changed:
+        lines += ["", text_table(["version of", "then", "now"], changed)]
+    return "\n".join(lines if found["file"] is None else [*lines, f"history: {found['file']}"])
+
+
+def _again(old: ImpactHistory, progress: Callable[[float], None] | None) -> ImpactHistory:
+    settings, saved = old.settings, old.settings.get("save", old.time.size)
+    save: Any
+    if isinstance(saved, list):
+        save = np.array([finite("history's save", time) for time in saved])
+    else:
+        save = whole("history's save", saved, 1)
+    if "end_time" not in settings:
+        raise InputError("history's settings lack end_time: it cannot be run again")
+    method = method_type(old.path)
+    values: dict[str, Any] = {}
+    for field in dataclasses.fields(method):
+        if field.name in settings:
+            value, kinds = settings[field.name], method.PARTS.get(field.name)
+            values[field.name] = value if kinds is None else _rebuild(value, _by_class(kinds), field.name)
+    made: Method = method(**values)
+    return made.simulate(old.impact, end_time=settings["end_time"], save=save, progress=progress)
+
+
+def _by_class(kinds: Mapping[str, type]) -> dict[str, type]:
+    return {kind.__name__: kind for kind in kinds.values()}

@@ -13,20 +13,19 @@ from typing import Any
 import numpy as np
 
 from bent_beam.checks import positive
-from bent_beam.errors import ANY_FAILURE, SimulationError
+from bent_beam.errors import ANY_FAILURE, SimulationError, TimeLimitError
 from bent_beam.impact import Impact
 from bent_beam.method import Method, chosen_for, refined, settings_of, simulated
-from comparison.perturbation import first_order_epsilon, loaded
-from comparison.rows import COMPANIONS, MatchRow, Question, about, lost_row, with_theory
+from comparison.rows import COMPANIONS, MatchRow, Question, about, first_order_epsilon, lost_row, with_theory
 from comparison.store import RunStore, source_of
-from comparison.time_limit import Clock, TimeLimitError, affordable_refinement
+from comparison.workers import Clock, affordable_refinement, run_all
 from measure.balance import balance_of
 from measure.estimators import FirstOrderEstimate, LeadingEstimate, first_order, leading_order
 from measure.measured import MISSING, Measured
 from measure.moments import Moments, moments
 from measure.reduction import hold_of, pull_of, wall_peaks
 
-__all__ = ["INSTANTS", "coarsened", "match", "without_companion"]
+__all__ = ["INSTANTS", "answer", "match"]
 
 INSTANTS = 250
 SHARES = (0.35, 0.7, 1.0)  # of the largest ε
@@ -37,9 +36,6 @@ WIDE_FIRST = 0.1  # of max(|r₁|, 1), likewise
 
 class Refused(ValueError):
     """What a method refuses, when it is made or before its run; any other error is a failure."""
-
-
-# --- one run, reduced ---------------------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True)
@@ -76,11 +72,10 @@ def _reduced(
     }
 
     def compute() -> dict[str, Any]:
+        asked = None if clock is None else clock.progress()
+        end = duration * impact.time_scale
         try:
-            asked = None if clock is None else clock.progress()
-            history = simulated(
-                method.simulate, impact, end_time=duration * impact.time_scale, save=INSTANTS, progress=asked
-            )
+            history = simulated(method.simulate, impact, end_time=end, save=INSTANTS, progress=asked)
         except ValueError as error:
             raise Refused(str(error)) from None
         found, peaks, balance = moments(history, uniform=uniform), wall_peaks(history), balance_of(history)
@@ -144,22 +139,17 @@ def _estimates(
     if top is None:
         perturbation = getattr(asked, "perturbation", PERTURBATION)
         top = first_order_epsilon(leading_order(run.moments), first, perturbation, question.duration)
-    largest = loaded(bare, top, first)
+    largest = question.loaded(top)
     _raise_if_refused(method, largest)
     fixed = chosen_for(method, largest, question.duration * bare.time_scale)
     # only a load that presses the zone leaves a uniform reaction to take out, of the bare run too
     pressed = largest.zone_pressure > 0.0
-    found = [
-        _reduced(store, fixed, loaded(bare, s * top, first), question.duration, uniform=pressed, clock=clock)
-        for s in (0.0, *SHARES)
-    ]
-    return _Estimates(
-        run,
-        [run, *found],
-        found[0].moments,
-        [(s * top, one.moments) for s, one in zip(SHARES, found[1:])],
-        largest.zone_pressure / top,
+    base, *found = (
+        _reduced(store, fixed, question.loaded(share * top), question.duration, uniform=pressed, clock=clock)
+        for share in (0.0, *SHARES)
     )
+    moved = [(share * top, one.moments) for share, one in zip(SHARES, found)]
+    return _Estimates(run, [run, base, *found], base.moments, moved, largest.zone_pressure / top)
 
 
 def _raise_if_refused(method: Method, impact: Impact) -> None:
@@ -168,7 +158,7 @@ def _raise_if_refused(method: Method, impact: Impact) -> None:
         raise Refused(str(reason))
 
 
-def coarsened(question: Question, store: RunStore, clock: Clock) -> tuple[Question, list[str]]:
+def _coarsened(question: Question, store: RunStore, clock: Clock) -> tuple[Question, list[str]]:
     """The question at a resolution whose row ends within the clock's limit, and a warning where that is not the one
     asked for."""
     bare = question.bare
@@ -200,7 +190,7 @@ def answer(question: Question, store: RunStore, limit: float | None = None) -> M
     Raises :class:`Refused`, :class:`bent_beam.SimulationError`, :class:`TimeLimitError` when no resolution is in time.
     """
     clock = None if limit is None else Clock(limit)
-    question, coarser = (question, []) if clock is None else coarsened(question, store, clock)
+    question, coarser = (question, []) if clock is None else _coarsened(question, store, clock)
     fine = _estimates(question, question.refine, store, None, clock)
     others, lost = list[_Estimates](), list[str]()
     epsilon = fine.loaded[-1][0] if fine.loaded else None
@@ -208,7 +198,8 @@ def answer(question: Question, store: RunStore, limit: float | None = None) -> M
         try:
             others.append(_estimates(question, factor * question.refine, store, epsilon, clock))
         except (ValueError, SimulationError) as error:
-            lost.append(without_companion(factor, error))
+            what = f"no companion run at {factor:g} times the resolution, so the error bar is a guess"
+            lost.append(f"{what}: {error}")
     leading, estimate = fine.leading(others), fine.first(others)
     warnings = [w for r in fine.runs for w in r.warnings] + lost + coarser
     if leading.lambda0.bar > WIDE * max(leading.lambda0.known, 0.1) or leading.r0.bar > WIDE * leading.r0.known:
@@ -244,21 +235,14 @@ def _largest(values: Iterable[float | None]) -> float | None:
     return max((value for value in values if value is not None), default=None)
 
 
-def without_companion(factor: float, error: Exception) -> str:
-    """What to say where a companion run could not finish."""
-    return f"no companion run at {factor:g} times the resolution, so the error bar is a guess: {error}"
-
-
 def _attempt(question: Question, store: RunStore, limit: float | None) -> MatchRow:
-    """One question in a worker: a failure is an answer too, so that the sweep goes on."""
+    """One question in a worker: a failure is an answer too, so that a sweep of hours goes on."""
     try:
         return answer(question, store, limit)
-    except (SimulationError, TimeLimitError) as error:
-        return lost_row(question, str(error))
-    except Refused as error:
-        return lost_row(question, str(error), refused=True)
-    except ANY_FAILURE as error:  # a sweep of hours must not end because one of its runs did
-        return lost_row(question, str(error) if isinstance(error, ValueError) else f"{type(error).__name__}: {error}")
+    except ANY_FAILURE as error:
+        foreseen = isinstance(error, (ValueError, SimulationError, TimeLimitError))
+        reason = str(error) if foreseen else f"{type(error).__name__}: {error}"
+        return lost_row(question, reason, refused=isinstance(error, Refused))
 
 
 def match(
@@ -283,18 +267,13 @@ def match(
     >>> row.label, row.r0.covered
     ('Self-similar', True)
     """
-    from comparison.workers import run_all
-
-    store = store or RunStore(None)
     if limit is not None:
         positive("limit", limit)
-    return list(
-        run_all(
-            _attempt,
-            [(question, store, limit) for question in asked],
-            jobs=jobs,
-            scheduler=scheduler,
-            progress=progress,
-            on_death=lambda i, why: lost_row(asked[i], why),
-        )
+    return run_all(
+        _attempt,
+        [(question, store or RunStore(None), limit) for question in asked],
+        jobs=jobs,
+        scheduler=scheduler,
+        progress=progress,
+        on_death=lambda i, why: lost_row(asked[i], why),
     )

@@ -7,7 +7,7 @@ Error bars are those of :mod:`comparison.companions`.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
@@ -52,7 +52,8 @@ def predict_case(
     cannot finish.
     """
     impact, method = case.impact, None if theory_only else case.method(PATH)
-    checked = [] if theory_only else list(_checked(times))
+    last = max(times)
+    checked = [] if theory_only or last <= 0.0 else np.geomspace(0.01 * last, last, CHECKED).tolist()
     prediction = predict(impact, [*times, *checked], section=case.section)
     document = prediction.to_dict()
     rows = document["times"]
@@ -70,20 +71,13 @@ def predict_case(
     return document
 
 
-def _checked(times: Sequence[float]) -> Iterator[float]:
-    last = max(times)
-    if last > 0.0:
-        yield from (float(t) for t in np.geomspace(0.01 * last, last, CHECKED))
-
-
 def _warnings(impact: Impact) -> list[str]:
     slope = impact.relative_curvature * impact.half_length
-    if slope < STEEP:
-        return []
-    return [
+    steep = (
         f"the bow's own slope at its ends is {slope:.2g}: theory and simulation are for small slopes (at 0.5 the force "
         "is about 10 % larger)"
-    ]
+    )
+    return [steep] if slope >= STEEP else []
 
 
 # --- the simulation at the times asked -----------------------------------------------------------------------------

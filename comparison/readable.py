@@ -1,14 +1,20 @@
-"""Numbers as a reader writes them: 0.0025, 2.5·10⁻⁸, −1.3, a dash for nothing."""
+"""Results as a reader writes them: numbers (0.0025, 2.5·10⁻⁸, −1.3, a dash for nothing), units (kN and kN m from a
+hundred on, mm below a centimetre, MPa, ms), tables in plain text as wide as they need to be."""
 
 from __future__ import annotations
 
+import io
+from collections.abc import Iterable, Sequence
 from numbers import Real
 from typing import Any
 
-__all__ = ["readable"]
+from measure.measured import Band, Measured
+
+__all__ = ["in_unit", "milliseconds", "number_from", "readable", "text_table", "unit_for"]
 
 RAISED = str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻")
 SMALL, LARGE = 1e-3, 1e5  # beyond them a power of ten
+WIDEST = 400  # characters of a table
 
 
 def readable(value: Any, digits: int = 4) -> str:
@@ -29,3 +35,50 @@ def readable(value: Any, digits: int = 4) -> str:
     elif "e" in text:
         text = f"{float(text):.0f}"
     return text.replace("-", "−")
+
+
+def unit_for(unit: str, values: Iterable[float | None]) -> tuple[float, str]:
+    """Factor and name of the unit in which ``values`` (N, N m, N/m, m, Pa, s) are written."""
+    if unit == "Pa":
+        return 1e-6, "MPa"
+    if unit == "s":
+        return 1e3, "ms"
+    largest = max((abs(value) for value in values if value is not None), default=0.0)
+    if unit == "m":
+        return (1e3, "mm") if largest < 1e-2 else (1.0, unit)
+    return (1e-3, f"k{unit}") if unit.startswith("N") and unit != "N s" and largest >= 100.0 else (1.0, unit)
+
+
+def in_unit(number: Measured | Band, unit: str) -> list[str]:
+    """``number``, in ``unit``, in the unit in which it is written, and that unit."""
+    scale, name = unit_for(unit, [number.mean if isinstance(number, Band) else number.value])
+    return [str(number.scaled(scale)), name]
+
+
+def number_from(found: dict[str, Any] | None) -> Measured | Band:
+    """The number that a document holds."""
+    if found and found.get("band"):
+        return Band(**found["band"])
+    return Measured(found["value"], found["error"]) if found else Measured()
+
+
+def milliseconds(time: float) -> str:
+    """A time, s, for a sentence."""
+    return f"{1e3 * time:.3g} ms"
+
+
+def text_table(head: Sequence[str], rows: Sequence[Sequence[str]], left: Sequence[int] = (0,)) -> str:
+    """Columns under their heads, those numbered in ``left`` flush left and the others flush right."""
+    from rich.box import SIMPLE_HEAD
+    from rich.console import Console
+    from rich.table import Table
+    from rich.text import Text
+
+    table = Table(box=SIMPLE_HEAD, pad_edge=False, show_edge=False, header_style=None)
+    for number, title in enumerate(head):
+        table.add_column(Text(title), justify="left" if number in left else "right", no_wrap=True)
+    for row in rows:
+        table.add_row(*(Text(cell) for cell in row))
+    stream = io.StringIO()
+    Console(file=stream, width=WIDEST, color_system=None).print(table)
+    return "\n".join(line.rstrip() for line in stream.getvalue().rstrip("\n").split("\n"))

@@ -5,23 +5,27 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Sequence
 from contextlib import suppress
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
+from itertools import product
 from typing import Any
 
-from bent_beam.checks import finite, non_negative, one_of, positive
+from bent_beam.checks import between, finite, non_negative, one_of, positive
 from bent_beam.impact import Impact
 from bent_beam.method import Method, settings_of
+from measure.estimators import LeadingEstimate
 from measure.measured import MISSING, Measured
 
 __all__ = [
     "COMPANIONS",
     "DURATION",
+    "LEAST",
     "THESIS_KAPPAS",
     "First",
     "MatchRow",
     "Question",
     "about",
     "failures",
+    "first_order_epsilon",
     "lost_row",
     "questions",
     "with_theory",
@@ -30,12 +34,19 @@ __all__ = [
 First = tuple[float, float, float, float]
 """(α, ψ, χ, N) with ν = 1."""
 
+LOADS = ("alpha", "psi", "chi", "axial")
+
 DURATION = 0.1  # t*
 THESIS_KAPPAS = (1 / 1600, 1 / 800, 1 / 400, 1 / 200, 1 / 100, 1 / 40, 1 / 20, 1 / 4, 1 / 2)
 """κ/ν of the thesis's Table 3.4."""
 
+LEAST = {"lambda0": 0.0, "r0": 0.0, "lambda1": 1.0, "r1": 1.0}
+"""Errors are relative to the larger of |theory| and this."""
+
 COMPANIONS: dict[str, tuple[float, ...]] = {"drift": (), "quick": (0.5,), "thorough": (0.5, 2.0)}
 """Resolutions of the companion runs that error bars come from, by name."""
+
+EXTREME = 1e30  # of ε: its powers are calculated with
 
 
 @dataclass(frozen=True)
@@ -63,6 +74,16 @@ class Question:
         stiffness, ratio = self.wall
         return impact.replace(wall_stiffness=stiffness, wall_damping=2.0 * ratio * math.sqrt(stiffness))
 
+    @property
+    def loads(self) -> dict[str, float]:
+        """α, ψ, χ and N by name."""
+        return dict(zip(LOADS, self.first or (0.0,) * 4))
+
+    def loaded(self, epsilon: float) -> Impact:
+        """The impact with (εα, εψ, εχ, n) = ε·(α, ψ, χ, N)."""
+        alpha, psi, chi, axial = (epsilon * value for value in self.loads.values())
+        return self.bare.replace(acceleration=alpha, fourth_derivative=psi, curvature_rate=chi, axial_force=axial)
+
     def __post_init__(self) -> None:
         positive("kappa_over_nu", self.kappa_over_nu)
         positive("refine", self.refine)
@@ -72,7 +93,7 @@ class Question:
             positive("--wall", self.wall[0])
             non_negative("--wall", self.wall[1])
         if self.first is not None:
-            for name, value in zip(("alpha", "psi", "chi", "axial"), self.first):
+            for name, value in zip(LOADS, self.first):
                 finite(name, value)
             object.__setattr__(self, "first", (*self.first, 0.0)[:4] if any(self.first) else None)
 
@@ -152,18 +173,14 @@ def questions(
     """
 
     def load(first: Sequence[float | None] | None, kappa: float) -> Any:
-        if first is None:
-            return None
-        alpha, psi, chi, axial = (*first, 0.0)[:4]
-        return (-kappa * (axial or 0.0) if alpha is None else alpha, psi, chi, axial)
+        if first is None or first[0] is not None:
+            return first
+        return (-kappa * ((*first, 0.0)[3] or 0.0), *first[1:])
 
-    asked: list[Sequence[float | None] | None] = [*firsts] or [None]
+    asked: Sequence[Sequence[float | None] | None] = firsts or [None]
     return [
-        Question(m, k, load(f, k), r, error_bars, duration, wall)
-        for k in kappas
-        for m in methods
-        for f in asked
-        for r in refines
+        Question(method, kappa, load(first, kappa), refine, error_bars, duration, wall)
+        for kappa, method, first, refine in product(kappas, methods, asked, refines)
     ]
 
 
@@ -171,28 +188,23 @@ def with_theory(question: Question, leading: Any, estimate: Any) -> dict[str, An
     """The numbers of a row with the theory's beside them."""
     from theory import contact_parameters
 
-    alpha, psi, chi, axial = question.first or (0.0,) * 4
-    exact = contact_parameters(question.kappa_over_nu, alpha, psi, chi, axial=axial)
+    exact = contact_parameters(question.kappa_over_nu, **question.loads)
     row: dict[str, Any] = {"regime": str(exact.regime)}
     for name, source in (("lambda0", leading), ("r0", leading), ("lambda1", estimate), ("r1", estimate)):
-        number = None if source is None else getattr(source, name)
+        number = MISSING if source is None else getattr(source, name)
         theory = getattr(exact, name) if name in ("lambda0", "r0") or question.first else None
-        row[name] = Measured(number and number.value, number and number.error, theory)
+        row[name] = replace(number, theory=theory)
     return row
 
 
 def about(question: Question) -> dict[str, Any]:
     """The fields of a row that its question says."""
-    alpha, psi, chi, axial = question.first or (0.0,) * 4
     return {
         "label": question.method.label,
         "path": question.method.path,
         "settings": settings_of(question.method),
         "kappa_over_nu": question.kappa_over_nu,
-        "alpha": alpha,
-        "psi": psi,
-        "chi": chi,
-        "axial": axial,
+        **question.loads,
         "refine": question.refine,
         "wall": question.wall,
     }
@@ -209,3 +221,19 @@ def lost_row(question: Question, reason: str, *, refused: bool = False) -> Match
 def failures(rows: Iterable[MatchRow]) -> list[MatchRow]:
     """The rows that failed though nothing had said that they must."""
     return [row for row in rows if row.reason is not None and not row.refused]
+
+
+def first_order_epsilon(leading: LeadingEstimate, first: First, perturbation: float, duration: float) -> float:
+    """The largest ε of the runs: the loads change the free motion by a small part of V₀t over the contact zone.
+
+    ε τ (|α|/2 + |χ|z²/2 + |ψ|z⁴/24 + |N|/2) = ``perturbation`` at the end, z being the zone measured at ε = 0 and half
+    the front's thickness. ε is reduced for a front near the centre, which would move too far.
+    """
+    front = leading.front
+    z = front + 1.0 / math.sqrt(1.0 + front**2)
+    alpha, psi, chi, axial = (abs(v) for v in first)
+    part = perturbation
+    if front > 0.0:
+        part *= front / (front + 0.2)
+    top = part / (duration * (alpha / 2 + chi * z**2 / 2 + psi * z**4 / 24 + axial / 2))
+    return between("first_order: the largest ε of the runs, from alpha, psi, chi and N,", top, 1 / EXTREME, EXTREME)

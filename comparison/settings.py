@@ -15,7 +15,7 @@ from bent_beam.meshes import MESHES
 from bent_beam.method import method_type, paths
 from bent_beam.section import SECTIONS
 from bent_beam.tables import TABLES
-from comparison.text_table import text_table
+from comparison.readable import text_table
 
 __all__ = ["Setting", "settings", "settings_markdown", "settings_text"]
 
@@ -85,39 +85,39 @@ def _written(value: Any) -> str:
     return f"{value:g}" if isinstance(value, float) else str(value)
 
 
+HEAD = ["field", "unit", "default", "allowed", "what"]
+
+
 def settings_text() -> str:
     """All settings as tables for a terminal."""
-    blocks = []
-    for table, kind, mine in _grouped():
-        title = f"[{table}]" + (f" kind = {kind}" if kind else "")
-        rows = [[s.name, s.unit, "required" if s.default is None else s.default, s.allowed, s.text] for s in mine]
-        blocks.append(f"{title}\n" + text_table(["field", "unit", "default", "allowed", "what"], rows, left=(0, 4)))
-    return "\n\n".join(blocks)
+    return "\n\n".join(
+        f"[{table}]" + (f" kind = {kind}" if kind else "") + "\n" + text_table(HEAD, rows, left=(0, 4))
+        for (table, kind), rows in _tables().items()
+    )
 
 
 def settings_markdown() -> str:
-    """The page of the documentation."""
+    """The page of the documentation; columns without an entry are left out."""
     lines = [
         "# Every setting",
         "",
         "Made from the code by `bentbeam settings --markdown`; a table is a table of a case file.",
     ]
-    for table, kind, mine in _grouped():
+    for (table, kind), rows in _tables().items():
         lines += ["", f"## `[{table}]`" + (f" kind = `{kind}`" if kind else ""), ""]
-        rows = [["field", "unit", "default", "allowed", "what"]]
-        rows += [
-            [f"`{s.name}`", s.unit, "required" if s.default is None else s.default, s.allowed, s.text] for s in mine
-        ]
+        rows = [HEAD, *([f"`{name}`", *others] for name, *others in rows)]
         columns = [column for column in zip(*rows) if any(column[1:])]
-        rows = [list(row) for row in zip(*columns)]
+        rows = [[cell.replace("|", "\\|").replace("*", "\\*") for cell in row] for row in zip(*columns)]
         rows.insert(1, ["---"] * len(columns))
-        escaped = [[cell.replace("|", "\\|").replace("*", "\\*") for cell in row] for row in rows]
-        lines += ["| " + " | ".join(row) + " |" for row in escaped]
+        lines += ["| " + " | ".join(row) + " |" for row in rows]
     return "\n".join([*lines, ""])
 
 
-def _grouped() -> list[tuple[str, str | None, list[Setting]]]:
-    groups: dict[tuple[str, str | None], list[Setting]] = {}
-    for setting in settings():
-        groups.setdefault((setting.table, setting.kind), []).append(setting)
-    return [(table, kind, [s for s in mine if s.name != "kind"]) for (table, kind), mine in groups.items()]
+def _tables() -> dict[tuple[str, str | None], list[list[str]]]:
+    """Rows by table and kind: field, unit, default, what is allowed, what it is."""
+    found: dict[tuple[str, str | None], list[list[str]]] = {}
+    for s in settings():
+        rows = found.setdefault((s.table, s.kind), [])
+        if s.name != "kind":
+            rows.append([s.name, s.unit, "required" if s.default is None else s.default, s.allowed, s.text])
+    return found

@@ -120,6 +120,7 @@ def summary(
 ) -> dict[str, Any]:
     """What a run did and found, SI units; the theory's numbers only where it claims to hold, stress with a section."""
     impact, time = history.impact, history.time
+    several = impact.opposite_wall is not None or impact.off_centre  # hits: between two walls, or of a beam that rocks
     own, peak = Companion.of(history), peak_moment(history)
     found, end = own.moments, float(time[-1])
     infinite = predict(impact, [end]) if comparable(impact) else None
@@ -130,11 +131,14 @@ def summary(
             leading = leading_order(found, companions=[other.moments for other in others])
         except ValueError:
             pass
-    bars = {name: _bar(name, [own, *others], impact) for name in NUMBERS}
+    runs, least = [own, *others], {"half_contact_length": own.element}
+    if not converges(impact):
+        least["peak_moment"] = NOISY * own.peak_moment
+    bars = {name: _bar([getattr(run, name) for run in runs], impact, least.get(name, 0.0)) for name in NUMBERS}
     for name, share in zip(("total_impulse", "half_contact_length"), lift_shares(_thrown_off(history, found))):
         if share and (bar := bars[name]) is not None:
             bars[name] = math.hypot(bar, share * getattr(own, name))
-    stress = None if section is None else section.stress(peak.moment, impact.axial_force)
+    numbers = {name: Measured(getattr(own, name), bars[name]) for name in NUMBERS}
     energy, balance = energy_at_end(history), balance_of(history)
     return {
         "path": history.path,
@@ -144,15 +148,11 @@ def summary(
         "steps": history.steps,
         "seconds": history.seconds,
         "time": end,
-        "half_contact_length": Measured(
-            own.half_contact_length, bars["half_contact_length"], row.half_contact_length if row else None
-        ),
-        "total_impulse": Measured(own.total_impulse, bars["total_impulse"], row.impulse if row else None),
-        "restitution": Measured(own.restitution, bars["restitution"]),
-        "lambda0": _estimated(
-            None if leading is None else leading.lambda0, None if infinite is None else infinite.lambda0
-        ),
-        "r0": _estimated(None if leading is None else leading.r0, None if infinite is None else infinite.r0),
+        "half_contact_length": replace(numbers["half_contact_length"], theory=row.half_contact_length if row else None),
+        "total_impulse": replace(numbers["total_impulse"], theory=row.impulse if row else None),
+        "restitution": numbers["restitution"],
+        "lambda0": replace(leading.lambda0 if leading else MISSING, theory=infinite.lambda0 if infinite else None),
+        "r0": replace(leading.r0 if leading else MISSING, theory=infinite.r0 if infinite else None),
         "lift": found.lift[-1],
         "pull": pull_of(history),
         "hold": hold_of(history),
@@ -160,10 +160,10 @@ def summary(
         "peak_moment_error": bars["peak_moment"],
         "peak_moment_place": peak.place,
         "peak_moment_time": peak.time,
-        "peak_stress": stress,
+        "peak_stress": None if section is None else section.stress(peak.moment, impact.axial_force),
         "peak_stress_error": None if section is None or others == [] else section.stress(bars["peak_moment"] or 0.0),
         "yield_stress": None if section is None else section.yield_stress,
-        **_wall_peaks([own, *others], impact),
+        **_wall_peaks(runs, impact),
         "energy": energy,
         "numerical_loss": numerical_loss(energy),
         "momentum_residual": balance.momentum,
@@ -171,7 +171,7 @@ def summary(
         "contact_points_residual": balance.points,
         "initial_energy_residual": balance.initial_energy,
         "gap_of_push": balance.gap_of_push,
-        "hits": [asdict(hit) for hit in hits(history)] if _hits_apart(impact) else None,
+        "hits": [asdict(hit) for hit in hits(history)] if several else None,
         "warnings": [*history.warnings, *loss_warnings(numerical_loss(energy)), *balance.warnings],
         "file": None if file is None else str(file),
     }
@@ -187,16 +187,9 @@ def _thrown_off(history: ImpactHistory, found: Moments) -> float:
     return float(found.lift[time >= 0.1 * time[-1]].max())
 
 
-def _bar(name: str, runs: Sequence[Companion], impact: Impact) -> float | None:
-    """The error bar of the first run's number; ``None`` without others."""
-    values = [value for run in runs if (value := getattr(run, name)) is not None]
-    least = runs[0].element if name == "half_contact_length" else 0.0
-    if name == "peak_moment" and not converges(impact):
-        least = NOISY * values[0]
-    return _bar_of(values, impact, least)
-
-
-def _bar_of(values: Sequence[float], impact: Impact, least: float = 0.0) -> float | None:
+def _bar(numbers: Sequence[float | None], impact: Impact, least: float = 0.0) -> float | None:
+    """The error bar, at least ``least``, of the first run's number; ``None`` without others."""
+    values = [value for value in numbers if value is not None]
     if len(values) < 2:
         return None
     number = number_of(values, impact, least)
@@ -212,7 +205,7 @@ def _wall_peaks(runs: Sequence[Companion], impact: Impact) -> dict[str, float | 
         values = [getattr(one, name) for one in peaks]
         known = bool(values) and not (name == "pressure" and impact.wall_span[0] == impact.wall_span[1])
         found[f"peak_{name}"] = values[0] if known else None
-        found[f"peak_{name}_error"] = _bar_of(values, impact) if known else None
+        found[f"peak_{name}_error"] = _bar(values, impact) if known else None
     return found
 
 
@@ -227,15 +220,6 @@ def loss_warnings(share: float) -> list[str]:
     if share < NOTABLE_LOSS:
         return []
     return [f"time integration and grid viscosity took {100.0 * share:.2g} % of the initial energy"]
-
-
-def _hits_apart(impact: Impact) -> bool:
-    """Whether an impact is one of several hits: between two walls, or of a beam that rocks."""
-    return impact.opposite_wall is not None or impact.off_centre
-
-
-def _estimated(found: Measured | None, theory: float | None) -> Measured:
-    return replace(found or MISSING, theory=theory)
 
 
 def energy_at_end(history: ImpactHistory) -> dict[str, float | None]:

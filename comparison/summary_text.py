@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from comparison.text_table import text_table
-from comparison.units import unit_for
+from comparison.readable import in_unit, text_table
 from measure.measured import Measured
 
 __all__ = ["run_table"]
@@ -22,17 +21,17 @@ ENERGY_TITLES = {
 def run_table(found: dict[str, Any], verbose: bool = False) -> str:
     """The summary of one run for a reader; ``verbose``: with what tells an expert how good it is."""
     until = f"until {1e3 * found['time']:.4g} ms"
-    scale, unit = unit_for("N m", [found["peak_moment"]])
-    moment = Measured(found["peak_moment"], found["peak_moment_error"]).scaled(scale)
     lines = [
         _compared("half contact length", found["half_contact_length"], "m"),
         _compared("impulse", found["total_impulse"], "N s"),
-        [f"largest bending moment, {until}", str(moment), unit, ""],
+        *_peak(found, "moment", f"largest bending moment, {until}", "N m"),
+        *_peak(found, "stress", f"largest stress, {until}", "Pa"),
     ]
-    if found["peak_stress"] is not None:
-        stress = Measured(found["peak_stress"], found["peak_stress_error"]).scaled(1e-6)
-        lines.append([f"largest stress, {until}", str(stress), "MPa", ""])
-    lines += _wall_lines(found)
+    if found["peak_force"] is not None:  # of a wall that gives way
+        at = f"at {1e3 * found['peak_force_time']:.4g} ms"
+        lines += _peak(found, "force", f"largest force on the wall, {at}", "N")
+        lines += _peak(found, "penetration", "largest penetration", "m")
+        lines += _peak(found, "pressure", "largest pressure", "N/m")
     if found["restitution"].measured:
         lines.append(_compared("coefficient of restitution", found["restitution"], ""))
     lines.append(["lost to steps and mesh", f"{100.0 * found['numerical_loss']:.2g}", "% of the energy", ""])
@@ -82,21 +81,10 @@ def _hold_text(hold: dict[str, Any]) -> str:
     return f"{until}{pulled}; the gap of the zone up to then is imposed"
 
 
-def _wall_lines(found: dict[str, Any]) -> list[list[str]]:
-    """Of a wall that gives way."""
-    if found["peak_force"] is None:
-        return []
-    lines = []
-    for name, title, si in (
-        ("force", f"largest force on the wall, at {1e3 * found['peak_force_time']:.4g} ms", "N"),
-        ("penetration", "largest penetration", "m"),
-        ("pressure", "largest pressure", "N/m"),
-    ):
-        number = Measured(found[f"peak_{name}"], found[f"peak_{name}_error"])
-        if number.measured:
-            scale, unit = unit_for(si, [number.value])
-            lines.append([title, str(number.scaled(scale)), unit, ""])
-    return lines
+def _peak(found: dict[str, Any], name: str, title: str, unit: str) -> list[list[str]]:
+    """The line of a largest value; none where it is not known."""
+    number = Measured(found[f"peak_{name}"], found[f"peak_{name}_error"])
+    return [[title, *in_unit(number, unit), ""]] if number.measured else []
 
 
 def _hits_table(rows: Sequence[dict[str, Any]]) -> str:

@@ -10,15 +10,11 @@ from pathlib import Path
 from typing import Any
 
 from comparison.plain import json_text, plain
-from comparison.rows import MatchRow, failures
+from comparison.readable import text_table
+from comparison.rows import LEAST, MatchRow, failures
 from comparison.store import write_atomically
-from comparison.text_table import text_table
-from measure.measured import Measured
 
 __all__ = ["LEAST", "match_document", "match_table", "write_match"]
-
-LEAST = {"lambda0": 0.0, "r0": 0.0, "lambda1": 1.0, "r1": 1.0}
-"""Errors are relative to the larger of |theory| and this."""
 
 LEGEND = (
     "± is the error bar, % the difference from theory. lift: largest gap inside the contact zone; pull: largest",
@@ -28,38 +24,31 @@ LEGEND = (
 
 def match_document(rows: Sequence[MatchRow]) -> dict[str, Any]:
     """The contract of ``bentbeam match --json``: ``rows``, and ``failures``, those that failed unexpectedly."""
-    lost = [
-        {"label": r.label, "path": r.path, "kappa_over_nu": r.kappa_over_nu, "reason": r.reason} for r in failures(rows)
-    ]
+    names = ("label", "path", "kappa_over_nu", "reason")
+    lost = [{name: getattr(row, name) for name in names} for row in failures(rows)]
     return {"rows": [asdict(r) for r in rows], "failures": lost}
 
 
 def match_table(rows: Sequence[MatchRow]) -> str:
     """Value ± error bar, and the difference from theory in per cent."""
-    first = any(r.of_first_order for r in rows)
-    refined = any(r.refine != 1.0 for r in rows)
-    head = ["method", "kappa/nu"]
-    head += ["refine"] if refined else []
-    head += ["alpha,psi,chi,N"] if first else []
-    head += ["lambda0", "%", "r0", "%"]
-    head += ["lambda1", "%", "r1", "%"] if first else []
-    elastic = any(r.wall for r in rows)
-    head += ["F/(V0 sqrt(mu)(EI k)^1/4)"] if elastic else []
+    first, refined = any(r.of_first_order for r in rows), any(r.refine != 1.0 for r in rows)
+    elastic, names = any(r.wall for r in rows), ("lambda0", "r0", "lambda1", "r1")[: 4 if first else 2]
+    head = ["method", "kappa/nu", *["refine"] * refined, *["alpha,psi,chi,N"] * first]
+    head += [title for name in names for title in (name, "%")]
+    head += ["F/(V0 sqrt(mu)(EI k)^1/4)"] * elastic
     head += ["lift/(V0 t)", "pull", "momentum", "gap of push", "held", "s"]
     body = []
     for r in rows:
-        line = [r.label, f"{r.kappa_over_nu:.6g}"]
-        line += [f"{r.refine:g}"] if refined else []
-        line += [",".join(f"{v:g}" for v in r.first) if r.of_first_order else "-"] if first else []
-        for name in ("lambda0", "r0", "lambda1", "r1")[: 4 if first else 2]:
-            line += _cells(getattr(r, name), LEAST[name])
-        line += [str(r.peak_force) if r.peak_force.measured else "-"] if elastic else []
-        line += [
-            *("-" if v is None else f"{v:.0e}" for v in (r.lift, r.pull, r.momentum_residual, r.gap_of_push)),
-            "-" if r.hold is None else f"until {r.hold['until']:.2g}",
-            "-" if r.seconds is None else f"{r.seconds:.1f}",
-        ]
-        body.append(line)
+        line = [r.label, f"{r.kappa_over_nu:.6g}", *[f"{r.refine:g}"] * refined]
+        line += [",".join(f"{v:g}" for v in r.first) if r.of_first_order else "-"] * first
+        for name in names:
+            number = getattr(r, name)
+            off = number.relative(LEAST[name])
+            line += [str(number), "-" if off is None else f"{100 * off:+.3f}"]
+        line += [str(r.peak_force)] * elastic
+        line += ["-" if v is None else f"{v:.0e}" for v in (r.lift, r.pull, r.momentum_residual, r.gap_of_push)]
+        line += ["-" if r.hold is None else f"until {r.hold['until']:.2g}"]
+        body.append([*line, "-" if r.seconds is None else f"{r.seconds:.1f}"])
     notes = [f"{row_name(r)}: {r.reason}" for r in rows if r.reason]
     notes += [f"warning: {row_name(r)}: {w}" for r in rows for w in r.warnings]
     return "\n".join([text_table(head, body), "", *LEGEND, *notes])
@@ -72,16 +61,8 @@ def row_name(row: MatchRow) -> str:
     return text + (f", refined {row.refine:g} times" if row.refine != 1.0 else "")
 
 
-def _cells(number: Measured, least: float) -> list[str]:
-    if not number.measured:
-        return ["-", "-"]
-    off = number.relative(least)
-    return [str(number), "-" if off is None else f"{100 * off:+.3f}"]
-
-
 def rows_csv(rows: Sequence[MatchRow]) -> str:
     """The rows as CSV with a header; compared numbers become three columns, missing ones stay empty."""
-    stream = io.StringIO()
     table = []
     for row in rows:
         flat: dict[str, Any] = {}
@@ -93,10 +74,10 @@ def rows_csv(rows: Sequence[MatchRow]) -> str:
             else:
                 flat[key] = "; ".join(map(str, value)) if isinstance(value, list) else value
         table.append(flat)
-    if table:
-        writer = csv.DictWriter(stream, fieldnames=list(table[0]), lineterminator="\n")
-        writer.writeheader()
-        writer.writerows(table)
+    stream = io.StringIO()
+    writer = csv.DictWriter(stream, fieldnames=list(table[0]) if table else [], lineterminator="\n")
+    writer.writeheader()
+    writer.writerows(table)
     return stream.getvalue()
 
 

@@ -1,26 +1,29 @@
-"""Many independent calls on this machine's cores (joblib) or on a dask cluster; one that dies costs only itself."""
+"""Many independent calls on this machine's cores (joblib) or on a dask cluster; one that dies costs only itself. And a
+time limit for each: how fine a row of a match may be, and a clock that its runs ask between their steps."""
 
 from __future__ import annotations
 
-import asyncio
 import signal
+import time
 import warnings
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import CancelledError, ThreadPoolExecutor
-from concurrent.futures.process import BrokenProcessPool
 from contextlib import ExitStack, closing, contextmanager
-from multiprocessing import get_context
+from dataclasses import dataclass
 from typing import Any
 
 from bent_beam.checks import whole
-from comparison.sources import this_code
+from bent_beam.errors import TimeLimitError
+from comparison.store import this_code
 
-__all__ = ["run_all"]
+__all__ = ["Clock", "affordable_refinement", "run_all"]
 
 FIRST_ANSWER = 8.0  # s that a scheduler has to answer
 FIRST_WORKER = 15.0  # s until one is there, and again until all have answered
 IDLE = 10  # s until a worker without work ends: also when this process was killed and could tell nobody
 DIED = "the worker died: out of memory?"
+FACTORS = (0.125, 0.25, 0.5)  # of the resolution asked for, tried in turn
+GROWTH = 6.0  # of a run's time when elements and steps are halved: 4, and half as much for a busy machine
 
 Done = Callable[[int, Any], None]
 
@@ -76,6 +79,9 @@ def _together(
     function: Callable[..., Any], arguments: Sequence[tuple[Any, ...]], calls: Iterator[int], jobs: int, done: Done
 ) -> list[int]:
     """Call in one pool until none of ``calls`` is left or a worker dies; returns those that were under way then."""
+    from concurrent.futures.process import BrokenProcessPool
+    from multiprocessing import get_context
+
     from joblib import Parallel, delayed
 
     under_way: set[int] = set()
@@ -152,6 +158,8 @@ def _on_cluster(
     died: Callable[..., None],
 ) -> None:
     """Dask asks again by itself when a worker dies. (joblib's dask backend waits for ever for a killed worker.)"""
+    import asyncio
+
     try:
         from distributed import Client, KilledWorker, as_completed
     except ImportError:
@@ -167,23 +175,67 @@ def _on_cluster(
         _check_workers(client, scheduler)
         numbers = {client.submit(function, *a, pure=False): i for i, a in enumerate(arguments)}
         away = f"the scheduler at {scheduler} went away; ask again and only what is left is done"
-        suspects = []  # a call that waits on a worker is blamed when another kills it: each is asked once more, alone
-        for future in as_completed(list(numbers), loop=client.loop):
-            i = numbers.pop(future)
+        # a call that waits on a worker is blamed when another kills it: each is asked once more, alone
+        suspects: list[int] = []
+
+        def settle(i: int, future: Any, killed: Callable[[int], None]) -> None:
             try:
                 result = future.result()
             except KilledWorker:
-                suspects.append(i)
+                killed(i)
             except CancelledError:
                 died(i, away)
             else:
                 done(i, result)
+
+        for future in as_completed(list(numbers), loop=client.loop):
+            settle(numbers.pop(future), future, suspects.append)
         for i in suspects:
-            try:
-                result = client.submit(function, *arguments[i], pure=False).result()
-            except KilledWorker:
-                died(i)
-            except CancelledError:
-                died(i, away)
-            else:
-                done(i, result)
+            settle(i, client.submit(function, *arguments[i], pure=False), died)
+
+
+@dataclass
+class Clock:
+    """The time that the runs of one row have taken, s. ``limit`` : s, of all of them."""
+
+    limit: float
+    spent: float = 0.0
+
+    def progress(self) -> Callable[[float], None]:
+        """What a run calls between its steps; raises :class:`TimeLimitError` beyond the limit.
+
+        Its time counts from the first call on: what is imported and compiled before does not.
+        """
+        last: float | None = None
+
+        def ask(_: float) -> None:
+            nonlocal last
+            now = time.perf_counter()
+            self.spent += 0.0 if last is None else now - last
+            last = now
+            if self.spent > self.limit:
+                raise TimeLimitError(f"time limit: not finished after {self.limit:g} s")
+
+        return ask
+
+
+def affordable_refinement(seconds_at: Callable[[float], float], limit: float, runs: float) -> tuple[float, float]:
+    """The largest factor of ⅛, ¼, ½ and 1 at which a row is expected to end within ``limit``, s, and the seconds that
+    the row is expected to take at 1.
+
+    seconds_at : runs once at a factor of the resolution and returns the seconds it took. runs : of a row, in units of
+    its finest run. Raises :class:`TimeLimitError` when the row takes longer at ⅛, too.
+    """
+    spent = 0.0
+    for factor in FACTORS:
+        taken = seconds_at(factor)
+        spent += taken
+        if factor == FACTORS[0] and taken * runs > limit:
+            raise TimeLimitError(
+                f"time limit: {taken * runs:.2g} s at {factor:g} times the resolution, more than {limit:g} s; "
+                "give a larger --limit or a coarser mesh"
+            )
+        at_full = taken * runs / factor**2
+        if spent + GROWTH * taken * runs > limit:
+            return factor, at_full
+    return 1.0, at_full

@@ -22,7 +22,7 @@ from platformdirs import user_cache_path
 
 from bent_beam.parts import InputError, nearest
 from bent_beam.versions import versions
-from comparison.sources import behind, source_digest
+from comparison.store import behind, source_digest
 from open_benchmark.problem import Problem
 
 __all__ = ["ADAPTERS", "RESOLUTIONS", "Adapter", "chosen_adapters", "install", "shipped_adapters"]

@@ -1,4 +1,4 @@
-"""The ``bentbeam`` command: each command is a file of its own beside this one.
+"""The ``bentbeam`` command: its commands stand beside this file.
 
 Exit codes: 0 done; 2 bad input (one line naming field and value); 3 a solver could not finish; 130 interrupted.
 The library's commands are listed here; programs on top of it add theirs by the entry-point group
@@ -15,21 +15,17 @@ import sys
 import warnings
 from collections.abc import Sequence
 from functools import cache
-from importlib.metadata import entry_points
+from importlib import metadata
 from typing import Annotated
 
 import typer
 
 from bent_beam.errors import InputError, SimulationError
 from comparison.command_line.bounce import bounce
-from comparison.command_line.compare import compare
+from comparison.command_line.cases import new, predict, settings, simulate
+from comparison.command_line.histories import compare, plot, rerun
 from comparison.command_line.match import match
-from comparison.command_line.new import new
-from comparison.command_line.plot import plot
-from comparison.command_line.predict import predict
-from comparison.command_line.rerun import rerun
-from comparison.command_line.settings import settings
-from comparison.command_line.simulate import simulate
+from comparison.command_line.options import printable
 from comparison.command_line.theory import theory
 
 __all__ = ["COMMANDS", "add_programs", "app", "main", "run"]
@@ -62,9 +58,7 @@ def bentbeam(
 ) -> None:
     """A naturally bent beam hits a wall: theory and simulations compared."""
     if version:
-        from importlib.metadata import version as installed
-
-        print(installed("bent-beam-impact"))
+        print(metadata.version("bent-beam-impact"))
         raise typer.Exit()
     if context.invoked_subcommand is None:
         print(context.get_help())
@@ -77,7 +71,7 @@ for command in COMMANDS:
 @cache
 def add_programs() -> None:
     """Add the commands of programs, which the library's own need not wait for."""
-    for entry in sorted(entry_points(group="bentbeam.commands")):
+    for entry in sorted(metadata.entry_points(group="bentbeam.commands")):
         app.command()(entry.load())
 
 
@@ -94,7 +88,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     try:
         sys.stdout.flush()
     except OSError as error:
-        os.dup2(os.open(os.devnull, os.O_WRONLY), 1)  # what is left in the buffer has nowhere to go
+        _drop_output()
         if not isinstance(error, BrokenPipeError):
             code = _refuse(f"standard output cannot be written: {error.strerror}", 2)
     sys.exit(code)
@@ -118,6 +112,12 @@ def _open_closed_streams() -> None:
         sys.stdout.reconfigure(errors="replace")  # a terminal without Greek letters costs them, not the answer
 
 
+def _drop_output() -> int:
+    """Nobody reads on: what is left in the buffer has nowhere to go, and that is no failure."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
+    return 0
+
+
 def run(arguments: Sequence[str] | None = None) -> int:
     """Run the command; returns its exit code, prints one line on standard error when it is not 0."""
     warnings.simplefilter("ignore", RuntimeWarning)  # every result is checked to be finite
@@ -135,8 +135,7 @@ def run(arguments: Sequence[str] | None = None) -> int:
     except SimulationError as error:
         return _refuse(str(error), 3)
     except BrokenPipeError:
-        os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
-        return 0
+        return _drop_output()
     except (ValueError, OSError) as error:  # InputError among them
         return _refuse(str(error), 2)
     except MemoryError:
@@ -145,8 +144,7 @@ def run(arguments: Sequence[str] | None = None) -> int:
         if not ended.code:  # the shell's completion ends so
             return 0
         if isinstance(ended.__context__, BrokenPipeError):  # click takes `| head` for a failure
-            os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
-            return 0
+            return _drop_output()
         return _refuse(f"something that was called ended the program: {ended}", 3)
     except (KeyboardInterrupt, typer.Abort):
         return _refuse(f"interrupted; {how_to_go_on(words)}", INTERRUPTED)
@@ -175,7 +173,5 @@ def how_to_go_on(arguments: Sequence[str]) -> str:
 
 
 def _refuse(message: str, code: int) -> int:
-    from comparison.command_line.options import printable
-
     print("error: " + printable(" ".join(message.split())), file=sys.stderr)
     return code

@@ -26,9 +26,7 @@ def bounce(
     kappa_over_nu: Annotated[
         float | None, typer.Option(help="κ/ν, with --damping, in place of a case (inf: one point).")
     ] = None,
-    damping: Annotated[
-        float | None, typer.Option(help="η/T*, damping time of the material; 0 gives a band.")
-    ] = None,
+    damping: Annotated[float | None, typer.Option(help="η/T*, damping time of the material; 0 gives a band.")] = None,
     path: Annotated[str, typer.Option(help="hermite, exudyn or an installed one.", autocompletion=path_names)] = (
         "hermite"
     ),
@@ -54,11 +52,10 @@ def bounce(
     from bent_beam.method import paths_with
     from bent_beam.parts import InputError
     from comparison.bounce import bounce as follow
-    from comparison.bounce_document import bounce_document
-    from comparison.several_hits import follow_hits
+    from comparison.bounce import follow_hits
     from comparison.store import check_writable
     from comparison.whole_impact.predicted import over_damping
-    from comparison.whole_impact.table import bounce_table, hits_table
+    from comparison.whole_impact.table import bounce_document, bounce_table, hits_table
 
     impact, method, section = _asked(case, kappa_over_nu, damping, path, assignments or ())
     if not hasattr(method, "for_whole_beam"):

@@ -6,59 +6,52 @@ import logging
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from dataclasses import dataclass
 from functools import partial
-from typing import TYPE_CHECKING
-
-if TYPE_CHECKING:
-    from rich.progress import Progress
 
 __all__ = ["Bar", "Console"]
 
 
+@dataclass(frozen=True)
 class Bar:
     """What a long job reports to: a fraction, or a count of things done."""
 
-    def __init__(self, progress: Progress | None, title: str) -> None:
-        self._progress = progress
-        self._task = progress.add_task(title, total=1.0) if progress is not None else None
-
-    def fraction(self, done: float) -> None:
-        if self._progress is not None and self._task is not None:
-            self._progress.update(self._task, completed=done)
+    fraction: Callable[[float], None]
 
     def count(self, done: int, total: int) -> None:
         self.fraction(done / max(total, 1))
 
 
+@dataclass(frozen=True)
 class Console:
     """Standard error as a place for progress; silent when it is not a terminal, or ``quiet``."""
 
-    def __init__(self, quiet: bool = False) -> None:
-        self.quiet = quiet
-        self.shown = not quiet and sys.stderr.isatty()
+    quiet: bool = False
 
     @contextmanager
     def progress(self, title: str) -> Iterator[Bar]:
         if self.quiet:
-            yield Bar(None, title)
+            yield Bar(lambda done: None)
             return
-        if not self.shown:
+        if not sys.stderr.isatty():
             with notices(partial(print, file=sys.stderr)):
-                yield Bar(None, title)
+                yield Bar(lambda done: None)
             return
+        from rich import progress
         from rich.console import Console as RichConsole
-        from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
 
         columns = (
-            TextColumn("{task.description}"),
-            BarColumn(),
-            TextColumn("{task.percentage:>3.0f} %"),
-            TimeElapsedColumn(),
-            TextColumn("left"),
-            TimeRemainingColumn(),
+            "{task.description}",
+            progress.BarColumn(),
+            "{task.percentage:>3.0f} %",
+            progress.TimeElapsedColumn(),
+            "left",
+            progress.TimeRemainingColumn(),
         )
-        with Progress(*columns, console=RichConsole(stderr=True), transient=True) as bar, notices(bar.console.print):
-            yield Bar(bar, title)
+        terminal = RichConsole(stderr=True)
+        with progress.Progress(*columns, console=terminal, transient=True) as bar, notices(terminal.print):
+            task = bar.add_task(title, total=1.0)
+            yield Bar(lambda done: bar.update(task, completed=done))
 
 
 @contextmanager

@@ -9,6 +9,7 @@ import typer
 
 from comparison.command_line.console import Console
 from comparison.command_line.options import (
+    ErrorBars,
     Json,
     Methods,
     Paths,
@@ -48,9 +49,7 @@ def match(
         str,
         typer.Option(metavar="1,2,4", help="Factors by which elements and steps are refined, a row each."),
     ] = "1",
-    error_bars: Annotated[
-        str, typer.Option(help="quick (one companion run, half resolution), thorough (also twice), drift (none).")
-    ] = "quick",
+    error_bars: ErrorBars = "quick",
     duration: Annotated[float, typer.Option(help="End of the runs, t*.")] = 0.1,
     limit: Annotated[float | None, typer.Option(help="Time limit of a row, s.")] = None,
     jobs: Annotated[
@@ -101,8 +100,8 @@ def _wall(text: str | None) -> tuple[float, float] | None:
     """(stiffness, damping ratio) of ``--wall``."""
     if text is None:
         return None
-    stiffness, ratio = (*numbers("--wall", text, (1, 2), "stiffness[,damping ratio]"), 0.0)[:2]
-    return stiffness, ratio
+    stiffness, *ratio = numbers("--wall", text, (1, 2), "stiffness[,damping ratio]")
+    return stiffness, ratio[0] if ratio else 0.0
 
 
 def _load(text: str) -> tuple[float | None, ...]:

@@ -9,26 +9,6 @@ from typing import Annotated, Any
 
 import typer
 
-__all__ = [
-    "CaseFile",
-    "Jobs",
-    "Json",
-    "Methods",
-    "Overwrite",
-    "Paths",
-    "Quiet",
-    "Scheduler",
-    "Set",
-    "Verbose",
-    "check_out",
-    "complete",
-    "emit",
-    "factors",
-    "numbers",
-    "path_names",
-    "printable",
-]
-
 
 def path_names(incomplete: str) -> list[str]:
     """Completion of ``--path``: what is installed."""
@@ -80,6 +60,9 @@ Paths = Annotated[
 Methods = Annotated[
     Path | None,
     typer.Option(metavar="FILE.toml", help="File of methods (see cases/methods/), in place of --path."),
+]
+ErrorBars = Annotated[
+    str, typer.Option(help="quick (one companion run, half resolution), thorough (also twice), drift (none).")
 ]
 Overwrite = Annotated[bool, typer.Option("--overwrite", help="Replace existing files.")]
 

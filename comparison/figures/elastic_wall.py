@@ -35,9 +35,7 @@ def draw_force(out: Path) -> list[Path]:
         left.set_ylabel(rf"$F\sqrt{{\kappa/\nu}}\,/\,{UNIT}$  (1)")
         right.set_ylabel(rf"$F/{UNIT}$  (1)")
         for axis, text in ((left, r"(a)  $\zeta=0$"), (right, r"(b)  $\kappa/\nu=0.5$")):
-            axis.set_xlabel(TIME)
-            axis.set_xlim(0.0, 8.0)
-            axis.set_ylim(bottom=0.0)
+            axis.set(xlabel=TIME, xlim=(0.0, 8.0), ylim=(0.0, None))
             axis.legend()
             style.panel_label(axis, text)
         return style.save(fig, out, "wall-force")
@@ -56,8 +54,7 @@ def draw_peak_force(out: Path) -> list[Path]:
         in_limit = sharp**-0.125 * (limit.value + limit.correction / sharp)
         axis.loglog(sharp, in_limit, color="black", lw=0.8, ls="--", label=r"$\kappa/\nu\to\infty,\ \zeta=0$")
         axis.plot([], [], color="black", lw=0.8, ls=":", label=r"$\kappa/\nu\to0$")
-        axis.set_xlabel(r"$\kappa/\nu$  (1)")
-        axis.set_ylabel(rf"$F_{{\max}}/{UNIT}$  (1)")
+        axis.set(xlabel=r"$\kappa/\nu$  (1)", ylabel=rf"$F_{{\max}}/{UNIT}$  (1)")
         axis.set_xticks([0.02, 0.1, 0.5, 2.0, 10.0], labels=["0.02", "0.1", "0.5", "2", "10"])
         axis.set_yticks([1.0, 2.0, 5.0, 10.0, 20.0], labels=["1", "2", "5", "10", "20"])
         axis.tick_params(which="minor", labelleft=False, labelbottom=False)
@@ -80,15 +77,12 @@ def draw_return(out: Path) -> list[Path]:
                 left.semilogx(time, longer, color=colour, lw=1.0, label=label)
         left.axhline(zone_offset(0.5), color="black", lw=0.8, ls="--", label=r"$(4EI/k)^{1/4}=\sqrt{2}\,\ell_k$")
         right.axhline(1.0, color="black", lw=0.8, ls="--", label="rigid wall")
-        left.set_ylabel(r"$(x_c-\lambda_0\sqrt{ct})/\ell_k$  (1)")
-        right.set_ylabel("impulse over the rigid wall's  (1)")
-        left.set_ylim(0.0, 2.0)
-        right.set_ylim(0.0, 2.4)
-        for axis, text in ((left, "(a)"), (right, "(b)")):
-            axis.set_xlabel(TIME)
-            axis.set_xlim(0.5, end)
-            axis.legend(loc="upper right" if axis is right else "lower right", ncols=2 if axis is right else 1)
-            style.panel_label(axis, text)
+        shared = {"xlabel": TIME, "xlim": (0.5, end)}
+        left.set(ylabel=r"$(x_c-\lambda_0\sqrt{ct})/\ell_k$  (1)", ylim=(0.0, 2.0), **shared)
+        right.set(ylabel="impulse over the rigid wall's  (1)", ylim=(0.0, 2.4), **shared)
+        left.legend(loc="lower right")
+        right.legend(loc="upper right", ncols=2)
+        style.label_panels(left, right)
         return style.save(fig, out, "wall-return")
 
 

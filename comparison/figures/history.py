@@ -38,8 +38,7 @@ def draw_history(history: ImpactHistory, out: Path, name: str, formats: Sequence
         _map(fig, axes[1, 1], history)
         _impulse(axes[2, 0], history)
         _energies(axes[2, 1], history)
-        for axis, letter in zip(axes.flat, "abcdef"):
-            style.panel_label(axis, f"({letter})")
+        style.label_panels(*axes.flat)
         return style.save(fig, out, name, formats)
 
 
@@ -64,41 +63,31 @@ def _shapes(axis: Any, history: ImpactHistory) -> None:
         colour = style.SEQUENCE[i % len(style.SEQUENCE)]
         axis.plot(x[inside], 1e3 * gap[inside], color=colour, label=f"{1e3 * history.time[k]:.3g} ms")
     axis.axhline(0.0, **{**style.WALL, "label": None})
-    axis.set_xlabel("$x$  (m)")
-    axis.set_ylabel("gap  (mm)")
+    axis.set(xlabel="$x$  (m)", ylabel="gap  (mm)")
     axis.legend(title="$t$", ncols=2, frameon=True, framealpha=0.85, edgecolor="none")
 
 
 def _map(fig: Any, axis: Any, history: ImpactHistory) -> None:
-    impact = history.impact
+    impact, time = history.impact, history.time
     if history.contact_positions(-1).size == 1:  # a stop: its force has no length to be spread over
-        time = history.time
         force = np.diff(history.array("total_impulse")) / np.diff(time)
         axis.plot(0.5 * (time[1:] + time[:-1]), force, color=style.COLOURS["blue"])
-        axis.set_xlabel("$t$  (s)")
-        axis.set_ylabel("reaction  (N)")
+        axis.set(xlabel="$t$  (s)", ylabel="reaction  (N)")
         return
-    kept = np.unique(np.linspace(0, history.time.size - 1, min(ROWS, history.time.size)).astype(int))
+    kept = np.unique(np.linspace(0, time.size - 1, min(ROWS, time.size)).astype(int))
     sided = history.contact_positions(-1).min() >= 0.0
     edge = _reach(history)
     edges = np.linspace(0.0 if sided else -edge, edge, BINS + 1)
     force = force_map(history, kept, edges / impact.length_scale)
     force = force * impact.mass_per_length * impact.velocity / impact.time_scale
     top = float(np.abs(force).max(initial=0.0))
-    axis.set_xlabel("$x$  (m)")
-    axis.set_ylabel("$t$  (ms)")
+    axis.set(xlabel="$x$  (m)", ylabel="$t$  (ms)")
     axis.grid(False)
     if top <= 0.0:
         axis.text(0.5, 0.5, "no push", transform=axis.transAxes, ha="center")
         return
-    mesh = axis.pcolormesh(
-        edges,
-        1e3 * history.time[kept],
-        np.ma.masked_less_equal(force, 0.0),
-        norm=LogNorm(top * 10.0**-DECADES, top),
-        cmap="YlGnBu",
-        rasterized=True,
-    )
+    look = {"norm": LogNorm(top * 10.0**-DECADES, top), "cmap": "YlGnBu", "rasterized": True}
+    mesh = axis.pcolormesh(edges, 1e3 * time[kept], np.ma.masked_less_equal(force, 0.0), **look)
     fig.colorbar(mesh, ax=axis, label="reaction per length  (N/m)", pad=0.02, extend="min")
 
 
@@ -112,8 +101,7 @@ def _impulse(axis: Any, history: ImpactHistory) -> None:
         shown = [(1e3 * row.time, row.impulse) for row in found.times if row.valid and row.impulse is not None]
         if shown:
             axis.plot(*zip(*shown), **{**style.THEORY, "ls": "--"})
-    axis.set_xlabel("$t$  (ms)")
-    axis.set_ylabel("impulse  (N s)")
+    axis.set(xlabel="$t$  (ms)", ylabel="impulse  (N s)")
     axis.legend()
 
 
@@ -122,7 +110,7 @@ def _energies(axis: Any, history: ImpactHistory) -> None:
     for name, label, colour in (("kinetic_energy", "kinetic", "blue"), ("strain_energy", "strain", "vermilion")):
         values = history.array(name)
         axis.plot(time, values - values[0], color=style.COLOURS[colour], label=f"change of {label} energy")
-    colours = iter(c for c in style.SEQUENCE[2:])
+    colours = iter(style.SEQUENCE[2:])
     for name, label in LOSSES.items():
         if name in history and np.any(history.array(name)):
             axis.plot(time, history.array(name), ls="--", color=next(colours), label=f"lost in {label}")
@@ -130,6 +118,5 @@ def _energies(axis: Any, history: ImpactHistory) -> None:
         axis.plot(time, history.array("contact_energy"), color=style.COLOURS["green"], label="energy in the wall")
     if "work_of_loads" in history and np.any(history.array("work_of_loads")):
         axis.plot(time, history.array("work_of_loads"), ls=":", color="black", label="work of loads")
-    axis.set_xlabel("$t$  (ms)")
-    axis.set_ylabel("energy  (J)")
+    axis.set(xlabel="$t$  (ms)", ylabel="energy  (J)")
     axis.legend(frameon=True, framealpha=0.85, edgecolor="none", fontsize=6.5)

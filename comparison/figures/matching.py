@@ -7,17 +7,18 @@ A number that is missing is left out, and the figure says how many were.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import cycle
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+from matplotlib.axes import Axes
 
 from comparison.figures import style
 from comparison.rows import First, MatchRow
 from theory import contact_parameters
 
 __all__ = ["draw_first_order", "draw_leading", "draw_matching"]
-
 
 DASHES = ("-", "--", ":", "-.")
 """Of theory's curves, a kind for each load."""
@@ -28,8 +29,7 @@ def draw_matching(rows: Sequence[MatchRow], out: Path, formats: Sequence[str] = 
     finest: dict[Any, MatchRow] = {}
     for row in rows:
         key = (row.label, row.kappa_over_nu, row.first)
-        if key not in finest or row.refine > finest[key].refine:
-            finest[key] = row
+        finest[key] = max(finest.get(key, row), row, key=lambda r: r.refine)
     shown = list(finest.values())
     files = draw_leading(shown, out, formats) if any(r.lambda0.measured for r in shown) else []
     if any(r.lambda1.measured for r in shown):
@@ -42,50 +42,41 @@ def draw_leading(
 ) -> list[Path]:
     """λ₀ and r₀ over κ/ν, theory's curve and numerical points, and the relative differences below."""
     leading = list({(r.label, r.kappa_over_nu): r for r in rows}.values())
-    marks = style.marks(r.label for r in leading)
-    ratios = np.array([r.kappa_over_nu for r in leading])
-    curve = np.geomspace(min(ratios.min() / 2, 0.05), max(ratios.max() * 1.5, 1.0), 400)
+    ratios = [r.kappa_over_nu for r in leading]
+    curve = np.geomspace(min(*ratios, 0.1) / 2, max(1.5 * max(ratios), 1.0), 400)
     exact = contact_parameters(curve)
-    shift = dict(zip(marks, 1.015 ** (np.arange(len(marks)) - (len(marks) - 1) / 2)))
     with style.figure(2, 2, width=style.PAGE, height=4.4, sharex=True, height_ratios=[2, 1]) as (fig, axes):
-        for column, (what, symbol) in enumerate((("lambda0", r"$\lambda_0$"), ("r0", r"$r_0/\nu$"))):
-            top, below = axes[0, column], axes[1, column]
+        for (top, below), what, symbol in zip(axes.T, ("lambda0", "r0"), (r"$\lambda_0$", r"$r_0/\nu$")):
             values = np.asarray(getattr(exact, what), float)
-            shown = values > 0
-            top.loglog(curve[shown], values[shown], **style.THEORY)
-            below.axhline(0.0, **{**style.THEORY, "label": None})
-            for label, mark in marks.items():
-                mine = [
-                    (r.kappa_over_nu, getattr(r, what))
-                    for r in leading
-                    if r.label == label and getattr(r, what).measured
-                ]
-                mine = [(k, c) for k, c in mine if c.theory]  # λ₀ = 0 has no place on a logarithmic axis
-                if not mine:
-                    continue
-                x = np.array([k for k, _ in mine])
-                top.plot(x, [c.value for _, c in mine], **mark)
-                below.errorbar(
-                    x * shift[label],
-                    [100 * c.relative() for _, c in mine],
-                    yerr=[100 * (c.relative_error() or 0.0) for _, c in mine],
-                    elinewidth=0.8,
-                    capsize=2,
-                    **{**mark, "label": None},
-                )
+            top.loglog(curve[values > 0], values[values > 0], **style.THEORY)
             top.set_ylabel(f"{symbol}  (1)")
-            below.set_ylabel("difference  (%)")
-            below.set_yscale("symlog", linthresh=1e-2)
-            below.set_yticks([-10, -1, -0.1, 0, 0.1, 1, 10], ["−10", "−1", "−0.1", "0", "0.1", "1", "10"])
-            compared = [getattr(r, what) for r in leading]
-            reach = [abs(c.relative() or 0.0) + (c.relative_error() or 0.0) for c in compared if c.theory]
-            limit = max(2.0, 150 * max(reach, default=0.0))  # every point and its bar have their place
-            below.set_ylim(-limit, limit)
-            below.set_xlabel(r"$\kappa/\nu$  (1)")
-            style.panel_label(top, "(a)" if column == 0 else "(b)")
+            below.axhline(0.0, **{**style.THEORY, "label": None})
+            _compare(top, below, leading, what)
+        style.label_panels(*axes[0])
         axes[0, 0].legend()
         _say_what_is_missing(fig, [r for r in leading if not r.lambda0.measured])
         return style.save(fig, out, name, formats)
+
+
+def _compare(top: Axes, below: Axes, rows: Sequence[MatchRow], what: str) -> None:
+    """Points of each method, a little apart from one another below, where they are differences from theory."""
+    marks = style.marks(r.label for r in rows)
+    limit = 2.0
+    for i, (label, mark) in enumerate(marks.items()):
+        mine = [(r.kappa_over_nu, getattr(r, what)) for r in rows if r.label == label]
+        mine = [(k, c) for k, c in mine if c.measured and c.theory]  # λ₀ = 0 has no place on a logarithmic axis
+        if not mine:
+            continue
+        x = np.array([k for k, _ in mine])
+        top.plot(x, [c.value for _, c in mine], **mark)
+        off = np.array([100 * c.relative() for _, c in mine])
+        bars = np.array([100 * (c.relative_error() or 0.0) for _, c in mine])
+        style.bars(below, x * 1.015 ** (i - (len(marks) - 1) / 2), off, bars, {**mark, "label": None})
+        limit = max(limit, 1.5 * float(np.max(np.abs(off) + bars)))  # every point and its bar have their place
+    below.set(xlabel=r"$\kappa/\nu$  (1)", ylabel="difference  (%)")
+    below.set_yscale("symlog", linthresh=1e-2)
+    below.set_yticks([-10, -1, -0.1, 0, 0.1, 1, 10], ["−10", "−1", "−0.1", "0", "0.1", "1", "10"])
+    below.set_ylim(-limit, limit)
 
 
 def draw_first_order(
@@ -95,57 +86,57 @@ def draw_first_order(
     theory each, and the points."""
     asked = [r for r in rows if r.of_first_order]
     # in free flight α differs with κ/ν, and λ₁, r₁ are λ_N, r_N times the axial force: one curve
-    firsts: list[First | None] = [*sorted({r.first for r in asked if not r.of_tension_alone})]
-    firsts += [None] if any(r.of_tension_alone for r in asked) else []
+    groups: dict[First | None, list[MatchRow]] = {}
+    for row in sorted(asked, key=lambda r: (r.of_tension_alone, r.first)):
+        groups.setdefault(None if row.of_tension_alone else row.first, []).append(row)
     marks = style.marks(r.label for r in asked)
-    tension = any(first[3] for first in firsts if first)
-    curve = np.linspace(0.05, 0.9999, 400)  # λ₁ jumps to 0 at κ/ν = 1
-    columns = (
-        ("lambda1", r"$\lambda_1$", "lambda_axial", r"$\lambda_N$"),
-        ("r1", r"$r_1$", "r_axial", r"$r_N$"),
-    )
+    tension = any(first[3] for first in groups if first)
     with style.figure(1, 2, width=style.PAGE, height=3.6) as (fig, axes):
-        for column, (what, symbol, tensile, of_tension) in enumerate(columns):
-            axis = axes[column]
+        for axis, what, symbol in zip(axes, ("lambda1", "r1"), (r"$\lambda_{}$", "$r_{}$")):
             largest = 1.0
-            for i, first in enumerate(firsts):
-                mine = [r for r in asked if (None if r.of_tension_alone else r.first) == first]
-                shown = curve[curve >= 0.8 * min(r.kappa_over_nu for r in mine)]
-                if first is None:
-                    values = getattr(contact_parameters(shown), tensile)
-                    named = r"tension alone: $\lambda_N$, $r_N$"
-                else:
-                    values = getattr(contact_parameters(shown, *first[:3], axial=first[3]), what)
-                    named = f"({', '.join(f'{v:g}' for v in first[: 4 if tension else 3])})".replace("-", "−")
-                line = {**style.THEORY, "lw": 0.9, "ls": DASHES[i % len(DASHES)]}
-                axis.plot(shown, values, **{**line, "label": named if column == 0 else None})
+            for (first, mine), dashes in zip(groups.items(), cycle(DASHES)):
+                named = _named(first, tension) if axis is axes[0] else None
+                line = {**style.THEORY, "lw": 0.9, "ls": dashes, "label": named}
+                axis.plot(*_curve(mine, first, what), **line)
                 for label, mark in marks.items():
                     points = [
-                        (r.kappa_over_nu, getattr(r, what), r.axial if first is None else 1.0)
+                        (r.kappa_over_nu, getattr(r, what).scaled(1.0 / r.axial if first is None else 1.0))
                         for r in mine
                         if r.label == label and getattr(r, what).measured
                     ]
                     if points:
-                        axis.errorbar(
-                            [k for k, _, _ in points],
-                            [c.value / unit for _, c, unit in points],
-                            yerr=[(c.error or 0.0) / abs(unit) for _, c, unit in points],
-                            elinewidth=0.8,
-                            capsize=2,
-                            **{**mark, "label": None},
-                        )
-                        largest = max(largest, *(abs(c.value / unit) for _, c, unit in points))
-            axis.set_yscale("symlog", linthresh=1.0) if largest > 30 else None
-            axis.set_xlabel(r"$\kappa/\nu$  (1)")
-            axis.set_ylabel(f"{', '.join([symbol] * any(firsts) + [of_tension] * (None in firsts))}  (1)")
-            style.panel_label(axis, "(a)" if column == 0 else "(b)")
-        symbols = r"($\alpha$, $\psi$, $\chi$, $N$)" if tension else r"($\alpha$, $\psi$, $\chi$)"
-        axes[0].legend(title=symbols if any(firsts) else None, ncols=1 if None in firsts else 2)
+                        bars = [abs(c.error or 0.0) for _, c in points]
+                        x, values = [k for k, _ in points], [c.known for _, c in points]
+                        style.bars(axis, x, values, bars, {**mark, "label": None})
+                        largest = max(largest, *map(abs, values))
+            if largest > 30:
+                axis.set_yscale("symlog", linthresh=1.0)
+            symbols = [symbol.format(1)] * any(groups) + [symbol.format("N")] * (None in groups)
+            axis.set(xlabel=r"$\kappa/\nu$  (1)", ylabel=f"{', '.join(symbols)}  (1)")
+        style.label_panels(*axes)
+        loads = r"($\alpha$, $\psi$, $\chi$, $N$)" if tension else r"($\alpha$, $\psi$, $\chi$)"
+        axes[0].legend(title=loads if any(groups) else None, ncols=1 if None in groups else 2)
         for mark in [*marks.values(), style.THEORY]:
             axes[1].plot([], [], **mark)
         axes[1].legend()
         _say_what_is_missing(fig, [r for r in asked if not r.lambda1.measured])
         return style.save(fig, out, name, formats)
+
+
+def _named(first: First | None, tension: bool) -> str:
+    """A curve in the legend."""
+    if first is None:
+        return r"tension alone: $\lambda_N$, $r_N$"
+    return f"({', '.join(f'{v:g}' for v in first[: 4 if tension else 3])})".replace("-", "−")
+
+
+def _curve(rows: Sequence[MatchRow], first: First | None, what: str) -> tuple[Any, Any]:
+    """Theory's numbers over κ/ν, from a little below the rows'; λ₁ jumps to 0 at κ/ν = 1."""
+    curve = np.linspace(0.05, 0.9999, 400)
+    curve = curve[curve >= 0.8 * min(r.kappa_over_nu for r in rows)]
+    if first is None:
+        return curve, getattr(contact_parameters(curve), {"lambda1": "lambda_axial", "r1": "r_axial"}[what])
+    return curve, getattr(contact_parameters(curve, *first[:3], axial=first[3]), what)
 
 
 def _say_what_is_missing(fig: Any, lost: Sequence[MatchRow]) -> None:

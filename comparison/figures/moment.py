@@ -68,13 +68,8 @@ def measure_moment(method: Method, kappa_over_nu: float) -> MeasuredMoment:
         raise ValueError(f"method: {method.path} does not know how to be refined")
     (coarsest, _), (coarse, _), (own, spread) = (_late_moment(m, kappa_over_nu) for m in (quarter, half, method))
     value = aitken(coarsest, coarse, own)
-    return MeasuredMoment(
-        method.label,
-        kappa_over_nu,
-        value,
-        abs(value - own) + spread,
-        float(peak_moment(kappa_over_nu).largest),
-    )
+    theory = float(peak_moment(kappa_over_nu).largest)
+    return MeasuredMoment(method.label, kappa_over_nu, value, abs(value - own) + spread, theory)
 
 
 def aitken(first: float, second: float, third: float) -> float:
@@ -110,35 +105,15 @@ def draw_moments(found: Sequence[MeasuredMoment], out: Path, formats: Sequence[s
             mine = [m for m in found if m.label == label]
             x = np.array([m.kappa_over_nu for m in mine])
             left.plot(x, [m.value for m in mine], **mark)
-            right.errorbar(
-                x * 1.04 ** (i - 0.5 * (len(marks) - 1)),
-                [100.0 * (m.value / m.theory - 1.0) for m in mine],
-                yerr=[100.0 * m.error / m.theory for m in mine],
-                elinewidth=0.8,
-                capsize=2,
-                **mark,
-            )
-        for axis in (left, right):
-            axis.set_xlabel(r"$\kappa/\nu$  (1)")
-        left.set_ylabel(r"$M/(V_0\sqrt{EI\mu})$  (1)")
-        right.set_ylabel("difference  (%)")
-        right.set_xscale("log")
-        left.set_ylim(0.0, 1.12)
+            percent = [100.0 * (m.value / m.theory - 1.0) for m in mine]
+            bars = [100.0 * m.error / m.theory for m in mine]
+            style.bars(right, x * 1.04 ** (i - 0.5 * (len(marks) - 1)), percent, bars, mark)
+        left.set(xlabel=r"$\kappa/\nu$  (1)", ylabel=r"$M/(V_0\sqrt{EI\mu})$  (1)", ylim=(0.0, 1.12))
+        right.set(xlabel=r"$\kappa/\nu$  (1)", ylabel="difference  (%)", xscale="log")
         left.legend()
         right.legend()
-        style.panel_label(left, "(a)")
-        style.panel_label(right, "(b)")
+        style.label_panels(left, right)
         return style.save(fig, out, "peak-moment", formats)
-
-
-def write(found: Sequence[MeasuredMoment], folder: Path) -> list[Path]:
-    """Store the points and draw them in ``folder``."""
-    document = {
-        **stamp("python -m comparison.figures.moment"),
-        "points": [asdict(m) for m in found],
-    }
-    write_atomically(folder / "peak-moment.json", json.dumps(document, indent=1) + "\n")
-    return draw_moments(found, folder)
 
 
 def _main() -> None:
@@ -147,7 +122,9 @@ def _main() -> None:
     found = [measure_moment(method, kappa) for method, kappa in asked]
     for m in found:
         print(f"{m.label:14s} {m.kappa_over_nu:6g}  {m.value:.5f} ± {m.error:.1g}  theory {m.theory:.5f}")
-    print(*write(found, folder))
+    document = {**stamp("python -m comparison.figures.moment"), "points": [asdict(m) for m in found]}
+    write_atomically(folder / "peak-moment.json", json.dumps(document, indent=1) + "\n")
+    print(*draw_moments(found, folder))
 
 
 if __name__ == "__main__":

@@ -15,37 +15,21 @@ from pathlib import Path
 from typing import Any
 
 import matplotlib
+import numpy as np
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
+from matplotlib.artist import Artist
 from matplotlib.axes import Axes
+from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 from comparison.store import write_atomically
 
-__all__ = [
-    "COLOURS",
-    "COLUMN",
-    "EXUDYN",
-    "FORMATS",
-    "HERMITE",
-    "PAGE",
-    "SELF_SIMILAR",
-    "SEQUENCE",
-    "THEORY",
-    "WALL",
-    "asked_folder",
-    "figure",
-    "mark",
-    "marks",
-    "panel_label",
-    "save",
-    "wall_below",
-]
-
 COLUMN = 3.4  # width of one column, inches
 PAGE = 7.0  # width of both
-FORMATS = ("png", "pdf", "svg")
+DPI = 110  # of an animation
+FORMATS: dict[str, Any] = {"png": {"Software": None}, "pdf": {"CreationDate": None}, "svg": {"Date": None}}  # no time
 
 COLOURS = {
     "black": "#000000",
@@ -62,10 +46,10 @@ SEQUENCE = [COLOURS[c] for c in ("blue", "vermilion", "green", "purple", "sky", 
 
 THEORY: dict[str, Any] = {"color": COLOURS["black"], "lw": 1.2, "ls": "-", "marker": "", "label": "theory"}
 WALL: dict[str, Any] = {"color": COLOURS["grey"], "lw": 0.8, "ls": ":", "label": "wall"}
-_OPEN: dict[str, Any] = {"ls": "", "ms": 4.0, "mfc": "none", "mew": 1.0}
-HERMITE: dict[str, Any] = {**_OPEN, "color": COLOURS["blue"], "marker": "o", "ms": 4.5, "label": "Hermite"}
-SELF_SIMILAR: dict[str, Any] = {**_OPEN, "color": COLOURS["green"], "marker": "D", "ms": 3.8, "label": "Self-similar"}
-EXUDYN: dict[str, Any] = {**_OPEN, "color": COLOURS["vermilion"], "marker": "s", "ms": 3.5, "label": "Exudyn"}
+OPEN: dict[str, Any] = {"ls": "", "ms": 4.0, "mfc": "none", "mew": 1.0}
+HERMITE: dict[str, Any] = {**OPEN, "color": COLOURS["blue"], "marker": "o", "ms": 4.5, "label": "Hermite"}
+SELF_SIMILAR: dict[str, Any] = {**OPEN, "color": COLOURS["green"], "marker": "D", "ms": 3.8, "label": "Self-similar"}
+EXUDYN: dict[str, Any] = {**OPEN, "color": COLOURS["vermilion"], "marker": "s", "ms": 3.5, "label": "Exudyn"}
 MARKERS = {"hermite": HERMITE, "self_similar": SELF_SIMILAR, "exudyn": EXUDYN}
 MARKS = "^vP<>Xhd*p"
 
@@ -78,7 +62,7 @@ def marks(labels: Iterable[str]) -> dict[str, dict[str, Any]]:
     names = list(dict.fromkeys(labels))
     others = [label for label in names if label not in known]
     own = {
-        label: {**_OPEN, "color": free[i % len(free)], "marker": MARKS[i % len(MARKS)], "label": label}
+        label: {**OPEN, "color": free[i % len(free)], "marker": MARKS[i % len(MARKS)], "label": label}
         for i, label in enumerate(others)
     }
     return {label: (known | own)[label] for label in names}
@@ -120,7 +104,7 @@ def figure(
 ) -> Iterator[tuple[Figure, Any]]:
     """A figure in the project's style, closed afterwards: ``with figure() as (fig, ax): …``. Sizes in inches."""
     with plt.rc_context(RC):
-        tall = height if height is not None else 0.75 * width / columns * rows
+        tall = height or 0.75 * width / columns * rows
         fig, axes = plt.subplots(rows, columns, figsize=(width, tall), **kwargs)
         try:
             yield fig, axes
@@ -135,10 +119,7 @@ def save(fig: Figure, out: Path, name: str, formats: Sequence[str] = ("png",)) -
         if kind not in FORMATS:
             raise ValueError(f"format must be one of {', '.join(FORMATS)} (got {kind!r})")
         stream = BytesIO()
-        metadata: dict[str, Any] = {"png": {"Software": None}, "pdf": {"CreationDate": None}, "svg": {"Date": None}}[
-            kind
-        ]
-        fig.savefig(stream, format=kind, metadata=metadata)
+        fig.savefig(stream, format=kind, metadata=FORMATS[kind])
         files.append(out / f"{name}.{kind}")
         write_atomically(files[-1], stream.getvalue())
     return files
@@ -169,3 +150,48 @@ def wall_below(axis: Axes, low: float, high: float) -> None:
 def panel_label(axis: Axes, text: str) -> None:
     """(a), (b) … in the upper left corner, outside the data."""
     axis.text(0.0, 1.02, text, transform=axis.transAxes, ha="left", va="bottom", fontweight="bold", fontsize=8.5)
+
+
+class Film:
+    """Pictures of a figure in which only some artists move: the rest is drawn once, which takes nearly all the time.
+
+    moving : what changes from picture to picture, drawn over the rest in this order.
+    """
+
+    def __init__(self, fig: Figure, moving: Sequence[Artist]) -> None:
+        self.fig, self.moving = fig, moving
+        for artist in moving:
+            artist.set_animated(True)
+        fig.set_dpi(DPI)
+        self.canvas = FigureCanvasAgg(fig)
+        self.canvas.draw()
+        self.still = self.canvas.copy_from_bbox(fig.bbox)
+
+    def picture(self) -> Any:
+        """The figure as it stands, as one picture of 64 colours."""
+        from PIL import Image
+
+        self.canvas.restore_region(self.still)
+        for artist in self.moving:
+            self.fig.draw_artist(artist)
+        pixels = np.asarray(self.canvas.buffer_rgba())[..., :3]
+        return Image.fromarray(pixels).convert("P", palette=Image.Palette.ADAPTIVE, colors=64)
+
+
+def write_gif(frames: Sequence[Any], file: Path, per_second: int) -> None:
+    """Write ``frames`` to ``file``, atomically, to be shown over and over."""
+    stream = BytesIO()
+    film = {"save_all": True, "append_images": frames[1:], "duration": 1000 // per_second, "loop": 0}
+    frames[0].save(stream, format="GIF", optimize=True, **film)
+    write_atomically(file, stream.getvalue())
+
+
+def label_panels(*axes: Axes) -> None:
+    """(a), (b) … on all of them in turn."""
+    for axis, letter in zip(axes, "abcdef"):
+        panel_label(axis, f"({letter})")
+
+
+def bars(axis: Axes, x: Any, values: Any, errors: Any, mark: dict[str, Any]) -> None:
+    """Points with their error bars."""
+    axis.errorbar(x, values, yerr=errors, elinewidth=0.8, capsize=2, **mark)

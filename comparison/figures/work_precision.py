@@ -9,13 +9,14 @@ colour an integrator, a marker a contact.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from functools import partial
 from pathlib import Path
 from typing import Any
 
 from matplotlib.ticker import FormatStrFormatter, LogLocator, NullFormatter
 
 from comparison.figures import style
-from comparison.rows import MatchRow
+from comparison.rows import LEAST, MatchRow
 
 __all__ = ["draw_work_precision"]
 
@@ -40,24 +41,21 @@ def draw_work_precision(rows: Sequence[MatchRow], out: Path, formats: Sequence[s
     return files
 
 
-def _error(what: str, least: float) -> Read:
-    def read(row: MatchRow) -> tuple[float | None, float | None]:
-        number = getattr(row, what)
-        off = number.relative(least)
-        return None if off is None else abs(off), number.relative_error(least)
-
-    return read
+def _error(what: str, row: MatchRow) -> tuple[float | None, float | None]:
+    number = getattr(row, what)
+    off = number.relative(LEAST[what])
+    return None if off is None else abs(off), number.relative_error(LEAST[what])
 
 
 def _draw(
     rows: Sequence[MatchRow], out: Path, name: str, first: bool, formats: Sequence[str], missing: int
 ) -> list[Path]:
-    measured = ("r1", "lambda1") if first else ("r0", "lambda0")
-    symbols = {"r0": "$r_0$", "lambda0": r"$\lambda_0$", "r1": "$r_1$", "lambda1": r"$\lambda_1$"}
+    order = 1 if first else 0
     panels: list[tuple[str, Read]] = [
-        (f"error of {symbols[what]}  (1)", _error(what, 1.0 if first else 0.0)) for what in measured
+        (f"error of $r_{order}$  (1)", partial(_error, f"r{order}")),
+        (rf"error of $\lambda_{order}$  (1)", partial(_error, f"lambda{order}")),
+        (r"lift $/(V_0t)$" + (", no load" if first else "") + "  (1)", lambda row: (row.lift, None)),
     ]
-    panels.append((r"lift $/(V_0t)$" + (", no load" if first else "") + "  (1)", lambda row: (row.lift, None)))
     groups = _groups(rows)
     marks = {label: mark for group in groups for label, mark in _marks(group).items()}
     cases = sorted({(r.kappa_over_nu, r.first) for r in rows})
@@ -70,11 +68,8 @@ def _draw(
             for axis, (title, read) in zip(axes[line], panels):
                 for label, mark in marks.items():
                     _line(axis, [r for r in group if r.label == label and _case(r) == case], read, mark)
-                axis.set_yscale("log")
+                axis.set(yscale="log", ylabel=title, xlabel="seconds  (s)" if line == len(lines) - 1 else "")
                 _seconds(axis, rows)
-                axis.set_ylabel(title)
-                if line == len(lines) - 1:
-                    axis.set_xlabel("seconds  (s)")
             paths = ", ".join(dict.fromkeys(r.path for r in group)) if len(groups) > 1 else ""
             axes[line][0].set_title(_title(case, paths, first), loc="left")
         for axis in axes[0]:
@@ -157,12 +152,9 @@ def _marks(rows: Sequence[MatchRow]) -> dict[str, dict[str, Any]]:
     integrators, contacts = (list(dict.fromkeys(p[i] for p in parts.values())) for i in (0, 1))
     return {
         label: {
+            **style.OPEN,
             "color": style.SEQUENCE[integrators.index(parts[label][0]) % len(style.SEQUENCE)],
             "marker": MARKERS[contacts.index(parts[label][1]) % len(MARKERS)],
-            "ms": 4.0,
-            "mfc": "none",
-            "mew": 1.0,
-            "ls": "",
             "label": label,
         }
         for label in labels

@@ -15,19 +15,19 @@ from numpy.typing import NDArray
 from bent_beam.free_flight import pushing
 from bent_beam.history import ImpactHistory
 from comparison.bounce import Bounce
-from comparison.bounce_document import bounce_document
 from comparison.figures import style
-from comparison.figures.gif import Film, write_gif
+from comparison.figures.style import Film, write_gif
 from comparison.plain import json_text
 from comparison.store import write_atomically
 from comparison.whole_impact.stored_map import stored_map
+from comparison.whole_impact.table import bounce_document
 
 __all__ = ["animate_bounce", "draw_bounce", "draw_map", "write_bounce"]
 
 Array = NDArray[np.float64]
 WINDOWS = 160  # of the force: what is quicker is noise of the reader's eye
 SHAPES = 7
-FRAMES = 90
+FRAMES, PER_SECOND = 90, 18
 PANELS = {
     "restitution": r"restitution $e$",
     "last_contact": r"last contact $t/T^*$",
@@ -54,6 +54,11 @@ def _force(history: ImpactHistory, end: float) -> tuple[Array, Array]:
     time = history.time / impact.slow_time_scale
     edges = np.linspace(0.0, end, WINDOWS + 1)
     return edges, np.diff(np.interp(edges, time, history.array("total_impulse") / unit)) / np.diff(edges)
+
+
+def _top(force: Array) -> float:
+    """Of an axis of forces: the first window holds the start, which is infinite."""
+    return 1.1 * float(force[1:].max())
 
 
 def _contacts(history: ImpactHistory) -> tuple[Array, Array]:
@@ -83,31 +88,21 @@ def draw_bounce(found: Bounce, out: Path, formats: Sequence[str] = ("png",)) -> 
     edges, force = _force(history, end)
     time, place = _contacts(history)
     with style.figure(2, 2, width=style.PAGE, height=4.0, width_ratios=[1.35, 1.0]) as (fig, axes):
+        (push, _), (zone, _) = axes
         for axis in axes[:, 1]:
             axis.remove()
-        push, zone = axes[0, 0], axes[1, 0]
-        shapes = fig.add_subplot(axes[0, 0].get_gridspec()[:, 1])
+        shapes = fig.add_subplot(push.get_gridspec()[:, 1])
         push.stairs(force, edges, fill=True, color=style.COLOURS["sky"], lw=0.0)
         push.stairs(force, edges, color=style.COLOURS["blue"], lw=0.8)
-        push.set_ylim(0.0, 1.1 * float(force[1:].max()))  # the first window holds the start, which is infinite
-        push.set_ylabel(r"force of the wall  ($\mu\ell V_0/T^*$)")
+        push.set(xlim=(0.0, end), ylim=(0.0, _top(force)), ylabel=r"force of the wall  ($\mu\ell V_0/T^*$)")
         push.tick_params(labelbottom=False)
         zone.plot(time, place, ls="", marker=".", ms=2.0, color=style.COLOURS["vermilion"], rasterized=True)
         zone.axhline(0.0, color=style.COLOURS["grey"], lw=0.5)
-        zone.set_ylim(-1.05, 1.05)
-        zone.set_ylabel(r"contact at $x/\ell$")
-        zone.set_xlabel(r"$t/T^*$")
-        for axis in (push, zone):
-            axis.set_xlim(0.0, end)
+        zone.set(xlabel=r"$t/T^*$", ylabel=r"contact at $x/\ell$", xlim=(0.0, end), ylim=(-1.05, 1.05))
         _draw_shapes(shapes, history, end)
-        style.panel_label(push, "(a)")
-        style.panel_label(zone, "(b)")
-        style.panel_label(shapes, "(c)")
-        push.set_title(
-            rf"$\kappa/\nu$ = {impact.kappa_over_nu:.4g}, $\eta/T^*$ = {impact.relative_damping:.3g}",
-            loc="right",
-            pad=3.0,
-        )
+        style.label_panels(push, zone, shapes)
+        title = rf"$\kappa/\nu$ = {impact.kappa_over_nu:.4g}, $\eta/T^*$ = {impact.relative_damping:.3g}"
+        push.set_title(title, loc="right", pad=3.0)
         return style.save(fig, out, "bounce", formats)
 
 
@@ -123,10 +118,7 @@ def _draw_shapes(axis: Any, history: ImpactHistory, end: float) -> None:
         axis.plot(x, base - y, color=style.COLOURS["blue"], lw=1.4)
         axis.text(1.06, base, f"{t:.2f}", va="center", fontsize=7.0)
     axis.text(1.06, 0.62 * step, r"$t/T^*$", va="center", fontsize=7.5)
-    axis.set_xlim(-1.05, 1.3)
-    axis.set_ylim(-(SHAPES - 0.7) * step, 1.0 * step)
-    axis.set_xlabel(r"$x/\ell$")
-    axis.set_yticks([])
+    axis.set(xlabel=r"$x/\ell$", xlim=(-1.05, 1.3), ylim=(-(SHAPES - 0.7) * step, step), yticks=[])
     axis.grid(False)
     axis.spines["left"].set_visible(False)
 
@@ -153,18 +145,15 @@ def draw_map(out: Path, formats: Sequence[str] = ("png",)) -> list[Path]:
                 colour = colours[dampings.index(point["damping"])]
                 axis.errorbar(point["kappa_over_nu"], *point["numbers"][name], color=colour, **look)
             axis.axvspan(0.8, 1.0, color="#F5DCCB", lw=0.0, zorder=-1)
-            axis.set_xscale("log")
-            axis.set_xlim(0.048, 4.2)
+            axis.set(xscale="log", xlim=(0.048, 4.2), ylabel=title)
             axis.set_xticks([0.05, 0.1, 0.2, 0.5, 1.0, 4.0], ["0.05", "0.1", "0.2", "0.5", "1", r"$\geq$4"])
             axis.minorticks_off()
-            axis.set_ylabel(title)
             axis.set_ylim(0.0, min(axis.get_ylim()[1], 1.0) if name in SHARES else None)
         for axis in axes[1]:
             axis.set_xlabel(r"$\kappa/\nu$")
         handles, labels = axes[0, 0].get_legend_handles_labels()
         fig.legend(handles, labels, title=r"$\eta/T^*$", loc="outside upper center", ncols=len(labels))
-        for axis, letter in zip(axes.flat, "abcdef"):
-            style.panel_label(axis, f"({letter})")
+        style.label_panels(*axes.flat)
         return style.save(fig, out, "bounce-map", formats)
 
 
@@ -173,11 +162,11 @@ def _power(damping: float) -> str:
     return rf"$10^{{{int(power)}}}$" if digit == "1" else rf"${digit}\cdot10^{{{int(power)}}}$"
 
 
-def animate_bounce(history: ImpactHistory, file: Path, *, frames: int = FRAMES, per_second: int = 18) -> Path:
+def animate_bounce(history: ImpactHistory, file: Path) -> Path:
     """The beam over the wall with the points that push, and the force so far, as an animated GIF."""
     time = history.time / history.impact.slow_time_scale
     end = float(time[-1])
-    chosen = [int(np.argmin(np.abs(time - t))) for t in np.linspace(0.0, end, frames)]
+    chosen = [int(np.argmin(np.abs(time - t))) for t in np.linspace(0.0, end, FRAMES)]
     edges, force = _force(history, end)
     when, place = _contacts(history)
     shapes = [_whole(history, k) for k in chosen]
@@ -186,35 +175,26 @@ def animate_bounce(history: ImpactHistory, file: Path, *, frames: int = FRAMES, 
     with style.figure(2, 1, width=4.6, height=4.0, height_ratios=[1.5, 1]) as (fig, (top, below)):
         top.axhspan(0.0, 0.25 * low, color="#E4E4E4", lw=0)
         top.axhline(0.0, color=style.COLOURS["grey"], lw=0.8)
-        top.set_xlim(-1.05, 1.05)
-        top.set_ylim(-1.05 * low, 0.25 * low)
-        top.set_xlabel(r"$x/\ell$")
-        top.set_ylabel(r"deflection  ($V_0T^*$)")
+        top.set(
+            xlabel=r"$x/\ell$", ylabel=r"deflection  ($V_0T^*$)", xlim=(-1.05, 1.05), ylim=(-1.05 * low, 0.25 * low)
+        )
         (beam,) = top.plot([], [], color=style.COLOURS["blue"], lw=1.8)
         (touch,) = top.plot([], [], color=style.COLOURS["vermilion"], ls="", marker="^", ms=5)
         clock = top.text(0.99, 0.03, "", transform=top.transAxes, ha="right", va="bottom")
-        below.set_xlim(0.0, end)
-        below.set_ylim(0.0, 1.1 * float(force[1:].max()))
-        below.set_xlabel(r"$t/T^*$")
-        below.set_ylabel(r"force  ($\mu\ell V_0/T^*$)")
+        below.set(xlabel=r"$t/T^*$", ylabel=r"force  ($\mu\ell V_0/T^*$)", xlim=(0.0, end), ylim=(0.0, _top(force)))
         below.stairs(force, edges, fill=True, color="#E4E4E4", lw=0.0)
         past = below.axvline(0.0, color=style.COLOURS["blue"], lw=1.2)
         film = Film(fig, (beam, touch, clock, past))
         for k, (x, y) in zip(chosen, shapes):
             beam.set_data(x, y)
-            near = np.abs(when - time[k]) <= 0.5 * end / frames
+            near = np.abs(when - time[k]) <= 0.5 * end / FRAMES
             touch.set_data(place[near], np.zeros(int(near.sum())))
             clock.set_text(f"$t/T^*$ = {time[k]:.3f}")
             past.set_xdata([time[k], time[k]])
             pictures.append(film.picture())
-    write_gif(pictures, file, per_second)
+    write_gif(pictures, file, PER_SECOND)
     return file
 
 
-def _main() -> None:
-    for file in draw_map(style.asked_folder()):
-        print(file)
-
-
 if __name__ == "__main__":
-    _main()
+    print(*draw_map(style.asked_folder()))

@@ -19,7 +19,7 @@ import dataclasses
 import random
 import sys
 import time as clock
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from itertools import chain, islice
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -33,7 +33,7 @@ from comparison.workers import run_all
 from measure.measured import Band, Measured
 from measure.whole_impact import SHORTEST_SEPARATION
 
-__all__ = ["DAMPINGS", "KAPPAS", "Point", "grid", "measure_map", "measure_point"]
+__all__ = ["DAMPINGS", "KAPPAS", "Point", "grid", "measure_point"]
 
 KAPPAS = (
     *(0.05, 0.07, 0.1, 0.15, 0.2, 0.25, 0.3, 0.4, 0.5),
@@ -83,11 +83,10 @@ def measure_point(point: Point) -> dict[str, Any]:
     if point.damping == 0.0:
         bands = {name: [number.mean, number.std] for name, number in found.numbers.items() if isinstance(number, Band)}
         return {**asked, "runs": RUNS, "seed": SEED, "band": bands}
+    numbers = {name: [n.value, n.error] for name, n in found.numbers.items() if isinstance(n, Measured)}
     return {
         **asked,
-        "numbers": {
-            name: [number.value, number.error] for name, number in found.numbers.items() if isinstance(number, Measured)
-        },
+        "numbers": numbers,
         "energy_defect": found.outcome.energy_defect,
         "energy_gain": found.outcome.energy_gain,
         "steps": found.history.steps,
@@ -99,39 +98,15 @@ def _question(point: Point) -> dict[str, Any]:
     return {"whole impact": point._asdict(), "saved": SAVED}
 
 
-def _is_kept(store: RunStore, point: Point) -> bool:
-    file = store.file(_question(point))
-    return file is not None and file.exists()
-
-
 def _kept_point(store: RunStore, point: Point) -> dict[str, Any]:
     return store.answer(_question(point), lambda: measure_point(point))
-
-
-def measure_map(
-    points: Sequence[Point],
-    *,
-    jobs: int = 1,
-    scheduler: str | None = None,
-    store: RunStore | None = None,
-    progress: Callable[[int, int], None] | None = None,
-) -> list[dict[str, Any]]:
-    """Measure ``points`` in their order, on cores or a cluster."""
-    store = store or RunStore(None)
-    return run_all(
-        _kept_point,
-        [(store, point) for point in points],
-        jobs=jobs,
-        scheduler=scheduler,
-        progress=progress,
-    )
 
 
 def write_map(
     rows: Sequence[dict[str, Any]],
     bands: Sequence[dict[str, Any]],
-    others: Sequence[dict[str, Any]] = (),
-    run: dict[str, Any] | None = None,
+    others: Sequence[dict[str, Any]],
+    run: dict[str, Any],
 ) -> Path:
     """Write ``map.json``. bands : of the undamped beam; others : points of another path, to draw on the map; run : what
     the command took, see :func:`_main`."""
@@ -195,7 +170,7 @@ def _main() -> int:
     store = RunStore(default_store())
     parts = grid(), [Point(PATH, kappa, 0.0) for kappa in BANDS], [Point(OTHER, *at, COARSER) for at in OTHERS]
     points = list(chain(*parts))
-    before = sum(_is_kept(store, point) for point in points)
+    before = sum(file is not None and file.exists() for file in (store.file(_question(point)) for point in points))
     if before:
         print(f"{before} of {len(points)} points are kept from an earlier run of the same code")
     began = clock.perf_counter()
@@ -203,8 +178,9 @@ def _main() -> int:
     def count(done: int, total: int) -> None:
         print(f"\r{done}/{total}, {clock.perf_counter() - began:.0f} s", end="", flush=True)
 
+    calls = [(store, point) for point in points]
     try:
-        found = iter(measure_map(points, jobs=asked.jobs, scheduler=asked.scheduler, store=store, progress=count))
+        found = iter(run_all(_kept_point, calls, jobs=asked.jobs, scheduler=asked.scheduler, progress=count))
     except KeyboardInterrupt:
         print("\ninterrupted: the same command again goes on from there")
         return 130

@@ -15,15 +15,14 @@ from bent_beam.impact import Impact
 from bent_beam.loads import unmodelled
 from bent_beam.method import Method, for_whole_beam, refined, simulate_to_separation
 from bent_beam.section import Section
+from comparison.bounce import Number, largest_stress, scales
 from comparison.companions import companions_of, number_of
-from comparison.units import scales
 from comparison.whole_impact.stored_map import bounce_from_map
 from measure.measured import Band, Measured
 from measure.whole_impact import whole_impact
 
 __all__ = ["over_damping", "predicted_impact"]
 
-Number = Measured | Band
 NUMBERS = ("restitution", "last_contact", "peak_moment")
 WIDE = 0.05  # error bar of the map's largest moment over its value, beyond which the beam is simulated
 COARSE, INSTANTS = 0.5, 1000  # resolution, and saved instants a T*
@@ -38,9 +37,7 @@ def predicted_impact(case: Case, method: Method | None) -> dict[str, Any] | None
     method : to simulate with (``None``: nothing is simulated).
     """
     impact = case.impact
-    found, source = _from_map(impact), "stored map"
-    if found is None and method is not None and impact.opposite_wall is None:
-        found, source = _simulated(impact, method), "simulation"
+    found, source = _found(impact, method)
     if found is None:
         return None
     return {
@@ -61,19 +58,20 @@ def over_damping(impact: Impact, section: Section | None, method: Method | None,
     found = []
     for ratio in DAMPING_RATIOS:
         damping = ratio * LOWEST_PERIOD / math.pi * impact.slow_time_scale
-        moment = own if math.isclose(damping, impact.damping, rel_tol=SAME) else _moment(impact, method, damping)
-        if moment is not None:
-            found.append({"damping_ratio": ratio, **_peaks(impact, section, moment)})
+        numbers: Mapping[str, Number] | None = {"peak_moment": own}
+        if not math.isclose(damping, impact.damping, rel_tol=SAME):
+            numbers, _ = _found(impact.replace(damping=damping, hysteretic_loss=0.0, loss_frequency=None), method)
+        if numbers is not None:
+            found.append({"damping_ratio": ratio, **_peaks(impact, section, numbers["peak_moment"])})
     return found
 
 
-def _moment(impact: Impact, method: Method | None, damping: float) -> Number | None:
-    """The largest moment of the whole impact with another ``damping``, s."""
-    damped = impact.replace(damping=damping, hysteretic_loss=0.0, loss_frequency=None)
-    found = _from_map(damped)
+def _found(impact: Impact, method: Method | None) -> tuple[Mapping[str, Number] | None, str]:
+    """The numbers of the whole impact, and where they come from; ``None`` where nothing says them."""
+    found = _from_map(impact)
     if found is None and method is not None and impact.opposite_wall is None:
-        found = _simulated(damped, method)
-    return None if found is None else found["peak_moment"]
+        return _simulated(impact, method), "simulation"
+    return found, "stored map"
 
 
 def _from_map(impact: Impact) -> Mapping[str, Number] | None:
@@ -86,11 +84,8 @@ def _from_map(impact: Impact) -> Mapping[str, Number] | None:
 
 def _peaks(impact: Impact, section: Section | None, largest: Number) -> dict[str, Any]:
     """Largest moment, N m, and stress, Pa, from the moment over V₀√(μEI)."""
-    moment = largest.scaled(impact.velocity * (impact.bending_stiffness * impact.mass_per_length) ** 0.5)
-    stress = None
-    if section is not None:
-        stress = moment.scaled(1.0 / section.section_modulus, section.stress(0.0, impact.axial_force)).to_dict()
-    return {"peak_moment": moment.to_dict(), "peak_stress": stress}
+    moment, stress = largest.scaled(scales(impact)["moment"]), largest_stress(largest, impact, section)
+    return {"peak_moment": moment.to_dict(), "peak_stress": None if stress is None else stress.to_dict()}
 
 
 def _simulated(impact: Impact, method: Method) -> dict[str, Number]:

@@ -1,20 +1,31 @@
-"""A whole impact as a table for readers."""
+"""A whole impact as the document of ``bentbeam bounce --json`` and as a table for readers."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from typing import Any
 
+from bent_beam.versions import versions
 from comparison.bounce import Bounce
-from comparison.bounce_document import ENERGY, SI
 from comparison.prediction_text import over_damping_lines
-from comparison.text_table import text_table
-from comparison.units import unit_for
-from measure.measured import Band, Measured
+from comparison.readable import in_unit, text_table, unit_for
 from measure.whole_impact import SHORTEST_SEPARATION, Hit
 
-__all__ = ["bounce_table", "hits_table"]
+__all__ = ["bounce_document", "bounce_table", "hits_table"]
 
+SI = {
+    "impulse": ("impulse", "N s"),
+    "last_contact": ("time", "s"),
+    "peak_moment": ("moment", "N m"),
+    "peak_moment_place": ("length", "m"),
+    "peak_moment_time": ("time", "s"),
+    "midspan_moment": ("moment", "N m"),
+    "peak_force": ("force", "N"),
+    "translation": ("energy", "J"),
+    "vibration": ("energy", "J"),
+    "dissipated": ("energy", "J"),
+}
+ENERGY = ("translation", "vibration", "dissipated")
 TITLES = {
     "restitution": "coefficient of restitution",
     "impulse": "impulse",
@@ -31,27 +42,58 @@ EXPERT = {
     "midspan_moment": "largest moment at the middle",
     "separations": "separations",
 }
-Number = Measured | Band
+
+
+def bounce_document(found: Bounce) -> dict[str, Any]:
+    """The contract of ``bentbeam bounce --json``."""
+    unit, stress, balance = found.units, found.peak_stress, found.balance
+    return {
+        "kappa_over_nu": found.impact.kappa_over_nu,
+        "damping": found.impact.relative_damping,
+        "hysteretic_loss": found.history.settings.get("hysteretic_loss"),
+        **{name: number.to_dict() for name, number in found.numbers.items() if name not in ENERGY},
+        "energy": {name: found.numbers[name].to_dict() for name in ENERGY},
+        "si": {
+            name: {**found.numbers[name].scaled(unit[scale]).to_dict(), "unit": text}
+            for name, (scale, text) in SI.items()
+            if name in found.numbers
+        }
+        | {"time_unit": unit["time"]},
+        "peak_stress": None if stress is None else {**stress.to_dict(), "unit": "Pa"},
+        "yield_stress": None if found.section is None else found.section.yield_stress,
+        "shortest_separation": SHORTEST_SEPARATION,
+        "contacts": [list(times) for times in found.outcome.contacts],
+        "error_parts": {name: dict(parts) for name, parts in found.parts.items()},
+        "energy_defect": found.outcome.energy_defect,
+        "energy_gain": found.outcome.energy_gain,
+        "momentum_residual": balance.momentum,
+        "gap_of_push": balance.gap_of_push,
+        "left": found.left,
+        "steps": found.history.steps,
+        "seconds": found.seconds,
+        "seed": found.seed,
+        "settings": found.settings,
+        "versions": versions(),
+        "warnings": found.warnings,
+    }
 
 
 def bounce_table(found: Bounce, over_damping: Sequence[dict[str, Any]] = (), *, verbose: bool = False) -> str:
     """Every number with its error bar, in SI; ``verbose``: also in units of the beam, with places and times."""
     rows = []
     for name, title in {**TITLES, **(EXPERT if verbose else {})}.items():
-        if name not in found.numbers:  # of a rigid wall
-            continue
-        number = found.numbers[name]
-        own = [str(number)] if verbose else []
-        rows.append([title, *_in_si(found, name, number), *own])
+        if name in found.numbers:  # of a rigid wall there is no force
+            rows.append([title, *_in_si(found, name), str(found.numbers[name])])
         if name == "peak_moment" and found.peak_stress is not None:
-            rows.append(["largest stress", str(found.peak_stress.scaled(1e-6)), "MPa", *([""] if verbose else [])])
+            rows.append(["largest stress", *in_unit(found.peak_stress, "Pa"), ""])
+    columns = 4 if verbose else 3
     name, unit = ("peak_moment", "N m") if found.section is None else ("peak_stress", "Pa")
     values = [row[name]["value"] for row in over_damping]
     scale, unit = unit_for(unit, values)
     over = [line.strip() for line in over_damping_lines(over_damping, name, scale)]
     impact = found.impact
     lines = [
-        text_table(["", "value", "", *(["beam's units"] if verbose else [])], rows),
+        text_table(["", "value", "", "beam's units"][:columns], [row[:columns] for row in rows]),
         "",
         "± is the error bar; a band is mean ± standard deviation of runs. Energies are shares of the initial energy",
         "and the work of the loads, at the last contact: the end of the first hit, after which the beam is off the",
@@ -80,16 +122,13 @@ def _damping_of(found: Bounce) -> str:
     return f"hysteretic loss {loss['loss']:g} within {100.0 * loss['deviation']:.1g} % from {held}"
 
 
-def _in_si(found: Bounce, name: str, number: Number) -> list[str]:
+def _in_si(found: Bounce, name: str) -> list[str]:
     """Value and unit: shares of energy in per cent."""
+    number = found.numbers[name]
     if name in ENERGY:
         return [str(number.scaled(100.0)), "%"]
-    if name not in SI:
-        return [str(number), ""]
-    quantity, unit = SI[name]
-    size = found.units[quantity] * (number.mean if isinstance(number, Band) else number.value or 0.0)
-    scale, text = unit_for(unit, [size])
-    return [str(number.scaled(found.units[quantity] * scale)), text]
+    quantity, unit = SI.get(name, (None, ""))
+    return in_unit(number.scaled(found.units[quantity]) if quantity else number, unit)
 
 
 def hits_table(hits: Sequence[Hit]) -> list[str]:
@@ -97,8 +136,6 @@ def hits_table(hits: Sequence[Hit]) -> list[str]:
     if not hits:
         return []
     head = ["hit", "from, s", "to, s", "impulse, N s", "velocity before, m/s", "after, m/s", "restitution"]
-    body = [
-        [str(number), *(f"{v:.5g}" for v in (h.begin, h.end, h.impulse, h.before, h.after, h.restitution))]
-        for number, h in enumerate(hits, 1)
-    ]
+    names = ("begin", "end", "impulse", "before", "after", "restitution")
+    body = [[str(number), *(f"{getattr(hit, name):.5g}" for name in names)] for number, hit in enumerate(hits, 1)]
     return ["", text_table(head, body)]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from bent_beam import Impact
-from comparison.wall_text import wall_lines
+from comparison.prediction_text import wall_lines
 from hermite_fe import HermiteFE
 from measure.reduction import wall_peaks
 from theory import predict

@@ -6,14 +6,18 @@ from typing import Any
 import pytest
 
 from bent_beam import Impact, ImpactHistory, SimulationError
+from bent_beam.meshes import UniformMesh
 from comparison.match import answer
 from comparison.rows import Question
 from comparison.store import RunStore
+from comparison.summary import Companion, summary
 from exudyn_models import ExudynModel
 from exudyn_models.contacts import CONTACTS
 from hermite_fe import HermiteFE
+from hermite_fe.integrators import MoreauJean
 from measure.moments import first_front
 from measure.reduction import peak_moment
+from theory import predict
 
 BEAM = {"bending_stiffness": 1.0, "mass_per_length": 1.0, "length": 2.0, "velocity": 1.0}
 
@@ -46,8 +50,6 @@ def test_a_lifted_zone_bears_no_load_that_the_half_length_could_lose() -> None:
 
 
 def test_a_pressed_zone_ends_where_theory_says() -> None:
-    from theory import predict
-
     histories = simulated(0.0032, curvature=0.1325, acceleration=5.25)
     theory = predict(histories[0].impact, [0.0032]).times[0].half_contact_length
     for history in histories:
@@ -89,8 +91,6 @@ def test_few_saved_instants_hide_no_maximum(save: int) -> None:
 
 @pytest.mark.parametrize("save", [[0.0002, 0.002], 100])
 def test_few_saved_instants_move_no_front(save: list[float] | int) -> None:
-    from theory import predict
-
     impact = Impact(**BEAM, curvature=0.3)
     history = HermiteFE().simulate(impact, end_time=0.002, save=save)
     theory = predict(impact, [0.002]).times[0].half_contact_length
@@ -101,3 +101,16 @@ def test_few_saved_instants_move_no_front(save: list[float] | int) -> None:
 def test_the_start_of_a_point_contact_is_not_held_by_constraints() -> None:
     history = ExudynModel(contact=CONTACTS["rigid"]()).simulate(Impact(**BEAM, curvature=1.2), end_time=0.002, save=50)
     assert peak_moment(history).moment == pytest.approx(1.0, rel=5e-3)
+
+
+def test_a_zone_that_its_scheme_throws_off_the_wall_is_pushed_too_hard_and_the_bar_says_so() -> None:
+    """A companion that is thrown off alike does not show it. A damped beam lifts off by itself: no bar for that."""
+    impact, end = Impact.whole_beam(0.06), 0.004
+    method = HermiteFE(mesh=UniformMesh(0.01), integrator=MoreauJean(theta=1.0))
+    found = []
+    for one in (impact, impact.replace(damping=1e-3)):
+        history = method.simulate(one, end_time=end, save=60)
+        found.append(summary(history, others=[Companion.of(history)])["total_impulse"])
+    exact = predict(impact, [end]).times[0].impulse
+    assert 0.01 * exact < abs(found[0].known - exact) < found[0].bar < 0.3 * exact
+    assert found[1].bar < 0.01 * exact

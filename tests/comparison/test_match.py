@@ -141,7 +141,7 @@ class Stub:
             while True:
                 time.sleep(0.01)
                 progress(0.0)
-        return SelfSimilarFE().simulate(impact, end_time=end_time, save=save, progress=progress)
+        return SelfSimilarFE(refine=0.5).simulate(impact, end_time=end_time, save=save, progress=progress)
 
 
 def test_what_fails_is_a_row_with_its_reason(tmp_path):

@@ -69,7 +69,7 @@ def test_a_scheduler_that_does_not_answer_is_bad_input_within_ten_seconds(monkey
 
 def test_workers_that_are_missing_or_have_other_sources_are_told_before_the_work(cluster, monkeypatch):
     assert workers.FIRST_ANSWER + 2.0 * workers.FIRST_WORKER < 40.0
-    monkeypatch.setattr("comparison.sources.versions", lambda: {"numpy": "of tomorrow"})
+    monkeypatch.setattr("comparison.store.versions", lambda: {"numpy": "of tomorrow"})
     with pytest.raises(ValueError, match="other sources or versions"):
         run_all(root, [(4.0,)], scheduler=cluster)
     monkeypatch.undo()

@@ -14,12 +14,11 @@ from called import answered, command, refused
 
 from bent_beam import method as methods
 from comparison.command_line import __main__ as start
-from comparison.command_line import app, plot
+from comparison.command_line import app, histories
 from comparison.command_line.options import emit
 from comparison.match import PERTURBATION, match
-from comparison.perturbation import first_order_epsilon
-from comparison.rows import Question
-from comparison.sources import behind
+from comparison.rows import Question, first_order_epsilon
+from comparison.store import behind
 from hermite_fe import HermiteFE
 
 MAIN = "from comparison.command_line.app import main; main()"
@@ -172,7 +171,7 @@ def test_two_histories_of_one_name_are_two_pictures(monkeypatch):
     monkeypatch.setattr(
         "comparison.figures.history.draw_history", lambda history, out, name, kinds: drawn.append(name) or []
     )
-    plot.plot([plot.Path(name) for name in ("a/run.nc", "b/run.nc", "run-2.nc")])
+    histories.plot([histories.Path(name) for name in ("a/run.nc", "b/run.nc", "run-2.nc")])
     assert drawn == ["run", "run-2", "run-2-2"]
 
 

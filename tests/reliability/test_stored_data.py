@@ -16,7 +16,7 @@ import exudyn_models
 import hermite_fe
 from bent_beam import Impact, ImpactHistory
 from bent_beam.meshes import UniformMesh
-from comparison.rerun import rerun_history
+from comparison.compare import rerun_history
 from exudyn_models.contacts import CONTACTS
 from exudyn_models.integrators import INTEGRATORS
 from hermite_fe.integrators import MoreauJean, SignoriniPosition

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from bent_beam.history import ImpactHistory
 from comparison.figures import style
-from comparison.figures.gif import Film, write_gif
+from comparison.figures.style import Film, write_gif
 from self_similar_fe import SelfSimilarFE
 from thesis.gallery.drawing import FREE, nearest
 from thesis.gallery.runs import reference_history

@@ -1,4 +1,4 @@
-"""``bentbeam simulate``."""
+"""The commands on case files: ``bentbeam new``, ``settings``, ``predict``, ``simulate``."""
 
 from __future__ import annotations
 
@@ -8,7 +8,19 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from comparison.command_line.console import Console
-from comparison.command_line.options import CaseFile, Json, Overwrite, Quiet, Set, Verbose, check_out, emit, path_names
+from comparison.command_line.options import (
+    CaseFile,
+    ErrorBars,
+    Json,
+    Overwrite,
+    Quiet,
+    Set,
+    Verbose,
+    check_out,
+    complete,
+    emit,
+    path_names,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -17,7 +29,90 @@ if TYPE_CHECKING:
     from bent_beam.history import ImpactHistory
     from bent_beam.method import Method
 
-__all__ = ["simulate"]
+__all__ = ["new", "predict", "settings", "simulate"]
+
+
+def section_kinds(incomplete: str) -> list[str]:
+    """Completion of ``--section``."""
+    from bent_beam.section import SECTIONS
+
+    return complete(list(SECTIONS), incomplete)
+
+
+def new(
+    out: Annotated[Path, typer.Argument(metavar="FILE.toml", help="Where to write the case.")] = Path("my_beam.toml"),
+    section: Annotated[
+        str, typer.Option(help="pipe, round_bar, rectangle or general.", autocompletion=section_kinds)
+    ] = "pipe",
+    damping_ratio: Annotated[
+        float | None, typer.Option(min=0.0, help="Of the first bending mode; otherwise state it in the file.")
+    ] = None,
+    overwrite: Overwrite = False,
+    as_json: Json = False,
+) -> None:
+    """Write a commented case file for a beam of your own.
+
+    Example: bentbeam new my_pipe.toml --section pipe
+    """
+    from comparison.new_case import new_case
+    from comparison.store import write_atomically
+
+    text = new_case(section, damping_ratio)
+    check_out(out, overwrite)
+    write_atomically(out, text)
+    emit(
+        {"file": str(out), "section": section},
+        as_json,
+        lambda: f"{out}: change every number or delete its line, then bentbeam predict {out}",
+    )
+
+
+def settings(
+    markdown: Annotated[bool, typer.Option("--markdown", help="As the page of the documentation.")] = False,
+    as_json: Json = False,
+) -> None:
+    """List every setting with unit, default and range.
+
+    Example: bentbeam settings
+    """
+    from comparison.settings import settings as every
+    from comparison.settings import settings_markdown, settings_text
+
+    emit(every(), as_json, settings_markdown if markdown else settings_text)
+
+
+def predict(
+    case: CaseFile,
+    time: Annotated[
+        list[float] | None, typer.Option(help="Time after first contact, s, in place of end_time; repeatable.")
+    ] = None,
+    theory_only: Annotated[bool, typer.Option("--theory-only", help="Closed forms only, without simulation.")] = False,
+    assignments: Set = None,
+    as_json: Json = False,
+    quiet: Quiet = False,
+) -> None:
+    """Predict contact and stress: theory beside a simulation.
+
+    Prints contact, force, impulse, moment, stress and rebound. For plates, stops and supports: simulate.
+
+    Example: bentbeam predict cases/drill_pipe.toml --time 0.005 --time 0.01
+    """
+    from bent_beam.cases import load_case
+    from bent_beam.errors import InputError
+    from comparison.prediction import predict_case
+    from comparison.prediction_text import prediction_text
+
+    loaded = load_case(case, assignments or ())
+    loaded.method("hermite")  # every table of the case is looked at, also where nothing is simulated
+    times = time or [loaded.end_time]
+    for one in times:
+        try:
+            loaded.impact.checked_time("time", one)
+        except ValueError as error:
+            raise InputError(f"--time: {error}") from None
+    with Console(quiet or as_json or theory_only).progress(f"the whole beam: {case.name}") as bar:
+        document = predict_case(loaded, times, theory_only=theory_only, progress=bar.fraction)
+    emit(document, as_json, lambda: prediction_text(document))
 
 
 def simulate(
@@ -29,9 +124,7 @@ def simulate(
     until: Annotated[
         str | None, typer.Option(help='"separation": until the beam has left the wall; overrides [run].')
     ] = None,
-    error_bars: Annotated[
-        str, typer.Option(help="quick (one companion run, half resolution), thorough (also twice), drift (none).")
-    ] = "quick",
+    error_bars: ErrorBars = "quick",
     out: Annotated[Path | None, typer.Option(metavar="FILE.nc", help="Keep the history as netCDF.")] = None,
     overwrite: Overwrite = False,
     save: Annotated[int, typer.Option(min=8, max=20000, help="Number of saved instants.")] = 200,
@@ -94,10 +187,10 @@ def _kept(error: SimulationError, out: Path | None) -> SimulationError:
     while target.exists():
         number += 1
         target = target.with_name(f"{target.name.split('.')[0]}.partial-{number}.nc")
+    where = f"is in {target}"
     try:
         error.history.save(target)
     except OSError as problem:
-        error.args = (f"{error.args[0]}; the partial history could not be kept in {target} ({problem.strerror})",)
-    else:
-        error.args = (f"{error.args[0]}; the partial history is in {target}",)
+        where = f"could not be kept in {target} ({problem.strerror})"
+    error.args = (f"{error.args[0]}; the partial history {where}",)
     return error
