@@ -28,8 +28,8 @@ from bent_beam.bending import end_curvatures
 from exudyn_models.arrays import Array
 from exudyn_models.contacts import ContactRun
 from exudyn_models.elements import Beam
+from exudyn_models.geometry import Scaling
 from exudyn_models.integrators import Averages
-from exudyn_models.scaling import Scaling
 from exudyn_models.sums import Largest, means, of_two_walls, onwards, products
 
 __all__ = ["Recorder"]
@@ -54,7 +54,7 @@ class Recorder:
         self.averages = averages
         self.beam, self.contact, self.scaling, self.half = beam, contact, scaling, half
         shape, contacts = beam.shape, contact.contact_s.size
-        self.wall_y = shape.wall_y
+        self.wall_y, self.copies = shape.wall_y, 2.0 if half else 1.0
         self.loads = beam.loads()
         self.loaded = bool(self.loads(np.array([0.0, 1.0])).any())
         self.mass = beam.mass_matrix()
@@ -258,7 +258,7 @@ class Recorder:
         """The record in SI units, of the whole beam where it is a sum."""
         s, shape, front = self.scaling, self.beam.shape, self.contact.signs > 0.0
         saved = {name: np.array(values) for name, values in self.record.items()}
-        both = 2.0 if self.half else 1.0
+        both = self.copies
         x = shape.x * s.length
         # against the model's wall, which may have a share of the beam's own curvature, but not the real one's
         slope = saved["slope"] * s.slope - s.impact.wall_curvature * (x - s.impact.first_touch)
@@ -290,6 +290,7 @@ class Recorder:
         if not front.all():
             fields |= of_two_walls(fields, front)
         return ImpactHistory.build(
+            impact=s.impact,
             path="exudyn",
             symmetry="half" if self.half else "full",
             time=saved["time"] * s.end_time,

@@ -34,14 +34,13 @@ BLOCK, PERSISTENCE = 15, 60  # repetitions
 class Settling:
     """Exudyn's ``PostNewtonUserFunction`` for one run (implicit integrators).
 
-    iterations : most repetitions of a step; tolerance : force, model units; must_settle : whether the run is to fail
-        when they run out.
+    iterations : most repetitions of a step; tolerance : force, model units.
     steps, cycles, unsettled : steps seen, those accepted though no contact state was consistent, and those that ran
-        out of repetitions.
+        out of repetitions; first : what happened in the first of these.
+    solution : q and v last looked at.
     """
 
-    def __init__(self, contact: ContactRun, solver: Any, iterations: int, tolerance: float, must_settle: bool) -> None:
-        self.must_settle = must_settle
+    def __init__(self, contact: ContactRun, solver: Any, iterations: int, tolerance: float) -> None:
         self.steps = self.cycles = self.unsettled = 0
         self._contact, self._solver = contact, solver
         self._iterations, self._tolerance = iterations, tolerance
@@ -55,8 +54,8 @@ class Settling:
         self._imposed: Flags | None = None
         self._gaps: Array | None = None  # that stand for it
         self._hooked = False
-        self._first = ""
-        self.solution: tuple[Array, Array] | None = None  # q, v last looked at
+        self.first = ""
+        self.solution: tuple[Array, Array] | None = None
 
     def __call__(self, mbs: Any, time: float) -> list[float]:
         if time != self._time:
@@ -64,12 +63,10 @@ class Settling:
             self._fewest, self._patience = math.inf, BLOCK
             self.steps += 1
         self._repetitions += 1
-        data = mbs.systemData
-        closed = self._imposed
+        data, closed = mbs.systemData, self._imposed
         if closed is None:
             closed = data.GetDataCoordinates()[:: self._contact.states] <= 0.0
-        q, v = data.GetODE2Coordinates(), data.GetODE2Coordinates_t()
-        self.solution = (q, v)
+        q, v = self.solution = data.GetODE2Coordinates(), data.GetODE2Coordinates_t()
         if self._contact.imposes and np.array_equal(self._contact.closed_by(q, v), closed):
             return self._accept(mbs, closed)
         wrong = self._contact.contradictions(q, v, closed)
@@ -82,7 +79,7 @@ class Settling:
             return self._accept(mbs, closed)
         if self._repetitions >= self._iterations:
             self.unsettled += 1
-            self._first = self._first or (
+            self.first = self.first or (
                 f"the contact state of a step had not settled after {self._iterations} repetitions: "
                 f"{doubtful.sum()} contact points contradict their gaps by up to "
                 f"{force / self._tolerance:.3g} contact_tolerance"
@@ -98,10 +95,6 @@ class Settling:
         else:
             self._follow(mbs)
         return [force, -1.0]
-
-    def failure(self) -> str:
-        """What happened in the first step that ran out of repetitions."""
-        return self._first
 
     def _all_at_once(self, contradictions: int) -> bool:
         """Whether all connectors follow their gaps in the next repetition, or only one that contradicts its own."""
@@ -143,9 +136,6 @@ class Settling:
     def _impose(self, mbs: Any, time: float, newton_step: int, repetition: int) -> None:
         """Exudyn's ``PreNewtonResidualUserFunction``: the state to assume instead of what the last gaps showed."""
         if newton_step == 0 and self._gaps is not None:
-            if self._contact.states == 1:
-                mbs.systemData.SetDataCoordinates(self._gaps)
-                return
             data = mbs.systemData.GetDataCoordinates()
             data[:: self._contact.states] = self._gaps
             mbs.systemData.SetDataCoordinates(data)

@@ -95,26 +95,18 @@ class SegmentFriction(Contact):
     ] = 1.0
 
     def refuses(self, impact: Impact, element: Element, integrator: Integrator) -> str | None:
-        if impact.opposite_wall is not None:
-            return "exudyn.contact.kind segment_friction knows one wall only: take penalty (opposite_wall is given)"
-        if impact.wall_curvature:
-            return (
-                "exudyn.contact.kind segment_friction knows a flat wall only: take penalty "
-                f"(got wall_curvature {impact.wall_curvature!r})"
-            )
-        if impact.curvature == 0.0:
-            return "exudyn.contact.kind segment_friction needs a bent beam (got curvature 0)"
-        if not isinstance(element, ANCFCable):
-            return (
-                "exudyn.contact.kind segment_friction works on ANCF cables only: take exudyn.element.kind ancf_cable "
-                f"(got {type(element).__name__})"
-            )
-        if integrator.explicit:
-            return (
-                "exudyn.contact.kind segment_friction needs an implicit exudyn.integrator "
-                f"(got {type(integrator).__name__})"
-            )
-        return None
+        curved, element_name, its_name = impact.wall_curvature, type(element).__name__, type(integrator).__name__
+        reasons = (
+            (impact.opposite_wall is not None, "knows one wall only: take penalty (opposite_wall is given)"),
+            (bool(curved), f"knows a flat wall only: take penalty (got wall_curvature {curved})"),
+            (impact.curvature == 0.0, "needs a bent beam (got curvature 0)"),
+            (
+                not isinstance(element, ANCFCable),
+                f"works on ANCF cables only: take exudyn.element.kind ancf_cable (got {element_name})",
+            ),
+            (integrator.explicit, f"needs an implicit exudyn.integrator (got {its_name})"),
+        )
+        return next((f"exudyn.contact.kind segment_friction {reason}" for wrong, reason in reasons if wrong), None)
 
     def geometry(self) -> LinearLimit:
         """Amplitude that keeps the circle small: its round-off, ε·k/K, then stays far below the contact force."""
@@ -126,7 +118,6 @@ class SegmentFriction(Contact):
         return NewtonSolver(halve_steps=True, contact_tolerance=1e-2)
 
     def wall_share(self, geometry: Geometry) -> float:
-        """The share of the beam's curvature that the round wall takes over."""
         return TRUE_SHARE if geometry.true else 1.0
 
     def attach(self, beam: Beam, wall: Wall) -> ContactRun:

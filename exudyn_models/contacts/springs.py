@@ -16,8 +16,7 @@ import numpy as np
 
 from bent_beam import Impact
 from exudyn_models.arrays import Array, Flags
-from exudyn_models.contacts.base import Contact, ContactRun, Wall
-from exudyn_models.contacts.holding import HeldStrip
+from exudyn_models.contacts.base import Contact, ContactRun, HeldStrip, Wall
 from exudyn_models.contacts.penalty import PenaltyRun
 from exudyn_models.elements import Beam, Element
 from exudyn_models.integrators import Integrator, Trapezoidal
@@ -38,8 +37,9 @@ def covered(depth: Array, lengths: Array) -> Array:
 
 class _Run(PenaltyRun):
     def __init__(self, beam: Beam, wall: Wall, stiffness: float) -> None:
-        self.wall, strip = wall, HeldStrip(wall, hold=0, start=0.0)
+        strip = HeldStrip(wall, hold=0, start=0.0)
         super().__init__(beam, wall, stiffness * wall.weights, wall.damping * wall.weights, strip, {})
+        self.wall, self.wall_springs = wall, self.stiffness
 
     def between(self, time: float, step: float, q: Array, v: Array) -> bool:
         if self.wall.damping and not self.wall.stop:
@@ -50,10 +50,6 @@ class _Run(PenaltyRun):
                 self.beam.mbs.SetObjectParameter(self.contacts[k], "contactDamping", float(damping[k]))
             self.damping = damping
         return False
-
-    @property
-    def wall_springs(self) -> Array:  # type: ignore[override]
-        return self.stiffness
 
     def closed_by(self, q: Array, v: Array) -> Flags:
         return np.asarray((self.depth(q) > 0.0) & super().closed_by(q, v))

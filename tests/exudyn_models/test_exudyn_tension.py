@@ -13,7 +13,8 @@ from exudyn_models import ExudynModel
 from exudyn_models.contacts import Penalty
 from exudyn_models.elements import ANCFCable, GeometricallyExact
 from exudyn_models.geometry import LinearLimit, TrueGeometry
-from exudyn_models.resolution import chosen_half_length, held_for
+from exudyn_models.method import held_for
+from exudyn_models.resolution import chosen_half_length
 from measure import estimators
 from measure.moments import moments
 

@@ -20,7 +20,7 @@ MASS = "self.element(beam.lengths, beam.mass_per_length)"
 LOST = "np.where(np.arange({}.size) == 3, 0.5, 1.0)[:, None, None]"  # half of an element's mass: that of half a node
 MOMENTUM = 'self.start_momentum + after["load_impulse"] - v @ self.momentum'
 GAIN = "gain + (missing / np.where(whole > 0.0, whole, 1.0))[:, None] * weight"
-PER_LENGTH = "self.section.mass_per_length"
+PER_LENGTH = "1.0"
 WORK = "parts[key] += dl * factor * left[:, :, None] * right[:, None, :]"
 
 # path → (what is wrong, the check that sees it, file, code, what stands in its place)
