@@ -187,7 +187,7 @@ class ExudynModel(Part):
             closed = bool(run.active.any())
             if not closed:
                 run.sum_up()
-            return separation(t * scaling.end_time, run.pushed, state, closed=closed)
+            return separation(t * scaling.end_time, float(run.sums["pushed"]), state, closed=closed)
 
         parts = made_of(self.for_whole_beam(impact))
         return simulate(impact, end_time=float(times[-1]), save=times, progress=progress, until=until, **parts)

@@ -52,12 +52,12 @@ def run(
     settings |= _described(layout, chosen, stepping)
     settings["wall_seconds"] = clock.perf_counter() - began
     history = record.history(
-        warnings=warnings_of_run(layout, chosen, stepping),
         steps=stepping.steps,
         seconds=stepping.seconds,
         completed=failure is None,
         settings=settings,
     )
+    history = history.with_warnings(warnings_of_run(layout, chosen, stepping, history))
     if failure is not None:
         raise SimulationError(
             failure, time=float(history.time[-1]), step=stepping.steps, advice=advice, history=history

@@ -111,7 +111,7 @@ class Stepping:
         self._time = time
         self.steps += 1
         if self._saved < self.targets.size and time >= self.targets[self._saved] * (1.0 - 1e-9):
-            run.save(time, q, v)
+            run.save(time, q)
             self._saved = int(np.searchsorted(self.targets, time * (1.0 + 1e-9), side="right"))
             if self.progress is not None:
                 self.progress(time)
@@ -170,7 +170,7 @@ class Stepping:
             return False
         self.seconds += clock.perf_counter() - began
         q, v = run.read(0.0)
-        run.save(0.0, q, v)
+        run.save(0.0, q)
         run.contact.between(0.0, first.length, q, v)
         return True
 

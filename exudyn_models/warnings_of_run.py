@@ -7,6 +7,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from bent_beam import ImpactHistory
 from exudyn_models.arrays import Array
 from exudyn_models.assembly import Chosen, Layout
 from exudyn_models.geometry import Scaling, supports_or_plate
@@ -27,10 +28,10 @@ STEEPEST_GROWTH = 1.021  # of neighbouring elements
 STEEPEST = 0.1  # slope
 
 
-def warnings_of_run(layout: Layout, chosen: Chosen, stepping: Stepping) -> list[str]:
+def warnings_of_run(layout: Layout, chosen: Chosen, stepping: Stepping, history: ImpactHistory) -> list[str]:
     """Sentences about one run."""
     run, scaling = stepping.run, layout.scaling
-    found = [*_of_steps(stepping.segments[-1].length, stepping.settling), *_of_contact(run)]
+    found = [*_of_steps(stepping.segments[-1].length, stepping.settling), *_of_contact(run, history)]
     if not supports_or_plate(scaling.impact):
         if len(run.record["time"]) > 1:
             found += _of_front(layout.places, scaling)
@@ -59,21 +60,21 @@ def _of_mesh(layout: Layout, given: bool) -> Iterator[str]:
         yield f"the end lies at {reach:.3g} sqrt(sqrt(EI/mu) T): waves reflected there come back before the end time"
 
 
-def _of_contact(run: Recorder) -> Iterator[str]:
+def _of_contact(run: Recorder, history: ImpactHistory) -> Iterator[str]:
     penetration = run.deepest / run.scaling.amplitude
     if penetration > DEEPEST and run.scaling.impact.wall_stiffness is None:
         yield f"the beam enters the wall by up to {penetration:.2%} of V0 t; take a stiffer penalty or smaller steps"
-    lost = np.asarray(run.record["loss_impact"])
-    given_back = float((np.maximum.accumulate(lost) - lost).max(initial=0.0))
-    initial = run.record["kinetic_energy"][0] + run.record["strain_energy"][0] if lost.size else 0.0
+    lost, held = history.array("loss_impact"), float(run.sums["held_impulse"])
+    given_back = float((np.maximum.accumulate(lost) - lost).max())
+    initial = float(history.array("kinetic_energy")[0] + history.array("strain_energy")[0])
     if given_back > MOST_GIVEN * initial:
         yield (
             f"the contact gave {given_back / initial:.2g} of the initial energy: steps too long for it; take steps of "
             "0.5 dx^2 sqrt(mu/EI) at most, or longer elements"
         )
-    if -run.held > MOST_PULLED * abs(run.total):
+    if -held > MOST_PULLED * abs(run.total):
         yield (
-            f"contact points were pulled by {-run.held / abs(run.total):.2g} times the total impulse while held: their "
+            f"contact points were pulled by {-held / abs(run.total):.2g} times the total impulse while held: their "
             "reactions mean nothing one by one"
         )
 
