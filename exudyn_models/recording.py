@@ -51,7 +51,9 @@ def means(rows: Array) -> Array:
 
 def onwards(before: Any, gains: Array) -> Array:
     """Sums after each gain, ``before`` first."""
-    return np.asarray(before + np.cumsum(np.insert(gains, 0, 0.0, axis=0), axis=0))
+    sums = np.zeros((len(gains) + 1, *gains.shape[1:]))
+    np.cumsum(gains, axis=0, out=sums[1:])
+    return np.asarray(before + sums)
 
 
 class Recorder:
@@ -173,11 +175,12 @@ class Recorder:
         """Work of the loads, their impulse and the losses in each step, each (steps,)."""
         moved, inertia = np.diff(q, axis=0), (self.mass @ a.T).T
         kinetic, load = products(v, (self.mass @ v.T).T) / 2, means(self.loads(time))
+        mean_v = means(v)
         return {
             "loss_algorithmic": (products(moved, inertia[1:]) + products(moved, inertia[:-1])) / 2 - np.diff(kinetic),
             "work_of_loads": products(moved, load),
             "load_impulse": load @ self.upward * np.diff(time),
-            **{name: products(means(v), (matrix @ moved.T).T) for name, matrix in self.damping.items()},
+            **{name: products(mean_v, (matrix @ moved.T).T) for name, matrix in self.damping.items()},
         }
 
     def _of_contact(self, time: Array, q: Array, force: Array) -> dict[str, Array]:
