@@ -90,7 +90,7 @@ class ExudynModel(Part):
         elif for_loads:
             contact = held_for(contact, impact)
         contact = contact or Penalty()
-        integrator = self.integrator or contact.integrator()
+        integrator = self.integrator or contact.integrator
         mesh = self.mesh or chosen_mesh(impact, end_time, explicit=integrator.explicit)
         mesh, integrator = mesh.refined(self.refine), integrator.refined(self.refine * shorter)
         if self.integrator is None:
@@ -100,8 +100,8 @@ class ExudynModel(Part):
             element=self.element or ANCFCable(),
             integrator=integrator,
             contact=contact,
-            geometry=self.geometry or contact.geometry(),
-            solver=self.solver or contact.solver(),
+            geometry=self.geometry or contact.geometry,
+            solver=self.solver or contact.solver,
             full_beam=self.full_beam or impact.off_centre,
             plastic=min(self.refine, 1.0),
             mesh_given=self.mesh is not None,
@@ -121,7 +121,7 @@ class ExudynModel(Part):
         if impact.wall_stiffness is not None and self.contact is not None:
             yield f"exudyn.contact has no effect on a wall with a stiffness: leave it out (got {self.contact!r})"
         contact = self.contact or (Penalty() if impact.wall_stiffness is None else Springs())
-        true = (self.geometry or contact.geometry()).true
+        true = (self.geometry or contact.geometry).true
         if unknown := unmodelled(impact, LOADS):
             yield unknown
         apart: dict[str, tuple[str, ...]] = {}  # what is not modelled together
@@ -141,7 +141,7 @@ class ExudynModel(Part):
             for other in others:
                 if getattr(impact, other):
                     yield f"{other} is not modelled together with {name} (got {getattr(impact, other)!r})"
-        if reason := contact.refuses(impact, self.element or ANCFCable(), self.integrator or contact.integrator()):
+        if reason := contact.refuses(impact, self.element or ANCFCable(), self.integrator or contact.integrator):
             yield reason
         if true and impact.off_centre:
             yield "exudyn.geometry.kind true knows the symmetric bow only: with rotation or first_touch take linear"

@@ -52,8 +52,6 @@ class Settling:
         self._tried: dict[bytes, float] = {}  # what was assumed of them, and by how much it contradicted itself
         self._cycling = False
         self._imposed: Flags | None = None
-        self._gaps: Array | None = None  # that stand for it
-        self._hooked = False
         self.first = ""
         self.solution: tuple[Array, Array] | None = None
 
@@ -123,36 +121,31 @@ class Settling:
 
     def _set(self, mbs: Any, closed: Flags) -> None:
         """Assume ``closed`` in the next repetition, whatever the gaps show."""
-        self._assume(closed)
-        if not self._hooked:
+        if self._imposed is None:
             mbs.SetPreNewtonResidualUserFunction(self._impose)
-            self._hooked = True
+        self._imposed = closed
         mbs.solverSignalJacobianUpdate = True
-
-    def _assume(self, closed: Flags) -> None:
-        if closed is not self._imposed:
-            self._imposed, self._gaps = closed, np.where(closed, -TINY, TINY)
 
     def _impose(self, mbs: Any, time: float, newton_step: int, repetition: int) -> None:
         """Exudyn's ``PreNewtonResidualUserFunction``: the state to assume instead of what the last gaps showed."""
-        if newton_step == 0 and self._gaps is not None:
+        if newton_step == 0 and self._imposed is not None:
             data = mbs.systemData.GetDataCoordinates()
-            data[:: self._contact.states] = self._gaps
+            data[:: self._contact.states] = np.where(self._imposed, -TINY, TINY)
             mbs.systemData.SetDataCoordinates(data)
 
     def _follow(self, mbs: Any) -> None:
         """All connectors follow their gaps again."""
-        if self._hooked:
-            self._imposed, self._gaps, self._hooked = None, None, False
+        if self._imposed is not None:
+            self._imposed = None
             mbs.SetPreNewtonResidualUserFunction(0)
 
     def _accept(self, mbs: Any, closed: Flags) -> list[float]:
         """No further repetition, whatever Exudyn's own measure says: it goes on when they are used up."""
-        if self._contact.imposes:
-            if not self._hooked:
-                self._set(mbs, closed)
-            self._assume(closed)
-        else:
+        if not self._contact.imposes:
             self._follow(mbs)
+        elif self._imposed is None:
+            self._set(mbs, closed)
+        else:
+            self._imposed = closed
         self._solver.it.discontinuousIteration = self._iterations - 1
         return [0.0, -1.0]

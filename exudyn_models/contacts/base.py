@@ -180,25 +180,19 @@ class ContactRun(ABC):
 
 @dataclass(frozen=True)
 class Contact(Part, ABC):
-    """A kind of contact: what it can work with, what goes with it when nothing else is asked for, its connectors."""
+    """A kind of contact: what it can work with, its connectors.
+
+    integrator, geometry, solver : what goes with it when nothing else is asked for.
+    """
 
     where: ClassVar[str] = "exudyn.contact"
+    integrator: ClassVar[Integrator] = GeneralizedAlpha()
+    geometry: ClassVar[Geometry] = LinearLimit()
+    solver: ClassVar[NewtonSolver] = NewtonSolver()
 
     def refuses(self, impact: Impact, element: Element, integrator: Integrator) -> str | None:
         """Why this contact cannot work with a beam, an element or an integrator (None: it can)."""
         return None
-
-    def integrator(self) -> Integrator:
-        """The integrator that goes with it."""
-        return GeneralizedAlpha()
-
-    def geometry(self) -> Geometry:
-        """The geometry that goes with it."""
-        return LinearLimit()
-
-    def solver(self) -> NewtonSolver:
-        """The solver settings that go with it."""
-        return NewtonSolver()
 
     def wall_share(self, geometry: Geometry) -> float:
         """The share of the beam's curvature that the wall takes over, which is then round."""

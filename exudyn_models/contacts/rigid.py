@@ -21,6 +21,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import ClassVar
 
 import exudyn.itemInterface as items
 import numpy as np
@@ -87,10 +88,9 @@ class _Run(ContactRun):
 class Rigid(Contact):
     """Constraints switched with the contact state; needs the Newmark integrator with γ > ½."""
 
-    hold: Hold = 0
+    integrator: ClassVar[Integrator] = Newmark()
 
-    def integrator(self) -> Integrator:
-        return Newmark()
+    hold: Hold = 0
 
     def refuses(self, impact: Impact, element: Element, integrator: Integrator) -> str | None:
         if impact.opposite_wall is not None:

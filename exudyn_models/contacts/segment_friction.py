@@ -12,7 +12,7 @@ nothing in the linear limit and little for a real, axially stiff beam.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Annotated
+from typing import Annotated, ClassVar
 
 import exudyn.itemInterface as items
 import numpy as np
@@ -87,6 +87,12 @@ class _Run(ContactRun):
 class SegmentFriction(Contact):
     """Penalty on the segments of ANCF cables, with friction."""
 
+    # keeps the circle small: its round-off, ε·k/K, then stays far below the contact force
+    geometry: ClassVar[Geometry] = LinearLimit(amplitude=0.02)
+    # steps are halved where the point of contact runs along its chord faster than Newton's method can follow; and as
+    # it runs, chords at rest on the wall open and close by forces of no consequence
+    solver: ClassVar[NewtonSolver] = NewtonSolver(halve_steps=True, contact_tolerance=1e-2)
+
     friction: Annotated[float, Quantity("", "Coulomb's coefficient", least=0.0)] = 0.0
     relative_stiffness: Annotated[float, Quantity("", "as for the nodal penalty, in EI/Δx⁴", above=0.0)] = 10.0
     relative_damping: Annotated[float, Quantity("", "likewise, in √(EIμ)/Δx²", least=0.0)] = 10.0
@@ -107,15 +113,6 @@ class SegmentFriction(Contact):
             (integrator.explicit, f"needs an implicit exudyn.integrator (got {its_name})"),
         )
         return next((f"exudyn.contact.kind segment_friction {reason}" for wrong, reason in reasons if wrong), None)
-
-    def geometry(self) -> LinearLimit:
-        """Amplitude that keeps the circle small: its round-off, ε·k/K, then stays far below the contact force."""
-        return LinearLimit(amplitude=0.02)
-
-    def solver(self) -> NewtonSolver:
-        """Steps are halved where the point of contact runs along its chord faster than Newton's method can follow; and
-        as it runs, chords at rest on the wall open and close by forces of no consequence."""
-        return NewtonSolver(halve_steps=True, contact_tolerance=1e-2)
 
     def wall_share(self, geometry: Geometry) -> float:
         return TRUE_SHARE if geometry.true else 1.0

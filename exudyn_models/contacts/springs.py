@@ -11,6 +11,7 @@ s = y_i/(y_i − y_{i+1}), where the velocities carry the beam by the end of the
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 
@@ -59,20 +60,16 @@ class _Run(PenaltyRun):
 class Springs(Contact):
     """What stands in the place of a contact where the wall has a stiffness; it has no settings of its own."""
 
+    integrator: ClassVar[Integrator] = Trapezoidal()  # conserves energy: an elastic wall gives back what it took
+    # what elements much shorter than the zone leave as round-off is no residual
+    solver: ClassVar[NewtonSolver] = NewtonSolver(absolute_tolerance=1e-6)
+
     def refuses(self, impact: Impact, element: Element, integrator: Integrator) -> str | None:
         if impact.opposite_wall is not None:
             return f"wall_stiffness is modelled without opposite_wall only (got {impact.opposite_wall!r})"
         if integrator.explicit:
             return f"wall_stiffness needs an implicit exudyn.integrator (got {type(integrator).__name__})"
         return None
-
-    def integrator(self) -> Integrator:
-        """It conserves energy: an elastic wall gives back what it took."""
-        return Trapezoidal()
-
-    def solver(self) -> NewtonSolver:
-        """What elements much shorter than the zone leave as round-off is no residual."""
-        return NewtonSolver(absolute_tolerance=1e-6)
 
     def attach(self, beam: Beam, wall: Wall) -> ContactRun:
         assert wall.stiffness is not None

@@ -9,7 +9,6 @@ from bent_beam import Impact
 from bent_beam.free_flight import pushing
 from bent_beam.meshes import UniformMesh
 from exudyn_models import ExudynModel
-from exudyn_models.contacts import Rigid, SegmentFriction
 
 PAGE = {
     (float(kappa), stated(damping.replace("10", "1e", 1))[0]): stated(value)[0]
@@ -95,11 +94,3 @@ def test_a_rocking_beam_is_the_mirror_image_of_one_rocking_the_other_way():
     assert right.array("total_impulse")[-1] == pytest.approx(left.array("total_impulse")[-1], rel=1e-6)
     assert right.array("gap")[-1, 0] != pytest.approx(right.array("gap")[-1, -1], rel=0.1)
     closes(right)
-
-
-def test_what_a_part_cannot_model_is_refused():
-    impact = Impact.whole_beam(0.5)
-    assert "full_beam" in ExudynModel().refuses(impact.replace(rotation=0.1))
-    assert ExudynModel(full_beam=True).refuses(impact.replace(rotation=0.1)) is None
-    for contact in (Rigid(), SegmentFriction()):
-        assert "one wall" in ExudynModel(contact=contact).refuses(impact.replace(opposite_wall=1.0))
