@@ -12,9 +12,8 @@ from exudyn_models.contacts import CONTACTS
 from exudyn_models.elements import ELEMENTS
 from exudyn_models.geometry import GEOMETRIES
 from exudyn_models.integrators import INTEGRATORS
-from exudyn_models.method import ExudynModel
+from exudyn_models.method import ExudynModel, simulate
 from exudyn_models.resolution import chosen_half_length, chosen_mesh
-from exudyn_models.simulation import simulate
 from exudyn_models.solvers import SOLVERS
 
 __all__ = [

@@ -1,68 +1,121 @@
-"""The Exudyn system of one impact: beam, loads, symmetry and contact; and how long a step it bears.
+"""The Exudyn system of one impact: beam, loads, supports and contact; and how long a step it bears.
 
 The ends carry the moment EI(q₀x²/2 + c₀t) and the shear EI q₀x of y₀ (nothing when ψ = χ = 0: a free end), so that
-without contact y₀ of :class:`bent_beam.Impact` is the motion.
+without contact y₀ of :class:`bent_beam.Impact` is the motion. A hinge holds y of the end's node where it is at the
+first touch, a clamp y and the rotation, by Exudyn's ``CoordinateConstraint``. Along the beam every end is free:
+supports that held both would make a string of it.
 """
 
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 
 import exudyn as exu
+import exudyn.graphics as graphics
+import exudyn.itemInterface as items
 import numpy as np
 
+from bent_beam import Impact
 from bent_beam.impact import BEFORE_WAVES_RETURN
+from bent_beam.meshes import Mesh, checked_nodes, mirrored, snapped
+from exudyn_models.arrays import Array
 from exudyn_models.contacts import Contact, ContactRun, Wall
 from exudyn_models.elements import Beam, Element
 from exudyn_models.elements.beam import VISCOSITY, VISCOSITY_EXPLICIT, Section
-from exudyn_models.geometry import Shape
+from exudyn_models.geometry import Geometry, Scaling, Shape, supports_or_plate
 from exudyn_models.integrators import Integrator
-from exudyn_models.resolution import lasts_until_waves_return, reachable, thin_front
-from exudyn_models.scaling import Scaling, front_bound
-from exudyn_models.supports import before_the_wall, hold_ends, supports_or_plate
-from exudyn_models.viewer import draw_wall
+from exudyn_models.resolution import lasts_until_waves_return, modelled_half_length, reachable, thin_front
+from exudyn_models.solvers import NewtonSolver
 
-__all__ = ["assemble", "stable_step"]
+__all__ = ["Chosen", "Layout", "assemble", "lay_out", "stable_step"]
 
 STRETCH = 1e-4  # largest strain under the axial force in the linear limit: lengths are then right to as much
 TAUT = 1e4  # EAΛ²/EI under it: a strain of N/EA moves the front, too, by 7e-4 of what the force does (λ_N at κ/ν = 0.5)
 STRETCH_LATER = 1e-7  # likewise once waves are back: else waves along the beam take up to 1e-2 of the energy
+NEAR = 1e-9  # of the length: a node so near an edge of the wall lies on it
+GREY = [0.35, 0.35, 0.35, 1.0]
 
 
-def assemble(
-    shape: Shape,
-    scaling: Scaling,
-    element: Element,
-    contact: Contact,
-    integrator: Integrator,
-    half: bool,
-    plastic: float = 1.0,
-) -> tuple[Beam, ContactRun]:
-    """The Exudyn system: beam, loads, symmetry, contact; ``plastic`` is that of :class:`Wall` at a thin front."""
+@dataclass(frozen=True)
+class Chosen:
+    """The parts of one run, none of them open.
+
+    plastic : of the damping of hits at a thin front; mesh_given : whether somebody asked for the mesh.
+    """
+
+    mesh: Mesh
+    element: Element
+    integrator: Integrator
+    contact: Contact
+    geometry: Geometry
+    solver: NewtonSolver
+    full_beam: bool
+    plastic: float
+    mesh_given: bool
+
+
+@dataclass(frozen=True)
+class Layout:
+    """The beam at the first contact.
+
+    half_length : modelled, m; places : nodes of the half beam, Λ, shape (nodes of the half beam,);
+    shape : of all modelled nodes.
+    """
+
+    half_length: float
+    places: Array
+    scaling: Scaling
+    shape: Shape
+
+
+def lay_out(impact: Impact, end: float, chosen: Chosen) -> Layout:
+    """The beam of the chosen mesh and geometry. Raises ``ValueError`` for a mesh or a geometry that does not fit."""
+    geometry, half_length, unscaled = chosen.geometry, modelled_half_length(chosen.mesh, impact), Scaling(impact, end)
+    places = checked_nodes(snapped(chosen.mesh.nodes(half_length), impact.wall_span)) / unscaled.length
+    scaling = Scaling(impact, end, geometry.amplitude_of(unscaled, float(places[-1])))
+    nodes = mirrored(places) if chosen.full_beam else places
+    return Layout(half_length, places, scaling, geometry.shape(nodes, scaling, chosen.contact.wall_share(geometry)))
+
+
+def assemble(layout: Layout, chosen: Chosen) -> tuple[Beam, ContactRun]:
+    """The Exudyn system: beam, loads, symmetry, supports, contact."""
+    shape, scaling, explicit = layout.shape, layout.scaling, chosen.integrator.explicit
     container = exu.SystemContainer()
     system = container.AddSystem()
     system.variables["container"] = container  # the system must not outlive it
-    factor = element.viscosity
+    factor = chosen.element.viscosity
     if factor is None:
-        factor = VISCOSITY_EXPLICIT if integrator.explicit else VISCOSITY
+        factor = VISCOSITY_EXPLICIT if explicit else VISCOSITY
     section = Section(
-        axial_stiffness=_axial_stiffness(element.axial_stiffness, shape.slender, scaling),
+        axial_stiffness=_axial_stiffness(chosen.element.axial_stiffness, shape.slender, scaling),
         axial_force=scaling.axial_force,
         damping=scaling.impact.damping / scaling.end_time,
     )
-    beam = element.build(system, shape, section, factor * shape.lengths**2)
-    last, centre = shape.s.size - 1, int(np.argmin(np.abs(shape.s)))
-    if half:
-        hold = beam.hold_by_inertia if integrator.explicit else beam.fix
+    beam = chosen.element.build(system, shape, section, factor * shape.lengths**2)
+    hold = beam.hold_by_inertia if explicit else beam.fix
+    held = {
+        "free": (),
+        "hinged": (beam.vertical_coordinate,),
+        "clamped": (beam.vertical_coordinate, beam.rotation_coordinate),
+    }
+    ends = [(shape.s.size - 1, 1.0, scaling.impact.right_end)]
+    if chosen.full_beam:
+        ends.insert(0, (0, -1.0, scaling.impact.left_end))
+    else:
         hold(0, beam.horizontal_coordinate, beam.rotation_coordinate)
-    hold_ends(beam, scaling.impact, half=half, by_inertia=integrator.explicit)
+    for node, _, end in ends:
+        if held[end]:
+            hold(node, *held[end])
     if scaling.load:
         beam.load_uniformly(scaling.load * scaling.amplitude)
-    ends = [(last, 1.0)] if half else [(last, 1.0), (0, -1.0)]
-    for node, sign in ends:
+    for node, sign, _ in reversed(ends):
         _load_end(beam, node, sign, scaling)
-    run = contact.attach(beam, _wall(shape, scaling, centre, half, integrator.explicit, plastic))
-    draw_wall(system, min(0.0, float(shape.x[0])), float(shape.x[-1]), shape.wall_curvature)
+    run = chosen.contact.attach(beam, _wall(shape, scaling, chosen))
+    x = np.linspace(min(0.0, float(shape.x[0])), float(shape.x[-1]), 200)
+    line = np.stack([x, shape.wall_curvature * x**2 / 2, np.zeros_like(x)], axis=1)
+    seen = items.VObjectGround(graphicsData=[graphics.Lines(line.tolist(), color=GREY)])
+    system.AddObject(items.ObjectGround(visualization=seen))
     system.Assemble()
     beam.locate()
     return beam, run
@@ -80,21 +133,26 @@ def _axial_stiffness(asked: float | None, true: bool, scaling: Scaling) -> float
     return max(TAUT, abs(scaling.axial_force) / (STRETCH_LATER if later else STRETCH))
 
 
-def _wall(shape: Shape, scaling: Scaling, centre: int, half: bool, explicit: bool, plastic: float) -> Wall:
-    impact = scaling.impact
-    opposite, stiffness = impact.opposite_wall, impact.wall_stiffness
+def _wall(shape: Shape, scaling: Scaling, chosen: Chosen) -> Wall:
+    impact, s, explicit = scaling.impact, shape.s, chosen.integrator.explicit
+    centre, near = int(np.argmin(np.abs(s))), NEAR * impact.length / scaling.length
+    begin, end = (edge / scaling.length for edge in impact.wall_span)
+    before = (s >= begin - near) & (s <= end + near)
+    free = before & ((s > s[0]) | (s[0] == 0.0) | (impact.left_end == "free"))
+    free &= (s < s[-1]) | (impact.right_end == "free")
+    lengths = np.where(before[1:] & before[:-1], np.diff(s), 0.0)
     first_spread = BEFORE_WAVES_RETURN * impact.slow_time_scale / scaling.end_time
-    before, lengths = before_the_wall(shape.s, scaling)
     thin = thin_front(scaling.kappa) and not supports_or_plate(impact)
+    opposite, stiffness = impact.opposite_wall, impact.wall_stiffness
     unit = impact.bending_stiffness / scaling.length ** (4 if lengths.any() else 3)
     return Wall(
-        nodes=np.intersect1d(reachable(shape.s, scaling, centre), np.flatnonzero(before)),
+        nodes=np.intersect1d(reachable(s, scaling, centre), np.flatnonzero(free)),
         lengths=lengths,
         centre=centre,
-        half=half,
-        front=front_bound(scaling.kappa),
+        half=not chosen.full_beam,
+        front=scaling.front,
         first_spread=first_spread,
-        plastic=plastic if thin and first_spread >= 1.0 and not explicit else 0.0,
+        plastic=chosen.plastic if thin and first_spread >= 1.0 and not explicit else 0.0,
         lifts=impact.zone_pressure < 0.0 or impact.damping > 0.0 or impact.kappa_over_nu >= 1.0,
         explicit=explicit,
         opposite=None if opposite is None else -opposite / scaling.deflection,
@@ -122,18 +180,17 @@ def _load_end(beam: Beam, node: int, sign: float, scaling: Scaling) -> None:
 
 def stable_step(beam: Beam, contact: ContactRun, integrator: Integrator) -> float:
     """limit/ω, ω the largest eigenvalue of any element with its contact closed: a bound for the whole mesh."""
-    mass, stiffness, damping = beam.element_matrices()
+    mass, stiffness, bending = beam.element_matrices()
+    damping = beam.viscosity[:, None, None] * bending
     k, d = contact.stiffness_and_damping()
-    share = beam.lengths / 2
     for end in (0, 1):
         node = slice(end, beam.lengths.size + end)
-        part = share / beam.tributary[node]
-        stiffness[:, 2 * end, 2 * end] += k[node] * part
-        damping[:, 2 * end, 2 * end] += d[node] * part
-    solved_k, solved_d = np.linalg.solve(mass, stiffness), np.linalg.solve(mass, damping)
-    count = mass.shape[0]
-    state = np.zeros((count, 8, 8))
+        share = beam.lengths / 2 / beam.tributary[node]
+        stiffness[:, 2 * end, 2 * end] += k[node] * share
+        damping[:, 2 * end, 2 * end] += d[node] * share
+    state = np.zeros((len(mass), 8, 8))
     state[:, :4, 4:] = np.eye(4)
-    state[:, 4:, :4], state[:, 4:, 4:] = -solved_k, -solved_d
+    state[:, 4:, :4], state[:, 4:, 4:] = -np.linalg.solve(mass, stiffness), -np.linalg.solve(mass, damping)
     largest = float(np.abs(np.linalg.eigvals(state)).max())
-    return float(integrator.limit / max(largest, beam.axial_frequency()))
+    axial = math.sqrt(60.0 * beam.section.axial_stiffness) / beam.lengths.min()  # no frequency along x is above
+    return float(integrator.limit / max(largest, axial))

@@ -1,4 +1,12 @@
-"""How large the deflections of the model are.
+"""Model units, what may be said of an impact before it is run, and the beam at the first contact.
+
+With the end time T as unit of time and Λ = (EI/μ)^{1/4} √T as unit of length the beam equation is
+
+    y_tt + y_xxxx = q₀ + a₀ − r,   0 ≤ t ≤ 1,   μ = EI = 1,                               (thesis 2.1.1 scaled)
+
+whatever the physical size of the problem: the leading order is self-similar, so its one parameter κ/ν = K√(EI/μ)/V₀
+is also the initial curvature here when deflections are measured in V₀T. Deflections carry a further factor, the
+``amplitude``: V₀T/Λ gives the true geometry, anything small the linear limit (the problem is linear in it).
 
 The natural shape of the beam at the first contact has the angle θ(s) = −Ks + q₀s³/6 at arc length s. Its material
 points lie at
@@ -10,21 +18,67 @@ and for small angles y = −Ks²/2 + q₀s⁴/24, ẏ = V₀ + c₀s²/2, the fr
 
 from __future__ import annotations
 
+import math
+from abc import ABC, abstractmethod
 from dataclasses import dataclass
-from typing import Annotated, ClassVar, Protocol
+from typing import Annotated, Any, ClassVar
 
 import numpy as np
 
+from bent_beam import Impact
 from bent_beam.fields import Part, Quantity
 from bent_beam.loads import FreeMotion, lowest_mode
 from exudyn_models.arrays import Array
-from exudyn_models.scaling import Scaling, front_bound
 
-__all__ = ["GEOMETRIES", "Geometry", "LinearLimit", "Shape", "TrueGeometry"]
+__all__ = ["GEOMETRIES", "Geometry", "LinearLimit", "Scaling", "Shape", "TrueGeometry", "supports_or_plate"]
 
 STEEPEST = 1e-4  # slope in the linear limit: at 2e-3 the energy budget of a whole impact is 8e-6 off
 MODE_SLOPE = 6.0  # of the lowest mode of any ends, V₀/(L/2): clamped and free, at the tip
 MOVED = 2.0  # fronts' bounds from the centre: beyond, the beam keeps the shape that it came with
+FARTHEST = 200.0  # bound of a front
+
+
+def supports_or_plate(impact: Impact) -> bool:
+    """Whether an end is held, or the wall stands before a part of the beam only."""
+    return impact.supported or impact.wall_in_part
+
+
+class Scaling:
+    """Conversions between SI and model units (model × factor = SI) for one impact followed to ``end_time`` (s).
+
+    length : Λ = (EI/μ)^{1/4} √T, m; true_amplitude : V₀T/Λ, at which the model has the shape of the real beam.
+    deflection (m), velocity (m/s), slope, impulse (N s), energy (J) : factors.
+    kappa : of the beam against the wall; beam_kappa, wall_kappa : of each.
+    front : √(2ν/κ), for choosing a resolution, never to make an answer: without a wall, y₀ = V₀t − Kx²/2 would be
+        inside it up to x = √(2V₀t/K), that is λ₀ < √(2ν/κ).
+    motion : y₀ − y_w over amplitude, x from first_touch (Λ); loads : its terms by which the ends are loaded.
+    axial_force : N Λ²/EI; load : uniform load per unit length over amplitude, under which y₀ is the motion without
+        contact.
+    """
+
+    def __init__(self, impact: Impact, end_time: float, amplitude: float = 1.0) -> None:
+        self.impact, self.end_time, self.amplitude = impact, end_time, amplitude
+        self.length = math.sqrt(impact.wave_constant * end_time)
+        self.true_amplitude = impact.velocity * end_time / self.length
+        self.deflection = impact.velocity * end_time / amplitude
+        self.velocity = impact.velocity / amplitude
+        self.slope = self.deflection / self.length
+        self.impulse = impact.mass_per_length * self.length * self.velocity
+        self.energy = impact.mass_per_length * self.length * self.velocity**2
+        self.kappa = impact.kappa_over_nu
+        self.beam_kappa = impact.curvature * impact.length_scale
+        self.wall_kappa = impact.wall_curvature * impact.length_scale
+        self.front = FARTHEST if self.kappa <= 0.0 else min(FARTHEST, math.sqrt(2.0 / self.kappa))
+        self.first_touch = impact.first_touch / self.length
+        free = impact.free_motion(impact.relative_curvature)
+        self.motion = free.scaled(self.length, end_time, impact.velocity * end_time)
+        self.loads = self.motion_of(0.0).bending()
+        self.axial_force = impact.epsilon_axial * end_time / impact.time_scale
+        self.load = impact.uniform_pressure * end_time / (impact.mass_per_length * impact.velocity)
+
+    def motion_of(self, kappa: float) -> FreeMotion:
+        """``motion`` of a beam of curvature ``kappa``."""
+        return FreeMotion({**self.motion.terms, (2, 0): -kappa})
 
 
 @dataclass(frozen=True)
@@ -45,8 +99,8 @@ class Shape:
     angular_velocity: Array
     curvature: float
     slender: bool
-    wall_curvature: float = 0.0
-    first_touch: float = 0.0
+    wall_curvature: float
+    first_touch: float
 
     @property
     def wall_y(self) -> Array:
@@ -83,30 +137,45 @@ def _arc(s: Array, motion: FreeMotion, amplitude: float) -> tuple[Array, Array, 
     return x, y, vx, vy
 
 
-class Geometry(Protocol):
-    """What ``simulate`` asks of a geometry."""
+@dataclass(frozen=True)
+class Geometry(Part, ABC):
+    """How large the deflections of the model are."""
 
+    where: ClassVar[str] = "exudyn.geometry"
     true: ClassVar[bool]
 
+    @abstractmethod
     def amplitude_of(self, scaling: Scaling, reach: float) -> float:
         """Deflection scale of the model over Λ for a beam modelled over ``reach`` Λ, ``scaling`` having the amplitude
         one."""
-        ...
 
-    def shape(self, s: Array, scaling: Scaling, wall_share: float = 0.0) -> Shape:
+    def shape(self, s: Array, scaling: Scaling, wall_share: float) -> Shape:
         """The beam at the first contact; a share of its curvature may be given to the wall instead."""
-        ...
+        k, a, bow = scaling.beam_kappa - scaling.kappa * wall_share, scaling.amplitude, s - scaling.first_touch
+        motion = scaling.motion_of(k)
+        return Shape(
+            s=s,
+            angle=a * motion(bow, by_x=1),
+            curvature=-a * k,
+            slender=self.true,
+            wall_curvature=a * (scaling.kappa * wall_share - scaling.wall_kappa),
+            first_touch=scaling.first_touch,
+            **self._laid(s, motion, scaling),
+        )
+
+    @abstractmethod
+    def _laid(self, s: Array, motion: FreeMotion, scaling: Scaling) -> dict[str, Any]:
+        """Places and velocities of the nodes under ``motion``, as :class:`Shape` calls them."""
 
 
 @dataclass(frozen=True)
-class LinearLimit(Part):
+class LinearLimit(Geometry):
     """Deflections scaled down until the beam is linear: the comparison with linear theory.
 
     The history is scaled back. The amplitude is chosen so that slopes of the free motion stay below 1e-4 where the
     impact moves the beam, their square being what is left of geometry.
     """
 
-    where: ClassVar[str] = "exudyn.geometry"
     true: ClassVar[bool] = False
 
     amplitude: Annotated[
@@ -117,37 +186,30 @@ class LinearLimit(Part):
     def amplitude_of(self, scaling: Scaling, reach: float) -> float:
         if self.amplitude is not None:
             return self.amplitude
-        held, moved = scaling.impact.supported, MOVED * front_bound(scaling.kappa)
-        far = (reach if held else min(reach, moved)) + abs(scaling.first_touch)
+        held = scaling.impact.supported
+        far = (reach if held else min(reach, MOVED * scaling.front)) + abs(scaling.first_touch)
         motion = scaling.motion_of(max(abs(scaling.kappa), abs(scaling.beam_kappa)))
         largest = FreeMotion({powers: abs(c) for powers, c in motion.terms.items()})
         swings = MODE_SLOPE * scaling.length / scaling.impact.half_length if held else 0.0
         return STEEPEST / max(1.0, float(largest(far, 1.0, by_x=1)), swings)
 
-    def shape(self, s: Array, scaling: Scaling, wall_share: float = 0.0) -> Shape:
-        k, a = scaling.beam_kappa - scaling.kappa * wall_share, scaling.amplitude
-        bow, motion, impact = s - scaling.first_touch, scaling.motion_of(k), scaling.impact
+    def _laid(self, s: Array, motion: FreeMotion, scaling: Scaling) -> dict[str, Any]:
+        impact, a, bow = scaling.impact, scaling.amplitude, s - scaling.first_touch
         velocity, turning = motion(bow, by_t=1), motion(bow, by_x=1, by_t=1)
         if impact.supported:
             velocity, turning = lowest_mode(impact.left_end, impact.right_end, impact.half_length / scaling.length, s)
-        return Shape(
-            s=s,
+        return {
             # what carries a force must not be stretched by its own slope
-            x=_arc(s, motion, a)[0] if scaling.axial_force else s,
-            y=a * motion(bow),
-            angle=a * motion(bow, by_x=1),
-            velocity_x=np.zeros_like(s),
-            velocity_y=a * velocity,
-            angular_velocity=a * turning,
-            curvature=-a * k,
-            slender=False,
-            wall_curvature=a * (scaling.kappa * wall_share - scaling.wall_kappa),
-            first_touch=scaling.first_touch,
-        )
+            "x": _arc(s, motion, a)[0] if scaling.axial_force else s,
+            "y": a * motion(bow),
+            "velocity_x": np.zeros_like(s),
+            "velocity_y": a * velocity,
+            "angular_velocity": a * turning,
+        }
 
 
 @dataclass(frozen=True)
-class TrueGeometry:
+class TrueGeometry(Geometry):
     """The beam as it is: an arc laid by arc length, axial stiffness EA = 12EI/d² of its section height d.
 
     Linear theory is approached as slopes vanish, that is for end times T ≪ t* (slopes over the front are ~ √(T/t*)).
@@ -158,28 +220,16 @@ class TrueGeometry:
     def amplitude_of(self, scaling: Scaling, reach: float) -> float:
         return scaling.true_amplitude
 
-    def shape(self, s: Array, scaling: Scaling, wall_share: float = 0.0) -> Shape:
-        k, a = scaling.beam_kappa - scaling.kappa * wall_share, scaling.amplitude
-        motion = scaling.motion_of(k)
-        angle = a * motion(s, by_x=1)
-        if np.max(np.abs(angle)) > np.pi / 2:
+    def _laid(self, s: Array, motion: FreeMotion, scaling: Scaling) -> dict[str, Any]:
+        a = scaling.amplitude
+        if np.max(np.abs(a * motion(s, by_x=1))) > np.pi / 2:
             raise ValueError(
                 f"geometry true: the modelled beam of half length {s[-1] * scaling.length:.4g} m turns by more "
                 "than a right angle; shorten run.end_time or beam.length, or use the linear limit"
             )
         x, y, vx, vy = _arc(s, motion, a)
-        return Shape(
-            s=s,
-            x=x,
-            y=y,
-            angle=angle,
-            velocity_x=vx,
-            velocity_y=a + vy,
-            angular_velocity=a * motion(s, by_x=1, by_t=1),
-            curvature=-a * k,
-            slender=True,
-            wall_curvature=a * (scaling.kappa * wall_share - scaling.wall_kappa),
-        )
+        turning = a * motion(s, by_x=1, by_t=1)
+        return {"x": x, "y": y, "velocity_x": vx, "velocity_y": a + vy, "angular_velocity": turning}
 
 
 GEOMETRIES: dict[str, type] = {"linear": LinearLimit, "true": TrueGeometry}

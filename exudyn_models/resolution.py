@@ -12,8 +12,6 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from dataclasses import dataclass
-from typing import Any, cast
 
 import numpy as np
 
@@ -23,22 +21,16 @@ from bent_beam.impact import BEFORE_WAVES_RETURN
 from bent_beam.loads import WallScales, wall_scales
 from bent_beam.meshes import Mesh, NodesMesh, ScaleFreeMesh
 from exudyn_models.arrays import Array, Indices
-from exudyn_models.composition import Composition
-from exudyn_models.contacts import Contact, Penalty
-from exudyn_models.elements import Element
-from exudyn_models.geometry import Geometry
-from exudyn_models.integrators import Integrator
-from exudyn_models.scaling import Scaling, front_bound
-from exudyn_models.solvers import NewtonSolver
+from exudyn_models.geometry import Scaling
+from exudyn_models.integrators import Implicit, Integrator
 
 __all__ = [
-    "Chosen",
-    "choose",
     "chosen_half_length",
     "chosen_mesh",
+    "chosen_steps",
     "far_field",
-    "held_for",
     "lasts_until_waves_return",
+    "modelled_half_length",
     "near_buckling",
     "reachable",
     "resolving_step",
@@ -65,50 +57,6 @@ OF_WALL = 0.08  # ℓ_k: elements before a wall that gives way, …
 BEYOND_WALL = 4.0  # … up to so far beyond the front's bound
 STEP_OF_WALL, LONGEST_OF_WALL = 0.125, 0.02  # h/t_k over Δx/ℓ_k, and at most
 MOST_STEPS = 200_000  # that an open time step may ask for
-FIRST_ORDER_HOLD = 16  # elements behind the front; it ends when waves may be back, and every run states it
-FIRST_ORDER_STEPS = 4.0  # so many times shorter steps: λ₁ of (−1, −1, 0) at κ/ν = 0.8 is 5 % off without, 0.4 % with
-
-
-@dataclass(frozen=True)
-class Chosen:
-    """The parts of one run, none of them open."""
-
-    mesh: Mesh
-    element: Element
-    integrator: Integrator
-    contact: Contact
-    geometry: Geometry
-    solver: NewtonSolver
-    plastic: float = 1.0  # of the damping of hits at a thin front
-
-
-def choose(parts: Composition, impact: Impact, end_time: float, *, for_loads: bool = False) -> Chosen:
-    """The parts of a run of ``impact`` to ``end_time`` (s).
-
-    for_loads : the run measures what the loads of ``impact`` change: open steps are shorter, an open contact holds.
-    """
-    shorter = FIRST_ORDER_STEPS if for_loads and parts.integrator is None and impact.loaded else 1.0
-    if for_loads and impact.wall_stiffness is None:
-        parts = dataclasses.replace(parts, contact=held_for(parts.contact, impact))
-    contact, element, integrator, geometry, solver = parts.joined(impact)
-    mesh = parts.mesh or chosen_mesh(impact, end_time, explicit=integrator.explicit)
-    mesh, integrator = mesh.refined(parts.refine), integrator.refined(parts.refine * shorter)
-    if parts.integrator is None:
-        integrator = chosen_steps(integrator, mesh, impact, end_time)
-    return Chosen(mesh, element, integrator, contact, geometry, solver, plastic=min(parts.refine, 1.0))
-
-
-def held_for(contact: Contact | None, impact: Impact) -> Contact:
-    """The contact with the hold that suits the load, for the runs with and without load."""
-    spreads = not thin_front(impact.kappa_over_nu) and impact.kappa_over_nu < 1.0
-    if impact.zone_pressure > 0.0 and contact is None and spreads:
-        # The load first closes what the rebound of the first instants has left. λ₁ of (4, 0, 0) at κ/ν = 0.5 is
-        # 12 % off without the hold, 0.1 % with it. Behind a thin front nothing rebounds, behind a point nothing is.
-        return Penalty(hold=FIRST_ORDER_HOLD)
-    contact = contact or Penalty()
-    if impact.zone_pressure < 0.0 and isinstance(contact, Penalty) and contact.hold_start is None:
-        return dataclasses.replace(contact, hold_start=0.0)  # of the run without the load, too
-    return contact
 
 
 def far_field(scaling: Scaling) -> float:
@@ -123,7 +71,7 @@ def far_field(scaling: Scaling) -> float:
 def chosen_half_length(impact: Impact, end_time: float | None = None) -> float:
     """The half length, m, modelled when no mesh is given: the beam's, or less where nothing returns in time. An axial
     force along x bends the ends of a bow: the beam is then modelled as long as it is, up to :data:`LONGEST`."""
-    scaling = Scaling.of(impact, impact.checked_end_time(end_time))
+    scaling = Scaling(impact, impact.checked_end_time(end_time))
     bent = bool(impact.axial_force) and impact.tension_direction == "axis"
     if bent and impact.half_length <= LONGEST * scaling.length:
         return impact.half_length
@@ -138,13 +86,12 @@ def chosen_mesh(
     coarsen : factor on every element's length.
     """
     positive("coarsen", coarsen)
-    if lasts_until_waves_return(impact, end_time) and impact.wall_stiffness is None:
-        steps_at_one = 2.0 * impact.checked_end_time(end_time) / impact.slow_time_scale  # with one element
+    scaling, wall = Scaling(impact, impact.checked_end_time(end_time)), wall_scales(impact)
+    if lasts_until_waves_return(impact, end_time) and wall is None:
+        steps_at_one = 2.0 * scaling.end_time / impact.slow_time_scale  # with one element
         count = max((ELEMENT_STEPS / steps_at_one) ** (1.0 / 3.0), FEWEST) * near_buckling(impact) / coarsen
-        places = np.linspace(0.0, impact.half_length, max(2, round(count)) + 1)
-        return NodesMesh(places=tuple(float(place) for place in places))
-    scaling = Scaling.of(impact, impact.checked_end_time(end_time))
-    front, wall = front_bound(scaling.kappa), wall_scales(impact)
+        return NodesMesh(tuple(np.linspace(0.0, impact.half_length, max(2, round(count)) + 1).tolist()))
+    front = scaling.front
     if wall is not None:
         ratio = wall.length / scaling.length
         element = OF_WALL * min(1.0, scaling.kappa**-0.375) * ratio
@@ -164,8 +111,14 @@ def chosen_mesh(
         zone=None if zone is None else zone * scaling.length,
         growth_outside=None if zone is None else 1.0 + GROWTH_OF_WAVES * coarsen,
     )
-    nodes = rule.nodes(chosen_half_length(impact, end_time))
-    return NodesMesh(places=tuple(float(place) for place in nodes))
+    return NodesMesh(tuple(rule.nodes(chosen_half_length(impact, end_time)).tolist()))
+
+
+def modelled_half_length(mesh: Mesh, impact: Impact) -> float:
+    """The half length, m, that a mesh is laid over: the beam's, or less where its nodes are given."""
+    if isinstance(mesh, NodesMesh) and mesh.places[-1] <= impact.half_length * (1.0 + 1e-9):
+        return mesh.places[-1]
+    return impact.half_length
 
 
 def lasts_until_waves_return(impact: Impact, end_time: float | None) -> bool:
@@ -184,8 +137,7 @@ def near_buckling(impact: Impact) -> float:
 
 def step_of_wall(mesh: Mesh, impact: Impact, wall: WallScales) -> float:
     """The time step, s, before a wall that gives way."""
-    half_length = mesh.places[-1] if isinstance(mesh, NodesMesh) else impact.half_length
-    element = float(np.diff(mesh.nodes(half_length)).min())
+    element = float(np.diff(mesh.nodes(modelled_half_length(mesh, impact))).min())
     return min(STEP_OF_WALL * element / wall.length, LONGEST_OF_WALL) * wall.time
 
 
@@ -206,28 +158,24 @@ def chosen_steps(integrator: Integrator, mesh: Mesh, impact: Impact, end_time: f
     With elements so short that the former would take more than ``MOST_STEPS`` it stays as it is: the run warns where
     its contact gives energy.
     """
-    end = impact.checked_end_time(end_time)
-    changed: dict[str, float] = {}
-    if integrator.explicit:
+    if not isinstance(integrator, Implicit):
         return integrator
-    wall = wall_scales(impact)
+    end, wall = impact.checked_end_time(end_time), wall_scales(impact)
     if wall is not None:
-        changed["time_step"] = step_of_wall(mesh, impact, wall)
-    elif lasts_until_waves_return(impact, end_time):
+        return dataclasses.replace(integrator, time_step=step_of_wall(mesh, impact, wall))
+    if lasts_until_waves_return(impact, end_time):
         step = resolving_step(mesh, impact)
-        if end <= MOST_STEPS * step:
-            changed["time_step"] = step
-    elif thin_front(impact.kappa_over_nu):
-        changed["relative_step"] = min(cast(Any, integrator).relative_step, _step_over_elements(mesh, impact, end))
-    return cast(Integrator, dataclasses.replace(cast(Any, integrator), **changed))
+        return dataclasses.replace(integrator, time_step=step) if end <= MOST_STEPS * step else integrator
+    if thin_front(impact.kappa_over_nu):
+        step = min(integrator.relative_step, _step_over_elements(mesh, Scaling(impact, end)))
+        return dataclasses.replace(integrator, relative_step=step)
+    return integrator
 
 
-def _step_over_elements(mesh: Mesh, impact: Impact, end: float) -> float:
+def _step_over_elements(mesh: Mesh, scaling: Scaling) -> float:
     """h/t with which the front, x ~ √t, passes ``PASSED`` elements in the last step."""
-    half_length = mesh.places[-1] if isinstance(mesh, NodesMesh) else impact.half_length
-    places = mesh.nodes(half_length)
-    front = front_bound(impact.kappa_over_nu) * Scaling.of(impact, end).length
-    k = min(max(int(np.searchsorted(places, front)), 1), places.size - 1)
+    places = mesh.nodes(modelled_half_length(mesh, scaling.impact))
+    k = min(max(int(np.searchsorted(places, scaling.front * scaling.length)), 1), places.size - 1)
     return 2.0 * PASSED * float(places[k] - places[k - 1]) / float(places[k])
 
 

@@ -34,14 +34,13 @@ BLOCK, PERSISTENCE = 15, 60  # repetitions
 class Settling:
     """Exudyn's ``PostNewtonUserFunction`` for one run (implicit integrators).
 
-    iterations : most repetitions of a step; tolerance : force, model units; must_settle : whether the run is to fail
-        when they run out.
+    iterations : most repetitions of a step; tolerance : force, model units.
     steps, cycles, unsettled : steps seen, those accepted though no contact state was consistent, and those that ran
-        out of repetitions.
+        out of repetitions; first : what happened in the first of these.
+    solution : q and v last looked at.
     """
 
-    def __init__(self, contact: ContactRun, solver: Any, iterations: int, tolerance: float, must_settle: bool) -> None:
-        self.must_settle = must_settle
+    def __init__(self, contact: ContactRun, solver: Any, iterations: int, tolerance: float) -> None:
         self.steps = self.cycles = self.unsettled = 0
         self._contact, self._solver = contact, solver
         self._iterations, self._tolerance = iterations, tolerance
@@ -53,10 +52,8 @@ class Settling:
         self._tried: dict[bytes, float] = {}  # what was assumed of them, and by how much it contradicted itself
         self._cycling = False
         self._imposed: Flags | None = None
-        self._gaps: Array | None = None  # that stand for it
-        self._hooked = False
-        self._first = ""
-        self.solution: tuple[Array, Array] | None = None  # q, v last looked at
+        self.first = ""
+        self.solution: tuple[Array, Array] | None = None
 
     def __call__(self, mbs: Any, time: float) -> list[float]:
         if time != self._time:
@@ -64,12 +61,10 @@ class Settling:
             self._fewest, self._patience = math.inf, BLOCK
             self.steps += 1
         self._repetitions += 1
-        data = mbs.systemData
-        closed = self._imposed
+        data, closed = mbs.systemData, self._imposed
         if closed is None:
             closed = data.GetDataCoordinates()[:: self._contact.states] <= 0.0
-        q, v = data.GetODE2Coordinates(), data.GetODE2Coordinates_t()
-        self.solution = (q, v)
+        q, v = self.solution = data.GetODE2Coordinates(), data.GetODE2Coordinates_t()
         if self._contact.imposes and np.array_equal(self._contact.closed_by(q, v), closed):
             return self._accept(mbs, closed)
         wrong = self._contact.contradictions(q, v, closed)
@@ -82,7 +77,7 @@ class Settling:
             return self._accept(mbs, closed)
         if self._repetitions >= self._iterations:
             self.unsettled += 1
-            self._first = self._first or (
+            self.first = self.first or (
                 f"the contact state of a step had not settled after {self._iterations} repetitions: "
                 f"{doubtful.sum()} contact points contradict their gaps by up to "
                 f"{force / self._tolerance:.3g} contact_tolerance"
@@ -98,10 +93,6 @@ class Settling:
         else:
             self._follow(mbs)
         return [force, -1.0]
-
-    def failure(self) -> str:
-        """What happened in the first step that ran out of repetitions."""
-        return self._first
 
     def _all_at_once(self, contradictions: int) -> bool:
         """Whether all connectors follow their gaps in the next repetition, or only one that contradicts its own."""
@@ -130,39 +121,31 @@ class Settling:
 
     def _set(self, mbs: Any, closed: Flags) -> None:
         """Assume ``closed`` in the next repetition, whatever the gaps show."""
-        self._assume(closed)
-        if not self._hooked:
+        if self._imposed is None:
             mbs.SetPreNewtonResidualUserFunction(self._impose)
-            self._hooked = True
+        self._imposed = closed
         mbs.solverSignalJacobianUpdate = True
-
-    def _assume(self, closed: Flags) -> None:
-        if closed is not self._imposed:
-            self._imposed, self._gaps = closed, np.where(closed, -TINY, TINY)
 
     def _impose(self, mbs: Any, time: float, newton_step: int, repetition: int) -> None:
         """Exudyn's ``PreNewtonResidualUserFunction``: the state to assume instead of what the last gaps showed."""
-        if newton_step == 0 and self._gaps is not None:
-            if self._contact.states == 1:
-                mbs.systemData.SetDataCoordinates(self._gaps)
-                return
+        if newton_step == 0 and self._imposed is not None:
             data = mbs.systemData.GetDataCoordinates()
-            data[:: self._contact.states] = self._gaps
+            data[:: self._contact.states] = np.where(self._imposed, -TINY, TINY)
             mbs.systemData.SetDataCoordinates(data)
 
     def _follow(self, mbs: Any) -> None:
         """All connectors follow their gaps again."""
-        if self._hooked:
-            self._imposed, self._gaps, self._hooked = None, None, False
+        if self._imposed is not None:
+            self._imposed = None
             mbs.SetPreNewtonResidualUserFunction(0)
 
     def _accept(self, mbs: Any, closed: Flags) -> list[float]:
         """No further repetition, whatever Exudyn's own measure says: it goes on when they are used up."""
-        if self._contact.imposes:
-            if not self._hooked:
-                self._set(mbs, closed)
-            self._assume(closed)
-        else:
+        if not self._contact.imposes:
             self._follow(mbs)
+        elif self._imposed is None:
+            self._set(mbs, closed)
+        else:
+            self._imposed = closed
         self._solver.it.discontinuousIteration = self._iterations - 1
         return [0.0, -1.0]

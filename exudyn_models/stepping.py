@@ -5,20 +5,26 @@ Every new segment costs a factorisation, every reading a hundredth of one.
 
 from __future__ import annotations
 
+import math
 import time as clock
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import Any
 
 import exudyn as exu
 import numpy as np
 
+from bent_beam.checks import affordable
 from exudyn_models.arrays import Array
-from exudyn_models.integrators.base import Segment
+from exudyn_models.assembly import Chosen, Layout, assemble, stable_step
+from exudyn_models.integrators import Segment
 from exudyn_models.recording import Recorder
 from exudyn_models.settling import Settling
+from exudyn_models.viewer import open_viewer, wait_until_closed
 
 __all__ = ["Stepping", "Until"]
+
+MOST_NODES = 200_000  # Exudyn takes 10 kB for each: 2 GB
+MOST_WORK = 2e9  # steps x nodes: about an hour
 
 Until = Callable[[Recorder, float, Array, Array], bool]
 """Asked with the recorder, the time, q and v (model units): whether the run is to end."""
@@ -33,84 +39,116 @@ UNSETTLED = (
 )
 
 
-@dataclass
 class Stepping:
     """A run under way, and Exudyn's ``PostStepUserFunction``: it reads every step, saves the state where asked and lets
     the contact switch connectors.
 
-    segments, stable : the steps, and the longest that an explicit integrator bears, model units.
-    settings, solver : Exudyn's.
     targets : times to save, model units; each is saved at the first end of a step at or after it.
     until, progress : see :func:`exudyn_models.simulate`.
+    run : the recorder; segments, stable : the steps, and the longest that an explicit integrator bears, model units.
     steps : done; seconds : inside Exudyn; failure : what failed, ``None`` when nothing did; advice : what to try then.
-    time, step : of the last step, model units; saved : targets; left : ``until`` has ended the run.
+
+    Raises ``ValueError`` for more work than one run takes.
     """
 
-    run: Recorder
-    segments: list[Segment]
-    stable: float
-    settings: Any
-    solver: Any
-    settling: Settling | None
-    targets: Array
-    progress: Callable[[float], object] | None = None
-    until: Until | None = None
-    steps: int = 0
-    seconds: float = 0.0
-    failure: str | None = None
-    advice: str = ADVICE
-    time: float = 0.0
-    step: float = 0.0
-    saved: int = 0
-    left: bool = False
-    error: BaseException | None = None
+    def __init__(
+        self,
+        layout: Layout,
+        chosen: Chosen,
+        targets: Array,
+        progress: Callable[[float], object] | None,
+        until: Until | None,
+    ) -> None:
+        scaling, integrator, nodes = layout.scaling, chosen.integrator, layout.shape.s.size
+        if nodes > MOST_NODES:
+            raise ValueError(
+                f"mesh: {nodes} nodes on the Exudyn path, {MOST_NODES} are the most (memory); larger elements"
+            )
+        beam, contact = assemble(layout, chosen)
+        self.run = Recorder(beam, contact, scaling, not chosen.full_beam, integrator.averages())
+        self.stable = stable_step(beam, contact, integrator) if integrator.explicit else math.inf
+        crossing = min(0.01, (layout.places[1] / scaling.front) ** 2)
+        self.segments = integrator.segments(crossing, scaling.end_time, self.stable)
+        steps = sum(segment.steps for segment in self.segments)
+        affordable("exudyn.integrator and mesh", steps, nodes, targets.size, MOST_WORK)
+        round_off = max(contact.round_off, beam.round_off(scaling.amplitude))
+        self.settings = chosen.solver.settings(scaling.amplitude, round_off)
+        integrator.configure(self.settings)
+        self.solver = integrator.solver()
+        self.settling: Settling | None = None  # explicit steps are not repeated
+        if contact.iterated and not integrator.explicit:
+            judged = self.settings.timeIntegration.discontinuous
+            self.settling = Settling(contact, self.solver, judged.maxIterations, judged.iterationTolerance)
+        self.must_settle = chosen.solver.contact_must_settle
+        self.targets, self.progress, self.until = targets, progress, until
+        self.steps, self.seconds = 0, 0.0
+        self.failure: str | None = None
+        self.advice = ADVICE
+        self._time = self._step = 0.0  # of the last step, model units
+        self._saved = 0  # targets
+        self._left = False  # ``until`` has ended the run
+        self._error: BaseException | None = None
 
     @property
-    def unsettled(self) -> bool:
+    def _unsettled(self) -> bool:
         """Whether a step has ended with contacts that must settle and did not."""
-        return self.settling is not None and self.settling.must_settle and self.settling.unsettled > 0
+        return self.must_settle and self.settling is not None and self.settling.unsettled > 0
 
     def __call__(self, mbs: Any, time: float) -> bool:
         try:
             return self._read(mbs, time)
         except BaseException as error:  # Exudyn would turn it into an error of its own
-            self.error = error
+            self._error = error
             return False
 
     def _read(self, mbs: Any, time: float) -> bool:
-        if self.unsettled:
+        if self._unsettled:
             return False
         run = self.run
-        if time <= self.time:  # Exudyn calls at the start of a segment, too
+        if time <= self._time:  # Exudyn calls at the start of a segment, too
             return True
         q, v = run.read(time, None if self.settling is None else self.settling.solution)
-        self.time = time
+        self._time = time
         self.steps += 1
-        if self.saved < self.targets.size and time >= self.targets[self.saved] * (1.0 - 1e-9):
-            run.save(time, q, v)
-            self.saved = int(np.searchsorted(self.targets, time * (1.0 + 1e-9), side="right"))
+        if self._saved < self.targets.size and time >= self.targets[self._saved] * (1.0 - 1e-9):
+            run.save(time, q)
+            self._saved = int(np.searchsorted(self.targets, time * (1.0 + 1e-9), side="right"))
             if self.progress is not None:
                 self.progress(time)
-            self.left = self.until is not None and self.until(run, time, q, v)
-            if self.left:
+            self._left = self.until is not None and self.until(run, time, q, v)
+            if self._left:
                 return False
-        if run.contact.between(time, self.step, q, v):
+        if run.contact.between(time, self._step, q, v):
             mbs.solverSignalJacobianUpdate = True
         return True
 
-    def through(self) -> None:
-        """Take all steps, or those up to a failure, which is kept.
+    def through(self, view: bool) -> None:
+        """Take all steps, or those up to a failure, which is kept; watched where asked for. The Exudyn system is given
+        up at the end.
 
         Raises what the user's functions raise, and ``KeyboardInterrupt``.
         """
         mbs = self.run.beam.mbs
+        container = mbs.variables["container"]
+        viewing = view and open_viewer(container)
+        try:
+            self._all_segments(mbs)
+            if viewing:
+                wait_until_closed(container)
+        finally:
+            if viewing:
+                container.renderer.Stop()
+            mbs.SetPostNewtonUserFunction(0)
+            mbs.variables.clear()  # the container holds the system: break the circle
+
+    def _all_segments(self, mbs: Any) -> None:
         if self.settling is not None:
             mbs.SetPostNewtonUserFunction(self.settling)
         try:
             if self._started(self.segments[0]):
                 mbs.SetPostStepUserFunction(self)
                 for segment in self.segments:
-                    if self.failure is None and not self.left:
+                    if self.failure is None and not self._left:
                         self._step_through(segment)
         except FloatingPointError as error:
             self.failure = str(error)
@@ -132,13 +170,13 @@ class Stepping:
             return False
         self.seconds += clock.perf_counter() - began
         q, v = run.read(0.0)
-        run.save(0.0, q, v)
+        run.save(0.0, q)
         run.contact.between(0.0, first.length, q, v)
         return True
 
     def _step_through(self, segment: Segment) -> None:
         time, it, size = self.settings.timeIntegration, self.solver.it, segment.length
-        self.step = size
+        self._step = size
         time.startTime, time.endTime, time.numberOfSteps = segment.start, segment.end, segment.steps
         it.startTime, it.endTime, it.numberOfSteps = segment.start, segment.end, segment.steps
         it.currentStepSize = it.initialStepSize = it.maxStepSize = size
@@ -146,12 +184,12 @@ class Stepping:
         began = clock.perf_counter()
         solved = self.solver.SolveSteps(self.run.beam.mbs, self.settings)
         self.seconds += clock.perf_counter() - began
-        if self.error is not None:
-            raise self.error
-        if not solved and not self.left:
+        if self._error is not None:
+            raise self._error
+        if not solved and not self._left:
             self._failed(str(self.solver.GetErrorString()))
-        elif self.settling is not None and self.unsettled:
-            self.failure, self.advice = self.settling.failure(), UNSETTLED
+        elif self.settling is not None and self._unsettled:
+            self.failure, self.advice = self.settling.first, UNSETTLED
 
     def _failed(self, message: str) -> None:
         """What Exudyn says of a run that it ended; an interrupt by the user within a user function is no failure."""

@@ -7,12 +7,14 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from bent_beam import ImpactHistory
 from exudyn_models.arrays import Array
+from exudyn_models.assembly import Chosen, Layout
+from exudyn_models.geometry import Scaling, supports_or_plate
 from exudyn_models.recording import Recorder
 from exudyn_models.resolution import far_field
-from exudyn_models.scaling import Scaling, front_bound
 from exudyn_models.settling import Settling
-from exudyn_models.supports import supports_or_plate
+from exudyn_models.stepping import Stepping
 
 __all__ = ["warnings_of_run"]
 
@@ -26,29 +28,15 @@ STEEPEST_GROWTH = 1.021  # of neighbouring elements
 STEEPEST = 0.1  # slope
 
 
-def warnings_of_run(
-    run: Recorder, places: Array, half_length: float, *, given: bool, last_step: float, settling: Settling | None
-) -> list[str]:
-    """Sentences about one run.
-
-    places : nodes of the half beam, model units, shape (nodes of the half beam,); half_length : modelled, m;
-    given : the mesh was asked for; last_step : model units.
-    """
-    found = [*_of_steps(last_step, settling), *_of_contact(run)]
-    if supports_or_plate(run.scaling.impact):
-        return [*found, *_of_slopes(run)]
-    if len(run.record["time"]) > 1:
-        found += _of_front(places, run.scaling)
-    if given:
-        growth = float((np.diff(places)[1:] / np.diff(places)[:-1]).max())
-        if growth > STEEPEST_GROWTH:
-            found.append(f"the mesh grows by {growth - 1:.0%} an element: above 2 % it reflects waves back")
-    reach = half_length / run.scaling.length
-    if reach < 0.5 * far_field(run.scaling):
-        found.append(
-            f"the end lies at {reach:.3g} sqrt(sqrt(EI/mu) T): waves reflected there come back before the end time"
-        )
-    return [*found, *_of_depth(run), *_of_slopes(run)]
+def warnings_of_run(layout: Layout, chosen: Chosen, stepping: Stepping, history: ImpactHistory) -> list[str]:
+    """Sentences about one run."""
+    run, scaling = stepping.run, layout.scaling
+    found = [*_of_steps(stepping.segments[-1].length, stepping.settling), *_of_contact(run, history)]
+    if not supports_or_plate(scaling.impact):
+        if len(run.record["time"]) > 1:
+            found += _of_front(layout.places, scaling)
+        found += [*_of_mesh(layout, chosen.mesh_given), *_of_depth(run)]
+    return [*found, *_of_slopes(run)]
 
 
 def _of_steps(last_step: float, settling: Settling | None) -> Iterator[str]:
@@ -63,31 +51,39 @@ def _of_steps(last_step: float, settling: Settling | None) -> Iterator[str]:
         )
 
 
-def _of_contact(run: Recorder) -> Iterator[str]:
+def _of_mesh(layout: Layout, given: bool) -> Iterator[str]:
+    lengths, reach = np.diff(layout.places), layout.half_length / layout.scaling.length
+    growth = float((lengths[1:] / lengths[:-1]).max())
+    if given and growth > STEEPEST_GROWTH:
+        yield f"the mesh grows by {growth - 1:.0%} an element: above 2 % it reflects waves back"
+    if reach < 0.5 * far_field(layout.scaling):
+        yield f"the end lies at {reach:.3g} sqrt(sqrt(EI/mu) T): waves reflected there come back before the end time"
+
+
+def _of_contact(run: Recorder, history: ImpactHistory) -> Iterator[str]:
     penetration = run.deepest / run.scaling.amplitude
     if penetration > DEEPEST and run.scaling.impact.wall_stiffness is None:
         yield f"the beam enters the wall by up to {penetration:.2%} of V0 t; take a stiffer penalty or smaller steps"
-    lost = np.asarray(run.record["loss_impact"])
-    given_back = float((np.maximum.accumulate(lost) - lost).max(initial=0.0))
-    initial = run.record["kinetic_energy"][0] + run.record["strain_energy"][0] if lost.size else 0.0
+    lost, held = history.array("loss_impact"), float(run.sums["held_impulse"])
+    given_back = float((np.maximum.accumulate(lost) - lost).max())
+    initial = float(history.array("kinetic_energy")[0] + history.array("strain_energy")[0])
     if given_back > MOST_GIVEN * initial:
         yield (
             f"the contact gave {given_back / initial:.2g} of the initial energy: steps too long for it; take steps of "
             "0.5 dx^2 sqrt(mu/EI) at most, or longer elements"
         )
-    if -run.held > MOST_PULLED * abs(run.total):
+    if -held > MOST_PULLED * abs(run.total):
         yield (
-            f"contact points were pulled by {-run.held / abs(run.total):.2g} times the total impulse while held: their "
+            f"contact points were pulled by {-held / abs(run.total):.2g} times the total impulse while held: their "
             "reactions mean nothing one by one"
         )
 
 
 def _of_front(places: Array, scaling: Scaling) -> list[str]:
     """The first of two times at which the bending ahead of the front has too few elements."""
-    front = front_bound(scaling.kappa)
     for part in (1.0, 0.1):
-        k = min(int(np.searchsorted(places, front * math.sqrt(part))), places.size - 2)
-        held = 2.0 / front * math.sqrt(part) / (places[k + 1] - places[k])
+        k = min(int(np.searchsorted(places, scaling.front * math.sqrt(part))), places.size - 2)
+        held = 2.0 / scaling.front * math.sqrt(part) / (places[k + 1] - places[k])
         if held < FEWEST:
             when = "the end time" if part == 1.0 else f"{part:g} of the end time"
             return [f"under-resolved front: its bending length holds {held:.1f} elements at {when}, needs {FEWEST:g}"]

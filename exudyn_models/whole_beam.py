@@ -17,23 +17,22 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from typing import TypeVar
+from typing import Any, TypeVar
 
 import numpy as np
 
 from bent_beam import Impact
 from bent_beam.loads import wall_scales
 from bent_beam.meshes import UniformMesh
-from exudyn_models.composition import Composition
 from exudyn_models.contacts import Penalty, penalty
 from exudyn_models.elements import ANCFCable
+from exudyn_models.geometry import supports_or_plate
 from exudyn_models.integrators import Trapezoidal
 from exudyn_models.resolution import STEP, near_buckling, resolving_step, step_of_wall
-from exudyn_models.supports import supports_or_plate
 
 __all__ = ["cross_checks", "for_whole_beam", "varied"]
 
-C = TypeVar("C", bound=Composition)
+M = TypeVar("M", bound=Any)  # :class:`exudyn_models.method.ExudynModel`, which has these functions as methods
 
 CONTACT = Penalty(hold_start=0.0)
 POINT_ELEMENTS = 100  # of a half beam that touches in a point; half as many: e moves by 4e-5
@@ -43,7 +42,7 @@ LARGEST_OF_WALL = 0.25  # ℓ_k: elements before a wall that gives way
 FLATTEST = 1.0 / 150.0  # κ/ν down to which the front does not ask for a stiffer penalty
 
 
-def for_whole_beam(method: C, impact: Impact) -> C:
+def for_whole_beam(method: M, impact: Impact) -> M:
     """A copy of ``method`` whose open parts are those of the module's head; its ``refine`` is worked in."""
     wall = wall_scales(impact)
     if wall is not None:
@@ -52,15 +51,13 @@ def for_whole_beam(method: C, impact: Impact) -> C:
         elements = ZONE_ELEMENTS if impact.kappa_over_nu < 1.0 else POINT_ELEMENTS
     chosen = method.mesh is None and method.contact is None and method.integrator is None
     slower = SLOWER if chosen and FLATTEST <= impact.kappa_over_nu < 1.0 else 1.0
-    elements = round(elements * near_buckling(impact))
-    mesh = UniformMesh(impact.half_length / elements) if method.mesh is None else method.mesh
+    mesh = method.mesh or UniformMesh(impact.half_length / round(elements * near_buckling(impact)))
     mesh = mesh.refined(method.refine)
-    integrator = method.integrator
-    if integrator is None:
+    if method.integrator is None:
         step = slower * resolving_step(mesh, impact) if wall is None else step_of_wall(mesh, impact, wall)
         integrator = Trapezoidal(time_step=step)
     else:
-        integrator = integrator.refined(method.refine)
+        integrator = method.integrator.refined(method.refine)
     contact = method.contact
     if contact is None and wall is None:
         contact = CONTACT if slower == 1.0 else _softer(CONTACT, slower**-2)
@@ -71,7 +68,7 @@ def for_whole_beam(method: C, impact: Impact) -> C:
     return dataclasses.replace(
         method,
         mesh=mesh,
-        element=ANCFCable(viscosity=0.0) if method.element is None else method.element,
+        element=method.element or ANCFCable(viscosity=0.0),
         integrator=integrator,
         contact=contact,
         full_beam=method.full_beam or impact.off_centre,
@@ -79,13 +76,12 @@ def for_whole_beam(method: C, impact: Impact) -> C:
     )
 
 
-def cross_checks(method: C, impact: Impact) -> dict[str, C]:
+def cross_checks(method: M, impact: Impact) -> dict[str, M]:
     """What stands beside ``method`` for error bars, by cause: half as many elements (and steps in proportion to their
     square), steps twice as long, and, of a penalty, a quarter of the stiffness, whose own time is twice as long, with
     these steps too."""
     chosen = for_whole_beam(method, impact)
     mesh, integrator, contact = chosen.mesh, chosen.integrator, chosen.contact
-    assert mesh is not None and integrator is not None
     checks = {
         "mesh": dataclasses.replace(chosen, mesh=mesh.refined(0.5), integrator=integrator.refined(0.25)),
         "step": dataclasses.replace(chosen, integrator=integrator.refined(0.5)),
@@ -98,7 +94,6 @@ def cross_checks(method: C, impact: Impact) -> dict[str, C]:
 
 def _softer(contact: Penalty, factor: float) -> Penalty:
     """A penalty of ``factor`` times the stiffness with the same damping ratio; damping left open follows by itself."""
-
     stiffness, damping = contact.relative_stiffness or penalty.STIFFNESS, contact.relative_damping
     return dataclasses.replace(
         contact,
@@ -107,7 +102,7 @@ def _softer(contact: Penalty, factor: float) -> Penalty:
     )
 
 
-def varied(method: C, impact: Impact, random: np.random.Generator) -> C:
+def varied(method: M, impact: Impact, random: np.random.Generator) -> M:
     """A method for an ensemble: elements, steps and stiffness of the penalty drawn at random."""
     elements = int(random.integers(2 * POINT_ELEMENTS // 5, 4 * POINT_ELEMENTS // 5))
     length = impact.half_length / elements

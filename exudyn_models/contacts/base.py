@@ -3,27 +3,43 @@
 The wall is y = 0, the beam lies in y ≤ 0, the gap is g = −y. A contact puts its connectors into the Exudyn system
 once and is then asked, between segments of time steps, for the force at each contact point; it may switch connectors
 there.
+
+Which captured nodes are held, and until when (:class:`HeldStrip`):
+
+The first instants are never resolved, whatever the mesh: the front is then faster than any element. What their node
+impacts leave behind would lift the zone for a long time, so all captured nodes are held for a first share ``START`` of
+the run, but not in runs that last longer than the first spread, nor where load or damping draws the beam off the wall
+or it touches in a point: a held start makes the largest moment 5 % too large at κ/ν = 0.32 with ζ = 0.2 %, 15 % at 1.2.
+
+Behind the front the exact reaction vanishes; a one-sided law turns the numerical noise there into pushes that lift the
+beam. A hold of so many elements, where asked for, keeps each captured node until the front is that much further: the
+held strip shrinks with the mesh. It too ends with the first spread: from then on waves from the ends are back, and may
+lift what they will.
 """
 
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
-from typing import Any, ClassVar
+from typing import Annotated, Any, ClassVar
 
 import numpy as np
 
 from bent_beam import Impact
-from bent_beam.fields import Part
+from bent_beam.fields import Part, Quantity
 from exudyn_models.arrays import Array, Flags, Indices
-from exudyn_models.elements import Beam, Element
+from exudyn_models.elements.beam import Beam, Element, shares
 from exudyn_models.geometry import Geometry, LinearLimit
 from exudyn_models.integrators import GeneralizedAlpha, Integrator
 from exudyn_models.solvers import NewtonSolver
 
-__all__ = ["Contact", "ContactRun", "Wall"]
+__all__ = ["START", "Contact", "ContactRun", "HeldStrip", "Hold", "Wall"]
 
 TINY = 1e-30  # a gap that is a state and no length
+START = 0.01  # of the end time
+Hold = Annotated[
+    int, Quantity("", "elements behind the front whose captured nodes are held, until waves may be back", least=0)
+]
 
 
 @dataclass(frozen=True)
@@ -63,9 +79,43 @@ class Wall:
         """Length of wall that each of ``nodes`` stands for, of a stop its share in the modelled beam."""
         if self.stop:
             return np.full(self.nodes.size, 0.5 if self.half and self.nodes[0] == self.centre else 1.0)
-        half = np.append(self.lengths, 0.0) / 2
-        half[1:] += self.lengths / 2
-        return np.asarray(half[self.nodes])
+        return np.asarray(shares(self.lengths)[self.nodes])
+
+
+class HeldStrip:
+    """Remembers which contact nodes have been captured.
+
+    hold : elements behind the front; start : share of the run in which all captured nodes are held (``None``: chosen).
+    start, until : times (of the end time) after which the start, and the strip, are let go.
+    """
+
+    def __init__(self, wall: Wall, hold: int, start: float | None = None) -> None:
+        if wall.explicit or wall.first_spread < 1.0 or wall.lifts:
+            start = start or 0.0
+        self.hold = hold
+        self.start = min(START if start is None else start, wall.first_spread)
+        self.until = wall.first_spread if hold else self.start
+        self.captured = np.zeros(wall.nodes.size, bool)
+        self._distance = np.abs(wall.nodes - wall.centre)
+        self._sides = (wall.nodes >= wall.centre, wall.nodes < wall.centre)
+
+    @property
+    def used(self) -> bool:
+        """Whether any node will ever be held."""
+        return self.until > 0.0
+
+    def wanted(self, time: float) -> Flags:
+        """Flags of the contact nodes to hold at ``time`` (of the end time), shape (contacts,)."""
+        if time < self.start:
+            return self.captured.copy()
+        held = np.zeros_like(self.captured)
+        if not self.hold or time >= self.until:
+            return held
+        for side in self._sides:
+            caught = self.captured & side
+            if caught.any():
+                held |= caught & (self._distance > self._distance[caught].max() - self.hold)
+        return held
 
 
 class ContactRun(ABC):
@@ -79,6 +129,7 @@ class ContactRun(ABC):
     states = 1  # data coordinates of a connector, the first a gap: the connector is closed where it is not positive
     imposes = False  # states are those of ``closed_by``, not of Exudyn's gaps
     wall_springs: Array | None = None  # stiffness at the contact points of a wall that gives way, (contacts,)
+    strip: HeldStrip | None = None  # of a contact that may hold captured nodes
     round_off = 0.0  # force in Exudyn's connectors that means nothing: no residual can be made smaller
 
     def __init__(self, beam: Beam, nodes: Indices, wall_y: Array, signs: Array | None = None) -> None:
@@ -120,37 +171,31 @@ class ContactRun(ABC):
     @property
     def held_until(self) -> float:
         """When (of the end time) the last contact point is let go that may have been held; 0: none ever is."""
-        return 0.0
+        return 0.0 if self.strip is None else self.strip.until
 
     def settings(self) -> dict[str, Any]:
         """What was chosen, JSON-ready."""
-        return {}
+        return {} if self.strip is None else {"hold_elements": self.strip.hold}
 
 
 @dataclass(frozen=True)
 class Contact(Part, ABC):
-    """A kind of contact: what it can work with, what goes with it when nothing else is asked for, its connectors."""
+    """A kind of contact: what it can work with, its connectors.
+
+    integrator, geometry, solver : what goes with it when nothing else is asked for.
+    """
 
     where: ClassVar[str] = "exudyn.contact"
+    integrator: ClassVar[Integrator] = GeneralizedAlpha()
+    geometry: ClassVar[Geometry] = LinearLimit()
+    solver: ClassVar[NewtonSolver] = NewtonSolver()
 
     def refuses(self, impact: Impact, element: Element, integrator: Integrator) -> str | None:
         """Why this contact cannot work with a beam, an element or an integrator (None: it can)."""
         return None
 
-    def integrator(self) -> Integrator:
-        """The integrator that goes with it."""
-        return GeneralizedAlpha()
-
-    def geometry(self) -> Geometry:
-        """The geometry that goes with it."""
-        return LinearLimit()
-
-    def solver(self) -> NewtonSolver:
-        """The solver settings that go with it."""
-        return NewtonSolver()
-
     def wall_share(self, geometry: Geometry) -> float:
-        """The share of the beam's curvature that a round wall takes over."""
+        """The share of the beam's curvature that the wall takes over, which is then round."""
         return 0.0
 
     @abstractmethod

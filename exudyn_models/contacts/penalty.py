@@ -34,8 +34,7 @@ import numpy as np
 
 from bent_beam.fields import Quantity
 from exudyn_models.arrays import Array, Flags, Indices
-from exudyn_models.contacts.base import TINY, Contact, ContactRun, Wall
-from exudyn_models.contacts.holding import START, HeldStrip, Hold
+from exudyn_models.contacts.base import START, TINY, Contact, ContactRun, HeldStrip, Hold, Wall
 from exudyn_models.elements import Beam
 
 __all__ = ["Penalty", "PenaltyRun", "penalty_per_length"]
@@ -70,14 +69,14 @@ class PenaltyRun(ContactRun):
             wall_y = np.concatenate([wall_y, np.full(wall.nodes.size, wall.opposite)])
             signs = np.concatenate([signs, -signs])
         super().__init__(beam, nodes, wall_y, signs)
-        self.chosen, self.strip, self.explicit = chosen, strip, wall.explicit
+        self.chosen, self.explicit = chosen, wall.explicit
+        self.strip: HeldStrip = strip
         self.stiffness, self.damping = stiffness, damping
         self.held = np.zeros(nodes.size, bool)
         self._of: tuple[Array | None, Array | None] = None, None
         self._force = np.zeros(nodes.size)
         markers = [beam.marker(int(node), beam.vertical_coordinate) for node in nodes]
         self.contacts = [beam.mbs.AddObject(self._connector(k, marker)) for k, marker in enumerate(markers)]
-        self.holders: list[Any] = []
         if strip.used:
             self.holders = [beam.mbs.AddObject(self._holder(k, marker)) for k, marker in enumerate(markers)]
 
@@ -165,12 +164,8 @@ class PenaltyRun(ContactRun):
         k[self.nodes], d[self.nodes] = self.stiffness, self.damping  # a node touches one wall at a time
         return k, d
 
-    @property
-    def held_until(self) -> float:
-        return self.strip.until
-
     def settings(self) -> dict[str, Any]:
-        return {"hold_elements": self.strip.hold} | self.chosen
+        return super().settings() | self.chosen
 
 
 @dataclass(frozen=True)

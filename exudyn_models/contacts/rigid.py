@@ -20,15 +20,15 @@ sign says nothing, and the run stops sooner or later. Hence only Newmark with γ
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from functools import cached_property
+from typing import ClassVar
 
 import exudyn.itemInterface as items
 import numpy as np
 
 from bent_beam import Impact
 from exudyn_models.arrays import Array, Flags, Indices
-from exudyn_models.contacts.base import Contact, ContactRun, Wall
-from exudyn_models.contacts.holding import HeldStrip, Hold
+from exudyn_models.contacts.base import Contact, ContactRun, HeldStrip, Hold, Wall
 from exudyn_models.elements import Beam, Element
 from exudyn_models.integrators import Integrator, Newmark
 
@@ -42,10 +42,9 @@ class _Run(ContactRun):
 
     def __init__(self, beam: Beam, wall: Wall, hold: int) -> None:
         super().__init__(beam, wall.nodes, beam.shape.wall_y[wall.nodes])
-        self.strip = HeldStrip(wall, hold)
+        self.strip: HeldStrip = HeldStrip(wall, hold)
         self.active = np.zeros(wall.nodes.size, bool)
         self.back = np.zeros(wall.nodes.size)  # speed asked of each closed node
-        self.multipliers: Indices | None = None
         self.constraints = [
             beam.mbs.AddObject(
                 items.CoordinateConstraint(
@@ -57,12 +56,14 @@ class _Run(ContactRun):
             for node in wall.nodes
         ]
 
+    @cached_property
+    def _multipliers(self) -> Indices:
+        """Of the constraints in the system's vectors, known once it is assembled."""
+        return np.array([self.beam.mbs.systemData.GetObjectLTGAE(number)[0] for number in self.constraints])
+
     def forces(self, q: Array, v: Array) -> tuple[Array, Flags]:
-        data = self.beam.mbs.systemData
-        if self.multipliers is None:
-            self.multipliers = np.array([data.GetObjectLTGAE(number)[0] for number in self.constraints])
-        force = np.where(self.active, data.GetAECoordinates()[self.multipliers], 0.0)
-        return force, self.active.copy()
+        force = self.beam.mbs.systemData.GetAECoordinates()[self._multipliers]
+        return np.where(self.active, force, 0.0), self.active.copy()
 
     def between(self, time: float, step: float, q: Array, v: Array) -> bool:
         force, _ = self.forces(q, v)
@@ -82,22 +83,14 @@ class _Run(ContactRun):
         self.back = np.where(wanted, back, self.back)
         return bool(changed.size)
 
-    @property
-    def held_until(self) -> float:
-        return self.strip.until
-
-    def settings(self) -> dict[str, Any]:
-        return {"hold_elements": self.strip.hold}
-
 
 @dataclass(frozen=True)
 class Rigid(Contact):
     """Constraints switched with the contact state; needs the Newmark integrator with γ > ½."""
 
-    hold: Hold = 0
+    integrator: ClassVar[Integrator] = Newmark()
 
-    def integrator(self) -> Integrator:
-        return Newmark()
+    hold: Hold = 0
 
     def refuses(self, impact: Impact, element: Element, integrator: Integrator) -> str | None:
         if impact.opposite_wall is not None:

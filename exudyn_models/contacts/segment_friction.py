@@ -12,7 +12,7 @@ nothing in the linear limit and little for a real, axially stiff beam.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Annotated
+from typing import Annotated, ClassVar
 
 import exudyn.itemInterface as items
 import numpy as np
@@ -87,6 +87,12 @@ class _Run(ContactRun):
 class SegmentFriction(Contact):
     """Penalty on the segments of ANCF cables, with friction."""
 
+    # keeps the circle small: its round-off, ε·k/K, then stays far below the contact force
+    geometry: ClassVar[Geometry] = LinearLimit(amplitude=0.02)
+    # steps are halved where the point of contact runs along its chord faster than Newton's method can follow; and as
+    # it runs, chords at rest on the wall open and close by forces of no consequence
+    solver: ClassVar[NewtonSolver] = NewtonSolver(halve_steps=True, contact_tolerance=1e-2)
+
     friction: Annotated[float, Quantity("", "Coulomb's coefficient", least=0.0)] = 0.0
     relative_stiffness: Annotated[float, Quantity("", "as for the nodal penalty, in EI/Δx⁴", above=0.0)] = 10.0
     relative_damping: Annotated[float, Quantity("", "likewise, in √(EIμ)/Δx²", least=0.0)] = 10.0
@@ -95,38 +101,20 @@ class SegmentFriction(Contact):
     ] = 1.0
 
     def refuses(self, impact: Impact, element: Element, integrator: Integrator) -> str | None:
-        if impact.opposite_wall is not None:
-            return "exudyn.contact.kind segment_friction knows one wall only: take penalty (opposite_wall is given)"
-        if impact.wall_curvature:
-            return (
-                "exudyn.contact.kind segment_friction knows a flat wall only: take penalty "
-                f"(got wall_curvature {impact.wall_curvature!r})"
-            )
-        if impact.curvature == 0.0:
-            return "exudyn.contact.kind segment_friction needs a bent beam (got curvature 0)"
-        if not isinstance(element, ANCFCable):
-            return (
-                "exudyn.contact.kind segment_friction works on ANCF cables only: take exudyn.element.kind ancf_cable "
-                f"(got {type(element).__name__})"
-            )
-        if integrator.explicit:
-            return (
-                "exudyn.contact.kind segment_friction needs an implicit exudyn.integrator "
-                f"(got {type(integrator).__name__})"
-            )
-        return None
-
-    def geometry(self) -> LinearLimit:
-        """Amplitude that keeps the circle small: its round-off, ε·k/K, then stays far below the contact force."""
-        return LinearLimit(amplitude=0.02)
-
-    def solver(self) -> NewtonSolver:
-        """Steps are halved where the point of contact runs along its chord faster than Newton's method can follow; and
-        as it runs, chords at rest on the wall open and close by forces of no consequence."""
-        return NewtonSolver(halve_steps=True, contact_tolerance=1e-2)
+        curved, element_name, its_name = impact.wall_curvature, type(element).__name__, type(integrator).__name__
+        reasons = (
+            (impact.opposite_wall is not None, "knows one wall only: take penalty (opposite_wall is given)"),
+            (bool(curved), f"knows a flat wall only: take penalty (got wall_curvature {curved})"),
+            (impact.curvature == 0.0, "needs a bent beam (got curvature 0)"),
+            (
+                not isinstance(element, ANCFCable),
+                f"works on ANCF cables only: take exudyn.element.kind ancf_cable (got {element_name})",
+            ),
+            (integrator.explicit, f"needs an implicit exudyn.integrator (got {its_name})"),
+        )
+        return next((f"exudyn.contact.kind segment_friction {reason}" for wrong, reason in reasons if wrong), None)
 
     def wall_share(self, geometry: Geometry) -> float:
-        """The share of the beam's curvature that the round wall takes over."""
         return TRUE_SHARE if geometry.true else 1.0
 
     def attach(self, beam: Beam, wall: Wall) -> ContactRun:

@@ -11,13 +11,13 @@ s = y_i/(y_i − y_{i+1}), where the velocities carry the beam by the end of the
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 
 from bent_beam import Impact
 from exudyn_models.arrays import Array, Flags
-from exudyn_models.contacts.base import Contact, ContactRun, Wall
-from exudyn_models.contacts.holding import HeldStrip
+from exudyn_models.contacts.base import Contact, ContactRun, HeldStrip, Wall
 from exudyn_models.contacts.penalty import PenaltyRun
 from exudyn_models.elements import Beam, Element
 from exudyn_models.integrators import Integrator, Trapezoidal
@@ -38,8 +38,9 @@ def covered(depth: Array, lengths: Array) -> Array:
 
 class _Run(PenaltyRun):
     def __init__(self, beam: Beam, wall: Wall, stiffness: float) -> None:
-        self.wall, strip = wall, HeldStrip(wall, hold=0, start=0.0)
+        strip = HeldStrip(wall, hold=0, start=0.0)
         super().__init__(beam, wall, stiffness * wall.weights, wall.damping * wall.weights, strip, {})
+        self.wall, self.wall_springs = wall, self.stiffness
 
     def between(self, time: float, step: float, q: Array, v: Array) -> bool:
         if self.wall.damping and not self.wall.stop:
@@ -51,10 +52,6 @@ class _Run(PenaltyRun):
             self.damping = damping
         return False
 
-    @property
-    def wall_springs(self) -> Array:  # type: ignore[override]
-        return self.stiffness
-
     def closed_by(self, q: Array, v: Array) -> Flags:
         return np.asarray((self.depth(q) > 0.0) & super().closed_by(q, v))
 
@@ -63,20 +60,16 @@ class _Run(PenaltyRun):
 class Springs(Contact):
     """What stands in the place of a contact where the wall has a stiffness; it has no settings of its own."""
 
+    integrator: ClassVar[Integrator] = Trapezoidal()  # conserves energy: an elastic wall gives back what it took
+    # what elements much shorter than the zone leave as round-off is no residual
+    solver: ClassVar[NewtonSolver] = NewtonSolver(absolute_tolerance=1e-6)
+
     def refuses(self, impact: Impact, element: Element, integrator: Integrator) -> str | None:
         if impact.opposite_wall is not None:
             return f"wall_stiffness is modelled without opposite_wall only (got {impact.opposite_wall!r})"
         if integrator.explicit:
             return f"wall_stiffness needs an implicit exudyn.integrator (got {type(integrator).__name__})"
         return None
-
-    def integrator(self) -> Integrator:
-        """It conserves energy: an elastic wall gives back what it took."""
-        return Trapezoidal()
-
-    def solver(self) -> NewtonSolver:
-        """What elements much shorter than the zone leave as round-off is no residual."""
-        return NewtonSolver(absolute_tolerance=1e-6)
 
     def attach(self, beam: Beam, wall: Wall) -> ContactRun:
         assert wall.stiffness is not None

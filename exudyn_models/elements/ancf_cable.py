@@ -14,6 +14,7 @@ from typing import Any
 
 import exudyn.itemInterface as items
 import numpy as np
+from numpy.polynomial.polynomial import polyder, polyval
 
 from exudyn_models.arrays import Array, Indices
 from exudyn_models.elements.beam import Beam, Element, Section
@@ -22,20 +23,9 @@ from exudyn_models.geometry import Shape
 __all__ = ["ANCFCable"]
 
 POINTS, WEIGHTS = np.polynomial.legendre.leggauss(4)
-XI = (POINTS + 1) / 2
-
-
-def _shapes(derivative: int) -> Array:
-    """Hermite functions of the unit element at the Gauss points, shape (4 functions, points)."""
-    x, one = XI, np.ones_like(XI)
-    if derivative == 0:
-        return np.array([1 - 3 * x**2 + 2 * x**3, x - 2 * x**2 + x**3, 3 * x**2 - 2 * x**3, x**3 - x**2])
-    if derivative == 1:
-        return np.array([-6 * x + 6 * x**2, 1 - 4 * x + 3 * x**2, 6 * x - 6 * x**2, 3 * x**2 - 2 * x])
-    return np.array([-6 * one + 12 * x, -4 * one + 6 * x, 6 * one - 12 * x, 6 * x - 2 * one])
-
-
-SHAPES = tuple(_shapes(derivative) for derivative in range(3))
+CUBICS = np.array([[1.0, 0.0, -3.0, 2.0], [0.0, 1.0, -2.0, 1.0], [0.0, 0.0, 3.0, -2.0], [0.0, 0.0, -1.0, 1.0]]).T
+SHAPES = tuple(polyval((POINTS + 1) / 2, polyder(CUBICS, derivative)) for derivative in range(3))
+"""Hermite functions of the unit element, and derivatives, at the Gauss points, each of shape (4 functions, points)."""
 
 
 class _Cable(Beam):
@@ -47,21 +37,19 @@ class _Cable(Beam):
         if not (shape.slender or self.section.axial_force):
             cos, sin = 1.0, angle  # the linear limit: slopes are angles and nothing stretches to first order
         stretched = 1.0 + self.section.stretch
+        x, y = stretched * shape.x[i] - shape.s[i], shape.y[i]
         along = -turning * sin if shape.slender else 0.0
         return items.NodePoint2DSlope1(
             referenceCoordinates=[shape.s[i], 0.0, 1.0, 0.0],
-            initialCoordinates=[
-                *(stretched * shape.x[i] - shape.s[i], shape.y[i]),
-                *(stretched * cos - 1.0, stretched * sin),
-            ],
+            initialCoordinates=[x, y, stretched * cos - 1.0, stretched * sin],
             initialVelocities=[shape.velocity_x[i], shape.velocity_y[i], along, turning * cos],
         )
 
     def body(self, i: int) -> Any:
         return items.ObjectANCFCable2D(
             length=self.lengths[i],
-            massPerLength=self.section.mass_per_length,
-            bendingStiffness=self.section.bending_stiffness,
+            massPerLength=1.0,
+            bendingStiffness=1.0,
             axialStiffness=self.section.axial_stiffness,
             bendingDamping=self.viscosity[i],
             referenceCurvature=self.shape.curvature,
@@ -90,17 +78,14 @@ class _Cable(Beam):
 
     def kinetic_energy(self, v: Array) -> Array:
         (along,), (across,) = self._fields(v, 0, 0), self._fields(v, 1, 0)
-        return np.asarray(self.section.mass_per_length * self._integral(along**2 + across**2) / 2)
+        return self._integral(along**2 + across**2) / 2
 
-    def _curvature(self, q: Array) -> tuple[Array, Array]:
+    def strain_energy(self, q: Array) -> Array:
         (x1, x2), (y1, y2) = self._fields(q, 0, 1, 2), self._fields(q, 1, 1, 2)
         x1 += 1.0
         square = x1**2 + y1**2
-        return (x1 * y2 - y1 * x2) / square, np.sqrt(square) - 1.0
-
-    def strain_energy(self, q: Array) -> Array:
-        curvature, strain = self._curvature(q)
-        bending = self.section.bending_stiffness * (curvature - self.shape.curvature) ** 2
+        curvature, strain = (x1 * y2 - y1 * x2) / square, np.sqrt(square) - 1.0
+        bending = (curvature - self.shape.curvature) ** 2
         return self._integral(bending + self.section.axial_stiffness * (strain**2 - self.section.stretch**2)) / 2
 
     def axial_mass(self) -> Array:
@@ -111,9 +96,9 @@ class _Cable(Beam):
         scale = np.stack([np.ones_like(length), length, np.ones_like(length), length], axis=1)
         outer = scale[:, :, None] * scale[:, None, :]
         n, _, b = SHAPES
-        mass = (n * WEIGHTS / 2) @ n.T * outer * (self.section.mass_per_length * length)[:, None, None]
-        bend = (b * WEIGHTS / 2) @ b.T * outer / (length**3)[:, None, None]
-        return mass, self.section.bending_stiffness * bend, self.viscosity[:, None, None] * bend
+        mass = (n * WEIGHTS / 2) @ n.T * outer * length[:, None, None]
+        bending = (b * WEIGHTS / 2) @ b.T * outer / (length**3)[:, None, None]
+        return mass, bending, bending
 
 
 @dataclass(frozen=True)

@@ -1,6 +1,7 @@
 """What every element makes of a beam: its nodes and bodies in an Exudyn system, and the quantities read off its state.
 
-Coordinates are Exudyn's: displacements from a straight reference along x, where node i lies at its arc length s_i.
+In model units EI = μ = 1. Coordinates are Exudyn's: displacements from a straight reference along x, where node i lies
+at its arc length s_i.
 """
 
 from __future__ import annotations
@@ -18,13 +19,14 @@ from bent_beam.fields import Part, Quantity
 from exudyn_models.arrays import Array, Indices
 from exudyn_models.geometry import Shape
 
-__all__ = ["Beam", "Element", "Section"]
+__all__ = ["Beam", "Element", "Section", "shares"]
 
 VISCOSITY = 0.15  # of √(EIμ)Δx² of an element, λ₀ is off in proportion; tests/exudyn_models/test_exudyn_constants.py
 VISCOSITY_EXPLICIT = 0.003  # more would shorten the stable step
 ROUNDED = 16.0  # times the rounding of one velocity: a residual gathers those of all nodes (seen: 2 to 8)
 MOST_ROUNDED = 1e-5  # with 1e-3 a damped run to a ten-thousandth of η is accepted, and has 6 % less impulse
 CHOSEN_VISCOSITY = f"{VISCOSITY:g} (explicit: {VISCOSITY_EXPLICIT:g}; whole beam: 0)"
+INERTIA = 1e9  # that no load moves
 Matrix = Any  # SciPy's sparse matrices carry no types
 
 
@@ -32,16 +34,20 @@ Matrix = Any  # SciPy's sparse matrices carry no types
 class Section:
     """Of the beam in its model's units; ``damping`` is the Kelvin–Voigt time of bending."""
 
-    bending_stiffness: float = 1.0
-    mass_per_length: float = 1.0
-    axial_stiffness: float = 1.0
-    axial_force: float = 0.0
-    damping: float = 0.0
+    axial_stiffness: float
+    axial_force: float
+    damping: float
 
     @property
     def stretch(self) -> float:
         """Strain under the axial force."""
         return self.axial_force / self.axial_stiffness
+
+
+def shares(lengths: Array) -> Array:
+    """Length that each node stands for of elements of ``lengths``, shape (nodes,)."""
+    half = np.pad(lengths / 2, 1)
+    return np.asarray(half[:-1] + half[1:])
 
 
 class Beam(ABC):
@@ -54,10 +60,11 @@ class Beam(ABC):
     def __init__(self, mbs: Any, shape: Shape, section: Section, viscosity: Array) -> None:
         self.mbs, self.shape, self.section = mbs, shape, section
         self.grid_viscosity = viscosity
-        self.viscosity = viscosity + section.bending_stiffness * section.damping
+        self.viscosity = viscosity + section.damping
         self.uniform_load = 0.0
         self.node_loads: list[tuple[int, int, float, float]] = []
         self.lengths = shape.lengths
+        self.tributary = shares(self.lengths)
         self.nodes = [mbs.AddNode(self.node(i)) for i in range(shape.s.size)]
         self.bodies = [mbs.AddObject(self.body(i)) for i in range(self.lengths.size)]
         ground = mbs.AddNode(items.NodePointGround())
@@ -70,14 +77,6 @@ class Beam(ABC):
     @abstractmethod
     def body(self, i: int) -> Any:
         """Exudyn's item for the element between the nodes ``i`` and ``i`` + 1."""
-
-    @property
-    def tributary(self) -> Array:
-        """Length of beam that each node stands for, shape (nodes,)."""
-        half = np.zeros(self.shape.s.size)
-        half[:-1] += self.lengths / 2
-        half[1:] += self.lengths / 2
-        return half
 
     def round_off(self, velocity: float) -> float:
         """Viscous force that means nothing, of velocities of this size: no residual of a step can be made smaller.
@@ -98,24 +97,18 @@ class Beam(ABC):
             markers = [self.ground_marker, self.marker(node, coordinate)]
             self.mbs.AddObject(items.CoordinateConstraint(markerNumbers=markers, offset=place))
 
-    def hold_by_inertia(self, node: int, *coordinates: int, inertia: float = 1e9) -> None:
+    def hold_by_inertia(self, node: int, *coordinates: int) -> None:
         """Hold coordinates of a node by an inertia too large to move.
 
         Exudyn's explicit solvers set constrained accelerations to zero *after* solving with the unconstrained mass
         matrix, which destabilises a consistent one.
         """
-        size = self.rotation_coordinate + 1
-        mass = np.zeros((size, size))
-        mass[list(coordinates), list(coordinates)] = inertia
-        none = np.zeros((size, size))
+        mass = np.zeros(self.rotation_coordinate + 1)
+        mass[list(coordinates)] = INERTIA
+        none = np.diag(np.zeros_like(mass))
+        body: dict[str, Any] = {"massMatrix": np.diag(mass), "stiffnessMatrix": none, "dampingMatrix": none}
         self.mbs.AddObject(
-            items.ObjectGenericODE2(
-                nodeNumbers=[self.nodes[node]],
-                massMatrix=mass,
-                stiffnessMatrix=none,
-                dampingMatrix=none,
-                forceVector=np.zeros(size),
-            )
+            items.ObjectGenericODE2(nodeNumbers=[self.nodes[node]], forceVector=np.zeros_like(mass), **body)
         )
 
     def load_uniformly(self, acceleration: float) -> None:
@@ -167,12 +160,12 @@ class Beam(ABC):
 
     def damping_matrices(self) -> tuple[Matrix, Matrix]:
         """Bending viscosity of the system at grid scale, and of the material."""
-        _, _, damping = self.element_matrices()
-        share = self.grid_viscosity / np.where(self.viscosity > 0.0, self.viscosity, 1.0)
-        grid = damping * share[:, None, None]
+        _, _, bending = self.element_matrices()
+        grid = self.grid_viscosity[:, None, None] * bending
+        material = self.section.damping * bending
         return (
             self._assembled(grid, self.vertical, self.rotation),
-            self._assembled(damping - grid, self.vertical, self.rotation),
+            self._assembled(material, self.vertical, self.rotation),
         )
 
     def locate(self) -> None:
@@ -200,15 +193,12 @@ class Beam(ABC):
 
     @abstractmethod
     def element_matrices(self) -> tuple[Array, Array, Array]:
-        """Linearised mass, stiffness and damping matrices in (y₁, rotation₁, y₂, rotation₂), each (elements, 4, 4)."""
+        """Linearised mass and stiffness matrices in (y₁, rotation₁, y₂, rotation₂), and the share of bending in the
+        latter, each (elements, 4, 4)."""
 
     @abstractmethod
     def axial_mass(self) -> Array:
         """Mass matrices along x, (elements, 2, 2) in (x₁, x₂) or (elements, 4, 4) in (x₁, x₁′, x₂, x₂′)."""
-
-    def axial_frequency(self) -> float:
-        """Upper bound of the axial angular frequencies."""
-        return float(np.sqrt(60.0 * self.section.axial_stiffness / self.section.mass_per_length) / self.lengths.min())
 
 
 @dataclass(frozen=True)

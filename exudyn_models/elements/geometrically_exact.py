@@ -23,12 +23,15 @@ from exudyn_models.geometry import Shape
 __all__ = ["GeometricallyExact"]
 
 
+PAIR = np.array([[2.0, 1.0], [1.0, 2.0]]) / 6  # products of the linear shape functions, of the unit element
+
+
 class _Exact(Beam):
     rotation_coordinate = 2
 
     def __init__(self, mbs: Any, shape: Shape, section: Section, viscosity: Array, ratios: GeometricallyExact) -> None:
-        self.shear_stiffness = ratios.shear_ratio * section.bending_stiffness / shape.lengths**2
-        self.rotary_inertia = ratios.rotary_ratio * section.mass_per_length * shape.lengths**2
+        self.shear_stiffness = ratios.shear_ratio / shape.lengths**2
+        self.rotary_inertia = ratios.rotary_ratio * shape.lengths**2
         super().__init__(mbs, shape, section, viscosity)
 
     def node(self, i: int) -> Any:
@@ -43,9 +46,9 @@ class _Exact(Beam):
         return items.ObjectBeamGeometricallyExact2D(
             nodeNumbers=[self.nodes[i], self.nodes[i + 1]],
             length=self.lengths[i],
-            massPerLength=self.section.mass_per_length,
+            massPerLength=1.0,
             crossSectionInertia=self.rotary_inertia[i],
-            bendingStiffness=self.section.bending_stiffness,
+            bendingStiffness=1.0,
             axialStiffness=self.section.axial_stiffness,
             shearStiffness=self.shear_stiffness[i],
             bendingDamping=self.viscosity[i],
@@ -64,7 +67,7 @@ class _Exact(Beam):
     def kinetic_energy(self, v: Array) -> Array:
         square = self._square(v[..., self.horizontal]) + self._square(v[..., self.vertical])
         turning = self.rotary_inertia * self._square(v[..., self.rotation])
-        return np.asarray(((self.section.mass_per_length * square + turning) * self.lengths).sum(axis=-1) / 2)
+        return np.asarray(((square + turning) * self.lengths).sum(axis=-1) / 2)
 
     def strain_energy(self, q: Array) -> Array:
         length, theta = self.lengths, q[..., self.rotation]
@@ -73,28 +76,25 @@ class _Exact(Beam):
         middle = (theta[..., :-1] + theta[..., 1:]) / 2
         strain = dx * np.cos(middle) + dy * np.sin(middle) - 1.0
         shear = dy * np.cos(middle) - dx * np.sin(middle)
-        bending = self.section.bending_stiffness * (np.diff(theta) / length - self.shape.curvature) ** 2
+        bending = (np.diff(theta) / length - self.shape.curvature) ** 2
         axial = self.section.axial_stiffness * (strain**2 - self.section.stretch**2)
         total = bending + axial + self.shear_stiffness * shear**2
         return np.asarray((total * length).sum(axis=-1) / 2)
 
     def axial_mass(self) -> Array:
-        pair = np.array([[2.0, 1.0], [1.0, 2.0]]) / 6
-        return np.asarray(pair * self.lengths[:, None, None] * self.section.mass_per_length)
+        return PAIR * self.lengths[:, None, None]
 
     def element_matrices(self) -> tuple[Array, Array, Array]:
         length = self.lengths[:, None, None]
-        pair = np.array([[2.0, 1.0], [1.0, 2.0]]) / 6
         mass = np.zeros((self.lengths.size, 4, 4))
-        mass[:, ::2, ::2] = pair * length * self.section.mass_per_length
-        mass[:, 1::2, 1::2] = pair * length * self.rotary_inertia[:, None, None]
-        bend = np.zeros_like(mass)
-        bend[:, 1::2, 1::2] = np.array([[1.0, -1.0], [-1.0, 1.0]]) / length
+        mass[:, ::2, ::2] = PAIR * length
+        mass[:, 1::2, 1::2] = PAIR * length * self.rotary_inertia[:, None, None]
+        bending = np.zeros_like(mass)
+        bending[:, 1::2, 1::2] = np.array([[1.0, -1.0], [-1.0, 1.0]]) / length
         half = self.lengths / 2
         row = np.stack([-np.ones_like(half), -half, np.ones_like(half), -half], axis=1) / self.lengths[:, None]
         shear = (self.shear_stiffness * self.lengths)[:, None, None] * row[:, :, None] * row[:, None, :]
-        stiffness = self.section.bending_stiffness * bend + shear
-        return mass, stiffness, self.viscosity[:, None, None] * bend
+        return mass, bending + shear, bending
 
 
 @dataclass(frozen=True)

@@ -11,8 +11,8 @@ from bent_beam import Impact
 from comparison.match import answer
 from comparison.rows import Question
 from comparison.store import RunStore
-from exudyn_models import ExudynModel, resolution
-from exudyn_models.contacts import Penalty, holding, penalty
+from exudyn_models import ExudynModel, method, resolution
+from exudyn_models.contacts import Penalty, base, penalty
 from exudyn_models.elements import ANCFCable, beam
 from exudyn_models.integrators import GeneralizedAlpha
 from measure.estimators import LeadingEstimate, leading_order
@@ -62,7 +62,7 @@ def test_a_setting_halved_or_doubled(part, factor: float, chosen: LeadingEstimat
 def test_a_constant_halved_or_doubled(
     name: str, factor: float, chosen: LeadingEstimate, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    module = holding if name == "START" else resolution
+    module = base if name == "START" else resolution
     monkeypatch.setattr(module, name, getattr(module, name) * factor)
     does_not_move(ExudynModel(), chosen)
 
@@ -98,8 +98,8 @@ def test_uniform_elements_halved_or_doubled(
 @pytest.mark.parametrize("name", ["FIRST_ORDER_HOLD", "FIRST_ORDER_STEPS"])
 def test_a_constant_of_loaded_runs_halved_or_doubled(name: str, factor: float, monkeypatch: pytest.MonkeyPatch) -> None:
     """λ₁ and r₁ stay within 3 % of theory under a load that presses."""
-    value = getattr(resolution, name)
-    monkeypatch.setattr(resolution, name, type(value)(factor * value))
+    value = getattr(method, name)
+    monkeypatch.setattr(method, name, type(value)(factor * value))
     row = answer(Question(ExudynModel(), 0.42, (2.0, 0.5, 0.5), error_bars="drift"), RunStore(None))
     for number in (row.lambda1, row.r1):
         assert number.value == pytest.approx(number.theory, abs=0.03 * max(abs(number.theory), 1.0))

@@ -9,7 +9,6 @@ import pytest
 from bent_beam import Impact
 from bent_beam.meshes import UniformMesh
 from exudyn_models import ExudynModel
-from exudyn_models.contacts import Penalty
 
 STIFFNESS = 1e4  # EI = μ = V₀ = 1
 
@@ -51,14 +50,6 @@ def test_dashpots_take_energy_and_push_earlier() -> None:
     assert abs(share(damped, "defect")) < 1e-6
     assert damped.array("peak_force")[-1] < elastic.array("peak_force")[-1]
     assert damped.array("peak_force_time")[-1] < elastic.array("peak_force_time")[-1]
-
-
-def test_a_contact_of_ones_own_has_no_effect_there_and_is_refused() -> None:
-    impact = Impact.dimensionless(0.5).replace(wall_stiffness=STIFFNESS)
-    with pytest.raises(ValueError, match=r"exudyn\.contact has no effect"):
-        ExudynModel(contact=Penalty()).simulate(impact)
-    with pytest.raises(ValueError, match="opposite_wall"):
-        ExudynModel().simulate(impact.replace(opposite_wall=1.0))
 
 
 @pytest.mark.verify

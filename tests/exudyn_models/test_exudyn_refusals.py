@@ -10,12 +10,14 @@ import exudyn_models
 from bent_beam import Impact, InputError, SimulationError
 from bent_beam.meshes import UniformMesh
 from bent_beam.method import method_from_tables
-from exudyn_models.contacts import Rigid, SegmentFriction
+from exudyn_models import ExudynModel
+from exudyn_models.contacts import Penalty, Rigid, SegmentFriction
 from exudyn_models.elements import GeometricallyExact
 from exudyn_models.geometry import TrueGeometry
 from exudyn_models.integrators import RK44, GeneralizedAlpha, Trapezoidal, VelocityVerlet
 from exudyn_models.solvers import NewtonSolver
 
+HINGED = {"left_end": "hinged", "right_end": "hinged"}
 SHORT = Impact.dimensionless(0.5, length=8.0)
 MESH = UniformMesh(0.1)
 
@@ -62,6 +64,24 @@ def test_parts_that_cannot_work_are_refused(parts, message):
 def test_case_file_tables_name_what_is_wrong(table, message):
     with pytest.raises(InputError, match=message):
         method_from_tables("exudyn", table)
+
+
+@pytest.mark.parametrize(
+    ("parts", "changes", "message"),
+    [
+        ({}, {"rotation": 0.1}, "full_beam"),
+        ({"contact": Rigid()}, {"opposite_wall": 1.0}, "one wall"),
+        ({"contact": SegmentFriction()}, {"opposite_wall": 1.0}, "one wall"),
+        ({"contact": Penalty()}, {"wall_stiffness": 1e4}, "exudyn.contact has no effect"),
+        ({}, {"wall_stiffness": 1e4, "opposite_wall": 1.0}, "opposite_wall"),
+        ({"contact": Rigid()}, HINGED | {"wall_to": 0.1}, "must be penalty"),
+        ({"geometry": TrueGeometry()}, HINGED, "free ends only"),
+        ({}, HINGED | {"axial_force": 1.0}, "axial_force is not modelled together with ends"),
+        ({}, HINGED | {"opposite_wall": 1.0}, "opposite_wall is not modelled together with ends"),
+    ],
+)
+def test_what_a_part_cannot_model_is_refused(parts, changes, message):
+    assert message in ExudynModel(**parts).refuses(Impact.whole_beam(0.5).replace(**changes))
 
 
 def test_failed_newton_carries_time_step_advice_and_partial_history(capfd):

@@ -1,7 +1,6 @@
 """Every model script runs as a user runs it and prints numbers that agree with the exact ones."""
 
 import importlib
-import os
 import re
 import subprocess
 import sys
@@ -56,12 +55,11 @@ def test_first_order_impacts_meet_theory_at_full_resolution(run):
 
 
 def test_a_script_runs_as_its_user_runs_it_writes_where_told_and_names_what_is_wrong(run, tmp_path):
-    command = [sys.executable, str(SCRIPTS / "cantilever.py"), "--out", "bent.png", "--elements"]
-    environment = {k: v for k, v in os.environ.items() if k not in ("DISPLAY", "WAYLAND_DISPLAY")}
-    for elements, code in (("4", 0), ("0", 2)):
-        done = subprocess.run([*command, elements], cwd=tmp_path, capture_output=True, timeout=120, env=environment)
-        assert done.returncode == code
+    command = [sys.executable, str(SCRIPTS / "cantilever.py"), "--out", "bent.png", "--elements", "4"]
+    subprocess.run(command, cwd=tmp_path, check=True, timeout=120)
     assert (tmp_path / "bent.png").exists()
-    with pytest.raises(SystemExit):
-        run("simply_supported_beam", "--elements", "3")
+    for name, elements in (("cantilever", "0"), ("simply_supported_beam", "3")):
+        with pytest.raises(SystemExit) as refusal:
+            run(name, "--elements", elements)
+        assert refusal.value.code == 2
     assert "no display" in run("cantilever", "--view").err

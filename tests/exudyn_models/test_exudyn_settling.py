@@ -84,7 +84,7 @@ def test_a_stiff_chain_pressed_at_random_settles():
     for seed in range(10):
         contact = Pressed(flexibility, np.random.default_rng(seed).normal(size=count))
         solver = SimpleNamespace(it=SimpleNamespace(discontinuousIteration=0))
-        settling = Settling(contact, solver, 300, 1e-9, must_settle=True)
+        settling = Settling(contact, solver, 300, 1e-9)
         while not (solver.it.discontinuousIteration or settling.unsettled):
             contact.solve()
             settling(contact, 1.0)

@@ -8,9 +8,7 @@ from numpy.testing import assert_allclose
 
 from bent_beam import Impact
 from exudyn_models import ExudynModel
-from exudyn_models.contacts import Rigid
 from exudyn_models.contacts.springs import covered
-from exudyn_models.geometry import TrueGeometry
 from hermite_fe import HermiteFE
 from measure.balance import balance_of
 
@@ -68,14 +66,3 @@ def test_the_covered_length_of_a_straight_rim_is_exact_and_grows_without_jumps()
     for rim in np.linspace(-0.9, 0.9, 37):
         assert covered(rim - x, np.diff(x)).sum() == pytest.approx(1.0 + rim)
         assert covered(x - rim, np.diff(x)).sum() == pytest.approx(1.0 - rim)
-
-
-def test_what_supports_and_plates_do_not_go_with_is_refused() -> None:
-    impact = Impact.whole_beam(0.5).replace(**HINGED)
-    for method, other in (
-        (ExudynModel(contact=Rigid()), impact.replace(wall_to=0.1)),
-        (ExudynModel(geometry=TrueGeometry()), impact),
-        (COARSE, impact.replace(axial_force=1.0)),
-        (COARSE, impact.replace(opposite_wall=1.0)),
-    ):
-        assert method.refuses(other), other

@@ -9,7 +9,6 @@ from bent_beam import Impact
 from bent_beam.free_flight import pushing
 from bent_beam.meshes import UniformMesh
 from exudyn_models import ExudynModel
-from exudyn_models.contacts import Rigid, SegmentFriction
 
 PAGE = {
     (float(kappa), stated(damping.replace("10", "1e", 1))[0]): stated(value)[0]
@@ -32,10 +31,9 @@ def closes(history, tolerance=1e-6):
     assert history.array("held_impulse")[-1] == 0.0
 
 
-@pytest.mark.parametrize("kappa_over_nu", [2.0, 4.0])
-def test_a_bounce_ends_when_the_beam_cannot_come_back_and_keeps_its_energy_account(kappa_over_nu):
+def test_a_bounce_ends_when_the_beam_cannot_come_back_and_keeps_its_energy_account():
     """What is left of geometry is the square of the slopes: at amplitude 1e-3 of V₀T it was 8e-6 of the energy."""
-    history = COARSE.simulate_to_separation(Impact.whole_beam(kappa_over_nu, relative_damping=1e-2))
+    history = COARSE.simulate_to_separation(Impact.whole_beam(2.0, relative_damping=1e-2))
     assert restitution(history) == pytest.approx(0.5663, abs=2e-3)
     assert history.array("gap")[-1].min() > 0.0
     assert history.energy_budget()["loss_viscous"] == 0.0 and history.energy_budget()["loss_material"] > 0.4
@@ -96,11 +94,3 @@ def test_a_rocking_beam_is_the_mirror_image_of_one_rocking_the_other_way():
     assert right.array("total_impulse")[-1] == pytest.approx(left.array("total_impulse")[-1], rel=1e-6)
     assert right.array("gap")[-1, 0] != pytest.approx(right.array("gap")[-1, -1], rel=0.1)
     closes(right)
-
-
-def test_what_a_part_cannot_model_is_refused():
-    impact = Impact.whole_beam(0.5)
-    assert "full_beam" in ExudynModel().refuses(impact.replace(rotation=0.1))
-    assert ExudynModel(full_beam=True).refuses(impact.replace(rotation=0.1)) is None
-    for contact in (Rigid(), SegmentFriction()):
-        assert "one wall" in ExudynModel(contact=contact).refuses(impact.replace(opposite_wall=1.0))

@@ -20,7 +20,8 @@ MASS = "self.element(beam.lengths, beam.mass_per_length)"
 LOST = "np.where(np.arange({}.size) == 3, 0.5, 1.0)[:, None, None]"  # half of an element's mass: that of half a node
 MOMENTUM = 'self.start_momentum + after["load_impulse"] - v @ self.momentum'
 GAIN = "gain + (missing / np.where(whole > 0.0, whole, 1.0))[:, None] * weight"
-PER_LENGTH = "self.section.mass_per_length"
+PER_LENGTH = "1.0"
+IMPULSE = 'saved["impulse"] * s.impulse'
 WORK = "blocks += w * tested[:, :, None] * trial[:, None, :]"
 
 # path → (what is wrong, the checks that see it, file, code, what stands in its place)
@@ -35,7 +36,7 @@ FAULTS = {
     ],
     "exudyn_models": [
         ("total impulse", "momentum", "recording.py", MOMENTUM, f"0.99 * ({MOMENTUM})"),
-        ("impulses of the points", "points", "recording.py", "impulse[k].copy()", "0.99 * impulse[k]"),
+        ("impulses of the points", "points", "recording.py", IMPULSE, f"0.99 * {IMPULSE}"),
         ("points mixed up", "second_moment", "recording.py", GAIN, f"np.roll({GAIN}, 1, axis=1)"),
         ("pulls recorded as pushes", "energy", "contacts/penalty.py", "self.signs * force, 0.0)", "abs(force), 0.0)"),
         ("half a node's mass, in Exudyn", "mass", "elements/ancf_cable.py", f"massPerLength={PER_LENGTH}",

@@ -1,0 +1,281 @@
+"""Exudyn's time integrators; ``INTEGRATORS`` names them for ``[exudyn.integrator]``.
+
+The impact has no time scale of its own: implicit steps grow with the time since impact, h = c·t, so that every decade
+is resolved alike, starting from the time in which the front crosses the first element.
+
+The explicit methods, the fourth-order Runge–Kutta rule, Dormand–Prince 5(4) and velocity Verlet, are stable while the
+step is below limit/ω, where ω bounds the frequencies (and decay rates) of the mesh with every contact closed: for
+bending ω ~ 91.7 √(EI/μ)/Δx² of the smallest element. ``simulate`` computes the bound and refuses a larger step.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from abc import ABC, abstractmethod
+from dataclasses import dataclass
+from typing import Annotated, Any, ClassVar
+
+import exudyn as exu
+import numpy as np
+
+from bent_beam.checks import between
+from bent_beam.fields import Part, Quantity
+from exudyn_models.arrays import Array
+
+__all__ = [
+    "DOPRI5",
+    "INTEGRATORS",
+    "RK44",
+    "Averages",
+    "GeneralizedAlpha",
+    "Integrator",
+    "Newmark",
+    "Trapezoidal",
+    "VelocityVerlet",
+]
+
+MAXIMUM_STEPS = 5_000_000
+EVEN = 12.5  # steps of one length at least, while steps grow …
+CHANGE = 1.05  # … or as many as it takes them to grow by this factor
+
+
+@dataclass(frozen=True)
+class Segment:
+    """``steps`` equal time steps from ``start`` to ``end`` (model units), taken inside Exudyn without interruption."""
+
+    start: float
+    end: float
+    steps: int
+
+    @property
+    def length(self) -> float:
+        """Of one step."""
+        return (self.end - self.start) / self.steps
+
+
+@dataclass(frozen=True)
+class Averages:
+    """How a scheme turns forces at the ends of a step into its impulse (Chung & Hulbert 1993; Newmark: αm = αf = 0):
+
+    Δp = h[(1−γ) φ₀ + γ φ₁],   (1−αm) φ₁ + αm φ₀ = (1−αf) f₁ + αf f₀.
+    """
+
+    gamma: float = 0.5
+    alpha_m: float = 0.0
+    alpha_f: float = 0.0
+
+    def impulses(self, forces: Array, averaged: Array) -> tuple[Array, Array]:
+        """Impulse of forces over the length of each step, (steps, points), and the last average φ₁.
+
+        forces : at the ends of the steps, (steps + 1, points). averaged : the first φ₀, (points,).
+        """
+        averages = np.empty_like(forces)
+        averages[0] = averaged
+        averages[1:] = ((1.0 - self.alpha_f) * forces[1:] + self.alpha_f * forces[:-1]) / (1.0 - self.alpha_m)
+        if self.alpha_m:
+            apart = np.subtract.outer(np.arange(len(forces)), np.arange(len(forces)))
+            averages = np.tril((-self.alpha_m / (1.0 - self.alpha_m)) ** np.maximum(apart, 0)) @ averages
+        return (1.0 - self.gamma) * averages[:-1] + self.gamma * averages[1:], averages[-1]
+
+
+def checked_steps(count: float) -> None:
+    """``ValueError`` when a plan has more steps than any run takes."""
+    if not count <= MAXIMUM_STEPS:
+        raise ValueError(
+            f"exudyn.integrator.time_step or relative_step is too small: {count:.3g} steps, {MAXIMUM_STEPS:.2g} are "
+            "the most"
+        )
+
+
+def growing_segments(first: float, relative: float) -> list[Segment]:
+    """Segments over 0 ≤ t ≤ 1: steps of ``first``, then of ``relative``·t.
+
+    A new step size costs a factorisation: it changes by ``CHANGE`` at a time, or by what ``EVEN`` steps make of it.
+    """
+    even = min(1.0 / max(first, 1e-300), 1.0 / relative)
+    checked_steps(even + math.log(max(relative * even, 1.0)) / math.log1p(relative))
+    segments: list[Segment] = []
+    t, step, change = 0.0, first, max(CHANGE, 1.0 + EVEN * relative)
+    while t < 1.0 - 1e-12:
+        count = max(1, math.ceil((change * step / relative - t) / step - 1e-9))
+        end = t + count * step
+        if end > 1.0 - step * 1e-6:
+            count, end = max(1, round((1.0 - t) / step + 0.499)), 1.0
+        segments.append(Segment(t, end, count))
+        t, step = end, max(step, relative * end)
+    return segments
+
+
+@dataclass(frozen=True)
+class Integrator(Part, ABC):
+    """Base of the integrators."""
+
+    where: ClassVar[str] = "exudyn.integrator"
+    explicit: ClassVar[bool] = False
+    limit: ClassVar[float] = math.inf  # of step × largest frequency
+    time_step: float | None
+
+    def refined(self, factor: float) -> Integrator:
+        """A copy with steps ``factor`` times shorter; what is not chosen yet stays open."""
+        steps = {name: getattr(self, name, None) for name in ("time_step", "relative_step")}
+        return dataclasses.replace(self, **{name: step / factor for name, step in steps.items() if step is not None})
+
+    def averages(self) -> Averages:
+        """What forces at the ends of a step make of its impulse; the mean where nothing better is known."""
+        return Averages()
+
+    def solver(self) -> Any:
+        """A fresh Exudyn solver object."""
+        return exu.MainSolverExplicit() if self.explicit else exu.MainSolverImplicitSecondOrder()
+
+    @abstractmethod
+    def configure(self, settings: Any) -> None:
+        """Write this integrator's choices into Exudyn's ``SimulationSettings``."""
+
+    @abstractmethod
+    def segments(self, first: float, unit: float, stable: float) -> list[Segment]:
+        """The plan of steps in model units: ``first`` the time the front needs for the first element, ``unit`` the
+        model's time unit in s, ``stable`` the largest stable step of an explicit method."""
+
+
+@dataclass(frozen=True)
+class Implicit(Integrator):
+    """Base of the implicit integrators."""
+
+    time_step: Annotated[
+        float | None, Quantity("s", "constant step", above=0.0, absent="grows with the time since impact")
+    ] = None
+    relative_step: Annotated[float, Quantity("", "h/t, where steps grow", above=0.0)] = 2e-3
+
+    def segments(self, first: float, unit: float, stable: float) -> list[Segment]:
+        if self.time_step is None:
+            return growing_segments(first, self.relative_step)
+        steps = 1.0 / max(min(1.0, self.time_step / unit), 1e-300)
+        checked_steps(steps)
+        return [Segment(0.0, 1.0, max(1, round(steps)))]
+
+
+@dataclass(frozen=True)
+class GeneralizedAlpha(Implicit):
+    """Generalised-α (Chung and Hulbert 1993), of second order: what the step cannot resolve is damped to ρ∞."""
+
+    # second order: 4e-3 moves λ₀ and r₀ by 6e-6 at κ/ν = 0.1, 0.25 and 0.5
+    relative_step: Annotated[float, Quantity("", "h/t, where steps grow", above=0.0)] = 8e-3
+    spectral_radius: Annotated[
+        float, Quantity("", "ρ∞; 1: no damping, and contact rattles; 0: full damping", least=0.0, most=1.0)
+    ] = 0.5
+
+    def averages(self) -> Averages:
+        rho = self.spectral_radius
+        alpha_m, alpha_f = (2.0 * rho - 1.0) / (rho + 1.0), rho / (rho + 1.0)
+        return Averages(gamma=0.5 + alpha_f - alpha_m, alpha_m=alpha_m, alpha_f=alpha_f)
+
+    def configure(self, settings: Any) -> None:
+        settings.timeIntegration.solverType = exu.DynamicSolverType.GeneralizedAlpha
+        settings.timeIntegration.generalizedAlpha.spectralRadius = self.spectral_radius
+
+
+def _configure_newmark(settings: Any, kind: Any, gamma: float, beta: float) -> None:
+    """Newmark's method with constraints at velocity level (index 2)."""
+    settings.timeIntegration.solverType = kind
+    rule = settings.timeIntegration.generalizedAlpha
+    rule.useNewmark = rule.useIndex2Constraints = True
+    rule.newmarkGamma, rule.newmarkBeta = gamma, beta
+
+
+@dataclass(frozen=True)
+class Newmark(Implicit):
+    """Newmark's method: v⁺ = v + h[(1−γ)a + γa⁺], u⁺ = u + hv + h²[(½−β)a + βa⁺]; constraints at velocity level."""
+
+    gamma: Annotated[
+        float, Quantity("", "γ; above ½ unresolved waves are damped, at first order", least=0.5, most=2.0)
+    ] = 0.6
+    beta: Annotated[
+        float | None, Quantity("", "β, γ/2 at least", least=0.25, most=2.0, absent="(γ+½)²/4, which damps most")
+    ] = None
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if self.beta is not None:
+            between("exudyn.integrator.beta", self.beta, self.gamma / 2, 2.0)
+
+    def averages(self) -> Averages:
+        return Averages(gamma=self.gamma)
+
+    def configure(self, settings: Any) -> None:
+        beta = (self.gamma + 0.5) ** 2 / 4 if self.beta is None else self.beta
+        _configure_newmark(settings, exu.DynamicSolverType.GeneralizedAlpha, self.gamma, beta)
+
+
+@dataclass(frozen=True)
+class Trapezoidal(Implicit):
+    """The implicit trapezoidal rule, v⁺ = v + h(a + a⁺)/2, u⁺ = u + h(v + v⁺)/2; constraints at velocity level.
+
+    It damps nothing: what quiets the contact is the penalty's damping and the grid-scale viscosity.
+    """
+
+    def configure(self, settings: Any) -> None:
+        _configure_newmark(settings, exu.DynamicSolverType.TrapezoidalIndex2, 0.5, 0.25)
+
+
+@dataclass(frozen=True)
+class _Explicit(Integrator):
+    time_step: Annotated[
+        float | None, Quantity("s", "not above the stable step", above=0.0, absent="safety × the stable step")
+    ] = None
+    safety: Annotated[float, Quantity("", "time step over the stable one", least=1e-6, most=1.0)] = 0.8
+
+    explicit: ClassVar[bool] = True
+    method: ClassVar[Any]
+
+    def configure(self, settings: Any) -> None:
+        settings.timeIntegration.solverType = self.method
+        settings.timeIntegration.automaticStepSize = False
+        settings.timeIntegration.explicit.computeEndOfStepAccelerations = True  # the energy budget needs them
+        # the contact state at the start of a step serves all of it: a repetition would put Exudyn's own in its place
+        settings.timeIntegration.discontinuous.maxIterations = 1
+
+    def segments(self, first: float, unit: float, stable: float) -> list[Segment]:
+        step = self.safety * stable if self.time_step is None else self.time_step / unit
+        if step > stable:
+            raise ValueError(
+                f"exudyn.integrator.time_step must not exceed the stable step {stable * unit:.4g} s of this "
+                f"mesh and contact (got {self.time_step!r})"
+            )
+        checked_steps(1.0 / max(step, 1e-300))
+        return [Segment(0.0, 1.0, math.ceil(1.0 / step))]
+
+
+@dataclass(frozen=True)
+class RK44(_Explicit):
+    """The classical Runge–Kutta method."""
+
+    limit: ClassVar[float] = 2.6
+    method: ClassVar[Any] = exu.DynamicSolverType.RK44
+
+
+@dataclass(frozen=True)
+class DOPRI5(_Explicit):
+    """Dormand–Prince 5(4), at a fixed step: its error control would chase every contact event."""
+
+    limit: ClassVar[float] = 1.0
+    method: ClassVar[Any] = exu.DynamicSolverType.DOPRI5
+
+
+@dataclass(frozen=True)
+class VelocityVerlet(_Explicit):
+    """Velocity Verlet (leap-frog), second order, one evaluation a step."""
+
+    limit: ClassVar[float] = 1.6
+    method: ClassVar[Any] = exu.DynamicSolverType.VelocityVerlet
+
+
+INTEGRATORS: dict[str, type] = {
+    "generalized_alpha": GeneralizedAlpha,
+    "newmark": Newmark,
+    "trapezoidal": Trapezoidal,
+    "rk44": RK44,
+    "dopri5": DOPRI5,
+    "velocity_verlet": VelocityVerlet,
+}
