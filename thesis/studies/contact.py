@@ -8,7 +8,7 @@ from itertools import product
 from bent_beam.cases import Case
 from bent_beam.method import Method
 from hermite_fe import CONTACTS
-from hermite_fe.delassus import impact_coupling
+from hermite_fe.contacts import impact_coupling
 from thesis.studies.base import Study
 from thesis.studies.thesis import MASSES, Runs, Variant, thesis_settings, varied
 from thesis.studies.variation import NotVaried, Setting, has_part, kinds_of, of_kind, part_of, with_field, with_parts
@@ -17,7 +17,7 @@ from thesis.studies.variation import NotVaried, Setting, has_part, kinds_of, of_
 # Figs 3.22–3.28); then nodes with a bilateral start.
 #
 # An impact at one constraint changes the gap velocities of its neighbours by c = W_{j,j±1}/W_jj of its own change
-# (:mod:`hermite_fe.delassus`).
+# (:mod:`hermite_fe.contacts`).
 
 NAMES = {"node": "nodes", "middle": "middles", "mean": "mean gaps"}
 
