@@ -1,4 +1,4 @@
-"""Hermite Euler–Bernoulli elements, their bands, loads, supports and statics.
+"""Hermite Euler–Bernoulli elements, their bands and statics.
 
 On an element of length l, with ξ = x/l ∈ [0, 1] and dofs (w₁, θ₁, w₂, θ₂), θ = dw/dx:
 
@@ -16,41 +16,28 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.polynomial import Polynomial
 from numpy.typing import NDArray
 
 from bent_beam.checks import positive
 from bent_beam.meshes import checked_nodes
 from hermite_fe.banded import stiff_product
 
-__all__ = [
-    "HermiteBeam",
-    "deflection",
-    "element_geometric_stiffness",
-    "element_mass",
-    "element_stiffness",
-    "shape_functions",
-]
+__all__ = ["HermiteBeam", "element_geometric_stiffness", "element_mass", "element_stiffness", "shape_functions"]
 
 Array = NDArray[np.float64]
 
 REFINEMENTS = 4  # of a static solution
+SHAPES = [Polynomial(c) for c in ([1, 0, -3, 2], [0, 1, -2, 1], [0, 0, 3, -2], [0, 0, -1, 1])]  # of ξ, N₂ and N₄ over l
 
 
 def shape_functions(xi: Array, length: float, derivative: int = 0) -> Array:
     """N₁…N₄ (or their x-derivative up to the third) at ξ ∈ [0, 1], shape (points, 4) (thesis A.6)."""
-    s = np.atleast_1d(np.asarray(xi, float))
-    one = np.ones_like(s)
-    table = {
-        0: [1 - 3 * s**2 + 2 * s**3, s - 2 * s**2 + s**3, 3 * s**2 - 2 * s**3, s**3 - s**2],
-        1: [6 * s**2 - 6 * s, 1 - 4 * s + 3 * s**2, 6 * s - 6 * s**2, 3 * s**2 - 2 * s],
-        2: [12 * s - 6, 6 * s - 4, 6 - 12 * s, 6 * s - 2],
-        3: [12 * one, 6 * one, -12 * one, 6 * one],
-    }
-    if derivative not in table:
+    if derivative not in range(4):
         raise ValueError(f"derivative must be 0, 1, 2 or 3 (got {derivative!r})")
-    values = np.stack(table[derivative], axis=1) / length**derivative
-    values[:, 1] *= length
-    values[:, 3] *= length
+    s = np.atleast_1d(np.asarray(xi, float))
+    values = np.stack([shape.deriv(derivative)(s) for shape in SHAPES], axis=1) / length**derivative
+    values[:, 1::2] *= length
     return values
 
 
@@ -131,13 +118,6 @@ class HermiteBeam:
         """M in lower banded form, shape (4, dofs)."""
         return self.assembled(element_mass(self.lengths, self.mass_per_length))
 
-    def uniform_load(self, load: float) -> Array:
-        """Consistent nodal loads of a uniform load, N/m: ∫ Nᵀ p dx, shape (dofs,)."""
-        l, nodal = self.lengths, np.zeros(self.dofs)  # noqa: E741
-        for i, share in enumerate((l / 2, l**2 / 12, l / 2, -(l**2) / 12)):
-            nodal[i : i + 2 * l.size : 2] += load * share
-        return nodal
-
     def interpolate(self, value: Array, slope: Array) -> Array:
         """Nodal dofs (value, slope interleaved), shape (dofs,), from fields at the nodes."""
         q = np.empty(self.dofs)
@@ -177,22 +157,3 @@ class HermiteBeam:
             residual = np.where(free, load - stiff_product(stiffness, q), 0.0)
             q += scale * cho_solve_banded((factor, True), scale * residual)
         return np.asarray(q)
-
-
-def deflection(nodes: Array, q: Array, x: Array, derivative: int = 0) -> Array:
-    """The deflection (or its x-derivative up to the third) of nodal dofs ``q`` at places ``x``, shape of
-    ``x``.
-
-    Raises ``ValueError`` when a place lies off the beam.
-    """
-    nodes, places = np.asarray(nodes, float), np.asarray(x, float)
-    flat = places.ravel()
-    if flat.size and (flat.min() < nodes[0] or flat.max() > nodes[-1]):
-        raise ValueError(f"x must lie on the beam, [{nodes[0]!r}, {nodes[-1]!r}]")
-    e = np.clip(np.searchsorted(nodes, flat, side="right") - 1, 0, nodes.size - 2)
-    out = np.empty(flat.size)
-    for k in np.unique(e):
-        here = e == k
-        length = nodes[k + 1] - nodes[k]
-        out[here] = shape_functions((flat[here] - nodes[k]) / length, length, derivative) @ q[2 * k : 2 * k + 4]
-    return out.reshape(places.shape)

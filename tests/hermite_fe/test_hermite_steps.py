@@ -113,10 +113,6 @@ def stepper(integrator: Integrator, half_length: float, nodes: int) -> Stepper:
     return Stepper(model.system, model.displacement, model.velocity, integrator, 1.0)
 
 
-def long_beam(nodes: int, integrator: Integrator) -> Stepper:
-    return stepper(integrator, 100.0, nodes)
-
-
 def subnormal(run: Stepper) -> int:
     """How many numbers of the motion, and of what its integrator remembers of it, are subnormal."""
     arrays = [run.state.q, run.state.v, run.state.acceleration]
@@ -127,7 +123,7 @@ def subnormal(run: Stepper) -> int:
 
 @every
 def test_no_number_of_the_state_is_subnormal(make: Make) -> None:
-    run = long_beam(2000, make(STEP))
+    run = stepper(make(STEP), 100.0, 2000)
     for step in (5, 50, 200):
         assert run.advance_to(step) == 0
         assert subnormal(run) == 0
@@ -136,7 +132,7 @@ def test_no_number_of_the_state_is_subnormal(make: Make) -> None:
 @every
 def test_steps_are_the_same_compiled_beforehand_and_odd_ones_do_no_harm(make: Make) -> None:
     """A step of one ulp changes nothing to speak of; an undefined number is found in its step."""
-    ready, cold = long_beam(50, make(STEP)), long_beam(50, make(STEP))
+    ready, cold = (stepper(make(STEP), 100.0, 50) for _ in range(2))
     ready.compile()
     for run in (ready, cold):
         run.advance_to(100)
