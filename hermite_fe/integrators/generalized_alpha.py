@@ -35,10 +35,10 @@ from bent_beam.fields import Quantity
 from hermite_fe.active_set import SOLVED
 from hermite_fe.banded import dot, multiply, stiff_multiply
 from hermite_fe.compiled import compiled, recompiling
-from hermite_fe.constraints import Constraints, constraints_of, row_times
+from hermite_fe.constraints import row_times
 from hermite_fe.stepping import Problem, State, add_energies, end_step, initial_acceleration, mean_forces, prepare
 
-__all__ = ["AlphaMemory", "SpectralRadius", "alpha_memory", "correct", "finish_step", "predict", "prepare_step",
+__all__ = ["Motion", "SpectralRadius", "Vectors", "correct", "finish_step", "motion_of", "predict", "prepare_step",
            "take_reaction"]  # fmt: skip
 
 Array = NDArray[np.float64]
@@ -101,30 +101,23 @@ class Vectors(NamedTuple):
     scratch: Array
 
 
-class AlphaMemory(NamedTuple):
-    """What the scheme remembers from step to step, and the conditions of the three contact problems of a step."""
+class Motion(NamedTuple):
+    """What the scheme remembers of the motion from step to step."""
 
     scheme: Scheme
     vectors: Vectors
     reactions: Reactions
-    smooth: Constraints
-    position: Constraints
-    velocity: Constraints
 
 
-def alpha_memory(problem: Problem, state: State, spectral_radius: float) -> AlphaMemory:
-    """The memory at the start: v̇ = a, all else zero. Raises ``ValueError`` for a mass matrix that is singular."""
+def motion_of(problem: Problem, state: State, spectral_radius: float) -> Motion:
+    """The motion at the start: v̇ = a, all else zero. Raises ``ValueError`` for a mass matrix that is singular."""
     m, vectors = state.impulse.size, Vectors(*np.zeros((13, state.q.size)))
     status = recompiling(lambda: initial_acceleration(problem, state, vectors.b, vectors.scratch))
     if status != SOLVED:
         raise ValueError("mass must be positive definite for generalised-α, which starts with the accelerations")
     vectors.a[:] = state.acceleration
-    return AlphaMemory(
-        scheme_of(spectral_radius),
-        vectors,
-        Reactions(*np.zeros((4, m)), *np.zeros((2, m), np.bool_)),
-        *(constraints_of(problem.rows) for _ in range(3)),
-    )
+    reactions = Reactions(*np.zeros((4, m)), *np.zeros((2, m), np.bool_))
+    return Motion(scheme_of(spectral_radius), vectors, reactions)
 
 
 @compiled
@@ -134,10 +127,10 @@ def prepare_step(problem: Problem, scheme: Scheme, h: float, t: float) -> float:
 
 
 @compiled
-def predict(state: State, memory: AlphaMemory, h: float) -> None:
+def predict(state: State, motion: Motion, h: float) -> None:
     """Save q and v of the start of the step, and replace them by q*, v*."""
-    alpha_m, alpha_f, gamma, beta, _ = memory.scheme
-    q, v, rate, vectors = state.q, state.v, state.acceleration, memory.vectors
+    alpha_m, alpha_f, gamma, beta, _ = motion.scheme
+    q, v, rate, vectors = state.q, state.v, state.acceleration, motion.vectors
     for i in range(q.size):
         a = vectors.a[i]
         known = (alpha_f * rate[i] - alpha_m * a) / (1.0 - alpha_m)
@@ -147,10 +140,10 @@ def predict(state: State, memory: AlphaMemory, h: float) -> None:
 
 
 @compiled
-def correct(state: State, memory: AlphaMemory, h: float) -> None:
+def correct(state: State, motion: Motion, h: float) -> None:
     """Set v̇⁺ to ``vectors.x``, and compute a⁺, q⁺, v⁺ without jumps."""
-    _, _, gamma, beta, s = memory.scheme
-    vectors = memory.vectors
+    _, _, gamma, beta, s = motion.scheme
+    vectors = motion.vectors
     for i in range(state.q.size):
         before, a = vectors.a[i], vectors.predicted[i] + s * vectors.x[i]
         vectors.a[i], state.acceleration[i] = a, vectors.x[i]
@@ -172,10 +165,10 @@ def take_reaction(scheme: Scheme, reactions: Reactions, h: float, j: int, force:
 
 
 @compiled
-def finish_step(problem: Problem, state: State, memory: AlphaMemory, t: float, h: float) -> int:
+def finish_step(problem: Problem, state: State, motion: Motion, t: float, h: float) -> int:
     """Add the energies of the step, by the formulas of the module docstring, and store its jump forces for the next;
     returns the status."""
-    scheme, vectors, reactions, _, _, _ = memory
+    scheme, vectors, reactions = motion
     matrices, q, v, rate = problem.matrices, state.q, state.v, state.acceleration
     mean_q, mean_v, lag, J = vectors.old_q, vectors.old_v, vectors.lag, vectors.jump_force
     force, product, change, half = vectors.force, vectors.scratch, vectors.b, 0.5 - scheme.alpha_f
@@ -186,9 +179,9 @@ def finish_step(problem: Problem, state: State, memory: AlphaMemory, t: float, h
         mean_v[i] = 0.5 * (v[i] + mean_v[i])
         lag[i] = (rate[i] - vectors.a[i]) - lag[i]
     stiff_multiply(matrices.K, matrices.K_sums, mean_q, product)
-    motion, momentum = 0.0, 0.0
+    motion_term, momentum = 0.0, 0.0
     for i in range(q.size):
-        motion += (product[i] - force[i]) * vectors.missed_motion[i]
+        motion_term += (product[i] - force[i]) * vectors.missed_motion[i]
     multiply(matrices.M, lag, product)
     for i in range(q.size):
         momentum += mean_v[i] * (half * product[i] + 0.5 * J[i] + vectors.missed_momentum[i])
@@ -197,6 +190,6 @@ def finish_step(problem: Problem, state: State, memory: AlphaMemory, t: float, h
         lag_change = reactions.value[j] - reactions.filtered[j] - reactions.lag[j]
         if lag_change != 0.0:
             momentum -= half * lag_change * row_times(problem.rows, mean_v, j)
-    loss = -motion - h * momentum
+    loss = -motion_term - h * momentum
     add_energies(problem, state, h, dot(force, change), reactions.impulse, mean_v, mean_v, loss, product)
     return end_step(state)

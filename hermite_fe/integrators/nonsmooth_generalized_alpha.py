@@ -15,7 +15,7 @@ The level at which the constraints are imposed (``levels``):
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Annotated, ClassVar
+from typing import Annotated, ClassVar, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,14 +24,22 @@ from bent_beam.fields import Quantity
 from hermite_fe.active_set import SOLVED, solve_constrained
 from hermite_fe.banded import copy, multiply
 from hermite_fe.compiled import compiled
-from hermite_fe.constraints import find_held, note_complementarity, row_times, rows_times
+from hermite_fe.constraints import (
+    Constraints,
+    constraints_of,
+    find_held,
+    note_complementarity,
+    row_times,
+    rows_times,
+)
 from hermite_fe.integrators.base import Integrator
 from hermite_fe.integrators.generalized_alpha import (
-    AlphaMemory,
+    Motion,
     SpectralRadius,
-    alpha_memory,
+    Vectors,
     correct,
     finish_step,
+    motion_of,
     predict,
     prepare_step,
     take_reaction,
@@ -47,6 +55,15 @@ VELOCITY, _, ACCELERATION = range(3)
 AT_REST = 1e-12  # of the largest rate of a dof: a closed constraint slower than this has not rebounded
 
 
+class AlphaMemory(NamedTuple):
+    """The motion, and the conditions of the three contact problems of a step."""
+
+    motion: Motion
+    smooth: Constraints
+    position: Constraints
+    velocity: Constraints
+
+
 @dataclass(frozen=True)
 class NonsmoothGeneralizedAlpha(Integrator):
     """Generalised-α with jumps, its constraints imposed at the levels asked for."""
@@ -57,7 +74,8 @@ class NonsmoothGeneralizedAlpha(Integrator):
     levels: Annotated[str, Quantity("", "at which constraints are imposed", choices=LEVELS)] = LEVELS[-1]
 
     def start(self, problem: Problem, state: State) -> AlphaMemory:
-        return alpha_memory(problem, state, self.spectral_radius)
+        motion = motion_of(problem, state, self.spectral_radius)
+        return AlphaMemory(motion, *(constraints_of(problem.rows) for _ in range(3)))
 
     def advance(
         self, problem: Problem, state: State, memory: AlphaMemory, times: Array, first: int, last: int
@@ -70,9 +88,9 @@ def take_steps(
     problem: Problem, state: State, memory: AlphaMemory, times: Array, first: int, last: int, level: int
 ) -> tuple[int, int]:
     """Take the steps ``first`` … ``last`` − 1 between the instants ``times``; returns (status, step reached)."""
-    velocity = memory.velocity
+    motion, _, _, velocity = memory
     for k in range(first, last):
-        t, h = times[k], prepare_step(problem, memory.scheme, times[k + 1] - times[k], times[k + 1])
+        t, h = times[k], prepare_step(problem, motion.scheme, times[k + 1] - times[k], times[k + 1])
         find_held(problem.rows, problem.law, state.closed, t, velocity.held)
         rows_times(problem.rows, state.v, velocity.Gv)
         if level == VELOCITY:
@@ -80,41 +98,42 @@ def take_steps(
         else:
             status = position_step(problem, state, memory, t, h, level == ACCELERATION)
         if status == SOLVED:
-            status = finish_step(problem, state, memory, t, h)
+            status = finish_step(problem, state, motion, t, h)
         if status != SOLVED:
             return status, k
     return SOLVED, last
 
 
 @compiled
-def smooth_motion(problem: Problem, state: State, memory: AlphaMemory, t: float, h: float) -> int:
-    """The step's motion without jumps, with the contact conditions ``memory.smooth``; returns the status."""
-    matrices, rows, _, solver = problem
-    scheme, vectors, reactions, smooth, _, _ = memory
-    predict(state, memory, h)
-    forces_at(matrices, t + h, state.q, state.v, vectors.b, vectors.scratch)
-    status = solve_constrained(solver, rows, smooth, vectors.b, vectors.x)
+def smooth_motion(
+    problem: Problem, state: State, motion: Motion, conditions: Constraints, t: float, h: float
+) -> int:
+    """The step's motion without jumps, with the contact conditions of accelerations; returns the status."""
+    scheme, vectors, reactions = motion
+    predict(state, motion, h)
+    forces_at(problem.matrices, t + h, state.q, state.v, vectors.b, vectors.scratch)
+    status = solve_constrained(problem.solver, problem.rows, conditions, vectors.b, vectors.x)
     if status == SOLVED:
-        note_complementarity(rows, smooth, vectors.x, h, h, state.worst)
-        correct(state, memory, h)
-        for j in range(smooth.p.size):
-            take_reaction(scheme, reactions, h, j, smooth.p[j])
+        note_complementarity(problem.rows, conditions, vectors.x, h, h, state.worst)
+        correct(state, motion, h)
+        for j in range(conditions.p.size):
+            take_reaction(scheme, reactions, h, j, conditions.p[j])
     return status
 
 
 @compiled
-def velocity_jump(problem: Problem, state: State, memory: AlphaMemory) -> int:
+def velocity_jump(problem: Problem, state: State, motion: Motion, velocity: Constraints) -> int:
     """The jump W (``vectors.x``) of (M + hγsC + h²βsK)W = b + Gᵀp, 0 ≤ p ⊥ Gv⁺ + eGv ≥ 0, v⁺ += W, Gv of before the
     step, b = ``vectors.b``. Puts KW in ``vectors.force``, CW in ``vectors.scratch``; returns the status."""
     matrices, rows, law, solver = problem
-    vectors, velocity = memory.vectors, memory.velocity
-    W, v = vectors.x, state.v
+    vectors, v = motion.vectors, state.v
+    W = vectors.x
     for j in range(velocity.target.size):
         rebound = 0.0 if velocity.held[j] else law.restitution
         velocity.target[j] = -row_times(rows, v, j) - rebound * velocity.Gv[j]
     status = solve_constrained(solver, rows, velocity, vectors.b, W)
     if status == SOLVED:
-        copy(velocity.p, memory.reactions.impulse)
+        copy(velocity.p, motion.reactions.impulse)
         add_impulses(state, velocity)
         note_complementarity(rows, velocity, W, 1.0, 1.0, state.worst)
         multiply(matrices.K, W, vectors.force)
@@ -135,17 +154,18 @@ def velocity_step(problem: Problem, state: State, memory: AlphaMemory, t: float,
     accelerations would have to compensate them, which is unstable for a stiff beam.
     """
     rows, q = problem.rows, state.q
-    scheme, vectors, _, smooth, _, velocity = memory
+    motion, smooth, _, velocity = memory
+    scheme, vectors, _ = motion
     share = h * scheme.beta / scheme.gamma
     rows_times(rows, q, velocity.Gq)
     for j in range(rows.gap.size):  # where a constraint would come to rest if it were closed now
         velocity.candidate[j] = rows.gap[j] + velocity.Gq[j] + (h - share) * velocity.Gv[j] <= 0.0
         smooth.candidate[j] = False
-    status = smooth_motion(problem, state, memory, t, h)
+    status = smooth_motion(problem, state, motion, smooth, t, h)
     copy(state.closed, velocity.closed)
     vectors.b[:] = 0.0
     if status == SOLVED:
-        status = velocity_jump(problem, state, memory)
+        status = velocity_jump(problem, state, motion, velocity)
     copy(velocity.closed, state.closed)
     W, J = vectors.x, vectors.new_jump_force
     for i in range(W.size):
@@ -175,31 +195,31 @@ def position_step(
     GᵀΛ and 0 ≤ Λ, an undamped beam whose shortest waves the steps do not resolve gains energy from the wall (1.8 times
     the initial one at κ/ν = 0.1, 50 elements, h = 1e-3 T*).
     """
-    smooth, held, at_rest = memory.smooth, memory.velocity.held, memory.reactions.at_rest
+    motion, smooth, position, velocity = memory
+    at_rest = motion.reactions.at_rest
     for j in range(at_rest.size):
         smooth.candidate[j] = with_acceleration and at_rest[j]
-        smooth.held[j] = smooth.candidate[j] and held[j]
+        smooth.held[j] = smooth.candidate[j] and velocity.held[j]
         smooth.closed[j] = smooth.candidate[j]
         smooth.target[j] = 0.0
-    status = smooth_motion(problem, state, memory, t, h)
+    status = smooth_motion(problem, state, motion, smooth, t, h)
     if status == SOLVED:
-        status = position_jump(problem, state, memory, h)
+        copy(velocity.held, position.held)
+        status = position_jump(problem, state, motion.vectors, position, h)
     if status == SOLVED:
-        status = velocity_after_position(problem, state, memory, h)
+        status = velocity_after_position(problem, state, motion, smooth.p, velocity, h)
     return status
 
 
 @compiled
-def position_jump(problem: Problem, state: State, memory: AlphaMemory, h: float) -> int:
+def position_jump(problem: Problem, state: State, vectors: Vectors, position: Constraints, h: float) -> int:
     """U of :func:`position_step`. Puts −hKU in ``vectors.b``; returns the status."""
     matrices, rows, _, solver = problem
-    vectors, position, q = memory.vectors, memory.position, state.q
-    U, b, force = vectors.x, vectors.b, vectors.new_jump_force
+    q, U, b, force = state.q, vectors.x, vectors.b, vectors.new_jump_force
     rows_times(rows, q, position.Gq)
     for j in range(rows.gap.size):
         position.candidate[j] = True
         position.target[j] = -(rows.gap[j] + position.Gq[j])
-    copy(memory.velocity.held, position.held)
     copy(state.closed, position.closed)
     b[:] = 0.0
     status = solve_constrained(solver, rows, position, b, U)
@@ -215,16 +235,18 @@ def position_jump(problem: Problem, state: State, memory: AlphaMemory, h: float)
 
 
 @compiled
-def velocity_after_position(problem: Problem, state: State, memory: AlphaMemory, h: float) -> int:
+def velocity_after_position(
+    problem: Problem, state: State, motion: Motion, smooth_p: Array, velocity: Constraints, h: float
+) -> int:
     """W of :func:`position_step`, and which constraints are at rest after it. ``vectors.b`` is −hKU."""
     rows, v = problem.rows, state.v
-    scheme, vectors, reactions, smooth, _, velocity = memory
+    scheme, vectors, reactions = motion
     for j in range(reactions.at_rest.size):
-        velocity.candidate[j] = state.closed[j] or smooth.p[j] > 0.0
+        velocity.candidate[j] = state.closed[j] or smooth_p[j] > 0.0
         velocity.closed[j] = velocity.candidate[j]
         for i in range(rows.dofs.shape[1]):
             vectors.b[rows.dofs[j, i]] -= rows.factors[j, i] * reactions.impulse[j]
-    status = velocity_jump(problem, state, memory)
+    status = velocity_jump(problem, state, motion, velocity)
     force, damping, fastest = vectors.force, vectors.scratch, 0.0
     for i in range(v.size):
         vectors.missed_momentum[i] += (0.5 - scheme.gamma * scheme.s) * damping[i]

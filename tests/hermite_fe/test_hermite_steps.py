@@ -3,6 +3,10 @@ strange for odd steps."""
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from itertools import chain
+from typing import Any
+
 import numpy as np
 import pytest
 from hermite_parts import ALL, Make
@@ -113,11 +117,17 @@ def stepper(integrator: Integrator, half_length: float, nodes: int) -> Stepper:
     return Stepper(model.system, model.displacement, model.velocity, integrator, 1.0)
 
 
+def numbers_of(part: Any) -> Iterator[Any]:
+    """Every array of floats in nested tuples."""
+    if isinstance(part, tuple):
+        yield from chain.from_iterable(map(numbers_of, part))
+    elif np.ndim(part) and part.dtype == float:
+        yield part
+
+
 def subnormal(run: Stepper) -> int:
     """How many numbers of the motion, and of what its integrator remembers of it, are subnormal."""
-    arrays = [run.state.q, run.state.v, run.state.acceleration]
-    for part in run.memory:
-        arrays += [x for x in (part if isinstance(part, tuple) else (part,)) if np.ndim(x) and x.dtype == float]
+    arrays = [run.state.q, run.state.v, run.state.acceleration, *numbers_of(run.memory)]
     return sum(int(np.count_nonzero((x != 0.0) & (np.abs(x) < np.finfo(float).tiny))) for x in arrays)
 
 
