@@ -120,7 +120,7 @@ class System:
 
     mass, stiffness : symmetric, scipy's lower banded form (≤ 4, dofs): ``mass[m, i] = M(i + m, i)``.
     dampings : (cause, bands) pairs that add up to C, causes out of :data:`DAMPINGS`; the loss to each is recorded
-        under its own name (``Trajectory.viscous``, ``.material``, ``.absorbed``).
+        under its own name (:data:`hermite_fe.stepping.ENERGIES`).
     load : (powers, dofs), F(t) = Σ_k load[k]·t^k.
     contacts : unilateral constraints; before a wall that gives way by ``springs`` they only say where impulses are
         recorded. supports : dofs that keep their initial value. bending : of a beam.

@@ -15,8 +15,7 @@ from hermite_fe import HermiteFE
 from hermite_fe.banded import product
 from hermite_fe.contacts import NodeContact
 from hermite_fe.far_fields import GridViscosity
-from hermite_fe.integrators import Midpoint, MoreauJean, SignoriniPosition
-from hermite_fe.integrators.generalized_alpha_penalty import GeneralizedAlphaPenalty
+from hermite_fe.integrators import GeneralizedAlphaPenalty, Midpoint, MoreauJean, SignoriniPosition
 from hermite_fe.model import BeamModel, beam_model
 from hermite_fe.run import Trajectory, integrate
 from measure.whole_impact import whole_impact
