@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 from hermite_fe.banded import FADED, PAD, copy
 from hermite_fe.compiled import compiled
 from hermite_fe.constraints import Constraints, Rows
-from hermite_fe.solver import Solver, exchange, update
+from hermite_fe.solver import Solver, count_rounds, exchange, update
 
 __all__ = ["CYCLING", "NOT_FINITE", "SINGULAR", "SOLVED", "find_wrong", "solve_constrained", "solve_free",
            "solve_one_by_one"]  # fmt: skip
@@ -55,11 +55,10 @@ def equation(S: Array, y: Array, k: int) -> tuple[float, float]:
 def largest_of_a_kind(x: Array) -> tuple[float, float]:
     """The largest deflection and the largest slope of x: even and odd dofs."""
     deflection, slope = 0.0, 0.0
-    for i in range(0, x.size - 1, 2):
+    for i in range(0, x.size, 2):
         deflection = max(deflection, abs(x[i]))
-        slope = max(slope, abs(x[i + 1]))
-    if x.size % 2 == 1:
-        deflection = max(deflection, abs(x[x.size - 1]))
+    for i in range(1, x.size, 2):
+        slope = max(slope, abs(x[i]))
     return deflection, slope
 
 
@@ -103,10 +102,7 @@ def begin(solver: Solver, rows: Rows, conditions: Constraints) -> None:
     closed = conditions.closed
     for j in range(closed.size):
         closed[j] = conditions.held[j] or (closed[j] and conditions.candidate[j])
-        if solver.closed[j] and not closed[j]:
-            exchange(solver, rows, j)
-    for j in range(closed.size):
-        if closed[j] and not solver.closed[j]:
+        if solver.closed[j] != closed[j]:
             exchange(solver, rows, j)
 
 
@@ -158,31 +154,25 @@ def solve_constrained(solver: Solver, rows: Rows, conditions: Constraints, b: Ar
     """Solve for x (dofs,) and ``conditions.p`` from the guess ``conditions.closed``; returns SOLVED, SINGULAR or
     CYCLING."""
     begin(solver, rows, conditions)
-    changed = solver.y.size - PAD - 1
+    changed, status, rounds = solver.y.size - PAD - 1, CYCLING, 0
     before = fewest = conditions.p.size + 1
-    patience, rounds, status = PATIENCE, 0, CYCLING
-    while rounds < MOST_ROUNDS:
+    patience = PATIENCE
+    while status == CYCLING and rounds < MOST_ROUNDS:
         count, last = solve_round(solver, rows, conditions, b, x, changed, ROUND_OFF)
         changed = -1
         rounds += 1
+        patience = PATIENCE if count < fewest else patience - 1
         if count <= 0:
             status = SOLVED if count == 0 else SINGULAR
-            break
-        if count < fewest:
-            fewest, patience = count, PATIENCE
-        else:
-            patience -= 1
-        if patience <= 0:
-            exchange(solver, rows, last)
-        else:
+        elif patience > 0:
             exchange_wrong(solver, rows, count > FAST * before)
-        before = count
+        else:
+            exchange(solver, rows, last)
+        before, fewest = count, min(fewest, count)
     if status == CYCLING:
         status = solve_one_by_one(solver, rows, conditions, b, x)
     copy(solver.closed, conditions.closed)
-    solver.rounds[0] += 1
-    solver.rounds[1] += rounds
-    solver.rounds[2] = max(solver.rounds[2], rounds)
+    count_rounds(solver, rounds)
     return status
 
 
@@ -241,8 +231,7 @@ def solve_free(solver: Solver, rows: Rows, b: Array, x: Array) -> int:
     for j in range(solver.closed.size):
         if solver.closed[j]:
             exchange(solver, rows, j)
-    no_target = b  # not used where no constraint is closed
-    if not update(solver, rows, b, no_target, solver.y.size - PAD - 1):
+    if not update(solver, rows, b, b, solver.y.size - PAD - 1):  # no target is read where no constraint is closed
         return SINGULAR
     take_solution(solver, x)
     return SOLVED

@@ -1,4 +1,4 @@
-"""Hermite Euler–Bernoulli elements, their bands, loads, supports and statics.
+"""Hermite Euler–Bernoulli elements, their bands and statics.
 
 On an element of length l, with ξ = x/l ∈ [0, 1] and dofs (w₁, θ₁, w₂, θ₂), θ = dw/dx:
 
@@ -16,83 +16,56 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.polynomial import Polynomial
 from numpy.typing import NDArray
 
 from bent_beam.checks import positive
 from bent_beam.meshes import checked_nodes
 from hermite_fe.banded import stiff_product
 
-__all__ = [
-    "HermiteBeam",
-    "deflection",
-    "element_geometric_stiffness",
-    "element_mass",
-    "element_stiffness",
-    "shape_functions",
-]
+__all__ = ["HermiteBeam", "element_geometric_stiffness", "element_mass", "element_stiffness", "shape_functions"]
 
 Array = NDArray[np.float64]
 
 REFINEMENTS = 4  # of a static solution
+SHAPES = [Polynomial(c) for c in ([1, 0, -3, 2], [0, 1, -2, 1], [0, 0, 3, -2], [0, 0, -1, 1])]  # of ξ, N₂ and N₄ over l
 
 
 def shape_functions(xi: Array, length: float, derivative: int = 0) -> Array:
     """N₁…N₄ (or their x-derivative up to the third) at ξ ∈ [0, 1], shape (points, 4) (thesis A.6)."""
-    s = np.atleast_1d(np.asarray(xi, float))
-    one = np.ones_like(s)
-    table = {
-        0: [1 - 3 * s**2 + 2 * s**3, s - 2 * s**2 + s**3, 3 * s**2 - 2 * s**3, s**3 - s**2],
-        1: [6 * s**2 - 6 * s, 1 - 4 * s + 3 * s**2, 6 * s - 6 * s**2, 3 * s**2 - 2 * s],
-        2: [12 * s - 6, 6 * s - 4, 6 - 12 * s, 6 * s - 2],
-        3: [12 * one, 6 * one, -12 * one, 6 * one],
-    }
-    if derivative not in table:
+    if derivative not in range(4):
         raise ValueError(f"derivative must be 0, 1, 2 or 3 (got {derivative!r})")
-    values = np.stack(table[derivative], axis=1) / length**derivative
-    values[:, 1] *= length
-    values[:, 3] *= length
+    s = np.atleast_1d(np.asarray(xi, float))
+    values = np.stack([shape.deriv(derivative)(s) for shape in SHAPES], axis=1) / length**derivative
+    values[:, 1::2] *= length
     return values
+
+
+BENDING = [[12, 6, -12, 6], [6, 4, -6, 2], [-12, -6, 12, -6], [6, 2, -6, 4]]
+SHORTENING = [[36, 3, -36, 3], [3, 4, -3, -1], [-36, -3, 36, -3], [3, -1, -3, 4]]
+INERTIA = [[156, 22, 54, -13], [22, 4, 13, -3], [54, 13, 156, -22], [-13, -3, -22, 4]]
+
+
+def _elements(table: list[list[int]], lengths: Array, factor: Array) -> Array:
+    """``table`` times ``factor``, (elements,), with a length for each θ of a row and of a column."""
+    one = np.ones_like(lengths)
+    by_dof = np.stack([one, lengths, one, lengths], axis=1)
+    return np.asarray(table * (by_dof[:, :, None] * by_dof[:, None, :]) * factor[:, None, None])
 
 
 def element_stiffness(lengths: Array, bending_stiffness: float) -> Array:
     """Kₑ of each element (3.1.5), shape (elements, 4, 4)."""
-    l = np.asarray(lengths, float)  # noqa: E741
-    k = np.empty((l.size, 4, 4))
-    k[:, 0, 0] = k[:, 2, 2] = 12.0
-    k[:, 0, 2] = k[:, 2, 0] = -12.0
-    k[:, 0, 1] = k[:, 1, 0] = k[:, 0, 3] = k[:, 3, 0] = 6.0 * l
-    k[:, 1, 2] = k[:, 2, 1] = k[:, 2, 3] = k[:, 3, 2] = -6.0 * l
-    k[:, 1, 1] = k[:, 3, 3] = 4.0 * l**2
-    k[:, 1, 3] = k[:, 3, 1] = 2.0 * l**2
-    return np.asarray(k * (bending_stiffness / l**3)[:, None, None])
+    return _elements(BENDING, lengths, bending_stiffness / lengths**3)
 
 
 def element_geometric_stiffness(lengths: Array) -> Array:
     """Gₑ = ∫ N′ᵀN′ dx of each element, shape (elements, 4, 4): stiffness under a unit axial force."""
-    l = np.asarray(lengths, float)  # noqa: E741
-    g = np.empty((l.size, 4, 4))
-    g[:, 0, 0] = g[:, 2, 2] = 36.0
-    g[:, 0, 2] = g[:, 2, 0] = -36.0
-    g[:, 0, 1] = g[:, 1, 0] = g[:, 0, 3] = g[:, 3, 0] = 3.0 * l
-    g[:, 1, 2] = g[:, 2, 1] = g[:, 2, 3] = g[:, 3, 2] = -3.0 * l
-    g[:, 1, 1] = g[:, 3, 3] = 4.0 * l**2
-    g[:, 1, 3] = g[:, 3, 1] = -(l**2)
-    return np.asarray(g / (30.0 * l)[:, None, None])
+    return _elements(SHORTENING, lengths, 1.0 / (30.0 * lengths))
 
 
 def element_mass(lengths: Array, mass_per_length: float) -> Array:
     """Mₑ of each element (3.1.8), shape (elements, 4, 4)."""
-    l = np.asarray(lengths, float)  # noqa: E741
-    m = np.empty((l.size, 4, 4))
-    m[:, 0, 0] = m[:, 2, 2] = 156.0
-    m[:, 0, 2] = m[:, 2, 0] = 54.0
-    m[:, 0, 1] = m[:, 1, 0] = 22.0 * l
-    m[:, 2, 3] = m[:, 3, 2] = -22.0 * l
-    m[:, 0, 3] = m[:, 3, 0] = -13.0 * l
-    m[:, 1, 2] = m[:, 2, 1] = 13.0 * l
-    m[:, 1, 1] = m[:, 3, 3] = 4.0 * l**2
-    m[:, 1, 3] = m[:, 3, 1] = -3.0 * l**2
-    return np.asarray(m * (mass_per_length * l / 420.0)[:, None, None])
+    return _elements(INERTIA, lengths, mass_per_length * lengths / 420.0)
 
 
 @dataclass(frozen=True)
@@ -145,15 +118,6 @@ class HermiteBeam:
         """M in lower banded form, shape (4, dofs)."""
         return self.assembled(element_mass(self.lengths, self.mass_per_length))
 
-    def uniform_load(self, load: float) -> Array:
-        """Consistent nodal loads of a uniform load, N/m: ∫ Nᵀ p dx, shape (dofs,)."""
-        l = self.lengths  # noqa: E741
-        element = load * np.stack([l / 2, l**2 / 12, l / 2, -(l**2) / 12], axis=1)
-        nodal, end = np.zeros(self.dofs), 2 * len(element)
-        for i in range(4):
-            nodal[i : i + end : 2] += element[:, i]
-        return nodal
-
     def interpolate(self, value: Array, slope: Array) -> Array:
         """Nodal dofs (value, slope interleaved), shape (dofs,), from fields at the nodes."""
         q = np.empty(self.dofs)
@@ -167,9 +131,8 @@ class HermiteBeam:
         Raises ``ValueError`` when a support is no dof of the beam, or when the supports leave it free to
         move.
         """
-        for dof in supports:
-            if not 0 <= dof < self.dofs:
-                raise ValueError(f"supports must name dofs from 0 to {self.dofs - 1} (got {dof!r})")
+        if unknown := [dof for dof in supports if not 0 <= dof < self.dofs]:
+            raise ValueError(f"supports must name dofs from 0 to {self.dofs - 1} (got {unknown[0]!r})")
         from scipy.linalg import cho_solve_banded, cholesky_banded  # here: no impact needs what takes long to import
 
         length = self.nodes[-1] - self.nodes[0]
@@ -177,46 +140,20 @@ class HermiteBeam:
         if not rigid or np.linalg.matrix_rank(np.array(rigid)) < 2:
             raise ValueError(f"supports leave the beam free to move (got dofs {sorted(supports)})")
         stiffness, load = self.stiffness(), np.array(load, float)
-        bands = stiffness.copy()
         free = np.ones(self.dofs, bool)
         free[list(supports)] = False
-        for dof in supports:
-            for m in range(1, 4):
-                if dof + m < self.dofs:
-                    bands[m, dof] = 0.0
-                if dof >= m:
-                    bands[m, dof - m] = 0.0
-            bands[0, dof] = 1.0
+        bands = stiffness.copy()
+        for m in range(1, 4):
+            bands[m, :-m] *= free[:-m] & free[m:]
+        bands[0, ~free] = 1.0
         # rows and columns scaled to a unit diagonal: the raw matrix mixes w with θ and loses digits
         scale = 1.0 / np.sqrt(bands[0])
         for m in range(4):
             bands[m, : self.dofs - m] *= scale[: self.dofs - m] * scale[m:]
         factor = cholesky_banded(bands, lower=True)
         q = np.zeros(self.dofs)
-        for dof, value in supports.items():
-            q[dof] = value
+        q[list(supports)] = list(supports.values())
         for _ in range(REFINEMENTS):  # with residuals by differences, which see what 12EI/Δx³·q rounds away
             residual = np.where(free, load - stiff_product(stiffness, q), 0.0)
             q += scale * cho_solve_banded((factor, True), scale * residual)
         return np.asarray(q)
-
-
-def deflection(nodes: Array, q: Array, x: Array, derivative: int = 0) -> Array:
-    """The deflection (or its x-derivative up to the third) of nodal dofs ``q`` at places ``x``, shape of
-    ``x``.
-
-    Raises ``ValueError`` when a place lies off the beam.
-    """
-    nodes, places = np.asarray(nodes, float), np.asarray(x, float)
-    flat = places.ravel()
-    if flat.size and (flat.min() < nodes[0] or flat.max() > nodes[-1]):
-        raise ValueError(f"x must lie on the beam, [{nodes[0]!r}, {nodes[-1]!r}]")
-    e = np.clip(np.searchsorted(nodes, flat, side="right") - 1, 0, nodes.size - 2)
-    out = np.empty(flat.size)
-    for k in np.unique(e):
-        here = e == k
-        length = nodes[k + 1] - nodes[k]
-        out[here] = (
-            shape_functions((flat[here] - nodes[k]) / length, length, derivative) @ q[2 * k : 2 * k + 4]
-        )
-    return out.reshape(places.shape)

@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 from hermite_fe.compiled import compiled
 from hermite_fe.system import ContactRows
 
-__all__ = ["Constraints", "ContactLaw", "Rows", "constraints_of", "find_held", "note_complementarity", "row_times",
-           "rows_of", "rows_times"]  # fmt: skip
+__all__ = ["WORST", "Constraints", "ContactLaw", "Rows", "constraints_of", "find_held", "note_complementarity",
+           "row_times", "rows_of", "rows_times"]  # fmt: skip
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
@@ -19,6 +19,7 @@ Places = NDArray[np.int64]
 
 SMALLEST_REACTION, PRODUCT = range(2)
 """Indices in ``worst``: the smallest impulse of a constraint that is not held, and the largest |p·slack|."""
+WORST = ("smallest_reaction", "complementarity_product")
 
 
 class ContactLaw(NamedTuple):

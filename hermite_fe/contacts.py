@@ -24,6 +24,16 @@ infinite beam's first instants only:
 Neither acts after t_w = 0.005 T* (:data:`bent_beam.impact.FIRST_SPREAD`), from when on waves from the ends may move the
 zone. A held constraint may pull; what it pulled is recorded as ``held_impulse``, and how hard as ``hold`` in the
 settings.
+
+**Neighbours** move one another by the Delassus operator W = G M⁻¹ Gᵀ (:func:`impact_coupling`). A row j that stops from
+the velocity V₀ takes the impulse V₀/W_jj, and this changes the gap velocity of row i by (W_ij/W_jj)V₀. With
+
+    c = W_{j,j±1}/W_jj
+
+the neighbour that has just come to rest is thrown off the wall at cV₀ when c > 0, and pressed on, which only costs
+another impulse, when c < 0. On equal elements (l = 1, μ = 1) lumped masses with the rotary part r give
+
+    nodes: W = 1, c = 0;    middles: W = ½ + 1/(64 r),  c = (¼ − 1/(128 r))/W: zero at r = 1/32.
 """
 
 from __future__ import annotations
@@ -37,11 +47,15 @@ from numpy.typing import NDArray
 
 from bent_beam.fields import Part, Quantity
 from hermite_fe.beam import HermiteBeam
+from hermite_fe.masses import Mass
 from hermite_fe.system import ContactRows
 
-__all__ = ["CONTACTS", "Contact", "MeanContact", "MiddleContact", "NodeContact", "element_rows"]
+__all__ = ["CONTACTS", "Contact", "ImpactCoupling", "MeanContact", "MiddleContact", "NodeContact", "element_rows",
+           "impact_coupling"]  # fmt: skip
 
 Array = NDArray[np.float64]
+
+COUPLED = 40  # elements; the consistent mass matrix couples over some five: the ends are out of reach
 
 
 @dataclass(frozen=True)
@@ -51,20 +65,21 @@ class Contact(Part, ABC):
     where: ClassVar[str] = "contact"
 
     restitution: Annotated[float, Quantity("", "e", least=0.0, most=1.0)] = 0.0
-    hold: Annotated[
-        int, Quantity("", "constraints in the bilateral strip behind the front", least=0)
-    ] = 0
+    hold: Annotated[int, Quantity("", "constraints in the bilateral strip behind the front", least=0)] = 0
     hold_until: Annotated[float, Quantity("s", "until then closed constraints do not open", least=0.0)] = 0.0
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        if self.restitution > 0.0:
-            for name in ("hold", "hold_until"):
-                if getattr(self, name):
-                    raise ValueError(
-                        f"contact.{name} keeps rows closed that restitution {self.restitution!r} makes rebound: "
-                        f"state one of them (got {getattr(self, name)!r})"
-                    )
+        for name, value in self.held.items() if self.restitution > 0.0 else ():
+            raise ValueError(
+                f"contact.{name} keeps rows closed that restitution {self.restitution!r} makes rebound: "
+                f"state one of them (got {value!r})"
+            )
+
+    @property
+    def held(self) -> dict[str, float]:
+        """What keeps closed constraints closed, by the name of its field."""
+        return {name: getattr(self, name) for name in ("hold", "hold_until") if getattr(self, name)}
 
     @abstractmethod
     def rows(self, beam: HermiteBeam, facing: Array, *, full: bool) -> ContactRows:
@@ -128,19 +143,41 @@ class MiddleContact(Contact):
     """Rows at the element middles; nodes may dip into the wall by KΔx²/8 before their element's row
     closes."""
 
+    slope_share: ClassVar[float] = 8.0
+    """A slope counts for its element's length over this."""
+
     def rows(self, beam: HermiteBeam, facing: Array, *, full: bool) -> ContactRows:
-        l, half = beam.lengths, np.full(beam.lengths.size, 0.5)  # noqa: E741
-        return element_rows(beam, facing, np.stack([half, l / 8, half, -l / 8], axis=1), full=full)
+        half, slope = np.full(beam.lengths.size, 0.5), beam.lengths / self.slope_share
+        return element_rows(beam, facing, np.stack([half, slope, half, -slope], axis=1), full=full)
 
 
 @dataclass(frozen=True)
-class MeanContact(Contact):
+class MeanContact(MiddleContact):
     """Rows for the mean gaps of the elements."""
 
-    def rows(self, beam: HermiteBeam, facing: Array, *, full: bool) -> ContactRows:
-        l, half = beam.lengths, np.full(beam.lengths.size, 0.5)  # noqa: E741
-        return element_rows(beam, facing, np.stack([half, l / 12, half, -l / 12], axis=1), full=full)
+    slope_share: ClassVar[float] = 12.0
 
 
 CONTACTS: dict[str, type] = {"node": NodeContact, "middle": MiddleContact, "mean": MeanContact}
 """Kinds of a case file's ``[hermite.contact]`` table."""
+
+
+@dataclass(frozen=True)
+class ImpactCoupling:
+    """moved_mass : 1/W_jj over μΔx, what an impact at one row has to stop; neighbour : c, see the module's text."""
+
+    moved_mass: float
+    neighbour: float
+
+
+def impact_coupling(contact: Contact, mass: Mass) -> ImpactCoupling:
+    """Of rows far from the ends of a beam of equal elements."""
+    from scipy.linalg import cho_solve_banded, cholesky_banded  # here: few runs need what takes long to import
+
+    beam = HermiteBeam(np.arange(COUPLED + 1.0), 1.0, 1.0)
+    rows = contact.rows(beam, np.zeros(beam.dofs), full=False)
+    G, j = np.zeros((2, beam.dofs)), len(rows) // 2
+    np.put_along_axis(G, rows.dofs[j : j + 2], rows.factors[j : j + 2], axis=1)
+    moved = cho_solve_banded((cholesky_banded(mass.matrix(beam), lower=True), True), G[0])
+    own, next_one = (float(v) for v in G @ moved)
+    return ImpactCoupling(moved_mass=1.0 / own, neighbour=next_one / own)

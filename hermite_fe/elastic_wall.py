@@ -28,13 +28,15 @@ from numpy.typing import NDArray
 
 from hermite_fe.compiled import compiled
 
-__all__ = ["FORCE", "FORCE_TIME", "NO_SPRINGS", "PENETRATION", "PRESSURE", "Springs", "push", "stored_energy"]
+__all__ = ["FORCE", "FORCE_TIME", "NO_SPRINGS", "PEAKS", "PENETRATION", "PRESSURE", "Springs", "push",
+           "stored_energy"]  # fmt: skip
 
 Array = NDArray[np.float64]
 
 FORCE, FORCE_TIME, PENETRATION, PRESSURE = range(4)
 """Indices in ``State.peaks``: the largest force on the whole zone of all steps, N, and its time, s; the largest
 penetration, m, and pressure, N/m (at a stop force, N)."""
+PEAKS = ("peak_force", "peak_force_time", "peak_penetration", "peak_pressure")
 
 POINTS, WEIGHTS = (0.5 * (values + shift) for values, shift in zip(np.polynomial.legendre.leggauss(4), (1.0, 0.0)))
 HALVINGS = 60  # of an interval that holds a zero

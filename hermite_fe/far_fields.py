@@ -55,36 +55,31 @@ class FarField(Part, ABC):
         """C by cause, as :class:`hermite_fe.system.System` takes it."""
 
 
-Viscosity = Annotated[float, Quantity("", "c at grid scale; 0: none", least=0.0)]
-
-
 @dataclass(frozen=True)
 class GridViscosity(FarField):
     """Bending viscosity in proportion to the square of the elements' length."""
 
-    viscosity: Viscosity = 0.3
+    viscosity: Annotated[float, Quantity("", "c at grid scale; 0: none", least=0.0)] = 0.3
 
     def dampings(self, beam: HermiteBeam, impact: Impact) -> Dampings:
         return (("viscous", beam.stiffness(weight=self.viscosity * beam.lengths**2 / impact.wave_constant)),)
 
 
 @dataclass(frozen=True)
-class Sponge(FarField):
+class Sponge(GridViscosity):
     """Bending viscosity that rises towards the ends."""
 
-    viscosity: Viscosity = 0.3
     strength: Annotated[float, Quantity("", "b", least=0.0)] = 0.03
     width: Annotated[float, Quantity("", "width over the modelled half length", least=0.0, most=1.0)] = 0.5
 
     def dampings(self, beam: HermiteBeam, impact: Impact) -> Dampings:
         middles, half_length = 0.5 * (beam.nodes[:-1] + beam.nodes[1:]), float(beam.nodes[-1])
-        width = self.width * half_length
-        grid, absorber = self.viscosity * beam.lengths**2, np.zeros(middles.size)
+        width, absorber = self.width * half_length, np.zeros(middles.size)
         if width > 0.0:
             depth = np.clip(1.0 - (half_length - np.abs(middles)) / width, 0.0, 1.0)
             absorber = self.strength * width**2 * depth**3
         return (
-            ("viscous", beam.stiffness(weight=grid / impact.wave_constant)),
+            *super().dampings(beam, impact),
             ("absorbed", beam.stiffness(weight=absorber / impact.wave_constant)),
         )
 

@@ -5,22 +5,23 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import ClassVar, Self
 
 import numpy as np
 
 from bent_beam.free_flight import Separation
 from bent_beam.history import ImpactHistory
 from bent_beam.impact import Impact
-from bent_beam.meshes import MESHES
+from bent_beam.loads import wall_scales
+from bent_beam.meshes import MESHES, UniformMesh
 from bent_beam.method import Save, made_of, separation_times
 from hermite_fe import resolution
-from hermite_fe.composition import Composition
-from hermite_fe.contacts import CONTACTS
-from hermite_fe.far_fields import FAR_FIELDS
-from hermite_fe.integrators import INTEGRATORS
+from hermite_fe.contacts import CONTACTS, NodeContact
+from hermite_fe.far_fields import FAR_FIELDS, GridViscosity
+from hermite_fe.integrators import INTEGRATORS, MoreauJean, SignoriniPosition
 from hermite_fe.masses import MASSES
 from hermite_fe.model import BeamModel
+from hermite_fe.resolution import ELEMENTS, Composition
 from hermite_fe.run import Stepper
 from hermite_fe.simulate import refusal, simulate, spreads
 
@@ -31,7 +32,7 @@ __all__ = ["HermiteFE"]
 class HermiteFE(Composition):
     """Hermite beam elements with unilateral contact and a nonsmooth time integrator, on a fixed mesh.
 
-    The parts are those of :class:`hermite_fe.composition.Composition`.
+    The parts are those of :class:`hermite_fe.resolution.Composition`.
 
     >>> from bent_beam import Impact
     >>> from hermite_fe import HermiteFE
@@ -74,24 +75,94 @@ class HermiteFE(Composition):
         chosen = self if spreads(impact) else self.for_whole_beam(impact)
         return simulate(impact, end_time=end_time, save=save, progress=progress, **made_of(chosen))
 
-    def chosen_for(self, impact: Impact, end_time: float) -> HermiteFE:
-        """A copy with every open part chosen for ``impact`` (:func:`hermite_fe.resolution.for_loads`): other impacts
-        then run on the same mesh and steps."""
-        parts = resolution.for_loads(self, impact, end_time)
-        choice = resolution.choose(impact, end_time, parts)
+    def chosen_for(self, impact: Impact, end_time: float) -> Self:
+        """A copy with every open part chosen for ``impact`` (:meth:`for_loads`): other impacts then run on the same
+        mesh and steps."""
+        parts = self.for_loads(impact, end_time)
+        return dataclasses.replace(parts, **resolution.choose(impact, end_time, parts).parts(), refine=1.0)
+
+    def for_loads(self, impact: Impact, end_time: float) -> Self:
+        """A copy of these parts for a run that measures what the loads of ``impact`` change.
+
+        A long beam is cut where nothing arrives, its ends following the free motion, and a zone that the load presses
+        on is held behind the front: what lift the bare impact leaves would otherwise take up the load before the wall
+        does. Neither without loads.
+        """
+        if not impact.loaded or impact.wall_stiffness is not None:
+            return self
+        contact, domain, mesh = self.contact, self.domain, self.mesh
+        if domain is None and self.far_field is None:
+            domain = resolution.chosen_domain(impact, end_time)
+        if contact is None and impact.zone_pressure > 0.0 and (self.integrator is None or self.integrator.holds_zone):
+            contact = NodeContact(hold=resolution.PRESSED_HOLD)
+        if mesh is None:
+            half = resolution.modelled_half_length(impact, domain)
+            mesh = resolution.chosen_mesh(impact, half, end_time, loaded=True)
+        return dataclasses.replace(self, mesh=mesh, contact=contact, domain=domain)
+
+    def for_whole_beam(self, impact: Impact) -> Self:
+        """A copy whose open parts are those of a whole beam; its ``refine`` is worked in."""
+        wall, element = wall_scales(impact), impact.half_length / ELEMENTS
+        if wall is not None:
+            element = min(element, resolution.elastic_element(wall, impact.half_length))
+        mesh = (self.mesh or UniformMesh(element)).refined(self.refine)
+        shortest = float(np.diff(mesh.nodes(impact.half_length)).min())
+        contact = self.contact or NodeContact()
+        chosen = resolution.scheme_for(impact, contact, theta=0.5)
+        integrator = (self.integrator or chosen).with_defaults(impact)  # before it is refined: what is open cannot be
+        if integrator.time_step is None and wall is not None:
+            integrator = integrator.with_steps(resolution.ELASTIC_STEP * wall.time, 0.0).refined(self.refine)
+        elif integrator.time_step is None:
+            integrator = integrator.refined(self.refine**2).with_steps(0.5 * shortest**2 / impact.wave_constant, 0.0)
+        else:
+            integrator = integrator.with_steps(integrator.time_step, 0.0).refined(self.refine)
         return dataclasses.replace(
-            parts,
-            mesh=choice.mesh,
-            integrator=choice.integrator,
-            contact=choice.contact,
-            far_field=choice.far_field,
-            mass=choice.mass,
+            self,
+            mesh=mesh,
+            integrator=integrator,
+            contact=contact if wall is None else self.contact,
+            far_field=self.far_field or GridViscosity(viscosity=0.0),
+            full_beam=self.full_beam or impact.off_centre,
+            domain=None,
             refine=1.0,
         )
 
-    for_whole_beam = resolution.for_whole_beam
-    cross_checks = resolution.cross_checks
-    varied = resolution.varied
+    def cross_checks(self, impact: Impact) -> dict[str, Self]:
+        """What stands beside it for error bars, by cause: half as many elements (and steps in proportion to their
+        square), steps twice as long, and the impact law of another scheme, with these steps too (half of the work; the
+        bar then counts the step twice)."""
+        chosen = self.for_whole_beam(impact)
+        mesh, integrator = chosen.mesh, chosen.integrator
+        assert mesh is not None and integrator is not None
+        checks = {
+            "mesh": dataclasses.replace(chosen, mesh=mesh.refined(0.5), integrator=integrator.refined(0.25)),
+            "step": dataclasses.replace(chosen, integrator=integrator.refined(0.5)),
+        }
+        if not integrator.elastic:
+            assert chosen.contact is not None
+            sticks = isinstance(integrator, MoreauJean) and chosen.contact.restitution == 0.0
+            law = SignoriniPosition if sticks else MoreauJean
+            other = law(theta=0.5, time_step=integrator.time_step, growth=0.0).refined(0.5)
+            checks["contact_law"] = dataclasses.replace(chosen, integrator=other)
+        return checks
+
+    def varied(self, impact: Impact, random: np.random.Generator) -> Self:
+        """A copy for an ensemble: elements, steps and impact law drawn at random.
+
+        Moreau–Jean with θ = ½ throughout, which keeps the energy between impacts; where the wall gives way, what is
+        chosen for it.
+        """
+        if impact.wall_stiffness is not None:
+            return self.refined(2.0 ** random.uniform(-1.0, 0.0)).for_whole_beam(impact)
+        length = impact.half_length / int(random.integers(2 * ELEMENTS // 5, 4 * ELEMENTS // 5))
+        step = 2.0 ** random.uniform(-1.0, 1.0) * length**2 / impact.wave_constant
+        restitution = (0.0, 0.5, 1.0)[int(random.integers(3))]
+        return dataclasses.replace(
+            self,
+            mesh=UniformMesh(length),
+            integrator=MoreauJean(theta=0.5, time_step=step, growth=0.0),
+            contact=NodeContact(restitution=restitution),
+        )
 
     def simulate_to_separation(
         self,

@@ -18,6 +18,11 @@ is off the middle, x counts from it in y₀ and from the middle in ωx; both nee
 force NKL/2 at either end, which starts a wave at once. Along the tangent of the bow at the first touch,
 EI(u_xxx + ηu̇_xxx) − Nu_x = 0: its transverse part −NKL/2 balances the pull −NK per length of the bow, no wave starts,
 and a₀ is the acceleration of the whole beam. A force that turned with the end would have no potential.
+
+**Walls** stand along a part of the beam, as constraints or as springs. With a second wall behind the beam every node
+has a constraint for either:
+
+    g = y_w − y ≥ 0 in front,      g = y + D − (y_w at x = 0) ≥ 0 behind: a flat wall at the distance D of the apex
 """
 
 from __future__ import annotations
@@ -34,17 +39,17 @@ from bent_beam.meshes import checked_nodes, mirrored
 from hermite_fe.banded import product, stiff_product
 from hermite_fe.beam import HermiteBeam
 from hermite_fe.contacts import Contact
+from hermite_fe.elastic_wall import NO_SPRINGS, Springs
 from hermite_fe.far_fields import Dampings, FarField
 from hermite_fe.masses import ConsistentMass, Mass
-from hermite_fe.system import Bending, System
-from hermite_fe.walls import before_the_wall, behind, held_dofs, springs_of, with_opposite_wall
+from hermite_fe.system import Bending, ContactRows, System
 
 __all__ = ["LOADS", "BeamModel", "beam_model"]
 
 Array = NDArray[np.float64]
 CONSISTENT = ConsistentMass()
-
-
+NEAR = 1e-9  # of the length: a node so near an edge of the wall lies on it
+HELD = {"free": 0, "hinged": 1, "clamped": 2}  # dofs of the end node
 LOADS = ("acceleration", "curvature_rate", "fourth_derivative", "axial_force", "rotation", "hysteretic_loss",
          "wall_stiffness", "wall_damping", "wall_from", "wall_to", "left_end", "right_end")  # fmt: skip
 """The loads and other features that are modelled here."""
@@ -106,7 +111,9 @@ def beam_model(
     dampings = far_field.dampings(beam, impact)
     if impact.damping > 0.0:  # Kelvin–Voigt: C = ηK
         dampings += (("material", impact.damping * bending_stiffness),)
-    bending = Bending(beam.lengths, relaxed, free_moment(impact), half.size - 1 if full else 0)
+    unbent = impact.curvature if impact.natural_curvature is None else impact.natural_curvature
+    moment = impact.bending_stiffness * (unbent - impact.curvature)  # of the bow: none unless a part of it is elastic
+    bending = Bending(beam.lengths, relaxed, moment, half.size - 1 if full else 0)
     if branches is not None:  # slack at the start
         bending = bending._replace(shares=branches.shares, rates=1.0 / branches.times, matrix=bending_stiffness)
     supports = held_dofs(impact, beam, full=full)
@@ -123,14 +130,8 @@ def beam_model(
         springs=springs_of(impact, beam, facing, full=full),
         bending=bending,
     )
-    second = behind(len(rows), impact.opposite_wall is not None)
-    return BeamModel(beam, system, displacement, velocity, natural, facing, second, full)
-
-
-def free_moment(impact: Impact) -> float:
-    """Bending moment of the bow at the first touch, N m: nothing unless a part of it is elastic."""
-    natural = impact.curvature if impact.natural_curvature is None else impact.natural_curvature
-    return impact.bending_stiffness * (natural - impact.curvature)
+    behind = (np.arange(len(rows)) % 2 == 1) & (impact.opposite_wall is not None)
+    return BeamModel(beam, system, displacement, velocity, natural, facing, behind, full)
 
 
 def nodal_loads(
@@ -158,3 +159,68 @@ def nodal_loads(
     steady += sum((stiff_product(bands, rate) for _, bands in dampings), np.zeros(beam.dofs))
     load = np.stack([steady, stiff_product(stiffness, rate)])
     return load if np.any(load[1]) else load[:1]
+
+
+def held_dofs(impact: Impact, beam: HermiteBeam, *, full: bool) -> tuple[int, ...]:
+    """Dofs that the ends hold, and the slope in the middle of a half beam."""
+    left = tuple(range(HELD[impact.left_end])) if full else (1,)
+    last = beam.dofs - 2
+    return left + tuple(range(last, last + HELD[impact.right_end]))
+
+
+def before_the_wall(rows: ContactRows, impact: Impact, supports: tuple[int, ...]) -> ContactRows:
+    """``rows`` that stand before the wall, and not at an end that is held.
+
+    Raises ``ValueError`` where there is none, as before a stop where contact is not at nodes.
+    """
+    (begin, end), near = impact.wall_span, NEAR * impact.length
+    kept = (rows.places >= begin - near) & (rows.places <= end + near)
+    if rows.dofs.shape[1] == 1:
+        kept &= ~np.isin(rows.dofs[:, 0], supports)
+    if not kept.any():
+        raise ValueError(
+            f"wall_from: no contact point stands before the wall from {begin!r} to {end!r} m; take contact.kind = node"
+        )
+    return rows.at(kept)
+
+
+def springs_of(impact: Impact, beam: HermiteBeam, facing: Array, *, full: bool) -> Springs:
+    """The springs of a wall that gives way; of a stop in the middle of a half beam, half of them."""
+    if impact.wall_stiffness is None:
+        return NO_SPRINGS
+    (begin, end), near = impact.wall_span, NEAR * impact.length
+    inside = np.flatnonzero((beam.nodes >= begin - near) & (beam.nodes <= end + near))
+    first, last = int(inside[0]), int(inside[-1])
+    share = 0.5 if begin == end and not full else 1.0
+    return Springs(
+        stiffness=share * impact.wall_stiffness,
+        damping=share * impact.wall_damping,
+        facing=facing,
+        lengths=beam.lengths,
+        first=first,
+        last=last,
+        stop=2 * first if begin == end else -1,
+    )
+
+
+def with_opposite_wall(
+    rows: ContactRows, beam: HermiteBeam, natural: Array, displacement: Array, distance: float
+) -> ContactRows:
+    """``rows`` of the wall in front, each followed by the same node's of a wall behind at ``distance``, m.
+
+    natural, displacement : (dofs,), the bow at the first touch, and the unknowns then.
+
+    Raises ``ValueError`` for contact that is not at nodes, or a distance that leaves the bow no room.
+    """
+    if rows.dofs.shape[1] != 1:
+        raise ValueError('opposite_wall takes contact.kind = "node" only')
+    bow = np.interp(rows.places, beam.nodes, natural[0::2])
+    gap = bow + distance
+    if np.any(gap + displacement[rows.dofs[:, 0]] < 0.0):
+        raise ValueError(
+            f"opposite_wall must leave room for the bow of {float(-bow.min()):.6g} m behind its apex (got {distance!r})"
+        )
+    both = rows.at(np.repeat(np.arange(len(rows)), 2))
+    both.factors[1::2] *= -1.0
+    both.gap[1::2] = gap
+    return both

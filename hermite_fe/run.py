@@ -11,29 +11,18 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from bent_beam.checks import affordable
+from bent_beam.checks import MOST_INSTANTS, affordable
 from hermite_fe.active_set import CYCLING, NOT_FINITE, SINGULAR, SOLVED
 from hermite_fe.banded import product, stiff_product
 from hermite_fe.compiled import recompiling
-from hermite_fe.constraints import PRODUCT, SMALLEST_REACTION, ContactLaw
-from hermite_fe.elastic_wall import FORCE, FORCE_TIME, PENETRATION, PRESSURE, stored_energy
+from hermite_fe.constraints import WORST, ContactLaw
+from hermite_fe.elastic_wall import PEAKS, stored_energy
 from hermite_fe.integrators import Integrator
 from hermite_fe.maxwell import branch_energy
-from hermite_fe.saved_steps import saved_steps
-from hermite_fe.stepping import (
-    ABSORBED,
-    ALGORITHMIC,
-    IMPACT,
-    MATERIAL,
-    VISCOUS,
-    WALL,
-    WORK,
-    problem_of,
-    state_of,
-)
+from hermite_fe.stepping import ENERGIES, LARGEST, problem_of, state_of
 from hermite_fe.system import System
 
-__all__ = ["Stepper", "Trajectory", "integrate"]
+__all__ = ["Stepper", "Trajectory", "integrate", "saved_steps", "trajectory_of"]
 
 Array = NDArray[np.float64]
 
@@ -51,15 +40,7 @@ class Trajectory:
     """Samples of a run, first axis ``time`` (saved,), s.
 
     q, v : (saved, dofs). impulse, held_impulse, gap : (saved, rows); closed : (saved, rows) bool.
-    kinetic, strain, springs, work, viscous, material, absorbed, impact, algorithmic, wall : (saved,), J, ``branches``
-        the part of ``strain`` in Maxwell branches, ``springs`` stored in those of the wall, from ``work`` on since the
-        start, each by its own formula: kinetic + strain + springs − work + the six losses is constant, and its change
-        is the energy residual (:meth:`defect`).
-    peak_force, peak_force_time, peak_penetration, peak_pressure : (saved,), the largest of all steps so far
-        (:data:`hermite_fe.elastic_wall.FORCE`); zero before a rigid wall.
-    smallest_reaction, product : (saved,), smallest impulse of constraints that are not held, and largest |p·slack|
-        since the last sample: complementarity, at round-off in a correct run.
-    largest_moment, largest_moment_node, largest_midspan_moment : (saved,), of all steps since the last sample.
+    sums : (saved,) each, by the names that :meth:`Stepper.sums` gives them.
     steps : taken; seconds : spent on them, without compilation.
     mean_iterations, most_iterations : rounds of the active set in one solution.
     failure : why the run did not finish ("": it did); failure_time : s, how far it got.
@@ -72,38 +53,13 @@ class Trajectory:
     impulse: Array
     held_impulse: Array
     closed: NDArray[np.bool_]
-    kinetic: Array
-    strain: Array
-    branches: Array
-    springs: Array
-    work: Array
-    viscous: Array
-    material: Array
-    absorbed: Array
-    impact: Array
-    algorithmic: Array
-    wall: Array
-    peak_force: Array
-    peak_force_time: Array
-    peak_penetration: Array
-    peak_pressure: Array
-    smallest_reaction: Array
-    product: Array
-    largest_moment: Array
-    largest_moment_node: Array
-    largest_midspan_moment: Array
+    sums: dict[str, Array]
     steps: int
     seconds: float
     mean_iterations: float
     most_iterations: int
     failure: str = ""
     failure_time: float = 0.0
-
-    def defect(self) -> Array:
-        """The energy residual: what the budget does not explain, (saved,), J."""
-        losses = self.viscous + self.material + self.absorbed + self.impact + self.algorithmic + self.wall
-        total = self.kinetic + self.strain + self.springs - self.work + losses
-        return np.asarray(total - total[0])
 
 
 class Stepper:
@@ -128,6 +84,7 @@ class Stepper:
             )
         self.integrator = integrator
         self.instants = integrator.instants(end_time)
+        self.contacts = system.contacts
         self.problem = problem_of(system, law or ContactLaw())
         self.state = state_of(system, q, v)
         self.memory = integrator.start(self.problem, self.state)
@@ -138,7 +95,7 @@ class Stepper:
 
         def no_step() -> None:
             self.integrator.advance(self.problem, self.state, self.memory, self.instants, self.step, self.step)
-            self.energy()
+            self.energies()
 
         recompiling(no_step)
 
@@ -152,100 +109,89 @@ class Stepper:
         finite = bool(np.isfinite(self.state.q).all() and np.isfinite(self.state.v).all())
         return NOT_FINITE if status == SOLVED and not finite else status
 
-    def iterations(self) -> tuple[float, int]:
-        """Rounds of the active set per contact problem so far: mean and most."""
-        solutions, rounds, most = self.problem.solver.rounds
-        return float(rounds) / max(int(solutions), 1), int(most)
+    def energies(self) -> dict[str, float]:
+        """What is stored now, J: kinetic and strain energy, of the latter the part in Maxwell branches where there are
+        any, and the contact energy in the springs of a wall that gives way."""
+        matrices, state = self.problem.matrices, self.state
+        found = {
+            "kinetic_energy": 0.5 * float(state.v @ product(matrices.M, state.v)),
+            "strain_energy": 0.5 * float(state.q @ stiff_product(matrices.K, state.q)),
+        }
+        if state.branches.size:
+            found["branch_energy"] = branch_energy(state.bending, state.branches)
+            found["strain_energy"] += found["branch_energy"]
+        if self.integrator.elastic:
+            found["contact_energy"] = stored_energy(matrices.springs, state.q)
+        return found
 
     def energy(self) -> float:
         """Kinetic and strain energy now, J."""
-        return self._kinetic() + self._strain()
-
-    def _kinetic(self) -> float:
-        return 0.5 * float(self.state.v @ product(self.problem.matrices.M, self.state.v))
-
-    def _strain(self) -> float:
-        return 0.5 * float(self.state.q @ stiff_product(self.problem.matrices.K, self.state.q)) + self._branches()
-
-    def _branches(self) -> float:
-        """In the springs of Maxwell branches, a part of the strain energy."""
-        return branch_energy(self.state.bending, self.state.branches) if self.state.branches.size else 0.0
-
-    def _stored(self) -> float:
-        """In the springs of the wall; a rigid one has no need to compile this."""
-        springs = self.problem.matrices.springs
-        return stored_energy(springs, self.state.q) if springs.stiffness > 0.0 else 0.0
+        found = self.energies()
+        return found["kinetic_energy"] + found["strain_energy"]
 
     def sums(self) -> dict[str, float]:
-        """Energies now, J, what they lost since the start, and since the last call the worst complementarity and the
-        largest bending moments."""
-        energy, worst, largest = self.state.energy, self.state.worst.copy(), self.state.largest.copy()
-        peaks = self.state.peaks
-        self.state.worst[:] = self.state.largest[:] = 0.0
+        """:meth:`energies` now; since the start the work of the loads and the losses, each by its own formula
+        (:data:`hermite_fe.stepping.ENERGIES`), and the largest of all steps at a wall that gives way
+        (:data:`hermite_fe.elastic_wall.PEAKS`); since the last call the worst complementarity, at round-off in a
+        correct run (:data:`hermite_fe.constraints.WORST`), and the largest bending moments."""
+        state = self.state
+        named = ((ENERGIES, state.energy), (PEAKS, state.peaks), (WORST, state.worst), (LARGEST, state.largest))
+        found = self.energies() | {name: float(value) for names, values in named for name, value in zip(names, values)}
+        state.worst[:] = state.largest[:] = 0.0
+        return found
+
+    def sample(self) -> dict[str, Any]:
+        """The instant now, by the names of :class:`Trajectory`."""
+        state = self.state
         return {
-            "kinetic": self._kinetic(),
-            "strain": self._strain(),
-            "branches": self._branches(),
-            "springs": self._stored(),
-            "work": energy[WORK],
-            "viscous": energy[VISCOUS],
-            "material": energy[MATERIAL],
-            "absorbed": energy[ABSORBED],
-            "impact": energy[IMPACT],
-            "algorithmic": energy[ALGORITHMIC],
-            "wall": energy[WALL],
-            "peak_force": peaks[FORCE],
-            "peak_force_time": peaks[FORCE_TIME],
-            "peak_penetration": peaks[PENETRATION],
-            "peak_pressure": peaks[PRESSURE],
-            "smallest_reaction": worst[SMALLEST_REACTION],
-            "product": worst[PRODUCT],
-            **dict(zip(("largest_moment", "largest_moment_node", "largest_midspan_moment"), largest)),
+            "time": self.instants[self.step],
+            "q": state.q.copy(),
+            "v": state.v.copy(),
+            "gap": self.contacts.gaps(state.q),
+            "impulse": state.impulse.copy(),
+            "held_impulse": state.held_impulse.copy(),
+            "closed": state.closed.copy(),
+            "sums": self.sums(),
         }
 
 
-class Samples:
-    """Up to ``count`` saved instants of a run."""
+def trajectory_of(
+    run: Stepper, samples: list[dict[str, Any]], seconds: float, failure: str = "", failure_time: float = 0.0
+) -> Trajectory:
+    """The samples so far, at least one; they are used up."""
+    sums = [sample.pop("sums") for sample in samples]
+    solutions, rounds, most = (int(number) for number in run.problem.solver.rounds)
+    return Trajectory(
+        **{name: np.array([sample.pop(name) for sample in samples]) for name in list(samples[0])},
+        sums={name: np.array([row[name] for row in sums]) for name in sums[0]},
+        steps=run.step,
+        seconds=seconds,
+        mean_iterations=rounds / max(solutions, 1),
+        most_iterations=most,
+        failure=failure,
+        failure_time=failure_time,
+    )
 
-    def __init__(self, system: System, count: int) -> None:
-        n, m = system.dofs, len(system.contacts)
-        self.contacts, self.size = system.contacts, 0
-        self.arrays: dict[str, NDArray[Any]] = {name: np.zeros((count, n)) for name in ("q", "v")}
-        self.arrays |= {name: np.zeros((count, m)) for name in ("gap", "impulse", "held_impulse")}
-        self.arrays |= {"time": np.zeros(count), "closed": np.zeros((count, m), bool)}
-        self.sums: list[dict[str, float]] = []
 
-    def add(self, run: Stepper) -> None:
-        """Keep the instant that ``run`` has reached."""
-        s, state = self.size, run.state
-        self.arrays["time"][s] = run.instants[run.step]
-        self.arrays["q"][s], self.arrays["v"][s] = state.q, state.v
-        self.arrays["gap"][s] = self.contacts.gaps(state.q)
-        self.arrays["impulse"][s], self.arrays["held_impulse"][s] = state.impulse, state.held_impulse
-        self.arrays["closed"][s] = state.closed
-        self.sums.append(run.sums())
-        self.size += 1
+def saved_steps(instants: Array, save: int | Sequence[float] | Array) -> NDArray[np.int64]:
+    """Indices of the instants to keep: so many, evenly spaced in √t, or those nearest to given times; the first always.
 
-    def energy_gain(self) -> float:
-        """Energy now over that of the start and the most that the loads have worked."""
-        first, last = self.sums[0], self.sums[-1]
-        given = first["kinetic"] + first["strain"] + max(abs(sums["work"]) for sums in self.sums)
-        return (last["kinetic"] + last["strain"]) / given if given > 0.0 else 0.0
-
-    def trajectory(self, run: Stepper, seconds: float, failure: str, failure_time: float) -> Trajectory:
-        """The instants kept so far, at least one."""
-        mean, most = run.iterations()
-        records: dict[str, Any] = {name: samples[: self.size] for name, samples in self.arrays.items()}
-        records |= {name: np.array([row[name] for row in self.sums]) for name in self.sums[0]}
-        return Trajectory(
-            steps=run.step,
-            seconds=seconds,
-            mean_iterations=mean,
-            most_iterations=most,
-            failure=failure,
-            failure_time=failure_time,
-            **records,
-        )
+    Raises ``ValueError`` for fewer than two, or times that are not increasing, negative or past the end.
+    """
+    end = instants[-1]
+    if np.ndim(save) == 0:
+        count = int(np.asarray(save))
+        if count != save or not 2 <= count <= MOST_INSTANTS:
+            raise ValueError(f"save must be a whole number from 2 to {MOST_INSTANTS}, or times (got {save!r})")
+        wanted = end * np.linspace(0.0, 1.0, count) ** 2
+    else:
+        wanted = np.asarray(save, float)
+        if wanted.ndim != 1 or wanted.size < 1 or not np.all(np.isfinite(wanted)):
+            raise ValueError("save must be a whole number of at least 2, or a list of finite times")
+        if np.any(np.diff(wanted) <= 0.0) or wanted[0] < 0.0 or wanted[-1] > end * (1.0 + 1e-9):
+            raise ValueError(f"save must hold increasing times from 0 to the end time {end!r}")
+    middles = 0.5 * (instants[1:] + instants[:-1])
+    return np.unique(np.concatenate([[0], np.searchsorted(middles, wanted)]))
 
 
 def integrate(
@@ -276,22 +222,24 @@ def integrate(
     run = Stepper(system, q, v, integrator, end_time, law)
     kept = saved_steps(run.instants, save)
     affordable("integrator and mesh", run.instants.size - 1, max(1, system.dofs // 2), kept.size, MOST_WORK)
-    samples = Samples(system, kept.size)
-    failure, failure_time = "", 0.0
+    samples: list[dict[str, Any]] = []
+    failure = ""
     run.compile()
-    started = clock.perf_counter()
+    start, worked, started = run.energy(), 0.0, clock.perf_counter()
     for step in kept:
         status = run.advance_to(int(step))
         if status != SOLVED:
-            failure, failure_time = FAILURES[status], float(run.instants[run.step])
+            failure = FAILURES[status]
             break
-        samples.add(run)
-        if samples.energy_gain() > UNSTABLE:
+        samples.append(run.sample())
+        sums = samples[-1]["sums"]
+        worked = max(worked, abs(sums["work_of_loads"]))
+        if sums["kinetic_energy"] + sums["strain_energy"] > UNSTABLE * (start + worked) > 0.0:
             failure = "the scheme is unstable: its energy grows without bound"
-            failure_time = float(run.instants[run.step])
             break
         if progress is not None:
             progress(float(step) / max(float(kept[-1]), 1.0))
         if until is not None and until(run):
             break
-    return samples.trajectory(run, clock.perf_counter() - started, failure, failure_time)
+    seconds, reached = clock.perf_counter() - started, float(run.instants[run.step])
+    return trajectory_of(run, samples, seconds, failure, reached if failure else 0.0)

@@ -15,21 +15,26 @@ from bent_beam.hysteresis import branches_of
 from bent_beam.impact import FIRST_SPREAD, Impact
 from bent_beam.loads import unmodelled
 from hermite_fe import resolution
-from hermite_fe.composition import Composition
 from hermite_fe.contacts import Contact
+from hermite_fe.elastic_wall import PEAKS
 from hermite_fe.model import LOADS, BeamModel, beam_model
 from hermite_fe.run import Stepper, Trajectory, integrate
+from hermite_fe.stepping import ENERGIES
 from hermite_fe.warnings_of_run import warnings_of_run
 
 __all__ = ["refusal", "simulate", "spreads"]
 
+SHARED = {*ENERGIES, "kinetic_energy", "strain_energy", "branch_energy", "contact_energy", "peak_force"}
+"""Sums that are the model's share of the whole beam's."""
+
 
 def refusal(impact: Impact) -> str | None:
     """The reason why ``impact`` cannot be simulated, naming the field (``None``: it can)."""
-    if impact.velocity + impact.rotation * impact.first_touch <= 0.0:
+    speed = impact.velocity + impact.rotation * impact.first_touch
+    if speed <= 0.0:
         return (
-            f"rotation must not take the first touch off the wall: the beam moves there at "
-            f"{impact.velocity + impact.rotation * impact.first_touch:.6g} m/s (got {impact.rotation!r})"
+            f"rotation must not take the first touch off the wall: the beam moves there at {speed:.6g} m/s "
+            f"(got {impact.rotation!r})"
         )
     if impact.opposite_wall is not None and (impact.wall_stiffness is not None or impact.wall_in_part):
         name = "wall_stiffness" if impact.wall_stiffness is not None else "wall_from"
@@ -58,7 +63,7 @@ def simulate(
     save : number of saved instants, spread evenly in √t, or their times, s; snapped to steps.
     progress : called with the finished fraction at every saved instant.
     until : called at every saved instant; the run ends with the first at which it returns True.
-    parts : mesh, integrator and so on, the fields of :class:`hermite_fe.composition.Composition`; what is left out is
+    parts : mesh, integrator and so on, the fields of :class:`hermite_fe.resolution.Composition`; what is left out is
         chosen for the problem. An impact that is not symmetric is always modelled on the full beam.
 
     Raises ``ValueError`` for bad input, ``TypeError`` for a part of an unknown name,
@@ -67,7 +72,7 @@ def simulate(
     reason = refusal(impact)
     if reason is not None:
         raise ValueError(reason)
-    composition = Composition(**parts)
+    composition = resolution.Composition(**parts)
     full_beam = composition.full_beam or impact.off_centre
     end = impact.checked_end_time(end_time)
     choice = resolution.choose(impact, end, composition)
@@ -112,11 +117,10 @@ def simulate(
 
 def settings_of_run(impact: Impact, choice: resolution.Choice, run: Trajectory) -> dict[str, Any]:
     """The parts of a run as text, what was held, and how many rounds the active set took."""
-    parts = ("mesh", "integrator", "contact", "far_field", "mass")
     branches = branches_of(impact)
     return {
         **({} if branches is None else {"hysteretic_loss": {"loss": impact.hysteretic_loss, **branches.about}}),
-        **{name: describe(getattr(choice, name)) for name in parts},
+        **{name: describe(part) for name, part in choice.parts().items()},
         "hold": hold_report(impact, choice.contact, run),
         "mean_iterations": run.mean_iterations,
         "most_iterations": run.most_iterations,
@@ -152,44 +156,27 @@ def history_of(impact: Impact, model: BeamModel, run: Trajectory, settings: dict
     """The record of a run: fields of the model, sums of the whole beam; of two walls the impulses apart, their sum with
     its sign."""
     copies, front, behind = model.copies, ~model.behind, model.behind
-    rows = model.system.contacts
     towards = np.where(behind, -1.0, 1.0)
-    closed = run.closed[:, front] | run.closed[:, behind] if np.any(behind) else run.closed
+    shared = SHARED | {"peak_pressure"} if model.system.springs.stop >= 0 else SHARED
+    sums = {name: copies * values if name in shared else values for name, values in run.sums.items()}
+    sums["largest_moment_place"] = model.beam.nodes[sums.pop("largest_moment_node").astype(int)]
+    if impact.wall_stiffness is None:
+        sums = {name: values for name, values in sums.items() if name not in (*PEAKS, "loss_wall")}
+    else:
+        sums["contact_energy"] -= sums["contact_energy"][0]
     fields: dict[str, tuple[Sequence[str], NDArray[Any]]] = {
         "gap": (("time", "x"), -(run.q[:, 0::2] + model.facing[0::2])),
         "velocity": (("time", "x"), run.v[:, 0::2]),
         "slope": (("time", "x"), run.q[:, 1::2] + model.natural[1::2]),
         "impulse": (("time", "contact"), run.impulse[:, front]),
-        "in_contact": (("time", "contact"), closed),
+        "in_contact": (("time", "contact"), run.closed[:, front]),
         "total_impulse": (("time",), copies * run.impulse @ towards),
         "held_impulse": (("time",), copies * run.held_impulse.sum(axis=1)),
-        "kinetic_energy": (("time",), copies * run.kinetic),
-        "strain_energy": (("time",), copies * run.strain),
-        "work_of_loads": (("time",), copies * run.work),
-        "loss_impact": (("time",), copies * run.impact),
-        "loss_algorithmic": (("time",), copies * run.algorithmic),
-        "loss_viscous": (("time",), copies * run.viscous),
-        "loss_material": (("time",), copies * run.material),
-        "loss_absorbed": (("time",), copies * run.absorbed),
         "smallest_gap": (("time",), run.gap.min(axis=1)),
-        "smallest_reaction": (("time",), run.smallest_reaction),
-        "complementarity_product": (("time",), run.product),
-        "largest_moment": (("time",), run.largest_moment),
-        "largest_moment_place": (("time",), model.beam.nodes[run.largest_moment_node.astype(int)]),
-        "largest_midspan_moment": (("time",), run.largest_midspan_moment),
+        **{name: (("time",), values) for name, values in sums.items()},
     }
-    if impact.wall_stiffness is not None:
-        fields |= {
-            "contact_energy": (("time",), copies * (run.springs - run.springs[0])),
-            "loss_wall": (("time",), copies * run.wall),
-            "peak_force": (("time",), copies * run.peak_force),
-            "peak_force_time": (("time",), run.peak_force_time),
-            "peak_penetration": (("time",), run.peak_penetration),
-            "peak_pressure": (("time",), (copies if model.system.springs.stop >= 0 else 1) * run.peak_pressure),
-        }
-    if impact.hysteretic_loss:
-        fields["branch_energy"] = (("time",), copies * run.branches)
     if np.any(behind):
+        fields["in_contact"] = (("time", "contact"), run.closed[:, front] | run.closed[:, behind])
         fields["opposite_impulse"] = (("time", "contact"), run.impulse[:, behind])
     return ImpactHistory.build(
         impact=impact,
@@ -198,7 +185,7 @@ def history_of(impact: Impact, model: BeamModel, run: Trajectory, settings: dict
         settings=settings,
         time=run.time,
         x=model.beam.nodes,
-        contact_x=rows.places[front],
+        contact_x=model.system.contacts.places[front],
         fields=fields,
         warnings=(),
         steps=run.steps,

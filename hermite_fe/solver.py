@@ -15,20 +15,16 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from hermite_fe.banded import PAD, combine, factor, substitute_back, substitute_forward
+from hermite_fe.banded import PAD, factor, substitute_back, substitute_forward
 from hermite_fe.compiled import compiled
 from hermite_fe.constraints import Rows
 from hermite_fe.system import System
 
-__all__ = ["Solver", "exchange", "prepare", "refactor_from", "solver_of", "update"]
+__all__ = ["Solver", "count_rounds", "exchange", "refactor_from", "solver_of", "update"]
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 Places = NDArray[np.int64]
-
-SAME_STEP = 2.0**-50  # of the time: step lengths that differ by less, the rounding of two instants, are the same
-SAME_FACTOR = 1e-6  # likewise of c and k
-
 
 
 class Solver(NamedTuple):
@@ -67,38 +63,23 @@ def solver_of(system: System) -> Solver:
     rows, n = system.contacts, system.dofs
     m, width = rows.dofs.shape
     unknown = np.arange(n) + PAD
-    if width > 1:
+    if width == 1:
+        row_unknown, size = unknown[rows.dofs[:, 0]], n + 2 * PAD
+    else:
         before = np.sort(rows.dofs, axis=1)[:, (width - 1) // 2]  # the dof that a multiplier follows
         unknown += np.searchsorted(before, np.arange(n), side="left")
-        row_unknown = unknown[before] + 1
+        row_unknown, size = unknown[before] + 1, n + m + 2 * PAD
         check_width(system, unknown, row_unknown)
-    else:
-        row_unknown = unknown[rows.dofs[:, 0]]
-    size = (n if width == 1 else n + m) + 2 * PAD
-    fixed = np.zeros(size, np.bool_)
+    fixed, sign, U = np.zeros(size, np.bool_), np.ones(size), np.zeros((5, size))
     fixed[unknown[list(system.supports)]] = True
-    sign = np.ones(size)
-    if width > 1:
-        fixed[row_unknown] = True
-        sign[row_unknown] = -1.0
-    U = np.zeros((5, size))
     U[0] = 1.0
+    if width > 1:
+        fixed[row_unknown], sign[row_unknown] = True, -1.0
     return Solver(
-        unknown=unknown,
-        row_unknown=row_unknown,
-        S=np.zeros((5, size)),
-        U=U,
-        sign=sign,
-        fixed=fixed,
-        right=np.zeros(size),
-        forward=np.zeros(size),
-        y=np.zeros(size),
-        closed=np.zeros(m, np.bool_),
-        excess=np.zeros(m),
-        stale=np.array([size - PAD - 1]),
-        step=np.full(3, np.nan),
-        rounds=np.zeros(3, np.int64),
-    )
+        unknown=unknown, row_unknown=row_unknown, S=np.zeros((5, size)), U=U, sign=sign, fixed=fixed,
+        right=np.zeros(size), forward=np.zeros(size), y=np.zeros(size), closed=np.zeros(m, np.bool_),
+        excess=np.zeros(m), stale=np.array([size - PAD - 1]), step=np.full(3, np.nan), rounds=np.zeros(3, np.int64),
+    )  # fmt: skip
 
 
 def check_width(system: System, unknown: Places, row_unknown: Places) -> None:
@@ -113,30 +94,17 @@ def check_width(system: System, unknown: Places, row_unknown: Places) -> None:
 
 
 @compiled
-def prepare(
-    solver: Solver, rows: Rows, M: Array, C: Array, K: Array, c: float, k: float, h: float, t: float
-) -> float:
-    """Make S = M + cC + kK for steps of length h, s, unless h, c and k are those that it is made for. Returns the step
-    length that it is made for, which differs from h by the rounding of instants at t, s, at most."""
-    same = abs(solver.step[1] - c) <= SAME_FACTOR * c and abs(solver.step[2] - k) <= SAME_FACTOR * k
-    if same and abs(solver.step[0] - h) <= SAME_STEP * t:
-        return solver.step[0]
-    combine(M, C, K, c, k, solver.unknown, solver.S)
-    if rows.dofs.shape[1] > 1:
-        for j in range(solver.row_unknown.size):
-            multiplier = solver.row_unknown[j]
-            for i in range(rows.dofs.shape[1]):
-                k_dof = solver.unknown[rows.dofs[j, i]]
-                solver.S[abs(k_dof - multiplier), min(k_dof, multiplier)] = rows.factors[j, i]
-    solver.step[0], solver.step[1], solver.step[2] = h, c, k
-    solver.stale[0] = solver.S.shape[1] - PAD - 1
-    return h
-
-
-@compiled
 def refactor_from(solver: Solver, unknown: int) -> None:
     """Mark the factors of all unknowns up to ``unknown`` as out of date."""
     solver.stale[0] = max(solver.stale[0], unknown)
+
+
+@compiled
+def count_rounds(solver: Solver, rounds: int) -> None:
+    """Note that one more problem has taken so many rounds."""
+    solver.rounds[0] += 1
+    solver.rounds[1] += rounds
+    solver.rounds[2] = max(solver.rounds[2], rounds)
 
 
 @compiled
@@ -153,8 +121,7 @@ def right_side(solver: Solver, rows: Rows, b: Array, target: Array) -> None:
     """The right-hand side of all unknowns, with the terms of known values moved to it."""
     right, fixed, S = solver.right, solver.fixed, solver.S
     for i in range(b.size):
-        k = solver.unknown[i]
-        right[k] = 0.0 if fixed[k] else b[i]
+        right[solver.unknown[i]] = 0.0 if fixed[solver.unknown[i]] else b[i]
     for j in range(solver.row_unknown.size):
         k = solver.row_unknown[j]
         if rows.dofs.shape[1] > 1:

@@ -8,18 +8,18 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from hermite_fe.active_set import solve_free
-from hermite_fe.banded import dot, multiply, row_sums, stiff_multiply
+from hermite_fe.active_set import NOT_FINITE, SOLVED, solve_free
+from hermite_fe.banded import PAD, combine, dot, multiply, row_sums, stiff_multiply
 from hermite_fe.compiled import compiled
 from hermite_fe.constraints import Constraints, ContactLaw, Rows, row_times, rows_of
 from hermite_fe.elastic_wall import Springs
 from hermite_fe.maxwell import strains_of
-from hermite_fe.solver import Solver, prepare, solver_of
+from hermite_fe.solver import Solver, solver_of
 from hermite_fe.system import Bending, System
 
-__all__ = ["ABSORBED", "ALGORITHMIC", "IMPACT", "MATERIAL", "VISCOUS", "WALL", "WORK", "Matrices", "Problem", "State",
-           "add_energies", "add_impulses", "end_step", "forces_at", "initial_acceleration", "mean_forces",
-           "problem_of", "state_of"]  # fmt: skip
+__all__ = ["ENERGIES", "LARGEST", "MATERIAL", "WALL", "Matrices", "Problem", "State", "add_energies", "add_impulses",
+           "end_step", "forces_at", "initial_acceleration", "mean_forces", "prepare", "problem_of",
+           "state_of"]  # fmt: skip
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
@@ -31,7 +31,11 @@ damping, to viscosity at grid scale, to the material's damping, to an absorbing 
 has its own formula; the difference between their sum and the change of kinetic, strain and the wall's energy is the
 energy residual of a run."""
 
-CAUSES = {"viscous": VISCOUS, "material": MATERIAL, "absorbed": ABSORBED}
+ENERGIES = ("work_of_loads", "loss_impact", "loss_algorithmic", "loss_viscous", "loss_material", "loss_absorbed",
+            "loss_wall")  # fmt: skip
+LARGEST = ("largest_moment", "largest_moment_node", "largest_midspan_moment")
+SAME_STEP = 2.0**-50  # of the time: step lengths that differ by less, the rounding of two instants, are the same
+SAME_FACTOR = 1e-6  # likewise of c and k
 
 
 class Matrices(NamedTuple):
@@ -71,8 +75,8 @@ class State(NamedTuple):
     peaks : (4,), see :data:`hermite_fe.elastic_wall.FORCE`.
     branches : (2 elements, branches), the stretches z of Maxwell branches; stretch : (2 elements,), their weighted sum,
         mean over the last step.
-    largest : (3,), of all steps since it was last set to 0: largest bending moment |M|, N m, its node, and the largest
-        in the middle, N m.
+    largest : (3,), :data:`LARGEST` of all steps since it was last set to 0: largest bending moment |M|, N m, its node,
+        and the largest in the middle, N m.
     """
 
     q: Array
@@ -96,7 +100,7 @@ def problem_of(system: System, law: ContactLaw) -> Problem:
     matrices = Matrices(
         M=system.mass, C=system.damping, K=system.stiffness,
         K_sums=row_sums(system.stiffness), C_sums=row_sums(system.damping),
-        parts=parts, causes=np.array([CAUSES[cause] for cause, _ in system.dampings], np.int64),
+        parts=parts, causes=np.array([ENERGIES.index(f"loss_{cause}") for cause, _ in system.dampings], np.int64),
         load=system.load if np.any(system.load) else np.zeros((0, system.dofs)), springs=system.springs,
     )  # fmt: skip
     return Problem(matrices, rows_of(system.contacts), law, solver_of(system))
@@ -105,16 +109,33 @@ def problem_of(system: System, law: ContactLaw) -> Problem:
 def state_of(system: System, q: Array, v: Array) -> State:
     """The state at the start, q and v copied."""
     n, m, bending = system.dofs, len(system.contacts), system.bending
-    strains, count = 2 * bending.lengths.size, bending.shares.size
+    strains, branches = 2 * bending.lengths.size, bending.shares.size
     return State(
         q=np.array(q, float), v=np.array(v, float), acceleration=np.zeros(n), closed=np.zeros(m, np.bool_),
-        impulse=np.zeros(m), held_impulse=np.zeros(m), energy=np.zeros(7), worst=np.zeros(2),
-        peaks=np.zeros(4),
-        largest=np.zeros(3), branches=np.zeros((strains, count)), stretch=np.zeros(strains),
-        bending=bending._replace(
-            lengths=np.array(bending.lengths, float), means=np.zeros(count), weights=np.zeros(count)
-        ),
+        impulse=np.zeros(m), held_impulse=np.zeros(m), energy=np.zeros(7), worst=np.zeros(2), peaks=np.zeros(4),
+        largest=np.zeros(3), branches=np.zeros((strains, branches)), stretch=np.zeros(strains),
+        bending=bending._replace(means=np.zeros(branches), weights=np.zeros(branches)),
     )  # fmt: skip
+
+
+@compiled
+def prepare(problem: Problem, c: float, k: float, h: float, t: float) -> float:
+    """Make S = M + cC + kK for steps of length h, s, unless h, c and k are those that it is made for. Returns the step
+    length that it is made for, which differs from h by the rounding of instants at t, s, at most."""
+    matrices, rows, _, solver = problem
+    same = abs(solver.step[1] - c) <= SAME_FACTOR * c and abs(solver.step[2] - k) <= SAME_FACTOR * k
+    if same and abs(solver.step[0] - h) <= SAME_STEP * t:
+        return solver.step[0]
+    combine(matrices.M, matrices.C, matrices.K, c, k, solver.unknown, solver.S)
+    if rows.dofs.shape[1] > 1:
+        for j in range(solver.row_unknown.size):
+            multiplier = solver.row_unknown[j]
+            for i in range(rows.dofs.shape[1]):
+                k_dof = solver.unknown[rows.dofs[j, i]]
+                solver.S[abs(k_dof - multiplier), min(k_dof, multiplier)] = rows.factors[j, i]
+    solver.step[0], solver.step[1], solver.step[2] = h, c, k
+    solver.stale[0] = solver.S.shape[1] - PAD - 1
+    return h
 
 
 @compiled
@@ -135,14 +156,14 @@ def note_moments(bending: Bending, q: Array, stretch: Array, largest: Array) -> 
 
 
 @compiled
-def end_step(state: State) -> bool:
-    """Note the moments of a finished step. Whether v[0] and the energies are finite: any other infinite or undefined
-    number of q or v makes an energy so."""
+def end_step(state: State) -> int:
+    """Note the moments of a finished step; returns NOT_FINITE unless v[0] and the energies are finite, else SOLVED. Any
+    other infinite or undefined number of q or v makes an energy so."""
     note_moments(state.bending, state.q, state.stretch, state.largest)
     total = state.v[0]
     for cause in range(state.energy.size):
         total += state.energy[cause]
-    return math.isfinite(total)
+    return SOLVED if math.isfinite(total) else NOT_FINITE
 
 
 @compiled
@@ -169,13 +190,11 @@ def forces_at(matrices: Matrices, t: float, q: Array, v: Array, out: Array, scra
 
 
 @compiled
-def initial_acceleration(
-    matrices: Matrices, rows: Rows, solver: Solver, state: State, b: Array, scratch: Array
-) -> int:
+def initial_acceleration(problem: Problem, state: State, b: Array, scratch: Array) -> int:
     """``state.acceleration`` = M⁻¹(F − Cv − Kq) at the start, without reactions; returns the status of the solution."""
-    prepare(solver, rows, matrices.M, matrices.C, matrices.K, 0.0, 0.0, 0.0, 0.0)
-    forces_at(matrices, 0.0, state.q, state.v, b, scratch)
-    return solve_free(solver, rows, b, state.acceleration)
+    prepare(problem, 0.0, 0.0, 0.0, 0.0)
+    forces_at(problem.matrices, 0.0, state.q, state.v, b, scratch)
+    return solve_free(problem.solver, problem.rows, b, state.acceleration)
 
 
 @compiled
@@ -189,20 +208,21 @@ def add_impulses(state: State, conditions: Constraints) -> None:
 
 @compiled
 def add_energies(
-    matrices: Matrices, rows: Rows, h: float, work: float, impulse: Array, mean_v: Array, damped_v: Array,
-    algorithmic: float, scratch: Array, energy: Array
+    problem: Problem, state: State, h: float, work: float, impulse: Array, mean_v: Array, damped_v: Array,
+    algorithmic: float, scratch: Array
 ) -> None:  # fmt: skip
-    """Add the energies of a step of length h to ``energy``, each from its cause.
+    """Add the energies of a step of length h to ``state.energy``, each from its cause.
 
     work : of the loads. impulse : p, (rows,); mean_v : v̄ = ½(v + v⁺), (dofs,): impacts dissipate −pᵀGv̄.
     damped_v : the velocity v_d that the scheme's damping acts on: each cause of damping dissipates h v_dᵀCv_d.
     algorithmic : the scheme's own loss, from the scheme's own formula.
     """
+    matrices, energy = problem.matrices, state.energy
     energy[WORK] += work
+    energy[ALGORITHMIC] += algorithmic
     for j in range(impulse.size):
         if impulse[j] != 0.0:
-            energy[IMPACT] -= impulse[j] * row_times(rows, mean_v, j)
-    energy[ALGORITHMIC] += algorithmic
+            energy[IMPACT] -= impulse[j] * row_times(problem.rows, mean_v, j)
     for part in range(matrices.causes.size):
         multiply(matrices.parts[part], damped_v, scratch)
         energy[matrices.causes[part]] += h * dot(damped_v, scratch)

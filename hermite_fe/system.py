@@ -8,8 +8,8 @@ bouncing ball, an oscillator against a stop. Round-off is judged for even and od
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
-from typing import NamedTuple
+from dataclasses import dataclass, field, fields
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -30,7 +30,7 @@ def _left_out() -> Array:
     return np.zeros(0)
 
 
-def _left_out_whole() -> NDArray[np.int64]:
+def _left_out_numbers() -> NDArray[np.int64]:
     return np.zeros(0, np.int64)
 
 
@@ -49,28 +49,26 @@ class ContactRows:
     factors: Array
     gap: Array
     places: Array = field(default_factory=_left_out)
-    rank: NDArray[np.int64] = field(default_factory=_left_out_whole)
-    side: NDArray[np.int64] = field(default_factory=_left_out_whole)
+    rank: NDArray[np.int64] = field(default_factory=_left_out_numbers)
+    side: NDArray[np.int64] = field(default_factory=_left_out_numbers)
     tributary: Array = field(default_factory=_left_out)
 
     def __post_init__(self) -> None:
-        dofs = np.atleast_2d(np.asarray(self.dofs, np.int64))
+        set_, dofs = object.__setattr__, np.ascontiguousarray(np.atleast_2d(self.dofs), np.int64)
         rows = dofs.shape[0]
-        set_ = object.__setattr__
-        set_(self, "dofs", np.ascontiguousarray(dofs))
-        set_(self, "factors", np.ascontiguousarray(np.asarray(self.factors, float).reshape(dofs.shape)))
-        set_(self, "gap", np.ascontiguousarray(np.asarray(self.gap, float).reshape(rows)))
-        for name, kind, default in (
-            ("places", np.float64, np.zeros(rows)),
-            ("rank", np.int64, np.arange(rows)),
-            ("side", np.int64, np.zeros(rows)),
-            ("tributary", np.float64, np.ones(rows)),
+        set_(self, "dofs", dofs)
+        set_(self, "factors", np.ascontiguousarray(self.factors, float).reshape(dofs.shape))
+        set_(self, "gap", np.ascontiguousarray(self.gap, float).reshape(rows))
+        for name, default in (
+            ("places", np.zeros(rows)),
+            ("rank", np.arange(rows)),
+            ("side", np.zeros(rows, np.int64)),
+            ("tributary", np.ones(rows)),
         ):
-            value = getattr(self, name)
-            value = default if np.size(value) == 0 else np.asarray(value)
-            if value.shape != (rows,):
-                raise ValueError(f"contact rows: {name} must have shape ({rows},) (got {value.shape})")
-            set_(self, name, np.ascontiguousarray(value, kind))
+            value = getattr(self, name) if np.size(getattr(self, name)) else default
+            if np.shape(value) != (rows,):
+                raise ValueError(f"contact rows: {name} must have shape ({rows},) (got {np.shape(value)})")
+            set_(self, name, np.ascontiguousarray(value, default.dtype))
         first = self.dofs.min(axis=1)
         shared = dofs.shape[1] == 1  # a dof between two walls has a constraint for either
         if np.any(np.diff(first) < (0 if shared else 1)):
@@ -78,6 +76,10 @@ class ContactRows:
 
     def __len__(self) -> int:
         return int(self.gap.size)
+
+    def at(self, which: NDArray[Any]) -> ContactRows:
+        """A copy of the rows ``which``, marks or numbers."""
+        return ContactRows(*(getattr(self, part.name)[which] for part in fields(self)))
 
     def gaps(self, q: Array) -> Array:
         """g = g₀ + G q, shape (rows,)."""
@@ -118,7 +120,7 @@ class System:
 
     mass, stiffness : symmetric, scipy's lower banded form (≤ 4, dofs): ``mass[m, i] = M(i + m, i)``.
     dampings : (cause, bands) pairs that add up to C, causes out of :data:`DAMPINGS`; the loss to each is recorded
-        under its own name (``Trajectory.viscous``, ``.material``, ``.absorbed``).
+        under its own name (:data:`hermite_fe.stepping.ENERGIES`).
     load : (powers, dofs), F(t) = Σ_k load[k]·t^k.
     contacts : unilateral constraints; before a wall that gives way by ``springs`` they only say where impulses are
         recorded. supports : dofs that keep their initial value. bending : of a beam.

@@ -82,7 +82,8 @@ def _of_system(name: str, run: Trajectory, floor: float = 0.0) -> Found:
     """floor : energy at the start beside the kinetic and the strain energy."""
     if run.failure:
         raise ValueError(run.failure)
-    return _judged(name, run.time, run.impulse.sum(axis=1), run.kinetic + run.strain - run.work + floor)
+    energy = run.sums["kinetic_energy"] + run.sums["strain_energy"] - run.sums["work_of_loads"]
+    return _judged(name, run.time, run.impulse.sum(axis=1), energy + floor)
 
 
 def _ball(scheme: Scheme, refine: int) -> Found:

@@ -3,9 +3,8 @@
 from hermite_fe.integrators.base import Integrator
 from hermite_fe.integrators.generalized_alpha_penalty import GeneralizedAlphaPenalty
 from hermite_fe.integrators.midpoint import Midpoint
-from hermite_fe.integrators.moreau_jean import MoreauJean
 from hermite_fe.integrators.nonsmooth_generalized_alpha import NonsmoothGeneralizedAlpha
-from hermite_fe.integrators.signorini_position import SignoriniPosition
+from hermite_fe.integrators.theta import MoreauJean, SignoriniPosition
 
 __all__ = [
     "INTEGRATORS",

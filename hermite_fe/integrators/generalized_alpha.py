@@ -32,23 +32,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bent_beam.fields import Quantity
-from hermite_fe.active_set import SOLVED, solve_constrained
+from hermite_fe.active_set import SOLVED
 from hermite_fe.banded import dot, multiply, stiff_multiply
 from hermite_fe.compiled import compiled, recompiling
-from hermite_fe.constraints import Constraints, Rows, constraints_of, note_complementarity, row_times
-from hermite_fe.solver import Solver, prepare
-from hermite_fe.stepping import (
-    Matrices,
-    Problem,
-    State,
-    add_energies,
-    forces_at,
-    initial_acceleration,
-    mean_forces,
-)
+from hermite_fe.constraints import row_times
+from hermite_fe.stepping import Problem, State, add_energies, end_step, initial_acceleration, mean_forces, prepare
 
-__all__ = ["AlphaMemory", "Reactions", "Scheme", "SpectralRadius", "Vectors", "add_step", "alpha_memory",
-           "correct", "predict", "prepare_step", "scheme_of", "smooth_motion",
+__all__ = ["Motion", "SpectralRadius", "Vectors", "correct", "finish_step", "motion_of", "predict", "prepare_step",
            "take_reaction"]  # fmt: skip
 
 Array = NDArray[np.float64]
@@ -111,69 +101,55 @@ class Vectors(NamedTuple):
     scratch: Array
 
 
-class AlphaMemory(NamedTuple):
-    """What the scheme remembers from step to step, and the conditions of the three contact problems of a step."""
+class Motion(NamedTuple):
+    """What the scheme remembers of the motion from step to step."""
 
     scheme: Scheme
     vectors: Vectors
     reactions: Reactions
-    smooth: Constraints
-    position: Constraints
-    velocity: Constraints
 
 
-def alpha_memory(problem: Problem, state: State, spectral_radius: float) -> AlphaMemory:
-    """The memory at the start: v̇ = a, all else zero. Raises ``ValueError`` for a mass matrix that is singular."""
-    m, n = problem.rows.gap.size, problem.matrices.M.shape[1]
-    value, filtered, lag, impulse = np.zeros((4, m))
-    vectors = Vectors(*np.zeros((13, n)))
-    matrices, rows, _, solver = problem
-    status = recompiling(lambda: initial_acceleration(matrices, rows, solver, state, vectors.b, vectors.scratch))
+def motion_of(problem: Problem, state: State, spectral_radius: float) -> Motion:
+    """The motion at the start: v̇ = a, all else zero. Raises ``ValueError`` for a mass matrix that is singular."""
+    m, vectors = state.impulse.size, Vectors(*np.zeros((13, state.q.size)))
+    status = recompiling(lambda: initial_acceleration(problem, state, vectors.b, vectors.scratch))
     if status != SOLVED:
         raise ValueError("mass must be positive definite for generalised-α, which starts with the accelerations")
     vectors.a[:] = state.acceleration
-    return AlphaMemory(
-        scheme_of(spectral_radius),
-        vectors,
-        Reactions(value, filtered, lag, impulse, *np.zeros((2, m), np.bool_)),
-        *(constraints_of(problem.rows) for _ in range(3)),
-    )
+    reactions = Reactions(*np.zeros((4, m)), *np.zeros((2, m), np.bool_))
+    return Motion(scheme_of(spectral_radius), vectors, reactions)
 
 
 @compiled
-def prepare_step(matrices: Matrices, rows: Rows, solver: Solver, scheme: Scheme, h: float, t: float) -> float:
+def prepare_step(problem: Problem, scheme: Scheme, h: float, t: float) -> float:
     """Make M + hγsC + h²βsK, the matrix of v̇⁺ and of the jumps, for a step to t; returns the length of the step."""
-    velocity_share, position_share = h * scheme.gamma * scheme.s, h * h * scheme.beta * scheme.s
-    return prepare(solver, rows, matrices.M, matrices.C, matrices.K, velocity_share, position_share, h, t)
+    return prepare(problem, h * scheme.gamma * scheme.s, h * h * scheme.beta * scheme.s, h, t)
 
 
 @compiled
-def predict(scheme: Scheme, q: Array, v: Array, rate: Array, vectors: Vectors, h: float) -> None:
-    """Save q and v of the start of the step, and replace them by q*, v*; rate : v̇."""
-    alpha_m, alpha_f, gamma, beta, _ = scheme
-    a, old_q, old_v, predicted, lag = vectors.a, vectors.old_q, vectors.old_v, vectors.predicted, vectors.lag
-    missed_motion = vectors.missed_motion
+def predict(state: State, motion: Motion, h: float) -> None:
+    """Save q and v of the start of the step, and replace them by q*, v*."""
+    alpha_m, alpha_f, gamma, beta, _ = motion.scheme
+    q, v, rate, vectors = state.q, state.v, state.acceleration, motion.vectors
     for i in range(q.size):
-        known = (alpha_f * rate[i] - alpha_m * a[i]) / (1.0 - alpha_m)
-        old_q[i], old_v[i], predicted[i], lag[i] = q[i], v[i], known, rate[i] - a[i]
-        missed_motion[i] = -h * h * (beta - 0.5 * gamma) * a[i]
-        q[i] += h * v[i] + h * h * ((0.5 - beta) * a[i] + beta * known)
-        v[i] += h * ((1.0 - gamma) * a[i] + gamma * known)
+        a = vectors.a[i]
+        known = (alpha_f * rate[i] - alpha_m * a) / (1.0 - alpha_m)
+        vectors.old_q[i], vectors.old_v[i], vectors.predicted[i], vectors.lag[i] = q[i], v[i], known, rate[i] - a
+        q[i] += h * v[i] + h * h * ((0.5 - beta) * a + beta * known)
+        v[i] += h * ((1.0 - gamma) * a + gamma * known)
 
 
 @compiled
-def correct(scheme: Scheme, q: Array, v: Array, rate: Array, vectors: Vectors, h: float) -> None:
-    """Set ``rate`` to v̇⁺ = ``vectors.x``, and compute a⁺, q⁺, v⁺ without jumps."""
-    _, _, gamma, beta, s = scheme
-    a, old_q, old_v, x, predicted = vectors.a, vectors.old_q, vectors.old_v, vectors.x, vectors.predicted
-    missed_motion = vectors.missed_motion
-    for i in range(q.size):
-        before = a[i]
-        rate[i] = x[i]
-        a[i] = predicted[i] + s * x[i]
-        q[i] = old_q[i] + h * old_v[i] + h * h * ((0.5 - beta) * before + beta * a[i])
-        v[i] = old_v[i] + h * ((1.0 - gamma) * before + gamma * a[i])
-        missed_motion[i] += h * h * (beta - 0.5 * gamma) * a[i]
+def correct(state: State, motion: Motion, h: float) -> None:
+    """Set v̇⁺ to ``vectors.x``, and compute a⁺, q⁺, v⁺ without jumps."""
+    _, _, gamma, beta, s = motion.scheme
+    vectors = motion.vectors
+    for i in range(state.q.size):
+        before, a = vectors.a[i], vectors.predicted[i] + s * vectors.x[i]
+        vectors.a[i], state.acceleration[i] = a, vectors.x[i]
+        state.q[i] = vectors.old_q[i] + h * vectors.old_v[i] + h * h * ((0.5 - beta) * before + beta * a)
+        state.v[i] = vectors.old_v[i] + h * ((1.0 - gamma) * before + gamma * a)
+        vectors.missed_motion[i] = h * h * (beta - 0.5 * gamma) * (a - before)
 
 
 @compiled
@@ -189,50 +165,31 @@ def take_reaction(scheme: Scheme, reactions: Reactions, h: float, j: int, force:
 
 
 @compiled
-def smooth_motion(
-    problem: Problem, state: State, scheme: Scheme, vectors: Vectors, reactions: Reactions, smooth: Constraints,
-    t: float, h: float
-) -> int:  # fmt: skip
-    """The step's motion without jumps, with the contact conditions ``smooth``; returns the status."""
-    matrices, rows, _, solver = problem
-    predict(scheme, state.q, state.v, state.acceleration, vectors, h)
-    forces_at(matrices, t + h, state.q, state.v, vectors.b, vectors.scratch)
-    status = solve_constrained(solver, rows, smooth, vectors.b, vectors.x)
-    if status == SOLVED:
-        note_complementarity(rows, smooth, vectors.x, h, h, state.worst)
-        correct(scheme, state.q, state.v, state.acceleration, vectors, h)
-        for j in range(smooth.p.size):
-            take_reaction(scheme, reactions, h, j, smooth.p[j])
-    return status
-
-
-@compiled
-def add_step(
-    matrices: Matrices, rows: Rows, state: State, scheme: Scheme, vectors: Vectors, reactions: Reactions, t: float,
-    h: float
-) -> None:  # fmt: skip
-    """Add the energies of the step, by the formulas of the module docstring, and store its jump forces for the next."""
-    q, v, mean_q, mean_v, lag = state.q, state.v, vectors.old_q, vectors.old_v, vectors.lag
-    force, product, change = vectors.force, vectors.scratch, vectors.b
-    a, rate, half = vectors.a, state.acceleration, 0.5 - scheme.alpha_f
+def finish_step(problem: Problem, state: State, motion: Motion, t: float, h: float) -> int:
+    """Add the energies of the step, by the formulas of the module docstring, and store its jump forces for the next;
+    returns the status."""
+    scheme, vectors, reactions = motion
+    matrices, q, v, rate = problem.matrices, state.q, state.v, state.acceleration
+    mean_q, mean_v, lag, J = vectors.old_q, vectors.old_v, vectors.lag, vectors.jump_force
+    force, product, change, half = vectors.force, vectors.scratch, vectors.b, 0.5 - scheme.alpha_f
     mean_forces(matrices.load, t, h, 0.5, force)
     for i in range(q.size):
         change[i] = q[i] - mean_q[i]
         mean_q[i] = 0.5 * (q[i] + mean_q[i])
         mean_v[i] = 0.5 * (v[i] + mean_v[i])
-        lag[i] = (rate[i] - a[i]) - lag[i]
+        lag[i] = (rate[i] - vectors.a[i]) - lag[i]
     stiff_multiply(matrices.K, matrices.K_sums, mean_q, product)
-    missed, motion, momentum = vectors.missed_motion, 0.0, 0.0
+    motion_term, momentum = 0.0, 0.0
     for i in range(q.size):
-        motion += (product[i] - force[i]) * missed[i]
+        motion_term += (product[i] - force[i]) * vectors.missed_motion[i]
     multiply(matrices.M, lag, product)
-    missed, J, new_J = vectors.missed_momentum, vectors.jump_force, vectors.new_jump_force
     for i in range(q.size):
-        momentum += mean_v[i] * (half * product[i] + 0.5 * J[i] + missed[i])
-        J[i] = new_J[i]
+        momentum += mean_v[i] * (half * product[i] + 0.5 * J[i] + vectors.missed_momentum[i])
+        J[i] = vectors.new_jump_force[i]
     for j in range(reactions.value.size):
         lag_change = reactions.value[j] - reactions.filtered[j] - reactions.lag[j]
         if lag_change != 0.0:
-            momentum -= half * lag_change * row_times(rows, mean_v, j)
-    work, loss = dot(force, change), -motion - h * momentum
-    add_energies(matrices, rows, h, work, reactions.impulse, mean_v, mean_v, loss, product, state.energy)
+            momentum -= half * lag_change * row_times(problem.rows, mean_v, j)
+    loss = -motion_term - h * momentum
+    add_energies(problem, state, h, dot(force, change), reactions.impulse, mean_v, mean_v, loss, product)
+    return end_step(state)

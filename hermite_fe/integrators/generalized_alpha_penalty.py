@@ -20,31 +20,27 @@ from numpy.typing import NDArray
 
 from bent_beam.fields import Quantity
 from bent_beam.impact import Impact
-from hermite_fe.active_set import NOT_FINITE, SOLVED, solve_free
+from hermite_fe.active_set import SOLVED, solve_free
 from hermite_fe.banded import copy
 from hermite_fe.compiled import compiled
-from hermite_fe.constraints import PRODUCT, SMALLEST_REACTION, Constraints, Rows, rows_times
+from hermite_fe.constraints import PRODUCT, SMALLEST_REACTION, Constraints, constraints_of, rows_times
 from hermite_fe.integrators.base import Integrator
 from hermite_fe.integrators.generalized_alpha import (
-    AlphaMemory,
-    Reactions,
-    Scheme,
+    Motion,
     SpectralRadius,
-    Vectors,
-    add_step,
-    alpha_memory,
     correct,
+    finish_step,
+    motion_of,
     predict,
     prepare_step,
     take_reaction,
 )
 from hermite_fe.solver import refactor_from
-from hermite_fe.stepping import Problem, State, end_step, forces_at
+from hermite_fe.stepping import Problem, State, forces_at
 
 __all__ = ["GeneralizedAlphaPenalty"]
 
 Array = NDArray[np.float64]
-Flags = NDArray[np.bool_]
 
 
 @dataclass(frozen=True)
@@ -80,7 +76,7 @@ class GeneralizedAlphaPenalty(Integrator):
             damping=3e4 * mass / time if self.damping is None else self.damping,
         )
 
-    def start(self, problem: Problem, state: State) -> AlphaMemory:
+    def start(self, problem: Problem, state: State) -> tuple[Motion, Constraints]:
         if self.stiffness is None or self.damping is None:
             raise ValueError("integrator.stiffness and integrator.damping are not chosen yet")
         if problem.rows.dofs.shape[1] != 1:
@@ -88,10 +84,10 @@ class GeneralizedAlphaPenalty(Integrator):
         e = problem.law.restitution
         if e > 0.0:
             raise ValueError(f"generalized_alpha_penalty has no impact law: restitution must be 0 (got {e!r})")
-        return alpha_memory(problem, state, self.spectral_radius)
+        return motion_of(problem, state, self.spectral_radius), constraints_of(problem.rows)
 
     def advance(
-        self, problem: Problem, state: State, memory: AlphaMemory, times: NDArray[np.float64], first: int, last: int
+        self, problem: Problem, state: State, memory: tuple[Motion, Constraints], times: Array, first: int, last: int
     ) -> tuple[int, int]:
         assert self.stiffness is not None and self.damping is not None
         return take_steps(
@@ -101,45 +97,43 @@ class GeneralizedAlphaPenalty(Integrator):
 
 @compiled
 def take_steps(
-    problem: Problem, state: State, memory: AlphaMemory, times: Array, first: int, last: int, stiffness: float,
-    damping: float, rounds: int
+    problem: Problem, state: State, memory: tuple[Motion, Constraints], times: Array, first: int, last: int,
+    stiffness: float, damping: float, rounds: int
 ) -> tuple[int, int]:  # fmt: skip
     """Take the steps ``first`` … ``last`` − 1 between the instants ``times``; returns (status, step reached)."""
-    matrices, rows, _, solver = problem
-    scheme, vectors, reactions, smooth, _, _ = memory
+    motion, conditions = memory
+    scheme, vectors, reactions = motion
     for k in range(first, last):
-        t, made_for = times[k], solver.step[0]
-        h = prepare_step(matrices, rows, solver, scheme, times[k + 1] - t, times[k + 1])
+        t, made_for = times[k], problem.solver.step[0]
+        h = prepare_step(problem, scheme, times[k + 1] - t, times[k + 1])
         if h != made_for:
             reactions.with_spring[:] = False  # the new matrix has no springs yet
-        predict(scheme, state.q, state.v, state.acceleration, vectors, h)
-        forces_at(matrices, t + h, state.q, state.v, vectors.force, vectors.scratch)
-        status = solve_with_springs(
-            problem, state, scheme, vectors, reactions.with_spring, smooth, h, stiffness, damping, rounds
-        )
+        predict(state, motion, h)
+        forces_at(problem.matrices, t + h, state.q, state.v, vectors.force, vectors.scratch)
+        status = solve_with_springs(problem, state, motion, conditions, h, stiffness, damping, rounds)
+        if status == SOLVED:
+            correct(state, motion, h)
+            add_spring_reactions(problem, state, motion, h, stiffness, damping)
+            status = finish_step(problem, state, motion, t, h)
         if status != SOLVED:
             return status, k
-        correct(scheme, state.q, state.v, state.acceleration, vectors, h)
-        add_spring_reactions(rows, state, scheme, reactions, h, stiffness, damping)
-        add_step(matrices, rows, state, scheme, vectors, reactions, t, h)
-        if not end_step(state):
-            return NOT_FINITE, k
     return SOLVED, last
 
 
 @compiled
 def solve_with_springs(
-    problem: Problem, state: State, scheme: Scheme, vectors: Vectors, with_spring: Flags, smooth: Constraints, h: float,
-    stiffness: float, damping: float, rounds: int
+    problem: Problem, state: State, motion: Motion, conditions: Constraints, h: float, stiffness: float, damping: float,
+    rounds: int
 ) -> int:  # fmt: skip
     """Solve for v̇⁺ under ``vectors.force`` and the springs of the closed constraints, and again until the closed are
     those that penetrate, at most ``rounds`` times; as Exudyn's discontinuous iteration does.
     """
     matrices, rows, _, solver = problem
-    closed, x, b = state.closed, vectors.x, vectors.b
+    scheme, vectors, reactions = motion
+    closed, with_spring, x, b = state.closed, reactions.with_spring, vectors.x, vectors.b
     position_share, velocity_share = h * h * scheme.beta * scheme.s, h * scheme.gamma * scheme.s
-    rows_times(rows, state.q, smooth.Gq)
-    rows_times(rows, state.v, smooth.Gv)
+    rows_times(rows, state.q, conditions.Gq)
+    rows_times(rows, state.v, conditions.Gv)
     for attempt in range(rounds + 1):
         copy(vectors.force, b)
         for j in range(closed.size):
@@ -153,32 +147,29 @@ def solve_with_springs(
                 solver.S[0, solver.unknown[d]] = diagonal
                 refactor_from(solver, solver.unknown[d])
             if closed[j]:
-                b[d] -= g * (spring * (rows.gap[j] + smooth.Gq[j]) + damper * smooth.Gv[j])
-        status = solve_free(solver, rows, b, x)
-        if status != SOLVED:
-            return status
-        changed = False
+                b[d] -= g * (spring * (rows.gap[j] + conditions.Gq[j]) + damper * conditions.Gv[j])
+        status, changed = solve_free(solver, rows, b, x), False
         for j in range(closed.size):
-            new_gap = rows.gap[j] + smooth.Gq[j] + position_share * rows.factors[j, 0] * x[rows.dofs[j, 0]]
+            new_gap = rows.gap[j] + conditions.Gq[j] + position_share * rows.factors[j, 0] * x[rows.dofs[j, 0]]
             if (new_gap <= 0.0) != closed[j] and attempt < rounds:
-                closed[j] = not closed[j]
-                changed = True
-        if not changed:
+                closed[j], changed = not closed[j], True
+        if status != SOLVED or not changed:
             break
-    return SOLVED
+    return status
 
 
 @compiled
 def add_spring_reactions(
-    rows: Rows, state: State, scheme: Scheme, reactions: Reactions, h: float, stiffness: float, damping: float
+    problem: Problem, state: State, motion: Motion, h: float, stiffness: float, damping: float
 ) -> None:
     """The forces of springs and dampers at the end of the step, and their impulses."""
+    rows, reactions, worst = problem.rows, motion.reactions, state.worst
     for j in range(rows.gap.size):
         d, g = rows.dofs[j, 0], rows.factors[j, 0]
         gap, force = rows.gap[j] + g * state.q[d], 0.0
         if state.closed[j]:
             force = -(stiffness * gap + damping * g * state.v[d]) * rows.tributary[j]
-            state.worst[PRODUCT] = max(state.worst[PRODUCT], abs(h * force * gap))
-        take_reaction(scheme, reactions, h, j, force)
+            worst[PRODUCT] = max(worst[PRODUCT], abs(h * force * gap))
+        take_reaction(motion.scheme, reactions, h, j, force)
         state.impulse[j] += reactions.impulse[j]
-        state.worst[SMALLEST_REACTION] = min(state.worst[SMALLEST_REACTION], h * force)
+        worst[SMALLEST_REACTION] = min(worst[SMALLEST_REACTION], h * force)

@@ -15,38 +15,53 @@ The level at which the constraints are imposed (``levels``):
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Annotated, ClassVar
+from typing import Annotated, ClassVar, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from bent_beam.fields import Quantity
-from hermite_fe.active_set import NOT_FINITE, SOLVED, solve_constrained
+from hermite_fe.active_set import SOLVED, solve_constrained
 from hermite_fe.banded import copy, multiply
 from hermite_fe.compiled import compiled
-from hermite_fe.constraints import Constraints, find_held, note_complementarity, row_times, rows_times
+from hermite_fe.constraints import (
+    Constraints,
+    constraints_of,
+    find_held,
+    note_complementarity,
+    row_times,
+    rows_times,
+)
 from hermite_fe.integrators.base import Integrator
 from hermite_fe.integrators.generalized_alpha import (
-    AlphaMemory,
-    Reactions,
-    Scheme,
+    Motion,
     SpectralRadius,
     Vectors,
-    add_step,
-    alpha_memory,
+    correct,
+    finish_step,
+    motion_of,
+    predict,
     prepare_step,
-    smooth_motion,
+    take_reaction,
 )
-from hermite_fe.stepping import Problem, State, add_impulses, end_step
+from hermite_fe.stepping import Problem, State, add_impulses, forces_at
 
 __all__ = ["LEVELS", "NonsmoothGeneralizedAlpha"]
 
 Array = NDArray[np.float64]
-Flags = NDArray[np.bool_]
 
 LEVELS = ("velocity", "position_velocity", "position_velocity_acceleration")
-VELOCITY, POSITION, ACCELERATION = range(3)
+VELOCITY, _, ACCELERATION = range(3)
 AT_REST = 1e-12  # of the largest rate of a dof: a closed constraint slower than this has not rebounded
+
+
+class AlphaMemory(NamedTuple):
+    """The motion, and the conditions of the three contact problems of a step."""
+
+    motion: Motion
+    smooth: Constraints
+    position: Constraints
+    velocity: Constraints
 
 
 @dataclass(frozen=True)
@@ -59,10 +74,11 @@ class NonsmoothGeneralizedAlpha(Integrator):
     levels: Annotated[str, Quantity("", "at which constraints are imposed", choices=LEVELS)] = LEVELS[-1]
 
     def start(self, problem: Problem, state: State) -> AlphaMemory:
-        return alpha_memory(problem, state, self.spectral_radius)
+        motion = motion_of(problem, state, self.spectral_radius)
+        return AlphaMemory(motion, *(constraints_of(problem.rows) for _ in range(3)))
 
     def advance(
-        self, problem: Problem, state: State, memory: AlphaMemory, times: NDArray[np.float64], first: int, last: int
+        self, problem: Problem, state: State, memory: AlphaMemory, times: Array, first: int, last: int
     ) -> tuple[int, int]:
         return take_steps(problem, state, memory, times, first, last, LEVELS.index(self.levels))
 
@@ -72,59 +88,63 @@ def take_steps(
     problem: Problem, state: State, memory: AlphaMemory, times: Array, first: int, last: int, level: int
 ) -> tuple[int, int]:
     """Take the steps ``first`` … ``last`` − 1 between the instants ``times``; returns (status, step reached)."""
-    matrices, rows, law, solver = problem
-    scheme, vectors, reactions, smooth, position, velocity = memory
+    motion, _, _, velocity = memory
     for k in range(first, last):
-        t, h = times[k], prepare_step(matrices, rows, solver, scheme, times[k + 1] - times[k], times[k + 1])
-        find_held(rows, law, state.closed, t, velocity.held)
-        rows_times(rows, state.v, velocity.Gv)
+        t, h = times[k], prepare_step(problem, motion.scheme, times[k + 1] - times[k], times[k + 1])
+        find_held(problem.rows, problem.law, state.closed, t, velocity.held)
+        rows_times(problem.rows, state.v, velocity.Gv)
         if level == VELOCITY:
-            status = velocity_step(problem, state, scheme, vectors, reactions, smooth, velocity, t, h)
+            status = velocity_step(problem, state, memory, t, h)
         else:
-            set_smooth_conditions(smooth, reactions.at_rest, velocity.held, level == ACCELERATION)
-            status = smooth_motion(problem, state, scheme, vectors, reactions, smooth, t, h)
-            if status == SOLVED:
-                copy(velocity.held, position.held)
-                status = position_jump(problem, state, vectors, position, h)
-            if status == SOLVED:
-                status = velocity_after_position(problem, state, scheme, vectors, reactions, smooth.p, velocity, h)
+            status = position_step(problem, state, memory, t, h, level == ACCELERATION)
+        if status == SOLVED:
+            status = finish_step(problem, state, motion, t, h)
         if status != SOLVED:
             return status, k
-        add_step(matrices, rows, state, scheme, vectors, reactions, t, h)
-        if not end_step(state):
-            return NOT_FINITE, k
     return SOLVED, last
 
 
 @compiled
-def velocity_jump(
-    problem: Problem, state: State, vectors: Vectors, reactions: Reactions, velocity: Constraints
+def smooth_motion(
+    problem: Problem, state: State, motion: Motion, conditions: Constraints, t: float, h: float
 ) -> int:
+    """The step's motion without jumps, with the contact conditions of accelerations; returns the status."""
+    scheme, vectors, reactions = motion
+    predict(state, motion, h)
+    forces_at(problem.matrices, t + h, state.q, state.v, vectors.b, vectors.scratch)
+    status = solve_constrained(problem.solver, problem.rows, conditions, vectors.b, vectors.x)
+    if status == SOLVED:
+        note_complementarity(problem.rows, conditions, vectors.x, h, h, state.worst)
+        correct(state, motion, h)
+        for j in range(conditions.p.size):
+            take_reaction(scheme, reactions, h, j, conditions.p[j])
+    return status
+
+
+@compiled
+def velocity_jump(problem: Problem, state: State, motion: Motion, velocity: Constraints) -> int:
     """The jump W (``vectors.x``) of (M + hγsC + h²βsK)W = b + Gᵀp, 0 ≤ p ⊥ Gv⁺ + eGv ≥ 0, v⁺ += W, Gv of before the
     step, b = ``vectors.b``. Puts KW in ``vectors.force``, CW in ``vectors.scratch``; returns the status."""
     matrices, rows, law, solver = problem
-    W, v = vectors.x, state.v
+    vectors, v = motion.vectors, state.v
+    W = vectors.x
     for j in range(velocity.target.size):
         rebound = 0.0 if velocity.held[j] else law.restitution
         velocity.target[j] = -row_times(rows, v, j) - rebound * velocity.Gv[j]
     status = solve_constrained(solver, rows, velocity, vectors.b, W)
-    if status != SOLVED:
-        return status
-    copy(velocity.p, reactions.impulse)
-    add_impulses(state, velocity)
-    note_complementarity(rows, velocity, W, 1.0, 1.0, state.worst)
-    multiply(matrices.K, W, vectors.force)
-    multiply(matrices.C, W, vectors.scratch)
-    for i in range(v.size):
-        v[i] += W[i]
-    return SOLVED
+    if status == SOLVED:
+        copy(velocity.p, motion.reactions.impulse)
+        add_impulses(state, velocity)
+        note_complementarity(rows, velocity, W, 1.0, 1.0, state.worst)
+        multiply(matrices.K, W, vectors.force)
+        multiply(matrices.C, W, vectors.scratch)
+        for i in range(v.size):
+            v[i] += W[i]
+    return status
 
 
 @compiled
-def velocity_step(
-    problem: Problem, state: State, scheme: Scheme, vectors: Vectors, reactions: Reactions, smooth: Constraints,
-    velocity: Constraints, t: float, h: float
-) -> int:  # fmt: skip
+def velocity_step(problem: Problem, state: State, memory: AlphaMemory, t: float, h: float) -> int:
     """Constraints at velocity level only.
 
     smooth :    M v̇⁺ + C ṽ + K q̃ = F⁺, the motion without reactions
@@ -134,42 +154,32 @@ def velocity_step(
     accelerations would have to compensate them, which is unstable for a stiff beam.
     """
     rows, q = problem.rows, state.q
+    motion, smooth, _, velocity = memory
+    scheme, vectors, _ = motion
     share = h * scheme.beta / scheme.gamma
     rows_times(rows, q, velocity.Gq)
     for j in range(rows.gap.size):  # where a constraint would come to rest if it were closed now
         velocity.candidate[j] = rows.gap[j] + velocity.Gq[j] + (h - share) * velocity.Gv[j] <= 0.0
         smooth.candidate[j] = False
-    status = smooth_motion(problem, state, scheme, vectors, reactions, smooth, t, h)
-    if status != SOLVED:
-        return status
+    status = smooth_motion(problem, state, motion, smooth, t, h)
     copy(state.closed, velocity.closed)
     vectors.b[:] = 0.0
-    status = velocity_jump(problem, state, vectors, reactions, velocity)
-    if status != SOLVED:
-        return status
+    if status == SOLVED:
+        status = velocity_jump(problem, state, motion, velocity)
     copy(velocity.closed, state.closed)
-    W, force, damping = vectors.x, vectors.force, vectors.scratch
-    J, missed_momentum, missed_motion = vectors.new_jump_force, vectors.missed_momentum, vectors.missed_motion
+    W, J = vectors.x, vectors.new_jump_force
     for i in range(W.size):
-        J[i] = share * force[i] + damping[i]
-        missed_momentum[i] = (0.5 - scheme.gamma * scheme.s) * J[i]
-        missed_motion[i] += (share - 0.5 * h) * W[i]
+        J[i] = share * vectors.force[i] + vectors.scratch[i]
+        vectors.missed_momentum[i] = (0.5 - scheme.gamma * scheme.s) * J[i]
+        vectors.missed_motion[i] += (share - 0.5 * h) * W[i]
         q[i] += share * W[i]
-    return SOLVED
+    return status
 
 
 @compiled
-def set_smooth_conditions(smooth: Constraints, at_rest: Flags, held: Flags, with_acceleration: bool) -> None:
-    """Impose Gv̇⁺ ≥ 0 on constraints at rest on the wall, where the acceleration level is asked for."""
-    for j in range(at_rest.size):
-        smooth.candidate[j] = with_acceleration and at_rest[j]
-        smooth.held[j] = smooth.candidate[j] and held[j]
-        smooth.closed[j] = smooth.candidate[j]
-        smooth.target[j] = 0.0
-
-
-@compiled
-def position_jump(problem: Problem, state: State, vectors: Vectors, position: Constraints, h: float) -> int:
+def position_step(
+    problem: Problem, state: State, memory: AlphaMemory, t: float, h: float, with_acceleration: bool
+) -> int:
     """Constraints at position and velocity level and, for smooth reactions, at acceleration level, one after the other.
 
     smooth :    M v̇⁺ + C ṽ + K q̃ = F⁺ + Gᵀλ,   0 ≤ λ ⊥ Gv̇⁺ ≥ 0 for constraints at rest on the wall
@@ -185,8 +195,27 @@ def position_jump(problem: Problem, state: State, vectors: Vectors, position: Co
     GᵀΛ and 0 ≤ Λ, an undamped beam whose shortest waves the steps do not resolve gains energy from the wall (1.8 times
     the initial one at κ/ν = 0.1, 50 elements, h = 1e-3 T*).
     """
+    motion, smooth, position, velocity = memory
+    at_rest = motion.reactions.at_rest
+    for j in range(at_rest.size):
+        smooth.candidate[j] = with_acceleration and at_rest[j]
+        smooth.held[j] = smooth.candidate[j] and velocity.held[j]
+        smooth.closed[j] = smooth.candidate[j]
+        smooth.target[j] = 0.0
+    status = smooth_motion(problem, state, motion, smooth, t, h)
+    if status == SOLVED:
+        copy(velocity.held, position.held)
+        status = position_jump(problem, state, motion.vectors, position, h)
+    if status == SOLVED:
+        status = velocity_after_position(problem, state, motion, smooth.p, velocity, h)
+    return status
+
+
+@compiled
+def position_jump(problem: Problem, state: State, vectors: Vectors, position: Constraints, h: float) -> int:
+    """U of :func:`position_step`. Puts −hKU in ``vectors.b``; returns the status."""
     matrices, rows, _, solver = problem
-    U, q, b, force = vectors.x, state.q, vectors.b, vectors.new_jump_force
+    q, U, b, force = state.q, vectors.x, vectors.b, vectors.new_jump_force
     rows_times(rows, q, position.Gq)
     for j in range(rows.gap.size):
         position.candidate[j] = True
@@ -194,45 +223,37 @@ def position_jump(problem: Problem, state: State, vectors: Vectors, position: Co
     copy(state.closed, position.closed)
     b[:] = 0.0
     status = solve_constrained(solver, rows, position, b, U)
-    if status != SOLVED:
-        return status
     copy(position.closed, state.closed)
     note_complementarity(rows, position, U, 1.0 / h, 1.0 / h, state.worst)
     multiply(matrices.K, U, force)
-    missed_momentum, missed_motion = vectors.missed_momentum, vectors.missed_motion
     for i in range(U.size):
         q[i] += U[i]
-        missed_motion[i] += U[i]
-        missed_momentum[i] = -0.5 * force[i]
+        vectors.missed_motion[i] += U[i]
+        vectors.missed_momentum[i] = -0.5 * force[i]
         b[i] = -h * force[i]
-    return SOLVED
+    return status
 
 
 @compiled
 def velocity_after_position(
-    problem: Problem, state: State, scheme: Scheme, vectors: Vectors, reactions: Reactions, smooth_p: Array,
-    velocity: Constraints, h: float
-) -> int:  # fmt: skip
-    """W of :func:`position_jump`, and which constraints are at rest after it. ``vectors.b`` is −hKU."""
-    rows, b, v = problem.rows, vectors.b, state.v
-    at_rest, impulse = reactions.at_rest, reactions.impulse
-    for j in range(at_rest.size):
+    problem: Problem, state: State, motion: Motion, smooth_p: Array, velocity: Constraints, h: float
+) -> int:
+    """W of :func:`position_step`, and which constraints are at rest after it. ``vectors.b`` is −hKU."""
+    rows, v = problem.rows, state.v
+    scheme, vectors, reactions = motion
+    for j in range(reactions.at_rest.size):
         velocity.candidate[j] = state.closed[j] or smooth_p[j] > 0.0
         velocity.closed[j] = velocity.candidate[j]
         for i in range(rows.dofs.shape[1]):
-            b[rows.dofs[j, i]] -= rows.factors[j, i] * impulse[j]
-    status = velocity_jump(problem, state, vectors, reactions, velocity)
-    if status != SOLVED:
-        return status
-    W, force, damping = vectors.x, vectors.force, vectors.scratch
-    J, missed_momentum, missed_motion = vectors.new_jump_force, vectors.missed_momentum, vectors.missed_motion
-    for i in range(W.size):
-        missed_momentum[i] += (0.5 - scheme.gamma * scheme.s) * damping[i] - h * scheme.beta * scheme.s * force[i]
-        missed_motion[i] -= 0.5 * h * W[i]
-        J[i] += damping[i]
-    fastest = 0.0
+            vectors.b[rows.dofs[j, i]] -= rows.factors[j, i] * reactions.impulse[j]
+    status = velocity_jump(problem, state, motion, velocity)
+    force, damping, fastest = vectors.force, vectors.scratch, 0.0
     for i in range(v.size):
+        vectors.missed_momentum[i] += (0.5 - scheme.gamma * scheme.s) * damping[i]
+        vectors.missed_momentum[i] -= h * scheme.beta * scheme.s * force[i]
+        vectors.missed_motion[i] -= 0.5 * h * vectors.x[i]
+        vectors.new_jump_force[i] += damping[i]
         fastest = max(fastest, abs(v[i]))
-    for j in range(at_rest.size):
-        at_rest[j] = velocity.closed[j] and abs(row_times(rows, v, j)) <= AT_REST * fastest
-    return SOLVED
+    for j in range(reactions.at_rest.size):
+        reactions.at_rest[j] = velocity.closed[j] and abs(row_times(rows, v, j)) <= AT_REST * fastest
+    return status

@@ -1,4 +1,4 @@
-"""Compiled θ-steps with unilateral constraints, for Moreau–Jean and for Signorini at the new position.
+"""θ-schemes with unilateral constraints: Moreau–Jean, and Signorini at the new position.
 
     M Δv + hC v_θ + hK q_θ = hF_θ + Gᵀp,     q⁺ = q + h v_θ,      x_θ = x + θΔx
 
@@ -8,20 +8,34 @@ Solved for Δv: S Δv = h[F_θ − K(q + θhv) − Cv] + Gᵀp, S = M + θhC + �
 
 the work of the loads, less viscous loss, less loss in impacts −pᵀG(v + ½Δv), less algorithmic loss. Maxwell branches
 add to S, to the right side and to the energies (:mod:`hermite_fe.maxwell`).
+
+**Moreau–Jean** is for measures, Signorini and the impact law at velocity level:
+
+    0 ≤ p ⊥ Gv⁺ + eGv ≥ 0    for the constraints with  g + (1 − θ)h ġ ≤ 0
+
+A constraint takes part when closing it now would leave it in the wall or on it; so a closed one stays a candidate.
+(Jean 1999, "The non-smooth contact dynamics method"; thesis 3.2.1–4 and Fig. 3.6 for its drift at position level.)
+
+**Signorini's condition at the new position**, 0 ≤ p ⊥ g⁺ = g₀ + Gq⁺ ≥ 0, knows no drift. A constraint that reaches the
+wall within a step ends it on the wall exactly. The scheme has no impact law: with θ = 1 the constraint is at rest a
+step later, with θ = ½ it keeps a share of its speed that depends on when in the step it lands.
 """
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from dataclasses import dataclass
+from typing import Annotated, ClassVar, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from hermite_fe.active_set import NOT_FINITE, SOLVED, solve_constrained
+from bent_beam.fields import Quantity
+from hermite_fe.active_set import SOLVED, solve_constrained
 from hermite_fe.banded import copy, dot, multiply, stiff_multiply
 from hermite_fe.compiled import compiled
 from hermite_fe.constraints import (
     Constraints,
+    ContactLaw,
     Rows,
     constraints_of,
     find_held,
@@ -29,19 +43,18 @@ from hermite_fe.constraints import (
     row_times,
     rows_times,
 )
+from hermite_fe.integrators.base import Integrator
 from hermite_fe.maxwell import add_branch_forces, step_branches, stiffen
-from hermite_fe.solver import prepare
-from hermite_fe.stepping import MATERIAL, Matrices, Problem, State, add_energies, add_impulses, end_step, mean_forces
+from hermite_fe.stepping import MATERIAL, Problem, State, add_energies, add_impulses, end_step, mean_forces, prepare
 
-__all__ = ["ThetaMemory", "take_steps", "theta_memory"]
+__all__ = ["MoreauJean", "SignoriniPosition", "Vectors", "begin_step", "finish_step", "vectors_of"]
 
 Array = NDArray[np.float64]
 
 
-class ThetaMemory(NamedTuple):
-    """Work arrays of a step: its conditions, and vectors (dofs,)."""
+class Vectors(NamedTuple):
+    """Work arrays of a step, (dofs,): b, Δv, v_θ, v̄ = v + ½Δv, F_θ, and one for anything."""
 
-    conditions: Constraints
     b: Array
     dv: Array
     v_theta: Array
@@ -50,45 +63,101 @@ class ThetaMemory(NamedTuple):
     scratch: Array
 
 
-def theta_memory(problem: Problem) -> ThetaMemory:
-    """Work arrays for ``problem``."""
-    return ThetaMemory(constraints_of(problem.rows), *np.zeros((6, problem.matrices.M.shape[1])))
+def vectors_of(problem: Problem) -> Vectors:
+    """Work arrays for ``problem``, zero."""
+    return Vectors(*np.zeros((6, problem.matrices.M.shape[1])))
+
+
+@dataclass(frozen=True)
+class Theta(Integrator):
+    """Base of the θ-schemes with constraints."""
+
+    holds: ClassVar[bool] = True
+    hysteretic: ClassVar[bool] = True
+    holds_zone: ClassVar[bool] = True
+    at_position: ClassVar[bool]
+
+    theta: Annotated[
+        float, Quantity("", "θ; ½ conserves energy between impacts, 1 damps unresolved waves", least=0.5, most=1.0)
+    ] = 1.0
+
+    def start(self, problem: Problem, state: State) -> tuple[Constraints, Vectors]:
+        return constraints_of(problem.rows), vectors_of(problem)
+
+    def advance(
+        self, problem: Problem, state: State, memory: tuple[Constraints, Vectors], times: Array, first: int, last: int
+    ) -> tuple[int, int]:
+        return take_steps(problem, state, memory, times, first, last, self.theta, self.at_position)
+
+
+@dataclass(frozen=True)
+class MoreauJean(Theta):
+    """A θ-scheme with the impact law at velocity level."""
+
+    at_position: ClassVar[bool] = False
+
+
+@dataclass(frozen=True)
+class SignoriniPosition(Theta):
+    """A θ-scheme with Signorini's condition at the new position.
+
+    For the infinite beam's first instants θ = 1: θ near ½ makes closed constraints rattle. For a whole beam with
+    damping of its own ½, which damps nothing but impacts.
+    """
+
+    at_position: ClassVar[bool] = True
+    elements_in_first_front: ClassVar[float] = 3.0
+
+    theta: Annotated[float, Quantity("", "θ; 1: implicit Euler", least=0.5, most=1.0)] = 1.0
+
+    def start(self, problem: Problem, state: State) -> tuple[Constraints, Vectors]:
+        e = problem.law.restitution
+        if e > 0.0:
+            raise ValueError(f"signorini_position has no impact law: restitution must be 0 (got {e!r})")
+        return super().start(problem, state)
 
 
 @compiled
-def impose(
-    rows: Rows, conditions: Constraints, q: Array, v: Array, h: float, theta: float, e: float, at_position: bool
-) -> None:
-    """Set the candidates and the targets c of GΔv ≥ c."""
-    rows_times(rows, q, conditions.Gq)
-    rows_times(rows, v, conditions.Gv)
-    for j in range(rows.gap.size):
-        gap, speed = rows.gap[j] + conditions.Gq[j], conditions.Gv[j]
-        if at_position:  # g⁺ ≥ 0 at the end of the step
-            conditions.candidate[j] = True
-            conditions.target[j] = -(gap / h + speed) / theta
-        else:  # Gv⁺ ≥ −eGv for constraints that would end the step on the wall or inside it
-            conditions.candidate[j] = gap + (1.0 - theta) * h * speed <= 0.0
-            conditions.target[j] = -speed if conditions.held[j] else -(1.0 + e) * speed
-
-
-@compiled
-def right_side(
-    matrices: Matrices, q: Array, v: Array, force: Array, h: float, theta: float, b: Array, moved: Array, scratch: Array
-) -> None:
-    """b = h[F_θ − K(q + θhv) − Cv]; ``moved`` and ``scratch`` are work arrays."""
-    for i in range(q.size):
-        moved[i] = q[i] + theta * h * v[i]
+def begin_step(
+    problem: Problem, state: State, vectors: Vectors, t: float, end: float, theta: float
+) -> tuple[float, bool]:
+    """Make S for the step from t to ``end``, b = h[F_θ − K(q + θhv) − Cv] less what the branches take, and F_θ in
+    ``vectors.force``; returns the length of the step, and whether S is new."""
+    matrices, h, made_for = problem.matrices, end - t, problem.solver.step[0]
+    h = prepare(problem, theta * h, theta * theta * h * h, h, end)
+    if h != made_for:
+        stiffen(state.bending, h, theta, problem.solver)
+    b, moved, scratch, force = vectors.b, vectors.v_theta, vectors.scratch, vectors.force
+    mean_forces(matrices.load, t, h, theta, force)
+    for i in range(b.size):
+        moved[i] = state.q[i] + theta * h * state.v[i]
     stiff_multiply(matrices.K, matrices.K_sums, moved, b)
-    stiff_multiply(matrices.C, matrices.C_sums, v, scratch)
-    for i in range(q.size):
+    stiff_multiply(matrices.C, matrices.C_sums, state.v, scratch)
+    for i in range(b.size):
         b[i] = h * (force[i] - b[i] - scratch[i])
+    add_branch_forces(state.bending, state.branches, state.v, h, b)
+    return h, h != made_for
 
 
 @compiled
-def algorithmic_loss(matrices: Matrices, rows: Rows, p: Array, dv: Array, v_theta: Array, h: float, theta: float,
-                     scratch: Array) -> float:  # fmt: skip
+def finish_step(problem: Problem, state: State, p: Array, vectors: Vectors, h: float, theta: float) -> int:
+    """Move on by ``vectors.dv`` and add the energies, p : (rows,), impulses of rigid walls; returns the status."""
+    q, v, dv, v_theta, mean_v = state.q, state.v, vectors.dv, vectors.v_theta, vectors.mean_v
+    for i in range(q.size):
+        v_theta[i] = v[i] + theta * dv[i]
+        mean_v[i] = v[i] + 0.5 * dv[i]
+        q[i] += h * v_theta[i]
+        v[i] += dv[i]
+    state.energy[MATERIAL] += step_branches(state.bending, v_theta, h, state.branches, state.stretch)
+    loss = algorithmic_loss(problem, p, vectors, h, theta)
+    add_energies(problem, state, h, h * dot(vectors.force, v_theta), p, mean_v, v_theta, loss, vectors.scratch)
+    return end_step(state)
+
+
+@compiled
+def algorithmic_loss(problem: Problem, p: Array, vectors: Vectors, h: float, theta: float) -> float:
     """(θ − ½)[Δvᵀ(MΔv − Gᵀp) + h² v_θᵀK v_θ]."""
+    matrices, dv, v_theta, scratch = problem.matrices, vectors.dv, vectors.v_theta, vectors.scratch
     if theta == 0.5:
         return 0.0
     multiply(matrices.M, dv, scratch)
@@ -97,47 +166,46 @@ def algorithmic_loss(matrices: Matrices, rows: Rows, p: Array, dv: Array, v_thet
     loss += h * h * dot(v_theta, scratch)
     for j in range(p.size):
         if p[j] != 0.0:
-            loss -= p[j] * row_times(rows, dv, j)
+            loss -= p[j] * row_times(problem.rows, dv, j)
     return (theta - 0.5) * loss
 
 
 @compiled
-def take_steps(
-    problem: Problem, state: State, memory: ThetaMemory, times: Array, first: int, last: int, theta: float,
+def impose(
+    rows: Rows, law: ContactLaw, conditions: Constraints, state: State, t: float, h: float, theta: float,
     at_position: bool
+) -> None:  # fmt: skip
+    """Set what is held, the candidates and the targets c of GΔv ≥ c, and guess that nothing opens or closes."""
+    find_held(rows, law, state.closed, t, conditions.held)
+    copy(state.closed, conditions.closed)
+    rows_times(rows, state.q, conditions.Gq)
+    rows_times(rows, state.v, conditions.Gv)
+    for j in range(rows.gap.size):
+        gap, speed = rows.gap[j] + conditions.Gq[j], conditions.Gv[j]
+        if at_position:  # g⁺ ≥ 0 at the end of the step
+            conditions.candidate[j] = True
+            conditions.target[j] = -(gap / h + speed) / theta
+        else:  # Gv⁺ ≥ −eGv for constraints that would end the step on the wall or inside it
+            conditions.candidate[j] = gap + (1.0 - theta) * h * speed <= 0.0
+            conditions.target[j] = -speed if conditions.held[j] else -(1.0 + law.restitution) * speed
+
+
+@compiled
+def take_steps(
+    problem: Problem, state: State, memory: tuple[Constraints, Vectors], times: Array, first: int, last: int,
+    theta: float, at_position: bool
 ) -> tuple[int, int]:  # fmt: skip
     """Take the steps ``first`` … ``last`` − 1 between the instants ``times``; returns (status, step reached)."""
-    matrices, rows, law, solver = problem
-    conditions, b, dv, v_theta, mean_v, force, scratch = memory
-    q, v = state.q, state.v
+    (_, rows, law, solver), (conditions, vectors) = problem, memory
     for k in range(first, last):
-        t, h, made_for = times[k], times[k + 1] - times[k], solver.step[0]
-        h = prepare(
-            solver, rows, matrices.M, matrices.C, matrices.K, theta * h, theta * theta * h * h, h, times[k + 1]
-        )
-        if h != made_for:
-            stiffen(state.bending, h, theta, solver)
-        find_held(rows, law, state.closed, t, conditions.held)
-        impose(rows, conditions, q, v, h, theta, law.restitution, at_position)
-        mean_forces(matrices.load, t, h, theta, force)
-        right_side(matrices, q, v, force, h, theta, b, v_theta, scratch)
-        add_branch_forces(state.bending, state.branches, v, h, b)
-        copy(state.closed, conditions.closed)
-        status = solve_constrained(solver, rows, conditions, b, dv)
+        h, _ = begin_step(problem, state, vectors, times[k], times[k + 1], theta)
+        impose(rows, law, conditions, state, times[k], h, theta, at_position)
+        status = solve_constrained(solver, rows, conditions, vectors.b, vectors.dv)
+        if status == SOLVED:
+            copy(conditions.closed, state.closed)
+            add_impulses(state, conditions)
+            note_complementarity(rows, conditions, vectors.dv, 1.0, theta * h if at_position else 1.0, state.worst)
+            status = finish_step(problem, state, conditions.p, vectors, h, theta)
         if status != SOLVED:
             return status, k
-        copy(conditions.closed, state.closed)
-        for i in range(q.size):
-            v_theta[i] = v[i] + theta * dv[i]
-            mean_v[i] = v[i] + 0.5 * dv[i]
-            q[i] += h * v_theta[i]
-            v[i] += dv[i]
-        add_impulses(state, conditions)
-        note_complementarity(rows, conditions, dv, 1.0, theta * h if at_position else 1.0, state.worst)
-        work = h * dot(force, v_theta)
-        state.energy[MATERIAL] += step_branches(state.bending, v_theta, h, state.branches, state.stretch)
-        loss = algorithmic_loss(matrices, rows, conditions.p, dv, v_theta, h, theta, scratch)
-        add_energies(matrices, rows, h, work, conditions.p, mean_v, v_theta, loss, scratch, state.energy)
-        if not end_step(state):
-            return NOT_FINITE, k
     return SOLVED, last

@@ -13,8 +13,7 @@ from hermite_fe.banded import PAD
 from hermite_fe.beam import HermiteBeam
 from hermite_fe.constraints import Constraints, ContactLaw, constraints_of
 from hermite_fe.contacts import MeanContact
-from hermite_fe.solver import prepare
-from hermite_fe.stepping import Problem, problem_of
+from hermite_fe.stepping import Problem, prepare, problem_of
 from hermite_fe.system import ContactRows, System
 
 Array = NDArray[np.float64]
@@ -55,14 +54,8 @@ def random_system(random: np.random.Generator) -> System:
 def ready(system: System, k: float = 0.0) -> tuple[Problem, Constraints]:
     """A system with the step matrix M + kK, and one set of conditions."""
     problem = problem_of(system, ContactLaw())
-    renew(problem, k)
+    prepare(problem, 0.0, k, k + 1.0, 1.0)
     return problem, constraints_of(problem.rows)
-
-
-def renew(problem: Problem, k: float) -> None:
-    """The step matrix M + kK."""
-    matrices = problem.matrices
-    prepare(problem.solver, problem.rows, matrices.M, matrices.C, matrices.K, 0.0, k, k + 1.0, 1.0)
 
 
 def truth(system: System, b: Array, target: Array, candidate: Array, held: Array) -> tuple[Array, Array]:
@@ -190,7 +183,7 @@ def test_a_front_that_runs_and_lifts_leaves_no_sign_wrong(width: int) -> None:
         for step in range(60):
             if step % 17 == 16:
                 problem.solver.step[0] = np.nan  # a new matrix, as when the step length changes
-                renew(problem, 0.3)
+                prepare(problem, 0.0, 0.3, 1.3, 1.0)
             b = random.normal(size=n) * 1e-3 + (np.arange(n) % 2 == 0) * np.where(np.arange(n) < 6 * step, 1.0, -0.05)
             if random.random() < 0.1:
                 b[2 * random.integers(0, 60)] -= 30.0

@@ -80,7 +80,7 @@ def test_half_and_full_beam_agree(name: str, contact: Contact) -> None:
     assert np.abs(full.array("gap")[:, nodes - 1 :] - half.array("gap")).max() < 1e-9
     assert np.abs(full.array("gap") - full.array("gap")[:, ::-1]).max() < 1e-9
     for quantity in (
-        *("total_impulse", "kinetic_energy", "strain_energy", "loss_impact", "loss_algorithmic", "loss_viscous"),
+        "total_impulse", "kinetic_energy", "strain_energy", "loss_impact", "loss_algorithmic", "loss_viscous"
     ):
         assert full.array(quantity) == pytest.approx(half.array(quantity), abs=1e-8)
     assert np.allclose(full.contact_positions(0), -full.contact_positions(0)[::-1])
@@ -88,11 +88,7 @@ def test_half_and_full_beam_agree(name: str, contact: Contact) -> None:
 
 
 def test_the_zone_stays_on_the_wall_with_the_hold() -> None:
-    for name, most in (
-        ("signorini_position", 1e-9),
-        ("position_velocity_acceleration", 1e-9),
-        ("moreau_jean", 1e-4),
-    ):
+    for name, most in (("signorini_position", 1e-9), ("position_velocity_acceleration", 1e-9), ("moreau_jean", 1e-4)):
         history = simulate(IMPACT, end_time=0.3, integrator=INTEGRATORS[name], contact=NodeContact(hold=16))
         place = history.dataset.x.values[history.array("in_contact")[-1]].max()
         inside = history.dataset.x.values < 0.9 * place
@@ -133,12 +129,8 @@ def test_what_has_no_effect_or_no_sense_is_refused(make: Callable[[], object], m
 def test_impact_loss_vanishes_under_refinement() -> None:
     losses = []
     for element in (0.04, 0.02, 0.01):
-        history = simulate(
-            IMPACT,
-            end_time=0.3,
-            mesh=ScaleFreeMesh(element, 1.01),
-            integrator=SignoriniPosition(time_step=0.05 * element**2, growth=1e-3),
-        )
+        scheme = SignoriniPosition(time_step=0.05 * element**2, growth=1e-3)
+        history = simulate(IMPACT, end_time=0.3, mesh=ScaleFreeMesh(element, 1.01), integrator=scheme)
         losses.append(history.energy_budget()["loss_impact"])
     assert losses[0] > 1.7 * losses[1] > 1.7**2 * losses[2] > 0.0
 
@@ -163,12 +155,7 @@ def test_contacts_between_nodes_are_booked_where_they_act(contact: Contact) -> N
 
 def test_a_zone_thrown_off_the_wall_is_warned_of() -> None:
     """κ/ν = 0.1, coarse elements and Moreau–Jean, which rattles: the zone lifts by several per cent."""
-    history = simulate(
-        Impact.dimensionless(0.1, length=20.0),
-        end_time=0.1,
-        mesh=UniformMesh(0.02),
-        integrator=MoreauJean(time_step=1e-4),
-        contact=NodeContact(),
-    )
+    parts = {"mesh": UniformMesh(0.02), "integrator": MoreauJean(time_step=1e-4), "contact": NodeContact()}
+    history = simulate(Impact.dimensionless(0.1, length=20.0), end_time=0.1, **parts)
     assert leading_order(moments(history)).lift > 1e-2
     assert any("off the wall" in warning for warning in history.warnings)

@@ -13,7 +13,7 @@ from bent_beam.meshes import GradedMesh, UniformMesh
 from comparison.figures import style
 from comparison.readable import readable
 from hermite_fe import CONTACTS, HermiteFE
-from hermite_fe.delassus import impact_coupling
+from hermite_fe.contacts import impact_coupling
 from hermite_fe.masses import LumpedMass, Mass
 from thesis.gallery import chapter3_contact_point as contact_point
 from thesis.gallery import chapter3_first_order as first

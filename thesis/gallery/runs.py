@@ -18,11 +18,10 @@ from bent_beam.history import ImpactHistory
 from bent_beam.impact import Impact
 from bent_beam.method import refined
 from hermite_fe import HermiteFE, resolution
-from hermite_fe.composition import Composition
 from hermite_fe.constraints import ContactLaw
 from hermite_fe.model import beam_model
-from hermite_fe.run import Samples, Stepper
-from hermite_fe.saved_steps import saved_steps
+from hermite_fe.resolution import Composition
+from hermite_fe.run import Stepper, saved_steps, trajectory_of
 from hermite_fe.simulate import history_of, settings_of_run
 from thesis.studies.outcome import Array, Outcome, Steps, outcome_of, saved_times
 from thesis.studies.thesis import MASSES, references, thesis_settings
@@ -51,7 +50,7 @@ def every_step(
     law = ContactLaw(restitution=chosen.contact.restitution)
     run = Stepper(model.system, model.displacement, model.velocity, chosen.integrator, end_time, law)
     kept = saved_steps(run.instants, save)
-    samples, total, wanted = Samples(model.system, kept.size), np.zeros(run.instants.size), set(kept.tolist())
+    samples, total, wanted = [], np.zeros(run.instants.size), set(kept.tolist())
     run.compile()
     began = clock.perf_counter()
     for k in range(total.size):
@@ -59,8 +58,8 @@ def every_step(
             raise ArithmeticError(f"step {k} of {total.size - 1} has no solution (status {status})")
         total[k] = run.state.impulse.sum()
         if k in wanted:
-            samples.add(run)
-    found = samples.trajectory(run, clock.perf_counter() - began, "", 0.0)
+            samples.append(run.sample())
+    found = trajectory_of(run, samples, clock.perf_counter() - began)
     history = history_of(impact, model, found, settings_of_run(impact, chosen, found))
     return history, Steps(run.instants[1:], np.diff(total) / np.diff(run.instants))
 

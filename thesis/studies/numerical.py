@@ -11,7 +11,7 @@ from bent_beam.meshes import ScaleFreeMesh, SquareMesh
 from bent_beam.method import Method
 from comparison.readable import readable
 from hermite_fe import CONTACTS
-from hermite_fe.delassus import impact_coupling
+from hermite_fe.contacts import impact_coupling
 from thesis.studies.base import Study
 from thesis.studies.exact import Exact
 from thesis.studies.of_methods import (
@@ -161,7 +161,7 @@ FAR_FIELD = Study("far-field", "far field", far_field_variants, far_field_vary)
 # Figs 3.22–3.28); then nodes with a bilateral start.
 #
 # An impact at one constraint changes the gap velocities of its neighbours by c = W_{j,j±1}/W_jj of its own change
-# (:mod:`hermite_fe.delassus`).
+# (:mod:`hermite_fe.contacts`).
 
 NAMES = {"node": "nodes", "middle": "middles", "mean": "mean gaps"}
 
