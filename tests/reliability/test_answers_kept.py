@@ -116,7 +116,7 @@ def test_a_reader_that_has_read_enough_is_no_failure_and_a_full_disk_is_one():
     reader, writer = os.pipe()
     os.close(reader)
     for stream, code, lines in ((writer, 0, 0), (os.open("/dev/full", os.O_WRONLY), 2, 1)):
-        process = started("new", f"{code}.toml", stdout=stream)
+        process = started("new", f"{code}.toml", stdout=stream, env=os.environ | {"PYTHONUNBUFFERED": ""})
         os.close(stream)
         said = process.communicate(timeout=60)[1]
         assert (process.returncode, said.count("\n")) == (code, lines), said
