@@ -1,15 +1,19 @@
-"""``bentbeam`` as it is called, inside this process."""
+"""``bentbeam`` as it is called, inside this process or in one of its own."""
 
 from __future__ import annotations
 
 import contextlib
 import io
 import json
+import subprocess
+import sys
 from typing import Any
 
 from comparison.command_line.app import run
 
-__all__ = ["answered", "command", "refused"]
+__all__ = ["MAIN", "answered", "command", "refused", "started"]
+
+MAIN = "from comparison.command_line.app import main; main()"
 
 
 def command(*words: object) -> tuple[int, str, str]:
@@ -37,3 +41,10 @@ def refused(*words: object) -> str:
     code, out, err = command(*words)
     assert (code, out, err.count("\n")) == (2, "", 1) and err.startswith("error: "), (code, out, err)
     return err
+
+
+def started(*words: object, program: str = MAIN, **how: Any) -> subprocess.Popen[str]:
+    """``bentbeam``, or another program, in a session of its own: a signal to its group reaches its workers too."""
+    pipe = subprocess.PIPE
+    chosen = {"stdout": pipe, "stderr": pipe, "text": True, "start_new_session": True} | how
+    return subprocess.Popen([sys.executable, "-c", program, *map(str, words)], **chosen)

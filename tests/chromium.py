@@ -46,12 +46,17 @@ def ask(browser: Any, script: str, *arguments: Any) -> Any:
     return browser.execute_script(f"return {script}", *arguments)
 
 
-def assert_quiet(browser: Any) -> None:
-    """No error on the console, and nothing asked of the network."""
-    assert [entry for entry in browser.get_log("browser") if entry["level"] == "SEVERE"] == []
+def disquiet(browser: Any) -> list[str]:
+    """Errors on the console since last asked, and what was asked of the network."""
+    errors = [entry["message"] for entry in browser.get_log("browser") if entry["level"] == "SEVERE"]
     messages = [json.loads(entry["message"])["message"] for entry in browser.get_log("performance")]
     asked = [m["params"]["request"]["url"] for m in messages if m["method"] == "Network.requestWillBeSent"]
-    assert [url for url in asked if not url.startswith(("file:", "data:", "blob:", "about:"))] == []
+    return errors + [url for url in asked if not url.startswith(("file:", "data:", "blob:", "about:"))]
+
+
+def assert_quiet(browser: Any) -> None:
+    """No error on the console, and nothing asked of the network."""
+    assert disquiet(browser) == []
     assert ask(browser, "performance.getEntriesByType('resource').filter(e => !e.name.startsWith('data:')).length") == 0
 
 

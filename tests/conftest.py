@@ -10,10 +10,13 @@ import pytest
 from hypothesis import HealthCheck, settings
 
 settings.register_profile(
-    "repeatable", derandomize=True, deadline=None, suppress_health_check=[HealthCheck.too_slow], database=None
+    "tests",
+    derandomize="FUZZ" not in os.environ,
+    deadline=None,
+    database=None,
+    suppress_health_check=list(HealthCheck),
 )
-settings.register_profile("fresh", deadline=None, suppress_health_check=[HealthCheck.too_slow])
-settings.load_profile("fresh" if os.environ.get("FUZZ") else "repeatable")
+settings.load_profile("tests")
 
 
 def pytest_sessionstart(session: pytest.Session) -> None:

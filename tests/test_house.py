@@ -1,9 +1,11 @@
-"""The house: imports run downwards, the paths never meet, nothing above knows a path by name."""
+"""The house: imports run downwards and are declared, the paths never meet, nothing above knows a path by name."""
 
 import ast
 import os
+import re
 import subprocess
 import sys
+import tomllib
 from functools import cache
 from pathlib import Path
 
@@ -15,6 +17,8 @@ SCRIPTS = "exudyn_models.scripts."  # run and edited by users, on top of their p
 PROGRAMS = ("thesis", "report", "predictor", "open_benchmark", "benchmarks")
 FLOOR = {"bent_beam": 0, "measure": 1, **dict.fromkeys(PATHS, 2), "comparison": 3, **dict.fromkeys(PROGRAMS, 4)}
 NAMES_OF_PATHS = {"hermite", "self_similar", "exudyn"}
+METHODS = {"HermiteFE", "SelfSimilarFE", "ExudynModel"}
+ADAPTERS = "open_benchmark.adapters"  # each runs in an environment of its own
 LEAN = {
     *("numpy", "scipy", "xarray", "pandas", "matplotlib", "numba", "exudyn", "h5py", "plotly", "jinja2", "dask"),
     *("h5netcdf", "multiprocessing", "asyncio", "PIL"),
@@ -32,30 +36,34 @@ def modules():
     return found
 
 
-def imported_by(node):
-    """Modules of the house that an import statement names."""
-    if isinstance(node, ast.Import):
-        names = [alias.name for alias in node.names]
-    else:
-        assert node.level == 0, f"a relative import, line {node.lineno}"
-        names = [f"{node.module}.{alias.name}" for alias in node.names]
-    for name in names:
+@cache
+def imported(module):
+    """Dotted names that the import statements of a module name, wherever they stand."""
+    found = set()
+    for node in ast.walk(modules()[module]):
+        if isinstance(node, ast.Import):
+            found |= {alias.name for alias in node.names}
+        elif isinstance(node, ast.ImportFrom):
+            assert node.level == 0, f"{module}:{node.lineno}: a relative import"
+            found |= {f"{node.module}.{alias.name}" for alias in node.names}
+    return found
+
+
+def of_the_house(module):
+    """Modules of the house that a module imports."""
+    for name in imported(module):
         while name and name not in modules():
             name = name.rpartition(".")[0]
         if name:
             yield name
 
 
-def imports(tree):
-    return (name for n in ast.walk(tree) if isinstance(n, (ast.Import, ast.ImportFrom)) for name in imported_by(n))
-
-
 def test_imports_run_downwards_and_rooms_of_one_floor_never_import_one_another():
     """The paths to an answer are independent of each other, and so are the programs."""
     wrong = []
-    for module, tree in modules().items():
+    for module in modules():
         here = module.partition(".")[0]
-        for name in imports(tree):
+        for name in of_the_house(module):
             there = name.partition(".")[0]
             if there != here and FLOOR[there] >= FLOOR[here]:
                 wrong.append(f"{module} imports {name}")
@@ -64,16 +72,30 @@ def test_imports_run_downwards_and_rooms_of_one_floor_never_import_one_another()
 
 def test_no_modules_import_one_another_in_a_circle():
     """Wherever an import stands: on top, inside a function, or for type checkers only."""
-    graph = {module: set(imports(tree)) - {module} for module, tree in modules().items()}
+    graph = {module: set(of_the_house(module)) - {module} for module in modules()}
     while ends := {module for module, needs in graph.items() if not needs & graph.keys()}:
         graph = {module: needs for module, needs in graph.items() if module not in ends}
     assert not graph, f"circles among {sorted(graph)}, or above them"
 
 
+def distributions(requirements):
+    return {re.split(r"[<>=\[ ]", requirement)[0].lower() for requirement in requirements}
+
+
+def test_every_import_is_a_declared_requirement_and_only_extras_bring_more():
+    shipped = [name for name in modules() if not name.startswith(("benchmarks", ADAPTERS))]
+    third = {name.partition(".")[0] for module in shipped for name in imported(module)} - FLOOR.keys()
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
+    core = distributions(project["dependencies"]) | {"pydantic_core"}  # comes with pydantic, which documents it
+    extras = [distributions(project["optional-dependencies"][extra]) for extra in ("report", "cluster")]
+    more = {"pillow" if name == "PIL" else name for name in third - set(sys.stdlib_module_names) - core}
+    assert more == set().union(*extras)
+
+
 def test_no_path_is_compared_by_name_above_the_paths():
     wrong = []
     for module, tree in modules().items():
-        if FLOOR[module.partition(".")[0]] < 3 or module.startswith("open_benchmark.adapters"):
+        if FLOOR[module.partition(".")[0]] < 3 or module.startswith(ADAPTERS):
             continue
         for node in ast.walk(tree):
             asked = []
@@ -90,9 +112,6 @@ def test_no_path_is_compared_by_name_above_the_paths():
     assert not wrong
 
 
-METHODS = {"HermiteFE", "SelfSimilarFE", "ExudynModel"}
-
-
 def test_nothing_reads_the_folder_that_sessions_share():
     kinds = {".py", ".toml", ".md", ".j2", ".js", ".css", ".html", ".ipynb", ".yml", ".json", ".lock"}
     files = [f for d in (*FLOOR, "tests", "docs", "cases") for f in (ROOT / d).rglob("*") if f.suffix in kinds]
@@ -103,14 +122,8 @@ def test_nothing_reads_the_folder_that_sessions_share():
 def loaded_by(code):
     """Packages in ``sys.modules`` after ``code`` in a fresh interpreter."""
     told = "\nimport sys; print('\\n' + ' '.join(sorted({m.partition('.')[0] for m in sys.modules})))"
-    done = subprocess.run(
-        [sys.executable, "-c", code + told],
-        capture_output=True,
-        text=True,
-        check=True,
-        cwd=ROOT,
-        env=os.environ | {"PYTHONPATH": str(ROOT)},
-    )
+    here = {"cwd": ROOT, "env": os.environ | {"PYTHONPATH": str(ROOT)}}
+    done = subprocess.run([sys.executable, "-c", code + told], capture_output=True, text=True, check=True, **here)
     return set(done.stdout.rstrip().rpartition("\n")[2].split())
 
 
@@ -131,17 +144,14 @@ assert run(["score", file, "--json"]) == 0
 @pytest.mark.parametrize(
     ("code", "allowed"),
     [
-        ("import theory, theory.prediction", {"numpy", "scipy"}),
-        (command("theory --kappa-over-nu 0.5 --alpha 4 --json"), {"numpy", "scipy"}),
-        (SCORED, {"numpy", "scipy", "measure"}),
-        (command("predict cases/ruler.toml --theory-only --json"), {"numpy", "scipy", "numba", "hermite_fe"}),
+        ("import theory.prediction\n" + command("theory --kappa-over-nu 0.5 --alpha 4 --json"), {"theory"}),
+        (SCORED, set()),
+        (command("predict cases/ruler.toml --theory-only --json"), {"theory", "numba", "hermite_fe"}),
     ],
-    ids=["import", "theory", "score", "predict"],
+    ids=["theory", "score", "predict"],
 )
 def test_only_what_is_needed_is_loaded(code, allowed):
-    loaded = loaded_by(code)
-    rooms = {"theory"} if "measure" not in allowed else set()  # scoring needs no theory
-    assert loaded & (LEAN | set(PATHS)) <= allowed | rooms
+    assert loaded_by(code) & (LEAN | set(PATHS)) <= {"numpy", "scipy"} | allowed
 
 
 WITHOUT_THEORY = """

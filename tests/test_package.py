@@ -1,16 +1,20 @@
-"""The built package works away from the checkout: every file is in it, and its command answers."""
+"""What a release promises: the built package works away from the checkout, set-up and extras say what they lack."""
 
 import json
 import os
+import re
 import shutil
 import subprocess
 import sys
+import tomllib
 import zipfile
 from pathlib import Path
 
 import pytest
+from called import MAIN, started
 
 ROOT = Path(__file__).resolve().parent.parent
+PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
 PACKAGES = sorted(
     p.name for p in ROOT.iterdir() if (p / "__init__.py").is_file() and p.name not in ("benchmarks", "tests")
 )
@@ -25,6 +29,14 @@ def test_set_up_with_an_old_python_names_the_one_it_needs_and_leaves_nothing(tmp
     line = ["make", "-f", str(ROOT / "Makefile"), f"PYTHON={old}", ".venv/.installed"]
     done = subprocess.run(line, cwd=tmp_path, capture_output=True, text=True)
     assert done.returncode == 2 and "needs Python 3.11" in done.stderr and not (tmp_path / ".venv").exists()
+
+
+def test_a_report_without_its_extra_says_what_to_install(tmp_path):
+    absent = "import sys; sys.modules['plotly'] = None\n"  # as if it were not installed
+    process = started("report", "--out", "report", program=absent + MAIN, cwd=tmp_path)
+    out, err = process.communicate(timeout=60)
+    assert process.returncode == 2 and out == "" and err.count("\n") == 1
+    assert "plotly" in err and "bent-beam-impact[report]" in err
 
 
 @pytest.fixture(scope="module")
@@ -113,3 +125,27 @@ for name, words in {COMMANDS!r}.items():
     assert json.loads(answers["theory"])["lambda0"] == pytest.approx(1.019, abs=1e-3)
     assert json.loads(answers["rerun"])["identical"]
     assert (tmp_path / "page.html").stat().st_size > 10_000
+
+
+def test_the_version_is_stated_once():
+    files = [ROOT / "CITATION.cff", ROOT / "README.md", *ROOT.glob("*/__init__.py")]
+    assert not [file for file in files if PROJECT["version"] in file.read_text()]
+
+
+def test_the_workflows_are_well_formed_and_test_every_declared_python():
+    yaml = pytest.importorskip("yaml")
+    found = {file.stem: yaml.safe_load(file.read_text()) for file in (ROOT / ".github" / "workflows").glob("*.yml")}
+    assert found.keys() == {"test", "release"}
+    for workflow in found.values():
+        assert workflow[True]  # YAML reads the key `on` as a truth value
+        for job in workflow["jobs"].values():
+            assert job["runs-on"] and all(step.keys() & {"uses", "run"} for step in job["steps"])
+    matrix = found["test"]["jobs"]["test"]["strategy"]["matrix"]
+    declared = [c.rpartition(":: ")[2] for c in PROJECT["classifiers"] if re.search(r":: 3\.\d+$", c)]
+    assert matrix["python"] == declared
+    (install,) = (s["run"] for s in found["test"]["jobs"]["test"]["steps"] if "pip install" in s.get("run", ""))
+    assert set(re.search(r"\.\[(.*)\]", install)[1].split(",")) <= PROJECT["optional-dependencies"].keys()
+    publish = found["release"]["jobs"]["publish"]
+    assert publish["permissions"] == {"id-token": "write"} and publish["needs"] == "build"
+    site = yaml.safe_load((ROOT / ".readthedocs.yaml").read_text())
+    assert all((ROOT / step["requirements"]).exists() for step in site["python"]["install"] if "requirements" in step)

@@ -9,23 +9,23 @@ from __future__ import annotations
 import re
 import shlex
 from collections.abc import Iterator
-from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import pytest
 
 from bent_beam.cases import load_case
+from comparison.command_line.app import run
+from hermite_fe import HermiteFE
 
 ROOT = Path(__file__).resolve().parents[2]
 GENERATED = re.compile(r"(?:^|/)(?:settings|api/\w+)\.md")  # by docs/tools/generated.py
 PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").rglob("*.md"))]
+NOT_RUN = re.compile("not run|no-run")
 FENCE = re.compile(r"^```(?P<info>[^\n`]*)\n(?P<body>.*?)^```\s*$", re.S | re.M)
-LANGUAGES = ("bash", "python")
 
 
-@dataclass(frozen=True)
-class Block:
+class Block(NamedTuple):
     """A fenced block: language, the rest of its info line, text."""
 
     language: str
@@ -33,33 +33,19 @@ class Block:
     body: str
 
     @property
-    def runs(self) -> bool:
-        return "not run" not in self.options and "no-run" not in self.options
-
-    @property
     def is_long(self) -> bool:
         return "make verify" in self.options
 
-    @property
-    def shows_output(self) -> bool:
-        """Whether it is what the block before it prints."""
-        return self.language == "text" and "printed by" in self.options
-
 
 def blocks(page: Path) -> list[Block]:
-    found = []
-    for match in FENCE.finditer(page.read_text(encoding="utf-8")):
-        language, _, options = match["info"].strip().partition(" ")
-        found.append(Block(language, options, match["body"]))
-    return found
+    found = FENCE.finditer(page.read_text(encoding="utf-8"))
+    return [Block(*match["info"].strip().partition(" ")[::2], match["body"]) for match in found]
 
 
-def commands(body: str) -> Iterator[list[str]]:
+def commands(body: str) -> list[list[str]]:
     """Command lines of a block as words, comments and continued lines considered."""
-    for line in body.replace("\\\n", " ").splitlines():
-        words = shlex.split(line, comments=True)
-        if words:
-            yield words
+    lines = body.replace("\\\n", " ").splitlines()
+    return [words for words in (shlex.split(line, comments=True) for line in lines) if words]
 
 
 def name_of(page: Path) -> str:
@@ -75,68 +61,52 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return tmp_path
 
 
-def run_command(words: list[str], page: Path) -> None:
-    if words[0] == "make":
-        makefile = (ROOT / "Makefile").read_text(encoding="utf-8")
-        for target in words[1:]:
-            assert re.search(rf"^{re.escape(target)}\s*:", makefile, re.M), f"make has no target {target}"
-        return
-    assert words[0] == "bentbeam", (
-        f"{name_of(page)}: only bentbeam and make can be run from a bash block; say 'not run' and why "
-        f"in its title (got {' '.join(words)})"
-    )
-    from comparison.command_line.app import run
-
-    assert run(words[1:]) == 0, " ".join(words)
+@pytest.fixture(autouse=True)
+def registries() -> Iterator[None]:
+    """As they were, afterwards: snippets may add to them."""
+    kept = {name: dict(kinds) for name, kinds in HermiteFE.PARTS.items()}
+    yield
+    for name, kinds in kept.items():
+        HermiteFE.PARTS[name].clear()
+        HermiteFE.PARTS[name].update(kinds)
 
 
-@pytest.mark.parametrize("page", PAGES, ids=name_of)
-def test_commands_and_snippets_run(page: Path, folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    run_blocks(page, [block for block in blocks(page) if not block.is_long], capsys)
+LONG = [
+    pytest.param(page, True, marks=pytest.mark.verify, id=f"{name_of(page)}, all")
+    for page in PAGES
+    if any(block.is_long for block in blocks(page))
+]
 
 
-@pytest.mark.verify
-@pytest.mark.parametrize("page", [p for p in PAGES if any(block.is_long for block in blocks(p))], ids=name_of)
-def test_pages_with_long_snippets_run(page: Path, folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    run_blocks(page, blocks(page), capsys)
-
-
-def run_blocks(page: Path, chosen: list[Block], capsys: pytest.CaptureFixture[str]) -> None:
+@pytest.mark.parametrize(("page", "all_of_it"), [*(pytest.param(p, False, id=name_of(p)) for p in PAGES), *LONG])
+def test_commands_and_snippets_run(
+    page: Path, all_of_it: bool, folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     """One after the other, the names of snippets shared."""
     space: dict[str, object] = {"__name__": "__docs__"}
-    restore = registries()
-    try:
-        capsys.readouterr()
-        for block in chosen:
-            if block.shows_output:
-                assert without_digits(capsys.readouterr().out) == without_digits(block.body), name_of(page)
-            elif block.language == "toml" and (title := re.search(r'title="(\w+\.toml)"', block.options)):
-                Path(title[1]).write_text(block.body, encoding="utf-8")
-                load_case(title[1]).method("hermite")
-            elif block.language not in LANGUAGES or not block.runs:
-                continue
-            elif block.language == "python":
-                exec(compile(block.body, f"{name_of(page)}", "exec", dont_inherit=True), space)
-            else:
-                capsys.readouterr()
-                for words in commands(block.body):
-                    run_command(words, page)
-    finally:
-        restore()
+    for block in blocks(page):
+        if block.is_long and not all_of_it:
+            continue
+        if block.language == "text" and "printed by" in block.options:  # by the block before
+            assert without_digits(capsys.readouterr().out) == without_digits(block.body)
+        elif block.language == "toml" and (title := re.search(r'title="(\w+\.toml)"', block.options)):
+            Path(title[1]).write_text(block.body, encoding="utf-8")
+            load_case(title[1]).method("hermite")
+        elif block.language == "python" and not NOT_RUN.search(block.options):
+            exec(compile(block.body, name_of(page), "exec", dont_inherit=True), space)
+        elif block.language == "bash" and not NOT_RUN.search(block.options):
+            capsys.readouterr()
+            for words in commands(block.body):
+                run_command(words)
 
 
-def registries():  # type: ignore[no-untyped-def]
-    """A function that puts the registries back, which snippets may add to."""
-    from hermite_fe import HermiteFE
-
-    kept = {name: dict(kinds) for name, kinds in HermiteFE.PARTS.items()}
-
-    def restore() -> None:
-        for name, kinds in kept.items():
-            HermiteFE.PARTS[name].clear()
-            HermiteFE.PARTS[name].update(kinds)
-
-    return restore
+def run_command(words: list[str]) -> None:
+    if words[0] == "make":
+        makefile = (ROOT / "Makefile").read_text(encoding="utf-8")
+        assert all(re.search(rf"^{re.escape(target)}\s*:", makefile, re.M) for target in words[1:]), words
+    else:
+        assert words[0] == "bentbeam", f"only bentbeam and make can be run; say 'not run' and why in its title: {words}"
+        assert run(words[1:]) == 0, words
 
 
 @pytest.mark.parametrize("page", PAGES, ids=name_of)

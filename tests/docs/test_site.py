@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import importlib.util
 import io
-import json
 import os
 import re
 import subprocess
@@ -14,7 +13,7 @@ from typing import Any
 
 import pytest
 
-from tests.chromium import ask, chromium, needs_chromium, opened  # noqa: F401
+from tests.chromium import ask, chromium, disquiet, needs_chromium, opened  # noqa: F401
 
 ROOT = Path(__file__).parents[2]
 BUILDERS = ("mkdocs", "quickjax", "mkdocs_jupyter", "mkdocstrings")
@@ -51,14 +50,11 @@ def test_every_page_keeps_to_its_width_and_to_itself_and_shows_no_markup(chromiu
         browser, name = opened(chromium, page.as_uri(), width), str(page.relative_to(site))
         if not ask(browser, "document.documentElement.scrollWidth <= window.innerWidth"):
             wrong.append((name, "too wide"))
-        wrong += [(name, e["message"]) for e in browser.get_log("browser") if e["level"] == "SEVERE"]
+        wrong += [(name, what) for what in disquiet(browser)]
         if page.name != "predictor.html":
             wrong += [(name, found[0]) for found in LATEX.finditer(ask(browser, PROSE))]
             emphasised = ask(browser, EMPHASISED)
             wrong += [(name, em) for em in emphasised if not re.fullmatch(r"[\w(].*[\w.?!):]", em, re.DOTALL)]
-    messages = [json.loads(entry["message"])["message"] for entry in chromium.get_log("performance")]
-    asked = [m["params"]["request"]["url"] for m in messages if m["method"] == "Network.requestWillBeSent"]
-    wrong += [url for url in asked if not url.startswith(("file:", "data:", "blob:", "about:"))]
     assert wrong == []
 
 

@@ -1,16 +1,18 @@
-"""What was computed is printed: one failure costs one row, whoever caused it."""
+"""What was computed is printed: one failure costs one row, whoever caused it; streams and names cost nothing."""
 
+import importlib
 import io
 import json
 import os
 import subprocess
 import sys
 from dataclasses import dataclass
+from pathlib import Path
 from types import SimpleNamespace
 from typing import ClassVar
 
 import pytest
-from called import answered, command, refused
+from called import MAIN, answered, command, refused, started
 
 from bent_beam import method as methods
 from comparison.command_line import __main__ as start
@@ -18,19 +20,16 @@ from comparison.command_line import app, histories
 from comparison.command_line.options import emit
 from comparison.match import PERTURBATION, match
 from comparison.rows import Question, first_order_epsilon
-from comparison.store import behind
+from comparison.store import source_of
 from hermite_fe import HermiteFE
-
-MAIN = "from comparison.command_line.app import main; main()"
 
 
 @dataclass(frozen=True)
-class Theirs:
+class Unlabelled:
     """Somebody's method that does what none may do."""
 
     path: ClassVar[str] = "theirs"
     does: ClassVar[object] = None
-    label: str = "theirs"
 
     def refuses(self, impact):
         return None
@@ -41,47 +40,41 @@ class Theirs:
         return self.does
 
 
+@dataclass(frozen=True)
+class Theirs(Unlabelled):
+    label: str = "theirs"
+
+
 def ended():
     raise SystemExit("bye")
 
 
-@dataclass(frozen=True)
-class Unlabelled:
-    path: ClassVar[str] = "theirs"
-
-    def refuses(self, impact):
-        return None
-
-    simulate = Theirs.simulate
-
-
 NO_METHODS = {
-    "exits when it is loaded": ended,
+    "exits when loaded": ended,
     "is no dataclass": lambda: SimpleNamespace,
-    "is a function": lambda: ended,
     "has no label": lambda: Unlabelled,
 }
+MATCH = ("match", "--path", "theirs", "--kappa-over-nu", "2")
 
 
 def install(monkeypatch, load):
     monkeypatch.setattr(methods, "_found", lambda: {"theirs": SimpleNamespace(load=load)})
 
 
-@pytest.mark.parametrize("does", [SystemExit(3), KeyError("x"), None, 5], ids=repr)
+@pytest.mark.parametrize("does", [SystemExit(3), KeyError("x"), None], ids=repr)
 def test_a_method_that_does_what_none_may_do_costs_its_row(does, monkeypatch):
     install(monkeypatch, lambda: Theirs)
     monkeypatch.setattr(Theirs, "does", does)
-    code, out, err = command("match", "--path", "theirs", "--kappa-over-nu", "2", "--fresh", "--json")
+    code, out, err = command(*MATCH, "--json")
     (row,) = json.loads(out)["rows"]
     assert code == 3 and "the method failed" in row["reason"] and err.count("\n") == 1
-    code, out, err = command("bounce", "--path", "theirs", "--kappa-over-nu", "2", "--damping", "0.1")
-    assert code == 2 and err.count("\n") == 1  # it has no choices for the whole beam
+    refused("bounce", *MATCH[1:], "--damping", "0.1")  # it has no choices for the whole beam
 
 
 @pytest.mark.parametrize("load", NO_METHODS.values(), ids=NO_METHODS)
 def test_what_is_no_method_is_refused_by_name_and_ends_no_other_command(load, monkeypatch):
     install(monkeypatch, load)
-    assert "'theirs' is installed but" in refused("match", "--path", "theirs", "--kappa-over-nu", "2")
+    assert "'theirs' is installed but" in refused(*MATCH)
     assert len(answered("settings")) > 20
 
 
@@ -93,16 +86,17 @@ def test_an_impossible_row_costs_itself():
         first_order_epsilon(leading, (1e-100, 0.0, 0.0, 0.0), PERTURBATION, 0.1)
 
 
-def test_a_full_disk_under_out_costs_the_files_and_no_answer(monkeypatch, tmp_path):
+def test_a_full_disk_under_out_costs_the_files_and_no_answer(monkeypatch):
     def full(*_):
         raise OSError(28, "No space left on device", "out/match.json")
 
     monkeypatch.setattr("comparison.tables.write_match", full)
     install(monkeypatch, lambda: Theirs)
-    code, out, err = command(
-        "match", "--path", "theirs", "--kappa-over-nu", "2", "--fresh", "--out", tmp_path, "--json"
-    )
+    code, out, err = command(*MATCH, "--out", "out", "--json")
     assert code == 2 and len(json.loads(out)["rows"]) == 1 and "No space left" in err
+
+
+# --- streams, signals and names ----------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("encoding", ["ascii", "latin-1"])
@@ -117,13 +111,30 @@ def test_a_terminal_without_greek_letters_gets_the_answer(encoding, monkeypatch)
     assert json.loads(document) == {"a": "λ₀ ü"} and text.endswith(" = 1")
 
 
-def test_a_reader_that_has_read_enough_is_no_failure():
+def test_a_reader_that_has_read_enough_is_no_failure_and_a_full_disk_is_one():
     reader, writer = os.pipe()
     os.close(reader)
-    line = [sys.executable, "-c", MAIN, "theory", "--kappa-over-nu", "2"]
-    done = subprocess.run(line, stdout=writer, stderr=subprocess.PIPE)
-    os.close(writer)
-    assert (done.returncode, done.stderr) == (0, b"")
+    for stream, code, lines in ((writer, 0, 0), (os.open("/dev/full", os.O_WRONLY), 2, 1)):
+        process = started("new", f"{code}.toml", stdout=stream, env=os.environ | {"PYTHONUNBUFFERED": ""})
+        os.close(stream)
+        said = process.communicate(timeout=60)[1]
+        assert (process.returncode, said.count("\n")) == (code, lines), said
+
+
+@pytest.mark.parametrize(
+    ("closed", "number"),
+    [("2>&-", 2), *(pytest.param(*one, marks=pytest.mark.verify) for one in (("<&-", 0), (">&-", 1)))],
+)
+def test_a_closed_standard_stream_is_no_file_that_is_opened_later(closed, number):
+    """As cron jobs and daemons are started: nothing is said there, and nothing of it lands anywhere else."""
+    assert command("new", "good.toml")[0] == 0
+    line = ["sh", "-c", f'exec "$0" -c "$1" new beam.toml {closed}', sys.executable, MAIN]
+    for code in (0, 2):  # the second time it is there already
+        done = subprocess.run(line, capture_output=True, text=True)
+        assert done.returncode == code, done.stderr
+        assert bool(done.stdout) == (code == 0 and number != 1)
+        assert done.stderr.count("\n") == (code == 2 and number != 2)
+        assert Path("beam.toml").read_text() == Path("good.toml").read_text()
 
 
 def test_an_interrupt_before_anything_has_begun_is_one_line(monkeypatch, capsys):
@@ -156,8 +167,9 @@ app.main(["simulate"])
 
 
 def test_an_interrupt_that_a_solver_swallows_comes_again():
-    done = subprocess.run([sys.executable, "-c", SWALLOWED], capture_output=True, text=True, timeout=30)
-    assert done.returncode == 130 and done.stderr.count("\n") == 1, done.stderr
+    process = started(program=SWALLOWED)
+    said = process.communicate(timeout=30)[1]
+    assert process.returncode == 130 and said.count("\n") == 1, said
 
 
 @pytest.mark.parametrize("words", ["--kappa-over-nu 1_0", "--kappa-over-nu=９", "--kappa-over-nu 2 --alpha ٣"])
@@ -168,21 +180,30 @@ def test_a_number_is_written_with_digits(words):
 def test_two_histories_of_one_name_are_two_pictures(monkeypatch):
     drawn = []
     monkeypatch.setattr("bent_beam.history.ImpactHistory.load", lambda file: file)
-    monkeypatch.setattr(
-        "comparison.figures.history.draw_history", lambda history, out, name, kinds: drawn.append(name) or []
-    )
-    histories.plot([histories.Path(name) for name in ("a/run.nc", "b/run.nc", "run-2.nc")])
+    monkeypatch.setattr("comparison.figures.history.draw_history", lambda _, out, name, kinds: drawn.append(name) or [])
+    histories.plot([Path(name) for name in ("a/run.nc", "b/run.nc", "run-2.nc")])
     assert drawn == ["run", "run-2", "run-2-2"]
 
 
-def test_a_stored_run_is_stale_when_what_its_method_imports_changes(tmp_path):
-    (tmp_path / "method.py").write_text("import json, numpy, helper\n")
-    (tmp_path / "helper.py").write_text("from deeper import h\n")
-    (tmp_path / "deeper.py").write_text("h = 1\n")
-    before = behind([tmp_path / "method.py"], tmp_path)
-    (tmp_path / "deeper.py").write_text("h = 2\n")
-    after = behind([tmp_path / "method.py"], tmp_path)
-    assert before != after and before[1:] == after[1:] and before[-1].startswith("numpy ")
+def test_a_stored_run_is_stale_when_its_method_changes_or_what_that_imports(tmp_path, monkeypatch):
+    files = {
+        "somebodys/method.py": "import json, numpy, helper\nclass Method:\n    pass\n",
+        "somebodys/kernel.py": "",
+        "helper.py": "from deeper import h\n",
+        "deeper.py": "h = 1\n",
+    }
+    (tmp_path / "somebodys").mkdir()
+    monkeypatch.syspath_prepend(tmp_path)
+    for name, text in files.items():
+        (tmp_path / name).write_text(text)
+    method = importlib.import_module("somebodys.method").Method
+    sources = [source_of(method)]
+    assert " numpy " in sources[0]
+    for name in ("somebodys/kernel.py", "deeper.py"):
+        (tmp_path / name).write_text("h = 2\n")
+        source_of.cache_clear()  # of this process, which runs what it has imported
+        sources.append(source_of(method))
+    assert len(set(sources)) == 3
 
 
 SIZES = (
@@ -192,11 +213,9 @@ SIZES = (
 ).split()
 
 
+PIPE = Path(__file__).parents[2] / "cases" / "drill_pipe.toml"
+
+
 @pytest.mark.parametrize("size", SIZES)
-def test_sizes_that_cannot_be_calculated_with_are_refused_by_name(size, tmp_path):
-    case = tmp_path / "case.toml"
-    case.write_text(
-        '[section]\nkind = "pipe"\nouter_diameter = 0.1\ninner_diameter = 0.09\nyoungs_modulus = 2e11\ndensity = 7850\n'
-        "[beam]\nlength = 30\nsagitta = 0.1\nsagitta_length = 9\n[impact]\nvelocity = 1\n"
-    )
-    assert size.partition(".")[0] in refused("predict", case, "--theory-only", "--set", size)
+def test_sizes_that_cannot_be_calculated_with_are_refused_by_name(size):
+    assert size.partition(".")[0] in refused("predict", PIPE, "--theory-only", "--set", size)

@@ -1,38 +1,57 @@
-"""Files built to harm are refused in one line: nothing else is opened, memory and time stay small."""
+"""Files built to harm are refused in one line: nothing else is opened, nothing runs, memory and time stay small."""
 
 import json
 import os
+import re
+import tempfile
 import zlib
+from pathlib import Path
 
 import h5py
 import numpy as np
 import pytest
-from histories import history_of
+from called import refused
 
-from bent_beam import ImpactHistory
+import hermite_fe
+from bent_beam import Impact, ImpactHistory
+from bent_beam.meshes import UniformMesh
 from comparison.command_line.app import run
+from comparison.rerun import rerun_history
+from hermite_fe.integrators import SignoriniPosition
 
 
 @pytest.fixture(scope="module")
-def good(tmp_path_factory):
-    time, x = np.linspace(0.0, 1.0, 12), np.linspace(0.0, 4.0, 20)
-    history = history_of(time, x, gap=np.outer(time, x), impulse=np.outer(time, x), in_contact=np.outer(time, x) > 0.5)
-    return history.save(tmp_path_factory.mktemp("good") / "good.nc")
+def history():
+    """Twelve instants of twelve nodes: square, so that the shape of a field tells nothing."""
+    steps = SignoriniPosition(time_step=1e-5, growth=1e-2)
+    impact, mesh = Impact.dimensionless(0.5, length=20.0), UniformMesh(10.0 / 11.0)
+    found = hermite_fe.simulate(impact, end_time=0.1, mesh=mesh, integrator=steps, save=12)
+    return ImpactHistory(found.dataset[["gap", "impulse", "total_impulse", "kinetic_energy", "strain_energy"]])
 
 
-def replaced(name, make):
+@pytest.fixture(scope="module")
+def good(history, tmp_path_factory):
+    """Its file, which is read."""
+    file = history.save(tmp_path_factory.mktemp("good") / "good.nc")
+    assert ImpactHistory.load(file).array("gap").shape == (12, 12)
+    return file.read_bytes()
+
+
+def no_gap_but(make):
     def change(data):
-        del data[name]
+        del data["gap"]
         make(data)
 
     return change
 
 
+def gap(*arguments, **options):
+    return no_gap_but(lambda data: data.create_dataset("gap", *arguments, **options))
+
+
 def bomb(*shape):
     """Zeros that unpack to ``shape`` from next to nothing."""
-    return replaced(
-        "gap", lambda d: d.create_dataset("gap", shape, "f8", chunks=True, compression="gzip", fillvalue=0.0)
-    )
+    return gap(shape, "f8", chunks=True, compression="gzip", fillvalue=0.0)
 
 
 def packed_bomb(data):
@@ -44,65 +63,56 @@ def packed_bomb(data):
 
 
 def virtual(data):
-    layout = h5py.VirtualLayout((12, 20), "f8")
-    layout[:] = h5py.VirtualSource("/etc/hostname", "gap", (12, 20))
+    layout = h5py.VirtualLayout((12, 12), "f8")
+    layout[:] = h5py.VirtualSource("/etc/hostname", "gap", (12, 12))
     data.create_virtual_dataset("gap", layout)
 
 
-def text(name, value):
-    return lambda data: data.attrs.__setitem__(name, value)
-
-
-def many_attributes(data):
-    for number in range(1000):
-        data.attrs[f"a{number}"] = number
+def assigned(name, value):
+    return lambda data: data.__setitem__(name, value)
 
 
 HOSTILE = {
-    "an external link for a field": replaced("gap", lambda d: d.__setitem__("gap", h5py.ExternalLink("x.nc", "/gap"))),
-    "a soft link for a field": replaced("gap", lambda d: d.__setitem__("gap", h5py.SoftLink("/impulse"))),
-    "a link to a file of the system": lambda d: d.__setitem__("more", h5py.ExternalLink("/etc/hostname", "/")),
-    "values in another file": replaced(
-        "gap", lambda d: d.create_dataset("gap", (12, 20), "u1", external=[("/etc/passwd", 0, h5py.h5f.UNLIMITED)])
+    "a link": (
+        "link to elsewhere",
+        no_gap_but(assigned("gap", h5py.ExternalLink("x.nc", "/gap"))),
     ),
-    "values of a virtual dataset": replaced("gap", virtual),
-    "announced terabytes": bomb(10**6, 10**6),
-    "zeros of eight gigabytes": bomb(12, 80_000_000),
-    "stored zeros": packed_bomb,
-    "one dimension too many": bomb(12, 20, 3),
-    "a group": lambda d: d.create_group("g"),
-    "a group that is its own child": lambda d: d.__setitem__("loop", d["/"]),
-    "a type in place of a variable": lambda d: d.__setitem__("kind", np.dtype("f8")),
-    "many variables": lambda d: [d.create_dataset(f"v{n}", (1,), "f8") for n in range(200)],
-    "many attributes": many_attributes,
-    "a huge attribute": text("settings", json.dumps({"a": "x" * 20_000_000})),
-    "an array of texts": lambda d: d.attrs.create("settings", ["{}"] * 1000, dtype=h5py.string_dtype()),
-    "an array to scale by": lambda d: d["gap"].attrs.__setitem__("scale_factor", np.ones(4_000)),
-    "objects": replaced("gap", lambda d: d.create_dataset("gap", data=["a"] * 12, dtype=h5py.string_dtype())),
-    "references": replaced("gap", lambda d: d.create_dataset("gap", (12,), dtype=h5py.ref_dtype)),
-    "compounds": replaced("gap", lambda d: d.create_dataset("gap", (12,), dtype=[("a", "f8"), ("b", "f8")])),
-    "a name with a path": lambda d: d.create_dataset("a..\\b", (1,), "f8"),
-    "a name with an escape": lambda d: d.create_dataset("a\x1b[2J", (1,), "f8"),
-    "an escape in a warning": text("warnings", json.dumps(["\x1b]0;title\x07"])),
-    "an escape in the path": text("path", "hermite\x1b[31m"),
-    "an escape in a setting's name": text("settings", json.dumps({"\x9b31m": 1})),
-    "writing turned round": text("settings", json.dumps({"a": "\u202egnp.exe"})),
-    "a warning that is no text": text("warnings", json.dumps([{"a": 1}])),
+    "a soft link": ("link to elsewhere", no_gap_but(assigned("gap", h5py.SoftLink("/impulse")))),
+    "values in another file": ("another file", gap((9,), "u1", external=[("/etc/passwd", 0, h5py.h5f.UNLIMITED)])),
+    "values of a virtual dataset": ("another file", no_gap_but(virtual)),
+    "announced terabytes": ("bytes of memory", bomb(10**6, 10**6)),
+    "stored zeros": ("bytes of memory", packed_bomb),
+    "one dimension too many": ("two dimensions", bomb(12, 12, 3)),
+    "a group": ("no groups", lambda data: data.create_group("g")),
+    "a type in place of a variable": ("no types", assigned("kind", np.dtype("f8"))),
+    "many variables": ("variables", lambda data: [data.create_dataset(f"v{n}", (1,), "f8") for n in range(200)]),
+    "many attributes": ("attributes", lambda data: data.attrs.update({f"a{n}": n for n in range(1000)})),
+    "a huge attribute": ("too long", lambda data: data.attrs.update(settings="x" * 20_000_000)),
+    "many texts": ("one text", lambda data: data.attrs.create("path", ["{}"] * 1000, dtype=h5py.string_dtype())),
+    "an array to scale by": ("few numbers", lambda data: data["gap"].attrs.update(scale_factor=np.ones(4_000))),
+    "objects": ("numbers", gap(data=["a"] * 12, dtype=h5py.string_dtype())),
+    "compounds": ("numbers", gap((12,), dtype=[("a", "f8"), ("b", "f8")])),
+    "a name with an escape": ("the name", lambda data: data.create_dataset("a\x1b[2J", (1,), "f8")),
 }
 
 
-@pytest.mark.parametrize("name", HOSTILE)
-def test_a_hostile_history_is_refused_before_its_values_are_read(name, good, tmp_path):
-    assert ImpactHistory.load(good).path == "bare"
-    file = tmp_path / "bad.nc"
-    file.write_bytes(good.read_bytes())
-    (tmp_path / "x.nc").write_bytes(good.read_bytes())
-    with h5py.File(file, "r+") as data:
-        HOSTILE[name](data)
-    with pytest.raises(ValueError) as refused:
+def refusal(file):
+    with pytest.raises(ValueError) as caught:
         ImpactHistory.load(file)
-    said = str(refused.value)
+    said = str(caught.value)
     assert "\n" not in said and len(said) < 500 and "\x1b" not in said, said
+    return said
+
+
+@pytest.mark.parametrize("name", HOSTILE)
+def test_a_hostile_file_is_refused_before_its_values_are_read(name, good, tmp_path):
+    file = tmp_path / "bad.nc"
+    file.write_bytes(good)
+    (tmp_path / "x.nc").write_bytes(good)
+    why, change = HOSTILE[name]
+    with h5py.File(file, "r+") as data:
+        change(data)
+    assert re.search(f"is not a readable history: .*{why}", refusal(file))
 
 
 def changed(name, change):
@@ -110,10 +120,21 @@ def changed(name, change):
 
     def make(data):
         old = data[name]
-        dims, values, attributes = change(old.dims, old.values, dict(old.attrs))
-        return data.drop_vars(name).assign({name: (dims, values, attributes)})
+        return data.drop_vars(name).assign({name: change(old.dims, old.values, dict(old.attrs))})
 
     return make
+
+
+def attribute(name, value):
+    return lambda data: data.assign_attrs({name: value if isinstance(value, str | float) else json.dumps(value)})
+
+
+def without(name):
+    return lambda data: data.drop_attrs(deep=False).assign_attrs({k: v for k, v in data.attrs.items() if k != name})
+
+
+def impact(**changes):
+    return lambda data: data.assign_attrs(impact=json.dumps(json.loads(data.attrs["impact"]) | changes))
 
 
 MISREAD = {
@@ -123,32 +144,125 @@ MISREAD = {
     "an energy of nodes": changed("kinetic_energy", lambda d, v, a: (("x",), v, a)),
     "millimetres": changed("gap", lambda d, v, a: (d, 1e3 * v, a | {"units": "mm"})),
     "nodes from right to left": changed("x", lambda d, v, a: (d, v[::-1], a)),
-    "a time before the impact": changed("time", lambda d, v, a: (d, v - 0.5, a)),
+    "a time before the impact": changed("time", lambda d, v, a: (d, v - 0.05, a)),
     "sizes that overflow": changed("gap", lambda d, v, a: (d, 1e200 * v, a)),
+    "no number": changed("gap", lambda d, v, a: (d, np.nan * v, a)),
     "no times": lambda data: data.drop_vars("time"),
-    "a half beam to the left": lambda data: data.assign_coords(x=("x", data.x.values - 9.0, data.x.attrs)),
-    "a beam longer than itself": lambda data: data.assign_coords(x=("x", 1e4 * data.x.values, data.x.attrs)),
-    "the half said to be the full beam": lambda data: data.assign_attrs(symmetry="full"),
+    "a half beam to the left": changed("x", lambda d, v, a: (d, v - 9.0, a)),
+    "a beam longer than itself": changed("x", lambda d, v, a: (d, 1e4 * v, a)),
+    "the half said to be the full beam": attribute("symmetry", "full"),
+    "a symmetry that is none": attribute("symmetry", "none"),
+    "no format": without("format"),
+    "no settings": without("settings"),
+    "nesting without end": attribute("settings", "[" * 100_000),
+    "an escape in a setting's name": attribute("settings", {"\x9b31m": 1}),
+    "writing turned round": attribute("settings", {"a": "\u202egnp.exe"}),
+    "an escape in a warning": attribute("warnings", ["\x1b]0;title\x07"]),
+    "a warning that is no text": attribute("warnings", [{"a": 1}]),
+    "an escape in the path": attribute("path", "hermite\x1b[31m"),
+    "an impact that is no JSON": attribute("impact", "{"),
+    "an impact that is a number": attribute("impact", 3.0),
+    "an impact of NaN": impact(velocity=float("nan")),
+    "an impact beyond any float": impact(length=10**400),
+    "an impact of something else": impact(__class__="os.system"),
 }
 
 
 @pytest.mark.parametrize("name", MISREAD)
-def test_a_history_that_would_be_misread_is_refused(name, tmp_path):
-    """Square, so that its shape tells nothing."""
-    time = np.linspace(0.0, 1.0, 12)
-    history = history_of(time, 4.0 * time, gap=np.outer(time, time), impulse=np.outer(time, time))
-    ImpactHistory.load(history.save(tmp_path / "good.nc"))
-    with pytest.raises(ValueError, match=r"bad\.nc is not a good history"):
-        ImpactHistory.load(ImpactHistory(MISREAD[name](history.dataset)).save(tmp_path / "bad.nc"))
+def test_a_history_that_would_be_misread_is_refused(name, history, tmp_path):
+    file = ImpactHistory(MISREAD[name](history.dataset)).save(tmp_path / "bad.nc")
+    assert re.search(r"bad\.nc is not a (good )?history", refusal(file))
+
+
+CRAFTED = {
+    "no such path": dict(path="../../etc"),
+    "an unknown class": dict(mesh={"kind": "Popen", "args": ["true"]}),
+    "a class without a name": dict(mesh={"kind": ["UniformMesh"]}),
+    "a mesh of nothing": dict(mesh={"kind": "UniformMesh", "element_length": 0.0}),
+    "a mesh too fine": dict(mesh={"kind": "UniformMesh", "element_length": 1e-300}),
+    "steps without end": dict(integrator={"kind": "SignoriniPosition", "time_step": 1e-300, "growth": 0.0}),
+    "a text for a time": dict(end_time="later"),
+    "many instants": dict(save=10**12),
+    "a table for instants": dict(save={"a": 1}),
+}
+
+
+@pytest.mark.parametrize("name", CRAFTED)
+def test_a_crafted_history_is_not_run_again(name, history):
+    path, settings = CRAFTED[name].get("path", history.path), history.settings | CRAFTED[name]
+    with pytest.raises(ValueError) as caught:
+        rerun_history(ImpactHistory(history.dataset.assign_attrs(path=path, settings=json.dumps(settings))))
+    assert "\n" not in str(caught.value)
 
 
 def test_a_pipe_that_nobody_writes_into_is_not_waited_for(tmp_path):
     os.mkfifo(tmp_path / "pipe.nc")
-    with pytest.raises(ValueError, match="no regular file"):
-        ImpactHistory.load(tmp_path / "pipe.nc")
+    assert "no regular file" in refusal(tmp_path / "pipe.nc")
 
 
-EVIL = "\x1b]0;x\x07\x9b31m\u202e<script>alert(1)</script>"
+# --- case files ------------------------------------------------------------
+
+CASE = """[beam]
+bending_stiffness = 1.0
+mass_per_length = 1.0
+length = 20.0
+curvature = 0.5
+[impact]
+velocity = 1.0
+"""
+UNREADABLE = {
+    "binary": os.urandom(4096),
+    "large": b"# " + b"x" * 10_000_000,
+    "deep": b"a = " + b"[" * 100_000,
+    "long number": b"a = " + b"9" * 10_000,
+}
+
+
+@pytest.mark.parametrize("kind", ["missing", "folder", *UNREADABLE])
+def test_unreadable_case_files_are_refused(kind, tmp_path):
+    file = tmp_path / "case.toml"
+    if kind == "folder":
+        file.mkdir()
+    elif kind != "missing":
+        file.write_bytes(UNREADABLE[kind])
+    assert "case" in refused("predict", file, "--json")
+
+
+TABLES = "beam mesh section impact run hermite nonsense".split()
+
+
+@pytest.mark.parametrize("table", ["hermite.mesh", *(pytest.param(t, marks=pytest.mark.verify) for t in TABLES)])
+def test_tables_nested_without_end_are_refused_in_one_line(table, tmp_path):
+    """Two thousand tables in each other take no bracket: a.a.a… = 1."""
+    deep = f"{'a.' * 2000}b = 1\n"
+    for name, text, *words in (
+        ("case.toml", f"[{table}]\n{deep}", "predict"),
+        ("more.toml", f"{CASE}[{table}]\n{deep}", "simulate"),
+        ("methods.toml", f'[[method]]\npath = "hermite"\n{deep}', "match", "--methods"),
+    ):
+        (tmp_path / name).write_text(text)
+        refused(*words, tmp_path / name)
+
+
+def test_a_file_without_permission_is_refused():
+    with tempfile.TemporaryDirectory(dir="/tmp") as folder:
+        os.chmod(folder, 0o755)
+        file = Path(folder) / "case.toml"
+        file.write_text(CASE)
+        os.chmod(file, 0)
+        user = os.geteuid()
+        if user == 0:  # who may read everything
+            os.seteuid(65534)
+        try:
+            said = refused("predict", file)
+        finally:
+            os.seteuid(user)
+    assert "permission denied" in said
+
+
+# --- texts -----------------------------------------------------------------
+
+EVIL = "\x1b]0;x\x07\x9b31m\u202e<script>alert(1)<|script>"
 TEXTS = {
     "a case's title": "study mesh {case} --set hermite.integrator.kind={evil}",
     "a setting's value": "predict {case} --set beam.{evil}=1",
@@ -170,16 +284,15 @@ TEXTS = {
 def test_no_text_acts_on_the_terminal(name, tmp_path, capsys):
     """Control characters and writing turned round come out as their codes, in text and JSON, on either stream."""
     quoted = json.dumps(EVIL).replace("\\u009b", "\x9b")
-    beam = "[beam]\nbending_stiffness = 1.0\nmass_per_length = 1.0\nlength = 2.0\ncurvature = 0.5\n"
+    method = '[[method]]\npath = "hermite"\nlabel = '
     texts = {
-        "case": f"title = {quoted}\n{beam}[impact]\nvelocity = 1.0\n",
-        "methods": f'[[method]]\npath = "hermite"\nlabel = {quoted}\n',
-        "mathematics": '[[method]]\npath = "hermite"\nlabel = "$\\\\frac{$ <b>"\n',
+        "case": f"title = {quoted}\n{CASE}",
+        "methods": f"{method}{quoted}\n",
+        "mathematics": f'{method}"$\\\\frac{{$ <b>"\n',
     }
-    words = {"folder": str(tmp_path), "evil": EVIL.replace("/", "|")}
+    words = {"folder": tmp_path, "evil": EVIL} | {kind: tmp_path / f"{kind}.toml" for kind in texts}
     for kind, text in texts.items():
-        (tmp_path / f"{kind}.toml").write_text(text)
-        words[kind] = str(tmp_path / f"{kind}.toml")
+        words[kind].write_text(text)
     code = run([word.format(**words) for word in TEXTS[name].split()])
     said = capsys.readouterr()
     assert code in (0, 2) and (code == 0 or said.err.count("\n") == 1)

@@ -4,21 +4,19 @@ import json
 import os
 import random
 import signal
-import subprocess
-import sys
 import time
 import tomllib
 from pathlib import Path
 
 import h5py
 import pytest
+from called import started
 from PIL import Image
 
 FUZZ = bool(os.environ.get("FUZZ"))
 SEED = os.environ.get("FUZZ_SEED", "0")
 INTERRUPTS = 2 if FUZZ else 1
 MAIN = """
-import sys
 from pathlib import Path
 from comparison.command_line.app import main
 Path("ready").touch()
@@ -53,7 +51,7 @@ COMMANDS = {
     "benchmark": "benchmark --solver hermite --problem point-2 --seed 34 --out out",
     "new": "new out/beam.toml --overwrite",
 }
-QUICK = ("new",)
+SOME = COMMANDS if FUZZ else ["new"]
 SLEEP = """
 import time
 from pathlib import Path
@@ -87,26 +85,19 @@ app.main(["new"])
 """
 
 
-def start(program, folder, *words):
-    """A program in a session of its own, as in a terminal of its own, at work from the moment ``ready`` is there."""
+def at_work(program, folder, *words):
+    """A program in ``folder``, at work from the moment ``ready`` is there."""
     (folder / "ready").unlink(missing_ok=True)
-    (folder / "case.toml").write_text(CASE)
-    process = subprocess.Popen(
-        [sys.executable, "-c", program, *words],
-        env=os.environ | {"BENTBEAM_STORE": str(folder / "store"), "OMP_NUM_THREADS": "1"},
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-        start_new_session=True,
-        text=True,
-        cwd=folder,
-    )
+    process = started(*words, program=program, cwd=folder)
     while not (folder / "ready").exists() and process.poll() is None:
         time.sleep(0.002)
     return process
 
 
 def command(name, folder, before=""):
-    return start(before + (FEW_ROWS if name == "report" else "") + MAIN, folder, *COMMANDS[name].split())
+    folder.mkdir(exist_ok=True)
+    (folder / "case.toml").write_text(CASE)
+    return at_work(before + (FEW_ROWS if name == "report" else "") + MAIN, folder, *COMMANDS[name].split())
 
 
 def nothing_left_of(session):
@@ -119,6 +110,10 @@ def nothing_left_of(session):
         time.sleep(0.02)
     os.killpg(session, signal.SIGKILL)
     return False
+
+
+def written(folder):
+    return [file for file in (folder / "out").rglob("*") if file.is_file()]
 
 
 def readable(file: Path) -> bool:
@@ -142,7 +137,7 @@ def readable(file: Path) -> bool:
 @pytest.mark.parametrize("after", [0.0, 0.4, pytest.param(1.5, marks=pytest.mark.verify)])
 def test_workers_end_with_the_command_and_say_nothing(after, tmp_path):
     """Two workers asleep, or still starting: Ctrl-C reaches all processes of a terminal at once."""
-    process = start(SLEEP, tmp_path)
+    process = at_work(SLEEP, tmp_path)
     time.sleep(after)
     os.killpg(process.pid, signal.SIGINT)
     out, err = process.communicate(timeout=30)
@@ -152,31 +147,29 @@ def test_workers_end_with_the_command_and_say_nothing(after, tmp_path):
 
 @pytest.mark.parametrize("how", ["SIGINT", "SIGTERM", "SIGHUP"])
 def test_a_file_that_is_being_written_is_whole_or_not_there(how, tmp_path):
-    process = start(WRITE, tmp_path)
+    process = at_work(WRITE, tmp_path)
     process.send_signal(getattr(signal, how))
     out, err = process.communicate(timeout=30)
     assert process.returncode == 130 and out == "" and err.count("\n") == 1 and "no half of a file" in err, err
     assert list((tmp_path / "out").iterdir()) == []
 
 
-@pytest.mark.parametrize("name", COMMANDS if FUZZ else QUICK)
+@pytest.mark.parametrize("name", SOME)
 def test_an_interrupt_leaves_whole_files_and_says_how_to_go_on(name, tmp_path):
     numbers = random.Random(f"{SEED} interrupted {name}")
     whole, folder = tmp_path / "whole", tmp_path / "interrupted"
-    whole.mkdir()
-    folder.mkdir()
 
     def finished(place):
         process, began = command(name, place), time.perf_counter()  # from ``ready`` on
         _, err = process.communicate(timeout=500)
         assert process.returncode == 0, err
-        seconds, found = time.perf_counter() - began, (place / "out").rglob("*")
-        return seconds, sorted(f.relative_to(place) for f in found if f.is_file())
+        return time.perf_counter() - began, sorted(file.relative_to(place) for file in written(place))
 
     seconds, made = finished(whole)
-    assert made and all(readable(whole / f) for f in made)
-    stopped = 0
-    for _ in range(4 * INTERRUPTS):
+    assert made and all(readable(whole / file) for file in made)
+    stopped, tries = 0, 0
+    while stopped < INTERRUPTS and tries < 4 * INTERRUPTS:
+        tries += 1
         process = command(name, folder)
         time.sleep(numbers.uniform(0.0, 0.95) * seconds)
         how = numbers.choice([signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
@@ -191,15 +184,13 @@ def test_an_interrupt_leaves_whole_files_and_says_how_to_go_on(name, tmp_path):
             assert not more or (how == signal.SIGHUP and "resource_tracker" in err), err  # joblib's, which it also ends
         else:  # it had just finished
             assert process.returncode == 0, err
-        assert all(readable(f) for f in (folder / "out").rglob("*") if f.is_file())
+        assert all(readable(file) for file in written(folder))
         assert not list(folder.rglob("*.part"))
-        if stopped == INTERRUPTS:
-            break
     assert finished(folder)[1] == made
     assert stopped or seconds < 1.0
 
 
-@pytest.mark.parametrize("name", COMMANDS if FUZZ else QUICK)
+@pytest.mark.parametrize("name", SOME)
 def test_a_full_disk_is_told_by_the_name_of_the_file_and_takes_none_of_those_before(name, tmp_path):
     """No file of this process and its children may grow beyond 100 bytes: kernels and runs cannot be kept either."""
     full = "import resource; resource.setrlimit(resource.RLIMIT_FSIZE, (100, 100))\n"
@@ -207,6 +198,5 @@ def test_a_full_disk_is_told_by_the_name_of_the_file_and_takes_none_of_those_bef
     _, err = process.communicate(timeout=500)
     assert process.returncode in (2, 3) and "Traceback" not in err, err
     assert "out" in err and "File too large" in err, err
-    left = [f for f in (tmp_path / "out").rglob("*") if f.is_file()]
-    assert not [f for f in left if f.suffix == ".part" or not f.stat().st_size], left
+    assert not [file for file in written(tmp_path) if file.suffix == ".part" or not file.stat().st_size]
     assert nothing_left_of(process.pid)
