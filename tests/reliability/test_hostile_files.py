@@ -16,7 +16,7 @@ import hermite_fe
 from bent_beam import Impact, ImpactHistory
 from bent_beam.meshes import UniformMesh
 from comparison.command_line.app import run
-from comparison.rerun import rerun_history
+from comparison.compare import rerun_history
 from hermite_fe.integrators import SignoriniPosition
 
 

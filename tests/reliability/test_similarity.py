@@ -12,7 +12,7 @@ import exudyn_models
 import hermite_fe
 from bent_beam import Impact, ImpactHistory
 from bent_beam.meshes import UniformMesh
-from comparison.rerun import rerun_history
+from comparison.compare import rerun_history
 from exudyn_models.contacts import Rigid, SegmentFriction
 from exudyn_models.elements import GeometricallyExact
 from exudyn_models.geometry import TrueGeometry
