@@ -131,7 +131,7 @@ def _changed(pairs: dict[str, Any], where: str = "") -> list[list[str]]:
 
 
 def _rebuild(described: Any, known: Mapping[str, type], where: str) -> Any:
-    """The part that :func:`bent_beam.parts.describe` described; nested parts too. Only known classes are ever made."""
+    """The part that :func:`bent_beam.fields.describe` described; nested parts too. Only known classes are ever made."""
     if described is None:
         return None
     if not isinstance(described, Mapping) or str(described.get("kind")) not in known:

@@ -60,7 +60,7 @@ class BeamModel:
     """A system, its start, and how to read it: y = u + ``natural``, and the gap is −(u + ``facing``).
 
     natural, facing : (dofs,), the bow at the first touch, from the axis and from the wall.
-    behind : (rows,), which constraints guard a second wall behind the beam.
+    behind : (rows,), which constraints guard a second wall behind the beam. axial_force : N, tension positive.
     """
 
     beam: HermiteBeam
@@ -71,11 +71,19 @@ class BeamModel:
     facing: Array
     behind: NDArray[np.bool_]
     full: bool
+    axial_force: float
 
     @property
     def copies(self) -> int:
         """How often the model stands in the whole beam: 2 for the half, 1 for the full beam."""
         return 1 if self.full else 2
+
+    def work_of_tension(self, q: Array) -> Array:
+        """−½N∫u′² dx, the work of an axial force on the shortening of the axis, J, of each of ``q`` (states, dofs)."""
+        if not self.axial_force:
+            return np.zeros(len(q))
+        bands = self.beam.geometric_stiffness()
+        return np.array([-0.5 * self.axial_force * float(u @ product(bands, u)) for u in q])
 
     def gap(self, q: Array) -> Array:
         """Distance of the nodes to the wall, m, shape (nodes,)."""
@@ -131,7 +139,7 @@ def beam_model(
         bending=bending,
     )
     behind = (np.arange(len(rows)) % 2 == 1) & (impact.opposite_wall is not None)
-    return BeamModel(beam, system, displacement, velocity, natural, facing, behind, full)
+    return BeamModel(beam, system, displacement, velocity, natural, facing, behind, full, impact.axial_force)
 
 
 def nodal_loads(

@@ -159,6 +159,9 @@ def history_of(impact: Impact, model: BeamModel, run: Trajectory, settings: dict
     towards = np.where(behind, -1.0, 1.0)
     shared = SHARED | {"peak_pressure"} if model.system.springs.stop >= 0 else SHARED
     sums = {name: copies * values if name in shared else values for name, values in run.sums.items()}
+    tension = copies * model.work_of_tension(run.q)  # a load's work, which the stiffness matrix holds as energy
+    sums["strain_energy"] += tension
+    sums["work_of_loads"] += tension - tension[0]
     sums["largest_moment_place"] = model.beam.nodes[sums.pop("largest_moment_node").astype(int)]
     if impact.wall_stiffness is None:
         sums = {name: values for name, values in sums.items() if name not in (*PEAKS, "loss_wall")}

@@ -15,12 +15,14 @@ v is taken as piecewise cubic: ∫v = Σ [h/2 (v₁ + v₂) + h²/12 (v₁′ �
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from bent_beam.history import ImpactHistory
+from bent_beam.impact import BEFORE_WAVES_RETURN
 
 __all__ = ["Balance", "balance_of"]
 
@@ -29,13 +31,15 @@ PUSH = 1e-6  # of the largest gain of a contact point between two saved instants
 OUT_OF_BALANCE = 3e-3  # of the impulse: 16 elements a half beam leave 1e-3, default runs 1e-5
 MISPLACED = 5e-3  # of the second moment of the impulses, likewise
 ROUND_OFF = 1e-8
+MIDDLE = 0.5  # of the impulse times the reach of waves squared: a smaller second moment counts as that much
 LAST = 0.5  # of the run that is looked at: earlier, the start is not resolved
 
 
 @dataclass(frozen=True)
 class Balance:
     """momentum, second_moment : largest residual of the equations above in the second half of the run, over the
-    largest |J| and Σ x_i² J_i; points : the impulses of the contact points, added up, less J, over J, at the end;
+    largest |J| and Σ x_i² J_i (at least MIDDLE·J times the square of the waves' reach); points : the impulses of the
+    contact points, added up, less J, over J, at the end;
     initial_energy : (recorded − ½μLV₀²)/½μLV₀² at t = 0, where the beam arrives with one velocity; gap_of_push :
     largest gap at the end of an interval in which a contact point pushed, over V₀t, in the second half of the run.
     ``None`` where a number means nothing."""
@@ -117,7 +121,10 @@ def _second_moment(history: ImpactHistory) -> float | None:
     impulse = history.array("impulse") - (history.array("opposite_impulse") if "opposite_impulse" in history else 0.0)
     pushed = both * impulse @ history.contact_positions(0) ** 2
     gained = impact.mass_per_length * _integrals(history, 2)
-    return _residual(gained - gained[0] - force + pushed, pushed)
+    waves = math.sqrt(time[-1] * math.sqrt(impact.bending_stiffness / impact.mass_per_length))
+    reach = min(0.5 * _length(history), waves)
+    least = MIDDLE * reach**2 * np.abs(history.array("total_impulse"))  # impulses in the middle have no second moment
+    return _residual(gained - gained[0] - force + pushed, np.maximum(np.abs(pushed), least))
 
 
 def _of_fast_part(history: ImpactHistory) -> float | None:
@@ -146,9 +153,12 @@ def _is_whole(history: ImpactHistory) -> bool:
 
 
 def _ends_follow(history: ImpactHistory) -> bool:
-    """Whether the ends carry the forces of the free motion: always on the Exudyn path."""
-    far = history.settings.get("far_field")
-    return history.path == "exudyn" or (isinstance(far, dict) and far.get("end") == "following")
+    """Whether the ends carry the forces of the free motion: on the Exudyn path until waves may return from them."""
+    far, impact = history.settings.get("far_field"), history.impact
+    early = history.settings.get("end_time", 0.0) <= BEFORE_WAVES_RETURN * impact.slow_time_scale
+    if history.path == "exudyn":
+        return early or _length(history) < impact.length * (1.0 - 1e-9)
+    return isinstance(far, dict) and far.get("end") == "following"
 
 
 def _length(history: ImpactHistory) -> float:

@@ -42,6 +42,18 @@ def test_both_paths_bend_a_damped_beam_alike() -> None:
     assert moments[1] == pytest.approx(moments[0], rel=0.01)
 
 
+@pytest.mark.parametrize(
+    "loads", [{"axial_force": 1.5}, {"axial_force": 1.5, "tension_direction": "tangent"}, {"curvature_rate": 0.5}]
+)
+def test_once_waves_return_both_paths_keep_the_same_books_of_free_ends(loads: dict[str, Any]) -> None:
+    """Energy of bending alone is strain energy; an axial force works on the bow. No end bears a moment."""
+    hermite, exudyn = simulated(0.3, curvature=1.25, damping=4e-3, **loads)
+    for name in ("kinetic_energy", "strain_energy", "work_of_loads"):
+        pairs = [(h.array(name)[-1] / h.array("kinetic_energy")[0]) for h in (hermite, exudyn)]
+        assert pairs[1] == pytest.approx(pairs[0], rel=0.01, abs=2e-3), name
+        assert name != "work_of_loads" or (abs(pairs[0]) > 0.01) == ("axial_force" in loads)
+
+
 def test_a_lifted_zone_bears_no_load_that_the_half_length_could_lose() -> None:
     """Damping keeps the zone off the wall: all of the reaction is at the front."""
     hermite, exudyn = simulated(0.004, curvature=0.29, damping=3e-3, acceleration=4.9)

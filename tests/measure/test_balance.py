@@ -34,6 +34,13 @@ def test_a_run_keeps_its_momentum_and_a_falsified_impulse_energy_or_gap_shows_in
     assert balance_of(ImpactHistory(data.assign(gap=data["gap"] + 0.01))).gap_of_push > 0.03
 
 
+@pytest.mark.parametrize("damping", [1e-2, 1e-3])
+def test_impulses_in_the_middle_have_no_second_moment_to_be_off(damping: float) -> None:
+    impact = Impact.whole_beam(1.25, relative_damping=damping)
+    balance = balance_of(HermiteFE(mesh=UniformMesh(1.0 / 50)).for_whole_beam(impact).simulate(impact, end_time=0.3))
+    assert balance.warnings == [] and balance.second_moment < 5e-3
+
+
 def test_part_of_a_long_beam_an_expanding_mesh_and_a_beam_under_tension_keep_their_momentum_too() -> None:
     endless, tense = Impact.dimensionless(0.5, epsilon_alpha=2.0), WHOLE.replace(axial_force=3.0)
     expanding = SelfSimilarFE(mesh=ExpandingMesh(front_resolution=0.05, growth=0.05, step_ratio=0.05, decades=3.0))

@@ -185,7 +185,7 @@ CANDIDATES = {
     "lumped, r = 1/105": THESIS_MASS,
     "lumped, r = 1/420": LumpedMass(1.0 / 420.0),
 }
-"""Mass matrices that the thesis's numbers were tried on; sources in :mod:`hermite_fe.masses.lumped`."""
+"""Mass matrices that the thesis's numbers were tried on; sources in :class:`hermite_fe.masses.LumpedMass`."""
 
 
 @item("extra-masses", beside=contact_point.__name__, shown=SHOWN)
