@@ -15,7 +15,6 @@ v is taken as piecewise cubic: ∫v = Σ [h/2 (v₁ + v₂) + h²/12 (v₁′ �
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -31,18 +30,16 @@ PUSH = 1e-6  # of the largest gain of a contact point between two saved instants
 OUT_OF_BALANCE = 3e-3  # of the impulse: 16 elements a half beam leave 1e-3, default runs 1e-5
 MISPLACED = 5e-3  # of the second moment of the impulses, likewise
 ROUND_OFF = 1e-8
-MIDDLE = 0.5  # of the impulse times the reach of waves squared: a smaller second moment counts as that much
 LAST = 0.5  # of the run that is looked at: earlier, the start is not resolved
 
 
 @dataclass(frozen=True)
 class Balance:
     """momentum, second_moment : largest residual of the equations above in the second half of the run, over the
-    largest |J| and Σ x_i² J_i (at least MIDDLE·J times the square of the waves' reach); points : the impulses of the
-    contact points, added up, less J, over J, at the end;
-    initial_energy : (recorded − ½μLV₀²)/½μLV₀² at t = 0, where the beam arrives with one velocity; gap_of_push :
-    largest gap at the end of an interval in which a contact point pushed, over V₀t, in the second half of the run.
-    ``None`` where a number means nothing."""
+    largest |J| and Σ x_i² J_i (of the latter what missing momentum cannot explain); points : the impulses of the
+    contact points, added up, less J, over J, at the end; initial_energy : (recorded − ½μLV₀²)/½μLV₀² at t = 0, where the
+    beam arrives with one velocity; gap_of_push : largest gap at the end of an interval in which a contact point pushed,
+    over V₀t, in the second half of the run. ``None`` where a number means nothing."""
 
     momentum: float | None
     second_moment: float | None
@@ -91,6 +88,11 @@ def _residual(residual: Array, impulse: Array) -> float | None:
 
 def _momentum(history: ImpactHistory) -> float | None:
     """``None`` where supports or an absorbing layer act, and where ends that follow pull at a tangent that turns."""
+    missing = _missing_momentum(history)
+    return None if missing is None else _residual(missing, history.array("total_impulse"))
+
+
+def _missing_momentum(history: ImpactHistory) -> Array | None:
     impact, motion = history.impact, history.impact.free_motion(0.0)
     turned = impact.fourth_derivative or impact.curvature_rate
     if impact.supported or not _is_whole(history) or (impact.axial_force and turned and _ends_follow(history)):
@@ -99,8 +101,7 @@ def _momentum(history: ImpactHistory) -> float | None:
     if _ends_follow(history):
         load -= impact.bending_stiffness * float(motion(0.0, by_x=4)) * _length(history)
     gained = impact.mass_per_length * _integrals(history, 0)
-    total = history.array("total_impulse")
-    return _residual(gained - gained[0] - load * history.time + total, total)
+    return np.asarray(gained - gained[0] - load * history.time + history.array("total_impulse"))
 
 
 def _second_moment(history: ImpactHistory) -> float | None:
@@ -120,11 +121,12 @@ def _second_moment(history: ImpactHistory) -> float | None:
     force -= 2.0 * impact.bending_stiffness * (turned + impact.damping * (turn - turn[0]))
     impulse = history.array("impulse") - (history.array("opposite_impulse") if "opposite_impulse" in history else 0.0)
     pushed = both * impulse @ history.contact_positions(0) ** 2
-    gained = impact.mass_per_length * _integrals(history, 2)
-    waves = math.sqrt(time[-1] * math.sqrt(impact.bending_stiffness / impact.mass_per_length))
-    reach = min(0.5 * _length(history), waves)
-    least = MIDDLE * reach**2 * np.abs(history.array("total_impulse"))  # impulses in the middle have no second moment
-    return _residual(gained - gained[0] - force + pushed, np.maximum(np.abs(pushed), least))
+    gained, missing = impact.mass_per_length * _integrals(history, 2), _missing_momentum(history)
+    unexplained = np.abs(gained - gained[0] - force + pushed)
+    if missing is not None:  # what is missing of the momentum may be missing anywhere, at the ends at the farthest
+        unexplained -= np.abs(missing).max() * np.square(x).max()
+    least = np.abs(history.array("total_impulse")) * np.square(np.diff(x).max())  # a place is known to an element
+    return _residual(np.maximum(unexplained, 0.0), np.maximum(np.abs(pushed), least))
 
 
 def _of_fast_part(history: ImpactHistory) -> float | None:
