@@ -37,9 +37,9 @@ LAST = 0.5  # of the run that is looked at: earlier, the start is not resolved
 class Balance:
     """momentum, second_moment : largest residual of the equations above in the second half of the run, over the
     largest |J| and Σ x_i² J_i (of the latter what missing momentum cannot explain); points : the impulses of the
-    contact points, added up, less J, over J, at the end; initial_energy : (recorded − ½μLV₀²)/½μLV₀² at t = 0, where the
-    beam arrives with one velocity; gap_of_push : largest gap at the end of an interval in which a contact point pushed,
-    over V₀t, in the second half of the run. ``None`` where a number means nothing."""
+    contact points, added up, less J, over J, at the end; initial_energy : (recorded − ½μLV₀²)/½μLV₀² at t = 0, where
+    the beam arrives with one velocity; gap_of_push : largest gap at the end of an interval in which a contact point
+    pushed, over V₀t, in the second half of the run. ``None`` where a number means nothing."""
 
     momentum: float | None
     second_moment: float | None
