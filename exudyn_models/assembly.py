@@ -162,14 +162,16 @@ def _wall(shape: Shape, scaling: Scaling, chosen: Chosen) -> Wall:
 
 
 def _load_end(beam: Beam, node: int, sign: float, scaling: Scaling) -> None:
-    """The moment and shear that the free motion y₀ has at an end of the modelled beam, unless waves that the beam's own
-    ends send have time to return: these bear neither. And the axial force: along x at the end of the beam itself unless
-    it follows the bow, along the bow where the model cuts the beam."""
+    """The moment and shear that the free motion y₀ has at an end of the modelled beam, and the axial force: along x at
+    the end of the beam itself unless it follows the bow, along the bow where the model cuts the beam.
+
+    The beam's own ends are free once waves from them have time to return, but for a bend q₀: these forces hold it.
+    """
     loads, a, x, force = scaling.loads, scaling.amplitude, float(beam.shape.s[node]), beam.section.axial_force
     impact, angle = scaling.impact, float(beam.shape.angle[node])  # of the beam's own end
     own = abs(x) * scaling.length >= impact.half_length * (1.0 - 1e-9)
     shear, turning = a * float(loads(x, by_x=3)), a * float(loads(x, by_x=1, by_t=1))
-    if own and lasts_until_waves_return(impact, scaling.end_time):
+    if own and lasts_until_waves_return(impact, scaling.end_time) and not impact.fourth_derivative:
         shear = turning = 0.0
     else:
         bending_rate = a * float(loads(x, by_x=2, by_t=1))

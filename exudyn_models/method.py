@@ -10,7 +10,7 @@ from typing import Annotated, Any, ClassVar, Self
 from bent_beam.fields import Part, Quantity
 from bent_beam.free_flight import Separation
 from bent_beam.history import ImpactHistory
-from bent_beam.impact import BEFORE_WAVES_RETURN, Impact
+from bent_beam.impact import Impact
 from bent_beam.loads import unmodelled
 from bent_beam.meshes import MESHES, Mesh
 from bent_beam.method import Save, made_of, separation_times
@@ -22,7 +22,7 @@ from exudyn_models.elements import ELEMENTS, ANCFCable, Element
 from exudyn_models.geometry import GEOMETRIES, Geometry, supports_or_plate
 from exudyn_models.integrators import INTEGRATORS, Integrator
 from exudyn_models.recording import Recorder
-from exudyn_models.resolution import chosen_mesh, chosen_steps, lasts_until_waves_return, thin_front
+from exudyn_models.resolution import chosen_mesh, chosen_steps, thin_front
 from exudyn_models.solvers import SOLVERS, NewtonSolver
 from exudyn_models.stepping import Until
 
@@ -245,11 +245,5 @@ def simulate(
     end, method = impact.checked_end_time(end_time), ExudynModel(**parts)
     if reason := method.refuses(impact):
         raise ValueError(reason)
-    if impact.fourth_derivative and lasts_until_waves_return(impact, end):
-        raise ValueError(
-            f"fourth_derivative is modelled until waves return from the ends, {BEFORE_WAVES_RETURN} T* = "
-            f"{BEFORE_WAVES_RETURN * impact.slow_time_scale:.3g} s: take an earlier end_time, or path hermite "
-            f"(got {impact.fourth_derivative!r})"
-        )
     chosen = method.chosen(impact, end)
     return simulation.run(impact, end, chosen, save, view=view, progress=progress, until=until)

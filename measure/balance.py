@@ -155,11 +155,12 @@ def _is_whole(history: ImpactHistory) -> bool:
 
 
 def _ends_follow(history: ImpactHistory) -> bool:
-    """Whether the ends carry the forces of the free motion: on the Exudyn path until waves may return from them."""
+    """Whether the ends carry the forces of the free motion: on the Exudyn path where they hold a bend q₀ or the model
+    cuts the beam, and until waves may return from the ends."""
     far, impact = history.settings.get("far_field"), history.impact
     early = history.settings.get("end_time", 0.0) <= BEFORE_WAVES_RETURN * impact.slow_time_scale
     if history.path == "exudyn":
-        return early or _length(history) < impact.length * (1.0 - 1e-9)
+        return bool(impact.fourth_derivative) or early or _length(history) < impact.length * (1.0 - 1e-9)
     return isinstance(far, dict) and far.get("end") == "following"
 
 

@@ -41,7 +41,6 @@ def test_unstable_explicit_step_is_refused_with_the_stable_one(integrator):
         ({"save": 0}, "save"),
         ({"mesh": UniformMesh(1e-5)}, "200000 are the most"),
         ({"end_time": math.nan}, "end_time"),
-        ({"impact": SHORT.replace(fourth_derivative=1.0), "end_time": 1.0}, "fourth_derivative is modelled until"),
         ({"impact": Impact.dimensionless(0.5, length=100.0), "geometry": TrueGeometry()}, "right angle"),
     ],
 )
