@@ -40,6 +40,8 @@ def test_shear_coefficients_are_cowpers():
     thin, thick = (Pipe(outer_diameter=0.1, inner_diameter=bore, **STEEL) for bore in (0.0999, 0.0))
     for section, expected in ((bar, 0.8864), (flat, 0.8497), (thin, 2 * 1.3 / (4 + 3 * 0.3)), (thick, 0.8864)):
         assert section.shear_coefficient == pytest.approx(expected, rel=2e-3)
+        modulus = section.youngs_modulus / 2.6  # E/(2(1 + ν))
+        assert section.shear_stiffness == pytest.approx(expected * modulus * section.area, rel=2e-3)
 
 
 def test_stress_of_a_rectangle_under_moment_and_tension():

@@ -11,7 +11,7 @@ from scipy.fft import dct, idct
 from bent_beam import Impact
 from theory import contact_parameters, predict
 from theory.elastic_stop import SwungBeam
-from theory.elastic_wall import flat_limit, peak_force, sharp_limit, wall_history
+from theory.elastic_wall import _loads, flat_limit, peak_force, sharp_limit, wall_history
 
 
 def largest_force_by_modes(kappa_over_nu: float, damping_ratio: float, end: float, half: float, dx: float) -> float:
@@ -112,3 +112,11 @@ def test_modes_converge_and_a_bending_beam_hits_its_stop_again():
 def test_a_force_that_still_grows_is_not_the_largest():
     with pytest.raises(ValueError, match="end must lie after the largest force"):
         SwungBeam(1e4, 0.5, 0.8, 2.0, 300.0, modes=6).peak_force(0.01)
+
+
+def test_a_pressure_that_begins_or_ends_between_two_points_acts_from_there_on():
+    """A triangle of height 1 on half an element, on both sides."""
+    for pressure, rim in ((np.array([-1.0, 1.0]), 0.1), (np.array([1.0, -1.0]), 0.05)):
+        loads, force, found = _loads(pressure, pressure, 0.1)
+        assert (force, found) == pytest.approx((2.0 * 0.1 * 0.25, rim))
+        assert loads[0] + 2.0 * loads[1] == pytest.approx(force)

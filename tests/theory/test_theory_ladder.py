@@ -39,6 +39,10 @@ def test_infinitely_many_impacts_end_in_finite_time() -> None:
         np.testing.assert_array_equal(field(after), 0.0)
     # at rest the floor has stopped it and carries its weight
     np.testing.assert_allclose(ball.impulse(after), after, rtol=1e-15)
+    thrown = BouncingBall(restitution=0.5, velocity=1.0)
+    before, soon = thrown.first_impact * np.array([0.9, 1.01])
+    jump = thrown.velocity_at(soon) + 1.0 * (soon - thrown.first_impact) + thrown.landing_speed
+    np.testing.assert_allclose(thrown.impulse([before, soon]), [0.0, jump], atol=1e-14)
     assert BouncingBall(restitution=0.0).rest == BouncingBall(restitution=0.0).first_impact
     assert BouncingBall(restitution=1.0).rest == np.inf
 
