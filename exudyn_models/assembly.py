@@ -68,6 +68,15 @@ class Layout:
     scaling: Scaling
     shape: Shape
 
+    @property
+    def ends_follow(self) -> bool:
+        """Whether the ends bear the moment and shear of the free motion y₀: where the model cuts the beam, until waves
+        from the beam's own ends have time to return, and where they hold a bend q₀."""
+        impact = self.scaling.impact
+        own = self.half_length >= impact.half_length * (1.0 - NEAR)
+        free = own and lasts_until_waves_return(impact, self.scaling.end_time)
+        return any(self.scaling.loads.terms.values()) and (not free or impact.fourth_derivative != 0.0)
+
 
 def lay_out(impact: Impact, end: float, chosen: Chosen) -> Layout:
     """The beam of the chosen mesh and geometry. Raises ``ValueError`` for a mesh or a geometry that does not fit."""
@@ -110,7 +119,7 @@ def assemble(layout: Layout, chosen: Chosen) -> tuple[Beam, ContactRun]:
     if scaling.load:
         beam.load_uniformly(scaling.load * scaling.amplitude)
     for node, sign, _ in reversed(ends):
-        _load_end(beam, node, sign, scaling)
+        _load_end(beam, node, sign, scaling, follows=layout.ends_follow)
     run = chosen.contact.attach(beam, _wall(shape, scaling, chosen))
     x = np.linspace(min(0.0, float(shape.x[0])), float(shape.x[-1]), 200)
     line = np.stack([x, shape.wall_curvature * x**2 / 2, np.zeros_like(x)], axis=1)
@@ -161,24 +170,19 @@ def _wall(shape: Shape, scaling: Scaling, chosen: Chosen) -> Wall:
     )
 
 
-def _load_end(beam: Beam, node: int, sign: float, scaling: Scaling) -> None:
-    """The moment and shear that the free motion y₀ has at an end of the modelled beam, and the axial force: along x at
-    the end of the beam itself unless it follows the bow, along the bow where the model cuts the beam.
-
-    The beam's own ends are free once waves from them have time to return, but for a bend q₀: these forces hold it.
-    """
+def _load_end(beam: Beam, node: int, sign: float, scaling: Scaling, *, follows: bool) -> None:
+    """The moment and shear of the free motion y₀ if the end ``follows`` it, and the axial force: along x at the end of
+    the beam itself unless it follows the bow, along the bow where the model cuts the beam."""
     loads, a, x, force = scaling.loads, scaling.amplitude, float(beam.shape.s[node]), beam.section.axial_force
     impact, angle = scaling.impact, float(beam.shape.angle[node])  # of the beam's own end
-    own = abs(x) * scaling.length >= impact.half_length * (1.0 - 1e-9)
-    shear, turning = a * float(loads(x, by_x=3)), a * float(loads(x, by_x=1, by_t=1))
-    if own and lasts_until_waves_return(impact, scaling.end_time) and not impact.fourth_derivative:
-        shear = turning = 0.0
-    else:
+    shear = turning = 0.0
+    if follows:
         bending_rate = a * float(loads(x, by_x=2, by_t=1))
         # bending at a rate also takes the moment of the viscosity
         moment = a * float(loads(x, by_x=2)) + beam.viscosity[node if node == 0 else -1] * bending_rate
         beam.load_node(node, beam.rotation_coordinate, sign * moment, sign * bending_rate)
-    if own and impact.tension_direction == "axis":
+        shear, turning = a * float(loads(x, by_x=3)), a * float(loads(x, by_x=1, by_t=1))
+    if impact.tension_direction == "axis" and abs(x) * scaling.length >= impact.half_length * (1.0 - NEAR):
         angle = turning = 0.0
     beam.load_node(node, beam.horizontal_coordinate, sign * force * math.cos(angle))
     beam.load_node(node, beam.vertical_coordinate, sign * (force * math.sin(angle) - shear), sign * force * turning)

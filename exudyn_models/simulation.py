@@ -88,7 +88,7 @@ def _described(layout: Layout, chosen: Chosen, stepping: Stepping) -> dict[str, 
         "modelled_half_length": float(layout.half_length),
         "amplitude": scaling.amplitude,
         "amplitude_of_the_real_beam": scaling.true_amplitude,
-        "ends": "moment and shear of the free motion" if any(scaling.loads.terms.values()) else "free",
+        "ends": "moment and shear of the free motion" if layout.ends_follow else "free",
         "first_step": segments[0].length * scaling.end_time,
         "last_step": segments[-1].length * scaling.end_time,
     }

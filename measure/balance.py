@@ -21,7 +21,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bent_beam.history import ImpactHistory
-from bent_beam.impact import BEFORE_WAVES_RETURN
 
 __all__ = ["Balance", "balance_of"]
 
@@ -70,9 +69,10 @@ class Balance:
 
 def balance_of(history: ImpactHistory) -> Balance:
     """The checks of one run."""
+    missing = _of_fast_part(history) if "position" in history else _missing_momentum(history)
     return Balance(
-        _of_fast_part(history) if "position" in history else _momentum(history),
-        _second_moment(history),
+        None if missing is None else _residual(missing, history.array("total_impulse")),
+        _second_moment(history, missing),
         _points(history),
         _initial_energy(history),
         _gap_of_push(history),
@@ -86,13 +86,9 @@ def _residual(residual: Array, impulse: Array) -> float | None:
     return float(np.abs(residual[late]).max()) / most if most > 0.0 else None
 
 
-def _momentum(history: ImpactHistory) -> float | None:
-    """``None`` where supports or an absorbing layer act, and where ends that follow pull at a tangent that turns."""
-    missing = _missing_momentum(history)
-    return None if missing is None else _residual(missing, history.array("total_impulse"))
-
-
 def _missing_momentum(history: ImpactHistory) -> Array | None:
+    """N s at each instant. ``None`` where supports or an absorbing layer act, and where ends that follow pull at a
+    tangent that turns."""
     impact, motion = history.impact, history.impact.free_motion(0.0)
     turned = impact.fourth_derivative or impact.curvature_rate
     if impact.supported or not _is_whole(history) or (impact.axial_force and turned and _ends_follow(history)):
@@ -104,14 +100,16 @@ def _missing_momentum(history: ImpactHistory) -> Array | None:
     return np.asarray(gained - gained[0] - load * history.time + history.array("total_impulse"))
 
 
-def _second_moment(history: ImpactHistory) -> float | None:
-    """``None`` where a layer, viscosity at grid scale or N acts, where ends that follow carry moments, and before a
-    plate or a stop, whose moment is small or given, and with Maxwell branches, whose stretch is not kept."""
+def _second_moment(history: ImpactHistory, missing: Array | None) -> float | None:
+    """``missing`` : of the momentum, N s. ``None`` where a layer, viscosity at grid scale or N acts, where ends that
+    follow carry moments, and before a plate or a stop, whose moment is small or given, and with Maxwell branches, whose
+    stretch is not kept."""
     impact, time = history.impact, history.time
     bent = impact.fourth_derivative or impact.curvature_rate or impact.natural_curvature is not None
-    free = _is_whole(history) and history.energy("loss_viscous")[-1] == 0.0 and not impact.wall_in_part
-    free = free and not impact.hysteretic_loss
-    if not free or impact.supported or impact.axial_force or (bent and _ends_follow(history)) or "slope" not in history:
+    lossy = history.energy("loss_viscous")[-1] != 0.0 or impact.hysteretic_loss
+    if missing is None or not _is_whole(history) or lossy or impact.wall_in_part or impact.axial_force:
+        return None
+    if (bent and _ends_follow(history)) or "slope" not in history:
         return None
     x, both = history.positions(0), 2.0 / history.sides
     turn = both * (history.array("slope")[:, -1] + impact.curvature * x[-1])
@@ -121,22 +119,21 @@ def _second_moment(history: ImpactHistory) -> float | None:
     force -= 2.0 * impact.bending_stiffness * (turned + impact.damping * (turn - turn[0]))
     impulse = history.array("impulse") - (history.array("opposite_impulse") if "opposite_impulse" in history else 0.0)
     pushed = both * impulse @ history.contact_positions(0) ** 2
-    gained, missing = impact.mass_per_length * _integrals(history, 2), _missing_momentum(history)
-    unexplained = np.abs(gained - gained[0] - force + pushed)
-    if missing is not None:  # what is missing of the momentum may be missing anywhere, at the ends at the farthest
-        unexplained -= np.abs(missing).max() * np.square(x).max()
+    gained = impact.mass_per_length * _integrals(history, 2)
+    # what is missing of the momentum may be missing anywhere, at the ends at the farthest
+    unexplained = np.abs(gained - gained[0] - force + pushed) - np.abs(missing).max() * np.square(x).max()
     least = np.abs(history.array("total_impulse")) * np.square(np.diff(x).max())  # a place is known to an element
     return _residual(np.maximum(unexplained, 0.0), np.maximum(np.abs(pushed), least))
 
 
-def _of_fast_part(history: ImpactHistory) -> float | None:
-    """Momentum of z = y₀ − y, of an infinite beam on a mesh that expands with it, both sides."""
+def _of_fast_part(history: ImpactHistory) -> Array:
+    """Missing momentum, N s, by that of z = y₀ − y, of an infinite beam on a mesh that expands with it, both sides."""
     rate, mass = history.impact.free_motion(0.0), history.impact.mass_per_length
-    total, left = history.array("total_impulse"), []
+    left = []
     for k, t in enumerate(history.time):
         x = history.positions(k)
         left.append(2.0 * mass * _integral(x, rate(x, t, by_t=1) - history.array("velocity", k)))
-    return _residual(total - np.array(left), total)
+    return np.asarray(history.array("total_impulse") - np.array(left))
 
 
 def _points(history: ImpactHistory) -> float | None:
@@ -155,13 +152,9 @@ def _is_whole(history: ImpactHistory) -> bool:
 
 
 def _ends_follow(history: ImpactHistory) -> bool:
-    """Whether the ends carry the forces of the free motion: on the Exudyn path where they hold a bend q₀ or the model
-    cuts the beam, and until waves may return from the ends."""
-    far, impact = history.settings.get("far_field"), history.impact
-    early = history.settings.get("end_time", 0.0) <= BEFORE_WAVES_RETURN * impact.slow_time_scale
-    if history.path == "exudyn":
-        return bool(impact.fourth_derivative) or early or _length(history) < impact.length * (1.0 - 1e-9)
-    return isinstance(far, dict) and far.get("end") == "following"
+    """Whether the ends carry the forces of the free motion, as the run says of its far field or of its ends."""
+    far, ends = history.settings.get("far_field"), history.settings.get("ends", "free")
+    return ends != "free" or (isinstance(far, dict) and far.get("end") == "following")
 
 
 def _length(history: ImpactHistory) -> float:

@@ -48,6 +48,7 @@ def test_both_paths_bend_a_damped_beam_alike() -> None:
 def test_once_waves_return_both_paths_keep_the_same_books_of_free_ends(loads: dict[str, Any]) -> None:
     """Energy of bending alone is strain energy; an axial force works on the bow. No end bears a moment."""
     hermite, exudyn = simulated(0.3, curvature=1.25, damping=4e-3, **loads)
+    assert exudyn.settings["ends"] == "free"
     for name in ("kinetic_energy", "strain_energy", "work_of_loads"):
         pairs = [(h.array(name)[-1] / h.array("kinetic_energy")[0]) for h in (hermite, exudyn)]
         assert pairs[1] == pytest.approx(pairs[0], rel=0.01, abs=2e-3), name
