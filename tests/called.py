@@ -11,9 +11,17 @@ from typing import Any
 
 from comparison.command_line.app import run
 
-__all__ = ["MAIN", "answered", "command", "refused", "started"]
+__all__ = ["CASE", "MAIN", "answered", "command", "refused", "started"]
 
 MAIN = "from comparison.command_line.app import main; main()"
+CASE = """[beam]
+bending_stiffness = 1.0
+mass_per_length = 1.0
+length = 20.0
+curvature = 0.5
+[impact]
+velocity = 1.0
+"""  # a case file: κ/ν = 0.5
 
 
 def command(*words: object) -> tuple[int, str, str]:

@@ -11,7 +11,7 @@ import zipfile
 from pathlib import Path
 
 import pytest
-from called import MAIN, started
+from called import CASE, MAIN, started
 
 ROOT = Path(__file__).resolve().parent.parent
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
@@ -69,14 +69,7 @@ def test_every_file_of_the_packages_is_in_the_wheel(installed):
     assert not missing
 
 
-CASE = """[beam]
-bending_stiffness = 1.0
-mass_per_length = 1.0
-length = 20.0
-curvature = 0.5
-[impact]
-velocity = 1.0
-[run]
+METHOD = """[run]
 duration = 0.1
 [mesh]
 kind = "uniform"
@@ -100,7 +93,7 @@ COMMANDS = {
 
 @pytest.mark.verify  # the kernels are compiled anew
 def test_every_command_answers_away_from_the_checkout(installed, tmp_path):
-    (tmp_path / "case.toml").write_text(CASE)
+    (tmp_path / "case.toml").write_text(CASE + METHOD)
     # the place of the wheel first and nothing of the checkout: -P keeps the current folder out, as the script would
     main = f"""
 import json, shlex, sys

@@ -10,7 +10,7 @@ from pathlib import Path
 import h5py
 import numpy as np
 import pytest
-from called import refused
+from called import CASE, refused
 
 import hermite_fe
 from bent_beam import Impact, ImpactHistory
@@ -202,14 +202,6 @@ def test_a_pipe_that_nobody_writes_into_is_not_waited_for(tmp_path):
 
 # --- case files ------------------------------------------------------------
 
-CASE = """[beam]
-bending_stiffness = 1.0
-mass_per_length = 1.0
-length = 20.0
-curvature = 0.5
-[impact]
-velocity = 1.0
-"""
 UNREADABLE = {
     "binary": os.urandom(4096),
     "large": b"# " + b"x" * 10_000_000,
