@@ -153,12 +153,12 @@ def rerun_history(
     old: ImpactHistory, out: Path | None = None, progress: Callable[[float], None] | None = None
 ) -> dict[str, Any]:
     """Simulate ``old``'s case with its settings and compare: ``identical`` (bit for bit), ``largest_difference``
-    (relative, per variable) and versions that differ. Keeps the new history in ``out``."""
+    (relative, per variable, times and places included) and versions that differ. Keeps the new history in ``out``."""
     new = _again(old, progress)
     if out is not None:
         new.save(out)
     differences: dict[str, float | None] = {}
-    for name in sorted({str(v) for v in (*old.dataset.data_vars, *new.dataset.data_vars)}):
+    for name in sorted({str(v) for v in (*old.dataset.variables, *new.dataset.variables)}):  # times and places too
         if name not in old.dataset or name not in new.dataset or old.dataset[name].shape != new.dataset[name].shape:
             differences[name] = None
             continue
