@@ -43,11 +43,16 @@ Progress = Callable[[float], None]
 
 
 def predict_case(
-    case: Case, times: Sequence[float], *, theory_only: bool = False, progress: Progress | None = None
+    case: Case,
+    times: Sequence[float],
+    *,
+    theory_only: bool = False,
+    whole: bool = True,
+    progress: Progress | None = None,
 ) -> dict[str, Any]:
     """The contract of ``bentbeam predict --json``.
 
-    times : s, each ≥ 0. progress : called with the finished fraction of the simulations.
+    times : s, each ≥ 0. whole : also the whole impact, which may take runs of its own. progress : called with the finished fraction of the simulations.
     Raises ``ValueError`` for what the theory does not cover, :class:`bent_beam.SimulationError` where a simulation
     cannot finish.
     """
@@ -67,7 +72,7 @@ def predict_case(
             row["simulation"] = {name: number.to_dict() for name, number in found.items()}
         document["agreement"] = _agreement(checked, prediction, simulated, len(times))
         document["warnings"] += warnings
-    document["whole_impact"] = predicted_impact(case, method)
+    document["whole_impact"] = predicted_impact(case, method) if whole else None
     return document
 
 
