@@ -52,7 +52,8 @@ def predict_case(
 ) -> dict[str, Any]:
     """The contract of ``bentbeam predict --json``.
 
-    times : s, each ≥ 0. whole : also the whole impact, which may take runs of its own. progress : called with the finished fraction of the simulations.
+    times : s, each ≥ 0. whole : also the whole impact, which may take runs of its own.
+    progress : called with the finished fraction of the simulations.
     Raises ``ValueError`` for what the theory does not cover, :class:`bent_beam.SimulationError` where a simulation
     cannot finish.
     """

@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from comparison.command_line.console import Console
-from comparison.command_line.options import Jobs, Json, Quiet, Set, Verbose, emit, path_names
+from comparison.command_line.options import Jobs, Json, Quiet, Set, Verbose, emit, path_names, progress
 
 if TYPE_CHECKING:
     from bent_beam.impact import Impact
@@ -63,7 +62,7 @@ def bounce(
         raise InputError(f"path: {path} has no choices for the whole beam ({' and '.join(able)} have)")
     if out is not None:
         check_writable(out, folder=True)
-    with Console(quiet).progress(f"{path}: the whole impact") as bar:
+    with progress(f"{path}: the whole impact", quiet) as bar:
         found = follow(impact, method, section=section, runs=runs, seed=seed, jobs=jobs, progress=bar.count)
         followed = follow_hits(impact, method, hits, first=found.history, progress=bar.fraction) if hits > 1 else []
         over = over_damping(impact, section, method, found.numbers["peak_moment"])

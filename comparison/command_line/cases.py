@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from comparison.command_line.console import Console
 from comparison.command_line.options import (
     CaseFile,
     ErrorBars,
@@ -20,6 +19,7 @@ from comparison.command_line.options import (
     complete,
     emit,
     path_names,
+    progress,
 )
 
 if TYPE_CHECKING:
@@ -110,7 +110,7 @@ def predict(
             loaded.impact.checked_time("time", one)
         except ValueError as error:
             raise InputError(f"--time: {error}") from None
-    with Console(quiet or as_json or theory_only).progress(f"the whole beam: {case.name}") as bar:
+    with progress(f"the whole beam: {case.name}", quiet or as_json or theory_only) as bar:
         document = predict_case(loaded, times, theory_only=theory_only, progress=bar.fraction)
     emit(document, as_json, lambda: prediction_text(document))
 
@@ -160,7 +160,7 @@ def simulate(
         return simulate_to_separation(chosen, loaded.impact, save=instants, progress=progress)
 
     try:
-        with Console(quiet).progress(f"{path}: {case.name}") as bar:
+        with progress(f"{path}: {case.name}", quiet) as bar:
             history = run(method, save, bar.fraction)
     except SimulationError as error:
         raise _kept(error, out) from None

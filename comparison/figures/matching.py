@@ -1,12 +1,15 @@
-"""The matching plots: numerical λ₀, r₀ on the theory's curves (thesis Figs 3.29, 3.30), and λ₁, r₁ (Figs 2.12, 2.16
-with points).
+"""The files of a match: its rows as JSON and CSV, and the matching plots: numerical λ₀, r₀ on the theory's curves
+(thesis Figs 3.29, 3.30), and λ₁, r₁ (Figs 2.12, 2.16 with points).
 
 A number that is missing is left out, and the figure says how many were.
 """
 
 from __future__ import annotations
 
+import csv
+import io
 from collections.abc import Sequence
+from dataclasses import asdict
 from itertools import cycle
 from pathlib import Path
 from typing import Any
@@ -15,13 +18,44 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from comparison.figures import style
-from comparison.rows import First, MatchRow
+from comparison.figures.work_precision import draw_work_precision
+from comparison.readable import json_text, plain
+from comparison.rows import First, MatchRow, match_document
+from comparison.store import write_atomically
 from theory import contact_parameters
 
-__all__ = ["draw_first_order", "draw_leading", "draw_matching"]
+__all__ = ["draw_first_order", "draw_leading", "draw_matching", "write_match"]
 
 DASHES = ("-", "--", ":", "-.")
 """Of theory's curves, a kind for each load."""
+
+
+def write_match(rows: Sequence[MatchRow], out: Path) -> list[Path]:
+    """``match.json``, ``match.csv`` and the plots that the rows have data for, in ``out``; returns the files."""
+    files = [out / "match.json", out / "match.csv"]
+    write_atomically(files[0], json_text(match_document(rows), indent=1))
+    write_atomically(files[1], rows_csv(rows))
+    return files + draw_matching(rows, out) + draw_work_precision(rows, out)
+
+
+def rows_csv(rows: Sequence[MatchRow]) -> str:
+    """The rows as CSV with a header; compared numbers become three columns, missing ones stay empty."""
+    table = []
+    for row in rows:
+        flat: dict[str, Any] = {}
+        for key, value in plain(asdict(row)).items():
+            if isinstance(value, dict) and set(value) == {"value", "error", "theory"}:
+                flat |= {key: value["value"], f"{key}_error": value["error"], f"{key}_theory": value["theory"]}
+            elif isinstance(value, dict):
+                flat[key] = json_text(value)
+            else:
+                flat[key] = "; ".join(map(str, value)) if isinstance(value, list) else value
+        table.append(flat)
+    stream = io.StringIO()
+    writer = csv.DictWriter(stream, fieldnames=list(table[0]) if table else [], lineterminator="\n")
+    writer.writeheader()
+    writer.writerows(table)
+    return stream.getvalue()
 
 
 def draw_matching(rows: Sequence[MatchRow], out: Path, formats: Sequence[str] = ("png",)) -> list[Path]:

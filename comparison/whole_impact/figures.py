@@ -17,7 +17,7 @@ from bent_beam.history import ImpactHistory
 from comparison.bounce import Bounce
 from comparison.figures import style
 from comparison.figures.style import Film, write_gif
-from comparison.plain import json_text
+from comparison.readable import json_text
 from comparison.store import write_atomically
 from comparison.whole_impact.stored_map import stored_map
 from comparison.whole_impact.table import bounce_document
