@@ -203,10 +203,7 @@ def _again(old: ImpactHistory, progress: Callable[[float], None] | None) -> Impa
     for field in dataclasses.fields(method):
         if field.name in settings:
             value, kinds = settings[field.name], method.PARTS.get(field.name)
-            values[field.name] = value if kinds is None else _rebuild(value, _by_class(kinds), field.name)
+            known = {kind.__name__: kind for kind in (kinds or {}).values()}
+            values[field.name] = value if kinds is None else _rebuild(value, known, field.name)
     made: Method = method(**values)
     return made.simulate(old.impact, end_time=settings["end_time"], save=save, progress=progress)
-
-
-def _by_class(kinds: Mapping[str, type]) -> dict[str, type]:
-    return {kind.__name__: kind for kind in kinds.values()}

@@ -8,6 +8,7 @@ Error bars are those of :mod:`comparison.companions`.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from itertools import groupby
 from typing import Any
 
 import numpy as np
@@ -182,10 +183,6 @@ def _agreement(
         agree.append(
             all(a is not None and b is not None and abs(b.known - a) <= b.bar + AGREE * abs(a) for a, b in pairs)
         )
-    best, begin = (0, 0), 0
-    for i, both in enumerate([*agree, False]):
-        if not both:
-            best = max(best, (i - begin, -begin))
-            begin = i + 1
-    length, begin = best[0], -best[1]
-    return {"from": checked[begin], "until": checked[begin + length - 1]} if length else None
+    spans = [list(span) for both, span in groupby(range(len(agree)), key=agree.__getitem__) if both]
+    longest = max(spans, key=len, default=None)
+    return {"from": checked[longest[0]], "until": checked[longest[-1]]} if longest else None

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from bent_beam.errors import InputError
 from comparison.command_line.options import Jobs, Json, Quiet, Set, Verbose, emit, path_names, progress
 
 if TYPE_CHECKING:
@@ -49,7 +50,6 @@ def bounce(
     from dataclasses import asdict
 
     from bent_beam.method import paths_with
-    from bent_beam.parts import InputError
     from comparison.bounce import bounce as follow
     from comparison.bounce import follow_hits
     from comparison.store import check_writable
@@ -86,7 +86,6 @@ def _asked(
 ) -> tuple[Impact, Method, Section | None]:
     """The impact, its method and its section, from a case or from the two numbers."""
     from bent_beam.cases import load_case
-    from bent_beam.parts import InputError
     from comparison.bounce import problem
     from comparison.methods import methods_of
 

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from bent_beam.errors import InputError, SimulationError
 from comparison.command_line.options import (
     CaseFile,
     ErrorBars,
@@ -23,9 +25,6 @@ from comparison.command_line.options import (
 )
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from bent_beam.errors import SimulationError
     from bent_beam.history import ImpactHistory
     from bent_beam.method import Method
 
@@ -98,7 +97,6 @@ def predict(
     Example: bentbeam predict cases/drill_pipe.toml --time 0.005 --time 0.01
     """
     from bent_beam.cases import load_case
-    from bent_beam.errors import InputError
     from comparison.prediction import predict_case
     from comparison.prediction_text import prediction_text
 
@@ -137,9 +135,7 @@ def simulate(
     Example: bentbeam simulate cases/thesis_K10.toml --path exudyn --set exudyn.integrator.kind=newmark
     """
     from bent_beam.cases import load_case
-    from bent_beam.errors import SimulationError
     from bent_beam.method import LONGEST, simulate_to_separation, simulated
-    from bent_beam.parts import InputError
     from comparison.companions import suited
     from comparison.summary import companions, summary
     from comparison.summary_text import run_table

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import logging
+import math
 import sys
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
@@ -12,6 +13,8 @@ from pathlib import Path
 from typing import Annotated, Any
 
 import typer
+
+from bent_beam.errors import InputError
 
 
 def path_names(incomplete: str) -> list[str]:
@@ -73,10 +76,6 @@ Overwrite = Annotated[bool, typer.Option("--overwrite", help="Replace existing f
 
 def numbers(option: str, text: str, counts: Sequence[int], what: str) -> tuple[float, ...]:
     """Finite numbers, comma separated in ``text``. Raises :class:`InputError` when there are not as many as allowed."""
-    import math
-
-    from bent_beam.parts import InputError
-
     try:
         found = tuple(float(word) for word in text.split(","))
     except ValueError:
@@ -119,7 +118,6 @@ def check_out(out: Path | None, overwrite: bool) -> None:
     """``InputError`` when the file cannot be written, or is there already."""
     if out is None:
         return
-    from bent_beam.parts import InputError
     from comparison.store import check_writable
 
     if out.exists() and not overwrite:

@@ -58,22 +58,20 @@ def rows_csv(rows: Sequence[MatchRow]) -> str:
     return stream.getvalue()
 
 
-def draw_matching(rows: Sequence[MatchRow], out: Path, formats: Sequence[str] = ("png",)) -> list[Path]:
+def draw_matching(rows: Sequence[MatchRow], out: Path) -> list[Path]:
     """Every matching plot that the rows have data for; returns the files. The finest refinement is drawn."""
     finest: dict[Any, MatchRow] = {}
     for row in rows:
         key = (row.label, row.kappa_over_nu, row.first)
         finest[key] = max(finest.get(key, row), row, key=lambda r: r.refine)
     shown = list(finest.values())
-    files = draw_leading(shown, out, formats) if any(r.lambda0.measured for r in shown) else []
+    files = draw_leading(shown, out) if any(r.lambda0.measured for r in shown) else []
     if any(r.lambda1.measured for r in shown):
-        files += draw_first_order(shown, out, formats)
+        files += draw_first_order(shown, out)
     return files
 
 
-def draw_leading(
-    rows: Sequence[MatchRow], out: Path, formats: Sequence[str] = ("png",), name: str = "leading"
-) -> list[Path]:
+def draw_leading(rows: Sequence[MatchRow], out: Path) -> list[Path]:
     """λ₀ and r₀ over κ/ν, theory's curve and numerical points, and the relative differences below."""
     leading = list({(r.label, r.kappa_over_nu): r for r in rows}.values())
     ratios = [r.kappa_over_nu for r in leading]
@@ -89,7 +87,7 @@ def draw_leading(
         style.label_panels(*axes[0])
         axes[0, 0].legend()
         _say_what_is_missing(fig, [r for r in leading if not r.lambda0.measured])
-        return style.save(fig, out, name, formats)
+        return style.save(fig, out, "leading")
 
 
 def _compare(top: Axes, below: Axes, rows: Sequence[MatchRow], what: str) -> None:
@@ -113,9 +111,7 @@ def _compare(top: Axes, below: Axes, rows: Sequence[MatchRow], what: str) -> Non
     below.set_ylim(-limit, limit)
 
 
-def draw_first_order(
-    rows: Sequence[MatchRow], out: Path, formats: Sequence[str] = ("png",), name: str = "first-order"
-) -> list[Path]:
+def draw_first_order(rows: Sequence[MatchRow], out: Path) -> list[Path]:
     """λ₁ and r₁ over κ/ν for every (α, ψ, χ, N) among the rows, λ_N and r_N where it is tension alone: a curve of the
     theory each, and the points."""
     asked = [r for r in rows if r.of_first_order]
@@ -154,7 +150,7 @@ def draw_first_order(
             axes[1].plot([], [], **mark)
         axes[1].legend()
         _say_what_is_missing(fig, [r for r in asked if not r.lambda1.measured])
-        return style.save(fig, out, name, formats)
+        return style.save(fig, out, "first-order")
 
 
 def _named(first: First | None, tension: bool) -> str:

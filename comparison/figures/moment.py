@@ -90,7 +90,7 @@ def _late_moment(method: Method, kappa_over_nu: float) -> tuple[float, float]:
     return float(np.median(late)), float(0.5 * (high - low))
 
 
-def draw_moments(found: Sequence[MeasuredMoment], out: Path, formats: Sequence[str] = ("png",)) -> list[Path]:
+def draw_moments(found: Sequence[MeasuredMoment], out: Path) -> list[Path]:
     """``peak-moment``: theory's curve with the points, and their difference in per cent."""
     marks = style.marks(m.label for m in found)
     ratio = np.geomspace(0.008, 2.0, 300)
@@ -113,7 +113,7 @@ def draw_moments(found: Sequence[MeasuredMoment], out: Path, formats: Sequence[s
         left.legend()
         right.legend()
         style.label_panels(left, right)
-        return style.save(fig, out, "peak-moment", formats)
+        return style.save(fig, out, "peak-moment")
 
 
 def _main() -> None:
