@@ -153,12 +153,12 @@ def rerun_history(
     old: ImpactHistory, out: Path | None = None, progress: Callable[[float], None] | None = None
 ) -> dict[str, Any]:
     """Simulate ``old``'s case with its settings and compare: ``identical`` (bit for bit), ``largest_difference``
-    (relative, per variable) and versions that differ. Keeps the new history in ``out``."""
+    (relative, per variable, times and places included) and versions that differ. Keeps the new history in ``out``."""
     new = _again(old, progress)
     if out is not None:
         new.save(out)
     differences: dict[str, float | None] = {}
-    for name in sorted({str(v) for v in (*old.dataset.data_vars, *new.dataset.data_vars)}):
+    for name in sorted({str(v) for v in (*old.dataset.variables, *new.dataset.variables)}):  # times and places too
         if name not in old.dataset or name not in new.dataset or old.dataset[name].shape != new.dataset[name].shape:
             differences[name] = None
             continue
@@ -203,10 +203,7 @@ def _again(old: ImpactHistory, progress: Callable[[float], None] | None) -> Impa
     for field in dataclasses.fields(method):
         if field.name in settings:
             value, kinds = settings[field.name], method.PARTS.get(field.name)
-            values[field.name] = value if kinds is None else _rebuild(value, _by_class(kinds), field.name)
+            known = {kind.__name__: kind for kind in (kinds or {}).values()}
+            values[field.name] = value if kinds is None else _rebuild(value, known, field.name)
     made: Method = method(**values)
     return made.simulate(old.impact, end_time=settings["end_time"], save=save, progress=progress)
-
-
-def _by_class(kinds: Mapping[str, type]) -> dict[str, type]:
-    return {kind.__name__: kind for kind in kinds.values()}

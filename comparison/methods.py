@@ -21,15 +21,10 @@ from bent_beam.checks import shortened
 from bent_beam.method import Method, method_from_tables, paths
 from bent_beam.parts import InputError, nearest, unknown_key
 
-__all__ = ["PATHS", "chosen_methods", "default_methods", "methods_from_file", "methods_of"]
+__all__ = ["PATHS", "chosen_methods", "methods_from_file", "methods_of"]
 
 MOST = 10_000
 PATHS = ("hermite", "exudyn")  # that are compared where none is named
-
-
-def default_methods(names: Sequence[str]) -> list[Method]:
-    """The methods of paths, with everything chosen from the problem."""
-    return [method_from_tables(name, {}) for name in names]
 
 
 def chosen_methods(

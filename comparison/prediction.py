@@ -8,6 +8,7 @@ Error bars are those of :mod:`comparison.companions`.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from itertools import groupby
 from typing import Any
 
 import numpy as np
@@ -43,11 +44,17 @@ Progress = Callable[[float], None]
 
 
 def predict_case(
-    case: Case, times: Sequence[float], *, theory_only: bool = False, progress: Progress | None = None
+    case: Case,
+    times: Sequence[float],
+    *,
+    theory_only: bool = False,
+    whole: bool = True,
+    progress: Progress | None = None,
 ) -> dict[str, Any]:
     """The contract of ``bentbeam predict --json``.
 
-    times : s, each ≥ 0. progress : called with the finished fraction of the simulations.
+    times : s, each ≥ 0. whole : also the whole impact, which may take runs of its own.
+    progress : called with the finished fraction of the simulations.
     Raises ``ValueError`` for what the theory does not cover, :class:`bent_beam.SimulationError` where a simulation
     cannot finish.
     """
@@ -67,7 +74,7 @@ def predict_case(
             row["simulation"] = {name: number.to_dict() for name, number in found.items()}
         document["agreement"] = _agreement(checked, prediction, simulated, len(times))
         document["warnings"] += warnings
-    document["whole_impact"] = predicted_impact(case, method)
+    document["whole_impact"] = predicted_impact(case, method) if whole else None
     return document
 
 
@@ -176,10 +183,6 @@ def _agreement(
         agree.append(
             all(a is not None and b is not None and abs(b.known - a) <= b.bar + AGREE * abs(a) for a, b in pairs)
         )
-    best, begin = (0, 0), 0
-    for i, both in enumerate([*agree, False]):
-        if not both:
-            best = max(best, (i - begin, -begin))
-            begin = i + 1
-    length, begin = best[0], -best[1]
-    return {"from": checked[begin], "until": checked[begin + length - 1]} if length else None
+    spans = [list(span) for both, span in groupby(range(len(agree)), key=agree.__getitem__) if both]
+    longest = max(spans, key=len, default=None)
+    return {"from": checked[longest[0]], "until": checked[longest[-1]]} if longest else None

@@ -1,17 +1,18 @@
-"""What a match asks and what it answers: questions and rows."""
+"""What a match asks and what it answers: questions and rows; the rows as a document and as a table."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
 from contextlib import suppress
-from dataclasses import dataclass, field, replace
+from dataclasses import asdict, dataclass, field, replace
 from itertools import product
 from typing import Any
 
 from bent_beam.checks import between, finite, non_negative, one_of, positive
 from bent_beam.impact import Impact
 from bent_beam.method import Method, settings_of
+from comparison.readable import text_table
 from measure.estimators import LeadingEstimate
 from measure.measured import MISSING, Measured
 
@@ -27,6 +28,8 @@ __all__ = [
     "failures",
     "first_order_epsilon",
     "lost_row",
+    "match_document",
+    "match_table",
     "questions",
     "with_theory",
 ]
@@ -45,6 +48,11 @@ LEAST = {"lambda0": 0.0, "r0": 0.0, "lambda1": 1.0, "r1": 1.0}
 
 COMPANIONS: dict[str, tuple[float, ...]] = {"drift": (), "quick": (0.5,), "thorough": (0.5, 2.0)}
 """Resolutions of the companion runs that error bars come from, by name."""
+
+LEGEND = (
+    "± is the error bar, % the difference from theory. lift: largest gap inside the contact zone; pull: largest",
+    "adhesive over largest contact impulse; held: end of the bilateral start; s: seconds of the run.",
+)
 
 EXTREME = 1e30  # of ε: its powers are calculated with
 
@@ -237,3 +245,42 @@ def first_order_epsilon(leading: LeadingEstimate, first: First, perturbation: fl
         part *= front / (front + 0.2)
     top = part / (duration * (alpha / 2 + chi * z**2 / 2 + psi * z**4 / 24 + axial / 2))
     return between("first_order: the largest ε of the runs, from alpha, psi, chi and N,", top, 1 / EXTREME, EXTREME)
+
+
+def match_document(rows: Sequence[MatchRow]) -> dict[str, Any]:
+    """The contract of ``bentbeam match --json``: ``rows``, and ``failures``, those that failed unexpectedly."""
+    names = ("label", "path", "kappa_over_nu", "reason")
+    lost = [{name: getattr(row, name) for name in names} for row in failures(rows)]
+    return {"rows": [asdict(r) for r in rows], "failures": lost}
+
+
+def match_table(rows: Sequence[MatchRow]) -> str:
+    """Value ± error bar, and the difference from theory in per cent."""
+    first, refined = any(r.of_first_order for r in rows), any(r.refine != 1.0 for r in rows)
+    elastic, names = any(r.wall for r in rows), ("lambda0", "r0", "lambda1", "r1")[: 4 if first else 2]
+    head = ["method", "kappa/nu", *["refine"] * refined, *["alpha,psi,chi,N"] * first]
+    head += [title for name in names for title in (name, "%")]
+    head += ["F/(V0 sqrt(mu)(EI k)^1/4)"] * elastic
+    head += ["lift/(V0 t)", "pull", "momentum", "gap of push", "held", "s"]
+    body = []
+    for r in rows:
+        line = [r.label, f"{r.kappa_over_nu:.6g}", *[f"{r.refine:g}"] * refined]
+        line += [",".join(f"{v:g}" for v in r.first) if r.of_first_order else "-"] * first
+        for name in names:
+            number = getattr(r, name)
+            off = number.relative(LEAST[name])
+            line += [str(number), "-" if off is None else f"{100 * off:+.3f}"]
+        line += [str(r.peak_force)] * elastic
+        line += ["-" if v is None else f"{v:.0e}" for v in (r.lift, r.pull, r.momentum_residual, r.gap_of_push)]
+        line += ["-" if r.hold is None else f"until {r.hold['until']:.2g}"]
+        body.append([*line, "-" if r.seconds is None else f"{r.seconds:.1f}"])
+    notes = [f"{row_name(r)}: {r.reason}" for r in rows if r.reason]
+    notes += [f"warning: {row_name(r)}: {w}" for r in rows for w in r.warnings]
+    return "\n".join([text_table(head, body), "", *LEGEND, *notes])
+
+
+def row_name(row: MatchRow) -> str:
+    """A row in words."""
+    text = f"{row.label}, kappa/nu = {row.kappa_over_nu:.6g}"
+    text += f", (alpha, psi, chi, N) = ({', '.join(f'{v:g}' for v in row.first)})" if row.of_first_order else ""
+    return text + (f", refined {row.refine:g} times" if row.refine != 1.0 else "")

@@ -23,9 +23,7 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 import platformdirs
-from numpy.typing import NDArray
 
 from bent_beam.errors import InputError
 from bent_beam.files import write_atomically
@@ -91,11 +89,6 @@ class RunStore:
             with suppress(OSError):  # a full or read-only cache costs time, not the answer
                 write_atomically(file, _canonical({"answer": found, "sha256": _digest(_canonical(found))}))
         return found
-
-    def array(self, function: Callable[..., NDArray[np.float64]], *arguments: Any) -> NDArray[np.float64]:
-        """``function(*arguments)``, finite numbers for JSON-ready arguments, from the store where it is there."""
-        question = {"function": f"{function.__module__}.{function.__qualname__}", "arguments": list(arguments)}
-        return np.array(self.answer(question, lambda: {"values": function(*arguments).tolist()})["values"])
 
     @staticmethod
     def _read(file: Path) -> dict[str, Any] | None:

@@ -20,7 +20,7 @@ from typing import Any
 
 from bent_beam.files import write_atomically
 from bent_beam.versions import stamp, today
-from comparison.plain import json_text, plain
+from comparison.readable import json_text, plain
 
 __all__ = ["confirm", "digest_of", "is_stale", "read", "write"]
 

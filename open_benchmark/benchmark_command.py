@@ -7,8 +7,7 @@ from typing import Annotated
 
 import typer
 
-from comparison.command_line.console import Console
-from comparison.command_line.options import Json, Quiet, complete, emit
+from comparison.command_line.options import Json, Quiet, complete, emit, progress
 from open_benchmark.problem_command import problem_ids
 
 __all__ = ["benchmark"]
@@ -73,7 +72,7 @@ def benchmark(
     check_writable(out, folder=True)
     rows = declared_rows(result or ())
     drawn = drawn_once(out, seed)
-    with Console(quiet).progress("benchmark") as bar:
+    with progress("benchmark", quiet) as bar:
         rows = campaign(adapters, names, out, limits=Limits(seconds=seconds), seed=drawn, progress=bar.count) + rows
     about = document(rows, adapters, drawn)
     page = write_page(rows, adapters, out, about)

@@ -8,8 +8,18 @@ from typing import Annotated
 
 import typer
 
-from comparison.command_line.console import Console
-from comparison.command_line.options import Json, Methods, Overwrite, Quiet, Scheduler, Set, emit, factors, path_names
+from comparison.command_line.options import (
+    Json,
+    Methods,
+    Overwrite,
+    Quiet,
+    Scheduler,
+    Set,
+    emit,
+    factors,
+    path_names,
+    progress,
+)
 
 
 def report(
@@ -57,7 +67,7 @@ def report(
     chosen, refines = chosen_methods(named, assignments or (), methods), factors(refine)
     check_writable(out, folder=True)
     store = RunStore(None if fresh else default_store())
-    with Console(quiet).progress("report") as bar:
+    with progress("report", quiet) as bar:
         asked = report_questions(chosen, refines)
         found = write_report(out, chosen, asked, store=store, jobs=jobs, scheduler=scheduler, progress=bar.count)
     emit(found, as_json, lambda: f"{found['headline']}\nReport: {page}")

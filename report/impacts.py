@@ -16,7 +16,7 @@ from bent_beam.history import ImpactHistory
 from bent_beam.impact import Impact
 from bent_beam.method import Method, chosen_for, settings_of
 from comparison.figures.force_map import force_map
-from comparison.plain import plain
+from comparison.readable import plain
 from comparison.store import RunStore, source_of
 from comparison.workers import run_all
 from measure.moments import moments

@@ -28,12 +28,12 @@ from bent_beam.errors import ANY_FAILURE
 from bent_beam.files import write_atomically
 from bent_beam.method import Method, refined
 from bent_beam.versions import processor, versions
+from comparison.figures.matching import write_match
 from comparison.figures.style import marks
 from comparison.figures.work_precision import draw_work_precision
 from comparison.match import match
 from comparison.rows import MatchRow, Question, failures
 from comparison.store import RunStore
-from comparison.tables import write_match
 from comparison.whole_impact.figures import draw_map
 from report.impacts import END, ENERGIES, SHOWN, ShownImpact, show_all, theory_of
 from report.plots import plots

@@ -7,8 +7,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 from bent_beam.method import Method
-from comparison.rows import First, MatchRow, Question
-from comparison.tables import LEAST
+from comparison.rows import LEAST, First, MatchRow, Question
 from measure.measured import Measured
 
 PATHS = ("hermite", "self_similar", "exudyn")

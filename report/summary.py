@@ -125,7 +125,7 @@ def pipe_prediction(file: Path = PIPE) -> dict[str, Any] | None:
         case = load_case(file)
     except InputError:
         return None
-    document = predict_case(case, TIMES)
+    document = predict_case(case, TIMES, whole=False)
     rows = [
         (f"{1000.0 * row['time']:g}", by, [_text(numbers.get(name), unit) for name, (_, unit) in COLUMNS.items()])
         for row in document["times"]

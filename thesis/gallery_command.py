@@ -7,8 +7,7 @@ from typing import Annotated
 
 import typer
 
-from comparison.command_line.console import Console
-from comparison.command_line.options import Jobs, Json, Quiet, complete, emit, printable
+from comparison.command_line.options import Jobs, Json, Quiet, complete, emit, printable, progress
 
 
 def item_names(incomplete: str) -> list[str]:
@@ -48,7 +47,7 @@ def gallery(
         if wanted not in ITEMS:
             raise InputError(f"gallery {wanted!r} is not known{nearest(wanted, ITEMS)}")
     check_writable(out, folder=True)
-    with Console(quiet).progress("gallery") as bar:
+    with progress("gallery", quiet) as bar:
         drawn, failures = draw_all(ids or list(ITEMS), out, formats=format, jobs=jobs, progress=bar.count)
     lines = "\n".join(f"{d['id']:>10}  {d['files'][0]}" for d in drawn)
     emit({"drawn": drawn, "failures": failures}, as_json, lambda: lines)

@@ -7,8 +7,18 @@ from typing import Annotated
 
 import typer
 
-from comparison.command_line.console import Console
-from comparison.command_line.options import Jobs, Json, Methods, Quiet, Set, complete, emit, factors, path_names
+from comparison.command_line.options import (
+    Jobs,
+    Json,
+    Methods,
+    Quiet,
+    Set,
+    complete,
+    emit,
+    factors,
+    path_names,
+    progress,
+)
 
 
 def study_names(incomplete: str) -> list[str]:
@@ -71,7 +81,7 @@ def study(
     refines = factors(refine or "1")
     if out is not None:
         check_writable(out, folder=True)
-    with Console(quiet).progress(f"study {name}") as bar:
+    with progress(f"study {name}", quiet) as bar:
         found = run_study(name, loaded, methods=varied, refines=refines, out=out, jobs=jobs, progress=bar.count)
     emit(found.to_dict(), as_json, found.text)
     if found.problem:

@@ -39,7 +39,6 @@ PATIENCE = 10.0  # s between an interrupt and the next: workers and files are cl
 RESUMED = ("match", "gallery", "report", "benchmark")  # keep every run, or every item, as soon as it is finished
 
 app = typer.Typer(
-    help="A naturally bent beam hits a wall: theory and simulations compared.",
     rich_markup_mode=None,
     pretty_exceptions_enable=False,
     context_settings={"max_content_width": 110, "help_option_names": ["-h", "--help"]},

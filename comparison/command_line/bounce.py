@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from comparison.command_line.console import Console
-from comparison.command_line.options import Jobs, Json, Quiet, Set, Verbose, emit, path_names
+from bent_beam.errors import InputError
+from comparison.command_line.options import Jobs, Json, Quiet, Set, Verbose, emit, path_names, progress
 
 if TYPE_CHECKING:
     from bent_beam.impact import Impact
@@ -50,7 +50,6 @@ def bounce(
     from dataclasses import asdict
 
     from bent_beam.method import paths_with
-    from bent_beam.parts import InputError
     from comparison.bounce import bounce as follow
     from comparison.bounce import follow_hits
     from comparison.store import check_writable
@@ -63,7 +62,7 @@ def bounce(
         raise InputError(f"path: {path} has no choices for the whole beam ({' and '.join(able)} have)")
     if out is not None:
         check_writable(out, folder=True)
-    with Console(quiet).progress(f"{path}: the whole impact") as bar:
+    with progress(f"{path}: the whole impact", quiet) as bar:
         found = follow(impact, method, section=section, runs=runs, seed=seed, jobs=jobs, progress=bar.count)
         followed = follow_hits(impact, method, hits, first=found.history, progress=bar.fraction) if hits > 1 else []
         over = over_damping(impact, section, method, found.numbers["peak_moment"])
@@ -87,7 +86,6 @@ def _asked(
 ) -> tuple[Impact, Method, Section | None]:
     """The impact, its method and its section, from a case or from the two numbers."""
     from bent_beam.cases import load_case
-    from bent_beam.parts import InputError
     from comparison.bounce import problem
     from comparison.methods import methods_of
 

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from comparison.command_line.console import Console
+from bent_beam.errors import InputError, SimulationError
 from comparison.command_line.options import (
     CaseFile,
     ErrorBars,
@@ -20,12 +21,10 @@ from comparison.command_line.options import (
     complete,
     emit,
     path_names,
+    progress,
 )
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from bent_beam.errors import SimulationError
     from bent_beam.history import ImpactHistory
     from bent_beam.method import Method
 
@@ -98,7 +97,6 @@ def predict(
     Example: bentbeam predict cases/drill_pipe.toml --time 0.005 --time 0.01
     """
     from bent_beam.cases import load_case
-    from bent_beam.errors import InputError
     from comparison.prediction import predict_case
     from comparison.prediction_text import prediction_text
 
@@ -110,7 +108,7 @@ def predict(
             loaded.impact.checked_time("time", one)
         except ValueError as error:
             raise InputError(f"--time: {error}") from None
-    with Console(quiet or as_json or theory_only).progress(f"the whole beam: {case.name}") as bar:
+    with progress(f"the whole beam: {case.name}", quiet or as_json or theory_only) as bar:
         document = predict_case(loaded, times, theory_only=theory_only, progress=bar.fraction)
     emit(document, as_json, lambda: prediction_text(document))
 
@@ -137,9 +135,7 @@ def simulate(
     Example: bentbeam simulate cases/thesis_K10.toml --path exudyn --set exudyn.integrator.kind=newmark
     """
     from bent_beam.cases import load_case
-    from bent_beam.errors import SimulationError
     from bent_beam.method import LONGEST, simulate_to_separation, simulated
-    from bent_beam.parts import InputError
     from comparison.companions import suited
     from comparison.summary import companions, summary
     from comparison.summary_text import run_table
@@ -160,7 +156,7 @@ def simulate(
         return simulate_to_separation(chosen, loaded.impact, save=instants, progress=progress)
 
     try:
-        with Console(quiet).progress(f"{path}: {case.name}") as bar:
+        with progress(f"{path}: {case.name}", quiet) as bar:
             history = run(method, save, bar.fraction)
     except SimulationError as error:
         raise _kept(error, out) from None

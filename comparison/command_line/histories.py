@@ -7,8 +7,7 @@ from typing import Annotated
 
 import typer
 
-from comparison.command_line.console import Console
-from comparison.command_line.options import Json, Overwrite, Quiet, check_out, emit
+from comparison.command_line.options import Json, Overwrite, Quiet, check_out, emit, progress
 
 __all__ = ["compare", "plot", "rerun"]
 
@@ -28,7 +27,7 @@ def rerun(
     from comparison.compare import rerun_history, rerun_text
 
     check_out(out, overwrite)
-    with Console(quiet).progress(f"again: {file.name}") as bar:
+    with progress(f"again: {file.name}", quiet) as bar:
         found = rerun_history(ImpactHistory.load(file), out, bar.fraction)
     emit(found, as_json, lambda: rerun_text(found))
 

@@ -7,7 +7,6 @@ from typing import Annotated
 
 import typer
 
-from comparison.command_line.console import Console
 from comparison.command_line.options import (
     ErrorBars,
     Json,
@@ -20,6 +19,7 @@ from comparison.command_line.options import (
     factors,
     numbers,
     printable,
+    progress,
 )
 
 __all__ = ["match"]
@@ -71,9 +71,8 @@ def match(
 
     from comparison.match import match as match_all
     from comparison.methods import chosen_methods
-    from comparison.rows import THESIS_KAPPAS, failures, questions
+    from comparison.rows import THESIS_KAPPAS, failures, match_document, match_table, questions
     from comparison.store import RunStore, check_writable, default_store
-    from comparison.tables import match_document, match_table, write_match
 
     compared = chosen_methods(path or (), assignments or (), methods)
     loads = [_load(text) for text in first_order or ()]
@@ -84,13 +83,15 @@ def match(
     store = RunStore(None if fresh else default_store())
     if jobs is None:  # a process takes a second or two to start
         jobs = max(1, min(os.cpu_count() or 1, len(asked) // LEAST_ROWS))
-    with Console(quiet).progress(f"{len(asked)} rows") as bar:
+    with progress(f"{len(asked)} rows", quiet) as bar:
         rows = match_all(asked, store=store, jobs=jobs, scheduler=scheduler, limit=limit, progress=bar.count)
     emit(match_document(rows), as_json, lambda: match_table(rows))
     lost = failures(rows)
     for row in lost:
         print(printable(f"error: {row.label}, kappa/nu = {row.kappa_over_nu:g}: {row.reason}"), file=sys.stderr)
     if out is not None:
+        from comparison.figures.matching import write_match
+
         write_match(rows, out)  # after the answer, which a full disk must not cost
     if lost:
         raise typer.Exit(3)

@@ -1,13 +1,20 @@
-"""Options that several commands share, and how a result is printed."""
+"""Options that several commands share, and how progress and a result are shown."""
 
 from __future__ import annotations
 
+import logging
+import math
 import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import Annotated, Any
 
 import typer
+
+from bent_beam.errors import InputError
 
 
 def path_names(incomplete: str) -> list[str]:
@@ -69,10 +76,6 @@ Overwrite = Annotated[bool, typer.Option("--overwrite", help="Replace existing f
 
 def numbers(option: str, text: str, counts: Sequence[int], what: str) -> tuple[float, ...]:
     """Finite numbers, comma separated in ``text``. Raises :class:`InputError` when there are not as many as allowed."""
-    import math
-
-    from bent_beam.parts import InputError
-
     try:
         found = tuple(float(word) for word in text.split(","))
     except ValueError:
@@ -94,7 +97,7 @@ def emit(document: Any, as_json: bool, text: Callable[[], str]) -> None:
     if as_json:
         import json
 
-        from comparison.plain import json_text
+        from comparison.readable import json_text
 
         unicode = (sys.stdout.encoding or "utf-8").lower().startswith("utf")
 
@@ -115,9 +118,60 @@ def check_out(out: Path | None, overwrite: bool) -> None:
     """``InputError`` when the file cannot be written, or is there already."""
     if out is None:
         return
-    from bent_beam.parts import InputError
     from comparison.store import check_writable
 
     if out.exists() and not overwrite:
         raise InputError(f"--out: {out} exists already (give another name, or --overwrite)")
     check_writable(out, folder=False)
+
+
+@dataclass(frozen=True)
+class Bar:
+    """What a long job reports to: a fraction, or a count of things done."""
+
+    fraction: Callable[[float], None]
+
+    def count(self, done: int, total: int) -> None:
+        self.fraction(done / max(total, 1))
+
+
+@contextmanager
+def progress(title: str, quiet: bool) -> Iterator[Bar]:
+    """Progress on standard error, with the time that is left, and what paths log for the user; a bar on a terminal
+    only, and nothing where ``quiet``."""
+    silent = Bar(lambda done: None)
+    if quiet:
+        yield silent
+        return
+    if not sys.stderr.isatty():
+        with notices(partial(print, file=sys.stderr)):
+            yield silent
+        return
+    from rich.console import Console
+    from rich.progress import BarColumn, Progress, TimeElapsedColumn, TimeRemainingColumn
+
+    words = ("{task.description}", BarColumn(), "{task.percentage:>3.0f} %")
+    columns = (*words, TimeElapsedColumn(), "left", TimeRemainingColumn())
+    terminal = Console(stderr=True)
+    with Progress(*columns, console=terminal, transient=True) as bar, notices(terminal.print):
+        task = bar.add_task(title, total=1.0)
+        yield Bar(lambda done: bar.update(task, completed=done))
+
+
+@contextmanager
+def notices(show: Callable[[str], None]) -> Iterator[None]:
+    """What any path logs for the user (the logger ``bent_beam``) goes to ``show`` while in here."""
+
+    class Shown(logging.Handler):
+        def emit(self, record: logging.LogRecord) -> None:
+            show(record.getMessage())
+
+    handler, log = Shown(logging.INFO), logging.getLogger("bent_beam")
+    level = log.level
+    log.addHandler(handler)
+    log.setLevel(logging.INFO)
+    try:
+        yield
+    finally:
+        log.removeHandler(handler)
+        log.setLevel(level)

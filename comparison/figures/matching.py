@@ -1,12 +1,15 @@
-"""The matching plots: numerical λ₀, r₀ on the theory's curves (thesis Figs 3.29, 3.30), and λ₁, r₁ (Figs 2.12, 2.16
-with points).
+"""The files of a match: its rows as JSON and CSV, and the matching plots: numerical λ₀, r₀ on the theory's curves
+(thesis Figs 3.29, 3.30), and λ₁, r₁ (Figs 2.12, 2.16 with points).
 
 A number that is missing is left out, and the figure says how many were.
 """
 
 from __future__ import annotations
 
+import csv
+import io
 from collections.abc import Sequence
+from dataclasses import asdict
 from itertools import cycle
 from pathlib import Path
 from typing import Any
@@ -15,31 +18,60 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from comparison.figures import style
-from comparison.rows import First, MatchRow
+from comparison.figures.work_precision import draw_work_precision
+from comparison.readable import json_text, plain
+from comparison.rows import First, MatchRow, match_document
+from comparison.store import write_atomically
 from theory import contact_parameters
 
-__all__ = ["draw_first_order", "draw_leading", "draw_matching"]
+__all__ = ["draw_first_order", "draw_leading", "draw_matching", "write_match"]
 
 DASHES = ("-", "--", ":", "-.")
 """Of theory's curves, a kind for each load."""
 
 
-def draw_matching(rows: Sequence[MatchRow], out: Path, formats: Sequence[str] = ("png",)) -> list[Path]:
+def write_match(rows: Sequence[MatchRow], out: Path) -> list[Path]:
+    """``match.json``, ``match.csv`` and the plots that the rows have data for, in ``out``; returns the files."""
+    files = [out / "match.json", out / "match.csv"]
+    write_atomically(files[0], json_text(match_document(rows), indent=1))
+    write_atomically(files[1], rows_csv(rows))
+    return files + draw_matching(rows, out) + draw_work_precision(rows, out)
+
+
+def rows_csv(rows: Sequence[MatchRow]) -> str:
+    """The rows as CSV with a header; compared numbers become three columns, missing ones stay empty."""
+    table = []
+    for row in rows:
+        flat: dict[str, Any] = {}
+        for key, value in plain(asdict(row)).items():
+            if isinstance(value, dict) and set(value) == {"value", "error", "theory"}:
+                flat |= {key: value["value"], f"{key}_error": value["error"], f"{key}_theory": value["theory"]}
+            elif isinstance(value, dict):
+                flat[key] = json_text(value)
+            else:
+                flat[key] = "; ".join(map(str, value)) if isinstance(value, list) else value
+        table.append(flat)
+    stream = io.StringIO()
+    writer = csv.DictWriter(stream, fieldnames=list(table[0]) if table else [], lineterminator="\n")
+    writer.writeheader()
+    writer.writerows(table)
+    return stream.getvalue()
+
+
+def draw_matching(rows: Sequence[MatchRow], out: Path) -> list[Path]:
     """Every matching plot that the rows have data for; returns the files. The finest refinement is drawn."""
     finest: dict[Any, MatchRow] = {}
     for row in rows:
         key = (row.label, row.kappa_over_nu, row.first)
         finest[key] = max(finest.get(key, row), row, key=lambda r: r.refine)
     shown = list(finest.values())
-    files = draw_leading(shown, out, formats) if any(r.lambda0.measured for r in shown) else []
+    files = draw_leading(shown, out) if any(r.lambda0.measured for r in shown) else []
     if any(r.lambda1.measured for r in shown):
-        files += draw_first_order(shown, out, formats)
+        files += draw_first_order(shown, out)
     return files
 
 
-def draw_leading(
-    rows: Sequence[MatchRow], out: Path, formats: Sequence[str] = ("png",), name: str = "leading"
-) -> list[Path]:
+def draw_leading(rows: Sequence[MatchRow], out: Path) -> list[Path]:
     """λ₀ and r₀ over κ/ν, theory's curve and numerical points, and the relative differences below."""
     leading = list({(r.label, r.kappa_over_nu): r for r in rows}.values())
     ratios = [r.kappa_over_nu for r in leading]
@@ -55,7 +87,7 @@ def draw_leading(
         style.label_panels(*axes[0])
         axes[0, 0].legend()
         _say_what_is_missing(fig, [r for r in leading if not r.lambda0.measured])
-        return style.save(fig, out, name, formats)
+        return style.save(fig, out, "leading")
 
 
 def _compare(top: Axes, below: Axes, rows: Sequence[MatchRow], what: str) -> None:
@@ -79,9 +111,7 @@ def _compare(top: Axes, below: Axes, rows: Sequence[MatchRow], what: str) -> Non
     below.set_ylim(-limit, limit)
 
 
-def draw_first_order(
-    rows: Sequence[MatchRow], out: Path, formats: Sequence[str] = ("png",), name: str = "first-order"
-) -> list[Path]:
+def draw_first_order(rows: Sequence[MatchRow], out: Path) -> list[Path]:
     """λ₁ and r₁ over κ/ν for every (α, ψ, χ, N) among the rows, λ_N and r_N where it is tension alone: a curve of the
     theory each, and the points."""
     asked = [r for r in rows if r.of_first_order]
@@ -120,7 +150,7 @@ def draw_first_order(
             axes[1].plot([], [], **mark)
         axes[1].legend()
         _say_what_is_missing(fig, [r for r in asked if not r.lambda1.measured])
-        return style.save(fig, out, name, formats)
+        return style.save(fig, out, "first-order")
 
 
 def _named(first: First | None, tension: bool) -> str:

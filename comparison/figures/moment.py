@@ -23,7 +23,7 @@ from bent_beam.impact import Impact
 from bent_beam.method import Method, refined
 from bent_beam.versions import stamp
 from comparison.figures import style
-from comparison.methods import default_methods
+from comparison.methods import methods_of
 from comparison.store import write_atomically
 from theory.similarity import peak_moment
 
@@ -90,7 +90,7 @@ def _late_moment(method: Method, kappa_over_nu: float) -> tuple[float, float]:
     return float(np.median(late)), float(0.5 * (high - low))
 
 
-def draw_moments(found: Sequence[MeasuredMoment], out: Path, formats: Sequence[str] = ("png",)) -> list[Path]:
+def draw_moments(found: Sequence[MeasuredMoment], out: Path) -> list[Path]:
     """``peak-moment``: theory's curve with the points, and their difference in per cent."""
     marks = style.marks(m.label for m in found)
     ratio = np.geomspace(0.008, 2.0, 300)
@@ -113,12 +113,12 @@ def draw_moments(found: Sequence[MeasuredMoment], out: Path, formats: Sequence[s
         left.legend()
         right.legend()
         style.label_panels(left, right)
-        return style.save(fig, out, "peak-moment", formats)
+        return style.save(fig, out, "peak-moment")
 
 
 def _main() -> None:
     folder = style.asked_folder()
-    asked = [(method, kappa) for method in default_methods(PATHS) for kappa in KAPPAS if kappa >= FLATTEST[method.path]]
+    asked = [(method, kappa) for method in methods_of(PATHS) for kappa in KAPPAS if kappa >= FLATTEST[method.path]]
     found = [measure_moment(method, kappa) for method, kappa in asked]
     for m in found:
         print(f"{m.label:14s} {m.kappa_over_nu:6g}  {m.value:.5f} ± {m.error:.1g}  theory {m.theory:.5f}")

@@ -29,7 +29,7 @@ Read = Callable[[MatchRow], tuple[float | None, float | None]]
 """What a panel shows of a row, and its error bar."""
 
 
-def draw_work_precision(rows: Sequence[MatchRow], out: Path, formats: Sequence[str] = ("png",)) -> list[Path]:
+def draw_work_precision(rows: Sequence[MatchRow], out: Path) -> list[Path]:
     """``work-precision.png`` (leading order) and ``work-precision-first-order.png``, where at least one method was run
     at two refinements; returns the files."""
     files = []
@@ -37,7 +37,7 @@ def draw_work_precision(rows: Sequence[MatchRow], out: Path, formats: Sequence[s
         mine = [r for r in rows if r.of_first_order == first and r.reason is None and r.seconds]
         if len({(r.label, r.refine) for r in mine}) > len({r.label for r in mine}):
             lost = {r.label for r in rows if r.of_first_order == first} - {r.label for r in mine}
-            files += _draw(mine, out, name, first, formats, missing=len(lost))
+            files += _draw(mine, out, name, first, missing=len(lost))
     return files
 
 
@@ -47,9 +47,7 @@ def _error(what: str, row: MatchRow) -> tuple[float | None, float | None]:
     return None if off is None else abs(off), number.relative_error(LEAST[what])
 
 
-def _draw(
-    rows: Sequence[MatchRow], out: Path, name: str, first: bool, formats: Sequence[str], missing: int
-) -> list[Path]:
+def _draw(rows: Sequence[MatchRow], out: Path, name: str, first: bool, missing: int) -> list[Path]:
     order = 1 if first else 0
     panels: list[tuple[str, Read]] = [
         (f"error of $r_{order}$  (1)", partial(_error, f"r{order}")),
@@ -80,7 +78,7 @@ def _draw(
         words = f"left out, no number: {missing} method{'s' if missing > 1 else ''} of the table" if missing else None
         sizes = {"fontsize": 6.5, "title_fontsize": 6.5}
         fig.legend(handles, names, loc="outside lower center", ncols=len(columns), title=words, **sizes)
-        return style.save(fig, out, name, formats)
+        return style.save(fig, out, name)
 
 
 def _groups(rows: Sequence[MatchRow]) -> list[list[MatchRow]]:

@@ -5,7 +5,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -17,7 +16,7 @@ from bent_beam.history import ImpactHistory
 from comparison.bounce import Bounce
 from comparison.figures import style
 from comparison.figures.style import Film, write_gif
-from comparison.plain import json_text
+from comparison.readable import json_text
 from comparison.store import write_atomically
 from comparison.whole_impact.stored_map import stored_map
 from comparison.whole_impact.table import bounce_document
@@ -81,7 +80,7 @@ def _whole(history: ImpactHistory, k: int) -> tuple[Array, Array]:
     return x / impact.half_length, -gap / (impact.velocity * impact.slow_time_scale)
 
 
-def draw_bounce(found: Bounce, out: Path, formats: Sequence[str] = ("png",)) -> list[Path]:
+def draw_bounce(found: Bounce, out: Path) -> list[Path]:
     """Force and contact zone over time, and the beam's shapes, one below the other as time goes on."""
     history, impact = found.history, found.impact
     end = min(1.25 * found.outcome.last_contact, float(history.time[-1]) / impact.slow_time_scale)
@@ -103,7 +102,7 @@ def draw_bounce(found: Bounce, out: Path, formats: Sequence[str] = ("png",)) -> 
         style.label_panels(push, zone, shapes)
         title = rf"$\kappa/\nu$ = {impact.kappa_over_nu:.4g}, $\eta/T^*$ = {impact.relative_damping:.3g}"
         push.set_title(title, loc="right", pad=3.0)
-        return style.save(fig, out, "bounce", formats)
+        return style.save(fig, out, "bounce")
 
 
 def _draw_shapes(axis: Any, history: ImpactHistory, end: float) -> None:
@@ -123,7 +122,7 @@ def _draw_shapes(axis: Any, history: ImpactHistory, end: float) -> None:
     axis.spines["left"].set_visible(False)
 
 
-def draw_map(out: Path, formats: Sequence[str] = ("png",)) -> list[Path]:
+def draw_map(out: Path) -> list[Path]:
     """The stored map: restitution, last contact, largest moment, energies over κ/ν, a line for each damping."""
     table = stored_map()
     dampings = sorted(table["damping"])
@@ -154,7 +153,7 @@ def draw_map(out: Path, formats: Sequence[str] = ("png",)) -> list[Path]:
         handles, labels = axes[0, 0].get_legend_handles_labels()
         fig.legend(handles, labels, title=r"$\eta/T^*$", loc="outside upper center", ncols=len(labels))
         style.label_panels(*axes.flat)
-        return style.save(fig, out, "bounce-map", formats)
+        return style.save(fig, out, "bounce-map")
 
 
 def _power(damping: float) -> str:

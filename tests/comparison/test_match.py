@@ -10,11 +10,11 @@ from typing import ClassVar
 import pytest
 
 from bent_beam import InputError, SimulationError
+from comparison.figures.matching import write_match
 from comparison.match import answer, match
-from comparison.methods import default_methods, methods_from_file
-from comparison.rows import Question, failures, questions
+from comparison.methods import methods_from_file, methods_of
+from comparison.rows import Question, failures, match_table, questions
 from comparison.store import RunStore
-from comparison.tables import match_table, write_match
 from exudyn_models import ExudynModel
 from hermite_fe import HermiteFE
 from self_similar_fe import SelfSimilarFE
@@ -112,7 +112,7 @@ def test_tension_alone_on_the_self_similar_path_within_three_thousandths(kappa):
 
 
 def test_a_sweep_resumes_and_does_not_depend_on_jobs(tmp_path):
-    asked = questions(default_methods(["self_similar"]), [0.5, 0.25, 2.0])
+    asked = questions(methods_of(["self_similar"]), [0.5, 0.25, 2.0])
     first = match(asked[:2], store=RunStore(tmp_path))
     kept = {f.name: f.read_bytes() for f in tmp_path.iterdir()}
     both = match(asked, store=RunStore(tmp_path), jobs=2)

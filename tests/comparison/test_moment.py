@@ -11,7 +11,7 @@ import pytest
 from bent_beam import Impact
 from bent_beam.meshes import UniformMesh
 from comparison.figures.moment import FLATTEST, FOLDER, KAPPAS, PATHS, MeasuredMoment, measure_moment
-from comparison.methods import default_methods
+from comparison.methods import methods_of
 from exudyn_models import ExudynModel
 from hermite_fe import HermiteFE
 from measure import reduction
@@ -41,7 +41,7 @@ def test_moment_of_a_quick_run_is_that_of_theory_and_steady() -> None:
 @pytest.mark.verify
 @pytest.mark.parametrize(("path", "kappa"), MEASURED)
 def test_moment_is_that_of_theory(path: str, kappa: float) -> None:
-    (method,) = default_methods([path])
+    (method,) = methods_of([path])
     found = measure_moment(method, kappa)
     assert found.value == pytest.approx(found.theory, rel=WITHIN)
 

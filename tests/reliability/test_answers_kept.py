@@ -90,7 +90,7 @@ def test_a_full_disk_under_out_costs_the_files_and_no_answer(monkeypatch):
     def full(*_):
         raise OSError(28, "No space left on device", "out/match.json")
 
-    monkeypatch.setattr("comparison.tables.write_match", full)
+    monkeypatch.setattr("comparison.figures.matching.write_match", full)
     install(monkeypatch, lambda: Theirs)
     code, out, err = command(*MATCH, "--out", "out", "--json")
     assert code == 2 and len(json.loads(out)["rows"]) == 1 and "No space left" in err

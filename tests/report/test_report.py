@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 from comparison.figures.force_map import force_map, spread
-from comparison.methods import default_methods
+from comparison.methods import methods_of
 from comparison.store import RunStore
 from hermite_fe import HermiteFE
 from report import page
@@ -112,7 +112,7 @@ def test_report_is_written_when_rows_fail(tmp_path: Path, monkeypatch: pytest.Mo
     monkeypatch.setattr(page, "warm_up", lambda methods: None)
     monkeypatch.setattr(page, "show_all", lambda *_, **__: (list(impacts()), []))
     monkeypatch.setattr(page, "pipe_prediction", lambda: None)
-    methods = default_methods(PATHS)
+    methods = methods_of(PATHS)
     asked = report_questions(methods)
     found = page.write_report(tmp_path, methods, asked, store=RunStore(None), progress=lambda *of: seen.append(of))
     assert set(found) == {"page", "files", "headline", "failures", "rows"}
@@ -130,7 +130,7 @@ def test_report_is_written_when_rows_fail(tmp_path: Path, monkeypatch: pytest.Mo
 
 
 def test_questions_ask_every_method_the_same() -> None:
-    asked = report_questions(default_methods(PATHS))
+    asked = report_questions(methods_of(PATHS))
     each = {label: {(q.kappa_over_nu, q.first, q.refine) for q in asked if q.method.label == label} for label in LABELS}
     assert each["Hermite"] == each["Exudyn"] == each["Self-similar"]
     assert (1 / 1600, None, 1.0) in each["Hermite"] and (0.5, (4, 0, 0, 0), 1.0) in each["Hermite"]

@@ -22,8 +22,7 @@ from typing import Any
 
 from bent_beam.errors import ANY_FAILURE
 from comparison.figures.style import FORMATS
-from comparison.plain import plain
-from comparison.readable import readable
+from comparison.readable import plain, readable
 from comparison.store import write_atomically
 from comparison.stored import digest_of
 from comparison.workers import run_all

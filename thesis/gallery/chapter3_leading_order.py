@@ -15,7 +15,7 @@ from bent_beam.history import ImpactHistory
 from bent_beam.meshes import UniformMesh
 from comparison.figures import style
 from comparison.match import match
-from comparison.methods import default_methods
+from comparison.methods import methods_of
 from comparison.readable import readable
 from comparison.rows import THESIS_KAPPAS, MatchRow, questions
 from comparison.store import RunStore, default_store
@@ -55,7 +55,7 @@ def matched() -> list[MatchRow]:
     asked = [
         question
         for path, ratios in (("hermite", THESIS_KAPPAS), ("exudyn", THESIS_KAPPAS[::2]))
-        for question in questions(default_methods((path,)), ratios, error_bars="drift")
+        for question in questions(methods_of((path,)), ratios, error_bars="drift")
     ]
     rows = match(asked, store=RunStore(default_store()))
     if not any(r.lambda0.measured for r in rows):

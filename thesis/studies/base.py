@@ -7,8 +7,7 @@ from dataclasses import asdict, dataclass, field, replace
 from typing import Any
 
 from bent_beam.cases import Case
-from comparison.plain import plain
-from comparison.readable import readable
+from comparison.readable import plain, readable
 from thesis.sheet import Sheet
 from thesis.studies.of_methods import Vary
 from thesis.studies.outcome import MEASURES, Outcome
