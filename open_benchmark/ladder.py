@@ -139,13 +139,17 @@ def cell(scheme: Scheme, rung: str, refinements: Sequence[int] = (1, 2, 4, 8)) -
     """One integrator on one rung: error at the coarsest and the finest mesh, observed order, energy left at the finest;
     or why the integrator cannot take it."""
     try:
-        found = [[RUNGS[rung](lambda step: scheme(p * step), n) for p in PHASES] for n in refinements]
+        found = [[RUNGS[rung](_shifted(scheme, phase), n) for phase in PHASES] for n in refinements]
     except ValueError as error:
         return " ".join(str(error).split())
     errors, energies = np.mean(found, axis=1).T
     exact = len(errors) < 2 or min(errors) < 1e-13
     order = "round-off" if exact else f"{-np.polyfit(np.log(refinements), np.log(errors), 1)[0]:.2f}"
     return f"{errors[0]:.1e} … {errors[-1]:.1e}, {order}, {energies[-1]:.4f}"
+
+
+def _shifted(scheme: Scheme, phase: float) -> Scheme:
+    return lambda step: scheme(phase * step)
 
 
 if __name__ == "__main__":
