@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import importlib.metadata
 import json
 import platform
 from dataclasses import dataclass, field
@@ -10,11 +9,10 @@ from pathlib import Path
 from typing import Any
 
 from bent_beam.files import write_atomically
-from bent_beam.versions import processor, today
+from bent_beam.versions import processor, today, versions
 
-__all__ = ["RESULTS", "VERSIONS", "Row", "keep"]
+__all__ = ["RESULTS", "Row", "keep"]
 
-VERSIONS = ("numpy", "scipy", "numba", "typer", "exudyn", "xarray")
 RESULTS = Path(__file__).parent / "results"
 
 
@@ -53,7 +51,7 @@ def keep(file: Path, rows: list[dict[str, Any]]) -> None:
         "date": today(),
         "processor": processor(),
         "python": platform.python_version(),
-        "versions": {name: importlib.metadata.version(name) for name in VERSIONS},
+        "versions": versions(),
         "rows": rows,
     }
     write_atomically(file, json.dumps(record, indent=1, ensure_ascii=False) + "\n")

@@ -11,8 +11,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, field, fields
-from typing import Any
+from types import SimpleNamespace
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -44,45 +44,34 @@ FEWEST_SNAPSHOTS = 10  # from which unsteadiness is read off
 FALLS = 5e-3  # of J: how far it falls without a tensile impulse that is reported
 
 
-def sign(words: str = "") -> Any:
-    """A number that rules compare, as the evidence words it; NaN, so that no comparison holds, where there is none."""
-    return field(default=math.nan, metadata={"words": words})
+#: The numbers that rules compare, as the evidence words them; NaN, so that no comparison holds, where there is none.
+SIGNS = {
+    "gained": "energy gained / JV₀",
+    "adhesion": "tensile impulse / J",
+    "penetration": "penetration / V₀t",
+    "lift": "lift / V₀t",
+    "noise": "noise of the impulse",
+    "thickness": "thickness of the front / l*",
+    "element": "element at the front / l*",  # at the end of the record
+    "growth": "largest ratio of neighbouring elements",
+    "half_length": "half length / l*",
+    "end": "",
+    "travel": "way of the front in the last step / l*",
+    "steps": "steps of that length in the record",
+    "unsteady": "unsteadiness of the lift",  # see UNSTEADY
+    "momentum": "momentum that the beam lost / J, less 1",
+    "ratio_J": "J / the exact J",
+    "ratio_Jm": "Jm / the exact Jm",
+    "factor": "",  # how many of the ratios are one of FACTORS
+    "off": "largest error over its limit",
+    "falls": "fall of the impulse / J",  # that no tensile impulse explains
+    "unknown": "numbers below their error bar",
+    "vague": "largest error within its bars",  # without loads
+}
+Signs = Any  # a namespace of SIGNS
 
 
-@dataclass(frozen=True)
-class Signs:
-    """The numbers that rules compare. element : its length at the front at the end of the record. travel : of the front
-    in the last step. unsteady : see ``UNSTEADY``. factor : how many of the ratios are one of ``FACTORS``. falls : of J
-    that no tensile impulse explains. unknown : numbers whose bar exceeds them. vague : without loads."""
-
-    gained: float = sign("energy gained / JV₀")
-    adhesion: float = sign("tensile impulse / J")
-    penetration: float = sign("penetration / V₀t")
-    lift: float = sign("lift / V₀t")
-    noise: float = sign("noise of the impulse")
-    thickness: float = sign("thickness of the front / l*")
-    element: float = sign("element at the front / l*")
-    growth: float = sign("largest ratio of neighbouring elements")
-    half_length: float = sign("half length / l*")
-    end: float = sign()
-    travel: float = sign("way of the front in the last step / l*")
-    steps: float = sign("steps of that length in the record")
-    unsteady: float = sign("unsteadiness of the lift")
-    momentum: float = sign("momentum that the beam lost / J, less 1")
-    ratio_J: float = sign("J / the exact J")
-    ratio_Jm: float = sign("Jm / the exact Jm")
-    factor: float = sign()
-    off: float = sign("largest error over its limit")
-    falls: float = sign("fall of the impulse / J")
-    unknown: float = sign("numbers below their error bar")
-    vague: float = sign("largest error within its bars")
-
-
-WORDS = {one.name: one.metadata["words"] for one in fields(Signs)}
-
-
-@dataclass(frozen=True)
-class Rule:
+class Rule(NamedTuple):
     """A diagnosis: when it holds, the signs that show it, and what to change."""
 
     holds: Callable[[Signs], bool]
@@ -189,7 +178,7 @@ def diagnose(result: Result, found: Score) -> tuple[Finding, ...]:
     for name, rule in RULES.items():
         if rule.holds(signs):
             shown = {sign: getattr(signs, sign) for sign in rule.evidence}
-            evidence = ", ".join(f"{WORDS[sign]} = {value:.3g}" for sign, value in shown.items() if value == value)
+            evidence = ", ".join(f"{SIGNS[sign]} = {value:.3g}" for sign, value in shown.items() if value == value)
             return (Finding(name, evidence, rule.advice),)
     compared = any(number.difference is not None for number in found.measured.values())
     return (Finding("clean"),) if compared else ()
@@ -221,7 +210,8 @@ def _signs(result: Result, found: Score) -> Signs:
         signs |= {"thickness": 2.0 * math.sqrt(end) / speed, "unsteady": _unsteadiness(result)}
         signs |= {"travel": speed / (2.0 * math.sqrt(end)) * step, "steps": end / step}
         signs |= _mesh(result, speed * math.sqrt(end))
-    return Signs(**{name: math.nan if value is None else value for name, value in signs.items()})
+    known = {name: value for name, value in signs.items() if value is not None}
+    return SimpleNamespace(**dict.fromkeys(SIGNS, math.nan) | known)
 
 
 def _mesh(result: Result, front: float) -> dict[str, float | None]:

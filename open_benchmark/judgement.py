@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import asdict, dataclass, field
 from typing import Any
 
+from comparison.plain import plain
 from measure.measured import Measured
 
 __all__ = ["LIMITS", "PART", "Finding", "Score"]
@@ -103,14 +103,4 @@ class Score:
         document |= {name: getattr(self, name) for name in measures} | {"reference": self.reference or None}
         document["diagnosis"] = [finding.name for finding in self.diagnosis]
         document["advice"] = [asdict(finding) for finding in self.diagnosis if finding.name != "clean"]
-        return dict(_plain(document | {"metadata": self.metadata}))
-
-
-def _plain(value: Any) -> Any:
-    """``value`` for JSON: numbers finite or ``None``."""
-    if isinstance(value, dict):
-        return {str(key): _plain(item) for key, item in value.items()}
-    if isinstance(value, list | tuple):
-        return [_plain(item) for item in value]
-    return None if isinstance(value, float) and not math.isfinite(value) else value
-
+        return dict(plain(document | {"metadata": self.metadata}))

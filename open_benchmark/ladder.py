@@ -9,7 +9,6 @@ its closed form in ``theory``. Errors are the mean of |J − J exact| over the r
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -30,7 +29,7 @@ from hermite_fe.system import ContactRows, System
 from open_benchmark.problem import LADDER, problem
 from open_benchmark.references import reference
 
-__all__ = ["INTEGRATORS", "RUNGS", "Rung", "ladder_table", "ladder_text", "observed_order"]
+__all__ = ["INTEGRATORS", "RUNGS", "cell"]
 
 Array = NDArray[np.float64]
 Scheme = Callable[[float], Integrator]  # of a time step
@@ -51,24 +50,6 @@ CELLS = 50  # of bar and string at refinement 1
 COURANT = 0.437  # of their steps
 # Where in its step an impact falls is chance: errors are means over step sizes that differ by a few per cent.
 PHASES = (1.0, 0.93, 0.87, 0.81)
-
-
-@dataclass(frozen=True)
-class Rung:
-    """One integrator on one rung: error at each refinement, observed order, energy at the end over that at the start
-    (finest); ``reason`` when the integrator cannot take it."""
-
-    errors: tuple[float, ...] = ()
-    order: float | None = None
-    energy: float | None = None
-    reason: str = ""
-
-
-def observed_order(refinements: Sequence[int], errors: Sequence[float]) -> float | None:
-    """Slope of the errors over the refinement, both as logarithms; ``None`` when they are round-off."""
-    if len(errors) < 2 or min(errors) < 1e-13:
-        return None
-    return float(-np.polyfit(np.log(refinements), np.log(errors), 1)[0])
 
 
 def _judged(name: str, time: Array, impulse: Array, energy: Array) -> Found:
@@ -154,42 +135,24 @@ def _stopped_beam(scheme: Scheme, refine: int) -> Found:
 RUNGS = {"ball": _ball, "bar": _bar, "string": _string, "stopped-beam": _stopped_beam}
 
 
-def ladder_table(
-    refinements: Sequence[int] = (1, 2, 4, 8), integrators: Sequence[str] = tuple(INTEGRATORS)
-) -> dict[str, dict[str, Rung]]:
-    """Integrator → rung → errors, order and energy."""
-    return {name: {rung: _rung(INTEGRATORS[name], rung, refinements) for rung in RUNGS} for name in integrators}
-
-
-def _rung(scheme: Scheme, rung: str, refinements: Sequence[int]) -> Rung:
-    means = []
+def cell(scheme: Scheme, rung: str, refinements: Sequence[int] = (1, 2, 4, 8)) -> str:
+    """One integrator on one rung: error at the coarsest and the finest mesh, observed order, energy left at the finest;
+    or why the integrator cannot take it."""
     try:
-        for refine in refinements:
-            found = [RUNGS[rung](_shifted(scheme, phase), refine) for phase in PHASES]
-            means.append(np.mean(found, axis=0))
+        found = [[RUNGS[rung](_shifted(scheme, phase), n) for phase in PHASES] for n in refinements]
     except ValueError as error:
-        return Rung(reason=" ".join(str(error).split()))
-    errors = tuple(float(error) for error, _ in means)
-    return Rung(errors, observed_order(refinements, errors), float(means[-1][1]))
+        return " ".join(str(error).split())
+    errors, energies = np.mean(found, axis=1).T
+    exact = len(errors) < 2 or min(errors) < 1e-13
+    order = "round-off" if exact else f"{-np.polyfit(np.log(refinements), np.log(errors), 1)[0]:.2f}"
+    return f"{errors[0]:.1e} … {errors[-1]:.1e}, {order}, {energies[-1]:.4f}"
 
 
 def _shifted(scheme: Scheme, phase: float) -> Scheme:
     return lambda step: scheme(phase * step)
 
 
-def ladder_text(table: dict[str, dict[str, Rung]]) -> str:
-    """The table in Markdown: error at the coarsest and the finest mesh, observed order, energy left."""
-    lines = [f"| integrator | {' | '.join(RUNGS)} |", "| --- " * (1 + len(RUNGS)) + "|"]
-    lines += [f"| {name} | {' | '.join(_cell(rungs[rung]) for rung in RUNGS)} |" for name, rungs in table.items()]
-    return "\n".join(lines)
-
-
-def _cell(rung: Rung) -> str:
-    if rung.reason:
-        return rung.reason
-    order = "round-off" if rung.order is None else f"{rung.order:.2f}"
-    return f"{rung.errors[0]:.1e} … {rung.errors[-1]:.1e}, {order}, {rung.energy:.4f}"
-
-
 if __name__ == "__main__":
-    print(ladder_text(ladder_table()))
+    print(f"| integrator | {' | '.join(RUNGS)} |", "| --- " * (1 + len(RUNGS)) + "|", sep="\n")
+    for name, scheme in INTEGRATORS.items():
+        print(f"| {name} | {' | '.join(cell(scheme, rung) for rung in RUNGS)} |", flush=True)

@@ -11,9 +11,8 @@ import io
 import json
 import platform
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import jinja2
 import matplotlib
@@ -78,7 +77,7 @@ def document(rows: Sequence[Row], adapters: Sequence[Adapter], seed: int | None 
 def errors_table(rows: Sequence[Row], solvers: Sequence[str]) -> str:
     """Markdown: code × problem, errors in per cent from the coarse to the fine mesh, each with its wall clock in s and
     the judge's words for it."""
-    names = _names(rows)
+    names = dict.fromkeys(row.problem for row in rows)
     lines = [f"| code | {' | '.join(f'`{name}`' for name in names)} |", "| --- " * (1 + len(names)) + "|"]
     for solver in solvers:
         cells = []
@@ -111,10 +110,6 @@ def _cell(row: Row, measure: str) -> str:
     if found is None or found.value is None:
         return "–"
     return f"{found.value:.3g}" if error is None else f"{100 * error:+.3f} %"
-
-
-def _names(rows: Sequence[Row]) -> list[str]:
-    return list(dict.fromkeys(row.problem for row in rows))
 
 
 def _sheet(rows: Sequence[Row], name: str, solvers: Sequence[str], out: Path) -> dict[str, Any]:
@@ -157,23 +152,21 @@ def write_page(
     about = about or document(rows, adapters)
     solvers = list(dict.fromkeys([*(a.name for a in adapters), *(row.solver for row in rows)]))
     tables = {name: [row for row in rows if row.table == name] for name in ("verified", "self-declared")}
-    versions = {row.solver: version for row in rows if (version := row.score.metadata.get("version"))}
     loader = jinja2.Environment(
         loader=jinja2.FileSystemLoader(TEMPLATES), autoescape=True, trim_blocks=True, lstrip_blocks=True
     )
     html = loader.get_template("benchmark.html.j2").render(
         tables={
-            table: [_sheet(own, name, solvers, out / "sheets" / table) for name in _names(own)]
+            table: [
+                _sheet(own, name, solvers, out / "sheets" / table) for name in dict.fromkeys(row.problem for row in own)
+            ]
             for table, own in tables.items()
         },
         seed=about["seed"],
         solvers=about["solvers"],
-        versions=versions,
+        versions={row.solver: version for row in rows if (version := row.score.metadata.get("version"))},
         unlimited=sorted({row.unlimited for row in rows if row.unlimited}),
-        adapters=[
-            (a, solver["missing"], a.file.read_text(encoding="utf-8", errors="replace"))
-            for a, solver in zip(adapters, about["solvers"], strict=True)
-        ],
+        sources={a.name: a.file.read_text(encoding="utf-8", errors="replace") for a in adapters},
         minutes=about["seconds"] / 60.0,
     )
     write_atomically(out / "benchmark.json", json.dumps(about, indent=1, allow_nan=False))
@@ -186,32 +179,31 @@ def write_page(
 # --- property × code -----------------------------------------------------------------------------------------------
 
 
-@dataclass(frozen=True)
-class Property:
-    """The largest of ``numbers`` of the scores of the problems ``asked``, at the finest resolution alone or at all."""
+class Property(NamedTuple):
+    """The largest of ``numbers`` of the scores of the problems of some kinds, with loads of one regime, at the
+    finest resolution alone or at all."""
 
     numbers: Callable[[Score], Iterable[float | None]]
-    asked: Callable[[Problem], bool]
+    kinds: Sequence[str]
+    regime: str = ""
     finest: bool = True
 
-
-def _without_loads(asked: Problem) -> bool:
-    return asked.kind in ("leading", "point")
-
-
-def _first_order(regime: str) -> Property:
-    return Property(
-        lambda found: [found.error("lambda1"), found.error("r1")],
-        lambda asked: asked.kind == "first" and _regime(asked) == regime,
-    )
+    def counts(self, row: Row) -> bool:
+        """Whether a row is one of these."""
+        asked = problem(row.problem)
+        fits = asked.kind in self.kinds and self.regime in ("", _regime(asked))
+        return fits and row.resolution in (RESOLUTIONS[-1:] if self.finest else RESOLUTIONS)
 
 
-PROPERTIES: dict[str, Property] = {
-    "unilateral": Property(lambda found: [found.adhesion], _without_loads, finest=False),
-    "energy": Property(lambda found: [found.gained], _without_loads, finest=False),
-    "noise": Property(lambda found: [found.noise], _without_loads),
-    "lift": Property(lambda found: [found.lift], lambda asked: asked.kind == "leading"),
-    **{f"first order, {name}": _first_order(name) for name in ("pressed", "lift-off", "tension", "compression")},
+WITHOUT_LOADS = ("leading", "point")
+PROPERTIES = {
+    "unilateral": Property(lambda found: [found.adhesion], WITHOUT_LOADS, finest=False),
+    "energy": Property(lambda found: [found.gained], WITHOUT_LOADS, finest=False),
+    "noise": Property(lambda found: [found.noise], WITHOUT_LOADS),
+    "lift": Property(lambda found: [found.lift], ("leading",)),
+} | {
+    f"first order, {regime}": Property(lambda found: [found.error(name) for name in LOADED], ("first",), regime)
+    for regime in ("pressed", "lift-off", "tension", "compression")
 }
 
 
@@ -223,8 +215,7 @@ def properties(rows: Sequence[Row], solver: str) -> dict[str, str]:
 
 def _largest(rows: Sequence[Row], rule: Property) -> str:
     """The number, the outcome where no row has a result, or why there is none."""
-    resolutions = RESOLUTIONS[-1:] if rule.finest else RESOLUTIONS
-    chosen = [row for row in rows if rule.asked(problem(row.problem)) and row.resolution in resolutions]
+    chosen = [row for row in rows if rule.counts(row)]
     if not chosen:
         return "not asked"
     numbers = [abs(number) for row in chosen for number in rule.numbers(row.score) if number is not None]
@@ -239,7 +230,7 @@ def _converges(rows: Sequence[Row]) -> str:
     errors: dict[str, dict[str, float]] = {}
     for row in rows:
         worst = [abs(error) for name in ("lambda0", "r0") if (error := row.score.error(name)) is not None]
-        if _without_loads(problem(row.problem)) and worst:
+        if problem(row.problem).kind in WITHOUT_LOADS and worst:
             errors.setdefault(row.problem, {})[row.resolution] = max(worst)
     pairs = [(own.get(RESOLUTIONS[0]), own.get(RESOLUTIONS[-1])) for own in errors.values()]
     converged = [a is not None and b is not None and b <= max(a, CONVERGED / 10) and b < CONVERGED for a, b in pairs]

@@ -13,7 +13,7 @@ import re
 import zipfile
 from collections.abc import Collection, Iterator
 from pathlib import Path
-from typing import TextIO
+from typing import Any, TextIO
 
 import numpy as np
 
@@ -39,6 +39,7 @@ MOST_BYTES = 200_000_000
 MOST_JSON = 10_000_000  # bytes: five million empty lists, the worst of that size, take half a gigabyte of memory
 MOST_DIRECTORY = 100_000  # bytes of an NPZ's table of contents
 MOST_LINE = 10_000  # characters of a line of CSV
+DEEPEST = 100  # levels of metadata
 
 
 def load_result(file: str | Path) -> Result:
@@ -53,13 +54,25 @@ def load_result(file: str | Path) -> Result:
             raise ResultError(f"{size} bytes, {MOST_BYTES} are the most")
         if source.suffix.lower() not in readers:
             raise ResultError("must end in .npz, .csv or .json (CSV beside JSON), or .nc (a history)")
-        return readers[source.suffix.lower()](source)
+        result = readers[source.suffix.lower()](source)
+        _check_depth(result.metadata)
+        return result
     except (ValueError, OSError, RecursionError, OverflowError, MemoryError) as error:
         line = _one_line(error)
     if line.startswith(str(source)):
         raise ResultError(line)
     of_pair = line.startswith((f"{source.stem}.csv", f"{source.stem}.json"))  # the part of a pair that is wrong
     raise ResultError(str(source.parent / line) if of_pair else f"{source}: {line}")
+
+
+def _check_depth(metadata: Any) -> None:
+    """Refuse what could be read and not be written again: writers of JSON have bounds of their own."""
+    level: list[Any] = [metadata]
+    for _ in range(DEEPEST):
+        parts = (part for whole in level for part in (whole.values() if isinstance(whole, dict) else whole))
+        level = [part for part in parts if isinstance(part, dict | list)]
+    if level:
+        raise ResultError(f"metadata is nested more than {DEEPEST} levels deep")
 
 
 def _one_line(error: BaseException) -> str:

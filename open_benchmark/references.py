@@ -10,7 +10,6 @@ An exact J(t) is a piecewise polynomial: of the time, or of its fourth root.
 
 from __future__ import annotations
 
-import json
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from functools import cache
@@ -21,6 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import PPoly
 
+from comparison.stored import read
 from open_benchmark.problem import Problem
 
 __all__ = ["BOUNCES", "REFERENCES", "SCHEMA", "Reference", "reference", "stored"]
@@ -30,6 +30,7 @@ REFERENCES = Path(__file__).with_name("references.json")
 SCHEMA = "beam-impact-references/2"
 POWERS = {"time": 1.0, "fourth root of time": 0.25}  # of the variable that J(t) is a polynomial of
 
+stored = cache(read)
 Array = NDArray[np.float64]
 
 
@@ -79,9 +80,3 @@ def _bounce(asked: Problem) -> Reference:
         value, error = found["restitution"].value, found["restitution"].error
         source = "comparison/whole_impact/map.json, interpolated"
     return Reference({"restitution": value}, errors={"restitution": error}, source=source)
-
-
-@cache
-def stored(file: Path) -> dict[str, Any]:
-    """The document of a stored file."""
-    return dict(json.loads(file.read_text(encoding="utf-8")))

@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 from bent_beam.checks import shortened
 from open_benchmark.problem import Problem, problem
 
-__all__ = ["OUTCOMES", "Result", "ResultError", "plain_number", "result_from_fields"]
+__all__ = ["OUTCOMES", "Result", "ResultError", "result_from_fields"]
 
 Array = NDArray[np.float64]
 
@@ -82,10 +82,13 @@ class Result:
         return f"{self.outcome}({self.detail})" if self.detail else self.outcome
 
     def model(self, name: str) -> float | None:
-        """A number that the adapter declares of its model, in l* and t*; ``None`` when it is not reported."""
+        """A finite number that the adapter declares of its model, in l* and t*; ``None`` when it is not reported."""
         model = self.metadata.get("model")
-        tables = [model, self.metadata] if isinstance(model, Mapping) else [self.metadata]
-        return next((value for table in tables if (value := plain_number(table.get(name))) is not None), None)
+        for table in [model, self.metadata] if isinstance(model, Mapping) else [self.metadata]:
+            value = table.get(name)
+            if isinstance(value, int | float) and not isinstance(value, bool) and -MOST <= value <= MOST:
+                return float(value)
+        return None
 
     def in_window(self, times: Array) -> NDArray[np.bool_]:
         """Which of ``times`` lie in the fit window."""
@@ -98,13 +101,6 @@ class Result:
             return
         for k in np.flatnonzero(self.in_window(self.snap_tau)):
             yield float(self.snap_tau[k]), np.abs(self.x if self.x.ndim == 1 else self.x[k]), self.snap_gap[k]
-
-
-def plain_number(value: Any) -> float | None:
-    """A finite number that somebody wrote into JSON; ``None`` for anything else."""
-    if not isinstance(value, int | float) or isinstance(value, bool) or not -MOST <= value <= MOST:
-        return None
-    return float(value)
 
 
 # --- validation ----------------------------------------------------------------------------------------------------

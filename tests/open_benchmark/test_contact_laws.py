@@ -23,6 +23,7 @@ PROBLEMS = ("leading-0.5", "first-0.5-1-1-1", "first-0.5--1--1-0", "first-0.5--0
 HALF_LENGTH = 4.0  # l*
 STEPS = 160.0  # an element length: as the adapter of Siconos has them
 
+
 def _result(name: str, law: str, size: float) -> Result:
     asked = problem(name)
     names = ("acceleration", "fourth_derivative", "curvature_rate", "axial_force")

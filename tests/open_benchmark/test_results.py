@@ -77,6 +77,7 @@ def test_a_result_that_is_written_as_csv_scores_the_same_bits(tmp_path):
         ({"outcome": "finished"}, "outcome must be one of"),
         ({"problem": "leading-x"}, "problem: 'leading-x' is not the id"),
         ({"metadata": "{"}, "metadata is not JSON"),
+        ({"metadata": '{"a":' * 300 + "1" + "}" * 300}, "metadata is nested more than 100 levels deep"),
         ({"metadata": '{"tool": "\\ud800"}'}, "metadata holds characters that are not text"),
         ({"outcome": "crashed(\x1b[31m)"}, "outcome holds characters that are not text"),
         ({"J": np.zeros(17)}, "J holds 17 values for 400 instants"),

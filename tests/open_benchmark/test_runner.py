@@ -1,5 +1,6 @@
 """An adapter that misbehaves is a row with a reason; the others go on, and what was done is not done again."""
 
+import contextlib
 import os
 import subprocess
 import sys
@@ -74,25 +75,25 @@ def test_a_run_ends_as_an_outcome_with_a_reason(tmp_path, source, found, reason)
 
 
 def test_a_hang_is_a_timeout_and_takes_its_children_along(tmp_path):
-    pid = tmp_path / "child.pid"
-    source = f"""
-import subprocess, sys, time
-child = subprocess.Popen([sys.executable, "-c", "import time; time.sleep(60)"], start_new_session=True)
-open({str(pid)!r}, "w").write(str(child.pid))
-time.sleep(60)
-"""
-    assert outcome(tmp_path, source, seconds=3.0).outcome == "timeout"
-    end = time.monotonic() + 3.0
-    while alive(int(pid.read_text())):
-        assert time.monotonic() < end
-        time.sleep(0.05)
+    """A shell starts at once, so that a short limit will do."""
+    pid, file = tmp_path / "child.pid", tmp_path / "slow"
+    file.write_text(f"#!/bin/sh\nsetsid sleep 60 &\necho $! > {pid}\nsleep 60\n")
+    file.chmod(0o755)
+    limits = Limits(seconds=1.0, repeats=1)
+    assert (
+        run_adapter(Adapter("slow", file), problem("point-2"), "coarse", tmp_path / "r.npz", limits).outcome
+        == "timeout"
+    )
+    gone(int(pid.read_text()))
 
 
-def alive(number):
-    try:
-        return Path(f"/proc/{number}/stat").read_text().rsplit(")", 1)[1].split()[0] != "Z"
-    except OSError:
-        return False
+def gone(number):
+    """A process ends within ten seconds; what nobody has waited for yet is over, too."""
+    end, stat = time.monotonic() + 10.0, Path(f"/proc/{number}/stat")
+    with contextlib.suppress(OSError):
+        while stat.read_text().rsplit(")", 1)[1].split()[0] != "Z":
+            assert time.monotonic() < end
+            time.sleep(0.05)
 
 
 def test_a_killed_command_takes_its_adapter_and_its_folder_along(tmp_path):
@@ -112,8 +113,9 @@ run_adapter(slow, problem("point-2"), "coarse", Path("kept/r.npz"), Limits())
     number = int(pids[0].read_text())
     command.kill()
     command.wait()
+    gone(number)
     end = time.monotonic() + 10.0
-    while alive(number) or list(tmp_path.glob("kept/.run-*")):
+    while list(tmp_path.glob("kept/.run-*")):
         assert time.monotonic() < end
         time.sleep(0.05)
 
