@@ -2,7 +2,7 @@
 
     element_length: Annotated[float, Quantity("m", "Δx of the zone", above=0.0)]
 
-From this follow the check when a part is made (:class:`Part`), case files and ``--set`` (:mod:`bent_beam.parts`),
+From this follow the check when a part is made (:class:`Part`), case files and ``--set`` (:func:`part_from_table`),
 ``bentbeam settings`` and the documentation (:mod:`comparison.settings`).
 """
 
@@ -10,13 +10,19 @@ from __future__ import annotations
 
 import dataclasses
 import types
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import cache
-from typing import Annotated, Any, ClassVar, Union, get_args, get_origin, get_type_hints
+from typing import Annotated, Any, ClassVar, TypeVar, Union, get_args, get_origin, get_type_hints
 
 from bent_beam import checks
+from bent_beam.errors import InputError, nearest, unknown_key
 
-__all__ = ["Declared", "Part", "Quantity", "declared", "describe", "key_of"]
+__all__ = [
+    "Declared", "Part", "Quantity", "declared", "describe", "key_of", "made_from", "part_from_table", "part_or_auto",
+]  # fmt: skip
+
+T = TypeVar("T")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -140,3 +146,50 @@ def describe(part: Any) -> dict[str, Any]:
             value = describe(value)
         out[field.name] = list(value) if isinstance(value, tuple) else value
     return out
+
+
+# from the tables of a case file -----------------------------------------------------------------------------
+def made_from(part: type[T], values: Any, where: str, more: Iterable[str] = ()) -> T:
+    """The dataclass ``part`` from the table ``values``; ``more``: further keys that the error for an unknown one names.
+
+    Raises :class:`InputError` for an unknown key (naming the nearest), a missing field, or a value that is refused.
+    """
+    if not isinstance(values, Mapping):
+        raise InputError(f"{where} must be a table (got {checks.shortened(values)})")
+    fields = {key_of(field.name): field for field in dataclasses.fields(part) if field.init}  # type: ignore[arg-type]
+    for key in values:
+        if key not in fields:
+            raise unknown_key(where, str(key), {*fields, *more})
+    for name, field in fields.items():
+        if name not in values and field.default is field.default_factory is dataclasses.MISSING:
+            raise InputError(f"{where}.{name} is required")
+    try:
+        return part(**{fields[key].name: value for key, value in values.items()})
+    except (TypeError, ValueError) as error:
+        raise InputError(str(error)) from None
+
+
+def part_from_table(kinds: Mapping[str, type], table: Any, where: str) -> Any:
+    """The part that ``table["kind"]`` names, its other keys being the part's fields.
+
+    Raises :class:`InputError` for an unknown kind, and as :func:`made_from`.
+    """
+    if not isinstance(table, Mapping):
+        raise InputError(f"{where} must be a table (got {checks.shortened(table)})")
+    if "kind" not in table:
+        raise InputError(f"{where}.kind is required (one of {', '.join(sorted(kinds))})")
+    kind = table["kind"]
+    if not isinstance(kind, str) or kind not in kinds:
+        raise InputError(f"{where}.kind: {checks.shortened(kind)} is not known{nearest(str(kind), kinds)}")
+    values = {key: value for key, value in table.items() if key != "kind"}
+    return made_from(kinds[kind], values, where, more=("kind",))
+
+
+def part_or_auto(kinds: Mapping[str, type], table: Any, where: str) -> Any:
+    """The same; ``None``, to be chosen, of an empty table or where the kind is "auto"."""
+    if not isinstance(table, Mapping) or table.get("kind", "auto") != "auto":
+        return part_from_table(kinds, table, where)
+    for key in table:
+        if key != "kind":
+            raise InputError(f"{where}.kind is required next to {where}.{key} (one of {', '.join(sorted(kinds))})")
+    return None

@@ -49,8 +49,8 @@ def bounce(
     """
     from dataclasses import asdict
 
+    from bent_beam.errors import InputError
     from bent_beam.method import paths_with
-    from bent_beam.parts import InputError
     from comparison.bounce import bounce as follow
     from comparison.bounce import follow_hits
     from comparison.store import check_writable
@@ -87,7 +87,7 @@ def _asked(
 ) -> tuple[Impact, Method, Section | None]:
     """The impact, its method and its section, from a case or from the two numbers."""
     from bent_beam.cases import load_case
-    from bent_beam.parts import InputError
+    from bent_beam.errors import InputError
     from comparison.bounce import problem
     from comparison.methods import methods_of
 

@@ -137,9 +137,8 @@ def simulate(
     Example: bentbeam simulate cases/thesis_K10.toml --path exudyn --set exudyn.integrator.kind=newmark
     """
     from bent_beam.cases import load_case
-    from bent_beam.errors import SimulationError
+    from bent_beam.errors import InputError, SimulationError
     from bent_beam.method import LONGEST, simulate_to_separation, simulated
-    from bent_beam.parts import InputError
     from comparison.companions import suited
     from comparison.summary import companions, summary
     from comparison.summary_text import run_table

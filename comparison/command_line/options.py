@@ -71,7 +71,7 @@ def numbers(option: str, text: str, counts: Sequence[int], what: str) -> tuple[f
     """Finite numbers, comma separated in ``text``. Raises :class:`InputError` when there are not as many as allowed."""
     import math
 
-    from bent_beam.parts import InputError
+    from bent_beam.errors import InputError
 
     try:
         found = tuple(float(word) for word in text.split(","))
@@ -115,7 +115,7 @@ def check_out(out: Path | None, overwrite: bool) -> None:
     """``InputError`` when the file cannot be written, or is there already."""
     if out is None:
         return
-    from bent_beam.parts import InputError
+    from bent_beam.errors import InputError
     from comparison.store import check_writable
 
     if out.exists() and not overwrite:
