@@ -21,8 +21,8 @@ class TimeLimitError(Exception):
 
 
 class SimulationError(RuntimeError):
-    """A solver could not finish. history : a :class:`bent_beam.ImpactHistory` of what was reached, or ``None``; time : s,
-    ``None`` where a method failed without saying when."""
+    """A solver could not finish. history : a :class:`bent_beam.ImpactHistory` of what was reached, or ``None``; time in
+    s, ``None`` where a method failed without saying when."""
 
     def __init__(
         self,

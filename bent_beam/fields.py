@@ -51,7 +51,7 @@ class Quantity:
     """Unit, meaning and range of a field.
 
     above, least, most : the range, above excluded. choices : of a text. absent : what ``settings`` prints where the
-    default is ``None``. table : of a case file, for a field of :class:`bent_beam.Impact` that stands in it as it is.
+    default is ``None``.
     """
 
     unit: str
@@ -61,7 +61,6 @@ class Quantity:
     most: float | None = None
     choices: tuple[str, ...] = ()
     absent: str = ""
-    table: str = ""
 
     @property
     def allowed(self) -> str:

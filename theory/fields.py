@@ -82,13 +82,6 @@ class ImpactFields:
         p = self.parameters
         return np.sqrt(time) * (p.lambda0 + self.epsilon * p.lambda1 * time)
 
-    def concentrated_reaction(self, tau: ArrayLike) -> FloatArray:
-        """R̃(τ) = 2√(2/π)(r₀ + εr₁τ)/√τ, the sum of both (2.7.7); infinite at τ = 0."""
-        time = self._times(tau)
-        p = self.parameters
-        with np.errstate(divide="ignore"):
-            return np.asarray(2.0 * np.sqrt(2.0 / np.pi) * (p.r0 + self.epsilon * p.r1 * time) / np.sqrt(time))
-
     @property
     def uniform_reaction(self) -> float:
         """r̃ = ε(α′+ψ) on |ξ| < λ_c in the continuous regime, 0 in the others (2.7.5)."""
