@@ -21,11 +21,9 @@ With an axial force N, tension positive, n = N/(μV₀²) = ε·axial (docs/theo
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cache
 from typing import Any
 
 import numpy as np
-from numpy.polynomial.chebyshev import chebfit, chebpts1, chebval
 from numpy.typing import ArrayLike, NDArray
 
 from theory import phi
@@ -164,34 +162,11 @@ def _lambda0(ratio: FloatArray) -> FloatArray:
     """Root of (2.6.21) for 0 < κ/ν < 1.
 
     In log λ the logarithm of (φ_ν − φ_κ)/φ_κ = ν/κ − 1 is nearly a straight line, of slope 1 for small
-    λ (√(2/π)λ) and 2 for large λ (λ²/2). Newton's method starts from the sum of the two limits, put right by an
-    interpolant of its own solutions: one step is then enough, and neither limit loses digits.
+    λ (√(2/π)λ) and 2 for large λ (λ²/2). Newton's method starts from the sum of the two limits, and neither
+    limit loses digits.
     """
     target = (1.0 - ratio) / ratio
-    both_limits = 2.0 * target / (_SLOPE + np.sqrt(_SLOPE**2 + 2.0 * target))
-    return _newton(target, np.log(both_limits) + chebval(_folded(both_limits), _correction()))
-
-
-def _folded(both_limits: FloatArray) -> FloatArray:
-    """The variable of the interpolant, (−1, 1) for (0, ∞)."""
-    return np.asarray((both_limits - 3.0) / (both_limits + 3.0))
-
-
-@cache
-def _correction() -> FloatArray:
-    """Chebyshev coefficients of log λ₀ − log(sum of the limits); their error, 1e-9, is Newton's to remove."""
-
-    def exact(folded: FloatArray) -> FloatArray:
-        both_limits = 3.0 * (1.0 + folded) / (1.0 - folded)
-        target = _SLOPE * both_limits + both_limits**2 / 2.0
-        return np.log(_newton(target, np.log(both_limits)) / both_limits)
-
-    points = chebpts1(25)
-    return np.asarray(chebfit(points, exact(points), 24))
-
-
-def _newton(target: FloatArray, log_lam: FloatArray) -> FloatArray:
-    """λ with (φ_ν − φ_κ)/φ_κ = target, from a guess of log λ."""
+    log_lam = np.log(2.0 * target / (_SLOPE + np.sqrt(_SLOPE**2 + 2.0 * target)))
     for _ in range(30):
         lam = np.exp(log_lam)
         at = phi.Argument.of(lam)
