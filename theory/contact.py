@@ -121,7 +121,7 @@ def contact_parameters(
     lambda_axial[spreads], r_axial[spreads] = _axial(at, r0[spreads])
     for here, solve in ((rests, _continuous), (lifts, _detached)):
         loads = (v[here] for v in (a + wave, p, c, pushed))
-        r1[here], lambda1[here] = solve(at.take(here[spreads]), r0[here], *loads)
+        r1[here], lambda1[here] = solve(phi.Argument.of(lambda0[here]), r0[here], *loads)
     r1[spreads] += axial[spreads] * r_axial[spreads]
     lambda1[spreads] += axial[spreads] * lambda_axial[spreads]
     uniform = np.where(rests, pushed, 0.0)
@@ -244,7 +244,7 @@ def _axial(at: phi.Argument, r0: FloatArray) -> tuple[FloatArray, FloatArray]:
     ) / determinant
     r_axial[near] = r0[near] * (x * a - 2.0 * slope) * (6.0 * b - 2.0 * slope * x + x**2 * a) / (2.0 * determinant)
 
-    far, reaction = at.take(~near), r0[~near]
+    far, reaction = phi.Argument.of(at.lam[~near]), r0[~near]
     x = far.lam
     rate = -slope * (reaction / x) * phi.one_minus_phi_p(far)
     none = np.zeros_like(x)
