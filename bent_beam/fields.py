@@ -40,7 +40,9 @@ class Declared:
         if self.kind is bool and not isinstance(value, bool):
             raise ValueError(f"{name} must be true or false (got {checks.shortened(value)})")
         if self.kind is str:
-            return self.quantity.checked_text(name, value)
+            if not isinstance(value, str):
+                raise ValueError(f"{name} must be a text (got {checks.shortened(value)})")
+            return checks.one_of(name, value, self.quantity.choices) if self.quantity.choices else value
         if self.kind in (int, float):
             return self.quantity.checked_number(name, value, whole=self.kind is int)
         return value
@@ -67,12 +69,6 @@ class Quantity:
         """The range as a text."""
         signs = (("> ", self.above), ("≥ ", self.least), ("≤ ", self.most))
         return ", ".join([*(f"{sign}{bound:g}" for sign, bound in signs if bound is not None), *self.choices])
-
-    def checked_text(self, name: str, value: Any) -> str:
-        """``value``, a text among the choices where there are any. Raises ``ValueError``."""
-        if not isinstance(value, str):
-            raise ValueError(f"{name} must be a text (got {checks.shortened(value)})")
-        return checks.one_of(name, value, self.choices) if self.choices else value
 
     def checked_number(self, name: str, value: Any, *, whole: bool) -> float:
         """``value`` as a finite float (or int) in the range. Raises ``ValueError``."""
