@@ -16,11 +16,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from bent_beam.checks import shortened
-from bent_beam.errors import InputError
-from bent_beam.fields import key_of
+from bent_beam.errors import InputError, unknown_key
+from bent_beam.fields import key_of, made_from, part_from_table, part_or_auto
 from bent_beam.impact import Impact
 from bent_beam.meshes import MESHES, Mesh
-from bent_beam.parts import made_from, part_from_table, part_or_auto, unknown_key
 from bent_beam.section import SECTIONS, Section
 from bent_beam.tables import TABLES, BeamTable, ImpactTable, RunTable, WallTable, impact_of
 

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+import difflib
+from collections.abc import Iterable
+from typing import Any
 
-if TYPE_CHECKING:
-    from bent_beam.history import ImpactHistory
-
-__all__ = ["ANY_FAILURE", "InputError", "SimulationError", "TimeLimitError"]
+__all__ = ["ANY_FAILURE", "InputError", "SimulationError", "TimeLimitError", "nearest", "unknown_key"]
 
 ANY_FAILURE = (Exception, SystemExit)
 """What a row of a sweep may end with, whoever wrote its method: only an interrupt ends the sweep."""
@@ -22,8 +21,8 @@ class TimeLimitError(Exception):
 
 
 class SimulationError(RuntimeError):
-    """A solver could not finish. ``history`` holds what was reached (or ``None``); time : s, ``None`` where a method
-    failed without saying when."""
+    """A solver could not finish. history : a :class:`bent_beam.ImpactHistory` of what was reached, or ``None``; time in
+    s, ``None`` where a method failed without saying when."""
 
     def __init__(
         self,
@@ -32,7 +31,19 @@ class SimulationError(RuntimeError):
         time: float | None = None,
         step: int = 0,
         advice: str = "",
-        history: ImpactHistory | None = None,
+        history: Any = None,
     ) -> None:
         super().__init__(message if time is None else f"{message} at t = {time:.6g} s (step {step}); try: {advice}")
         self.time, self.step, self.advice, self.history = time, step, advice, history
+
+
+def nearest(word: str, known: Iterable[str]) -> str:
+    """`` (did you mean …?)`` for a misspelt word, or the list of what is known."""
+    known = sorted(known)
+    close = difflib.get_close_matches(word, known, n=1, cutoff=0.5)
+    return f" (did you mean {close[0]}?)" if close else f" (known: {', '.join(known)})"
+
+
+def unknown_key(where: str, key: str, known: Iterable[str]) -> InputError:
+    """The error for an unknown key."""
+    return InputError(f"{where + '.' if where else ''}{key} is not a known setting{nearest(key, known)}")

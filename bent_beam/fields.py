@@ -2,7 +2,7 @@
 
     element_length: Annotated[float, Quantity("m", "Δx of the zone", above=0.0)]
 
-From this follow the check when a part is made (:class:`Part`), case files and ``--set`` (:mod:`bent_beam.parts`),
+From this follow the check when a part is made (:class:`Part`), case files and ``--set`` (:func:`part_from_table`),
 ``bentbeam settings`` and the documentation (:mod:`comparison.settings`).
 """
 
@@ -10,13 +10,19 @@ from __future__ import annotations
 
 import dataclasses
 import types
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import cache
-from typing import Annotated, Any, ClassVar, Union, get_args, get_origin, get_type_hints
+from typing import Annotated, Any, ClassVar, TypeVar, Union, get_args, get_origin, get_type_hints
 
 from bent_beam import checks
+from bent_beam.errors import InputError, nearest, unknown_key
 
-__all__ = ["Declared", "Part", "Quantity", "declared", "describe", "key_of"]
+__all__ = [
+    "Declared", "Part", "Quantity", "declared", "describe", "key_of", "made_from", "part_from_table", "part_or_auto",
+]  # fmt: skip
+
+T = TypeVar("T")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -34,7 +40,9 @@ class Declared:
         if self.kind is bool and not isinstance(value, bool):
             raise ValueError(f"{name} must be true or false (got {checks.shortened(value)})")
         if self.kind is str:
-            return self.quantity.checked_text(name, value)
+            if not isinstance(value, str):
+                raise ValueError(f"{name} must be a text (got {checks.shortened(value)})")
+            return checks.one_of(name, value, self.quantity.choices) if self.quantity.choices else value
         if self.kind in (int, float):
             return self.quantity.checked_number(name, value, whole=self.kind is int)
         return value
@@ -45,7 +53,7 @@ class Quantity:
     """Unit, meaning and range of a field.
 
     above, least, most : the range, above excluded. choices : of a text. absent : what ``settings`` prints where the
-    default is ``None``. table : of a case file, for a field of :class:`bent_beam.Impact` that stands in it as it is.
+    default is ``None``.
     """
 
     unit: str
@@ -55,19 +63,12 @@ class Quantity:
     most: float | None = None
     choices: tuple[str, ...] = ()
     absent: str = ""
-    table: str = ""
 
     @property
     def allowed(self) -> str:
         """The range as a text."""
         signs = (("> ", self.above), ("≥ ", self.least), ("≤ ", self.most))
         return ", ".join([*(f"{sign}{bound:g}" for sign, bound in signs if bound is not None), *self.choices])
-
-    def checked_text(self, name: str, value: Any) -> str:
-        """``value``, a text among the choices where there are any. Raises ``ValueError``."""
-        if not isinstance(value, str):
-            raise ValueError(f"{name} must be a text (got {checks.shortened(value)})")
-        return checks.one_of(name, value, self.choices) if self.choices else value
 
     def checked_number(self, name: str, value: Any, *, whole: bool) -> float:
         """``value`` as a finite float (or int) in the range. Raises ``ValueError``."""
@@ -140,3 +141,50 @@ def describe(part: Any) -> dict[str, Any]:
             value = describe(value)
         out[field.name] = list(value) if isinstance(value, tuple) else value
     return out
+
+
+# from the tables of a case file -----------------------------------------------------------------------------
+def made_from(part: type[T], values: Any, where: str, more: Iterable[str] = ()) -> T:
+    """The dataclass ``part`` from the table ``values``; ``more``: further keys that the error for an unknown one names.
+
+    Raises :class:`InputError` for an unknown key (naming the nearest), a missing field, or a value that is refused.
+    """
+    if not isinstance(values, Mapping):
+        raise InputError(f"{where} must be a table (got {checks.shortened(values)})")
+    fields = {key_of(field.name): field for field in dataclasses.fields(part) if field.init}  # type: ignore[arg-type]
+    for key in values:
+        if key not in fields:
+            raise unknown_key(where, str(key), {*fields, *more})
+    for name, field in fields.items():
+        if name not in values and field.default is field.default_factory is dataclasses.MISSING:
+            raise InputError(f"{where}.{name} is required")
+    try:
+        return part(**{fields[key].name: value for key, value in values.items()})
+    except (TypeError, ValueError) as error:
+        raise InputError(str(error)) from None
+
+
+def part_from_table(kinds: Mapping[str, type], table: Any, where: str) -> Any:
+    """The part that ``table["kind"]`` names, its other keys being the part's fields.
+
+    Raises :class:`InputError` for an unknown kind, and as :func:`made_from`.
+    """
+    if not isinstance(table, Mapping):
+        raise InputError(f"{where} must be a table (got {checks.shortened(table)})")
+    if "kind" not in table:
+        raise InputError(f"{where}.kind is required (one of {', '.join(sorted(kinds))})")
+    kind = table["kind"]
+    if not isinstance(kind, str) or kind not in kinds:
+        raise InputError(f"{where}.kind: {checks.shortened(kind)} is not known{nearest(str(kind), kinds)}")
+    values = {key: value for key, value in table.items() if key != "kind"}
+    return made_from(kinds[kind], values, where, more=("kind",))
+
+
+def part_or_auto(kinds: Mapping[str, type], table: Any, where: str) -> Any:
+    """The same; ``None``, to be chosen, of an empty table or where the kind is "auto"."""
+    if not isinstance(table, Mapping) or table.get("kind", "auto") != "auto":
+        return part_from_table(kinds, table, where)
+    for key in table:
+        if key != "kind":
+            raise InputError(f"{where}.kind is required next to {where}.{key} (one of {', '.join(sorted(kinds))})")
+    return None

@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bent_beam.history import ImpactHistory
-from bent_beam.hysteresis import branches_of
+from bent_beam.hysteresis import FIRST_MODE, branches_of
 from bent_beam.impact import Impact
 from bent_beam.loads import loads_of
 
@@ -27,7 +27,7 @@ __all__ = ["LOWEST_PERIOD", "Separation", "bears_free_flight", "cannot_return", 
 Array = NDArray[np.float64]
 
 #: Period of the free–free beam's lowest mode over T*: 2π/(4.730/2)².
-LOWEST_PERIOD = 2.0 * math.pi / (4.730040744862704 / 2.0) ** 2
+LOWEST_PERIOD = 2.0 * math.pi / (FIRST_MODE / 2.0) ** 2
 
 ROUND_OFF = 1e-9
 """Of the largest impulse of the record: less between two saved instants is no push. A path that takes the

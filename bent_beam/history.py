@@ -1,34 +1,7 @@
 """The record of a run: one ``xarray.Dataset`` in SI units, the same for every path.
 
-Dimensions: ``time`` (the saved instants) and ``x`` (nodes) and ``contact`` (contact points). Variables:
-
-| name | dims | unit | what |
-| --- | --- | --- | --- |
-| gap | time, x | m | distance to the wall, −y, at the nodes |
-| velocity | time, x | m/s | y_t, positive into the wall |
-| slope | time, x | 1 | y_x |
-| impulse | time, contact | N s | reaction impulse gathered by each contact point since t = 0 |
-| in_contact | time, contact | bool | contact active at that instant |
-| opposite_impulse | time, contact | N s | the same of a second wall behind the beam, where there is one |
-| total_impulse | time | N s | over the whole beam (both halves); of the wall less that of the opposite one |
-| kinetic_energy, strain_energy | time | J | whole beam |
-| branch_energy | time | J | the part of strain_energy in Maxwell branches |
-| contact_energy | time | J | in springs of the wall or of a penalty contact, change since t = 0 |
-| work_of_loads | time | J | whole beam, since t = 0 |
-| loss_impact | time | J | energy taken out by impacts since t = 0 |
-| loss_algorithmic | time | J | by the time integration's algorithmic damping |
-| loss_viscous | time | J | by artificial viscosity of bending at grid scale |
-| loss_material | time | J | by the damping of the beam itself |
-| loss_absorbed | time | J | by a sponge or an absorbing end |
-| loss_wall | time | J | by the dashpots of a wall that gives way |
-| peak_force, peak_force_time | time | N, s | of such a wall, the largest force on the whole zone of all steps so far |
-| peak_penetration, peak_pressure | time | m, N/m | likewise, anywhere (of a stop its force, N) |
-| largest_moment | time | N m | largest bending moment of all steps since the instant before |
-| largest_moment_place | time | m | its place |
-| largest_midspan_moment | time | N m | the same at x = 0 |
-| held_impulse | time | N s | what held contact points pulled since t = 0, never positive |
-
-A moving mesh adds ``position`` (time, x) and ``contact_position`` (time, contact), m.
+Dimensions: ``time`` (the saved instants), ``x`` (nodes) and ``contact`` (contact points). ``bent_beam/files.py`` lists
+the variables with their dimensions and units; docs/guide/history.md says what each is.
 Attributes hold the case, the settings, versions and warnings as JSON text.
 """
 
@@ -61,7 +34,7 @@ FORMAT = "bent-beam-impact history 2"
 
 @dataclass(frozen=True, eq=False, repr=False)
 class ImpactHistory:
-    """The result of a simulation: :attr:`dataset` (see the module's table) with typed access to common quantities.
+    """The result of a simulation: :attr:`dataset`, with typed access to common quantities.
 
     >>> from bent_beam import Impact
     >>> from self_similar_fe import SelfSimilarFE
@@ -95,7 +68,7 @@ class ImpactHistory:
         path : name of the path; symmetry : "half" or "full" (what was modelled);
         settings : JSON-ready description of mesh, integrator, contact …; fields : name → (dims, values);
         steps, seconds : time steps taken and wall seconds spent in the solver.
-        Raises ``ValueError`` when a field is not finite or has other dimensions than the module's table says.
+        Raises ``ValueError`` when a field is not finite or has other dimensions than a history has.
         """
         import xarray as xr
 
@@ -247,7 +220,7 @@ class ImpactHistory:
         return values if k is None else np.asarray(values[k])
 
     def energy(self, name: str) -> Array:
-        """One of the energies of the module's table, J, shape (times,): nothing where the path has no such term."""
+        """One of :data:`ENERGIES`, or the branch energy, J, shape (times,): nothing where the path has no such term."""
         return self.array(name) if name in self else np.zeros(self.time.size)
 
     def energy_budget(self) -> dict[str, float]:

@@ -23,11 +23,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from bent_beam.loads import CLAMPED
+
 __all__ = ["FIRST_MODE", "Branches", "branches_of", "check_loss", "converges", "first_mode"]
 
 Array = NDArray[np.float64]
 
-FIRST_MODE = 4.730040744862704  # first root of cos z cosh z = 1, the free–free beam
+FIRST_MODE = CLAMPED["clamped"]  # the free–free beam has the frequencies of the clamped one
 BELOW, ABOVE, EARLIEST = 0.1, 1e6, 1e-4  # of the first mode, of the first mode, t*
 PER_DECADE, BEYOND = 1.5, math.sqrt(10.0)  # branches, and how far they go beyond either end of the range
 EXACT = 100.0  # weight of the loss frequency over that of any other

@@ -63,9 +63,7 @@ class Impact(Part):
     wall_curvature: Annotated[float, Quantity("1/m", "K_w, positive where the wall is concave; less than K")] = 0.0
     natural_curvature: Annotated[float | None, Quantity("1/m", "stress-free K; the whole bow's unless given")] = None
     rotation: Annotated[float, Load("rad/s", "rocking about the middle (runs of the full beam)", powers=(1, 1))] = 0.0
-    first_touch: Annotated[
-        float, Quantity("m", "the bow's apex from the middle (runs of the full beam)", table="impact")
-    ] = 0.0
+    first_touch: Annotated[float, Quantity("m", "the bow's apex from the middle (runs of the full beam)")] = 0.0
     opposite_wall: Annotated[
         float | None, Quantity("m", "distance of a second wall behind the bow's apex", above=0.0)
     ] = None

@@ -2,17 +2,16 @@
 
     y₀(x, t) = Σ c xⁱtʲ/(i! j!):    V₀ (0, 1),   −K (2, 0),   a₀ (0, 2),   c₀ (2, 1),   q₀ (4, 0)           (2.2.30)
 
-A load stands in one place: the field of :class:`bent_beam.Impact` that holds it, annotated by a :class:`Load`: unit,
-meaning and range, and so its key in ``[impact]`` of a case file, its check, and the page of settings. With a term of y₀
-it has a dimensionless group, a share of the uniform load μ∂²y₀/∂t² + EI ∂⁴y₀/∂x⁴ + N K, and a share of the end forces
-of y₀; every solver asks :class:`FreeMotion` for these. A load without a term is a force of its own, which a solver
-adds. A solver names the loads and other features that it models in its ``LOADS``, and refuses the rest; theory and what
-compares with it do the same (:func:`unmodelled`).
+A load is a field of :class:`bent_beam.Impact`, annotated by a :class:`Load`: unit, meaning and range, of which its
+check and its line of the page of settings follow. With a term of y₀ it has a dimensionless group, a share of the
+uniform load μ∂²y₀/∂t² + EI ∂⁴y₀/∂x⁴ + N K, and a share of the end forces of y₀; every solver asks :class:`FreeMotion`
+for these. A load without a term is a force of its own, which a solver adds. A solver names the loads and other features
+that it models in its ``LOADS``, and refuses the rest; theory and what compares with it do so, too (:func:`unmodelled`).
 
-To add a load: its field in ``impact.py``; its name in the ``LOADS`` of each path that is to model it. Where it has no
-term, also its share in ``Impact.load_within``, of which momentum, balances and hits follow, and its force in the path
-(``nodal_loads`` in ``hermite_fe/model.py``). These are two files for a path, one more for its test, and, as for any
-feature, a row in ``docs/guide/problems.md`` and a line in ``CHANGELOG.md``.
+To add a load: its field in ``impact.py``; its key in ``tables.py``; its name in the ``LOADS`` of each path that is to
+model it. Where it has no term, also its share in ``Impact.load_within``, of which momentum, balances and hits follow,
+and its force in the path (``nodal_loads`` in ``hermite_fe/model.py``). These are three files for a path, one more for
+its test, and, as for any feature, a row in ``docs/guide/problems.md`` and a line in ``CHANGELOG.md``.
 
 A beam with held ends,
 
@@ -62,13 +61,12 @@ class Feature(Quantity):
 
 @dataclass(frozen=True)
 class Load(Feature):
-    """A field that is a load. It stands in ``[impact]`` of a case file as it is, unless a table states it otherwise.
+    """A field that is a load.
 
     group : its dimensionless group with ν = 1, as theory calls it ("": it has none).
     powers : (i, j) of its term of y₀ (``None``: it has none).
     """
 
-    table: str = "impact"
     group: str = ""
     powers: Powers | None = None
 

@@ -215,16 +215,16 @@ class ScaleFreeMesh(_Mesh):
             )
 
     def nodes(self, half_length: float) -> Array:
-        largest = math.inf if self.largest is None else self.largest
         if self.growth == 1.0:
             _count(half_length, self.element_length)
         first = min(self.element_length, 0.5 * half_length)
-        if self.zone is None or self.growth_outside is None or self.zone >= half_length:
-            outer = _grown(0.0, first, self.growth, half_length, max(largest, first))
-            return checked_nodes(np.concatenate([[0.0], outer]))
-        inner = np.concatenate([[0.0], _grown(0.0, min(first, self.zone), self.growth, self.zone, max(largest, first))])
-        last = min(float(inner[-1] - inner[-2]) * self.growth_outside, half_length - self.zone)
-        outer = _grown(self.zone, last, self.growth_outside, half_length, max(largest, last))
+        largest = math.inf if self.largest is None else self.largest
+        end = half_length if self.zone is None else min(self.zone, half_length)
+        inner = np.concatenate([[0.0], _grown(0.0, min(first, end), self.growth, end, largest)])
+        if self.growth_outside is None or end == half_length:
+            return checked_nodes(inner)
+        last = min(float(inner[-1] - inner[-2]) * self.growth_outside, half_length - end)
+        outer = _grown(end, last, self.growth_outside, half_length, max(largest, last))
         return checked_nodes(np.concatenate([inner, outer]))
 
     def refined(self, factor: float) -> ScaleFreeMesh:

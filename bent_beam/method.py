@@ -21,12 +21,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bent_beam.checks import shortened
-from bent_beam.errors import ANY_FAILURE, InputError, SimulationError, TimeLimitError
-from bent_beam.fields import declared, describe
+from bent_beam.errors import ANY_FAILURE, InputError, SimulationError, TimeLimitError, nearest, unknown_key
+from bent_beam.fields import declared, describe, part_or_auto
 from bent_beam.free_flight import has_left
 from bent_beam.history import ImpactHistory
 from bent_beam.impact import Impact
-from bent_beam.parts import nearest, part_or_auto, unknown_key
 
 __all__ = [
     "GROUP",

@@ -1,4 +1,4 @@
-"""Cross-sections as a catalogue gives them: dimensions and material → EI, μ, EA, section modulus.
+"""Cross-sections as a catalogue gives them: dimensions and material → EI, μ, section modulus.
 
 I is the second moment of area about the axis of bending, W = I/(h/2) the section modulus, h the height in the plane of
 bending, i = √(I/A) the radius of gyration.
@@ -44,9 +44,9 @@ class Section(Part, ABC):
         """h, m."""
 
     @property
-    @abstractmethod
     def shear_coefficient(self) -> float | None:
         """κ_s of Timoshenko's beam (Cowper 1966, J. Appl. Mech. 33, 335); ``None`` where it is not known."""
+        return None
 
     @property
     def shear_stiffness(self) -> float | None:
@@ -59,11 +59,6 @@ class Section(Part, ABC):
     def bending_stiffness(self) -> float:
         """EI, N m²."""
         return self.youngs_modulus * self.second_moment
-
-    @property
-    def axial_stiffness(self) -> float:
-        """EA, N."""
-        return self.youngs_modulus * self.area
 
     @property
     def mass_per_length(self) -> float:
@@ -207,10 +202,6 @@ class General(Section):
     @property
     def height(self) -> float:
         return self.section_height
-
-    @property
-    def shear_coefficient(self) -> None:
-        return None
 
 
 SECTIONS: dict[str, type] = {"pipe": Pipe, "round_bar": RoundBar, "rectangle": Rectangle, "general": General}

@@ -18,8 +18,8 @@ from typing import Any
 
 from bent_beam.cases import Case, lay_over, read_toml
 from bent_beam.checks import shortened
+from bent_beam.errors import InputError, nearest, unknown_key
 from bent_beam.method import Method, method_from_tables, paths
-from bent_beam.parts import InputError, nearest, unknown_key
 
 __all__ = ["PATHS", "chosen_methods", "methods_from_file", "methods_of"]
 

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from bent_beam.checks import shortened
-from bent_beam.errors import InputError
-from bent_beam.parts import nearest
+from bent_beam.errors import InputError, nearest
 
 __all__ = ["new_case"]
 

@@ -20,7 +20,7 @@ from typing import Any
 
 from platformdirs import user_cache_path
 
-from bent_beam.parts import InputError, nearest
+from bent_beam.errors import InputError, nearest
 from bent_beam.versions import versions
 from comparison.store import behind, source_digest
 from open_benchmark.problem import Problem

@@ -25,8 +25,8 @@ from itertools import product
 from pathlib import Path
 from typing import Any
 
+from bent_beam.errors import InputError
 from bent_beam.files import write_atomically
-from bent_beam.parts import InputError
 from open_benchmark.adapter import RESOLUTIONS, Adapter
 from open_benchmark.judgement import Score
 from open_benchmark.problem import IDS, Problem, problem, problem_text

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import asdict, dataclass, field
 from typing import Any
 
-from comparison.plain import plain
+from comparison.readable import plain
 from measure.measured import Measured
 
 __all__ = ["LIMITS", "PART", "Finding", "Score"]

@@ -25,7 +25,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from bent_beam.checks import between, finite, non_negative, positive, shortened
-from bent_beam.parts import InputError
+from bent_beam.errors import InputError
 
 __all__ = ["LADDER", "SCHEMA", "Problem", "document", "first_order_problem", "problem", "problem_text", "shipped_ids"]
 

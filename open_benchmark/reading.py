@@ -18,7 +18,7 @@ from typing import Any, TextIO
 import numpy as np
 
 from bent_beam.checks import shortened
-from bent_beam.parts import nearest
+from bent_beam.errors import nearest
 from open_benchmark.result import (
     ARRAYS,
     MOST_INSTANTS,

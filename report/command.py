@@ -48,7 +48,7 @@ def report(
 
     Example: bentbeam report --out report --methods cases/methods/one_of_each.toml --refine 0.5,1,2
     """
-    from bent_beam.parts import InputError
+    from bent_beam.errors import InputError
     from comparison.methods import chosen_methods
     from comparison.store import RunStore, check_writable, default_store
 

@@ -88,13 +88,9 @@ def _residues(q: FloatArray) -> FloatArray:
 
 
 def twice_auxiliary(lam: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """φ_ν = 2f and φ_κ = 2g from the Fresnel integrals, for 0 ≤ λ < SWITCH (A.5.1), (A.5.2)."""
-    s, c = fresnel_integrals(lam)
-    sine, cosine = np.sin(lam**2 / 4.0), np.cos(lam**2 / 4.0)
-    return (
-        cosine * (1.0 - 2.0 * s) - sine * (1.0 - 2.0 * c),
-        cosine * (1.0 - 2.0 * c) + sine * (1.0 - 2.0 * s),
-    )
+    """φ_ν = 2f and φ_κ = 2g, which are (1 + i) e^{z²} erfc z = φ_κ + iφ_ν, for λ ≥ 0 (A.5.1), (A.5.2)."""
+    both = (1.0 + 1.0j) * scaled_erfc(lam)
+    return both.imag, both.real
 
 
 def scaled_erfc(x: ArrayLike) -> ComplexArray:

@@ -1,6 +1,6 @@
 r"""Contact zone and reactions: λ_c = √τ(λ₀ + ελ₁τ), R̃ = 2√(2/π)(r₀ + εr₁τ)/√τ (2.7.6), (2.7.7).
 
-    φ_κ(λ₀)/φ_ν(λ₀) = κ/ν,   r₀ = ν/φ_ν(λ₀)                              (2.6.21), (2.6.22)
+    φ_κ(λ₀)/φ_ν(λ₀) = κ/ν,   r₀ = 1/φ_ν(λ₀)                              (2.6.21), (2.6.22)
 
 continuous, κ/ν < 1, α+ψ ≥ 0                                                    (2.7.40)
     [ φ_α      −2r₀φ_λ/λ₀ ] [r₁]   [ 2α − 2(α+ψ)φ_p       ]
@@ -8,7 +8,9 @@ continuous, κ/ν < 1, α+ψ ≥ 0                                              
 detached, κ/ν < 1, α+ψ < 0                                                      (2.7.71)
     [ φ_q/4     r₀φ_r + κλ₀ ] [r₁]   [ ψλ₀⁴/24 + χλ₀²/2 + α/2 ]
     [ −φ_t      κ − r₀φ_s   ] [λ₁] = [ ψλ₀³/6 + χλ₀           ]
-discrete, κ/ν ≥ 1: λ₀ = λ₁ = 0, r₀ = ν, r₁ = 2α                        (2.6.23), (2.7.8)
+discrete, κ/ν ≥ 1: λ₀ = λ₁ = 0, r₀ = 1, r₁ = 2α                        (2.6.23), (2.7.8)
+
+in units of velocity, ν = 1. (At given κ/ν and loads r₀ ∝ ν, and what loads ν times as large do to λ₁ does not change.)
 
 With an axial force N, tension positive, n = N/(μV₀²) = ε·axial (docs/theory.md, "Axial force"; not in the thesis)
 
@@ -19,11 +21,9 @@ With an axial force N, tension positive, n = N/(μV₀²) = ε·axial (docs/theo
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cache
 from typing import Any
 
 import numpy as np
-from numpy.polynomial.chebyshev import chebfit, chebpts1, chebval
 from numpy.typing import ArrayLike, NDArray
 
 from theory import phi
@@ -50,7 +50,7 @@ class ContactParameters:
     Floats and a string when every argument was a scalar, arrays of the broadcast shape otherwise.
 
     Attributes:
-        kappa_over_nu, alpha, psi, chi, nu: what was asked for.
+        kappa_over_nu, alpha, psi, chi: what was asked for.
         regime: "discrete", "continuous" or "detached".
         lambda0, lambda1: half contact length √τ(λ₀ + ελ₁τ), the axial force's part of λ₁ included.
         r0, r1: concentrated reactions, in total 2√(2/π)(r₀ + εr₁τ)/√τ, the axial force's part of r₁ included.
@@ -63,7 +63,6 @@ class ContactParameters:
     alpha: Any
     psi: Any
     chi: Any
-    nu: Any
     regime: Any
     lambda0: Any
     r0: Any
@@ -74,18 +73,12 @@ class ContactParameters:
     r_axial: Any
     uniform_reaction: Any
 
-    @property
-    def kappa(self) -> Any:
-        """Dimensionless curvature κ = (κ/ν) ν."""
-        return self.kappa_over_nu * self.nu
-
 
 def contact_parameters(
     kappa_over_nu: ArrayLike,
     alpha: ArrayLike = 0.0,
     psi: ArrayLike = 0.0,
     chi: ArrayLike = 0.0,
-    nu: ArrayLike = 1.0,
     axial: ArrayLike = 0.0,
 ) -> ContactParameters:
     """λ₀, r₀ (leading order) and λ₁, r₁ (first order) of the impact.
@@ -94,43 +87,41 @@ def contact_parameters(
         kappa_over_nu: curvature over velocity κ/ν > 0.
         alpha, psi, chi: acceleration, fourth derivative and rate of curvature of the slow motion
             (2.2.34)–(2.2.36), with what an axial force does to it; first order is linear in them.
-        nu: velocity ν > 0. λ₀ does not depend on it; r₀ ∝ ν, λ₁ ∝ 1/ν at given κ/ν.
         axial: axial force N/(μV₀²)/ε, tension positive. A bow free of stress under tension alone is α = −axial·κ.
 
     All arguments broadcast. Relative error below 1e-12 for κ/ν in 1e-12…1e12, of r₁ and λ₁ relative to
     the largest contribution of α, ψ, χ and the axial force. α′+ψ that is 0 but for rounding counts as 0.
 
     Raises:
-        ValueError: κ/ν or ν not positive and finite, κ/ν < 1e-60, α, ψ, χ or the axial force not finite, any
-            beyond 1e100.
+        ValueError: κ/ν not positive and finite, κ/ν < 1e-60, α, ψ, χ or the axial force not finite, any beyond 1e100.
 
     >>> from theory import contact_parameters
     >>> found = contact_parameters(0.5, alpha=4.0)
     >>> found.regime, round(found.lambda0, 4), round(found.r0, 4), round(found.lambda1, 3)
     ('continuous', 1.0189, 1.1772, 5.665)
     """
-    arrays = _checked(kappa_over_nu=kappa_over_nu, alpha=alpha, psi=psi, chi=chi, nu=nu, axial=axial)
+    arrays = _checked(kappa_over_nu=kappa_over_nu, alpha=alpha, psi=psi, chi=chi, axial=axial)
     shape = np.broadcast_shapes(*(v.shape for v in arrays.values()))
-    ratio, a, p, c, n, axial = (np.ascontiguousarray(v).ravel() for v in np.broadcast_arrays(*arrays.values()))
+    ratio, a, p, c, axial = (np.ascontiguousarray(v).ravel() for v in np.broadcast_arrays(*arrays.values()))
 
     spreads = ratio < 1.0
-    wave = axial * ratio * n  # the zone is flat, so the axial force does not act there: α′ = α + axial·κ
+    wave = axial * ratio  # the zone is flat, so the axial force does not act there: α′ = α + axial·κ
     pushed = (a + wave) + p
     pushed[np.abs(pushed) <= _ROUNDING * (np.abs(a) + np.abs(wave) + np.abs(p))] = 0.0
     rests = spreads & (pushed >= 0.0)
     lifts = spreads & ~rests
     regime = np.full(ratio.shape, DISCRETE, dtype="<U10")
     regime[rests], regime[lifts] = CONTINUOUS, DETACHED
-    # discrete: 2α′ + axial(ν/2 − 2κ)
-    lambda0, r0, lambda1, r1 = np.zeros_like(ratio), n.copy(), np.zeros_like(ratio), 2.0 * a + axial * n / 2.0
-    lambda_axial, r_axial = np.zeros_like(ratio), n * (0.5 - 2.0 * ratio)
+    # discrete: 2α′ + axial(½ − 2κ)
+    lambda0, r0, lambda1, r1 = np.zeros_like(ratio), np.ones_like(ratio), np.zeros_like(ratio), 2.0 * a + axial / 2.0
+    lambda_axial, r_axial = np.zeros_like(ratio), 0.5 - 2.0 * ratio
     lambda0[spreads] = _lambda0(ratio[spreads])
     at = phi.Argument.of(lambda0[spreads])
-    r0[spreads] = n[spreads] / phi.phi_nu(at)
+    r0[spreads] = 1.0 / phi.phi_nu(at)
     lambda_axial[spreads], r_axial[spreads] = _axial(at, r0[spreads])
     for here, solve in ((rests, _continuous), (lifts, _detached)):
         loads = (v[here] for v in (a + wave, p, c, pushed))
-        r1[here], lambda1[here] = solve(at.take(here[spreads]), r0[here], *loads)
+        r1[here], lambda1[here] = solve(phi.Argument.of(lambda0[here]), r0[here], *loads)
     r1[spreads] += axial[spreads] * r_axial[spreads]
     lambda1[spreads] += axial[spreads] * lambda_axial[spreads]
     uniform = np.where(rests, pushed, 0.0)
@@ -139,7 +130,7 @@ def contact_parameters(
         return values.reshape(shape) if shape else values[0].item()
 
     return ContactParameters(
-        *map(shaped, (ratio, a, p, c, n, regime, lambda0, r0, lambda1, r1, axial, lambda_axial, r_axial, uniform))
+        *map(shaped, (ratio, a, p, c, regime, lambda0, r0, lambda1, r1, axial, lambda_axial, r_axial, uniform))
     )
 
 
@@ -147,7 +138,7 @@ def _checked(**given: ArrayLike) -> dict[str, FloatArray]:
     """The arguments as arrays. Raises ``ValueError`` for one out of range."""
     arrays = {name: np.asarray(value, dtype=np.float64) for name, value in given.items()}
     for name, values in arrays.items():
-        positive = name in ("kappa_over_nu", "nu")
+        positive = name == "kappa_over_nu"
         good = np.isfinite(values) & (values > (0.0 if positive else -np.inf))
         if not np.all(good):
             need = "positive and finite" if positive else "finite"
@@ -171,34 +162,11 @@ def _lambda0(ratio: FloatArray) -> FloatArray:
     """Root of (2.6.21) for 0 < κ/ν < 1.
 
     In log λ the logarithm of (φ_ν − φ_κ)/φ_κ = ν/κ − 1 is nearly a straight line, of slope 1 for small
-    λ (√(2/π)λ) and 2 for large λ (λ²/2). Newton's method starts from the sum of the two limits, put right by an
-    interpolant of its own solutions: one step is then enough, and neither limit loses digits.
+    λ (√(2/π)λ) and 2 for large λ (λ²/2). Newton's method starts from the sum of the two limits, and neither
+    limit loses digits.
     """
     target = (1.0 - ratio) / ratio
-    both_limits = 2.0 * target / (_SLOPE + np.sqrt(_SLOPE**2 + 2.0 * target))
-    return _newton(target, np.log(both_limits) + chebval(_folded(both_limits), _correction()))
-
-
-def _folded(both_limits: FloatArray) -> FloatArray:
-    """The variable of the interpolant, (−1, 1) for (0, ∞)."""
-    return np.asarray((both_limits - 3.0) / (both_limits + 3.0))
-
-
-@cache
-def _correction() -> FloatArray:
-    """Chebyshev coefficients of log λ₀ − log(sum of the limits); their error, 1e-9, is Newton's to remove."""
-
-    def exact(folded: FloatArray) -> FloatArray:
-        both_limits = 3.0 * (1.0 + folded) / (1.0 - folded)
-        target = _SLOPE * both_limits + both_limits**2 / 2.0
-        return np.log(_newton(target, np.log(both_limits)) / both_limits)
-
-    points = chebpts1(25)
-    return np.asarray(chebfit(points, exact(points), 24))
-
-
-def _newton(target: FloatArray, log_lam: FloatArray) -> FloatArray:
-    """λ with (φ_ν − φ_κ)/φ_κ = target, from a guess of log λ."""
+    log_lam = np.log(2.0 * target / (_SLOPE + np.sqrt(_SLOPE**2 + 2.0 * target)))
     for _ in range(30):
         lam = np.exp(log_lam)
         at = phi.Argument.of(lam)
@@ -276,7 +244,7 @@ def _axial(at: phi.Argument, r0: FloatArray) -> tuple[FloatArray, FloatArray]:
     ) / determinant
     r_axial[near] = r0[near] * (x * a - 2.0 * slope) * (6.0 * b - 2.0 * slope * x + x**2 * a) / (2.0 * determinant)
 
-    far, reaction = at.take(~near), r0[~near]
+    far, reaction = phi.Argument.of(at.lam[~near]), r0[~near]
     x = far.lam
     rate = -slope * (reaction / x) * phi.one_minus_phi_p(far)
     none = np.zeros_like(x)

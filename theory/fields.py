@@ -2,7 +2,7 @@ r"""Deflection, slope, curvature and velocity of the beam during the impact, by 
 
     η(ξ,τ) = ½ ∫₀^τ R̃(s) [K(ξ−λ_c(s), τ−s) + K(ξ+λ_c(s), τ−s)] ds
            + r̃ ∫₀^τ ∫_{−λ_c(s)}^{λ_c(s)} K(ξ−ξ̄, τ−s) dξ̄ ds                      (2.7.3), (2.7.43)
-    w(ξ,τ) = ντ − κξ²/2 + ε(ψξ⁴/24 + χξ²τ/2 + ατ²/2) − η(ξ,τ)                    (2.2.41)
+    w(ξ,τ) = τ − κξ²/2 + ε(ψξ⁴/24 + χξ²τ/2 + ατ²/2) − η(ξ,τ)                    (2.2.41)
 
 with λ_c, R̃ of `theory.contact` and r̃ = ε(α′+ψ) in the continuous regime, 0 otherwise. ε = 0 is the
 leading order (2.6.36), (2.6.37). w > 0 is in the wall: the gap is −w. An axial force n changes the kernel of the
@@ -82,13 +82,6 @@ class ImpactFields:
         p = self.parameters
         return np.sqrt(time) * (p.lambda0 + self.epsilon * p.lambda1 * time)
 
-    def concentrated_reaction(self, tau: ArrayLike) -> FloatArray:
-        """R̃(τ) = 2√(2/π)(r₀ + εr₁τ)/√τ, the sum of both (2.7.7); infinite at τ = 0."""
-        time = self._times(tau)
-        p = self.parameters
-        with np.errstate(divide="ignore"):
-            return np.asarray(2.0 * np.sqrt(2.0 / np.pi) * (p.r0 + self.epsilon * p.r1 * time) / np.sqrt(time))
-
     @property
     def uniform_reaction(self) -> float:
         """r̃ = ε(α′+ψ) on |ξ| < λ_c in the continuous regime, 0 in the others (2.7.5)."""
@@ -99,12 +92,12 @@ class ImpactFields:
         x, t = np.broadcast_arrays(_finite("xi", xi), self._times(tau))
         p, e = self.parameters, self.epsilon
         return FieldValues(
-            deflection=p.nu * t
-            - p.kappa * x**2 / 2.0
+            deflection=t
+            - p.kappa_over_nu * x**2 / 2.0
             + e * (p.psi * x**4 / 24.0 + p.chi * x**2 * t / 2.0 + p.alpha * t**2 / 2.0),
-            slope=-p.kappa * x + e * (p.psi * x**3 / 6.0 + p.chi * x * t),
-            curvature=-p.kappa + e * (p.psi * x**2 / 2.0 + p.chi * t),
-            velocity=p.nu + e * (p.chi * x**2 / 2.0 + p.alpha * t),
+            slope=-p.kappa_over_nu * x + e * (p.psi * x**3 / 6.0 + p.chi * x * t),
+            curvature=-p.kappa_over_nu + e * (p.psi * x**2 / 2.0 + p.chi * t),
+            velocity=1.0 + e * (p.chi * x**2 / 2.0 + p.alpha * t),
         )
 
     def fast_layer(self, xi: ArrayLike, tau: ArrayLike) -> FieldValues:

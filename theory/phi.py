@@ -44,17 +44,6 @@ class Argument:
         near = lam < SWITCH
         return cls(lam, near, twice_auxiliary(lam[near]), scaled_moments(lam[~near] ** 2 / 4.0))
 
-    def take(self, chosen: NDArray[np.bool_]) -> Argument:
-        """Those of a mask of shape (n,)."""
-        nu, kappa = self.integrals
-        of_near = chosen[self.near]
-        return Argument(
-            self.lam[chosen],
-            self.near[chosen],
-            (nu[of_near], kappa[of_near]),
-            self.moments[:, chosen[~self.near]],
-        )
-
 
 def _evaluate(
     lam: ArrayLike | Argument, closed: Callable[..., FloatArray], reduced: Callable[..., FloatArray]

@@ -7,7 +7,7 @@ Outside the front η is a decaying wave, inside it is the free motion w₀ (cont
 
     η/τ = Re{B₀i²erfc z + τ[B₁i⁴erfc z − (in/2)B₀i²erfc z]
             + τ²[B₂i⁶erfc z − (in/2)B₁i⁴erfc z − (n²/8)B₀i²erfc z + (n²/2)B₀i⁴erfc z]},
-    w₀/τ = ν − κx²/2 + τ(α/2 + χx²/2 + ψx⁴/24) + τ²n(χ/6 + ψx²/4),
+    w₀/τ = 1 − κx²/2 + τ(α/2 + χx²/2 + ψx⁴/24) + τ²n(χ/6 + ψx²/4),
     middle, detached: the first two terms of w₀/τ + τ[a₁(1 − x⁴/12) + b₁x² − nκ/2]
             + τ²[a₂(1 − x⁴/4) + b₂(x² − x⁶/180) + n(b₁/3 − a₁x²/2)].
 
@@ -39,7 +39,7 @@ class SecondOrder:
     """λ₂ and r₂ of one impact, and its λ₁ and r₁ once more, found on the way without any φ.
 
     opening: rate at which the loads change the curvature of the gap at the front, in τ; one point, whose gap has
-        κ − ν at first, spreads once it is gone.
+        κ − 1 at first, spreads once it is gone.
     """
 
     lambda1: float
@@ -50,16 +50,14 @@ class SecondOrder:
 
 
 def second_order(parameters: ContactParameters) -> SecondOrder:
-    """λ₂ and r₂ of one impact (scalar parameters, ν = 1); relative error about 1e-6, for λ₀ < 100.
+    """λ₂ and r₂ of one impact (scalar parameters); relative error about 1e-6, for λ₀ < 100.
 
     Raises:
-        ValueError: parameters of several impacts, or ν ≠ 1.
+        ValueError: parameters of several impacts.
     """
     p = parameters
     if np.ndim(p.lambda0):
         raise ValueError("parameters must be those of one impact (got arrays)")
-    if p.nu != 1.0:
-        raise ValueError(f"nu must be 1 (got {p.nu!r})")
     x, n, lifts = float(p.lambda0), float(p.axial), p.regime == DETACHED
     jump = _SLOPE * p.r0
     erfc = _scaled(x)
@@ -72,7 +70,7 @@ def second_order(parameters: ContactParameters) -> SecondOrder:
     rest, a1, b1, middle = (-0.5j * n * b0 * w0).real[:5] - flight, 0.0, 0.0, np.zeros(5)
     if lifts:
         shapes = _even(x, 1.0, 0.0, -1.0 / 12.0), _even(x, 0.0, 1.0)
-        middle, a1, b1 = _resting(_even(x, -n * p.kappa / 2.0) - flight, *shapes)
+        middle, a1, b1 = _resting(_even(x, -n * p.kappa_over_nu / 2.0) - flight, *shapes)
     amplitude, lambda1, r1 = _solved(w1, rest - middle, jump, x)
     outside = rest + (amplitude * w1[:5]).real
 

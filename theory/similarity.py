@@ -3,15 +3,15 @@ r"""The leading order in closed form: a bending wave outside the contact zone, n
 At ε = 0 the impact is self-similar, η = τE(x) with x = ξ/√τ, and ∂²/∂τ² + ∂⁴/∂ξ⁴ factors into two Schrödinger
 operators. The wave that decays ahead of the front is therefore one iterated error function,
 
-    E(x) = ν − κx²/2,  |x| ≤ λ₀,        E(x) = Re[B i²erfc(z)],  z = e^{−iπ/4}|x|/2,  |x| ≥ λ₀,
+    E(x) = 1 − κx²/2,  |x| ≤ λ₀,        E(x) = Re[B i²erfc(z)],  z = e^{−iπ/4}|x|/2,  |x| ≥ λ₀,
 
 and at the front E, E′, E″ are continuous while E‴ jumps by √(2/π) r₀. This is not in the thesis; it
 solves (2.6.37) without an integral and gives independently the λ₀ and r₀ of (2.6.21), (2.6.22). With it
 
     ∫η_τ dξ = ∫R̃ dτ = 4√(2/π) r₀ √τ                                      momentum = impulse,
-    ½∫(η_τ² + η_ξξ²) dξ = ν ∫R̃ dτ                                        energy,
+    ½∫(η_τ² + η_ξξ²) dξ = ∫R̃ dτ                                        energy,
 
-the second because the contact moves with ν in the fast layer, at rest in the beam: the reactions do no work
+the second because the contact moves with ν = 1 in the fast layer, at rest in the beam: the reactions do no work
 and the beam's energy is conserved. Ahead of the front η_τ² + η_ξξ² = |B erfc(z)|²/16 does not oscillate.
 
 The largest bending moment is constant in time, M = V₀√(EIμ) m(κ/ν):
@@ -21,7 +21,7 @@ The largest bending moment is constant in time, M = V₀√(EIμ) m(κ/ν):
 In the zone the beam is straightened, so the wall bends it by κ. Ahead of it E‴ is a pure oscillation in x²/4: E″ has
 its extrema at known places, the first where (x_p² − λ₀²)/4 = π/2 − θ. The arches of E‴ shrink with x, so the
 extrema lie nested around 0 and the first, which bends the beam further, is the largest (docs/theory.md; not in
-the thesis). At one point, κ/ν ≥ 1, the largest is at the contact: ν.
+the thesis). At one point, κ/ν ≥ 1, the largest is at the contact: 1.
 """
 
 from __future__ import annotations
@@ -41,7 +41,7 @@ _JUMP = -2.0 / np.sqrt(np.pi) * TURN**3  # E‴ of a wave with amplitude 1 at th
 
 
 def wave_amplitude(parameters: ContactParameters) -> ComplexArray:
-    """B e^{−z²} at the front, from E″ = −κ and E‴ = √(2/π)r₀ there; of one point the limit λ₀ = 0, κ = ν."""
+    """B e^{−z²} at the front, from E″ = −κ and E‴ = √(2/π)r₀ there; of one point the limit λ₀ = 0, κ = 1."""
     lam, rise = np.asarray(parameters.lambda0), np.sqrt(2.0 / np.pi) * np.asarray(parameters.r0)
     row = TURN**2 * scaled_erfc(lam) / _JUMP
     # the amplitude times `_JUMP` is rise + i turn, Re[row (rise + i turn)] = −κ
@@ -76,25 +76,25 @@ class SelfSimilarWave:
     def deflection(self, x: ArrayLike) -> FloatArray:
         """η/τ at x = ξ/√τ."""
         p = self.parameters
-        return self._field(x, 2, 1.0, p.nu - p.kappa * np.asarray(x) ** 2 / 2.0)
+        return self._field(x, 2, 1.0, 1.0 - p.kappa_over_nu * np.asarray(x) ** 2 / 2.0)
 
     def slope(self, x: ArrayLike) -> FloatArray:
         """η_ξ/√τ at x = ξ/√τ."""
         side = np.copysign(1.0, x)
-        return side * self._field(x, 1, -TURN, -self.parameters.kappa * np.abs(x))
+        return side * self._field(x, 1, -TURN, -self.parameters.kappa_over_nu * np.abs(x))
 
     def curvature(self, x: ArrayLike) -> FloatArray:
         """η_ξξ at x = ξ/√τ."""
-        return self._field(x, 0, TURN**2, -self.parameters.kappa)
+        return self._field(x, 0, TURN**2, -self.parameters.kappa_over_nu)
 
     def velocity(self, x: ArrayLike) -> FloatArray:
         """η_τ at x = ξ/√τ."""
-        return self._field(x, 0, 1j * TURN**2, self.parameters.nu)
+        return self._field(x, 0, 1j * TURN**2, 1.0)
 
     def gap(self, x: ArrayLike) -> FloatArray:
         """−w/τ at x = ξ/√τ: 0 in the contact zone, positive outside."""
         p, s = self.parameters, np.abs(np.asarray(x, dtype=np.float64))
-        return np.where(s > p.lambda0, self.deflection(s) - p.nu + p.kappa * s**2 / 2.0, 0.0)
+        return np.where(s > p.lambda0, self.deflection(s) - 1.0 + p.kappa_over_nu * s**2 / 2.0, 0.0)
 
     @property
     def impulse(self) -> float:
@@ -106,7 +106,7 @@ class SelfSimilarWave:
         """∫η_τ dξ/√τ = (3/2)∫E dx, the outside part of it being B i³erfc at the front over e^{−iπ/4}/2."""
         p = self.parameters
         i3erfc = self._wave(np.asarray(p.lambda0))[3][0]
-        inside = p.nu * p.lambda0 - p.kappa * p.lambda0**3 / 6.0
+        inside = p.lambda0 - p.kappa_over_nu * p.lambda0**3 / 6.0
         return float(3.0 * (inside + (i3erfc / TURN).real))
 
     @property
@@ -122,7 +122,7 @@ class SelfSimilarWave:
             return float(np.abs(erfc) ** 2) / 16.0 / (1.0 - y) ** 2
 
         tail, _ = quad(outside, 0.0, 1.0, epsabs=0.0, epsrel=1e-12, limit=400)
-        return float(p.lambda0 * (p.nu**2 + p.kappa**2) + tail)
+        return float(p.lambda0 * (1.0 + p.kappa_over_nu**2) + tail)
 
     @property
     def far_field(self) -> tuple[float, float]:
@@ -136,7 +136,7 @@ class PeakMoment:
     """Bending moments of one impact or of many, in V₀√(EIμ); floats for a scalar κ/ν, arrays otherwise.
 
     Attributes:
-        at_contact: what straightens the beam in the contact zone: κ, or ν where the beam touches in one point.
+        at_contact: what straightens the beam in the contact zone: κ, or 1 where the beam touches in one point.
         ahead: the largest ahead of the zone, of opposite sign: there the beam bends further.
         place: where that is, x = ξ/√τ > λ₀.
     """
@@ -156,12 +156,11 @@ class PeakMoment:
         return np.where(np.asarray(self.ahead) > self.at_contact, self.place, 0.0)[()]
 
 
-def peak_moment(kappa_over_nu: ArrayLike, nu: ArrayLike = 1.0) -> PeakMoment:
+def peak_moment(kappa_over_nu: ArrayLike) -> PeakMoment:
     """Largest bending moments at leading order; relative error below 1e-12.
 
     Args:
         kappa_over_nu: curvature over velocity κ/ν > 0.
-        nu: velocity ν > 0; both moments are proportional to it.
 
     Raises:
         ValueError: as `theory.contact_parameters`.
@@ -170,13 +169,13 @@ def peak_moment(kappa_over_nu: ArrayLike, nu: ArrayLike = 1.0) -> PeakMoment:
     >>> round(float(peak_moment(0.5).largest), 5)  # over V₀√(EIμ)
     0.62406
     """
-    return peak_moment_of(contact_parameters(kappa_over_nu, nu=nu))
+    return peak_moment_of(contact_parameters(kappa_over_nu))
 
 
 def peak_moment_of(parameters: ContactParameters) -> PeakMoment:
     """`peak_moment` of an impact that has been solved already."""
     lam = np.asarray(parameters.lambda0)
-    at_contact = np.where(lam > 0.0, parameters.kappa, parameters.nu)
+    at_contact = np.where(lam > 0.0, parameters.kappa_over_nu, 1.0)
     push = wave_amplitude(parameters) * _JUMP
     # from the front to the zero of E‴ the phase turns push e^{iφ} into i|push|
     place = np.sqrt(lam**2 + 4.0 * np.arctan2(push.real, push.imag))

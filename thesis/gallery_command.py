@@ -35,7 +35,7 @@ def gallery(
     """
     import sys
 
-    from bent_beam.parts import InputError, nearest
+    from bent_beam.errors import InputError, nearest
     from comparison.store import check_writable
     from thesis.gallery import ITEMS, draw_all, listing
 

@@ -60,8 +60,8 @@ def study(
     Example: bentbeam study mesh cases/thesis_K10.toml --path exudyn --refine 1,2 --out out/mesh
     """
     from bent_beam.cases import load_case
+    from bent_beam.errors import InputError, nearest
     from bent_beam.method import paths
-    from bent_beam.parts import InputError, nearest
     from comparison.methods import chosen_methods
     from comparison.store import check_writable
     from thesis.studies import STUDIES, run_study

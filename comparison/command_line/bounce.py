@@ -49,6 +49,7 @@ def bounce(
     """
     from dataclasses import asdict
 
+    from bent_beam.errors import InputError
     from bent_beam.method import paths_with
     from comparison.bounce import bounce as follow
     from comparison.bounce import follow_hits

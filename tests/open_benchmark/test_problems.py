@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from scipy.interpolate import PPoly
 
-from bent_beam.parts import InputError
+from bent_beam.errors import InputError
 from open_benchmark import problem, shipped_ids
 from open_benchmark.exact import computed
 from open_benchmark.problem import PROBLEMS, SCHEMA, document, problem_text

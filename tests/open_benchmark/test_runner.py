@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from bent_beam.parts import InputError
+from bent_beam.errors import InputError
 from measure.measured import Measured
 from open_benchmark.adapter import Adapter, chosen_adapters, shipped_adapters
 from open_benchmark.campaign import STANDARD, Row, campaign, drawn
