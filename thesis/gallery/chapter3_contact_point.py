@@ -76,7 +76,6 @@ def evolution(sheet: Sheet, contact: str) -> None:
             style.wall_below(axis, -2.3, 0.4)
             sheet.numbers[f"largest lift inside the zone (mm), {mass} mass"] = 1e3 * run(contact, mass).lift
         sheet.letter(axes, [f"{mass} mass" for mass in MASSES])
-        axes[1].set_ylabel("")
         legend_below(fig, axes[0], 3, fontsize=7.0)
 
 

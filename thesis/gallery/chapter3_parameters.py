@@ -104,7 +104,6 @@ def filter_decides(sheet: Sheet) -> None:
     with sheet.figure(1, 3, width=style.PAGE, height=2.7) as (fig, axes):
         for axis, shown in zip(axes, (outcomes, same)):
             filtered(sheet, axis, shown)
-        axes[1].set_ylabel("")
         axes[2].set(xscale="log", xlabel="$h$  (s)", ylabel="scatter over theory  (1)")
         for name, shown, colour in (("per step", outcomes, "vermilion"), ("in seconds", same, "blue")):
             h, off = [float(o.steps.time[0]) for o in shown if o.steps], [filtered_scatter(o) for o in shown]

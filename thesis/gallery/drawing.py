@@ -103,7 +103,6 @@ def run_figure(sheet: Sheet, series: Callable[[], Series], panels: Sequence[Pane
             if left.get_ylabel() == right.get_ylabel() and low < high:  # one unit, and no wall below
                 for axis in (left, right):
                     axis.set_ylim(min(low, one), max(high, other))
-                right.set_ylabel("")
         sheet.letter(grid, [f"{mass} mass" for mass in MASSES] * rows)
         legend_below(fig, grid[0, 0], 4, fontsize=7.0)
 
