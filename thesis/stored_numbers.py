@@ -10,16 +10,13 @@ from __future__ import annotations
 import argparse
 import csv
 from collections.abc import Sequence
-from io import BytesIO
 from pathlib import Path
-
-from PIL import Image
 
 from comparison import stored
 from comparison.store import write_atomically
 from thesis.gallery import ITEMS
 from thesis.gallery.numbers import markdown
-from thesis.stored_studies import COLOURS, FILE, PACKAGES
+from thesis.stored_studies import FILE, PACKAGES, small_picture
 from thesis.verdicts import CLASSES
 
 SHOWN = ("fig-3.9", "extra-filter", "fig-3.14", "fig-3.23", "fig-3.24", "fig-3.26", "fig-3.28", "fig-3.32", "fig-3.34")
@@ -32,11 +29,7 @@ def store_numbers(gallery: Path, *, folder: Path = FILE.parent, page: Path | Non
     with (gallery / "table-numbers.csv").open(encoding="utf-8") as stream:
         columns, *rows = csv.reader(stream)
     for name in SHOWN:
-        with Image.open(gallery / f"{name}.png") as image:
-            small = image.convert("RGB").resize((WIDTH, round(WIDTH * image.height / image.width)))
-            stream_of = BytesIO()
-            small.quantize(COLOURS).save(stream_of, format="PNG", optimize=True)
-        write_atomically(folder / f"{name}.png", stream_of.getvalue())
+        write_atomically(folder / f"{name}.png", small_picture(gallery / f"{name}.png", WIDTH))
     if page is not None:
         write_atomically(page, markdown(rows))
     made_by = "bentbeam gallery --out GALLERY && python -m thesis.stored_numbers GALLERY"

@@ -21,6 +21,7 @@ from pkgutil import iter_modules
 from typing import Any
 
 from bent_beam.errors import ANY_FAILURE
+from bent_beam.parts import InputError, nearest
 from comparison.figures.style import FORMATS
 from comparison.plain import plain
 from comparison.readable import readable
@@ -101,11 +102,11 @@ def draw_all(
 
     Returns (drawn, failures): drawn = [{"id", "title", "caption", "numbers", "files": [picture(s) …, csv], "seconds"}],
     failures = [{"id", "reason"}]. ``index.md`` in ``out`` shows all that was drawn, with captions and numbers.
-    ``progress`` counts modules. Raises ``ValueError`` for an unknown id or format.
+    ``progress`` counts modules. Raises ``InputError`` for an unknown id, ``ValueError`` for an unknown format.
     """
     for name in ids:
         if name not in ITEMS:
-            raise ValueError(f"gallery {name!r} is not known")
+            raise InputError(f"gallery {name!r} is not known{nearest(name, ITEMS)}")
     for kind in formats:
         if kind not in FORMATS:
             raise ValueError(f"format must be one of {', '.join(FORMATS)} (got {kind!r})")

@@ -216,5 +216,4 @@ def unfiltered(sheet: Sheet) -> None:
             sheet.line(axis, 1e6 * time, 1e-3 * target, series="theory", **THEORY)
             axis.set(xlabel="$t$  (µs)", xlim=(0, 1e6 * time[-1]))
             axis.set(ylabel="reaction of one side  (kN)", ylim=(1e-1, 1e4), yscale="log")
-            axis.label_outer()
         sheet.letter(axes, [f"{NAMES[contact]}, {mass} mass" for mass, contact in PAIRS])

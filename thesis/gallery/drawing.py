@@ -202,8 +202,6 @@ def draw_maps(sheet: Sheet, histories: Mapping[str, ImpactHistory], rows: int, h
     with sheet.figure(rows, 2, width=style.PAGE, height=height, sharex=rows > 1, sharey=True) as (fig, axes):
         for axis, history, found in zip(axes.flat, histories.values(), cells):
             drawn = one_map(sheet, axis, history, found, norm)
-            if rows > 1:
-                axis.label_outer()
         sheet.letter(axes, list(histories))
         fig.colorbar(drawn, ax=axes, label="reaction of a cell  (N)", pad=0.02, extend="min", aspect=30)
     return cells
