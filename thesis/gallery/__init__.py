@@ -59,8 +59,8 @@ def _kept(mark: Path, key: str) -> dict[str, Any] | None:
 def draw_item(name: str, out: Path, formats: Sequence[str]) -> dict[str, Any]:
     """Draw one item, or find it drawn already. Returns an entry of ``drawn``, or of ``failures`` (with "reason")."""
     chosen, mark = ITEMS[name], out / ".drawn" / f"{name}.json"
-    about = {"item": name, "caption": chosen.caption, "title": chosen.title, "formats": sorted(formats)}
-    key = digest_of(PACKAGES, about)
+    about = {"id": name, "title": chosen.title, "caption": chosen.caption}
+    key = digest_of(PACKAGES, about | {"formats": sorted(formats)})
     kept = _kept(mark, key)
     if kept is not None:
         return kept
@@ -69,14 +69,8 @@ def draw_item(name: str, out: Path, formats: Sequence[str]) -> dict[str, Any]:
     try:
         chosen.draw(sheet)
         files = sheet.save(out, name, formats)
-        drawn: dict[str, Any] = {
-            "id": name,
-            "title": chosen.title,
-            "caption": chosen.caption,
-            "numbers": plain(sheet.numbers),
-            "files": [str(f) for f in files],
-            "seconds": round(clock.perf_counter() - began, 2),
-        }
+        seconds = round(clock.perf_counter() - began, 2)
+        drawn = about | {"numbers": plain(sheet.numbers), "files": [str(f) for f in files], "seconds": seconds}
         write_atomically(mark, json.dumps({"key": key, "drawn": drawn}, indent=1))
     except ANY_FAILURE as error:
         return {"id": name, "reason": f"{type(error).__name__}: {' '.join(str(error).split())}"}

@@ -140,7 +140,7 @@ def means(sheet: Sheet, axis: Axes, runs: Sequence[Outcome]) -> None:
     for o, line in zip(runs, axis.lines[: len(runs)]):
         line.set_alpha(0.25)
         t, reaction = o.reaction(WINDOWS)
-        drawn = {"color": line.get_color(), "ls": line.get_linestyle(), "lw": 1.4}
+        drawn: dict[str, Any] = {"color": line.get_color(), "ls": line.get_linestyle(), "lw": 1.4}
         sheet.line(axis, 1e3 * t, 1e-3 * reaction, series=f"{o.label}, means", **drawn)
 
 

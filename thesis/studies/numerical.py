@@ -73,9 +73,9 @@ PER_ELEMENT = 5.0  # the thesis's a: steps a front spends in each element of the
 MOST = 6000  # elements of a square mesh
 
 
-def square_mesh(case: Case, settings: Settings, per_element: float = PER_ELEMENT) -> SquareMesh | None:
+def square_mesh(case: Case, settings: Settings) -> SquareMesh | None:
     """x_i = λ₀√(ah)·√i over the zone (3.3.5–9), ``None`` if the contact does not spread or needs too many elements."""
-    first = float(Exact(case.impact).front(per_element * settings.time_step))
+    first = float(Exact(case.impact).front(PER_ELEMENT * settings.time_step))
     if first <= 0.0 or (settings.zone / first) ** 2 > MOST:
         return None
     return SquareMesh(first_element=first, zone=settings.zone, growth=settings.growth)
