@@ -36,7 +36,7 @@ from comparison.rows import MatchRow, Question, failures
 from comparison.store import RunStore
 from comparison.whole_impact.figures import draw_map
 from report.impacts import END, ENERGIES, SHOWN, ShownImpact, show_all, theory_of
-from report.plots import plots
+from report.plots import layout, plots
 from report.rows import convergence_rows, first_order_rows, labels, leading_rows
 from report.stills import draw_acceleration, draw_maps, grouped
 from report.studies import stored_numbers, stored_studies
@@ -166,6 +166,7 @@ def render(content: Content) -> str:
         settings=settings(content),
         data={
             "plots": plots(leading, first),
+            "base": layout("", ""),
             "energies": ENERGIES,
             "impacts": [impact_data(runs) for runs in groups.values()],
         },

@@ -9,17 +9,13 @@ from __future__ import annotations
 
 import argparse
 import csv
-from collections.abc import Sequence
-from io import BytesIO
 from pathlib import Path
-
-from PIL import Image
 
 from comparison import stored
 from comparison.store import write_atomically
 from thesis.gallery import ITEMS
 from thesis.gallery.numbers import markdown
-from thesis.stored_studies import COLOURS, FILE, PACKAGES
+from thesis.stored_studies import FILE, PACKAGES, small_picture
 from thesis.verdicts import CLASSES
 
 SHOWN = ("fig-3.9", "extra-filter", "fig-3.14", "fig-3.23", "fig-3.24", "fig-3.26", "fig-3.28", "fig-3.32", "fig-3.34")
@@ -27,28 +23,23 @@ WIDTH = 640  # of a small picture, pixels
 PAGE = Path(__file__).resolve().parents[1] / "docs" / "thesis_numbers.md"
 
 
-def store_numbers(gallery: Path, *, folder: Path = FILE.parent, page: Path | None = PAGE) -> Path:
+def store_numbers(gallery: Path) -> Path:
     """Store the table and the figures that a gallery folder holds. Raises ``OSError`` for one that it lacks."""
     with (gallery / "table-numbers.csv").open(encoding="utf-8") as stream:
         columns, *rows = csv.reader(stream)
     for name in SHOWN:
-        with Image.open(gallery / f"{name}.png") as image:
-            small = image.convert("RGB").resize((WIDTH, round(WIDTH * image.height / image.width)))
-            stream_of = BytesIO()
-            small.quantize(COLOURS).save(stream_of, format="PNG", optimize=True)
-        write_atomically(folder / f"{name}.png", stream_of.getvalue())
-    if page is not None:
-        write_atomically(page, markdown(rows))
+        write_atomically(FILE.with_name(f"{name}.png"), small_picture(gallery / f"{name}.png", WIDTH))
+    write_atomically(PAGE, markdown(rows))
     made_by = "bentbeam gallery --out GALLERY && python -m thesis.stored_numbers GALLERY"
     figures = [{"id": name, "title": ITEMS[name].title} for name in SHOWN]
     data = {"columns": columns, "classes": list(CLASSES), "rows": rows, "figures": figures}
-    return stored.write(folder / "numbers.json", "printed numbers of the thesis", made_by, PACKAGES, {}, data)
+    return stored.write(FILE.with_name("numbers.json"), "printed numbers of the thesis", made_by, PACKAGES, {}, data)
 
 
-def main(words: Sequence[str] | None = None) -> None:
+def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("gallery", type=Path, metavar="GALLERY", help="a folder that bentbeam gallery has drawn")
-    print(store_numbers(parser.parse_args(words).gallery))
+    print(store_numbers(parser.parse_args().gallery))
 
 
 if __name__ == "__main__":

@@ -85,18 +85,25 @@ def case_of(name: str) -> Case:
     return case_from_tables(CASES[name])
 
 
+def small_picture(file: Path, width: int | None = None) -> bytes:
+    """A PNG in few colours, and so many pixels wide."""
+    stream = BytesIO()
+    with Image.open(file) as image:
+        size = image.size if width is None else (width, round(width * image.height / image.width))
+        image.convert("RGB").resize(size).quantize(COLOURS).save(stream, format="PNG", optimize=True)
+    return stream.getvalue()
+
+
 def note_of(name: str, folder: Path) -> dict[str, Any]:
     """Run one study; its picture, made small, goes to ``folder``."""
     note = lost(name, "")
     try:
         with TemporaryDirectory() as work:
             found = run_study(name, case_of(name), out=Path(work)).to_dict()
-            with Image.open(Path(work) / f"{name}.png") as image:
-                stream = BytesIO()
-                image.convert("RGB").quantize(COLOURS).save(stream, format="PNG", optimize=True)
+            picture = small_picture(Path(work) / f"{name}.png")
     except (ArithmeticError, ValueError, OSError, SimulationError) as error:
         return note | {"reason": " ".join(str(error).split())}
-    write_atomically(folder / f"{name}.png", stream.getvalue())
+    write_atomically(folder / f"{name}.png", picture)
     return note | {"columns": found["columns"], "rows": found["rows"], "failed": False}
 
 

@@ -1,14 +1,5 @@
-"""Printed numbers of the thesis and the class of each.
-
-Five classes, by rules that are the same for all:
-
-- within rounding: ours differs from the printed number by half a unit of its last digit at most;
-- other rule, stated by the thesis: the text states a rule that is not ours, and it gives the printed number to one
-  unit of its last digit;
-- inferred from axes: the thesis prints no number; an axis of a figure shows how large it can be;
-- same order: a number that was read off a run or a mesh, or printed as an order of magnitude, and ours lies between
-  half and twice of it;
-- off: all others. A number that follows from a formula has no same order.
+"""Printed numbers of the thesis and the class of each, by the rules that head their table
+(:data:`thesis.gallery.numbers.HEAD`). A number that follows from a formula has no same order.
 """
 
 from __future__ import annotations

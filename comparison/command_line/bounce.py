@@ -49,7 +49,6 @@ def bounce(
     """
     from dataclasses import asdict
 
-    from bent_beam.errors import InputError
     from bent_beam.method import paths_with
     from comparison.bounce import bounce as follow
     from comparison.bounce import follow_hits

@@ -6,11 +6,14 @@
   const narrow = () => window.innerWidth < 760;
 
   // --- matching plots -----------------------------------------------------------------------------------------
-  const drawn = [];
+  const { base } = data, drawn = [];
+  if (narrow()) for (const { layout } of [{ layout: base }, ...Object.values(data.plots)]) {
+    layout.margin.l = 48;
+    layout.font.size = 11.5;
+  }
   for (const place of document.querySelectorAll("[data-plot]")) {
     const plot = data.plots[place.dataset.plot];
     if (!plot) { place.remove(); continue; }
-    if (narrow()) { plot.layout.margin.l = 48; plot.layout.font.size = 11.5; }
     drawn.push(place);
     Plotly.newPlot(place, plot.data, plot.layout, config);
   }
@@ -26,21 +29,13 @@
   // --- one impact through time, every method beside theory ---------------------------------------------------
   const impacts = data.impacts;
   if (!impacts.length) return;
-  const grid = "#e4e7eb", black = "#000", red = "#D55E00", grey = "#52606d", floor = 1e-2;
+  const black = "#000", red = "#D55E00", grey = "#52606d", floor = 1e-2;
   const slider = $("time"), instant = $("instant"), readout = $("readout"), play = $("play");
   let impact = impacts[0];
 
-  const axis = (title, more) => ({
-    title: { text: title }, gridcolor: grid, zerolinecolor: "#cbd2d9", automargin: true, ...more,
-  });
-  const layout = (x, y, more) => ({
-    font: { family: "system-ui, sans-serif", size: narrow() ? 11.5 : 13, color: "#1f2933" },
-    margin: { l: narrow() ? 48 : 60, r: 10, t: 8, b: 44 }, paper_bgcolor: "rgba(0,0,0,0)", plot_bgcolor: "#fff",
-    xaxis: x, yaxis: y, showlegend: false, hovermode: "closest", uirevision: "keep", ...more,
-  });
-  const legend = {
-    showlegend: true, legend: { orientation: "h", y: 1.02, yanchor: "bottom", x: 0, font: { size: 11 } },
-  };
+  const axis = (title, more) => ({ ...base.xaxis, title: { text: title }, ...more });
+  const layout = (x, y, more) => ({ ...base, xaxis: x, yaxis: y, showlegend: false, uirevision: "keep", ...more });
+  const legend = { showlegend: true };
   const curve = (x, y, name, line, more) => ({ x, y, name, line, mode: "lines", ...more });
   const vertical = (x) => ({
     type: "line", x0: x, x1: x, yref: "paper", y0: 0, y1: 1, line: { color: grey, width: 1.2 },

@@ -1,35 +1,30 @@
-"""Studies: the theory they are compared with, what their runs show on small cases, the thesis's filter, and what is
-stored for the report.
-"""
+"""Studies: the theory they are compared with, what their runs show on small cases, the thesis's filter."""
 
 from __future__ import annotations
 
 import json
-from contextlib import nullcontext
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, ClassVar
 
 import numpy as np
 import pytest
-from PIL import Image
 
 from bent_beam.cases import Case
 from bent_beam.impact import Impact
 from bent_beam.meshes import UniformMesh
-from comparison import stored
 from comparison.command_line.app import run
 from exudyn_models import ExudynModel
 from hermite_fe import HermiteFE
 from hermite_fe.integrators import SignoriniPosition
 from self_similar_fe import SelfSimilarFE
 from theory import predict
-from thesis import stored_studies
-from thesis.gallery.runs import every_step, thesis, thesis_history
+from thesis.gallery import runs
+from thesis.gallery.runs import every_step
 from thesis.studies import STUDIES, first_order_case, of_exudyn, run_study
 from thesis.studies.exact import Exact
 from thesis.studies.of_methods import runs_of_methods
-from thesis.studies.outcome import CUT_OFF, MEASURES, Outcome, Steps
+from thesis.studies.outcome import CUT_OFF, Outcome, Steps
 from thesis.studies.panels import unit
 from thesis.studies.thesis import Variant, run_variants, thesis_settings
 
@@ -37,17 +32,12 @@ SLOW = pytest.mark.verify
 
 
 def case(curvature: float, duration: float, **changes: float) -> Case:
-    usual = {"bending_stiffness": 1.0, "mass_per_length": 1.0, "length": 50.0, "velocity": 20.0}
-    impact = Impact(**{**usual, "curvature": curvature, **changes})
-    end = duration * impact.time_scale
-    return Case(title=f"K = {curvature:g} 1/m", impact=impact, end_time=end, mesh=None, tables={})
+    found = runs.case(curvature, duration)
+    return replace(found, impact=found.impact.replace(**changes))
 
 
 def by_label(result: Any) -> dict[str, dict[str, Any]]:
     return {row["label"]: row for row in result.rows}
-
-
-# theory in SI units --------------------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(
@@ -95,9 +85,6 @@ def test_the_thesis_settings_of_its_own_cases_and_the_units_of_its_figures() -> 
     assert (found.element_length, found.time_step) == pytest.approx((2.5e-3, 2.5e-8))
     assert found.zone == pytest.approx(0.0624, abs=2e-4)
     assert unit(2.5e-5, "s") == (1e6, "µs") and unit(0.03, "m") == (1e3, "mm") and unit(12e3, "N")[1] == "kN"
-
-
-# runs ----------------------------------------------------------------------------------------------------------------
 
 
 def test_unknown_studies_and_flat_beams_are_refused() -> None:
@@ -174,9 +161,6 @@ def test_the_condition_of_the_matrix_is_that_of_its_units_and_the_runs_close_the
     assert [row["elements"] for row in rows] == sorted(row["elements"] for row in rows)
 
 
-# every step, and the filter ------------------------------------------------------------------------------------
-
-
 @pytest.mark.parametrize("share", [0.25, 1.0, 4.0])
 def test_the_filter_is_that_of_butterworth_both_ways(share: float) -> None:
     """Of order 1 it passes 1/(1 + (tan πf/2 / tan πf_c/2)²) of an amplitude both ways, without a shift: ½ at f_c."""
@@ -200,22 +184,8 @@ def test_taking_every_step_by_itself_gives_the_same_run_and_its_impulse() -> Non
     assert 2.0 * float(steps.reaction @ np.diff(steps.time, prepend=0.0)) == pytest.approx(impulse, rel=1e-12)
 
 
-def test_report_and_gallery_show_one_result() -> None:
-    """The stored study of 3.3.3, on the thesis's own case, is the run that the gallery draws."""
-    (study,) = (s for s in json.loads(stored_studies.FILE.read_text())["studies"] if s["name"] == "damping")
-    (row,) = (r for r in study["rows"] if r["label"] == "ρ∞ = 0.8")
-    found = thesis("", 1.0 / 40.0, 0.01).measures
-    assert thesis_history(1.0 / 40.0, 0.01).steps == row["steps"]
-    for name in ("contact_length_error", "reaction_error", "lift", "lost_impact"):
-        assert found[name] == pytest.approx(row[name], rel=1e-6), MEASURES[name]
-
-
-# studies of any methods --------------------------------------------------------------------------------------------
-
-
 @dataclass(frozen=True)
 class Plain:  # a method of somebody else's without any parts
-
     path: ClassVar[str] = "plain"
     label: str = "Plain"
 
@@ -315,40 +285,3 @@ def test_the_command_takes_paths_and_settings_and_refuses_both_ways_at_once(caps
     assert label == "Hermite, mesh=uniform, mesh.element_length=0.05"
     assert run([*arguments, "--methods", "cases/methods/one_of_each.toml"]) == 2
     assert "names the methods" in capsys.readouterr().err
-
-
-# what is stored for the report -----------------------------------------------------------------------------------
-
-
-def test_stored_studies_carry_their_tables_and_pictures_and_are_confirmed_by_a_run(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    small = case(10.0, 0.01, length=2.0)
-    monkeypatch.setattr(stored_studies, "case_of", lambda name: small)
-    file = tmp_path / "studies.json"
-    stored_studies.store_studies(["restitution"], file=file)
-    (note,) = stored.read(file)["studies"]
-    assert [row["label"] for row in note["rows"][:3]] == ["restitution 0", "restitution 0.5", "restitution 1"]
-    assert note["columns"].keys() <= note["rows"][0].keys()
-    assert not note["failed"] and note["reason"] == ""
-    with Image.open(tmp_path / "restitution.png") as picture:
-        assert len(picture.getcolors()) <= 64
-    monkeypatch.setattr(stored_studies, "note_of", lambda name, folder: stored_studies.lost(name, "no luck"))
-    stored_studies.store_studies(["friction"], file=file)
-    kept, lost = stored.read(file)["studies"]
-    assert kept == note and lost["failed"] and lost["reason"] == "no luck" and lost["rows"] == []
-    document = stored.read(file) | {"digest": "of yesterday"}
-    file.write_text(json.dumps(document))
-    with pytest.raises(ValueError, match="other code or settings"):
-        stored_studies.store_studies(["friction"], file=file)
-    with pytest.raises(ValueError, match="no study is called mess"):
-        stored_studies.store_studies(["mess"], file=tmp_path / "none.json")
-    with pytest.raises(ValueError, match=r"restitution: .*no luck"):
-        stored_studies.confirm_studies(["restitution"], file=file)
-    for worse, refused in ((0.0, False), (1.0, True)):
-        rows = [{**row, "reaction_error": row["reaction_error"] + worse} for row in note["rows"]]
-        monkeypatch.setattr(stored_studies, "note_of", lambda name, folder, rows=rows: {**note, "rows": rows})
-        file.write_text(json.dumps(document))
-        with pytest.raises(ValueError, match="reaction_error") if refused else nullcontext():
-            stored_studies.confirm_studies(["restitution"], file=file)
-        assert stored.is_stale(file) == refused

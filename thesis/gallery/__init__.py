@@ -21,6 +21,7 @@ from pkgutil import iter_modules
 from typing import Any
 
 from bent_beam.errors import ANY_FAILURE
+from bent_beam.parts import InputError, nearest
 from comparison.figures.style import FORMATS
 from comparison.readable import plain, readable
 from comparison.store import write_atomically
@@ -57,8 +58,8 @@ def _kept(mark: Path, key: str) -> dict[str, Any] | None:
 def draw_item(name: str, out: Path, formats: Sequence[str]) -> dict[str, Any]:
     """Draw one item, or find it drawn already. Returns an entry of ``drawn``, or of ``failures`` (with "reason")."""
     chosen, mark = ITEMS[name], out / ".drawn" / f"{name}.json"
-    about = {"item": name, "caption": chosen.caption, "title": chosen.title, "formats": sorted(formats)}
-    key = digest_of(PACKAGES, about)
+    about = {"id": name, "title": chosen.title, "caption": chosen.caption}
+    key = digest_of(PACKAGES, about | {"formats": sorted(formats)})
     kept = _kept(mark, key)
     if kept is not None:
         return kept
@@ -67,14 +68,8 @@ def draw_item(name: str, out: Path, formats: Sequence[str]) -> dict[str, Any]:
     try:
         chosen.draw(sheet)
         files = sheet.save(out, name, formats)
-        drawn: dict[str, Any] = {
-            "id": name,
-            "title": chosen.title,
-            "caption": chosen.caption,
-            "numbers": plain(sheet.numbers),
-            "files": [str(f) for f in files],
-            "seconds": round(clock.perf_counter() - began, 2),
-        }
+        seconds = round(clock.perf_counter() - began, 2)
+        drawn = about | {"numbers": plain(sheet.numbers), "files": [str(f) for f in files], "seconds": seconds}
         write_atomically(mark, json.dumps({"key": key, "drawn": drawn}, indent=1))
     except ANY_FAILURE as error:
         return {"id": name, "reason": f"{type(error).__name__}: {' '.join(str(error).split())}"}
@@ -100,11 +95,11 @@ def draw_all(
 
     Returns (drawn, failures): drawn = [{"id", "title", "caption", "numbers", "files": [picture(s) …, csv], "seconds"}],
     failures = [{"id", "reason"}]. ``index.md`` in ``out`` shows all that was drawn, with captions and numbers.
-    ``progress`` counts modules. Raises ``ValueError`` for an unknown id or format.
+    ``progress`` counts modules. Raises ``InputError`` for an unknown id, ``ValueError`` for an unknown format.
     """
     for name in ids:
         if name not in ITEMS:
-            raise ValueError(f"gallery {name!r} is not known")
+            raise InputError(f"gallery {name!r} is not known{nearest(name, ITEMS)}")
     for kind in formats:
         if kind not in FORMATS:
             raise ValueError(f"format must be one of {', '.join(FORMATS)} (got {kind!r})")

@@ -139,7 +139,7 @@ def discrete(sheet: Sheet) -> None:
     fields = ImpactFields(contact_parameters(2.0, -1.0, -1.0), epsilon=EPSILON)
     with sheet.figure(1, 3, width=style.PAGE, height=2.6) as (fig, axes):
         beam_panel(sheet, axes[0], fields, 0.1, (-1.6, 0.6))
-        beam_panel(sheet, axes[1], fields, 0.25, (-0.16, 0.06), reach=0.5, fast=False)
+        beam_panel(sheet, axes[1], fields, 0.25, (-0.16, 0.06), zoom=0.5)
         beam_panel(sheet, axes[2], fields, 0.5, (-1.6, 0.6))
         sheet.letter(axes, [r"$\tau = 0.1$", r"$\tau = 0.25$, zoom", r"$\tau = 0.5$"])
         legend_below(fig, axes[0], 4)
@@ -163,7 +163,7 @@ def lifting(sheet: Sheet) -> None:
             sheet.numbers |= {f"middle off the wall at τ = {tau}": lift, f"penetration at τ = {tau}": depth}
             beam_panel(sheet, left, fields, tau, (-0.6, 0.65))
             high = 1.6 * max(lift, depth)
-            beam_panel(sheet, right, fields, tau, (-high, high), reach=1.5 * front, fast=False)
+            beam_panel(sheet, right, fields, tau, (-high, high), zoom=1.5 * front)
             right.set_ylabel(r"deflection $w$  ($10^{-3}$)")
             right.yaxis.set_major_formatter(lambda value, _: f"{1e3 * value:.3g}".replace("-", "−"))
         sheet.letter(axes, [rf"$\tau = {tau}${zoom}" for tau in times for zoom in ("", ", zoom")])

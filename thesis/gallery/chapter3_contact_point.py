@@ -76,7 +76,6 @@ def evolution(sheet: Sheet, contact: str) -> None:
             style.wall_below(axis, -2.3, 0.4)
             sheet.numbers[f"largest lift inside the zone (mm), {mass} mass"] = 1e3 * run(contact, mass).lift
         sheet.letter(axes, [f"{mass} mass" for mass in MASSES])
-        axes[1].set_ylabel("")
         legend_below(fig, axes[0], 3, fontsize=7.0)
 
 
@@ -217,5 +216,4 @@ def unfiltered(sheet: Sheet) -> None:
             sheet.line(axis, 1e6 * time, 1e-3 * target, series="theory", **THEORY)
             axis.set(xlabel="$t$  (µs)", xlim=(0, 1e6 * time[-1]))
             axis.set(ylabel="reaction of one side  (kN)", ylim=(1e-1, 1e4), yscale="log")
-            axis.label_outer()
         sheet.letter(axes, [f"{NAMES[contact]}, {mass} mass" for mass, contact in PAIRS])

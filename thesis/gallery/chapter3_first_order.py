@@ -140,7 +140,8 @@ def means(sheet: Sheet, axis: Axes, runs: Sequence[Outcome]) -> None:
     for o, line in zip(runs, axis.lines[: len(runs)]):
         line.set_alpha(0.25)
         t, reaction = o.reaction(WINDOWS)
-        sheet.line(axis, 1e3 * t, 1e-3 * reaction, series=f"{o.label}, means", color=line.get_color(), lw=1.4)
+        drawn: dict[str, Any] = {"color": line.get_color(), "ls": line.get_linestyle(), "lw": 1.4}
+        sheet.line(axis, 1e3 * t, 1e-3 * reaction, series=f"{o.label}, means", **drawn)
 
 
 @item("fig-3.34", case=CASE)
@@ -163,6 +164,8 @@ def all_of_it(sheet: Sheet) -> None:
             evolution(sheet, axes[0, column], acceleration)
             contact_length(sheet, axes[1, column], runs)
             filtered(sheet, axes[2, column], runs)
+            for axis in axes[1:, column]:  # a₀ = 0: dashed, and not of the blue of Hermite
+                axis.lines[1].set(color=style.COLOURS["purple"], ls="--")
             means(sheet, axes[2, column], runs[:2])
             for axis, what in ((axes[1, column], "front"), (axes[2, column], "side_reaction")):
                 leading(sheet, axis, what, float(runs[0].time[-1]))

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import functools
-from collections.abc import Mapping
 from dataclasses import replace
 
 import numpy as np
@@ -27,7 +26,7 @@ from thesis.gallery.runs import Series, case, thesis
 from thesis.sheet import Sheet, item
 from thesis.studies.exact import Exact
 from thesis.studies.numerical import PER_ELEMENT, square_mesh
-from thesis.studies.outcome import CUT_OFF, Outcome, Steps
+from thesis.studies.outcome import CUT_OFF, Outcome
 from thesis.studies.panels import contact_length, energy, filtered, geometry, geometry_off, less
 from thesis.studies.thesis import MASSES, thesis_settings
 
@@ -83,11 +82,6 @@ run_items(__name__, (
 ))  # fmt: skip
 
 
-def in_seconds(steps: Steps) -> Steps:
-    """With the smoothing, in seconds, of the thesis's step."""
-    return replace(steps, cut_off=CUT_OFF * float(steps.time[0]) / BASE)
-
-
 @item("extra-filter", case=COARSE_CASE.partition(";")[0].partition(", h")[0])
 def filter_decides(sheet: Sheet) -> None:
     """The filter decides h
@@ -100,11 +94,14 @@ def filter_decides(sheet: Sheet) -> None:
     the thesis compares in Fig. 3.9 to choose h is for the most part its filter.
     """
     outcomes = [o for o in STEPS.outcomes("lumped") if o.steps is not None]
-    same = [replace(o, steps=in_seconds(o.steps)) for o in outcomes if o.steps is not None]
+    same = [  # the smoothing, in seconds, of the thesis's step
+        replace(o, steps=replace(o.steps, cut_off=CUT_OFF * float(o.steps.time[0]) / BASE))
+        for o in outcomes
+        if o.steps is not None
+    ]
     with sheet.figure(1, 3, width=style.PAGE, height=2.7) as (fig, axes):
         for axis, shown in zip(axes, (outcomes, same)):
             filtered(sheet, axis, shown)
-        axes[1].set_ylabel("")
         axes[2].set(xscale="log", xlabel="$h$  (s)", ylabel="scatter over theory  (1)")
         for name, shown, colour in (("per step", outcomes, "vermilion"), ("in seconds", same, "blue")):
             h, off = [float(o.steps.time[0]) for o in shown if o.steps], [filtered_scatter(o) for o in shown]
@@ -129,15 +126,12 @@ def cost(sheet: Sheet) -> None:
     printed = [[readable(h), *(readable(v, 6) for v in numbers)] for h, numbers in COST.items()]
     printed += [[o.label, *3 * [readable(None)]] for o in found[len(COST) :]]
     columns = ("h (s)", "thesis: time (s)", "most iterations", "mean", "ours: time (s)", "most", "mean")
-    rows = [row + our_columns(o.measures) for row, o in zip(printed, found)]
+    rows = []
+    for row, o in zip(printed, found):
+        m, mean = o.measures, o.measures["mean_iterations"]
+        iterations = [m["most_iterations"], None if mean is None else round(mean, 4)]
+        rows.append([*row, m["seconds"], *iterations, int(m["steps"] or 0), m["lift"], m["reaction_error"]])
     sheet.table([*columns, "steps", "lift/(V₀t)", "r₀ error (%)"], rows)
-
-
-def our_columns(m: Mapping[str, float | None]) -> list[object]:
-    """Our cells of Table 3.1."""
-    mean = m["mean_iterations"]
-    iterations = [m["most_iterations"], None if mean is None else round(mean, 4)]
-    return [m["seconds"], *iterations, int(m["steps"] or 0), m["lift"], m["reaction_error"]]
 
 
 # Element length, growth, and the "square" mesh (3.3.2).

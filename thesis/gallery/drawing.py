@@ -22,6 +22,7 @@ from thesis.sheet import ITEMS, Item, Sheet
 from thesis.studies.exact import Exact
 from thesis.studies.outcome import MEASURES, Outcome, scatter
 from thesis.studies.panels import (
+    REACH,
     ROOT,
     THEORY,
     Panel,
@@ -103,7 +104,6 @@ def run_figure(sheet: Sheet, series: Callable[[], Series], panels: Sequence[Pane
             if left.get_ylabel() == right.get_ylabel() and low < high:  # one unit, and no wall below
                 for axis in (left, right):
                     axis.set_ylim(min(low, one), max(high, other))
-                right.set_ylabel("")
         sheet.letter(grid, [f"{mass} mass" for mass in MASSES] * rows)
         legend_below(fig, grid[0, 0], 4, fontsize=7.0)
 
@@ -147,10 +147,12 @@ def beam_panel(
     tau: float,
     limits: tuple[float, float],
     *,
-    reach: float = 1.5,
-    fast: bool = True,
+    zoom: float | None = None,
 ) -> None:
-    """Free motion, fast layer and beam over ξ at one time; contact points marked on the wall."""
+    """Free motion, fast layer and beam over ξ at one time; contact points marked on the wall. ``zoom`` : half width of
+    a picture without the fast layer.
+    """
+    reach = zoom or 1.5
     front = float(fields.half_contact_length(tau))
     half = np.unique(np.concatenate([np.linspace(0.0, reach, 121), [front]]))
     xi = np.concatenate([-half[:0:-1], half])
@@ -160,7 +162,7 @@ def beam_panel(
     )
     axis.set(xlabel=r"$\xi$  (1)", ylabel=r"deflection $w$  (1)", xlim=(-reach, reach))
     sheet.line(axis, xi, free, series="free motion", **FREE)
-    if fast:
+    if zoom is None:
         sheet.line(axis, xi, layer, series=r"fast layer $\eta$", **FAST)
     sheet.line(axis, xi, free - layer, series="beam", **THEORY)
     mark = plain_line("vermilion", "", marker="v", ms=5, clip_on=False)
@@ -172,7 +174,6 @@ def beam_panel(
 
 TIMES, PLACES = 60, 80
 DECADES = 4.0  # of the colour scale: below is noise of no consequence, pale
-REACH = 1.25  # contact lengths shown
 
 
 @dataclass(frozen=True)
@@ -203,8 +204,6 @@ def draw_maps(sheet: Sheet, histories: Mapping[str, ImpactHistory], rows: int, h
     with sheet.figure(rows, 2, width=style.PAGE, height=height, sharex=rows > 1, sharey=True) as (fig, axes):
         for axis, history, found in zip(axes.flat, histories.values(), cells):
             drawn = one_map(sheet, axis, history, found, norm)
-            if rows > 1:
-                axis.label_outer()
         sheet.letter(axes, list(histories))
         fig.colorbar(drawn, ax=axes, label="reaction of a cell  (N)", pad=0.02, extend="min", aspect=30)
     return cells

@@ -159,7 +159,7 @@ def coupling(sheet: Sheet) -> None:
         axes[0].set(xscale="log", xlabel="rotary part $r$  (1)", ylabel="lift  (mm)", ylim=(0.0, 3.6))
         axes[0].set_xticks([1.0 / n for n in ROTARY], [f"1/{n:g}" for n in ROTARY], fontsize=6.5, rotation=45.0)
         axes[0].minorticks_off()
-        axes[1].set(xlabel=r"coupling of neighbouring constraints $c$  (1)")
+        axes[1].set(xlabel=r"coupling of neighbouring constraints $c$  (1)", ylabel="lift  (mm)")
         guide(axes[1], x=0.0)
         for contact, (name, marker) in marks.items():
             drawn: dict[str, Any] = {"color": style.COLOURS[name], "marker": marker, "ms": 4.5, "mfc": "none"}

@@ -7,7 +7,7 @@ from dataclasses import asdict, dataclass, field, replace
 from typing import Any
 
 from bent_beam.cases import Case
-from comparison.readable import plain, readable
+from comparison.readable import plain, readable, text_table
 from thesis.sheet import Sheet
 from thesis.studies.of_methods import Vary
 from thesis.studies.outcome import MEASURES, Outcome
@@ -66,19 +66,14 @@ class StudyResult:
 
     def text(self) -> str:
         """Table and conclusion for a terminal."""
-        cells = [list(self.columns.values()), *([readable(v) for v in row] for row in self.table())]
-        widths = [max(map(len, column)) for column in zip(*cells)]
-        lines = [
-            "  ".join([row[0].ljust(widths[0]), *(c.rjust(w) for c, w in zip(row[1:], widths[1:]))]).rstrip()
-            for row in [cells[0], ["-" * w for w in widths], *cells[1:]]
-        ]
+        table = text_table(list(self.columns.values()), [[readable(v) for v in row] for row in self.table()])
         notes = [
             f"failed: {', '.join(filter(None, (r['label'], r.get('setting'))))}: {r['failure']}"
             for r in self.rows
             if r.get("failure")
         ]
         notes += [f"warning: {w}" for w in self.warnings] + [f"file: {f}" for f in self.files]
-        return "\n".join([f"{self.title}: {self.case}", "", *lines, "", self.conclusion, *notes])
+        return "\n".join([f"{self.title}: {self.case}", "", table, "", self.conclusion, *notes])
 
 
 def outcomes_of(study: Study, case: Case, *, jobs: int = 1, progress: Progress | None = None) -> list[Outcome]:

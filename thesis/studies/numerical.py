@@ -26,7 +26,7 @@ from thesis.studies.of_methods import (
     with_field,
     with_parts,
 )
-from thesis.studies.thesis import MASSES, Runs, Settings, Variant, references, thesis_settings, varied
+from thesis.studies.thesis import MASSES, Runs, Settings, Variant, thesis_settings, varied
 
 # The time step h (thesis 3.3.1, Figs 3.7–3.9, Table 3.1): 40, 4, 2, 1 and 0.4 times 10⁻⁵ t*, the rest as in the
 # thesis.
@@ -73,9 +73,9 @@ PER_ELEMENT = 5.0  # the thesis's a: steps a front spends in each element of the
 MOST = 6000  # elements of a square mesh
 
 
-def square_mesh(case: Case, settings: Settings, per_element: float = PER_ELEMENT) -> SquareMesh | None:
+def square_mesh(case: Case, settings: Settings) -> SquareMesh | None:
     """x_i = λ₀√(ah)·√i over the zone (3.3.5–9), ``None`` if the contact does not spread or needs too many elements."""
-    first = float(Exact(case.impact).front(per_element * settings.time_step))
+    first = float(Exact(case.impact).front(PER_ELEMENT * settings.time_step))
     if first <= 0.0 or (settings.zone / first) ** 2 > MOST:
         return None
     return SquareMesh(first_element=first, zone=settings.zone, growth=settings.growth)
@@ -130,11 +130,9 @@ def far_field_variants(case: Case) -> list[Variant]:
     runs["e = 1.25, grid viscosity 0.3"] = None, {"viscosity": 0.3}
     runs["e = 1.02, grid viscosity 0.3"] = None, slow
     runs["e = 1.02, grid viscosity 0.3, sponge"] = None, {**slow, "sponge": True}
-    found = varied(case, base, runs)
     short = case.impact.replace(length=0.5 * case.impact.length)
     half = Variant("e = 1.02, grid viscosity 0.3, half the length", short, case.end_time, base.replace(**slow).method())
-    count = len(references(case.impact, case.end_time))
-    return [*found[:-count], half, *found[-count:]]
+    return varied(case, base, runs, half)
 
 
 def far_field_vary(method: Method, case: Case) -> list[Setting]:

@@ -114,16 +114,6 @@ AMPLITUDE = Study("amplitude", "geometry", amplitude_variants, amplitude_vary)
 COEFFICIENTS = (0.0, 0.3, 0.6)
 RUBBING_DURATION = 1e-3  # τ of the true geometry: slopes of about 0.03
 RUBBING_STEP = 1e-2  # h/t
-GEOMETRY_NAMES = {"linear": "linear limit", "true": "true geometry"}
-
-
-def rubbing(friction: float, geometry: str) -> ExudynModel:
-    """The Exudyn path with friction."""
-    return ExudynModel(
-        contact=CONTACTS["segment_friction"](friction=friction),
-        integrator=INTEGRATORS["generalized_alpha"](relative_step=RUBBING_STEP),
-        geometry=GEOMETRIES[geometry](),
-    )
 
 
 def friction_variants(case: Case) -> list[Variant]:
@@ -132,12 +122,15 @@ def friction_variants(case: Case) -> list[Variant]:
     Errors of λ₀ and r₀ and the lift without and with friction, in the linear limit and with true geometry: friction
     changes them only as far as points of the beam slide on the wall.
     """
+    steps, found = INTEGRATORS["generalized_alpha"](relative_step=RUBBING_STEP), []
     ends = {"linear": case.end_time, "true": RUBBING_DURATION * case.impact.time_scale}
-    return [
-        Variant(f"{name}, friction {f:g}", case.impact, ends[kind], rubbing(f, kind), f, reference=True, save=SAVED)
-        for kind, name in GEOMETRY_NAMES.items()
-        for f in COEFFICIENTS
-    ]
+    for kind, name in (("linear", "linear limit"), ("true", "true geometry")):
+        for f in COEFFICIENTS:
+            contact = CONTACTS["segment_friction"](friction=f)
+            method = ExudynModel(contact=contact, integrator=steps, geometry=GEOMETRIES[kind]())
+            label = f"{name}, friction {f:g}"
+            found.append(Variant(label, case.impact, ends[kind], method, f, reference=True, save=SAVED))
+    return found
 
 
 def friction_vary(method: Method, case: Case) -> list[Setting]:

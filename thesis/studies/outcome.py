@@ -51,9 +51,9 @@ MEASURES: dict[str, str] = {
 """Numbers of an outcome and their headings."""
 
 
-def saved_times(end: float, even: int = 400, root: int = 120) -> Array:
+def saved_times(end: float) -> Array:
     """Instants that show both a reaction (even in t) and a front (even in √t)."""
-    return np.unique(np.concatenate([np.linspace(0.0, end, even + 1), end * np.linspace(0.0, 1.0, root + 1) ** 2]))
+    return np.unique(np.concatenate([np.linspace(0.0, end, 401), end * np.linspace(0.0, 1.0, 121) ** 2]))
 
 
 @dataclass(frozen=True)

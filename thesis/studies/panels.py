@@ -23,6 +23,7 @@ from thesis.studies.outcome import Outcome
 Array = NDArray[np.float64]
 Panel = Callable[[Sheet, Axes, Sequence[Outcome]], None]
 PREFIX = {-12: "p", -9: "n", -6: "µ", -3: "m", 0: "", 3: "k", 6: "M"}
+REACH = 1.25  # contact lengths shown
 MARKS = 18  # markers on the curve of a reference
 WINDOWS = 30  # means of a reaction
 LINES = [style.COLOURS[c] for c in ("vermilion", "sky", "purple", "orange", "grey", "green", "blue")]
@@ -73,12 +74,12 @@ def _thin(along: Array, line: dict[str, Any]) -> Any:
     return np.unique(np.searchsorted(along, wanted).clip(0, along.size - 1))
 
 
-def geometry(sheet: Sheet, axis: Axes, outcomes: Sequence[Outcome], *, reach: float = 1.25) -> None:
+def geometry(sheet: Sheet, axis: Axes, outcomes: Sequence[Outcome]) -> None:
     """Deflection y = −gap over x at the end of the run; the wall is the grey half plane below."""
     runs = _finished(outcomes)
     exact, end = runs[0][0].exact, float(runs[0][0].time[-1])
-    edge = reach * max(float(exact.front(end)), 0.25 * exact.impact.length_scale * math.sqrt(exact.tau(end)))
-    gaps = np.concatenate([o.gap[o.x <= edge / reach] for o, _ in runs])
+    edge = REACH * max(float(exact.front(end)), 0.25 * exact.impact.length_scale * math.sqrt(exact.tau(end)))
+    gaps = np.concatenate([o.gap[o.x <= edge / REACH] for o, _ in runs])
     shown = 1.1 * float(exact.gap(np.array([edge]), end)[0])  # more would be empty
     high = max(1.4 * float(gaps.max()), min(shown, 0.01 * float(exact.impact.velocity * end)))
     deep = max(0.25 * high, -1.3 * float(gaps.min()))
@@ -213,7 +214,7 @@ def geometry_off(base: str) -> Panel:
 
     def draw(sheet: Sheet, axis: Axes, outcomes: Sequence[Outcome]) -> None:
         (first,) = (o for o in outcomes if o.label == base)
-        edge = 1.25 * float(first.exact.front(float(first.time[-1])))
+        edge = REACH * float(first.exact.front(float(first.time[-1])))
         curves = [
             (o, line, x, np.interp(x, first.x, first.gap) - o.gap[o.x <= edge])
             for o, line in _finished(outcomes)

@@ -131,13 +131,13 @@ Runs = dict[str, tuple[float | None, dict[str, Any]]]
 """Label → (value of the varied parameter, changes of the settings)."""
 
 
-def varied(case: Case, base: Settings, runs: Runs) -> list[Variant]:
-    """Runs with ``base`` but for some changes, and the references."""
+def varied(case: Case, base: Settings, runs: Runs, *more: Variant) -> list[Variant]:
+    """Runs with ``base`` but for some changes, ``more`` of them, and the references."""
     found = [
         Variant(label, case.impact, case.end_time, base.replace(**changes).method(), value)
         for label, (value, changes) in runs.items()
     ]
-    return found + references(case.impact, case.end_time)
+    return [*found, *more, *references(case.impact, case.end_time)]
 
 
 def references(impact: Impact, end_time: float) -> list[Variant]:

@@ -1,0 +1,61 @@
+"""What is stored for the report: the parameter studies on the thesis's own cases."""
+
+from __future__ import annotations
+
+import json
+from contextlib import nullcontext
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+from PIL import Image
+
+from comparison import stored
+from thesis import stored_studies
+from thesis.gallery.runs import case, thesis, thesis_history
+from thesis.studies.outcome import MEASURES
+
+
+def test_report_and_gallery_show_one_result() -> None:
+    """The stored study of 3.3.3, on the thesis's own case, is the run that the gallery draws."""
+    (study,) = (s for s in json.loads(stored_studies.FILE.read_text())["studies"] if s["name"] == "damping")
+    (row,) = (r for r in study["rows"] if r["label"] == "ρ∞ = 0.8")
+    found = thesis("", 1.0 / 40.0, 0.01).measures
+    assert thesis_history(1.0 / 40.0, 0.01).steps == row["steps"]
+    for name in ("contact_length_error", "reaction_error", "lift", "lost_impact"):
+        assert found[name] == pytest.approx(row[name], rel=1e-6), MEASURES[name]
+
+
+def test_stored_studies_carry_their_tables_and_pictures_and_are_confirmed_by_a_run(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    given = case(10.0, 0.01)
+    small = replace(given, impact=given.impact.replace(length=2.0))
+    monkeypatch.setattr(stored_studies, "case_of", lambda name: small)
+    file = tmp_path / "studies.json"
+    stored_studies.store_studies(["restitution"], file=file)
+    (note,) = stored.read(file)["studies"]
+    assert [row["label"] for row in note["rows"][:3]] == ["restitution 0", "restitution 0.5", "restitution 1"]
+    assert note["columns"].keys() <= note["rows"][0].keys()
+    assert not note["failed"] and note["reason"] == ""
+    with Image.open(tmp_path / "restitution.png") as picture:
+        assert len(picture.getcolors()) <= 64
+    monkeypatch.setattr(stored_studies, "note_of", lambda name, folder: stored_studies.lost(name, "no luck"))
+    stored_studies.store_studies(["friction"], file=file)
+    kept, lost = stored.read(file)["studies"]
+    assert kept == note and lost["failed"] and lost["reason"] == "no luck" and lost["rows"] == []
+    document = stored.read(file) | {"digest": "of yesterday"}
+    file.write_text(json.dumps(document))
+    with pytest.raises(ValueError, match="other code or settings"):
+        stored_studies.store_studies(["friction"], file=file)
+    with pytest.raises(ValueError, match="no study is called mess"):
+        stored_studies.store_studies(["mess"], file=tmp_path / "none.json")
+    with pytest.raises(ValueError, match=r"restitution: .*no luck"):
+        stored_studies.confirm_studies(["restitution"], file=file)
+    for worse, refused in ((0.0, False), (1.0, True)):
+        rows = [{**row, "reaction_error": row["reaction_error"] + worse} for row in note["rows"]]
+        monkeypatch.setattr(stored_studies, "note_of", lambda name, folder, rows=rows: {**note, "rows": rows})
+        file.write_text(json.dumps(document))
+        with pytest.raises(ValueError, match="reaction_error") if refused else nullcontext():
+            stored_studies.confirm_studies(["restitution"], file=file)
+        assert stored.is_stale(file) == refused
