@@ -20,8 +20,7 @@ from pathlib import Path
 from pkgutil import iter_modules
 from typing import Any
 
-from bent_beam.errors import ANY_FAILURE
-from bent_beam.parts import InputError, nearest
+from bent_beam.errors import ANY_FAILURE, InputError, nearest
 from comparison.figures.style import FORMATS
 from comparison.readable import plain, readable
 from comparison.store import write_atomically
