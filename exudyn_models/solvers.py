@@ -48,8 +48,9 @@ class NewtonSolver(Part):
         bool, Quantity("", "start from the accelerations at t = 0 instead of from zero")
     ] = True
 
-    def settings(self, amplitude: float, round_off: float = 0.0) -> Any:
-        """Fresh ``exudyn.SimulationSettings`` with these choices and no files; ``round_off`` of a force."""
+    def settings(self, amplitude: float, round_off: float = 0.0, along: float = 0.0) -> Any:
+        """Fresh ``exudyn.SimulationSettings`` with these choices and no files; ``round_off`` of a force at the contact
+        points, and of one ``along`` the beam."""
         settings = exu.SimulationSettings()
         settings.solution.file.write = False
         settings.solution.sensors.active = False
@@ -61,7 +62,7 @@ class NewtonSolver(Part):
         time.adaptiveStep = self.halve_steps
         time.generalizedAlpha.computeInitialAccelerations = self.initial_accelerations
         time.newton.useModifiedNewton = True
-        time.newton.absoluteTolerance = max(self.absolute_tolerance * amplitude, round_off)
+        time.newton.absoluteTolerance = max(self.absolute_tolerance * amplitude, round_off, along)
         time.newton.relativeTolerance = self.relative_tolerance
         time.newton.maxIterations = self.iterations
         time.discontinuous.useRecommendedStepSize = False

@@ -72,7 +72,7 @@ class Stepping:
         steps = sum(segment.steps for segment in self.segments)
         affordable("exudyn.integrator and mesh", steps, nodes, targets.size, MOST_WORK)
         round_off = max(contact.round_off, beam.round_off(scaling.amplitude))
-        self.settings = chosen.solver.settings(scaling.amplitude, round_off)
+        self.settings = chosen.solver.settings(scaling.amplitude, round_off, beam.axial_round_off())
         integrator.configure(self.settings)
         self.solver = integrator.solver()
         self.settling: Settling | None = None  # explicit steps are not repeated
