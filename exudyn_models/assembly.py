@@ -19,11 +19,10 @@ import numpy as np
 from bent_beam import Impact
 from bent_beam.impact import BEFORE_WAVES_RETURN
 from bent_beam.meshes import Mesh, checked_nodes, mirrored, snapped
-from exudyn_models.arrays import Array
 from exudyn_models.contacts import Contact, ContactRun, Wall
 from exudyn_models.elements import Beam, Element
 from exudyn_models.elements.beam import VISCOSITY, VISCOSITY_EXPLICIT, Section
-from exudyn_models.geometry import Geometry, Scaling, Shape, supports_or_plate
+from exudyn_models.geometry import Array, Geometry, Scaling, Shape, supports_or_plate
 from exudyn_models.integrators import Integrator
 from exudyn_models.resolution import lasts_until_waves_return, modelled_half_length, reachable, thin_front
 from exudyn_models.solvers import NewtonSolver
@@ -156,7 +155,7 @@ def _wall(shape: Shape, scaling: Scaling, chosen: Chosen) -> Wall:
     free &= (s < s[-1]) | (impact.right_end == "free")
     lengths = np.where(before[1:] & before[:-1], np.diff(s), 0.0)
     first_spread = BEFORE_WAVES_RETURN * impact.slow_time_scale / scaling.end_time
-    # a material that damps what the mesh cannot resolve makes hits plastic itself: more would stop nodes before the wall
+    # a material that damps waves at grid scale makes hits plastic itself: more would stop nodes ahead of the wall
     damped = impact.damping > VISCOSITY * scaling.end_time * float(shape.lengths.min()) ** 2
     thin = thin_front(scaling.kappa) and not supports_or_plate(impact) and not damped
     opposite, stiffness = impact.opposite_wall, impact.wall_stiffness

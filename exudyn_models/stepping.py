@@ -14,12 +14,12 @@ import exudyn as exu
 import numpy as np
 
 from bent_beam.checks import affordable
-from exudyn_models.arrays import Array
 from exudyn_models.assembly import Chosen, Layout, assemble, stable_step
+from exudyn_models.geometry import Array
 from exudyn_models.integrators import Segment
 from exudyn_models.recording import Recorder
 from exudyn_models.settling import Settling
-from exudyn_models.viewer import open_viewer, wait_until_closed
+from exudyn_models.solvers import open_viewer, wait_until_closed
 
 __all__ = ["Stepping", "Until"]
 

@@ -16,8 +16,7 @@ import numpy as np
 from scipy.sparse import csr_matrix
 
 from bent_beam.fields import Part, Quantity
-from exudyn_models.arrays import Array, Indices
-from exudyn_models.geometry import Shape
+from exudyn_models.geometry import Array, Indices, Shape
 
 __all__ = ["Beam", "Element", "Section", "shares"]
 
