@@ -19,11 +19,10 @@ import numpy as np
 from bent_beam import Impact
 from bent_beam.impact import BEFORE_WAVES_RETURN
 from bent_beam.meshes import Mesh, checked_nodes, mirrored, snapped
-from exudyn_models.arrays import Array
 from exudyn_models.contacts import Contact, ContactRun, Wall
 from exudyn_models.elements import Beam, Element
 from exudyn_models.elements.beam import VISCOSITY, VISCOSITY_EXPLICIT, Section
-from exudyn_models.geometry import Geometry, Scaling, Shape, supports_or_plate
+from exudyn_models.geometry import Array, Geometry, Scaling, Shape, supports_or_plate
 from exudyn_models.integrators import Integrator
 from exudyn_models.resolution import lasts_until_waves_return, modelled_half_length, reachable, thin_front
 from exudyn_models.solvers import NewtonSolver
@@ -81,6 +80,11 @@ class Layout:
 def lay_out(impact: Impact, end: float, chosen: Chosen) -> Layout:
     """The beam of the chosen mesh and geometry. Raises ``ValueError`` for a mesh or a geometry that does not fit."""
     geometry, half_length, unscaled = chosen.geometry, modelled_half_length(chosen.mesh, impact), Scaling(impact, end)
+    if half_length < impact.half_length * (1.0 - NEAR) and lasts_until_waves_return(impact, end):
+        raise ValueError(
+            f"mesh.places must end at the half length {impact.half_length!r} in a run that lasts until waves are back "
+            f"from the ends (got {half_length!r})"
+        )
     places = checked_nodes(snapped(chosen.mesh.nodes(half_length), impact.wall_span)) / unscaled.length
     scaling = Scaling(impact, end, geometry.amplitude_of(unscaled, float(places[-1])))
     nodes = mirrored(places) if chosen.full_beam else places
@@ -151,7 +155,9 @@ def _wall(shape: Shape, scaling: Scaling, chosen: Chosen) -> Wall:
     free &= (s < s[-1]) | (impact.right_end == "free")
     lengths = np.where(before[1:] & before[:-1], np.diff(s), 0.0)
     first_spread = BEFORE_WAVES_RETURN * impact.slow_time_scale / scaling.end_time
-    thin = thin_front(scaling.kappa) and not supports_or_plate(impact)
+    # a material that damps waves at grid scale makes hits plastic itself: more would stop nodes ahead of the wall
+    damped = impact.damping > VISCOSITY * scaling.end_time * float(shape.lengths.min()) ** 2
+    thin = thin_front(scaling.kappa) and not supports_or_plate(impact) and not damped
     opposite, stiffness = impact.opposite_wall, impact.wall_stiffness
     unit = impact.bending_stiffness / scaling.length ** (4 if lengths.any() else 3)
     return Wall(

@@ -24,13 +24,28 @@ from dataclasses import dataclass
 from typing import Annotated, Any, ClassVar
 
 import numpy as np
+from numpy.typing import NDArray
 
 from bent_beam import Impact
 from bent_beam.fields import Part, Quantity
 from bent_beam.loads import FreeMotion, lowest_mode
-from exudyn_models.arrays import Array
 
-__all__ = ["GEOMETRIES", "Geometry", "LinearLimit", "Scaling", "Shape", "TrueGeometry", "supports_or_plate"]
+__all__ = [
+    "GEOMETRIES",
+    "Array",
+    "Flags",
+    "Geometry",
+    "Indices",
+    "LinearLimit",
+    "Scaling",
+    "Shape",
+    "TrueGeometry",
+    "supports_or_plate",
+]
+
+Array = NDArray[np.float64]
+Flags = NDArray[np.bool_]
+Indices = NDArray[np.int64]
 
 STEEPEST = 1e-4  # slope in the linear limit: at 2e-3 the energy budget of a whole impact is 8e-6 off
 MODE_SLOPE = 6.0  # of the lowest mode of any ends, V₀/(L/2): clamped and free, at the tip

@@ -21,7 +21,7 @@ import numpy as np
 
 from bent_beam.checks import between
 from bent_beam.fields import Part, Quantity
-from exudyn_models.arrays import Array
+from exudyn_models.geometry import Array
 
 __all__ = [
     "DOPRI5",

@@ -15,11 +15,10 @@ from bent_beam.loads import unmodelled
 from bent_beam.meshes import MESHES, Mesh
 from bent_beam.method import Save, made_of, separation_times
 from exudyn_models import simulation, whole_beam
-from exudyn_models.arrays import Array
 from exudyn_models.assembly import Chosen
 from exudyn_models.contacts import CONTACTS, Contact, Penalty, Springs
 from exudyn_models.elements import ELEMENTS, ANCFCable, Element
-from exudyn_models.geometry import GEOMETRIES, Geometry, supports_or_plate
+from exudyn_models.geometry import GEOMETRIES, Array, Geometry, supports_or_plate
 from exudyn_models.integrators import INTEGRATORS, Integrator
 from exudyn_models.recording import Recorder
 from exudyn_models.resolution import chosen_mesh, chosen_steps, thin_front

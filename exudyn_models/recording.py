@@ -24,10 +24,9 @@ import numpy as np
 
 from bent_beam import ImpactHistory
 from bent_beam.history import end_curvatures
-from exudyn_models.arrays import Array
 from exudyn_models.contacts import ContactRun
 from exudyn_models.elements import Beam
-from exudyn_models.geometry import Scaling
+from exudyn_models.geometry import Array, Scaling
 from exudyn_models.integrators import Averages
 
 __all__ = ["Recorder"]

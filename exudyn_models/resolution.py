@@ -20,8 +20,7 @@ from bent_beam.checks import positive
 from bent_beam.impact import BEFORE_WAVES_RETURN
 from bent_beam.loads import WallScales, wall_scales
 from bent_beam.meshes import Mesh, NodesMesh, ScaleFreeMesh
-from exudyn_models.arrays import Array, Indices
-from exudyn_models.geometry import Scaling
+from exudyn_models.geometry import Array, Indices, Scaling
 from exudyn_models.integrators import Implicit, Integrator
 
 __all__ = [

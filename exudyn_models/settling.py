@@ -22,9 +22,9 @@ from typing import Any
 
 import numpy as np
 
-from exudyn_models.arrays import Array, Flags
 from exudyn_models.contacts import ContactRun
 from exudyn_models.contacts.base import TINY
+from exudyn_models.geometry import Array, Flags
 
 __all__ = ["Settling"]
 

@@ -1,4 +1,4 @@
-"""Exudyn's nonlinear and linear solver settings, and how to keep it from printing.
+"""Exudyn's nonlinear and linear solver settings, how to keep it from printing, and its viewer.
 
 Newton's method is run modified (the Jacobian is kept while it converges) on a sparse factorisation whose pattern is
 kept. Residuals are forces in model units, of the size of the amplitude; below ``tolerance`` × amplitude they are
@@ -7,6 +7,8 @@ round-off of 12EI/Δx³·y.
 
 from __future__ import annotations
 
+import os
+import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -16,7 +18,9 @@ import exudyn as exu
 
 from bent_beam.fields import Part, Quantity
 
-__all__ = ["SOLVERS", "NewtonSolver", "quiet"]
+__all__ = ["SOLVERS", "NewtonSolver", "open_viewer", "quiet", "wait_until_closed"]
+
+BLUE = [0.12, 0.35, 0.67, 1.0]
 
 
 @dataclass(frozen=True)
@@ -48,8 +52,9 @@ class NewtonSolver(Part):
         bool, Quantity("", "start from the accelerations at t = 0 instead of from zero")
     ] = True
 
-    def settings(self, amplitude: float, round_off: float = 0.0) -> Any:
-        """Fresh ``exudyn.SimulationSettings`` with these choices and no files; ``round_off`` of a force."""
+    def settings(self, amplitude: float, round_off: float = 0.0, along: float = 0.0) -> Any:
+        """Fresh ``exudyn.SimulationSettings`` with these choices and no files; ``round_off`` of a force at the contact
+        points, and of one ``along`` the beam."""
         settings = exu.SimulationSettings()
         settings.solution.file.write = False
         settings.solution.sensors.active = False
@@ -61,7 +66,7 @@ class NewtonSolver(Part):
         time.adaptiveStep = self.halve_steps
         time.generalizedAlpha.computeInitialAccelerations = self.initial_accelerations
         time.newton.useModifiedNewton = True
-        time.newton.absoluteTolerance = max(self.absolute_tolerance * amplitude, round_off)
+        time.newton.absoluteTolerance = max(self.absolute_tolerance * amplitude, round_off, along)
         time.newton.relativeTolerance = self.relative_tolerance
         time.newton.maxIterations = self.iterations
         time.discontinuous.useRecommendedStepSize = False
@@ -84,3 +89,27 @@ def quiet() -> Iterator[None]:
         yield
     finally:
         exu.config.printToConsole, exu.config.suppressWarnings = console, warnings
+
+
+def open_viewer(container: Any) -> bool:
+    """Open the viewer on an assembled system; without a display, say so on standard error and return False."""
+    if sys.platform.startswith("linux") and not (os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY")):
+        print("no display: DISPLAY is not set, so Exudyn's viewer cannot open a window here", file=sys.stderr)
+        return False
+    settings = container.visualizationSettings
+    settings.general.graphicsUpdateInterval = 0.05
+    settings.bodies.defaultColor = BLUE
+    settings.openGL.lineWidth = 3.0
+    for group in (settings.nodes, settings.markers, settings.connectors, settings.loads):
+        group.show = False
+    if not container.renderer.Start():
+        print("Exudyn's viewer could not be started", file=sys.stderr)
+        return False
+    container.renderer.ZoomAll()
+    return True
+
+
+def wait_until_closed(container: Any) -> None:
+    """Leave the last picture on the screen until its user has seen enough."""
+    print("the viewer shows the end of the run: Q or Escape in its window to go on", file=sys.stderr)
+    container.renderer.DoIdleTasks(printPauseMessage=False)

@@ -14,12 +14,12 @@ import exudyn as exu
 import numpy as np
 
 from bent_beam.checks import affordable
-from exudyn_models.arrays import Array
 from exudyn_models.assembly import Chosen, Layout, assemble, stable_step
+from exudyn_models.geometry import Array
 from exudyn_models.integrators import Segment
 from exudyn_models.recording import Recorder
 from exudyn_models.settling import Settling
-from exudyn_models.viewer import open_viewer, wait_until_closed
+from exudyn_models.solvers import open_viewer, wait_until_closed
 
 __all__ = ["Stepping", "Until"]
 
@@ -72,7 +72,7 @@ class Stepping:
         steps = sum(segment.steps for segment in self.segments)
         affordable("exudyn.integrator and mesh", steps, nodes, targets.size, MOST_WORK)
         round_off = max(contact.round_off, beam.round_off(scaling.amplitude))
-        self.settings = chosen.solver.settings(scaling.amplitude, round_off)
+        self.settings = chosen.solver.settings(scaling.amplitude, round_off, beam.axial_round_off())
         integrator.configure(self.settings)
         self.solver = integrator.solver()
         self.settling: Settling | None = None  # explicit steps are not repeated

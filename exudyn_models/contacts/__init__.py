@@ -1,10 +1,9 @@
 """Contact with the rigid wall: each a small file; ``CONTACTS`` names them for ``[exudyn.contact]``."""
 
 from exudyn_models.contacts.base import Contact, ContactRun, Wall
-from exudyn_models.contacts.penalty import Penalty
+from exudyn_models.contacts.penalty import Penalty, Springs
 from exudyn_models.contacts.rigid import Rigid
 from exudyn_models.contacts.segment_friction import SegmentFriction
-from exudyn_models.contacts.springs import Springs
 
 __all__ = ["CONTACTS", "Contact", "ContactRun", "Penalty", "Rigid", "SegmentFriction", "Springs", "Wall"]
 

@@ -27,9 +27,8 @@ import numpy as np
 
 from bent_beam import Impact
 from bent_beam.fields import Part, Quantity
-from exudyn_models.arrays import Array, Flags, Indices
 from exudyn_models.elements.beam import Beam, Element, shares
-from exudyn_models.geometry import Geometry, LinearLimit
+from exudyn_models.geometry import Array, Flags, Geometry, Indices, LinearLimit
 from exudyn_models.integrators import GeneralizedAlpha, Integrator
 from exudyn_models.solvers import NewtonSolver
 

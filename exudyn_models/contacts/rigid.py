@@ -27,9 +27,9 @@ import exudyn.itemInterface as items
 import numpy as np
 
 from bent_beam import Impact
-from exudyn_models.arrays import Array, Flags, Indices
 from exudyn_models.contacts.base import Contact, ContactRun, HeldStrip, Hold, Wall
 from exudyn_models.elements import Beam, Element
+from exudyn_models.geometry import Array, Flags, Indices
 from exudyn_models.integrators import Integrator, Newmark
 
 __all__ = ["Rigid"]

@@ -19,11 +19,10 @@ import numpy as np
 
 from bent_beam import Impact
 from bent_beam.fields import Quantity
-from exudyn_models.arrays import Array, Flags, Indices
 from exudyn_models.contacts.base import Contact, ContactRun, Wall
 from exudyn_models.contacts.penalty import penalty_per_length
 from exudyn_models.elements import ANCFCable, Beam, Element
-from exudyn_models.geometry import Geometry, LinearLimit
+from exudyn_models.geometry import Array, Flags, Geometry, Indices, LinearLimit
 from exudyn_models.integrators import Integrator
 from exudyn_models.solvers import NewtonSolver
 

@@ -16,9 +16,8 @@ import exudyn.itemInterface as items
 import numpy as np
 from numpy.polynomial.polynomial import polyder, polyval
 
-from exudyn_models.arrays import Array, Indices
 from exudyn_models.elements.beam import Beam, Element, Section
-from exudyn_models.geometry import Shape
+from exudyn_models.geometry import Array, Indices, Shape
 
 __all__ = ["ANCFCable"]
 

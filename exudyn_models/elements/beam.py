@@ -16,8 +16,7 @@ import numpy as np
 from scipy.sparse import csr_matrix
 
 from bent_beam.fields import Part, Quantity
-from exudyn_models.arrays import Array, Indices
-from exudyn_models.geometry import Shape
+from exudyn_models.geometry import Array, Indices, Shape
 
 __all__ = ["Beam", "Element", "Section", "shares"]
 
@@ -85,6 +84,13 @@ class Beam(ABC):
         """
         rounded = ROUNDED * np.finfo(float).eps * (12.0 * self.viscosity / self.lengths**3).max()
         return velocity * min(float(rounded), MOST_ROUNDED)
+
+    def axial_round_off(self) -> float:
+        """Force along a beam under an axial force that means nothing: a strain is a difference of places. 0 without."""
+        if not self.section.axial_force:
+            return 0.0
+        places = float(np.abs(self.shape.s).max()) / self.lengths.min()
+        return float(ROUNDED * np.finfo(float).eps * self.section.axial_stiffness * places)
 
     def marker(self, node: int, coordinate: int) -> Any:
         """A marker on one coordinate of the ``node``-th node."""

@@ -16,9 +16,8 @@ import exudyn.itemInterface as items
 import numpy as np
 
 from bent_beam.fields import Quantity
-from exudyn_models.arrays import Array
 from exudyn_models.elements.beam import Beam, Element, Section
-from exudyn_models.geometry import Shape
+from exudyn_models.geometry import Array, Shape
 
 __all__ = ["GeometricallyExact"]
 

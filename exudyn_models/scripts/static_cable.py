@@ -13,8 +13,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 from numpy.typing import NDArray
 
-from exudyn_models.solvers import quiet
-from exudyn_models.viewer import open_viewer, wait_until_closed
+from exudyn_models.solvers import open_viewer, quiet, wait_until_closed
 
 __all__ = ["EI", "LENGTH", "draw", "parser", "print_rows", "solved"]
 

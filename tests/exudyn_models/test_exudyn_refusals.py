@@ -8,7 +8,7 @@ import pytest
 
 import exudyn_models
 from bent_beam import Impact, InputError, SimulationError
-from bent_beam.meshes import UniformMesh
+from bent_beam.meshes import NodesMesh, UniformMesh
 from bent_beam.method import method_from_tables
 from exudyn_models import ExudynModel
 from exudyn_models.contacts import Penalty, Rigid, SegmentFriction
@@ -39,6 +39,8 @@ def test_unstable_explicit_step_is_refused_with_the_stable_one(integrator):
         ({"contact": SegmentFriction(), "element": GeometricallyExact()}, "ancf_cable"),
         ({"contact": SegmentFriction(), "integrator": RK44()}, "implicit"),
         ({"save": 0}, "save"),
+        ({"mesh": NodesMesh((0.0, 1.0, 2.0)), "end_time": 5.0}, r"mesh.places .* 4.0 .*got 2.0"),
+        ({"mesh": NodesMesh((0.0, 1.0, 2.0)), "end_time": 5.0, "integrator": RK44()}, r"mesh.places .* 4.0 .*got 2.0"),
         ({"mesh": UniformMesh(1e-5)}, "200000 are the most"),
         ({"end_time": math.nan}, "end_time"),
         ({"impact": Impact.dimensionless(0.5, length=100.0), "geometry": TrueGeometry()}, "right angle"),

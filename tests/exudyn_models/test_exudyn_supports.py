@@ -8,7 +8,7 @@ from numpy.testing import assert_allclose
 
 from bent_beam import Impact
 from exudyn_models import ExudynModel
-from exudyn_models.contacts.springs import covered
+from exudyn_models.contacts.penalty import covered
 from hermite_fe import HermiteFE
 from measure.balance import balance_of
 

@@ -66,6 +66,16 @@ def test_the_budget_of_a_whole_impact_closes_under_axial_force(kappa_over_nu, fo
     assert abs(budget["defect"]) < 1e-6 * budget["initial_energy"]
 
 
+@pytest.mark.parametrize("end", [0.005, 0.1])
+def test_a_very_small_axial_force_changes_nothing(end):
+    """Its stiff bar has a round-off far above the residual of an unpulled beam."""
+    pulled, free = (
+        exudyn_models.simulate(Impact.whole_beam(2.0).replace(axial_force=force), end_time=end, save=5)
+        for force in (1e-8, 0.0)
+    )
+    assert pulled.array("total_impulse")[-1] == pytest.approx(free.array("total_impulse")[-1], rel=1e-6)
+
+
 def test_a_beam_that_is_nearly_buckled_gets_more_elements():
     beam = Impact.whole_beam(2.0)
     free, taut, pressed = (
