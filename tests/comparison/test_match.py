@@ -144,14 +144,16 @@ class Stub:
         return SelfSimilarFE(refine=0.5).simulate(impact, end_time=end_time, save=save, progress=progress)
 
 
-def test_what_fails_is_a_row_with_its_reason(tmp_path):
+def test_what_fails_is_a_row_with_its_reason(tmp_path, monkeypatch):
+    for figure in ("matching.draw_matching", "work_precision.draw_work_precision"):  # tests of the report draw them
+        monkeypatch.setattr(f"comparison.figures.{figure}", lambda *_: [])
     methods = [Stub(), *(Stub(trouble, trouble) for trouble in ("fails", "refuses", "creeps"))]
-    rows = match(questions(methods, [0.5]), limit=3.0)
+    rows = match(questions(methods, [0.5]), limit=2.0)
     assert [r.label for r in rows] == ["Stub", "fails", "refuses", "creeps"]
     assert [r.r0.value is None for r in rows] == [False, True, True, True]
     assert [r.label for r in failures(rows)] == ["fails", "creeps"]  # what refuses says so before the run
     assert "no luck" in rows[1].reason
-    assert rows[3].reason == "time limit: not finished after 3 s"
+    assert rows[3].reason == "time limit: not finished after 2 s"
     assert rows[1].r0.theory == rows[0].r0.theory
     assert all(f.stat().st_size > 100 for f in write_match(rows, tmp_path))
     document = json.loads((tmp_path / "match.json").read_text())

@@ -1,7 +1,5 @@
 """The fields: contact where there should be contact, derivatives of one another, and the closed form."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import numpy as np
