@@ -15,6 +15,7 @@ from comparison.methods import default_methods, methods_from_file
 from comparison.rows import Question, failures, questions
 from comparison.store import RunStore
 from comparison.tables import match_table, write_match
+from comparison.workers import affordable_refinement
 from exudyn_models import ExudynModel
 from hermite_fe import HermiteFE
 from self_similar_fe import SelfSimilarFE
@@ -162,8 +163,12 @@ def test_what_fails_is_a_row_with_its_reason(tmp_path, monkeypatch):
     assert all(r.reason in match_table(rows) for r in rows if r.reason)
 
 
-def test_a_row_that_would_take_longer_than_its_limit_is_coarser_and_says_so():
-    (row,) = match([Question(HermiteFE(), 0.013)], limit=1.0)
+def test_a_row_that_would_take_longer_than_its_limit_is_coarser_and_says_so(monkeypatch):
+    """A run of 0.2 s at half the resolution takes, by the usual growth, 1.2 s more at the one asked for."""
+    for limit, factor in ((1.0, 0.5), (2.0, 1.0)):
+        assert affordable_refinement(lambda f: 0.8 * f**2, limit, 1.0) == pytest.approx((factor, 0.8))
+    monkeypatch.setattr("comparison.workers.GROWTH", 1e6)  # however fast the machine, too long
+    (row,) = match([Question(HermiteFE(), 0.013)], limit=60.0)
     assert row.reason is None and row.refine < 1.0
     assert any("coarser than asked for" in warning for warning in row.warnings)
     assert abs(row.r0.value - row.r0.theory) < row.r0.error
