@@ -1,7 +1,5 @@
 """Headless Chromium (Debian's chromium and chromium-driver) for the tests of web pages."""
 
-from __future__ import annotations
-
 import json
 import shutil
 from collections.abc import Iterator

@@ -14,6 +14,7 @@ settings.register_profile(
     derandomize="FUZZ" not in os.environ,
     deadline=None,
     database=None,
+    max_examples=30,
     suppress_health_check=list(HealthCheck),
 )
 settings.load_profile("tests")
@@ -23,8 +24,6 @@ def pytest_sessionstart(session: pytest.Session) -> None:
     """Each worker would compile every integrator for itself, at the same time as the other."""
     if hasattr(session.config, "workerinput") or not getattr(session.config.option, "numprocesses", None):
         return
-    kinds = (["signorini_position", "generalized_alpha_penalty"], ["nonsmooth_generalized_alpha"])
     command = [sys.executable, "-m", "tests.compile_integrators"]
-    compiling = [subprocess.Popen([*command, *names], cwd=Path(__file__).parents[1]) for names in kinds]
-    if any([process.wait() for process in compiling]):
+    if subprocess.run(command, cwd=Path(__file__).parents[1]).returncode:
         raise pytest.UsageError("the integrators could not be compiled: see above")

@@ -1,7 +1,5 @@
 """Integrators and small systems that tests of the Hermite path share."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 from hermite_fe.integrators import (

@@ -1,7 +1,5 @@
 """Histories made by hand, for what reads histories, and the rod that falls."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -1,7 +1,5 @@
 """What tests of the theory take in many digits."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import mpmath as mp

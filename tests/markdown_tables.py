@@ -1,7 +1,5 @@
 """Tables of README and docs, and the numbers in their cells."""
 
-from __future__ import annotations
-
 import itertools
 import re
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Problems drawn at random, each held to the same facts: what fails is named so that it can be drawn again."""
 
-from __future__ import annotations
-
 import os
 import random
 from collections.abc import Callable

@@ -1,7 +1,5 @@
 """A wall that gives way: elements and the beam's Green's function agree in the largest force."""
 
-from __future__ import annotations
-
 import pytest
 
 from bent_beam import Impact

@@ -15,6 +15,7 @@ from comparison.match import answer, match
 from comparison.methods import methods_from_file, methods_of
 from comparison.rows import Question, failures, match_table, questions
 from comparison.store import RunStore
+from comparison.workers import affordable_refinement
 from exudyn_models import ExudynModel
 from hermite_fe import HermiteFE
 from self_similar_fe import SelfSimilarFE
@@ -144,14 +145,16 @@ class Stub:
         return SelfSimilarFE(refine=0.5).simulate(impact, end_time=end_time, save=save, progress=progress)
 
 
-def test_what_fails_is_a_row_with_its_reason(tmp_path):
+def test_what_fails_is_a_row_with_its_reason(tmp_path, monkeypatch):
+    for figure in ("matching.draw_matching", "work_precision.draw_work_precision"):  # tests of the report draw them
+        monkeypatch.setattr(f"comparison.figures.{figure}", lambda *_: [])
     methods = [Stub(), *(Stub(trouble, trouble) for trouble in ("fails", "refuses", "creeps"))]
-    rows = match(questions(methods, [0.5]), limit=3.0)
+    rows = match(questions(methods, [0.5]), limit=2.0)
     assert [r.label for r in rows] == ["Stub", "fails", "refuses", "creeps"]
     assert [r.r0.value is None for r in rows] == [False, True, True, True]
     assert [r.label for r in failures(rows)] == ["fails", "creeps"]  # what refuses says so before the run
     assert "no luck" in rows[1].reason
-    assert rows[3].reason == "time limit: not finished after 3 s"
+    assert rows[3].reason == "time limit: not finished after 2 s"
     assert rows[1].r0.theory == rows[0].r0.theory
     assert all(f.stat().st_size > 100 for f in write_match(rows, tmp_path))
     document = json.loads((tmp_path / "match.json").read_text())
@@ -160,8 +163,12 @@ def test_what_fails_is_a_row_with_its_reason(tmp_path):
     assert all(r.reason in match_table(rows) for r in rows if r.reason)
 
 
-def test_a_row_that_would_take_longer_than_its_limit_is_coarser_and_says_so():
-    (row,) = match([Question(HermiteFE(), 0.013)], limit=1.0)
+def test_a_row_that_would_take_longer_than_its_limit_is_coarser_and_says_so(monkeypatch):
+    """A run of 0.2 s at half the resolution takes, by the usual growth, 1.2 s more at the one asked for."""
+    for limit, factor in ((1.0, 0.5), (2.0, 1.0)):
+        assert affordable_refinement(lambda f: 0.8 * f**2, limit, 1.0) == pytest.approx((factor, 0.8))
+    monkeypatch.setattr("comparison.workers.GROWTH", 1e6)  # however fast the machine, too long
+    (row,) = match([Question(HermiteFE(), 0.013)], limit=60.0)
     assert row.reason is None and row.refine < 1.0
     assert any("coarser than asked for" in warning for warning in row.warnings)
     assert abs(row.r0.value - row.r0.theory) < row.r0.error

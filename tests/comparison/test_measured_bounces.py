@@ -1,8 +1,6 @@
 """Restitutions in the tables of the docs: a fresh run gives the same. Each is one run to the last separation (Exudyn's:
 tests/exudyn_models/test_exudyn_whole_beam.py)."""
 
-from __future__ import annotations
-
 import pytest
 from markdown_tables import lines_after, stated
 

@@ -6,8 +6,6 @@ title of its column, by label, method or loads (α, ψ, χ[, axial]); which numb
 first title. A table whose titles are κ/ν is read by columns. "≤" states a bound.
 """
 
-from __future__ import annotations
-
 import re
 import shlex
 from fractions import Fraction

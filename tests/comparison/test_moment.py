@@ -1,8 +1,6 @@
 """The largest bending moment of simulated impacts is that of theory, m(κ/ν), on two independent paths; before a curved
 wall deflections and slopes are those of the beam, not of what lies between it and the wall."""
 
-from __future__ import annotations
-
 import json
 
 import numpy as np

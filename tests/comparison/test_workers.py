@@ -1,6 +1,7 @@
 """Many calls on cores or a cluster: the same answers in the order of the questions, and one death costs one call."""
 
 import os
+import signal
 import time
 
 import pytest
@@ -21,9 +22,24 @@ def root(number):
 
 @pytest.fixture(scope="module")
 def cluster():
+    """Its scheduler gives a call up that one worker has died of. A worker that dies while its nanny still starts it is
+    never started again: were it asked four times, a slow machine could lose both, and who waits would wait for ever."""
     distributed = pytest.importorskip("distributed")
-    with distributed.LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=":0") as started:
+    once = {"n_workers": 2, "threads_per_worker": 1, "scheduler_kwargs": {"allowed_failures": 0}}
+    with distributed.LocalCluster(dashboard_address=":0", **once) as started:
         yield started.scheduler_address
+
+
+@pytest.fixture(autouse=True)
+def no_longer_than_two_minutes():
+    def ring(*_):
+        raise AssertionError("no answer within two minutes")
+
+    before = signal.signal(signal.SIGALRM, ring)
+    signal.alarm(120)
+    yield
+    signal.alarm(0)
+    signal.signal(signal.SIGALRM, before)
 
 
 @pytest.fixture(params=["one process", "two processes", "cluster"])

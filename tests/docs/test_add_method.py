@@ -1,7 +1,5 @@
 """The guide's method of one's own is a package outside the project that every command finds by its entry point."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator
 from pathlib import Path

@@ -4,8 +4,6 @@ A fence whose info line says "not run" (with the reason) or ``no-run`` is only r
 TOML with a file's name as its title is a case, which is read and written to the folder for the commands below it.
 """
 
-from __future__ import annotations
-
 import re
 import shlex
 from collections.abc import Iterator

@@ -1,7 +1,5 @@
 """The built site in a browser: formulas are drawn, nothing is asked of the web, nothing overflows (make verify)."""
 
-from __future__ import annotations
-
 import importlib.util
 import io
 import os

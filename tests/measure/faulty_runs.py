@@ -1,9 +1,7 @@
 """One small run of a path for each folder given, its package taken from there: the checks, a line of JSON each.
 
-python faulty_runs.py hermite_fe FOLDER …
+python faulty_runs.py hermite_fe FOLDER exudyn_models FOLDER …
 """
-
-from __future__ import annotations
 
 import json
 import sys
@@ -62,14 +60,13 @@ def self_similar_fe(package: Any) -> tuple[ImpactHistory, float]:
     return history, float(moved[0::2].sum() / state.zeta[-1])
 
 
-def main(path: str, *folders: str) -> None:
-    """Run ``path`` from each of ``folders``."""
-    run = globals()[path]
-    for folder in folders:
+def main(*words: str) -> None:
+    """Run each path from the folder after it."""
+    for path, folder in zip(words[::2], words[1::2]):
         for name in [name for name in sys.modules if name.partition(".")[0] == path]:
             del sys.modules[name]
         sys.path.insert(0, folder)
-        history, mass = run(import_module(path))
+        history, mass = globals()[path](import_module(path))
         sys.path.remove(folder)
         found = {"mass": mass - 1.0, "energy": history.energy_budget()["defect"], "pull": pull_of(history)}
         balance = balance_of(history)

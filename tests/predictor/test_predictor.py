@@ -1,7 +1,5 @@
 """The predictor's numbers are those of `theory` and of the stored map, and its file is complete in itself."""
 
-from __future__ import annotations
-
 import json
 import math
 import re

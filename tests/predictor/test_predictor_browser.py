@@ -1,7 +1,5 @@
 """The predictor in headless Chromium: what it says, by keyboard, on a phone, from a link."""
 
-from __future__ import annotations
-
 import time
 from pathlib import Path
 from typing import Any

@@ -4,7 +4,7 @@ import os
 import resource
 
 import pytest
-from called import answered
+from called import CASE, answered
 
 import hermite_fe
 from bent_beam import Impact
@@ -12,14 +12,7 @@ from bent_beam.meshes import UniformMesh
 from hermite_fe.integrators import MoreauJean
 
 FUZZ = bool(os.environ.get("FUZZ"))
-CASE = """[beam]
-bending_stiffness = 1.0
-mass_per_length = 1.0
-length = {length}
-curvature = 0.5
-[impact]
-velocity = 1.0
-[run]
+RUN = """[run]
 duration = 0.1
 [hermite.integrator]
 kind = "signorini_position"
@@ -31,12 +24,11 @@ relative_step = 0.01
 
 
 def simulate(tmp_path, path, settings, length=20.0):
-    """The answer, with ``settings`` of the elements' length (where not chosen) and of anything else."""
+    """The answer, with ``settings`` of anything."""
     file = tmp_path / "case.toml"
-    file.write_text(CASE.format(length=length))
-    return answered(
-        "simulate", file, "--path", path, "--save", 20, *(w for s in settings.split() for w in ("--set", s))
-    )
+    file.write_text(CASE + RUN)
+    words = (w for s in f"beam.length={length} {settings}".split() for w in ("--set", s))
+    return answered("simulate", file, "--path", path, "--save", 20, *words)
 
 
 UNIFORM = "mesh.kind=uniform mesh.element_length="

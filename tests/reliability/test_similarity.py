@@ -131,7 +131,7 @@ def fields(history):
     return {name: history.array(name) / unit for name, unit in units.items()}
 
 
-@pytest.mark.parametrize("scales", TWINS if FUZZ else TWINS[:4])
+@pytest.mark.parametrize("scales", TWINS if FUZZ else [TWINS[0], TWINS[3]])
 @pytest.mark.parametrize("kind", RUNS)
 def test_twins_have_the_same_history_to_round_off(kind, scales):
     run, length, loads, near = RUNS[kind]
@@ -142,7 +142,7 @@ def test_twins_have_the_same_history_to_round_off(kind, scales):
     assert difference < near
 
 
-@pytest.mark.parametrize("kind", RUNS if FUZZ else list(RUNS)[:6])
+@pytest.mark.parametrize("kind", RUNS if FUZZ else list(RUNS)[:4])
 def test_a_stored_history_is_enough_to_run_it_again_and_then_is_the_same_bit_for_bit(kind, tmp_path):
     found = rerun_history(ImpactHistory.load(simulated(kind).save(tmp_path / "run.nc")))
     assert found["identical"], found

@@ -1,15 +1,13 @@
 """The report's page: it stands alone, escapes what it shows, and says what the rows say."""
 
-from __future__ import annotations
-
 import re
-import sys
 from html.parser import HTMLParser
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
+from report_fixtures import content, impacts, lost, row, rows
 
 from comparison.figures.force_map import force_map, spread
 from comparison.methods import methods_of
@@ -22,9 +20,6 @@ from report.rows import PATHS, first_order_rows, leading_rows, report_questions,
 from report.studies import stored_numbers, stored_studies
 from report.summary import acceleration_rows, headline, summary
 from report.work import stored_measurements
-
-sys.path.insert(0, str(Path(__file__).parent))
-from report_fixtures import content, impacts, lost, row, rows
 
 NASTY = "<script>alert('x')</script> & \"quotes\" </script>"
 LABELS = ("Hermite", "Self-similar", "Exudyn")

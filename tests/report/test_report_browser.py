@@ -1,18 +1,12 @@
 """The report in headless Chromium, on a screen and a phone."""
 
-from __future__ import annotations
-
-import sys
-from pathlib import Path
 from typing import Any
 
 import pytest
+from report_fixtures import content
 
 from report.page import render
 from tests.chromium import ask, assert_quiet, beyond_the_edge, chromium, needs_chromium, opened  # noqa: F401
-
-sys.path.insert(0, str(Path(__file__).parent))
-from report_fixtures import content
 
 pytestmark = needs_chromium
 LABELS = ("theory", "Hermite", "Exudyn")

@@ -1,7 +1,5 @@
 """λ₀, r₀, λ₁, r₁ against multiprecision, against a derivation without φ functions, and in their limits."""
 
-from __future__ import annotations
-
 from functools import lru_cache
 
 import mpmath as mp

@@ -1,7 +1,5 @@
 """Walls and stops that give way: limits, a modal solution, and how the rigid wall's law comes back."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The fields: contact where there should be contact, derivatives of one another, and the closed form."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import numpy as np
@@ -59,8 +57,8 @@ def test_one_point_touches_exactly_at_every_order(loads: tuple[float, float, flo
 def test_convolution_equals_the_closed_form_everywhere(ratio: float) -> None:
     parameters = contact_parameters(ratio)
     wave, tau = SelfSimilarWave(parameters), 0.7
-    ahead = parameters.lambda0 + np.logspace(-10, 2, 12)
-    x = np.concatenate([np.linspace(0.0, parameters.lambda0, 11), ahead])
+    ahead = parameters.lambda0 + np.logspace(-10, 2, 7)
+    x = np.concatenate([np.linspace(0.0, parameters.lambda0, 5), ahead])
     fast = ImpactFields(parameters).fast_layer(x * np.sqrt(tau), tau)
     for name, scale in zip(NAMES, (tau, np.sqrt(tau), 1.0, 1.0), strict=True):
         np.testing.assert_allclose(getattr(fast, name), scale * getattr(wave, name)(x), rtol=0.0, atol=1e-9)
@@ -94,7 +92,7 @@ def test_convolution_equals_the_integral_as_it_stands(ratio: float, loads: tuple
         assert fields.fast_layer(xi, 0.4).deflection == pytest.approx(plain_convolution(fields, xi, 0.4), abs=1e-10)
 
 
-@settings(max_examples=10, deadline=None)
+@settings(max_examples=5)
 @given(
     ratio=st.sampled_from([0.02, 0.4, 0.9, 1.5]),
     loads=st.tuples(*[st.sampled_from([-1.0, 0.0, 0.5])] * 4),
@@ -118,7 +116,7 @@ def test_slope_curvature_and_velocity_are_derivatives_of_the_deflection(
     assert at.velocity == pytest.approx(first @ later / (0.1 * h), abs=1e-6)
 
 
-@pytest.mark.parametrize(("ratio", "alpha"), [(0.05, 0.0), (0.5, 0.4), (0.9, 0.0), (2.0, 0.4)])
+@pytest.mark.parametrize(("ratio", "alpha"), [(0.05, 0.0), (0.5, 0.4), (2.0, 0.4)])
 def test_the_zone_stays_on_the_wall_at_first_order_in_the_tension(ratio: float, alpha: float) -> None:
     places, e = np.array([0.0, 0.3, 0.6, 0.9, 1.0]) * (ratio < 1.0), 1e-4
 

@@ -1,7 +1,5 @@
 """The kernel against its definition in multiprecision (2.3.2), (2.3.3), (2.7.12)."""
 
-from __future__ import annotations
-
 import mpmath as mp
 import numpy as np
 import pytest

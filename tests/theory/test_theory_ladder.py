@@ -1,7 +1,5 @@
 """The ladder's exact solutions: each satisfies its equation, its contact law and its balances."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """The tables of docs/theory.md are what the theory gives; worked examples have the orders that expansions promise."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from markdown_tables import lines_after, stated

@@ -1,7 +1,5 @@
 """The φ functions against their defining integrals and their closed forms in multiprecision (A.5)."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import mpmath as mp

@@ -1,7 +1,5 @@
 """The prediction in SI units: scales, the direct link to α, and its own validity."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """λ₂, r₂: first order found again without any φ, the error of first order as simulated, scaling, the border."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 
 import pytest

@@ -1,7 +1,5 @@
 """A turning beam slides or sticks: the law of the contacts, the impulses along the wall."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """The leading order in closed form: gap, momentum, energy, far field and largest moment."""
 
-from __future__ import annotations
-
 import mpmath as mp
 import numpy as np
 import pytest

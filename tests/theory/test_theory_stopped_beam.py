@@ -1,7 +1,5 @@
 """One point stopped, of a beam with its own damping: Laplace inversion, the beam without ends, its release."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import numpy as np

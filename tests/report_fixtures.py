@@ -1,7 +1,5 @@
 """Made-up rows and real reduced impacts, small enough for every test of the report."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from functools import cache
 from pathlib import Path
