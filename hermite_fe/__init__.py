@@ -1,8 +1,8 @@
 """The in-house finite-element path: Hermite beams, unilateral contact, nonsmooth time integration.
 
 To read it, follow a run: :mod:`.simulate`, :mod:`.resolution` (mesh and steps), :mod:`.model` (the beam as a
-:class:`.system.System`), :mod:`.run`, an integrator, :mod:`.active_set` (which constraints are closed), :mod:`.solver`,
-:mod:`.banded`.
+:class:`.system.System`), :mod:`.run`, an integrator, :mod:`.active_set` (which constraints are closed),
+:mod:`.constraints` (the system under them), :mod:`.banded`.
 
 | symbol | meaning | symbol | meaning |
 | --- | --- | --- | --- |

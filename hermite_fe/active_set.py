@@ -2,12 +2,12 @@
 
     S x = b + Gᵀp,      0 ≤ p ⊥ G x − c ≥ 0,      x = 0 at supports.
 
-The closed constraints, G x = c, are guessed; the system is solved (:mod:`hermite_fe.solver`); the constraints whose
-sign is wrong are exchanged, until none is (a primal–dual active set; Hintermüller, Ito, Kunisch 2003, SIAM J. Optim.
-13, 865). All wrong ones are exchanged while their number falls fast; then the worst of each run of neighbours that are
-wrong alike (runs of two whole): a beam is stiff over a few nodes, so that this mends the others. When the number has
-not fallen for ``PATIENCE`` rounds, only the last is exchanged (Murty's rule; Júdice & Pires 1994, Comput. Oper. Res.
-21, 587). After ``MOST_ROUNDS`` the problem is solved anew by :func:`solve_one_by_one`.
+The closed constraints, G x = c, are guessed; the system is solved (:mod:`hermite_fe.constraints`); the constraints
+whose sign is wrong are exchanged, until none is (a primal–dual active set; Hintermüller, Ito, Kunisch 2003, SIAM J.
+Optim. 13, 865). All wrong ones are exchanged while their number falls fast; then the worst of each run of neighbours
+that are wrong alike (runs of two whole): a beam is stiff over a few nodes, so that this mends the others. When the
+number has not fallen for ``PATIENCE`` rounds, only the last is exchanged (Murty's rule; Júdice & Pires 1994, Comput.
+Oper. Res. 21, 587). After ``MOST_ROUNDS`` the problem is solved anew by :func:`solve_one_by_one`.
 
 Signs are judged against round-off: p against the terms of its equation, a gap against the largest deflection and slope.
 """
@@ -18,9 +18,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hermite_fe.banded import FADED, PAD, copy
-from hermite_fe.compiled import compiled
-from hermite_fe.constraints import Constraints, Rows
-from hermite_fe.solver import Solver, count_rounds, exchange, update
+from hermite_fe.compiled import compiled, inner
+from hermite_fe.constraints import Constraints, Rows, Solver, count_rounds, exchange, update
 
 __all__ = ["CYCLING", "NOT_FINITE", "SINGULAR", "SOLVED", "find_wrong", "solve_constrained", "solve_free",
            "solve_one_by_one"]  # fmt: skip
@@ -39,7 +38,7 @@ MOST_ROUNDS = 500
 MOST_EXCHANGES = 20  # a constraint, in the fall-back
 
 
-@compiled
+@inner
 def equation(S: Array, y: Array, k: int) -> tuple[float, float]:
     """Row k of S y, and the sum of the absolute values of its terms."""
     term = S[0, k] * y[k]
@@ -51,7 +50,7 @@ def equation(S: Array, y: Array, k: int) -> tuple[float, float]:
     return total, size
 
 
-@compiled
+@inner
 def largest_of_a_kind(x: Array) -> tuple[float, float]:
     """The largest deflection and the largest slope of x: even and odd dofs."""
     deflection, slope = 0.0, 0.0
@@ -62,7 +61,7 @@ def largest_of_a_kind(x: Array) -> tuple[float, float]:
     return deflection, slope
 
 
-@compiled
+@inner
 def find_wrong(
     solver: Solver, rows: Rows, conditions: Constraints, b: Array, x: Array, tolerance: float
 ) -> tuple[int, int]:
@@ -95,7 +94,7 @@ def find_wrong(
     return count, last
 
 
-@compiled
+@inner
 def begin(solver: Solver, rows: Rows, conditions: Constraints) -> None:
     """Open and close constraints as ``conditions`` guesses. Held constraints are always closed; of the others only
     candidates may be."""
@@ -106,7 +105,7 @@ def begin(solver: Solver, rows: Rows, conditions: Constraints) -> None:
             exchange(solver, rows, j)
 
 
-@compiled
+@inner
 def take_solution(solver: Solver, x: Array) -> None:
     """Copy the dofs from the solution to x, with negligible values set to zero."""
     for i in range(x.size):
@@ -114,7 +113,7 @@ def take_solution(solver: Solver, x: Array) -> None:
         x[i] = 0.0 if abs(value) < FADED else value
 
 
-@compiled
+@inner
 def solve_round(
     solver: Solver, rows: Rows, conditions: Constraints, b: Array, x: Array, changed: int, tolerance: float
 ) -> tuple[int, int]:
@@ -128,7 +127,7 @@ def solve_round(
     return find_wrong(solver, rows, conditions, b, x, tolerance)
 
 
-@compiled
+@inner
 def exchange_wrong(solver: Solver, rows: Rows, worst_only: bool) -> None:
     """Exchange the constraints whose sign is wrong: all, or the worst of each run of neighbours that are wrong
     alike."""
@@ -176,7 +175,7 @@ def solve_constrained(solver: Solver, rows: Rows, conditions: Constraints, b: Ar
     return status
 
 
-@compiled
+@inner
 def first_to_open(solver: Solver, p: Array, reached: Array) -> tuple[int, float]:
     """On the straight way from the reactions ``reached`` to p: the constraint of wrong sign whose reaction vanishes
     first, and the share of the way to there; −1 and 1 where there is none."""

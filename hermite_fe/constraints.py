@@ -1,4 +1,13 @@
-"""Contact constraints in the form that compiled code uses: g = gap + G q ≥ 0, one row each."""
+"""Contact constraints as compiled code uses them, g = gap + G q ≥ 0, one row each, and the linear system of a time step
+under closed ones, on banded matrices:
+
+    S x = b + Gᵀp,      G x = c for the closed constraints,      p = 0 for the open,      x = 0 at supports.
+
+A constraint on one dof fixes that dof while it is closed; p is the residual of its equation. A constraint on several
+dofs has a multiplier −p among the unknowns, fixed at 0 while it is open. To open or close a constraint changes one
+entry of ``fixed``, and makes the factors of that unknown and of all before it stale (:mod:`hermite_fe.banded`): half of
+them on a full beam. Which constraints are closed is decided in :mod:`hermite_fe.active_set`.
+"""
 
 from __future__ import annotations
 
@@ -7,11 +16,13 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from hermite_fe.compiled import compiled
-from hermite_fe.system import ContactRows
+from hermite_fe.banded import PAD, factor, substitute_back, substitute_forward
+from hermite_fe.compiled import compiled, inner
+from hermite_fe.system import ContactRows, System
 
-__all__ = ["WORST", "Constraints", "ContactLaw", "Rows", "constraints_of", "find_held", "note_complementarity",
-           "row_times", "rows_of", "rows_times"]  # fmt: skip
+__all__ = ["WORST", "Constraints", "ContactLaw", "Rows", "Solver", "constraints_of", "count_rounds", "exchange",
+           "find_held", "note_complementarity", "refactor_from", "row_times", "rows_of", "rows_times", "solver_of",
+           "update"]  # fmt: skip
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
@@ -73,7 +84,7 @@ def constraints_of(rows: Rows) -> Constraints:
     return Constraints(numbers[0], *flags, *numbers[1:])
 
 
-@compiled
+@inner
 def row_times(rows: Rows, x: Array, j: int) -> float:
     """Row j of G x."""
     total = 0.0
@@ -89,7 +100,7 @@ def rows_times(rows: Rows, x: Array, out: Array) -> None:
         out[j] = row_times(rows, x, j)
 
 
-@compiled
+@inner
 def find_held(rows: Rows, law: ContactLaw, closed: Flags, t: float, held: Flags) -> None:
     """Mark the constraints that stay closed after time t: before ``hold_until`` all that are closed, else those whose
     front is fewer than ``hold`` constraints ahead."""
@@ -107,7 +118,7 @@ def find_held(rows: Rows, law: ContactLaw, closed: Flags, t: float, held: Flags)
         held[j] = closed[j] and (t < law.hold_until or front - rows.rank[j] < law.hold)
 
 
-@compiled
+@inner
 def note_complementarity(
     rows: Rows, conditions: Constraints, x: Array, to_impulse: float, to_speed: float, worst: Array
 ) -> None:
@@ -121,3 +132,129 @@ def note_complementarity(
             worst[PRODUCT] = max(worst[PRODUCT], abs(p * slack))
             if not conditions.held[j]:
                 worst[SMALLEST_REACTION] = min(worst[SMALLEST_REACTION], p)
+
+
+class Solver(NamedTuple):
+    """The step matrix, its factors, and the constraints that they are made for.
+
+    unknown : (dofs,), the index of a dof among the unknowns; row_unknown : (rows,), the one that a constraint fixes.
+    S, U : (5, unknowns + 2 PAD); sign, fixed : (unknowns + 2 PAD,), see :func:`hermite_fe.banded.factor`.
+    right, forward, y : (unknowns + 2 PAD,), the right-hand side, and the solution after either substitution.
+    closed : (rows,), the constraints as the factors have them; excess : (rows,), by how much each sign is wrong.
+    stale : (1,), the last unknown whose factors are out of date, −1: none. step : (3,), h (s), c and k of S.
+    rounds : (3,), contact problems solved, rounds of all of them, most rounds of one.
+    """
+
+    unknown: Places
+    row_unknown: Places
+    S: Array
+    U: Array
+    sign: Array
+    fixed: Flags
+    right: Array
+    forward: Array
+    y: Array
+    closed: Flags
+    excess: Array
+    stale: Places
+    step: Array
+    rounds: Places
+
+
+def solver_of(system: System) -> Solver:
+    """The unknowns of ``system`` in order: dofs, and each multiplier after the second dof that its constraint touches.
+
+    Raises ``ValueError`` when constraints on several dofs are not those of neighbouring nodes, one at most for two
+    dofs.
+    """
+    rows, n = system.contacts, system.dofs
+    m, width = rows.dofs.shape
+    unknown = np.arange(n) + PAD
+    if width == 1:
+        row_unknown, size = unknown[rows.dofs[:, 0]], n + 2 * PAD
+    else:
+        before = np.sort(rows.dofs, axis=1)[:, (width - 1) // 2]  # the dof that a multiplier follows
+        unknown += np.searchsorted(before, np.arange(n), side="left")
+        row_unknown, size = unknown[before] + 1, n + m + 2 * PAD
+        check_width(system, unknown, row_unknown)
+    fixed, sign, U = np.zeros(size, np.bool_), np.ones(size), np.zeros((5, size))
+    fixed[unknown[list(system.supports)]] = True
+    U[0] = 1.0
+    if width > 1:
+        fixed[row_unknown], sign[row_unknown] = True, -1.0
+    return Solver(
+        unknown=unknown, row_unknown=row_unknown, S=np.zeros((5, size)), U=U, sign=sign, fixed=fixed,
+        right=np.zeros(size), forward=np.zeros(size), y=np.zeros(size), closed=np.zeros(m, np.bool_),
+        excess=np.zeros(m), stale=np.array([size - PAD - 1]), step=np.full(3, np.nan), rounds=np.zeros(3, np.int64),
+    )  # fmt: skip
+
+
+def check_width(system: System, unknown: Places, row_unknown: Places) -> None:
+    """``ValueError`` when some matrix or constraint couples unknowns more than four apart."""
+    tight = np.all(np.diff(row_unknown) > 0)
+    tight &= np.abs(unknown[system.contacts.dofs] - row_unknown[:, None]).max(initial=0) <= 4
+    for bands in (system.mass, system.stiffness, system.damping):
+        for k in range(1, 4):
+            tight &= not np.any(bands[k, :-k][unknown[k:] - unknown[:-k] > 4])
+    if not tight:
+        raise ValueError("contact rows must each touch a few neighbouring dofs, at most one row for two dofs")
+
+
+@inner
+def refactor_from(solver: Solver, unknown: int) -> None:
+    """Mark the factors of all unknowns up to ``unknown`` as out of date."""
+    solver.stale[0] = max(solver.stale[0], unknown)
+
+
+@inner
+def count_rounds(solver: Solver, rounds: int) -> None:
+    """Note that one more problem has taken so many rounds."""
+    solver.rounds[0] += 1
+    solver.rounds[1] += rounds
+    solver.rounds[2] = max(solver.rounds[2], rounds)
+
+
+@inner
+def exchange(solver: Solver, rows: Rows, j: int) -> None:
+    """Close constraint j if it is open, open it if it is closed."""
+    solver.closed[j] = not solver.closed[j]
+    k = solver.row_unknown[j]
+    solver.fixed[k] = solver.closed[j] == (rows.dofs.shape[1] == 1)
+    refactor_from(solver, k)
+
+
+@inner
+def right_side(solver: Solver, rows: Rows, b: Array, target: Array) -> None:
+    """The right-hand side of all unknowns, with the terms of known values moved to it."""
+    right, fixed, S = solver.right, solver.fixed, solver.S
+    for i in range(b.size):
+        right[solver.unknown[i]] = 0.0 if fixed[solver.unknown[i]] else b[i]
+    for j in range(solver.row_unknown.size):
+        k = solver.row_unknown[j]
+        if rows.dofs.shape[1] > 1:
+            right[k] = target[j] if solver.closed[j] else 0.0
+        elif solver.closed[j]:
+            value = target[j] / rows.factors[j, 0]
+            right[k] = value
+            for m in range(1, 5):
+                if not fixed[k - m]:
+                    right[k - m] -= S[m, k - m] * value
+                if not fixed[k + m]:
+                    right[k + m] -= S[m, k] * value
+
+
+@inner
+def update(solver: Solver, rows: Rows, b: Array, target: Array, changed: int) -> bool:
+    """Solve for y with the constraints as they are closed now; False where S is singular.
+
+    changed : beyond this unknown the right-hand side is as it was in the solution before.
+    """
+    stale = solver.stale[0]
+    if stale >= 0 and not factor(solver.S, solver.fixed, solver.sign, stale, solver.U):
+        solver.step[0] = np.nan
+        return False
+    solver.stale[0] = -1
+    right_side(solver, rows, b, target)
+    substitute_forward(solver.U, solver.right, max(changed, min(stale + 4, solver.y.size - PAD - 1)), solver.forward)
+    substitute_back(solver.U, solver.forward, solver.y)
+    return True

@@ -150,22 +150,21 @@ def nodal_loads(
     follows : with the end forces of y₀, F = Mü + Cu̇ + Ku of its displacement u, in which K on Hermite interpolants is
         exact at nodes; else of free ends, where the uniform load acts, and what the bow makes of an axial force.
     """
-    motion = impact.free_motion(0.0)
+    motion, load = impact.free_motion(0.0), np.zeros((2, beam.dofs))
     uniform = product(inertia, beam.interpolate(np.ones(s.size), np.zeros(s.size)))  # M·1
-    acceleration = float(motion(0.0, by_t=2))
-    if not follows:
-        pressure = impact.mass_per_length * acceleration + impact.bending_stiffness * float(motion(0.0, by_x=4))
-        load = pressure / impact.mass_per_length * uniform
+    load[0] = float(motion(0.0, by_t=2)) * uniform  # a force of its own, without a term of y₀, is added here
+    if follows:
+        bent = motion.bending()
+        shape = beam.interpolate(bent(s), bent(s, by_x=1))
+        rate = beam.interpolate(bent(s, by_t=1), bent(s, by_x=1, by_t=1))
+        load[0] += stiff_product(stiffness, shape)
+        load[0] += sum((stiff_product(bands, rate) for _, bands in dampings), np.zeros(beam.dofs))
+        load[1] = stiff_product(stiffness, rate)
+    else:
+        load[0] += impact.bending_stiffness * float(motion(0.0, by_x=4)) / impact.mass_per_length * uniform
         if impact.tension_direction == "axis":
             ends = [0, -1] if beam.nodes[0] < 0.0 else [-1]
-            load[0::2][ends] += impact.axial_force * impact.curvature * np.abs(s[ends])
-        return load[None, :]
-    bent = motion.bending()
-    shape = beam.interpolate(bent(s), bent(s, by_x=1))
-    rate = beam.interpolate(bent(s, by_t=1), bent(s, by_x=1, by_t=1))
-    steady = acceleration * uniform + stiff_product(stiffness, shape)
-    steady += sum((stiff_product(bands, rate) for _, bands in dampings), np.zeros(beam.dofs))
-    load = np.stack([steady, stiff_product(stiffness, rate)])
+            load[0, 0::2][ends] += impact.axial_force * impact.curvature * np.abs(s[ends])
     return load if np.any(load[1]) else load[:1]
 
 

@@ -22,8 +22,15 @@ from bent_beam.fields import Quantity
 from bent_beam.impact import Impact
 from hermite_fe.active_set import SOLVED, solve_free
 from hermite_fe.banded import copy
-from hermite_fe.compiled import compiled
-from hermite_fe.constraints import PRODUCT, SMALLEST_REACTION, Constraints, constraints_of, rows_times
+from hermite_fe.compiled import compiled, inner
+from hermite_fe.constraints import (
+    PRODUCT,
+    SMALLEST_REACTION,
+    Constraints,
+    constraints_of,
+    refactor_from,
+    rows_times,
+)
 from hermite_fe.integrators.base import Integrator
 from hermite_fe.integrators.generalized_alpha import (
     Motion,
@@ -35,7 +42,6 @@ from hermite_fe.integrators.generalized_alpha import (
     prepare_step,
     take_reaction,
 )
-from hermite_fe.solver import refactor_from
 from hermite_fe.stepping import Problem, State, forces_at
 
 __all__ = ["GeneralizedAlphaPenalty"]
@@ -120,7 +126,7 @@ def take_steps(
     return SOLVED, last
 
 
-@compiled
+@inner
 def solve_with_springs(
     problem: Problem, state: State, motion: Motion, conditions: Constraints, h: float, stiffness: float, damping: float,
     rounds: int
@@ -158,7 +164,7 @@ def solve_with_springs(
     return status
 
 
-@compiled
+@inner
 def add_spring_reactions(
     problem: Problem, state: State, motion: Motion, h: float, stiffness: float, damping: float
 ) -> None:
