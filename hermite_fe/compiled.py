@@ -15,16 +15,13 @@ from pathlib import Path
 from typing import Any, TypeVar, cast
 
 import numba
-from numba.extending import register_jitable
 from platformdirs import user_cache_path
 
-__all__ = ["compiled", "inner", "recompiling"]
+__all__ = ["compiled", "recompiling"]
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 Result = TypeVar("Result")
 
-OPTIONS: dict[str, Any] = {"error_model": "numpy", "fastmath": {"contract"}}
-"""Sums may be contracted to fused multiply-adds; nothing else of IEEE arithmetic is given up."""
 LEAST_SPACE = 100e6  # bytes that must be free on the disk before anything is kept there
 
 
@@ -51,22 +48,17 @@ KEPT = can_be_kept()
 
 
 def compiled(function: Function) -> Function:
-    """``function`` compiled at its first call for the types of its arguments, and kept on disk where that can be."""
+    """``function`` compiled at its first call for the types of its arguments, and kept on disk where that is possible.
+
+    Sums may be contracted to fused multiply-adds; nothing else of IEEE arithmetic is given up.
+    """
     before = numba.config.CACHE_DIR  # type: ignore[attr-defined]
     numba.config.CACHE_DIR = str(FOLDER)  # type: ignore[attr-defined]
     try:
-        made = numba.njit(cache=KEPT, **OPTIONS)(function)
+        made = numba.njit(cache=KEPT, error_model="numpy", fastmath={"contract"})(function)
     finally:
         numba.config.CACHE_DIR = before  # type: ignore[attr-defined]
     return cast(Function, made)
-
-
-def inner(function: Function) -> Function:
-    """``function`` compiled as a part of the compiled functions that call it; Python runs it as it is written.
-
-    It needs no interface to Python and no file of its own, which take time to compile.
-    """
-    return cast(Function, register_jitable(**OPTIONS)(function))
 
 
 def recompiling(call: Callable[[], Result]) -> Result:

@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hermite_fe.banded import PAD, factor, substitute_back, substitute_forward
-from hermite_fe.compiled import compiled, inner
+from hermite_fe.compiled import compiled
 from hermite_fe.system import ContactRows, System
 
 __all__ = ["WORST", "Constraints", "ContactLaw", "Rows", "Solver", "constraints_of", "count_rounds", "exchange",
@@ -84,7 +84,7 @@ def constraints_of(rows: Rows) -> Constraints:
     return Constraints(numbers[0], *flags, *numbers[1:])
 
 
-@inner
+@compiled
 def row_times(rows: Rows, x: Array, j: int) -> float:
     """Row j of G x."""
     total = 0.0
@@ -100,7 +100,7 @@ def rows_times(rows: Rows, x: Array, out: Array) -> None:
         out[j] = row_times(rows, x, j)
 
 
-@inner
+@compiled
 def find_held(rows: Rows, law: ContactLaw, closed: Flags, t: float, held: Flags) -> None:
     """Mark the constraints that stay closed after time t: before ``hold_until`` all that are closed, else those whose
     front is fewer than ``hold`` constraints ahead."""
@@ -118,7 +118,7 @@ def find_held(rows: Rows, law: ContactLaw, closed: Flags, t: float, held: Flags)
         held[j] = closed[j] and (t < law.hold_until or front - rows.rank[j] < law.hold)
 
 
-@inner
+@compiled
 def note_complementarity(
     rows: Rows, conditions: Constraints, x: Array, to_impulse: float, to_speed: float, worst: Array
 ) -> None:
@@ -200,13 +200,13 @@ def check_width(system: System, unknown: Places, row_unknown: Places) -> None:
         raise ValueError("contact rows must each touch a few neighbouring dofs, at most one row for two dofs")
 
 
-@inner
+@compiled
 def refactor_from(solver: Solver, unknown: int) -> None:
     """Mark the factors of all unknowns up to ``unknown`` as out of date."""
     solver.stale[0] = max(solver.stale[0], unknown)
 
 
-@inner
+@compiled
 def count_rounds(solver: Solver, rounds: int) -> None:
     """Note that one more problem has taken so many rounds."""
     solver.rounds[0] += 1
@@ -214,7 +214,7 @@ def count_rounds(solver: Solver, rounds: int) -> None:
     solver.rounds[2] = max(solver.rounds[2], rounds)
 
 
-@inner
+@compiled
 def exchange(solver: Solver, rows: Rows, j: int) -> None:
     """Close constraint j if it is open, open it if it is closed."""
     solver.closed[j] = not solver.closed[j]
@@ -223,7 +223,7 @@ def exchange(solver: Solver, rows: Rows, j: int) -> None:
     refactor_from(solver, k)
 
 
-@inner
+@compiled
 def right_side(solver: Solver, rows: Rows, b: Array, target: Array) -> None:
     """The right-hand side of all unknowns, with the terms of known values moved to it."""
     right, fixed, S = solver.right, solver.fixed, solver.S
@@ -243,7 +243,7 @@ def right_side(solver: Solver, rows: Rows, b: Array, target: Array) -> None:
                     right[k + m] -= S[m, k] * value
 
 
-@inner
+@compiled
 def update(solver: Solver, rows: Rows, b: Array, target: Array, changed: int) -> bool:
     """Solve for y with the constraints as they are closed now; False where S is singular.
 

@@ -26,7 +26,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from hermite_fe.compiled import compiled, inner
+from hermite_fe.compiled import compiled
 
 __all__ = ["FORCE", "FORCE_TIME", "NO_SPRINGS", "PEAKS", "PENETRATION", "PRESSURE", "Springs", "push",
            "stored_energy"]  # fmt: skip
@@ -61,7 +61,7 @@ NO_SPRINGS = Springs(0.0, 0.0, np.zeros(0), np.zeros(0), 0, 0, -1)
 """A rigid wall."""
 
 
-@inner
+@compiled
 def shapes(at: float, length: float) -> tuple[float, float, float, float]:
     """N₁ … N₄ at ξ = ``at`` (:mod:`hermite_fe.beam`)."""
     square, cube = at * at, at * at * at
@@ -69,7 +69,7 @@ def shapes(at: float, length: float) -> tuple[float, float, float, float]:
             length * (cube - square))  # fmt: skip
 
 
-@inner
+@compiled
 def depth(springs: Springs, q: Array, e: int, at: float) -> float:
     """p at ξ = ``at`` of element e."""
     n1, n2, n3, n4 = shapes(at, springs.lengths[e])
@@ -78,7 +78,7 @@ def depth(springs: Springs, q: Array, e: int, at: float) -> float:
             + n3 * (q[i + 2] + face[i + 2]) + n4 * (q[i + 3] + face[i + 3]))  # fmt: skip
 
 
-@inner
+@compiled
 def reaction(p: float, new: float, h: float, stiffness: float, damping: float) -> tuple[float, float, float]:
     """R̄, dR̄/dp⁺ and the dashpot's loss (R̄ − G)Δp of one point."""
     before, after = max(p, 0.0), max(new, 0.0)
@@ -95,14 +95,14 @@ def reaction(p: float, new: float, h: float, stiffness: float, damping: float) -
     return force, slope + (damping / h if after > 0.0 else 0.0), (force - spring) * (new - p)
 
 
-@inner
+@compiled
 def bernstein(a: float, b: float, c: float, d: float, at: float) -> float:
     """The cubic with the Bernstein coefficients a … d at ξ = ``at``."""
     rest = 1.0 - at
     return rest * rest * (rest * a + 3.0 * at * b) + at * at * (3.0 * rest * c + at * d)
 
 
-@inner
+@compiled
 def add_zeros(springs: Springs, q: Array, e: int, places: Array, count: int) -> int:
     """Add the places 0 < ξ < 1 where p of element e changes sign to ``places``; returns how many there are now.
 
@@ -135,7 +135,7 @@ def add_zeros(springs: Springs, q: Array, e: int, places: Array, count: int) -> 
     return count
 
 
-@inner
+@compiled
 def split(springs: Springs, q: Array, new: Array, e: int, places: Array) -> int:
     """Put 0, the places where p or p⁺ of element e changes sign, and 1 into ``places``, in order; returns how many."""
     places[0] = 0.0

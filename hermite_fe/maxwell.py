@@ -24,7 +24,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from hermite_fe.compiled import compiled, inner
+from hermite_fe.compiled import compiled
 from hermite_fe.constraints import Solver
 from hermite_fe.system import Bending
 
@@ -33,7 +33,7 @@ __all__ = ["add_branch_forces", "branch_energy", "step_branches", "stiffen", "st
 Array = NDArray[np.float64]
 
 
-@inner
+@compiled
 def stiffen(bending: Bending, h: float, theta: float, solver: Solver) -> None:
     """Add θh²KΣ ϑg/(1 + ϑh/τ) to a step matrix that is just made, and keep the ϑ and the weights 1/(1 + ϑh/τ)."""
     share, n = 0.0, bending.matrix.shape[1]
@@ -49,20 +49,20 @@ def stiffen(bending: Bending, h: float, theta: float, solver: Solver) -> None:
                 solver.S[apart, solver.unknown[i]] += share * bending.matrix[m, i]
 
 
-@inner
+@compiled
 def strains_of(bending: Bending, q: Array, e: int) -> tuple[float, float]:
     """e = Bq of one element."""
     chord = (q[2 * e + 2] - q[2 * e]) / bending.lengths[e]
     return q[2 * e + 1] - chord, q[2 * e + 3] - chord
 
 
-@inner
+@compiled
 def form(first: float, second: float) -> float:
     """eᵀKe of one element over 4EI/length."""
     return first * first + first * second + second * second
 
 
-@inner
+@compiled
 def add_branch_forces(bending: Bending, z: Array, v: Array, h: float, b: Array) -> None:
     """b −= hKΣ g(z + ϑhBv)/(1 + ϑh/τ): what the branches do at v, of which Δv is still to be added."""
     count = z.shape[1]
@@ -82,7 +82,7 @@ def add_branch_forces(bending: Bending, z: Array, v: Array, h: float, b: Array) 
         b[2 * e + 3] -= right
 
 
-@inner
+@compiled
 def step_branches(bending: Bending, v_theta: Array, h: float, z: Array, stretch: Array) -> float:
     """z⁺ in place of z, and Σ g z̄ into ``stretch``; returns the loss in the dashpots, J."""
     count, loss = z.shape[1], 0.0

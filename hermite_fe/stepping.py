@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from hermite_fe.active_set import NOT_FINITE, SOLVED, solve_free
 from hermite_fe.banded import PAD, combine, dot, multiply, row_sums, stiff_multiply
-from hermite_fe.compiled import compiled, inner
+from hermite_fe.compiled import compiled
 from hermite_fe.constraints import Constraints, ContactLaw, Rows, Solver, row_times, rows_of, solver_of
 from hermite_fe.elastic_wall import Springs
 from hermite_fe.maxwell import strains_of
@@ -137,7 +137,7 @@ def prepare(problem: Problem, c: float, k: float, h: float, t: float) -> float:
     return h
 
 
-@inner
+@compiled
 def note_moments(bending: Bending, q: Array, stretch: Array, largest: Array) -> None:
     """Note the largest bending moments of the cubics through q and of the branches, at both ends of each element."""
     for e in range(bending.lengths.size):

@@ -22,7 +22,7 @@ from bent_beam.fields import Quantity
 from bent_beam.impact import Impact
 from hermite_fe.active_set import SOLVED, solve_free
 from hermite_fe.banded import copy
-from hermite_fe.compiled import compiled, inner
+from hermite_fe.compiled import compiled
 from hermite_fe.constraints import (
     PRODUCT,
     SMALLEST_REACTION,
@@ -126,7 +126,7 @@ def take_steps(
     return SOLVED, last
 
 
-@inner
+@compiled
 def solve_with_springs(
     problem: Problem, state: State, motion: Motion, conditions: Constraints, h: float, stiffness: float, damping: float,
     rounds: int
@@ -164,7 +164,7 @@ def solve_with_springs(
     return status
 
 
-@inner
+@compiled
 def add_spring_reactions(
     problem: Problem, state: State, motion: Motion, h: float, stiffness: float, damping: float
 ) -> None:

@@ -23,7 +23,7 @@ from numpy.typing import NDArray
 from bent_beam.fields import Quantity
 from hermite_fe.active_set import SOLVED, solve_constrained
 from hermite_fe.banded import copy, multiply
-from hermite_fe.compiled import compiled, inner
+from hermite_fe.compiled import compiled
 from hermite_fe.constraints import (
     Constraints,
     constraints_of,
@@ -104,7 +104,7 @@ def take_steps(
     return SOLVED, last
 
 
-@inner
+@compiled
 def smooth_motion(
     problem: Problem, state: State, motion: Motion, conditions: Constraints, t: float, h: float
 ) -> int:
@@ -121,7 +121,7 @@ def smooth_motion(
     return status
 
 
-@inner
+@compiled
 def velocity_jump(problem: Problem, state: State, motion: Motion, velocity: Constraints) -> int:
     """The jump W (``vectors.x``) of (M + hγsC + h²βsK)W = b + Gᵀp, 0 ≤ p ⊥ Gv⁺ + eGv ≥ 0, v⁺ += W, Gv of before the
     step, b = ``vectors.b``. Puts KW in ``vectors.force``, CW in ``vectors.scratch``; returns the status."""
@@ -143,7 +143,7 @@ def velocity_jump(problem: Problem, state: State, motion: Motion, velocity: Cons
     return status
 
 
-@inner
+@compiled
 def velocity_step(problem: Problem, state: State, memory: AlphaMemory, t: float, h: float) -> int:
     """Constraints at velocity level only.
 
@@ -176,7 +176,7 @@ def velocity_step(problem: Problem, state: State, memory: AlphaMemory, t: float,
     return status
 
 
-@inner
+@compiled
 def position_step(
     problem: Problem, state: State, memory: AlphaMemory, t: float, h: float, with_acceleration: bool
 ) -> int:
@@ -211,7 +211,7 @@ def position_step(
     return status
 
 
-@inner
+@compiled
 def position_jump(problem: Problem, state: State, vectors: Vectors, position: Constraints, h: float) -> int:
     """U of :func:`position_step`. Puts −hKU in ``vectors.b``; returns the status."""
     matrices, rows, _, solver = problem
@@ -234,7 +234,7 @@ def position_jump(problem: Problem, state: State, vectors: Vectors, position: Co
     return status
 
 
-@inner
+@compiled
 def velocity_after_position(
     problem: Problem, state: State, motion: Motion, smooth_p: Array, velocity: Constraints, h: float
 ) -> int:

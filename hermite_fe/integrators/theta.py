@@ -32,7 +32,7 @@ from numpy.typing import NDArray
 from bent_beam.fields import Quantity
 from hermite_fe.active_set import SOLVED, solve_constrained
 from hermite_fe.banded import copy, dot, multiply, stiff_multiply
-from hermite_fe.compiled import compiled, inner
+from hermite_fe.compiled import compiled
 from hermite_fe.constraints import (
     Constraints,
     ContactLaw,
@@ -117,7 +117,7 @@ class SignoriniPosition(Theta):
         return super().start(problem, state)
 
 
-@inner
+@compiled
 def begin_step(
     problem: Problem, state: State, vectors: Vectors, t: float, end: float, theta: float
 ) -> tuple[float, bool]:
@@ -139,7 +139,7 @@ def begin_step(
     return h, h != made_for
 
 
-@inner
+@compiled
 def finish_step(problem: Problem, state: State, p: Array, vectors: Vectors, h: float, theta: float) -> int:
     """Move on by ``vectors.dv`` and add the energies, p : (rows,), impulses of rigid walls; returns the status."""
     q, v, dv, v_theta, mean_v = state.q, state.v, vectors.dv, vectors.v_theta, vectors.mean_v
@@ -154,7 +154,7 @@ def finish_step(problem: Problem, state: State, p: Array, vectors: Vectors, h: f
     return end_step(state)
 
 
-@inner
+@compiled
 def algorithmic_loss(problem: Problem, p: Array, vectors: Vectors, h: float, theta: float) -> float:
     """(θ − ½)[Δvᵀ(MΔv − Gᵀp) + h² v_θᵀK v_θ]."""
     matrices, dv, v_theta, scratch = problem.matrices, vectors.dv, vectors.v_theta, vectors.scratch
@@ -170,7 +170,7 @@ def algorithmic_loss(problem: Problem, p: Array, vectors: Vectors, h: float, the
     return (theta - 0.5) * loss
 
 
-@inner
+@compiled
 def impose(
     rows: Rows, law: ContactLaw, conditions: Constraints, state: State, t: float, h: float, theta: float,
     at_position: bool
