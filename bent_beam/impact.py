@@ -64,9 +64,7 @@ class Impact(Part):
     natural_curvature: Annotated[float | None, Quantity("1/m", "stress-free K; the whole bow's unless given")] = None
     rotation: Annotated[float, Load("rad/s", "rocking about the middle (runs of the full beam)", powers=(1, 1))] = 0.0
     first_touch: Annotated[float, Quantity("m", "the bow's apex from the middle (runs of the full beam)")] = 0.0
-    opposite_wall: Annotated[
-        float | None, Quantity("m", "distance of a second wall behind the bow's apex", above=0.0)
-    ] = None
+    opposite_wall: Annotated[float | None, Quantity("m", "distance of a second wall behind the apex", above=0.0)] = None
     wall_stiffness: Annotated[
         float | None, Feature("N/m²", "k per length of beam, of a stop in N/m; rigid unless given", above=0.0)
     ] = None
@@ -138,9 +136,9 @@ class Impact(Part):
         time = non_negative(name, value) / self.time_scale
         if time > LONGEST:
             raise ValueError(f"{name} must not exceed {LONGEST:g} t* (got {value!r}, t* = {self.time_scale!r} s)")
-        for load, about in loads_of(Impact).items():
+        for load in loads_of(Impact):
             given = getattr(self, load)
-            if about.powers and about.group and abs(self.group(load)) * time > LONGEST:
+            if abs(self.group(load)) * time > LONGEST:
                 raise ValueError(f"{load} is out of all proportion to a time of {value:.6g} s (got {given!r})")
         return float(value)
 
@@ -182,12 +180,11 @@ class Impact(Part):
 
     def free_motion(self, bow: float) -> FreeMotion:
         """y₀ with −``bow`` x²/2 in place of −Kx²/2, SI units, x from the first touch."""
-        terms = {(0, 1): self.velocity + self.rotation * self.first_touch, (2, 0): -bow}
-        terms |= {about.powers: getattr(self, load) for load, about in loads_of(Impact).items() if about.powers}
-        return FreeMotion(terms)
+        terms = {about.powers: getattr(self, load) for load, about in loads_of(Impact).items() if about.powers}
+        return FreeMotion({(0, 1): self.velocity + self.rotation * self.first_touch, (2, 0): -bow, **terms})
 
     def group(self, load: str) -> float:
-        """The dimensionless group of a load with ν = 1: its term of y₀ in units of the fast layer, or n = N/(μV₀²)."""
+        """A load in units of the fast layer, dimensionless with ν = 1: its term of y₀, or of a force n = N/(μV₀²)."""
         value, powers = getattr(self, load), loads_of(Impact)[load].powers
         if powers is None:
             return value / (self.mass_per_length * self.velocity**2)
@@ -213,6 +210,11 @@ class Impact(Part):
     def zone_pressure(self) -> float:
         """p − N K_w, N/m: what presses a contact zone that lies on the wall; it lifts off where this is negative."""
         return load_against(self, self.wall_curvature)
+
+    @property
+    def lifts(self) -> bool:
+        """Whether a load lifts a contact zone off the wall."""
+        return self.zone_pressure < 0.0
 
     def load_within(self, half: float, power: int = 0) -> float:
         """∫xⁿp dx over |x| ≤ ``half`` from the middle, of all loads together, N mⁿ, for an even n = ``power``. Forces
@@ -266,8 +268,8 @@ class Impact(Part):
         return self.epsilon_axial / self.epsilon
 
     @property
-    def loaded(self) -> bool:
-        """Whether loads of first order act: those that have a group."""
+    def loaded_to_first_order(self) -> bool:
+        """Whether loads act that theory to first order knows: those that have a group."""
         return any(getattr(self, load) for load, about in loads_of(Impact).items() if about.group)
 
     @property

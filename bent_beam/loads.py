@@ -3,15 +3,23 @@
     y₀(x, t) = Σ c xⁱtʲ/(i! j!):    V₀ (0, 1),   −K (2, 0),   a₀ (0, 2),   c₀ (2, 1),   q₀ (4, 0)           (2.2.30)
 
 A load is a field of :class:`bent_beam.Impact`, annotated by a :class:`Load`: unit, meaning and range, of which its
-check and its line of the page of settings follow. With a term of y₀ it has a dimensionless group, a share of the
-uniform load μ∂²y₀/∂t² + EI ∂⁴y₀/∂x⁴ + N K, and a share of the end forces of y₀; every solver asks :class:`FreeMotion`
-for these. A load without a term is a force of its own, which a solver adds. A solver names the loads and other features
-that it models in its ``LOADS``, and refuses the rest; theory and what compares with it do so, too (:func:`unmodelled`).
+check, its key in ``[impact]`` and its line of the page of settings follow. With a term of y₀ it has a share of the
+uniform load μ∂²y₀/∂t² + EI ∂⁴y₀/∂x⁴ + N K and of the end forces of y₀; every solver asks :class:`FreeMotion` for these.
+A load without a term is a force of its own, which a solver adds. Theory to first order knows the loads that have a
+``group``. A solver names the loads and other features that it models in its ``MODELLED``, and refuses the rest; theory
+and what compares with it do so, too (:func:`unmodelled`).
 
-To add a load: its field in ``impact.py``; its key in ``tables.py``; its name in the ``LOADS`` of each path that is to
-model it. Where it has no term, also its share in ``Impact.load_within``, of which momentum, balances and hits follow,
-and its force in the path (``nodal_loads`` in ``hermite_fe/model.py``). These are three files for a path, one more for
-its test, and, as for any feature, a row in ``docs/guide/problems.md`` and a line in ``CHANGELOG.md``.
+To add a load:
+
+1. ``impact.py``: its field. Without a term also its share in ``Impact.load_within``, of which momentum, balances and
+   hits follow, and, if it can pull the beam off the wall, ``Impact.lifts``.
+2. The path's file: its name in ``MODELLED``, and without a term its force: ``hermite_fe/model.py`` (``nodal_loads``);
+   of Exudyn ``method.py`` (``MODELLED``), ``geometry.py`` (its unit, ``Scaling``) and ``assembly.py`` (``assemble``).
+3. A test (``tests/measure/test_balance.py`` has the balances), a row in ``docs/guide/problems.md``, a line in
+   ``CHANGELOG.md``, and the stored numbers confirmed (CONTRIBUTING.md).
+
+A load that presses the zone unevenly also changes how a half length is read (``comparison/summary.py``,
+``_spreads_first``).
 
 A beam with held ends,
 
@@ -83,7 +91,7 @@ def beyond_first_order(impact: Any) -> str | None:
 
 def unmodelled(impact: Any, modelled: Collection[str]) -> str | None:
     """Why a solver of the features ``modelled``, loads among them, cannot take an impact, naming the field (``None``:
-    it can)."""
+    it can). Features are the fields annotated by :class:`Feature`; any solver takes the other fields."""
     about = declared(type(impact))  # type: ignore[arg-type]
     for field in dataclasses.fields(impact):
         value, quantity = getattr(impact, field.name), about[field.name].quantity

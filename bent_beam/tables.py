@@ -1,7 +1,7 @@
 """The tables of a case file with fixed fields, and how they become the quantities of :class:`bent_beam.Impact`.
 
 A beam may be described as its owner knows it. One way or the other, never both: two ways to say the same thing clash,
-and the error names them.
+and the error names them. A load that no table describes otherwise is a key of ``[impact]`` as it is.
 """
 
 from __future__ import annotations
@@ -10,14 +10,14 @@ import dataclasses
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Annotated, Any, ClassVar
+from typing import Annotated, Any, ClassVar, get_type_hints
 
 from bent_beam.checks import one_of, shortened
 from bent_beam.errors import InputError
 from bent_beam.fields import Part, Quantity, declared
 from bent_beam.hysteresis import FIRST_MODE
 from bent_beam.impact import Impact
-from bent_beam.loads import ENDS
+from bent_beam.loads import ENDS, loads_of
 from bent_beam.section import Section
 
 __all__ = ["TABLES", "BeamTable", "ImpactTable", "RunTable", "WallTable", "impact_of"]
@@ -64,7 +64,7 @@ class BeamTable(Part):
 
 
 @dataclass(frozen=True, kw_only=True)
-class ImpactTable(Part):
+class _ImpactTable(Part):
     """How the beam arrives, and what acts on it."""
 
     where: ClassVar[str] = "impact"
@@ -85,13 +85,7 @@ class ImpactTable(Part):
         Quantity("°", "between gravity and the normal into the wall: 0 floor, 90 upright wall", least=0.0, most=180.0),
     ] = 0.0
     acceleration: Annotated[float | None, of_impact("acceleration")] = None
-    curvature_rate: Annotated[float, of_impact("curvature_rate")] = 0.0
-    fourth_derivative: Annotated[float, of_impact("fourth_derivative")] = 0.0
-    rotation: Annotated[float, of_impact("rotation")] = 0.0
     first_touch: Annotated[float, of_impact("first_touch")] = 0.0
-
-
-AS_THEY_ARE = ("curvature_rate", "fourth_derivative", "rotation", "first_touch")  # from [impact] to Impact
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -121,14 +115,22 @@ class RunTable(Part):
     ] = None
 
 
+HINTS = get_type_hints(Impact, include_extras=True)
+AS_THEY_ARE = [name for name in loads_of(Impact) if name not in {*declared(BeamTable), *declared(_ImpactTable)}]
+ImpactTable: type[_ImpactTable] = dataclasses.make_dataclass(
+    "ImpactTable",
+    [(name, HINTS[name], dataclasses.field(default=getattr(Impact, name))) for name in AS_THEY_ARE],
+    bases=(_ImpactTable,), frozen=True, kw_only=True,
+)  # fmt: skip
+
 TABLES: dict[str, type[Part]] = {"beam": BeamTable, "impact": ImpactTable, "wall": WallTable, "run": RunTable}
 """Tables with fixed fields; ``[section]`` and ``[mesh]`` have a kind."""
 
 
 # from tables to an impact ---------------------------------------------------------------------------------
-def impact_of(beam: BeamTable, arrival: ImpactTable, wall: WallTable, section: Section | None) -> Impact:
+def impact_of(beam: BeamTable, arrival: _ImpactTable, wall: WallTable, section: Section | None) -> Impact:
     """What the tables describe. Raises ``ValueError`` naming field and value."""
-    values: dict[str, Any] = {name: getattr(arrival, name) for name in AS_THEY_ARE}
+    values: dict[str, Any] = {name: getattr(arrival, name) for name in (*AS_THEY_ARE, "first_touch")}
     values |= {"length": beam.length, "axial_force": beam.axial_force, "natural_curvature": beam.natural_curvature}
     _only_with("beam.tension_direction", beam.tension_direction, "beam.axial_force", beam.axial_force)
     values["tension_direction"] = beam.tension_direction or "axis"
@@ -228,13 +230,13 @@ def _ends(beam: BeamTable) -> tuple[str, str]:
     return left, right
 
 
-def _gravity(table: ImpactTable) -> float:
+def _gravity(table: _ImpactTable) -> float:
     if table.gravity is not None:
         return table.gravity
     return GRAVITY if table.drop_height is not None else 0.0
 
 
-def _velocity(table: ImpactTable, length: float, ends: tuple[str, str]) -> float:
+def _velocity(table: _ImpactTable, length: float, ends: tuple[str, str]) -> float:
     """V₀, m/s, of the first touch, where an end is held of the middle."""
     ways = {"velocity": table.velocity, "drop_height": table.drop_height, "angular_speed": table.angular_speed}
     way, given = _one_of("impact", ways)
@@ -260,7 +262,7 @@ def _velocity(table: ImpactTable, length: float, ends: tuple[str, str]) -> float
     return math.sqrt(2.0 * along * given)
 
 
-def _free_flight(table: ImpactTable, values: Mapping[str, Any]) -> float:
+def _free_flight(table: _ImpactTable, values: Mapping[str, Any]) -> float:
     """a₀, m/s²: as given, or that of free flight under gravity, which tension bends: a₀ = g cos θ − (EI q₀ + N K)/μ.
 
     Without gravity and tension a beam of which no acceleration is given does not accelerate.

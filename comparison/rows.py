@@ -37,7 +37,7 @@ __all__ = [
 First = tuple[float, float, float, float]
 """(α, ψ, χ, N) with ν = 1."""
 
-LOADS = ("alpha", "psi", "chi", "axial")
+GROUPS = ("alpha", "psi", "chi", "axial")
 
 DURATION = 0.1  # t*
 THESIS_KAPPAS = (1 / 1600, 1 / 800, 1 / 400, 1 / 200, 1 / 100, 1 / 40, 1 / 20, 1 / 4, 1 / 2)
@@ -85,7 +85,7 @@ class Question:
     @property
     def loads(self) -> dict[str, float]:
         """α, ψ, χ and N by name."""
-        return dict(zip(LOADS, self.first or (0.0,) * 4))
+        return dict(zip(GROUPS, self.first or (0.0,) * 4))
 
     def loaded(self, epsilon: float) -> Impact:
         """The impact with (εα, εψ, εχ, n) = ε·(α, ψ, χ, N)."""
@@ -101,7 +101,7 @@ class Question:
             positive("--wall", self.wall[0])
             non_negative("--wall", self.wall[1])
         if self.first is not None:
-            for name, value in zip(LOADS, self.first):
+            for name, value in zip(GROUPS, self.first):
                 finite(name, value)
             object.__setattr__(self, "first", (*self.first, 0.0)[:4] if any(self.first) else None)
 

@@ -126,7 +126,7 @@ def summary(
     infinite = predict(impact, [end]) if comparable(impact) else None
     row = infinite.times[0] if infinite and infinite.times[0].valid else None
     leading = None
-    if row and not impact.loaded:
+    if row and not impact.loaded_to_first_order:
         try:
             leading = leading_order(found, companions=[other.moments for other in others])
         except ValueError:
@@ -181,7 +181,7 @@ def _thrown_off(history: ImpactHistory, found: Moments) -> float:
     """The largest lift of the last decade of time, V₀t, where the scheme makes it: neither a load nor damping, nor a
     wall that gives way, nor waves from the ends. The companion is thrown off, too, so that it does not show."""
     impact, time = history.impact, history.time
-    may = impact.zone_pressure < 0.0 or impact.damping or impact.wall_stiffness is not None
+    may = impact.lifts or impact.damping or impact.wall_stiffness is not None
     if may or impact.off_centre or is_late(impact, float(time[-1])):
         return 0.0
     return float(found.lift[time >= 0.1 * time[-1]].max())

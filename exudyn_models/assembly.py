@@ -168,7 +168,7 @@ def _wall(shape: Shape, scaling: Scaling, chosen: Chosen) -> Wall:
         front=scaling.front,
         first_spread=first_spread,
         plastic=chosen.plastic if thin and first_spread >= 1.0 and not explicit else 0.0,
-        lifts=impact.zone_pressure < 0.0 or impact.damping > 0.0 or impact.kappa_over_nu >= 1.0,
+        lifts=impact.lifts or impact.damping > 0.0 or impact.kappa_over_nu >= 1.0,
         explicit=explicit,
         opposite=None if opposite is None else -opposite / scaling.deflection,
         stiffness=None if stiffness is None else stiffness / unit,

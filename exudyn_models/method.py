@@ -27,7 +27,7 @@ from exudyn_models.stepping import Until
 
 __all__ = ["ExudynModel", "simulate"]
 
-LOADS = (
+MODELLED = (
     *("acceleration", "curvature_rate", "fourth_derivative", "axial_force", "rotation"),
     *("wall_stiffness", "wall_damping", "wall_from", "wall_to", "left_end", "right_end"),
 )
@@ -82,7 +82,7 @@ class ExudynModel(Part):
 
         for_loads : the run measures what the loads of ``impact`` change: open steps are shorter, an open contact holds.
         """
-        shorter = FIRST_ORDER_STEPS if for_loads and self.integrator is None and impact.loaded else 1.0
+        shorter = FIRST_ORDER_STEPS if for_loads and self.integrator is None and impact.loaded_to_first_order else 1.0
         contact = self.contact
         if impact.wall_stiffness is not None:
             contact = contact or Springs()
@@ -121,7 +121,7 @@ class ExudynModel(Part):
             yield f"exudyn.contact has no effect on a wall with a stiffness: leave it out (got {self.contact!r})"
         contact = self.contact or (Penalty() if impact.wall_stiffness is None else Springs())
         true = (self.geometry or contact.geometry).true
-        if unknown := unmodelled(impact, LOADS):
+        if unknown := unmodelled(impact, MODELLED):
             yield unknown
         apart: dict[str, tuple[str, ...]] = {}  # what is not modelled together
         for name in ("rotation", "first_touch"):
@@ -200,7 +200,7 @@ def held_for(contact: Contact | None, impact: Impact) -> Contact:
         # 12 % off without the hold, 0.1 % with it. Behind a thin front nothing rebounds, behind a point nothing is.
         return Penalty(hold=FIRST_ORDER_HOLD)
     contact = contact or Penalty()
-    if impact.zone_pressure < 0.0 and isinstance(contact, Penalty) and contact.hold_start is None:
+    if impact.lifts and isinstance(contact, Penalty) and contact.hold_start is None:
         return dataclasses.replace(contact, hold_start=0.0)  # of the run without the load, too
     return contact
 

@@ -88,7 +88,7 @@ class HermiteFE(Composition):
         on is held behind the front: what lift the bare impact leaves would otherwise take up the load before the wall
         does. Neither without loads.
         """
-        if not impact.loaded or impact.wall_stiffness is not None:
+        if not impact.loaded_to_first_order or impact.wall_stiffness is not None:
             return self
         contact, domain, mesh = self.contact, self.domain, self.mesh
         if domain is None and self.far_field is None:

@@ -44,13 +44,13 @@ from hermite_fe.far_fields import Dampings, FarField
 from hermite_fe.masses import ConsistentMass, Mass
 from hermite_fe.system import Bending, ContactRows, System
 
-__all__ = ["LOADS", "BeamModel", "beam_model"]
+__all__ = ["MODELLED", "BeamModel", "beam_model"]
 
 Array = NDArray[np.float64]
 CONSISTENT = ConsistentMass()
 NEAR = 1e-9  # of the length: a node so near an edge of the wall lies on it
 HELD = {"free": 0, "hinged": 1, "clamped": 2}  # dofs of the end node
-LOADS = ("acceleration", "curvature_rate", "fourth_derivative", "axial_force", "rotation", "hysteretic_loss",
+MODELLED = ("acceleration", "curvature_rate", "fourth_derivative", "axial_force", "rotation", "hysteretic_loss",
          "wall_stiffness", "wall_damping", "wall_from", "wall_to", "left_end", "right_end")  # fmt: skip
 """The loads and other features that are modelled here."""
 

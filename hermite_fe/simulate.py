@@ -17,7 +17,7 @@ from bent_beam.loads import unmodelled
 from hermite_fe import resolution
 from hermite_fe.contacts import Contact
 from hermite_fe.elastic_wall import PEAKS
-from hermite_fe.model import LOADS, BeamModel, beam_model
+from hermite_fe.model import MODELLED, BeamModel, beam_model
 from hermite_fe.run import Stepper, Trajectory, integrate
 from hermite_fe.stepping import ENERGIES
 from hermite_fe.warnings_of_run import warnings_of_run
@@ -39,7 +39,7 @@ def refusal(impact: Impact) -> str | None:
     if impact.opposite_wall is not None and (impact.wall_stiffness is not None or impact.wall_in_part):
         name = "wall_stiffness" if impact.wall_stiffness is not None else "wall_from"
         return f"opposite_wall is not modelled together with {name} (got {impact.opposite_wall!r})"
-    return unmodelled(impact, LOADS)
+    return unmodelled(impact, MODELLED)
 
 
 def spreads(impact: Impact) -> bool:

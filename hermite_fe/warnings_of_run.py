@@ -108,7 +108,7 @@ def lift_warnings(impact: Impact, model: BeamModel, history: ImpactHistory) -> l
     end = time[-1]
     if impact.wall_stiffness is not None:  # it gives back what it took: the zone bounces
         return []
-    if impact.zone_pressure < 0.0 or end > FIRST_SPREAD * impact.slow_time_scale:
+    if impact.lifts or end > FIRST_SPREAD * impact.slow_time_scale:
         return []
     places, worst, widest = np.abs(model.system.contacts.places), 0.0, 0.0
     nodes = np.abs(model.beam.nodes)

@@ -17,7 +17,7 @@ from self_similar_fe.run import simulate_expanding
 
 __all__ = ["SelfSimilarFE"]
 
-LOADS = ("acceleration", "curvature_rate", "fourth_derivative", "axial_force")
+MODELLED = ("acceleration", "curvature_rate", "fourth_derivative", "axial_force")
 """The loads that :mod:`self_similar_fe.run` models."""
 
 
@@ -52,7 +52,7 @@ class SelfSimilarFE(Part):
                 return f"{name} breaks the self-similarity that this path rests on (got {getattr(impact, name)!r})"
         if impact.relative_curvature == 0.0:
             return "curvature must be positive: a flat beam meets the wall everywhere at once (got 0.0)"
-        return unmodelled(impact, LOADS)
+        return unmodelled(impact, MODELLED)
 
     def simulate(
         self,

@@ -75,7 +75,7 @@ def _found(impact: Impact, method: Method | None) -> tuple[Mapping[str, Number] 
 
 
 def _from_map(impact: Impact) -> Mapping[str, Number] | None:
-    if impact.loaded or impact.off_centre or unmodelled(impact, ()) is not None:
+    if impact.loaded_to_first_order or impact.off_centre or unmodelled(impact, ()) is not None:
         return None
     found = bounce_from_map(impact.kappa_over_nu, impact.relative_damping)
     moment = None if found is None else found["peak_moment"]

@@ -44,7 +44,7 @@ class Exact:
     @property
     def leading(self) -> bool:
         """No first-order term acts."""
-        return not self.impact.loaded
+        return not self.impact.loaded_to_first_order
 
     @cached_property
     def wave(self) -> SelfSimilarWave:
