@@ -9,6 +9,7 @@ from typing import Any
 from bent_beam.files import write_atomically
 from comparison.whole_impact.stored_map import stored_map
 from predictor.coefficients import coefficients
+from theory import validity
 
 __all__ = ["page", "write_page"]
 
@@ -36,9 +37,22 @@ def whole_impact() -> dict[str, Any]:
     }
 
 
+def constants() -> dict[str, float]:
+    """Of `theory.validity`, what its formulas in limits.js need."""
+    return {
+        "tolerance": validity.TOLERANCE,
+        "distance": validity.DISTANCE,
+        "flat": validity.FLAT,
+        "slope": validity.SLOPE_LIMIT,
+        **{f"shear_{name}": times for name, times in validity.SHEAR_TIMES.items()},
+        "shear_lengths": validity.SHEAR_LENGTHS,
+        "flattest_sheared": validity.FLATTEST_SHEARED,
+    }
+
+
 def script(names: tuple[str, ...] = SCRIPTS) -> str:
     """The scripts, after the numbers that they read."""
-    data = {"COEFFICIENTS": coefficients(), "MAP": whole_impact()}
+    data = {"COEFFICIENTS": coefficients(), "VALIDITY": constants(), "MAP": whole_impact()}
     numbers = [f"const {name} = {json.dumps(value, separators=(',', ':'))};" for name, value in data.items()]
     return "\n".join([*numbers, *(_source(name) for name in names)])
 

@@ -2,26 +2,23 @@
 // From and until when the first instants hold: formulas, of the undamped theory.
 const Limits = (() => {
   const { sqrt, max } = Math;
-  const TOLERANCE = 0.02;
-  const AHEAD = 10, FLAT = 3; // distances of `theory.validity`
-  const SLOPE = sqrt(12 * TOLERANCE); // an arch is lower than its parabola by θ²/12
-  const SHEAR = { zone: 100, point: 20, lengths: 3.3, flattest: 0.05 }; // `shear_times` of `theory.validity`
-  const AGE = 1 / (8 * TOLERANCE); // t/η from which one point's impulse is that without damping
+  const V = VALIDITY; // the constants of `theory.validity`
+  const AGE = 1 / (8 * V.tolerance); // t/η from which one point's impulse is that without damping
 
-  /** Until when, s, by cause. Waves are back from an end once the half length is less than 10√(ct) beyond the front. */
+  /** Until when, s, by cause. */
   function until({ contact, timeScale, slow }) {
     const { lambda0, change, steepest } = contact;
     return {
-      ends: slow / max(lambda0 + AHEAD, FLAT * lambda0) ** 2,
-      loads: sqrt(TOLERANCE) / change * timeScale, // the second order is about the square of the first
-      slope: (SLOPE / steepest) ** 2 * timeScale,
+      ends: slow / max(lambda0 + V.distance, V.flat * lambda0) ** 2,
+      loads: sqrt(V.tolerance) / change * timeScale, // the second order is about the square of the first
+      slope: (V.slope / steepest) ** 2 * timeScale,
     };
   }
 
   /** Times √(EIμ)/(κ_s G A) after which Euler and Bernoulli's beam is Timoshenko's. */
   function shearTimes({ regime, ratio, lambda0 }) {
-    if (regime === "discrete") return SHEAR.point;
-    return ratio < SHEAR.flattest ? Infinity : max(SHEAR.zone, (SHEAR.lengths / lambda0) ** 2, ratio ** -2);
+    if (regime === "discrete") return V.shear_point;
+    return ratio < V.flattest_sheared ? Infinity : max(V.shear_zone, (V.shear_lengths / lambda0) ** 2, ratio ** -2);
   }
 
   /** From when, s, by cause. */
