@@ -65,10 +65,11 @@ def assert_exact(ratio: float, loads: tuple[float, float, float]) -> None:
         assert error <= 1e-12 * scale, (name, getattr(found, name), float(reference[name]))
 
 
-def test_parameters_are_exact_from_flat_to_strongly_curved() -> None:
+@pytest.mark.parametrize("count", [1, pytest.param(4, marks=pytest.mark.verify)])
+def test_parameters_are_exact_from_flat_to_strongly_curved(count: int) -> None:
     rng = np.random.default_rng(11)
-    near_one, beyond = 1.0 - 10.0 ** rng.uniform(-9, -1, 8), 10.0 ** rng.uniform(0, 4, 2)
-    for ratio in (*10.0 ** rng.uniform(-8, 0, 12), *near_one, *beyond):
+    curved, near_one = 10.0 ** rng.uniform(-8, 0, 5 * count), 1.0 - 10.0 ** rng.uniform(-9, -1, 3 * count)
+    for ratio in (1e-8, *curved, *near_one, *10.0 ** rng.uniform(0, 4, count)):
         assert_exact(ratio, tuple(rng.normal(size=3) * 10.0 ** rng.uniform(-2, 2)))
 
 
@@ -138,10 +139,7 @@ def test_limits_of_the_flat_beam_and_of_one_point() -> None:
     assert (point.lambda0, point.r0, point.lambda1, point.r1) == (0.0, 1.0, 0.0, -3.0)
 
 
-RATIOS = [1e-8, 1e-7, 3e-5, 1 / 1600, 0.01, 0.05, 0.15, 0.3, 0.38, 0.39, 0.45, 0.7, 0.95, 0.9999, 1 - 1e-6]
-
-
-@pytest.mark.parametrize("ratio", RATIOS)
+@pytest.mark.parametrize("ratio", [1e-8, 3e-5, 0.01, 0.15, 0.38, 0.39, 0.7, 0.9999, 1 - 1e-6])
 def test_tension_in_free_flight_is_exact(ratio: float) -> None:
     found = contact_parameters(ratio, axial=1.0)
     lambda_axial, r_axial, _, _ = patched_waves(ratio, -ratio, 0.0, 0.0, 1.0)
@@ -195,7 +193,7 @@ def test_first_order_is_linear(ratio: float, loads: tuple[float, float, float], 
 
 
 def test_arguments_broadcast_and_arrays_equal_scalars() -> None:
-    for shape in ((), (1,), (4,), (2, 3), (0,)):
+    for shape in ((), (2, 3), (0,)):
         found = contact_parameters(np.full(shape, 0.5), alpha=1.0)
         assert np.shape(found.lambda0) == np.shape(found.regime) == np.shape(found.chi) == shape
     ratio, alpha, psi = np.meshgrid([1e-5, 0.02, 0.6, 3.0], [-1.0, 0.0, 2.0], [-0.5, 1.0])
@@ -211,7 +209,6 @@ def test_arguments_broadcast_and_arrays_equal_scalars() -> None:
     ("arguments", "message"),
     [
         ({"kappa_over_nu": 0.0}, r"kappa_over_nu must be positive and finite \(got 0.0\)"),
-        ({"kappa_over_nu": np.nan}, r"kappa_over_nu must be positive and finite \(got nan\)"),
         ({"kappa_over_nu": 0.5, "alpha": -1e200}, r"alpha must not exceed 1e\+100 in size \(got -1e\+200\)"),
         ({"kappa_over_nu": 0.5, "alpha": np.nan}, r"alpha must be finite \(got nan\)"),
     ],
