@@ -9,6 +9,7 @@ from histories import ROD, pushed_until
 
 from bent_beam.cases import load_case
 from bent_beam.free_flight import cannot_return, has_left
+from bent_beam.history import ImpactHistory
 from bent_beam.impact import Impact
 from bent_beam.meshes import UniformMesh
 from bent_beam.method import for_whole_beam, method_from_tables
@@ -142,6 +143,13 @@ def test_a_rocking_beam_keeps_momentum_and_energy_and_one_that_hardly_rocks_is_t
     assert "rotation" in str(HermiteFE().refuses(off_first))
 
 
+def between_walls(path: str, elements: int, kappa: float, damping: float, distance: float, end: float) -> ImpactHistory:
+    impact = Impact.whole_beam(kappa, relative_damping=damping).replace(opposite_wall=distance)
+    method = dataclasses.replace(method_from_tables(path, {}), mesh=UniformMesh(1.0 / elements))
+    times = np.linspace(0.0, end, round(400 * end) + 1)[1:]
+    return for_whole_beam(method, impact).simulate(impact, end_time=end, save=times)
+
+
 @pytest.mark.parametrize(
     ("path", "elements", "kappa", "damping", "distance", "end", "least", "closes"),
     [
@@ -153,10 +161,7 @@ def test_a_rocking_beam_keeps_momentum_and_energy_and_one_that_hardly_rocks_is_t
 def test_each_hit_between_two_walls_gives_the_beam_its_impulse(
     path, elements, kappa, damping, distance, end, least, closes
 ) -> None:
-    impact = Impact.whole_beam(kappa, relative_damping=damping).replace(opposite_wall=distance)
-    method = dataclasses.replace(method_from_tables(path, {}), mesh=UniformMesh(1.0 / elements))
-    times = np.linspace(0.0, end, round(400 * end) + 1)[1:]
-    history = for_whole_beam(method, impact).simulate(impact, end_time=end, save=times)
+    history = between_walls(path, elements, kappa, damping, distance, end)
     found = hits(history)
     assert len(found) >= least and [hit.wall for hit in found[:2]] == ["front", "opposite"]
     after = [1.0, *(hit.after for hit in found)]
@@ -173,12 +178,7 @@ def test_each_hit_between_two_walls_gives_the_beam_its_impulse(
 @slow
 def test_both_paths_give_the_first_hits_between_two_walls_alike() -> None:
     """Later ones are not comparable: which part of a vibrating beam meets a wall when is chaotic."""
-    impact = Impact.whole_beam(1.5, relative_damping=1e-2).replace(opposite_wall=1.0)
-    found = []
-    for path in ("hermite", "exudyn"):
-        method = dataclasses.replace(method_from_tables(path, {}), mesh=UniformMesh(1.0 / 50))
-        times = np.linspace(0.0, 6.0, 6001)[1:]
-        found.append(hits(for_whole_beam(method, impact).simulate(impact, end_time=6.0, save=times))[:3])
-    for one, other in zip(*found):
+    hermite, exudyn = (hits(between_walls(path, 50, 1.5, 1e-2, 1.0, 6.0))[:3] for path in ("hermite", "exudyn"))
+    for one, other in zip(hermite, exudyn, strict=True):
         assert one.wall == other.wall and one.impulse == pytest.approx(other.impulse, rel=5e-3)
         assert (one.after, one.lost) == pytest.approx((other.after, other.lost), abs=5e-3)
