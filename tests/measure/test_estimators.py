@@ -29,7 +29,7 @@ def synthetic(kappa, first=(0.0, 0.0, 0.0), epsilon=0.0, noise=0.0, seed=0):
     loads = dict(zip(("epsilon_alpha", "epsilon_psi", "epsilon_chi"), (epsilon * value for value in first)))
     tau = np.linspace(np.sqrt(1e-4), np.sqrt(0.1), times) ** 2
     x = np.linspace(0.0, 1.2 * exact.lambda0 * np.sqrt(0.1) + 0.2, nodes)
-    fine = np.linspace(np.sqrt(1e-6), np.sqrt(0.1), 5_001) ** 2
+    fine = np.linspace(np.sqrt(1e-6), np.sqrt(0.1), 20_001) ** 2
     step = np.diff(fine, prepend=0.0)
     front = np.sqrt(fine) * (exact.lambda0 + epsilon * exact.lambda1 * fine)
     pushed = SIDE * (exact.r0 + epsilon * exact.r1 * fine) / np.sqrt(fine) * step

@@ -32,7 +32,7 @@ def largest_force_by_modes(kappa_over_nu: float, damping_ratio: float, end: floa
 
 
 @pytest.mark.parametrize(
-    ("kappa_over_nu", "damping_ratio", "dx", "agree"), [(0.5, 0.0, 0.04, 3e-4), (2.0, 0.25, 0.02, 4e-3)]
+    ("kappa_over_nu", "damping_ratio", "dx", "agree"), [(0.5, 0.0, 0.04, 3e-4), (2.0, 0.25, 0.01, 4e-3)]
 )
 def test_largest_force_is_that_of_the_beams_modes(
     kappa_over_nu: float, damping_ratio: float, dx: float, agree: float
@@ -61,7 +61,7 @@ def test_a_sharp_bow_is_pushed_at_one_point() -> None:
 
 def test_after_a_damped_wall_the_rigid_ones_law_comes_back_with_a_longer_zone() -> None:
     ratio, end = 0.5, 60.0
-    found, rigid = wall_history(ratio, 1.0, end=end, cells=40, steps=160), contact_parameters(ratio)
+    found, rigid = wall_history(ratio, 1.0, end=end, cells=60, steps=160), contact_parameters(ratio)
     assert found.impulse[-1] == pytest.approx(4.0 * math.sqrt(2.0 / math.pi * end) * rigid.r0, rel=2e-3)
     offset = found.half_contact_length[-1] - rigid.lambda0 * math.sqrt(end)
     assert offset == pytest.approx(math.sqrt(2.0), abs=0.15)
