@@ -64,7 +64,6 @@ def row(c: mp.mpc) -> list[mp.mpf]:
     return [mp.re(c), -mp.im(c)]
 
 
-def closed_form(name: str, lam: mp.mpf | float, pair: tuple[mp.mpf, mp.mpf] | None = None) -> mp.mpf:
-    """A φ function, or a difference of two, as the thesis writes it (A.5); ``pair``: φ_ν and φ_κ if they are known."""
-    x = mp.mpf(lam)
-    return sum(w * v for w, v in zip(CLOSED[name](x), (*(pair or phi_pair(x)), mp.mpf(1)), strict=True))
+def closed_form(name: str, lam: float, pair: tuple[mp.mpf, mp.mpf]) -> mp.mpf:
+    """A φ function, or a difference of two, as the thesis writes it (A.5), from φ_ν and φ_κ."""
+    return sum(w * v for w, v in zip(CLOSED[name](mp.mpf(lam)), (*pair, mp.mpf(1)), strict=True))

@@ -1,4 +1,4 @@
-"""λ₀, r₀, λ₁, r₁ against multiprecision, against a derivation without φ functions, and in their limits."""
+"""λ₀, r₀, λ₁, r₁ against 110 digits of a derivation without φ functions, their regimes and ranges."""
 
 from functools import lru_cache
 
@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from many_digits import CLOSED, closed_form, iterated_erfc, phi_pair, row
+from many_digits import iterated_erfc, phi_pair, row
 
 from theory import contact_parameters
 
@@ -28,48 +28,6 @@ def front(ratio: float) -> mp.mpf:
 
         low = mp.log(min(mp.sqrt(1 / target - 1), 1 / target - 1)) - 1
         return mp.exp(mp.findroot(mismatch, (low, low + 3), solver="anderson", tol=1e-40, maxsteps=80))
-
-
-def multiprecision(ratio: float, alpha: float, psi: float, chi: float) -> dict[str, mp.mpf]:
-    """The thesis's systems (2.7.40), (2.7.71) with its closed forms (A.5) as they stand."""
-    with mp.workdps(DIGITS):
-        k, a, p, c = map(mp.mpf, (ratio, alpha, psi, chi))
-        if k >= 1:
-            return dict(zip(PARAMETERS, (mp.mpf(0), mp.mpf(1), mp.mpf(0), 2 * a), strict=True))
-        x = front(ratio)
-        pair = phi_pair(x)
-        of = {name: closed_form(name, x, pair) for name in CLOSED}
-        r0 = 1 / of["phi_nu"]
-        if a + p >= 0:
-            matrix = [[of["phi_alpha"], -2 * r0 * of["phi_lambda"] / x]]
-            matrix += [[-2 * of["phi_kappadot"], r0 * of["phi_lambdadot"] / x]]
-            right = [2 * a - 2 * (a + p) * of["phi_p"], 4 * c + mp.sqrt(2 * mp.pi) * (a + p) * of["phi_pdot"]]
-        else:
-            matrix = [[of["phi_q"] / 4, r0 * of["phi_r"] + k * x], [-of["phi_t"], k - r0 * of["phi_s"]]]
-            right = [p * x**4 / 24 + c * x**2 / 2 + a / 2, p * x**3 / 6 + c * x]
-        r1, lambda1 = mp.lu_solve(mp.matrix(matrix), mp.matrix(right))
-        return dict(zip(PARAMETERS, (x, r0, lambda1, r1), strict=True))
-
-
-def assert_exact(ratio: float, loads: tuple[float, float, float]) -> None:
-    """To 1e-12 of the largest contribution of a single load: first order is linear in (α, ψ, χ)."""
-    found, reference = contact_parameters(ratio, *loads), multiprecision(ratio, *loads)
-    same = "continuous" if loads[0] + loads[1] >= 0.0 else "detached"
-    for name in PARAMETERS:
-        scale = abs(float(reference[name]))
-        for k in range(3) if name in ("lambda1", "r1") else ():
-            part = np.where(np.arange(3) == k, loads, 0.0)
-            sign = 1.0 if contact_parameters(ratio, *part).regime in (same, "discrete") else -1.0
-            scale = max(scale, abs(getattr(contact_parameters(ratio, *(sign * part)), name)))
-        error = abs(float(mp.mpf(getattr(found, name)) - reference[name]))
-        assert error <= 1e-12 * scale, (name, getattr(found, name), float(reference[name]))
-
-
-def test_parameters_are_exact_from_flat_to_strongly_curved() -> None:
-    rng = np.random.default_rng(11)
-    near_one, beyond = 1.0 - 10.0 ** rng.uniform(-9, -1, 8), 10.0 ** rng.uniform(0, 4, 2)
-    for ratio in (*10.0 ** rng.uniform(-8, 0, 12), *near_one, *beyond):
-        assert_exact(ratio, tuple(rng.normal(size=3) * 10.0 ** rng.uniform(-2, 2)))
 
 
 def patched_waves(ratio: float, alpha: float, psi: float, chi: float, axial: float) -> tuple[float, ...]:
@@ -112,6 +70,29 @@ def patched_waves(ratio: float, alpha: float, psi: float, chi: float, axial: flo
         return float(lambda1), float(r1), float(residual), float(r0)
 
 
+def assert_exact(ratio: float, loads: tuple[float, float, float]) -> None:
+    """To 1e-12 of the largest contribution of a single load: first order is linear in (α, ψ, χ)."""
+    found, x = contact_parameters(ratio, *loads), front(ratio)
+    lambda1, r1, residual, r0 = patched_waves(ratio, *loads, 0.0)
+    assert residual == pytest.approx(0.0, abs=1e-20)
+    assert abs(mp.mpf(found.lambda0) - x) <= 1e-12 * x and found.r0 == pytest.approx(r0, rel=1e-12)
+    for name, exact in (("lambda1", lambda1), ("r1", r1)):
+        scale = abs(exact)
+        for k in range(3):
+            part = np.where(np.arange(3) == k, loads, 0.0)
+            sign = 1.0 if contact_parameters(ratio, *part).regime == found.regime else -1.0
+            scale = max(scale, abs(getattr(contact_parameters(ratio, *(sign * part)), name)))
+        assert getattr(found, name) == pytest.approx(exact, rel=0.0, abs=1e-12 * scale), (ratio, loads, name)
+
+
+@pytest.mark.parametrize("count", [1, pytest.param(4, marks=pytest.mark.verify)])
+def test_parameters_are_exact_from_flat_to_nearly_one_point(count: int) -> None:
+    rng = np.random.default_rng(11)
+    curved, near_one = 10.0 ** rng.uniform(-8, 0, 5 * count), 1.0 - 10.0 ** rng.uniform(-9, -1, 3 * count)
+    for ratio in (1e-8, *curved, *near_one, 1.0 - 2.0**-40):
+        assert_exact(ratio, tuple(rng.normal(size=3) * 10.0 ** rng.uniform(-2, 2)))
+
+
 LOADS = [(1, 0, 0, 0), (1, 1, -2, 0), (0, 2, 1, 1), (-1, -1, 0, 0), (-2, 1, 1, -1), (0, -1, 3, 2)]
 
 
@@ -126,22 +107,17 @@ def test_patched_waves_give_the_same_solution_without_any_phi(ratio: float, load
     assert found.r1 == pytest.approx(r1, rel=1e-11)
 
 
-def test_limits_of_the_flat_beam_and_of_one_point() -> None:
-    flat = contact_parameters(1e-8)
-    assert flat.lambda0 == pytest.approx(np.sqrt(2e8), rel=1e-7)
-    assert flat.r0 == pytest.approx(np.sqrt(np.pi / 8.0) * flat.lambda0, rel=1e-7)
-    nearly = contact_parameters(1.0 - 2.0**-40, alpha=3.0, psi=-1.0, chi=2.0)
-    assert nearly.lambda0 == pytest.approx(np.sqrt(np.pi / 2.0) * 2.0**-40, rel=1e-11)
-    assert (nearly.r0, nearly.r1) == pytest.approx((1.0, 6.0), rel=1e-11)
-    assert nearly.lambda1 == pytest.approx(np.sqrt(np.pi / 2.0) * 5.0, rel=1e-11)
-    point = contact_parameters(7.0, alpha=-1.5, psi=4.0, chi=2.0)
-    assert (point.lambda0, point.r0, point.lambda1, point.r1) == (0.0, 1.0, 0.0, -3.0)
+def test_one_point_is_pushed_by_the_acceleration_alone() -> None:
+    for ratio in (1.0, 7.0, 1e4):
+        point = contact_parameters(ratio, alpha=-1.5, psi=4.0, chi=2.0)
+        assert (point.lambda0, point.r0, point.lambda1, point.r1) == (0.0, 1.0, 0.0, -3.0)
+    # the tension acts on the wave alone when the load keeps the bow from accelerating
+    point = contact_parameters(40.0, axial=0.5)
+    assert (point.lambda1, point.lambda_axial, point.r1) == (0.0, 0.0, 0.25)
+    assert point.r_axial == pytest.approx(0.5 - 80.0, rel=1e-15)
 
 
-RATIOS = [1e-8, 1e-7, 3e-5, 1 / 1600, 0.01, 0.05, 0.15, 0.3, 0.38, 0.39, 0.45, 0.7, 0.95, 0.9999, 1 - 1e-6]
-
-
-@pytest.mark.parametrize("ratio", RATIOS)
+@pytest.mark.parametrize("ratio", [1e-10, 1e-8, 3e-5, 0.01, 0.15, 0.38, 0.39, 0.7, 0.9999, 1 - 1e-6, 1 - 1e-9])
 def test_tension_in_free_flight_is_exact(ratio: float) -> None:
     found = contact_parameters(ratio, axial=1.0)
     lambda_axial, r_axial, _, _ = patched_waves(ratio, -ratio, 0.0, 0.0, 1.0)
@@ -151,18 +127,6 @@ def test_tension_in_free_flight_is_exact(ratio: float) -> None:
     flight = contact_parameters(ratio, alpha=-ratio, axial=1.0)
     assert (flight.lambda1, flight.r1) == pytest.approx((found.lambda_axial, found.r_axial), rel=1e-9)
     assert (flight.regime, flight.uniform_reaction) == ("continuous", 0.0)
-
-
-def test_limits_of_tension_for_the_flat_and_the_strongly_curved_beam() -> None:
-    flat, nearly = contact_parameters(1e-10, axial=1.0), contact_parameters(1.0 - 1e-9, axial=1.0)
-    assert flat.lambda_axial == pytest.approx(-0.5 / flat.lambda0, rel=1e-8)
-    assert flat.r_axial == pytest.approx(-3.75e-10 * flat.r0, rel=1e-8)
-    assert (nearly.lambda_axial, nearly.r_axial) == pytest.approx((-np.sqrt(np.pi / 2.0), -1.5), rel=1e-8)
-    # one point: the tension acts on the wave alone when the load keeps the bow from accelerating
-    point = contact_parameters(40.0, axial=0.5)
-    assert (point.lambda1, point.lambda_axial) == (0.0, 0.0)
-    assert point.r1 == 0.25
-    assert point.r_axial == pytest.approx(0.5 - 80.0, rel=1e-15)
 
 
 @given(ratio=st.floats(1e-8, 1.0, exclude_max=True), axial=COEFFICIENTS, psi=COEFFICIENTS)
@@ -181,21 +145,8 @@ def test_regimes_their_borders_and_the_uniform_reaction_of_the_continuous_one() 
     np.testing.assert_array_equal(found.uniform_reaction, [0.0, 0.0, 0.0, 0.0, 1.25])
 
 
-@given(ratio=st.floats(1e-6, 1e4), loads=st.tuples(*[COEFFICIENTS] * 3), axial=COEFFICIENTS)
-def test_first_order_is_linear(ratio: float, loads: tuple[float, float, float], axial: float) -> None:
-    one = contact_parameters(ratio, *loads, axial)
-    twice = contact_parameters(ratio, *(2.0 * load for load in loads), axial=2.0 * axial)
-    alone = contact_parameters(ratio, loads[0] + axial * ratio, *loads[1:])
-    for name, part in (("lambda1", "lambda_axial"), ("r1", "r_axial")):
-        whole, of_wave = getattr(one, name), axial * getattr(one, part)
-        scale = 1e-12 * (abs(whole) + abs(of_wave)) + 1e-300
-        assert getattr(twice, name) == pytest.approx(2.0 * whole, rel=1e-12, abs=2.0 * scale)
-        # the loads enter with α′ = α + axial·κ, the wave operator on its own
-        assert whole - of_wave == pytest.approx(getattr(alone, name), rel=1e-12, abs=2.0 * scale)
-
-
 def test_arguments_broadcast_and_arrays_equal_scalars() -> None:
-    for shape in ((), (1,), (4,), (2, 3), (0,)):
+    for shape in ((), (2, 3), (0,)):
         found = contact_parameters(np.full(shape, 0.5), alpha=1.0)
         assert np.shape(found.lambda0) == np.shape(found.regime) == np.shape(found.chi) == shape
     ratio, alpha, psi = np.meshgrid([1e-5, 0.02, 0.6, 3.0], [-1.0, 0.0, 2.0], [-0.5, 1.0])
@@ -211,7 +162,6 @@ def test_arguments_broadcast_and_arrays_equal_scalars() -> None:
     ("arguments", "message"),
     [
         ({"kappa_over_nu": 0.0}, r"kappa_over_nu must be positive and finite \(got 0.0\)"),
-        ({"kappa_over_nu": np.nan}, r"kappa_over_nu must be positive and finite \(got nan\)"),
         ({"kappa_over_nu": 0.5, "alpha": -1e200}, r"alpha must not exceed 1e\+100 in size \(got -1e\+200\)"),
         ({"kappa_over_nu": 0.5, "alpha": np.nan}, r"alpha must be finite \(got nan\)"),
     ],

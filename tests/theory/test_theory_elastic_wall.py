@@ -1,13 +1,14 @@
 """Walls and stops that give way: limits, a modal solution, and how the rigid wall's law comes back."""
 
 import math
+from functools import cache
 
 import numpy as np
 import pytest
 from scipy.fft import dct, idct
 
 from bent_beam import Impact
-from theory import contact_parameters, predict
+from theory import contact_parameters, elastic_wall, predict, wall_prediction
 from theory.elastic_stop import SwungBeam
 from theory.elastic_wall import _loads, flat_limit, peak_force, sharp_limit, wall_history
 
@@ -37,12 +38,12 @@ def test_largest_force_is_that_of_the_beams_modes(
     kappa_over_nu: float, damping_ratio: float, dx: float, agree: float
 ) -> None:
     found = peak_force(kappa_over_nu, damping_ratio)
-    modes = largest_force_by_modes(kappa_over_nu, damping_ratio, 1.1 * found.time, 30.0, dx)
+    modes = largest_force_by_modes(kappa_over_nu, damping_ratio, 1.1 * found.time, 15.0, dx)
     assert found.value == pytest.approx(modes, rel=agree)
     assert found.error < 2e-4 * found.value
 
 
-@pytest.mark.parametrize("damping_ratio", [0.0, 2.0])
+@pytest.mark.parametrize("damping_ratio", [pytest.param(0.0, marks=pytest.mark.verify), 2.0])
 def test_a_flat_beam_lands_as_oscillators(damping_ratio: float) -> None:
     found, (value, time) = peak_force(1e-4, damping_ratio), flat_limit(damping_ratio)
     assert found.value / 100.0 == pytest.approx(value, rel=3e-4)
@@ -60,13 +61,14 @@ def test_a_sharp_bow_is_pushed_at_one_point() -> None:
 
 def test_after_a_damped_wall_the_rigid_ones_law_comes_back_with_a_longer_zone() -> None:
     ratio, end = 0.5, 60.0
-    found, rigid = wall_history(ratio, 1.0, end=end, cells=60, steps=240), contact_parameters(ratio)
+    found, rigid = wall_history(ratio, 1.0, end=end, cells=60, steps=160), contact_parameters(ratio)
     assert found.impulse[-1] == pytest.approx(4.0 * math.sqrt(2.0 / math.pi * end) * rigid.r0, rel=2e-3)
     offset = found.half_contact_length[-1] - rigid.lambda0 * math.sqrt(end)
     assert offset == pytest.approx(math.sqrt(2.0), abs=0.15)
 
 
-def test_prediction_in_si_units() -> None:
+def test_prediction_in_si_units(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(wall_prediction, "peak_force", peak_force := cache(elastic_wall.peak_force))
     pipe = Impact(1.2e6, 29.0, 90.0, 0.002, 2.0, wall_stiffness=2e8, wall_damping=3e4)
     found, f = predict(pipe), peak_force(pipe.kappa_over_nu, 3e4 / (2.0 * math.sqrt(2e8 * 29.0)))
     assert found.wall is not None
@@ -96,6 +98,8 @@ def test_a_stiff_beam_is_a_rigid_one_and_its_energy_is_all_in_the_spring():
     time, tip = rod.tip(0.3)
     free = time > 1.1 * np.pi * np.sqrt(mass / 300.0)
     assert np.polyfit(time[free], tip[free], 1)[0] == pytest.approx(-1.6, rel=0.01), "off as fast as it came"
+    with pytest.raises(ValueError, match="end must lie after the largest force"):
+        rod.peak_force(0.01)
 
 
 def test_modes_converge_and_a_bending_beam_hits_its_stop_again():
@@ -105,11 +109,6 @@ def test_modes_converge_and_a_bending_beam_hits_its_stop_again():
     touching = np.diff((many.tip(0.012)[1] > 0.0).astype(int))
     assert touching.tolist().count(1) == 2, "at the start and once more"
     assert many.peak_force(0.005)[0] < many.peak_force(0.012)[0]
-
-
-def test_a_force_that_still_grows_is_not_the_largest():
-    with pytest.raises(ValueError, match="end must lie after the largest force"):
-        SwungBeam(1e4, 0.5, 0.8, 2.0, 300.0, modes=6).peak_force(0.01)
 
 
 def test_a_pressure_that_begins_or_ends_between_two_points_acts_from_there_on():

@@ -12,34 +12,36 @@ from theory import ImpactFields, SelfSimilarWave, contact_parameters, kernel
 from theory.contact import ContactParameters
 
 NAMES = ("deflection", "slope", "curvature", "velocity")
-ZONE = np.linspace(-1.0, 1.0, 41)
+slow = pytest.mark.verify
 
 
-@pytest.mark.parametrize("ratio", [0.05, 0.5, 0.8])
+@pytest.mark.parametrize("ratio", [0.05, 0.8])
 def test_leading_order_touches_on_the_whole_zone(ratio: float) -> None:
-    residual = ImpactFields(contact_parameters(ratio)).complementarity_residual(ZONE, 0.5)
+    residual = ImpactFields(contact_parameters(ratio)).complementarity_residual(np.linspace(-1.0, 1.0, 21), 0.5)
     assert np.max(np.abs(residual)) < 1e-9 * 0.5
 
 
 @pytest.mark.parametrize(
     ("ratio", "loads", "tau"),
     [
-        (0.8, (0, 2, 0), 0.5),
-        (0.5, (4, 0, 0), 0.1),
-        (0.5, (1, 1, 0), 0.3),
-        (0.1, (1, 0, 1), 0.1),
-        (0.5, (-1, -1, 0), 0.3),
-        (0.05, (-1, 0, 0), 0.3),
+        (0.5, (1, 1, 0, 0), 0.3),
+        (0.05, (-1, 0, 0, 0), 0.3),  # the middle lifts off
+        (0.5, (-0.1, 0, 0, 1), 1.0),  # tension, which changes the kernel
+        (2.0, (-1.6, 0, 0, 1), 1.0),
+        pytest.param(0.8, (0, 2, 0, 0), 0.5, marks=slow),
+        pytest.param(0.5, (4, 0, 0, 0), 0.1, marks=slow),
+        pytest.param(0.1, (1, 0, 1, 0), 0.1, marks=slow),
+        pytest.param(0.5, (-1, -1, 0, 0), 0.3, marks=slow),
+        pytest.param(0.05, (-0.05, 0, 0, 1), 1.0, marks=slow),
     ],
 )
-def test_first_order_touches_up_to_epsilon_squared(ratio: float, loads: tuple[float, float, float], tau: float) -> None:
-    parameters = contact_parameters(ratio, *loads)
-    touching = ZONE[::4] if parameters.regime == "continuous" else np.array([-1.0, 1.0])
+def test_first_order_touches_up_to_epsilon_squared(ratio: float, loads: tuple[float, ...], tau: float) -> None:
+    parameters = contact_parameters(ratio, *loads[:3], axial=loads[3])
+    touching = 1.0 if parameters.regime == "detached" else np.linspace(0.0, 1.0, 6)
     residuals = [
-        np.max(np.abs(ImpactFields(parameters, e).complementarity_residual(touching, tau))) for e in (0.02, 0.01, 0.005)
+        np.max(np.abs(ImpactFields(parameters, e).complementarity_residual(touching, tau))) for e in (0.01, 0.005)
     ]
-    ratios = np.divide(residuals[:-1], residuals[1:])
-    assert np.all((ratios > 3.7) & (ratios < 4.2)), ratios
+    assert 3.7 < residuals[0] / residuals[1] < 4.2
 
 
 def test_the_middle_of_a_detached_beam_lifts_off() -> None:
@@ -53,12 +55,12 @@ def test_one_point_touches_exactly_at_every_order(loads: tuple[float, float, flo
     assert np.max(np.abs(fields.complementarity_residual(0.0, [0.1, 0.5, 3.0]))) < 1e-10
 
 
-@pytest.mark.parametrize("ratio", [1 / 1600, 0.5, 0.999, 3.0])
+@pytest.mark.parametrize("ratio", [0.5, *(pytest.param(ratio, marks=slow) for ratio in (1 / 1600, 0.999, 3.0))])
 def test_convolution_equals_the_closed_form_everywhere(ratio: float) -> None:
     parameters = contact_parameters(ratio)
     wave, tau = SelfSimilarWave(parameters), 0.7
-    ahead = parameters.lambda0 + np.logspace(-10, 2, 7)
-    x = np.concatenate([np.linspace(0.0, parameters.lambda0, 5), ahead])
+    ahead = parameters.lambda0 + np.logspace(-10, 2, 5)
+    x = np.unique([*np.linspace(0.0, parameters.lambda0, 3), *ahead])
     fast = ImpactFields(parameters).fast_layer(x * np.sqrt(tau), tau)
     for name, scale in zip(NAMES, (tau, np.sqrt(tau), 1.0, 1.0), strict=True):
         np.testing.assert_allclose(getattr(fast, name), scale * getattr(wave, name)(x), rtol=0.0, atol=1e-9)
@@ -82,17 +84,22 @@ def plain_convolution(fields: ImpactFields, xi: float, tau: float) -> float:
     return float(0.01 * np.tile(weights, 3000) @ values) + rest
 
 
-@pytest.mark.parametrize("ratio", [0.5, 2.0])
-@pytest.mark.parametrize("loads", [(1, 1, 0, 0), (-1, -1, 1, 0), (None, 0, 0, 1)], ids=["pressed", "lifted", "tension"])
-def test_convolution_equals_the_integral_as_it_stands(ratio: float, loads: tuple[float | None, ...]) -> None:
-    alpha, psi, chi, axial = loads
-    parameters = contact_parameters(ratio, -ratio if alpha is None else alpha, psi, chi, axial=axial)
-    fields = ImpactFields(parameters, epsilon=0.1)
+@pytest.mark.parametrize(
+    ("ratio", "loads"),
+    [
+        (0.5, (1, 1, 0, 0.5)),
+        pytest.param(0.5, (-1, -1, 1, 0), marks=slow),
+        pytest.param(0.5, (-0.5, 0, 0, 1), marks=slow),
+        *(pytest.param(2.0, loads, marks=slow) for loads in ((1, 1, 0, 0), (-1, -1, 1, 0), (-2, 0, 0, 1))),
+    ],
+)
+def test_convolution_equals_the_integral_as_it_stands(ratio: float, loads: tuple[float, ...]) -> None:
+    fields = ImpactFields(contact_parameters(ratio, *loads[:3], axial=loads[3]), epsilon=0.1)
     for xi in (0.2, 1.2, 1.9):
         assert fields.fast_layer(xi, 0.4).deflection == pytest.approx(plain_convolution(fields, xi, 0.4), abs=1e-10)
 
 
-@settings(max_examples=5)
+@settings(max_examples=4)
 @given(
     ratio=st.sampled_from([0.02, 0.4, 0.9, 1.5]),
     loads=st.tuples(*[st.sampled_from([-1.0, 0.0, 0.5])] * 4),
@@ -116,41 +123,23 @@ def test_slope_curvature_and_velocity_are_derivatives_of_the_deflection(
     assert at.velocity == pytest.approx(first @ later / (0.1 * h), abs=1e-6)
 
 
-@pytest.mark.parametrize(("ratio", "alpha"), [(0.05, 0.0), (0.5, 0.4), (2.0, 0.4)])
-def test_the_zone_stays_on_the_wall_at_first_order_in_the_tension(ratio: float, alpha: float) -> None:
-    places, e = np.array([0.0, 0.3, 0.6, 0.9, 1.0]) * (ratio < 1.0), 1e-4
-
-    def residual(axial: float) -> np.ndarray:
-        parameters = contact_parameters(ratio, alpha - axial * ratio, axial=axial)
-        return ImpactFields(parameters, e).complementarity_residual(places, 1.0)
-
-    with_, without, against = residual(1.0), residual(0.0), residual(-1.0)
-    linear = (with_ - against) / (2.0 * e)
-    assert np.max(np.abs(linear)) < 2e-7 + 3.0 * e
-    # what is left is of second order, and the kernel's change is of first: without it this fails by 0.1
-    assert np.max(np.abs(with_ - without)) < 3.0 * e**2
-
-
 def test_momentum_equals_impulse_at_first_order() -> None:
     # ∫η dξ = ∬(R̃ + 2λ_c r̃) dτ dτ; ahead of the front η oscillates and falls like ξ⁻³
     tau, e = 0.3, 0.1
     fields = ImpactFields(contact_parameters(0.5, 1.0, 1.0), epsilon=e)
     p = fields.parameters
-    xi = np.linspace(0.0, 12.0, 601)
+    xi = np.linspace(0.0, 12.0, 201)
     found = 2.0 * simpson(fields.fast_layer(xi, tau).deflection, x=xi)
     point = 8.0 / 3.0 * np.sqrt(2.0 / np.pi) * tau**1.5 * (p.r0 + e * p.r1 * tau / 5.0)
     zone = fields.uniform_reaction * 8.0 * tau**2.5 * (p.lambda0 / 15.0 + e * p.lambda1 * tau / 35.0)
     assert found == pytest.approx(point + zone, rel=1e-4)
 
 
-def test_symmetry_and_similarity() -> None:
+def test_fields_are_even_in_the_place_and_slopes_odd() -> None:
     fields = ImpactFields(contact_parameters(0.3))
     right, left = fields.beam([0.4, 3.0], 0.5), fields.beam([-0.4, -3.0], 0.5)
     np.testing.assert_array_equal(right.deflection, left.deflection)
     np.testing.assert_array_equal(right.slope, -left.slope)
-    later = fields.beam(np.array([0.4, 3.0]) * np.sqrt(6.0), 3.0)
-    np.testing.assert_allclose(later.deflection, 6.0 * right.deflection, atol=1e-10)
-    np.testing.assert_allclose(later.velocity, right.velocity, atol=1e-10)
 
 
 @pytest.mark.parametrize(

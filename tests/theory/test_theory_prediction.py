@@ -46,16 +46,10 @@ def test_contact_length_reaction_and_the_inertia_of_the_load_in_plain_units() ->
     assert pressed.contact_force_per_length == pytest.approx(29.0 * 0.05, rel=1e-13)
 
 
-def test_neither_units_nor_epsilon_matter() -> None:
-    # millimetres, tonnes and seconds: lengths × 1000, masses / 1000, hence EI × 1e6
-    a = PIPE.replace(acceleration=0.05)
-    b = Impact(4.0e6 * 1e6, 29.0e-6, 500e3, 1e-3 / 600.0, 2000.0, acceleration=50.0)
-    one, other = predict(a, 0.05), predict(b, 0.05)
-    shorter = predict(a.replace(length=900.0), 0.05)
-    assert other.times[0].half_contact_length == pytest.approx(1e3 * one.times[0].half_contact_length, rel=1e-12)
-    for name in ("reaction", "impulse"):
-        assert getattr(other.times[0], name) == pytest.approx(getattr(one.times[0], name), rel=1e-12)
-        assert getattr(shorter.times[0], name) == getattr(one.times[0], name)
+def test_epsilon_does_not_matter() -> None:
+    pressed = PIPE.replace(acceleration=0.05)
+    one, shorter = predict(pressed, 0.05), predict(pressed.replace(length=900.0), 0.05)
+    assert (shorter.times[0].reaction, shorter.times[0].impulse) == (one.times[0].reaction, one.times[0].impulse)
     assert one.epsilon != shorter.epsilon and one.alpha != shorter.alpha
     assert one.epsilon * one.lambda1 == pytest.approx(shorter.epsilon * shorter.lambda1, rel=1e-13)
     # the same beam, slower and less curved: κ/ν is the same, ε is 100 times larger
@@ -183,7 +177,7 @@ def test_one_point_spreads_once_the_loads_have_taken_its_curvature() -> None:
     assert predict(impact.replace(acceleration=-11.0)).limited_by == validity.ENDS
 
 
-@pytest.mark.parametrize("ratio", [1e-7, 0.02, 0.3, 0.9, 0.999, 2.0])
+@pytest.mark.parametrize("ratio", [1e-7, 0.3, 0.999, 2.0])
 @pytest.mark.parametrize("loads", [(1, 0, 0, 0), (-3, 1, 2, 0), (0, 0, -1, 1), (1, 1, 1, -2)])
 def test_ten_times_the_load_ends_validity_ten_times_earlier(ratio: float, loads: tuple[float, ...]) -> None:
     def until(size: float) -> float:

@@ -1,6 +1,8 @@
 """One point stopped, of a beam with its own damping: Laplace inversion, the beam without ends, its release."""
 
+import itertools
 from collections.abc import Callable
+from functools import cache
 
 import numpy as np
 import pytest
@@ -9,57 +11,41 @@ from mpmath import mp
 from theory import contact_parameters, damped_point
 from theory.stopped_beam import StoppedBeam
 
-KINDS = ("impulse", "reaction", "midspan_moment")
 
-
-def by_laplace(damping: float, time: float, kind: str) -> float:
-    """The half beam as a boundary value problem at complex frequency s, inverted by Talbot's contour; no modes."""
-
-    def transform(s: mp.mpc) -> mp.mpc:
-        stiffness = 1 + mp.mpf(damping) * s
-        wave = mp.sqrt(mp.sqrt(s * s / stiffness))
-        roots = [wave * mp.exp(1j * mp.pi * (2 * j + 1) / 4) for j in range(4)]
-        # y(0) = 1/s² imposed, y′(0) = 0, y″(1) = y‴(1) = 0; growing waves measured at the far end
-        scale = [mp.exp(-r) if mp.re(r) > 0 else mp.mpf(1) for r in roots]
-        free = ([r**k * e * mp.exp(r) for r, e in zip(roots, scale, strict=True)] for k in (2, 3))
-        matrix = mp.matrix([scale, [r * e for r, e in zip(roots, scale, strict=True)], *free])
-        c = mp.lu_solve(matrix, mp.matrix([1 / s**2, 0, 0, 0]))
-        second = sum(c[j] * scale[j] * roots[j] ** 2 for j in range(4))
-        third = sum(c[j] * scale[j] * roots[j] ** 3 for j in range(4))
-        return {
-            "impulse": 2 * stiffness * third / s,
-            "reaction": 2 * stiffness * third,
-            "midspan_moment": -stiffness * second,
-        }[kind]
-
-    with mp.workdps(30):
-        return float(mp.invertlaplace(transform, time, method="talbot", degree=60))
+@cache
+def transformed(damping: float, s: mp.mpc) -> dict[str, mp.mpc]:
+    """The half beam as a boundary value problem at complex frequency s; no modes."""
+    stiffness = 1 + mp.mpf(damping) * s
+    wave = mp.sqrt(mp.sqrt(s * s / stiffness))
+    roots = [wave * mp.exp(1j * mp.pi * (2 * j + 1) / 4) for j in range(4)]
+    # y(0) = 1/s² imposed, y′(0) = 0, y″(1) = y‴(1) = 0; growing waves measured at the far end
+    scale = [mp.exp(-r) if mp.re(r) > 0 else mp.mpf(1) for r in roots]
+    free = ([r**k * e * mp.exp(r) for r, e in zip(roots, scale, strict=True)] for k in (2, 3))
+    matrix = mp.matrix([scale, [r * e for r, e in zip(roots, scale, strict=True)], *free])
+    c = mp.lu_solve(matrix, mp.matrix([1 / s**2, 0, 0, 0]))
+    second = sum(c[j] * scale[j] * roots[j] ** 2 for j in range(4))
+    third = sum(c[j] * scale[j] * roots[j] ** 3 for j in range(4))
+    push = 2 * stiffness * third
+    return {"impulse": push / s, "reaction": push, "midspan_moment": -stiffness * second}
 
 
 @pytest.mark.parametrize("damping", [3.0, 2.0 / 3.51601526850015, 1e-2])  # the second: a mode damped critically
-@pytest.mark.parametrize("kind", KINDS)
-def test_modes_give_what_laplace_inversion_gives(damping: float, kind: str) -> None:
-    for time in (1e-3, 0.02, 0.3):
-        found = float(getattr(StoppedBeam(damping), kind)(time))
-        assert found == pytest.approx(by_laplace(damping, time, kind), rel=1e-12, abs=1e-13)
+def test_modes_give_what_laplace_inversion_by_talbots_contour_gives(damping: float) -> None:
+    beam = StoppedBeam(damping)
+    for time, kind in itertools.product((1e-3, 0.02, 0.3), ("impulse", "reaction", "midspan_moment")):
+        with mp.workdps(30):
+            transform = lambda s, kind=kind: transformed(damping, s)[kind]  # noqa: E731
+            exact = mp.invertlaplace(transform, time, method="talbot", degree=50)
+        assert float(getattr(beam, kind)(time)) == pytest.approx(float(exact), rel=1e-12, abs=1e-13)
 
 
-@pytest.mark.parametrize(
-    ("damping", "time", "impulse"),
-    [
-        (0.0246, 0.171204770, 1.145834637),  # for so short that it is between two instants that are looked at
-        (1e-2, 0.151641714, 1.223400763),
-        (3e-3, 0.151315100, 1.331492491),
-        (1e-3, 0.080315740, 0.912963645),
-        (1e-4, 0.039860576, 0.645800067),
-    ],
-)
-def test_first_release(damping: float, time: float, impulse: float) -> None:
+@pytest.mark.parametrize("damping", [0.0246, 1e-2, 3e-3, 1e-3, 1e-4])  # the first: shorter than between two looks
+def test_first_release_is_where_the_reaction_first_changes_sign(damping: float) -> None:
     beam = StoppedBeam(damping)
     found = beam.release()
-    assert (found.time, found.impulse) == pytest.approx((time, impulse), abs=1e-9)
-    before = np.linspace(0.02, 1.0 - 1e-6, 400) * found.time
-    assert np.all(beam.reaction(before) > 0.0) and beam.reaction(found.time * (1.0 + 1e-6)) < 0.0
+    assert found.impulse == pytest.approx(float(beam.impulse(found.time)), rel=1e-12)
+    before = np.append(np.linspace(0.02, 1.0 - 1e-6, 400), 1.0 - 1e-9) * found.time
+    assert np.all(beam.reaction(before) > 0.0) and beam.reaction(found.time * (1.0 + 1e-9)) < 0.0
 
 
 def test_little_damping_gives_the_leading_order_at_early_times() -> None:
@@ -75,11 +61,6 @@ def test_the_impulse_ends_at_the_momentum_of_the_beam() -> None:
     # held for ever the beam comes to rest: all of its momentum, 2μℓV₀, has gone into the wall
     assert beam.impulse(600.0) == pytest.approx(2.0, abs=1e-9)
     assert beam.impulse(np.full((2, 3), 0.1)).shape == (2, 3)
-
-
-def test_damping_matters_until_six_times_its_own_time() -> None:
-    assert damped_point.impulse_ratio(6.5) < 1.02 < damped_point.impulse_ratio(6.2)
-    assert damped_point.moment_ratio(6.3) == pytest.approx(1.0, abs=1e-4)
 
 
 @pytest.mark.parametrize(
