@@ -2,9 +2,12 @@
 
 import os
 import random
+from pathlib import Path
 
 import pytest
+from hypothesis.configuration import set_hypothesis_home_dir
 
+set_hypothesis_home_dir(Path(__file__).parents[2] / ".hypothesis")  # kept: what it makes of all modules takes seconds
 FUZZ = bool(os.environ.get("FUZZ"))
 if FUZZ:
     os.environ.setdefault("FUZZ_SEED", str(random.SystemRandom().randrange(2**32)))
