@@ -136,9 +136,7 @@ def test_the_factors_solve_like_lapack_s() -> None:
     """The step matrix of a strongly graded beam."""
     beam = HermiteBeam(ScaleFreeMesh(element_length=1e-3, growth=1.02).nodes(10.0), 1.0, 1.0)
     system = System(
-        mass=beam.mass(),
-        stiffness=beam.stiffness(),
-        contacts=ContactRows(dofs=[[0]], factors=[[1.0]], gap=[0.0]),
+        mass=beam.mass(), stiffness=beam.stiffness(), contacts=ContactRows(dofs=[[0]], factors=[[1.0]], gap=[0.0])
     )
     problem, conditions = ready(system, 1e-6)
     bands = system.mass + 1e-6 * system.stiffness

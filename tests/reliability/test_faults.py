@@ -96,10 +96,12 @@ def test_runs_that_fail_are_reported_with_how_to_ask_again_and_the_rest_goes_on(
         ratio = round(impact.kappa_over_nu, 3)
         if ratio in raised:
             raise raised[ratio]
+        if ratio == 0.8:
+            return None
         history = simulate(method, impact, **options)
         if ratio == 0.5:
             history.dataset["impulse"].values[5:] = math.nan
-        return None if ratio == 0.8 else history
+        return history
 
     monkeypatch.setattr(HermiteFE, "simulate", broken)
     code, out, err = command(*match_on("hermite", *reasons, 2.0))
