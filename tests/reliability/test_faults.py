@@ -104,7 +104,7 @@ def test_runs_that_fail_are_reported_with_how_to_ask_again_and_the_rest_goes_on(
         return history
 
     monkeypatch.setattr(HermiteFE, "simulate", broken)
-    code, out, err = command(*match_on("hermite", *reasons, 2.0))
+    code, out, err = command(*match_on("hermite", *reasons, 2.0), "--refine", 0.5)
     found = json.loads(out)
     assert code == 3 and "Traceback" not in err
     assert [row["kappa_over_nu"] for row in found["rows"]] == [*reasons, 2.0]
