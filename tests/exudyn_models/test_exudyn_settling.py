@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import exudyn_models
-from bent_beam import Impact, SimulationError
+from bent_beam import Impact
 from bent_beam.meshes import UniformMesh
 from exudyn_models.contacts import SegmentFriction
 from exudyn_models.settling import Settling
@@ -16,17 +16,10 @@ SHORT = Impact.dimensionless(0.5, length=8.0)
 MESH = UniformMesh(0.1)
 
 
-def test_a_run_whose_contact_does_not_settle_fails_with_what_to_change_and_the_history_so_far():
-    with pytest.raises(SimulationError, match="settled") as failure:
-        exudyn_models.simulate(SHORT, mesh=MESH, solver=NewtonSolver(contact_iterations=1))
-    error = failure.value
-    assert "contact_iterations" in str(error)
-    assert error.history is not None and not error.history.completed
-    assert np.isfinite(error.history.array("gap")).all()
-
-    history = exudyn_models.simulate(
-        SHORT, mesh=MESH, solver=NewtonSolver(contact_iterations=1, contact_must_settle=False), save=20
-    )
+def test_a_run_whose_contact_need_not_settle_says_how_often_it_did_not():
+    """Where it must, the run fails (``test_exudyn_refusals.py``)."""
+    solver = NewtonSolver(contact_iterations=1, contact_must_settle=False)
+    history = exudyn_models.simulate(SHORT, mesh=MESH, solver=solver, save=20)
     assert history.settings["unsettled_steps"] > 0
     assert any("had not settled" in warning for warning in history.warnings)
 

@@ -23,21 +23,12 @@ def taken_and_sideways(steps):
     h = LENGTH / ELEMENTS
     mbs = exu.SystemContainer().AddSystem()
     places = np.linspace(0.0, LENGTH, ELEMENTS + 1)
-    nodes = [
-        mbs.AddNode(
-            items.NodePointSlope1(
-                referenceCoordinates=[x, 0.0, 0.0, 1.0, 0.0, 0.0],
-                initialVelocities=[0.0, AMPLITUDE, 0.0, 0.0, 0.0, 0.0],
-            )
-        )
-        for x in places
-    ]
+    start = [0.0, AMPLITUDE, 0.0, 0.0, 0.0, 0.0]
+    at = [[x, 0.0, 0.0, 1.0, 0.0, 0.0] for x in places]
+    nodes = [mbs.AddNode(items.NodePointSlope1(referenceCoordinates=q, initialVelocities=start)) for q in at]
+    beam = {"length": h, "massPerLength": 1.0, "bendingStiffness": 1.0, "axialStiffness": 1.0}
     for pair in itertools.pairwise(nodes):
-        mbs.AddObject(
-            items.ObjectANCFCable(
-                nodeNumbers=list(pair), length=h, massPerLength=1.0, bendingStiffness=1.0, axialStiffness=1.0
-            )
-        )
+        mbs.AddObject(items.ObjectANCFCable(nodeNumbers=list(pair), **beam))
     ground = mbs.AddMarker(items.MarkerNodeCoordinate(nodeNumber=mbs.AddNode(items.NodePointGround()), coordinate=0))
 
     def marker(node, coordinate):
@@ -51,9 +42,8 @@ def taken_and_sideways(steps):
     stiffness, damping = 10.0 * share / h**4, 3.0 * share / h**2
     loads = []
     for k, node in enumerate(nodes):
-        state = mbs.AddNode(
-            items.NodeGenericData(numberOfDataCoordinates=1, initialCoordinates=[max(1e-14, float(wall[k]))])
-        )
+        open_by = [max(1e-14, float(wall[k]))]
+        state = mbs.AddNode(items.NodeGenericData(numberOfDataCoordinates=1, initialCoordinates=open_by))
         mbs.AddObject(
             items.ObjectContactCoordinate(
                 markerNumbers=[marker(node, 1), ground],

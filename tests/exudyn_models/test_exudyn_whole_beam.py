@@ -10,10 +10,10 @@ from bent_beam.free_flight import pushing
 from bent_beam.meshes import UniformMesh
 from exudyn_models import ExudynModel
 
-PAGE = {
-    (float(kappa), stated(damping.replace("10", "1e", 1))[0]): stated(value)[0]
-    for kappa, damping, value, *_ in lines_after("docs/exudyn.md", "## The whole impact")[2:]
-}
+PAGE = [  # κ/ν, η/T*, this path's number and the Hermite path's of the finest mesh
+    (float(kappa), stated(damping.replace("10", "1e", 1))[0], stated(ours)[0], stated(theirs.split()[-1])[0])
+    for kappa, damping, ours, _, theirs in lines_after("docs/exudyn.md", "## The whole impact")[2:]
+]
 COARSE = ExudynModel(mesh=UniformMesh(1 / 20))
 
 
@@ -43,31 +43,15 @@ def test_a_bounce_ends_when_the_beam_cannot_come_back_and_keeps_its_energy_accou
 
 
 @pytest.mark.verify
-@pytest.mark.parametrize(
-    ("kappa_over_nu", "damping", "value", "tolerance"),
-    [
-        (1.5, 1e-2, 0.56262, 3e-4),
-        (2.0, 1e-2, 0.56630, 3e-4),
-        (4.0, 1e-2, 0.56630, 3e-4),
-        (0.5, 1e-2, 0.3364, 3e-4),
-        (0.4, 1e-2, 0.2747, 3e-4),
-        (0.6, 1e-2, 0.4039, 3e-4),
-        (0.7, 1e-2, 0.4740, 3e-4),
-        (0.8, 1e-2, 0.5236, 3e-4),
-        (0.4, 1e-3, 0.2749, 1e-3),
-        (0.5, 1e-3, 0.4563, 1e-3),
-        (0.6, 1e-3, 0.57736, 1e-3),
-        (0.8, 1e-3, 0.5907, 4e-3),  # Hermite's 0.5876 to 0.5932: nothing has converged there
-        (1.5, 1e-3, 0.6161, 1e-3),
-        (2.0, 1e-3, 0.61502, 1e-3),
-        (4.0, 1e-3, 0.616598, 1e-3),  # by modes
-    ],
-)
-def test_restitution_is_that_of_the_hermite_path_and_of_the_page(kappa_over_nu, damping, value, tolerance):
+@pytest.mark.parametrize(("kappa_over_nu", "damping", "ours", "theirs"), PAGE)
+def test_restitution_is_that_of_the_hermite_path_and_of_the_page(kappa_over_nu, damping, ours, theirs):
     history = ExudynModel().simulate_to_separation(Impact.whole_beam(kappa_over_nu, relative_damping=damping))
-    assert restitution(history) == pytest.approx(value, abs=tolerance)
+    within = 3e-4 if damping == 1e-2 else 1e-3
+    if (kappa_over_nu, damping) == (0.8, 1e-3):
+        within = 4e-3  # Hermite's 0.5876 to 0.5932: nothing has converged there
+    assert restitution(history) == pytest.approx(theirs, abs=within)
     # hits that follow one another amplify round-off, which differs from processor to processor
-    assert restitution(history) == pytest.approx(PAGE[kappa_over_nu, damping], abs=1e-4)
+    assert restitution(history) == pytest.approx(ours, abs=1e-4)
     closes(history)
 
 

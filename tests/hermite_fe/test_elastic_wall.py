@@ -1,4 +1,7 @@
-"""A wall that gives way: springs that never pull, integrated over partly covered elements; supports and stops."""
+"""A wall that gives way: springs that never pull, integrated over partly covered elements, and a stop.
+
+Held ends, plates and rigid stops of both paths: ``exudyn_models/test_exudyn_supports.py``.
+"""
 
 from __future__ import annotations
 
@@ -110,9 +113,6 @@ def test_a_wall_that_gives_way_takes_the_scheme_that_is_for_it_and_no_other() ->
     assert "opposite_wall" in (HermiteFE().refuses(impact.replace(opposite_wall=9.0)) or "")
 
 
-# --- supports and stops -------------------------------------------------------------------------------------------
-
-
 def test_a_hinged_beam_swung_on_an_elastic_stop_is_its_modes_and_the_published_test() -> None:
     """Code_Aster's test SDNL32 (V5.02.032): with E = 67 GPa the tip's displacements of its reference (1 % of modal
     damping) at 1 to 4 ms; 60.7 GPa, which another page has, is 0.05 mm off by then, and 0.8 mm at 12 ms."""
@@ -128,27 +128,3 @@ def test_a_hinged_beam_swung_on_an_elastic_stop_is_its_modes_and_the_published_t
     at = np.interp([1e-3, 2e-3, 3e-3, 4e-3], history.time, found)
     assert at == pytest.approx([2.66e-3, 4.33e-3, 4.92e-3, 4.78e-3], rel=4e-3)
     assert abs(history.energy_budget()["defect"]) < 1e-8 * history.energy_budget()["initial_energy"]
-
-
-def test_ends_that_are_held_stay_where_they_are_and_the_beam_swings_in_its_mode() -> None:
-    ends = {"left_end": "clamped", "right_end": "clamped"}
-    impact = Impact(1.0, 1.0, 2.0, 1e-3, 1e-6, wall_from=0.5, wall_to=0.6, **ends)  # the wall is out of reach
-    frequency = 4.730040744862704**2 / 4.0
-    history = HermiteFE(refine=0.2).simulate(impact, end_time=1.0 / frequency, save=20)
-    moved = history.array("gap", 0) - history.array("gap")
-    middle = moved.shape[1] // 2
-    assert moved[:, middle] == pytest.approx(1e-6 * np.sin(frequency * history.time) / frequency, rel=1e-3)
-    assert np.abs(moved[:, [0, -1]]).max() == 0.0
-    with pytest.raises(ValueError, match="supports bring the beam back"):
-        HermiteFE().simulate_to_separation(impact)
-
-
-def test_a_rigid_stop_holds_one_point_and_a_plate_its_part() -> None:
-    stop = Impact(1.0, 1.0, 2.0, 0.0, 1.0, wall_from=0.0, wall_to=0.0)
-    plate = stop.replace(wall_from=-0.3, wall_to=0.3)
-    for impact, where in ((stop, [0.0, 0.0]), (plate, [0.0, 0.3])):
-        history = HermiteFE(refine=0.2).simulate(impact, end_time=0.02, save=20)
-        places = history.contact_positions(0)
-        assert places[[0, -1]] == pytest.approx(where) and balance_of(history).momentum < 0.01
-        on_wall = np.searchsorted(history.positions(0), places)
-        assert history.array("gap")[:, on_wall].min() > -1e-12 and history.array("gap")[-1].min() < -1e-3

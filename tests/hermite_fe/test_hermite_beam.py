@@ -14,13 +14,7 @@ from bent_beam import Impact
 from bent_beam.meshes import GradedMesh, ScaleFreeMesh, UniformMesh
 from hermite_fe import simulate
 from hermite_fe.banded import product
-from hermite_fe.beam import (
-    HermiteBeam,
-    element_geometric_stiffness,
-    element_mass,
-    element_stiffness,
-    shape_functions,
-)
+from hermite_fe.beam import HermiteBeam, element_geometric_stiffness, element_mass, element_stiffness, shape_functions
 from hermite_fe.contacts import NodeContact
 from hermite_fe.far_fields import GridViscosity
 from hermite_fe.integrators import INTEGRATORS, MoreauJean

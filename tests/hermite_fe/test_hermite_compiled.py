@@ -70,16 +70,28 @@ def test_files_that_lost_their_end_are_compiled_again(kind: str, left: float, pa
     assert answered(package) == "12.0"
 
 
-def test_functions_run_where_nothing_can_be_kept(package: Path) -> None:
-    (package.parent / "cache").write_text("a file where the folder should be")
-    assert answered(package) == "12.0"
+FULL = "import shutil; from types import SimpleNamespace as S; shutil.disk_usage = lambda path: S(free=1e6)"
 
 
 @pytest.mark.verify
-def test_functions_run_on_a_disk_that_is_nearly_full(package: Path) -> None:
-    full = "import shutil; from types import SimpleNamespace as S; shutil.disk_usage = lambda path: S(free=1e6)"
-    assert answered(package, full) == "12.0"
+@pytest.mark.parametrize("before", ["", FULL], ids=["no folder", "a disk that is nearly full"])
+def test_functions_run_where_nothing_can_be_kept(before: str, package: Path) -> None:
+    if not before:
+        (package.parent / "cache").write_text("a file where the folder should be")
+    assert answered(package, before) == "12.0"
     assert not kept(package, "nbc")
+
+
+def test_another_module_is_another_folder_and_one_that_cannot_be_made_keeps_nothing(package: Path, monkeypatch) -> None:
+    monkeypatch.setattr(module, "__file__", str(package / "compiled.py"))
+    before = module.digest_of_sources()
+    (package / "inner.py").write_text("")
+    assert module.digest_of_sources() != before
+    monkeypatch.setattr(module, "FOLDER", package / "inner.py" / "compiled")
+    assert not module.can_be_kept()
+    monkeypatch.setattr(module, "KEPT", False)
+    twice = module.compiled(lambda x: 2.0 * x)
+    assert module.recompiling(lambda: twice(6.0)) == 12.0
 
 
 def test_bad_input_leaves_what_is_compiled_alone() -> None:

@@ -3,7 +3,6 @@ does."""
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
@@ -20,21 +19,23 @@ from hermite_fe.integrators import Integrator, MoreauJean, SignoriniPosition
 from measure.estimators import leading_order
 from measure.moments import moments
 
-STEP, GROWTH = 1e-5, 2e-3
+STEP, GROWTH = 2e-5, 3e-3
+verify = pytest.mark.verify
 INTEGRATORS = {name: make(STEP, growth=GROWTH) for name, make in ALL.items()}
 MESH = ScaleFreeMesh(0.01, 1.02)
 IMPACT = Impact.dimensionless(0.4, length=60.0)
 
 
-def run(
-    integrator: Integrator, contact: Contact | None = None, impact: Impact = IMPACT, **rest: object
-) -> ImpactHistory:
-    return simulate(impact, end_time=0.3, mesh=MESH, integrator=integrator, contact=contact, save=40, **rest)  # type: ignore[arg-type]
+PAIRS = [(name, kind) for name in INTEGRATORS for kind in CONTACTS if name != "penalty" or kind == "node"]
+
+
+def run(integrator: Integrator, contact: Contact | None = None, **rest: object) -> ImpactHistory:
+    return simulate(IMPACT, end_time=0.3, mesh=MESH, integrator=integrator, contact=contact, save=40, **rest)  # type: ignore[arg-type]
 
 
 @pytest.mark.parametrize(
     ("name", "kind"),
-    [*((name, kind) for name in INTEGRATORS if name != "penalty" for kind in CONTACTS), ("penalty", "node")],
+    [p if "node" in p or "signorini_position" in p else pytest.param(*p, marks=verify) for p in PAIRS],
 )
 def test_the_wall_pushes_where_the_beam_touches_and_takes_its_momentum(name: str, kind: str) -> None:
     """0 ≤ p ⊥ g ≥ 0 to round-off, strictly unilateral; the impulse is the change of momentum; the budget closes."""
@@ -68,8 +69,8 @@ class QuarterContact(Contact):
     ("name", "contact"),
     [
         ("moreau_jean", NodeContact()),
-        ("position_velocity_acceleration", MiddleContact()),
-        ("signorini_position", MeanContact()),
+        pytest.param("position_velocity_acceleration", MiddleContact(), marks=verify),
+        pytest.param("signorini_position", MeanContact(), marks=verify),
         ("signorini_position", QuarterContact()),
     ],
     ids=str,
@@ -79,9 +80,8 @@ def test_half_and_full_beam_agree(name: str, contact: Contact) -> None:
     nodes = half.dataset.sizes["x"]
     assert np.abs(full.array("gap")[:, nodes - 1 :] - half.array("gap")).max() < 1e-9
     assert np.abs(full.array("gap") - full.array("gap")[:, ::-1]).max() < 1e-9
-    for quantity in (
-        "total_impulse", "kinetic_energy", "strain_energy", "loss_impact", "loss_algorithmic", "loss_viscous"
-    ):
+    energies = ("kinetic_energy", "strain_energy", "loss_impact", "loss_algorithmic", "loss_viscous")
+    for quantity in ("total_impulse", *energies):
         assert full.array(quantity) == pytest.approx(half.array(quantity), abs=1e-8)
     assert np.allclose(full.contact_positions(0), -full.contact_positions(0)[::-1])
     assert (half.dataset.attrs["symmetry"], full.dataset.attrs["symmetry"]) == ("half", "full")
@@ -89,7 +89,7 @@ def test_half_and_full_beam_agree(name: str, contact: Contact) -> None:
 
 def test_the_zone_stays_on_the_wall_with_the_hold() -> None:
     for name, most in (("signorini_position", 1e-9), ("position_velocity_acceleration", 1e-9), ("moreau_jean", 1e-4)):
-        history = simulate(IMPACT, end_time=0.3, integrator=INTEGRATORS[name], contact=NodeContact(hold=16))
+        history = run(INTEGRATORS[name], NodeContact(hold=16))
         place = history.dataset.x.values[history.array("in_contact")[-1]].max()
         inside = history.dataset.x.values < 0.9 * place
         assert np.abs(history.array("gap")[-1][inside]).max() < most * 0.3
@@ -128,23 +128,18 @@ def test_what_has_no_effect_or_no_sense_is_refused(make: Callable[[], object], m
 
 def test_impact_loss_vanishes_under_refinement() -> None:
     losses = []
-    for element in (0.04, 0.02, 0.01):
+    for element in (0.08, 0.04, 0.02):
         scheme = SignoriniPosition(time_step=0.05 * element**2, growth=1e-3)
         history = simulate(IMPACT, end_time=0.3, mesh=ScaleFreeMesh(element, 1.01), integrator=scheme)
         losses.append(history.energy_budget()["loss_impact"])
     assert losses[0] > 1.7 * losses[1] > 1.7**2 * losses[2] > 0.0
 
 
-def test_discrete_contact_touches_at_one_point_with_r0_equal_to_nu() -> None:
-    history = simulate(Impact(1.0, 1.0, 50.0, 25.0, 20.0))  # κ/ν = 1.25, in SI units
-    impact = history.impact
-    tau = history.time / impact.time_scale
-    impulse = history.array("total_impulse") / (impact.mass_per_length * impact.velocity * impact.length_scale)
-    assert history.array("in_contact").sum(axis=1).max() == 1
-    assert impulse[-1] == pytest.approx(4.0 * math.sqrt(2.0 / math.pi) * math.sqrt(tau[-1]), rel=1e-3)
-
-
-@pytest.mark.parametrize("contact", [QuarterContact(), MiddleContact(), MeanContact()], ids=lambda c: type(c).__name__)
+@pytest.mark.parametrize(
+    "contact",
+    [QuarterContact(), pytest.param(MiddleContact(), marks=verify), pytest.param(MeanContact(), marks=verify)],
+    ids=lambda c: type(c).__name__,
+)
 def test_contacts_between_nodes_are_booked_where_they_act(contact: Contact) -> None:
     """λ₀ = 1.018866, r₀ = 1.177212 at κ/ν = 0.5 (thesis 2.6.21–22); booked a quarter element off, λ₀ is 0.8 % off."""
     found = leading_order(moments(simulate(Impact.dimensionless(0.5, length=20.0), contact=contact)))

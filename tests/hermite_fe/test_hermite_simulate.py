@@ -29,25 +29,25 @@ def scaled(history: ImpactHistory) -> tuple[NDArray[np.float64], NDArray[np.floa
 
 
 @pytest.mark.parametrize(
-    ("curvature", "velocity", "refine", "lambda0", "r0", "within"),
+    ("curvature", "lambda0", "r0", "within"),
     [
-        (10.0, 20.0, 1.0, 1.01886591389, 1.17721208090, 5e-4),
-        (2.0, 20.0, 1.0, 4.25760478009, 2.74499113477, 1e-3),
-        (0.1, 25.0, 0.5, None, math.sqrt(math.pi / 8.0 * 500.0), 5e-3),  # κ/ν = 1/250; r₀ → √(π/8)·√(2ν/κ)
+        (10.0, 1.01886591389, 1.17721208090, 5e-4),
+        (2.0, 4.25760478009, 2.74499113477, 1e-3),
+        (25.0, 0.0, 1.0, 1e-3),  # one point, that bears ν
     ],
 )
 def test_auto_finds_the_leading_order_of_a_case_in_si_units(
-    curvature: float, velocity: float, refine: float, lambda0: float | None, r0: float, within: float
+    curvature: float, lambda0: float, r0: float, within: float
 ) -> None:
-    history = simulate(Impact(1.0, 1.0, 50.0, curvature, velocity), refine=refine)
+    history = simulate(Impact(1.0, 1.0, 50.0, curvature, 20.0))
     assert history.warnings == [] and history.completed
     found = leading_order(moments(history))
     assert found.r0.value == pytest.approx(r0, rel=within)
-    if lambda0 is not None:
-        assert history.time[-1] == pytest.approx(2.5e-4)
-        assert found.lambda0.value == pytest.approx(lambda0, rel=within)
-        inside = history.dataset.x.values < 0.9 * lambda0 * math.sqrt(0.1) * 0.05
-        assert np.abs(history.array("gap")[-1][inside]).max() < 2e-3 * 20.0 * 2.5e-4
+    assert found.lambda0.value == pytest.approx(lambda0, rel=within)
+    assert history.time[-1] == pytest.approx(2.5e-4)
+    inside = history.dataset.x.values < 0.9 * lambda0 * math.sqrt(0.1) * 0.05
+    assert np.abs(history.array("gap")[-1][inside]).max(initial=0.0) < 2e-3 * 20.0 * 2.5e-4
+    assert (history.array("in_contact").sum(axis=1).max() == 1) == (lambda0 == 0.0)
 
 
 def test_a_free_motion_that_meets_the_wall_elsewhere_is_said_of_ends_that_follow_it() -> None:
@@ -67,7 +67,10 @@ def test_a_free_motion_that_meets_the_wall_elsewhere_is_said_of_ends_that_follow
 
 @pytest.mark.parametrize(
     ("groups", "r1", "lambda0"),
-    [((1.0, 1.0), 1.83706066099, 1.01886591389), ((-1.0, -1.0), -4.18053010088, 0.0)],
+    [
+        ((1.0, 1.0), 1.83706066099, 1.01886591389),
+        pytest.param((-1.0, -1.0), -4.18053010088, 0.0, marks=pytest.mark.verify),
+    ],
 )
 def test_first_order_reaction_at_kappa_one_half(groups: tuple[float, float], r1: float, lambda0: float) -> None:
     """I₁ = (4√(2/π)/3 r₁ + (4/3)(α + ψ)₊λ₀) τ^{3/2}: loads of both signs, initial shape and rate
@@ -107,7 +110,8 @@ def test_without_contact_the_free_motion_is_reproduced() -> None:
 def test_a_finite_free_beam_is_pressed_or_lifts_off() -> None:
     """The thesis's first-order case: L = 2 m, K = 0.35 1/m, V₀ = 3.5 m/s, a₀ = ±700 m/s² (Fig. 3.34)."""
     runs = {
-        a: simulate(Impact(1.0, 1.0, 2.0, 0.35, 3.5, acceleration=a), end_time=2.5e-3) for a in (-700.0, 0.0, 700.0)
+        a: simulate(Impact(1.0, 1.0, 2.0, 0.35, 3.5, acceleration=a), end_time=2.5e-3, refine=0.5)
+        for a in (-700.0, 0.0, 700.0)
     }
     impulse = {a: history.array("total_impulse")[-1] for a, history in runs.items()}
     assert impulse[-700.0] < impulse[0.0] < impulse[700.0]

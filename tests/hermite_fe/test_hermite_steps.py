@@ -80,7 +80,9 @@ def test_a_falsified_force_shows_in_proportion(make: Make) -> None:
     assert large == pytest.approx(2.0 * small, rel=0.05)
 
 
-@pytest.mark.parametrize(("kappa", "step"), [(0.1, 1e-3), (0.5, 2e-4), (1.5, 1e-3)])
+@pytest.mark.parametrize(
+    ("kappa", "step"), [(0.1, 1e-3), *(pytest.param(*p, marks=pytest.mark.verify) for p in ((0.5, 2e-4), (1.5, 1e-3)))]
+)
 @pytest.mark.parametrize("radius", [0.0, 1.0])
 @pytest.mark.parametrize("levels", ["velocity", "position_velocity", "position_velocity_acceleration"])
 def test_the_wall_brings_no_energy(levels: str, radius: float, step: float, kappa: float) -> None:

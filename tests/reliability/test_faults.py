@@ -83,29 +83,35 @@ def test_a_killed_match_starts_again_and_ends_with_the_same_rows(path, kills, tm
 
 def test_runs_that_fail_are_reported_with_how_to_ask_again_and_the_rest_goes_on(monkeypatch):
     simulate = HermiteFE.simulate
+    raised = {
+        0.3: SimulationError("it diverged", time=0.01, step=7, advice="smaller steps"),
+        0.4: RuntimeError("Exudyn: singular Jacobian"),
+        0.6: SystemExit(3),
+        0.7: KeyError("x"),
+    }
+    reasons = dict.fromkeys((0.3, 0.4, 0.5, 0.6, 0.7, 0.8), "the method failed")
+    reasons |= {0.3: "it diverged", 0.4: "singular Jacobian", 0.5: ""}
 
     def broken(method, impact, **options):
         ratio = round(impact.kappa_over_nu, 3)
-        if ratio == 0.3:
-            raise SimulationError("it diverged", time=0.01, step=7, advice="smaller steps")
-        if ratio == 0.4:
-            raise RuntimeError("Exudyn: singular Jacobian")
+        if ratio in raised:
+            raise raised[ratio]
+        if ratio == 0.8:
+            return None
         history = simulate(method, impact, **options)
         if ratio == 0.5:
             history.dataset["impulse"].values[5:] = math.nan
         return history
 
     monkeypatch.setattr(HermiteFE, "simulate", broken)
-    code, out, err = command(*match_on("hermite", 0.3, 0.4, 0.5, 2.0))
+    code, out, err = command(*match_on("hermite", *reasons, 2.0), "--refine", 0.5)
     found = json.loads(out)
     assert code == 3 and "Traceback" not in err
-    assert [row["kappa_over_nu"] for row in found["rows"]] == [0.3, 0.4, 0.5, 2.0]
-    assert [row["r0"]["value"] is None for row in found["rows"]] == [True, True, True, False]
-    for failure, ratio, why in zip(
-        found["failures"], (0.3, 0.4, 0.5), ("it diverged", "singular Jacobian", ""), strict=True
-    ):
-        assert failure["kappa_over_nu"] == ratio and why in failure["reason"]
-        assert str(ratio) in err and failure["reason"] and failure["reason"] in err
+    assert [row["kappa_over_nu"] for row in found["rows"]] == [*reasons, 2.0]
+    assert [row["r0"]["value"] is None for row in found["rows"]] == [True] * len(reasons) + [False]
+    for failure, (ratio, why) in zip(found["failures"], reasons.items(), strict=True):
+        assert failure["kappa_over_nu"] == ratio and failure["reason"] and why in failure["reason"]
+        assert str(ratio) in err and failure["reason"] in err
     assert "smaller steps" in found["failures"][0]["reason"]
 
 

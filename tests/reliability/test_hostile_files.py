@@ -73,10 +73,7 @@ def assigned(name, value):
 
 
 HOSTILE = {
-    "a link": (
-        "link to elsewhere",
-        no_gap_but(assigned("gap", h5py.ExternalLink("x.nc", "/gap"))),
-    ),
+    "a link": ("link to elsewhere", no_gap_but(assigned("gap", h5py.ExternalLink("x.nc", "/gap")))),
     "a soft link": ("link to elsewhere", no_gap_but(assigned("gap", h5py.SoftLink("/impulse")))),
     "values in another file": ("another file", gap((9,), "u1", external=[("/etc/passwd", 0, h5py.h5f.UNLIMITED)])),
     "values of a virtual dataset": ("another file", no_gap_but(virtual)),

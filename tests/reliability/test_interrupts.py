@@ -124,7 +124,7 @@ def readable(file: Path) -> bool:
     return bool(content) and file.suffix != ".part" and content.rstrip().endswith(end)
 
 
-@pytest.mark.parametrize("after", [0.0, 0.4, pytest.param(1.5, marks=pytest.mark.verify)])
+@pytest.mark.parametrize("after", [0.0, *(pytest.param(s, marks=pytest.mark.verify) for s in (0.4, 1.5))])
 def test_workers_end_with_the_command_and_say_nothing(after, tmp_path):
     """Two workers asleep, or still starting: Ctrl-C reaches all processes of a terminal at once."""
     process = at_work(SLEEP, tmp_path)
@@ -135,7 +135,7 @@ def test_workers_end_with_the_command_and_say_nothing(after, tmp_path):
     assert nothing_left_of(process.pid)
 
 
-@pytest.mark.parametrize("how", ["SIGINT", "SIGTERM", pytest.param("SIGHUP", marks=pytest.mark.verify)])
+@pytest.mark.parametrize("how", ["SIGTERM", *(pytest.param(s, marks=pytest.mark.verify) for s in ("SIGINT", "SIGHUP"))])
 def test_a_file_that_is_being_written_is_whole_or_not_there(how, tmp_path):
     process = at_work(WRITE, tmp_path)
     process.send_signal(getattr(signal, how))
@@ -144,6 +144,7 @@ def test_a_file_that_is_being_written_is_whole_or_not_there(how, tmp_path):
     assert list((tmp_path / "out").iterdir()) == []
 
 
+@pytest.mark.verify
 @pytest.mark.parametrize("name", SOME)
 def test_an_interrupt_leaves_whole_files_and_says_how_to_go_on(name, tmp_path):
     numbers = random.Random(f"{SEED} interrupted {name}")
