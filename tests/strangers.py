@@ -1,4 +1,4 @@
-"""A method of somebody else's. It imports nothing that is installed: a stored run asks for what is behind its method."""
+"""A method of somebody else's. It imports nothing that is installed: what it imports is looked up for every run."""
 
 import time
 from dataclasses import dataclass

@@ -45,7 +45,8 @@ def test_every_path_matches_the_leading_order(method, kappa, of_lambda0, of_r0):
 
 
 @pytest.mark.parametrize(
-    ("method", "of_r0"), [(SelfSimilarFE(refine=0.5), 1e-4), pytest.param(ExudynModel(), 1e-3, marks=pytest.mark.verify)]
+    ("method", "of_r0"),
+    [(SelfSimilarFE(refine=0.5), 1e-4), pytest.param(ExudynModel(), 1e-3, marks=pytest.mark.verify)],
 )
 def test_a_point_contact_does_not_spread(method, of_r0):
     """κ/ν ≥ 1: λ₀ = 0, r₀ = ν, r₁ = 2α."""
@@ -56,8 +57,8 @@ def test_a_point_contact_does_not_spread(method, of_r0):
 
 UNITS = [(1, 0, 0), (0, 1, 0), (0, 0, 1), (4, 0, 0), (0, 2, 0), (1, 1, 1), (-1, 0, 0), (-1, -1, 0), (-1, -1, 1)]
 FIRST_ORDER = [  # kappas, loads, method, error bars, share of max(|theory|, 1)
-    *((kappa, UNITS, method, "quick", 0.01) for kappa in (0.3, 0.5, 0.8) for method in (SelfSimilarFE(), HermiteFE())),
-    *((0.1, UNITS, method, "quick", 0.03) for method in (SelfSimilarFE(), HermiteFE())),
+    *((kappa, UNITS, SelfSimilarFE(), "quick", 0.03 if kappa == 0.1 else 0.01) for kappa in (0.1, 0.3, 0.5, 0.8)),
+    *((kappa, UNITS, HermiteFE(), "quick", 0.03 if kappa == 0.1 else 0.01) for kappa in (0.1, 0.3, 0.5, 0.8)),
     *((kappa, [(2, -1, 0.5), (0, -2, 1)], HermiteFE(), "quick", 0.01) for kappa in (0.2, 0.4, 0.65)),
     *(
         (kappa, [(4, 0, 0), (1, 1, 1), (-1, -1, 0), (2, -1, 0.5)], ExudynModel(), "quick", 0.03)
