@@ -42,10 +42,7 @@ def no_longer_than_two_minutes():
     signal.signal(signal.SIGALRM, before)
 
 
-WHERE = ["one process", "two processes", "cluster"]
-
-
-@pytest.fixture(params=WHERE)
+@pytest.fixture
 def where(request):
     if request.param == "cluster":
         return {"scheduler": request.getfixturevalue("cluster")}
@@ -54,7 +51,7 @@ def where(request):
 
 @pytest.mark.parametrize(
     ("where", "deaths"),
-    [*zip(WHERE, (0, 1, 0)), pytest.param("cluster", 1, marks=pytest.mark.verify)],
+    [("one process", 0), ("two processes", 1), ("cluster", 0), pytest.param("cluster", 1, marks=pytest.mark.verify)],
     indirect=["where"],
 )
 def test_answers_come_in_the_order_of_the_questions_and_a_worker_that_dies_costs_its_call_and_no_other(where, deaths):
@@ -70,6 +67,9 @@ def test_answers_come_in_the_order_of_the_questions_and_a_worker_that_dies_costs
     assert seen == [(n, len(numbers)) for n in range(1, len(numbers) + 1)]
 
 
+@pytest.mark.parametrize(
+    "where", ["one process", "cluster", pytest.param("two processes", marks=pytest.mark.verify)], indirect=True
+)
 def test_what_a_call_or_its_caller_raises_is_raised(where):
     with pytest.raises(ValueError, match=r"^negative$"):
         run_all(root, [(4.0,), (-1.0,)], on_death=lambda i, why: pytest.fail(why), **where)
