@@ -32,7 +32,7 @@ def test_theory():
 def test_both_paths_say_what_theory_says_and_their_stored_runs_are_drawn_and_compared(tmp_path):
     files = [str(tmp_path / f"{path}.nc") for path in ("hermite", "exudyn")]
     for path, file in zip(("hermite", "exudyn"), files):
-        half = ("--set", f"{path}.refine=0.5", "--error-bars", "drift")
+        half = ("--set", f"{path}.refine=0.5", "--error-bars", "drift", "--save", "50")
         found = answered("simulate", K10, "--path", path, "--out", file, *half)
         for name, tolerance in (("half_contact_length", 5e-3), ("total_impulse", 2e-3), ("lambda0", 3e-3)):
             assert found[name]["value"] == pytest.approx(found[name]["theory"], rel=tolerance)
