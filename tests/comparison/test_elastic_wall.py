@@ -9,7 +9,10 @@ from measure.reduction import wall_peaks
 from theory import predict
 
 
-@pytest.mark.parametrize(("kappa_over_nu", "damping_ratio", "agree"), [(0.5, 0.0, 3e-3), (2.0, 0.5, 7e-3)])
+@pytest.mark.parametrize(
+    ("kappa_over_nu", "damping_ratio", "agree"),
+    [(2.0, 0.5, 7e-3), pytest.param(0.5, 0.0, 3e-3, marks=pytest.mark.verify)],
+)
 def test_elements_and_theory_agree_in_the_largest_force(
     kappa_over_nu: float, damping_ratio: float, agree: float
 ) -> None:

@@ -22,7 +22,7 @@ from measure.measured import Measured
 
 CASES = Path(__file__).resolve().parents[2] / "cases"
 K10 = str(CASES / "thesis_K10.toml")
-MESH = ("mesh.kind=uniform", "mesh.element_length=0.0125")  # of the rod: coarser than it would be chosen
+MESH = ("mesh.kind=uniform", "mesh.element_length=0.016")  # of the rod: coarser than it would be chosen
 
 
 def case_of(impact: Impact) -> Case:
@@ -39,7 +39,7 @@ def agrees(row: dict[str, Any], name: str) -> bool:
     ("kappa", "damping", "loads"),
     [
         (0.5, 0.0, {"acceleration": 20.0}),
-        (0.5, 1e-4, {"acceleration": 20.0}),
+        pytest.param(0.5, 1e-4, {"acceleration": 20.0}, marks=pytest.mark.verify),
         (2.0, 1e-3, {"acceleration": 5.0, "curvature_rate": 1.0}),
     ],
 )
@@ -116,8 +116,8 @@ def test_the_tables_of_the_case_are_those_of_the_simulation(monkeypatch: pytest.
 
     monkeypatch.setattr(HermiteFE, "simulate", recorded)
     monkeypatch.setattr("comparison.whole_impact.predicted.LONGEST", 0.005)  # nor is it here
-    words = ("--set", "hermite.integrator.kind=moreau_jean", "--set", "hermite.integrator.theta=0.6")
-    answered("predict", K10, "--time", "1e-5", *words)
+    tables = ("integrator.kind=moreau_jean", "integrator.theta=0.6", "refine=0.25")
+    answered("predict", K10, "--time", "1e-5", *(word for one in tables for word in ("--set", f"hermite.{one}")))
     assert len(used) >= 2 and all(isinstance(one, MoreauJean) and one.theta == 0.6 for one in used)
     assert "hermite.integrator.kind" in refused(
         "predict", K10, "--theory-only", "--set", "hermite.integrator.kind=nonsense"

@@ -55,6 +55,7 @@ def test_nodal_gaps_of_both_codes_agree(damping, gaps, impulse):
     assert ours.array("total_impulse")[-1] == pytest.approx(theirs.array("total_impulse")[-1], rel=impulse)
 
 
+@pytest.mark.verify
 def test_both_paths_agree_on_a_finite_beam():
     """The thesis's beam of two metres with a₀ = −700 m/s²: the middle lifts off on both, by the same amount."""
     impact = Impact(1.0, 1.0, 2.0, 0.35, 3.5, acceleration=-700.0)

@@ -42,20 +42,34 @@ def no_longer_than_two_minutes():
     signal.signal(signal.SIGALRM, before)
 
 
-@pytest.fixture(params=["one process", "two processes", "cluster"])
+@pytest.fixture
 def where(request):
     if request.param == "cluster":
         return {"scheduler": request.getfixturevalue("cluster")}
     return {"jobs": 1 if request.param == "one process" else 2}
 
 
-def test_answers_come_in_the_order_of_the_questions_wherever_they_are_found(where):
-    numbers, seen = [float(n) for n in range(30, 0, -1)], []
-    found = run_all(root, [(n,) for n in numbers], progress=lambda *done: seen.append(done), **where)
-    assert found == [n**0.5 for n in numbers]
-    assert seen == [(n, 30) for n in range(1, 31)]
+@pytest.mark.parametrize(
+    ("where", "deaths"),
+    [("one process", 0), ("two processes", 1), ("cluster", 0), pytest.param("cluster", 1, marks=pytest.mark.verify)],
+    indirect=["where"],
+)
+def test_answers_come_in_the_order_of_the_questions_and_a_worker_that_dies_costs_its_call_and_no_other(where, deaths):
+    numbers, seen = [*(float(n) for n in range(12, 0, -1)), *[0.0] * deaths, 16.0], []
+    found = run_all(
+        root,
+        [(n,) for n in numbers],
+        on_death=lambda i, why: (i, why),
+        progress=lambda *done: seen.append(done),
+        **where,
+    )
+    assert found == [n**0.5 if n else (12, "the worker died: out of memory?") for n in numbers]
+    assert seen == [(n, len(numbers)) for n in range(1, len(numbers) + 1)]
 
 
+@pytest.mark.parametrize(
+    "where", ["one process", "cluster", pytest.param("two processes", marks=pytest.mark.verify)], indirect=True
+)
 def test_what_a_call_or_its_caller_raises_is_raised(where):
     with pytest.raises(ValueError, match=r"^negative$"):
         run_all(root, [(4.0,), (-1.0,)], on_death=lambda i, why: pytest.fail(why), **where)
@@ -65,13 +79,6 @@ def test_what_a_call_or_its_caller_raises_is_raised(where):
 
     with pytest.raises(OSError, match=r"^disk full$"):
         run_all(root, [(4.0,), (9.0,)], progress=full, **where)
-
-
-@pytest.mark.parametrize("where", ["two processes", "cluster"], indirect=True)
-def test_a_worker_that_dies_costs_its_call_and_no_other(where):
-    numbers = [float(n) for n in range(8, -1, -1)]
-    found = run_all(root, [(n,) for n in (*numbers, 16.0)], on_death=lambda i, why: (i, why), **where)
-    assert found == [*(n**0.5 for n in numbers[:-1]), (8, "the worker died: out of memory?"), 4.0]
 
 
 def test_a_scheduler_that_does_not_answer_is_bad_input_within_ten_seconds(monkeypatch):

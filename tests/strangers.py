@@ -1,0 +1,33 @@
+"""A method of somebody else's. It imports nothing that is installed: what it imports is looked up for every run."""
+
+import time
+from dataclasses import dataclass
+from typing import ClassVar
+
+from bent_beam import SimulationError
+from self_similar_fe import SelfSimilarFE
+
+__all__ = ["Stranger"]
+
+
+@dataclass(frozen=True)
+class Stranger:
+    """The self-similar solver under another name, which fails where it is told to; an error, before any run."""
+
+    path: ClassVar[str] = "stranger"
+    trouble: str | type[BaseException] = ""
+    label: str = "Stranger"
+
+    def refuses(self, impact):
+        if isinstance(self.trouble, type):
+            raise self.trouble("nobody looked")
+        return "curvature: not today" if self.trouble == "refuses" else None
+
+    def simulate(self, impact, *, end_time=None, save=200, progress=None):
+        if self.trouble == "fails":
+            raise SimulationError("no luck", time=1.0, step=3, advice="another day")
+        if self.trouble == "creeps":
+            while True:
+                time.sleep(0.01)
+                progress(0.0)
+        return SelfSimilarFE(refine=0.5).simulate(impact, end_time=end_time, save=save, progress=progress)
