@@ -18,6 +18,7 @@ from thesis.gallery.runs import case, thesis, thesis_history
 from thesis.studies.outcome import MEASURES
 
 
+@pytest.mark.verify
 def test_report_and_gallery_show_one_result() -> None:
     """The stored study of 3.3.3, on the thesis's own case, is the run that the gallery draws."""
     (study,) = (s for s in json.loads(stored_studies.FILE.read_text())["studies"] if s["name"] == "damping")
