@@ -24,7 +24,6 @@ from thesis.gallery.drawing import REACTION, run_figure
 from thesis.gallery.runs import Series
 from thesis.sheet import Sheet, order
 from thesis.studies.panels import contact_length
-from thesis.studies.thesis import MASSES
 
 DOCS = Path(__file__).parents[2] / "docs"
 LAST = {"fig-2": 18, "fig-3": 36, "fig-A": 3, "table-3": 4}  # of the thesis's figures and tables
@@ -196,17 +195,11 @@ def test_a_figure_of_runs_has_a_column_a_mass_and_our_methods_on_theory() -> Non
 
 
 @SLOW
-def test_our_methods_lie_on_the_wall_and_follow_theory_and_the_thesis_settings_do_not() -> None:
+def test_our_methods_lie_on_the_wall_and_the_thesis_settings_do_not() -> None:
     for panel in "ab":  # lumped, consistent
-        for method in OURS:
-            x, y = curve("fig-3.10", method, panel)
-            assert np.abs(y[x < 28.0]).max() < 0.5  # µm
-            for name in ("fig-3.11", "fig-3.12"):
-                follows(curve(name, method, panel), curve(name, "theory", panel), 5.0)
-        x, y = curve("fig-3.10", "Δx = 2.5 mm", panel)
-        assert 100.0 < np.abs(y[x < 28.0]).max() < 250.0
-    assert all(abs(number("fig-3.12", f"r₀ error (%), {method}")) < 0.2 for method in OURS)
-    assert all(number("fig-3.12", f"r₀ error (%), Δx = 2.5 mm, {mass}") > 10.0 for mass in MASSES)
+        drawn = {name: curve("fig-3.10", name, panel) for name in (*OURS, "Δx = 2.5 mm")}
+        ours, other, old = (np.abs(y[x < 28.0]).max() for x, y in drawn.values())
+        assert max(ours, other) < 0.5 and 100.0 < old < 250.0  # µm
 
 
 def test_captions_of_the_thesis_runs_name_contact_and_mass() -> None:
