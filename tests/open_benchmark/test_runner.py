@@ -190,7 +190,10 @@ np.savez(sys.argv[2], outcome="completed", problem=problem["id"], metadata="{}",
 def test_only_nodal_histories_of_drawn_problems_are_verified(tmp_path):
     names = {"clean": NODES, "declared": NODES.replace("**nodes", "**declared")}
     adapters = [adapter(tmp_path, name, source) for name, source in names.items()]
-    rows = campaign(adapters, ["point-2"], tmp_path / "out", limits=Limits(repeats=2), resolutions=["coarse"], seed=4)
+    rows = []
+    for one, repeats in zip(adapters, (2, 1)):
+        limits = Limits(repeats=repeats)
+        rows += campaign([one], ["point-2"], tmp_path / "out", limits=limits, resolutions=["coarse"], seed=4)
     tables = {(row.solver, row.problem == "point-2"): row.unverified for row in rows}
     assert tables == {
         ("clean", True): "a problem whose answer is published",

@@ -130,7 +130,7 @@ def test_page_is_the_theory_on_random_beams() -> None:
 
 @needs_node
 def test_the_largest_force_on_a_wall_that_gives_way_is_that_of_the_theory() -> None:
-    ratios = [0.003, 0.4, 30.0]
+    ratios = [0.003, 30.0]  # that of the impact lies between
     exact = [peak_force(ratio).value for ratio in ratios]
     assert evaluated("given.map((ratio) => Theory.peakForce(ratio))", ratios) == pytest.approx(exact, rel=3e-4)
     impact = Impact(2.0, 3.0, 1e3, 0.4, 0.5, wall_stiffness=7.0)

@@ -60,7 +60,7 @@ def test_the_exact_answer_of_a_study_is_that_of_the_theory_with_its_loads(load: 
 
 def test_the_fast_layer_holds_the_work_of_the_wall_and_a_quarter_of_it_and_more_is_strain() -> None:
     shares = []
-    for curvature in (1.0 / 80.0, 1.0, 10.0, 25.0):
+    for curvature in (1.0 / 80.0, 1.0, 25.0):
         exact = Exact(case(curvature, 0.1).impact)
         assert float(exact.fast_energy(2.5e-4)) == pytest.approx(20.0 * float(exact.impulse(2.5e-4)), rel=1e-9)
         shares.append(exact.strain_share)
@@ -255,12 +255,14 @@ def test_the_refusal_of_a_method_is_a_row_with_its_reason() -> None:
     assert all("restitution" in row["failure"] for row in rows[1:])
 
 
-SMALL = ("cases/thesis_K10.toml", "--set", "beam.length=2.0", "--set", "run.duration=0.01")
+SMALL = ("cases/thesis_K10.toml", "--set", "beam.length=2.0", "--set", "run.duration=0.002")
+LIST = ("--methods", "cases/methods/one_of_each.toml")
 
 
 def test_the_command_takes_methods_and_every_row_plot_and_table_carries_the_label(tmp_path: Path) -> None:
     """The labels are those of the file; a method that cannot be used is a row among the others, and no error."""
     file, out = tmp_path / "methods.toml", tmp_path / "out"
+    assert "names the methods" in refused("study", "restitution", *SMALL, "--set", "hermite.mesh.growth=1.0", *LIST)
     file.write_text(
         '[[method]]\nlabel = "Mine"\npath = "hermite"\nmesh = {kind = "uniform", element_length = 0.05}\n'
         'integrator = {kind = "moreau_jean"}\n[[method]]\nlabel = "Endless"\npath = "self_similar"\n'
@@ -275,9 +277,8 @@ def test_the_command_takes_methods_and_every_row_plot_and_table_carries_the_labe
     assert "Mine" in drawn and "Mine, refined 0.5 times" in drawn and "Endless" in table
 
 
-def test_the_command_takes_paths_and_settings_and_refuses_both_ways_at_once() -> None:
+@SLOW
+def test_the_command_takes_paths_and_settings() -> None:
     mesh = ("--set", "hermite.mesh.kind=uniform", "--set", "hermite.mesh.element_length=0.05")
     rows = answered("study", "restitution", *SMALL, *mesh, "--path", "hermite")["rows"]
     assert {row["label"] for row in rows} == {"Hermite, mesh=uniform, mesh.element_length=0.05"}
-    both = ("--methods", "cases/methods/one_of_each.toml")
-    assert "names the methods" in refused("study", "restitution", *SMALL, *mesh, *both)
