@@ -69,14 +69,17 @@ def registries() -> Iterator[None]:
         HermiteFE.PARTS[name].update(kinds)
 
 
+# two seconds and more of default runs: the commands and calls of README and of the tests of both paths
+RUNS = ("docs/guide/run.md", "docs/guide/swap.md", "docs/guide/figure.md")
+QUICK = [pytest.param(page, False, id=name_of(page)) for page in PAGES if name_of(page) not in RUNS]
 LONG = [
     pytest.param(page, True, marks=pytest.mark.verify, id=f"{name_of(page)}, all")
     for page in PAGES
-    if any(block.is_long for block in blocks(page))
+    if name_of(page) in RUNS or any(block.is_long for block in blocks(page))
 ]
 
 
-@pytest.mark.parametrize(("page", "all_of_it"), [*(pytest.param(p, False, id=name_of(p)) for p in PAGES), *LONG])
+@pytest.mark.parametrize(("page", "all_of_it"), [*QUICK, *LONG])
 def test_commands_and_snippets_run(
     page: Path, all_of_it: bool, folder: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

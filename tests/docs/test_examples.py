@@ -12,7 +12,8 @@ from measure.estimators import leading_order
 from self_similar_fe import SelfSimilarFE
 from theory import contact_parameters, peak_moment, predict
 
-NAMES = (Impact, ImpactHistory, load_case, match, HermiteFE, leading_order, SelfSimilarFE, contact_parameters)
+LONG = pytest.param(HermiteFE, marks=pytest.mark.verify)
+NAMES = (Impact, ImpactHistory, load_case, match, LONG, leading_order, SelfSimilarFE, contact_parameters)
 
 
 @pytest.mark.parametrize("name", (*NAMES, peak_moment, predict), ids=lambda name: name.__name__)

@@ -3,9 +3,7 @@
 from typing import Any
 
 import pytest
-from report_fixtures import content
 
-from report.page import render
 from tests.chromium import ask, assert_quiet, beyond_the_edge, chromium, needs_chromium, opened  # noqa: F401
 
 pytestmark = needs_chromium
@@ -13,10 +11,8 @@ LABELS = ("theory", "Hermite", "Exudyn")
 
 
 @pytest.fixture(scope="module")
-def address(tmp_path_factory: pytest.TempPathFactory) -> str:
-    folder = tmp_path_factory.mktemp("report")
-    (folder / "index.html").write_text(render(content(folder)), encoding="utf-8")
-    return (folder / "index.html").as_uri()
+def address(written: Any) -> str:
+    return str(written.file.as_uri())
 
 
 @pytest.fixture(scope="module")

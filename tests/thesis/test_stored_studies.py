@@ -18,6 +18,7 @@ from thesis.gallery.runs import case, thesis, thesis_history
 from thesis.studies.outcome import MEASURES
 
 
+@pytest.mark.verify
 def test_report_and_gallery_show_one_result() -> None:
     """The stored study of 3.3.3, on the thesis's own case, is the run that the gallery draws."""
     (study,) = (s for s in json.loads(stored_studies.FILE.read_text())["studies"] if s["name"] == "damping")
@@ -44,7 +45,7 @@ def test_a_small_picture_keeps_the_colours_of_thin_lines(tmp_path: Path) -> None
 def test_stored_studies_carry_their_tables_and_pictures_and_are_confirmed_by_a_run(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    given = case(10.0, 0.01)
+    given = case(10.0, 0.002)
     small = replace(given, impact=given.impact.replace(length=2.0))
     monkeypatch.setattr(stored_studies, "case_of", lambda name: small)
     file = tmp_path / "studies.json"

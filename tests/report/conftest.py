@@ -1,0 +1,43 @@
+"""The report's page, written once for all that look at it, its browser too."""
+
+from types import SimpleNamespace
+
+import pytest
+from report_fixtures import impacts, lost, pipe, rows, studies
+
+from comparison.methods import methods_of
+from comparison.store import RunStore
+from report import page
+from report.rows import PATHS, report_questions
+from report.studies import stored_studies
+
+
+@pytest.fixture(scope="session")
+def written(tmp_path_factory: pytest.TempPathFactory) -> SimpleNamespace:
+    """Of made-up rows, one of which failed, real impacts on coarse meshes, and all that is stored.
+
+    ``found`` is what the writer returned, ``seen`` its progress, ``nasty`` the text that came from files and methods.
+    """
+    nasty = "<script>alert('x')</script> & \"quotes\" </script>"
+    folder, every = tmp_path_factory.mktemp("report"), [*rows(), lost("exudyn", 0.3, nasty)]
+    seen: list[tuple[int, int]] = []
+    every[0].warnings.append(nasty)
+    # that of the matrix is 18 pixels wider than a phone
+    stored = [study for study in stored_studies() if study["name"] != "conditioning"]
+    stored += stored_studies(studies(folder, nasty))
+
+    def match(asked, *, progress, **how):  # type: ignore[no-untyped-def]
+        progress(1, len(asked))
+        return every
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(page, "match", match)
+        patch.setattr(page, "warm_up", lambda methods: None)
+        patch.setattr(page, "show_all", lambda *_, **__: (list(impacts()), [nasty]))
+        patch.setattr(page, "pipe_prediction", pipe)
+        patch.setattr(page, "stored_studies", lambda: stored)
+        methods = methods_of(PATHS)
+        asked, store = report_questions(methods), RunStore(None)
+        found = page.write_report(folder, methods, asked, store=store, progress=lambda *of: seen.append(of))
+    file = folder / "index.html"
+    return SimpleNamespace(found=found, seen=seen, file=file, text=file.read_text(), nasty=nasty, studies=stored)
