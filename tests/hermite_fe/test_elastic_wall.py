@@ -152,3 +152,11 @@ def test_a_rigid_stop_holds_one_point_and_a_plate_its_part() -> None:
         assert places[[0, -1]] == pytest.approx(where) and balance_of(history).momentum < 0.01
         on_wall = np.searchsorted(history.positions(0), places)
         assert history.array("gap")[:, on_wall].min() > -1e-12 and history.array("gap")[-1].min() < -1e-3
+
+
+def test_a_stop_keeps_half_its_stiffness_times_the_square_of_how_far_it_is_pressed_in_the_middle_too() -> None:
+    facing, q = np.array([0.1, 0.0, 0.3, 0.0]), np.array([0.5, 0.2, -0.1, 0.0])
+    for dof, pressed in ((0, 0.6), (2, 0.2)):
+        springs = Springs(5.0, 0.7, facing, np.array([0.8]), 0, 0, dof)  # no element stands before the wall
+        assert stored_energy(springs, q) == pytest.approx(0.5 * 5.0 * pressed**2)
+        assert stored_energy(springs, q - 1.0) == 0.0
