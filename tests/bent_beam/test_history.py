@@ -57,3 +57,12 @@ def test_broken_files_are_refused(tmp_path):
         file.write_bytes(damaged)
         with pytest.raises(ValueError, match=r"run\.nc"):
             ImpactHistory.load(file)
+
+
+def test_a_history_may_hold_one_instant_but_none_before_the_touch(tmp_path):
+    def at(*times):
+        return history_of(times, [0.0, 1.0])
+
+    assert ImpactHistory.load(at(0.0).save(tmp_path / "run.nc")).time.tolist() == [0.0]
+    with pytest.raises(ValueError, match="instants from 0 on"):
+        at(-1.0, 0.0, 1.0)

@@ -8,6 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from bent_beam import Impact
+from bent_beam.checks import affordable
 from bent_beam.fields import declared
 from bent_beam.loads import ENDS, loads_of, lowest_mode, unmodelled
 from bent_beam.tables import TABLES
@@ -120,3 +121,10 @@ def test_what_is_asked_without_a_time_ends_before_waves_are_back():
     assert long.checked_end_time() == 0.1 * long.time_scale
     short = short.replace(velocity=0.1)
     assert short.checked_end_time() == 0.01 * short.slow_time_scale < 0.1 * short.time_scale
+
+
+def test_what_a_run_keeps_is_instants_times_nodes_and_what_it_does_is_steps_times_nodes():
+    affordable("mesh", 1e4, 1_000, 10_000, most=1e7)  # both at their bounds or below
+    for steps, instants, message in ((1.1e4, 10_000, "mesh ask for"), (1e4, 60_001, "save asks for 60001 instants")):
+        with pytest.raises(ValueError, match=message):
+            affordable("mesh", steps, 1_000, instants, most=1e7)

@@ -14,6 +14,7 @@ from hermite_fe import INTEGRATORS, simulate
 from hermite_fe.contacts import NodeContact
 from hermite_fe.far_fields import GridViscosity
 from hermite_fe.integrators import MoreauJean
+from hermite_fe.resolution import chosen_domain
 from hermite_fe.warnings_of_run import end_warnings
 from measure.estimators import leading_order
 from measure.moments import moments
@@ -159,3 +160,8 @@ def test_a_run_that_fails_keeps_its_partial_history() -> None:
 def test_bad_arguments_are_named(arguments: dict[str, object], message: str) -> None:
     with pytest.raises(ValueError, match=message):
         simulate(**({"impact": SHORT} | arguments))  # type: ignore[arg-type]
+
+
+def test_the_part_of_a_long_beam_that_is_modelled_grows_as_bending_spreads() -> None:
+    early, late = (chosen_domain(SHORT.replace(length=1e4), time) for time in (0.01, 0.09))
+    assert early is not None and late == pytest.approx(3.0 * early) and 10.0 < early / 0.1 < 50.0

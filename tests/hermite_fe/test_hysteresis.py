@@ -142,3 +142,11 @@ def test_restitution_of_a_lossy_beam_that_touches_at_one_point() -> None:
     for elements in (50, 100):
         history = HermiteFE(mesh=UniformMesh(1.0 / elements)).simulate_to_separation(lossy(2.0, 0.1))
         assert whole_impact(history).restitution == pytest.approx(0.5735, abs=1e-3)
+
+
+def test_the_range_of_the_loss_reaches_the_first_instants_of_a_fast_impact() -> None:
+    """10⁴/t* where that is above 10⁶ of the first mode; the slow one has the latter."""
+    slow, fast = lossy(2.0, 0.1), lossy(2.0, 0.1).replace(velocity=100.0 * lossy(2.0, 0.1).velocity)
+    reached = [branches.highest for impact in (slow, fast) if (branches := branches_of(impact))]
+    assert reached == pytest.approx([1e6 * first_mode(slow), 1e4 / (2.0 * math.pi * fast.time_scale)])
+    assert reached[1] > 10.0 * reached[0]

@@ -12,7 +12,7 @@ from bent_beam import Impact, ImpactHistory
 from comparison.compare import compare_histories
 from measure.estimators import COMPANION_FIRST, INSIDE, SIDE, LeadingEstimate, first_order, leading_order
 from measure.measured import Measured
-from measure.moments import Moments, local_front, moments, one_side
+from measure.moments import Moments, first_front, local_front, moments, one_side
 from measure.reduction import peak_moment
 from theory import contact_parameters
 
@@ -230,3 +230,32 @@ def test_a_front_within_its_error_bar_is_none(found, front):
     """Round-off of a contact in one point must not set the size of the loads, nor λ₁."""
     leading = LeadingEstimate(Measured(found, 1e-5), Measured(1.0, 1e-4), lift=0.0, window=(0.01, 0.1))
     assert leading.front == front
+
+
+def test_a_whole_beam_has_the_moments_of_its_half_the_uniform_reaction_too():
+    half = synthetic(0.5, (1.0, 0.5, 0.0), 0.1)
+    x, impulse = half.positions(0), half.array("impulse")
+    mirrored = {"impulse": np.c_[impulse[:, :0:-1], 2.0 * impulse[:, :1], impulse[:, 1:]], "symmetry": "full"}
+    total = half.array("total_impulse")
+    whole = history_of(half.time, np.r_[-x[:0:-1], x], impact=half.impact, total_impulse=total, **mirrored)
+    one, other = moments(half), moments(whole)
+    assert other.impulse == pytest.approx(one.impulse, rel=2e-3) and other.moment == pytest.approx(one.moment, rel=2e-3)
+    assert other.pressure[20:] == pytest.approx(one.pressure[20:], rel=0.02) and one.pressure[-1] > 0.1
+
+
+@pytest.mark.parametrize("mass", [1.0, 1e6])
+@pytest.mark.parametrize(("first", "epsilon"), [((0.0, 0.0, 0.0), 0.0), ((1.0, 0.5, 0.0), 1.0)])
+def test_the_first_front_is_where_the_zone_ends_whatever_the_zone_bears_in_any_unit_of_mass(first, epsilon, mass):
+    history, exact = synthetic(0.5, first, epsilon), contact_parameters(0.5, *first)
+    heavy = history_of(history.time, history.positions(0), impulse=mass * history.array("impulse"))
+    for k in (120, 199):
+        tau = history.time[k]
+        front = np.sqrt(tau) * (exact.lambda0 + epsilon * exact.lambda1 * tau)
+        assert first_front(heavy, k) == pytest.approx(front, rel=1e-2)
+
+
+def test_two_saved_instants_tell_the_uniform_reaction_between_them():
+    run, kept = synthetic(0.5, (1.0, 0.5, 0.0), 0.1), [120, 199]
+    impulse, total = run.array("impulse")[kept], run.array("total_impulse")[kept]
+    few = history_of(run.time[kept], run.positions(0), impact=run.impact, impulse=impulse, total_impulse=total)
+    assert moments(few).pressure[1] == pytest.approx(0.1 * 1.5, rel=0.1)

@@ -182,3 +182,11 @@ def test_both_paths_give_the_first_hits_between_two_walls_alike() -> None:
     for one, other in zip(hermite, exudyn, strict=True):
         assert one.wall == other.wall and one.impulse == pytest.approx(other.impulse, rel=5e-3)
         assert (one.after, one.lost) == pytest.approx((other.after, other.lost), abs=5e-3)
+
+
+def test_the_largest_force_is_told_in_half_the_beams_momentum_a_period() -> None:
+    """μℓV₀/T*, the unit in which the rigid beam of two half lengths is pushed with 5.8."""
+    run, steady = pushed_until(0.3), np.full(41, 5.8)
+    peaks = dict.fromkeys(("peak_force", "peak_force_time", "peak_penetration", "peak_pressure"), ("time", steady))
+    assert whole_impact(run).peak_force is None
+    assert whole_impact(ImpactHistory(run.dataset.assign(peaks))).peak_force == pytest.approx(5.8)

@@ -1,6 +1,7 @@
 """``bentbeam problem``, ``score`` and ``benchmark`` as they are called."""
 
 import json
+import tomllib
 
 import numpy as np
 import pytest
@@ -49,3 +50,9 @@ def test_benchmark_writes_a_page_for_an_adapter_of_ones_own(tmp_path):
     assert (out / "index.html").read_text().count("<h2") >= 3 and json.loads((out / "benchmark.json").read_text())
     refused("benchmark", "--solver", "nothing")
     refused("benchmark", "--install", "nothing")
+
+
+def test_a_problem_is_written_in_the_language_of_its_file(tmp_path):
+    for name, read in (("p.json", json.loads), ("p.toml", tomllib.loads)):
+        assert command("problem", "point-2", "--out", tmp_path / name)[0] == 0
+        assert read((tmp_path / name).read_text())["id"] == "point-2"

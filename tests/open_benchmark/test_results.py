@@ -1,9 +1,11 @@
 """What a result file may hold, and what a score says of it."""
 
 import json
+from contextlib import nullcontext
 
 import numpy as np
 import pytest
+from histories import history_of
 
 from bent_beam import Impact
 from bent_beam.meshes import UniformMesh
@@ -11,7 +13,7 @@ from bent_beam.method import method_type
 from open_benchmark import Result, ResultError, load_result, problem, score
 from open_benchmark.histories import result_from_history
 from open_benchmark.references import reference
-from open_benchmark.result import result_from_fields
+from open_benchmark.result import FEWEST, result_from_fields
 from open_benchmark.score import resolution_ignored
 from theory import contact_parameters
 
@@ -238,3 +240,28 @@ def test_the_largest_force_at_an_end_of_the_record_is_not_extrapolated(force):
     found = scored("elastic-wall-0.5-0", tau=np.linspace(0.0, 4.0, 401), J=np.append(0.0, np.cumsum(0.01 * force)))
     assert found.measured["peak_force"].value == pytest.approx(force.max())
     assert 0.0 < (found.measured["peak_time"].value or 0.0) < 4.0
+
+
+@pytest.mark.parametrize(("instants", "rows"), [(0, 2), (2, 0)])
+def test_gaps_without_instants_and_instants_without_gaps_are_refused(tmp_path, instants, rows):
+    snaps = {"x": np.arange(3.0), "snap_tau": 0.1 * np.ones(instants), "snap_gap": np.zeros((rows, 3))}
+    assert "snap_gap" in refusal(written(tmp_path, **snaps))
+
+
+def test_the_ends_of_the_fit_window_are_in_it():
+    ends = problem("point-2").fit_window
+    for count, enough in ((FEWEST, True), (FEWEST - 1, False)):
+        tau = np.linspace(*ends, count)
+        with nullcontext() if enough else pytest.raises(ResultError, match="the fewest"):
+            scored("point-2", tau=tau, J=np.sqrt(tau), Jm=0.0 * tau)
+
+
+def test_a_history_in_si_units_is_the_same_result_and_what_pulls_point_by_point_is_told():
+    impact = Impact(2.0, 3.0, 1e3, 0.5, 5.0)
+    pushed = np.array([[0.0, 0.0, 0.0], [3.0, 1.0, 0.0], [3.0, 2.0, -1.0]])  # of one side, at 0, ℓ and 2ℓ
+    unit = 3.0 * 5.0 * impact.length_scale
+    sizes = {"impulse": unit * pushed, "total_impulse": 2.0 * unit * pushed.sum(axis=1)}
+    x, time = impact.length_scale * np.arange(3.0), impact.time_scale * np.array([0.0, 0.5, 1.0])
+    found = result_from_history(history_of(time, x, impact=impact, **sizes), problem("leading-0.5"))
+    told = [found.tau, found.J, found.Jm, found.series["J_minus"]]
+    assert np.allclose(told, [[0.0, 0.5, 1.0], [0.0, 8.0, 8.0], [0.0, 1.0, 0.0], [0.0, 0.0, 2.0]])

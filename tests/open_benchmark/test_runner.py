@@ -10,10 +10,10 @@ import pytest
 
 from bent_beam.errors import InputError
 from measure.measured import Measured
-from open_benchmark.adapter import Adapter, chosen_adapters, shipped_adapters
+from open_benchmark.adapter import RESOLUTIONS, Adapter, chosen_adapters, shipped_adapters
 from open_benchmark.campaign import STANDARD, Row, campaign, drawn
 from open_benchmark.judgement import Score
-from open_benchmark.page import properties, write_page
+from open_benchmark.page import errors_table, properties, write_page
 from open_benchmark.problem import problem
 from open_benchmark.reading import load_result
 from open_benchmark.running import Limits, run_adapter
@@ -258,3 +258,20 @@ def test_two_ways_give_one_largest_force(tmp_path, name):
     run_adapter(shipped_adapters()["hermite"], problem(name), "coarse", tmp_path / "r.npz", Limits(repeats=1))
     found = score(load_result(tmp_path / "r.npz"))
     assert abs(found.error("peak_force") or 1.0) < 2e-4 and found.outcome == "completed"
+
+
+def test_the_table_of_errors_has_a_line_for_each_code_a_column_for_each_problem_and_an_error_in_its_own_cell():
+    def row(solver, name, error):
+        found = Score(name, "completed", measured={"r0": Measured(1.0 + error, None, 1.0)})
+        return Row(solver, name, "fine", 2.0, found)
+
+    rows = [row("a", "leading-0.5", 0.01), row("a", "point-2", -0.02), row("b", "point-2", 0.03)]
+    lines = [line.strip("|").replace(" ", "").split("|") for line in errors_table(rows, ["a", "b"]).splitlines()]
+    assert lines[:2] == [["code", "`leading-0.5`", "`point-2`"], ["---"] * 3]
+    assert lines[2:] == [["a", "+1.000(2)", "-2.000(2)"], ["b", "notasked", "+3.000(2)"]]
+
+
+def test_a_pull_counts_at_every_resolution_and_a_lift_at_the_finest_alone():
+    scores = [Score("leading-0.5", "completed", adhesion=size, lift=size) for size in (0.3, 0.2, 0.1)]
+    table = properties([Row("mine", "leading-0.5", *row) for row in zip(RESOLUTIONS, [1.0] * 3, scores)], "mine")
+    assert (table["unilateral"], table["lift"]) == ("3.0e-01", "1.0e-01")

@@ -117,3 +117,13 @@ def test_a_pressure_that_begins_or_ends_between_two_points_acts_from_there_on():
         loads, force, found = _loads(pressure, pressure, 0.1)
         assert (force, found) == pytest.approx((2.0 * 0.1 * 0.25, rim))
         assert loads[0] + 2.0 * loads[1] == pytest.approx(force)
+
+
+def test_the_largest_force_is_not_below_any_that_the_record_holds():
+    """Between samples it is higher, by less than their distance allows: the top of a parabola."""
+    stiff, limber = SwungBeam(1e4, 0.5, 0.8, 2.0, 300.0, modes=6), SwungBeam(214.49, 0.4704, 0.783, 3.8, 45e3)
+    for rod, end in ((stiff, 0.08), (limber, 0.005)):
+        (force, when), (time, tip) = rod.peak_force(end), rod.tip(end)
+        before, highest, after = (rod.stop_stiffness * tip[int(tip.argmax()) + k] for k in (-1, 0, 1))
+        assert highest < force < highest + 0.25 * (highest - min(before, after))
+        assert abs(when - time[tip.argmax()]) <= 0.5 * time[1]
