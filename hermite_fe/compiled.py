@@ -68,7 +68,7 @@ def recompiling(call: Callable[[], Result]) -> Result:
     folder is then removed and ``call`` tried again; a second failure is the caller's own.
     """
     if not any(FOLDER.rglob("*.nbi")):
-        message = "compiling, as always on a new machine or after an update: about 20 seconds"
+        message = "compiling, as always on a new machine or after an update: about half a minute"
         logging.getLogger("bent_beam").info(message)
     try:
         return call()

@@ -216,8 +216,8 @@ def first_order(
     late = tail.tau >= tail.tau[-1] / window
     reaction = tail.pressure[late] / epsilon
     wanted = float(reaction.mean()) if pressure is None else max(pressure, 0.0)
-    stuck = STUCK_FIRST * min(pressure or 0.0, 0.0) * (tail.lift[late] == 0.0)
-    missing = math.sqrt(float(np.mean((reaction - wanted + stuck) ** 2))) * lambda0 / SIDE
+    stuck = STUCK_FIRST * max(-(pressure or 0.0), 0.0) * (tail.lift[late] == 0.0)
+    missing = math.sqrt(float(np.mean((np.abs(reaction - wanted) + stuck) ** 2))) * lambda0 / SIDE
     bars = np.sqrt(
         (SPREAD_FIRST * np.abs(changes).max(axis=0)) ** 2
         + (COMPANION_FIRST * _apart(best, [np.array([c.r1.known, c.lambda1.known]) for c in companions])) ** 2

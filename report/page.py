@@ -30,14 +30,13 @@ from bent_beam.method import Method, refined
 from bent_beam.versions import processor, versions
 from comparison.figures.matching import write_match
 from comparison.figures.style import marks
-from comparison.figures.work_precision import draw_work_precision
 from comparison.match import match
 from comparison.rows import MatchRow, Question, failures
 from comparison.store import RunStore
 from comparison.whole_impact.figures import draw_map
 from report.impacts import END, ENERGIES, SHOWN, ShownImpact, show_all, theory_of
 from report.plots import layout, plots
-from report.rows import convergence_rows, first_order_rows, labels, leading_rows
+from report.rows import first_order_rows, labels, leading_rows
 from report.stills import draw_acceleration, draw_maps, grouped
 from report.studies import stored_numbers, stored_studies
 from report.summary import COLUMNS, acceleration_rows, headline, percent, pipe_prediction, summary
@@ -88,7 +87,6 @@ def write_report(
         SHOWN, methods, store=store, jobs=jobs, progress=lambda done, _: progress(asked + done, total)
     )
     files = write_match(rows, out / "data")
-    files += [f for f in draw_work_precision(convergence_rows(rows), out / "data") if f not in files]
     files += draw_map(out / "data")
     if impacts:  # for paper and for readers without JavaScript
         files += draw_maps(impacts, out / "data") + draw_acceleration(impacts, out / "data")

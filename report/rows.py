@@ -139,10 +139,3 @@ def leading_rows(rows: Iterable[MatchRow]) -> list[TableRow]:
 def first_order_rows(rows: Iterable[MatchRow]) -> list[TableRow]:
     """Rows of first order at the methods' own resolution, by κ/ν, (α, ψ, χ, N) and method."""
     return _at_own_resolution(rows, first=True)
-
-
-def convergence_rows(rows: Iterable[MatchRow]) -> list[MatchRow]:
-    """Rows of leading order whose κ/ν was asked at several refinements, from coarse to fine."""
-    chosen = [r for r in rows if not r.of_first_order and r.reason is None]
-    several = {r.kappa_over_nu for r in chosen if r.refine != 1.0}
-    return [r for r in sorted(chosen, key=lambda r: r.refine) if r.kappa_over_nu in several]

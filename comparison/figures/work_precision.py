@@ -30,12 +30,14 @@ Read = Callable[[MatchRow], tuple[float | None, float | None]]
 
 
 def draw_work_precision(rows: Sequence[MatchRow], out: Path) -> list[Path]:
-    """``work-precision.png`` (leading order) and ``work-precision-first-order.png``, where at least one method was run
-    at two refinements; returns the files."""
+    """``work-precision.png`` (leading order) and ``work-precision-first-order.png`` of the impacts that were asked at
+    several refinements; returns the files."""
     files = []
     for name, first in (("work-precision", False), ("work-precision-first-order", True)):
         mine = [r for r in rows if r.of_first_order == first and r.reason is None and r.seconds]
-        if len({(r.label, r.refine) for r in mine}) > len({r.label for r in mine}):
+        refines = {_case(r): {other.refine for other in mine if _case(other) == _case(r)} for r in mine}
+        mine = [r for r in sorted(mine, key=lambda r: r.refine) if len(refines[_case(r)]) > 1]
+        if mine:
             lost = {r.label for r in rows if r.of_first_order == first} - {r.label for r in mine}
             files += _draw(mine, out, name, first, missing=len(lost))
     return files

@@ -156,6 +156,9 @@ def test_a_zone_that_should_lift_and_does_not_widens_the_error_bars():
     free, stuck = (first_order(some, base, leading, pressure=-1.0) for some in (lifted, runs))
     whole = contact_parameters(0.5).lambda0 / SIDE  # of the load
     assert stuck.r1.error == pytest.approx(np.hypot(free.r1.error, whole), rel=0.02)
+    pushes = [(e, dataclasses.replace(run, pressure=run.pressure + 0.5 * e)) for e, run in runs]
+    on_springs = first_order(pushes, base, leading, pressure=-1.0)  # what pushes on adds to what should have lifted
+    assert on_springs.r1.error > stuck.r1.error + 0.5 * whole
 
 
 @pytest.mark.parametrize("with_slope", [True, False])
