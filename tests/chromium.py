@@ -31,11 +31,15 @@ def chromium() -> Iterator[Any]:
 
 
 def opened(driver: Any, address: str, width: int = 1400) -> Any:
-    """The driver with the page at ``address`` on a screen or a phone."""
+    """The driver with the page at ``address``, all of it, on a screen or a phone."""
+    from selenium.webdriver.support.wait import WebDriverWait
+
     size = {"width": width, "height": 900, "deviceScaleFactor": 1, "mobile": width < 600}
     driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", size)
     driver.get("about:blank")
-    driver.get(address)
+    driver.get(address)  # on a busy machine it may come back with the blank page still there
+    whole = "document.readyState == 'complete' && location.protocol != 'about:'"
+    WebDriverWait(driver, 60).until(lambda _: ask(driver, whole))
     return driver
 
 
