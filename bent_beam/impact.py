@@ -21,7 +21,7 @@ from bent_beam.loads import ENDS, SIMULATED, Feature, FreeMotion, Load, load_aga
 __all__ = ["Impact"]
 
 LONGEST = 1e30  # time, and change of the free motion by the loads, in the problem's own units
-FIRST_SPREAD = 0.005  # T*: until then waves from the ends change the impulse by less than 1 %, √2 t/T* at most
+FIRST_SPREAD = 0.005  # T*: until then waves from the ends change the impulse by 1 % at most, of flat contacts by more
 BEFORE_WAVES_RETURN = 0.01  # T*: the earliest that they change the impulse by 2 %
 
 

@@ -8,6 +8,7 @@ colour an integrator, a marker a contact.
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable, Sequence
 from functools import partial
 from pathlib import Path
@@ -30,13 +31,14 @@ Read = Callable[[MatchRow], tuple[float | None, float | None]]
 
 
 def draw_work_precision(rows: Sequence[MatchRow], out: Path) -> list[Path]:
-    """``work-precision.png`` (leading order) and ``work-precision-first-order.png`` of the impacts that were asked at
-    several refinements; returns the files."""
+    """``work-precision.png`` (leading order) and ``work-precision-first-order.png`` of the impacts that at least one
+    method was run on at several refinements; returns the files."""
     files = []
     for name, first in (("work-precision", False), ("work-precision-first-order", True)):
         mine = [r for r in rows if r.of_first_order == first and r.reason is None and r.seconds]
-        refines = {_case(r): {other.refine for other in mine if _case(other) == _case(r)} for r in mine}
-        mine = [r for r in sorted(mine, key=lambda r: r.refine) if len(refines[_case(r)]) > 1]
+        runs = Counter((case, label) for case, label, _ in {(_case(r), r.label, r.refine) for r in mine})
+        several = {case for (case, _), count in runs.items() if count > 1}
+        mine = [r for r in sorted(mine, key=lambda r: r.refine) if _case(r) in several]
         if mine:
             lost = {r.label for r in rows if r.of_first_order == first} - {r.label for r in mine}
             files += _draw(mine, out, name, first, missing=len(lost))
