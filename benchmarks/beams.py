@@ -28,12 +28,12 @@ from bent_beam.cases import load_case
 from bent_beam.errors import SimulationError
 from bent_beam.files import write_atomically
 from bent_beam.history import ImpactHistory
+from bent_beam.measure.measured import Measured
 from bent_beam.method import Method, method_from_tables
 from comparison.companions import suited
 from comparison.match import INSTANTS
 from comparison.summary import companions, summary
 from comparison.workers import run_all
-from measure.measured import Measured
 
 __all__ = ["beams", "draw", "numbers"]
 

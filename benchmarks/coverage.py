@@ -41,7 +41,7 @@ __all__ = ["Coverage", "Draw", "coverage", "draw", "log_uniform", "options", "wr
 
 LEAST_SHARE = 0.94  # of the numbers within their bars; the bars are meant for 95 %
 MOST_BARS = 2.0  # that a number may be off
-PACKAGES = ("bent_beam", "measure", "hermite_fe", "self_similar_fe", "exudyn_models")
+PACKAGES = ("bent_beam", "hermite_fe", "self_similar_fe", "exudyn_models")
 
 
 @dataclass(frozen=True)

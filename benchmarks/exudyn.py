@@ -11,10 +11,10 @@ from typing import Any
 import exudyn_models
 from benchmarks.record import Row
 from bent_beam import Impact
+from bent_beam.measure.estimators import leading_order
+from bent_beam.measure.moments import moments
 from bent_beam.meshes import UniformMesh
 from exudyn_models.contacts import Penalty
-from measure.estimators import leading_order
-from measure.moments import moments
 from theory import contact_parameters
 
 ROUNDS = 3

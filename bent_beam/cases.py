@@ -26,7 +26,10 @@ from bent_beam.tables import TABLES, BeamTable, ImpactTable, RunTable, WallTable
 if TYPE_CHECKING:
     from bent_beam.method import Method
 
-__all__ = ["Case", "case_from_tables", "lay_over", "load_case", "read_toml"]
+__all__ = ["EXAMPLES", "Case", "case_from_tables", "lay_over", "load_case", "read_toml"]
+
+EXAMPLES = Path(__file__).with_name("examples")
+"""The folder of the example cases, and of lists of methods below it: `cases/` of the checkout."""
 
 MAXIMUM_BYTES = 1_000_000
 

@@ -23,12 +23,12 @@ from bent_beam.free_flight import LOWEST_PERIOD
 from bent_beam.history import ImpactHistory
 from bent_beam.hysteresis import converges
 from bent_beam.impact import Impact
+from bent_beam.measure.balance import Balance, balance_of
+from bent_beam.measure.measured import Band, Measured
+from bent_beam.measure.whole_impact import Hit, WholeImpact, hits, whole_impact
 from bent_beam.method import Method, for_whole_beam, refined, settings_of, simulate_to_separation
 from bent_beam.section import Section
 from comparison.workers import run_all
-from measure.balance import Balance, balance_of
-from measure.measured import Band, Measured
-from measure.whole_impact import Hit, WholeImpact, hits, whole_impact
 
 __all__ = ["NUMBERS", "Bounce", "Number", "bounce", "follow_hits", "problem", "scales"]
 
@@ -46,7 +46,7 @@ NUMBERS = (
     "vibration",
     "dissipated",
 )
-"""Fields of :class:`measure.whole_impact.WholeImpact` that get error bars."""
+"""Fields of :class:`bent_beam.measure.whole_impact.WholeImpact` that get error bars."""
 RUNS = 24  # of a band
 SEED = 15
 LARGEST_KAPPA = 100.0  # beyond, and long before, the beam touches in one point: infinity is calculated as this

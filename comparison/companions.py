@@ -17,8 +17,8 @@ import numpy as np
 
 from bent_beam.hysteresis import converges
 from bent_beam.impact import BEFORE_WAVES_RETURN, Impact
+from bent_beam.measure.measured import Measured
 from bent_beam.method import Method, for_whole_beam, refined
-from measure.measured import Measured
 
 __all__ = ["companions_of", "is_late", "number_of", "suited"]
 

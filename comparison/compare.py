@@ -15,10 +15,10 @@ from bent_beam.checks import finite, shortened, whole
 from bent_beam.errors import InputError
 from bent_beam.fields import made_from
 from bent_beam.history import ImpactHistory
+from bent_beam.measure.reduction import peak_moment
 from bent_beam.method import Method, method_type
 from bent_beam.versions import versions
 from comparison.readable import text_table, unit_for
-from measure.reduction import peak_moment
 
 __all__ = ["compare_histories", "comparison_text", "rerun_history", "rerun_text"]
 

@@ -15,15 +15,15 @@ import numpy as np
 from bent_beam.checks import positive
 from bent_beam.errors import ANY_FAILURE, SimulationError, TimeLimitError
 from bent_beam.impact import Impact
+from bent_beam.measure.balance import balance_of
+from bent_beam.measure.estimators import FirstOrderEstimate, LeadingEstimate, first_order, leading_order
+from bent_beam.measure.measured import MISSING, Measured
+from bent_beam.measure.moments import Moments, moments
+from bent_beam.measure.reduction import hold_of, pull_of, wall_peaks
 from bent_beam.method import Method, chosen_for, refined, settings_of, simulated
 from comparison.rows import COMPANIONS, MatchRow, Question, about, first_order_epsilon, lost_row, with_theory
 from comparison.store import RunStore, source_of
 from comparison.workers import Clock, affordable_refinement, run_all
-from measure.balance import balance_of
-from measure.estimators import FirstOrderEstimate, LeadingEstimate, first_order, leading_order
-from measure.measured import MISSING, Measured
-from measure.moments import Moments, moments
-from measure.reduction import hold_of, pull_of, wall_peaks
 
 __all__ = ["INSTANTS", "answer", "match"]
 

@@ -17,13 +17,13 @@ from bent_beam.cases import Case
 from bent_beam.errors import SimulationError
 from bent_beam.history import ImpactHistory
 from bent_beam.impact import Impact
+from bent_beam.measure.measured import Measured
+from bent_beam.measure.moments import element_at, half_contact_length, mean_reaction
+from bent_beam.measure.reduction import peak_moment
 from bent_beam.method import Method, for_whole_beam, refined
 from comparison.companions import companions_of, is_late, number_of
 from comparison.summary import energy_at_end, loss_warnings, numerical_loss
 from comparison.whole_impact.predicted import predicted_impact
-from measure.measured import Measured
-from measure.moments import element_at, half_contact_length, mean_reaction
-from measure.reduction import peak_moment
 from theory import Prediction, predict
 
 __all__ = ["COMPARED", "predict_case"]

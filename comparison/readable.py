@@ -10,7 +10,7 @@ from collections.abc import Iterable, Sequence
 from numbers import Real
 from typing import Any
 
-from measure.measured import Band, Measured
+from bent_beam.measure.measured import Band, Measured
 
 __all__ = ["in_unit", "json_text", "milliseconds", "number_from", "plain", "readable", "text_table", "unit_for"]
 

@@ -11,10 +11,10 @@ from typing import Any
 
 from bent_beam.checks import between, finite, non_negative, one_of, positive
 from bent_beam.impact import Impact
+from bent_beam.measure.estimators import LeadingEstimate
+from bent_beam.measure.measured import MISSING, Measured
 from bent_beam.method import Method, settings_of
 from comparison.readable import text_table
-from measure.estimators import LeadingEstimate
-from measure.measured import MISSING, Measured
 
 __all__ = [
     "COMPANIONS",
@@ -112,8 +112,8 @@ class MatchRow:
 
     lift : the largest gap inside the zone over V₀t in the last decade of time; pull : the largest negative contact
     impulse over the largest positive one, after the start; hold : ``{"until": s, "pull": …}`` where any contact was
-    held; momentum_residual, gap_of_push : the largest of the runs (:class:`measure.balance.Balance`); seconds : of all
-    runs of the row; epsilons : of the runs of first order.
+    held; momentum_residual, gap_of_push : the largest of the runs (:class:`~bent_beam.measure.balance.Balance`);
+    seconds : of all runs of the row; epsilons : of the runs of first order.
     wall : of the question; peak_force : the largest on it, in V₀√μ(EI k)^¼.
     reason : why there are no numbers (``None``: there are); refused : the method had said so before the run.
     """

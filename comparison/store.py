@@ -34,7 +34,7 @@ __all__ = [
     "write_atomically",
 ]  # fmt: skip
 
-PACKAGES = ("bent_beam", "measure", "theory", "hermite_fe", "self_similar_fe", "exudyn_models", "comparison")
+PACKAGES = ("bent_beam", "theory", "hermite_fe", "self_similar_fe", "exudyn_models", "comparison")
 CODE = (".py", ".so", ".pyd")
 
 

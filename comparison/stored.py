@@ -1,18 +1,17 @@
 """Numbers that were measured once and are shipped. Each file says what made it, and shows when it is stale.
 
 A file is JSON: ``what`` it holds, the command that makes it anew, the day, the versions, the packages and settings that
-its numbers come from, and the digest of both. The digest leaves out comments, docstrings and blank lines, so that only
-a change of code or settings makes a file stale. A stale file is measured again, or confirmed: a sample is measured
-anew, agrees within its error bars, and the file gets today's digest.
+its numbers come from, and the digest of both. The digest is that of what is computed: of the parsed code without
+docstrings, comments and texts, so that rewording a message leaves a file fresh and moving a line out of its loop does
+not. A stale file is measured again, or confirmed: a sample is measured anew, agrees within its error bars, and the file
+gets today's digest.
 """
 
 from __future__ import annotations
 
 import ast
 import hashlib
-import io
 import json
-import tokenize
 from collections.abc import Mapping, Sequence
 from functools import cache
 from pathlib import Path
@@ -32,8 +31,8 @@ def write(
 ) -> Path:
     """Write ``data`` to ``file`` with what made it.
 
-    made_by : the command that makes the file anew. packages : of this project, whose code the numbers depend on.
-    settings : JSON-ready.
+    made_by : the command that makes the file anew. packages : of this project (dotted) whose code the
+    numbers depend on. settings : JSON-ready.
     """
     made = {"what": what, **stamp(made_by), "packages": list(packages), "settings": plain(settings)}
     made["digest"] = digest_of(packages, made["settings"])
@@ -66,7 +65,7 @@ def digest_of(packages: Sequence[str], settings: Mapping[str, Any]) -> str:
     """Digest of the code of packages and of settings."""
     digest = hashlib.sha256(json.dumps(settings, sort_keys=True).encode())
     for package in packages:
-        for file in sorted((ROOT / package).rglob("*.py")):
+        for file in sorted(ROOT.joinpath(*package.split(".")).rglob("*.py")):
             digest.update(file.relative_to(ROOT).as_posix().encode())
             digest.update(_code(file).encode())
     return digest.hexdigest()
@@ -74,14 +73,30 @@ def digest_of(packages: Sequence[str], settings: Mapping[str, Any]) -> str:
 
 @cache
 def _code(file: Path) -> str:
-    """Source without comments, docstrings, indentation and blank lines."""
-    source = file.read_text(encoding="utf-8")
-    lines = source.splitlines()
-    for token in tokenize.generate_tokens(io.StringIO(source).readline):
-        if token.type == tokenize.COMMENT:
-            row, column = token.start
-            lines[row - 1] = lines[row - 1][:column]
-    for node in ast.walk(ast.parse(source)):
-        if isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant) and isinstance(node.value.value, str):
-            lines[node.lineno - 1 : node.end_lineno] = [""] * ((node.end_lineno or node.lineno) - node.lineno + 1)
-    return "\n".join(line.strip() for line in lines if line.strip())
+    """What the code of ``file`` computes."""
+    return _meaning(ast.parse(file.read_text(encoding="utf-8")))
+
+
+def _meaning(node: Any, said: bool = False) -> str:
+    """A syntax tree as text, the same in every Python; docstrings and texts left out. said : inside an error."""
+    if isinstance(node, list):
+        return f"[{','.join(_meaning(item, said) for item in node if not _is_remark(item))}]"
+    if not isinstance(node, ast.AST):
+        return repr(node)
+    if _is_text(node, said):
+        return "text"
+    said = said or isinstance(node, ast.Raise)
+    fields = (f"{name}={_meaning(value, said)}" for name, value in ast.iter_fields(node) if value not in (None, []))
+    return f"{type(node).__name__}({','.join(fields)})"
+
+
+def _is_remark(node: Any) -> bool:
+    """Whether a statement is a string alone: a docstring."""
+    return isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant) and isinstance(node.value.value, str)
+
+
+def _is_text(node: ast.AST, said: bool) -> bool:
+    """Whether a string is for people: what an error says, and whatever has a space in it. Names and keys have none."""
+    parts = node.values if isinstance(node, ast.JoinedStr) else [node]
+    words = [part.value for part in parts if isinstance(part, ast.Constant) and isinstance(part.value, str)]
+    return (said and (bool(words) or isinstance(node, ast.JoinedStr))) or any(" " in word for word in words)

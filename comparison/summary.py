@@ -15,17 +15,17 @@ from bent_beam.history import LOSSES, ImpactHistory
 from bent_beam.hysteresis import converges
 from bent_beam.impact import Impact
 from bent_beam.loads import unmodelled
+from bent_beam.measure.balance import balance_of
+from bent_beam.measure.estimators import leading_order, lift_shares
+from bent_beam.measure.measured import MISSING, Measured
+from bent_beam.measure.moments import Moments, element_at, first_front, half_contact_length, moments
+from bent_beam.measure.reduction import WallPeaks, hold_of, peak_moment, pull_of, wall_peaks
+from bent_beam.measure.whole_impact import hits, whole_impact
 from bent_beam.method import Method, refined
 from bent_beam.section import Section
 from comparison.companions import companions_of, is_late, number_of
 from comparison.match import INSTANTS
 from comparison.rows import COMPANIONS
-from measure.balance import balance_of
-from measure.estimators import leading_order, lift_shares
-from measure.measured import MISSING, Measured
-from measure.moments import Moments, element_at, first_front, half_contact_length, moments
-from measure.reduction import WallPeaks, hold_of, peak_moment, pull_of, wall_peaks
-from measure.whole_impact import hits, whole_impact
 from theory import predict
 from theory.prediction import MODELLED
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
+from bent_beam.measure.measured import Measured
 from comparison.readable import in_unit, text_table
-from measure.measured import Measured
 
 __all__ = ["run_table"]
 

@@ -45,9 +45,7 @@ class NewtonSolver(Part):
     contact_must_settle: Annotated[
         bool, Quantity("", "fail when they run out; otherwise a warning counts the steps")
     ] = True
-    halve_steps: Annotated[
-        bool, Quantity("", "let Exudyn shorten a failed step (down to 1/1000)")
-    ] = False
+    halve_steps: Annotated[bool, Quantity("", "let Exudyn shorten a failed step (down to 1/1000)")] = False
     initial_accelerations: Annotated[
         bool, Quantity("", "start from the accelerations at t = 0 instead of from zero")
     ] = True

@@ -76,6 +76,7 @@ ELASTIC_ELEMENT, LARGEST_ELASTIC = 0.08, 0.25  # of ℓ_k: elements over the zon
 ELASTIC_REACH = 4.0  # ℓ_k beyond the front
 ELASTIC_STEP = 0.01  # of t_k
 
+
 @dataclass(frozen=True)
 class Composition(Part):
     """What a run is made of; parts that are ``None`` are chosen for the problem."""

@@ -40,9 +40,7 @@ def resolution_warnings(impact: Impact, end_time: float, nodes: Array, integrato
     if impact.kappa_over_nu >= 1.0 or impact.kappa_over_nu == 0.0:  # a point, or all of the beam at once: no front
         return out
     place, thickness = front(impact, end_time)
-    element = float(
-        np.diff(nodes)[min(int(np.searchsorted(nodes, min(place, nodes[-1]))), nodes.size - 1) - 1]
-    )
+    element = float(np.diff(nodes)[min(int(np.searchsorted(nodes, min(place, nodes[-1]))), nodes.size - 1) - 1])
     if thickness < ELEMENTS_PER_FRONT * element:
         short = ELEMENTS_PER_FRONT * element / thickness
         out.append(
@@ -75,8 +73,7 @@ def end_warnings(impact: Impact, end_time: float, nodes: Array, far_field: FarFi
     half, last = float(nodes[-1]), float(nodes[-1] - nodes[-2])
     if place > half and impact.kappa_over_nu > 0.0:
         out.append(
-            f"the contact may reach the end of the beam: it may spread to {place:.3g} m, "
-            f"the end is at {half:.3g} m"
+            f"the contact may reach the end of the beam: it may spread to {place:.3g} m, the end is at {half:.3g} m"
         )
     emitted = end_time * np.geomspace(0.01, 1.0, 40)
     number = np.array([1.0 / front(impact, t)[1] for t in emitted])

@@ -39,9 +39,7 @@ class ExpandingMesh(Part):
         float, Quantity("", "σ at its end over ζ/length; the wave leaves with exp(−strength/4) twice", above=0.0)
     ] = 40.0
     step_ratio: Annotated[float, Quantity("", "h/t of the time steps", above=0.0, most=0.5)] = 0.02
-    decades: Annotated[
-        float, Quantity("", "decades of time simulated before the end time", least=0.5, most=12.0)
-    ] = 4.0
+    decades: Annotated[float, Quantity("", "decades of time simulated before the end time", least=0.5, most=12.0)] = 4.0
 
     def lay(self, front: float) -> tuple[Array, float]:
         """Nodes ζ (n,) from 0 around a front at ``front``, fine there, and where the absorber starts."""

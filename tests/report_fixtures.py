@@ -6,13 +6,13 @@ from pathlib import Path
 from typing import Any
 from unittest import mock
 
+from bent_beam.measure.measured import Measured
 from bent_beam.meshes import ScaleFreeMesh
+from bent_beam_programs.report.impacts import SHOWN, ShownImpact, show
+from bent_beam_programs.report.summary import pipe_prediction
 from comparison.rows import MatchRow
 from comparison.stored import write
 from hermite_fe import HermiteFE
-from measure.measured import Measured
-from report.impacts import SHOWN, ShownImpact, show
-from report.summary import pipe_prediction
 from self_similar_fe import ExpandingMesh, SelfSimilarFE
 from theory import contact_parameters
 
@@ -82,4 +82,4 @@ def studies(folder: Path, text: str) -> Path:
              "reason": None, "date": "2026-01-02", "columns": {"element": "length", "lambda0": "λ₀", "note": "note"},
              "rows": [{"element": 0.05, "lambda0": {"value": 0.98, "error": 0.002}, "note": None}]}  # fmt: skip
     failed = study | {"name": "failing", "title": "Penalty", "rows": [], "failed": True, "reason": text}
-    return write(folder / "studies.json", "studies", "a test", ["measure"], {}, {"studies": [study, failed]})
+    return write(folder / "studies.json", "studies", "a test", ["bent_beam.measure"], {}, {"studies": [study, failed]})

@@ -32,7 +32,8 @@ def test_set_up_with_an_old_python_names_the_one_it_needs_and_leaves_nothing(tmp
 
 
 def test_a_report_without_its_extra_says_what_to_install(tmp_path, monkeypatch):
-    for name in [name for name in sys.modules if name == "report.page" or name.startswith("plotly.")]:
+    page = "bent_beam_programs.report.page"
+    for name in [name for name in sys.modules if name == page or name.startswith("plotly.")]:
         monkeypatch.delitem(sys.modules, name)
     monkeypatch.setitem(sys.modules, "plotly", None)  # as if it were not installed
     said = refused("report", "--out", tmp_path / "report")

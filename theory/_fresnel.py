@@ -100,10 +100,7 @@ def scaled_erfc(x: ArrayLike) -> ComplexArray:
 
 # From here on 14 terms of the series give 1e-16, and the recurrence has lost no more than that absolutely.
 _FAR = 12.0
-_SERIES = {
-    n: [(-1) ** m * factorial(2 * m + n) / (factorial(n) * factorial(m)) for m in range(14)]
-    for n in (1, 2, 3)
-}
+_SERIES = {n: [(-1) ** m * factorial(2 * m + n) / (factorial(n) * factorial(m)) for m in range(14)] for n in (1, 2, 3)}
 
 
 def scaled_iterated_erfc(z: NDArray[np.complexfloating[Any, Any]]) -> tuple[ComplexArray, ...]:

@@ -45,9 +45,7 @@ class Argument:
         return cls(lam, near, twice_auxiliary(lam[near]), scaled_moments(lam[~near] ** 2 / 4.0))
 
 
-def _evaluate(
-    lam: ArrayLike | Argument, closed: Callable[..., FloatArray], reduced: Callable[..., FloatArray]
-) -> Any:
+def _evaluate(lam: ArrayLike | Argument, closed: Callable[..., FloatArray], reduced: Callable[..., FloatArray]) -> Any:
     """closed(λ, φ_ν, φ_κ) for λ < SWITCH, reduced(q, moments q^{k+1/2} I_k) beyond."""
     if isinstance(lam, Argument):
         result = np.empty_like(lam.lam)
@@ -146,9 +144,7 @@ def phi_s(lam: ArrayLike | Argument) -> Any:
     return _evaluate(
         lam,
         lambda x, nu, kappa: (
-            x**2 * (36.0 - x**4) / 48.0 * nu
-            + (4.0 - x**4) / 4.0 * kappa
-            + x * (x**4 - 24.0) / (12.0 * _ROOT_TWO_PI)
+            x**2 * (36.0 - x**4) / 48.0 * nu + (4.0 - x**4) / 4.0 * kappa + x * (x**4 - 24.0) / (12.0 * _ROOT_TWO_PI)
         ),
         lambda q, m: (m[1] - 3.0 * m[2] + 4.0 * m[3] - 4.0 / 3.0 * m[4]) * q**-1.5,
     )
@@ -203,9 +199,7 @@ def phi_kappa_minus_s(lam: ArrayLike | Argument) -> Any:
     return _evaluate(
         lam,
         lambda x, nu, kappa: (
-            -(x**2) * (36.0 - x**4) / 48.0 * nu
-            + x**4 / 4.0 * kappa
-            - x * (x**4 - 24.0) / (12.0 * _ROOT_TWO_PI)
+            -(x**2) * (36.0 - x**4) / 48.0 * nu + x**4 / 4.0 * kappa - x * (x**4 - 24.0) / (12.0 * _ROOT_TWO_PI)
         ),
         lambda q, m: (4.0 / 3.0 * m[4] - 4.0 * m[3] + 3.0 * m[2]) * q**-1.5,
     )

@@ -86,6 +86,7 @@ class StoppedBeam:
         Raises:
             ArithmeticError: none before 20 T* (a beam so damped that it only creeps).
         """
+
         def reaction(t: float) -> float:
             return float(self.reaction(t))
 

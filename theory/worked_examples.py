@@ -49,7 +49,5 @@ def duffing_numerical(times: ArrayLike, epsilon: float) -> FloatArray:
     def rate(_: float, state: FloatArray) -> FloatArray:
         return np.array([state[1], -state[0] - epsilon * state[0] ** 3])
 
-    solution = solve_ivp(
-        rate, (0.0, float(t[-1])), [1.0, 0.0], method="DOP853", t_eval=t, rtol=1e-12, atol=1e-13
-    )
+    solution = solve_ivp(rate, (0.0, float(t[-1])), [1.0, 0.0], method="DOP853", t_eval=t, rtol=1e-12, atol=1e-13)
     return np.asarray(solution.y[0])

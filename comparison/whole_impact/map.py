@@ -24,14 +24,14 @@ from itertools import chain, islice
 from pathlib import Path
 from typing import Any, NamedTuple
 
+from bent_beam.measure.measured import Band, Measured
+from bent_beam.measure.whole_impact import SHORTEST_SEPARATION
 from bent_beam.method import for_whole_beam, method_from_tables
 from comparison import stored
 from comparison.bounce import RUNS, SEED, bounce, problem
 from comparison.store import RunStore, default_store
 from comparison.whole_impact.stored_map import DATA, POINT
 from comparison.workers import run_all
-from measure.measured import Band, Measured
-from measure.whole_impact import SHORTEST_SEPARATION
 
 __all__ = ["DAMPINGS", "KAPPAS", "Point", "grid", "measure_point"]
 
@@ -42,7 +42,7 @@ KAPPAS = (
 DAMPINGS = (1e-4, 3e-4, 1e-3, 3e-3, 1e-2, 3e-2, 1e-1)
 BANDS = (0.05, 0.1, 0.2, 0.35, 0.5, 0.65, 0.8, 1.0, 1.25, 1.5, 2.0, 2.5)
 PATH, OTHER = "hermite", "exudyn"
-PACKAGES = ("bent_beam", "measure", "hermite_fe", "exudyn_models")
+PACKAGES = ("bent_beam", "hermite_fe", "exudyn_models")
 OTHERS = tuple((kappa, damping) for damping in (1e-3, 1e-2) for kappa in (0.4, 0.7, 1.5, POINT))
 FLAT, FINER = 0.35, 2.0  # below this κ/ν elements so many times shorter
 LONGER = 2.0  # steps than a single bounce takes: half of the work, and e moves by less than by half of the elements

@@ -13,13 +13,13 @@ from bent_beam.free_flight import LOWEST_PERIOD
 from bent_beam.hysteresis import converges
 from bent_beam.impact import Impact
 from bent_beam.loads import unmodelled
+from bent_beam.measure.measured import Band, Measured
+from bent_beam.measure.whole_impact import whole_impact
 from bent_beam.method import Method, for_whole_beam, refined, simulate_to_separation
 from bent_beam.section import Section
 from comparison.bounce import Number, largest_stress, scales
 from comparison.companions import companions_of, number_of
 from comparison.whole_impact.stored_map import bounce_from_map
-from measure.measured import Band, Measured
-from measure.whole_impact import whole_impact
 
 __all__ = ["over_damping", "predicted_impact"]
 

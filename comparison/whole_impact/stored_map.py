@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bent_beam.checks import finite, non_negative, positive
-from measure.measured import Band, Measured
+from bent_beam.measure.measured import Band, Measured
 
 __all__ = ["DATA", "POINT", "bounce_from_map", "stored_map"]
 

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
+from bent_beam.measure.whole_impact import SHORTEST_SEPARATION, Hit
 from bent_beam.versions import versions
 from comparison.bounce import Bounce
 from comparison.prediction_text import over_damping_lines
 from comparison.readable import in_unit, text_table, unit_for
-from measure.whole_impact import SHORTEST_SEPARATION, Hit
 
 __all__ = ["bounce_document", "bounce_table", "hits_table"]
 

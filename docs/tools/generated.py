@@ -10,7 +10,7 @@ from mkdocs.structure.files import File, Files
 #: Page → the modules whose public names (``__all__``) it documents.
 API = {
     "bent_beam": ("bent_beam", "bent_beam.meshes"),
-    "measure": ("measure.measured", "measure.moments", "measure.estimators"),
+    "measure": ("bent_beam.measure.measured", "bent_beam.measure.moments", "bent_beam.measure.estimators"),
     "theory": ("theory",),
     "hermite_fe": (
         "hermite_fe",
@@ -27,7 +27,7 @@ API = {
         "exudyn_models.contacts",
     ),
     "comparison": ("comparison.methods", "comparison.rows", "comparison.match", "comparison.bounce"),
-    "open_benchmark": ("open_benchmark",),
+    "open_benchmark": ("bent_beam_programs.open_benchmark",),
 }
 
 

@@ -191,9 +191,7 @@ class Penalty(Contact):
     ] = None
     relative_damping: Annotated[
         float | None,
-        Quantity(
-            "", "D in d = D √(EIμ)/Δx²", least=0.0, absent=f"{DAMPING:g}√(C/10) (thin front: {PLASTIC:g}√(C/10))"
-        ),
+        Quantity("", "D in d = D √(EIμ)/Δx²", least=0.0, absent=f"{DAMPING:g}√(C/10) (thin front: {PLASTIC:g}√(C/10))"),
     ] = None
     hold: Hold = 0
     hold_start: Annotated[

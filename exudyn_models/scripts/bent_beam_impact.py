@@ -11,8 +11,8 @@ import numpy as np
 
 import exudyn_models as em
 from bent_beam import Impact
-from measure.estimators import leading_order
-from measure.moments import moments
+from bent_beam.measure.estimators import leading_order
+from bent_beam.measure.moments import moments
 
 EXACT = {0.1: (4.25760478009, 2.74499113477), 0.5: (1.01886591389, 1.17721208090)}  # kappa/nu: thesis 2.6.21-22
 

@@ -15,10 +15,10 @@ import matplotlib.pyplot as plt
 
 import exudyn_models
 from bent_beam import Impact
+from bent_beam.measure.estimators import first_order, leading_order
+from bent_beam.measure.moments import moments
 from exudyn_models.contacts import Penalty
 from exudyn_models.integrators import GeneralizedAlpha
-from measure.estimators import first_order, leading_order
-from measure.moments import moments
 
 EXACT = {700.0: (300.0 / 3.5**2, 85.90), -700.0: (-280.6 / 3.5**2, -88.97)}  # a0: eps lambda1, eps r1 with nu = 1
 

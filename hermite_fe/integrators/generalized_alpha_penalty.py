@@ -60,9 +60,9 @@ class GeneralizedAlphaPenalty(Integrator):
     damping: Annotated[
         float | None, Quantity("N s/m²", "d_c, per length of beam", least=0.0, absent="chosen, 3e4 μ/t*")
     ] = None
-    contact_rounds: Annotated[
-        int, Quantity("", "limit on solutions a step for the set of active springs", least=1)
-    ] = 20
+    contact_rounds: Annotated[int, Quantity("", "limit on solutions a step for the set of active springs", least=1)] = (
+        20
+    )
 
     def refined(self, factor: float) -> GeneralizedAlphaPenalty:
         """Steps shorter, the contact stiffer in proportion to their square: the error of the penalty must fall too."""
@@ -96,9 +96,7 @@ class GeneralizedAlphaPenalty(Integrator):
         self, problem: Problem, state: State, memory: tuple[Motion, Constraints], times: Array, first: int, last: int
     ) -> tuple[int, int]:
         assert self.stiffness is not None and self.damping is not None
-        return take_steps(
-            problem, state, memory, times, first, last, self.stiffness, self.damping, self.contact_rounds
-        )
+        return take_steps(problem, state, memory, times, first, last, self.stiffness, self.damping, self.contact_rounds)
 
 
 @compiled

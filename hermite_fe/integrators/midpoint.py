@@ -65,9 +65,7 @@ class Midpoint(Integrator):
     def start(self, problem: Problem, state: State) -> MidpointMemory:
         n, base, reach = state.q.size, np.zeros_like(problem.solver.S), np.zeros(1, np.int64)
         impulse, peaks = np.zeros_like(state.impulse), np.zeros_like(state.peaks)
-        return MidpointMemory(
-            vectors_of(problem), base, np.zeros((4, n)), reach, impulse, peaks, *np.zeros((4, n))
-        )
+        return MidpointMemory(vectors_of(problem), base, np.zeros((4, n)), reach, impulse, peaks, *np.zeros((4, n)))
 
     def advance(
         self, problem: Problem, state: State, memory: MidpointMemory, times: Array, first: int, last: int

@@ -105,9 +105,7 @@ def take_steps(
 
 
 @compiled
-def smooth_motion(
-    problem: Problem, state: State, motion: Motion, conditions: Constraints, t: float, h: float
-) -> int:
+def smooth_motion(problem: Problem, state: State, motion: Motion, conditions: Constraints, t: float, h: float) -> int:
     """The step's motion without jumps, with the contact conditions of accelerations; returns the status."""
     scheme, vectors, reactions = motion
     predict(state, motion, h)

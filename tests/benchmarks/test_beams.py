@@ -6,7 +6,7 @@ import pytest
 import benchmarks.beams
 from benchmarks.beams import beams, draw, main
 from bent_beam.cases import load_case
-from measure.measured import Measured
+from bent_beam.measure.measured import Measured
 
 
 def test_beams_are_damped_and_not_pressed_and_lifted_pulled_and_pushed_before_flat_and_curved_walls(tmp_path):

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from benchmarks.coverage import coverage, draw, write_misses
+from bent_beam.measure.measured import Measured
 from comparison.methods import methods_from_file
 from comparison.rows import MatchRow
-from measure.measured import Measured
 
 
 def drawn(seed, count):

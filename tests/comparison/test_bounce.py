@@ -13,12 +13,12 @@ from histories import ROD, pushed_until
 
 from bent_beam.free_flight import has_left
 from bent_beam.history import ImpactHistory
+from bent_beam.measure.measured import Band
 from bent_beam.meshes import UniformMesh
 from bent_beam.method import method_from_tables
 from comparison.bounce import bounce, problem
 from comparison.whole_impact.table import bounce_document
 from hermite_fe import HermiteFE
-from measure.measured import Band
 
 COARSE = HermiteFE(mesh=UniformMesh(1.0 / 25))
 

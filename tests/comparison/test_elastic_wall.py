@@ -3,9 +3,9 @@
 import pytest
 
 from bent_beam import Impact
+from bent_beam.measure.reduction import wall_peaks
 from comparison.prediction_text import wall_lines
 from hermite_fe import HermiteFE
-from measure.reduction import wall_peaks
 from theory import predict
 
 

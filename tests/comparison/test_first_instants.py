@@ -6,6 +6,8 @@ from typing import Any
 import pytest
 
 from bent_beam import Impact, ImpactHistory, SimulationError
+from bent_beam.measure.moments import first_front
+from bent_beam.measure.reduction import peak_moment
 from bent_beam.meshes import UniformMesh
 from comparison.match import answer
 from comparison.rows import Question
@@ -15,8 +17,6 @@ from exudyn_models import ExudynModel
 from exudyn_models.contacts import CONTACTS
 from hermite_fe import HermiteFE
 from hermite_fe.integrators import MoreauJean
-from measure.moments import first_front
-from measure.reduction import peak_moment
 from theory import predict
 
 BEAM = {"bending_stiffness": 1.0, "mass_per_length": 1.0, "length": 2.0, "velocity": 1.0}

@@ -5,11 +5,11 @@ import pytest
 from markdown_tables import lines_after, stated
 
 from bent_beam.impact import Impact
+from bent_beam.measure.whole_impact import whole_impact
 from bent_beam.method import simulate_to_separation
 from hermite_fe import HermiteFE
 from hermite_fe.integrators import MoreauJean, NonsmoothGeneralizedAlpha, SignoriniPosition
 from hermite_fe.resolution import ELEMENTS
-from measure.whole_impact import whole_impact
 
 RESTITUTIONS = [
     pytest.param(float(kappa), stated(damping.replace("10", "1e", 1))[0], hermite, id=f"{kappa}-{damping}")

@@ -12,13 +12,13 @@ from histories import ROD
 from bent_beam import Impact
 from bent_beam.cases import Case, load_case
 from bent_beam.free_flight import LOWEST_PERIOD
+from bent_beam.measure.measured import Measured
 from comparison.prediction import COMPARED, predict_case
 from comparison.prediction_text import prediction_text
 from comparison.readable import number_from
 from comparison.whole_impact.predicted import over_damping
 from hermite_fe import HermiteFE
 from hermite_fe.integrators import MoreauJean
-from measure.measured import Measured
 
 CASES = Path(__file__).resolve().parents[2] / "cases"
 K10 = str(CASES / "thesis_K10.toml")

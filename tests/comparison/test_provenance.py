@@ -9,7 +9,7 @@ import pytest
 from comparison import stored
 
 ROOT = Path(__file__).resolve().parents[2]
-ROOMS = ("comparison", "report", "open_benchmark")
+ROOMS = ("comparison", "bent_beam_programs")
 STORED = [f for room in ROOMS for f in sorted((ROOT / room).rglob("*.json")) if "versions" in f.read_text()]
 MADE = re.compile(r"<!-- made by: (bentbeam|python -m) ([^>]*?) -->")
 CODE = '"""What it is about."""\n\n\ndef area(width, height):\n    """In m²."""\n    return width * height  # {}\n'

@@ -8,6 +8,8 @@ from __future__ import annotations
 import pytest
 
 from bent_beam import Impact
+from bent_beam.measure.estimators import LeadingEstimate, leading_order
+from bent_beam.measure.moments import Moments, moments
 from comparison.match import answer
 from comparison.rows import Question
 from comparison.store import RunStore
@@ -15,8 +17,6 @@ from exudyn_models import ExudynModel, method, resolution
 from exudyn_models.contacts import Penalty, base, penalty
 from exudyn_models.elements import ANCFCable, beam
 from exudyn_models.integrators import GeneralizedAlpha
-from measure.estimators import LeadingEstimate, leading_order
-from measure.moments import Moments, moments
 
 pytestmark = pytest.mark.verify
 

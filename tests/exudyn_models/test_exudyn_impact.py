@@ -8,6 +8,8 @@ from numpy.testing import assert_allclose
 
 import exudyn_models
 from bent_beam import Impact
+from bent_beam.measure.estimators import leading_order
+from bent_beam.measure.moments import moments
 from bent_beam.meshes import NodesMesh, ScaleFreeMesh, UniformMesh
 from comparison.match import answer
 from comparison.rows import Question
@@ -17,8 +19,6 @@ from exudyn_models.contacts import Penalty, Rigid, SegmentFriction
 from exudyn_models.elements import ANCFCable, GeometricallyExact
 from exudyn_models.geometry import LinearLimit
 from exudyn_models.integrators import DOPRI5, RK44, GeneralizedAlpha, Newmark, VelocityVerlet
-from measure.estimators import leading_order
-from measure.moments import moments
 from theory import contact_parameters
 
 HALF = Impact.dimensionless(0.5)

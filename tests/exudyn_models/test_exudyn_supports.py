@@ -7,10 +7,10 @@ import pytest
 from numpy.testing import assert_allclose
 
 from bent_beam import Impact
+from bent_beam.measure.balance import balance_of
 from exudyn_models import ExudynModel
 from exudyn_models.contacts.penalty import covered
 from hermite_fe import HermiteFE
-from measure.balance import balance_of
 
 HINGED = {"left_end": "hinged", "right_end": "hinged"}
 

@@ -7,13 +7,13 @@ from numpy.testing import assert_allclose
 
 import exudyn_models
 from bent_beam import Impact
+from bent_beam.measure import estimators
+from bent_beam.measure.moments import moments
 from bent_beam.meshes import UniformMesh
 from exudyn_models import ExudynModel
 from exudyn_models.geometry import LinearLimit, TrueGeometry
 from exudyn_models.method import held_for
 from exudyn_models.resolution import chosen_half_length
-from measure import estimators
-from measure.moments import moments
 from theory import contact_parameters
 
 

@@ -13,14 +13,14 @@ import numpy as np
 import pytest
 
 from bent_beam import Impact
+from bent_beam.measure.estimators import LeadingEstimate, leading_order
+from bent_beam.measure.moments import moments
 from comparison.match import answer
 from comparison.rows import Question
 from comparison.store import RunStore
 from hermite_fe import HermiteFE, resolution
 from hermite_fe.far_fields import GridViscosity
 from hermite_fe.integrators import SignoriniPosition
-from measure.estimators import LeadingEstimate, leading_order
-from measure.moments import moments
 from theory import contact_parameters
 
 WITHIN = {0.13: 1e-3, 0.42: 5e-4}  # of λ₀ and r₀, strictly unilateral

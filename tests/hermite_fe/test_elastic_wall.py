@@ -9,6 +9,8 @@ import numpy as np
 import pytest
 
 from bent_beam import Impact
+from bent_beam.measure.balance import balance_of
+from bent_beam.measure.reduction import wall_peaks
 from bent_beam.meshes import UniformMesh
 from hermite_fe import HermiteFE
 from hermite_fe.contacts import NodeContact
@@ -17,8 +19,6 @@ from hermite_fe.far_fields import GridViscosity
 from hermite_fe.integrators import Midpoint, MoreauJean
 from hermite_fe.model import beam_model
 from hermite_fe.run import Stepper
-from measure.balance import balance_of
-from measure.reduction import wall_peaks
 from theory.elastic_stop import SwungBeam
 
 COARSE = HermiteFE(refine=0.5)

@@ -11,13 +11,13 @@ import pytest
 from hermite_parts import ALL
 
 from bent_beam import Impact, ImpactHistory
+from bent_beam.measure.estimators import leading_order
+from bent_beam.measure.moments import moments
 from bent_beam.meshes import ScaleFreeMesh, UniformMesh
 from hermite_fe import simulate
 from hermite_fe.beam import shape_functions
 from hermite_fe.contacts import CONTACTS, Contact, MeanContact, MiddleContact, NodeContact, element_rows
 from hermite_fe.integrators import Integrator, MoreauJean, SignoriniPosition
-from measure.estimators import leading_order
-from measure.moments import moments
 
 STEP, GROWTH = 2e-5, 3e-3
 verify = pytest.mark.verify

@@ -9,6 +9,8 @@ import pytest
 from numpy.typing import NDArray
 
 from bent_beam import Impact, ImpactHistory, SimulationError
+from bent_beam.measure.estimators import leading_order
+from bent_beam.measure.moments import moments
 from bent_beam.meshes import UniformMesh
 from hermite_fe import INTEGRATORS, simulate
 from hermite_fe.contacts import NodeContact
@@ -16,8 +18,6 @@ from hermite_fe.far_fields import GridViscosity
 from hermite_fe.integrators import MoreauJean
 from hermite_fe.resolution import chosen_domain
 from hermite_fe.warnings_of_run import end_warnings
-from measure.estimators import leading_order
-from measure.moments import moments
 
 R = 4.0 * math.sqrt(2.0 / math.pi)
 SHORT = Impact.dimensionless(0.5, length=40.0)

@@ -9,6 +9,7 @@ import pytest
 
 from bent_beam import Impact
 from bent_beam.hysteresis import branches_of, first_mode
+from bent_beam.measure.whole_impact import whole_impact
 from bent_beam.meshes import UniformMesh
 from exudyn_models import ExudynModel
 from hermite_fe import HermiteFE
@@ -18,7 +19,6 @@ from hermite_fe.far_fields import GridViscosity
 from hermite_fe.integrators import GeneralizedAlphaPenalty, Midpoint, MoreauJean, SignoriniPosition
 from hermite_fe.model import BeamModel, beam_model
 from hermite_fe.run import Trajectory, integrate
-from measure.whole_impact import whole_impact
 from self_similar_fe import SelfSimilarFE
 from theory import predict
 

@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 
 from bent_beam import Impact, ImpactHistory
+from bent_beam.measure.balance import balance_of
+from bent_beam.measure.reduction import peak_moment
 from bent_beam.meshes import UniformMesh
 from bent_beam.method import for_whole_beam, method_from_tables
 from exudyn_models import ExudynModel
 from hermite_fe import HermiteFE
-from measure.balance import balance_of
-from measure.reduction import peak_moment
 from self_similar_fe import ExpandingMesh, SelfSimilarFE
 
 WHOLE = Impact.whole_beam(0.5, relative_damping=1e-2)

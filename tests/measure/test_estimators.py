@@ -9,11 +9,11 @@ import pytest
 from histories import history_of
 
 from bent_beam import Impact, ImpactHistory
+from bent_beam.measure.estimators import COMPANION_FIRST, INSIDE, SIDE, LeadingEstimate, first_order, leading_order
+from bent_beam.measure.measured import Measured
+from bent_beam.measure.moments import Moments, first_front, local_front, moments, one_side
+from bent_beam.measure.reduction import peak_moment
 from comparison.compare import compare_histories
-from measure.estimators import COMPANION_FIRST, INSIDE, SIDE, LeadingEstimate, first_order, leading_order
-from measure.measured import Measured
-from measure.moments import Moments, first_front, local_front, moments, one_side
-from measure.reduction import peak_moment
 from theory import contact_parameters
 
 

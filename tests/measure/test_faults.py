@@ -14,10 +14,10 @@ import pytest
 from exudyn.solver import ComputeLinearizedSystem
 
 from bent_beam import Impact, ImpactHistory
+from bent_beam.measure.balance import balance_of
+from bent_beam.measure.reduction import pull_of
 from bent_beam.meshes import UniformMesh
 from bent_beam.method import made_of
-from measure.balance import balance_of
-from measure.reduction import pull_of
 
 ROOT = Path(__file__).parents[2]
 WHOLE, END = Impact.whole_beam(0.5, relative_damping=1e-2), 0.1

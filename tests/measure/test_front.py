@@ -5,9 +5,9 @@ import pytest
 from histories import history_of
 
 from bent_beam import Impact
+from bent_beam.measure.moments import half_contact_length, mean_reaction
 from bent_beam.meshes import UniformMesh
 from hermite_fe import HermiteFE
-from measure.moments import half_contact_length, mean_reaction
 from theory import predict
 
 

@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from measure.measured import Band, Measured
+from bent_beam.measure.measured import Band, Measured
 
 
 @pytest.mark.parametrize(

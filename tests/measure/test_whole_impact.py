@@ -11,11 +11,11 @@ from bent_beam.cases import load_case
 from bent_beam.free_flight import cannot_return, has_left
 from bent_beam.history import ImpactHistory
 from bent_beam.impact import Impact
+from bent_beam.measure.whole_impact import hits, pushes, whole_impact
 from bent_beam.meshes import UniformMesh
 from bent_beam.method import for_whole_beam, method_from_tables
 from hermite_fe import HermiteFE
 from hermite_fe.integrators import MoreauJean, NonsmoothGeneralizedAlpha, SignoriniPosition
-from measure.whole_impact import hits, pushes, whole_impact
 from theory.stopped_beam import StoppedBeam
 
 SCHEMES = [MoreauJean(theta=0.5), NonsmoothGeneralizedAlpha(), SignoriniPosition(theta=0.5)]

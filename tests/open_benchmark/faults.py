@@ -16,13 +16,13 @@ import numpy as np
 
 from bent_beam import Impact
 from bent_beam.meshes import GradedMesh, ScaleFreeMesh, UniformMesh
+from bent_beam_programs.open_benchmark.histories import result_from_history
+from bent_beam_programs.open_benchmark.problem import problem
+from bent_beam_programs.open_benchmark.result import Result
 from hermite_fe import simulate
 from hermite_fe.contacts import NodeContact
 from hermite_fe.far_fields import GridViscosity
 from hermite_fe.integrators import GeneralizedAlphaPenalty, MoreauJean, SignoriniPosition
-from open_benchmark.histories import result_from_history
-from open_benchmark.problem import problem
-from open_benchmark.result import Result
 from theory import contact_parameters
 
 __all__ = ["FAULTS", "faulty"]

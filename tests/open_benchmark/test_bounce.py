@@ -3,13 +3,13 @@
 import numpy as np
 import pytest
 
+from bent_beam_programs.open_benchmark.bounce_reference import agrees
+from bent_beam_programs.open_benchmark.problem import problem, shipped_ids
+from bent_beam_programs.open_benchmark.references import BOUNCES, Reference, reference
+from bent_beam_programs.open_benchmark.result import Result
+from bent_beam_programs.open_benchmark.score import score
 from comparison.stored import is_stale
 from comparison.whole_impact.stored_map import bounce_from_map
-from open_benchmark.bounce_reference import agrees
-from open_benchmark.problem import problem, shipped_ids
-from open_benchmark.references import BOUNCES, Reference, reference
-from open_benchmark.result import Result
-from open_benchmark.score import score
 
 SHIPPED = [name for name in shipped_ids() if name.startswith("bounce-")]
 
@@ -51,4 +51,4 @@ def test_other_bounces_are_held_against_the_map_and_none_against_a_band():
 @pytest.mark.verify
 def test_the_stored_reference_is_what_a_coarser_mesh_tends_to_and_made_by_todays_code():
     assert all([agrees(name) for name in SHIPPED])
-    assert not is_stale(BOUNCES), "python -m open_benchmark.bounce_reference --confirm"
+    assert not is_stale(BOUNCES), "python -m bent_beam_programs.open_benchmark.bounce_reference --confirm"

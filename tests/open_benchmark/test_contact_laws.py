@@ -9,14 +9,14 @@ from collections.abc import Sequence
 
 from bent_beam import Impact
 from bent_beam.meshes import UniformMesh
+from bent_beam_programs.open_benchmark.histories import result_from_history
+from bent_beam_programs.open_benchmark.problem import problem
+from bent_beam_programs.open_benchmark.result import Result
+from bent_beam_programs.open_benchmark.score import score
 from hermite_fe import HermiteFE
 from hermite_fe.contacts import NodeContact
 from hermite_fe.far_fields import GridViscosity
 from hermite_fe.integrators import MoreauJean, SignoriniPosition
-from open_benchmark.histories import result_from_history
-from open_benchmark.problem import problem
-from open_benchmark.result import Result
-from open_benchmark.score import score
 
 LAWS = {"velocities (Moreau–Jean)": MoreauJean, "new position": SignoriniPosition}
 PROBLEMS = ("leading-0.5", "first-0.5-1-1-1", "first-0.5--1--1-0", "first-0.5--0.5-0-0-1")

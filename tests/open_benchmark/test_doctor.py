@@ -10,8 +10,8 @@ from pathlib import Path
 
 import pytest
 
-from open_benchmark import score
-from open_benchmark.doctor import NAMES
+from bent_beam_programs.open_benchmark import score
+from bent_beam_programs.open_benchmark.doctor import NAMES
 
 sys.path.insert(0, str(Path(__file__).parent))  # tests are imported one by one
 import faults

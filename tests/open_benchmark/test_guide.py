@@ -5,11 +5,11 @@ import subprocess
 import sys
 from pathlib import Path
 
-from open_benchmark.adapter import chosen_adapters
-from open_benchmark.campaign import campaign
-from open_benchmark.reading import load_result
-from open_benchmark.running import Limits
-from open_benchmark.score import score
+from bent_beam_programs.open_benchmark.adapter import chosen_adapters
+from bent_beam_programs.open_benchmark.campaign import campaign
+from bent_beam_programs.open_benchmark.reading import load_result
+from bent_beam_programs.open_benchmark.running import Limits
+from bent_beam_programs.open_benchmark.score import score
 
 DOCS = Path(__file__).resolve().parents[2] / "docs"
 

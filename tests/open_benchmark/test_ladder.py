@@ -2,7 +2,7 @@
 
 import pytest
 
-from open_benchmark.ladder import INTEGRATORS, RUNGS, cell
+from bent_beam_programs.open_benchmark.ladder import INTEGRATORS, RUNGS, cell
 
 QUICK = ("Moreau–Jean θ = ½", "Signorini, new position")
 NAMES = [pytest.param(name, marks=() if name in QUICK else pytest.mark.verify) for name in INTEGRATORS]

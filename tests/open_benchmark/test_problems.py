@@ -8,11 +8,11 @@ import pytest
 from scipy.interpolate import PPoly
 
 from bent_beam.errors import InputError
-from open_benchmark import problem, shipped_ids
-from open_benchmark.exact import computed
-from open_benchmark.problem import PROBLEMS, SCHEMA, document, problem_text
-from open_benchmark.references import REFERENCES, reference
-from open_benchmark.references import SCHEMA as REFERENCE_SCHEMA
+from bent_beam_programs.open_benchmark import problem, shipped_ids
+from bent_beam_programs.open_benchmark.exact import computed
+from bent_beam_programs.open_benchmark.problem import PROBLEMS, SCHEMA, document, problem_text
+from bent_beam_programs.open_benchmark.references import REFERENCES, reference
+from bent_beam_programs.open_benchmark.references import SCHEMA as REFERENCE_SCHEMA
 
 TABLES = {  # of schema beam-impact/2: whoever changes a key changes the version
     "beam": "axial_force bending_stiffness curvature damping length mass_per_length",

@@ -9,15 +9,15 @@ from pathlib import Path
 import pytest
 
 from bent_beam.errors import InputError
-from measure.measured import Measured
-from open_benchmark.adapter import RESOLUTIONS, Adapter, chosen_adapters, shipped_adapters
-from open_benchmark.campaign import STANDARD, Row, campaign, drawn
-from open_benchmark.judgement import Score
-from open_benchmark.page import errors_table, properties, write_page
-from open_benchmark.problem import problem
-from open_benchmark.reading import load_result
-from open_benchmark.running import Limits, run_adapter
-from open_benchmark.score import score
+from bent_beam.measure.measured import Measured
+from bent_beam_programs.open_benchmark.adapter import RESOLUTIONS, Adapter, chosen_adapters, shipped_adapters
+from bent_beam_programs.open_benchmark.campaign import STANDARD, Row, campaign, drawn
+from bent_beam_programs.open_benchmark.judgement import Score
+from bent_beam_programs.open_benchmark.page import errors_table, properties, write_page
+from bent_beam_programs.open_benchmark.problem import problem
+from bent_beam_programs.open_benchmark.reading import load_result
+from bent_beam_programs.open_benchmark.running import Limits, run_adapter
+from bent_beam_programs.open_benchmark.score import score
 
 GOOD = """
 import sys, numpy as np
@@ -100,9 +100,9 @@ def test_a_killed_command_takes_its_adapter_and_its_folder_along(tmp_path):
     adapter(tmp_path, "slow", "import os, time\nopen('pid', 'w').write(str(os.getpid()))\ntime.sleep(60)")
     program = f"""
 from pathlib import Path
-from open_benchmark.adapter import Adapter
-from open_benchmark.problem import problem
-from open_benchmark.running import Limits, run_adapter
+from bent_beam_programs.open_benchmark.adapter import Adapter
+from bent_beam_programs.open_benchmark.problem import problem
+from bent_beam_programs.open_benchmark.running import Limits, run_adapter
 slow = Adapter("slow", Path({str(tmp_path / "slow.py")!r}))
 run_adapter(slow, problem("point-2"), "coarse", Path("kept/r.npz"), Limits())
 """
@@ -128,7 +128,7 @@ def test_what_a_full_disk_may_have_spoilt_and_what_has_another_helper_is_run_aga
 @pytest.fixture
 def alone(monkeypatch):
     """Adapters without modules of their own beside them: to look for those takes longer than to run the adapter."""
-    monkeypatch.setattr("open_benchmark.adapter.behind", lambda files, folder: [])
+    monkeypatch.setattr("bent_beam_programs.open_benchmark.adapter.behind", lambda files, folder: [])
 
 
 @pytest.mark.usefixtures("alone")
@@ -159,9 +159,9 @@ def test_one_bad_adapter_is_a_row_and_only_what_changed_is_run_again(tmp_path, m
 def test_a_changed_solver_of_this_project_runs_again_and_no_foreign_one(monkeypatch, name):
     shipped = shipped_adapters()
     for one in ("source_digest", "versions"):
-        monkeypatch.setattr(f"open_benchmark.adapter.{one}", lambda: "of today")
+        monkeypatch.setattr(f"bent_beam_programs.open_benchmark.adapter.{one}", lambda: "of today")
     before = {key: one.digest() for key, one in shipped.items()}
-    monkeypatch.setattr(f"open_benchmark.adapter.{name}", lambda: "of tomorrow")
+    monkeypatch.setattr(f"bent_beam_programs.open_benchmark.adapter.{name}", lambda: "of tomorrow")
     changed = {key for key, one in shipped.items() if one.digest() != before[key]}
     assert changed == {"hermite", "hermite-strict", "exudyn"}
 

@@ -15,10 +15,10 @@ import pytest
 
 from bent_beam.cases import case_from_tables, load_case
 from bent_beam.impact import Impact
+from bent_beam.measure.measured import Measured
+from bent_beam_programs.predictor.page import page, script, write_page
 from comparison.command_line.app import run
 from comparison.whole_impact.stored_map import bounce_from_map
-from measure.measured import Measured
-from predictor.page import page, script, write_page
 from theory import ContactParameters, SelfSimilarWave, contact_parameters
 from theory import predict as theory_predict
 from theory.elastic_wall import peak_force

@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 
 from bent_beam.cases import load_case
-from predictor.page import write_page
+from bent_beam_programs.predictor.page import write_page
 from tests.chromium import ask, assert_quiet, beyond_the_edge, chromium, needs_chromium, opened  # noqa: F401
 from theory import contact_parameters
 

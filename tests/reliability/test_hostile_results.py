@@ -11,12 +11,12 @@ import numpy as np
 import pytest
 from called import started
 
-from open_benchmark.adapter import Adapter
-from open_benchmark.campaign import Row
-from open_benchmark.judgement import Score
-from open_benchmark.page import write_page
-from open_benchmark.reading import load_result
-from open_benchmark.result import ResultError
+from bent_beam_programs.open_benchmark.adapter import Adapter
+from bent_beam_programs.open_benchmark.campaign import Row
+from bent_beam_programs.open_benchmark.judgement import Score
+from bent_beam_programs.open_benchmark.page import write_page
+from bent_beam_programs.open_benchmark.reading import load_result
+from bent_beam_programs.open_benchmark.result import ResultError
 from theory import contact_parameters
 
 FUZZ = bool(os.environ.get("FUZZ"))
@@ -102,8 +102,8 @@ if FUZZ:  # large
 
 READ_ALL = """
 import json, sys, time
-from open_benchmark.reading import load_result
-from open_benchmark.result import ResultError
+from bent_beam_programs.open_benchmark.reading import load_result
+from bent_beam_programs.open_benchmark.result import ResultError
 for line in sys.stdin:
     began, said = time.process_time(), "good"
     try:

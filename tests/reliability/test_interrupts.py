@@ -23,8 +23,8 @@ Path("ready").touch()
 main()
 """
 FEW_ROWS = """
-import report.page as page
-import report.rows as rows
+import bent_beam_programs.report.page as page
+import bent_beam_programs.report.rows as rows
 questions = rows.report_questions
 rows.report_questions = lambda *a: [q for q in questions(*a) if q.kappa_over_nu >= 0.4 and q.first is None]
 page.stored_studies = lambda: []

@@ -5,11 +5,11 @@ from types import SimpleNamespace
 import pytest
 from report_fixtures import impacts, lost, pipe, rows, studies
 
+from bent_beam_programs.report import page
+from bent_beam_programs.report.rows import PATHS, report_questions
+from bent_beam_programs.report.studies import stored_studies
 from comparison.methods import methods_of
 from comparison.store import RunStore
-from report import page
-from report.rows import PATHS, report_questions
-from report.studies import stored_studies
 
 
 @pytest.fixture(scope="session")

@@ -9,15 +9,15 @@ import numpy as np
 import pytest
 from report_fixtures import impacts, lost, row, rows
 
+from bent_beam_programs.report.impacts import FRAMES, SHOWN, energies, kept_instants, theory_of
+from bent_beam_programs.report.page import Content, render
+from bent_beam_programs.report.rows import PATHS, first_order_rows, leading_rows, report_questions, table_row, tolerance
+from bent_beam_programs.report.studies import stored_numbers
+from bent_beam_programs.report.summary import acceleration_rows, headline, summary
+from bent_beam_programs.report.work import stored_measurements
 from comparison.figures.force_map import force_map, spread
 from comparison.methods import methods_of
 from hermite_fe import HermiteFE
-from report.impacts import FRAMES, SHOWN, energies, kept_instants, theory_of
-from report.page import Content, render
-from report.rows import PATHS, first_order_rows, leading_rows, report_questions, table_row, tolerance
-from report.studies import stored_numbers
-from report.summary import acceleration_rows, headline, summary
-from report.work import stored_measurements
 from self_similar_fe import ExpandingMesh, SelfSimilarFE
 
 LABELS = ("Hermite", "Self-similar", "Exudyn")

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from bent_beam import Impact, SimulationError
-from measure.estimators import SIDE, leading_order
-from measure.moments import moments
+from bent_beam.measure.estimators import SIDE, leading_order
+from bent_beam.measure.moments import moments
 from self_similar_fe import ExpandingMesh, SelfSimilarFE
 from self_similar_fe.run import simulate_expanding
 from self_similar_fe.similarity import similarity

@@ -14,16 +14,16 @@ import numpy as np
 import pytest
 
 from bent_beam import Impact, ImpactHistory
+from bent_beam_programs.thesis import gallery
+from bent_beam_programs.thesis.gallery import ITEMS, draw_all, listing
+from bent_beam_programs.thesis.gallery.animation import impact_frames
+from bent_beam_programs.thesis.gallery.drawing import REACTION, run_figure
+from bent_beam_programs.thesis.gallery.runs import Series
+from bent_beam_programs.thesis.sheet import Sheet, order
+from bent_beam_programs.thesis.studies.panels import contact_length
 from hermite_fe import HermiteFE
 from self_similar_fe import SelfSimilarFE
 from theory import contact_parameters, kernel
-from thesis import gallery
-from thesis.gallery import ITEMS, draw_all, listing
-from thesis.gallery.animation import impact_frames
-from thesis.gallery.drawing import REACTION, run_figure
-from thesis.gallery.runs import Series
-from thesis.sheet import Sheet, order
-from thesis.studies.panels import contact_length
 
 DOCS = Path(__file__).parents[2] / "docs"
 LAST = {"fig-2": 18, "fig-3": 36, "fig-A": 3, "table-3": 4}  # of the thesis's figures and tables

@@ -8,9 +8,9 @@ from pathlib import Path
 
 import pytest
 
+from bent_beam_programs.thesis.gallery.numbers import PRINTED, chapter2, scales
+from bent_beam_programs.thesis.verdicts import CLASSES, Printed, within_rounding
 from comparison.readable import readable
-from thesis.gallery.numbers import PRINTED, chapter2, scales
-from thesis.verdicts import CLASSES, Printed, within_rounding
 
 PAGE = Path(__file__).parents[2] / "docs" / "thesis_numbers.md"
 

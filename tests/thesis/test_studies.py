@@ -14,19 +14,19 @@ from called import answered, refused
 from bent_beam.cases import Case
 from bent_beam.impact import Impact
 from bent_beam.meshes import UniformMesh
+from bent_beam_programs.thesis.gallery import runs
+from bent_beam_programs.thesis.gallery.runs import every_step
+from bent_beam_programs.thesis.studies import STUDIES, first_order_case, of_exudyn, run_study
+from bent_beam_programs.thesis.studies.exact import Exact
+from bent_beam_programs.thesis.studies.of_methods import runs_of_methods
+from bent_beam_programs.thesis.studies.outcome import CUT_OFF, Outcome, Steps
+from bent_beam_programs.thesis.studies.panels import unit
+from bent_beam_programs.thesis.studies.thesis import Variant, run_variants, thesis_settings
 from exudyn_models import ExudynModel
 from hermite_fe import HermiteFE
 from hermite_fe.integrators import SignoriniPosition
 from self_similar_fe import SelfSimilarFE
 from theory import predict
-from thesis.gallery import runs
-from thesis.gallery.runs import every_step
-from thesis.studies import STUDIES, first_order_case, of_exudyn, run_study
-from thesis.studies.exact import Exact
-from thesis.studies.of_methods import runs_of_methods
-from thesis.studies.outcome import CUT_OFF, Outcome, Steps
-from thesis.studies.panels import unit
-from thesis.studies.thesis import Variant, run_variants, thesis_settings
 
 SLOW = pytest.mark.verify
 

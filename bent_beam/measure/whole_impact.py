@@ -1,0 +1,196 @@
+"""What a run of the whole impact comes to, in the units ℓ = L/2, T* = ℓ²√(μ/EI), V₀ (so EI = μ = 1 as well).
+
+A hit is a time of contact whose gaps are shorter than a period of the first mode; these numbers are of the first:
+
+    e = −velocity of the centre of mass after it/V₀,   J = impulse until then/(μℓV₀), without loads 2(1 + e),
+
+its last contact T_c/T*, how often the beam was off the wall, the largest bending moment of the elastic strain
+EI u_xx/(V₀√(EIμ)) with place and time, and the shares of energy then, of what the beam had and the loads have worked.
+
+A separation is a time of at least :data:`SHORTEST_SEPARATION` T* without a push: without a smallest duration there is
+no such number (the reaction of a beam that is stopped at a point changes sign arbitrarily fast).
+
+A beam may come back to the wall, rock on it or go back and forth between two: :func:`hits` lists all; each is of one
+wall, without the other in between.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bent_beam.free_flight import LOWEST_PERIOD, bears_free_flight, has_left, pushing
+from bent_beam.history import ImpactHistory
+from bent_beam.impact import Impact
+from bent_beam.measure.reduction import peak_moment, wall_peaks
+
+__all__ = ["SHORTEST_SEPARATION", "Hit", "WholeImpact", "hits", "pushes", "whole_impact"]
+
+Array = NDArray[np.float64]
+
+SHORTEST_SEPARATION = 2e-3
+"""Shortest time without a push that counts as a separation, T*: four saved instants of a run to separation."""
+
+
+@dataclass(frozen=True)
+class WholeImpact:
+    """One run's whole impact, dimensionless (see the module's head).
+
+    spacing : of the saved instants around the last contact, which lies between two of them: ``last_contact`` is their
+        middle.
+    contacts : begin and end of each contact, separations shorter than the shortest ignored; the last ends at the last
+        contact.
+    peak_moment_place : |x|/ℓ. translation, vibration, dissipated : shares of the initial energy and the work of the
+        loads, altogether one.
+    peak_force : on the zone of a wall that gives way, over μℓV₀/T*; ``None`` of a rigid one.
+    supplied : the initial energy and the work of the loads until then, J.
+    energy_defect : what the independently computed terms of the budget leave, of the initial energy; energy_gain : the
+        largest rise of the energy, what springs of the wall hold included, above what loads have worked, likewise.
+    left : whether the beam is off the wall for good; None of the numbers is final otherwise.
+    """
+
+    restitution: float
+    impulse: float
+    last_contact: float
+    separations: int
+    peak_moment: float
+    peak_moment_place: float
+    peak_moment_time: float
+    midspan_moment: float
+    translation: float
+    vibration: float
+    dissipated: float
+    peak_force: float | None
+    supplied: float
+    spacing: float
+    contacts: tuple[tuple[float, float], ...]
+    energy_defect: float
+    energy_gain: float
+    left: bool
+
+
+def pushes(time: Array, impulse: Array, shortest: float) -> list[tuple[int, int]]:
+    """Saved instants at which contacts begin and end, separations shorter than ``shortest`` (s) ignored."""
+    pushed = np.flatnonzero(pushing(impulse))
+    if pushed.size == 0:
+        return []
+    apart = np.flatnonzero(time[pushed[1:]] - time[pushed[:-1] + 1] >= shortest * (1.0 - 1e-9))
+    begin = np.concatenate([pushed[:1], pushed[apart + 1]])
+    end = np.concatenate([pushed[apart], pushed[-1:]]) + 1
+    return [(int(i), int(k)) for i, k in zip(begin, end)]
+
+
+def whole_impact(history: ImpactHistory, *, shortest: float = SHORTEST_SEPARATION) -> WholeImpact:
+    """Reduce a run. ``shortest`` : separations that count, T*.
+
+    Raises ``ValueError`` when the wall was never touched.
+    """
+    impact, time = history.impact, history.time
+    unit = impact.slow_time_scale
+    total = history.array("total_impulse")
+    contacts = pushes(time, total, shortest * unit)
+    if not contacts:
+        raise ValueError("the run ends before the wall was touched")
+    mass = impact.mass_per_length * impact.length
+    hit = _grouped([(i, k, "front") for i, k in contacts], impact, time)[0]
+    _, end, _ = hit[-1]
+    impulse = float(total[end]) / (mass * impact.velocity)
+    moment = impact.velocity * math.sqrt(impact.bending_stiffness * impact.mass_per_length)
+    peak, wall, left = peak_moment(history), wall_peaks(history), has_left(history)
+    energy = history.array("kinetic_energy") + history.array("strain_energy")
+    held = history.energy("contact_energy")  # by springs of the wall
+    initial = float(energy[0])
+    supplied = initial + history.energy("work_of_loads")
+    restitution = impulse - 1.0 if bears_free_flight(impact) else -_mean_velocity(history, end) / impact.velocity
+    translation = 0.5 * mass * (restitution * impact.velocity) ** 2 / float(supplied[end])
+    return WholeImpact(
+        restitution=restitution,
+        impulse=2.0 * impulse,
+        last_contact=0.5 * float(time[end - 1] + time[end]) / unit,
+        separations=len(hit) - (0 if len(contacts) > len(hit) or left else 1),
+        peak_moment=peak.moment / moment,
+        peak_moment_place=abs(peak.place) / impact.half_length,
+        peak_moment_time=peak.time / unit,
+        midspan_moment=peak.midspan / moment,
+        translation=translation,
+        vibration=float(energy[end] / supplied[end]) - translation,
+        dissipated=float(1.0 - energy[end] / supplied[end]),
+        peak_force=None if wall is None else 2.0 * wall.force * unit / (mass * impact.velocity),
+        supplied=float(supplied[end]),
+        spacing=float(time[end] - time[end - 1]) / unit,
+        contacts=tuple((float(time[i]) / unit, 0.5 * float(time[j - 1] + time[j]) / unit) for i, j, _ in hit),
+        energy_defect=abs(history.energy_budget()["defect"]) / initial,
+        energy_gain=float(np.max(np.diff(energy + held - supplied), initial=0.0)) / initial,
+        left=left,
+    )
+
+
+def _grouped(contacts: list[tuple[int, int, str]], impact: Impact, time: Array) -> list[list[tuple[int, int, str]]]:
+    """Contacts (begin, end, wall) of one hit together: with one wall, gaps between them shorter than a period of the
+    first mode."""
+    groups: list[list[tuple[int, int, str]]] = []
+    for begin, end, wall in contacts:
+        _, last, before = groups[-1][-1] if groups else (0, 0, "")
+        if wall == before and time[begin] - time[last] < LOWEST_PERIOD * impact.slow_time_scale:
+            groups[-1].append((begin, end, wall))
+        else:
+            groups.append([(begin, end, wall)])
+    return groups
+
+
+def _mean_velocity(history: ImpactHistory, k: int) -> float:
+    """Velocity of the centre of mass into the wall at saved instant ``k``, m/s."""
+    x = history.positions(k)
+    return float(np.trapezoid(history.array("velocity", k), x) / (x[-1] - x[0]))
+
+
+@dataclass(frozen=True)
+class Hit:
+    """wall : "front" or "opposite"; begin, end : s, the end in the middle of its saved interval; place : mean |x| of
+    the push, m; impulse : N s, always positive.
+
+    before, after : velocities of the centre of mass, m/s, positive towards the front wall; energy : kinetic, strain and
+    in springs of the wall after it, J; lost : what the energy and the work of the loads fell by meanwhile, J.
+    """
+
+    wall: str
+    begin: float
+    end: float
+    place: float
+    impulse: float
+    before: float
+    after: float
+    energy: float
+    lost: float
+
+    @property
+    def restitution(self) -> float:
+        """−after/before."""
+        return -self.after / self.before
+
+
+def hits(history: ImpactHistory) -> list[Hit]:
+    """All hits of a run, in order of time; the last may not be over yet."""
+    impact, time = history.impact, history.time
+    copies = 2.0 / history.sides
+    names = {"front": "impulse", "opposite": "opposite_impulse"}
+    rows = {wall: copies * history.array(name) for wall, name in names.items() if name in history}
+    parts = [(i, k, wall) for wall, given in rows.items() for i, k in pushes(time, given.sum(axis=1), 0.0)]
+    work = history.energy("work_of_loads")
+    energy = history.array("kinetic_energy") + history.array("strain_energy") - work + history.energy("contact_energy")
+    mass = impact.mass_per_length * impact.length
+    gained = impact.load_within(impact.half_length) * time - history.array("total_impulse")
+    velocity = impact.velocity + gained / mass
+    if impact.supported:  # by forces that no history holds
+        velocity = np.array([_mean_velocity(history, k) for k in range(time.size)])
+    found = []
+    for group in _grouped(sorted(parts), impact, time):
+        i, k, wall = group[0][0], group[-1][1], group[0][2]
+        given = rows[wall][k] - rows[wall][i]
+        place = float(given @ np.abs(history.contact_positions(0))) / float(given.sum())
+        numbers = (place, given.sum(), velocity[i], velocity[k], energy[k] + work[k], energy[i] - energy[k])
+        found.append(Hit(wall, float(time[i]), 0.5 * float(time[k - 1] + time[k]), *map(float, numbers)))
+    return found

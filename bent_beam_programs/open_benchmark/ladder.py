@@ -1,0 +1,158 @@
+"""This project's integrators on the ladder's lower rungs: observed orders, and energy after ten impacts.
+
+Ball, bar and string as :class:`hermite_fe.system.System`, the stopped beam as a run of the Hermite path; each against
+its closed form in ``theory``. Errors are the mean of |J − J exact| over the record, over the largest J.
+
+``python -m bent_beam_programs.open_benchmark.ladder`` prints the table of docs/benchmark.md.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bent_beam import Impact
+from bent_beam.meshes import UniformMesh
+from bent_beam_programs.open_benchmark.problem import LADDER, problem
+from bent_beam_programs.open_benchmark.references import reference
+from hermite_fe import HermiteFE
+from hermite_fe.contacts import NodeContact
+from hermite_fe.integrators import (
+    GeneralizedAlphaPenalty,
+    Integrator,
+    MoreauJean,
+    NonsmoothGeneralizedAlpha,
+    SignoriniPosition,
+)
+from hermite_fe.run import Trajectory, integrate
+from hermite_fe.system import ContactRows, System
+
+__all__ = ["INTEGRATORS", "RUNGS", "cell"]
+
+Array = NDArray[np.float64]
+Scheme = Callable[[float], Integrator]  # of a time step
+Found = tuple[float, float]  # error of the impulse, energy at the end over that at the start
+
+INTEGRATORS: dict[str, Scheme] = {
+    "Moreau–Jean θ = 1": lambda h: MoreauJean(theta=1.0, time_step=h, growth=0.0),
+    "Moreau–Jean θ = ½": lambda h: MoreauJean(theta=0.5, time_step=h, growth=0.0),
+    "Signorini, new position": lambda h: SignoriniPosition(theta=1.0, time_step=h, growth=0.0),
+    "nonsmooth generalised-α, ρ∞ = 0.8": lambda h: NonsmoothGeneralizedAlpha(
+        spectral_radius=0.8, time_step=h, growth=0.0
+    ),
+    "generalised-α with penalty, ρ∞ = 0.8": lambda h: GeneralizedAlphaPenalty(
+        spectral_radius=0.8, stiffness=0.1 / h**2, damping=0.3 / h, time_step=h, growth=0.0
+    ),
+}
+CELLS = 50  # of bar and string at refinement 1
+COURANT = 0.437  # of their steps
+# Where in its step an impact falls is chance: errors are means over step sizes that differ by a few per cent.
+PHASES = (1.0, 0.93, 0.87, 0.81)
+
+
+def _judged(name: str, time: Array, impulse: Array, energy: Array) -> Found:
+    exact = reference(problem(name)).impulse
+    assert exact is not None
+    expected = exact(time)
+    return float(np.mean(np.abs(impulse - expected)) / np.abs(expected).max()), float(energy[-1] / energy[0])
+
+
+def _of_system(name: str, run: Trajectory, floor: float = 0.0) -> Found:
+    """floor : energy at the start beside the kinetic and the strain energy."""
+    if run.failure:
+        raise ValueError(run.failure)
+    energy = run.sums["kinetic_energy"] + run.sums["strain_energy"] - run.sums["work_of_loads"]
+    return _judged(name, run.time, run.impulse.sum(axis=1), energy + floor)
+
+
+def _ball(scheme: Scheme, refine: int) -> Found:
+    """A unit mass dropped from ½ with restitution 1: ten impacts by t = 20."""
+    _, given, end = LADDER["ball"]
+    one = np.ones((1, 1))
+    weight = given["mass"] * given["gravity"]
+    contacts = ContactRows(np.array([[0]]), one, np.zeros(1))
+    system = System(mass=given["mass"] * one, stiffness=0.0 * one, load=-weight * one, contacts=contacts)
+    start, step = np.array([given["height"]]), 0.0137 / refine  # steps that do not divide the flights
+    run = integrate(
+        system, start, np.zeros(1), scheme(step), end, restitution=given["restitution"], save=np.linspace(0, end, 1001)
+    )
+    return _of_system("ball", run, weight * given["height"])
+
+
+def _line(cells: int, tangent: float, line: float) -> tuple[Array, Array]:
+    """Mass (lumped) and stiffness of linear elements in a row of length 1, banded."""
+    mass = np.full((1, cells + 1), line / cells)
+    stiffness = np.full((2, cells + 1), -tangent * cells)
+    stiffness[0] *= -2.0
+    stiffness[1, -1] = 0.0
+    mass[0, [0, -1]] /= 2.0
+    stiffness[0, [0, -1]] /= 2.0
+    return mass, stiffness
+
+
+def _bar(scheme: Scheme, refine: int, name: str = "bar") -> Found:
+    """A bar flying or falling at the wall, in contact for 2L/c, off again at the speed it came with."""
+    _, given, end = LADDER[name]
+    cells, length = CELLS * refine, given["length"]
+    mass, stiffness = _line(cells, given["axial_stiffness"] / length, given["mass_per_length"] * length)
+    contacts = ContactRows(np.array([[0]]), np.ones((1, 1)), np.array([given["gap"]]))
+    system = System(mass=mass, stiffness=stiffness, load=-given["gravity"] * mass[0], contacts=contacts)
+    step = COURANT / cells * length * (given["mass_per_length"] / given["axial_stiffness"]) ** 0.5
+    save, rest = np.linspace(0.0, end, 601), np.zeros(cells + 1)
+    run = integrate(system, rest, rest - given["velocity"], scheme(step), end, save=save)
+    return _of_system(name, run, given["gravity"] * given["gap"] * given["mass_per_length"] * length)
+
+
+def _string(scheme: Scheme, refine: int) -> Found:
+    """A string that lands all at once, elastically, four times."""
+    _, given, end = LADDER["string"]
+    cells = CELLS * refine
+    mass, stiffness = _line(cells, given["tension"], given["mass_per_length"])
+    contacts = ContactRows(np.arange(1, cells)[:, None], np.ones((cells - 1, 1)), np.zeros(cells - 1))
+    system = System(mass=mass, stiffness=stiffness, contacts=contacts, supports=(0, cells))
+    x, save = np.linspace(0.0, 1.0, cells + 1), np.linspace(0.0, end, 801)
+    start = 4.0 * given["height"] * x * (1.0 - x)
+    run = integrate(system, start, 0.0 * x, scheme(COURANT / cells), end, restitution=1.0, save=save)
+    return _of_system("string", run)
+
+
+def _stopped_beam(scheme: Scheme, refine: int) -> Found:
+    """The free beam of κ/ν = 2 with its own damping, until before the wall first lets go."""
+    asked = problem("stopped-beam")
+    impact = Impact.dimensionless(asked.kappa_over_nu, damping=asked.damping, length=2.0)
+    method = HermiteFE(
+        mesh=UniformMesh(element_length=1.0 / (25 * refine)),
+        integrator=scheme(0.25 / 25.0**2 / refine),
+        contact=NodeContact(hold=0, hold_until=0.0),
+    )
+    history = method.simulate(impact, end_time=asked.end_time, save=np.linspace(0.0, asked.end_time, 101))
+    energy = history.array("kinetic_energy") + history.array("strain_energy")
+    return _judged(asked.id, history.time, history.array("total_impulse"), energy)
+
+
+RUNGS = {"ball": _ball, "bar": _bar, "string": _string, "stopped-beam": _stopped_beam}
+
+
+def cell(scheme: Scheme, rung: str, refinements: Sequence[int] = (1, 2, 4, 8)) -> str:
+    """One integrator on one rung: error at the coarsest and the finest mesh, observed order, energy left at the finest;
+    or why the integrator cannot take it."""
+    try:
+        found = [[RUNGS[rung](_shifted(scheme, phase), n) for phase in PHASES] for n in refinements]
+    except ValueError as error:
+        return " ".join(str(error).split())
+    errors, energies = np.mean(found, axis=1).T
+    exact = len(errors) < 2 or min(errors) < 1e-13
+    order = "round-off" if exact else f"{-np.polyfit(np.log(refinements), np.log(errors), 1)[0]:.2f}"
+    return f"{errors[0]:.1e} … {errors[-1]:.1e}, {order}, {energies[-1]:.4f}"
+
+
+def _shifted(scheme: Scheme, phase: float) -> Scheme:
+    return lambda step: scheme(phase * step)
+
+
+if __name__ == "__main__":
+    print(f"| integrator | {' | '.join(RUNGS)} |", "| --- " * (1 + len(RUNGS)) + "|", sep="\n")
+    for name, scheme in INTEGRATORS.items():
+        print(f"| {name} | {' | '.join(cell(scheme, rung) for rung in RUNGS)} |", flush=True)

@@ -1,0 +1,51 @@
+"""``bentbeam problem``."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from comparison.command_line.options import Overwrite, check_out, complete
+
+__all__ = ["problem"]
+
+
+def problem_ids(incomplete: str) -> list[str]:
+    """Completion of a problem's id: the shipped problems."""
+    from bent_beam_programs.open_benchmark.problem import shipped_ids
+
+    return complete(list(shipped_ids()), incomplete)
+
+
+def problem(
+    name: Annotated[
+        str,
+        typer.Argument(
+            metavar="ID",
+            help="leading-K, point-K, first-K-A-P-C[-N], bounce-K-D, elastic-wall-K-Z, elastic-stop-S, ball, bar, …",
+            autocompletion=problem_ids,
+        ),
+    ],
+    out: Annotated[
+        Path | None, typer.Option(metavar="FILE.toml", help="Where to, .toml or .json; standard output when left out.")
+    ] = None,
+    overwrite: Overwrite = False,
+) -> None:
+    """Write a problem of the open benchmark as a file.
+
+    Example: bentbeam problem leading-0.5 --out problem.toml
+    """
+    from bent_beam.files import write_atomically
+    from bent_beam_programs.open_benchmark.problem import document, problem_text
+    from bent_beam_programs.open_benchmark.problem import problem as problem_of
+
+    asked = problem_of(name)
+    text = json.dumps(document(asked), indent=1) if out and out.suffix == ".json" else problem_text(asked)
+    if out is None:
+        print(text)
+        return
+    check_out(out, overwrite)
+    write_atomically(out, text)

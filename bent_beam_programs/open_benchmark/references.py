@@ -1,0 +1,82 @@
+"""Values that results are held against, as data: ``references.json`` (schema beam-impact-references/2).
+
+Exact numbers of the infinite beam and of the ladder stand in ``references.json``, for the problems that are shipped, so
+that scoring needs no theory. A problem of other parameters has its references computed (:mod:`.exact`). A whole
+impact has no closed form: its reference is a converged simulation with an error bar, ``bounce_reference.json`` (made by
+:mod:`.bounce_reference`) and the map of the whole impact for others.
+
+An exact J(t) is a piecewise polynomial: of the time, or of its fourth root.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.interpolate import PPoly
+
+from bent_beam_programs.open_benchmark.problem import Problem
+from comparison.stored import read
+
+__all__ = ["BOUNCES", "REFERENCES", "SCHEMA", "Reference", "reference", "stored"]
+
+BOUNCES = Path(__file__).with_name("bounce_reference.json")
+REFERENCES = Path(__file__).with_name("references.json")
+SCHEMA = "beam-impact-references/2"
+POWERS = {"time": 1.0, "fourth root of time": 0.25}  # of the variable that J(t) is a polynomial of
+
+stored = cache(read)
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Reference:
+    """``values``: numbers by name, exact unless they stand in ``errors`` with an error bar; ``source``: of such;
+    ``impulse``: exact J(τ) of a problem of the ladder."""
+
+    values: dict[str, float] = field(default_factory=dict)
+    impulse: Callable[[Array], Array] | None = None
+    errors: dict[str, float] = field(default_factory=dict)
+    source: str = ""
+
+    def __getitem__(self, name: str) -> float | None:
+        return self.values.get(name)
+
+
+def reference(asked: Problem) -> Reference:
+    """The answer to a problem, as far as there is one."""
+    if asked.kind == "bounce":
+        return _bounce(asked)
+    known = stored(REFERENCES)["problems"].get(asked.id)
+    if known is None:  # not shipped: the theory is asked, and loaded only then
+        from bent_beam_programs.open_benchmark.exact import computed
+
+        known = computed(asked)
+    impulse = _impulse(known["impulse"]) if "impulse" in known else None
+    errors = known.get("errors", {})
+    return Reference(known.get("values", {}), impulse, errors, "computed from the theory" if errors else "")
+
+
+def _impulse(table: Mapping[str, Any]) -> Callable[[Array], Array]:
+    pieces = PPoly(np.array(table["coefficients"]).T, np.array(table["breaks"]))
+    return lambda tau: np.asarray(pieces(tau ** POWERS[table["variable"]]))
+
+
+def _bounce(asked: Problem) -> Reference:
+    shipped = stored(BOUNCES)
+    if asked.id in shipped["problems"]:
+        (value, error), source = shipped["problems"][asked.id]["restitution"], shipped["made_by"]
+    else:
+        from comparison.whole_impact.stored_map import bounce_from_map
+
+        found = bounce_from_map(asked.kappa_over_nu, asked.damping) if asked.damping > 0.0 else None
+        if found is None or found["restitution"].value is None or found["restitution"].error is None:
+            return Reference()  # off the map, or without damping, where no number exists
+        value, error = found["restitution"].value, found["restitution"].error
+        source = "comparison/whole_impact/map.json, interpolated"
+    return Reference({"restitution": value}, errors={"restitution": error}, source=source)

@@ -1,0 +1,44 @@
+"""The two files that are shipped: ``problems.json`` and ``references.json``.
+
+    python -m bent_beam_programs.open_benchmark.release
+
+writes both. A change of their keys needs a new version of the schema (docs/guide/submit.md).
+"""
+
+from __future__ import annotations
+
+import json
+
+from bent_beam.files import write_atomically
+from bent_beam_programs.open_benchmark.exact import computed
+from bent_beam_programs.open_benchmark.problem import LADDER, PROBLEMS, document, problem
+from bent_beam_programs.open_benchmark.problem import SCHEMA as PROBLEM_SCHEMA
+from bent_beam_programs.open_benchmark.references import REFERENCES, SCHEMA
+from comparison.stored import write
+
+__all__ = ["SHIPPED"]
+
+SHIPPED = (
+    *(f"leading-{kappa:g}" for kappa in (0.1, 0.25, 0.5, 0.8)),
+    *(f"first-0.5-{loads}" for loads in ("-0.5-0-0-1", "-1--1-0", "1-1-1", "4-0-0")),
+    *("point-2", *LADDER, "stopped-beam", "bounce-0.5-1e-3", "bounce-2-1e-3"),
+    *("elastic-wall-0.5-0", "elastic-wall-0.1-0.5", "elastic-stop-18000", "elastic-stop-45000"),
+)
+
+
+def _main() -> None:
+    shipped = {name: document(problem(name)) for name in SHIPPED}
+    write_atomically(PROBLEMS, json.dumps({"schema": PROBLEM_SCHEMA, "problems": shipped}, indent=1) + "\n")
+    known = {name: computed(problem(name)) for name in SHIPPED if problem(name).kind != "bounce"}
+    write(
+        REFERENCES,
+        "exact values, and J(t) as polynomials of (variable - break), the highest power first",
+        "python -m bent_beam_programs.open_benchmark.release",
+        ("theory",),
+        {"schema": SCHEMA},
+        {"schema": SCHEMA, "problems": known},
+    )
+
+
+if __name__ == "__main__":
+    _main()

@@ -1,0 +1,78 @@
+"""``bentbeam score``."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from comparison.command_line.options import Json, emit, printable
+
+if TYPE_CHECKING:
+    from bent_beam_programs.open_benchmark.judgement import Score
+
+__all__ = ["score"]
+
+
+def score(
+    results: Annotated[
+        list[Path],
+        typer.Argument(metavar="RESULT…", help="Results of any code: .npz, .csv beside .json, or a history (.nc)."),
+    ],
+    base: Annotated[
+        Path | None, typer.Option(metavar="RESULT", help="The same code's result without loads, for λ₁ and r₁.")
+    ] = None,
+    as_json: Json = False,
+) -> int:
+    """Score results of any code against the exact solution.
+
+    The likeliest fault of each is named, and three results of one problem with the very same numbers are flagged.
+    Exit code 2 when a result cannot be read; the others are scored all the same.
+
+    Example: bentbeam score coarse.npz medium.npz fine.npz
+    """
+    from bent_beam_programs.open_benchmark.judgement import Score
+    from bent_beam_programs.open_benchmark.reading import load_result
+    from bent_beam_programs.open_benchmark.result import ResultError
+    from bent_beam_programs.open_benchmark.score import resolution_ignored
+    from bent_beam_programs.open_benchmark.score import score as score_of
+
+    found, code = [], 0
+    reference = None if base is None else load_result(base)
+    for file in results:
+        try:
+            found.append(score_of(load_result(file), reference))
+        except ResultError as error:
+            found.append(Score("", "invalid", printable(str(error))))
+        if found[-1].outcome == "invalid":
+            reason = str(found[-1].reason)
+            named = reason if reason.startswith(printable(str(file))) else f"{file}: {reason}"
+            print(printable(f"error: {named}"), file=sys.stderr)
+            code = 2
+    found = resolution_ignored(found)
+    document: dict[str, Any] = found[0].to_dict()
+    if len(found) > 1:
+        document = {"results": [s.to_dict() for s in found]}
+    readable = [s for s in found if s.outcome != "invalid"]
+    if as_json or readable:
+        emit(document, as_json, lambda: "\n\n".join(_text(s) for s in readable))
+    return code
+
+
+def _text(found: Score) -> str:
+    lines = [f"{found.problem}: {found.outcome}" + (f" ({found.reason})" if found.reason else "")]
+    for name, value in found.measured.items():
+        exact = "" if value.theory is None else f", exact {value.theory:.8g}"
+        if name in found.reference:
+            exact = f", reference {value.theory:.6g} ± {found.reference[name]['error']:.1g}"
+        error = found.error(name)
+        lines.append(f"{name:>14} = {value}{exact}" + ("" if error is None else f" ({100 * error:+.3f} %)"))
+    for name in ("lift", "penetration", "adhesion", "noise", "momentum_residual"):
+        number = getattr(found, name)
+        lines.append(f"{name.partition('_')[0]:>14} = " + ("not reported" if number is None else f"{number:.2g}"))
+    for finding in found.diagnosis:
+        about = [text for text in (finding.evidence, finding.advice) if text]
+        lines += [f"diagnosis: {finding.name.replace('_', ' ')}", *(f"    {text}" for text in about)]
+    return "\n".join(lines)

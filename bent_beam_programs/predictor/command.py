@@ -1,0 +1,26 @@
+"""``bentbeam predictor``."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from comparison.command_line.options import Overwrite, check_out, printable
+
+__all__ = ["predictor"]
+
+
+def predictor(
+    out: Annotated[Path, typer.Option(help="The page to write.")] = Path("predictor.html"),
+    overwrite: Overwrite = False,
+) -> None:
+    """Write the predictor: theory as one web page, offline.
+
+    Example: bentbeam predictor --out predictor.html
+    """
+    from bent_beam_programs.predictor.page import write_page
+
+    check_out(out, overwrite)
+    print(printable(f"{write_page(out)}: open it in a browser"))

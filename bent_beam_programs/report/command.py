@@ -1,0 +1,75 @@
+"""``bentbeam report``."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from comparison.command_line.options import (
+    Json,
+    Methods,
+    Overwrite,
+    Quiet,
+    Scheduler,
+    Set,
+    emit,
+    factors,
+    path_names,
+    progress,
+)
+
+
+def report(
+    out: Annotated[Path, typer.Option(help="Folder to write into.")] = Path("out/report"),
+    jobs: Annotated[int, typer.Option("--jobs", "-j", min=1, help="Processes on this machine.")] = os.cpu_count() or 1,
+    scheduler: Scheduler = None,
+    path: Annotated[
+        list[str] | None,
+        typer.Option(
+            help="hermite, self_similar, exudyn or an installed one; repeatable. Default: these three.",
+            autocompletion=path_names,
+        ),
+    ] = None,
+    assignments: Set = None,
+    methods: Methods = None,
+    refine: Annotated[
+        str,
+        typer.Option(metavar="1,2,4", help="Elements and steps so many times finer, for work and precision."),
+    ] = "0.5,1",
+    fresh: Annotated[bool, typer.Option("--fresh", help="Do not use runs kept from before.")] = False,
+    overwrite: Overwrite = False,
+    as_json: Json = False,
+    quiet: Quiet = False,
+) -> None:
+    """Match methods with the theory; write one HTML page.
+
+    Example: bentbeam report --out report --methods cases/methods/one_of_each.toml --refine 0.5,1,2
+    """
+    from bent_beam.errors import InputError
+    from comparison.methods import chosen_methods
+    from comparison.store import RunStore, check_writable, default_store
+
+    try:
+        from bent_beam_programs.report.page import write_report
+        from bent_beam_programs.report.rows import PATHS, report_questions
+    except ModuleNotFoundError as error:
+        raise InputError(
+            f"report: {error.name} is missing, of the extra [report] (pip install 'bent-beam-impact[report]')"
+        ) from None
+
+    page = out / "index.html"
+    if page.exists() and not overwrite:
+        raise InputError(f"--out: {page} exists already (give another folder, or --overwrite)")
+    named = path or (PATHS if methods is None else ())
+    chosen, refines = chosen_methods(named, assignments or (), methods), factors(refine)
+    check_writable(out, folder=True)
+    store = RunStore(None if fresh else default_store())
+    with progress("report", quiet) as bar:
+        asked = report_questions(chosen, refines)
+        found = write_report(out, chosen, asked, store=store, jobs=jobs, scheduler=scheduler, progress=bar.count)
+    emit(found, as_json, lambda: f"{found['headline']}\nReport: {page}")
+    if found["failures"]:
+        raise typer.Exit(3)

@@ -1,0 +1,247 @@
+"""Impacts to look at: each simulated by every method, reduced to one timeline, in units of the fast layer."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cache
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.interpolate import CubicSpline
+
+from bent_beam.errors import ANY_FAILURE
+from bent_beam.history import ImpactHistory
+from bent_beam.impact import Impact
+from bent_beam.measure.moments import moments
+from bent_beam.method import Method, chosen_for, settings_of
+from comparison.figures.force_map import force_map
+from comparison.readable import plain
+from comparison.store import RunStore, source_of
+from comparison.workers import run_all
+from theory import contact_parameters
+from theory.fields import ImpactFields
+
+Array = NDArray[np.float64]
+FRAMES = 50
+POINTS = 121
+BINS = 60
+INSTANTS = 400
+END = 0.1  # τ
+START = 0.1  # of the way in √τ, the first frame
+THEORY_TIMES = 14  # between which the theory's shape is interpolated in x/√τ
+
+ENERGIES: dict[str, dict[str, Any]] = {
+    name: {"title": title, "colour": colour, "dash": name.startswith("loss")}
+    for name, title, colour in (
+        ("kinetic_energy", "kinetic energy, change", "#0072B2"),
+        ("strain_energy", "strain energy, change", "#D55E00"),
+        ("work_of_loads", "work of wall and loads", "#009E73"),
+        ("loss_impact", "lost in impacts", "#CC79A7"),
+        ("loss_algorithmic", "lost in time integration", "#E69F00"),
+        ("loss_viscous", "lost in grid viscosity", "#56B4E9"),
+        ("loss_material", "lost in the material", "#8C6D31"),
+        ("loss_absorbed", "absorbed far away", "#777777"),
+    )
+}
+"""What a method may report → how it is drawn."""
+
+
+@dataclass(frozen=True)
+class Shown:
+    """An impact to be shown: κ/ν, (α, ψ, χ) and the size ε of the first order, ν = 1."""
+
+    name: str
+    title: str
+    kappa_over_nu: float = 0.5
+    first: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    epsilon: float = 0.0
+
+    @property
+    def impact(self) -> Impact:
+        alpha, psi, chi = (self.epsilon * load for load in self.first)
+        return Impact.dimensionless(self.kappa_over_nu, epsilon_alpha=alpha, epsilon_psi=psi, epsilon_chi=chi)
+
+    @property
+    def pressure(self) -> float:
+        """The uniform reaction that theory puts on the zone: ε(α+ψ) where that presses, else 0."""
+        return self.epsilon * float(contact_parameters(self.kappa_over_nu, *self.first).uniform_reaction)
+
+
+SHOWN = (
+    Shown("plain", "no acceleration (ε = 0)"),
+    Shown("pressed", "accelerated into the wall (α = 4)", first=(4.0, 0.0, 0.0), epsilon=0.25),
+    Shown("released", "decelerated and bending back (α = ψ = −1)", first=(-1.0, -1.0, 0.0), epsilon=0.75),
+)
+
+
+@dataclass(frozen=True)
+class ShownImpact:
+    """One method's run of an impact; :func:`reduce_history` says what ``data`` holds."""
+
+    shown: Shown
+    label: str
+    data: Mapping[str, Any]
+    settings: Mapping[str, Any]
+    warnings: Sequence[str]
+
+
+def frames() -> Array:
+    """τ of the frames, the same for every method: even in √τ, as the front moves."""
+    return np.asarray(np.linspace(START, 1.0, FRAMES) ** 2 * END)
+
+
+def places(shown: Shown) -> Array:
+    """x of the drawn points, denser in the zone: the farthest lies well ahead of the front at the end."""
+    return np.asarray(np.linspace(0.0, 1.0, POINTS) ** 1.6 * 2.4 * widest(shown))
+
+
+def widest(shown: Shown) -> float:
+    """Half width of the map of forces: a little more than the front ever reaches."""
+    reach = float(contact_parameters(shown.kappa_over_nu).lambda0) * np.sqrt(END)
+    return 1.3 * max(float(reach), 0.2 * float(np.sqrt(END)))
+
+
+def show(shown: Shown, method: Method) -> ShownImpact:
+    """Simulate with ``method`` and reduce. Raises ``ValueError`` for what it refuses."""
+    impact = shown.impact
+    reason = method.refuses(impact)
+    if reason:
+        raise ValueError(reason)
+    end = END * impact.time_scale
+    fixed = chosen_for(method, impact, end) if shown.epsilon else method
+    history = fixed.simulate(impact, end_time=end, save=INSTANTS)
+    return ShownImpact(shown, method.label, reduce_history(history, shown), settings_of(method), history.warnings)
+
+
+def _kept(shown: Shown, method: Method, store: RunStore) -> ShownImpact | str:
+    """:func:`show` in a worker, from the store when it is there; a sentence where it fails."""
+    question = {
+        "shown": [shown.name, shown.kappa_over_nu, *shown.first, shown.epsilon, FRAMES, POINTS, BINS, INSTANTS, END],
+        "settings": settings_of(method) | {"label": ""},
+        "source": source_of(type(method)),
+    }
+
+    def compute() -> dict[str, Any]:
+        found = show(shown, method)
+        return {"data": dict(found.data), "settings": dict(found.settings), "warnings": list(found.warnings)}
+
+    try:
+        kept = store.answer(question, compute)
+    except ANY_FAILURE as error:
+        return f"{method.label}, {shown.title}: {' '.join(str(error).split())}"
+    return ShownImpact(shown, method.label, kept["data"], kept["settings"], kept["warnings"])
+
+
+def show_all(
+    wanted: Sequence[Shown],
+    methods: Sequence[Method],
+    *,
+    store: RunStore,
+    jobs: int = 1,
+    progress: Callable[[int, int], None] | None = None,
+) -> tuple[list[ShownImpact], list[str]]:
+    """Every impact by every method, impact by impact, and a sentence for each that could not be shown."""
+    asked = [(shown, method, store) for shown in wanted for method in methods]
+    slowest_first = sorted(range(len(asked)), key=lambda i: -asked[i][0].epsilon)
+    calls = [asked[i] for i in slowest_first]
+
+    def died(i: int, why: str) -> str:
+        return f"{calls[i][1].label}, {calls[i][0].title}: {why}"
+
+    found = dict(zip(slowest_first, run_all(_kept, calls, jobs=jobs, progress=progress, on_death=died)))
+    each = [found[i] for i in range(len(asked))]
+    return [e for e in each if isinstance(e, ShownImpact)], [e for e in each if isinstance(e, str)]
+
+
+@cache
+def theory_of(shown: Shown) -> dict[str, Any]:
+    """Theory to first order on the same timeline: ``time``, ``x``, ``gap`` over V₀t, ``front``, ``reaction`` (one
+    end's), ``pressure``."""
+    exact = contact_parameters(shown.kappa_over_nu, *shown.first)
+    tau, x = frames(), places(shown)
+    root = np.sqrt(tau)
+    fields = ImpactFields(exact, shown.epsilon, tolerance=1e-7)
+    # at leading order the shape is one function of x/√τ; the first order adds a part that grows with τ
+    times = np.linspace(tau[0], tau[-1], THEORY_TIMES if shown.epsilon else 1)
+    near = 4.0 * max(float(exact.lambda0), 0.5)  # in front of the contact the shape bends most
+    z = np.concatenate([np.linspace(0.0, near, 91), np.geomspace(near, max(x[-1] / root[0], 2.0 * near), 31)[1:]])
+    profiles = -fields.beam(z[None, :] * np.sqrt(times)[:, None], times[:, None]).deflection / times[:, None]
+    gap = []
+    for t, r in zip(tau, root):
+        profile = np.array([np.interp(t, times, column) for column in profiles.T])
+        gap.append(_short(CubicSpline(z, profile)(x / r)))
+    return {
+        "time": _short(tau),
+        "x": _short(x),
+        "gap": gap,
+        "front": _short(root * (exact.lambda0 + shown.epsilon * exact.lambda1 * tau)),
+        "reaction": _short(np.sqrt(2.0 / np.pi) * (exact.r0 + shown.epsilon * exact.r1 * tau) / root),
+        "pressure": shown.pressure,
+    }
+
+
+def kept_instants(time: Array, count: int = FRAMES) -> NDArray[np.int64]:
+    """Saved instants nearest to ``count`` ones even in √t, for the map of forces."""
+    wanted = np.linspace(START, 1.0, count) ** 2 * time[-1]
+    return np.unique(np.maximum(np.abs(time[None, :] - wanted[:, None]).argmin(axis=1), 1))
+
+
+def reduce_history(history: ImpactHistory, shown: Shown) -> dict[str, Any]:
+    """What the page needs of a history, JSON-ready, in units of the fast layer, at the times of :func:`frames`.
+
+    ``gap`` (frames, points) over V₀t, null where no beam was modelled; ``front`` and ``reaction`` (one end's);
+    ``pressure`` of the zone; ``lift`` over V₀t; ``map``: force per length in bins of x between kept instants;
+    ``energy``: those of :data:`ENERGIES` that the method reports, as changes since the first saved instant.
+    """
+    impact = history.impact
+    found = moments(history)
+    tau, wanted, x = found.tau, frames(), places(shown)
+    root = np.sqrt(tau)
+    reaction = np.gradient(found.impulse, root) / (2.0 * np.sqrt(np.maximum(tau, 1e-300)))  # I ~ √τ
+    gap = np.zeros((tau.size, x.size))
+    for k, t in enumerate(history.time):
+        nodes = history.positions(k) / impact.length_scale
+        half = nodes >= 0.0  # a full beam is drawn by its right half
+        shape = np.interp(x, nodes[half], history.array("gap", k)[half], right=np.nan)
+        gap[k] = shape / (impact.velocity * max(t, 1e-300))
+
+    def at(values: Array) -> Array:
+        return np.interp(wanted, tau, values)
+
+    kept = kept_instants(history.time)
+    edges = np.linspace(0.0, widest(shown), BINS + 1)
+    energy = impact.mass_per_length * impact.length_scale * impact.velocity**2
+    force = {
+        "x": _short(0.5 * (edges[1:] + edges[:-1])),
+        "root_time": _short(root[kept][1:]),
+        "force": [_short(row) for row in force_map(history, kept, edges)],
+    }
+    curves = {"front": found.front, "reaction": reaction, "pressure": found.pressure, "lift": found.lift}
+    reduced = {
+        "gap": [_short(row) for row in np.array([at(column) for column in gap.T]).T],
+        **{name: _short(at(values)) for name, values in curves.items()},
+        "map": force,
+        "energy": {name: _short(at(values) / energy) for name, values in energies(history).items()},
+    }
+    return dict(plain(reduced))
+
+
+def energies(history: ImpactHistory) -> dict[str, Array]:
+    """Changes of the energies, J, in the frame of the free beam, where the wall moves at v = V₀ + a₀t and does work.
+
+    Against the frame of the wall, kinetic energy and work are greater by v∫R dt less what the free beam gains.
+    """
+    changes = {n: history.array(n) - history.array(n)[0] for n in ENERGIES if n in history}
+    if "position" in history:  # a mesh that moves carries the waves alone, and is in this frame
+        return changes
+    p = history.impact
+    v, mass = p.velocity + p.acceleration * history.time, 2.0 * p.mass_per_length * history.positions(-1).max()
+    shift = v * history.array("total_impulse") - 0.5 * mass * (v**2 - p.velocity**2)
+    return changes | {n: changes[n] + shift for n in ("kinetic_energy", "work_of_loads") if n in changes}
+
+
+def _short(values: Array) -> list[float]:
+    """Five significant digits: enough to look at."""
+    return [float(f"{v:.5g}") for v in np.asarray(values, float)]

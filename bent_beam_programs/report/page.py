@@ -1,0 +1,222 @@
+"""The main job's result: every method matched with the theory, as one HTML page that needs no network.
+
+``write_report`` computes the rows (:mod:`.rows`) and a few impacts to look at (:mod:`.impacts`), takes the
+parameter studies, the sheets of work and precision and the map of whole impacts as they are stored, and puts all of it
+into ``templates/report.html.j2``, with plotly.js inside. Whatever fails is named on the page, and the page is written
+all the same.
+"""
+
+from __future__ import annotations
+
+import base64
+import json
+import os
+import platform
+import time as clock
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from datetime import UTC, datetime
+from importlib.metadata import version
+from pathlib import Path
+from typing import Any
+
+import jinja2
+from markupsafe import Markup
+from plotly.offline import get_plotlyjs
+
+from bent_beam.errors import ANY_FAILURE
+from bent_beam.files import write_atomically
+from bent_beam.method import Method, refined
+from bent_beam.versions import processor, versions
+from bent_beam_programs.report.impacts import END, ENERGIES, SHOWN, ShownImpact, show_all, theory_of
+from bent_beam_programs.report.plots import layout, plots
+from bent_beam_programs.report.rows import first_order_rows, labels, leading_rows
+from bent_beam_programs.report.stills import draw_acceleration, draw_maps, grouped
+from bent_beam_programs.report.studies import stored_numbers, stored_studies
+from bent_beam_programs.report.summary import COLUMNS, acceleration_rows, headline, percent, pipe_prediction, summary
+from bent_beam_programs.report.work import stored_measurements
+from comparison.figures.matching import write_match
+from comparison.figures.style import marks
+from comparison.match import match
+from comparison.rows import MatchRow, Question, failures
+from comparison.store import RunStore
+from comparison.whole_impact.figures import draw_map
+
+TEMPLATES = Path(__file__).resolve().parent / "templates"
+
+
+@dataclass(frozen=True)
+class Content:
+    """All that the page shows."""
+
+    rows: Sequence[MatchRow]
+    impacts: Sequence[ShownImpact] = ()
+    lost_impacts: Sequence[str] = ()
+    pipe: Mapping[str, Any] | None = None
+    numbers: Mapping[str, Any] | None = None
+    studies: Sequence[Mapping[str, Any]] = ()
+    work: Sequence[Mapping[str, Any]] = ()
+    pictures: Sequence[Path] = ()
+    seconds: float = 0.0
+    jobs: int = 1
+
+
+def write_report(
+    out: Path,
+    methods: Sequence[Method],
+    questions: Sequence[Question],
+    *,
+    store: RunStore,
+    jobs: int = 1,
+    scheduler: str | None = None,
+    progress: Callable[[int, int], None] = lambda done, total: None,
+) -> dict[str, Any]:
+    """Compute everything and write ``out/index.html``, with its rows and still pictures in ``out/data``.
+
+    methods : to report on. questions : rows to ask for. progress : called with (done, total) as rows finish.
+
+    Returns ``page``, ``files``, ``headline``, ``failures`` (JSON-ready) and ``rows`` (their number).
+    A row that fails is listed, not raised.
+    """
+    began = clock.perf_counter()
+    asked = len(questions)
+    total = asked + len(SHOWN) * len(methods) + 1
+    warm_up(methods)
+    rows = match(questions, store=store, jobs=jobs, scheduler=scheduler, progress=lambda done, _: progress(done, total))
+    impacts, lost = show_all(
+        SHOWN, methods, store=store, jobs=jobs, progress=lambda done, _: progress(asked + done, total)
+    )
+    files = write_match(rows, out / "data")
+    files += draw_map(out / "data")
+    if impacts:  # for paper and for readers without JavaScript
+        files += draw_maps(impacts, out / "data") + draw_acceleration(impacts, out / "data")
+    content = Content(
+        rows=rows,
+        impacts=impacts,
+        lost_impacts=lost,
+        pipe=pipe_prediction(),
+        numbers=stored_numbers(),
+        studies=stored_studies(),
+        work=stored_measurements(),
+        pictures=[f for f in files if f.suffix == ".png"],
+        seconds=clock.perf_counter() - began,
+        jobs=jobs,
+    )
+    index = out / "index.html"
+    write_atomically(index, render(content))
+    progress(total, total)
+    failed = failures(rows)
+    return {
+        "page": str(index),
+        "files": [str(f) for f in [index, *files]],
+        "headline": headline(leading_rows(rows), first_order_rows(rows), len(failed)),
+        "failures": [{"label": r.label, "kappa_over_nu": r.kappa_over_nu, "reason": r.reason} for r in failed],
+        "rows": len(rows),
+    }
+
+
+def warm_up(methods: Sequence[Method]) -> None:
+    """Run each method once, coarsely, so that kernels are compiled (and cached) before anything is timed.
+
+    A method that fails here fails again in its rows, with its reason.
+    """
+    impact = SHOWN[0].impact
+    for method in methods:
+        try:
+            (refined(method, 0.25) or method).simulate(impact, end_time=END * impact.time_scale, save=8)
+        except ANY_FAILURE:  # whatever a method of somebody else's raises is the reason of its rows
+            continue
+
+
+def render(content: Content) -> str:
+    """The whole page as text. Nothing in it refers to anything outside it; every string is escaped."""
+    environment = jinja2.Environment(
+        loader=jinja2.FileSystemLoader(TEMPLATES),
+        autoescape=True,
+        undefined=jinja2.StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+    environment.filters |= {"percent": percent, "picture": picture}
+    leading, first = leading_rows(content.rows), first_order_rows(content.rows)
+    methods, groups = labels(content.rows), grouped(content.impacts)
+    return environment.get_template("report.html.j2").render(
+        content=content,
+        headline=headline(leading, first, len(failures(content.rows))),
+        summary=summary(leading, first),
+        leading=leading,
+        first=first,
+        failures=[row for row in content.rows if row.reason],
+        warnings=[(r, w) for r in [*leading, *first] for w in r.row.warnings],
+        methods=methods,
+        colours={label: mark["color"] for label, mark in marks(methods).items()},
+        groups=groups,
+        shown_methods=list(dict.fromkeys(i.label for i in content.impacts)),
+        energies=[
+            style
+            for name, style in ENERGIES.items()
+            if any(any(i.data["energy"].get(name, ())) for i in content.impacts)
+        ],
+        acceleration=acceleration_rows(content.impacts),
+        pipe_headings=[heading for heading, _ in COLUMNS.values()],
+        pictures={file.stem: picture(file) for file in content.pictures},
+        facts=facts(content),
+        settings=settings(content),
+        data={
+            "plots": plots(leading, first),
+            "base": layout("", ""),
+            "energies": ENERGIES,
+            "impacts": [impact_data(runs) for runs in groups.values()],
+        },
+        plotly=inline_script(get_plotlyjs()),
+        script=inline_script((TEMPLATES / "report.js").read_text(encoding="utf-8")),
+        style=Markup((TEMPLATES / "report.css").read_text(encoding="utf-8")),
+    )
+
+
+def inline_script(text: str) -> Markup:
+    """Our own or plotly's script, safe between script tags."""
+    return Markup(text.replace("</script", "<\\/script").replace("<!--", "<\\!--"))
+
+
+def picture(file: Path) -> str:
+    """A PNG as a data URL; empty where there is none."""
+    return "data:image/png;base64," + base64.b64encode(file.read_bytes()).decode("ascii") if file.exists() else ""
+
+
+def impact_data(runs: Sequence[ShownImpact]) -> dict[str, Any]:
+    """An impact as the page's script reads it: theory and every method on one timeline."""
+    shown = runs[0].shown
+    colours = marks(run.label for run in runs)
+    return {
+        "name": shown.name,
+        "title": shown.title,
+        "kappa": shown.kappa_over_nu,
+        "epsilon": shown.epsilon,
+        "theory": theory_of(shown),
+        "methods": [{"label": run.label, "colour": colours[run.label]["color"], **run.data} for run in runs],
+    }
+
+
+def facts(content: Content) -> dict[str, str]:
+    """Versions, machine and times."""
+    return {
+        "written": datetime.now(UTC).strftime("%Y-%m-%d %H:%M UTC"),
+        "rows": f"{len(content.rows)} asked for, {len(failures(content.rows))} failed",
+        "time for this report": f"{content.seconds:.0f} s, {content.jobs} processes at most",
+        "time in the rows": f"{sum(r.seconds or 0.0 for r in content.rows):.0f} s "
+        "(runs kept from before count what they took then)",
+        "processor": processor(),
+        "cores": str(os.cpu_count() or "unknown"),
+        "system": f"{platform.system()} {platform.release()} ({platform.machine()})",
+        "Python": platform.python_version(),
+        **versions(),
+        "plotly": version("plotly"),
+    }
+
+
+def settings(content: Content) -> dict[str, str]:
+    """Settings of the runs: title → JSON text."""
+    found: dict[str, Any] = {f"Method: {row.label}": row.settings for row in content.rows}
+    found |= {f"Shown impact: {i.label}, {i.shown.title}": dict(i.settings) for i in content.impacts}
+    return {title: json.dumps(value, indent=1, ensure_ascii=False) for title, value in found.items()}

@@ -1,0 +1,141 @@
+"""What the report asks of every method, how good an answer has to be, and the rows as cells of its tables."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+
+from bent_beam.measure.measured import Measured
+from bent_beam.method import Method
+from comparison.rows import LEAST, First, MatchRow, Question
+
+PATHS = ("hermite", "self_similar", "exudyn")
+LEADING = (1 / 1600, 1 / 20, 1 / 4, 1 / 2, 0.8)
+MIDDLE = 0.5
+ALONG = (0.25, MIDDLE, 0.8)  # κ/ν of first order
+FIRST: tuple[First, ...] = ((4, 0, 0, 0), (-1, -1, 0, 0))  # a pressed zone and a lifting one
+REFINES = (0.5, 1.0)
+
+
+def true_minus(text: str) -> str:
+    """With a true minus sign, as wide as a plus."""
+    return text.replace("-", "−")
+
+
+def report_questions(methods: Sequence[Method], refines: Sequence[float] = REFINES) -> list[Question]:
+    """Every row of the report, few enough for two minutes.
+
+    Leading order over κ/ν; two loads of first order at three κ/ν; convergence at κ/ν = 0.5. The longest come first, so
+    that no core idles at the end, and a method's two loads apart, so that the second finds the run without loads in the
+    store.
+    """
+    return [
+        *(Question(m, LEADING[0]) for m in reversed(methods)),
+        *(Question(m, k, load) for load in FIRST for k in ALONG for m in reversed(methods)),
+        *(Question(m, k) for k in LEADING[1:] for m in reversed(methods)),
+        *(Question(m, MIDDLE, None, r) for m in methods for r in refines if r != 1.0),
+    ]
+
+
+def tolerance(what: str, kappa_over_nu: float) -> float:
+    """The relative error that this project holds itself to (its regression tests do)."""
+    if what in ("lambda0", "r0"):
+        return 0.001
+    return 0.03 if kappa_over_nu < 0.3 else 0.01
+
+
+@dataclass(frozen=True)
+class Cell:
+    """One number of a row that has value, error bar and theory, as the tables show it."""
+
+    what: str
+    number: Measured
+    tolerance: float
+
+    @property
+    def error(self) -> float:
+        """The difference from theory, relative (see :func:`tolerance`)."""
+        return self.number.relative(LEAST[self.what]) or 0.0
+
+    @property
+    def bar(self) -> float:
+        """The error bar, relative."""
+        return self.number.relative_error(LEAST[self.what]) or 0.0
+
+    @property
+    def grade(self) -> str:
+        """``good`` within half the tolerance, ``fair`` within it, ``poor`` up to thrice, ``bad`` beyond."""
+        size = abs(self.error) / self.tolerance
+        return "good" if size <= 0.5 else "fair" if size <= 1.0 else "poor" if size <= 3.0 else "bad"
+
+    @property
+    def value_text(self) -> str:
+        """Value ± error bar, with as many digits as the error bar leaves."""
+        value, bar = self.number.value, self.number.error
+        if not bar:
+            return true_minus(f"{value:.6g}")
+        digits = max(0, min(8, 1 - math.floor(math.log10(bar))))
+        return true_minus(f"{value:.{digits}f} ±\u00a0{bar:.{digits}f}")
+
+    @property
+    def error_text(self) -> str:
+        """The relative error in per cent, two digits and its sign."""
+        size = 100.0 * self.error
+        if abs(size) < 1e-4:
+            return "< 0.0001 %"
+        return true_minus(f"{size:+.{max(0, 1 - math.floor(math.log10(abs(size))))}f} %")
+
+    @property
+    def theory_text(self) -> str:
+        return true_minus(f"{self.number.theory:.6g}")
+
+
+@dataclass(frozen=True)
+class TableRow:
+    """A row of the report's tables with its cells."""
+
+    row: MatchRow
+    cells: tuple[Cell, ...]
+
+    @property
+    def ratio_text(self) -> str:
+        """κ/ν as the thesis writes it (1/1600), or as a number."""
+        inverse = 1.0 / self.row.kappa_over_nu
+        whole = abs(inverse - round(inverse)) < 1e-9 and inverse > 10.5
+        return f"1/{round(inverse)}" if whole else f"{self.row.kappa_over_nu:g}"
+
+    @property
+    def first_text(self) -> str:
+        """(α, ψ, χ, N) with proper minus signs."""
+        return true_minus("(" + ", ".join(f"{v:g}" for v in self.row.first) + ")")
+
+
+def table_row(row: MatchRow) -> TableRow:
+    """A row with the cells that it is about: λ₁ and r₁ where it has them, λ₀ and r₀ otherwise."""
+    numbers = row.compared().items()
+    return TableRow(
+        row, tuple(Cell(n, c, tolerance(n, row.kappa_over_nu)) for n, c in numbers if c.covered is not None)
+    )
+
+
+def labels(rows: Iterable[MatchRow]) -> list[str]:
+    """Labels of the methods, in order: those of this project first."""
+    found = {r.label: r.path for r in rows}
+    return sorted(found, key=lambda name: PATHS.index(found[name]) if found[name] in PATHS else len(PATHS))
+
+
+def _at_own_resolution(rows: Iterable[MatchRow], *, first: bool) -> list[TableRow]:
+    chosen = [r for r in rows if r.of_first_order == first and r.refine == 1.0 and r.reason is None]
+    order = {label: i for i, label in enumerate(labels(chosen))}
+    return [table_row(r) for r in sorted(chosen, key=lambda r: (r.kappa_over_nu, r.first, order[r.label]))]
+
+
+def leading_rows(rows: Iterable[MatchRow]) -> list[TableRow]:
+    """Rows of leading order at the methods' own resolution, by κ/ν and method."""
+    return _at_own_resolution(rows, first=False)
+
+
+def first_order_rows(rows: Iterable[MatchRow]) -> list[TableRow]:
+    """Rows of first order at the methods' own resolution, by κ/ν, (α, ψ, χ, N) and method."""
+    return _at_own_resolution(rows, first=True)

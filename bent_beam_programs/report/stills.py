@@ -1,0 +1,80 @@
+"""The shown impacts as still pictures in the project's style, for paper and for pages without JavaScript."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+from matplotlib.colors import LogNorm
+
+from bent_beam_programs.report.impacts import Shown, ShownImpact, theory_of
+from comparison.figures import style
+
+
+def grouped(impacts: Sequence[ShownImpact]) -> dict[Shown, list[ShownImpact]]:
+    """The runs of each impact, in order."""
+    found: dict[Shown, list[ShownImpact]] = {}
+    for impact in impacts:
+        found.setdefault(impact.shown, []).append(impact)
+    return found
+
+
+def draw_maps(impacts: Sequence[ShownImpact], out: Path) -> list[Path]:
+    """Reaction per length over place and time: an impact a column, a method a row."""
+    groups = grouped(impacts)
+    labels = list(dict.fromkeys(i.label for i in impacts))
+    with style.figure(
+        len(labels), len(groups), width=style.PAGE, height=1.9 * len(labels) + 0.4, sharey=True, squeeze=False
+    ) as (fig, axes):
+        mesh = None
+        for column, (shown, runs) in enumerate(groups.items()):
+            axes[0][column].set_title(shown.title, fontsize=6.5)
+            axes[-1][column].set_xlabel(r"$x/l_*$  (1)")
+            for run in runs:
+                axis = axes[labels.index(run.label)][column]
+                field = run.data["map"]
+                force = np.clip(np.array(field["force"]), 1e-2, None)
+                x = np.array(field["x"])
+                mesh = axis.pcolormesh(
+                    np.concatenate([-x[::-1], x]),
+                    np.array(field["root_time"]),
+                    np.concatenate([force[:, ::-1], force], axis=1),
+                    cmap="viridis",
+                    norm=LogNorm(1e-2, 1e3),
+                    shading="nearest",
+                    rasterized=True,
+                )
+                axis.grid(False)
+        for row, label in enumerate(labels):
+            axes[row][0].set_ylabel(f"{label}\n" + r"$\sqrt{\tau}$  (1)")
+        assert mesh is not None  # there is an impact, or nobody would draw
+        fig.colorbar(mesh, ax=axes, label=r"reaction per length / ($\mu V_0/t_*$)")
+        return style.save(fig, out, "reaction-map")
+
+
+def draw_acceleration(impacts: Sequence[ShownImpact], out: Path) -> list[Path]:
+    """λ_c/√τ and one end's reaction times √τ of all impacts: theory to first order, and every method."""
+    marks = style.marks(i.label for i in impacts)
+    with style.figure(1, 2, width=style.PAGE, height=2.8) as (fig, axes):
+        for axis, what, power, symbol in zip(
+            axes, ("front", "reaction"), (-0.5, 0.5), (r"$\lambda_c/\sqrt{\tau}$", r"$(R/2)\sqrt{\tau}$")
+        ):
+            for i, (shown, runs) in enumerate(grouped(impacts).items()):
+                theory, dash = theory_of(shown), ("-", "--", ":")[i % 3]
+                time = np.array(theory["time"])
+                axis.plot(
+                    time,
+                    np.array(theory[what]) * time**power,
+                    **{**style.THEORY, "ls": dash, "label": shown.title if what == "front" else None},
+                )
+                for j, run in enumerate(runs):
+                    mark = {**marks[run.label], "label": None}
+                    axis.plot(time[2 * j :: 7], (np.array(run.data[what]) * time**power)[2 * j :: 7], **mark)
+            axis.set_xlabel(r"$\tau = t/t_*$  (1)")
+            axis.set_ylabel(f"{symbol}  (1)")
+        for mark in marks.values():
+            axes[1].plot([], [], **mark)
+        fig.legend(*axes[0].get_legend_handles_labels(), loc="outside lower center", ncols=3, fontsize=6)
+        axes[1].legend(fontsize=6)
+        return style.save(fig, out, "acceleration")

@@ -1,0 +1,66 @@
+"""What is stored of the thesis, for the page to show: its parameter studies and the table of its printed numbers, each
+with pictures. They take minutes and are measured elsewhere.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from comparison import stored
+from comparison.readable import readable
+
+STUDIES = Path(__file__).resolve().parents[1] / "stored_studies" / "studies.json"
+NUMBERS = STUDIES.with_name("numbers.json")
+CLASS = 5  # the column of a printed number's class
+LEFT_OUT = ("strain", "nodes", "steps", "seconds")  # of the tables: what says nothing of accuracy
+
+
+def stored_studies(file: Path = STUDIES) -> list[dict[str, Any]]:
+    """The stored studies in their order; none where there is no file.
+
+    Each as it is stored, with its table as text (``headings``, ``cells``), the ``reason`` why it was left out, if it
+    was, ``stale``: code has changed since, and the file of its ``picture``.
+    """
+    if not file.exists():
+        return []
+    stale = stored.is_stale(file)
+    found = []
+    for study in stored.read(file)["studies"]:
+        columns = {key: heading for key, heading in study["columns"].items() if key not in LEFT_OUT}
+        shown = {
+            "headings": list(columns.values()),
+            "cells": [[_text(row.get(key)) for key in columns] for row in study["rows"]],
+            "reason": (study.get("reason") or "no reason given") if study["failed"] else "",
+            "stale": stale,
+            "picture": file.with_name(f"{study['name']}.png"),
+        }
+        found.append({"says": "", **study, **shown})
+    return found
+
+
+def _text(value: Any) -> str:
+    """A cell: a number in three digits, with its error bar where it has one."""
+    if isinstance(value, Mapping):
+        bar = value.get("error")
+        return readable(value.get("value"), 3) + ("" if bar is None else f" ± {readable(bar, 1)}")
+    return readable(value, 3)
+
+
+def stored_numbers(file: Path = NUMBERS) -> dict[str, Any] | None:
+    """The stored table of printed numbers; ``None`` where there is no file.
+
+    rows : how many; classes : class → its rows (where, what, printed, ours, ratio, class, why); figures : id, title and
+    picture of each; date; stale.
+    """
+    if not file.exists():
+        return None
+    found = stored.read(file)
+    return {
+        "rows": len(found["rows"]),
+        "classes": {name: [row for row in found["rows"] if row[CLASS] == name] for name in found["classes"]},
+        "figures": [(f["id"], f["title"], file.with_name(f"{f['id']}.png")) for f in found["figures"]],
+        "date": found["date"],
+        "stale": stored.is_stale(file),
+    }

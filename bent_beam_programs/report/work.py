@@ -1,0 +1,102 @@
+"""Work and precision of many methods, for the report and the README: rows and pictures, stored with what made them.
+
+They take minutes, so the report shows what ``python -m bent_beam_programs.report.work [NAME]`` wrote to ``stored/``:
+all integrators with all contacts at leading order, and the integrators at first order. Rows that are kept, of an
+interrupted measurement too, are not run again.
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any
+
+from bent_beam.cases import EXAMPLES
+from comparison import stored
+from comparison.figures.work_precision import draw_work_precision
+from comparison.match import match
+from comparison.methods import methods_from_file
+from comparison.rows import First, questions
+from comparison.store import RunStore, default_store
+
+STORED = Path(__file__).with_name("stored")
+LISTS = EXAMPLES / "methods"
+KAPPA = 0.5
+PACKAGES = ("hermite_fe", "self_similar_fe", "exudyn_models", "bent_beam")
+KEPT = ("label", "path", "kappa_over_nu", "alpha", "psi", "chi", "axial", "refine", "lambda0", "r0", "lambda1", "r1",
+        "lift", "pull", "seconds", "steps", "reason")  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Measurement:
+    """What is measured. methods : a list in cases/methods; limit : s, for one row."""
+
+    name: str
+    title: str
+    methods: str
+    refines: tuple[float, ...]
+    firsts: tuple[First, ...] = ()
+    limit: float = 60.0
+
+    @property
+    def command(self) -> str:
+        """The same rows from the command line."""
+        words = [f"bentbeam match --methods cases/methods/{self.methods} --kappa-over-nu {KAPPA:g}"]
+        words += [f"--first-order={','.join(f'{v:g}' for v in first[:3])}" for first in self.firsts]
+        words.append(f"--refine {','.join(f'{r:g}' for r in self.refines)} --limit {self.limit:g} --jobs 2 --out out")
+        return " ".join(words)
+
+
+MEASUREMENTS = (
+    Measurement("work-precision", "all integrators with all contacts, leading order", "all.toml", (1.0, 2.0)),
+    Measurement("work-precision-first-order", "integrators, first order", "first_order.toml", (0.5, 1.0),
+                ((4.0, 0.0, 0.0, 0.0),), limit=120.0),
+)  # fmt: skip
+
+
+def store_measurement(measurement: Measurement, *, jobs: int = 1) -> Path:
+    """Measure and write rows and picture to ``stored/``; returns the file of rows."""
+    asked = questions(methods_from_file(LISTS / measurement.methods), [KAPPA], measurement.firsts, measurement.refines)
+    rows = match(asked, store=RunStore(default_store()), jobs=jobs, limit=measurement.limit)
+    draw_work_precision(rows, STORED)
+    return stored.write(
+        STORED / f"{measurement.name}.json",
+        f"work and precision: {measurement.title}",
+        f"python -m bent_beam_programs.report.work {measurement.name}",
+        PACKAGES,
+        {row.label: row.settings for row in rows},
+        {"command": measurement.command, "rows": [{name: asdict(row)[name] for name in KEPT} for row in rows]},
+    )
+
+
+def stored_measurements() -> list[dict[str, Any]]:
+    """What is stored, in the order of :data:`MEASUREMENTS`: title, command, date, picture; ``lost``: label and reason
+    of the rows without a number; ``stale``: code has changed since.
+    """
+    found = []
+    for measurement in MEASUREMENTS:
+        file = STORED / f"{measurement.name}.json"
+        if file.exists():
+            document = stored.read(file)
+            lost = {row["label"]: row["reason"] for row in document["rows"] if row["reason"]}
+            shown = {"title": measurement.title, "lost": list(lost.items()), "picture": file.with_suffix(".png")}
+            found.append(document | shown | {"stale": stored.is_stale(file)})
+    return found
+
+
+def main(names: Sequence[str]) -> None:
+    """Store the measurements of these names (none: all). Raises ``SystemExit`` for a name that none has."""
+    known = {measurement.name: measurement for measurement in MEASUREMENTS}
+    for name in names:
+        if name not in known:
+            raise SystemExit(f"{name} is not a measurement (known: {', '.join(known)})")
+    for name, measurement in known.items():
+        if not names or name in names:
+            print(store_measurement(measurement, jobs=os.cpu_count() or 1))
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])

@@ -1,0 +1,153 @@
+"""Chapter 3, sections 3.1 and 3.2: statics of the Hermite beam, the bouncing ball; and the shape functions (A.6)."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from bent_beam_programs.thesis.gallery.drawing import THEORY, guide, legend_below, plain_line
+from bent_beam_programs.thesis.sheet import Sheet, item
+from comparison.figures import style
+from hermite_fe import INTEGRATORS
+from hermite_fe.beam import HermiteBeam, shape_functions
+from hermite_fe.run import integrate
+from hermite_fe.system import ContactRows, System
+
+LENGTH, STIFFNESS, ELEMENTS = 5.0, 9.345e3, 52
+NODES = np.linspace(0.0, LENGTH, ELEMENTS + 1)
+AXIS_STIFFNESS = 500.0 * STIFFNESS
+"""EI, N m², that fits the printed axes of both figures; the captions print a five-hundredth of it."""
+PRINTED = (
+    "Drawn with EI = 4.67·10⁶ N m², which fits the thesis's axis; with the printed EI = 9.345·10³ N m² the deflection "
+    "would be five hundred times as large, against both printed axes. Hermite elements are exact at the nodes"
+)
+GRAVITY, HEIGHT, RESTITUTION = 9.81, 0.5, 0.9
+
+
+def static(sheet: Sheet, force: float, node: int, supports: dict[int, float], exact: np.ndarray) -> None:
+    """Deflection of 52 elements under a nodal force against the exact solution at the nodes."""
+    beam = HermiteBeam(NODES, AXIS_STIFFNESS, 1.0)
+    load = np.zeros(beam.dofs)
+    load[2 * node] = force
+    found = beam.static(load, supports)[0::2]
+    with sheet.figure() as (_, axis):
+        axis.set(xlabel="$x$  (m)", ylabel="$w$  (m)", xlim=(0, LENGTH))
+        sheet.line(axis, beam.nodes, -exact, series="theory", **THEORY)
+        sheet.line(axis, beam.nodes, -found, series="Hermite", **style.mark("hermite"), markevery=2)
+        axis.legend()
+    largest = float(np.abs(exact).max())
+    sheet.numbers |= {
+        "largest deflection (m)": largest,
+        "largest deflection with the printed EI (m)": 500.0 * largest,
+        "relative error at the nodes": float(np.abs(found - exact).max() / largest),
+    }
+
+
+@item("fig-3.3", printed=PRINTED)
+def supported(sheet: Sheet) -> None:
+    """Deflection of a beam on two supports
+
+    Beam on two supports, L = 5 m, P = 5·10⁵ N in the middle, 52 elements, against (3.1.12). {printed}. The thesis's
+    caption says "encastre"; its text blocks the deflection alone, as here.
+    """
+    s, force = np.minimum(NODES, LENGTH - NODES), 5e5
+    exact = force * s * (3.0 * LENGTH**2 - 4.0 * s**2) / (48.0 * AXIS_STIFFNESS)
+    static(sheet, force, ELEMENTS // 2, {0: 0.0, 2 * ELEMENTS: 0.0}, exact)
+
+
+@item("fig-3.5", printed=PRINTED)
+def cantilever(sheet: Sheet) -> None:
+    """Deflection of a cantilever
+
+    Cantilever clamped at x = L, P = 8·10⁵ N at x = 0, L = 5 m, 52 elements, against (3.1.15). {printed}.
+    """
+    force = 8e5
+    exact = force * (NODES**3 / 6.0 - LENGTH**2 * NODES / 2.0 + LENGTH**3 / 3.0) / AXIS_STIFFNESS
+    static(sheet, force, 0, {2 * ELEMENTS: 0.0, 2 * ELEMENTS + 1: 0.0}, exact)
+
+
+def ball(step: float, end: float) -> tuple[np.ndarray, np.ndarray]:
+    """Times (s) and heights (m) of the ball by Moreau–Jean with θ = 1 (implicit Euler)."""
+    system = System(
+        mass=np.ones((1, 1)),
+        stiffness=np.zeros((1, 1)),
+        load=np.array([[-GRAVITY]]),
+        contacts=ContactRows(dofs=np.array([[0]]), factors=np.array([[1.0]]), gap=np.zeros(1)),
+    )
+    law = INTEGRATORS["moreau_jean"](time_step=step, theta=1.0)
+    save = [float(t) for t in np.arange(round(end / step) + 1) * step]
+    run = integrate(system, np.array([HEIGHT]), np.zeros(1), law, end, restitution=RESTITUTION, save=save)
+    return run.time, run.q[:, 0]
+
+
+def predicting_ball(step: float, instants: int) -> np.ndarray:
+    """Heights (m) by the thesis's algorithm (3.2): where a step of implicit Euler would end in the wall, the impact law
+    turns the velocity round, and the step is taken with it.
+    """
+    height, velocity, found = HEIGHT, 0.0, [HEIGHT]
+    for _ in range(instants - 1):
+        fallen = velocity - GRAVITY * step
+        velocity = fallen if height + step * fallen > 0.0 else -RESTITUTION * velocity
+        height += step * velocity
+        found.append(height)
+    return np.array(found)
+
+
+def exact_ball(end: float) -> tuple[np.ndarray, np.ndarray]:
+    """Times (s) and heights (m) of the exact flight, its bounces among the times.
+
+    The ball falls for √(2H/g), and flight n after it lasts 2 eⁿ √(2H/g).
+    """
+    fall = np.sqrt(2.0 * HEIGHT / GRAVITY)
+    bounces = fall + np.concatenate([[0.0], np.cumsum(2.0 * fall * RESTITUTION ** np.arange(1, 60))])
+    times = np.unique(np.concatenate([np.linspace(0.0, end, 3001), bounces[bounces <= end]]))
+    number = np.searchsorted(bounces, times, side="right")  # bounces so far
+    start = np.where(number > 0, bounces[number - 1], -fall)
+    speed = GRAVITY * fall * RESTITUTION**number
+    s = times - start
+    return times, np.where(np.isin(times, bounces), 0.0, speed * s - 0.5 * GRAVITY * s**2)
+
+
+@item("fig-3.6")
+def bouncing(sheet: Sheet) -> None:
+    """Bouncing ball
+
+    Bouncing ball, q₀ = 0.5 m, v₀ = 0, h = 10⁻³ s, restitution 0.9, Moreau–Jean with implicit Euler: the law acts on
+    velocities, so positions drift by up to a step (zoom on the right). The thesis tests the position that a step would
+    reach, and its ball turns above the wall (vermilion); Hermite's Moreau–Jean tests the gap before the step, and the
+    ball may turn inside it (blue). Smaller steps bring both to the wall.
+    """
+    times, height = ball(1e-3, 3.0)
+    predicted = predicting_ball(1e-3, times.size)
+    dense, exact = exact_ball(3.0)
+    with sheet.figure(1, 2, width=style.PAGE, height=2.5) as (fig, axes):
+        for axis, marker in zip(axes, ("", ".")):
+            axis.set(xlabel="$t$  (s)", ylabel="$q$  (m)")
+            sheet.line(axis, dense, exact, series="theory", **THEORY)
+            drawn = (("position predicted", predicted, "vermilion"), ("Moreau–Jean", height, "blue"))
+            for series, y, colour in drawn:
+                sheet.line(axis, times, y, series=series, **plain_line(colour, width=0.9, marker=marker, ms=4))
+        sheet.letter(axes, ["", "zoom"])
+        hit = float(np.sqrt(2.0 * HEIGHT / GRAVITY))
+        axes[0].set(xlim=(0, 3), ylim=(0, 0.52))
+        axes[1].set(xlim=(hit - 0.012, hit + 0.012), ylim=(-0.005, 0.04))
+        guide(axes[1], y=0.0)
+        legend_below(fig, axes[0])
+    sheet.numbers |= {
+        "lowest height at the first bounce (m)": float(height[(times > 0.2) & (times < 0.5)].min()),
+        "the same, position predicted (m)": float(predicted[(times > 0.2) & (times < 0.5)].min()),
+        "way of a step (m)": hit * GRAVITY * 1e-3,
+    }
+
+
+@item("fig-A.1")
+def shapes(sheet: Sheet) -> None:
+    """Hermite shape functions
+
+    Cubic Hermite shape functions N₁ … N₄ (A.6.1–4) over ξ = x/l_e; N₂ = l_e ξ(1 − ξ)² and N₄ = l_e ξ²(ξ − 1) over l_e.
+    """
+    xi = np.linspace(0.0, 1.0, 101)
+    with sheet.figure(2, 2, width=4.6, height=3.6, sharex=True) as (_, axes):
+        for i, (axis, values) in enumerate(zip(axes.flat, shape_functions(xi, 1.0).T), 1):
+            axis.set(ylabel=f"$N_{i}$  (1)" if i % 2 else f"$N_{i}/l_e$  (1)", xlim=(0, 1))
+            axis.set_xlabel(r"$\xi$  (1)" if i > 2 else "")
+            sheet.line(axis, xi, values, series=f"N{i}", **THEORY)

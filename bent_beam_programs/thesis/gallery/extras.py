@@ -1,0 +1,214 @@
+"""What the thesis mentions or could not run: the uniform mesh, Δx = 10⁻⁴ m, conditioning, and Signorini's condition
+over the whole zone (4.0.6); which mass matrix its numbers ask for.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from bent_beam.history import ImpactHistory
+from bent_beam.meshes import GradedMesh, UniformMesh
+from bent_beam_programs.thesis.gallery import chapter3_contact_point as contact_point
+from bent_beam_programs.thesis.gallery import chapter3_first_order as first
+from bent_beam_programs.thesis.gallery.chapter3_contact_point import CONTACT, FLAT, SHOWN
+from bent_beam_programs.thesis.gallery.drawing import guide, legend_below, numbers_of, plain_line
+from bent_beam_programs.thesis.gallery.runs import case, reference_history, thesis, thesis_history
+from bent_beam_programs.thesis.sheet import Sheet, item
+from bent_beam_programs.thesis.studies import conditioning as study
+from bent_beam_programs.thesis.studies.base import outcomes_of
+from bent_beam_programs.thesis.studies.exact import Exact
+from bent_beam_programs.thesis.studies.first_order_case import FITTED, fitted
+from bent_beam_programs.thesis.studies.numerical import NAMES
+from bent_beam_programs.thesis.studies.outcome import Outcome, outcome_of
+from bent_beam_programs.thesis.studies.panels import contact_length, geometry
+from bent_beam_programs.thesis.studies.thesis import CONSISTENT, MASSES, THESIS_MASS, thesis_settings
+from comparison.figures import style
+from comparison.readable import readable
+from hermite_fe import CONTACTS, HermiteFE
+from hermite_fe.contacts import impact_coupling
+from hermite_fe.masses import LumpedMass, Mass
+
+
+def uniform(length: float) -> Outcome:
+    """The thesis's uniform mesh Δx = 2.5·10⁻³ m on a beam of a length, K = 1 1/m, τ = 0.01."""
+    given = case(1.0, 0.01)
+    method = thesis_settings(given.impact, given.end_time).replace(mesh=UniformMesh(2.5e-3)).method()
+    return outcome_of(method.simulate(given.impact.replace(length=length), end_time=given.end_time, save=200), "")
+
+
+@item("extra-uniform")
+def whole_beam(sheet: Sheet) -> None:
+    """The uniform mesh that ran out of memory
+
+    Uniform elements Δx = 2.5·10⁻³ m, K = 1 1/m, τ = 0.01, h = 2.5·10⁻⁸ s: L = 5 m, which took the thesis 8 513.72 s,
+    and L = 50 m, which did not fit its memory. The answer is that of the graded mesh: the contact is over before the
+    far elements matter.
+    """
+    rows = []
+    for length, seconds in ((5.0, "8513.72"), (50.0, "out of memory")):
+        m = uniform(length).measures
+        rows.append([f"{length:g}", round(length / 2.5e-3), seconds, m["seconds"], m["lift"], m["reaction_error"]])
+    sheet.table(["L (m)", "elements", "thesis (s)", "ours (s)", "lift/(V₀t)", "r₀ error (%)"], rows, width=5.2)
+
+
+@item("extra-fine")
+def fine(sheet: Sheet) -> None:
+    """Elements of 10⁻⁴ m
+
+    Δx = 10⁻⁴ m, where the thesis's matrix was close to singular, its other settings, no cap on the ratio of lengths,
+    K = 1 1/m, τ = 0.01: (a) contact length, (b) geometry at the end, beside its own Δx = 2.5·10⁻³ m. It runs, and
+    closes its energy budget to rounding.
+    """
+    given = case(1.0, 0.01)
+    zone = thesis_settings(given.impact, given.end_time).zone
+    found = [
+        outcome_of(
+            thesis_history(1.0, 0.01, mesh=GradedMesh(dx, 1.25, zone=zone, size_ratio=study.UNCAPPED)),
+            f"Δx = {readable(dx)} m",
+        )
+        for dx in (2.5e-3, 1e-4)
+    ]
+    with sheet.figure(1, 2, width=style.PAGE, height=2.8) as (fig, axes):
+        contact_length(sheet, axes[0], found)
+        geometry(sheet, axes[1], found)
+        legend_below(fig, axes[0], 3)
+    numbers_of(sheet, found, "reaction_error", "seconds")
+    sheet.numbers |= {f"energy residual over the largest loss, {o.label}": o.measures["defect"] for o in found}
+
+
+@item("extra-conditioning")
+def conditioning(sheet: Sheet) -> None:
+    """Conditioning of the step's matrix
+
+    Condition in the 1-norm of the step's matrix (3.3.4) over Δx, K = 1 1/m, h = 2.5·10⁻⁸ s, e = 1.25 without a cap on
+    the ratio of lengths: as it stands, and with deflections and rotations in one unit and the multipliers eliminated,
+    as the solver here factors it. The thesis reports a matrix close to singular at Δx = 10⁻⁴ m.
+    """
+    found = outcomes_of(study.STUDY, case(1.0, 0.01))
+    study.STUDY.draw(sheet, found)
+    sheet.numbers |= {f"energy residual over the largest loss, {o.label}": o.measures.get("defect") for o in found}
+
+
+@item("extra-signorini")
+def signorini(sheet: Sheet) -> None:
+    """Signorini's condition over the whole zone
+
+    The two integrals of (4.0.6) over time, K = 10 1/m: ∫y² dx over the contact zone, in units of (V₀t)²λ_c, and the
+    impulse of the reaction, whose product must vanish: the thesis's settings with nodes, and Hermite with its own
+    choices. (4.0.6) asks one number of the whole zone; complementarity at every node and step, which implies it, is
+    what the solver here asks. By (3.2.7) its second integral is ≥ 0, where ≤ 0 is printed.
+    """
+    old = plain_line("vermilion", width=1.1)
+    runs = {
+        "thesis's settings": (thesis_history(10.0, 0.1, contact="node"), old),
+        HermiteFE().label: (reference_history(10.0, 0.1, HermiteFE.path), style.mark(HermiteFE.path)),
+    }
+    with sheet.figure(1, 2, width=style.PAGE, height=2.7) as (fig, axes):
+        for name, (history, line) in runs.items():
+            zone, t = whole_zone(history), history.time
+            kept = np.flatnonzero(zone > 0.0)
+            kept = kept[:: max(1, kept.size // 40)] if line.get("marker") else kept
+            sheet.line(axes[0], 1e6 * t[kept], zone[kept], series=name, **line)
+            sheet.line(axes[1], 1e6 * t[kept], history.array("total_impulse")[kept], series=name, **line)
+            sheet.numbers[f"∫y² dx/((V₀t)²λ_c) at the end, {name}"] = float(zone[-1])
+        axes[0].set(xlabel="$t$  (µs)", ylabel=r"$\int y^2\,dx\;/\;(V_0t)^2\lambda_c$  (1)", yscale="log")
+        axes[1].set(xlabel="$t$  (µs)", ylabel="impulse  (N s)")
+        legend_below(fig, axes[0], 2)
+
+
+def whole_zone(history: ImpactHistory) -> np.ndarray:
+    """∫y² dx over (V₀t)²λ_c for nine tenths of the contact zone at each saved instant (trapezoids of nodal gaps)."""
+    exact, gap = Exact(history.impact), history.array("gap")
+    found = np.zeros(history.time.size)
+    for k, t in enumerate(history.time):
+        front, x = 0.9 * float(exact.front(t)), history.positions(k)
+        inside = (x >= 0.0) & (x <= front)
+        if inside.sum() > 2:
+            found[k] = np.trapezoid(gap[k, inside] ** 2, x[inside]) / ((history.impact.velocity * t) ** 2 * front)
+    return found
+
+
+# Which mass matrix made the thesis's numbers, and what its coupling of neighbouring constraints has to do with it.
+
+ROTARY = (16.0, 24.0, 32.0, 50.0, 105.0, 420.0)
+"""1/r of the lumped masses of the coupling figure."""
+
+
+def coupled(contact: str, mass: Mass) -> tuple[float, float]:
+    """(coupling c of neighbouring constraints, lift in mm)."""
+    lift = thesis("", FLAT, 0.1, contact=contact, mass=mass).lift
+    return impact_coupling(CONTACTS[contact](), mass).neighbour, 1e3 * lift
+
+
+@item("extra-coupling", beside=contact_point.__name__, shown=SHOWN)
+def coupling(sheet: Sheet) -> None:
+    """Lift, mass matrix and coupling
+
+    Lift at t = 2.5·10⁻⁴ s: (a) over the rotary part r of lumped masses, (b) over the coupling c of neighbouring
+    constraints, an impact at one changing the gap velocity of the next by cV₀; {shown}. Middles lift least near c = 0
+    and more on both sides of it. But c is not all: nodes have c = 0 with any lumped mass, and their lift grows with r;
+    at r = 1/24 nodes and middles lift alike; the consistent matrix lifts more than lumped middles of the same c. So the
+    thesis's nodes are ten times as flat as its middles (3.3.5) with lumped masses of one r, not with any.
+    """
+    found = {contact: np.array([coupled(contact, LumpedMass(1.0 / n)) for n in ROTARY]) for contact in CONTACT}
+    full = {contact: coupled(contact, MASSES["consistent"]) for contact in CONTACT}
+    marks = {"node": ("blue", "o"), "middle": ("vermilion", "s")}
+    with sheet.figure(1, 2, width=style.PAGE, height=3.0, sharey=True) as (fig, axes):
+        axes[0].set(xscale="log", xlabel="rotary part $r$  (1)", ylabel="lift  (mm)", ylim=(0.0, 3.6))
+        axes[0].set_xticks([1.0 / n for n in ROTARY], [f"1/{n:g}" for n in ROTARY], fontsize=6.5, rotation=45.0)
+        axes[0].minorticks_off()
+        axes[1].set(xlabel=r"coupling of neighbouring constraints $c$  (1)", ylabel="lift  (mm)")
+        guide(axes[1], x=0.0)
+        for contact, (name, marker) in marks.items():
+            drawn: dict[str, Any] = {"color": style.COLOURS[name], "marker": marker, "ms": 4.5, "mfc": "none"}
+            c, lift = found[contact].T
+            label = f"{NAMES[contact]}, lumped"
+            sheet.line(axes[0], 1.0 / np.array(ROTARY), lift, series=label, **drawn)
+            sheet.line(axes[1], c, lift, series=label, **drawn | ({"ls": ""} if contact == "node" else {}))
+            one, high = full[contact]
+            filled = drawn | {"mfc": style.COLOURS[name], "ls": ""}
+            sheet.line(axes[1], one, high, series=f"{NAMES[contact]}, consistent", **filled)
+            sheet.numbers |= {f"lift (mm), {label}, r = 1/{n:g}": float(v) for n, v in zip(ROTARY, lift)}
+            sheet.numbers |= {f"c, {NAMES[contact]}, consistent": one, f"lift (mm), {NAMES[contact]}, consistent": high}
+        for (c, high), n in zip(found["middle"], ROTARY):
+            axes[1].annotate(f"1/{n:g}", (c, high), xytext=(5, 3), textcoords="offset points", fontsize=6.5)
+            sheet.numbers[f"c, middles, r = 1/{n:g}"] = float(c)
+        legend_below(fig, axes[1], 4, fontsize=7.0)
+
+
+CANDIDATES = {
+    "consistent": CONSISTENT,
+    "lumped, r = 1/24": LumpedMass(1.0 / 24.0),
+    "lumped, r = 1/78": LumpedMass(1.0 / 78.0),
+    "lumped, r = 1/105": THESIS_MASS,
+    "lumped, r = 1/420": LumpedMass(1.0 / 420.0),
+}
+"""Mass matrices that the thesis's numbers were tried on; sources in :class:`hermite_fe.masses.LumpedMass`."""
+
+
+@item("extra-masses", beside=contact_point.__name__, shown=SHOWN)
+def masses(sheet: Sheet) -> None:
+    """Which mass matrix the thesis's numbers ask for
+
+    Lift and strain energy at t = 2.5·10⁻⁴ s with contact at nodes and at middles; {shown}. Then the case of 3.5,
+    contact at nodes, h = 2.5·10⁻⁷ s: lift for a₀ = 0, and λ₁ fitted for a₀ = 700 and −700 m/s², in m/s^(3/2). 1/24:
+    half elements as rods; 1/78: the diagonal of (3.1.8) scaled to the mass of the element (HRZ); 1/105: its rotary
+    part 4l²/420, with ½μl for the deflections; 1/420: the row sum of the rotations. The lifts of nodes ask for a lumped
+    mass, and of these four r = 1/105 comes closest. The strain energies of middles and λ₁ do not tell masses apart: λ₁
+    changes as much with the step (below).
+    """
+    rows: list[list[object]] = [["thesis", 0.17, 3.8, 1.7, 38.0, 0.41, *FITTED.values()]]
+    for name, mass in CANDIDATES.items():
+        cells: list[object] = [name]
+        for contact in CONTACT:
+            outcome = thesis("", FLAT, 0.1, contact=contact, mass=mass)
+            cells += [round(1e3 * outcome.lift, 2), round(float(outcome.strain[-1]), 1)]
+        cells.append(round(1e3 * first.old_outcome(0.0, mass=mass).lift, 2))
+        cells += [round(fitted(first.old_outcome(700.0 * sign, mass=mass)), 1) for sign in FITTED]
+        rows.append(cells)
+    columns = ("mass matrix", "node: lift (mm)", "strain (J)", "middle: lift (mm)", "strain (J)", "3.5: lift (mm)")
+    sheet.table([*columns, "λ₁, +", "λ₁, −"], rows)
+    for h in (1e-6, 5e-7, 2.5e-7):
+        sheet.numbers[f"λ₁, +, lumped, r = 1/105, h = {readable(h)} s"] = fitted(first.old_outcome(700.0, time_step=h))

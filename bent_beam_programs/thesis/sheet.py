@@ -1,0 +1,196 @@
+"""A figure or table with its data: every curve drawn through a :class:`Sheet` is also in its CSV. An item of the
+gallery is a number of the thesis and a function that draws it on a sheet (:func:`item`).
+
+CSV columns: panel, series, x_quantity, x, y_quantity, y; the quantities are the axis labels, units included.
+"""
+
+from __future__ import annotations
+
+import csv
+import io
+import re
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from numpy.typing import ArrayLike, NDArray
+
+from comparison.figures import style
+from comparison.readable import readable
+from comparison.store import write_atomically
+
+NAMES = "lambda kappa nu tau xi beta eta alpha psi chi varphi varepsilon rho theta mu infty Delta partial tilde sqrt"
+TEX = {f"\\{name}": letter for name, letter in zip(NAMES.split(), "λκντξβηαψχφερθμ∞Δ∂~√")}
+TEX |= {r"\dot": "dot ", r"\,": " ", r"\mathrm": ""}
+
+
+def without_tex(label: str) -> str:
+    """A mathtext label as plain text, for a CSV header."""
+    for tex, text in TEX.items():
+        label = label.replace(tex, text)
+    return re.sub(r"\s+", " ", re.sub(r"[${}\\]", "", label)).strip()
+
+
+@dataclass
+class _Curve:
+    axis: Axes
+    series: str
+    x: NDArray[np.float64]
+    y: NDArray[np.float64]
+    quantity: str = ""
+
+
+@dataclass
+class Sheet:
+    """One figure or table in the making, its data, and the numbers that go with it.
+
+    numbers : name with unit → number. files : ending → writer of a further file.
+    """
+
+    figure_: Figure | None = None
+    curves: list[_Curve] = field(default_factory=list)
+    panels: dict[int, str] = field(default_factory=dict)
+    rows: list[list[Any]] = field(default_factory=list)
+    numbers: dict[str, float | None] = field(default_factory=dict)
+    files: dict[str, Callable[[Path], object]] = field(default_factory=dict)
+    _context: Any = None
+
+    @contextmanager
+    def figure(
+        self, rows: int = 1, columns: int = 1, *, letters: bool = True, **kwargs: Any
+    ) -> Iterator[tuple[Figure, Any]]:
+        """``style.figure`` whose figure is kept open for :meth:`save`; several axes get letters."""
+        self._context = style.figure(rows, columns, **kwargs)
+        self.figure_, axes = self._context.__enter__()
+        yield self.figure_, axes
+        if letters and np.size(axes) > 1 and not self.panels:
+            self.letter(axes)
+
+    def close(self) -> None:
+        """Close the figure."""
+        if self._context is not None:
+            self._context.__exit__(None, None, None)
+            self._context = None
+
+    def letter(self, axes: Any, texts: Sequence[str] = ()) -> None:
+        """Name the axes (a), (b) …, row by row, in the picture and in the CSV; ``texts`` stand beside the letters."""
+        for i, axis in enumerate(np.ravel(axes)):
+            self.panels[id(axis)] = "abcdefgh"[i]
+            style.panel_label(axis, f"({self.panels[id(axis)]})")
+            if i < len(texts):
+                axis.annotate(
+                    texts[i], (0.0, 1.02), xycoords="axes fraction", xytext=(17, 0), textcoords="offset points",
+                    ha="left", va="bottom", fontsize=7.5,
+                )  # fmt: skip
+
+    def line(self, axis: Axes, x: ArrayLike, y: ArrayLike, *, series: str, legend: bool = True, **drawn: Any) -> None:
+        """Plot one curve and remember it. ``drawn`` is a style of :mod:`comparison.figures.style` or matplotlib's."""
+        places, values = np.broadcast_arrays(np.asarray(x, float), np.asarray(y, float))
+        axis.plot(places, values, **{**drawn, "label": series if legend else "_"})
+        self.record(axis, places, values, series)
+
+    def record(self, axis: Axes, x: ArrayLike, y: ArrayLike, series: str, quantity: str = "") -> None:
+        """Remember data that was drawn by other means; ``quantity`` : of y, if not that of the axis."""
+        places, values = np.ravel(np.asarray(x, float)), np.ravel(np.asarray(y, float))
+        self.curves.append(_Curve(axis, series, places, values, quantity))
+
+    def data(self, columns: Sequence[str], rows: Sequence[Sequence[Any]]) -> None:
+        """A table for the CSV."""
+        self.rows = [[without_tex(c) for c in columns], *(list(row) for row in rows)]
+
+    def table(self, columns: Sequence[str], rows: Sequence[Sequence[Any]], *, width: float = style.PAGE) -> None:
+        """A table as picture and CSV. Cells are shown as given (strings) or with four digits (numbers)."""
+        self.data(columns, rows)
+        cells = [[readable(v) for v in row] for row in rows]
+        lengths = [max(map(len, column)) + 2 for column in zip(self.rows[0], *cells)]
+        with self.figure(width=width, height=0.21 * (len(rows) + 1) + 0.12) as (_, axis):
+            axis.axis("off")
+            drawn = axis.table(
+                cells, colLabels=list(columns), cellLoc="right", colLoc="right", edges="", bbox=[0.0, 0.0, 1.0, 1.0],
+                colWidths=[n / sum(lengths) for n in lengths],
+            )  # fmt: skip
+            drawn.auto_set_font_size(False)
+            drawn.set_fontsize(7.5)
+            for row in range(len(rows) + 1):
+                drawn[row, 0].set_text_props(ha="left")
+                drawn[row, 0]._loc = "left"
+            for level, thick in ((1.0, 0.9), (1.0 - 1.0 / (len(rows) + 1), 0.5), (0.0, 0.9)):
+                axis.plot([0, 1], [level, level], color="black", lw=thick, transform=axis.transAxes, clip_on=False)
+
+    def csv(self) -> str:
+        """The data as CSV text."""
+        stream = io.StringIO()
+        writer = csv.writer(stream, lineterminator="\n")
+        writer.writerows([["" if v is None else v for v in row] for row in self.rows])
+        if not self.rows:
+            writer.writerow(["panel", "series", "x_quantity", "x", "y_quantity", "y"])
+        for curve in self.curves:
+            about = (self.panels.get(id(curve.axis), ""), without_tex(curve.series))
+            names = without_tex(curve.axis.get_xlabel()), curve.quantity or without_tex(curve.axis.get_ylabel())
+            for x, y in zip(curve.x, curve.y):
+                if np.isfinite(x) and np.isfinite(y):
+                    writer.writerow([*about, names[0], f"{x:.9g}", names[1], f"{y:.9g}"])
+        return stream.getvalue()
+
+    def save(self, out: Path, name: str, formats: Sequence[str] = ("png",)) -> list[Path]:
+        """Write picture(s), further files and ``name.csv``; returns the files, the CSV last.
+
+        Raises ``ValueError`` where nothing was drawn.
+        """
+        files = [] if self.figure_ is None else style.save(self.figure_, out, name, formats)
+        self.close()
+        for ending, write in self.files.items():
+            files.append(out / f"{name}{ending}")
+            write(files[-1])
+        if not files:
+            raise ValueError(f"{name} draws nothing")
+        files.append(out / f"{name}.csv")
+        write_atomically(files[-1], self.csv())
+        return files
+
+
+Draw = Callable[[Sheet], None]
+ITEMS: dict[str, Item] = {}
+"""Every figure and table by its id; filled by the modules of :mod:`bent_beam_programs.thesis.gallery`."""
+
+
+@dataclass(frozen=True)
+class Item:
+    """id : "fig-2.7a", "table-3.1" …; caption : its content, and the difference from the thesis."""
+
+    id: str
+    title: str
+    caption: str
+    module: str
+    draw: Draw
+
+
+def item(name: str, *, beside: str = "", **parts: str) -> Callable[[Draw], Draw]:
+    """Decorator that registers a drawing function under its number.
+
+    beside : the module whose items the same process draws, for it shares their runs (default: its own).
+    The first line of its docstring is the title, the rest the caption, in which {part} stands for a text of ``parts``.
+    """
+
+    def register(draw: Draw) -> Draw:
+        title, _, caption = (draw.__doc__ or "").partition("\n\n")
+        ITEMS[name] = Item(name, title, " ".join(caption.split()).format(**parts), beside or draw.__module__, draw)
+        return draw
+
+    return register
+
+
+def order(name: str) -> tuple[int, int, int, str]:
+    """Place of an id in the thesis: chapters, then the appendix, tables after the figures of their section, the
+    animation last.
+    """
+    found = re.fullmatch(r"(fig|table)-(\d+|A)\.(\d+)([a-z]?)", name)
+    if found is None:
+        return (99, 0, 0, name)
+    chapter = 50 if found[2] == "A" else int(found[2])
+    return (chapter, 1 if found[1] == "table" else 0, int(found[3]), found[4])

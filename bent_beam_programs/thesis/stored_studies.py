@@ -1,0 +1,181 @@
+"""The parameter studies on the thesis's own cases, stored for the report: they take minutes.
+
+``python -m bent_beam_programs.thesis.stored_studies`` writes ``studies.json`` in ``bent_beam_programs/stored_studies``,
+{"studies": [{"name", "title", "case", "columns", "rows", "conclusion", "says", "failed", "reason", "date"}]}, and
+``NAME.png`` beside it. With names it runs those studies alone and keeps the others. ``--confirm`` runs the named
+studies (default: the first) and, where their numbers are the stored ones, gives the file today's digest
+(:mod:`comparison.stored`).
+"""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Sequence
+from io import BytesIO
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Any
+
+from PIL import Image
+
+from bent_beam.cases import Case, case_from_tables
+from bent_beam.errors import SimulationError
+from bent_beam.versions import today
+from bent_beam_programs.thesis.studies import STUDIES, run_study
+from comparison import stored
+from comparison.store import write_atomically
+from comparison.workers import run_all
+
+FILE = Path(__file__).resolve().parents[1] / "stored_studies" / "studies.json"
+PACKAGES = ("hermite_fe", "exudyn_models", "self_similar_fe", "bent_beam.measure", "bent_beam_programs.thesis")
+COLOURS = 256  # of a picture: a quarter of the bytes
+
+BEAM = {"bending_stiffness": 1.0, "mass_per_length": 1.0}
+
+
+def of_leading_order(name: str, curvature: float, ratio: str, tau: float) -> dict[str, Any]:
+    """A case of the thesis at V₀ = 20 m/s, L = 50 m; name : of its curvature (1/m); ratio : of κ/ν."""
+    return {
+        "title": f"thesis, K = {name} 1/m, V₀ = 20 m/s (κ/ν = {ratio}), τ = {tau:g}",
+        "beam": {**BEAM, "length": 50.0, "curvature": curvature},
+        "impact": {"velocity": 20.0},
+        "run": {"duration": tau},
+    }
+
+
+BENT = of_leading_order("10", 10.0, "0.5", 0.1)
+STEPPED = of_leading_order("1", 1.0, "0.05", 0.01)
+FIRST_ORDER: dict[str, Any] = {
+    "title": "thesis, V₀ = 3.5 m/s, K = 0.35 1/m, L = 2 m (κ/ν = 0.1)",
+    "beam": {**BEAM, "length": 2.0, "curvature": 0.35},
+    "impact": {"velocity": 3.5, "acceleration": 700.0},
+    "run": {"duration": 0.05},
+}
+CASES: dict[str, dict[str, Any]] = dict.fromkeys(STUDIES, BENT) | {  # those that the thesis made: its own cases
+    "time-step": STEPPED,  # 3.3.1
+    "mesh": STEPPED,  # 3.3.2
+    "conditioning": STEPPED,  # 3.3.2
+    "damping": of_leading_order("1/40", 1.0 / 40.0, "1/800", 0.01),  # 3.3.3
+    "restitution": of_leading_order("1/40", 1.0 / 40.0, "1/800", 0.1),  # 3.3.4
+    "contact-point": of_leading_order("1/80", 1.0 / 80.0, "1/1600", 0.1),  # 3.3.5
+    "first-order-case": FIRST_ORDER,  # 3.5
+}
+SAYS = {
+    "time-step": "The thesis (3.3.1) sees the lift whatever h, and rules out 10⁻⁶ and 10⁻⁷ s by their reactions. Here "
+    "neither lift nor r₀ depends on h from 10⁻⁷ s down; its reactions do, because of its filter.",
+    "mesh": "The thesis (3.3.2) sees lifts of one order whatever Δx, no effect of e, and too large a reaction with "
+    "5 mm: so it is here, and r₀ is too large with its other lengths too.",
+    "damping": "The thesis (3.3.3) sees no major change with ρ∞, and little dissipation against the loss in impacts: "
+    "so it is here.",
+    "restitution": "The thesis (3.3.4) sees more lift with 1 than with 0, and takes the loss with 0 for that of a "
+    "real impact: the first is so here, the second is not so in theory.",
+    "contact-point": "The thesis (3.3.5) has a tenth of the lift with nodes, and less noise with middles: so it is "
+    "with lumped masses, while with the consistent matrix nodes and middles are alike.",
+    "conditioning": "The thesis (3.3.2) gives up Δx = 10⁻⁴ m, where its matrix is close to singular: here it runs and "
+    "closes its energy budget.",
+    "first-order-case": "The thesis (3.5) fits 227 and −270.8 m/s^1.5, does not say over which part of its run, and "
+    "has no value of theory to compare with.",
+}
+"""What the thesis says of a study, and whether it is so, on its own case."""
+COMPARED = ("contact_length_error", "reaction_error", "fit_1")
+WITHIN = 0.02  # of a number and, for the errors in per cent, absolute
+
+
+def case_of(name: str) -> Case:
+    """The thesis's case that a study runs on."""
+    return case_from_tables(CASES[name])
+
+
+def small_picture(file: Path, width: int | None = None) -> bytes:
+    """A PNG in few colours, and so many pixels wide. By median cut thin lines would lose theirs: blue became green."""
+    stream = BytesIO()
+    with Image.open(file) as image:
+        size = image.size if width is None else (width, round(width * image.height / image.width))
+        small = image.convert("RGB").resize(size).quantize(COLOURS, Image.Quantize.MAXCOVERAGE)
+        small.save(stream, format="PNG", optimize=True)
+    return stream.getvalue()
+
+
+def note_of(name: str, folder: Path) -> dict[str, Any]:
+    """Run one study; its picture, made small, goes to ``folder``."""
+    note = lost(name, "")
+    try:
+        with TemporaryDirectory() as work:
+            found = run_study(name, case_of(name), out=Path(work)).to_dict()
+            picture = small_picture(Path(work) / f"{name}.png")
+    except (ArithmeticError, ValueError, OSError, SimulationError) as error:
+        return note | {"reason": " ".join(str(error).split())}
+    write_atomically(folder / f"{name}.png", picture)
+    return note | {"columns": found["columns"], "rows": found["rows"], "failed": False}
+
+
+def lost(name: str, reason: str) -> dict[str, Any]:
+    """The note of a study that could not be run."""
+    found = {"columns": {}, "rows": [], "failed": True, "reason": reason, "date": today()}
+    return {"name": name, **words_of(name), **found}
+
+
+def words_of(name: str) -> dict[str, str]:
+    """What is said of a study, whatever its numbers."""
+    study, case = STUDIES[name], case_of(name)
+    return {"title": study.title, "case": case.title, "conclusion": study.conclusion, "says": SAYS.get(name, "")}
+
+
+def notes_of(names: Sequence[str], folder: Path, jobs: int) -> dict[str, dict[str, Any]]:
+    """Name → note of each study. Raises ``ValueError`` for an unknown name."""
+    if unknown := sorted(set(names) - set(STUDIES)):
+        raise ValueError(f"no study is called {', '.join(unknown)}; there are {', '.join(STUDIES)}")
+    folder.mkdir(parents=True, exist_ok=True)
+    calls = [(name, folder) for name in names]
+    notes = run_all(note_of, calls, jobs=jobs, on_death=lambda i, why: lost(names[i], why))
+    return dict(zip(names, notes))
+
+
+def store_studies(names: Sequence[str] = (), *, file: Path = FILE, jobs: int = 1) -> Path:
+    """Run the studies (default: all) and store them; studies that are not named stay as they are stored.
+
+    Raises ``ValueError`` for an unknown name, and where stored studies would be kept that other code or settings made.
+    """
+    kept = {note["name"]: note for note in stored.read(file)["studies"]} if names and file.exists() else {}
+    if set(kept) - set(names) and stored.is_stale(file):
+        raise ValueError(f"{file.name}: other code or settings made the studies that would be kept; run all of them")
+    found = kept | notes_of(names or list(STUDIES), file.parent, jobs)
+    data = {"studies": [found[name] for name in STUDIES if name in found]}
+    made_by = "python -m bent_beam_programs.thesis.stored_studies"
+    return stored.write(file, "parameter studies of the thesis", made_by, PACKAGES, {"cases": CASES}, data)
+
+
+def confirm_studies(names: Sequence[str] = (), *, file: Path = FILE, jobs: int = 1) -> None:
+    """Run a sample of the stored studies again and give the file today's digest and words.
+
+    Raises ``ValueError`` naming the first number that differs by more than 2 % (and 0.02 of a per cent).
+    """
+    before = {note["name"]: note for note in stored.read(file)["studies"]}
+    with TemporaryDirectory() as work:
+        sample = notes_of(names or list(STUDIES)[:1], Path(work), jobs)
+    for name, note in sample.items():
+        pairs = {row["label"]: row for row in before.get(name, {"rows": []})["rows"]}
+        if pairs.keys() != {row["label"] for row in note["rows"]}:
+            raise ValueError(f"{name}: the stored rows are others ({note['reason'] or 'run it again'})")
+        for row in note["rows"]:
+            for key in COMPARED:
+                old, new = pairs[row["label"]].get(key), row.get(key)
+                if (old is None) != (new is None) or (old is not None and abs(new - old) > WITHIN * (1.0 + abs(old))):
+                    raise ValueError(f"{name}, {row['label']}: {key} is {new}, stored {old}; run the study again")
+    stored.confirm(file, studies=[note | words_of(note["name"]) for note in before.values()])
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("names", nargs="*", metavar="NAME", help="studies (default: all; to confirm: the first)")
+    parser.add_argument("--jobs", type=int, default=1, help="studies at the same time")
+    parser.add_argument("--confirm", action="store_true", help="run a sample again and renew the digest")
+    given = parser.parse_args()
+    try:
+        (confirm_studies if given.confirm else store_studies)(given.names, jobs=given.jobs)
+    except ValueError as error:
+        parser.error(str(error))
+
+
+if __name__ == "__main__":
+    main()

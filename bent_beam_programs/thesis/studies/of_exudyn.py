@@ -1,0 +1,141 @@
+"""Studies of Exudyn's models: penalty contact, true geometry, friction."""
+
+from __future__ import annotations
+
+from bent_beam.cases import Case
+from bent_beam.impact import Impact
+from bent_beam.method import Method
+from bent_beam_programs.thesis.studies.base import Study
+from bent_beam_programs.thesis.studies.of_methods import Setting, kinds_of, with_field, with_parts
+from bent_beam_programs.thesis.studies.thesis import Variant, references
+from exudyn_models import CONTACTS, ELEMENTS, INTEGRATORS, ExudynModel
+from exudyn_models.geometry import GEOMETRIES
+
+# Exudyn's penalty contact: stiffness C EI/Δx⁴, damping D √(EIμ)/Δx², spectral radius ρ∞.
+#
+# First without viscosity at grid scale, then with it, which is the default of :mod:`exudyn_models`.
+
+STIFFNESS, DAMPING, RADIUS = 10.0, 3.0, 0.5
+STEP = 5e-3  # h/t
+SAVED = 250
+RUNS: dict[str, tuple[float | None, tuple[float, float, float]]] = {
+    "bare: C = 10, D = 3, ρ∞ = 0.5": (None, (STIFFNESS, DAMPING, RADIUS)),
+    **{f"C = {c:g}": (c, (c, DAMPING, RADIUS)) for c in (0.1, 1.0, 100.0)},
+    **{f"D = {d:g}": (d, (STIFFNESS, d, RADIUS)) for d in (0.0, 0.3, 30.0)},
+    **{f"ρ∞ = {r:g}": (r, (STIFFNESS, DAMPING, r)) for r in (0.0, 0.9, 1.0)},
+}
+"""Label → (value, (C, D, ρ∞))."""
+TRIED = {"C": ("relative_stiffness", (1.0, 10.0, 100.0)), "D": ("relative_damping", (0.3, 3.0, 30.0))}
+"""Of a method: symbol → (field of its contact, values)."""
+
+
+def penalised(stiffness: float, damping: float, radius: float, viscosity: float | None = 0.0) -> ExudynModel:
+    """The Exudyn path with a penalty contact."""
+    return ExudynModel(
+        contact=CONTACTS["penalty"](relative_stiffness=stiffness, relative_damping=damping, hold=0),
+        element=ELEMENTS["ancf_cable"](viscosity=viscosity),
+        integrator=INTEGRATORS["generalized_alpha"](spectral_radius=radius, relative_step=STEP),
+    )
+
+
+def penalty_variants(case: Case) -> list[Variant]:
+    """Penalty contact in Exudyn
+
+    Errors of λ₀ and r₀, lift and noise over stiffness and damping of the penalty and over the spectral radius, without
+    viscosity of the grid; then with it, and two other paths on the same case.
+    """
+
+    def run(label: str, method: Method, value: float | None = None, reference: bool = False) -> Variant:
+        return Variant(label, case.impact, case.end_time, method, value, reference, SAVED)
+
+    return [
+        *(run(label, penalised(*chosen), value) for label, (value, chosen) in RUNS.items()),
+        run("Exudyn's default (viscous)", penalised(STIFFNESS, DAMPING, RADIUS, None), reference=True),
+        *references(case.impact, case.end_time),
+    ]
+
+
+def penalty_vary(method: Method, case: Case) -> list[Setting]:
+    """Stiffness and damping of the method's contact, in units of its elements' own."""
+    return [Setting("as it is", method)] + [
+        Setting(f"{symbol} = {v:g}", with_field(method, "contact", case, **{name: v}), v)
+        for symbol, (name, tried) in TRIED.items()
+        for v in tried
+    ]
+
+
+PENALTY = Study("penalty", "penalty", penalty_variants, penalty_vary)
+
+
+# The range of the linear theory: Exudyn's true geometry at growing slopes against its linear limit on the same mesh.
+#
+# Slopes over the front are of order √τ, τ = t/t* (:class:`exudyn_models.geometry.TrueGeometry`): the end time sets
+# them. The beam is cut where it would turn by more than 1.5 rad; the linear run on the same mesh has the same cut.
+
+DURATIONS = (1e-3, 1e-2, 3e-2, 1e-1)
+TURN = 1.5  # rad
+
+
+def cut(impact: Impact) -> Impact:
+    """The beam, cut where it would turn too far."""
+    return impact.replace(length=min(impact.length, 2.0 * TURN / impact.curvature))
+
+
+def amplitude_variants(case: Case) -> list[Variant]:
+    """True geometry against linear theory
+
+    Errors of λ₀ and r₀ with true geometry beside those of its linear limit on the same mesh, for slopes √τ: their
+    difference is the error of the linear theory.
+    """
+    impact, steps = cut(case.impact), INTEGRATORS["generalized_alpha"](relative_step=STEP)
+    methods = {name: ExudynModel(geometry=GEOMETRIES[name](), integrator=steps) for name in ("linear", "true")}
+    return [
+        Variant(f"{name}, τ = {tau:g}", impact, tau * impact.time_scale, method, tau**0.5, reference=True, save=SAVED)
+        for tau in DURATIONS
+        for name, method in methods.items()
+    ]
+
+
+def amplitude_vary(method: Method, case: Case) -> list[Setting]:
+    """Every geometry that the method knows, over ever longer times."""
+    impact, kinds = cut(case.impact), kinds_of(method, "geometry")
+    return [
+        Setting(f"{name}, τ = {tau:g}", with_parts(method, geometry=kind()), tau**0.5, impact, tau * impact.time_scale)
+        for tau in DURATIONS
+        for name, kind in kinds.items()
+    ]
+
+
+AMPLITUDE = Study("amplitude", "geometry", amplitude_variants, amplitude_vary)
+
+
+# Friction at the wall: Exudyn's contact along the cable's segments with Coulomb friction, linear limit and true
+# geometry.
+
+COEFFICIENTS = (0.0, 0.3, 0.6)
+RUBBING_DURATION = 1e-3  # τ of the true geometry: slopes of about 0.03
+RUBBING_STEP = 1e-2  # h/t
+
+
+def friction_variants(case: Case) -> list[Variant]:
+    """Friction at the wall
+
+    Errors of λ₀ and r₀ and the lift without and with friction, in the linear limit and with true geometry: friction
+    changes them only as far as points of the beam slide on the wall.
+    """
+    steps, found = INTEGRATORS["generalized_alpha"](relative_step=RUBBING_STEP), []
+    ends = {"linear": case.end_time, "true": RUBBING_DURATION * case.impact.time_scale}
+    for kind, name in (("linear", "linear limit"), ("true", "true geometry")):
+        for f in COEFFICIENTS:
+            contact = CONTACTS["segment_friction"](friction=f)
+            method = ExudynModel(contact=contact, integrator=steps, geometry=GEOMETRIES[kind]())
+            label = f"{name}, friction {f:g}"
+            found.append(Variant(label, case.impact, ends[kind], method, f, reference=True, save=SAVED))
+    return found
+
+
+def friction_vary(method: Method, case: Case) -> list[Setting]:
+    return [Setting(f"friction {f:g}", with_field(method, "contact", case, friction=f), f) for f in COEFFICIENTS]
+
+
+FRICTION = Study("friction", "contact", friction_variants, friction_vary)

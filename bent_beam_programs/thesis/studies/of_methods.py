@@ -1,0 +1,201 @@
+"""A study of given methods in place of the thesis's settings: its parameter varied on each, a line a method.
+
+Parts and fields are named, the path does not matter: a method shows its parts by its fields and its ``PARTS``
+(:mod:`bent_beam.method`). A study that needs a part which a method lacks names it (:class:`NotVaried`), and the method
+becomes a row with that reason.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.ticker import NullFormatter
+
+from bent_beam.cases import Case
+from bent_beam.errors import ANY_FAILURE
+from bent_beam.impact import Impact
+from bent_beam.meshes import MESHES, Mesh
+from bent_beam.method import Method, chosen_for, refined
+from bent_beam_programs.thesis.sheet import Sheet
+from bent_beam_programs.thesis.studies.outcome import Outcome, failed
+from bent_beam_programs.thesis.studies.thesis import Variant
+from comparison.figures import style
+
+CONCLUSION = (
+    "Each row is one setting of one method on the same case, compared with theory; a row without numbers gives the "
+    "reason."
+)
+SMALLEST = 1e-6  # in the picture, on a logarithmic axis
+PANELS: dict[str, str] = {
+    "reaction_error": "error of $r_0$  (%)",
+    "contact_length_error": r"error of $\lambda_0$  (%)",
+    "lift": r"lift $/(V_0t)$  (1)",
+    "noise": "noise of $R$  (%)",
+}
+
+
+class NotVaried(ValueError):
+    """A method lacks a part or a field that a study varies."""
+
+
+@dataclass(frozen=True)
+class Setting:
+    """One value of the varied parameter: its name, the same for all methods, and the method that has it.
+
+    value : as a number, where it is one. impact, end_time : where they are not the case's own.
+    """
+
+    name: str
+    method: Method
+    value: float | None = None
+    impact: Impact | None = None
+    end_time: float | None = None
+
+
+Vary = Callable[[Method, Case], Sequence[Setting]]
+"""Settings of a study on a method; raises :class:`NotVaried`."""
+
+
+def has_part(method: Method, name: str) -> bool:
+    """Whether a method has a part of this name."""
+    return name in getattr(method, "PARTS", {})
+
+
+def kinds_of(method: Method, name: str) -> Mapping[str, type]:
+    """The kinds of a part that a method knows."""
+    if not has_part(method, name):
+        raise NotVaried(f"{method.path} has no {name}")
+    kinds: Mapping[str, type] = getattr(method, "PARTS")[name]  # noqa: B009
+    return kinds
+
+
+def part_of(method: Method, name: str, case: Case, *, filled: bool = False) -> Any:
+    """A part as the method has it; where it is left open, of the kind that is chosen for the case.
+
+    filled : with the part's own open fields chosen too.
+    """
+    kinds_of(method, name)
+    own = getattr(method, name)
+    if own is not None and not filled:
+        return own
+    chosen = getattr(chosen_for(method, case.impact, case.end_time), name)
+    if chosen is None:
+        raise NotVaried(f"{method.path} chooses its {name} in the run: name one")
+    if filled:
+        return chosen
+    try:
+        return type(chosen)()
+    except TypeError:  # it has no defaults
+        return chosen
+
+
+def with_parts(method: Method, **parts: Any) -> Method:
+    """A copy with other parts."""
+    changed: Any = method
+    return dataclasses.replace(changed, **parts)
+
+
+def with_field(method: Method, name: str, case: Case, **values: Any) -> Method:
+    """A copy with fields of one part changed."""
+    part = part_of(method, name, case)
+    for field in values.keys() - {f.name for f in dataclasses.fields(part)}:
+        raise NotVaried(f"its {name} ({type(part).__name__}) has no {field}")
+    return with_parts(method, **{name: dataclasses.replace(part, **values)})
+
+
+def of_kind(kind: type, part: Any) -> Any:
+    """A part of another kind that keeps the fields which both kinds have and ``part`` sets."""
+    known = {f.name for f in dataclasses.fields(kind)}
+    given = {f.name: getattr(part, f.name) for f in dataclasses.fields(part) if f.name in known}
+    return kind(**{name: value for name, value in given.items() if value is not None})
+
+
+def resolution(method: Method, case: Case) -> tuple[Mesh, Callable[[Mesh], Method]]:
+    """The method's mesh, and a function that gives a copy with another mesh and the steps that it has with this one."""
+    mesh = part_of(method, "mesh", case, filled=True)
+    steps = {"integrator": part_of(method, "integrator", case, filled=True)} if has_part(method, "integrator") else {}
+    return mesh, lambda other: with_parts(method, mesh=other, **steps)
+
+
+def grown(method: Method, case: Case, growths: Sequence[float]) -> list[Setting]:
+    """The method with meshes that grow by these factors outside the zone; none where its mesh does not grow."""
+    mesh, laid_on = resolution(method, case)
+    if type(mesh) not in MESHES.values():
+        return []
+    changed: Any = mesh
+    for name in ("growth_outside", "growth"):
+        if getattr(mesh, name, None) is not None:
+            return [Setting(f"e = {e:g}", laid_on(dataclasses.replace(changed, **{name: e})), e) for e in growths]
+    return []
+
+
+def runs_of_methods(
+    vary: Vary, case: Case, methods: Sequence[Method], refines: Sequence[float]
+) -> list[Variant | Outcome]:
+    """The runs of all methods at all resolutions.
+
+    A method that the study cannot use, and one that refuses the case, are rows with the reason.
+    """
+    return [one for method in methods for factor in refines for one in _runs(vary, case, method, factor)]
+
+
+def _runs(vary: Vary, case: Case, method: Method, factor: float) -> list[Variant | Outcome]:
+    try:
+        finer = refined(method, factor)
+        if finer is None:
+            reason = f"refine: {method.path} does not know how to be refined (got {factor:g})"
+        elif not (reason := finer.refuses(case.impact) or ""):
+            return [_run(method.label, one, case, factor) for one in vary(finer, case)]
+    except NotVaried as error:
+        reason = f"not varied: {error}"
+    except ANY_FAILURE as error:
+        reason = str(error)
+    return [failed(method.label, case.impact, None, reason, refine=factor, refused=True)]
+
+
+def _run(label: str, one: Setting, case: Case, factor: float) -> Variant:
+    impact, end = one.impact or case.impact, one.end_time or case.end_time
+    return Variant(label, impact, end, one.method, one.value, setting=one.name, refine=factor)
+
+
+def draw_methods(sheet: Sheet, heading: str, outcomes: Sequence[Outcome]) -> None:
+    """Errors, lift and noise over the settings, a line a method (and resolution)."""
+    finished = [o for o in outcomes if o.failure is None]
+    if not finished:
+        return
+    settings = list(dict.fromkeys(o.setting for o in finished))
+    marks = style.marks(o.method for o in finished)
+    height = 4.4 + 0.17 * -(-len(marks) // 2) + 0.06 * max(map(len, settings))
+    with sheet.figure(2, 2, width=style.PAGE, height=height, sharex=True) as (fig, axes):
+        for axis, (name, title) in zip(axes.flat, PANELS.items()):
+            for label, mark in marks.items():
+                mine = [o for o in finished if o.method == label]
+                points = [(settings.index(o.setting), abs(v)) for o in mine if (v := o.measures.get(name)) is not None]
+                if points:
+                    x, y = np.array(points, float).T
+                    line: dict[str, Any] = {k: v for k, v in mark.items() if k != "label"} | {"ls": "-", "lw": 0.7}
+                    sheet.line(axis, x, np.maximum(y, SMALLEST), series=label, **line)
+            _decades(axis)
+            axis.set_ylabel(title)
+            axis.set_xticks(range(len(settings)), settings, rotation=45.0, ha="right", rotation_mode="anchor")
+            axis.set_xlim(-0.4, len(settings) - 0.6)
+        for axis in axes[-1]:
+            axis.set_xlabel(heading)
+        handles, labels = max((a.get_legend_handles_labels() for a in axes.flat), key=lambda pair: len(pair[1]))
+        fig.legend(handles, labels, loc="outside lower center", ncols=2, fontsize=6.5)
+
+
+def _decades(axis: Axes) -> None:
+    """A logarithmic axis over whole decades."""
+    axis.set_yscale("log")
+    axis.yaxis.set_minor_formatter(NullFormatter())
+    drawn = [line.get_ydata() for line in axis.lines]
+    if drawn:
+        values = np.concatenate([np.asarray(y, float) for y in drawn])
+        low, high = np.log10([values.min(), values.max()])
+        axis.set_ylim(10.0 ** np.floor(low - 0.02), 10.0 ** np.ceil(high + 0.02))

@@ -1,0 +1,88 @@
+"""``bentbeam study``."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from comparison.command_line.options import (
+    Jobs,
+    Json,
+    Methods,
+    Quiet,
+    Set,
+    complete,
+    emit,
+    factors,
+    path_names,
+    progress,
+)
+
+
+def study_names(incomplete: str) -> list[str]:
+    """Completion of the study's name."""
+    from bent_beam_programs.thesis.studies import STUDIES
+
+    return complete(["list", *STUDIES], incomplete)
+
+
+def study(
+    name: Annotated[
+        str, typer.Argument(help="Name of the study (`bentbeam study list` shows them).", autocompletion=study_names)
+    ],
+    case: Annotated[Path | None, typer.Argument(metavar="CASE.toml", help="Case file.")] = None,
+    path: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--path",
+            help="hermite, self_similar, exudyn or an installed one; repeatable. Without any of --path, --methods, "
+            "--refine and --set of a path: the thesis's settings.",
+            autocompletion=path_names,
+        ),
+    ] = None,
+    assignments: Set = None,
+    methods: Methods = None,
+    refine: Annotated[
+        str | None,
+        typer.Option(metavar="1,2,4", help="Elements and steps of the methods so many times finer, each a row."),
+    ] = None,
+    out: Annotated[Path | None, typer.Option(help="Folder for figure, table and conclusion.")] = None,
+    jobs: Jobs = 1,
+    as_json: Json = False,
+    quiet: Quiet = False,
+) -> None:
+    """Vary one numerical parameter and tabulate its effect.
+
+    With the thesis's settings, or with those of any methods (--path, --methods, --refine), each of which it varies.
+
+    Example: bentbeam study mesh cases/thesis_K10.toml --path exudyn --refine 1,2 --out out/mesh
+    """
+    from bent_beam.cases import load_case
+    from bent_beam.errors import InputError, nearest
+    from bent_beam.method import paths
+    from bent_beam_programs.thesis.studies import STUDIES, run_study
+    from comparison.methods import chosen_methods
+    from comparison.store import check_writable
+
+    if name == "list":
+        titles = [{"name": n, "title": s.title} for n, s in STUDIES.items()]
+        emit(titles, as_json, lambda: "\n".join(f"{one['name']:>16}  {one['title']}" for one in titles))
+        return
+    if name not in STUDIES:
+        raise InputError(f"study {name!r} is not known{nearest(name, STUDIES)}")
+    if case is None:
+        raise InputError("a case file is required: bentbeam study NAME CASE.toml")
+    of_paths = [one for one in assignments or () if one.partition(".")[0].strip() in paths()]
+    loaded = load_case(case, assignments or ())
+    asked = path or of_paths or methods is not None or refine is not None
+    varied = chosen_methods(path or (), of_paths, methods, loaded) if asked else []
+    refines = factors(refine or "1")
+    if out is not None:
+        check_writable(out, folder=True)
+    with progress(f"study {name}", quiet) as bar:
+        found = run_study(name, loaded, methods=varied, refines=refines, out=out, jobs=jobs, progress=bar.count)
+    emit(found.to_dict(), as_json, found.text)
+    if found.problem:
+        raise InputError(found.problem)

@@ -1,0 +1,78 @@
+"""Printed numbers of the thesis and the class of each, by the rules that head their table
+(:data:`bent_beam_programs.thesis.gallery.numbers.HEAD`). A number that follows from a formula has no same order.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from decimal import Decimal
+
+from comparison.readable import readable
+
+ROUNDING, SAME, OFF = "within rounding", "same order", "off"
+RULE, AXES = "other rule, stated by the thesis", "inferred from axes"
+CLASSES = (ROUNDING, SAME, OFF, RULE, AXES)
+FACTOR = 2.0
+"""Of the same order: at most so many times larger or smaller."""
+
+
+def digits(printed: str) -> int:
+    """How many significant digits are printed."""
+    return len(Decimal(printed).as_tuple().digits)
+
+
+def unit_of(printed: str) -> float:
+    """One unit of the last printed digit."""
+    return 10.0 ** int(Decimal(printed).as_tuple().exponent)
+
+
+def within_rounding(printed: str, value: float) -> bool:
+    """Whether a value rounds to the printed digits; one half-way between two may go either way.
+
+    One below a power of ten has a finer last digit: of one digit 0.588 is 0.6, not 1.
+    """
+    own = 10.0 ** (math.floor(math.log10(abs(value))) + 1 - digits(printed)) if value else math.inf
+    return abs(value - float(printed)) <= (0.5 + 1e-9) * min(unit_of(printed), own)
+
+
+@dataclass(frozen=True)
+class Printed:
+    """One printed number.
+
+    where : section, equation, figure or table; what : of what, with its unit; printed : its digits, as they stand.
+    ours : computed; why : how it was measured, what is wrong or stays open.
+    read : the thesis read it off a run or a mesh, or prints an order of magnitude. rule : what the thesis's own rule
+    gives, where that is another than ours. axes : no number is printed, an axis ends there.
+    """
+
+    where: str
+    what: str
+    printed: str
+    ours: float
+    why: str = ""
+    read: bool = False
+    rule: float | None = None
+    axes: bool = False
+
+    @property
+    def verdict(self) -> str:
+        """One of the five classes."""
+        if self.axes:
+            return AXES
+        if within_rounding(self.printed, self.ours):
+            return ROUNDING
+        value = float(self.printed)
+        if self.rule is not None and abs(self.rule - value) <= unit_of(self.printed):
+            return RULE
+        return SAME if self.read and 1.0 / FACTOR <= self.ours / value <= FACTOR else OFF
+
+    def row(self) -> list[str]:
+        """Cells: where, what, printed, computed, their ratio, class, why."""
+        ratio = f"{self.ours / float(self.printed):.3g}" if not self.axes else "–"
+        return [self.where, self.what, shown(self.printed), readable(self.ours, 5), ratio, self.verdict, self.why]
+
+
+def shown(printed: str) -> str:
+    """A printed number with all of its digits."""
+    return readable(float(printed), digits(printed)) if "e" in printed else printed.replace("-", "−")
