@@ -147,7 +147,7 @@ class Run:
         return math.sqrt(self.tau) * state.stored(velocity), float(velocity @ state.internal_force()), absorbed
 
     def full_velocity(self) -> Array:
-        """η_τ as Hermite degrees of freedom (value and ζ-derivative), the latter from the curvature of both elements."""
+        """η_τ as Hermite degrees of freedom (value and ζ-derivative, from the curvature of both elements)."""
         state = self.state
         eta, zeta = state.eta, state.zeta
         left, right = self.curvatures()

@@ -104,7 +104,7 @@ class Similarity:
         self.inertia = np.zeros(self.dofs)
 
     def set_step(self, backward: float, tension: float = 0.0) -> None:
-        """``backward`` = b of ∂_s f ≈ b (f − f_old): τ_new/h for Euler in time, 0 for the steady state; ``tension`` nτ."""
+        """``backward`` = b of ∂_s f ≈ b (f − f_old): τ_new/h for Euler, 0 for the steady state; ``tension`` nτ."""
         self.backward, self.tension = backward, tension
         o = self.operators
         self.matrix = (backward**2 * o.mass + backward * o.drift + o.steady + tension * o.tension).tocsr()
