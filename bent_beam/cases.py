@@ -37,7 +37,8 @@ MAXIMUM_BYTES = 1_000_000
 @dataclass(frozen=True)
 class Case:
     """A validated case. ``end_time`` in s; ``mesh`` is ``None`` when it is to be chosen from the problem; ``tables``
-    are those of the paths, by name; ``section`` where one was given."""
+    are those of the paths, by name; ``section`` where one was given; ``damping_stated``: whether the beam's own damping
+    is, be it 0."""
 
     title: str
     impact: Impact
@@ -45,6 +46,7 @@ class Case:
     mesh: Mesh | None
     tables: dict[str, dict[str, Any]]
     section: Section | None = None
+    damping_stated: bool = True
 
     def method(self, path: str, *, label: str | None = None) -> Method:
         """The method of ``path`` with the parts that this case sets for it.
@@ -68,6 +70,7 @@ class Case:
 
 
 KNOWN = ("title", *TABLES, "section", "mesh")
+DAMPINGS = ("damping", "damping_ratio", "loss_factor")  # of [beam]: ways to state one
 
 
 def _tables_of_paths(tables: Mapping[str, Any]) -> dict[str, dict[str, Any]]:
@@ -113,6 +116,7 @@ def case_from_tables(tables: Mapping[str, Any]) -> Case:
         mesh=part_or_auto(MESHES, tables.get("mesh", {}), "mesh"),
         tables=others,
         section=section,
+        damping_stated=bool(beam.hysteretic_loss) or any(getattr(beam, name) is not None for name in DAMPINGS),
     )
 
 

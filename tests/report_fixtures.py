@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any
 from unittest import mock
 
-from bent_beam.measure.measured import Measured
+from bent_beam.measure.numbers import Number
 from bent_beam.meshes import ScaleFreeMesh
 from bent_beam_programs.report.impacts import SHOWN, ShownImpact, show
 from bent_beam_programs.report.summary import pipe_prediction
@@ -24,7 +24,7 @@ def row(path: str, kappa: float, first: tuple[float, float, float] | None = None
     alpha, psi, chi = first or (0.0, 0.0, 0.0)
     exact = contact_parameters(kappa, alpha, psi, chi)
     numbers = {
-        name: Measured(value + sign * off * max(abs(value), least), 2 * off * max(abs(value), least), value)
+        name: Number(value + sign * off * max(abs(value), least), 2 * off * max(abs(value), least), value)
         for name, sign, least in (("lambda0", 1, 0.0), ("r0", -1, 0.0), ("lambda1", 1, 1.0), ("r1", 1, 1.0))
         if (value := float(getattr(exact, name))) is not None and (first or name.endswith("0"))
     }

@@ -219,12 +219,12 @@ def half_contact_length(history: ImpactHistory, k: int) -> float:
     return float(np.median(outermost[outermost >= 0.0])) if np.any(outermost >= 0.0) else 0.0
 
 
-def mean_reaction(history: ImpactHistory, k: int) -> float | None:
-    """Mean reaction around instant ``k``, N: of a force that falls like 1/√t it is 0.1 % too large. ``None`` at the
-    first instant, and where the record ends before."""
+def mean_reaction(history: ImpactHistory, at: float) -> float | None:
+    """Mean reaction over a tenth of the time ``at``, s, before and after, N: of a force that falls like 1/√t it is
+    0.1 % too large. ``None`` at the first touch, and where the record ends before."""
     time, total = history.time, history.array("total_impulse")
-    span = time[k] * np.array([1.0 - AROUND, 1.0 + AROUND])
-    if k == 0 or span[1] > time[-1] * (1.0 + 1e-9):
+    span = at * np.array([1.0 - AROUND, 1.0 + AROUND])
+    if at <= 0.0 or span[1] > time[-1] * (1.0 + 1e-9):
         return None
     before, after = np.interp(span, time, total)
     return float((after - before) / (span[1] - span[0]))

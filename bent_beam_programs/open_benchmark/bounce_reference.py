@@ -15,8 +15,8 @@ from typing import Any
 from bent_beam.meshes import UniformMesh
 from bent_beam_programs.open_benchmark.problem import Problem, problem, shipped_ids
 from bent_beam_programs.open_benchmark.references import BOUNCES, stored
-from comparison.bounce import bounce
-from comparison.bounce import problem as beam
+from comparison.bouncing import bounce
+from comparison.bouncing import problem as beam
 from comparison.stored import confirm, write
 from hermite_fe import HermiteFE
 
@@ -35,10 +35,10 @@ def measure(asked: Problem, elements: int = ELEMENTS) -> dict[str, Any]:
     return {
         "kappa_over_nu": asked.kappa_over_nu,
         "damping": asked.damping,
-        **{name: [found.numbers[name].value, found.numbers[name].error] for name in NUMBERS},
-        "error_parts": dict(found.parts["restitution"]),
+        **{name: [found.numbers[name].value, found.numbers[name].bar] for name in NUMBERS},
+        "error_parts": dict(getattr(found.numbers["restitution"], "parts", {})),
         "settings": found.settings,
-        "steps": found.history.steps,
+        "steps": found.runs.run.steps,
         "seconds": found.seconds,
     }
 

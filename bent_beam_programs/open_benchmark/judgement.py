@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import asdict, dataclass, field
 from typing import Any
 
-from bent_beam.measure.measured import Measured
+from bent_beam.measure.numbers import Number
 from comparison.readable import plain
 
 __all__ = ["LIMITS", "PART", "Finding", "Score"]
@@ -47,7 +47,7 @@ class Score:
     problem: str
     outcome: str
     reason: str | None = None
-    measured: dict[str, Measured] = field(default_factory=dict)
+    measured: dict[str, Number] = field(default_factory=dict)
     lift: float | None = None
     penetration: float | None = None
     adhesion: float | None = None
@@ -87,7 +87,7 @@ class Score:
 
     def _excess(self, name: str) -> float:
         found = self.measured[name]
-        bar = (found.error or 0.0) + self.reference.get(name, {}).get("error", 0.0)
+        bar = (found.bar or 0.0) + self.reference.get(name, {}).get("error", 0.0)
         return abs(found.difference or 0.0) / max(BARS * bar, PART * (abs(found.theory or 0.0) or 1.0))
 
     @property

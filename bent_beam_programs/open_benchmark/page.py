@@ -276,7 +276,7 @@ def _point(row: Row, measure: str) -> tuple[float, float, float] | None:
     if found is None or found.difference is None or seconds is None or (found.theory == 0.0 and measure == "lambda0"):
         return None
     error = max(abs(found.relative() or 0.0), LEAST)
-    return seconds, error, error + (found.relative_error() or 0.0)
+    return seconds, error, error + (found.relative_bar() or 0.0)
 
 
 def _svg(figure: Figure) -> str:

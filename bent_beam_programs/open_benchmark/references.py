@@ -72,11 +72,14 @@ def _bounce(asked: Problem) -> Reference:
     if asked.id in shipped["problems"]:
         (value, error), source = shipped["problems"][asked.id]["restitution"], shipped["made_by"]
     else:
-        from comparison.whole_impact.stored_map import bounce_from_map
+        from bent_beam.method import method_from_tables
+        from comparison.bouncing import bounce, problem
 
-        found = bounce_from_map(asked.kappa_over_nu, asked.damping) if asked.damping > 0.0 else None
-        if found is None or found["restitution"].value is None or found["restitution"].error is None:
-            return Reference()  # off the map, or without damping, where no number exists
-        value, error = found["restitution"].value, found["restitution"].error
-        source = "comparison/whole_impact/map.json, interpolated"
+        if asked.damping <= 0.0:
+            return Reference()  # without damping no number exists
+        found = bounce(problem(asked.kappa_over_nu, asked.damping), method_from_tables("hermite", {}))
+        number = found.numbers["restitution"]
+        if number.value is None or number.bar is None:
+            return Reference()
+        value, error, source = number.value, number.bar, "bentbeam bounce, on the Hermite path"
     return Reference({"restitution": value}, errors={"restitution": error}, source=source)

@@ -14,8 +14,8 @@ import numpy as np
 from scipy.interpolate import CubicSpline
 
 from bent_beam.measure.estimators import first_order, leading_order
-from bent_beam.measure.measured import Measured
 from bent_beam.measure.moments import Moments
+from bent_beam.measure.numbers import Number
 from bent_beam_programs.open_benchmark import doctor
 from bent_beam_programs.open_benchmark.judgement import LIMITS, Finding, Score
 from bent_beam_programs.open_benchmark.references import reference
@@ -65,7 +65,7 @@ def score(result: Result, base: Result | None = None) -> Score:
 # --- λ₀, r₀, λ₁, r₁ ------------------------------------------------------------------------------------------------
 
 
-def _estimates(result: Result, base: Result | None) -> dict[str, Measured]:
+def _estimates(result: Result, base: Result | None) -> dict[str, Number]:
     """λ₀ and r₀ of the base or of the result itself, λ₁ and r₁ where there is a base. A number that neither exceeds its
     bar nor is held against a larger one is none."""
     asked = result.problem
@@ -81,9 +81,9 @@ def _estimates(result: Result, base: Result | None) -> dict[str, Measured]:
     return {name: _number(number, exact[name]) for name, number in estimates.items()}
 
 
-def _number(found: Measured, exact: float | None) -> Measured:
-    known = found.bar <= max(abs(found.value or 0.0), abs(exact or 0.0)) or not exact
-    return Measured(found.value if known else None, abs(found.error or 0.0) if known else None, exact)
+def _number(found: Number, exact: float | None) -> Number:
+    known = found.spread <= max(abs(found.value or 0.0), abs(exact or 0.0)) or not exact
+    return Number(found.value if known else None, abs(found.bar or 0.0) if known else None, exact)
 
 
 def _sampled(base: Result, tau: Array) -> Result:
@@ -186,24 +186,24 @@ def _energy(result: Result) -> dict[str, float | None] | None:
 def _ladder(result: Result) -> dict[str, Any]:
     """The impulse against the closed form, the restitution of a whole impact, or the largest force and when it acts."""
     asked, exact = result.problem, reference(result.problem)
-    measured: dict[str, Measured] = {}
+    measured: dict[str, Number] = {}
     ratio = np.nan
     if asked.kind == "bounce":
         free = result.tau >= 0.9 * asked.end_time  # out of contact by then: any change is an error
         rest = result.J[free] / (asked.length or 2.0) - 1.0
-        measured["restitution"] = Measured(float(rest[-1]), float(np.ptp(rest)) or None, exact["restitution"])
+        measured["restitution"] = Number(float(rest[-1]), float(np.ptp(rest)) or None, exact["restitution"])
         ratio = float(1.0 + rest[-1]) / (1.0 + (exact["restitution"] or np.nan))
     elif "peak_force" in exact.values:
         force, when = _largest_force(result)
-        measured["peak_force"] = Measured(force, None, exact["peak_force"])
-        measured["peak_time"] = Measured(when, None, exact["peak_time"])
+        measured["peak_force"] = Number(force, None, exact["peak_force"])
+        measured["peak_time"] = Number(when, None, exact["peak_time"])
         ratio = force / exact.values["peak_force"]
     elif exact.impulse is not None:
         expected = exact.impulse(result.tau)
         # mean, not largest: where the impulse jumps, a jump at a slightly wrong time is a small error
         mean = float(np.mean(np.abs(result.J - expected)) / np.abs(expected).max())
-        measured["impulse_error"] = Measured(mean, None, 0.0)
-        measured["impulse"] = Measured(float(result.J[-1]), None, float(expected[-1]))
+        measured["impulse_error"] = Number(mean, None, 0.0)
+        measured["impulse"] = Number(float(result.J[-1]), None, float(expected[-1]))
         ratio = float(result.J @ expected / (expected @ expected))
     about = {name: {"error": error, "source": exact.source} for name, error in exact.errors.items()}
     return {"measured": measured, "reference": about, "ratios": {"J": ratio} if np.isfinite(ratio) else {}}

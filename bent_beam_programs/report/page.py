@@ -37,10 +37,9 @@ from bent_beam_programs.report.summary import COLUMNS, acceleration_rows, headli
 from bent_beam_programs.report.work import stored_measurements
 from comparison.figures.matching import write_match
 from comparison.figures.style import marks
-from comparison.match import match
+from comparison.matching import match
 from comparison.rows import MatchRow, Question, failures
 from comparison.store import RunStore
-from comparison.whole_impact.figures import draw_map
 
 TEMPLATES = Path(__file__).resolve().parent / "templates"
 
@@ -87,7 +86,6 @@ def write_report(
         SHOWN, methods, store=store, jobs=jobs, progress=lambda done, _: progress(asked + done, total)
     )
     files = write_match(rows, out / "data")
-    files += draw_map(out / "data")
     if impacts:  # for paper and for readers without JavaScript
         files += draw_maps(impacts, out / "data") + draw_acceleration(impacts, out / "data")
     content = Content(

@@ -87,13 +87,13 @@ def series(rows: Sequence[TableRow], what: str, fill: str = "-open") -> Iterator
 
 
 def points(label: str, both: Points, **more: Any) -> Plot:
-    """Measured values with error bars, and all about them on hovering."""
+    """Number values with error bars, and all about them on hovering."""
     return {
         "x": [r.row.kappa_over_nu for r, _ in both],
         "y": [c.number.value for _, c in both],
         "mode": "markers",
         "name": escape(label),
-        "error_y": {"array": [c.number.error for _, c in both], "thickness": 1.2, "width": 4},
+        "error_y": {"array": [c.number.bar for _, c in both], "thickness": 1.2, "width": 4},
         "customdata": [
             [r.first_text, c.value_text, c.theory_text, c.error_text, f"{r.row.seconds or 0.0:.1f}", r.ratio_text]
             for r, c in both

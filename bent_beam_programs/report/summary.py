@@ -14,7 +14,7 @@ from bent_beam.cases import EXAMPLES, load_case
 from bent_beam.errors import InputError
 from bent_beam_programs.report.impacts import ShownImpact
 from bent_beam_programs.report.rows import TableRow, labels, true_minus
-from comparison.prediction import predict_case
+from comparison.predicting import predict_case
 
 THIN = 0.02  # κ/ν; below it the front is so thin that it is a case of its own
 PIPE = EXAMPLES / "drill_pipe.toml"
@@ -125,7 +125,7 @@ def pipe_prediction(file: Path = PIPE) -> dict[str, Any] | None:
         case = load_case(file)
     except InputError:
         return None
-    document = predict_case(case, TIMES, whole=False)
+    document = predict_case(case, TIMES, whole=False).to_dict()
     rows = [
         (f"{1000.0 * row['time']:g}", by, [_text(numbers.get(name), unit) for name, (_, unit) in COLUMNS.items()])
         for row in document["times"]

@@ -9,15 +9,15 @@ from typing import ClassVar
 import numpy as np
 import pytest
 from called import answered, refused
+from comparison.bounce import bounce, problem
+from comparison.whole_impact.table import bounce_document
 from histories import ROD, pushed_until
 
 from bent_beam.free_flight import has_left
 from bent_beam.history import ImpactHistory
-from bent_beam.measure.measured import Band
+from bent_beam.measure.numbers import Band
 from bent_beam.meshes import UniformMesh
 from bent_beam.method import method_from_tables
-from comparison.bounce import bounce, problem
-from comparison.whole_impact.table import bounce_document
 from hermite_fe import HermiteFE
 
 COARSE = HermiteFE(mesh=UniformMesh(1.0 / 25))

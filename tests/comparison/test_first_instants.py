@@ -4,15 +4,15 @@ import math
 from typing import Any
 
 import pytest
+from comparison.summary import Companion, summary
 
 from bent_beam import Impact, ImpactHistory, SimulationError
 from bent_beam.measure.moments import first_front
 from bent_beam.measure.reduction import peak_moment
 from bent_beam.meshes import UniformMesh
-from comparison.match import answer
+from comparison.matching import answer
 from comparison.rows import Question
 from comparison.store import RunStore
-from comparison.summary import Companion, summary
 from exudyn_models import ExudynModel
 from exudyn_models.contacts import CONTACTS
 from hermite_fe import HermiteFE

@@ -9,7 +9,7 @@ from strangers import Stranger
 
 from bent_beam import InputError
 from comparison.figures.matching import write_match
-from comparison.match import answer, match
+from comparison.matching import answer, match
 from comparison.methods import methods_from_file, methods_of
 from comparison.rows import Question, failures, match_table, questions
 from comparison.store import RunStore
@@ -99,7 +99,7 @@ def test_the_size_of_the_loads_is_within_the_error_bars(monkeypatch, kappa, firs
     other = answer(asked, KEEP)
     assert other.epsilons[-1] == pytest.approx(factor * usual.epsilons[-1])
     for one, two in zip(usual.compared().values(), other.compared().values()):
-        assert abs(one.value - two.value) < one.error + two.error
+        assert abs(one.value - two.value) < one.bar + two.bar
 
 
 @pytest.mark.verify
@@ -159,7 +159,7 @@ def test_a_row_that_would_take_longer_than_its_limit_is_coarser_and_says_so(monk
     (row,) = match([Question(HermiteFE(), 0.013)], limit=60.0)
     assert row.reason is None and row.refine < 1.0
     assert any("coarser than asked for" in warning for warning in row.warnings)
-    assert abs(row.r0.value - row.r0.theory) < row.r0.error
+    assert abs(row.r0.value - row.r0.theory) < row.r0.bar
     (row,) = match([Question(HermiteFE(), 0.013)], limit=1e-9)
     assert row.reason == "time limit: not finished after 1e-09 s" and row.r0.value is None
 

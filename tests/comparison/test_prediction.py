@@ -7,16 +7,16 @@ from typing import Any
 
 import pytest
 from called import answered, refused
+from comparison.prediction import COMPARED, predict_case
+from comparison.prediction_text import prediction_text
+from comparison.whole_impact.predicted import over_damping
 from histories import ROD
 
 from bent_beam import Impact
 from bent_beam.cases import Case, load_case
 from bent_beam.free_flight import LOWEST_PERIOD
-from bent_beam.measure.measured import Measured
-from comparison.prediction import COMPARED, predict_case
-from comparison.prediction_text import prediction_text
+from bent_beam.measure.numbers import Number
 from comparison.readable import number_from
-from comparison.whole_impact.predicted import over_damping
 from hermite_fe import HermiteFE
 from hermite_fe.integrators import MoreauJean
 
@@ -102,7 +102,7 @@ def test_theory_only_simulates_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
 def test_at_its_own_damping_the_range_of_damping_has_the_number_of_the_run_itself() -> None:
     """No second run, on other elements, beside it: ζ = 1 % of the first mode is the middle row."""
     impact = Impact.whole_beam(0.75, relative_damping=0.01 * LOWEST_PERIOD / math.pi).replace(acceleration=0.1)
-    own = Measured(1.4, 1e-3)
+    own = Number(1.4, 1e-3)
     assert [row["peak_moment"] for row in over_damping(impact, None, None, own)] == [own.to_dict()]
     assert over_damping(impact.replace(damping=1.1 * impact.damping), None, None, own) == []  # no method to run with
 

@@ -4,13 +4,13 @@ import math
 
 import numpy as np
 import pytest
+from comparison.bounce import NUMBERS
+from comparison.whole_impact import map
+from comparison.whole_impact.stored_map import bounce_from_map, stored_map
 
 from bent_beam.impact import Impact
 from bent_beam.measure.whole_impact import whole_impact
 from bent_beam.meshes import UniformMesh
-from comparison.bounce import NUMBERS
-from comparison.whole_impact import map
-from comparison.whole_impact.stored_map import bounce_from_map, stored_map
 from hermite_fe import HermiteFE
 from hermite_fe.integrators import MoreauJean, SignoriniPosition
 

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from comparison.whole_impact.stored_map import bounce_from_map
 
 from bent_beam_programs.open_benchmark.bounce_reference import agrees
 from bent_beam_programs.open_benchmark.problem import problem, shipped_ids
@@ -9,7 +10,6 @@ from bent_beam_programs.open_benchmark.references import BOUNCES, Reference, ref
 from bent_beam_programs.open_benchmark.result import Result
 from bent_beam_programs.open_benchmark.score import score
 from comparison.stored import is_stale
-from comparison.whole_impact.stored_map import bounce_from_map
 
 SHIPPED = [name for name in shipped_ids() if name.startswith("bounce-")]
 

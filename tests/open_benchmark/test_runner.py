@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from bent_beam.errors import InputError
-from bent_beam.measure.measured import Measured
+from bent_beam.measure.numbers import Number
 from bent_beam_programs.open_benchmark.adapter import RESOLUTIONS, Adapter, chosen_adapters, shipped_adapters
 from bent_beam_programs.open_benchmark.campaign import STANDARD, Row, campaign, drawn
 from bent_beam_programs.open_benchmark.judgement import Score
@@ -244,7 +244,7 @@ def test_an_executable_in_any_language_is_an_adapter(tmp_path):
     ],
 )
 def test_a_code_converges_where_its_error_falls_and_ends_small(errors, verdict):
-    scores = [Score("leading-0.5", "completed", measured={"r0": Measured(1.0 + e, None, 1.0)}) for e in errors]
+    scores = [Score("leading-0.5", "completed", measured={"r0": Number(1.0 + e, None, 1.0)}) for e in errors]
     rows = [Row("mine", "leading-0.5", name, 1.0, found) for name, found in zip(("coarse", "fine"), scores)]
     rows += [] if errors else [Row("mine", "leading-0.5", "fine", 1.0, Score("leading-0.5", "timeout"))]
     table = properties(rows, "mine")
@@ -262,7 +262,7 @@ def test_two_ways_give_one_largest_force(tmp_path, name):
 
 def test_the_table_of_errors_has_a_line_for_each_code_a_column_for_each_problem_and_an_error_in_its_own_cell():
     def row(solver, name, error):
-        found = Score(name, "completed", measured={"r0": Measured(1.0 + error, None, 1.0)})
+        found = Score(name, "completed", measured={"r0": Number(1.0 + error, None, 1.0)})
         return Row(solver, name, "fine", 2.0, found)
 
     rows = [row("a", "leading-0.5", 0.01), row("a", "point-2", -0.02), row("b", "point-2", 0.03)]

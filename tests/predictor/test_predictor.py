@@ -12,13 +12,13 @@ from typing import Any
 
 import numpy as np
 import pytest
+from comparison.whole_impact.stored_map import bounce_from_map
 
 from bent_beam.cases import case_from_tables, load_case
 from bent_beam.impact import Impact
-from bent_beam.measure.measured import Measured
+from bent_beam.measure.numbers import Number
 from bent_beam_programs.predictor.page import page, script, write_page
 from comparison.command_line.app import run
-from comparison.whole_impact.stored_map import bounce_from_map
 from theory import ContactParameters, SelfSimilarWave, contact_parameters
 from theory import predict as theory_predict
 from theory.elastic_wall import peak_force
@@ -232,4 +232,4 @@ def test_a_value_is_rounded_to_the_first_digit_of_its_bar_as_python_writes_it() 
     power = re.compile(r"·10([⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+)")
     digits = str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "-0123456789")
     plain = [power.sub(lambda m: f"e{int(m[1].translate(digits)):+03d}", text).replace("−", "-") for text in written]
-    assert plain == [str(Measured(*pair)) if pair[1] else "2 ± 0" for pair in pairs]
+    assert plain == [str(Number(*pair)) if pair[1] else "2 ± 0" for pair in pairs]

@@ -20,7 +20,7 @@ from bent_beam_programs.thesis.studies.exact import Exact
 from bent_beam_programs.thesis.studies.outcome import Outcome
 from bent_beam_programs.thesis.studies.thesis import CONSISTENT, THESIS_MASS, Settings
 from comparison.figures import style
-from comparison.match import match
+from comparison.matching import match
 from comparison.methods import methods_of
 from comparison.readable import readable
 from comparison.rows import THESIS_KAPPAS, MatchRow, questions

@@ -36,7 +36,7 @@ COLUMNS = {
 
 
 def prediction_text(document: dict[str, Any]) -> str:
-    """What :func:`comparison.prediction.predict_case` found, in the order in which it is asked for."""
+    """What :func:`comparison.predicting.predict_case` found, in the order in which it is asked for."""
     return "\n".join(
         [
             f"{REGIMES[document['regime']]} kappa/nu = {document['kappa_over_nu']:.4g} (it spreads below 1).",
@@ -108,10 +108,10 @@ def _largest(document: dict[str, Any]) -> list[str]:
         until = f"until {milliseconds(last['time'])}"
         lines.append(f"  {until} (simulation): {_scaled(last['simulation'][name], scale)}")
     if whole is None:
-        return [*lines, "  of the whole impact: not known here, it may be larger (bentbeam bounce)"]
-    whole_impact = "of the whole impact" if _scaled(whole["last_contact"], 1.0) != "-" else "of the first 3 T*"
-    lines.append(f"  {whole_impact} ({whole['source']}): {_scaled(whole[name], scale)}")
-    lines += over_damping_lines(whole["over_damping"], name, scale)
+        return [*lines, f"  of the whole impact: not known here ({document['no_whole_impact']}); it may be larger"]
+    until = f"until {milliseconds(whole['span'][1])}"
+    lines.append(f"  of the whole impact, {until} (simulation): {_scaled(whole[name], scale)}")
+    lines += over_damping_lines(whole["over_damping"] or (), name, scale)
     if document["yield_stress"]:
         lines.append(f"  the material yields at: {document['yield_stress'] * 1e-6:.4g}")
     return lines
@@ -127,15 +127,15 @@ def _whole(document: dict[str, Any]) -> list[str]:
     whole = document["whole_impact"]
     if not whole:
         return []
-    force = whole["peak_force"]
-    largest = [f"Largest force of the whole impact ({whole['source']}): {_scaled(force, 1e-3)} kN."] if force else []
-    last = _scaled(whole["last_contact"], 1e3)
-    if last == "-":
-        stays = "The whole impact: the beam does not leave the wall within 3 T* (bentbeam bounce continues)."
-        return [*largest, stays]
-    restitution = _scaled(whole["restitution"], 1.0)
+    force, said = whole["peak_force"], [f"warning: {text}" for text in whole["warnings"]]
+    largest = "There is no largest force on a rigid wall: it pushes by impulses."
+    if force:
+        largest = f"Largest force of the whole impact: {_scaled(force, 1e-3)} kN."
+    if whole["restitution"]["value"] is None and "band" not in whole["restitution"]:
+        return [largest, *said]
+    restitution, last = _scaled(whole["restitution"], 1.0), _scaled(whole["last_contact"], 1e3)
     ends = f"coefficient of restitution {restitution}, last contact {last} ms (the end of the first hit)."
-    return [*largest, f"The whole impact ({whole['source']}): {ends}"]
+    return [largest, f"The whole impact: {ends}", *said]
 
 
 def wall_lines(document: dict[str, Any]) -> list[str]:

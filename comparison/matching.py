@@ -7,7 +7,7 @@ Nothing here knows a path. A method simulates; its history is reduced to moments
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, dataclass
 from typing import Any
 
 import numpy as np
@@ -17,13 +17,14 @@ from bent_beam.errors import ANY_FAILURE, SimulationError, TimeLimitError
 from bent_beam.impact import Impact
 from bent_beam.measure.balance import balance_of
 from bent_beam.measure.estimators import FirstOrderEstimate, LeadingEstimate, first_order, leading_order
-from bent_beam.measure.measured import MISSING, Measured
 from bent_beam.measure.moments import Moments, moments
+from bent_beam.measure.numbers import MISSING, Number, number_of
 from bent_beam.measure.reduction import hold_of, pull_of, wall_peaks
 from bent_beam.method import Method, chosen_for, refined, settings_of, simulated
-from comparison.rows import COMPANIONS, MatchRow, Question, about, first_order_epsilon, lost_row, with_theory
+from comparison.questions import ERROR_BARS
+from comparison.rows import MatchRow, Question, about, first_order_epsilon, lost_row, with_theory
 from comparison.store import RunStore, source_of
-from comparison.workers import Clock, affordable_refinement, run_all
+from comparison.workers import Clock, run_all
 
 __all__ = ["INSTANTS", "answer", "match"]
 
@@ -81,7 +82,7 @@ def _reduced(
         found, peaks, balance = moments(history, uniform=uniform), wall_peaks(history), balance_of(history)
         unit = (impact.wall_stiffness or 1.0) ** 0.25  # EI = μ = V₀ = 1
         return {
-            "moments": {name: values.tolist() for name, values in vars(found).items()},
+            "moments": found,
             "peak_force": None if peaks is None else peaks.force / unit,
             "pull": pull_of(history),
             "hold": hold_of(history),
@@ -92,9 +93,15 @@ def _reduced(
             "gap_of_push": balance.gap_of_push,
         }
 
-    kept = store.answer(question, compute)
-    kept["moments"] = Moments(**{name: np.array(values) for name, values in kept["moments"].items()})
-    return _Reduced(**kept)
+    return _Reduced(**store.answer(question, compute, _as_text, _from_text))
+
+
+def _as_text(found: dict[str, Any]) -> dict[str, Any]:
+    return found | {"moments": {name: values.tolist() for name, values in vars(found["moments"]).items()}}
+
+
+def _from_text(kept: dict[str, Any]) -> dict[str, Any]:
+    return kept | {"moments": Moments(**{name: np.array(values) for name, values in kept["moments"].items()})}
 
 
 @dataclass(frozen=True)
@@ -158,53 +165,26 @@ def _raise_if_refused(method: Method, impact: Impact) -> None:
         raise Refused(str(reason))
 
 
-def _coarsened(question: Question, store: RunStore, clock: Clock) -> tuple[Question, list[str]]:
-    """The question at a resolution whose row ends within the clock's limit, and a warning where that is not the one
-    asked for."""
-    bare = question.bare
-
-    def seconds_at(factor: float) -> float:
-        method = refined(question.method, factor * question.refine)
-        if method is None:
-            return 0.0
-        try:
-            return _reduced(store, method, bare, question.duration, clock=clock).seconds
-        except (Refused, SimulationError):  # too coarse for the method: a finer one may do
-            return 0.0
-
-    runs = 1.0 + sum(factor**2 for factor in COMPANIONS[question.error_bars])
-    factor, expected = affordable_refinement(seconds_at, clock.limit, runs * (1 + len(SHARES) if question.first else 1))
-    if factor == 1.0:
-        return question, []
-    return replace(question, refine=factor * question.refine), [
-        f"coarser than asked for: the row would take about {expected:.0f} s, more than the limit of {clock.limit:g} s; "
-        f"this is the answer at {factor:g} times the resolution, with its own error bar"
-    ]
-
-
 def answer(question: Question, store: RunStore, limit: float | None = None) -> MatchRow:
     """Simulate and estimate one row; companion runs at other resolutions say what the error bar is.
 
-    limit : s; a row that would take longer is made coarser, and says so.
-
-    Raises :class:`Refused`, :class:`bent_beam.SimulationError`, :class:`TimeLimitError` when no resolution is in time.
+    limit : s, of the row. Raises :class:`Refused`, :class:`bent_beam.SimulationError`, :class:`TimeLimitError`.
     """
     clock = None if limit is None else Clock(limit)
-    question, coarser = (question, []) if clock is None else _coarsened(question, store, clock)
     fine = _estimates(question, question.refine, store, None, clock)
     others, lost = list[_Estimates](), list[str]()
     epsilon = fine.loaded[-1][0] if fine.loaded else None
-    for factor in COMPANIONS[question.error_bars]:
+    for factor in ERROR_BARS[question.error_bars]:
         try:
             others.append(_estimates(question, factor * question.refine, store, epsilon, clock))
         except (ValueError, SimulationError) as error:
             what = f"no companion run at {factor:g} times the resolution, so the error bar is a guess"
             lost.append(f"{what}: {error}")
     leading, estimate = fine.leading(others), fine.first(others)
-    warnings = [w for r in fine.runs for w in r.warnings] + lost + coarser
-    if leading.lambda0.bar > WIDE * max(leading.lambda0.known, 0.1) or leading.r0.bar > WIDE * leading.r0.known:
+    warnings = [w for r in fine.runs for w in r.warnings] + lost
+    if leading.lambda0.spread > WIDE * max(leading.lambda0.known, 0.1) or leading.r0.spread > WIDE * leading.r0.known:
         warnings.append(f"wide error bar: λ₀ = {leading.lambda0}, r₀ = {leading.r0}")
-    if estimate is not None and estimate.r1.bar > WIDE_FIRST * max(abs(estimate.r1.known), 1.0):
+    if estimate is not None and estimate.r1.spread > WIDE_FIRST * max(abs(estimate.r1.known), 1.0):
         warnings.append(f"wide error bar: r₁ = {estimate.r1}")
     holds = [r.hold for r in fine.runs if r.hold]
     names = ("pull", "momentum_residual", "gap_of_push")
@@ -212,7 +192,7 @@ def answer(question: Question, store: RunStore, limit: float | None = None) -> M
     return MatchRow(
         **about(question),
         **with_theory(question, leading, estimate),
-        peak_force=_peak_force(fine.run, [o.run for o in others]),
+        peak_force=_peak_force(question, fine.run, [o.run for o in others]),
         lift=leading.lift,
         **checks,
         hold={name: _largest(h[name] for h in holds) for name in ("until", "pull")} if holds else None,
@@ -223,12 +203,16 @@ def answer(question: Question, store: RunStore, limit: float | None = None) -> M
     )
 
 
-def _peak_force(run: _Reduced, others: Sequence[_Reduced]) -> Measured:
-    """The largest force on a wall that gives way; its error bar is what other resolutions change."""
+def _peak_force(question: Question, run: _Reduced, others: Sequence[_Reduced]) -> Number:
+    """The largest force on a wall that gives way, beside the theory of that wall."""
     if run.peak_force is None:
         return MISSING
-    apart = [abs(other.peak_force - run.peak_force) for other in others if other.peak_force is not None]
-    return Measured(run.peak_force, max(apart) if apart else None)
+    from theory.elastic_wall import FLATTEST, MOST_DAMPED, SHARPEST, peak_force
+
+    theory, (_, ratio) = None, question.wall or (0.0, 0.0)
+    if not question.first and FLATTEST <= question.kappa_over_nu <= SHARPEST and ratio <= MOST_DAMPED:
+        theory = peak_force(question.kappa_over_nu, ratio).value
+    return number_of(run.peak_force, {f"resolution_{i}": o.peak_force for i, o in enumerate(others)}, theory=theory)
 
 
 def _largest(values: Iterable[float | None]) -> float | None:
@@ -256,11 +240,10 @@ def match(
 ) -> list[MatchRow]:
     """A row for each question, in their order, with ``jobs`` processes or on a dask ``scheduler``.
 
-    limit : seconds that one row may take (``None``: no limit); a row that would take longer is made coarser and says
-        so, one that takes longer nevertheless is a failure.
+    limit : seconds that one row may take (``None``: no limit); one that takes longer is a failure.
     The rows are the same, bit for bit, for any number of jobs. ``progress(done, total)`` is called after each.
 
-    >>> from comparison.match import match
+    >>> from comparison.matching import match
     >>> from comparison.rows import Question
     >>> from self_similar_fe import SelfSimilarFE
     >>> row = match([Question(SelfSimilarFE(), 0.5)])[0]

@@ -1,7 +1,5 @@
-"""Figures of a whole impact: force, contact zone and shapes of one; the map over κ/ν and damping; the animation.
-
-``bentbeam bounce … --out FOLDER`` draws the first and the last, ``python -m comparison.whole_impact.figures`` the map.
-"""
+"""Figures of a whole impact: force, contact zone and shapes; the animation. ``bentbeam bounce … --out FOLDER`` draws
+both."""
 
 from __future__ import annotations
 
@@ -13,30 +11,19 @@ from numpy.typing import NDArray
 
 from bent_beam.free_flight import pushing
 from bent_beam.history import ImpactHistory
-from comparison.bounce import Bounce
+from comparison.bounce_text import bounce_document
+from comparison.bouncing import Bounce
 from comparison.figures import style
 from comparison.figures.style import Film, write_gif
 from comparison.readable import json_text
 from comparison.store import write_atomically
-from comparison.whole_impact.stored_map import stored_map
-from comparison.whole_impact.table import bounce_document
 
-__all__ = ["animate_bounce", "draw_bounce", "draw_map", "write_bounce"]
+__all__ = ["animate_bounce", "bounce_figure", "draw_bounce", "write_bounce"]
 
 Array = NDArray[np.float64]
 WINDOWS = 160  # of the force: what is quicker is noise of the reader's eye
 SHAPES = 7
 FRAMES, PER_SECOND = 90, 18
-PANELS = {
-    "restitution": r"restitution $e$",
-    "last_contact": r"last contact $t/T^*$",
-    "peak_moment": r"largest moment $/\,(V_0\sqrt{\mu EI})$",
-    "translation": "energy in translation",
-    "vibration": "energy in vibration",
-    "dissipated": "energy dissipated",
-}
-SHARES = ("restitution", "translation", "vibration", "dissipated")
-BANDED = ("restitution", "last_contact", "translation")
 
 
 def write_bounce(found: Bounce, out: Path) -> list[Path]:
@@ -81,6 +68,11 @@ def _whole(history: ImpactHistory, k: int) -> tuple[Array, Array]:
 
 
 def draw_bounce(found: Bounce, out: Path) -> list[Path]:
+    """``bounce.png`` in ``out``."""
+    return style.save(bounce_figure(found), out, "bounce")
+
+
+def bounce_figure(found: Bounce) -> Any:
     """Force and contact zone over time, and the beam's shapes, one below the other as time goes on."""
     history, impact = found.history, found.impact
     end = min(1.25 * found.outcome.last_contact, float(history.time[-1]) / impact.slow_time_scale)
@@ -102,7 +94,7 @@ def draw_bounce(found: Bounce, out: Path) -> list[Path]:
         style.label_panels(push, zone, shapes)
         title = rf"$\kappa/\nu$ = {impact.kappa_over_nu:.4g}, $\eta/T^*$ = {impact.relative_damping:.3g}"
         push.set_title(title, loc="right", pad=3.0)
-        return style.save(fig, out, "bounce")
+        return fig
 
 
 def _draw_shapes(axis: Any, history: ImpactHistory, end: float) -> None:
@@ -120,45 +112,6 @@ def _draw_shapes(axis: Any, history: ImpactHistory, end: float) -> None:
     axis.set(xlabel=r"$x/\ell$", xlim=(-1.05, 1.3), ylim=(-(SHAPES - 0.7) * step, step), yticks=[])
     axis.grid(False)
     axis.spines["left"].set_visible(False)
-
-
-def draw_map(out: Path) -> list[Path]:
-    """The stored map: restitution, last contact, largest moment, energies over κ/ν, a line for each damping."""
-    table = stored_map()
-    dampings = sorted(table["damping"])
-    colours = style.plt.get_cmap("viridis")(np.linspace(0.0, 0.88, len(dampings)))
-    with style.figure(2, 3, width=style.PAGE, height=4.7, sharex=True) as (fig, axes):
-        for axis, (name, title) in zip(axes.flat, PANELS.items()):
-            for damping, colour in zip(dampings, colours):
-                points = [p for p in table["points"] if p["damping"] == damping]
-                points.sort(key=lambda p: p["kappa_over_nu"])
-                kappa = [p["kappa_over_nu"] for p in points]
-                value, error = np.array([p["numbers"][name] for p in points]).T
-                axis.errorbar(kappa, value, error, color=colour, lw=0.9, elinewidth=0.6, label=_power(damping))
-            if name in BANDED and table["bands"]:
-                kappa = [b["kappa_over_nu"] for b in table["bands"]]
-                mean, std = np.array([b["band"][name] for b in table["bands"]]).T
-                axis.fill_between(kappa, mean - std, mean + std, color="#BBBBBB", lw=0.0, label="0 (band)", zorder=0)
-            for point in table["others"]:
-                look = {"marker": style.mark(point["path"])["marker"], "ms": 3.0, "mfc": "white", "ls": ""}
-                colour = colours[dampings.index(point["damping"])]
-                axis.errorbar(point["kappa_over_nu"], *point["numbers"][name], color=colour, **look)
-            axis.axvspan(0.8, 1.0, color="#F5DCCB", lw=0.0, zorder=-1)
-            axis.set(xscale="log", xlim=(0.048, 4.2), ylabel=title)
-            axis.set_xticks([0.05, 0.1, 0.2, 0.5, 1.0, 4.0], ["0.05", "0.1", "0.2", "0.5", "1", r"$\geq$4"])
-            axis.minorticks_off()
-            axis.set_ylim(0.0, min(axis.get_ylim()[1], 1.0) if name in SHARES else None)
-        for axis in axes[1]:
-            axis.set_xlabel(r"$\kappa/\nu$")
-        handles, labels = axes[0, 0].get_legend_handles_labels()
-        fig.legend(handles, labels, title=r"$\eta/T^*$", loc="outside upper center", ncols=len(labels))
-        style.label_panels(*axes.flat)
-        return style.save(fig, out, "bounce-map")
-
-
-def _power(damping: float) -> str:
-    digit, power = f"{damping:.0e}".split("e")
-    return rf"$10^{{{int(power)}}}$" if digit == "1" else rf"${digit}\cdot10^{{{int(power)}}}$"
 
 
 def animate_bounce(history: ImpactHistory, file: Path) -> Path:
@@ -193,7 +146,3 @@ def animate_bounce(history: ImpactHistory, file: Path) -> Path:
             pictures.append(film.picture())
     write_gif(pictures, file, PER_SECOND)
     return file
-
-
-if __name__ == "__main__":
-    print(*draw_map(style.asked_folder()))

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from bent_beam.measure.measured import Measured
-from comparison.readable import in_unit, text_table
+from bent_beam.measure.numbers import Band, Number
+from comparison.readable import in_unit, number_from, text_table
 
 __all__ = ["run_table"]
 
@@ -22,8 +22,8 @@ def run_table(found: dict[str, Any], verbose: bool = False) -> str:
     """The summary of one run for a reader; ``verbose``: with what tells an expert how good it is."""
     until = f"until {1e3 * found['time']:.4g} ms"
     lines = [
-        _compared("half contact length", found["half_contact_length"], "m"),
-        _compared("impulse", found["total_impulse"], "N s"),
+        _compared("half contact length", number_from(found["half_contact_length"]), "m"),
+        _compared("impulse", number_from(found["total_impulse"]), "N s"),
         *_peak(found, "moment", f"largest bending moment, {until}", "N m"),
         *_peak(found, "stress", f"largest stress, {until}", "Pa"),
     ]
@@ -32,8 +32,8 @@ def run_table(found: dict[str, Any], verbose: bool = False) -> str:
         lines += _peak(found, "force", f"largest force on the wall, {at}", "N")
         lines += _peak(found, "penetration", "largest penetration", "m")
         lines += _peak(found, "pressure", "largest pressure", "N/m")
-    if found["restitution"].measured:
-        lines.append(_compared("coefficient of restitution", found["restitution"], ""))
+    if found["restitution"]["value"] is not None:
+        lines.append(_compared("coefficient of restitution", number_from(found["restitution"]), ""))
     lines.append(["lost to steps and mesh", f"{100.0 * found['numerical_loss']:.2g}", "% of the energy", ""])
     text = [
         f"{found['path']}, {1e3 * found['time']:.4g} ms after first contact ({found['seconds']:.2g} s for one run)",
@@ -53,7 +53,7 @@ def run_table(found: dict[str, Any], verbose: bool = False) -> str:
     return "\n".join(text)
 
 
-def _compared(title: str, number: Measured, unit: str) -> list[str]:
+def _compared(title: str, number: Number | Band, unit: str) -> list[str]:
     return [title, str(number), unit, "-" if number.theory is None else f"{number.theory:.4g}"]
 
 
@@ -64,11 +64,12 @@ def _expert_lines(found: dict[str, Any]) -> list[list[str]]:
     energy = dict(found["energy"])
     residual = energy.pop("defect")
     return [
-        *(_compared(name, found[name], "") for name in ("lambda0", "r0") if found[name].measured),
+        *(_compared(n, number_from(found[n]), "") for n in ("lambda0", "r0") if found[n]["value"] is not None),
         plain("lift of the zone over V0 t", found["lift"]),
         plain("largest pull over largest push", found["pull"]),
         *(plain(ENERGY_TITLES.get(n, n.replace("_", " ")), v, "J") for n, v in energy.items() if v is not None),
         plain("energy residual", residual, "J"),
+        plain("the same over what there was", found["energy_residual"]),
         plain("momentum residual over the impulse", found["momentum_residual"]),
         plain("largest gap of a push over V0 t", found["gap_of_push"]),
         plain("steps", found["steps"]),
@@ -83,7 +84,7 @@ def _hold_text(hold: dict[str, Any]) -> str:
 
 def _peak(found: dict[str, Any], name: str, title: str, unit: str) -> list[list[str]]:
     """The line of a largest value; none where it is not known."""
-    number = Measured(found[f"peak_{name}"], found[f"peak_{name}_error"])
+    number = Number(found[f"peak_{name}"], found[f"peak_{name}_error"])
     return [[title, *in_unit(number, unit), ""]] if number.measured else []
 
 

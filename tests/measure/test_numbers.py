@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from bent_beam.measure.measured import Band, Measured
+from bent_beam.measure.numbers import Band, Number
 
 
 @pytest.mark.parametrize(
@@ -19,7 +19,7 @@ from bent_beam.measure.measured import Band, Measured
     ],
 )
 def test_a_number_has_the_digits_of_its_error_bar(value: float, error: float, written: str) -> None:
-    assert str(Measured(value, error)) == written
+    assert str(Number(value, error)) == written
 
 
 def test_a_band_that_is_not_known_is_missing() -> None:
@@ -27,8 +27,8 @@ def test_a_band_that_is_not_known_is_missing() -> None:
     assert str(Band(math.nan, math.nan, 5)) == "- (band of 5 runs)"
 
 
-@pytest.mark.parametrize("one", [Measured(1.0, 0.1), Measured(None, 0.1, 1.0)])
-def test_without_a_value_or_a_theory_there_is_no_difference(one: Measured) -> None:
+@pytest.mark.parametrize("one", [Number(1.0, 0.1), Number(None, 0.1, 1.0)])
+def test_without_a_value_or_a_theory_there_is_no_difference(one: Number) -> None:
     assert (one.difference, one.relative(), one.covered) == (None, None, None)
 
 
@@ -44,4 +44,4 @@ def test_without_a_value_or_a_theory_there_is_no_difference(one: Measured) -> No
 def test_a_power_of_ten_is_written_below_a_ten_thousandth_and_from_a_million_on(
     value: float, error: float, written: str
 ) -> None:
-    assert str(Measured(value, error)) == written
+    assert str(Number(value, error)) == written

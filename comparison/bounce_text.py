@@ -5,10 +5,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
+from bent_beam.measure.numbers import Number
 from bent_beam.measure.whole_impact import SHORTEST_SEPARATION, Hit
 from bent_beam.versions import versions
-from comparison.bounce import Bounce
-from comparison.prediction_text import over_damping_lines
+from comparison.bouncing import Bounce, over_damping
+from comparison.energies import energy_residual, numerical_loss
+from comparison.predict_text import over_damping_lines
 from comparison.readable import in_unit, text_table, unit_for
 
 __all__ = ["bounce_document", "bounce_table", "hits_table"]
@@ -50,7 +52,7 @@ def bounce_document(found: Bounce) -> dict[str, Any]:
     return {
         "kappa_over_nu": found.impact.kappa_over_nu,
         "damping": found.impact.relative_damping,
-        "hysteretic_loss": found.history.settings.get("hysteretic_loss"),
+        "hysteretic_loss": found.runs.run.reading["loss"],
         **{name: number.to_dict() for name, number in found.numbers.items() if name not in ENERGY},
         "energy": {name: found.numbers[name].to_dict() for name in ENERGY},
         "si": {
@@ -62,14 +64,18 @@ def bounce_document(found: Bounce) -> dict[str, Any]:
         "peak_stress": None if stress is None else {**stress.to_dict(), "unit": "Pa"},
         "yield_stress": None if found.section is None else found.section.yield_stress,
         "shortest_separation": SHORTEST_SEPARATION,
+        "span": list(found.span),
+        "over_damping": over_damping(found),
         "contacts": [list(times) for times in found.outcome.contacts],
-        "error_parts": {name: dict(parts) for name, parts in found.parts.items()},
-        "energy_defect": found.outcome.energy_defect,
+        "error_parts": {name: dict(n.parts) for name, n in found.numbers.items() if isinstance(n, Number)},
+        "energy_residual": energy_residual(found.energy),
+        "energy_defect": energy_residual(found.energy),
+        "numerical_loss": numerical_loss(found.energy),
         "energy_gain": found.outcome.energy_gain,
         "momentum_residual": balance.momentum,
         "gap_of_push": balance.gap_of_push,
         "left": found.left,
-        "steps": found.history.steps,
+        "steps": found.runs.run.steps,
         "seconds": found.seconds,
         "seed": found.seed,
         "settings": found.settings,
@@ -78,26 +84,30 @@ def bounce_document(found: Bounce) -> dict[str, Any]:
     }
 
 
-def bounce_table(found: Bounce, over_damping: Sequence[dict[str, Any]] = (), *, verbose: bool = False) -> str:
+def bounce_table(found: Bounce, *, verbose: bool = False) -> str:
     """Every number with its error bar, in SI; ``verbose``: also in units of the beam, with places and times."""
     rows = []
     for name, title in {**TITLES, **(EXPERT if verbose else {})}.items():
-        if name in found.numbers:  # of a rigid wall there is no force
+        if name in found.numbers:
             rows.append([title, *_in_si(found, name), str(found.numbers[name])])
+        elif name == "peak_force":
+            rows.append([title, "none", "on a rigid wall: an impulse", ""])
         if name == "peak_moment" and found.peak_stress is not None:
             rows.append(["largest stress", *in_unit(found.peak_stress, "Pa"), ""])
     columns = 4 if verbose else 3
     name, unit = ("peak_moment", "N m") if found.section is None else ("peak_stress", "Pa")
-    values = [row[name]["value"] for row in over_damping]
+    rows_over = over_damping(found) or []
+    values = [row[name]["value"] for row in rows_over]
     scale, unit = unit_for(unit, values)
-    over = [line.strip() for line in over_damping_lines(over_damping, name, scale)]
+    over = [line.strip() for line in over_damping_lines(rows_over, name, scale)]
     impact = found.impact
     lines = [
         text_table(["", "value", "", "beam's units"][:columns], [row[:columns] for row in rows]),
         "",
         "± is the error bar; a band is mean ± standard deviation of runs. Energies are shares of the initial energy",
         "and the work of the loads, at the last contact: the end of the first hit, after which the beam is off the",
-        "wall for a period of its first mode at least.",
+        "wall for a period of its first mode at least. The largest moment and stress are those of the whole motion,",
+        f"from 0 to {1e3 * found.span[1]:.4g} ms: a period of the lowest mode after the last contact.",
         *(f"Largest {'moment' if found.section is None else 'stress'}, {unit}, {line}." for line in over),
     ]
     if verbose:
@@ -106,7 +116,7 @@ def bounce_table(found: Bounce, over_damping: Sequence[dict[str, Any]] = (), *, 
         lines += [
             "Read from the state: momentum residual {} of the impulse, largest gap of a push {} V0 t.".format(*checks),
             f"kappa/nu = {impact.kappa_over_nu:.6g}, {_damping_of(found)}, "
-            f"T* = {impact.slow_time_scale:.6g} s; {found.history.steps} steps, {found.seconds:.1f} s for all runs.",
+            f"T* = {impact.slow_time_scale:.6g} s; {found.runs.run.steps} steps, {found.seconds:.1f} s for all runs.",
             "Beam's units: L/2 = EI = mu = V0 = 1. A separation lasts at least "
             f"{SHORTEST_SEPARATION:g} T* ({SHORTEST_SEPARATION * found.units['time']:.3g} s).",
         ]
@@ -115,7 +125,7 @@ def bounce_table(found: Bounce, over_damping: Sequence[dict[str, Any]] = (), *, 
 
 def _damping_of(found: Bounce) -> str:
     """Of the beam itself: eta/T*, or the hysteretic loss and where it holds."""
-    loss = found.history.settings.get("hysteretic_loss")
+    loss = found.runs.run.reading["loss"]
     if loss is None:
         return f"eta/T* = {found.impact.relative_damping:.6g}"
     held = f"{loss['lowest_frequency']:.3g} to {loss['highest_frequency']:.3g} Hz"
