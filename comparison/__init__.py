@@ -2,16 +2,13 @@
 
 >>> from comparison import predict
 >>> found = predict("cases/tube.toml", 1e-3, theory_only=True)
->>> found.theory.regime
+>>> found.found.theory.regime
 'continuous'
 
 ``predict``, ``bounce`` and ``match`` return objects that print themselves, with ``.plot()`` and ``.to_dict()``.
 """
 
-from typing import TYPE_CHECKING, Any
-
-if TYPE_CHECKING:
-    from comparison.doors import bounce, match, predict
+from typing import Any
 
 __all__ = ["bounce", "match", "predict"]
 
@@ -19,6 +16,6 @@ __all__ = ["bounce", "match", "predict"]
 def __getattr__(name: str) -> Any:
     if name not in __all__:
         raise AttributeError(f"module 'comparison' has no attribute {name!r}")
-    from comparison import doors  # nothing heavy is imported before it is asked for
+    from importlib import import_module  # nothing heavy is imported before it is asked for
 
-    return getattr(doors, name)
+    return getattr(import_module("comparison.doors"), name)

@@ -151,23 +151,6 @@ class Bounce:
             )
         return [*found, *loss_warnings(numerical_loss(self.energy)), *self.balance.warnings]
 
-    def to_dict(self) -> dict[str, Any]:
-        """The contract of ``bentbeam bounce --json``."""
-        from comparison.bounce_text import bounce_document
-
-        return bounce_document(self)
-
-    def plot(self) -> Any:
-        """Force, contact and shapes over time, as a Matplotlib figure."""
-        from comparison.figures.whole_impact import bounce_figure
-
-        return bounce_figure(self)
-
-    def __str__(self) -> str:
-        from comparison.bounce_text import bounce_table
-
-        return bounce_table(self)
-
 
 def problem(kappa_over_nu: float, damping: float) -> Impact:
     """The beam in units of its half length; κ/ν = ∞ is calculated as a point contact."""

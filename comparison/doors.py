@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -10,11 +11,13 @@ from bent_beam.cases import Case, load_case
 from bent_beam.impact import Impact
 from bent_beam.method import Method, method_from_tables
 from comparison import bouncing, predicting
+from comparison.bounce_text import bounce_document, bounce_table
 from comparison.matching import match as match_all
+from comparison.predict_text import prediction_text
 from comparison.rows import THESIS_KAPPAS, MatchRow, match_document, match_table, questions
 from comparison.store import RunStore, default_store
 
-__all__ = ["Matched", "bounce", "match", "predict"]
+__all__ = ["Bounced", "Matched", "Predicted", "bounce", "match", "predict"]
 
 Beam = Case | Impact | str | Path
 
@@ -28,7 +31,47 @@ def case_of(beam: Beam) -> Case:
     return load_case(beam)
 
 
-def predict(beam: Beam, *times: float, theory_only: bool = False, fresh: bool = False) -> predicting.PredictedCase:
+@dataclass(frozen=True)
+class Bounced:
+    """A whole impact: ``found`` has its numbers, runs and warnings."""
+
+    found: bouncing.Bounce
+
+    def to_dict(self) -> dict[str, Any]:
+        """The contract of ``bentbeam bounce --json``."""
+        return bounce_document(self.found)
+
+    def __str__(self) -> str:
+        return bounce_table(self.found)
+
+    def plot(self) -> Any:
+        """Force, contact and shapes over time, as a Matplotlib figure."""
+        from comparison.figures.whole_impact import bounce_figure
+
+        return bounce_figure(self.found)
+
+
+@dataclass(frozen=True)
+class Predicted:
+    """A prediction: ``found`` has theory, simulated numbers at each time, and the whole impact."""
+
+    found: predicting.PredictedCase
+
+    def to_dict(self) -> dict[str, Any]:
+        """The contract of ``bentbeam predict --json``."""
+        return self.found.to_dict()
+
+    def __str__(self) -> str:
+        return prediction_text(self.found.to_dict())
+
+    def plot(self) -> Any:
+        """Of the whole impact, as a Matplotlib figure. Raises ``ValueError`` where it is not simulated."""
+        if self.found.whole is None:
+            raise ValueError(f"the whole impact is not there to be drawn: {self.found.no_whole}")
+        return Bounced(self.found.whole).plot()
+
+
+def predict(beam: Beam, *times: float, theory_only: bool = False, fresh: bool = False) -> Predicted:
     """Theory beside simulation at ``times``, s (default: the case's own), and the whole impact.
 
     beam : a case, its file, or an impact. theory_only : nothing is simulated. fresh : stored runs are ignored.
@@ -36,10 +79,10 @@ def predict(beam: Beam, *times: float, theory_only: bool = False, fresh: bool = 
     """
     case = case_of(beam)
     store = RunStore(None if fresh else default_store())
-    return predicting.predict_case(case, times or (case.end_time,), theory_only=theory_only, store=store)
+    return Predicted(predicting.predict_case(case, times or (case.end_time,), theory_only=theory_only, store=store))
 
 
-def bounce(beam: Beam, path: str = "hermite", *, jobs: int = 1, fresh: bool = False) -> bouncing.Bounce:
+def bounce(beam: Beam, path: str = "hermite", *, jobs: int = 1, fresh: bool = False) -> Bounced:
     """The whole impact by the method of ``path``, to the last separation.
 
     beam : a case, its file, or an impact. jobs : processes. fresh : stored runs are ignored.
@@ -47,7 +90,8 @@ def bounce(beam: Beam, path: str = "hermite", *, jobs: int = 1, fresh: bool = Fa
     """
     case = case_of(beam)
     how: dict[str, Any] = {"section": case.section, "damping_stated": case.damping_stated, "jobs": jobs}
-    return bouncing.bounce(case.impact, case.method(path), store=RunStore(None if fresh else default_store()), **how)
+    store = RunStore(None if fresh else default_store())
+    return Bounced(bouncing.bounce(case.impact, case.method(path), store=store, **how))
 
 
 class Matched(list[MatchRow]):

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass
-from functools import cached_property, partial
+from functools import partial
 from itertools import groupby
 from typing import Any
 
@@ -131,23 +131,6 @@ class PredictedCase:
             "over_damping": over_damping(self.whole),
             "warnings": self.whole.warnings,
         }
-
-    @cached_property
-    def text(self) -> str:
-        from comparison.predict_text import prediction_text
-
-        return prediction_text(self.to_dict())
-
-    def __str__(self) -> str:
-        return self.text
-
-    def plot(self) -> Any:
-        """Force and stress over time, of the whole impact where it is known, as a Matplotlib figure."""
-        if self.whole is not None:
-            return self.whole.plot()
-        if self.runs is None or self.runs.history is None:
-            raise ValueError("theory_only: nothing is simulated that could be drawn")
-        return self.runs.history.plot()
 
 
 def predict_case(

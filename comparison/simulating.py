@@ -124,7 +124,8 @@ def comparable(impact: Impact) -> bool:
 
 def _document(found: Simulated, file: Path | None) -> dict[str, Any]:
     history, section, numbers = found.history, found.case.section, found.numbers
-    impact, end, reading = history.impact, float(history.time[-1]), found.runs.run.reading
+    impact, until, reading = history.impact, found.runs.question.until, found.runs.run.reading
+    end = float(history.time[-1]) if until is None else until
     several = impact.opposite_wall is not None or impact.off_centre  # hits: between two walls, or of a beam that rocks
     infinite = predict(impact, [end]) if comparable(impact) else None
     row = infinite.times[0] if infinite and infinite.times[0].valid else None

@@ -53,6 +53,7 @@ def instant(history: ImpactHistory, time: float, *, first_spread: bool = False, 
     """
     k = int(np.argmin(np.abs(history.time - time)))  # saved times are those of steps
     until = max(time, float(history.time[k]))
+    front: float | None
     if not first_spread:
         front = half_contact_length(history, k)
     elif "contact_position" in history:  # points that move with the contact gather on their way
@@ -62,7 +63,7 @@ def instant(history: ImpactHistory, time: float, *, first_spread: bool = False, 
     peak, wall = peak_moment(history, until=until), wall_peaks(history, until=until)
     begin, end = history.impact.wall_span
     return Instant(
-        half_contact_length=front if front or first_spread else None,
+        half_contact_length=front,
         reaction=mean_reaction(history, time),
         impulse=float(np.interp(time, history.time, history.array("total_impulse"))),
         peak_moment=peak.moment,
@@ -72,7 +73,7 @@ def instant(history: ImpactHistory, time: float, *, first_spread: bool = False, 
         peak_force_time=None if wall is None else wall.time,
         peak_penetration=None if wall is None else wall.penetration,
         peak_pressure=None if wall is None or begin == end else wall.pressure,
-        element=0.0 if first_spread else element_at(history, k, front),
+        element=0.0 if first_spread or front is None else element_at(history, k, front),
         lift=_lift(history, time) if first_spread and with_lift else 0.0,
     )
 

@@ -1,10 +1,10 @@
 """A wall that gives way: elements and the beam's Green's function agree in the largest force."""
 
 import pytest
-from comparison.prediction_text import wall_lines
 
 from bent_beam import Impact
 from bent_beam.measure.reduction import wall_peaks
+from comparison.predict_text import wall_lines
 from hermite_fe import HermiteFE
 from theory import predict
 

@@ -33,7 +33,7 @@ def test_stored_points_are_within_half_a_percent_of_theory() -> None:
 def test_moment_of_a_quick_run_is_that_of_theory_and_steady() -> None:
     found = measure_moment(HermiteFE(), 0.5)
     assert found.value == pytest.approx(found.theory, rel=WITHIN)
-    assert found.bar < 0.01 * found.theory
+    assert found.error < 0.01 * found.theory
 
 
 @pytest.mark.verify
