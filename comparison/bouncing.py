@@ -102,10 +102,7 @@ class Bounce:
     def peak_stress(self) -> Number | Band | None:
         """Largest normal stress, Pa, |M|/W + |N|/A at the place and time of the largest moment; ``None`` without a
         section."""
-        if self.section is None:
-            return None
-        unit = scales(self.impact)["moment"] / self.section.section_modulus
-        return self.numbers["peak_moment"].scaled(unit, self.section.stress(0.0, self.impact.axial_force), "Pa")
+        return stress_of(self.numbers["peak_moment"].scaled(scales(self.impact)["moment"]), self.impact, self.section)
 
     @property
     def span(self) -> tuple[float, float]:
@@ -258,6 +255,13 @@ def scales(impact: Impact) -> dict[str, float]:
         "length": impact.half_length,
         "force": impulse / impact.slow_time_scale,
     }
+
+
+def stress_of(moment: Number | Band, impact: Impact, section: Section | None) -> Any:
+    """Largest normal stress, Pa, of a largest ``moment``, N m; ``None`` without a section."""
+    if section is None:
+        return None
+    return moment.scaled(1.0 / section.section_modulus, section.stress(0.0, impact.axial_force), "Pa")
 
 
 def follow_hits(

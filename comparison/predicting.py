@@ -24,7 +24,7 @@ from bent_beam.measure.instant import instant
 from bent_beam.measure.numbers import Number
 from bent_beam.method import Method
 from comparison.answers import Runs, numbers_of, runs_of
-from comparison.bouncing import Bounce, bounce, over_damping, scales
+from comparison.bouncing import Bounce, bounce, over_damping, scales, stress_of
 from comparison.energies import energy_at_end, loss_warnings, numerical_loss
 from comparison.questions import Question
 from comparison.store import RunStore
@@ -177,11 +177,9 @@ def _at(runs: Runs | None, case: Case) -> dict[str, Number]:
     """The numbers of one time; nothing where nothing was simulated."""
     if runs is None:
         return {}
-    found, section = instant_numbers(runs), case.section
-    if section is not None:
-        unit = 1.0 / section.section_modulus
-        found["peak_stress"] = found["peak_moment"].scaled(unit, section.stress(0.0, case.impact.axial_force), "Pa")
-    return found
+    found = instant_numbers(runs)
+    stress = stress_of(found["peak_moment"], case.impact, case.section)
+    return found if stress is None else found | {"peak_stress": stress}
 
 
 def _of_runs(every: Any) -> list[str]:

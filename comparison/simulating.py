@@ -19,7 +19,7 @@ from bent_beam.measure.numbers import MISSING, Number
 from bent_beam.measure.reduction import hold_of, pull_of
 from bent_beam.measure.whole_impact import hits
 from comparison.answers import Runs, numbers_of, runs_of
-from comparison.bouncing import scales, whole_reading
+from comparison.bouncing import scales, stress_of, whole_reading
 from comparison.energies import energy_at_end, energy_residual, loss_warnings, numerical_loss
 from comparison.predicting import instant_numbers, instants_reading
 from comparison.questions import Question
@@ -132,6 +132,7 @@ def _document(found: Simulated, file: Path | None) -> dict[str, Any]:
     leading = found.leading if row else None
     energy, balance = energy_at_end(history), balance_of(history)
     moment, whole = numbers["peak_moment"], reading.get("whole")
+    stress = stress_of(moment, impact, section)
     unit = scales(impact)
     place = whole["peak_moment_place"] * unit["length"] if whole else reading["peak_moment_place"]
     when = whole["peak_moment_time"] * unit["time"] if whole else reading["peak_moment_time"]
@@ -155,8 +156,8 @@ def _document(found: Simulated, file: Path | None) -> dict[str, Any]:
         "peak_moment_error": moment.bar,
         "peak_moment_place": place,
         "peak_moment_time": when,
-        "peak_stress": None if section is None else section.stress(moment.known, impact.axial_force),
-        "peak_stress_error": None if section is None or moment.bar is None else section.stress(moment.bar),
+        "peak_stress": None if stress is None else stress.value,
+        "peak_stress_error": None if stress is None else stress.bar,
         "yield_stress": None if section is None else section.yield_stress,
         "peak_force_time": reading["peak_force_time"],
         **{name: numbers[name].value for name in ("peak_force", "peak_penetration", "peak_pressure")},

@@ -4,7 +4,6 @@ from dataclasses import replace
 from functools import cache
 from pathlib import Path
 from typing import Any
-from unittest import mock
 
 from bent_beam.measure.numbers import Number
 from bent_beam.meshes import ScaleFreeMesh
@@ -59,9 +58,8 @@ def rows() -> list[MatchRow]:
 
 @cache
 def pipe() -> dict[str, Any] | None:
-    """Without the whole impact, which the page does not show."""
-    with mock.patch("comparison.prediction.predicted_impact"):
-        return pipe_prediction()
+    """The drill pipe, without its whole impact, which the page does not show."""
+    return pipe_prediction()
 
 
 METHODS = (

@@ -12,7 +12,6 @@ from typing import Any
 
 import numpy as np
 import pytest
-from comparison.whole_impact.stored_map import bounce_from_map
 
 from bent_beam.cases import case_from_tables, load_case
 from bent_beam.impact import Impact
@@ -32,7 +31,7 @@ needs_node = pytest.mark.skipif(shutil.which("node") is None, reason="Node.js is
 
 def evaluated(expression: str, argument: Any) -> Any:
     """What the page's scripts make of ``expression`` with ``given``, JSON in and out."""
-    parts = [script(("theory.js", "limits.js", "whole_impact.js", "beam.js", "case.js", "draw.js"))]
+    parts = [script(("theory.js", "limits.js", "beam.js", "case.js", "draw.js"))]
     parts += [f"const given = {json.dumps(argument)};", f"console.log(JSON.stringify({expression}));"]
     done = subprocess.run(["node", "-"], input="\n".join(parts), capture_output=True, text=True, check=True)
     return json.loads(done.stdout)
@@ -136,21 +135,6 @@ def test_the_largest_force_on_a_wall_that_gives_way_is_that_of_the_theory() -> N
     impact = Impact(2.0, 3.0, 1e3, 0.4, 0.5, wall_stiffness=7.0)
     given = answers([impact], wallStiffness=7.0)[0]
     assert given["peakForce"] == pytest.approx(theory_predict(impact).peak_force, rel=3e-4)
-
-
-@needs_node
-def test_whole_impact_is_the_stored_map_where_it_reaches() -> None:
-    rng = np.random.default_rng(4)
-    asked = [[k, d] for k, d in zip(10.0 ** rng.uniform(-1.4, 0.8, 60), 10.0 ** rng.uniform(-4.5, -0.9, 60))]
-    asked += [[0.5, 1e-3], [2.0, 0.0], [0.05, 1e-4]]
-    for (kappa, damping), found in zip(asked, evaluated("given.map((g) => WholeImpact.at(...g))", asked), strict=True):
-        exact = bounce_from_map(kappa, damping)
-        assert (found is None) == (exact is None)
-        for name in ("restitution", "last_contact", "peak_moment") if exact is not None else ():
-            number = exact[name].to_dict()
-            value, bar = (number["value"], number["error"]) if not number.get("band") else (
-                number["band"]["mean"], number["band"]["std"])  # fmt: skip
-            assert (found[name]["value"], found[name]["error"]) == pytest.approx((value, bar), rel=1e-3, abs=1e-8)
 
 
 def random_inputs(count: int) -> list[dict[str, Any]]:

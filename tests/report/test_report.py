@@ -87,11 +87,11 @@ def test_page_shows_every_row_the_failure_and_what_is_stored(written: Any, reade
             assert c.value_text in text and c.error_text in text
     assert f"Exudyn0.3(1, 0, 0, 0){written.nasty}" in text
     assert "0.98 ± 0.002" in text and f"Left out: {written.nasty}" in text
-    # matching, work and precision, map of whole impacts, maps of reaction, acceleration; what is stored
+    # matching, work and precision, maps of reaction, acceleration; what is stored
     printed = stored_numbers()
     assert printed is not None and written.text.index('id="thesis"') < written.text.index('id="problem"')
     stored = len(stored_measurements()) + sum(s["picture"].exists() for s in written.studies) + len(printed["figures"])
-    assert sum(tag == "img" for tag in reader.tags) == 6 + stored
+    assert sum(tag == "img" for tag in reader.tags) == 5 + stored
 
 
 def test_report_is_written_when_rows_fail(written: Any, reader: Reader) -> None:
