@@ -16,12 +16,13 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from bent_beam.checks import shortened
+from bent_beam.description import impact_of
 from bent_beam.errors import InputError, unknown_key
 from bent_beam.fields import key_of, made_from, part_from_table, part_or_auto
 from bent_beam.impact import Impact
 from bent_beam.meshes import MESHES, Mesh
 from bent_beam.section import SECTIONS, Section
-from bent_beam.tables import TABLES, BeamTable, ImpactTable, RunTable, WallTable, impact_of
+from bent_beam.tables import TABLES, BeamTable, ImpactTable, RunTable, WallTable
 
 if TYPE_CHECKING:
     from bent_beam.method import Method
