@@ -135,6 +135,7 @@ class ContactRun(ABC):
         self.beam, self.nodes, self.wall_y = beam, nodes, wall_y
         self.contact_s = beam.shape.s[nodes]
         self.signs = np.ones(nodes.size) if signs is None else signs
+        self.connectors: list[Any] = []  # Exudyn's object numbers
 
     def depth(self, q: Array) -> Array:
         """Penetration at the contact points, shape (contacts,)."""
@@ -143,6 +144,10 @@ class ContactRun(ABC):
     @abstractmethod
     def forces(self, q: Array, v: Array) -> tuple[Array, Flags]:
         """Contact forces (off the wall positive, off an opposite one negative) and active flags, shape (contacts,)."""
+
+    def plain_forces(self, q: Array, v: Array) -> Array:
+        """Contact forces where Exudyn's own judgement of the states stands, shape (contacts,)."""
+        return self.forces(q, v)[0]
 
     def stored_energy(self, q: Array) -> float:
         """Energy that the contact's springs hold."""
