@@ -174,6 +174,8 @@ def _wall(shape: Shape, scaling: Scaling, chosen: Chosen) -> Wall:
         opposite=None if opposite is None else -opposite / scaling.deflection,
         stiffness=None if stiffness is None else stiffness / unit,
         damping=impact.wall_damping / (unit * scaling.end_time),
+        stiffness_unit=impact.bending_stiffness / scaling.length**4,
+        damping_unit=impact.bending_stiffness * scaling.end_time / scaling.length**4,
     )
 
 

@@ -110,7 +110,9 @@ def build(
 
 
 def _refused(method: ExudynModel) -> str | None:
-    contact = method.contact
+    contact, grows = method.contact, getattr(method.integrator, "relative_step", None)
+    if grows is not None:
+        return f"exudyn.integrator.relative_step: steps of build are equal, give time_step (got {grows!r})"
     if isinstance(contact, Rigid):
         return "exudyn.contact.kind rigid is switched between steps: use simulate, or take penalty to build"
     if isinstance(contact, Penalty) and (contact.hold or contact.hold_start):

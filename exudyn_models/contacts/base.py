@@ -67,6 +67,8 @@ class Wall:
     opposite: float | None  # y of a second, flat wall behind the beam
     stiffness: float | None = None  # per length, of a wall that gives way; of a stop itself
     damping: float = 0.0  # beside it
+    stiffness_unit: float = 1.0  # SI value of a stiffness per length, N/m², …
+    damping_unit: float = 1.0  # … and of a damping per length, N s/m²
 
     @property
     def stop(self) -> bool:

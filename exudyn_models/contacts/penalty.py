@@ -196,6 +196,12 @@ class Penalty(Contact):
         float | None,
         Quantity("", "D in d = D √(EIμ)/Δx²", least=0.0, absent=f"{DAMPING:g}√(C/10) (thin front: {PLASTIC:g}√(C/10))"),
     ] = None
+    stiffness: Annotated[
+        float | None, Quantity("N/m²", "k itself: N/m per m of beam, of all nodes alike", above=0.0, absent="as C says")
+    ] = None
+    damping: Annotated[
+        float | None, Quantity("N s/m²", "d itself: N s/m per m of beam", least=0.0, absent="as D says")
+    ] = None
     hold: Hold = 0
     hold_start: Annotated[
         float | None,
@@ -204,6 +210,12 @@ class Penalty(Contact):
             absent=f"{START:g}; 0: load or damping lifts the zone, front is thin, waves are back, explicit steps",
         ),
     ] = None  # fmt: skip
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        for name in ("stiffness", "damping"):
+            if getattr(self, name) is not None and getattr(self, f"relative_{name}") is not None:
+                raise ValueError(f"{self.where}.{name} and relative_{name} exclude each other: give one")
 
     def attach(self, beam: Beam, wall: Wall) -> ContactRun:
         length = beam.tributary[wall.nodes]
@@ -217,6 +229,10 @@ class Penalty(Contact):
         if damping is None:
             damping = (PLASTIC * plastic if plastic else DAMPING) * math.sqrt(stiffness / STIFFNESS)
         k, d = penalty_per_length(local, stiffness, damping)
+        if self.stiffness is not None:
+            k = np.full_like(k, self.stiffness / wall.stiffness_unit)
+        if self.damping is not None:
+            d = np.full_like(d, self.damping / wall.damping_unit)
         strip = HeldStrip(wall, self.hold, 0.0 if plastic and self.hold_start is None else self.hold_start)
         chosen = {"relative_stiffness": stiffness, "relative_damping": damping}
         return PenaltyRun(beam, wall, k * length, d * length, strip, chosen)

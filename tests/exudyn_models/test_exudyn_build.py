@@ -1,5 +1,6 @@
 """The impact as an Exudyn system for plain ``SolveDynamic``, and every combination of parts: run, or refused."""
 
+import dataclasses
 import itertools
 import re
 
@@ -8,10 +9,12 @@ import pytest
 from exudyn.utilities import LoadSolutionFile
 
 import exudyn_models
-from bent_beam import Impact
+from bent_beam import Impact, InputError
 from bent_beam.meshes import UniformMesh
+from bent_beam.method import method_from_tables
 from exudyn_models import CONTACTS, ELEMENTS, INTEGRATORS, ExudynModel
 from exudyn_models.contacts import Penalty, Rigid
+from exudyn_models.integrators import GeneralizedAlpha, Newmark
 from theory import contact_parameters
 
 STEEL = Impact(bending_stiffness=2.1e3, mass_per_length=1.6, length=3.0, curvature=0.02, velocity=2.0)
@@ -90,10 +93,35 @@ def test_a_combination_of_parts_meets_the_theory_or_is_refused_with_its_reason(e
         assert read["impulse"][-1, 0] == pytest.approx(impulse_of_theory(0.5), rel=0.02)
 
 
-@pytest.mark.parametrize("contact", [Rigid(), Penalty(hold=4), Penalty(hold_start=0.01)])
-def test_what_only_simulate_can_do_is_refused(contact):
-    with pytest.raises(ValueError, match="use simulate"):
-        exudyn_models.build(SHORT, mesh=MESH, contact=contact)
+def test_what_only_simulate_can_do_is_refused():
+    for contact in (Rigid(), Penalty(hold=4), Penalty(hold_start=0.01)):
+        with pytest.raises(ValueError, match="use simulate"):
+            exudyn_models.build(SHORT, mesh=MESH, contact=contact)
+    with pytest.raises(ValueError, match="relative_step: steps of build are equal"):
+        exudyn_models.build(SHORT, mesh=MESH, integrator=GeneralizedAlpha(relative_step=0.01))
+
+
+def test_one_setting_is_swapped_without_its_kind_and_the_rest_stays_chosen():
+    table = {"integrator": {"spectral_radius": 0.9}, "contact": {"stiffness": 3e4, "damping": 20.0}}
+    made = method_from_tables("exudyn", table)
+    assert made.integrator == GeneralizedAlpha(spectral_radius=0.9)
+    assert made.contact == Penalty(stiffness=3e4, damping=20.0)
+    assert method_from_tables("exudyn", {"integrator": {"gamma": 0.7}}).integrator == Newmark(gamma=0.7)
+    impact = Impact.whole_beam(0.05)  # a thin front
+    for end in (1e-3, 0.1):  # steps that grow, and steps that are constant
+        chosen, open_ones = (method.chosen(impact, end).integrator for method in (made, ExudynModel()))
+        assert chosen == dataclasses.replace(open_ones, spectral_radius=0.9)
+    with pytest.raises(InputError, match=r"mesh\.kind is required"):
+        method_from_tables("exudyn", {"mesh": {"element_length": 0.1}})
+
+
+def test_stiffness_and_damping_of_the_wall_are_also_given_in_si_units():
+    """k in N/m², d in N s/m²: at a node, times its length of beam. Given twice they are refused."""
+    model = exudyn_models.build(STEEL, mesh=UniformMesh(0.015), contact=Penalty(stiffness=2e9, damping=3e4))
+    contact = model.mbs.GetObject(model.contacts[1])
+    assert (contact["contactStiffness"], contact["contactDamping"]) == pytest.approx((2e9 * 0.015, 3e4 * 0.015))
+    with pytest.raises(ValueError, match="exclude each other"):
+        Penalty(stiffness=1.0, relative_stiffness=1.0)
 
 
 def test_a_solution_file_is_there_for_exudyns_viewer(tmp_path):
