@@ -8,6 +8,7 @@ with the Galerkin matrices of D(D + 1) + σ(D + 1) + ∂⁴ − nτ∂², D = �
 from __future__ import annotations
 
 import dataclasses
+import itertools
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -235,7 +236,7 @@ def worst_of_runs(excess: Array, active: NDArray[np.bool_]) -> NDArray[np.bool_]
     """The worst of each run of neighbours that are wrong alike; runs of two whole."""
     chosen = excess > 0.0
     edges = np.flatnonzero(np.diff(np.where(chosen, 1 + active, 0), prepend=0, append=0))
-    for start, end in zip(edges[:-1], edges[1:]):
+    for start, end in itertools.pairwise(edges.tolist()):
         if end - start > FEW and chosen[start]:
             chosen[start:end] = False
             chosen[start + int(np.argmax(excess[start:end]))] = True
