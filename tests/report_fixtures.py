@@ -4,12 +4,11 @@ from dataclasses import replace
 from functools import cache
 from pathlib import Path
 from typing import Any
-from unittest import mock
 
 from bent_beam.measure.measured import Measured
 from bent_beam.meshes import ScaleFreeMesh
 from bent_beam_programs.report.impacts import SHOWN, ShownImpact, show
-from bent_beam_programs.report.summary import pipe_prediction
+from bent_beam_programs.report.whole import pipe_prediction
 from comparison.rows import MatchRow
 from comparison.stored import write
 from hermite_fe import HermiteFE
@@ -59,9 +58,8 @@ def rows() -> list[MatchRow]:
 
 @cache
 def pipe() -> dict[str, Any] | None:
-    """Without the whole impact, which the page does not show."""
-    with mock.patch("comparison.prediction.predicted_impact"):
-        return pipe_prediction()
+    """As the page shows it."""
+    return pipe_prediction()
 
 
 METHODS = (
