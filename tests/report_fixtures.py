@@ -8,7 +8,7 @@ from typing import Any
 from bent_beam.measure.numbers import Number
 from bent_beam.meshes import ScaleFreeMesh
 from bent_beam_programs.report.impacts import SHOWN, ShownImpact, show
-from bent_beam_programs.report.summary import pipe_prediction
+from bent_beam_programs.report.whole import pipe_prediction
 from comparison.rows import MatchRow
 from comparison.stored import write
 from hermite_fe import HermiteFE
@@ -58,7 +58,7 @@ def rows() -> list[MatchRow]:
 
 @cache
 def pipe() -> dict[str, Any] | None:
-    """The drill pipe, without its whole impact, which the page does not show."""
+    """As the page shows it."""
     return pipe_prediction()
 
 

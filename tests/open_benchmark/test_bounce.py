@@ -1,5 +1,7 @@
 """The whole impact: held against a converged reference, within both error bars and a tolerance."""
 
+import dataclasses
+
 import numpy as np
 import pytest
 
@@ -34,14 +36,17 @@ def test_a_restitution_is_held_against_its_reference_within_bars_and_tolerance(n
     assert wrong.outcome == "completed, off" and "reference" in str(wrong.reason)
     # one that is still changing says so in its own error bar
     unsure = score(left_with(name, value - 0.03, drift=0.03))
-    assert unsure.outcome == "completed" and unsure.measured["restitution"].bar == pytest.approx(0.03, rel=0.05)
+    assert "within its bar" in unsure.outcome
+    assert unsure.measured["restitution"].bar == pytest.approx(0.03, rel=0.05)
 
 
-def test_other_bounces_are_held_against_a_run_of_today_and_none_against_a_band():
-    between = reference(problem("bounce-0.7-2e-3"))
-    assert 0.0 < between["restitution"] < 1.0 and 0.0 < between.errors["restitution"] < 0.03
-    assert "Hermite" in between.source
-    assert reference(problem("bounce-0.7-0")) == Reference()
+def test_other_bounces_are_held_against_a_run_with_a_bar_and_none_against_a_band():
+    coarse = dataclasses.replace(problem(SHIPPED[-1]), id="bounce-2.0-1e-3")  # not shipped under this name
+    found, known = reference(coarse), reference(problem(SHIPPED[-1]))
+    assert abs(found["restitution"] - known["restitution"]) <= found.errors["restitution"] < 1e-3
+    assert "Hermite" in found.source
+    undamped = reference(problem("bounce-0.7-0"))
+    assert undamped == Reference()
     assert score(left_with("bounce-0.7-0", 0.2)).measured["restitution"].theory is None
 
 
