@@ -1,5 +1,6 @@
 """Made-up rows and real reduced impacts, small enough for every test of the report."""
 
+import tempfile
 from dataclasses import replace
 from functools import cache
 from pathlib import Path
@@ -10,6 +11,7 @@ from bent_beam.meshes import ScaleFreeMesh
 from bent_beam_programs.report.impacts import SHOWN, ShownImpact, show
 from bent_beam_programs.report.whole import pipe_prediction
 from comparison.rows import MatchRow
+from comparison.store import RunStore
 from comparison.stored import write
 from hermite_fe import HermiteFE
 from self_similar_fe import ExpandingMesh, SelfSimilarFE
@@ -56,10 +58,13 @@ def rows() -> list[MatchRow]:
     ]
 
 
+KEPT = RunStore(Path(tempfile.mkdtemp()))
+
+
 @cache
 def pipe() -> dict[str, Any] | None:
     """As the page shows it."""
-    return pipe_prediction()
+    return pipe_prediction(store=KEPT)
 
 
 METHODS = (
