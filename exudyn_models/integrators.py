@@ -175,7 +175,7 @@ class GeneralizedAlpha(Implicit):
     default_step: ClassVar[float] = 8e-3  # second order: 4e-3 moves λ₀ and r₀ by 6e-6 at κ/ν = 0.1, 0.25 and 0.5
 
     spectral_radius: Annotated[
-        float, Quantity("", "ρ∞; 1: no damping, and contact rattles; 0: full damping", least=0.0, most=1.0)
+        float, Quantity("", "ρ∞; 1: no damping, contact without dashpots rattles; 0: full damping", least=0.0, most=1.0)
     ] = 0.5
 
     def averages(self) -> Averages:

@@ -84,13 +84,15 @@ class _Cable(Beam):
         (along,), (across,) = self._fields(v, 0, 0), self._fields(v, 1, 0)
         return self._integral(along**2 + across**2) / 2
 
-    def strain_energy(self, q: Array) -> Array:
+    def axial_strain(self, q: Array) -> Array:
+        (x1,), (y1,) = self._fields(q, 0, 1), self._fields(q, 1, 1)
+        return np.asarray(np.hypot(1.0 + x1, y1) - 1.0)
+
+    def bending_energy(self, q: Array) -> Array:
         (x1, x2), (y1, y2) = self._fields(q, 0, 1, 2), self._fields(q, 1, 1, 2)
         x1 += 1.0
-        square = x1**2 + y1**2
-        curvature, strain = (x1 * y2 - y1 * x2) / square, np.sqrt(square) - 1.0
-        bending = (curvature - self.shape.curvature) ** 2
-        return self._integral(bending + self.section.axial_stiffness * (strain**2 - self.section.stretch**2)) / 2
+        curvature = (x1 * y2 - y1 * x2) / (x1**2 + y1**2)
+        return self._integral((curvature - self.shape.curvature) ** 2) / 2
 
     def axial_mass(self) -> Array:
         return self.element_matrices()[0]

@@ -194,8 +194,29 @@ class Beam(ABC):
         """Of one state, or of each of several, v (states, coordinates)."""
 
     @abstractmethod
+    def axial_strain(self, q: Array) -> Array:
+        """At the integration points, shape (…, elements, points)."""
+
+    @abstractmethod
+    def bending_energy(self, q: Array) -> Array:
+        """With that of shear. Of one state, or of each of several, q (states, coordinates)."""
+
+    @abstractmethod
+    def _integral(self, values: Array) -> Array:
+        """Over the beam of values at the integration points."""
+
+    def axial_energy(self, q: Array) -> Array:
+        """Less that of the stretch under the axial force."""
+        square = self.axial_strain(q) ** 2 - self.section.stretch**2
+        return self.section.axial_stiffness * self._integral(square) / 2
+
     def strain_energy(self, q: Array) -> Array:
-        """Of one state, or of each of several, q (states, coordinates)."""
+        """What the beam holds but for :meth:`stretch_energy`."""
+        return self.bending_energy(q) + self.axial_energy(q) - self.stretch_energy(q)
+
+    def stretch_energy(self, q: Array) -> Array:
+        """What an axial force keeps in the beam that it stretches, the same along all of it; 0 without one."""
+        return self.axial_energy(q) * (self.section.axial_force != 0.0)
 
     @abstractmethod
     def element_matrices(self) -> tuple[Array, Array, Array]:
