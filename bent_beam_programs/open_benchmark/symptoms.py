@@ -137,14 +137,14 @@ def _pull(result: Result, _: float = 0.0) -> Seen:
 def _momentum(result: Result, _: float = 0.0) -> Seen:
     """What the beam has lost over what the wall gave, less 1: positive where impulses are missing; the median of the
     record's second half."""
-    return _lost(result, result.velocities(), result.J, lambda x, tau, v: _free(result.problem, x, tau)[1] - v)
+    return _lost(result, result.velocities(), result.J, lambda x, tau, v: _free(result.problem, x, tau)[1] - v, 0.015)
 
 
 def _displacement(result: Result, _: float = 0.0) -> Seen:
     """The same of gaps, once more summed over time."""
     mean = (result.J[1:] + result.J[:-1]) / 2.0
     until = np.concatenate([[0.0], np.cumsum(np.diff(result.tau) * mean)])
-    return _lost(result, result.snapshots(), until, lambda x, tau, gap: gap - _free(result.problem, x, tau)[0])
+    return _lost(result, result.snapshots(), until, lambda x, tau, gap: gap - _free(result.problem, x, tau)[0], 0.03)
 
 
 def _lost(
@@ -152,6 +152,7 @@ def _lost(
     snapshots: Iterator[tuple[float, Array, Array]],
     series: Array,
     deficit: Callable[[Array, float, Array], Array],
+    least: float,
 ) -> Seen:
     pairs = [(when, _over_beam(x, deficit(x, when, values))) for when, x, values in snapshots]
     given = [(lost, float(np.interp(when, result.tau, series))) for when, lost in pairs if when >= result.tau[-1] / 2.0]
@@ -159,7 +160,7 @@ def _lost(
     if not ratios:
         return None
     figure, noise = float(np.median(ratios)), (_noise_in_time(result) or (0.0,))[0]
-    return figure, f"the beam has lost {1.0 + figure:.3g} of what the wall gave", max(0.015, 2.5 * noise)
+    return figure, f"the beam has lost {1.0 + figure:.3g} of what the wall gave", max(least, 2.5 * noise)
 
 
 # --- contact ---------------------------------------------------------------------------------------------------------
@@ -267,7 +268,7 @@ READINGS = {
     ),
     "pull": Reading("tensile impulse / J", PART, f"J_minus, or {NODES}", (), _pull),
     "momentum": Reading("momentum that the beam lost / J, less 1", 0.015, "snap_v", FRONTS, _momentum),
-    "displacement": Reading("the same of gaps and ∫J dτ, less 1", 0.015, GAPS, FREE, _displacement),
+    "displacement": Reading("the same of gaps and ∫J dτ, less 1", 0.03, GAPS, FREE, _displacement),
     "penetration": Reading("penetration / V₀τ", PART, GAPS, FRONTS, _penetration),
     "lift": Reading("gap inside the zone / V₀τ", PART, GAPS, FREE, _lift),
     "noise_in_time": Reading("noise of J(τ), root mean square / J", PART / 2.0, "J", FRONTS, _noise_in_time),
