@@ -75,8 +75,8 @@ def document(rows: Sequence[Row], adapters: Sequence[Adapter], seed: int | None 
 
 
 def errors_table(rows: Sequence[Row], solvers: Sequence[str]) -> str:
-    """Markdown: code × problem, errors ± bars in per cent from the coarse to the fine mesh, then on the given one, each
-    with the seconds of the solver and of the process, and the judge's words for it."""
+    """Markdown: code × problem, errors ± bars in per cent from the coarse to the fine mesh, each with seconds of solver
+    and process, and the judge's words for it."""
     names = dict.fromkeys(row.problem for row in rows)
     lines = [f"| code | {' | '.join(f'`{name}`' for name in names)} |", "| --- " * (1 + len(names)) + "|"]
     for solver in solvers:
@@ -95,9 +95,8 @@ def _in_short(row: Row) -> str:
         return row.score.brief
     words = row.score.outcome.split(", ")[1:]
     seconds = " of ".join(f"{s:.2g}" for s in (row.solver_seconds, row.seconds) if s is not None)
-    mesh = f"{row.resolution}: " if row.resolution == GIVEN else ""
     about = filter(None, [seconds, *(word for word in words if not word.startswith("within"))])  # the bars say it
-    return f"{mesh}{' / '.join(_cell(row, name) for name in known)} ({', '.join(about)})"
+    return f"{' / '.join(_cell(row, name) for name in known)} ({', '.join(about)})"
 
 
 def _error(row: Row, name: str) -> float | None:
@@ -152,8 +151,9 @@ def _regime(asked: Problem) -> str:
 def write_page(
     rows: Sequence[Row], adapters: Sequence[Adapter], out: Path, about: dict[str, Any] | None = None
 ) -> Path:
-    """Write ``index.html``, the same as ``benchmark.json``, the errors of either table (``errors-TABLE.md``) and
-    its figures (``sheets/TABLE/PROBLEM-MEASURE.svg``); returns the page. ``about`` : :func:`document` of both."""
+    """Write ``index.html``, the same as ``benchmark.json``, the errors of either table (``errors-TABLE.md``, and
+    ``errors-TABLE-given.md`` on the given mesh) and its figures (``sheets/TABLE/PROBLEM-MEASURE.svg``); returns the
+    page. ``about`` : :func:`document` of both."""
     about = about or document(rows, adapters)
     solvers = list(dict.fromkeys([*(a.name for a in adapters), *(row.solver for row in rows)]))
     tables = {name: [row for row in rows if row.table == name] for name in ("run here", "self-declared")}
@@ -177,7 +177,9 @@ def write_page(
     )
     write_atomically(out / "benchmark.json", json.dumps(about, indent=1, allow_nan=False))
     for name, own in tables.items():
-        write_atomically(out / f"errors-{_file_name(name)}.md", errors_table(own, solvers))
+        for mesh, given in (("", False), ("-given", True)):
+            shown = [row for row in own if (row.resolution == GIVEN) == given]
+            write_atomically(out / f"errors-{_file_name(name)}{mesh}.md", errors_table(shown, solvers))
     write_atomically(out / "index.html", html)
     return out / "index.html"
 

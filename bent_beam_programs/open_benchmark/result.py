@@ -47,6 +47,10 @@ class ResultError(ValueError):
     """A result that cannot be read: one line naming the field and what is wrong with it."""
 
 
+class _Diverged(ResultError):
+    """A number that only a run that has blown up gives."""
+
+
 def _empty() -> Array:
     return np.empty(0)
 
@@ -130,6 +134,13 @@ def result_from_fields(fields: Mapping[str, Any]) -> Result:
     detail = " ".join((match[2] or "").split())[:300]
     if match[1] != "completed":
         return Result(match[1], detail, asked, metadata)
+    try:
+        return _completed(fields, asked, detail, metadata)
+    except _Diverged as error:
+        return Result("diverged", str(error), asked, metadata)
+
+
+def _completed(fields: Mapping[str, Any], asked: Problem, detail: str, metadata: dict[str, Any]) -> Result:
     tau = _instants(fields, asked)
     arrays = _nodes(fields, tau, asked.is_symmetric)
     needed = ("J", "Jm") if asked.is_front else ("J",)
@@ -202,7 +213,10 @@ def _instants(fields: Mapping[str, Any], asked: Problem) -> Array:
         raise ResultError(f"tau must not be negative (starts at {tau[0]:g})")
     low, high = asked.fit_window
     if tau[-1] < high * (1.0 - 1e-3):
-        raise ResultError(f"tau ends at {tau[-1]:g}, before the record's end_time {high:g}")
+        raise ResultError(
+            f"tau ends at {tau[-1]:g}, before the record's end_time {high:g}: both are in the problem's unit of time "
+            "(for beams √(μℓ⁴/EI) with what its file says, not s or ms)"
+        )
     inside = int(np.sum((tau >= low * (1 - 1e-9)) & (tau <= high * (1 + 1e-9))))
     if inside < FEWEST:
         raise ResultError(f"tau holds {inside} instants in the fit window {low:g} to {high:g}, {FEWEST} are the fewest")
@@ -235,7 +249,8 @@ def _numbers(fields: Mapping[str, Any], name: str) -> Array:
     if bad.any():
         place = np.unravel_index(int(np.argmax(bad)), array.shape)
         where = ", ".join(str(int(k)) for k in place)
-        raise ResultError(f"{name}[{where}] is {array[place]:g}: not a finite number of a problem in its own units")
+        kind = _Diverged if np.isfinite(array[place]) else ResultError
+        raise kind(f"{name}[{where}] is {array[place]:g}: not a finite number of a problem in its own units")
     return array
 
 

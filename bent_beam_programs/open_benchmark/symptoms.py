@@ -19,7 +19,7 @@ from bent_beam_programs.open_benchmark.judgement import PART, Symptom
 from bent_beam_programs.open_benchmark.problem import Problem
 from bent_beam_programs.open_benchmark.result import Array, Result
 
-__all__ = ["last_push", "noise_in_space", "noise_in_time", "readings"]
+__all__ = ["last_push", "readings"]
 
 NODES, GAPS = "node_x and node_impulse", "x, snap_tau and snap_gap"
 AHEAD = 5.0  # √τ short of the far end, or 3 ahead of the front: hardly a wave has come there
@@ -70,7 +70,7 @@ def _one_side(result: Result) -> tuple[Array, Array] | None:
 
 
 def _smooth(result: Result, _: float = 0.0) -> Seen:
-    seen = noise_in_time(result)
+    seen = _noise_in_time(result)
     return None if seen is None else (-np.log10(max(seen[0], 1e-300)), "")
 
 
@@ -86,47 +86,43 @@ def _falls(result: Result, _: float = 0.0) -> Seen:
 
 def _motion(result: Result, _: float = 0.0) -> Seen:
     """The parabola through the gaps ahead: velocity and curvature against the problem's."""
-    worst: Seen = None
+    given, found = result.problem.kappa_over_nu, []
     for when, x, gap in result.snapshots():
-        front = np.sqrt(2.0 / min(result.problem.kappa_over_nu, 1.0))
-        near, far = (front + 3.0) * np.sqrt(when), x.max() - AHEAD * np.sqrt(when)
+        near, far = (np.sqrt(2.0 / min(given, 1.0)) + 3.0) * np.sqrt(when), x.max() - AHEAD * np.sqrt(when)
         ahead = (np.abs(x) > near) & (np.abs(x) < far)
-        if far < 2.0 * near or ahead.sum() < 8:
-            continue
-        curvature, start = np.polyfit(x[ahead] ** 2 / 2.0, gap[ahead], 1)
-        speed, given = -start / when, result.problem.kappa_over_nu
-        figure = max(abs(speed - 1.0), abs(curvature - given) / max(given, STEEP))
-        if worst is None or figure > worst[0]:
-            worst = figure, f"velocity {speed:.3g} V₀, curvature {curvature / given:.3g} K at τ = {when:.3g}"
-    return worst
+        if far > 2.0 * near and ahead.sum() >= 8:
+            curvature, start = np.polyfit(x[ahead] ** 2 / 2.0, gap[ahead], 1)
+            figure = max(abs(start / when + 1.0), abs(curvature - given) / max(given, STEEP))
+            seen = f"velocity {-start / when:.3g} V₀, curvature {curvature / given:.3g} K at τ = {when:.3g}"
+            found.append((float(figure), seen))
+    return max(found, default=None)
 
 
 def _push_at_a_gap(result: Result, _: float = 0.0) -> Seen:
     """The share of the last hundredth's push that acts where the gap is open by more than can have opened since."""
-    if result.node_x is None or result.node_impulse is None:
-        return None
-    worst: Seen = None
+    found = []
     for when, x, gap in result.snapshots():
+        if result.node_x is None:
+            return None
         push, opened, since = last_push(result, when, x, gap)
         away = np.where(opened > PART * when + since, push, 0.0)
-        if push.sum() > 0.0 and (worst is None or away.sum() / push.sum() > worst[0]):
-            worst = float(away.sum() / push.sum()), _at(abs(result.node_x[int(away.argmax())]), when)
-    return worst
+        if push.sum() > 0.0:
+            found.append((float(away.sum() / push.sum()), _at(result.node_x[int(away.argmax())], when)))
+    return max(found, default=None)
 
 
 def _energy(result: Result, _: float = 0.0) -> Seen:
     """The largest gain over JV₀: of the energies that are reported, or of the kinetic alone, which only falls."""
     largest = float(np.abs(result.J).max())
-    if {"E_kin", "E_el"} <= result.series.keys() and largest > 0.0:
+    if largest == 0.0:
+        return None
+    if {"E_kin", "E_el"} <= result.series.keys():
         gain = result.series["E_kin"] + result.series["E_el"]
         gain = gain - gain[0]
         return max(float(gain.max()), 0.0) / largest, f"at τ = {result.tau[int(gain.argmax())]:.3g}", 2e-4
-    worst: Seen = None
-    for when, x, v in result.velocities() if largest > 0.0 else ():
-        gained = _over_beam(x, (v**2 - 1.0) / 2.0) / largest
-        if worst is None or gained > worst[0]:
-            worst = max(gained, 0.0), f"kinetic energy at τ = {when:.3g}", PART
-    return worst
+    found = [(_over_beam(x, (v**2 - 1.0) / 2.0), when) for when, x, v in result.velocities()]
+    gained, when = max(found, default=(0.0, 0.0))
+    return (max(gained, 0.0) / largest, f"kinetic energy at τ = {when:.3g}") if found else None
 
 
 def _pull(result: Result, _: float = 0.0) -> Seen:
@@ -141,14 +137,14 @@ def _pull(result: Result, _: float = 0.0) -> Seen:
 def _momentum(result: Result, _: float = 0.0) -> Seen:
     """What the beam has lost over what the wall gave, less 1: positive where impulses are missing; the median of the
     record's second half."""
-    return _lost(result, result.velocities(), result.J, lambda x, tau, v: _free(result.problem, x, tau)[1] - v)
+    return _lost(result, result.velocities(), result.J, lambda x, tau, v: _free(result.problem, x, tau)[1] - v, 0.015)
 
 
 def _displacement(result: Result, _: float = 0.0) -> Seen:
     """The same of gaps, once more summed over time."""
     mean = (result.J[1:] + result.J[:-1]) / 2.0
     until = np.concatenate([[0.0], np.cumsum(np.diff(result.tau) * mean)])
-    return _lost(result, result.snapshots(), until, lambda x, tau, gap: gap - _free(result.problem, x, tau)[0])
+    return _lost(result, result.snapshots(), until, lambda x, tau, gap: gap - _free(result.problem, x, tau)[0], 0.03)
 
 
 def _lost(
@@ -156,14 +152,15 @@ def _lost(
     snapshots: Iterator[tuple[float, Array, Array]],
     series: Array,
     deficit: Callable[[Array, float, Array], Array],
+    least: float,
 ) -> Seen:
     pairs = [(when, _over_beam(x, deficit(x, when, values))) for when, x, values in snapshots]
     given = [(lost, float(np.interp(when, result.tau, series))) for when, lost in pairs if when >= result.tau[-1] / 2.0]
     ratios = [lost / gave - 1.0 for lost, gave in given if gave != 0.0]
     if not ratios:
         return None
-    figure, noise = float(np.median(ratios)), (noise_in_time(result) or (0.0,))[0]
-    return figure, f"the beam has lost {1.0 + figure:.3g} of what the wall gave", max(0.015, 2.5 * noise)
+    figure, noise = float(np.median(ratios)), (_noise_in_time(result) or (0.0,))[0]
+    return figure, f"the beam has lost {1.0 + figure:.3g} of what the wall gave", max(least, 2.5 * noise)
 
 
 # --- contact ---------------------------------------------------------------------------------------------------------
@@ -178,13 +175,14 @@ def _penetration(result: Result, _: float = 0.0) -> Seen:
 
 
 def _lift(result: Result, lambda0: float) -> Seen:
-    """Inside nine tenths of the zone; a load that lifts it off is no fault of the code."""
-    worst: Seen = None
+    """Inside nine tenths of the zone."""
+    found = []
     for when, x, gap in result.snapshots():
         zone = np.flatnonzero(np.abs(x) <= 0.9 * lambda0 * np.sqrt(when))
-        if zone.size and (worst is None or gap[zone].max() / when > worst[0]):
-            worst = max(float(gap[zone].max()) / when, 0.0), _at(x[zone[int(gap[zone].argmax())]], when)
-    return worst
+        if zone.size:
+            highest = zone[int(gap[zone].argmax())]
+            found.append((max(float(gap[highest]) / when, 0.0), _at(x[highest], when)))
+    return max(found, default=None)
 
 
 def _far_end(result: Result, _: float = 0.0) -> Seen:
@@ -198,7 +196,7 @@ def _far_end(result: Result, _: float = 0.0) -> Seen:
 # --- how smooth, and how spread --------------------------------------------------------------------------------------
 
 
-def noise_in_time(result: Result, _: float = 0.0) -> tuple[float, str] | None:
+def _noise_in_time(result: Result, _: float = 0.0) -> tuple[float, str] | None:
     """Root mean square of the residual of the fit c + a√τ (+ bτ^{3/2} with loads) to J, over that of J."""
     inside = result.in_window(result.tau)
     tau, impulse = result.tau[inside] / result.tau[inside][-1], result.J[inside]
@@ -210,7 +208,7 @@ def noise_in_time(result: Result, _: float = 0.0) -> tuple[float, str] | None:
     return (float(np.sqrt(np.mean(rest**2))) / size, at) if size > 0.0 else None
 
 
-def noise_in_space(result: Result, _: float = 0.0) -> Seen:
+def _noise_in_space(result: Result, _: float = 0.0) -> Seen:
     """The point that has got most more or less than its neighbours inside the zone."""
     side = _one_side(result)
     if side is None:
@@ -270,11 +268,11 @@ READINGS = {
     ),
     "pull": Reading("tensile impulse / J", PART, f"J_minus, or {NODES}", (), _pull),
     "momentum": Reading("momentum that the beam lost / J, less 1", 0.015, "snap_v", FRONTS, _momentum),
-    "displacement": Reading("the same of gaps and ∫J dτ, less 1", 0.015, GAPS, FREE, _displacement),
+    "displacement": Reading("the same of gaps and ∫J dτ, less 1", 0.03, GAPS, FREE, _displacement),
     "penetration": Reading("penetration / V₀τ", PART, GAPS, FRONTS, _penetration),
     "lift": Reading("gap inside the zone / V₀τ", PART, GAPS, FREE, _lift),
-    "noise_in_time": Reading("noise of J(τ), root mean square / J", PART / 2.0, "J", FRONTS, noise_in_time),
-    "noise_in_space": Reading("one point's impulse against its neighbours'", 0.3, NODES, ("leading",), noise_in_space),
+    "noise_in_time": Reading("noise of J(τ), root mean square / J", PART / 2.0, "J", FRONTS, _noise_in_time),
+    "noise_in_space": Reading("one point's impulse against its neighbours'", 0.3, NODES, ("leading",), _noise_in_space),
     "distribution": Reading("impulse along the beam against the exact one / J", PART, NODES, FREE, _distribution),
 }
 
