@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import dataclasses
 import math
+import re
 import tomllib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -16,12 +17,13 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from bent_beam.checks import shortened
+from bent_beam.description import impact_of
 from bent_beam.errors import InputError, unknown_key
 from bent_beam.fields import key_of, made_from, part_from_table, part_or_auto
 from bent_beam.impact import Impact
 from bent_beam.meshes import MESHES, Mesh
 from bent_beam.section import SECTIONS, Section
-from bent_beam.tables import TABLES, BeamTable, ImpactTable, RunTable, WallTable, impact_of
+from bent_beam.tables import TABLES, BeamTable, ImpactTable, RunTable, WallTable
 
 if TYPE_CHECKING:
     from bent_beam.method import Method
@@ -146,6 +148,9 @@ def lay_over(tables: dict[str, Any], assignment: str) -> None:
     text = text.strip()
     value: Any = text
     if (last != "kind" and "\n" not in text) or text.startswith(("'", '"')):  # a kind is a name, "true" is one
+        number = re.fullmatch(r"([-+]?)(\d*)\.(\d*)", text)  # .9 and 9. are none in TOML
+        if number and number[2] + number[3]:
+            text = f"{number[1]}{number[2] or 0}.{number[3] or 0}"
         try:
             value = tomllib.loads(f"value = {text}")["value"]
         except (ValueError, RecursionError):

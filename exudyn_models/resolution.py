@@ -166,7 +166,7 @@ def chosen_steps(integrator: Integrator, mesh: Mesh, impact: Impact, end_time: f
         step = resolving_step(mesh, impact)
         return dataclasses.replace(integrator, time_step=step) if end <= MOST_STEPS * step else integrator
     if thin_front(impact.kappa_over_nu):
-        step = min(integrator.relative_step, _step_over_elements(mesh, Scaling(impact, end)))
+        step = min(integrator.relative_step or integrator.default_step, _step_over_elements(mesh, Scaling(impact, end)))
         return dataclasses.replace(integrator, relative_step=step)
     return integrator
 

@@ -70,6 +70,13 @@ def test_every_file_of_the_packages_is_in_the_wheel(installed):
     assert not missing
 
 
+def test_the_wheel_installs_seven_names_and_the_example_cases(installed):
+    rooms = {"bent_beam", "theory", "hermite_fe", "self_similar_fe", "exudyn_models", "comparison"}
+    assert {p.name for p in installed.iterdir() if not p.name.endswith(".dist-info")} == rooms | {"bent_beam_programs"}
+    cases = {p.relative_to(ROOT / "cases") for p in (ROOT / "cases").rglob("*.toml")}
+    assert cases and not [case for case in cases if not (installed / "bent_beam" / "examples" / case).is_file()]
+
+
 METHOD = """[run]
 duration = 0.1
 [mesh]

@@ -30,7 +30,7 @@ from theory.validity import validity
 from theory.wall_prediction import WallPrediction, on_elastic_wall
 
 MODELLED = ("acceleration", "curvature_rate", "fourth_derivative", "axial_force", "rotation", "hysteretic_loss",
-            "wall_stiffness", "wall_damping")  # fmt: skip
+            "wall_stiffness", "wall_damping", "shear_stiffness")  # fmt: skip
 """Features of an impact that the theory has, or refuses with reasons of its own."""
 
 _OF_IMPACT = (

@@ -75,6 +75,7 @@ class Result:
     snap_v: Array | None = None
     node_x: Array | None = None
     node_impulse: Array | None = None
+    pull_is_read_off: bool = True
 
     @property
     def stated(self) -> str:
@@ -96,11 +97,20 @@ class Result:
         return np.asarray((times >= low * (1 - 1e-9)) & (times <= high * (1 + 1e-3)))
 
     def snapshots(self) -> Iterator[tuple[float, Array, Array]]:
-        """Time, |x| and gap of each snapshot in the fit window; nothing where gaps are not reported."""
-        if self.x is None or self.snap_tau is None or self.snap_gap is None:
+        """Time, x and gap of each snapshot in the fit window; nothing where gaps are not reported."""
+        return self._at_snapshots(self.snap_gap)
+
+    def velocities(self) -> Iterator[tuple[float, Array, Array]]:
+        """Time, x and velocity into the wall, likewise."""
+        return self._at_snapshots(self.snap_v)
+
+    def _at_snapshots(self, values: Array | None) -> Iterator[tuple[float, Array, Array]]:
+        if self.x is None or self.snap_tau is None or values is None:
             return
         for k in np.flatnonzero(self.in_window(self.snap_tau)):
-            yield float(self.snap_tau[k]), np.abs(self.x if self.x.ndim == 1 else self.x[k]), self.snap_gap[k]
+            x = self.x if self.x.ndim == 1 else self.x[k]
+            order = np.argsort(x)
+            yield float(self.snap_tau[k]), x[order], values[k][order]
 
 
 # --- validation ----------------------------------------------------------------------------------------------------
@@ -128,7 +138,10 @@ def result_from_fields(fields: Mapping[str, Any]) -> Result:
     series = {name: arrays.pop(name) for name in SERIES[2:] if name in arrays}
     if "J_minus" in series and series["J_minus"].min() < -1e-12 * (np.abs(series["J_minus"]).max() + 1e-300):
         raise ResultError("J_minus is the size of the tensile impulse so far: it must not be negative")
-    return Result("completed", detail, asked, metadata, tau, series=series, **arrays, **_snapshots(fields))
+    of_nodes = "J_minus" not in fields
+    snapshots = _snapshots(fields)
+    return Result("completed", detail, asked, metadata, tau, series=series, pull_is_read_off=of_nodes, **arrays,
+                  **snapshots)  # fmt: skip
 
 
 def _text(fields: Mapping[str, Any], name: str) -> str:

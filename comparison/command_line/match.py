@@ -95,6 +95,9 @@ def match(
         write_match(rows, out)  # after the answer, which a full disk must not cost
     if lost:
         raise typer.Exit(3)
+    if all(row.refused for row in rows):  # what was asked for cannot be: input, not a result
+        print(printable(f"error: every row was refused: {rows[0].reason}"), file=sys.stderr)
+        raise typer.Exit(2)
 
 
 def _wall(text: str | None) -> tuple[float, float] | None:

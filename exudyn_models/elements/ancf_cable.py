@@ -38,20 +38,25 @@ class _Cable(Beam):
         stretched = 1.0 + self.section.stretch
         x, y = stretched * shape.x[i] - shape.s[i], shape.y[i]
         along = -turning * sin if shape.slender else 0.0
+        length, rate = self.units.length, 1.0 / self.units.time
+        speed = length * rate
         return items.NodePoint2DSlope1(
-            referenceCoordinates=[shape.s[i], 0.0, 1.0, 0.0],
-            initialCoordinates=[x, y, stretched * cos - 1.0, stretched * sin],
-            initialVelocities=[shape.velocity_x[i], shape.velocity_y[i], along, turning * cos],
-        )
+            referenceCoordinates=[shape.s[i] * length, 0.0, 1.0, 0.0],
+            initialCoordinates=[x * length, y * length, stretched * cos - 1.0, stretched * sin],
+            initialVelocities=[
+                shape.velocity_x[i] * speed, shape.velocity_y[i] * speed, along * rate, turning * cos * rate
+            ],
+        )  # fmt: skip
 
     def body(self, i: int) -> Any:
+        units = self.units
         return items.ObjectANCFCable2D(
-            length=self.lengths[i],
-            massPerLength=1.0,
-            bendingStiffness=1.0,
-            axialStiffness=self.section.axial_stiffness,
-            bendingDamping=self.viscosity[i],
-            referenceCurvature=self.shape.curvature,
+            length=self.lengths[i] * units.length,
+            massPerLength=units.mass_per_length,
+            bendingStiffness=units.bending_stiffness,
+            axialStiffness=self.section.axial_stiffness * units.force,
+            bendingDamping=self.viscosity[i] * units.bending_stiffness * units.time,
+            referenceCurvature=self.shape.curvature / units.length,
             nodeNumbers=[self.nodes[i], self.nodes[i + 1]],
             useReducedOrderIntegration=1,
         )

@@ -35,23 +35,27 @@ class _Exact(Beam):
 
     def node(self, i: int) -> Any:
         shape, stretched = self.shape, 1.0 + self.section.stretch
+        length, rate = self.units.length, 1.0 / self.units.time
+        x, speed = stretched * shape.x[i] - shape.s[i], length * rate
+        turning = shape.angular_velocity[i] * rate
         return items.NodeRigidBody2D(
-            referenceCoordinates=[shape.s[i], 0.0, 0.0],
-            initialCoordinates=[stretched * shape.x[i] - shape.s[i], shape.y[i], shape.angle[i]],
-            initialVelocities=[shape.velocity_x[i], shape.velocity_y[i], shape.angular_velocity[i]],
+            referenceCoordinates=[shape.s[i] * length, 0.0, 0.0],
+            initialCoordinates=[x * length, shape.y[i] * length, shape.angle[i]],
+            initialVelocities=[shape.velocity_x[i] * speed, shape.velocity_y[i] * speed, turning],
         )
 
     def body(self, i: int) -> Any:
+        units = self.units
         return items.ObjectBeamGeometricallyExact2D(
             nodeNumbers=[self.nodes[i], self.nodes[i + 1]],
-            length=self.lengths[i],
-            massPerLength=1.0,
-            crossSectionInertia=self.rotary_inertia[i],
-            bendingStiffness=1.0,
-            axialStiffness=self.section.axial_stiffness,
-            shearStiffness=self.shear_stiffness[i],
-            bendingDamping=self.viscosity[i],
-            referenceCurvature=self.shape.curvature,
+            length=self.lengths[i] * units.length,
+            massPerLength=units.mass_per_length,
+            crossSectionInertia=self.rotary_inertia[i] * units.mass_per_length * units.length**2,
+            bendingStiffness=units.bending_stiffness,
+            axialStiffness=self.section.axial_stiffness * units.force,
+            shearStiffness=self.shear_stiffness[i] * units.force,
+            bendingDamping=self.viscosity[i] * units.bending_stiffness * units.time,
+            referenceCurvature=self.shape.curvature / units.length,
         )
 
     def slope(self, q: Array) -> Array:

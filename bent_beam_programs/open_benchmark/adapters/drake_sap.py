@@ -30,7 +30,7 @@ from pydrake.multibody.tree import (
 from pydrake.systems.analysis import Simulator
 from pydrake.systems.framework import DiagramBuilder
 
-SIZES = {"coarse": 0.04, "medium": 0.03, "fine": 0.02}  # link length over l*
+SIZES = {"coarse": 0.04, "medium": 0.03, "fine": 0.02, "given": 0.02}  # link length over l*
 HALF_LENGTH, AMPLITUDE, VISCOSITY = 4.0, 1e-3, 0.3  # viscosity of a hinge over sqrt(EI mu) size
 
 
