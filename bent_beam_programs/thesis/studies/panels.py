@@ -184,11 +184,13 @@ def banded(sheet: Sheet, axis: Axes, outcomes: Sequence[Outcome]) -> None:
     eight tenths of the filtered reaction.
     """
     reaction(sheet, axis, outcomes)
-    for o, line in _finished(outcomes):
+    runs = _finished(outcomes)
+    end = float(runs[0][0].time[-1])
+    (st, _), (sy, _) = unit(end, "s"), unit(1.2 * float(runs[0][0].exact.side_reaction(0.02 * end)), "N")
+    for o, line in runs:
         if o.steps is None:
             continue
-        end, found = float(o.time[-1]), o.steps.filtered()
-        (st, _), (sy, _) = unit(end, "s"), unit(1.2 * float(o.exact.side_reaction(0.02 * end)), "N")
+        found = o.steps.filtered()
         edges = end * np.linspace(0.0, 1.0, WINDOWS + 1) ** 2
         cuts = np.searchsorted(o.steps.time, edges)
         low, high = np.array([np.quantile(found[i : max(j, i + 1)], TENTHS) for i, j in pairwise(cuts)]).T
