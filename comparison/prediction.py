@@ -65,7 +65,7 @@ def predict_case(
     document = prediction.to_dict()
     rows = document["times"]
     document["times"] = rows[: len(times)]
-    document["warnings"] = _warnings(impact)
+    document["model"], document["warnings"] = impact.model, _warnings(impact)
     document["agreement"], document["yield_stress"] = None, getattr(case.section, "yield_stress", None)
     if method is not None:
         told = progress or (lambda _: None)

@@ -142,6 +142,7 @@ def summary(
     energy, balance = energy_at_end(history), balance_of(history)
     return {
         "path": history.path,
+        "model": history.impact.model,
         "symmetry": history.symmetry,
         "settings": history.settings,
         "versions": history.versions,

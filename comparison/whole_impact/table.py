@@ -9,7 +9,7 @@ from bent_beam.measure.whole_impact import SHORTEST_SEPARATION, Hit
 from bent_beam.versions import versions
 from comparison.bounce import Bounce
 from comparison.prediction_text import over_damping_lines
-from comparison.readable import in_unit, text_table, unit_for
+from comparison.readable import BEAMS, in_unit, text_table, unit_for
 
 __all__ = ["bounce_document", "bounce_table", "hits_table"]
 
@@ -48,6 +48,7 @@ def bounce_document(found: Bounce) -> dict[str, Any]:
     """The contract of ``bentbeam bounce --json``."""
     unit, stress, balance = found.units, found.peak_stress, found.balance
     return {
+        "model": found.impact.model,
         "kappa_over_nu": found.impact.kappa_over_nu,
         "damping": found.impact.relative_damping,
         "hysteretic_loss": found.history.settings.get("hysteretic_loss"),
@@ -95,6 +96,7 @@ def bounce_table(found: Bounce, over_damping: Sequence[dict[str, Any]] = (), *, 
     lines = [
         text_table(["", "value", "", "beam's units"][:columns], [row[:columns] for row in rows]),
         "",
+        BEAMS[impact.model],
         "± is the error bar; a band is mean ± standard deviation of runs. Energies are shares of the initial energy",
         "and the work of the loads, at the last contact: the end of the first hit, after which the beam is off the",
         "wall for a period of its first mode at least.",
