@@ -17,7 +17,7 @@ from bent_beam.tables import AS_THEY_ARE, MODELS, BeamTable, WallTable, _ImpactT
 
 __all__ = ["impact_of"]
 
-TIMOSHENKO = MODELS[0]
+TIMOSHENKO, EULER_BERNOULLI = MODELS
 GRAVITY = 9.80665  # m/s², standard (3rd General Conference on Weights and Measures, 1901)
 
 
@@ -93,7 +93,7 @@ def _shear(beam: BeamTable, section: Section | None) -> dict[str, Any]:
                 f"beam.model = {beam.model!r} needs beam.shear_stiffness, κ_sGA in N, or a [section] that knows it"
             )
         return {}
-    return {name: value or 0.0 for name, value in found.items()} if beam.model == TIMOSHENKO else {}
+    return {} if beam.model == EULER_BERNOULLI else {name: value or 0.0 for name, value in found.items()}
 
 
 def _curvature(beam: BeamTable) -> float:

@@ -11,7 +11,7 @@ from bent_beam.versions import versions
 from comparison.bouncing import Bounce, over_damping
 from comparison.energies import energy_residual, numerical_loss
 from comparison.predict_text import over_damping_lines
-from comparison.readable import in_unit, text_table, unit_for
+from comparison.readable import BEAMS, in_unit, text_table, unit_for
 
 __all__ = ["bounce_document", "bounce_table", "hits_table"]
 
@@ -50,6 +50,7 @@ def bounce_document(found: Bounce) -> dict[str, Any]:
     """The contract of ``bentbeam bounce --json``."""
     unit, stress, balance = found.units, found.peak_stress, found.balance
     return {
+        "model": found.impact.model,
         "kappa_over_nu": found.impact.kappa_over_nu,
         "damping": found.impact.relative_damping,
         "hysteretic_loss": found.runs.run.reading["loss"],
@@ -104,6 +105,7 @@ def bounce_table(found: Bounce, *, verbose: bool = False) -> str:
     lines = [
         text_table(["", "value", "", "beam's units"][:columns], [row[:columns] for row in rows]),
         "",
+        BEAMS[impact.model],
         "± is the error bar; a band is mean ± standard deviation of runs. Energies are shares of the initial energy",
         "and the work of the loads, at the last contact: the end of the first hit, after which the beam is off the",
         "wall for a period of its first mode at least. The largest moment and stress are those of the whole motion,",

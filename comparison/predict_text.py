@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from comparison.readable import milliseconds, number_from, text_table, unit_for
+from comparison.readable import BEAMS, milliseconds, number_from, text_table, unit_for
 
 __all__ = ["over_damping_lines", "prediction_text", "wall_lines"]
 
@@ -21,7 +21,7 @@ LIMITS = {
     "damping": "the contact spreads, for which material damping has no closed form",
     "hysteretic loss": "the stiffness grows with the frequency, for which there is no closed form",
     "slope": "slopes are no longer small",
-    "shear": "shear deformation (not modelled) matters until another limit ends it",
+    "shear": "shear deformation matters until another limit ends it",
     "wall": "the wall does not act as a rigid one before another limit ends it",
     "section": "the section yields",
 }
@@ -40,6 +40,7 @@ def prediction_text(document: dict[str, Any]) -> str:
     return "\n".join(
         [
             f"{REGIMES[document['regime']]} kappa/nu = {document['kappa_over_nu']:.4g} (it spreads below 1).",
+            BEAMS[document["model"]],
             _validity(document),
             "",
             _table(document),

@@ -108,6 +108,7 @@ class PredictedCase:
                 row["simulation"] = {name: n.to_dict() for name, n in numbers.items() if name in COMPARED}
         return document | {
             "times": rows[: len(rows) if self.simulated is None else len(self.simulated)],
+            "model": self.case.impact.model,
             "warnings": self.warnings,
             "agreement": self.agreement,
             "yield_stress": getattr(self.case.section, "yield_stress", None),

@@ -12,11 +12,28 @@ from typing import Any
 
 from bent_beam.measure.numbers import Band, Number
 
-__all__ = ["in_unit", "json_text", "milliseconds", "number_from", "plain", "readable", "text_table", "unit_for"]
+__all__ = [
+    "BEAMS",
+    "in_unit",
+    "json_text",
+    "milliseconds",
+    "number_from",
+    "plain",
+    "readable",
+    "text_table",
+    "unit_for",
+]
 
 RAISED = str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻")
 SMALL, LARGE = 1e-3, 1e5  # beyond them a power of ten
 WIDEST = 400  # characters of a table
+
+
+BEAMS = {
+    "timoshenko": "The beam bends and shears (Timoshenko).",
+    "euler_bernoulli": "The beam bends and does not shear (Euler and Bernoulli).",
+}
+"""Which beam an answer is of, by ``Impact.model``."""
 
 
 def readable(value: Any, digits: int = 4) -> str:

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from bent_beam.measure.numbers import Band, Number
-from comparison.readable import in_unit, number_from, text_table
+from comparison.readable import BEAMS, in_unit, number_from, text_table
 
 __all__ = ["run_table"]
 
@@ -40,6 +40,7 @@ def run_table(found: dict[str, Any], verbose: bool = False) -> str:
         "",
         text_table(["", "value", "unit", "theory"], lines + (_expert_lines(found) if verbose else [])),
         "",
+        BEAMS[found["model"]],
         "± is the error bar by other runs of the same beam; theory: the closed form where it holds to 2 %. Moment and",
         "stress are the largest of all steps until then; a longer run may show larger ones.",
     ]

@@ -138,6 +138,7 @@ def _document(found: Simulated, file: Path | None) -> dict[str, Any]:
     when = whole["peak_moment_time"] * unit["time"] if whole else reading["peak_moment_time"]
     return {
         "path": history.path,
+        "model": impact.model,
         "symmetry": history.symmetry,
         "settings": history.settings,
         "versions": history.versions,
