@@ -8,13 +8,14 @@ export OMP_NUM_THREADS := 1
 export OPENBLAS_NUM_THREADS := 1
 JOBS ?= 2
 
-.PHONY: help report test verify lint bench coverage fuzz docs gallery update lowest newest clean
+.PHONY: help report test verify lint bench coverage stored fuzz docs gallery update lowest newest clean
 
 help:
 	@echo "make report   match both simulations with the theory and write out/report/index.html"
 	@echo "make test     the test suite (about five minutes on two cores)"
 	@echo "make verify   longer checks; make fuzz: random input and kills; make bench: speed, as ratios"
 	@echo "make coverage do the error bars hold? methods drawn at random against the theory (SEED=N draws the same again)"
+	@echo "make stored   confirm stored numbers, or make them anew (RENEW=1: all of them)"
 	@echo "make lint     ruff and mypy; make docs: the guide in site/; make gallery: every figure of the thesis"
 	@echo "make update   renew the locked versions; make lowest, make newest: a quick suite on either end of the ranges"
 
@@ -51,6 +52,9 @@ bench: $(STAMP)
 coverage: $(STAMP)
 	$(BIN)/python -m benchmarks.coverage --jobs $(JOBS) $(if $(SEED),--seed $(SEED))
 	$(BIN)/python -m benchmarks.beams --jobs $(JOBS) $(if $(SEED),--seed $(SEED))
+
+stored: $(STAMP)
+	$(BIN)/python -m benchmarks.stored --jobs $(JOBS) $(if $(RENEW),--renew)
 
 lint: $(STAMP)
 	$(BIN)/ruff check .

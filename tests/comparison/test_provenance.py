@@ -12,7 +12,18 @@ ROOT = Path(__file__).resolve().parents[2]
 ROOMS = ("comparison", "bent_beam_programs")
 STORED = [f for room in ROOMS for f in sorted((ROOT / room).rglob("*.json")) if "versions" in f.read_text()]
 MADE = re.compile(r"<!-- made by: (bentbeam|python -m) ([^>]*?) -->")
-CODE = '"""What it is about."""\n\n\ndef area(width, height):\n    """In m²."""\n    return width * height  # {}\n'
+CODE = '''"""What it is about."""
+
+
+def area(width, height):
+    """In m²."""
+    total = 0.0
+    for _ in range(2):
+        if width < 0.0:
+            raise ValueError(f"width: is negative (got {width})")
+        total += width * height / 2.0  # {}
+    return total
+'''
 
 
 def exists(program, words):
@@ -41,17 +52,27 @@ def test_numbers_are_stale_once_code_or_settings_change_and_not_for_words(tmp_pa
     room = tmp_path / "room"
     room.mkdir()
 
-    def write_code(text):
-        (room / "area.py").write_text(text)
+    def with_code(*change):
+        (room / "area.py").write_text(CODE.replace(*change) if change else CODE)
         stored._code.cache_clear()
 
-    write_code(CODE.format("of a rectangle"))
+    with_code()
     file = stored.write(tmp_path / "n.json", "areas", "python -m room.area", ["room"], {"mesh": 3}, {"areas": [6.0]})
     assert not stored.is_stale(file) and stored.read(file)["areas"] == [6.0]
-    write_code(CODE.format("another remark").replace("In m².", "In square metres.\n\n    Of a rectangle."))
-    assert not stored.is_stale(file)
-    write_code(CODE.format("").replace("width * height", "width * height / 2"))
-    assert stored.is_stale(file)
+    for old, new in (
+        ("# {}", "# another remark"),
+        ("In m².", "In square metres.\n\n    Of a rectangle."),
+        ("width: is negative (got {width})", "width: {width:g} m is below 0"),
+    ):
+        with_code(old, new)
+        assert not stored.is_stale(file), new
+    for old, new in (
+        ("        total +=", "    total +="),  # out of the loop: half of the area
+        ("/ 2.0", "/ 3.0"),
+        ("width < 0.0", "width <= 0.0"),
+    ):
+        with_code(old, new)
+        assert stored.is_stale(file), new
     stored.confirm(file)
     assert not stored.is_stale(file) and "confirmed" in stored.read(file)
     (room / "another.py").write_text("NUMBER = 1\n")
