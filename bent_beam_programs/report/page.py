@@ -161,9 +161,7 @@ def render(content: Content) -> str:
         acceleration=acceleration_rows(content.impacts),
         pipe_headings=[heading for heading, _ in COLUMNS.values()],
         pictures={file.stem: picture(file) for file in content.pictures},
-        caption_of=lambda name, title: (
-            f"{name.replace('fig-', 'Fig. ').replace('extra-', 'Beside the thesis: ')}: {title}"
-        ),
+        caption_of=lambda name, title: f"{name.replace('fig-', 'Fig. ').replace('extra-', 'Its ')}: {title}",
         facts=facts(content),
         settings=settings(content),
         data={
