@@ -43,7 +43,6 @@ from comparison.rows import MatchRow, Question, failures
 from comparison.store import RunStore
 
 TEMPLATES = Path(__file__).resolve().parent / "templates"
-COLOURS = 96  # of a picture: half the bytes
 
 
 @dataclass(frozen=True)
@@ -179,13 +178,12 @@ def inline_script(text: str) -> Markup:
 
 
 def picture(file: Path) -> str:
-    """A PNG as a data URL, in few colours and without loss beyond that; empty where there is none."""
+    """A PNG as a data URL, smaller and without loss; empty where there is none."""
     if not file.exists():
         return ""
     stream = io.BytesIO()
     with Image.open(file) as image:
-        few = image.convert("RGB").quantize(COLOURS, Image.Quantize.MAXCOVERAGE)  # by median cut thin lines lose theirs
-        few.convert("RGB").save(stream, format="WEBP", lossless=True)
+        image.convert("RGB").save(stream, format="WEBP", lossless=True)
     return "data:image/webp;base64," + base64.b64encode(stream.getvalue()).decode("ascii")
 
 
