@@ -5,9 +5,9 @@
 that is one spring and damper per node, active during penetration only, when their sum may pull (Exudyn's
 ``ObjectContactCoordinate`` with linear damping). A node that touches within a step may be in the wall without its
 damper, and off it with it: it is then closed, as long as it is pushed. Constraints must touch one dof each: contact at
-nodes. Measured at κ/ν = 0.5 and 0.1, τ = 0.1: with k = 10⁵, d = 10³ λ₀ is 1.6 and 1.1 % off, with the 10⁷ and 3·10⁴
-chosen here 0.12 and 0.03 %, with 10⁸ and 10⁵ 0.05 and 0.003 %. There is no impact law and no hold; what springs and dampers
-take in, stored or dissipated, is booked as loss in impacts.
+nodes. Measured at κ/ν = 0.5 and 0.1, τ = 0.1: with k = 10⁵, d = 10³ λ₀ is 1.6 and 1.1 % off, with the 10⁷ and
+3·10⁴ chosen here 0.12 and 0.03 %, with 10⁸ and 10⁵ 0.05 and 0.003 %. There is no impact law and no hold; what springs
+and dampers take in, stored or dissipated, is booked as loss in impacts.
 """
 
 from __future__ import annotations
@@ -19,6 +19,7 @@ from typing import Annotated
 import numpy as np
 from numpy.typing import NDArray
 
+from bent_beam.errors import InputError
 from bent_beam.fields import Quantity
 from bent_beam.impact import Impact
 from hermite_fe.active_set import CYCLING, SINGULAR, SOLVED, solve_free
@@ -87,12 +88,12 @@ class GeneralizedAlphaPenalty(Integrator):
 
     def start(self, problem: Problem, state: State) -> tuple[Motion, Constraints]:
         if self.stiffness is None or self.damping is None:
-            raise ValueError("integrator.stiffness and integrator.damping are not chosen yet")
+            raise InputError("integrator.stiffness and integrator.damping are not chosen yet")
         if problem.rows.dofs.shape[1] != 1:
-            raise ValueError('generalized_alpha_penalty takes contact.kind = "node" only')
+            raise InputError('generalized_alpha_penalty takes contact.kind = "node" only')
         e = problem.law.restitution
         if e > 0.0:
-            raise ValueError(f"generalized_alpha_penalty has no impact law: restitution must be 0 (got {e!r})")
+            raise InputError(f"generalized_alpha_penalty has no impact law: restitution must be 0 (got {e!r})")
         return motion_of(problem, state, self.spectral_radius), constraints_of(problem.rows)
 
     def advance(
