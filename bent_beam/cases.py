@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import dataclasses
 import math
+import re
 import tomllib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -16,12 +17,13 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from bent_beam.checks import shortened
+from bent_beam.description import impact_of
 from bent_beam.errors import InputError, unknown_key
 from bent_beam.fields import key_of, made_from, part_from_table, part_or_auto
 from bent_beam.impact import Impact
 from bent_beam.meshes import MESHES, Mesh
 from bent_beam.section import SECTIONS, Section
-from bent_beam.tables import TABLES, BeamTable, ImpactTable, RunTable, WallTable, impact_of
+from bent_beam.tables import TABLES, BeamTable, ImpactTable, RunTable, WallTable
 
 if TYPE_CHECKING:
     from bent_beam.method import Method
@@ -37,7 +39,8 @@ MAXIMUM_BYTES = 1_000_000
 @dataclass(frozen=True)
 class Case:
     """A validated case. ``end_time`` in s; ``mesh`` is ``None`` when it is to be chosen from the problem; ``tables``
-    are those of the paths, by name; ``section`` where one was given."""
+    are those of the paths, by name; ``section`` where one was given; ``damping_stated``: whether the beam's own damping
+    is, be it 0."""
 
     title: str
     impact: Impact
@@ -45,6 +48,7 @@ class Case:
     mesh: Mesh | None
     tables: dict[str, dict[str, Any]]
     section: Section | None = None
+    damping_stated: bool = True
 
     def method(self, path: str, *, label: str | None = None) -> Method:
         """The method of ``path`` with the parts that this case sets for it.
@@ -68,6 +72,7 @@ class Case:
 
 
 KNOWN = ("title", *TABLES, "section", "mesh")
+DAMPINGS = ("damping", "damping_ratio", "loss_factor")  # of [beam]: ways to state one
 
 
 def _tables_of_paths(tables: Mapping[str, Any]) -> dict[str, dict[str, Any]]:
@@ -113,6 +118,7 @@ def case_from_tables(tables: Mapping[str, Any]) -> Case:
         mesh=part_or_auto(MESHES, tables.get("mesh", {}), "mesh"),
         tables=others,
         section=section,
+        damping_stated=bool(beam.hysteretic_loss) or any(getattr(beam, name) is not None for name in DAMPINGS),
     )
 
 
@@ -146,6 +152,9 @@ def lay_over(tables: dict[str, Any], assignment: str) -> None:
     text = text.strip()
     value: Any = text
     if (last != "kind" and "\n" not in text) or text.startswith(("'", '"')):  # a kind is a name, "true" is one
+        number = re.fullmatch(r"([-+]?)(\d*)\.(\d*)", text)  # .9 and 9. are none in TOML
+        if number and number[2] + number[3]:
+            text = f"{number[1]}{number[2] or 0}.{number[3] or 0}"
         try:
             value = tomllib.loads(f"value = {text}")["value"]
         except (ValueError, RecursionError):

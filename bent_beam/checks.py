@@ -148,6 +148,8 @@ def check_arrangement(impact: Any) -> None:
         raise InputError(
             f"wall_damping has no effect on a rigid wall: give wall_stiffness too (got {impact.wall_damping!r})"
         )
+    if impact.rotary_inertia and impact.shear_stiffness is None:
+        raise InputError(f"rotary_inertia has no effect without shear_stiffness (got {impact.rotary_inertia!r})")
     if impact.supported:
         for name in NOT_HELD:
             if getattr(impact, name):

@@ -180,11 +180,18 @@ def part_from_table(kinds: Mapping[str, type], table: Any, where: str) -> Any:
     return made_from(kinds[kind], values, where, more=("kind",))
 
 
-def part_or_auto(kinds: Mapping[str, type], table: Any, where: str) -> Any:
-    """The same; ``None``, to be chosen, of an empty table or where the kind is "auto"."""
+def part_or_auto(kinds: Mapping[str, type], table: Any, where: str, default: str | None = None) -> Any:
+    """The same; ``None``, to be chosen, of an empty table or where the kind is "auto".
+
+    A kind that is left out is the ``default`` if it has all keys of the table, else the only kind that has them.
+    """
     if not isinstance(table, Mapping) or table.get("kind", "auto") != "auto":
         return part_from_table(kinds, table, where)
-    for key in table:
-        if key != "kind":
-            raise InputError(f"{where}.kind is required next to {where}.{key} (one of {', '.join(sorted(kinds))})")
-    return None
+    keys = [key for key in table if key != "kind"]
+    if not keys:
+        return None
+    fitting = [name for name, kind in kinds.items() if {*keys} <= {*map(key_of, declared(kind))}]
+    kind = default if default in fitting else fitting[0] if len(fitting) == 1 else None
+    if kind is None or "kind" in table:
+        raise InputError(f"{where}.kind is required next to {where}.{keys[0]} (one of {', '.join(sorted(kinds))})")
+    return part_from_table(kinds, {**table, "kind": kind}, where)

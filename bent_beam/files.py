@@ -39,7 +39,8 @@ REQUIRED = ("time", "x", "contact_x", "gap", "impulse", "total_impulse", "kineti
 KNOWN: dict[tuple[str, ...], dict[str, str]] = {
     ("x",): {"x": "m"},
     ("contact",): {"contact_x": "m"},
-    ("time", "x"): {"gap": "m", "position": "m", "velocity": "m/s", "slope": "1"},
+    ("time", "x"): {"gap": "m", "position": "m", "velocity": "m/s", "slope": "1", "angle": "1",
+                    "angular_velocity": "1/s", "bending_moment": "N m"},
     ("time", "contact"): {
         "impulse": "N s", "opposite_impulse": "N s", "contact_position": "m", "in_contact": "",
     },

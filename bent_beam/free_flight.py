@@ -3,10 +3,11 @@
 A free–free beam without loads flies on: centre of mass and rotation go on at constant rates, and the elastic energy E,
 what is left of the total without them, can only fall. Its elastic deflection is then nowhere beyond
 
-    |u_e(x)| ≤ √(2E L³/(105 EI)),                                                                            (1)
+    |u_e(x)| ≤ √(2E C),      C = L³/(105 EI) + 2L/(15 κ_sGA),                                                (1)
 
-L³/(105 EI) being the compliance of the beam's end with its rigid motion taken out (Σφ_j²/ω_j² of the free–free modes);
-EI is the relaxed one of a material with Maxwell branches, whose energy may all go to the spring beside them.
+C being the compliance of the beam's end with its rigid motion taken out (Σφ_j²/ω_j² of the free–free modes), the second
+part with shear. EI is the relaxed one of a material with Maxwell branches, whose energy may all go to the spring beside
+them.
 """
 
 from __future__ import annotations
@@ -55,8 +56,11 @@ def cannot_return(impact: Impact, x: Array, gap: Array, velocity: Array, energy:
     x : node places, m, of the whole beam or of its half x ≥ 0; gap (m) and velocity into the wall (m/s) there.
     energy : kinetic and strain, of the whole beam, J.
     """
-    if not bears_free_flight(impact):
-        return False
+    return bears_free_flight(impact) and _flies_off(impact, x, gap, velocity, energy)
+
+
+def _flies_off(impact: Impact, x: Array, gap: Array, velocity: Array, energy: float) -> bool:
+    """:func:`cannot_return` of a beam that bears free flight."""
     half = x[0] >= 0.0
     free = gap - 0.5 * impact.relative_curvature * (x - impact.first_touch) ** 2  # zero for an unstrained beam at rest
     distance, tilt = _rigid(x, free, half)
@@ -66,7 +70,10 @@ def cannot_return(impact: Impact, x: Array, gap: Array, velocity: Array, energy:
     elastic = max(energy - rigid, 0.0)
     branches = branches_of(impact)
     stiffness = impact.bending_stiffness * (1.0 if branches is None else branches.relaxed)
-    reach = math.sqrt(2.0 * elastic * impact.length**3 / (105.0 * stiffness))
+    compliance = impact.length**3 / (105.0 * stiffness)
+    if impact.shear_stiffness is not None:
+        compliance += 2.0 * impact.length / (15.0 * impact.shear_stiffness)
+    reach = math.sqrt(2.0 * elastic * compliance)
     clear = gap - free + distance + tilt * x >= reach
     return bool(np.all(clear) and np.all(speed + spin * x >= 0.0))
 
@@ -93,12 +100,12 @@ def _is_off(impact: Impact, told: bool, quiet: float, state: Callable[[], State]
     if not told:
         return quiet >= LOWEST_PERIOD * impact.slow_time_scale
     x, gap, velocity, energy = state()
-    return bool(gap.min() > 0.0) and cannot_return(impact, x, gap, velocity, energy)
+    return bool(gap.min() > 0.0) and _flies_off(impact, x, gap, velocity, energy)
 
 
 class Separation:
-    """Says in the course of a run when the beam is off the wall for good: it cannot return, or, where that cannot be
-    told, it has not pushed for a period of its lowest mode."""
+    """Says in the course of a run when a whole impact is over: the beam has not pushed for a period of its lowest mode,
+    in which its largest stress may still come, and is off the wall for good."""
 
     def __init__(self, impact: Impact) -> None:
         self.impact = impact
@@ -115,7 +122,8 @@ class Separation:
         if closed or impulse > self.impulse:
             self.impulse, self.since = impulse, time
             return False
-        return impulse != 0.0 and _is_off(self.impact, self.told, time - self.since, state)
+        over = impulse != 0.0 and time - self.since >= LOWEST_PERIOD * self.impact.slow_time_scale
+        return over and _is_off(self.impact, self.told, time - self.since, state)
 
 
 def _rigid(x: Array, field: Array, half: bool) -> tuple[float, float]:

@@ -98,6 +98,11 @@ class ImpactHistory:
         """The same with other warnings."""
         return replace(self, dataset=self.dataset.assign_attrs(warnings=json.dumps(list(warnings))))
 
+    def until(self, time: float) -> ImpactHistory:
+        """The same up to the saved instant nearest to ``time``, s."""
+        last = int(np.argmin(np.abs(self.time - time)))
+        return replace(self, dataset=self.dataset.isel(time=slice(0, last + 1)))
+
     def with_section(self, section: Any) -> ImpactHistory:
         """The same that knows its section (:class:`bent_beam.section.Section`), for stresses."""
         held = {"area": section.area, "section_modulus": section.section_modulus}
@@ -169,16 +174,20 @@ class ImpactHistory:
         both of shape (elements, 2); K₀ is the curvature of the beam free of stress. For a slice of instants, of a fixed
         mesh, the moments have these in front.
 
-        y_xx is that of the Hermite cubic through deflections and slopes (by differences where a history has none); the
-        part η y_txx of a damped beam is left out.
+        Moments that the path has recorded, as of a beam with shear; else y_xx is that of the Hermite cubic through
+        deflections and slopes (by differences where a history has none). The part η y_txx of a damped beam is left out.
         """
         impact, x = self.impact, self.positions(k if isinstance(k, int) else 0)
+        place = np.stack([x[:-1], x[1:]], axis=1)
+        if "bending_moment" in self:
+            recorded = self.array("bending_moment", k)
+            return np.stack([recorded[..., :-1], recorded[..., 1:]], axis=-1), place
         y = -self.array("gap", k) - 0.5 * impact.wall_curvature * (x - impact.first_touch) ** 2
         given = "slope" in self
         slope = self.array("slope", k) if given else np.gradient(y, x, axis=-1, edge_order=2)
         natural = impact.curvature if impact.natural_curvature is None else impact.natural_curvature
         moment = impact.bending_stiffness * (end_curvatures(x, y, slope) + natural)
-        return moment, np.stack([x[:-1], x[1:]], axis=1)
+        return moment, place
 
     @property
     def force(self) -> Array:

@@ -1,6 +1,11 @@
-"""The physical problem: a naturally bent Euler–Bernoulli beam arriving at a wall.
+"""The physical problem: a naturally bent beam arriving at a wall.
 
     μ y_tt + EI(y_xxxx + η y_txxxx) − N y_xx = p − r,     0 ≤ r ⊥ g = y_w − y ≥ 0         (thesis 2.1.1–2; N, η added)
+
+That is Euler and Bernoulli's beam. With a shear stiffness S = κ_sGA it is Timoshenko's, φ the turning of its sections
+and J their rotary inertia (Timoshenko 1921, Philos. Mag. 41, 744; docs/shear.md):
+
+    μ y_tt − S[(y_x − φ) + η(y_x − φ)_t]_x − N y_xx = p − r,     J φ_tt = EI(φ + ηφ_t)_xx + S[(y_x − φ) + η(y_x − φ)_t]
 
 y > 0 points into the wall y_w = −K_w x²/2; x = 0 touches first, at t = 0. The free motion close to the contact is
 
@@ -10,14 +15,14 @@ y > 0 points into the wall y_w = −K_w x²/2; x = 0 touches first, at t = 0. Th
 from __future__ import annotations
 
 import dataclasses
-import math
 from typing import Annotated, Any
 
 from bent_beam.checks import check_arrangement, check_scales, non_negative, positive
 from bent_beam.errors import InputError
 from bent_beam.fields import Part, Quantity
 from bent_beam.hysteresis import check_loss
-from bent_beam.loads import ENDS, SIMULATED, Feature, FreeMotion, Load, load_against, loads_of
+from bent_beam.loads import ENDS, SIMULATED, UNSHEARED, Feature, Load, loads_of
+from bent_beam.scales import Scales
 
 __all__ = ["Impact"]
 
@@ -27,7 +32,7 @@ BEFORE_WAVES_RETURN = 0.01  # T*: the earliest that they change the impulse by 2
 
 
 @dataclasses.dataclass(frozen=True)
-class Impact(Part):
+class Impact(Part, Scales):
     """A bent beam about to hit a wall (SI units); free, rigid and symmetric about x = 0 unless said otherwise.
 
     Units, meanings and ranges of the fields stand at the fields. Raises ``ValueError`` naming field and value.
@@ -51,6 +56,10 @@ class Impact(Part):
     section_height: Annotated[
         float, Quantity("m", "d, for EA = 12 EI/d² on the Exudyn path; from the [section]", above=0.0)
     ] = 0.01
+    shear_stiffness: Annotated[
+        float | None, Feature("N", "κ_sGA of Timoshenko's beam; Euler and Bernoulli's without", above=0.0,
+                              instead=UNSHEARED)] = None  # fmt: skip
+    rotary_inertia: Annotated[float, Quantity("kg m", "J = ρI of a section, next to shear_stiffness", least=0.0)] = 0.0
     axial_force: Annotated[float, Load("N", "N, tension positive", group="axial")] = 0.0
     tension_direction: Annotated[
         str,
@@ -112,13 +121,25 @@ class Impact(Part):
         )
 
     @classmethod
-    def whole_beam(cls, kappa_over_nu: float, *, relative_damping: float = 0.0) -> Impact:
-        """The free–free beam in units of its half length: EI = μ = V₀ = L/2 = 1, so T* = 1; damping is η/T*."""
-        return cls.dimensionless(kappa_over_nu, damping=relative_damping, length=2.0).replace(tension_direction="axis")
+    def whole_beam(
+        cls, kappa_over_nu: float, *, relative_damping: float = 0.0, shear_length: float = 0.0, shear_ratio: float = 0.0
+    ) -> Impact:
+        """The free–free beam in units of its half length: EI = μ = V₀ = L/2 = 1, so T* = 1; damping is η/T*,
+        shear_length l_s over L/2 (0: Euler and Bernoulli's), shear_ratio κ_sG/E (:mod:`bent_beam.scales`)."""
+        bare = cls.dimensionless(kappa_over_nu, damping=relative_damping, length=2.0).replace(tension_direction="axis")
+        if shear_length == 0.0:
+            return bare
+        length = positive("shear_length", shear_length)
+        return bare.replace(shear_stiffness=length**-2.0, rotary_inertia=shear_ratio * length**2)
 
     def replace(self, **changes: Any) -> Impact:
         """A copy with some fields changed, validated again."""
         return dataclasses.replace(self, **changes)
+
+    @property
+    def unsheared(self) -> Impact:
+        """The same of Euler and Bernoulli's beam."""
+        return self.replace(shear_stiffness=None, rotary_inertia=0.0)
 
     def checked_end_time(self, end_time: float | None = None) -> float:
         """``end_time`` (s) of a simulation, or ``ValueError`` when it is out of all proportion to t*. ``None``: 0.1 t*,
@@ -142,160 +163,3 @@ class Impact(Part):
             if abs(self.group(load)) * time > LONGEST:
                 raise InputError(f"{load} is out of all proportion to a time of {value:.6g} s (got {given!r})")
         return float(value)
-
-    # scales (theory.md, section 2; thesis 2.2.16, 2.2.36–37) -----------------------------------------
-    @property
-    def wave_constant(self) -> float:
-        """√(EI/μ), m²/s: bending waves spread as x² ~ √(EI/μ) t."""
-        return math.sqrt(self.bending_stiffness / self.mass_per_length)
-
-    @property
-    def time_scale(self) -> float:
-        """t* = √(EI/μ)/V₀², s: the time unit of the fast layer."""
-        return self.wave_constant / self.velocity / self.velocity
-
-    @property
-    def length_scale(self) -> float:
-        """l* = √(EI/μ)/V₀, m: the length unit of the fast layer."""
-        return self.wave_constant / self.velocity
-
-    @property
-    def deflection_scale(self) -> float:
-        """V₀ t*, m: the unit of the fast layer's deflection with ν = 1 (equal to l*)."""
-        return self.velocity * self.time_scale
-
-    @property
-    def half_length(self) -> float:
-        """L* = L/2, m."""
-        return self.length / 2.0
-
-    @property
-    def slow_time_scale(self) -> float:
-        """T* = √(μ L*⁴/EI), s: the time scale of the beam's free vibration (2.2.16)."""
-        return self.half_length**2 / self.wave_constant
-
-    @property
-    def epsilon(self) -> float:
-        """ε = t*/T*, dimensionless: the small parameter of the expansion."""
-        return (self.length_scale / self.half_length) ** 2
-
-    def free_motion(self, bow: float) -> FreeMotion:
-        """y₀ with −``bow`` x²/2 in place of −Kx²/2, SI units, x from the first touch."""
-        terms = {about.powers: getattr(self, load) for load, about in loads_of(Impact).items() if about.powers}
-        return FreeMotion({(0, 1): self.velocity + self.rotation * self.first_touch, (2, 0): -bow, **terms})
-
-    def group(self, load: str) -> float:
-        """A load in units of the fast layer, dimensionless with ν = 1: its term of y₀, or of a force n = N/(μV₀²)."""
-        value, powers = getattr(self, load), loads_of(Impact)[load].powers
-        if powers is None:
-            return value / (self.mass_per_length * self.velocity**2)
-        i, j = powers  # V₀t* = l*
-        return value * self.length_scale ** (i - 1) * self.time_scale**j
-
-    @property
-    def kappa_over_nu(self) -> float:
-        """κ/ν = K √(EI/μ)/V₀: the one parameter of the leading order."""
-        return self.relative_curvature * self.length_scale
-
-    @property
-    def relative_curvature(self) -> float:
-        """K − K_w, 1/m: of the beam against the wall. Without axial force a curved wall does nothing else."""
-        return self.curvature - self.wall_curvature
-
-    @property
-    def uniform_pressure(self) -> float:
-        """p = μa₀ + EI q₀ + N K, N/m: the uniform load under which the free motion is y₀."""
-        return load_against(self, 0.0)
-
-    @property
-    def zone_pressure(self) -> float:
-        """p − N K_w, N/m: what presses a contact zone that lies on the wall; it lifts off where this is negative."""
-        return load_against(self, self.wall_curvature)
-
-    @property
-    def lifts(self) -> bool:
-        """Whether a load lifts a contact zone off the wall."""
-        return self.zone_pressure < 0.0
-
-    def load_within(self, half: float, power: int = 0) -> float:
-        """∫xⁿp dx over |x| ≤ ``half`` from the middle, of all loads together, N mⁿ, for an even n = ``power``. Forces
-        along the ends of the bow pull at it with −NK."""
-        pressure = load_against(self, self.curvature if self.tension_direction == "tangent" else 0.0)
-        return pressure * 2.0 * half ** (power + 1) / (power + 1)
-
-    @property
-    def net_load(self) -> float:
-        """Sum of all loads over L, N/m: μ times the acceleration of the centre of mass without a wall."""
-        return self.load_within(self.half_length) / self.length
-
-    @property
-    def epsilon_alpha(self) -> float:
-        """εα/ν = a₀ t*/V₀."""
-        return self.group("acceleration")
-
-    @property
-    def epsilon_chi(self) -> float:
-        """εχ/ν = c₀ l*²/V₀."""
-        return self.group("curvature_rate")
-
-    @property
-    def epsilon_psi(self) -> float:
-        """εψ/ν = q₀ l*⁴/(V₀ t*)."""
-        return self.group("fourth_derivative")
-
-    @property
-    def epsilon_axial(self) -> float:
-        """n = N/(μV₀²)."""
-        return self.group("axial_force")
-
-    @property
-    def alpha(self) -> float:
-        """α with ν = 1."""
-        return self.epsilon_alpha / self.epsilon
-
-    @property
-    def chi(self) -> float:
-        """χ with ν = 1."""
-        return self.epsilon_chi / self.epsilon
-
-    @property
-    def psi(self) -> float:
-        """ψ with ν = 1."""
-        return self.epsilon_psi / self.epsilon
-
-    @property
-    def axial(self) -> float:
-        """n/ε with ν = 1, next to α, ψ, χ."""
-        return self.epsilon_axial / self.epsilon
-
-    @property
-    def loaded_to_first_order(self) -> bool:
-        """Whether loads act that theory to first order knows: those that have a group."""
-        return any(getattr(self, load) for load, about in loads_of(Impact).items() if about.group)
-
-    @property
-    def off_centre(self) -> bool:
-        """Whether the impact is not symmetric about the middle: only a model of the full beam takes it."""
-        begin, end = self.wall_span
-        return bool(self.rotation or self.first_touch or self.left_end != self.right_end or begin != -end)
-
-    @property
-    def supported(self) -> bool:
-        """Whether an end is held."""
-        return (self.left_end, self.right_end) != ("free", "free")
-
-    @property
-    def wall_span(self) -> tuple[float, float]:
-        """Where the wall begins and ends, m from the middle; the ends of the beam unless given."""
-        half = self.half_length
-        return -half if self.wall_from is None else self.wall_from, half if self.wall_to is None else self.wall_to
-
-    @property
-    def wall_in_part(self) -> bool:
-        """Whether the wall is a plate or a stop, and not all along the beam."""
-        return self.wall_span != (-self.half_length, self.half_length)
-
-    @property
-    def relative_damping(self) -> float:
-        """η/T*."""
-        return self.damping / self.slow_time_scale

@@ -57,6 +57,7 @@ __all__ = [
 
 Array = NDArray[np.float64]
 Powers = tuple[int, int]
+UNSHEARED = ': [beam] model = "euler_bernoulli" leaves shear out'
 SIMULATED = ": bentbeam simulate follows it, on the Hermite and the Exudyn path"
 
 

@@ -58,7 +58,8 @@ class Method(Protocol):
     ``for_whole_beam(impact)`` and ``simulate_to_separation(impact, …)`` (see the functions of these names);
     ``cross_checks(impact)`` (cause → a method to compare with, for the error bars of a whole impact) and
     ``varied(impact, random)`` (a copy with mesh, steps and contact law drawn at random, for a band);
-    ``PARTS`` (field → registry of kinds), for methods made from tables.
+    ``PARTS`` (field → registry of kinds), for methods made from tables; ``DEFAULT_KINDS`` (field → kind), those that
+    a table means that names none.
     """
 
     path: ClassVar[str]
@@ -234,6 +235,7 @@ def method_from_tables(path: str, tables: Mapping[str, Any], *, label: str | Non
     """
     kind = method_type(path)
     registries: Mapping[str, Mapping[str, type]] = getattr(kind, "PARTS", {})
+    defaults: Mapping[str, str] = getattr(kind, "DEFAULT_KINDS", {})
     known = {f.name for f in dataclasses.fields(kind)} - {"label"}
     values: dict[str, Any] = {}
     for name, value in tables.items():
@@ -241,7 +243,7 @@ def method_from_tables(path: str, tables: Mapping[str, Any], *, label: str | Non
             raise unknown_key(path, str(name), known)
         if name not in registries:
             values[name] = value
-        elif (part := part_or_auto(registries[name], value, f"{path}.{name}")) is not None:
+        elif (part := part_or_auto(registries[name], value, f"{path}.{name}", defaults.get(name))) is not None:
             values[name] = part
     try:
         made = kind(**values) if label is None else dataclasses.replace(kind(**values), label=label)

@@ -67,6 +67,11 @@ class Section(Part, ABC):
         return self.density * self.area + self.added_mass
 
     @property
+    def rotary_inertia(self) -> float:
+        """ρI of the material, kg m."""
+        return self.density * self.second_moment
+
+    @property
     def section_modulus(self) -> float:
         """W, m³."""
         return self.second_moment / (self.height / 2.0)

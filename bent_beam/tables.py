@@ -1,4 +1,4 @@
-"""The tables of a case file with fixed fields, and how they become the quantities of :class:`bent_beam.Impact`.
+"""The tables of a case file with fixed fields; :mod:`bent_beam.description` says what they describe.
 
 A beam may be described as its owner knows it. One way or the other, never both: two ways to say the same thing clash,
 and the error names them. A load that no table describes otherwise is a key of ``[impact]`` as it is.
@@ -7,22 +7,16 @@ and the error names them. A load that no table describes otherwise is a key of `
 from __future__ import annotations
 
 import dataclasses
-import math
-from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Annotated, Any, ClassVar, get_type_hints
+from typing import Annotated, ClassVar, get_type_hints
 
-from bent_beam.checks import one_of, shortened
-from bent_beam.errors import InputError
 from bent_beam.fields import Part, Quantity, declared
-from bent_beam.hysteresis import FIRST_MODE
 from bent_beam.impact import Impact
-from bent_beam.loads import ENDS, loads_of
-from bent_beam.section import Section
+from bent_beam.loads import loads_of
 
-__all__ = ["TABLES", "BeamTable", "ImpactTable", "RunTable", "WallTable", "impact_of"]
+__all__ = ["MODELS", "TABLES", "BeamTable", "ImpactTable", "RunTable", "WallTable"]
 
-GRAVITY = 9.80665  # m/s², standard (3rd General Conference on Weights and Measures, 1901)
+MODELS = ("timoshenko", "euler_bernoulli")
 
 
 def of_impact(name: str, **changes: str) -> Quantity:
@@ -47,6 +41,11 @@ class BeamTable(Part):
     dogleg: Annotated[float | None, Quantity("°/30 m", "the bow as its dogleg severity", above=0.0)] = None
     natural_curvature: Annotated[float | None, of_impact("natural_curvature")] = None
     section_height: Annotated[float | None, of_impact("section_height")] = None
+    model: Annotated[
+        str | None, Quantity("", "whether shear counts", choices=MODELS, absent="with a shear stiffness timoshenko")
+    ] = None
+    shear_stiffness: Annotated[float | None, of_impact("shear_stiffness", text="κ_sGA; or a [section]")] = None
+    rotary_inertia: Annotated[float | None, of_impact("rotary_inertia", text="ρI; or a [section]", absent="0")] = None
     axial_force: Annotated[float, of_impact("axial_force")] = 0.0
     tension_direction: Annotated[str | None, of_impact("tension_direction")] = None
     damping: Annotated[float | None, of_impact("damping")] = None
@@ -125,173 +124,3 @@ ImpactTable: type[_ImpactTable] = dataclasses.make_dataclass(
 
 TABLES: dict[str, type[Part]] = {"beam": BeamTable, "impact": ImpactTable, "wall": WallTable, "run": RunTable}
 """Tables with fixed fields; ``[section]`` and ``[mesh]`` have a kind."""
-
-
-# from tables to an impact ---------------------------------------------------------------------------------
-def impact_of(beam: BeamTable, arrival: _ImpactTable, wall: WallTable, section: Section | None) -> Impact:
-    """What the tables describe. Raises ``ValueError`` naming field and value."""
-    values: dict[str, Any] = {name: getattr(arrival, name) for name in (*AS_THEY_ARE, "first_touch")}
-    values |= {"length": beam.length, "axial_force": beam.axial_force, "natural_curvature": beam.natural_curvature}
-    _only_with("beam.tension_direction", beam.tension_direction, "beam.axial_force", beam.axial_force)
-    values["tension_direction"] = beam.tension_direction or "axis"
-    values |= _of_section(beam, section)
-    values["curvature"] = _curvature(beam)
-    values |= _damping(beam, math.sqrt(values["bending_stiffness"] / values["mass_per_length"]))
-    values["left_end"], values["right_end"] = ends = _ends(beam)
-    values["velocity"] = _velocity(arrival, beam.length, ends)
-    values["acceleration"] = _free_flight(arrival, values)
-    values |= _wall(wall, values["mass_per_length"])
-    return Impact(**values)
-
-
-def _one_of(where: str, values: Mapping[str, float | None], *, required: bool = True) -> tuple[str | None, float]:
-    """Name and value of the one that is given (``None``, 0: none is). :class:`InputError` names those that clash, or
-    what is missing."""
-    given = [(name, value) for name, value in values.items() if value is not None]
-    if len(given) > 1:
-        both = " and ".join(f"{where}.{name} = {value!r}" for name, value in given[:2])
-        raise InputError(f"{both} say the same thing: give one of them")
-    if not given and required:
-        raise InputError(f"{where}.{next(iter(values))} is required (or {', '.join(list(values)[1:])})")
-    return given[0] if given else (None, 0.0)
-
-
-def _only_with(name: str, value: Any, other: str, is_given: Any) -> None:
-    """Raise :class:`InputError` for a value that means nothing without another."""
-    if value is not None and not is_given:
-        raise InputError(f"{name} has no effect without {other} (got {value!r})")
-
-
-def _of_section(beam: BeamTable, section: Section | None) -> dict[str, float]:
-    """EI, μ and section height, of the section or as they are given."""
-    found = {}
-    for name in ("bending_stiffness", "mass_per_length"):
-        value = getattr(beam, name)
-        if section is None and value is None:
-            raise InputError(f"beam.{name} is required (or a [section])")
-        if section is not None and value is not None:
-            raise InputError(f"beam.{name} = {value!r} and [section] say the same thing: give one of them")
-        if section is not None:  # sizes that are each allowed may make one that is not
-            value = declared(Impact)[name].checked(f"section: {name}", getattr(section, name))
-        found[name] = value
-    if beam.section_height is not None:
-        if section is not None:
-            raise InputError(f"beam.section_height = {beam.section_height!r} and [section] clash: give one")
-        found["section_height"] = beam.section_height
-    elif section is not None:
-        # d of EA = 12 EI/d²: that of a rectangle with this section's radius of gyration
-        found["section_height"] = math.sqrt(12.0) * section.radius_of_gyration
-    return found
-
-
-def _curvature(beam: BeamTable) -> float:
-    """K, 1/m, of the bow: that of the circle through both ends and the middle."""
-    way, bow = _one_of("beam", {"curvature": beam.curvature, "sagitta": beam.sagitta, "dogleg": beam.dogleg})
-    _only_with("beam.sagitta_length", beam.sagitta_length, "beam.sagitta", way == "sagitta")
-    if way == "curvature":
-        return bow
-    if way == "dogleg":
-        return math.radians(bow) / 30.0
-    chord = beam.length if beam.sagitta_length is None else beam.sagitta_length
-    if chord > beam.length:
-        raise InputError(f"beam.sagitta_length must not exceed beam.length {beam.length!r} (got {chord!r})")
-    if bow >= chord / 2.0:
-        raise InputError(f"beam.sagitta must be less than half its length {chord!r} (got {bow!r})")
-    return 8.0 * bow / (chord**2 + 4.0 * bow**2)
-
-
-def _damping(beam: BeamTable, wave: float) -> dict[str, Any]:
-    """η, s: ζ = ηω/2 for the damping ratio of a mode, ηω for the loss factor; or the hysteretic loss as it is."""
-    ways = {"damping": beam.damping, "damping_ratio": beam.damping_ratio, "loss_factor": beam.loss_factor}
-    way, amount = _one_of("beam", ways | {"hysteretic_loss": beam.hysteretic_loss or None}, required=False)
-    measured, frequency = way in ("loss_factor", "hysteretic_loss"), beam.loss_frequency
-    _only_with("beam.loss_frequency", frequency, "beam.loss_factor or beam.hysteretic_loss", measured)
-    if measured and frequency is None:
-        mode = FIRST_MODE**2 * wave / (2.0 * math.pi * beam.length**2)
-        raise InputError(
-            f"beam.loss_frequency is required next to beam.{way} (got {amount!r} alone): the frequency, Hz, "
-            f"at which it was measured; this beam's first free–free mode is at {mode:.4g} Hz"
-        )
-    if way == "hysteretic_loss":
-        return {"hysteretic_loss": amount, "loss_frequency": frequency}
-    if way == "damping_ratio":
-        amount *= 2.0 * (beam.length / FIRST_MODE) ** 2 / wave
-    if way == "loss_factor":
-        amount /= 2.0 * math.pi * (frequency or 0.0)
-    return {"damping": amount}
-
-
-def _ends(beam: BeamTable) -> tuple[str, str]:
-    """How the left and the right end are held."""
-    pair = (beam.ends, beam.ends) if isinstance(beam.ends, str) else beam.ends
-    if not isinstance(pair, list | tuple) or len(pair) != 2:
-        raise InputError(f"beam.ends must be one of {', '.join(ENDS)}, or a pair of these (got {shortened(beam.ends)})")
-    left, right = (one_of("beam.ends", end, ENDS) for end in pair)
-    return left, right
-
-
-def _gravity(table: _ImpactTable) -> float:
-    if table.gravity is not None:
-        return table.gravity
-    return GRAVITY if table.drop_height is not None else 0.0
-
-
-def _velocity(table: _ImpactTable, length: float, ends: tuple[str, str]) -> float:
-    """V₀, m/s, of the first touch, where an end is held of the middle."""
-    ways = {"velocity": table.velocity, "drop_height": table.drop_height, "angular_speed": table.angular_speed}
-    way, given = _one_of("impact", ways)
-    _only_with("impact.angular_arm", table.angular_arm, "impact.angular_speed", way == "angular_speed")
-    if way == "velocity":
-        return given
-    if way == "angular_speed":
-        if sorted(ends) not in (["free", "free"], ["free", "hinged"]):
-            raise InputError(
-                f"impact.angular_speed needs one hinge to swing about: give impact.velocity (got {given!r})"
-            )
-        if ends != ("free", "free") and table.angular_arm is not None:
-            raise InputError(
-                f"impact.angular_arm has no effect on a beam that swings about its hinge (got {table.angular_arm!r})"
-            )
-        return given * (length / 2.0 if table.angular_arm is None else table.angular_arm)
-    along = _gravity(table) * math.cos(math.radians(table.gravity_angle))
-    if along <= 0.0:
-        raise InputError(
-            f"impact.drop_height = {given!r} needs gravity towards the wall "
-            f"(got impact.gravity = {_gravity(table)!r} at impact.gravity_angle = {table.gravity_angle!r})"
-        )
-    return math.sqrt(2.0 * along * given)
-
-
-def _free_flight(table: _ImpactTable, values: Mapping[str, Any]) -> float:
-    """a₀, m/s²: as given, or that of free flight under gravity, which tension bends: a₀ = g cos θ − (EI q₀ + N K)/μ.
-
-    Without gravity and tension a beam of which no acceleration is given does not accelerate.
-    """
-    gravity, force = _gravity(table), values["axial_force"]
-    _only_with("impact.gravity_angle", table.gravity_angle or None, "impact.gravity", gravity)
-    if table.acceleration is not None:
-        _one_of("impact", {"acceleration": table.acceleration, "gravity": table.gravity})
-        return table.acceleration
-    if not gravity and not force:
-        return 0.0
-    bent = values["bending_stiffness"] * values["fourth_derivative"] + force * values["curvature"]
-    return float(gravity * math.cos(math.radians(table.gravity_angle)) - bent / values["mass_per_length"])
-
-
-def _wall(wall: WallTable, mass_per_length: float) -> dict[str, Any]:
-    """Fields of :class:`bent_beam.Impact` that the wall's table settles."""
-    way, amount = _one_of("wall", {"damping": wall.damping, "damping_ratio": wall.damping_ratio}, required=False)
-    if way is not None and wall.stiffness is None:
-        raise InputError(f"wall.{way} has no effect on a rigid wall: give wall.stiffness too (got {amount!r})")
-    if way == "damping_ratio":
-        if wall.from_ is not None and wall.from_ == wall.to:
-            raise InputError(f"wall.damping_ratio means nothing at a stop: give wall.damping, N s/m (got {amount!r})")
-        amount *= 2.0 * math.sqrt((wall.stiffness or 0.0) * mass_per_length)
-    return {
-        "wall_curvature": wall.curvature,
-        "opposite_wall": wall.opposite,
-        "wall_stiffness": wall.stiffness,
-        "wall_damping": amount,
-        "wall_from": wall.from_,
-        "wall_to": wall.to,
-    }

@@ -155,7 +155,7 @@ def rerun_history(
 ) -> dict[str, Any]:
     """Simulate ``old``'s case with its settings and compare: ``identical`` (bit for bit), ``largest_difference``
     (relative, per variable, times and places included) and versions that differ. Keeps the new history in ``out``."""
-    new = _again(old, progress)
+    new = _again(old, progress).until(float(old.time[-1]))  # a run to a time goes on beyond it
     if out is not None:
         new.save(out)
     differences: dict[str, float | None] = {}

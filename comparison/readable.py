@@ -10,13 +10,30 @@ from collections.abc import Iterable, Sequence
 from numbers import Real
 from typing import Any
 
-from bent_beam.measure.measured import Band, Measured
+from bent_beam.measure.numbers import Band, Number
 
-__all__ = ["in_unit", "json_text", "milliseconds", "number_from", "plain", "readable", "text_table", "unit_for"]
+__all__ = [
+    "BEAMS",
+    "in_unit",
+    "json_text",
+    "milliseconds",
+    "number_from",
+    "plain",
+    "readable",
+    "text_table",
+    "unit_for",
+]
 
 RAISED = str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻")
 SMALL, LARGE = 1e-3, 1e5  # beyond them a power of ten
 WIDEST = 400  # characters of a table
+
+
+BEAMS = {
+    "timoshenko": "The beam bends and shears (Timoshenko).",
+    "euler_bernoulli": "The beam bends and does not shear (Euler and Bernoulli).",
+}
+"""Which beam an answer is of, by ``Impact.model``."""
 
 
 def readable(value: Any, digits: int = 4) -> str:
@@ -51,17 +68,17 @@ def unit_for(unit: str, values: Iterable[float | None]) -> tuple[float, str]:
     return (1e-3, f"k{unit}") if unit.startswith("N") and unit != "N s" and largest >= 100.0 else (1.0, unit)
 
 
-def in_unit(number: Measured | Band, unit: str) -> list[str]:
+def in_unit(number: Number | Band, unit: str) -> list[str]:
     """``number``, in ``unit``, in the unit in which it is written, and that unit."""
     scale, name = unit_for(unit, [number.mean if isinstance(number, Band) else number.value])
     return [str(number.scaled(scale)), name]
 
 
-def number_from(found: dict[str, Any] | None) -> Measured | Band:
+def number_from(found: dict[str, Any] | None) -> Number | Band:
     """The number that a document holds."""
     if found and found.get("band"):
         return Band(**found["band"])
-    return Measured(found["value"], found["error"]) if found else Measured()
+    return Number(found["value"], found["error"], found.get("theory")) if found else Number()
 
 
 def milliseconds(time: float) -> str:

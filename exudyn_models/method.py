@@ -59,6 +59,14 @@ class ExudynModel(Part):
         "solver": SOLVERS,
     }
 
+    DEFAULT_KINDS: ClassVar[dict[str, str]] = {
+        "element": "ancf_cable",
+        "integrator": "generalized_alpha",
+        "contact": "penalty",
+        "geometry": "linear",
+        "solver": "newton",
+    }
+
     mesh: Mesh | None = None
     element: Element | None = None
     integrator: Integrator | None = None
@@ -90,10 +98,12 @@ class ExudynModel(Part):
         elif for_loads:
             contact = held_for(contact, impact)
         contact = contact or Penalty()
-        integrator = self.integrator or contact.integrator
+        given = self.integrator or contact.integrator
+        integrator = given.with_steps()
+        open_steps = integrator != given
         mesh = self.mesh or chosen_mesh(impact, end_time, explicit=integrator.explicit)
         mesh, integrator = mesh.refined(self.refine), integrator.refined(self.refine * shorter)
-        if self.integrator is None:
+        if open_steps:
             integrator = chosen_steps(integrator, mesh, impact, end_time)
         return Chosen(
             mesh=mesh,

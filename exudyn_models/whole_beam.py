@@ -53,11 +53,10 @@ def for_whole_beam(method: M, impact: Impact) -> M:
     slower = SLOWER if chosen and FLATTEST <= impact.kappa_over_nu < 1.0 else 1.0
     mesh = method.mesh or UniformMesh(impact.half_length / round(elements * near_buckling(impact)))
     mesh = mesh.refined(method.refine)
-    if method.integrator is None:
+    integrator = Trapezoidal() if method.integrator is None else method.integrator.refined(method.refine)
+    if integrator.with_steps() != integrator:  # open
         step = slower * resolving_step(mesh, impact) if wall is None else step_of_wall(mesh, impact, wall)
-        integrator = Trapezoidal(time_step=step)
-    else:
-        integrator = method.integrator.refined(method.refine)
+        integrator = dataclasses.replace(integrator, time_step=step)
     contact = method.contact
     if contact is None and wall is None:
         contact = CONTACT if slower == 1.0 else _softer(CONTACT, slower**-2)
@@ -94,12 +93,16 @@ def cross_checks(method: M, impact: Impact) -> dict[str, M]:
 
 def _softer(contact: Penalty, factor: float) -> Penalty:
     """A penalty of ``factor`` times the stiffness with the same damping ratio; damping left open follows by itself."""
-    stiffness, damping = contact.relative_stiffness or penalty.STIFFNESS, contact.relative_damping
-    return dataclasses.replace(
-        contact,
-        relative_stiffness=stiffness * factor,
-        relative_damping=None if damping is None else damping * math.sqrt(factor),
-    )
+    if contact.stiffness is None and contact.relative_stiffness is None:
+        contact = dataclasses.replace(contact, relative_stiffness=penalty.STIFFNESS)
+    factors = {"stiffness": factor, "damping": math.sqrt(factor)}
+    softer = {
+        f"{prefix}{name}": value * by
+        for name, by in factors.items()
+        for prefix in ("", "relative_")
+        if (value := getattr(contact, prefix + name)) is not None
+    }
+    return dataclasses.replace(contact, **softer)
 
 
 def varied(method: M, impact: Impact, random: np.random.Generator) -> M:

@@ -20,8 +20,8 @@ from numpy.typing import NDArray
 
 from hermite_fe.compiled import compiled
 
-__all__ = ["FADED", "PAD", "combine", "copy", "dot", "factor", "multiply", "product", "row_sums", "stiff_multiply",
-           "stiff_product", "substitute_back", "substitute_forward"]  # fmt: skip
+__all__ = ["FADED", "PAD", "combine", "copy", "dot", "factor", "multiply", "product", "row_sums", "stiff_form",
+           "stiff_multiply", "stiff_product", "substitute_back", "substitute_forward"]  # fmt: skip
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
@@ -100,6 +100,13 @@ def stiff_product(A: Array, x: Array) -> Array:
     y = np.empty(x.size)
     stiff_multiply(A, row_sums(A), x, y)
     return y
+
+
+def stiff_form(A: Array, sums: Array, x: Array) -> float:
+    """xᵀA x by differences; ``sums`` of :func:`row_sums`."""
+    y = np.empty(x.size)
+    stiff_multiply(A, sums, x, y)
+    return float(x @ y)
 
 
 @compiled

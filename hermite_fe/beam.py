@@ -1,4 +1,4 @@
-"""Hermite Euler–Bernoulli elements, their bands and statics.
+"""Hermite beam elements, Euler and Bernoulli's or Timoshenko's, their bands and statics.
 
 On an element of length l, with ξ = x/l ∈ [0, 1] and dofs (w₁, θ₁, w₂, θ₂), θ = dw/dx:
 
@@ -6,13 +6,20 @@ On an element of length l, with ξ = x/l ∈ [0, 1] and dofs (w₁, θ₁, w₂,
     Kₑ = EI ∫ N″ᵀN″ dx,   Mₑ = μ ∫ NᵀN dx,   V = ½ (q − q₀)ᵀ K (q − q₀)               (3.1.3–8)
     Gₑ = ∫ N′ᵀN′ dx,      ½ N qᵀ G q: the work of an axial force N on the shortening of the axis (geometric stiffness)
 
+With a shear stiffness S (κ_sGA) θ is the angle of the section. The deflection is the cubic through the slopes θ₁ + γ
+and θ₂ + γ with one shear angle γ = w′ − θ (Friedman & Kosmatka 1993, Comput. Struct. 47, 473),
+
+    γ = σ[(w₂ − w₁)/l − ½(θ₁ + θ₂)],   σ = Φ/(1 + Φ),   Φ = 12EI/(S l²),      M = EI θ′,
+
+exact in statics under forces at nodes; the sections' rotary inertia J adds J ∫ θᵀθ dx. Φ = 0 is the element above.
+
 w is positive into the wall; node i has dofs 2i (w) and 2i + 1 (θ). Matrices are symmetric and kept in scipy's
 lower banded form, shape (4, 2·nodes): ``scipy.linalg.cholesky_banded(…, lower=True)`` takes them as they are.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -43,30 +50,43 @@ def shape_functions(xi: Array, length: float, derivative: int = 0) -> Array:
 
 
 BENDING = [[12, 6, -12, 6], [6, 4, -6, 2], [-12, -6, 12, -6], [6, 2, -6, 4]]
+TURNING = [[0, 0, 0, 0], [0, 1, 0, -1], [0, 0, 0, 0], [0, -1, 0, 1]]
 SHORTENING = [[36, 3, -36, 3], [3, 4, -3, -1], [-36, -3, 36, -3], [3, -1, -3, 4]]
+ROTARY = (  # powers of Φ
+    SHORTENING,
+    [[0, -15, 0, -15], [-15, 5, 15, -5], [0, 15, 0, 15], [-15, -5, 15, 5]],
+    [[0, 0, 0, 0], [0, 10, 0, 5], [0, 0, 0, 0], [0, 5, 0, 10]],
+)
 INERTIA = [[156, 22, 54, -13], [22, 4, 13, -3], [54, 13, 156, -22], [-13, -3, -22, 4]]
 
 
-def _elements(table: list[list[int]], lengths: Array, factor: Array) -> Array:
-    """``table`` times ``factor``, (elements,), with a length for each θ of a row and of a column."""
+def _elements(tables: Sequence[list[list[int]]], lengths: Array, factor: Array, phi: Array | float = 0.0) -> Array:
+    """``tables``, of the powers of Φ, times ``factor``, both (elements,), with a length for each θ of a row and of a
+    column."""
     one = np.ones_like(lengths)
-    by_dof = np.stack([one, lengths, one, lengths], axis=1)
+    by_dof, phi = np.stack([one, lengths, one, lengths], axis=1), np.asarray(phi * one)[:, None, None]
+    table = sum(np.array(table) * phi**power for power, table in enumerate(tables))
     return np.asarray(table * (by_dof[:, :, None] * by_dof[:, None, :]) * factor[:, None, None])
 
 
-def element_stiffness(lengths: Array, bending_stiffness: float) -> Array:
+def element_stiffness(lengths: Array, bending_stiffness: float, phi: Array | float = 0.0) -> Array:
     """Kₑ of each element (3.1.5), shape (elements, 4, 4)."""
-    return _elements(BENDING, lengths, bending_stiffness / lengths**3)
+    return _elements((BENDING, TURNING), lengths, bending_stiffness / lengths**3 / (1.0 + phi), phi)
+
+
+def element_rotary_inertia(lengths: Array, rotary_inertia: float, phi: Array | float = 0.0) -> Array:
+    """J ∫ θᵀθ dx of each element, shape (elements, 4, 4); J in kg m."""
+    return _elements(ROTARY, lengths, rotary_inertia / (30.0 * lengths) / (1.0 + phi) ** 2, phi)
 
 
 def element_geometric_stiffness(lengths: Array) -> Array:
     """Gₑ = ∫ N′ᵀN′ dx of each element, shape (elements, 4, 4): stiffness under a unit axial force."""
-    return _elements(SHORTENING, lengths, 1.0 / (30.0 * lengths))
+    return _elements((SHORTENING,), lengths, 1.0 / (30.0 * lengths))
 
 
 def element_mass(lengths: Array, mass_per_length: float) -> Array:
     """Mₑ of each element (3.1.8), shape (elements, 4, 4)."""
-    return _elements(INERTIA, lengths, mass_per_length * lengths / 420.0)
+    return _elements((INERTIA,), lengths, mass_per_length * lengths / 420.0)
 
 
 @dataclass(frozen=True)
@@ -74,7 +94,8 @@ class HermiteBeam:
     """A straight-axis beam of Hermite elements between given nodes.
 
     nodes : places x, m, strictly increasing, shape (nodes,); at least two elements.
-    bending_stiffness : EI, N m². mass_per_length : μ, kg/m.
+    bending_stiffness : EI, N m². mass_per_length : μ, kg/m. shear_stiffness : κ_sGA, N; None: without shear.
+    rotary_inertia : J, kg m, with shear.
 
     Raises ``ValueError`` naming the field for non-increasing nodes, one element, or a property that is not
     positive.
@@ -83,6 +104,8 @@ class HermiteBeam:
     nodes: Array
     bending_stiffness: float
     mass_per_length: float
+    shear_stiffness: float | None = None
+    rotary_inertia: float = 0.0
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "nodes", checked_nodes(self.nodes))
@@ -98,6 +121,23 @@ class HermiteBeam:
     def dofs(self) -> int:
         return 2 * self.nodes.size
 
+    @property
+    def phi(self) -> Array:
+        """Φ of each element, shape (elements,)."""
+        if self.shear_stiffness is None:
+            return np.zeros(self.nodes.size - 1)
+        return 12.0 * self.bending_stiffness / (self.shear_stiffness * self.lengths**2)
+
+    def of_slopes(self, element: Array) -> Array:
+        """Element matrices, (elements, 4, 4), of the dofs from those of cubics through deflections and slopes."""
+        if self.shear_stiffness is None:
+            return element
+        half, across = np.full(self.lengths.size, -0.5), 1.0 / self.lengths
+        angle = (self.phi / (1.0 + self.phi))[:, None] * np.stack([-across, half, across, half], axis=1)  # γ
+        slopes = np.tile(np.eye(4), (self.lengths.size, 1, 1))
+        slopes[:, 1::2] += angle[:, None, :]
+        return np.asarray(slopes.transpose(0, 2, 1) @ element @ slopes)
+
     def assembled(self, element: Array) -> Array:
         """Element matrices (elements, 4, 4) in lower banded form, shape (4, dofs)."""
         bands, end = np.zeros((4, self.dofs)), 2 * len(element)
@@ -108,19 +148,25 @@ class HermiteBeam:
 
     def stiffness(self, weight: Array | None = None) -> Array:
         """K in lower banded form, shape (4, dofs); ``weight`` (elements,) multiplies each element."""
-        element = element_stiffness(self.lengths, self.bending_stiffness)
+        element = element_stiffness(self.lengths, self.bending_stiffness, self.phi)
         return self.assembled(element if weight is None else element * np.asarray(weight)[:, None, None])
 
     def geometric_stiffness(self) -> Array:
         """∫ N′ᵀN′ dx in lower banded form, shape (4, dofs); times an axial force N, tension positive, it stiffens."""
-        return self.assembled(element_geometric_stiffness(self.lengths))
+        return self.assembled(self.of_slopes(element_geometric_stiffness(self.lengths)))
+
+    def element_masses(self) -> Array:
+        """Consistent Mₑ, shape (elements, 4, 4)."""
+        translation = self.of_slopes(element_mass(self.lengths, self.mass_per_length))
+        return translation + element_rotary_inertia(self.lengths, self.rotary_inertia, self.phi)
 
     def mass(self) -> Array:
         """M in lower banded form, shape (4, dofs)."""
-        return self.assembled(element_mass(self.lengths, self.mass_per_length))
+        return self.assembled(self.element_masses())
 
     def interpolate(self, value: Array, slope: Array) -> Array:
-        """Nodal dofs (value, slope interleaved), shape (dofs,), from fields at the nodes."""
+        """Nodal dofs (value, slope interleaved), shape (dofs,), from fields at the nodes; with shear the sections'
+        angle in place of the slope."""
         q = np.empty(self.dofs)
         q[0::2] = value
         q[1::2] = slope

@@ -13,9 +13,9 @@ G is a discrete gradient (Gonzalez 1996, J. Nonlinear Sci. 6, 449): G Δp is the
 and (R̄ − G)Δp ≥ 0 is what the dashpot takes, all of the spring's own energy where the beam leaves faster than the wall
 can follow. R̄ is continuous in p⁺: a point that lands within a step does not jump.
 
-Forces are f = ∫Nᵀ R̄ dx with the cubic p of Hermite elements, split where p or p⁺ changes sign, so that partly covered
-elements are integrated as exactly as covered ones: four Gauss points on each piece are exact for W and for G Δp. A stop
-is one such spring at a node.
+Forces are f = ∫Nᵀ R̄ dx with the cubic p of the elements (:mod:`hermite_fe.beam`), split where p or p⁺ changes sign, so
+that partly covered elements are integrated as exactly as covered ones: four Gauss points on each piece are exact for W
+and for G Δp. A stop is one such spring at a node.
 """
 
 from __future__ import annotations
@@ -45,34 +45,37 @@ HALVINGS = 60  # of an interval that holds a zero
 class Springs(NamedTuple):
     """stiffness, damping : k, N/m², and c, N s/m²; of a stop N/m and N s/m. facing : (dofs,), p = q + facing, m.
 
-    lengths : (elements,), m; elements ``first`` to ``last`` − 1 stand before the wall. stop : the dof of a stop, or −1.
+    lengths, shares : (elements,), m, and σ of shear.
+    Elements ``first`` to ``last`` − 1 stand before the wall. stop : the dof of a stop, or −1.
     """
 
     stiffness: float
     damping: float
     facing: Array
     lengths: Array
+    shares: Array
     first: int
     last: int
     stop: int
 
 
-NO_SPRINGS = Springs(0.0, 0.0, np.zeros(0), np.zeros(0), 0, 0, -1)
+NO_SPRINGS = Springs(0.0, 0.0, np.zeros(0), np.zeros(0), np.zeros(0), 0, 0, -1)
 """A rigid wall."""
 
 
 @compiled
-def shapes(at: float, length: float) -> tuple[float, float, float, float]:
-    """N₁ … N₄ at ξ = ``at`` (:mod:`hermite_fe.beam`)."""
+def shapes(at: float, length: float, share: float) -> tuple[float, float, float, float]:
+    """N₁ … N₄ at ξ = ``at`` of an element with the share σ of shear (:mod:`hermite_fe.beam`)."""
     square, cube = at * at, at * at * at
-    return (1.0 - 3.0 * square + 2.0 * cube, length * (at - 2.0 * square + cube), 3.0 * square - 2.0 * cube,
-            length * (cube - square))  # fmt: skip
+    sheared = share * (at - 3.0 * square + 2.0 * cube)
+    return (1.0 - 3.0 * square + 2.0 * cube - sheared, length * (at - 2.0 * square + cube - 0.5 * sheared),
+            3.0 * square - 2.0 * cube + sheared, length * (cube - square - 0.5 * sheared))  # fmt: skip
 
 
 @compiled
 def depth(springs: Springs, q: Array, e: int, at: float) -> float:
     """p at ξ = ``at`` of element e."""
-    n1, n2, n3, n4 = shapes(at, springs.lengths[e])
+    n1, n2, n3, n4 = shapes(at, springs.lengths[e], springs.shares[e])
     i, face = 2 * e, springs.facing
     return (n1 * (q[i] + face[i]) + n2 * (q[i + 1] + face[i + 1])
             + n3 * (q[i + 2] + face[i + 2]) + n4 * (q[i + 3] + face[i + 3]))  # fmt: skip
@@ -109,8 +112,9 @@ def add_zeros(springs: Springs, q: Array, e: int, places: Array, count: int) -> 
     Between its turning points a cubic is monotone; a change of sign there is found by halving.
     """
     i, face, third = 2 * e, springs.facing, springs.lengths[e] / 3.0
-    a, d = q[i] + face[i], q[i + 2] + face[i + 2]
-    b, c = a + third * (q[i + 1] + face[i + 1]), d - third * (q[i + 3] + face[i + 3])
+    a, d, left, right = q[i] + face[i], q[i + 2] + face[i + 2], q[i + 1] + face[i + 1], q[i + 3] + face[i + 3]
+    angle = springs.shares[e] * ((d - a) / springs.lengths[e] - 0.5 * (left + right))
+    b, c = a + third * (left + angle), d - third * (right + angle)
     if max(a, b, c, d) <= 0.0 or min(a, b, c, d) >= 0.0:
         return count
     first, bend, curve = b - a, c - 2.0 * b + a, d - 3.0 * c + 3.0 * b - a  # p′/3 = first + 2 bend ξ + curve ξ²
@@ -174,7 +178,7 @@ def push(
                 touched = i + 3
                 peaks[PENETRATION] = max(peaks[PENETRATION], after)
                 peaks[PRESSURE] = max(peaks[PRESSURE], pressure)
-                N = shapes(at, length)
+                N = shapes(at, length, springs.shares[e])
                 for j in range(4):
                     force[i + j] += weight * pressure * N[j]
                     for m in range(j + 1):

@@ -28,7 +28,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bent_beam.fields import Part, Quantity
-from hermite_fe.beam import HermiteBeam, element_mass
+from hermite_fe.beam import HermiteBeam
 
 __all__ = ["MASSES", "ConsistentMass", "LumpedMass", "Mass"]
 
@@ -42,33 +42,35 @@ class Mass(Part, ABC):
     where: ClassVar[str] = "mass"
 
     @abstractmethod
-    def element(self, lengths: Array, mass_per_length: float) -> Array:
-        """Mₑ of each element, dofs (w₁, θ₁, w₂, θ₂), shape (elements, 4, 4); lengths in m, μ in kg/m."""
+    def element(self, beam: HermiteBeam) -> Array:
+        """Mₑ of each element, dofs (w₁, θ₁, w₂, θ₂), shape (elements, 4, 4), kg, kg m and kg m²."""
 
     def matrix(self, beam: HermiteBeam) -> Array:
         """M in lower banded form, shape (4, dofs)."""
-        return beam.assembled(self.element(beam.lengths, beam.mass_per_length))
+        return beam.assembled(self.element(beam))
 
 
 @dataclass(frozen=True)
 class ConsistentMass(Mass):
     """Kinetic energy of the interpolated velocity, exactly; a full 4 × 4 matrix an element."""
 
-    def element(self, lengths: Array, mass_per_length: float) -> Array:
-        return element_mass(lengths, mass_per_length)
+    def element(self, beam: HermiteBeam) -> Array:
+        return beam.element_masses()
 
 
 @dataclass(frozen=True)
 class LumpedMass(Mass):
-    """Half of an element's mass at each node, with a rotary inertia."""
+    """Half of an element's mass at each node, with a rotary inertia, to which that of the sections is added."""
 
     rotary: Annotated[
         float, Quantity("", "r: rotary inertia of an element at each of its nodes over μl³", above=0.0)
     ] = 1.0 / 78.0
 
-    def element(self, lengths: Array, mass_per_length: float) -> Array:
-        share = np.stack([np.full(lengths.size, 0.5), self.rotary * lengths**2], axis=1)
-        diagonal = mass_per_length * lengths[:, None] * np.tile(share, 2)
+    def element(self, beam: HermiteBeam) -> Array:
+        lengths, mass = beam.lengths, beam.mass_per_length * beam.lengths
+        share = np.stack([0.5 * mass, mass * (self.rotary * lengths**2)], axis=1)
+        share[:, 1] += 0.5 * beam.rotary_inertia * lengths
+        diagonal = np.tile(share, 2)
         return np.asarray(diagonal[:, :, None] * np.eye(4))
 
 

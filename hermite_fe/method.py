@@ -57,7 +57,7 @@ class HermiteFE(Composition):
 
     def refuses(self, impact: Impact) -> str | None:
         """Why this method cannot take ``impact``, naming the field (``None``: it can)."""
-        return refusal(impact)
+        return refusal(impact, self.contact)
 
     def simulate(
         self,
@@ -102,18 +102,19 @@ class HermiteFE(Composition):
 
     def for_whole_beam(self, impact: Impact) -> Self:
         """A copy whose open parts are those of a whole beam; its ``refine`` is worked in."""
-        wall, element = wall_scales(impact), impact.half_length / ELEMENTS
+        wall, element = wall_scales(impact), impact.half_length / resolution.whole_beam_elements(impact)
         if wall is not None:
             element = min(element, resolution.elastic_element(wall, impact.half_length))
         mesh = (self.mesh or UniformMesh(element)).refined(self.refine)
         shortest = float(np.diff(mesh.nodes(impact.half_length)).min())
         contact = self.contact or NodeContact()
-        chosen = resolution.scheme_for(impact, contact, theta=0.5)
-        integrator = (self.integrator or chosen).with_defaults(impact)  # before it is refined: what is open cannot be
+        chosen = self.integrator or resolution.whole_beam_scheme(impact, contact)
+        integrator = chosen.with_defaults(impact)  # before it is refined: what is open cannot be
         if integrator.time_step is None and wall is not None:
             integrator = integrator.with_steps(resolution.ELASTIC_STEP * wall.time, 0.0).refined(self.refine)
         elif integrator.time_step is None:
-            integrator = integrator.refined(self.refine**2).with_steps(0.5 * shortest**2 / impact.wave_constant, 0.0)
+            step = resolution.whole_beam_step(impact, shortest)
+            integrator = integrator.refined(self.refine**2).with_steps(step, 0.0)
         else:
             integrator = integrator.with_steps(integrator.time_step, 0.0).refined(self.refine)
         return dataclasses.replace(
@@ -130,19 +131,20 @@ class HermiteFE(Composition):
     def cross_checks(self, impact: Impact) -> dict[str, Self]:
         """What stands beside it for error bars, by cause: half as many elements (and steps in proportion to their
         square), steps twice as long, and the impact law of another scheme, with these steps too (half of the work; the
-        bar then counts the step twice)."""
+        bar then counts the step twice). With shear half as many elements and steps, and the other law on the same."""
         chosen = self.for_whole_beam(impact)
         mesh, integrator = chosen.mesh, chosen.integrator
         assert mesh is not None and integrator is not None
-        checks = {
-            "mesh": dataclasses.replace(chosen, mesh=mesh.refined(0.5), integrator=integrator.refined(0.25)),
-            "step": dataclasses.replace(chosen, integrator=integrator.refined(0.5)),
-        }
+        sheared = impact.shear_stiffness is not None
+        longer = integrator.refined(0.5 if sheared else 0.25)
+        checks = {"mesh": dataclasses.replace(chosen, mesh=mesh.refined(0.5), integrator=longer)}
+        if not sheared:
+            checks["step"] = dataclasses.replace(chosen, integrator=integrator.refined(0.5))
         if not integrator.elastic:
             assert chosen.contact is not None
             sticks = isinstance(integrator, MoreauJean) and chosen.contact.restitution == 0.0
             law = SignoriniPosition if sticks else MoreauJean
-            other = law(theta=0.5, time_step=integrator.time_step, growth=0.0).refined(0.5)
+            other = law(theta=0.5, time_step=integrator.time_step, growth=0.0).refined(1.0 if sheared else 0.5)
             checks["contact_law"] = dataclasses.replace(chosen, integrator=other)
         return checks
 

@@ -10,9 +10,11 @@ starts the run (u = q₀x⁴/24, u̇ = V₀ + c₀x²/2) and fixes the load. Wit
 
     μü + EI(u_xxxx + ηu̇_xxxx) − Nu_xx = p − NK − r,      p − NK = μa₀ + EI q₀
 
-so neither K nor K_w is left but in the gap. Where an end is held the start is V₀φ, φ the lowest mode of these ends
-(:func:`bent_beam.loads.lowest_mode`). A beam that rocks starts with V₀ + ωx in place of V₀; where the bow's apex
-is off the middle, x counts from it in y₀ and from the middle in ωx; both need the full beam.
+so neither K nor K_w is left but in the gap. With shear a node turns by its section's angle, which follows the slope of
+the bow and of V₀ + c₀x²/2; under q₀ it runs ahead, φ = u_x + l_s²u_xxx (:mod:`bent_beam.scales`). Where an end is held
+the start is V₀φ, φ the lowest mode of these ends (:func:`bent_beam.loads.lowest_mode`; with shear, too). A beam that
+rocks starts with V₀ + ωx in place of V₀; where the bow's apex is off the middle, x counts from it in y₀ and from the
+middle in ωx; both need the full beam.
 
 **The ends** carry N as a dead load. Along the axis, EI(u_xxx + ηu̇_xxx) − Ny_x = 0: against u that is a transverse
 force NKL/2 at either end, which starts a wave at once. Along the tangent of the bow at the first touch,
@@ -52,7 +54,8 @@ CONSISTENT = ConsistentMass()
 NEAR = 1e-9  # of the length: a node so near an edge of the wall lies on it
 HELD = {"free": 0, "hinged": 1, "clamped": 2}  # dofs of the end node
 MODELLED = ("acceleration", "curvature_rate", "fourth_derivative", "axial_force", "rotation", "hysteretic_loss",
-         "wall_stiffness", "wall_damping", "wall_from", "wall_to", "left_end", "right_end")  # fmt: skip
+            "shear_stiffness", "wall_stiffness", "wall_damping", "wall_from", "wall_to", "left_end",
+            "right_end")  # fmt: skip
 """The loads and other features that are modelled here."""
 
 
@@ -86,6 +89,19 @@ class BeamModel:
         bands = self.beam.geometric_stiffness()
         return np.array([-0.5 * self.axial_force * float(u @ product(bands, u)) for u in q])
 
+    def bending_moments(self, q: Array) -> Array:
+        """At the nodes, N m, (states, nodes), of each of ``q``, (states, dofs): the mean of both elements there, which
+        the load within them does not change."""
+        bending = self.system.bending
+        rise = np.diff(q[:, 0::2]) / bending.lengths
+        first, second = q[:, 1:-2:2] - rise, q[:, 3::2] - rise
+        near, far = 4.0 + bending.phi, 2.0 - bending.phi
+        stiffness = bending.stiffness / bending.lengths / (1.0 + bending.phi)
+        left, right = -stiffness * (near * first + far * second), stiffness * (far * first + near * second)
+        sums = np.pad(left, ((0, 0), (0, 1))) + np.pad(right, ((0, 0), (1, 0)))
+        sums[:, 1:-1] *= 0.5
+        return np.asarray(bending.free + sums)
+
     def gap(self, q: Array) -> Array:
         """Distance of the nodes to the wall, m, shape (nodes,)."""
         return np.asarray(-(q[0::2] + self.facing[0::2]))
@@ -104,13 +120,13 @@ def beam_model(
     s = x - impact.first_touch
     branches = branches_of(impact)
     relaxed = impact.bending_stiffness * (1.0 if branches is None else branches.relaxed)
-    beam = HermiteBeam(x, relaxed, impact.mass_per_length)
+    beam = HermiteBeam(x, relaxed, impact.mass_per_length, impact.shear_stiffness, impact.rotary_inertia)
     natural, facing = (
         beam.interpolate(-0.5 * curvature * s**2, -curvature * s)
         for curvature in (impact.curvature, impact.relative_curvature)
     )
     motion = impact.free_motion(0.0)
-    displacement = beam.interpolate(motion(s), motion(s, by_x=1))
+    displacement = beam.interpolate(motion(s), motion(s, by_x=1) + impact.shear_length**2 * motion(s, by_x=3))
     velocity = beam.interpolate(motion(s, by_t=1), motion(s, by_x=1, by_t=1))
     if impact.supported:
         mode, slope = lowest_mode(impact.left_end, impact.right_end, impact.half_length, x)
@@ -122,7 +138,7 @@ def beam_model(
         dampings += (("material", impact.damping * bending_stiffness),)
     unbent = impact.curvature if impact.natural_curvature is None else impact.natural_curvature
     moment = impact.bending_stiffness * (unbent - impact.curvature)  # of the bow: none unless a part of it is elastic
-    bending = Bending(beam.lengths, relaxed, moment, half.size - 1 if full else 0)
+    bending = Bending(beam.lengths, beam.phi, relaxed, moment, half.size - 1 if full else 0)
     if branches is not None:  # slack at the start
         bending = bending._replace(shares=branches.shares, rates=1.0 / branches.times, matrix=bending_stiffness)
     supports = held_dofs(impact, beam, full=full)
@@ -156,7 +172,7 @@ def nodal_loads(
     load[0] = float(motion(0.0, by_t=2)) * uniform  # a force of its own, without a term of y₀, is added here
     if follows:
         bent = motion.bending()
-        shape = beam.interpolate(bent(s), bent(s, by_x=1))
+        shape = beam.interpolate(bent(s), bent(s, by_x=1) + impact.shear_length**2 * bent(s, by_x=3))
         rate = beam.interpolate(bent(s, by_t=1), bent(s, by_x=1, by_t=1))
         load[0] += stiff_product(stiffness, shape)
         load[0] += sum((stiff_product(bands, rate) for _, bands in dampings), np.zeros(beam.dofs))
@@ -205,6 +221,7 @@ def springs_of(impact: Impact, beam: HermiteBeam, facing: Array, *, full: bool) 
         damping=share * impact.wall_damping,
         facing=facing,
         lengths=beam.lengths,
+        shares=beam.phi / (1.0 + beam.phi),
         first=first,
         last=last,
         stop=2 * first if begin == end else -1,

@@ -29,6 +29,12 @@ front (a hold glues the zone when waves come back), and every part of the beam m
 Signorini's condition at the new position with θ = ½, which damps nothing but in impacts, comes nearest to converged
 values on a given mesh (docs/whole_impact.md); Moreau–Jean asks for the same at velocity level.
 
+A beam with shear has waves of a largest speed: steps may be longer, in proportion to elements. Signorini's condition at
+the new position with θ = ½ rebounds nodes by chance where the front of a zone outruns shear waves, and under loads;
+Moreau–Jean does not. Of one point the position is nearer to converged values (docs/shear.md):
+
+    h = T* Δx/(80 · ½L),   Moreau–Jean, of one point that no load presses Signorini's law; all else as above.
+
 The constants below are studied in tests/hermite_fe/test_constants.py: halved and doubled they move λ₀ and r₀ by less
 than the error bar that goes with them.
 """
@@ -73,6 +79,11 @@ LOADED = (1.3e-3, 33.0, 0.005)  # SMALLEST_ELEMENT, ELEMENTS_IN_FRONT, GROWTH of
 PRESSED_HOLD = 16  # constraints, of runs that measure what a load changes and presses the zone on
 DOMAIN = 24.0  # √(t/t*) l*: least half length for such a run; 12 and 48 are as good, at 6 waves come back
 ELEMENTS = 200  # of a half beam that is followed until it has left
+SHEARED_ELEMENTS, SHEARED_STEP = 100, 0.0125  # likewise with shear; step, T*, over the element's share of the half beam
+HARD = 2.0  # times as many, and steps: where a front is thin or damping small
+THICK, DAMPED = 0.35, 3e-4  # κ/ν and η/T* from which on neither is
+ONE_POINT = 2.0  # κ/ν from which on a whole impact with shear is that of one point
+PRESSED = 0.5  # of the beam's momentum, that loads give it in a T*: from then on they press
 ELASTIC_ELEMENT, LARGEST_ELASTIC = 0.08, 0.25  # of ℓ_k: elements over the zone, and of a whole beam
 ELASTIC_REACH = 4.0  # ℓ_k beyond the front
 ELASTIC_STEP = 0.01  # of t_k
@@ -159,6 +170,31 @@ def scheme_for(impact: Impact, contact: Contact, theta: float = 1.0) -> Integrat
     if impact.wall_stiffness is not None:
         return Midpoint()
     return SignoriniPosition(theta=theta) if contact.restitution == 0.0 else MoreauJean(theta=theta)
+
+
+def whole_beam_scheme(impact: Impact, contact: Contact) -> Integrator:
+    """The integrator that is chosen for a whole beam."""
+    begin, end = impact.wall_span
+    pressed = impact.net_load * impact.slow_time_scale > PRESSED * impact.mass_per_length * impact.velocity
+    point = (impact.kappa_over_nu >= ONE_POINT or begin == end) and not pressed
+    if impact.shear_stiffness is not None and impact.wall_stiffness is None and not point:
+        return MoreauJean(theta=0.5)
+    return scheme_for(impact, contact, theta=0.5)
+
+
+def whole_beam_elements(impact: Impact) -> float:
+    """Number of elements of a half beam that is followed until it has left."""
+    if impact.shear_stiffness is None:
+        return ELEMENTS
+    easy = impact.kappa_over_nu >= THICK and impact.relative_damping >= DAMPED
+    return SHEARED_ELEMENTS if easy else HARD * SHEARED_ELEMENTS
+
+
+def whole_beam_step(impact: Impact, element: float) -> float:
+    """Step, s, on such elements of this length, m, before a rigid wall."""
+    if impact.shear_stiffness is None:
+        return 0.5 * element**2 / impact.wave_constant
+    return SHEARED_STEP * element / impact.half_length * impact.slow_time_scale
 
 
 def modelled_half_length(impact: Impact, domain: float | None) -> float:

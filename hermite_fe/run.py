@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from bent_beam.checks import MOST_INSTANTS, affordable
 from bent_beam.errors import InputError
 from hermite_fe.active_set import CYCLING, NOT_FINITE, SINGULAR, SOLVED
-from hermite_fe.banded import product, stiff_product
+from hermite_fe.banded import product, stiff_form
 from hermite_fe.compiled import recompiling
 from hermite_fe.constraints import WORST, ContactLaw
 from hermite_fe.elastic_wall import PEAKS, stored_energy
@@ -119,7 +119,7 @@ class Stepper:
         matrices, state = self.problem.matrices, self.state
         found = {
             "kinetic_energy": 0.5 * float(state.v @ product(matrices.M, state.v)),
-            "strain_energy": 0.5 * float(state.q @ stiff_product(matrices.K, state.q)),
+            "strain_energy": 0.5 * stiff_form(matrices.K, matrices.K_sums, state.q),
         }
         if state.branches.size:
             found["branch_energy"] = branch_energy(state.bending, state.branches)

@@ -13,10 +13,10 @@ from bent_beam.fields import describe
 from bent_beam.history import ImpactHistory
 from bent_beam.hysteresis import branches_of
 from bent_beam.impact import FIRST_SPREAD, Impact
-from bent_beam.loads import unmodelled
+from bent_beam.loads import UNSHEARED, unmodelled
 from hermite_fe import resolution
 from hermite_fe.compiled import recompiling
-from hermite_fe.contacts import Contact
+from hermite_fe.contacts import Contact, NodeContact
 from hermite_fe.elastic_wall import PEAKS
 from hermite_fe.model import MODELLED, BeamModel, beam_model
 from hermite_fe.run import Stepper, Trajectory, integrate
@@ -29,8 +29,8 @@ SHARED = {*ENERGIES, "kinetic_energy", "strain_energy", "branch_energy", "contac
 """Sums that are the model's share of the whole beam's."""
 
 
-def refusal(impact: Impact) -> str | None:
-    """The reason why ``impact`` cannot be simulated, naming the field (``None``: it can)."""
+def refusal(impact: Impact, contact: Contact | None = None) -> str | None:
+    """The reason why ``impact`` cannot be simulated with ``contact``, naming the field (``None``: it can)."""
     speed = impact.velocity + impact.rotation * impact.first_touch
     if speed <= 0.0:
         return (
@@ -40,6 +40,11 @@ def refusal(impact: Impact) -> str | None:
     if impact.opposite_wall is not None and (impact.wall_stiffness is not None or impact.wall_in_part):
         name = "wall_stiffness" if impact.wall_stiffness is not None else "wall_from"
         return f"opposite_wall is not modelled together with {name} (got {impact.opposite_wall!r})"
+    if impact.shear_stiffness is not None:
+        if impact.hysteretic_loss:
+            return f"hysteretic_loss is not modelled with shear (got {impact.hysteretic_loss!r}){UNSHEARED}"
+        if contact is not None and not isinstance(contact, NodeContact):
+            return f'contact.kind must be "node" with shear (got {type(contact).__name__}){UNSHEARED}'
     return unmodelled(impact, MODELLED)
 
 
@@ -70,10 +75,10 @@ def simulate(
     Raises ``ValueError`` for bad input, ``TypeError`` for a part of an unknown name,
     :class:`bent_beam.SimulationError` (with the partial history) when a run cannot finish.
     """
-    reason = refusal(impact)
+    composition = resolution.Composition(**parts)
+    reason = refusal(impact, composition.contact)
     if reason is not None:
         raise InputError(reason)
-    composition = resolution.Composition(**parts)
     full_beam = composition.full_beam or impact.off_centre
     end = impact.checked_end_time(end_time)
     choice = resolution.choose(impact, end, composition)
@@ -157,6 +162,15 @@ def check_start(model: BeamModel) -> None:
         )
 
 
+def turnings_of(impact: Impact, model: BeamModel, run: Trajectory) -> dict[str, tuple[Sequence[str], NDArray[Any]]]:
+    """The second dof of the nodes: the slope, with shear the section's angle, its rate and the bending moment."""
+    turned, where = run.q[:, 1::2] + model.natural[1::2], ("time", "x")
+    if impact.shear_stiffness is None:
+        return {"slope": (where, turned)}
+    moment = model.bending_moments(run.q)
+    return {"angle": (where, turned), "angular_velocity": (where, run.v[:, 1::2]), "bending_moment": (where, moment)}
+
+
 def history_of(impact: Impact, model: BeamModel, run: Trajectory, settings: dict[str, Any]) -> ImpactHistory:
     """The record of a run: fields of the model, sums of the whole beam; of two walls the impulses apart, their sum with
     its sign."""
@@ -175,7 +189,7 @@ def history_of(impact: Impact, model: BeamModel, run: Trajectory, settings: dict
     fields: dict[str, tuple[Sequence[str], NDArray[Any]]] = {
         "gap": (("time", "x"), -(run.q[:, 0::2] + model.facing[0::2])),
         "velocity": (("time", "x"), run.v[:, 0::2]),
-        "slope": (("time", "x"), run.q[:, 1::2] + model.natural[1::2]),
+        **turnings_of(impact, model, run),
         "impulse": (("time", "contact"), run.impulse[:, front]),
         "in_contact": (("time", "contact"), run.closed[:, front]),
         "total_impulse": (("time",), copies * run.impulse @ towards),

@@ -144,8 +144,10 @@ def note_moments(bending: Bending, q: Array, stretch: Array, largest: Array) -> 
         first, second = strains_of(bending, q, e)
         first += stretch[2 * e]
         second += stretch[2 * e + 1]
-        left = abs(bending.free - bending.stiffness / bending.lengths[e] * (4.0 * first + 2.0 * second))
-        right = abs(bending.free + bending.stiffness / bending.lengths[e] * (2.0 * first + 4.0 * second))
+        phi = bending.phi[e]
+        stiffness, near, far = bending.stiffness / bending.lengths[e] / (1.0 + phi), 4.0 + phi, 2.0 - phi
+        left = abs(bending.free - stiffness * (near * first + far * second))
+        right = abs(bending.free + stiffness * (far * first + near * second))
         if max(left, right) > largest[0]:
             largest[0], largest[1] = max(left, right), e if left > right else e + 1
         if e == bending.middle and left > largest[2]:

@@ -98,13 +98,14 @@ def _bands(name: str, value: Array, dofs: int) -> Array:
 class Bending(NamedTuple):
     """What bending moments need, M = EI w_xx + ``free``, and Maxwell branches (:mod:`hermite_fe.maxwell`).
 
-    lengths : (elements,), m, none of a system that is no beam; stiffness : EI, N m², relaxed where there are branches;
-    free : moment at q = 0, N m; middle : number of the node in the middle.
+    lengths : (elements,), m, none of a system that is no beam; phi : Φ of each, :mod:`hermite_fe.beam`;
+    stiffness : EI, N m², relaxed where there are branches; free : moment at q = 0, N m; middle : node in the middle.
     shares, rates : (branches,), g and 1/τ, 1/s; means, weights : (branches,), ϑ and 1/(1 + ϑh/τ) of the step matrix;
         matrix : the bending part of K, (4, dofs), with branches only.
     """
 
     lengths: Array = _left_out()
+    phi: Array = _left_out()
     stiffness: float = 0.0
     free: float = 0.0
     middle: int = 0

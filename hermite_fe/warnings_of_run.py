@@ -21,7 +21,7 @@ Array = NDArray[np.float64]
 ELEMENTS_PER_FRONT = 2.0  # fewer in ℓ deserve a warning
 MOST_ROUNDS = 100  # of the active set in one step; sound runs take ten or so
 LARGEST_LIFT = 1e-2  # of V₀t; r₀ may be too large by as much (docs/numerics.md)
-DAMPED = 4.0  # elements in √(cη): a beam with damping lifts off its wall alike with any scheme (within a fifth)
+DAMPED = 4.0  # elements in √(cη): a beam with damping lifts off its wall alike with any scheme (within a fifth); in l_s
 
 
 def warnings_of_run(
@@ -109,7 +109,8 @@ def lift_warnings(impact: Impact, model: BeamModel, history: ImpactHistory) -> l
     """A warning where the zone leaves the wall though nothing lifts it: no load, no waves from the ends (0.005 T*).
 
     Material damping η does. It stops sections as they land until t ≈ η; the bow's middle then swings back. Elements
-    that resolve how far bending runs until then, √(cη), show the beam's own lift.
+    that resolve how far bending runs until then, √(cη), show the beam's own lift. So do those that resolve the shear
+    length: the sections' own turning lifts flat zones (docs/shear.md).
     """
     time = history.time
     end = time[-1]
@@ -126,7 +127,8 @@ def lift_warnings(impact: Impact, model: BeamModel, history: ImpactHistory) -> l
         lift = np.max(history.array("gap", k)[nodes < zone], initial=0.0)
         worst, widest = max(worst, float(lift) / (impact.velocity * time[k])), max(widest, zone)
     longest = float(np.diff(np.unique(nodes[nodes <= widest])).max(initial=0.0))
-    resolved = impact.damping > 0.0 and math.sqrt(impact.wave_constant * impact.damping) >= DAMPED * longest
+    own = max(math.sqrt(impact.wave_constant * impact.damping), impact.shear_length)
+    resolved = own > 0.0 and own >= DAMPED * longest
     if worst <= LARGEST_LIFT or resolved:
         return []
     return [

@@ -10,7 +10,8 @@ With c = √(EI/μ), ν = 1, τ = t/t*, and r̃₁ = ε(α′+ψ)⁺ μV₀/t* i
 K_n the curvature free of stress. Only the products εα, εψ, εχ, n are physical (the deflection scale y* of the slow
 motion is free): λ₁ and r₁ are linear in them, so ελ₁ and εr₁ are solved for and divided by ε last. The beam's own
 damping η changes force, impulse and moment of one point by the factors of `theory.damped_point`. A zone has no such
-factors once it spreads; from then on the numbers are those without damping, and not valid.
+factors once it spreads; from then on the numbers are those without damping, and not valid. A beam that shears has
+the leading order of `theory.shear`.
 """
 
 from __future__ import annotations
@@ -25,12 +26,13 @@ from bent_beam.loads import unmodelled
 from bent_beam.section import Section
 from theory import damped_point
 from theory.contact import DISCRETE, ContactParameters, contact_parameters
+from theory.shear import first_instants
 from theory.similarity import PeakMoment, peak_moment_of
 from theory.validity import validity
 from theory.wall_prediction import WallPrediction, on_elastic_wall
 
 MODELLED = ("acceleration", "curvature_rate", "fourth_derivative", "axial_force", "rotation", "hysteretic_loss",
-            "wall_stiffness", "wall_damping")  # fmt: skip
+            "wall_stiffness", "wall_damping", "shear_stiffness")  # fmt: skip
 """Features of an impact that the theory has, or refuses with reasons of its own."""
 
 _OF_IMPACT = (
@@ -129,7 +131,7 @@ def predict(impact: Impact, times: Iterable[float] | float = (), *, section: Sec
     Args:
         impact: the physical problem.
         times: times after the first contact, s, each ≥ 0.
-        section: for stress, shear and yield.
+        section: for stress and yield.
 
     Returns:
         Prediction: relative error 1e-11 of the theory's own formulas; how far these are from the beam is
@@ -161,7 +163,6 @@ def predict(impact: Impact, times: Iterable[float] | float = (), *, section: Sec
         impact,
         solved,
         rigid_from=0.0 if wall is None else wall.rigid_from,
-        shear_stiffness=None if section is None else section.shear_stiffness,
         yields=bool(yields),
     )
     rows = tuple(_at_time(impact, solved, bending, t, holds.spoiled_by(t)) for t in instants)
@@ -252,6 +253,15 @@ def _at_time(
     force = front * (of_force * solved.r0 + of_impulse * solved.r1 * tau)
     impulse = 2.0 * front * math.sqrt(t) * (of_impulse * solved.r0 + of_acceleration * solved.r1 * tau / 3.0)
     impulse += 4.0 * uniform * root * t**1.5 * (solved.lambda0 / 3.0 + solved.lambda1 * tau / 5.0)
+    if impact.shear_stiffness is not None and t > 0.0:  # its own leading order in place of Euler and Bernoulli's
+        unit = impact.velocity * math.sqrt(impact.shear_stiffness * impact.mass_per_length)
+        age = t / impact.shear_time
+        rim, push, given = first_instants(
+            impact.kappa_over_nu, solved, impact.shear_ratio, age, impact.damping / impact.shear_time
+        )
+        length += impact.shear_length * rim - root * math.sqrt(t) * solved.lambda0
+        force += unit * push * math.sqrt(t) - front * of_force * solved.r0
+        impulse += unit * impact.shear_time * given - 2.0 * front * math.sqrt(t) * of_impulse * solved.r0
     return PredictionAtTime(
         time=t,
         tau=tau,

@@ -23,7 +23,8 @@ r"""Until when the theory of the first instants holds for a real beam. Every lim
 - **hysteretic loss**: a modulus that grows with the frequency leaves no self-similar contact; never valid.
 - **opening**: one point spreads when the loads have taken the curvature κ − ν of its gap away.
 - **slope**: an arch is lower than its parabola by θ²/12. This is about the slope that the impact adds.
-- **shear**: Euler and Bernoulli's beam is that of Timoshenko after many times t_s = √(EIμ)/(κ_sGA), `shear_times`.
+- **shear**: a beam that shears has formulas of its own (`theory.shear`), after some times t_s = √(EIμ)/(κ_sGA); Euler
+  and Bernoulli's, which the predictor's page has, is it after many, `shear_times`.
 - **wall**: one that gives way counts as rigid after many times √(μ/k) (`theory.wall_prediction`).
 - **section**: the leading order's stress is beyond the yield stress from the first instant on.
 """
@@ -39,6 +40,7 @@ from bent_beam.impact import Impact
 from theory import damped_point
 from theory.contact import DISCRETE, ContactParameters, contact_parameters
 from theory.second_order import second_order
+from theory.shear import forgotten_after
 from theory.similarity import SelfSimilarWave, peak_moment_of
 
 #: What force, impulse and half length may lack. The half length is the place of the force. With shear, or on a wall
@@ -95,7 +97,6 @@ def validity(
     impact: Impact,
     solved: ContactParameters,
     *,
-    shear_stiffness: float | None = None,
     rigid_from: float = 0.0,
     yields: bool = False,
 ) -> Validity:
@@ -104,7 +105,6 @@ def validity(
     Args:
         impact: the physical problem.
         solved: its contact parameters with ε = 1 (α stands for εα and so on).
-        shear_stiffness: κ_sGA, N; None: shear is left out.
         rigid_from: time after which a wall that gives way counts as rigid, s (`theory.wall_prediction`).
         yields: whether the leading order's bending stress is beyond the material's yield stress.
     """
@@ -118,9 +118,8 @@ def validity(
     until, limited_by = min(limits)
     until *= impact.time_scale
     starts = [(rigid_from, WALL)]
-    if shear_stiffness is not None:
-        shear_time = math.sqrt(impact.bending_stiffness * impact.mass_per_length) / shear_stiffness
-        starts.append((shear_times(solved) * shear_time, SHEAR))
+    if impact.shear_stiffness is not None:
+        starts.append((forgotten_after(solved.kappa_over_nu) * impact.shear_time, SHEAR))
     begins, after = max(starts)
     if begins == 0.0:
         return Validity(0.0, until, limited_by)

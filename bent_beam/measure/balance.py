@@ -109,17 +109,20 @@ def _second_moment(history: ImpactHistory, missing: Array | None) -> float | Non
     lossy = history.energy("loss_viscous")[-1] != 0.0 or impact.hysteretic_loss
     if missing is None or not _is_whole(history) or lossy or impact.wall_in_part or impact.axial_force:
         return None
-    if (bent and _ends_follow(history)) or "slope" not in history:
+    turning = "slope" if impact.shear_stiffness is None else "angle"
+    if (bent and _ends_follow(history)) or turning not in history:
         return None
     x, both = history.positions(0), 2.0 / history.sides
-    turn = both * (history.array("slope")[:, -1] + impact.curvature * x[-1])
-    turn -= (history.array("slope")[:, 0] + impact.curvature * x[0]) if history.sides == 2 else 0.0
+    angles = history.array(turning) + impact.curvature * x
+    turn = both * angles[:, -1] - (angles[:, 0] if history.sides == 2 else 0.0)
     turned = np.concatenate([[0.0], np.cumsum(0.5 * (turn[1:] + turn[:-1]) * np.diff(time))])
     force = impact.load_within(0.5 * _length(history), 2) * time
     force -= 2.0 * impact.bending_stiffness * (turned + impact.damping * (turn - turn[0]))
     impulse = history.array("impulse") - (history.array("opposite_impulse") if "opposite_impulse" in history else 0.0)
     pushed = both * impulse @ history.contact_positions(0) ** 2
     gained = impact.mass_per_length * _integrals(history, 2)
+    if "angular_velocity" in history:
+        gained += 2.0 * impact.rotary_inertia * both * _integral(x, x * history.array("angular_velocity"))
     # what is missing of the momentum may be missing anywhere, at the ends at the farthest
     unexplained = np.abs(gained - gained[0] - force + pushed) - np.abs(missing).max() * np.square(x).max()
     least = np.abs(history.array("total_impulse")) * np.square(np.diff(x).max())  # a place is known to an element

@@ -44,6 +44,34 @@ def test_shear_coefficients_are_cowpers():
         assert section.shear_stiffness == pytest.approx(expected * modulus * section.area, rel=2e-3)
 
 
+def test_a_section_that_knows_its_shear_makes_timoshenko_s_beam_unless_euler_and_bernoulli_s_is_asked_for():
+    found, pipe = (
+        case({"curvature": 0.002, "model": "timoshenko"}).impact,
+        Pipe(**{k: PIPE[k] for k in PIPE if k != "kind"}),
+    )
+    assert (found.model, found.shear_stiffness) == ("timoshenko", pipe.shear_stiffness)
+    assert found.rotary_inertia == pytest.approx(7850.0 * pipe.second_moment, rel=1e-14)
+    assert found.shear_ratio == pytest.approx(pipe.shear_coefficient / 2.6, rel=1e-12)  # κ_sG/E: nothing moves along
+    assert case({"curvature": 0.002, "model": "euler_bernoulli"}).impact == found.unsheared
+    plain = {"curvature": 0.002, "bending_stiffness": 2e6, "mass_per_length": 30.0}
+    assert case(plain, None).impact.model == "euler_bernoulli"
+    assert case(plain | {"shear_stiffness": 5e7, "model": "timoshenko"}, None).impact.shear_length == pytest.approx(0.2)
+
+
+@pytest.mark.parametrize(
+    ("beam", "section", "message"),
+    [
+        ({"model": "timoshenko", "bending_stiffness": 1.0, "mass_per_length": 1.0}, None, "needs beam.shear_stiffness"),
+        ({"rotary_inertia": 1.0, "bending_stiffness": 1.0, "mass_per_length": 1.0}, None, "no effect without"),
+        ({"shear_stiffness": 1e7}, PIPE, "say the same thing"),
+        ({"model": "rayleigh"}, PIPE, "beam.model must be one of"),
+    ],
+)
+def test_what_contradicts_the_model_is_refused_by_name(beam, section, message):
+    with pytest.raises(InputError, match=message):
+        case({"curvature": 0.002, **beam}, section)
+
+
 def test_stress_of_a_rectangle_under_moment_and_tension():
     section = Rectangle(width=0.03, thickness=0.002, **STEEL)
     assert section.stress(1.0) == pytest.approx(6.0 / (0.03 * 0.002**2), rel=1e-13)  # 6M/(b h²)

@@ -44,6 +44,7 @@ def test_every_load_is_in_case_files_and_what_a_path_does_not_know_is_refused_by
     assert unmodelled(impact, ("acceleration", "curvature_rate")) is None
     assert "curvature_rate is not modelled" in unmodelled(impact, ("acceleration",))
     assert loads_of(Impact).keys() <= {name for table in TABLES.values() for name in declared(table)}
+    assert "shear_stiffness" in SelfSimilarFE().refuses(Impact(**THESIS, shear_stiffness=1.0))
     for feature in ({"wall_from": -0.1, "wall_to": 0.1}, {"left_end": "hinged"}):
         impact = Impact(**THESIS, **feature)
         with pytest.raises(ValueError, match=next(iter(feature))):
@@ -87,8 +88,13 @@ def test_groups_do_not_change_when_units_do(ei, mu, length, curvature, velocity,
         curvature / metre,
         velocity * metre / second,
         acceleration=acceleration * metre / second**2,
+        shear_stiffness=kilogram * metre / second**2,
+        rotary_inertia=3.0 * kilogram * metre,
     )
-    for group in ("kappa_over_nu", "epsilon", "epsilon_alpha", "epsilon_chi", "epsilon_psi"):
+    a = a.replace(shear_stiffness=1.0, rotary_inertia=3.0)
+    assert b.shear_length / b.half_length == pytest.approx(a.shear_length / a.half_length, rel=1e-12)
+    assert b.shear_time / b.time_scale == pytest.approx(a.shear_time / a.time_scale, rel=1e-12)
+    for group in ("kappa_over_nu", "epsilon", "epsilon_alpha", "epsilon_chi", "epsilon_psi", "shear_ratio"):
         assert getattr(b, group) == pytest.approx(getattr(a, group), rel=1e-12)
 
 
@@ -114,6 +120,12 @@ def test_the_dimensionless_impact_has_the_groups_it_is_asked_for_and_no_others()
         impact = Impact.dimensionless(0.5, **{asked: 0.25})
         assert impact.kappa_over_nu == 0.5
         assert [getattr(impact, group) for group in groups] == [0.25 * (group == asked) for group in groups]
+
+
+def test_the_dimensionless_sheared_beam_has_its_lengths():
+    impact = Impact.whole_beam(0.5, relative_damping=1e-3, shear_length=0.05, shear_ratio=0.2)
+    assert (impact.shear_length, impact.shear_ratio) == pytest.approx((0.05, 0.2), rel=1e-14)
+    assert impact.unsheared == Impact.whole_beam(0.5, relative_damping=1e-3)
 
 
 def test_what_is_asked_without_a_time_ends_before_waves_are_back():

@@ -51,20 +51,23 @@ def test_elements_and_steps_converge(kappa: float, ratio: float) -> None:
     assert abs(fine - usual) < 5e-4 * fine and abs(fine - coarse) < 2e-3 * fine
 
 
-def test_a_partly_covered_element_pushes_as_its_penetration_integrated_point_by_point() -> None:
+@pytest.mark.parametrize(("share", "damping"), [(0.0, 0.7), (0.8, 0.2)])
+def test_a_partly_covered_element_pushes_as_its_penetration_integrated_point_by_point(share, damping) -> None:
+    """share : σ of shear, by which the cubic's slopes differ from the sections' angles."""
     random = np.random.default_rng(3)
-    springs = Springs(2.0, 0.7, np.zeros(4), np.array([0.8]), 0, 1, -1)
+    springs = Springs(2.0, damping, np.zeros(4), np.array([0.8]), np.array([share]), 0, 1, -1)
     at = (np.arange(200_000) + 0.5) / 200_000
     N = np.stack(
         [1 - 3 * at**2 + 2 * at**3, 0.8 * (at - 2 * at**2 + at**3), 3 * at**2 - 2 * at**3, 0.8 * (at**3 - at**2)]
     )
+    N += share * np.outer([-1 / 0.8, -0.5, 1 / 0.8, -0.5], N[1] + N[3])
     for _ in range(20):
         q, new = random.normal(size=(2, 4))
         force, peaks = np.zeros(4), np.zeros(4)
         total, loss, _ = push(springs, q, new, 0.3, force, np.zeros((4, 4)), peaks)
         p, after = np.maximum(q @ N, 0.0), np.maximum(new @ N, 0.0)
         spring = (after**2 - p**2) / (new @ N - q @ N)  # k/2 = 1
-        pressure = np.maximum(spring + 0.7 * (after - p) / 0.3, 0.0)
+        pressure = np.maximum(spring + damping * (after - p) / 0.3, 0.0)
         assert total == pytest.approx(0.8 * pressure.mean(), rel=1e-2, abs=1e-2)  # kinks where it would pull
         assert force == pytest.approx(0.8 * (N * pressure).mean(axis=1), rel=1e-2, abs=1e-2)
         gained = stored_energy(springs, new) - stored_energy(springs, q)
@@ -133,6 +136,8 @@ def test_a_hinged_beam_swung_on_an_elastic_stop_is_its_modes_and_the_published_t
 def test_a_stop_keeps_half_its_stiffness_times_the_square_of_how_far_it_is_pressed_in_the_middle_too() -> None:
     facing, q = np.array([0.1, 0.0, 0.3, 0.0]), np.array([0.5, 0.2, -0.1, 0.0])
     for dof, pressed in ((0, 0.6), (2, 0.2)):
-        springs = Springs(5.0, 0.7, facing, np.array([0.8]), 0, 0, dof)  # no element stands before the wall
+        springs = Springs(
+            5.0, 0.7, facing, np.array([0.8]), np.zeros(1), 0, 0, dof
+        )  # no element stands before the wall
         assert stored_energy(springs, q) == pytest.approx(0.5 * 5.0 * pressed**2)
         assert stored_energy(springs, q - 1.0) == 0.0

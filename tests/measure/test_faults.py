@@ -28,7 +28,7 @@ SOUND = {"momentum": 3e-3, "second_moment": 5e-3, "points": 1e-9, "initial_energ
 TOTAL = "copies * run.impulse @ towards"
 POINTS = 'run.impulse[:, front]),\n        "in_contact"'
 STEP = "state.impulse[j] += conditions.p[j]"
-MASS = "self.element(beam.lengths, beam.mass_per_length)"
+MASS = "self.element(beam)"
 LOST = "np.where(np.arange({}.size) == 3, 0.5, 1.0)[:, None, None]"  # half of an element's mass: that of half a node
 MOMENTUM = 'self.start_momentum + after["load_impulse"] - v @ self.momentum'
 GAIN = "gain + (missing / np.where(whole > 0.0, whole, 1.0))[:, None] * weight"

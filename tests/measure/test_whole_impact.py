@@ -72,12 +72,13 @@ def test_restitution_of_a_damped_beam_is_one_number_whatever_the_scheme(
 
 
 def test_a_steel_rod_that_falls_on_a_wall_rebounds_with_0_63_of_its_velocity(tmp_path) -> None:
-    """Ø 20 mm × 1 m, sagitta 10 mm, damping ratio 1 %, 1 m/s, under its weight: 0.6300 on 40 to 200 elements."""
+    """Ø 20 mm × 1 m, sagitta 10 mm, damping ratio 1 %, 1 m/s, under its weight: 0.6324 on 40 to 200 elements, 0.6298
+    without shear."""
     (tmp_path / "rod.toml").write_text(ROD)
     case = load_case(tmp_path / "rod.toml", ["impact.gravity=9.81", "mesh.kind=uniform", "mesh.element_length=0.0125"])
     history = case.method("hermite").simulate_to_separation(case.impact)
     found, impact = whole_impact(history), case.impact
-    assert found.left and found.restitution == pytest.approx(0.630, abs=1e-3)
+    assert found.left and found.restitution == pytest.approx(0.6324, abs=5e-4)
     assert len(found.contacts) > 1 and found.separations == len(found.contacts)
     assert found.translation + found.vibration + found.dissipated == pytest.approx(1.0, abs=1e-9)
     # momentum: what the wall gave, less what the weight took until then, is what the centre of mass has gained

@@ -71,7 +71,6 @@ class Pipe:
     area: float = 3.4e-3
     section_modulus: float = 9.2e-5
     yield_stress: float | None = None
-    shear_stiffness: float | None = None
 
 
 @pytest.mark.parametrize(
@@ -83,7 +82,7 @@ class Pipe:
         (Impact.dimensionless(0.5, epsilon_alpha=1e4, epsilon_axial=1e2, length=1e6), None, validity.FIRST_ORDER),
         (Impact.dimensionless(0.5, epsilon_alpha=1e4, epsilon_axial=1e6, length=1e6), None, validity.TENSION),
         (PIPE.replace(length=1e5, velocity=300.0), None, validity.SLOPE),
-        (PIPE.replace(length=4.0, curvature=0.1), Pipe(shear_stiffness=2e7), validity.SHEAR),
+        (PIPE.replace(length=4.0, curvature=0.1, shear_stiffness=2e7), None, validity.SHEAR),
         (PIPE, Pipe(yield_stress=1e8), validity.SECTION),
     ],
 )
@@ -98,10 +97,10 @@ def test_what_ends_it_is_one_thing_and_rows_never_contradict_it(
 
 
 def test_the_theory_holds_from_when_shear_is_over_until_the_waves_are_back() -> None:
-    whole = predict(PIPE, section=(section := Pipe(shear_stiffness=2e9)))
+    whole = predict(sheared := PIPE.replace(shear_stiffness=2e9))
     times = [0.9 * whole.valid_from, 1.1 * whole.valid_from, 1.1 * whole.valid_until]
     assert (whole.valid_after, predict(PIPE).valid_after) == (validity.SHEAR, None)
-    spoiled = [row.spoiled_by for row in predict(PIPE, times, section=section).times]
+    spoiled = [row.spoiled_by for row in predict(sheared, times).times]
     assert spoiled == [validity.SHEAR, None, validity.ENDS]
 
 

@@ -16,7 +16,7 @@ import tomllib
 import mujoco
 import numpy as np
 
-SIZES = {"coarse": 0.04, "medium": 0.03, "fine": 0.02}  # link length over l*
+SIZES = {"coarse": 0.04, "medium": 0.03, "fine": 0.02, "given": 0.02}  # link length over l*
 HALF_LENGTH, AMPLITUDE, VISCOSITY = 4.0, 1e-3, 0.3  # viscosity of a hinge over sqrt(EI mu) size
 XML = """<mujoco><compiler angle="radian" inertiafromgeom="false" boundmass="0" boundinertia="0"/>
 <option timestep="{dt}" integrator="discrete" solver="Newton" iterations="100" tolerance="0" gravity="0 0 {load}">
@@ -34,7 +34,8 @@ def main(problem_file, result_file, resolution="medium"):
         return
     size = SIZES[resolution]
     n = round(HALF_LENGTH / size)
-    steps = max(round(end / (0.2 * size**2)), 300)  # steps for accuracy: the springs are implicit
+    # steps for accuracy: the springs are implicit
+    steps = max(round(end / (0.2 * size**2)), 300) if resolution != "given" else 400
     dt, x = end / steps, size * np.arange(n + 1)
     radius = 0.1 * AMPLITUDE * impact["velocity"] * dt
     curvature = AMPLITUDE * (beam["curvature"] - impact["fourth_derivative"] * x**2 / 2)

@@ -15,7 +15,7 @@ import tomllib
 import elastica as ea
 import numpy as np
 
-SIZES = {"coarse": 0.04, "medium": 0.02, "fine": 0.01}  # element length over l*
+SIZES = {"coarse": 0.04, "medium": 0.02, "fine": 0.01, "given": 0.02}  # element length over l*
 HALF_LENGTH, SCALE, AMPLITUDE, RADIUS = 6.0, 1e5, 1e-3, 0.01  # scale: units a length l*; radius over l*
 
 

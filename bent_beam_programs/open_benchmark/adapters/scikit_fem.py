@@ -16,7 +16,7 @@ import skfem
 from scipy.linalg import solveh_banded
 from skfem.helpers import dd, ddot
 
-SIZES = {"coarse": 0.02, "medium": 0.01, "fine": 0.005}  # element length over l*
+SIZES = {"coarse": 0.02, "medium": 0.01, "fine": 0.005, "given": 0.02}  # element length over l*
 HALF_LENGTH = 5.0  # l*, of an infinite beam: implicit Euler damps the short waves, the only ones that are back in time
 
 

@@ -1,0 +1,210 @@
+"""Scales and dimensionless groups of an impact (theory.md, section 2; thesis 2.2.16, 2.2.36–37).
+
+l* = √(EI/μ)/V₀,  t* = l*/V₀: the fast layer;     T* = √(μL*⁴/EI): free vibration;     ε = t*/T*
+l_s = √(EI/κ_sGA),  t_s = √(EIμ)/κ_sGA: shear;     g = J κ_sGA/(EI μ), which is κ_sG/E where nothing moves along
+"""
+
+from __future__ import annotations
+
+import math
+
+from bent_beam.loads import FreeMotion, load_against, loads_of
+
+__all__ = ["Scales"]
+
+
+class Scales:
+    """What follows from the fields of :class:`bent_beam.Impact`, their units and meanings stand there."""
+
+    bending_stiffness: float
+    mass_per_length: float
+    length: float
+    curvature: float
+    velocity: float
+    shear_stiffness: float | None
+    rotary_inertia: float
+    wall_curvature: float
+    rotation: float
+    first_touch: float
+    tension_direction: str
+    damping: float
+    left_end: str
+    right_end: str
+    wall_from: float | None
+    wall_to: float | None
+
+    @property
+    def wave_constant(self) -> float:
+        """√(EI/μ), m²/s: bending waves spread as x² ~ √(EI/μ) t."""
+        return math.sqrt(self.bending_stiffness / self.mass_per_length)
+
+    @property
+    def time_scale(self) -> float:
+        """t* = √(EI/μ)/V₀², s: the time unit of the fast layer."""
+        return self.wave_constant / self.velocity / self.velocity
+
+    @property
+    def length_scale(self) -> float:
+        """l* = √(EI/μ)/V₀, m: the length unit of the fast layer."""
+        return self.wave_constant / self.velocity
+
+    @property
+    def deflection_scale(self) -> float:
+        """V₀ t*, m: the unit of the fast layer's deflection with ν = 1 (equal to l*)."""
+        return self.velocity * self.time_scale
+
+    @property
+    def half_length(self) -> float:
+        """L* = L/2, m."""
+        return self.length / 2.0
+
+    @property
+    def slow_time_scale(self) -> float:
+        """T* = √(μ L*⁴/EI), s: the time scale of the beam's free vibration (2.2.16)."""
+        return self.half_length**2 / self.wave_constant
+
+    @property
+    def epsilon(self) -> float:
+        """ε = t*/T*, dimensionless: the small parameter of the expansion."""
+        return (self.length_scale / self.half_length) ** 2
+
+    @property
+    def model(self) -> str:
+        """Which beam it is: "timoshenko" with a shear stiffness, else "euler_bernoulli"."""
+        return "euler_bernoulli" if self.shear_stiffness is None else "timoshenko"
+
+    @property
+    def shear_length(self) -> float:
+        """l_s = √(EI/κ_sGA), m: over about this length a force is taken up by shear; 0 without."""
+        return 0.0 if self.shear_stiffness is None else math.sqrt(self.bending_stiffness / self.shear_stiffness)
+
+    @property
+    def shear_time(self) -> float:
+        """t_s = √(EIμ)/κ_sGA, s, the time scale of shear; 0 without."""
+        return self.shear_length**2 / self.wave_constant
+
+    @property
+    def shear_ratio(self) -> float:
+        """g = J κ_sGA/(EI μ), dimensionless: the square of shear waves' speed over that of bending waves' fastest."""
+        return self.rotary_inertia / self.mass_per_length / self.shear_length**2 if self.shear_length else 0.0
+
+    def free_motion(self, bow: float) -> FreeMotion:
+        """y₀ with −``bow`` x²/2 in place of −Kx²/2, SI units, x from the first touch."""
+        terms = {about.powers: getattr(self, load) for load, about in loads_of(type(self)).items() if about.powers}
+        return FreeMotion({(0, 1): self.velocity + self.rotation * self.first_touch, (2, 0): -bow, **terms})
+
+    def group(self, load: str) -> float:
+        """A load in units of the fast layer, dimensionless with ν = 1: its term of y₀, or of a force n = N/(μV₀²)."""
+        value, powers = getattr(self, load), loads_of(type(self))[load].powers
+        if powers is None:
+            return value / (self.mass_per_length * self.velocity**2)
+        i, j = powers  # V₀t* = l*
+        return value * self.length_scale ** (i - 1) * self.time_scale**j
+
+    @property
+    def kappa_over_nu(self) -> float:
+        """κ/ν = K √(EI/μ)/V₀: the one parameter of the leading order."""
+        return self.relative_curvature * self.length_scale
+
+    @property
+    def relative_curvature(self) -> float:
+        """K − K_w, 1/m: of the beam against the wall. Without axial force a curved wall does nothing else."""
+        return self.curvature - self.wall_curvature
+
+    @property
+    def uniform_pressure(self) -> float:
+        """p = μa₀ + EI q₀ + N K, N/m: the uniform load under which the free motion is y₀."""
+        return load_against(self, 0.0)
+
+    @property
+    def zone_pressure(self) -> float:
+        """p − N K_w, N/m: what presses a contact zone that lies on the wall; it lifts off where this is negative."""
+        return load_against(self, self.wall_curvature)
+
+    @property
+    def lifts(self) -> bool:
+        """Whether a load lifts a contact zone off the wall."""
+        return self.zone_pressure < 0.0
+
+    def load_within(self, half: float, power: int = 0) -> float:
+        """∫xⁿp dx over |x| ≤ ``half`` from the middle, of all loads together, N mⁿ, for an even n = ``power``. Forces
+        along the ends of the bow pull at it with −NK."""
+        pressure = load_against(self, self.curvature if self.tension_direction == "tangent" else 0.0)
+        return pressure * 2.0 * half ** (power + 1) / (power + 1)
+
+    @property
+    def net_load(self) -> float:
+        """Sum of all loads over L, N/m: μ times the acceleration of the centre of mass without a wall."""
+        return self.load_within(self.half_length) / self.length
+
+    @property
+    def epsilon_alpha(self) -> float:
+        """εα/ν = a₀ t*/V₀."""
+        return self.group("acceleration")
+
+    @property
+    def epsilon_chi(self) -> float:
+        """εχ/ν = c₀ l*²/V₀."""
+        return self.group("curvature_rate")
+
+    @property
+    def epsilon_psi(self) -> float:
+        """εψ/ν = q₀ l*⁴/(V₀ t*)."""
+        return self.group("fourth_derivative")
+
+    @property
+    def epsilon_axial(self) -> float:
+        """n = N/(μV₀²)."""
+        return self.group("axial_force")
+
+    @property
+    def alpha(self) -> float:
+        """α with ν = 1."""
+        return self.epsilon_alpha / self.epsilon
+
+    @property
+    def chi(self) -> float:
+        """χ with ν = 1."""
+        return self.epsilon_chi / self.epsilon
+
+    @property
+    def psi(self) -> float:
+        """ψ with ν = 1."""
+        return self.epsilon_psi / self.epsilon
+
+    @property
+    def axial(self) -> float:
+        """n/ε with ν = 1, next to α, ψ, χ."""
+        return self.epsilon_axial / self.epsilon
+
+    @property
+    def loaded_to_first_order(self) -> bool:
+        """Whether loads act that theory to first order knows: those that have a group."""
+        return any(getattr(self, load) for load, about in loads_of(type(self)).items() if about.group)
+
+    @property
+    def off_centre(self) -> bool:
+        """Whether the impact is not symmetric about the middle: only a model of the full beam takes it."""
+        begin, end = self.wall_span
+        return bool(self.rotation or self.first_touch or self.left_end != self.right_end or begin != -end)
+
+    @property
+    def supported(self) -> bool:
+        """Whether an end is held."""
+        return (self.left_end, self.right_end) != ("free", "free")
+
+    @property
+    def wall_span(self) -> tuple[float, float]:
+        """Where the wall begins and ends, m from the middle; the ends of the beam unless given."""
+        half = self.half_length
+        return -half if self.wall_from is None else self.wall_from, half if self.wall_to is None else self.wall_to
+
+    @property
+    def wall_in_part(self) -> bool:
+        """Whether the wall is a plate or a stop, and not all along the beam."""
+        return self.wall_span != (-self.half_length, self.half_length)
+
+    @property
+    def relative_damping(self) -> float:
+        """η/T*."""
+        return self.damping / self.slow_time_scale

@@ -1,0 +1,153 @@
+"""Timoshenko's beam on the Hermite path: element, modes, balances, and its whole impact beside another code.
+
+Units half length = EI = μ = V₀ = 1; s = l_s, the shear length, g = κ_sG/E."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from numpy.polynomial import Polynomial
+from numpy.polynomial.legendre import leggauss
+from scipy.linalg import eigh
+from scipy.optimize import brentq
+
+from bent_beam import Impact
+from bent_beam.measure.balance import balance_of
+from bent_beam.measure.whole_impact import whole_impact
+from bent_beam.meshes import GradedMesh, UniformMesh
+from hermite_fe import HermiteFE
+from hermite_fe.banded import product
+from hermite_fe.beam import HermiteBeam
+from hermite_fe.contacts import MiddleContact
+from hermite_fe.integrators import MoreauJean
+from tests import leapfrog
+
+S, G = 0.05, 0.2
+BEAM = Impact.whole_beam(0.5, relative_damping=3e-3, shear_length=S, shear_ratio=G)
+
+
+def sheared(nodes: np.ndarray, s: float = S, g: float = G) -> HermiteBeam:
+    return HermiteBeam(nodes, 1.0, 1.0, s**-2, g * s**2)
+
+
+def dense(bands: np.ndarray) -> np.ndarray:
+    n = bands.shape[1]
+    full = sum(np.diag(bands[m, : n - m], -m) for m in range(4))
+    return full + np.tril(full, -1).T
+
+
+def test_element_matrices_are_integrals_of_the_shape_functions_of_friedman_and_kosmatka() -> None:
+    length, s, g = 0.3, 0.2, 0.33
+    phi = 12.0 * s**2 / length**2
+    c = 1.0 / (1.0 + phi)
+    deflection = [c * Polynomial(p) for p in ([1 + phi, -phi, -3, 2], [0, phi, 3, -2])]
+    deflection.insert(1, length * c * Polynomial([0, 1 + phi / 2, -2 - phi / 2, 1]))
+    deflection.append(length * c * Polynomial([0, -phi / 2, phi / 2 - 1, 1]))
+    angle = [c / length * Polynomial([0, -6, 6]), c * Polynomial([1 + phi, -4 - phi, 3])]
+    angle += [c / length * Polynomial([0, 6, -6]), c * Polynomial([0, phi - 2, 3])]
+    points, weights = leggauss(6)
+    at, weights = 0.5 * (points + 1.0), 0.5 * length * weights
+
+    def integral(functions: list[Polynomial]) -> np.ndarray:
+        values = np.array([f(at) for f in functions])
+        return (values * weights) @ values.T
+
+    slopes = [f.deriv() / length for f in deflection]
+    beam = sheared(np.array([0.0, length, 2.0 * length]), s, g)
+    one = HermiteBeam.assembled
+    for found, expected in (
+        (beam.stiffness(), integral([f.deriv() / length for f in angle])
+         + integral([a - b for a, b in zip(slopes, angle)]) / s**2),
+        (beam.mass(), integral(deflection) + g * s**2 * integral(angle)),
+        (beam.geometric_stiffness(), integral(slopes)),
+    ):  # fmt: skip
+        assert found == pytest.approx(one(beam, np.stack([expected] * 2)), rel=1e-12, abs=1e-13)
+
+
+def test_without_shear_the_element_is_euler_and_bernoulli_s_to_the_last_bit() -> None:
+    nodes = GradedMesh(0.01, 1.3, zone=0.1).nodes(1.0)
+    plain, stiff = HermiteBeam(nodes, 3.0, 5.0), HermiteBeam(nodes, 3.0, 5.0, 1e60)  # Φ < 1e-50
+    for name in ("stiffness", "mass", "geometric_stiffness"):
+        assert np.array_equal(getattr(plain, name)(), getattr(stiff, name)()), name
+
+
+@pytest.mark.parametrize("s", [0.01, 0.3])
+def test_a_cantilever_is_exact_at_its_nodes(s: float) -> None:
+    """F(x²/2 − x³/6) bent and F x s² sheared, from the clamp; its sections turn by F(x − x²/2)."""
+    beam = sheared(GradedMesh(0.05, 1.4, zone=0.1).nodes(1.0), s)
+    load, x = np.zeros(beam.dofs), beam.nodes
+    load[-2] = 2.0
+    q = beam.static(load, {0: 0.0, 1: 0.0})
+    assert q[0::2] == pytest.approx(2.0 * (x**2 / 2 - x**3 / 6 + s**2 * x), rel=1e-12)
+    assert q[1::2] == pytest.approx(2.0 * (x - x**2 / 2), rel=1e-12)
+
+
+def free_frequency(s: float, g: float, above: float) -> float:
+    """ω below a bound: cosh and cos waves of w and φ of a symmetric mode leave moment and shear force zero at x = 1."""
+
+    def end(w: float) -> float:
+        # w ∝ cosh ax, cos bx: k⁴ + ω²(1 + g)s²k² + ω²(g s⁴ω² − 1) = 0 for k² = a², −b²
+        half, rest = 0.5 * w**2 * (1.0 + g) * s**2, w**2 * (1.0 - g * s**4 * w**2)
+        root = np.sqrt(half**2 + rest)
+        a, b = np.sqrt(root - half), np.sqrt(root + half)
+        turn_a, turn_b = (a**2 + w**2 * s**2) / a, -(b**2 - w**2 * s**2) / b  # φ of each, over sinh and sin
+        moments = turn_a * a * np.cosh(a), turn_b * b * np.cos(b)
+        shears = (a - turn_a) * np.sinh(a), (-b - turn_b) * np.sin(b)
+        return float(moments[0] * shears[1] - moments[1] * shears[0])
+
+    return float(brentq(end, 0.7 * above, above, xtol=1e-14))
+
+
+@pytest.mark.parametrize("s", [0.02, 0.08])
+def test_free_frequencies_converge_to_timoshenko_s_fourfold_or_faster(s: float) -> None:
+    roots = np.array([2.3650203724, 5.4978039190]) ** 2  # Euler and Bernoulli's, symmetric
+    exact = np.array([free_frequency(s, G, w) for w in roots])
+    errors = []
+    for elements in (12, 25, 50):
+        beam = sheared(np.linspace(0.0, 1.0, elements + 1), s)
+        keep = np.delete(np.arange(beam.dofs), 1)
+        found = eigh(
+            *(dense(bands)[np.ix_(keep, keep)] for bands in (beam.stiffness(), beam.mass())), eigvals_only=True
+        )
+        errors.append(np.abs(np.sqrt(found[1:3]) / exact - 1.0))
+    assert np.all(errors[2] < 1e-4) and np.all(4.0 * errors[1] < errors[0]) and np.all(3.9 * errors[2] < errors[1])
+
+
+@pytest.mark.parametrize("change", [{}, {"acceleration": 4.0}, {"fourth_derivative": 2.0}, {"wall_stiffness": 1e4}])
+def test_momentum_and_energy_close_and_half_the_beam_is_half_of_it(change: dict[str, float]) -> None:
+    impact = BEAM.replace(**change)
+    runs = [HermiteFE(mesh=UniformMesh(0.02), full_beam=full).for_whole_beam(impact) for full in (False, True)]
+    half, full = (run.simulate(impact, end_time=0.1, save=200) for run in runs)
+    budget, balance = half.energy_budget(), balance_of(half)
+    assert abs(budget["defect"]) < 1e-9 * budget["initial_energy"] and budget["loss_material"] > 0.0
+    assert balance.momentum < 2e-3 and balance.second_moment < 5e-3 and balance.warnings == []  # v by differences
+    spread = HermiteBeam(half.positions(0), 1.0, 1.0, S**-2, G * S**2).mass()
+    v = np.stack([half.array("velocity"), half.array("angular_velocity")], axis=2).reshape(half.time.size, -1)
+    momentum = 2.0 * v @ product(spread, np.tile([1.0, 0.0], half.positions(0).size))
+    given = impact.load_within(1.0) * half.time - half.array("total_impulse")
+    assert momentum - momentum[0] == pytest.approx(given, abs=1e-9)
+    assert full.array("total_impulse") == pytest.approx(half.array("total_impulse"), abs=1e-5)
+    middle = full.positions(0).size // 2
+    assert full.array("bending_moment")[:, middle:] == pytest.approx(half.array("bending_moment"), abs=1e-3)
+    assert np.abs(half.array("bending_moment")).max() <= half.moment.max() * (1.0 + 1e-9)
+
+
+def test_what_does_not_go_with_shear_is_refused_and_told_the_way() -> None:
+    way = 'model = "euler_bernoulli"'
+    lossy = BEAM.replace(damping=0.0, hysteretic_loss=0.01, loss_frequency=1.0)
+    assert "hysteretic_loss" in (said := HermiteFE().refuses(lossy) or "") and way in said
+    assert "contact.kind" in (said := HermiteFE(contact=MiddleContact()).refuses(BEAM) or "") and way in said
+    with pytest.raises(ValueError, match=r"contact\.kind"):
+        HermiteFE(contact=MiddleContact()).simulate(BEAM)
+
+
+@pytest.mark.parametrize(("kappa", "g"), [(0.5, 0.2), (1.5, 0.33)])
+def test_an_explicit_code_of_its_own_finds_the_same_whole_impact(kappa: float, g: float) -> None:
+    impact = Impact.whole_beam(kappa, relative_damping=3e-3, shear_length=S, shear_ratio=g)
+    method = HermiteFE(mesh=UniformMesh(0.02), integrator=MoreauJean(theta=0.5, time_step=1e-4, growth=0.0))
+    found = whole_impact(method.for_whole_beam(impact).simulate(impact, end_time=1.1, save=300))
+    restitution, impulse, moment = leapfrog.whole_impact(kappa, 3e-3, S, g, 50, 1.1)
+    assert (found.restitution, found.impulse) == pytest.approx((restitution, impulse), abs=2e-3)
+    assert found.peak_moment == pytest.approx(moment, rel=1e-2)
+    bare = whole_impact(method.for_whole_beam(impact).simulate(impact.unsheared, end_time=1.1, save=300))
+    assert abs(bare.peak_moment / moment - 1.0) > 0.01 or abs(bare.restitution - restitution) > 5e-3  # without shear
