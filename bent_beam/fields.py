@@ -38,10 +38,10 @@ class Declared:
         if value is None and self.optional:
             return None
         if self.kind is bool and not isinstance(value, bool):
-            raise ValueError(f"{name} must be true or false (got {checks.shortened(value)})")
+            raise InputError(f"{name} must be true or false (got {checks.shortened(value)})")
         if self.kind is str:
             if not isinstance(value, str):
-                raise ValueError(f"{name} must be a text (got {checks.shortened(value)})")
+                raise InputError(f"{name} must be a text (got {checks.shortened(value)})")
             return checks.one_of(name, value, self.quantity.choices) if self.quantity.choices else value
         if self.kind in (int, float):
             return self.quantity.checked_number(name, value, whole=self.kind is int)
@@ -76,9 +76,9 @@ class Quantity:
             return checks.whole(name, value, int(self.least or 0))
         size = abs(checks.finite(name, value))
         if size > checks.LARGEST:
-            raise ValueError(f"{name} must not exceed {checks.LARGEST:g} (got {checks.shortened(value)})")
+            raise InputError(f"{name} must not exceed {checks.LARGEST:g} (got {checks.shortened(value)})")
         if self.above == 0.0 and 0.0 < size < 1.0 / checks.LARGEST:
-            raise ValueError(f"{name} must be at least {1.0 / checks.LARGEST:g} (got {checks.shortened(value)})")
+            raise InputError(f"{name} must be at least {1.0 / checks.LARGEST:g} (got {checks.shortened(value)})")
         if self.above == 0.0:
             checks.positive(name, value)
         if self.most is not None:

@@ -84,7 +84,8 @@ class Method(Protocol):
     ) -> ImpactHistory:
         """Follow ``impact`` to ``end_time`` (s). ``save``: number of saved instants, or their times, s.
 
-        Raises ``ValueError`` for what it refuses, :class:`bent_beam.SimulationError` when it cannot finish.
+        Raises :class:`bent_beam.InputError` for what it refuses, :class:`bent_beam.SimulationError` when it cannot
+        finish; any other error is a failure too.
         """
         ...
 
@@ -118,7 +119,7 @@ def simulated(run: Callable[..., ImpactHistory], impact: Impact, **how: Any) -> 
     """
     try:
         history = run(impact, **how)
-    except (ValueError, SimulationError, TimeLimitError, MemoryError):
+    except (InputError, SimulationError, TimeLimitError, MemoryError):
         raise
     except ANY_FAILURE as error:
         raise SimulationError(f"the method failed: {type(error).__name__}: {error}") from error
@@ -136,12 +137,12 @@ def separation_times(impact: Impact, longest: float | None = None, save: int = 2
     Raises ``ValueError`` between two walls, or where supports bring the beam back: no separation is then the last.
     """
     if impact.supported and {impact.left_end, impact.right_end} != {"hinged", "free"}:
-        raise ValueError(
+        raise InputError(
             f"left_end {impact.left_end!r}, right_end {impact.right_end!r}: supports bring the beam back, and no "
             "separation is the last; simulate to an end time (bentbeam simulate)"
         )
     if impact.opposite_wall is not None:
-        raise ValueError(
+        raise InputError(
             f"opposite_wall {impact.opposite_wall!r}: between two walls no separation is the last; leave it out, or "
             "simulate to an end time (bentbeam simulate)"
         )

@@ -17,6 +17,7 @@ import exudyn.itemInterface as items
 import numpy as np
 
 from bent_beam import Impact
+from bent_beam.errors import InputError
 from bent_beam.impact import BEFORE_WAVES_RETURN
 from bent_beam.meshes import Mesh, checked_nodes, mirrored, snapped
 from exudyn_models.contacts import Contact, ContactRun, Wall
@@ -81,7 +82,7 @@ def lay_out(impact: Impact, end: float, chosen: Chosen) -> Layout:
     """The beam of the chosen mesh and geometry. Raises ``ValueError`` for a mesh or a geometry that does not fit."""
     geometry, half_length, unscaled = chosen.geometry, modelled_half_length(chosen.mesh, impact), Scaling(impact, end)
     if half_length < impact.half_length * (1.0 - NEAR) and lasts_until_waves_return(impact, end):
-        raise ValueError(
+        raise InputError(
             f"mesh.places must end at the half length {impact.half_length!r} in a run that lasts until waves are back "
             f"from the ends (got {half_length!r})"
         )

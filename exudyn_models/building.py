@@ -28,6 +28,7 @@ import exudyn.itemInterface as items
 import numpy as np
 
 from bent_beam import Impact
+from bent_beam.errors import InputError
 from bent_beam.meshes import NodesMesh, ScaleFreeMesh
 from exudyn_models.assembly import Chosen, Layout, assemble, lay_out, stable_step
 from exudyn_models.contacts import ContactRun, Penalty, Rigid
@@ -88,7 +89,7 @@ def build(
     """
     end, method = impact.checked_end_time(end_time), ExudynModel(**parts)
     if reason := method.refuses(impact) or _refused(method):
-        raise ValueError(reason)
+        raise InputError(reason)
     chosen = _chosen(method, impact, end)
     layout = lay_out(impact, end, chosen)
     beam, contact = assemble(layout, chosen, Units.si(layout.scaling))

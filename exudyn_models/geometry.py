@@ -27,6 +27,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bent_beam import Impact
+from bent_beam.errors import InputError
 from bent_beam.fields import Part, Quantity
 from bent_beam.loads import FreeMotion, lowest_mode
 
@@ -274,7 +275,7 @@ class TrueGeometry(Geometry):
     def _laid(self, s: Array, motion: FreeMotion, scaling: Scaling) -> dict[str, Any]:
         a = scaling.amplitude
         if np.max(np.abs(a * motion(s, by_x=1))) > np.pi / 2:
-            raise ValueError(
+            raise InputError(
                 f"geometry true: the modelled beam of half length {s[-1] * scaling.length:.4g} m turns by more "
                 "than a right angle; shorten run.end_time or beam.length, or use the linear limit"
             )

@@ -20,6 +20,7 @@ import exudyn as exu
 import numpy as np
 
 from bent_beam.checks import between
+from bent_beam.errors import InputError
 from bent_beam.fields import Part, Quantity
 from exudyn_models.geometry import Array
 
@@ -82,7 +83,7 @@ class Averages:
 def checked_steps(count: float) -> None:
     """``ValueError`` when a plan has more steps than any run takes."""
     if not count <= MAXIMUM_STEPS:
-        raise ValueError(
+        raise InputError(
             f"exudyn.integrator.time_step or relative_step is too small: {count:.3g} steps, {MAXIMUM_STEPS:.2g} are "
             "the most"
         )
@@ -251,7 +252,7 @@ class _Explicit(Integrator):
     def segments(self, first: float, unit: float, stable: float) -> list[Segment]:
         step = self.safety * stable if self.time_step is None else self.time_step / unit
         if step > stable:
-            raise ValueError(
+            raise InputError(
                 f"exudyn.integrator.time_step must not exceed the stable step {stable * unit:.4g} s of this "
                 f"mesh and contact (got {self.time_step!r})"
             )

@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Annotated, Any, ClassVar, Self
 
+from bent_beam.errors import InputError
 from bent_beam.fields import Part, Quantity
 from bent_beam.free_flight import Separation
 from bent_beam.history import ImpactHistory
@@ -253,6 +254,6 @@ def simulate(
     """
     end, method = impact.checked_end_time(end_time), ExudynModel(**parts)
     if reason := method.refuses(impact):
-        raise ValueError(reason)
+        raise InputError(reason)
     chosen = method.chosen(impact, end)
     return simulation.run(impact, end, chosen, save, view=view, progress=progress, until=until)

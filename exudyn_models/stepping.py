@@ -15,6 +15,7 @@ import exudyn as exu
 import numpy as np
 
 from bent_beam.checks import affordable
+from bent_beam.errors import InputError
 from exudyn_models.assembly import Chosen, Layout, assemble, stable_step
 from exudyn_models.geometry import Array
 from exudyn_models.integrators import Segment
@@ -66,7 +67,7 @@ class Stepping:
     ) -> None:
         scaling, integrator, nodes = layout.scaling, chosen.integrator, layout.shape.s.size
         if nodes > MOST_NODES:
-            raise ValueError(
+            raise InputError(
                 f"mesh: {nodes} nodes on the Exudyn path, {MOST_NODES} are the most (memory); larger elements"
             )
         beam, contact = assemble(layout, chosen)

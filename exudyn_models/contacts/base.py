@@ -26,6 +26,7 @@ from typing import Annotated, Any, ClassVar
 import numpy as np
 
 from bent_beam import Impact
+from bent_beam.errors import InputError
 from bent_beam.fields import Part, Quantity
 from exudyn_models.elements.beam import Beam, Element, shares
 from exudyn_models.geometry import Array, Flags, Geometry, Indices, LinearLimit
@@ -172,7 +173,7 @@ class ContactRun(ABC):
 
     def stiffness_and_damping(self) -> tuple[Array, Array]:
         """Stiffness and damping of the closed contact at each *beam node*, shape (nodes,): for the stable step."""
-        raise ValueError("exudyn.contact: this contact does not work with explicit integrators")
+        raise InputError("exudyn.contact: this contact does not work with explicit integrators")
 
     @property
     def held_until(self) -> float:

@@ -44,6 +44,7 @@ import exudyn.itemInterface as items
 import numpy as np
 
 from bent_beam import Impact
+from bent_beam.errors import InputError
 from bent_beam.fields import Quantity
 from exudyn_models.contacts.base import START, TINY, Contact, ContactRun, HeldStrip, Hold, Wall
 from exudyn_models.elements import Beam, Element
@@ -215,7 +216,7 @@ class Penalty(Contact):
         super().__post_init__()
         for name in ("stiffness", "damping"):
             if getattr(self, name) is not None and getattr(self, f"relative_{name}") is not None:
-                raise ValueError(f"{self.where}.{name} and relative_{name} exclude each other: give one")
+                raise InputError(f"{self.where}.{name} and relative_{name} exclude each other: give one")
 
     def attach(self, beam: Beam, wall: Wall) -> ContactRun:
         length = beam.tributary[wall.nodes]

@@ -19,6 +19,7 @@ from typing import Annotated
 import numpy as np
 from numpy.typing import NDArray
 
+from bent_beam.errors import InputError
 from bent_beam.fields import Quantity
 from bent_beam.impact import Impact
 from hermite_fe.active_set import CYCLING, SINGULAR, SOLVED, solve_free
@@ -87,12 +88,12 @@ class GeneralizedAlphaPenalty(Integrator):
 
     def start(self, problem: Problem, state: State) -> tuple[Motion, Constraints]:
         if self.stiffness is None or self.damping is None:
-            raise ValueError("integrator.stiffness and integrator.damping are not chosen yet")
+            raise InputError("integrator.stiffness and integrator.damping are not chosen yet")
         if problem.rows.dofs.shape[1] != 1:
-            raise ValueError('generalized_alpha_penalty takes contact.kind = "node" only')
+            raise InputError('generalized_alpha_penalty takes contact.kind = "node" only')
         e = problem.law.restitution
         if e > 0.0:
-            raise ValueError(f"generalized_alpha_penalty has no impact law: restitution must be 0 (got {e!r})")
+            raise InputError(f"generalized_alpha_penalty has no impact law: restitution must be 0 (got {e!r})")
         return motion_of(problem, state, self.spectral_radius), constraints_of(problem.rows)
 
     def advance(
