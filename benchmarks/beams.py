@@ -27,18 +27,14 @@ from benchmarks.coverage import Coverage, Point, log_uniform, options
 from bent_beam.cases import load_case
 from bent_beam.errors import SimulationError
 from bent_beam.files import write_atomically
-from bent_beam.history import ImpactHistory
-from bent_beam.measure.measured import Measured
-from bent_beam.method import Method, method_from_tables
-from comparison.companions import suited
-from comparison.match import INSTANTS
-from comparison.summary import companions, summary
+from bent_beam.measure.numbers import Number
+from comparison.simulating import simulate_case
 from comparison.workers import run_all
 
 __all__ = ["beams", "draw", "numbers"]
 
 PATHS = ("hermite", "exudyn")
-NAMES = ("half_contact_length", "total_impulse", "peak_moment")
+NAMES = ("half_contact_length", "impulse", "peak_moment")
 BUCKLING = math.pi**2 / 4.0  # π²EI/L²
 
 
@@ -63,21 +59,13 @@ def draw(random: np.random.Generator) -> str:
     return "\n".join(lines) + "\n"
 
 
-def numbers(file: Path, path: str) -> dict[str, Measured]:
+def numbers(file: Path, path: str) -> dict[str, Number]:
     """What a path says at the end of the run of a case, with its error bars; nothing where it cannot finish."""
     case = load_case(file)
-    method = suited(method_from_tables(path, {}), case.impact, case.end_time)
-
-    def run(chosen: Method, instants: int) -> ImpactHistory:
-        return chosen.simulate(case.impact, end_time=case.end_time, save=instants)
-
     try:
-        history = run(method, INSTANTS)
+        found = simulate_case(case, path, until=case.end_time).numbers
     except SimulationError:
         return {}
-    others, _ = companions(method, case.impact, case.end_time, run, "quick")
-    found = summary(history, others=others)
-    found["peak_moment"] = Measured(found["peak_moment"], found["peak_moment_error"])
     return {name: found[name] for name in NAMES}
 
 
@@ -89,7 +77,7 @@ def beams(files: Sequence[Path], jobs: int = 1) -> Coverage:
         for name in NAMES if one and other else ():
             a, b = one[name], other[name]
             unit = max(abs(a.known), abs(b.known)) or 1.0
-            error, bar = abs(a.known - b.known) / unit, math.hypot(a.bar, b.bar) / unit
+            error, bar = abs(a.known - b.known) / unit, math.hypot(a.spread, b.spread) / unit
             points.append(Point(k, load_case(file).impact.kappa_over_nu, file.name, name, error, bar))
     return Coverage.of(points, len(files), 1.0 - len(points) / (len(NAMES) * len(files)))
 

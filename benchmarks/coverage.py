@@ -33,7 +33,7 @@ import numpy as np
 
 from bent_beam.files import write_atomically
 from bent_beam.method import method_from_tables
-from comparison.match import match
+from comparison.matching import match
 from comparison.rows import First, MatchRow, Question
 from comparison.stored import write
 
@@ -188,7 +188,7 @@ def coverage(rows: Sequence[MatchRow]) -> Coverage:
     points = []
     for k, row in enumerate(rows):
         for name, number in row.compared().items():
-            off, bar = number.relative(), number.relative_error()
+            off, bar = number.relative(), number.relative_bar()
             if off is not None and bar is not None:
                 points.append(Point(k, row.kappa_over_nu, row.label, name, abs(off), bar))
     return Coverage.of(points, len(rows), float(np.mean([not row.r0.measured for row in rows])))

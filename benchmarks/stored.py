@@ -43,12 +43,6 @@ class Numbers:
 
 ALL = (
     Numbers(
-        "map",
-        ("comparison/whole_impact/map.json",),
-        ("-m comparison.whole_impact.map --jobs {jobs}",),
-        "-m comparison.whole_impact.map --confirm 5",
-    ),
-    Numbers(
         "restitutions",
         (f"{PROGRAMS}/open_benchmark/bounce_reference.json",),
         (f"-m {BENCHMARK}.bounce_reference",),

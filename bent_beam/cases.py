@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import dataclasses
 import math
+import re
 import tomllib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -38,7 +39,8 @@ MAXIMUM_BYTES = 1_000_000
 @dataclass(frozen=True)
 class Case:
     """A validated case. ``end_time`` in s; ``mesh`` is ``None`` when it is to be chosen from the problem; ``tables``
-    are those of the paths, by name; ``section`` where one was given."""
+    are those of the paths, by name; ``section`` where one was given; ``damping_stated``: whether the beam's own damping
+    is, be it 0."""
 
     title: str
     impact: Impact
@@ -46,6 +48,7 @@ class Case:
     mesh: Mesh | None
     tables: dict[str, dict[str, Any]]
     section: Section | None = None
+    damping_stated: bool = True
 
     def method(self, path: str, *, label: str | None = None) -> Method:
         """The method of ``path`` with the parts that this case sets for it.
@@ -60,15 +63,17 @@ class Case:
         made = method_from_tables(path, self.tables.get(path, {}), label=label)
         if self.mesh is None:
             return made
-        if "mesh" not in self.tables.get(path, {}) and type(self.mesh) in made.PARTS.get("mesh", {}).values():
+        known = getattr(made, "PARTS", {}).get("mesh", {})
+        if "mesh" not in self.tables.get(path, {}) and type(self.mesh) in known.values():
             return dataclasses.replace(made, mesh=self.mesh)
         raise InputError(
-            f"mesh.kind: {path} does not take this mesh (known: {', '.join(sorted(made.PARTS.get('mesh', {})))}); "
+            f"mesh.kind: {path} does not take this mesh (known: {', '.join(sorted(known)) or 'none'}); "
             f"leave [mesh] out, or set [{path}.mesh]"
         )
 
 
 KNOWN = ("title", *TABLES, "section", "mesh")
+DAMPINGS = ("damping", "damping_ratio", "loss_factor")  # of [beam]: ways to state one
 
 
 def _tables_of_paths(tables: Mapping[str, Any]) -> dict[str, dict[str, Any]]:
@@ -114,6 +119,7 @@ def case_from_tables(tables: Mapping[str, Any]) -> Case:
         mesh=part_or_auto(MESHES, tables.get("mesh", {}), "mesh"),
         tables=others,
         section=section,
+        damping_stated=bool(beam.hysteretic_loss) or any(getattr(beam, name) is not None for name in DAMPINGS),
     )
 
 
@@ -128,13 +134,26 @@ def _end_time(run: RunTable, impact: Impact) -> float:
         raise InputError(f"run.{'end_time' if run.end_time is not None else 'duration'}: {error}") from None
 
 
+BUCKLING = {
+    ("free", "free"): 1.0,  # of a bow at rest
+    ("hinged", "hinged"): 1.0,
+    ("clamped", "free"): 0.25,
+    ("clamped", "hinged"): 2.0457,
+    ("clamped", "clamped"): 4.0,
+    ("hinged", "free"): 0.0,
+}
+"""Largest compression over π² EI/L², by ends (Euler; Timoshenko and Gere, Theory of Elastic Stability, 1961, ch. 2)."""
+
+
 def _check_buckling(impact: Impact) -> None:
     """Raise :class:`InputError` for a compression under which no bow is at rest."""
-    buckling = math.pi**2 * impact.bending_stiffness / impact.length**2
-    if impact.axial_force < -buckling:
+    ends = (impact.left_end, impact.right_end)
+    share = BUCKLING.get(ends, BUCKLING.get(ends[::-1], 1.0))
+    most = share * math.pi**2 * impact.bending_stiffness / impact.length**2
+    if impact.axial_force < -most:
         raise InputError(
-            f"beam.axial_force must not press with more than {buckling:.6g} N = π² EI/L², at which a straight beam "
-            f"buckles (got {impact.axial_force!r})"
+            f"beam.axial_force must not press with more than {most:.6g} N = {share:g} π² EI/L², at which a straight "
+            f"beam with these ends buckles (got {impact.axial_force!r})"
         )
 
 
@@ -147,6 +166,9 @@ def lay_over(tables: dict[str, Any], assignment: str) -> None:
     text = text.strip()
     value: Any = text
     if (last != "kind" and "\n" not in text) or text.startswith(("'", '"')):  # a kind is a name, "true" is one
+        number = re.fullmatch(r"([-+]?)(\d*)\.(\d*)", text)  # .9 and 9. are none in TOML
+        if number and number[2] + number[3]:
+            text = f"{number[1]}{number[2] or 0}.{number[3] or 0}"
         try:
             value = tomllib.loads(f"value = {text}")["value"]
         except (ValueError, RecursionError):

@@ -38,10 +38,10 @@ class Declared:
         if value is None and self.optional:
             return None
         if self.kind is bool and not isinstance(value, bool):
-            raise ValueError(f"{name} must be true or false (got {checks.shortened(value)})")
+            raise InputError(f"{name} must be true or false (got {checks.shortened(value)})")
         if self.kind is str:
             if not isinstance(value, str):
-                raise ValueError(f"{name} must be a text (got {checks.shortened(value)})")
+                raise InputError(f"{name} must be a text (got {checks.shortened(value)})")
             return checks.one_of(name, value, self.quantity.choices) if self.quantity.choices else value
         if self.kind in (int, float):
             return self.quantity.checked_number(name, value, whole=self.kind is int)
@@ -76,9 +76,9 @@ class Quantity:
             return checks.whole(name, value, int(self.least or 0))
         size = abs(checks.finite(name, value))
         if size > checks.LARGEST:
-            raise ValueError(f"{name} must not exceed {checks.LARGEST:g} (got {checks.shortened(value)})")
+            raise InputError(f"{name} must not exceed {checks.LARGEST:g} (got {checks.shortened(value)})")
         if self.above == 0.0 and 0.0 < size < 1.0 / checks.LARGEST:
-            raise ValueError(f"{name} must be at least {1.0 / checks.LARGEST:g} (got {checks.shortened(value)})")
+            raise InputError(f"{name} must be at least {1.0 / checks.LARGEST:g} (got {checks.shortened(value)})")
         if self.above == 0.0:
             checks.positive(name, value)
         if self.most is not None:
@@ -180,11 +180,18 @@ def part_from_table(kinds: Mapping[str, type], table: Any, where: str) -> Any:
     return made_from(kinds[kind], values, where, more=("kind",))
 
 
-def part_or_auto(kinds: Mapping[str, type], table: Any, where: str) -> Any:
-    """The same; ``None``, to be chosen, of an empty table or where the kind is "auto"."""
+def part_or_auto(kinds: Mapping[str, type], table: Any, where: str, default: str | None = None) -> Any:
+    """The same; ``None``, to be chosen, of an empty table or where the kind is "auto".
+
+    A kind that is left out is the ``default`` if it has all keys of the table, else the only kind that has them.
+    """
     if not isinstance(table, Mapping) or table.get("kind", "auto") != "auto":
         return part_from_table(kinds, table, where)
-    for key in table:
-        if key != "kind":
-            raise InputError(f"{where}.kind is required next to {where}.{key} (one of {', '.join(sorted(kinds))})")
-    return None
+    keys = [key for key in table if key != "kind"]
+    if not keys:
+        return None
+    fitting = [name for name, kind in kinds.items() if {*keys} <= {*map(key_of, declared(kind))}]
+    kind = default if default in fitting else fitting[0] if len(fitting) == 1 else None
+    if kind is None or "kind" in table:
+        raise InputError(f"{where}.kind is required next to {where}.{keys[0]} (one of {', '.join(sorted(kinds))})")
+    return part_from_table(kinds, {**table, "kind": kind}, where)

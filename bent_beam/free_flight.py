@@ -104,8 +104,8 @@ def _is_off(impact: Impact, told: bool, quiet: float, state: Callable[[], State]
 
 
 class Separation:
-    """Says in the course of a run when the beam is off the wall for good: it cannot return, or, where that cannot be
-    told, it has not pushed for a period of its lowest mode."""
+    """Says in the course of a run when a whole impact is over: the beam has not pushed for a period of its lowest mode,
+    in which its largest stress may still come, and is off the wall for good."""
 
     def __init__(self, impact: Impact) -> None:
         self.impact = impact
@@ -122,7 +122,8 @@ class Separation:
         if closed or impulse > self.impulse:
             self.impulse, self.since = impulse, time
             return False
-        return impulse != 0.0 and _is_off(self.impact, self.told, time - self.since, state)
+        over = impulse != 0.0 and time - self.since >= LOWEST_PERIOD * self.impact.slow_time_scale
+        return over and _is_off(self.impact, self.told, time - self.since, state)
 
 
 def _rigid(x: Array, field: Array, half: bool) -> tuple[float, float]:

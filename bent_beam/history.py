@@ -98,6 +98,11 @@ class ImpactHistory:
         """The same with other warnings."""
         return replace(self, dataset=self.dataset.assign_attrs(warnings=json.dumps(list(warnings))))
 
+    def until(self, time: float) -> ImpactHistory:
+        """The same up to the saved instant nearest to ``time``, s."""
+        last = int(np.argmin(np.abs(self.time - time)))
+        return replace(self, dataset=self.dataset.isel(time=slice(0, last + 1)))
+
     def with_section(self, section: Any) -> ImpactHistory:
         """The same that knows its section (:class:`bent_beam.section.Section`), for stresses."""
         held = {"area": section.area, "section_modulus": section.section_modulus}

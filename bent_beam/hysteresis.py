@@ -23,6 +23,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from bent_beam.errors import InputError
 from bent_beam.loads import CLAMPED
 
 __all__ = ["FIRST_MODE", "Branches", "branches_of", "check_loss", "converges", "first_mode"]
@@ -109,22 +110,22 @@ def check_loss(impact: Any) -> None:
     """``ValueError`` where loss and loss frequency do not go together; it names field and value."""
     if not impact.hysteretic_loss:
         if impact.loss_frequency is not None:
-            raise ValueError(f"loss_frequency has no effect without hysteretic_loss (got {impact.loss_frequency!r})")
+            raise InputError(f"loss_frequency has no effect without hysteretic_loss (got {impact.loss_frequency!r})")
         return
     if impact.damping:
-        raise ValueError(
+        raise InputError(
             f"damping = {impact.damping!r} and hysteretic_loss = {impact.hysteretic_loss!r} are two dampings of one "
             "material: give one of them"
         )
     mode = first_mode(impact)
     if impact.loss_frequency is None or not NEAR[0] * mode <= impact.loss_frequency <= NEAR[1] * mode:
-        raise ValueError(
+        raise InputError(
             f"loss_frequency must say where EI and hysteretic_loss hold, between {NEAR[0]:g} and {NEAR[1]:g} times the "
             f"first mode's {mode:.6g} Hz (got {impact.loss_frequency!r})"
         )
     for name in ("fourth_derivative", "curvature_rate"):
         if getattr(impact, name):
-            raise ValueError(
+            raise InputError(
                 f"{name} must be 0 with hysteretic_loss: how long the beam has been bent so is not known "
                 f"(got {getattr(impact, name)!r})"
             )

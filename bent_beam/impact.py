@@ -18,6 +18,7 @@ import dataclasses
 from typing import Annotated, Any
 
 from bent_beam.checks import check_arrangement, check_scales, non_negative, positive
+from bent_beam.errors import InputError
 from bent_beam.fields import Part, Quantity
 from bent_beam.hysteresis import check_loss
 from bent_beam.loads import ENDS, SIMULATED, UNSHEARED, Feature, Load, loads_of
@@ -147,7 +148,7 @@ class Impact(Part, Scales):
         if end_time is None:
             end_time = min(0.1 * self.time_scale, BEFORE_WAVES_RETURN * self.slow_time_scale)
         if positive("end_time", end_time) / self.time_scale < 1.0 / LONGEST:
-            raise ValueError(
+            raise InputError(
                 f"end_time must be at least {1 / LONGEST:g} t* (got {end_time!r}, t* = {self.time_scale!r} s)"
             )
         return self.checked_time("end_time", end_time)
@@ -156,9 +157,9 @@ class Impact(Part, Scales):
         """A time (s) since impact, or ``ValueError`` when it, or what the loads do by then, is out of proportion."""
         time = non_negative(name, value) / self.time_scale
         if time > LONGEST:
-            raise ValueError(f"{name} must not exceed {LONGEST:g} t* (got {value!r}, t* = {self.time_scale!r} s)")
+            raise InputError(f"{name} must not exceed {LONGEST:g} t* (got {value!r}, t* = {self.time_scale!r} s)")
         for load in loads_of(Impact):
             given = getattr(self, load)
             if abs(self.group(load)) * time > LONGEST:
-                raise ValueError(f"{load} is out of all proportion to a time of {value:.6g} s (got {given!r})")
+                raise InputError(f"{load} is out of all proportion to a time of {value:.6g} s (got {given!r})")
         return float(value)

@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bent_beam.checks import at_least, finite, shortened
+from bent_beam.errors import InputError
 from bent_beam.fields import Part, Quantity
 
 __all__ = [
@@ -53,11 +54,11 @@ def checked_nodes(nodes: Array) -> Array:
     """Validate node places: finite, strictly increasing, at least two elements; ``ValueError`` otherwise."""
     x = np.ascontiguousarray(nodes, dtype=np.float64)
     if x.ndim != 1 or x.size < 3:
-        raise ValueError(f"mesh must have at least two elements (got {max(x.size - 1, 0)})")
+        raise InputError(f"mesh must have at least two elements (got {max(x.size - 1, 0)})")
     if not np.all(np.isfinite(x)):
-        raise ValueError("mesh.nodes must be finite")
+        raise InputError("mesh.nodes must be finite")
     if not np.all(np.diff(x) > 0.0):
-        raise ValueError(f"mesh.nodes must increase strictly (element {int(np.argmin(np.diff(x)))} does not)")
+        raise InputError(f"mesh.nodes must increase strictly (element {int(np.argmin(np.diff(x)))} does not)")
     return x
 
 
@@ -71,7 +72,7 @@ def snapped(nodes: Array, wall_span: tuple[float, float]) -> Array:
     for edge in edges[edges > 0.0]:
         moved[1 + np.argmin(np.abs(nodes[1:-1] - edge))] = edge
     if not np.all(np.isin(edges, moved)) or np.any(np.diff(moved) <= 0.0):
-        raise ValueError(f"mesh has too large elements for a wall from {wall_span[0]!r} to "
+        raise InputError(f"mesh has too large elements for a wall from {wall_span[0]!r} to "
                          f"{wall_span[1]!r} m: each edge takes a node of its own")  # fmt: skip
     return moved
 
@@ -83,7 +84,7 @@ def mirrored(nodes: Array) -> Array:
 
 def _count(half_length: float, element_length: float) -> int:
     if half_length / element_length > MAXIMUM_NODES:
-        raise ValueError(
+        raise InputError(
             f"mesh.element_length is too small for the beam: more than {MAXIMUM_NODES} elements "
             f"(got {element_length!r} for a half length of {half_length!r})"
         )
@@ -118,7 +119,7 @@ def _grown(start: float, first: float, growth: float, end: float, largest: float
     size, total = first, 0.0
     while total < (end - start) * (1.0 - 1e-12):
         if len(sizes) > MAXIMUM_NODES:
-            raise ValueError(f"mesh would have more than {MAXIMUM_NODES} elements: enlarge element_length or growth")
+            raise InputError(f"mesh would have more than {MAXIMUM_NODES} elements: enlarge element_length or growth")
         size = min(size, largest)
         sizes.append(size)
         total += size
@@ -172,7 +173,7 @@ class SquareMesh(_Mesh):
     def nodes(self, half_length: float) -> Array:
         end = min(self.zone, half_length)
         if end / self.first_element > math.sqrt(MAXIMUM_NODES):
-            raise ValueError(
+            raise InputError(
                 f"mesh.first_element is too small: more than {MAXIMUM_NODES} elements in the zone "
                 f"(got {self.first_element!r} for a zone of {end!r})"
             )
@@ -209,7 +210,7 @@ class ScaleFreeMesh(_Mesh):
         if self.largest is not None:
             at_least("mesh.largest", self.largest, self.element_length)
         if (self.zone is None) != (self.growth_outside is None):
-            raise ValueError(
+            raise InputError(
                 "mesh.zone and mesh.growth_outside go together: neither has an effect without the other "
                 f"(got {self.zone!r} and {self.growth_outside!r})"
             )
@@ -245,16 +246,16 @@ class NodesMesh(_Mesh):
 
     def __post_init__(self) -> None:
         if not isinstance(self.places, list | tuple):
-            raise ValueError(f"mesh.places must be a list of numbers (got {shortened(self.places)})")
+            raise InputError(f"mesh.places must be a list of numbers (got {shortened(self.places)})")
         places = [finite("mesh.places", place) for place in self.places]
         object.__setattr__(self, "places", tuple(checked_nodes(np.array(places)).tolist()))
         if self.places[0] != 0.0:
-            raise ValueError(f"mesh.places must start at 0 (got {self.places[0]!r})")
+            raise InputError(f"mesh.places must start at 0 (got {self.places[0]!r})")
 
     def nodes(self, half_length: float) -> Array:
         places = np.asarray(self.places)
         if abs(places[-1] - half_length) > 1e-9 * half_length:
-            raise ValueError(f"mesh.places must end at the half length {half_length!r} (got {self.places[-1]!r})")
+            raise InputError(f"mesh.places must end at the half length {half_length!r} (got {self.places[-1]!r})")
         return places
 
     def refined(self, factor: float) -> NodesMesh:

@@ -58,7 +58,8 @@ class Method(Protocol):
     ``for_whole_beam(impact)`` and ``simulate_to_separation(impact, …)`` (see the functions of these names);
     ``cross_checks(impact)`` (cause → a method to compare with, for the error bars of a whole impact) and
     ``varied(impact, random)`` (a copy with mesh, steps and contact law drawn at random, for a band);
-    ``PARTS`` (field → registry of kinds), for methods made from tables.
+    ``PARTS`` (field → registry of kinds), for methods made from tables; ``DEFAULT_KINDS`` (field → kind), those that
+    a table means that names none.
     """
 
     path: ClassVar[str]
@@ -83,7 +84,8 @@ class Method(Protocol):
     ) -> ImpactHistory:
         """Follow ``impact`` to ``end_time`` (s). ``save``: number of saved instants, or their times, s.
 
-        Raises ``ValueError`` for what it refuses, :class:`bent_beam.SimulationError` when it cannot finish.
+        Raises :class:`bent_beam.InputError` for what it refuses, :class:`bent_beam.SimulationError` when it cannot
+        finish; any other error is a failure too.
         """
         ...
 
@@ -117,7 +119,7 @@ def simulated(run: Callable[..., ImpactHistory], impact: Impact, **how: Any) -> 
     """
     try:
         history = run(impact, **how)
-    except (ValueError, SimulationError, TimeLimitError, MemoryError):
+    except (InputError, SimulationError, TimeLimitError, MemoryError):
         raise
     except ANY_FAILURE as error:
         raise SimulationError(f"the method failed: {type(error).__name__}: {error}") from error
@@ -135,12 +137,12 @@ def separation_times(impact: Impact, longest: float | None = None, save: int = 2
     Raises ``ValueError`` between two walls, or where supports bring the beam back: no separation is then the last.
     """
     if impact.supported and {impact.left_end, impact.right_end} != {"hinged", "free"}:
-        raise ValueError(
+        raise InputError(
             f"left_end {impact.left_end!r}, right_end {impact.right_end!r}: supports bring the beam back, and no "
             "separation is the last; simulate to an end time (bentbeam simulate)"
         )
     if impact.opposite_wall is not None:
-        raise ValueError(
+        raise InputError(
             f"opposite_wall {impact.opposite_wall!r}: between two walls no separation is the last; leave it out, or "
             "simulate to an end time (bentbeam simulate)"
         )
@@ -233,6 +235,7 @@ def method_from_tables(path: str, tables: Mapping[str, Any], *, label: str | Non
     """
     kind = method_type(path)
     registries: Mapping[str, Mapping[str, type]] = getattr(kind, "PARTS", {})
+    defaults: Mapping[str, str] = getattr(kind, "DEFAULT_KINDS", {})
     known = {f.name for f in dataclasses.fields(kind)} - {"label"}
     values: dict[str, Any] = {}
     for name, value in tables.items():
@@ -240,7 +243,7 @@ def method_from_tables(path: str, tables: Mapping[str, Any], *, label: str | Non
             raise unknown_key(path, str(name), known)
         if name not in registries:
             values[name] = value
-        elif (part := part_or_auto(registries[name], value, f"{path}.{name}")) is not None:
+        elif (part := part_or_auto(registries[name], value, f"{path}.{name}", defaults.get(name))) is not None:
             values[name] = part
     try:
         made = kind(**values) if label is None else dataclasses.replace(kind(**values), label=label)

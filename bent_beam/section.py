@@ -11,6 +11,7 @@ from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from typing import Annotated, ClassVar
 
+from bent_beam.errors import InputError
 from bent_beam.fields import Part, Quantity
 
 __all__ = ["SECTIONS", "General", "Pipe", "Rectangle", "RoundBar", "Section"]
@@ -122,18 +123,18 @@ class Pipe(_Round):
         super().__post_init__()
         outer = self.outer_diameter
         if (self.inner_diameter is None) == (self.wall_thickness is None):
-            raise ValueError(
+            raise InputError(
                 "section.inner_diameter and section.wall_thickness say the same: give one of them "
                 f"(got {self.inner_diameter!r} and {self.wall_thickness!r})"
             )
         if self.wall_thickness is not None:
             if self.wall_thickness >= outer / 2.0:
-                raise ValueError(
+                raise InputError(
                     f"section.wall_thickness must be less than half the outer diameter {outer!r}, or the walls "
                     f"cross (got {self.wall_thickness!r})"
                 )
         elif (self.inner_diameter or 0.0) >= outer:
-            raise ValueError(
+            raise InputError(
                 f"section.inner_diameter must be less than the outer diameter {outer!r}, or the walls cross "
                 f"(got {self.inner_diameter!r})"
             )

@@ -10,7 +10,7 @@ from collections.abc import Iterable, Sequence
 from numbers import Real
 from typing import Any
 
-from bent_beam.measure.measured import Band, Measured
+from bent_beam.measure.numbers import Band, Number
 
 __all__ = [
     "BEAMS",
@@ -68,17 +68,17 @@ def unit_for(unit: str, values: Iterable[float | None]) -> tuple[float, str]:
     return (1e-3, f"k{unit}") if unit.startswith("N") and unit != "N s" and largest >= 100.0 else (1.0, unit)
 
 
-def in_unit(number: Measured | Band, unit: str) -> list[str]:
+def in_unit(number: Number | Band, unit: str) -> list[str]:
     """``number``, in ``unit``, in the unit in which it is written, and that unit."""
     scale, name = unit_for(unit, [number.mean if isinstance(number, Band) else number.value])
     return [str(number.scaled(scale)), name]
 
 
-def number_from(found: dict[str, Any] | None) -> Measured | Band:
+def number_from(found: dict[str, Any] | None) -> Number | Band:
     """The number that a document holds."""
     if found and found.get("band"):
         return Band(**found["band"])
-    return Measured(found["value"], found["error"]) if found else Measured()
+    return Number(found["value"], found["error"], found.get("theory")) if found else Number()
 
 
 def milliseconds(time: float) -> str:

@@ -5,19 +5,19 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Sequence
 from contextlib import suppress
-from dataclasses import asdict, dataclass, field, replace
+from dataclasses import dataclass, field, replace
 from itertools import product
 from typing import Any
 
 from bent_beam.checks import between, finite, non_negative, one_of, positive
 from bent_beam.impact import Impact
 from bent_beam.measure.estimators import LeadingEstimate
-from bent_beam.measure.measured import MISSING, Measured
+from bent_beam.measure.numbers import MISSING, Number
 from bent_beam.method import Method, settings_of
+from comparison.questions import ERROR_BARS
 from comparison.readable import text_table
 
 __all__ = [
-    "COMPANIONS",
     "DURATION",
     "LEAST",
     "THESIS_KAPPAS",
@@ -45,9 +45,6 @@ THESIS_KAPPAS = (1 / 1600, 1 / 800, 1 / 400, 1 / 200, 1 / 100, 1 / 40, 1 / 20, 1
 
 LEAST = {"lambda0": 0.0, "r0": 0.0, "lambda1": 1.0, "r1": 1.0}
 """Errors are relative to the larger of |theory| and this."""
-
-COMPANIONS: dict[str, tuple[float, ...]] = {"drift": (), "quick": (0.5,), "thorough": (0.5, 2.0)}
-"""Resolutions of the companion runs that error bars come from, by name."""
 
 LEGEND = (
     "± is the error bar, % the difference from theory. lift: largest gap inside the contact zone; pull: largest",
@@ -96,7 +93,7 @@ class Question:
         positive("kappa_over_nu", self.kappa_over_nu)
         positive("refine", self.refine)
         positive("duration", self.duration)
-        one_of("error_bars", self.error_bars, COMPANIONS)
+        one_of("error_bars", self.error_bars, ERROR_BARS)
         if self.wall is not None:
             positive("--wall", self.wall[0])
             non_negative("--wall", self.wall[1])
@@ -129,11 +126,11 @@ class MatchRow:
     refine: float
     wall: tuple[float, float] | None = None
     regime: str | None = None
-    lambda0: Measured = MISSING
-    r0: Measured = MISSING
-    lambda1: Measured = MISSING
-    r1: Measured = MISSING
-    peak_force: Measured = MISSING
+    lambda0: Number = MISSING
+    r0: Number = MISSING
+    lambda1: Number = MISSING
+    r1: Number = MISSING
+    peak_force: Number = MISSING
     lift: float | None = None
     pull: float | None = None
     hold: dict[str, float | None] | None = None
@@ -160,7 +157,15 @@ class MatchRow:
         flight = math.isclose(self.alpha, -self.kappa_over_nu * self.axial, rel_tol=1e-9)
         return self.axial != 0.0 and flight and self.psi == self.chi == 0.0
 
-    def compared(self) -> dict[str, Measured]:
+    def to_dict(self) -> dict[str, Any]:
+        """JSON-ready, a number as ``{"value", "error", "theory"}``."""
+        found = {name: getattr(self, name) for name in self.__dataclass_fields__}
+        return {
+            name: {"value": one.value, "error": one.bar, "theory": one.theory} if isinstance(one, Number) else one
+            for name, one in found.items()
+        }
+
+    def compared(self) -> dict[str, Number]:
         """The numbers that this row is about."""
         names = ("lambda1", "r1") if self.of_first_order else ("lambda0", "r0")
         return {name: getattr(self, name) for name in names}
@@ -251,7 +256,7 @@ def match_document(rows: Sequence[MatchRow]) -> dict[str, Any]:
     """The contract of ``bentbeam match --json``: ``rows``, and ``failures``, those that failed unexpectedly."""
     names = ("label", "path", "kappa_over_nu", "reason")
     lost = [{name: getattr(row, name) for name in names} for row in failures(rows)]
-    return {"rows": [asdict(r) for r in rows], "failures": lost}
+    return {"rows": [r.to_dict() for r in rows], "failures": lost}
 
 
 def match_table(rows: Sequence[MatchRow]) -> str:
@@ -260,7 +265,7 @@ def match_table(rows: Sequence[MatchRow]) -> str:
     elastic, names = any(r.wall for r in rows), ("lambda0", "r0", "lambda1", "r1")[: 4 if first else 2]
     head = ["method", "kappa/nu", *["refine"] * refined, *["alpha,psi,chi,N"] * first]
     head += [title for name in names for title in (name, "%")]
-    head += ["F/(V0 sqrt(mu)(EI k)^1/4)"] * elastic
+    head += ["F/(V0 sqrt(mu)(EI k)^1/4)", "theory"] * elastic
     head += ["lift/(V0 t)", "pull", "momentum", "gap of push", "held", "s"]
     body = []
     for r in rows:
@@ -270,13 +275,17 @@ def match_table(rows: Sequence[MatchRow]) -> str:
             number = getattr(r, name)
             off = number.relative(LEAST[name])
             line += [str(number), "-" if off is None else f"{100 * off:+.3f}"]
-        line += [str(r.peak_force)] * elastic
+        line += [str(r.peak_force), _shown(r.peak_force.theory)] * elastic
         line += ["-" if v is None else f"{v:.0e}" for v in (r.lift, r.pull, r.momentum_residual, r.gap_of_push)]
         line += ["-" if r.hold is None else f"until {r.hold['until']:.2g}"]
         body.append([*line, "-" if r.seconds is None else f"{r.seconds:.1f}"])
     notes = [f"{row_name(r)}: {r.reason}" for r in rows if r.reason]
     notes += [f"warning: {row_name(r)}: {w}" for r in rows for w in r.warnings]
     return "\n".join([text_table(head, body), "", *LEGEND, *notes])
+
+
+def _shown(value: float | None) -> str:
+    return "-" if value is None else f"{value:.4g}"
 
 
 def row_name(row: MatchRow) -> str:

@@ -78,16 +78,26 @@ class RunStore:
         key = _digest(_canonical({"question": dict(question), "versions": versions(), "source": source_digest()}))
         return None if self.folder is None else self.folder / f"{key[:40]}.json"
 
-    def answer(self, question: Mapping[str, Any], compute: Callable[[], dict[str, Any]]) -> dict[str, Any]:
-        """The kept answer, or ``compute()``'s, kept from now on. Answers are finite JSON data."""
+    def answer(
+        self,
+        question: Mapping[str, Any],
+        compute: Callable[[], dict[str, Any]],
+        as_text: Callable[[dict[str, Any]], dict[str, Any]] = dict,
+        from_text: Callable[[dict[str, Any]], dict[str, Any]] = dict,
+    ) -> dict[str, Any]:
+        """The kept answer, or ``compute()``'s, kept from now on. as_text : makes finite JSON data of an answer, and
+        ``from_text`` an answer of these; neither is asked where nothing is kept."""
+        if self.folder is None:
+            return compute()
         file = self.file(question)
         kept = None if file is None else self._read(file)
         if kept is not None:
-            return kept
-        found: dict[str, Any] = json.loads(_canonical(compute()))
+            return from_text(kept)
+        found = compute()
+        text = as_text(found)
         if file is not None:
             with suppress(OSError):  # a full or read-only cache costs time, not the answer
-                write_atomically(file, _canonical({"answer": found, "sha256": _digest(_canonical(found))}))
+                write_atomically(file, _canonical({"answer": text, "sha256": _digest(_canonical(text))}))
         return found
 
     @staticmethod

@@ -1,5 +1,5 @@
 """Many independent calls on this machine's cores (joblib) or on a dask cluster; one that dies costs only itself. And a
-time limit for each: how fine a row of a match may be, and a clock that its runs ask between their steps."""
+time limit for each: a clock that its runs ask between their steps."""
 
 from __future__ import annotations
 
@@ -16,14 +16,12 @@ from bent_beam.checks import whole
 from bent_beam.errors import TimeLimitError
 from comparison.store import this_code
 
-__all__ = ["Clock", "affordable_refinement", "run_all"]
+__all__ = ["Clock", "run_all"]
 
 FIRST_ANSWER = 8.0  # s that a scheduler has to answer
 FIRST_WORKER = 15.0  # s until one is there, and again until all have answered
 IDLE = 10  # s until a worker without work ends: also when this process was killed and could tell nobody
 DIED = "the worker died: out of memory?"
-FACTORS = (0.125, 0.25, 0.5)  # of the resolution asked for, tried in turn
-GROWTH = 6.0  # of a run's time when elements and steps are halved: 4, and half as much for a busy machine
 
 Done = Callable[[int, Any], None]
 
@@ -217,25 +215,3 @@ class Clock:
                 raise TimeLimitError(f"time limit: not finished after {self.limit:g} s")
 
         return ask
-
-
-def affordable_refinement(seconds_at: Callable[[float], float], limit: float, runs: float) -> tuple[float, float]:
-    """The largest factor of ⅛, ¼, ½ and 1 at which a row is expected to end within ``limit``, s, and the seconds that
-    the row is expected to take at 1.
-
-    seconds_at : runs once at a factor of the resolution and returns the seconds it took. runs : of a row, in units of
-    its finest run. Raises :class:`TimeLimitError` when the row takes longer at ⅛, too.
-    """
-    spent = 0.0
-    for factor in FACTORS:
-        taken = seconds_at(factor)
-        spent += taken
-        if factor == FACTORS[0] and taken * runs > limit:
-            raise TimeLimitError(
-                f"time limit: {taken * runs:.2g} s at {factor:g} times the resolution, more than {limit:g} s; "
-                "give a larger --limit or a coarser mesh"
-            )
-        at_full = taken * runs / factor**2
-        if spent + GROWTH * taken * runs > limit:
-            return factor, at_full
-    return 1.0, at_full

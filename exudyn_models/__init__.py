@@ -8,6 +8,7 @@ One call, every part a small frozen object that may be swapped or left to be cho
     history = exudyn_models.simulate(Impact.dimensionless(0.5))
 """
 
+from exudyn_models.building import Built, build
 from exudyn_models.contacts import CONTACTS
 from exudyn_models.elements import ELEMENTS
 from exudyn_models.geometry import GEOMETRIES
@@ -22,7 +23,9 @@ __all__ = [
     "GEOMETRIES",
     "INTEGRATORS",
     "SOLVERS",
+    "Built",
     "ExudynModel",
+    "build",
     "chosen_half_length",
     "chosen_mesh",
     "simulate",

@@ -17,12 +17,13 @@ import exudyn.itemInterface as items
 import numpy as np
 
 from bent_beam import Impact
+from bent_beam.errors import InputError
 from bent_beam.impact import BEFORE_WAVES_RETURN
 from bent_beam.meshes import Mesh, checked_nodes, mirrored, snapped
 from exudyn_models.contacts import Contact, ContactRun, Wall
 from exudyn_models.elements import Beam, Element
 from exudyn_models.elements.beam import VISCOSITY, VISCOSITY_EXPLICIT, Section
-from exudyn_models.geometry import Array, Geometry, Scaling, Shape, supports_or_plate
+from exudyn_models.geometry import MODEL_UNITS, Array, Geometry, Scaling, Shape, Units, supports_or_plate
 from exudyn_models.integrators import Integrator
 from exudyn_models.resolution import lasts_until_waves_return, modelled_half_length, reachable, thin_front
 from exudyn_models.solvers import NewtonSolver
@@ -81,7 +82,7 @@ def lay_out(impact: Impact, end: float, chosen: Chosen) -> Layout:
     """The beam of the chosen mesh and geometry. Raises ``ValueError`` for a mesh or a geometry that does not fit."""
     geometry, half_length, unscaled = chosen.geometry, modelled_half_length(chosen.mesh, impact), Scaling(impact, end)
     if half_length < impact.half_length * (1.0 - NEAR) and lasts_until_waves_return(impact, end):
-        raise ValueError(
+        raise InputError(
             f"mesh.places must end at the half length {impact.half_length!r} in a run that lasts until waves are back "
             f"from the ends (got {half_length!r})"
         )
@@ -91,8 +92,8 @@ def lay_out(impact: Impact, end: float, chosen: Chosen) -> Layout:
     return Layout(half_length, places, scaling, geometry.shape(nodes, scaling, chosen.contact.wall_share(geometry)))
 
 
-def assemble(layout: Layout, chosen: Chosen) -> tuple[Beam, ContactRun]:
-    """The Exudyn system: beam, loads, symmetry, supports, contact."""
+def assemble(layout: Layout, chosen: Chosen, units: Units = MODEL_UNITS) -> tuple[Beam, ContactRun]:
+    """The Exudyn system: beam, loads, symmetry, supports, contact; the numbers of its items are in ``units``."""
     shape, scaling, explicit = layout.shape, layout.scaling, chosen.integrator.explicit
     container = exu.SystemContainer()
     system = container.AddSystem()
@@ -104,6 +105,7 @@ def assemble(layout: Layout, chosen: Chosen) -> tuple[Beam, ContactRun]:
         axial_stiffness=_axial_stiffness(chosen.element.axial_stiffness, shape.slender, scaling),
         axial_force=scaling.axial_force,
         damping=scaling.impact.damping / scaling.end_time,
+        units=units,
     )
     beam = chosen.element.build(system, shape, section, factor * shape.lengths**2)
     hold = beam.hold_by_inertia if explicit else beam.fix
@@ -126,7 +128,7 @@ def assemble(layout: Layout, chosen: Chosen) -> tuple[Beam, ContactRun]:
         _load_end(beam, node, sign, scaling, follows=layout.ends_follow)
     run = chosen.contact.attach(beam, _wall(shape, scaling, chosen))
     x = np.linspace(min(0.0, float(shape.x[0])), float(shape.x[-1]), 200)
-    line = np.stack([x, shape.wall_curvature * x**2 / 2, np.zeros_like(x)], axis=1)
+    line = np.stack([x, shape.wall_curvature * x**2 / 2, np.zeros_like(x)], axis=1) * units.length
     seen = items.VObjectGround(graphicsData=[graphics.Lines(line.tolist(), color=GREY)])
     system.AddObject(items.ObjectGround(visualization=seen))
     system.Assemble()
@@ -173,6 +175,8 @@ def _wall(shape: Shape, scaling: Scaling, chosen: Chosen) -> Wall:
         opposite=None if opposite is None else -opposite / scaling.deflection,
         stiffness=None if stiffness is None else stiffness / unit,
         damping=impact.wall_damping / (unit * scaling.end_time),
+        stiffness_unit=impact.bending_stiffness / scaling.length**4,
+        damping_unit=impact.bending_stiffness * scaling.end_time / scaling.length**4,
     )
 
 

@@ -27,11 +27,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bent_beam import Impact
+from bent_beam.errors import InputError
 from bent_beam.fields import Part, Quantity
 from bent_beam.loads import FreeMotion, lowest_mode
 
 __all__ = [
     "GEOMETRIES",
+    "MODEL_UNITS",
     "Array",
     "Flags",
     "Geometry",
@@ -40,6 +42,7 @@ __all__ = [
     "Scaling",
     "Shape",
     "TrueGeometry",
+    "Units",
     "supports_or_plate",
 ]
 
@@ -94,6 +97,40 @@ class Scaling:
     def motion_of(self, kappa: float) -> FreeMotion:
         """``motion`` of a beam of curvature ``kappa``."""
         return FreeMotion({**self.motion.terms, (2, 0): -kappa})
+
+
+@dataclass(frozen=True)
+class Units:
+    """What the numbers of Exudyn's items are in: model unit × factor = item. ``simulate`` lays its items in model
+    units, which are as good for a beam of any size; :func:`exudyn_models.build` in SI units."""
+
+    length: float = 1.0
+    time: float = 1.0
+    force: float = 1.0
+
+    @classmethod
+    def si(cls, scaling: Scaling) -> Units:
+        """m, s and N."""
+        return cls(scaling.length, scaling.end_time, scaling.impact.bending_stiffness / scaling.length**2)
+
+    @property
+    def bending_stiffness(self) -> float:
+        return self.force * self.length**2
+
+    @property
+    def mass_per_length(self) -> float:
+        return self.force * (self.time / self.length) ** 2
+
+    @property
+    def stiffness(self) -> float:
+        return self.force / self.length
+
+    @property
+    def damping(self) -> float:
+        return self.force * self.time / self.length
+
+
+MODEL_UNITS = Units()
 
 
 @dataclass(frozen=True)
@@ -238,7 +275,7 @@ class TrueGeometry(Geometry):
     def _laid(self, s: Array, motion: FreeMotion, scaling: Scaling) -> dict[str, Any]:
         a = scaling.amplitude
         if np.max(np.abs(a * motion(s, by_x=1))) > np.pi / 2:
-            raise ValueError(
+            raise InputError(
                 f"geometry true: the modelled beam of half length {s[-1] * scaling.length:.4g} m turns by more "
                 "than a right angle; shorten run.end_time or beam.length, or use the linear limit"
             )

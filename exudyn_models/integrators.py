@@ -14,12 +14,13 @@ import dataclasses
 import math
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
-from typing import Annotated, Any, ClassVar
+from typing import Annotated, Any, ClassVar, Self
 
 import exudyn as exu
 import numpy as np
 
 from bent_beam.checks import between
+from bent_beam.errors import InputError
 from bent_beam.fields import Part, Quantity
 from exudyn_models.geometry import Array
 
@@ -82,7 +83,7 @@ class Averages:
 def checked_steps(count: float) -> None:
     """``ValueError`` when a plan has more steps than any run takes."""
     if not count <= MAXIMUM_STEPS:
-        raise ValueError(
+        raise InputError(
             f"exudyn.integrator.time_step or relative_step is too small: {count:.3g} steps, {MAXIMUM_STEPS:.2g} are "
             "the most"
         )
@@ -116,6 +117,10 @@ class Integrator(Part, ABC):
     limit: ClassVar[float] = math.inf  # of step × largest frequency
     time_step: float | None
 
+    def with_steps(self) -> Self:
+        """A copy whose steps are not open."""
+        return self
+
     def refined(self, factor: float) -> Integrator:
         """A copy with steps ``factor`` times shorter; what is not chosen yet stays open."""
         steps = {name: getattr(self, name, None) for name in ("time_step", "relative_step")}
@@ -141,16 +146,24 @@ class Integrator(Part, ABC):
 
 @dataclass(frozen=True)
 class Implicit(Integrator):
-    """Base of the implicit integrators."""
+    """Base of the implicit integrators. Steps that are left open are chosen for the problem."""
+
+    default_step: ClassVar[float] = 2e-3  # h/t
 
     time_step: Annotated[
         float | None, Quantity("s", "constant step", above=0.0, absent="grows with the time since impact")
     ] = None
-    relative_step: Annotated[float, Quantity("", "h/t, where steps grow", above=0.0)] = 2e-3
+    relative_step: Annotated[
+        float | None, Quantity("", "h/t, where steps grow", above=0.0, absent="2e-3 (generalized_alpha: 8e-3) or less")
+    ] = None
+
+    def with_steps(self) -> Self:
+        is_open = self.time_step is None and self.relative_step is None
+        return dataclasses.replace(self, relative_step=self.default_step) if is_open else self
 
     def segments(self, first: float, unit: float, stable: float) -> list[Segment]:
         if self.time_step is None:
-            return growing_segments(first, self.relative_step)
+            return growing_segments(first, self.relative_step or self.default_step)
         steps = 1.0 / max(min(1.0, self.time_step / unit), 1e-300)
         checked_steps(steps)
         return [Segment(0.0, 1.0, max(1, round(steps)))]
@@ -160,10 +173,10 @@ class Implicit(Integrator):
 class GeneralizedAlpha(Implicit):
     """Generalised-α (Chung and Hulbert 1993), of second order: what the step cannot resolve is damped to ρ∞."""
 
-    # second order: 4e-3 moves λ₀ and r₀ by 6e-6 at κ/ν = 0.1, 0.25 and 0.5
-    relative_step: Annotated[float, Quantity("", "h/t, where steps grow", above=0.0)] = 8e-3
+    default_step: ClassVar[float] = 8e-3  # second order: 4e-3 moves λ₀ and r₀ by 6e-6 at κ/ν = 0.1, 0.25 and 0.5
+
     spectral_radius: Annotated[
-        float, Quantity("", "ρ∞; 1: no damping, and contact rattles; 0: full damping", least=0.0, most=1.0)
+        float, Quantity("", "ρ∞; 1: no damping, contact without dashpots rattles; 0: full damping", least=0.0, most=1.0)
     ] = 0.5
 
     def averages(self) -> Averages:
@@ -239,7 +252,7 @@ class _Explicit(Integrator):
     def segments(self, first: float, unit: float, stable: float) -> list[Segment]:
         step = self.safety * stable if self.time_step is None else self.time_step / unit
         if step > stable:
-            raise ValueError(
+            raise InputError(
                 f"exudyn.integrator.time_step must not exceed the stable step {stable * unit:.4g} s of this "
                 f"mesh and contact (got {self.time_step!r})"
             )

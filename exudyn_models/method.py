@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Annotated, Any, ClassVar, Self
 
+from bent_beam.errors import InputError
 from bent_beam.fields import Part, Quantity
 from bent_beam.free_flight import Separation
 from bent_beam.history import ImpactHistory
@@ -58,6 +59,14 @@ class ExudynModel(Part):
         "solver": SOLVERS,
     }
 
+    DEFAULT_KINDS: ClassVar[dict[str, str]] = {
+        "element": "ancf_cable",
+        "integrator": "generalized_alpha",
+        "contact": "penalty",
+        "geometry": "linear",
+        "solver": "newton",
+    }
+
     mesh: Mesh | None = None
     element: Element | None = None
     integrator: Integrator | None = None
@@ -89,10 +98,12 @@ class ExudynModel(Part):
         elif for_loads:
             contact = held_for(contact, impact)
         contact = contact or Penalty()
-        integrator = self.integrator or contact.integrator
+        given = self.integrator or contact.integrator
+        integrator = given.with_steps()
+        open_steps = integrator != given
         mesh = self.mesh or chosen_mesh(impact, end_time, explicit=integrator.explicit)
         mesh, integrator = mesh.refined(self.refine), integrator.refined(self.refine * shorter)
-        if self.integrator is None:
+        if open_steps:
             integrator = chosen_steps(integrator, mesh, impact, end_time)
         return Chosen(
             mesh=mesh,
@@ -243,6 +254,6 @@ def simulate(
     """
     end, method = impact.checked_end_time(end_time), ExudynModel(**parts)
     if reason := method.refuses(impact):
-        raise ValueError(reason)
+        raise InputError(reason)
     chosen = method.chosen(impact, end)
     return simulation.run(impact, end, chosen, save, view=view, progress=progress, until=until)

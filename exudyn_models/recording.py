@@ -124,7 +124,7 @@ class Recorder:
             return
         time, q, v, a, force = (np.array(column) for column in zip(*self._rows))
         dt, beam, saved = np.diff(time), self.beam, self._pending
-        gains = self._of_energy(time, q, v, a) | self._of_contact(time, q, force)
+        gains = self._of_energy(time, q, v, a) | self._of_contact(time, q, v, force)
         after = {name: onwards(self.sums[name], gain) for name, gain in gains.items()}
         total = self.start_momentum + after["load_impulse"] - v @ self.momentum
         after["impulse"] = onwards(self.sums["impulse"], self._impulses(dt, q, force, np.diff(total)))
@@ -136,6 +136,7 @@ class Recorder:
             self.record[name] += [values[k].copy() for k in saved]
         self.record["kinetic_energy"] += beam.kinetic_energy(v[saved]).tolist()
         self.record["strain_energy"] += beam.strain_energy(q[saved]).tolist()
+        self.record["stretch_energy"] += beam.stretch_energy(q[saved]).tolist()
         self._note_moments(y, slope)
         self.sums |= {name: values[-1] for name, values in after.items()}
         self.total = float(total[-1])
@@ -182,7 +183,7 @@ class Recorder:
             **{name: products(mean_v, (matrix @ moved.T).T) for name, matrix in self.damping.items()},
         }
 
-    def _of_contact(self, time: Array, q: Array, force: Array) -> dict[str, Array]:
+    def _of_contact(self, time: Array, q: Array, v: Array, force: Array) -> dict[str, Array]:
         """Work, losses and impulses of the contact forces in each step, each (steps,)."""
         mean, contact = means(force), self.contact
         depth = q[:, self.beam.vertical[contact.nodes]] - contact.wall_y
@@ -198,6 +199,10 @@ class Recorder:
         if contact.wall_springs is not None:
             deepest = np.maximum(depth, 0.0).max(axis=1)
             self._keep_largest("peaks", force.sum(axis=1), time, deepest, anew=False)
+            wall, speed = self.scaling.impact, v[:, self.beam.vertical[contact.nodes]]
+            delay = wall.wall_damping / (wall.wall_stiffness or math.inf) / self.scaling.end_time  # c/k
+            pressure = np.where(depth > 0.0, depth + delay * speed, 0.0).max(axis=1)  # over k
+            self._keep_largest("pressures", pressure, time, deepest, anew=False)
             dashpots = np.where(depth > 0.0, force - contact.wall_springs * depth, 0.0)  # also slow what would pull
             gains["loss_wall"] = products(means(dashpots), np.diff(depth, axis=0))
         return gains
@@ -229,6 +234,8 @@ class Recorder:
         s, shape, front = self.scaling, self.beam.shape, self.contact.signs > 0.0
         saved = {name: np.array(values) for name, values in self.record.items()}
         saved["loss_impact"] = saved["contact_work"] - saved["contact_energy"] - saved.get("loss_wall", 0.0)
+        # an axial force is a load: the stretch that it keeps in the beam is none of its work, nor energy of the bending
+        saved["work_of_loads"] = saved["work_of_loads"] - saved["stretch_energy"] + saved["stretch_energy"][0]
         x, moment = shape.x * s.length, s.impact.bending_stiffness * s.slope / s.length
         # against the model's wall, which may have a share of the beam's own curvature, but not the real one's
         slope = saved["slope"] * s.slope - s.impact.wall_curvature * (x - s.impact.first_touch)
@@ -255,7 +262,7 @@ class Recorder:
                 "peak_force": force * self.copies * s.impulse / s.end_time,
                 "peak_force_time": when * s.end_time,
                 "peak_penetration": depth * s.deflection,
-                "peak_pressure": depth * s.deflection * s.impact.wall_stiffness,
+                "peak_pressure": saved["pressures"][:, 0] * s.deflection * s.impact.wall_stiffness,
             }
         groups = ((("time", "x"), at_nodes), (("time", "contact"), at_contact), (("time",), of_time))
         return ImpactHistory.build(

@@ -42,6 +42,7 @@ THIN = 0.12  # κ/ν below which hits of nodes at the front of that mesh lift th
 WAVES, GROWTH_OF_WAVES = 2.0, 0.02  # beyond so many times the front's bound there are waves only, and these neighbours
 OF_ZONE, OF_BENDING = 300.0, 30.0  # the smallest element over the front's bound and over the bending ahead of it …
 OF_SHORT_ZONE, SHORTEST = 60.0, 0.01  # … and over bound (1 − κ/ν), which the zone shrinks with, down to this 1 − κ/ν
+OF_SHORT_ZONE_EXPLICIT, SHORTEST_EXPLICIT = 3.0, 0.07  # likewise; λ₀ is 12 % off at κ/ν = 0.93 with 1.8 elements
 OF_THIN_FRONT = 3.0  # equal elements over the bending length of a thin front at the end of the run, …
 LEAST_OF_ZONE, MOST_OF_ZONE = 300.0, 800.0  # … but so many at least and at most up to the front's bound
 BEYOND = 1.1  # times the front's bound, where these end
@@ -97,6 +98,8 @@ def chosen_mesh(
         growth, zone = 0.0, front + BEYOND_WALL * ratio
     elif explicit:
         element, growth, zone = min(max(front, 0.5) / 25, (2.0 / front) / 10), GROWTH_OF_WAVES, None
+        if scaling.kappa < 1.0:
+            element = min(element, front * max(1.0 - scaling.kappa, SHORTEST_EXPLICIT) / OF_SHORT_ZONE_EXPLICIT)
     elif thin_front(scaling.kappa):
         count = min(max(OF_THIN_FRONT * front**2 / 2.0, LEAST_OF_ZONE), MOST_OF_ZONE)
         element, growth, zone = front / count, 0.0, BEYOND * front
@@ -166,7 +169,7 @@ def chosen_steps(integrator: Integrator, mesh: Mesh, impact: Impact, end_time: f
         step = resolving_step(mesh, impact)
         return dataclasses.replace(integrator, time_step=step) if end <= MOST_STEPS * step else integrator
     if thin_front(impact.kappa_over_nu):
-        step = min(integrator.relative_step, _step_over_elements(mesh, Scaling(impact, end)))
+        step = min(integrator.relative_step or integrator.default_step, _step_over_elements(mesh, Scaling(impact, end)))
         return dataclasses.replace(integrator, relative_step=step)
     return integrator
 

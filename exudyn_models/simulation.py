@@ -18,6 +18,7 @@ import numpy as np
 
 from bent_beam import Impact, ImpactHistory, SimulationError
 from bent_beam.checks import MOST_INSTANTS, whole
+from bent_beam.errors import InputError
 from bent_beam.fields import describe
 from bent_beam.method import Save
 from exudyn_models.assembly import Chosen, Layout, lay_out
@@ -80,11 +81,11 @@ def saved_times(save: Save, end: float) -> Array:
     """The times to save in units of ``end``, ascending, after 0; the last is the end itself. Raises ``ValueError``."""
     if isinstance(save, (int, np.integer)):
         if whole("save", int(save), 1) > MOST_INSTANTS:
-            raise ValueError(f"save must be at most {MOST_INSTANTS} instants (got {save})")
+            raise InputError(f"save must be at most {MOST_INSTANTS} instants (got {save})")
         return np.asarray((np.arange(1, save + 1) / save) ** 2)
     times = np.unique(np.asarray(save, float)) / end
     if times.ndim != 1 or not np.isfinite(times).all() or (times < 0.0).any() or (times > 1.0 + 1e-9).any():
-        raise ValueError(f"save must be a number of instants or times from 0 to the end time {end:.6g} s")
+        raise InputError(f"save must be a number of instants or times from 0 to the end time {end:.6g} s")
     return np.append(times[(times > 0.0) & (times < 1.0 - 1e-9)], 1.0)
 
 

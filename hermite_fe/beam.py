@@ -27,6 +27,7 @@ from numpy.polynomial import Polynomial
 from numpy.typing import NDArray
 
 from bent_beam.checks import positive
+from bent_beam.errors import InputError
 from bent_beam.meshes import checked_nodes
 from hermite_fe.banded import stiff_product
 
@@ -41,7 +42,7 @@ SHAPES = [Polynomial(c) for c in ([1, 0, -3, 2], [0, 1, -2, 1], [0, 0, 3, -2], [
 def shape_functions(xi: Array, length: float, derivative: int = 0) -> Array:
     """N₁…N₄ (or their x-derivative up to the third) at ξ ∈ [0, 1], shape (points, 4) (thesis A.6)."""
     if derivative not in range(4):
-        raise ValueError(f"derivative must be 0, 1, 2 or 3 (got {derivative!r})")
+        raise InputError(f"derivative must be 0, 1, 2 or 3 (got {derivative!r})")
     s = np.atleast_1d(np.asarray(xi, float))
     values = np.stack([shape.deriv(derivative)(s) for shape in SHAPES], axis=1) / length**derivative
     values[:, 1::2] *= length
@@ -178,13 +179,13 @@ class HermiteBeam:
         move.
         """
         if unknown := [dof for dof in supports if not 0 <= dof < self.dofs]:
-            raise ValueError(f"supports must name dofs from 0 to {self.dofs - 1} (got {unknown[0]!r})")
+            raise InputError(f"supports must name dofs from 0 to {self.dofs - 1} (got {unknown[0]!r})")
         from scipy.linalg import cho_solve_banded, cholesky_banded  # here: no impact needs what takes long to import
 
         length = self.nodes[-1] - self.nodes[0]
         rigid = [(1.0 - d % 2, self.nodes[d // 2] / length if d % 2 == 0 else 1.0) for d in supports]
         if not rigid or np.linalg.matrix_rank(np.array(rigid)) < 2:
-            raise ValueError(f"supports leave the beam free to move (got dofs {sorted(supports)})")
+            raise InputError(f"supports leave the beam free to move (got dofs {sorted(supports)})")
         stiffness, load = self.stiffness(), np.array(load, float)
         free = np.ones(self.dofs, bool)
         free[list(supports)] = False

@@ -8,10 +8,14 @@ from __future__ import annotations
 
 import hashlib
 import logging
+import os
 import shutil
 import tempfile
+import time
 from collections.abc import Callable
+from contextlib import suppress
 from pathlib import Path
+from traceback import walk_tb
 from typing import Any, TypeVar, cast
 
 import numba
@@ -22,6 +26,8 @@ __all__ = ["compiled", "recompiling"]
 Function = TypeVar("Function", bound=Callable[..., Any])
 Result = TypeVar("Result")
 
+CACHE = "numba.core.caching"  # the module in which a file of the folder is read or written
+UNUSED = 30 * 86400.0  # s
 LEAST_SPACE = 100e6  # bytes that must be free on the disk before anything is kept there
 
 
@@ -44,7 +50,18 @@ def can_be_kept() -> bool:
         return False
 
 
+def forget_old() -> None:
+    """Note that the folder is in use; remove those of other versions that have not been for ``UNUSED``."""
+    with suppress(OSError):
+        os.utime(FOLDER)
+        for other in FOLDER.parent.glob("compiled-*"):
+            if time.time() - other.stat().st_mtime > UNUSED:
+                shutil.rmtree(other, ignore_errors=True)
+
+
 KEPT = can_be_kept()
+if KEPT:
+    forget_old()
 
 
 def compiled(function: Function) -> Function:
@@ -64,16 +81,16 @@ def compiled(function: Function) -> Function:
 def recompiling(call: Callable[[], Result]) -> Result:
     """Run ``call``, which may be the first to need compiled functions; return what it returns.
 
-    A torn file in the folder, or a disk that has become full, makes numba raise whatever the file made of it. The
-    folder is then removed and ``call`` tried again; a second failure is the caller's own.
+    A torn file in the folder, or a disk that has become full, makes numba's cache raise whatever the file made of it.
+    The folder is then removed and ``call`` tried again. What ``call`` itself raises is the caller's.
     """
     if not any(FOLDER.rglob("*.nbi")):
         message = "compiling, as always on a new machine or after an update: about half a minute"
         logging.getLogger("bent_beam").info(message)
     try:
         return call()
-    except Exception:
-        if not KEPT:
+    except Exception as error:
+        if not KEPT or not any(frame.f_globals.get("__name__") == CACHE for frame, _ in walk_tb(error.__traceback__)):
             raise
         shutil.rmtree(FOLDER, ignore_errors=True)
         return call()

@@ -16,6 +16,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from bent_beam.errors import InputError
 from hermite_fe.banded import PAD, factor, substitute_back, substitute_forward
 from hermite_fe.compiled import compiled
 from hermite_fe.system import ContactRows, System
@@ -197,7 +198,7 @@ def check_width(system: System, unknown: Places, row_unknown: Places) -> None:
         for k in range(1, 4):
             tight &= not np.any(bands[k, :-k][unknown[k:] - unknown[:-k] > 4])
     if not tight:
-        raise ValueError("contact rows must each touch a few neighbouring dofs, at most one row for two dofs")
+        raise InputError("contact rows must each touch a few neighbouring dofs, at most one row for two dofs")
 
 
 @compiled

@@ -45,6 +45,7 @@ from typing import Annotated, ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
+from bent_beam.errors import InputError
 from bent_beam.fields import Part, Quantity
 from hermite_fe.beam import HermiteBeam
 from hermite_fe.masses import Mass
@@ -71,7 +72,7 @@ class Contact(Part, ABC):
     def __post_init__(self) -> None:
         super().__post_init__()
         for name, value in self.held.items() if self.restitution > 0.0 else ():
-            raise ValueError(
+            raise InputError(
                 f"contact.{name} keeps rows closed that restitution {self.restitution!r} makes rebound: "
                 f"state one of them (got {value!r})"
             )
@@ -123,7 +124,7 @@ def element_rows(
     count = beam.nodes.size - 1
     share = np.broadcast_to(np.asarray(at, float), (count,))
     if not np.all((share >= 0.0) & (share <= 1.0)):
-        raise ValueError(f"at must lie in [0, 1], within the element (got {at!r})")
+        raise InputError(f"at must lie in [0, 1], within the element (got {at!r})")
     dofs = 2 * np.arange(count)[:, None] + np.arange(4)[None, :]
     first = count // 2 if full else 0
     left = np.arange(count) < first

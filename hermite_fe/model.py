@@ -34,6 +34,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from bent_beam.errors import InputError
 from bent_beam.hysteresis import branches_of
 from bent_beam.impact import Impact
 from bent_beam.loads import lowest_mode
@@ -201,7 +202,7 @@ def before_the_wall(rows: ContactRows, impact: Impact, supports: tuple[int, ...]
     if rows.dofs.shape[1] == 1:
         kept &= ~np.isin(rows.dofs[:, 0], supports)
     if not kept.any():
-        raise ValueError(
+        raise InputError(
             f"wall_from: no contact point stands before the wall from {begin!r} to {end!r} m; take contact.kind = node"
         )
     return rows.at(kept)
@@ -237,11 +238,11 @@ def with_opposite_wall(
     Raises ``ValueError`` for contact that is not at nodes, or a distance that leaves the bow no room.
     """
     if rows.dofs.shape[1] != 1:
-        raise ValueError('opposite_wall takes contact.kind = "node" only')
+        raise InputError('opposite_wall takes contact.kind = "node" only')
     bow = np.interp(rows.places, beam.nodes, natural[0::2])
     gap = bow + distance
     if np.any(gap + displacement[rows.dofs[:, 0]] < 0.0):
-        raise ValueError(
+        raise InputError(
             f"opposite_wall must leave room for the bow of {float(-bow.min()):.6g} m behind its apex (got {distance!r})"
         )
     both = rows.at(np.repeat(np.arange(len(rows)), 2))

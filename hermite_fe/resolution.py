@@ -49,6 +49,7 @@ from typing import Annotated, Any, Self
 import numpy as np
 from numpy.typing import NDArray
 
+from bent_beam.errors import InputError
 from bent_beam.fields import Part, Quantity
 from bent_beam.impact import Impact
 from bent_beam.loads import WallScales, wall_scales
@@ -139,25 +140,25 @@ def choose(impact: Impact, end_time: float, parts: Composition | None = None) ->
     except ValueError as error:
         if parts.mesh is not None:
             raise
-        raise ValueError(
+        raise InputError(
             f"curvature: no mesh can be chosen that resolves the contact front at kappa/nu = "
             f"{impact.kappa_over_nu:g} ({error}); give [mesh]"
         ) from None
     contact = parts.contact or NodeContact()
     if impact.wall_stiffness is not None and parts.contact is not None:
-        raise ValueError(
+        raise InputError(
             f"contact has no effect on a wall with a stiffness: leave it out (got {type(contact).__name__})"
         )
     integrator = parts.integrator or scheme_for(impact, contact)
     # from the mesh before it is refined: then the first step is refined like all others
     integrator = chosen_integrator(impact, end_time, coarse, integrator).refined(parts.refine)
     for name, value in contact.held.items() if not integrator.holds else ():
-        raise ValueError(
+        raise InputError(
             f"contact.{name} has no effect with this integrator, whose rows may always open (got {value!r})"
         )
     far_field = parts.far_field or GridViscosity(end="free" if parts.domain is None else "following")
     if parts.domain is not None and far_field.end != "following":
-        raise ValueError(
+        raise InputError(
             f'domain cuts the beam where it goes on: far_field.end must be "following" (got {far_field.end!r})'
         )
     nodes = snapped(fine, impact.wall_span)
@@ -199,7 +200,7 @@ def whole_beam_step(impact: Impact, element: float) -> float:
 def modelled_half_length(impact: Impact, domain: float | None) -> float:
     """Half length, m, of what is modelled; ``ValueError`` when ``domain`` is longer than the beam."""
     if domain is not None and domain > impact.half_length:
-        raise ValueError(f"domain must not exceed the half length {impact.half_length!r} of the beam (got {domain!r})")
+        raise InputError(f"domain must not exceed the half length {impact.half_length!r} of the beam (got {domain!r})")
     return impact.half_length if domain is None else domain
 
 

@@ -8,19 +8,20 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from bent_beam.errors import SimulationError
+from bent_beam.errors import InputError, SimulationError
 from bent_beam.fields import describe
 from bent_beam.history import ImpactHistory
 from bent_beam.hysteresis import branches_of
 from bent_beam.impact import FIRST_SPREAD, Impact
 from bent_beam.loads import UNSHEARED, unmodelled
 from hermite_fe import resolution
+from hermite_fe.compiled import recompiling
 from hermite_fe.contacts import Contact, NodeContact
 from hermite_fe.elastic_wall import PEAKS
 from hermite_fe.model import MODELLED, BeamModel, beam_model
 from hermite_fe.run import Stepper, Trajectory, integrate
 from hermite_fe.stepping import ENERGIES
-from hermite_fe.warnings_of_run import warnings_of_run
+from hermite_fe.warnings_of_run import rounds_warnings, warnings_of_run
 
 __all__ = ["refusal", "simulate", "spreads"]
 
@@ -77,11 +78,13 @@ def simulate(
     composition = resolution.Composition(**parts)
     reason = refusal(impact, composition.contact)
     if reason is not None:
-        raise ValueError(reason)
+        raise InputError(reason)
     full_beam = composition.full_beam or impact.off_centre
     end = impact.checked_end_time(end_time)
     choice = resolution.choose(impact, end, composition)
-    model = beam_model(impact, choice.nodes, choice.contact, choice.far_field, full=full_beam, mass=choice.mass)
+    model = recompiling(
+        lambda: beam_model(impact, choice.nodes, choice.contact, choice.far_field, full=full_beam, mass=choice.mass)
+    )
     check_start(model)
     run = integrate(
         model.system,
@@ -106,8 +109,10 @@ def simulate(
         **settings_of_run(impact, choice, run),
     }
     history = history_of(impact, model, run, settings)
+    warnings = rounds_warnings(run.most_iterations)
     if until is None and spreads(impact):
-        history = history.with_warnings(warnings_of_run(impact, choice, end, model, history))
+        warnings += warnings_of_run(impact, choice, end, model, history)
+    history = history.with_warnings(warnings)
     if run.failure:
         raise SimulationError(
             run.failure,
@@ -151,7 +156,7 @@ def check_start(model: BeamModel) -> None:
     gaps = rows.gaps(model.displacement)
     worst = int(np.argmin(gaps))
     if gaps[worst] < -1e-12 * float(np.abs(gaps).max()):
-        raise ValueError(
+        raise InputError(
             f"fourth_derivative bends the beam into the wall before the impact: the gap at "
             f"x = {float(rows.places[worst]):.6g} m is {float(gaps[worst]):.6g} m; shorten the beam"
         )

@@ -14,6 +14,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from bent_beam.errors import InputError
 from hermite_fe.elastic_wall import NO_SPRINGS, Springs
 
 __all__ = ["DAMPINGS", "Bending", "ContactRows", "System"]
@@ -67,12 +68,12 @@ class ContactRows:
         ):
             value = getattr(self, name) if np.size(getattr(self, name)) else default
             if np.shape(value) != (rows,):
-                raise ValueError(f"contact rows: {name} must have shape ({rows},) (got {np.shape(value)})")
+                raise InputError(f"contact rows: {name} must have shape ({rows},) (got {np.shape(value)})")
             set_(self, name, np.ascontiguousarray(value, default.dtype))
         first = self.dofs.min(axis=1)
         shared = dofs.shape[1] == 1  # a dof between two walls has a constraint for either
         if np.any(np.diff(first) < (0 if shared else 1)):
-            raise ValueError("contact rows must be sorted by their first dof, those of several dofs each with another")
+            raise InputError("contact rows must be sorted by their first dof, those of several dofs each with another")
 
     def __len__(self) -> int:
         return int(self.gap.size)
@@ -90,7 +91,7 @@ def _bands(name: str, value: Array, dofs: int) -> Array:
     """``value`` in lower banded form, shape (4, dofs)."""
     bands = np.atleast_2d(np.asarray(value, float))
     if bands.shape[1] != dofs or bands.shape[0] > WIDTH:
-        raise ValueError(f"system.{name} must have shape (≤ {WIDTH}, {dofs}) (got {bands.shape})")
+        raise InputError(f"system.{name} must have shape (≤ {WIDTH}, {dofs}) (got {bands.shape})")
     return np.pad(bands, ((0, WIDTH - bands.shape[0]), (0, 0)))
 
 
@@ -146,20 +147,20 @@ class System:
         set_(self, "stiffness", _bands("stiffness", self.stiffness, n))
         causes = [cause for cause, _ in self.dampings]
         if not set(causes) <= set(DAMPINGS) or len(set(causes)) < len(causes):
-            raise ValueError(f"system.dampings must name each of {DAMPINGS} at most once (got {causes})")
+            raise InputError(f"system.dampings must name each of {DAMPINGS} at most once (got {causes})")
         dampings = tuple((cause, _bands(f"dampings[{cause!r}]", bands, n)) for cause, bands in self.dampings)
         set_(self, "dampings", tuple((cause, bands) for cause, bands in dampings if np.any(bands)))
         load = np.zeros((1, n)) if np.size(self.load) == 0 else np.atleast_2d(np.asarray(self.load, float))
         if load.shape[1] != n:
-            raise ValueError(f"system.load must have shape (powers, {n}) (got {load.shape})")
+            raise InputError(f"system.load must have shape (powers, {n}) (got {load.shape})")
         set_(self, "load", np.ascontiguousarray(load))
         dofs = self.contacts.dofs
         if dofs.size and (dofs.min() < 0 or dofs.max() >= n):
-            raise ValueError(f"contact rows must name dofs from 0 to {n - 1}")
+            raise InputError(f"contact rows must name dofs from 0 to {n - 1}")
         if any(not 0 <= s < n for s in self.supports):
-            raise ValueError(f"system.supports must name dofs from 0 to {n - 1} (got {self.supports!r})")
+            raise InputError(f"system.supports must name dofs from 0 to {n - 1} (got {self.supports!r})")
         if dofs.shape[1] == 1 and np.intersect1d(dofs, self.supports).size:
-            raise ValueError("system.supports and contact rows must not share a dof")
+            raise InputError("system.supports and contact rows must not share a dof")
 
     @property
     def damping(self) -> Array:

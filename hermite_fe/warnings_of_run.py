@@ -14,11 +14,12 @@ from hermite_fe.integrators import Integrator
 from hermite_fe.model import BeamModel
 from hermite_fe.resolution import Choice, front
 
-__all__ = ["warnings_of_run"]
+__all__ = ["rounds_warnings", "warnings_of_run"]
 
 Array = NDArray[np.float64]
 
 ELEMENTS_PER_FRONT = 2.0  # fewer in ℓ deserve a warning
+MOST_ROUNDS = 100  # of the active set in one step; sound runs take ten or so
 LARGEST_LIFT = 1e-2  # of V₀t; r₀ may be too large by as much (docs/numerics.md)
 DAMPED = 4.0  # elements in √(cη): a beam with damping lifts off its wall alike with any scheme (within a fifth); in l_s
 
@@ -31,6 +32,15 @@ def warnings_of_run(
         *resolution_warnings(impact, end_time, choice.nodes, choice.integrator),
         *end_warnings(impact, end_time, choice.nodes, choice.far_field),
         *lift_warnings(impact, model, history),
+    ]
+
+
+def rounds_warnings(most: int) -> list[str]:
+    """A warning where the contacts of a step hardly settled, after ``most`` rounds."""
+    if most <= MOST_ROUNDS:
+        return []
+    return [
+        f"the active set of the contact took {most} rounds in a step: shorter steps or finer elements settle sooner"
     ]
 
 

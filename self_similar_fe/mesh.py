@@ -10,6 +10,7 @@ from typing import Annotated, ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
+from bent_beam.errors import InputError
 from bent_beam.fields import Part, Quantity
 
 __all__ = ["MESHES", "ExpandingMesh"]
@@ -62,7 +63,7 @@ class ExpandingMesh(Part):
         while front > 0.0 and behind[-1] > 0.0 and len(behind) <= MAXIMUM_NODES:
             behind.append(behind[-1] - size(behind[-1]))
         if len(ahead) + len(behind) > MAXIMUM_NODES:
-            raise ValueError(
+            raise InputError(
                 f"mesh: more than {MAXIMUM_NODES} elements to follow a front at {front:.3g} sqrt(t) (kappa/nu too "
                 "small, or mesh.front_resolution, growth, elements_per_wave, interior_elements or absorber_length)"
             )

@@ -7,6 +7,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Annotated, ClassVar
 
+from bent_beam.errors import InputError
 from bent_beam.fields import Part, Quantity
 from bent_beam.history import ImpactHistory
 from bent_beam.impact import Impact
@@ -67,7 +68,7 @@ class SelfSimilarFE(Part):
         end = impact.checked_end_time(end_time)
         reason = self.refuses(impact)
         if reason:
-            raise ValueError(reason)
+            raise InputError(reason)
         mesh = self.chosen_for(impact, end).mesh
         assert mesh is not None
         return simulate_expanding(impact, mesh, end_time=end, save=save, progress=progress)

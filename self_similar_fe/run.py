@@ -37,7 +37,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bent_beam.checks import affordable, whole
-from bent_beam.errors import SimulationError
+from bent_beam.errors import InputError, SimulationError
 from bent_beam.history import ImpactHistory
 from bent_beam.impact import Impact
 from self_similar_fe.mesh import ExpandingMesh
@@ -70,7 +70,7 @@ def simulate_expanding(
     """
     end_time = impact.checked_end_time(end_time)
     if impact.kappa_over_nu == 0.0:
-        raise ValueError("curvature must be positive: a flat beam meets the wall everywhere at once (got 0.0)")
+        raise InputError("curvature must be positive: a flat beam meets the wall everywhere at once (got 0.0)")
     wanted = save if isinstance(save, int) else np.size(save)
     whole("save", wanted, 2)
     began = clock.perf_counter()

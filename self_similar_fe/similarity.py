@@ -8,6 +8,7 @@ with the Galerkin matrices of D(D + 1) + σ(D + 1) + ∂⁴ − nτ∂², D = �
 from __future__ import annotations
 
 import dataclasses
+import itertools
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -23,9 +24,12 @@ from self_similar_fe.mesh import ExpandingMesh
 __all__ = ["Similarity", "leading_obstacle", "similarity"]
 
 Array = NDArray[np.float64]
-GAP_ROUND_OFF = 1e-11  # in W, that is in units of V₀t
-PATIENCE = 4  # swaps of all wrong contacts without progress before both tolerances are widened tenfold
-MOST_SWAPS = 200  # in a step: sound runs take 80 at most, and those that take more go on to take ever more
+GAP_ROUND_OFF = 1e-9  # in W, that is in units of V₀t
+FAST = 0.75  # of the round before: all wrong contacts are exchanged while their number falls below this share of it
+FEW = 2  # runs up to this length are exchanged whole
+PATIENCE = 10  # rounds without progress before only the last wrong one is exchanged (Murty's rule)
+ONE_BY_ONE = 100  # of those rounds before both tolerances are widened tenfold
+MOST_ROUNDS = 500  # in a step
 BAND = 3  # half-bandwidth of Hermite elements: two nodes of two degrees of freedom
 
 
@@ -99,7 +103,8 @@ class Similarity:
         self.rate = np.zeros(self.dofs)
         self.reaction = np.zeros(zeta.size)
         self.active = np.zeros(zeta.size, dtype=bool)
-        self.gap_tolerance = 0.0
+        self.widened = 1.0  # tolerances over round-off, most of all steps
+        self.push, self.pull = 0.0, 0.0  # largest of a contact in any step
         self.iterations = 0
         self.inertia = np.zeros(self.dofs)
 
@@ -113,8 +118,9 @@ class Similarity:
             bands[2 * BAND - k, max(k, 0) : self.dofs + min(k, 0)] = self.matrix.diagonal(k)
         self._bands = bands
         self._factored: NDArray[np.bool_] | None = None
-        # a deflection is known to some ulp of 1, so a reaction to that times the stiffness it is computed with
-        self._round_off = 16.0 * np.finfo(float).eps * np.abs(self.matrix.diagonal()[0::2])
+        # a deflection is known to some ulp of 1, so a reaction to that times the stiffness it is computed with; errors
+        # far from a contact have long levers
+        self._round_off = 1600.0 * np.finfo(float).eps * np.abs(self.matrix.diagonal()[0::2])
 
     def _factor(self, active: NDArray[np.bool_]) -> None:
         """Banded LU with the rows of held degrees of freedom replaced by the identity; kept while the set stays."""
@@ -164,32 +170,38 @@ class Similarity:
     def step(self, obstacle: Array) -> None:
         """One implicit Euler step; ``obstacle`` (n,) is W₀ at the new time where contact may occur, −1 elsewhere.
 
+        Contacts of wrong sign are exchanged: all while their number falls fast, then the worst of each run of
+        neighbours (a beam is stiff over a few nodes, so that this mends the others), then the last alone, as
+        :mod:`hermite_fe.active_set` does. What is widened where they still cycle is ``widened``.
+
         Raises ``ArithmeticError`` when the active set does not settle.
         """
         b, o = self.backward, self.operators
         old, old_rate = b * self.eta, b * self.rate
         right = o.mass @ (b * old + old_rate) + o.drift @ old
-        active = self.active
-        fewest, patience, slack = self.zeta.size + 1, PATIENCE, 1.0
-        for _ in range(MOST_SWAPS):
+        active, slack, before, fewest, patience = self.active, 1.0, self.zeta.size + 1, self.zeta.size + 1, PATIENCE
+        for _ in range(MOST_ROUNDS):
             self.iterations += 1
             eta, reaction = self._solve(right, obstacle, active)
-            wrong = np.where(active, reaction < -slack * self._round_off, obstacle - eta[0::2] > slack * GAP_ROUND_OFF)
-            wrong[-1] = False
+            excess = np.where(active, -reaction / self._round_off, (obstacle - eta[0::2]) / GAP_ROUND_OFF)
+            excess[-1] = 0.0
+            wrong = excess > slack
             count = int(np.count_nonzero(wrong))
             if count == 0:
                 break
-            # Behind the front the exact reaction is nil: contacts that touch without load may cycle at round-off.
-            if count < fewest:
-                fewest, patience = count, PATIENCE
-            elif patience == 0:
-                fewest, patience, slack = self.zeta.size + 1, PATIENCE, 10.0 * slack
-            else:
-                patience -= 1
-            active = active ^ wrong
+            patience = PATIENCE if count < fewest else patience - 1
+            if patience == -ONE_BY_ONE:  # contacts that touch without load cycle at round-off
+                slack, fewest, patience = 10.0 * slack, self.zeta.size + 1, PATIENCE
+            if patience <= 0:
+                wrong[: np.flatnonzero(wrong)[-1]] = False
+            elif count > FAST * before:
+                wrong = worst_of_runs(np.where(wrong, excess, 0.0), active)
+            active, before, fewest = active ^ wrong, count, min(fewest, count)
         else:
             raise ArithmeticError("the active set does not settle")
-        self.gap_tolerance = max(self.gap_tolerance, slack * GAP_ROUND_OFF)
+        self.widened = max(self.widened, slack)
+        self.push = max(self.push, float(reaction.max()))
+        self.pull = max(self.pull, -float(reaction.min()))
         if not np.all(np.isfinite(eta)):
             raise ArithmeticError("the solution is no longer finite")
         rate = b * eta - old
@@ -218,6 +230,17 @@ class Similarity:
     def velocity(self) -> Array:
         """η_τ = (D + 1) η at the nodes."""
         return self.rate[0::2] + self.eta[0::2] - 0.5 * self.zeta * self.eta[1::2]
+
+
+def worst_of_runs(excess: Array, active: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """The worst of each run of neighbours that are wrong alike; runs of two whole."""
+    chosen = excess > 0.0
+    edges = np.flatnonzero(np.diff(np.where(chosen, 1 + active, 0), prepend=0, append=0))
+    for start, end in itertools.pairwise(edges.tolist()):
+        if end - start > FEW and chosen[start]:
+            chosen[start:end] = False
+            chosen[start + int(np.argmax(excess[start:end]))] = True
+    return chosen
 
 
 def leading_obstacle(zeta: Array, kappa_over_nu: float) -> Array:

@@ -1,16 +1,17 @@
 """Made-up rows and real reduced impacts, small enough for every test of the report."""
 
+import tempfile
 from dataclasses import replace
 from functools import cache
 from pathlib import Path
 from typing import Any
-from unittest import mock
 
-from bent_beam.measure.measured import Measured
+from bent_beam.measure.numbers import Number
 from bent_beam.meshes import ScaleFreeMesh
 from bent_beam_programs.report.impacts import SHOWN, ShownImpact, show
-from bent_beam_programs.report.summary import pipe_prediction
+from bent_beam_programs.report.whole import pipe_prediction
 from comparison.rows import MatchRow
+from comparison.store import RunStore
 from comparison.stored import write
 from hermite_fe import HermiteFE
 from self_similar_fe import ExpandingMesh, SelfSimilarFE
@@ -24,7 +25,7 @@ def row(path: str, kappa: float, first: tuple[float, float, float] | None = None
     alpha, psi, chi = first or (0.0, 0.0, 0.0)
     exact = contact_parameters(kappa, alpha, psi, chi)
     numbers = {
-        name: Measured(value + sign * off * max(abs(value), least), 2 * off * max(abs(value), least), value)
+        name: Number(value + sign * off * max(abs(value), least), 2 * off * max(abs(value), least), value)
         for name, sign, least in (("lambda0", 1, 0.0), ("r0", -1, 0.0), ("lambda1", 1, 1.0), ("r1", 1, 1.0))
         if (value := float(getattr(exact, name))) is not None and (first or name.endswith("0"))
     }
@@ -57,11 +58,13 @@ def rows() -> list[MatchRow]:
     ]
 
 
+KEPT = RunStore(Path(tempfile.mkdtemp()))
+
+
 @cache
 def pipe() -> dict[str, Any] | None:
-    """Without the whole impact, which the page does not show."""
-    with mock.patch("comparison.prediction.predicted_impact"):
-        return pipe_prediction()
+    """As the page shows it."""
+    return pipe_prediction(store=KEPT)
 
 
 METHODS = (

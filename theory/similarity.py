@@ -16,10 +16,11 @@ and the beam's energy is conserved. Ahead of the front η_τ² + η_ξξ² = |B 
 
 The largest bending moment is constant in time, M = V₀√(EIμ) m(κ/ν):
 
-    E″(x) = Re[B (e^{−iπ/4}/2)² erfc z],   E‴(x) = ρ cos((x² − λ₀²)/4 + θ),   E″ = −κ, E‴ = √(2/π) r₀ at x = λ₀.
+    E″(x) = Re[B (e^{−iπ/4}/2)² erfc z],   E‴(x) = √(2/π) r₀ cos((x² − λ₀²)/4),   E″ = −κ at x = λ₀,
 
-In the zone the beam is straightened, so the wall bends it by κ. Ahead of it E‴ is a pure oscillation in x²/4: E″ has
-its extrema at known places, the first where (x_p² − λ₀²)/4 = π/2 − θ. The arches of E‴ shrink with x, so the
+without a phase, since E⁗ = x(E′ − xE″)/4 is zero at the front. In the zone the beam is straightened, so the wall
+bends it by κ. Ahead of it E‴ is a pure oscillation in x²/4: E″ has its extrema at known places, the first where
+x_p² = λ₀² + 2π. The arches of E‴ shrink with x, so the
 extrema lie nested around 0 and the first, which bends the beam further, is the largest (docs/theory.md; not in
 the thesis). At one point, κ/ν ≥ 1, the largest is at the contact: 1.
 """
@@ -176,8 +177,6 @@ def peak_moment_of(parameters: ContactParameters) -> PeakMoment:
     """`peak_moment` of an impact that has been solved already."""
     lam = np.asarray(parameters.lambda0)
     at_contact = np.where(lam > 0.0, parameters.kappa_over_nu, 1.0)
-    push = wave_amplitude(parameters) * _JUMP
-    # from the front to the zero of E‴ the phase turns push e^{iφ} into i|push|
-    place = np.sqrt(lam**2 + 4.0 * np.arctan2(push.real, push.imag))
-    ahead = np.abs(push) * (1j * TURN**2 * scaled_erfc(place) / _JUMP).real
+    place = np.sqrt(lam**2 + 2.0 * np.pi)  # where the phase of E‴ has turned by a quarter
+    ahead = np.sqrt(2.0 / np.pi) * np.asarray(parameters.r0) * (1j * TURN**2 * scaled_erfc(place) / _JUMP).real
     return PeakMoment(*(v if lam.ndim else v.item() for v in (at_contact, ahead, place)))

@@ -15,14 +15,14 @@ both share, the start above all, drops out.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from bent_beam.measure.measured import Measured
 from bent_beam.measure.moments import Moments
+from bent_beam.measure.numbers import FACTOR, Number, number_of
 
 __all__ = [
     "FirstOrderEstimate",
@@ -35,15 +35,11 @@ __all__ = [
 Array = NDArray[np.float64]
 SIDE = math.sqrt(2.0 / math.pi)
 FLOOR = 2e-3  # of the larger of λ₁ and r₁: what halving mesh and steps moves them by
-# The error bar, held against 200 methods drawn at random (benchmarks/coverage.py, make coverage):
+# What no companion shows, held against methods drawn at random (benchmarks/coverage.py, make coverage):
 LEAST = 1e-4  # of a leading-order value: what runs keep that no refinement moves any more
-COMPANION = 1.2  # first order in Δx: the coarser run is as far from this one as this one from the truth
-DRIFT = 1.5  # of the spread over the window and its parts
-DRIFT_ALONE = 4.0  # the same where no companion says what the mesh does
+DRIFT_ALONE = 4.0  # of the spread over the window and its parts, where no companion says what the mesh does
 LIFTED = 0.1  # of V₀t: a larger lift counts whole, a smaller one in proportion to itself
 INSIDE = 0.5  # of what the lift does to r₀, to λ₀: pushes off the zone act anywhere behind the front
-COMPANION_FIRST = 1.5  # at first order likewise: fronts that pass elements at other times add noise to the difference
-SPREAD_FIRST = 2.0  # of the largest change by a term more, half the window or one run alone
 STUCK_FIRST = 0.4  # likewise of a load that should lift the zone and does not: springs push on, or no node is there
 LIFTED_FIRST = 2.0  # of what the lift does to r₀ and λ₀: a load moves the front of a lifted zone differently
 MISSING_FIRST = 2.5  # of the zone's length times what its uniform reaction lacks: a zone off the wall moves the front
@@ -53,23 +49,23 @@ MISSING_FIRST = 2.5  # of the zone's length times what its uniform reaction lack
 class LeadingEstimate:
     """λ₀ and r₀ with ν = 1; ``lift`` is the largest lift inside the zone over V₀t; ``window`` the fitted times (τ)."""
 
-    lambda0: Measured
-    r0: Measured
+    lambda0: Number
+    r0: Number
     lift: float
     window: tuple[float, float]
 
     @property
     def front(self) -> float:
         """λ₀, or 0 where it does not exceed its error bar: the run then shows a contact in one point."""
-        return self.lambda0.known if self.lambda0.known > self.lambda0.bar else 0.0
+        return self.lambda0.known if self.lambda0.known > self.lambda0.spread else 0.0
 
 
 @dataclass(frozen=True)
 class FirstOrderEstimate:
     """λ₁ and r₁ for ν = 1 and the (α, ψ, χ) asked for, the ε of the runs, and the uniform reaction over ε."""
 
-    lambda1: Measured
-    r1: Measured
+    lambda1: Number
+    r1: Number
     uniform_reaction: float
     epsilons: tuple[float, ...]
     window: tuple[float, float]
@@ -91,9 +87,17 @@ def _lstsq(matrix: Array, right: Array) -> Array:
     return np.asarray(solution / scale)
 
 
-def _apart(best: Array, companions: Sequence[Array]) -> Array:
-    """Largest differences from the values of companion runs at other resolutions."""
-    return np.asarray(np.abs(np.array([best, *companions]) - best).max(axis=0))
+def _farthest(best: Array, companions: Sequence[Array]) -> Array:
+    """Of each value that of the companion, at another resolution, which is farthest from ``best``."""
+    found = np.array(companions)
+    return np.asarray(found[np.abs(found - best).argmax(axis=0), np.arange(best.size)])
+
+
+def _numbers(best: Array, companions: Sequence[Array], known: Mapping[str, Array]) -> list[Number]:
+    """The values with their bars. known : cause → sizes, one for each value."""
+    other = _farthest(best, companions) if companions else best
+    parts = [{cause: float(sizes[i]) for cause, sizes in known.items()} for i in range(best.size)]
+    return [number_of(float(best[i]), {"mesh_and_step": float(other[i])}, parts[i]) for i in range(best.size)]
 
 
 # --- leading order ---------------------------------------------------------------------------------------------
@@ -106,13 +110,12 @@ def leading_order(found: Moments, *, window: float = 10.0, companions: Sequence[
     steps and start do to the answer falls at least like Δx, so that the difference from the coarser run is the size of
     the error; without companions only the drift over the window measures it.
 
-    The error bar is the root of the sum of squares, for the causes are independent, of the drift (spread over the
-    window and its parts) taken ``DRIFT`` times, of the largest difference from a companion taken ``COMPANION`` times,
-    of ``LEAST`` of the value and of the lift over V₀t, times lift/``LIFTED`` where that is less than 1: impacts that
-    throw the zone off the wall push it too hard, in the coarser run just as much. With Exudyn at κ/ν from 1/800 to 1/25
-    r₀ was 22, 21, 14, 6.5, 2.3 and 0.6 % too large where the zone lifted by 0.2, 0.2, 0.2, 0.07, 0.03 and 0.01 V₀t. Of
-    λ₀ it is ``INSIDE`` of that: velocity-level laws at κ/ν = 0.06 lift the zone by 0.03 to 0.14 V₀t, r₀ is 0.4 to 2.2 %
-    too large and λ₀ 0.14 to 0.7 % too small.
+    The bar (:func:`bent_beam.measure.numbers.number_of`) holds the largest difference from a companion, the drift
+    (spread over the window and its parts), ``LEAST`` of the value and the lift over V₀t, times lift/``LIFTED`` where
+    that is less than 1: impacts that throw the zone off the wall push it too hard, in the coarser run just as much.
+    With Exudyn at κ/ν from 1/800 to 1/25 r₀ was 22, 21, 14, 6.5, 2.3 and 0.6 % too large where the zone lifted by 0.2,
+    0.2, 0.2, 0.07, 0.03 and 0.01 V₀t. Of λ₀ it is ``INSIDE`` of that: velocity-level laws at κ/ν = 0.06 lift the zone
+    by 0.03 to 0.14 V₀t, r₀ is 0.4 to 2.2 % too large and λ₀ 0.14 to 0.7 % too small.
 
     Raises ``ValueError`` when fewer than eight instants carry an impulse.
 
@@ -125,13 +128,13 @@ def leading_order(found: Moments, *, window: float = 10.0, companions: Sequence[
     True
     """
     best, drift, lift, times = _leading_values(found, window)
-    bars = np.sqrt(
-        (COMPANION * _apart(best, [_leading_values(companion, window)[0] for companion in companions])) ** 2
-        + ((DRIFT if companions else DRIFT_ALONE) * drift) ** 2
-        + (LEAST * np.maximum(best, [0.0, 0.1])) ** 2
-        + (np.array(lift_shares(lift)) * best) ** 2
-    )
-    return LeadingEstimate(Measured(best[1], bars[1]), Measured(best[0], bars[0]), lift, times)
+    known = {
+        "drift": (FACTOR if companions else DRIFT_ALONE) * drift,
+        "least": LEAST * np.maximum(best, [0.0, 0.1]),
+        "lift": np.array(lift_shares(lift)) * best,
+    }
+    r0, lambda0 = _numbers(best, [_leading_values(companion, window)[0] for companion in companions], known)
+    return LeadingEstimate(lambda0, r0, lift, times)
 
 
 def lift_shares(lift: float) -> tuple[float, float]:
@@ -182,12 +185,11 @@ def first_order(
 
     Each run gives polynomials in δ = ετ; all runs are fitted together, so ε → 0 is reached by the terms in δ², δ³.
 
-    The error bar is the root of the sum of squares of the spread (the largest change by a term more, half the window,
-    or one run alone, whose noise counts in proportion to its ε), taken ``SPREAD_FIRST`` times; of the largest
-    difference from a companion, ``COMPANION_FIRST`` times; of what the uniform reaction lacks (of a zone that should
-    lift and does not, ``STUCK_FIRST`` of the load), which moves r₁ by λ₀/√(2/π) of itself at least and λ₁ by about half
-    of that times λ₀/r₀, ``MISSING_FIRST`` times; of the shares of :func:`lift_shares`, ``LIFTED_FIRST`` times; of what
-    λ₁ inherits from the bars of λ₀ and r₀; and of ``FLOOR``.
+    The bar holds the spread (the largest change by a term more, half the window, or one run alone, whose noise counts
+    in proportion to its ε); the largest difference from a companion; what the uniform reaction lacks (of a zone that
+    should lift and does not, ``STUCK_FIRST`` of the load), which moves r₁ by λ₀/√(2/π) of itself at least and λ₁ by
+    about half of that times λ₀/r₀, ``MISSING_FIRST`` times; the shares of :func:`lift_shares`, ``LIFTED_FIRST`` times;
+    what λ₁ inherits from the bars of λ₀ and r₀; and ``FLOOR``.
 
     Raises ``ValueError`` without runs or when saved times differ.
     """
@@ -218,17 +220,18 @@ def first_order(
     wanted = float(reaction.mean()) if pressure is None else max(pressure, 0.0)
     stuck = STUCK_FIRST * max(-(pressure or 0.0), 0.0) * (tail.lift[late] == 0.0)
     missing = math.sqrt(float(np.mean((np.abs(reaction - wanted) + stuck) ** 2))) * lambda0 / SIDE
-    bars = np.sqrt(
-        (SPREAD_FIRST * np.abs(changes).max(axis=0)) ** 2
-        + (COMPANION_FIRST * _apart(best, [np.array([c.r1.known, c.lambda1.known]) for c in companions])) ** 2
-        + (MISSING_FIRST * missing * np.array([1.0, 0.5 * lambda0 / r0])) ** 2
-        + (LIFTED_FIRST * np.array(lift_shares(leading.lift)) * np.abs(best)) ** 2
-        + np.array([0.0, math.hypot(best[0] * leading.lambda0.bar, best[1] * leading.r0.bar) / r0]) ** 2
-        + (FLOOR * np.abs(best).max()) ** 2
-    )
+    inherited = (abs(best[0]) * leading.lambda0.spread + abs(best[1]) * leading.r0.spread) / r0
+    known = {
+        "spread": FACTOR * np.abs(changes).max(axis=0),
+        "uniform_reaction": MISSING_FIRST * missing * np.array([1.0, 0.5 * lambda0 / r0]),
+        "lift": LIFTED_FIRST * np.array(lift_shares(leading.lift)) * np.abs(best),
+        "leading_order": np.array([0.0, inherited]),
+        "least": np.full(2, FLOOR * np.abs(best).max()),
+    }
+    found_r1, found_lambda1 = _numbers(best, [np.array([c.r1.known, c.lambda1.known]) for c in companions], known)
     return FirstOrderEstimate(
-        lambda1=Measured(best[1], bars[1]),
-        r1=Measured(best[0], bars[0]),
+        lambda1=found_lambda1,
+        r1=found_r1,
         uniform_reaction=float(reaction.mean()),
         epsilons=tuple(row[0] for row in rows),
         window=(float(tail.tau[late][0]), float(tail.tau[-1])),

@@ -207,24 +207,24 @@ def first_front(history: ImpactHistory, k: int) -> float:
     return max(float(_carried(front, begin, end)), 0.0)
 
 
-def half_contact_length(history: ImpactHistory, k: int) -> float:
+def half_contact_length(history: ImpactHistory, k: int) -> float | None:
     """Distance of the outermost push from the middle, m: the median over the saved intervals around instant ``k`` in
-    which the wall pushes; 0 without one. Nothing is assumed about what presses inside, and a middle that has lifted
-    off does not count less."""
+    which the wall pushes; ``None`` without one. Nothing is assumed about what presses inside, and a middle that has
+    lifted off does not count less."""
     time = history.time
     last = max(int(np.searchsorted(time, (1.0 + AROUND) * time[k], side="right")), k + 1)
     pushed = np.diff(history.array("impulse", slice(_last_tenth(time)[k], last)), axis=0)
     pushes = pushed > PUSH * float(np.abs(history.array("impulse", -1)).max(initial=0.0))
     outermost = np.where(pushes, np.abs(history.contact_positions(k)), -1.0).max(axis=1)
-    return float(np.median(outermost[outermost >= 0.0])) if np.any(outermost >= 0.0) else 0.0
+    return float(np.median(outermost[outermost >= 0.0])) if np.any(outermost >= 0.0) else None
 
 
-def mean_reaction(history: ImpactHistory, k: int) -> float | None:
-    """Mean reaction around instant ``k``, N: of a force that falls like 1/√t it is 0.1 % too large. ``None`` at the
-    first instant, and where the record ends before."""
+def mean_reaction(history: ImpactHistory, at: float) -> float | None:
+    """Mean reaction over a tenth of the time ``at``, s, before and after, N: of a force that falls like 1/√t it is
+    0.1 % too large. ``None`` at the first touch, and where the record ends before."""
     time, total = history.time, history.array("total_impulse")
-    span = time[k] * np.array([1.0 - AROUND, 1.0 + AROUND])
-    if k == 0 or span[1] > time[-1] * (1.0 + 1e-9):
+    span = at * np.array([1.0 - AROUND, 1.0 + AROUND])
+    if at <= 0.0 or span[1] > time[-1] * (1.0 + 1e-9):
         return None
     before, after = np.interp(span, time, total)
     return float((after - before) / (span[1] - span[0]))

@@ -4,8 +4,11 @@ A hit is a time of contact whose gaps are shorter than a period of the first mod
 
     e = −velocity of the centre of mass after it/V₀,   J = impulse until then/(μℓV₀), without loads 2(1 + e),
 
-its last contact T_c/T*, how often the beam was off the wall, the largest bending moment of the elastic strain
-EI u_xx/(V₀√(EIμ)) with place and time, and the shares of energy then, of what the beam had and the loads have worked.
+its last contact T_c/T*, how often the beam was off the wall, and the shares of energy then, of what the beam had and
+the loads have worked. Where loads act, the momentum at the last contact is what the wall and they have given until
+then. The largest bending moment of the elastic strain, EI u_xx/(V₀√(EIμ)), and the largest force on a wall that gives
+way are those of the whole motion: from the first touch to one period of the lowest mode after the last contact, where
+the run goes on so long.
 
 A separation is a time of at least :data:`SHORTEST_SEPARATION` T* without a push: without a smallest duration there is
 no such number (the reaction of a beam that is stopped at a point changes sign arbitrarily fast).
@@ -22,7 +25,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from bent_beam.free_flight import LOWEST_PERIOD, bears_free_flight, has_left, pushing
+from bent_beam.free_flight import LOWEST_PERIOD, has_left, pushing
 from bent_beam.history import ImpactHistory
 from bent_beam.impact import Impact
 from bent_beam.measure.reduction import peak_moment, wall_peaks
@@ -39,8 +42,10 @@ SHORTEST_SEPARATION = 2e-3
 class WholeImpact:
     """One run's whole impact, dimensionless (see the module's head).
 
+    restitution : ``None`` where the beam has not left: loads keep it on the wall, or the run ends too early.
     spacing : of the saved instants around the last contact, which lies between two of them: ``last_contact`` is their
-        middle.
+        middle. drift : what the loads change the restitution by in half of it.
+    until : end of the span that the largest moment and force are of.
     contacts : begin and end of each contact, separations shorter than the shortest ignored; the last ends at the last
         contact.
     peak_moment_place : |x|/ℓ. translation, vibration, dissipated : shares of the initial energy and the work of the
@@ -52,7 +57,7 @@ class WholeImpact:
     left : whether the beam is off the wall for good; None of the numbers is final otherwise.
     """
 
-    restitution: float
+    restitution: float | None
     impulse: float
     last_contact: float
     separations: int
@@ -66,6 +71,8 @@ class WholeImpact:
     peak_force: float | None
     supplied: float
     spacing: float
+    drift: float
+    until: float
     contacts: tuple[tuple[float, float], ...]
     energy_defect: float
     energy_gain: float
@@ -94,36 +101,41 @@ def whole_impact(history: ImpactHistory, *, shortest: float = SHORTEST_SEPARATIO
     contacts = pushes(time, total, shortest * unit)
     if not contacts:
         raise ValueError("the run ends before the wall was touched")
-    mass = impact.mass_per_length * impact.length
+    mass, speed = impact.mass_per_length * impact.length, impact.velocity
     hit = _grouped([(i, k, "front") for i, k in contacts], impact, time)[0]
     _, end, _ = hit[-1]
-    impulse = float(total[end]) / (mass * impact.velocity)
-    moment = impact.velocity * math.sqrt(impact.bending_stiffness * impact.mass_per_length)
-    peak, wall, left = peak_moment(history), wall_peaks(history), has_left(history)
+    last = 0.5 * float(time[end - 1] + time[end])
+    impulse, load = float(total[end]) / (mass * speed), impact.load_within(impact.half_length) / (mass * speed)
+    until = min(float(time[contacts[-1][1]]) + LOWEST_PERIOD * unit, float(time[-1]))
+    moment = speed * math.sqrt(impact.bending_stiffness * impact.mass_per_length)
+    peak, wall, left = peak_moment(history, until=until), wall_peaks(history, until=until), has_left(history)
     energy = history.array("kinetic_energy") + history.array("strain_energy")
     held = history.energy("contact_energy")  # by springs of the wall
     initial = float(energy[0])
-    supplied = initial + history.energy("work_of_loads")
-    restitution = impulse - 1.0 if bears_free_flight(impact) else -_mean_velocity(history, end) / impact.velocity
-    translation = 0.5 * mass * (restitution * impact.velocity) ** 2 / float(supplied[end])
+    work = initial + history.energy("work_of_loads")
+    kept, supplied = (float(np.interp(last, time, values)) for values in (energy, work))
+    restitution = _mean_velocity(history, end) / -speed if impact.supported else impulse - load * last - 1.0
+    translation = 0.5 * mass * (restitution * speed) ** 2 / supplied
     return WholeImpact(
-        restitution=restitution,
+        restitution=restitution if left or len(contacts) > len(hit) else None,
         impulse=2.0 * impulse,
-        last_contact=0.5 * float(time[end - 1] + time[end]) / unit,
+        last_contact=last / unit,
         separations=len(hit) - (0 if len(contacts) > len(hit) or left else 1),
         peak_moment=peak.moment / moment,
         peak_moment_place=abs(peak.place) / impact.half_length,
         peak_moment_time=peak.time / unit,
         midspan_moment=peak.midspan / moment,
         translation=translation,
-        vibration=float(energy[end] / supplied[end]) - translation,
-        dissipated=float(1.0 - energy[end] / supplied[end]),
-        peak_force=None if wall is None else 2.0 * wall.force * unit / (mass * impact.velocity),
-        supplied=float(supplied[end]),
+        vibration=kept / supplied - translation,
+        dissipated=1.0 - kept / supplied,
+        peak_force=None if wall is None else 2.0 * wall.force * unit / (mass * speed),
+        supplied=supplied,
         spacing=float(time[end] - time[end - 1]) / unit,
+        drift=0.5 * abs(load) * float(time[end] - time[end - 1]),
+        until=until / unit,
         contacts=tuple((float(time[i]) / unit, 0.5 * float(time[j - 1] + time[j]) / unit) for i, j, _ in hit),
         energy_defect=abs(history.energy_budget()["defect"]) / initial,
-        energy_gain=float(np.max(np.diff(energy + held - supplied), initial=0.0)) / initial,
+        energy_gain=float(np.max(np.diff(energy + held - work), initial=0.0)) / initial,
         left=left,
     )
 

@@ -25,10 +25,11 @@ from bent_beam.versions import versions
 from bent_beam_programs.open_benchmark.problem import Problem
 from comparison.store import behind, source_digest
 
-__all__ = ["ADAPTERS", "RESOLUTIONS", "Adapter", "chosen_adapters", "install", "shipped_adapters"]
+__all__ = ["ADAPTERS", "GIVEN", "RESOLUTIONS", "Adapter", "chosen_adapters", "install", "shipped_adapters"]
 
 ADAPTERS = Path(__file__).parent / "adapters"
 RESOLUTIONS = ("coarse", "medium", "fine")
+GIVEN = "given"  # one mesh for all: elements of 0.02 l*, 400 equal steps, or as many as a code needs to be stable
 WINDOWS = os.name == "nt"
 SYSTEM_PYTHON = "/usr/bin/python3"
 INSTALL_SECONDS = 900.0
@@ -52,6 +53,7 @@ class Adapter:
     host: bool = False
     chosen: str = "not stated"
     manual: tuple[Sequence[str], ...] = ()
+    resolutions: tuple[str, ...] = RESOLUTIONS
 
     def takes(self, asked: Problem) -> bool:
         """Whether the code is asked this problem at all."""
@@ -120,7 +122,7 @@ def shipped_adapters() -> dict[str, Adapter]:
         tables = tomllib.load(stream)
     found = {}
     for name, table in tables.items():
-        table = tables.get(table.get("environment"), {}) | table
+        table = {"resolutions": [*RESOLUTIONS, GIVEN]} | tables.get(table.get("environment"), {}) | table
         fields: dict[str, Any] = {k: tuple(v) if isinstance(v, list) else v for k, v in table.items()}
         found[name] = Adapter(name, ADAPTERS / fields.pop("file"), **fields)
     return found

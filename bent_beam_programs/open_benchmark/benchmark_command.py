@@ -48,10 +48,10 @@ def benchmark(
 ) -> int:
     """Run codes on the open benchmark and write one page.
 
-    Each problem is solved at three resolutions, and besides one like it whose parameters are drawn now: only what was
-    run here on drawn problems, with nodal histories, is verified; the rest is self-declared.
-    An adapter that hangs, crashes, writes rubbish or is not installed is
-    a row that says so. Runs that are there are not run again.
+    Each problem is solved at three resolutions (by shipped adapters on a given mesh, too), and one like it whose
+    parameters are drawn now: one table has what was run here on these, with nodal histories and gaps; the rest is
+    self-declared. An adapter that hangs, crashes, writes rubbish or is not installed is a row that says so. Runs
+    that are there are not run again.
 
     Example: bentbeam benchmark --install scikit-fem
     """

@@ -3,50 +3,30 @@
     python -m bent_beam_programs.open_benchmark.bounce_reference [--problem ID …]   three minutes
     python -m bent_beam_programs.open_benchmark.bounce_reference --confirm          measure coarsely, compare, keep
 
-The mesh is three times finer than that of ``bentbeam bounce``. The error bar is the sum of three changes: half as many
-elements, steps twice as long, and Moreau and Jean's contact law (docs/whole_impact.md).
+The mesh is three times finer than that of ``bentbeam bounce``. The error bar holds what half as many
+elements and steps and another contact law change (docs/whole_impact.md).
 """
 
 from __future__ import annotations
 
 import argparse
-from typing import Any
 
-from bent_beam.meshes import UniformMesh
-from bent_beam_programs.open_benchmark.problem import Problem, problem, shipped_ids
+from bent_beam_programs.open_benchmark.exact import SAMPLE, whole_impact
+from bent_beam_programs.open_benchmark.problem import problem, shipped_ids
 from bent_beam_programs.open_benchmark.references import BOUNCES, stored
-from comparison.bounce import bounce
-from comparison.bounce import problem as beam
 from comparison.stored import confirm, write
 from hermite_fe import HermiteFE
 
-__all__ = ["agrees", "measure"]
+__all__ = ["agrees"]
 
 ELEMENTS = 600  # of a half beam
-SAMPLE = 100  # the same of a confirmation
-NUMBERS = ("restitution", "last_contact", "midspan_moment")
 PACKAGES = ("hermite_fe", "bent_beam")
-
-
-def measure(asked: Problem, elements: int = ELEMENTS) -> dict[str, Any]:
-    """One whole impact: number → [value, error bar], the parts of the bar of e, and its settings and cost."""
-    method = HermiteFE(mesh=UniformMesh(element_length=1.0 / elements))
-    found = bounce(beam(asked.kappa_over_nu, asked.damping), method)
-    return {
-        "kappa_over_nu": asked.kappa_over_nu,
-        "damping": asked.damping,
-        **{name: [found.numbers[name].value, found.numbers[name].error] for name in NUMBERS},
-        "error_parts": dict(found.parts["restitution"]),
-        "settings": found.settings,
-        "steps": found.history.steps,
-        "seconds": found.seconds,
-    }
 
 
 def agrees(name: str, elements: int = SAMPLE) -> bool:
     """Whether a coarser mesh gives the stored restitution within both error bars, its own the larger one."""
     value, error = stored(BOUNCES)["problems"][name]["restitution"]
-    coarse, bar = measure(problem(name), elements)["restitution"]
+    coarse, bar = whole_impact(problem(name), elements)["restitution"]
     print(f"{name}: {coarse:.7g} ± {bar:.1g} with {elements} elements, stored {value:.7g} ± {error:.1g}", flush=True)
     return bool(abs(coarse - value) <= bar + error and bar > error)
 
@@ -64,7 +44,7 @@ def _main() -> None:
         return
     kept = dict(stored(BOUNCES)["problems"]) if BOUNCES.exists() else {}
     for name in names:
-        kept[name] = measure(problem(name))
+        kept[name] = whole_impact(problem(name), ELEMENTS)
         print(name, kept[name]["restitution"], flush=True)
     write(
         BOUNCES,

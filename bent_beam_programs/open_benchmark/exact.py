@@ -2,7 +2,8 @@
 
 The infinite beam: ``theory.contact``. The ladder: ``theory.ladder``, whose J(t) is polynomial between
 impacts, at most quadratic. The stopped beam: ``theory.stopped_beam``, as a cubic spline over τ^¼. Walls and stops that
-give way: ``theory.elastic_wall``, ``theory.elastic_stop``, with error bars.
+give way: ``theory.elastic_wall``, ``theory.elastic_stop``, with error bars. A whole impact has no closed form: Hermite
+elements, with what other elements, steps and another contact law change as error bar.
 """
 
 from __future__ import annotations
@@ -20,9 +21,11 @@ from theory.elastic_wall import peak_force
 from theory.ladder import BouncingBall, DroppedBar, FlyingBar, ReleasedBar, StringOnObstacle
 from theory.stopped_beam import StoppedBeam
 
-__all__ = ["computed"]
+__all__ = ["SAMPLE", "computed", "whole_impact"]
 
 PEAK_TIME = 0.01  # to which the theory finds when the force of an elastic wall is largest
+SAMPLE = 100  # elements of half a beam, where a whole impact is confirmed or has no stored reference
+NUMBERS = ("restitution", "last_contact", "midspan_moment")
 KNOTS = 300  # of the stopped beam's spline: its J is within 1e-6 of the closed form
 
 
@@ -93,3 +96,23 @@ def _parabola(impulse: Any, start: float, stop: float) -> Any:
 
 def _pieces(variable: str, breaks: Any, coefficients: Any) -> dict[str, Any]:
     return {"variable": variable, "breaks": breaks.tolist(), "coefficients": coefficients.tolist()}
+
+
+def whole_impact(asked: Problem, elements: int = SAMPLE) -> dict[str, Any]:
+    """One whole impact: number → [value, error bar], the parts of the bar of e, and its settings and cost."""
+    from bent_beam.meshes import UniformMesh
+    from comparison.bouncing import bounce
+    from comparison.bouncing import problem as beam
+    from hermite_fe import HermiteFE
+
+    method = HermiteFE(mesh=UniformMesh(element_length=1.0 / elements))
+    found = bounce(beam(asked.kappa_over_nu, asked.damping), method)
+    return {
+        "kappa_over_nu": asked.kappa_over_nu,
+        "damping": asked.damping,
+        **{name: [found.numbers[name].value, found.numbers[name].bar] for name in NUMBERS},
+        "error_parts": dict(getattr(found.numbers["restitution"], "parts", {})),
+        "settings": found.settings,
+        "steps": found.runs.run.steps,
+        "seconds": found.seconds,
+    }

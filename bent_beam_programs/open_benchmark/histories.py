@@ -56,6 +56,7 @@ def result_from_history(history: ImpactHistory, asked: Problem | None = None) ->
         "settings": history.settings,
         "model": model,
     }
+    still = "contact_position" not in history
     return Result(
         "completed" if history.completed else "diverged",
         "" if history.completed else f"{tau[-1]:g}",
@@ -69,6 +70,9 @@ def result_from_history(history: ImpactHistory, asked: Problem | None = None) ->
         tau[keep],
         history.array("gap", keep) / length,
         history.array("velocity", keep) / impact.velocity if "velocity" in history else None,
+        history.contact_positions(0) / length if still else None,
+        history.array("impulse") / impulse if still else None,
+        pull_is_read_off=False,
     )
 
 

@@ -1,31 +1,54 @@
-"""The judge's score of a result, its limits, and the fault that was found."""
+"""The judge's score of a result: numbers with bars, what is seen, and what that amounts to.
+
+A number is *clean* where error and bar are both within its limit; else it is *within its bar*, or *off*.
+"""
 
 from __future__ import annotations
 
 from dataclasses import asdict, dataclass, field
 from typing import Any
 
-from bent_beam.measure.measured import Measured
+from bent_beam.measure.numbers import Number
 from comparison.readable import plain
 
-__all__ = ["LIMITS", "PART", "Finding", "Score"]
+__all__ = ["FIRST_ORDER", "MEASURES", "PART", "WORDS", "Finding", "Score", "Symptom"]
 
-#: The judge's one limit: a hundredth of the quantity. An error below it is no verdict, whatever the error bar says.
-PART = 0.01
-#: Measure → its limit, and the outcome's addition beyond it: a hundredth of the wall's impulse, of the way V₀τ, and for
-#: noise, a root mean square, half of that, for its peaks are about twice as high.
-LIMITS = {
-    "adhesion": (PART, "adhesive"),
-    "penetration": (PART, "leaky"),
-    "lift": (PART, "lifted"),
-    "noise": (PART / 2.0, "unsettled"),
+PART = 0.01  # the judge's limit: a hundredth, of the exact value, of the wall's impulse, of the way V₀τ
+FIRST_ORDER = 0.05  # of max(1, |exact|): the limit of λ₁ and r₁, which are differences of two runs
+WORDS = {"pull": "adhesive", "penetration": "leaky", "lift": "lifted", "noise_in_time": "unsettled"}
+
+MEASURES = {  # fields of a score → the reading that they are
+    "lift": "lift",
+    "penetration": "penetration",
+    "adhesion": "pull",
+    "noise": "noise_in_time",
+    "momentum_residual": "momentum",
 }
-BARS = 3.0  # error bars beyond which a value is off
+
+
+@dataclass(frozen=True)
+class Symptom:
+    """What is seen: its name, figure, limit and where, in words that name no cause."""
+
+    name: str
+    figure: float | None
+    limit: float
+    where: str = ""
+    words: str = ""
+
+    @property
+    def seen(self) -> bool:
+        """Whether the figure is beyond the limit; a number that is not known is."""
+        return self.figure is None or abs(self.figure) > self.limit
+
+    def __str__(self) -> str:
+        figure = "no number" if self.figure is None else f"{self.figure:.3g}"
+        return f"{self.words}: {figure} (limit {self.limit:.2g})" + (f", {self.where}" if self.where else "")
 
 
 @dataclass(frozen=True)
 class Finding:
-    """One fault: its name, the number that shows it, and what to change."""
+    """The verdict, or a cause that the first symptom has alone: its name, the symptom, and what to change."""
 
     name: str
     evidence: str = ""
@@ -37,26 +60,28 @@ class Score:
     """The judge's score of one result; a number is ``None`` where it is not reported or means nothing.
 
     outcome : the adapter's, with the judge's additions after a comma ("completed, lifted"). reason : one line for
-    anything but "completed". measured : name → value, error bar and exact value. lift, penetration (over V₀τ),
-    adhesion (tensile over largest whole impulse), noise (residual of the fit over the impulse), energy (shares of
-    J V₀), momentum_residual (momentum that the beam lost, without the loads', over J, less 1), ratios (J and Jm over
-    the exact ones), raw (whether J and Jm were added up from nodal histories).
-    reference : name → error bar and source of a value in ``measured`` that is held against a simulation.
+    anything but "completed". measured : name → value, error bar and exact value. readings : what was looked at, by name
+    (:mod:`.symptoms`); not_told : what could not be, and for want of what. lift … momentum_residual : figures of some
+    (:data:`MEASURES`). energy : shares of J V₀. raw : whether
+    nodal histories and gaps are reported.
+    reference : name → error bar and source of a value in ``measured`` that is held against a computed one.
     """
 
     problem: str
     outcome: str
     reason: str | None = None
-    measured: dict[str, Measured] = field(default_factory=dict)
+    measured: dict[str, Number] = field(default_factory=dict)
+    readings: dict[str, Symptom] = field(default_factory=dict)
+    not_told: dict[str, str] = field(default_factory=dict)
     lift: float | None = None
     penetration: float | None = None
     adhesion: float | None = None
     noise: float | None = None
-    energy: dict[str, float | None] | None = None
     momentum_residual: float | None = None
-    ratios: dict[str, float] = field(default_factory=dict)
+    energy: dict[str, float | None] | None = None
     raw: bool = False
     reference: dict[str, dict[str, Any]] = field(default_factory=dict)
+    symptoms: tuple[Symptom, ...] = ()
     diagnosis: tuple[Finding, ...] = ()
     metadata: dict[str, Any] = field(default_factory=dict)
 
@@ -70,37 +95,52 @@ class Score:
         """The outcome in one or two words."""
         return self.outcome.split("(")[0].replace("_", " ")
 
+    def figure(self, name: str) -> float | None:
+        """The figure of one reading."""
+        return self.readings[name].figure if name in self.readings else None
+
     def error(self, name: str) -> float | None:
         """Relative error of one measured number against its exact value; ``None`` where either is missing."""
         found = self.measured.get(name)
         return found.relative() if found is not None and found.theory else None
 
+    def bar(self, name: str) -> float | None:
+        """Its error bar in the same unit, that of the reference included; ``None`` where there is none."""
+        found = self.measured[name]
+        own, other = found.bar, self.reference.get(name, {}).get("error")
+        if found.theory is None or own is None is other:
+            return None
+        return ((own or 0.0) + (other or 0.0)) / (abs(found.theory) or 1.0)
+
+    def in_limits(self, name: str) -> tuple[float | None, float]:
+        """Error and bar of one number over its limit; an unknown number has no error and an infinite bar."""
+        found = self.measured[name]
+        size = abs(found.theory or 0.0)
+        limit = FIRST_ORDER * max(1.0, size) if name in ("lambda1", "r1") else PART * (size or 1.0)
+        if found.difference is None:
+            return None, float("inf") if found.value is None else 0.0
+        return abs(found.difference) / limit, (self.bar(name) or 0.0) * (size or 1.0) / limit
+
     @property
     def off(self) -> list[str]:
-        """Names of the numbers whose error exceeds three bars and a hundredth: a bar of 0 is no bar."""
-        return [name for name in self.measured if self._excess(name) > 1.0]
+        """Names of the numbers whose error exceeds its bar and its limit."""
+        pairs = {name: self.in_limits(name) for name in self.measured}
+        return [name for name, (error, bar) in pairs.items() if error is not None and error > max(bar, 1.0)]
 
     @property
-    def excess(self) -> float:
-        """The largest error over its limit."""
-        return max(map(self._excess, self.measured), default=0.0)
-
-    def _excess(self, name: str) -> float:
-        found = self.measured[name]
-        bar = (found.error or 0.0) + self.reference.get(name, {}).get("error", 0.0)
-        return abs(found.difference or 0.0) / max(BARS * bar, PART * (abs(found.theory or 0.0) or 1.0))
-
-    @property
-    def gained(self) -> float | None:
-        """Largest gain of energy over J V₀."""
-        return (self.energy or {}).get("gained")
+    def unsure(self) -> list[str]:
+        """Names of those that are not off, but whose error or bar exceeds the limit."""
+        pairs = {name: self.in_limits(name) for name in self.measured if name not in self.off}
+        return [name for name, (error, bar) in pairs.items() if max(error or 0.0, bar) > 1.0 + 1e-9]
 
     def to_dict(self) -> dict[str, Any]:
         """Ready for JSON: finite numbers or ``None``."""
         numbers = dict.fromkeys(("lambda0", "r0", "lambda1", "r1")) | {k: asdict(v) for k, v in self.measured.items()}
-        measures = ("lift", "penetration", "adhesion", "noise", "energy", "momentum_residual", "raw")
         document = {"problem": self.problem, "outcome": self.outcome, "reason": self.reason, **numbers}
-        document |= {name: getattr(self, name) for name in measures} | {"reference": self.reference or None}
+        measures = (*MEASURES, "energy", "raw")
+        document |= {name: getattr(self, name) for name in measures}
+        document |= {"reference": self.reference or None, "symptoms": [asdict(one) for one in self.symptoms]}
+        document |= {"readings": {name: one.figure for name, one in self.readings.items()}, "not_told": self.not_told}
         document["diagnosis"] = [finding.name for finding in self.diagnosis]
         document["advice"] = [asdict(finding) for finding in self.diagnosis if finding.name != "clean"]
         return dict(plain(document | {"metadata": self.metadata}))

@@ -21,7 +21,7 @@ from matplotlib.figure import Figure
 
 from bent_beam.files import write_atomically
 from bent_beam.versions import processor
-from bent_beam_programs.open_benchmark.adapter import RESOLUTIONS, Adapter, shipped_adapters
+from bent_beam_programs.open_benchmark.adapter import GIVEN, RESOLUTIONS, Adapter, shipped_adapters
 from bent_beam_programs.open_benchmark.campaign import Row
 from bent_beam_programs.open_benchmark.judgement import Score
 from bent_beam_programs.open_benchmark.problem import LADDER, Problem, problem
@@ -38,13 +38,13 @@ IN_SHORT = ("lambda0", "r0", "restitution", "impulse_error", "peak_force", "peak
 CONVERGED = 0.002  # relative error on the finest mesh that a converging code reaches (strict codes do)
 
 WORDS = {
-    "leading": "infinite beam, κ/ν = {p.kappa_over_nu:g}: the contact spreads",
-    "point": "infinite beam, κ/ν = {p.kappa_over_nu:g}: one point in contact",
-    "first": "infinite beam, κ/ν = {p.kappa_over_nu:g}, first order in the loads (α, ψ, χ, n) = ({loads}): {regime}",
-    "bounce": "free beam, κ/ν = {p.kappa_over_nu:g}, damping η/T* = {p.damping:g}, until it has left the wall",
+    "leading": "infinite beam: the contact spreads",
+    "point": "infinite beam: one point in contact",
+    "first": "infinite beam, first order in the loads",
+    "bounce": "free beam with damping, until it has left the wall",
     "stopped-beam": "free beam with damping, before the wall first lets go",
-    "elastic-wall": "infinite beam on a wall that gives way, κ/ν = {p.kappa_over_nu:g}, ζ = {ratio:g}",
-    "elastic-stop": "hinged beam swung on a stop of {p.given[stop_stiffness]:g} N/m",
+    "elastic-wall": "infinite beam on a wall that gives way",
+    "elastic-stop": "hinged beam swung on a stop",
 } | {name: rung.words for name, rung in LADDER.items()}
 
 
@@ -75,8 +75,8 @@ def document(rows: Sequence[Row], adapters: Sequence[Adapter], seed: int | None 
 
 
 def errors_table(rows: Sequence[Row], solvers: Sequence[str]) -> str:
-    """Markdown: code × problem, errors in per cent from the coarse to the fine mesh, each with its wall clock in s and
-    the judge's words for it."""
+    """Markdown: code × problem, errors ± bars in per cent from the coarse to the fine mesh, each with seconds of solver
+    and process, and the judge's words for it."""
     names = dict.fromkeys(row.problem for row in rows)
     lines = [f"| code | {' | '.join(f'`{name}`' for name in names)} |", "| --- " * (1 + len(names)) + "|"]
     for solver in solvers:
@@ -90,13 +90,13 @@ def errors_table(rows: Sequence[Row], solvers: Sequence[str]) -> str:
 
 def _in_short(row: Row) -> str:
     wanted = LOADED if problem(row.problem).kind == "first" else IN_SHORT
-    known = [_error(row, name) for name in wanted if name in row.score.measured]
-    errors = ["–" if error is None else f"{100 * error:+.3f}" for error in known]
-    if not any(error is not None for error in known):
+    known = [name for name in wanted if name in row.score.measured]
+    if not any(_error(row, name) is not None for name in known):
         return row.score.brief
-    words = row.score.outcome.partition(", ")[2]
-    about = [] if row.seconds is None else [f"{row.seconds:.2g}"]
-    return f"{' / '.join(errors)} ({', '.join([*about, *([words] if words else [])])})"
+    words = row.score.outcome.split(", ")[1:]
+    seconds = " of ".join(f"{s:.2g}" for s in (row.solver_seconds, row.seconds) if s is not None)
+    about = filter(None, [seconds, *(word for word in words if not word.startswith("within"))])  # the bars say it
+    return f"{' / '.join(_cell(row, name) for name in known)} ({', '.join(about)})"
 
 
 def _error(row: Row, name: str) -> float | None:
@@ -106,10 +106,14 @@ def _error(row: Row, name: str) -> float | None:
 
 
 def _cell(row: Row, measure: str) -> str:
-    found, error = row.score.measured.get(measure), row.score.error(measure)
+    """Relative error ± bar in per cent; the number itself where nothing exact is known."""
+    found, error = row.score.measured.get(measure), _error(row, measure)
     if found is None or found.value is None:
         return "–"
-    return f"{found.value:.3g}" if error is None else f"{100 * error:+.3f} %"
+    if error is None:
+        return str(found)
+    bar = row.score.bar(measure)
+    return f"{100 * error:+.3f}" + ("" if bar is None else f" ± {100 * bar:.2g}")
 
 
 def _sheet(rows: Sequence[Row], name: str, solvers: Sequence[str], out: Path) -> dict[str, Any]:
@@ -122,18 +126,11 @@ def _sheet(rows: Sequence[Row], name: str, solvers: Sequence[str], out: Path) ->
     shown = [measure for measure in MEASURES if any(measure in row.score.measured for row in own)]
     return {
         "id": name,
-        "words": in_words(problem(name)),
+        "words": WORDS[problem(name).kind],
         "figures": list(figures.values()),
         "measures": [MEASURES[measure] for measure in shown],
         "rows": [(row, [_cell(row, measure) for measure in shown]) for row in own],
     }
-
-
-def in_words(asked: Problem) -> str:
-    """A problem in words, for a heading."""
-    loads = ", ".join(f"{value:g}".replace("-", "−") for value in asked.loads)
-    ratio = asked.given.get("wall_damping", 0.0) / 2.0
-    return WORDS[asked.kind].format(p=asked, loads=loads, regime=_regime(asked), ratio=ratio)
 
 
 def _regime(asked: Problem) -> str:
@@ -147,18 +144,20 @@ def _regime(asked: Problem) -> str:
 def write_page(
     rows: Sequence[Row], adapters: Sequence[Adapter], out: Path, about: dict[str, Any] | None = None
 ) -> Path:
-    """Write ``index.html``, the same as ``benchmark.json``, the errors of either table (``errors-TABLE.md``) and
-    its figures (``sheets/TABLE/PROBLEM-MEASURE.svg``); returns the page. ``about`` : :func:`document` of both."""
+    """Write ``index.html``, the same as ``benchmark.json``, the errors of either table (``errors-TABLE.md``, and
+    ``errors-TABLE-given.md`` on the given mesh) and its figures (``sheets/TABLE/PROBLEM-MEASURE.svg``); returns the
+    page. ``about`` : :func:`document` of both."""
     about = about or document(rows, adapters)
     solvers = list(dict.fromkeys([*(a.name for a in adapters), *(row.solver for row in rows)]))
-    tables = {name: [row for row in rows if row.table == name] for name in ("verified", "self-declared")}
+    tables = {name: [row for row in rows if row.table == name] for name in ("run here", "self-declared")}
     loader = jinja2.Environment(
         loader=jinja2.FileSystemLoader(TEMPLATES), autoescape=True, trim_blocks=True, lstrip_blocks=True
     )
     html = loader.get_template("benchmark.html.j2").render(
         tables={
             table: [
-                _sheet(own, name, solvers, out / "sheets" / table) for name in dict.fromkeys(row.problem for row in own)
+                _sheet(own, name, solvers, out / "sheets" / _file_name(table))
+                for name in dict.fromkeys(row.problem for row in own)
             ]
             for table, own in tables.items()
         },
@@ -171,9 +170,15 @@ def write_page(
     )
     write_atomically(out / "benchmark.json", json.dumps(about, indent=1, allow_nan=False))
     for name, own in tables.items():
-        write_atomically(out / f"errors-{name}.md", errors_table(own, solvers))
+        for mesh, given in (("", False), ("-given", True)):
+            shown = [row for row in own if (row.resolution == GIVEN) == given]
+            write_atomically(out / f"errors-{_file_name(name)}{mesh}.md", errors_table(shown, solvers))
     write_atomically(out / "index.html", html)
     return out / "index.html"
+
+
+def _file_name(table: str) -> str:
+    return table.replace(" ", "-")
 
 
 # --- property × code -----------------------------------------------------------------------------------------------
@@ -192,13 +197,13 @@ class Property(NamedTuple):
         """Whether a row is one of these."""
         asked = problem(row.problem)
         fits = asked.kind in self.kinds and self.regime in ("", _regime(asked))
-        return fits and row.resolution in (RESOLUTIONS[-1:] if self.finest else RESOLUTIONS)
+        return fits and row.resolution in (RESOLUTIONS[-1:] if self.finest else (*RESOLUTIONS, GIVEN))
 
 
 WITHOUT_LOADS = ("leading", "point")
 PROPERTIES = {
     "unilateral": Property(lambda found: [found.adhesion], WITHOUT_LOADS, finest=False),
-    "energy": Property(lambda found: [found.gained], WITHOUT_LOADS, finest=False),
+    "energy": Property(lambda found: [found.figure("energy")], WITHOUT_LOADS, finest=False),
     "noise": Property(lambda found: [found.noise], WITHOUT_LOADS),
     "lift": Property(lambda found: [found.lift], ("leading",)),
 } | {
@@ -263,7 +268,10 @@ def _figure(rows: Sequence[Row], measure: str, solvers: Sequence[str]) -> Figure
     for (low, high), bound in ((axis.get_ylim(), axis.set_ylim), (axis.get_xlim(), axis.set_xlim)):
         bound(10.0 ** np.floor(np.log10(low)), 10.0 ** np.ceil(np.log10(high)))
     axis.xaxis.set_minor_formatter("")
-    axis.set(xlabel="wall clock of the whole process, s", ylabel=f"relative error of {MEASURES[measure]}")
+    axis.set(
+        xlabel="seconds of the time loop (of the process where not reported)",
+        ylabel=f"relative error of {MEASURES[measure]}",
+    )
     axis.grid(True, which="major", lw=0.4, color="0.85")
     axis.spines[["top", "right"]].set_visible(False)
     figure.legend(loc="outside lower center", ncols=3, frameon=False, fontsize=8)
@@ -272,11 +280,11 @@ def _figure(rows: Sequence[Row], measure: str, solvers: Sequence[str]) -> Figure
 
 def _point(row: Row, measure: str) -> tuple[float, float, float] | None:
     """Seconds, relative error, and that with the error bar on top."""
-    found, seconds = row.score.measured.get(measure), row.seconds
+    found, seconds = row.score.measured.get(measure), row.solver_seconds or row.seconds
     if found is None or found.difference is None or seconds is None or (found.theory == 0.0 and measure == "lambda0"):
         return None
     error = max(abs(found.relative() or 0.0), LEAST)
-    return seconds, error, error + (found.relative_error() or 0.0)
+    return seconds, error, error + (found.relative_bar() or 0.0)
 
 
 def _svg(figure: Figure) -> str:

@@ -79,6 +79,13 @@ LADDER = {
         4.0,
     ),
 }
+EQUATION = (  # stands in the file, as comments
+    "# u(x, t): deflection into the wall from the beam's shape at the first touch, which is at x = 0, t = 0.",
+    "#   mass_per_length u_tt + bending_stiffness (u + damping u_t)_xxxx - axial_force u_xx",
+    "#       = mass_per_length acceleration - push,   push >= 0, gap >= 0, push gap = 0",
+    "#   gap = curvature x^2/2 - fourth_derivative x^4/24 - u;  at t = 0: u = 0, u_t = velocity + curvature_rate x^2/2",
+    "# The axial force acts along x and on u alone: what it does to the bow is in the acceleration.",
+)
 # Code_Aster's test SDNL32 (V5.02.032), without damping: a square bar of 14 mm, E = 67 GPa, in SI units
 SWUNG = {"bending_stiffness": 6.7e10 * 0.014**4 / 12.0, "mass_per_length": 2400.0 * 0.014**2, "length": 0.783}
 SWUNG |= {"angular_velocity": 3.8}
@@ -226,7 +233,8 @@ def problem_text(asked: Problem) -> str:
     """The TOML file of a problem, for an adapter: the same as :func:`document`."""
     tables = document(asked)
     # a number, a text and a list of either are written alike in TOML and JSON
-    lines = [*(f"{key} = {json.dumps(tables.pop(key))}" for key in ("schema", "id")), ""]
+    lines = list(EQUATION if "beam" in tables else ())
+    lines += [*(f"{key} = {json.dumps(tables.pop(key))}" for key in ("schema", "id")), ""]
     for table, values in tables.items():
         lines += [f"[{table}]", *(f"{key} = {json.dumps(value)}" for key, value in values.items()), ""]
     return "\n".join(lines)

@@ -47,6 +47,10 @@ class ResultError(ValueError):
     """A result that cannot be read: one line naming the field and what is wrong with it."""
 
 
+class _Diverged(ResultError):
+    """A number that only a run that has blown up gives."""
+
+
 def _empty() -> Array:
     return np.empty(0)
 
@@ -75,6 +79,7 @@ class Result:
     snap_v: Array | None = None
     node_x: Array | None = None
     node_impulse: Array | None = None
+    pull_is_read_off: bool = True
 
     @property
     def stated(self) -> str:
@@ -95,12 +100,15 @@ class Result:
         low, high = self.problem.fit_window
         return np.asarray((times >= low * (1 - 1e-9)) & (times <= high * (1 + 1e-3)))
 
-    def snapshots(self) -> Iterator[tuple[float, Array, Array]]:
-        """Time, |x| and gap of each snapshot in the fit window; nothing where gaps are not reported."""
-        if self.x is None or self.snap_tau is None or self.snap_gap is None:
+    def snapshots(self, of: str = "snap_gap") -> Iterator[tuple[float, Array, Array]]:
+        """Time, x and gap (or ``of``: snap_v) of each snapshot in the fit window; nothing where it is not reported."""
+        values = getattr(self, of)
+        if self.x is None or self.snap_tau is None or values is None:
             return
         for k in np.flatnonzero(self.in_window(self.snap_tau)):
-            yield float(self.snap_tau[k]), np.abs(self.x if self.x.ndim == 1 else self.x[k]), self.snap_gap[k]
+            x = self.x if self.x.ndim == 1 else self.x[k]
+            order = np.argsort(x)
+            yield float(self.snap_tau[k]), x[order], values[k][order]
 
 
 # --- validation ----------------------------------------------------------------------------------------------------
@@ -120,6 +128,13 @@ def result_from_fields(fields: Mapping[str, Any]) -> Result:
     detail = " ".join((match[2] or "").split())[:300]
     if match[1] != "completed":
         return Result(match[1], detail, asked, metadata)
+    try:
+        return _completed(fields, asked, detail, metadata)
+    except _Diverged as error:
+        return Result("diverged", str(error), asked, metadata)
+
+
+def _completed(fields: Mapping[str, Any], asked: Problem, detail: str, metadata: dict[str, Any]) -> Result:
     tau = _instants(fields, asked)
     arrays = _nodes(fields, tau, asked.is_symmetric)
     needed = ("J", "Jm") if asked.is_front else ("J",)
@@ -128,7 +143,8 @@ def result_from_fields(fields: Mapping[str, Any]) -> Result:
     series = {name: arrays.pop(name) for name in SERIES[2:] if name in arrays}
     if "J_minus" in series and series["J_minus"].min() < -1e-12 * (np.abs(series["J_minus"]).max() + 1e-300):
         raise ResultError("J_minus is the size of the tensile impulse so far: it must not be negative")
-    return Result("completed", detail, asked, metadata, tau, series=series, **arrays, **_snapshots(fields))
+    arrays |= {"pull_is_read_off": "J_minus" not in fields, "series": series}
+    return Result("completed", detail, asked, metadata, tau, **arrays, **_snapshots(fields))
 
 
 def _text(fields: Mapping[str, Any], name: str) -> str:
@@ -189,7 +205,8 @@ def _instants(fields: Mapping[str, Any], asked: Problem) -> Array:
         raise ResultError(f"tau must not be negative (starts at {tau[0]:g})")
     low, high = asked.fit_window
     if tau[-1] < high * (1.0 - 1e-3):
-        raise ResultError(f"tau ends at {tau[-1]:g}, before the record's end_time {high:g}")
+        units = "in the problem's unit of time, t* = 1 for beams, not in s or ms"
+        raise ResultError(f"tau ends at {tau[-1]:g}, before the record's end_time {high:g}: both are {units}")
     inside = int(np.sum((tau >= low * (1 - 1e-9)) & (tau <= high * (1 + 1e-9))))
     if inside < FEWEST:
         raise ResultError(f"tau holds {inside} instants in the fit window {low:g} to {high:g}, {FEWEST} are the fewest")
@@ -222,11 +239,12 @@ def _numbers(fields: Mapping[str, Any], name: str) -> Array:
     if bad.any():
         place = np.unravel_index(int(np.argmax(bad)), array.shape)
         where = ", ".join(str(int(k)) for k in place)
-        raise ResultError(f"{name}[{where}] is {array[place]:g}: not a finite number of a problem in its own units")
+        kind = _Diverged if np.isfinite(array[place]) else ResultError
+        raise kind(f"{name}[{where}] is {array[place]:g}: not a finite number of a problem in its own units")
     return array
 
 
-def _nodes(fields: Mapping[str, Any], tau: Array, symmetric: bool) -> dict[str, Array]:
+def _nodes(fields: Mapping[str, Any], tau: Array, symmetric: bool) -> dict[str, Any]:
     """Raw nodal histories, and the wall's impulse, its moment and its tensile part, added up from them.
 
     A model of one half (no point at x < 0) of a symmetric problem stands for both. Tension is by how much a point
@@ -254,7 +272,7 @@ def _nodes(fields: Mapping[str, Any], tau: Array, symmetric: bool) -> dict[str, 
     }
 
 
-def _snapshots(fields: Mapping[str, Any]) -> dict[str, Array]:
+def _snapshots(fields: Mapping[str, Any]) -> dict[str, Any]:
     given = [name for name in SNAPSHOTS if name in fields]
     missing = [name for name in SNAPSHOTS if name not in fields]
     if not given:

@@ -1,4 +1,4 @@
-"""Scores: λ₀, r₀ (λ₁, r₁ with a base), error bars, lift, penetration, adhesion, noise, energy, momentum of one result.
+"""Scores: λ₀, r₀ (λ₁, r₁ with a base) with error bars, what is seen besides (:mod:`.symptoms`), and the verdict.
 
 A score is a function of the result's numbers alone, so that scoring a saved result again gives the same bits. The
 exact values come from :mod:`.references`, the estimates with their error bars from :mod:`bent_beam.measure`.
@@ -6,20 +6,21 @@ exact values come from :mod:`.references`, the estimates with their error bars f
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from itertools import combinations
 from typing import Any
 
 import numpy as np
-from scipy.interpolate import CubicSpline
 
 from bent_beam.measure.estimators import first_order, leading_order
-from bent_beam.measure.measured import Measured
 from bent_beam.measure.moments import Moments
-from bent_beam_programs.open_benchmark import doctor
-from bent_beam_programs.open_benchmark.judgement import LIMITS, Finding, Score
+from bent_beam.measure.numbers import Number
+from bent_beam_programs.open_benchmark.causes import causes
+from bent_beam_programs.open_benchmark.judgement import FIRST_ORDER, MEASURES, PART, WORDS, Score, Symptom
 from bent_beam_programs.open_benchmark.references import reference
 from bent_beam_programs.open_benchmark.result import Array, Result, ResultError
+from bent_beam_programs.open_benchmark.symptoms import readings
 
 __all__ = ["resolution_ignored", "score"]
 
@@ -30,11 +31,16 @@ def score(result: Result, base: Result | None = None) -> Score:
     Raises :class:`ResultError` when ``base`` does not belong to the result's problem.
     """
     asked = result.problem
-    found = Score(asked.id, result.stated, metadata=result.metadata, raw=result.node_impulse is not None)
+    found = Score(
+        asked.id,
+        result.stated,
+        metadata=result.metadata,
+        raw=result.node_impulse is not None and result.snap_gap is not None,
+    )
     if result.outcome != "completed":
         return replace(found, reason=result.detail or result.outcome)
     if not asked.is_front:
-        return _judged(replace(found, adhesion=_adhesion(result), energy=_energy(result), **_ladder(result)), result)
+        return _judged(replace(found, energy=_energy(result), **_ladder(result)), result)
     if base is not None and asked.base_id != base.problem.id:
         needed = f"(that is {asked.base_id})" if asked.base_id else "(it needs none)"
         raise ResultError(f"base: {base.problem.id} is not the base of {asked.id} {needed}")
@@ -46,26 +52,14 @@ def score(result: Result, base: Result | None = None) -> Score:
         fields = "J and Jm" if base is None else "J and Jm next to their base"
         reason = f"{fields}: no estimate can be read off ({' '.join(str(error).split())})"
         return replace(found, outcome="invalid", reason=reason)
-    lambda0 = 0.0 if asked.kind == "point" else measured["lambda0"].value or 0.0
-    lift, penetration = _gaps(result, lambda0)
-    found = replace(
-        found,
-        measured={} if asked.kind == "first" and base is None else measured,  # with loads λ₀ and r₀ mean nothing
-        lift=lift,
-        penetration=penetration,
-        adhesion=_adhesion(result),
-        noise=_noise(result),
-        energy=_energy(result),
-        momentum_residual=_momentum(result),
-        ratios=_ratios(base or result),
-    )
-    return _judged(found, result)
+    measured = {} if asked.kind == "first" and base is None else measured  # with loads λ₀ and r₀ mean nothing
+    return _judged(replace(found, measured=measured, energy=_energy(result)), result)
 
 
 # --- λ₀, r₀, λ₁, r₁ ------------------------------------------------------------------------------------------------
 
 
-def _estimates(result: Result, base: Result | None) -> dict[str, Measured]:
+def _estimates(result: Result, base: Result | None) -> dict[str, Number]:
     """λ₀ and r₀ of the base or of the result itself, λ₁ and r₁ where there is a base. A number that neither exceeds its
     bar nor is held against a larger one is none."""
     asked = result.problem
@@ -81,9 +75,9 @@ def _estimates(result: Result, base: Result | None) -> dict[str, Measured]:
     return {name: _number(number, exact[name]) for name, number in estimates.items()}
 
 
-def _number(found: Measured, exact: float | None) -> Measured:
-    known = found.bar <= max(abs(found.value or 0.0), abs(exact or 0.0)) or not exact
-    return Measured(found.value if known else None, abs(found.error or 0.0) if known else None, exact)
+def _number(found: Number, exact: float | None) -> Number:
+    known = found.spread <= max(abs(found.value or 0.0), abs(exact or 0.0)) or not exact
+    return Number(found.value if known else None, abs(found.bar or 0.0) if known else None, exact)
 
 
 def _sampled(base: Result, tau: Array) -> Result:
@@ -111,62 +105,7 @@ def _moments(result: Result, *, load: float = 0.0, lambda0: float = 0.0, sign: f
     )
 
 
-# --- measures that need no theory ----------------------------------------------------------------------------------
-
-
-def _noise(result: Result) -> float | None:
-    """Root mean square of the residual of the fit c + a√τ (+ bτ^{3/2} with loads) to J, over that of J."""
-    inside = result.in_window(result.tau)
-    tau, impulse = result.tau[inside] / result.tau[inside][-1], result.J[inside]
-    powers = (0.0, 0.5, 1.5) if result.problem.kind == "first" else (0.0, 0.5)
-    columns = np.stack([tau**p for p in powers], axis=1)
-    coefficients, *_ = np.linalg.lstsq(columns, impulse, rcond=None)
-    size = float(np.sqrt(np.mean(impulse**2)))
-    return float(np.sqrt(np.mean((impulse - columns @ coefficients) ** 2))) / size if size > 0.0 else None
-
-
-def _adhesion(result: Result) -> float | None:
-    largest = float(np.abs(result.J).max())  # a wall that pulls more than it pushes leaves J negative
-    return float(result.series["J_minus"][-1]) / largest if "J_minus" in result.series and largest > 0.0 else None
-
-
-def _gaps(result: Result, lambda0: float) -> tuple[float | None, float | None]:
-    """Largest gap inside nine tenths of the zone, and deepest penetration, over V₀τ, at snapshots of the window."""
-    lifts, depths = [], []
-    for when, places, gap in result.snapshots():
-        depths.append(max(float(-gap.min()) / when, 0.0))
-        zone = gap[places <= 0.9 * lambda0 * np.sqrt(when)]
-        # a load that lifts the zone off is no fault of the code
-        if zone.size and result.problem.kind != "first":
-            lifts.append(max(float(zone.max()) / when, 0.0))
-    return max(lifts, default=None), max(depths, default=None)
-
-
-def _momentum(result: Result) -> float | None:
-    """Momentum that the beam has lost against the free motion, ∫μ(V₀ + c₀x²/2 + a₀τ − v)dx, over J, less 1: the median
-    over the snapshots of the record's second half. ``None`` where velocities are not reported."""
-    if result.snap_v is None or result.snap_tau is None or result.x is None:
-        return None
-    alpha, _, chi, _ = (result.problem.epsilon * load for load in result.problem.loads)
-    found = []
-    late = result.in_window(result.snap_tau) & (result.snap_tau >= 0.5 * result.problem.end_time)
-    for k in np.flatnonzero(late):
-        when, x = float(result.snap_tau[k]), result.x if result.x.ndim == 1 else result.x[k]
-        given = float(np.interp(when, result.tau, result.J))
-        if given == 0.0 or np.any(np.diff(x) <= 0.0):
-            continue
-        lost = CubicSpline(x, 1.0 + chi * x**2 / 2.0 + alpha * when - result.snap_v[k]).integrate(x[0], x[-1])
-        found.append(float(lost) * (1.0 if x[0] < -1e-9 * x[-1] else 2.0) / given - 1.0)
-    return float(np.median(found)) if found else None
-
-
-def _ratios(result: Result) -> dict[str, float]:
-    """J and Jm over the exact ones, at the window's end; J alone where the contact has no extent."""
-    exact = reference(result.problem)
-    r0, lambda0 = exact["r0"] or 0.0, exact["lambda0"] or 0.0
-    side, tau = np.sqrt(2.0 / np.pi), float(result.tau[-1])
-    found = {"J": float(result.J[-1] / (4.0 * side * r0 * np.sqrt(tau)))} if r0 else {}
-    return found | ({"Jm": float(result.Jm[-1] / (side * r0 * lambda0 * tau))} if lambda0 else {})
+# --- measures without a front ----------------------------------------------------------------------------------------
 
 
 def _energy(result: Result) -> dict[str, float | None] | None:
@@ -186,27 +125,23 @@ def _energy(result: Result) -> dict[str, float | None] | None:
 def _ladder(result: Result) -> dict[str, Any]:
     """The impulse against the closed form, the restitution of a whole impact, or the largest force and when it acts."""
     asked, exact = result.problem, reference(result.problem)
-    measured: dict[str, Measured] = {}
-    ratio = np.nan
+    measured: dict[str, Number] = {}
     if asked.kind == "bounce":
         free = result.tau >= 0.9 * asked.end_time  # out of contact by then: any change is an error
         rest = result.J[free] / (asked.length or 2.0) - 1.0
-        measured["restitution"] = Measured(float(rest[-1]), float(np.ptp(rest)) or None, exact["restitution"])
-        ratio = float(1.0 + rest[-1]) / (1.0 + (exact["restitution"] or np.nan))
+        measured["restitution"] = Number(float(rest[-1]), float(np.ptp(rest)) or None, exact["restitution"])
     elif "peak_force" in exact.values:
         force, when = _largest_force(result)
-        measured["peak_force"] = Measured(force, None, exact["peak_force"])
-        measured["peak_time"] = Measured(when, None, exact["peak_time"])
-        ratio = force / exact.values["peak_force"]
+        measured["peak_force"] = Number(force, None, exact["peak_force"])
+        measured["peak_time"] = Number(when, None, exact["peak_time"])
     elif exact.impulse is not None:
         expected = exact.impulse(result.tau)
         # mean, not largest: where the impulse jumps, a jump at a slightly wrong time is a small error
         mean = float(np.mean(np.abs(result.J - expected)) / np.abs(expected).max())
-        measured["impulse_error"] = Measured(mean, None, 0.0)
-        measured["impulse"] = Measured(float(result.J[-1]), None, float(expected[-1]))
-        ratio = float(result.J @ expected / (expected @ expected))
+        measured["impulse_error"] = Number(mean, None, 0.0)
+        measured["impulse"] = Number(float(result.J[-1]), None, float(expected[-1]))
     about = {name: {"error": error, "source": exact.source} for name, error in exact.errors.items()}
-    return {"measured": measured, "reference": about, "ratios": {"J": ratio} if np.isfinite(ratio) else {}}
+    return {"measured": measured, "reference": about}
 
 
 def _largest_force(result: Result) -> tuple[float, float]:
@@ -226,26 +161,76 @@ def _largest_force(result: Result) -> tuple[float, float]:
 
 
 def _judged(found: Score, result: Result) -> Score:
-    """The judge's additions to the outcome, and the doctor's findings."""
-    additions, reasons = [], []
-    for measure, (limit, addition) in LIMITS.items():
-        value = getattr(found, measure)
-        if value is not None and value > limit:
-            additions.append(addition)
-            reasons.append(f"{measure} {value:.2g} (limit {limit:g})")
-    for name in found.off:
-        number, about = found.measured[name], found.reference.get(name)
-        bar = f" ± {about['error']:.1g}" if about else ""
+    """What is seen, the judge's additions to the outcome, and the verdict."""
+    front = found.measured.get("lambda0", Number()).value or 0.0 if result.problem.kind == "leading" else 0.0
+    seen, missing = readings(result, front)
+    shown = [one for one in seen.values() if one.seen]
+    shown.sort(key=lambda one: not (one.name == "energy" and (one.figure or 0.0) > 1.0))  # a blow-up is that first
+    figures: dict[str, Any] = {name: seen[of].figure for name, of in MEASURES.items() if of in seen}
+    found = replace(found, readings=seen, not_told=missing, **figures)
+    found = replace(found, symptoms=(*shown, *_of_numbers(found)))
+    additions = [WORDS[one.name] for one in shown if one.name in WORDS]
+    if found.off:
         additions.append("off")
-        reasons.append(f"{name} {number}, {'reference' if about else 'exact'} {number.theory:.6g}{bar}")
-    stated = ", ".join([found.outcome, *dict.fromkeys(additions)])
-    found = replace(found, outcome=stated, reason="; ".join(reasons) or None)
-    return replace(found, diagnosis=doctor.diagnose(result, found))
+    elif found.unsure:
+        bars = [found.bar(name) for name in found.unsure]
+        widest = max((bar for bar in bars if bar is not None), default=None)
+        additions.append("no number" if widest is None else f"within its bar of {100.0 * widest:.2g} %")
+    reason = "; ".join(map(str, found.symptoms)) or None
+    found = replace(found, outcome=", ".join([found.outcome, *additions]), reason=reason)
+    return replace(found, diagnosis=causes(result, found))
+
+
+def _of_numbers(found: Score) -> list[Symptom]:
+    """Numbers that are off, and those whose error or bar is beyond the limit."""
+    shown = []
+    for name in (*found.off, *found.unsure):
+        number, about = found.measured[name], found.reference.get(name)
+        limit = FIRST_ORDER if name in LOADED else PART
+        size = number.relative(1.0 if name in LOADED else 0.0)
+        exact = "" if number.theory is None else f", {'reference' if about else 'exact'} {number.theory:.6g}"
+        bar = f" ± {about['error']:.1g}" if about else ""
+        if name in found.off:
+            shown.append(Symptom(f"error_{name}", size, limit, f"{number}{exact}{bar}", f"error of {name}"))
+        else:
+            shown.append(Symptom(f"bar_{name}", found.bar(name), limit, f"{number}{exact}{bar}", f"bar of {name}"))
+    return shown
+
+
+LOADED = ("lambda1", "r1")
+SAME = 1e-6  # of numbers: no two meshes agree so well
 
 
 def resolution_ignored(scores: Sequence[Score]) -> list[Score]:
-    """The scores of one code at several resolutions; three of one problem with the very same numbers are flagged."""
-    numbers = [repr((found.problem, found.measured, found.noise)) if found.completed else "" for found in scores]
-    same = (Finding("too_exact", "the very same numbers at three resolutions", "mesh and steps that differ"),)
-    flagged = [bool(own) and numbers.count(own) >= 3 for own in numbers]
-    return [replace(found, diagnosis=same) if alike else found for found, alike in zip(scores, flagged)]
+    """The scores of one code at several resolutions: three of one problem that agree as no two meshes do are copies,
+    and where no two agree within the limit, the spread is a symptom."""
+    return [_beside(one, [_numbers(other) for other in scores if other.problem == one.problem]) for one in scores]
+
+
+def _beside(found: Score, others: Sequence[dict[str, float]]) -> Score:
+    own = _numbers(found)
+    apart = sorted(_apart(own, other) for other in others if own and other.keys() == own.keys())
+    nearest = min((_apart(a, b) for a, b in combinations(others, 2) if a and a.keys() == b.keys()), default=0.0)
+    limit = FIRST_ORDER if "lambda1" in own else PART
+    if len(apart) >= 3 and apart[2] < SAME:
+        seen = Symptom("copies", apart[2], SAME, "", "the very same numbers at three resolutions")
+    elif own and nearest > limit:
+        seen = Symptom("spread", nearest, limit, "of the two that agree best", "difference between resolutions")
+    else:
+        return found
+    kept = tuple(one for one in found.diagnosis if one.name != "clean" and seen.name == "spread")
+    return replace(found, symptoms=(seen, *found.symptoms), diagnosis=kept)
+
+
+def _numbers(found: Score) -> dict[str, float]:
+    """What is compared between resolutions: the numbers over their exact values, and the noise."""
+    known = {
+        name: one.value / (max(abs(one.theory or 0.0), 1.0 if name in LOADED else 0.0) or 1.0)
+        for name, one in found.measured.items()
+        if one.value is not None
+    }
+    return known | ({} if found.noise is None or not known else {"noise": found.noise})
+
+
+def _apart(one: Mapping[str, float], other: Mapping[str, float]) -> float:
+    return max(abs(one[name] - other[name]) for name in one)

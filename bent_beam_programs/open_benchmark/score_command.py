@@ -28,7 +28,8 @@ def score(
 ) -> int:
     """Score results of any code against the exact solution.
 
-    The likeliest fault of each is named, and three results of one problem with the very same numbers are flagged.
+    What is seen in each is listed with its figure, limit and where, and what its file cannot tell; a cause is named
+    only where one symptom has one cause. Three results of one problem with the very same numbers are flagged.
     Exit code 2 when a result cannot be read; the others are scored all the same.
 
     Example: bentbeam score coarse.npz medium.npz fine.npz
@@ -62,17 +63,21 @@ def score(
 
 
 def _text(found: Score) -> str:
-    lines = [f"{found.problem}: {found.outcome}" + (f" ({found.reason})" if found.reason else "")]
+    lines = [
+        f"{found.problem}: {found.outcome}" + ("" if found.completed or not found.reason else f" ({found.reason})")
+    ]
     for name, value in found.measured.items():
         exact = "" if value.theory is None else f", exact {value.theory:.8g}"
         if name in found.reference:
             exact = f", reference {value.theory:.6g} ± {found.reference[name]['error']:.1g}"
-        error = found.error(name)
-        lines.append(f"{name:>14} = {value}{exact}" + ("" if error is None else f" ({100 * error:+.3f} %)"))
-    for name in ("lift", "penetration", "adhesion", "noise", "momentum_residual"):
-        number = getattr(found, name)
-        lines.append(f"{name.partition('_')[0]:>14} = " + ("not reported" if number is None else f"{number:.2g}"))
+        error, bar = found.error(name), found.bar(name)
+        about = "" if error is None else f" ({100 * error:+.3f}{'' if bar is None else f' ± {100 * bar:.2g}'} %)"
+        lines.append(f"{name:>18} = {value}{exact}{about}")
+    lines += [f"{name:>18} = {one.figure:.2g}" for name, one in found.readings.items() if one.figure is not None]
+    lines += [f"seen: {symptom}" for symptom in found.symptoms]
+    for needs in dict.fromkeys(found.not_told.values()):
+        names = ", ".join(name.replace("_", " ") for name, field in found.not_told.items() if field == needs)
+        lines.append(f"cannot be told without {needs}: {names}")
     for finding in found.diagnosis:
-        about = [text for text in (finding.evidence, finding.advice) if text]
-        lines += [f"diagnosis: {finding.name.replace('_', ' ')}", *(f"    {text}" for text in about)]
+        lines.append(f"verdict: {finding.name.replace('_', ' ')}" + (f": {finding.advice}" if finding.advice else ""))
     return "\n".join(lines)

@@ -4,37 +4,15 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
-from typing import Any
 
 from bent_beam.files import write_atomically
 from bent_beam_programs.predictor.coefficients import coefficients
-from comparison.whole_impact.stored_map import stored_map
 from theory import validity
 
 __all__ = ["page", "write_page"]
 
 TEMPLATES = Path(__file__).parent / "templates"
-SCRIPTS = ("theory.js", "limits.js", "whole_impact.js", "beam.js", "case.js", "draw.js", "words.js", "view.js")
-NUMBERS = ("restitution", "last_contact", "peak_moment")
-
-
-def whole_impact() -> dict[str, Any]:
-    """Of the stored map what the page shows: values and error bars over damping and κ/ν, bands without damping."""
-    stored = stored_map()
-    kappas, dampings = stored["kappa_over_nu"], stored["damping"]
-    at = {(point["damping"], point["kappa_over_nu"]): point["numbers"] for point in stored["points"]}
-
-    def table(name: str, part: int) -> list[list[float]]:
-        return [[float(f"{at[d, k][name][part]:.8g}") for k in kappas] for d in dampings]
-
-    bands = sorted(stored["bands"], key=lambda band: float(band["kappa_over_nu"]))
-    return {
-        "kappa_over_nu": kappas,
-        "damping": dampings,
-        "numbers": {name: {"values": table(name, 0), "errors": table(name, 1)} for name in NUMBERS},
-        "bands": {"kappa_over_nu": [band["kappa_over_nu"] for band in bands]}
-        | {name: [[float(f"{v:.8g}") for v in band["band"][name]] for band in bands] for name in NUMBERS},
-    }
+SCRIPTS = ("theory.js", "limits.js", "beam.js", "case.js", "draw.js", "words.js", "view.js")
 
 
 def constants() -> dict[str, float]:
@@ -52,7 +30,7 @@ def constants() -> dict[str, float]:
 
 def script(names: tuple[str, ...] = SCRIPTS) -> str:
     """The scripts, after the numbers that they read."""
-    data = {"COEFFICIENTS": coefficients(), "VALIDITY": constants(), "MAP": whole_impact()}
+    data = {"COEFFICIENTS": coefficients(), "VALIDITY": constants()}
     numbers = [f"const {name} = {json.dumps(value, separators=(',', ':'))};" for name, value in data.items()]
     return "\n".join([*numbers, *(_source(name) for name in names)])
 

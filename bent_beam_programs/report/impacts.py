@@ -24,8 +24,8 @@ from theory import contact_parameters
 from theory.fields import ImpactFields
 
 Array = NDArray[np.float64]
-FRAMES = 50
-POINTS = 121
+FRAMES = 32
+POINTS = 91
 BINS = 60
 INSTANTS = 400
 END = 0.1  # τ
@@ -243,5 +243,5 @@ def energies(history: ImpactHistory) -> dict[str, Array]:
 
 
 def _short(values: Array) -> list[float]:
-    """Five significant digits: enough to look at."""
-    return [float(f"{v:.5g}") for v in np.asarray(values, float)]
+    """Four significant digits: enough to look at."""
+    return [float(f"{v:.4g}") for v in np.asarray(values, float)]

@@ -1,14 +1,16 @@
 """The main job's result: every method matched with the theory, as one HTML page that needs no network.
 
-``write_report`` computes the rows (:mod:`.rows`) and a few impacts to look at (:mod:`.impacts`), takes the
-parameter studies, the sheets of work and precision and the map of whole impacts as they are stored, and puts all of it
-into ``templates/report.html.j2``, with plotly.js inside. Whatever fails is named on the page, and the page is written
-all the same.
+The page tells the story first: the problem, the answer, how well each path has it, the verdicts on the thesis, what to
+believe; then numbers and studies. ``write_report`` computes the rows (:mod:`.rows`), the drill pipe (:mod:`.whole`) and
+a few impacts to look at (:mod:`.impacts`), takes the parameter studies, the sheets of work and precision and the map of
+whole impacts as they are stored, and puts all of it into ``templates/report.html.j2``. Whatever fails is named on the
+page, and the page is written all the same.
 """
 
 from __future__ import annotations
 
 import base64
+import io
 import json
 import os
 import platform
@@ -16,31 +18,29 @@ import time as clock
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from datetime import UTC, datetime
-from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
 import jinja2
 from markupsafe import Markup
-from plotly.offline import get_plotlyjs
+from PIL import Image
 
 from bent_beam.errors import ANY_FAILURE
 from bent_beam.files import write_atomically
 from bent_beam.method import Method, refined
 from bent_beam.versions import processor, versions
 from bent_beam_programs.report.impacts import END, ENERGIES, SHOWN, ShownImpact, show_all, theory_of
-from bent_beam_programs.report.plots import layout, plots
 from bent_beam_programs.report.rows import first_order_rows, labels, leading_rows
 from bent_beam_programs.report.stills import draw_acceleration, draw_maps, grouped
 from bent_beam_programs.report.studies import stored_numbers, stored_studies
-from bent_beam_programs.report.summary import COLUMNS, acceleration_rows, headline, percent, pipe_prediction, summary
+from bent_beam_programs.report.summary import acceleration_rows, headline, percent, summary
+from bent_beam_programs.report.whole import COLUMNS, pipe_prediction
 from bent_beam_programs.report.work import stored_measurements
 from comparison.figures.matching import write_match
 from comparison.figures.style import marks
-from comparison.match import match
+from comparison.matching import match
 from comparison.rows import MatchRow, Question, failures
 from comparison.store import RunStore
-from comparison.whole_impact.figures import draw_map
 
 TEMPLATES = Path(__file__).resolve().parent / "templates"
 
@@ -87,14 +87,13 @@ def write_report(
         SHOWN, methods, store=store, jobs=jobs, progress=lambda done, _: progress(asked + done, total)
     )
     files = write_match(rows, out / "data")
-    files += draw_map(out / "data")
     if impacts:  # for paper and for readers without JavaScript
         files += draw_maps(impacts, out / "data") + draw_acceleration(impacts, out / "data")
     content = Content(
         rows=rows,
         impacts=impacts,
         lost_impacts=lost,
-        pipe=pipe_prediction(),
+        pipe=pipe_prediction(store=store),
         numbers=stored_numbers(),
         studies=stored_studies(),
         work=stored_measurements(),
@@ -160,41 +159,45 @@ def render(content: Content) -> str:
         acceleration=acceleration_rows(content.impacts),
         pipe_headings=[heading for heading, _ in COLUMNS.values()],
         pictures={file.stem: picture(file) for file in content.pictures},
+        caption_of=lambda name, title: f"{name.replace('fig-', 'Fig. ').replace('extra-', 'Its ')}: {title}",
         facts=facts(content),
         settings=settings(content),
         data={
-            "plots": plots(leading, first),
-            "base": layout("", ""),
             "energies": ENERGIES,
             "impacts": [impact_data(runs) for runs in groups.values()],
         },
-        plotly=inline_script(get_plotlyjs()),
         script=inline_script((TEMPLATES / "report.js").read_text(encoding="utf-8")),
         style=Markup((TEMPLATES / "report.css").read_text(encoding="utf-8")),
     )
 
 
 def inline_script(text: str) -> Markup:
-    """Our own or plotly's script, safe between script tags."""
+    """Our own script, safe between script tags."""
     return Markup(text.replace("</script", "<\\/script").replace("<!--", "<\\!--"))
 
 
 def picture(file: Path) -> str:
-    """A PNG as a data URL; empty where there is none."""
-    return "data:image/png;base64," + base64.b64encode(file.read_bytes()).decode("ascii") if file.exists() else ""
+    """A PNG as a data URL, smaller and without loss; empty where there is none."""
+    if not file.exists():
+        return ""
+    stream = io.BytesIO()
+    with Image.open(file) as image:
+        image.convert("RGB").save(stream, format="WEBP", lossless=True)
+    return "data:image/webp;base64," + base64.b64encode(stream.getvalue()).decode("ascii")
 
 
 def impact_data(runs: Sequence[ShownImpact]) -> dict[str, Any]:
     """An impact as the page's script reads it: theory and every method on one timeline."""
     shown = runs[0].shown
     colours = marks(run.label for run in runs)
+    drawn = [{name: values for name, values in run.data.items() if name != "map"} for run in runs]  # it is a still
     return {
         "name": shown.name,
         "title": shown.title,
         "kappa": shown.kappa_over_nu,
         "epsilon": shown.epsilon,
         "theory": theory_of(shown),
-        "methods": [{"label": run.label, "colour": colours[run.label]["color"], **run.data} for run in runs],
+        "methods": [{"label": r.label, "colour": colours[r.label]["color"]} | d for r, d in zip(runs, drawn)],
     }
 
 
@@ -211,7 +214,6 @@ def facts(content: Content) -> dict[str, str]:
         "system": f"{platform.system()} {platform.release()} ({platform.machine()})",
         "Python": platform.python_version(),
         **versions(),
-        "plotly": version("plotly"),
     }
 
 

@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
-from bent_beam.measure.measured import Measured
+from bent_beam.measure.numbers import Number
 from bent_beam.method import Method
 from comparison.rows import LEAST, First, MatchRow, Question
 
@@ -50,7 +50,7 @@ class Cell:
     """One number of a row that has value, error bar and theory, as the tables show it."""
 
     what: str
-    number: Measured
+    number: Number
     tolerance: float
 
     @property
@@ -61,7 +61,7 @@ class Cell:
     @property
     def bar(self) -> float:
         """The error bar, relative."""
-        return self.number.relative_error(LEAST[self.what]) or 0.0
+        return self.number.relative_bar(LEAST[self.what]) or 0.0
 
     @property
     def grade(self) -> str:
@@ -72,7 +72,7 @@ class Cell:
     @property
     def value_text(self) -> str:
         """Value ± error bar, with as many digits as the error bar leaves."""
-        value, bar = self.number.value, self.number.error
+        value, bar = self.number.value, self.number.bar
         if not bar:
             return true_minus(f"{value:.6g}")
         digits = max(0, min(8, 1 - math.floor(math.log10(bar))))

@@ -51,14 +51,14 @@ def _text(value: Any) -> str:
 def stored_numbers(file: Path = NUMBERS) -> dict[str, Any] | None:
     """The stored table of printed numbers; ``None`` where there is no file.
 
-    rows : how many; classes : class → its rows (where, what, printed, ours, ratio, class, why); figures : id, title and
-    picture of each; date; stale.
+    summary : the count in words, both ways; classes : class → its rows (where, what, printed, ours, ratio, class, with
+    (3.1.8), why); figures : id, title and picture of each; date; stale.
     """
     if not file.exists():
         return None
     found = stored.read(file)
     return {
-        "rows": len(found["rows"]),
+        "summary": found["summary"],
         "classes": {name: [row for row in found["rows"] if row[CLASS] == name] for name in found["classes"]},
         "figures": [(f["id"], f["title"], file.with_name(f"{f['id']}.png")) for f in found["figures"]],
         "date": found["date"],

@@ -1,32 +1,16 @@
-"""Many rows in a few numbers: the headline, a table of each method, a table of what an acceleration does; and the drill
-pipe of ``cases/drill_pipe.toml`` in SI units: what ``bentbeam predict`` says of it.
-"""
+"""Many rows in a few numbers: the headline, a table of each method, a table of what an acceleration does."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
-from pathlib import Path
+from collections.abc import Sequence
 from statistics import median
 from typing import Any
 
-from bent_beam.cases import EXAMPLES, load_case
-from bent_beam.errors import InputError
 from bent_beam_programs.report.impacts import ShownImpact
 from bent_beam_programs.report.rows import TableRow, labels, true_minus
-from comparison.prediction import predict_case
 
 THIN = 0.02  # κ/ν; below it the front is so thin that it is a case of its own
-PIPE = EXAMPLES / "drill_pipe.toml"
-TIMES = (0.001, 0.005, 0.010)  # s, of the pipe
-COLUMNS = {
-    "half_contact_length": ("λ<sub>c</sub>, m", 1.0),
-    "reaction": ("R, kN", 1e3),
-    "impulse": ("impulse, N s", 1.0),
-    "peak_moment": ("bending moment, kN m", 1e3),
-    "peak_stress": ("stress, MPa", 1e6),
-}
-"""Of the pipe: name → heading and its unit."""
 
 
 def percent(value: float) -> str:
@@ -114,30 +98,3 @@ def acceleration_rows(impacts: Sequence[ShownImpact]) -> list[dict[str, str]]:
             }
         )
     return rows
-
-
-def pipe_prediction(file: Path = PIPE) -> dict[str, Any] | None:
-    """The prediction of a case, or ``None`` where this installation has no such file.
-
-    case; rows : time (ms), by what, and a text for each of :data:`COLUMNS`; valid_until, s, and limited_by.
-    """
-    try:
-        case = load_case(file)
-    except InputError:
-        return None
-    document = predict_case(case, TIMES, whole=False)
-    rows = [
-        (f"{1000.0 * row['time']:g}", by, [_text(numbers.get(name), unit) for name, (_, unit) in COLUMNS.items()])
-        for row in document["times"]
-        for by, numbers in (("theory", row), ("simulation", row.get("simulation")))
-        if numbers is not None
-    ]
-    return {"case": case, "rows": rows, **{key: document.get(key) for key in ("valid_until", "limited_by")}}
-
-
-def _text(number: Any, unit: float) -> str:
-    """A number in its column's unit, with its error bar where it has one."""
-    value, bar = (number.get("value"), number.get("error")) if isinstance(number, Mapping) else (number, None)
-    if value is None:
-        return "–"
-    return f"{value / unit:.4g}" + ("" if bar is None else f" ± {bar / unit:.1g}")

@@ -10,14 +10,14 @@ from __future__ import annotations
 import os
 import sys
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from bent_beam.cases import EXAMPLES
 from comparison import stored
 from comparison.figures.work_precision import draw_work_precision
-from comparison.match import match
+from comparison.matching import match
 from comparison.methods import methods_from_file
 from comparison.rows import First, questions
 from comparison.store import RunStore, default_store
@@ -68,7 +68,7 @@ def store_measurement(measurement: Measurement, *, jobs: int = 1) -> Path:
         f"python -m bent_beam_programs.report.work {measurement.name}",
         PACKAGES,
         {row.label: row.settings for row in rows},
-        {"command": measurement.command, "rows": [{name: asdict(row)[name] for name in KEPT} for row in rows]},
+        {"command": measurement.command, "rows": [{name: row.to_dict()[name] for name in KEPT} for row in rows]},
     )
 
 

@@ -1,7 +1,7 @@
 """The page of printed numbers and a few figures of the gallery, stored for the report.
 
 ``python -m bent_beam_programs.thesis.stored_numbers GALLERY`` writes ``numbers.json`` beside the stored studies,
-{"columns", "classes", "rows", "figures": [{"id", "title"}]}, a small picture of each figure, and the page
+{"columns", "classes", "summary", "rows", "figures": [{"id", "title"}]}, a small picture of each figure, and the page
 ``docs/thesis_numbers.md``: all from what ``bentbeam gallery --out GALLERY`` has drawn.
 """
 
@@ -14,12 +14,12 @@ from pathlib import Path
 from bent_beam_programs.thesis.gallery import ITEMS
 from bent_beam_programs.thesis.gallery.numbers import markdown
 from bent_beam_programs.thesis.stored_studies import FILE, PACKAGES, small_picture
-from bent_beam_programs.thesis.verdicts import CLASSES
+from bent_beam_programs.thesis.verdicts import CLASSES, summary
 from comparison import stored
 from comparison.store import write_atomically
 
-SHOWN = ("fig-3.9", "extra-filter", "fig-3.14", "fig-3.23", "fig-3.24", "fig-3.26", "fig-3.28", "fig-3.32", "fig-3.34")
-WIDTH = 640  # of a small picture, pixels
+SHOWN = ("extra-filter", "fig-3.24", "fig-3.27", "fig-3.34")  # of the five verdicts
+WIDTH = 900  # of a small picture, pixels
 PAGE = Path(__file__).resolve().parents[2] / "docs" / "thesis_numbers.md"
 
 
@@ -32,7 +32,7 @@ def store_numbers(gallery: Path) -> Path:
     write_atomically(PAGE, markdown(rows))
     made_by = "bentbeam gallery --out GALLERY && python -m bent_beam_programs.thesis.stored_numbers GALLERY"
     figures = [{"id": name, "title": ITEMS[name].title} for name in SHOWN]
-    data = {"columns": columns, "classes": list(CLASSES), "rows": rows, "figures": figures}
+    data = {"columns": columns, "classes": list(CLASSES), "summary": summary(rows), "rows": rows, "figures": figures}
     return stored.write(FILE.with_name("numbers.json"), "printed numbers of the thesis", made_by, PACKAGES, {}, data)
 
 

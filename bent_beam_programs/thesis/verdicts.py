@@ -5,7 +5,8 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from decimal import Decimal
 
 from comparison.readable import readable
@@ -43,7 +44,8 @@ class Printed:
     where : section, equation, figure or table; what : of what, with its unit; printed : its digits, as they stand.
     ours : computed; why : how it was measured, what is wrong or stays open.
     read : the thesis read it off a run or a mesh, or prints an order of magnitude. rule : what the thesis's own rule
-    gives, where that is another than ours. axes : no number is printed, an axis ends there.
+    gives, where that is another than ours. axes : no number is printed, an axis ends there. consistent : of numbers
+    that test a simulation, what the same run gives with the printed mass matrix, (3.1.8).
     """
 
     where: str
@@ -54,6 +56,7 @@ class Printed:
     read: bool = False
     rule: float | None = None
     axes: bool = False
+    consistent: float | None = None
 
     @property
     def verdict(self) -> str:
@@ -68,9 +71,42 @@ class Printed:
         return SAME if self.read and 1.0 / FACTOR <= self.ours / value <= FACTOR else OFF
 
     def row(self) -> list[str]:
-        """Cells: where, what, printed, computed, their ratio, class, why."""
-        ratio = f"{self.ours / float(self.printed):.3g}" if not self.axes else "–"
-        return [self.where, self.what, shown(self.printed), readable(self.ours, 5), ratio, self.verdict, self.why]
+        """Cells: where, what, printed, computed, their ratio, class, value and class with (3.1.8), why."""
+        ratio, other = f"{self.ours / float(self.printed):.3g}" if not self.axes else "–", ""
+        if self.consistent is not None:
+            other = f"{readable(self.consistent, 3)}: {replace(self, ours=self.consistent).verdict}"
+        cells = [self.where, self.what, shown(self.printed), readable(self.ours, 5), ratio, self.verdict]
+        return [*cells, other, self.why]
+
+
+def counts(rows: Sequence[Sequence[str]]) -> list[tuple[str, int, int, int, int]]:
+    """(class, rows in it, the same with (3.1.8) throughout, and both of those alone that test a simulation), from rows
+    of :meth:`Printed.row`.
+    """
+    pairs = [(row[5], row[6].rpartition(": ")[2]) for row in rows]
+    return [
+        (
+            name,
+            sum(ours == name for ours, _ in pairs),
+            sum((other or ours) == name for ours, other in pairs),
+            sum(bool(other) and ours == name for ours, other in pairs),
+            sum(other == name for _, other in pairs),
+        )
+        for name in CLASSES
+    ]
+
+
+def summary(rows: Sequence[Sequence[str]]) -> str:
+    """The count in words, both ways: what report, gallery and page print."""
+    found = counts(rows)
+    (_, ours, other, runs, runs_other), tested = found[0], sum(row[3] for row in found)
+    rest = "; ".join(f"{name} {count} ({with_other})" for name, count, with_other, *_ in found[1:])
+    return (
+        f"Of {len(rows)} printed numbers {ours} are reproduced within rounding with a lumped mass matrix that was "
+        f"chosen on these same rows, and {other} with the thesis's own, (3.1.8). The others, with (3.1.8) in brackets: "
+        f"{rest}. Numbers that test a simulation: {tested}; {runs} of them are within rounding with the lumped matrix, "
+        f"{runs_other} with (3.1.8). The rest follow from formulas."
+    )
 
 
 def shown(printed: str) -> str:

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 
@@ -12,6 +11,7 @@ from bent_beam.errors import InputError, SimulationError
 from comparison.command_line.options import (
     CaseFile,
     ErrorBars,
+    Fresh,
     Json,
     Overwrite,
     Quiet,
@@ -23,10 +23,6 @@ from comparison.command_line.options import (
     path_names,
     progress,
 )
-
-if TYPE_CHECKING:
-    from bent_beam.history import ImpactHistory
-    from bent_beam.method import Method
 
 __all__ = ["new", "predict", "settings", "simulate"]
 
@@ -87,6 +83,7 @@ def predict(
     ] = None,
     theory_only: Annotated[bool, typer.Option("--theory-only", help="Closed forms only, without simulation.")] = False,
     assignments: Set = None,
+    fresh: Fresh = False,
     as_json: Json = False,
     quiet: Quiet = False,
 ) -> None:
@@ -97,8 +94,9 @@ def predict(
     Example: bentbeam predict cases/drill_pipe.toml --time 0.005 --time 0.01
     """
     from bent_beam.cases import load_case
-    from comparison.prediction import predict_case
-    from comparison.prediction_text import prediction_text
+    from comparison.predict_text import prediction_text
+    from comparison.predicting import predict_case
+    from comparison.store import RunStore, default_store
 
     loaded = load_case(case, assignments or ())
     loaded.method("hermite")  # every table of the case is looked at, also where nothing is simulated
@@ -109,7 +107,8 @@ def predict(
         except ValueError as error:
             raise InputError(f"--time: {error}") from None
     with progress(f"the whole beam: {case.name}", quiet or as_json or theory_only) as bar:
-        document = predict_case(loaded, times, theory_only=theory_only, progress=bar.fraction)
+        store = RunStore(None if fresh else default_store())
+        document = predict_case(loaded, times, theory_only=theory_only, store=store, progress=bar.fraction).to_dict()
     emit(document, as_json, lambda: prediction_text(document))
 
 
@@ -125,7 +124,9 @@ def simulate(
     error_bars: ErrorBars = "quick",
     out: Annotated[Path | None, typer.Option(metavar="FILE.nc", help="Keep the history as netCDF.")] = None,
     overwrite: Overwrite = False,
-    save: Annotated[int, typer.Option(min=8, max=20000, help="Number of saved instants.")] = 200,
+    save: Annotated[
+        int | None, typer.Option(min=8, max=20000, help="Saved instants; until separation, a T*. Default: 200; 2000.")
+    ] = None,
     verbose: Verbose = False,
     as_json: Json = False,
     quiet: Quiet = False,
@@ -135,41 +136,28 @@ def simulate(
     Example: bentbeam simulate cases/thesis_K10.toml --path exudyn --set exudyn.integrator.kind=newmark
     """
     from bent_beam.cases import load_case
-    from bent_beam.method import LONGEST, simulate_to_separation, simulated
-    from comparison.companions import suited
-    from comparison.summary import companions, summary
-    from comparison.summary_text import run_table
+    from comparison.simulate_text import run_table
+    from comparison.simulating import simulate_case
 
     loaded = load_case(case, assignments or ())
-    method = loaded.method(path)
+    loaded.method(path)
     if until not in (None, "separation"):
         raise InputError(f'--until takes "separation" (got {until!r}); an end time is run.end_time')
     check_out(out, overwrite)
-    end = loaded.end_time if until is None else LONGEST * loaded.impact.slow_time_scale
-    stated = getattr(method, "mesh", None) is not None
-    method = suited(method, loaded.impact, end)
-
-    def run(chosen: Method, instants: int, progress: Callable[[float], None] | None = None) -> ImpactHistory:
-        if until is None:
-            run_to = {"end_time": loaded.end_time, "save": instants, "progress": progress}
-            return simulated(chosen.simulate, loaded.impact, **run_to)
-        return simulate_to_separation(chosen, loaded.impact, save=instants, progress=progress)
-
+    how = {"until": loaded.end_time if until is None else None, "save": save, "error_bars": error_bars}
     try:
         with progress(f"{path}: {case.name}", quiet) as bar:
-            history = run(method, save, bar.fraction)
+            found = simulate_case(loaded, path, **how, progress=bar.fraction)  # type: ignore[arg-type]
     except SimulationError as error:
         raise _kept(error, out) from None
     problem = None
     if out is not None:
         try:
-            (history if loaded.section is None else history.with_section(loaded.section)).save(out)
+            (found.history if loaded.section is None else found.history.with_section(loaded.section)).save(out)
         except OSError as error:  # the run's answer is worth more than its file
             problem, out = f"--out: {out} could not be written: {error.strerror or error}", None
-    others, lost = companions(method, loaded.impact, end, run, error_bars, stated=stated)
-    found = summary(history, out, loaded.section, others)
-    found["warnings"] = [*found["warnings"], *lost]
-    emit(found, as_json, lambda: run_table(found, verbose))
+    document = found.to_dict(out)
+    emit(document, as_json, lambda: run_table(document, verbose))
     if problem:
         raise InputError(problem)
 

@@ -9,6 +9,7 @@ import typer
 
 from comparison.command_line.options import (
     ErrorBars,
+    Fresh,
     Json,
     Methods,
     Paths,
@@ -58,7 +59,7 @@ def match(
     ] = None,
     scheduler: Scheduler = None,
     out: Annotated[Path | None, typer.Option(help="Folder for the table and the plots.")] = None,
-    fresh: Annotated[bool, typer.Option("--fresh", help="Ignore stored runs.")] = False,
+    fresh: Fresh = False,
     as_json: Json = False,
     quiet: Quiet = False,
 ) -> None:
@@ -69,7 +70,7 @@ def match(
     import os
     import sys
 
-    from comparison.match import match as match_all
+    from comparison.matching import match as match_all
     from comparison.methods import chosen_methods
     from comparison.rows import THESIS_KAPPAS, failures, match_document, match_table, questions
     from comparison.store import RunStore, check_writable, default_store
@@ -95,6 +96,9 @@ def match(
         write_match(rows, out)  # after the answer, which a full disk must not cost
     if lost:
         raise typer.Exit(3)
+    if all(row.refused for row in rows):  # what was asked for cannot be: input, not a result
+        print(printable(f"error: every row was refused: {rows[0].reason}"), file=sys.stderr)
+        raise typer.Exit(2)
 
 
 def _wall(text: str | None) -> tuple[float, float] | None:

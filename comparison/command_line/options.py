@@ -71,6 +71,7 @@ Methods = Annotated[
 ErrorBars = Annotated[
     str, typer.Option(help="quick (one companion run, half resolution), thorough (also twice), drift (none).")
 ]
+Fresh = Annotated[bool, typer.Option("--fresh", help="Ignore stored runs.")]
 Overwrite = Annotated[bool, typer.Option("--overwrite", help="Replace existing files.")]
 
 

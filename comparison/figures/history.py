@@ -92,7 +92,7 @@ def _map(fig: Any, axis: Any, history: ImpactHistory) -> None:
 
 
 def _impulse(axis: Any, history: ImpactHistory) -> None:
-    from comparison.summary import comparable
+    from comparison.simulating import comparable
     from theory import predict
 
     axis.plot(1e3 * history.time, history.array("total_impulse"), color=style.COLOURS["blue"], label=history.path)

@@ -9,7 +9,6 @@ from __future__ import annotations
 import csv
 import io
 from collections.abc import Sequence
-from dataclasses import asdict
 from itertools import cycle
 from pathlib import Path
 from typing import Any
@@ -24,7 +23,7 @@ from comparison.rows import First, MatchRow, match_document
 from comparison.store import write_atomically
 from theory import contact_parameters
 
-__all__ = ["draw_first_order", "draw_leading", "draw_matching", "write_match"]
+__all__ = ["draw_first_order", "draw_leading", "draw_matching", "leading_figure", "write_match"]
 
 DASHES = ("-", "--", ":", "-.")
 """Of theory's curves, a kind for each load."""
@@ -43,7 +42,7 @@ def rows_csv(rows: Sequence[MatchRow]) -> str:
     table = []
     for row in rows:
         flat: dict[str, Any] = {}
-        for key, value in plain(asdict(row)).items():
+        for key, value in plain(row.to_dict()).items():
             if isinstance(value, dict) and set(value) == {"value", "error", "theory"}:
                 flat |= {key: value["value"], f"{key}_error": value["error"], f"{key}_theory": value["theory"]}
             elif isinstance(value, dict):
@@ -72,6 +71,11 @@ def draw_matching(rows: Sequence[MatchRow], out: Path) -> list[Path]:
 
 
 def draw_leading(rows: Sequence[MatchRow], out: Path) -> list[Path]:
+    """``leading.png`` in ``out``."""
+    return style.save(leading_figure(rows), out, "leading")
+
+
+def leading_figure(rows: Sequence[MatchRow]) -> Any:
     """λ₀ and r₀ over κ/ν, theory's curve and numerical points, and the relative differences below."""
     leading = list({(r.label, r.kappa_over_nu): r for r in rows}.values())
     ratios = [r.kappa_over_nu for r in leading]
@@ -87,7 +91,7 @@ def draw_leading(rows: Sequence[MatchRow], out: Path) -> list[Path]:
         style.label_panels(*axes[0])
         axes[0, 0].legend()
         _say_what_is_missing(fig, [r for r in leading if not r.lambda0.measured])
-        return style.save(fig, out, "leading")
+        return fig
 
 
 def _compare(top: Axes, below: Axes, rows: Sequence[MatchRow], what: str) -> None:
@@ -102,7 +106,7 @@ def _compare(top: Axes, below: Axes, rows: Sequence[MatchRow], what: str) -> Non
         x = np.array([k for k, _ in mine])
         top.plot(x, [c.value for _, c in mine], **mark)
         off = np.array([100 * c.relative() for _, c in mine])
-        bars = np.array([100 * (c.relative_error() or 0.0) for _, c in mine])
+        bars = np.array([100 * (c.relative_bar() or 0.0) for _, c in mine])
         style.bars(below, x * 1.015 ** (i - (len(marks) - 1) / 2), off, bars, {**mark, "label": None})
         limit = max(limit, 1.5 * float(np.max(np.abs(off) + bars)))  # every point and its bar have their place
     below.set(xlabel=r"$\kappa/\nu$  (1)", ylabel="difference  (%)")
@@ -135,7 +139,7 @@ def draw_first_order(rows: Sequence[MatchRow], out: Path) -> list[Path]:
                         if r.label == label and getattr(r, what).measured
                     ]
                     if points:
-                        bars = [abs(c.error or 0.0) for _, c in points]
+                        bars = [abs(c.bar or 0.0) for _, c in points]
                         x, values = [k for k, _ in points], [c.known for _, c in points]
                         style.bars(axis, x, values, bars, {**mark, "label": None})
                         largest = max(largest, *map(abs, values))

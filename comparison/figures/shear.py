@@ -12,10 +12,10 @@ import numpy as np
 
 from bent_beam.history import ImpactHistory
 from bent_beam.impact import Impact
-from bent_beam.measure.measured import Measured
 from bent_beam.measure.moments import mean_reaction
+from bent_beam.measure.numbers import Number
 from bent_beam.method import Method, method_from_tables
-from comparison.bounce import bounce
+from comparison.bouncing import bounce
 from comparison.figures import style
 from theory.shear import StoppedPoint
 
@@ -34,13 +34,13 @@ def sheared(kappa_over_nu: float, slenderness: float) -> Impact:
     return Impact.whole_beam(kappa_over_nu, relative_damping=DAMPING, shear_length=length, shear_ratio=RATIO)
 
 
-def numbers(method: Method, impact: Impact) -> tuple[Measured, Measured] | None:
+def numbers(method: Method, impact: Impact) -> tuple[Number, Number] | None:
     """Largest moment and restitution with their bars; ``None``: the path does not take this beam."""
     if method.refuses(impact) is not None:
         return None
     found = bounce(impact, method, save=500).numbers
     moment, restitution = found["peak_moment"], found["restitution"]
-    assert isinstance(moment, Measured) and isinstance(restitution, Measured)  # the beam is damped
+    assert isinstance(moment, Number) and isinstance(restitution, Number)  # the beam is damped
     return moment, restitution
 
 
@@ -65,7 +65,7 @@ def draw(out: Path) -> list[Path]:
         history = stopped_run()
         kept = range(36, history.time.size - 12, 12)
         force = [mean_reaction(history, k) for k in kept]
-        right.loglog(history.time[kept], force, **style.mark("hermite") | {"ms": 3.0})
+        right.loglog(history.time[kept], force, **style.mark("hermite") | {"ms": 3.0, "label": "hermite"})
         right.set_yticks([0.3, 0.5, 1.0, 2.0, 5.0], labels=["0.3", "0.5", "1", "2", "5"])
         right.set_xticks([0.1, 1.0, 10.0], labels=["0.1", "1", "10"])
         right.tick_params(which="minor", labelleft=False)

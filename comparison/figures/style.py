@@ -16,9 +16,6 @@ from typing import Any
 
 import matplotlib
 import numpy as np
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
@@ -90,7 +87,7 @@ RC: Any = {
     "ytick.direction": "out",
     "figure.dpi": 150,
     "savefig.dpi": 200,
-    "axes.prop_cycle": plt.cycler(color=SEQUENCE),
+    "axes.prop_cycle": matplotlib.rcsetup.cycler(color=SEQUENCE),
     "figure.constrained_layout.use": True,
     "svg.hashsalt": "bent-beam-impact",
     "svg.fonttype": "none",
@@ -102,14 +99,13 @@ RC: Any = {
 def figure(
     rows: int = 1, columns: int = 1, *, width: float = COLUMN, height: float | None = None, **kwargs: Any
 ) -> Iterator[tuple[Figure, Any]]:
-    """A figure in the project's style, closed afterwards: ``with figure() as (fig, ax): …``. Sizes in inches."""
-    with plt.rc_context(RC):
-        tall = height or 0.75 * width / columns * rows
-        fig, axes = plt.subplots(rows, columns, figsize=(width, tall), **kwargs)
-        try:
-            yield fig, axes
-        finally:
-            plt.close(fig)
+    """A figure in the project's style: ``with figure() as (fig, ax): …``. Sizes in inches.
+
+    Nothing of the caller's Matplotlib is changed: neither its backend nor the figures that it knows.
+    """
+    with matplotlib.rc_context(RC):
+        fig = Figure(figsize=(width, height or 0.75 * width / columns * rows))
+        yield fig, fig.subplots(rows, columns, **kwargs)
 
 
 def save(fig: Figure, out: Path, name: str, formats: Sequence[str] = ("png",)) -> list[Path]:

@@ -48,7 +48,7 @@ def draw_work_precision(rows: Sequence[MatchRow], out: Path) -> list[Path]:
 def _error(what: str, row: MatchRow) -> tuple[float | None, float | None]:
     number = getattr(row, what)
     off = number.relative(LEAST[what])
-    return None if off is None else abs(off), number.relative_error(LEAST[what])
+    return None if off is None else abs(off), number.relative_bar(LEAST[what])
 
 
 def _draw(rows: Sequence[MatchRow], out: Path, name: str, first: bool, missing: int) -> list[Path]:

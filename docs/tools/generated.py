@@ -10,7 +10,7 @@ from mkdocs.structure.files import File, Files
 #: Page → the modules whose public names (``__all__``) it documents.
 API = {
     "bent_beam": ("bent_beam", "bent_beam.meshes"),
-    "measure": ("bent_beam.measure.measured", "bent_beam.measure.moments", "bent_beam.measure.estimators"),
+    "measure": ("bent_beam.measure.numbers", "bent_beam.measure.moments", "bent_beam.measure.estimators"),
     "theory": ("theory",),
     "hermite_fe": (
         "hermite_fe",
@@ -26,7 +26,7 @@ API = {
         "exudyn_models.integrators",
         "exudyn_models.contacts",
     ),
-    "comparison": ("comparison.methods", "comparison.rows", "comparison.match", "comparison.bounce"),
+    "comparison": ("comparison.methods", "comparison.rows", "comparison.matching", "comparison.bounce"),
     "open_benchmark": ("bent_beam_programs.open_benchmark",),
 }
 

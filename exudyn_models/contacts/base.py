@@ -26,6 +26,7 @@ from typing import Annotated, Any, ClassVar
 import numpy as np
 
 from bent_beam import Impact
+from bent_beam.errors import InputError
 from bent_beam.fields import Part, Quantity
 from exudyn_models.elements.beam import Beam, Element, shares
 from exudyn_models.geometry import Array, Flags, Geometry, Indices, LinearLimit
@@ -67,6 +68,8 @@ class Wall:
     opposite: float | None  # y of a second, flat wall behind the beam
     stiffness: float | None = None  # per length, of a wall that gives way; of a stop itself
     damping: float = 0.0  # beside it
+    stiffness_unit: float = 1.0  # SI value of a stiffness per length, N/m², …
+    damping_unit: float = 1.0  # … and of a damping per length, N s/m²
 
     @property
     def stop(self) -> bool:
@@ -135,6 +138,7 @@ class ContactRun(ABC):
         self.beam, self.nodes, self.wall_y = beam, nodes, wall_y
         self.contact_s = beam.shape.s[nodes]
         self.signs = np.ones(nodes.size) if signs is None else signs
+        self.connectors: list[Any] = []  # Exudyn's object numbers
 
     def depth(self, q: Array) -> Array:
         """Penetration at the contact points, shape (contacts,)."""
@@ -143,6 +147,10 @@ class ContactRun(ABC):
     @abstractmethod
     def forces(self, q: Array, v: Array) -> tuple[Array, Flags]:
         """Contact forces (off the wall positive, off an opposite one negative) and active flags, shape (contacts,)."""
+
+    def plain_forces(self, q: Array, v: Array) -> Array:
+        """Contact forces where Exudyn's own judgement of the states stands, shape (contacts,)."""
+        return self.forces(q, v)[0]
 
     def stored_energy(self, q: Array) -> float:
         """Energy that the contact's springs hold."""
@@ -165,7 +173,7 @@ class ContactRun(ABC):
 
     def stiffness_and_damping(self) -> tuple[Array, Array]:
         """Stiffness and damping of the closed contact at each *beam node*, shape (nodes,): for the stable step."""
-        raise ValueError("exudyn.contact: this contact does not work with explicit integrators")
+        raise InputError("exudyn.contact: this contact does not work with explicit integrators")
 
     @property
     def held_until(self) -> float:

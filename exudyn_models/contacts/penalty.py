@@ -44,6 +44,7 @@ import exudyn.itemInterface as items
 import numpy as np
 
 from bent_beam import Impact
+from bent_beam.errors import InputError
 from bent_beam.fields import Quantity
 from exudyn_models.contacts.base import START, TINY, Contact, ContactRun, HeldStrip, Hold, Wall
 from exudyn_models.elements import Beam, Element
@@ -90,22 +91,22 @@ class PenaltyRun(ContactRun):
         self._of: tuple[Array | None, Array | None] = None, None
         self._force = np.zeros(nodes.size)
         markers = [beam.marker(int(node), beam.vertical_coordinate) for node in nodes]
-        self.contacts = [beam.mbs.AddObject(self._connector(k, marker)) for k, marker in enumerate(markers)]
+        self.connectors = [beam.mbs.AddObject(self._connector(k, marker)) for k, marker in enumerate(markers)]
         if strip.used:
             self.holders = [beam.mbs.AddObject(self._holder(k, marker)) for k, marker in enumerate(markers)]
 
     def _connector(self, k: int, marker: Any) -> Any:
         """Exudyn's item for the one-sided spring and dashpot of the ``k``-th contact point."""
-        beam, sign = self.beam, self.signs[k]
+        beam, sign, units = self.beam, self.signs[k], self.beam.units
         # open at t = 0: a closed one would put its damping into the initial accelerations
         gap = max(1e-14, float(sign * (self.wall_y[k] - beam.shape.y[self.nodes[k]])))
-        state = items.NodeGenericData(numberOfDataCoordinates=1, initialCoordinates=[gap])
+        state = items.NodeGenericData(numberOfDataCoordinates=1, initialCoordinates=[gap * units.length])
         return items.ObjectContactCoordinate(
             markerNumbers=[marker, beam.ground_marker][:: int(sign)],
             nodeNumber=beam.mbs.AddNode(state),
-            contactStiffness=self.stiffness[k],
-            contactDamping=self.damping[k],
-            offset=-sign * self.wall_y[k],
+            contactStiffness=self.stiffness[k] * units.stiffness,
+            contactDamping=self.damping[k] * units.damping,
+            offset=-sign * self.wall_y[k] * units.length,
         )
 
     def _holder(self, k: int, marker: Any) -> Any:
@@ -142,6 +143,9 @@ class PenaltyRun(ContactRun):
             self.strip.captured |= active[: self.strip.captured.size]
         return np.where(active, self.signs * force, 0.0), active
 
+    def plain_forces(self, q: Array, v: Array) -> Array:
+        return np.where(self.depth(q) >= 0.0, self.signs * self._spring_and_dashpot(q, v), 0.0)
+
     def stored_energy(self, q: Array) -> float:
         depth = self.depth(q)
         return float((self.stiffness * np.where(self.held, depth, np.maximum(depth, 0.0)) ** 2).sum() / 2)
@@ -169,7 +173,7 @@ class PenaltyRun(ContactRun):
             self.beam.mbs.SetObjectParameter(self.holders[k], "activeConnector", bool(wanted[k]))
             # the one-sided connector stays active without force: deactivated, Exudyn repeats steps for it in vain
             for name, value in (("contactStiffness", self.stiffness[k]), ("contactDamping", self.damping[k])):
-                self.beam.mbs.SetObjectParameter(self.contacts[k], name, 0.0 if wanted[k] else float(value))
+                self.beam.mbs.SetObjectParameter(self.connectors[k], name, 0.0 if wanted[k] else float(value))
         self.held = wanted
         return int(changed.size)
 
@@ -193,6 +197,12 @@ class Penalty(Contact):
         float | None,
         Quantity("", "D in d = D √(EIμ)/Δx²", least=0.0, absent=f"{DAMPING:g}√(C/10) (thin front: {PLASTIC:g}√(C/10))"),
     ] = None
+    stiffness: Annotated[
+        float | None, Quantity("N/m²", "k itself: N/m per m of beam, of all nodes alike", above=0.0, absent="as C says")
+    ] = None
+    damping: Annotated[
+        float | None, Quantity("N s/m²", "d itself: N s/m per m of beam", least=0.0, absent="as D says")
+    ] = None
     hold: Hold = 0
     hold_start: Annotated[
         float | None,
@@ -201,6 +211,12 @@ class Penalty(Contact):
             absent=f"{START:g}; 0: load or damping lifts the zone, front is thin, waves are back, explicit steps",
         ),
     ] = None  # fmt: skip
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        for name in ("stiffness", "damping"):
+            if getattr(self, name) is not None and getattr(self, f"relative_{name}") is not None:
+                raise InputError(f"{self.where}.{name} and relative_{name} exclude each other: give one")
 
     def attach(self, beam: Beam, wall: Wall) -> ContactRun:
         length = beam.tributary[wall.nodes]
@@ -214,6 +230,10 @@ class Penalty(Contact):
         if damping is None:
             damping = (PLASTIC * plastic if plastic else DAMPING) * math.sqrt(stiffness / STIFFNESS)
         k, d = penalty_per_length(local, stiffness, damping)
+        if self.stiffness is not None:
+            k = np.full_like(k, self.stiffness / wall.stiffness_unit)
+        if self.damping is not None:
+            d = np.full_like(d, self.damping / wall.damping_unit)
         strip = HeldStrip(wall, self.hold, 0.0 if plastic and self.hold_start is None else self.hold_start)
         chosen = {"relative_stiffness": stiffness, "relative_damping": damping}
         return PenaltyRun(beam, wall, k * length, d * length, strip, chosen)
@@ -241,7 +261,7 @@ class SpringsRun(PenaltyRun):
             share = covered(q[at] + step * v[at] - wall_y, self.wall.lengths)
             damping = self.wall.damping * share[self.nodes]
             for k in np.flatnonzero(damping != self.damping):
-                self.beam.mbs.SetObjectParameter(self.contacts[k], "contactDamping", float(damping[k]))
+                self.beam.mbs.SetObjectParameter(self.connectors[k], "contactDamping", float(damping[k]))
             self.damping = damping
         return False
 

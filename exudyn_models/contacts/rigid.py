@@ -45,7 +45,7 @@ class _Run(ContactRun):
         self.strip: HeldStrip = HeldStrip(wall, hold)
         self.active = np.zeros(wall.nodes.size, bool)
         self.back = np.zeros(wall.nodes.size)  # speed asked of each closed node
-        self.constraints = [
+        self.connectors = [
             beam.mbs.AddObject(
                 items.CoordinateConstraint(
                     markerNumbers=[beam.ground_marker, beam.marker(int(node), beam.vertical_coordinate)],
@@ -59,7 +59,7 @@ class _Run(ContactRun):
     @cached_property
     def _multipliers(self) -> Indices:
         """Of the constraints in the system's vectors, known once it is assembled."""
-        return np.array([self.beam.mbs.systemData.GetObjectLTGAE(number)[0] for number in self.constraints])
+        return np.array([self.beam.mbs.systemData.GetObjectLTGAE(number)[0] for number in self.connectors])
 
     def forces(self, q: Array, v: Array) -> tuple[Array, Flags]:
         force = self.beam.mbs.systemData.GetAECoordinates()[self._multipliers]
@@ -75,11 +75,11 @@ class _Run(ContactRun):
         wanted = (self.active & (force >= 0.0)) | touching | self.strip.wanted(time)
         changed = np.flatnonzero(wanted != self.active)
         for k in changed:
-            self.beam.mbs.SetObjectParameter(self.constraints[k], "activeConnector", bool(wanted[k]))
+            self.beam.mbs.SetObjectParameter(self.connectors[k], "activeConnector", bool(wanted[k]))
         self.active = wanted
         back = -RETURN * depth / step
         for k in np.flatnonzero(wanted & (back != self.back)):
-            self.beam.mbs.SetObjectParameter(self.constraints[k], "offset", float(back[k]))
+            self.beam.mbs.SetObjectParameter(self.connectors[k], "offset", float(back[k]))
         self.back = np.where(wanted, back, self.back)
         return bool(changed.size)
 

@@ -117,29 +117,32 @@ class SegmentFriction(Contact):
         return TRUE_SHARE if geometry.true else 1.0
 
     def attach(self, beam: Beam, wall: Wall) -> ContactRun:
-        mbs, lengths = beam.mbs, beam.lengths
-        radius = 1.0 / beam.shape.wall_curvature
+        mbs, lengths, units = beam.mbs, beam.lengths, beam.units
+        radius = units.length / beam.shape.wall_curvature
         k, d = penalty_per_length(lengths, self.relative_stiffness, self.relative_damping)
         tangential = self.relative_friction_damping / lengths**2
         ground = mbs.AddObject(items.ObjectGround())
         circle = mbs.AddMarker(items.MarkerBodyRigid(bodyNumber=ground, localPosition=[0.0, radius, 0.0]))
-        elements = np.arange(max(0, int(wall.nodes[0]) - 1), min(lengths.size, int(wall.nodes[-1]) + 1))
+        connectors, elements = [], np.arange(max(0, int(wall.nodes[0]) - 1), min(lengths.size, int(wall.nodes[-1]) + 1))
         for e in elements:
             marker = mbs.AddMarker(items.MarkerBodyCable2DShape(bodyNumber=beam.bodies[e], numberOfSegments=1))
             state = mbs.AddNode(
                 items.NodeGenericData(numberOfDataCoordinates=_Run.states, initialCoordinates=[0.1, -2.0, 0.0])
             )  # open, neither sticking nor slipping
-            mbs.AddObject(
+            connector = mbs.AddObject(
                 items.ObjectContactFrictionCircleCable2D(
                     markerNumbers=[circle, marker],
                     nodeNumber=state,
                     numberOfContactSegments=1,
-                    contactStiffness=k[e] * lengths[e],
-                    contactDamping=d[e] * lengths[e],
+                    contactStiffness=k[e] * lengths[e] * units.stiffness,
+                    contactDamping=d[e] * lengths[e] * units.damping,
                     circleRadius=radius,
                     frictionCoefficient=self.friction,
-                    frictionVelocityPenalty=tangential[e] * lengths[e] if self.friction else 0.0,
+                    frictionVelocityPenalty=tangential[e] * lengths[e] * units.damping if self.friction else 0.0,
                     useSegmentNormals=False,
                 )
             )
-        return _Run(beam, elements, (k * lengths)[elements], (d * lengths)[elements])
+            connectors.append(connector)
+        run = _Run(beam, elements, (k * lengths)[elements], (d * lengths)[elements])
+        run.connectors = connectors
+        return run

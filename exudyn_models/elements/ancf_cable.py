@@ -38,20 +38,25 @@ class _Cable(Beam):
         stretched = 1.0 + self.section.stretch
         x, y = stretched * shape.x[i] - shape.s[i], shape.y[i]
         along = -turning * sin if shape.slender else 0.0
+        length, rate = self.units.length, 1.0 / self.units.time
+        speed = length * rate
         return items.NodePoint2DSlope1(
-            referenceCoordinates=[shape.s[i], 0.0, 1.0, 0.0],
-            initialCoordinates=[x, y, stretched * cos - 1.0, stretched * sin],
-            initialVelocities=[shape.velocity_x[i], shape.velocity_y[i], along, turning * cos],
-        )
+            referenceCoordinates=[shape.s[i] * length, 0.0, 1.0, 0.0],
+            initialCoordinates=[x * length, y * length, stretched * cos - 1.0, stretched * sin],
+            initialVelocities=[
+                shape.velocity_x[i] * speed, shape.velocity_y[i] * speed, along * rate, turning * cos * rate
+            ],
+        )  # fmt: skip
 
     def body(self, i: int) -> Any:
+        units = self.units
         return items.ObjectANCFCable2D(
-            length=self.lengths[i],
-            massPerLength=1.0,
-            bendingStiffness=1.0,
-            axialStiffness=self.section.axial_stiffness,
-            bendingDamping=self.viscosity[i],
-            referenceCurvature=self.shape.curvature,
+            length=self.lengths[i] * units.length,
+            massPerLength=units.mass_per_length,
+            bendingStiffness=units.bending_stiffness,
+            axialStiffness=self.section.axial_stiffness * units.force,
+            bendingDamping=self.viscosity[i] * units.bending_stiffness * units.time,
+            referenceCurvature=self.shape.curvature / units.length,
             nodeNumbers=[self.nodes[i], self.nodes[i + 1]],
             useReducedOrderIntegration=1,
         )
@@ -79,13 +84,15 @@ class _Cable(Beam):
         (along,), (across,) = self._fields(v, 0, 0), self._fields(v, 1, 0)
         return self._integral(along**2 + across**2) / 2
 
-    def strain_energy(self, q: Array) -> Array:
+    def axial_strain(self, q: Array) -> Array:
+        (x1,), (y1,) = self._fields(q, 0, 1), self._fields(q, 1, 1)
+        return np.asarray(np.hypot(1.0 + x1, y1) - 1.0)
+
+    def bending_energy(self, q: Array) -> Array:
         (x1, x2), (y1, y2) = self._fields(q, 0, 1, 2), self._fields(q, 1, 1, 2)
         x1 += 1.0
-        square = x1**2 + y1**2
-        curvature, strain = (x1 * y2 - y1 * x2) / square, np.sqrt(square) - 1.0
-        bending = (curvature - self.shape.curvature) ** 2
-        return self._integral(bending + self.section.axial_stiffness * (strain**2 - self.section.stretch**2)) / 2
+        curvature = (x1 * y2 - y1 * x2) / (x1**2 + y1**2)
+        return self._integral((curvature - self.shape.curvature) ** 2) / 2
 
     def axial_mass(self) -> Array:
         return self.element_matrices()[0]

@@ -16,7 +16,7 @@ import numpy as np
 from scipy.sparse import csr_matrix
 
 from bent_beam.fields import Part, Quantity
-from exudyn_models.geometry import Array, Indices, Shape
+from exudyn_models.geometry import MODEL_UNITS, Array, Indices, Shape, Units
 
 __all__ = ["Beam", "Element", "Section", "shares"]
 
@@ -31,11 +31,12 @@ Matrix = Any  # SciPy's sparse matrices carry no types
 
 @dataclass(frozen=True)
 class Section:
-    """Of the beam in its model's units; ``damping`` is the Kelvin–Voigt time of bending."""
+    """Of the beam in its model's units; ``damping`` is the Kelvin–Voigt time of bending. units : of Exudyn's items."""
 
     axial_stiffness: float
     axial_force: float
     damping: float
+    units: Units = MODEL_UNITS
 
     @property
     def stretch(self) -> float:
@@ -57,7 +58,7 @@ class Beam(ABC):
     rotation_coordinate: int
 
     def __init__(self, mbs: Any, shape: Shape, section: Section, viscosity: Array) -> None:
-        self.mbs, self.shape, self.section = mbs, shape, section
+        self.mbs, self.shape, self.section, self.units = mbs, shape, section, section.units
         self.grid_viscosity = viscosity
         self.viscosity = viscosity + section.damping
         self.uniform_load = 0.0
@@ -110,7 +111,7 @@ class Beam(ABC):
         matrix, which destabilises a consistent one.
         """
         mass = np.zeros(self.rotation_coordinate + 1)
-        mass[list(coordinates)] = INERTIA
+        mass[list(coordinates)] = INERTIA * self.units.mass_per_length * self.units.length
         none = np.diag(np.zeros_like(mass))
         body: dict[str, Any] = {"massMatrix": np.diag(mass), "stiffnessMatrix": none, "dampingMatrix": none}
         self.mbs.AddObject(
@@ -120,21 +121,20 @@ class Beam(ABC):
     def load_uniformly(self, acceleration: float) -> None:
         """A load μ·``acceleration`` per unit length along y."""
         self.uniform_load = acceleration
+        load = [0.0, acceleration * self.units.length / self.units.time**2, 0.0]
         for body in self.bodies:
             marker = self.mbs.AddMarker(items.MarkerBodyMass(bodyNumber=body))
-            self.mbs.AddLoad(items.LoadMassProportional(markerNumber=marker, loadVector=[0.0, acceleration, 0.0]))
+            self.mbs.AddLoad(items.LoadMassProportional(markerNumber=marker, loadVector=load))
 
     def load_node(self, node: int, coordinate: int, constant: float, rate: float = 0.0) -> None:
         """A force (or moment) ``constant`` + ``rate``·t on one coordinate of the ``node``-th node."""
         if constant == 0.0 == rate:
             return
         self.node_loads.append((node, coordinate, constant, rate))
-        marker = self.marker(node, coordinate)
-        if rate:
-            load = items.LoadCoordinate(markerNumber=marker, loadUserFunction=lambda mbs, t, load: constant + rate * t)
-        else:
-            load = items.LoadCoordinate(markerNumber=marker, load=constant)
-        self.mbs.AddLoad(load)
+        unit = self.units.force * (self.units.length if coordinate == self.rotation_coordinate else 1.0)
+        at_first, growth = constant * unit, rate * unit / self.units.time
+        grows = {"loadUserFunction": lambda mbs, t, load: at_first + growth * t} if rate else {}
+        self.mbs.AddLoad(items.LoadCoordinate(markerNumber=self.marker(node, coordinate), load=at_first, **grows))
 
     def loads(self) -> Callable[[Array], Array]:
         """After ``locate``: all loads as forces on the system's coordinates, as a function of times, (times,
@@ -194,8 +194,29 @@ class Beam(ABC):
         """Of one state, or of each of several, v (states, coordinates)."""
 
     @abstractmethod
+    def axial_strain(self, q: Array) -> Array:
+        """At the integration points, shape (…, elements, points)."""
+
+    @abstractmethod
+    def bending_energy(self, q: Array) -> Array:
+        """With that of shear. Of one state, or of each of several, q (states, coordinates)."""
+
+    @abstractmethod
+    def _integral(self, values: Array) -> Array:
+        """Over the beam of values at the integration points."""
+
+    def axial_energy(self, q: Array) -> Array:
+        """Less that of the stretch under the axial force."""
+        square = self.axial_strain(q) ** 2 - self.section.stretch**2
+        return self.section.axial_stiffness * self._integral(square) / 2
+
     def strain_energy(self, q: Array) -> Array:
-        """Of one state, or of each of several, q (states, coordinates)."""
+        """What the beam holds but for :meth:`stretch_energy`."""
+        return self.bending_energy(q) + self.axial_energy(q) - self.stretch_energy(q)
+
+    def stretch_energy(self, q: Array) -> Array:
+        """What an axial force keeps in the beam that it stretches, the same along all of it; 0 without one."""
+        return self.axial_energy(q) * (self.section.axial_force != 0.0)
 
     @abstractmethod
     def element_matrices(self) -> tuple[Array, Array, Array]:

@@ -35,23 +35,27 @@ class _Exact(Beam):
 
     def node(self, i: int) -> Any:
         shape, stretched = self.shape, 1.0 + self.section.stretch
+        length, rate = self.units.length, 1.0 / self.units.time
+        x, speed = stretched * shape.x[i] - shape.s[i], length * rate
+        turning = shape.angular_velocity[i] * rate
         return items.NodeRigidBody2D(
-            referenceCoordinates=[shape.s[i], 0.0, 0.0],
-            initialCoordinates=[stretched * shape.x[i] - shape.s[i], shape.y[i], shape.angle[i]],
-            initialVelocities=[shape.velocity_x[i], shape.velocity_y[i], shape.angular_velocity[i]],
+            referenceCoordinates=[shape.s[i] * length, 0.0, 0.0],
+            initialCoordinates=[x * length, shape.y[i] * length, shape.angle[i]],
+            initialVelocities=[shape.velocity_x[i] * speed, shape.velocity_y[i] * speed, turning],
         )
 
     def body(self, i: int) -> Any:
+        units = self.units
         return items.ObjectBeamGeometricallyExact2D(
             nodeNumbers=[self.nodes[i], self.nodes[i + 1]],
-            length=self.lengths[i],
-            massPerLength=1.0,
-            crossSectionInertia=self.rotary_inertia[i],
-            bendingStiffness=1.0,
-            axialStiffness=self.section.axial_stiffness,
-            shearStiffness=self.shear_stiffness[i],
-            bendingDamping=self.viscosity[i],
-            referenceCurvature=self.shape.curvature,
+            length=self.lengths[i] * units.length,
+            massPerLength=units.mass_per_length,
+            crossSectionInertia=self.rotary_inertia[i] * units.mass_per_length * units.length**2,
+            bendingStiffness=units.bending_stiffness,
+            axialStiffness=self.section.axial_stiffness * units.force,
+            shearStiffness=self.shear_stiffness[i] * units.force,
+            bendingDamping=self.viscosity[i] * units.bending_stiffness * units.time,
+            referenceCurvature=self.shape.curvature / units.length,
         )
 
     def slope(self, q: Array) -> Array:
@@ -68,17 +72,25 @@ class _Exact(Beam):
         turning = self.rotary_inertia * self._square(v[..., self.rotation])
         return np.asarray(((square + turning) * self.lengths).sum(axis=-1) / 2)
 
-    def strain_energy(self, q: Array) -> Array:
-        length, theta = self.lengths, q[..., self.rotation]
-        dx = 1.0 + np.diff(q[..., self.horizontal]) / length
-        dy = np.diff(q[..., self.vertical]) / length
+    def _strains(self, q: Array) -> tuple[Array, Array]:
+        """ε and γ of each element."""
+        theta = q[..., self.rotation]
+        dx = 1.0 + np.diff(q[..., self.horizontal]) / self.lengths
+        dy = np.diff(q[..., self.vertical]) / self.lengths
         middle = (theta[..., :-1] + theta[..., 1:]) / 2
-        strain = dx * np.cos(middle) + dy * np.sin(middle) - 1.0
-        shear = dy * np.cos(middle) - dx * np.sin(middle)
-        bending = (np.diff(theta) / length - self.shape.curvature) ** 2
-        axial = self.section.axial_stiffness * (strain**2 - self.section.stretch**2)
-        total = bending + axial + self.shear_stiffness * shear**2
-        return np.asarray((total * length).sum(axis=-1) / 2)
+        cos, sin = np.cos(middle), np.sin(middle)
+        return dx * cos + dy * sin - 1.0, dy * cos - dx * sin
+
+    def _integral(self, values: Array) -> Array:
+        return np.asarray((values * self.lengths).sum(axis=-1))
+
+    def axial_strain(self, q: Array) -> Array:
+        return self._strains(q)[0]
+
+    def bending_energy(self, q: Array) -> Array:
+        _, shear = self._strains(q)
+        bending = (np.diff(q[..., self.rotation]) / self.lengths - self.shape.curvature) ** 2
+        return self._integral(bending + self.shear_stiffness * shear**2) / 2
 
     def axial_mass(self) -> Array:
         return PAIR * self.lengths[:, None, None]
@@ -98,7 +110,9 @@ class _Exact(Beam):
 
 @dataclass(frozen=True)
 class GeometricallyExact(Element):
-    """Geometrically exact two-node beam elements: a second opinion, on a mesh twice as fine for the same accuracy."""
+    """Geometrically exact two-node beam elements: a second opinion in 0.5 to 0.65 of the cable's time.
+
+    λ₀ is as good as the cable's at κ/ν = 0.2, five times as far off at 0.5 and 0.8 (0.005, 0.07 %) on the same mesh."""
 
     shear_ratio: Annotated[
         float, Quantity("", "GA in EI/Δx² of each element; shear has no visible effect from 1e2 on", above=0.0)

@@ -32,7 +32,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     impact = Impact(bending_stiffness=1.0, mass_per_length=1.0, length=2.0, curvature=0.35, velocity=3.5)
     end = chosen.duration * impact.time_scale
     mesh = exudyn_models.chosen_mesh(impact, end, coarsen=chosen.coarsen)
-    integrator = GeneralizedAlpha().refined(1.0 / chosen.coarsen)
+    integrator = GeneralizedAlpha().with_steps().refined(1.0 / chosen.coarsen)
     figure, axes = plt.subplots(layout="constrained")
     for acceleration in (700.0, -700.0):
         # a hold would pull on a zone that rightly lifts off

@@ -11,6 +11,7 @@ from typing import Annotated, Any, ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
+from bent_beam.errors import InputError
 from bent_beam.fields import Part, Quantity
 from bent_beam.impact import Impact
 from hermite_fe.stepping import Problem, State
@@ -75,13 +76,13 @@ class Integrator(Part, ABC):
     def instants(self, end_time: float) -> NDArray[np.float64]:
         """All instants from 0 to ``end_time``, s, shape (steps + 1,). ``time_step`` must be set."""
         if self.time_step is None:
-            raise ValueError("integrator.time_step is not chosen yet")
+            raise InputError("integrator.time_step is not chosen yet")
         step, growth = self.time_step, self.growth or 0.0
         switch = end_time if growth == 0.0 else min(end_time, step / growth)
         even = switch / step
         grown = math.log(end_time / switch) / math.log1p(growth) if switch < end_time else 0.0
         if not even + grown <= MAXIMUM_STEPS:
-            raise ValueError(
+            raise InputError(
                 f"integrator.time_step is too small, or growth: {even + grown:.3g} steps, {MAXIMUM_STEPS:.2g} are the "
                 f"most (got {step!r} and {growth!r})"
             )

@@ -31,6 +31,7 @@ from typing import Annotated, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from bent_beam.errors import InputError
 from bent_beam.fields import Quantity
 from hermite_fe.active_set import SOLVED
 from hermite_fe.banded import dot, multiply, stiff_multiply
@@ -114,7 +115,7 @@ def motion_of(problem: Problem, state: State, spectral_radius: float) -> Motion:
     m, vectors = state.impulse.size, Vectors(*np.zeros((13, state.q.size)))
     status = recompiling(lambda: initial_acceleration(problem, state, vectors.b, vectors.scratch))
     if status != SOLVED:
-        raise ValueError("mass must be positive definite for generalised-α, which starts with the accelerations")
+        raise InputError("mass must be positive definite for generalised-α, which starts with the accelerations")
     vectors.a[:] = state.acceleration
     reactions = Reactions(*np.zeros((4, m)), *np.zeros((2, m), np.bool_))
     return Motion(scheme_of(spectral_radius), vectors, reactions)

@@ -14,6 +14,7 @@ The level at which the constraints are imposed (``levels``):
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import Annotated, ClassVar, NamedTuple
 
@@ -22,7 +23,7 @@ from numpy.typing import NDArray
 
 from bent_beam.fields import Quantity
 from hermite_fe.active_set import SOLVED, solve_constrained
-from hermite_fe.banded import copy, multiply
+from hermite_fe.banded import copy, dot, multiply
 from hermite_fe.compiled import compiled
 from hermite_fe.constraints import (
     Constraints,
@@ -52,7 +53,8 @@ Array = NDArray[np.float64]
 
 LEVELS = ("velocity", "position_velocity", "position_velocity_acceleration")
 VELOCITY, _, ACCELERATION = range(3)
-AT_REST = 1e-12  # of the largest rate of a dof: a closed constraint slower than this has not rebounded
+# of the rate at which the kinetic energy would move its dofs alone: a slower closed constraint has not rebounded
+AT_REST = 1e-12
 
 
 class AlphaMemory(NamedTuple):
@@ -245,13 +247,17 @@ def velocity_after_position(
         for i in range(rows.dofs.shape[1]):
             vectors.b[rows.dofs[j, i]] -= rows.factors[j, i] * reactions.impulse[j]
     status = velocity_jump(problem, state, motion, velocity)
-    force, damping, fastest = vectors.force, vectors.scratch, 0.0
+    force, damping = vectors.force, vectors.scratch
     for i in range(v.size):
         vectors.missed_momentum[i] += (0.5 - scheme.gamma * scheme.s) * damping[i]
         vectors.missed_momentum[i] -= h * scheme.beta * scheme.s * force[i]
         vectors.missed_motion[i] -= 0.5 * h * vectors.x[i]
         vectors.new_jump_force[i] += damping[i]
-        fastest = max(fastest, abs(v[i]))
+    multiply(problem.matrices.M, v, damping)
+    energy = dot(v, damping)
     for j in range(reactions.at_rest.size):
+        fastest = 0.0
+        for i in range(rows.dofs.shape[1]):
+            fastest += abs(rows.factors[j, i]) * math.sqrt(energy / problem.matrices.M[0, rows.dofs[j, i]])
         reactions.at_rest[j] = velocity.closed[j] and abs(row_times(rows, v, j)) <= AT_REST * fastest
     return status

@@ -29,6 +29,7 @@ from typing import Annotated, ClassVar, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from bent_beam.errors import InputError
 from bent_beam.fields import Quantity
 from hermite_fe.active_set import SOLVED, solve_constrained
 from hermite_fe.banded import copy, dot, multiply, stiff_multiply
@@ -113,7 +114,7 @@ class SignoriniPosition(Theta):
     def start(self, problem: Problem, state: State) -> tuple[Constraints, Vectors]:
         e = problem.law.restitution
         if e > 0.0:
-            raise ValueError(f"signorini_position has no impact law: restitution must be 0 (got {e!r})")
+            raise InputError(f"signorini_position has no impact law: restitution must be 0 (got {e!r})")
         return super().start(problem, state)
 
 

@@ -6,7 +6,7 @@ import pytest
 import benchmarks.beams
 from benchmarks.beams import beams, draw, main
 from bent_beam.cases import load_case
-from bent_beam.measure.measured import Measured
+from bent_beam.measure.numbers import Number
 
 
 def test_beams_are_damped_and_not_pressed_and_lifted_pulled_and_pushed_before_flat_and_curved_walls(tmp_path):
@@ -25,7 +25,7 @@ def test_beams_are_damped_and_not_pressed_and_lifted_pulled_and_pushed_before_fl
 def test_a_beam_on_which_the_codes_differ_by_more_than_their_bars_stays_as_a_case_file(tmp_path, monkeypatch):
     def told(file, path):
         off = 0.1 if path == "exudyn" and file.name == "beam-1.toml" else 0.0
-        return dict.fromkeys(benchmarks.beams.NAMES, Measured(1.0 + off, 0.03))
+        return dict.fromkeys(benchmarks.beams.NAMES, Number(1.0 + off, 0.03))
 
     monkeypatch.setattr(benchmarks.beams, "run_all", lambda what, asked, jobs: [told(*one) for one in asked])
     assert main(["--rows", "3", "--seed", "1", "--out", str(tmp_path)]) == 1

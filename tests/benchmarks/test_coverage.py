@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from benchmarks.coverage import coverage, draw, write_misses
-from bent_beam.measure.measured import Measured
+from bent_beam.measure.numbers import Number
 from comparison.methods import methods_from_file
 from comparison.rows import MatchRow
 
@@ -17,7 +17,7 @@ def drawn(seed, count):
 
 
 def row(error, bar):
-    number = Measured(1.0 + error, bar, 1.0)
+    number = Number(1.0 + error, bar, 1.0)
     return MatchRow("x", "x", {}, 0.5, 0.0, 0.0, 0.0, 0.0, 1.0, lambda0=number, r0=number)
 
 

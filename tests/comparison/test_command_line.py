@@ -1,5 +1,6 @@
 """The command line is a contract: one JSON document, exit codes, one-line errors."""
 
+import json
 import os
 import subprocess
 import sys
@@ -53,6 +54,14 @@ def test_match_prints_rows(monkeypatch, tmp_path):
     assert found["rows"][0]["lambda1"] == {"value": None, "error": None, "theory": None}
     assert found["rows"][0]["lambda0"]["value"] == pytest.approx(1.01886591389, rel=1e-4)
     assert {f.name for f in (tmp_path / "out").iterdir()} == {"match.json", "match.csv", "leading.png"}
+
+
+def test_a_match_whose_rows_are_all_refused_is_bad_input_and_still_a_document(capsys):
+    pair = ["--set", "exudyn.contact.kind=rigid", "--set", "exudyn.integrator.spectral_radius=.9"]
+    assert run(["match", "--path", "exudyn", *pair, "--kappa-over-nu", "0.5", "--json"]) == 2
+    printed = capsys.readouterr()
+    assert "needs exudyn.integrator.kind newmark" in json.loads(printed.out)["rows"][0]["reason"]
+    assert "every row was refused: exudyn.contact.kind rigid needs" in printed.err
 
 
 @pytest.mark.parametrize(

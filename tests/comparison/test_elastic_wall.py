@@ -4,7 +4,7 @@ import pytest
 
 from bent_beam import Impact
 from bent_beam.measure.reduction import wall_peaks
-from comparison.prediction_text import wall_lines
+from comparison.predict_text import wall_lines
 from hermite_fe import HermiteFE
 from theory import predict
 

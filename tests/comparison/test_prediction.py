@@ -1,7 +1,6 @@
 """``bentbeam predict``: theory beside a simulation of the whole beam, and the whole impact."""
 
 import json
-import math
 from pathlib import Path
 from typing import Any
 
@@ -11,18 +10,16 @@ from histories import ROD
 
 from bent_beam import Impact
 from bent_beam.cases import Case, load_case
-from bent_beam.free_flight import LOWEST_PERIOD
-from bent_beam.measure.measured import Measured
-from comparison.prediction import COMPARED, predict_case
-from comparison.prediction_text import prediction_text
+from comparison.bounce_text import bounce_document
+from comparison.bouncing import bounce
+from comparison.predict_text import prediction_text
+from comparison.predicting import COMPARED, predict_case
 from comparison.readable import number_from
-from comparison.whole_impact.predicted import over_damping
 from hermite_fe import HermiteFE
 from hermite_fe.integrators import MoreauJean
 
 CASES = Path(__file__).resolve().parents[2] / "cases"
 K10 = str(CASES / "thesis_K10.toml")
-PLAIN = "beam.model=euler_bernoulli"
 MESH = ("mesh.kind=uniform", "mesh.element_length=0.016")  # of the rod: coarser than it would be chosen
 
 
@@ -47,7 +44,7 @@ def agrees(row: dict[str, Any], name: str) -> bool:
 def test_theory_and_simulation_agree_before_reflections(kappa: float, damping: float, loads: dict[str, float]) -> None:
     impact = Impact.whole_beam(kappa, relative_damping=damping).replace(**loads)
     told: list[float] = []
-    found = predict_case(case_of(impact), [1e-5, 2e-3, 4e-3], whole=False, progress=told.append)
+    found = predict_case(case_of(impact), [1e-5, 2e-3, 4e-3], whole=False, progress=told.append).to_dict()
     first, early, late = found["times"]
     assert first["valid"] and agrees(first, "impulse")
     # a damped zone has no closed form once it spreads, and leaves no trace of its damping after a while
@@ -59,32 +56,49 @@ def test_theory_and_simulation_agree_before_reflections(kappa: float, damping: f
     assert told == sorted(told) and told[-1] == pytest.approx(1.0)
 
 
-def test_a_rod_s_whole_impact_is_the_map_s_and_under_its_weight_a_simulation_s(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr("comparison.whole_impact.predicted.DAMPING_RATIOS", (0.002,))
+def test_predict_and_bounce_give_a_rod_s_whole_impact_to_the_last_digit(tmp_path: Path) -> None:
+    """Under its own weight, and on a wall that gives way: value and bar alike, from the same runs."""
     (tmp_path / "rod.toml").write_text(ROD)
-    free, heavy, undamped = (
-        predict_case(load_case(tmp_path / "rod.toml", [*one, *MESH]), [1e-4, 1e-3], theory_only="9.81" not in one[0])
-        for one in (["impact.gravity=0.0", PLAIN], ["impact.gravity=9.81"], ["beam.damping_ratio=0.0", PLAIN])
-    )
-    assert free["whole_impact"]["source"] == undamped["whole_impact"]["source"] == "stored map"
-    assert heavy["whole_impact"]["source"] == "simulation"
-    restitution = heavy["whole_impact"]["restitution"]
-    assert restitution["value"] == pytest.approx(0.632, abs=1e-3) and restitution["error"] < 1e-2
-    band = undamped["whole_impact"]["restitution"]
-    assert band["value"] is None and band["band"]["mean"] == pytest.approx(0.6, abs=0.1)
-    stresses = [row["simulation"]["peak_stress"]["value"] for row in heavy["times"]]
-    whole = heavy["whole_impact"]["peak_stress"]["value"]
-    assert stresses[0] < stresses[1] < whole == pytest.approx(165e6, rel=0.02)
-    text = prediction_text(heavy)
-    documents = heavy["times"][-1]["simulation"], heavy["whole_impact"]
-    first, last = (number_from(found["peak_stress"]).scaled(1e-6) for found in documents)
-    assert "Largest stress, MPa:" in text and f"until 1 ms (simulation): {first}" in text
-    assert f"of the whole impact (simulation): {last}" in text and "at 0.2 %" in text
-    assert "coefficient of restitution 0.63" in text and "reflections from the beam's ends arrive" in text
-    assert "band of 24 runs" in prediction_text(undamped) and "below yield" not in text
-    assert json.loads(json.dumps(heavy, allow_nan=False)) == heavy
+    for one in ("impact.gravity=9.81", "wall.stiffness=1e8"):
+        case = load_case(tmp_path / "rod.toml", [one, *MESH])
+        document = predict_case(case, [1e-4, 1e-3]).to_dict()
+        other = bounce_document(bounce(case.impact, case.method("hermite"), section=case.section))
+        whole, si = document["whole_impact"], other["si"]
+        assert whole["restitution"] == other["restitution"]
+        assert {**whole["peak_stress"], "unit": "Pa"} == other["peak_stress"]
+        for name in ("peak_moment", "last_contact"):
+            assert whole[name].items() <= si[name].items()
+        assert (whole["peak_force"] is None) == ("gravity" in one)
+        assert whole["peak_force"] is None or whole["peak_force"].items() <= si["peak_force"].items()
+        assert whole["span"] == other["span"] and whole["span"][1] > 2.0 * whole["last_contact"]["value"]
+        assert json.loads(json.dumps(document, allow_nan=False)) == document
+
+
+def test_a_rod_under_its_weight_leaves_with_what_is_known_of_it(tmp_path: Path) -> None:
+    (tmp_path / "rod.toml").write_text(ROD)
+    case = load_case(tmp_path / "rod.toml", ["impact.gravity=9.81", *MESH])
+    document = predict_case(case, [1e-4, 1e-3]).to_dict()
+    restitution, largest = (document["whole_impact"][name] for name in ("restitution", "peak_stress"))
+    assert restitution["value"] == pytest.approx(0.632, abs=2e-3) and restitution["error"] < 1e-2
+    early, late = (row["simulation"]["peak_stress"] for row in document["times"])
+    assert early["value"] < late["value"] < largest["value"] == pytest.approx(165e6, rel=0.02)
+    text = prediction_text(document)
+    assert f"until 1 ms (simulation): {number_from(late).scaled(1e-6)}" in text
+    assert f"(simulation): {number_from(largest).scaled(1e-6)}" in text
+    assert "coefficient of restitution 0.63" in text and "no largest force on a rigid wall" in text
+
+
+def test_a_damping_that_is_not_stated_is_answered_over_three_and_one_that_is_stated_once(tmp_path: Path) -> None:
+    """The numbers are those of the largest stress; where damping is stated nothing else is run."""
+    (tmp_path / "rod.toml").write_text(ROD.replace("damping_ratio", "# damping_ratio"))
+    asked = ("bounce", tmp_path / "rod.toml", *(word for one in MESH for word in ("--set", one)))
+    found = answered(*asked)
+    rows = found["over_damping"]
+    assert [row["damping_ratio"] for row in rows] == [0.0002, 0.002, 0.02]
+    assert found["peak_stress"]["value"] == max(row["peak_stress"]["value"] for row in rows)
+    assert any("no damping is stated" in warning for warning in found["warnings"])
+    stated = answered(*asked, "--set", "beam.damping_ratio=0.002")
+    assert stated["over_damping"] is None and stated["restitution"] == rows[1]["restitution"]
 
 
 def test_theory_only_simulates_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -95,18 +109,7 @@ def test_theory_only_simulates_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
     one, other = found["times"]
     assert one["impulse"] < other["impulse"] and 3.5 < other["half_contact_length"] < 4.0 and other["valid"]
     assert found["agreement"] is None and "simulation" not in one
-    assert found["whole_impact"] is None  # the map has no shear
-    assert answered("predict", pipe, "--theory-only", "--set", PLAIN)["whole_impact"]["source"] == "stored map"
-    loaded = answered("predict", pipe, "--theory-only", "--set", "impact.acceleration=1.0")
-    assert loaded["whole_impact"] is None
-
-
-def test_at_its_own_damping_the_range_of_damping_has_the_number_of_the_run_itself() -> None:
-    """No second run, on other elements, beside it: ζ = 1 % of the first mode is the middle row."""
-    impact = Impact.whole_beam(0.75, relative_damping=0.01 * LOWEST_PERIOD / math.pi).replace(acceleration=0.1)
-    own = Measured(1.4, 1e-3)
-    assert [row["peak_moment"] for row in over_damping(impact, None, None, own)] == [own.to_dict()]
-    assert over_damping(impact.replace(damping=1.1 * impact.damping), None, None, own) == []  # no method to run with
+    assert found["whole_impact"] is None
 
 
 def test_the_tables_of_the_case_are_those_of_the_simulation(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -117,7 +120,7 @@ def test_the_tables_of_the_case_are_those_of_the_simulation(monkeypatch: pytest.
         return simulate(method, *given, **named)
 
     monkeypatch.setattr(HermiteFE, "simulate", recorded)
-    monkeypatch.setattr("comparison.whole_impact.predicted.LONGEST", 0.005)  # nor is it here
+    monkeypatch.setattr("bent_beam.method.LONGEST", 0.005)
     tables = ("integrator.kind=moreau_jean", "integrator.theta=0.6", "refine=0.25")
     answered("predict", K10, "--time", "1e-5", *(word for one in tables for word in ("--set", f"hermite.{one}")))
     assert len(used) >= 2 and all(isinstance(one, MoreauJean) and one.theta == 0.6 for one in used)

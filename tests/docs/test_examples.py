@@ -7,7 +7,7 @@ import pytest
 
 from bent_beam import Impact, ImpactHistory, load_case
 from bent_beam.measure.estimators import leading_order
-from comparison.match import match
+from comparison.matching import match
 from hermite_fe import HermiteFE
 from self_similar_fe import SelfSimilarFE
 from theory import contact_parameters, peak_moment, predict

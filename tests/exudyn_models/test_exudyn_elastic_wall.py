@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
 import pytest
 
 from bent_beam import Impact
 from bent_beam.meshes import UniformMesh
 from exudyn_models import ExudynModel
+from hermite_fe import HermiteFE
 
 STIFFNESS = 1e4  # EI = μ = V₀ = 1
 
@@ -45,6 +47,27 @@ def test_the_largest_force_before_an_elastic_wall_does_not_depend_on_the_mesh(
     dashpots of whole elements push 2.6 % more."""
     force = run(0.5, ratio, refine=refine).array("peak_force")[-1] / STIFFNESS**0.25
     assert force == pytest.approx(exact, rel=3e-3)
+
+
+@pytest.mark.parametrize(
+    "seed", [44, pytest.param(45, marks=pytest.mark.verify), pytest.param(46, marks=pytest.mark.verify)]
+)
+def test_both_paths_agree_on_every_number_of_a_damped_wall_within_their_bars(seed: int) -> None:
+    """The pressure is that of spring and dashpot. A bar is what half the resolution moves, of both paths."""
+    draw = np.random.default_rng(seed)
+    kappa_over_nu, ratio = float(draw.uniform(0.1, 2.0)), float(draw.uniform(0.1, 1.0))
+    wall = {"wall_stiffness": STIFFNESS, "wall_damping": 2.0 * ratio * math.sqrt(STIFFNESS)}
+    impact, end = Impact.dimensionless(kappa_over_nu).replace(**wall), 4.0 / math.sqrt(STIFFNESS)
+    sizes = (0.25, 0.5) if seed == 44 else (0.5, 1.0)
+    coarse, fine = (
+        [kind(refine=size).simulate(impact, end_time=end, save=40) for kind in (ExudynModel, HermiteFE)]
+        for size in sizes
+    )
+    for name in ("peak_force", "peak_force_time", "peak_penetration", "peak_pressure", "total_impulse"):
+        ours, theirs = (float(history.array(name)[-1]) for history in fine)
+        bar = sum(abs(float(a.array(name)[-1]) - float(b.array(name)[-1])) for a, b in zip(coarse, fine))
+        print(f"seed {seed}, κ/ν = {kappa_over_nu:.3f}, ζ = {ratio:.2f}: {name} {ours:.6g}, {theirs:.6g} ± {bar:.2g}")
+        assert ours == pytest.approx(theirs, abs=bar + 2e-4 * theirs)
 
 
 @pytest.mark.verify

@@ -15,7 +15,7 @@ import pytest
 from bent_beam import Impact
 from bent_beam.measure.estimators import LeadingEstimate, leading_order
 from bent_beam.measure.moments import moments
-from comparison.match import answer
+from comparison.matching import answer
 from comparison.rows import Question
 from comparison.store import RunStore
 from hermite_fe import HermiteFE, resolution

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import shutil
 import subprocess
 import sys
@@ -106,3 +107,46 @@ def test_bad_input_leaves_what_is_compiled_alone() -> None:
             contact=NodeContact(restitution=0.5),
         )
     assert before and sorted(module.FOLDER.rglob("*.nbi")) == before
+
+
+BROKEN = """
+from pathlib import Path; from bent_beam import Impact; from hermite_fe import compiled, simulate
+for file in compiled.FOLDER.rglob("*.nb?"):
+    file.write_bytes(file.read_bytes()[: int(LEFT * file.stat().st_size)])
+print(simulate(Impact.dimensionless(0.5, length=8.0), end_time=0.01).completed)
+"""
+
+
+@pytest.mark.verify
+@pytest.mark.parametrize("left", [0.0, 0.5])
+def test_a_torn_cache_costs_a_run_its_compile_time(left: float, tmp_path: Path) -> None:
+    """The first compiled function of a run is called where its model is made, before it takes a step."""
+    here = {"XDG_CACHE_HOME": str(tmp_path), "HOME": str(tmp_path), "PATH": ""}
+    for code in (BROKEN.replace("LEFT", "1"), BROKEN.replace("LEFT", str(left))):
+        done = subprocess.run([sys.executable, "-c", code], env=here, capture_output=True, text=True, timeout=300)
+        assert done.stdout == "True\n", done.stderr
+
+
+def test_an_integrator_that_raises_is_called_once_and_costs_no_compiled_code() -> None:
+    calls = []
+
+    class Raising(MoreauJean):
+        def advance(self, *_: object) -> tuple[int, int]:
+            calls.append(1)
+            raise RuntimeError("mine")
+
+    simulate(Impact.dimensionless(0.5, length=8.0), end_time=0.01, integrator=MoreauJean(1e-3))
+    before = sorted(module.FOLDER.rglob("*.nbi"))
+    with pytest.raises(RuntimeError, match="mine"):
+        simulate(Impact.dimensionless(0.5, length=8.0), end_time=0.01, integrator=Raising(1e-3))
+    assert len(calls) == 1 and before and sorted(module.FOLDER.rglob("*.nbi")) == before
+
+
+def test_folders_of_versions_that_nobody_uses_go(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    mine, old, recent = (tmp_path / f"compiled-{name}" for name in ("mine", "old", "recent"))
+    for folder in (mine, old, recent):
+        folder.mkdir()
+        os.utime(folder, (1e9, 1e9) if folder is old else None)
+    monkeypatch.setattr(module, "FOLDER", mine)
+    module.forget_old()
+    assert mine.exists() and recent.exists() and not old.exists()

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import math
 import re
+from functools import partial
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
@@ -14,7 +15,7 @@ import pytest
 from hermite_parts import ALL, DROP, FIRST_ORDER, GRAVITY, WITH_IMPACT_LAW, Make, ball, chain, oscillator
 
 from bent_beam import Impact, SimulationError
-from bent_beam.meshes import ScaleFreeMesh
+from bent_beam.meshes import ScaleFreeMesh, UniformMesh
 from hermite_fe import HermiteFE, simulate
 from hermite_fe.contacts import NodeContact
 from hermite_fe.integrators import GeneralizedAlphaPenalty, MoreauJean, NonsmoothGeneralizedAlpha, SignoriniPosition
@@ -184,3 +185,13 @@ def test_a_scheme_that_gains_energy_without_bound_is_a_failure_not_an_answer() -
     held = HermiteFE(integrator=NonsmoothGeneralizedAlpha(), contact=NodeContact(hold=16), refine=0.7)
     with pytest.raises(SimulationError, match="unstable"):
         held.chosen_for(bare.replace(acceleration=0.2), 0.1).simulate(bare, end_time=0.1, save=60)
+
+
+@pytest.mark.parametrize(("ratio", "step"), [(0.5, None), (0.1, 1e-3)])
+def test_springs_settle_in_every_step_or_the_run_fails_by_name_and_their_rounds_are_counted(ratio, step) -> None:
+    beam = Impact(length=2.0, bending_stiffness=1.0, mass_per_length=1.0, curvature=ratio, velocity=1.0, damping=1e-3)
+    made = partial(GeneralizedAlphaPenalty, time_step=step)
+    history = HermiteFE(mesh=UniformMesh(1 / 30), integrator=made()).simulate(beam, end_time=0.2)
+    assert 1.0 < history.settings["mean_iterations"] < 1.5 and history.settings["most_iterations"] < 10
+    with pytest.raises(SimulationError, match="active set of the contact does not settle"):
+        HermiteFE(mesh=UniformMesh(1 / 30), integrator=made(contact_rounds=1)).simulate(beam, end_time=0.2)

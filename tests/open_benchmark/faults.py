@@ -1,205 +1,147 @@
-"""Results with one drawn fault each, for the doctor to find: faults of a run, and of what is booked.
+"""Faults, drawn at random, put into a code that is not ours (``foreign.py``) or into the books that it keeps.
 
-A fault of a run is a function of a random generator that returns κ/ν, half length and the parts of the method; a fault
-of the books changes the result of a good run.
+Each has the symptoms of which one should come first, and the causes that may be named.
 """
 
-from __future__ import annotations
-
-import math
 from collections.abc import Callable
-from dataclasses import replace
-from functools import lru_cache
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
+from foreign import solve
 
-from bent_beam import Impact
-from bent_beam.meshes import GradedMesh, ScaleFreeMesh, UniformMesh
-from bent_beam_programs.open_benchmark.histories import result_from_history
-from bent_beam_programs.open_benchmark.problem import problem
-from bent_beam_programs.open_benchmark.result import Result
-from hermite_fe import simulate
-from hermite_fe.contacts import NodeContact
-from hermite_fe.far_fields import GridViscosity
-from hermite_fe.integrators import GeneralizedAlphaPenalty, MoreauJean, SignoriniPosition
-from theory import contact_parameters
+__all__ = ["FAULTS", "drawn"]
 
-__all__ = ["FAULTS", "faulty"]
-
-END = 0.1
+Fields = dict[str, Any]
 Rng = np.random.Generator
-Run = tuple[float, float, dict[str, Any]]
+ERRORS = {"error_lambda0", "error_r0", "bar_lambda0", "bar_r0"}
+PUSHED = {"push_at_a_gap", "energy"}
+LATE = {"energy", "motion", "momentum"}
+ROUGH = {"noise_in_time", "noise_in_space", "distribution", "lift"}
 
 
-def signorini(step: float) -> SignoriniPosition:
-    return SignoriniPosition(time_step=step, growth=0.0)
+class Fault(NamedTuple):
+    make: Callable[[Rng], Fields]
+    first: set[str]
+    causes: str = ""
 
 
-def uniform(size: float, steps: float = 40.0, **changes: Any) -> dict[str, Any]:
-    parts = {"mesh": UniformMesh(element_length=size), "integrator": signorini(size / steps)}
-    return {**parts, "far_field": GridViscosity(viscosity=0.3), **changes}
+def about(rng: Rng, least: float = 0.04, most: float = 0.2) -> float:
+    """A factor that is not one."""
+    return float(1.0 + rng.choice([-1.0, 1.0]) * rng.uniform(least, most))
 
 
-def penalty(stiffness: float, damping: float, step: float, radius: float = 0.8, viscosity: float = 0.3) -> Any:
-    scheme = GeneralizedAlphaPenalty(
-        spectral_radius=radius, stiffness=stiffness, damping=damping, time_step=step, growth=0.0
-    )
-    return uniform(0.01, integrator=scheme, far_field=GridViscosity(viscosity=viscosity))
+def run(rng: Rng, **fault: Any) -> Fields:
+    return solve(float(f"{rng.uniform(0.2, 0.7):.4g}"), **fault)
 
 
-def clean(rng: Rng) -> Run:
-    """A good mesh, good steps, far ends: uniform or scale-free, any κ/ν that spreads."""
-    kappa = float(rng.uniform(0.12, 0.85))
-    if rng.random() < 0.3:
-        mesh = ScaleFreeMesh(element_length=float(rng.uniform(1e-3, 2e-3)), growth=1.01)
-        contact = NodeContact()
-        return max(kappa, 0.2), float(rng.uniform(4.0, 8.0)), {"mesh": mesh, "contact": contact}
-    length = float(rng.uniform(4.0, 6.0))
-    return kappa, length, uniform(float(rng.uniform(0.004, 0.008)), rng.uniform(35.0, 60.0))
+def springs(rng: Rng, **fault: Any) -> Fields:
+    return run(rng, spring=10.0 ** rng.uniform(2.7, 3.5), **fault)
 
 
-def reflection(rng: Rng) -> Run:
-    kappa, size = float(rng.uniform(0.2, 0.7)), float(rng.uniform(0.006, 0.01))
-    parts = uniform(size, far_field=GridViscosity(viscosity=0.0))
-    if rng.random() < 0.5:
-        return kappa, float(rng.uniform(0.55, 1.0)), parts
-    zone = 0.91 * math.sqrt(2.0 / kappa * END)  # about λ₀√τ, as roughly as a fault needs it
-    mesh = GradedMesh(element_length=size, growth=float(rng.uniform(1.2, 1.35)), zone=zone)
-    return kappa, 5.0, {**parts, "mesh": mesh}
+# --- of the books ----------------------------------------------------------------------------------------------------
 
 
-def front_unresolved(rng: Rng) -> Run:
-    kappa = float(rng.uniform(0.05, 0.3))
-    thickness = math.sqrt(2.0 * kappa * END)
-    return kappa, 5.0, uniform(thickness * float(rng.uniform(0.6, 1.2)), 400.0)
+def booked(change: Callable[[Rng, Fields], None]) -> Callable[[Rng], Fields]:
+    def make(rng: Rng) -> Fields:
+        fields = run(rng)
+        change(rng, fields)
+        return fields
+
+    return make
 
 
-def start_unresolved(rng: Rng) -> Run:
-    """Steps short enough that single nodes meet the wall, one after the other, before the mesh carries the front."""
-    kappa = float(rng.uniform(0.04, 0.12))
-    mesh = ScaleFreeMesh(element_length=float(rng.uniform(1e-3, 3e-3)), growth=1.01)
-    return kappa, 5.0, {"mesh": mesh, "integrator": SignoriniPosition(time_step=3e-7, growth=4e-3)}
+def lost_point(rng: Rng, fields: Fields) -> None:
+    reached = np.flatnonzero(fields["node_impulse"][-1] > 0.0)
+    fields["node_impulse"][:, rng.integers(1, 0.8 * reached.size)] = 0.0
 
 
-def rectified_noise(rng: Rng) -> Run:
-    kappa, size = float(rng.uniform(0.06, 0.15)), float(rng.uniform(0.005, 0.01))
-    scheme = MoreauJean(theta=float(rng.uniform(0.5, 0.56)), time_step=size / 40.0, growth=0.0)
-    # so long that no wave is back: the noise is that of the contact
-    return kappa, 25.0, uniform(size, integrator=scheme, far_field=GridViscosity(viscosity=0.0))
+def lost_time(rng: Rng, fields: Fields) -> None:
+    steps = np.diff(fields["node_impulse"], axis=0)
+    start = rng.integers(10, 150)
+    steps[start : start + rng.integers(60, 120)] = 0.0
+    fields["node_impulse"][1:] = np.cumsum(steps, axis=0)
 
 
-def adhesion(rng: Rng) -> Run:
-    parts = uniform(float(rng.uniform(0.006, 0.01)))
-    parts["contact"] = NodeContact(hold=int(rng.integers(6, 30)), hold_until=0.0)
-    return float(rng.uniform(0.1, 0.5)), 5.0, parts
+def forces(rng: Rng, fields: Fields) -> None:
+    fields["node_impulse"] = np.gradient(fields["node_impulse"], fields["tau"], axis=0)
 
 
-def soft_penalty(rng: Rng) -> Run:
-    stiffness = 10.0 ** float(rng.uniform(2.5, 3.7))
-    return float(rng.uniform(0.2, 0.8)), 5.0, penalty(stiffness, 2.0 * math.sqrt(stiffness), 1e-4)
+def factor(rng: Rng, fields: Fields) -> None:
+    fields["node_impulse"] *= float(rng.choice([0.5, 2.0, 1e3, 1e-3, 1.0 / 9.81]))
 
 
-def rattling(rng: Rng) -> Run:
-    stiffness = 10.0 ** float(rng.uniform(5.0, 6.0))
-    return float(rng.uniform(0.2, 0.8)), 5.0, penalty(stiffness, 0.0, 0.03 / math.sqrt(stiffness))
+def sign(rng: Rng, fields: Fields) -> None:
+    fields["node_impulse"] *= -1.0
 
 
-def steps_too_long(rng: Rng) -> Run:
-    parts = uniform(float(rng.uniform(0.004, 0.008)))
-    parts["integrator"] = signorini(END / float(rng.uniform(20.0, 60.0)))
-    return float(rng.uniform(0.1, 0.5)), 5.0, parts
+def middle_twice(rng: Rng, fields: Fields) -> None:
+    fields["node_impulse"][:, 0] *= rng.uniform(2.0, 4.0)
 
 
-def energy_gained(rng: Rng) -> Run:
-    stiffness = 10.0 ** float(rng.uniform(7.8, 8.2))
-    return float(rng.uniform(0.2, 0.6)), 5.0, penalty(stiffness, 0.0, 3.0 / math.sqrt(stiffness), 1.0, 0.0)
+def jitter(rng: Rng, fields: Fields) -> None:
+    fields["node_impulse"] *= 1.0 + rng.uniform(0.01, 0.05) * rng.standard_normal((fields["tau"].size, 1))
 
 
-# --- faults of the books -------------------------------------------------------------------------------------------
+def stale_gaps(rng: Rng, fields: Fields) -> None:
+    fields["snap_gap"] = np.vstack([fields["snap_gap"][:1], fields["snap_gap"][:-1]])
 
 
-def ratio(rng: Rng, good: Result) -> Result:
-    """Half or twice the force, a power of ten, a sign: of the impulse, of its moment, or of both."""
-    factor = float(rng.choice([0.5, 2.0, -1.0, 10.0 ** rng.integers(1, 6), 10.0 ** -rng.integers(1, 6)]))
-    pairs = (factor, factor), (factor, 1.0), (1.0, 2.0 if factor == -1.0 else factor)
-    of_impulse, of_moment = pairs[rng.integers(3)]
-    return replace(good, J=of_impulse * good.J, Jm=of_moment * good.Jm, snap_v=None)
+def stretched_places(rng: Rng, fields: Fields) -> None:
+    fields["node_x"] = fields["node_x"] * about(rng, 0.08)
 
 
-def momentum(rng: Rng, good: Result) -> Result:
-    """Impulses that are not booked: a share from the start, or all of some time."""
-    kept = np.full(good.tau.size, rng.uniform(0.6, 0.93))
-    if rng.random() < 0.5:
-        kept = np.where(good.tau > rng.uniform(0.02, 0.05), kept - 0.2, 1.0)
-    books = (np.cumsum(kept * np.diff(series, prepend=0.0)) for series in (good.J, good.Jm))
-    return replace(good, J=next(books), Jm=next(books))
+def other_order(rng: Rng, fields: Fields) -> None:
+    reached = np.flatnonzero(fields["node_impulse"][-1] > 0.0)
+    fields["node_impulse"][:, reached] = fields["node_impulse"][:, reached[::-1]]
 
 
-def unsettled(rng: Rng, good: Result) -> Result:
-    """Impulses that jitter, or a force in place of an impulse."""
-    if rng.random() < 0.3:
-        force = np.gradient(good.J, good.tau)
-        return replace(good, J=force / force.max(), Jm=np.gradient(good.Jm, good.tau), snap_v=None)
-    jitter = 1.0 + rng.uniform(0.01, 0.05) * rng.standard_normal(good.tau.size)
-    return replace(good, J=jitter * good.J, snap_v=None)
+def other_problem(rng: Rng, fields: Fields) -> None:
+    kappa = float(fields["problem"].removeprefix("leading-"))
+    fields["problem"] = f"leading-{kappa * about(rng, 0.08):.6g}"
 
 
-def off(rng: Rng, good: Result) -> Result:
-    """Another speed, another clock, or the answer to another problem."""
-    kind, factor = rng.integers(3), float(rng.choice([rng.uniform(0.6, 0.9), rng.uniform(1.15, 1.7)]))
-    if kind == 0:
-        return replace(good, J=factor * good.J, Jm=factor * good.Jm, snap_v=None)
-    if kind == 1:
-        slower = [np.interp(0.8 * good.tau, good.tau, series) for series in (good.J, good.Jm)]
-        return replace(good, J=slower[0], Jm=slower[1], snap_v=None)
-    other = problem(f"leading-{good.problem.kappa_over_nu * (0.8 if rng.random() < 0.5 else 1.12):.6f}")
-    return replace(good, problem=other)
+def other_clock(rng: Rng, fields: Fields) -> None:
+    slow = rng.uniform(1.05, 1.3)
+    fields["tau"], fields["snap_tau"] = slow * fields["tau"], slow * fields["snap_tau"]
 
 
-def too_exact(rng: Rng, good: Result) -> Result:
-    """The closed form, printed."""
-    found, side = contact_parameters(good.problem.kappa_over_nu), math.sqrt(2.0 / math.pi)
-    J, Jm = 4.0 * side * found.r0 * np.sqrt(good.tau), side * found.r0 * found.lambda0 * good.tau
-    return replace(good, J=J, Jm=Jm, snap_v=None)
-
-
-BOOKS: dict[str, Callable[[Rng, Result], Result]] = {
-    fault.__name__: fault for fault in (ratio, momentum, unsettled, off, too_exact)
-}
-RUNS: dict[str, Callable[[Rng], Run]] = {
-    fault.__name__: fault
-    for fault in (
-        reflection, front_unresolved, start_unresolved, rectified_noise, adhesion, soft_penalty, rattling,
-        steps_too_long, energy_gained,
-    )
+FAULTS = {
+    "stiffness": Fault(lambda rng: run(rng, stiffness=about(rng)), ERRORS),
+    "mass": Fault(lambda rng: run(rng, mass=about(rng)), {"momentum"}, "momentum"),
+    "speed": Fault(lambda rng: run(rng, speed=about(rng)), {"motion"}),
+    "wall_curved_away": Fault(lambda rng: run(rng, shape=rng.uniform(1.1, 1.3)), {"penetration"}),
+    "wall_curved_nearer": Fault(lambda rng: run(rng, shape=rng.uniform(0.75, 0.9)), {"push_at_a_gap", "lift"}),
+    "wall_too_far": Fault(lambda rng: run(rng, shift=rng.uniform(0.5, 2.0) * 1e-3), {"penetration"}),
+    "wall_too_near": Fault(lambda rng: run(rng, shift=-rng.uniform(0.5, 2.0) * 1e-3), PUSHED, "energy_gained"),
+    "gravity": Fault(lambda rng: run(rng, gravity=rng.uniform(0.3, 1.0)), LATE, "energy_gained momentum"),
+    "every_other_point": Fault(lambda rng: run(rng, every=int(rng.integers(2, 4))), ROUGH | {"penetration"}),
+    "contact_ends": Fault(lambda rng: run(rng, reach=rng.uniform(0.08, 0.2)), {"penetration"}),
+    "rebounds": Fault(lambda rng: solve(0.1, bounce=rng.uniform(0.4, 0.8)), {"lift"}),
+    "short_beam": Fault(lambda rng: run(rng, half=rng.uniform(0.7, 1.0)), {"far_end"} | ROUGH),
+    "clamped_end": Fault(lambda rng: run(rng, half=rng.uniform(0.8, 1.3), clamped=True), {"far_end", *LATE, *ROUGH}),
+    "soft_springs": Fault(springs, {"penetration"}, "soft_penalty"),
+    "damped_springs": Fault(lambda rng: springs(rng, dashpot=0.02), {"penetration", "pull"}, "soft_penalty"),
+    "pulling_springs": Fault(lambda rng: run(rng, spring=3e5, dashpot=rng.uniform(0.005, 0.02)), {"pull"}, "adhesion"),
+    "no_damping": Fault(lambda rng: run(rng, theta=0.5, grid=0.0), ROUGH),
+    "overdamped": Fault(lambda rng: run(rng, grid=rng.uniform(20.0, 50.0)), ROUGH),
+    "middle_too_stiff": Fault(lambda rng: run(rng, middle=rng.uniform(0.5, 1.2)), ROUGH),
+    "coarse": Fault(lambda rng: run(rng, size=rng.uniform(0.1, 0.15)), ROUGH | ERRORS),
+    "unstable": Fault(lambda rng: run(rng, theta=rng.uniform(0.485, 0.495), grid=0.0), {"energy"}, "energy_gained"),
+    "lost_point": Fault(booked(lost_point), {"momentum", "noise_in_space"}, "momentum"),
+    "lost_time": Fault(booked(lost_time), {"momentum"}, "momentum"),
+    "forces": Fault(booked(forces), {"impulse_falls"}),
+    "factor": Fault(booked(factor), {"momentum"}, "momentum"),
+    "sign": Fault(booked(sign), {"impulse_falls"}),
+    "middle_twice": Fault(booked(middle_twice), {"momentum"}, "momentum"),
+    "jitter": Fault(booked(jitter), {"noise_in_time", "impulse_falls", "pull"}),
+    "stale_gaps": Fault(booked(stale_gaps), {"motion"}),
+    "stretched_places": Fault(booked(stretched_places), {"push_at_a_gap", "distribution", *ERRORS}),
+    "other_order": Fault(booked(other_order), {"push_at_a_gap", "distribution"}),
+    "other_problem": Fault(booked(other_problem), {"motion", "momentum", "push_at_a_gap", "penetration", *ERRORS}),
+    "other_clock": Fault(booked(other_clock), {"motion", "momentum"}),
 }  # fmt: skip
-FAULTS = (*RUNS, *BOOKS)
 
 
-def faulty(name: str, *seed: int) -> Result:
-    """A result with the fault, or a clean one."""
-    if name not in FAULTS:
-        return good(*seed)
-    rng = np.random.default_rng([*seed, FAULTS.index(name)])
-    return BOOKS[name](rng, good(*seed)) if name in BOOKS else result(RUNS[name](rng))
-
-
-@lru_cache(maxsize=1)
-def good(*seed: int) -> Result:
-    """The clean result of a seed, to which faults of the books are done."""
-    return result(clean(np.random.default_rng([*seed, 99])))
-
-
-def result(run: Run) -> Result:
-    """Of a run, at as many instants as a result needs: what is cumulated is linear within a step."""
-    kappa, half_length, parts = run
-    impact = Impact.dimensionless(kappa, length=2.0 * half_length)
-    parts = {"contact": NodeContact(hold=0, hold_until=0.0), **parts}
-    found = result_from_history(simulate(impact, end_time=END, save=500, **parts))
-    if found.tau.size >= 230:
-        return found
-    tau = np.linspace(0.0, END, 400)
-    series = {name: np.interp(tau, found.tau, values) for name, values in found.series.items()}
-    J, Jm = (np.interp(tau, found.tau, values) for values in (found.J, found.Jm))
-    return replace(found, tau=tau, J=J, Jm=Jm, series=series)
+def drawn(name: str, *seed: int) -> Fields:
+    """The fields of a result with the fault, one that the solver could finish."""
+    return FAULTS[name].make(np.random.default_rng([*seed, list(FAULTS).index(name)]))

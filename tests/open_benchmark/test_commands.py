@@ -25,7 +25,9 @@ def test_a_problem_is_written_and_not_over_what_is_there(tmp_path):
 def test_score_prints_one_document_and_a_list_of_several(tmp_path):
     files = [str(result(tmp_path / f"{k}.npz", metadata=json.dumps({"seconds": float(k)}))) for k in (3, 1, 2)]
     document = answered("score", files[0])
-    assert document["outcome"] == "completed" and document["diagnosis"] == ["too_exact"], "no solver is that smooth"
+    assert document["outcome"] == "completed" and document["diagnosis"] == []
+    assert [one["name"] for one in document["symptoms"]] == ["too_smooth"], "no solver is that smooth"
+    assert {"penetration", "momentum", "distribution"} <= document["not_told"].keys()
     assert document["r0"] == pytest.approx({"value": 1.0, "error": 0.0, "theory": 1.0}, abs=1e-3)
     assert {document[name] for name in ("lift", "penetration", "adhesion", "energy", "lambda1", "r1")} == {None}
     document = answered("score", *files)

@@ -15,10 +15,9 @@ import pytest
 
 from bent_beam.cases import case_from_tables, load_case
 from bent_beam.impact import Impact
-from bent_beam.measure.measured import Measured
+from bent_beam.measure.numbers import Number
 from bent_beam_programs.predictor.page import page, script, write_page
 from comparison.command_line.app import run
-from comparison.whole_impact.stored_map import bounce_from_map
 from theory import ContactParameters, SelfSimilarWave, contact_parameters
 from theory import predict as theory_predict
 from theory.elastic_wall import peak_force
@@ -32,7 +31,7 @@ needs_node = pytest.mark.skipif(shutil.which("node") is None, reason="Node.js is
 
 def evaluated(expression: str, argument: Any) -> Any:
     """What the page's scripts make of ``expression`` with ``given``, JSON in and out."""
-    parts = [script(("theory.js", "limits.js", "whole_impact.js", "beam.js", "case.js", "draw.js"))]
+    parts = [script(("theory.js", "limits.js", "beam.js", "case.js", "draw.js"))]
     parts += [f"const given = {json.dumps(argument)};", f"console.log(JSON.stringify({expression}));"]
     done = subprocess.run(["node", "-"], input="\n".join(parts), capture_output=True, text=True, check=True)
     return json.loads(done.stdout)
@@ -138,21 +137,6 @@ def test_the_largest_force_on_a_wall_that_gives_way_is_that_of_the_theory() -> N
     assert given["peakForce"] == pytest.approx(theory_predict(impact).peak_force, rel=3e-4)
 
 
-@needs_node
-def test_whole_impact_is_the_stored_map_where_it_reaches() -> None:
-    rng = np.random.default_rng(4)
-    asked = [[k, d] for k, d in zip(10.0 ** rng.uniform(-1.4, 0.8, 60), 10.0 ** rng.uniform(-4.5, -0.9, 60))]
-    asked += [[0.5, 1e-3], [2.0, 0.0], [0.05, 1e-4]]
-    for (kappa, damping), found in zip(asked, evaluated("given.map((g) => WholeImpact.at(...g))", asked), strict=True):
-        exact = bounce_from_map(kappa, damping)
-        assert (found is None) == (exact is None)
-        for name in ("restitution", "last_contact", "peak_moment") if exact is not None else ():
-            number = exact[name].to_dict()
-            value, bar = (number["value"], number["error"]) if not number.get("band") else (
-                number["band"]["mean"], number["band"]["std"])  # fmt: skip
-            assert (found[name]["value"], found[name]["error"]) == pytest.approx((value, bar), rel=1e-3, abs=1e-8)
-
-
 def random_inputs(count: int) -> list[dict[str, Any]]:
     """What somebody might type, in every combination of ways to say it."""
     rng, found = np.random.default_rng(25), []
@@ -232,4 +216,4 @@ def test_a_value_is_rounded_to_the_first_digit_of_its_bar_as_python_writes_it() 
     power = re.compile(r"·10([⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+)")
     digits = str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "-0123456789")
     plain = [power.sub(lambda m: f"e{int(m[1].translate(digits)):+03d}", text).replace("−", "-") for text in written]
-    assert plain == [str(Measured(*pair)) if pair[1] else "2 ± 0" for pair in pairs]
+    assert plain == [str(Number(*pair)) if pair[1] else "2 ± 0" for pair in pairs]

@@ -67,11 +67,11 @@ def test_what_is_typed_decides_the_verdict_and_mistakes_are_named_beside_their_f
     assert ask(browser, "document.getElementById('answer').offsetParent !== null")
 
 
-def test_every_stress_says_its_range_and_yield_is_asked_of_the_whole_impact(browser: Any) -> None:
+def test_every_stress_says_its_range_and_the_whole_impact_is_left_to_a_simulation(browser: Any) -> None:
     """The first instants of the drill pipe bear 99 MPa, its whole impact four times as much."""
-    assert "first instants, until" in shown(browser, "peak") and "whole impact: 4" in shown(browser, "peak")
+    assert "first instants, until" in shown(browser, "peak") and "whole impact: simulate it" in shown(browser, "peak")
     assert shown(browser, "yields") == shown(browser, "damped") == ""
-    type_into(browser, "yield_stress", "200")
+    type_into(browser, "yield_stress", "90")
     assert "exceeds the yield stress" in shown(browser, "yields")
     type_into(browser, "load", "20")
     assert "whole impact: simulate it" in shown(browser, "peak") and "below" not in shown(browser, "answer")

@@ -18,7 +18,7 @@ from bent_beam import method as methods
 from comparison.command_line import __main__ as start
 from comparison.command_line import app, histories
 from comparison.command_line.options import emit
-from comparison.match import PERTURBATION, match
+from comparison.matching import PERTURBATION, match
 from comparison.rows import Question, first_order_epsilon
 from comparison.store import source_of
 from hermite_fe import HermiteFE

@@ -32,7 +32,7 @@ def written(tmp_path_factory: pytest.TempPathFactory) -> SimpleNamespace:
         patch.setattr(page, "match", match)
         patch.setattr(page, "warm_up", lambda methods: None)
         patch.setattr(page, "show_all", lambda *_, **__: (list(impacts()), [nasty]))
-        patch.setattr(page, "pipe_prediction", pipe)
+        patch.setattr(page, "pipe_prediction", lambda store: pipe())
         patch.setattr(page, "stored_studies", lambda: stored)
         methods = methods_of(PATHS)
         asked, store = report_questions(methods), RunStore(None)

@@ -98,6 +98,18 @@ def test_the_middle_lifts_when_the_load_pulls_and_stays_unpulled_when_it_pushes(
     assert abs(pushed.array("held_impulse")[-1]) < 0.01 * pushed.array("total_impulse")[-1]
 
 
+def test_the_wall_pulls_in_no_step_where_contacts_wander_and_what_had_to_be_widened_is_told(monkeypatch):
+    """α = −1 pulls the beam off: the contact is one or two nodes, which exchanging all wrong ones never settles."""
+    pulled, mesh = Impact.dimensionless(0.1, epsilon_alpha=-1.0), ExpandingMesh(step_ratio=0.01)
+    history = SelfSimilarFE(mesh=mesh).simulate(pulled, end_time=0.05)
+    assert history.settings["largest_pull"] < 1e-4 and history.settings["widened"] <= 10.0
+    assert not history.warnings
+    monkeypatch.setattr("self_similar_fe.similarity.worst_of_runs", lambda excess, active: excess > 0.0)
+    monkeypatch.setattr("self_similar_fe.similarity.ONE_BY_ONE", -1)
+    worse = SelfSimilarFE(mesh=mesh).simulate(pulled, end_time=0.05)
+    assert worse.settings["widened"] > 100.0 and "pulls" in worse.warnings[-1]
+
+
 @pytest.mark.parametrize(
     "settings",
     [{"front_resolution": 0.0}, {"growth": -0.1}, {"step_ratio": 0.9}, {"decades": 0.1}, {"elements_per_wave": 2}],

@@ -8,8 +8,9 @@ from pathlib import Path
 
 import pytest
 
+from bent_beam_programs.report.studies import stored_numbers
 from bent_beam_programs.thesis.gallery.numbers import PRINTED, chapter2, scales
-from bent_beam_programs.thesis.verdicts import CLASSES, Printed, within_rounding
+from bent_beam_programs.thesis.verdicts import CLASSES, Printed, counts, summary, within_rounding
 from comparison.readable import readable
 
 PAGE = Path(__file__).parents[2] / "docs" / "thesis_numbers.md"
@@ -18,7 +19,7 @@ PAGE = Path(__file__).parents[2] / "docs" / "thesis_numbers.md"
 def on_page() -> list[list[str]]:
     """Rows of the page, their bars of absolute values as /."""
     lines = [line for line in PAGE.read_text().splitlines() if line.startswith("| ")]
-    return [[c.strip() for c in line.strip("| ").replace(r"\|", "/").split("|")] for line in lines[2:]]
+    return [[c.strip() for c in line.strip()[1:-1].replace(r"\|", "/").split("|")] for line in lines[2:]]
 
 
 def value(cell: str) -> tuple[float, int]:
@@ -45,6 +46,16 @@ def test_every_printed_number_is_in_the_class_that_its_cells_ask_for() -> None:
             assert verdict != "same order" or 0.5 <= found / printed <= 2.0, what
 
 
+def test_the_count_is_the_same_in_report_gallery_and_docs_and_made_of_the_rows() -> None:
+    page, shown = on_page(), stored_numbers()
+    assert shown is not None and shown["summary"] == summary(page)
+    assert all(summary(page) in (PAGE.parent / name).read_text() for name in ("thesis_numbers.md", "gallery.md"))
+    found = {name: numbers for name, *numbers in counts(page)}
+    tested = sum(bool(row[6]) for row in page)
+    assert [sum(column) for column in zip(*found.values())] == [len(page), len(page), tested, tested]
+    assert sum(verdict == "within rounding" for *_, verdict, _, _ in page) == found["within rounding"][0]
+
+
 QUICK = (chapter2, scales)
 
 
@@ -52,7 +63,7 @@ QUICK = (chapter2, scales)
 def test_the_page_of_printed_numbers_is_what_is_computed(part: Callable[[], Iterator[Printed]]) -> None:
     page = {tuple(row[:3]): row for row in on_page()}
     for printed in part():
-        where, what, thesis, ours, _, verdict, _ = (cell.replace("|", "/") for cell in printed.row())
+        where, what, thesis, ours, _, verdict, *_ = (cell.replace("|", "/") for cell in printed.row())
         row = page[where, what, thesis]
         assert row[5] == verdict, what
         assert value(row[3])[0] == pytest.approx(value(ours)[0], rel=2e-3), what

@@ -1,11 +1,7 @@
 """OpenSeesPy: elastic beam-column elements, gap springs at the nodes, Newmark's method with strong damping.
 
-From the manual (OpenSeesPyDoc): elasticBeamColumn with its consistent mass (-cMass), ElasticPPGap for a gap that
-closes, in zeroLength elements, Newton's method. Newmark: "gamma > 1/2 results in numerical damping proportional to
-gamma - 1/2", unconditionally stable for beta >= gamma/2 >= 1/4 (newmark.rst). gamma = 3/2 with beta = (gamma + 1/2)^2/4
-damps the short waves most; the structural engineer's 1/2, 1/4 lets them rattle in the gaps. Of the manual's methods of
-second order HHT with its most damped alpha = 2/3, GeneralizedAlpha and TRBDF2 were tried (docs/benchmark.md).
-BandGeneral was as fast as BandSPD, ProfileSPD and UmfPack.
+gamma = 3/2 with beta = (gamma + 1/2)^2/4 damps the short waves most; the structural engineer's 1/2, 1/4 lets them
+rattle in the gaps. Pages of the manual: adapters.toml; what else was tried: docs/benchmark.md.
 """
 
 import json
@@ -16,7 +12,7 @@ import tomllib
 import numpy as np
 import openseespy.opensees as ops
 
-SIZES = {"coarse": 0.03, "medium": 0.015, "fine": 0.0075}  # element length over l*
+SIZES = {"coarse": 0.03, "medium": 0.015, "fine": 0.0075, "given": 0.02}  # element length over l*
 HALF_LENGTH, GAMMA, BETA = 5.0, 1.5, 1.0
 STIFFNESS = 1e3  # of a gap spring over that of an element's deflection, 12 EI/size^3
 
@@ -29,7 +25,7 @@ def main(problem_file, result_file, resolution="medium"):
         np.savez(result_file, outcome="not_attempted(axial force)", problem=problem["id"], metadata="{}")
         return
     n, size = round(HALF_LENGTH / SIZES[resolution]), SIZES[resolution]
-    steps = max(round(40.0 * end / size), 250)
+    steps = max(round(40.0 * end / size), 250) if resolution != "given" else 400
     h = end / steps
     x = np.linspace(0.0, HALF_LENGTH, n + 1)
     gap = beam["curvature"] * x**2 / 2 - impact["fourth_derivative"] * x**4 / 24  # a straight beam, a curved wall

@@ -19,8 +19,9 @@ REFINEMENT = {"exudyn": {"coarse": 0.6, "medium": 1.0, "fine": 1.6}}  # of the m
 STEPS = {"exudyn": 2.0}  # as many as it chooses: the window of a score needs more instants than its long steps give
 OTHERS = {"coarse": 0.5, "medium": 1.0, "fine": 2.0}
 ON_SPRINGS = {"coarse": 1.0, "medium": 2.0, "fine": 4.0}
-STRICT = {"coarse": 0.02, "medium": 0.01, "fine": 0.005}  # element length over l*
+STRICT = {"coarse": 0.02, "medium": 0.01, "fine": 0.005, "given": 0.02}  # element length over l*
 LONG = 120.0  # ℓ_k: length of a beam on an elastic wall, whose force is over before a wave is back
+GIVEN = 0.02, 400  # the mesh for all codes: element length over l*, and equal steps of the record
 HALF_LENGTH = 4.0  # l*: a beam with a fourth derivative must not be bent into the wall further out
 
 
@@ -33,6 +34,12 @@ def chosen(path, choice, bare, end, infinite, resolution):
         method = for_whole_beam(method, bare)  # nothing held, nothing absorbed
     elif path == "hermite":  # cut where the beam goes on: its ends follow the free motion
         method = dataclasses.replace(method, domain=HALF_LENGTH)
+    if resolution == "given" and choice == "chosen":
+        method = chosen_for(dataclasses.replace(method, mesh=UniformMesh(element_length=GIVEN[0])), bare, end)
+        even = {"growth": 0.0} if path == "hermite" else {}
+        return dataclasses.replace(
+            method, integrator=dataclasses.replace(method.integrator, time_step=end / GIVEN[1], **even)
+        )
     if choice == "chosen":
         method = chosen_for(method, bare, end)
         if path in STEPS:

@@ -133,7 +133,7 @@ const Beam = (() => {
     };
   }
 
-  /** Groups, contact parameters, scales, limits and the whole impact of one impact. */
+  /** Groups, contact parameters, scales and limits of one impact. */
   function solve(b) {
     const c = sqrt(b.stiffness / b.mass), half = b.length / 2, lengthScale = c / b.velocity;
     const timeScale = lengthScale / b.velocity, slow = half * half / c;
@@ -144,7 +144,7 @@ const Beam = (() => {
     // where nothing holds the numbers are shown as far as they would without what spoils them
     const unit = b.velocity * sqrt(b.mass) * (b.stiffness * b.wallStiffness) ** 0.25;
     const peakForce = b.wallStiffness ? unit * Theory.peakForce(ratio) : null; // of a wall that gives way
-    return { ...solved, limits, peakForce, shownUntil: limits.until, first: bending(solved), whole: wholeImpact(solved) };
+    return { ...solved, limits, peakForce, shownUntil: limits.until, first: bending(solved) };
   }
 
   /** Stress of a bending moment together with the axial force, Pa. */
@@ -160,20 +160,6 @@ const Beam = (() => {
     ];
     const largest = candidates.reduce((a, b) => (b.moment > a.moment ? b : a));
     return { ...largest, stress: stressOf(b, largest.moment) };
-  }
-
-  /** The whole impact of a free beam without loads, SI; null off the map. Stresses of a bow that is not free of stress
-   * are not on it: the sign of the largest moment is not. */
-  function wholeImpact({ b, slow, contact }) {
-    const found = b.acceleration || b.tension ? null : WholeImpact.at(contact.ratio, b.damping / slow);
-    if (!found) return null;
-    const times = ({ value, error }, unit) => ({ value: value * unit, error: error * unit });
-    const moment = times(found.peak_moment, b.velocity * sqrt(b.stiffness * b.mass));
-    const free = b.naturalCurvature === b.curvature;
-    return {
-      band: found.band, restitution: found.restitution, lastContact: times(found.last_contact, slow),
-      moment: free ? moment : null, stress: free ? times(moment, 1 / b.modulus) : null,
-    };
   }
 
   /** Contact, force, impulse, moment and stress at the time t > 0, SI. */

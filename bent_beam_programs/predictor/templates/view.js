@@ -158,29 +158,13 @@
     for (const end of ends) draw(svg, "path", { d: `M${end},${wall + 3}l-5,10h10z`, class: "push" });
   }
 
-  // --- words and numbers -----------------------------------------------------------------------------------------
-  /** A number with its error bar in the unit that suits it; without damping a band of many runs. */
-  function withBar(name, { value, error }) {
-    const [symbol, size] = name ? unit(name, value) : ["", 1];
-    return `${bar(value / size, error / size)} ${symbol}`.trim();
-  }
-
   /** What there is beside the page: no simulation where shear is the obstacle. */
   const otherwise = ({ sheared }) => (sheared ? SHEARED : SIMULATE);
 
-  /** The largest stress: of the first instants and until when, and of the whole impact. */
-  function stresses({ first, whole, shownUntil, limits }) {
-    const known = whole && whole.stress;
+  /** The largest stress of the first instants, and until when. */
+  function stresses({ first, shownUntil, limits }) {
     return `first instants, until ${quantity("time", shownUntil, 3)}: ${quantity("stress", first.stress)}; `
-      + `whole impact: ${known ? withBar("stress", known) : otherwise(limits)}`;
-  }
-
-  function wholeImpact({ whole, limits }) {
-    if (!whole) return `The stored map has no loads, no weight, and not every κ/ν and damping: ${otherwise(limits)}.`;
-    const moment = whole.moment ? `, largest bending moment ${withBar("moment", whole.moment)}` : "";
-    const scatter = whole.band ? " (no damping: mean ± scatter of many runs)" : "";
-    return `The whole impact${scatter}: coefficient of restitution ${withBar("", whole.restitution)}, `
-      + `last contact at ${withBar("time", whole.lastContact)}${moment}.`;
+      + `whole impact: ${otherwise(limits)}`;
   }
 
   /** When the first instants hold. */
@@ -194,10 +178,9 @@
     return `The first instants hold to 2 % ${start}until ${last} after first touch; then ${CAUSES[by]}.`;
   }
 
-  /** Whether the largest known stress is beyond the yield stress. */
-  function yields({ first, whole }) {
-    const known = whole && whole.stress ? whole.stress.value : 0;
-    return inputs.yield_stress > 0 && Math.max(first.stress, known) > inputs.yield_stress;
+  /** Whether the stress of the first instants is beyond the yield stress. */
+  function yields({ first }) {
+    return inputs.yield_stress > 0 && first.stress > inputs.yield_stress;
   }
 
   function rows(now) {
@@ -250,7 +233,7 @@
       yields: yields(predicted) ? YIELDS : "",
       holds: holding(predicted),
       damped: b.damping > 0 ? `The first instants are those of an undamped beam. For this one: ${otherwise(limits)}.` : "",
-      whole: wholeImpact(predicted),
+      whole: `How the beam leaves the wall, and its largest stress until then: ${otherwise(limits)}.`,
       groups: [
         `κ/ν = ${b.wallCurvature ? "(K − K of the wall)" : "K"}√(EI/μ)/V₀ = ${text(contact.ratio, 5)}`,
         `λ₀ = ${text(contact.lambda0, 6)}`, `r₀ = ${text(contact.r0, 6)}`, `EI = ${text(b.stiffness, 5)} N m²`,

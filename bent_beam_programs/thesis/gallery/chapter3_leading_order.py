@@ -10,8 +10,10 @@ import re
 
 import numpy as np
 from matplotlib.axes import Axes
+from scipy.interpolate import CubicHermiteSpline
 
 from bent_beam.history import ImpactHistory
+from bent_beam.measure.numbers import Number
 from bent_beam.meshes import UniformMesh
 from bent_beam_programs.thesis.gallery.drawing import THEORY, nearest, plain_line
 from bent_beam_programs.thesis.gallery.runs import case, thesis
@@ -20,7 +22,7 @@ from bent_beam_programs.thesis.studies.exact import Exact
 from bent_beam_programs.thesis.studies.outcome import Outcome
 from bent_beam_programs.thesis.studies.thesis import CONSISTENT, THESIS_MASS, Settings
 from comparison.figures import style
-from comparison.match import match
+from comparison.matching import match
 from comparison.methods import methods_of
 from comparison.readable import readable
 from comparison.rows import THESIS_KAPPAS, MatchRow, questions
@@ -112,16 +114,21 @@ def curvatures(sheet: Sheet) -> None:
     sheet.table(["K (1/m)", "κ/ν", "λ₀", "r₀/ν", "elements per front"], rows, width=4.6)
 
 
+def shares(number: Number) -> tuple[float, float]:
+    """Difference from theory and error bar, over theory."""
+    return float(number.relative() or 0.0), float(number.relative_bar() or 0.0)
+
+
 def compare(sheet: Sheet, what: str, symbol: str, error: str) -> None:
     """Theory's curve, the thesis's settings and both paths, and their differences below."""
     ratios = np.geomspace(4e-4, 0.99, 300)
     old = {k: v for k, o in noisy().items() if (v := o.measures[error]) is not None}
     cross = plain_line("grey", "", marker="x", ms=4.5)
-    points = [("thesis's settings", cross, [(k, v / 100.0) for k, v in old.items()])]
+    points = [("thesis's settings", cross, [(k, v / 100.0, 0.0) for k, v in old.items()])]
     for name, mark in style.marks(r.label for r in matched()).items():
         mine = [r for r in matched() if r.label == name and getattr(r, what).measured]
         drawn = {k: v for k, v in mark.items() if k != "label"}
-        points.append((name, drawn, [(r.kappa_over_nu, float(getattr(r, what).relative())) for r in mine]))
+        points.append((name, drawn, [(r.kappa_over_nu, *shares(getattr(r, what))) for r in mine]))
     with sheet.figure(2, 1, width=4.6, height=4.9, sharex=True, height_ratios=[1.5, 1]) as (_, (top, below)):
         top.set(xscale="log", yscale="log", ylabel=f"{symbol}  (1)")
         below.set(xlabel=r"$\kappa/\nu$  (1)", ylabel="difference  (%)")
@@ -129,9 +136,11 @@ def compare(sheet: Sheet, what: str, symbol: str, error: str) -> None:
         for name, drawn, found in points:
             if not found:
                 continue
-            k, off = np.array(found).T
+            k, off, bar = np.array(found).T
             sheet.line(top, k, getattr(contact_parameters(k), what) * (1.0 + off), series=name, **drawn)
             sheet.line(below, k, 100.0 * off, series=name, **drawn)
+            if bar.any():
+                below.errorbar(k, 100.0 * off, 100.0 * bar, ls="", color=drawn["color"], elinewidth=0.8, capsize=2)
             sheet.numbers[f"largest difference (%), {name}, of {k.size} runs"] = float(100.0 * np.abs(off).max())
         below.axhline(0.0, color="black", lw=0.8)
         below.set_yscale("symlog", linthresh=1e-2, linscale=0.6)
@@ -144,7 +153,8 @@ def compare(sheet: Sheet, what: str, symbol: str, error: str) -> None:
 
 COMPARED = (
     "over κ/ν for the curvatures of Table 3.4: theory, the thesis's settings (middles, as in Table 3.3, lumped mass), "
-    "Hermite, and Exudyn at every second one; relative differences below, linear within ±0.01 %, "
+    "Hermite, and Exudyn at every second one; relative differences below, with the error bars of Hermite "
+    "and Exudyn, linear within ±0.01 %, "
     "logarithmic beyond"
 )
 
@@ -202,12 +212,15 @@ def first_impact(element: float, mass: Mass, step: float = STEP) -> tuple[float,
 
 def geometry(sheet: Sheet, axis: Axes, history: ImpactHistory, times: tuple[float, ...], wall: tuple[int, int]) -> None:
     """Deflections at several times."""
-    x, gap = history.positions(-1), history.array("gap")
-    near = x <= 0.16
+    x, gap, slope = history.positions(-1), history.array("gap"), history.array("slope")
+    near, between = x <= 0.16, np.linspace(0.0, 0.15, 121)
     axis.set(xlabel="$x$  (m)", ylabel="deflection $y$  (mm)")
     for i, (t, colour) in enumerate(zip(times, style.SEQUENCE)):
-        y, name = -1e3 * gap[nearest(history.time, t)][near], f"t = {1e6 * t:.4g} µs"
-        sheet.line(axis, x[near], y, series=name, color=colour, marker="o", ms=3, mfc="none", lw=2.2 - 0.4 * i)
+        k, name = nearest(history.time, t), f"t = {1e6 * t:.4g} µs"
+        cubic = CubicHermiteSpline(x, -1e3 * gap[k], 1e3 * slope[k])
+        sheet.line(axis, between, cubic(between), series=name, color=colour, lw=2.2 - 0.4 * i)
+        drawn = {"color": colour, "ls": "", "marker": "o", "ms": 3, "mfc": "none"}
+        sheet.line(axis, x[near], -1e3 * gap[k][near], series=f"{name}, nodes", legend=False, **drawn)
     axis.legend(fontsize=7, loc="upper left")
     style.wall_below(axis, *wall)
 
@@ -216,7 +229,8 @@ def geometry(sheet: Sheet, axis: Axes, history: ImpactHistory, times: tuple[floa
 def discrete(sheet: Sheet) -> None:
     """Discrete contact
 
-    Discrete contact, κ/ν = 1.25, uniform mesh Δx = 5·10⁻² m, τ = 0.01: (a) geometry, nodes, lumped mass; (b) geometry,
+    Discrete contact, κ/ν = 1.25, uniform mesh Δx = 5·10⁻² m, τ = 0.01: (a) geometry, nodes, lumped mass, drawn
+    with the elements' cubics; (b) geometry,
     middles, consistent mass, over a longer time; (c) energy, nodes, both masses, free flight before; (d) reaction over
     the first steps and after for several element lengths (L = 1 m), nodes, lumped mass. The contact stays at x = 0, as
     theory says. Middles close after KΔx²/(8V₀) = 3.91·10⁻⁴ s (the thesis expects 7.85·10⁻⁴ s, joining nodes by straight

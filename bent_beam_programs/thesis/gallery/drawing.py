@@ -23,6 +23,7 @@ from bent_beam_programs.thesis.studies.panels import (
     ROOT,
     THEORY,
     Panel,
+    banded,
     contact_length,
     energy,
     filtered,
@@ -43,6 +44,7 @@ NUMBERS: dict[Panel, tuple[str, ...]] = {
     geometry: ("lift",),
     contact_length: ("contact_length_error",),
     filtered: ("reaction_error",),
+    banded: ("reaction_error",),
     energy: ("lost_impact", "lost_damping"),
 }
 """Measures that go with a panel."""
@@ -97,7 +99,7 @@ def run_figure(sheet: Sheet, series: Callable[[], Series], panels: Sequence[Pane
             for axis, panel in zip(column, panels):
                 panel(sheet, axis, outcomes)
                 numbers_of(sheet, named(outcomes, mass, only_own=i > 0), *NUMBERS.get(panel, ()))
-            if filtered in panels:
+            if {filtered, banded} & {*panels}:
                 scatters_of(sheet, named(outcomes, mass, only_own=True))
         for left, right in grid:
             (low, high), (one, other) = left.get_ylim(), right.get_ylim()
@@ -138,6 +140,11 @@ LEGEND = (
 )
 FILTER = "every step, filtered as in 3.3.1 (above), and the impulse less theory's, unfiltered (below)"
 REACTION: tuple[Panel, ...] = (filtered, impulse_off)
+NOISY: tuple[Panel, ...] = (banded, impulse_off)
+BAND = (
+    "means in windows; the band holds eight tenths of the reaction of every step, filtered as in 3.3.1 (above), and "
+    "the impulse less theory's, unfiltered (below)"
+)
 
 
 def beam_panel(
@@ -201,7 +208,7 @@ def draw_maps(sheet: Sheet, histories: Mapping[str, ImpactHistory], rows: int, h
     cells = [cell_forces(history) for history in histories.values()]
     largest = max(float(c.force.max()) for c in cells)
     norm = LogNorm(largest / 10.0**DECADES, largest)
-    with sheet.figure(rows, 2, width=style.PAGE, height=height, sharex=rows > 1, sharey=True) as (fig, axes):
+    with sheet.figure(rows, 2, width=style.PAGE, height=height) as (fig, axes):
         for axis, history, found in zip(axes.flat, histories.values(), cells):
             drawn = one_map(sheet, axis, history, found, norm)
         sheet.letter(axes, list(histories))
@@ -226,7 +233,7 @@ def one_map(sheet: Sheet, axis: Axes, history: ImpactHistory, cells: CellForces,
     for row, at in zip(force, st * 0.5 * (times[1:] + times[:-1])):
         carried = row > 0.0
         sheet.record(axis, middle[carried], row[carried], f"t = {at:.4g} {mt}", "reaction (N)")
-    t = end * np.linspace(0.0, 1.0, 200) ** 2
+    t = min(end, exact.end_of_contact) * np.linspace(0.0, 1.0, 200) ** 2
     for side in (-1.0, 1.0):
         line = plain_line("vermilion", width=0.6)
         sheet.line(axis, side * exact.front(t), st * t, series=f"theory, side {side:+.0f}", **line)

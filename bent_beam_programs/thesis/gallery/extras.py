@@ -12,7 +12,7 @@ from bent_beam.history import ImpactHistory
 from bent_beam.meshes import GradedMesh, UniformMesh
 from bent_beam_programs.thesis.gallery import chapter3_contact_point as contact_point
 from bent_beam_programs.thesis.gallery import chapter3_first_order as first
-from bent_beam_programs.thesis.gallery.chapter3_contact_point import CONTACT, FLAT, SHOWN
+from bent_beam_programs.thesis.gallery.chapter3_contact_point import COLOURS, CONTACT, FLAT, SHOWN
 from bent_beam_programs.thesis.gallery.drawing import guide, legend_below, numbers_of, plain_line
 from bent_beam_programs.thesis.gallery.runs import case, reference_history, thesis, thesis_history
 from bent_beam_programs.thesis.sheet import Sheet, item
@@ -154,21 +154,22 @@ def coupling(sheet: Sheet) -> None:
     """
     found = {contact: np.array([coupled(contact, LumpedMass(1.0 / n)) for n in ROTARY]) for contact in CONTACT}
     full = {contact: coupled(contact, MASSES["consistent"]) for contact in CONTACT}
-    marks = {"node": ("blue", "o"), "middle": ("vermilion", "s")}
+    marks = {"node": "o", "middle": "s"}
     with sheet.figure(1, 2, width=style.PAGE, height=3.0, sharey=True) as (fig, axes):
         axes[0].set(xscale="log", xlabel="rotary part $r$  (1)", ylabel="lift  (mm)", ylim=(0.0, 3.6))
         axes[0].set_xticks([1.0 / n for n in ROTARY], [f"1/{n:g}" for n in ROTARY], fontsize=6.5, rotation=45.0)
         axes[0].minorticks_off()
         axes[1].set(xlabel=r"coupling of neighbouring constraints $c$  (1)", ylabel="lift  (mm)")
         guide(axes[1], x=0.0)
-        for contact, (name, marker) in marks.items():
-            drawn: dict[str, Any] = {"color": style.COLOURS[name], "marker": marker, "ms": 4.5, "mfc": "none"}
+        for contact, marker in marks.items():
+            drawn: dict[str, Any] = {"color": COLOURS["lumped", contact], "marker": marker, "ms": 4.5, "mfc": "none"}
             c, lift = found[contact].T
             label = f"{NAMES[contact]}, lumped"
             sheet.line(axes[0], 1.0 / np.array(ROTARY), lift, series=label, **drawn)
             sheet.line(axes[1], c, lift, series=label, **drawn | ({"ls": ""} if contact == "node" else {}))
             one, high = full[contact]
-            filled = drawn | {"mfc": style.COLOURS[name], "ls": ""}
+            shade = COLOURS["consistent", contact]
+            filled = drawn | {"color": shade, "mfc": shade, "ls": ""}
             sheet.line(axes[1], one, high, series=f"{NAMES[contact]}, consistent", **filled)
             sheet.numbers |= {f"lift (mm), {label}, r = 1/{n:g}": float(v) for n, v in zip(ROTARY, lift)}
             sheet.numbers |= {f"c, {NAMES[contact]}, consistent": one, f"lift (mm), {NAMES[contact]}, consistent": high}

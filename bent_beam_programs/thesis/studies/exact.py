@@ -63,6 +63,12 @@ class Exact:
         tau, p = self.tau(time), self.parameters
         return np.asarray(self.impact.length_scale * np.sqrt(tau) * (p.lambda0 + p.lambda1 * tau))
 
+    @property
+    def end_of_contact(self) -> float:
+        """When the concentrated reactions of first order have fallen to 0, s; never where r₁ ≥ 0."""
+        p = self.parameters
+        return float(-p.r0 / p.r1) * self.impact.time_scale if p.r1 < 0.0 else math.inf
+
     def side_reaction(self, time: ArrayLike) -> Array:
         """Reaction of one side, N: one concentrated force and half of the uniform reaction."""
         tau, p = self.tau(time), self.parameters

@@ -23,9 +23,8 @@ from bent_beam_programs.thesis.studies.of_methods import (
     with_field,
     with_parts,
 )
-from bent_beam_programs.thesis.studies.thesis import MASSES, Runs, Settings, Variant, thesis_settings, varied
+from bent_beam_programs.thesis.studies.thesis import MASSES, POINTS, Runs, Settings, Variant, thesis_settings, varied
 from comparison.readable import readable
-from hermite_fe import CONTACTS
 from hermite_fe.contacts import impact_coupling
 
 # The time step h (thesis 3.3.1, Figs 3.7–3.9, Table 3.1): 40, 4, 2, 1 and 0.4 times 10⁻⁵ t*, the rest as in the
@@ -161,7 +160,7 @@ FAR_FIELD = Study("far-field", "far field", far_field_variants, far_field_vary)
 # An impact at one constraint changes the gap velocities of its neighbours by c = W_{j,j±1}/W_jj of its own change
 # (:mod:`hermite_fe.contacts`).
 
-NAMES = {"node": "nodes", "middle": "middles", "mean": "mean gaps"}
+NAMES = {"node": "nodes", "middle": "middles", "mean": "mean gaps", "straight": "middles of straight lines"}
 
 
 def contact_point_variants(case: Case) -> list[Variant]:
@@ -173,7 +172,7 @@ def contact_point_variants(case: Case) -> list[Variant]:
     """
     base = thesis_settings(case.impact, case.end_time)
     runs: Runs = {
-        f"{NAMES[key]}, {name}": (impact_coupling(CONTACTS[key](), mass).neighbour, {"contact": key, "mass": mass})
+        f"{NAMES[key]}, {name}": (impact_coupling(POINTS[key](), mass).neighbour, {"contact": key, "mass": mass})
         for name, mass in MASSES.items()
         for key in NAMES
     }

@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from functools import partial
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -26,6 +27,7 @@ PREFIX = {-12: "p", -9: "n", -6: "µ", -3: "m", 0: "", 3: "k", 6: "M"}
 REACH = 1.25  # contact lengths shown
 MARKS = 18  # markers on the curve of a reference
 WINDOWS = 30  # means of a reaction
+TENTHS = (0.1, 0.9)  # of the filtered reaction, between which a band lies
 LINES = [style.COLOURS[c] for c in ("vermilion", "sky", "purple", "orange", "grey", "green", "blue")]
 """Colours of varied settings, those of the references last."""
 THEORY = {k: v for k, v in style.THEORY.items() if k != "label"}
@@ -175,6 +177,28 @@ filtered: Panel = partial(
     largest=lambda exact, end: 2.4 * float(exact.side_reaction(0.02 * end)),
 )  # fmt: skip
 """Reaction of one side of every step, filtered as the thesis does; references in windows. Peaks are cut."""
+
+
+def banded(sheet: Sheet, axis: Axes, outcomes: Sequence[Outcome]) -> None:
+    """Where filtered reactions are so noisy that they would hide one another: means in windows, and a band that holds
+    eight tenths of the filtered reaction.
+    """
+    reaction(sheet, axis, outcomes)
+    runs = _finished(outcomes)
+    end = float(runs[0][0].time[-1])
+    (st, _), (sy, _) = unit(end, "s"), unit(1.2 * float(runs[0][0].exact.side_reaction(0.02 * end)), "N")
+    for o, line in runs:
+        if o.steps is None:
+            continue
+        found = o.steps.filtered()
+        edges = end * np.linspace(0.0, 1.0, WINDOWS + 1) ** 2
+        cuts = np.searchsorted(o.steps.time, edges)
+        low, high = np.array([np.quantile(found[i : max(j, i + 1)], TENTHS) for i, j in pairwise(cuts)]).T
+        middle = 0.5 * (edges[1:] + edges[:-1])
+        axis.fill_between(st * middle, sy * low, sy * high, color=line["color"], alpha=0.18, lw=0.0)
+        for name, values in (("a tenth is below", low), ("a tenth is above", high)):
+            sheet.record(axis, st * middle, sy * values, f"{o.label}, {name}")
+
 
 # differences, where curves lie on one another
 

@@ -14,7 +14,7 @@ import dataclasses
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, ClassVar
 
 from bent_beam.cases import Case
 from bent_beam.errors import ANY_FAILURE, SimulationError
@@ -26,6 +26,7 @@ from bent_beam_programs.thesis.studies.exact import Exact
 from bent_beam_programs.thesis.studies.outcome import Outcome, failed, outcome_of, saved_times
 from comparison.workers import run_all
 from hermite_fe import CONTACTS, FAR_FIELDS, INTEGRATORS, HermiteFE
+from hermite_fe.contacts import MiddleContact
 from hermite_fe.masses import ConsistentMass, LumpedMass, Mass
 from self_similar_fe import SelfSimilarFE
 
@@ -41,6 +42,16 @@ lifts and strain energies, with nodes and with middles, come closest to the thes
 
 MASSES: dict[str, Mass] = {"lumped": THESIS_MASS, "consistent": CONSISTENT}
 """Which one the thesis used is not known: figures of its runs are drawn with both."""
+
+
+@dataclass(frozen=True)
+class StraightContact(MiddleContact):
+    """Element middles of straight lines between the nodes, as 3.3.5 words it: g = −½(w₁ + w₂); slopes do not count."""
+
+    slope_share: ClassVar[float] = math.inf
+
+
+POINTS: dict[str, type] = CONTACTS | {"straight": StraightContact}
 
 
 @dataclass(frozen=True)
@@ -71,7 +82,7 @@ class Settings:
             integrator=INTEGRATORS["nonsmooth_generalized_alpha"](
                 time_step=self.time_step, spectral_radius=self.spectral_radius
             ),
-            contact=CONTACTS[self.contact](restitution=self.restitution, hold=self.hold, hold_until=0.0),
+            contact=POINTS[self.contact](restitution=self.restitution, hold=self.hold, hold_until=0.0),
             far_field=FAR_FIELDS["sponge" if self.sponge else "viscosity"](viscosity=self.viscosity),
             mass=self.mass,
         )

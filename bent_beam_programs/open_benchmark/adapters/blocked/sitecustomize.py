@@ -1,6 +1,6 @@
 """Puts the answers out of an adapter's reach: Python imports this file at its start, before the adapter.
 
-A protection from accident and vanity, not from fraud: verified tables rest on drawn problems and nodal histories.
+A protection from accident and vanity, not from fraud: tables of runs rest on drawn problems, nodal histories and gaps.
 """
 
 import sys

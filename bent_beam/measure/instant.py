@@ -1,0 +1,83 @@
+"""What a run says of one instant: rim, impulse and force of the wall then, and the largest moment and force until then.
+
+Nothing is of the nearest saved instant: what grows is interpolated, a force is the mean over a window around the
+instant, and the rim is that of what pushes in it. A rigid wall has no largest force: it is an impulse over a window.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from bent_beam.history import ImpactHistory
+from bent_beam.measure.moments import AROUND, element_at, first_front, half_contact_length, mean_reaction, moments
+from bent_beam.measure.reduction import peak_moment, wall_peaks
+
+__all__ = ["BEYOND", "Instant", "instant"]
+
+BEYOND = 1.0 + AROUND  # times an instant: how far a run must go to be read there
+
+
+@dataclass(frozen=True)
+class Instant:
+    """SI units; ``None`` is what does not exist.
+
+    half_contact_length : of the rim of what pushes, m; none where nothing does. reaction : mean force of the wall over
+    a tenth of the time before and after, N. impulse : N s. peak_moment, peak_moment_place, peak_moment_time : the
+    largest moment of all steps so far, N m, m, s. peak_force, peak_force_time, peak_penetration, peak_pressure : of a
+    wall that gives way, so far; the pressure not of a stop.
+    element : length of the one at the rim, m. lift : the largest inside the zone in the last decade of time, over V₀t.
+    """
+
+    half_contact_length: float | None
+    reaction: float | None
+    impulse: float
+    peak_moment: float
+    peak_moment_place: float
+    peak_moment_time: float
+    peak_force: float | None
+    peak_force_time: float | None
+    peak_penetration: float | None
+    peak_pressure: float | None
+    element: float
+    lift: float
+
+
+def instant(history: ImpactHistory, time: float, *, first_spread: bool = False, with_lift: bool = True) -> Instant:
+    """Read a run at ``time``, s.
+
+    first_spread : the contact is the first spread of a zone about the middle of a beam before a rigid wall, of which
+        less is assumed of what lies behind the front (:func:`bent_beam.measure.moments.first_front`).
+    with_lift : otherwise the lift is not read, which takes longest.
+    """
+    k = int(np.argmin(np.abs(history.time - time)))  # saved times are those of steps
+    until = max(time, float(history.time[k]))
+    front: float | None
+    if not first_spread:
+        front = half_contact_length(history, k)
+    elif "contact_position" in history:  # points that move with the contact gather on their way
+        front = float(np.interp(time, history.time, moments(history).front)) * history.impact.length_scale
+    else:
+        front = first_front(history, k)
+    peak, wall = peak_moment(history, until=until), wall_peaks(history, until=until)
+    begin, end = history.impact.wall_span
+    return Instant(
+        half_contact_length=front,
+        reaction=mean_reaction(history, time),
+        impulse=float(np.interp(time, history.time, history.array("total_impulse"))),
+        peak_moment=peak.moment,
+        peak_moment_place=peak.place,
+        peak_moment_time=peak.time,
+        peak_force=None if wall is None else wall.force,
+        peak_force_time=None if wall is None else wall.time,
+        peak_penetration=None if wall is None else wall.penetration,
+        peak_pressure=None if wall is None or begin == end else wall.pressure,
+        element=0.0 if first_spread or front is None else element_at(history, k, front),
+        lift=_lift(history, time) if first_spread and with_lift else 0.0,
+    )
+
+
+def _lift(history: ImpactHistory, time: float) -> float:
+    recent = (history.time >= 0.1 * time) & (history.time <= time * (1.0 + 1e-9))
+    return float(moments(history).lift[recent].max(initial=0.0))

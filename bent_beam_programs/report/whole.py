@@ -1,0 +1,77 @@
+"""The drill pipe of ``cases/drill_pipe.toml`` in SI units: its first instants, its whole impact, and that over a range
+of damping. All that the report takes of whole impacts from :mod:`comparison` passes here, so that its numbers are those
+of ``bentbeam predict``, to the digit.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from bent_beam.cases import EXAMPLES, load_case
+from bent_beam.errors import InputError
+from bent_beam.measure.numbers import Band, Number
+from comparison.predicting import predict_case
+from comparison.store import RunStore
+
+__all__ = ["COLUMNS", "pipe_prediction"]
+
+PIPE = EXAMPLES / "drill_pipe.toml"
+TIMES = (0.001, 0.005, 0.010)  # s
+COLUMNS = {
+    "half_contact_length": ("λ<sub>c</sub>, m", 1.0),
+    "reaction": ("R, kN", 1e3),
+    "impulse": ("impulse, N s", 1.0),
+    "peak_moment": ("bending moment, kN m", 1e3),
+    "peak_stress": ("stress, MPa", 1e6),
+}
+"""Of the first instants: name → heading and its unit."""
+WHOLE = {
+    "restitution": ("coefficient of restitution {}", 1.0),
+    "last_contact": ("last contact after {} s", 1.0),
+    "peak_stress": ("largest stress {} MPa", 1e6),
+}
+
+
+def pipe_prediction(file: Path = PIPE, store: RunStore | None = None) -> dict[str, Any] | None:
+    """The prediction of a case, or ``None`` where this installation has no such file.
+
+    case; rows : time (ms), by what, and a text for each of :data:`COLUMNS`; valid_from, valid_until, s, valid_after and
+    limited_by; whole : texts of the whole impact as the case states it; damping : (ratio in %, largest stress in MPa);
+    yield_stress, MPa.
+    """
+    try:
+        case = load_case(file)
+    except InputError:
+        return None
+    document = predict_case(case, TIMES, store=store).to_dict()
+    rows = [
+        (f"{1000.0 * row['time']:g}", by, [text(numbers.get(name), unit) for name, (_, unit) in COLUMNS.items()])
+        for row in document["times"]
+        for by, numbers in (("theory", row), ("simulation", row.get("simulation")))
+        if numbers is not None
+    ]
+    whole = document["whole_impact"] or {}
+    limits = ("valid_from", "valid_until", "valid_after", "limited_by")
+    yields = document["yield_stress"]
+    return {
+        "case": case,
+        "rows": rows,
+        **{key: document.get(key) for key in limits},
+        "whole": [words.format(text(whole.get(key), unit)) for key, (words, unit) in WHOLE.items()],
+        "damping": [
+            (f"{100.0 * row['damping_ratio']:g}", text(row["peak_stress"], 1e6))
+            for row in whole.get("over_damping") or ()
+        ],
+        "yield_stress": None if yields is None else f"{yields / 1e6:.4g}",
+    }
+
+
+def text(number: Any, unit: float) -> str:
+    """A number in its column's unit, with its error bar or band where it has one, as ``bentbeam predict`` writes it."""
+    if not isinstance(number, Mapping):
+        return "–" if number is None else f"{number / unit:.4g}"
+    if band := number.get("band"):
+        return str(Band(**band).scaled(1.0 / unit))
+    return str(Number(number.get("value"), number.get("error")).scaled(1.0 / unit))

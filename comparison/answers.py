@@ -1,0 +1,148 @@
+"""Runs of a question, kept, read and made into numbers: the one place that does.
+
+A run is reduced by a reading, plain numbers by name, and this is what is kept. The store stands around the whole, not
+in it: without one nothing is turned into text and back.
+"""
+
+from __future__ import annotations
+
+import statistics
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import partial
+from typing import Any
+
+from bent_beam.errors import SimulationError
+from bent_beam.history import ImpactHistory
+from bent_beam.hysteresis import converges
+from bent_beam.impact import Impact
+from bent_beam.measure.numbers import Band, Number, number_of
+from bent_beam.method import Method
+from comparison.questions import Question
+from comparison.store import RunStore, source_of
+from comparison.workers import run_all
+
+__all__ = ["Run", "Runs", "numbers_of", "runs_of"]
+
+Reading = Callable[[ImpactHistory], dict[str, Any]]
+Progress = Callable[[float], None]
+
+
+@dataclass(frozen=True)
+class Run:
+    """What is kept of a run: its ``reading``, and what it says of itself."""
+
+    reading: dict[str, Any]
+    warnings: list[str]
+    seconds: float
+    steps: int
+
+    @classmethod
+    def of(cls, history: ImpactHistory, read: Reading) -> Run:
+        return cls(read(history), history.warnings, history.seconds, history.steps)
+
+
+@dataclass(frozen=True)
+class Runs:
+    """The run of a question and its companions by cause; ``lost``: a sentence for each that could not finish;
+    ``history`` of the run itself, where it was made now."""
+
+    question: Question
+    run: Run
+    companions: Mapping[str, Run] = field(default_factory=dict)
+    lost: Sequence[str] = ()
+    history: ImpactHistory | None = None
+
+    @property
+    def every(self) -> list[Run]:
+        return [self.run, *self.companions.values()]
+
+    @property
+    def seconds(self) -> float:
+        return sum(run.seconds for run in self.every)
+
+
+def runs_of(
+    question: Question,
+    read: Reading,
+    *,
+    store: RunStore | None = None,
+    ensemble: Sequence[Method] | None = None,
+    whole_history: bool = False,
+    jobs: int = 1,
+    progress: Progress | None = None,
+) -> Runs:
+    """Run ``question`` and its companions, or find them in ``store``.
+
+    read : picklable. ensemble : in place of the question's own run and companions, the methods of a band.
+    whole_history : also the history of the run itself, which is then made anew.
+    Raises ``ValueError`` for what the method refuses, :class:`bent_beam.SimulationError` where the run cannot finish.
+    """
+    if reason := question.method.refuses(question.impact):
+        raise ValueError(reason)
+    told = progress or (lambda _: None)
+    first = question.run_by if ensemble is None else ensemble[0]
+    if ensemble is None:
+        others = question.companions()
+    else:
+        others = {f"drawn_{i}": (question.impact, one) for i, one in enumerate(ensemble[1:])}
+    share = 1.0 / (1 + len(others))
+    history: ImpactHistory | None = None
+    if whole_history or store is None:
+        history = question.run(first, progress=lambda part: told(share * part))
+        run = Run.of(history, read)
+    else:
+        run = _kept(store, question, read, first, question.impact)
+    told(share)
+    calls = [(store, question, read, method, impact) for impact, method in others.values()]
+    found = run_all(_attempted, calls, jobs=jobs, progress=lambda done, _: told(share * (1 + done)))
+    companions = {cause: one for cause, one in zip(others, found) if isinstance(one, Run)}
+    lost = [f"no companion run ({cause}): {one}" for cause, one in zip(others, found) if isinstance(one, str)]
+    return Runs(question, run, companions, lost, history)
+
+
+def _kept(store: RunStore | None, question: Question, read: Reading, method: Method, impact: Impact) -> Run:
+    def compute() -> dict[str, Any]:
+        return vars(Run.of(question.run(method, impact), read))
+
+    if store is None:
+        return Run(**compute())
+    name = read.func.__name__ if isinstance(read, partial) else read.__name__
+    given = list(read.args) if isinstance(read, partial) else []
+    key = question.key(method, impact) | {"source": source_of(type(method)), "read": [name, *given]}
+    return Run(**store.answer(key, compute))
+
+
+def _attempted(store: RunStore | None, question: Question, read: Reading, method: Method, impact: Impact) -> Run | str:
+    """A companion: a coarser run may be too coarse, or its reason why there is none."""
+    try:
+        return _kept(store, question, read, method, impact)
+    except (SimulationError, ValueError) as error:
+        return str(error)
+
+
+def numbers_of(
+    runs: Runs, names: Sequence[str], known: Mapping[str, Mapping[str, float]] | None = None
+) -> dict[str, Number]:
+    """Numbers by name from the readings. known : of a name, cause → size of what no companion shows.
+
+    Late and without damping a number is the mean of all runs, its bar two standard deviations.
+    """
+    found, extra = dict[str, Number](), known or {}
+    scattered = runs.question.late and not converges(runs.question.impact)
+    for name in names:
+        value = runs.run.reading[name]
+        others = {cause: run.reading[name] for cause, run in runs.companions.items()}
+        if scattered and len(others) > 1 and None not in (value, *others.values()):
+            values = [float(value), *(float(other) for other in others.values())]
+            parts = {"no_damping": 2.0 * statistics.stdev(values), **extra.get(name, {})}
+            found[name] = Number(statistics.fmean(values), sum(parts.values()), parts=parts)
+        else:
+            found[name] = number_of(value, others, extra.get(name))
+    return found
+
+
+def bands_of(runs: Runs, names: Sequence[str]) -> dict[str, Band | Number]:
+    """Bands over all runs; a number without a value where one of them has none."""
+    every = {name: [run.reading[name] for run in runs.every] for name in names}
+    return {name: Number() if None in values else Band.of(values) for name, values in every.items()}

@@ -1,0 +1,153 @@
+"""A whole impact as the document of ``bentbeam bounce --json`` and as a table for readers."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from bent_beam.measure.numbers import Number
+from bent_beam.measure.whole_impact import SHORTEST_SEPARATION, Hit
+from bent_beam.versions import versions
+from comparison.bouncing import Bounce, over_damping
+from comparison.energies import energy_residual, numerical_loss
+from comparison.predict_text import over_damping_lines
+from comparison.readable import BEAMS, in_unit, text_table, unit_for
+
+__all__ = ["bounce_document", "bounce_table", "hits_table"]
+
+SI = {
+    "impulse": ("impulse", "N s"),
+    "last_contact": ("time", "s"),
+    "peak_moment": ("moment", "N m"),
+    "peak_moment_place": ("length", "m"),
+    "peak_moment_time": ("time", "s"),
+    "midspan_moment": ("moment", "N m"),
+    "peak_force": ("force", "N"),
+    "translation": ("energy", "J"),
+    "vibration": ("energy", "J"),
+    "dissipated": ("energy", "J"),
+}
+ENERGY = ("translation", "vibration", "dissipated")
+TITLES = {
+    "restitution": "coefficient of restitution",
+    "impulse": "impulse",
+    "last_contact": "last contact",
+    "peak_moment": "largest bending moment",
+    "peak_force": "largest force on the wall",
+    "translation": "energy left in translation",
+    "vibration": "energy left in vibration",
+    "dissipated": "energy dissipated",
+}
+EXPERT = {
+    "peak_moment_place": "place of the largest moment, from the middle",
+    "peak_moment_time": "its time",
+    "midspan_moment": "largest moment at the middle",
+    "separations": "separations",
+}
+
+
+def bounce_document(found: Bounce) -> dict[str, Any]:
+    """The contract of ``bentbeam bounce --json``."""
+    unit, stress, balance = found.units, found.peak_stress, found.balance
+    return {
+        "model": found.impact.model,
+        "kappa_over_nu": found.impact.kappa_over_nu,
+        "damping": found.impact.relative_damping,
+        "hysteretic_loss": found.runs.run.reading["loss"],
+        **{name: number.to_dict() for name, number in found.numbers.items() if name not in ENERGY},
+        "energy": {name: found.numbers[name].to_dict() for name in ENERGY},
+        "si": {
+            name: {**found.numbers[name].scaled(unit[scale]).to_dict(), "unit": text}
+            for name, (scale, text) in SI.items()
+            if name in found.numbers
+        }
+        | {"time_unit": unit["time"]},
+        "peak_stress": None if stress is None else {**stress.to_dict(), "unit": "Pa"},
+        "yield_stress": None if found.section is None else found.section.yield_stress,
+        "shortest_separation": SHORTEST_SEPARATION,
+        "span": list(found.span),
+        "over_damping": over_damping(found),
+        "contacts": [list(times) for times in found.outcome.contacts],
+        "error_parts": {name: dict(n.parts) for name, n in found.numbers.items() if isinstance(n, Number)},
+        "energy_residual": energy_residual(found.energy),
+        "energy_defect": energy_residual(found.energy),
+        "numerical_loss": numerical_loss(found.energy),
+        "energy_gain": found.outcome.energy_gain,
+        "momentum_residual": balance.momentum,
+        "gap_of_push": balance.gap_of_push,
+        "left": found.left,
+        "steps": found.runs.run.steps,
+        "seconds": found.seconds,
+        "seed": found.seed,
+        "settings": found.settings,
+        "versions": versions(),
+        "warnings": found.warnings,
+    }
+
+
+def bounce_table(found: Bounce, *, verbose: bool = False) -> str:
+    """Every number with its error bar, in SI; ``verbose``: also in units of the beam, with places and times."""
+    rows = []
+    for name, title in {**TITLES, **(EXPERT if verbose else {})}.items():
+        if name in found.numbers:
+            rows.append([title, *_in_si(found, name), str(found.numbers[name])])
+        elif name == "peak_force":
+            rows.append([title, "none", "on a rigid wall: an impulse", ""])
+        if name == "peak_moment" and found.peak_stress is not None:
+            rows.append(["largest stress", *in_unit(found.peak_stress, "Pa"), ""])
+    columns = 4 if verbose else 3
+    name, unit = ("peak_moment", "N m") if found.section is None else ("peak_stress", "Pa")
+    rows_over = over_damping(found) or []
+    values = [row[name]["value"] for row in rows_over]
+    scale, unit = unit_for(unit, values)
+    over = [line.strip() for line in over_damping_lines(rows_over, name, scale)]
+    impact = found.impact
+    lines = [
+        text_table(["", "value", "", "beam's units"][:columns], [row[:columns] for row in rows]),
+        "",
+        BEAMS[impact.model],
+        "± is the error bar; a band is mean ± standard deviation of runs. Energies are shares of the initial energy",
+        "and the work of the loads, at the last contact: the end of the first hit, after which the beam is off the",
+        "wall for a period of its first mode at least. The largest moment and stress are those of the whole motion,",
+        f"from 0 to {1e3 * found.span[1]:.4g} ms: a period of the lowest mode after the last contact.",
+        *(f"Largest {'moment' if found.section is None else 'stress'}, {unit}, {line}." for line in over),
+    ]
+    if verbose:
+        residuals = (found.balance.momentum, found.balance.gap_of_push)
+        checks = ("-" if value is None else f"{value:.1g}" for value in residuals)
+        lines += [
+            "Read from the state: momentum residual {} of the impulse, largest gap of a push {} V0 t.".format(*checks),
+            f"kappa/nu = {impact.kappa_over_nu:.6g}, {_damping_of(found)}, "
+            f"T* = {impact.slow_time_scale:.6g} s; {found.runs.run.steps} steps, {found.seconds:.1f} s for all runs.",
+            "Beam's units: L/2 = EI = mu = V0 = 1. A separation lasts at least "
+            f"{SHORTEST_SEPARATION:g} T* ({SHORTEST_SEPARATION * found.units['time']:.3g} s).",
+        ]
+    return "\n".join([*lines, *(f"warning: {w}" for w in found.warnings)])
+
+
+def _damping_of(found: Bounce) -> str:
+    """Of the beam itself: eta/T*, or the hysteretic loss and where it holds."""
+    loss = found.runs.run.reading["loss"]
+    if loss is None:
+        return f"eta/T* = {found.impact.relative_damping:.6g}"
+    held = f"{loss['lowest_frequency']:.3g} to {loss['highest_frequency']:.3g} Hz"
+    return f"hysteretic loss {loss['loss']:g} within {100.0 * loss['deviation']:.1g} % from {held}"
+
+
+def _in_si(found: Bounce, name: str) -> list[str]:
+    """Value and unit: shares of energy in per cent."""
+    number = found.numbers[name]
+    if name in ENERGY:
+        return [str(number.scaled(100.0)), "%"]
+    quantity, unit = SI.get(name, (None, ""))
+    return in_unit(number.scaled(found.units[quantity]) if quantity else number, unit)
+
+
+def hits_table(hits: Sequence[Hit]) -> list[str]:
+    """The hits that were followed, as a table; nothing for none."""
+    if not hits:
+        return []
+    head = ["hit", "from, s", "to, s", "impulse, N s", "velocity before, m/s", "after, m/s", "restitution"]
+    names = ("begin", "end", "impulse", "before", "after", "restitution")
+    body = [[str(number), *(f"{getattr(hit, name):.5g}" for name in names)] for number, hit in enumerate(hits, 1)]
+    return ["", text_table(head, body)]

@@ -1,0 +1,292 @@
+"""The whole impact of one beam: e, impulse, times, moment, stress, energies, with bars; without damping, bands.
+
+Damping has three states. Stated: numbers. Stated 0, or little hysteretic loss: the motion does not converge
+(docs/whole_impact.md); an ensemble of runs, meshes, steps and contact laws drawn from a seed, gives mean and standard
+deviation. Not stated: numbers at each of :data:`DAMPING_RATIOS`, and the answer is that of the largest moment.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import asdict, dataclass, replace
+from functools import cached_property
+from typing import Any
+
+from bent_beam.checks import finite
+from bent_beam.free_flight import LOWEST_PERIOD
+from bent_beam.history import ImpactHistory
+from bent_beam.hysteresis import converges
+from bent_beam.impact import Impact
+from bent_beam.measure.balance import Balance, balance_of
+from bent_beam.measure.numbers import Band, Number
+from bent_beam.measure.whole_impact import Hit, WholeImpact, hits, whole_impact
+from bent_beam.method import Method, for_whole_beam, separation_times, settings_of
+from bent_beam.section import Section
+from comparison.answers import Runs, bands_of, numbers_of, runs_of
+from comparison.energies import energy_at_end, loss_warnings, numerical_loss
+from comparison.questions import Question
+from comparison.store import RunStore
+
+__all__ = ["DAMPING_RATIOS", "NUMBERS", "Bounce", "bounce", "follow_hits", "over_damping", "problem", "scales"]
+
+NUMBERS = (
+    "restitution",
+    "impulse",
+    "last_contact",
+    "separations",
+    "peak_moment",
+    "peak_moment_place",
+    "peak_moment_time",
+    "midspan_moment",
+    "translation",
+    "vibration",
+    "dissipated",
+)
+"""Fields of :class:`bent_beam.measure.whole_impact.WholeImpact` that get bars."""
+FINAL = ("restitution", "last_contact", "translation", "vibration", "dissipated")  # only once the beam has left
+TIMES = ("last_contact", "peak_moment_time")
+RUNS = 24  # of a band
+SEED = 15
+DAMPING_RATIOS = (0.0002, 0.002, 0.02)  # of the first mode: of steel alone, of a bar as it is held, with joints
+LARGEST_KAPPA = 100.0  # beyond, and long before, the beam touches in one point: infinity is calculated as this
+LONGEST = 100.0  # T*: the longest run that follows hits
+INSTANTS = 200  # saved a T* of it
+
+
+@dataclass(frozen=True)
+class Bounce:
+    """A whole impact: ``numbers`` by name (:data:`NUMBERS`), dimensionless; bands where the beam has no damping.
+
+    impact : of the run that the numbers come from. runs : that and its companions. settings : of its method.
+    seed : of the ensemble. section : what stresses follow from (``None``: none are given).
+    over : the whole impact at other damping ratios, where none was stated, by ratio.
+    """
+
+    impact: Impact
+    numbers: Mapping[str, Number | Band]
+    runs: Runs
+    settings: dict[str, Any]
+    seed: int | None = None
+    section: Section | None = None
+    over: Mapping[float, Bounce] | None = None
+
+    @cached_property
+    def outcome(self) -> WholeImpact:
+        """What the run itself came to."""
+        return _outcome(self.runs.run.reading)
+
+    @property
+    def left(self) -> bool:
+        """Whether the beam is off the wall for good in every run that a number or its bar comes from."""
+        return all(run.reading["left"] for run in self.runs.every)
+
+    @property
+    def seconds(self) -> float:
+        """Of all runs together."""
+        return self.runs.seconds
+
+    @cached_property
+    def history(self) -> ImpactHistory:
+        """Of the run itself; simulated again where only its numbers were kept."""
+        if self.runs.history is not None:
+            return self.runs.history
+        return self.runs.question.run(self.runs.question.run_by)
+
+    @property
+    def units(self) -> dict[str, float]:
+        """SI units of the numbers (:func:`scales`); shares of energy are of what the loads have worked, too."""
+        return scales(self.impact) | {"energy": self.outcome.supplied}
+
+    @property
+    def peak_stress(self) -> Number | Band | None:
+        """Largest normal stress, Pa, |M|/W + |N|/A at the place and time of the largest moment; ``None`` without a
+        section."""
+        return stress_of(self.numbers["peak_moment"].scaled(scales(self.impact)["moment"]), self.impact, self.section)
+
+    @property
+    def span(self) -> tuple[float, float]:
+        """What the largest moment, stress and force are the largest of, s: from the first touch to one period of the
+        lowest mode after the last contact."""
+        return 0.0, self.outcome.until * self.impact.slow_time_scale
+
+    @property
+    def balance(self) -> Balance:
+        """Momentum, energy and contact of the run itself, read from its state."""
+        return Balance(**self.runs.run.reading["balance"])
+
+    @property
+    def energy(self) -> dict[str, float | None]:
+        """Energies of the run at its end, J."""
+        return dict(self.runs.run.reading["energy"])
+
+    @property
+    def warnings(self) -> list[str]:
+        """What a reader must know of the numbers."""
+        found = list(self.runs.lost)
+        if self.over is not None:
+            ratios = ", ".join(f"{100.0 * ratio:g}" for ratio in self.over)
+            found.append(
+                f"no damping is stated: the numbers are those of the largest stress among {ratios} % of the first "
+                "mode; state [beam] damping_ratio"
+            )
+        if self.seed is not None:
+            loss = self.impact.hysteretic_loss
+            own = f"a hysteretic loss of {loss:g} and no other damping" if loss else "no damping"
+            found.append(
+                f"the beam has {own} of its own: the outcome is irregular and does not converge, so a band is "
+                "given; state [beam] damping (or --damping) for numbers"
+            )
+        if not self.left:
+            pressed = self.impact.net_load > 0.0
+            why = "the loads keep the beam on the wall" if pressed else "a run ended with the beam at the wall"
+            found.append(f"{why}: it has not left the wall for good, so no restitution is given")
+        elif self.impact.net_load > 0.0:
+            found.append(
+                "the loads bring the beam back to the wall; these numbers are those of the first hit (--hits follows "
+                "more)"
+            )
+        return [*found, *loss_warnings(numerical_loss(self.energy)), *self.balance.warnings]
+
+
+def problem(kappa_over_nu: float, damping: float) -> Impact:
+    """The beam in units of its half length; κ/ν = ∞ is calculated as a point contact."""
+    kappa = kappa_over_nu if kappa_over_nu == math.inf else finite("kappa_over_nu", kappa_over_nu)
+    return Impact.whole_beam(min(kappa, LARGEST_KAPPA), relative_damping=damping)
+
+
+def whole_reading(history: ImpactHistory) -> dict[str, Any]:
+    """A whole impact as it is kept: :class:`WholeImpact`, balance and energies, JSON-ready."""
+    found = asdict(whole_impact(history)) | {"balance": asdict(balance_of(history)), "energy": energy_at_end(history)}
+    return found | {"loss": history.settings.get("hysteretic_loss")}
+
+
+def _outcome(reading: Mapping[str, Any]) -> WholeImpact:
+    names = WholeImpact.__dataclass_fields__
+    contacts = tuple((float(begin), float(end)) for begin, end in reading["contacts"])
+    return WholeImpact(**{name: reading[name] for name in names if name != "contacts"}, contacts=contacts)
+
+
+def bounce(
+    impact: Impact,
+    method: Method,
+    *,
+    section: Section | None = None,
+    damping_stated: bool = True,
+    runs: int = RUNS,
+    seed: int = SEED,
+    save: int | None = None,
+    store: RunStore | None = None,
+    history: bool = False,
+    jobs: int = 1,
+    progress: Callable[[float], None] | None = None,
+) -> Bounce:
+    """Follow ``impact`` to its last separation by ``method``, and by what it names to compare with.
+
+    section : of the beam, for its stress. damping_stated : otherwise over :data:`DAMPING_RATIOS`.
+    runs, seed : of the ensemble, where the beam has no damping. save : saved instants a T*.
+    store : where runs are kept. history : also keep that of the run itself.
+    Raises ``ValueError`` for what the method refuses, :class:`bent_beam.SimulationError` when it cannot finish.
+    """
+    separation_times(impact)  # refuses what no separation ends
+    how = {"section": section, "save": save, "store": store, "history": history, "jobs": jobs}
+    if not damping_stated and not (impact.damping or impact.hysteretic_loss):
+        told, share = progress or (lambda _: None), 1.0 / len(DAMPING_RATIOS)
+        found: dict[float, Bounce] = {}
+        for i, ratio in enumerate(DAMPING_RATIOS):
+            damped = impact.replace(damping=ratio * LOWEST_PERIOD / math.pi * impact.slow_time_scale)
+            found[ratio] = bounce(damped, method, **how, progress=lambda done, i=i: told(share * (i + done)))  # type: ignore[arg-type,misc]
+        largest = max(found.values(), key=lambda one: one.numbers["peak_moment"].value or 0.0)
+        return replace(largest, over=found)
+    question = Question(impact, method, save=save)
+    ensemble = None if converges(impact) else question.drawn(runs, seed)
+    kept = {"store": store, "ensemble": ensemble, "whole_history": history, "jobs": jobs, "progress": progress}
+    made = runs_of(question, whole_reading, **kept)  # type: ignore[arg-type]
+    names = NUMBERS if made.run.reading["peak_force"] is None else (*NUMBERS, "peak_force")
+    numbers: dict[str, Number | Band]
+    if ensemble is None:
+        known: dict[str, dict[str, float]] = {
+            name: {"saved_instants": 0.5 * made.run.reading["spacing"]} for name in TIMES
+        }
+        known["restitution"] = {"saved_instants": made.run.reading["drift"]}
+        numbers = dict(numbers_of(made, names, known))
+    else:
+        numbers = bands_of(made, names)
+    if not all(run.reading["left"] for run in made.every):
+        numbers |= {name: Number() for name in FINAL}
+    return Bounce(
+        impact=impact,
+        numbers=numbers,
+        runs=made,
+        settings=settings_of(question.run_by if ensemble is None else for_whole_beam(ensemble[0], impact)),
+        seed=None if ensemble is None else seed,
+        section=section,
+    )
+
+
+def over_damping(found: Bounce) -> list[dict[str, Any]] | None:
+    """The whole impact at each damping ratio where none was stated, SI, JSON-ready; ``None`` where one was."""
+    if found.over is None:
+        return None
+    rows = []
+    for ratio, one in found.over.items():
+        unit, stress = scales(one.impact), one.peak_stress
+        force = one.numbers.get("peak_force")
+        rows.append(
+            {
+                "damping_ratio": ratio,
+                "restitution": one.numbers["restitution"].to_dict(),
+                "peak_moment": one.numbers["peak_moment"].scaled(unit["moment"]).to_dict(),
+                "peak_stress": None if stress is None else stress.to_dict(),
+                "peak_force": None if force is None else force.scaled(unit["force"]).to_dict(),
+            }
+        )
+    return rows
+
+
+def scales(impact: Impact) -> dict[str, float]:
+    """SI units of the dimensionless numbers: N s, s, N m, J, m, N."""
+    impulse = impact.mass_per_length * impact.half_length * impact.velocity
+    return {
+        "impulse": impulse,
+        "time": impact.slow_time_scale,
+        "moment": impact.velocity * math.sqrt(impact.bending_stiffness * impact.mass_per_length),
+        "energy": impulse * impact.velocity,
+        "length": impact.half_length,
+        "force": impulse / impact.slow_time_scale,
+    }
+
+
+def stress_of(moment: Number | Band, impact: Impact, section: Section | None) -> Any:
+    """Largest normal stress, Pa, of a largest ``moment``, N m; ``None`` without a section."""
+    if section is None:
+        return None
+    return moment.scaled(1.0 / section.section_modulus, section.stress(0.0, impact.axial_force), "Pa")
+
+
+def follow_hits(
+    impact: Impact,
+    method: Method,
+    count: int,
+    *,
+    first: ImpactHistory,
+    progress: Callable[[float], None] | None = None,
+) -> list[Hit]:
+    """The first ``count`` hits of a beam on its wall by one run, fewer where it does not come back.
+
+    first : the run that a first hit has been read from: the first row is its own.
+    Raises ``ValueError`` for what the method refuses, and between two walls.
+    """
+    if impact.opposite_wall is not None:
+        raise ValueError("--hits: follows one wall; between two, bentbeam simulate lists the hits")
+    chosen, period = for_whole_beam(method, impact), LOWEST_PERIOD * impact.slow_time_scale
+    fall = impact.net_load / impact.mass_per_length  # acceleration back to the wall, m/s²
+    end, longest = 2.0 * period, LONGEST * impact.slow_time_scale
+    while True:
+        save = round(INSTANTS * end / impact.slow_time_scale)
+        found = hits(chosen.simulate(impact, end_time=end, save=save, progress=progress))
+        over = [hit for hit in found if end - hit.end >= period]
+        if len(over) >= count or end >= longest or (over and fall <= 0.0):
+            return [*hits(first)[:1], *over[1:count]]
+        flight = 2.0 * max(-over[-1].after, 0.0) / fall if over else end
+        end = min(end + flight + 2.0 * period, longest)

@@ -1,0 +1,128 @@
+"""The doors for Python: what the commands of the same names answer, with the same numbers."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from bent_beam.cases import Case, load_case
+from bent_beam.impact import Impact
+from bent_beam.method import Method, method_from_tables
+from comparison import bouncing, predicting
+from comparison.bounce_text import bounce_document, bounce_table
+from comparison.matching import match as match_all
+from comparison.predict_text import prediction_text
+from comparison.rows import THESIS_KAPPAS, MatchRow, match_document, match_table, questions
+from comparison.store import RunStore, default_store
+
+__all__ = ["Bounced", "Matched", "Predicted", "bounce", "match", "predict"]
+
+Beam = Case | Impact | str | Path
+
+
+def case_of(beam: Beam) -> Case:
+    """A case, or that of a file, or of an impact whose damping is as it says. Raises ``InputError``."""
+    if isinstance(beam, Case):
+        return beam
+    if isinstance(beam, Impact):
+        return Case(title="", impact=beam, end_time=beam.checked_end_time(), mesh=None, tables={})
+    return load_case(beam)
+
+
+@dataclass(frozen=True)
+class Bounced:
+    """A whole impact: ``found`` has its numbers, runs and warnings."""
+
+    found: bouncing.Bounce
+
+    def to_dict(self) -> dict[str, Any]:
+        """The contract of ``bentbeam bounce --json``."""
+        return bounce_document(self.found)
+
+    def __str__(self) -> str:
+        return bounce_table(self.found)
+
+    def plot(self) -> Any:
+        """Force, contact and shapes over time, as a Matplotlib figure."""
+        from comparison.figures.whole_impact import bounce_figure
+
+        return bounce_figure(self.found)
+
+
+@dataclass(frozen=True)
+class Predicted:
+    """A prediction: ``found`` has theory, simulated numbers at each time, and the whole impact."""
+
+    found: predicting.PredictedCase
+
+    def to_dict(self) -> dict[str, Any]:
+        """The contract of ``bentbeam predict --json``."""
+        return self.found.to_dict()
+
+    def __str__(self) -> str:
+        return prediction_text(self.found.to_dict())
+
+    def plot(self) -> Any:
+        """Of the whole impact, as a Matplotlib figure. Raises ``ValueError`` where it is not simulated."""
+        if self.found.whole is None:
+            raise ValueError(f"the whole impact is not there to be drawn: {self.found.no_whole}")
+        return Bounced(self.found.whole).plot()
+
+
+def predict(beam: Beam, *times: float, theory_only: bool = False, fresh: bool = False) -> Predicted:
+    """Theory beside simulation at ``times``, s (default: the case's own), and the whole impact.
+
+    beam : a case, its file, or an impact. theory_only : nothing is simulated. fresh : stored runs are ignored.
+    Raises ``ValueError`` for what theory or simulation does not take, :class:`bent_beam.SimulationError`.
+    """
+    case = case_of(beam)
+    store = RunStore(None if fresh else default_store())
+    return Predicted(predicting.predict_case(case, times or (case.end_time,), theory_only=theory_only, store=store))
+
+
+def bounce(beam: Beam, path: str = "hermite", *, jobs: int = 1, fresh: bool = False) -> Bounced:
+    """The whole impact by the method of ``path``, to the last separation.
+
+    beam : a case, its file, or an impact. jobs : processes. fresh : stored runs are ignored.
+    Raises ``ValueError`` for what the method refuses, :class:`bent_beam.SimulationError` when it cannot finish.
+    """
+    case = case_of(beam)
+    how: dict[str, Any] = {"section": case.section, "damping_stated": case.damping_stated, "jobs": jobs}
+    store = RunStore(None if fresh else default_store())
+    return Bounced(bouncing.bounce(case.impact, case.method(path), store=store, **how))
+
+
+class Matched(list[MatchRow]):
+    """Rows of a match."""
+
+    def to_dict(self) -> dict[str, Any]:
+        """The contract of ``bentbeam match --json``."""
+        return match_document(self)
+
+    def __str__(self) -> str:
+        return match_table(self)
+
+    def plot(self) -> Any:
+        """λ₀ and r₀ over κ/ν on the theory's curves, as a Matplotlib figure."""
+        from comparison.figures.matching import leading_figure
+
+        return leading_figure(self)
+
+
+def match(
+    *methods: Method | str,
+    kappa_over_nu: Iterable[float] = THESIS_KAPPAS,
+    first_order: Sequence[Sequence[float | None]] = (),
+    refine: Sequence[float] = (1.0,),
+    jobs: int = 1,
+    fresh: bool = False,
+) -> Matched:
+    """Hold methods (or paths; default: Hermite and Exudyn) against the theory: a row for each κ/ν, load and refinement.
+
+    first_order : (α, ψ, χ[, N]) each; none: the leading order. jobs : processes. fresh : stored runs are ignored.
+    """
+    made = [method_from_tables(one, {}) if isinstance(one, str) else one for one in methods or ("hermite", "exudyn")]
+    asked = questions(made, kappa_over_nu, first_order, refine)
+    return Matched(match_all(asked, store=RunStore(None if fresh else default_store()), jobs=jobs))

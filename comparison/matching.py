@@ -1,0 +1,262 @@
+"""Any method held against the theory: leading order from one run at ε = 0, first order by ε → 0.
+
+Nothing here knows a path. A method simulates; its history is reduced to moments of the impulse; the estimators read
+λ₀, r₀, λ₁, r₁ off them; the theory is joined to the numbers afterwards.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import asdict, dataclass
+from typing import Any
+
+import numpy as np
+
+from bent_beam.checks import positive
+from bent_beam.errors import ANY_FAILURE, SimulationError, TimeLimitError
+from bent_beam.impact import Impact
+from bent_beam.measure.balance import balance_of
+from bent_beam.measure.estimators import FirstOrderEstimate, LeadingEstimate, first_order, leading_order
+from bent_beam.measure.moments import Moments, moments
+from bent_beam.measure.numbers import MISSING, Number, number_of
+from bent_beam.measure.reduction import hold_of, pull_of, wall_peaks
+from bent_beam.method import Method, chosen_for, refined, settings_of, simulated
+from comparison.questions import ERROR_BARS
+from comparison.rows import MatchRow, Question, about, first_order_epsilon, lost_row, with_theory
+from comparison.store import RunStore, source_of
+from comparison.workers import Clock, run_all
+
+__all__ = ["INSTANTS", "answer", "match"]
+
+INSTANTS = 250
+SHARES = (0.35, 0.7, 1.0)  # of the largest ε
+PERTURBATION = 0.05  # see first_order_epsilon (tests: half, twice); a method may carry its own ``perturbation``
+WIDE = 0.02  # of a leading-order number: a wider error bar deserves a warning
+WIDE_FIRST = 0.1  # of max(|r₁|, 1), likewise
+
+
+class Refused(ValueError):
+    """What a method refuses, when it is made or before its run; any other error is a failure."""
+
+
+@dataclass(frozen=True)
+class _Reduced:
+    moments: Moments
+    peak_force: float | None
+    pull: float | None
+    hold: dict[str, float | None] | None
+    warnings: list[str]
+    seconds: float
+    steps: int
+    momentum_residual: float | None = None
+    gap_of_push: float | None = None
+
+
+def _reduced(
+    store: RunStore,
+    method: Method,
+    impact: Impact,
+    duration: float,
+    *,
+    uniform: bool = False,
+    clock: Clock | None = None,
+) -> _Reduced:
+    """A run to ``duration`` (t*) reduced to moments, from the store where it is there; ``uniform``: see
+    :func:`moments`. The run without loads must be reduced as the loaded ones are, or the noise that they share does
+    not drop out."""
+    question = {
+        "settings": settings_of(method) | {"label": ""},
+        "source": source_of(type(method)),
+        "impact": asdict(impact),
+        "duration": duration,
+        "uniform": uniform,
+    }
+
+    def compute() -> dict[str, Any]:
+        asked = None if clock is None else clock.progress()
+        end = duration * impact.time_scale
+        try:
+            history = simulated(method.simulate, impact, end_time=end, save=INSTANTS, progress=asked)
+        except ValueError as error:
+            raise Refused(str(error)) from None
+        found, peaks, balance = moments(history, uniform=uniform), wall_peaks(history), balance_of(history)
+        unit = (impact.wall_stiffness or 1.0) ** 0.25  # EI = μ = V₀ = 1
+        return {
+            "moments": found,
+            "peak_force": None if peaks is None else peaks.force / unit,
+            "pull": pull_of(history),
+            "hold": hold_of(history),
+            "warnings": [*history.warnings, *balance.warnings],
+            "seconds": history.seconds,
+            "steps": history.steps,
+            "momentum_residual": balance.momentum,
+            "gap_of_push": balance.gap_of_push,
+        }
+
+    return _Reduced(**store.answer(question, compute, _as_text, _from_text))
+
+
+def _as_text(found: dict[str, Any]) -> dict[str, Any]:
+    return found | {"moments": {name: values.tolist() for name, values in vars(found["moments"]).items()}}
+
+
+def _from_text(kept: dict[str, Any]) -> dict[str, Any]:
+    return kept | {"moments": Moments(**{name: np.array(values) for name, values in kept["moments"].items()})}
+
+
+@dataclass(frozen=True)
+class _Estimates:
+    """What the runs at one resolution gave: ``run`` alone without loads, ``runs`` all of them; ``base`` without loads
+    and ``loaded`` at each ε on the mesh for first order; ``pressure`` on the zone over ε."""
+
+    run: _Reduced
+    runs: list[_Reduced]
+    base: Moments | None = None
+    loaded: Sequence[tuple[float, Moments]] = ()
+    pressure: float = 0.0
+
+    def leading(self, others: Sequence[_Estimates] = ()) -> LeadingEstimate:
+        return leading_order(self.run.moments, companions=[o.run.moments for o in others])
+
+    def first(self, others: Sequence[_Estimates] = ()) -> FirstOrderEstimate | None:
+        """``None`` where first order was not asked for."""
+        if self.base is None:
+            return None
+        companions = [found for found in (o.first() for o in others) if found]
+        return first_order(self.loaded, self.base, self.leading(others), pressure=self.pressure, companions=companions)
+
+
+def _estimates(
+    question: Question, factor: float, store: RunStore, epsilon: float | None, clock: Clock | None
+) -> _Estimates:
+    """Run and estimate at ``factor`` times the method's own resolution; ``epsilon`` is the largest ε, ``None``: chosen.
+
+    Raises :class:`Refused` for what the method refuses.
+    """
+    asked, first = question.method, question.first
+    method = refined(asked, factor)
+    if method is None:
+        raise Refused(f"refine: {asked.path} does not know how to be refined (got {factor:g})")
+    bare = question.bare
+    _raise_if_refused(method, bare)
+    run = _reduced(store, method, bare, question.duration, clock=clock)
+    if first is None:
+        return _Estimates(run, [run])
+    top = epsilon
+    if top is None:
+        perturbation = getattr(asked, "perturbation", PERTURBATION)
+        top = first_order_epsilon(leading_order(run.moments), first, perturbation, question.duration)
+    largest = question.loaded(top)
+    _raise_if_refused(method, largest)
+    fixed = chosen_for(method, largest, question.duration * bare.time_scale)
+    # only a load that presses the zone leaves a uniform reaction to take out, of the bare run too
+    pressed = largest.zone_pressure > 0.0
+    base, *found = (
+        _reduced(store, fixed, question.loaded(share * top), question.duration, uniform=pressed, clock=clock)
+        for share in (0.0, *SHARES)
+    )
+    moved = [(share * top, one.moments) for share, one in zip(SHARES, found)]
+    return _Estimates(run, [run, base, *found], base.moments, moved, largest.zone_pressure / top)
+
+
+def _raise_if_refused(method: Method, impact: Impact) -> None:
+    """Ask the method before its run. Raises :class:`Refused` with its reason."""
+    if reason := method.refuses(impact):
+        raise Refused(str(reason))
+
+
+def answer(question: Question, store: RunStore, limit: float | None = None) -> MatchRow:
+    """Simulate and estimate one row; companion runs at other resolutions say what the error bar is.
+
+    limit : s, of the row. Raises :class:`Refused`, :class:`bent_beam.SimulationError`, :class:`TimeLimitError`.
+    """
+    clock = None if limit is None else Clock(limit)
+    fine = _estimates(question, question.refine, store, None, clock)
+    others, lost = list[_Estimates](), list[str]()
+    epsilon = fine.loaded[-1][0] if fine.loaded else None
+    for factor in ERROR_BARS[question.error_bars]:
+        try:
+            others.append(_estimates(question, factor * question.refine, store, epsilon, clock))
+        except (ValueError, SimulationError) as error:
+            what = f"no companion run at {factor:g} times the resolution, so the error bar is a guess"
+            lost.append(f"{what}: {error}")
+    leading, estimate = fine.leading(others), fine.first(others)
+    warnings = [w for r in fine.runs for w in r.warnings] + lost
+    if leading.lambda0.spread > WIDE * max(leading.lambda0.known, 0.1) or leading.r0.spread > WIDE * leading.r0.known:
+        warnings.append(f"wide error bar: λ₀ = {leading.lambda0}, r₀ = {leading.r0}")
+    if estimate is not None and estimate.r1.spread > WIDE_FIRST * max(abs(estimate.r1.known), 1.0):
+        warnings.append(f"wide error bar: r₁ = {estimate.r1}")
+    holds = [r.hold for r in fine.runs if r.hold]
+    names = ("pull", "momentum_residual", "gap_of_push")
+    checks: dict[str, Any] = {name: _largest(getattr(r, name) for r in fine.runs) for name in names}
+    return MatchRow(
+        **about(question),
+        **with_theory(question, leading, estimate),
+        peak_force=_peak_force(question, fine.run, [o.run for o in others]),
+        lift=leading.lift,
+        **checks,
+        hold={name: _largest(h[name] for h in holds) for name in ("until", "pull")} if holds else None,
+        seconds=sum(r.seconds for r in fine.runs),
+        steps=sum(r.steps for r in fine.runs),
+        epsilons=list(estimate.epsilons) if estimate else [],
+        warnings=sorted(set(warnings)),
+    )
+
+
+def _peak_force(question: Question, run: _Reduced, others: Sequence[_Reduced]) -> Number:
+    """The largest force on a wall that gives way, beside the theory of that wall."""
+    if run.peak_force is None:
+        return MISSING
+    from theory.elastic_wall import FLATTEST, MOST_DAMPED, SHARPEST, peak_force
+
+    theory, (_, ratio) = None, question.wall or (0.0, 0.0)
+    if not question.first and FLATTEST <= question.kappa_over_nu <= SHARPEST and ratio <= MOST_DAMPED:
+        theory = peak_force(question.kappa_over_nu, ratio).value
+    return number_of(run.peak_force, {f"resolution_{i}": o.peak_force for i, o in enumerate(others)}, theory=theory)
+
+
+def _largest(values: Iterable[float | None]) -> float | None:
+    return max((value for value in values if value is not None), default=None)
+
+
+def _attempt(question: Question, store: RunStore, limit: float | None) -> MatchRow:
+    """One question in a worker: a failure is an answer too, so that a sweep of hours goes on."""
+    try:
+        return answer(question, store, limit)
+    except ANY_FAILURE as error:
+        foreseen = isinstance(error, (ValueError, SimulationError, TimeLimitError))
+        reason = str(error) if foreseen else f"{type(error).__name__}: {error}"
+        return lost_row(question, reason, refused=isinstance(error, Refused))
+
+
+def match(
+    asked: Sequence[Question],
+    *,
+    store: RunStore | None = None,
+    jobs: int = 1,
+    scheduler: str | None = None,
+    limit: float | None = None,
+    progress: Callable[[int, int], None] | None = None,
+) -> list[MatchRow]:
+    """A row for each question, in their order, with ``jobs`` processes or on a dask ``scheduler``.
+
+    limit : seconds that one row may take (``None``: no limit); one that takes longer is a failure.
+    The rows are the same, bit for bit, for any number of jobs. ``progress(done, total)`` is called after each.
+
+    >>> from comparison.matching import match
+    >>> from comparison.rows import Question
+    >>> from self_similar_fe import SelfSimilarFE
+    >>> row = match([Question(SelfSimilarFE(), 0.5)])[0]
+    >>> row.label, row.r0.covered
+    ('Self-similar', True)
+    """
+    if limit is not None:
+        positive("limit", limit)
+    return run_all(
+        _attempt,
+        [(question, store or RunStore(None), limit) for question in asked],
+        jobs=jobs,
+        scheduler=scheduler,
+        progress=progress,
+        on_death=lambda i, why: lost_row(asked[i], why),
+    )

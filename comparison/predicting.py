@@ -1,0 +1,231 @@
+"""One beam: the theory of its first instants beside a simulation of the beam as it is, and its whole impact.
+
+The theory says what closed forms and formulas allow (:mod:`theory.validity`). The simulation runs the whole beam with
+its ends, loads, damping and wall: a question to each time, and one to the last separation, the same that ``simulate``
+and ``bounce`` ask (:mod:`comparison.questions`).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import asdict, dataclass
+from functools import partial
+from itertools import groupby
+from typing import Any
+
+import numpy as np
+
+from bent_beam.cases import Case
+from bent_beam.errors import SimulationError
+from bent_beam.history import ImpactHistory
+from bent_beam.hysteresis import converges
+from bent_beam.impact import Impact
+from bent_beam.measure.instant import instant
+from bent_beam.measure.numbers import Number
+from bent_beam.method import Method
+from comparison.answers import Runs, numbers_of, runs_of
+from comparison.bouncing import Bounce, bounce, over_damping, scales, stress_of
+from comparison.energies import energy_at_end, loss_warnings, numerical_loss
+from comparison.questions import Question
+from comparison.store import RunStore
+from theory import Prediction, predict
+
+__all__ = ["COMPARED", "PredictedCase", "instant_numbers", "instants_reading", "predict_case"]
+
+PATH = "hermite"
+COMPARED = ("half_contact_length", "reaction", "impulse", "peak_moment", "peak_stress")
+"""What theory and simulation both say at a time."""
+OF_INSTANT = ("half_contact_length", "reaction", "impulse", "peak_moment", "peak_force", "peak_penetration",
+              "peak_pressure")  # fmt: skip
+"""Fields of :class:`bent_beam.measure.instant.Instant` that are numbers."""
+
+CHECKED = 24  # instants between a hundredth of the last time and the last, at which theory and simulation are compared
+AGREE = 0.02  # of the theory's number, beyond the error bar
+LATEST = 20.0  # T*: later times are not simulated
+STEEP = 0.3  # slope of the bow at the beam's ends from which the small-slope theory deserves a warning
+VISCOSITY = 2e-3  # of an early number: what grid viscosity and start do to a run and its companion alike
+CHATTER = 0.01  # of the largest moment, without damping: what single nodes add to it
+
+Progress = Callable[[float], None]
+
+
+def instants_reading(times: tuple[float, ...], first_spread: bool, history: ImpactHistory) -> dict[str, Any]:
+    """What a run says at the last of ``times``, s, and at those before, JSON-ready."""
+    *earlier, last = times
+    before = [asdict(instant(history, t, first_spread=first_spread, with_lift=False)) for t in earlier]
+    found = asdict(instant(history, last, first_spread=first_spread))
+    return found | {"before": before, "energy": energy_at_end(history)}
+
+
+def instant_numbers(runs: Runs) -> dict[str, Number]:
+    """The numbers at the time of a question, SI, from runs read by :func:`instants_reading`."""
+    question, reading = runs.question, runs.run.reading
+    known: dict[str, dict[str, float]] = {name: {} for name in OF_INSTANT}
+    known["half_contact_length"]["element"] = reading["element"]
+    if not question.late:
+        for name in OF_INSTANT:
+            known[name]["grid_viscosity"] = VISCOSITY * abs(reading[name] or 0.0)
+        lifted = _thrown_off(question.impact, reading["lift"])
+        for name, share in zip(("impulse", "half_contact_length"), lifted):
+            known[name]["lift"] = share * (reading[name] or 0.0)
+    if not converges(question.impact):
+        known["peak_moment"]["chatter"] = CHATTER * reading["peak_moment"]
+    return numbers_of(runs, OF_INSTANT, known)
+
+
+def _thrown_off(impact: Impact, lift: float) -> tuple[float, float]:
+    """What the scheme does where it throws the zone off the wall by ``lift`` V₀t: shares of the impulse and of the half
+    length. A load, damping, or a wall that gives way may lift it rightly. Companions are thrown off, too."""
+    from bent_beam.measure.estimators import lift_shares
+
+    may = impact.lifts or impact.damping or impact.wall_stiffness is not None
+    return (0.0, 0.0) if may else lift_shares(lift)
+
+
+@dataclass(frozen=True)
+class PredictedCase:
+    """What is known of a case: ``theory``, at the times ``simulated`` by name, and the whole impact.
+
+    agreement : the longest interval, s, in which half length and impulse of theory and simulation agree within bars and
+    2 %. whole : ``None`` where it is not simulated, for the reason ``no_whole``. runs : to the last time.
+    """
+
+    case: Case
+    theory: Prediction
+    simulated: Sequence[dict[str, Number]] | None
+    agreement: dict[str, float] | None
+    whole: Bounce | None
+    no_whole: str | None
+    warnings: list[str]
+    runs: Runs | None = None
+
+    def to_dict(self) -> dict[str, Any]:
+        """The contract of ``bentbeam predict --json``."""
+        document = self.theory.to_dict()
+        rows = document["times"]
+        if self.simulated is not None:
+            for row, numbers in zip(rows, self.simulated):
+                row["simulation"] = {name: n.to_dict() for name, n in numbers.items() if name in COMPARED}
+        return document | {
+            "times": rows[: len(rows) if self.simulated is None else len(self.simulated)],
+            "model": self.case.impact.model,
+            "warnings": self.warnings,
+            "agreement": self.agreement,
+            "yield_stress": getattr(self.case.section, "yield_stress", None),
+            "whole_impact": self._whole,
+            "no_whole_impact": self.no_whole,
+        }
+
+    @property
+    def _whole(self) -> dict[str, Any] | None:
+        """Restitution, last contact, largest moment, stress and force of the whole impact, SI."""
+        if self.whole is None:
+            return None
+        found, unit, stress = self.whole.numbers, scales(self.whole.impact), self.whole.peak_stress
+        return {
+            "restitution": found["restitution"].to_dict(),
+            "last_contact": found["last_contact"].scaled(unit["time"]).to_dict(),
+            "peak_moment": found["peak_moment"].scaled(unit["moment"]).to_dict(),
+            "peak_stress": None if stress is None else stress.to_dict(),
+            "peak_force": found["peak_force"].scaled(unit["force"]).to_dict() if "peak_force" in found else None,
+            "span": list(self.whole.span),
+            "over_damping": over_damping(self.whole),
+            "warnings": self.whole.warnings,
+        }
+
+
+def predict_case(
+    case: Case,
+    times: Sequence[float],
+    *,
+    theory_only: bool = False,
+    whole: bool = True,
+    store: RunStore | None = None,
+    progress: Progress | None = None,
+) -> PredictedCase:
+    """Theory beside simulation at ``times`` (s, each ≥ 0), and, with ``whole``, the whole impact.
+
+    store : where runs are kept. progress : called with the finished fraction of the simulations.
+    Raises ``ValueError`` for what the theory does not cover, :class:`bent_beam.SimulationError` where a simulation
+    cannot finish.
+    """
+    impact, method = case.impact, None if theory_only else case.method(PATH)
+    last = max(times)
+    if method is None or last <= 0.0:
+        prediction = predict(impact, times, section=case.section)
+        return PredictedCase(case, prediction, None, None, None, "nothing is simulated", _steep(impact))
+    within = min(last, LATEST * impact.slow_time_scale)
+    checked = np.geomspace(0.01 * within, within, CHECKED).tolist()
+    prediction = predict(impact, [*times, *checked], section=case.section)
+    told, share = progress or (lambda _: None), 1.0 / (len(set(times)) + whole)
+    found: dict[float, Runs] = {}
+    for i, time in enumerate(sorted({t for t in times if 0.0 < t <= within})):
+        question = Question(impact, method, until=time)
+        read = partial(instants_reading, (*checked, time) if time == within else (time,), question.first_spread)
+        found[time] = runs_of(question, read, store=store, progress=lambda done, i=i: told(share * (i + done)))  # type: ignore[misc]
+    simulated = [_at(found.get(time), case) for time in times]
+    warnings = _steep(impact) + _of_runs(found.values())
+    if last > within:
+        warnings.append(f"times beyond {within:.4g} s ({LATEST:g} T*) are not simulated here: bentbeam simulate")
+    impacts: tuple[Bounce | None, str | None] = (None, None)
+    if whole:
+        impacts = _whole_impact(case, method, store, lambda done: told(1.0 - share * (1.0 - done)))
+    agreement = _agreement(checked, prediction, found[within], len(times)) if within in found else None
+    return PredictedCase(case, prediction, simulated, agreement, *impacts, sorted(set(warnings)), found.get(within))
+
+
+def _at(runs: Runs | None, case: Case) -> dict[str, Number]:
+    """The numbers of one time; nothing where nothing was simulated."""
+    if runs is None:
+        return {}
+    found = instant_numbers(runs)
+    stress = stress_of(found["peak_moment"], case.impact, case.section)
+    return found if stress is None else found | {"peak_stress": stress}
+
+
+def _of_runs(every: Any) -> list[str]:
+    found: list[str] = []
+    for runs in every:
+        found += [*runs.lost, *loss_warnings(numerical_loss(runs.run.reading["energy"]))]
+    return found
+
+
+def _steep(impact: Impact) -> list[str]:
+    slope = impact.relative_curvature * impact.half_length
+    steep = (
+        f"the bow's own slope at its ends is {slope:.2g}: theory and simulation are for small slopes (at 0.5 the force "
+        "is about 10 % larger)"
+    )
+    return [steep] if slope >= STEEP else []
+
+
+def _whole_impact(
+    case: Case, method: Method, store: RunStore | None, progress: Progress
+) -> tuple[Bounce | None, str | None]:
+    """What ``bounce`` says of the case, or why it says nothing."""
+    how: dict[str, Any] = {"section": case.section, "damping_stated": case.damping_stated, "store": store}
+    try:
+        return bounce(case.impact, method, **how, progress=progress), None
+    except (ValueError, SimulationError) as error:
+        return None, str(error)
+
+
+def _agreement(checked: Sequence[float], prediction: Prediction, runs: Runs, first: int) -> dict[str, float] | None:
+    """The longest interval between checked instants in which half length and impulse agree within bars and 2 %;
+    ``None`` where they agree at none."""
+    agree = []
+    for i, row in enumerate(prediction.times[first:]):
+        others = {cause: _before(one, i) for cause, one in runs.companions.items()}
+        found = instant_numbers(Runs(runs.question, _before(runs.run, i), others))
+        pairs = [(getattr(row, name), found[name]) for name in ("half_contact_length", "impulse")]
+        agree.append(
+            all(a is not None and b.measured and abs(b.known - a) <= b.spread + AGREE * abs(a) for a, b in pairs)
+        )
+    spans = [list(span) for both, span in groupby(range(len(agree)), key=agree.__getitem__) if both]
+    longest = max(spans, key=len, default=None)
+    return {"from": checked[longest[0]], "until": checked[longest[-1]]} if longest else None
+
+
+def _before(run: Any, i: int) -> Any:
+    """A run read at an earlier instant."""
+    return type(run)(run.reading["before"][i], run.warnings, run.seconds, run.steps)

@@ -1,0 +1,144 @@
+"""What is asked of one beam, the run that answers it, and the runs that say how well.
+
+    question ─► run, and companions: another run a cause of error ─► readings ─► numbers  (:mod:`comparison.answers`)
+
+- early (before :data:`EARLY` T*; without damping before waves return from the ends): on elements that resolve the
+  front, with the damping at grid scale that this takes;
+- later, and for the whole impact: of the whole beam, strictly unilateral, with no damping but the beam's own.
+
+Companions: half the elements and steps; and later another contact law, for no refinement of one scheme shows what the
+scheme does. Without damping late motion does not converge: other elements, steps and contact laws, drawn from a seed.
+Whoever asks the same question gets the same runs.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import asdict, dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bent_beam.checks import one_of
+from bent_beam.history import ImpactHistory
+from bent_beam.hysteresis import branches_of, converges
+from bent_beam.impact import BEFORE_WAVES_RETURN, Impact
+from bent_beam.measure.instant import BEYOND
+from bent_beam.method import Method, for_whole_beam, refined, settings_of, simulate_to_separation, simulated
+
+__all__ = ["ERROR_BARS", "Question"]
+
+Array = NDArray[np.float64]
+EARLY = 0.003  # T*
+COARSER, FINER = 0.5, 2.0
+DRAWN, SEED = 5, 15  # runs of an ensemble at a time, without damping
+FINEST, USUAL_END = 2.0, 0.05  # resolution over the whole beam's own choice, up to this time, T*
+INSTANTS, OF_UNIT = 200, 2000  # saved: up to the time asked, evenly in √t; of a whole impact, a T*
+ERROR_BARS = {"drift": (), "quick": (COARSER,), "thorough": (COARSER, FINER)}
+"""Resolutions of the companion runs that error bars come from, by name."""
+
+
+@dataclass(frozen=True)
+class Question:
+    """One beam by one method. until : s; ``None``: the whole impact, to its last separation. save : saved instants,
+    see :data:`INSTANTS`. error_bars : a key of :data:`ERROR_BARS`.
+
+    A run to a time goes on a tenth of it beyond, for what is read around it.
+    """
+
+    impact: Impact
+    method: Method
+    until: float | None = None
+    save: int | None = None
+    error_bars: str = "quick"
+
+    def __post_init__(self) -> None:
+        one_of("error_bars", self.error_bars, ERROR_BARS)
+
+    @property
+    def late(self) -> bool:
+        """Whether it is about the whole beam and not about the first spread of its contact."""
+        first = EARLY if converges(self.impact) else BEFORE_WAVES_RETURN
+        return self.until is None or self.until > first * self.impact.slow_time_scale
+
+    @property
+    def first_spread(self) -> bool:
+        """Whether it is about the first spread of a zone about the middle of a beam before a rigid wall."""
+        impact = self.impact
+        other = impact.wall_stiffness is not None or impact.off_centre or impact.wall_in_part or impact.supported
+        return not other and not self.late
+
+    @property
+    def run_by(self) -> Method:
+        """The method with what it leaves open chosen."""
+        return self._chosen(self.method)
+
+    def _chosen(self, method: Method) -> Method:
+        """``method`` as this question takes it: a whole beam's elements are the finer the sooner a run ends."""
+        if not self.late:
+            return method
+        finer = 1.0
+        if self.until is not None and getattr(method, "mesh", None) is None:
+            share = USUAL_END * self.impact.slow_time_scale / self.until
+            finer = max(1.0, FINEST * min(1.0, share ** (1.0 / 3.0)))
+        return for_whole_beam(refined(method, finer) or method, self.impact)
+
+    def companions(self) -> dict[str, tuple[Impact, Method]]:
+        """Cause of error → what is run for it."""
+        if self.error_bars == "drift":
+            return {}
+        chosen, others = self.run_by, dict[str, Method]()
+        if self.late and not converges(self.impact):
+            return {f"drawn_{i}": (self.impact, one) for i, one in enumerate(self.drawn(DRAWN, SEED))}
+        for name, factor in (("mesh_and_step", COARSER), ("finer", FINER)):
+            if factor in ERROR_BARS[self.error_bars] and (other := refined(chosen, factor)) is not None:
+                others[name] = other
+        if self.late and hasattr(chosen, "cross_checks"):
+            laws = chosen.cross_checks(self.impact)
+            others |= {cause: other for cause, other in laws.items() if cause == "contact_law"}
+        found = {cause: (self.impact, other) for cause, other in others.items()}
+        branches = branches_of(self.impact)
+        if branches is not None:  # what a fit of the material leaves
+            loss = min(1.0, self.impact.hysteretic_loss * (1.0 + branches.deviation))
+            found["fit_of_the_loss"] = (self.impact.replace(hysteretic_loss=loss), chosen)
+        return found
+
+    def drawn(self, runs: int, seed: int) -> list[Method]:
+        """An ensemble of a beam without damping: elements, steps and contact laws drawn at random; of a mesh that the
+        user has stated, and of a path that draws nothing itself, coarser ones.
+
+        Raises ``ValueError`` where the path varies neither elements nor steps.
+        """
+        random, found = np.random.default_rng(seed), list[Method]()
+        stated = getattr(self.method, "mesh", None) is not None
+        for _ in range(runs):
+            if hasattr(self.method, "varied") and not stated:
+                one: Method | None = self._chosen(self.method.varied(self.impact, random))
+            else:
+                one = refined(self.run_by, 2.0 ** random.uniform(-1.5, -0.5))
+            if one is None:
+                raise ValueError(
+                    f"damping: without damping of the beam a whole impact is a band, and {self.method.path} varies "
+                    "neither elements nor steps; state a damping"
+                )
+            found.append(one)
+        return found
+
+    def run(
+        self, method: Method, impact: Impact | None = None, progress: Callable[[float], None] | None = None
+    ) -> ImpactHistory:
+        """The run of ``method``, as chosen; of another ``impact`` for a companion."""
+        beam = self.impact if impact is None else impact
+        if self.until is None:
+            return simulate_to_separation(method, beam, save=self.save or OF_UNIT, progress=progress)
+        number = self.save or INSTANTS
+        instants = np.arange(1, round(number * BEYOND**0.5) + 1) / number
+        instants[-1] = BEYOND**0.5  # the end itself
+        times = self.until * instants**2
+        return simulated(method.simulate, beam, end_time=float(times[-1]), save=times, progress=progress)
+
+    def key(self, method: Method, impact: Impact) -> dict[str, Any]:
+        """What a run of it depends on, JSON-ready; with :func:`comparison.store.source_of` of the method."""
+        settings = settings_of(method) | {"label": ""}
+        return {"impact": asdict(impact), "settings": settings, "until": self.until, "save": self.save}

@@ -1,0 +1,183 @@
+"""What one run did and found, for programs and for readers: the contract of ``bentbeam simulate --json``."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import asdict, dataclass, replace
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+from bent_beam.cases import Case
+from bent_beam.history import ImpactHistory
+from bent_beam.impact import Impact
+from bent_beam.loads import unmodelled
+from bent_beam.measure.balance import balance_of
+from bent_beam.measure.estimators import leading_order
+from bent_beam.measure.moments import moments
+from bent_beam.measure.numbers import MISSING, Number
+from bent_beam.measure.reduction import hold_of, pull_of
+from bent_beam.measure.whole_impact import hits
+from comparison.answers import Runs, numbers_of, runs_of
+from comparison.bouncing import scales, stress_of, whole_reading
+from comparison.energies import energy_at_end, energy_residual, loss_warnings, numerical_loss
+from comparison.predicting import instant_numbers, instants_reading
+from comparison.questions import Question
+from theory import predict
+from theory.prediction import MODELLED
+
+__all__ = ["Simulated", "comparable", "simulate_case"]
+
+
+@dataclass(frozen=True)
+class Simulated:
+    """A run of ``case`` to a time or to its last separation, ``history``, and its ``numbers`` (SI) with the bars of its
+    companions."""
+
+    case: Case
+    runs: Runs
+    history: ImpactHistory
+    numbers: dict[str, Number]
+    leading: Any
+
+    def to_dict(self, file: Path | None = None) -> dict[str, Any]:
+        """The contract of ``bentbeam simulate --json``; the theory's numbers only where it claims to hold."""
+        return _document(self, file)
+
+
+def simulate_case(
+    case: Case,
+    path: str,
+    *,
+    until: float | None,
+    save: int | None = None,
+    error_bars: str = "quick",
+    progress: Callable[[float], None] | None = None,
+) -> Simulated:
+    """Follow ``case`` to ``until`` (s; ``None``: to the last separation) with the method of ``path``.
+
+    save : saved instants up to then; of a run to separation, a T*.
+    Raises ``ValueError`` for what the method refuses, :class:`bent_beam.SimulationError` when it cannot finish.
+    """
+    question = Question(case.impact, case.method(path), until, save, error_bars)
+    read: Any = _whole_run if until is None else partial(_run, question.first_spread, until)
+    runs = runs_of(question, read, whole_history=True, progress=progress)
+    assert runs.history is not None
+    numbers = instant_numbers(runs)
+    if until is None:
+        numbers |= _of_whole(runs)
+    leading = _leading(runs) if until is not None else None
+    history = runs.history if until is None else runs.history.until(until)
+    return Simulated(case, runs, history, numbers, leading)
+
+
+def _run(first_spread: bool, until: float, history: ImpactHistory) -> dict[str, Any]:
+    found = moments(history.until(until))
+    kept = {name: values.tolist() for name, values in vars(found).items()}
+    return instants_reading((until,), first_spread, history) | {"moments": kept, "left": False}
+
+
+def _whole_run(history: ImpactHistory) -> dict[str, Any]:
+    """A whole impact, and its end as an instant."""
+    found = whole_reading(history)
+    return instants_reading((float(history.time[-1]),), False, history) | {"whole": found}
+
+
+def _of_whole(runs: Runs) -> dict[str, Number]:
+    """Restitution, and the largest moment and force of the whole impact, as ``bounce`` has them."""
+    inner = replace(
+        runs,
+        run=replace(runs.run, reading=runs.run.reading["whole"]),
+        companions={cause: replace(run, reading=run.reading["whole"]) for cause, run in runs.companions.items()},
+    )
+    reading, unit = inner.run.reading, scales(runs.question.impact)
+    names = ["restitution", "peak_moment", *(["peak_force"] if reading["peak_force"] is not None else [])]
+    found = numbers_of(inner, names, {"restitution": {"saved_instants": reading["drift"]}})
+    if not all(run.reading["left"] for run in inner.every):
+        found["restitution"] = MISSING
+    scaled = {"peak_moment": unit["moment"], "peak_force": unit["force"]}
+    return {name: number.scaled(scaled.get(name, 1.0)) for name, number in found.items()}
+
+
+def _leading(runs: Runs) -> Any:
+    """λ₀ and r₀ of the run, where theory has them."""
+    impact = runs.question.impact
+    if impact.loaded_to_first_order or not comparable(impact) or "moments" not in runs.run.reading:
+        return None
+    from bent_beam.measure.moments import Moments
+
+    def of(run: Any) -> Moments:
+        import numpy as np
+
+        return Moments(**{name: np.array(values) for name, values in run.reading["moments"].items()})
+
+    try:
+        return leading_order(of(runs.run), companions=[of(run) for run in runs.companions.values()])
+    except ValueError:
+        return None
+
+
+def comparable(impact: Impact) -> bool:
+    """Whether the theory has an answer at all: a bow, symmetric about its first touch, before a wall that it knows."""
+    return impact.relative_curvature > 0.0 and not impact.off_centre and unmodelled(impact, MODELLED) is None
+
+
+def _document(found: Simulated, file: Path | None) -> dict[str, Any]:
+    history, section, numbers = found.history, found.case.section, found.numbers
+    impact, until, reading = history.impact, found.runs.question.until, found.runs.run.reading
+    end = float(history.time[-1]) if until is None else until
+    several = impact.opposite_wall is not None or impact.off_centre  # hits: between two walls, or of a beam that rocks
+    infinite = predict(impact, [end]) if comparable(impact) else None
+    row = infinite.times[0] if infinite and infinite.times[0].valid else None
+    leading = found.leading if row else None
+    energy, balance = energy_at_end(history), balance_of(history)
+    moment, whole = numbers["peak_moment"], reading.get("whole")
+    stress = stress_of(moment, impact, section)
+    unit = scales(impact)
+    place = whole["peak_moment_place"] * unit["length"] if whole else reading["peak_moment_place"]
+    when = whole["peak_moment_time"] * unit["time"] if whole else reading["peak_moment_time"]
+    return {
+        "path": history.path,
+        "model": impact.model,
+        "symmetry": history.symmetry,
+        "settings": history.settings,
+        "versions": history.versions,
+        "steps": history.steps,
+        "seconds": history.seconds,
+        "time": end,
+        "half_contact_length": _beside(numbers["half_contact_length"], row.half_contact_length if row else None),
+        "total_impulse": _beside(numbers["impulse"], row.impulse if row else None),
+        "restitution": _beside(numbers.get("restitution", MISSING), None),
+        "lambda0": _beside(leading.lambda0 if leading else MISSING, infinite.lambda0 if infinite else None),
+        "r0": _beside(leading.r0 if leading else MISSING, infinite.r0 if infinite else None),
+        "lift": float(moments(history).lift[-1]),
+        "pull": pull_of(history),
+        "hold": hold_of(history),
+        "peak_moment": moment.value,
+        "peak_moment_error": moment.bar,
+        "peak_moment_place": place,
+        "peak_moment_time": when,
+        "peak_stress": None if stress is None else stress.value,
+        "peak_stress_error": None if stress is None else stress.bar,
+        "yield_stress": None if section is None else section.yield_stress,
+        "peak_force_time": reading["peak_force_time"],
+        **{name: numbers[name].value for name in ("peak_force", "peak_penetration", "peak_pressure")},
+        **{f"{name}_error": numbers[name].bar for name in ("peak_force", "peak_penetration", "peak_pressure")},
+        "energy": energy,
+        "energy_residual": energy_residual(energy),
+        "numerical_loss": numerical_loss(energy),
+        "momentum_residual": balance.momentum,
+        "second_moment_residual": balance.second_moment,
+        "contact_points_residual": balance.points,
+        "initial_energy_residual": balance.initial_energy,
+        "gap_of_push": balance.gap_of_push,
+        "hits": [asdict(hit) for hit in hits(history)] if several else None,
+        "warnings": [
+            *history.warnings, *loss_warnings(numerical_loss(energy)), *balance.warnings, *found.runs.lost,
+        ],
+        "file": None if file is None else str(file),
+    }  # fmt: skip
+
+
+def _beside(number: Number, theory: float | None) -> dict[str, float | None]:
+    return {"value": number.value, "error": number.bar, "theory": theory}

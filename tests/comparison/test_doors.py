@@ -1,0 +1,123 @@
+"""One question, one answer: whichever door is asked, the same number with the same bar, to the last digit."""
+
+import math
+import random
+from collections.abc import Iterator
+from contextlib import nullcontext
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from called import answered
+from histories import history_of
+
+from bent_beam.cases import Case, case_from_tables, load_case
+from bent_beam.errors import InputError
+from comparison import bounce, predict
+from comparison.bouncing import scales
+from comparison.compare import compare_histories
+from comparison.figures.force_map import force_map
+from comparison.simulating import simulate_case
+
+SEED = 20261123
+NAMES = {"half_contact_length": "half_contact_length", "impulse": "total_impulse"}
+
+
+def drawn(folder: Path, count: int, coarse: bool) -> Iterator[Case]:
+    """Tubes of a seed: rigid and elastic walls, tension, elastic bows, gravity, light to heavy damping."""
+    rng = random.Random(SEED)
+    for k in range(count):
+        beam = {"length": rng.uniform(1.0, 5.0), "sagitta": 10.0 ** rng.uniform(-3.5, -2.0)}
+        beam["damping_ratio"] = 10.0 ** rng.uniform(-2.5, -1.0)
+        impact, wall = {"velocity": 10.0 ** rng.uniform(-0.7, 0.5)}, {}
+        match k % 4:
+            case 1:
+                wall = {"stiffness": 10.0 ** rng.uniform(6.0, 8.0), "damping_ratio": rng.uniform(0.0, 0.7)}
+            case 2:
+                beam |= {"axial_force": rng.uniform(100.0, 2000.0)}
+            case 3:
+                beam |= {"natural_curvature": 0.0}
+                impact |= {"gravity": 9.81}
+        tables = {"section": {"kind": "pipe", "outer_diameter": 0.05, "inner_diameter": 0.044, "youngs_modulus": 2.1e11,
+                              "density": 7850.0}, "beam": beam, "impact": impact, "wall": wall}  # fmt: skip
+        text = "\n".join(
+            line for name, table in tables.items() if table
+            for line in (f"[{name}]", *(f"{key} = {value!r}".replace("'", '"') for key, value in table.items()))
+        )  # fmt: skip
+        file = folder / f"case-{k}.toml"
+        file.write_text(text + ("\n[hermite]\nrefine = 0.4\n" if coarse else "\n"))
+        yield load_case(file)
+
+
+def same(one: dict[str, Any], other: dict[str, Any]) -> bool:
+    return (one["value"], one["error"]) == (other["value"], other["error"])
+
+
+def check(case: Case, share: float) -> None:
+    """At a share of T*, and of the whole impact."""
+    time = share * case.impact.slow_time_scale
+    predicted, whole = predict(case, time, fresh=True).to_dict(), bounce(case, fresh=True).to_dict()
+    at, simulated = predicted["times"][0]["simulation"], simulate_case(case, "hermite", until=time).to_dict()
+    assert all(same(at[name], simulated[theirs]) for name, theirs in NAMES.items())
+    for name in ("peak_moment", "peak_stress"):
+        assert (at[name]["value"], at[name]["error"]) == (simulated[name], simulated[f"{name}_error"])
+    separated = simulate_case(case, "hermite", until=None)
+    assert same(predicted["whole_impact"]["restitution"], whole["restitution"])
+    assert same(predicted["whole_impact"]["restitution"], separated.to_dict()["restitution"])
+    for name in ("peak_moment", "last_contact"):
+        assert same(predicted["whole_impact"][name], whole["si"][name])
+    unit = scales(case.impact)["moment"]
+    assert separated.numbers["peak_moment"].known == whole["peak_moment"]["value"] * unit
+    assert same(predicted["whole_impact"]["peak_stress"], whole["peak_stress"])
+    force = predicted["whole_impact"]["peak_force"]
+    assert (force is None) == (case.impact.wall_stiffness is None)
+    assert force is None or same(force, whole["si"]["peak_force"])
+
+
+def test_every_door_gives_the_same_number_with_the_same_bar(tmp_path: Path) -> None:
+    *_, elastic, tensioned = drawn(tmp_path, 3, coarse=True)
+    check(elastic, 0.02)
+    check(tensioned, 0.002)
+
+
+def test_two_codes_stand_side_by_side_and_agree_within_their_bars() -> None:
+    found = answered("bounce", "--kappa-over-nu", 2, "--damping", 0.03, "--path", "hermite", "--path", "exudyn")
+    one, other = found["paths"]
+    assert (one["path"], other["path"]) == ("hermite", "exudyn") and found["restitution"] == one["restitution"]
+    for name in ("restitution", "impulse", "last_contact", "midspan_moment"):
+        a, b = one[name], other[name]
+        assert abs(a["value"] - b["value"]) <= a["error"] + b["error"], name
+
+
+def test_of_two_runs_of_the_whole_beam_both_halves_are_compared_and_drawn() -> None:
+    time, x = np.array([0.0, 0.5, 1.0]), np.linspace(-1.0, 1.0, 5)
+    impulse = np.outer(time, [1.0, 0.0, 0.0, 0.0, 1.0])
+    runs = [
+        history_of(time, x, symmetry="full", impulse=impulse, gap=np.outer(time, gap)) for gap in (x - 1.0, x + 1.0)
+    ]
+    assert compare_histories(*runs)["largest_difference"]["gap"] == pytest.approx(2.0)
+    mirrored = [history_of(time, x, symmetry="full", gap=np.outer(time, np.minimum(0.0, s * x))) for s in (0.0, 1.0)]
+    assert compare_histories(*mirrored)["largest_difference"]["gap"] == pytest.approx(1.0)  # apart on the left alone
+    edges = np.linspace(-1.0, 1.0, 5) / runs[0].impact.length_scale
+    pushed = force_map(runs[0], np.array([0, 2]), edges)[0]
+    assert pushed[0] == pytest.approx(pushed[-1]) and pushed[0] > 0.0
+
+
+@pytest.mark.parametrize(("ends", "share"), [(("clamped", "free"), 0.25), (("free", "hinged"), 0.0)])
+def test_a_compression_beyond_the_ends_own_buckling_load_is_refused(ends: tuple[str, str], share: float) -> None:
+    def beam(force: float) -> dict[str, Any]:
+        return {"bending_stiffness": 1.0, "mass_per_length": 1.0, "length": 1.0, "curvature": 0.01, "ends": ends,
+                "axial_force": force}  # fmt: skip
+
+    for times, fails in ((0.99, False), (1.01, True)):
+        force = -(times * share * math.pi**2) - (0.01 if fails else 0.0)
+        with pytest.raises(InputError, match="axial_force") if fails else nullcontext():
+            case_from_tables({"beam": beam(force), "impact": {"velocity": 1.0}})
+
+
+@pytest.mark.verify
+def test_twenty_beams_of_a_seed_are_answered_alike_at_every_door(tmp_path: Path) -> None:
+    rng = random.Random(SEED + 1)
+    for case in drawn(tmp_path, 20, coarse=False):
+        check(case, 10.0 ** rng.uniform(-3.0, -0.5))

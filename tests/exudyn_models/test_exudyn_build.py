@@ -1,0 +1,129 @@
+"""The impact as an Exudyn system for plain ``SolveDynamic``, and every combination of parts: run, or refused."""
+
+import dataclasses
+import itertools
+import re
+
+import numpy as np
+import pytest
+from exudyn.utilities import LoadSolutionFile
+
+import exudyn_models
+from bent_beam import Impact, InputError
+from bent_beam.meshes import UniformMesh
+from bent_beam.method import method_from_tables
+from exudyn_models import CONTACTS, ELEMENTS, INTEGRATORS, ExudynModel
+from exudyn_models.contacts import Penalty, Rigid
+from exudyn_models.integrators import GeneralizedAlpha, Newmark
+from theory import contact_parameters
+
+STEEL = Impact(bending_stiffness=2.1e3, mass_per_length=1.6, length=3.0, curvature=0.02, velocity=2.0)
+SHORT = Impact.dimensionless(0.5, length=8.0)
+MESH = UniformMesh(0.1)
+
+
+def solved(impact, **parts):
+    """The system after Exudyn's own solver, and what its sensors stored, without the times' column."""
+    model = exudyn_models.build(impact, **parts)
+    model.mbs.SolveDynamic(model.settings)
+    return model, {name: model.mbs.GetSensorStoredData(number)[:, 1:] for name, number in model.sensors.items()}
+
+
+def impulse_of_theory(kappa_over_nu, time=0.1):
+    return 4.0 * np.sqrt(2.0 * time / np.pi) * float(contact_parameters(kappa_over_nu).r0)
+
+
+@pytest.mark.parametrize("seed", [pytest.param(seed, marks=pytest.mark.verify) for seed in range(5)])
+def test_plain_exudyn_gives_the_impulse_of_theory_and_of_simulate(seed):
+    kappa_over_nu = float(np.random.default_rng(44 + seed).uniform(0.1, 0.9))
+    impact = Impact.dimensionless(kappa_over_nu)
+    _, read = solved(impact)
+    found, simulated = read["impulse"][-1, 0], exudyn_models.simulate(impact).array("total_impulse")[-1]
+    print(f"seed {44 + seed}: κ/ν = {kappa_over_nu:.4f}, {found / simulated - 1:+.4%} of simulate's impulse")
+    assert found == pytest.approx(simulated, rel=1e-3)
+    assert found == pytest.approx(impulse_of_theory(kappa_over_nu), rel=1e-3)
+
+
+def test_items_are_in_si_units_and_sensors_agree_with_one_another():
+    """Momentum is lost to the force; the zone stays at the wall; energy is that of the arriving beam, less losses."""
+    model, read = solved(STEEL, mesh=UniformMesh(0.015), save=1500)
+    cable, node = model.mbs.GetObject(model.bodies[0]), model.mbs.GetNode(model.nodes[-1])
+    assert (cable["bendingStiffness"], cable["massPerLength"]) == pytest.approx((2.1e3, 1.6))
+    assert cable["length"] == pytest.approx(0.015) and node["referenceCoordinates"][0] == pytest.approx(1.5)
+    assert node["initialVelocities"][1] == pytest.approx(STEEL.velocity * model.scale)
+    contact = model.mbs.GetObject(model.contacts[1])
+    assert contact["contactStiffness"] == pytest.approx(10.0 * 2.1e3 / 0.015**3)  # C EI/Δx⁴ over Δx of beam
+    end = model.settings.timeIntegration.endTime
+    times = np.linspace(0.0, end, read["force"].size)
+    assert np.trapezoid(read["force"][:, 0], times) == pytest.approx(read["impulse"][-1, 0], rel=0.05)
+    # V₀ μ Λ r₀ with the time in units of t*
+    unit = STEEL.mass_per_length * STEEL.velocity * STEEL.length_scale
+    assert read["impulse"][-1, 0] == pytest.approx(
+        unit * impulse_of_theory(STEEL.kappa_over_nu, end / STEEL.time_scale), rel=5e-3
+    )
+    assert np.abs(read["midpoint"][100:, 0]).max() < 1e-3 * STEEL.velocity * end
+    total = read["energy"].sum(axis=1)
+    assert total[0] == pytest.approx(1.6 * 3.0 * 2.0**2 / 2) and total[-1] < total[0]
+
+
+@pytest.mark.parametrize(
+    ("kappa_over_nu", "expected", "mesh"),
+    [(2.0, 0.5663, UniformMesh(1 / 20)), pytest.param(0.5, 0.3363, None, marks=pytest.mark.verify)],
+)
+def test_plain_exudyn_gives_the_restitution_of_a_damped_beam(kappa_over_nu, expected, mesh):
+    impact = Impact.whole_beam(kappa_over_nu, relative_damping=1e-2)
+    _, read = solved(impact, end_time=0.9, mesh=mesh)
+    assert read["impulse"][-1, 0] / 2.0 - 1.0 == pytest.approx(expected, abs=0.002)
+
+
+@pytest.mark.parametrize(("element", "integrator", "contact"), list(itertools.product(ELEMENTS, INTEGRATORS, CONTACTS)))
+def test_a_combination_of_parts_meets_the_theory_or_is_refused_with_its_reason(element, integrator, contact):
+    parts = {"element": ELEMENTS[element](), "integrator": INTEGRATORS[integrator](), "contact": CONTACTS[contact]()}
+    reason = ExudynModel(**parts).refuses(SHORT)
+    if reason is not None:
+        assert re.match(rf"exudyn\.contact\.kind {contact} (needs|works on)", reason)
+        for kind in (exudyn_models.simulate, exudyn_models.build):
+            with pytest.raises(ValueError, match=re.escape(reason)):
+                kind(SHORT, **parts)
+        return
+    history = exudyn_models.simulate(SHORT, mesh=MESH, save=5, **parts)
+    assert history.array("total_impulse")[-1] == pytest.approx(impulse_of_theory(0.5), rel=0.02)
+    if contact != "rigid":
+        _, read = solved(SHORT, mesh=MESH, **parts)
+        assert read["impulse"][-1, 0] == pytest.approx(impulse_of_theory(0.5), rel=0.02)
+
+
+def test_what_only_simulate_can_do_is_refused():
+    for contact in (Rigid(), Penalty(hold=4), Penalty(hold_start=0.01)):
+        with pytest.raises(ValueError, match="use simulate"):
+            exudyn_models.build(SHORT, mesh=MESH, contact=contact)
+    with pytest.raises(ValueError, match="relative_step: steps of build are equal"):
+        exudyn_models.build(SHORT, mesh=MESH, integrator=GeneralizedAlpha(relative_step=0.01))
+
+
+def test_one_setting_is_swapped_without_its_kind_and_the_rest_stays_chosen():
+    table = {"integrator": {"spectral_radius": 0.9}, "contact": {"stiffness": 3e4, "damping": 20.0}}
+    made = method_from_tables("exudyn", table)
+    assert made.integrator == GeneralizedAlpha(spectral_radius=0.9)
+    assert made.contact == Penalty(stiffness=3e4, damping=20.0)
+    assert method_from_tables("exudyn", {"integrator": {"gamma": 0.7}}).integrator == Newmark(gamma=0.7)
+    impact = Impact.whole_beam(0.05)  # a thin front
+    for end in (1e-3, 0.1):  # steps that grow, and steps that are constant
+        chosen, open_ones = (method.chosen(impact, end).integrator for method in (made, ExudynModel()))
+        assert chosen == dataclasses.replace(open_ones, spectral_radius=0.9)
+    with pytest.raises(InputError, match=r"mesh\.kind is required"):
+        method_from_tables("exudyn", {"mesh": {"element_length": 0.1}})
+
+
+def test_stiffness_and_damping_of_the_wall_are_also_given_in_si_units():
+    """k in N/m², d in N s/m²: at a node, times its length of beam. Given twice they are refused."""
+    model = exudyn_models.build(STEEL, mesh=UniformMesh(0.015), contact=Penalty(stiffness=2e9, damping=3e4))
+    contact = model.mbs.GetObject(model.contacts[1])
+    assert (contact["contactStiffness"], contact["contactDamping"]) == pytest.approx((2e9 * 0.015, 3e4 * 0.015))
+    with pytest.raises(ValueError, match="exclude each other"):
+        Penalty(stiffness=1.0, relative_stiffness=1.0)
+
+
+def test_a_solution_file_is_there_for_exudyns_viewer(tmp_path):
+    solved(SHORT, mesh=MESH, save=10, file=str(tmp_path / "solution.txt"))
+    assert LoadSolutionFile(str(tmp_path / "solution.txt"))["nRows"] == 11

@@ -1,0 +1,47 @@
+"""Numbers as they are written."""
+
+import math
+
+import pytest
+
+from bent_beam.measure.numbers import Band, Number
+
+
+@pytest.mark.parametrize(
+    ("value", "error", "written"),
+    [
+        (171.445068e6, 8e5, "(1.714 ± 0.008)e+08"),
+        (-0.004, 0.3, "0.0 ± 0.3"),
+        (0.0243, 0.0003, "0.0243 ± 0.0003"),
+        (12345.0, 210.0, "12300 ± 200"),
+        (3.25, 0.0, "3.25"),
+        (math.nan, 0.1, "-"),
+    ],
+)
+def test_a_number_has_the_digits_of_its_error_bar(value: float, error: float, written: str) -> None:
+    assert str(Number(value, error)) == written
+
+
+def test_a_band_that_is_not_known_is_missing() -> None:
+    assert str(Band(2.0, 0.31, 5)) == "2.0 ± 0.3 (band of 5 runs)"
+    assert str(Band(math.nan, math.nan, 5)) == "- (band of 5 runs)"
+
+
+@pytest.mark.parametrize("one", [Number(1.0, 0.1), Number(None, 0.1, 1.0)])
+def test_without_a_value_or_a_theory_there_is_no_difference(one: Number) -> None:
+    assert (one.difference, one.relative(), one.covered) == (None, None, None)
+
+
+@pytest.mark.parametrize(
+    ("value", "error", "written"),
+    [
+        (2e-4, 1e-5, "0.00020 ± 0.00001"),
+        (2e-5, 1e-6, "(2.0 ± 0.1)e-05"),
+        (9e5, 1e5, "900000 ± 100000"),
+        (1e6, 1e5, "(1.0 ± 0.1)e+06"),
+    ],
+)
+def test_a_power_of_ten_is_written_below_a_ten_thousandth_and_from_a_million_on(
+    value: float, error: float, written: str
+) -> None:
+    assert str(Number(value, error)) == written
