@@ -109,7 +109,7 @@ def _kept(store: RunStore | None, question: Question, read: Reading, method: Met
         return Run(**compute())
     name = read.func.__name__ if isinstance(read, partial) else read.__name__
     given = list(read.args) if isinstance(read, partial) else []
-    key = question.key(method, impact) | {"source": source_of(type(method)), "read": [name, *given]}
+    key = question.key(method, impact) | {"source": source_of(method), "read": [name, *given]}
     return Run(**store.answer(key, compute))
 
 

@@ -66,7 +66,7 @@ def _reduced(
     not drop out."""
     question = {
         "settings": settings_of(method) | {"label": ""},
-        "source": source_of(type(method)),
+        "source": source_of(method),
         "impact": asdict(impact),
         "duration": duration,
         "uniform": uniform,

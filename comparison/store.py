@@ -14,11 +14,12 @@ import os
 import sys
 import sysconfig
 import tempfile
+import time
 from collections.abc import Callable, Iterable, Mapping
 from contextlib import suppress
 from dataclasses import dataclass
 from functools import cache
-from importlib.metadata import entry_points, packages_distributions, version
+from importlib.metadata import distributions, packages_distributions, version
 from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
@@ -35,6 +36,9 @@ __all__ = [
 ]  # fmt: skip
 
 PACKAGES = ("bent_beam", "theory", "hermite_fe", "self_similar_fe", "exudyn_models", "comparison")
+ROOT = Path(__file__).resolve().parent.parent
+LOADED = time.time()
+NO_PARTS = ("builtins", "abc", "typing", "numpy")  # their classes hold no code of a method
 CODE = (".py", ".so", ".pyd")
 
 
@@ -86,8 +90,8 @@ class RunStore:
         from_text: Callable[[dict[str, Any]], dict[str, Any]] = dict,
     ) -> dict[str, Any]:
         """The kept answer, or ``compute()``'s, kept from now on. as_text : makes finite JSON data of an answer, and
-        ``from_text`` an answer of these; neither is asked where nothing is kept."""
-        if self.folder is None:
+        ``from_text`` an answer of these; neither is asked where nothing is kept, as where ``source`` is unknown."""
+        if self.folder is None or question.get("source", "") is None:
             return compute()
         file = self.file(question)
         kept = None if file is None else self._read(file)
@@ -121,33 +125,59 @@ def _digest_of_files(files: Iterable[Path], root: Path) -> str:
 
 @cache
 def source_digest() -> str:
-    """Digest of this project's own sources: a changed solver must not be served an old answer."""
-    root = Path(__file__).resolve().parent.parent
-    return _digest_of_files((f for package in PACKAGES for f in (root / package).rglob("*.py")), root)
+    """Digest of this project's own sources: a changed solver must not be served an old answer. Of this process alone
+    where they were edited after it had read them."""
+    files = [file for package in PACKAGES for file in (ROOT / package).rglob("*.py")]
+    edited = max(file.stat().st_mtime for file in files) > LOADED
+    return _digest_of_files(files, ROOT) + (f" {os.getpid()} {LOADED}" if edited else "")
 
 
 def this_code() -> dict[str, str]:
     """Versions and digest of the sources that compute in this process."""
-    return versions() | {"sources": source_digest()[:12]}
+    source, *edited = source_digest().split(" ", 1)
+    return versions() | {"sources": " ".join([source[:12], *edited])}
+
+
+def source_of(method: Any) -> str | None:
+    """A method's class, and what tells it from its older versions; ``None`` where it or a part of it is neither this
+    project's nor of an installed package: which files such code depends on is known to nobody, so that its runs are
+    not kept. With another package's parts the versions of all that is installed."""
+    name, places = f"{type(method).__module__}.{type(method).__qualname__}", {_place_of(k) for k in _kinds_in(method)}
+    if None in places:
+        return None
+    return name if places == {"ours"} else f"{name} {_digest(repr(_all_installed()))}"
+
+
+def _kinds_in(value: Any) -> set[Any]:
+    """Classes and functions that a method is made of."""
+    if value is None or isinstance(value, (bool, int, float, str, bytes)):
+        return set()
+    if isinstance(value, Mapping | list | tuple | set | frozenset):
+        items = value.values() if isinstance(value, Mapping) else value
+        return {kind for item in items for kind in _kinds_in(item)}
+    if inspect.isroutine(value) or isinstance(value, type):
+        return {value}
+    held = vars(value).values() if hasattr(value, "__dict__") else ()
+    return {kind for kind in type(value).__mro__ if kind.__module__ not in NO_PARTS} | _kinds_in(list(held))
+
+
+def _place_of(kind: Any) -> str | None:
+    try:
+        file = Path(inspect.getfile(kind)).resolve()
+    except (OSError, TypeError):  # made at a prompt
+        return None
+    if any(file.is_relative_to(ROOT / package) for package in PACKAGES):
+        return "ours"
+    return "installed" if any(file.is_relative_to(place) for place in _installed()) else None
+
+
+def _installed() -> tuple[Path, ...]:
+    return tuple(Path(sysconfig.get_path(kind)).resolve() for kind in ("purelib", "platlib"))
 
 
 @cache
-def source_of(kind: type) -> str:
-    """A method's class, and what tells it from its older versions: for somebody else's method the digest of its whole
-    package (or module), what that imports, and the version of its distribution."""
-    name, top = f"{kind.__module__}.{kind.__qualname__}", kind.__module__.partition(".")[0]
-    if top in PACKAGES:  # in every key
-        return name
-    try:
-        # a class of a script comes to a worker by value: only its code still knows the file
-        file = Path(inspect.getfile(kind.simulate if top == "__main__" and hasattr(kind, "simulate") else kind))
-        root = next((parent for parent in file.parents if parent.name == top), None)
-        files = [file] if root is None else _code_in(root)
-        source = [_digest_of_files(files, (root or file).parent), *behind(files, (root or file).parent)]
-    except (OSError, TypeError):  # made at a prompt
-        source = [hashlib.sha256(repr(kind).encode()).hexdigest()]
-    registered = (e for e in entry_points(group="bentbeam.methods") if e.module.partition(".")[0] == top)
-    return " ".join([name, *source, *sorted({f"{e.dist.name} {e.dist.version}" for e in registered if e.dist})])
+def _all_installed() -> list[tuple[str, str]]:
+    return sorted((str(one.name), one.version) for one in distributions())
 
 
 @cache
@@ -164,7 +194,7 @@ def behind(files: Iterable[Path], folder: Path) -> list[str]:
     """What Python ``files`` import, and what that imports in turn: the digest of each module or package in ``folder``
     or elsewhere on the path, of an installed one its version. What is imported by a computed name is not seen."""
     waiting, seen, found = list(files), {*PACKAGES, *sys.stdlib_module_names}, set()
-    installed = tuple(Path(sysconfig.get_path(kind)).resolve() for kind in ("purelib", "platlib"))
+    installed = _installed()
     while waiting:
         for name in _imported_by(waiting.pop()) - seen:
             seen.add(name)

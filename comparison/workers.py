@@ -3,7 +3,10 @@ time limit for each: a clock that its runs ask between their steps."""
 
 from __future__ import annotations
 
+import asyncio
+import os
 import signal
+import threading
 import time
 import warnings
 from collections.abc import Callable, Iterator, Sequence
@@ -20,7 +23,7 @@ __all__ = ["Clock", "run_all"]
 
 FIRST_ANSWER = 8.0  # s that a scheduler has to answer
 FIRST_WORKER = 15.0  # s until one is there, and again until all have answered
-IDLE = 10  # s until a worker without work ends: also when this process was killed and could tell nobody
+IDLE = 10  # s until a worker without work ends
 DIED = "the worker died: out of memory?"
 
 Done = Callable[[int, Any], None]
@@ -89,8 +92,9 @@ def _together(
             under_way.add(i)
             yield delayed(_numbered)(i, function, arguments[i])
 
-    pool = Parallel(jobs, "loky", "generator_unordered", batch_size=1, max_nbytes=None, idle_worker_timeout=IDLE)
-    with warnings.catch_warnings():
+    watch = {"initializer": end_with_parent, "initargs": (os.getpid(),), "idle_worker_timeout": IDLE}
+    pool = Parallel(jobs, "loky", "generator_unordered", batch_size=1, max_nbytes=None, **watch)
+    with warnings.catch_warnings(), no_code_from_here():
         warnings.simplefilter("ignore", UserWarning)  # loky renews a worker that has grown, drops what is interrupted
         try:
             for kind in ("loky", "spawn"):  # starts the trackers of locks, which would let interrupts in below
@@ -104,6 +108,31 @@ def _together(
         except BrokenProcessPool:
             return sorted(under_way)
     return []
+
+
+def end_with_parent(parent: int) -> None:
+    """In a worker: leave as soon as the process ``parent`` is gone, busy or blocked, which no pipe tells reliably."""
+
+    def watch() -> None:
+        while os.getppid() == parent:
+            time.sleep(1.0)
+        os._exit(1)
+
+    threading.Thread(target=watch, daemon=True).start()
+
+
+@contextmanager
+def no_code_from_here() -> Iterator[None]:
+    """Pythons started meanwhile do not look for modules in the folder where this one was called: they are told where
+    by their parent."""
+    before = os.environ.get("PYTHONSAFEPATH")
+    os.environ["PYTHONSAFEPATH"] = "1"
+    try:
+        yield
+    finally:
+        os.environ.pop("PYTHONSAFEPATH")
+        if before is not None:
+            os.environ["PYTHONSAFEPATH"] = before
 
 
 @contextmanager
@@ -122,7 +151,8 @@ def interrupts_held() -> Iterator[None]:
 async def _shake_hands(scheduler: str) -> None:
     from distributed.comm import connect
 
-    await (await connect(scheduler, timeout=FIRST_ANSWER)).close()
+    async with asyncio.timeout(FIRST_ANSWER):  # a port that accepts and stays mute
+        (await connect(scheduler, timeout=FIRST_ANSWER)).abort()
 
 
 def _check_workers(client: Any, scheduler: str) -> None:
@@ -156,8 +186,6 @@ def _on_cluster(
     died: Callable[..., None],
 ) -> None:
     """Dask asks again by itself when a worker dies. (joblib's dask backend waits for ever for a killed worker.)"""
-    import asyncio
-
     try:
         from distributed import Client, KilledWorker, as_completed
     except ImportError:

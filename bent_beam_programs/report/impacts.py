@@ -120,7 +120,7 @@ def _kept(shown: Shown, method: Method, store: RunStore) -> ShownImpact | str:
     question = {
         "shown": [shown.name, shown.kappa_over_nu, *shown.first, shown.epsilon, FRAMES, POINTS, BINS, INSTANTS, END],
         "settings": settings_of(method) | {"label": ""},
-        "source": source_of(type(method)),
+        "source": source_of(method),
     }
 
     def compute() -> dict[str, Any]:

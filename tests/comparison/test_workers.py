@@ -2,7 +2,12 @@
 
 import os
 import signal
+import socket
+import subprocess
+import sys
 import time
+from contextlib import suppress
+from pathlib import Path
 
 import pytest
 
@@ -88,6 +93,52 @@ def test_a_scheduler_that_does_not_answer_is_bad_input_within_ten_seconds(monkey
     for address in ("tcp://127.0.0.1:1", "tls://127.0.0.1:1", "nothing://1", ""):
         with pytest.raises(ValueError, match=rf"scheduler: none answers at {address} "):
             run_all(root, [(4.0,)], scheduler=address)
+
+
+def test_a_port_that_accepts_and_stays_mute_is_no_scheduler(monkeypatch):
+    pytest.importorskip("distributed")
+    monkeypatch.setattr(workers, "FIRST_ANSWER", 1.0)
+    with socket.create_server(("127.0.0.1", 0)) as mute, pytest.raises(ValueError, match="none answers"):
+        run_all(root, [(4.0,)], scheduler=f"tcp://127.0.0.1:{mute.getsockname()[1]}")
+
+
+BUSY = """
+import sys, time
+sys.path.insert(0, {tests!r})
+from test_workers import root, wait
+from comparison.workers import run_all
+run_all(wait, [(60.0,), (60.0,), (60.0,)], jobs=2)
+"""
+
+
+def wait(seconds):
+    Path(f"{os.getpid()}.worker").touch()
+    time.sleep(seconds)
+
+
+def test_workers_end_within_ten_seconds_of_a_parent_that_was_killed_and_run_nothing_from_its_folder(tmp_path):
+    (tmp_path / "numpy.py").write_text("open('executed', 'w')")
+    code = BUSY.format(tests=str(Path(__file__).parent))
+    parent = subprocess.Popen([sys.executable, "-P", "-c", code], cwd=tmp_path, start_new_session=True)
+    while len(list(tmp_path.glob("*.worker"))) < 2:
+        assert parent.poll() is None
+        time.sleep(0.05)
+    parent.kill()
+    parent.wait()
+    began = time.monotonic()
+    while Path("/proc").exists() and any(of_group(parent.pid)):
+        assert time.monotonic() - began < 10.0
+        time.sleep(0.1)
+    assert not (tmp_path / "executed").exists()
+
+
+def of_group(number):
+    """Living processes of a process group (Linux)."""
+    for place in Path("/proc").glob("[0-9]*"):
+        with suppress(OSError):
+            state, _, group = (place / "stat").read_text().rpartition(")")[2].split()[:3]
+            if int(group) == number and state != "Z":
+                yield place.name
 
 
 def test_workers_that_are_missing_or_have_other_sources_are_told_before_the_work(cluster, monkeypatch):

@@ -15,13 +15,15 @@ import pytest
 from called import MAIN, answered, command, refused, started
 
 from bent_beam import method as methods
+from comparison import store as store_module
 from comparison.command_line import __main__ as start
 from comparison.command_line import app, histories
 from comparison.command_line.options import emit
 from comparison.matching import PERTURBATION, match
 from comparison.rows import Question, first_order_epsilon
-from comparison.store import source_of
+from comparison.store import RunStore, source_of
 from hermite_fe import HermiteFE
+from hermite_fe.contacts import NodeContact
 
 
 @dataclass(frozen=True)
@@ -171,25 +173,31 @@ def test_two_histories_of_one_name_are_two_pictures(monkeypatch):
     assert drawn == ["run", "run-2", "run-2-2"]
 
 
-def test_a_stored_run_is_stale_when_its_method_changes_or_what_that_imports(tmp_path, monkeypatch):
-    files = {
-        "somebodys/method.py": "import json, numpy, helper\nclass Method:\n    pass\n",
-        "somebodys/kernel.py": "",
-        "helper.py": "from deeper import h\n",
-        "deeper.py": "h = 1\n",
-    }
+def test_runs_with_parts_that_neither_the_project_nor_a_package_brought_are_not_kept(tmp_path, monkeypatch):
+    """Which files they depend on nobody knows: helpers without a package, or named like a standard module."""
     (tmp_path / "somebodys").mkdir()
+    (tmp_path / "somebodys/law.py").write_text(
+        "from hermite_fe.contacts import NodeContact\nclass Soft(NodeContact):\n    pass\n"
+    )
     monkeypatch.syspath_prepend(tmp_path)
-    for name, text in files.items():
-        (tmp_path / name).write_text(text)
-    method = importlib.import_module("somebodys.method").Method
-    sources = [source_of(method)]
-    assert " numpy " in sources[0]
-    for name in ("somebodys/kernel.py", "deeper.py"):
-        (tmp_path / name).write_text("h = 2\n")
-        source_of.cache_clear()  # of this process, which runs what it has imported
-        sources.append(source_of(method))
-    assert len(set(sources)) == 3
+    soft = importlib.import_module("somebodys.law").Soft()
+    assert source_of(HermiteFE()) == source_of(HermiteFE(contact=NodeContact())) == "hermite_fe.method.HermiteFE"
+    assert source_of(HermiteFE(contact=soft)) is None
+    store, count = RunStore(tmp_path / "store"), iter(range(9))
+    answers = [store.answer({"source": None}, lambda: {"n": next(count)})["n"] for _ in range(2)]
+    assert answers == [0, 1] and not list(tmp_path.rglob("*.json"))
+    monkeypatch.setattr("comparison.store._installed", lambda: (tmp_path.resolve(),))
+    assert source_of(HermiteFE(contact=soft)).startswith("hermite_fe.method.HermiteFE ")
+
+
+def test_sources_edited_while_a_process_is_open_are_nobody_elses(monkeypatch):
+    monkeypatch.setattr("comparison.store.LOADED", 0.0)
+    before = store_module.source_digest()
+    store_module.source_digest.cache_clear()
+    assert (
+        store_module.source_digest().startswith(before.split()[0]) and str(os.getpid()) in store_module.source_digest()
+    )
+    store_module.source_digest.cache_clear()
 
 
 SIZES = (
