@@ -180,4 +180,4 @@ def _document(found: Simulated, file: Path | None) -> dict[str, Any]:
 
 
 def _beside(number: Number, theory: float | None) -> dict[str, float | None]:
-    return {"value": number.value, "error": number.bar, "theory": theory}
+    return replace(number, theory=theory).compared()
