@@ -22,6 +22,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from bent_beam.checks import finite, one_of, shortened
+from bent_beam.guarded import try_first
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -67,15 +68,17 @@ CONTROL = {"Cc", "Cf", "Cs"}  # of Unicode
 
 # writing --------------------------------------------------------------------------------------------------
 def write_atomically(file: Path, content: str | bytes | memoryview) -> None:
-    """Write a file so that a reader sees either nothing or all of it, and a killed run leaves no half of it.
+    """Write a file so that a reader sees either nothing or all of it, and a killed run leaves no half of it. A link is
+    followed.
 
     Raises ``OSError`` that names the file: a full disk does not say by itself which one it could not take.
     """
+    file = file.resolve()
     file.parent.mkdir(parents=True, exist_ok=True)
     part = file.with_name(f".{file.name[:100]}.{secrets.token_hex(4)}.part")
     try:
         with part.open("xb") as stream:
-            stream.write(content.encode() if isinstance(content, str) else content)
+            stream.write(content.encode(errors="backslashreplace") if isinstance(content, str) else content)
             stream.flush()
             os.fsync(stream.fileno())
         os.replace(part, file)
@@ -102,7 +105,7 @@ def read_dataset(file: Path) -> xr.Dataset:
     import xarray as xr
 
     try:
-        examine(file)
+        try_first(file)
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # what a foreign file lacks is said by whoever asks for it
             # no scales, offsets or fill values: they would turn small numbers into large arrays

@@ -44,7 +44,7 @@ CODE = (".py", ".so", ".pyd")
 
 def check_writable(out: Path, *, folder: bool) -> None:
     """``InputError`` when ``out`` (or a file in it, a ``folder``) cannot be written: asked before the work."""
-    place = out if folder else out.parent
+    place = out.resolve() if folder else out.resolve().parent  # of a link, where it leads
     try:
         if not folder and out.exists() and not out.is_file():  # a device would be replaced by the file
             raise ValueError("it is a directory" if out.is_dir() else "it is no regular file")

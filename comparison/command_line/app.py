@@ -20,7 +20,7 @@ from typing import Annotated
 
 import typer
 
-from bent_beam.errors import InputError, SimulationError
+from bent_beam.errors import ANY_FAILURE, InputError, SimulationError
 from comparison.command_line.bounce import bounce
 from comparison.command_line.cases import new, predict, settings, simulate
 from comparison.command_line.histories import compare, plot, rerun
@@ -71,7 +71,11 @@ for command in COMMANDS:
 def add_programs() -> None:
     """Add the commands of programs, which the library's own need not wait for."""
     for entry in sorted(metadata.entry_points(group="bentbeam.commands")):
-        app.command()(entry.load())
+        try:
+            app.command()(entry.load())
+        except ANY_FAILURE as error:  # somebody else's package may fail in any way
+            why = printable(" ".join(f"{type(error).__name__}: {error}".split()))
+            print(f"warning: the command {entry.name!r} is installed but does not load ({why})", file=sys.stderr)
 
 
 def main(arguments: Sequence[str] | None = None) -> None:

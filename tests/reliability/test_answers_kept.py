@@ -1,5 +1,6 @@
 """What was computed is printed: one failure costs one row, whoever caused it; streams and names cost nothing."""
 
+import dataclasses
 import importlib
 import io
 import json
@@ -14,7 +15,10 @@ from typing import ClassVar
 import pytest
 from called import MAIN, answered, command, refused, started
 
+from bent_beam import Impact
 from bent_beam import method as methods
+from bent_beam.files import write_atomically
+from bent_beam.measure.reduction import peak_moment
 from comparison import store as store_module
 from comparison.command_line import __main__ as start
 from comparison.command_line import app, histories
@@ -213,3 +217,33 @@ PIPE = Path(__file__).parents[2] / "cases" / "drill_pipe.toml"
 @pytest.mark.parametrize("size", SIZES)
 def test_sizes_that_cannot_be_calculated_with_are_refused_by_name(size):
     assert size.partition(".")[0] in refused("predict", PIPE, "--theory-only", "--set", size)
+
+
+@pytest.mark.parametrize("leave", [lambda: os._exit(0), lambda: os.chdir("/")], ids=["os._exit", "os.chdir"])
+def test_a_method_neither_ends_the_program_nor_moves_its_output(leave, monkeypatch):
+    simulate, here = HermiteFE.simulate, os.getcwd()
+    monkeypatch.setattr(HermiteFE, "simulate", lambda *a, **how: leave() or simulate(*a, **how))
+    code, out, _ = command("match", "--path", "hermite", "--kappa-over-nu", 2, "--refine", 0.25, "--json")
+    assert os.getcwd() == here and code == (3 if json.loads(out)["failures"] else 0)
+    assert bool(json.loads(out)["failures"]) == ("exit" in str(json.loads(out)))
+
+
+def test_a_program_that_does_not_load_costs_its_own_command(monkeypatch, capsys):
+    broken = SimpleNamespace(name="theirs", load=lambda: importlib.import_module("no_such_module"))
+    monkeypatch.setattr(app.metadata, "entry_points", lambda group: [broken])
+    app.add_programs.cache_clear()
+    app.add_programs()
+    app.add_programs.cache_clear()
+    assert "'theirs' is installed but does not load (ModuleNotFoundError" in capsys.readouterr().err
+
+
+def test_a_file_follows_a_link_and_loses_no_text_to_a_surrogate(tmp_path):
+    (tmp_path / "link").symlink_to(tmp_path / "there")
+    write_atomically(tmp_path / "link", "a\udc80b")
+    assert (tmp_path / "link").is_symlink() and (tmp_path / "there").read_text() == "a\\udc80b"
+
+
+def test_histories_without_moments_of_the_middle_are_compared(tmp_path):
+    history = HermiteFE().simulate(Impact.dimensionless(2.0), end_time=0.01, save=20)
+    without = dataclasses.replace(history, dataset=history.dataset.drop_vars("largest_midspan_moment"))
+    assert peak_moment(without).midspan == pytest.approx(peak_moment(history).midspan, rel=0.1)

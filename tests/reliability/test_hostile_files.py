@@ -286,3 +286,16 @@ def test_no_text_acts_on_the_terminal(name, tmp_path, capsys):
     said = capsys.readouterr()
     assert code in (0, 2) and (code == 0 or said.err.count("\n") == 1)
     assert all(c.isprintable() or c == "\n" for c in said.out + said.err), said
+
+
+def test_a_file_whose_reading_hangs_or_crashes_is_no_history(tmp_path, monkeypatch):
+    (tmp_path / "damaged.nc").write_bytes(b"any")
+    hang, crash = "import signal, time; signal.alarm(1); time.sleep(60)", "import os; os.abort()"
+    for start, why in ((hang, "takes longer than"), (crash, "is a crash")):
+        monkeypatch.setattr("bent_beam.guarded._child", None)
+        monkeypatch.setattr("bent_beam.guarded.START", start)
+        with pytest.raises(ValueError, match=rf"damaged.nc is not a readable history: to read it {why}"):
+            ImpactHistory.load(tmp_path / "damaged.nc")
+    monkeypatch.undo()
+    with pytest.raises(ValueError, match=r"not a readable history: .*signature"):
+        ImpactHistory.load(tmp_path / "damaged.nc")
