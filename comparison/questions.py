@@ -71,8 +71,11 @@ class Question:
 
     @property
     def first_spread(self) -> bool:
-        """Whether it is about the first spread of a zone about the middle of a beam before a rigid wall."""
+        """Whether it is about the first spread of a zone about the middle of a beam before a rigid wall, which pushes
+        at its rim: where the beam shears, the force acts behind the rim."""
         impact = self.impact
+        if impact.shear_stiffness is not None:
+            return False
         other = impact.wall_stiffness is not None or impact.off_centre or impact.wall_in_part or impact.supported
         return not other and not self.late
 
