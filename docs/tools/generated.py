@@ -26,7 +26,13 @@ API = {
         "exudyn_models.integrators",
         "exudyn_models.contacts",
     ),
-    "comparison": ("comparison.methods", "comparison.rows", "comparison.matching", "comparison.bounce"),
+    "comparison": (
+        "comparison.doors",
+        "comparison.methods",
+        "comparison.rows",
+        "comparison.matching",
+        "comparison.bouncing",
+    ),
     "open_benchmark": ("bent_beam_programs.open_benchmark",),
 }
 
