@@ -32,7 +32,7 @@ MASS = "self.element(beam)"
 LOST = "np.where(np.arange({}.size) == 3, 0.5, 1.0)[:, None, None]"  # half of an element's mass: that of half a node
 MOMENTUM = 'self.start_momentum + after["load_impulse"] - v @ self.momentum'
 GAIN = "gain + (missing / np.where(whole > 0.0, whole, 1.0))[:, None] * weight"
-PER_LENGTH = "1.0"
+PER_LENGTH = "units.mass_per_length"
 IMPULSE = 'saved["impulse"] * s.impulse'
 WORK = "blocks += w * tested[:, :, None] * trial[:, None, :]"
 
