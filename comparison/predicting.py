@@ -20,6 +20,7 @@ from bent_beam.errors import SimulationError
 from bent_beam.history import ImpactHistory
 from bent_beam.hysteresis import converges
 from bent_beam.impact import Impact
+from bent_beam.measure.estimators import lift_shares
 from bent_beam.measure.instant import instant
 from bent_beam.measure.numbers import Number
 from bent_beam.method import Method
@@ -79,8 +80,6 @@ def instant_numbers(runs: Runs) -> dict[str, Number]:
 def _thrown_off(impact: Impact, lift: float) -> tuple[float, float]:
     """What the scheme does where it throws the zone off the wall by ``lift`` V₀t: shares of the impulse and of the half
     length. A load, damping, or a wall that gives way may lift it rightly. Companions are thrown off, too."""
-    from bent_beam.measure.estimators import lift_shares
-
     may = impact.lifts or impact.damping or impact.wall_stiffness is not None
     return (0.0, 0.0) if may else lift_shares(lift)
 

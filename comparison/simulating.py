@@ -72,9 +72,7 @@ def simulate_case(
 
 
 def _run(first_spread: bool, until: float, history: ImpactHistory) -> dict[str, Any]:
-    found = moments(history.until(until))
-    kept = {name: values.tolist() for name, values in vars(found).items()}
-    return instants_reading((until,), first_spread, history) | {"moments": kept, "left": False}
+    return instants_reading((until,), first_spread, history) | {"moments": moments(history.until(until))}
 
 
 def _whole_run(history: ImpactHistory) -> dict[str, Any]:
@@ -102,17 +100,11 @@ def _of_whole(runs: Runs) -> dict[str, Number]:
 def _leading(runs: Runs) -> Any:
     """λ₀ and r₀ of the run, where theory has them."""
     impact = runs.question.impact
-    if impact.loaded_to_first_order or not comparable(impact) or "moments" not in runs.run.reading:
+    if impact.loaded_to_first_order or not comparable(impact):
         return None
-    from bent_beam.measure.moments import Moments
-
-    def of(run: Any) -> Moments:
-        import numpy as np
-
-        return Moments(**{name: np.array(values) for name, values in run.reading["moments"].items()})
-
     try:
-        return leading_order(of(runs.run), companions=[of(run) for run in runs.companions.values()])
+        found, *others = (run.reading["moments"] for run in runs.every)
+        return leading_order(found, companions=others)
     except ValueError:
         return None
 

@@ -53,7 +53,6 @@ def bounce(
     """
     from dataclasses import asdict
 
-    from bent_beam.method import paths_with
     from comparison.bounce_text import bounce_document, bounce_table, hits_table
     from comparison.bouncing import bounce as follow
     from comparison.bouncing import follow_hits
@@ -61,10 +60,6 @@ def bounce(
 
     paths = path or ["hermite"]
     asked = [_asked(case, kappa_over_nu, damping, one, assignments or ()) for one in paths]
-    for _, method, _, _ in asked:
-        if not hasattr(method, "for_whole_beam"):
-            able = " and ".join(paths_with("for_whole_beam"))
-            raise InputError(f"path: {method.path} has no choices for the whole beam ({able} have)")
     if out is not None:
         check_writable(out, folder=True)
     how: dict[str, Any] = {"runs": runs, "seed": seed, "jobs": jobs}
@@ -105,9 +100,13 @@ def _asked(
 ) -> tuple[Impact, Method, Section | None, bool]:
     """The impact, its method, its section and whether a damping is stated, from a case or from the two numbers."""
     from bent_beam.cases import load_case
+    from bent_beam.method import method_type, paths_with
     from comparison.bouncing import problem
     from comparison.methods import methods_of
 
+    if not hasattr(method_type(path), "for_whole_beam"):
+        able = " and ".join(paths_with("for_whole_beam"))
+        raise InputError(f"path: {path} has no choices for the whole beam ({able} have)")
     if (case is None) == (kappa_over_nu is None):
         raise InputError("bounce takes a case file or --kappa-over-nu, one of them")
     if case is not None:
