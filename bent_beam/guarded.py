@@ -18,7 +18,8 @@ from pathlib import Path
 __all__ = ["try_first"]
 
 LIMIT = 30  # s; the largest history takes three
-START = "import json, sys; sys.path[:] = json.loads(sys.argv[1]); from bent_beam.guarded import serve; serve()"
+START = "import json, sys; sys.path[:] = json.loads(sys.argv[1]); from bent_beam.files import examine as e"
+START += "; from bent_beam.guarded import serve; serve(e)"
 
 _lock = threading.Lock()
 _child: subprocess.Popen[str] | None = None
@@ -46,13 +47,12 @@ def try_first(file: Path) -> None:
 ALARM = int(getattr(signal, "SIGALRM", 0))
 
 
-def serve() -> None:
-    """In the child: read the files that are named on standard input, a line each; answer with null or a reason."""
+def serve(examine: Callable[[Path], None]) -> None:
+    """In the child: read the files that are named on standard input, a line each; answer with null or a reason.
+    examine : raises for what no file may hold."""
     import os
 
     import h5py
-
-    from bent_beam.files import examine
 
     answers = os.fdopen(os.dup(1), "w")
     os.dup2(2, 1)  # what a library prints is no answer

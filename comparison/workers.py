@@ -3,7 +3,6 @@ time limit for each: a clock that its runs ask between their steps."""
 
 from __future__ import annotations
 
-import asyncio
 import os
 import signal
 import threading
@@ -149,6 +148,8 @@ def interrupts_held() -> Iterator[None]:
 
 
 async def _shake_hands(scheduler: str) -> None:
+    import asyncio
+
     from distributed.comm import connect
 
     async with asyncio.timeout(FIRST_ANSWER):  # a port that accepts and stays mute
@@ -186,6 +187,8 @@ def _on_cluster(
     died: Callable[..., None],
 ) -> None:
     """Dask asks again by itself when a worker dies. (joblib's dask backend waits for ever for a killed worker.)"""
+    import asyncio
+
     try:
         from distributed import Client, KilledWorker, as_completed
     except ImportError:
