@@ -63,10 +63,11 @@ class Case:
         made = method_from_tables(path, self.tables.get(path, {}), label=label)
         if self.mesh is None:
             return made
-        if "mesh" not in self.tables.get(path, {}) and type(self.mesh) in made.PARTS.get("mesh", {}).values():
+        known = getattr(made, "PARTS", {}).get("mesh", {})
+        if "mesh" not in self.tables.get(path, {}) and type(self.mesh) in known.values():
             return dataclasses.replace(made, mesh=self.mesh)
         raise InputError(
-            f"mesh.kind: {path} does not take this mesh (known: {', '.join(sorted(made.PARTS.get('mesh', {})))}); "
+            f"mesh.kind: {path} does not take this mesh (known: {', '.join(sorted(known)) or 'none'}); "
             f"leave [mesh] out, or set [{path}.mesh]"
         )
 
@@ -133,13 +134,26 @@ def _end_time(run: RunTable, impact: Impact) -> float:
         raise InputError(f"run.{'end_time' if run.end_time is not None else 'duration'}: {error}") from None
 
 
+BUCKLING = {
+    ("free", "free"): 1.0,  # of a bow at rest
+    ("hinged", "hinged"): 1.0,
+    ("clamped", "free"): 0.25,
+    ("clamped", "hinged"): 2.0457,
+    ("clamped", "clamped"): 4.0,
+    ("hinged", "free"): 0.0,
+}
+"""Largest compression over π² EI/L², by ends (Euler; Timoshenko and Gere, Theory of Elastic Stability, 1961, ch. 2)."""
+
+
 def _check_buckling(impact: Impact) -> None:
     """Raise :class:`InputError` for a compression under which no bow is at rest."""
-    buckling = math.pi**2 * impact.bending_stiffness / impact.length**2
-    if impact.axial_force < -buckling:
+    ends = (impact.left_end, impact.right_end)
+    share = BUCKLING.get(ends, BUCKLING.get(ends[::-1], 1.0))
+    most = share * math.pi**2 * impact.bending_stiffness / impact.length**2
+    if impact.axial_force < -most:
         raise InputError(
-            f"beam.axial_force must not press with more than {buckling:.6g} N = π² EI/L², at which a straight beam "
-            f"buckles (got {impact.axial_force!r})"
+            f"beam.axial_force must not press with more than {most:.6g} N = {share:g} π² EI/L², at which a straight "
+            f"beam with these ends buckles (got {impact.axial_force!r})"
         )
 
 

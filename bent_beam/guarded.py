@@ -18,8 +18,8 @@ from pathlib import Path
 __all__ = ["try_first"]
 
 LIMIT = 30  # s; the largest history takes three
-START = "import json, sys; sys.path[:] = json.loads(sys.argv[1]); from bent_beam.files import examine as e"
-START += "; from bent_beam.guarded import serve; serve(e)"
+START = "import json, sys; sys.path[:] = json.loads(sys.argv[1]); "
+START += "from bent_beam.files import examine; from bent_beam.guarded import serve; serve(examine)"
 
 _lock = threading.Lock()
 _child: subprocess.Popen[str] | None = None
@@ -47,9 +47,9 @@ def try_first(file: Path) -> None:
 ALARM = int(getattr(signal, "SIGALRM", 0))
 
 
-def serve(examine: Callable[[Path], None]) -> None:
-    """In the child: read the files that are named on standard input, a line each; answer with null or a reason.
-    examine : raises for what no file may hold."""
+def serve(examine: Callable[[Path], object]) -> None:
+    """In the child: examine and read the files that are named on standard input, a line each; answer with null or a
+    reason."""
     import os
 
     import h5py

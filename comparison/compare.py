@@ -63,6 +63,8 @@ def _gap_apart(a: ImpactHistory, b: ImpactHistory, end: float) -> float | None:
     """At ``end``, linear between the saved instants around it, which are others in either run; between the nodes of
     ``b`` by the cubics of its elements where it has slopes: elements may be long."""
 
+    halved = 1 in (a.sides, b.sides)  # one of them is of the half beam alone
+
     def shape(history: ImpactHistory) -> tuple[Any, Any, Any]:
         after = min(int(np.searchsorted(history.time, end * (1.0 - 1e-9))), history.time.size - 1)
         before = max(after - 1, 0)
@@ -76,8 +78,8 @@ def _gap_apart(a: ImpactHistory, b: ImpactHistory, end: float) -> float | None:
         if "slope" in history:
             from_touch = x - history.impact.first_touch
             slope = -at_end(lambda k: history.array("slope", k)) - history.impact.wall_curvature * from_touch
-        right = x >= 0.0
-        return x[right], gap[right], None if slope is None else slope[right]
+        kept = x >= 0.0 if halved else np.ones(x.size, bool)
+        return x[kept], gap[kept], None if slope is None else slope[kept]
 
     (x, gap, _), (other_x, other_gap, other_slope) = shape(a), shape(b)
     common = (x >= other_x[0]) & (x <= other_x[-1])
@@ -203,7 +205,7 @@ def _again(old: ImpactHistory, progress: Callable[[float], None] | None) -> Impa
     values: dict[str, Any] = {}
     for field in dataclasses.fields(method):
         if field.name in settings:
-            value, kinds = settings[field.name], method.PARTS.get(field.name)
+            value, kinds = settings[field.name], getattr(method, "PARTS", {}).get(field.name)
             known = {kind.__name__: kind for kind in (kinds or {}).values()}
             values[field.name] = value if kinds is None else _rebuild(value, known, field.name)
     made: Method = method(**values)

@@ -160,7 +160,7 @@ def predict_case(
     told, share = progress or (lambda _: None), 1.0 / (len(set(times)) + whole)
     found: dict[float, Runs] = {}
     for i, time in enumerate(sorted({t for t in times if 0.0 < t <= within})):
-        question = Question(impact, method, until=time)
+        question = Question(impact, method, until=time, damping_stated=case.damping_stated)
         read = partial(instants_reading, (*checked, time) if time == within else (time,), question.first_spread)
         found[time] = runs_of(question, read, store=store, progress=lambda done, i=i: told(share * (i + done)))  # type: ignore[misc]
     simulated = [_at(found.get(time), case) for time in times]

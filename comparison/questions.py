@@ -8,6 +8,8 @@
 
 Companions: half the elements and steps; and later another contact law, for no refinement of one scheme shows what the
 scheme does. Without damping late motion does not converge: other elements, steps and contact laws, drawn from a seed.
+Early, too, such a beam keeps the short waves that its ends send back at once and that grid viscosity absorbs in a run
+and in its coarser one alike: a run without that viscosity, on even elements that resolve the contact, shows them.
 Whoever asks the same question gets the same runs.
 """
 
@@ -33,6 +35,9 @@ Array = NDArray[np.float64]
 EARLY = 0.003  # T*
 COARSER, FINER = 0.5, 2.0
 DRAWN, SEED = 5, 15  # runs of an ensemble at a time, without damping
+WEAK = 3e-5  # η/T*: with less a beam keeps waves that grid viscosity absorbs
+RESOLVES = 0.05  # times 1/√(t/T*): refinement of a whole beam's elements that has ten of them in √(ct)
+EARLIEST = 1e-5  # T*: before, those waves carry less than 0.1 ‰ of the impulse
 FINEST, USUAL_END = 2.0, 0.05  # resolution over the whole beam's own choice, up to this time, T*
 INSTANTS, OF_UNIT = 200, 2000  # saved: up to the time asked, evenly in √t; of a whole impact, a T*
 ERROR_BARS = {"drift": (), "quick": (COARSER,), "thorough": (COARSER, FINER)}
@@ -42,7 +47,8 @@ ERROR_BARS = {"drift": (), "quick": (COARSER,), "thorough": (COARSER, FINER)}
 @dataclass(frozen=True)
 class Question:
     """One beam by one method. until : s; ``None``: the whole impact, to its last separation. save : saved instants,
-    see :data:`INSTANTS`. error_bars : a key of :data:`ERROR_BARS`.
+    see :data:`INSTANTS`. error_bars : a key of :data:`ERROR_BARS`. damping_stated : otherwise the beam has some, enough
+    to absorb the short waves that one of no damping keeps.
 
     A run to a time goes on a tenth of it beyond, for what is read around it.
     """
@@ -52,6 +58,7 @@ class Question:
     until: float | None = None
     save: int | None = None
     error_bars: str = "quick"
+    damping_stated: bool = True
 
     def __post_init__(self) -> None:
         one_of("error_bars", self.error_bars, ERROR_BARS)
@@ -94,6 +101,8 @@ class Question:
         for name, factor in (("mesh_and_step", COARSER), ("finer", FINER)):
             if factor in ERROR_BARS[self.error_bars] and (other := refined(chosen, factor)) is not None:
                 others[name] = other
+        if (inviscid := self._without_viscosity()) is not None:
+            others["waves_absorbed"] = inviscid
         if self.late and hasattr(chosen, "cross_checks"):
             laws = chosen.cross_checks(self.impact)
             others |= {cause: other for cause, other in laws.items() if cause == "contact_law"}
@@ -103,6 +112,18 @@ class Question:
             loss = min(1.0, self.impact.hysteretic_loss * (1.0 + branches.deviation))
             found["fit_of_the_loss"] = (self.impact.replace(hysteretic_loss=loss), chosen)
         return found
+
+    def _without_viscosity(self) -> Method | None:
+        """For an early question about a beam of hardly any damping: a whole beam's method."""
+        impact, until = self.impact, self.until
+        undamped = self.damping_stated and not impact.hysteretic_loss and impact.relative_damping < WEAK
+        if self.late or until is None or not undamped or getattr(self.method, "mesh", None) is not None:
+            return None
+        share = until / impact.slow_time_scale
+        if share < EARLIEST or not hasattr(self.method, "for_whole_beam"):
+            return None
+        finer = refined(self.method, max(1.0, RESOLVES / share**0.5))
+        return None if finer is None else for_whole_beam(finer, impact)
 
     def drawn(self, runs: int, seed: int) -> list[Method]:
         """An ensemble of a beam without damping: elements, steps and contact laws drawn at random; of a mesh that the

@@ -161,7 +161,7 @@ class MatchRow:
         """JSON-ready, a number as ``{"value", "error", "theory"}``."""
         found = {name: getattr(self, name) for name in self.__dataclass_fields__}
         return {
-            name: {"value": one.value, "error": one.bar, "theory": one.theory} if isinstance(one, Number) else one
+            name: one.compared() if isinstance(one, Number) else one
             for name, one in found.items()
         }
 

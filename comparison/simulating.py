@@ -59,7 +59,7 @@ def simulate_case(
     save : saved instants up to then; of a run to separation, a T*.
     Raises ``ValueError`` for what the method refuses, :class:`bent_beam.SimulationError` when it cannot finish.
     """
-    question = Question(case.impact, case.method(path), until, save, error_bars)
+    question = Question(case.impact, case.method(path), until, save, error_bars, case.damping_stated)
     read: Any = _whole_run if until is None else partial(_run, question.first_spread, until)
     runs = runs_of(question, read, whole_history=True, progress=progress)
     assert runs.history is not None
@@ -180,4 +180,4 @@ def _document(found: Simulated, file: Path | None) -> dict[str, Any]:
 
 
 def _beside(number: Number, theory: float | None) -> dict[str, float | None]:
-    return {"value": number.value, "error": number.bar, "theory": theory}
+    return replace(number, theory=theory).compared()

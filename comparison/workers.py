@@ -187,7 +187,7 @@ def _on_cluster(
     died: Callable[..., None],
 ) -> None:
     """Dask asks again by itself when a worker dies. (joblib's dask backend waits for ever for a killed worker.)"""
-    import asyncio
+    import asyncio  # a quarter of a second that only a cluster asks for
 
     try:
         from distributed import Client, KilledWorker, as_completed

@@ -5,6 +5,7 @@ Every new segment costs a factorisation, every reading a hundredth of one.
 
 from __future__ import annotations
 
+import logging
 import math
 import time as clock
 from collections.abc import Callable
@@ -25,7 +26,11 @@ from exudyn_models.solvers import open_viewer, wait_until_closed
 __all__ = ["Stepping", "Until"]
 
 MOST_NODES = 200_000  # Exudyn takes 10 kB for each: 2 GB
-MOST_WORK = 2e9  # steps x nodes: about an hour
+MOST_WORK = 2e9  # steps x nodes: some hours
+SECONDS = 5e-6  # a step and node, measured with 200 to 240
+LONG = 60.0  # s: a run that will take longer says so before it starts
+BETWEEN = 200  # steps between two reports of progress
+LOG = logging.getLogger(__name__)
 
 Until = Callable[[Recorder, float, Array, Array], bool]
 """Asked with the recorder, the time, q and v (model units): whether the run is to end."""
@@ -72,6 +77,10 @@ class Stepping:
         self.segments = integrator.segments(crossing, scaling.end_time, self.stable)
         steps = sum(segment.steps for segment in self.segments)
         affordable("exudyn.integrator and mesh", steps, nodes, targets.size, MOST_WORK)
+        if until is not None:  # most beams have left after a T*
+            steps = round(steps * min(1.0, scaling.impact.slow_time_scale / scaling.end_time))
+        if (expected := SECONDS * steps * nodes) > LONG:
+            LOG.warning("about %.2g minutes: %d steps of %d nodes", expected / 60.0, steps, nodes)
         round_off = max(contact.round_off, beam.round_off(scaling.amplitude))
         self.settings = chosen.solver.settings(scaling.amplitude, round_off, beam.axial_round_off())
         integrator.configure(self.settings)
@@ -111,11 +120,11 @@ class Stepping:
         q, v = run.read(time, None if self.settling is None else self.settling.solution)
         self._time = time
         self.steps += 1
+        if self.progress is not None and (self.steps % BETWEEN == 0 or time >= 1.0 - 1e-9):
+            self.progress(time)
         if self._saved < self.targets.size and time >= self.targets[self._saved] * (1.0 - 1e-9):
             run.save(time, q)
             self._saved = int(np.searchsorted(self.targets, time * (1.0 + 1e-9), side="right"))
-            if self.progress is not None:
-                self.progress(time)
             self._left = self.until is not None and self.until(run, time, q, v)
             if self._left:
                 return False

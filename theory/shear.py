@@ -9,8 +9,8 @@ Units t_s = √(EIμ)/S, l_s = √(EI/S), force V₀√(Sμ), moment V₀√(EI�
     R̂ = (2/s)√(1 − 1/q²),     Ĵ = R̂/s,     M̂ = 1/(s q);
 
 with damping η of shear and bending alike s becomes s/√D in the roots, and R̂ and M̂ take the factor √D, D = 1 + ηs. It
-starts with R = 2V₀√(Sμ): Euler and Bernoulli's force is infinite there, Timoshenko's is not (Szalai 2014, J. Comput.
-Nonlinear Dyn. 9, 031001), and is Euler and Bernoulli's in the end, J = 4√(2t/π)[1 − (3 − g)/(8t)].
+starts with R = 2V₀√(Sμ): Euler and Bernoulli's force is infinite there, Timoshenko's is not (Szalai 2014, J. Vib.
+Acoust. 136, 041002), and is Euler and Bernoulli's in the end, J = 4√(2t/π)[1 − (3 − g)/(8t)].
 
 **Every bent beam starts with a zone.** A point force kinks a deflection that shears, which no bow can follow. Until
 t_c = 1/(2κ) the rim runs ahead of shear waves; nothing moves there yet, so that the wall takes the momentum that the

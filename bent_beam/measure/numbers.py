@@ -82,6 +82,10 @@ class Number:
         """Value and bar, and the theory where there is one, JSON-ready."""
         return {"value": self.value, "error": self.bar} | ({} if self.theory is None else {"theory": self.theory})
 
+    def compared(self) -> dict[str, float | None]:
+        """Value, bar and theory, each there or ``None``, JSON-ready."""
+        return {"value": self.value, "error": self.bar, "theory": self.theory}
+
     def _unit(self, least: float) -> float:
         return max(abs(self.theory or 0.0), least) or 1.0
 

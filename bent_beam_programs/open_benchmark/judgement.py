@@ -135,7 +135,8 @@ class Score:
 
     def to_dict(self) -> dict[str, Any]:
         """Ready for JSON: finite numbers or ``None``."""
-        numbers = dict.fromkeys(("lambda0", "r0", "lambda1", "r1")) | {k: asdict(v) for k, v in self.measured.items()}
+        numbers: dict[str, Any] = dict.fromkeys(("lambda0", "r0", "lambda1", "r1"))
+        numbers |= {name: found.compared() for name, found in self.measured.items()}
         document = {"problem": self.problem, "outcome": self.outcome, "reason": self.reason, **numbers}
         measures = (*MEASURES, "energy", "raw")
         document |= {name: getattr(self, name) for name in measures}

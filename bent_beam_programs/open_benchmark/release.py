@@ -28,7 +28,8 @@ SHIPPED = (
 
 def _main() -> None:
     shipped = {name: document(problem(name)) for name in SHIPPED}
-    write_atomically(PROBLEMS, json.dumps({"schema": PROBLEM_SCHEMA, "problems": shipped}, indent=1) + "\n")
+    lines = ",\n".join(f"  {json.dumps(name)}: {json.dumps(one)}" for name, one in shipped.items())
+    write_atomically(PROBLEMS, f'{{"schema": {json.dumps(PROBLEM_SCHEMA)}, "problems": {{\n{lines}\n}}}}\n')
     known = {name: computed(problem(name)) for name in SHIPPED if problem(name).kind != "bounce"}
     write(
         REFERENCES,

@@ -100,15 +100,9 @@ class Result:
         low, high = self.problem.fit_window
         return np.asarray((times >= low * (1 - 1e-9)) & (times <= high * (1 + 1e-3)))
 
-    def snapshots(self) -> Iterator[tuple[float, Array, Array]]:
-        """Time, x and gap of each snapshot in the fit window; nothing where gaps are not reported."""
-        return self._at_snapshots(self.snap_gap)
-
-    def velocities(self) -> Iterator[tuple[float, Array, Array]]:
-        """Time, x and velocity into the wall, likewise."""
-        return self._at_snapshots(self.snap_v)
-
-    def _at_snapshots(self, values: Array | None) -> Iterator[tuple[float, Array, Array]]:
+    def snapshots(self, of: str = "snap_gap") -> Iterator[tuple[float, Array, Array]]:
+        """Time, x and gap (or ``of``: snap_v) of each snapshot in the fit window; nothing where it is not reported."""
+        values = getattr(self, of)
         if self.x is None or self.snap_tau is None or values is None:
             return
         for k in np.flatnonzero(self.in_window(self.snap_tau)):
@@ -149,10 +143,8 @@ def _completed(fields: Mapping[str, Any], asked: Problem, detail: str, metadata:
     series = {name: arrays.pop(name) for name in SERIES[2:] if name in arrays}
     if "J_minus" in series and series["J_minus"].min() < -1e-12 * (np.abs(series["J_minus"]).max() + 1e-300):
         raise ResultError("J_minus is the size of the tensile impulse so far: it must not be negative")
-    of_nodes = "J_minus" not in fields
-    snapshots = _snapshots(fields)
-    return Result("completed", detail, asked, metadata, tau, series=series, pull_is_read_off=of_nodes, **arrays,
-                  **snapshots)  # fmt: skip
+    arrays |= {"pull_is_read_off": "J_minus" not in fields, "series": series}
+    return Result("completed", detail, asked, metadata, tau, **arrays, **_snapshots(fields))
 
 
 def _text(fields: Mapping[str, Any], name: str) -> str:
@@ -213,10 +205,8 @@ def _instants(fields: Mapping[str, Any], asked: Problem) -> Array:
         raise ResultError(f"tau must not be negative (starts at {tau[0]:g})")
     low, high = asked.fit_window
     if tau[-1] < high * (1.0 - 1e-3):
-        raise ResultError(
-            f"tau ends at {tau[-1]:g}, before the record's end_time {high:g}: both are in the problem's unit of time "
-            "(for beams √(μℓ⁴/EI) with what its file says, not s or ms)"
-        )
+        units = "in the problem's unit of time, t* = 1 for beams, not in s or ms"
+        raise ResultError(f"tau ends at {tau[-1]:g}, before the record's end_time {high:g}: both are {units}")
     inside = int(np.sum((tau >= low * (1 - 1e-9)) & (tau <= high * (1 + 1e-9))))
     if inside < FEWEST:
         raise ResultError(f"tau holds {inside} instants in the fit window {low:g} to {high:g}, {FEWEST} are the fewest")
@@ -254,7 +244,7 @@ def _numbers(fields: Mapping[str, Any], name: str) -> Array:
     return array
 
 
-def _nodes(fields: Mapping[str, Any], tau: Array, symmetric: bool) -> dict[str, Array]:
+def _nodes(fields: Mapping[str, Any], tau: Array, symmetric: bool) -> dict[str, Any]:
     """Raw nodal histories, and the wall's impulse, its moment and its tensile part, added up from them.
 
     A model of one half (no point at x < 0) of a symmetric problem stands for both. Tension is by how much a point
@@ -282,7 +272,7 @@ def _nodes(fields: Mapping[str, Any], tau: Array, symmetric: bool) -> dict[str, 
     }
 
 
-def _snapshots(fields: Mapping[str, Any]) -> dict[str, Array]:
+def _snapshots(fields: Mapping[str, Any]) -> dict[str, Any]:
     given = [name for name in SNAPSHOTS if name in fields]
     missing = [name for name in SNAPSHOTS if name not in fields]
     if not given:

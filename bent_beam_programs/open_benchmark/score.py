@@ -186,8 +186,8 @@ def _of_numbers(found: Score) -> list[Symptom]:
     shown = []
     for name in (*found.off, *found.unsure):
         number, about = found.measured[name], found.reference.get(name)
-        limit = FIRST_ORDER if name in ("lambda1", "r1") else PART
-        size = number.relative(1.0 if name in ("lambda1", "r1") else 0.0)
+        limit = FIRST_ORDER if name in LOADED else PART
+        size = number.relative(1.0 if name in LOADED else 0.0)
         exact = "" if number.theory is None else f", {'reference' if about else 'exact'} {number.theory:.6g}"
         bar = f" ± {about['error']:.1g}" if about else ""
         if name in found.off:
@@ -197,41 +197,40 @@ def _of_numbers(found: Score) -> list[Symptom]:
     return shown
 
 
+LOADED = ("lambda1", "r1")
 SAME = 1e-6  # of numbers: no two meshes agree so well
 
 
 def resolution_ignored(scores: Sequence[Score]) -> list[Score]:
     """The scores of one code at several resolutions: three of one problem that agree as no two meshes do are copies,
     and where no two agree within the limit, the spread is a symptom."""
-    return [_beside(one, [other for other in scores if other.problem == one.problem]) for one in scores]
+    return [_beside(one, [_numbers(other) for other in scores if other.problem == one.problem]) for one in scores]
 
 
-def _beside(found: Score, scores: Sequence[Score]) -> Score:
-    own, others = _numbers(found), [_numbers(other) for other in scores]
-    if not found.completed or not own:
-        return found
-    apart = sorted(_apart(own, other) for other in others if other.keys() == own.keys())
-    if len(apart) >= 3 and apart[2] < SAME:
-        copies = Symptom("copies", apart[2], SAME, "", "the very same numbers at three resolutions")
-        return replace(found, symptoms=(copies, *found.symptoms), diagnosis=())
-    nearest = min((_apart(a, b) for a, b in combinations(others, 2) if a.keys() == b.keys()), default=0.0)
+def _beside(found: Score, others: Sequence[dict[str, float]]) -> Score:
+    own = _numbers(found)
+    apart = sorted(_apart(own, other) for other in others if own and other.keys() == own.keys())
+    nearest = min((_apart(a, b) for a, b in combinations(others, 2) if a and a.keys() == b.keys()), default=0.0)
     limit = FIRST_ORDER if "lambda1" in own else PART
-    if nearest <= limit:
+    if len(apart) >= 3 and apart[2] < SAME:
+        seen = Symptom("copies", apart[2], SAME, "", "the very same numbers at three resolutions")
+    elif own and nearest > limit:
+        seen = Symptom("spread", nearest, limit, "of the two that agree best", "difference between resolutions")
+    else:
         return found
-    spread = Symptom("spread", nearest, limit, "of the two that agree best", "difference between resolutions")
-    return replace(
-        found, symptoms=(*found.symptoms, spread), diagnosis=tuple(f for f in found.diagnosis if f.name != "clean")
-    )
+    kept = tuple(one for one in found.diagnosis if one.name != "clean" and seen.name == "spread")
+    return replace(found, symptoms=(seen, *found.symptoms), diagnosis=kept)
 
 
 def _numbers(found: Score) -> dict[str, float]:
     """What is compared between resolutions: the numbers over their exact values, and the noise."""
-    sizes = {name: max(abs(number.theory or 0.0), 1.0 if name in ("lambda1", "r1") else 0.0) or 1.0
-             for name, number in found.measured.items()}  # fmt: skip
-    numbers = {name: number.value / sizes[name] for name, number in found.measured.items() if number.value is not None}
-    noise = found.noise
-    return numbers | ({} if noise is None else {"noise": noise})
+    known = {
+        name: one.value / (max(abs(one.theory or 0.0), 1.0 if name in LOADED else 0.0) or 1.0)
+        for name, one in found.measured.items()
+        if one.value is not None
+    }
+    return known | ({} if found.noise is None or not known else {"noise": found.noise})
 
 
 def _apart(one: Mapping[str, float], other: Mapping[str, float]) -> float:
-    return max((abs(one[name] - other[name]) for name in one), default=0.0)
+    return max(abs(one[name] - other[name]) for name in one)

@@ -120,7 +120,7 @@ def _energy(result: Result, _: float = 0.0) -> Seen:
         gain = result.series["E_kin"] + result.series["E_el"]
         gain = gain - gain[0]
         return max(float(gain.max()), 0.0) / largest, f"at τ = {result.tau[int(gain.argmax())]:.3g}", 2e-4
-    found = [(_over_beam(x, (v**2 - 1.0) / 2.0), when) for when, x, v in result.velocities()]
+    found = [(_over_beam(x, (v**2 - 1.0) / 2.0), when) for when, x, v in result.snapshots("snap_v")]
     gained, when = max(found, default=(0.0, 0.0))
     return (max(gained, 0.0) / largest, f"kinetic energy at τ = {when:.3g}") if found else None
 
@@ -137,7 +137,9 @@ def _pull(result: Result, _: float = 0.0) -> Seen:
 def _momentum(result: Result, _: float = 0.0) -> Seen:
     """What the beam has lost over what the wall gave, less 1: positive where impulses are missing; the median of the
     record's second half."""
-    return _lost(result, result.velocities(), result.J, lambda x, tau, v: _free(result.problem, x, tau)[1] - v, 0.015)
+    return _lost(
+        result, result.snapshots("snap_v"), result.J, lambda x, tau, v: _free(result.problem, x, tau)[1] - v, 0.015
+    )
 
 
 def _displacement(result: Result, _: float = 0.0) -> Seen:

@@ -43,7 +43,6 @@ from comparison.rows import MatchRow, Question, failures
 from comparison.store import RunStore
 
 TEMPLATES = Path(__file__).resolve().parent / "templates"
-COLOURS = 96  # of a picture: half the bytes
 
 
 @dataclass(frozen=True)
@@ -160,9 +159,7 @@ def render(content: Content) -> str:
         acceleration=acceleration_rows(content.impacts),
         pipe_headings=[heading for heading, _ in COLUMNS.values()],
         pictures={file.stem: picture(file) for file in content.pictures},
-        caption_of=lambda name, title: (
-            f"{name.replace('fig-', 'Fig. ').replace('extra-', 'Beside the thesis: ')}: {title}"
-        ),
+        caption_of=lambda name, title: f"{name.replace('fig-', 'Fig. ').replace('extra-', 'Its ')}: {title}",
         facts=facts(content),
         settings=settings(content),
         data={
@@ -180,13 +177,12 @@ def inline_script(text: str) -> Markup:
 
 
 def picture(file: Path) -> str:
-    """A PNG as a data URL, in few colours and without loss beyond that; empty where there is none."""
+    """A PNG as a data URL, smaller and without loss; empty where there is none."""
     if not file.exists():
         return ""
     stream = io.BytesIO()
     with Image.open(file) as image:
-        few = image.convert("RGB").quantize(COLOURS, Image.Quantize.MAXCOVERAGE)  # by median cut thin lines lose theirs
-        few.convert("RGB").save(stream, format="WEBP", lossless=True)
+        image.convert("RGB").save(stream, format="WEBP", lossless=True)
     return "data:image/webp;base64," + base64.b64encode(stream.getvalue()).decode("ascii")
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
@@ -27,9 +27,12 @@ def bounce(
         float | None, typer.Option(help="κ/ν, with --damping, in place of a case (inf: one point).")
     ] = None,
     damping: Annotated[float | None, typer.Option(help="η/T*, damping time of the material; 0 gives a band.")] = None,
-    path: Annotated[str, typer.Option(help="hermite, exudyn or an installed one.", autocompletion=path_names)] = (
-        "hermite"
-    ),
+    path: Annotated[
+        list[str] | None,
+        typer.Option(
+            help="hermite (default), exudyn or an installed one; repeatable: side by side.", autocompletion=path_names
+        ),
+    ] = None,
     assignments: Set = None,
     runs: Annotated[int, typer.Option(min=2, max=1000, help="Runs of the ensemble without damping.")] = 24,
     seed: Annotated[int, typer.Option(min=0, help="Seed of the ensemble.")] = 15,
@@ -56,18 +59,27 @@ def bounce(
     from comparison.bouncing import follow_hits
     from comparison.store import RunStore, check_writable, default_store
 
-    impact, method, section, stated = _asked(case, kappa_over_nu, damping, path, assignments or ())
-    if not hasattr(method, "for_whole_beam"):
-        able = paths_with("for_whole_beam")
-        raise InputError(f"path: {path} has no choices for the whole beam ({' and '.join(able)} have)")
+    paths = path or ["hermite"]
+    asked = [_asked(case, kappa_over_nu, damping, one, assignments or ()) for one in paths]
+    for _, method, _, _ in asked:
+        if not hasattr(method, "for_whole_beam"):
+            able = " and ".join(paths_with("for_whole_beam"))
+            raise InputError(f"path: {method.path} has no choices for the whole beam ({able} have)")
     if out is not None:
         check_writable(out, folder=True)
-    with progress(f"{path}: the whole impact", quiet) as bar:
-        how = {"section": section, "damping_stated": stated, "runs": runs, "seed": seed, "jobs": jobs}
-        store = RunStore(None if fresh else default_store())
-        found = follow(impact, method, **how, store=store, history=out is not None or hits > 1, progress=bar.fraction)  # type: ignore[arg-type]
+    how: dict[str, Any] = {"runs": runs, "seed": seed, "jobs": jobs}
+    how["store"], how["history"] = RunStore(None if fresh else default_store()), out is not None or hits > 1
+    every = []
+    for impact, method, section, stated in asked:
+        with progress(f"{method.path}: the whole impact", quiet) as bar:
+            told: dict[str, Any] = {"section": section, "damping_stated": stated, "progress": bar.fraction}
+            every.append(follow(impact, method, **how, **told))
+    found, (_, method, _, _) = every[0], asked[0]
+    with progress("hits", quiet):
         followed = follow_hits(found.impact, method, hits, first=found.history) if hits > 1 else []
     document, problem_of_files = bounce_document(found), ""
+    if len(paths) > 1:
+        document["paths"] = [{"path": name, **bounce_document(one)} for name, one in zip(paths, every)]
     if hits > 1:
         document["hits"] = [{**asdict(hit), "restitution": hit.restitution} for hit in followed]
     if out is not None:
@@ -77,7 +89,13 @@ def bounce(
             document["files"] = [str(file) for file in write_bounce(found, out)]
         except OSError as error:  # the answer is worth more than its files
             problem_of_files = f"--out: {error}"
-    emit(document, as_json, lambda: "\n".join([bounce_table(found, verbose=verbose), *hits_table(followed)]))
+
+    def text() -> str:
+        tables = [bounce_table(one, verbose=verbose) for one in every]
+        titled = tables if len(paths) == 1 else [f"{name}\n{table}\n" for name, table in zip(paths, tables)]
+        return "\n".join([*titled, *hits_table(followed)])
+
+    emit(document, as_json, text)
     if problem_of_files:
         raise InputError(problem_of_files)
 

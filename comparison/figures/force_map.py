@@ -32,6 +32,6 @@ def force_map(history: ImpactHistory, kept: NDArray[np.int64], edges: Array) -> 
 def spread(places: Array, amounts: Array, edges: Array) -> Array:
     """Amounts of contact points put into bins, each evenly over its share of the beam."""
     middles = 0.5 * (places[1:] + places[:-1])
-    borders = np.concatenate([[0.0], middles, [places[-1]]])
+    borders = np.concatenate([[min(0.0, places[0])], middles, [places[-1]]])  # of the half beam: from its middle
     gathered = np.concatenate([[0.0], np.cumsum(amounts)])
     return np.diff(np.interp(edges, borders, gathered))

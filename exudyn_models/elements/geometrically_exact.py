@@ -110,7 +110,9 @@ class _Exact(Beam):
 
 @dataclass(frozen=True)
 class GeometricallyExact(Element):
-    """Geometrically exact two-node beam elements: a second opinion, on a mesh twice as fine for the same accuracy."""
+    """Geometrically exact two-node beam elements: a second opinion in 0.5 to 0.65 of the cable's time.
+
+    λ₀ is as good as the cable's at κ/ν = 0.2, five times as far off at 0.5 and 0.8 (0.005, 0.07 %) on the same mesh."""
 
     shear_ratio: Annotated[
         float, Quantity("", "GA in EI/Δx² of each element; shear has no visible effect from 1e2 on", above=0.0)

@@ -1,15 +1,23 @@
 """One question, one answer: whichever door is asked, the same number with the same bar, to the last digit."""
 
+import math
 import random
 from collections.abc import Iterator
+from contextlib import nullcontext
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
+from called import answered
+from histories import history_of
 
-from bent_beam.cases import Case, load_case
+from bent_beam.cases import Case, case_from_tables, load_case
+from bent_beam.errors import InputError
 from comparison import bounce, predict
 from comparison.bouncing import scales
+from comparison.compare import compare_histories
+from comparison.figures.force_map import force_map
 from comparison.simulating import simulate_case
 
 SEED = 20261123
@@ -71,6 +79,41 @@ def test_every_door_gives_the_same_number_with_the_same_bar(tmp_path: Path) -> N
     *_, elastic, tensioned = drawn(tmp_path, 3, coarse=True)
     check(elastic, 0.02)
     check(tensioned, 0.002)
+
+
+def test_two_codes_stand_side_by_side_and_agree_within_their_bars() -> None:
+    found = answered("bounce", "--kappa-over-nu", 2, "--damping", 0.03, "--path", "hermite", "--path", "exudyn")
+    one, other = found["paths"]
+    assert (one["path"], other["path"]) == ("hermite", "exudyn") and found["restitution"] == one["restitution"]
+    for name in ("restitution", "impulse", "last_contact", "midspan_moment"):
+        a, b = one[name], other[name]
+        assert abs(a["value"] - b["value"]) <= a["error"] + b["error"], name
+
+
+def test_of_two_runs_of_the_whole_beam_both_halves_are_compared_and_drawn() -> None:
+    time, x = np.array([0.0, 0.5, 1.0]), np.linspace(-1.0, 1.0, 5)
+    impulse = np.outer(time, [1.0, 0.0, 0.0, 0.0, 1.0])
+    runs = [
+        history_of(time, x, symmetry="full", impulse=impulse, gap=np.outer(time, gap)) for gap in (x - 1.0, x + 1.0)
+    ]
+    assert compare_histories(*runs)["largest_difference"]["gap"] == pytest.approx(2.0)
+    mirrored = [history_of(time, x, symmetry="full", gap=np.outer(time, np.minimum(0.0, s * x))) for s in (0.0, 1.0)]
+    assert compare_histories(*mirrored)["largest_difference"]["gap"] == pytest.approx(1.0)  # apart on the left alone
+    edges = np.linspace(-1.0, 1.0, 5) / runs[0].impact.length_scale
+    pushed = force_map(runs[0], np.array([0, 2]), edges)[0]
+    assert pushed[0] == pytest.approx(pushed[-1]) and pushed[0] > 0.0
+
+
+@pytest.mark.parametrize(("ends", "share"), [(("clamped", "free"), 0.25), (("free", "hinged"), 0.0)])
+def test_a_compression_beyond_the_ends_own_buckling_load_is_refused(ends: tuple[str, str], share: float) -> None:
+    def beam(force: float) -> dict[str, Any]:
+        return {"bending_stiffness": 1.0, "mass_per_length": 1.0, "length": 1.0, "curvature": 0.01, "ends": ends,
+                "axial_force": force}  # fmt: skip
+
+    for times, fails in ((0.99, False), (1.01, True)):
+        force = -(times * share * math.pi**2) - (0.01 if fails else 0.0)
+        with pytest.raises(InputError, match="axial_force") if fails else nullcontext():
+            case_from_tables({"beam": beam(force), "impact": {"velocity": 1.0}})
 
 
 @pytest.mark.verify

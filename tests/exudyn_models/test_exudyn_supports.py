@@ -55,7 +55,7 @@ def test_a_rigid_stop_and_a_plate_hold_their_part_of_the_beam_and_let_the_rest_p
     stop = Impact(1.0, 1.0, 2.0, 0.0, 1.0, damping=1e-2, wall_from=0.0, wall_to=0.0, **HINGED)
     plate = Impact(1.0, 1.0, 2.0, 0.3, 1.0, damping=1e-2, wall_from=-0.3, wall_to=0.2)
     for impact, where in ((stop, [0.0, 0.0]), (plate, [-0.3, 0.2])):
-        histories = agree(impact, 0.15, 0.01)
+        histories = agree(impact, 0.15, 0.01, refine=0.35)
         for history, depth in zip(histories, (1e-3, 1e-12)):
             places, gap = history.contact_positions(0), history.array("gap")
             assert_allclose(places[[0, -1]], where, atol=1e-12)

@@ -1,11 +1,8 @@
 """MuJoCo: a chain of rigid links with springs and dampers in its hinges, soft contact made stiff.
 
-From its documentation (pages: adapters.toml): discrete, the integrator that is implicit in the stiffness of springs;
-speculative contacts, which act on the gap at the end of the step, for geoms that are fast for their size: so the
-spheres are a tenth of a step's way; solref's time constant "at least two times larger than the
-simulation time step" and a damping ratio that "would normally be set to 1": the stiffest of that; an impedance that is
-constant and as close to one as MuJoCo lets it be (0.9999), which gives the least penetration; condim 1 on both geoms,
-because the larger counts; Newton's solver, its default, without an early stop.
+Settings as its documentation recommends them (pages: adapters.toml): discrete, implicit in the stiffness of springs;
+speculative contacts for geoms that are fast for their size, a tenth of a step's way; the stiffest time constant and
+impedance that it lets one have; condim 1 on both geoms, because the larger counts; Newton's solver without early stop.
 """
 
 import json

@@ -1,11 +1,7 @@
 """OpenSeesPy: elastic beam-column elements, gap springs at the nodes, Newmark's method with strong damping.
 
-From the manual (OpenSeesPyDoc): elasticBeamColumn with its consistent mass (-cMass), ElasticPPGap for a gap that
-closes, in zeroLength elements, Newton's method. Newmark: "gamma > 1/2 results in numerical damping proportional to
-gamma - 1/2", unconditionally stable for beta >= gamma/2 >= 1/4 (newmark.rst). gamma = 3/2 with beta = (gamma + 1/2)^2/4
-damps the short waves most; the structural engineer's 1/2, 1/4 lets them rattle in the gaps. Of the manual's methods of
-second order HHT with its most damped alpha = 2/3, GeneralizedAlpha and TRBDF2 were tried (docs/benchmark.md).
-BandGeneral was as fast as BandSPD, ProfileSPD and UmfPack.
+gamma = 3/2 with beta = (gamma + 1/2)^2/4 damps the short waves most; the structural engineer's 1/2, 1/4 lets them
+rattle in the gaps. Pages of the manual: adapters.toml; what else was tried: docs/benchmark.md.
 """
 
 import json

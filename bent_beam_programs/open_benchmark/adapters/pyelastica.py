@@ -1,10 +1,8 @@
 """PyElastica: a Cosserat rod, position Verlet, its plane contact as shipped or with the wall's pull clipped.
 
-From its documentation: LaplaceDissipationFilter against high-frequency noise, where orders of "3-7 are usually
-recommended" and low orders filter most (docstring of the class, elastica/dissipation.py): 3; PositionVerlet with
-constant steps, as in its examples. Its plane contact takes all that is less than an absolute 1e-4 above the plane
-for touching (surface_tol, elastica/contact_forces.py), so lengths are scaled until that is nothing. Its damping acts on
-separation too: the wall pulls ("shipped"); "clipped" keeps the part of each element's force that pushes.
+LaplaceDissipationFilter of the order that filters most (adapters.toml). The plane contact takes all that is less than
+an absolute 1e-4 above the plane for touching (surface_tol), so lengths are scaled until that is nothing. Its damping
+acts on separation too: the wall pulls ("shipped"); "clipped" keeps the part of each element's force that pushes.
 """
 
 import json

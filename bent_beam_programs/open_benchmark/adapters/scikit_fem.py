@@ -1,9 +1,8 @@
-"""scikit-fem: Hermite beam elements, implicit Euler, contact at the nodes' new positions by a primal-dual active set.
+"""scikit-fem: Hermite beam elements (its Example 34), implicit Euler, contact at the nodes' new positions.
 
-scikit-fem assembles and leaves time and contact to its user. Elements and forms follow its beam example (Example 34,
-docs/examples/ex34.py: ElementLineHermite, ddot(dd(u), dd(v))). Its contact examples are static and penalised (ex04.py,
-one linearised iteration; ex51.py); a penalty in every step would be this adapter's, not scikit-fem's, error. So the
-contact is the active set of Hintermueller, Ito and Kunisch (SIAM J. Optim. 13, 2003), solved exactly in each step.
+scikit-fem assembles and leaves time and contact to its user; its contact examples are static (ex04.py: Nitsche's and a
+mortar method; ex51.py: a penalty). So the contact is the primal-dual active set of Hintermueller, Ito and Kunisch (SIAM
+J. Optim. 13, 2003), solved exactly in each step.
 """
 
 import json

@@ -1,10 +1,6 @@
-"""Siconos: Hermite beam elements, Moreau and Jean's time stepping, an LCP over the nodes' contacts.
-
-As in its own example (siconos-tutorials, examples/mechanics/FEM/ImpactingEulerBernouilliBeam): LagrangianLinearTIDS
-with the user's matrices, one Interaction a node, NewtonImpactNSL with restitution 0, TimeStepping with MoreauJeanOSI
-and an LCP. theta = 1 damps the short waves of the mesh. Tried on the coarse mesh and no better: theta = 1/2 (r0 +0.4,
-lambda0 -0.7 %), gamma = 1, four times shorter steps, projection on the gaps (TimeSteppingDirectProjection,
-TimeSteppingCombinedProjection: lambda0 -0.3 % as without). Matrices are dense.
+"""Siconos: Hermite beam elements, Moreau and Jean's time stepping, an LCP over the nodes' contacts, as in its own
+example (siconos-tutorials, ImpactingEulerBernouilliBeam). theta = 1 damps the short waves of the mesh; what else was
+tried: docs/benchmark.md. Matrices are dense.
 """
 
 import json
