@@ -52,6 +52,7 @@ bench: $(STAMP)
 coverage: $(STAMP)
 	$(BIN)/python -m benchmarks.coverage --jobs $(JOBS) $(if $(SEED),--seed $(SEED))
 	$(BIN)/python -m benchmarks.beams --jobs $(JOBS) $(if $(SEED),--seed $(SEED))
+	$(BIN)/python -m benchmarks.balances $(if $(SEED),--seed $(SEED))
 
 stored: $(STAMP)
 	$(BIN)/python -m benchmarks.stored --jobs $(JOBS) $(if $(RENEW),--renew)

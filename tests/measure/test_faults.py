@@ -22,11 +22,13 @@ from bent_beam.method import made_of
 ROOT = Path(__file__).parents[2]
 WHOLE, END = Impact.whole_beam(0.5, relative_damping=1e-2), 0.1
 MESH = UniformMesh(1.0 / 16)
-SOUND = {"momentum": 3e-3, "second_moment": 5e-3, "points": 1e-9, "initial_energy": 1e-9, "mass": 1e-9, "energy": 1e-3}
+SOUND = {"momentum": 3e-3, "second_moment": 5e-3, "points": 1e-9, "initial_energy": 1e-9, "mass": 1e-9, "energy": 1e-3,
+         "penetration": 2e-3, "middle_slope": 1e-6}  # fmt: skip
 """What a sound run of 16 elements keeps to."""
 
 TOTAL = "copies * run.impulse @ towards"
 POINTS = 'run.impulse[:, front]),\n        "in_contact"'
+ANY, DAMPED = "conditions.candidate[j] = True", "dot(damped_v, scratch)"
 STEP = "state.impulse[j] += conditions.p[j]"
 MASS = "self.element(beam)"
 LOST = "np.where(np.arange({}.size) == 3, 0.5, 1.0)[:, None, None]"  # half of an element's mass: that of half a node
@@ -45,6 +47,10 @@ FAULTS = {
         ("half a node's mass", "initial_energy mass", "masses.py", MASS, f"{MASS} * {LOST.format('beam.lengths')}"),
         ("points mixed up", "second_moment", "simulate.py", POINTS, POINTS.replace("front", "::-1")),
         ("pulls recorded as pushes", "momentum", "stepping.py", STEP, "state.impulse[j] += abs(conditions.p[j])"),
+        ("nodes that may not close", "penetration", "integrators/theta.py", ANY, ANY.replace("True", "j % 3 > 0")),
+        ("a free slope in the middle", "middle_slope", "model.py", "if full else (1,)", "if full else ()"),
+        ("material loss", "energy", "stepping.py", f"h * {DAMPED}", f"0.9 * h * {DAMPED}"),
+        ("steps of the wrong velocity", "energy", "integrators/theta.py", "q[i] += h * v_theta[i]", "q[i] += h * v[i]"),
     ],
     "exudyn_models": [
         ("total impulse", "momentum", "recording.py", MOMENTUM, f"0.99 * ({MOMENTUM})"),

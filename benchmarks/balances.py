@@ -1,0 +1,70 @@
+"""What sound default runs leave of momentum, energy and contact: the limits of :mod:`bent_beam.measure.balance`.
+
+    make coverage                                (python -m benchmarks.balances [--runs 60] [--seed N])
+
+Sixty runs of each path with its defaults, drawn at random: κ/ν log-uniform from 0.05 to 3; every other one an infinite
+beam until 0.1 t* with loads that press, pull or bend, the others whole damped beams until they have left (the self-
+similar path: infinite ones alone). Prints the worst of each check and the limit, which is at least ten times the worst
+of one such campaign; fails where a run exceeds it.
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+import time
+from collections.abc import Sequence
+from functools import partial
+
+import numpy as np
+
+from benchmarks.coverage import log_uniform
+from bent_beam import Impact
+from bent_beam.errors import InputError, SimulationError
+from bent_beam.measure.balance import ELSEWHERE, LIMITS, Balance, balance_of
+from bent_beam.method import method_from_tables, simulate_to_separation
+
+__all__ = ["judged"]
+
+PATHS = ("hermite", "self_similar", "exudyn")
+
+
+def judged(path: str, random: np.random.Generator) -> Balance | None:
+    """The checks of one run drawn at random; ``None`` where the method refuses it, or warns itself."""
+    ratio, method = log_uniform(random, 0.05, 3.0), method_from_tables(path, {})
+    if hasattr(method, "for_whole_beam") and random.random() < 0.5:
+        impact = Impact.whole_beam(ratio, relative_damping=log_uniform(random, 1e-3, 1e-2))
+        run = partial(simulate_to_separation, method, impact)
+    else:
+        size = dict(zip(("alpha", "chi"), 0.5 * random.integers(-1, 2, 2)))
+        impact = Impact.dimensionless(ratio, **{f"epsilon_{name}": value for name, value in size.items()})
+        run = partial(method.simulate, impact, end_time=0.1, save=100)
+    try:
+        history = None if method.refuses(impact) else run()
+        return None if history is None or history.warnings else balance_of(history)
+    except (InputError, SimulationError) as error:
+        print(f"{path}: {error}", file=sys.stderr)
+        return None
+
+
+def main(words: Sequence[str] | None = None) -> int:
+    """Draw, simulate, judge; 1 where a run exceeds a limit."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--runs", type=int, default=60, help="of each path")
+    parser.add_argument("--seed", type=int, default=time.time_ns() % 2**31, help="the clock's unless given")
+    asked = parser.parse_args(words)
+    print(f"seed {asked.seed}", flush=True)
+    exceeded = False
+    for path in PATHS:
+        random = np.random.default_rng(asked.seed)
+        found = [one for one in (judged(path, random) for _ in range(asked.runs)) if one is not None]
+        for name, limit in LIMITS.get(path, ELSEWHERE).items():
+            values = [value for one in found if (value := getattr(one, name)) is not None]
+            worst = max(values, default=0.0)
+            exceeded |= worst > limit
+            print(f"{path:13} {name:13} worst of {len(values):2} runs {worst:8.2g}   limit {limit:8.2g}", flush=True)
+    return int(exceeded)
+
+
+if __name__ == "__main__":
+    sys.exit(main())
