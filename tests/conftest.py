@@ -4,6 +4,7 @@ worker processes start."""
 import os
 import subprocess
 import sys
+import tempfile
 from pathlib import Path
 
 import pytest
@@ -18,6 +19,9 @@ settings.register_profile(
     suppress_health_check=list(HealthCheck),
 )
 settings.load_profile("tests")
+if "PYTEST_XDIST_WORKER" not in os.environ:  # workers inherit it
+    STORE = tempfile.TemporaryDirectory(prefix="bentbeam-tests-")
+    os.environ["BENTBEAM_STORE"] = STORE.name
 
 
 def pytest_sessionstart(session: pytest.Session) -> None:
