@@ -2,22 +2,27 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from copy import deepcopy
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from bent_beam.cases import Case, load_case
+from bent_beam.cases import Case, lay_over, load_case, read_toml
+from bent_beam.files import write_atomically, write_dataset
 from bent_beam.impact import Impact
 from bent_beam.method import Method, method_from_tables
 from comparison import bouncing, predicting
 from comparison.bounce_text import bounce_document, bounce_table
 from comparison.matching import match as match_all
 from comparison.predict_text import prediction_text
+from comparison.readable import csv_text, json_text
 from comparison.rows import THESIS_KAPPAS, MatchRow, match_document, match_table, questions
 from comparison.store import RunStore, default_store
+from comparison.sweeping import sweep_case, varied_from
+from comparison.swept import SweepTable
 
-__all__ = ["Bounced", "Matched", "Predicted", "bounce", "match", "predict"]
+__all__ = ["Bounced", "Matched", "Predicted", "Swept", "bounce", "match", "predict", "sweep"]
 
 Beam = Case | Impact | str | Path
 
@@ -126,3 +131,53 @@ def match(
     made = [method_from_tables(one, {}) if isinstance(one, str) else one for one in methods or ("hermite", "exudyn")]
     asked = questions(made, kappa_over_nu, first_order, refine)
     return Matched(match_all(asked, store=RunStore(None if fresh else default_store()), jobs=jobs))
+
+
+class Swept(SweepTable):
+    """A sweep: its rows as a table, a grid and a figure."""
+
+    def plot(self) -> Any:
+        """Curves with bars over one key, or maps over two, as a Matplotlib figure. Raises ``ValueError`` for more."""
+        from comparison.figures.sweep import sweep_figure
+
+        return sweep_figure(self)
+
+    def write(self, out: Path) -> list[Path]:
+        """``sweep.json``, ``sweep.csv``, ``sweep.nc`` and, where it can be drawn, ``sweep.png``; returns the files."""
+        from comparison.figures import style
+
+        files = [out / f"sweep.{kind}" for kind in ("json", "csv", "nc")]
+        write_atomically(files[0], json_text(self.to_dict(), indent=1) + "\n")
+        write_atomically(files[1], csv_text(row.to_dict() for row in self.rows))
+        write_dataset(self.to_dataset(), files[2])
+        drawable = len(self.vary) <= 2 and any(row.numbers for row in self.rows)
+        return files + (style.save(self.plot(), out, "sweep") if drawable else [])
+
+
+def sweep(
+    case: str | Path | Mapping[str, Any],
+    vary: Mapping[str, Sequence[Any] | str],
+    path: str = "hermite",
+    *,
+    assignments: Sequence[str] = (),
+    jobs: int = 1,
+    scheduler: str | None = None,
+    fresh: bool = False,
+    progress: Callable[[int, int], None] | None = None,
+) -> Swept:
+    """The whole impact of a case for each combination of ``vary``: key → values, or their text ("0.5:2:4").
+
+    case : its file, or its tables. assignments : ``table.key=value``, laid over it first. jobs : processes.
+    scheduler : address of a dask one. progress : called with (done, all) rows. fresh : stored runs are ignored.
+    Raises ``ValueError`` for what is no case at all; a row that fails is a row with its reason.
+
+    >>> from comparison import sweep
+    >>> found = sweep("cases/tube.toml", {"impact.velocity": [0.5, 1.0]})  # doctest: +SKIP
+    """
+    tables: dict[str, Any] = deepcopy(dict(case)) if isinstance(case, Mapping) else read_toml(Path(case), "case file")
+    for assignment in assignments:
+        lay_over(tables, assignment)
+    given = {key: varied_from(f"{key}={v}")[1] if isinstance(v, str) else list(v) for key, v in vary.items()}
+    store = RunStore(None if fresh else default_store())
+    rows = sweep_case(tables, given, path, store=store, jobs=jobs, scheduler=scheduler, progress=progress)
+    return Swept(str(tables.get("title", "")), path, given, rows)
