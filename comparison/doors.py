@@ -38,22 +38,34 @@ def case_of(beam: Beam) -> Case:
 
 @dataclass(frozen=True)
 class Bounced:
-    """A whole impact: ``found`` has its numbers, runs and warnings."""
+    """A whole impact of the case ``title``: ``found`` has its numbers, runs and warnings."""
 
     found: bouncing.Bounce
+    title: str = ""
 
     def to_dict(self) -> dict[str, Any]:
         """The contract of ``bentbeam bounce --json``."""
         return bounce_document(self.found)
 
     def __str__(self) -> str:
-        return bounce_table(self.found)
+        return self.text()
+
+    def text(self, *, verbose: bool = False) -> str:
+        """Every number with its error bar; ``verbose``: with what tells an expert how good they are."""
+        return bounce_table(self.found, verbose=verbose)
 
     def plot(self) -> Any:
-        """Force, contact and shapes over time, as a Matplotlib figure."""
+        """Force, stress and contact over time, and shapes, in the units of the case, as a Matplotlib figure."""
         from comparison.figures.whole_impact import bounce_figure
 
-        return bounce_figure(self.found)
+        return bounce_figure(self.found, self.title)
+
+    def write(self, out: Path) -> list[Path]:
+        """``bounce.json``, ``bounce.png`` and the animation ``bounce.gif`` in ``out``; returns the files."""
+        from comparison.figures.whole_impact import animate, end_of
+
+        film = animate(self.found.history, out / "bounce.gif", end_of(self.found))
+        return [*_written(self, out, "bounce"), film]
 
 
 @dataclass(frozen=True)
@@ -70,10 +82,33 @@ class Predicted:
         return prediction_text(self.found.to_dict())
 
     def plot(self) -> Any:
-        """Of the whole impact, as a Matplotlib figure. Raises ``ValueError`` where it is not simulated."""
-        if self.found.whole is None:
-            raise ValueError(f"the whole impact is not there to be drawn: {self.found.no_whole}")
-        return Bounced(self.found.whole).plot()
+        """The whole impact, or where it is not known the run to the last time, as a Matplotlib figure.
+
+        Raises ``ValueError`` where nothing is simulated.
+        """
+        from comparison.figures.whole_impact import bounce_figure, impact_figure
+
+        case, runs = self.found.case, self.found.runs
+        if self.found.whole is not None:
+            return bounce_figure(self.found.whole, case.title)
+        if runs is None or not self.found.simulated:
+            raise ValueError(f"there is nothing to be drawn: {self.found.no_whole}")
+        history, end = runs.question.run(runs.question.run_by), float(runs.question.until or 0.0)
+        last = predicting.numbers_at(runs, case)
+        return impact_figure(history.until(end), case.title, last, case.section, end)
+
+    def write(self, out: Path) -> list[Path]:
+        """``predict.json`` and ``predict.png`` in ``out``; returns the files. Raises as :meth:`plot`."""
+        return _written(self, out, "predict")
+
+
+def _written(found: Any, out: Path, name: str, drawable: bool = True) -> list[Path]:
+    """Document and figure of an answer in ``out``."""
+    from comparison.figures import style
+
+    document = out / f"{name}.json"
+    write_atomically(document, json_text(found.to_dict(), indent=1) + "\n")
+    return [document, *(style.save(found.plot(), out, name) if drawable else [])]
 
 
 def predict(beam: Beam, *times: float, theory_only: bool = False, fresh: bool = False) -> Predicted:
@@ -96,7 +131,7 @@ def bounce(beam: Beam, path: str = "hermite", *, jobs: int = 1, fresh: bool = Fa
     case = case_of(beam)
     how: dict[str, Any] = {"section": case.section, "damping_stated": case.damping_stated, "jobs": jobs}
     store = RunStore(None if fresh else default_store())
-    return Bounced(bouncing.bounce(case.impact, case.method(path), store=store, **how))
+    return Bounced(bouncing.bounce(case.impact, case.method(path), store=store, **how), case.title)
 
 
 class Matched(list[MatchRow]):
@@ -144,14 +179,11 @@ class Swept(SweepTable):
 
     def write(self, out: Path) -> list[Path]:
         """``sweep.json``, ``sweep.csv``, ``sweep.nc`` and, where it can be drawn, ``sweep.png``; returns the files."""
-        from comparison.figures import style
-
-        files = [out / f"sweep.{kind}" for kind in ("json", "csv", "nc")]
-        write_atomically(files[0], json_text(self.to_dict(), indent=1) + "\n")
-        write_atomically(files[1], csv_text(row.to_dict() for row in self.rows))
-        write_dataset(self.to_dataset(), files[2])
+        table, grid = out / "sweep.csv", out / "sweep.nc"
+        write_atomically(table, csv_text(row.to_dict() for row in self.rows))
+        write_dataset(self.to_dataset(), grid)
         drawable = len(self.vary) <= 2 and any(row.numbers for row in self.rows)
-        return files + (style.save(self.plot(), out, "sweep") if drawable else [])
+        return [table, grid, *_written(self, out, "sweep", drawable)]
 
 
 def sweep(

@@ -83,6 +83,7 @@ def predict(
     ] = None,
     theory_only: Annotated[bool, typer.Option("--theory-only", help="Closed forms only, without simulation.")] = False,
     assignments: Set = None,
+    out: Annotated[Path | None, typer.Option(help="Folder for document and picture.")] = None,
     fresh: Fresh = False,
     as_json: Json = False,
     quiet: Quiet = False,
@@ -94,9 +95,9 @@ def predict(
     Example: bentbeam predict cases/drill_pipe.toml --time 0.005 --time 0.01
     """
     from bent_beam.cases import load_case
-    from comparison.predict_text import prediction_text
+    from comparison.doors import Predicted
     from comparison.predicting import predict_case
-    from comparison.store import RunStore, default_store
+    from comparison.store import RunStore, check_writable, default_store
 
     loaded = load_case(case, assignments or ())
     loaded.method("hermite")  # every table of the case is looked at, also where nothing is simulated
@@ -106,10 +107,17 @@ def predict(
             loaded.impact.checked_time("time", one)
         except ValueError as error:
             raise InputError(f"--time: {error}") from None
+    if out is not None:
+        if theory_only or max(times) <= 0.0:
+            raise InputError(f"--out {out}: nothing is simulated, so that there is nothing to be drawn")
+        check_writable(out, folder=True)
+    store = RunStore(None if fresh else default_store())
     with progress(f"the whole beam: {case.name}", quiet or as_json or theory_only) as bar:
-        store = RunStore(None if fresh else default_store())
-        document = predict_case(loaded, times, theory_only=theory_only, store=store, progress=bar.fraction).to_dict()
-    emit(document, as_json, lambda: prediction_text(document))
+        how = {"theory_only": theory_only, "store": store, "progress": bar.fraction}
+        found = Predicted(predict_case(loaded, times, **how))  # type: ignore[arg-type]
+    emit(found.to_dict(), as_json, lambda: str(found))
+    if out is not None:
+        found.write(out)  # after the answer, which a full disk must not cost
 
 
 def simulate(
