@@ -14,6 +14,7 @@ from functools import cached_property
 from typing import Any
 
 from bent_beam.checks import finite
+from bent_beam.errors import InputError
 from bent_beam.free_flight import LOWEST_PERIOD
 from bent_beam.history import ImpactHistory
 from bent_beam.hysteresis import converges
@@ -210,6 +211,11 @@ def bounce(
     Raises ``ValueError`` for what the method refuses, :class:`bent_beam.SimulationError` when it cannot finish.
     """
     separation_times(impact)  # refuses what no separation ends
+    if not hasattr(method, "for_whole_beam"):
+        raise InputError(
+            f"path: {method.path} lacks for_whole_beam(impact), which chooses for a whole beam what it leaves open "
+            "(nothing open: return self; docs/guide/add-method.md)"
+        )
     if not damping_stated and not (impact.damping or impact.hysteretic_loss):
         how: dict[str, Any] = {"section": section, "save": save, "store": store, "history": history, "jobs": jobs}
         return _over_ratios(impact, method, progress or (lambda _: None), how)

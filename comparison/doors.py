@@ -8,13 +8,18 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from bent_beam.cases import Case, lay_over, load_case, read_toml
+from bent_beam.checks import shortened
+from bent_beam.errors import InputError
 from bent_beam.files import write_atomically, write_dataset
 from bent_beam.impact import Impact
 from bent_beam.method import Method, method_from_tables
 from comparison import bouncing, predicting
 from comparison.bounce_text import bounce_document, bounce_table
 from comparison.matching import match as match_all
+from comparison.methods import PATHS
 from comparison.predict_text import prediction_text
 from comparison.readable import csv_text, json_text
 from comparison.rows import THESIS_KAPPAS, MatchRow, match_document, match_table, questions
@@ -122,8 +127,19 @@ def predict(beam: Beam, *times: float, theory_only: bool = False, fresh: bool = 
     return Predicted(predicting.predict_case(case, times or (case.end_time,), theory_only=theory_only, store=store))
 
 
-def bounce(beam: Beam, path: str = "hermite", *, jobs: int = 1, fresh: bool = False) -> Bounced:
-    """The whole impact by the method of ``path``, to the last separation.
+def made(method: Method | str, case: Case | None = None) -> Method:
+    """The method of a path, with the settings of a case, or the one that is given. Raises ``InputError``."""
+    if isinstance(method, str):
+        return method_from_tables(method, {}) if case is None else case.method(method)
+    if isinstance(method, type):
+        raise InputError(f"method: must be made from its class: {method.__name__}() (got the class)")
+    if not isinstance(method, Method):
+        raise InputError(f"method: must be the name of a path or a method (got {shortened(method)})")
+    return method
+
+
+def bounce(beam: Beam, path: Method | str = "hermite", *, jobs: int = 1, fresh: bool = False) -> Bounced:
+    """The whole impact by the method of ``path``, or by a method, to the last separation.
 
     beam : a case, its file, or an impact. jobs : processes. fresh : stored runs are ignored.
     Raises ``ValueError`` for what the method refuses, :class:`bent_beam.SimulationError` when it cannot finish.
@@ -131,7 +147,7 @@ def bounce(beam: Beam, path: str = "hermite", *, jobs: int = 1, fresh: bool = Fa
     case = case_of(beam)
     how: dict[str, Any] = {"section": case.section, "damping_stated": case.damping_stated, "jobs": jobs}
     store = RunStore(None if fresh else default_store())
-    return Bounced(bouncing.bounce(case.impact, case.method(path), store=store, **how), case.title)
+    return Bounced(bouncing.bounce(case.impact, made(path, case), store=store, **how), case.title)
 
 
 class Matched(list[MatchRow]):
@@ -163,8 +179,7 @@ def match(
 
     first_order : (α, ψ, χ[, N]) each; none: the leading order. jobs : processes. fresh : stored runs are ignored.
     """
-    made = [method_from_tables(one, {}) if isinstance(one, str) else one for one in methods or ("hermite", "exudyn")]
-    asked = questions(made, kappa_over_nu, first_order, refine)
+    asked = questions([made(one) for one in methods or PATHS], kappa_over_nu, first_order, refine)
     return Matched(match_all(asked, store=RunStore(None if fresh else default_store()), jobs=jobs))
 
 
@@ -209,7 +224,11 @@ def sweep(
     tables: dict[str, Any] = deepcopy(dict(case)) if isinstance(case, Mapping) else read_toml(Path(case), "case file")
     for assignment in assignments:
         lay_over(tables, assignment)
-    given = {key: varied_from(f"{key}={v}")[1] if isinstance(v, str) else list(v) for key, v in vary.items()}
+    given: dict[str, Sequence[Any]] = {}
+    for key, values in vary.items():
+        if not isinstance(values, (str, Sequence, np.ndarray)):
+            raise InputError(f"vary: {key} takes its values in a list, or as text (got {shortened(values)})")
+        given[key] = varied_from(f"{key}={values}")[1] if isinstance(values, str) else list(values)
     store = RunStore(None if fresh else default_store())
     rows = sweep_case(tables, given, path, store=store, jobs=jobs, scheduler=scheduler, progress=progress)
     return Swept(str(tables.get("title", "")), path, given, rows)

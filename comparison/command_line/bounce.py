@@ -96,16 +96,10 @@ def _asked(
 ) -> tuple[Case, Method]:
     """The case, or that of the two numbers, and its method."""
     from bent_beam.cases import load_case
-    from bent_beam.method import method_type
     from comparison.bouncing import problem
     from comparison.doors import case_of
     from comparison.methods import methods_of
 
-    if not hasattr(method_type(path), "for_whole_beam"):
-        raise InputError(
-            f"path: {path} lacks for_whole_beam(impact), its choices for a whole beam (one that leaves nothing open "
-            "returns itself: docs/guide/add-method.md)"
-        )
     if (case is None) == (kappa_over_nu is None):
         raise InputError("bounce takes a case file or --kappa-over-nu, one of them")
     if case is not None:

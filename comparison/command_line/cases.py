@@ -34,11 +34,22 @@ def section_kinds(incomplete: str) -> list[str]:
     return complete(list(SECTIONS), incomplete)
 
 
+def example_names(incomplete: str) -> list[str]:
+    """Completion of ``--like``."""
+    from comparison.new_case import examples
+
+    return complete(sorted(examples()), incomplete)
+
+
 def new(
     out: Annotated[Path, typer.Argument(metavar="FILE.toml", help="Where to write the case.")] = Path("my_beam.toml"),
     section: Annotated[
-        str, typer.Option(help="pipe, round_bar, rectangle or general.", autocompletion=section_kinds)
-    ] = "pipe",
+        str | None,
+        typer.Option(help="pipe (default), round_bar, rectangle or general.", autocompletion=section_kinds),
+    ] = None,
+    like: Annotated[
+        str | None, typer.Option(help="An example to start from: tube, rail, …", autocompletion=example_names)
+    ] = None,
     damping_ratio: Annotated[
         float | None, typer.Option(min=0.0, help="Of the first bending mode; otherwise state it in the file.")
     ] = None,
@@ -47,33 +58,37 @@ def new(
 ) -> None:
     """Write a commented case file for a beam of your own.
 
-    Example: bentbeam new my_pipe.toml --section pipe
+    Example: bentbeam new my_tube.toml --like tube
     """
-    from comparison.new_case import new_case
+    from comparison.new_case import example, new_case
     from comparison.store import write_atomically
 
-    text = new_case(section, damping_ratio)
+    if like is not None and not (section is None and damping_ratio is None):
+        raise InputError(f"--like {like}: the example has its section and damping; change them in {out}")
+    text = new_case(section or "pipe", damping_ratio) if like is None else example(like)
     check_out(out, overwrite)
     write_atomically(out, text)
     emit(
-        {"file": str(out), "section": section},
+        {"file": str(out), "section": section or "pipe"} if like is None else {"file": str(out), "like": like},
         as_json,
         lambda: f"{out}: change every number or delete its line, then bentbeam predict {out}",
     )
 
 
 def settings(
+    word: Annotated[str, typer.Argument(help="Only those with this in table, name or text.")] = "",
     markdown: Annotated[bool, typer.Option("--markdown", help="As the page of the documentation.")] = False,
     as_json: Json = False,
 ) -> None:
-    """List every setting with unit, default and range.
+    """List the settings of a case file with unit, default and range.
 
-    Example: bentbeam settings
+    Example: bentbeam settings damping
     """
-    from comparison.settings import settings as every
-    from comparison.settings import settings_markdown, settings_text
+    from comparison.settings import about, settings_markdown, settings_text
 
-    emit(every(), as_json, settings_markdown if markdown else settings_text)
+    if word and markdown:
+        raise InputError(f"--markdown writes the whole page: leave {word!r} out")
+    emit(about(word), as_json, settings_markdown if markdown else lambda: settings_text(word))
 
 
 def predict(

@@ -57,7 +57,7 @@ Set = Annotated[
     typer.Option(
         "--set",
         metavar="TABLE.KEY=VALUE",
-        help="Override a setting of the file; repeatable.",
+        help="Override a setting of the case file; without one, of a path (PATH.KEY). Repeatable.",
         autocompletion=setting_names,
     ),
 ]
