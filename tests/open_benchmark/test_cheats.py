@@ -7,12 +7,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from bent_beam_programs.open_benchmark import problem, score
 from bent_beam_programs.open_benchmark.adapter import Adapter
 from bent_beam_programs.open_benchmark.campaign import campaign, drawn
+from bent_beam_programs.open_benchmark.problem import problem
 from bent_beam_programs.open_benchmark.result import result_from_fields
 from bent_beam_programs.open_benchmark.running import Limits
-from bent_beam_programs.open_benchmark.score import resolution_ignored
+from bent_beam_programs.open_benchmark.score import resolution_ignored, score
 
 sys.path.insert(0, str(Path(__file__).parent))  # tests are imported one by one
 from foreign import solve

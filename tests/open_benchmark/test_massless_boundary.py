@@ -4,8 +4,9 @@ import subprocess
 import sys
 from pathlib import Path
 
-from bent_beam_programs.open_benchmark import load_result, problem, score
-from bent_beam_programs.open_benchmark.problem import problem_text
+from bent_beam_programs.open_benchmark.problem import problem, problem_text
+from bent_beam_programs.open_benchmark.reading import load_result
+from bent_beam_programs.open_benchmark.score import score
 
 ADAPTER = Path(__file__).with_name("massless_boundary.py")
 

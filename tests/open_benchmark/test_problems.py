@@ -8,9 +8,8 @@ import pytest
 from scipy.interpolate import PPoly
 
 from bent_beam.errors import InputError
-from bent_beam_programs.open_benchmark import problem, shipped_ids
 from bent_beam_programs.open_benchmark.exact import computed
-from bent_beam_programs.open_benchmark.problem import PROBLEMS, SCHEMA, document, problem_text
+from bent_beam_programs.open_benchmark.problem import PROBLEMS, SCHEMA, document, problem, problem_text, shipped_ids
 from bent_beam_programs.open_benchmark.references import REFERENCES, reference
 from bent_beam_programs.open_benchmark.references import SCHEMA as REFERENCE_SCHEMA
 

@@ -11,11 +11,12 @@ from histories import history_of
 from bent_beam import Impact
 from bent_beam.meshes import UniformMesh
 from bent_beam.method import method_type
-from bent_beam_programs.open_benchmark import Result, ResultError, load_result, problem, score
 from bent_beam_programs.open_benchmark.histories import result_from_history
+from bent_beam_programs.open_benchmark.problem import problem
+from bent_beam_programs.open_benchmark.reading import load_result
 from bent_beam_programs.open_benchmark.references import reference
-from bent_beam_programs.open_benchmark.result import FEWEST, result_from_fields
-from bent_beam_programs.open_benchmark.score import resolution_ignored
+from bent_beam_programs.open_benchmark.result import FEWEST, Result, ResultError, result_from_fields
+from bent_beam_programs.open_benchmark.score import resolution_ignored, score
 from theory import contact_parameters
 
 SIDE = np.sqrt(2.0 / np.pi)

@@ -10,8 +10,8 @@ from pathlib import Path
 
 import pytest
 
-from bent_beam_programs.open_benchmark import score
 from bent_beam_programs.open_benchmark.result import result_from_fields
+from bent_beam_programs.open_benchmark.score import score
 
 sys.path.insert(0, str(Path(__file__).parent))  # tests are imported one by one
 from faults import FAULTS, drawn
