@@ -58,6 +58,8 @@ def bounce_document(found: Bounce) -> dict[str, Any]:
         "energy_gain": found.outcome.energy_gain,
         "momentum_residual": balance.momentum,
         "gap_of_push": balance.gap_of_push,
+        "penetration": balance.penetration,
+        "pull": balance.pull,
         "left": found.left,
         "steps": found.runs.run.steps,
         "seconds": found.seconds,
@@ -96,10 +98,12 @@ def bounce_table(found: Bounce, *, verbose: bool = False) -> str:
         *(f"Largest {'moment' if found.section is None else 'stress'}, {unit}, {line}." for line in over),
     ]
     if verbose:
-        residuals = (found.balance.momentum, found.balance.gap_of_push)
-        checks = ("-" if value is None else f"{value:.1g}" for value in residuals)
+        balance = found.balance
+        seen = (balance.momentum, balance.energy, balance.gap_of_push, balance.penetration, balance.pull)
+        checks = ("-" if value is None else f"{value:.1g}" for value in seen)
         lines += [
-            "Read from the state: momentum residual {} of the impulse, largest gap of a push {} V0 t.".format(*checks),
+            "Read from the state: momentum residual {} of the impulse, energy residual {},\n"
+            "largest gap of a push {} V0 t, deepest node {} V0 t, largest pull {} of the largest push.".format(*checks),
             f"kappa/nu = {impact.kappa_over_nu:.6g}, {_damping_of(found)}, "
             f"T* = {impact.slow_time_scale:.6g} s; {found.runs.run.steps} steps, {found.seconds:.1f} s for all runs.",
             "Beam's units: L/2 = EI = mu = V0 = 1. A separation lasts at least "

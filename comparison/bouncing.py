@@ -62,7 +62,7 @@ FINAL = ("restitution", "last_contact", "translation", "vibration", "dissipated"
 TIMES = ("last_contact", "peak_moment_time")
 RUNS = 24  # of a band
 SEED = 15
-DAMPING_RATIOS = (0.0002, 0.002, 0.02)  # of the first mode: of steel alone, of a bar as it is held, with joints
+DAMPING_RATIOS = (0.0002, 0.002, 0.02)  # of the first mode: bare steel, a bar as it is held, with joints
 LARGEST_KAPPA = 100.0  # beyond, and long before, the beam touches in one point: infinity is calculated as this
 
 

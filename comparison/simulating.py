@@ -157,6 +157,8 @@ def _document(found: Simulated, file: Path | None) -> dict[str, Any]:
         "contact_points_residual": balance.points,
         "initial_energy_residual": balance.initial_energy,
         "gap_of_push": balance.gap_of_push,
+        "penetration": balance.penetration,
+        "middle_slope": balance.middle_slope,
         "hits": [asdict(hit) for hit in hits(history)] if several else None,
         "warnings": [
             *history.warnings, *loss_warnings(numerical_loss(energy)), *balance.warnings, *found.runs.lost,

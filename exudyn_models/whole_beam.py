@@ -26,7 +26,7 @@ from bent_beam import Impact
 from bent_beam.loads import wall_scales
 from bent_beam.meshes import UniformMesh
 from exudyn_models.contacts import Penalty, penalty
-from exudyn_models.elements import ANCFCable
+from exudyn_models.elements import chosen_element
 from exudyn_models.geometry import supports_or_plate
 from exudyn_models.integrators import Trapezoidal
 from exudyn_models.resolution import STEP, near_buckling, resolving_step, step_of_wall
@@ -43,6 +43,8 @@ SLOWER = 2.0 * math.sqrt(
 )  # its steps; the penalty is softer by the square. With 4√2 e is 5e-4 off at κ/ν = 0.4, 1e-2
 SLOWER_ON_PLATE = 4.0  # steps where hits are plastic, which forgives long steps
 LARGEST_OF_WALL = 0.25  # ℓ_k: elements before a wall that gives way
+SHEARED_ELEMENTS = 160  # of a half beam that shears
+SLOWER_SHEARED, THICK = 2.0, 0.35  # its steps, from this κ/ν on
 FLATTEST = 1.0 / 150.0  # κ/ν down to which the front does not ask for a stiffer penalty
 
 
@@ -53,10 +55,15 @@ def for_whole_beam(method: M, impact: Impact) -> M:
         elements = max(POINT_ELEMENTS, round(impact.half_length / (LARGEST_OF_WALL * wall.length)))
     else:
         elements = ZONE_ELEMENTS if impact.kappa_over_nu < 1.0 else POINT_ELEMENTS
+    if impact.shear_stiffness is not None:
+        elements = SHEARED_ELEMENTS if wall is None else max(elements, SHEARED_ELEMENTS)
+    shears = impact.half_length / elements < impact.shear_length
     chosen = method.mesh is None and method.contact is None and method.integrator is None
     plate = supports_or_plate(impact)  # whose flat beams meet all of it at once, without a front
     spreads = FLATTEST <= impact.kappa_over_nu < 1.0
     slower = 1.0 if not chosen else SLOWER_ON_PLATE if plate else SLOWER if spreads else 1.0
+    if shears:
+        plate, slower = False, SLOWER_SHEARED if chosen and impact.kappa_over_nu >= THICK else 1.0
     mesh = method.mesh or UniformMesh(impact.half_length / round(elements * near_buckling(impact)))
     mesh = mesh.refined(method.refine)
     integrator = Trapezoidal() if method.integrator is None else method.integrator.refined(method.refine)
@@ -65,7 +72,7 @@ def for_whole_beam(method: M, impact: Impact) -> M:
         integrator = dataclasses.replace(integrator, time_step=step)
     contact = method.contact
     if contact is None and wall is None:
-        contact = CONTACT if slower == 1.0 else _softer(CONTACT, slower**-2)
+        contact = CONTACT if slower == 1.0 or shears else _softer(CONTACT, slower**-2)
         if plate:
             contact = dataclasses.replace(
                 CONTACT, relative_stiffness=penalty.STIFFNESS, relative_damping=penalty.PLASTIC
@@ -73,7 +80,7 @@ def for_whole_beam(method: M, impact: Impact) -> M:
     return dataclasses.replace(
         method,
         mesh=mesh,
-        element=method.element or ANCFCable(viscosity=0.0),
+        element=method.element or chosen_element(impact, viscosity=0.0),
         integrator=integrator,
         contact=contact,
         full_beam=method.full_beam or impact.off_centre,
@@ -86,15 +93,13 @@ def cross_checks(method: M, impact: Impact) -> dict[str, M]:
     square), steps twice as long, and, of a penalty, a quarter of the stiffness, whose own time is twice as long, with
     these steps too."""
     chosen = for_whole_beam(method, impact)
-    mesh, integrator, contact = chosen.mesh, chosen.integrator, chosen.contact
-    checks = {
-        "mesh": dataclasses.replace(chosen, mesh=mesh.refined(0.5), integrator=integrator.refined(0.25)),
-        "step": dataclasses.replace(chosen, integrator=integrator.refined(0.5)),
-    }
-    if isinstance(contact, Penalty):
-        softer = _softer(contact, 0.25)
-        checks["contact_law"] = dataclasses.replace(chosen, integrator=integrator.refined(0.5), contact=softer)
-    return checks
+    integrator, contact = chosen.integrator, chosen.contact
+    if not isinstance(contact, Penalty):
+        return {}
+    if impact.shear_stiffness is not None:
+        return {"contact_law": dataclasses.replace(chosen, contact=_softer(contact, 0.5))}
+    softer = _softer(contact, 0.25)
+    return {"contact_law": dataclasses.replace(chosen, integrator=integrator.refined(0.5), contact=softer)}
 
 
 def _softer(contact: Penalty, factor: float) -> Penalty:

@@ -23,8 +23,7 @@ r"""Until when the theory of the first instants holds for a real beam. Every lim
 - **hysteretic loss**: a modulus that grows with the frequency leaves no self-similar contact; never valid.
 - **opening**: one point spreads when the loads have taken the curvature κ − ν of its gap away.
 - **slope**: an arch is lower than its parabola by θ²/12. This is about the slope that the impact adds.
-- **shear**: a beam that shears has formulas of its own (`theory.shear`), after some times t_s = √(EIμ)/(κ_sGA); Euler
-  and Bernoulli's, which the predictor's page has, is it after many, `shear_times`.
+- **shear**: a beam that shears has formulas of its own (`theory.shear`), after some times t_s = √(EIμ)/(κ_sGA).
 - **wall**: one that gives way counts as rigid after many times √(μ/k) (`theory.wall_prediction`).
 - **section**: the leading order's stress is beyond the yield stress from the first instant on.
 """
@@ -56,12 +55,6 @@ SMALL = 0.3
 FLATTEST = 3e-3
 #: Slope at which an arch is 2 % lower than its parabola, θ²/12.
 SLOPE_LIMIT = math.sqrt(12.0 * TOLERANCE)
-#: Shear times t_s after which shear is left out, for a zone and for one point; see `shear_times` for a zone.
-SHEAR_TIMES = {"zone": 100.0, "point": 20.0}
-#: λ₀√(ct) over √(EI/κ_sGA) at which the place of a zone's force is free of shear.
-SHEAR_LENGTHS = 3.3
-#: κ/ν of the flattest zone whose impulse loses the memory of shear in a time that was computed.
-FLATTEST_SHEARED = 0.05
 
 ENDS = "waves back from the ends"
 FIRST_ORDER = "first-order correction"
@@ -124,21 +117,6 @@ def validity(
     if begins == 0.0:
         return Validity(0.0, until, limited_by)
     return Validity(begins, until, limited_by, after) if begins < until else Validity(0.0, 0.0, after)
-
-
-def shear_times(solved: ContactParameters) -> float:
-    """t_s after which force, impulse and half length are within 2 % of a Timoshenko beam's.
-
-    Measured for κ_sG/E = 0.2 and 0.33 (``python -m benchmarks.shear``). One point: what the impulse lacks falls as 1/t.
-    A zone: its force is spread over about √(EI/κ_sGA) behind the rim; its place is right once λ₀√(ct) is longer than
-    that by `SHEAR_LENGTHS`. A flat zone outruns shear waves at first, and its impulse is larger for it. That is
-    forgotten after (ν/κ)² t_s; flatter than `FLATTEST_SHEARED` after longer than was computed.
-    """
-    if solved.regime == DISCRETE:
-        return SHEAR_TIMES["point"]
-    if solved.kappa_over_nu < FLATTEST_SHEARED:
-        return math.inf
-    return max(SHEAR_TIMES["zone"], (SHEAR_LENGTHS / solved.lambda0) ** 2, solved.kappa_over_nu**-2.0)
 
 
 def _until_ends(impact: Impact, solved: ContactParameters) -> float:

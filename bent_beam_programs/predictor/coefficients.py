@@ -9,16 +9,12 @@ series in 1/λ₀ at ∞. Hence
     f(κ/ν) = (1 + b)^p Σ c_k T_k(u),   u = (b − 3)/(b + 3) ∈ [−1, 1),
 
 with p the power with which f grows (κ/ν)^{−p/2}. Where the beam touches in one point, κ/ν ≥ 1, b = 0 is the limit.
-
-The largest force on an undamped wall that gives way has other powers at both ends:
-
-    f(κ/ν) = (κ/ν)^{−1/2} (1 + κ/ν)^{3/8} Σ c_k T_k(u),   u = (κ/ν − 1)/(κ/ν + 1).
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import cache
+from functools import cache, partial
 from itertools import pairwise
 from typing import Any
 
@@ -28,7 +24,7 @@ from numpy.typing import NDArray
 from scipy.special import wofz
 
 from theory import contact_parameters
-from theory.elastic_wall import peak_force
+from theory.second_order import second_order
 from theory.similarity import peak_moment, wave_amplitude
 
 __all__ = ["coefficients"]
@@ -37,8 +33,9 @@ Array = NDArray[np.float64]
 Function = Callable[[Array], Array]
 MIDDLE = 3.0  # b where u = 0
 BREAKS = (-1.0, -0.5, 0.5, 1.0)
+FLATTEST = 5e-4  # κ/ν: beyond, λ₂ and r₂ lose digits
 NODES = 40
-NODES_OF_FORCE = 12  # f within 2e-4; the theory's own error is 1e-4
+NODES_OF_SECOND_ORDER = 20  # within 1e-5: only limits need it
 DIGITS = 13  # of the largest coefficient: smaller ones are left out
 SLOPE = np.sqrt(2.0 / np.pi)
 TURN = np.exp(-0.25j * np.pi) / 2.0  # z = TURN·x
@@ -54,31 +51,53 @@ def _kappa_over_nu(u: Array) -> Array:
     return np.asarray(1.0 / (1.0 + SLOPE * b + b**2 / 2.0))
 
 
-def _erfc(x: Array) -> NDArray[np.complex128]:
-    """e^{z²} erfc z."""
-    return np.asarray(wofz(1j * TURN * x))
-
-
 def _steepest(kappa: Array) -> Array:
-    """Largest slope |E′|: where E″ = 0, between the front and the largest moment ahead of it; found by halving."""
+    """Largest slope |E′| of the wave E = Re[A e^{i(x² − λ₀²)/4} e^{z²} i²erfc z], z = e^{−iπ/4}x/2: where E″ = 0,
+    between the front and the largest moment ahead of it; found by halving."""
+
+    def erfc(x: Array) -> NDArray[np.complex128]:  # e^{z²} erfc z
+        return np.asarray(wofz(1j * TURN * x))
+
     contact = contact_parameters(kappa)
     front, amplitude = contact.lambda0, wave_amplitude(contact)
     low, high = front, peak_moment(kappa).place
     for _ in range(60):
         x = (low + high) / 2.0
         wave = amplitude * np.exp(0.25j * (x**2 - front**2)) * TURN
-        bent = (wave * TURN * _erfc(x)).real > 0.0
+        bent = (wave * TURN * erfc(x)).real > 0.0
         low, high = np.where(bent, low, x), np.where(bent, x, high)
-    return np.abs((wave * (1.0 / np.sqrt(np.pi) - TURN * x * _erfc(x))).real)
+    return np.abs((wave * (1.0 / np.sqrt(np.pi) - TURN * x * erfc(x))).real)
+
+
+@cache
+def _quadratic(kappa: float, sign: float) -> dict[str, float]:
+    """λ₂ and r₂ are quadratic in α and N while their sum keeps its sign: factors by order_loads. Below
+    `FLATTEST` they go with λ₀ and r₀, and N with κ (`theory.validity`)."""
+    like = max(kappa, FLATTEST)
+    loads = {"alpha": (sign, 0.0), "axial": (0.0, sign), "both": (sign, sign)}
+    found = {name: second_order(contact_parameters(like, alpha, axial=n)) for name, (alpha, n) in loads.items()}
+    here, there, flatter, factors = (
+        contact_parameters(kappa),
+        contact_parameters(like),
+        kappa / like,
+        dict[str, float](),
+    )
+    for order, grown in (("lambda2", here.lambda0 / there.lambda0), ("r2", here.r0 / there.r0)):
+        alpha, axial, both = (float(getattr(found[name], order)) * float(grown) for name in ("alpha", "axial", "both"))
+        factors |= {f"{order}_alpha": alpha, f"{order}_axial": axial * flatter**2}
+        factors[f"{order}_both"] = (both - alpha - axial) * flatter
+    return factors
+
+
+def _second(kappa: Array, name: str, sign: float) -> Array:
+    """A factor of :func:`_quadratic` over an array."""
+    return np.array([_quadratic(float(one), sign)[name] for one in kappa])
 
 
 def _functions() -> dict[str, tuple[int, Function]]:
-    """Name → (p, f), ν = 1. λ₁ and r₁ per unit of α, whose sign decides between continuous and detached contact.
-
-    The gap's wave is E = Re[A e^{i(x² − λ₀²)/4} S(x)], S = e^{z²} i²erfc z, with the amplitude A.
-    """
+    """Name → (p, f), ν = 1. λ₁ and r₁ per unit of α, whose sign decides between continuous and detached contact."""
     of = contact_parameters
-    return {
+    found: dict[str, tuple[int, Function]] = {
         "lambda0": (1, lambda k: of(k).lambda0),
         "r0": (1, lambda k: of(k).r0),
         "lambda1_continuous": (1, lambda k: of(k, 1.0).lambda1),
@@ -88,49 +107,38 @@ def _functions() -> dict[str, tuple[int, Function]]:
         "lambda_axial": (-1, lambda k: of(k).lambda_axial),
         "r_axial": (-1, lambda k: of(k).r_axial),
         "moment_ahead": (0, lambda k: peak_moment(k).ahead),
-        "place_ahead": (1, lambda k: peak_moment(k).place),
         "steepest": (-1, _steepest),
-        "amplitude_real": (2, lambda k: wave_amplitude(of(k)).real),
-        "amplitude_imaginary": (2, lambda k: wave_amplitude(of(k)).imag),
     }
+    for regime, sign in (("continuous", 1.0), ("detached", -1.0)):
+        for order in ("lambda2", "r2"):
+            for loads, power in (("alpha", 1), ("both", -1), ("axial", -3)):
+                name = f"{order}_{loads}"
+                found[f"{name}_{regime}"] = (power, partial(_second, name=name, sign=sign))
+    return found
 
 
-def _fit(scaled: Function) -> list[list[float]]:
+def _fit(scaled: Function, nodes: int) -> list[list[float]]:
     """Coefficients of a function of u on each interval: the interpolant at Chebyshev points."""
-    points, pieces = chebyshev.chebpts1(NODES), []
+    points, pieces = chebyshev.chebpts1(nodes), []
     for low, high in pairwise(BREAKS):
-        found = chebyshev.chebfit(points, scaled(low + (high - low) * (points + 1.0) / 2.0), NODES - 1)
+        found = chebyshev.chebfit(points, scaled(low + (high - low) * (points + 1.0) / 2.0), nodes - 1)
         digits = DIGITS - int(np.ceil(np.log10(np.abs(found).max())))
         pieces.append(chebyshev.chebtrim(found.round(digits)).tolist())
     return pieces
 
 
-def _force() -> list[float]:
-    """Coefficients of the largest force on a wall that gives way, over V₀√μ(EI k)^¼."""
-    u = chebyshev.chebpts1(NODES_OF_FORCE)
-    ratio = (1.0 + u) / (1.0 - u)
-    scaled = [peak_force(float(k)).value * np.sqrt(k) * (1.0 + k) ** -0.375 for k in ratio]
-    return list(chebyshev.chebfit(u, scaled, NODES_OF_FORCE - 1).round(7).tolist())
-
-
 @cache
 def coefficients() -> dict[str, Any]:
-    """``breaks`` of u, and ``functions``: name → ``power`` and ``pieces``, the coefficients on each interval.
-
-    ``wave_real``, ``wave_imaginary``: S(x) = e^{z²} i²erfc z, z = e^{−iπ/4}x/2, likewise with x in place of b.
-    """
-
-    def wave(u: Array) -> NDArray[np.complex128]:
-        z = TURN * _variable(u)
-        return np.asarray(((1.0 + 2.0 * z**2) * wofz(1j * z) - 2.0 * z / np.sqrt(np.pi)) / 4.0)
+    """``breaks`` of u, and ``functions``: name → ``power`` and ``pieces``, the coefficients on each interval."""
 
     def scaled(power: int, function: Function) -> Function:
         return lambda u: function(_kappa_over_nu(u)) / (1.0 + _variable(u)) ** power
 
-    functions: dict[str, Any] = {
-        name: {"power": power, "pieces": _fit(scaled(power, function))}
+    functions = {
+        name: {
+            "power": power,
+            "pieces": _fit(scaled(power, function), NODES_OF_SECOND_ORDER if "2_" in name else NODES),
+        }
         for name, (power, function) in _functions().items()
     }
-    functions["wave_real"] = {"power": 0, "pieces": _fit(lambda u: wave(u).real)}
-    functions["wave_imaginary"] = {"power": 0, "pieces": _fit(lambda u: wave(u).imag)}
-    return {"breaks": list(BREAKS), "middle": MIDDLE, "functions": functions, "force": _force()}
+    return {"breaks": list(BREAKS), "middle": MIDDLE, "functions": functions}

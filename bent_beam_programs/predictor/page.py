@@ -7,38 +7,58 @@ from pathlib import Path
 
 from bent_beam.files import write_atomically
 from bent_beam_programs.predictor.coefficients import coefficients
-from theory import validity
+from comparison.predict_text import BEFORE, LIMITS, REGIMES
+from comparison.readable import BEAMS
+from theory import contact_parameters, shear, validity, wall_prediction
+from theory.second_order import second_order
 
 __all__ = ["page", "write_page"]
 
 TEMPLATES = Path(__file__).parent / "templates"
-SCRIPTS = ("theory.js", "limits.js", "beam.js", "case.js", "draw.js", "words.js", "view.js")
+MODEL = ("theory.js", "point.js", "limits.js", "beam.js", "instants.js", "case.js")
+SIMULATION = ("solver.js", "answer.js", "worker.js")  # of the workers
+PAGE = ("answer.js", "draw.js", "form.js", "words.js", "plots.js", "motion.js", "view.js")
+WORDS = {"regimes": REGIMES, "limits": LIMITS, "before": BEFORE, "beams": BEAMS}
+"""What ``bentbeam predict`` says of contact, theory and beam."""
 
 
 def constants() -> dict[str, float]:
-    """Of `theory.validity`, what its formulas in limits.js need."""
+    """Of `theory`, what its formulas in limits.js need."""
+    alpha, axial = (second_order(contact_parameters(1.0, a, axial=n)).opening for a, n in ((1.0, 0.0), (0.0, 1.0)))
     return {
         "tolerance": validity.TOLERANCE,
         "distance": validity.DISTANCE,
         "flat": validity.FLAT,
+        "small": validity.SMALL,
+        "flattest": validity.FLATTEST,
         "slope": validity.SLOPE_LIMIT,
-        **{f"shear_{name}": times for name, times in validity.SHEAR_TIMES.items()},
-        "shear_lengths": validity.SHEAR_LENGTHS,
-        "flattest_sheared": validity.FLATTEST_SHEARED,
+        "opening_alpha": alpha,
+        "opening_axial": axial,
+        "forgotten": shear.FORGOTTEN,
+        "flattest_sheared": shear.FLATTEST,
+        "flattest_settled": wall_prediction.FLATTEST_SETTLED,
+        "least_damped": wall_prediction.LEAST_DAMPED,
+        "zone_time": wall_prediction.ZONE_TIME,
+        "zone_lengths": wall_prediction.ZONE_LENGTHS,
+        "point_time": wall_prediction.POINT_TIME,
     }
 
 
-def script(names: tuple[str, ...] = SCRIPTS) -> str:
-    """The scripts, after the numbers that they read."""
-    data = {"COEFFICIENTS": coefficients(), "VALIDITY": constants()}
-    numbers = [f"const {name} = {json.dumps(value, separators=(',', ':'))};" for name, value in data.items()]
+def script(names: tuple[str, ...] = (*MODEL, *PAGE)) -> str:
+    """The scripts, after the numbers and words that they read."""
+    data = {"COEFFICIENTS": coefficients(), "VALIDITY": constants(), "WORDS": WORDS}
+    numbers = [
+        f"const {name} = {json.dumps(value, separators=(',', ':'), ensure_ascii=False)};"
+        for name, value in data.items()
+    ]
     return "\n".join([*numbers, *(_source(name) for name in names)])
 
 
 def page() -> str:
-    """The page as text, complete in itself."""
-    text = _source("predictor.html")
-    return text.replace("{{ style }}", _source("predictor.css")).replace("{{ script }}", script())
+    """The page as text, complete in itself. What the workers run stands in it once, as the page's own script."""
+    text = _source("predictor.html").replace("{{ style }}", _source("predictor.css"))
+    simulation = "\n".join(_source(name) for name in SIMULATION)
+    return text.replace("{{ simulation }}", simulation).replace("{{ script }}", script())
 
 
 def write_page(file: str | Path) -> Path:

@@ -196,7 +196,7 @@ def test_a_new_case_can_be_used_once_its_damping_is_stated(kind, tmp_path):
 
     file = tmp_path / "mine.toml"
     file.write_text(new_case(kind))
-    with pytest.raises(InputError, match=r"beam\.damping_ratio .*0\.002 plain steel, 0\.01 with joints"):
+    with pytest.raises(InputError, match=r"beam\.damping_ratio .*0\.0002 bare steel, 0\.002 as held"):
         load_case(file)
     file.write_text(new_case(kind, 0.01))
     assert load_case(file).section is not None and load_case(file).impact.damping > 0.0

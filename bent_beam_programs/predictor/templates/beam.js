@@ -1,7 +1,7 @@
 "use strict";
-// A beam as one knows it → EI, μ, K, V₀ and loads (SI) → what the theory says of it, and until when.
+// A beam as one knows it → EI, μ, κ_sGA, K, V₀ and loads (SI) → the numbers of its whole impact to simulate.
 const Beam = (() => {
-  const { sqrt, abs, min, PI } = Math;
+  const { sqrt, abs, PI } = Math;
   const GRAVITY = 9.80665; // m/s², standard
   const FIRST_MODE = 4.730040744862704; // first root of cos z cosh z = 1, the free–free beam
 
@@ -12,7 +12,9 @@ const Beam = (() => {
       curvature: ["1/m", 1], sagitta: ["mm", 1e-3], dogleg: ["°/30 m", PI / 180 / 30],
       velocity: ["m/s", 1], drop: ["m", 1],
       tension: ["kN", 1e3], load: ["N/m", 1], stress: ["MPa", 1e6], share: ["%", 0.01], stiffness: ["MN/m²", 1e6],
+      gravity: ["m/s²", 1], area: ["cm²", 1e-4], second: ["cm⁴", 1e-8],
       time: [["µs", 1e-6], ["ms", 1e-3], ["s", 1]], force: [["N", 1], ["kN", 1e3], ["MN", 1e6]],
+      push: [["N/m", 1], ["kN/m", 1e3]],
       impulse: [["mN s", 1e-3], ["N s", 1], ["kN s", 1e3]], moment: [["N m", 1], ["kN m", 1e3]],
       place: [["mm", 1e-3], ["m", 1]], gap: [["µm", 1e-6], ["mm", 1e-3], ["m", 1]],
     },
@@ -23,51 +25,60 @@ const Beam = (() => {
       dogleg: ["°/100 ft", PI / 180 / 30.48], velocity: ["ft/s", 0.3048], drop: ["ft", 0.3048],
       tension: ["klbf", 4448.2216152605], load: ["lbf/ft", 14.593902937206],
       stress: ["ksi", 6.894757293168e6], share: ["%", 0.01], stiffness: ["klbf/in²", 6.894757293168e6],
+      gravity: ["ft/s²", 0.3048], area: ["in²", 0.0254 ** 2], second: ["in⁴", 0.0254 ** 4],
       time: [["µs", 1e-6], ["ms", 1e-3], ["s", 1]], force: [["lbf", 4.4482216152605], ["klbf", 4448.2216152605]],
-      impulse: [["lbf s", 4.4482216152605]], moment: [["ft lbf", 1.3558179483314], ["ft klbf", 1355.8179483314]],
+      push: [["lbf/ft", 14.593902937206], ["klbf/ft", 14593.902937206]], impulse: [["lbf s", 4.4482216152605]], moment: [["ft lbf", 1.3558179483314], ["ft klbf", 1355.8179483314]],
       place: [["in", 0.0254], ["ft", 0.3048]], gap: [["mil", 2.54e-5], ["in", 0.0254], ["ft", 0.3048]],
     },
   };
 
-  // Every input: group, name, label, quantity, value to start with (SI), which values may be, when it is asked for.
+  // Every input: group, name, label, quantity, value to start with (SI), which values may be, when it is asked for, and
+  // what it means to leave it empty (null), where that is allowed.
   const positive = (v) => v > 0, whole = (v) => v >= 0, any = () => true; // of values; `any` of inputs too
-  const on = (field, ...kinds) => (i) => kinds.includes(i[field]);
+  const on = (field, ...kinds) => (i) => kinds.includes(i[field]), bar = on("section", "pipe", "round_bar", "rectangle");
   const CHOICES = [
     { name: "units", label: "Units", group: "", options: { si: "metric", oilfield: "oilfield" } },
     { name: "section", label: "Section", group: "Beam",
-      options: { pipe: "pipe", round_bar: "round bar", rectangle: "rectangle" } },
+      options: { pipe: "pipe", round_bar: "round bar", rectangle: "rectangle", general: "by its area and I" } },
+    { name: "model", label: "Shear", group: "Beam", shown: bar,
+      options: { timoshenko: "counts", euler_bernoulli: "left out" } },
     { name: "bow", label: "Given as", group: "Bow",
-      options: { curvature: "curvature", sagitta: "sagitta over a length", dogleg: "dogleg" } },
+      options: { sagitta: "sagitta", curvature: "curvature", dogleg: "dogleg" } },
     { name: "approach", label: "Given as", group: "Approach", options: { velocity: "velocity", drop: "drop height" } },
   ];
   const FIELDS = [
-    ["Beam", "outer_diameter", "Outer diameter", "section", 0.127, positive, on("section", "pipe")],
-    ["Beam", "inner_diameter", "Inner diameter", "section", 0.1086, positive, on("section", "pipe")],
+    ["Beam", "outer_diameter", "Outer diameter", "section", 0.05, positive, on("section", "pipe")],
+    ["Beam", "inner_diameter", "Inner diameter", "section", 0.044, positive, on("section", "pipe")],
     ["Beam", "diameter", "Diameter", "section", 0.02, positive, on("section", "round_bar")],
     ["Beam", "thickness", "Thickness (towards the wall)", "section", 0.01, positive, on("section", "rectangle")],
     ["Beam", "width", "Width (along the wall)", "section", 0.03, positive, on("section", "rectangle")],
-    ["Beam", "youngs_modulus", "Young’s modulus E", "modulus", 206e9, positive],
-    ["Beam", "density", "Density", "density", 7850, positive],
+    ["Beam", "area_of_section", "Area", "area", 76.7e-4, positive, on("section", "general")],
+    ["Beam", "second_moment_of_area", "Second moment of area", "second", 3038.3e-8, positive, on("section", "general")],
+    ["Beam", "section_height", "Height", "section", 0.172, positive, on("section", "general")],
+    ["Beam", "youngs_modulus", "Young’s modulus E", "modulus", 70e9, positive],
+    ["Beam", "density", "Density", "density", 2700, positive],
     ["Beam", "fluid_density", "Density of fluid inside", "density", 0, whole, on("section", "pipe")],
-    ["Beam", "added_mass", "Added mass (joints, mud)", "line", 2.29, whole],
-    ["Beam", "yield_stress", "Yield stress (0: unknown)", "stress", 931e6, whole],
-    ["Beam", "length", "Length L", "length", 90, positive],
-    ["Bow", "curvature", "Curvature K", "curvature", 0.002, positive, on("bow", "curvature")],
-    ["Bow", "sagitta", "Sagitta", "sagitta", 0.025, positive, on("bow", "sagitta")],
-    ["Bow", "sagitta_length", "Length of the sagitta", "length", 10, positive, on("bow", "sagitta")],
-    ["Bow", "dogleg", "Dogleg", "dogleg", 3.437747 * PI / 180 / 30, positive, on("bow", "dogleg")],
+    ["Beam", "added_mass", "Added mass (joints, mud)", "line", 0, whole],
+    ["Beam", "yield_stress", "Yield stress", "stress", 240e6, positive, any, "unknown"],
+    ["Beam", "length", "Length L", "length", 3, positive],
+    ["Beam", "damping_ratio", "Damping ratio, 1st mode", "share", 0.01, whole, any, "not stated"],
+    ["Bow", "curvature", "Curvature K", "curvature", 0.009, positive, on("bow", "curvature")],
+    ["Bow", "sagitta", "Sagitta", "sagitta", 0.01, positive, on("bow", "sagitta")],
+    ["Bow", "sagitta_length", "Length of the sagitta", "length", null, positive, on("bow", "sagitta"), "the beam’s"],
+    ["Bow", "dogleg", "Dogleg", "dogleg", 0.5 * PI / 180, positive, on("bow", "dogleg")],
     ["Bow", "natural_share", "Stress-free part of the bow", "share", 1, any],
-    ["Approach", "velocity", "Velocity V₀", "velocity", 2, positive, on("approach", "velocity")],
-    ["Approach", "drop_height", "Drop height", "drop", 0.2, positive, on("approach", "drop")],
+    ["Approach", "velocity", "Velocity V₀", "velocity", 1, positive, on("approach", "velocity")],
+    ["Approach", "drop_height", "Drop height", "drop", 0.05, positive, on("approach", "drop")],
+    ["Loads", "gravity", "Gravity towards the wall", "gravity", 9.81, whole, any, "drop: 9.81"],
+    ["Loads", "load", "Other load towards the wall", "load", 0, any],
     ["Loads", "tension", "Axial force (tension +)", "tension", 0, any],
-    ["Loads", "load", "Load towards the wall", "load", 0, any],
-    ["Beam", "damping_ratio", "Damping ratio, 1st mode", "share", 0, whole],
-    ["Wall", "wall_curvature", "Wall curvature along the beam (+ concave)", "curvature", 0, any],
-    ["Wall", "wall_stiffness", "Stiffness per length of beam (0: rigid)", "stiffness", 0, whole],
-  ].map(([group, name, label, quantity, start, ok, shown = any]) => (
-    { group, name, label, quantity, start, ok, shown }
+    ["Wall", "wall_stiffness", "Stiffness per length of beam", "stiffness", null, positive, any, "rigid"],
+    ["Wall", "wall_damping_ratio", "Damping ratio of the wall", "share", 0, whole, (i) => i.wall_stiffness !== null],
+    ["Wall", "wall_curvature", "Curvature along the beam (+ concave)", "curvature", 0, any],
+  ].map(([group, name, label, quantity, start, ok, shown = any, empty = ""]) => (
+    { group, name, label, quantity, start, ok, shown, empty }
   ));
-  const START = { units: "si", section: "pipe", bow: "dogleg", approach: "velocity" };
+  const START = { units: "si", section: "pipe", model: "timoshenko", bow: "sagitta", approach: "velocity" };
   for (const field of FIELDS) START[field.name] = field.start;
 
   /** What is wrong with the inputs: a list of [field name, sentence]. */
@@ -75,15 +86,17 @@ const Beam = (() => {
     const list = [];
     for (const field of FIELDS) {
       const value = inputs[field.name];
-      if (!field.shown(inputs)) continue;
+      if (!field.shown(inputs) || (value === null && field.empty)) continue;
       const rule = field.ok === positive ? "be positive" : "not be negative";
       if (!Number.isFinite(value)) list.push([field.name, `${field.label} needs a number, without thousands separators.`]);
       else if (!field.ok(value)) list.push([field.name, `${field.label} must ${rule}.`]);
     }
     if (inputs.section === "pipe" && inputs.inner_diameter >= inputs.outer_diameter)
       list.push(["inner_diameter", "The inner diameter must be smaller than the outer one."]);
-    if (inputs.bow === "sagitta" && inputs.sagitta >= inputs.sagitta_length / 2)
+    if (inputs.bow === "sagitta" && inputs.sagitta >= chord(inputs) / 2)
       list.push(["sagitta", "The sagitta must be less than half the length under it."]);
+    if (inputs.approach === "drop" && inputs.gravity === 0)
+      list.push(["gravity", "A drop needs gravity."]);
     if (inputs.bow === "sagitta" && inputs.sagitta_length > inputs.length)
       list.push(["sagitta_length", "The length of the sagitta must not exceed that of the beam."]);
     if (!list.length && inputs.wall_curvature && inputs.wall_curvature >= bow(inputs))
@@ -93,15 +106,18 @@ const Beam = (() => {
     return list;
   }
 
-  /** Curvature K of the bow, 1/m. */
+  /** Curvature K of the bow, 1/m, and the length of its sagitta. */
+  const chord = (i) => i.sagitta_length ?? i.length;
   const bow = (i) => (i.bow === "dogleg" ? i.dogleg
-    : i.bow === "sagitta" ? 8 * i.sagitta / (i.sagitta_length ** 2 + 4 * i.sagitta ** 2) : i.curvature);
+    : i.bow === "sagitta" ? 8 * i.sagitta / (chord(i) ** 2 + 4 * i.sagitta ** 2) : i.curvature);
 
-  /** Area, second moment of area, height in the plane of bending and mass per length of the section, SI. */
+  /** Area, section modulus, EI, mass per length, and of a beam that shears κ_sGA and ρI, SI. */
   function section(i) {
     let area, second, height, bore = 0;
     if (i.section === "rectangle") {
       [area, second, height] = [i.width * i.thickness, i.width * i.thickness ** 3 / 12, i.thickness];
+    } else if (i.section === "general") {
+      [area, second, height] = [i.area_of_section, i.second_moment_of_area, i.section_height];
     } else {
       const [outer, inner] = i.section === "pipe" ? [i.outer_diameter, i.inner_diameter] : [i.diameter, 0];
       const wall = (outer - inner) * (outer + inner);
@@ -115,76 +131,53 @@ const Beam = (() => {
       round_bar: 6 * (1 + n) / (7 + 6 * n),
       rectangle: 10 * (1 + n) / (12 + 11 * n),
     }[i.section];
-    const shear = coefficient * i.youngs_modulus / (2 * (1 + n)) * area;
-    const mass = i.density * area + i.fluid_density * bore + i.added_mass;
-    return { area, second, height, shear, stiffness: i.youngs_modulus * second, mass };
-  }
-
-  /** The impact of the inputs: EI, μ, L, K, V₀, N, and a₀ of the free flight under weight, push and tension (SI). */
-  function impact(i) {
-    const { area, second, height, shear, stiffness, mass } = section(i);
-    const curvature = bow(i), weight = i.approach === "drop" ? GRAVITY : 0;
+    const sheared = coefficient && i.model === "timoshenko";
     return {
-      stiffness, mass, length: i.length, curvature, tension: i.tension, area, shear, modulus: second / (height / 2),
-      velocity: i.approach === "drop" ? sqrt(2 * GRAVITY * i.drop_height) : i.velocity,
-      acceleration: weight + (i.load - i.tension * curvature) / mass,
-      wallCurvature: i.wall_curvature, wallStiffness: i.wall_stiffness, naturalCurvature: i.natural_share * curvature,
-      damping: 2 * i.damping_ratio * (i.length / FIRST_MODE) ** 2 / sqrt(stiffness / mass),
+      area, modulus: second / (height / 2), stiffness: i.youngs_modulus * second,
+      mass: i.density * area + (i.section === "pipe" ? i.fluid_density * bore : 0) + i.added_mass,
+      shear: sheared ? coefficient * i.youngs_modulus / (2 * (1 + n)) * area : 0, turning: sheared ? i.density * second : 0,
     };
   }
 
-  /** Groups, contact parameters, scales and limits of one impact. */
-  function solve(b) {
-    const c = sqrt(b.stiffness / b.mass), half = b.length / 2, lengthScale = c / b.velocity;
-    const timeScale = lengthScale / b.velocity, slow = half * half / c;
-    const ratio = (b.curvature - b.wallCurvature) * lengthScale;
-    const alpha = b.acceleration * timeScale / b.velocity, n = b.tension / (b.mass * b.velocity ** 2);
-    const contact = Theory.contact(ratio, alpha, n);
-    const solved = { b, c, half, timeScale, slow, contact }, limits = Limits.limits(solved);
-    // where nothing holds the numbers are shown as far as they would without what spoils them
-    const unit = b.velocity * sqrt(b.mass) * (b.stiffness * b.wallStiffness) ** 0.25;
-    const peakForce = b.wallStiffness ? unit * Theory.peakForce(ratio) : null; // of a wall that gives way
-    return { ...solved, limits, peakForce, shownUntil: limits.until, first: bending(solved) };
+  /** The impact of the inputs, SI: the section, L, K, V₀, N, η (null: not stated), a₀ of the free flight, the wall. */
+  function impact(i) {
+    const made = section(i), curvature = bow(i), drop = i.approach === "drop";
+    const gravity = i.gravity ?? (drop ? GRAVITY : 0), stiffness = i.wall_stiffness ?? 0;
+    return {
+      ...made, length: i.length, curvature, tension: i.tension,
+      velocity: drop ? sqrt(2 * gravity * i.drop_height) : i.velocity,
+      acceleration: gravity + (i.load - i.tension * curvature) / made.mass,
+      wallCurvature: i.wall_curvature, wallStiffness: stiffness, naturalCurvature: i.natural_share * curvature,
+      wallDamping: 2 * i.wall_damping_ratio * sqrt(stiffness * made.mass), yieldStress: i.yield_stress,
+      damping: i.damping_ratio === null ? null : dampingTime(made, i.length, i.damping_ratio),
+    };
+  }
+
+  /** η (s) of a damping ratio of the first free–free mode without shear. */
+  const dampingTime = ({ stiffness, mass }, length, ratio) => 2 * ratio * (length / FIRST_MODE) ** 2 / sqrt(stiffness / mass);
+
+  /** SI units of ℓ = EI = μ = V₀ = 1. */
+  function scales(b) {
+    const half = b.length / 2, c = sqrt(b.stiffness / b.mass), time = half * half / c;
+    const impulse = b.mass * half * b.velocity;
+    return { length: half, time, deflection: b.velocity * time, impulse, force: impulse / time, line: impulse / time / half,
+      moment: b.velocity * sqrt(b.stiffness * b.mass) };
+  }
+
+  /** The problem that solver.js simulates, of η = `damping`. */
+  function problem(b, damping) {
+    const { length, time } = scales(b), bend = sqrt(b.stiffness / b.mass) / b.velocity, tension = b.tension * length ** 2 / b.stiffness;
+    return {
+      kappa: (b.curvature - b.wallCurvature) * bend, eta: damping / time,
+      shear: b.shear * length ** 2 / b.stiffness, turning: b.turning / (b.mass * length ** 2),
+      load: b.acceleration * time / b.velocity, tension, pull: tension * b.curvature * bend,
+      before: (b.naturalCurvature - b.curvature) * bend,
+      wall: b.wallStiffness ? { k: b.wallStiffness * length ** 4 / b.stiffness, c: b.wallDamping * length ** 4 / b.stiffness / time } : null,
+    };
   }
 
   /** Stress of a bending moment together with the axial force, Pa. */
-  const stressOf = (b, moment) => moment / b.modulus + abs(b.tension) / b.area;
+  const stress = (b, moment) => moment / b.modulus + abs(b.tension) / b.area;
 
-  /** Largest bending moment (N m) of the first instants, its stress, and its place, x/√(ct); constant in time. */
-  function bending({ b, contact: { moment } }) {
-    const unit = b.velocity * sqrt(b.stiffness * b.mass), before = b.stiffness * (b.naturalCurvature - b.curvature);
-    const candidates = [
-      { moment: abs(before + unit * moment.contact), place: 0 },
-      { moment: abs(before - unit * moment.ahead), place: moment.place },
-      { moment: abs(before), place: Infinity },
-    ];
-    const largest = candidates.reduce((a, b) => (b.moment > a.moment ? b : a));
-    return { ...largest, stress: stressOf(b, largest.moment) };
-  }
-
-  /** Contact, force, impulse, moment and stress at the time t > 0, SI. */
-  function at(p, t) {
-    const { b, c, contact: { lambda0, lambda1, r0, r1, uniform }, first } = p, tau = t / p.timeScale;
-    const momentum = b.mass * b.velocity, root = sqrt(c * t), front = 2 * Theory.s * momentum * root;
-    const halfLength = root * (lambda0 + lambda1 * tau), pressure = uniform * momentum / p.timeScale;
-    return {
-      halfLength,
-      uniform: pressure,
-      reaction: front * (r0 + r1 * tau) / t + 2 * halfLength * pressure,
-      impulse: 2 * front * (r0 + r1 * tau / 3) + 4 * pressure * root * t * (lambda0 / 3 + lambda1 * tau / 5),
-      moment: first.moment,
-      place: min(first.place * root, p.half),
-      stress: first.stress,
-    };
-  }
-
-  /** Gap between beam and wall at the distance x from the first touch and the time t ≥ 0 at leading order, m. */
-  function gap(p, x, t) {
-    return t > 0 ? Theory.gap(p.contact, abs(x) / sqrt(p.c * t)) * p.b.velocity * t : freeGap(p, x, 0);
-  }
-
-  /** The beam where it would be without the wall, at leading order. */
-  const freeGap = ({ b }, x, t) => (b.curvature - b.wallCurvature) * x * x / 2 - b.velocity * t;
-
-  return { UNITS, CHOICES, FIELDS, START, complaints, impact, solve, at, gap, freeGap };
+  return { UNITS, CHOICES, FIELDS, START, complaints, bow, impact, dampingTime, scales, problem, stress };
 })();

@@ -1,59 +1,114 @@
 "use strict";
-// The inputs as a case file that `bentbeam predict`, `simulate` and `bounce` read: described as they were given.
+// The inputs as a case file that `bentbeam predict`, `bounce` and `sweep` read, and such a file as inputs.
 const Case = (() => {
   /** A number as TOML writes floats: the shortest text that reads back as the same double. */
   const float = (value) => (Number.isInteger(value) && Math.abs(value) < 1e15 ? value.toFixed(1) : String(value));
-  const line = (name, value, comment) => `${name} = ${float(value)}  # ${comment}`;
+  const DEGREES = 30 * 180 / Math.PI; // dogleg: 1/m in degrees in 30 m
 
   const SHAPES = {
     pipe: ["outer_diameter", "inner_diameter"],
     round_bar: ["diameter"],
     rectangle: ["thickness", "width"],
+    general: ["area_of_section", "second_moment_of_area", "section_height"],
   };
+  const UNITS = { area_of_section: "m²", second_moment_of_area: "m⁴" };
 
-  function toml(i, impact, predicted) {
-    const given = (name, unit) => (i[name] ? [line(name, i[name], unit)] : []);
+  function toml(i, b, title = "From the page") {
+    const line = (name, value, unit) => (value === null ? [] : [`${name} = ${float(value)}  # ${unit}`]);
+    const given = (name, value, unit) => (value ? line(name, value, unit) : []); // nothing said where it is 0
     const bow = {
-      curvature: () => [line("curvature", i.curvature, "1/m")],
-      sagitta: () => [line("sagitta", i.sagitta, "m"), line("sagitta_length", i.sagitta_length, "m")],
-      dogleg: () => [line("dogleg", i.dogleg * 30 * 180 / Math.PI, "degrees in 30 m")],
+      curvature: () => line("curvature", i.curvature, "1/m"),
+      sagitta: () => [...line("sagitta", i.sagitta, "m"), ...line("sagitta_length", i.sagitta_length, "m")],
+      dogleg: () => line("dogleg", i.dogleg * DEGREES, "degrees in 30 m"),
     };
-    const holds = predicted.limits.until > predicted.limits.from;
-    const drop = i.approach === "drop";
-    const approach = drop ? line("drop_height", i.drop_height, "m") : line("velocity", i.velocity, "m/s");
-    const loads = `m/s²: weight, tension and a push of ${float(i.load)} N/m`;
+    const drop = i.approach === "drop" && !i.load; // a case has gravity or an acceleration, not both
     return [
-      'title = "From the predictor"',
+      `title = ${JSON.stringify(title)}`,
       "",
       "[section]",
       `kind = "${i.section}"`,
-      ...SHAPES[i.section].map((name) => line(name, i[name], "m")),
-      line("youngs_modulus", i.youngs_modulus, "Pa"),
-      line("density", i.density, "kg/m³"),
-      ...(i.section === "pipe" ? given("fluid_density", "kg/m³, inside") : []),
-      ...given("added_mass", "kg/m"),
-      ...given("yield_stress", "Pa"),
+      ...SHAPES[i.section].flatMap((name) => line(name, i[name], UNITS[name] || "m")),
+      ...line("youngs_modulus", i.youngs_modulus, "Pa"),
+      ...line("density", i.density, "kg/m³"),
+      ...(i.section === "pipe" ? given("fluid_density", i.fluid_density, "kg/m³, inside") : []),
+      ...given("added_mass", i.added_mass, "kg/m"),
+      ...given("yield_stress", i.yield_stress, "Pa"),
       "",
       "[beam]",
-      line("length", i.length, "m"),
+      ...line("length", i.length, "m"),
       ...bow[i.bow](),
-      ...(i.natural_share === 1 ? [] : [line("natural_curvature", impact.naturalCurvature, "1/m, free of stress")]),
-      ...(i.damping_ratio ? [line("damping_ratio", i.damping_ratio, "of the lowest bending mode")] : []),
-      ...(i.tension ? [line("axial_force", i.tension, "N, tension positive")] : []),
+      ...(i.natural_share === 1 ? [] : line("natural_curvature", b.naturalCurvature, "1/m, free of stress")),
+      ...line("damping_ratio", i.damping_ratio, "of the first bending mode"),
+      ...given("axial_force", i.tension, "N, tension positive"),
+      ...(i.model === "euler_bernoulli" && i.section !== "general" ? ['model = "euler_bernoulli"'] : []),
       "",
       "[impact]",
-      approach,
-      ...(i.load ? [line("acceleration", impact.acceleration, loads)] : []),
+      ...(drop ? line("drop_height", i.drop_height, "m") : line("velocity", b.velocity, "m/s")),
+      ...(i.load ? [] : line("gravity", i.gravity, "m/s², towards the wall")),
+      ...(i.load ? line("acceleration", b.acceleration, "m/s²: gravity, tension and a load of " + float(i.load) + " N/m") : []),
       "",
       "[wall]",
-      ...(i.wall_curvature ? [line("curvature", i.wall_curvature, "1/m, hollow > 0")] : []),
-      ...(i.wall_stiffness ? [line("stiffness", i.wall_stiffness, "N/m per m of beam")] : []),
-      "",
-      "[run]",
-      line("end_time", predicted.shownUntil, holds ? "s, until when the first instants hold" : "s"),
+      ...given("curvature", i.wall_curvature, "1/m, concave > 0"),
+      ...line("stiffness", i.wall_stiffness, "N/m per m of beam"),
+      ...(i.wall_stiffness === null ? [] : given("damping_ratio", i.wall_damping_ratio, "of the wall")),
       "",
     ].join("\n");
   }
 
-  return { toml };
+  /** Tables of a TOML file of plain values: table → key → text, number or true/false. Throws Error for other lines. */
+  function tables(text) {
+    const found = {}, KEY = /^([A-Za-z0-9_-]+)\s*=\s*(?:"([^"\\]*)"|'([^']*)'|([^\s#"'[{]+))\s*(?:#.*)?$/;
+    let table = "";
+    for (const [number, raw] of text.replace(/^\uFEFF/, "").split(/\r?\n/).entries()) {
+      const line = raw.trim(), head = /^\[\s*([A-Za-z0-9_.-]+)\s*\]\s*(?:#.*)?$/.exec(line), pair = KEY.exec(line);
+      if (!line || line.startsWith("#")) continue;
+      if (head) { table = head[1]; continue; }
+      if (!pair) throw new Error(`line ${number + 1} is not read here: ${line.slice(0, 60)}`);
+      const [, key, double, single, bare] = pair, word = bare?.replace(/_/g, "");
+      if (bare !== undefined && !/^[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?$/i.test(word))
+        throw new Error(`line ${number + 1}: ${key} = ${bare} is not a number`);
+      (found[table] ||= {})[key] = double ?? single ?? Number(word);
+    }
+    return found;
+  }
+
+  const SAME = ["fluid_density", "added_mass", "yield_stress", "youngs_modulus", "density", ...Object.values(SHAPES).flat()];
+  /** table.key → what it sets of the inputs `i`; all other keys are refused by name. */
+  const KEYS = {
+    "section.kind": (i, v) => { if (!SHAPES[v]) throw new Error(`section.kind "${v}" is not known here`); i.section = v; },
+    ...Object.fromEntries(SAME.map((name) => [`section.${name}`, (i, v) => { i[name] = v; }])),
+    "section.wall_thickness": (i, v) => { i.inner_diameter = i.outer_diameter - 2 * v; },
+    "beam.length": (i, v) => { i.length = v; },
+    "beam.curvature": (i, v) => { i.bow = "curvature"; i.curvature = v; },
+    "beam.sagitta": (i, v) => { i.bow = "sagitta"; i.sagitta = v; },
+    "beam.sagitta_length": (i, v) => { i.sagitta_length = v; },
+    "beam.dogleg": (i, v) => { i.bow = "dogleg"; i.dogleg = v / DEGREES; },
+    "beam.natural_curvature": (i, v) => { i.natural_share = v / Beam.bow(i); },
+    "beam.damping_ratio": (i, v) => { i.damping_ratio = v; },
+    "beam.axial_force": (i, v) => { i.tension = v; },
+    "beam.model": (i, v) => { i.model = v; },
+    "impact.velocity": (i, v) => { i.approach = "velocity"; i.velocity = v; },
+    "impact.drop_height": (i, v) => { i.approach = "drop"; i.drop_height = v; },
+    "impact.gravity": (i, v) => { i.gravity = v; },
+    "impact.gravity_angle": (i, v) => { i.gravity *= Math.cos(v * Math.PI / 180); },
+    "impact.acceleration": (i, v) => { const b = Beam.impact(i); i.load = (v - b.acceleration) * b.mass; },
+    "wall.curvature": (i, v) => { i.wall_curvature = v; },
+    "wall.stiffness": (i, v) => { i.wall_stiffness = v; },
+    "wall.damping_ratio": (i, v) => { i.wall_damping_ratio = v; },
+  };
+
+  /** Inputs of a case file. Throws Error that names the key which this page does not have. */
+  function read(text) {
+    const given = tables(text), found = { ...Beam.START, gravity: null, yield_stress: null, damping_ratio: null };
+    const values = Object.fromEntries(Object.entries(given).flatMap(([table, keys]) => (
+      Object.entries(keys).map(([key, value]) => [`${table}.${key}`, value]))));
+    const known = (name) => KEYS[name] || name === ".title" || name.startsWith("run.");
+    const other = Object.keys(values).find((name) => !known(name));
+    if (other) throw new Error(`${other} is not on this page: bentbeam predict takes it`);
+    for (const name of ["section.kind", "beam.length"]) if (!(name in values)) throw new Error(`${name} is missing`);
+    for (const name of Object.keys(KEYS)) if (name in values) KEYS[name](found, values[name]); // in this order
+    return found;
+  }
+
+  return { toml, read };
 })();

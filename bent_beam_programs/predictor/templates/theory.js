@@ -2,7 +2,7 @@
 // The theory as Python wrote it: COEFFICIENTS of Chebyshev polynomials (predictor/coefficients.py says in which
 // variable and why). Units of the fast layer: EI = μ = V₀ = 1, ν = 1. Of a single point, κ/ν ≥ 1, all are limits at 1.
 const Theory = (() => {
-  const { abs, sqrt, cos, sin, PI } = Math;
+  const { abs, max, min, sqrt, PI } = Math;
   const s = sqrt(2 / PI), { breaks, middle, functions } = COEFFICIENTS;
 
   /** Σ c_k T_k(x) by Clenshaw's rule. */
@@ -38,30 +38,24 @@ const Theory = (() => {
       r: [pushed * number(`r1_${regime}`, ratio), n * number("r_axial", ratio)],
     };
     const lambda0 = point ? 0 : number("lambda0", ratio), r0 = point ? 1 : number("r0", ratio);
-    const sum = (list) => list.reduce((a, b) => a + b), size = (list) => sum(list.map(abs));
+    const sum = ([a, b]) => a + b;
     return {
       ratio, regime, lambda0, r0, lambda1: sum(parts.lambda), r1: sum(parts.r),
       uniform: regime === "continuous" ? pushed : 0, // reaction per length in the zone
-      change: Math.max(size(parts.r) / r0, point ? 0 : size(parts.lambda) / lambda0), // of either by the loads, per τ
-      moment: { contact: point ? 1 : ratio, ahead: number("moment_ahead", ratio), place: number("place_ahead", ratio) },
+      loads: parts, moment: { contact: point ? 1 : ratio, ahead: number("moment_ahead", ratio) },
       steepest: number("steepest", ratio), // |slope|/√τ that the impact adds
-      amplitude: [number("amplitude_real", ratio), number("amplitude_imaginary", ratio)],
     };
   }
 
-  /** Gap over V₀t at x = ξ/√τ at leading order: 0 in the zone, the wave Re[A e^{i(x² − λ₀²)/4} S(x)] ahead of it. */
-  function gap({ ratio, lambda0, amplitude: [re, im] }, x) {
-    if (x <= lambda0) return 0;
-    const phase = (x * x - lambda0 * lambda0) / 4;
-    const S = [value(functions.wave_real, x), value(functions.wave_imaginary, x)];
-    const turned = [re * cos(phase) - im * sin(phase), re * sin(phase) + im * cos(phase)];
-    return turned[0] * S[0] - turned[1] * S[1] - 1 + ratio * x * x / 2;
+  /** λ₂ and r₂ of the loads α and n; flatter contacts than `flattest` are like it with other loads. */
+  function second({ ratio, regime, lambda0, r0 }, alpha, n, flattest) {
+    const like = max(min(ratio, 1), flattest), flatter = min(ratio, 1) / like, here = n * flatter;
+    const kind = regime === "detached" ? "detached" : "continuous";
+    const sum = (order) => number(`${order}_alpha_${kind}`, like) * alpha ** 2
+      + number(`${order}_both_${kind}`, like) * alpha * here + number(`${order}_axial_${kind}`, like) * here ** 2;
+    const grown = flatter < 1 ? { lambda: lambda0 / number("lambda0", like), r: r0 / number("r0", like) } : { lambda: 1, r: 1 };
+    return { lambda2: sum("lambda2") * grown.lambda, r2: sum("r2") * grown.r };
   }
 
-  /** Largest force on an undamped wall that gives way, over V₀√μ(EI k)^¼: (κ/ν)^{−1/2} (1 + κ/ν)^{3/8} Σ c_k T_k(u). */
-  function peakForce(ratio) {
-    return (1 + ratio) ** 0.375 / sqrt(ratio) * clenshaw(COEFFICIENTS.force, (ratio - 1) / (ratio + 1));
-  }
-
-  return { s, number, contact, gap, peakForce };
+  return { s, contact, second };
 })();

@@ -1,0 +1,47 @@
+"use strict";
+// A whole impact as numbers with bars: which runs, and what they say together (bent_beam/measure/numbers.py).
+const Answer = (() => {
+  const FACTOR = 1.5; // of what a companion changes
+  const RATIOS = [0.0002, 0.002, 0.02]; // damping ratios where none is stated
+  const DRAWN = [140, 92, 124, 80, 108, 132]; // elements of an ensemble; nodes rebound by 0, ½ and 1 of their velocity
+  const NAMES = ["restitution", "impulse", "lastContact", "moment", "force", "until"];
+  const quick = ({ wall }) => ({ elements: 40, steps: wall ? 1000 : 2000, longest: 3 }); // for a first picture
+
+  /** Elements a half beam, steps a T*, law: finer where a front is thin or damping small (hermite_fe/resolution.py). */
+  function resolution(p) {
+    const point = p.kappa >= 2 && p.load + p.pull <= 0.5, hard = p.kappa < 0.35 || p.eta < 3e-4;
+    const base = { elements: hard ? 200 : 100, steps: hard ? 16000 : 8000, atPosition: point };
+    if (!p.wall) return base;
+    const length = p.wall.k ** -0.25;
+    return { elements: Math.round(Math.min(Math.max(100, 4 / length), 300)),
+      steps: Math.round(Math.min(Math.max(8000, 100 / length ** 2), 30000)) };
+  }
+
+  /** The runs behind the numbers of p, by name: `base` and its companions, or, undamped, an ensemble. */
+  function runs(p) {
+    const base = resolution(p), half = { ...base, elements: Math.round(base.elements / 2), steps: base.steps / 2 };
+    if (p.eta) return p.wall ? { base, half } : { base, half, law: { ...base, atPosition: !base.atPosition } };
+    return Object.fromEntries(DRAWN.map((elements, i) => (
+      [i ? `drawn ${i}` : "base", { elements, steps: Math.round((0.5 + 0.2 * i) * elements ** 2), rebound: (i % 3) / 2 }])));
+  }
+
+  /** Numbers of finished runs: value and bar (null while companions are missing), or mean ± std of an ensemble. */
+  function numbers(p, found) {
+    const whole = Object.keys(runs(p)).every((name) => found[name]), { base, ...others } = found;
+    return Object.fromEntries(NAMES.map((name) => {
+      const values = [base, ...Object.values(others)].map((run) => run[name]);
+      const there = values.every((value) => value !== null);
+      if (!there || !whole) return [name, { value: there ? base[name] : null, bar: null }];
+      if (!p.eta) {
+        const mean = values.reduce((a, b) => a + b) / values.length;
+        const std = Math.sqrt(values.reduce((sum, value) => sum + (value - mean) ** 2, 0) / (values.length - 1));
+        return [name, { value: mean, bar: std, runs: values.length }];
+      }
+      const bar = FACTOR * values.reduce((sum, value) => sum + Math.abs(value - base[name]), 0);
+      const { elements, steps } = resolution(p), known = { lastContact: 0.5 / steps, force: p.wall ? p.wall.c / elements : 0 };
+      return [name, { value: base[name], bar: bar + (known[name] || 0) }]; // the dashpots of a node land at once
+    }));
+  }
+
+  return { RATIOS, quick, resolution, runs, numbers };
+})();

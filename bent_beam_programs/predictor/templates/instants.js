@@ -1,0 +1,65 @@
+"use strict";
+// The first instants of an impact as the theory has them (theory/prediction.py), SI.
+const Instants = (() => {
+  const { abs, min, sqrt, tanh, PI } = Math;
+
+  /** Contact parameters, scales, largest moment and range of the theory; b without a stated damping: of none. */
+  function solve(given) {
+    const b = { ...given, damping: given.damping || 0 }, c = sqrt(b.stiffness / b.mass), half = b.length / 2;
+    const timeScale = c / b.velocity ** 2, slow = half * half / c;
+    const alpha = b.acceleration * timeScale / b.velocity, n = b.tension / (b.mass * b.velocity ** 2);
+    const contact = Theory.contact((b.curvature - b.wallCurvature) * c / b.velocity, alpha, n);
+    const solved = { b, c, half, timeScale, slow, alpha, n, contact };
+    const moment = bending(solved, contact, 1), stress = Beam.stress(b, moment);
+    return { ...solved, moment, stress, reflected: Limits.ends(solved) * timeScale, limits: Limits.limits(solved, b.yieldStress && stress > b.yieldStress) };
+  }
+
+  /** Largest bending moment, N m; `factor` of that at the contact. */
+  function bending({ b }, { moment }, factor) {
+    const unit = b.velocity * sqrt(b.stiffness * b.mass), before = b.stiffness * (b.naturalCurvature - b.curvature);
+    return Math.max(abs(before + unit * moment.contact * factor), abs(before - unit * moment.ahead), abs(before));
+  }
+
+  /** Half length (shear lengths) of a sheared zone, long after shear waves: X − coth X = gap, by halving. */
+  function rim(ratio, lambda0, t) {
+    const gap = ratio < 1 ? lambda0 * sqrt(t) : (1 - ratio) * sqrt(PI * t / 2);
+    let low = 1e-3 / (1 + abs(gap)), high = 2 + abs(gap);
+    for (let k = 0; k < 60; k++) { const x = (low + high) / 2; if (x - 1 / tanh(x) < gap) low = x; else high = x; }
+    return low;
+  }
+
+  /** Leading order of a beam that shears: half length, √t times force, impulse (theory/shear.py). */
+  function sheared(ratio, { lambda0, r0, point }, g, t, damping) {
+    if (t <= 0.5 / ratio) { const X = sqrt(2 * t / ratio); return [X, X / sqrt(t), 2 * X]; }
+    const place = rim(point ? Math.max(ratio, 1) : ratio, lambda0, t), push = 2 * sqrt(2 / PI);
+    if (!point) return [place, push * r0, 2 * push * r0 * sqrt(t)];
+    if (t <= 500) { const [R, J] = Point.sheared(t, g, damping); return [place, R * sqrt(t), J]; }
+    const lag = (3 - g) / (8 * t), age = t / damping;
+    return [place, push * Point.damped(age, 0) * (1 + lag), 2 * push * Point.damped(age, 1) * (1 - lag) * sqrt(t)];
+  }
+
+  /** Half contact length, force, impulse, moment and stress at t > 0; null where the contact does not exist. */
+  function at(p, t) {
+    const { b, c, timeScale, alpha, n } = p, tau = t / timeScale, age = t / b.damping, root = sqrt(c * t);
+    const single = age <= min(Point.spreads(p.contact.ratio), 1e12), spreads = p.contact.lambda0 > 0; // one point as yet
+    const contact = single && spreads ? Theory.contact(1, alpha, n) : p.contact, { lambda0, lambda1, r0, r1, uniform } = contact;
+    const [ofForce, ofImpulse, ofLoad] = single ? [0, 1, 2].map((m) => Point.damped(age, m)) : [1, 1, 1];
+    const momentum = b.mass * b.velocity, front = 2 * Theory.s * momentum * root, pressure = uniform * momentum / timeScale;
+    let halfLength = root * (lambda0 + lambda1 * tau);
+    let force = front * (ofForce * r0 + ofImpulse * r1 * tau) / t;
+    let impulse = 2 * front * (ofImpulse * r0 + ofLoad * r1 * tau / 3) + 4 * pressure * root * t * (lambda0 / 3 + lambda1 * tau / 5);
+    const exists = lambda0 + lambda1 * tau >= 0 && r0 + r1 * tau > 0 && halfLength <= p.half;
+    if (b.shear) {
+      const length = sqrt(b.stiffness / b.shear), time = length * length / c, unit = b.velocity * sqrt(b.shear * b.mass);
+      const g = b.turning / b.mass / length ** 2, zone = { lambda0, r0, point: lambda0 === 0 };
+      const [X, R, J] = sheared(p.contact.ratio, zone, g, t / time, b.damping / time);
+      halfLength += length * X - root * lambda0;
+      force += unit * R / sqrt(t / time) - front * ofForce * r0 / t;
+      impulse += unit * time * J - 2 * front * ofImpulse * r0;
+    }
+    const moment = bending(p, contact, single ? Point.erf(sqrt(min(age, 100))) : 1);
+    return { exists, halfLength, force: force + 2 * halfLength * pressure, impulse, moment, stress: Beam.stress(b, moment) };
+  }
+
+  return { solve, at };
+})();
