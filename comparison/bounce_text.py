@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import Any
 
 from bent_beam.measure.numbers import Number
-from bent_beam.measure.whole_impact import SHORTEST_SEPARATION, Hit
+from bent_beam.measure.whole_impact import SHORTEST_SEPARATION
 from bent_beam.versions import versions
 from comparison.bouncing import SI, Bounce, documents, over_damping
 from comparison.energies import energy_residual, numerical_loss
 from comparison.predict_text import over_damping_lines
 from comparison.readable import BEAMS, in_unit, text_table, unit_for
 
-__all__ = ["bounce_document", "bounce_table", "hits_table"]
+__all__ = ["bounce_document", "bounce_table"]
 
 ENERGY = ("translation", "vibration", "dissipated")
 TITLES = {
@@ -127,13 +126,3 @@ def _in_si(found: Bounce, name: str) -> list[str]:
     if name in ENERGY:
         return [str(found.numbers[name].scaled(100.0)), "%"]
     return in_unit(found.in_si[name], SI[name][1] if name in SI else "")
-
-
-def hits_table(hits: Sequence[Hit]) -> list[str]:
-    """The hits that were followed, as a table; nothing for none."""
-    if not hits:
-        return []
-    head = ["hit", "from, s", "to, s", "impulse, N s", "velocity before, m/s", "after, m/s", "restitution"]
-    names = ("begin", "end", "impulse", "before", "after", "restitution")
-    body = [[str(number), *(f"{getattr(hit, name):.5g}" for name in names)] for number, hit in enumerate(hits, 1)]
-    return ["", text_table(head, body)]

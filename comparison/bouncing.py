@@ -21,7 +21,7 @@ from bent_beam.hysteresis import converges
 from bent_beam.impact import Impact
 from bent_beam.measure.balance import Balance, balance_of
 from bent_beam.measure.numbers import Band, Number
-from bent_beam.measure.whole_impact import Hit, WholeImpact, hits, whole_impact
+from bent_beam.measure.whole_impact import WholeImpact, whole_impact
 from bent_beam.method import Method, for_whole_beam, separation_times, settings_of
 from bent_beam.section import Section
 from comparison.answers import Runs, bands_of, numbers_of, runs_of
@@ -29,7 +29,7 @@ from comparison.energies import energy_at_end, loss_warnings, numerical_loss
 from comparison.questions import Question
 from comparison.store import RunStore
 
-__all__ = ["DAMPING_RATIOS", "NUMBERS", "SI", "Bounce", "bounce", "follow_hits", "over_damping", "problem", "scales"]
+__all__ = ["DAMPING_RATIOS", "NUMBERS", "SI", "Bounce", "bounce", "over_damping", "problem", "scales"]
 
 NUMBERS = (
     "restitution",
@@ -64,8 +64,6 @@ RUNS = 24  # of a band
 SEED = 15
 DAMPING_RATIOS = (0.0002, 0.002, 0.02)  # of the first mode: bare steel, a bar as it is held, with joints
 LARGEST_KAPPA = 100.0  # beyond, and long before, the beam touches in one point: infinity is calculated as this
-LONGEST = 100.0  # T*: the longest run that follows hits
-INSTANTS = 200  # saved a T* of it
 
 
 @dataclass(frozen=True)
@@ -225,7 +223,7 @@ def bounce(
     made = runs_of(question, whole_reading, ensemble=ensemble, **kept)
     return Bounce(
         impact=impact,
-        numbers=_numbers(made, ensemble is not None),
+        numbers=whole_numbers(made, ensemble is not None),
         runs=made,
         settings=settings_of(question.run_by if ensemble is None else for_whole_beam(ensemble[0], impact)),
         seed=None if ensemble is None else seed,
@@ -242,7 +240,7 @@ def _over_ratios(impact: Impact, method: Method, told: Callable[[float], None], 
     return replace(max(found.values(), key=lambda one: one.numbers["peak_moment"].value or 0.0), over=found)
 
 
-def _numbers(made: Runs, scattered: bool) -> dict[str, Number | Band]:
+def whole_numbers(made: Runs, scattered: bool = False) -> dict[str, Number | Band]:
     """Every number of a whole impact, bands where it is ``scattered``; those of its end only where the beam left."""
     reading = made.run.reading
     names = NUMBERS if reading["peak_force"] is None else (*NUMBERS, "peak_force")
@@ -285,31 +283,3 @@ def stress_of(moment: Number | Band, impact: Impact, section: Section | None) ->
     if section is None:
         return None
     return moment.scaled(1.0 / section.section_modulus, section.stress(0.0, impact.axial_force), "Pa")
-
-
-def follow_hits(
-    impact: Impact,
-    method: Method,
-    count: int,
-    *,
-    first: ImpactHistory,
-    progress: Callable[[float], None] | None = None,
-) -> list[Hit]:
-    """The first ``count`` hits of a beam on its wall by one run, fewer where it does not come back.
-
-    first : the run that a first hit has been read from: the first row is its own.
-    Raises ``ValueError`` for what the method refuses, and between two walls.
-    """
-    if impact.opposite_wall is not None:
-        raise ValueError("--hits: follows one wall; between two, bentbeam simulate lists the hits")
-    chosen, period = for_whole_beam(method, impact), LOWEST_PERIOD * impact.slow_time_scale
-    fall = impact.net_load / impact.mass_per_length  # acceleration back to the wall, m/s²
-    end, longest = 2.0 * period, LONGEST * impact.slow_time_scale
-    while True:
-        save = round(INSTANTS * end / impact.slow_time_scale)
-        found = hits(chosen.simulate(impact, end_time=end, save=save, progress=progress))
-        over = [hit for hit in found if end - hit.end >= period]
-        if len(over) >= count or end >= longest or (over and fall <= 0.0):
-            return [*hits(first)[:1], *over[1:count]]
-        flight = 2.0 * max(-over[-1].after, 0.0) / fall if over else end
-        end = min(end + flight + 2.0 * period, longest)

@@ -50,10 +50,9 @@ def bounce(
 
     Example: bentbeam bounce --kappa-over-nu 2 --damping 0.01
     """
-    from comparison.bounce_text import hits_table
     from comparison.bouncing import bounce as follow
-    from comparison.bouncing import follow_hits
     from comparison.doors import Bounced
+    from comparison.hits import OF_ONE_WALL, follow_hits, hits_table
     from comparison.store import RunStore, check_writable, default_store
 
     paths = path or ["hermite"]
@@ -70,11 +69,12 @@ def bounce(
     found, (_, method) = every[0].found, asked[0]
     with progress("hits", quiet):
         followed = follow_hits(found.impact, method, hits, first=found.history) if hits > 1 else []
+    rows = [{**vars(hit), "restitution": hit.restitution} for hit in followed]
     document, problem_of_files = every[0].to_dict(), ""
     if len(paths) > 1:
         document["paths"] = [{"path": name, **one.to_dict()} for name, one in zip(paths, every)]
     if hits > 1:
-        document["hits"] = [{**vars(hit), "restitution": hit.restitution} for hit in followed]
+        document["hits"] = rows
     if out is not None:
         try:
             document["files"] = [str(file) for file in every[0].write(out)]
@@ -84,7 +84,7 @@ def bounce(
     def text() -> str:
         tables = [one.text(verbose=verbose) for one in every]
         titled = tables if len(paths) == 1 else [f"{name}\n{table}\n" for name, table in zip(paths, tables)]
-        return "\n".join([*titled, *hits_table(followed)])
+        return "\n".join([*titled, *(["", hits_table(rows, OF_ONE_WALL)] if rows else [])])
 
     emit(document, as_json, text)
     if problem_of_files:

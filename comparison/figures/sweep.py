@@ -152,6 +152,9 @@ def _note(found: SweepTable, mapped: bool) -> str:
     name = next(n for n in SHOWN if any(_values(found, n)))
     shares = [abs(pair[1] / pair[0]) for pair in _values(found, name) if pair and pair[0]]
     wide = f"Error bars of the {TITLES[name]}: {100 * float(np.median(shares)):.2g} % (median), at most "
-    limit = _yield_stress(found)
-    line = "" if limit is None else f" Red line: the material yields, {1e-6 * limit:.4g} MPa."
+    limit, highest = _yield_stress(found), max(pair[0] for pair in _values(found, name) if pair)
+    line = ""
+    if name == "peak_stress" and limit is not None:
+        where = "Red line: the material yields" if highest > limit else "Nowhere does the material yield"
+        line = f" {where}, {1e-6 * limit:.4g} MPa."
     return f"{wide}{100 * max(shares):.2g} %.\nDots: rows; rings: bar above {100 * LOUD:g} %.{line}{missing}"

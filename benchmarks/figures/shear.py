@@ -1,6 +1,6 @@
 """When shear matters: the whole impact over the slenderness with and without shear, and the force of one stopped point.
 
-``python -m comparison.figures.shear`` writes ``shear.png`` in ``docs/figures`` (a minute). Paths that do not model a
+``python -m benchmarks.figures.shear`` writes ``shear.png`` in ``docs/figures`` (a minute). Paths that do not model a
 beam are left out.
 """
 
