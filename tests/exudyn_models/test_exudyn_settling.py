@@ -1,6 +1,5 @@
 """A step goes on when its contact state has settled, and a run that never settles says so."""
 
-
 import numpy as np
 import pytest
 
