@@ -107,14 +107,17 @@ def test_damping_has_three_states(chromium: Any, address: str) -> None:  # noqa:
 
 
 def test_a_slider_changes_the_field_last_touched_and_a_curve_follows(browser: Any) -> None:
-    simulated(browser)
-    before = ask(browser, "document.querySelector('#plot-stress path.curve').getAttribute('d')")
+    from selenium.webdriver.support.wait import WebDriverWait
+
+    curve = "document.querySelector('#plot-stress path.curve')?.getAttribute('d')"
+    WebDriverWait(browser, 60).until(lambda _: ask(browser, curve))
+    before = ask(browser, curve)
     browser.find_element("id", "in-length").click()
-    move = "const d = document.getElementById('drag'); d.value = 0.5; d.dispatchEvent(new Event('input'))"
-    browser.execute_script(move)
+    browser.execute_script(
+        "const d = document.getElementById('drag'); d.value = 0.5; d.dispatchEvent(new Event('input'))"
+    )
     assert ask(browser, "document.getElementById('in-length').value") == "6"
-    simulated(browser)
-    assert ask(browser, "document.querySelector('#plot-stress path.curve').getAttribute('d')") != before
+    WebDriverWait(browser, 60).until(lambda _: ask(browser, curve) != before)
 
 
 def test_keyboard_alone_reaches_and_moves_everything(browser: Any) -> None:
