@@ -65,7 +65,7 @@ const Beam = (() => {
     ["Beam", "damping_ratio", "Damping ratio, 1st mode", "share", 0.01, whole, any, "not stated"],
     ["Bow", "curvature", "Curvature K", "curvature", 0.009, positive, on("bow", "curvature")],
     ["Bow", "sagitta", "Sagitta", "sagitta", 0.01, positive, on("bow", "sagitta")],
-    ["Bow", "sagitta_length", "Length of the sagitta", "length", null, positive, on("bow", "sagitta"), "the beam’s"],
+    ["Bow", "sagitta_length", "Length of the sagitta", "length", null, positive, on("bow", "sagitta"), "L"],
     ["Bow", "dogleg", "Dogleg", "dogleg", 0.5 * PI / 180, positive, on("bow", "dogleg")],
     ["Bow", "natural_share", "Stress-free part of the bow", "share", 1, any],
     ["Approach", "velocity", "Velocity V₀", "velocity", 1, positive, on("approach", "velocity")],

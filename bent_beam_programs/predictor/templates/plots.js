@@ -6,6 +6,7 @@ const Plots = (() => {
   const HEIGHT = 210, LEFT = 56; // px
   const DECADES = 3, COLUMNS = 360; // of the colours of the force over place; of its picture
   const MEANS = 36; // of the force on a rigid wall
+  const RESOLVED = 10;
   const EARLY = [0.002, 0.05]; // T*: least and most of the first instants that are drawn
   const largest = (list) => list.reduce((one, other) => Math.max(one, other), 0);
   const highest = (curves) => largest(curves.flatMap(({ points }) => points.map(([, value]) => value)));
@@ -96,23 +97,30 @@ const Plots = (() => {
     find("#darkest").textContent = quantity("push", high * scales.line, 2);
   }
 
-  /** Impulse of the first instants beside the theory's, whose range is shaded. */
+  /** Impulse of the first instants beside the theory's, whose range is shaded. Pale: before a bending wave has passed
+      RESOLVED elements, √(EI/μ)t = x², a number is one of the mesh (bent_beam/measure/reduction.py). */
   function first(shown, theory, scales) {
     const { from, until, by } = theory.limits, svg = find("#plot-first");
     const [least, most] = EARLY.map((t) => t * scales.time);
-    const end = Math.min(Math.max(until ? 3 * until : 4 * theory.reflected, least), most);
-    const curves = shown.map(({ run, kind }) => (
-      { kind, points: run.early.map(([t, J]) => [t * scales.time, J * scales.impulse]).filter(([t]) => t <= end) }));
-    const exact = { kind: "theory", points: [[0, 0]] };
+    const end = Math.min(Math.max(until ? 2 * until : 4 * theory.reflected, least), most);
+    const curves = shown.flatMap(({ run, kind }) => {
+      const resolved = (RESOLVED / (run.frames[0].u.length - 1)) ** 2;
+      const inside = run.early.filter(([t]) => t * scales.time <= end);
+      const points = (list) => list.map(([t, J]) => [t * scales.time, J * scales.impulse]);
+      return [{ kind: `${kind} pale`, points: points(inside.filter(([t]) => t <= resolved)) },
+        { kind, points: points(inside.filter(([t]) => t >= resolved)) }];
+    });
+    const exact = { kind: "theory", points: [[0, 0]] }, last = Math.min(until || end, end);
     for (let i = 1; i <= 60 && (until || by !== "wall"); i++) {
-      const t = end * (i / 60) ** 2, at = Instants.at(theory, t);
+      const t = last * (i / 60) ** 2, at = Instants.at(theory, t);
       if (at.exists) exact.points.push([t, at.impulse]);
     }
-    const all = [...curves, exact], high = highest(all);
-    const { x, y } = chart(svg, { end, high, name: "impulse", label: "Impulse" }, all);
+    const all = [...curves, exact].filter(({ points }) => points.length > 1), high = highest(all);
+    const { x, y } = chart(svg, { end, high, name: "impulse", label: "Impulse of the first instants" }, all);
+    find("#range").textContent = until ? "where it holds, shaded" : "nowhere in its range";
     if (!until) return;
     const left = x(Math.min(from, end)), top = y(1.12 * high);
-    const range = { x: left, y: top, width: x(Math.min(until, end)) - left, height: y(0) - top, class: "range" };
+    const range = { x: left, y: top, width: x(last) - left, height: y(0) - top, class: "range" };
     svg.prepend(draw(svg, "rect", range));
   }
 

@@ -85,7 +85,6 @@
       model: WORDS.beams[b.shear ? "timoshenko" : "euler_bernoulli"],
     };
     for (const [id, value] of Object.entries(words)) find(`#${id}`).textContent = value;
-    find("#holds").classList.toggle("alarm", !limits.until);
   }
 
   /** The damping whose stress is largest: the headline. */
@@ -97,7 +96,7 @@
     const { b, scales, numbers, ratios } = of, i = worst(of), found = numbers[i], run = of.runs[i];
     const stress = (one) => number("stress", one.moment, scales.moment / b.modulus, Beam.stress(b, 0));
     const at = `at ${quantity("time", run.time * scales.time, 3)}, `
-      + `${quantity("place", run.place * scales.length, 3)} from the middle; `
+      + `${run.place ? quantity("place", run.place * scales.length, 3) + " from" : "in"} the middle; `
       + `largest of 0 to ${quantity("time", run.until * scales.time, 3)}`;
     const over = numbers.map((one, k) => `${stress(one)} at ${percent(ratios[k])}`).join(", ");
     const beyond = b.yieldStress && Beam.stress(b, found.moment.value * scales.moment) > b.yieldStress;
