@@ -2,9 +2,10 @@
 // What a step does at the wall: Δv, and the nodes' impulses p, of  S Δv = b + p,  q⁺ = q + h(v + ½Δv).
 const Contact = (() => {
   const { abs, max, min } = Math, { PAD, row, factors } = Elements;
-  const ALL_AT_ONCE = 12, ROUNDS = 2000; // of the active set, then one node at a time (Murty 1974)
+  const ALL_AT_ONCE = 12; // rounds of the active set; then one node at a time (Murty 1974)
+  const PATIENCE = 300, ROUNDS = 1500; // until signs are judged more leniently, and in all
   const NEWTON = 60, WHOLE = 20; // rounds, of them with whole steps
-  const CONVERGED = 1e-9; // change of Δv over the largest velocity
+  const CONVERGED = 1e-9, REST = 1e-3; // change of Δv over the largest velocity; of V₀ = 1, less is rest
 
   /** A rigid wall: the closed nodes are guessed, and those of the wrong sign exchanged until none is.
       Moreau–Jean:  0 ≤ p ⊥ −(v⁺ + ev) ≥ 0 where g ≤ ½hv          position (Signorini):  0 ≤ p ⊥ g⁺ ≥ 0 */
@@ -30,13 +31,14 @@ const Contact = (() => {
         for (let j = 0; j < n; j++) if (closed[j]) x[PAD + 2 * j] = target[j];
         solve(x);
         let largest = 0, wrong = -1;
+        const lenient = 10 ** Math.floor(round / PATIENCE); // of signs that round-off decides
         for (let i = PAD; i < size - PAD; i += 2) largest = max(largest, abs(x[i]));
         stale = -1;
         for (let j = 0; j < n; j++) {
           const i = PAD + 2 * j;
           impulse[j] = closed[j] ? b[i] - row(S, x, i) : 0;
-          const pulls = closed[j] && impulse[j] < -1e-12 * (abs(S[0][i] * x[i]) + abs(b[i]));
-          if (!pulls && (closed[j] || !candidate[j] || x[i] - target[j] <= 1e-13 * largest)) continue;
+          const pulls = closed[j] && impulse[j] < -1e-12 * lenient * (abs(S[0][i] * x[i]) + abs(b[i]));
+          if (!pulls && (closed[j] || !candidate[j] || x[i] - target[j] <= 1e-13 * lenient * largest)) continue;
           wrong = j;
           if (round < ALL_AT_ONCE) { exchange(j); stale = i + 3; }
         }
@@ -57,7 +59,7 @@ const Contact = (() => {
     return () => { // d: Δv, at first that of the step before
       for (let round = 0; round < NEWTON; round++) {
         x.set(b);
-        let speed = 1e-9, change = 0;
+        let speed = REST, change = 0;
         for (let j = 0; j < n; j++) {
           const i = PAD + 2 * j, deep = q[i] - gap[j], then = deep + h * (v[i] + 0.5 * d[i]);
           const before = max(deep, 0), after = max(then, 0), moved = then - deep;
