@@ -92,8 +92,8 @@ def for_whole_beam(method: M, impact: Impact) -> M:
 
 
 def cross_checks(method: M, impact: Impact) -> dict[str, M]:
-    """What stands beside ``method`` for error bars, by cause: a penalty of a quarter of the stiffness, whose own time is
-    twice as long, with steps twice as long; with shear half of it on the same steps."""
+    """What stands beside ``method`` for error bars, by cause: a penalty of a quarter of the stiffness, whose own time
+    is twice as long, with steps twice as long; with shear half of it on the same steps."""
     chosen = for_whole_beam(method, impact)
     integrator, contact = chosen.integrator, chosen.contact
     if not isinstance(contact, Penalty):
