@@ -17,7 +17,7 @@ mesh. Where κ/ν is so small that the front passes an element faster than the e
 as the front: it passes Δx at x in t = 2xΔx/λ² √(μ/EI), and C = (λ²Δx/x)² makes √(k/μ) t = 2. The damping ratio stays
 that of 10 and 3.
 
-Below κ/ν = 0.12 the front passes an element about as fast as it bends, on any mesh of moderate size. Each node then hits
+Below κ/ν = 0.12 the front passes an element about as fast as it bends, on any mesh of moderate size. Each node hits
 the wall by itself, and its rebound adds to the impulse: with D = 3 r₀ is 6.5, 21 and 19 % too large at κ/ν = 1/100,
 1/400 and 1/1600. There D = 40 makes hits plastic, and nothing is held at the start, while nothing but the first spread
 of the zone moves it and steps are implicit. What is left adds to r₀ like 1/D²: the coarser run of an error bar has the
@@ -29,10 +29,9 @@ The springs and dashpots of a wall that gives way, at the nodes:
 
     R_i = max(0, k b_i y_i + c w_i ẏ_i) where y_i > 0, 0 elsewhere,   b_i the length of wall that node i stands for.
 
-They are the wall's own, not a numerical device: k and c do not change with the mesh, what the springs hold is an
-energy. A dashpot pushes as soon as it is touched: with w_i = b_i each node that lands would add c b_i V₀ at once. So
-w_i is the length that is covered. Of an element with both nodes in the wall each has Δx/2, and node i alone has sΔx,
-s = y_i/(y_i − y_{i+1}), where the velocities carry the beam by the end of the next step.
+They are the wall's own and do not change with the mesh; what the springs hold is an energy. With w_i = b_i each node
+would add c b_i V₀ at once as it lands. So w_i is the length that is covered. Of an element with both nodes in the wall
+each has Δx/2, node i alone sΔx, s = y_i/(y_i − y_{i+1}), where velocities carry the beam by the end of the step.
 """
 
 from __future__ import annotations
@@ -232,8 +231,7 @@ class Penalty(Contact):
                 raise InputError(f"{self.where}.{name} and relative_{name} exclude each other: give one")
 
     def attach(self, beam: Beam, wall: Wall) -> ContactRun:
-        length = beam.tributary[wall.nodes]
-        local = length.copy()
+        length, local = beam.tributary[wall.nodes], beam.tributary[wall.nodes]
         if wall.half:
             local[0] *= 2.0  # the node of symmetry stands for half of its neighbourhood
         plastic = 0.0 if self.hold else wall.plastic
@@ -241,9 +239,8 @@ class Penalty(Contact):
         if stiffness is None:
             stiffness = chosen_stiffness(beam, wall)
         if damping is None:
-            section, shortest = beam.section, float(beam.lengths.min())
-            damping = PLASTIC * plastic if plastic else DAMPING
-            damping = MATCHED if matched(shortest, section.shear_length, section.damping) else damping
+            own = matched(float(beam.lengths.min()), beam.section.shear_length, beam.section.damping)
+            damping = MATCHED if own else PLASTIC * plastic if plastic else DAMPING
             damping *= math.sqrt(stiffness / STIFFNESS)
         k, d = penalty_per_length(element_times(local, beam.section.shear_length), stiffness, damping)
         if self.stiffness is not None:
@@ -251,8 +248,8 @@ class Penalty(Contact):
         if self.damping is not None:
             d = np.full_like(d, self.damping / wall.damping_unit)
         strip = HeldStrip(wall, self.hold, 0.0 if plastic and self.hold_start is None else self.hold_start)
-        chosen = {"relative_stiffness": stiffness, "relative_damping": damping}
-        return PenaltyRun(beam, wall, k * length, d * length, strip, chosen)
+        about = {"relative_stiffness": stiffness, "relative_damping": damping}
+        return PenaltyRun(beam, wall, k * length, d * length, strip, about)
 
 
 def covered(depth: Array, lengths: Array) -> Array:
