@@ -92,14 +92,17 @@ def for_whole_beam(method: M, impact: Impact) -> M:
 
 
 def cross_checks(method: M, impact: Impact) -> dict[str, M]:
-    """What stands beside ``method`` for error bars, by cause: a penalty of a quarter of the stiffness, whose own time
-    is twice as long, with steps twice as long; with shear half of it on the same steps."""
+    """What stands beside ``method`` for error bars, by cause: of a penalty, a quarter of the stiffness, whose own time
+    is twice as long, with such steps; where elements resolve shear waves, the other of the two dashpots."""
     chosen = for_whole_beam(method, impact)
     integrator, contact = chosen.integrator, chosen.contact
     if not isinstance(contact, Penalty):
         return {}
-    if impact.shear_stiffness is not None:
-        return {"contact_law": dataclasses.replace(chosen, contact=_softer(contact, 0.5))}
+    shortest = float(np.diff(chosen.mesh.nodes(impact.half_length)).min())
+    if shortest < impact.shear_length and contact.relative_damping is contact.damping is None:
+        own = penalty.matched(shortest, impact.shear_length, impact.damping * impact.wave_constant)
+        other = dataclasses.replace(contact, relative_damping=penalty.DAMPING if own else penalty.MATCHED)
+        return {"contact_law": dataclasses.replace(chosen, contact=other)}
     softer = _softer(contact, 0.25)
     return {"contact_law": dataclasses.replace(chosen, integrator=integrator.refined(0.5), contact=softer)}
 

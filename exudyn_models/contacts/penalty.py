@@ -1,41 +1,37 @@
 """Penalty at the nodes (Exudyn's ``ObjectContactCoordinate``), spring and dashpot that push and never pull.
 
     R_i = b_i max(0, k y_i + d ẏ_i),   b_i the length of beam that node i stands for
-    k = C μ/τ²,   d = D μ/τ,   τ = √(μ/EI) Δx² √(1 + Φ) the element's time; without shear Φ = 0, k = C EI/Δx⁴,
-                               d = D √(EIμ)/Δx²; with shear and Δx ≪ l_s it is that of a shear wave
+    k = C μ/τ²,   d = D μ/τ,   τ = √(μ/EI) Δx² √(1 + Φ), Φ = 0 without shear: k = C EI/Δx⁴, d = D √(EIμ)/Δx²
 
 It is the complementarity 0 ≤ R ⊥ −(y + (d/k) ẏ − R/(bk)) ≥ 0 of the gap a time d/k ahead, 0.3 Δx² for
 C = 10 and D = 3, so that the dashpot takes hold just before the wall and lets go just before it would pull. The states
 of a step are those of a linear complementarity problem with a P-matrix, hence unique. Exudyn's own law, dashpot on
 while y > 0, pulls a beam that leaves; :mod:`exudyn_models.settling` writes these states over its.
 
-With shear nodes meet the wall one after the other, faster than shear waves at first. There d takes up such a wave from
-both sides without reflection, d Δx = 2√(κ_sGA μ) or D = 4√3: hits are plastic, and nothing lags behind (κ/ν = 0.1,
-η/T* = 7e-4, l_s = 0.05 half lengths: e = 0.076 on 160 elements, 0.145 with D = 3; an explicit code: 0.076).
+With shear nodes meet the wall faster than shear waves at first. There d takes up such waves without reflection,
+d Δx = 2√(κ_sGA μ) or D = 4√3: hits are plastic (κ/ν = 0.1, η/T* = 7e-4, l_s = 0.05 half lengths: e = 0.076 on 160
+elements, 0.145 with D = 3; an explicit code: 0.076). Not where η is several τ (0.1, 3e-3, 0.022: 0.13 for 0.23; 0.24).
 
 With k and d tied to the element length the contact is as stiff as the elements themselves, on every scale of the
 mesh. Where κ/ν is so small that the front passes an element faster than the element bends, the contact must be as fast
 as the front: it passes Δx at x in t = 2xΔx/λ² √(μ/EI), and C = (λ²Δx/x)² makes √(k/μ) t = 2. The damping ratio stays
 that of 10 and 3.
 
-Below κ/ν = 0.12 the front passes an element about as fast as the element bends, on any mesh of moderate size. Each node
-then hits the wall by itself, and what it rebounds with is added to the impulse: with D = 3 r₀ is 6.5, 21 and 19 % too
-large at κ/ν = 1/100, 1/400 and 1/1600. There D = 40 makes the hits plastic, and nothing is held at the start, while
-nothing but the first spread of the zone moves it and the steps are implicit. What is left of the rebound adds to r₀
-like 1/D² (κ/ν = 0.05: 0.16, 0.043, 0.011 % with D = 20, 40, 80 on elements of 2, 1, 1/2): the coarser run of an error
-bar has the smaller D in proportion, for with the same D both would be wrong by the same. Finer runs keep D = 40. Not
-with a ``hold``: its springs would pull nodes that D = 40 has stopped ahead of the wall, and give energy. Nor where the
-material damps waves at grid scale: hits are plastic by themselves, and what D = 40 stops ahead of the wall lacks in the
-impulse (7 % at κ/ν = 0.02, η = 1e-3 T*, 1e-3 T*).
+Below κ/ν = 0.12 the front passes an element about as fast as it bends, on any mesh of moderate size. Each node hits
+the wall by itself, and its rebound adds to the impulse: with D = 3 r₀ is 6.5, 21 and 19 % too large at κ/ν = 1/100,
+1/400 and 1/1600. There D = 40 makes hits plastic, and nothing is held at the start, while nothing but the first spread
+of the zone moves it and steps are implicit. What is left adds to r₀ like 1/D²: the coarser run of an error bar has the
+smaller D in proportion, for with the same D both would be wrong by the same. Not with a ``hold``: its springs would
+pull nodes that D = 40 has stopped ahead of the wall, and give energy. Nor where the material damps waves at grid scale:
+what D = 40 stops ahead of the wall lacks in the impulse (7 % at κ/ν = 0.02, η = 1e-3 T*, 1e-3 T*).
 
 The springs and dashpots of a wall that gives way, at the nodes:
 
     R_i = max(0, k b_i y_i + c w_i ẏ_i) where y_i > 0, 0 elsewhere,   b_i the length of wall that node i stands for.
 
-They are the wall's own, not a numerical device: k and c do not change with the mesh, what the springs hold is an
-energy. A dashpot pushes as soon as it is touched: with w_i = b_i each node that lands would add c b_i V₀ at once. So
-w_i is the length that is covered. Of an element with both nodes in the wall each has Δx/2, and node i alone has sΔx,
-s = y_i/(y_i − y_{i+1}), where the velocities carry the beam by the end of the next step.
+They are the wall's own and do not change with the mesh; what the springs hold is an energy. With w_i = b_i each node
+would add c b_i V₀ at once as it lands. So w_i is the length that is covered. Of an element with both nodes in the wall
+each has Δx/2, node i alone sΔx, s = y_i/(y_i − y_{i+1}), where velocities carry the beam by the end of the step.
 """
 
 from __future__ import annotations
@@ -61,17 +57,23 @@ __all__ = ["Penalty", "Springs", "covered", "penalty_per_length"]
 
 STIFFNESS, DAMPING = 10.0, 3.0  # C and D
 PLASTIC = 40.0  # D behind a thin front
-MATCHED = 4.0 * math.sqrt(3.0)  # D with shear, elements shorter than l_s: d Δx = 2√(κ_sGA μ)
+MATCHED = 4.0 * math.sqrt(3.0)  # D with shear, elements shorter than l_s: d Δx = 2√(κ_sGA μ) …
+OWN = 4.0  # … unless the material's own damping takes as many element times: hits are then plastic by themselves
+
+
+def matched(element: float, shear_length: float, damping: float) -> bool:
+    """Whether D is :data:`MATCHED` with the shortest ``element``; ``damping`` of the material, over √(μ/EI)."""
+    return element < shear_length and damping < OWN * float(element_times(np.array(element), shear_length))
 
 
 def chosen_stiffness(beam: Beam, wall: Wall) -> float:
     """C of the module's text: 10, or what the front asks for at the end of the run."""
-    s, shear_length = beam.shape.s, beam.section.shear_length
-    if beam.shears and wall.first_spread < 1.0:  # steps follow shear waves, and not the front
-        return STIFFNESS
+    s = beam.shape.s
     k = min(max(int(np.searchsorted(s, wall.front)), 1), s.size - 1)
     length = s[k] - s[k - 1]
-    return max(STIFFNESS, float(wall.front**2 * element_times(length, shear_length) / length / s[k]) ** 2)
+    asked = wall.front**2 * element_times(length, beam.section.shear_length) / length / s[k]
+    late = beam.shears and wall.first_spread < 1.0  # steps follow shear waves, and not the front
+    return STIFFNESS if late else max(STIFFNESS, float(asked) ** 2)
 
 
 def penalty_per_length(times: Array, relative_stiffness: float, relative_damping: float) -> tuple[Array, Array]:
@@ -229,8 +231,7 @@ class Penalty(Contact):
                 raise InputError(f"{self.where}.{name} and relative_{name} exclude each other: give one")
 
     def attach(self, beam: Beam, wall: Wall) -> ContactRun:
-        length = beam.tributary[wall.nodes]
-        local = length.copy()
+        length, local = beam.tributary[wall.nodes], beam.tributary[wall.nodes]
         if wall.half:
             local[0] *= 2.0  # the node of symmetry stands for half of its neighbourhood
         plastic = 0.0 if self.hold else wall.plastic
@@ -238,7 +239,8 @@ class Penalty(Contact):
         if stiffness is None:
             stiffness = chosen_stiffness(beam, wall)
         if damping is None:
-            damping = MATCHED if beam.shears else PLASTIC * plastic if plastic else DAMPING
+            own = matched(float(beam.lengths.min()), beam.section.shear_length, beam.section.damping)
+            damping = MATCHED if own else PLASTIC * plastic if plastic else DAMPING
             damping *= math.sqrt(stiffness / STIFFNESS)
         k, d = penalty_per_length(element_times(local, beam.section.shear_length), stiffness, damping)
         if self.stiffness is not None:
@@ -246,8 +248,8 @@ class Penalty(Contact):
         if self.damping is not None:
             d = np.full_like(d, self.damping / wall.damping_unit)
         strip = HeldStrip(wall, self.hold, 0.0 if plastic and self.hold_start is None else self.hold_start)
-        chosen = {"relative_stiffness": stiffness, "relative_damping": damping}
-        return PenaltyRun(beam, wall, k * length, d * length, strip, chosen)
+        about = {"relative_stiffness": stiffness, "relative_damping": damping}
+        return PenaltyRun(beam, wall, k * length, d * length, strip, about)
 
 
 def covered(depth: Array, lengths: Array) -> Array:
