@@ -27,7 +27,8 @@ T = TypeVar("T")
 
 @dataclass(frozen=True, kw_only=True)
 class Declared:
-    """A field as its annotation declares it. kind : float, int, bool, str, or ``None`` for anything else."""
+    """A field as its annotation declares it. kind : float, int, bool, str, a class of parts, or ``None`` for anything
+    else."""
 
     kind: type | None
     optional: bool
@@ -45,6 +46,10 @@ class Declared:
             return checks.one_of(name, value, self.quantity.choices) if self.quantity.choices else value
         if self.kind in (int, float):
             return self.quantity.checked_number(name, value, whole=self.kind is int)
+        if self.kind not in (None, bool) and not isinstance(value, self.kind):
+            if isinstance(value, type):
+                raise InputError(f"{name} must be made from its class: {value.__name__}() (got the class)")
+            raise InputError(f"{name} must be an instance of {self.kind.__name__} (got {checks.shortened(value)})")
         return value
 
 
@@ -108,7 +113,9 @@ def _declared(hint: Any) -> Declared:
         quantity = next((one for one in said if isinstance(one, Quantity)), PLAIN)
     kinds = get_args(hint) if get_origin(hint) in (Union, types.UnionType) else (hint,)
     plain = [kind for kind in kinds if kind is not types.NoneType]
-    kind = plain[0] if len(plain) == 1 and plain[0] in (float, int, bool, str) else None
+    kind = plain[0] if len(plain) == 1 else None
+    if kind not in (float, int, bool, str) and not (isinstance(kind, type) and issubclass(kind, Part)):
+        kind = None
     return Declared(kind=kind, optional=types.NoneType in kinds, quantity=quantity)
 
 

@@ -40,7 +40,6 @@ __all__ = [
     "method_from_tables",
     "method_type",
     "paths",
-    "paths_with",
     "refined",
     "separation_times",
     "settings_of",
@@ -216,18 +215,6 @@ def _found() -> dict[str, EntryPoint]:
 def paths() -> list[str]:
     """Names of all installed paths."""
     return sorted(_found())
-
-
-def paths_with(choice: str) -> list[str]:
-    """Names of the installed paths whose methods have ``choice``; those that do not load are left out."""
-
-    def has(path: str) -> bool:
-        try:
-            return hasattr(method_type(path), choice)
-        except InputError:
-            return False
-
-    return [path for path in paths() if has(path)]
 
 
 def method_type(path: str) -> type[Any]:

@@ -5,12 +5,13 @@
 >>> found.found.theory.regime
 'continuous'
 
-``predict``, ``bounce`` and ``match`` return objects that print themselves, with ``.plot()`` and ``.to_dict()``.
+``predict``, ``bounce``, ``sweep`` and ``match`` return objects that print themselves, with ``.plot()`` and
+``.to_dict()``.
 """
 
 from typing import Any
 
-__all__ = ["bounce", "match", "predict"]
+__all__ = ["bounce", "match", "predict", "sweep"]
 
 
 def __getattr__(name: str) -> Any:

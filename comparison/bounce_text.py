@@ -2,31 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import Any
 
 from bent_beam.measure.numbers import Number
-from bent_beam.measure.whole_impact import SHORTEST_SEPARATION, Hit
+from bent_beam.measure.whole_impact import SHORTEST_SEPARATION
 from bent_beam.versions import versions
-from comparison.bouncing import Bounce, over_damping
+from comparison.bouncing import SI, Bounce, documents, over_damping
 from comparison.energies import energy_residual, numerical_loss
 from comparison.predict_text import over_damping_lines
 from comparison.readable import BEAMS, in_unit, text_table, unit_for
 
-__all__ = ["bounce_document", "bounce_table", "hits_table"]
+__all__ = ["bounce_document", "bounce_table"]
 
-SI = {
-    "impulse": ("impulse", "N s"),
-    "last_contact": ("time", "s"),
-    "peak_moment": ("moment", "N m"),
-    "peak_moment_place": ("length", "m"),
-    "peak_moment_time": ("time", "s"),
-    "midspan_moment": ("moment", "N m"),
-    "peak_force": ("force", "N"),
-    "translation": ("energy", "J"),
-    "vibration": ("energy", "J"),
-    "dissipated": ("energy", "J"),
-}
 ENERGY = ("translation", "vibration", "dissipated")
 TITLES = {
     "restitution": "coefficient of restitution",
@@ -48,7 +35,8 @@ EXPERT = {
 
 def bounce_document(found: Bounce) -> dict[str, Any]:
     """The contract of ``bentbeam bounce --json``."""
-    unit, stress, balance = found.units, found.peak_stress, found.balance
+    stress, balance = found.peak_stress, found.balance
+    si = documents(found.in_si, [name for name in SI if name in found.numbers])
     return {
         "model": found.impact.model,
         "kappa_over_nu": found.impact.kappa_over_nu,
@@ -56,12 +44,7 @@ def bounce_document(found: Bounce) -> dict[str, Any]:
         "hysteretic_loss": found.runs.run.reading["loss"],
         **{name: number.to_dict() for name, number in found.numbers.items() if name not in ENERGY},
         "energy": {name: found.numbers[name].to_dict() for name in ENERGY},
-        "si": {
-            name: {**found.numbers[name].scaled(unit[scale]).to_dict(), "unit": text}
-            for name, (scale, text) in SI.items()
-            if name in found.numbers
-        }
-        | {"time_unit": unit["time"]},
+        "si": {name: {**one, "unit": SI[name][1]} for name, one in si.items()} | {"time_unit": found.units["time"]},
         "peak_stress": None if stress is None else {**stress.to_dict(), "unit": "Pa"},
         "yield_stress": None if found.section is None else found.section.yield_stress,
         "shortest_separation": SHORTEST_SEPARATION,
@@ -140,18 +123,6 @@ def _damping_of(found: Bounce) -> str:
 
 def _in_si(found: Bounce, name: str) -> list[str]:
     """Value and unit: shares of energy in per cent."""
-    number = found.numbers[name]
     if name in ENERGY:
-        return [str(number.scaled(100.0)), "%"]
-    quantity, unit = SI.get(name, (None, ""))
-    return in_unit(number.scaled(found.units[quantity]) if quantity else number, unit)
-
-
-def hits_table(hits: Sequence[Hit]) -> list[str]:
-    """The hits that were followed, as a table; nothing for none."""
-    if not hits:
-        return []
-    head = ["hit", "from, s", "to, s", "impulse, N s", "velocity before, m/s", "after, m/s", "restitution"]
-    names = ("begin", "end", "impulse", "before", "after", "restitution")
-    body = [[str(number), *(f"{getattr(hit, name):.5g}" for name in names)] for number, hit in enumerate(hits, 1)]
-    return ["", text_table(head, body)]
+        return [str(found.numbers[name].scaled(100.0)), "%"]
+    return in_unit(found.in_si[name], SI[name][1] if name in SI else "")

@@ -8,19 +8,20 @@ deviation. Not stated: numbers at each of :data:`DAMPING_RATIOS`, and the answer
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import asdict, dataclass, replace
 from functools import cached_property
 from typing import Any
 
 from bent_beam.checks import finite
+from bent_beam.errors import InputError
 from bent_beam.free_flight import LOWEST_PERIOD
 from bent_beam.history import ImpactHistory
 from bent_beam.hysteresis import converges
 from bent_beam.impact import Impact
 from bent_beam.measure.balance import Balance, balance_of
 from bent_beam.measure.numbers import Band, Number
-from bent_beam.measure.whole_impact import Hit, WholeImpact, hits, whole_impact
+from bent_beam.measure.whole_impact import WholeImpact, whole_impact
 from bent_beam.method import Method, for_whole_beam, separation_times, settings_of
 from bent_beam.section import Section
 from comparison.answers import Runs, bands_of, numbers_of, runs_of
@@ -28,7 +29,7 @@ from comparison.energies import energy_at_end, loss_warnings, numerical_loss
 from comparison.questions import Question
 from comparison.store import RunStore
 
-__all__ = ["DAMPING_RATIOS", "NUMBERS", "Bounce", "bounce", "follow_hits", "over_damping", "problem", "scales"]
+__all__ = ["DAMPING_RATIOS", "NUMBERS", "SI", "Bounce", "bounce", "over_damping", "problem", "scales"]
 
 NUMBERS = (
     "restitution",
@@ -44,14 +45,25 @@ NUMBERS = (
     "dissipated",
 )
 """Fields of :class:`bent_beam.measure.whole_impact.WholeImpact` that get bars."""
+SI = {
+    "impulse": ("impulse", "N s"),
+    "last_contact": ("time", "s"),
+    "peak_moment": ("moment", "N m"),
+    "peak_moment_place": ("length", "m"),
+    "peak_moment_time": ("time", "s"),
+    "midspan_moment": ("moment", "N m"),
+    "peak_force": ("force", "N"),
+    "translation": ("energy", "J"),
+    "vibration": ("energy", "J"),
+    "dissipated": ("energy", "J"),
+}
+"""Of a number that has one: what it is scaled by (:func:`scales`), and its unit."""
 FINAL = ("restitution", "last_contact", "translation", "vibration", "dissipated")  # only once the beam has left
 TIMES = ("last_contact", "peak_moment_time")
 RUNS = 24  # of a band
 SEED = 15
 DAMPING_RATIOS = (0.0002, 0.002, 0.02)  # of the first mode: bare steel, a bar as it is held, with joints
 LARGEST_KAPPA = 100.0  # beyond, and long before, the beam touches in one point: infinity is calculated as this
-LONGEST = 100.0  # T*: the longest run that follows hits
-INSTANTS = 200  # saved a T* of it
 
 
 @dataclass(frozen=True)
@@ -97,6 +109,14 @@ class Bounce:
     def units(self) -> dict[str, float]:
         """SI units of the numbers (:func:`scales`); shares of energy are of what the loads have worked, too."""
         return scales(self.impact) | {"energy": self.outcome.supplied}
+
+    @property
+    def in_si(self) -> dict[str, Number | Band]:
+        """The numbers in SI units (:data:`SI`); where the section is known, its largest stress, Pa, too."""
+        unit = self.units
+        found = {name: n.scaled(unit[SI[name][0]]) if name in SI else n for name, n in self.numbers.items()}
+        stress = self.peak_stress
+        return found if stress is None else found | {"peak_stress": stress}
 
     @property
     def peak_stress(self) -> Number | Band | None:
@@ -189,34 +209,21 @@ def bounce(
     Raises ``ValueError`` for what the method refuses, :class:`bent_beam.SimulationError` when it cannot finish.
     """
     separation_times(impact)  # refuses what no separation ends
-    how = {"section": section, "save": save, "store": store, "history": history, "jobs": jobs}
+    if not hasattr(method, "for_whole_beam"):
+        raise InputError(
+            f"path: {method.path} lacks for_whole_beam(impact), which chooses for a whole beam what it leaves open "
+            "(nothing open: return self; docs/guide/add-method.md)"
+        )
     if not damping_stated and not (impact.damping or impact.hysteretic_loss):
-        told, share = progress or (lambda _: None), 1.0 / len(DAMPING_RATIOS)
-        found: dict[float, Bounce] = {}
-        for i, ratio in enumerate(DAMPING_RATIOS):
-            damped = impact.replace(damping=ratio * LOWEST_PERIOD / math.pi * impact.slow_time_scale)
-            found[ratio] = bounce(damped, method, **how, progress=lambda done, i=i: told(share * (i + done)))  # type: ignore[arg-type,misc]
-        largest = max(found.values(), key=lambda one: one.numbers["peak_moment"].value or 0.0)
-        return replace(largest, over=found)
+        how: dict[str, Any] = {"section": section, "save": save, "store": store, "history": history, "jobs": jobs}
+        return _over_ratios(impact, method, progress or (lambda _: None), how)
     question = Question(impact, method, save=save)
     ensemble = None if converges(impact) else question.drawn(runs, seed)
-    kept = {"store": store, "ensemble": ensemble, "whole_history": history, "jobs": jobs, "progress": progress}
-    made = runs_of(question, whole_reading, **kept)  # type: ignore[arg-type]
-    names = NUMBERS if made.run.reading["peak_force"] is None else (*NUMBERS, "peak_force")
-    numbers: dict[str, Number | Band]
-    if ensemble is None:
-        known: dict[str, dict[str, float]] = {
-            name: {"saved_instants": 0.5 * made.run.reading["spacing"]} for name in TIMES
-        }
-        known["restitution"] = {"saved_instants": made.run.reading["drift"]}
-        numbers = dict(numbers_of(made, names, known))
-    else:
-        numbers = bands_of(made, names)
-    if not all(run.reading["left"] for run in made.every):
-        numbers |= {name: Number() for name in FINAL}
+    kept: dict[str, Any] = {"store": store, "whole_history": history, "jobs": jobs, "progress": progress}
+    made = runs_of(question, whole_reading, ensemble=ensemble, **kept)
     return Bounce(
         impact=impact,
-        numbers=numbers,
+        numbers=whole_numbers(made, ensemble is not None),
         runs=made,
         settings=settings_of(question.run_by if ensemble is None else for_whole_beam(ensemble[0], impact)),
         seed=None if ensemble is None else seed,
@@ -224,24 +231,38 @@ def bounce(
     )
 
 
+def _over_ratios(impact: Impact, method: Method, told: Callable[[float], None], how: dict[str, Any]) -> Bounce:
+    """Of the damping ratio with the largest moment, next to the others."""
+    found, share = dict[float, Bounce](), 1.0 / len(DAMPING_RATIOS)
+    for i, ratio in enumerate(DAMPING_RATIOS):
+        damped = impact.replace(damping=ratio * LOWEST_PERIOD / math.pi * impact.slow_time_scale)
+        found[ratio] = bounce(damped, method, **how, progress=lambda done, i=i: told(share * (i + done)))  # type: ignore[misc]
+    return replace(max(found.values(), key=lambda one: one.numbers["peak_moment"].value or 0.0), over=found)
+
+
+def whole_numbers(made: Runs, scattered: bool = False) -> dict[str, Number | Band]:
+    """Every number of a whole impact, bands where it is ``scattered``; those of its end only where the beam left."""
+    reading = made.run.reading
+    names = NUMBERS if reading["peak_force"] is None else (*NUMBERS, "peak_force")
+    known = {name: {"saved_instants": 0.5 * reading["spacing"]} for name in TIMES}
+    known["restitution"] = {"saved_instants": reading["drift"]}
+    found = dict(bands_of(made, names) if scattered else numbers_of(made, names, known))
+    if not all(run.reading["left"] for run in made.every):
+        found |= {name: Number() for name in FINAL}
+    return found
+
+
 def over_damping(found: Bounce) -> list[dict[str, Any]] | None:
     """The whole impact at each damping ratio where none was stated, SI, JSON-ready; ``None`` where one was."""
     if found.over is None:
         return None
-    rows = []
-    for ratio, one in found.over.items():
-        unit, stress = scales(one.impact), one.peak_stress
-        force = one.numbers.get("peak_force")
-        rows.append(
-            {
-                "damping_ratio": ratio,
-                "restitution": one.numbers["restitution"].to_dict(),
-                "peak_moment": one.numbers["peak_moment"].scaled(unit["moment"]).to_dict(),
-                "peak_stress": None if stress is None else stress.to_dict(),
-                "peak_force": None if force is None else force.scaled(unit["force"]).to_dict(),
-            }
-        )
-    return rows
+    names = ("restitution", "peak_moment", "peak_stress", "peak_force")
+    return [{"damping_ratio": ratio, **documents(one.in_si, names)} for ratio, one in found.over.items()]
+
+
+def documents(numbers: Mapping[str, Number | Band], names: Iterable[str]) -> dict[str, Any]:
+    """Of the named ``numbers``, JSON-ready; ``None`` for those that there are none of."""
+    return {name: numbers[name].to_dict() if name in numbers else None for name in names}
 
 
 def scales(impact: Impact) -> dict[str, float]:
@@ -262,31 +283,3 @@ def stress_of(moment: Number | Band, impact: Impact, section: Section | None) ->
     if section is None:
         return None
     return moment.scaled(1.0 / section.section_modulus, section.stress(0.0, impact.axial_force), "Pa")
-
-
-def follow_hits(
-    impact: Impact,
-    method: Method,
-    count: int,
-    *,
-    first: ImpactHistory,
-    progress: Callable[[float], None] | None = None,
-) -> list[Hit]:
-    """The first ``count`` hits of a beam on its wall by one run, fewer where it does not come back.
-
-    first : the run that a first hit has been read from: the first row is its own.
-    Raises ``ValueError`` for what the method refuses, and between two walls.
-    """
-    if impact.opposite_wall is not None:
-        raise ValueError("--hits: follows one wall; between two, bentbeam simulate lists the hits")
-    chosen, period = for_whole_beam(method, impact), LOWEST_PERIOD * impact.slow_time_scale
-    fall = impact.net_load / impact.mass_per_length  # acceleration back to the wall, m/s²
-    end, longest = 2.0 * period, LONGEST * impact.slow_time_scale
-    while True:
-        save = round(INSTANTS * end / impact.slow_time_scale)
-        found = hits(chosen.simulate(impact, end_time=end, save=save, progress=progress))
-        over = [hit for hit in found if end - hit.end >= period]
-        if len(over) >= count or end >= longest or (over and fall <= 0.0):
-            return [*hits(first)[:1], *over[1:count]]
-        flight = 2.0 * max(-over[-1].after, 0.0) / fall if over else end
-        end = min(end + flight + 2.0 * period, longest)

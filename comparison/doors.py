@@ -2,22 +2,32 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from copy import deepcopy
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from bent_beam.cases import Case, load_case
+import numpy as np
+
+from bent_beam.cases import Case, lay_over, load_case, read_toml
+from bent_beam.checks import shortened
+from bent_beam.errors import InputError
+from bent_beam.files import write_atomically, write_dataset
 from bent_beam.impact import Impact
 from bent_beam.method import Method, method_from_tables
 from comparison import bouncing, predicting
 from comparison.bounce_text import bounce_document, bounce_table
 from comparison.matching import match as match_all
+from comparison.methods import PATHS
 from comparison.predict_text import prediction_text
+from comparison.readable import csv_text, json_text
 from comparison.rows import THESIS_KAPPAS, MatchRow, match_document, match_table, questions
 from comparison.store import RunStore, default_store
+from comparison.sweeping import sweep_case, varied_from
+from comparison.swept import SweepTable
 
-__all__ = ["Bounced", "Matched", "Predicted", "bounce", "match", "predict"]
+__all__ = ["Bounced", "Matched", "Predicted", "Swept", "bounce", "match", "predict", "sweep"]
 
 Beam = Case | Impact | str | Path
 
@@ -33,22 +43,34 @@ def case_of(beam: Beam) -> Case:
 
 @dataclass(frozen=True)
 class Bounced:
-    """A whole impact: ``found`` has its numbers, runs and warnings."""
+    """A whole impact of the case ``title``: ``found`` has its numbers, runs and warnings."""
 
     found: bouncing.Bounce
+    title: str = ""
 
     def to_dict(self) -> dict[str, Any]:
         """The contract of ``bentbeam bounce --json``."""
         return bounce_document(self.found)
 
     def __str__(self) -> str:
-        return bounce_table(self.found)
+        return self.text()
+
+    def text(self, *, verbose: bool = False) -> str:
+        """Every number with its error bar; ``verbose``: with what tells an expert how good they are."""
+        return bounce_table(self.found, verbose=verbose)
 
     def plot(self) -> Any:
-        """Force, contact and shapes over time, as a Matplotlib figure."""
+        """Force, stress and contact over time, and shapes, in the units of the case, as a Matplotlib figure."""
         from comparison.figures.whole_impact import bounce_figure
 
-        return bounce_figure(self.found)
+        return bounce_figure(self.found, self.title)
+
+    def write(self, out: Path) -> list[Path]:
+        """``bounce.json``, ``bounce.png`` and the animation ``bounce.gif`` in ``out``; returns the files."""
+        from comparison.figures.whole_impact import animate, end_of
+
+        film = animate(self.found.history, out / "bounce.gif", end_of(self.found))
+        return [*_written(self, out, "bounce"), film]
 
 
 @dataclass(frozen=True)
@@ -65,10 +87,33 @@ class Predicted:
         return prediction_text(self.found.to_dict())
 
     def plot(self) -> Any:
-        """Of the whole impact, as a Matplotlib figure. Raises ``ValueError`` where it is not simulated."""
-        if self.found.whole is None:
-            raise ValueError(f"the whole impact is not there to be drawn: {self.found.no_whole}")
-        return Bounced(self.found.whole).plot()
+        """The whole impact, or where it is not known the run to the last time, as a Matplotlib figure.
+
+        Raises ``ValueError`` where nothing is simulated.
+        """
+        from comparison.figures.whole_impact import bounce_figure, impact_figure
+
+        case, runs = self.found.case, self.found.runs
+        if self.found.whole is not None:
+            return bounce_figure(self.found.whole, case.title)
+        if runs is None or not self.found.simulated:
+            raise ValueError(f"there is nothing to be drawn: {self.found.no_whole}")
+        history, end = runs.question.run(runs.question.run_by), float(runs.question.until or 0.0)
+        last = predicting.numbers_at(runs, case)
+        return impact_figure(history.until(end), case.title, last, case.section, end)
+
+    def write(self, out: Path) -> list[Path]:
+        """``predict.json`` and ``predict.png`` in ``out``; returns the files. Raises as :meth:`plot`."""
+        return _written(self, out, "predict")
+
+
+def _written(found: Any, out: Path, name: str, drawable: bool = True) -> list[Path]:
+    """Document and figure of an answer in ``out``."""
+    from comparison.figures import style
+
+    document = out / f"{name}.json"
+    write_atomically(document, json_text(found.to_dict(), indent=1) + "\n")
+    return [document, *(style.save(found.plot(), out, name) if drawable else [])]
 
 
 def predict(beam: Beam, *times: float, theory_only: bool = False, fresh: bool = False) -> Predicted:
@@ -82,8 +127,19 @@ def predict(beam: Beam, *times: float, theory_only: bool = False, fresh: bool = 
     return Predicted(predicting.predict_case(case, times or (case.end_time,), theory_only=theory_only, store=store))
 
 
-def bounce(beam: Beam, path: str = "hermite", *, jobs: int = 1, fresh: bool = False) -> Bounced:
-    """The whole impact by the method of ``path``, to the last separation.
+def made(method: Method | str, case: Case | None = None) -> Method:
+    """The method of a path, with the settings of a case, or the one that is given. Raises ``InputError``."""
+    if isinstance(method, str):
+        return method_from_tables(method, {}) if case is None else case.method(method)
+    if isinstance(method, type):
+        raise InputError(f"method: must be made from its class: {method.__name__}() (got the class)")
+    if not isinstance(method, Method):
+        raise InputError(f"method: must be the name of a path or a method (got {shortened(method)})")
+    return method
+
+
+def bounce(beam: Beam, path: Method | str = "hermite", *, jobs: int = 1, fresh: bool = False) -> Bounced:
+    """The whole impact by the method of ``path``, or by a method, to the last separation.
 
     beam : a case, its file, or an impact. jobs : processes. fresh : stored runs are ignored.
     Raises ``ValueError`` for what the method refuses, :class:`bent_beam.SimulationError` when it cannot finish.
@@ -91,7 +147,7 @@ def bounce(beam: Beam, path: str = "hermite", *, jobs: int = 1, fresh: bool = Fa
     case = case_of(beam)
     how: dict[str, Any] = {"section": case.section, "damping_stated": case.damping_stated, "jobs": jobs}
     store = RunStore(None if fresh else default_store())
-    return Bounced(bouncing.bounce(case.impact, case.method(path), store=store, **how))
+    return Bounced(bouncing.bounce(case.impact, made(path, case), store=store, **how), case.title)
 
 
 class Matched(list[MatchRow]):
@@ -123,6 +179,56 @@ def match(
 
     first_order : (α, ψ, χ[, N]) each; none: the leading order. jobs : processes. fresh : stored runs are ignored.
     """
-    made = [method_from_tables(one, {}) if isinstance(one, str) else one for one in methods or ("hermite", "exudyn")]
-    asked = questions(made, kappa_over_nu, first_order, refine)
+    asked = questions([made(one) for one in methods or PATHS], kappa_over_nu, first_order, refine)
     return Matched(match_all(asked, store=RunStore(None if fresh else default_store()), jobs=jobs))
+
+
+class Swept(SweepTable):
+    """A sweep: its rows as a table, a grid and a figure."""
+
+    def plot(self) -> Any:
+        """Curves with bars over one key, or maps over two, as a Matplotlib figure. Raises ``ValueError`` for more."""
+        from comparison.figures.sweep import sweep_figure
+
+        return sweep_figure(self)
+
+    def write(self, out: Path) -> list[Path]:
+        """``sweep.json``, ``sweep.csv``, ``sweep.nc`` and, where it can be drawn, ``sweep.png``; returns the files."""
+        table, grid = out / "sweep.csv", out / "sweep.nc"
+        write_atomically(table, csv_text(row.to_dict() for row in self.rows))
+        write_dataset(self.to_dataset(), grid)
+        drawable = len(self.vary) <= 2 and any(row.numbers for row in self.rows)
+        return [table, grid, *_written(self, out, "sweep", drawable)]
+
+
+def sweep(
+    case: str | Path | Mapping[str, Any],
+    vary: Mapping[str, Sequence[Any] | str],
+    path: str = "hermite",
+    *,
+    assignments: Sequence[str] = (),
+    jobs: int = 1,
+    scheduler: str | None = None,
+    fresh: bool = False,
+    progress: Callable[[int, int], None] | None = None,
+) -> Swept:
+    """The whole impact of a case for each combination of ``vary``: key → values, or their text ("0.5:2:4").
+
+    case : its file, or its tables. assignments : ``table.key=value``, laid over it first. jobs : processes.
+    scheduler : address of a dask one. progress : called with (done, all) rows. fresh : stored runs are ignored.
+    Raises ``ValueError`` for what is no case at all; a row that fails is a row with its reason.
+
+    >>> from comparison import sweep
+    >>> found = sweep("cases/tube.toml", {"impact.velocity": [0.5, 1.0]})  # doctest: +SKIP
+    """
+    tables: dict[str, Any] = deepcopy(dict(case)) if isinstance(case, Mapping) else read_toml(Path(case), "case file")
+    for assignment in assignments:
+        lay_over(tables, assignment)
+    given: dict[str, Sequence[Any]] = {}
+    for key, values in vary.items():
+        if not isinstance(values, (str, Sequence, np.ndarray)):
+            raise InputError(f"vary: {key} takes its values in a list, or as text (got {shortened(values)})")
+        given[key] = varied_from(f"{key}={values}")[1] if isinstance(values, str) else list(values)
+    store = RunStore(None if fresh else default_store())
+    rows = sweep_case(tables, given, path, store=store, jobs=jobs, scheduler=scheduler, progress=progress)
+    return Swept(str(tables.get("title", "")), path, given, rows)

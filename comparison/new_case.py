@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
+from bent_beam.cases import EXAMPLES
 from bent_beam.checks import shortened
 from bent_beam.errors import InputError, nearest
 
-__all__ = ["new_case"]
+__all__ = ["example", "examples", "new_case"]
 
 SECTION_LINES = {
     "pipe": """outer_diameter = 0.127      # m
@@ -71,3 +74,15 @@ def new_case(kind: str, damping_ratio: float | None = None) -> str:
         velocity=2.0 if long else 1.0,
         end_time=1e-3 if long else 1e-4,
     )
+
+
+def examples() -> dict[str, Path]:
+    """The example cases by name."""
+    return {file.stem: file for file in EXAMPLES.glob("*.toml")}
+
+
+def example(name: str) -> str:
+    """The text of an example. Raises :class:`InputError` for an unknown name."""
+    if name not in examples():
+        raise InputError(f"--like: {shortened(name)} is no example{nearest(name, examples())}")
+    return examples()[name].read_text(encoding="utf-8")

@@ -25,13 +25,13 @@ from bent_beam.measure.instant import instant
 from bent_beam.measure.numbers import Number
 from bent_beam.method import Method
 from comparison.answers import Runs, numbers_of, runs_of
-from comparison.bouncing import Bounce, bounce, over_damping, scales, stress_of
+from comparison.bouncing import Bounce, bounce, documents, over_damping, stress_of
 from comparison.energies import energy_at_end, loss_warnings, numerical_loss
 from comparison.questions import Question
 from comparison.store import RunStore
 from theory import Prediction, predict
 
-__all__ = ["COMPARED", "PredictedCase", "instant_numbers", "instants_reading", "predict_case"]
+__all__ = ["COMPARED", "PredictedCase", "instant_numbers", "instants_reading", "numbers_at", "predict_case"]
 
 PATH = "hermite"
 COMPARED = ("half_contact_length", "reaction", "impulse", "peak_moment", "peak_stress")
@@ -123,13 +123,8 @@ class PredictedCase:
         """Restitution, last contact, largest moment, stress and force of the whole impact, SI."""
         if self.whole is None:
             return None
-        found, unit, stress = self.whole.numbers, scales(self.whole.impact), self.whole.peak_stress
         return {
-            "restitution": found["restitution"].to_dict(),
-            "last_contact": found["last_contact"].scaled(unit["time"]).to_dict(),
-            "peak_moment": found["peak_moment"].scaled(unit["moment"]).to_dict(),
-            "peak_stress": None if stress is None else stress.to_dict(),
-            "peak_force": found["peak_force"].scaled(unit["force"]).to_dict() if "peak_force" in found else None,
+            **documents(self.whole.in_si, ("restitution", "last_contact", "peak_moment", "peak_stress", "peak_force")),
             "span": list(self.whole.span),
             "over_damping": over_damping(self.whole),
             "warnings": self.whole.warnings,
@@ -165,7 +160,7 @@ def predict_case(
         question = Question(impact, method, until=time, damping_stated=case.damping_stated)
         read = partial(instants_reading, (*checked, time) if time == within else (time,), question.first_spread)
         found[time] = runs_of(question, read, store=store, progress=lambda done, i=i: told(share * (i + done)))  # type: ignore[misc]
-    simulated = [_at(found.get(time), case) for time in times]
+    simulated = [numbers_at(found.get(time), case) for time in times]
     warnings = _steep(impact) + _of_runs(found.values())
     if last > within:
         warnings.append(f"times beyond {within:.4g} s ({LATEST:g} T*) are not simulated here: bentbeam simulate")
@@ -176,7 +171,7 @@ def predict_case(
     return PredictedCase(case, prediction, simulated, agreement, *impacts, sorted(set(warnings)), found.get(within))
 
 
-def _at(runs: Runs | None, case: Case) -> dict[str, Number]:
+def numbers_at(runs: Runs | None, case: Case) -> dict[str, Number]:
     """The numbers of one time; nothing where nothing was simulated."""
     if runs is None:
         return {}

@@ -4,9 +4,10 @@ numbers finite, missing values null, everything else as text, lists and dictiona
 
 from __future__ import annotations
 
+import csv
 import io
 import json
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from numbers import Real
 from typing import Any
 
@@ -14,6 +15,8 @@ from bent_beam.measure.numbers import Band, Number
 
 __all__ = [
     "BEAMS",
+    "csv_text",
+    "flat",
     "in_unit",
     "json_text",
     "milliseconds",
@@ -116,3 +119,30 @@ def json_text(value: Any, indent: int | None = None) -> str:
 def plain(value: Any) -> Any:
     """``value`` as lists, dictionaries, text and finite numbers; NaN and infinities become ``None``."""
     return json.loads(json_text(value))
+
+
+def flat(document: Mapping[str, Any]) -> dict[str, Any]:
+    """A row of a document as one of a table: ``name``, ``name_error``, ``name_theory`` of a number, ``name_mean``,
+    ``name_std``, ``name_runs`` of a band, the entries of ``varied`` by their keys, other data as text."""
+    found: dict[str, Any] = {}
+    for key, value in plain(document).items():
+        if key == "varied":
+            found |= value
+        elif isinstance(value, dict) and "error" in value:
+            band = {f"{key}_{name}": one for name, one in value.pop("band", {}).items()}
+            found |= {key: value.pop("value")} | {f"{key}_{name}": one for name, one in value.items()} | band
+        elif isinstance(value, dict):
+            found[key] = json_text(value)
+        else:
+            found[key] = "; ".join(map(str, value)) if isinstance(value, list) else value
+    return found
+
+
+def csv_text(documents: Iterable[Mapping[str, Any]]) -> str:
+    """Rows (:func:`flat`) as CSV with a header; what is missing stays empty."""
+    rows = [flat(document) for document in documents]
+    stream = io.StringIO()
+    writer = csv.DictWriter(stream, list(dict.fromkeys(name for row in rows for name in row)), lineterminator="\n")
+    writer.writeheader()
+    writer.writerows(rows)
+    return stream.getvalue()

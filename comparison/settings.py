@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import dataclasses
+import difflib
 import inspect
 import logging
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from bent_beam.checks import shortened
 from bent_beam.errors import InputError
 from bent_beam.fields import declared, key_of
 from bent_beam.meshes import MESHES
@@ -17,7 +19,7 @@ from bent_beam.section import SECTIONS
 from bent_beam.tables import TABLES
 from comparison.readable import text_table
 
-__all__ = ["Setting", "settings", "settings_markdown", "settings_text"]
+__all__ = ["Setting", "about", "settings", "settings_markdown", "settings_text"]
 
 
 @dataclass(frozen=True)
@@ -49,6 +51,20 @@ def settings() -> list[Setting]:
         for name, kinds in parts.items():
             if kinds is not MESHES:
                 found += _kinds(f"{path}.{name}", kinds)
+    return found
+
+
+def about(word: str) -> list[Setting]:
+    """The settings whose table, kind, name or text has ``word`` in it; all without one.
+
+    Raises :class:`InputError` where there are none.
+    """
+    wanted, every = word.strip().lower().strip("[]"), settings()
+    found = [one for one in every if wanted in f"{one.table}.{one.name} {one.kind} {one.text}".lower()]
+    if not found:
+        close = difflib.get_close_matches(wanted, {one.name for one in every}, n=1)
+        hint = f"did you mean {close[0]}?" if close else "bentbeam settings lists them all"
+        raise InputError(f"settings: none has {shortened(word)} in it ({hint})")
     return found
 
 
@@ -88,11 +104,11 @@ def _written(value: Any) -> str:
 HEAD = ["field", "unit", "default", "allowed", "what"]
 
 
-def settings_text() -> str:
-    """All settings as tables for a terminal."""
+def settings_text(word: str = "") -> str:
+    """Settings (:func:`about`) as tables for a terminal."""
     return "\n\n".join(
         f"[{table}]" + (f" kind = {kind}" if kind else "") + "\n" + text_table(HEAD, rows, left=(0, 4))
-        for (table, kind), rows in _tables().items()
+        for (table, kind), rows in _tables(about(word)).items()
     )
 
 
@@ -103,7 +119,7 @@ def settings_markdown() -> str:
         "",
         "Made from the code by `bentbeam settings --markdown`; a table is a table of a case file.",
     ]
-    for (table, kind), rows in _tables().items():
+    for (table, kind), rows in _tables(settings()).items():
         lines += ["", f"## `[{table}]`" + (f" kind = `{kind}`" if kind else ""), ""]
         rows = [HEAD, *([f"`{name}`", *others] for name, *others in rows)]
         columns = [column for column in zip(*rows) if any(column[1:])]
@@ -113,10 +129,10 @@ def settings_markdown() -> str:
     return "\n".join([*lines, ""])
 
 
-def _tables() -> dict[tuple[str, str | None], list[list[str]]]:
+def _tables(chosen: Iterable[Setting]) -> dict[tuple[str, str | None], list[list[str]]]:
     """Rows by table and kind: field, unit, default, what is allowed, what it is."""
     found: dict[tuple[str, str | None], list[list[str]]] = {}
-    for s in settings():
+    for s in chosen:
         rows = found.setdefault((s.table, s.kind), [])
         if s.name != "kind":
             rows.append([s.name, s.unit, "required" if s.default is None else s.default, s.allowed, s.text])

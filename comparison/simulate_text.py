@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import Any
 
 from bent_beam.measure.numbers import Band, Number
+from comparison.hits import BETWEEN_WALLS, hits_table
 from comparison.readable import BEAMS, in_unit, number_from, text_table
 
 __all__ = ["run_table"]
@@ -47,7 +47,7 @@ def run_table(found: dict[str, Any], verbose: bool = False) -> str:
     if found["hold"] and verbose:
         text.append(_hold_text(found["hold"]))
     if found["hits"]:
-        text += ["", _hits_table(found["hits"])]
+        text += ["", hits_table(found["hits"], BETWEEN_WALLS)]
     text += [f"warning: {w}" for w in found["warnings"]]
     if found["file"]:
         text.append(f"history: {found['file']}")
@@ -87,11 +87,3 @@ def _peak(found: dict[str, Any], name: str, title: str, unit: str) -> list[list[
     """The line of a largest value; none where it is not known."""
     number = Number(found[f"peak_{name}"], found[f"peak_{name}_error"])
     return [[title, *in_unit(number, unit), ""]] if number.measured else []
-
-
-def _hits_table(rows: Sequence[dict[str, Any]]) -> str:
-    head = ["hit", "wall", "from, s", "to, s", "mean |x|, m", "impulse, N s", "V before, m/s", "after, m/s"]
-    head += ["energy, J", "lost, J"]
-    names = ("begin", "end", "place", "impulse", "before", "after", "energy", "lost")
-    body = [[str(i), row["wall"], *(f"{row[name]:.5g}" for name in names)] for i, row in enumerate(rows, 1)]
-    return text_table(head, body)

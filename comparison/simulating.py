@@ -18,8 +18,8 @@ from bent_beam.measure.moments import moments
 from bent_beam.measure.numbers import MISSING, Number
 from bent_beam.measure.reduction import hold_of, pull_of
 from bent_beam.measure.whole_impact import hits
-from comparison.answers import Runs, numbers_of, runs_of
-from comparison.bouncing import scales, stress_of, whole_reading
+from comparison.answers import Runs, runs_of
+from comparison.bouncing import Bounce, scales, stress_of, whole_numbers, whole_reading
 from comparison.energies import energy_at_end, energy_residual, loss_warnings, numerical_loss
 from comparison.predicting import instant_numbers, instants_reading
 from comparison.questions import Question
@@ -81,20 +81,15 @@ def _whole_run(history: ImpactHistory) -> dict[str, Any]:
     return instants_reading((float(history.time[-1]),), False, history) | {"whole": found}
 
 
-def _of_whole(runs: Runs) -> dict[str, Number]:
+def _of_whole(runs: Runs) -> dict[str, Any]:
     """Restitution, and the largest moment and force of the whole impact, as ``bounce`` has them."""
     inner = replace(
         runs,
         run=replace(runs.run, reading=runs.run.reading["whole"]),
         companions={cause: replace(run, reading=run.reading["whole"]) for cause, run in runs.companions.items()},
     )
-    reading, unit = inner.run.reading, scales(runs.question.impact)
-    names = ["restitution", "peak_moment", *(["peak_force"] if reading["peak_force"] is not None else [])]
-    found = numbers_of(inner, names, {"restitution": {"saved_instants": reading["drift"]}})
-    if not all(run.reading["left"] for run in inner.every):
-        found["restitution"] = MISSING
-    scaled = {"peak_moment": unit["moment"], "peak_force": unit["force"]}
-    return {name: number.scaled(scaled.get(name, 1.0)) for name, number in found.items()}
+    found = Bounce(runs.question.impact, whole_numbers(inner), inner, {}).in_si
+    return {name: found[name] for name in ("restitution", "peak_moment", "peak_force") if name in found}
 
 
 def _leading(runs: Runs) -> Any:
@@ -145,16 +140,15 @@ def _document(found: Simulated, file: Path | None) -> dict[str, Any]:
         "lift": float(moments(history).lift[-1]),
         "pull": pull_of(history),
         "hold": hold_of(history),
-        "peak_moment": moment.value,
-        "peak_moment_error": moment.bar,
+        **_with_error("peak_moment", moment),
         "peak_moment_place": place,
         "peak_moment_time": when,
-        "peak_stress": None if stress is None else stress.value,
-        "peak_stress_error": None if stress is None else stress.bar,
+        **_with_error("peak_stress", stress or MISSING),
         "yield_stress": None if section is None else section.yield_stress,
         "peak_force_time": reading["peak_force_time"],
-        **{name: numbers[name].value for name in ("peak_force", "peak_penetration", "peak_pressure")},
-        **{f"{name}_error": numbers[name].bar for name in ("peak_force", "peak_penetration", "peak_pressure")},
+        **_with_error("peak_force", numbers["peak_force"]),
+        **_with_error("peak_penetration", numbers["peak_penetration"]),
+        **_with_error("peak_pressure", numbers["peak_pressure"]),
         "energy": energy,
         "energy_residual": energy_residual(energy),
         "numerical_loss": numerical_loss(energy),
@@ -175,3 +169,7 @@ def _document(found: Simulated, file: Path | None) -> dict[str, Any]:
 
 def _beside(number: Number, theory: float | None) -> dict[str, float | None]:
     return replace(number, theory=theory).compared()
+
+
+def _with_error(name: str, number: Number) -> dict[str, float | None]:
+    return {name: number.value, f"{name}_error": number.bar}

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Any
 
 import exudyn as exu
 import exudyn.graphics as graphics
@@ -22,8 +23,8 @@ from bent_beam.impact import BEFORE_WAVES_RETURN
 from bent_beam.meshes import Mesh, checked_nodes, mirrored, snapped
 from exudyn_models.contacts import Contact, ContactRun, Wall
 from exudyn_models.elements import Beam, Element
-from exudyn_models.elements.beam import VISCOSITY, VISCOSITY_EXPLICIT, Section
-from exudyn_models.geometry import MODEL_UNITS, Array, Geometry, Scaling, Shape, Units, supports_or_plate
+from exudyn_models.elements.beam import VISCOSITY, VISCOSITY_EXPLICIT, VISCOSITY_SHEARED, Section
+from exudyn_models.geometry import MODEL_UNITS, Array, Geometry, Scaling, Shape, Units, element_times, supports_or_plate
 from exudyn_models.integrators import Integrator
 from exudyn_models.resolution import lasts_until_waves_return, modelled_half_length, reachable, thin_front
 from exudyn_models.solvers import NewtonSolver
@@ -98,16 +99,19 @@ def assemble(layout: Layout, chosen: Chosen, units: Units = MODEL_UNITS) -> tupl
     container = exu.SystemContainer()
     system = container.AddSystem()
     system.variables["container"] = container  # the system must not outlive it
-    factor = chosen.element.viscosity
+    factor: Any = chosen.element.viscosity
     if factor is None:
-        factor = VISCOSITY_EXPLICIT if explicit else VISCOSITY
+        implicit = np.where(shape.lengths < scaling.shear_length, VISCOSITY_SHEARED, VISCOSITY)
+        factor = VISCOSITY_EXPLICIT if explicit else implicit
     section = Section(
         axial_stiffness=_axial_stiffness(chosen.element.axial_stiffness, shape.slender, scaling),
         axial_force=scaling.axial_force,
         damping=scaling.impact.damping / scaling.end_time,
+        shear_length=scaling.shear_length,
+        rotary_inertia=scaling.rotary_inertia,
         units=units,
     )
-    beam = chosen.element.build(system, shape, section, factor * shape.lengths**2)
+    beam = chosen.element.build(system, shape, section, factor * element_times(shape.lengths, scaling.shear_length))
     hold = beam.hold_by_inertia if explicit else beam.fix
     held = {
         "free": (),
@@ -126,7 +130,7 @@ def assemble(layout: Layout, chosen: Chosen, units: Units = MODEL_UNITS) -> tupl
         beam.load_uniformly(scaling.load * scaling.amplitude)
     for node, sign, _ in reversed(ends):
         _load_end(beam, node, sign, scaling, follows=layout.ends_follow)
-    run = chosen.contact.attach(beam, _wall(shape, scaling, chosen))
+    run = chosen.contact.attach(beam, _wall(shape, scaling, chosen, beam.shears))
     x = np.linspace(min(0.0, float(shape.x[0])), float(shape.x[-1]), 200)
     line = np.stack([x, shape.wall_curvature * x**2 / 2, np.zeros_like(x)], axis=1) * units.length
     seen = items.VObjectGround(graphicsData=[graphics.Lines(line.tolist(), color=GREY)])
@@ -148,7 +152,7 @@ def _axial_stiffness(asked: float | None, true: bool, scaling: Scaling) -> float
     return max(TAUT, abs(scaling.axial_force) / (STRETCH_LATER if later else STRETCH))
 
 
-def _wall(shape: Shape, scaling: Scaling, chosen: Chosen) -> Wall:
+def _wall(shape: Shape, scaling: Scaling, chosen: Chosen, shears: bool) -> Wall:
     impact, s, explicit = scaling.impact, shape.s, chosen.integrator.explicit
     centre, near = int(np.argmin(np.abs(s))), NEAR * impact.length / scaling.length
     begin, end = (edge / scaling.length for edge in impact.wall_span)
@@ -158,7 +162,8 @@ def _wall(shape: Shape, scaling: Scaling, chosen: Chosen) -> Wall:
     lengths = np.where(before[1:] & before[:-1], np.diff(s), 0.0)
     first_spread = BEFORE_WAVES_RETURN * impact.slow_time_scale / scaling.end_time
     # a material that damps waves at grid scale makes hits plastic itself: more would stop nodes ahead of the wall
-    damped = impact.damping > VISCOSITY * scaling.end_time * float(shape.lengths.min()) ** 2
+    shortest = float(element_times(shape.lengths, scaling.shear_length).min())
+    damped = impact.damping > VISCOSITY * scaling.end_time * shortest
     thin = thin_front(scaling.kappa) and not supports_or_plate(impact) and not damped
     opposite, stiffness = impact.opposite_wall, impact.wall_stiffness
     unit = impact.bending_stiffness / scaling.length ** (4 if lengths.any() else 3)
@@ -170,7 +175,7 @@ def _wall(shape: Shape, scaling: Scaling, chosen: Chosen) -> Wall:
         front=scaling.front,
         first_spread=first_spread,
         plastic=chosen.plastic if thin and first_spread >= 1.0 and not explicit else 0.0,
-        lifts=impact.lifts or impact.damping > 0.0 or impact.kappa_over_nu >= 1.0,
+        lifts=impact.lifts or shears or impact.damping > 0.0 or impact.kappa_over_nu >= 1.0,
         explicit=explicit,
         opposite=None if opposite is None else -opposite / scaling.deflection,
         stiffness=None if stiffness is None else stiffness / unit,
@@ -189,7 +194,8 @@ def _load_end(beam: Beam, node: int, sign: float, scaling: Scaling, *, follows: 
     if follows:
         bending_rate = a * float(loads(x, by_x=2, by_t=1))
         # bending at a rate also takes the moment of the viscosity
-        moment = a * float(loads(x, by_x=2)) + beam.viscosity[node if node == 0 else -1] * bending_rate
+        moment = a * float(loads(x, by_x=2) + scaling.shear_length**2 * loads(x, by_x=4))
+        moment += beam.viscosity[node if node == 0 else -1] * bending_rate
         beam.load_node(node, beam.rotation_coordinate, sign * moment, sign * bending_rate)
         shear, turning = a * float(loads(x, by_x=3)), a * float(loads(x, by_x=1, by_t=1))
     if impact.tension_direction == "axis" and abs(x) * scaling.length >= impact.half_length * (1.0 - NEAR):
@@ -200,8 +206,8 @@ def _load_end(beam: Beam, node: int, sign: float, scaling: Scaling, *, follows: 
 
 def stable_step(beam: Beam, contact: ContactRun, integrator: Integrator) -> float:
     """limit/ω, ω the largest eigenvalue of any element with its contact closed: a bound for the whole mesh."""
-    mass, stiffness, bending = beam.element_matrices()
-    damping = beam.viscosity[:, None, None] * bending
+    mass, stiffness, damped = beam.element_matrices()
+    damping = beam.viscosity[:, None, None] * damped
     k, d = contact.stiffness_and_damping()
     for end in (0, 1):
         node = slice(end, beam.lengths.size + end)

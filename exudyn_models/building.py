@@ -130,7 +130,7 @@ def _chosen(method: ExudynModel, impact: Impact, end: float) -> Chosen:
     explicit = method.integrator is not None and method.integrator.explicit
     if not explicit:
         method = dataclasses.replace(method, mesh=method.mesh or _equal_elements(impact, end))
-    contact = method.contact or (Penalty(hold_start=0.0) if explicit else CONTACT)
+    contact = method.contact or (Penalty(hold_start=0.0) if explicit or impact.shear_stiffness is not None else CONTACT)
     chosen = dataclasses.replace(method, contact=contact).chosen(impact, end)
     if not isinstance(chosen.integrator, Implicit) or chosen.integrator.time_step is not None:
         return chosen

@@ -43,6 +43,7 @@ __all__ = [
     "Shape",
     "TrueGeometry",
     "Units",
+    "element_times",
     "supports_or_plate",
 ]
 
@@ -70,6 +71,7 @@ class Scaling:
     front : √(2ν/κ), for choosing a resolution, never to make an answer: without a wall, y₀ = V₀t − Kx²/2 would be
         inside it up to x = √(2V₀t/K), that is λ₀ < √(2ν/κ).
     motion : y₀ − y_w over amplitude, x from first_touch (Λ); loads : its terms by which the ends are loaded.
+    shear_length : l_s/Λ, 0 without shear; rotary_inertia : J/(μΛ²).
     axial_force : N Λ²/EI; load : uniform load per unit length over amplitude, under which y₀ is the motion without
         contact.
     """
@@ -93,6 +95,8 @@ class Scaling:
         self.loads = self.motion_of(0.0).bending()
         self.axial_force = impact.epsilon_axial * end_time / impact.time_scale
         self.load = impact.uniform_pressure * end_time / (impact.mass_per_length * impact.velocity)
+        self.shear_length = impact.shear_length / self.length
+        self.rotary_inertia = impact.shear_ratio * self.shear_length**2
 
     def motion_of(self, kappa: float) -> FreeMotion:
         """``motion`` of a beam of curvature ``kappa``."""
@@ -169,6 +173,13 @@ class Shape:
         return np.diff(self.s)
 
 
+def element_times(lengths: Array, shear_length: float) -> Array:
+    """√(μ/EI) Δx² √(1 + Φ), Φ = 12 (l_s/Δx)², with √(EI/μ) = 1: the time in which an element of this length follows
+    what happens at its ends, by bending or, where Δx ≪ l_s, in that of a shear wave. Grid viscosity, penalty and steps
+    are measured by it."""
+    return np.asarray(lengths * np.sqrt(lengths**2 + 12.0 * shear_length**2))
+
+
 def _arc(s: Array, motion: FreeMotion, amplitude: float) -> tuple[Array, Array, Array, Array]:
     """x, y and their velocities beyond V₀ of an unstretched line of the angles, and turning at the rates, of the slopes
     of ``motion`` times ``amplitude``.
@@ -207,7 +218,7 @@ class Geometry(Part, ABC):
         motion = scaling.motion_of(k)
         return Shape(
             s=s,
-            angle=a * motion(bow, by_x=1),
+            angle=a * (motion(bow, by_x=1) + scaling.shear_length**2 * motion(bow, by_x=3)),  # φ = y′ + l_s² y‴
             curvature=-a * k,
             slender=self.true,
             wall_curvature=a * (scaling.kappa * wall_share - scaling.wall_kappa),

@@ -18,7 +18,7 @@ from bent_beam.method import Save, made_of, separation_times
 from exudyn_models import simulation, whole_beam
 from exudyn_models.assembly import Chosen
 from exudyn_models.contacts import CONTACTS, Contact, Penalty, Springs
-from exudyn_models.elements import ELEMENTS, ANCFCable, Element
+from exudyn_models.elements import ELEMENTS, Element, chosen_element
 from exudyn_models.geometry import GEOMETRIES, Array, Geometry, supports_or_plate
 from exudyn_models.integrators import INTEGRATORS, Integrator
 from exudyn_models.recording import Recorder
@@ -30,7 +30,7 @@ __all__ = ["ExudynModel", "simulate"]
 
 MODELLED = (
     *("acceleration", "curvature_rate", "fourth_derivative", "axial_force", "rotation"),
-    *("wall_stiffness", "wall_damping", "wall_from", "wall_to", "left_end", "right_end"),
+    *("shear_stiffness", "wall_stiffness", "wall_damping", "wall_from", "wall_to", "left_end", "right_end"),
 )
 """The loads and features that :mod:`exudyn_models.assembly` models."""
 
@@ -107,7 +107,7 @@ class ExudynModel(Part):
             integrator = chosen_steps(integrator, mesh, impact, end_time)
         return Chosen(
             mesh=mesh,
-            element=self.element or ANCFCable(),
+            element=self.element or chosen_element(impact),
             integrator=integrator,
             contact=contact,
             geometry=self.geometry or contact.geometry,
@@ -151,8 +151,13 @@ class ExudynModel(Part):
             for other in others:
                 if getattr(impact, other):
                     yield f"{other} is not modelled together with {name} (got {getattr(impact, other)!r})"
-        if reason := contact.refuses(impact, self.element or ANCFCable(), self.integrator or contact.integrator):
-            yield reason
+        element = self.element or chosen_element(impact)
+        for reason in (
+            element.refuses(impact),
+            contact.refuses(impact, element, self.integrator or contact.integrator),
+        ):
+            if reason is not None:
+                yield reason
         if true and impact.off_centre:
             yield "exudyn.geometry.kind true knows the symmetric bow only: with rotation or first_touch take linear"
 

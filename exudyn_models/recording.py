@@ -23,7 +23,6 @@ from typing import Any
 import numpy as np
 
 from bent_beam import ImpactHistory
-from bent_beam.history import end_curvatures
 from exudyn_models.contacts import ContactRun
 from exudyn_models.elements import Beam
 from exudyn_models.geometry import Array, Scaling
@@ -48,6 +47,13 @@ def means(rows: Array) -> Array:
     return np.asarray((rows[1:] + rows[:-1]) / 2)
 
 
+def nodal_means(ends: Array) -> Array:
+    """Of what both elements say at a node, (rows, nodes), from (rows, elements, 2)."""
+    sums = np.pad(ends[..., 0], ((0, 0), (0, 1))) + np.pad(ends[..., 1], ((0, 0), (1, 0)))
+    sums[:, 1:-1] /= 2.0
+    return np.asarray(sums)
+
+
 def onwards(before: Any, gains: Array) -> Array:
     """Sums after each gain, ``before`` first."""
     sums = np.zeros((len(gains) + 1, *gains.shape[1:]))
@@ -68,6 +74,9 @@ class Recorder:
         self.beam, self.contact, self.scaling, self.averages = beam, contact, scaling, averages
         shape, self.copies = beam.shape, 2.0 if half else 1.0
         self.wall_y = shape.wall_y
+        impact, natural = scaling.impact, scaling.impact.natural_curvature
+        # what the bow has been bent by before the first touch
+        self.unbent = 0.0 if natural is None else (natural - impact.curvature) * scaling.length / scaling.slope
         self.loads = beam.loads()
         self.mass = beam.mass_matrix()
         self.damping = dict(zip(("loss_viscous", "loss_material"), beam.damping_matrices()))
@@ -131,27 +140,28 @@ class Recorder:
         if self.scaling.impact.supported:
             total = after["impulse"] @ self.contact.signs
         y, slope = beam.deflection(q) - self.wall_y, beam.slope(q) - beam.shape.wall_slope
+        moments = beam.bending_moments(q) + self.unbent
         now = {"y": y, "velocity": v[:, beam.vertical], "slope": slope, "total_impulse": total}
+        if beam.section.shear_length:
+            now |= {"angular_velocity": v[:, beam.rotation], "bending_moment": nodal_means(moments)}
         for name, values in (after | now).items():
             self.record[name] += [values[k].copy() for k in saved]
         self.record["kinetic_energy"] += beam.kinetic_energy(v[saved]).tolist()
         self.record["strain_energy"] += beam.strain_energy(q[saved]).tolist()
         self.record["stretch_energy"] += beam.stretch_energy(q[saved]).tolist()
-        self._note_moments(y, slope)
+        self._note_moments(moments)
         self.sums |= {name: values[-1] for name, values in after.items()}
         self.total = float(total[-1])
-        late = time > 0.01
+        late = time > (0.1 if beam.shears else 0.01)  # its first hits are those of a string
         if late.any():
             depth = y[late][:, self.contact.nodes].max(axis=1)  # what lies beyond them is let through
             self.deepest = max(self.deepest, float((depth / time[late]).max()))
         self._pending, self._rows = [], self._rows[-1:]
 
-    def _note_moments(self, y: Array, slope: Array) -> None:
+    def _note_moments(self, moments: Array) -> None:
         """The largest bending moment since the saved instant before, its place, and the one in the middle."""
-        beam, impact, unit = self.beam, self.scaling.impact, self.scaling.slope / self.scaling.length
-        natural = impact.curvature if impact.natural_curvature is None else impact.natural_curvature
-        bent = end_curvatures(beam.shape.x, y, slope) + (natural - impact.wall_curvature) / unit
-        ends = np.pad(np.abs(bent), ((0, 0), (1, 1), (0, 0)))
+        beam = self.beam
+        ends = np.pad(np.abs(moments), ((0, 0), (1, 1), (0, 0)))
         nodes = np.maximum(ends[:, :-1, 1], ends[:, 1:, 0])
         middle = nodes[:, np.argmin(np.abs(beam.shape.s))]
         self._keep_largest("moments", nodes.max(axis=1), beam.shape.x[nodes.argmax(axis=1)], middle, anew=True)
@@ -239,7 +249,12 @@ class Recorder:
         x, moment = shape.x * s.length, s.impact.bending_stiffness * s.slope / s.length
         # against the model's wall, which may have a share of the beam's own curvature, but not the real one's
         slope = saved["slope"] * s.slope - s.impact.wall_curvature * (x - s.impact.first_touch)
-        at_nodes = {"gap": -saved["y"] * s.deflection, "velocity": saved["velocity"] * s.velocity, "slope": slope}
+        at_nodes = {"gap": -saved["y"] * s.deflection, "velocity": saved["velocity"] * s.velocity}
+        if s.impact.shear_stiffness is None:
+            at_nodes["slope"] = slope
+        else:
+            units = {"angular_velocity": s.slope / s.end_time, "bending_moment": moment}
+            at_nodes |= {"angle": slope} | {name: saved[name] * unit for name, unit in units.items()}
         impulse, active = saved["impulse"] * s.impulse, saved["in_contact"]
         at_contact = {"impulse": impulse[:, front], "in_contact": active[:, front]}
         if not front.all():  # contact points of the opposite wall follow those of the front

@@ -144,8 +144,10 @@ def step_of_wall(mesh: Mesh, impact: Impact, wall: WallScales) -> float:
 
 
 def resolving_step(mesh: Mesh, impact: Impact) -> float:
-    """The time step, s, that resolves the contact of the shortest element: ½Δx²√(μ/EI)."""
-    return STEP * float(np.diff(mesh.nodes(impact.half_length)).min()) ** 2 / impact.wave_constant
+    """The time step, s, that resolves the contact of the shortest element: half of the time in which a bending wave
+    passes it, ½Δx²√(μ/EI), or a shear wave where it is shorter than l_s."""
+    length = float(np.diff(mesh.nodes(impact.half_length)).min())
+    return STEP * length * max(length, impact.shear_length) / impact.wave_constant
 
 
 def thin_front(kappa_over_nu: float) -> bool:

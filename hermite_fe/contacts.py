@@ -119,12 +119,16 @@ def element_rows(
     weights : (elements, 4). facing : (dofs,), the bow as seen from the wall. at : where in its element each row sits,
         0 … 1 from the left, a number or (elements,); the moment of the reactions, and with it λ_c, is taken there.
 
-    Raises ``ValueError`` when ``at`` lies outside the elements.
+    Raises ``ValueError`` when ``at`` lies outside the elements, or weights do not move with the beam.
     """
     count = beam.nodes.size - 1
     share = np.broadcast_to(np.asarray(at, float), (count,))
     if not np.all((share >= 0.0) & (share <= 1.0)):
         raise InputError(f"at must lie in [0, 1], within the element (got {at!r})")
+    lifted = weights[:, 0] + weights[:, 2]
+    if not np.allclose(lifted, 1.0, rtol=0.0, atol=1e-9):
+        worst = float(lifted[np.argmax(np.abs(lifted - 1.0))])
+        raise InputError(f"weights of the deflections w₁ and w₂ must add up to one in each element (got {worst:.6g})")
     dofs = 2 * np.arange(count)[:, None] + np.arange(4)[None, :]
     first = count // 2 if full else 0
     left = np.arange(count) < first

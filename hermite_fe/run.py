@@ -98,18 +98,24 @@ class Stepper:
         """Compile or load all functions by taking no step, so that the seconds of a run are those of its steps."""
 
         def no_step() -> None:
-            self.integrator.advance(self.problem, self.state, self.memory, self.instants, self.step, self.step)
+            self._advance(self.step)
             self.energies()
 
         recompiling(no_step)
+
+    def _advance(self, step: int) -> tuple[int, int]:
+        """What the integrator returns; it may be somebody else's."""
+        found = self.integrator.advance(self.problem, self.state, self.memory, self.instants, self.step, step)
+        if not (isinstance(found, tuple) and len(found) == 2):
+            name = type(self.integrator).__name__
+            raise InputError(f"integrator: {name}.advance must return the status and the last step (got {found!r})")
+        return found
 
     def advance_to(self, step: int) -> int:
         """Take steps up to number ``step``; SOLVED (0) when all went well, else a key of ``FAILURES``."""
         if step <= self.step:
             return SOLVED
-        status, self.step = self.integrator.advance(
-            self.problem, self.state, self.memory, self.instants, self.step, step
-        )
+        status, self.step = self._advance(step)
         finite = bool(np.isfinite(self.state.q).all() and np.isfinite(self.state.v).all())
         return NOT_FINITE if status == SOLVED and not finite else status
 

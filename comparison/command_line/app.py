@@ -26,17 +26,24 @@ from comparison.command_line.cases import new, predict, settings, simulate
 from comparison.command_line.histories import compare, plot, rerun
 from comparison.command_line.match import match
 from comparison.command_line.options import printable
+from comparison.command_line.sweep import sweep
 from comparison.command_line.theory import theory
 
 __all__ = ["COMMANDS", "add_programs", "app", "main", "run"]
 
-COMMANDS = (theory, new, settings, predict, simulate, bounce, match, rerun, plot, compare)
+COMMANDS = (new, predict, bounce, sweep, plot, simulate, settings, compare, rerun, theory, match)
 """Of the library, in the order of ``bentbeam --help``."""
 
 INTERRUPTED = 130
 AGAIN = (signal.SIGALRM,) if hasattr(signal, "SIGALRM") else ()
 PATIENCE = 10.0  # s between an interrupt and the next: workers and files are cleared away meanwhile
-RESUMED = ("match", "gallery", "report", "benchmark")  # keep every run, or every item, as soon as it is finished
+RESUMED = (
+    "match",
+    "sweep",
+    "gallery",
+    "report",
+    "benchmark",
+)  # keep every run, or item, once it is finished
 
 app = typer.Typer(
     rich_markup_mode=None,

@@ -12,9 +12,8 @@ from bent_beam.errors import InputError
 from comparison.command_line.options import Fresh, Jobs, Json, Quiet, Set, Verbose, emit, path_names, progress
 
 if TYPE_CHECKING:
-    from bent_beam.impact import Impact
+    from bent_beam.cases import Case
     from bent_beam.method import Method
-    from bent_beam.section import Section
 
 __all__ = ["bounce"]
 
@@ -37,7 +36,7 @@ def bounce(
     runs: Annotated[int, typer.Option(min=2, max=1000, help="Runs of the ensemble without damping.")] = 24,
     seed: Annotated[int, typer.Option(min=0, help="Seed of the ensemble.")] = 15,
     hits: Annotated[int, typer.Option(min=1, max=20, help="Number of hits to follow under loads.")] = 1,
-    out: Annotated[Path | None, typer.Option(help="Folder for document, figure and animation.")] = None,
+    out: Annotated[Path | None, typer.Option(help="Folder for document, picture and animation.")] = None,
     jobs: Jobs = 1,
     fresh: Fresh = False,
     verbose: Verbose = False,
@@ -51,11 +50,9 @@ def bounce(
 
     Example: bentbeam bounce --kappa-over-nu 2 --damping 0.01
     """
-    from dataclasses import asdict
-
-    from comparison.bounce_text import bounce_document, bounce_table, hits_table
     from comparison.bouncing import bounce as follow
-    from comparison.bouncing import follow_hits
+    from comparison.doors import Bounced
+    from comparison.hits import OF_ONE_WALL, follow_hits, hits_table
     from comparison.store import RunStore, check_writable, default_store
 
     paths = path or ["hermite"]
@@ -64,31 +61,30 @@ def bounce(
         check_writable(out, folder=True)
     how: dict[str, Any] = {"runs": runs, "seed": seed, "jobs": jobs}
     how["store"], how["history"] = RunStore(None if fresh else default_store()), out is not None or hits > 1
-    every = []
-    for impact, method, section, stated in asked:
+    every = list[Bounced]()
+    for one, method in asked:
         with progress(f"{method.path}: the whole impact", quiet) as bar:
-            told: dict[str, Any] = {"section": section, "damping_stated": stated, "progress": bar.fraction}
-            every.append(follow(impact, method, **how, **told))
-    found, (_, method, _, _) = every[0], asked[0]
+            told: dict[str, Any] = {"section": one.section, "damping_stated": one.damping_stated}
+            every.append(Bounced(follow(one.impact, method, **how, **told, progress=bar.fraction), one.title))
+    found, (_, method) = every[0].found, asked[0]
     with progress("hits", quiet):
         followed = follow_hits(found.impact, method, hits, first=found.history) if hits > 1 else []
-    document, problem_of_files = bounce_document(found), ""
+    rows = [{**vars(hit), "restitution": hit.restitution} for hit in followed]
+    document, problem_of_files = every[0].to_dict(), ""
     if len(paths) > 1:
-        document["paths"] = [{"path": name, **bounce_document(one)} for name, one in zip(paths, every)]
+        document["paths"] = [{"path": name, **one.to_dict()} for name, one in zip(paths, every)]
     if hits > 1:
-        document["hits"] = [{**asdict(hit), "restitution": hit.restitution} for hit in followed]
+        document["hits"] = rows
     if out is not None:
-        from comparison.figures.whole_impact import write_bounce
-
         try:
-            document["files"] = [str(file) for file in write_bounce(found, out)]
+            document["files"] = [str(file) for file in every[0].write(out)]
         except OSError as error:  # the answer is worth more than its files
             problem_of_files = f"--out: {error}"
 
     def text() -> str:
-        tables = [bounce_table(one, verbose=verbose) for one in every]
+        tables = [one.text(verbose=verbose) for one in every]
         titled = tables if len(paths) == 1 else [f"{name}\n{table}\n" for name, table in zip(paths, tables)]
-        return "\n".join([*titled, *hits_table(followed)])
+        return "\n".join([*titled, *(["", hits_table(rows, OF_ONE_WALL)] if rows else [])])
 
     emit(document, as_json, text)
     if problem_of_files:
@@ -97,23 +93,20 @@ def bounce(
 
 def _asked(
     case: Path | None, kappa_over_nu: float | None, damping: float | None, path: str, assignments: Sequence[str]
-) -> tuple[Impact, Method, Section | None, bool]:
-    """The impact, its method, its section and whether a damping is stated, from a case or from the two numbers."""
+) -> tuple[Case, Method]:
+    """The case, or that of the two numbers, and its method."""
     from bent_beam.cases import load_case
-    from bent_beam.method import method_type, paths_with
     from comparison.bouncing import problem
+    from comparison.doors import case_of
     from comparison.methods import methods_of
 
-    if not hasattr(method_type(path), "for_whole_beam"):
-        able = " and ".join(paths_with("for_whole_beam"))
-        raise InputError(f"path: {path} has no choices for the whole beam ({able} have)")
     if (case is None) == (kappa_over_nu is None):
         raise InputError("bounce takes a case file or --kappa-over-nu, one of them")
     if case is not None:
         if damping is not None:
             raise InputError(f"--damping {damping!r} goes with --kappa-over-nu; in a case set beam.damping (s)")
         loaded = load_case(case, assignments)
-        return loaded.impact, loaded.method(path), loaded.section, loaded.damping_stated
+        return loaded, loaded.method(path)
     if damping is None:
         raise InputError("--damping is required next to --kappa-over-nu (eta/T*; 0 for none)")
-    return problem(kappa_over_nu or 0.0, damping), methods_of([path], assignments)[0], None, True
+    return case_of(problem(kappa_over_nu or 0.0, damping)), methods_of([path], assignments)[0]

@@ -34,11 +34,22 @@ def section_kinds(incomplete: str) -> list[str]:
     return complete(list(SECTIONS), incomplete)
 
 
+def example_names(incomplete: str) -> list[str]:
+    """Completion of ``--like``."""
+    from comparison.new_case import examples
+
+    return complete(sorted(examples()), incomplete)
+
+
 def new(
     out: Annotated[Path, typer.Argument(metavar="FILE.toml", help="Where to write the case.")] = Path("my_beam.toml"),
     section: Annotated[
-        str, typer.Option(help="pipe, round_bar, rectangle or general.", autocompletion=section_kinds)
-    ] = "pipe",
+        str | None,
+        typer.Option(help="pipe (default), round_bar, rectangle or general.", autocompletion=section_kinds),
+    ] = None,
+    like: Annotated[
+        str | None, typer.Option(help="An example to start from: tube, rail, …", autocompletion=example_names)
+    ] = None,
     damping_ratio: Annotated[
         float | None, typer.Option(min=0.0, help="Of the first bending mode; otherwise state it in the file.")
     ] = None,
@@ -47,33 +58,37 @@ def new(
 ) -> None:
     """Write a commented case file for a beam of your own.
 
-    Example: bentbeam new my_pipe.toml --section pipe
+    Example: bentbeam new my_tube.toml --like tube
     """
-    from comparison.new_case import new_case
+    from comparison.new_case import example, new_case
     from comparison.store import write_atomically
 
-    text = new_case(section, damping_ratio)
+    if like is not None and not (section is None and damping_ratio is None):
+        raise InputError(f"--like {like}: the example has its section and damping; change them in {out}")
+    text = new_case(section or "pipe", damping_ratio) if like is None else example(like)
     check_out(out, overwrite)
     write_atomically(out, text)
     emit(
-        {"file": str(out), "section": section},
+        {"file": str(out), "section": section or "pipe"} if like is None else {"file": str(out), "like": like},
         as_json,
         lambda: f"{out}: change every number or delete its line, then bentbeam predict {out}",
     )
 
 
 def settings(
+    word: Annotated[str, typer.Argument(help="Only those with this in table, name or text.")] = "",
     markdown: Annotated[bool, typer.Option("--markdown", help="As the page of the documentation.")] = False,
     as_json: Json = False,
 ) -> None:
-    """List every setting with unit, default and range.
+    """List the settings of a case file with unit, default and range.
 
-    Example: bentbeam settings
+    Example: bentbeam settings damping
     """
-    from comparison.settings import settings as every
-    from comparison.settings import settings_markdown, settings_text
+    from comparison.settings import about, settings_markdown, settings_text
 
-    emit(every(), as_json, settings_markdown if markdown else settings_text)
+    if word and markdown:
+        raise InputError(f"--markdown writes the whole page: leave {word!r} out")
+    emit(about(word), as_json, settings_markdown if markdown else lambda: settings_text(word))
 
 
 def predict(
@@ -83,6 +98,7 @@ def predict(
     ] = None,
     theory_only: Annotated[bool, typer.Option("--theory-only", help="Closed forms only, without simulation.")] = False,
     assignments: Set = None,
+    out: Annotated[Path | None, typer.Option(help="Folder for document and picture.")] = None,
     fresh: Fresh = False,
     as_json: Json = False,
     quiet: Quiet = False,
@@ -94,9 +110,9 @@ def predict(
     Example: bentbeam predict cases/drill_pipe.toml --time 0.005 --time 0.01
     """
     from bent_beam.cases import load_case
-    from comparison.predict_text import prediction_text
+    from comparison.doors import Predicted
     from comparison.predicting import predict_case
-    from comparison.store import RunStore, default_store
+    from comparison.store import RunStore, check_writable, default_store
 
     loaded = load_case(case, assignments or ())
     loaded.method("hermite")  # every table of the case is looked at, also where nothing is simulated
@@ -106,10 +122,17 @@ def predict(
             loaded.impact.checked_time("time", one)
         except ValueError as error:
             raise InputError(f"--time: {error}") from None
+    if out is not None:
+        if theory_only or max(times) <= 0.0:
+            raise InputError(f"--out {out}: nothing is simulated, so that there is nothing to be drawn")
+        check_writable(out, folder=True)
+    store = RunStore(None if fresh else default_store())
     with progress(f"the whole beam: {case.name}", quiet or as_json or theory_only) as bar:
-        store = RunStore(None if fresh else default_store())
-        document = predict_case(loaded, times, theory_only=theory_only, store=store, progress=bar.fraction).to_dict()
-    emit(document, as_json, lambda: prediction_text(document))
+        how = {"theory_only": theory_only, "store": store, "progress": bar.fraction}
+        found = Predicted(predict_case(loaded, times, **how))  # type: ignore[arg-type]
+    emit(found.to_dict(), as_json, lambda: str(found))
+    if out is not None:
+        found.write(out)  # after the answer, which a full disk must not cost
 
 
 def simulate(

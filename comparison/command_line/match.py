@@ -11,15 +11,17 @@ from comparison.command_line.options import (
     ErrorBars,
     Fresh,
     Json,
+    ManyJobs,
     Methods,
     Paths,
     Quiet,
     Scheduler,
     Set,
     emit,
+    end_of_rows,
     factors,
     numbers,
-    printable,
+    processes,
     progress,
 )
 
@@ -53,10 +55,7 @@ def match(
     error_bars: ErrorBars = "quick",
     duration: Annotated[float, typer.Option(help="End of the runs, t*.")] = 0.1,
     limit: Annotated[float | None, typer.Option(help="Time limit of a row, s.")] = None,
-    jobs: Annotated[
-        int | None,
-        typer.Option("--jobs", "-j", min=1, help="Processes on this machine. Default: one per core and four rows."),
-    ] = None,
+    jobs: ManyJobs = None,
     scheduler: Scheduler = None,
     out: Annotated[Path | None, typer.Option(help="Folder for the table and the plots.")] = None,
     fresh: Fresh = False,
@@ -67,12 +66,9 @@ def match(
 
     Example: bentbeam match --path hermite --set hermite.integrator.kind=moreau_jean --kappa-over-nu 0.5 --refine 1,2
     """
-    import os
-    import sys
-
     from comparison.matching import match as match_all
     from comparison.methods import chosen_methods
-    from comparison.rows import THESIS_KAPPAS, failures, match_document, match_table, questions
+    from comparison.rows import THESIS_KAPPAS, match_document, match_table, questions, row_name
     from comparison.store import RunStore, check_writable, default_store
 
     compared = chosen_methods(path or (), assignments or (), methods)
@@ -82,23 +78,15 @@ def match(
     if out is not None:
         check_writable(out, folder=True)
     store = RunStore(None if fresh else default_store())
-    if jobs is None:  # a process takes a second or two to start
-        jobs = max(1, min(os.cpu_count() or 1, len(asked) // LEAST_ROWS))
     with progress(f"{len(asked)} rows", quiet) as bar:
-        rows = match_all(asked, store=store, jobs=jobs, scheduler=scheduler, limit=limit, progress=bar.count)
+        many = {"jobs": processes(jobs, len(asked), LEAST_ROWS), "scheduler": scheduler}
+        rows = match_all(asked, store=store, limit=limit, progress=bar.count, **many)  # type: ignore[arg-type]
     emit(match_document(rows), as_json, lambda: match_table(rows))
-    lost = failures(rows)
-    for row in lost:
-        print(printable(f"error: {row.label}, kappa/nu = {row.kappa_over_nu:g}: {row.reason}"), file=sys.stderr)
     if out is not None:
         from comparison.figures.matching import write_match
 
         write_match(rows, out)  # after the answer, which a full disk must not cost
-    if lost:
-        raise typer.Exit(3)
-    if all(row.refused for row in rows):  # what was asked for cannot be: input, not a result
-        print(printable(f"error: every row was refused: {rows[0].reason}"), file=sys.stderr)
-        raise typer.Exit(2)
+    end_of_rows((row_name(row), row) for row in rows)
 
 
 def _wall(text: str | None) -> tuple[float, float] | None:

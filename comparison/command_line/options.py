@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import logging
 import math
+import os
 import sys
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import partial
@@ -44,6 +45,10 @@ CaseFile = Annotated[
     Path, typer.Argument(metavar="CASE.toml", help="Case file (see cases/; `bentbeam new` writes one).")
 ]
 Jobs = Annotated[int, typer.Option("--jobs", "-j", min=1, help="Processes on this machine.")]
+ManyJobs = Annotated[
+    int | None,
+    typer.Option("--jobs", "-j", min=1, help="Processes on this machine. Default: one per core."),
+]
 Scheduler = Annotated[
     str | None, typer.Option(help="Address of a dask.distributed scheduler, e.g. tcp://127.0.0.1:8786.")
 ]
@@ -52,7 +57,7 @@ Set = Annotated[
     typer.Option(
         "--set",
         metavar="TABLE.KEY=VALUE",
-        help="Override a setting of the file; repeatable.",
+        help="Override a setting of the case file; without one, of a path (PATH.KEY). Repeatable.",
         autocompletion=setting_names,
     ),
 ]
@@ -73,6 +78,25 @@ ErrorBars = Annotated[
 ]
 Fresh = Annotated[bool, typer.Option("--fresh", help="Ignore stored runs.")]
 Overwrite = Annotated[bool, typer.Option("--overwrite", help="Replace existing files.")]
+
+
+def processes(jobs: int | None, rows: int, least: int = 1) -> int:
+    """``--jobs``, or one per core and ``least`` rows: a process takes a second or two to start."""
+    return jobs or max(1, min(os.cpu_count() or 1, rows // least))
+
+
+def end_of_rows(rows: Iterable[tuple[str, Any]]) -> None:
+    """A line on standard error for each row, by its name, that failed unexpectedly; leave with exit code 3 where one
+    did, 2 where input refused every row."""
+    every = list(rows)
+    lost = [(name, row.reason) for name, row in every if row.reason is not None and not row.refused]
+    for name, reason in lost:
+        print(printable(f"error: {name}: {reason}"), file=sys.stderr)
+    if lost:
+        raise typer.Exit(3)
+    if all(row.refused for _, row in every):  # what was asked for cannot be: input, not a result
+        print(printable(f"error: every row was refused: {every[0][1].reason}"), file=sys.stderr)
+        raise typer.Exit(2)
 
 
 def numbers(option: str, text: str, counts: Sequence[int], what: str) -> tuple[float, ...]:

@@ -6,8 +6,6 @@ A number that is missing is left out, and the figure says how many were.
 
 from __future__ import annotations
 
-import csv
-import io
 from collections.abc import Sequence
 from itertools import cycle
 from pathlib import Path
@@ -18,7 +16,7 @@ from matplotlib.axes import Axes
 
 from comparison.figures import style
 from comparison.figures.work_precision import draw_work_precision
-from comparison.readable import json_text, plain
+from comparison.readable import csv_text, json_text
 from comparison.rows import First, MatchRow, match_document
 from comparison.store import write_atomically
 from theory import contact_parameters
@@ -33,28 +31,8 @@ def write_match(rows: Sequence[MatchRow], out: Path) -> list[Path]:
     """``match.json``, ``match.csv`` and the plots that the rows have data for, in ``out``; returns the files."""
     files = [out / "match.json", out / "match.csv"]
     write_atomically(files[0], json_text(match_document(rows), indent=1))
-    write_atomically(files[1], rows_csv(rows))
+    write_atomically(files[1], csv_text([row.to_dict() for row in rows]))
     return files + draw_matching(rows, out) + draw_work_precision(rows, out)
-
-
-def rows_csv(rows: Sequence[MatchRow]) -> str:
-    """The rows as CSV with a header; compared numbers become three columns, missing ones stay empty."""
-    table = []
-    for row in rows:
-        flat: dict[str, Any] = {}
-        for key, value in plain(row.to_dict()).items():
-            if isinstance(value, dict) and set(value) == {"value", "error", "theory"}:
-                flat |= {key: value["value"], f"{key}_error": value["error"], f"{key}_theory": value["theory"]}
-            elif isinstance(value, dict):
-                flat[key] = json_text(value)
-            else:
-                flat[key] = "; ".join(map(str, value)) if isinstance(value, list) else value
-        table.append(flat)
-    stream = io.StringIO()
-    writer = csv.DictWriter(stream, fieldnames=list(table[0]) if table else [], lineterminator="\n")
-    writer.writeheader()
-    writer.writerows(table)
-    return stream.getvalue()
 
 
 def draw_matching(rows: Sequence[MatchRow], out: Path) -> list[Path]:

@@ -19,6 +19,7 @@ import numpy as np
 
 from bent_beam import Impact
 from bent_beam.fields import Quantity
+from bent_beam.loads import UNSHEARED
 from exudyn_models.contacts.base import Contact, ContactRun, Wall
 from exudyn_models.contacts.penalty import penalty_per_length
 from exudyn_models.elements import ANCFCable, Beam, Element
@@ -104,6 +105,10 @@ class SegmentFriction(Contact):
         reasons = (
             (impact.opposite_wall is not None, "knows one wall only: take penalty (opposite_wall is given)"),
             (bool(curved), f"knows a flat wall only: take penalty (got wall_curvature {curved})"),
+            (
+                impact.shear_stiffness is not None,
+                f"works on cables, which do not shear (got shear_stiffness {impact.shear_stiffness!r}){UNSHEARED}",
+            ),
             (impact.curvature == 0.0, "needs a bent beam (got curvature 0)"),
             (
                 not isinstance(element, ANCFCable),
@@ -119,7 +124,7 @@ class SegmentFriction(Contact):
     def attach(self, beam: Beam, wall: Wall) -> ContactRun:
         mbs, lengths, units = beam.mbs, beam.lengths, beam.units
         radius = units.length / beam.shape.wall_curvature
-        k, d = penalty_per_length(lengths, self.relative_stiffness, self.relative_damping)
+        k, d = penalty_per_length(lengths**2, self.relative_stiffness, self.relative_damping)
         tangential = self.relative_friction_damping / lengths**2
         ground = mbs.AddObject(items.ObjectGround())
         circle = mbs.AddMarker(items.MarkerBodyRigid(bodyNumber=ground, localPosition=[0.0, radius, 0.0]))

@@ -16,6 +16,8 @@ import exudyn.itemInterface as items
 import numpy as np
 from numpy.polynomial.polynomial import polyder, polyval
 
+from bent_beam import Impact
+from bent_beam.loads import UNSHEARED
 from exudyn_models.elements.beam import Beam, Element, Section
 from exudyn_models.geometry import Array, Indices, Shape
 
@@ -23,8 +25,12 @@ __all__ = ["ANCFCable"]
 
 POINTS, WEIGHTS = np.polynomial.legendre.leggauss(4)
 CUBICS = np.array([[1.0, 0.0, -3.0, 2.0], [0.0, 1.0, -2.0, 1.0], [0.0, 0.0, 3.0, -2.0], [0.0, 0.0, -1.0, 1.0]]).T
-SHAPES = tuple(polyval((POINTS + 1) / 2, polyder(CUBICS, derivative)) for derivative in range(3))
-"""Hermite functions of the unit element, and derivatives, at the Gauss points, each of shape (4 functions, points)."""
+GAUSS, ENDS = (
+    tuple(np.asarray(polyval(places, polyder(CUBICS, derivative)), np.float64) for derivative in range(3))
+    for places in ((POINTS + 1) / 2, np.array([0.0, 1.0]))
+)
+"""Hermite functions of the unit element, and derivatives, at the Gauss points and at its ends, each of shape
+(4 functions, points)."""
 
 
 class _Cable(Beam):
@@ -67,12 +73,12 @@ class _Cable(Beam):
         left, right = self.horizontal[:-1], self.horizontal[1:]
         return np.stack([left, left + 2, right, right + 2], axis=1)
 
-    def _fields(self, q: Array, offset: int, *derivatives: int) -> list[Array]:
-        """Derivatives by s of a component (0: x, 1: y) at the Gauss points, each (…, elements, points)."""
+    def _fields(self, q: Array, offset: int, shapes: tuple[Array, ...], *derivatives: int) -> list[Array]:
+        """Derivatives by s of a component (0: x, 1: y) at the points of ``shapes``, each (…, elements, points)."""
         length = self.lengths[:, None]
         at_nodes = q[..., self._first + offset]
         at_nodes[..., 1::2] *= length
-        return [at_nodes @ SHAPES[derivative] / length**derivative for derivative in derivatives]
+        return [at_nodes @ shapes[derivative] / length**derivative for derivative in derivatives]
 
     def _integral(self, values: Array) -> Array:
         return np.asarray((values * (self.lengths[:, None] * WEIGHTS / 2)).sum(axis=(-2, -1)))
@@ -81,18 +87,24 @@ class _Cable(Beam):
         return np.asarray(q[..., self.rotation] / (1.0 + q[..., self.horizontal + 2]))
 
     def kinetic_energy(self, v: Array) -> Array:
-        (along,), (across,) = self._fields(v, 0, 0), self._fields(v, 1, 0)
+        (along,), (across,) = self._fields(v, 0, GAUSS, 0), self._fields(v, 1, GAUSS, 0)
         return self._integral(along**2 + across**2) / 2
 
     def axial_strain(self, q: Array) -> Array:
-        (x1,), (y1,) = self._fields(q, 0, 1), self._fields(q, 1, 1)
+        (x1,), (y1,) = self._fields(q, 0, GAUSS, 1), self._fields(q, 1, GAUSS, 1)
         return np.asarray(np.hypot(1.0 + x1, y1) - 1.0)
 
     def bending_energy(self, q: Array) -> Array:
-        (x1, x2), (y1, y2) = self._fields(q, 0, 1, 2), self._fields(q, 1, 1, 2)
-        x1 += 1.0
-        curvature = (x1 * y2 - y1 * x2) / (x1**2 + y1**2)
-        return self._integral((curvature - self.shape.curvature) ** 2) / 2
+        (x1, x2), (y1, y2) = self._fields(q, 0, GAUSS, 1, 2), self._fields(q, 1, GAUSS, 1, 2)
+        return self._integral((self._curvature(x1, x2, y1, y2) - self.shape.curvature) ** 2) / 2
+
+    def bending_moments(self, q: Array) -> Array:
+        (x1, x2), (y1, y2) = self._fields(q, 0, ENDS, 1, 2), self._fields(q, 1, ENDS, 1, 2)
+        return self._curvature(x1, x2, y1, y2) - self.shape.curvature
+
+    def _curvature(self, x1: Array, x2: Array, y1: Array, y2: Array) -> Array:
+        x1 = x1 + 1.0
+        return np.asarray((x1 * y2 - y1 * x2) / (x1**2 + y1**2))
 
     def axial_mass(self) -> Array:
         return self.element_matrices()[0]
@@ -101,7 +113,7 @@ class _Cable(Beam):
         length = self.lengths
         scale = np.stack([np.ones_like(length), length, np.ones_like(length), length], axis=1)
         outer = scale[:, :, None] * scale[:, None, :]
-        n, _, b = SHAPES
+        n, _, b = GAUSS
         mass = (n * WEIGHTS / 2) @ n.T * outer * length[:, None, None]
         bending = (b * WEIGHTS / 2) @ b.T * outer / (length**3)[:, None, None]
         return mass, bending, bending
@@ -109,7 +121,15 @@ class _Cable(Beam):
 
 @dataclass(frozen=True)
 class ANCFCable(Element):
-    """ANCF cable elements, cubic: the default."""
+    """ANCF cable elements, cubic: the default of a beam without shear."""
+
+    def refuses(self, impact: Impact) -> str | None:
+        if impact.shear_stiffness is None:
+            return None
+        return (
+            "exudyn.element.kind ancf_cable has no shear: take geometrically_exact "
+            f"(got shear_stiffness {impact.shear_stiffness!r}){UNSHEARED}"
+        )
 
     def build(self, mbs: Any, shape: Shape, section: Section, viscosity: Array) -> Beam:
         return _Cable(mbs, shape, section, viscosity)

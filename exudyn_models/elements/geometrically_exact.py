@@ -1,10 +1,11 @@
-"""Geometrically exact beam with negligible shear (Exudyn's ``ObjectBeamGeometricallyExact2D``, two nodes).
+"""Geometrically exact beam (Exudyn's ``ObjectBeamGeometricallyExact2D``, two nodes).
 
-    m = EI(θ′ − κ₀) + η θ̇′,   n = EA ε,   q = GA γ,   position and angle θ linear between nodes, one integration point
+    m = EI(θ′ − κ₀ + η θ̇′),   q = S(γ + η γ̇),   n = EA ε,   position and angle θ linear between nodes, one point
 
-The one-point rule does not lock, so GA may be large enough for the shear angle to vanish against the slope; the
-rotary inertia is a small multiple of what the element's length would give the section. Second order in Δx where the
-cable is of fourth.
+Of a beam that shears, S = κ_sGA and the rotary inertia J are its own, and the material damps bending and shear alike.
+Of one that does not, the one-point rule lets S be so large (``shear_ratio`` EI/Δx²) that the shear angle vanishes
+against the slope, since it does not lock; the rotary inertia is a small multiple of what the element's length would
+give the section, and bending alone is damped. Second order in Δx where the cable is of fourth.
 """
 
 from __future__ import annotations
@@ -15,22 +16,27 @@ from typing import Annotated, Any
 import exudyn.itemInterface as items
 import numpy as np
 
+from bent_beam import Impact
 from bent_beam.fields import Quantity
 from exudyn_models.elements.beam import Beam, Element, Section
 from exudyn_models.geometry import Array, Shape
 
 __all__ = ["GeometricallyExact"]
 
-
 PAIR = np.array([[2.0, 1.0], [1.0, 2.0]]) / 6  # products of the linear shape functions, of the unit element
+SHEAR, ROTARY = 100.0, 0.01  # in EI/Δx² and μΔx², of a beam without shear
 
 
 class _Exact(Beam):
     rotation_coordinate = 2
 
     def __init__(self, mbs: Any, shape: Shape, section: Section, viscosity: Array, ratios: GeometricallyExact) -> None:
-        self.shear_stiffness = ratios.shear_ratio / shape.lengths**2
-        self.rotary_inertia = ratios.rotary_ratio * shape.lengths**2
+        if section.shear_length:
+            self.shear_stiffness = np.full_like(shape.lengths, section.shear_length**-2)
+            self.rotary_inertia = np.full_like(shape.lengths, section.rotary_inertia)
+        else:
+            self.shear_stiffness = (ratios.shear_ratio or SHEAR) / shape.lengths**2
+            self.rotary_inertia = (ratios.rotary_ratio or ROTARY) * shape.lengths**2
         super().__init__(mbs, shape, section, viscosity)
 
     def node(self, i: int) -> Any:
@@ -45,7 +51,8 @@ class _Exact(Beam):
         )
 
     def body(self, i: int) -> Any:
-        units = self.units
+        units, viscosity = self.units, self.viscosity[i] * self.units.time
+        shear_stiffness = self.shear_stiffness[i] * units.force
         return items.ObjectBeamGeometricallyExact2D(
             nodeNumbers=[self.nodes[i], self.nodes[i + 1]],
             length=self.lengths[i] * units.length,
@@ -53,14 +60,15 @@ class _Exact(Beam):
             crossSectionInertia=self.rotary_inertia[i] * units.mass_per_length * units.length**2,
             bendingStiffness=units.bending_stiffness,
             axialStiffness=self.section.axial_stiffness * units.force,
-            shearStiffness=self.shear_stiffness[i] * units.force,
-            bendingDamping=self.viscosity[i] * units.bending_stiffness * units.time,
+            shearStiffness=shear_stiffness,
+            bendingDamping=viscosity * units.bending_stiffness,
+            shearDamping=viscosity * shear_stiffness if self.section.shear_length else 0.0,
             referenceCurvature=self.shape.curvature / units.length,
         )
 
     def slope(self, q: Array) -> Array:
-        slopes = q[..., self.rotation]
-        return np.asarray(np.tan(slopes) if self.shape.slender else slopes)
+        angle = q[..., self.rotation]
+        return np.asarray(np.tan(angle) if self.shape.slender and not self.section.shear_length else angle)
 
     def _square(self, values: Array) -> Array:
         """∫ of the square of a linearly interpolated field over each element, over its length."""
@@ -87,10 +95,19 @@ class _Exact(Beam):
     def axial_strain(self, q: Array) -> Array:
         return self._strains(q)[0]
 
+    def _bent(self, q: Array) -> Array:
+        """κ − κ₀ of each element."""
+        return np.asarray(np.diff(q[..., self.rotation]) / self.lengths - self.shape.curvature)
+
     def bending_energy(self, q: Array) -> Array:
         _, shear = self._strains(q)
-        bending = (np.diff(q[..., self.rotation]) / self.lengths - self.shape.curvature) ** 2
-        return self._integral(bending + self.shear_stiffness * shear**2) / 2
+        return self._integral(self._bent(q) ** 2 + self.shear_stiffness * shear**2) / 2
+
+    def bending_moments(self, q: Array) -> Array:
+        """That of the integration point, and what the element's shear force adds from there to its ends, m′ = −q."""
+        _, shear = self._strains(q)
+        change = self.shear_stiffness * shear * self.lengths / 2
+        return np.asarray(self._bent(q)[..., None] + change[..., None] * np.array([1.0, -1.0]))
 
     def axial_mass(self) -> Array:
         return PAIR * self.lengths[:, None, None]
@@ -105,21 +122,34 @@ class _Exact(Beam):
         half = self.lengths / 2
         row = np.stack([-np.ones_like(half), -half, np.ones_like(half), -half], axis=1) / self.lengths[:, None]
         shear = (self.shear_stiffness * self.lengths)[:, None, None] * row[:, :, None] * row[:, None, :]
-        return mass, bending + shear, bending
+        stiffness = bending + shear
+        return mass, stiffness, stiffness if self.section.shear_length else bending
 
 
 @dataclass(frozen=True)
 class GeometricallyExact(Element):
-    """Geometrically exact two-node beam elements: a second opinion in 0.5 to 0.65 of the cable's time.
+    """Geometrically exact two-node beam elements: the default of a beam that shears.
 
-    λ₀ is as good as the cable's at κ/ν = 0.2, five times as far off at 0.5 and 0.8 (0.005, 0.07 %) on the same mesh."""
+    Of one that does not, a second opinion in 0.5 to 0.65 of the cable's time: λ₀ is as good as the cable's at
+    κ/ν = 0.2, five times as far off at 0.5 and 0.8 (0.005, 0.07 %) on the same mesh."""
 
     shear_ratio: Annotated[
-        float, Quantity("", "GA in EI/Δx² of each element; shear has no visible effect from 1e2 on", above=0.0)
-    ] = 100.0
+        float | None,
+        Quantity("", "GA in EI/Δx² of each element, without shear", above=0.0, absent=f"{SHEAR:g}, which is none"),
+    ] = None
     rotary_ratio: Annotated[
-        float, Quantity("", "rotary inertia in μΔx²; it only keeps the mass matrix regular", above=0.0)
-    ] = 0.01
+        float | None,
+        Quantity("", "rotary inertia in μΔx², likewise", above=0.0, absent=f"{ROTARY:g}, for a regular mass matrix"),
+    ] = None
+
+    def refuses(self, impact: Impact) -> str | None:
+        for name in ("shear_ratio", "rotary_ratio"):
+            if impact.shear_stiffness is not None and getattr(self, name) is not None:
+                return (
+                    f"exudyn.element.{name} has no effect on a beam that shears, whose own counts: leave it out "
+                    f"(got {getattr(self, name)!r})"
+                )
+        return None
 
     def build(self, mbs: Any, shape: Shape, section: Section, viscosity: Array) -> Beam:
         return _Exact(mbs, shape, section, viscosity, self)

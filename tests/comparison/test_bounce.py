@@ -105,8 +105,7 @@ def rod(folder, *tables, element=0.025) -> Path:
 
 @pytest.mark.parametrize("path", ["hermite", "exudyn"])
 def test_a_run_until_separation_ends_off_the_wall_on_either_path(path, tmp_path) -> None:
-    model = [] if path == "hermite" else ["--set", "beam.model=euler_bernoulli"]  # has no shear
-    kept, asked = tmp_path / "run.nc", ("simulate", rod(tmp_path), "--path", path, "--error-bars", "drift", *model)
+    kept, asked = tmp_path / "run.nc", ("simulate", rod(tmp_path), "--path", path, "--error-bars", "drift")
     found = answered(*asked, "--until", "separation", "--out", kept)
     history = ImpactHistory.load(kept)
     assert has_left(history) and history.array("gap")[-1].min() > 0.0 and found["hits"] is None

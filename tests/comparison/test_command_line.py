@@ -82,7 +82,7 @@ def test_a_match_whose_rows_are_all_refused_is_bad_input_and_still_a_document(ca
         (["bounce", "--kappa-over-nu", "2"], "--damping"),
         (["bounce", "--kappa-over-nu", "2", "--damping", "-1"], "damping"),
         (["bounce", "--kappa-over-nu", "-2", "--damping", "0.1"], "kappa_over_nu"),
-        (["bounce", "--kappa-over-nu", "2", "--damping", "0.1", "--path", "self_similar"], "exudyn and hermite have"),
+        (["bounce", "--kappa-over-nu", "2", "--damping", "0.1", "--path", "self_similar"], "lacks for_whole_beam"),
         (["study", "colour", K10], "colour"),
         (["gallery", "fig-9.9"], "fig-9.9"),
         (["frobnicate"], "frobnicate"),

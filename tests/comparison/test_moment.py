@@ -6,10 +6,10 @@ import json
 import numpy as np
 import pytest
 
+from benchmarks.figures.moment import FLATTEST, FOLDER, KAPPAS, PATHS, MeasuredMoment, measure_moment
 from bent_beam import Impact
 from bent_beam.measure import reduction
 from bent_beam.meshes import UniformMesh
-from comparison.figures.moment import FLATTEST, FOLDER, KAPPAS, PATHS, MeasuredMoment, measure_moment
 from comparison.methods import methods_of
 from exudyn_models import ExudynModel
 from hermite_fe import HermiteFE

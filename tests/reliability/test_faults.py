@@ -10,6 +10,7 @@ from pathlib import Path
 
 import pytest
 from called import command, refused, started
+from histories import ROD
 
 from bent_beam import SimulationError
 from bent_beam.files import write_atomically
@@ -79,6 +80,24 @@ def test_a_killed_match_starts_again_and_ends_with_the_same_rows(path, kills, tm
     torn.write_bytes(torn.read_bytes()[: numbers.randrange(torn.stat().st_size)])
     assert rows(words, folder) == expected
     assert len(whole_runs_in(folder)) == runs
+
+
+@pytest.mark.verify
+def test_a_sweep_of_forty_rows_killed_twice_ends_with_the_same_rows(tmp_path):
+    """Killed with all its workers at moments drawn from the seed."""
+    case, numbers = tmp_path / "rod.toml", random.Random(f"{SEED} sweep")
+    case.write_text(ROD + '[mesh]\nkind = "uniform"\nelement_length = 0.1\n')
+    words = ["sweep", case, "--vary", "impact.velocity=0.5:2:8", "--vary", "beam.damping_ratio=0.01:0.05:5", "--json"]
+    whole, killed = tmp_path / "whole", tmp_path / "killed"
+    for folder in (whole, killed):
+        folder.mkdir()
+    expected = rows([*words, "--jobs", 2], whole)
+    assert len(expected) == 40 and all(row["restitution"]["value"] is not None for row in expected)
+    for count in sorted(numbers.sample(range(1, len(kept(whole))), 2)):
+        kill_when(lambda: len(kept(killed)) >= count, started(*words, "--jobs", 2, cwd=killed))  # noqa: B023
+    before = whole_runs_in(killed)
+    assert rows(words, killed) == expected
+    assert before.items() <= whole_runs_in(killed).items()  # none that was kept is computed again
 
 
 def test_runs_that_fail_are_reported_with_how_to_ask_again_and_the_rest_goes_on(monkeypatch):

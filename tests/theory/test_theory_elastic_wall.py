@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from scipy.fft import dct, idct
 
+from benchmarks.wall import change_by_damping, settled
 from bent_beam import Impact
 from theory import contact_parameters, elastic_wall, predict, wall_prediction
 from theory.elastic_stop import SwungBeam
@@ -65,6 +66,23 @@ def test_after_a_damped_wall_the_rigid_ones_law_comes_back_with_a_longer_zone() 
     assert found.impulse[-1] == pytest.approx(4.0 * math.sqrt(2.0 / math.pi * end) * rigid.r0, rel=2e-3)
     offset = found.half_contact_length[-1] - rigid.lambda0 * math.sqrt(end)
     assert offset == pytest.approx(math.sqrt(2.0), abs=0.15)
+
+
+@pytest.mark.parametrize(("ratio", "damping", "end"), [(1.0, 0.0, 60.0), (20.0, 0.0, 120.0), (0.7, 0.25, 100.0)])
+def test_a_wall_counts_as_rigid_once_impulse_and_force_are_within_2_percent(ratio, damping, end) -> None:
+    """And not much later: not after twice the time of one point, whose force comes back last at κ/ν = 1."""
+    found = settled(ratio, damping, end, cells=40, steps=500)
+    claimed = wall_prediction._rigid_from(ratio, damping, contact_parameters(ratio).lambda0)
+    assert found["impulse"] < found["force"] < claimed
+    assert ratio < 1.0 or claimed < 1.2 * found["force"]
+
+
+@pytest.mark.verify
+def test_a_zone_that_bounces_counts_as_rigid_late_and_a_beam_of_little_damping_has_the_undamped_force() -> None:
+    found = settled(0.35, 0.25, 300.0)
+    assert 0.9 * wall_prediction.ZONE_TIME < found["force"] < wall_prediction.ZONE_TIME
+    allowed = wall_prediction.MOST_OWN_DAMPING
+    assert abs(change_by_damping(5.0, allowed)) < 0.02 < abs(change_by_damping(5.0, 1.25 * allowed))
 
 
 def test_prediction_in_si_units(monkeypatch: pytest.MonkeyPatch) -> None:

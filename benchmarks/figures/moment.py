@@ -1,6 +1,6 @@
 """The largest bending moment at leading order, m = M/(V₀√(EIμ)), over κ/ν: theory's curve and simulated points.
 
-``python -m comparison.figures.moment`` measures the points and writes ``docs/figures/peak-moment.png`` with
+``python -m benchmarks.figures.moment`` measures the points and writes ``docs/figures/peak-moment.png`` with
 ``peak-moment.json`` beside it. At leading order the moment is constant in time, so the median over the last decade of a
 run is one measurement of it; early instants, whose front no mesh resolves, overshoot and are left out. Elements and
 damping at their scale cut the crest of the wave ahead of the front, by an amount that falls by the same factor from
@@ -122,7 +122,7 @@ def _main() -> None:
     found = [measure_moment(method, kappa) for method, kappa in asked]
     for m in found:
         print(f"{m.label:14s} {m.kappa_over_nu:6g}  {m.value:.5f} ± {m.error:.1g}  theory {m.theory:.5f}")
-    document = {**stamp("python -m comparison.figures.moment"), "points": [asdict(m) for m in found]}
+    document = {**stamp("python -m benchmarks.figures.moment"), "points": [asdict(m) for m in found]}
     write_atomically(folder / "peak-moment.json", json.dumps(document, indent=1) + "\n")
     print(*draw_moments(found, folder))
 

@@ -1,6 +1,6 @@
 """A wall that gives way, by theory: force over time, the largest force, and how the rigid wall's law comes back.
 
-``python -m comparison.figures.elastic_wall`` writes ``wall-force.png``, ``wall-peak-force.png`` and ``wall-return.png``
+``python -m benchmarks.figures.elastic_wall`` writes ``wall-force.png``, ``wall-peak-force.png`` and ``wall-return.png``
 in ``docs/figures`` (a minute).
 """
 

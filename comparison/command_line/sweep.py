@@ -1,0 +1,76 @@
+"""``bentbeam sweep``."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from comparison.command_line.options import (
+    CaseFile,
+    Fresh,
+    Json,
+    ManyJobs,
+    Quiet,
+    Scheduler,
+    Set,
+    emit,
+    end_of_rows,
+    path_names,
+    processes,
+    progress,
+    setting_names,
+)
+
+__all__ = ["sweep"]
+
+
+def sweep(
+    case: CaseFile,
+    vary: Annotated[
+        list[str],
+        typer.Option(
+            metavar="TABLE.KEY=A:B:N|A,B,C",
+            help="A key of the case file and its values: N evenly from A to B, or a list; repeatable.",
+            autocompletion=setting_names,
+        ),
+    ],
+    path: Annotated[
+        str, typer.Option(help="hermite, exudyn or an installed one.", autocompletion=path_names)
+    ] = "hermite",
+    assignments: Set = None,
+    jobs: ManyJobs = None,
+    scheduler: Scheduler = None,
+    out: Annotated[Path | None, typer.Option(help="Folder for the table (CSV, netCDF) and the figure.")] = None,
+    fresh: Fresh = False,
+    as_json: Json = False,
+    quiet: Quiet = False,
+) -> None:
+    """Vary keys of a case: the whole impact of each, in a table.
+
+    A row has the numbers of bentbeam bounce. One key gives curves with error bars, two a map. What is finished is kept.
+
+    Example: bentbeam sweep cases/tube.toml --vary impact.velocity=0.5:2:4 --vary beam.sagitta=0.005,0.01,0.02 --out out
+    """
+    from math import prod
+
+    from bent_beam.errors import InputError
+    from comparison.doors import sweep as sweep_all
+    from comparison.store import check_writable
+    from comparison.sweeping import varied_from
+
+    if out is not None:
+        check_writable(out, folder=True)
+    keys = [varied_from(text) for text in vary]
+    asked, rows = dict(keys), prod(len(values) for _, values in keys)
+    if len(asked) < len(keys):
+        raise InputError("--vary: a key is given twice")
+    how = {"assignments": assignments or (), "scheduler": scheduler, "fresh": fresh}
+    with progress(f"{rows} rows", quiet) as bar:
+        found = sweep_all(case, asked, path, jobs=processes(jobs, rows), progress=bar.count, **how)  # type: ignore[arg-type]
+    emit(found.to_dict(), as_json, lambda: str(found))
+    if out is not None:
+        found.write(out)  # after the answer, which a full disk must not cost
+    named = [(", ".join(f"{k} = {v}" for k, v in row.varied.items()), row) for row in found.rows]
+    end_of_rows(named)

@@ -1,0 +1,203 @@
+"""Panels of one run in the units of its case: m along the beam, ms, kN, MPa. The wall is below in all of them; heights
+are drawn to a scale that is said; a largest value is marked where and when it is; nothing is cut off."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bent_beam.free_flight import pushing
+from bent_beam.history import ImpactHistory
+from comparison.figures import style
+from comparison.readable import unit_for
+
+__all__ = ["contacts", "draw_force", "draw_wall", "heights", "sheet"]
+
+Array = NDArray[np.float64]
+Panel = Callable[[Any, ImpactHistory, float], None]
+"""Draws a run on an axis, until a time, s."""
+WINDOWS = 160  # of the force: what is quicker is noise of the reader's eye
+SHAPES = 7
+NICE = (1.0, 2.0, 3.0, 5.0)
+WALL = "#D8D8D8"
+FRONT, BACK = style.COLOURS["vermilion"], style.COLOURS["purple"]  # which wall pushes
+
+
+def sheet(
+    history: ImpactHistory, title: str, end: float, *, force: str = "", stress: str = "",
+    yield_stress: float | None = None, reach: float | None = None, below: Sequence[Panel] = (),
+) -> Any:  # fmt: skip
+    """Force, largest stress and place of the pushes over time, and the beam above its wall, as a Matplotlib figure.
+
+    end : s, of the axes. force, stress : words at the largest ones. reach : see :func:`draw_shapes`.
+    below : two panels more, one under each column.
+    """
+    rows = 4 if below else 3
+    with style.figure(rows, 2, width=style.PAGE, height=0.1 + 1.75 * rows, width_ratios=[1.25, 1.0]) as (fig, axes):
+        push, largest, zone, *last = axes[:, 0]
+        for axis in axes[:3, 1]:
+            axis.remove()
+        shapes = fig.add_subplot(push.get_gridspec()[:3, 1])
+        draw_force(push, history, end, force)
+        draw_stress(largest, history, end, stress, yield_stress)
+        draw_zone(zone, history, end)
+        more = [*last, axes[3, 1]] if below else []
+        for axis, draw in zip(more, below):
+            draw(axis, history, end)
+        for axis in axes[:-1, 0]:
+            axis.set_xlabel("")
+            axis.tick_params(labelbottom=False)
+        style.label_panels(push, largest, zone, shapes, *more)
+        fig.suptitle(title, fontsize=9.0)
+        draw_shapes(shapes, history, end, reach)
+        return fig
+
+
+def _force(history: ImpactHistory, end: float) -> tuple[Array, Array]:
+    """Edges of windows in time, s, and the walls' mean force in each, N; a second wall's is negative."""
+    edges = np.linspace(0.0, end, WINDOWS + 1)
+    return edges, np.diff(np.interp(edges, history.time, history.array("total_impulse"))) / np.diff(edges)
+
+
+def draw_force(axis: Any, history: ImpactHistory, end: float, words: str = "") -> None:
+    """Mean force of the wall in windows of time; of a wall that gives way the largest is marked by ``words``."""
+    edges, force = _force(history, end)
+    largest = float(history.array("peak_force")[-1]) if "peak_force" in history else 0.0
+    low, top = float(force.min()), max(float(force.max()), largest)
+    scale, unit = unit_for("N", [low, top])
+    axis.stairs(scale * force, 1e3 * edges, fill=True, color=style.COLOURS["sky"], lw=0.0)
+    axis.stairs(scale * force, 1e3 * edges, color=style.COLOURS["blue"], lw=0.8)
+    axis.set(ylabel=f"force of the wall  ({unit})", xlim=(0.0, 1e3 * end))
+    axis.set_ylim(scale * min(0.0, 1.15 * low), scale * 1.3 * top)
+    second = "; of the second wall negative" if history.impact.opposite_wall is not None else ""
+    window = f"mean over {_plain(1e3 * edges[1])} ms{second}"
+    axis.text(0.99, 0.97, window, transform=axis.transAxes, ha="right", va="top", fontsize=6.5)
+    if largest:
+        _mark(
+            axis,
+            float(history.array("peak_force_time")[-1]),
+            scale * largest,
+            words or f"largest {scale * largest:.4g} {unit}",
+        )
+
+
+def draw_stress(
+    axis: Any, history: ImpactHistory, end: float, words: str = "", yield_stress: float | None = None
+) -> None:
+    """Largest stress along the beam, without a section moment, over time; the largest is marked by ``words``."""
+    stress, inside = history.stress, history.time <= end
+    values, what, si = (history.moment, "moment", "N m") if stress is None else (stress, "stress", "Pa")
+    time, values = history.time[inside], values[inside]
+    scale, unit = unit_for(si, values)
+    axis.plot(1e3 * time[1:], scale * values[1:], drawstyle="steps-pre", color=style.COLOURS["blue"], lw=0.8)
+    top = scale * float(values.max())
+    if yield_stress is not None and stress is not None and scale * yield_stress < 2.0 * top:
+        top = max(top, scale * yield_stress)
+        axis.axhline(scale * yield_stress, color="black", lw=0.9, ls="--")
+        axis.annotate("yields", (0.99, scale * yield_stress), xycoords=("axes fraction", "data"), ha="right",
+                      va="bottom", fontsize=7.0)  # fmt: skip
+    axis.set(ylabel=f"largest {what}  ({unit})", xlim=(0.0, 1e3 * end), ylim=(0.0, 1.3 * top))
+    k = int(np.argmax(values))
+    _mark(axis, float(time[k]), scale * float(values[k]), words or f"largest {scale * values[k]:.4g} {unit}")
+
+
+def _mark(axis: Any, time: float, value: float, words: str) -> None:
+    """A point and what it says, on the side where there is room."""
+    left = time < 0.5e-3 * axis.get_xlim()[1]
+    axis.plot([1e3 * time], [value], marker="o", ms=4.0, mfc="white", color="black", ls="", zorder=5)
+    axis.annotate(words, (1e3 * time, value), (5 if left else -5, 4), textcoords="offset points", fontsize=7.0,
+                  ha="left" if left else "right", va="bottom")  # fmt: skip
+
+
+def contacts(history: ImpactHistory, name: str = "impulse") -> tuple[Array, Array]:
+    """Times, s, and places, m, at which a wall pushed, on both halves."""
+    k, j = np.nonzero(pushing(history.array(name)))
+    time = 0.5 * (history.time[:-1] + history.time[1:])[k]
+    places = np.array([history.contact_positions(int(i))[m] for i, m in zip(k, j)]) if k.size else np.zeros(0)
+    if history.sides == 1:
+        time, places = np.concatenate([time, time]), np.concatenate([places, -places])
+    return time, places
+
+
+def draw_zone(axis: Any, history: ImpactHistory, end: float) -> None:
+    """Where the wall pushes, over time; as far out as it does."""
+    reach = 0.0
+    for name, colour, label in (("impulse", FRONT, "wall"), ("opposite_impulse", BACK, "second wall")):
+        if name not in history:
+            continue
+        time, place = contacts(history, name)
+        kept = time <= end
+        axis.plot(1e3 * time[kept], place[kept], ls="", marker=".", ms=2.0, color=colour, rasterized=True, label=label)
+        reach = max(reach, float(np.abs(place[kept]).max(initial=0.0)))
+    edge = 1.15 * reach or 0.5 * history.impact.length
+    axis.set(xlim=(0.0, 1e3 * end), ylim=(-edge, edge), xlabel="time  (ms)", ylabel="pushes at $x$  (m)")
+    if "opposite_impulse" in history:
+        axis.legend(loc="lower right", bbox_to_anchor=(1.0, 0.98), ncols=2, markerscale=3.0, borderpad=0.0)
+
+
+def heights(history: ImpactHistory, k: int) -> tuple[Array, Array]:
+    """x and the height above the wall, m, of the whole beam at a saved instant."""
+    x, gap = history.positions(k), history.array("gap", k)
+    if history.sides == 1:
+        x, gap = np.concatenate([-x[:0:-1], x]), np.concatenate([gap[:0:-1], gap])
+    return x, gap
+
+
+def draw_wall(
+    axis: Any, history: ImpactHistory, base: float, depth: float, scale: float = 1.0, reach: float | None = None
+) -> None:
+    """The wall, or both, with a stripe of ``depth`` behind, under a beam drawn from ``base`` on; m times ``scale``."""
+    impact, grey = history.impact, style.COLOURS["grey"]
+    half = min(reach or np.inf, 0.5 * impact.length)
+    edges = (impact.wall_from, -half), (impact.wall_to, half)
+    span = [edge if given is None else min(max(given, -half), half) for given, edge in edges]
+    if span[0] == span[1]:
+        axis.plot(span[:1], [scale * base], marker="^", color=grey, ms=5.0, ls="")
+        return
+    away = impact.opposite_wall
+    for face, behind in ((0.0, -depth), *([] if away is None else [(away, away + depth)])):
+        axis.fill_between(span, scale * (base + face), scale * (base + behind), color=WALL, lw=0.0)
+        axis.plot(span, [scale * (base + face)] * 2, color=grey, lw=0.7)
+
+
+def draw_shapes(axis: Any, history: ImpactHistory, end: float, reach: float | None = None) -> None:
+    """The beam above its wall at even times until ``end``, s, the first on top: to scale along, heights by a factor
+    that is said. reach : half width that is shown, m; the whole beam unless given.
+
+    Lays the figure out, so that everything else must be on it.
+    """
+    edge = min(reach or np.inf, 0.5 * history.impact.length)
+    shown = []
+    for t in np.linspace(0.0, end, SHAPES):
+        x, height = heights(history, int(np.argmin(np.abs(history.time - t))))
+        shown.append((t, x[np.abs(x) <= 1.001 * edge], height[np.abs(x) <= 1.001 * edge]))
+    tallest = max(*(float(height.max()) for _, _, height in shown), history.impact.opposite_wall or 0.0, 1e-12)
+    lowest = min(*(float(height.min()) for _, _, height in shown), 0.0)
+    axis.set(xlim=(-1.04 * edge, 1.4 * edge), xlabel="$x$  (m)", yticks=[])
+    axis.set_xticks([tick for tick in axis.get_xticks() if abs(tick) <= 1.001 * edge])
+    axis.grid(False)
+    axis.spines["left"].set_visible(False)
+    axis.spines["bottom"].set_bounds(-edge, edge)
+    axis.set_title("heights × 1", loc="right", fontsize=7.5)
+    axis.figure.draw_without_rendering()
+    box = axis.get_window_extent()
+    high = box.height / box.width * 2.44 * edge  # of the axis, m, if heights were to scale
+    most = high / (1.4 * len(shown) * (tallest - lowest))
+    power = 10.0 ** np.floor(np.log10(most))
+    factor = power * max(nice for nice in NICE if nice * power <= most * (1.0 + 1e-9))
+    room = high / factor / len(shown)
+    for number, (t, x, height) in enumerate(shown):
+        base = (len(shown) - 1 - number) * room + 0.18 * room
+        draw_wall(axis, history, base, 0.07 * room, reach=edge)
+        axis.plot(x, base + height, color=style.COLOURS["blue"], lw=1.3)
+        axis.text(1.04 * edge, base, f"{_plain(1e3 * t)} ms", va="center", fontsize=7.0)
+    axis.set_ylim(0.0, high / factor)
+    axis.set_title(f"heights × {factor:,.6g}", loc="right", fontsize=7.5)
+
+
+def _plain(value: float) -> str:
+    """Three digits, and no power of ten for what is large."""
+    return f"{value:.3g}" if abs(value) < 1000.0 else f"{value:.0f}"

@@ -1,0 +1,160 @@
+"""A sweep as a picture: over one key curves with error bars, over two a map with contours and a line where the material
+yields. Both in units that a reader writes."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from bent_beam.measure.numbers import Band
+from comparison.figures import style
+from comparison.readable import readable, unit_for
+from comparison.sweeping import unit_of
+from comparison.swept import TITLES, SweepTable, numeric
+
+__all__ = ["sweep_figure"]
+
+SHOWN = ("peak_stress", "peak_moment", "peak_force", "restitution", "impulse")
+"""Numbers that are drawn where there are any, in this order; the moment only without a stress."""
+CURVES, MAPS = 3, 2  # panels
+LEAST = 3  # values of a key of a map
+LEVELS = 8
+LOUD = 0.1  # of the value: larger bars are marked on a map
+
+
+def sweep_figure(found: SweepTable) -> Any:
+    """Largest stress (or moment), largest force and restitution over the keys, as a Matplotlib figure.
+
+    Raises ``ValueError`` for more than two keys, and where no row has a number.
+    """
+    if len(found.vary) > 2:
+        raise ValueError(f"vary: one or two keys can be drawn (got {len(found.vary)}); take .table or .to_dataset()")
+    shown = [name for name in SHOWN if any(_values(found, name))]
+    shown = [name for name in shown if name != "peak_moment" or "peak_stress" not in shown]
+    if not shown:
+        raise ValueError("no row has a number to be drawn")
+    mapped = len(found.vary) == 2 and all(numeric(v) and len(v) >= LEAST for v in found.vary.values())
+    shown = shown[: MAPS if mapped else CURVES]
+    size = {"width": style.PAGE, "height": 3.4 if mapped else 2.8, "sharex": mapped, "sharey": mapped}
+    with style.figure(1, len(shown), squeeze=False, **size) as (fig, axes):
+        for axis, name in zip(axes[0], shown):
+            (_map if mapped else _curves)(axis, found, name)
+        style.label_panels(*axes[0])
+        fig.suptitle(found.title or "Sweep", fontsize=9.0)
+        handles, names = axes[0, 0].get_legend_handles_labels()
+        note, sizes = _note(found, mapped), {"fontsize": 7.0, "title_fontsize": 7.0}
+        fig.legend(handles, names, loc="outside lower center", ncols=4, title=note, **sizes)
+        return fig
+
+
+def _values(found: SweepTable, name: str) -> list[tuple[float, float] | None]:
+    """Value and bar of each row, or mean and standard deviation; ``None`` where it has none."""
+    pairs: list[tuple[float, float] | None] = []
+    for row in found.rows:
+        number = row.numbers.get(name)
+        if isinstance(number, Band):
+            pairs.append((number.mean, number.std))
+        else:
+            pairs.append((number.known, number.bar or 0.0) if number is not None and number.measured else None)
+    return pairs
+
+
+def _grid(found: SweepTable, name: str) -> tuple[Any, Any, str]:
+    """Values and bars over the keys, NaN where there is none, and the title of their axis with its unit."""
+    pairs = _values(found, name)
+    scale, unit = unit_for(unit_of(name), [pair[0] for pair in pairs if pair])
+    shape = [len(values) for values in found.vary.values()]
+    array = scale * np.array([pair or (np.nan, np.nan) for pair in pairs]).reshape(*shape, 2)
+    return array[..., 0], array[..., 1], f"{TITLES[name]}  ({unit or '1'})"
+
+
+def _axis_of(found: SweepTable, key: str) -> tuple[Any, str]:
+    """Places of the values of a key on an axis, and its title."""
+    values, name = found.vary[key], key.rpartition(".")[2].replace("_", " ")
+    if not numeric(values):
+        return np.arange(len(values)), name
+    return np.array(values, float), f"{name}  ({found.units[key] or '1'})"
+
+
+def _curves(axis: Any, found: SweepTable, name: str) -> None:
+    """Over the key with more values, a curve for each value of the other."""
+    keys = sorted(found.vary, key=lambda key: (not numeric(found.vary[key]), -len(found.vary[key])))
+    values, bars, title = _grid(found, name)
+    if len(keys) == 2 and keys[0] != next(iter(found.vary)):
+        values, bars = values.T, bars.T
+    values, bars = values.reshape(values.shape[0], -1), bars.reshape(bars.shape[0], -1)
+    x, label = _axis_of(found, keys[0])
+    joined = numeric(found.vary[keys[0]])
+    order = np.argsort(x)
+    for i in range(values.shape[1]):
+        colour = style.SEQUENCE[i % len(style.SEQUENCE)]
+        look = {"color": colour, "marker": "o", "ms": 3.0, "mfc": "white", "ls": "-" if joined else ""}
+        if len(keys) == 2:
+            look["label"] = f"{keys[1].rpartition('.')[2]} = {readable(found.vary[keys[1]][i])} {found.units[keys[1]]}"
+        style.bars(axis, x[order], values[order, i], bars[order, i], look)
+    highest = float(np.nanmax(values + bars))
+    axis.set(xlabel=label, ylabel=title, ylim=(min(0.0, 1.08 * float(np.nanmin(values - bars))), 1.08 * highest))
+    _yield_line(axis, found, name, highest)
+    if not joined:
+        axis.set_xticks(x, [str(value) for value in found.vary[keys[0]]])
+
+
+def _yield_line(axis: Any, found: SweepTable, name: str, highest: float) -> None:
+    """Where the material yields, if the stresses come near it."""
+    limit = _yield_stress(found)
+    if name != "peak_stress" or limit is None or 1e-6 * limit > 2.0 * highest:
+        return
+    axis.axhline(1e-6 * limit, color=style.COLOURS["black"], lw=0.9, ls="--")
+    axis.set_ylim(top=max(axis.get_ylim()[1], 1.15e-6 * limit))
+    axis.annotate(f"yields at {1e-6 * limit:.4g}", (0.02, 1e-6 * limit), xycoords=("axes fraction", "data"),
+                  va="bottom", fontsize=7.0)  # fmt: skip
+
+
+def _yield_stress(found: SweepTable) -> float | None:
+    """Of the material, where it is one for all rows."""
+    limits = {row.yield_stress for row in found.rows if row.numbers}
+    return limits.pop() if len(limits) == 1 else None
+
+
+def _map(axis: Any, found: SweepTable, name: str) -> None:
+    """Colours and contours over two keys; a dot a row, a cross where it has no number, a ring where its bar is wide."""
+    across, up = found.vary
+    (x, label), (y, other) = _axis_of(found, across), _axis_of(found, up)
+    order_x, order_y = np.argsort(x), np.argsort(y)
+    values, bars, title = _grid(found, name)
+    x, y, z, bars = x[order_x], y[order_y], values[order_x][:, order_y].T, bars[order_x][:, order_y].T
+    shown = np.ma.masked_invalid(z)
+    if shown.count() and shown.max() > shown.min():
+        field = axis.contourf(x, y, shown, LEVELS, cmap="YlGnBu", alpha=0.8)
+        lines = axis.contour(x, y, shown, field.levels, colors="black", linewidths=0.4)
+        axis.clabel(lines, fontsize=6.5, fmt="%g")
+        limit = _yield_stress(found)
+        if name == "peak_stress" and limit is not None and shown.min() < 1e-6 * limit < shown.max():
+            axis.contour(x, y, shown, [1e-6 * limit], colors=style.COLOURS["vermilion"], linewidths=1.8)
+    every = np.stack(np.meshgrid(x, y), axis=-1)
+    loud = bars > LOUD * np.abs(z)
+    for which, look in ((~np.isnan(z), {"marker": ".", "ms": 2.0}), (np.isnan(z), {"marker": "x", "ms": 4.0}),
+                        (loud, {"marker": "o", "ms": 6.0, "mfc": "none", "mew": 0.7})):  # fmt: skip
+        if which.any():  # the layout takes a curve without points to be in the corner
+            axis.plot(*every[which].T, ls="", color=style.COLOURS["black"], clip_on=False, **look)
+    axis.set(xlabel=label, ylabel=other if axis.get_subplotspec().is_first_col() else "")
+    axis.set_title(title, pad=8.0)
+    axis.grid(False)
+
+
+def _note(found: SweepTable, mapped: bool) -> str:
+    """What the marks mean; of a map, how wide the bars are that it cannot show."""
+    lost = sum(1 for row in found.rows if not row.numbers)
+    missing = f" {lost} of {len(found.rows)} rows have no number." if lost else ""
+    if not mapped:
+        return f"Bars: error bars.{missing}"
+    name = next(n for n in SHOWN if any(_values(found, n)))
+    shares = [abs(pair[1] / pair[0]) for pair in _values(found, name) if pair and pair[0]]
+    wide = f"Error bars of the {TITLES[name]}: {100 * float(np.median(shares)):.2g} % (median), at most "
+    limit, highest = _yield_stress(found), max(pair[0] for pair in _values(found, name) if pair)
+    line = ""
+    if name == "peak_stress" and limit is not None:
+        where = "Red line: the material yields" if highest > limit else "Nowhere does the material yield"
+        line = f" {where}, {1e-6 * limit:.4g} MPa."
+    return f"{wide}{100 * max(shares):.2g} %.\nDots: rows; rings: bar above {100 * LOUD:g} %.{line}{missing}"

@@ -1,0 +1,203 @@
+"""A case over ranges of its keys: for each combination the numbers that ``bounce`` gives of that case, in SI.
+
+A row is a case like any other, and its runs are kept under its own questions: a killed sweep goes on where it was, and
+``bounce`` of one of its cases runs nothing again. Where no separation is the last, between two walls or supports, a row
+holds what ``predict`` gives at the end time.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from copy import deepcopy
+from dataclasses import dataclass, field
+from functools import partial
+from itertools import product
+from typing import Any
+
+import numpy as np
+
+from bent_beam.cases import Case, case_from_tables, lay_over
+from bent_beam.checks import shortened
+from bent_beam.errors import ANY_FAILURE, InputError, SimulationError
+from bent_beam.measure.numbers import Band, Number
+from bent_beam.method import separation_times
+from comparison.answers import runs_of
+from comparison.bouncing import SI, bounce, documents
+from comparison.predicting import instants_reading, numbers_at
+from comparison.questions import Question
+from comparison.store import RunStore
+from comparison.workers import run_all
+
+__all__ = ["NAMES", "Row", "sweep_case", "unit_of", "varied_from"]
+
+NAMES = (
+    "restitution",
+    "impulse",
+    "last_contact",
+    "peak_moment",
+    "peak_moment_place",
+    "peak_moment_time",
+    "peak_stress",
+    "peak_force",
+)
+"""Numbers of a row, SI."""
+MOST = 10_000  # rows
+
+
+def unit_of(name: str) -> str:
+    """SI unit of one of :data:`NAMES`."""
+    return "Pa" if name == "peak_stress" else SI.get(name, ("", ""))[1]
+
+
+@dataclass(frozen=True)
+class Row:
+    """One case: what was ``varied``, by key, and its ``numbers`` by name (:data:`NAMES`; those that exist).
+
+    until : s, of a case without a last separation, whose numbers are those until then. kept : whether all its runs came
+    from the store. reason : why there are no numbers; refused : input said so, no run.
+    """
+
+    varied: dict[str, Any]
+    kappa_over_nu: float | None = None
+    yield_stress: float | None = None
+    numbers: Mapping[str, Number | Band] = field(default_factory=dict)
+    until: float | None = None
+    warnings: Sequence[str] = ()
+    reason: str | None = None
+    refused: bool = False
+    kept: bool = False
+
+    def to_dict(self) -> dict[str, Any]:
+        """JSON-ready: the same however often the sweep was interrupted."""
+        names = ("varied", "kappa_over_nu", "until", "yield_stress", "reason", "refused")
+        return {name: getattr(self, name) for name in names} | {
+            **documents(self.numbers, NAMES),
+            "warnings": list(self.warnings),
+        }
+
+
+def varied_from(text: str) -> tuple[str, list[Any]]:
+    """Key and values of ``TABLE.KEY=A:B:N``, N values evenly from A to B, or ``TABLE.KEY=A,B,C``.
+
+    >>> varied_from("impact.velocity=0.5:1.5:3")
+    ('impact.velocity', [0.5, 1.0, 1.5])
+    >>> varied_from("section.kind=pipe,round_bar")
+    ('section.kind', ['pipe', 'round_bar'])
+    """
+    key, _, given = (part.strip() for part in text.partition("="))
+    words = given.split(",")
+    if "." not in key or not all(word.strip() for word in words):
+        raise InputError(f"--vary takes TABLE.KEY=A:B:N or TABLE.KEY=A,B,C (got {shortened(text)})")
+    ends = given.split(":")
+    if len(ends) != 3:
+        return key, [_value(word) for word in words]
+    first, last, count = map(_value, ends)
+    if isinstance(first, str) or isinstance(last, str) or not isinstance(count, int) or not 2 <= count <= MOST:
+        raise InputError(f"--vary {key}: A:B:N are two numbers and how many values, from 2 on (got {shortened(given)})")
+    return key, [float(f"{value:.12g}") for value in np.linspace(first, last, count)]  # as one would type them
+
+
+def _value(text: str) -> Any:
+    read: dict[str, Any] = {}
+    lay_over(read, f"value={text.strip()}")
+    return read["value"]
+
+
+def sweep_case(
+    tables: Mapping[str, Any],
+    vary: Mapping[str, Sequence[Any]],
+    path: str = "hermite",
+    *,
+    store: RunStore | None = None,
+    jobs: int = 1,
+    scheduler: str | None = None,
+    progress: Callable[[int, int], None] | None = None,
+) -> list[Row]:
+    """A row for each combination of the values of ``vary`` (``table.key`` → values) laid over a case's ``tables``, the
+    last key varying fastest; with ``jobs`` processes or on a dask ``scheduler``.
+
+    store : where runs are kept. progress : called with (done, all) rows.
+    Raises :class:`InputError` for a combination that is no case where none of them is.
+    """
+    count = int(np.prod([len(values) for values in vary.values()]))
+    if not vary or not 1 <= count <= MOST:
+        raise InputError(f"vary: takes at least one key with values, and {MOST} rows at most (got {count} rows)")
+    combinations = [dict(zip(vary, values)) for values in product(*vary.values())]
+    cases = [_case(tables, varied) for varied in combinations]
+    if all(isinstance(case, InputError) for case in cases):
+        raise cases[0]  # type: ignore[misc]
+    return run_all(
+        _row,
+        [(varied, case, path, store or RunStore(None)) for varied, case in zip(combinations, cases)],
+        jobs=jobs,
+        scheduler=scheduler,
+        progress=progress,
+        on_death=lambda i, why: Row(combinations[i], reason=why),
+    )
+
+
+def _case(tables: Mapping[str, Any], varied: Mapping[str, Any]) -> Case | InputError:
+    laid = deepcopy(dict(tables))
+    for key, value in varied.items():
+        *places, last = key.split(".")
+        table = laid
+        for place in places:
+            table = table.setdefault(place, {})
+            if not isinstance(table, dict):
+                return InputError(f"--vary {key}: {place} is a value, not a table")
+        table[last] = value
+    try:
+        return case_from_tables(laid)
+    except InputError as error:
+        return error
+
+
+@dataclass(frozen=True)
+class _Counting(RunStore):
+    """A store that knows what was computed, not found."""
+
+    computed: list[bool] = field(default_factory=list)
+
+    def answer(self, question: Mapping[str, Any], compute: Callable[[], dict[str, Any]], *text: Any) -> dict[str, Any]:
+        def told() -> dict[str, Any]:
+            self.computed.append(True)
+            return compute()
+
+        return super().answer(question, told, *text)
+
+
+def _row(varied: dict[str, Any], case: Case | InputError, path: str, store: RunStore) -> Row:
+    """One row, in a worker: a failure is an answer too."""
+    if isinstance(case, InputError):
+        return Row(varied, reason=str(case), refused=True)
+    about: dict[str, Any] = {"varied": varied, "kappa_over_nu": case.impact.kappa_over_nu}
+    counting = _Counting(store.folder)
+    try:
+        numbers, until, warnings = _numbers(case, path, counting)
+    except ANY_FAILURE as error:
+        foreseen = isinstance(error, (ValueError, SimulationError))
+        reason = " ".join((str(error) if foreseen else f"{type(error).__name__}: {error}").split())
+        return Row(**about, reason=reason, refused=isinstance(error, InputError))
+    yields = getattr(case.section, "yield_stress", None)
+    kept = store.folder is not None and not counting.computed
+    return Row(**about, yield_stress=yields, numbers=numbers, until=until, warnings=warnings, kept=kept)
+
+
+def _numbers(case: Case, path: str, store: RunStore) -> tuple[Mapping[str, Number | Band], float | None, Sequence[str]]:
+    """The numbers of a case, the time that they end at where no separation does, and warnings."""
+    impact, method = case.impact, case.method(path)
+    if reason := method.refuses(impact):
+        raise InputError(reason)
+    try:
+        separation_times(impact)
+    except InputError:
+        question = Question(impact, method, case.end_time, damping_stated=case.damping_stated)
+        runs = runs_of(question, partial(instants_reading, (case.end_time,), question.first_spread), store=store)
+        return numbers_at(runs, case), case.end_time, [*runs.run.warnings, *runs.lost]
+    found = bounce(impact, method, section=case.section, damping_stated=case.damping_stated, store=store)
+    return found.in_si, None, found.warnings
+
+
+def failures(rows: Iterable[Row]) -> list[dict[str, Any]]:
+    """The rows that failed though their input did not say so."""
+    return [{"varied": row.varied, "reason": row.reason} for row in rows if row.reason and not row.refused]

@@ -1,0 +1,87 @@
+"""Who extends the project, or looks for a key, is told in one sentence what is wrong."""
+
+import tomllib
+from dataclasses import dataclass
+from pathlib import Path
+from typing import ClassVar
+
+import numpy as np
+import pytest
+from called import answered, command, refused
+
+import hermite_fe
+from bent_beam import Impact, InputError
+from bent_beam.cases import EXAMPLES, load_case
+from comparison import bounce, match, sweep
+from exudyn_models import ExudynModel
+from hermite_fe import HermiteFE
+from hermite_fe.contacts import Contact, NodeContact, element_rows
+from hermite_fe.integrators import MoreauJean
+
+IMPACT = Impact.dimensionless(0.5, length=20.0)
+
+
+@dataclass(frozen=True)
+class Light(Contact):
+    """Weights that do not add up to one."""
+
+    def rows(self, beam, facing, *, full):
+        return element_rows(beam, facing, np.tile([0.4, 0.0, 0.4, 0.0], (beam.lengths.size, 1)), full=full)
+
+
+@dataclass(frozen=True)
+class Mute(MoreauJean):
+    """Takes no step and says nothing."""
+
+    def advance(self, *_):
+        return None
+
+
+@dataclass(frozen=True)
+class Bare:
+    """A method that says nothing of the whole beam."""
+
+    path: ClassVar[str] = "bare"
+    label: str = "bare"
+
+    def refuses(self, impact):
+        return None
+
+    def simulate(self, impact, **_):
+        raise AssertionError("it ran")
+
+
+@pytest.mark.parametrize(
+    ("made", "said"),
+    [
+        (lambda: HermiteFE(integrator=MoreauJean), r"integrator must be made from its class: MoreauJean\(\)"),
+        (lambda: HermiteFE(integrator="moreau_jean"), "integrator must be an instance of Integrator .*'moreau_jean'"),
+        (lambda: hermite_fe.simulate(IMPACT, end_time=0.01, contact=NodeContact), r"contact .*: NodeContact\(\)"),
+        (lambda: ExudynModel(integrator="newmark"), "integrator must be an instance of Integrator .*'newmark'"),
+        (lambda: HermiteFE(contact=Light()).simulate(IMPACT, end_time=0.01), r"weights .* add up to one .*\(got 0.8\)"),
+        (lambda: HermiteFE(integrator=Mute()).simulate(IMPACT, end_time=0.01), "Mute.advance must return .*got None"),
+        (lambda: match(HermiteFE, kappa_over_nu=[0.5]), r"method: .*: HermiteFE\(\) \(got the class\)"),
+        (lambda: bounce(Impact.whole_beam(2.0), 3), r"method: must be .*\(got 3\)"),
+        (lambda: bounce(Impact.whole_beam(2.0), Bare()), "bare lacks for_whole_beam"),
+        (lambda: sweep({}, {"impact.velocity": 3.0}), r"impact.velocity takes its values in a list, .*\(got 3.0\)"),
+    ],
+)
+def test_a_mistake_of_extension_is_one_sentence_that_says_what_to_write(made, said):
+    with pytest.raises(InputError, match=said) as told:
+        made()
+    assert "\n" not in str(told.value)
+
+
+def test_a_newcomer_starts_from_an_example_and_finds_a_key(tmp_path: Path):
+    file = tmp_path / "mine.toml"
+    assert answered("new", file, "--like", "tube") == {"file": str(file), "like": "tube"}
+    assert load_case(file).impact == load_case(EXAMPLES / "tube.toml").impact
+    assert tomllib.loads(file.read_text())["section"]["outer_diameter"] == 0.05
+    assert "did you mean tube?" in refused("new", tmp_path / "other.toml", "--like", "tub")
+    assert "--like" in refused("new", tmp_path / "other.toml", "--like", "tube", "--section", "pipe")
+    found = answered("settings", "loss_factor")
+    assert {"loss_factor", "loss_frequency"} <= {one["name"] for one in found} and len(found) < 5
+    assert "did you mean velocity?" in refused("settings", "velocty")
+    listed = command("--help")[1]
+    order = [listed.index(f"\n  {name} ") for name in ("new", "predict", "bounce", "sweep", "plot", "match", "report")]
+    assert order == sorted(order)

@@ -1,0 +1,79 @@
+"""Pictures of a run: nothing is cut off, what is marked is the number, the wall is below, heights are to the scale that
+is said."""
+
+import re
+
+import numpy as np
+import pytest
+from called import answered, refused
+from histories import ROD, pushed_until
+
+from bent_beam.cases import load_case
+from comparison import bounce, predict
+from comparison.figures.history import _window
+
+MESH = '\n[mesh]\nkind = "uniform"\nelement_length = 0.05\n'
+WALLS = {
+    "rigid": "",
+    "elastic": "[wall]\nstiffness = 1e5\n",
+    "two": "[wall]\nopposite = 0.01\n[run]\nend_time = 0.02\n",
+}
+
+
+@pytest.fixture(params=WALLS)
+def case(request, tmp_path):
+    file = tmp_path / "rod.toml"
+    file.write_text('title = "A rod"\n' + ROD + WALLS[request.param] + MESH)
+    return load_case(file)
+
+
+def inside(axis):
+    """Whether every curve of an axis is within its limits, what is drawn in shares of it left out."""
+    low, high = sorted(axis.get_ylim())
+    curves = [line for line in axis.lines if line.get_transform() == axis.transData]
+    values = np.concatenate([np.asarray(line.get_ydata(), float) for line in curves] or [[low]])
+    stairs = np.concatenate(
+        [patch.get_data().values for patch in axis.patches if hasattr(patch, "get_data")] or [[low]]
+    )
+    return low <= min(values.min(), stairs.min()) and max(values.max(), stairs.max()) <= high
+
+
+def test_nothing_is_cut_off_and_the_largest_values_are_marked_with_their_numbers(case):
+    two = case.impact.opposite_wall is not None
+    found = predict(case, case.end_time) if two else bounce(case)
+    fig = found.plot()
+    push, stress, zone, shapes = fig.axes
+    assert fig.get_suptitle() == "A rod" and all(inside(axis) for axis in fig.axes)
+    numbers = found.to_dict()
+    known = numbers["times"][-1]["simulation"]["peak_stress"] if two else numbers["peak_stress"]
+    (mark,) = [line for line in stress.lines if line.get_marker() == "o"]
+    if two:
+        assert mark.get_ydata()[0] <= 1e-6 * known["value"] * 1.001  # of the instants that are saved
+    else:
+        assert mark.get_ydata()[0] == pytest.approx(1e-6 * known["value"], rel=1e-9)
+    assert any("largest" in text.get_text() and "±" in text.get_text() for text in stress.texts)
+    assert ("largest" in " ".join(text.get_text() for text in push.texts)) == (case.impact.wall_stiffness is not None)
+    for axis in (push, stress, zone):
+        assert axis.get_xlim()[0] == 0.0
+    said = float(re.fullmatch(r"heights × ([\d.,]+)", shapes.get_title(loc="right"))[1].replace(",", ""))
+    box, (left, right), (low, high) = shapes.get_window_extent(), shapes.get_xlim(), shapes.get_ylim()
+    drawn = box.height / (high - low) / (box.width / (right - left))
+    assert drawn == pytest.approx(said, rel=0.02)
+    beams = [line for line in shapes.lines if len(line.get_xdata()) > 2]
+    first = beams[0].get_ydata()
+    assert np.argmin(first) == pytest.approx(first.size // 2, abs=1)  # its apex is nearest to the wall, which is below
+
+
+def test_the_picture_of_a_stored_run_ends_soon_after_the_last_push_and_not_with_the_record():
+    end, _ = _window(pushed_until(0.5, last=8.0))
+    assert 0.5 <= end <= 0.6
+
+
+def test_predict_writes_document_and_picture_and_refuses_without_a_simulation(tmp_path):
+    file = tmp_path / "rod.toml"
+    file.write_text(ROD + MESH)
+    answered("predict", file, "--time", 0.001, "--out", tmp_path / "out")
+    assert {one.name for one in (tmp_path / "out").iterdir()} == {"predict.json", "predict.png"}
+    assert "nothing" in refused("predict", file, "--theory-only", "--out", tmp_path / "none")
+    with pytest.raises(ValueError, match="nothing"):
+        predict(file, theory_only=True).plot()

@@ -1,0 +1,84 @@
+"""A sweep: rows are what ``bounce`` says of each case, kept as they are finished, whatever happens to the command."""
+
+import json
+
+import pytest
+import xarray
+from called import answered, command, refused
+from histories import ROD
+
+from comparison import sweep
+from comparison.sweeping import NAMES, varied_from
+from hermite_fe import HermiteFE
+
+COARSE = '\n[mesh]\nkind = "uniform"\nelement_length = 0.1\n'
+
+
+@pytest.fixture
+def case(tmp_path):
+    file = tmp_path / "rod.toml"
+    file.write_text(ROD + COARSE)
+    return file
+
+
+def test_rows_are_the_numbers_of_bounce_and_are_kept(case, tmp_path, monkeypatch):
+    monkeypatch.setenv("BENTBEAM_STORE", str(tmp_path / "store"))
+    words = ("sweep", case, "--jobs", 1, "--vary", "impact.velocity=1:2:2", "--vary", "beam.damping_ratio=0.01,0.02")
+    found = answered(*words, "--out", tmp_path / "out")
+    assert [tuple(row["varied"].values()) for row in found["rows"]] == [(1, 0.01), (1, 0.02), (2, 0.01), (2, 0.02)]
+    assert found["kept"] == 0 and found["failures"] == []
+    tables = {"impact.velocity": 2.0, "beam.damping_ratio": 0.02}
+    whole = answered("bounce", case, *(word for pair in tables.items() for word in ("--set", "{}={}".format(*pair))))
+    row = found["rows"][-1]
+    for name in NAMES:
+        of_bounce = whole["si"].get(name) or whole.get(name)
+        assert (row[name] is None) == (of_bounce is None)
+        assert row[name] is None or (row[name]["value"], row[name]["error"]) == (of_bounce["value"], of_bounce["error"])
+    grid = xarray.open_dataset(tmp_path / "out" / "sweep.nc", engine="h5netcdf")
+    assert float(grid["restitution"].sel(row["varied"])) == row["restitution"]["value"]
+    lines = (tmp_path / "out" / "sweep.csv").read_text().splitlines()
+    assert len(lines) == 5 and lines[0].startswith("impact.velocity,beam.damping_ratio,kappa_over_nu")
+    assert (tmp_path / "out" / "sweep.png").stat().st_size > 10_000
+    monkeypatch.setattr(HermiteFE, "simulate", lambda *a, **k: pytest.fail("it ran"))
+    again = sweep(case, {"impact.velocity": [1.0, 2.0], "beam.damping_ratio": "0.01,0.02"})
+    assert again.kept == 4 and json.loads(json.dumps(again.to_dict()["rows"])) == found["rows"]
+    assert again.table["restitution"].tolist() == [one["restitution"]["value"] for one in found["rows"]]
+
+
+def test_a_row_that_cannot_be_is_a_row_with_its_reason(case, monkeypatch):
+    found = answered("sweep", case, "--jobs", 1, "--vary", "beam.damping_ratio=-1,0.01")
+    bad, good = found["rows"]
+    assert bad["refused"] and "damping" in bad["reason"] and bad["restitution"] is None
+    assert good["restitution"]["value"] is not None and found["failures"] == []
+    monkeypatch.setattr(HermiteFE, "simulate_to_separation", lambda *a, **k: 1 / 0)
+    code, out, err = command("sweep", case, "--jobs", 1, "--vary", "beam.damping_ratio=0.03,0.04", "--json", "--fresh")
+    assert code == 3 and err.count("\n") == 2 and "beam.damping_ratio = 0.03: the method failed" in err
+    assert len(json.loads(out)["failures"]) == 2
+
+
+def test_between_two_walls_a_row_is_what_predict_would_say_at_the_end_time(case):
+    words = ("--set", "wall.opposite=0.01", "--set", "run.end_time=0.002")
+    (row,) = answered("sweep", case, "--jobs", 1, "--vary", "impact.velocity=1", *words)["rows"]
+    run = answered("simulate", case, *words, "--set", "impact.velocity=1.0")
+    assert row["until"] == 0.002 and row["restitution"] is None
+    assert (row["peak_moment"]["value"], row["peak_moment"]["error"]) == (run["peak_moment"], run["peak_moment_error"])
+
+
+@pytest.mark.parametrize(
+    ("vary", "said"),
+    [
+        ("velocity=1,2", "TABLE.KEY"),
+        ("impact.velocity=1:2", "1:2"),
+        ("impact.velocity=1:2:1", "from 2 on"),
+        ("impact.velocty=1,2", "did you mean velocity?"),
+        ("impact.velocity=1,,2", "TABLE.KEY"),
+        ("impact.velocity=0:1:20000", "from 2 on"),
+    ],
+)
+def test_what_is_no_sweep_is_refused_by_key_and_value(case, vary, said):
+    assert said in refused("sweep", case, "--jobs", 1, "--vary", vary)
+
+
+def test_values_are_those_that_one_would_type():
+    assert varied_from("a.b=0.1:0.7:7")[1] == [0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7]
+    assert varied_from("a.b = 1e-3, 2")[1] == [0.001, 2]

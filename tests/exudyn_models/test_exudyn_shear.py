@@ -1,0 +1,127 @@
+"""Timoshenko's beam on the Exudyn path: beside an explicit code of its own, the Hermite path, and Exudyn's own output.
+
+Units half length = EI = μ = V₀ = 1; l_s the shear length, g = κ_sG/E."""
+
+from __future__ import annotations
+
+import exudyn as exu
+import numpy as np
+import pytest
+
+import exudyn_models
+from bent_beam import Impact
+from bent_beam.measure.balance import balance_of
+from bent_beam.measure.whole_impact import whole_impact
+from bent_beam.meshes import UniformMesh
+from comparison.bouncing import bounce
+from exudyn_models import ExudynModel
+from exudyn_models.assembly import assemble, lay_out
+from exudyn_models.contacts import SegmentFriction
+from exudyn_models.elements import ANCFCable, GeometricallyExact
+from hermite_fe import HermiteFE
+from tests import leapfrog
+
+G = 0.2
+BEAM = Impact.whole_beam(0.5, relative_damping=3e-3, shear_length=0.05, shear_ratio=G)
+SEED = 46
+
+
+def test_the_whole_impact_is_that_of_an_explicit_code_and_not_that_without_shear() -> None:
+    method = ExudynModel(mesh=UniformMesh(0.02))
+    restitution, impulse, moment = leapfrog.whole_impact(0.5, 3e-3, 0.05, G, 50, 1.1)
+    history = method.simulate_to_separation(BEAM, save=500)
+    found = whole_impact(history)
+    assert (found.restitution, found.impulse) == pytest.approx((restitution, impulse), abs=5e-3)
+    assert found.peak_moment == pytest.approx(moment, rel=0.04)  # without shear 1.40
+    assert found.energy_defect < 1e-8 and found.energy_gain < 1e-12
+    balance = balance_of(history)
+    assert balance.momentum < 2e-3 and balance.second_moment < 5e-3 and balance.warnings == []  # v by differences
+    assert {"angle", "angular_velocity", "bending_moment"} <= set(history.dataset) and "slope" not in history
+
+
+@pytest.mark.parametrize("impact", [BEAM, BEAM.unsheared], ids=lambda impact: impact.model)
+def test_recorded_moments_are_those_that_exudyn_puts_out(impact: Impact) -> None:
+    """At a state without velocities, in the middle of each element."""
+    chosen = ExudynModel(mesh=UniformMesh(0.1)).chosen(impact, 0.1)
+    beam, _ = assemble(lay_out(impact, 0.1, chosen), chosen)
+    data, bent = beam.mbs.systemData, np.random.default_rng(SEED)
+    q = data.GetODE2Coordinates(configuration=exu.ConfigurationType.Initial)
+    q[beam.vertical] += 1e-6 * bent.standard_normal(beam.vertical.size)
+    q[beam.rotation] += 1e-5 * bent.standard_normal(beam.vertical.size)
+    data.SetODE2Coordinates(q)
+    data.SetODE2Coordinates_t(np.zeros_like(q))
+    kind = exu.OutputVariableType.TorqueLocal
+    middles = np.zeros(beam.lengths.size) if beam.section.shear_length else beam.lengths / 2  # as Exudyn counts places
+    theirs = [beam.mbs.GetObjectOutputBody(body, kind, [at, 0.0, 0.0]) for body, at in zip(beam.bodies, middles)]
+    theirs = np.array(theirs).reshape(beam.lengths.size, -1)[:, -1]
+    assert beam.bending_moments(q).mean(axis=-1) == pytest.approx(theirs, rel=1e-6, abs=1e-7 * np.abs(theirs).max())
+    assert np.abs(theirs).max() > 1e-5
+
+
+@pytest.mark.parametrize(
+    ("change", "name"),
+    [
+        ({"acceleration": 4.0}, "total_impulse"),
+        ({"axial_force": 1.0}, "total_impulse"),
+        ({"wall_stiffness": 1e4, "wall_damping": 50.0}, "peak_force"),
+        ({"wall_from": 0.0, "wall_to": 0.0, "wall_stiffness": 1e3, "left_end": "hinged", "right_end": "hinged",
+          "curvature": 0.0}, "peak_force"),
+    ],
+)  # fmt: skip
+def test_loads_walls_that_give_way_and_stops_act_as_on_the_hermite_path(change: dict[str, float], name: str) -> None:
+    impact = BEAM.replace(**change)
+    hermite, exudyn = (
+        method(mesh=UniformMesh(0.01)).for_whole_beam(impact).simulate(impact, end_time=0.15, save=150)
+        for method in (HermiteFE, ExudynModel)
+    )
+    assert exudyn.array(name)[-1] == pytest.approx(hermite.array(name)[-1], rel=1e-2)
+    assert exudyn.moment.max() == pytest.approx(hermite.moment.max(), rel=0.05)
+    assert abs(exudyn.energy_budget()["defect"]) < 1e-5
+
+
+def test_plain_solve_dynamic_finds_the_restitution_of_the_explicit_code() -> None:
+    model = exudyn_models.build(BEAM, end_time=1.1, mesh=UniformMesh(0.02))
+    model.mbs.SolveDynamic(model.settings)
+    impulse = model.mbs.GetSensorStoredData(model.sensors["impulse"])[-1, 1]
+    assert impulse / 2.0 - 1.0 == pytest.approx(leapfrog.whole_impact(0.5, 3e-3, 0.05, G, 50, 1.1)[0], abs=5e-3)
+
+
+def test_what_does_not_go_with_shear_is_refused_and_told_the_way() -> None:
+    way = 'model = "euler_bernoulli"'
+    for parts, name in ((dict(element=ANCFCable()), "ancf_cable"), (dict(contact=SegmentFriction()), "cables")):
+        assert name in (said := ExudynModel(**parts).refuses(BEAM) or "") and way in said
+    said = ExudynModel(element=GeometricallyExact(shear_ratio=50.0)).refuses(BEAM)
+    assert "shear_ratio has no effect" in (said or "")
+    assert isinstance(ExudynModel().chosen(BEAM.unsheared, 0.1).element, ANCFCable)
+
+
+def drawn() -> list[tuple[float, float, float, float]]:
+    """κ/ν, η/T*, l_s and g, stratified: each size once with each other where they go round."""
+    random, cases = np.random.default_rng(SEED), []
+    for k, kappa in enumerate((0.1, 0.2, 0.5, 1.0)):
+        for j, damping in enumerate((7e-5, 7e-4, 3e-3)):
+            length = (0.02, 0.08)[(k + j) % 2]
+            spread = 2.0 ** random.uniform(-0.2, 0.2, 3)
+            cases.append((kappa * spread[0], damping * spread[1], length * spread[2], random.uniform(0.2, 0.33)))
+    return [*cases, (0.5, 3e-3, 0.002, G)]
+
+
+@pytest.mark.verify
+@pytest.mark.parametrize("case", drawn(), ids=lambda case: ", ".join(f"{x:.3g}" for x in case))
+def test_drawn_beams_agree_with_the_hermite_path_and_the_explicit_code_within_bars(case) -> None:
+    print(f"seed {SEED}")
+    kappa, damping, length, g = case
+    impact = Impact.whole_beam(kappa, relative_damping=damping, shear_length=length, shear_ratio=g)
+    exudyn, hermite = (bounce(impact, method) for method in (ExudynModel(), HermiteFE()))
+    names = ("restitution", "impulse", "peak_moment")
+    explicit = {}
+    if length > 0.01:
+        fine, half = (leapfrog.whole_impact(kappa, damping, length, g, n, 1.3) for n in (200, 100))
+        explicit = {name: (value, 2.0 * abs(value - other)) for name, value, other in zip(names, fine, half)}
+    for name in names:
+        ours, theirs = exudyn.numbers[name], hermite.numbers[name]
+        print(f"{name}: exudyn {ours}, hermite {theirs}, explicit {explicit.get(name)}")
+        assert abs(ours.value - theirs.value) <= ours.bar + theirs.bar, name
+        if name in explicit:
+            value, bar = explicit[name]
+            assert abs(ours.value - value) <= ours.bar + bar, name
