@@ -17,7 +17,7 @@ const Plots = (() => {
     const width = Math.max(260, svg.clientWidth || 320);
     const [X, Y] = axes(svg, {
       width, height: HEIGHT, left: LEFT, x: [0, end / perSecond], y: [low / size, high / size],
-      xLabel: `time, ${second}`, yLabel: `${label}, ${symbol}`, zero: true,
+      xLabel: `time, ${second}`, yLabel: `${label}, ${symbol}`,
     });
     return { x: (t) => X(t / perSecond), y: (value) => Y(value / size), width };
   }
