@@ -179,8 +179,8 @@ def test_shipped_cases_are_read_and_what_the_page_lacks_is_refused_by_name() -> 
     assert "run = true is not a number" in found["nonsense"]
 
 
-def page_and_bounce(inputs: list[dict[str, Any]]) -> tuple[int, list[str]]:
-    """How many numbers of whole impacts were compared, and those that differ by more than both bars."""
+def page_and_bounce(inputs: list[dict[str, Any]], share: float = 1.0) -> tuple[int, list[str]]:
+    """How many numbers of whole impacts were compared, and those that differ by more than this share of both bars."""
     found = evaluated(
         """given.map((typed) => {
         const i = {...Beam.START, ...typed}, b = Beam.impact(i), p = Beam.problem(b, b.damping), runs = {};
@@ -204,7 +204,7 @@ def page_and_bounce(inputs: list[dict[str, Any]]) -> tuple[int, list[str]]:
             if other.value is None:
                 continue
             compared += 1
-            if abs(one.known - other.value) > one.spread + (other.bar or 0.0):
+            if abs(one.known - other.value) > share * (one.spread + (other.bar or 0.0)):
                 missed.append(f"{there}: page {one}, bounce {other}, of\n{row['text']}")
     return compared, missed
 
@@ -215,8 +215,10 @@ RUBBER = {"wall_stiffness": 2e5, "wall_damping_ratio": 0.2}
 @needs_node
 @pytest.mark.parametrize("wall", [{}, pytest.param(RUBBER, marks=pytest.mark.verify)])
 def test_a_whole_impact_is_that_of_bounce_within_bars(wall: dict[str, float]) -> None:
-    """A sheared tube, slower and with more damping than at the start, on a floor or on a rubber mat."""
-    compared, missed = page_and_bounce([{"velocity": 0.4, "damping_ratio": 0.02, "gravity": None} | wall])
+    """A sheared tube, slower and with more damping than at the start, on a floor or on a rubber mat. On the floor the
+    schemes are the same."""
+    tube = {"velocity": 0.4, "damping_ratio": 0.02, "gravity": None} | wall
+    compared, missed = page_and_bounce([tube], 1.0 if wall else 0.1)
     assert compared == 3 + bool(wall) and not missed
 
 

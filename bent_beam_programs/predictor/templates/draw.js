@@ -44,7 +44,7 @@ const Draw = (() => {
   }
 
   /** Axes with round numbers; returns the maps to the paper. */
-  function axes(svg, { width, height, left, x, y, xLabel, yLabel, zero }) {
+  function axes(svg, { width, height, left, x, y, xLabel, yLabel }) {
     svg.replaceChildren();
     svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
     const top = 26, right = 12, bottom = 34, inner = [width - left - right, height - top - bottom];
@@ -55,7 +55,7 @@ const Draw = (() => {
       draw(svg, "text", { x: X(v), y: top + inner[1] + 15, "text-anchor": "middle" }, text(v));
     }
     for (const v of ticks(...y, 4)) {
-      const kind = v === 0 && zero ? "zero" : "grid";
+      const kind = v === 0 ? "zero" : "grid";
       draw(svg, "line", { x1: left, x2: left + inner[0], y1: Y(v), y2: Y(v), class: kind });
       draw(svg, "text", { x: left - 6, y: Y(v) + 4, "text-anchor": "end" }, text(v));
     }

@@ -17,7 +17,7 @@ const Plots = (() => {
     const width = Math.max(260, svg.clientWidth || 320);
     const [X, Y] = axes(svg, {
       width, height: HEIGHT, left: LEFT, x: [0, end / perSecond], y: [low / size, high / size],
-      xLabel: `time, ${second}`, yLabel: `${label}, ${symbol}`, zero: true,
+      xLabel: `time, ${second}`, yLabel: `${label}, ${symbol}`,
     });
     return { x: (t) => X(t / perSecond), y: (value) => Y(value / size), width };
   }
@@ -47,7 +47,7 @@ const Plots = (() => {
       `${quantity("stress", of(top.moment))} at ${quantity("time", time, 3)}`);
   }
 
-  const contactEnd = ({ run }) => 1.04 * (run.lastContact ?? run.until);
+  const contactEnd = ({ run }) => (run.lastContact ? Math.min(1.04 * run.lastContact, run.until) : run.until);
 
   /** The impulse at the time t, T*. */
   function impulse({ frames }, t) {
@@ -117,7 +117,8 @@ const Plots = (() => {
     }
     const all = [...curves, exact].filter(({ points }) => points.length > 1), high = highest(all);
     const { x, y } = chart(svg, { end, high, name: "impulse", label: "Impulse of the first instants" }, all);
-    find("#range").textContent = until ? "where it holds, shaded" : "nowhere in its range";
+    const never = by === "wall" ? "not drawn: the wall gives way" : "nowhere in its range";
+    find("#range").textContent = until ? "where it holds, shaded" : never;
     if (!until) return;
     const left = x(Math.min(from, end)), top = y(1.12 * high);
     const range = { x: left, y: top, width: x(last) - left, height: y(0) - top, class: "range" };

@@ -2,7 +2,7 @@
 // The page: inputs → runs in two workers, one for a first picture at once, one for numbers with bars → words and plots.
 (() => {
   const { find, element, quantity, inputs } = Form, { text } = Draw;
-  const { COMMAND, number, holding, percent, warnings } = Words;
+  const { COMMAND, number, holding, atEnd, percent, warnings } = Words;
   const PATIENCE = 250; // ms without a change before bars are computed
   const source = URL.createObjectURL(new Blob([find("#simulation").textContent], { type: "text/javascript" }));
   function hire() {
@@ -80,7 +80,7 @@
     const words = {
       verdict: WORDS.regimes[contact.regime],
       holds: holding(limits),
-      theory: limits.until && !b.damping ? `Largest stress until then: ${quantity("stress", theory.stress)}.` : "",
+      theory: limits.until ? atEnd(theory) : "",
       groups: Object.entries(groups).map(([name, value]) => `${name} = ${value}`).join(" · "),
       model: WORDS.beams[b.shear ? "timoshenko" : "euler_bernoulli"],
     };

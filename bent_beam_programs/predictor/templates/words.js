@@ -21,6 +21,14 @@ const Words = (() => {
     return `The theory holds to 2 % ${start}until ${quantity("time", until, 3)}: then ${WORDS.limits[by]}.`;
   }
 
+  /** The theory's numbers at the end of its range. */
+  function atEnd(theory) {
+    const t = theory.limits.until, { halfLength, force, impulse, stress } = Instants.at(theory, t);
+    return `Then, at ${quantity("time", t, 3)}, the half contact length is ${quantity("place", halfLength, 3)}, `
+      + `the force ${quantity("force", force, 3)}, the impulse ${quantity("impulse", impulse, 3)}, `
+      + `the largest stress so far ${quantity("stress", stress, 3)}.`;
+  }
+
   const percent = (ratio) => `${text(100 * ratio, 2)} %`;
 
   /** What a reader must know of the numbers; whole: whether every bar is there. */
@@ -41,5 +49,5 @@ const Words = (() => {
     return said.filter(([is]) => is).map(([, sentence]) => sentence);
   }
 
-  return { COMMAND, number, holding, percent, warnings };
+  return { COMMAND, number, holding, atEnd, percent, warnings };
 })();
