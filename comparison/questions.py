@@ -107,8 +107,7 @@ class Question:
         if (inviscid := self._without_viscosity()) is not None:
             others["waves_absorbed"] = inviscid
         if self.late and hasattr(chosen, "cross_checks"):
-            laws = chosen.cross_checks(self.impact)
-            others |= {cause: other for cause, other in laws.items() if cause == "contact_law"}
+            others |= chosen.cross_checks(self.impact)
         found = {cause: (self.impact, other) for cause, other in others.items()}
         branches = branches_of(self.impact)
         if branches is not None:  # what a fit of the material leaves

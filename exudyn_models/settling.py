@@ -26,23 +26,24 @@ from exudyn_models.contacts import ContactRun
 from exudyn_models.contacts.base import TINY
 from exudyn_models.geometry import Array, Flags
 
-__all__ = ["Settling"]
+__all__ = ["ANY", "Settling"]
 
 BLOCK, PERSISTENCE = 15, 60  # repetitions
+ANY = 1e300  # no measure of Exudyn's own is above
 
 
 class Settling:
     """Exudyn's ``PostNewtonUserFunction`` for one run (implicit integrators).
 
-    iterations : most repetitions of a step; tolerance : force, model units.
+    iterations : most repetitions of a step; tolerance : force, model units. Exudyn's own tolerance is :data:`ANY`.
     steps, cycles, unsettled : steps seen, those accepted though no contact state was consistent, and those that ran
         out of repetitions; first : what happened in the first of these.
     solution : q and v last looked at.
     """
 
-    def __init__(self, contact: ContactRun, solver: Any, iterations: int, tolerance: float) -> None:
+    def __init__(self, contact: ContactRun, iterations: int, tolerance: float) -> None:
         self.steps = self.cycles = self.unsettled = 0
-        self._contact, self._solver = contact, solver
+        self._contact = contact
         self._iterations, self._tolerance = iterations, tolerance
         self._time: float | None = None
         self._repetitions = 0
@@ -92,7 +93,7 @@ class Settling:
             self._set(mbs, np.where(doubtful, ~closed, closed))
         else:
             self._follow(mbs)
-        return [force, -1.0]
+        return [math.inf, -1.0]
 
     def _all_at_once(self, contradictions: int) -> bool:
         """Whether all connectors follow their gaps in the next repetition, or only one that contradicts its own."""
@@ -140,12 +141,11 @@ class Settling:
             mbs.SetPreNewtonResidualUserFunction(0)
 
     def _accept(self, mbs: Any, closed: Flags) -> list[float]:
-        """No further repetition, whatever Exudyn's own measure says: it goes on when they are used up."""
+        """No further repetition: whatever Exudyn's own measure says, it is below :data:`ANY`."""
         if not self._contact.imposes:
             self._follow(mbs)
         elif self._imposed is None:
             self._set(mbs, closed)
         else:
             self._imposed = closed
-        self._solver.it.discontinuousIteration = self._iterations - 1
         return [0.0, -1.0]

@@ -20,7 +20,7 @@ from exudyn_models.assembly import Chosen, Layout, assemble, stable_step
 from exudyn_models.geometry import Array
 from exudyn_models.integrators import Segment
 from exudyn_models.recording import Recorder
-from exudyn_models.settling import Settling
+from exudyn_models.settling import ANY, Settling
 from exudyn_models.solvers import open_viewer, wait_until_closed
 
 __all__ = ["Stepping", "Until"]
@@ -88,7 +88,8 @@ class Stepping:
         self.settling: Settling | None = None  # explicit steps are not repeated
         if contact.iterated and not integrator.explicit:
             judged = self.settings.timeIntegration.discontinuous
-            self.settling = Settling(contact, self.solver, judged.maxIterations, judged.iterationTolerance)
+            self.settling = Settling(contact, judged.maxIterations, judged.iterationTolerance)
+            judged.iterationTolerance = ANY
         self.must_settle = chosen.solver.contact_must_settle
         self.targets, self.progress, self.until = targets, progress, until
         self.steps, self.seconds = 0, 0.0

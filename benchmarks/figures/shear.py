@@ -64,7 +64,7 @@ def draw(out: Path) -> list[Path]:
         right.loglog(time, StoppedPoint(RATIO).reaction(time), **style.THEORY | {"lw": 1.0})
         history = stopped_run()
         kept = range(36, history.time.size - 12, 12)
-        force = [mean_reaction(history, k) for k in kept]
+        force = [mean_reaction(history, float(history.time[k])) for k in kept]
         right.loglog(history.time[kept], force, **style.mark("hermite") | {"ms": 3.0, "label": "hermite"})
         right.set_yticks([0.3, 0.5, 1.0, 2.0, 5.0], labels=["0.3", "0.5", "1", "2", "5"])
         right.set_xticks([0.1, 1.0, 10.0], labels=["0.1", "1", "10"])
@@ -74,7 +74,7 @@ def draw(out: Path) -> list[Path]:
             axis.set_xticks([25, 50, 100, 200, 500], labels=["25", "50", "100", "200", "500"])
             axis.tick_params(which="minor", labelbottom=False)
         right.set(xlabel=r"$t/t_s$  (1)", ylabel=r"$R/V_0\sqrt{\kappa_sGA\,\mu}$  (1)")
-        left.legend()
+        middle.legend(loc="center")
         right.legend()
         style.label_panels(left, middle, right)
         return style.save(fig, out, "shear")

@@ -16,7 +16,7 @@ __all__ = ["page", "write_page"]
 
 TEMPLATES = Path(__file__).parent / "templates"
 MODEL = ("theory.js", "point.js", "limits.js", "beam.js", "instants.js", "case.js")
-SIMULATION = ("solver.js", "answer.js", "worker.js")  # of the workers
+SIMULATION = ("elements.js", "contact.js", "solver.js", "answer.js", "worker.js")  # of the workers
 PAGE = ("answer.js", "draw.js", "form.js", "words.js", "plots.js", "motion.js", "view.js")
 WORDS = {"regimes": REGIMES, "limits": LIMITS, "before": BEFORE, "beams": BEAMS}
 """What ``bentbeam predict`` says of contact, theory and beam."""

@@ -50,15 +50,16 @@ def bounce(
 
     Example: bentbeam bounce --kappa-over-nu 2 --damping 0.01
     """
-    from comparison.bouncing import bounce as follow
-    from comparison.doors import Bounced
-    from comparison.hits import OF_ONE_WALL, follow_hits, hits_table
     from comparison.store import RunStore, check_writable, default_store
 
     paths = path or ["hermite"]
     asked = [_asked(case, kappa_over_nu, damping, one, assignments or ()) for one in paths]
     if out is not None:
         check_writable(out, folder=True)
+    from comparison.bouncing import bounce as follow  # SciPy: no refusal above waits for it
+    from comparison.doors import Bounced
+    from comparison.hits import OF_ONE_WALL, follow_hits, hits_table
+
     how: dict[str, Any] = {"runs": runs, "seed": seed, "jobs": jobs}
     how["store"], how["history"] = RunStore(None if fresh else default_store()), out is not None or hits > 1
     every = list[Bounced]()
@@ -96,9 +97,6 @@ def _asked(
 ) -> tuple[Case, Method]:
     """The case, or that of the two numbers, and its method."""
     from bent_beam.cases import load_case
-    from comparison.bouncing import problem
-    from comparison.doors import case_of
-    from comparison.methods import methods_of
 
     if (case is None) == (kappa_over_nu is None):
         raise InputError("bounce takes a case file or --kappa-over-nu, one of them")
@@ -109,4 +107,8 @@ def _asked(
         return loaded, loaded.method(path)
     if damping is None:
         raise InputError("--damping is required next to --kappa-over-nu (eta/T*; 0 for none)")
+    from comparison.bouncing import problem
+    from comparison.doors import case_of
+    from comparison.methods import methods_of
+
     return case_of(problem(kappa_over_nu or 0.0, damping)), methods_of([path], assignments)[0]

@@ -110,8 +110,6 @@ def predict(
     Example: bentbeam predict cases/drill_pipe.toml --time 0.005 --time 0.01
     """
     from bent_beam.cases import load_case
-    from comparison.doors import Predicted
-    from comparison.predicting import predict_case
     from comparison.store import RunStore, check_writable, default_store
 
     loaded = load_case(case, assignments or ())
@@ -126,6 +124,9 @@ def predict(
         if theory_only or max(times) <= 0.0:
             raise InputError(f"--out {out}: nothing is simulated, so that there is nothing to be drawn")
         check_writable(out, folder=True)
+    from comparison.doors import Predicted  # SciPy: no refusal above waits for it
+    from comparison.predicting import predict_case
+
     store = RunStore(None if fresh else default_store())
     with progress(f"the whole beam: {case.name}", quiet or as_json or theory_only) as bar:
         how = {"theory_only": theory_only, "store": store, "progress": bar.fraction}
@@ -159,14 +160,15 @@ def simulate(
     Example: bentbeam simulate cases/thesis_K10.toml --path exudyn --set exudyn.integrator.kind=newmark
     """
     from bent_beam.cases import load_case
-    from comparison.simulate_text import run_table
-    from comparison.simulating import simulate_case
 
     loaded = load_case(case, assignments or ())
     loaded.method(path)
     if until not in (None, "separation"):
         raise InputError(f'--until takes "separation" (got {until!r}); an end time is run.end_time')
     check_out(out, overwrite)
+    from comparison.simulate_text import run_table  # SciPy: no refusal above waits for it
+    from comparison.simulating import simulate_case
+
     how = {"until": loaded.end_time if until is None else None, "save": save, "error_bars": error_bars}
     try:
         with progress(f"{path}: {case.name}", quiet) as bar:

@@ -1,14 +1,11 @@
 """A naturally bent beam hits a rigid plane, in Exudyn's own items: half of it, whose middle touches y = 0 at t = 0.
 
-EI = μ = V₀ = 1: κ/ν = K√(EI/μ)/V₀ is the curvature K of the bow. The contact spreads as x = λ₀√t, and the impulse of
-the plane on the whole beam is 4√(2t/π) r₀.   python exudyn_models/scripts/bent_beam_impact.py [--contact ...] [--view]
+EI = μ = V₀ = 1, κ is the curvature of the bow. Contact spreads as x = λ₀√t; the impulse on the whole beam is
+4√(2t/π) r₀.   python bent_beam_impact.py [--element ...] [--contact ...] [--integrator ...] [--view]
 """
-
-from __future__ import annotations
 
 import argparse
 from collections.abc import Sequence
-from itertools import pairwise
 from typing import Any
 
 import exudyn as exu
@@ -16,66 +13,69 @@ import exudyn.itemInterface as items
 import numpy as np
 
 EXACT = {0.1: (4.25760, 2.74499), 0.2: (2.70353, 1.88523), 0.5: (1.01887, 1.17721), 0.8: (0.29685, 1.01915)}  # λ₀, r₀
-SIZE, ELEMENTS, END, STEPS = 0.0125, 400, 0.1, 1500
-DAMPING = 40  # in √(EIμ)/Δx²
-X = SIZE * np.arange(ELEMENTS + 1)
-SHARE = np.where((X > 0) & (X < X[-1]), SIZE, SIZE / 2)  # length of beam that each node stands for
-KINDS = {
-    "element": ("ancf_cable", "geometrically_exact"),
-    "contact": ("penalty", "impact_model", "general_contact"),
-    "integrator": ("generalized_alpha", "newmark", "trapezoidal"),
+COUNT, LENGTH, END, STEPS = 400, 0.0125, 0.1, 1500  # elements and the length of each; the run
+X = LENGTH * np.arange(COUNT + 1)
+SHARE = np.where((X > 0) & (X < X[-1]), LENGTH, LENGTH / 2)  # length of beam that each node stands for
+LAW = {"contactStiffness": 10 / LENGTH**3, "contactDamping": 40 / LENGTH}  # as stiff as elements, no node rebounds
+GONTHIER = LAW | {"contactDamping": 0, "impactModel": 2, "restitutionCoefficient": 0.5}
+KINDS: dict[str, dict[str, Any]] = {
+    "element": {"ancf_cable": items.ObjectANCFCable2D, "geometrically_exact": items.ObjectBeamGeometricallyExact2D},
+    "contact": {
+        "dashpot": LAW,
+        "gonthier": {**LAW, "contactDamping": 0, "impactModel": 2, "restitutionCoefficient": 0.5},
+    },
+    "integrator": {
+        "generalized_alpha": {"spectralRadius": 0.5},
+        "newmark": {"useNewmark": True, "newmarkGamma": 0.6, "newmarkBeta": 0.3025},
+        "trapezoidal": {"useNewmark": True, "newmarkGamma": 0.5, "newmarkBeta": 0.25},
+    },
 }
 
 
-def add_beam(mbs: Any, element: str, curvature: float, velocity: float) -> list[Any]:
-    """A bow free of stress, y > 0 into the plane; its nodes."""
-    cable = element == "ancf_cable"  # coordinates x, y, x′, y′; else x, y, angle
-    node_kind = items.NodePoint2DSlope1 if cable else items.NodeRigidBody2D
-    body_kind = items.ObjectANCFCable2D if cable else items.ObjectBeamGeometricallyExact2D
-    section: dict[str, Any] = {"length": SIZE, "massPerLength": 1, "bendingStiffness": 1, "axialStiffness": 1}
-    section |= {"referenceCurvature": -curvature, "bendingDamping": 0.15 * SIZE**2}  # of waves as short as elements
-    section |= {} if cable else {"shearStiffness": 100 / SIZE**2, "crossSectionInertia": 0.01 * SIZE**2}
-    nodes, along = [], [0] * cable
-    for x in X:
-        start = {"initialCoordinates": [0, -curvature * x**2 / 2, *along, -curvature * x]}
-        start |= {"initialVelocities": [0, velocity, *along, 0]}
-        nodes.append(mbs.AddNode(node_kind(referenceCoordinates=[x, 0, *[1] * cable, 0], **start)))
-    for pair in pairwise(nodes):
-        mbs.AddObject(body_kind(nodeNumbers=list(pair), **section))
+def main(arguments: Sequence[str] | None = None) -> None:
+    options = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    options.add_argument("--kappa-over-nu", dest="kappa", type=float, choices=EXACT, default=0.5)
+    for part, kinds in KINDS.items():
+        options.add_argument(f"--{part}", choices=kinds, default=next(iter(kinds)))
+    options.add_argument("--view", action="store_true", help="watch it, with larger deflections")
+    chosen = options.parse_args(arguments)
+    small = 0.1 if chosen.view else 1e-4  # times all deflections, and so all forces: slopes must be small
+    container = exu.SystemContainer()
+    mbs: Any = container.AddSystem()
+
+    # the beam: a bow free of stress that moves towards y > 0; symmetry holds x and the slope of its middle
+    section: dict[str, Any] = {"length": LENGTH, "massPerLength": 1, "bendingStiffness": 1, "axialStiffness": 1}
+    section |= {"referenceCurvature": -small * chosen.kappa, "bendingDamping": 0.15 * LENGTH**2}
+    node_kind: Any
+    if cable := chosen.element == "ancf_cable":
+        node_kind, straight, own = items.NodePoint2DSlope1, [1, 0], [0, 1, 3]  # x, y, x′, y′
+    else:  # x, y, angle; so stiff in shear that the beam only bends
+        node_kind, straight, own = items.NodeRigidBody2D, [0], [0, 1, 2]
+        section |= {"shearStiffness": 100 / LENGTH**2, "crossSectionInertia": 0.01 * LENGTH**2}
+    bow, speed = np.zeros((2, X.size, 4 if cable else 3))
+    bow[:, own[1]], bow[:, own[2]], speed[:, own[1]] = -chosen.kappa * X**2 / 2, -chosen.kappa * X, 1
+    nodes = [
+        mbs.AddNode(node_kind(referenceCoordinates=[x, 0, *straight], initialCoordinates=u, initialVelocities=v))
+        for x, u, v in zip(X, small * bow, small * speed)
+    ]
+    for i in range(COUNT):
+        mbs.AddObject(KINDS["element"][chosen.element](nodeNumbers=nodes[i : i + 2], **section))
     ground = mbs.AddMarker(items.MarkerNodeCoordinate(nodeNumber=mbs.AddNode(items.NodePointGround()), coordinate=0))
-    for coordinate in (0, 3 if cable else 2):  # symmetry: the middle neither moves along x nor turns
+    for coordinate in (own[0], own[2]):
         middle = mbs.AddMarker(items.MarkerNodeCoordinate(nodeNumber=nodes[0], coordinate=coordinate))
         mbs.AddObject(items.CoordinateConstraint(markerNumbers=[ground, middle]))
-    return nodes
 
+    # the plane y = 0, at every node
+    law = KINDS["contact"][chosen.contact]
+    for node, gap, share in zip(nodes, -small * bow[:, 1], SHARE / LENGTH):
+        state = [max(1e-14, gap)] + [0] * ("impactModel" in law)  # open at first
+        data = mbs.AddNode(items.NodeGenericData(numberOfDataCoordinates=len(state), initialCoordinates=state))
+        markers = [mbs.AddMarker(items.MarkerNodeCoordinate(nodeNumber=node, coordinate=own[1])), ground]
+        its = law | {name: share * law[name] for name in ("contactStiffness", "contactDamping")}
+        its |= {"minimumImpactVelocity": 0.5 * small, "markerNumbers": markers, "nodeNumber": data}
+        mbs.AddObject(items.ObjectContactCoordinate(**its))
 
-def add_contact(mbs: Any, kind: str, nodes: list[Any], gaps: Any, velocity: float) -> None:
-    """The plane y = 0, at every node: as stiff as the elements themselves, and damped so that no node rebounds."""
-    laws = [{"contactStiffness": 10 * b / SIZE**4, "contactDamping": DAMPING * b / SIZE**2} for b in SHARE]
-    if kind == "general_contact":  # spheres around the nodes, a square of two triangles
-        general, radius, far = mbs.AddGeneralContact(), SIZE / 2, 2 * X[-1]
-        general.SetFrictionPairings(np.zeros((1, 1)))
-        general.SetSearchTreeCellSize([ELEMENTS // 2, 1, 1])
-        general.SetSearchTreeBox([-1, -far, -1], [far, 1, 1])
-        square = [[-1, radius, -1], [far, radius, -1], [far, radius, 1], [-1, radius, 1]]
-        body = mbs.AddMarker(items.MarkerBodyRigid(bodyNumber=mbs.AddObject(items.ObjectGround())))
-        general.AddTrianglesRigidBodyBased(body, 1e12, 0, 0, square, [[0, 1, 2], [0, 2, 3]])
-        for node, law in zip(nodes, laws):
-            place = mbs.AddMarker(items.MarkerNodePosition(nodeNumber=node))
-            general.AddSphereWithMarker(place, radius, **law, frictionMaterialIndex=0)
-        return
-    if kind == "impact_model":  # Gonthier's, in place of the dashpot
-        model = {"impactModel": 2, "restitutionCoefficient": 0.5, "minimumImpactVelocity": 0.5 * velocity}
-        laws = [law | model | {"contactDamping": 0} for law in laws]
-    plane = mbs.AddMarker(items.MarkerNodeCoordinate(nodeNumber=mbs.AddNode(items.NodePointGround()), coordinate=0))
-    for node, gap, law in zip(nodes, gaps, laws):
-        data = [max(1e-14, gap), *[0] * (kind == "impact_model")]  # open at first
-        state = mbs.AddNode(items.NodeGenericData(numberOfDataCoordinates=len(data), initialCoordinates=data))
-        deflection = mbs.AddMarker(items.MarkerNodeCoordinate(nodeNumber=node, coordinate=1))
-        mbs.AddObject(items.ObjectContactCoordinate(markerNumbers=[deflection, plane], nodeNumber=state, **law))
-
-
-def solver_settings(integrator: str, small: float) -> Any:
+    mbs.Assemble()
     settings = exu.SimulationSettings()
     settings.solution.file.write = False
     settings.linearSolver.solverType = exu.LinearSolverType.EigenSparse
@@ -84,42 +84,20 @@ def solver_settings(integrator: str, small: float) -> Any:
     stepping.newton.relativeTolerance, stepping.newton.absoluteTolerance = 1e-5, 1e-7 * small  # in place of 1e-10
     stepping.discontinuous.iterationTolerance = 1e-4 * small  # in place of 1, above every force here
     stepping.discontinuous.useRecommendedStepSize = False  # contact changes in most steps
-    rule = stepping.generalizedAlpha
-    if integrator == "newmark":
-        rule.useNewmark, rule.newmarkGamma, rule.newmarkBeta = True, 0.6, 0.3025
-    elif integrator == "trapezoidal":
-        stepping.solverType = exu.DynamicSolverType.TrapezoidalIndex2
-    else:
-        rule.spectralRadius = 0.5
-    return settings
-
-
-def main(arguments: Sequence[str] | None = None) -> None:
-    options = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    options.add_argument("--kappa-over-nu", type=float, choices=EXACT, default=0.5)
-    for part, kinds in KINDS.items():
-        options.add_argument(f"--{part}", choices=kinds, default=kinds[0])
-    options.add_argument("--view", action="store_true", help="watch it, with larger deflections")
-    chosen = options.parse_args(arguments)
-    small = 0.1 if chosen.view else 1e-4  # of deflections: slopes stay small, and so do the forces of the tolerances
-    container = exu.SystemContainer()
-    mbs: Any = container.AddSystem()
-    curvature = small * chosen.kappa_over_nu
-    nodes = add_beam(mbs, chosen.element, curvature, small)
-    add_contact(mbs, chosen.contact, nodes, curvature * X**2 / 2, small)
-    mbs.Assemble()
+    for name, value in KINDS["integrator"][chosen.integrator].items():
+        setattr(stepping.generalizedAlpha, name, value)
     watched = chosen.view and container.renderer.Start()
-    mbs.SolveDynamic(solver_settings(chosen.integrator, small))
+    mbs.SolveDynamic(settings)
     if watched:
         container.renderer.DoIdleTasks()
         container.renderer.Stop()
-    # the impulse is the momentum that is lost; its moment about the middle, that of the beam there being EI K while
-    # the zone is flat, says where the contact has come: the plane pushes at its end only, which moves as √t
-    speeds = mbs.systemData.GetODE2Coordinates_t()[[mbs.GetNodeODE2Index(node) + 1 for node in nodes]]
-    lost = SHARE * (1 - speeds / small)
-    lambda0 = 2 * (X @ lost - chosen.kappa_over_nu * END) / lost.sum() / np.sqrt(END)
+
+    # the impulse is the momentum that is lost; its moment about the middle, that of the beam there being EI κ while the
+    # zone is flat, says where the contact has come: the plane pushes at its end only, which moves as √t
+    lost = SHARE * (1 - mbs.systemData.GetODE2Coordinates_t().reshape(X.size, -1)[:, own[1]] / small)
+    lambda0 = 2 * (X @ lost - chosen.kappa * END) / lost.sum() / np.sqrt(END)
     r0 = 2 * lost.sum() / (4 * np.sqrt(2 * END / np.pi))
-    for name, found, exact in zip(("lambda0", "r0"), (lambda0, r0), EXACT[chosen.kappa_over_nu]):
+    for name, found, exact in zip(("lambda0", "r0"), (lambda0, r0), EXACT[chosen.kappa]):
         print(f"{name} = {found:.4f}, exact {exact}, off by {found / exact - 1:+.2%}")
 
 

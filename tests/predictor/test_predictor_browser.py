@@ -1,6 +1,7 @@
 """The page in headless Chromium: what it simulates and says, by keyboard, on a phone, from a link, from a case file."""
 
 import time
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -42,11 +43,16 @@ def shown(browser: Any, name: str) -> str:
     return str(ask(browser, f"document.getElementById('{name}').textContent"))
 
 
-def simulated(browser: Any) -> Any:
-    """The browser once every number has its bar."""
+def until(browser: Any, true: Callable[[], Any]) -> None:
+    """Wait: what runs in workers, or reads a file, comes later."""
     from selenium.webdriver.support.wait import WebDriverWait
 
-    WebDriverWait(browser, 60).until(lambda _: ask(browser, "document.body.dataset.state") == "done")
+    WebDriverWait(browser, 60).until(lambda _: true())
+
+
+def simulated(browser: Any) -> Any:
+    """The browser once every number has its bar."""
+    until(browser, lambda: ask(browser, "document.body.dataset.state") == "done")
     return browser
 
 
@@ -76,7 +82,7 @@ def test_the_numbers_of_the_whole_impact_are_those_of_bounce(browser: Any) -> No
     assert said.peak_stress is not None and said.peak_stress.bar is not None
     assert abs(value - 1e-6 * said.peak_stress.value) <= error + 1e-6 * said.peak_stress.bar
     drawn = ask(browser, "[...document.querySelectorAll('#answer .plots path')].map(e => e.getAttribute('d').length)")
-    assert len(drawn) == 4 and min(drawn) > 100  # stress, force, impulse of the simulation and of the theory
+    assert len(drawn) >= 4 and min(drawn) > 60  # stress, force, impulse of the simulation and of the theory
 
 
 def test_what_is_typed_decides_and_mistakes_are_named_beside_their_field(browser: Any) -> None:
@@ -107,14 +113,15 @@ def test_damping_has_three_states(chromium: Any, address: str) -> None:  # noqa:
 
 
 def test_a_slider_changes_the_field_last_touched_and_a_curve_follows(browser: Any) -> None:
-    simulated(browser)
-    before = ask(browser, "document.querySelector('#plot-stress path.curve').getAttribute('d')")
+    curve = "document.querySelector('#plot-stress path.curve')?.getAttribute('d')"
+    until(browser, lambda: ask(browser, curve))
+    before = ask(browser, curve)
     browser.find_element("id", "in-length").click()
-    move = "const d = document.getElementById('drag'); d.value = 0.5; d.dispatchEvent(new Event('input'))"
-    browser.execute_script(move)
+    browser.execute_script(
+        "const d = document.getElementById('drag'); d.value = 0.5; d.dispatchEvent(new Event('input'))"
+    )
     assert ask(browser, "document.getElementById('in-length').value") == "6"
-    simulated(browser)
-    assert ask(browser, "document.querySelector('#plot-stress path.curve').getAttribute('d')") != before
+    until(browser, lambda: ask(browser, curve) != before)
 
 
 def test_keyboard_alone_reaches_and_moves_everything(browser: Any) -> None:
@@ -165,9 +172,8 @@ def test_a_case_is_saved_and_opened(chromium: Any, address: str, tmp_path: Path)
         time.sleep(0.05)
     impact = load_case(file).impact
     assert impact.velocity == 5.0 and impact.axial_force == 20e3
-    opening = browser.find_element("id", "open")
-    opening.send_keys(str(Path("cases/drill_pipe.toml").resolve()))
+    for name, note in (("drill_pipe", "is read"), ("two_walls", "beam.bending_stiffness is not on this page")):
+        browser.find_element("id", "open").send_keys(str(Path(f"cases/{name}.toml").resolve()))
+        until(browser, lambda note=note: note in shown(browser, "note"))
     lambda0 = contact_parameters(load_case("cases/drill_pipe.toml").impact.kappa_over_nu).lambda0
-    assert f"λ₀ = {lambda0:.6g}" in shown(browser, "groups") and "is read" in shown(browser, "note")
-    opening.send_keys(str(Path("cases/two_walls.toml").resolve()))
-    assert "beam.bending_stiffness is not on this page" in shown(browser, "note")
+    assert f"λ₀ = {lambda0:.6g}" in shown(browser, "groups")  # what cannot be read changes nothing

@@ -4,7 +4,7 @@ const Answer = (() => {
   const FACTOR = 1.5; // of what a companion changes
   const RATIOS = [0.0002, 0.002, 0.02]; // damping ratios where none is stated
   const DRAWN = [140, 92, 124, 80, 108, 132]; // elements of an ensemble; nodes rebound by 0, ½ and 1 of their velocity
-  const NAMES = ["restitution", "impulse", "lastContact", "moment", "force", "until"];
+  const NAMES = ["restitution", "impulse", "lastContact", "moment", "force"];
   const quick = ({ wall }) => ({ elements: 40, steps: wall ? 1000 : 2000, longest: 3 }); // for a first picture
 
   /** Elements a half beam, steps a T*, law: finer where a front is thin or damping small (hermite_fe/resolution.py). */
@@ -21,8 +21,10 @@ const Answer = (() => {
   function runs(p) {
     const base = resolution(p), half = { ...base, elements: Math.round(base.elements / 2), steps: base.steps / 2 };
     if (p.eta) return p.wall ? { base, half } : { base, half, law: { ...base, atPosition: !base.atPosition } };
-    return Object.fromEntries(DRAWN.map((elements, i) => (
-      [i ? `drawn ${i}` : "base", { elements, steps: Math.round((0.5 + 0.2 * i) * elements ** 2), rebound: (i % 3) / 2 }])));
+    return Object.fromEntries(DRAWN.map((elements, i) => {
+      const drawn = { elements, steps: Math.round((0.5 + 0.2 * i) * elements ** 2), rebound: (i % 3) / 2 };
+      return [i ? `drawn ${i}` : "base", drawn];
+    }));
   }
 
   /** Numbers of finished runs: value and bar (null while companions are missing), or mean ± std of an ensemble. */
@@ -38,8 +40,9 @@ const Answer = (() => {
         return [name, { value: mean, bar: std, runs: values.length }];
       }
       const bar = FACTOR * values.reduce((sum, value) => sum + Math.abs(value - base[name]), 0);
-      const { elements, steps } = resolution(p), known = { lastContact: 0.5 / steps, force: p.wall ? p.wall.c / elements : 0 };
-      return [name, { value: base[name], bar: bar + (known[name] || 0) }]; // the dashpots of a node land at once
+      const { elements, steps } = resolution(p), landing = p.wall ? p.wall.c / elements : 0; // all dashpots of a node
+      const known = { lastContact: 0.5 / steps, force: landing };
+      return [name, { value: base[name], bar: bar + (known[name] || 0) }];
     }));
   }
 

@@ -27,7 +27,8 @@ const Beam = (() => {
       stress: ["ksi", 6.894757293168e6], share: ["%", 0.01], stiffness: ["klbf/in²", 6.894757293168e6],
       gravity: ["ft/s²", 0.3048], area: ["in²", 0.0254 ** 2], second: ["in⁴", 0.0254 ** 4],
       time: [["µs", 1e-6], ["ms", 1e-3], ["s", 1]], force: [["lbf", 4.4482216152605], ["klbf", 4448.2216152605]],
-      push: [["lbf/ft", 14.593902937206], ["klbf/ft", 14593.902937206]], impulse: [["lbf s", 4.4482216152605]], moment: [["ft lbf", 1.3558179483314], ["ft klbf", 1355.8179483314]],
+      push: [["lbf/ft", 14.593902937206], ["klbf/ft", 14593.902937206]],
+      impulse: [["lbf s", 4.4482216152605]], moment: [["ft lbf", 1.3558179483314], ["ft klbf", 1355.8179483314]],
       place: [["in", 0.0254], ["ft", 0.3048]], gap: [["mil", 2.54e-5], ["in", 0.0254], ["ft", 0.3048]],
     },
   };
@@ -35,12 +36,12 @@ const Beam = (() => {
   // Every input: group, name, label, quantity, value to start with (SI), which values may be, when it is asked for, and
   // what it means to leave it empty (null), where that is allowed.
   const positive = (v) => v > 0, whole = (v) => v >= 0, any = () => true; // of values; `any` of inputs too
-  const on = (field, ...kinds) => (i) => kinds.includes(i[field]), bar = on("section", "pipe", "round_bar", "rectangle");
+  const on = (field, ...kinds) => (i) => kinds.includes(i[field]);
   const CHOICES = [
     { name: "units", label: "Units", group: "", options: { si: "metric", oilfield: "oilfield" } },
     { name: "section", label: "Section", group: "Beam",
       options: { pipe: "pipe", round_bar: "round bar", rectangle: "rectangle", general: "by its area and I" } },
-    { name: "model", label: "Shear", group: "Beam", shown: bar,
+    { name: "model", label: "Shear", group: "Beam", shown: on("section", "pipe", "round_bar", "rectangle"),
       options: { timoshenko: "counts", euler_bernoulli: "left out" } },
     { name: "bow", label: "Given as", group: "Bow",
       options: { sagitta: "sagitta", curvature: "curvature", dogleg: "dogleg" } },
@@ -64,7 +65,7 @@ const Beam = (() => {
     ["Beam", "damping_ratio", "Damping ratio, 1st mode", "share", 0.01, whole, any, "not stated"],
     ["Bow", "curvature", "Curvature K", "curvature", 0.009, positive, on("bow", "curvature")],
     ["Bow", "sagitta", "Sagitta", "sagitta", 0.01, positive, on("bow", "sagitta")],
-    ["Bow", "sagitta_length", "Length of the sagitta", "length", null, positive, on("bow", "sagitta"), "the beam’s"],
+    ["Bow", "sagitta_length", "Length of the sagitta", "length", null, positive, on("bow", "sagitta"), "L"],
     ["Bow", "dogleg", "Dogleg", "dogleg", 0.5 * PI / 180, positive, on("bow", "dogleg")],
     ["Bow", "natural_share", "Stress-free part of the bow", "share", 1, any],
     ["Approach", "velocity", "Velocity V₀", "velocity", 1, positive, on("approach", "velocity")],
@@ -88,7 +89,8 @@ const Beam = (() => {
       const value = inputs[field.name];
       if (!field.shown(inputs) || (value === null && field.empty)) continue;
       const rule = field.ok === positive ? "be positive" : "not be negative";
-      if (!Number.isFinite(value)) list.push([field.name, `${field.label} needs a number, without thousands separators.`]);
+      if (!Number.isFinite(value))
+        list.push([field.name, `${field.label} needs a number, without thousands separators.`]);
       else if (!field.ok(value)) list.push([field.name, `${field.label} must ${rule}.`]);
     }
     if (inputs.section === "pipe" && inputs.inner_diameter >= inputs.outer_diameter)
@@ -135,7 +137,8 @@ const Beam = (() => {
     return {
       area, modulus: second / (height / 2), stiffness: i.youngs_modulus * second,
       mass: i.density * area + (i.section === "pipe" ? i.fluid_density * bore : 0) + i.added_mass,
-      shear: sheared ? coefficient * i.youngs_modulus / (2 * (1 + n)) * area : 0, turning: sheared ? i.density * second : 0,
+      shear: sheared ? coefficient * i.youngs_modulus / (2 * (1 + n)) * area : 0,
+      turning: sheared ? i.density * second : 0,
     };
   }
 
@@ -154,25 +157,27 @@ const Beam = (() => {
   }
 
   /** η (s) of a damping ratio of the first free–free mode without shear. */
-  const dampingTime = ({ stiffness, mass }, length, ratio) => 2 * ratio * (length / FIRST_MODE) ** 2 / sqrt(stiffness / mass);
+  const dampingTime = ({ stiffness, mass }, length, ratio) => (
+    2 * ratio * (length / FIRST_MODE) ** 2 / sqrt(stiffness / mass));
 
   /** SI units of ℓ = EI = μ = V₀ = 1. */
   function scales(b) {
     const half = b.length / 2, c = sqrt(b.stiffness / b.mass), time = half * half / c;
-    const impulse = b.mass * half * b.velocity;
-    return { length: half, time, deflection: b.velocity * time, impulse, force: impulse / time, line: impulse / time / half,
-      moment: b.velocity * sqrt(b.stiffness * b.mass) };
+    const impulse = b.mass * half * b.velocity, force = impulse / time;
+    const moment = b.velocity * sqrt(b.stiffness * b.mass);
+    return { length: half, time, deflection: b.velocity * time, impulse, force, line: force / half, moment };
   }
 
   /** The problem that solver.js simulates, of η = `damping`. */
   function problem(b, damping) {
-    const { length, time } = scales(b), bend = sqrt(b.stiffness / b.mass) / b.velocity, tension = b.tension * length ** 2 / b.stiffness;
+    const { length, time } = scales(b), bend = sqrt(b.stiffness / b.mass) / b.velocity;
+    const tension = b.tension * length ** 2 / b.stiffness, line = length ** 4 / b.stiffness;
     return {
       kappa: (b.curvature - b.wallCurvature) * bend, eta: damping / time,
       shear: b.shear * length ** 2 / b.stiffness, turning: b.turning / (b.mass * length ** 2),
       load: b.acceleration * time / b.velocity, tension, pull: tension * b.curvature * bend,
       before: (b.naturalCurvature - b.curvature) * bend,
-      wall: b.wallStiffness ? { k: b.wallStiffness * length ** 4 / b.stiffness, c: b.wallDamping * length ** 4 / b.stiffness / time } : null,
+      wall: b.wallStiffness ? { k: b.wallStiffness * line, c: b.wallDamping * line / time } : null,
     };
   }
 

@@ -45,7 +45,7 @@ const Case = (() => {
       "[impact]",
       ...(drop ? line("drop_height", i.drop_height, "m") : line("velocity", b.velocity, "m/s")),
       ...(i.load ? [] : line("gravity", i.gravity, "m/s², towards the wall")),
-      ...(i.load ? line("acceleration", b.acceleration, "m/s²: gravity, tension and a load of " + float(i.load) + " N/m") : []),
+      ...(i.load ? line("acceleration", b.acceleration, `m/s²: gravity, tension and ${float(i.load)} N/m`) : []),
       "",
       "[wall]",
       ...given("curvature", i.wall_curvature, "1/m, concave > 0"),
@@ -72,11 +72,16 @@ const Case = (() => {
     return found;
   }
 
-  const SAME = ["fluid_density", "added_mass", "yield_stress", "youngs_modulus", "density", ...Object.values(SHAPES).flat()];
+  const SAME = ["fluid_density", "added_mass", "yield_stress", "youngs_modulus", "density"];
+  function one(name, value, known) {
+    if (!known.includes(value)) throw new Error(`${name} must be one of ${known.join(", ")} here (got ${value})`);
+    return value;
+  }
   /** table.key → what it sets of the inputs `i`; all other keys are refused by name. */
   const KEYS = {
-    "section.kind": (i, v) => { if (!SHAPES[v]) throw new Error(`section.kind "${v}" is not known here`); i.section = v; },
-    ...Object.fromEntries(SAME.map((name) => [`section.${name}`, (i, v) => { i[name] = v; }])),
+    "section.kind": (i, v) => { i.section = one("section.kind", v, Object.keys(SHAPES)); },
+    ...Object.fromEntries([...SAME, ...Object.values(SHAPES).flat()].map((name) => (
+      [`section.${name}`, (i, v) => { i[name] = v; }]))),
     "section.wall_thickness": (i, v) => { i.inner_diameter = i.outer_diameter - 2 * v; },
     "beam.length": (i, v) => { i.length = v; },
     "beam.curvature": (i, v) => { i.bow = "curvature"; i.curvature = v; },
@@ -86,7 +91,7 @@ const Case = (() => {
     "beam.natural_curvature": (i, v) => { i.natural_share = v / Beam.bow(i); },
     "beam.damping_ratio": (i, v) => { i.damping_ratio = v; },
     "beam.axial_force": (i, v) => { i.tension = v; },
-    "beam.model": (i, v) => { i.model = v; },
+    "beam.model": (i, v) => { i.model = one("beam.model", v, ["timoshenko", "euler_bernoulli"]); },
     "impact.velocity": (i, v) => { i.approach = "velocity"; i.velocity = v; },
     "impact.drop_height": (i, v) => { i.approach = "drop"; i.drop_height = v; },
     "impact.gravity": (i, v) => { i.gravity = v; },

@@ -18,7 +18,10 @@ const Form = (() => {
     if (typeof units[0] === "string") return units;
     return units.findLast(([, size]) => Math.abs(value) >= size) || units[0];
   }
-  const quantity = (name, value, digits) => { const [symbol, size] = unit(name, value); return `${text(value / size, digits)} ${symbol}`; };
+  function quantity(name, value, digits) {
+    const [symbol, size] = unit(name, value);
+    return `${text(value / size, digits)} ${symbol}`;
+  }
 
   function choice({ name, label, options }) {
     const select = element("select", { id: `in-${name}`, name });
@@ -37,13 +40,12 @@ const Form = (() => {
 
   function number(field) {
     const id = `in-${field.name}`, input = element("input", {
-      id, name: field.name, type: "text", inputmode: "decimal", autocomplete: "off", spellcheck: "false", placeholder: field.empty,
-      "aria-describedby": `unit-${field.name} wrong-${field.name}`,
+      id, name: field.name, type: "text", inputmode: "decimal", autocomplete: "off", spellcheck: "false",
+      placeholder: field.empty, "aria-describedby": `unit-${field.name} wrong-${field.name}`,
     });
     input.addEventListener("input", () => {
-      const before = field.name in shownWith ? inputs[field.name] === null : false;
       inputs[field.name] = typed(field, input.value);
-      if (before !== (inputs[field.name] === null) && field.name in shownWith) fill(input);
+      if (field.empty) fill(input); // whether there is a value decides which other fields there are
       grip(field);
       changed();
     });
@@ -53,7 +55,6 @@ const Form = (() => {
       element("span", { class: "entry" }, input, element("span", { class: "unit", id: `unit-${field.name}` })),
       element("span", { class: "wrong", id: `wrong-${field.name}`, role: "status" }));
   }
-  const shownWith = { wall_stiffness: true }; // fields that show others
 
   /** The slider takes a field with a value other than 0: from a quarter to four times of it. */
   function grip(field) {
@@ -116,10 +117,15 @@ const Form = (() => {
       if (value === "" && empty) found[name] = null;
       else if (value && Number.isFinite(Number(value))) found[name] = Number(value);
     }
-    set(found);
+    return found;
   }
 
-  const set = (found) => { inputs = found; fill(); grip(FIELDS.find(({ name }) => name === (found.approach === "drop" ? "drop_height" : "velocity"))); };
+  function set(found) {
+    const arrives = found.approach === "drop" ? "drop_height" : "velocity";
+    inputs = found;
+    fill();
+    grip(FIELDS.find(({ name }) => name === arrives));
+  }
 
   /** Build the fields; `listener` is called with each change. */
   function start(listener) {
@@ -134,7 +140,7 @@ const Form = (() => {
     find("#drag").addEventListener("input", drag);
     find("#drag").addEventListener("change", () => grip(dragged.field));
     changed = listener;
-    fromLink();
+    set(fromLink());
   }
 
   return { find, element, unit, quantity, inputs: () => inputs, set, start, complain, toLink, fromLink };

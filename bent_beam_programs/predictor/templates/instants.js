@@ -11,7 +11,8 @@ const Instants = (() => {
     const contact = Theory.contact((b.curvature - b.wallCurvature) * c / b.velocity, alpha, n);
     const solved = { b, c, half, timeScale, slow, alpha, n, contact };
     const moment = bending(solved, contact, 1), stress = Beam.stress(b, moment);
-    return { ...solved, moment, stress, reflected: Limits.ends(solved) * timeScale, limits: Limits.limits(solved, b.yieldStress && stress > b.yieldStress) };
+    const limits = Limits.limits(solved, b.yieldStress && stress > b.yieldStress);
+    return { ...solved, moment, stress, limits, reflected: Limits.ends(solved) * timeScale };
   }
 
   /** Largest bending moment, N m; `factor` of that at the contact. */
@@ -41,24 +42,29 @@ const Instants = (() => {
   /** Half contact length, force, impulse, moment and stress at t > 0; null where the contact does not exist. */
   function at(p, t) {
     const { b, c, timeScale, alpha, n } = p, tau = t / timeScale, age = t / b.damping, root = sqrt(c * t);
-    const single = age <= min(Point.spreads(p.contact.ratio), 1e12), spreads = p.contact.lambda0 > 0; // one point as yet
-    const contact = single && spreads ? Theory.contact(1, alpha, n) : p.contact, { lambda0, lambda1, r0, r1, uniform } = contact;
+    const single = age <= min(Point.spreads(p.contact.ratio), 1e12); // one point as yet
+    const contact = single && p.contact.lambda0 > 0 ? Theory.contact(1, alpha, n) : p.contact;
+    const { lambda0, lambda1, r0, r1, uniform } = contact;
     const [ofForce, ofImpulse, ofLoad] = single ? [0, 1, 2].map((m) => Point.damped(age, m)) : [1, 1, 1];
-    const momentum = b.mass * b.velocity, front = 2 * Theory.s * momentum * root, pressure = uniform * momentum / timeScale;
+    const momentum = b.mass * b.velocity, front = 2 * Theory.s * momentum * root;
+    const pressure = uniform * momentum / timeScale;
     let halfLength = root * (lambda0 + lambda1 * tau);
     let force = front * (ofForce * r0 + ofImpulse * r1 * tau) / t;
-    let impulse = 2 * front * (ofImpulse * r0 + ofLoad * r1 * tau / 3) + 4 * pressure * root * t * (lambda0 / 3 + lambda1 * tau / 5);
+    let impulse = 2 * front * (ofImpulse * r0 + ofLoad * r1 * tau / 3)
+      + 4 * pressure * root * t * (lambda0 / 3 + lambda1 * tau / 5);
     const exists = lambda0 + lambda1 * tau >= 0 && r0 + r1 * tau > 0 && halfLength <= p.half;
-    if (b.shear) {
-      const length = sqrt(b.stiffness / b.shear), time = length * length / c, unit = b.velocity * sqrt(b.shear * b.mass);
-      const g = b.turning / b.mass / length ** 2, zone = { lambda0, r0, point: lambda0 === 0 };
+    if (b.shear) { // its own leading order in place of Euler and Bernoulli's
+      const length = sqrt(b.stiffness / b.shear), time = length * length / c;
+      const unit = b.velocity * sqrt(b.shear * b.mass), g = b.turning / b.mass / length ** 2;
+      const zone = { lambda0, r0, point: lambda0 === 0 };
       const [X, R, J] = sheared(p.contact.ratio, zone, g, t / time, b.damping / time);
       halfLength += length * X - root * lambda0;
       force += unit * R / sqrt(t / time) - front * ofForce * r0 / t;
       impulse += unit * time * J - 2 * front * ofImpulse * r0;
     }
+    force += 2 * halfLength * pressure;
     const moment = bending(p, contact, single ? Point.erf(sqrt(min(age, 100))) : 1);
-    return { exists, halfLength, force: force + 2 * halfLength * pressure, impulse, moment, stress: Beam.stress(b, moment) };
+    return { exists, halfLength, force, impulse, moment, stress: Beam.stress(b, moment) };
   }
 
   return { solve, at };

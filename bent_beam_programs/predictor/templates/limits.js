@@ -8,7 +8,8 @@ const Limits = (() => {
     const { lambda0, r0 } = contact, twice = (2 * V.distance + lambda0) ** -2;
     let time = max(V.distance + lambda0, V.flat * lambda0) ** -2;
     const swing = 4 * sqrt(2) * abs(b.tension) * b.curvature * slow / (b.mass * b.velocity * r0); // a T*
-    if (swing * time > V.tolerance) time = min(time, max(V.tolerance / swing, min(twice, sqrt(V.tolerance / (2 * swing)))));
+    if (swing * time > V.tolerance)
+      time = min(time, max(V.tolerance / swing, min(twice, sqrt(V.tolerance / (2 * swing)))));
     return time * slow / timeScale;
   }
 
@@ -48,9 +49,12 @@ const Limits = (() => {
   function limits(problem, yields) {
     const { b, contact, timeScale, n } = problem, never = (by) => ({ from: 0, until: 0, by, after: null });
     if (yields) return never("section");
-    const alone = Theory.contact(contact.ratio, problem.alpha), leads = n && abs(contact.r1 - alone.r1) >= abs(alone.r1);
-    const list = [[ends(problem), "waves back from the ends"], [loads(problem), leads ? "tension" : "first-order correction"],
-      [(V.slope / contact.steepest) ** 2, "slope"], [damping(problem), "damping"]];
+    const alone = Theory.contact(contact.ratio, problem.alpha);
+    const leads = n && abs(contact.r1 - alone.r1) >= abs(alone.r1);
+    const list = [
+      [ends(problem), "waves back from the ends"], [loads(problem), leads ? "tension" : "first-order correction"],
+      [(V.slope / contact.steepest) ** 2, "slope"], [damping(problem), "damping"],
+    ];
     const [tau, by] = list.reduce((one, other) => (other[0] < one[0] ? other : one)), until = tau * timeScale;
     const shear = b.shear && (contact.ratio < V.flattest_sheared ? Infinity
       : max(V.forgotten, contact.ratio ** -2) * sqrt(b.stiffness * b.mass) / b.shear);

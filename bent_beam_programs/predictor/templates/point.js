@@ -33,9 +33,9 @@ const Point = (() => {
     return low * low;
   }
 
-  // --- with shear: units t_s = √(EIμ)/S, force V₀√(Sμ); Laplace transforms (theory/shear.py) ---------------------------
+  // With shear: units t_s = √(EIμ)/S, force V₀√(Sμ); Laplace transforms (theory/shear.py).
   const times = ([a, b], [c, d]) => [a * c - b * d, a * d + b * c];
-  const over = ([a, b], [c, d]) => { const size = c * c + d * d; return [(a * c + b * d) / size, (b * c - a * d) / size]; };
+  const over = (x, [c, d]) => times(x, [c / (c * c + d * d), -d / (c * c + d * d)]);
   const plus = ([a, b], [c, d]) => [a + c, b + d];
   const root = ([a, b]) => { // no digit lost to a difference
     const large = sqrt((hypot(a, b) + abs(a)) / 2), small = abs(b) / (2 * large);

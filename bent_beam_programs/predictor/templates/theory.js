@@ -53,8 +53,8 @@ const Theory = (() => {
     const kind = regime === "detached" ? "detached" : "continuous";
     const sum = (order) => number(`${order}_alpha_${kind}`, like) * alpha ** 2
       + number(`${order}_both_${kind}`, like) * alpha * here + number(`${order}_axial_${kind}`, like) * here ** 2;
-    const grown = flatter < 1 ? { lambda: lambda0 / number("lambda0", like), r: r0 / number("r0", like) } : { lambda: 1, r: 1 };
-    return { lambda2: sum("lambda2") * grown.lambda, r2: sum("r2") * grown.r };
+    const grown = (name, value) => (flatter < 1 ? value / number(name, like) : 1);
+    return { lambda2: sum("lambda2") * grown("lambda0", lambda0), r2: sum("r2") * grown("r0", r0) };
   }
 
   return { s, contact, second };
