@@ -38,7 +38,7 @@ def plot(
     format: Annotated[list[str], typer.Option(help="png, pdf or svg; repeatable.")] = ["png"],  # noqa: B006
     as_json: Json = False,
 ) -> None:
-    """Draw stored runs: beam, force map, impulse, energies.
+    """Draw stored runs: force, stress, contact, shapes, energies.
 
     Example: bentbeam plot run.nc --out pictures
     """

@@ -32,6 +32,7 @@ API = {
         "comparison.rows",
         "comparison.matching",
         "comparison.bouncing",
+        "comparison.sweeping",
     ),
     "open_benchmark": ("bent_beam_programs.open_benchmark",),
 }
