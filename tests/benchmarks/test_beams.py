@@ -1,34 +1,42 @@
 """Whole beams drawn at random: what is drawn, and how it is counted."""
 
 import numpy as np
-import pytest
 
 import benchmarks.beams
-from benchmarks.beams import beams, draw, main
+from benchmarks.beams import STRATA, draw, main
+from benchmarks.coverage import Point
 from bent_beam.cases import load_case
-from bent_beam.measure.numbers import Number
 
 
-def test_beams_are_damped_and_not_pressed_and_lifted_pulled_and_pushed_before_flat_and_curved_walls(tmp_path):
-    random, drawn = np.random.default_rng(5), []
-    for k in range(60):
-        file = tmp_path / f"{k}.toml"
-        file.write_text(draw(random))
-        drawn.append(load_case(file).impact)
-    assert {bool(one.damping) for one in drawn} == {False, True}
-    for values in ([one.acceleration for one in drawn], [one.axial_force for one in drawn]):
+def drawn(tmp_path, stratum, number=20):
+    random, file = np.random.default_rng(5), tmp_path / "drawn.toml"
+    found = []
+    for _ in range(number):
+        file.write_text(draw(random, stratum))
+        found.append(load_case(file).impact)
+    return found
+
+
+def test_every_stratum_is_what_it_is_called(tmp_path):
+    beams = {stratum: drawn(tmp_path, stratum) for stratum in STRATA}
+    assert all(one.damping for beam in beams.values() for one in beam), "without damping there are bands, no bars"
+    assert {one.shear_stiffness is None for one in beams["rigid"]} == {False, True}
+    assert all(one.wall_stiffness for one in beams["wall"])
+    assert {one.wall_damping > 0.0 for one in beams["wall"]} == {False, True}
+    assert all(one.supported or one.wall_in_part for one in beams["support"])
+    assert all(one.acceleration or one.axial_force or one.wall_curvature for one in beams["loads"])
+    for values in ([one.acceleration for one in beams["loads"]], [one.axial_force for one in beams["loads"]]):
         assert min(values) < 0.0 < max(values) and 0.0 in values
-    assert {one.tension_direction for one in drawn} == {"axis", "tangent"}
-    assert len({one.wall_curvature for one in drawn}) > 8
+    assert max(one.damping for one in beams["light"]) < np.median([one.damping for one in beams["rigid"]])
 
 
-def test_a_beam_on_which_the_codes_differ_by_more_than_their_bars_stays_as_a_case_file(tmp_path, monkeypatch):
-    def told(file, path):
-        off = 0.1 if path == "exudyn" and file.name == "beam-1.toml" else 0.0
-        return dict.fromkeys(benchmarks.beams.NAMES, Number(1.0 + off, 0.03))
+def test_a_number_beyond_its_bar_fails_its_stratum_and_its_beam_stays_as_a_case_file(tmp_path, monkeypatch):
+    def found(row, stratum, file):
+        return [Point(row, 0.5, stratum, "impulse", 0.06 if row == 1 else 0.01, 0.05)]
 
-    monkeypatch.setattr(benchmarks.beams, "run_all", lambda what, asked, jobs: [told(*one) for one in asked])
-    assert main(["--rows", "3", "--seed", "1", "--out", str(tmp_path)]) == 1
-    assert [file.name for file in tmp_path.iterdir()] == ["beam-1.toml"]
-    found = beams([tmp_path / "beam-1.toml"])
-    assert found.points[0].error / found.points[0].bar == pytest.approx(0.1 / (0.03 * 2.0**0.5))
+    monkeypatch.setattr(benchmarks.beams, "run_all", lambda what, rows, jobs: [found(*row) for row in rows])
+    out = tmp_path / "out"
+    assert main(["--rows", "20", "--seed", "1", "--out", str(out)]) == 1, "3 of 4 elastic walls are not 90 %"
+    assert [file.name for file in out.iterdir()] == ["beam-1.toml"]
+    monkeypatch.setattr(benchmarks.beams, "run_all", lambda what, rows, jobs: [found(20, *row[1:]) for row in rows])
+    assert main(["--rows", "20", "--seed", "1", "--out", str(out)]) == 0
