@@ -5,7 +5,7 @@ const Answer = (() => {
   const RATIOS = [0.0002, 0.002, 0.02]; // damping ratios where none is stated
   const DRAWN = [140, 92, 124, 80, 108, 132]; // elements of an ensemble; nodes rebound by 0, ½ and 1 of their velocity
   const NAMES = ["restitution", "impulse", "lastContact", "moment", "force"];
-  const quick = ({ wall }) => ({ elements: 40, steps: wall ? 1000 : 2000, longest: 3 }); // for a first picture
+  const quick = ({ wall }) => ({ elements: 32, steps: wall ? 1000 : 1600, longest: 3 }); // for a first picture
 
   /** Elements a half beam, steps a T*, law: finer where a front is thin or damping small (hermite_fe/resolution.py). */
   function resolution(p) {
