@@ -166,7 +166,8 @@ class Bounce:
                 "the loads bring the beam back to the wall; these numbers are those of the first hit (--hits follows "
                 "more)"
             )
-        return [*found, *loss_warnings(numerical_loss(self.energy)), *self.balance.warnings]
+        told = [*self.runs.run.warnings, *loss_warnings(numerical_loss(self.energy)), *self.balance.warnings]
+        return [*found, *told]
 
 
 def problem(kappa_over_nu: float, damping: float) -> Impact:

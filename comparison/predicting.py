@@ -183,7 +183,7 @@ def numbers_at(runs: Runs | None, case: Case) -> dict[str, Number]:
 def _of_runs(every: Any) -> list[str]:
     found: list[str] = []
     for runs in every:
-        found += [*runs.lost, *loss_warnings(numerical_loss(runs.run.reading["energy"]))]
+        found += [*runs.run.warnings, *runs.lost, *loss_warnings(numerical_loss(runs.run.reading["energy"]))]
     return found
 
 

@@ -77,12 +77,14 @@ class Prediction:
 
     Attributes:
         lambda1, r1: with everything; `lambda_axial`, `r_axial` per unit of `axial`.
-        peak_moment, peak_stress: the largest at leading order and without damping, where they are constant in time;
-            N m, Pa. Waves that come back from the ends make larger ones: they are those of the first instants only.
+        peak_moment, peak_stress: the largest at leading order until `valid_until`, N m, Pa. Without damping they are
+            constant in time; where the theory never holds, they are those without damping. Waves that come back from
+            the ends make larger ones: they are those of the first instants only.
         valid_from, valid_until: s; half length, force and impulse are within 2 % between them (`theory.validity`).
         valid_after: what spoils them before valid_from, one of the names in `theory.validity`; None: nothing does.
         limited_by: what ends it, one of these names.
-        yields: whether the peak stress is beyond the yield stress; None if either is not known.
+        yields: whether the stress at leading order without damping is beyond the yield stress; None if either is not
+            known.
         peak_force: the largest force on the whole zone, N; None on a rigid wall, where it is infinite.
         wall: that with all about a wall that gives way. Everything else is that of a rigid wall.
     """
@@ -165,6 +167,9 @@ def predict(impact: Impact, times: Iterable[float] | float = (), *, section: Sec
         rigid_from=0.0 if wall is None else wall.rigid_from,
         yields=bool(yields),
     )
+    if impact.damping > 0.0 and 0.0 < holds.until < math.inf:  # grows until then
+        last = _at_time(impact, solved, bending, holds.until * (1.0 - 1e-9), None)
+        peak, stress = last.peak_moment, last.peak_stress
     rows = tuple(_at_time(impact, solved, bending, t, holds.spoiled_by(t)) for t in instants)
     return Prediction(
         **{name: getattr(impact, name) for name in _OF_IMPACT},
@@ -209,14 +214,18 @@ class _Bending:
     section: Section | None
 
     def peak(self, factor: float = 1.0) -> tuple[float, float]:
-        """Largest |M| (N m) and its place x/√(ct); `factor` multiplies the moment at the contact."""
+        """Largest |M| (N m) and its place x/√(ct).
+
+        `factor` multiplies the moment at the contact of a damped point. Ahead of it this is an upper bound: the moment
+        there is a quarter of that at the contact at first and 0.56 of it in the end, as without damping.
+        """
         impact = self.impact
         unit = impact.velocity * math.sqrt(impact.bending_stiffness * impact.mass_per_length)
         before = 0.0
         if impact.natural_curvature is not None:
             before = impact.bending_stiffness * (impact.natural_curvature - impact.curvature)
         at_contact = abs(before + unit * self.moments.at_contact * factor)
-        ahead = abs(before - unit * self.moments.ahead)
+        ahead = abs(before - unit * self.moments.ahead * factor)
         if at_contact >= max(ahead, abs(before)):
             return at_contact, 0.0
         return (ahead, self.moments.place) if ahead >= abs(before) else (abs(before), math.inf)

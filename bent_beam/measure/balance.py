@@ -195,7 +195,7 @@ def _second_moment(history: ImpactHistory, missing: Array | None) -> float | Non
     x, both = history.positions(0), 2.0 / history.sides
     angles = history.array(turning) + impact.curvature * x
     turn = both * angles[:, -1] - (angles[:, 0] if history.sides == 2 else 0.0)
-    turned = np.concatenate([[0.0], np.cumsum(0.5 * (turn[1:] + turn[:-1]) * np.diff(time))])
+    turned, coarser = _integral_over(time, turn), _integral_over(time[::2], turn[::2])
     force = impact.load_within(0.5 * _length(history), 2) * time
     force -= 2.0 * impact.bending_stiffness * (turned + impact.damping * (turn - turn[0]))
     impulse = history.array("impulse") - (history.array("opposite_impulse") if "opposite_impulse" in history else 0.0)
@@ -205,8 +205,14 @@ def _second_moment(history: ImpactHistory, missing: Array | None) -> float | Non
         gained += 2.0 * impact.rotary_inertia * both * _integral(x, x * history.array("angular_velocity"))
     # what is missing of the momentum may be missing anywhere, at the ends at the farthest
     unexplained = np.abs(gained - gained[0] - force + pushed) - np.abs(missing).max() * np.square(x).max()
+    unexplained -= 2.0 * impact.bending_stiffness * np.abs(turned[::2] - coarser).max()  # what lies between instants
     least = np.abs(history.array("total_impulse")) * np.square(np.diff(x).max())  # a place is known to an element
     return _residual(np.maximum(unexplained, 0.0), np.maximum(np.abs(pushed), least))
+
+
+def _integral_over(time: Array, values: Array) -> Array:
+    """From the first of the instants to each of them, by the trapezium rule."""
+    return np.concatenate([[0.0], np.cumsum(0.5 * (values[1:] + values[:-1]) * np.diff(time))])
 
 
 def _of_fast_part(history: ImpactHistory) -> Array:

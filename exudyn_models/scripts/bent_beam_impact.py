@@ -1,7 +1,10 @@
-"""A naturally bent beam hits a rigid plane, in Exudyn's own items: half of it, whose middle touches y = 0 at t = 0.
+"""A naturally bent beam hits a rigid plane, in Exudyn's own items. Its middle touches y = 0 at t = 0.
 
-EI = μ = V₀ = 1, κ is the curvature of the bow. Contact spreads as x = λ₀√t; the impulse on the whole beam is
-4√(2t/π) r₀.   python bent_beam_impact.py [--element ...] [--contact ...] [--integrator ...] [--view]
+    python bent_beam_impact.py [--kappa-over-nu ...] [--element ...] [--contact ...] [--integrator ...] [--view]
+
+Bending stiffness, mass per length and velocity are EI = μ = V₀ = 1, so that the curvature κ of the bow is κ/ν,
+ν = V₀√(μ/EI). Half of the beam is modelled. The contact spreads as x = λ₀√t, and the impulse on the whole beam is
+4√(2t/π) r₀, r₀ = 1 being that of a single point (two-scale theory of an infinite undamped beam).
 """
 
 import argparse
@@ -12,18 +15,17 @@ import exudyn as exu
 import exudyn.itemInterface as items
 import numpy as np
 
-EXACT = {0.1: (4.25760, 2.74499), 0.2: (2.70353, 1.88523), 0.5: (1.01887, 1.17721), 0.8: (0.29685, 1.01915)}  # λ₀, r₀
+# κ/ν: exact λ₀, r₀
+EXACT = {0.1: (4.25760, 2.74499), 0.2: (2.70353, 1.88523), 0.5: (1.01887, 1.17721), 0.8: (0.29685, 1.01915)}
 COUNT, LENGTH, END, STEPS = 400, 0.0125, 0.1, 1500  # elements and the length of each; the run
 X = LENGTH * np.arange(COUNT + 1)
 SHARE = np.where((X > 0) & (X < X[-1]), LENGTH, LENGTH / 2)  # length of beam that each node stands for
-LAW = {"contactStiffness": 10 / LENGTH**3, "contactDamping": 40 / LENGTH}  # as stiff as elements, no node rebounds
-GONTHIER = LAW | {"contactDamping": 0, "impactModel": 2, "restitutionCoefficient": 0.5}
+# a penalty as stiff as the elements are in bending; its dashpot keeps nodes from rebounding
+DASHPOT = {"contactStiffness": 10 / LENGTH**3, "contactDamping": 40 / LENGTH}
+GONTHIER = DASHPOT | {"contactDamping": 0, "impactModel": 2, "restitutionCoefficient": 0.5}  # 2: Gonthier's law
 KINDS: dict[str, dict[str, Any]] = {
     "element": {"ancf_cable": items.ObjectANCFCable2D, "geometrically_exact": items.ObjectBeamGeometricallyExact2D},
-    "contact": {
-        "dashpot": LAW,
-        "gonthier": {**LAW, "contactDamping": 0, "impactModel": 2, "restitutionCoefficient": 0.5},
-    },
+    "contact": {"dashpot": DASHPOT, "gonthier": GONTHIER},
     "integrator": {
         "generalized_alpha": {"spectralRadius": 0.5},
         "newmark": {"useNewmark": True, "newmarkGamma": 0.6, "newmarkBeta": 0.3025},
@@ -45,7 +47,8 @@ def main(arguments: Sequence[str] | None = None) -> None:
 
     # the beam: a bow free of stress that moves towards y > 0; symmetry holds x and the slope of its middle
     section: dict[str, Any] = {"length": LENGTH, "massPerLength": 1, "bendingStiffness": 1, "axialStiffness": 1}
-    section |= {"referenceCurvature": -small * chosen.kappa, "bendingDamping": 0.15 * LENGTH**2}
+    section |= {"referenceCurvature": -small * chosen.kappa}
+    section |= {"bendingDamping": 0.15 * LENGTH**2}  # of waves as short as elements, which no mesh carries
     node_kind: Any
     if cable := chosen.element == "ancf_cable":
         node_kind, straight, own = items.NodePoint2DSlope1, [1, 0], [0, 1, 3]  # x, y, x′, y′
@@ -81,8 +84,8 @@ def main(arguments: Sequence[str] | None = None) -> None:
     settings.linearSolver.solverType = exu.LinearSolverType.EigenSparse
     stepping = settings.timeIntegration
     stepping.endTime, stepping.numberOfSteps, stepping.adaptiveStep = END, STEPS, False
-    stepping.newton.relativeTolerance, stepping.newton.absoluteTolerance = 1e-5, 1e-7 * small  # in place of 1e-10
-    stepping.discontinuous.iterationTolerance = 1e-4 * small  # in place of 1, above every force here
+    stepping.newton.relativeTolerance, stepping.newton.absoluteTolerance = 1e-5, 1e-7 * small
+    stepping.discontinuous.iterationTolerance = 1e-4 * small  # a force: Exudyn's 1 is above all here
     stepping.discontinuous.useRecommendedStepSize = False  # contact changes in most steps
     for name, value in KINDS["integrator"][chosen.integrator].items():
         setattr(stepping.generalizedAlpha, name, value)
@@ -92,8 +95,8 @@ def main(arguments: Sequence[str] | None = None) -> None:
         container.renderer.DoIdleTasks()
         container.renderer.Stop()
 
-    # the impulse is the momentum that is lost; its moment about the middle, that of the beam there being EI κ while the
-    # zone is flat, says where the contact has come: the plane pushes at its end only, which moves as √t
+    # the impulse is the momentum P that is lost, ∫lost dx; it acts at the zone's end, which moves as λ₀√t, against
+    # the moment EI κ of the flat zone: ∫x lost dx = κt + ½λ₀√t P
     lost = SHARE * (1 - mbs.systemData.GetODE2Coordinates_t().reshape(X.size, -1)[:, own[1]] / small)
     lambda0 = 2 * (X @ lost - chosen.kappa * END) / lost.sum() / np.sqrt(END)
     r0 = 2 * lost.sum() / (4 * np.sqrt(2 * END / np.pi))

@@ -166,6 +166,10 @@ def test_a_damped_zone_starts_as_one_point() -> None:
     (later,) = predict(Impact.whole_beam(2.0, relative_damping=1e-3), 3e-3).times
     assert later.peak_moment == pytest.approx(math.erf(math.sqrt(3.0)), rel=1e-12)  # of strain
     assert (found.valid_until, found.limited_by) == (pytest.approx(1e-3 * age, rel=1e-12), validity.DAMPING)
+    for kappa in (0.2, 0.5):  # it spreads once the bow is bent straight, and nothing ahead is bent further
+        assert predict(Impact.whole_beam(kappa, relative_damping=1e-3), 0.0).peak_moment == pytest.approx(
+            kappa, rel=1e-6
+        )
 
 
 def test_one_point_spreads_once_the_loads_have_taken_its_curvature() -> None:

@@ -15,10 +15,10 @@ const Instants = (() => {
     return { ...solved, moment, stress, limits, reflected: Limits.ends(solved) * timeScale };
   }
 
-  /** Largest bending moment, N m; `factor` of that at the contact. */
+  /** Largest bending moment, N m, at most; `factor` of that at the contact. */
   function bending({ b }, { moment }, factor) {
     const unit = b.velocity * sqrt(b.stiffness * b.mass), before = b.stiffness * (b.naturalCurvature - b.curvature);
-    return Math.max(abs(before + unit * moment.contact * factor), abs(before - unit * moment.ahead), abs(before));
+    return Math.max(abs(before + unit * moment.contact * factor), abs(before - unit * moment.ahead * factor), abs(before));
   }
 
   /** Half length (shear lengths) of a sheared zone, long after shear waves: X − coth X = gap, by halving. */
