@@ -25,6 +25,7 @@ from comparison.predicting import instant_numbers, instants_reading
 from comparison.questions import Question
 from theory import predict
 from theory.prediction import MODELLED
+from theory.validity import ENDS
 
 __all__ = ["Simulated", "comparable", "simulate_case"]
 
@@ -117,6 +118,9 @@ def _document(found: Simulated, file: Path | None) -> dict[str, Any]:
     infinite = predict(impact, [end]) if comparable(impact) else None
     row = infinite.times[0] if infinite and infinite.times[0].valid else None
     leading = found.leading if row else None
+    ends, reflected = infinite is not None and infinite.limited_by == ENDS and end > infinite.valid_until, list[str]()
+    if until is not None and ends and not any("ends of the beam" in line for line in history.warnings):
+        reflected = [f"waves reflected at the beam's ends are back from {infinite.valid_until:.3g} s on"]  # type: ignore[union-attr]
     energy, balance = energy_at_end(history), balance_of(history)
     moment, whole = numbers["peak_moment"], reading.get("whole")
     stress = stress_of(moment, impact, section)
@@ -161,7 +165,7 @@ def _document(found: Simulated, file: Path | None) -> dict[str, Any]:
         "middle_slope": balance.middle_slope,
         "hits": [asdict(hit) for hit in hits(history)] if several else None,
         "warnings": [
-            *history.warnings, *loss_warnings(numerical_loss(energy)), *balance.warnings, *found.runs.lost,
+            *history.warnings, *reflected, *loss_warnings(numerical_loss(energy)), *balance.warnings, *found.runs.lost,
         ],
         "file": None if file is None else str(file),
     }  # fmt: skip
