@@ -34,7 +34,9 @@ API = {
         "comparison.bouncing",
         "comparison.sweeping",
     ),
-    "open_benchmark": ("bent_beam_programs.open_benchmark",),
+    "open_benchmark": tuple(
+        f"bent_beam_programs.open_benchmark.{room}" for room in ("problem", "result", "reading", "score", "judgement")
+    ),
 }
 
 
