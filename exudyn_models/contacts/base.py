@@ -130,6 +130,8 @@ class ContactRun(ABC):
     iterated = True  # Exudyn finds the contact state by repeating steps
     states = 1  # data coordinates of a connector, the first a gap: the connector is closed where it is not positive
     imposes = False  # states are those of ``closed_by``, not of Exudyn's gaps
+    along: Array | None = None  # forces on the beam along x with the last ``forces``, (contacts,), where there are any
+    assumed: Array | None = None  # the states that the last step was solved with, where Exudyn finds them
     wall_springs: Array | None = None  # stiffness at the contact points of a wall that gives way, (contacts,)
     strip: HeldStrip | None = None  # of a contact that may hold captured nodes
     round_off = 0.0  # force in Exudyn's connectors that means nothing: no residual can be made smaller

@@ -49,13 +49,11 @@ def main(arguments: Sequence[str] | None = None) -> None:
     y, slope = -small * chosen.kappa * x**2 / 2, -small * chosen.kappa * x
     nodes = []
     for s, *bow in zip(x, y, slope):
-        state = {"initialCoordinates": [0, bow[0], *none, bow[1]], "initialVelocities": [0, small, *none, 0]}
-        nodes.append(mbs.AddNode(node_kind(referenceCoordinates=[s, 0, *between, 0], **state)))
+        first = {"initialCoordinates": [0, bow[0], *none, bow[1]], "initialVelocities": [0, small, *none, 0]}
+        nodes.append(mbs.AddNode(node_kind(referenceCoordinates=[s, 0, *between, 0], **first)))
     section = own | {"length": LENGTH, "massPerLength": 1, "bendingStiffness": 1, "axialStiffness": 1}
-    section |= {
-        "referenceCurvature": -small * chosen.kappa,
-        "bendingDamping": 0.15 * LENGTH**2,
-    }  # of the shortest waves
+    # its damping is for waves as short as the elements
+    section |= {"referenceCurvature": -small * chosen.kappa, "bendingDamping": 0.15 * LENGTH**2}
     for pair in itertools.pairwise(nodes):
         mbs.AddObject(body_kind(nodeNumbers=list(pair), **section))
     ground = mbs.AddMarker(items.MarkerNodeCoordinate(nodeNumber=mbs.AddNode(items.NodePointGround()), coordinate=0))

@@ -42,7 +42,6 @@ def errors(output):
         ("simply_supported_beam", (), 3, 1e-6),
         ("bouncing_ball", (), 3, 3e-3),
         ("bent_beam_impact", ("--element", "geometrically_exact"), 2, 2e-3),
-        pytest.param("first_order_impacts", ("--coarsen", "2"), 4, 0.3, marks=pytest.mark.verify),
         pytest.param("first_order_impacts", (), 4, 0.05, marks=pytest.mark.verify),
     ],
 )
@@ -50,7 +49,7 @@ def test_script_prints_the_exact_answer_within(name, options, count, tolerance, 
     found = errors(run(name, *options).out)
     assert len(found) == count
     assert max(found) < tolerance
-    if name != "bent_beam_impact":  # which draws nothing
+    if "impact" not in name:  # which draw nothing
         assert (tmp_path / f"{name}.png").stat().st_size > 1000
 
 

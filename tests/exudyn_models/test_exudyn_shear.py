@@ -17,7 +17,7 @@ from comparison.bouncing import bounce
 from exudyn_models import ExudynModel
 from exudyn_models.assembly import assemble, lay_out
 from exudyn_models.contacts import SegmentFriction
-from exudyn_models.elements import ANCFCable, GeometricallyExact
+from exudyn_models.elements import ANCFCable
 from exudyn_models.integrators import Trapezoidal
 from hermite_fe import HermiteFE
 from tests import leapfrog
@@ -108,8 +108,6 @@ def test_what_does_not_go_with_shear_is_refused_and_told_the_way() -> None:
     way = 'model = "euler_bernoulli"'
     for parts, name in ((dict(element=ANCFCable()), "ancf_cable"), (dict(contact=SegmentFriction()), "cables")):
         assert name in (said := ExudynModel(**parts).refuses(BEAM) or "") and way in said
-    said = ExudynModel(element=GeometricallyExact(shear_ratio=50.0)).refuses(BEAM)
-    assert "shear_ratio has no effect" in (said or "")
     assert isinstance(ExudynModel().chosen(BEAM.unsheared, 0.1).element, ANCFCable)
 
 
