@@ -170,7 +170,7 @@ def _sensors(scaling: Scaling, beam: Beam, contact: ContactRun, copies: float) -
     lengths[beam.horizontal] = lengths[beam.vertical] = units.length
     upward = np.zeros(size)
     upward[beam.vertical] = 1.0
-    momentum = np.asarray(beam.mass_matrix() @ upward)
+    momentum = np.asarray(beam.mass @ upward)
     loads = beam.loads()
     at_first = float(mbs.systemData.GetODE2Coordinates_t() * units.time / lengths @ momentum)
     middle = beam.vertical[int(np.argmin(np.abs(beam.shape.s)))]

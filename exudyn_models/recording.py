@@ -78,11 +78,10 @@ class Recorder:
         # what the bow has been bent by before the first touch
         self.unbent = 0.0 if natural is None else (natural - impact.curvature) * scaling.length / scaling.slope
         self.loads = beam.loads()
-        self.mass = beam.mass_matrix()
         self.damping = dict(zip(("loss_viscous", "loss_material"), beam.damping_matrices()))
-        self.upward = np.zeros(self.mass.shape[0])
+        self.upward = np.zeros(self.beam.mass.shape[0])
         self.upward[beam.vertical] = 1.0  # the shape functions of deflections add up to one
-        self.momentum = np.asarray(self.mass @ self.upward)  # along y, of velocities
+        self.momentum = np.asarray(self.beam.mass @ self.upward)  # along y, of velocities
         self.record: dict[str, list[Any]] = defaultdict(list)
         self.sums: dict[str, Any] = defaultdict(float)
         self.total = self.deepest = self.start_momentum = self.start_stored = 0.0
@@ -184,8 +183,8 @@ class Recorder:
 
     def _of_energy(self, time: Array, q: Array, v: Array, a: Array) -> dict[str, Array]:
         """Work of the loads, their impulse and the losses in each step, each (steps,)."""
-        moved, inertia = np.diff(q, axis=0), (self.mass @ a.T).T
-        kinetic, load = products(v, (self.mass @ v.T).T) / 2, means(self.loads(time))
+        moved, inertia = np.diff(q, axis=0), (self.beam.mass @ a.T).T
+        kinetic, load = self.beam.kinetic_energy(v), means(self.loads(time))
         mean_v = means(v)
         return {
             "loss_algorithmic": (products(moved, inertia[1:]) + products(moved, inertia[:-1])) / 2 - np.diff(kinetic),

@@ -83,10 +83,6 @@ class _Cable(Beam):
     def slope(self, q: Array) -> Array:
         return np.asarray(q[..., self.rotation] / (1.0 + q[..., self.horizontal + 2]))
 
-    def kinetic_energy(self, v: Array) -> Array:
-        (along,), (across,) = self._fields(v, 0, GAUSS, 0), self._fields(v, 1, GAUSS, 0)
-        return self._integral(along**2 + across**2) / 2
-
     def axial_strain(self, q: Array) -> Array:
         (x1,), (y1,) = self._fields(q, 0, GAUSS, 1), self._fields(q, 1, GAUSS, 1)
         return np.asarray(np.hypot(1.0 + x1, y1) - 1.0)

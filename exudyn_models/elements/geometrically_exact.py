@@ -66,16 +66,6 @@ class _Exact(Beam):
         angle = q[..., self.rotation]
         return np.asarray(np.tan(angle) if self.shape.slender and not self.section.shear_length else angle)
 
-    def _square(self, values: Array) -> Array:
-        """∫ of the square of a linearly interpolated field over each element, over its length."""
-        a, b = values[..., :-1], values[..., 1:]
-        return np.asarray((a**2 + a * b + b**2) / 3)
-
-    def kinetic_energy(self, v: Array) -> Array:
-        square = self._square(v[..., self.horizontal]) + self._square(v[..., self.vertical])
-        turning = self.rotary_inertia * self._square(v[..., self.rotation])
-        return np.asarray(((square + turning) * self.lengths).sum(axis=-1) / 2)
-
     def _strains(self, q: Array) -> tuple[Array, Array]:
         """ε and γ of each element."""
         theta = q[..., self.rotation]

@@ -62,7 +62,7 @@ def test_leading_order_is_met_with_no_setting(kappa_over_nu, within):
 
 def test_a_hold_behind_the_front_says_until_when_and_how_hard_it_pulled():
     impact = Impact.dimensionless(0.25)
-    mesh = exudyn_models.chosen_mesh(impact, coarsen=3.0)
+    mesh = exudyn_models.chosen_mesh(impact).refined(1 / 3)
     history = exudyn_models.simulate(impact, mesh=mesh, contact=Penalty(hold=16))
     assert off(history) < 1e-3
     hold = history.settings["hold"]
