@@ -1,8 +1,8 @@
 """This project's own methods (hermite, exudyn), through the same two files as anybody's.
 
 Mesh and steps are what the method chooses from the problem's κ/ν and end time: a host's privilege. "strict" has none: a
-uniform mesh and constant steps, the same for every problem, and contact that may never pull; "massless" is the scheme of
-contact points without mass on the same mesh.
+uniform mesh and constant steps, the same for every problem, and contact that may never pull; "massless" is the scheme
+of contact points without mass on this mesh.
 """
 
 import dataclasses
