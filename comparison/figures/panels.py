@@ -158,6 +158,8 @@ def draw_wall(
         axis.plot(span[:1], [scale * base], marker="^", color=grey, ms=5.0, ls="")
         return
     away = impact.opposite_wall
+    if away is not None:
+        away += impact.wall_clearance
     for face, behind in ((0.0, -depth), *([] if away is None else [(away, away + depth)])):
         axis.fill_between(span, scale * (base + face), scale * (base + behind), color=WALL, lw=0.0)
         axis.plot(span, [scale * (base + face)] * 2, color=grey, lw=0.7)
