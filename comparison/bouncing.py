@@ -168,8 +168,8 @@ class Bounce:
             found.append(f"{why}: it has not left the wall for good, so no restitution is given{hint}")
         elif self.impact.net_load > 0.0:
             found.append(
-                "the loads bring the beam back to the wall; these numbers are those of the first hit (--hits follows "
-                "more)"
+                "the loads bring the beam back to the wall; these numbers are those of the first hit, later ones may "
+                "be larger (--hits follows more)"
             )
         told = [*self.runs.run.warnings, *loss_warnings(numerical_loss(self.energy)), *self.balance.warnings]
         return [*found, *told]

@@ -46,8 +46,13 @@ def impact_figure(
     }
     groups = rf"$\kappa/\nu$ = {impact.kappa_over_nu:.4g}, $\eta/T^*$ = {impact.relative_damping:.3g}"
     groups += rf", $T^*$ = {1e3 * impact.slow_time_scale:.4g} ms"
-    known = history if section is None else history.with_section(section)
-    return sheet(known, title or groups, min(end, float(history.time[-1])), **marked, yield_stress=limit)
+    return sheet(
+        history.described(title, section),
+        title or groups,
+        min(end, float(history.time[-1])),
+        **marked,
+        yield_stress=limit,
+    )
 
 
 def _words(number: Number | Band | None, unit: str) -> str:
