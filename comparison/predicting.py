@@ -186,9 +186,14 @@ def numbers_at(runs: Runs | None, case: Case) -> dict[str, Number]:
 
 
 def _of_runs(every: Any) -> list[str]:
+    """What runs warn of, but for their ends: the theory beside them says how long they do not matter."""
     found: list[str] = []
     for runs in every:
-        found += [*runs.run.warnings, *runs.lost, *loss_warnings(numerical_loss(runs.run.reading["energy"]))]
+        found += [
+            *(line for line in runs.run.warnings if "ends of the beam" not in line),
+            *runs.lost,
+            *loss_warnings(numerical_loss(runs.run.reading["energy"])),
+        ]
     return found
 
 
