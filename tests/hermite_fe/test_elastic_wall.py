@@ -101,7 +101,7 @@ def test_the_wall_takes_the_momentum_never_pulls_and_half_the_beam_is_half_of_it
         assert np.diff(history.array("impulse"), axis=0).min() >= 0.0
         assert np.diff(history.array("loss_wall")).min() >= 0.0
     half, full = (wall_peaks(history) for history in runs)
-    assert half == pytest.approx(full, rel=1e-9)
+    assert half[:-1] == pytest.approx(full[:-1], rel=1e-9) and half.wall == full.wall == "front"
 
 
 def test_a_wall_that_gives_way_takes_the_scheme_that_is_for_it_and_no_other() -> None:
