@@ -5,12 +5,12 @@ from __future__ import annotations
 from typing import Any
 
 from bent_beam.measure.numbers import Number
-from bent_beam.measure.whole_impact import SHORTEST_SEPARATION
+from bent_beam.measure.whole_impact import SHORTEST_SEPARATION, peak_times
 from bent_beam.versions import versions
 from comparison.bouncing import SI, Bounce, documents, over_damping
 from comparison.energies import energy_residual, numerical_loss
-from comparison.predict_text import over_damping_lines
-from comparison.readable import BEAMS, in_unit, text_table, unit_for
+from comparison.predict_text import force_line, over_damping_lines
+from comparison.readable import beam_line, in_unit, milliseconds, text_table, unit_for
 
 __all__ = ["bounce_document", "bounce_table"]
 
@@ -39,6 +39,7 @@ def bounce_document(found: Bounce) -> dict[str, Any]:
     si = documents(found.in_si, [name for name in SI if name in found.numbers])
     return {
         "model": found.impact.model,
+        "velocity": found.impact.velocity,
         "kappa_over_nu": found.impact.kappa_over_nu,
         "damping": found.impact.relative_damping,
         "hysteretic_loss": found.runs.run.reading["loss"],
@@ -47,6 +48,7 @@ def bounce_document(found: Bounce) -> dict[str, Any]:
         "si": {name: {**one, "unit": SI[name][1]} for name, one in si.items()} | {"time_unit": found.units["time"]},
         "peak_stress": None if stress is None else {**stress.to_dict(), "unit": "Pa"},
         "yield_stress": None if found.section is None else found.section.yield_stress,
+        **peak_times(found.outcome, found.impact),
         "shortest_separation": SHORTEST_SEPARATION,
         "span": list(found.span),
         "over_damping": over_damping(found),
@@ -72,12 +74,13 @@ def bounce_document(found: Bounce) -> dict[str, Any]:
 
 def bounce_table(found: Bounce, *, verbose: bool = False) -> str:
     """Every number with its error bar, in SI; ``verbose``: also in units of the beam, with places and times."""
-    rows = []
+    rows, pushed = [], peak_times(found.outcome, found.impact)
     for name, title in {**TITLES, **(EXPERT if verbose else {})}.items():
         if name in found.numbers:
             rows.append([title, *_in_si(found, name), str(found.numbers[name])])
         elif name == "peak_force":
-            rows.append([title, "none", "on a rigid wall: an impulse", ""])
+            within = f"largest impulse within {milliseconds(pushed['push_window'])}"
+            rows.append([within, *_in_si(found, "push"), str(found.numbers["push"])])
         if name == "peak_moment" and found.peak_stress is not None:
             rows.append(["largest stress", *in_unit(found.peak_stress, "Pa"), ""])
     columns = 4 if verbose else 3
@@ -90,11 +93,12 @@ def bounce_table(found: Bounce, *, verbose: bool = False) -> str:
     lines = [
         text_table(["", "value", "", "beam's units"][:columns], [row[:columns] for row in rows]),
         "",
-        BEAMS[impact.model],
+        beam_line(impact.model, impact.velocity),
         "± is the error bar; a band is mean ± standard deviation of runs. Energies are shares of the initial energy",
         "and the work of the loads, at the last contact: the end of the first hit, after which the beam is off the",
         "wall for a period of its first mode at least. The largest moment and stress are those of the whole motion,",
         f"from 0 to {1e3 * found.span[1]:.4g} ms: a period of the lowest mode after the last contact.",
+        force_line(pushed),
         *(f"Largest {'moment' if found.section is None else 'stress'}, {unit}, {line}." for line in over),
     ]
     if verbose:

@@ -25,6 +25,7 @@ from bent_beam.measure.whole_impact import WholeImpact, whole_impact
 from bent_beam.method import Method, for_whole_beam, separation_times, settings_of
 from bent_beam.section import Section
 from comparison.answers import Runs, bands_of, numbers_of, runs_of
+from comparison.doubts import doubts
 from comparison.energies import energy_at_end, loss_warnings, numerical_loss
 from comparison.questions import Question
 from comparison.store import RunStore
@@ -40,6 +41,7 @@ NUMBERS = (
     "peak_moment_place",
     "peak_moment_time",
     "midspan_moment",
+    "push",
     "translation",
     "vibration",
     "dissipated",
@@ -53,6 +55,7 @@ SI = {
     "peak_moment_time": ("time", "s"),
     "midspan_moment": ("moment", "N m"),
     "peak_force": ("force", "N"),
+    "push": ("impulse", "N s"),
     "translation": ("energy", "J"),
     "vibration": ("energy", "J"),
     "dissipated": ("energy", "J"),
@@ -143,7 +146,7 @@ class Bounce:
     @property
     def warnings(self) -> list[str]:
         """What a reader must know of the numbers."""
-        found = list(self.runs.lost)
+        found = [*self.runs.lost, *doubts(self.impact, self.section)]
         if self.over is not None:
             ratios = ", ".join(f"{100.0 * ratio:g}" for ratio in self.over)
             found.append(
@@ -160,11 +163,13 @@ class Bounce:
         if not self.left:
             pressed = self.impact.net_load > 0.0
             why = "the loads keep the beam on the wall" if pressed else "a run ended with the beam at the wall"
-            found.append(f"{why}: it has not left the wall for good, so no restitution is given")
+            short = f"flights shorter than {1e3 * LOWEST_PERIOD * self.units['time']:.3g} ms are part of a hit"
+            hint = f" ({short}; for that of the impact alone give impact.velocity and no gravity)" if pressed else ""
+            found.append(f"{why}: it has not left the wall for good, so no restitution is given{hint}")
         elif self.impact.net_load > 0.0:
             found.append(
-                "the loads bring the beam back to the wall; these numbers are those of the first hit (--hits follows "
-                "more)"
+                "the loads bring the beam back to the wall; these numbers are those of the first hit, later ones may "
+                "be larger (--hits follows more)"
             )
         told = [*self.runs.run.warnings, *loss_warnings(numerical_loss(self.energy)), *self.balance.warnings]
         return [*found, *told]

@@ -11,6 +11,7 @@ import numpy as np
 
 from bent_beam.history import ImpactHistory
 from bent_beam.measure.numbers import Band, Number
+from bent_beam.measure.whole_impact import WINDOW
 from bent_beam.section import Section
 from comparison.bouncing import Bounce
 from comparison.figures import style
@@ -21,12 +22,16 @@ from comparison.readable import in_unit
 __all__ = ["animate", "bounce_figure", "end_of", "impact_figure"]
 
 FRAMES, PER_SECOND = 90, 18
+LYING = 5.0  # times the largest push or moment: the end for a beam that does not leave
 BEYOND = 1.15  # times the last contact, or the largest value: the end of the axes
 
 
 def end_of(found: Bounce) -> float:
-    """Of the axes, s."""
-    return BEYOND * max(found.outcome.last_contact, found.outcome.peak_moment_time) * found.units["time"]
+    """Of the axes, s; of a beam that comes to lie on the wall while most happens."""
+    outcome = found.outcome
+    hardest = max(outcome.peak_moment_time, outcome.push_time)
+    last = outcome.last_contact if found.left else min(outcome.last_contact, LYING * (hardest + WINDOW))
+    return BEYOND * max(last, outcome.peak_moment_time) * found.units["time"]
 
 
 def bounce_figure(found: Bounce, title: str = "") -> Any:
@@ -46,8 +51,13 @@ def impact_figure(
     }
     groups = rf"$\kappa/\nu$ = {impact.kappa_over_nu:.4g}, $\eta/T^*$ = {impact.relative_damping:.3g}"
     groups += rf", $T^*$ = {1e3 * impact.slow_time_scale:.4g} ms"
-    known = history if section is None else history.with_section(section)
-    return sheet(known, title or groups, min(end, float(history.time[-1])), **marked, yield_stress=limit)
+    return sheet(
+        history.described(title, section),
+        title or groups,
+        min(end, float(history.time[-1])),
+        **marked,
+        yield_stress=limit,
+    )
 
 
 def _words(number: Number | Band | None, unit: str) -> str:
