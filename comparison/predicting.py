@@ -108,7 +108,13 @@ class PredictedCase:
         if self.simulated is not None:
             for row, numbers in zip(rows, self.simulated):
                 row["simulation"] = {name: n.to_dict() for name, n in numbers.items() if name in COMPARED}
+        holds = document["valid_until"]  # a beam whose damping is not stated has some, enough to absorb short waves
+        force = document["force_until"] if self.case.damping_stated else holds
+        for row in rows:
+            if force < min(row["time"], holds):
+                row["reaction"] = None
         return document | {
+            "force_until": force,
             "times": rows[: len(rows) if self.simulated is None else len(self.simulated)],
             "model": self.case.impact.model,
             "warnings": self.warnings,

@@ -49,8 +49,11 @@ def test_theory_and_simulation_agree_before_reflections(kappa: float, damping: f
     assert first["valid"] and agrees(first, "impulse")
     # a damped zone has no closed form once it spreads, and leaves no trace of its damping after a while
     assert early["valid"] == late["valid"] == (damping == 0.0 or kappa > 1.0)
-    assert all(agrees(early, name) for name in ("half_contact_length", "reaction", "impulse"))
-    assert agrees(late, "impulse") and agrees(late, "half_contact_length") and agrees(late, "reaction")
+    assert all(agrees(row, name) for row in (early, late) for name in ("half_contact_length", "impulse"))
+    if damping == 0.0:  # waves from the ends swing the force
+        assert found["force_until"] < 1e-3 and early["reaction"] is late["reaction"] is None
+    else:
+        assert agrees(early, "reaction") and agrees(late, "reaction")
     assert all(set(row["simulation"]) == set(COMPARED) - {"peak_stress"} for row in found["times"])
     assert found["agreement"]["from"] < 6e-4 and 1.9e-3 < found["agreement"]["until"] <= 4e-3
     assert told == sorted(told) and told[-1] == pytest.approx(1.0)
