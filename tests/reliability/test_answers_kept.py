@@ -190,7 +190,7 @@ def test_runs_with_parts_that_neither_the_project_nor_a_package_brought_are_not_
     store, count = RunStore(tmp_path / "store"), iter(range(9))
     answers = [store.answer({"source": None}, lambda: {"n": next(count)})["n"] for _ in range(2)]
     assert answers == [0, 1] and not list(tmp_path.rglob("*.json"))
-    monkeypatch.setattr("comparison.store._installed", lambda: (tmp_path.resolve(),))
+    monkeypatch.setattr("comparison.store.installed", lambda: (tmp_path.resolve(),))
     assert source_of(HermiteFE(contact=soft)).startswith("hermite_fe.method.HermiteFE ")
 
 
