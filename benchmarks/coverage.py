@@ -33,9 +33,9 @@ import numpy as np
 
 from bent_beam.files import write_atomically
 from bent_beam.method import method_from_tables
+from bent_beam.stored import write
 from comparison.matching import match
 from comparison.rows import First, MatchRow, Question
-from comparison.stored import write
 
 __all__ = ["Coverage", "Draw", "coverage", "draw", "log_uniform", "options", "write_misses"]
 

@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from bent_beam.as_json import json_text
 from bent_beam.cases import Case, lay_over, load_case, read_toml
 from bent_beam.checks import shortened
 from bent_beam.errors import InputError
@@ -21,7 +22,7 @@ from comparison.bounce_text import bounce_document, bounce_table
 from comparison.matching import match as match_all
 from comparison.methods import PATHS
 from comparison.predict_text import prediction_text
-from comparison.readable import csv_text, json_text
+from comparison.readable import csv_text
 from comparison.rows import THESIS_KAPPAS, MatchRow, match_document, match_table, questions
 from comparison.store import RunStore, default_store
 from comparison.sweeping import sweep_case, varied_from

@@ -1,16 +1,15 @@
 """Results as a reader writes them: numbers (0.0025, 2.5·10⁻⁸, −1.3, a dash for nothing), units (kN and kN m from a
-hundred on, mm below a centimetre, MPa, ms), tables in plain text as wide as they need to be. And as plain JSON data:
-numbers finite, missing values null, everything else as text, lists and dictionaries."""
+hundred on, mm below a centimetre, MPa, ms), tables in plain text as wide as they need to be."""
 
 from __future__ import annotations
 
 import csv
 import io
-import json
 from collections.abc import Iterable, Mapping, Sequence
 from numbers import Real
 from typing import Any
 
+from bent_beam.as_json import json_text, plain
 from bent_beam.measure.numbers import Band, Number
 
 __all__ = [
@@ -18,10 +17,8 @@ __all__ = [
     "csv_text",
     "flat",
     "in_unit",
-    "json_text",
     "milliseconds",
     "number_from",
-    "plain",
     "readable",
     "text_table",
     "unit_for",
@@ -104,21 +101,6 @@ def text_table(head: Sequence[str], rows: Sequence[Sequence[str]], left: Sequenc
     stream = io.StringIO()
     Console(file=stream, width=WIDEST, color_system=None).print(table)
     return "\n".join(line.rstrip() for line in stream.getvalue().rstrip("\n").split("\n"))
-
-
-def json_text(value: Any, indent: int | None = None) -> str:
-    """``value`` as JSON; NaN and infinities become null."""
-    from pydantic_core import to_json
-
-    def of_numpy(value: Any) -> Any:
-        return value.tolist() if hasattr(value, "tolist") else str(value)
-
-    return to_json(value, inf_nan_mode="null", fallback=of_numpy, indent=indent).decode()
-
-
-def plain(value: Any) -> Any:
-    """``value`` as lists, dictionaries, text and finite numbers; NaN and infinities become ``None``."""
-    return json.loads(json_text(value))
 
 
 def flat(document: Mapping[str, Any]) -> dict[str, Any]:

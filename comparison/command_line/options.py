@@ -122,7 +122,7 @@ def emit(document: Any, as_json: bool, text: Callable[[], str]) -> None:
     if as_json:
         import json
 
-        from comparison.readable import json_text
+        from bent_beam.as_json import json_text
 
         unicode = (sys.stdout.encoding or "utf-8").lower().startswith("utf")
 
