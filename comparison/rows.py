@@ -22,8 +22,8 @@ __all__ = [
     "LEAST",
     "THESIS_KAPPAS",
     "First",
+    "MatchQuestion",
     "MatchRow",
-    "Question",
     "about",
     "failures",
     "first_order_epsilon",
@@ -55,7 +55,7 @@ EXTREME = 1e30  # of ε: its powers are calculated with
 
 
 @dataclass(frozen=True)
-class Question:
+class MatchQuestion:
     """One row to be matched. ``first`` : (α, ψ, χ, N), or ``None`` for the leading order alone; ``refine`` : elements
     and steps so many times finer than the method's own; ``error_bars`` : "drift" (of the run alone), "quick" (a
     companion at half the resolution, a quarter of the work), "thorough" (one at twice the resolution too); ``duration``
@@ -176,7 +176,7 @@ def questions(
     error_bars: str = "quick",
     duration: float = DURATION,
     wall: tuple[float, float] | None = None,
-) -> list[Question]:
+) -> list[MatchQuestion]:
     """Every method × κ/ν × (α, ψ, χ[, N]) × refinement, before ``wall``; without ``firsts`` the leading order alone.
 
     α = ``None``: what the axial force makes of a bow free of stress in free flight, α = −κN.
@@ -189,12 +189,12 @@ def questions(
 
     asked: Sequence[Sequence[float | None] | None] = firsts or [None]
     return [
-        Question(method, kappa, load(first, kappa), refine, error_bars, duration, wall)
+        MatchQuestion(method, kappa, load(first, kappa), refine, error_bars, duration, wall)
         for kappa, method, first, refine in product(kappas, methods, asked, refines)
     ]
 
 
-def with_theory(question: Question, leading: Any, estimate: Any) -> dict[str, Any]:
+def with_theory(question: MatchQuestion, leading: Any, estimate: Any) -> dict[str, Any]:
     """The numbers of a row with the theory's beside them."""
     from theory import contact_parameters
 
@@ -207,7 +207,7 @@ def with_theory(question: Question, leading: Any, estimate: Any) -> dict[str, An
     return row
 
 
-def about(question: Question) -> dict[str, Any]:
+def about(question: MatchQuestion) -> dict[str, Any]:
     """The fields of a row that its question says."""
     return {
         "label": question.method.label,
@@ -220,7 +220,7 @@ def about(question: Question) -> dict[str, Any]:
     }
 
 
-def lost_row(question: Question, reason: str, *, refused: bool = False) -> MatchRow:
+def lost_row(question: MatchQuestion, reason: str, *, refused: bool = False) -> MatchRow:
     """The row of a question without an answer."""
     row = about(question)
     with suppress(ValueError):  # of which the theory has nothing to say either

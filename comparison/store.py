@@ -73,31 +73,19 @@ class RunStore:
 
     folder: Path | None
 
-    def file(self, question: Mapping[str, Any]) -> Path | None:
-        """Where the answer to ``question`` (JSON-ready, also where nothing is kept) is kept."""
-        key = _digest(_canonical({"question": dict(question), "versions": versions(), "source": source_digest()}))
-        return None if self.folder is None else self.folder / f"{key[:40]}.json"
-
-    def answer(
-        self,
-        question: Mapping[str, Any],
-        compute: Callable[[], dict[str, Any]],
-        as_text: Callable[[dict[str, Any]], dict[str, Any]] = dict,
-        from_text: Callable[[dict[str, Any]], dict[str, Any]] = dict,
-    ) -> dict[str, Any]:
-        """The kept answer, or ``compute()``'s, kept from now on. as_text : makes finite JSON data of an answer, and
-        ``from_text`` an answer of these; neither is asked where nothing is kept, as where ``source`` is unknown."""
+    def answer(self, question: Mapping[str, Any], compute: Callable[[], dict[str, Any]]) -> dict[str, Any]:
+        """The kept answer to ``question``, or ``compute()``'s, kept from now on; all JSON-ready. Nothing is kept where
+        ``source`` is unknown."""
         if self.folder is None or question.get("source", "") is None:
             return compute()
-        file = self.file(question)
-        kept = None if file is None else self._read(file)
+        key = _digest(_canonical({"question": dict(question), "versions": versions(), "source": source_digest()}))
+        file = self.folder / f"{key[:40]}.json"
+        kept = self._read(file)
         if kept is not None:
-            return from_text(kept)
+            return kept
         found = compute()
-        text = as_text(found)
-        if file is not None:
-            with suppress(OSError):  # a full or read-only cache costs time, not the answer
-                write_atomically(file, _canonical({"answer": text, "sha256": _digest(_canonical(text))}))
+        with suppress(OSError):  # a full or read-only cache costs time, not the answer
+            write_atomically(file, _canonical({"answer": found, "sha256": _digest(_canonical(found))}))
         return found
 
     @staticmethod

@@ -158,12 +158,12 @@ class _Counting(RunStore):
 
     computed: list[bool] = field(default_factory=list)
 
-    def answer(self, question: Mapping[str, Any], compute: Callable[[], dict[str, Any]], *text: Any) -> dict[str, Any]:
+    def answer(self, question: Mapping[str, Any], compute: Callable[[], dict[str, Any]]) -> dict[str, Any]:
         def told() -> dict[str, Any]:
             self.computed.append(True)
             return compute()
 
-        return super().answer(question, told, *text)
+        return super().answer(question, told)
 
 
 def _row(varied: dict[str, Any], case: Case | InputError, path: str, store: RunStore) -> Row:
