@@ -10,7 +10,7 @@ from bent_beam.versions import versions
 from comparison.bouncing import SI, Bounce, documents, over_damping
 from comparison.energies import energy_residual, numerical_loss
 from comparison.predict_text import over_damping_lines
-from comparison.readable import BEAMS, in_unit, text_table, unit_for
+from comparison.readable import BEAMS, in_unit, shown, text_table, unit_for
 
 __all__ = ["bounce_document", "bounce_table"]
 
@@ -100,7 +100,7 @@ def bounce_table(found: Bounce, *, verbose: bool = False) -> str:
     if verbose:
         balance = found.balance
         seen = (balance.momentum, balance.energy, balance.gap_of_push, balance.penetration, balance.pull)
-        checks = ("-" if value is None else f"{value:.1g}" for value in seen)
+        checks = (shown(value, ".1g") for value in seen)
         lines += [
             "Read from the state: momentum residual {} of the impulse, energy residual {},\n"
             "largest gap of a push {} V0 t, deepest node {} V0 t, largest pull {} of the largest push.".format(*checks),

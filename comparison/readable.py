@@ -20,6 +20,7 @@ __all__ = [
     "milliseconds",
     "number_from",
     "readable",
+    "shown",
     "text_table",
     "unit_for",
 ]
@@ -54,6 +55,11 @@ def readable(value: Any, digits: int = 4) -> str:
     elif "e" in text:
         text = f"{float(text):.0f}"
     return text.replace("-", "−")
+
+
+def shown(value: float | None, digits: str = ".4g") -> str:
+    """A number of a table; a dash where there is none."""
+    return "-" if value is None else f"{value:{digits}}"
 
 
 def unit_for(unit: str, values: Iterable[float | None]) -> tuple[float, str]:

@@ -7,7 +7,7 @@ holds what ``predict`` gives at the end time.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from copy import deepcopy
 from dataclasses import dataclass, field
 from functools import partial
@@ -25,6 +25,7 @@ from comparison.answers import runs_of
 from comparison.bouncing import SI, bounce, documents
 from comparison.predicting import instants_reading, numbers_at
 from comparison.questions import Question
+from comparison.readable import readable
 from comparison.store import RunStore
 from comparison.workers import run_all
 
@@ -66,6 +67,11 @@ class Row:
     reason: str | None = None
     refused: bool = False
     kept: bool = False
+
+    @property
+    def name(self) -> str:
+        """In words."""
+        return ", ".join(f"{key} = {readable(value)}" for key, value in self.varied.items())
 
     def to_dict(self) -> dict[str, Any]:
         """JSON-ready: the same however often the sweep was interrupted."""
@@ -196,8 +202,3 @@ def _numbers(case: Case, path: str, store: RunStore) -> tuple[Mapping[str, Numbe
         return numbers_at(runs, case), case.end_time, [*runs.run.warnings, *runs.lost]
     found = bounce(impact, method, section=case.section, damping_stated=case.damping_stated, store=store)
     return found.in_si, None, found.warnings
-
-
-def failures(rows: Iterable[Row]) -> list[dict[str, Any]]:
-    """The rows that failed though their input did not say so."""
-    return [{"varied": row.varied, "reason": row.reason} for row in rows if row.reason and not row.refused]
