@@ -22,14 +22,15 @@ from bent_beam.errors import ANY_FAILURE, InputError, SimulationError
 from bent_beam.measure.numbers import Band, Number
 from bent_beam.method import separation_times
 from comparison.answers import runs_of
-from comparison.bouncing import SI, bounce, documents
+from comparison.bounced import documents
+from comparison.bouncing import bounce
 from comparison.predicting import instants_reading, numbers_at
 from comparison.questions import Question
 from comparison.readable import readable
 from comparison.store import RunStore
 from comparison.workers import run_all
 
-__all__ = ["NAMES", "Row", "sweep_case", "unit_of", "varied_from"]
+__all__ = ["NAMES", "Row", "sweep_case", "varied_from"]
 
 NAMES = (
     "restitution",
@@ -43,11 +44,6 @@ NAMES = (
 )
 """Numbers of a row, SI."""
 MOST = 10_000  # rows
-
-
-def unit_of(name: str) -> str:
-    """SI unit of one of :data:`NAMES`."""
-    return "Pa" if name == "peak_stress" else SI.get(name, ("", ""))[1]
 
 
 @dataclass(frozen=True)
@@ -200,5 +196,5 @@ def _numbers(case: Case, path: str, store: RunStore) -> tuple[Mapping[str, Numbe
         question = Question(impact, method, case.end_time, damping_stated=case.damping_stated)
         runs = runs_of(question, partial(instants_reading, (case.end_time,), question.first_spread), store=store)
         return numbers_at(runs, case), case.end_time, [*runs.run.warnings, *runs.lost]
-    found = bounce(impact, method, section=case.section, damping_stated=case.damping_stated, store=store)
+    found = bounce(case, method, store=store)
     return found.in_si, None, found.warnings

@@ -124,13 +124,12 @@ def predict(
         if theory_only or max(times) <= 0.0:
             raise InputError(f"--out {out}: nothing is simulated, so that there is nothing to be drawn")
         check_writable(out, folder=True)
-    from comparison.doors import Predicted  # SciPy: no refusal above waits for it
-    from comparison.predicting import predict_case
+    from comparison.predicting import predict_case  # SciPy: no refusal above waits for it
 
     store = RunStore(None if fresh else default_store())
     with progress(f"the whole beam: {case.name}", quiet or as_json or theory_only) as bar:
         how = {"theory_only": theory_only, "store": store, "progress": bar.fraction}
-        found = Predicted(predict_case(loaded, times, **how))  # type: ignore[arg-type]
+        found = predict_case(loaded, times, **how)  # type: ignore[arg-type]
     emit(found.to_dict(), as_json, lambda: str(found))
     if out is not None:
         found.write(out)  # after the answer, which a full disk must not cost

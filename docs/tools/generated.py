@@ -32,6 +32,7 @@ API = {
         "comparison.rows",
         "comparison.matching",
         "comparison.bouncing",
+        "comparison.bounced",
         "comparison.sweeping",
     ),
     "open_benchmark": tuple(

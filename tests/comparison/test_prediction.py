@@ -10,7 +10,6 @@ from histories import ROD
 
 from bent_beam import Impact
 from bent_beam.cases import Case, load_case
-from comparison.bounce_text import bounce_document
 from comparison.bouncing import bounce
 from comparison.predict_text import prediction_text
 from comparison.predicting import COMPARED, predict_case
@@ -75,7 +74,7 @@ def test_predict_and_bounce_give_a_rod_s_whole_impact_to_the_last_digit(tmp_path
     for one in ("impact.gravity=9.81", "wall.stiffness=1e8"):
         case = load_case(tmp_path / "rod.toml", [one, *MESH])
         document = predict_case(case, [1e-4, 1e-3]).to_dict()
-        other = bounce_document(bounce(case.impact, case.method("hermite"), section=case.section))
+        other = bounce(case, case.method("hermite")).to_dict()
         whole, si = document["whole_impact"], other["si"]
         assert whole["restitution"] == other["restitution"]
         assert {**whole["peak_stress"], "unit": "Pa"} == other["peak_stress"]
