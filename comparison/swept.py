@@ -7,10 +7,10 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
+from bent_beam.settings import settings
 from comparison.bounced import unit_of
 from comparison.readable import flat, readable, text_table, unit_for
 from comparison.rows import failures
-from comparison.settings import settings
 from comparison.sweeping import NAMES, Row
 
 if TYPE_CHECKING:

@@ -36,7 +36,7 @@ def section_kinds(incomplete: str) -> list[str]:
 
 def example_names(incomplete: str) -> list[str]:
     """Completion of ``--like``."""
-    from comparison.new_case import examples
+    from bent_beam.new_case import examples
 
     return complete(sorted(examples()), incomplete)
 
@@ -60,7 +60,7 @@ def new(
 
     Example: bentbeam new my_tube.toml --like tube
     """
-    from comparison.new_case import example, new_case
+    from bent_beam.new_case import example, new_case
     from comparison.store import write_atomically
 
     if like is not None and not (section is None and damping_ratio is None):
@@ -84,7 +84,8 @@ def settings(
 
     Example: bentbeam settings damping
     """
-    from comparison.settings import about, settings_markdown, settings_text
+    from bent_beam.settings import about
+    from comparison.settings_text import settings_markdown, settings_text
 
     if word and markdown:
         raise InputError(f"--markdown writes the whole page: leave {word!r} out")

@@ -27,7 +27,7 @@ def path_names(incomplete: str) -> list[str]:
 
 def setting_names(incomplete: str) -> list[str]:
     """Completion of ``--set``: every setting, and the kinds of each part."""
-    from comparison.settings import settings
+    from bent_beam.settings import settings
 
     known = {f"{s.table}.kind={s.kind}" if s.name == "kind" else f"{s.table}.{s.name}=" for s in settings()}
     return complete(sorted(known), incomplete)
