@@ -23,12 +23,12 @@ from bent_beam.fields import key_of, made_from, part_from_table, part_or_auto
 from bent_beam.impact import Impact
 from bent_beam.meshes import MESHES, Mesh
 from bent_beam.section import SECTIONS, Section
-from bent_beam.tables import TABLES, BeamTable, ImpactTable, RunTable, WallTable
+from bent_beam.tables import TABLES, WAYS, BeamTable, ImpactTable, RunTable, WallTable, in_keys
 
 if TYPE_CHECKING:
     from bent_beam.method import Method
 
-__all__ = ["EXAMPLES", "Case", "case_from_tables", "lay_over", "load_case", "read_toml"]
+__all__ = ["EXAMPLES", "Case", "case_from_tables", "lay", "lay_over", "load_case", "read_toml"]
 
 EXAMPLES = Path(__file__).with_name("examples")
 """The folder of the example cases, and of lists of methods below it: `cases/` of the checkout."""
@@ -110,7 +110,7 @@ def case_from_tables(tables: Mapping[str, Any]) -> Case:
     try:
         impact = impact_of(beam, arrival, wall, section)
     except ValueError as error:
-        raise InputError(str(error)) from None
+        raise InputError(in_keys(str(error))) from None
     _check_buckling(impact)
     return Case(
         title=tables.get("title", ""),
@@ -160,8 +160,8 @@ def _check_buckling(impact: Impact) -> None:
 def lay_over(tables: dict[str, Any], assignment: str) -> None:
     """Lay one ``table.key=value`` over ``tables``, in place. Raises :class:`InputError` for anything else."""
     key, sign, text = assignment.partition("=")
-    *path, last = (name.strip() for name in key.split("."))
-    if not sign or not all((*path, last)):
+    *_, last = names = [name.strip() for name in key.split(".")]
+    if not sign or not all(names):
         raise InputError(f"--set takes table.key=value (got {shortened(assignment)})")
     text = text.strip()
     value: Any = text
@@ -173,11 +173,22 @@ def lay_over(tables: dict[str, Any], assignment: str) -> None:
             value = tomllib.loads(f"value = {text}")["value"]
         except (ValueError, RecursionError):
             pass
+    lay(tables, key, value, "--set")
+
+
+def lay(tables: dict[str, Any], key: str, value: Any, option: str) -> None:
+    """Put ``value`` at ``table.key`` of ``tables``, in place of what says the same (:data:`bent_beam.tables.WAYS`).
+    Raises :class:`InputError`, naming ``option``, where that is no place."""
+    *path, last = (name.strip() for name in key.split("."))
     table = tables
     for name in path:
         table = table.setdefault(name, {})
         if not isinstance(table, dict):
-            raise InputError(f"--set {key.strip()}: {name} is a value, not a table")
+            raise InputError(f"{option} {key.strip()}: {name} is a value, not a table")
+    for ways in WAYS.get(".".join(path), ()):
+        others = [name for name in ways if last in ways and name != last and name in table]
+        for name in {*others, *(own for other in others for own in ways[other])} - {*ways.get(last, ())}:
+            table.pop(name, None)
     table[last] = value
 
 

@@ -148,6 +148,11 @@ def check_arrangement(impact: Any) -> None:
         raise InputError(
             f"wall_damping has no effect on a rigid wall: give wall_stiffness too (got {impact.wall_damping!r})"
         )
+    if impact.wall_clearance and not impact.supported:
+        raise InputError(
+            "wall_clearance has no effect on a free beam, which flies up to the wall as it is: leave it out, or hold "
+            f"an end (got {impact.wall_clearance!r})"
+        )
     if impact.rotary_inertia and impact.shear_stiffness is None:
         raise InputError(f"rotary_inertia has no effect without shear_stiffness (got {impact.rotary_inertia!r})")
     if impact.supported:

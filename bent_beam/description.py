@@ -150,11 +150,16 @@ def _gravity(table: _ImpactTable) -> float:
 
 def _velocity(table: _ImpactTable, length: float, ends: tuple[str, str]) -> float:
     """V₀, m/s, of the first touch, where an end is held of the middle."""
-    ways = {"velocity": table.velocity, "drop_height": table.drop_height, "angular_speed": table.angular_speed}
+    ways = {name: getattr(table, name) for name in ("velocity", "drop_height", "angular_speed", "amplitude")}
     way, given = _one_of("impact", ways)
     _only_with("impact.angular_arm", table.angular_arm, "impact.angular_speed", way == "angular_speed")
+    _only_with("impact.frequency", table.frequency, "impact.amplitude", way == "amplitude")
     if way == "velocity":
         return given
+    if way == "amplitude":
+        if table.frequency is None:
+            raise InputError(f"impact.frequency, Hz, is required next to impact.amplitude (got {given!r} alone)")
+        return 2.0 * math.pi * table.frequency * given
     if way == "angular_speed":
         if sorted(ends) not in (["free", "free"], ["free", "hinged"]):
             raise InputError(
@@ -202,6 +207,7 @@ def _wall(wall: WallTable, mass_per_length: float) -> dict[str, Any]:
     return {
         "wall_curvature": wall.curvature,
         "opposite_wall": wall.opposite,
+        "wall_clearance": wall.clearance,
         "wall_stiffness": wall.stiffness,
         "wall_damping": amount,
         "wall_from": wall.from_,

@@ -103,10 +103,13 @@ class ImpactHistory:
         last = int(np.argmin(np.abs(self.time - time)))
         return replace(self, dataset=self.dataset.isel(time=slice(0, last + 1)))
 
-    def with_section(self, section: Any) -> ImpactHistory:
-        """The same that knows its section (:class:`bent_beam.section.Section`), for stresses."""
-        held = {"area": section.area, "section_modulus": section.section_modulus}
-        return replace(self, dataset=self.dataset.assign_attrs(section=json.dumps(held)))
+    def described(self, title: str, section: Any) -> ImpactHistory:
+        """The same that knows the title of its case, and its section (:class:`bent_beam.section.Section` or ``None``),
+        for stresses."""
+        held = {"title": title} if title else {}
+        if section is not None:
+            held["section"] = json.dumps({"area": section.area, "section_modulus": section.section_modulus})
+        return replace(self, dataset=self.dataset.assign_attrs(held))
 
     # reading ------------------------------------------------------------------------------------------
     @property

@@ -81,6 +81,9 @@ class Impact(Part, Scales):
     wall_damping: Annotated[
         float, Feature("N s/m²", "c beside k: the wall gives max(0, k p + c ṗ); of a stop in N s/m", least=0.0)
     ] = 0.0
+    wall_clearance: Annotated[
+        float, Feature("m", "of held ends: from the beam at rest to the wall in front, where a run then starts",
+                       least=0.0, instead=": bentbeam simulate follows it, on the Hermite path")] = 0.0  # fmt: skip
     wall_from: Annotated[float | None, Feature("m", "where the wall begins, from the middle", instead=SIMULATED)] = None
     wall_to: Annotated[float | None, Feature("m", "where it ends; at wall_from: a stop", instead=SIMULATED)] = None
     left_end: Annotated[str, Feature("", "how the end at x = −L/2 is held", choices=ENDS, instead=SIMULATED)] = "free"

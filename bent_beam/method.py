@@ -163,8 +163,8 @@ def separation_times(impact: Impact, longest: float | None = None, save: int = 2
         )
     if impact.opposite_wall is not None:
         raise InputError(
-            f"opposite_wall {impact.opposite_wall!r}: between two walls no separation is the last; leave it out, or "
-            "simulate to an end time (bentbeam simulate)"
+            f"opposite_wall {impact.opposite_wall!r}: between two walls no separation is the last; simulate to an end "
+            "time (bentbeam simulate), which lists the hits"
         )
     end = LONGEST * impact.slow_time_scale if longest is None else impact.checked_end_time(longest)
     return np.linspace(0.0, end, max(8, round(save * end / impact.slow_time_scale)) + 1)[1:]

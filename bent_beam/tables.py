@@ -7,6 +7,7 @@ and the error names them. A load that no table describes otherwise is a key of `
 from __future__ import annotations
 
 import dataclasses
+import re
 from dataclasses import dataclass
 from typing import Annotated, ClassVar, get_type_hints
 
@@ -14,7 +15,7 @@ from bent_beam.fields import Part, Quantity, declared
 from bent_beam.impact import Impact
 from bent_beam.loads import loads_of
 
-__all__ = ["MODELS", "TABLES", "BeamTable", "ImpactTable", "RunTable", "WallTable"]
+__all__ = ["MODELS", "TABLES", "WAYS", "BeamTable", "ImpactTable", "RunTable", "WallTable", "in_keys"]
 
 MODELS = ("timoshenko", "euler_bernoulli")
 
@@ -78,6 +79,10 @@ class _ImpactTable(Part):
     angular_arm: Annotated[
         float | None, Quantity("m", "from the pivot to the first touch; half the length unless given", above=0.0)
     ] = None
+    amplitude: Annotated[
+        float | None, Quantity("m", "vibrating at frequency, instead of the velocity: V₀ = 2πfA", above=0.0)
+    ] = None
+    frequency: Annotated[float | None, Quantity("Hz", "of the vibration with this amplitude", above=0.0)] = None
     gravity: Annotated[float | None, Quantity("m/s²", "g; 9.80665 where a drop height is given", least=0.0)] = None
     gravity_angle: Annotated[
         float,
@@ -95,6 +100,7 @@ class WallTable(Part):
 
     curvature: Annotated[float, of_impact("wall_curvature")] = 0.0
     opposite: Annotated[float | None, of_impact("opposite_wall")] = None
+    clearance: Annotated[float, of_impact("wall_clearance")] = 0.0
     stiffness: Annotated[float | None, of_impact("wall_stiffness")] = None
     damping: Annotated[float | None, of_impact("wall_damping")] = None
     damping_ratio: Annotated[float | None, Quantity("1", "the same as ζ = c/(2√(kμ))", least=0.0)] = None
@@ -122,5 +128,28 @@ ImpactTable: type[_ImpactTable] = dataclasses.make_dataclass(
     bases=(_ImpactTable,), frozen=True, kw_only=True,
 )  # fmt: skip
 
+WAYS: dict[str, tuple[dict[str, tuple[str, ...]], ...]] = {
+    "beam": (
+        {"curvature": (), "sagitta": ("sagitta_length",), "dogleg": ()},
+        {"damping": (), "damping_ratio": ()} | dict.fromkeys(("loss_factor", "hysteretic_loss"), ("loss_frequency",)),
+    ),
+    "impact": ({"velocity": (), "drop_height": (), "angular_speed": ("angular_arm",), "amplitude": ("frequency",)},),
+    "wall": ({"damping": (), "damping_ratio": ()},),
+}
+"""Keys that say the same thing, each with those that only belong to it: one that is laid over a case replaces the
+others."""
+KEYS = {name: f"wall.{name.removeprefix('wall_')}" for name in declared(Impact) if name.startswith("wall_")}
+KEYS |= {"opposite_wall": "wall.opposite", "left_end": "beam.ends (left)", "right_end": "beam.ends (right)"}
+OWN = re.compile(rf"(?<![\w.])(?:{'|'.join(KEYS)})\b")
+
 TABLES: dict[str, type[Part]] = {"beam": BeamTable, "impact": ImpactTable, "wall": WallTable, "run": RunTable}
 """Tables with fixed fields; ``[section]`` and ``[mesh]`` have a kind."""
+
+
+def in_keys(text: str) -> str:
+    """A sentence about fields of ``Impact`` with the keys of a case file in place of those that are called otherwise.
+
+    >>> in_keys("wall_from is not modelled by this method (got 0.1)")
+    'wall.from is not modelled by this method (got 0.1)'
+    """
+    return OWN.sub(lambda found: KEYS[found[0]], text)

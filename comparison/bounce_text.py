@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from comparison.predict_text import over_damping_lines
-from comparison.readable import BEAMS, in_unit, number_from, shown, text_table, unit_for
+from comparison.predict_text import force_line, over_damping_lines
+from comparison.readable import beam_line, in_unit, milliseconds, number_from, shown, text_table, unit_for
 
 __all__ = ["bounce_text"]
 
@@ -36,7 +36,8 @@ def bounce_text(found: dict[str, Any], *, verbose: bool = False) -> str:
         if document is not None:
             rows.append([title, *_in_si(found, name), str(number_from(document))])
         elif name == "peak_force":
-            rows.append([title, "none", "on a rigid wall: an impulse", ""])
+            within = f"largest impulse within {milliseconds(found['push_window'])}"
+            rows.append([within, *_in_si(found, "push"), str(number_from(found["push"]))])
         if name == "peak_moment" and found["peak_stress"] is not None:
             rows.append(["largest stress", *in_unit(number_from(found["peak_stress"]), "Pa"), ""])
     columns = 4 if verbose else 3
@@ -47,11 +48,12 @@ def bounce_text(found: dict[str, Any], *, verbose: bool = False) -> str:
     lines = [
         text_table(["", "value", "", "beam's units"][:columns], [row[:columns] for row in rows]),
         "",
-        BEAMS[found["model"]],
+        beam_line(found["model"], found["velocity"]),
         "± is the error bar; a band is mean ± standard deviation of runs. Energies are shares of the initial energy",
         "and the work of the loads, at the last contact: the end of the first hit, after which the beam is off the",
         "wall for a period of its first mode at least. The largest moment and stress are those of the whole motion,",
         f"from 0 to {1e3 * found['span'][1]:.4g} ms: a period of the lowest mode after the last contact.",
+        force_line(found),
         *(f"Largest {what}, {unit}, {line}." for line in over),
         *(_checks(found) if verbose else []),
     ]

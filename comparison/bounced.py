@@ -10,15 +10,17 @@ from pathlib import Path
 from typing import Any
 
 from bent_beam.cases import Case
+from bent_beam.free_flight import LOWEST_PERIOD
 from bent_beam.history import ImpactHistory
 from bent_beam.impact import Impact
 from bent_beam.measure.balance import Balance
 from bent_beam.measure.numbers import Band, Number
-from bent_beam.measure.whole_impact import SHORTEST_SEPARATION, WholeImpact
+from bent_beam.measure.whole_impact import SHORTEST_SEPARATION, WholeImpact, peak_times
 from bent_beam.section import Section
 from bent_beam.versions import versions
 from comparison.answers import Runs, write_answer
 from comparison.bounce_text import bounce_text
+from comparison.doubts import doubts
 from comparison.energies import energy_residual, loss_warnings, numerical_loss
 
 __all__ = ["NUMBERS", "SI", "Bounce", "documents", "scales", "stress_of", "unit_of"]
@@ -32,6 +34,7 @@ NUMBERS = (
     "peak_moment_place",
     "peak_moment_time",
     "midspan_moment",
+    "push",
     "translation",
     "vibration",
     "dissipated",
@@ -45,6 +48,7 @@ SI = {
     "peak_moment_time": ("time", "s"),
     "midspan_moment": ("moment", "N m"),
     "peak_force": ("force", "N"),
+    "push": ("impulse", "N s"),
     "translation": ("energy", "J"),
     "vibration": ("energy", "J"),
     "dissipated": ("energy", "J"),
@@ -149,7 +153,7 @@ class Bounce:
     @property
     def warnings(self) -> list[str]:
         """What a reader must know of the numbers."""
-        found = list(self.runs.lost)
+        found = [*self.runs.lost, *doubts(self.impact, self.case.section)]
         if self.over is not None:
             ratios = ", ".join(f"{100.0 * ratio:g}" for ratio in self.over)
             found.append(
@@ -166,11 +170,13 @@ class Bounce:
         if not self.left:
             pressed = self.impact.net_load > 0.0
             why = "the loads keep the beam on the wall" if pressed else "a run ended with the beam at the wall"
-            found.append(f"{why}: it has not left the wall for good, so no restitution is given")
+            short = f"flights shorter than {1e3 * LOWEST_PERIOD * self.units['time']:.3g} ms are part of a hit"
+            hint = f" ({short}; for that of the impact alone give impact.velocity and no gravity)" if pressed else ""
+            found.append(f"{why}: it has not left the wall for good, so no restitution is given{hint}")
         elif self.impact.net_load > 0.0:
             found.append(
-                "the loads bring the beam back to the wall; these numbers are those of the first hit (--hits follows "
-                "more)"
+                "the loads bring the beam back to the wall; these numbers are those of the first hit, later ones may "
+                "be larger (--hits follows more)"
             )
         told = [*self.runs.run.warnings, *loss_warnings(numerical_loss(self.energy)), *self.balance.warnings]
         return [*found, *told]
@@ -181,6 +187,7 @@ class Bounce:
         si = documents(self.in_si, [name for name in SI if name in self.numbers])
         return {
             "model": self.impact.model,
+            "velocity": self.impact.velocity,
             "kappa_over_nu": self.impact.kappa_over_nu,
             "damping": self.impact.relative_damping,
             "hysteretic_loss": self.runs.run.reading["loss"],
@@ -189,6 +196,7 @@ class Bounce:
             "si": {name: {**one, "unit": SI[name][1]} for name, one in si.items()} | {"time_unit": self.units["time"]},
             "peak_stress": None if stress is None else {**stress.to_dict(), "unit": "Pa"},
             "yield_stress": None if section is None else section.yield_stress,
+            **peak_times(self.outcome, self.impact),
             "shortest_separation": SHORTEST_SEPARATION,
             "span": list(self.span),
             "over_damping": self.over_damping,

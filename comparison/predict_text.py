@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from comparison.readable import BEAMS, milliseconds, number_from, text_table, unit_for
+from comparison.readable import beam_line, milliseconds, number_from, text_table, unit_for
 
-__all__ = ["over_damping_lines", "prediction_text", "wall_lines"]
+__all__ = ["force_line", "over_damping_lines", "prediction_text", "wall_lines"]
 
 REGIMES = {
     "discrete": "The contact stays one point.",
@@ -40,7 +40,7 @@ def prediction_text(document: dict[str, Any]) -> str:
     return "\n".join(
         [
             f"{REGIMES[document['regime']]} kappa/nu = {document['kappa_over_nu']:.4g} (it spreads below 1).",
-            BEAMS[document["model"]],
+            beam_line(document["model"], document["velocity"]),
             _validity(document),
             "",
             _table(document),
@@ -133,14 +133,23 @@ def _whole(document: dict[str, Any]) -> list[str]:
     if not whole:
         return []
     force, said = whole["peak_force"], [f"warning: {text}" for text in whole["warnings"]]
-    largest = "There is no largest force on a rigid wall: it pushes by impulses."
+    largest = f"Largest impulse within {milliseconds(whole['push_window'])}: {_scaled(whole['push'], 1.0)} N s. "
     if force:
-        largest = f"Largest force of the whole impact: {_scaled(force, 1e-3)} kN."
+        largest = f"Largest force of the whole impact: {_scaled(force, 1e-3)} kN. "
+    largest += force_line(whole)
     if whole["restitution"]["value"] is None and "band" not in whole["restitution"]:
         return [largest, *said]
     restitution, last = _scaled(whole["restitution"], 1.0), _scaled(whole["last_contact"], 1e3)
     ends = f"coefficient of restitution {restitution}, last contact {last} ms (the end of the first hit)."
     return [largest, f"The whole impact: {ends}", *said]
+
+
+def force_line(found: dict[str, Any]) -> str:
+    """When and where the wall pushes hardest."""
+    if found["peak_force_time"] is None:
+        return f"A rigid wall has no largest force; its largest push begins at {milliseconds(found['push_time'])}."
+    when, where = milliseconds(found["peak_force_time"]), found["peak_force_place"]
+    return f"The largest force acts at {when}, on average {where:.3g} m from the middle."
 
 
 def wall_lines(document: dict[str, Any]) -> list[str]:

@@ -24,10 +24,13 @@ from bent_beam.impact import Impact
 from bent_beam.measure.estimators import lift_shares
 from bent_beam.measure.instant import instant
 from bent_beam.measure.numbers import Number
+from bent_beam.measure.whole_impact import peak_times
 from bent_beam.method import Method
+from bent_beam.tables import in_keys
 from comparison.answers import Runs, numbers_of, runs_of, write_answer
 from comparison.bounced import Bounce, documents, stress_of
 from comparison.bouncing import bounce
+from comparison.doubts import doubts
 from comparison.energies import energy_at_end, loss_warnings, numerical_loss
 from comparison.predict_text import prediction_text
 from comparison.questions import Question
@@ -39,6 +42,7 @@ __all__ = ["COMPARED", "PredictedCase", "instant_numbers", "instants_reading", "
 PATH = "hermite"
 COMPARED = ("half_contact_length", "reaction", "impulse", "peak_moment", "peak_stress")
 """What theory and simulation both say at a time."""
+OF_WHOLE = ("restitution", "last_contact", "peak_moment", "peak_stress", "peak_force", "push")
 OF_INSTANT = ("half_contact_length", "reaction", "impulse", "peak_moment", "peak_force", "peak_penetration",
               "peak_pressure")  # fmt: skip
 """Fields of :class:`bent_beam.measure.instant.Instant` that are numbers."""
@@ -46,7 +50,6 @@ OF_INSTANT = ("half_contact_length", "reaction", "impulse", "peak_moment", "peak
 CHECKED = 24  # instants between a hundredth of the last time and the last, at which theory and simulation are compared
 AGREE = 0.02  # of the theory's number, beyond the error bar
 LATEST = 20.0  # T*: later times are not simulated
-STEEP = 0.3  # slope of the bow at the beam's ends from which the small-slope theory deserves a warning
 ROUND_OFF = 1e-9  # of the mean force so far: less is none
 VISCOSITY = 2e-3  # of an early number: what grid viscosity and start do to a run and its companion alike
 CHATTER = 0.01  # of the largest moment, without damping: what single nodes add to it
@@ -120,6 +123,7 @@ class PredictedCase:
             "force_until": force,
             "times": rows[: len(rows) if self.simulated is None else len(self.simulated)],
             "model": self.case.impact.model,
+            "velocity": self.case.impact.velocity,
             "warnings": self.warnings,
             "agreement": self.agreement,
             "yield_stress": getattr(self.case.section, "yield_stress", None),
@@ -133,7 +137,8 @@ class PredictedCase:
         if self.whole is None:
             return None
         return {
-            **documents(self.whole.in_si, ("restitution", "last_contact", "peak_moment", "peak_stress", "peak_force")),
+            **documents(self.whole.in_si, OF_WHOLE),
+            **peak_times(self.whole.outcome, self.whole.impact),
             "span": list(self.whole.span),
             "over_damping": self.whole.over_damping,
             "warnings": self.whole.warnings,
@@ -181,7 +186,7 @@ def predict_case(
     last = max(times)
     if method is None or last <= 0.0:
         prediction = predict(impact, times, section=case.section)
-        return PredictedCase(case, prediction, None, None, None, "nothing is simulated", _steep(impact))
+        return PredictedCase(case, prediction, None, None, None, "nothing is simulated", doubts(impact, case.section))
     within = min(last, LATEST * impact.slow_time_scale)
     checked = np.geomspace(0.01 * within, within, CHECKED).tolist()
     prediction = predict(impact, [*times, *checked], section=case.section)
@@ -192,7 +197,7 @@ def predict_case(
         read = partial(instants_reading, (*checked, time) if time == within else (time,), question.first_spread)
         found[time] = runs_of(question, read, store=store, progress=lambda done, i=i: told(share * (i + done)))  # type: ignore[misc]
     simulated = [numbers_at(found.get(time), case) for time in times]
-    warnings = _steep(impact) + _of_runs(found.values())
+    warnings = doubts(impact, case.section) + _of_runs(found.values())
     if last > within:
         warnings.append(f"times beyond {within:.4g} s ({LATEST:g} T*) are not simulated here: bentbeam simulate")
     impacts: tuple[Bounce | None, str | None] = (None, None)
@@ -212,19 +217,15 @@ def numbers_at(runs: Runs | None, case: Case) -> dict[str, Number]:
 
 
 def _of_runs(every: Any) -> list[str]:
+    """What runs warn of, but for their ends: the theory beside them says how long they do not matter."""
     found: list[str] = []
     for runs in every:
-        found += [*runs.run.warnings, *runs.lost, *loss_warnings(numerical_loss(runs.run.reading["energy"]))]
+        found += [
+            *(line for line in runs.run.warnings if "ends of the beam" not in line),
+            *runs.lost,
+            *loss_warnings(numerical_loss(runs.run.reading["energy"])),
+        ]
     return found
-
-
-def _steep(impact: Impact) -> list[str]:
-    slope = impact.relative_curvature * impact.half_length
-    steep = (
-        f"the bow's own slope at its ends is {slope:.2g}: theory and simulation are for small slopes (at 0.5 the force "
-        "is about 10 % larger)"
-    )
-    return [steep] if slope >= STEEP else []
 
 
 def _whole_impact(
@@ -234,7 +235,7 @@ def _whole_impact(
     try:
         return bounce(case, method, store=store, progress=progress), None
     except (ValueError, SimulationError) as error:
-        return None, str(error)
+        return None, in_keys(str(error))
 
 
 def _agreement(checked: Sequence[float], prediction: Prediction, runs: Runs, first: int) -> dict[str, float] | None:

@@ -14,6 +14,7 @@ from bent_beam.measure.numbers import Band, Number
 
 __all__ = [
     "BEAMS",
+    "beam_line",
     "csv_text",
     "flat",
     "in_unit",
@@ -35,6 +36,11 @@ BEAMS = {
     "euler_bernoulli": "The beam bends and does not shear (Euler and Bernoulli).",
 }
 """Which beam an answer is of, by ``Impact.model``."""
+
+
+def beam_line(model: str, velocity: float) -> str:
+    """The same as a sentence of an answer, with the velocity, m/s, that it became."""
+    return f"{BEAMS[model]} It arrives at {readable(velocity)} m/s."
 
 
 def readable(value: Any, digits: int = 4) -> str:

@@ -6,7 +6,7 @@ from typing import Any
 
 from bent_beam.measure.numbers import Band, Number
 from comparison.hits import BETWEEN_WALLS, hits_table
-from comparison.readable import BEAMS, in_unit, number_from, shown, text_table
+from comparison.readable import beam_line, in_unit, number_from, shown, text_table
 
 __all__ = ["run_table"]
 
@@ -28,8 +28,9 @@ def run_table(found: dict[str, Any], verbose: bool = False) -> str:
         *_peak(found, "stress", f"largest stress, {until}", "Pa"),
     ]
     if found["peak_force"] is not None:  # of a wall that gives way
-        at = f"at {1e3 * found['peak_force_time']:.4g} ms"
-        lines += _peak(found, "force", f"largest force on the wall, {at}", "N")
+        wall = "wall" if found["peak_force_wall"] == "front" else "opposite wall"
+        at = f"at {1e3 * found['peak_force_time']:.4g} ms and {found['peak_force_place']:.3g} m"
+        lines += _peak(found, "force", f"largest force, on the {wall}, {at}", "N")
         lines += _peak(found, "penetration", "largest penetration", "m")
         lines += _peak(found, "pressure", "largest pressure", "N/m")
     if found["restitution"]["value"] is not None:
@@ -40,7 +41,7 @@ def run_table(found: dict[str, Any], verbose: bool = False) -> str:
         "",
         text_table(["", "value", "unit", "theory"], lines + (_expert_lines(found) if verbose else [])),
         "",
-        BEAMS[found["model"]],
+        beam_line(found["model"], found["velocity"]),
         "± is the error bar by other runs of the same beam; theory: the closed form where it holds to 2 %. Moment and",
         "stress are the largest of all steps until then; a longer run may show larger ones.",
     ]

@@ -21,6 +21,7 @@ from bent_beam.measure.whole_impact import hits
 from comparison.answers import Runs, runs_of
 from comparison.bounced import Bounce, scales, stress_of
 from comparison.bouncing import whole_numbers, whole_reading
+from comparison.doubts import doubts
 from comparison.energies import energy_at_end, energy_residual, loss_warnings, numerical_loss
 from comparison.predicting import instant_numbers, instants_reading
 from comparison.questions import Question
@@ -131,6 +132,7 @@ def _document(found: Simulated, file: Path | None) -> dict[str, Any]:
     return {
         "path": history.path,
         "model": impact.model,
+        "velocity": impact.velocity,
         "symmetry": history.symmetry,
         "settings": history.settings,
         "versions": history.versions,
@@ -150,7 +152,7 @@ def _document(found: Simulated, file: Path | None) -> dict[str, Any]:
         "peak_moment_time": when,
         **_with_error("peak_stress", stress or MISSING),
         "yield_stress": None if section is None else section.yield_stress,
-        "peak_force_time": reading["peak_force_time"],
+        **{name: reading[name] for name in ("peak_force_time", "peak_force_place", "peak_force_wall")},
         **_with_error("peak_force", numbers["peak_force"]),
         **_with_error("peak_penetration", numbers["peak_penetration"]),
         **_with_error("peak_pressure", numbers["peak_pressure"]),
@@ -166,7 +168,8 @@ def _document(found: Simulated, file: Path | None) -> dict[str, Any]:
         "middle_slope": balance.middle_slope,
         "hits": [asdict(hit) for hit in hits(history)] if several else None,
         "warnings": [
-            *history.warnings, *reflected, *loss_warnings(numerical_loss(energy)), *balance.warnings, *found.runs.lost,
+            *doubts(impact, section), *history.warnings, *reflected, *loss_warnings(numerical_loss(energy)),
+            *balance.warnings, *found.runs.lost,
         ],
         "file": None if file is None else str(file),
     }  # fmt: skip

@@ -16,11 +16,12 @@ from typing import Any
 
 import numpy as np
 
-from bent_beam.cases import Case, case_from_tables, lay_over
+from bent_beam.cases import Case, case_from_tables, lay, lay_over
 from bent_beam.checks import shortened
 from bent_beam.errors import ANY_FAILURE, InputError, SimulationError
 from bent_beam.measure.numbers import Band, Number
 from bent_beam.method import separation_times
+from bent_beam.tables import in_keys
 from comparison.answers import runs_of
 from comparison.bounced import documents
 from comparison.bouncing import bounce
@@ -140,15 +141,9 @@ def sweep_case(
 
 def _case(tables: Mapping[str, Any], varied: Mapping[str, Any]) -> Case | InputError:
     laid = deepcopy(dict(tables))
-    for key, value in varied.items():
-        *places, last = key.split(".")
-        table = laid
-        for place in places:
-            table = table.setdefault(place, {})
-            if not isinstance(table, dict):
-                return InputError(f"--vary {key}: {place} is a value, not a table")
-        table[last] = value
     try:
+        for key, value in varied.items():
+            lay(laid, key, value, "--vary")
         return case_from_tables(laid)
     except InputError as error:
         return error
@@ -179,7 +174,7 @@ def _row(varied: dict[str, Any], case: Case | InputError, path: str, store: RunS
     except ANY_FAILURE as error:
         foreseen = isinstance(error, (ValueError, SimulationError))
         reason = " ".join((str(error) if foreseen else f"{type(error).__name__}: {error}").split())
-        return Row(**about, reason=reason, refused=isinstance(error, InputError))
+        return Row(**about, reason=in_keys(reason), refused=isinstance(error, InputError))
     yields = getattr(case.section, "yield_stress", None)
     kept = store.folder is not None and not counting.computed
     return Row(**about, yield_stress=yields, numbers=numbers, until=until, warnings=warnings, kept=kept)

@@ -24,7 +24,10 @@ and a₀ is the acceleration of the whole beam. A force that turned with the end
 **Walls** stand along a part of the beam, as constraints or as springs. With a second wall behind the beam every node
 has a constraint for either:
 
-    g = y_w − y ≥ 0 in front,      g = y + D − (y_w at x = 0) ≥ 0 behind: a flat wall at the distance D of the apex
+    g = y_w + c − y ≥ 0 in front,  g = y + D − (y_w at x = 0) ≥ 0 behind: a flat wall at the distance D of the apex
+
+Without a clearance c the run starts with the first touch. A beam with held ends may start at rest in a hole, c from the
+wall: it is then bent by c, and slower, when it touches.
 """
 
 from __future__ import annotations
@@ -54,7 +57,7 @@ CONSISTENT = ConsistentMass()
 NEAR = 1e-9  # of the length: a node so near an edge of the wall lies on it
 HELD = {"free": 0, "hinged": 1, "clamped": 2}  # dofs of the end node
 MODELLED = ("acceleration", "curvature_rate", "fourth_derivative", "axial_force", "rotation", "hysteretic_loss",
-            "shear_stiffness", "wall_stiffness", "wall_damping", "wall_from", "wall_to", "left_end",
+            "shear_stiffness", "wall_stiffness", "wall_damping", "wall_clearance", "wall_from", "wall_to", "left_end",
             "right_end")  # fmt: skip
 """The loads and other features that are modelled here."""
 
@@ -125,6 +128,9 @@ def beam_model(
         beam.interpolate(-0.5 * curvature * s**2, -curvature * s)
         for curvature in (impact.curvature, impact.relative_curvature)
     )
+    facing[0::2] -= impact.wall_clearance
+    behind_the_beam = -natural
+    behind_the_beam[0::2] -= impact.opposite_wall or 0.0
     motion = impact.free_motion(0.0)
     displacement = beam.interpolate(motion(s), motion(s, by_x=1) + impact.shear_length**2 * motion(s, by_x=3))
     velocity = beam.interpolate(motion(s, by_t=1), motion(s, by_x=1, by_t=1))
@@ -153,6 +159,7 @@ def beam_model(
         contacts=rows,
         supports=supports,
         springs=springs_of(impact, beam, facing, full=full),
+        second=NO_SPRINGS if impact.opposite_wall is None else springs_of(impact, beam, behind_the_beam, full=full),
         bending=bending,
     )
     behind = (np.arange(len(rows)) % 2 == 1) & (impact.opposite_wall is not None)

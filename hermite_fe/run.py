@@ -132,6 +132,7 @@ class Stepper:
             found["strain_energy"] += found["branch_energy"]
         if self.integrator.elastic:
             found["contact_energy"] = stored_energy(matrices.springs, state.q)
+            found["contact_energy"] += stored_energy(matrices.second, -state.q)
         return found
 
     def energy(self) -> float:

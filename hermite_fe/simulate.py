@@ -37,9 +37,6 @@ def refusal(impact: Impact, contact: Contact | None = None) -> str | None:
             f"rotation must not take the first touch off the wall: the beam moves there at {speed:.6g} m/s "
             f"(got {impact.rotation!r})"
         )
-    if impact.opposite_wall is not None and (impact.wall_stiffness is not None or impact.wall_in_part):
-        name = "wall_stiffness" if impact.wall_stiffness is not None else "wall_from"
-        return f"opposite_wall is not modelled together with {name} (got {impact.opposite_wall!r})"
     if impact.shear_stiffness is not None:
         if impact.hysteretic_loss:
             return f"hysteretic_loss is not modelled with shear (got {impact.hysteretic_loss!r}){UNSHEARED}"

@@ -42,7 +42,7 @@ class Matrices(NamedTuple):
 
     K_sums, C_sums : (2, dofs), :func:`hermite_fe.banded.row_sums` of K and C.
     parts : (causes, 4, dofs), C by cause; causes : (causes,), its index in ``State.energy``.
-    springs : of a wall that gives way.
+    springs, second : of walls that give way, see :class:`hermite_fe.system.System`.
     """
 
     M: Array
@@ -54,6 +54,7 @@ class Matrices(NamedTuple):
     causes: Places
     load: Array
     springs: Springs
+    second: Springs
 
 
 class Problem(NamedTuple):
@@ -101,6 +102,7 @@ def problem_of(system: System, law: ContactLaw) -> Problem:
         K_sums=row_sums(system.stiffness), C_sums=row_sums(system.damping),
         parts=parts, causes=np.array([ENERGIES.index(f"loss_{cause}") for cause, _ in system.dampings], np.int64),
         load=system.load if np.any(system.load) else np.zeros((0, system.dofs)), springs=system.springs,
+        second=system.second,
     )  # fmt: skip
     return Problem(matrices, rows_of(system.contacts), law, solver_of(system))
 

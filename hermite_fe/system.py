@@ -125,7 +125,8 @@ class System:
         under its own name (:data:`hermite_fe.stepping.ENERGIES`).
     load : (powers, dofs), F(t) = Σ_k load[k]·t^k.
     contacts : unilateral constraints; before a wall that gives way by ``springs`` they only say where impulses are
-        recorded. supports : dofs that keep their initial value. bending : of a beam.
+        recorded. second : springs of a second wall, seen from which the motion is −q. supports : dofs that keep their
+        initial value. bending : of a beam.
 
     Raises ``ValueError`` when shapes disagree, a cause of damping is unknown or named twice, or a support carries a
     constraint of its own.
@@ -138,6 +139,7 @@ class System:
     load: Array = field(default_factory=_left_out)
     supports: tuple[int, ...] = ()
     springs: Springs = NO_SPRINGS
+    second: Springs = NO_SPRINGS
     bending: Bending = field(default_factory=Bending)
 
     def __post_init__(self) -> None:

@@ -93,7 +93,7 @@ def end_warnings(impact: Impact, end_time: float, nodes: Array, far_field: FarFi
         out.append(
             f"waves may run to the ends of the beam (x = {half:.3g} m) and be back at the contact from about "
             f"t = {float(returning.min()):.2g} s on, before the run ends at {end_time:.2g} s: from then on "
-            "it is no longer the impact of an infinitely long beam (a longer beam or an earlier end avoids it)"
+            "it is the impact of this beam, which no theory of an endless one covers"
         )
     far = nodes > 1.5 * place
     free = impact.free_motion(impact.relative_curvature)(nodes, end_time)

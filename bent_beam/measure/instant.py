@@ -25,8 +25,8 @@ class Instant:
 
     half_contact_length : of the rim of what pushes, m; none where nothing does. reaction : mean force of the wall over
     a tenth of the time before and after, N. impulse : N s. peak_moment, peak_moment_place, peak_moment_time : the
-    largest moment of all steps so far, N m, m, s. peak_force, peak_force_time, peak_penetration, peak_pressure : of a
-    wall that gives way, so far; the pressure not of a stop.
+    largest moment of all steps so far, N m, m, s. peak_force, peak_penetration, peak_pressure : of a wall that gives
+    way, so far, the force with its time, s, mean |x|, m, and wall ("front", "opposite"); the pressure not of a stop.
     element : length of the one at the rim, m. lift : the largest inside the zone in the last decade of time, over V₀t.
     """
 
@@ -38,6 +38,8 @@ class Instant:
     peak_moment_time: float
     peak_force: float | None
     peak_force_time: float | None
+    peak_force_place: float | None
+    peak_force_wall: str | None
     peak_penetration: float | None
     peak_pressure: float | None
     element: float
@@ -71,6 +73,8 @@ def instant(history: ImpactHistory, time: float, *, first_spread: bool = False, 
         peak_moment_time=peak.time,
         peak_force=None if wall is None else wall.force,
         peak_force_time=None if wall is None else wall.time,
+        peak_force_place=None if wall is None else wall.place,
+        peak_force_wall=None if wall is None else wall.wall,
         peak_penetration=None if wall is None else wall.penetration,
         peak_pressure=None if wall is None or begin == end else wall.pressure,
         element=0.0 if first_spread or front is None else element_at(history, k, front),

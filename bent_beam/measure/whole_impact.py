@@ -21,6 +21,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -30,10 +31,12 @@ from bent_beam.history import ImpactHistory
 from bent_beam.impact import Impact
 from bent_beam.measure.reduction import peak_moment, wall_peaks
 
-__all__ = ["SHORTEST_SEPARATION", "Hit", "WholeImpact", "hits", "pushes", "whole_impact"]
+__all__ = ["SHORTEST_SEPARATION", "WINDOW", "Hit", "WholeImpact", "hits", "peak_times", "pushes", "whole_impact"]
 
 Array = NDArray[np.float64]
 
+WINDOW = 0.01
+"""In which impulses are added up, T*: a rigid wall has no largest force."""
 SHORTEST_SEPARATION = 2e-3
 """Shortest time without a push that counts as a separation, T*: four saved instants of a run to separation."""
 
@@ -50,7 +53,8 @@ class WholeImpact:
         contact.
     peak_moment_place : |x|/ℓ. translation, vibration, dissipated : shares of the initial energy and the work of the
         loads, altogether one.
-    peak_force : on the zone of a wall that gives way, over μℓV₀/T*; ``None`` of a rigid one.
+    peak_force : on the zone of a wall that gives way, over μℓV₀/T*, with its time and its mean |x|/ℓ; ``None`` of a
+        rigid one. push : the largest impulse within :data:`WINDOW` T*, over μℓV₀; push_time : when that begins.
     supplied : the initial energy and the work of the loads until then, J.
     energy_defect : what the independently computed terms of the budget leave, of the initial energy; energy_gain : the
         largest rise of the energy, what springs of the wall hold included, above what loads have worked, likewise.
@@ -69,6 +73,10 @@ class WholeImpact:
     vibration: float
     dissipated: float
     peak_force: float | None
+    peak_force_time: float | None
+    peak_force_place: float | None
+    push: float
+    push_time: float
     supplied: float
     spacing: float
     drift: float
@@ -113,6 +121,7 @@ def whole_impact(history: ImpactHistory, *, shortest: float = SHORTEST_SEPARATIO
     held = history.energy("contact_energy")  # by springs of the wall
     initial = float(energy[0])
     work = initial + history.energy("work_of_loads")
+    gained = np.interp(time + WINDOW * unit, time, total) - total
     kept, supplied = (float(np.interp(last, time, values)) for values in (energy, work))
     restitution = _mean_velocity(history, end) / -speed if impact.supported else impulse - load * last - 1.0
     translation = 0.5 * mass * (restitution * speed) ** 2 / supplied
@@ -129,6 +138,10 @@ def whole_impact(history: ImpactHistory, *, shortest: float = SHORTEST_SEPARATIO
         vibration=kept / supplied - translation,
         dissipated=1.0 - kept / supplied,
         peak_force=None if wall is None else 2.0 * wall.force * unit / (mass * speed),
+        peak_force_time=None if wall is None else wall.time / unit,
+        peak_force_place=None if wall is None else wall.place / impact.half_length,
+        push=2.0 * float(gained.max()) / (mass * speed),
+        push_time=float(time[np.argmax(gained)]) / unit,
         supplied=supplied,
         spacing=float(time[end] - time[end - 1]) / unit,
         drift=0.5 * abs(load) * float(time[end] - time[end - 1]),
@@ -138,6 +151,18 @@ def whole_impact(history: ImpactHistory, *, shortest: float = SHORTEST_SEPARATIO
         energy_gain=float(np.max(np.diff(energy + held - work), initial=0.0)) / initial,
         left=left,
     )
+
+
+def peak_times(found: WholeImpact, impact: Impact) -> dict[str, Any]:
+    """When, s, and where, m from the middle, the wall pushes hardest, SI: its largest force, ``None`` of a rigid one,
+    and the window with the largest impulse."""
+    unit, force, place = impact.slow_time_scale, found.peak_force_time, found.peak_force_place
+    return {
+        "peak_force_time": None if force is None else force * unit,
+        "peak_force_place": None if place is None else place * impact.half_length,
+        "push_time": found.push_time * unit,
+        "push_window": WINDOW * unit,
+    }
 
 
 def _grouped(contacts: list[tuple[int, int, str]], impact: Impact, time: Array) -> list[list[tuple[int, int, str]]]:

@@ -177,5 +177,7 @@ def how_to_go_on(arguments: Sequence[str]) -> str:
 
 
 def _refuse(message: str, code: int) -> int:
-    print("error: " + printable(" ".join(message.split())), file=sys.stderr)
+    from bent_beam.tables import in_keys
+
+    print("error: " + printable(in_keys(" ".join(message.split()))), file=sys.stderr)
     return code

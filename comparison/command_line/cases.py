@@ -178,7 +178,7 @@ def simulate(
     problem = None
     if out is not None:
         try:
-            (found.history if loaded.section is None else found.history.with_section(loaded.section)).save(out)
+            found.history.described(loaded.title, loaded.section).save(out)
         except OSError as error:  # the run's answer is worth more than its file
             problem, out = f"--out: {out} could not be written: {error.strerror or error}", None
     document = found.to_dict(out)

@@ -8,14 +8,15 @@ from typing import Any
 
 import numpy as np
 
-from bent_beam.free_flight import pushing
 from bent_beam.history import ImpactHistory
 from comparison.figures import style
-from comparison.figures.panels import sheet
+from comparison.figures.panels import impulse_given, sheet
 
 __all__ = ["draw_history"]
 
 BEYOND = 1.15  # times the last push, or the largest moment: the end of the axes
+NEARLY = 0.7  # of the record: where that is later, all of it is drawn
+GIVEN = 0.999  # of the impulses: what comes later is none of the last push
 SEEN = 0.02  # of the axis: less of a theory's time is no line
 LOSSES = {
     "loss_impact": "impacts",
@@ -30,16 +31,18 @@ LOSSES = {
 def draw_history(history: ImpactHistory, out: Path, name: str, formats: Sequence[str] = ("png",)) -> list[Path]:
     """``name.png`` in ``out``; returns the files. The theory is drawn where it claims to hold."""
     end, reach = _window(history)
-    return style.save(sheet(history, name, end, reach=reach, below=(_impulse, _energies)), out, name, formats)
+    title = str(history.attrs.get("title", name))
+    return style.save(sheet(history, title, end, reach=reach, below=(_impulse, _energies)), out, name, formats)
 
 
 def _window(history: ImpactHistory) -> tuple[float, float]:
     """Until when a run is drawn, s: somewhat beyond its last push and its largest moment; and how far from the middle,
     m: beyond the pushes and the waves that left them."""
     time, names = history.time, [name for name in ("impulse", "opposite_impulse") if name in history]
-    pushes = np.flatnonzero(np.any([pushing(history.array(name)).any(axis=1) for name in names], axis=0))
-    last = float(time[pushes[-1] + 1]) if pushes.size else 0.0
-    end = min(BEYOND * max(last, float(time[np.argmax(history.moment)])) or float(time[-1]), float(time[-1]))
+    pushed = impulse_given(history)
+    last = float(time[np.searchsorted(pushed, GIVEN * pushed[-1])])
+    end = BEYOND * max(last, float(time[np.argmax(history.moment)]))
+    end = float(time[-1]) if end == 0.0 or end > NEARLY * time[-1] else end
     given = np.abs(np.sum([history.array(name, -1) for name in names], axis=0))
     places = np.abs(history.contact_positions(-1)[given > 1e-3 * given.max(initial=1e-300)])
     wave = 2.0 * float(np.sqrt(history.impact.wave_constant * end))

@@ -11,10 +11,11 @@ from numpy.typing import NDArray
 
 from bent_beam.free_flight import pushing
 from bent_beam.history import ImpactHistory
+from bent_beam.impact import Impact
 from comparison.figures import style
 from comparison.readable import unit_for
 
-__all__ = ["contacts", "draw_force", "draw_wall", "heights", "sheet"]
+__all__ = ["contacts", "draw_force", "draw_wall", "heights", "impulse_given", "sheet"]
 
 Array = NDArray[np.float64]
 Panel = Callable[[Any, ImpactHistory, float], None]
@@ -73,8 +74,9 @@ def draw_force(axis: Any, history: ImpactHistory, end: float, words: str = "") -
     axis.set(ylabel=f"force of the wall  ({unit})", xlim=(0.0, 1e3 * end))
     axis.set_ylim(scale * min(0.0, 1.15 * low), scale * 1.3 * top)
     second = "; of the second wall negative" if history.impact.opposite_wall is not None else ""
-    window = f"mean over {_plain(1e3 * edges[1])} ms{second}"
-    axis.text(0.99, 0.97, window, transform=axis.transAxes, ha="right", va="top", fontsize=6.5)
+    rigid = "" if largest else "; a rigid wall has no peak force"
+    window = f"mean over {_plain(1e3 * edges[1])} ms{second}{rigid}"
+    axis.text(1.0, 1.03, window, transform=axis.transAxes, ha="right", va="bottom", fontsize=6.5)
     if largest:
         _mark(
             axis,
@@ -138,6 +140,11 @@ def draw_zone(axis: Any, history: ImpactHistory, end: float) -> None:
         axis.legend(loc="lower right", bbox_to_anchor=(1.0, 0.98), ncols=2, markerscale=3.0, borderpad=0.0)
 
 
+def _far_wall(impact: Impact) -> float:
+    """Height of a second wall above the first, m; 0 without one."""
+    return 0.0 if impact.opposite_wall is None else impact.opposite_wall + impact.wall_clearance
+
+
 def heights(history: ImpactHistory, k: int) -> tuple[Array, Array]:
     """x and the height above the wall, m, of the whole beam at a saved instant."""
     x, gap = history.positions(k), history.array("gap", k)
@@ -150,31 +157,44 @@ def draw_wall(
     axis: Any, history: ImpactHistory, base: float, depth: float, scale: float = 1.0, reach: float | None = None
 ) -> None:
     """The wall, or both, with a stripe of ``depth`` behind, under a beam drawn from ``base`` on; m times ``scale``."""
-    impact, grey = history.impact, style.COLOURS["grey"]
+    impact, grey, away = history.impact, style.COLOURS["grey"], _far_wall(history.impact)
     half = min(reach or np.inf, 0.5 * impact.length)
     edges = (impact.wall_from, -half), (impact.wall_to, half)
     span = [edge if given is None else min(max(given, -half), half) for given, edge in edges]
     if span[0] == span[1]:
         axis.plot(span[:1], [scale * base], marker="^", color=grey, ms=5.0, ls="")
         return
-    away = impact.opposite_wall
-    for face, behind in ((0.0, -depth), *([] if away is None else [(away, away + depth)])):
+    for face, behind in ((0.0, -depth), *([(away, away + depth)] if away else [])):
         axis.fill_between(span, scale * (base + face), scale * (base + behind), color=WALL, lw=0.0)
         axis.plot(span, [scale * (base + face)] * 2, color=grey, lw=0.7)
 
 
+def impulse_given(history: ImpactHistory) -> Array:
+    """By all walls so far, N s, none taken off another's."""
+    names = [name for name in ("impulse", "opposite_impulse") if name in history]
+    return np.asarray(sum(history.array(name).sum(axis=1) for name in names))
+
+
+def _telling(history: ImpactHistory, end: float) -> Array:
+    """Times, s, that share out both the time until ``end`` and the impulse given by then: more where more happens."""
+    inside = history.time <= end
+    time, given = history.time[inside], np.maximum.accumulate(impulse_given(history)[inside])
+    told = time / time[-1] + given / (float(given[-1]) or 1.0)
+    return np.interp(np.linspace(0.0, told[-1], SHAPES), told, time)
+
+
 def draw_shapes(axis: Any, history: ImpactHistory, end: float, reach: float | None = None) -> None:
-    """The beam above its wall at even times until ``end``, s, the first on top: to scale along, heights by a factor
-    that is said. reach : half width that is shown, m; the whole beam unless given.
+    """The beam above its wall at :func:`_telling` times until ``end``, s, the first on top: to scale along, heights by
+    a factor that is said. reach : half width that is shown, m; the whole beam unless given.
 
     Lays the figure out, so that everything else must be on it.
     """
     edge = min(reach or np.inf, 0.5 * history.impact.length)
     shown = []
-    for t in np.linspace(0.0, end, SHAPES):
+    for t in _telling(history, end):
         x, height = heights(history, int(np.argmin(np.abs(history.time - t))))
         shown.append((t, x[np.abs(x) <= 1.001 * edge], height[np.abs(x) <= 1.001 * edge]))
-    tallest = max(*(float(height.max()) for _, _, height in shown), history.impact.opposite_wall or 0.0, 1e-12)
+    tallest = max(*(float(height.max()) for _, _, height in shown), _far_wall(history.impact), 1e-12)
     lowest = min(*(float(height.min()) for _, _, height in shown), 0.0)
     axis.set(xlim=(-1.04 * edge, 1.4 * edge), xlabel="$x$  (m)", yticks=[])
     axis.set_xticks([tick for tick in axis.get_xticks() if abs(tick) <= 1.001 * edge])

@@ -6,6 +6,7 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+from scipy.interpolate import PchipInterpolator
 
 from bent_beam.measure.numbers import Band
 from comparison.bounced import unit_of
@@ -20,6 +21,7 @@ SHOWN = ("peak_stress", "peak_moment", "peak_force", "restitution", "impulse")
 CURVES, MAPS = 3, 2  # panels
 LEAST = 3  # values of a key of a map
 LEVELS = 8
+FINE = 60  # places a key between which a map's lines are straight
 LOUD = 0.1  # of the value: larger bars are marked on a map
 
 
@@ -66,7 +68,11 @@ def _grid(found: SweepTable, name: str) -> tuple[Any, Any, str]:
     scale, unit = unit_for(unit_of(name), [pair[0] for pair in pairs if pair])
     shape = [len(values) for values in found.vary.values()]
     array = scale * np.array([pair or (np.nan, np.nan) for pair in pairs]).reshape(*shape, 2)
-    return array[..., 0], array[..., 1], f"{TITLES[name]}  ({unit or '1'})"
+    return array[..., 0], array[..., 1], _with_unit(TITLES[name], unit)
+
+
+def _with_unit(words: str, unit: str) -> str:
+    return f"{words}  ({unit})" if unit not in ("", "1") else words
 
 
 def _axis_of(found: SweepTable, key: str) -> tuple[Any, str]:
@@ -74,7 +80,7 @@ def _axis_of(found: SweepTable, key: str) -> tuple[Any, str]:
     values, name = found.vary[key], key.rpartition(".")[2].replace("_", " ")
     if not numeric(values):
         return np.arange(len(values)), name
-    return np.array(values, float), f"{name}  ({found.units[key] or '1'})"
+    return np.array(values, float), _with_unit(name, found.units[key])
 
 
 def _curves(axis: Any, found: SweepTable, name: str) -> None:
@@ -126,12 +132,14 @@ def _map(axis: Any, found: SweepTable, name: str) -> None:
     x, y, z, bars = x[order_x], y[order_y], values[order_x][:, order_y].T, bars[order_x][:, order_y].T
     shown = np.ma.masked_invalid(z)
     if shown.count() and shown.max() > shown.min():
-        field = axis.contourf(x, y, shown, LEVELS, cmap="YlGnBu", alpha=0.8)
-        lines = axis.contour(x, y, shown, field.levels, colors="black", linewidths=0.4)
+        smooth = _between(x, y, shown)
+        field = axis.contourf(*smooth, LEVELS, cmap="YlGnBu", alpha=0.8)
+        lines = axis.contour(*smooth, field.levels, colors="black", linewidths=0.4)
         axis.clabel(lines, fontsize=6.5, fmt="%g")
+        axis.figure.colorbar(field, ax=axis, label=title)
         limit = _yield_stress(found)
         if name == "peak_stress" and limit is not None and shown.min() < 1e-6 * limit < shown.max():
-            axis.contour(x, y, shown, [1e-6 * limit], colors=style.COLOURS["vermilion"], linewidths=1.8)
+            axis.contour(*smooth, [1e-6 * limit], colors=style.COLOURS["vermilion"], linewidths=1.8)
     every = np.stack(np.meshgrid(x, y), axis=-1)
     loud = bars > LOUD * np.abs(z)
     for which, look in ((~np.isnan(z), {"marker": ".", "ms": 2.0}), (np.isnan(z), {"marker": "x", "ms": 4.0}),
@@ -139,8 +147,17 @@ def _map(axis: Any, found: SweepTable, name: str) -> None:
         if which.any():  # the layout takes a curve without points to be in the corner
             axis.plot(*every[which].T, ls="", color=style.COLOURS["black"], clip_on=False, **look)
     axis.set(xlabel=label, ylabel=other if axis.get_subplotspec().is_first_col() else "")
-    axis.set_title(title, pad=8.0)
     axis.grid(False)
+
+
+def _between(x: Any, y: Any, z: Any) -> tuple[Any, Any, Any]:
+    """The rows and what is between them, by cubics that nowhere overshoot; where some are missing, as they are."""
+    known = ~z.mask & np.ones(z.shape, bool)
+    x, y, z = x[known.any(axis=0)], y[known.any(axis=1)], z[known.any(axis=1)][:, known.any(axis=0)]
+    if np.ma.is_masked(z) or min(z.shape) < 2:
+        return x, y, z
+    fine = [np.unique(np.concatenate([v, np.linspace(v[0], v[-1], FINE)])) for v in (x, y)]
+    return *fine, PchipInterpolator(y, PchipInterpolator(x, z, axis=1)(fine[0]), axis=0)(fine[1])
 
 
 def _note(found: SweepTable, mapped: bool) -> str:
@@ -157,4 +174,5 @@ def _note(found: SweepTable, mapped: bool) -> str:
     if name == "peak_stress" and limit is not None:
         where = "Red line: the material yields" if highest > limit else "Nowhere does the material yield"
         line = f" {where}, {1e-6 * limit:.4g} MPa."
-    return f"{wide}{100 * max(shares):.2g} %.\nDots: rows; rings: bar above {100 * LOUD:g} %.{line}{missing}"
+    marks = f"Dots: rows, interpolated between; rings: bar above {100 * LOUD:g} %."
+    return f"{wide}{100 * max(shares):.2g} %.\n{marks}{line}{missing}"

@@ -32,7 +32,7 @@ def impact_figure(history: ImpactHistory, case: Case, numbers: Mapping[str, Numb
     }
     groups = rf"$\kappa/\nu$ = {impact.kappa_over_nu:.4g}, $\eta/T^*$ = {impact.relative_damping:.3g}"
     groups += rf", $T^*$ = {1e3 * impact.slow_time_scale:.4g} ms"
-    known = history if section is None else history.with_section(section)
+    known = history.described(case.title, section)
     return sheet(known, case.title or groups, min(end, float(history.time[-1])), **marked, yield_stress=limit)
 
 

@@ -2,8 +2,8 @@
 
     M Δv + hC v̄ + hK q̄ = hF̄ − h f(q, q⁺),     q⁺ = q + h v̄,     v̄ = v + ½Δv,     q̄ = q + ½h v̄
 
-with f the wall's mean force over the step: the θ-scheme with θ = ½ (:mod:`hermite_fe.integrators.theta`). Newton's
-method for Δv, T = ∂f/∂q⁺:
+with f the mean force of the wall, or of both, f₁(q, q⁺) − f₂(−q, −q⁺),
+over the step: the θ-scheme with θ = ½ (:mod:`hermite_fe.integrators.theta`). Newton's method for Δv, T = ∂f/∂q⁺:
 
     (M + ½hC + ¼h²K + ½h²T) Δv = h[F̄ − K(q + ½hv) − Cv] − h f + ½h²T Δv
 
@@ -39,8 +39,9 @@ FULL_ROUNDS = 20  # of whole Newton steps; then half ones
 class MidpointMemory(NamedTuple):
     """base : S without the wall; tangent : T, (4, dofs); reach : (1,), the last dof of the wall's part in S.
 
-    impulse : (rows,), zeros, of a rigid wall; peaks : of a step. right, solution, new, wall : (dofs,), of a round, its
-    right-hand side, its Δv, q⁺ and f.
+    impulse : (rows,), zeros, of a rigid wall; peaks : (walls, 4), of a step. right, solution, new : (dofs,), of a
+    round, its right-hand side, its Δv and q⁺. wall : (walls, dofs), f₁ and f₂; mirrored : (2, dofs), −q and −q⁺;
+    stiff : as T, of the second wall.
     """
 
     vectors: Vectors
@@ -53,6 +54,8 @@ class MidpointMemory(NamedTuple):
     solution: Array
     new: Array
     wall: Array
+    mirrored: Array
+    stiff: Array
 
 
 @dataclass(frozen=True)
@@ -64,8 +67,12 @@ class Midpoint(Integrator):
 
     def start(self, problem: Problem, state: State) -> MidpointMemory:
         n, base, reach = state.q.size, np.zeros_like(problem.solver.S), np.zeros(1, np.int64)
-        impulse, peaks = np.zeros_like(state.impulse), np.zeros_like(state.peaks)
-        return MidpointMemory(vectors_of(problem), base, np.zeros((4, n)), reach, impulse, peaks, *np.zeros((4, n)))
+        impulse, peaks = np.zeros_like(state.impulse), np.zeros((2, state.peaks.size))
+        right, solution, new = np.zeros((3, n))
+        return MidpointMemory(
+            vectors_of(problem), base, np.zeros((4, n)), reach, impulse, peaks, right, solution, new,
+            np.zeros((2, n)), np.zeros((2, n)), np.zeros((4, n)),
+        )  # fmt: skip
 
     def advance(
         self, problem: Problem, state: State, memory: MidpointMemory, times: Array, first: int, last: int
@@ -93,7 +100,8 @@ def take_steps(
 @compiled
 def solve_step(problem: Problem, state: State, memory: MidpointMemory, t: float, h: float) -> int:
     """Δv by Newton's method, and what the wall then does; returns the status."""
-    springs, rows, solver = problem.matrices.springs, problem.rows, problem.solver
+    springs, second, rows, solver = problem.matrices.springs, problem.matrices.second, problem.rows, problem.solver
+    walls, mirrored, total = memory.wall, memory.mirrored, np.zeros(2)
     q, v, dv, new, right, x = state.q, state.v, memory.vectors.dv, memory.new, memory.right, memory.solution
     speed, converged = 0.0, False
     for i in range(0, v.size, 2):
@@ -101,7 +109,12 @@ def solve_step(problem: Problem, state: State, memory: MidpointMemory, t: float,
     for k in range(MOST_ROUNDS):
         for i in range(q.size):
             new[i] = q[i] + h * (v[i] + 0.5 * dv[i])
-        total, loss, touched = push(springs, q, new, h, memory.wall, memory.tangent, memory.peaks)
+        total[0], loss, touched = push(springs, q, new, h, walls[0], memory.tangent, memory.peaks[0])
+        if second.stiffness > 0.0:
+            mirrored[0], mirrored[1] = -q, -new
+            total[1], more, last = push(second, mirrored[0], mirrored[1], h, walls[1], memory.stiff, memory.peaks[1])
+            memory.tangent[:] += memory.stiff
+            loss, touched = loss + more, max(touched, last)
         if converged:
             count_rounds(solver, k)
             state.energy[WALL] += loss
@@ -109,7 +122,7 @@ def solve_step(problem: Problem, state: State, memory: MidpointMemory, t: float,
             return SOLVED
         multiply(memory.tangent, dv, right)
         for i in range(q.size):
-            right[i] = memory.vectors.b[i] - h * memory.wall[i] + 0.5 * h * h * right[i]
+            right[i] = memory.vectors.b[i] - h * (walls[0, i] - walls[1, i]) + 0.5 * h * h * right[i]
         reach = max(touched, memory.reach[0]) + 1
         for m in range(4):
             for i in range(reach):
@@ -129,15 +142,16 @@ def solve_step(problem: Problem, state: State, memory: MidpointMemory, t: float,
 
 
 @compiled
-def record_push(problem: Problem, state: State, memory: MidpointMemory, t: float, h: float, total: float) -> None:
-    """Add the impulses of a step from t, and note the largest force, penetration and pressure so far. The forces on
-    deflections add up to the whole force, N₁ + N₃ = 1."""
-    rows, facing = problem.rows, problem.matrices.springs.facing
+def record_push(problem: Problem, state: State, memory: MidpointMemory, t: float, h: float, total: Array) -> None:
+    """Add the impulses of a step from t, and note the largest force, penetration and pressure so far, of the two walls
+    together. The forces on deflections add up to the whole force of a wall, N₁ + N₃ = 1."""
+    rows = problem.rows
     for j in range(rows.gap.size):
         dof = rows.dofs[j, 0]
-        state.impulse[j] += h * memory.wall[dof]
-        state.closed[j] = memory.new[dof] + facing[dof] > 0.0
-    if total > state.peaks[FORCE]:
-        state.peaks[FORCE], state.peaks[FORCE_TIME] = total, t + 0.5 * h
+        state.impulse[j] += h * memory.wall[0 if rows.factors[j, 0] < 0.0 else 1, dof]
+        state.closed[j] = rows.gap[j] + rows.factors[j, 0] * memory.new[dof] < 0.0
+    largest = max(total[0], total[1])
+    if largest > state.peaks[FORCE]:
+        state.peaks[FORCE], state.peaks[FORCE_TIME] = largest, t + 0.5 * h
     for i in (PENETRATION, PRESSURE):
-        state.peaks[i] = max(state.peaks[i], memory.peaks[i])
+        state.peaks[i] = max(state.peaks[i], memory.peaks[0, i], memory.peaks[1, i])

@@ -5,7 +5,7 @@ import math
 import pytest
 
 from bent_beam import InputError, load_case
-from bent_beam.cases import case_from_tables
+from bent_beam.cases import case_from_tables, lay_over
 from bent_beam.loads import wall_scales
 from bent_beam.section import General, Pipe, Rectangle, RoundBar
 
@@ -158,12 +158,16 @@ def test_damping_ratio_and_loss_factor_are_the_same_time_constant():
         ({"beam": {"curvature": 0.1, "sagitta_length": 1.0}}, "sagitta_length has no effect"),
         ({"impact": {"velocity": 1.0, "angular_arm": 1.0}}, "angular_arm has no effect"),
         ({"impact": {"velocity": 1.0, "gravity_angle": 1.0}}, "gravity_angle has no effect"),
+        ({"impact": {"velocity": 1.0, "amplitude": 0.01, "frequency": 5.0}}, "velocity = 1.0 and impact.amplitude"),
+        ({"impact": {"amplitude": 0.01}}, "impact.frequency, Hz, is required"),
+        ({"impact": {"velocity": 1.0, "frequency": 5.0}}, "frequency has no effect without impact.amplitude"),
+        ({"wall": {"clearance": 0.01}}, "wall.clearance has no effect on a free beam"),
         ({"impact": {"velocity": 1.0, "gravity": 1.0, "acceleration": 1.0}}, "acceleration = 1.0 and impact.gravity"),
-        ({"wall": {"curvature": 0.002}}, "wall_curvature must be less"),
+        ({"wall": {"curvature": 0.002}}, "wall.curvature must be less"),
         ({"wall": {"damping": 1.0}}, "wall.damping has no effect on a rigid wall"),
         ({"wall": {"stiffness": 1e6, "damping": 1.0, "damping_ratio": 0.1}}, "say the same"),
         ({"wall": {"stiffness": 1e6, "damping_ratio": 0.1, "from": 1.0, "to": 1.0}}, "nothing at a stop"),
-        ({"wall": {"from": 16.0}}, "wall_from must lie on the beam"),
+        ({"wall": {"from": 16.0}}, "wall.from must lie on the beam"),
         ({"beam": {"curvature": 0.1, "ends": ["free", "glued"]}}, "beam.ends must be one of .*'glued'"),
         ({"beam": {"curvature": 0.1, "ends": "hinged"}, "impact": {"angular_speed": 1.0}}, "needs one hinge"),
         ({"impact": {"drop_height": 1.0, "gravity": 0.0}}, "drop_height = 1.0 needs gravity towards the wall"),
@@ -200,3 +204,14 @@ def test_a_new_case_can_be_used_once_its_damping_is_stated(kind, tmp_path):
         load_case(file)
     file.write_text(new_case(kind, 0.01))
     assert load_case(file).section is not None and load_case(file).impact.damping > 0.0
+
+
+def test_an_amplitude_at_a_frequency_is_a_velocity_and_what_is_laid_over_a_case_replaces_what_says_the_same():
+    tables = {"beam": {"length": 2.0, "bending_stiffness": 1.0, "mass_per_length": 1.0, "sagitta": 0.01,
+                       "sagitta_length": 1.0, "loss_factor": 0.1, "loss_frequency": 5.0},
+              "impact": {"amplitude": 0.002, "frequency": 40.0}}  # fmt: skip
+    assert case_from_tables(tables).impact.velocity == pytest.approx(2.0 * math.pi * 40.0 * 0.002)
+    for assignment in ("beam.curvature=0.3", "beam.damping=0.5", "impact.velocity=3"):
+        lay_over(tables, assignment)
+    impact = case_from_tables(tables).impact
+    assert (impact.curvature, impact.damping, impact.velocity) == (0.3, 0.5, 3.0)

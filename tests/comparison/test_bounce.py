@@ -116,7 +116,7 @@ def test_a_run_until_separation_ends_off_the_wall_on_either_path(path, tmp_path)
     found = answered(*asked, "--set", "run.end_time=0.04", "--save", "1000")
     assert [hit["wall"] for hit in found["hits"][:2]] == ["front", "opposite"]
     assert all(hit["impulse"] > 0.0 and hit["lost"] > 0.0 for hit in found["hits"][:2])
-    assert "opposite_wall" in refused(*asked, "--until", "separation")  # no separation is the last
+    assert "wall.opposite" in refused(*asked, "--until", "separation")  # no separation is the last
 
 
 def test_the_command_gives_numbers_with_bars_figures_and_the_stress_of_the_largest_moment(tmp_path, monkeypatch):

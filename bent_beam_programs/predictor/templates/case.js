@@ -102,14 +102,24 @@ const Case = (() => {
     "wall.damping_ratio": (i, v) => { i.wall_damping_ratio = v; },
   };
 
+  /** What to do with a key that this page does not have. */
+  const INSTEAD = [
+    [/^(wall\.(from|to|opposite|clearance)|beam\.ends)$/, "bentbeam simulate takes it"],
+    [/^beam\.(damping$|loss_|hysteretic)/, "give beam.damping_ratio in its place, or take bentbeam bounce"],
+    [/^impact\.(amplitude|frequency|angular_)/, "give impact.velocity in its place"],
+    [/^beam\.(bending_stiffness|mass_per_length|section_height)$/, 'give a [section] of kind "general" in its place'],
+    [/./, "bentbeam predict takes it"],
+  ];
+
   /** Inputs of a case file. Throws Error that names the key which this page does not have. */
   function read(text) {
     const given = tables(text), found = { ...Beam.START, gravity: null, yield_stress: null, damping_ratio: null };
     const values = Object.fromEntries(Object.entries(given).flatMap(([table, keys]) => (
       Object.entries(keys).map(([key, value]) => [`${table}.${key}`, value]))));
     const known = (name) => KEYS[name] || name === ".title" || name.startsWith("run.");
-    const other = Object.keys(values).find((name) => !known(name));
-    if (other) throw new Error(`${other} is not on this page: bentbeam predict takes it`);
+    const others = Object.keys(values).filter((name) => !known(name)).map((name) => (
+      `${name} is not on this page: ${INSTEAD.find(([which]) => which.test(name))[1]}`));
+    if (others.length) throw new Error(others.join("; "));
     for (const name of ["section.kind", "beam.length"]) if (!(name in values)) throw new Error(`${name} is missing`);
     for (const name of Object.keys(KEYS)) if (name in values) KEYS[name](found, values[name]); // in this order
     return found;
