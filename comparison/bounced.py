@@ -15,7 +15,7 @@ from bent_beam.history import ImpactHistory
 from bent_beam.impact import Impact
 from bent_beam.measure.balance import Balance
 from bent_beam.measure.numbers import Band, Number
-from bent_beam.measure.whole_impact import SHORTEST_SEPARATION, WholeImpact, peak_times
+from bent_beam.measure.whole_impact import SHORTEST_SEPARATION, WINDOW, WholeImpact, peak_times
 from bent_beam.section import Section
 from bent_beam.versions import versions
 from comparison.answers import Runs, write_answer
@@ -56,6 +56,7 @@ SI = {
 """Of a number that has one: what it is scaled by (:func:`scales`), and its unit."""
 
 ENERGY = ("translation", "vibration", "dissipated")
+LYING = 5.0  # times the largest push or moment: the end for a beam that does not leave
 BEYOND = 1.15  # times the last contact, or the largest value: the end of the axes
 
 
@@ -241,8 +242,11 @@ class Bounce:
 
     @property
     def _shown_until(self) -> float:
-        """End of the axes, s."""
-        return BEYOND * max(self.outcome.last_contact, self.outcome.peak_moment_time) * self.units["time"]
+        """End of the axes, s; of a beam that comes to lie on the wall while most happens."""
+        outcome = self.outcome
+        hardest = max(outcome.peak_moment_time, outcome.push_time)
+        last = outcome.last_contact if self.left else min(outcome.last_contact, LYING * (hardest + WINDOW))
+        return BEYOND * max(last, outcome.peak_moment_time) * self.units["time"]
 
 
 def unit_of(name: str) -> str:

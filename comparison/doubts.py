@@ -7,23 +7,27 @@ import math
 from bent_beam.impact import Impact
 from bent_beam.section import Section
 
-__all__ = ["doubts"]
+__all__ = ["doubts", "steepness"]
 
 STEEP = 0.3  # slope of the bow at the beam's ends from which the small-slope theory deserves a warning
 STRAIGHTENED = 0.1  # N L²/(π² EI) from which a tension deserves one
 
 
-def doubts(impact: Impact, section: Section | None) -> list[str]:
-    """Sentences on steep bows, straight beams, bows that a tension straightens, and what a stress includes."""
-    found = []
+def steepness(impact: Impact) -> list[str]:
+    """A sentence on a steep bow."""
     slope = impact.relative_curvature * impact.half_length
-    if slope >= STEEP:
-        found.append(
-            f"the bow's own slope at its ends is {slope:.2g}: theory and simulation are for small slopes (at 0.5 the "
-            "force is about 10 % larger)"
-        )
+    steep = (
+        f"the bow's own slope at its ends is {slope:.2g}: theory and simulation are for small slopes (at 0.5 the force "
+        "is about 10 % larger)"
+    )
+    return [steep] if slope >= STEEP else []
+
+
+def doubts(impact: Impact, section: Section | None) -> list[str]:
+    """Sentences on straight beams, bows that a tension straightens, and what a stress includes."""
+    found = []
     alike = not (impact.supported or impact.off_centre or impact.wall_in_part)
-    if slope == 0.0 and alike and impact.wall_stiffness is None:
+    if impact.relative_curvature == 0.0 and alike and impact.wall_stiffness is None:
         found.append(
             "a straight beam touches a rigid wall with its whole length at once: its rebound is that of the contact "
             "law, from 0 to 1, not of the beam; give it a bow, or the wall a stiffness"

@@ -30,7 +30,7 @@ from bent_beam.tables import in_keys
 from comparison.answers import Runs, numbers_of, runs_of, write_answer
 from comparison.bounced import Bounce, documents, stress_of
 from comparison.bouncing import bounce
-from comparison.doubts import doubts
+from comparison.doubts import doubts, steepness
 from comparison.energies import energy_at_end, loss_warnings, numerical_loss
 from comparison.predict_text import prediction_text
 from comparison.questions import Question
@@ -183,10 +183,11 @@ def predict_case(
     cannot finish.
     """
     impact, method = case.impact, None if theory_only else case.method(PATH)
+    warnings = [*steepness(impact), *doubts(impact, case.section)]
     last = max(times)
     if method is None or last <= 0.0:
         prediction = predict(impact, times, section=case.section)
-        return PredictedCase(case, prediction, None, None, None, "nothing is simulated", doubts(impact, case.section))
+        return PredictedCase(case, prediction, None, None, None, "nothing is simulated", warnings)
     within = min(last, LATEST * impact.slow_time_scale)
     checked = np.geomspace(0.01 * within, within, CHECKED).tolist()
     prediction = predict(impact, [*times, *checked], section=case.section)
@@ -197,7 +198,7 @@ def predict_case(
         read = partial(instants_reading, (*checked, time) if time == within else (time,), question.first_spread)
         found[time] = runs_of(question, read, store=store, progress=lambda done, i=i: told(share * (i + done)))  # type: ignore[misc]
     simulated = [numbers_at(found.get(time), case) for time in times]
-    warnings = doubts(impact, case.section) + _of_runs(found.values())
+    warnings += _of_runs(found.values())
     if last > within:
         warnings.append(f"times beyond {within:.4g} s ({LATEST:g} T*) are not simulated here: bentbeam simulate")
     impacts: tuple[Bounce | None, str | None] = (None, None)
