@@ -24,7 +24,17 @@ from bent_beam.meshes import Mesh, checked_nodes, mirrored, snapped
 from exudyn_models.contacts import Contact, ContactRun, Wall
 from exudyn_models.elements import Beam, Element
 from exudyn_models.elements.beam import VISCOSITY, VISCOSITY_EXPLICIT, VISCOSITY_SHEARED, Section
-from exudyn_models.geometry import MODEL_UNITS, Array, Geometry, Scaling, Shape, Units, element_times, supports_or_plate
+from exudyn_models.geometry import (
+    MODEL_UNITS,
+    STEEPEST,
+    Array,
+    Geometry,
+    Scaling,
+    Shape,
+    Units,
+    element_times,
+    supports_or_plate,
+)
 from exudyn_models.integrators import Integrator
 from exudyn_models.resolution import lasts_until_waves_return, modelled_half_length, reachable, thin_front
 from exudyn_models.solvers import NewtonSolver
@@ -147,7 +157,7 @@ def _axial_stiffness(asked: float | None, true: bool, scaling: Scaling) -> float
     if true:
         return 12.0 * (scaling.length / scaling.impact.section_height) ** 2
     if not scaling.axial_force:
-        return 1.0
+        return min(1.0, scaling.amplitude / STEEPEST)  # round-off of strains stays below what forces are told apart by
     later = lasts_until_waves_return(scaling.impact, scaling.end_time)
     return max(TAUT, abs(scaling.axial_force) / (STRETCH_LATER if later else STRETCH))
 

@@ -34,7 +34,7 @@ from exudyn_models.assembly import Chosen, Layout, assemble, lay_out, stable_ste
 from exudyn_models.contacts import ContactRun, Penalty, Rigid
 from exudyn_models.elements import Beam
 from exudyn_models.geometry import Array, Scaling, Units, supports_or_plate
-from exudyn_models.integrators import Implicit
+from exudyn_models.integrators import Implicit, Segment
 from exudyn_models.method import ExudynModel
 from exudyn_models.resolution import GROWTH_OF_WAVES, chosen_half_length, lasts_until_waves_return
 
@@ -152,8 +152,7 @@ def _settings(layout: Layout, chosen: Chosen, beam: Beam, contact: ContactRun, s
     settings = chosen.solver.settings(scaling.amplitude, round_off, beam.axial_round_off())
     time, end = settings.timeIntegration, scaling.end_time
     stable = stable_step(beam, contact, integrator) if integrator.explicit else np.inf
-    time.endTime, time.numberOfSteps = end, integrator.segments(1.0, end, stable)[0].steps
-    time.minimumStepSize = 1e-3 * end / time.numberOfSteps
+    Segment(0.0, end, integrator.segments(1.0, end, stable)[0].steps).lay(time)
     time.newton.absoluteTolerance *= units.force * max(1.0, units.length)  # some residuals are moments
     time.discontinuous.iterationTolerance *= units.force
     time.discontinuous.maxIterations = SETTLED
@@ -171,7 +170,7 @@ def _sensors(scaling: Scaling, beam: Beam, contact: ContactRun, copies: float) -
     lengths[beam.horizontal] = lengths[beam.vertical] = units.length
     upward = np.zeros(size)
     upward[beam.vertical] = 1.0
-    momentum = np.asarray(beam.mass_matrix() @ upward)
+    momentum = np.asarray(beam.mass @ upward)
     loads = beam.loads()
     at_first = float(mbs.systemData.GetODE2Coordinates_t() * units.time / lengths @ momentum)
     middle = beam.vertical[int(np.argmin(np.abs(beam.shape.s)))]

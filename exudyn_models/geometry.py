@@ -21,7 +21,7 @@ from __future__ import annotations
 import math
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
-from typing import Annotated, Any, ClassVar
+from typing import Annotated, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -34,6 +34,7 @@ from bent_beam.loads import FreeMotion, lowest_mode
 __all__ = [
     "GEOMETRIES",
     "MODEL_UNITS",
+    "STEEPEST",
     "Array",
     "Flags",
     "Geometry",
@@ -180,24 +181,30 @@ def element_times(lengths: Array, shear_length: float) -> Array:
     return np.asarray(lengths * np.sqrt(lengths**2 + 12.0 * shear_length**2))
 
 
-def _arc(s: Array, motion: FreeMotion, amplitude: float) -> tuple[Array, Array, Array, Array]:
-    """x, y and their velocities beyond V₀ of an unstretched line of the angles, and turning at the rates, of the slopes
-    of ``motion`` times ``amplitude``.
+def _arc(bow: Array, motion: FreeMotion, amplitude: float) -> dict[str, Array]:
+    """Places, from the first touch, and velocities of an unstretched line of the angles, and turning at the rates, of
+    the slopes of ``motion`` times ``amplitude``; ``bow`` is the arc length from there.
 
     Four-point Gauss per element: exact to round-off for the small change of angle within one.
     """
     points, weights = np.polynomial.legendre.leggauss(4)
-    at = s[:-1, None] + np.diff(s)[:, None] * (points + 1) / 2
-    weight = np.diff(s)[:, None] * weights / 2
+    at = bow[:-1, None] + np.diff(bow)[:, None] * (points + 1) / 2
+    weight = np.diff(bow)[:, None] * weights / 2
+    centre = int(np.argmin(np.abs(bow)))
 
     def integral(values: Array) -> Array:
-        return np.concatenate([[0.0], np.cumsum((values * weight).sum(axis=1))])
+        sums = np.concatenate([[0.0], np.cumsum((values * weight).sum(axis=1))])
+        return np.asarray(sums - sums[centre])
 
     theta, turning = amplitude * motion(at, by_x=1), amplitude * motion(at, by_x=1, by_t=1)
-    fields = (np.cos(theta), np.sin(theta), -turning * np.sin(theta), turning * np.cos(theta))
-    centre = int(np.argmin(np.abs(s)))
-    x, y, vx, vy = (f - f[centre] for f in map(integral, fields))
-    return x, y, vx, vy
+    cos, sin, start = np.cos(theta), np.sin(theta), bow[centre]
+    return {
+        "x": start + integral(cos),
+        "y": amplitude * motion(start) + integral(sin),
+        "velocity_x": -integral(turning * sin),
+        "velocity_y": amplitude * motion(start, by_t=1) + integral(turning * cos),
+        "angular_velocity": amplitude * motion(bow, by_x=1, by_t=1),
+    }
 
 
 @dataclass(frozen=True)
@@ -216,19 +223,26 @@ class Geometry(Part, ABC):
         """The beam at the first contact; a share of its curvature may be given to the wall instead."""
         k, a, bow = scaling.beam_kappa - scaling.kappa * wall_share, scaling.amplitude, s - scaling.first_touch
         motion = scaling.motion_of(k)
+        angle = a * (motion(bow, by_x=1) + scaling.shear_length**2 * motion(bow, by_x=3))  # φ = y′ + l_s² y‴
+        if self.true and np.abs(angle).max() > np.pi / 2:
+            raise InputError(
+                f"geometry true: the modelled beam of half length {s[-1] * scaling.length:.4g} m turns by more "
+                "than a right angle; shorten run.end_time or beam.length, or use the linear limit"
+            )
+        laid, impact = _arc(bow, motion, a), scaling.impact
+        laid["x"] += scaling.first_touch
+        if impact.supported:
+            modes = lowest_mode(impact.left_end, impact.right_end, impact.half_length / scaling.length, s)
+            laid |= {name: a * mode for name, mode in zip(("velocity_y", "angular_velocity"), modes)}
         return Shape(
             s=s,
-            angle=a * (motion(bow, by_x=1) + scaling.shear_length**2 * motion(bow, by_x=3)),  # φ = y′ + l_s² y‴
+            angle=angle,
             curvature=-a * k,
             slender=self.true,
             wall_curvature=a * (scaling.kappa * wall_share - scaling.wall_kappa),
             first_touch=scaling.first_touch,
-            **self._laid(s, motion, scaling),
+            **laid,
         )
-
-    @abstractmethod
-    def _laid(self, s: Array, motion: FreeMotion, scaling: Scaling) -> dict[str, Any]:
-        """Places and velocities of the nodes under ``motion``, as :class:`Shape` calls them."""
 
 
 @dataclass(frozen=True)
@@ -256,20 +270,6 @@ class LinearLimit(Geometry):
         swings = MODE_SLOPE * scaling.length / scaling.impact.half_length if held else 0.0
         return STEEPEST / max(1.0, float(largest(far, 1.0, by_x=1)), swings)
 
-    def _laid(self, s: Array, motion: FreeMotion, scaling: Scaling) -> dict[str, Any]:
-        impact, a, bow = scaling.impact, scaling.amplitude, s - scaling.first_touch
-        velocity, turning = motion(bow, by_t=1), motion(bow, by_x=1, by_t=1)
-        if impact.supported:
-            velocity, turning = lowest_mode(impact.left_end, impact.right_end, impact.half_length / scaling.length, s)
-        return {
-            # what carries a force must not be stretched by its own slope
-            "x": _arc(s, motion, a)[0] if scaling.axial_force else s,
-            "y": a * motion(bow),
-            "velocity_x": np.zeros_like(s),
-            "velocity_y": a * velocity,
-            "angular_velocity": a * turning,
-        }
-
 
 @dataclass(frozen=True)
 class TrueGeometry(Geometry):
@@ -282,17 +282,6 @@ class TrueGeometry(Geometry):
 
     def amplitude_of(self, scaling: Scaling, reach: float) -> float:
         return scaling.true_amplitude
-
-    def _laid(self, s: Array, motion: FreeMotion, scaling: Scaling) -> dict[str, Any]:
-        a = scaling.amplitude
-        if np.max(np.abs(a * motion(s, by_x=1))) > np.pi / 2:
-            raise InputError(
-                f"geometry true: the modelled beam of half length {s[-1] * scaling.length:.4g} m turns by more "
-                "than a right angle; shorten run.end_time or beam.length, or use the linear limit"
-            )
-        x, y, vx, vy = _arc(s, motion, a)
-        turning = a * motion(s, by_x=1, by_t=1)
-        return {"x": x, "y": y, "velocity_x": vx, "velocity_y": a + vy, "angular_velocity": turning}
 
 
 GEOMETRIES: dict[str, type] = {"linear": LinearLimit, "true": TrueGeometry}

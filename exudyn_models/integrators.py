@@ -37,6 +37,7 @@ __all__ = [
 ]
 
 MAXIMUM_STEPS = 5_000_000
+SHORTEST = 1e-3  # of a step, what halving it may leave
 EVEN = 12.5  # steps of one length at least, while steps grow …
 CHANGE = 1.05  # … or as many as it takes them to grow by this factor
 
@@ -53,6 +54,15 @@ class Segment:
     def length(self) -> float:
         """Of one step."""
         return (self.end - self.start) / self.steps
+
+    def lay(self, settings: Any, running: Any = None) -> None:
+        """Set Exudyn's steps, nowhere else set: in its settings of the time integration, and in a solver that runs."""
+        settings.minimumStepSize = SHORTEST * self.length
+        for one in (settings, running) if running else (settings,):
+            one.startTime, one.endTime, one.numberOfSteps = self.start, self.end, self.steps
+        if running:
+            running.currentStepSize = running.initialStepSize = running.maxStepSize = self.length
+            running.minStepSize = settings.minimumStepSize
 
 
 @dataclass(frozen=True)

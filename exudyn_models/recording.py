@@ -78,17 +78,16 @@ class Recorder:
         # what the bow has been bent by before the first touch
         self.unbent = 0.0 if natural is None else (natural - impact.curvature) * scaling.length / scaling.slope
         self.loads = beam.loads()
-        self.mass = beam.mass_matrix()
         self.damping = dict(zip(("loss_viscous", "loss_material"), beam.damping_matrices()))
-        self.upward = np.zeros(self.mass.shape[0])
+        self.upward = np.zeros(self.beam.mass.shape[0])
         self.upward[beam.vertical] = 1.0  # the shape functions of deflections add up to one
-        self.momentum = np.asarray(self.mass @ self.upward)  # along y, of velocities
+        self.momentum = np.asarray(self.beam.mass @ self.upward)  # along y, of velocities
         self.record: dict[str, list[Any]] = defaultdict(list)
         self.sums: dict[str, Any] = defaultdict(float)
         self.total = self.deepest = self.start_momentum = self.start_stored = 0.0
         self.fastest = float(np.abs(shape.velocity_y).max())
         self._averaged = np.zeros(contact.contact_s.size)  # contact force after the scheme's averages
-        self._rows: list[tuple[Any, ...]] = []  # time, q, v, a, contact force; the first is old
+        self._rows: list[tuple[Any, ...]] = []  # time, q, v, a, contact force, that along x; the first is old
         self._pending: list[int] = []  # rows that are saved
         self._largest: dict[str, Array] = defaultdict(lambda: np.zeros(3))  # see _keep_largest
 
@@ -104,14 +103,15 @@ class Recorder:
         if not (math.isfinite(q @ q) and v @ v < (1e3 * self.fastest) ** 2):
             self._check(q, v)
         force, self.active = self.contact.forces(q, v)
+        along = self.contact.along
         if not self._rows:
             # all contacts are open when Exudyn computes the first accelerations
-            force = np.zeros_like(force)
+            force, along = np.zeros_like(force), None if along is None else np.zeros_like(along)
             self.start_momentum = float(v @ self.momentum)
             self.start_stored = self.contact.stored_energy(q)
         elif len(self._rows) == ROWS:
             self.sum_up()
-        self._rows.append((t, q, v, a, force))
+        self._rows.append((t, q, v, a, force, along))
         return q, v
 
     def _check(self, q: Array, v: Array) -> None:
@@ -131,9 +131,9 @@ class Recorder:
         """Sum up what happened in the steps since the last call, and complete the record of the instants among them."""
         if len(self._rows) < 2 and not self._pending:
             return
-        time, q, v, a, force = (np.array(column) for column in zip(*self._rows))
+        time, q, v, a, force, along = (np.array(column) for column in zip(*self._rows))
         dt, beam, saved = np.diff(time), self.beam, self._pending
-        gains = self._of_energy(time, q, v, a) | self._of_contact(time, q, v, force)
+        gains = self._of_energy(time, q, v, a) | self._of_contact(time, q, v, force, along)
         after = {name: onwards(self.sums[name], gain) for name, gain in gains.items()}
         total = self.start_momentum + after["load_impulse"] - v @ self.momentum
         after["impulse"] = onwards(self.sums["impulse"], self._impulses(dt, q, force, np.diff(total)))
@@ -183,8 +183,8 @@ class Recorder:
 
     def _of_energy(self, time: Array, q: Array, v: Array, a: Array) -> dict[str, Array]:
         """Work of the loads, their impulse and the losses in each step, each (steps,)."""
-        moved, inertia = np.diff(q, axis=0), (self.mass @ a.T).T
-        kinetic, load = products(v, (self.mass @ v.T).T) / 2, means(self.loads(time))
+        moved, inertia = np.diff(q, axis=0), (self.beam.mass @ a.T).T
+        kinetic, load = self.beam.kinetic_energy(v), means(self.loads(time))
         mean_v = means(v)
         return {
             "loss_algorithmic": (products(moved, inertia[1:]) + products(moved, inertia[:-1])) / 2 - np.diff(kinetic),
@@ -193,7 +193,7 @@ class Recorder:
             **{name: products(mean_v, (matrix @ moved.T).T) for name, matrix in self.damping.items()},
         }
 
-    def _of_contact(self, time: Array, q: Array, v: Array, force: Array) -> dict[str, Array]:
+    def _of_contact(self, time: Array, q: Array, v: Array, force: Array, along: Array) -> dict[str, Array]:
         """Work, losses and impulses of the contact forces in each step, each (steps,)."""
         mean, contact = means(force), self.contact
         depth = q[:, self.beam.vertical[contact.nodes]] - contact.wall_y
@@ -204,6 +204,9 @@ class Recorder:
             "held_impulse": pulls.sum(axis=1),
             "pushed": np.maximum(pushes, 0.0).sum(axis=1),
         }
+        if contact.along is not None:
+            moved = np.diff(q[:, self.beam.horizontal[contact.nodes]], axis=0)
+            gains["contact_work"] = gains["contact_work"] - products(means(along), moved)
         if contact.held_until:  # no other law pulls
             gains |= {"pulls": -pulls, "pushes": pushes}
         if contact.wall_springs is not None:

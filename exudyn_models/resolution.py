@@ -16,7 +16,6 @@ import math
 import numpy as np
 
 from bent_beam import Impact
-from bent_beam.checks import positive
 from bent_beam.impact import BEFORE_WAVES_RETURN
 from bent_beam.loads import WallScales, wall_scales
 from bent_beam.meshes import Mesh, NodesMesh, ScaleFreeMesh
@@ -78,18 +77,12 @@ def chosen_half_length(impact: Impact, end_time: float | None = None) -> float:
     return min(impact.half_length, far_field(scaling) * scaling.length)
 
 
-def chosen_mesh(
-    impact: Impact, end_time: float | None = None, *, explicit: bool = False, coarsen: float = 1.0
-) -> NodesMesh:
-    """The mesh that ``simulate`` lays when none is given (half beam), to lay the same under several impacts.
-
-    coarsen : factor on every element's length.
-    """
-    positive("coarsen", coarsen)
+def chosen_mesh(impact: Impact, end_time: float | None = None, *, explicit: bool = False) -> NodesMesh:
+    """The mesh that ``simulate`` lays when none is given (half beam), to lay the same under several impacts."""
     scaling, wall = Scaling(impact, impact.checked_end_time(end_time)), wall_scales(impact)
     if lasts_until_waves_return(impact, end_time) and wall is None:
         steps_at_one = 2.0 * scaling.end_time / impact.slow_time_scale  # with one element
-        count = max((ELEMENT_STEPS / steps_at_one) ** (1.0 / 3.0), FEWEST) * near_buckling(impact) / coarsen
+        count = max((ELEMENT_STEPS / steps_at_one) ** (1.0 / 3.0), FEWEST) * near_buckling(impact)
         return NodesMesh(tuple(np.linspace(0.0, impact.half_length, max(2, round(count)) + 1).tolist()))
     front = scaling.front
     if wall is not None:
@@ -108,10 +101,10 @@ def chosen_mesh(
         if scaling.kappa < 1.0:
             element = min(element, front * max(1.0 - scaling.kappa, SHORTEST) / OF_SHORT_ZONE)
     rule = ScaleFreeMesh(
-        element * scaling.length * coarsen,
-        1.0 + growth * coarsen,
+        element * scaling.length,
+        1.0 + growth,
         zone=None if zone is None else zone * scaling.length,
-        growth_outside=None if zone is None else 1.0 + GROWTH_OF_WAVES * coarsen,
+        growth_outside=None if zone is None else 1.0 + GROWTH_OF_WAVES,
     )
     return NodesMesh(tuple(rule.nodes(chosen_half_length(impact, end_time)).tolist()))
 

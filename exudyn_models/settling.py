@@ -143,6 +143,7 @@ class Settling:
     def _accept(self, mbs: Any, closed: Flags) -> list[float]:
         """No further repetition: whatever Exudyn's own measure says, it is below :data:`ANY`."""
         if not self._contact.imposes:
+            self._contact.assumed = mbs.systemData.GetDataCoordinates()
             self._follow(mbs)
         elif self._imposed is None:
             self._set(mbs, closed)

@@ -173,8 +173,8 @@ class Stepping:
 
     def _started(self, first: Segment) -> bool:
         """Whether Exudyn took the system; the state at t = 0 is then read and saved."""
-        time, run = self.settings.timeIntegration, self.run
-        time.startTime, time.endTime, time.numberOfSteps = first.start, first.end, first.steps
+        run = self.run
+        first.lay(self.settings.timeIntegration)
         began = clock.perf_counter()
         if not self.solver.InitializeSolver(run.beam.mbs, self.settings):
             self.failure = "Exudyn could not initialise"
@@ -186,12 +186,8 @@ class Stepping:
         return True
 
     def _step_through(self, segment: Segment) -> None:
-        time, it, size = self.settings.timeIntegration, self.solver.it, segment.length
-        self._step = size
-        time.startTime, time.endTime, time.numberOfSteps = segment.start, segment.end, segment.steps
-        it.startTime, it.endTime, it.numberOfSteps = segment.start, segment.end, segment.steps
-        it.currentStepSize = it.initialStepSize = it.maxStepSize = size
-        time.minimumStepSize = it.minStepSize = size * 1e-3
+        segment.lay(self.settings.timeIntegration, self.solver.it)
+        self._step = segment.length
         began = clock.perf_counter()
         solved = self.solver.SolveSteps(self.run.beam.mbs, self.settings)
         self.seconds += clock.perf_counter() - began

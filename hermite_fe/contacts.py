@@ -38,6 +38,7 @@ another impulse, when c < 0. On equal elements (l = 1, μ = 1) lumped masses wit
 
 from __future__ import annotations
 
+import dataclasses
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from typing import Annotated, ClassVar
@@ -51,8 +52,8 @@ from hermite_fe.beam import HermiteBeam
 from hermite_fe.masses import Mass
 from hermite_fe.system import ContactRows
 
-__all__ = ["CONTACTS", "Contact", "ImpactCoupling", "MeanContact", "MiddleContact", "NodeContact", "element_rows",
-           "impact_coupling"]  # fmt: skip
+__all__ = ["CONTACTS", "AlternateContact", "Contact", "ImpactCoupling", "MeanContact", "MiddleContact", "NodeContact",
+           "element_rows", "impact_coupling"]  # fmt: skip
 
 Array = NDArray[np.float64]
 
@@ -163,7 +164,23 @@ class MeanContact(MiddleContact):
     slope_share: ClassVar[float] = 12.0
 
 
-CONTACTS: dict[str, type] = {"node": NodeContact, "middle": MiddleContact, "mean": MeanContact}
+@dataclass(frozen=True)
+class AlternateContact(NodeContact):
+    """Rows at every other node, the middle among them: those between may carry the mass of contact points without any
+    (:mod:`hermite_fe.integrators.massless_boundary`)."""
+
+    def rows(self, beam: HermiteBeam, facing: Array, *, full: bool) -> ContactRows:
+        rows = super().rows(beam, facing, full=full)
+        kept = rows.at(rows.rank % 2 == 0)
+        return dataclasses.replace(kept, rank=kept.rank // 2, tributary=2.0 * kept.tributary)
+
+
+CONTACTS: dict[str, type] = {
+    "node": NodeContact,
+    "middle": MiddleContact,
+    "mean": MeanContact,
+    "alternate": AlternateContact,
+}
 """Kinds of a case file's ``[hermite.contact]`` table."""
 
 

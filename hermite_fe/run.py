@@ -19,6 +19,7 @@ from hermite_fe.compiled import recompiling
 from hermite_fe.constraints import WORST, ContactLaw
 from hermite_fe.elastic_wall import PEAKS, stored_energy
 from hermite_fe.integrators import Integrator
+from hermite_fe.integrators.base import MOST_WORK
 from hermite_fe.maxwell import branch_energy
 from hermite_fe.stepping import ENERGIES, LARGEST, problem_of, state_of
 from hermite_fe.system import System
@@ -27,7 +28,6 @@ __all__ = ["Stepper", "Trajectory", "integrate", "saved_steps", "trajectory_of"]
 
 Array = NDArray[np.float64]
 
-MOST_WORK = 1e11  # steps x nodes: about an hour
 UNSTABLE = 10.0  # times the energy that a beam has been given, at the end: what is not resolved may swing in between
 FAILURES = {
     SINGULAR: "the step matrix is not positive definite",

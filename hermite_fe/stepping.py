@@ -98,7 +98,7 @@ def problem_of(system: System, law: ContactLaw) -> Problem:
     """The arrays of a system."""
     parts = np.array([bands for _, bands in system.dampings]).reshape(-1, *system.damping.shape)
     matrices = Matrices(
-        M=system.mass, C=system.damping, K=system.stiffness,
+        M=system.mass.copy(), C=system.damping, K=system.stiffness,  # a scheme may move masses
         K_sums=row_sums(system.stiffness), C_sums=row_sums(system.damping),
         parts=parts, causes=np.array([ENERGIES.index(f"loss_{cause}") for cause, _ in system.dampings], np.int64),
         load=system.load if np.any(system.load) else np.zeros((0, system.dofs)), springs=system.springs,

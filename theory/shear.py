@@ -83,14 +83,22 @@ class StoppedPoint:
         """Bending moment under the force, its viscous part included, V₀√(EIμ)."""
         return self._inverse(times, "moment")
 
+    def zone(self, times: ArrayLike, kappa_over_nu: float) -> FloatArray:
+        """X, l_s, of the zone under the force: it gives the kink of the deflection, the shear angle γ̂ = R̂/2D, to the
+        sections' angle, which the force has bent from κ to κ − m, m̂ = M̂/D: sinh X = γ/(κ − m). ∞ where κ ≤ m."""
+        kink, bent = self._inverse(times, "kink"), self._inverse(times, "bent")
+        left = kappa_over_nu - bent
+        return np.where(left > 0.0, np.arcsinh(kink / np.where(left > 0.0, left, 1.0)), np.inf)
+
     def _transform(self, s: NDArray[np.complex128], kind: str) -> NDArray[np.complex128]:
         root = np.sqrt(1.0 + self.damping * s)
         u = s / root
         wave = u + np.sqrt(1.0 + self.ratio * u * u)
-        if kind == "moment":
-            return np.asarray(root / (s * wave))
+        elastic = root**2 if kind in ("kink", "bent") else 1.0
+        if kind in ("moment", "bent"):
+            return np.asarray(root / (s * wave) / elastic)
         push = 2.0 * root / s * np.sqrt(1.0 - 1.0 / wave**2)
-        return np.asarray(push / s if kind == "impulse" else push)
+        return np.asarray({"impulse": push / s, "kink": 0.5 * push / elastic}.get(kind, push))
 
     def _inverse(self, times: ArrayLike, kind: str) -> FloatArray:
         t = np.asarray(times, dtype=np.float64)
@@ -129,11 +137,17 @@ def first_instants(
     kappa_over_nu: float, solved: ContactParameters, ratio: float, time: float, damping: float = 0.0
 ) -> tuple[float, float, float]:
     """X, l_s, R, V₀√(Sμ), and J, V₀√(Sμ) t_s, at ``time`` > 0, t_s, without loads: until t_c those of the early zone,
-    later R and J of Euler and Bernoulli's zone or of a stopped point with ``ratio`` g and ``damping`` η over t_s.
+    later R and J of Euler and Bernoulli's zone or of a stopped point with ``ratio`` g and ``damping`` η over t_s, which
+    holds the zone of one point back from the first.
     solved : of this κ/ν, or of one point where damping keeps a zone from spreading."""
-    if time <= early_until(kappa_over_nu):
+    kappa, early = solved.kappa_over_nu, time <= early_until(kappa_over_nu)
+    if kappa >= 1.0 and damping > 0.0 and time <= LATE:
+        point = StoppedPoint(ratio, damping)
+        held = float(point.zone(time, kappa_over_nu))
+        if held < (early_zone(kappa_over_nu, time)[0] if early else rim(kappa, solved.lambda0, time)):
+            return held, float(point.reaction(time)), float(point.impulse(time))
+    if early:
         return early_zone(kappa_over_nu, time)
-    kappa = solved.kappa_over_nu
     place = rim(kappa, solved.lambda0, time)
     push, given = 2.0 * np.sqrt(2.0 / (np.pi * time)), 4.0 * np.sqrt(2.0 * time / np.pi)
     if kappa < 1.0:

@@ -1,4 +1,5 @@
-"""When shear matters: the whole impact over the slenderness with and without shear, and the force of one stopped point.
+"""When shear matters: the whole impact over the slenderness with and without shear; and one stopped point, whose force,
+impulse and moment the theory has exactly, on both paths.
 
 ``python -m benchmarks.figures.shear`` writes ``shear.png`` in ``docs/figures`` (a minute). Paths that do not model a
 beam are left out.
@@ -9,6 +10,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import NDArray
 
 from bent_beam.history import ImpactHistory
 from bent_beam.impact import Impact
@@ -19,13 +21,23 @@ from comparison.bouncing import bounce
 from comparison.figures import style
 from theory.shear import StoppedPoint
 
-__all__ = ["draw"]
+__all__ = ["draw", "over_theory", "stopped_run"]
+
+FloatArray = NDArray[np.float64]
 
 RATIO, DAMPING = 0.2, 3e-3  # κ_sG/E of a pipe, η/T*
 KAPPAS = (0.5, 2.0)
 SLENDERNESS = np.geomspace(25.0, 600.0, 9)  # L/i, i the radius of gyration
 PATHS = {"hermite": SLENDERNESS, "exudyn": SLENDERNESS[[2, 4, 6]]}
-STOPPED = 1e3  # κ/ν of what stands for one point
+STOPPED = 1e4  # κ/ν of what stands for one point
+STEPS = {  # of a run with elements of one length
+    "hermite": lambda element: {
+        "integrator": {"kind": "moreau_jean", "theta": 0.5, "time_step": 0.2 * element},
+        "far_field": {"kind": "viscosity", "viscosity": 0.0},
+    },
+    "exudyn": lambda element: {"integrator": {"kind": "trapezoidal", "time_step": 0.5 * element}},
+}
+ELEMENTS = {"hermite": 0.05, "exudyn": 0.025}  # l_s; the penalty is as soft as an element
 
 
 def sheared(kappa_over_nu: float, slenderness: float) -> Impact:
@@ -46,7 +58,7 @@ def numbers(method: Method, impact: Impact) -> tuple[Number, Number] | None:
 
 def draw(out: Path) -> list[Path]:
     """``shear``: (a) largest moment, (b) restitution over slenderness, (c) force of one point over time."""
-    with style.figure(1, 3, width=style.PAGE, height=2.7) as (fig, (left, middle, right)):
+    with style.figure(2, 2, width=style.PAGE, height=5.2) as (fig, ((left, middle), (right, last))):
         for kappa, fill in zip(KAPPAS, ("none", None)):
             bare = numbers(method_from_tables("hermite", {}), Impact.whole_beam(kappa, relative_damping=DAMPING))
             for axis, number in zip((left, middle), bare or ()):
@@ -62,10 +74,16 @@ def draw(out: Path) -> list[Path]:
         time = np.geomspace(0.05, 30.0, 120)
         right.loglog(time, 2.0 * np.sqrt(2.0 / (np.pi * time)), color="black", lw=0.8, ls="--", label="without shear")
         right.loglog(time, StoppedPoint(RATIO).reaction(time), **style.THEORY | {"lw": 1.0})
-        history = stopped_run()
-        kept = range(36, history.time.size - 12, 12)
-        force = [mean_reaction(history, float(history.time[k])) for k in kept]
-        right.loglog(history.time[kept], force, **style.mark("hermite") | {"ms": 3.0, "label": "hermite"})
+        for path, element in ELEMENTS.items():
+            history, coarse = (stopped_run(path, factor * element) for factor in (1.0, 2.0))
+            kept = np.arange(7, history.time.size - 8, 12)
+            force = [mean_reaction(history, float(history.time[k])) for k in kept]
+            right.loglog(history.time[kept], force, **style.mark(path) | {"ms": 3.0, "label": path})
+            for name, fill, aside in (("impulse", "none", 0.99), ("moment", None, 1.01)):
+                ratios, others = (over_theory(run, name) for run in (history, coarse))
+                bars = 2.0 * np.abs(ratios - np.interp(history.time, coarse.time, others))[kept]
+                mark = style.mark(path) | {"mfc": fill, "label": f"{path}, {name}"}
+                style.bars(last, aside * history.time[kept], 100.0 * (ratios[kept] - 1.0), 100.0 * bars, mark)
         right.set_yticks([0.3, 0.5, 1.0, 2.0, 5.0], labels=["0.3", "0.5", "1", "2", "5"])
         right.set_xticks([0.1, 1.0, 10.0], labels=["0.1", "1", "10"])
         right.tick_params(which="minor", labelleft=False)
@@ -74,22 +92,36 @@ def draw(out: Path) -> list[Path]:
             axis.set_xticks([25, 50, 100, 200, 500], labels=["25", "50", "100", "200", "500"])
             axis.tick_params(which="minor", labelbottom=False)
         right.set(xlabel=r"$t/t_s$  (1)", ylabel=r"$R/V_0\sqrt{\kappa_sGA\,\mu}$  (1)")
+        last.set(
+            xscale="log",
+            xlabel=r"$t/t_s$  (1)",
+            ylabel="simulation over theory $-$ 1  (%)",
+            ylim=(-5.5, 4.0),
+            xlim=(1.7, 25.0),
+        )
+        last.set_xticks([2.0, 5.0, 10.0, 20.0], labels=["2", "5", "10", "20"])
+        last.tick_params(which="minor", labelbottom=False)
         middle.legend(loc="center")
         right.legend()
-        style.label_panels(left, middle, right)
+        last.legend()
+        style.label_panels(left, middle, right, last)
         return style.save(fig, out, "shear")
 
 
-def stopped_run() -> ImpactHistory:
-    """One point that is stopped, until 30 t_s, in units t_s = l_s = V₀ = 1, on the Hermite path."""
+def stopped_run(path: str, element: float) -> ImpactHistory:
+    """One point that is stopped, until 33 t_s, in units t_s = l_s = V₀ = 1."""
     impact = Impact(1.0, 1.0, 2.0 * 45.0, STOPPED, 1.0, shear_stiffness=1.0, rotary_inertia=RATIO)
-    tables = {
-        "mesh": {"kind": "uniform", "element_length": 0.1},
-        "integrator": {"kind": "moreau_jean", "theta": 0.5, "time_step": 0.02},
-        "far_field": {"kind": "viscosity", "viscosity": 0.0},
-    }
-    times = np.geomspace(0.1, 33.0, 150)
-    return method_from_tables("hermite", tables).simulate(impact, end_time=33.0, save=times)
+    method = method_from_tables(path, {"mesh": {"kind": "uniform", "element_length": element}} | STEPS[path](element))
+    return method.simulate(impact, end_time=33.0, save=np.geomspace(0.8, 33.0, 121))
+
+
+def over_theory(history: ImpactHistory, name: str) -> FloatArray:
+    """Impulse, or moment under the point, over the theory's; 1 at t = 0."""
+    point, time = StoppedPoint(RATIO), history.time[1:]
+    found, theory = history.array("total_impulse"), point.impulse(time)
+    if name == "moment":
+        found, theory = history.array("bending_moment")[:, 0], point.moment(time)
+    return np.append(1.0, found[1:] / theory)
 
 
 if __name__ == "__main__":

@@ -85,11 +85,8 @@ class Wall:
 
 
 class HeldStrip:
-    """Remembers which contact nodes have been captured.
-
-    hold : elements behind the front; start : share of the run in which all captured nodes are held (``None``: chosen).
-    start, until : times (of the end time) after which the start, and the strip, are let go.
-    """
+    """Remembers which contact nodes have been captured; all are held until ``start``, those within ``hold`` elements
+    behind the front until ``until``, of the end time."""
 
     def __init__(self, wall: Wall, hold: int, start: float | None = None) -> None:
         if wall.explicit or wall.first_spread < 1.0 or wall.lifts:
@@ -101,13 +98,8 @@ class HeldStrip:
         self._distance = np.abs(wall.nodes - wall.centre)
         self._sides = (wall.nodes >= wall.centre, wall.nodes < wall.centre)
 
-    @property
-    def used(self) -> bool:
-        """Whether any node will ever be held."""
-        return self.until > 0.0
-
     def wanted(self, time: float) -> Flags:
-        """Flags of the contact nodes to hold at ``time`` (of the end time), shape (contacts,)."""
+        """Flags of the contact nodes to hold at ``time``, shape (contacts,)."""
         if time < self.start:
             return self.captured.copy()
         held = np.zeros_like(self.captured)
@@ -124,12 +116,14 @@ class ContactRun(ABC):
     """A contact at work in one system.
 
     nodes : of the beam, those that are contact points; contact_s : their arc lengths; wall_y : the wall there; signs :
-        +1 for those on the wall, −1 for those on an opposite one. Each of shape (contacts,).
+        +1 on the wall, −1 on an opposite one. Each of shape (contacts,).
     """
 
     iterated = True  # Exudyn finds the contact state by repeating steps
     states = 1  # data coordinates of a connector, the first a gap: the connector is closed where it is not positive
     imposes = False  # states are those of ``closed_by``, not of Exudyn's gaps
+    along: Array | None = None  # forces on the beam along x with the last ``forces``, (contacts,), where there are any
+    assumed: Array | None = None  # the states that the last step was solved with, where Exudyn finds them
     wall_springs: Array | None = None  # stiffness at the contact points of a wall that gives way, (contacts,)
     strip: HeldStrip | None = None  # of a contact that may hold captured nodes
     round_off = 0.0  # force in Exudyn's connectors that means nothing: no residual can be made smaller

@@ -12,18 +12,16 @@ With shear nodes meet the wall faster than shear waves at first. There d takes u
 d Δx = 2√(κ_sGA μ) or D = 4√3: hits are plastic (κ/ν = 0.1, η/T* = 7e-4, l_s = 0.05 half lengths: e = 0.076 on 160
 elements, 0.145 with D = 3; an explicit code: 0.076). Not where η is several τ (0.1, 3e-3, 0.022: 0.13 for 0.23; 0.24).
 
-With k and d tied to the element length the contact is as stiff as the elements themselves, on every scale of the
-mesh. Where κ/ν is so small that the front passes an element faster than the element bends, the contact must be as fast
-as the front: it passes Δx at x in t = 2xΔx/λ² √(μ/EI), and C = (λ²Δx/x)² makes √(k/μ) t = 2. The damping ratio stays
-that of 10 and 3.
+So the contact is as stiff as the elements, on every scale of the mesh. Where the front passes an element faster than
+it bends, the contact must be as fast as the front: it passes Δx at x in t = 2xΔx/λ² √(μ/EI), and C = (λ²Δx/x)² makes
+√(k/μ) t = 2, with the damping ratio of 10 and 3.
 
-Below κ/ν = 0.12 the front passes an element about as fast as it bends, on any mesh of moderate size. Each node hits
-the wall by itself, and its rebound adds to the impulse: with D = 3 r₀ is 6.5, 21 and 19 % too large at κ/ν = 1/100,
-1/400 and 1/1600. There D = 40 makes hits plastic, and nothing is held at the start, while nothing but the first spread
-of the zone moves it and steps are implicit. What is left adds to r₀ like 1/D²: the coarser run of an error bar has the
-smaller D in proportion, for with the same D both would be wrong by the same. Not with a ``hold``: its springs would
-pull nodes that D = 40 has stopped ahead of the wall, and give energy. Nor where the material damps waves at grid scale:
-what D = 40 stops ahead of the wall lacks in the impulse (7 % at κ/ν = 0.02, η = 1e-3 T*, 1e-3 T*).
+Below κ/ν = 0.12, on any mesh of moderate size, each node hits the wall by itself, and its rebound adds to the impulse:
+with D = 3 r₀ is 6.5, 21 and 19 % too large at κ/ν = 1/100, 1/400 and 1/1600. There D = 40 makes hits plastic, and
+nothing is held at the start, while nothing but the first spread of the zone moves it and steps are implicit. What is
+left adds to r₀ like 1/D²: the coarser run of an error bar has the smaller D in proportion. Not with a ``hold``, whose
+springs would pull nodes that D = 40 has stopped ahead of the wall, nor where the material damps waves at grid scale:
+what is stopped there lacks in the impulse (7 % at κ/ν = 0.02, η = 1e-3 T*, 1e-3 T*).
 
 The springs and dashpots of a wall that gives way, at the nodes:
 
@@ -104,11 +102,10 @@ class PenaltyRun(ContactRun):
         self._force = np.zeros(nodes.size)
         markers = [beam.marker(int(node), beam.vertical_coordinate) for node in nodes]
         self.connectors = [beam.mbs.AddObject(self._connector(k, marker)) for k, marker in enumerate(markers)]
-        if strip.used:
+        if strip.until:
             self.holders = [beam.mbs.AddObject(self._holder(k, marker)) for k, marker in enumerate(markers)]
 
     def _connector(self, k: int, marker: Any) -> Any:
-        """Exudyn's item for the one-sided spring and dashpot of the ``k``-th contact point."""
         beam, sign, units = self.beam, self.signs[k], self.beam.units
         # open at t = 0: a closed one would put its damping into the initial accelerations
         gap = max(1e-14, float(sign * (self.wall_y[k] - beam.shape.y[self.nodes[k]])))
@@ -122,7 +119,6 @@ class PenaltyRun(ContactRun):
         )
 
     def _holder(self, k: int, marker: Any) -> Any:
-        """Exudyn's item for what holds the ``k``-th contact point, let go at first."""
         return items.ObjectConnectorCoordinateSpringDamper(
             markerNumbers=[self.beam.ground_marker, marker],
             stiffness=self.stiffness[k],
@@ -151,7 +147,7 @@ class PenaltyRun(ContactRun):
     def forces(self, q: Array, v: Array) -> tuple[Array, Flags]:
         force = self._spring_and_dashpot(q, v)
         active = self.closed_by(q, v) | self.held
-        if self.strip.used:
+        if self.strip.until:
             self.strip.captured |= active[: self.strip.captured.size]
         return np.where(active, self.signs * force, 0.0), active
 
@@ -167,7 +163,7 @@ class PenaltyRun(ContactRun):
         return np.where((self.closed_by(q, v) != closed) & ~self.held, np.abs(force), 0.0)
 
     def between(self, time: float, step: float, q: Array, v: Array) -> bool:
-        changed = self._held_or_let_go(time) if self.strip.used else 0
+        changed = self._held_or_let_go(time) if self.strip.until else 0
         if self.explicit:  # nothing is repeated: the state at the start of a step serves all of it
             data, closed = self.beam.mbs.systemData, self.closed_by(q, v)
             if not np.array_equal(closed, data.GetDataCoordinates() <= 0.0):

@@ -39,16 +39,20 @@ class _Run(ContactRun):
 
     states = 3  # gap; stick or slip; where it sticks
 
-    def __init__(self, beam: Beam, elements: Indices, stiffness: Array, damping: Array) -> None:
+    def __init__(
+        self, beam: Beam, elements: Indices, stiffness: Array, damping: Array, friction: float, sliding: Array
+    ) -> None:
         nodes = np.append(elements, elements[-1] + 1)
         super().__init__(beam, nodes, beam.shape.wall_curvature * beam.shape.s[nodes] ** 2 / 2)
         self.elements, self.stiffness, self.damping = elements, stiffness, damping
+        self.friction, self.sliding = friction, sliding
         self.radius = 1.0 / beam.shape.wall_curvature
         self.round_off = float(np.finfo(float).eps * self.radius * stiffness.max())
+        self.along = np.zeros(nodes.size)
 
     def _closest(self, q: Array) -> tuple[Array, Array, Array, Array]:
-        """Gap of each segment, where on it (0 … 1) and the normal there away from the wall (2, segments), and the
-        vertical part of the nodes' normals (nodes,)."""
+        """Gap of each segment, where on it (0 … 1), and the normals away from the wall there and at the nodes, each of
+        shape (2, segments or nodes)."""
         beam, r = self.beam, self.radius
         x = (beam.shape.s + q[beam.horizontal])[self.nodes]
         y = q[beam.vertical][self.nodes]
@@ -57,29 +61,34 @@ class _Run(ContactRun):
         px, py = x[:-1] + at * dx, y[:-1] + at * dy
         distance = np.hypot(px, py - r)
         gap = (px**2 + py**2 - 2.0 * r * py) / (distance + r)  # distance − r without the difference of large numbers
-        return gap, at, np.stack([px, py - r]) / distance, (r - y) / np.hypot(x, y - r)
+        return gap, at, np.stack([px, py - r]) / distance, np.stack([x, y - r]) / np.hypot(x, y - r)
 
-    def _normal_forces(self, q: Array, v: Array) -> tuple[Array, Array, Array, Array]:
-        """Gap of each segment, the force that it has when closed, where on it, and the nodes' vertical normals."""
-        gap, at, normal, vertical = self._closest(q)
+    def _pushes(self, q: Array, v: Array) -> tuple[Array, Array, Array]:
+        """Gap of each segment, the push that it has when closed, and how fast it slides."""
+        gap, at, normal, _ = self._closest(q)
         ends = np.stack([v[self.beam.horizontal], v[self.beam.vertical]])[:, self.nodes]
-        rate = ((ends[:, :-1] * (1.0 - at) + ends[:, 1:] * at) * normal).sum(axis=0)
-        return gap, -(self.stiffness * gap + self.damping * rate), at, vertical
+        velocity = ends[:, :-1] * (1.0 - at) + ends[:, 1:] * at
+        push = -(self.stiffness * gap + self.damping * (velocity * normal).sum(axis=0))
+        return gap, push, normal[0] * velocity[1] - normal[1] * velocity[0]
 
     def forces(self, q: Array, v: Array) -> tuple[Array, Flags]:
-        gap, force, at, vertical = self._normal_forces(q, v)
-        force = np.where(gap <= 0.0, force, 0.0)
-        nodal = np.zeros(self.nodes.size)
-        nodal[:-1] += force * (1.0 - at)
-        nodal[1:] += force * at
-        return nodal * vertical, nodal != 0.0
+        gap, push, speed = self._pushes(q, v)
+        states = np.stack([gap, 0.0 * gap, 0.0 * gap], axis=1).ravel() if self.assumed is None else self.assumed
+        closed, slips = states[:: self.states] <= 0.0, states[1 :: self.states]
+        rubs = np.where(np.abs(slips) == 1.0, self.friction * np.abs(push) * slips, self.sliding * speed)
+        _, at, _, normals = self._closest(q)
+        shares = np.stack([1.0 - at, at]) * closed
+        push, rubs = (np.pad(f[0], (0, 1)) + np.pad(f[1], (1, 0)) for f in (push * shares, rubs * shares))
+        self.along = push * normals[0] + rubs * normals[1]
+        across = rubs * normals[0] - push * normals[1]
+        return across, across != 0.0
 
     def stored_energy(self, q: Array) -> float:
         return float((self.stiffness * np.minimum(self._closest(q)[0], 0.0) ** 2).sum() / 2)
 
     def contradictions(self, q: Array, v: Array, closed: Flags) -> Array:
-        gap, force, _, _ = self._normal_forces(q, v)
-        wrong = np.where(gap <= 0.0, ~closed, closed & (force <= 0.0))
+        gap, push, _ = self._pushes(q, v)
+        wrong = np.where(gap <= 0.0, ~closed, closed & (push <= 0.0))
         return np.where(wrong, self.stiffness * np.abs(gap), 0.0)
 
 
@@ -125,7 +134,7 @@ class SegmentFriction(Contact):
         mbs, lengths, units = beam.mbs, beam.lengths, beam.units
         radius = units.length / beam.shape.wall_curvature
         k, d = penalty_per_length(lengths**2, self.relative_stiffness, self.relative_damping)
-        tangential = self.relative_friction_damping / lengths**2
+        tangential = (self.relative_friction_damping if self.friction else 0.0) / lengths**2
         ground = mbs.AddObject(items.ObjectGround())
         circle = mbs.AddMarker(items.MarkerBodyRigid(bodyNumber=ground, localPosition=[0.0, radius, 0.0]))
         connectors, elements = [], np.arange(max(0, int(wall.nodes[0]) - 1), min(lengths.size, int(wall.nodes[-1]) + 1))
@@ -143,11 +152,13 @@ class SegmentFriction(Contact):
                     contactDamping=d[e] * lengths[e] * units.damping,
                     circleRadius=radius,
                     frictionCoefficient=self.friction,
-                    frictionVelocityPenalty=tangential[e] * lengths[e] * units.damping if self.friction else 0.0,
+                    frictionVelocityPenalty=tangential[e] * lengths[e] * units.damping,
                     useSegmentNormals=False,
                 )
             )
             connectors.append(connector)
-        run = _Run(beam, elements, (k * lengths)[elements], (d * lengths)[elements])
+        share = lengths[elements]
+        pushes = k[elements] * share, d[elements] * share
+        run = _Run(beam, elements, *pushes, self.friction, tangential[elements] * share)
         run.connectors = connectors
         return run

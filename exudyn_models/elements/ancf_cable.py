@@ -37,20 +37,17 @@ class _Cable(Beam):
     rotation_coordinate = 3
 
     def node(self, i: int) -> Any:
-        shape, angle, turning = self.shape, self.shape.angle[i], self.shape.angular_velocity[i]
-        cos, sin = np.cos(angle), np.sin(angle)
-        if not (shape.slender or self.section.axial_force):
-            cos, sin = 1.0, angle  # the linear limit: slopes are angles and nothing stretches to first order
+        shape, turning = self.shape, self.shape.angular_velocity[i]
+        cos, sin = np.cos(shape.angle[i]), np.sin(shape.angle[i])
         stretched = 1.0 + self.section.stretch
         x, y = stretched * shape.x[i] - shape.s[i], shape.y[i]
-        along = -turning * sin if shape.slender else 0.0
         length, rate = self.units.length, 1.0 / self.units.time
         speed = length * rate
         return items.NodePoint2DSlope1(
             referenceCoordinates=[shape.s[i] * length, 0.0, 1.0, 0.0],
             initialCoordinates=[x * length, y * length, stretched * cos - 1.0, stretched * sin],
             initialVelocities=[
-                shape.velocity_x[i] * speed, shape.velocity_y[i] * speed, along * rate, turning * cos * rate
+                shape.velocity_x[i] * speed, shape.velocity_y[i] * speed, -turning * sin * rate, turning * cos * rate
             ],
         )  # fmt: skip
 
@@ -85,10 +82,6 @@ class _Cable(Beam):
 
     def slope(self, q: Array) -> Array:
         return np.asarray(q[..., self.rotation] / (1.0 + q[..., self.horizontal + 2]))
-
-    def kinetic_energy(self, v: Array) -> Array:
-        (along,), (across,) = self._fields(v, 0, GAUSS, 0), self._fields(v, 1, GAUSS, 0)
-        return self._integral(along**2 + across**2) / 2
 
     def axial_strain(self, q: Array) -> Array:
         (x1,), (y1,) = self._fields(q, 0, GAUSS, 1), self._fields(q, 1, GAUSS, 1)

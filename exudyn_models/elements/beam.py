@@ -9,6 +9,7 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Annotated, Any, ClassVar
 
 import exudyn.itemInterface as items
@@ -82,11 +83,11 @@ class Beam(ABC):
 
     @abstractmethod
     def node(self, i: int) -> Any:
-        """Exudyn's item for the ``i``-th node."""
+        """Exudyn's item."""
 
     @abstractmethod
     def body(self, i: int) -> Any:
-        """Exudyn's item for the element between the nodes ``i`` and ``i`` + 1."""
+        """Exudyn's item between the nodes ``i`` and ``i`` + 1."""
 
     def round_off(self, velocity: float) -> float:
         """Viscous force that means nothing, of velocities of this size: no residual of a step can be made smaller.
@@ -153,7 +154,7 @@ class Beam(ABC):
         size = self.mbs.systemData.GetODE2Coordinates().size
         uniform = np.zeros(size)
         uniform[self.vertical] = self.uniform_load
-        constant, rate = self.mass_matrix() @ uniform, np.zeros(size)
+        constant, rate = self.mass @ uniform, np.zeros(size)
         for node, coordinate, value, slope in self.node_loads:
             place = self.vertical[node] - self.vertical_coordinate + coordinate
             constant[place] += value
@@ -168,22 +169,23 @@ class Beam(ABC):
         size = self.mbs.systemData.GetODE2Coordinates().size
         return csr_matrix((matrices.ravel(), (rows.ravel(), columns.ravel())), shape=(size, size))
 
-    def mass_matrix(self) -> Matrix:
-        """Consistent mass matrix of the system, for its linear part."""
-        mass, _, _ = self.element_matrices()
-        along = self.axial_mass()
-        last = self.horizontal + self.rotation_coordinate - 1
-        return self._assembled(mass, self.vertical, self.rotation) + self._assembled(along, self.horizontal, last)
+    @cached_property
+    def mass(self) -> Matrix:
+        """Consistent mass matrix of the system, after ``locate``."""
+        across, last = self.element_matrices()[0], self.horizontal + self.rotation_coordinate - 1
+        along = self._assembled(self.axial_mass(), self.horizontal, last)
+        return along + self._assembled(across, self.vertical, self.rotation)
+
+    def kinetic_energy(self, v: Array) -> Array:
+        """Of one state, or of each of several, v (states, coordinates)."""
+        return np.asarray((v * (self.mass @ v.T).T).sum(axis=-1) / 2)
 
     def damping_matrices(self) -> tuple[Matrix, Matrix]:
         """Of the system, by the viscosity at grid scale and by that of the material."""
         _, _, damped = self.element_matrices()
-        grid = self.grid_viscosity[:, None, None] * damped
-        material = self.section.damping * damped
-        return (
-            self._assembled(grid, self.vertical, self.rotation),
-            self._assembled(material, self.vertical, self.rotation),
-        )
+        grid, material = self.grid_viscosity[:, None, None] * damped, self.section.damping * damped
+        where = self.vertical, self.rotation
+        return self._assembled(grid, *where), self._assembled(material, *where)
 
     def locate(self) -> None:
         """After ``mbs.Assemble()``: where the coordinates stand in the system's vectors."""
@@ -199,10 +201,6 @@ class Beam(ABC):
     @abstractmethod
     def slope(self, q: Array) -> Array:
         """dy/dx at the nodes; of a beam that shears the angle of its sections."""
-
-    @abstractmethod
-    def kinetic_energy(self, v: Array) -> Array:
-        """Of one state, or of each of several, v (states, coordinates)."""
 
     @abstractmethod
     def axial_strain(self, q: Array) -> Array:

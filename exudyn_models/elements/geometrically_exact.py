@@ -3,40 +3,36 @@
     m = EI(θ′ − κ₀ + η θ̇′),   q = S(γ + η γ̇),   n = EA ε,   position and angle θ linear between nodes, one point
 
 Of a beam that shears, S = κ_sGA and the rotary inertia J are its own, and the material damps bending and shear alike.
-Of one that does not, the one-point rule lets S be so large (``shear_ratio`` EI/Δx²) that the shear angle vanishes
-against the slope, since it does not lock; the rotary inertia is a small multiple of what the element's length would
-give the section, and bending alone is damped. Second order in Δx where the cable is of fourth.
+Of one that does not, the one-point rule, which does not lock, lets S be so large that the shear angle vanishes against
+the slope; a small rotary inertia keeps the mass matrix regular, and bending alone is damped. Second order in Δx where
+the cable is of fourth.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Annotated, Any
+from typing import Any
 
 import exudyn.itemInterface as items
 import numpy as np
 
-from bent_beam import Impact
-from bent_beam.fields import Quantity
 from exudyn_models.elements.beam import Beam, Element, Section
 from exudyn_models.geometry import Array, Shape
 
 __all__ = ["GeometricallyExact"]
 
 PAIR = np.array([[2.0, 1.0], [1.0, 2.0]]) / 6  # products of the linear shape functions, of the unit element
-SHEAR, ROTARY = 100.0, 0.01  # in EI/Δx² and μΔx², of a beam without shear
+SHEAR, ROTARY = 100.0, 0.01  # in EI/Δx² and μΔx², of a beam without shear: neither has a visible effect
 
 
 class _Exact(Beam):
     rotation_coordinate = 2
 
-    def __init__(self, mbs: Any, shape: Shape, section: Section, viscosity: Array, ratios: GeometricallyExact) -> None:
+    def __init__(self, mbs: Any, shape: Shape, section: Section, viscosity: Array) -> None:
+        self.shear_stiffness, self.rotary_inertia = SHEAR / shape.lengths**2, ROTARY * shape.lengths**2
         if section.shear_length:
             self.shear_stiffness = np.full_like(shape.lengths, section.shear_length**-2)
             self.rotary_inertia = np.full_like(shape.lengths, section.rotary_inertia)
-        else:
-            self.shear_stiffness = (ratios.shear_ratio or SHEAR) / shape.lengths**2
-            self.rotary_inertia = (ratios.rotary_ratio or ROTARY) * shape.lengths**2
         super().__init__(mbs, shape, section, viscosity)
 
     def node(self, i: int) -> Any:
@@ -69,16 +65,6 @@ class _Exact(Beam):
     def slope(self, q: Array) -> Array:
         angle = q[..., self.rotation]
         return np.asarray(np.tan(angle) if self.shape.slender and not self.section.shear_length else angle)
-
-    def _square(self, values: Array) -> Array:
-        """∫ of the square of a linearly interpolated field over each element, over its length."""
-        a, b = values[..., :-1], values[..., 1:]
-        return np.asarray((a**2 + a * b + b**2) / 3)
-
-    def kinetic_energy(self, v: Array) -> Array:
-        square = self._square(v[..., self.horizontal]) + self._square(v[..., self.vertical])
-        turning = self.rotary_inertia * self._square(v[..., self.rotation])
-        return np.asarray(((square + turning) * self.lengths).sum(axis=-1) / 2)
 
     def _strains(self, q: Array) -> tuple[Array, Array]:
         """ε and γ of each element."""
@@ -133,23 +119,5 @@ class GeometricallyExact(Element):
     Of one that does not, a second opinion in 0.5 to 0.65 of the cable's time: λ₀ is as good as the cable's at
     κ/ν = 0.2, five times as far off at 0.5 and 0.8 (0.005, 0.07 %) on the same mesh."""
 
-    shear_ratio: Annotated[
-        float | None,
-        Quantity("", "GA in EI/Δx² of each element, without shear", above=0.0, absent=f"{SHEAR:g}, which is none"),
-    ] = None
-    rotary_ratio: Annotated[
-        float | None,
-        Quantity("", "rotary inertia in μΔx², likewise", above=0.0, absent=f"{ROTARY:g}, for a regular mass matrix"),
-    ] = None
-
-    def refuses(self, impact: Impact) -> str | None:
-        for name in ("shear_ratio", "rotary_ratio"):
-            if impact.shear_stiffness is not None and getattr(self, name) is not None:
-                return (
-                    f"exudyn.element.{name} has no effect on a beam that shears, whose own counts: leave it out "
-                    f"(got {getattr(self, name)!r})"
-                )
-        return None
-
     def build(self, mbs: Any, shape: Shape, section: Section, viscosity: Array) -> Beam:
-        return _Exact(mbs, shape, section, viscosity, self)
+        return _Exact(mbs, shape, section, viscosity)

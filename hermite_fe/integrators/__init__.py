@@ -2,6 +2,7 @@
 
 from hermite_fe.integrators.base import Integrator
 from hermite_fe.integrators.generalized_alpha_penalty import GeneralizedAlphaPenalty
+from hermite_fe.integrators.massless_boundary import MasslessBoundary
 from hermite_fe.integrators.midpoint import Midpoint
 from hermite_fe.integrators.nonsmooth_generalized_alpha import NonsmoothGeneralizedAlpha
 from hermite_fe.integrators.theta import MoreauJean, SignoriniPosition
@@ -10,6 +11,7 @@ __all__ = [
     "INTEGRATORS",
     "GeneralizedAlphaPenalty",
     "Integrator",
+    "MasslessBoundary",
     "Midpoint",
     "MoreauJean",
     "NonsmoothGeneralizedAlpha",
@@ -22,5 +24,6 @@ INTEGRATORS: dict[str, type] = {
     "signorini_position": SignoriniPosition,
     "generalized_alpha_penalty": GeneralizedAlphaPenalty,
     "midpoint": Midpoint,
+    "massless_boundary": MasslessBoundary,
 }
 """Kinds of a case file's ``[hermite.integrator]`` table."""

@@ -19,6 +19,7 @@ from hermite_fe.stepping import Problem, State
 __all__ = ["Integrator"]
 
 MAXIMUM_STEPS = 20_000_000
+MOST_WORK = 1e11  # steps x nodes: about an hour
 
 
 @dataclass(frozen=True)

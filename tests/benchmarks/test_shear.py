@@ -5,10 +5,12 @@ import pytest
 
 from benchmarks.shear import QUIET, lacking, peak, run
 from bent_beam import Impact
+from bent_beam.measure.moments import half_contact_length
 from bent_beam.meshes import UniformMesh
 from hermite_fe import HermiteFE
 from hermite_fe.integrators import MoreauJean
-from theory.shear import StoppedPoint, early_until, forgotten_after
+from theory import contact_parameters
+from theory.shear import StoppedPoint, early_until, first_instants, forgotten_after
 
 
 @pytest.mark.parametrize("kappa", [0.3, 0.8, 1.0, 3.0])
@@ -39,6 +41,19 @@ def test_a_stopped_point_has_its_impulse_moment_and_mean_reaction() -> None:
         around = 0.9 * time, 1.1 * time
         mean = np.diff(np.interp(around, history.time, impulse))[0]
         assert mean == pytest.approx(float(np.diff(exact.impulse(np.array(around)))[0]), rel=2e-3)
+
+
+def test_damping_keeps_the_zone_of_one_point_short() -> None:
+    """Material damping of 5 t_s and κ/ν = 2: without it the zone would be 0.4 l_s long at 3 t_s."""
+    damping, element = 5.0, 0.02
+    impact = Impact(1.0, 1.0, 60.0, 2.0, 1.0, shear_stiffness=1.0, rotary_inertia=0.2, damping=damping)
+    scheme = MoreauJean(theta=0.6, time_step=0.02, growth=0.0)
+    method = HermiteFE(mesh=UniformMesh(element), integrator=scheme, far_field=QUIET)
+    history = method.simulate(impact, end_time=6.0, save=[1.0, 3.0, 6.0])
+    for k, time in ((1, 1.0), (2, 3.0), (3, 6.0)):
+        place, _, impulse = first_instants(2.0, contact_parameters(2.0), 0.2, time, damping)
+        assert half_contact_length(history, k) == pytest.approx(place, abs=0.04)
+        assert history.array("total_impulse")[k] == pytest.approx(impulse, rel=0.03)
 
 
 def test_a_soft_wall_rules_the_largest_force() -> None:

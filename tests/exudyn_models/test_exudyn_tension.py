@@ -22,7 +22,7 @@ def test_a_straight_beam_on_a_bulging_wall_is_the_bent_beam_on_a_flat_one():
     bent = Impact.dimensionless(0.5, length=16.0)
     straight = bent.replace(curvature=0.0, wall_curvature=-0.5)
     both = bent.replace(curvature=0.8, wall_curvature=0.3)
-    mesh = exudyn_models.chosen_mesh(bent, coarsen=8.0)
+    mesh = exudyn_models.chosen_mesh(bent).refined(1 / 8)
     flat, *curved = (exudyn_models.simulate(i, mesh=mesh, save=20) for i in (bent, straight, both))
     for history in curved:
         assert_allclose(history.array("total_impulse"), flat.array("total_impulse"), rtol=1e-4, atol=1e-6)
@@ -65,7 +65,7 @@ def test_what_no_theory_of_a_zone_needs_is_left_alone():
     point, zone = (Impact.dimensionless(kappa, epsilon_psi=0.3) for kappa in (1.1, 0.3))
     assert held_for(None, point).hold == 0 < held_for(None, zone).hold
     assert chosen_half_length(zone, 0.1) == chosen_half_length(Impact.dimensionless(0.3), 0.1)
-    mesh = exudyn_models.chosen_mesh(zone, 0.1, coarsen=4.0)
+    mesh = exudyn_models.chosen_mesh(zone, 0.1).refined(1 / 4)
     history = exudyn_models.simulate(zone, mesh=mesh, end_time=0.1, save=5)
     assert history.array("gap")[-1].min() < -1.0  # of what would be inside the wall without one, and far away
     assert not any("enters the wall" in warning for warning in history.warnings)

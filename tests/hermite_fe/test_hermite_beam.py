@@ -104,7 +104,7 @@ def test_modes_have_the_frequency_of_the_pinned_and_the_damping_of_the_free_beam
     assert (q @ force) / (q @ product(model.system.mass, q)) == pytest.approx(eta * k**4, rel=1e-5)
 
 
-@pytest.mark.parametrize("kind", sorted(INTEGRATORS))
+@pytest.mark.parametrize("kind", sorted({*INTEGRATORS} - {"massless_boundary"}))  # moves masses, has no damping
 @pytest.mark.parametrize("mass", [ConsistentMass(), LumpedMass()])
 def test_momentum_is_what_wall_and_load_give_under_tension_and_damping(kind: str, mass: Mass) -> None:
     impact = Impact.dimensionless(0.5, length=4.0, epsilon_axial=0.5, epsilon_alpha=0.1, damping=1e-3)

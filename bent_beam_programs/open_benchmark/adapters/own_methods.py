@@ -1,7 +1,8 @@
 """This project's own methods (hermite, exudyn), through the same two files as anybody's.
 
 Mesh and steps are what the method chooses from the problem's κ/ν and end time: a host's privilege. "strict" has none: a
-uniform mesh and constant steps, the same for every problem, and contact that may never pull.
+uniform mesh and constant steps, the same for every problem, and contact that may never pull; "massless" is the scheme
+of contact points without mass on this mesh.
 """
 
 import dataclasses
@@ -45,13 +46,17 @@ def chosen(path, choice, bare, end, infinite, resolution):
         if path in STEPS:
             method = dataclasses.replace(method, integrator=method.integrator.refined(STEPS[path]))
         return refined(method, REFINEMENT.get(path, OTHERS)[resolution]) or method
-    from hermite_fe.contacts import NodeContact
-    from hermite_fe.integrators import SignoriniPosition
+    from hermite_fe.contacts import AlternateContact, NodeContact
+    from hermite_fe.far_fields import GridViscosity
+    from hermite_fe.integrators import MasslessBoundary, SignoriniPosition
 
     size = STRICT[resolution]
-    steps = SignoriniPosition(theta=1.0, time_step=end / round(80 * end / size), growth=0.0)
-    contact = NodeContact(hold=0, hold_until=0.0)
-    method = dataclasses.replace(method, mesh=UniformMesh(element_length=size), integrator=steps, contact=contact)
+    steps = {"time_step": end / round(80 * end / size), "growth": 0.0}
+    parts = {"integrator": SignoriniPosition(theta=1.0, **steps), "contact": NodeContact(hold=0, hold_until=0.0)}
+    if choice == "massless":  # which knows no damping
+        still = GridViscosity(viscosity=0.0, end="following")
+        parts = {"integrator": MasslessBoundary(**steps), "contact": AlternateContact(), "far_field": still}
+    method = dataclasses.replace(method, mesh=UniformMesh(element_length=size), **parts)
     return chosen_for(method, bare, end)
 
 
