@@ -132,7 +132,7 @@ def _whole(document: dict[str, Any]) -> list[str]:
     whole = document["whole_impact"]
     if not whole:
         return []
-    force, said = whole["peak_force"], [f"warning: {text}" for text in whole["warnings"]]
+    force, said = whole["peak_force"], [f"warning: {w}" for w in whole["warnings"] if w not in document["warnings"]]
     largest = f"Largest impulse within {milliseconds(whole['push_window'])}: {_scaled(whole['push'], 1.0)} N s. "
     if force:
         largest = f"Largest force of the whole impact: {_scaled(force, 1e-3)} kN. "

@@ -110,6 +110,7 @@ def figure(
 
 def save(fig: Figure, out: Path, name: str, formats: Sequence[str] = ("png",)) -> list[Path]:
     """Write ``name.png`` (and pdf, svg) in ``out``, atomically and without time stamps; returns the files."""
+    fig.draw_without_rendering()  # a layout makes room for the ticks of the one before
     files = []
     for kind in formats:
         if kind not in FORMATS:

@@ -46,5 +46,5 @@ const Answer = (() => {
     }));
   }
 
-  return { RATIOS, quick, resolution, runs, numbers };
+  return { RATIOS, quick, runs, numbers };
 })();
