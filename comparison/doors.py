@@ -19,16 +19,18 @@ from comparison import bouncing
 from comparison.answers import write_answer
 from comparison.bounced import Bounce
 from comparison.bouncing import case_of
+from comparison.matching import Matched
 from comparison.matching import match as match_all
 from comparison.methods import PATHS
 from comparison.predicting import PredictedCase, predict_case
 from comparison.readable import csv_text
-from comparison.rows import THESIS_KAPPAS, MatchRow, match_document, match_table, questions
-from comparison.store import RunStore, default_store
-from comparison.sweeping import sweep_case, varied_from
+from comparison.rows import THESIS_KAPPAS, questions
+from comparison.store import RunStore
+from comparison.sweeping import Row, cases_of, row_of, varied_from
 from comparison.swept import SweepTable
+from comparison.workers import run_all
 
-__all__ = ["Matched", "Swept", "bounce", "match", "predict", "sweep"]
+__all__ = ["Swept", "bounce", "match", "predict", "sweep"]
 
 Beam = Case | Impact | str | Path
 
@@ -40,8 +42,7 @@ def predict(beam: Beam, *times: float, theory_only: bool = False, fresh: bool = 
     Raises ``ValueError`` for what theory or simulation does not take, :class:`bent_beam.SimulationError`.
     """
     case = case_of(beam)
-    store = RunStore(None if fresh else default_store())
-    return predict_case(case, times or (case.end_time,), theory_only=theory_only, store=store)
+    return predict_case(case, times or (case.end_time,), theory_only=theory_only, store=RunStore.usual(fresh))
 
 
 def made(method: Method | str, case: Case | None = None) -> Method:
@@ -62,25 +63,7 @@ def bounce(beam: Beam, path: Method | str = "hermite", *, jobs: int = 1, fresh: 
     Raises ``ValueError`` for what the method refuses, :class:`bent_beam.SimulationError` when it cannot finish.
     """
     case = case_of(beam)
-    store = RunStore(None if fresh else default_store())
-    return bouncing.bounce(case, made(path, case), store=store, jobs=jobs)
-
-
-class Matched(list[MatchRow]):
-    """Rows of a match."""
-
-    def to_dict(self) -> dict[str, Any]:
-        """The contract of ``bentbeam match --json``."""
-        return match_document(self)
-
-    def __str__(self) -> str:
-        return match_table(self)
-
-    def plot(self) -> Any:
-        """λ₀ and r₀ over κ/ν on the theory's curves, as a Matplotlib figure."""
-        from comparison.figures.matching import leading_figure
-
-        return leading_figure(self)
+    return bouncing.bounce(case, made(path, case), store=RunStore.usual(fresh), jobs=jobs)
 
 
 def match(
@@ -96,7 +79,7 @@ def match(
     first_order : (α, ψ, χ[, N]) each; none: the leading order. jobs : processes. fresh : stored runs are ignored.
     """
     asked = questions([made(one) for one in methods or PATHS], kappa_over_nu, first_order, refine)
-    return Matched(match_all(asked, store=RunStore(None if fresh else default_store()), jobs=jobs))
+    return match_all(asked, store=RunStore.usual(fresh), jobs=jobs)
 
 
 class Swept(SweepTable):
@@ -145,6 +128,13 @@ def sweep(
         if not isinstance(values, (str, Sequence, np.ndarray)):
             raise InputError(f"vary: {key} takes its values in a list, or as text (got {shortened(values)})")
         given[key] = varied_from(f"{key}={values}")[1] if isinstance(values, str) else list(values)
-    store = RunStore(None if fresh else default_store())
-    rows = sweep_case(tables, given, path, store=store, jobs=jobs, scheduler=scheduler, progress=progress)
+    cases = cases_of(tables, given)
+    rows = run_all(
+        row_of,
+        [(varied, case, path, RunStore.usual(fresh)) for varied, case in cases],
+        jobs=jobs,
+        scheduler=scheduler,
+        progress=progress,
+        on_death=lambda i, why: Row(cases[i][0], reason=why),
+    )
     return Swept(str(tables.get("title", "")), path, given, rows)

@@ -25,11 +25,20 @@ from bent_beam.measure.reduction import hold_of, pull_of, wall_peaks
 from bent_beam.method import Method, chosen_for, refined, settings_of, simulated
 from comparison.answers import Run
 from comparison.questions import ERROR_BARS
-from comparison.rows import MatchQuestion, MatchRow, about, first_order_epsilon, lost_row, with_theory
+from comparison.rows import (
+    MatchQuestion,
+    MatchRow,
+    about,
+    first_order_epsilon,
+    lost_row,
+    match_document,
+    match_table,
+    with_theory,
+)  # fmt: skip
 from comparison.store import RunStore, source_of
 from comparison.workers import Clock, run_all
 
-__all__ = ["INSTANTS", "answer", "match"]
+__all__ = ["INSTANTS", "Matched", "answer", "match"]
 
 INSTANTS = 250
 SHARES = (0.35, 0.7, 1.0)  # of the largest ε
@@ -203,6 +212,23 @@ def _attempt(question: MatchQuestion, store: RunStore, limit: float | None) -> M
         return lost_row(question, reason, refused=isinstance(error, Refused))
 
 
+class Matched(list[MatchRow]):
+    """Rows of a match."""
+
+    def to_dict(self) -> dict[str, Any]:
+        """The contract of ``bentbeam match --json``."""
+        return match_document(self)
+
+    def __str__(self) -> str:
+        return match_table(self)
+
+    def plot(self) -> Any:
+        """λ₀ and r₀ over κ/ν on the theory's curves, as a Matplotlib figure."""
+        from comparison.figures.matching import leading_figure
+
+        return leading_figure(self)
+
+
 def match(
     asked: Sequence[MatchQuestion],
     *,
@@ -211,7 +237,7 @@ def match(
     scheduler: str | None = None,
     limit: float | None = None,
     progress: Callable[[int, int], None] | None = None,
-) -> list[MatchRow]:
+) -> Matched:
     """A row for each question, in their order, with ``jobs`` processes or on a dask ``scheduler``.
 
     limit : seconds that one row may take (``None``: no limit); one that takes longer is a failure.
@@ -226,7 +252,7 @@ def match(
     """
     if limit is not None:
         positive("limit", limit)
-    return run_all(
+    rows = run_all(
         _attempt,
         [(question, store or RunStore(None), limit) for question in asked],
         jobs=jobs,
@@ -234,3 +260,4 @@ def match(
         progress=progress,
         on_death=lambda i, why: lost_row(asked[i], why),
     )
+    return Matched(rows)

@@ -73,6 +73,11 @@ class RunStore:
 
     folder: Path | None
 
+    @classmethod
+    def usual(cls, fresh: bool = False) -> RunStore:
+        """That of :func:`default_store`; ``fresh``: one that keeps nothing, so that nothing stored is read."""
+        return cls(None if fresh else default_store())
+
     def answer(self, question: Mapping[str, Any], compute: Callable[[], dict[str, Any]]) -> dict[str, Any]:
         """The kept answer to ``question``, or ``compute()``'s, kept from now on; all JSON-ready. Nothing is kept where
         ``source`` is unknown."""

@@ -29,9 +29,8 @@ from comparison.predicting import instants_reading, numbers_at
 from comparison.questions import Question
 from comparison.readable import readable
 from comparison.store import RunStore
-from comparison.workers import run_all
 
-__all__ = ["NAMES", "Row", "sweep_case", "varied_from"]
+__all__ = ["NAMES", "Row", "cases_of", "row_of", "varied_from"]
 
 NAMES = (
     "restitution",
@@ -106,20 +105,12 @@ def _value(text: str) -> Any:
     return read["value"]
 
 
-def sweep_case(
-    tables: Mapping[str, Any],
-    vary: Mapping[str, Sequence[Any]],
-    path: str = "hermite",
-    *,
-    store: RunStore | None = None,
-    jobs: int = 1,
-    scheduler: str | None = None,
-    progress: Callable[[int, int], None] | None = None,
-) -> list[Row]:
-    """A row for each combination of the values of ``vary`` (``table.key`` → values) laid over a case's ``tables``, the
-    last key varying fastest; with ``jobs`` processes or on a dask ``scheduler``.
+def cases_of(
+    tables: Mapping[str, Any], vary: Mapping[str, Sequence[Any]]
+) -> list[tuple[dict[str, Any], Case | InputError]]:
+    """Each combination of the values of ``vary`` (``table.key`` → values), the last key varying fastest, and what it
+    laid over a case's ``tables`` makes.
 
-    store : where runs are kept. progress : called with (done, all) rows.
     Raises :class:`InputError` for a combination that is no case where none of them is.
     """
     count = int(np.prod([len(values) for values in vary.values()]))
@@ -129,14 +120,7 @@ def sweep_case(
     cases = [_case(tables, varied) for varied in combinations]
     if all(isinstance(case, InputError) for case in cases):
         raise cases[0]  # type: ignore[misc]
-    return run_all(
-        _row,
-        [(varied, case, path, store or RunStore(None)) for varied, case in zip(combinations, cases)],
-        jobs=jobs,
-        scheduler=scheduler,
-        progress=progress,
-        on_death=lambda i, why: Row(combinations[i], reason=why),
-    )
+    return list(zip(combinations, cases))
 
 
 def _case(tables: Mapping[str, Any], varied: Mapping[str, Any]) -> Case | InputError:
@@ -163,7 +147,7 @@ class _Counting(RunStore):
         return super().answer(question, told)
 
 
-def _row(varied: dict[str, Any], case: Case | InputError, path: str, store: RunStore) -> Row:
+def row_of(varied: dict[str, Any], case: Case | InputError, path: str, store: RunStore) -> Row:
     """One row, in a worker: a failure is an answer too."""
     if isinstance(case, InputError):
         return Row(varied, reason=str(case), refused=True)

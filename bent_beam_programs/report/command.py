@@ -50,7 +50,7 @@ def report(
     """
     from bent_beam.errors import InputError
     from comparison.methods import chosen_methods
-    from comparison.store import RunStore, check_writable, default_store
+    from comparison.store import RunStore, check_writable
 
     try:
         from bent_beam_programs.report.page import write_report
@@ -66,7 +66,7 @@ def report(
     named = path or (PATHS if methods is None else ())
     chosen, refines = chosen_methods(named, assignments or (), methods), factors(refine)
     check_writable(out, folder=True)
-    store = RunStore(None if fresh else default_store())
+    store = RunStore.usual(fresh)
     with progress("report", quiet) as bar:
         asked = report_questions(chosen, refines)
         found = write_report(out, chosen, asked, store=store, jobs=jobs, scheduler=scheduler, progress=bar.count)

@@ -20,7 +20,7 @@ from comparison.figures.work_precision import draw_work_precision
 from comparison.matching import match
 from comparison.methods import methods_from_file
 from comparison.rows import First, questions
-from comparison.store import RunStore, default_store
+from comparison.store import RunStore
 
 STORED = Path(__file__).with_name("stored")
 LISTS = EXAMPLES / "methods"
@@ -60,7 +60,7 @@ MEASUREMENTS = (
 def store_measurement(measurement: Measurement, *, jobs: int = 1) -> Path:
     """Measure and write rows and picture to ``stored/``; returns the file of rows."""
     asked = questions(methods_from_file(LISTS / measurement.methods), [KAPPA], measurement.firsts, measurement.refines)
-    rows = match(asked, store=RunStore(default_store()), jobs=jobs, limit=measurement.limit)
+    rows = match(asked, store=RunStore.usual(), jobs=jobs, limit=measurement.limit)
     draw_work_precision(rows, STORED)
     return stored.write(
         STORED / f"{measurement.name}.json",

@@ -50,7 +50,7 @@ def bounce(
 
     Example: bentbeam bounce --kappa-over-nu 2 --damping 0.01
     """
-    from comparison.store import RunStore, check_writable, default_store
+    from comparison.store import RunStore, check_writable
 
     paths = path or ["hermite"]
     asked = [_asked(case, kappa_over_nu, damping, one, assignments or ()) for one in paths]
@@ -60,7 +60,7 @@ def bounce(
     from comparison.hits import OF_ONE_WALL, follow_hits, hits_table
 
     how: dict[str, Any] = {"runs": runs, "seed": seed, "jobs": jobs, "history": out is not None or hits > 1}
-    how["store"], every = RunStore(None if fresh else default_store()), []
+    how["store"], every = RunStore.usual(fresh), []
     for one, method in asked:
         with progress(f"{method.path}: the whole impact", quiet) as bar:
             every.append(follow(one, method, **how, progress=bar.fraction))

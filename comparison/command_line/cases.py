@@ -111,7 +111,7 @@ def predict(
     Example: bentbeam predict cases/drill_pipe.toml --time 0.005 --time 0.01
     """
     from bent_beam.cases import load_case
-    from comparison.store import RunStore, check_writable, default_store
+    from comparison.store import RunStore, check_writable
 
     loaded = load_case(case, assignments or ())
     loaded.method("hermite")  # every table of the case is looked at, also where nothing is simulated
@@ -127,9 +127,8 @@ def predict(
         check_writable(out, folder=True)
     from comparison.predicting import predict_case  # SciPy: no refusal above waits for it
 
-    store = RunStore(None if fresh else default_store())
     with progress(f"the whole beam: {case.name}", quiet or as_json or theory_only) as bar:
-        how = {"theory_only": theory_only, "store": store, "progress": bar.fraction}
+        how = {"theory_only": theory_only, "store": RunStore.usual(fresh), "progress": bar.fraction}
         found = predict_case(loaded, times, **how)  # type: ignore[arg-type]
     emit(found.to_dict(), as_json, lambda: str(found))
     if out is not None:

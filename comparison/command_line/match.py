@@ -68,8 +68,8 @@ def match(
     """
     from comparison.matching import match as match_all
     from comparison.methods import chosen_methods
-    from comparison.rows import THESIS_KAPPAS, match_document, match_table, questions
-    from comparison.store import RunStore, check_writable, default_store
+    from comparison.rows import THESIS_KAPPAS, questions
+    from comparison.store import RunStore, check_writable
 
     compared = chosen_methods(path or (), assignments or (), methods)
     loads = [_load(text) for text in first_order or ()]
@@ -77,11 +77,10 @@ def match(
     asked = questions(compared, kappas, loads, factors(refine), error_bars, duration, _wall(wall))
     if out is not None:
         check_writable(out, folder=True)
-    store = RunStore(None if fresh else default_store())
     with progress(f"{len(asked)} rows", quiet) as bar:
         many = {"jobs": processes(jobs, len(asked), LEAST_ROWS), "scheduler": scheduler}
-        rows = match_all(asked, store=store, limit=limit, progress=bar.count, **many)  # type: ignore[arg-type]
-    emit(match_document(rows), as_json, lambda: match_table(rows))
+        rows = match_all(asked, store=RunStore.usual(fresh), limit=limit, progress=bar.count, **many)  # type: ignore[arg-type]
+    emit(rows.to_dict(), as_json, lambda: str(rows))
     if out is not None:
         from comparison.figures.matching import write_match
 

@@ -42,7 +42,6 @@ COLOURS = {
 SEQUENCE = [COLOURS[c] for c in ("blue", "vermilion", "green", "purple", "sky", "orange", "grey")]
 
 THEORY: dict[str, Any] = {"color": COLOURS["black"], "lw": 1.2, "ls": "-", "marker": "", "label": "theory"}
-WALL: dict[str, Any] = {"color": COLOURS["grey"], "lw": 0.8, "ls": ":", "label": "wall"}
 OPEN: dict[str, Any] = {"ls": "", "ms": 4.0, "mfc": "none", "mew": 1.0}
 HERMITE: dict[str, Any] = {**OPEN, "color": COLOURS["blue"], "marker": "o", "ms": 4.5, "label": "Hermite"}
 SELF_SIMILAR: dict[str, Any] = {**OPEN, "color": COLOURS["green"], "marker": "D", "ms": 3.8, "label": "Self-similar"}

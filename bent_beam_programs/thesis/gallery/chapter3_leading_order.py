@@ -26,7 +26,7 @@ from comparison.matching import match
 from comparison.methods import methods_of
 from comparison.readable import readable
 from comparison.rows import THESIS_KAPPAS, MatchRow, questions
-from comparison.store import RunStore, default_store
+from comparison.store import RunStore
 from hermite_fe import resolution
 from hermite_fe.masses import Mass
 from theory import contact_parameters
@@ -59,7 +59,7 @@ def matched() -> list[MatchRow]:
         for path, ratios in (("hermite", THESIS_KAPPAS), ("exudyn", THESIS_KAPPAS[::2]))
         for question in questions(methods_of((path,)), ratios, error_bars="drift")
     ]
-    rows = match(asked, store=RunStore(default_store()))
+    rows = match(asked, store=RunStore.usual())
     if not any(r.lambda0.measured for r in rows):
         raise ValueError(rows[0].reason or "no row has a number")
     return rows
