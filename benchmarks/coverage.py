@@ -33,9 +33,9 @@ import numpy as np
 
 from bent_beam.files import write_atomically
 from bent_beam.method import method_from_tables
+from bent_beam.stored import write
 from comparison.matching import match
-from comparison.rows import First, MatchRow, Question
-from comparison.stored import write
+from comparison.rows import First, MatchQuestion, MatchRow
 
 __all__ = ["Coverage", "Draw", "coverage", "draw", "log_uniform", "options", "write_misses"]
 
@@ -62,10 +62,10 @@ class Draw:
         return ", ".join([self.path, *(str(table["kind"]) for table in self.tables.values())])
 
     @property
-    def question(self) -> Question:
+    def question(self) -> MatchQuestion:
         """The row of ``match``."""
         method = method_from_tables(self.path, self.tables, label=self.label)
-        return Question(method, self.kappa_over_nu, self.first, self.refine, duration=self.duration)
+        return MatchQuestion(method, self.kappa_over_nu, self.first, self.refine, duration=self.duration)
 
     def text(self, file: Path, found: str) -> str:
         """A methods file of this method alone."""

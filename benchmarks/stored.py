@@ -16,7 +16,7 @@ import time
 from dataclasses import dataclass
 from pathlib import Path
 
-from comparison.stored import is_stale
+from bent_beam.stored import is_stale
 
 ROOT = Path(__file__).resolve().parents[1]
 PROGRAMS = "bent_beam_programs"

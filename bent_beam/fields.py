@@ -3,7 +3,7 @@
     element_length: Annotated[float, Quantity("m", "Δx of the zone", above=0.0)]
 
 From this follow the check when a part is made (:class:`Part`), case files and ``--set`` (:func:`part_from_table`),
-``bentbeam settings`` and the documentation (:mod:`comparison.settings`).
+``bentbeam settings`` and the documentation (:mod:`bent_beam.settings`).
 """
 
 from __future__ import annotations

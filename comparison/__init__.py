@@ -2,7 +2,7 @@
 
 >>> from comparison import predict
 >>> found = predict("cases/tube.toml", 1e-3, theory_only=True)
->>> found.found.theory.regime
+>>> found.theory.regime
 'continuous'
 
 ``predict``, ``bounce``, ``sweep`` and ``match`` return objects that print themselves, with ``.plot()`` and

@@ -10,9 +10,12 @@ import statistics
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import partial
+from pathlib import Path
 from typing import Any
 
+from bent_beam.as_json import json_text
 from bent_beam.errors import SimulationError
+from bent_beam.files import write_atomically
 from bent_beam.history import ImpactHistory
 from bent_beam.hysteresis import converges
 from bent_beam.impact import Impact
@@ -22,7 +25,7 @@ from comparison.questions import Question
 from comparison.store import RunStore, source_of
 from comparison.workers import run_all
 
-__all__ = ["Run", "Runs", "numbers_of", "runs_of"]
+__all__ = ["Run", "Runs", "bands_of", "numbers_of", "runs_of", "write_answer"]
 
 Reading = Callable[[ImpactHistory], dict[str, Any]]
 Progress = Callable[[float], None]
@@ -146,3 +149,12 @@ def bands_of(runs: Runs, names: Sequence[str]) -> dict[str, Band | Number]:
     """Bands over all runs; a number without a value where one of them has none."""
     every = {name: [run.reading[name] for run in runs.every] for name in names}
     return {name: Number() if None in values else Band.of(values) for name, values in every.items()}
+
+
+def write_answer(found: Any, out: Path, name: str, drawable: bool = True) -> list[Path]:
+    """Document and figure of an answer in ``out``; returns the files."""
+    from comparison.figures import style
+
+    document = out / f"{name}.json"
+    write_atomically(document, json_text(found.to_dict(), indent=1) + "\n")
+    return [document, *(style.save(found.plot(), out, name) if drawable else [])]

@@ -18,7 +18,7 @@ from bent_beam.history import ImpactHistory
 from bent_beam.measure.reduction import peak_moment
 from bent_beam.method import Method, method_type
 from bent_beam.versions import versions
-from comparison.readable import text_table, unit_for
+from comparison.readable import shown, text_table, unit_for
 
 __all__ = ["compare_histories", "comparison_text", "rerun_history", "rerun_text"]
 
@@ -100,8 +100,8 @@ def comparison_text(found: dict[str, Any], first: str, second: str) -> str:
     for name, (a, b) in found["end"].items():
         scale, unit = unit_for(units[name], [a, b])
         values = [f"{scale * a:.6g}", f"{scale * b:.6g}"]
-        rows.append([name.replace("_", " "), *values, unit, _share(apart.get(name))])
-    rows.append(["gap at the end", "", "", "V0 t", _share(apart["gap"])])
+        rows.append([name.replace("_", " "), *values, unit, shown(apart.get(name), ".2g")])
+    rows.append(["gap at the end", "", "", "V0 t", shown(apart["gap"], ".2g")])
     lines = [
         text_table(["", first, second, "unit", "largest difference"], rows),
         "",
@@ -113,23 +113,19 @@ def comparison_text(found: dict[str, Any], first: str, second: str) -> str:
     return "\n".join([*lines, "", text_table(["setting or version", first, second], changed)] if changed else lines)
 
 
-def _share(value: float | None) -> str:
-    return "-" if value is None else f"{value:.2g}"
-
-
 def _changed(pairs: dict[str, Any], where: str = "") -> list[list[str]]:
     """A row for each entry that differs; entries of tables by their full name."""
-    shown = Repr()
-    shown.maxlist, shown.maxstring, shown.maxother = 4, 60, 60  # a mesh may name all its nodes
+    short = Repr()
+    short.maxlist, short.maxstring, short.maxother = 4, 60, 60  # a mesh may name all its nodes
     rows = []
     for key, (a, b) in pairs.items():
         if isinstance(a, dict) and isinstance(b, dict):
             rows += _changed(_apart(a, b), f"{where}{key}.")
-        elif shown.repr(a) == shown.repr(b) and isinstance(a, (str, list, tuple)):
+        elif short.repr(a) == short.repr(b) and isinstance(a, (str, list, tuple)):
             at = next((i for i, (x, y) in enumerate(zip(a, b)) if x != y), min(len(a), len(b)))
             rows += _changed({f"{key}[{at}:]": [a[at:], b[at:]]}, where)
         else:
-            rows.append([f"{where}{key}", *("-" if v is None else shown.repr(v).strip("'") for v in (a, b))])
+            rows.append([f"{where}{key}", *("-" if v is None else short.repr(v).strip("'") for v in (a, b))])
     return rows
 
 

@@ -4,119 +4,36 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from copy import deepcopy
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from bent_beam.cases import Case, lay_over, load_case, read_toml
+from bent_beam.cases import Case, lay_over, read_toml
 from bent_beam.checks import shortened
 from bent_beam.errors import InputError
 from bent_beam.files import write_atomically, write_dataset
 from bent_beam.impact import Impact
 from bent_beam.method import Method, method_from_tables
-from comparison import bouncing, predicting
-from comparison.bounce_text import bounce_document, bounce_table
+from comparison import bouncing
+from comparison.answers import write_answer
+from comparison.bounced import Bounce
+from comparison.bouncing import case_of
 from comparison.matching import match as match_all
 from comparison.methods import PATHS
-from comparison.predict_text import prediction_text
-from comparison.readable import csv_text, json_text
+from comparison.predicting import PredictedCase, predict_case
+from comparison.readable import csv_text
 from comparison.rows import THESIS_KAPPAS, MatchRow, match_document, match_table, questions
 from comparison.store import RunStore, default_store
 from comparison.sweeping import sweep_case, varied_from
 from comparison.swept import SweepTable
 
-__all__ = ["Bounced", "Matched", "Predicted", "Swept", "bounce", "match", "predict", "sweep"]
+__all__ = ["Matched", "Swept", "bounce", "match", "predict", "sweep"]
 
 Beam = Case | Impact | str | Path
 
 
-def case_of(beam: Beam) -> Case:
-    """A case, or that of a file, or of an impact whose damping is as it says. Raises ``InputError``."""
-    if isinstance(beam, Case):
-        return beam
-    if isinstance(beam, Impact):
-        return Case(title="", impact=beam, end_time=beam.checked_end_time(), mesh=None, tables={})
-    return load_case(beam)
-
-
-@dataclass(frozen=True)
-class Bounced:
-    """A whole impact of the case ``title``: ``found`` has its numbers, runs and warnings."""
-
-    found: bouncing.Bounce
-    title: str = ""
-
-    def to_dict(self) -> dict[str, Any]:
-        """The contract of ``bentbeam bounce --json``."""
-        return bounce_document(self.found)
-
-    def __str__(self) -> str:
-        return self.text()
-
-    def text(self, *, verbose: bool = False) -> str:
-        """Every number with its error bar; ``verbose``: with what tells an expert how good they are."""
-        return bounce_table(self.found, verbose=verbose)
-
-    def plot(self) -> Any:
-        """Force, stress and contact over time, and shapes, in the units of the case, as a Matplotlib figure."""
-        from comparison.figures.whole_impact import bounce_figure
-
-        return bounce_figure(self.found, self.title)
-
-    def write(self, out: Path) -> list[Path]:
-        """``bounce.json``, ``bounce.png`` and the animation ``bounce.gif`` in ``out``; returns the files."""
-        from comparison.figures.whole_impact import animate, end_of
-
-        film = animate(self.found.history, out / "bounce.gif", end_of(self.found))
-        return [*_written(self, out, "bounce"), film]
-
-
-@dataclass(frozen=True)
-class Predicted:
-    """A prediction: ``found`` has theory, simulated numbers at each time, and the whole impact."""
-
-    found: predicting.PredictedCase
-
-    def to_dict(self) -> dict[str, Any]:
-        """The contract of ``bentbeam predict --json``."""
-        return self.found.to_dict()
-
-    def __str__(self) -> str:
-        return prediction_text(self.found.to_dict())
-
-    def plot(self) -> Any:
-        """The whole impact, or where it is not known the run to the last time, as a Matplotlib figure.
-
-        Raises ``ValueError`` where nothing is simulated.
-        """
-        from comparison.figures.whole_impact import bounce_figure, impact_figure
-
-        case, runs = self.found.case, self.found.runs
-        if self.found.whole is not None:
-            return bounce_figure(self.found.whole, case.title)
-        if runs is None or not self.found.simulated:
-            raise ValueError(f"there is nothing to be drawn: {self.found.no_whole}")
-        history, end = runs.question.run(runs.question.run_by), float(runs.question.until or 0.0)
-        last = predicting.numbers_at(runs, case)
-        return impact_figure(history.until(end), case.title, last, case.section, end)
-
-    def write(self, out: Path) -> list[Path]:
-        """``predict.json`` and ``predict.png`` in ``out``; returns the files. Raises as :meth:`plot`."""
-        return _written(self, out, "predict")
-
-
-def _written(found: Any, out: Path, name: str, drawable: bool = True) -> list[Path]:
-    """Document and figure of an answer in ``out``."""
-    from comparison.figures import style
-
-    document = out / f"{name}.json"
-    write_atomically(document, json_text(found.to_dict(), indent=1) + "\n")
-    return [document, *(style.save(found.plot(), out, name) if drawable else [])]
-
-
-def predict(beam: Beam, *times: float, theory_only: bool = False, fresh: bool = False) -> Predicted:
+def predict(beam: Beam, *times: float, theory_only: bool = False, fresh: bool = False) -> PredictedCase:
     """Theory beside simulation at ``times``, s (default: the case's own), and the whole impact.
 
     beam : a case, its file, or an impact. theory_only : nothing is simulated. fresh : stored runs are ignored.
@@ -124,7 +41,7 @@ def predict(beam: Beam, *times: float, theory_only: bool = False, fresh: bool = 
     """
     case = case_of(beam)
     store = RunStore(None if fresh else default_store())
-    return Predicted(predicting.predict_case(case, times or (case.end_time,), theory_only=theory_only, store=store))
+    return predict_case(case, times or (case.end_time,), theory_only=theory_only, store=store)
 
 
 def made(method: Method | str, case: Case | None = None) -> Method:
@@ -138,16 +55,15 @@ def made(method: Method | str, case: Case | None = None) -> Method:
     return method
 
 
-def bounce(beam: Beam, path: Method | str = "hermite", *, jobs: int = 1, fresh: bool = False) -> Bounced:
+def bounce(beam: Beam, path: Method | str = "hermite", *, jobs: int = 1, fresh: bool = False) -> Bounce:
     """The whole impact by the method of ``path``, or by a method, to the last separation.
 
     beam : a case, its file, or an impact. jobs : processes. fresh : stored runs are ignored.
     Raises ``ValueError`` for what the method refuses, :class:`bent_beam.SimulationError` when it cannot finish.
     """
     case = case_of(beam)
-    how: dict[str, Any] = {"section": case.section, "damping_stated": case.damping_stated, "jobs": jobs}
     store = RunStore(None if fresh else default_store())
-    return Bounced(bouncing.bounce(case.impact, made(path, case), store=store, **how), case.title)
+    return bouncing.bounce(case, made(path, case), store=store, jobs=jobs)
 
 
 class Matched(list[MatchRow]):
@@ -198,7 +114,7 @@ class Swept(SweepTable):
         write_atomically(table, csv_text(row.to_dict() for row in self.rows))
         write_dataset(self.to_dataset(), grid)
         drawable = len(self.vary) <= 2 and any(row.numbers for row in self.rows)
-        return [table, grid, *_written(self, out, "sweep", drawable)]
+        return [table, grid, *write_answer(self, out, "sweep", drawable)]
 
 
 def sweep(

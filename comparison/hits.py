@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from bent_beam.free_flight import LOWEST_PERIOD
@@ -38,7 +38,6 @@ def follow_hits(
     count: int,
     *,
     first: ImpactHistory,
-    progress: Callable[[float], None] | None = None,
 ) -> list[Hit]:
     """The first ``count`` hits of a beam on its wall by one run, fewer where it does not come back.
 
@@ -52,7 +51,7 @@ def follow_hits(
     end, longest = 2.0 * period, LONGEST * impact.slow_time_scale
     while True:
         save = round(INSTANTS * end / impact.slow_time_scale)
-        found = hits(chosen.simulate(impact, end_time=end, save=save, progress=progress))
+        found = hits(chosen.simulate(impact, end_time=end, save=save))
         over = [hit for hit in found if end - hit.end >= period]
         if len(over) >= count or end >= longest or (over and fall <= 0.0):
             return [*hits(first)[:1], *over[1:count]]

@@ -8,12 +8,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import asdict, dataclass
+from functools import partial
 from typing import Any
 
 import numpy as np
 
 from bent_beam.checks import positive
 from bent_beam.errors import ANY_FAILURE, SimulationError, TimeLimitError
+from bent_beam.history import ImpactHistory
 from bent_beam.impact import Impact
 from bent_beam.measure.balance import balance_of
 from bent_beam.measure.estimators import FirstOrderEstimate, LeadingEstimate, first_order, leading_order
@@ -21,8 +23,9 @@ from bent_beam.measure.moments import Moments, moments
 from bent_beam.measure.numbers import MISSING, Number, number_of
 from bent_beam.measure.reduction import hold_of, pull_of, wall_peaks
 from bent_beam.method import Method, chosen_for, refined, settings_of, simulated
+from comparison.answers import Run
 from comparison.questions import ERROR_BARS
-from comparison.rows import MatchRow, Question, about, first_order_epsilon, lost_row, with_theory
+from comparison.rows import MatchQuestion, MatchRow, about, first_order_epsilon, lost_row, with_theory
 from comparison.store import RunStore, source_of
 from comparison.workers import Clock, run_all
 
@@ -39,69 +42,51 @@ class Refused(ValueError):
     """What a method refuses, when it is made or before its run; any other error is a failure."""
 
 
-@dataclass(frozen=True)
-class _Reduced:
-    moments: Moments
-    peak_force: float | None
-    pull: float | None
-    hold: dict[str, float | None] | None
-    warnings: list[str]
-    seconds: float
-    steps: int
-    momentum_residual: float | None = None
-    gap_of_push: float | None = None
-
-
-def _reduced(
-    store: RunStore,
-    method: Method,
-    impact: Impact,
-    duration: float,
-    *,
-    uniform: bool = False,
-    clock: Clock | None = None,
-) -> _Reduced:
-    """A run to ``duration`` (t*) reduced to moments, from the store where it is there; ``uniform``: see
-    :func:`moments`. The run without loads must be reduced as the loaded ones are, or the noise that they share does
-    not drop out."""
-    question = {
-        "settings": settings_of(method) | {"label": ""},
-        "source": source_of(method),
-        "impact": asdict(impact),
-        "duration": duration,
-        "uniform": uniform,
+def _reading(uniform: bool, history: ImpactHistory) -> dict[str, Any]:
+    """A run reduced to moments, JSON-ready. uniform : see :func:`moments`; the run without loads must be read as the
+    loaded ones are, or the noise that they share does not drop out."""
+    peaks, balance = wall_peaks(history), balance_of(history)
+    unit = (history.impact.wall_stiffness or 1.0) ** 0.25  # EI = μ = V₀ = 1
+    return {
+        "moments": {name: values.tolist() for name, values in vars(moments(history, uniform=uniform)).items()},
+        "peak_force": None if peaks is None else peaks.force / unit,
+        "pull": pull_of(history),
+        "hold": hold_of(history),
+        "momentum_residual": balance.momentum,
+        "gap_of_push": balance.gap_of_push,
+        "warnings": balance.warnings,
     }
 
-    def compute() -> dict[str, Any]:
-        asked = None if clock is None else clock.progress()
-        end = duration * impact.time_scale
-        try:
-            history = simulated(method.simulate, impact, end_time=end, save=INSTANTS, progress=asked)
-        except ValueError as error:
-            raise Refused(str(error)) from None
-        found, peaks, balance = moments(history, uniform=uniform), wall_peaks(history), balance_of(history)
-        unit = (impact.wall_stiffness or 1.0) ** 0.25  # EI = μ = V₀ = 1
-        return {
-            "moments": found,
-            "peak_force": None if peaks is None else peaks.force / unit,
-            "pull": pull_of(history),
-            "hold": hold_of(history),
-            "warnings": [*history.warnings, *balance.warnings],
-            "seconds": history.seconds,
-            "steps": history.steps,
-            "momentum_residual": balance.momentum,
-            "gap_of_push": balance.gap_of_push,
-        }
 
-    return _Reduced(**store.answer(question, compute, _as_text, _from_text))
+def _moments(run: Run) -> Moments:
+    return Moments(**{name: np.array(values) for name, values in run.reading["moments"].items()})
 
 
-def _as_text(found: dict[str, Any]) -> dict[str, Any]:
-    return found | {"moments": {name: values.tolist() for name, values in vars(found["moments"]).items()}}
+@dataclass(frozen=True)
+class _Runs:
+    """Runs to ``duration`` (t*), from the store where they are there, against the clock."""
 
+    store: RunStore
+    duration: float
+    clock: Clock | None
 
-def _from_text(kept: dict[str, Any]) -> dict[str, Any]:
-    return kept | {"moments": Moments(**{name: np.array(values) for name, values in kept["moments"].items()})}
+    def of(self, method: Method, impact: Impact, uniform: bool = False) -> Run:
+        """Raises :class:`Refused` for what the method refuses, before its run or in it."""
+        if reason := method.refuses(impact):
+            raise Refused(str(reason))
+        settings = settings_of(method) | {"label": ""}
+        question = {"settings": settings, "impact": asdict(impact), "duration": self.duration, "uniform": uniform}
+
+        def compute() -> dict[str, Any]:
+            asked = None if self.clock is None else self.clock.progress()
+            end = self.duration * impact.time_scale
+            try:
+                history = simulated(method.simulate, impact, end_time=end, save=INSTANTS, progress=asked)
+            except ValueError as error:
+                raise Refused(str(error)) from None
+            return vars(Run.of(history, partial(_reading, uniform)))
+
+        return Run(**self.store.answer(question | {"source": source_of(method)}, compute))
 
 
 @dataclass(frozen=True)
@@ -109,14 +94,14 @@ class _Estimates:
     """What the runs at one resolution gave: ``run`` alone without loads, ``runs`` all of them; ``base`` without loads
     and ``loaded`` at each ε on the mesh for first order; ``pressure`` on the zone over ε."""
 
-    run: _Reduced
-    runs: list[_Reduced]
+    run: Run
+    runs: list[Run]
     base: Moments | None = None
     loaded: Sequence[tuple[float, Moments]] = ()
     pressure: float = 0.0
 
     def leading(self, others: Sequence[_Estimates] = ()) -> LeadingEstimate:
-        return leading_order(self.run.moments, companions=[o.run.moments for o in others])
+        return leading_order(_moments(self.run), companions=[_moments(o.run) for o in others])
 
     def first(self, others: Sequence[_Estimates] = ()) -> FirstOrderEstimate | None:
         """``None`` where first order was not asked for."""
@@ -126,69 +111,57 @@ class _Estimates:
         return first_order(self.loaded, self.base, self.leading(others), pressure=self.pressure, companions=companions)
 
 
-def _estimates(
-    question: Question, factor: float, store: RunStore, epsilon: float | None, clock: Clock | None
-) -> _Estimates:
+def _estimates(question: MatchQuestion, factor: float, runs: _Runs, epsilon: float | None) -> _Estimates:
     """Run and estimate at ``factor`` times the method's own resolution; ``epsilon`` is the largest ε, ``None``: chosen.
 
     Raises :class:`Refused` for what the method refuses.
     """
-    asked, first = question.method, question.first
+    asked, first, bare = question.method, question.first, question.bare
     method = refined(asked, factor)
     if method is None:
         raise Refused(f"refine: {asked.path} does not know how to be refined (got {factor:g})")
-    bare = question.bare
-    _raise_if_refused(method, bare)
-    run = _reduced(store, method, bare, question.duration, clock=clock)
+    run = runs.of(method, bare)
     if first is None:
         return _Estimates(run, [run])
     top = epsilon
     if top is None:
         perturbation = getattr(asked, "perturbation", PERTURBATION)
-        top = first_order_epsilon(leading_order(run.moments), first, perturbation, question.duration)
+        top = first_order_epsilon(leading_order(_moments(run)), first, perturbation, question.duration)
     largest = question.loaded(top)
-    _raise_if_refused(method, largest)
+    if reason := method.refuses(largest):
+        raise Refused(str(reason))
     fixed = chosen_for(method, largest, question.duration * bare.time_scale)
     # only a load that presses the zone leaves a uniform reaction to take out, of the bare run too
     pressed = largest.zone_pressure > 0.0
-    base, *found = (
-        _reduced(store, fixed, question.loaded(share * top), question.duration, uniform=pressed, clock=clock)
-        for share in (0.0, *SHARES)
-    )
-    moved = [(share * top, one.moments) for share, one in zip(SHARES, found)]
-    return _Estimates(run, [run, base, *found], base.moments, moved, largest.zone_pressure / top)
+    base, *found = (runs.of(fixed, question.loaded(share * top), pressed) for share in (0.0, *SHARES))
+    moved = [(share * top, _moments(one)) for share, one in zip(SHARES, found)]
+    return _Estimates(run, [run, base, *found], _moments(base), moved, largest.zone_pressure / top)
 
 
-def _raise_if_refused(method: Method, impact: Impact) -> None:
-    """Ask the method before its run. Raises :class:`Refused` with its reason."""
-    if reason := method.refuses(impact):
-        raise Refused(str(reason))
-
-
-def answer(question: Question, store: RunStore, limit: float | None = None) -> MatchRow:
+def answer(question: MatchQuestion, store: RunStore, limit: float | None = None) -> MatchRow:
     """Simulate and estimate one row; companion runs at other resolutions say what the error bar is.
 
     limit : s, of the row. Raises :class:`Refused`, :class:`bent_beam.SimulationError`, :class:`TimeLimitError`.
     """
-    clock = None if limit is None else Clock(limit)
-    fine = _estimates(question, question.refine, store, None, clock)
+    runs = _Runs(store, question.duration, None if limit is None else Clock(limit))
+    fine = _estimates(question, question.refine, runs, None)
     others, lost = list[_Estimates](), list[str]()
     epsilon = fine.loaded[-1][0] if fine.loaded else None
     for factor in ERROR_BARS[question.error_bars]:
         try:
-            others.append(_estimates(question, factor * question.refine, store, epsilon, clock))
+            others.append(_estimates(question, factor * question.refine, runs, epsilon))
         except (ValueError, SimulationError) as error:
             what = f"no companion run at {factor:g} times the resolution, so the error bar is a guess"
             lost.append(f"{what}: {error}")
     leading, estimate = fine.leading(others), fine.first(others)
-    warnings = [w for r in fine.runs for w in r.warnings] + lost
+    warnings = [w for r in fine.runs for w in (*r.warnings, *r.reading["warnings"])] + lost
     if leading.lambda0.spread > WIDE * max(leading.lambda0.known, 0.1) or leading.r0.spread > WIDE * leading.r0.known:
         warnings.append(f"wide error bar: λ₀ = {leading.lambda0}, r₀ = {leading.r0}")
     if estimate is not None and estimate.r1.spread > WIDE_FIRST * max(abs(estimate.r1.known), 1.0):
         warnings.append(f"wide error bar: r₁ = {estimate.r1}")
-    holds = [r.hold for r in fine.runs if r.hold]
+    holds = [r.reading["hold"] for r in fine.runs if r.reading["hold"]]
     names = ("pull", "momentum_residual", "gap_of_push")
-    checks: dict[str, Any] = {name: _largest(getattr(r, name) for r in fine.runs) for name in names}
+    checks: dict[str, Any] = {name: _largest(r.reading[name] for r in fine.runs) for name in names}
     return MatchRow(
         **about(question),
         **with_theory(question, leading, estimate),
@@ -203,23 +176,24 @@ def answer(question: Question, store: RunStore, limit: float | None = None) -> M
     )
 
 
-def _peak_force(question: Question, run: _Reduced, others: Sequence[_Reduced]) -> Number:
+def _peak_force(question: MatchQuestion, run: Run, others: Sequence[Run]) -> Number:
     """The largest force on a wall that gives way, beside the theory of that wall."""
-    if run.peak_force is None:
+    force, *coarser = (one.reading["peak_force"] for one in (run, *others))
+    if force is None:
         return MISSING
     from theory.elastic_wall import FLATTEST, MOST_DAMPED, SHARPEST, peak_force
 
     theory, (_, ratio) = None, question.wall or (0.0, 0.0)
     if not question.first and FLATTEST <= question.kappa_over_nu <= SHARPEST and ratio <= MOST_DAMPED:
         theory = peak_force(question.kappa_over_nu, ratio).value
-    return number_of(run.peak_force, {f"resolution_{i}": o.peak_force for i, o in enumerate(others)}, theory=theory)
+    return number_of(force, {f"resolution_{i}": other for i, other in enumerate(coarser)}, theory=theory)
 
 
 def _largest(values: Iterable[float | None]) -> float | None:
     return max((value for value in values if value is not None), default=None)
 
 
-def _attempt(question: Question, store: RunStore, limit: float | None) -> MatchRow:
+def _attempt(question: MatchQuestion, store: RunStore, limit: float | None) -> MatchRow:
     """One question in a worker: a failure is an answer too, so that a sweep of hours goes on."""
     try:
         return answer(question, store, limit)
@@ -230,7 +204,7 @@ def _attempt(question: Question, store: RunStore, limit: float | None) -> MatchR
 
 
 def match(
-    asked: Sequence[Question],
+    asked: Sequence[MatchQuestion],
     *,
     store: RunStore | None = None,
     jobs: int = 1,
@@ -244,9 +218,9 @@ def match(
     The rows are the same, bit for bit, for any number of jobs. ``progress(done, total)`` is called after each.
 
     >>> from comparison.matching import match
-    >>> from comparison.rows import Question
+    >>> from comparison.rows import MatchQuestion
     >>> from self_similar_fe import SelfSimilarFE
-    >>> row = match([Question(SelfSimilarFE(), 0.5)])[0]
+    >>> row = match([MatchQuestion(SelfSimilarFE(), 0.5)])[0]
     >>> row.label, row.r0.covered
     ('Self-similar', True)
     """

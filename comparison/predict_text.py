@@ -60,7 +60,11 @@ def _validity(document: dict[str, Any]) -> str:
         return f"The theory covers no time: {why}."
     before = BEFORE.get(document["valid_after"], "")
     start = f"from {milliseconds(document['valid_from'])} (before, {before}) " if before else ""
-    return f"The theory holds to 2 % {start}until {milliseconds(document['valid_until'])}: then {why}."
+    holds = f"The theory holds to 2 % {start}until {milliseconds(document['valid_until'])}: then {why}."
+    if document["force_until"] >= document["valid_until"]:
+        return holds
+    begin = milliseconds(max(document["force_until"], document["valid_from"]))
+    return f"{holds}\nFrom {begin} on it has no reaction: waves from the ends swing the force."
 
 
 def _table(document: dict[str, Any]) -> str:

@@ -11,6 +11,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass
 from functools import partial
 from itertools import groupby
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -26,10 +27,12 @@ from bent_beam.measure.numbers import Number
 from bent_beam.measure.whole_impact import peak_times
 from bent_beam.method import Method
 from bent_beam.tables import in_keys
-from comparison.answers import Runs, numbers_of, runs_of
-from comparison.bouncing import Bounce, bounce, documents, over_damping, stress_of
+from comparison.answers import Runs, numbers_of, runs_of, write_answer
+from comparison.bounced import Bounce, documents, stress_of
+from comparison.bouncing import bounce
 from comparison.doubts import doubts, steepness
 from comparison.energies import energy_at_end, loss_warnings, numerical_loss
+from comparison.predict_text import prediction_text
 from comparison.questions import Question
 from comparison.store import RunStore
 from theory import Prediction, predict
@@ -111,7 +114,13 @@ class PredictedCase:
         if self.simulated is not None:
             for row, numbers in zip(rows, self.simulated):
                 row["simulation"] = {name: n.to_dict() for name, n in numbers.items() if name in COMPARED}
+        holds = document["valid_until"]  # a beam whose damping is not stated has some, enough to absorb short waves
+        force = document["force_until"] if self.case.damping_stated else holds
+        for row in rows:
+            if force < min(row["time"], holds):
+                row["reaction"] = None
         return document | {
+            "force_until": force,
             "times": rows[: len(rows) if self.simulated is None else len(self.simulated)],
             "model": self.case.impact.model,
             "velocity": self.case.impact.velocity,
@@ -131,9 +140,31 @@ class PredictedCase:
             **documents(self.whole.in_si, OF_WHOLE),
             **peak_times(self.whole.outcome, self.whole.impact),
             "span": list(self.whole.span),
-            "over_damping": over_damping(self.whole),
+            "over_damping": self.whole.over_damping,
             "warnings": self.whole.warnings,
         }
+
+    def __str__(self) -> str:
+        return prediction_text(self.to_dict())
+
+    def plot(self) -> Any:
+        """The whole impact, or where it is not known the run to the last time, as a Matplotlib figure.
+
+        Raises ``ValueError`` where nothing is simulated.
+        """
+        from comparison.figures.whole_impact import impact_figure
+
+        if self.whole is not None:
+            return self.whole.plot()
+        if self.runs is None or not self.simulated:
+            raise ValueError(f"there is nothing to be drawn: {self.no_whole}")
+        question = self.runs.question
+        end = float(question.until or 0.0)
+        return impact_figure(question.run(question.run_by).until(end), self.case, numbers_at(self.runs, self.case), end)
+
+    def write(self, out: Path) -> list[Path]:
+        """``predict.json`` and ``predict.png`` in ``out``; returns the files. Raises as :meth:`plot`."""
+        return write_answer(self, out, "predict")
 
 
 def predict_case(
@@ -202,9 +233,8 @@ def _whole_impact(
     case: Case, method: Method, store: RunStore | None, progress: Progress
 ) -> tuple[Bounce | None, str | None]:
     """What ``bounce`` says of the case, or why it says nothing."""
-    how: dict[str, Any] = {"section": case.section, "damping_stated": case.damping_stated, "store": store}
     try:
-        return bounce(case.impact, method, **how, progress=progress), None
+        return bounce(case, method, store=store, progress=progress), None
     except (ValueError, SimulationError) as error:
         return None, in_keys(str(error))
 

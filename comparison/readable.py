@@ -1,16 +1,15 @@
 """Results as a reader writes them: numbers (0.0025, 2.5·10⁻⁸, −1.3, a dash for nothing), units (kN and kN m from a
-hundred on, mm below a centimetre, MPa, ms), tables in plain text as wide as they need to be. And as plain JSON data:
-numbers finite, missing values null, everything else as text, lists and dictionaries."""
+hundred on, mm below a centimetre, MPa, ms), tables in plain text as wide as they need to be."""
 
 from __future__ import annotations
 
 import csv
 import io
-import json
 from collections.abc import Iterable, Mapping, Sequence
 from numbers import Real
 from typing import Any
 
+from bent_beam.as_json import json_text, plain
 from bent_beam.measure.numbers import Band, Number
 
 __all__ = [
@@ -19,11 +18,10 @@ __all__ = [
     "csv_text",
     "flat",
     "in_unit",
-    "json_text",
     "milliseconds",
     "number_from",
-    "plain",
     "readable",
+    "shown",
     "text_table",
     "unit_for",
 ]
@@ -63,6 +61,11 @@ def readable(value: Any, digits: int = 4) -> str:
     elif "e" in text:
         text = f"{float(text):.0f}"
     return text.replace("-", "−")
+
+
+def shown(value: float | None, digits: str = ".4g") -> str:
+    """A number of a table; a dash where there is none."""
+    return "-" if value is None else f"{value:{digits}}"
 
 
 def unit_for(unit: str, values: Iterable[float | None]) -> tuple[float, str]:
@@ -110,21 +113,6 @@ def text_table(head: Sequence[str], rows: Sequence[Sequence[str]], left: Sequenc
     stream = io.StringIO()
     Console(file=stream, width=WIDEST, color_system=None).print(table)
     return "\n".join(line.rstrip() for line in stream.getvalue().rstrip("\n").split("\n"))
-
-
-def json_text(value: Any, indent: int | None = None) -> str:
-    """``value`` as JSON; NaN and infinities become null."""
-    from pydantic_core import to_json
-
-    def of_numpy(value: Any) -> Any:
-        return value.tolist() if hasattr(value, "tolist") else str(value)
-
-    return to_json(value, inf_nan_mode="null", fallback=of_numpy, indent=indent).decode()
-
-
-def plain(value: Any) -> Any:
-    """``value`` as lists, dictionaries, text and finite numbers; NaN and infinities become ``None``."""
-    return json.loads(json_text(value))
 
 
 def flat(document: Mapping[str, Any]) -> dict[str, Any]:

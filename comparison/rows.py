@@ -15,15 +15,15 @@ from bent_beam.measure.estimators import LeadingEstimate
 from bent_beam.measure.numbers import MISSING, Number
 from bent_beam.method import Method, settings_of
 from comparison.questions import ERROR_BARS
-from comparison.readable import text_table
+from comparison.readable import shown, text_table
 
 __all__ = [
     "DURATION",
     "LEAST",
     "THESIS_KAPPAS",
     "First",
+    "MatchQuestion",
     "MatchRow",
-    "Question",
     "about",
     "failures",
     "first_order_epsilon",
@@ -55,7 +55,7 @@ EXTREME = 1e30  # of ε: its powers are calculated with
 
 
 @dataclass(frozen=True)
-class Question:
+class MatchQuestion:
     """One row to be matched. ``first`` : (α, ψ, χ, N), or ``None`` for the leading order alone; ``refine`` : elements
     and steps so many times finer than the method's own; ``error_bars`` : "drift" (of the run alone), "quick" (a
     companion at half the resolution, a quarter of the work), "thorough" (one at twice the resolution too); ``duration``
@@ -144,6 +144,13 @@ class MatchRow:
     refused: bool = False
 
     @property
+    def name(self) -> str:
+        """In words."""
+        text = f"{self.label}, kappa/nu = {self.kappa_over_nu:.6g}"
+        text += f", (alpha, psi, chi, N) = ({', '.join(f'{v:g}' for v in self.first)})" if self.of_first_order else ""
+        return text + (f", refined {self.refine:g} times" if self.refine != 1.0 else "")
+
+    @property
     def first(self) -> First:
         return (self.alpha, self.psi, self.chi, self.axial)
 
@@ -176,7 +183,7 @@ def questions(
     error_bars: str = "quick",
     duration: float = DURATION,
     wall: tuple[float, float] | None = None,
-) -> list[Question]:
+) -> list[MatchQuestion]:
     """Every method × κ/ν × (α, ψ, χ[, N]) × refinement, before ``wall``; without ``firsts`` the leading order alone.
 
     α = ``None``: what the axial force makes of a bow free of stress in free flight, α = −κN.
@@ -189,12 +196,12 @@ def questions(
 
     asked: Sequence[Sequence[float | None] | None] = firsts or [None]
     return [
-        Question(method, kappa, load(first, kappa), refine, error_bars, duration, wall)
+        MatchQuestion(method, kappa, load(first, kappa), refine, error_bars, duration, wall)
         for kappa, method, first, refine in product(kappas, methods, asked, refines)
     ]
 
 
-def with_theory(question: Question, leading: Any, estimate: Any) -> dict[str, Any]:
+def with_theory(question: MatchQuestion, leading: Any, estimate: Any) -> dict[str, Any]:
     """The numbers of a row with the theory's beside them."""
     from theory import contact_parameters
 
@@ -207,7 +214,7 @@ def with_theory(question: Question, leading: Any, estimate: Any) -> dict[str, An
     return row
 
 
-def about(question: Question) -> dict[str, Any]:
+def about(question: MatchQuestion) -> dict[str, Any]:
     """The fields of a row that its question says."""
     return {
         "label": question.method.label,
@@ -220,7 +227,7 @@ def about(question: Question) -> dict[str, Any]:
     }
 
 
-def lost_row(question: Question, reason: str, *, refused: bool = False) -> MatchRow:
+def lost_row(question: MatchQuestion, reason: str, *, refused: bool = False) -> MatchRow:
     """The row of a question without an answer."""
     row = about(question)
     with suppress(ValueError):  # of which the theory has nothing to say either
@@ -228,8 +235,8 @@ def lost_row(question: Question, reason: str, *, refused: bool = False) -> Match
     return MatchRow(**row, reason=" ".join(reason.split()), refused=refused)
 
 
-def failures(rows: Iterable[MatchRow]) -> list[MatchRow]:
-    """The rows that failed though nothing had said that they must."""
+def failures(rows: Iterable[Any]) -> list[Any]:
+    """The rows, of a match or a sweep, that failed though nothing had said that they must."""
     return [row for row in rows if row.reason is not None and not row.refused]
 
 
@@ -271,22 +278,11 @@ def match_table(rows: Sequence[MatchRow]) -> str:
         for name in names:
             number = getattr(r, name)
             off = number.relative(LEAST[name])
-            line += [str(number), "-" if off is None else f"{100 * off:+.3f}"]
-        line += [str(r.peak_force), _shown(r.peak_force.theory)] * elastic
-        line += ["-" if v is None else f"{v:.0e}" for v in (r.lift, r.pull, r.momentum_residual, r.gap_of_push)]
+            line += [str(number), shown(off and 100 * off, "+.3f")]
+        line += [str(r.peak_force), shown(r.peak_force.theory)] * elastic
+        line += [shown(v, ".0e") for v in (r.lift, r.pull, r.momentum_residual, r.gap_of_push)]
         line += ["-" if r.hold is None else f"until {r.hold['until']:.2g}"]
-        body.append([*line, "-" if r.seconds is None else f"{r.seconds:.1f}"])
-    notes = [f"{row_name(r)}: {r.reason}" for r in rows if r.reason]
-    notes += [f"warning: {row_name(r)}: {w}" for r in rows for w in r.warnings]
+        body.append([*line, shown(r.seconds, ".1f")])
+    notes = [f"{r.name}: {r.reason}" for r in rows if r.reason]
+    notes += [f"warning: {r.name}: {w}" for r in rows for w in r.warnings]
     return "\n".join([text_table(head, body), "", *LEGEND, *notes])
-
-
-def _shown(value: float | None) -> str:
-    return "-" if value is None else f"{value:.4g}"
-
-
-def row_name(row: MatchRow) -> str:
-    """A row in words."""
-    text = f"{row.label}, kappa/nu = {row.kappa_over_nu:.6g}"
-    text += f", (alpha, psi, chi, N) = ({', '.join(f'{v:g}' for v in row.first)})" if row.of_first_order else ""
-    return text + (f", refined {row.refine:g} times" if row.refine != 1.0 else "")

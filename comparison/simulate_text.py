@@ -6,7 +6,7 @@ from typing import Any
 
 from bent_beam.measure.numbers import Band, Number
 from comparison.hits import BETWEEN_WALLS, hits_table
-from comparison.readable import beam_line, in_unit, number_from, text_table
+from comparison.readable import beam_line, in_unit, number_from, shown, text_table
 
 __all__ = ["run_table"]
 
@@ -56,12 +56,12 @@ def run_table(found: dict[str, Any], verbose: bool = False) -> str:
 
 
 def _compared(title: str, number: Number | Band, unit: str) -> list[str]:
-    return [title, str(number), unit, "-" if number.theory is None else f"{number.theory:.4g}"]
+    return [title, str(number), unit, shown(number.theory)]
 
 
 def _expert_lines(found: dict[str, Any]) -> list[list[str]]:
     def plain(title: str, value: float | None, unit: str = "") -> list[str]:
-        return [title, "-" if value is None else f"{value:.4g}", unit, ""]
+        return [title, shown(value), unit, ""]
 
     energy = dict(found["energy"])
     residual = energy.pop("defect")

@@ -19,7 +19,8 @@ from bent_beam.measure.numbers import MISSING, Number
 from bent_beam.measure.reduction import hold_of, pull_of
 from bent_beam.measure.whole_impact import hits
 from comparison.answers import Runs, runs_of
-from comparison.bouncing import Bounce, scales, stress_of, whole_numbers, whole_reading
+from comparison.bounced import Bounce, scales, stress_of
+from comparison.bouncing import whole_numbers, whole_reading
 from comparison.doubts import doubts
 from comparison.energies import energy_at_end, energy_residual, loss_warnings, numerical_loss
 from comparison.predicting import instant_numbers, instants_reading
@@ -67,7 +68,7 @@ def simulate_case(
     assert runs.history is not None
     numbers = instant_numbers(runs)
     if until is None:
-        numbers |= _of_whole(runs)
+        numbers |= _of_whole(case, runs)
     leading = _leading(runs) if until is not None else None
     history = runs.history if until is None else runs.history.until(until)
     return Simulated(case, runs, history, numbers, leading)
@@ -83,14 +84,14 @@ def _whole_run(history: ImpactHistory) -> dict[str, Any]:
     return instants_reading((float(history.time[-1]),), False, history) | {"whole": found}
 
 
-def _of_whole(runs: Runs) -> dict[str, Any]:
+def _of_whole(case: Case, runs: Runs) -> dict[str, Any]:
     """Restitution, and the largest moment and force of the whole impact, as ``bounce`` has them."""
     inner = replace(
         runs,
         run=replace(runs.run, reading=runs.run.reading["whole"]),
         companions={cause: replace(run, reading=run.reading["whole"]) for cause, run in runs.companions.items()},
     )
-    found = Bounce(runs.question.impact, whole_numbers(inner), inner, {}).in_si
+    found = Bounce(case, whole_numbers(inner), inner, {}).in_si
     return {name: found[name] for name in ("restitution", "peak_moment", "peak_force") if name in found}
 
 

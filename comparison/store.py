@@ -6,12 +6,10 @@ or from other versions is never read as good.
 
 from __future__ import annotations
 
-import ast
 import hashlib
 import inspect
 import json
 import os
-import sys
 import sysconfig
 import tempfile
 import time
@@ -19,8 +17,7 @@ from collections.abc import Callable, Iterable, Mapping
 from contextlib import suppress
 from dataclasses import dataclass
 from functools import cache
-from importlib.metadata import distributions, packages_distributions, version
-from importlib.util import find_spec
+from importlib.metadata import distributions
 from pathlib import Path
 from typing import Any
 
@@ -31,15 +28,14 @@ from bent_beam.files import write_atomically
 from bent_beam.versions import versions
 
 __all__ = [
-    "RunStore", "behind", "check_writable", "default_store", "source_digest", "source_of", "this_code",
-    "write_atomically",
+    "PACKAGES", "RunStore", "check_writable", "default_store", "digest_of_files", "installed", "source_digest",
+    "source_of", "this_code", "write_atomically",
 ]  # fmt: skip
 
 PACKAGES = ("bent_beam", "theory", "hermite_fe", "self_similar_fe", "exudyn_models", "comparison")
 ROOT = Path(__file__).resolve().parent.parent
 LOADED = time.time()
 NO_PARTS = ("builtins", "abc", "typing", "numpy")  # their classes hold no code of a method
-CODE = (".py", ".so", ".pyd")
 
 
 def check_writable(out: Path, *, folder: bool) -> None:
@@ -77,31 +73,19 @@ class RunStore:
 
     folder: Path | None
 
-    def file(self, question: Mapping[str, Any]) -> Path | None:
-        """Where the answer to ``question`` (JSON-ready, also where nothing is kept) is kept."""
-        key = _digest(_canonical({"question": dict(question), "versions": versions(), "source": source_digest()}))
-        return None if self.folder is None else self.folder / f"{key[:40]}.json"
-
-    def answer(
-        self,
-        question: Mapping[str, Any],
-        compute: Callable[[], dict[str, Any]],
-        as_text: Callable[[dict[str, Any]], dict[str, Any]] = dict,
-        from_text: Callable[[dict[str, Any]], dict[str, Any]] = dict,
-    ) -> dict[str, Any]:
-        """The kept answer, or ``compute()``'s, kept from now on. as_text : makes finite JSON data of an answer, and
-        ``from_text`` an answer of these; neither is asked where nothing is kept, as where ``source`` is unknown."""
+    def answer(self, question: Mapping[str, Any], compute: Callable[[], dict[str, Any]]) -> dict[str, Any]:
+        """The kept answer to ``question``, or ``compute()``'s, kept from now on; all JSON-ready. Nothing is kept where
+        ``source`` is unknown."""
         if self.folder is None or question.get("source", "") is None:
             return compute()
-        file = self.file(question)
-        kept = None if file is None else self._read(file)
+        key = _digest(_canonical({"question": dict(question), "versions": versions(), "source": source_digest()}))
+        file = self.folder / f"{key[:40]}.json"
+        kept = self._read(file)
         if kept is not None:
-            return from_text(kept)
+            return kept
         found = compute()
-        text = as_text(found)
-        if file is not None:
-            with suppress(OSError):  # a full or read-only cache costs time, not the answer
-                write_atomically(file, _canonical({"answer": text, "sha256": _digest(_canonical(text))}))
+        with suppress(OSError):  # a full or read-only cache costs time, not the answer
+            write_atomically(file, _canonical({"answer": found, "sha256": _digest(_canonical(found))}))
         return found
 
     @staticmethod
@@ -115,7 +99,8 @@ class RunStore:
         return answer if whole else None
 
 
-def _digest_of_files(files: Iterable[Path], root: Path) -> str:
+def digest_of_files(files: Iterable[Path], root: Path) -> str:
+    """Of their contents and their places below ``root``."""
     digest = hashlib.sha256()
     for file in sorted(files):
         digest.update(file.relative_to(root).as_posix().encode())
@@ -129,7 +114,7 @@ def source_digest() -> str:
     where they were edited after it had read them."""
     files = [file for package in PACKAGES for file in (ROOT / package).rglob("*.py")]
     edited = max(file.stat().st_mtime for file in files) > LOADED
-    return _digest_of_files(files, ROOT) + (f" {os.getpid()} {LOADED}" if edited else "")
+    return digest_of_files(files, ROOT) + (f" {os.getpid()} {LOADED}" if edited else "")
 
 
 def this_code() -> dict[str, str]:
@@ -168,61 +153,14 @@ def _place_of(kind: Any) -> str | None:
         return None
     if any(file.is_relative_to(ROOT / package) for package in PACKAGES):
         return "ours"
-    return "installed" if any(file.is_relative_to(place) for place in _installed()) else None
+    return "installed" if any(file.is_relative_to(place) for place in installed()) else None
 
 
-def _installed() -> tuple[Path, ...]:
+def installed() -> tuple[Path, ...]:
+    """Folders of this Python's packages."""
     return tuple(Path(sysconfig.get_path(kind)).resolve() for kind in ("purelib", "platlib"))
 
 
 @cache
 def _all_installed() -> list[tuple[str, str]]:
     return sorted((str(one.name), one.version) for one in distributions())
-
-
-@cache
-def _distributions() -> Mapping[str, list[str]]:
-    """Which distributions a package comes from; to ask takes a second where many are installed."""
-    return packages_distributions()
-
-
-def _code_in(folder: Path) -> list[Path]:
-    return [file for file in folder.rglob("*") if file.suffix in CODE]
-
-
-def behind(files: Iterable[Path], folder: Path) -> list[str]:
-    """What Python ``files`` import, and what that imports in turn: the digest of each module or package in ``folder``
-    or elsewhere on the path, of an installed one its version. What is imported by a computed name is not seen."""
-    waiting, seen, found = list(files), {*PACKAGES, *sys.stdlib_module_names}, set()
-    installed = _installed()
-    while waiting:
-        for name in _imported_by(waiting.pop()) - seen:
-            seen.add(name)
-            origin = next((f for f in (folder / f"{name}.py", folder / name / "__init__.py") if f.is_file()), None)
-            if origin is None:
-                spec = find_spec(name)
-                origin = None if spec is None or not spec.has_location else Path(str(spec.origin))
-            if origin is None:
-                continue
-            if any(origin.resolve().is_relative_to(place) for place in installed):
-                found |= {f"{one} {version(one)}" for one in _distributions().get(name, ())}
-                continue
-            mine = _code_in(origin.parent) if origin.stem == "__init__" else [origin]
-            found.add(f"{name} {_digest_of_files(mine, origin.parent)}")
-            waiting += mine
-    return sorted(found)
-
-
-def _imported_by(file: Path) -> set[str]:
-    """Top-level names of the modules that a file imports."""
-    try:
-        tree = ast.walk(ast.parse(file.read_bytes())) if file.suffix == ".py" else ()
-    except (SyntaxError, ValueError):
-        return set()
-    names: set[str] = set()
-    for node in tree:
-        if isinstance(node, ast.Import):
-            names |= {one.name.partition(".")[0] for one in node.names}
-        elif isinstance(node, ast.ImportFrom) and not node.level:
-            names.add(str(node.module).partition(".")[0])
-    return names

@@ -7,7 +7,7 @@ holds what ``predict`` gives at the end time.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from copy import deepcopy
 from dataclasses import dataclass, field
 from functools import partial
@@ -23,13 +23,15 @@ from bent_beam.measure.numbers import Band, Number
 from bent_beam.method import separation_times
 from bent_beam.tables import in_keys
 from comparison.answers import runs_of
-from comparison.bouncing import SI, bounce, documents
+from comparison.bounced import documents
+from comparison.bouncing import bounce
 from comparison.predicting import instants_reading, numbers_at
 from comparison.questions import Question
+from comparison.readable import readable
 from comparison.store import RunStore
 from comparison.workers import run_all
 
-__all__ = ["NAMES", "Row", "sweep_case", "unit_of", "varied_from"]
+__all__ = ["NAMES", "Row", "sweep_case", "varied_from"]
 
 NAMES = (
     "restitution",
@@ -43,11 +45,6 @@ NAMES = (
 )
 """Numbers of a row, SI."""
 MOST = 10_000  # rows
-
-
-def unit_of(name: str) -> str:
-    """SI unit of one of :data:`NAMES`."""
-    return "Pa" if name == "peak_stress" else SI.get(name, ("", ""))[1]
 
 
 @dataclass(frozen=True)
@@ -67,6 +64,11 @@ class Row:
     reason: str | None = None
     refused: bool = False
     kept: bool = False
+
+    @property
+    def name(self) -> str:
+        """In words."""
+        return ", ".join(f"{key} = {readable(value)}" for key, value in self.varied.items())
 
     def to_dict(self) -> dict[str, Any]:
         """JSON-ready: the same however often the sweep was interrupted."""
@@ -153,12 +155,12 @@ class _Counting(RunStore):
 
     computed: list[bool] = field(default_factory=list)
 
-    def answer(self, question: Mapping[str, Any], compute: Callable[[], dict[str, Any]], *text: Any) -> dict[str, Any]:
+    def answer(self, question: Mapping[str, Any], compute: Callable[[], dict[str, Any]]) -> dict[str, Any]:
         def told() -> dict[str, Any]:
             self.computed.append(True)
             return compute()
 
-        return super().answer(question, told, *text)
+        return super().answer(question, told)
 
 
 def _row(varied: dict[str, Any], case: Case | InputError, path: str, store: RunStore) -> Row:
@@ -189,10 +191,5 @@ def _numbers(case: Case, path: str, store: RunStore) -> tuple[Mapping[str, Numbe
         question = Question(impact, method, case.end_time, damping_stated=case.damping_stated)
         runs = runs_of(question, partial(instants_reading, (case.end_time,), question.first_spread), store=store)
         return numbers_at(runs, case), case.end_time, [*runs.run.warnings, *runs.lost]
-    found = bounce(impact, method, section=case.section, damping_stated=case.damping_stated, store=store)
+    found = bounce(case, method, store=store)
     return found.in_si, None, found.warnings
-
-
-def failures(rows: Iterable[Row]) -> list[dict[str, Any]]:
-    """The rows that failed though their input did not say so."""
-    return [{"varied": row.varied, "reason": row.reason} for row in rows if row.reason and not row.refused]

@@ -7,9 +7,11 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
+from bent_beam.settings import settings
+from comparison.bounced import unit_of
 from comparison.readable import flat, readable, text_table, unit_for
-from comparison.settings import settings
-from comparison.sweeping import NAMES, Row, failures, unit_of
+from comparison.rows import failures
+from comparison.sweeping import NAMES, Row
 
 if TYPE_CHECKING:
     import xarray
@@ -54,7 +56,7 @@ class SweepTable:
             "path": self.path,
             "vary": {key: list(values) for key, values in self.vary.items()},
             "rows": [row.to_dict() for row in self.rows],
-            "failures": failures(self.rows),
+            "failures": [{"varied": row.varied, "reason": row.reason} for row in failures(self.rows)],
             "kept": self.kept,
         }
 
@@ -117,7 +119,7 @@ class SweepTable:
         """Rows in words."""
         if 1 < len(numbers) == len(self.rows):
             return "all rows"
-        first = ", ".join(f"{key} = {readable(value)}" for key, value in self.rows[numbers[0]].varied.items())
+        first = self.rows[numbers[0]].name
         return first if len(numbers) == 1 else f"{len(numbers)} rows, the first at {first}"
 
 

@@ -8,11 +8,11 @@ from typing import Any
 
 from bent_beam.measure.numbers import Number
 from bent_beam.meshes import ScaleFreeMesh
+from bent_beam.stored import write
 from bent_beam_programs.report.impacts import SHOWN, ShownImpact, show
 from bent_beam_programs.report.whole import pipe_prediction
 from comparison.rows import MatchRow
 from comparison.store import RunStore
-from comparison.stored import write
 from hermite_fe import HermiteFE
 from self_similar_fe import ExpandingMesh, SelfSimilarFE
 from theory import contact_parameters

@@ -80,7 +80,8 @@ class Prediction:
         peak_moment, peak_stress: the largest at leading order until `valid_until`, N m, Pa. Without damping they are
             constant in time; where the theory never holds, they are those without damping. Waves that come back from
             the ends make larger ones: they are those of the first instants only.
-        valid_from, valid_until: s; half length, force and impulse are within 2 % between them (`theory.validity`).
+        valid_from, valid_until: s; half length and impulse are within 2 % between them (`theory.validity`).
+        force_until: s; so is the force until then, a mean over a tenth of the time before and after; then it swings.
         valid_after: what spoils them before valid_from, one of the names in `theory.validity`; None: nothing does.
         limited_by: what ends it, one of these names.
         yields: whether the stress at leading order without damping is beyond the yield stress; None if either is not
@@ -116,6 +117,7 @@ class Prediction:
     valid_from: float
     valid_after: str | None
     valid_until: float
+    force_until: float
     limited_by: str
     peak_force: float | None
     wall: WallPrediction | None
@@ -182,6 +184,7 @@ def predict(impact: Impact, times: Iterable[float] | float = (), *, section: Sec
         valid_from=holds.begins,
         valid_after=holds.begins_after,
         valid_until=holds.until,
+        force_until=holds.force_until,
         limited_by=holds.limited_by,
         peak_force=None if wall is None else wall.peak_force,
         wall=wall,

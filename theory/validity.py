@@ -8,12 +8,14 @@ r"""Until when the theory of the first instants holds for a real beam. Every lim
 
       √2 ct/d²,      d the distance of the contact's end from the beam's,
 
-  that is by √2 % at d = `DISTANCE` √(ct). This is the limit; force and length are means over the swings. The front of a
-  flat contact runs with waves as fast as itself. Those of the first fifth of the time are back when it has covered a
-  third (`FLAT`) of the half length, which is then the limit. Damping kills
-  the short waves, which come first. A free motion with q₀ needs moments EI q₀ℓ²/2 at the ends. Without them waves start
-  there at once, with a quarter of that phase. They swing the force by √2 |q₀|c/(r₀V₀), units ℓ = T* = 1, and change the
-  impulse by 2√2 |q₀|ct/(r₀V₀). If the swing is more than 2 %, the limit is 2 % of the impulse or twice the distance.
+  that is by √2 % at d = `DISTANCE` √(ct). This is the limit. The front of a flat contact
+  runs with waves as fast as itself. Those of the first fifth of the time are back when it has covered a third (`FLAT`)
+  of the half length, which is then the limit. Damping kills the short waves, which come first: at t those of k = ℓ/ct
+  are back with 2√2 e^{−ηℓ⁴/2c²t³} of the force. Until this is `SWING`, or for less damping until the mean over a tenth
+  of the time before and after has √2 ct/d² · 2/0.1 = `SWING`, the force holds, too (`force_until`). A free motion
+  with q₀ needs moments EI q₀ℓ²/2 at the ends. Without them waves start there at once, with a quarter of that phase.
+  They swing the force by √2 |q₀|c/(r₀V₀), units ℓ = T* = 1, and change the impulse by 2√2 |q₀|ct/(r₀V₀). If the swing
+  is more than 2 %, the limit is 2 % of the impulse or twice the distance.
   An axial force along x pushes the ends of the bow across with NKℓ. That wave swings the force by 4√2 NKt/(μV₀r₀), and
   changes the impulse by 2ct/ℓ² of as much; the limits are the same.
 - **loads**: the second order (`theory.second_order`) over what first order predicts, and the first order over the
@@ -47,6 +49,8 @@ from theory.similarity import SelfSimilarWave, peak_moment_of
 TOLERANCE = 0.02
 #: Distance between the ends of contact and beam over √(ct), at which waves from the ends begin to matter.
 DISTANCE = 10.0
+#: What waves that come back once may add to the force; those that come back again add less than as much.
+SWING = 0.5 * TOLERANCE
 #: Half length of the beam over that of a flat contact, at which waves of its front are back from the ends.
 FLAT = 3.0
 #: First order over leading order, beyond which an expansion says nothing.
@@ -71,13 +75,15 @@ SECTION = "section"
 class Validity:
     """The theory holds for `begins` ≤ t ≤ `until` (s); `limited_by` names what ends it. Never valid: until = 0.
 
-    `begins_after` names what spoils it before `begins` (None: it holds from the first instant).
+    `begins_after` names what spoils it before `begins` (None: it holds from the first instant). The force, a
+    mean over a tenth of the time before and after, holds until `force_until` alone: then waves from the ends swing it.
     """
 
     begins: float
     until: float
     limited_by: str
     begins_after: str | None = None
+    force_until: float = 0.0
 
     def spoiled_by(self, time: float) -> str | None:
         """What spoils the theory at `time` (s); None: it holds."""
@@ -93,7 +99,7 @@ def validity(
     rigid_from: float = 0.0,
     yields: bool = False,
 ) -> Validity:
-    """The interval in which half length, force and impulse are within 2 % of those of the beam.
+    """The interval in which half length and impulse are within 2 % of those of the beam, and that of the force.
 
     Args:
         impact: the physical problem.
@@ -114,9 +120,19 @@ def validity(
     if impact.shear_stiffness is not None:
         starts.append((forgotten_after(solved.kappa_over_nu) * impact.shear_time, SHEAR))
     begins, after = max(starts)
+    force = min(until, _until_swings(impact, solved))
     if begins == 0.0:
-        return Validity(0.0, until, limited_by)
-    return Validity(begins, until, limited_by, after) if begins < until else Validity(0.0, 0.0, after)
+        return Validity(0.0, until, limited_by, force_until=force)
+    return Validity(begins, until, limited_by, after, force) if begins < until else Validity(0.0, 0.0, after)
+
+
+def _until_swings(impact: Impact, solved: ContactParameters) -> float:
+    """Time, s, at which waves from the ends swing the force by `SWING`: without damping its mean, else short waves."""
+    whole = 20.0 * math.sqrt(2.0) / SWING  # d²/ct
+    undamped = (math.sqrt(whole) + solved.lambda0) ** -2.0  # T*
+    decay = 2.0 * math.log(2.0 * math.sqrt(2.0) / SWING)  # ηℓ⁴/c²t³
+    damped = (impact.damping / impact.slow_time_scale / decay) ** (1.0 / 3.0)
+    return max(undamped, damped) * impact.slow_time_scale
 
 
 def _until_ends(impact: Impact, solved: ContactParameters) -> float:

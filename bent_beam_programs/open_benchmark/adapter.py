@@ -22,8 +22,9 @@ from platformdirs import user_cache_path
 
 from bent_beam.errors import InputError, nearest
 from bent_beam.versions import versions
+from bent_beam_programs.open_benchmark.imports import behind
 from bent_beam_programs.open_benchmark.problem import Problem
-from comparison.store import behind, source_digest
+from comparison.store import source_digest
 
 __all__ = ["ADAPTERS", "GIVEN", "RESOLUTIONS", "Adapter", "chosen_adapters", "install", "shipped_adapters"]
 

@@ -11,10 +11,10 @@ from __future__ import annotations
 
 import argparse
 
+from bent_beam.stored import confirm, write
 from bent_beam_programs.open_benchmark.exact import SAMPLE, whole_impact
 from bent_beam_programs.open_benchmark.problem import problem, shipped_ids
 from bent_beam_programs.open_benchmark.references import BOUNCES, stored
-from comparison.stored import confirm, write
 from hermite_fe import HermiteFE
 
 __all__ = ["agrees"]

@@ -8,8 +8,8 @@ from __future__ import annotations
 from dataclasses import asdict, dataclass, field
 from typing import Any
 
+from bent_beam.as_json import plain
 from bent_beam.measure.numbers import Number
-from comparison.readable import plain
 
 __all__ = ["FIRST_ORDER", "MEASURES", "PART", "WORDS", "Finding", "Score", "Symptom"]
 

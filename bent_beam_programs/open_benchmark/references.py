@@ -20,8 +20,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import PPoly
 
+from bent_beam.stored import read
 from bent_beam_programs.open_benchmark.problem import Problem
-from comparison.stored import read
 
 __all__ = ["BOUNCES", "REFERENCES", "SCHEMA", "Reference", "reference", "stored"]
 

@@ -10,11 +10,11 @@ from __future__ import annotations
 import json
 
 from bent_beam.files import write_atomically
+from bent_beam.stored import write
 from bent_beam_programs.open_benchmark.exact import computed
 from bent_beam_programs.open_benchmark.problem import LADDER, PROBLEMS, document, problem
 from bent_beam_programs.open_benchmark.problem import SCHEMA as PROBLEM_SCHEMA
 from bent_beam_programs.open_benchmark.references import REFERENCES, SCHEMA
-from comparison.stored import write
 
 __all__ = ["SHIPPED"]
 

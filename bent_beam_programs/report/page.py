@@ -39,7 +39,7 @@ from bent_beam_programs.report.work import stored_measurements
 from comparison.figures.matching import write_match
 from comparison.figures.style import marks
 from comparison.matching import match
-from comparison.rows import MatchRow, Question, failures
+from comparison.rows import MatchQuestion, MatchRow, failures
 from comparison.store import RunStore
 
 TEMPLATES = Path(__file__).resolve().parent / "templates"
@@ -64,7 +64,7 @@ class Content:
 def write_report(
     out: Path,
     methods: Sequence[Method],
-    questions: Sequence[Question],
+    questions: Sequence[MatchQuestion],
     *,
     store: RunStore,
     jobs: int = 1,

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 from bent_beam.measure.numbers import Number
 from bent_beam.method import Method
-from comparison.rows import LEAST, First, MatchRow, Question
+from comparison.rows import LEAST, First, MatchQuestion, MatchRow
 
 PATHS = ("hermite", "self_similar", "exudyn")
 LEADING = (1 / 1600, 1 / 20, 1 / 4, 1 / 2, 0.8)
@@ -23,7 +23,7 @@ def true_minus(text: str) -> str:
     return text.replace("-", "−")
 
 
-def report_questions(methods: Sequence[Method], refines: Sequence[float] = REFINES) -> list[Question]:
+def report_questions(methods: Sequence[Method], refines: Sequence[float] = REFINES) -> list[MatchQuestion]:
     """Every row of the report, few enough for two minutes.
 
     Leading order over κ/ν; two loads of first order at three κ/ν; convergence at κ/ν = 0.5. The longest come first, so
@@ -31,10 +31,10 @@ def report_questions(methods: Sequence[Method], refines: Sequence[float] = REFIN
     store.
     """
     return [
-        *(Question(m, LEADING[0]) for m in reversed(methods)),
-        *(Question(m, k, load) for load in FIRST for k in ALONG for m in reversed(methods)),
-        *(Question(m, k) for k in LEADING[1:] for m in reversed(methods)),
-        *(Question(m, MIDDLE, None, r) for m in methods for r in refines if r != 1.0),
+        *(MatchQuestion(m, LEADING[0]) for m in reversed(methods)),
+        *(MatchQuestion(m, k, load) for load in FIRST for k in ALONG for m in reversed(methods)),
+        *(MatchQuestion(m, k) for k in LEADING[1:] for m in reversed(methods)),
+        *(MatchQuestion(m, MIDDLE, None, r) for m in methods for r in refines if r != 1.0),
     ]
 
 

@@ -8,7 +8,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from comparison import stored
+from bent_beam import stored
 from comparison.readable import readable
 
 STUDIES = Path(__file__).resolve().parents[1] / "stored_studies" / "studies.json"

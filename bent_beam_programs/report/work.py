@@ -14,8 +14,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from bent_beam import stored
 from bent_beam.cases import EXAMPLES
-from comparison import stored
 from comparison.figures.work_precision import draw_work_precision
 from comparison.matching import match
 from comparison.methods import methods_from_file

@@ -11,11 +11,11 @@ import argparse
 import csv
 from pathlib import Path
 
+from bent_beam import stored
 from bent_beam_programs.thesis.gallery import ITEMS
 from bent_beam_programs.thesis.gallery.numbers import markdown
 from bent_beam_programs.thesis.stored_studies import FILE, PACKAGES, small_picture
 from bent_beam_programs.thesis.verdicts import CLASSES, summary
-from comparison import stored
 from comparison.store import write_atomically
 
 SHOWN = ("extra-filter", "fig-3.24", "fig-3.27", "fig-3.34")  # of the five verdicts

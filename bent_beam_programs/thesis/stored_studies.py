@@ -4,7 +4,7 @@
 {"studies": [{"name", "title", "case", "columns", "rows", "conclusion", "says", "failed", "reason", "date"}]}, and
 ``NAME.png`` beside it. With names it runs those studies alone and keeps the others. ``--confirm`` runs the named
 studies (default: the first) and, where their numbers are the stored ones, gives the file today's digest
-(:mod:`comparison.stored`).
+(:mod:`bent_beam.stored`).
 """
 
 from __future__ import annotations
@@ -18,11 +18,11 @@ from typing import Any
 
 from PIL import Image
 
+from bent_beam import stored
 from bent_beam.cases import Case, case_from_tables
 from bent_beam.errors import SimulationError
 from bent_beam.versions import today
 from bent_beam_programs.thesis.studies import STUDIES, run_study
-from comparison import stored
 from comparison.store import write_atomically
 from comparison.workers import run_all
 

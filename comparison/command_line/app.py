@@ -37,13 +37,7 @@ COMMANDS = (new, predict, bounce, sweep, plot, simulate, settings, compare, reru
 INTERRUPTED = 130
 AGAIN = (signal.SIGALRM,) if hasattr(signal, "SIGALRM") else ()
 PATIENCE = 10.0  # s between an interrupt and the next: workers and files are cleared away meanwhile
-RESUMED = (
-    "match",
-    "sweep",
-    "gallery",
-    "report",
-    "benchmark",
-)  # keep every run, or item, once it is finished
+RESUMED = ("predict", "bounce", "sweep", "match", "gallery", "report", "benchmark")  # keep what is finished
 
 app = typer.Typer(
     rich_markup_mode=None,

@@ -57,28 +57,25 @@ def bounce(
     if out is not None:
         check_writable(out, folder=True)
     from comparison.bouncing import bounce as follow  # SciPy: no refusal above waits for it
-    from comparison.doors import Bounced
     from comparison.hits import OF_ONE_WALL, follow_hits, hits_table
 
-    how: dict[str, Any] = {"runs": runs, "seed": seed, "jobs": jobs}
-    how["store"], how["history"] = RunStore(None if fresh else default_store()), out is not None or hits > 1
-    every = list[Bounced]()
+    how: dict[str, Any] = {"runs": runs, "seed": seed, "jobs": jobs, "history": out is not None or hits > 1}
+    how["store"], every = RunStore(None if fresh else default_store()), []
     for one, method in asked:
         with progress(f"{method.path}: the whole impact", quiet) as bar:
-            told: dict[str, Any] = {"section": one.section, "damping_stated": one.damping_stated}
-            every.append(Bounced(follow(one.impact, method, **how, **told, progress=bar.fraction), one.title))
-    found, (_, method) = every[0].found, asked[0]
+            every.append(follow(one, method, **how, progress=bar.fraction))
+    found, (_, method) = every[0], asked[0]
     with progress("hits", quiet):
         followed = follow_hits(found.impact, method, hits, first=found.history) if hits > 1 else []
     rows = [{**vars(hit), "restitution": hit.restitution} for hit in followed]
-    document, problem_of_files = every[0].to_dict(), ""
+    document, problem_of_files = found.to_dict(), ""
     if len(paths) > 1:
         document["paths"] = [{"path": name, **one.to_dict()} for name, one in zip(paths, every)]
     if hits > 1:
         document["hits"] = rows
     if out is not None:
         try:
-            document["files"] = [str(file) for file in every[0].write(out)]
+            document["files"] = [str(file) for file in found.write(out)]
         except OSError as error:  # the answer is worth more than its files
             problem_of_files = f"--out: {error}"
 
@@ -107,8 +104,7 @@ def _asked(
         return loaded, loaded.method(path)
     if damping is None:
         raise InputError("--damping is required next to --kappa-over-nu (eta/T*; 0 for none)")
-    from comparison.bouncing import problem
-    from comparison.doors import case_of
+    from comparison.bouncing import case_of, problem
     from comparison.methods import methods_of
 
     return case_of(problem(kappa_over_nu or 0.0, damping)), methods_of([path], assignments)[0]

@@ -36,7 +36,7 @@ def section_kinds(incomplete: str) -> list[str]:
 
 def example_names(incomplete: str) -> list[str]:
     """Completion of ``--like``."""
-    from comparison.new_case import examples
+    from bent_beam.new_case import examples
 
     return complete(sorted(examples()), incomplete)
 
@@ -60,7 +60,7 @@ def new(
 
     Example: bentbeam new my_tube.toml --like tube
     """
-    from comparison.new_case import example, new_case
+    from bent_beam.new_case import example, new_case
     from comparison.store import write_atomically
 
     if like is not None and not (section is None and damping_ratio is None):
@@ -84,7 +84,8 @@ def settings(
 
     Example: bentbeam settings damping
     """
-    from comparison.settings import about, settings_markdown, settings_text
+    from bent_beam.settings import about
+    from comparison.settings_text import settings_markdown, settings_text
 
     if word and markdown:
         raise InputError(f"--markdown writes the whole page: leave {word!r} out")
@@ -124,13 +125,12 @@ def predict(
         if theory_only or max(times) <= 0.0:
             raise InputError(f"--out {out}: nothing is simulated, so that there is nothing to be drawn")
         check_writable(out, folder=True)
-    from comparison.doors import Predicted  # SciPy: no refusal above waits for it
-    from comparison.predicting import predict_case
+    from comparison.predicting import predict_case  # SciPy: no refusal above waits for it
 
     store = RunStore(None if fresh else default_store())
     with progress(f"the whole beam: {case.name}", quiet or as_json or theory_only) as bar:
         how = {"theory_only": theory_only, "store": store, "progress": bar.fraction}
-        found = Predicted(predict_case(loaded, times, **how))  # type: ignore[arg-type]
+        found = predict_case(loaded, times, **how)  # type: ignore[arg-type]
     emit(found.to_dict(), as_json, lambda: str(found))
     if out is not None:
         found.write(out)  # after the answer, which a full disk must not cost

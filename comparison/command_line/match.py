@@ -68,7 +68,7 @@ def match(
     """
     from comparison.matching import match as match_all
     from comparison.methods import chosen_methods
-    from comparison.rows import THESIS_KAPPAS, match_document, match_table, questions, row_name
+    from comparison.rows import THESIS_KAPPAS, match_document, match_table, questions
     from comparison.store import RunStore, check_writable, default_store
 
     compared = chosen_methods(path or (), assignments or (), methods)
@@ -86,7 +86,7 @@ def match(
         from comparison.figures.matching import write_match
 
         write_match(rows, out)  # after the answer, which a full disk must not cost
-    end_of_rows((row_name(row), row) for row in rows)
+    end_of_rows(rows)
 
 
 def _wall(text: str | None) -> tuple[float, float] | None:

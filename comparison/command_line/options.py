@@ -6,7 +6,7 @@ import logging
 import math
 import os
 import sys
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import partial
@@ -27,7 +27,7 @@ def path_names(incomplete: str) -> list[str]:
 
 def setting_names(incomplete: str) -> list[str]:
     """Completion of ``--set``: every setting, and the kinds of each part."""
-    from comparison.settings import settings
+    from bent_beam.settings import settings
 
     known = {f"{s.table}.kind={s.kind}" if s.name == "kind" else f"{s.table}.{s.name}=" for s in settings()}
     return complete(sorted(known), incomplete)
@@ -85,17 +85,18 @@ def processes(jobs: int | None, rows: int, least: int = 1) -> int:
     return jobs or max(1, min(os.cpu_count() or 1, rows // least))
 
 
-def end_of_rows(rows: Iterable[tuple[str, Any]]) -> None:
-    """A line on standard error for each row, by its name, that failed unexpectedly; leave with exit code 3 where one
-    did, 2 where input refused every row."""
-    every = list(rows)
-    lost = [(name, row.reason) for name, row in every if row.reason is not None and not row.refused]
-    for name, reason in lost:
-        print(printable(f"error: {name}: {reason}"), file=sys.stderr)
+def end_of_rows(rows: Sequence[Any]) -> None:
+    """A line on standard error for each row that failed unexpectedly; leave with exit code 3 where one did, 2 where
+    input refused every row."""
+    from comparison.rows import failures
+
+    lost = failures(rows)
+    for row in lost:
+        print(printable(f"error: {row.name}: {row.reason}"), file=sys.stderr)
     if lost:
         raise typer.Exit(3)
-    if all(row.refused for _, row in every):  # what was asked for cannot be: input, not a result
-        print(printable(f"error: every row was refused: {every[0][1].reason}"), file=sys.stderr)
+    if all(row.refused for row in rows):  # what was asked for cannot be: input, not a result
+        print(printable(f"error: every row was refused: {rows[0].reason}"), file=sys.stderr)
         raise typer.Exit(2)
 
 
@@ -122,7 +123,7 @@ def emit(document: Any, as_json: bool, text: Callable[[], str]) -> None:
     if as_json:
         import json
 
-        from comparison.readable import json_text
+        from bent_beam.as_json import json_text
 
         unicode = (sys.stdout.encoding or "utf-8").lower().startswith("utf")
 

@@ -72,5 +72,4 @@ def sweep(
     emit(found.to_dict(), as_json, lambda: str(found))
     if out is not None:
         found.write(out)  # after the answer, which a full disk must not cost
-    named = [(", ".join(f"{k} = {v}" for k, v in row.varied.items()), row) for row in found.rows]
-    end_of_rows(named)
+    end_of_rows(found.rows)

@@ -14,9 +14,10 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 
+from bent_beam.as_json import json_text
 from comparison.figures import style
 from comparison.figures.work_precision import draw_work_precision
-from comparison.readable import csv_text, json_text
+from comparison.readable import csv_text
 from comparison.rows import First, MatchRow, match_document
 from comparison.store import write_atomically
 from theory import contact_parameters

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from bent_beam.free_flight import pushing
 from bent_beam.history import ImpactHistory
 from bent_beam.impact import Impact
+from bent_beam.measure.whole_impact import WINDOW
 from comparison.figures import style
 from comparison.readable import unit_for
 
@@ -20,7 +21,7 @@ __all__ = ["contacts", "draw_force", "draw_wall", "heights", "impulse_given", "s
 Array = NDArray[np.float64]
 Panel = Callable[[Any, ImpactHistory, float], None]
 """Draws a run on an axis, until a time, s."""
-WINDOWS = 160  # of the force: what is quicker is noise of the reader's eye
+WINDOWS, FEWEST = 160, 40  # of the force: on a wall that gives way; on a rigid one, else they are ten times shorter
 SHAPES = 7
 NICE = (1.0, 2.0, 3.0, 5.0)
 WALL = "#D8D8D8"
@@ -58,8 +59,14 @@ def sheet(
 
 
 def _force(history: ImpactHistory, end: float) -> tuple[Array, Array]:
-    """Edges of windows in time, s, and the walls' mean force in each, N; a second wall's is negative."""
-    edges = np.linspace(0.0, end, WINDOWS + 1)
+    """Edges of windows in time, s, and the walls' mean force in each, N; a second wall's is negative. On a
+    rigid wall the windows are those of the largest push, whatever the end."""
+    window = WINDOW * history.impact.slow_time_scale
+    while end < FEWEST * window:
+        window /= 10.0
+    if "peak_force" in history:
+        window = end / WINDOWS
+    edges: Array = window * np.arange(round(end / window) + 1, dtype=np.float64)
     return edges, np.diff(np.interp(edges, history.time, history.array("total_impulse"))) / np.diff(edges)
 
 

@@ -9,9 +9,9 @@ import numpy as np
 from scipy.interpolate import PchipInterpolator
 
 from bent_beam.measure.numbers import Band
+from comparison.bounced import unit_of
 from comparison.figures import style
 from comparison.readable import readable, unit_for
-from comparison.sweeping import unit_of
 from comparison.swept import TITLES, SweepTable, numeric
 
 __all__ = ["sweep_figure"]

@@ -9,41 +9,22 @@ from typing import Any
 
 import numpy as np
 
+from bent_beam.cases import Case
 from bent_beam.history import ImpactHistory
 from bent_beam.measure.numbers import Band, Number
-from bent_beam.measure.whole_impact import WINDOW
-from bent_beam.section import Section
-from comparison.bouncing import Bounce
 from comparison.figures import style
 from comparison.figures.panels import contacts, draw_force, draw_wall, heights, sheet
 from comparison.figures.style import Film, write_gif
 from comparison.readable import in_unit
 
-__all__ = ["animate", "bounce_figure", "end_of", "impact_figure"]
+__all__ = ["animate", "impact_figure"]
 
 FRAMES, PER_SECOND = 90, 18
-LYING = 5.0  # times the largest push or moment: the end for a beam that does not leave
-BEYOND = 1.15  # times the last contact, or the largest value: the end of the axes
 
 
-def end_of(found: Bounce) -> float:
-    """Of the axes, s; of a beam that comes to lie on the wall while most happens."""
-    outcome = found.outcome
-    hardest = max(outcome.peak_moment_time, outcome.push_time)
-    last = outcome.last_contact if found.left else min(outcome.last_contact, LYING * (hardest + WINDOW))
-    return BEYOND * max(last, outcome.peak_moment_time) * found.units["time"]
-
-
-def bounce_figure(found: Bounce, title: str = "") -> Any:
-    """A whole impact on one sheet, as a Matplotlib figure."""
-    return impact_figure(found.history, title, found.in_si, found.section, end_of(found))
-
-
-def impact_figure(
-    history: ImpactHistory, title: str, numbers: Mapping[str, Number | Band], section: Section | None, end: float
-) -> Any:
-    """A run on one sheet. numbers : SI, by name, for what is marked; end : s, of the axes."""
-    impact, limit = history.impact, None if section is None else section.yield_stress
+def impact_figure(history: ImpactHistory, case: Case, numbers: Mapping[str, Number | Band], end: float) -> Any:
+    """A run of a case on one sheet. numbers : SI, by name, for what is marked; end : s, of the axes."""
+    impact, section, limit = history.impact, case.section, None if case.section is None else case.section.yield_stress
     largest, unit = ("peak_moment", "N m") if section is None else ("peak_stress", "Pa")
     marked: dict[str, Any] = {
         "force": _words(numbers.get("peak_force"), "N"),
@@ -51,13 +32,8 @@ def impact_figure(
     }
     groups = rf"$\kappa/\nu$ = {impact.kappa_over_nu:.4g}, $\eta/T^*$ = {impact.relative_damping:.3g}"
     groups += rf", $T^*$ = {1e3 * impact.slow_time_scale:.4g} ms"
-    return sheet(
-        history.described(title, section),
-        title or groups,
-        min(end, float(history.time[-1])),
-        **marked,
-        yield_stress=limit,
-    )
+    known = history.described(case.title, section)
+    return sheet(known, case.title or groups, min(end, float(history.time[-1])), **marked, yield_stress=limit)
 
 
 def _words(number: Number | Band | None, unit: str) -> str:

@@ -32,6 +32,7 @@ API = {
         "comparison.rows",
         "comparison.matching",
         "comparison.bouncing",
+        "comparison.bounced",
         "comparison.sweeping",
     ),
     "open_benchmark": tuple(
@@ -50,7 +51,7 @@ def api_page(package: str) -> str:
 
 def pages() -> dict[str, str]:
     """Path in docs → Markdown."""
-    from comparison.settings import settings_markdown
+    from comparison.settings_text import settings_markdown
 
     return {"settings.md": settings_markdown()} | {f"api/{name}.md": api_page(name) for name in API}
 

@@ -196,7 +196,7 @@ def test_shipped_cases_are_bowed_beams_that_spread_and_a_rail_is_its_catalogue_e
 
 @pytest.mark.parametrize("kind", ["pipe", "round_bar", "rectangle", "general"])
 def test_a_new_case_can_be_used_once_its_damping_is_stated(kind, tmp_path):
-    from comparison.new_case import new_case
+    from bent_beam.new_case import new_case
 
     file = tmp_path / "mine.toml"
     file.write_text(new_case(kind))

@@ -16,7 +16,6 @@ from bent_beam.history import ImpactHistory
 from bent_beam.measure.numbers import Band
 from bent_beam.meshes import UniformMesh
 from bent_beam.method import method_from_tables
-from comparison.bounce_text import bounce_document
 from comparison.bouncing import bounce, problem
 from hermite_fe import HermiteFE
 
@@ -31,7 +30,7 @@ def test_error_bars_of_a_bounce_hold_the_converged_value(path, elements, widest)
     assert set(restitution.parts) == {"mesh_and_step", "contact_law", "saved_instants"}
     assert restitution.bar == sum(restitution.parts.values())
     assert abs(restitution.value - 0.33636) <= restitution.bar < widest
-    document = bounce_document(found)
+    document = found.to_dict()
     assert json.loads(json.dumps(document)) == document
     assert document["si"]["impulse"]["value"] == pytest.approx(2.0 * (1.0 + restitution.value))
 
@@ -40,7 +39,7 @@ def test_a_bounce_off_a_wall_that_gives_way_has_its_largest_force_and_gives_its_
     soft = problem(0.5, 1e-2).replace(wall_stiffness=1e3)
     found = bounce(soft, HermiteFE(mesh=UniformMesh(0.1)), save=500)
     assert set(found.numbers["peak_force"].parts) == {"mesh_and_step"} and found.numbers["peak_force"].bar < 0.02
-    document = bounce_document(found)
+    document = found.to_dict()
     assert document["si"]["peak_force"]["value"] == pytest.approx(found.history.array("peak_force")[-1])
     assert found.numbers["restitution"].known > 0.34  # more than off a rigid wall, whose impacts lose 1 − e²
     budget = found.history.energy_budget()
@@ -74,7 +73,7 @@ class Scripted:
 @pytest.mark.parametrize("damping", [1e-3, 0.0])
 def test_a_single_run_that_ends_at_the_wall_is_told_with_the_numbers_that_it_enters(damping) -> None:
     found = bounce(problem(2.0, damping), Scripted(), runs=4, seed=0)
-    assert found.outcome.left and not found.left and bounce_document(found)["left"] is False
+    assert found.outcome.left and not found.left and found.to_dict()["left"] is False
     assert any("not left the wall" in warning for warning in found.warnings)
 
 
@@ -87,7 +86,7 @@ def test_without_damping_a_seeded_band_takes_the_place_of_a_number(monkeypatch) 
     assert isinstance(band, Band) and band.mean == pytest.approx(0.6, abs=0.1) and band.runs == 2
     assert any("no damping" in warning and "band" in warning for warning in found.warnings)
     assert told == sorted(told) and told[-1] == 1.0  # complete when all runs are
-    document = bounce_document(found)
+    document = found.to_dict()
     stated = {"mean": band.mean, "std": band.std, "runs": 2}
     assert document["seed"] == 3 and document["restitution"] == {"value": None, "error": None, "band": stated}
     first, again, other = (COARSE.varied(impact, np.random.default_rng(seed)) for seed in (3, 3, 4))

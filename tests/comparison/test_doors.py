@@ -14,10 +14,10 @@ from histories import history_of
 
 from bent_beam.cases import Case, case_from_tables, load_case
 from bent_beam.errors import InputError
+from bent_beam.measure.force_map import force_map
 from comparison import bounce, predict
-from comparison.bouncing import scales
+from comparison.bounced import scales
 from comparison.compare import compare_histories
-from comparison.figures.force_map import force_map
 from comparison.simulating import simulate_case
 
 SEED = 20261123

@@ -11,7 +11,7 @@ from bent_beam.measure.moments import first_front
 from bent_beam.measure.reduction import peak_moment
 from bent_beam.meshes import UniformMesh
 from comparison.matching import answer
-from comparison.rows import Question
+from comparison.rows import MatchQuestion
 from comparison.simulating import simulate_case
 from comparison.store import RunStore
 from exudyn_models import ExudynModel
@@ -95,7 +95,7 @@ def test_a_tension_along_x_bends_the_ends_of_a_bow() -> None:
 @pytest.mark.verify
 def test_the_bar_of_exudyns_r0_holds_what_its_hits_add() -> None:
     """A coarser run with the same dashpot is wrong by the same."""
-    row = answer(Question(ExudynModel(refine=0.5), 0.05), RunStore(None))
+    row = answer(MatchQuestion(ExudynModel(refine=0.5), 0.05), RunStore(None))
     assert row.r0.covered and row.lambda0.covered
     assert math.isfinite(row.r0.bar) and row.r0.bar < 1e-2 * row.r0.known
 

@@ -11,7 +11,7 @@ from bent_beam import InputError
 from comparison.figures.matching import write_match
 from comparison.matching import answer, match
 from comparison.methods import methods_from_file, methods_of
-from comparison.rows import Question, failures, match_table, questions
+from comparison.rows import MatchQuestion, failures, match_table, questions
 from comparison.store import RunStore
 from exudyn_models import ExudynModel
 from hermite_fe import HermiteFE
@@ -37,7 +37,7 @@ def off(number, least=0.0):
     ],
 )
 def test_every_path_matches_the_leading_order(method, kappa, of_lambda0, of_r0):
-    row = answer(Question(method, kappa, error_bars="drift"), KEEP)
+    row = answer(MatchQuestion(method, kappa, error_bars="drift"), KEEP)
     assert off(row.lambda0) < of_lambda0 and off(row.r0) < of_r0
     if isinstance(method, SelfSimilarFE):
         assert row.lift < (1e-5 if kappa >= 0.25 else 5e-4) and row.warnings == []
@@ -49,7 +49,7 @@ def test_every_path_matches_the_leading_order(method, kappa, of_lambda0, of_r0):
 )
 def test_a_point_contact_does_not_spread(method, of_r0):
     """κ/ν ≥ 1: λ₀ = 0, r₀ = ν, r₁ = 2α."""
-    row = answer(Question(method, 1.25, (1.0, 0.0, 0.0), error_bars="drift"), KEEP)
+    row = answer(MatchQuestion(method, 1.25, (1.0, 0.0, 0.0), error_bars="drift"), KEEP)
     assert row.regime == "discrete" and row.lambda0.value == 0.0
     assert off(row.r0) < of_r0 and off(row.r1) < 5e-3
 
@@ -81,7 +81,7 @@ FIRST_ORDER = [  # kappas, loads, method, error bars, share of max(|theory|, 1)
     ],
 )
 def test_every_path_matches_the_first_order(method, kappa, first, error_bars, limit):
-    row = answer(Question(method, kappa, first, error_bars=error_bars), KEEP)
+    row = answer(MatchQuestion(method, kappa, first, error_bars=error_bars), KEEP)
     for number in (row.lambda1, row.r1):
         assert off(number, 1.0) < limit
         assert number.covered or not isinstance(method, SelfSimilarFE) or kappa == 0.1
@@ -92,7 +92,7 @@ def test_every_path_matches_the_first_order(method, kappa, first, error_bars, li
 @pytest.mark.parametrize(("kappa", "first"), [(0.5, (4.0, 0.0, 0.0)), (0.5, (1.0, 1.0, 1.0)), (0.8, (-1.0, -1.0, 0.0))])
 def test_the_size_of_the_loads_is_within_the_error_bars(monkeypatch, kappa, first, factor):
     """ε → 0 is extrapolated to: with half and twice the ε λ₁ and r₁ are the same."""
-    asked = Question(SelfSimilarFE(), kappa, first, error_bars="drift")
+    asked = MatchQuestion(SelfSimilarFE(), kappa, first, error_bars="drift")
     usual = answer(asked, KEEP)
     monkeypatch.setattr(SelfSimilarFE, "perturbation", factor * SelfSimilarFE.perturbation)
     other = answer(asked, KEEP)
@@ -107,7 +107,7 @@ def test_tension_alone_on_the_self_similar_path_within_three_thousandths(kappa):
     """Held by a load (0, 0, 0, 1) and in free flight, where λ₁, r₁ are λ_N, r_N."""
     exact = contact_parameters(kappa)
     for first in ((0.0, 0.0, 0.0, 1.0), (-kappa, 0.0, 0.0, 1.0)):
-        row = answer(Question(SelfSimilarFE(), kappa, first, error_bars="drift"), KEEP)
+        row = answer(MatchQuestion(SelfSimilarFE(), kappa, first, error_bars="drift"), KEEP)
         assert off(row.lambda1, 1.0) < 3e-3 and off(row.r1, 1.0) < 3e-3
         if row.of_tension_alone:
             assert (row.lambda1.theory, row.r1.theory) == pytest.approx((exact.lambda_axial, exact.r_axial), rel=1e-9)
@@ -146,18 +146,18 @@ def test_what_fails_is_a_row_with_its_reason(tmp_path, monkeypatch):
 def test_what_fails_outside_its_run_costs_its_row_too():
     """A sweep of hours goes on, whatever a method of somebody else's does when it is asked about an impact."""
     errors = (KeyError, MemoryError, SystemExit)
-    for error, row in zip(errors, match([Question(Stranger(error), 0.5) for error in errors]), strict=True):
+    for error, row in zip(errors, match([MatchQuestion(Stranger(error), 0.5) for error in errors]), strict=True):
         assert row.reason.startswith(error.__name__) and "nobody looked" in row.reason and not row.refused
 
 
 def test_a_row_that_takes_longer_than_its_limit_is_a_failure():
-    (row,) = match([Question(HermiteFE(), 0.013)], limit=1e-9)
+    (row,) = match([MatchQuestion(HermiteFE(), 0.013)], limit=1e-9)
     assert row.reason == "time limit: not finished after 1e-09 s" and row.r0.value is None and not row.refused
 
 
 def test_a_wall_that_gives_way_has_its_largest_force_in_the_row():
     """f(½, ½) = 3.155, whatever the stiffness."""
-    row = answer(Question(HermiteFE(refine=0.5), 0.5, error_bars="drift", wall=(1e5, 0.5)), RunStore(None))
+    row = answer(MatchQuestion(HermiteFE(refine=0.5), 0.5, error_bars="drift", wall=(1e5, 0.5)), RunStore(None))
     assert row.peak_force.known == pytest.approx(3.155, rel=2e-3)
     assert row.wall == (1e5, 0.5) and "F/(V0" in match_table([row])
     assert row.peak_force.theory == pytest.approx(3.155, rel=1e-3)

@@ -10,7 +10,6 @@ from histories import ROD
 
 from bent_beam import Impact
 from bent_beam.cases import Case, load_case
-from comparison.bounce_text import bounce_document
 from comparison.bouncing import bounce
 from comparison.predict_text import prediction_text
 from comparison.predicting import COMPARED, predict_case
@@ -49,8 +48,11 @@ def test_theory_and_simulation_agree_before_reflections(kappa: float, damping: f
     assert first["valid"] and agrees(first, "impulse")
     # a damped zone has no closed form once it spreads, and leaves no trace of its damping after a while
     assert early["valid"] == late["valid"] == (damping == 0.0 or kappa > 1.0)
-    assert all(agrees(early, name) for name in ("half_contact_length", "reaction", "impulse"))
-    assert agrees(late, "impulse") and agrees(late, "half_contact_length") and agrees(late, "reaction")
+    assert all(agrees(row, name) for row in (early, late) for name in ("half_contact_length", "impulse"))
+    if damping == 0.0:  # waves from the ends swing the force
+        assert found["force_until"] < 1e-3 and early["reaction"] is late["reaction"] is None
+    else:
+        assert agrees(early, "reaction") and agrees(late, "reaction")
     assert all(set(row["simulation"]) == set(COMPARED) - {"peak_stress"} for row in found["times"])
     assert found["agreement"]["from"] < 6e-4 and 1.9e-3 < found["agreement"]["until"] <= 4e-3
     assert told == sorted(told) and told[-1] == pytest.approx(1.0)
@@ -72,7 +74,7 @@ def test_predict_and_bounce_give_a_rod_s_whole_impact_to_the_last_digit(tmp_path
     for one in ("impact.gravity=9.81", "wall.stiffness=1e8"):
         case = load_case(tmp_path / "rod.toml", [one, *MESH])
         document = predict_case(case, [1e-4, 1e-3]).to_dict()
-        other = bounce_document(bounce(case.impact, case.method("hermite"), section=case.section))
+        other = bounce(case, case.method("hermite")).to_dict()
         whole, si = document["whole_impact"], other["si"]
         assert whole["restitution"] == other["restitution"]
         assert {**whole["peak_stress"], "unit": "Pa"} == other["peak_stress"]
@@ -95,7 +97,7 @@ def test_a_rod_under_its_weight_leaves_with_what_is_known_of_it(tmp_path: Path) 
     text = prediction_text(document)
     assert f"until 1 ms (simulation): {number_from(late).scaled(1e-6)}" in text
     assert f"(simulation): {number_from(largest).scaled(1e-6)}" in text
-    assert "coefficient of restitution 0.63" in text and "no largest force on a rigid wall" in text
+    assert "coefficient of restitution 0.63" in text and "rigid wall has no largest force" in text
 
 
 def test_a_damping_that_is_not_stated_is_answered_over_three_and_one_that_is_stated_once(tmp_path: Path) -> None:

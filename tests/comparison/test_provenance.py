@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from comparison import stored
+from bent_beam import stored
 
 ROOT = Path(__file__).resolve().parents[2]
 ROOMS = ("comparison", "bent_beam_programs")

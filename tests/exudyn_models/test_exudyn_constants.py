@@ -11,7 +11,7 @@ from bent_beam import Impact
 from bent_beam.measure.estimators import LeadingEstimate, leading_order
 from bent_beam.measure.moments import Moments, moments
 from comparison.matching import answer
-from comparison.rows import Question
+from comparison.rows import MatchQuestion
 from comparison.store import RunStore
 from exudyn_models import ExudynModel, method, resolution
 from exudyn_models.contacts import Penalty, base, penalty
@@ -73,7 +73,7 @@ def test_a_constant_of_thin_fronts_halved_or_doubled(name: str, factor: float, m
     """λ₀ and r₀ stay within 1.5 % of theory where the bending ahead of the front is not resolved."""
     module = penalty if name == "PLASTIC" else resolution
     monkeypatch.setattr(module, name, getattr(module, name) * factor)
-    row = answer(Question(ExudynModel(), 1 / 100, error_bars="drift"), RunStore(None))
+    row = answer(MatchQuestion(ExudynModel(), 1 / 100, error_bars="drift"), RunStore(None))
     for number in (row.lambda0, row.r0):
         assert number.value == pytest.approx(number.theory, rel=0.015)
 
@@ -100,6 +100,6 @@ def test_a_constant_of_loaded_runs_halved_or_doubled(name: str, factor: float, m
     """λ₁ and r₁ stay within 3 % of theory under a load that presses."""
     value = getattr(method, name)
     monkeypatch.setattr(method, name, type(value)(factor * value))
-    row = answer(Question(ExudynModel(), 0.42, (2.0, 0.5, 0.5), error_bars="drift"), RunStore(None))
+    row = answer(MatchQuestion(ExudynModel(), 0.42, (2.0, 0.5, 0.5), error_bars="drift"), RunStore(None))
     for number in (row.lambda1, row.r1):
         assert number.value == pytest.approx(number.theory, abs=0.03 * max(abs(number.theory), 1.0))

@@ -12,7 +12,7 @@ from bent_beam.measure.estimators import leading_order
 from bent_beam.measure.moments import moments
 from bent_beam.meshes import NodesMesh, ScaleFreeMesh, UniformMesh
 from comparison.matching import answer
-from comparison.rows import Question
+from comparison.rows import MatchQuestion
 from comparison.store import RunStore
 from exudyn_models import ExudynModel
 from exudyn_models.contacts import Penalty, Rigid, SegmentFriction
@@ -114,7 +114,7 @@ def test_segment_contact_loses_what_its_forces_do(friction):
 @verify
 @pytest.mark.parametrize("kappa_over_nu", [1 / 40, 1 / 100, 1 / 400, 1 / 1600])
 def test_a_thin_front_is_met_within_its_error_bars_and_nothing_is_held(kappa_over_nu):
-    row = answer(Question(ExudynModel(), kappa_over_nu), RunStore(None))
+    row = answer(MatchQuestion(ExudynModel(), kappa_over_nu), RunStore(None))
     for number in (row.lambda0, row.r0):
         assert abs(number.relative()) < min(0.003, number.relative_bar())
     assert row.hold is None and row.lift < 0.02

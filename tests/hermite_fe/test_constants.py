@@ -16,7 +16,7 @@ from bent_beam import Impact
 from bent_beam.measure.estimators import LeadingEstimate, leading_order
 from bent_beam.measure.moments import moments
 from comparison.matching import answer
-from comparison.rows import Question
+from comparison.rows import MatchQuestion
 from comparison.store import RunStore
 from hermite_fe import HermiteFE, resolution
 from hermite_fe.far_fields import GridViscosity
@@ -102,6 +102,6 @@ def test_a_constant_of_loaded_runs_halved_or_doubled(name: str, factor: float, m
     value = getattr(resolution, name)
     changed = tuple(factor * v for v in value) if isinstance(value, tuple) else type(value)(factor * value)
     monkeypatch.setattr(resolution, name, changed)
-    row = answer(Question(HermiteFE(), 0.42, (2.0, 0.5, 0.5), error_bars="drift"), RunStore(None))
+    row = answer(MatchQuestion(HermiteFE(), 0.42, (2.0, 0.5, 0.5), error_bars="drift"), RunStore(None))
     for number in (row.lambda1, row.r1):
         assert number.value == pytest.approx(number.theory, abs=0.01 * max(abs(number.theory), 1.0))

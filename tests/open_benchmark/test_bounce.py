@@ -5,12 +5,12 @@ import dataclasses
 import numpy as np
 import pytest
 
+from bent_beam.stored import is_stale
 from bent_beam_programs.open_benchmark.bounce_reference import agrees
 from bent_beam_programs.open_benchmark.problem import problem, shipped_ids
 from bent_beam_programs.open_benchmark.references import BOUNCES, Reference, reference
 from bent_beam_programs.open_benchmark.result import Result
 from bent_beam_programs.open_benchmark.score import score
-from comparison.stored import is_stale
 
 SHIPPED = [name for name in shipped_ids() if name.startswith("bounce-")]
 

@@ -198,7 +198,7 @@ def page_and_bounce(inputs: list[dict[str, Any]], share: float = 1.0) -> tuple[i
     compared, missed = 0, []
     for row in (row for row in found if not row["wrong"]):
         case = case_from_tables(tomllib.loads(row["text"]))
-        said = bounce(case.impact, case.method("hermite"), section=case.section).numbers
+        said = bounce(case, case.method("hermite")).numbers
         for here, there in ((here, there) for here, there in names.items() if there in said):
             one, other = Number(row["numbers"][here]["value"], row["numbers"][here]["bar"]), said[there]
             assert one.measured == (other.value is not None), (there, row["text"])

@@ -77,7 +77,7 @@ def test_the_numbers_of_the_whole_impact_are_those_of_bounce(browser: Any) -> No
     """The page starts with `cases/tube.toml`."""
     simulated(browser)
     case = load_case("cases/tube.toml")
-    said = bounce(case.impact, case.method("hermite"), section=case.section)
+    said = bounce(case, case.method("hermite"))
     value, error = (float(word) for word in shown(browser, "stress").removesuffix(" MPa").split(" ± "))
     assert said.peak_stress is not None and said.peak_stress.bar is not None
     assert abs(value - 1e-6 * said.peak_stress.value) <= error + 1e-6 * said.peak_stress.bar

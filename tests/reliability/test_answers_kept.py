@@ -24,7 +24,7 @@ from comparison.command_line import __main__ as start
 from comparison.command_line import app, histories
 from comparison.command_line.options import emit
 from comparison.matching import PERTURBATION, match
-from comparison.rows import Question, first_order_epsilon
+from comparison.rows import MatchQuestion, first_order_epsilon
 from comparison.store import RunStore, source_of
 from hermite_fe import HermiteFE
 from hermite_fe.contacts import NodeContact
@@ -72,7 +72,7 @@ def test_what_is_no_method_is_refused_by_name_and_ends_no_other_command(load, mo
 
 
 def test_an_impossible_row_costs_itself():
-    (row,) = match([Question(HermiteFE(), 1e300)])
+    (row,) = match([MatchQuestion(HermiteFE(), 1e300)])
     assert "must not exceed" in row.reason and not row.refused and row.r0.value is None
     leading = SimpleNamespace(front=0.0)
     with pytest.raises(ValueError, match="first_order"):
@@ -190,7 +190,7 @@ def test_runs_with_parts_that_neither_the_project_nor_a_package_brought_are_not_
     store, count = RunStore(tmp_path / "store"), iter(range(9))
     answers = [store.answer({"source": None}, lambda: {"n": next(count)})["n"] for _ in range(2)]
     assert answers == [0, 1] and not list(tmp_path.rglob("*.json"))
-    monkeypatch.setattr("comparison.store._installed", lambda: (tmp_path.resolve(),))
+    monkeypatch.setattr("comparison.store.installed", lambda: (tmp_path.resolve(),))
     assert source_of(HermiteFE(contact=soft)).startswith("hermite_fe.method.HermiteFE ")
 
 

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from report_fixtures import KEPT, impacts, lost, pipe, row, rows
 
+from bent_beam.measure.force_map import force_map, spread
 from bent_beam_programs.report.impacts import FRAMES, SHOWN, energies, kept_instants, theory_of
 from bent_beam_programs.report.page import Content, render
 from bent_beam_programs.report.rows import PATHS, first_order_rows, leading_rows, report_questions, table_row, tolerance
@@ -16,7 +17,6 @@ from bent_beam_programs.report.studies import stored_numbers
 from bent_beam_programs.report.summary import acceleration_rows, headline, summary
 from bent_beam_programs.report.whole import TIMES
 from bent_beam_programs.report.work import stored_measurements
-from comparison.figures.force_map import force_map, spread
 from comparison.methods import methods_of
 from comparison.predict_text import prediction_text
 from comparison.predicting import predict_case

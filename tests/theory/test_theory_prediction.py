@@ -132,6 +132,33 @@ def test_one_point_is_the_stopped_beam_to_two_per_cent_until_the_limit(damping: 
         assert impulse.max() > 0.02
 
 
+@pytest.mark.parametrize("damping", [1e-7, 1e-6, 3e-6, 1e-5])
+def test_the_momentary_force_holds_until_short_waves_are_back_from_the_ends(damping: float) -> None:
+    impact, beam = Impact.whole_beam(2.0, relative_damping=damping), StoppedBeam(damping)
+    found = predict(impact)
+
+    def off(begin: float, end: float) -> float:
+        times = np.linspace(begin, end, 2000)
+        force = [row.reaction for row in predict(impact, times).times]
+        return float(np.abs(force / beam.reaction(times) - 1.0).max())
+
+    assert off(0.3 * found.force_until, found.force_until) < 0.02
+    if damping < 1e-5:
+        assert off(found.force_until, 1.2 * found.force_until) > 0.02
+    assert found.force_until < found.valid_until
+
+
+def test_without_damping_the_force_over_a_tenth_of_the_time_holds_as_long_as_its_waves_cancel() -> None:
+    beam, found = StoppedBeam(1e-12), predict(Impact.whole_beam(2.0))
+
+    def off(end: float) -> float:
+        times = np.linspace(0.5 * end, end, 500)
+        means = (beam.impulse(1.1 * times) - beam.impulse(0.9 * times)) / (0.2 * times)
+        return float(np.abs([row.reaction for row in predict(Impact.whole_beam(2.0), times).times] / means - 1.0).max())
+
+    assert off(found.force_until) < 0.02 < off(3.0 * found.force_until)
+
+
 def test_a_quartic_bow_sends_waves_from_its_ends() -> None:
     bare = predict(Impact.whole_beam(0.5)).valid_until
     small, some, large = (

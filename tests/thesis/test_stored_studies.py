@@ -12,10 +12,10 @@ import numpy as np
 import pytest
 from PIL import Image
 
+from bent_beam import stored
 from bent_beam_programs.thesis import stored_studies
 from bent_beam_programs.thesis.gallery.runs import case, thesis, thesis_history
 from bent_beam_programs.thesis.studies.outcome import MEASURES
-from comparison import stored
 
 
 @pytest.mark.verify

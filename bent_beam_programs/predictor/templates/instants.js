@@ -1,7 +1,7 @@
 "use strict";
 // The first instants of an impact as the theory has them (theory/prediction.py), SI.
 const Instants = (() => {
-  const { abs, min, sqrt, tanh, PI } = Math;
+  const { abs, asinh, min, sqrt, tanh, PI } = Math;
 
   /** Contact parameters, scales, largest moment and range of the theory; b without a stated damping: of none. */
   function solve(given) {
@@ -33,10 +33,16 @@ const Instants = (() => {
   function sheared(ratio, { lambda0, r0, point }, g, t, damping) {
     const early = t <= 0.5 / ratio, push = 2 * sqrt(2 / PI);
     const place = early ? sqrt(2 * t / ratio) : rim(point ? Math.max(ratio, 1) : ratio, lambda0, t);
+<<<<<<< HEAD
     if (point && t <= 500 && (damping || !early)) {
       const [R, J, kink, bent] = Point.sheared(t, g, damping);
       const held = damping && bent < ratio ? Math.asinh(kink / (ratio - bent)) : Infinity; // until its angle has room
       if (!early || held < place) return [min(held, place), R * sqrt(t), J];
+=======
+    if (point && damping > 0 && t <= 500) { // the zone of one point
+      const [R, J, kink, bent] = Point.sheared(t, g, damping), held = ratio > bent ? asinh(kink / (ratio - bent)) : Infinity;
+      if (held < place) return [held, R * sqrt(t), J];
+>>>>>>> main
     }
     if (early) return [place, place / sqrt(t), 2 * place];
     if (!point) return [place, push * r0, 2 * push * r0 * sqrt(t)];

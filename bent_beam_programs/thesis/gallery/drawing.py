@@ -14,6 +14,7 @@ from matplotlib.collections import QuadMesh
 from matplotlib.colors import LogNorm
 
 from bent_beam.history import ImpactHistory
+from bent_beam.measure.force_map import force_map
 from bent_beam_programs.thesis.gallery.runs import Series
 from bent_beam_programs.thesis.sheet import ITEMS, Item, Sheet
 from bent_beam_programs.thesis.studies.exact import Exact
@@ -34,7 +35,6 @@ from bent_beam_programs.thesis.studies.panels import (
 )
 from bent_beam_programs.thesis.studies.thesis import MASSES
 from comparison.figures import style
-from comparison.figures.force_map import force_map
 from theory import ImpactFields
 
 RunFigure = tuple[str, str, Sequence[Panel], Callable[[], Series], str]

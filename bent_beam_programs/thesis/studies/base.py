@@ -6,13 +6,14 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, dataclass, field, replace
 from typing import Any
 
+from bent_beam.as_json import plain
 from bent_beam.cases import Case
 from bent_beam_programs.thesis.sheet import Sheet
 from bent_beam_programs.thesis.studies.of_methods import Vary
 from bent_beam_programs.thesis.studies.outcome import MEASURES, Outcome
 from bent_beam_programs.thesis.studies.panels import draw_outcomes
 from bent_beam_programs.thesis.studies.thesis import Progress, Variant, run_variants
-from comparison.readable import plain, readable, text_table
+from comparison.readable import readable, text_table
 
 
 @dataclass(frozen=True)

@@ -17,9 +17,9 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
+from bent_beam.as_json import json_text, plain
 from bent_beam.files import write_atomically
 from bent_beam.versions import stamp, today
-from comparison.readable import json_text, plain
 
 __all__ = ["confirm", "digest_of", "is_stale", "read", "write"]
 

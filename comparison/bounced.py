@@ -1,0 +1,279 @@
+"""A whole impact that was found: its numbers in SI, what a reader must know of them, document, text and picture."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+from bent_beam.cases import Case
+from bent_beam.free_flight import LOWEST_PERIOD
+from bent_beam.history import ImpactHistory
+from bent_beam.impact import Impact
+from bent_beam.measure.balance import Balance
+from bent_beam.measure.numbers import Band, Number
+from bent_beam.measure.whole_impact import SHORTEST_SEPARATION, WINDOW, WholeImpact, peak_times
+from bent_beam.section import Section
+from bent_beam.versions import versions
+from comparison.answers import Runs, write_answer
+from comparison.bounce_text import bounce_text
+from comparison.doubts import doubts
+from comparison.energies import energy_residual, loss_warnings, numerical_loss
+
+__all__ = ["NUMBERS", "SI", "Bounce", "documents", "scales", "stress_of", "unit_of"]
+
+NUMBERS = (
+    "restitution",
+    "impulse",
+    "last_contact",
+    "separations",
+    "peak_moment",
+    "peak_moment_place",
+    "peak_moment_time",
+    "midspan_moment",
+    "push",
+    "translation",
+    "vibration",
+    "dissipated",
+)
+"""Fields of :class:`bent_beam.measure.whole_impact.WholeImpact` that get bars."""
+SI = {
+    "impulse": ("impulse", "N s"),
+    "last_contact": ("time", "s"),
+    "peak_moment": ("moment", "N m"),
+    "peak_moment_place": ("length", "m"),
+    "peak_moment_time": ("time", "s"),
+    "midspan_moment": ("moment", "N m"),
+    "peak_force": ("force", "N"),
+    "push": ("impulse", "N s"),
+    "translation": ("energy", "J"),
+    "vibration": ("energy", "J"),
+    "dissipated": ("energy", "J"),
+}
+"""Of a number that has one: what it is scaled by (:func:`scales`), and its unit."""
+
+ENERGY = ("translation", "vibration", "dissipated")
+LYING = 5.0  # times the largest push or moment: the end for a beam that does not leave
+BEYOND = 1.15  # times the last contact, or the largest value: the end of the axes
+
+
+@dataclass(frozen=True)
+class Bounce:
+    """A whole impact: ``numbers`` by name (:data:`NUMBERS`), dimensionless; bands where the beam
+    has no damping.
+
+    case : of the run that the numbers come from. runs : that and its companions. settings : of its method.
+    seed : of the ensemble. over : the whole impact at other damping ratios, where none was stated, by ratio.
+    """
+
+    case: Case
+    numbers: Mapping[str, Number | Band]
+    runs: Runs
+    settings: dict[str, Any]
+    seed: int | None = None
+    over: Mapping[float, Bounce] | None = None
+
+    @property
+    def impact(self) -> Impact:
+        """Of the run that the numbers come from."""
+        return self.case.impact
+
+    @property
+    def over_damping(self) -> list[dict[str, Any]] | None:
+        """The whole impact at each damping ratio where none was stated, SI, JSON-ready; ``None`` where one was."""
+        if self.over is None:
+            return None
+        names = ("restitution", "peak_moment", "peak_stress", "peak_force")
+        return [{"damping_ratio": ratio, **documents(one.in_si, names)} for ratio, one in self.over.items()]
+
+    @cached_property
+    def outcome(self) -> WholeImpact:
+        """What the run itself came to."""
+        reading = self.runs.run.reading
+        contacts = tuple((float(begin), float(end)) for begin, end in reading["contacts"])
+        names = WholeImpact.__dataclass_fields__.keys() - {"contacts"}
+        return WholeImpact(**{name: reading[name] for name in names}, contacts=contacts)
+
+    @property
+    def left(self) -> bool:
+        """Whether the beam is off the wall for good in every run that a number or its bar comes from."""
+        return all(run.reading["left"] for run in self.runs.every)
+
+    @property
+    def seconds(self) -> float:
+        """Of all runs together."""
+        return self.runs.seconds
+
+    @cached_property
+    def history(self) -> ImpactHistory:
+        """Of the run itself; simulated again where only its numbers were kept."""
+        if self.runs.history is not None:
+            return self.runs.history
+        return self.runs.question.run(self.runs.question.run_by)
+
+    @property
+    def units(self) -> dict[str, float]:
+        """SI units of the numbers (:func:`scales`); shares of energy are of what the loads have worked, too."""
+        return scales(self.impact) | {"energy": self.outcome.supplied}
+
+    @property
+    def in_si(self) -> dict[str, Number | Band]:
+        """The numbers in SI units (:data:`SI`); where the section is known, its largest stress, Pa, too."""
+        unit = self.units
+        found = {name: n.scaled(unit[SI[name][0]]) if name in SI else n for name, n in self.numbers.items()}
+        stress = self.peak_stress
+        return found if stress is None else found | {"peak_stress": stress}
+
+    @property
+    def peak_stress(self) -> Number | Band | None:
+        """Largest normal stress, Pa, |M|/W + |N|/A at the place and time of the largest moment; ``None`` without a
+        section."""
+        return stress_of(
+            self.numbers["peak_moment"].scaled(scales(self.impact)["moment"]), self.impact, self.case.section
+        )
+
+    @property
+    def span(self) -> tuple[float, float]:
+        """What the largest moment, stress and force are the largest of, s: from the first touch to one period of the
+        lowest mode after the last contact."""
+        return 0.0, self.outcome.until * self.impact.slow_time_scale
+
+    @property
+    def balance(self) -> Balance:
+        """Momentum, energy and contact of the run itself, read from its state."""
+        return Balance(**self.runs.run.reading["balance"])
+
+    @property
+    def energy(self) -> dict[str, float | None]:
+        """Energies of the run at its end, J."""
+        return dict(self.runs.run.reading["energy"])
+
+    @property
+    def warnings(self) -> list[str]:
+        """What a reader must know of the numbers."""
+        found = [*self.runs.lost, *doubts(self.impact, self.case.section)]
+        if self.over is not None:
+            ratios = ", ".join(f"{100.0 * ratio:g}" for ratio in self.over)
+            found.append(
+                f"no damping is stated: the numbers are those of the largest stress among {ratios} % of the first "
+                "mode; state [beam] damping_ratio"
+            )
+        if self.seed is not None:
+            loss = self.impact.hysteretic_loss
+            own = f"a hysteretic loss of {loss:g} and no other damping" if loss else "no damping"
+            found.append(
+                f"the beam has {own} of its own: the outcome is irregular and does not converge, so a band is "
+                "given; state [beam] damping (or --damping) for numbers"
+            )
+        if not self.left:
+            pressed = self.impact.net_load > 0.0
+            why = "the loads keep the beam on the wall" if pressed else "a run ended with the beam at the wall"
+            short = f"flights shorter than {1e3 * LOWEST_PERIOD * self.units['time']:.3g} ms are part of a hit"
+            hint = f" ({short}; for that of the impact alone give impact.velocity and no gravity)" if pressed else ""
+            found.append(f"{why}: it has not left the wall for good, so no restitution is given{hint}")
+        elif self.impact.net_load > 0.0:
+            found.append(
+                "the loads bring the beam back to the wall; these numbers are those of the first hit, later ones may "
+                "be larger (--hits follows more)"
+            )
+        told = [*self.runs.run.warnings, *loss_warnings(numerical_loss(self.energy)), *self.balance.warnings]
+        return [*found, *told]
+
+    def to_dict(self) -> dict[str, Any]:
+        """The contract of ``bentbeam bounce --json``."""
+        stress, balance, section = self.peak_stress, self.balance, self.case.section
+        si = documents(self.in_si, [name for name in SI if name in self.numbers])
+        return {
+            "model": self.impact.model,
+            "velocity": self.impact.velocity,
+            "kappa_over_nu": self.impact.kappa_over_nu,
+            "damping": self.impact.relative_damping,
+            "hysteretic_loss": self.runs.run.reading["loss"],
+            **{name: number.to_dict() for name, number in self.numbers.items() if name not in ENERGY},
+            "energy": {name: self.numbers[name].to_dict() for name in ENERGY},
+            "si": {name: {**one, "unit": SI[name][1]} for name, one in si.items()} | {"time_unit": self.units["time"]},
+            "peak_stress": None if stress is None else {**stress.to_dict(), "unit": "Pa"},
+            "yield_stress": None if section is None else section.yield_stress,
+            **peak_times(self.outcome, self.impact),
+            "shortest_separation": SHORTEST_SEPARATION,
+            "span": list(self.span),
+            "over_damping": self.over_damping,
+            "contacts": [list(times) for times in self.outcome.contacts],
+            "error_parts": {name: dict(n.parts) for name, n in self.numbers.items() if isinstance(n, Number)},
+            "energy_residual": energy_residual(self.energy),
+            "energy_defect": energy_residual(self.energy),
+            "numerical_loss": numerical_loss(self.energy),
+            "energy_gain": self.outcome.energy_gain,
+            "energy_of_state": balance.energy,
+            "momentum_residual": balance.momentum,
+            "gap_of_push": balance.gap_of_push,
+            "penetration": balance.penetration,
+            "pull": balance.pull,
+            "left": self.left,
+            "steps": self.runs.run.steps,
+            "seconds": self.seconds,
+            "seed": self.seed,
+            "settings": self.settings,
+            "versions": versions(),
+            "warnings": self.warnings,
+        }
+
+    def __str__(self) -> str:
+        return self.text()
+
+    def text(self, *, verbose: bool = False) -> str:
+        """Every number with its error bar; ``verbose``: with what tells an expert how good they are."""
+        return bounce_text(self.to_dict(), verbose=verbose)
+
+    def plot(self) -> Any:
+        """Force, stress and contact over time, and shapes, in the units of the case, as a Matplotlib figure."""
+        from comparison.figures.whole_impact import impact_figure
+
+        return impact_figure(self.history, self.case, self.in_si, self._shown_until)
+
+    def write(self, out: Path) -> list[Path]:
+        """``bounce.json``, ``bounce.png`` and the animation ``bounce.gif`` in ``out``; returns the files."""
+        from comparison.figures.whole_impact import animate
+
+        return [*write_answer(self, out, "bounce"), animate(self.history, out / "bounce.gif", self._shown_until)]
+
+    @property
+    def _shown_until(self) -> float:
+        """End of the axes, s; of a beam that comes to lie on the wall while most happens."""
+        outcome = self.outcome
+        hardest = max(outcome.peak_moment_time, outcome.push_time)
+        last = outcome.last_contact if self.left else min(outcome.last_contact, LYING * (hardest + WINDOW))
+        return BEYOND * max(last, outcome.peak_moment_time) * self.units["time"]
+
+
+def unit_of(name: str) -> str:
+    """SI unit of a number."""
+    return "Pa" if name == "peak_stress" else SI.get(name, ("", ""))[1]
+
+
+def scales(impact: Impact) -> dict[str, float]:
+    """SI units of the dimensionless numbers: N s, s, N m, J, m, N."""
+    impulse = impact.mass_per_length * impact.half_length * impact.velocity
+    return {
+        "impulse": impulse,
+        "time": impact.slow_time_scale,
+        "moment": impact.velocity * math.sqrt(impact.bending_stiffness * impact.mass_per_length),
+        "energy": impulse * impact.velocity,
+        "length": impact.half_length,
+        "force": impulse / impact.slow_time_scale,
+    }
+
+
+def documents(numbers: Mapping[str, Number | Band], names: Iterable[str]) -> dict[str, Any]:
+    """Of the named ``numbers``, JSON-ready; ``None`` for those that there are none of."""
+    return {name: numbers[name].to_dict() if name in numbers else None for name in names}
+
+
+def stress_of(moment: Number | Band, impact: Impact, section: Section | None) -> Any:
+    """Largest normal stress, Pa, of a largest ``moment``, N m; ``None`` without a section."""
+    if section is None:
+        return None
+    return moment.scaled(1.0 / section.section_modulus, section.stress(0.0, impact.axial_force), "Pa")

@@ -1,0 +1,47 @@
+"""The settings of a case file as tables for a terminal and as a page of the documentation."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from bent_beam.settings import Setting, about, settings
+from comparison.readable import text_table
+
+__all__ = ["settings_markdown", "settings_text"]
+
+HEAD = ["field", "unit", "default", "allowed", "what"]
+
+
+def settings_text(word: str = "") -> str:
+    """Settings (:func:`about`) as tables for a terminal."""
+    return "\n\n".join(
+        f"[{table}]" + (f" kind = {kind}" if kind else "") + "\n" + text_table(HEAD, rows, left=(0, 4))
+        for (table, kind), rows in _tables(about(word)).items()
+    )
+
+
+def settings_markdown() -> str:
+    """The page of the documentation; columns without an entry are left out."""
+    lines = [
+        "# Every setting",
+        "",
+        "Made from the code by `bentbeam settings --markdown`; a table is a table of a case file.",
+    ]
+    for (table, kind), rows in _tables(settings()).items():
+        lines += ["", f"## `[{table}]`" + (f" kind = `{kind}`" if kind else ""), ""]
+        rows = [HEAD, *([f"`{name}`", *others] for name, *others in rows)]
+        columns = [column for column in zip(*rows) if any(column[1:])]
+        rows = [[cell.replace("|", "\\|").replace("*", "\\*") for cell in row] for row in zip(*columns)]
+        rows.insert(1, ["---"] * len(columns))
+        lines += ["| " + " | ".join(row) + " |" for row in rows]
+    return "\n".join([*lines, ""])
+
+
+def _tables(chosen: Iterable[Setting]) -> dict[tuple[str, str | None], list[list[str]]]:
+    """Rows by table and kind: field, unit, default, what is allowed, what it is."""
+    found: dict[tuple[str, str | None], list[list[str]]] = {}
+    for s in chosen:
+        rows = found.setdefault((s.table, s.kind), [])
+        if s.name != "kind":
+            rows.append([s.name, s.unit, "required" if s.default is None else s.default, s.allowed, s.text])
+    return found
