@@ -33,19 +33,13 @@ const Instants = (() => {
   function sheared(ratio, { lambda0, r0, point }, g, t, damping) {
     const early = t <= 0.5 / ratio, push = 2 * sqrt(2 / PI);
     const place = early ? sqrt(2 * t / ratio) : rim(point ? Math.max(ratio, 1) : ratio, lambda0, t);
-<<<<<<< HEAD
-    if (point && t <= 500 && (damping || !early)) {
-      const [R, J, kink, bent] = Point.sheared(t, g, damping);
-      const held = damping && bent < ratio ? Math.asinh(kink / (ratio - bent)) : Infinity; // until its angle has room
-      if (!early || held < place) return [min(held, place), R * sqrt(t), J];
-=======
     if (point && damping > 0 && t <= 500) { // the zone of one point
       const [R, J, kink, bent] = Point.sheared(t, g, damping), held = ratio > bent ? asinh(kink / (ratio - bent)) : Infinity;
       if (held < place) return [held, R * sqrt(t), J];
->>>>>>> main
     }
     if (early) return [place, place / sqrt(t), 2 * place];
     if (!point) return [place, push * r0, 2 * push * r0 * sqrt(t)];
+    if (t <= 500) { const [R, J] = Point.sheared(t, g, damping); return [place, R * sqrt(t), J]; }
     const lag = (3 - g) / (8 * t), age = t / damping;
     return [place, push * Point.damped(age, 0) * (1 + lag), 2 * push * Point.damped(age, 1) * (1 - lag) * sqrt(t)];
   }

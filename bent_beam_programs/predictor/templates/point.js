@@ -42,28 +42,16 @@ const Point = (() => {
     return a >= 0 ? [large, b < 0 ? -small : small] : [small, b < 0 ? -large : large];
   };
 
-<<<<<<< HEAD
-  /** Reaction, impulse, kink and what the force has bent at t > 0, of g and the damping η/t_s: Abate and Whitt's sum
-      (1992). */
-  function sheared(t, g, damping) {
-    const A = 22, means = 15, count = 30 + Math.floor(2 * t / (PI * sqrt(max(g, 0.01)))), one = [1, 0];
-    const sums = [0, 0, 0, 0], found = [0, 0, 0, 0];
-=======
   /** Reaction, impulse, shear angle beside the force and curvature that it has bent at t > 0, of g and the damping η/t_s:
       Abate and Whitt's sum (1992). */
   function sheared(t, g, damping) {
     const A = 22, means = 15, count = 30 + Math.floor(2 * t / (PI * sqrt(max(g, 0.01)))), one = [1, 0], sums = [0, 0, 0, 0];
     const found = [0, 0, 0, 0];
->>>>>>> main
     for (let k = 0, binomial = 1; k <= count + means; k++) {
       const s = [A / (2 * t), PI * k / t], D = root(plus(one, times([damping, 0], s))), u = over(s, D);
       const wave = plus(u, root(plus(one, times([g, 0], times(u, u))))), inside = over([-1, 0], times(wave, wave));
       const push = times(over(times([2, 0], D), s), root(plus(one, inside))), sign = (k % 2 ? -1 : 1) * (k ? 1 : 0.5);
-<<<<<<< HEAD
-      const kink = over(over(push, [2, 0]), times(D, D)), bent = over(one, times(D, times(s, wave)));
-=======
       const bent = over(one, times(times(s, wave), D)), kink = over(push, times([2, 0], times(D, D)));
->>>>>>> main
       [push, over(push, s), kink, bent].forEach(([re], i) => { sums[i] += sign * re; });
       if (k < count) continue;
       found.forEach((_, i) => { found[i] += binomial * sums[i] / 2 ** means; });
