@@ -31,6 +31,8 @@ __all__ = ["ADAPTERS", "GIVEN", "RESOLUTIONS", "Adapter", "chosen_adapters", "in
 ADAPTERS = Path(__file__).parent / "adapters"
 RESOLUTIONS = ("coarse", "medium", "fine")
 GIVEN = "given"  # one mesh for all: elements of 0.02 l*, 400 equal steps, or as many as a code needs to be stable
+SHIPPED: dict[str, Any] = {"resolutions": [*RESOLUTIONS, GIVEN], "kinds": ["leading", "point", "first"]}
+SHIPPED |= {"chosen": "uniform, the same in every problem"}  # where a table says nothing else
 WINDOWS = os.name == "nt"
 SYSTEM_PYTHON = "/usr/bin/python3"
 INSTALL_SECONDS = 900.0
@@ -123,7 +125,7 @@ def shipped_adapters() -> dict[str, Adapter]:
         tables = tomllib.load(stream)
     found = {}
     for name, table in tables.items():
-        table = {"resolutions": [*RESOLUTIONS, GIVEN]} | tables.get(table.get("environment"), {}) | table
+        table = SHIPPED | tables.get(table.get("environment"), {}) | table
         fields: dict[str, Any] = {k: tuple(v) if isinstance(v, list) else v for k, v in table.items()}
         found[name] = Adapter(name, ADAPTERS / fields.pop("file"), **fields)
     return found

@@ -11,19 +11,12 @@ from typing import Any
 from bent_beam.as_json import plain
 from bent_beam.measure.numbers import Number
 
-__all__ = ["FIRST_ORDER", "MEASURES", "PART", "WORDS", "Finding", "Score", "Symptom"]
+__all__ = ["FIRST_ORDER", "LOADED", "PART", "WORDS", "Finding", "Score", "Symptom"]
 
 PART = 0.01  # the judge's limit: a hundredth, of the exact value, of the wall's impulse, of the way V₀τ
 FIRST_ORDER = 0.05  # of max(1, |exact|): the limit of λ₁ and r₁, which are differences of two runs
 WORDS = {"pull": "adhesive", "penetration": "leaky", "lift": "lifted", "noise_in_time": "unsettled"}
-
-MEASURES = {  # fields of a score → the reading that they are
-    "lift": "lift",
-    "penetration": "penetration",
-    "adhesion": "pull",
-    "noise": "noise_in_time",
-    "momentum_residual": "momentum",
-}
+LOADED = ("lambda1", "r1")
 
 
 @dataclass(frozen=True)
@@ -61,9 +54,8 @@ class Score:
 
     outcome : the adapter's, with the judge's additions after a comma ("completed, lifted"). reason : one line for
     anything but "completed". measured : name → value, error bar and exact value. readings : what was looked at, by name
-    (:mod:`.symptoms`); not_told : what could not be, and for want of what. lift … momentum_residual : figures of some
-    (:data:`MEASURES`). energy : shares of J V₀. raw : whether
-    nodal histories and gaps are reported.
+    (:mod:`.symptoms`); not_told : what could not be, and for want of what. raw : whether nodal histories and gaps are
+    reported.
     reference : name → error bar and source of a value in ``measured`` that is held against a computed one.
     """
 
@@ -73,12 +65,6 @@ class Score:
     measured: dict[str, Number] = field(default_factory=dict)
     readings: dict[str, Symptom] = field(default_factory=dict)
     not_told: dict[str, str] = field(default_factory=dict)
-    lift: float | None = None
-    penetration: float | None = None
-    adhesion: float | None = None
-    noise: float | None = None
-    momentum_residual: float | None = None
-    energy: dict[str, float | None] | None = None
     raw: bool = False
     reference: dict[str, dict[str, Any]] = field(default_factory=dict)
     symptoms: tuple[Symptom, ...] = ()
@@ -116,7 +102,7 @@ class Score:
         """Error and bar of one number over its limit; an unknown number has no error and an infinite bar."""
         found = self.measured[name]
         size = abs(found.theory or 0.0)
-        limit = FIRST_ORDER * max(1.0, size) if name in ("lambda1", "r1") else PART * (size or 1.0)
+        limit = FIRST_ORDER * max(1.0, size) if name in LOADED else PART * (size or 1.0)
         if found.difference is None:
             return None, float("inf") if found.value is None else 0.0
         return abs(found.difference) / limit, (self.bar(name) or 0.0) * (size or 1.0) / limit
@@ -137,9 +123,7 @@ class Score:
         """Ready for JSON: finite numbers or ``None``."""
         numbers: dict[str, Any] = dict.fromkeys(("lambda0", "r0", "lambda1", "r1"))
         numbers |= {name: found.compared() for name, found in self.measured.items()}
-        document = {"problem": self.problem, "outcome": self.outcome, "reason": self.reason, **numbers}
-        measures = (*MEASURES, "energy", "raw")
-        document |= {name: getattr(self, name) for name in measures}
+        document = {"problem": self.problem, "outcome": self.outcome, "reason": self.reason, **numbers, "raw": self.raw}
         document |= {"reference": self.reference or None, "symptoms": [asdict(one) for one in self.symptoms]}
         document |= {"readings": {name: one.figure for name, one in self.readings.items()}, "not_told": self.not_told}
         document["diagnosis"] = [finding.name for finding in self.diagnosis]

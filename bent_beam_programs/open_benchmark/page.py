@@ -23,7 +23,7 @@ from bent_beam.files import write_atomically
 from bent_beam.versions import processor
 from bent_beam_programs.open_benchmark.adapter import GIVEN, RESOLUTIONS, Adapter, shipped_adapters
 from bent_beam_programs.open_benchmark.campaign import Row
-from bent_beam_programs.open_benchmark.judgement import Score
+from bent_beam_programs.open_benchmark.judgement import LOADED, Score
 from bent_beam_programs.open_benchmark.problem import LADDER, Problem, problem
 
 __all__ = ["document", "errors_table", "properties", "write_page"]
@@ -33,7 +33,6 @@ MEASURES |= {"peak_force": "the largest force", "peak_time": "its time"}
 MARKS = "osD^vP*<>hp8d"
 LEAST = 1e-7  # relative error that a figure still shows
 TEMPLATES = Path(__file__).parent / "templates"
-LOADED = ("lambda1", "r1")  # shown where loads act
 IN_SHORT = ("lambda0", "r0", "restitution", "impulse_error", "peak_force", "peak_time")  # errors where no loads act
 CONVERGED = 0.002  # relative error on the finest mesh that a converging code reaches (strict codes do)
 
@@ -202,10 +201,10 @@ class Property(NamedTuple):
 
 WITHOUT_LOADS = ("leading", "point")
 PROPERTIES = {
-    "unilateral": Property(lambda found: [found.adhesion], WITHOUT_LOADS, finest=False),
+    "unilateral": Property(lambda found: [found.figure("pull")], WITHOUT_LOADS, finest=False),
     "energy": Property(lambda found: [found.figure("energy")], WITHOUT_LOADS, finest=False),
-    "noise": Property(lambda found: [found.noise], WITHOUT_LOADS),
-    "lift": Property(lambda found: [found.lift], ("leading",)),
+    "noise": Property(lambda found: [found.figure("noise_in_time")], WITHOUT_LOADS),
+    "lift": Property(lambda found: [found.figure("lift")], ("leading",)),
 } | {
     f"first order, {regime}": Property(lambda found: [found.error(name) for name in LOADED], ("first",), regime)
     for regime in ("pressed", "lift-off", "tension", "compression")

@@ -17,7 +17,7 @@ from bent_beam.measure.estimators import first_order, leading_order
 from bent_beam.measure.moments import Moments
 from bent_beam.measure.numbers import Number
 from bent_beam_programs.open_benchmark.causes import causes
-from bent_beam_programs.open_benchmark.judgement import FIRST_ORDER, MEASURES, PART, WORDS, Score, Symptom
+from bent_beam_programs.open_benchmark.judgement import FIRST_ORDER, LOADED, PART, WORDS, Score, Symptom
 from bent_beam_programs.open_benchmark.references import reference
 from bent_beam_programs.open_benchmark.result import Array, Result, ResultError
 from bent_beam_programs.open_benchmark.symptoms import readings
@@ -40,7 +40,7 @@ def score(result: Result, base: Result | None = None) -> Score:
     if result.outcome != "completed":
         return replace(found, reason=result.detail or result.outcome)
     if not asked.is_front:
-        return _judged(replace(found, energy=_energy(result), **_ladder(result)), result)
+        return _judged(replace(found, **_ladder(result)), result)
     if base is not None and asked.base_id != base.problem.id:
         needed = f"(that is {asked.base_id})" if asked.base_id else "(it needs none)"
         raise ResultError(f"base: {base.problem.id} is not the base of {asked.id} {needed}")
@@ -53,7 +53,7 @@ def score(result: Result, base: Result | None = None) -> Score:
         reason = f"{fields}: no estimate can be read off ({' '.join(str(error).split())})"
         return replace(found, outcome="invalid", reason=reason)
     measured = {} if asked.kind == "first" and base is None else measured  # with loads λ₀ and r₀ mean nothing
-    return _judged(replace(found, measured=measured, energy=_energy(result)), result)
+    return _judged(replace(found, measured=measured), result)
 
 
 # --- λ₀, r₀, λ₁, r₁ ------------------------------------------------------------------------------------------------
@@ -108,20 +108,6 @@ def _moments(result: Result, *, load: float = 0.0, lambda0: float = 0.0, sign: f
 # --- measures without a front ----------------------------------------------------------------------------------------
 
 
-def _energy(result: Result) -> dict[str, float | None] | None:
-    """Energy gained at most and lost at the end, over J V₀, the energy that goes through the contact."""
-    scale = float(np.abs(result.J).max())
-    loaded = result.problem.kind == "first" or result.problem.given  # work and springs are not reported
-    if not {"E_kin", "E_el"} <= result.series.keys() or loaded or scale <= 0.0:
-        return None
-    total = result.series["E_kin"] + result.series["E_el"]
-    return {
-        "gained": max(float((total - total[0]).max()), 0.0) / scale,
-        "lost": float(total[0] - total[-1]) / scale,
-        "damped": float(result.series["E_damp"][-1]) / scale if "E_damp" in result.series else None,
-    }
-
-
 def _ladder(result: Result) -> dict[str, Any]:
     """The impulse against the closed form, the restitution of a whole impact, or the largest force and when it acts."""
     asked, exact = result.problem, reference(result.problem)
@@ -166,8 +152,7 @@ def _judged(found: Score, result: Result) -> Score:
     seen, missing = readings(result, front)
     shown = [one for one in seen.values() if one.seen]
     shown.sort(key=lambda one: not (one.name == "energy" and (one.figure or 0.0) > 1.0))  # a blow-up is that first
-    figures: dict[str, Any] = {name: seen[of].figure for name, of in MEASURES.items() if of in seen}
-    found = replace(found, readings=seen, not_told=missing, **figures)
+    found = replace(found, readings=seen, not_told=missing)
     found = replace(found, symptoms=(*shown, *_of_numbers(found)))
     additions = [WORDS[one.name] for one in shown if one.name in WORDS]
     if found.off:
@@ -197,7 +182,6 @@ def _of_numbers(found: Score) -> list[Symptom]:
     return shown
 
 
-LOADED = ("lambda1", "r1")
 SAME = 1e-6  # of numbers: no two meshes agree so well
 
 
@@ -229,7 +213,8 @@ def _numbers(found: Score) -> dict[str, float]:
         for name, one in found.measured.items()
         if one.value is not None
     }
-    return known | ({} if found.noise is None or not known else {"noise": found.noise})
+    noise = found.figure("noise_in_time")
+    return known | ({} if noise is None or not known else {"noise": noise})
 
 
 def _apart(one: Mapping[str, float], other: Mapping[str, float]) -> float:

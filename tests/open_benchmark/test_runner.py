@@ -12,7 +12,7 @@ from bent_beam.errors import InputError
 from bent_beam.measure.numbers import Number
 from bent_beam_programs.open_benchmark.adapter import RESOLUTIONS, Adapter, chosen_adapters, shipped_adapters
 from bent_beam_programs.open_benchmark.campaign import STANDARD, Row, campaign, drawn
-from bent_beam_programs.open_benchmark.judgement import Score
+from bent_beam_programs.open_benchmark.judgement import Score, Symptom
 from bent_beam_programs.open_benchmark.page import errors_table, properties, write_page
 from bent_beam_programs.open_benchmark.problem import problem
 from bent_beam_programs.open_benchmark.reading import load_result
@@ -275,6 +275,7 @@ def test_the_table_of_errors_has_a_line_for_each_code_a_column_for_each_problem_
 
 
 def test_a_pull_counts_at_every_resolution_and_a_lift_at_the_finest_alone():
-    scores = [Score("leading-0.5", "completed", adhesion=size, lift=size) for size in (0.3, 0.2, 0.1)]
+    seen = [{name: Symptom(name, size, 0.01) for name in ("pull", "lift")} for size in (0.3, 0.2, 0.1)]
+    scores = [Score("leading-0.5", "completed", readings=one) for one in seen]
     table = properties([Row("mine", "leading-0.5", *row) for row in zip(RESOLUTIONS, [1.0] * 3, scores)], "mine")
     assert (table["unilateral"], table["lift"]) == ("3.0e-01", "1.0e-01")

@@ -58,7 +58,7 @@ def test_what_a_file_lacks_is_named_and_not_taken_for_good():
         del fields[name]
     found = score(result_from_fields(fields))
     assert {"penetration", "lift", "momentum", "motion", "energy"} <= set(found.not_told)
-    assert found.penetration is None and found.to_dict()["penetration"] is None
+    assert found.figure("penetration") is None
 
 
 @pytest.mark.parametrize(

@@ -129,6 +129,33 @@ def test_modes_converge_and_a_bending_beam_hits_its_stop_again():
     assert many.peak_force(0.005)[0] < many.peak_force(0.012)[0]
 
 
+PUBLISHED = {  # displacements of the tip at 1, 2, … 12 ms, mm, by the stop's stiffness in N/m
+    18e3: [2.66, 4.33, 4.92, 4.78, 3.82, 2.87, 2.71, 3.09, 3.41, 3.36, 2.64, 0.742],
+    45e3: [2.25, 2.66, 1.96, 1.15, 0.124, 0.364, 2.01, 2.74, 1.89, 0.352, -1.70, -4.99],
+}
+
+
+@pytest.mark.parametrize("stiffness", PUBLISHED)
+def test_both_stops_of_code_aster_s_test_are_where_they_are_published(stiffness):
+    """SDNL32, file astest/sdnl32a.comm: ten modes, each with 1 % of damping; the exact record has none."""
+    length, step, off = 0.783, 4e-6, {}
+    for E in (67e9, 60.7e9):
+        EI, mu, modes = E * 0.014**4 / 12.0, 2400.0 * 0.014**2, np.arange(1, 10)
+        beta = np.pi * modes + np.arctan(np.tanh(np.pi * modes + np.pi / 4.0))
+        omega = np.r_[0.0, (beta / length) ** 2 * np.sqrt(EI / mu)]
+        mass = np.r_[1.0 / 3.0, np.full(9, 0.25)] * mu * length
+        q, v, tip = np.zeros(10), np.r_[3.8 * length, np.zeros(9)], []
+        for _ in range(3000):
+            v = v - step * (omega**2 * q + 0.02 * omega * v + stiffness * max(q.sum(), 0.0) / mass)
+            q = q + step * v
+            tip.append(1e3 * q.sum())
+        off[E] = np.sqrt(np.mean((np.array(tip[249::250]) - PUBLISHED[stiffness]) ** 2))
+    assert off[67e9] < 0.013 and off[60.7e9] > 0.3, "mm; of E = 60.7 GPa, which another page has"
+    time, exact = SwungBeam(6.7e10 * 0.014**4 / 12.0, 2400.0 * 0.014**2, length, 3.8, stiffness).tip(0.012)
+    undamped = 1e3 * np.interp(1e-3 * np.arange(1, 13), time, exact)
+    assert np.sqrt(np.mean((undamped - PUBLISHED[stiffness]) ** 2)) < 0.08
+
+
 def test_a_pressure_that_begins_or_ends_between_two_points_acts_from_there_on():
     """A triangle of height 1 on half an element, on both sides."""
     for pressure, rim in ((np.array([-1.0, 1.0]), 0.1), (np.array([1.0, -1.0]), 0.05)):
