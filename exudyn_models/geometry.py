@@ -160,6 +160,11 @@ class Shape:
     first_touch: float
 
     @property
+    def place(self) -> Array:
+        """x at which results are told, shape (nodes,): in the linear limit, where angles are slopes, s."""
+        return self.x if self.slender else self.s
+
+    @property
     def wall_y(self) -> Array:
         """Of the wall at the nodes, shape (nodes,)."""
         return np.asarray(self.wall_curvature * (self.s - self.first_touch) ** 2 / 2)

@@ -164,7 +164,7 @@ class Recorder:
         ends = np.pad(np.abs(moments), ((0, 0), (1, 1), (0, 0)))
         nodes = np.maximum(ends[:, :-1, 1], ends[:, 1:, 0])
         middle = nodes[:, np.argmin(np.abs(beam.shape.s))]
-        self._keep_largest("moments", nodes.max(axis=1), beam.shape.x[nodes.argmax(axis=1)], middle, anew=True)
+        self._keep_largest("moments", nodes.max(axis=1), beam.shape.place[nodes.argmax(axis=1)], middle, anew=True)
 
     def _keep_largest(self, name: str, sizes: Array, where: Array, others: Array, *, anew: bool) -> None:
         """Save with each instant the largest of ``sizes``, ``where`` it was, and the largest of ``others``, of all
@@ -249,7 +249,7 @@ class Recorder:
         saved["loss_impact"] = saved["contact_work"] - saved["contact_energy"] - saved.get("loss_wall", 0.0)
         # an axial force is a load: the stretch that it keeps in the beam is none of its work, nor energy of the bending
         saved["work_of_loads"] = saved["work_of_loads"] - saved["stretch_energy"] + saved["stretch_energy"][0]
-        x, moment = shape.x * s.length, s.impact.bending_stiffness * s.slope / s.length
+        x, moment = shape.place * s.length, s.impact.bending_stiffness * s.slope / s.length
         # against the model's wall, which may have a share of the beam's own curvature, but not the real one's
         slope = saved["slope"] * s.slope - s.impact.wall_curvature * (x - s.impact.first_touch)
         at_nodes = {"gap": -saved["y"] * s.deflection, "velocity": saved["velocity"] * s.velocity}
@@ -289,7 +289,7 @@ class Recorder:
             symmetry="half" if self.copies == 2.0 else "full",
             time=saved["time"] * s.end_time,
             x=x,
-            contact_x=np.interp(self.contact.contact_s[front], shape.s, shape.x) * s.length,
+            contact_x=np.interp(self.contact.contact_s[front], shape.s, shape.place) * s.length,
             fields={name: (dims, values) for dims, group in groups for name, values in group.items()},
             **about,
         )

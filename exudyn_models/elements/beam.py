@@ -255,7 +255,7 @@ class Element(Part, ABC):
         ),
     ] = None
     axial_stiffness: Annotated[
-        float | None, Quantity("N", "EA", above=0.0, absent="12EI/d² (true), EI/Λ² (linear)")
+        float | None, Quantity("N", "EA", above=0.0, absent="12EI/d² (true), EI/Λ² or less (linear)")
     ] = None
 
     def refuses(self, impact: Impact) -> str | None:

@@ -34,6 +34,7 @@ MASS = "self.element(beam)"
 LOST = "np.where(np.arange({}.size) == 3, 0.5, 1.0)[:, None, None]"  # half of an element's mass: that of half a node
 MOMENTUM = 'self.start_momentum + after["load_impulse"] - v @ self.momentum'
 GAIN = "gain + (missing / np.where(whole > 0.0, whole, 1.0))[:, None] * weight"
+RECORDED = "self.element_matrices()[0], self.horizontal"
 PER_LENGTH = "units.mass_per_length"
 IMPULSE = 'saved["impulse"] * s.impulse'
 WORK = "blocks += w * tested[:, :, None] * trial[:, None, :]"
@@ -59,8 +60,8 @@ FAULTS = {
         ("pulls recorded as pushes", "energy", "contacts/penalty.py", "self.signs * force, 0.0)", "abs(force), 0.0)"),
         ("half a node's mass, in Exudyn", "mass", "elements/ancf_cable.py", f"massPerLength={PER_LENGTH}",
          f"massPerLength={PER_LENGTH} * (0.5 if i == 3 else 1.0)"),
-        ("half a node's mass, recorded", "momentum", "elements/beam.py", "mass, _, _ = self.element_matrices()",
-         f"mass = self.element_matrices()[0] * {LOST.format('self.lengths')}"),
+        ("half a node's mass, recorded", "momentum", "elements/beam.py", RECORDED,
+         RECORDED.replace(",", f" * {LOST.format('self.lengths')},")),
     ],
     "self_similar_fe": [
         ("total impulse", "momentum", "run.py", "2.0 * float(self.impulse.sum())", "1.98 * float(self.impulse.sum())"),
