@@ -177,7 +177,9 @@ def how_to_go_on(arguments: Sequence[str]) -> str:
 
 
 def _refuse(message: str, code: int) -> int:
-    from bent_beam.tables import in_keys
+    if code != INTERRUPTED:  # another interrupt may come: nothing heavy is imported
+        from bent_beam.tables import in_keys
 
-    print("error: " + printable(in_keys(" ".join(message.split()))), file=sys.stderr)
+        message = in_keys(message)
+    print("error: " + printable(" ".join(message.split())), file=sys.stderr)
     return code
