@@ -81,6 +81,7 @@ def test_every_door_gives_the_same_number_with_the_same_bar(tmp_path: Path) -> N
     check(tensioned, 0.002)
 
 
+@pytest.mark.verify
 def test_two_codes_stand_side_by_side_and_agree_within_their_bars() -> None:
     found = answered("bounce", "--kappa-over-nu", 2, "--damping", 0.03, "--path", "hermite", "--path", "exudyn")
     one, other = found["paths"]
