@@ -28,6 +28,7 @@ def constants() -> dict[str, float]:
     return {
         "tolerance": validity.TOLERANCE,
         "distance": validity.DISTANCE,
+        "swing": validity.SWING,
         "flat": validity.FLAT,
         "small": validity.SMALL,
         "flattest": validity.FLATTEST,

@@ -89,7 +89,8 @@ def test_page_is_the_theory_on_random_beams() -> None:
         causes |= {said.limited_by, said.valid_after}
         assert (answer["contact"]["regime"], limits["by"], limits["after"]) == (
             said.regime, said.limited_by, said.valid_after)  # fmt: skip
-        assert (limits["from"], limits["until"]) == pytest.approx((said.valid_from, said.valid_until), rel=1e-3)
+        times = (said.valid_from, said.valid_until, said.force_until)
+        assert (limits["from"], limits["until"], limits["forceUntil"]) == pytest.approx(times, rel=1e-3)
         if impact.damping == 0.0 or said.valid_until == 0.0:  # else of the end of the range; the page says it at times
             stress = said.peak_moment / modulus + abs(impact.axial_force) / area
             assert (answer["moment"], answer["stress"]) == pytest.approx((said.peak_moment, stress), rel=1e-9)

@@ -12,6 +12,7 @@ const Instants = (() => {
     const solved = { b, c, half, timeScale, slow, alpha, n, contact };
     const moment = bending(solved, contact, 1), stress = Beam.stress(b, moment);
     const limits = Limits.limits(solved, b.yieldStress && stress > b.yieldStress);
+    limits.forceUntil = given.damping === null ? limits.until : min(limits.until, Limits.swings(solved));
     return { ...solved, moment, stress, limits, reflected: Limits.ends(solved) * timeScale };
   }
 

@@ -63,5 +63,11 @@ const Limits = (() => {
     return from < until ? { from, until, by, after } : never(after);
   }
 
-  return { ends, limits };
+  /** s at which waves from the ends swing the force: without damping its mean, else short waves. */
+  function swings({ b, contact: { lambda0 }, slow }) {
+    const undamped = (sqrt(20 * sqrt(2) / V.swing) + lambda0) ** -2, decay = 2 * Math.log(2 * sqrt(2) / V.swing);
+    return slow * max(undamped, Math.cbrt(b.damping / slow / decay));
+  }
+
+  return { ends, limits, swings };
 })();

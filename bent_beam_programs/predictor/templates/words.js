@@ -15,17 +15,20 @@ const Words = (() => {
   }
 
   /** When the first instants hold. */
-  function holding({ from, until, by, after }) {
+  function holding({ from, until, forceUntil, by, after }) {
     if (!until) return `The theory covers no time: ${WORDS.limits[by]}.`;
     const start = after ? `from ${quantity("time", from, 3)} (before, ${WORDS.before[after]}) ` : "";
-    return `The theory holds to 2 % ${start}until ${quantity("time", until, 3)}: then ${WORDS.limits[by]}.`;
+    const swings = `From ${quantity("time", Math.max(forceUntil, from), 3)} on `
+      + "it has no reaction: waves from the ends swing the force.";
+    return `The theory holds to 2 % ${start}until ${quantity("time", until, 3)}: then ${WORDS.limits[by]}.`
+      + (forceUntil < until ? ` ${swings}` : "");
   }
 
   /** The theory's numbers at the end of its range. */
   function atEnd(theory) {
-    const t = theory.limits.until, { halfLength, force, impulse, stress } = Instants.at(theory, t);
+    const { until: t, forceUntil } = theory.limits, { halfLength, force, impulse, stress } = Instants.at(theory, t);
     return `Then, at ${quantity("time", t, 3)}, the half contact length is ${quantity("place", halfLength, 3)}, `
-      + `the force ${quantity("force", force, 3)}, the impulse ${quantity("impulse", impulse, 3)}, `
+      + (forceUntil < t ? "" : `the force ${quantity("force", force, 3)}, `) + `the impulse ${quantity("impulse", impulse, 3)}, `
       + `the largest stress so far ${quantity("stress", stress, 3)}.`;
   }
 
