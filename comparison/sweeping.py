@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from copy import deepcopy
 from dataclasses import dataclass, field
-from functools import partial
+from functools import partial, reduce
 from itertools import product
 from typing import Any
 
@@ -128,6 +128,10 @@ def _case(tables: Mapping[str, Any], varied: Mapping[str, Any]) -> Case | InputE
     try:
         for key, value in varied.items():
             lay(laid, key, value, "--vary")
+        for key in varied:  # one that is gone says the same as a later one
+            *path, last = key.split(".")
+            if last not in reduce(lambda table, name: table.get(name.strip(), {}), path, laid):
+                raise InputError(f"--vary {key}: another --vary says the same in its place; leave one of them out")
         return case_from_tables(laid)
     except InputError as error:
         return error

@@ -1,5 +1,5 @@
-"""Unilateral contact along the beam: at nodes, at element middles (thesis 3.3.5, A.6), or by the mean gap of each
-element (thesis 4.0.6).
+"""Unilateral contact along the beam: at nodes, all or every other one, at element middles (thesis 3.3.5, A.6), or by
+the mean gap of each element (thesis 4.0.6).
 
     nodes    g_i = −y_i ≥ 0
     middles  g_e = −y(ξ = ½) = −(½w₁ + (l/8)θ₁ + ½w₂ − (l/8)θ₂) ≥ 0

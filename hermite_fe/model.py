@@ -245,7 +245,7 @@ def with_opposite_wall(
     Raises ``ValueError`` for contact that is not at nodes, or a distance that leaves the bow no room.
     """
     if rows.dofs.shape[1] != 1:
-        raise InputError('opposite_wall takes contact.kind = "node" only')
+        raise InputError('opposite_wall takes contact.kind = "node" or "alternate"')
     bow = np.interp(rows.places, beam.nodes, natural[0::2])
     gap = bow + distance
     if np.any(gap + displacement[rows.dofs[:, 0]] < 0.0):

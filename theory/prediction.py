@@ -82,6 +82,7 @@ class Prediction:
             the ends make larger ones: they are those of the first instants only.
         valid_from, valid_until: s; half length and impulse are within 2 % between them (`theory.validity`).
         force_until: s; so is the force until then, a mean over a tenth of the time before and after; then it swings.
+            `times` beyond keep it; ``bentbeam predict`` leaves it out.
         valid_after: what spoils them before valid_from, one of the names in `theory.validity`; None: nothing does.
         limited_by: what ends it, one of these names.
         yields: whether the stress at leading order without damping is beyond the yield stress; None if either is not

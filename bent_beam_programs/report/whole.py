@@ -53,7 +53,7 @@ def pipe_prediction(file: Path = PIPE, store: RunStore | None = None) -> dict[st
         if numbers is not None
     ]
     whole = document["whole_impact"] or {}
-    limits = ("valid_from", "valid_until", "valid_after", "limited_by")
+    limits = ("valid_from", "valid_until", "valid_after", "limited_by", "force_until")
     yields = document["yield_stress"]
     return {
         "case": case,

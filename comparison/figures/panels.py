@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from bent_beam.free_flight import pushing
 from bent_beam.history import ImpactHistory
 from bent_beam.impact import Impact
+from bent_beam.measure.reduction import wall_peaks
 from bent_beam.measure.whole_impact import WINDOW
 from comparison.figures import style
 from comparison.readable import unit_for
@@ -73,24 +74,20 @@ def _force(history: ImpactHistory, end: float) -> tuple[Array, Array]:
 def draw_force(axis: Any, history: ImpactHistory, end: float, words: str = "") -> None:
     """Mean force of the wall in windows of time; of a wall that gives way the largest is marked by ``words``."""
     edges, force = _force(history, end)
-    largest = float(history.array("peak_force")[-1]) if "peak_force" in history else 0.0
-    low, top = float(force.min()), max(float(force.max()), largest)
+    peaks = wall_peaks(history)
+    largest = 0.0 if peaks is None else peaks.force if peaks.wall == "front" else -peaks.force
+    low, top = min(float(force.min()), largest), max(float(force.max()), largest)
     scale, unit = unit_for("N", [low, top])
     axis.stairs(scale * force, 1e3 * edges, fill=True, color=style.COLOURS["sky"], lw=0.0)
     axis.stairs(scale * force, 1e3 * edges, color=style.COLOURS["blue"], lw=0.8)
     axis.set(ylabel=f"force of the wall  ({unit})", xlim=(0.0, 1e3 * end))
     axis.set_ylim(scale * min(0.0, 1.15 * low), scale * 1.3 * top)
     second = "; of the second wall negative" if history.impact.opposite_wall is not None else ""
-    rigid = "" if largest else "; a rigid wall has no peak force"
+    rigid = "" if peaks else "; a rigid wall has no peak force"
     window = f"mean over {_plain(1e3 * edges[1])} ms{second}{rigid}"
     axis.text(1.0, 1.03, window, transform=axis.transAxes, ha="right", va="bottom", fontsize=6.5)
-    if largest:
-        _mark(
-            axis,
-            float(history.array("peak_force_time")[-1]),
-            scale * largest,
-            words or f"largest {scale * largest:.4g} {unit}",
-        )
+    if peaks is not None and largest:
+        _mark(axis, peaks.time, scale * largest, words or f"largest {scale * peaks.force:.4g} {unit}")
 
 
 def draw_stress(

@@ -79,6 +79,12 @@ def test_what_is_no_sweep_is_refused_by_key_and_value(case, vary, said):
     assert said in refused("sweep", case, "--jobs", 1, "--vary", vary)
 
 
+def test_two_keys_that_say_the_same_are_no_sweep(case):
+    """The later one would replace the earlier, whose values would then be names of nothing."""
+    said = refused("sweep", case, "--jobs", 1, "--vary", "impact.velocity=1,2", "--vary", "impact.drop_height=1,2")
+    assert "impact.velocity" in said and "says the same" in said
+
+
 def test_values_are_those_that_one_would_type():
     assert varied_from("a.b=0.1:0.7:7")[1] == [0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7]
     assert varied_from("a.b = 1e-3, 2")[1] == [0.001, 2]
