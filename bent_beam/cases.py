@@ -28,7 +28,7 @@ from bent_beam.tables import TABLES, WAYS, BeamTable, ImpactTable, RunTable, Wal
 if TYPE_CHECKING:
     from bent_beam.method import Method
 
-__all__ = ["EXAMPLES", "Case", "case_from_tables", "lay", "lay_over", "load_case", "read_toml"]
+__all__ = ["EXAMPLES", "Case", "case_from_tables", "lay_over", "lay_values", "load_case", "read_toml", "value_of"]
 
 EXAMPLES = Path(__file__).with_name("examples")
 """The folder of the example cases, and of lists of methods below it: `cases/` of the checkout."""
@@ -157,15 +157,43 @@ def _check_buckling(impact: Impact) -> None:
         )
 
 
-def lay_over(tables: dict[str, Any], assignment: str) -> None:
-    """Lay one ``table.key=value`` over ``tables``, in place. Raises :class:`InputError` for anything else."""
-    key, sign, text = assignment.partition("=")
-    *_, last = names = [name.strip() for name in key.split(".")]
-    if not sign or not all(names):
-        raise InputError(f"--set takes table.key=value (got {shortened(assignment)})")
+def lay_over(tables: dict[str, Any], assignments: Sequence[str]) -> None:
+    """Lay each ``table.key=value`` over ``tables``, in place. Raises :class:`InputError` for anything else, and for two
+    that say the same."""
+    laid: dict[str, Any] = {}
+    for assignment in assignments:
+        key, sign, text = assignment.partition("=")
+        names = [name.strip() for name in key.split(".")]
+        if not sign or not all(names):
+            raise InputError(f"--set takes table.key=value (got {shortened(assignment)})")
+        key = ".".join(names)
+        if key in laid:
+            raise InputError(f"--set {key} is given twice; leave one of them out")
+        laid[key] = value_of(text, names[-1])
+    lay_values(tables, laid, "--set")
+
+
+def lay_values(tables: dict[str, Any], values: Mapping[str, Any], option: str) -> None:
+    """Put each value at its ``table.key`` of ``tables``, in place of what says the same
+    (:data:`bent_beam.tables.WAYS`). Raises :class:`InputError`, naming ``option``, where that is no place, and for two
+    keys that say the same."""
+    for key, value in values.items():
+        _lay(tables, key, value, option)
+    for key in values:  # one that is gone says the same as a later one
+        if not _holds(tables, key):
+            raise InputError(f"{option} {key}: another {option} says the same in its place; leave one of them out")
+
+
+def _holds(tables: Any, key: str) -> bool:
+    name, _, rest = key.partition(".")
+    return isinstance(tables, dict) and name in tables and (not rest or _holds(tables[name], rest))
+
+
+def value_of(text: str, name: str = "") -> Any:
+    """The value that is written after ``name=``, as in TOML; a text may go without quotation marks."""
     text = text.strip()
     value: Any = text
-    if (last != "kind" and "\n" not in text) or text.startswith(("'", '"')):  # a kind is a name, "true" is one
+    if (name != "kind" and "\n" not in text) or text.startswith(("'", '"')):  # a kind is a name, "true" is one
         number = re.fullmatch(r"([-+]?)(\d*)\.(\d*)", text)  # .9 and 9. are none in TOML
         if number and number[2] + number[3]:
             text = f"{number[1]}{number[2] or 0}.{number[3] or 0}"
@@ -173,18 +201,16 @@ def lay_over(tables: dict[str, Any], assignment: str) -> None:
             value = tomllib.loads(f"value = {text}")["value"]
         except (ValueError, RecursionError):
             pass
-    lay(tables, key, value, "--set")
+    return value
 
 
-def lay(tables: dict[str, Any], key: str, value: Any, option: str) -> None:
-    """Put ``value`` at ``table.key`` of ``tables``, in place of what says the same (:data:`bent_beam.tables.WAYS`).
-    Raises :class:`InputError`, naming ``option``, where that is no place."""
-    *path, last = (name.strip() for name in key.split("."))
+def _lay(tables: dict[str, Any], key: str, value: Any, option: str) -> None:
+    *path, last = key.split(".")
     table = tables
     for name in path:
         table = table.setdefault(name, {})
         if not isinstance(table, dict):
-            raise InputError(f"{option} {key.strip()}: {name} is a value, not a table")
+            raise InputError(f"{option} {key}: {name} is a value, not a table")
     for ways in WAYS.get(".".join(path), ()):
         others = [name for name in ways if last in ways and name != last and name in table]
         for name in {*others, *(own for other in others for own in ways[other])} - {*ways.get(last, ())}:
@@ -218,6 +244,5 @@ def load_case(file: str | Path, assignments: Sequence[str] = ()) -> Case:
     (0.377, 240000000.0)
     """
     tables = read_toml(Path(file), "case file")
-    for assignment in assignments:
-        lay_over(tables, assignment)
+    lay_over(tables, assignments)
     return case_from_tables(tables)

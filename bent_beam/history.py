@@ -24,12 +24,14 @@ from bent_beam.versions import versions
 if TYPE_CHECKING:
     import xarray as xr
 
-__all__ = ["LOSSES", "ImpactHistory", "end_curvatures"]
+__all__ = ["LOSSES", "REFLECTED", "ImpactHistory", "end_curvatures"]
 
 Array = NDArray[np.float64]
 
 COORDINATES = ("time", "x", "contact_x")
 FORMAT = "bent-beam-impact history 2"
+REFLECTED = "waves may run to the ends of the beam"
+"""How a warning begins of a run that a theory of an endless beam does not cover to its end."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)

@@ -135,12 +135,14 @@ WAYS: dict[str, tuple[dict[str, tuple[str, ...]], ...]] = {
     ),
     "impact": ({"velocity": (), "drop_height": (), "angular_speed": ("angular_arm",), "amplitude": ("frequency",)},),
     "wall": ({"damping": (), "damping_ratio": ()},),
+    "run": ({"end_time": (), "duration": ()},),
+    "section": ({"inner_diameter": (), "wall_thickness": ()},),
 }
 """Keys that say the same thing, each with those that only belong to it: one that is laid over a case replaces the
 others."""
 KEYS = {name: f"wall.{name.removeprefix('wall_')}" for name in declared(Impact) if name.startswith("wall_")}
 KEYS |= {"opposite_wall": "wall.opposite", "left_end": "beam.ends (left)", "right_end": "beam.ends (right)"}
-OWN = re.compile(rf"(?<![\w.])(?:{'|'.join(KEYS)})\b")
+OWN = re.compile(rf"(?<![\w./-])(?:{'|'.join(KEYS)})\b(?![/-]|\.\w)")  # no file of that name
 
 TABLES: dict[str, type[Part]] = {"beam": BeamTable, "impact": ImpactTable, "wall": WallTable, "run": RunTable}
 """Tables with fixed fields; ``[section]`` and ``[mesh]`` have a kind."""

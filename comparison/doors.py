@@ -121,8 +121,7 @@ def sweep(
     >>> found = sweep("cases/tube.toml", {"impact.velocity": [0.5, 1.0]})  # doctest: +SKIP
     """
     tables: dict[str, Any] = deepcopy(dict(case)) if isinstance(case, Mapping) else read_toml(Path(case), "case file")
-    for assignment in assignments:
-        lay_over(tables, assignment)
+    lay_over(tables, assignments)
     given: dict[str, Sequence[Any]] = {}
     for key, values in vary.items():
         if not isinstance(values, (str, Sequence, np.ndarray)):

@@ -57,9 +57,9 @@ def methods_of(names: Sequence[str], assignments: Sequence[str] = (), case: Case
         if path not in changes:
             known = [n for n in names if n in paths()] or names
             raise InputError(f"--set {shortened(assignment)}: {path} is not a path asked for{nearest(path, known)}")
-        if case is None:
-            lay_over(tables, assignment)
         changes[path].append(assignment.partition(".")[2].replace(".kind", ""))
+    if case is None:
+        lay_over(tables, assignments)
     found = []
     for name in names:
         make = partial(method_from_tables, name, tables.get(name, {})) if case is None else partial(case.method, name)

@@ -18,7 +18,7 @@ import numpy as np
 
 from bent_beam.cases import Case
 from bent_beam.errors import SimulationError
-from bent_beam.history import ImpactHistory
+from bent_beam.history import REFLECTED, ImpactHistory
 from bent_beam.hysteresis import converges
 from bent_beam.impact import Impact
 from bent_beam.measure.estimators import lift_shares
@@ -222,7 +222,7 @@ def _of_runs(every: Any) -> list[str]:
     found: list[str] = []
     for runs in every:
         found += [
-            *(line for line in runs.run.warnings if "ends of the beam" not in line),
+            *(line for line in runs.run.warnings if REFLECTED not in line),
             *runs.lost,
             *loss_warnings(numerical_loss(runs.run.reading["energy"])),
         ]

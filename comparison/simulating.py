@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from bent_beam.cases import Case
-from bent_beam.history import ImpactHistory
+from bent_beam.history import REFLECTED, ImpactHistory
 from bent_beam.impact import Impact
 from bent_beam.loads import unmodelled
 from bent_beam.measure.balance import balance_of
@@ -121,7 +121,7 @@ def _document(found: Simulated, file: Path | None) -> dict[str, Any]:
     row = infinite.times[0] if infinite and infinite.times[0].valid else None
     leading = found.leading if row else None
     ends, reflected = infinite is not None and infinite.limited_by == ENDS and end > infinite.valid_until, list[str]()
-    if until is not None and ends and not any("ends of the beam" in line for line in history.warnings):
+    if until is not None and ends and not any(REFLECTED in line for line in history.warnings):
         reflected = [f"waves reflected at the beam's ends are back from {infinite.valid_until:.3g} s on"]  # type: ignore[union-attr]
     energy, balance = energy_at_end(history), balance_of(history)
     moment, whole = numbers["peak_moment"], reading.get("whole")

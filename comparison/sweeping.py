@@ -10,13 +10,13 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from copy import deepcopy
 from dataclasses import dataclass, field
-from functools import partial, reduce
+from functools import partial
 from itertools import product
 from typing import Any
 
 import numpy as np
 
-from bent_beam.cases import Case, case_from_tables, lay, lay_over
+from bent_beam.cases import Case, case_from_tables, lay_values, value_of
 from bent_beam.checks import shortened
 from bent_beam.errors import ANY_FAILURE, InputError, SimulationError
 from bent_beam.measure.numbers import Band, Number
@@ -87,22 +87,17 @@ def varied_from(text: str) -> tuple[str, list[Any]]:
     ('section.kind', ['pipe', 'round_bar'])
     """
     key, _, given = (part.strip() for part in text.partition("="))
+    key = ".".join(name.strip() for name in key.split("."))
     words = given.split(",")
     if "." not in key or not all(word.strip() for word in words):
         raise InputError(f"--vary takes TABLE.KEY=A:B:N or TABLE.KEY=A,B,C (got {shortened(text)})")
     ends = given.split(":")
     if len(ends) != 3:
-        return key, [_value(word) for word in words]
-    first, last, count = map(_value, ends)
+        return key, [value_of(word) for word in words]
+    first, last, count = map(value_of, ends)
     if isinstance(first, str) or isinstance(last, str) or not isinstance(count, int) or not 2 <= count <= MOST:
         raise InputError(f"--vary {key}: A:B:N are two numbers and how many values, from 2 on (got {shortened(given)})")
     return key, [float(f"{value:.12g}") for value in np.linspace(first, last, count)]  # as one would type them
-
-
-def _value(text: str) -> Any:
-    read: dict[str, Any] = {}
-    lay_over(read, f"value={text.strip()}")
-    return read["value"]
 
 
 def cases_of(
@@ -126,12 +121,7 @@ def cases_of(
 def _case(tables: Mapping[str, Any], varied: Mapping[str, Any]) -> Case | InputError:
     laid = deepcopy(dict(tables))
     try:
-        for key, value in varied.items():
-            lay(laid, key, value, "--vary")
-        for key in varied:  # one that is gone says the same as a later one
-            *path, last = key.split(".")
-            if last not in reduce(lambda table, name: table.get(name.strip(), {}), path, laid):
-                raise InputError(f"--vary {key}: another --vary says the same in its place; leave one of them out")
+        lay_values(laid, varied, "--vary")
         return case_from_tables(laid)
     except InputError as error:
         return error

@@ -7,7 +7,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from bent_beam.history import ImpactHistory
+from bent_beam.history import REFLECTED, ImpactHistory
 from bent_beam.impact import FIRST_SPREAD, Impact
 from hermite_fe.far_fields import FarField
 from hermite_fe.integrators import Integrator
@@ -91,7 +91,7 @@ def end_warnings(impact: Impact, end_time: float, nodes: Array, far_field: FarFi
     returning = arrival[(number * last < 1.0) & (arrival < end_time)]
     if returning.size:
         out.append(
-            f"waves may run to the ends of the beam (x = {half:.3g} m) and be back at the contact from about "
+            f"{REFLECTED} (x = {half:.3g} m) and be back at the contact from about "
             f"t = {float(returning.min()):.2g} s on, before the run ends at {end_time:.2g} s: from then on "
             "it is the impact of this beam, which no theory of an endless one covers"
         )

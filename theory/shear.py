@@ -141,7 +141,7 @@ def first_instants(
     holds the zone of one point back from the first.
     solved : of this κ/ν, or of one point where damping keeps a zone from spreading."""
     kappa, early = solved.kappa_over_nu, time <= early_until(kappa_over_nu)
-    if kappa >= 1.0 and damping > 0.0 and time <= LATE:
+    if kappa >= 1.0 and time <= LATE and (damping > 0.0 or not early):
         point = StoppedPoint(ratio, damping)
         held = float(point.zone(time, kappa_over_nu))
         if held < (early_zone(kappa_over_nu, time)[0] if early else rim(kappa, solved.lambda0, time)):

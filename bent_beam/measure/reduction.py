@@ -32,14 +32,14 @@ class PeakMoment(NamedTuple):
 class WallPeaks(NamedTuple):
     """The largest force on the whole zone of a wall that gives way, N, and its time, s; the largest penetration, m, and
     pressure, N/m (of a stop its force, N); of all steps, not only of the saved instants. Between those around its time:
-    the mean |x| of that force, m, and on which wall it acts, "front" or "opposite"."""
+    the mean |x| of that force, m, and on which wall it acts, "front" or "opposite"; ``None`` where nothing pushes."""
 
     force: float
     time: float
     penetration: float
     pressure: float
-    place: float
-    wall: str
+    place: float | None
+    wall: str | None
 
 
 def wall_peaks(history: ImpactHistory, until: float | None = None) -> WallPeaks | None:
@@ -52,13 +52,14 @@ def wall_peaks(history: ImpactHistory, until: float | None = None) -> WallPeaks 
     return WallPeaks(force, time, penetration, pressure, *_pushed_at(history, time))
 
 
-def _pushed_at(history: ImpactHistory, time: float) -> tuple[float, str]:
+def _pushed_at(history: ImpactHistory, time: float) -> tuple[float, str] | tuple[None, None]:
     """Mean |x|, m, of the pushes between the saved instants around ``time``, and the wall that gives most of them."""
     k = min(max(int(np.searchsorted(history.time, time)), 1), history.time.size - 1)
     walls = {"front": "impulse", "opposite": "opposite_impulse"}
     gains = {w: np.diff(history.array(n, slice(k - 1, k + 1)), axis=0)[0] for w, n in walls.items() if n in history}
     wall, gain = max(gains.items(), key=lambda one: float(one[1].sum()))
-    return float(gain @ np.abs(history.contact_positions(k))) / (float(gain.sum()) or 1.0), wall
+    given = float(gain.sum())
+    return (float(gain @ np.abs(history.contact_positions(k))) / given, wall) if given > 0.0 else (None, None)
 
 
 def hold_of(history: ImpactHistory) -> dict[str, float | None] | None:

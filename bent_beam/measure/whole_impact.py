@@ -54,7 +54,8 @@ class WholeImpact:
     peak_moment_place : |x|/ℓ. translation, vibration, dissipated : shares of the initial energy and the work of the
         loads, altogether one.
     peak_force : on the zone of a wall that gives way, over μℓV₀/T*, with its time and its mean |x|/ℓ; ``None`` of a
-        rigid one. push : the largest impulse within :data:`WINDOW` T*, over μℓV₀; push_time : when that begins.
+        rigid one. push : the largest impulse within :data:`WINDOW` T*, over μℓV₀; push_time : when the wall begins
+        to push within that.
     supplied : the initial energy and the work of the loads until then, J.
     energy_defect : what the independently computed terms of the budget leave, of the initial energy; energy_gain : the
         largest rise of the energy, what springs of the wall hold included, above what loads have worked, likewise.
@@ -122,6 +123,8 @@ def whole_impact(history: ImpactHistory, *, shortest: float = SHORTEST_SEPARATIO
     initial = float(energy[0])
     work = initial + history.energy("work_of_loads")
     gained = np.interp(time + WINDOW * unit, time, total) - total
+    k = int(np.argmax(gained))
+    begin = k + max(int(np.argmax(total[k:] > total[k])) - 1, 0)
     kept, supplied = (float(np.interp(last, time, values)) for values in (energy, work))
     restitution = _mean_velocity(history, end) / -speed if impact.supported else impulse - load * last - 1.0
     translation = 0.5 * mass * (restitution * speed) ** 2 / supplied
@@ -139,9 +142,9 @@ def whole_impact(history: ImpactHistory, *, shortest: float = SHORTEST_SEPARATIO
         dissipated=1.0 - kept / supplied,
         peak_force=None if wall is None else 2.0 * wall.force * unit / (mass * speed),
         peak_force_time=None if wall is None else wall.time / unit,
-        peak_force_place=None if wall is None else wall.place / impact.half_length,
+        peak_force_place=None if wall is None or wall.place is None else wall.place / impact.half_length,
         push=2.0 * float(gained.max()) / (mass * speed),
-        push_time=float(time[np.argmax(gained)]) / unit,
+        push_time=float(time[begin]) / unit,
         supplied=supplied,
         spacing=float(time[end] - time[end - 1]) / unit,
         drift=0.5 * abs(load) * float(time[end] - time[end - 1]),

@@ -80,6 +80,7 @@ class MasslessBoundary(Integrator):
         memory.conditions.candidate[:] = True
         if settle(problem, state, memory, 0.0) != SOLVED:
             raise InputError("integrator.kind: the points that keep mass in massless_boundary must hold all others")
+        memory.push[:] = memory.conditions.p
         return memory
 
     def advance(
@@ -158,7 +159,6 @@ def settle(problem: Problem, state: State, memory: MasslessMemory, t: float) -> 
     forces_at(matrices, t, state.q, state.v, b, memory.scratch)
     for i in range(a.size):
         a[i] = b[i] / matrices.M[0, i] if memory.inner[i] else 0.0
-    note_complementarity(rows, conditions, dq, 1.0, 1.0, state.worst)
     return SOLVED
 
 
@@ -199,6 +199,7 @@ def step(problem: Problem, state: State, memory: MasslessMemory, t: float, h: fl
         now = p[j]
         p[j] = 0.5 * h * (memory.push[j] + now)
         memory.push[j] = now
+    note_complementarity(problem.rows, memory.conditions, memory.dq, 1.0, 1.0, state.worst)
     mean_forces(problem.matrices.load, t, h, 0.5, memory.force)
     add_impulses(state, memory.conditions)
     work = h * dot(memory.force, mean_v)

@@ -1,6 +1,7 @@
 """A beam described as its owner knows it is the beam that its numbers say; what clashes is refused by name."""
 
 import math
+import re
 
 import pytest
 
@@ -211,7 +212,17 @@ def test_an_amplitude_at_a_frequency_is_a_velocity_and_what_is_laid_over_a_case_
                        "sagitta_length": 1.0, "loss_factor": 0.1, "loss_frequency": 5.0},
               "impact": {"amplitude": 0.002, "frequency": 40.0}}  # fmt: skip
     assert case_from_tables(tables).impact.velocity == pytest.approx(2.0 * math.pi * 40.0 * 0.002)
-    for assignment in ("beam.curvature=0.3", "beam.damping=0.5", "impact.velocity=3"):
-        lay_over(tables, assignment)
+    lay_over(tables, ["beam.curvature=0.3", "beam.damping=0.5", "impact.velocity=3"])
     impact = case_from_tables(tables).impact
     assert (impact.curvature, impact.damping, impact.velocity) == (0.3, 0.5, 3.0)
+
+
+SAME = [("beam.curvature=0.3", "beam.dogleg=1"), ("beam.ends=free", "beam=1"),
+        ("impact.velocity=3", "impact . velocity=3"), ("run.end_time=1", "run.duration=1"),
+        ("section.inner_diameter=1", "section.wall_thickness=1")]  # fmt: skip
+
+
+@pytest.mark.parametrize("first, second", SAME)
+def test_two_settings_that_say_the_same_are_refused(first: str, second: str) -> None:
+    with pytest.raises(InputError, match=re.escape(first.partition("=")[0])):
+        lay_over({}, [first, second])

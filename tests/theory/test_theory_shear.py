@@ -62,6 +62,11 @@ def test_shear_and_damping_turn_one_point_s_series_over_without_a_jump() -> None
     for damping in (0.0, 0.5):
         before, after = (first_instants(3.0, solved, 0.2, t, damping) for t in (499.9, 500.1))
         assert after == pytest.approx(before, rel=1e-3)
+    for time in (0.1, 0.3, 2.0, 400.0, 600.0):  # the least damping is as good as none
+        assert first_instants(3.0, solved, 0.2, time, 1e-9) == pytest.approx(first_instants(3.0, solved, 0.2, time))
+    turn = early_until(3.0)
+    before, after = (first_instants(3.0, solved, 0.2, share * turn)[0] for share in (0.999, 1.001))
+    assert after == pytest.approx(before, rel=0.03)  # the zone does not leap ahead where its own law takes over
 
 
 def test_a_prediction_of_a_sheared_beam_is_its_own_and_euler_and_bernoulli_s_in_the_end() -> None:

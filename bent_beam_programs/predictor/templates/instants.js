@@ -34,7 +34,7 @@ const Instants = (() => {
   function sheared(ratio, { lambda0, r0, point }, g, t, damping) {
     const early = t <= 0.5 / ratio, push = 2 * sqrt(2 / PI);
     const place = early ? sqrt(2 * t / ratio) : rim(point ? Math.max(ratio, 1) : ratio, lambda0, t);
-    if (point && damping > 0 && t <= 500) { // the zone of one point
+    if (point && t <= 500 && (damping > 0 || !early)) { // the zone of one point
       const [R, J, kink, bent] = Point.sheared(t, g, damping), held = ratio > bent ? asinh(kink / (ratio - bent)) : Infinity;
       if (held < place) return [held, R * sqrt(t), J];
     }
