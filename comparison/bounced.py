@@ -16,12 +16,14 @@ from bent_beam.impact import Impact
 from bent_beam.measure.balance import Balance
 from bent_beam.measure.numbers import Band, Number
 from bent_beam.measure.whole_impact import SHORTEST_SEPARATION, WINDOW, WholeImpact, peak_times
+from bent_beam.method import settings_of
 from bent_beam.section import Section
 from bent_beam.versions import versions
-from comparison.answers import Runs, write_answer
 from comparison.bounce_text import bounce_text
 from comparison.doubts import doubts
-from comparison.energies import energy_residual, loss_warnings, numerical_loss
+from comparison.energies import energy_residual, numerical_loss
+from comparison.readable import write_answer
+from comparison.runs import Runs
 
 __all__ = ["NUMBERS", "SI", "Bounce", "documents", "scales", "stress_of", "unit_of"]
 
@@ -65,15 +67,13 @@ class Bounce:
     """A whole impact: ``numbers`` by name (:data:`NUMBERS`), dimensionless; bands where the beam
     has no damping.
 
-    case : of the run that the numbers come from. runs : that and its companions. settings : of its method.
-    seed : of the ensemble. over : the whole impact at other damping ratios, where none was stated, by ratio.
+    case : of the run that the numbers come from. runs : that and its companions. over : the whole impact at other
+    damping ratios, where none was stated, by ratio.
     """
 
     case: Case
     numbers: Mapping[str, Number | Band]
     runs: Runs
-    settings: dict[str, Any]
-    seed: int | None = None
     over: Mapping[float, Bounce] | None = None
 
     @property
@@ -106,6 +106,16 @@ class Bounce:
     def seconds(self) -> float:
         """Of all runs together."""
         return self.runs.seconds
+
+    @property
+    def settings(self) -> dict[str, Any]:
+        """Of the method of the run."""
+        return settings_of(self.runs.question.run_by)
+
+    @property
+    def kept(self) -> bool:
+        """Whether nothing had to be simulated, at any damping ratio."""
+        return all(one.runs.kept for one in (self.over or {0.0: self}).values())
 
     @cached_property
     def history(self) -> ImpactHistory:
@@ -154,14 +164,14 @@ class Bounce:
     @property
     def warnings(self) -> list[str]:
         """What a reader must know of the numbers."""
-        found = [*self.runs.lost, *doubts(self.impact, self.case.section)]
+        found = doubts(self.impact, self.case.section)
         if self.over is not None:
             ratios = ", ".join(f"{100.0 * ratio:g}" for ratio in self.over)
             found.append(
                 f"no damping is stated: the numbers are those of the largest stress among {ratios} % of the first "
                 "mode; state [beam] damping_ratio"
             )
-        if self.seed is not None:
+        if self.runs.question.band is not None:
             loss = self.impact.hysteretic_loss
             own = f"a hysteretic loss of {loss:g} and no other damping" if loss else "no damping"
             found.append(
@@ -179,12 +189,11 @@ class Bounce:
                 "the loads bring the beam back to the wall; these numbers are those of the first hit, later ones may "
                 "be larger (--hits follows more)"
             )
-        told = [*self.runs.run.warnings, *loss_warnings(numerical_loss(self.energy)), *self.balance.warnings]
-        return [*found, *told]
+        return [*found, *self.runs.warnings, *self.balance.warnings]
 
     def to_dict(self) -> dict[str, Any]:
         """The contract of ``bentbeam bounce --json``."""
-        stress, balance, section = self.peak_stress, self.balance, self.case.section
+        stress, balance, section, question = self.peak_stress, self.balance, self.case.section, self.runs.question
         si = documents(self.in_si, [name for name in SI if name in self.numbers])
         return {
             "model": self.impact.model,
@@ -215,7 +224,7 @@ class Bounce:
             "left": self.left,
             "steps": self.runs.run.steps,
             "seconds": self.seconds,
-            "seed": self.seed,
+            "seed": question.band[1] if question.band else None,
             "settings": self.settings,
             "versions": versions(),
             "warnings": self.warnings,

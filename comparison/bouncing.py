@@ -23,11 +23,11 @@ from bent_beam.impact import Impact
 from bent_beam.measure.balance import balance_of
 from bent_beam.measure.numbers import Band, Number
 from bent_beam.measure.whole_impact import whole_impact
-from bent_beam.method import Method, for_whole_beam, separation_times, settings_of
-from comparison.answers import Runs, bands_of, numbers_of, runs_of
+from bent_beam.method import Method, separation_times
 from comparison.bounced import NUMBERS, Bounce
 from comparison.energies import energy_at_end
 from comparison.questions import Question
+from comparison.runs import Runs, bands_of, numbers_of, runs_of
 from comparison.store import RunStore
 
 __all__ = ["DAMPING_RATIOS", "bounce", "case_of", "problem", "whole_numbers", "whole_reading"]
@@ -91,16 +91,9 @@ def bounce(
     how: dict[str, Any] = {"store": store, "jobs": jobs}
     if not case.damping_stated and not (impact.damping or impact.hysteretic_loss):
         return _over_ratios(case, method, progress or (lambda _: None), how | {"save": save, "history": history})
-    question = Question(impact, method, save=save)
-    ensemble = None if converges(impact) else question.drawn(runs, seed)
-    made = runs_of(question, whole_reading, ensemble=ensemble, whole_history=history, progress=progress, **how)
-    return Bounce(
-        case=case,
-        numbers=whole_numbers(made, ensemble is not None),
-        runs=made,
-        settings=settings_of(question.run_by if ensemble is None else for_whole_beam(ensemble[0], impact)),
-        seed=None if ensemble is None else seed,
-    )
+    question = Question(impact, method, save=save, band=None if converges(impact) else (runs, seed))
+    made = runs_of(question, whole_reading, whole_history=history, progress=progress, **how)
+    return Bounce(case, whole_numbers(made), made)
 
 
 def _over_ratios(case: Case, method: Method, told: Callable[[float], None], how: dict[str, Any]) -> Bounce:
@@ -113,13 +106,13 @@ def _over_ratios(case: Case, method: Method, told: Callable[[float], None], how:
     return replace(max(found.values(), key=lambda one: one.numbers["peak_moment"].value or 0.0), over=found)
 
 
-def whole_numbers(made: Runs, scattered: bool = False) -> dict[str, Number | Band]:
-    """Every number of a whole impact, bands where it is ``scattered``; those of its end only where the beam left."""
+def whole_numbers(made: Runs) -> dict[str, Number | Band]:
+    """Every number of a whole impact; those of its end only where the beam left."""
     reading = made.run.reading
     names = NUMBERS if reading["peak_force"] is None else (*NUMBERS, "peak_force")
     known = {name: {"saved_instants": 0.5 * reading["spacing"]} for name in TIMES}
     known["restitution"] = {"saved_instants": reading["drift"]}
-    found = dict(bands_of(made, names) if scattered else numbers_of(made, names, known))
+    found = dict(bands_of(made, names) if made.question.band else numbers_of(made, names, known))
     if not all(run.reading["left"] for run in made.every):
         found |= {name: Number() for name in FINAL}
     return found

@@ -16,14 +16,13 @@ from bent_beam.files import write_atomically, write_dataset
 from bent_beam.impact import Impact
 from bent_beam.method import Method, method_from_tables
 from comparison import bouncing
-from comparison.answers import write_answer
 from comparison.bounced import Bounce
 from comparison.bouncing import case_of
 from comparison.matching import Matched
 from comparison.matching import match as match_all
 from comparison.methods import PATHS
 from comparison.predicting import PredictedCase, predict_case
-from comparison.readable import csv_text
+from comparison.readable import csv_text, write_answer
 from comparison.rows import THESIS_KAPPAS, questions
 from comparison.store import RunStore
 from comparison.sweeping import Row, cases_of, row_of, varied_from

@@ -22,8 +22,7 @@ from bent_beam.measure.estimators import FirstOrderEstimate, LeadingEstimate, fi
 from bent_beam.measure.moments import Moments, moments
 from bent_beam.measure.numbers import MISSING, Number, number_of
 from bent_beam.measure.reduction import hold_of, pull_of, wall_peaks
-from bent_beam.method import Method, chosen_for, refined, settings_of, simulated
-from comparison.answers import Run
+from bent_beam.method import Method, chosen_for, refined, simulated
 from comparison.questions import ERROR_BARS
 from comparison.rows import (
     MatchQuestion,
@@ -35,7 +34,8 @@ from comparison.rows import (
     match_table,
     with_theory,
 )  # fmt: skip
-from comparison.store import RunStore, source_of
+from comparison.runs import Run, kept
+from comparison.store import RunStore
 from comparison.workers import Clock, run_all
 
 __all__ = ["INSTANTS", "Matched", "answer", "match"]
@@ -83,19 +83,17 @@ class _Runs:
         """Raises :class:`Refused` for what the method refuses, before its run or in it."""
         if reason := method.refuses(impact):
             raise Refused(str(reason))
-        settings = settings_of(method) | {"label": ""}
-        question = {"settings": settings, "impact": asdict(impact), "duration": self.duration, "uniform": uniform}
 
-        def compute() -> dict[str, Any]:
-            asked = None if self.clock is None else self.clock.progress()
+        def run() -> ImpactHistory:
+            ask = None if self.clock is None else self.clock.progress()
             end = self.duration * impact.time_scale
             try:
-                history = simulated(method.simulate, impact, end_time=end, save=INSTANTS, progress=asked)
+                return simulated(method.simulate, impact, end_time=end, save=INSTANTS, progress=ask)
             except ValueError as error:
                 raise Refused(str(error)) from None
-            return vars(Run.of(history, partial(_reading, uniform)))
 
-        return Run(**self.store.answer(question | {"source": source_of(method)}, compute))
+        asked = {"impact": asdict(impact), "duration": self.duration}
+        return kept(self.store, asked, method, partial(_reading, uniform), run)
 
 
 @dataclass(frozen=True)

@@ -27,13 +27,14 @@ from bent_beam.measure.numbers import Number
 from bent_beam.measure.whole_impact import peak_times
 from bent_beam.method import Method
 from bent_beam.tables import in_keys
-from comparison.answers import Runs, numbers_of, runs_of, write_answer
 from comparison.bounced import Bounce, documents, stress_of
 from comparison.bouncing import bounce
 from comparison.doubts import doubts, steepness
-from comparison.energies import energy_at_end, loss_warnings, numerical_loss
+from comparison.energies import energy_at_end
 from comparison.predict_text import prediction_text
 from comparison.questions import Question
+from comparison.readable import write_answer
+from comparison.runs import Runs, numbers_of, runs_of
 from comparison.store import RunStore
 from theory import Prediction, predict
 
@@ -198,7 +199,8 @@ def predict_case(
         read = partial(instants_reading, (*checked, time) if time == within else (time,), question.first_spread)
         found[time] = runs_of(question, read, store=store, progress=lambda done, i=i: told(share * (i + done)))  # type: ignore[misc]
     simulated = [numbers_at(found.get(time), case) for time in times]
-    warnings += _of_runs(found.values())
+    # what runs say, but for their ends: the theory beside them says how long those do not matter
+    warnings += [line for runs in found.values() for line in runs.warnings if REFLECTED not in line]
     if last > within:
         warnings.append(f"times beyond {within:.4g} s ({LATEST:g} T*) are not simulated here: bentbeam simulate")
     impacts: tuple[Bounce | None, str | None] = (None, None)
@@ -217,18 +219,6 @@ def numbers_at(runs: Runs | None, case: Case) -> dict[str, Number]:
     return found if stress is None else found | {"peak_stress": stress}
 
 
-def _of_runs(every: Any) -> list[str]:
-    """What runs warn of, but for their ends: the theory beside them says how long they do not matter."""
-    found: list[str] = []
-    for runs in every:
-        found += [
-            *(line for line in runs.run.warnings if REFLECTED not in line),
-            *runs.lost,
-            *loss_warnings(numerical_loss(runs.run.reading["energy"])),
-        ]
-    return found
-
-
 def _whole_impact(
     case: Case, method: Method, store: RunStore | None, progress: Progress
 ) -> tuple[Bounce | None, str | None]:
@@ -244,8 +234,7 @@ def _agreement(checked: Sequence[float], prediction: Prediction, runs: Runs, fir
     ``None`` where they agree at none."""
     agree = []
     for i, row in enumerate(prediction.times[first:]):
-        others = {cause: _before(one, i) for cause, one in runs.companions.items()}
-        found = instant_numbers(Runs(runs.question, _before(runs.run, i), others))
+        found = instant_numbers(runs.part(lambda reading, i=i: reading["before"][i]))  # type: ignore[misc]
         pairs = [(getattr(row, name), found[name]) for name in ("half_contact_length", "impulse")]
         agree.append(
             all(a is not None and b.measured and abs(b.known - a) <= b.spread + AGREE * abs(a) for a, b in pairs)
@@ -253,8 +242,3 @@ def _agreement(checked: Sequence[float], prediction: Prediction, runs: Runs, fir
     spans = [list(span) for both, span in groupby(range(len(agree)), key=agree.__getitem__) if both]
     longest = max(spans, key=len, default=None)
     return {"from": checked[longest[0]], "until": checked[longest[-1]]} if longest else None
-
-
-def _before(run: Any, i: int) -> Any:
-    """A run read at an earlier instant."""
-    return type(run)(run.reading["before"][i], run.warnings, run.seconds, run.steps)

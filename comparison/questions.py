@@ -1,6 +1,6 @@
 """What is asked of one beam, the run that answers it, and the runs that say how well.
 
-    question ─► run, and companions: another run a cause of error ─► readings ─► numbers  (:mod:`comparison.answers`)
+    question ─► run, and companions: another run a cause of error ─► readings ─► numbers  (:mod:`comparison.runs`)
 
 - early (before :data:`EARLY` T*; without damping before waves return from the ends): on elements that resolve the
   front, with the damping at grid scale that this takes;
@@ -27,7 +27,7 @@ from bent_beam.history import ImpactHistory
 from bent_beam.hysteresis import branches_of, converges
 from bent_beam.impact import BEFORE_WAVES_RETURN, Impact
 from bent_beam.measure.instant import BEYOND
-from bent_beam.method import Method, for_whole_beam, refined, settings_of, simulate_to_separation, simulated
+from bent_beam.method import Method, for_whole_beam, refined, simulate_to_separation, simulated
 
 __all__ = ["ERROR_BARS", "Question"]
 
@@ -48,7 +48,8 @@ ERROR_BARS = {"drift": (), "quick": (COARSER,), "thorough": (COARSER, FINER)}
 class Question:
     """One beam by one method. until : s; ``None``: the whole impact, to its last separation. save : saved instants,
     see :data:`INSTANTS`. error_bars : a key of :data:`ERROR_BARS`. damping_stated : otherwise the beam has some, enough
-    to absorb the short waves that one of no damping keeps.
+    to absorb the short waves that one of no damping keeps. band : (runs, seed) of an ensemble in place of run and
+    companions.
 
     A run to a time goes on a tenth of it beyond, for what is read around it.
     """
@@ -59,6 +60,7 @@ class Question:
     save: int | None = None
     error_bars: str = "quick"
     damping_stated: bool = True
+    band: tuple[int, int] | None = None
 
     def __post_init__(self) -> None:
         one_of("error_bars", self.error_bars, ERROR_BARS)
@@ -81,8 +83,8 @@ class Question:
 
     @property
     def run_by(self) -> Method:
-        """The method with what it leaves open chosen."""
-        return self._chosen(self.method)
+        """The method with what it leaves open chosen; of a band the first."""
+        return self._chosen(self.method) if self.band is None else self._drawn(*self.band)[0]
 
     def _chosen(self, method: Method) -> Method:
         """``method`` as this question takes it: a whole beam's elements are the finer the sooner a run ends."""
@@ -98,9 +100,10 @@ class Question:
         """Cause of error → what is run for it."""
         if self.error_bars == "drift":
             return {}
-        chosen, others = self.run_by, dict[str, Method]()
         if self.late and not converges(self.impact):
-            return {f"drawn_{i}": (self.impact, one) for i, one in enumerate(self.drawn(DRAWN, SEED))}
+            drawn = self._drawn(DRAWN, SEED) if self.band is None else self._drawn(*self.band)[1:]
+            return {f"drawn_{i}": (self.impact, one) for i, one in enumerate(drawn)}
+        chosen, others = self.run_by, dict[str, Method]()
         for name, factor in (("mesh_and_step", COARSER), ("finer", FINER)):
             if factor in ERROR_BARS[self.error_bars] and (other := refined(chosen, factor)) is not None:
                 others[name] = other
@@ -127,7 +130,7 @@ class Question:
         finer = refined(self.method, max(1.0, RESOLVES / share**0.5))
         return None if finer is None else for_whole_beam(finer, impact)
 
-    def drawn(self, runs: int, seed: int) -> list[Method]:
+    def _drawn(self, runs: int, seed: int) -> list[Method]:
         """An ensemble of a beam without damping: elements, steps and contact laws drawn at random; of a mesh that the
         user has stated, and of a path that draws nothing itself, coarser ones.
 
@@ -139,7 +142,7 @@ class Question:
             if hasattr(self.method, "varied") and not stated:
                 one: Method | None = self._chosen(self.method.varied(self.impact, random))
             else:
-                one = refined(self.run_by, 2.0 ** random.uniform(-1.5, -0.5))
+                one = refined(self._chosen(self.method), 2.0 ** random.uniform(-1.5, -0.5))
             if one is None:
                 raise ValueError(
                     f"damping: without damping of the beam a whole impact is a band, and {self.method.path} varies "
@@ -161,7 +164,6 @@ class Question:
         times = self.until * instants**2
         return simulated(method.simulate, beam, end_time=float(times[-1]), save=times, progress=progress)
 
-    def key(self, method: Method, impact: Impact) -> dict[str, Any]:
-        """What a run of it depends on, JSON-ready; with :func:`comparison.store.source_of` of the method."""
-        settings = settings_of(method) | {"label": ""}
-        return {"impact": asdict(impact), "settings": settings, "until": self.until, "save": self.save}
+    def key(self, impact: Impact) -> dict[str, Any]:
+        """What a run of it depends on next to its method, JSON-ready."""
+        return {"impact": asdict(impact), "until": self.until, "save": self.save}

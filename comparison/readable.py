@@ -1,5 +1,5 @@
 """Results as a reader writes them: numbers (0.0025, 2.5·10⁻⁸, −1.3, a dash for nothing), units (kN and kN m from a
-hundred on, mm below a centimetre, MPa, ms), tables in plain text as wide as they need to be."""
+hundred on, mm below a centimetre, MPa, ms), tables in plain text as wide as they need to be; and as files."""
 
 from __future__ import annotations
 
@@ -7,9 +7,11 @@ import csv
 import io
 from collections.abc import Iterable, Mapping, Sequence
 from numbers import Real
+from pathlib import Path
 from typing import Any
 
 from bent_beam.as_json import json_text, plain
+from bent_beam.files import write_atomically
 from bent_beam.measure.numbers import Band, Number
 
 __all__ = [
@@ -24,6 +26,7 @@ __all__ = [
     "shown",
     "text_table",
     "unit_for",
+    "write_answer",
 ]
 
 RAISED = str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻")
@@ -140,3 +143,12 @@ def csv_text(documents: Iterable[Mapping[str, Any]]) -> str:
     writer.writeheader()
     writer.writerows(rows)
     return stream.getvalue()
+
+
+def write_answer(found: Any, out: Path, name: str, drawable: bool = True) -> list[Path]:
+    """Document and figure of an answer in ``out``; returns the files."""
+    from comparison.figures import style
+
+    document = out / f"{name}.json"
+    write_atomically(document, json_text(found.to_dict(), indent=1) + "\n")
+    return [document, *(style.save(found.plot(), out, name) if drawable else [])]

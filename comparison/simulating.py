@@ -18,13 +18,13 @@ from bent_beam.measure.moments import moments
 from bent_beam.measure.numbers import MISSING, Number
 from bent_beam.measure.reduction import hold_of, pull_of
 from bent_beam.measure.whole_impact import hits
-from comparison.answers import Runs, runs_of
 from comparison.bounced import Bounce, scales, stress_of
 from comparison.bouncing import whole_numbers, whole_reading
 from comparison.doubts import doubts
 from comparison.energies import energy_at_end, energy_residual, loss_warnings, numerical_loss
 from comparison.predicting import instant_numbers, instants_reading
 from comparison.questions import Question
+from comparison.runs import Runs, runs_of
 from theory import predict
 from theory.prediction import MODELLED
 from theory.validity import ENDS
@@ -86,12 +86,8 @@ def _whole_run(history: ImpactHistory) -> dict[str, Any]:
 
 def _of_whole(case: Case, runs: Runs) -> dict[str, Any]:
     """Restitution, and the largest moment and force of the whole impact, as ``bounce`` has them."""
-    inner = replace(
-        runs,
-        run=replace(runs.run, reading=runs.run.reading["whole"]),
-        companions={cause: replace(run, reading=run.reading["whole"]) for cause, run in runs.companions.items()},
-    )
-    found = Bounce(case, whole_numbers(inner), inner, {}).in_si
+    inner = runs.part(lambda reading: dict(reading["whole"]))
+    found = Bounce(case, whole_numbers(inner), inner).in_si
     return {name: found[name] for name in ("restitution", "peak_moment", "peak_force") if name in found}
 
 

@@ -7,7 +7,7 @@ holds what ``predict`` gives at the end time.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from copy import deepcopy
 from dataclasses import dataclass, field
 from functools import partial
@@ -22,12 +22,13 @@ from bent_beam.errors import ANY_FAILURE, InputError, SimulationError
 from bent_beam.measure.numbers import Band, Number
 from bent_beam.method import separation_times
 from bent_beam.tables import in_keys
-from comparison.answers import runs_of
 from comparison.bounced import documents
 from comparison.bouncing import bounce
+from comparison.doubts import doubts
 from comparison.predicting import instants_reading, numbers_at
 from comparison.questions import Question
 from comparison.readable import readable
+from comparison.runs import runs_of
 from comparison.store import RunStore
 
 __all__ = ["NAMES", "Row", "cases_of", "row_of", "varied_from"]
@@ -127,39 +128,21 @@ def _case(tables: Mapping[str, Any], varied: Mapping[str, Any]) -> Case | InputE
         return error
 
 
-@dataclass(frozen=True)
-class _Counting(RunStore):
-    """A store that knows what was computed, not found."""
-
-    computed: list[bool] = field(default_factory=list)
-
-    def answer(self, question: Mapping[str, Any], compute: Callable[[], dict[str, Any]]) -> dict[str, Any]:
-        def told() -> dict[str, Any]:
-            self.computed.append(True)
-            return compute()
-
-        return super().answer(question, told)
-
-
 def row_of(varied: dict[str, Any], case: Case | InputError, path: str, store: RunStore) -> Row:
     """One row, in a worker: a failure is an answer too."""
     if isinstance(case, InputError):
         return Row(varied, reason=str(case), refused=True)
     about: dict[str, Any] = {"varied": varied, "kappa_over_nu": case.impact.kappa_over_nu}
-    counting = _Counting(store.folder)
     try:
-        numbers, until, warnings = _numbers(case, path, counting)
+        return Row(**about, yield_stress=getattr(case.section, "yield_stress", None), **_found(case, path, store))
     except ANY_FAILURE as error:
         foreseen = isinstance(error, (ValueError, SimulationError))
         reason = " ".join((str(error) if foreseen else f"{type(error).__name__}: {error}").split())
         return Row(**about, reason=in_keys(reason), refused=isinstance(error, InputError))
-    yields = getattr(case.section, "yield_stress", None)
-    kept = store.folder is not None and not counting.computed
-    return Row(**about, yield_stress=yields, numbers=numbers, until=until, warnings=warnings, kept=kept)
 
 
-def _numbers(case: Case, path: str, store: RunStore) -> tuple[Mapping[str, Number | Band], float | None, Sequence[str]]:
-    """The numbers of a case, the time that they end at where no separation does, and warnings."""
+def _found(case: Case, path: str, store: RunStore) -> dict[str, Any]:
+    """What runs say in a row."""
     impact, method = case.impact, case.method(path)
     if reason := method.refuses(impact):
         raise InputError(reason)
@@ -168,6 +151,7 @@ def _numbers(case: Case, path: str, store: RunStore) -> tuple[Mapping[str, Numbe
     except InputError:
         question = Question(impact, method, case.end_time, damping_stated=case.damping_stated)
         runs = runs_of(question, partial(instants_reading, (case.end_time,), question.first_spread), store=store)
-        return numbers_at(runs, case), case.end_time, [*runs.run.warnings, *runs.lost]
+        warnings = [*doubts(impact, case.section), *runs.warnings]
+        return {"numbers": numbers_at(runs, case), "until": case.end_time, "warnings": warnings, "kept": runs.kept}
     found = bounce(case, method, store=store)
-    return found.in_si, None, found.warnings
+    return {"numbers": found.in_si, "warnings": found.warnings, "kept": found.kept}

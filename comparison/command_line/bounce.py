@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from bent_beam.errors import InputError
-from comparison.command_line.options import Fresh, Jobs, Json, Quiet, Set, Verbose, emit, path_names, progress
+from comparison.command_line import options
+from comparison.command_line.options import emit, path_names, progress
 
 if TYPE_CHECKING:
     from bent_beam.cases import Case
@@ -32,16 +33,16 @@ def bounce(
             help="hermite (default), exudyn or an installed one; repeatable: side by side.", autocompletion=path_names
         ),
     ] = None,
-    assignments: Set = None,
+    assignments: options.Set = None,
     runs: Annotated[int, typer.Option(min=2, max=1000, help="Runs of the ensemble without damping.")] = 24,
     seed: Annotated[int, typer.Option(min=0, help="Seed of the ensemble.")] = 15,
     hits: Annotated[int, typer.Option(min=1, max=20, help="Number of hits to follow under loads.")] = 1,
     out: Annotated[Path | None, typer.Option(help="Folder for document, picture and animation.")] = None,
-    jobs: Jobs = 1,
-    fresh: Fresh = False,
-    verbose: Verbose = False,
-    as_json: Json = False,
-    quiet: Quiet = False,
+    jobs: options.Jobs = 1,
+    fresh: options.Fresh = False,
+    verbose: options.Verbose = False,
+    as_json: options.Json = False,
+    quiet: options.Quiet = False,
 ) -> None:
     """Follow the whole impact to its last separation.
 

@@ -8,21 +8,8 @@ from typing import Annotated
 import typer
 
 from bent_beam.errors import InputError, SimulationError
-from comparison.command_line.options import (
-    CaseFile,
-    ErrorBars,
-    Fresh,
-    Json,
-    Overwrite,
-    Quiet,
-    Set,
-    Verbose,
-    check_out,
-    complete,
-    emit,
-    path_names,
-    progress,
-)
+from comparison.command_line import options
+from comparison.command_line.options import check_out, complete, emit, path_names, progress
 
 __all__ = ["new", "predict", "settings", "simulate"]
 
@@ -53,8 +40,8 @@ def new(
     damping_ratio: Annotated[
         float | None, typer.Option(min=0.0, help="Of the first bending mode; otherwise state it in the file.")
     ] = None,
-    overwrite: Overwrite = False,
-    as_json: Json = False,
+    overwrite: options.Overwrite = False,
+    as_json: options.Json = False,
 ) -> None:
     """Write a commented case file for a beam of your own.
 
@@ -78,7 +65,7 @@ def new(
 def settings(
     word: Annotated[str, typer.Argument(help="Only those with this in table, name or text.")] = "",
     markdown: Annotated[bool, typer.Option("--markdown", help="As the page of the documentation.")] = False,
-    as_json: Json = False,
+    as_json: options.Json = False,
 ) -> None:
     """List the settings of a case file with unit, default and range.
 
@@ -93,16 +80,16 @@ def settings(
 
 
 def predict(
-    case: CaseFile,
+    case: options.CaseFile,
     time: Annotated[
         list[float] | None, typer.Option(help="Time after first contact, s, in place of end_time; repeatable.")
     ] = None,
     theory_only: Annotated[bool, typer.Option("--theory-only", help="Closed forms only, without simulation.")] = False,
-    assignments: Set = None,
+    assignments: options.Set = None,
     out: Annotated[Path | None, typer.Option(help="Folder for document and picture.")] = None,
-    fresh: Fresh = False,
-    as_json: Json = False,
-    quiet: Quiet = False,
+    fresh: options.Fresh = False,
+    as_json: options.Json = False,
+    quiet: options.Quiet = False,
 ) -> None:
     """Predict contact and stress: theory beside a simulation.
 
@@ -136,23 +123,23 @@ def predict(
 
 
 def simulate(
-    case: CaseFile,
+    case: options.CaseFile,
     path: Annotated[
         str, typer.Option(help="hermite, self_similar, exudyn or an installed one.", autocompletion=path_names)
     ] = "hermite",
-    assignments: Set = None,
+    assignments: options.Set = None,
     until: Annotated[
         str | None, typer.Option(help='"separation": until the beam has left the wall; overrides [run].')
     ] = None,
-    error_bars: ErrorBars = "quick",
+    error_bars: options.ErrorBars = "quick",
     out: Annotated[Path | None, typer.Option(metavar="FILE.nc", help="Keep the history as netCDF.")] = None,
-    overwrite: Overwrite = False,
+    overwrite: options.Overwrite = False,
     save: Annotated[
         int | None, typer.Option(min=8, max=20000, help="Saved instants; until separation, a T*. Default: 200; 2000.")
     ] = None,
-    verbose: Verbose = False,
-    as_json: Json = False,
-    quiet: Quiet = False,
+    verbose: options.Verbose = False,
+    as_json: options.Json = False,
+    quiet: options.Quiet = False,
 ) -> None:
     """Simulate one case with one method.
 

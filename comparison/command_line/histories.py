@@ -7,7 +7,8 @@ from typing import Annotated
 
 import typer
 
-from comparison.command_line.options import Json, Overwrite, Quiet, check_out, emit, progress
+from comparison.command_line import options
+from comparison.command_line.options import check_out, emit, progress
 
 __all__ = ["compare", "plot", "rerun"]
 
@@ -15,9 +16,9 @@ __all__ = ["compare", "plot", "rerun"]
 def rerun(
     file: Annotated[Path, typer.Argument(metavar="FILE.nc", help="A history written by simulate --out.")],
     out: Annotated[Path | None, typer.Option(metavar="FILE.nc", help="Keep the new history.")] = None,
-    overwrite: Overwrite = False,
-    as_json: Json = False,
-    quiet: Quiet = False,
+    overwrite: options.Overwrite = False,
+    as_json: options.Json = False,
+    quiet: options.Quiet = False,
 ) -> None:
     """Repeat a stored run and compare the two.
 
@@ -36,7 +37,7 @@ def plot(
     files: Annotated[list[Path], typer.Argument(metavar="FILE.nc …", help="Histories written by simulate --out.")],
     out: Annotated[Path, typer.Option(help="Folder to write into.")] = Path("."),
     format: Annotated[list[str], typer.Option(help="png, pdf or svg; repeatable.")] = ["png"],  # noqa: B006
-    as_json: Json = False,
+    as_json: options.Json = False,
 ) -> None:
     """Draw stored runs: force, stress, contact, shapes, energies.
 
@@ -62,7 +63,7 @@ def plot(
 def compare(
     first: Annotated[Path, typer.Argument(metavar="A.nc", help="A history written by simulate --out.")],
     second: Annotated[Path, typer.Argument(metavar="B.nc", help="The history to compare with it.")],
-    as_json: Json = False,
+    as_json: options.Json = False,
 ) -> None:
     """Compare two stored runs: their numbers and their settings.
 

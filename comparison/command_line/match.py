@@ -7,23 +7,8 @@ from typing import Annotated
 
 import typer
 
-from comparison.command_line.options import (
-    ErrorBars,
-    Fresh,
-    Json,
-    ManyJobs,
-    Methods,
-    Paths,
-    Quiet,
-    Scheduler,
-    Set,
-    emit,
-    end_of_rows,
-    factors,
-    numbers,
-    processes,
-    progress,
-)
+from comparison.command_line import options
+from comparison.command_line.options import emit, end_of_rows, factors, numbers, processes, progress
 
 __all__ = ["match"]
 
@@ -31,9 +16,9 @@ LEAST_ROWS = 4  # a process, where the number of processes is left open
 
 
 def match(
-    path: Paths = None,
-    assignments: Set = None,
-    methods: Methods = None,
+    path: options.Paths = None,
+    assignments: options.Set = None,
+    methods: options.Methods = None,
     kappa_over_nu: Annotated[
         list[float] | None, typer.Option(help="κ/ν; repeatable. Default: the thesis's Table 3.4.")
     ] = None,
@@ -52,15 +37,15 @@ def match(
         str,
         typer.Option(metavar="1,2,4", help="Factors by which elements and steps are refined, a row each."),
     ] = "1",
-    error_bars: ErrorBars = "quick",
+    error_bars: options.ErrorBars = "quick",
     duration: Annotated[float, typer.Option(help="End of the runs, t*.")] = 0.1,
     limit: Annotated[float | None, typer.Option(help="Time limit of a row, s.")] = None,
-    jobs: ManyJobs = None,
-    scheduler: Scheduler = None,
+    jobs: options.ManyJobs = None,
+    scheduler: options.Scheduler = None,
     out: Annotated[Path | None, typer.Option(help="Folder for the table and the plots.")] = None,
-    fresh: Fresh = False,
-    as_json: Json = False,
-    quiet: Quiet = False,
+    fresh: options.Fresh = False,
+    as_json: options.Json = False,
+    quiet: options.Quiet = False,
 ) -> None:
     """Match simulations with the theory: λ₀, r₀, λ₁, r₁.
 

@@ -7,27 +7,14 @@ from typing import Annotated
 
 import typer
 
-from comparison.command_line.options import (
-    CaseFile,
-    Fresh,
-    Json,
-    ManyJobs,
-    Quiet,
-    Scheduler,
-    Set,
-    emit,
-    end_of_rows,
-    path_names,
-    processes,
-    progress,
-    setting_names,
-)
+from comparison.command_line import options
+from comparison.command_line.options import emit, end_of_rows, path_names, processes, progress, setting_names
 
 __all__ = ["sweep"]
 
 
 def sweep(
-    case: CaseFile,
+    case: options.CaseFile,
     vary: Annotated[
         list[str],
         typer.Option(
@@ -39,13 +26,13 @@ def sweep(
     path: Annotated[
         str, typer.Option(help="hermite, exudyn or an installed one.", autocompletion=path_names)
     ] = "hermite",
-    assignments: Set = None,
-    jobs: ManyJobs = None,
-    scheduler: Scheduler = None,
+    assignments: options.Set = None,
+    jobs: options.ManyJobs = None,
+    scheduler: options.Scheduler = None,
     out: Annotated[Path | None, typer.Option(help="Folder for the table (CSV, netCDF) and the figure.")] = None,
-    fresh: Fresh = False,
-    as_json: Json = False,
-    quiet: Quiet = False,
+    fresh: options.Fresh = False,
+    as_json: options.Json = False,
+    quiet: options.Quiet = False,
 ) -> None:
     """Vary keys of a case: the whole impact of each, in a table.
 

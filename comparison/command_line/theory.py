@@ -6,7 +6,8 @@ from typing import Annotated
 
 import typer
 
-from comparison.command_line.options import Json, emit
+from comparison.command_line import options
+from comparison.command_line.options import emit
 
 __all__ = ["theory"]
 
@@ -20,7 +21,7 @@ def theory(
     wall_damping: Annotated[
         float | None, typer.Option(help="Damping ratio ζ = c/(2√(kμ)) of an elastic wall; adds the largest force.")
     ] = None,
-    as_json: Json = False,
+    as_json: options.Json = False,
 ) -> None:
     """Print λ₀, r₀, λ₁, r₁ and the largest moment of theory.
 

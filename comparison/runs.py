@@ -1,4 +1,4 @@
-"""Runs of a question, kept, read and made into numbers: the one place that does.
+"""Runs of a question, read, kept and made into numbers with bars: the one place that does.
 
 A run is reduced by a reading, plain numbers by name, and this is what is kept. The store stands around the whole, not
 in it: without one nothing is turned into text and back.
@@ -8,24 +8,22 @@ from __future__ import annotations
 
 import statistics
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import partial
-from pathlib import Path
 from typing import Any
 
-from bent_beam.as_json import json_text
 from bent_beam.errors import SimulationError
-from bent_beam.files import write_atomically
 from bent_beam.history import ImpactHistory
 from bent_beam.hysteresis import converges
 from bent_beam.impact import Impact
 from bent_beam.measure.numbers import Band, Number, number_of
-from bent_beam.method import Method
+from bent_beam.method import Method, settings_of
+from comparison.energies import loss_warnings, numerical_loss
 from comparison.questions import Question
 from comparison.store import RunStore, source_of
 from comparison.workers import run_all
 
-__all__ = ["Run", "Runs", "bands_of", "numbers_of", "runs_of", "write_answer"]
+__all__ = ["Run", "Runs", "bands_of", "kept", "numbers_of", "runs_of"]
 
 Reading = Callable[[ImpactHistory], dict[str, Any]]
 Progress = Callable[[float], None]
@@ -33,12 +31,13 @@ Progress = Callable[[float], None]
 
 @dataclass(frozen=True)
 class Run:
-    """What is kept of a run: its ``reading``, and what it says of itself."""
+    """What is kept of a run: its ``reading``, and what it says of itself. kept : whether it came from a store."""
 
     reading: dict[str, Any]
     warnings: list[str]
     seconds: float
     steps: int
+    kept: bool = False
 
     @classmethod
     def of(cls, history: ImpactHistory, read: Reading) -> Run:
@@ -64,38 +63,47 @@ class Runs:
     def seconds(self) -> float:
         return sum(run.seconds for run in self.every)
 
+    @property
+    def kept(self) -> bool:
+        """Whether nothing had to be simulated."""
+        return not self.lost and all(run.kept for run in self.every)
+
+    @property
+    def warnings(self) -> list[str]:
+        """What the run says, what steps and mesh took of its energy, and which companions are missing."""
+        return [*self.run.warnings, *loss_warnings(numerical_loss(self.run.reading["energy"])), *self.lost]
+
+    def part(self, of: Callable[[dict[str, Any]], dict[str, Any]]) -> Runs:
+        """The same runs with a part of their readings."""
+        run, *others = (replace(one, reading=of(one.reading)) for one in self.every)
+        return replace(self, run=run, companions=dict(zip(self.companions, others)))
+
 
 def runs_of(
     question: Question,
     read: Reading,
     *,
     store: RunStore | None = None,
-    ensemble: Sequence[Method] | None = None,
     whole_history: bool = False,
     jobs: int = 1,
     progress: Progress | None = None,
 ) -> Runs:
     """Run ``question`` and its companions, or find them in ``store``.
 
-    read : picklable. ensemble : in place of the question's own run and companions, the methods of a band.
-    whole_history : also the history of the run itself, which is then made anew.
+    read : picklable. whole_history : also the history of the run itself, which is then made anew.
     Raises ``ValueError`` for what the method refuses, :class:`bent_beam.SimulationError` where the run cannot finish.
     """
     if reason := question.method.refuses(question.impact):
         raise ValueError(reason)
     told = progress or (lambda _: None)
-    first = question.run_by if ensemble is None else ensemble[0]
-    if ensemble is None:
-        others = question.companions()
-    else:
-        others = {f"drawn_{i}": (question.impact, one) for i, one in enumerate(ensemble[1:])}
+    first, others = question.run_by, question.companions()
     share = 1.0 / (1 + len(others))
     history: ImpactHistory | None = None
     if whole_history or store is None:
         history = question.run(first, progress=lambda part: told(share * part))
         run = Run.of(history, read)
     else:
-        run = _kept(store, question, read, first, question.impact)
+        run = _run(store, question, read, first, question.impact)
     told(share)
     calls = [(store, question, read, method, impact) for impact, method in others.values()]
     found = run_all(_attempted, calls, jobs=jobs, progress=lambda done, _: told(share * (1 + done)))
@@ -104,22 +112,35 @@ def runs_of(
     return Runs(question, run, companions, lost, history)
 
 
-def _kept(store: RunStore | None, question: Question, read: Reading, method: Method, impact: Impact) -> Run:
-    def compute() -> dict[str, Any]:
-        return vars(Run.of(question.run(method, impact), read))
+def kept(
+    store: RunStore | None, asked: Mapping[str, Any], method: Method, read: Reading, run: Callable[[], ImpactHistory]
+) -> Run:
+    """What ``read`` makes of ``run()``, or the same from ``store``.
 
+    asked : what the run depends on next to its ``method`` and the code of that, JSON-ready.
+    """
     if store is None:
-        return Run(**compute())
-    name = read.func.__name__ if isinstance(read, partial) else read.__name__
-    given = list(read.args) if isinstance(read, partial) else []
-    key = question.key(method, impact) | {"source": source_of(method), "read": [name, *given]}
-    return Run(**store.answer(key, compute))
+        return Run.of(run(), read)
+    computed = []
+
+    def compute() -> dict[str, Any]:
+        computed.append(Run.of(run(), read))
+        return vars(computed[0])
+
+    named, given = (read.func, read.args) if isinstance(read, partial) else (read, ())
+    settings = settings_of(method) | {"label": ""}
+    key = {**asked, "settings": settings, "source": source_of(method), "read": [named.__name__, *given]}
+    return replace(Run(**store.answer(key, compute)), kept=not computed)
+
+
+def _run(store: RunStore | None, question: Question, read: Reading, method: Method, impact: Impact) -> Run:
+    return kept(store, question.key(impact), method, read, lambda: question.run(method, impact))
 
 
 def _attempted(store: RunStore | None, question: Question, read: Reading, method: Method, impact: Impact) -> Run | str:
     """A companion: a coarser run may be too coarse, or its reason why there is none."""
     try:
-        return _kept(store, question, read, method, impact)
+        return _run(store, question, read, method, impact)
     except (SimulationError, ValueError) as error:
         return str(error)
 
@@ -149,12 +170,3 @@ def bands_of(runs: Runs, names: Sequence[str]) -> dict[str, Band | Number]:
     """Bands over all runs; a number without a value where one of them has none."""
     every = {name: [run.reading[name] for run in runs.every] for name in names}
     return {name: Number() if None in values else Band.of(values) for name, values in every.items()}
-
-
-def write_answer(found: Any, out: Path, name: str, drawable: bool = True) -> list[Path]:
-    """Document and figure of an answer in ``out``; returns the files."""
-    from comparison.figures import style
-
-    document = out / f"{name}.json"
-    write_atomically(document, json_text(found.to_dict(), indent=1) + "\n")
-    return [document, *(style.save(found.plot(), out, name) if drawable else [])]
