@@ -234,6 +234,16 @@ def test_ten_times_the_load_ends_validity_ten_times_earlier(ratio: float, loads:
     assert until(1e6) < until(0.0)
 
 
+@pytest.mark.parametrize(("name", "power"), [("alpha", 0), ("chi", 1), ("psi", 2), ("axial", -1)])
+def test_the_flatter_a_contact_the_earlier_a_load_that_bends_ends_validity_and_the_later_tension(
+    name: str, power: int
+) -> None:
+    """In proportion to κ^power, also where formulas of a contact of κ/ν = 0.003 stand for those of a flatter one."""
+    one, other = (predict(Impact.dimensionless(kappa, **{f"epsilon_{name}": 1e6}, length=1e12)).valid_until
+                  for kappa in (3.1e-3, 3e-4))  # fmt: skip
+    assert one / other == pytest.approx((3.1e-3 / 3e-4) ** power, rel=0.01)
+
+
 def test_bending_moment_and_stress() -> None:
     # κ/ν = 0.31: m = 0.712 ahead of the zone; a third of the bow is a set of stress beforehand
     plain = predict(PIPE, [0.0, 0.1])
