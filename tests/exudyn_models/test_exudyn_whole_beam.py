@@ -9,6 +9,7 @@ from bent_beam import Impact
 from bent_beam.free_flight import pushing
 from bent_beam.meshes import UniformMesh
 from exudyn_models import ExudynModel
+from exudyn_models.contacts import penalty
 
 PAGE = [  # κ/ν, η/T*, this path's number and the Hermite path's of the finest mesh
     (float(kappa), stated(damping.replace("10", "1e", 1))[0], stated(ours)[0], stated(theirs.split()[-1])[0])
@@ -78,3 +79,12 @@ def test_a_rocking_beam_is_the_mirror_image_of_one_rocking_the_other_way():
     assert right.array("total_impulse")[-1] == pytest.approx(left.array("total_impulse")[-1], rel=1e-6)
     assert right.array("gap")[-1, 0] != pytest.approx(right.array("gap")[-1, -1], rel=0.1)
     closes(right)
+
+
+def test_an_ensemble_has_penalties_from_a_quarter_of_the_usual_on_and_coarser_elements():
+    impact, random = Impact.whole_beam(2.0), np.random.default_rng(3)
+    drawn = [ExudynModel().varied(impact, random) for _ in range(20)]
+    shares = [one.contact.relative_stiffness / penalty.STIFFNESS for one in drawn]
+    assert 0.25 <= min(shares) < 0.5 < max(shares) <= 1.0
+    usual = ExudynModel().for_whole_beam(impact).mesh.element_length
+    assert all(usual < one.mesh.element_length < 3.0 * usual for one in drawn)
