@@ -32,7 +32,7 @@ from theory.validity import ENDS
 
 __all__ = ["Simulated", "comparable", "simulate_case"]
 
-BAND = "without damping of the beam its whole impact is a band, which bentbeam bounce gives; of one run there are no numbers"
+BAND = "without damping a whole impact is a band, which bentbeam bounce gives; one run has no number of it"
 
 
 @dataclass(frozen=True)
