@@ -136,7 +136,7 @@ def _document(found: Simulated, file: Path | None) -> dict[str, Any]:
         "model": impact.model,
         "velocity": impact.velocity,
         "symmetry": history.symmetry,
-        "settings": {name: value for name, value in history.settings.items() if name != "save"},  # thousands of instants
+        "settings": {name: one for name, one in history.settings.items() if name != "save"},  # thousands of instants
         "versions": history.versions,
         "steps": history.steps,
         "seconds": history.seconds,
