@@ -8,6 +8,7 @@ value is read (:func:`examine`).
 from __future__ import annotations
 
 import errno
+import hashlib
 import io
 import json
 import os
@@ -93,7 +94,7 @@ def write_dataset(dataset: xr.Dataset, file: Path) -> None:
     encoding = {v: {"compression": "gzip", "compression_opts": 1} for v in dataset.variables if dataset[v].ndim == 2}
     content = io.BytesIO()  # HDF5 itself does not survive a full disk: only finished bytes go there
     try:
-        dataset.to_netcdf(content, engine="h5netcdf", encoding=encoding)
+        dataset.assign_attrs(digest=_digest(dataset)).to_netcdf(content, engine="h5netcdf", encoding=encoding)
     except OSError as error:
         raise OSError(error.errno or errno.EIO, error.strerror or str(error), str(file)) from error
     write_atomically(file, content.getbuffer())
@@ -119,7 +120,21 @@ def read_dataset(file: Path) -> xr.Dataset:
         raise ValueError(f"{file} is not a readable history: {' '.join(str(error).split())}") from None
     for variable in dataset.variables.values():
         variable.attrs.pop("_FillValue", None)
+    if dataset.attrs.pop("digest", written := _digest(dataset)) != written:
+        raise ValueError(f"{file} is not what was written: damaged, or edited (then remove its attribute digest)")
     return dataset
+
+
+def _digest(dataset: xr.Dataset) -> str:
+    """Of all values and attributes: HDF5 has no sums of the bytes of a short variable, nor of its own headers."""
+    about = {str(name): str(np.asarray(value).tolist()) for name, value in dataset.attrs.items() if name != "digest"}
+    told = [sorted(about.items())]
+    content = hashlib.sha256()
+    for name, variable in sorted((str(name), variable) for name, variable in dataset.variables.items()):
+        told.append([(name, *map(str, (variable.dims, variable.dtype, variable.attrs.get("units"))))])
+        content.update(np.ascontiguousarray(variable.values).tobytes())
+    content.update(repr(told).encode())
+    return content.hexdigest()
 
 
 def examine(file: Path) -> None:

@@ -171,6 +171,18 @@ def test_a_history_that_would_be_misread_is_refused(name, history, tmp_path):
     assert re.search(r"bad\.nc is not a (good )?history", refusal(file))
 
 
+@pytest.mark.parametrize("part", ["total_impulse", "settings"])
+def test_one_bit_that_flips_in_a_number_is_seen(part, history, tmp_path):
+    """HDF5 itself reads both without a word."""
+    file = history.save(tmp_path / "flipped.nc")
+    content = bytearray(file.read_bytes())
+    digit = bytes(history.array(part)) if part in history else b'"end_time": 0.'
+    place = content.index(digit) + len(digit)
+    content[place - 3 if part in history else place] ^= 1
+    file.write_bytes(content)
+    assert "flipped.nc is not what was written" in refusal(file)
+
+
 CRAFTED = {
     "no such path": dict(path="../../etc"),
     "an unknown class": dict(mesh={"kind": "Popen", "args": ["true"]}),
