@@ -128,10 +128,10 @@ def read_dataset(file: Path) -> xr.Dataset:
 def _digest(dataset: xr.Dataset) -> str:
     """Of all values and attributes: HDF5 has no sums of the bytes of a short variable, nor of its own headers."""
     about = {str(name): str(np.asarray(value).tolist()) for name, value in dataset.attrs.items() if name != "digest"}
-    told = [sorted(about.items())]
+    told: list[Any] = [sorted(about.items())]
     content = hashlib.sha256()
     for name, variable in sorted((str(name), variable) for name, variable in dataset.variables.items()):
-        told.append([(name, *map(str, (variable.dims, variable.dtype, variable.attrs.get("units"))))])
+        told.append((name, variable.dims, str(variable.dtype), variable.attrs.get("units")))
         content.update(np.ascontiguousarray(variable.values).tobytes())
     content.update(repr(told).encode())
     return content.hexdigest()

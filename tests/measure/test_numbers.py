@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from bent_beam.measure.numbers import Band, Number
+from bent_beam.measure.numbers import Band, Number, number_of
 
 
 @pytest.mark.parametrize(
@@ -45,3 +45,8 @@ def test_a_power_of_ten_is_written_below_a_ten_thousandth_and_from_a_million_on(
     value: float, error: float, written: str
 ) -> None:
     assert str(Number(value, error)) == written
+
+
+def test_runs_that_agree_by_chance_give_no_finer_bar() -> None:
+    assert number_of(2.0, {"mesh_and_step": 2.0 + 1e-9}).bar == pytest.approx(2e-5)
+    assert number_of(2.0, {"mesh_and_step": 2.0}).bar == 0.0  # a count
