@@ -8,13 +8,14 @@ export OMP_NUM_THREADS := 1
 export OPENBLAS_NUM_THREADS := 1
 JOBS ?= 2
 
-.PHONY: help report test verify lint bench coverage stored fuzz docs gallery update lowest newest clean
+.PHONY: help report test verify lint bench coverage stored faults fuzz docs gallery update lowest newest clean
 
 help:
 	@echo "make report   match both simulations with the theory and write out/report/index.html"
 	@echo "make test     the test suite (about five minutes on two cores)"
 	@echo "make verify   longer checks; make fuzz: random input and kills; make bench: speed, as ratios"
 	@echo "make coverage do the error bars hold? methods drawn at random against the theory (SEED=N draws the same again)"
+	@echo "make faults   do the quick tests see broken lines? faults drawn at random, one at a time (SEED=N; hours)"
 	@echo "make stored   confirm stored numbers, or make them anew (RENEW=1: all of them)"
 	@echo "make lint     ruff and mypy; make docs: the guide in site/; make gallery: every figure of the thesis"
 	@echo "make update   renew the locked versions; make lowest, make newest: a quick suite on either end of the ranges"
@@ -56,6 +57,9 @@ coverage: $(STAMP)
 
 stored: $(STAMP)
 	$(BIN)/python -m benchmarks.stored --jobs $(JOBS) $(if $(RENEW),--renew)
+
+faults: $(STAMP)
+	$(BIN)/python -m benchmarks.faults $(if $(SEED),--seed $(SEED))
 
 lint: $(STAMP)
 	$(BIN)/ruff check .

@@ -1,12 +1,13 @@
 """The record of a run: finite, complete, written whole or not at all, read back equal."""
 
 import json
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from histories import history_of
 
-from bent_beam import ImpactHistory
+from bent_beam import Impact, ImpactHistory
 
 
 def small(**fields):
@@ -43,6 +44,16 @@ def test_a_failed_write_leaves_the_old_file(tmp_path, monkeypatch):
         small().save(file)
     assert file.read_bytes() == before
     assert [f.name for f in tmp_path.iterdir()] == ["run.nc"]
+
+
+def test_stress_is_that_of_bending_and_of_the_pull_along_the_beam():
+    """|M|/W + |N|/A of a beam of EI = 2 that is bent from K₀ = 3 to 2, and pulled or pressed."""
+    section, x = SimpleNamespace(area=4.0, section_modulus=0.5), np.array([[0.0, 0.5, 1.0, 2.0]])
+    for force in (10.0, -10.0):
+        impact = Impact(2.0, 1.0, 4.0, 3.0, 1.0, axial_force=force)
+        bare = history_of([0.0], x[0], impact=impact, gap=x**2, slope=-2.0 * x)
+        assert bare.stress is None
+        assert bare.described("", section).stress == pytest.approx(2.0 * (3.0 - 2.0) / 0.5 + 10.0 / 4.0)
 
 
 def test_numbers_that_are_none_are_refused():

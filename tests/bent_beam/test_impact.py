@@ -25,6 +25,7 @@ def test_groups_of_the_thesis_cases():
     impact = Impact(1.0, 1.0, 2.0, 0.35, 3.5, acceleration=700.0)
     assert impact.epsilon_alpha == pytest.approx(700 / 3.5**3)  # 16.3 in theory.md, section 7
     assert impact.alpha == pytest.approx(impact.epsilon_alpha / impact.epsilon)
+    assert Impact(3.0, 2.0, 2.0, 0.35, 3.5, axial_force=49.0).group("axial_force") == pytest.approx(2.0)  # N/(μV₀²)
 
 
 def test_the_free_motion_is_that_of_the_thesis_and_so_are_its_derivatives():

@@ -43,6 +43,18 @@ def test_a_square_mesh_gives_a_front_the_same_time_in_each_element_and_a_scale_f
     assert np.allclose(sizes[1:] / sizes[:-1], 1.02)
 
 
+@pytest.mark.parametrize(
+    "mesh",
+    [UniformMesh(0.01), GradedMesh(0.01, 1.04), SquareMesh(0.1, 2.0, 1.04), ScaleFreeMesh(0.01, 1.04, 0.1),
+     ScaleFreeMesh(0.01, 1.04, zone=0.3, growth_outside=1.08), NodesMesh((0.0, *np.geomspace(0.1, 4.0, 80)))],
+)  # fmt: skip
+def test_a_mesh_refined_by_two_has_elements_of_half_the_length_everywhere(mesh):
+    nodes, finer = mesh.nodes(4.0), mesh.refined(2.0).nodes(4.0)
+    places = np.linspace(0.2, 3.6, 40)  # not where elements are rescaled to fit
+    number = [np.interp(places, one, np.arange(one.size)) for one in (nodes, finer)]
+    assert np.gradient(number[1], places) == pytest.approx(2.0 * np.gradient(number[0], places), rel=0.05)
+
+
 def test_impossible_meshes_are_refused():
     kinds = [(UniformMesh, 0.0), (GradedMesh, 1.0, 0.9), (SquareMesh, 0.1, -1.0), (UniformMesh(1e-9).nodes, 1.0)]
     kinds += [(NodesMesh, places) for places in ((0.0, 1.0), (0.0, 2.0, 1.0), (0.5, 1.0, 2.0))]

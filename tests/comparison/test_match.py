@@ -1,13 +1,14 @@
 """The point of the project: any method is held against the theory, and those of this project agree with it."""
 
 import json
+from dataclasses import dataclass
 from itertools import product
 from pathlib import Path
 
 import pytest
 from strangers import Stranger
 
-from bent_beam import InputError
+from bent_beam import ImpactHistory, InputError
 from comparison.figures.matching import write_match
 from comparison.matching import answer, match
 from comparison.methods import methods_from_file, methods_of
@@ -153,6 +154,24 @@ def test_what_fails_outside_its_run_costs_its_row_too():
 def test_a_row_that_takes_longer_than_its_limit_is_a_failure():
     (row,) = match([MatchQuestion(HermiteFE(), 0.013)], limit=1e-9)
     assert row.reason == "time limit: not finished after 1e-09 s" and row.r0.value is None and not row.refused
+
+
+@dataclass(frozen=True)
+class Lifted(SelfSimilarFE):
+    """It throws its zone off the wall by so much of V₀t; that share of the push is doubtful, of r₁ twice as much."""
+
+    lift: float = 0.0
+
+    def simulate(self, impact, **asked):
+        data = super().simulate(impact, **asked).dataset
+        return ImpactHistory(data.assign(gap=data["gap"] + self.lift * impact.velocity * data["time"]))
+
+
+@pytest.mark.parametrize(("lift", "said"), [(0.04, ""), (0.05, "λ₀"), (0.08, "r₁ λ₀")])
+def test_bars_wider_than_2_percent_of_leading_and_10_of_first_order_are_a_warning(lift, said):
+    row = answer(MatchQuestion(Lifted(refine=0.5, lift=lift), 0.5, (4.0, 0.0, 0.0), error_bars="drift"), KEEP)
+    assert " ".join(w.split()[3] for w in row.warnings if w.startswith("wide error bar")) == said
+    assert ("λ₀" in said) == (row.r0.bar > 0.02 * row.r0.value) and ("r₁" in said) == (row.r1.bar > 0.1 * row.r1.value)
 
 
 def test_a_wall_that_gives_way_has_its_largest_force_in_the_row():

@@ -4,6 +4,7 @@ import json
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 from called import answered, refused
 from histories import ROD
@@ -12,10 +13,12 @@ from bent_beam import Impact
 from bent_beam.cases import Case, load_case
 from comparison.bouncing import bounce
 from comparison.predict_text import prediction_text
-from comparison.predicting import COMPARED, predict_case
+from comparison.predicting import CHECKED, COMPARED, predict_case
 from comparison.readable import number_from
 from hermite_fe import HermiteFE
 from hermite_fe.integrators import MoreauJean
+from theory import predict
+from theory.stopped_beam import StoppedBeam
 
 CASES = Path(__file__).resolve().parents[2] / "cases"
 K10 = str(CASES / "thesis_K10.toml")
@@ -56,6 +59,15 @@ def test_theory_and_simulation_agree_before_reflections(kappa: float, damping: f
     assert all(set(row["simulation"]) == set(COMPARED) - {"peak_stress"} for row in found["times"])
     assert found["agreement"]["from"] < 6e-4 and 1.9e-3 < found["agreement"]["until"] <= 4e-3
     assert told == sorted(told) and told[-1] == pytest.approx(1.0)
+
+
+def test_they_agree_as_long_as_the_theory_is_within_2_percent_of_the_stopped_beam() -> None:
+    impact, times = Impact.whole_beam(2.0, relative_damping=1e-3), np.geomspace(6.9e-4, 0.069, CHECKED)
+    theory = [row.impulse for row in predict(impact, times).times]
+    near = np.abs(theory / StoppedBeam(1e-3).impulse(times) - 1.0) < 0.02
+    assert not near.all()
+    agreement = predict_case(case_of(impact), [0.069], whole=False).agreement
+    assert agreement == pytest.approx({"from": times[0], "until": times[near][-1]})
 
 
 def test_a_beam_of_no_damping_keeps_waves_that_grid_viscosity_absorbs_and_its_bars_hold_them() -> None:

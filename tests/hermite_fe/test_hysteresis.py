@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from bent_beam import Impact
-from bent_beam.hysteresis import branches_of, first_mode
+from bent_beam.hysteresis import first_mode
 from bent_beam.measure.whole_impact import whole_impact
 from bent_beam.meshes import UniformMesh
 from exudyn_models import ExudynModel
@@ -32,25 +32,6 @@ def lossy(kappa: float, loss: float, times: float = 1.0, **more: object) -> Impa
 def modelled(impact: Impact, elements: int) -> BeamModel:
     nodes = UniformMesh(1.0 / elements).nodes(1.0)
     return beam_model(impact, nodes, NodeContact(), GridViscosity(viscosity=0.0), full=False)
-
-
-@pytest.mark.parametrize("loss", [1e-4, 0.1, 0.3, 1.0])
-@pytest.mark.parametrize("times", [0.01, 1.0, 3e4])
-def test_the_loss_is_constant_within_a_tenth_over_the_stated_range_and_modulus_and_loss_hold_where_they_are_asked_for(
-    loss: float, times: float
-) -> None:
-    impact = lossy(2.0, loss, times)
-    assert impact.loss_frequency is not None
-    branches = branches_of(impact)
-    assert branches is not None and np.all(branches.shares >= 0.0)
-    assert branches.lowest <= min(0.1 * first_mode(impact), impact.loss_frequency) * 1.000001
-    assert branches.highest >= 1e6 * first_mode(impact) and branches.times.size <= 20
-    at = 2.0 * math.pi * np.append(np.geomspace(branches.lowest, branches.highest, 997), impact.loss_frequency)
-    wt = at[:, None] * branches.times
-    storage = branches.relaxed * (1.0 + (branches.shares * wt**2 / (1.0 + wt**2)).sum(axis=1))
-    lost = branches.relaxed * (branches.shares * wt / (1.0 + wt**2)).sum(axis=1)
-    assert np.abs(lost / storage / loss - 1.0).max() < 0.1
-    assert storage[-1] == pytest.approx(1.0, rel=1e-6) and lost[-1] == pytest.approx(loss, rel=1e-3)
 
 
 def test_the_first_mode_swings_at_its_frequency_and_loses_in_each_period_what_is_asked_for() -> None:
@@ -120,33 +101,9 @@ def test_who_has_no_branches_refuses_by_field_and_value() -> None:
         HermiteFE(integrator=GeneralizedAlphaPenalty()).simulate(impact)
 
 
-@pytest.mark.parametrize(
-    ("change", "message"),
-    [
-        ({"loss_frequency": None}, r"loss_frequency must say where .* \(got None\)"),
-        ({"loss_frequency": 1e-9}, r"loss_frequency must say where .* \(got 1e-09\)"),
-        ({"hysteretic_loss": 0.0}, "loss_frequency has no effect without hysteretic_loss"),
-        ({"hysteretic_loss": 1.5}, r"hysteretic_loss .*1.5"),
-        ({"damping": 1e-3}, "damping = 0.001 and hysteretic_loss = 0.1"),
-        ({"fourth_derivative": 0.1}, r"fourth_derivative must be 0 with hysteretic_loss.*0.1"),
-    ],
-)
-def test_contradictions_are_named(change, message) -> None:
-    with pytest.raises(ValueError, match=message):
-        lossy(0.5, 0.1).replace(**change)
-
-
 @pytest.mark.verify
 def test_restitution_of_a_lossy_beam_that_touches_at_one_point() -> None:
     """κ/ν = 2, η = 0.1 at the first mode: 0.5736 on all meshes."""
     for elements in (50, 100):
         history = HermiteFE(mesh=UniformMesh(1.0 / elements)).simulate_to_separation(lossy(2.0, 0.1))
         assert whole_impact(history).restitution == pytest.approx(0.5735, abs=1e-3)
-
-
-def test_the_range_of_the_loss_reaches_the_first_instants_of_a_fast_impact() -> None:
-    """10⁴/t* where that is above 10⁶ of the first mode; the slow one has the latter."""
-    slow, fast = lossy(2.0, 0.1), lossy(2.0, 0.1).replace(velocity=100.0 * lossy(2.0, 0.1).velocity)
-    reached = [branches.highest for impact in (slow, fast) if (branches := branches_of(impact))]
-    assert reached == pytest.approx([1e6 * first_mode(slow), 1e4 / (2.0 * math.pi * fast.time_scale)])
-    assert reached[1] > 10.0 * reached[0]

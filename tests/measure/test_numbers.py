@@ -16,9 +16,15 @@ from bent_beam.measure.numbers import Band, Number, number_of
         (12345.0, 210.0, "12300 ± 200"),
         (3.25, 0.0, "3.25"),
         (math.nan, 0.1, "-"),
+        (2e-4, 1e-5, "0.00020 ± 0.00001"),
+        (2e-5, 1e-6, "(2.0 ± 0.1)e-05"),
+        (9e5, 1e5, "900000 ± 100000"),
+        (1e6, 1e5, "(1.0 ± 0.1)e+06"),
     ],
 )
-def test_a_number_has_the_digits_of_its_error_bar(value: float, error: float, written: str) -> None:
+def test_a_number_has_the_digits_of_its_error_bar_and_powers_of_ten_below_1e_4_and_from_1e6_on(
+    value: float, error: float, written: str
+) -> None:
     assert str(Number(value, error)) == written
 
 
@@ -32,19 +38,12 @@ def test_without_a_value_or_a_theory_there_is_no_difference(one: Number) -> None
     assert (one.difference, one.relative(), one.covered) == (None, None, None)
 
 
-@pytest.mark.parametrize(
-    ("value", "error", "written"),
-    [
-        (2e-4, 1e-5, "0.00020 ± 0.00001"),
-        (2e-5, 1e-6, "(2.0 ± 0.1)e-05"),
-        (9e5, 1e5, "900000 ± 100000"),
-        (1e6, 1e5, "(1.0 ± 0.1)e+06"),
-    ],
-)
-def test_a_power_of_ten_is_written_below_a_ten_thousandth_and_from_a_million_on(
-    value: float, error: float, written: str
-) -> None:
-    assert str(Number(value, error)) == written
+def test_a_bar_holds_the_error_of_a_run_of_first_order_and_is_at_most_twice_as_wide() -> None:
+    """2 + h: with twice the h a run changes by its error. Causes add up; what is known of an error counts as it is."""
+    found = number_of(2.1, {"mesh_and_step": 2.2})
+    assert 0.1 < found.bar < 0.2 and found.value == 2.1
+    assert number_of(2.1, {"mesh_and_step": 2.2, "law": 2.0}, {"drift": 3.0}).bar == pytest.approx(2 * found.bar + 3.0)
+    assert number_of(2.1, {"mesh_and_step": 2.2, "law": None}).bar is number_of(2.1, {}).bar is None
 
 
 def test_runs_that_agree_by_chance_give_no_finer_bar() -> None:

@@ -107,13 +107,19 @@ def test_a_beam_that_has_left_does_not_return_and_one_that_swings_as_wide_as_it_
     assert has_left(history)
     later = method.for_whole_beam(impact).simulate(impact, end_time=3.0, save=200)
     assert later.array("total_impulse")[-1] == pytest.approx(history.array("total_impulse")[-1], rel=1e-6)
-    impact, x = Impact.whole_beam(2.0), np.linspace(0.0, 1.0, 101)
-    flat, up = 0.5 * 2.0 * x**2, -0.5 * np.ones_like(x)
-    rigid, reach = 0.5 * 2.0 * 0.5**2, math.sqrt(2.0 * 0.1 * 8.0 / 105.0)
-    assert cannot_return(impact, x, flat + 1.01 * reach, up, rigid + 0.1)
-    assert not cannot_return(impact, x, flat + 0.99 * reach, up, rigid + 0.1)
-    assert not cannot_return(impact, x, flat + 1.01 * reach, -up, rigid + 0.1)
-    assert not cannot_return(impact.replace(acceleration=1.0), x, flat + 9.0, up, rigid)
+    x, u = np.linspace(0.0, 1.0, 101), np.linspace(0.0, 1.0, 2001)
+    flat, up, rigid = 0.5 * 2.0 * x**2, -0.5 * np.ones_like(x), 0.5 * 2.0 * 0.5**2
+    # unit force on an end, held by inertia: Q = 3u² − 2u, M = Lu²(u − 1), L = 2; what the end yields by
+    bends, shears = 8.0 * np.trapezoid((u**3 - u**2) ** 2, u), 2.0 * np.trapezoid((3.0 * u**2 - 2.0 * u) ** 2, u)
+    for impact, yields in (
+        (Impact.whole_beam(2.0), bends),
+        (Impact.whole_beam(2.0, shear_length=0.5), bends + 0.25 * shears),
+    ):
+        reach = math.sqrt(2.0 * 0.1 * yields)
+        assert cannot_return(impact, x, flat + 1.01 * reach, up, rigid + 0.1)
+        assert not cannot_return(impact, x, flat + 0.99 * reach, up, rigid + 0.1)
+        assert not cannot_return(impact, x, flat + 1.01 * reach, -up, rigid + 0.1)
+        assert not cannot_return(impact.replace(acceleration=1.0), x, flat + 9.0, up, rigid)
 
 
 def test_breaks_shorter_than_the_shortest_separation_are_none() -> None:

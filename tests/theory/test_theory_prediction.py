@@ -10,7 +10,7 @@ from scipy.special import erfinv
 
 from bent_beam import Impact
 from theory import contact_parameters, peak_moment, predict, validity
-from theory.stopped_beam import StoppedBeam
+from theory.stopped_beam import StoppedBeam, _cantilever
 
 PIPE = Impact(bending_stiffness=4.0e6, mass_per_length=29.0, length=2000.0, curvature=1.0 / 600.0, velocity=2.0)
 
@@ -168,6 +168,22 @@ def test_a_quartic_bow_sends_waves_from_its_ends() -> None:
     assert bare == small > some > large > 0.0
 
 
+def test_a_force_along_x_swings_the_reaction_by_two_per_cent_at_the_limit() -> None:
+    """It pushes each end across by NK. What the middle feels of a push is what the end moves less when the middle is
+    stopped (Betti), 1 − v(t) at speed 1, over the force of a stop, 2√(2/πt): by the modes of a cantilever."""
+    beam, pull = Impact.whole_beam(2.0), 0.4
+    until = predict(beam.replace(axial_force=pull)).valid_until
+    b, sigma = _cantilever(400)
+    end = 4.0 * sigma / b * (-1.0) ** np.arange(b.size) * np.exp(-5e-8 * b**4 * until)  # short waves die
+
+    def swing(time: float) -> float:
+        t = np.linspace(0.5 * time, time, 2000)
+        moved = np.cos(np.outer(t, b**2)) @ end
+        return float(np.max(2.0 * pull * beam.curvature * np.abs(1.0 - moved) / (2.0 * np.sqrt(2.0 / (np.pi * t)))))
+
+    assert swing(until) < 0.02 < swing(1.4 * until) and until < predict(beam).valid_until
+
+
 @pytest.mark.parametrize("damping", [1e-3, 1e-2])
 def test_an_acceleration_adds_its_share_of_the_impulse_to_a_damped_point(damping: float) -> None:
     """Duhamel: the answer to V₀ + a₀t is that to V₀ and a₀/V₀ times the integral of it over time."""
@@ -216,6 +232,16 @@ def test_ten_times_the_load_ends_validity_ten_times_earlier(ratio: float, loads:
 
     assert until(1e6) == pytest.approx(10.0 * until(1e7), rel=1e-6)
     assert until(1e6) < until(0.0)
+
+
+@pytest.mark.parametrize(("name", "power"), [("alpha", 0), ("chi", 1), ("psi", 2), ("axial", -1)])
+def test_the_flatter_a_contact_the_earlier_a_load_that_bends_ends_validity_and_the_later_tension(
+    name: str, power: int
+) -> None:
+    """In proportion to κ^power, also where formulas of a contact of κ/ν = 0.003 stand for those of a flatter one."""
+    one, other = (predict(Impact.dimensionless(kappa, **{f"epsilon_{name}": 1e6}, length=1e12)).valid_until
+                  for kappa in (3.1e-3, 3e-4))  # fmt: skip
+    assert one / other == pytest.approx((3.1e-3 / 3e-4) ** power, rel=0.01)
 
 
 def test_bending_moment_and_stress() -> None:

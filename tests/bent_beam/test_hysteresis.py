@@ -1,0 +1,58 @@
+"""hysteretic_loss: a material whose loss hardly depends on the frequency, by Maxwell branches."""
+
+import math
+
+import numpy as np
+import pytest
+
+from bent_beam import Impact
+from bent_beam.hysteresis import branches_of, first_mode
+
+
+def lossy(loss: float, times: float = 1.0) -> Impact:
+    """The free–free beam in units of its half length, its loss stated at ``times`` the first mode."""
+    beam = Impact.whole_beam(2.0)
+    return beam.replace(hysteretic_loss=loss, loss_frequency=times * first_mode(beam))
+
+
+@pytest.mark.parametrize("loss", [1e-4, 0.1, 0.3, 1.0])
+@pytest.mark.parametrize("times", [0.01, 1.0, 3e4])
+def test_the_loss_is_constant_within_a_tenth_over_the_stated_range_and_modulus_and_loss_hold_where_they_are_asked_for(
+    loss: float, times: float
+) -> None:
+    impact = lossy(loss, times)
+    assert impact.loss_frequency is not None
+    branches = branches_of(impact)
+    assert branches is not None and np.all(branches.shares >= 0.0)
+    assert branches.lowest <= min(0.1 * first_mode(impact), impact.loss_frequency) * 1.000001
+    assert branches.highest >= 1e6 * first_mode(impact) and branches.times.size <= 20
+    at = 2.0 * math.pi * np.append(np.geomspace(branches.lowest, branches.highest, 997), impact.loss_frequency)
+    wt = at[:, None] * branches.times
+    storage = branches.relaxed * (1.0 + (branches.shares * wt**2 / (1.0 + wt**2)).sum(axis=1))
+    lost = branches.relaxed * (branches.shares * wt / (1.0 + wt**2)).sum(axis=1)
+    assert np.abs(lost / storage / loss - 1.0).max() < 0.1
+    assert storage[-1] == pytest.approx(1.0, rel=1e-6) and lost[-1] == pytest.approx(loss, rel=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ({"loss_frequency": None}, r"loss_frequency must say where .* \(got None\)"),
+        ({"loss_frequency": 1e-9}, r"loss_frequency must say where .* \(got 1e-09\)"),
+        ({"hysteretic_loss": 0.0}, "loss_frequency has no effect without hysteretic_loss"),
+        ({"hysteretic_loss": 1.5}, r"hysteretic_loss .*1.5"),
+        ({"damping": 1e-3}, "damping = 0.001 and hysteretic_loss = 0.1"),
+        ({"fourth_derivative": 0.1}, r"fourth_derivative must be 0 with hysteretic_loss.*0.1"),
+    ],
+)
+def test_contradictions_are_named(change, message) -> None:
+    with pytest.raises(ValueError, match=message):
+        lossy(0.1).replace(**change)
+
+
+def test_the_range_of_the_loss_reaches_the_first_instants_of_a_fast_impact() -> None:
+    """10⁴/t* where that is above 10⁶ of the first mode; the slow one has the latter."""
+    slow, fast = lossy(0.1), lossy(0.1).replace(velocity=100.0 * lossy(0.1).velocity)
+    reached = [branches.highest for impact in (slow, fast) if (branches := branches_of(impact))]
+    assert reached == pytest.approx([1e6 * first_mode(slow), 1e4 / (2.0 * math.pi * fast.time_scale)])
+    assert reached[1] > 10.0 * reached[0]
