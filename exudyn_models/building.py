@@ -111,9 +111,10 @@ def build(
 
 
 def _refused(method: ExudynModel) -> str | None:
-    contact, grows = method.contact, getattr(method.integrator, "relative_step", None)
-    if grows is not None:
-        return f"exudyn.integrator.relative_step: steps of build are equal, give time_step (got {grows!r})"
+    contact = method.contact
+    for name in ("relative_step", "flight_step"):
+        if (grows := getattr(method.integrator, name, None)) is not None:
+            return f"exudyn.integrator.{name}: steps of build are equal, give time_step (got {grows!r})"
     if isinstance(contact, Rigid):
         return "exudyn.contact.kind rigid is switched between steps: use simulate, or take penalty to build"
     if isinstance(contact, Penalty) and (contact.hold or contact.hold_start):

@@ -133,7 +133,7 @@ class Integrator(Part, ABC):
 
     def refined(self, factor: float) -> Integrator:
         """A copy with steps ``factor`` times shorter; what is not chosen yet stays open."""
-        steps = {name: getattr(self, name, None) for name in ("time_step", "relative_step")}
+        steps = {name: getattr(self, name, None) for name in ("time_step", "relative_step", "flight_step")}
         return dataclasses.replace(self, **{name: step / factor for name, step in steps.items() if step is not None})
 
     def averages(self) -> Averages:
@@ -166,6 +166,17 @@ class Implicit(Integrator):
     relative_step: Annotated[
         float | None, Quantity("", "h/t, where steps grow", above=0.0, absent="2e-3 (generalized_alpha: 8e-3) or less")
     ] = None
+    flight_step: Annotated[
+        float | None, Quantity("s", "longest step of a beam off the wall", above=0.0, absent="time_step")
+    ] = None
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if self.flight_step is not None and self.flight_step < (self.time_step or math.inf):
+            raise InputError(
+                f"exudyn.integrator.flight_step must be as long as a time_step that is given, at least (got "
+                f"{self.flight_step!r} and {self.time_step!r})"
+            )
 
     def with_steps(self) -> Self:
         is_open = self.time_step is None and self.relative_step is None

@@ -225,11 +225,12 @@ class Beam(ABC):
 
     def strain_energy(self, q: Array) -> Array:
         """What the beam holds but for :meth:`stretch_energy`."""
-        return self.bending_energy(q) + self.axial_energy(q) - self.stretch_energy(q)
+        bending = self.bending_energy(q)
+        return bending if self.section.axial_force else bending + self.axial_energy(q)
 
     def stretch_energy(self, q: Array) -> Array:
         """What an axial force keeps in the beam that it stretches, the same along all of it; 0 without one."""
-        return self.axial_energy(q) * (self.section.axial_force != 0.0)
+        return self.axial_energy(q) if self.section.axial_force else np.zeros(q.shape[:-1])
 
     @abstractmethod
     def element_matrices(self) -> tuple[Array, Array, Array]:
