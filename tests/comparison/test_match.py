@@ -82,10 +82,11 @@ FIRST_ORDER = [  # kappas, loads, method, error bars, share of max(|theory|, 1)
     ],
 )
 def test_every_path_matches_the_first_order(method, kappa, first, error_bars, limit):
+    """The self-similar path's bars hold it, too, but for κ/ν = 0.1, whose front is thin."""
     row = answer(MatchQuestion(method, kappa, first, error_bars=error_bars), KEEP)
-    for number in (row.lambda1, row.r1):
-        assert off(number, 1.0) < limit
-        assert number.covered or not isinstance(method, SelfSimilarFE) or kappa == 0.1
+    assert off(row.lambda1, 1.0) < limit and off(row.r1, 1.0) < limit
+    if isinstance(method, SelfSimilarFE) and kappa > 0.1:
+        assert row.lambda1.covered and row.r1.covered
 
 
 @pytest.mark.verify

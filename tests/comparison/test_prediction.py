@@ -90,10 +90,10 @@ def test_predict_and_bounce_give_a_rod_s_whole_impact_to_the_last_digit(tmp_path
         whole, si = document["whole_impact"], other["si"]
         assert whole["restitution"] == other["restitution"]
         assert {**whole["peak_stress"], "unit": "Pa"} == other["peak_stress"]
-        for name in ("peak_moment", "last_contact"):
+        rigid = "gravity" in one
+        assert (whole["peak_force"] is None) == rigid
+        for name in ("peak_moment", "last_contact") if rigid else ("peak_moment", "last_contact", "peak_force"):
             assert whole[name].items() <= si[name].items()
-        assert (whole["peak_force"] is None) == ("gravity" in one)
-        assert whole["peak_force"] is None or whole["peak_force"].items() <= si["peak_force"].items()
         assert whole["span"] == other["span"] and whole["span"][1] > 2.0 * whole["last_contact"]["value"]
         assert json.loads(json.dumps(document, allow_nan=False)) == document
 

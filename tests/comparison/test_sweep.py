@@ -32,8 +32,8 @@ def test_rows_are_the_numbers_of_bounce_and_are_kept(case, tmp_path, monkeypatch
     row = found["rows"][-1]
     for name in NAMES:
         of_bounce = whole["si"].get(name) or whole.get(name)
-        assert (row[name] is None) == (of_bounce is None)
-        assert row[name] is None or (row[name]["value"], row[name]["error"]) == (of_bounce["value"], of_bounce["error"])
+        both = [number and (number["value"], number["error"]) for number in (row[name], of_bounce)]
+        assert both[0] == both[1], name
     grid = xarray.open_dataset(tmp_path / "out" / "sweep.nc", engine="h5netcdf")
     assert float(grid["restitution"].sel(row["varied"])) == row["restitution"]["value"]
     lines = (tmp_path / "out" / "sweep.csv").read_text().splitlines()

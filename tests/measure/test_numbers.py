@@ -38,6 +38,14 @@ def test_without_a_value_or_a_theory_there_is_no_difference(one: Number) -> None
     assert (one.difference, one.relative(), one.covered) == (None, None, None)
 
 
+def test_a_difference_is_a_share_of_the_theory_or_of_the_least_size_that_counts() -> None:
+    small = Number(0.05, 0.02, 0.04)
+    assert (small.relative(), small.relative_bar()) == pytest.approx((0.25, 0.5))
+    assert (small.relative(1.0), small.relative_bar(1.0)) == pytest.approx((0.01, 0.02))
+    assert Number(0.05, 0.02, 0.0).relative() == 0.05
+    assert (small.covered, Number(0.05, 0.005, 0.04).covered) == (True, False)
+
+
 def test_a_bar_holds_the_error_of_a_run_of_first_order_and_is_at_most_twice_as_wide() -> None:
     """2 + h: with twice the h a run changes by its error. Causes add up; what is known of an error counts as it is."""
     found = number_of(2.1, {"mesh_and_step": 2.2})

@@ -11,7 +11,7 @@ from bent_beam.cases import load_case
 from bent_beam.free_flight import cannot_return, has_left
 from bent_beam.history import ImpactHistory
 from bent_beam.impact import Impact
-from bent_beam.measure.whole_impact import hits, pushes, whole_impact
+from bent_beam.measure.whole_impact import hits, peak_times, pushes, whole_impact
 from bent_beam.meshes import UniformMesh
 from bent_beam.method import for_whole_beam, method_from_tables
 from hermite_fe import HermiteFE
@@ -197,3 +197,6 @@ def test_the_largest_force_is_told_in_half_the_beams_momentum_a_period() -> None
     peaks = dict.fromkeys(("peak_force", "peak_force_time", "peak_penetration", "peak_pressure"), ("time", steady))
     assert whole_impact(run).peak_force is None
     assert whole_impact(ImpactHistory(run.dataset.assign(peaks))).peak_force == pytest.approx(5.8)
+    slow = Impact(2.0, 8.0, 6.0, 0.1, 1.0)  # ℓ = 3 m, T* = 18 s
+    told = dataclasses.replace(whole_impact(run), peak_force_time=0.5, peak_force_place=0.25, push_time=0.125)
+    assert list(peak_times(told, slow).values()) == pytest.approx([9.0, 0.75, 2.25, 0.18])

@@ -5,6 +5,8 @@ import subprocess
 import sys
 from pathlib import Path
 
+import pytest
+
 from bent_beam_programs.open_benchmark.adapter import chosen_adapters
 from bent_beam_programs.open_benchmark.campaign import campaign
 from bent_beam_programs.open_benchmark.reading import load_result
@@ -38,7 +40,7 @@ def test_the_sixty_lines_converge(tmp_path):
 def test_a_table_is_scored(tmp_path):
     subprocess.run([sys.executable, "-c", snippet("from_table.py")], cwd=tmp_path, check=True)
     found = score(load_result(tmp_path / "result.csv"))
-    assert found.outcome == "completed" and abs(found.error("r0") or 1.0) < 1e-9
+    assert found.outcome == "completed" and found.error("r0") == pytest.approx(0.0, abs=1e-9)
 
 
 def test_capturing_steps_use_up_their_repetitions_and_do_not_with_the_fix():

@@ -60,7 +60,7 @@ def refusal(file):
 def test_the_exact_impulse_and_moment_give_lambda0_and_r0_to_rounding(tmp_path, kappa):
     found = score(load_result(written(tmp_path, **exact_fields(kappa))))
     assert found.outcome == "completed"
-    assert abs(found.error("lambda0") or 1.0) < 1e-9 and abs(found.error("r0") or 1.0) < 1e-9
+    assert found.error("lambda0") == pytest.approx(0.0, abs=1e-9) and found.error("r0") == pytest.approx(0.0, abs=1e-9)
 
 
 def test_a_result_that_is_written_as_csv_scores_the_same_bits(tmp_path):
@@ -176,7 +176,7 @@ def test_first_order_numbers_need_the_base_they_belong_to():
     moment = change * (exact.r0 * exact.lambda1 + exact.r1 * exact.lambda0) / 2.0 + load * exact.lambda0**2 / 4.0
     loaded = Result("completed", "", asked, {}, TAU, impulse, fields["Jm"] + moment * TAU**2)
     found = score(loaded, base)
-    assert abs(found.error("lambda1") or 1.0) < 1e-4 and abs(found.error("r1") or 1.0) < 1e-4
+    assert found.error("lambda1") == pytest.approx(0.0, abs=1e-4) and found.error("r1") == pytest.approx(0.0, abs=1e-4)
     assert score(loaded).measured == {}
     with pytest.raises(ResultError, match="is not the base"):
         score(loaded, loaded)

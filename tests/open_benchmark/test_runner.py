@@ -147,7 +147,7 @@ def test_one_bad_adapter_is_a_row_and_only_what_changed_is_run_again(tmp_path, m
     assert (tmp_path / "log").read_text().split() == ["coarse"], "the second ran nothing again"
     assert [r.score.outcome for r in rows] == ["crashed", "not_installed", "completed"]
     assert rows[1].score.reason == "bentbeam benchmark --install none"
-    assert abs(rows[-1].score.error("r0") or 1.0) < 1e-9
+    assert rows[-1].score.error("r0") == pytest.approx(0.0, abs=1e-9)
     page = write_page(rows, [bad, none, fine], tmp_path / "out").read_text()
     assert page.count("<svg") == 1 and "cannot" in page and "not installed" in page
     adapter(tmp_path, "good", GOOD + "# better")
@@ -204,7 +204,7 @@ def test_only_nodal_histories_and_gaps_of_drawn_problems_stand_in_the_table_of_r
         ("declared", False): "no nodal histories or no gaps",
     }
     ran = next(row for row in rows if not row.declared_because)
-    assert abs(ran.score.error("r0") or 1.0) < 0.01 and ran.repeats == 2
+    assert ran.score.error("r0") == pytest.approx(0.0, abs=0.01) and ran.repeats == 2
     assert len(ran.made_by["source"]) == 64 and "numpy" in ran.made_by["packages"]
     page = write_page([ran, rows[-1]], adapters, tmp_path / "out").read_text()
     run_table, declared_table = page[page.index('id="run-here"') :].split('id="self-declared"')
@@ -260,7 +260,7 @@ def test_two_ways_give_one_largest_force(tmp_path, name):
     """The theory's, by a Volterra equation or modes, and that of Hermite elements as an adapter."""
     run_adapter(shipped_adapters()["hermite"], problem(name), "coarse", tmp_path / "r.npz", Limits(repeats=1))
     found = score(load_result(tmp_path / "r.npz"))
-    assert abs(found.error("peak_force") or 1.0) < 2e-4 and found.outcome == "completed"
+    assert found.error("peak_force") == pytest.approx(0.0, abs=2e-4) and found.outcome == "completed"
 
 
 def test_the_table_of_errors_has_a_line_for_each_code_a_column_for_each_problem_and_an_error_in_its_own_cell():

@@ -78,7 +78,8 @@ def test_a_wall_counts_as_rigid_once_impulse_and_force_are_within_2_percent(rati
     found = settled(ratio, damping, end, cells=40, steps=500)
     claimed = wall_prediction._rigid_from(ratio, damping, contact_parameters(ratio).lambda0)
     assert found["impulse"] < found["force"] < claimed
-    assert ratio < 1.0 or claimed < 1.2 * found["force"]
+    if ratio >= 1.0:
+        assert claimed < 1.2 * found["force"]
 
 
 def test_the_place_of_the_force_of_a_short_zone_is_the_last_to_come_back() -> None:
