@@ -32,7 +32,6 @@ from math import comb
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.optimize import brentq
 
 from theory import damped_point
 from theory._fresnel import FloatArray
@@ -129,6 +128,8 @@ def early_zone(kappa_over_nu: float, time: float) -> tuple[float, float, float]:
 
 def rim(kappa_over_nu: float, lambda0: float, time: float) -> float:
     """X, l_s, long after t_c, t_s: the half length of the zone, κ/ν of any size."""
+    from scipy.optimize import brentq  # slow to load
+
     gap = lambda0 * np.sqrt(time) if kappa_over_nu < 1.0 else (1.0 - kappa_over_nu) * np.sqrt(0.5 * np.pi * time)
     return float(brentq(lambda x: x - 1.0 / np.tanh(x) - gap, 1e-3 / (1.0 + abs(gap)), 2.0 + abs(gap), xtol=1e-14))
 

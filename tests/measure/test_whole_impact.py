@@ -190,4 +190,4 @@ def test_the_largest_force_is_told_in_half_the_beams_momentum_a_period() -> None
     run, steady = pushed_until(0.3), np.full(41, 5.8)
     peaks = dict.fromkeys(("peak_force", "peak_force_time", "peak_penetration", "peak_pressure"), ("time", steady))
     assert whole_impact(run).peak_force is None
-    assert whole_impact(ImpactHistory(run.dataset.assign(peaks))).peak_force == pytest.approx(5.8)
+    assert whole_impact(ImpactHistory.of(run.dataset.assign(peaks))).peak_force == pytest.approx(5.8)
