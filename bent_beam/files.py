@@ -16,6 +16,7 @@ import re
 import secrets
 import unicodedata
 import warnings
+from collections.abc import Mapping
 from math import prod
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -193,12 +194,14 @@ def _check_attributes(thing: Any, name: str) -> None:
 
 
 # what a history holds -------------------------------------------------------------------------------------
-def check_variables(dataset: xr.Dataset) -> None:
+def check_variables(variables: Mapping[str, Any]) -> None:
     """Raise ``ValueError`` for a variable that is not what a history holds: dimensions, units, order and size of its
     values."""
-    for name, variable in ((str(label), one) for label, one in dataset.variables.items()):
-        if variable.dtype.kind not in "fiub":
-            raise ValueError(f"{name} must hold numbers (got {variable.dtype})")
+    places = [variables[name] for name in ("time", "x", "contact_x")]
+    sizes = {dimension: size for one in places for dimension, size in zip(one.dims, one.values.shape)}
+    for name, variable in variables.items():
+        if variable.values.dtype.kind not in "fiub":
+            raise ValueError(f"{name} must hold numbers (got {variable.values.dtype})")
         expected, unit = DIMENSIONS.get(name), UNITS.get(name, "")
         unknown = expected is None and set(variable.dims) <= {"time", "x", "contact"}
         if not unknown and variable.dims != expected:
@@ -206,21 +209,24 @@ def check_variables(dataset: xr.Dataset) -> None:
             raise ValueError(f"{name} must have dimensions {asked} (got {got})")
         if not unknown and variable.attrs.get("units", "") != unit:
             raise ValueError(f"{name} must be in {unit or 'no unit'} (got {variable.attrs.get('units')!r})")
+        shape = tuple(sizes[dimension] for dimension in variable.dims)
+        if variable.values.shape != shape:
+            raise ValueError(f"{name} must have shape {shape} (got {variable.values.shape})")
         if not np.isfinite(variable.values).all():
             raise ValueError(f"{name} is not finite")
         if np.abs(variable.values.astype(float)).max(initial=0.0) > LARGEST_VALUE:
             raise ValueError(f"{name} must not exceed {LARGEST_VALUE:g}")
-    if dataset.sizes["time"] < 1 or dataset.sizes["x"] < 1 or dataset["time"].values[0] < 0.0:
+    if sizes["time"] < 1 or sizes["x"] < 1 or variables["time"].values[0] < 0.0:
         raise ValueError("time must hold instants from 0 on, and x at least one node")
     for name in ("time", "x", "position"):
-        if name in dataset.variables and np.any(np.diff(dataset[name].values) <= 0.0):
+        if name in variables and np.any(np.diff(variables[name].values) <= 0.0):
             raise ValueError(f"{name} must increase")
 
 
 def check_contents(history: Any) -> None:
     """Raise when an attribute or a variable of a stored history is not what it holds: numbers and JSON, nothing
     else."""
-    attributes, variables = history.attrs, history.dataset.variables
+    attributes, variables = history.attrs, history.variables
     for name in ("impact", "settings", "versions", "warnings", "path", "symmetry"):
         if not isinstance(attributes[name], str):
             raise TypeError(f"attribute {name} must be text")
@@ -237,8 +243,8 @@ def check_contents(history: Any) -> None:
     one_of("attribute symmetry", attributes["symmetry"], ("half", "full"))
     _ = history.impact, history.steps, history.completed
     for required in REQUIRED:
-        _ = variables[required]  # the dataset itself makes coordinates up
-    check_variables(history.dataset)
+        _ = variables[required]
+    check_variables(variables)
     finite("attribute seconds", history.seconds)
     places = history.positions(0)
     beyond = np.abs([places[0], places[-1]]).max() > history.impact.half_length * (1.0 + 1e-6)

@@ -196,7 +196,7 @@ def test_the_largest_force_is_told_in_half_the_beams_momentum_a_period() -> None
     run, steady = pushed_until(0.3), np.full(41, 5.8)
     peaks = dict.fromkeys(("peak_force", "peak_force_time", "peak_penetration", "peak_pressure"), ("time", steady))
     assert whole_impact(run).peak_force is None
-    assert whole_impact(ImpactHistory(run.dataset.assign(peaks))).peak_force == pytest.approx(5.8)
+    assert whole_impact(ImpactHistory.of(run.dataset.assign(peaks))).peak_force == pytest.approx(5.8)
     slow = Impact(2.0, 8.0, 6.0, 0.1, 1.0)  # ℓ = 3 m, T* = 18 s
     told = dataclasses.replace(whole_impact(run), peak_force_time=0.5, peak_force_place=0.25, push_time=0.125)
     assert list(peak_times(told, slow).values()) == pytest.approx([9.0, 0.75, 2.25, 0.18])
