@@ -34,9 +34,10 @@ from exudyn_models.assembly import Chosen, Layout, assemble, lay_out, stable_ste
 from exudyn_models.contacts import ContactRun, Penalty, Rigid
 from exudyn_models.elements import Beam
 from exudyn_models.geometry import Array, Scaling, Units, supports_or_plate
-from exudyn_models.integrators import Implicit, Segment
+from exudyn_models.integrators import Implicit
 from exudyn_models.method import ExudynModel
 from exudyn_models.resolution import GROWTH_OF_WAVES, chosen_half_length, lasts_until_waves_return
+from exudyn_models.segments import Segment
 
 __all__ = ["Built", "build"]
 

@@ -18,8 +18,8 @@ from bent_beam.checks import affordable
 from bent_beam.errors import InputError
 from exudyn_models.assembly import Chosen, Layout, assemble, stable_step
 from exudyn_models.geometry import Array
-from exudyn_models.integrators import Segment
 from exudyn_models.recording import Recorder
+from exudyn_models.segments import Segment
 from exudyn_models.settling import ANY, Settling
 from exudyn_models.solvers import open_viewer, wait_until_closed
 
