@@ -79,7 +79,6 @@ class Recorder:
         # what the bow has been bent by before the first touch
         self.unbent = 0.0 if natural is None else (natural - impact.curvature) * scaling.length / scaling.slope
         self.loads = beam.loads()
-        self.damping = dict(zip(("loss_viscous", "loss_material"), beam.damping_matrices()))
         self.upward = np.zeros(self.beam.mass.shape[0])
         self.upward[beam.vertical] = 1.0  # the shape functions of deflections add up to one
         self.momentum = np.asarray(self.beam.mass @ self.upward)  # along y, of velocities
@@ -189,12 +188,13 @@ class Recorder:
         """Work of the loads, their impulse and the losses in each step, each (steps,)."""
         moved, inertia = np.diff(q, axis=0), (self.beam.mass @ a.T).T
         kinetic, load = self.beam.kinetic_energy(v), means(self.loads(time))
-        mean_v = means(v)
+        viscous, material = self.beam.damping_work(q, v)
         return {
             "loss_algorithmic": (products(moved, inertia[1:]) + products(moved, inertia[:-1])) / 2 - np.diff(kinetic),
             "work_of_loads": products(moved, load),
             "load_impulse": load @ self.upward * np.diff(time),
-            **{name: products(mean_v, (matrix @ moved.T).T) for name, matrix in self.damping.items()},
+            "loss_viscous": viscous,
+            "loss_material": material,
         }
 
     def _of_contact(self, time: Array, q: Array, v: Array, force: Array, along: Array) -> dict[str, Array]:

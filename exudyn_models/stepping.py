@@ -18,8 +18,8 @@ from bent_beam.checks import affordable
 from bent_beam.errors import InputError
 from exudyn_models.assembly import Chosen, Layout, assemble, stable_step
 from exudyn_models.geometry import Array
-from exudyn_models.integrators import Segment
 from exudyn_models.recording import Recorder
+from exudyn_models.segments import Segment
 from exudyn_models.settling import ANY, Settling
 from exudyn_models.solvers import open_viewer, wait_until_closed
 
@@ -84,7 +84,8 @@ class Stepping:
         if until is not None:  # most beams have left after a T*
             steps = round(steps * min(1.0, scaling.impact.slow_time_scale / scaling.end_time))
         if (expected := SECONDS * steps * nodes) > LONG:
-            LOG.warning("about %.2g minutes: %d steps of %d nodes", expected / 60.0, steps, nodes)
+            so_long = "up to" if self.flight else "about"
+            LOG.warning("%s %.2g minutes: %d steps of %d nodes", so_long, expected / 60.0, steps, nodes)
         round_off = max(contact.round_off, beam.round_off(scaling.amplitude))
         self.settings = chosen.solver.settings(scaling.amplitude, round_off, beam.axial_round_off())
         integrator.configure(self.settings)

@@ -180,12 +180,20 @@ class Beam(ABC):
         """Of one state, or of each of several, v (states, coordinates)."""
         return np.asarray((v * (self.mass @ v.T).T).sum(axis=-1) / 2)
 
-    def damping_matrices(self) -> tuple[Matrix, Matrix]:
-        """Of the system, by the viscosity at grid scale and by that of the material."""
+    @cached_property
+    def _damping(self) -> tuple[Matrix, Matrix]:
+        """Matrices of the system, of the viscosity at grid scale and of the material's."""
         _, _, damped = self.element_matrices()
         grid, material = self.grid_viscosity[:, None, None] * damped, self.section.damping * damped
         where = self.vertical, self.rotation
         return self._assembled(grid, *where), self._assembled(material, *where)
+
+    def damping_work(self, q: Array, v: Array) -> tuple[Array, Array]:
+        """What the viscosity at grid scale and that of the material take between neighbouring rows, each (rows − 1,);
+        here for small slopes."""
+        moved, mean = np.diff(q, axis=0), (v[1:] + v[:-1]) / 2
+        grid, material = ((mean * (matrix @ moved.T).T).sum(axis=1) for matrix in self._damping)
+        return grid, material
 
     def locate(self) -> None:
         """After ``mbs.Assemble()``: where the coordinates stand in the system's vectors."""
