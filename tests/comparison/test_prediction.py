@@ -12,7 +12,8 @@ from histories import ROD
 from bent_beam import Impact
 from bent_beam.cases import Case, load_case
 from comparison.bouncing import bounce
-from comparison.predict_text import prediction_text
+from comparison.doubts import doubts
+from comparison.predict_text import prediction_text, wall_lines
 from comparison.predicting import CHECKED, COMPARED, predict_case
 from comparison.readable import number_from
 from hermite_fe import HermiteFE
@@ -123,6 +124,19 @@ def test_a_damping_that_is_not_stated_is_answered_over_three_and_one_that_is_sta
     assert any("no damping is stated" in warning for warning in found["warnings"])
     stated = answered(*asked, "--set", "beam.damping_ratio=0.002")
     assert stated["over_damping"] is None and stated["restitution"] == rows[1]["restitution"]
+
+
+def test_a_pull_as_large_as_the_buckling_load_leaves_half_of_a_bow_and_a_tenth_of_it_is_not_worth_a_word() -> None:
+    """A half sine of height b rests at b/(1 + NL²/(π²EI))."""
+    said = {share: doubts(Impact(4.0, 1.0, 2.0, 0.1, 1.0, axial_force=share * np.pi**2), None) for share in (1.0, 0.09)}
+    assert "(at rest to about 50 % of its height)" in said[1.0][0] and said[0.09] == []
+
+
+def test_text_names_the_force_on_a_wall_that_gives_way_and_what_makes_the_beam_another() -> None:
+    impact = Impact(1.2e6, 29.0, 4.0, 0.002, 2.0, wall_stiffness=2e8)
+    lines = wall_lines(predict(impact).to_dict())
+    assert "kN" in lines[0] and "ends" in lines[-1]
+    assert wall_lines(predict(impact.replace(wall_stiffness=None)).to_dict()) == []
 
 
 def test_theory_only_simulates_nothing(monkeypatch: pytest.MonkeyPatch) -> None:

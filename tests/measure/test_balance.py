@@ -32,6 +32,7 @@ def test_a_run_keeps_its_momentum_and_a_falsified_impulse_energy_or_gap_shows_in
     less = balance_of(ImpactHistory.of(data.assign(kinetic_energy=0.97 * data["kinetic_energy"])))
     assert less.initial_energy == pytest.approx(-0.03, abs=1e-9) and "mass is missing" in less.warnings[0]
     assert balance_of(ImpactHistory.of(data.assign(gap=data["gap"] + 0.01))).gap_of_push > 0.03
+    assert balance_of(ImpactHistory.of(data.isel(time=slice(2, None)))).initial_energy is None
     in_wall = balance_of(ImpactHistory.of(data.assign(gap=data["gap"] - 0.01)))
     assert in_wall.penetration > 0.03 and any("in the wall" in line for line in in_wall.warnings)
     if "acceleration" in loads:

@@ -123,6 +123,8 @@ def test_first_order_is_recovered_with_and_without_uniform_reaction(first):
     assert found.r1.value == pytest.approx(exact.r1, abs=0.01 * max(abs(exact.r1), 1.0))
     assert found.lambda1.value == pytest.approx(exact.lambda1, abs=0.02 * max(abs(exact.lambda1), 1.0))
     assert found.uniform_reaction == pytest.approx(max(first[0] + first[1], 0.0), abs=0.02)
+    assert found.r1.parts["least"] == pytest.approx(2e-3 * max(abs(found.r1.known), abs(found.lambda1.known)))
+    assert found.window[1] == pytest.approx(0.1)
     assert abs(found.lambda1.value - exact.lambda1) <= found.lambda1.bar + 0.02 * max(abs(exact.lambda1), 1.0)
 
 

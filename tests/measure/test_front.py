@@ -5,7 +5,9 @@ import pytest
 from histories import history_of
 
 from bent_beam import Impact
+from bent_beam.measure.force_map import force_map
 from bent_beam.measure.moments import half_contact_length, mean_reaction
+from bent_beam.measure.reduction import pull_of
 from bent_beam.meshes import UniformMesh
 from hermite_fe import HermiteFE
 from theory import predict
@@ -38,4 +40,17 @@ def test_a_middle_that_lifts_off_does_not_shorten_the_contact_and_a_late_push_al
     assert [half_contact_length(history, k) for k in (0, 75, 100)] == [None, pytest.approx(0.4), pytest.approx(0.8)]
     assert mean_reaction(history, 0.0) is None
     assert mean_reaction(history, history.time[100]) is None  # no tenth after the end
+    assert mean_reaction(history, 1.0 / 1.1) == pytest.approx(2.0 + 2.0 * 0.12 / (0.2 / 1.1))  # the tenth is the last
     assert mean_reaction(history, history.time[75]) == pytest.approx(2.0, rel=1e-9)
+
+
+def test_the_map_of_forces_holds_the_impulse_and_a_pull_is_a_share_of_a_push_in_any_unit() -> None:
+    impact, x, time = Impact(2.0, 8.0, 6.0, 0.5, 1.0), np.linspace(0.0, 3.0, 31), np.linspace(0.0, 2.0, 41)
+    impulse = 0.01 * np.outer(np.sqrt(time), np.exp(-x))
+    history = history_of(time, x, impact=impact, impulse=impulse, total_impulse=2.0 * impulse.sum(axis=1))
+    edges = np.linspace(0.0, 4.0, 9) / impact.length_scale
+    given = force_map(history, np.array([0, 20, 40]), edges) @ np.diff(edges) / impact.time_scale  # of 1 s each
+    assert given.sum() == pytest.approx(impulse[-1].sum() / (8.0 * impact.length_scale))
+    impulse = 1e-3 * np.outer(np.arange(41.0), [3.0, 2.0, 1.0])
+    impulse[30:, 1] -= 4e-3
+    assert pull_of(history_of(time, x[:3], impact=impact, impulse=impulse)) == pytest.approx(2.0 / 3.0)

@@ -5,7 +5,7 @@ import math
 
 import numpy as np
 import pytest
-from histories import ROD, pushed_until
+from histories import ROD, history_of, pushed_until
 
 from bent_beam.cases import load_case
 from bent_beam.free_flight import cannot_return, has_left
@@ -99,6 +99,29 @@ def test_hits_are_contacts_whose_gaps_are_shorter_than_a_period_of_the_first_mod
     for hit, begin, before, after in zip(hits(twice), (0.0, 3.0), (1.0, -0.45), (-0.45, -1.9), strict=True):
         assert (hit.begin, hit.before, hit.after) == pytest.approx((begin, before, after))
         assert hit.impulse == pytest.approx(2.0 * (before - after))  # mass 2
+
+
+HEAVY = Impact(2.0, 8.0, 6.0, 2.0, 0.5)  # κ/ν = 2, ℓ = 3 m, T* = 18 s
+UNITS = {"gap": 9.0, "slope": 3.0, "velocity": 0.5, "impulse": 12.0, "total_impulse": 12.0, "kinetic_energy": 6.0,
+         "strain_energy": 6.0, "contact_energy": 6.0}  # fmt: skip
+
+
+@pytest.mark.parametrize(("again", "shortest"), [(3.0, 2e-3), (0.6, 0.2)])
+def test_in_other_units_an_impact_is_the_same_and_what_springs_of_the_wall_hold_is_not_lost(again, shortest) -> None:
+    run = pushed_until(0.5, last=4.0, again=again)
+    time = run.dataset["time"]
+    held, lost = 0.05 * time, 0.1 * (time > again)
+    run = ImpactHistory.of(run.dataset.assign(contact_energy=held, kinetic_energy=1.0 - held - lost))
+    fields = {name: unit * run.array(name) for name, unit in UNITS.items()}
+    other = history_of(18.0 * run.time, 3.0 * run.positions(0), impact=HEAVY, **fields)
+    one, same = (dataclasses.asdict(whole_impact(history, shortest=shortest)) for history in (run, other))
+    assert np.ravel(same.pop("contacts")) == pytest.approx(np.ravel(one.pop("contacts")))
+    same["push_time"] = one["push_time"]  # a steady force is largest anywhere
+    assert same == pytest.approx(one | {"supplied": 6.0 * one["supplied"]})
+    for hit, alike in zip(hits(run), hits(other), strict=True):
+        numbers = np.array(dataclasses.astuple(hit)[1:])
+        assert dataclasses.astuple(alike)[1:] == pytest.approx(numbers * [18.0, 18.0, 3.0, 12.0, 0.5, 0.5, 6.0, 6.0])
+    assert (hit.energy, hit.lost) == pytest.approx((0.9, 0.1))
 
 
 def test_a_beam_that_has_left_does_not_return_and_one_that_swings_as_wide_as_it_is_away_may() -> None:
@@ -197,6 +220,5 @@ def test_the_largest_force_is_told_in_half_the_beams_momentum_a_period() -> None
     peaks = dict.fromkeys(("peak_force", "peak_force_time", "peak_penetration", "peak_pressure"), ("time", steady))
     assert whole_impact(run).peak_force is None
     assert whole_impact(ImpactHistory.of(run.dataset.assign(peaks))).peak_force == pytest.approx(5.8)
-    slow = Impact(2.0, 8.0, 6.0, 0.1, 1.0)  # ℓ = 3 m, T* = 18 s
     told = dataclasses.replace(whole_impact(run), peak_force_time=0.5, peak_force_place=0.25, push_time=0.125)
-    assert list(peak_times(told, slow).values()) == pytest.approx([9.0, 0.75, 2.25, 0.18])
+    assert list(peak_times(told, HEAVY).values()) == pytest.approx([9.0, 0.75, 2.25, 0.18])
