@@ -95,7 +95,7 @@ def recompiling(call: Callable[[], Result]) -> Result:
     The folder is then removed and ``call`` tried again. What ``call`` itself raises is the caller's.
     """
     if not any(FOLDER.rglob("*.nbi")):
-        message = "compiling, as always on a new machine or after an update: about half a minute"
+        message = "compiling, as always on a new machine or after an update: some twenty seconds"
         logging.getLogger("bent_beam").info(message)
     try:
         return call()
