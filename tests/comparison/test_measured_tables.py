@@ -1,9 +1,8 @@
 """Tables of README and docs that name the command that made them: a fresh run gives the same within the stated digits.
 
-A marker ``<!-- made by: bentbeam match … -->`` stands above a Markdown table.
-A cell is about the rows of the match that the first cell of its line names, by label or by method and κ/ν, and the
-title of its column, by label, method or loads (α, ψ, χ[, axial]); which numbers it gives, the title says or else the
-first title. A table whose titles are κ/ν is read by columns. "≤" states a bound.
+A marker ``<!-- made by: bentbeam match … -->`` stands above a Markdown table. A line's first cell is a label of the
+match, or what a label begins with and κ/ν, from … to …. A column is of numbers, loads (α, ψ, χ[, N]) or the end of a
+label; of the last two the first title says of which numbers. "≤" states a bound.
 """
 
 import re
@@ -57,25 +56,19 @@ def matched(command: str) -> list[Row]:
     return rows
 
 
-def chosen(rows: list[Row], cell: str) -> list[Row]:
-    """The rows that a first cell is about: a label, or such as "Hermite, κ/ν from 0.1 to 0.8"."""
-    if labelled := [r for r in rows if r["label"] == cell]:
+def meant(rows: list[Row], first: str, title: str) -> list[Row]:
+    """The rows that a line's first cell and a column's title name."""
+    if labelled := [r for r in rows if r["label"] == first]:
         return labelled
-    before, _, kappas = cell.rpartition("κ/ν")
+    before, _, kappas = first.rpartition("κ/ν")
     numbers = [float(Fraction(n)) for n in re.findall(r"\d+(?:[./]\d+)?", kappas)]
-    low, high = 0.999 * numbers[0], 1.001 * numbers[-1]
-    before = before.rstrip(" ,")
-    label = before if before in {r["label"].rpartition(", ")[0] for r in rows} else re.split(r"[ ,]", before)[0]
-    return [r for r in rows if low <= r["kappa_over_nu"] <= high and r["label"].startswith(label)]
-
-
-def narrowed(rows: list[Row], title: str) -> list[Row]:
-    """Of these rows those that a column's title names, all if it names none."""
-    if loads := re.search(r"\(([^)]*,[^)]*)\)", title.translate(RAISED)):
-        asked = [*map(float, loads[1].split(",")), 0.0][:4]
-        return [r for r in rows if [r["alpha"], r["psi"], r["chi"], r["axial"]] == asked]
-    word = re.split(r"[ ,]", title)[0]
-    return [r for r in rows if r["label"].endswith(", " + title) or (word and r["label"].startswith(word))] or rows
+    found = [r for r in rows if 0.999 * numbers[0] <= r["kappa_over_nu"] <= 1.001 * numbers[-1]]
+    if title.startswith("("):
+        loads = [*map(float, title.translate(RAISED).strip("()").split(",")), 0.0][:4]
+        return [r for r in found if [r["alpha"], r["psi"], r["chi"], r["axial"]] == loads]
+    return [r for r in found if r["label"] == before + title] or [
+        r for r in found if f"{r['label']}, ".startswith(before)
+    ]
 
 
 def agrees(rows: list[Row], name: str, cell: str) -> float | None:
@@ -94,16 +87,13 @@ def agrees(rows: list[Row], name: str, cell: str) -> float | None:
 
 def wrong_in_table(rows: list[Row], text: str) -> list[str]:
     head, _, *body = (cells(line) for line in text.splitlines())
-    if head[0] == "κ/ν" and all(re.fullmatch(r"[\d./]+", title) for title in head[1:]):
-        head, *body = map(list, zip(head, *body))
-        body = [[f"κ/ν = {first}", *others] for first, *others in body]
     wrong = []
     for first, *others in body:
         for title, cell in zip(head[1:], others):
             named = re.findall("|".join(MEASURES), title) or re.findall("|".join(MEASURES), head[0])
             if not named or cell in ("", "–"):
                 continue
-            about, numbers = narrowed(chosen(rows, first), title), cell.split(", ")
+            about, numbers = meant(rows, first, title), cell.split(", ")
             assert about, f"{first}, {title}: no row of the match"
             assert len(numbers) == len(named), f"{first}, {title}: {cell} is not {', '.join(named)}"
             for name, number in zip(named, numbers):

@@ -9,6 +9,7 @@ from bent_beam import Impact
 from bent_beam.free_flight import pushing
 from bent_beam.meshes import UniformMesh
 from exudyn_models import ExudynModel
+from exudyn_models.contacts import penalty
 from exudyn_models.integrators import Trapezoidal
 
 PAGE = [  # κ/ν, η/T*, this path's number and the Hermite path's of the finest mesh
@@ -93,3 +94,12 @@ def test_steps_grow_in_flight_and_keep_the_energy_and_the_impulse():
     assert restitution(grown) == pytest.approx(restitution(alike), abs=1e-5)
     assert abs(grown.array("loss_algorithmic")[-1]) < 1e-12 * grown.array("kinetic_energy")[0]
     closes(grown, 1e-7)
+
+
+def test_an_ensemble_has_penalties_from_a_quarter_of_the_usual_on_and_coarser_elements():
+    impact, random = Impact.whole_beam(2.0), np.random.default_rng(3)
+    drawn = [ExudynModel().varied(impact, random) for _ in range(20)]
+    shares = [one.contact.relative_stiffness / penalty.STIFFNESS for one in drawn]
+    assert 0.25 <= min(shares) < 0.5 < max(shares) <= 1.0
+    usual = ExudynModel().for_whole_beam(impact).mesh.element_length
+    assert all(usual < one.mesh.element_length < 3.0 * usual for one in drawn)

@@ -69,6 +69,24 @@ def test_energy_of_the_fast_part_is_the_work_of_the_wall(half):
     assert abs(budget["defect"]) < 3e-5 * budget["work_of_loads"]
 
 
+def test_impulse_and_energies_grow_like_the_root_of_the_time_and_far_ahead_the_beam_flies_on(half):
+    for name in ("total_impulse", "kinetic_energy", "strain_energy", "work_of_loads", "loss_absorbed"):
+        shares = half.array(name) / np.sqrt(half.time)
+        assert shares == pytest.approx(shares[-1], rel=1e-5), name
+    for k in (0, 20, -1):
+        x, gap = half.positions(k)[-1], half.array("gap", k)[-1]
+        assert gap == pytest.approx(0.25 * x**2 - half.time[k], rel=1e-6)
+
+
+def test_in_other_units_the_run_is_the_same(half):
+    """l* = 4 m, t* = 8 s."""
+    other = simulate_expanding(Impact(8.0, 2.0, 4.0 * half.impact.length, 0.125, 0.5), QUICK, end_time=0.8)
+    units = {"position": 4.0, "gap": 4.0, "velocity": 0.5, "impulse": 4.0, "total_impulse": 4.0, "kinetic_energy": 2.0,
+             "strain_energy": 2.0, "work_of_loads": 2.0, "loss_absorbed": 2.0}  # fmt: skip
+    for name, unit in units.items():
+        assert other.array(name)[-1] == pytest.approx(unit * half.array(name)[-1], rel=1e-6, abs=1e-9), name
+
+
 def test_what_breaks_self_similarity_is_refused_by_name():
     impact = Impact.dimensionless(0.5)
     for name in ("damping", "rotation", "first_touch", "opposite_wall"):
