@@ -8,6 +8,7 @@ value is read (:func:`examine`).
 from __future__ import annotations
 
 import errno
+import hashlib
 import io
 import json
 import os
@@ -15,6 +16,7 @@ import re
 import secrets
 import unicodedata
 import warnings
+from collections.abc import Mapping
 from math import prod
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -93,7 +95,7 @@ def write_dataset(dataset: xr.Dataset, file: Path) -> None:
     encoding = {v: {"compression": "gzip", "compression_opts": 1} for v in dataset.variables if dataset[v].ndim == 2}
     content = io.BytesIO()  # HDF5 itself does not survive a full disk: only finished bytes go there
     try:
-        dataset.to_netcdf(content, engine="h5netcdf", encoding=encoding)
+        dataset.assign_attrs(digest=_digest(dataset)).to_netcdf(content, engine="h5netcdf", encoding=encoding)
     except OSError as error:
         raise OSError(error.errno or errno.EIO, error.strerror or str(error), str(file)) from error
     write_atomically(file, content.getbuffer())
@@ -119,7 +121,21 @@ def read_dataset(file: Path) -> xr.Dataset:
         raise ValueError(f"{file} is not a readable history: {' '.join(str(error).split())}") from None
     for variable in dataset.variables.values():
         variable.attrs.pop("_FillValue", None)
+    if dataset.attrs.pop("digest", written := _digest(dataset)) != written:
+        raise ValueError(f"{file} is not what was written: damaged, or edited (then remove its attribute digest)")
     return dataset
+
+
+def _digest(dataset: xr.Dataset) -> str:
+    """Of all values and attributes: HDF5 has no sums of the bytes of a short variable, nor of its own headers."""
+    about = {str(name): str(np.asarray(value).tolist()) for name, value in dataset.attrs.items() if name != "digest"}
+    told: list[Any] = [sorted(about.items())]
+    content = hashlib.sha256()
+    for name, variable in sorted((str(name), variable) for name, variable in dataset.variables.items()):
+        told.append((name, variable.dims, str(variable.dtype), variable.attrs.get("units")))
+        content.update(np.ascontiguousarray(variable.values).tobytes())
+    content.update(repr(told).encode())
+    return content.hexdigest()
 
 
 def examine(file: Path) -> None:
@@ -178,12 +194,14 @@ def _check_attributes(thing: Any, name: str) -> None:
 
 
 # what a history holds -------------------------------------------------------------------------------------
-def check_variables(dataset: xr.Dataset) -> None:
+def check_variables(variables: Mapping[str, Any]) -> None:
     """Raise ``ValueError`` for a variable that is not what a history holds: dimensions, units, order and size of its
     values."""
-    for name, variable in ((str(label), one) for label, one in dataset.variables.items()):
-        if variable.dtype.kind not in "fiub":
-            raise ValueError(f"{name} must hold numbers (got {variable.dtype})")
+    places = [variables[name] for name in ("time", "x", "contact_x")]
+    sizes = {dimension: size for one in places for dimension, size in zip(one.dims, one.values.shape)}
+    for name, variable in variables.items():
+        if variable.values.dtype.kind not in "fiub":
+            raise ValueError(f"{name} must hold numbers (got {variable.values.dtype})")
         expected, unit = DIMENSIONS.get(name), UNITS.get(name, "")
         unknown = expected is None and set(variable.dims) <= {"time", "x", "contact"}
         if not unknown and variable.dims != expected:
@@ -191,21 +209,24 @@ def check_variables(dataset: xr.Dataset) -> None:
             raise ValueError(f"{name} must have dimensions {asked} (got {got})")
         if not unknown and variable.attrs.get("units", "") != unit:
             raise ValueError(f"{name} must be in {unit or 'no unit'} (got {variable.attrs.get('units')!r})")
+        shape = tuple(sizes[dimension] for dimension in variable.dims)
+        if variable.values.shape != shape:
+            raise ValueError(f"{name} must have shape {shape} (got {variable.values.shape})")
         if not np.isfinite(variable.values).all():
             raise ValueError(f"{name} is not finite")
         if np.abs(variable.values.astype(float)).max(initial=0.0) > LARGEST_VALUE:
             raise ValueError(f"{name} must not exceed {LARGEST_VALUE:g}")
-    if dataset.sizes["time"] < 1 or dataset.sizes["x"] < 1 or dataset["time"].values[0] < 0.0:
+    if sizes["time"] < 1 or sizes["x"] < 1 or variables["time"].values[0] < 0.0:
         raise ValueError("time must hold instants from 0 on, and x at least one node")
     for name in ("time", "x", "position"):
-        if name in dataset.variables and np.any(np.diff(dataset[name].values) <= 0.0):
+        if name in variables and np.any(np.diff(variables[name].values) <= 0.0):
             raise ValueError(f"{name} must increase")
 
 
 def check_contents(history: Any) -> None:
     """Raise when an attribute or a variable of a stored history is not what it holds: numbers and JSON, nothing
     else."""
-    attributes, variables = history.attrs, history.dataset.variables
+    attributes, variables = history.attrs, history.variables
     for name in ("impact", "settings", "versions", "warnings", "path", "symmetry"):
         if not isinstance(attributes[name], str):
             raise TypeError(f"attribute {name} must be text")
@@ -222,8 +243,8 @@ def check_contents(history: Any) -> None:
     one_of("attribute symmetry", attributes["symmetry"], ("half", "full"))
     _ = history.impact, history.steps, history.completed
     for required in REQUIRED:
-        _ = variables[required]  # the dataset itself makes coordinates up
-    check_variables(history.dataset)
+        _ = variables[required]
+    check_variables(variables)
     finite("attribute seconds", history.seconds)
     places = history.positions(0)
     beyond = np.abs([places[0], places[-1]]).max() > history.impact.half_length * (1.0 + 1e-6)

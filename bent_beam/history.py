@@ -1,4 +1,5 @@
-"""The record of a run: one ``xarray.Dataset`` in SI units, the same for every path.
+"""The record of a run in SI units, the same for every path; as an ``xarray.Dataset`` for those who ask for one, which
+takes a second to import.
 
 Dimensions: ``time`` (the saved instants), ``x`` (nodes) and ``contact`` (contact points). ``bent_beam/files.py`` lists
 the variables with their dimensions and units; docs/guide/history.md says what each is.
@@ -10,9 +11,9 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
-from functools import lru_cache
+from functools import cached_property, lru_cache
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -34,9 +35,17 @@ REFLECTED = "waves may run to the ends of the beam"
 """How a warning begins of a run that a theory of an endless beam does not cover to its end."""
 
 
+class Variable(NamedTuple):
+    """Dimensions, values of that shape, and the unit as ``{"units": …}``, empty for none."""
+
+    dims: tuple[str, ...]
+    values: NDArray[Any]
+    attrs: Mapping[str, str]
+
+
 @dataclass(frozen=True, eq=False, repr=False)
 class ImpactHistory:
-    """The result of a simulation: :attr:`dataset`, with typed access to common quantities.
+    """The result of a simulation: variables and attributes, with typed access to common quantities.
 
     >>> from bent_beam import Impact
     >>> from self_similar_fe import SelfSimilarFE
@@ -45,7 +54,8 @@ class ImpactHistory:
     True
     """
 
-    dataset: xr.Dataset
+    variables: Mapping[str, Variable]
+    attrs: Mapping[str, Any]
 
     # making -------------------------------------------------------------------------------------------
     @classmethod
@@ -72,14 +82,11 @@ class ImpactHistory:
         steps, seconds : time steps taken and wall seconds spent in the solver.
         Raises ``ValueError`` when a field is not finite or has other dimensions than a history has.
         """
-        import xarray as xr
-
-        given = {**fields, "time": (("time",), time), "x": (("x",), x), "contact_x": (("contact",), contact_x)}
-        variables: dict[str, tuple[Any, ...]] = {}
-        for name, (dims, values) in given.items():
+        places = {"time": (("time",), time), "x": (("x",), x), "contact_x": (("contact",), contact_x)}
+        variables: dict[str, Variable] = {}
+        for name, (dims, values) in {**fields, **places}.items():
             array = np.asarray(values, float if name in COORDINATES else None)
-            variables[name] = (tuple(dims), array, {"units": UNITS[name]} if name in UNITS else {})
-        coordinates = {name: variables.pop(name) for name in COORDINATES}
+            variables[name] = Variable(tuple(dims), array, {"units": UNITS[name]} if name in UNITS else {})
         attrs = {
             "format": FORMAT,
             "path": path,
@@ -92,18 +99,27 @@ class ImpactHistory:
             "seconds": float(seconds),
             "completed": int(completed),
         }
-        dataset = xr.Dataset(variables, coords=coordinates, attrs=attrs)
-        check_variables(dataset)
-        return cls(dataset)
+        check_variables(variables)
+        return cls(variables, attrs)
+
+    @classmethod
+    def of(cls, dataset: xr.Dataset) -> ImpactHistory:
+        """The history that :attr:`dataset` shows."""
+        named = ((str(name), one) for name, one in dataset.variables.items())
+        parts = {name: Variable(tuple(map(str, one.dims)), one.values, one.attrs) for name, one in named}
+        return cls(parts, dataset.attrs)
 
     def with_warnings(self, warnings: Sequence[str]) -> ImpactHistory:
         """The same with other warnings."""
-        return replace(self, dataset=self.dataset.assign_attrs(warnings=json.dumps(list(warnings))))
+        return replace(self, attrs={**self.attrs, "warnings": json.dumps(list(warnings))})
 
     def until(self, time: float) -> ImpactHistory:
         """The same up to the saved instant nearest to ``time``, s."""
         last = int(np.argmin(np.abs(self.time - time)))
-        return replace(self, dataset=self.dataset.isel(time=slice(0, last + 1)))
+        kept = {
+            n: v._replace(values=v.values[: last + 1]) if "time" in v.dims else v for n, v in self.variables.items()
+        }
+        return replace(self, variables=kept)  # time is the first dimension
 
     def described(self, title: str, section: Any) -> ImpactHistory:
         """The same that knows the title of its case, and its section (:class:`bent_beam.section.Section` or ``None``),
@@ -111,13 +127,16 @@ class ImpactHistory:
         held = {"title": title} if title else {}
         if section is not None:
             held["section"] = json.dumps({"area": section.area, "section_modulus": section.section_modulus})
-        return replace(self, dataset=self.dataset.assign_attrs(held))
+        return replace(self, attrs={**self.attrs, **held})
 
     # reading ------------------------------------------------------------------------------------------
-    @property
-    def attrs(self) -> Mapping[str, Any]:
-        """The attributes of the dataset."""
-        return self.dataset.attrs
+    @cached_property
+    def dataset(self) -> xr.Dataset:
+        """All of it, for xarray; values are shared."""
+        import xarray as xr
+
+        parts: dict[str, Any] = dict(self.variables)
+        return xr.Dataset(parts, {name: parts.pop(name) for name in COORDINATES if name in parts}, dict(self.attrs))
 
     @property
     def impact(self) -> Impact:
@@ -226,11 +245,11 @@ class ImpactHistory:
 
     def __contains__(self, name: str) -> bool:
         """Whether the history has this variable."""
-        return name in self.dataset.variables
+        return name in self.variables
 
     def array(self, name: str, k: int | slice | NDArray[np.intp] | None = None) -> NDArray[Any]:
         """The values of one variable, of all saved instants or of those numbered ``k``."""
-        values = np.asarray(self.dataset.variables[name].values)
+        values = self.variables[name].values
         return values if k is None else np.asarray(values[k])
 
     def energy(self, name: str) -> Array:
@@ -255,7 +274,7 @@ class ImpactHistory:
     def load(cls, file: str | Path) -> ImpactHistory:
         """Read a history; ``ValueError`` when the file is none, or holds anything that a history does not."""
         source = Path(file)
-        history = cls(read_dataset(source))
+        history = cls.of(read_dataset(source))
         if history.attrs.get("format") != FORMAT:
             raise ValueError(f"{source} is not a history of this project")
         try:

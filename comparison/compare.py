@@ -157,8 +157,8 @@ def rerun_history(
     if out is not None:
         new.save(out)
     differences: dict[str, float | None] = {}
-    for name in sorted({str(v) for v in (*old.dataset.variables, *new.dataset.variables)}):  # times and places too
-        if name not in old.dataset or name not in new.dataset or old.dataset[name].shape != new.dataset[name].shape:
+    for name in sorted({*old.variables, *new.variables}):  # times and places too
+        if name not in old or name not in new or old.array(name).shape != new.array(name).shape:
             differences[name] = None
             continue
         a, b = old.array(name), new.array(name)

@@ -105,15 +105,16 @@ def sweep(
     path: str = "hermite",
     *,
     assignments: Sequence[str] = (),
-    jobs: int = 1,
+    jobs: int | None = 1,
     scheduler: str | None = None,
     fresh: bool = False,
     progress: Callable[[int, int], None] | None = None,
 ) -> Swept:
     """The whole impact of a case for each combination of ``vary``: key → values, or their text ("0.5:2:4").
 
-    case : its file, or its tables. assignments : ``table.key=value``, laid over it first. jobs : processes.
-    scheduler : address of a dask one. progress : called with (done, all) rows. fresh : stored runs are ignored.
+    case : its file, or its tables. assignments : ``table.key=value``, laid over it first. jobs : processes
+        (``None``: as many as pay). scheduler : address of a dask one. progress : called with (done, all) rows.
+    fresh : stored runs are ignored.
     Raises ``ValueError`` for what is no case at all; a row that fails is a row with its reason.
 
     >>> from comparison import sweep

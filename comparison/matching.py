@@ -231,12 +231,13 @@ def match(
     asked: Sequence[MatchQuestion],
     *,
     store: RunStore | None = None,
-    jobs: int = 1,
+    jobs: int | None = 1,
     scheduler: str | None = None,
     limit: float | None = None,
     progress: Callable[[int, int], None] | None = None,
 ) -> Matched:
-    """A row for each question, in their order, with ``jobs`` processes or on a dask ``scheduler``.
+    """A row for each question, in their order, with ``jobs`` processes (``None``: as many as pay) or on a dask
+    ``scheduler``.
 
     limit : seconds that one row may take (``None``: no limit); one that takes longer is a failure.
     The rows are the same, bit for bit, for any number of jobs. ``progress(done, total)`` is called after each.

@@ -10,6 +10,7 @@ from typing import Any
 
 from bent_beam.cases import Case
 from bent_beam.history import REFLECTED, ImpactHistory
+from bent_beam.hysteresis import converges
 from bent_beam.impact import Impact
 from bent_beam.loads import unmodelled
 from bent_beam.measure.balance import balance_of
@@ -30,6 +31,8 @@ from theory.prediction import MODELLED
 from theory.validity import ENDS
 
 __all__ = ["Simulated", "comparable", "simulate_case"]
+
+BAND = "without damping a whole impact is a band, which bentbeam bounce gives; one run has no number of it"
 
 
 @dataclass(frozen=True)
@@ -59,16 +62,19 @@ def simulate_case(
 ) -> Simulated:
     """Follow ``case`` to ``until`` (s; ``None``: to the last separation) with the method of ``path``.
 
-    save : saved instants up to then; of a run to separation, a T*.
+    save : saved instants up to then; of a run to separation, a T*. Of a beam without damping that is one run, whose
+    numbers are missing: they are a band (:func:`comparison.bounce`).
     Raises ``ValueError`` for what the method refuses, :class:`bent_beam.SimulationError` when it cannot finish.
     """
-    question = Question(case.impact, case.method(path), until, save, error_bars, case.damping_stated)
+    band = until is None and not converges(case.impact)
+    bars = "drift" if band else error_bars
+    question = Question(case.impact, case.method(path), until, save, bars, case.damping_stated)
     read: Any = _whole_run if until is None else partial(_run, question.first_spread, until)
     runs = runs_of(question, read, whole_history=True, progress=progress)
     assert runs.history is not None
     numbers = instant_numbers(runs)
     if until is None:
-        numbers |= _of_whole(case, runs)
+        numbers = dict.fromkeys((*numbers, "restitution"), MISSING) if band else numbers | _of_whole(case, runs)
     leading = _leading(runs) if until is not None else None
     history = runs.history if until is None else runs.history.until(until)
     return Simulated(case, runs, history, numbers, leading)
@@ -130,7 +136,7 @@ def _document(found: Simulated, file: Path | None) -> dict[str, Any]:
         "model": impact.model,
         "velocity": impact.velocity,
         "symmetry": history.symmetry,
-        "settings": history.settings,
+        "settings": {name: one for name, one in history.settings.items() if name != "save"},  # thousands of instants
         "versions": history.versions,
         "steps": history.steps,
         "seconds": history.seconds,
@@ -165,7 +171,7 @@ def _document(found: Simulated, file: Path | None) -> dict[str, Any]:
         "hits": [asdict(hit) for hit in hits(history)] if several else None,
         "warnings": [
             *doubts(impact, section), *history.warnings, *reflected, *loss_warnings(numerical_loss(energy)),
-            *balance.warnings, *found.runs.lost,
+            *balance.warnings, *([BAND] if until is None and not converges(impact) else ()), *found.runs.lost,
         ],
         "file": None if file is None else str(file),
     }  # fmt: skip

@@ -3,6 +3,7 @@ time limit for each: a clock that its runs ask between their steps."""
 
 from __future__ import annotations
 
+import logging
 import os
 import signal
 import threading
@@ -22,7 +23,8 @@ __all__ = ["Clock", "run_all"]
 
 FIRST_ANSWER = 8.0  # s that a scheduler has to answer
 FIRST_WORKER = 15.0  # s until one is there, and again until all have answered
-IDLE = 10  # s until a worker without work ends
+IDLE = 10  # s until a worker without work ends; until then the next stage of a command finds it warm
+PAYS = 5.0  # s of work from which on a second process pays: it takes some two to start and to load libraries
 DIED = "the worker died: out of memory?"
 
 Done = Callable[[int, Any], None]
@@ -32,19 +34,22 @@ def run_all(
     function: Callable[..., Any],
     arguments: Sequence[tuple[Any, ...]],
     *,
-    jobs: int = 1,
+    jobs: int | None = 1,
     scheduler: str | None = None,
     progress: Callable[[int, int], None] | None = None,
     on_death: Callable[[int, str], Any] | None = None,
 ) -> list[Any]:
     """``[function(*a) for a in arguments]``, in order.
 
-    jobs : processes on this machine (1: in this one). scheduler : address of a dask.distributed scheduler.
+    jobs : processes on this machine (1: in this one; ``None``: in this one until one per core pays). scheduler :
+        address of a dask.distributed scheduler.
     progress : called with (done, all) after each call. on_death(i, why) : stands in for a call whose worker died.
     Raises what a call raises, ``ValueError`` when no scheduler answers, ``RuntimeError`` without ``on_death``.
     """
-    whole("jobs", jobs, 1)
+    if jobs is not None:
+        whole("jobs", jobs, 1)
     results: dict[int, Any] = {}
+    calls, began = iter(range(len(arguments))), time.perf_counter()
 
     def done(i: int, result: Any) -> None:
         results[i] = result
@@ -58,17 +63,31 @@ def run_all(
 
     if scheduler is not None:
         _on_cluster(function, arguments, scheduler, done, died)
-    elif jobs == 1 or len(arguments) <= 1:
-        for i, a in enumerate(arguments):
-            done(i, function(*a))
-    else:
-        calls = iter(range(len(arguments)))
+        return [results[i] for i in range(len(arguments))]
+    many = os.cpu_count() or 1 if jobs is None else jobs
+    if jobs is None or many == 1 or len(arguments) <= 1:
+        spent: list[float] = []
+        for i in calls:
+            started = time.perf_counter()
+            done(i, function(*arguments[i]))
+            spent.append(time.perf_counter() - started)
+            if many > 1 and _pays(spent, len(arguments) - i - 1):
+                break
+    if len(results) < len(arguments):
         # A worker that dies takes down its pool: what was under way is asked for again, each call in a pool of its own.
-        while under_way := _together(function, arguments, calls, jobs, done):
+        while under_way := _together(function, arguments, calls, many, done):
             for i in under_way:
-                if _together(function, arguments, iter([i]), jobs, done):
+                if _together(function, arguments, iter([i]), many, done):
                     died(i)
+        if jobs is not None and time.perf_counter() - began < PAYS:
+            logging.getLogger("bent_beam").info("so little work is done sooner by one process: leave --jobs out")
     return [results[i] for i in range(len(arguments))]
+
+
+def _pays(spent: Sequence[float], left: int) -> bool:
+    """Whether ``left`` calls like those that took ``spent``, s, are work for a second process. The first call also
+    loads what it needs."""
+    return left > 1 and min(spent) * left > PAYS and (len(spent) > 1 or spent[0] > PAYS)
 
 
 def _numbered(i: int, function: Callable[..., Any], arguments: tuple[Any, ...]) -> tuple[int, Any]:

@@ -23,6 +23,7 @@ from bent_beam.checks import between
 from bent_beam.errors import InputError
 from bent_beam.fields import Part, Quantity
 from exudyn_models.geometry import Array
+from exudyn_models.segments import Segment, checked_steps, growing_segments
 
 __all__ = [
     "DOPRI5",
@@ -35,34 +36,6 @@ __all__ = [
     "Trapezoidal",
     "VelocityVerlet",
 ]
-
-MAXIMUM_STEPS = 5_000_000
-SHORTEST = 1e-3  # of a step, what halving it may leave
-EVEN = 12.5  # steps of one length at least, while steps grow …
-CHANGE = 1.05  # … or as many as it takes them to grow by this factor
-
-
-@dataclass(frozen=True)
-class Segment:
-    """``steps`` equal time steps from ``start`` to ``end`` (model units), taken inside Exudyn without interruption."""
-
-    start: float
-    end: float
-    steps: int
-
-    @property
-    def length(self) -> float:
-        """Of one step."""
-        return (self.end - self.start) / self.steps
-
-    def lay(self, settings: Any, running: Any = None) -> None:
-        """Set Exudyn's steps, nowhere else set: in its settings of the time integration, and in a solver that runs."""
-        settings.minimumStepSize = SHORTEST * self.length
-        for one in (settings, running) if running else (settings,):
-            one.startTime, one.endTime, one.numberOfSteps = self.start, self.end, self.steps
-        if running:
-            running.currentStepSize = running.initialStepSize = running.maxStepSize = self.length
-            running.minStepSize = settings.minimumStepSize
 
 
 @dataclass(frozen=True)
@@ -90,34 +63,6 @@ class Averages:
         return (1.0 - self.gamma) * averages[:-1] + self.gamma * averages[1:], averages[-1]
 
 
-def checked_steps(count: float) -> None:
-    """``ValueError`` when a plan has more steps than any run takes."""
-    if not count <= MAXIMUM_STEPS:
-        raise InputError(
-            f"exudyn.integrator.time_step or relative_step is too small: {count:.3g} steps, {MAXIMUM_STEPS:.2g} are "
-            "the most"
-        )
-
-
-def growing_segments(first: float, relative: float) -> list[Segment]:
-    """Segments over 0 ≤ t ≤ 1: steps of ``first``, then of ``relative``·t.
-
-    A new step size costs a factorisation: it changes by ``CHANGE`` at a time, or by what ``EVEN`` steps make of it.
-    """
-    even = min(1.0 / max(first, 1e-300), 1.0 / relative)
-    checked_steps(even + math.log(max(relative * even, 1.0)) / math.log1p(relative))
-    segments: list[Segment] = []
-    t, step, change = 0.0, first, max(CHANGE, 1.0 + EVEN * relative)
-    while t < 1.0 - 1e-12:
-        count = max(1, math.ceil((change * step / relative - t) / step - 1e-9))
-        end = t + count * step
-        if end > 1.0 - step * 1e-6:
-            count, end = max(1, round((1.0 - t) / step + 0.499)), 1.0
-        segments.append(Segment(t, end, count))
-        t, step = end, max(step, relative * end)
-    return segments
-
-
 @dataclass(frozen=True)
 class Integrator(Part, ABC):
     """Base of the integrators."""
@@ -133,7 +78,7 @@ class Integrator(Part, ABC):
 
     def refined(self, factor: float) -> Integrator:
         """A copy with steps ``factor`` times shorter; what is not chosen yet stays open."""
-        steps = {name: getattr(self, name, None) for name in ("time_step", "relative_step")}
+        steps = {name: getattr(self, name, None) for name in ("time_step", "relative_step", "flight_step")}
         return dataclasses.replace(self, **{name: step / factor for name, step in steps.items() if step is not None})
 
     def averages(self) -> Averages:
@@ -166,6 +111,17 @@ class Implicit(Integrator):
     relative_step: Annotated[
         float | None, Quantity("", "h/t, where steps grow", above=0.0, absent="2e-3 (generalized_alpha: 8e-3) or less")
     ] = None
+    flight_step: Annotated[
+        float | None, Quantity("s", "longest step of a beam off the wall", above=0.0, absent="time_step")
+    ] = None
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if self.flight_step is not None and self.flight_step < (self.time_step or math.inf):
+            raise InputError(
+                f"exudyn.integrator.flight_step must be as long as a time_step that is given, at least (got "
+                f"{self.flight_step!r} and {self.time_step!r})"
+            )
 
     def with_steps(self) -> Self:
         is_open = self.time_step is None and self.relative_step is None

@@ -200,7 +200,7 @@ class ExudynModel(Part):
                 )
 
             closed = bool(run.active.any())
-            if not closed:
+            if run.touched and not closed:
                 run.sum_up()
             return separation(t * scaling.end_time, float(run.sums["pushed"]), state, closed=closed)
 

@@ -68,6 +68,7 @@ class Recorder:
     record : what is saved, model units, by the names of :mod:`bent_beam.history`.
     sums : totals over all steps that are summed up, model units; of these ``pushed`` is the impulse of the pushes,
         ``held_impulse`` that of the pulls, negative or zero.
+    touched : whether a contact has pushed or pulled that is not summed up.
     """
 
     def __init__(self, beam: Beam, contact: ContactRun, scaling: Scaling, half: bool, averages: Averages) -> None:
@@ -78,7 +79,6 @@ class Recorder:
         # what the bow has been bent by before the first touch
         self.unbent = 0.0 if natural is None else (natural - impact.curvature) * scaling.length / scaling.slope
         self.loads = beam.loads()
-        self.damping = dict(zip(("loss_viscous", "loss_material"), beam.damping_matrices()))
         self.upward = np.zeros(self.beam.mass.shape[0])
         self.upward[beam.vertical] = 1.0  # the shape functions of deflections add up to one
         self.momentum = np.asarray(self.beam.mass @ self.upward)  # along y, of velocities
@@ -86,6 +86,7 @@ class Recorder:
         self.sums: dict[str, Any] = defaultdict(float)
         self.total = self.deepest = self.start_momentum = self.start_stored = 0.0
         self.fastest = float(np.abs(shape.velocity_y).max())
+        self.touched = False
         self._averaged = np.zeros(contact.contact_s.size)  # contact force after the scheme's averages
         self._rows: list[tuple[Any, ...]] = []  # time, q, v, a, contact force, that along x; the first is old
         self._pending: list[int] = []  # rows that are saved
@@ -112,6 +113,7 @@ class Recorder:
         elif len(self._rows) == ROWS:
             self.sum_up()
         self._rows.append((t, q, v, a, force, along))
+        self.touched = self.touched or bool(force.any())
         return q, v
 
     def _check(self, q: Array, v: Array) -> None:
@@ -157,6 +159,7 @@ class Recorder:
             depth = y[late][:, self.contact.nodes].max(axis=1)  # what lies beyond them is let through
             self.deepest = max(self.deepest, float((depth / time[late]).max()))
         self._pending, self._rows = [], self._rows[-1:]
+        self.touched = bool(force[-1].any())
 
     def _note_moments(self, moments: Array) -> None:
         """The largest bending moment since the saved instant before, its place, and the one in the middle."""
@@ -185,12 +188,13 @@ class Recorder:
         """Work of the loads, their impulse and the losses in each step, each (steps,)."""
         moved, inertia = np.diff(q, axis=0), (self.beam.mass @ a.T).T
         kinetic, load = self.beam.kinetic_energy(v), means(self.loads(time))
-        mean_v = means(v)
+        viscous, material = self.beam.damping_work(q, v)
         return {
             "loss_algorithmic": (products(moved, inertia[1:]) + products(moved, inertia[:-1])) / 2 - np.diff(kinetic),
             "work_of_loads": products(moved, load),
             "load_impulse": load @ self.upward * np.diff(time),
-            **{name: products(mean_v, (matrix @ moved.T).T) for name, matrix in self.damping.items()},
+            "loss_viscous": viscous,
+            "loss_material": material,
         }
 
     def _of_contact(self, time: Array, q: Array, v: Array, force: Array, along: Array) -> dict[str, Array]:

@@ -8,7 +8,7 @@ from __future__ import annotations
 import logging
 import math
 import time as clock
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from typing import Any
 
 import exudyn as exu
@@ -18,8 +18,8 @@ from bent_beam.checks import affordable
 from bent_beam.errors import InputError
 from exudyn_models.assembly import Chosen, Layout, assemble, stable_step
 from exudyn_models.geometry import Array
-from exudyn_models.integrators import Segment
 from exudyn_models.recording import Recorder
+from exudyn_models.segments import Segment
 from exudyn_models.settling import ANY, Settling
 from exudyn_models.solvers import open_viewer, wait_until_closed
 
@@ -29,6 +29,8 @@ MOST_NODES = 200_000  # Exudyn takes 10 kB for each: 2 GB
 MOST_WORK = 2e9  # steps x nodes: some hours
 SECONDS = 5e-6  # a step and node, measured with 200 to 240
 LONG = 60.0  # s: a run that will take longer says so before it starts
+BLOCK, NEAR = 10, 40  # steps in flight, and near the wall, until the gap is looked at again
+CLEAR = 2.0  # a block ends before the fastest node of the beam could pass the smallest gap over this
 BETWEEN = 200  # steps between two reports of progress
 LOG = logging.getLogger(__name__)
 
@@ -51,7 +53,8 @@ class Stepping:
 
     targets : times to save, model units; each is saved at the first end of a step at or after it.
     until, progress : see :func:`exudyn_models.simulate`.
-    run : the recorder; segments, stable : the steps, and the longest that an explicit integrator bears, model units.
+    run : the recorder; segments, flight, stable : the steps, those of a beam far off the wall (0: alike), and the
+        longest that an explicit integrator bears, model units.
     steps : done; seconds : inside Exudyn; failure : what failed, ``None`` when nothing did; advice : what to try then.
 
     Raises ``ValueError`` for more work than one run takes.
@@ -75,12 +78,14 @@ class Stepping:
         self.stable = stable_step(beam, contact, integrator) if integrator.explicit else math.inf
         crossing = min(0.01, (layout.places[1] / scaling.front) ** 2)
         self.segments = integrator.segments(crossing, scaling.end_time, self.stable)
+        self.flight = (getattr(integrator, "flight_step", None) or 0.0) / scaling.end_time
         steps = sum(segment.steps for segment in self.segments)
         affordable("exudyn.integrator and mesh", steps, nodes, targets.size, MOST_WORK)
         if until is not None:  # most beams have left after a T*
             steps = round(steps * min(1.0, scaling.impact.slow_time_scale / scaling.end_time))
         if (expected := SECONDS * steps * nodes) > LONG:
-            LOG.warning("about %.2g minutes: %d steps of %d nodes", expected / 60.0, steps, nodes)
+            so_long = "up to" if self.flight else "about"
+            LOG.warning("%s %.2g minutes: %d steps of %d nodes", so_long, expected / 60.0, steps, nodes)
         round_off = max(contact.round_off, beam.round_off(scaling.amplitude))
         self.settings = chosen.solver.settings(scaling.amplitude, round_off, beam.axial_round_off())
         integrator.configure(self.settings)
@@ -119,7 +124,7 @@ class Stepping:
         if time <= self._time:  # Exudyn calls at the start of a segment, too
             return True
         q, v = run.read(time, None if self.settling is None else self.settling.solution)
-        self._time = time
+        self._time, self._state = time, (q, v)
         self.steps += 1
         if self.progress is not None and (self.steps % BETWEEN == 0 or time >= 1.0 - 1e-9):
             self.progress(time)
@@ -158,7 +163,7 @@ class Stepping:
         try:
             if self._started(self.segments[0]):
                 mbs.SetPostStepUserFunction(self)
-                for segment in self.segments:
+                for segment in self._in_flight() if self.flight else self.segments:
                     if self.failure is None and not self._left:
                         self._step_through(segment)
         except FloatingPointError as error:
@@ -184,6 +189,17 @@ class Stepping:
         run.save(0.0, q)
         run.contact.between(0.0, first.length, q, v)
         return True
+
+    def _in_flight(self) -> Iterator[Segment]:
+        """Segments whose steps grow with the smallest gap, from those near the wall up to ``flight``."""
+        vertical, short, step, t = self.run.beam.vertical, self.segments[0].length, 0.0, 0.0
+        while t < 1.0 - 1e-9 and self.failure is None and not self._left:
+            step = min(max(short, step), self.flight)
+            count = math.ceil(min(BLOCK if step > short else NEAR, (1.0 - t) / step) - 1e-9)
+            start, t = t, min(t + count * step, 1.0)
+            yield Segment(start, t, count)
+            q, v = self._state
+            step = -float(self.run.contact.depth(q).max()) / (CLEAR * BLOCK * float(np.abs(v[vertical]).max()))
 
     def _step_through(self, segment: Segment) -> None:
         segment.lay(self.settings.timeIntegration, self.solver.it)

@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hermite_fe.banded import FADED, PAD, copy
-from hermite_fe.compiled import compiled
+from hermite_fe.compiled import compiled, compiled_within
 from hermite_fe.constraints import Constraints, Rows, Solver, count_rounds, exchange, update
 
 __all__ = ["CYCLING", "NOT_FINITE", "SINGULAR", "SOLVED", "find_wrong", "solve_constrained", "solve_free",
@@ -38,7 +38,7 @@ MOST_ROUNDS = 500
 MOST_EXCHANGES = 20  # a constraint, in the fall-back
 
 
-@compiled
+@compiled_within
 def equation(S: Array, y: Array, k: int) -> tuple[float, float]:
     """Row k of S y, and the sum of the absolute values of its terms."""
     term = S[0, k] * y[k]
@@ -50,7 +50,7 @@ def equation(S: Array, y: Array, k: int) -> tuple[float, float]:
     return total, size
 
 
-@compiled
+@compiled_within
 def largest_of_a_kind(x: Array) -> tuple[float, float]:
     """The largest deflection and the largest slope of x: even and odd dofs."""
     deflection, slope = 0.0, 0.0
@@ -61,7 +61,7 @@ def largest_of_a_kind(x: Array) -> tuple[float, float]:
     return deflection, slope
 
 
-@compiled
+@compiled_within
 def find_wrong(
     solver: Solver, rows: Rows, conditions: Constraints, b: Array, x: Array, tolerance: float
 ) -> tuple[int, int]:
@@ -94,7 +94,7 @@ def find_wrong(
     return count, last
 
 
-@compiled
+@compiled_within
 def begin(solver: Solver, rows: Rows, conditions: Constraints) -> None:
     """Open and close constraints as ``conditions`` guesses. Held constraints are always closed; of the others only
     candidates may be."""
@@ -105,7 +105,7 @@ def begin(solver: Solver, rows: Rows, conditions: Constraints) -> None:
             exchange(solver, rows, j)
 
 
-@compiled
+@compiled_within
 def take_solution(solver: Solver, x: Array) -> None:
     """Copy the dofs from the solution to x, with negligible values set to zero."""
     for i in range(x.size):
@@ -113,7 +113,7 @@ def take_solution(solver: Solver, x: Array) -> None:
         x[i] = 0.0 if abs(value) < FADED else value
 
 
-@compiled
+@compiled_within
 def solve_round(
     solver: Solver, rows: Rows, conditions: Constraints, b: Array, x: Array, changed: int, tolerance: float
 ) -> tuple[int, int]:
@@ -127,7 +127,7 @@ def solve_round(
     return find_wrong(solver, rows, conditions, b, x, tolerance)
 
 
-@compiled
+@compiled_within
 def exchange_wrong(solver: Solver, rows: Rows, worst_only: bool) -> None:
     """Exchange the constraints whose sign is wrong: all, or the worst of each run of neighbours that are wrong
     alike."""
@@ -175,7 +175,7 @@ def solve_constrained(solver: Solver, rows: Rows, conditions: Constraints, b: Ar
     return status
 
 
-@compiled
+@compiled_within
 def first_to_open(solver: Solver, p: Array, reached: Array) -> tuple[int, float]:
     """On the straight way from the reactions ``reached`` to p: the constraint of wrong sign whose reaction vanishes
     first, and the share of the way to there; −1 and 1 where there is none."""

@@ -18,7 +18,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from hermite_fe.compiled import compiled
+from hermite_fe.compiled import compiled, compiled_within
 
 __all__ = ["FADED", "PAD", "combine", "copy", "dot", "factor", "multiply", "product", "row_sums", "stiff_form",
            "stiff_multiply", "stiff_product", "substitute_back", "substitute_forward"]  # fmt: skip
@@ -109,14 +109,14 @@ def stiff_form(A: Array, sums: Array, x: Array) -> float:
     return float(x @ y)
 
 
-@compiled
+@compiled_within
 def copy(x: NDArray[Any], y: NDArray[Any]) -> None:
     """y = x, of any type. (y[:] = x takes numba seconds to compile.)"""
     for i in range(x.size):
         y[i] = x[i]
 
 
-@compiled
+@compiled_within
 def dot(x: Array, y: Array) -> float:
     """x · y."""
     total = 0.0
@@ -142,7 +142,7 @@ def combine(M: Array, C: Array, K: Array, c: float, k: float, unknown: Places, S
                 S[unknown[i + m] - here, here] = M[m, i] + c * C[m, i] + k * K[m, i]
 
 
-@compiled
+@compiled_within
 def factor(S: Array, fixed: Flags, sign: Array, last: int, U: Array) -> bool:
     """Compute the factors of unknown ``last`` and all before it, those beyond being valid; False where S is singular.
 
@@ -169,7 +169,7 @@ def factor(S: Array, fixed: Flags, sign: Array, last: int, U: Array) -> bool:
     return True
 
 
-@compiled
+@compiled_within
 def substitute_forward(U: Array, right: Array, last: int, z: Array) -> None:
     """Solve U z = right for unknown ``last`` and all before it, z beyond being valid."""
     z1, z2, z3, z4 = z[last + 1], z[last + 2], z[last + 3], z[last + 4]
@@ -179,7 +179,7 @@ def substitute_forward(U: Array, right: Array, last: int, z: Array) -> None:
         z4, z3, z2, z1 = z3, z2, z1, value
 
 
-@compiled
+@compiled_within
 def substitute_back(U: Array, z: Array, x: Array) -> None:
     """Solve D Uᵀ x = z."""
     x1 = x2 = x3 = x4 = 0.0

@@ -19,9 +19,10 @@ from traceback import walk_tb
 from typing import Any, TypeVar, cast
 
 import numba
+from numba.extending import register_jitable
 from platformdirs import user_cache_path
 
-__all__ = ["compiled", "recompiling"]
+__all__ = ["compiled", "compiled_within", "recompiling"]
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 Result = TypeVar("Result")
@@ -64,15 +65,24 @@ if KEPT:
     forget_old()
 
 
-def compiled(function: Function) -> Function:
-    """``function`` compiled at its first call for the types of its arguments, and kept on disk where that is possible.
+ARITHMETIC: dict[str, Any] = {"error_model": "numpy", "fastmath": {"contract"}}
+"""Sums may be contracted to fused multiply-adds; nothing else of IEEE arithmetic is given up."""
 
-    Sums may be contracted to fused multiply-adds; nothing else of IEEE arithmetic is given up.
+
+def compiled_within(function: Function) -> Function:
+    """``function`` compiled as a part of the compiled functions that call it; from Python it is called as it stands.
+
+    It needs no way in from Python, which for the data of a run takes long to compile.
     """
+    return cast(Function, register_jitable(**ARITHMETIC)(function))
+
+
+def compiled(function: Function) -> Function:
+    """``function`` compiled at its first call for the types of its arguments, and kept on disk where possible."""
     before = numba.config.CACHE_DIR  # type: ignore[attr-defined]
     numba.config.CACHE_DIR = str(FOLDER)  # type: ignore[attr-defined]
     try:
-        made = numba.njit(cache=KEPT, error_model="numpy", fastmath={"contract"})(function)
+        made = numba.njit(cache=KEPT, **ARITHMETIC)(function)
     finally:
         numba.config.CACHE_DIR = before  # type: ignore[attr-defined]
     return cast(Function, made)
@@ -85,7 +95,7 @@ def recompiling(call: Callable[[], Result]) -> Result:
     The folder is then removed and ``call`` tried again. What ``call`` itself raises is the caller's.
     """
     if not any(FOLDER.rglob("*.nbi")):
-        message = "compiling, as always on a new machine or after an update: about half a minute"
+        message = "compiling, as always on a new machine or after an update: some twenty seconds"
         logging.getLogger("bent_beam").info(message)
     try:
         return call()

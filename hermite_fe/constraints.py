@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from bent_beam.errors import InputError
 from hermite_fe.banded import PAD, factor, substitute_back, substitute_forward
-from hermite_fe.compiled import compiled
+from hermite_fe.compiled import compiled, compiled_within
 from hermite_fe.system import ContactRows, System
 
 __all__ = ["WORST", "Constraints", "ContactLaw", "Rows", "Solver", "constraints_of", "count_rounds", "exchange",
@@ -85,7 +85,7 @@ def constraints_of(rows: Rows) -> Constraints:
     return Constraints(numbers[0], *flags, *numbers[1:])
 
 
-@compiled
+@compiled_within
 def row_times(rows: Rows, x: Array, j: int) -> float:
     """Row j of G x."""
     total = 0.0
@@ -101,7 +101,7 @@ def rows_times(rows: Rows, x: Array, out: Array) -> None:
         out[j] = row_times(rows, x, j)
 
 
-@compiled
+@compiled_within
 def find_held(rows: Rows, law: ContactLaw, closed: Flags, t: float, held: Flags) -> None:
     """Mark the constraints that stay closed after time t: before ``hold_until`` all that are closed, else those whose
     front is fewer than ``hold`` constraints ahead."""
@@ -119,7 +119,7 @@ def find_held(rows: Rows, law: ContactLaw, closed: Flags, t: float, held: Flags)
         held[j] = closed[j] and (t < law.hold_until or front - rows.rank[j] < law.hold)
 
 
-@compiled
+@compiled_within
 def note_complementarity(
     rows: Rows, conditions: Constraints, x: Array, to_impulse: float, to_speed: float, worst: Array
 ) -> None:
@@ -201,13 +201,13 @@ def check_width(system: System, unknown: Places, row_unknown: Places) -> None:
         raise InputError("contact rows must each touch a few neighbouring dofs, at most one row for two dofs")
 
 
-@compiled
+@compiled_within
 def refactor_from(solver: Solver, unknown: int) -> None:
     """Mark the factors of all unknowns up to ``unknown`` as out of date."""
     solver.stale[0] = max(solver.stale[0], unknown)
 
 
-@compiled
+@compiled_within
 def count_rounds(solver: Solver, rounds: int) -> None:
     """Note that one more problem has taken so many rounds."""
     solver.rounds[0] += 1
@@ -215,7 +215,7 @@ def count_rounds(solver: Solver, rounds: int) -> None:
     solver.rounds[2] = max(solver.rounds[2], rounds)
 
 
-@compiled
+@compiled_within
 def exchange(solver: Solver, rows: Rows, j: int) -> None:
     """Close constraint j if it is open, open it if it is closed."""
     solver.closed[j] = not solver.closed[j]
@@ -224,7 +224,7 @@ def exchange(solver: Solver, rows: Rows, j: int) -> None:
     refactor_from(solver, k)
 
 
-@compiled
+@compiled_within
 def right_side(solver: Solver, rows: Rows, b: Array, target: Array) -> None:
     """The right-hand side of all unknowns, with the terms of known values moved to it."""
     right, fixed, S = solver.right, solver.fixed, solver.S
@@ -244,7 +244,7 @@ def right_side(solver: Solver, rows: Rows, b: Array, target: Array) -> None:
                     right[k + m] -= S[m, k] * value
 
 
-@compiled
+@compiled_within
 def update(solver: Solver, rows: Rows, b: Array, target: Array, changed: int) -> bool:
     """Solve for y with the constraints as they are closed now; False where S is singular.
 

@@ -26,7 +26,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from hermite_fe.compiled import compiled
+from hermite_fe.compiled import compiled, compiled_within
 
 __all__ = ["FORCE", "FORCE_TIME", "NO_SPRINGS", "PEAKS", "PENETRATION", "PRESSURE", "Springs", "push",
            "stored_energy"]  # fmt: skip
@@ -63,7 +63,7 @@ NO_SPRINGS = Springs(0.0, 0.0, np.zeros(0), np.zeros(0), np.zeros(0), 0, 0, -1)
 """A rigid wall."""
 
 
-@compiled
+@compiled_within
 def shapes(at: float, length: float, share: float) -> tuple[float, float, float, float]:
     """N₁ … N₄ at ξ = ``at`` of an element with the share σ of shear (:mod:`hermite_fe.beam`)."""
     square, cube = at * at, at * at * at
@@ -72,7 +72,7 @@ def shapes(at: float, length: float, share: float) -> tuple[float, float, float,
             3.0 * square - 2.0 * cube + sheared, length * (cube - square - 0.5 * sheared))  # fmt: skip
 
 
-@compiled
+@compiled_within
 def depth(springs: Springs, q: Array, e: int, at: float) -> float:
     """p at ξ = ``at`` of element e."""
     n1, n2, n3, n4 = shapes(at, springs.lengths[e], springs.shares[e])
@@ -81,7 +81,7 @@ def depth(springs: Springs, q: Array, e: int, at: float) -> float:
             + n3 * (q[i + 2] + face[i + 2]) + n4 * (q[i + 3] + face[i + 3]))  # fmt: skip
 
 
-@compiled
+@compiled_within
 def reaction(p: float, new: float, h: float, stiffness: float, damping: float) -> tuple[float, float, float]:
     """R̄, dR̄/dp⁺ and the dashpot's loss (R̄ − G)Δp of one point."""
     before, after = max(p, 0.0), max(new, 0.0)
@@ -98,14 +98,14 @@ def reaction(p: float, new: float, h: float, stiffness: float, damping: float) -
     return force, slope + (damping / h if after > 0.0 else 0.0), (force - spring) * (new - p)
 
 
-@compiled
+@compiled_within
 def bernstein(a: float, b: float, c: float, d: float, at: float) -> float:
     """The cubic with the Bernstein coefficients a … d at ξ = ``at``."""
     rest = 1.0 - at
     return rest * rest * (rest * a + 3.0 * at * b) + at * at * (3.0 * rest * c + at * d)
 
 
-@compiled
+@compiled_within
 def add_zeros(springs: Springs, q: Array, e: int, places: Array, count: int) -> int:
     """Add the places 0 < ξ < 1 where p of element e changes sign to ``places``; returns how many there are now.
 
@@ -139,7 +139,7 @@ def add_zeros(springs: Springs, q: Array, e: int, places: Array, count: int) -> 
     return count
 
 
-@compiled
+@compiled_within
 def split(springs: Springs, q: Array, new: Array, e: int, places: Array) -> int:
     """Put 0, the places where p or p⁺ of element e changes sign, and 1 into ``places``, in order; returns how many."""
     places[0] = 0.0
@@ -149,7 +149,7 @@ def split(springs: Springs, q: Array, new: Array, e: int, places: Array) -> int:
     return count + 1
 
 
-@compiled
+@compiled_within
 def push(
     springs: Springs, q: Array, new: Array, h: float, force: Array, tangent: Array, peaks: Array
 ) -> tuple[float, float, int]:

@@ -24,53 +24,65 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from hermite_fe.compiled import compiled
+from bent_beam import hysteresis
+from hermite_fe.compiled import compiled, compiled_within
 from hermite_fe.constraints import Solver
-from hermite_fe.system import Bending
+from hermite_fe.system import Bending, Branches
 
-__all__ = ["add_branch_forces", "branch_energy", "step_branches", "stiffen", "strains_of"]
+__all__ = ["add_branch_forces", "branch_energy", "branches_at_rest", "step_branches", "stiffen", "strains_of"]
 
 Array = NDArray[np.float64]
 
 
-@compiled
-def stiffen(bending: Bending, h: float, theta: float, solver: Solver) -> None:
+def branches_at_rest(matrix: Array, fitted: hysteresis.Branches) -> Branches:
+    """Branches that are slack, of which no step matrix is made yet."""
+    means, weights = np.zeros((2, fitted.times.size))
+    slack = np.zeros((matrix.shape[1] - 2, fitted.times.size))
+    return Branches(matrix, fitted.shares, 1.0 / fitted.times, means, weights, slack)
+
+
+@compiled_within
+def stiffen(branches: Branches | None, h: float, theta: float, solver: Solver) -> None:
     """Add θh²KΣ ϑg/(1 + ϑh/τ) to a step matrix that is just made, and keep the ϑ and the weights 1/(1 + ϑh/τ)."""
-    share, n = 0.0, bending.matrix.shape[1]
-    for j in range(bending.shares.size):
-        x = h * bending.rates[j]
-        bending.means[j] = 0.5 + x / 12.0 if x < 1e-3 else -1.0 / math.expm1(-x) - 1.0 / x
-        bending.weights[j] = 1.0 / (1.0 + bending.means[j] * x)
-        share += theta * h * h * bending.means[j] * bending.shares[j] * bending.weights[j]
+    if branches is None:
+        return
+    share, n = 0.0, branches.matrix.shape[1]
+    for j in range(branches.shares.size):
+        x = h * branches.rates[j]
+        branches.means[j] = 0.5 + x / 12.0 if x < 1e-3 else -1.0 / math.expm1(-x) - 1.0 / x
+        branches.weights[j] = 1.0 / (1.0 + branches.means[j] * x)
+        share += theta * h * h * branches.means[j] * branches.shares[j] * branches.weights[j]
     for i in range(n):
         for m in range(min(4, n - i)):
             apart = solver.unknown[i + m] - solver.unknown[i]
             if apart < 5:  # else never coupled
-                solver.S[apart, solver.unknown[i]] += share * bending.matrix[m, i]
+                solver.S[apart, solver.unknown[i]] += share * branches.matrix[m, i]
 
 
-@compiled
+@compiled_within
 def strains_of(bending: Bending, q: Array, e: int) -> tuple[float, float]:
     """e = Bq of one element."""
     chord = (q[2 * e + 2] - q[2 * e]) / bending.lengths[e]
     return q[2 * e + 1] - chord, q[2 * e + 3] - chord
 
 
-@compiled
+@compiled_within
 def form(first: float, second: float) -> float:
     """eᵀKe of one element over 4EI/length."""
     return first * first + first * second + second * second
 
 
-@compiled
-def add_branch_forces(bending: Bending, z: Array, v: Array, h: float, b: Array) -> None:
+@compiled_within
+def add_branch_forces(branches: Branches | None, bending: Bending, v: Array, h: float, b: Array) -> None:
     """b −= hKΣ g(z + ϑhBv)/(1 + ϑh/τ): what the branches do at v, of which Δv is still to be added."""
-    count = z.shape[1]
-    for e in range(bending.lengths.size if count > 0 else 0):
+    if branches is None:
+        return
+    z = branches.z
+    for e in range(bending.lengths.size):
         rates = strains_of(bending, v, e)
         first = second = 0.0
-        for j in range(count):
-            share, moved = bending.shares[j] * bending.weights[j], h * bending.means[j]
+        for j in range(z.shape[1]):
+            share, moved = branches.shares[j] * branches.weights[j], h * branches.means[j]
             first += share * (z[2 * e, j] + moved * rates[0])
             second += share * (z[2 * e + 1, j] + moved * rates[1])
         stiffness = h * bending.stiffness / bending.lengths[e]
@@ -82,21 +94,23 @@ def add_branch_forces(bending: Bending, z: Array, v: Array, h: float, b: Array) 
         b[2 * e + 3] -= right
 
 
-@compiled
-def step_branches(bending: Bending, v_theta: Array, h: float, z: Array, stretch: Array) -> float:
+@compiled_within
+def step_branches(branches: Branches | None, bending: Bending, v_theta: Array, h: float, stretch: Array) -> float:
     """z⁺ in place of z, and Σ g z̄ into ``stretch``; returns the loss in the dashpots, J."""
-    count, loss = z.shape[1], 0.0
-    for e in range(bending.lengths.size if count > 0 else 0):
+    if branches is None:
+        return 0.0
+    z, loss = branches.z, 0.0
+    for e in range(bending.lengths.size):
         rates = strains_of(bending, v_theta, e)
         stretch[2 * e] = stretch[2 * e + 1] = lost = 0.0
-        for j in range(count):
-            mean, x, weight = bending.means[j], h * bending.rates[j], bending.weights[j]
+        for j in range(z.shape[1]):
+            mean, x, weight = branches.means[j], h * branches.rates[j], branches.weights[j]
             first = weight * (z[2 * e, j] + mean * h * rates[0])
             second = weight * (z[2 * e + 1, j] + mean * h * rates[1])
             change, other = h * rates[0] - x * first, h * rates[1] - x * second
-            lost += bending.shares[j] * (x * form(first, second) + (mean - 0.5) * form(change, other))
-            stretch[2 * e] += bending.shares[j] * first
-            stretch[2 * e + 1] += bending.shares[j] * second
+            lost += branches.shares[j] * (x * form(first, second) + (mean - 0.5) * form(change, other))
+            stretch[2 * e] += branches.shares[j] * first
+            stretch[2 * e + 1] += branches.shares[j] * second
             z[2 * e, j] += change
             z[2 * e + 1, j] += other
         loss += 4.0 * bending.stiffness / bending.lengths[e] * lost
@@ -104,11 +118,11 @@ def step_branches(bending: Bending, v_theta: Array, h: float, z: Array, stretch:
 
 
 @compiled
-def branch_energy(bending: Bending, z: Array) -> float:
+def branch_energy(branches: Branches, bending: Bending) -> float:
     """½Σ g zᵀKz, J."""
-    energy = 0.0
+    z, energy = branches.z, 0.0
     for e in range(bending.lengths.size):
         for j in range(z.shape[1]):
-            share = 2.0 * bending.stiffness / bending.lengths[e] * bending.shares[j]
+            share = 2.0 * bending.stiffness / bending.lengths[e] * branches.shares[j]
             energy += share * form(z[2 * e, j], z[2 * e + 1, j])
     return energy

@@ -48,6 +48,7 @@ from hermite_fe.contacts import Contact
 from hermite_fe.elastic_wall import NO_SPRINGS, Springs
 from hermite_fe.far_fields import Dampings, FarField
 from hermite_fe.masses import ConsistentMass, Mass
+from hermite_fe.maxwell import branches_at_rest
 from hermite_fe.system import Bending, ContactRows, System
 
 __all__ = ["MODELLED", "BeamModel", "beam_model"]
@@ -145,8 +146,6 @@ def beam_model(
     unbent = impact.curvature if impact.natural_curvature is None else impact.natural_curvature
     moment = impact.bending_stiffness * (unbent - impact.curvature)  # of the bow: none unless a part of it is elastic
     bending = Bending(beam.lengths, beam.phi, relaxed, moment, half.size - 1 if full else 0)
-    if branches is not None:  # slack at the start
-        bending = bending._replace(shares=branches.shares, rates=1.0 / branches.times, matrix=bending_stiffness)
     supports = held_dofs(impact, beam, full=full)
     rows = before_the_wall(contact.rows(beam, facing, full=full), impact, supports)
     if impact.opposite_wall is not None:
@@ -161,6 +160,7 @@ def beam_model(
         springs=springs_of(impact, beam, facing, full=full),
         second=NO_SPRINGS if impact.opposite_wall is None else springs_of(impact, beam, behind_the_beam, full=full),
         bending=bending,
+        branches=None if branches is None else branches_at_rest(bending_stiffness, branches),
     )
     behind = (np.arange(len(rows)) % 2 == 1) & (impact.opposite_wall is not None)
     return BeamModel(beam, system, displacement, velocity, natural, facing, behind, full, impact.axial_force)

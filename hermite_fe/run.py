@@ -78,7 +78,7 @@ class Stepper:
                 "integrator.kind: midpoint is for a wall with a stiffness, the others for a rigid one; leave it out "
                 f"(got {type(integrator).__name__})"
             )
-        if system.bending.shares.size and not integrator.hysteretic:
+        if system.branches is not None and not integrator.hysteretic:
             raise InputError(
                 "integrator.kind: hysteretic_loss needs moreau_jean or signorini_position, before a wall with a "
                 f"stiffness midpoint; leave it out (got {type(integrator).__name__})"
@@ -127,8 +127,8 @@ class Stepper:
             "kinetic_energy": 0.5 * float(state.v @ product(matrices.M, state.v)),
             "strain_energy": 0.5 * stiff_form(matrices.K, matrices.K_sums, state.q),
         }
-        if state.branches.size:
-            found["branch_energy"] = branch_energy(state.bending, state.branches)
+        if state.branches is not None:
+            found["branch_energy"] = branch_energy(state.branches, state.bending)
             found["strain_energy"] += found["branch_energy"]
         if self.integrator.elastic:
             found["contact_energy"] = stored_energy(matrices.springs, state.q)

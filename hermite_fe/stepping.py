@@ -10,11 +10,11 @@ from numpy.typing import NDArray
 
 from hermite_fe.active_set import NOT_FINITE, SOLVED, solve_free
 from hermite_fe.banded import PAD, combine, dot, multiply, row_sums, stiff_multiply
-from hermite_fe.compiled import compiled
+from hermite_fe.compiled import compiled, compiled_within
 from hermite_fe.constraints import Constraints, ContactLaw, Rows, Solver, row_times, rows_of, solver_of
 from hermite_fe.elastic_wall import Springs
 from hermite_fe.maxwell import strains_of
-from hermite_fe.system import Bending, System
+from hermite_fe.system import Bending, Branches, System
 
 __all__ = ["ENERGIES", "LARGEST", "MATERIAL", "WALL", "Matrices", "Problem", "State", "add_energies", "add_impulses",
            "end_step", "forces_at", "initial_acceleration", "mean_forces", "prepare", "problem_of",
@@ -73,8 +73,8 @@ class State(NamedTuple):
     closed : (rows,). impulse, held_impulse : (rows,), N s since the start, and its tensile part in held constraints.
     energy : (7,), J, see :data:`WORK`. worst : (2,), see :data:`hermite_fe.constraints.PRODUCT`.
     peaks : (4,), see :data:`hermite_fe.elastic_wall.FORCE`.
-    branches : (2 elements, branches), the stretches z of Maxwell branches; stretch : (2 elements,), their weighted sum,
-        mean over the last step.
+    branches : of a hysteretic beam, else none; stretch : (2 elements,), the weighted sum of their stretches, mean over
+        the last step.
     largest : (3,), :data:`LARGEST` of all steps since it was last set to 0: largest bending moment |M|, N m, its node,
         and the largest in the middle, N m.
     """
@@ -90,7 +90,7 @@ class State(NamedTuple):
     peaks: Array
     largest: Array
     bending: Bending
-    branches: Array
+    branches: Branches | None
     stretch: Array
 
 
@@ -109,13 +109,12 @@ def problem_of(system: System, law: ContactLaw) -> Problem:
 
 def state_of(system: System, q: Array, v: Array) -> State:
     """The state at the start, q and v copied."""
-    n, m, bending = system.dofs, len(system.contacts), system.bending
-    strains, branches = 2 * bending.lengths.size, bending.shares.size
+    n, m = system.dofs, len(system.contacts)
     return State(
         q=np.array(q, float), v=np.array(v, float), acceleration=np.zeros(n), closed=np.zeros(m, np.bool_),
         impulse=np.zeros(m), held_impulse=np.zeros(m), energy=np.zeros(7), worst=np.zeros(2), peaks=np.zeros(4),
-        largest=np.zeros(3), branches=np.zeros((strains, branches)), stretch=np.zeros(strains),
-        bending=bending._replace(means=np.zeros(branches), weights=np.zeros(branches)),
+        largest=np.zeros(3), bending=system.bending, stretch=np.zeros(2 * system.bending.lengths.size),
+        branches=None if system.branches is None else Branches(*(part.copy() for part in system.branches)),
     )  # fmt: skip
 
 
@@ -139,7 +138,7 @@ def prepare(problem: Problem, c: float, k: float, h: float, t: float) -> float:
     return h
 
 
-@compiled
+@compiled_within
 def note_moments(bending: Bending, q: Array, stretch: Array, largest: Array) -> None:
     """Note the largest bending moments of the cubics through q and of the branches, at both ends of each element."""
     for e in range(bending.lengths.size):

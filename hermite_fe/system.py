@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from bent_beam.errors import InputError
 from hermite_fe.elastic_wall import NO_SPRINGS, Springs
 
-__all__ = ["DAMPINGS", "Bending", "ContactRows", "System"]
+__all__ = ["DAMPINGS", "Bending", "Branches", "ContactRows", "System"]
 
 Array = NDArray[np.float64]
 
@@ -96,12 +96,10 @@ def _bands(name: str, value: Array, dofs: int) -> Array:
 
 
 class Bending(NamedTuple):
-    """What bending moments need, M = EI w_xx + ``free``, and Maxwell branches (:mod:`hermite_fe.maxwell`).
+    """What bending moments need, M = EI w_xx + ``free``.
 
     lengths : (elements,), m, none of a system that is no beam; phi : Φ of each, :mod:`hermite_fe.beam`;
     stiffness : EI, N m², relaxed where there are branches; free : moment at q = 0, N m; middle : node in the middle.
-    shares, rates : (branches,), g and 1/τ, 1/s; means, weights : (branches,), ϑ and 1/(1 + ϑh/τ) of the step matrix;
-        matrix : the bending part of K, (4, dofs), with branches only.
     """
 
     lengths: Array = _left_out()
@@ -109,11 +107,21 @@ class Bending(NamedTuple):
     stiffness: float = 0.0
     free: float = 0.0
     middle: int = 0
-    shares: Array = _left_out()
-    rates: Array = _left_out()
-    means: Array = _left_out()
-    weights: Array = _left_out()
-    matrix: Array = np.zeros((4, 0))
+
+
+class Branches(NamedTuple):
+    """Maxwell branches beside the bending stiffness (:mod:`hermite_fe.maxwell`).
+
+    matrix : the bending part of K, (4, dofs). shares, rates : (branches,), g and 1/τ, 1/s; means, weights :
+    (branches,), ϑ and 1/(1 + ϑh/τ) of the step matrix. z : (2 elements, branches), the stretches.
+    """
+
+    matrix: Array
+    shares: Array
+    rates: Array
+    means: Array
+    weights: Array
+    z: Array
 
 
 @dataclass(frozen=True)
@@ -126,7 +134,7 @@ class System:
     load : (powers, dofs), F(t) = Σ_k load[k]·t^k.
     contacts : unilateral constraints; before a wall that gives way by ``springs`` they only say where impulses are
         recorded. second : springs of a second wall, seen from which the motion is −q. supports : dofs that keep their
-        initial value. bending : of a beam.
+        initial value. bending, branches : of a beam.
 
     Raises ``ValueError`` when shapes disagree, a cause of damping is unknown or named twice, or a support carries a
     constraint of its own.
@@ -141,6 +149,7 @@ class System:
     springs: Springs = NO_SPRINGS
     second: Springs = NO_SPRINGS
     bending: Bending = field(default_factory=Bending)
+    branches: Branches | None = None
 
     def __post_init__(self) -> None:
         set_ = object.__setattr__

@@ -39,7 +39,7 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.fft import irfft, rfft
+import scipy
 
 from bent_beam.checks import between, positive
 from theory._fresnel import TURN, FloatArray, scaled_iterated_erfc
@@ -167,7 +167,7 @@ def wall_history(
     rows[0, 3] = 2.0 * wall_damping_ratio  # a dashpot pushes at once
 
     def evenly(spectrum: FloatArray) -> FloatArray:
-        return np.asarray(irfft(spectrum, 4 * cells)[: cells + 1])
+        return np.asarray(scipy.fft.irfft(spectrum, 4 * cells)[: cells + 1])
 
     for n in range(1, steps + 1):
         past = slice(n - 1, 0, -1)
@@ -178,7 +178,7 @@ def wall_history(
             rate = 1.0 - evenly(velocity + of_velocity[0] * spectra[n])
             pressure = p + 2.0 * wall_damping_ratio * rate
             before, (loads, force, rim) = loads, _loads(p, pressure, dx)
-            spectra[n] = rfft(np.concatenate([loads, np.zeros(2 * cells - 1), loads[:0:-1]])).real
+            spectra[n] = scipy.fft.rfft(np.concatenate([loads, np.zeros(2 * cells - 1), loads[:0:-1]])).real
             if np.abs(loads - before).max() <= _SETTLED * (1.0 + force):
                 break
         else:
@@ -195,7 +195,7 @@ def _responses(cells: int, dx: float, steps: int, dt: float, m: int) -> FloatArr
     ramps[1:] = _integrals(x, dt * np.arange(1.0, steps + 2.0)[:, None], m + 2)
     hats = np.diff(ramps, 2, axis=1) / dx**2
     hats = np.concatenate([hats[1:2], np.diff(hats, 2, axis=0)]) / dt
-    return np.asarray(rfft(np.concatenate([hats, hats[:, -2:0:-1]], axis=1), axis=1).real)
+    return np.asarray(scipy.fft.rfft(np.concatenate([hats, hats[:, -2:0:-1]], axis=1), axis=1).real)
 
 
 def _integrals(x: FloatArray, t: FloatArray, m: int) -> FloatArray:

@@ -20,7 +20,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.optimize import brentq, minimize_scalar
 from scipy.special import zeta
 
 from theory import damped_point
@@ -86,6 +85,7 @@ class StoppedBeam:
         Raises:
             ArithmeticError: none before 20 T* (a beam so damped that it only creeps).
         """
+        from scipy.optimize import brentq, minimize_scalar  # slow to load
 
         def reaction(t: float) -> float:
             return float(self.reaction(t))

@@ -9,9 +9,10 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, ClassVar
 
-__all__ = ["FACTOR", "MISSING", "Band", "Number", "number_of"]
+__all__ = ["FACTOR", "LEAST", "MISSING", "Band", "Number", "number_of"]
 
 FACTOR = 1.5  # of what a companion changes; `make coverage` draws fresh beams and methods to hold it against
+LEAST = 1e-5  # of a number, unless no companion changes it at all: closer agreement than this is chance
 
 LARGE, SMALL = 1e6, 1e-4  # beyond, numbers are written with a power of ten
 
@@ -108,7 +109,8 @@ def number_of(
     others : cause → the value of a run that differs from this one by that cause alone: half of the elements and steps,
         another contact law. What both share is no cause that they can see.
     known : cause → the size of an error that no companion shows: a saved instant, an element, a fit, a viscosity.
-    Without a value there is no number; without companions, and where one of them has no value, there is no bar.
+    A bar is :data:`LEAST` of the value, or more. Without a value there is no number; without companions, and where one
+    of them has no value, there is no bar.
 
     >>> str(number_of(0.51, {"mesh_and_step": 0.508, "contact_law": 0.511}))
     '0.510 ± 0.005'
@@ -119,6 +121,8 @@ def number_of(
         return Number(value, theory=theory)
     changed = {cause: FACTOR * abs(other - value) for cause, other in others.items() if other is not None}
     parts = changed | dict(known or {})
+    if 0.0 < (found := sum(parts.values())) < LEAST * abs(value):
+        parts["chance"] = LEAST * abs(value) - found
     return Number(value, sum(parts.values()), theory, parts=parts)
 
 

@@ -8,11 +8,9 @@ from typing import Annotated
 import typer
 
 from comparison.command_line import options
-from comparison.command_line.options import emit, end_of_rows, factors, numbers, processes, progress
+from comparison.command_line.options import emit, end_of_rows, factors, numbers, progress
 
 __all__ = ["match"]
-
-LEAST_ROWS = 4  # a process, where the number of processes is left open
 
 
 def match(
@@ -63,8 +61,8 @@ def match(
     if out is not None:
         check_writable(out, folder=True)
     with progress(f"{len(asked)} rows", quiet) as bar:
-        many = {"jobs": processes(jobs, len(asked), LEAST_ROWS), "scheduler": scheduler}
-        rows = match_all(asked, store=RunStore.usual(fresh), limit=limit, progress=bar.count, **many)  # type: ignore[arg-type]
+        how = {"store": RunStore.usual(fresh), "jobs": jobs, "scheduler": scheduler, "limit": limit}
+        rows = match_all(asked, progress=bar.count, **how)  # type: ignore[arg-type]
     emit(rows.to_dict(), as_json, lambda: str(rows))
     if out is not None:
         from comparison.figures.matching import write_match

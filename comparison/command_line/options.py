@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import logging
 import math
-import os
 import sys
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
@@ -47,7 +46,7 @@ CaseFile = Annotated[
 Jobs = Annotated[int, typer.Option("--jobs", "-j", min=1, help="Processes on this machine.")]
 ManyJobs = Annotated[
     int | None,
-    typer.Option("--jobs", "-j", min=1, help="Processes on this machine. Default: one per core."),
+    typer.Option("--jobs", "-j", min=1, help="Processes on this machine. Default: one per core where that pays."),
 ]
 Scheduler = Annotated[
     str | None, typer.Option(help="Address of a dask.distributed scheduler, e.g. tcp://127.0.0.1:8786.")
@@ -78,11 +77,6 @@ ErrorBars = Annotated[
 ]
 Fresh = Annotated[bool, typer.Option("--fresh", help="Ignore stored runs.")]
 Overwrite = Annotated[bool, typer.Option("--overwrite", help="Replace existing files.")]
-
-
-def processes(jobs: int | None, rows: int, least: int = 1) -> int:
-    """``--jobs``, or one per core and ``least`` rows: a process takes a second or two to start."""
-    return jobs or max(1, min(os.cpu_count() or 1, rows // least))
 
 
 def end_of_rows(rows: Sequence[Any]) -> None:

@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 
 from comparison.command_line import options
-from comparison.command_line.options import emit, end_of_rows, path_names, processes, progress, setting_names
+from comparison.command_line.options import emit, end_of_rows, path_names, progress, setting_names
 
 __all__ = ["sweep"]
 
@@ -55,7 +55,7 @@ def sweep(
         raise InputError("--vary: a key is given twice")
     how = {"assignments": assignments or (), "scheduler": scheduler, "fresh": fresh}
     with progress(f"{rows} rows", quiet) as bar:
-        found = sweep_all(case, asked, path, jobs=processes(jobs, rows), progress=bar.count, **how)  # type: ignore[arg-type]
+        found = sweep_all(case, asked, path, jobs=jobs, progress=bar.count, **how)  # type: ignore[arg-type]
     emit(found.to_dict(), as_json, lambda: str(found))
     if out is not None:
         found.write(out)  # after the answer, which a full disk must not cost

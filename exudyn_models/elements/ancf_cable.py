@@ -8,6 +8,7 @@ the mesh cannot resolve: waves of wave number k by the ratio c(kΔx)²/2.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -25,12 +26,12 @@ __all__ = ["ANCFCable"]
 
 POINTS, WEIGHTS = np.polynomial.legendre.leggauss(4)
 CUBICS = np.array([[1.0, 0.0, -3.0, 2.0], [0.0, 1.0, -2.0, 1.0], [0.0, 0.0, 3.0, -2.0], [0.0, 0.0, -1.0, 1.0]]).T
-GAUSS, ENDS = (
+GAUSS, BENT, ENDS = (
     tuple(np.asarray(polyval(places, polyder(CUBICS, derivative)), np.float64) for derivative in range(3))
-    for places in ((POINTS + 1) / 2, np.array([0.0, 1.0]))
+    for places in ((POINTS + 1) / 2, 0.5 + np.array([-1.0, 1.0]) / math.sqrt(12.0), np.array([0.0, 1.0]))
 )
-"""Hermite functions of the unit element, and derivatives, at the Gauss points and at its ends, each of shape
-(4 functions, points)."""
+"""Hermite functions of the unit element, and derivatives, at the Gauss points where Exudyn integrates stretch, at the
+two where it integrates bending, and at the ends, each of shape (4 functions, points)."""
 
 
 class _Cable(Beam):
@@ -88,8 +89,18 @@ class _Cable(Beam):
         return np.asarray(np.hypot(1.0 + x1, y1) - 1.0)
 
     def bending_energy(self, q: Array) -> Array:
-        (x1, x2), (y1, y2) = self._fields(q, 0, GAUSS, 1, 2), self._fields(q, 1, GAUSS, 1, 2)
-        return self._integral((self._curvature(x1, x2, y1, y2) - self.shape.curvature) ** 2) / 2
+        (x1, x2), (y1, y2) = self._fields(q, 0, BENT, 1, 2), self._fields(q, 1, BENT, 1, 2)
+        squares = (self._curvature(x1, x2, y1, y2) - self.shape.curvature) ** 2
+        return np.asarray(squares.mean(axis=-1) @ self.lengths) / 2
+
+    def damping_work(self, q: Array, v: Array) -> tuple[Array, Array]:
+        (x1, x2), (y1, y2) = self._fields(q, 0, BENT, 1, 2), self._fields(q, 1, BENT, 1, 2)
+        (u1, u2), (w1, w2) = self._fields(v, 0, BENT, 1, 2), self._fields(v, 1, BENT, 1, 2)
+        bent, along = self._curvature(x1, x2, y1, y2), 1.0 + x1
+        rate = u1 * y2 + along * w2 - w1 * x2 - y1 * u2 - 2.0 * bent * (along * u1 + y1 * w1)
+        rate /= along**2 + y1**2
+        work = ((rate[1:] + rate[:-1]) / 2 * np.diff(bent, axis=0)).mean(axis=-1) * self.lengths
+        return work @ self.grid_viscosity, work.sum(axis=-1) * self.section.damping
 
     def bending_moments(self, q: Array) -> Array:
         (x1, x2), (y1, y2) = self._fields(q, 0, ENDS, 1, 2), self._fields(q, 1, ENDS, 1, 2)

@@ -180,12 +180,20 @@ class Beam(ABC):
         """Of one state, or of each of several, v (states, coordinates)."""
         return np.asarray((v * (self.mass @ v.T).T).sum(axis=-1) / 2)
 
-    def damping_matrices(self) -> tuple[Matrix, Matrix]:
-        """Of the system, by the viscosity at grid scale and by that of the material."""
+    @cached_property
+    def _damping(self) -> tuple[Matrix, Matrix]:
+        """Matrices of the system, of the viscosity at grid scale and of the material's."""
         _, _, damped = self.element_matrices()
         grid, material = self.grid_viscosity[:, None, None] * damped, self.section.damping * damped
         where = self.vertical, self.rotation
         return self._assembled(grid, *where), self._assembled(material, *where)
+
+    def damping_work(self, q: Array, v: Array) -> tuple[Array, Array]:
+        """What the viscosity at grid scale and that of the material take between neighbouring rows, each (rows − 1,);
+        here for small slopes."""
+        moved, mean = np.diff(q, axis=0), (v[1:] + v[:-1]) / 2
+        grid, material = ((mean * (matrix @ moved.T).T).sum(axis=1) for matrix in self._damping)
+        return grid, material
 
     def locate(self) -> None:
         """After ``mbs.Assemble()``: where the coordinates stand in the system's vectors."""
@@ -225,11 +233,12 @@ class Beam(ABC):
 
     def strain_energy(self, q: Array) -> Array:
         """What the beam holds but for :meth:`stretch_energy`."""
-        return self.bending_energy(q) + self.axial_energy(q) - self.stretch_energy(q)
+        bending = self.bending_energy(q)
+        return bending if self.section.axial_force else bending + self.axial_energy(q)
 
     def stretch_energy(self, q: Array) -> Array:
         """What an axial force keeps in the beam that it stretches, the same along all of it; 0 without one."""
-        return self.axial_energy(q) * (self.section.axial_force != 0.0)
+        return self.axial_energy(q) if self.section.axial_force else np.zeros(q.shape[:-1])
 
     @abstractmethod
     def element_matrices(self) -> tuple[Array, Array, Array]:

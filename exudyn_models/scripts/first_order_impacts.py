@@ -6,13 +6,12 @@ a₀ along it. Both are found from what a₀ changes; half of a₀ shows what is
 """
 
 import argparse
-import itertools
-from collections.abc import Sequence
 from typing import Any
 
 import exudyn as exu
 import exudyn.itemInterface as items
 import numpy as np
+from exudyn.beams import GenerateBeamElementsAlongLine
 
 EXACT = {700: (300.0, 85.90), -700: (-280.6, -88.97)}  # a₀: ελ₁V₀², εr₁ (thesis 2.7.40, 2.7.71)
 # nodes' dashpot, √(EIμ)/Δx: must not let them rebound where they are pressed, nor hold them where the zone lifts off
@@ -25,21 +24,16 @@ def impact(acceleration: float, dashpot: float, count: int) -> tuple[float, floa
     """Impulse on one half of the beam until END, N s, and its moment about the middle, N s m."""
     mbs: Any = exu.SystemContainer().AddSystem()
     length, x = HALF / count, np.linspace(0, HALF, count + 1)
-    section: dict[str, Any] = {"length": length, "massPerLength": 1, "bendingStiffness": 1, "axialStiffness": 1}
+    section: dict[str, Any] = {"massPerLength": 1, "bendingStiffness": 1, "axialStiffness": 1}
     section |= {"referenceCurvature": -SMALL * CURVATURE, "bendingDamping": 0.15 * length**2}
-    nodes = []
-    for s in x:
-        bow = {"initialCoordinates": [0, -SMALL * CURVATURE * s**2 / 2, 0, -SMALL * CURVATURE * s]}
-        bow |= {"initialVelocities": [0, SMALL * SPEED, 0, 0], "referenceCoordinates": [s, 0, 1, 0]}
-        nodes.append(mbs.AddNode(items.NodePoint2DSlope1(**bow)))
-    for pair in itertools.pairwise(nodes):
-        cable = mbs.AddObject(items.ObjectANCFCable2D(nodeNumbers=list(pair), **section))
-        body = mbs.AddMarker(items.MarkerBodyMass(bodyNumber=cable))
-        mbs.AddLoad(items.LoadMassProportional(markerNumber=body, loadVector=[0, SMALL * acceleration, 0]))
+    cable, load = items.ObjectANCFCable2D(**section), [0, SMALL * acceleration, 0]
+    middle = {"groundConstraintsStart": [1, 0, 0, 1]}  # neither moves along x nor turns
+    nodes = GenerateBeamElementsAlongLine(mbs, [0, 0, 0], [HALF, 0, 0], count, cable, load, **middle)["nodes"]
+    for node, s in zip(nodes, x):
+        bow = [0, -SMALL * CURVATURE * s**2 / 2, 0, -SMALL * CURVATURE * s]
+        mbs.SetNodeParameter(node, "initialCoordinates", bow)
+        mbs.SetNodeParameter(node, "initialVelocities", [0, SMALL * SPEED, 0, 0])
     ground = mbs.AddMarker(items.MarkerNodeCoordinate(nodeNumber=mbs.AddNode(items.NodePointGround()), coordinate=0))
-    for coordinate in (0, 3):  # the middle neither moves along x nor turns
-        middle = mbs.AddMarker(items.MarkerNodeCoordinate(nodeNumber=nodes[0], coordinate=coordinate))
-        mbs.AddObject(items.CoordinateConstraint(markerNumbers=[ground, middle]))
     share = np.where((x > 0) & (x < HALF), length, length / 2)
     for node, s, part in zip(nodes, x, share):  # the plane
         gap = max(1e-14, SMALL * CURVATURE * s**2 / 2)
@@ -68,14 +62,13 @@ def impact(acceleration: float, dashpot: float, count: int) -> tuple[float, floa
     return lost.sum(), x @ lost - np.trapezoid(moment, time) / SMALL
 
 
-def main(arguments: Sequence[str] | None = None) -> None:
+def main(arguments: list[str] | None = None) -> None:
     options = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     options.add_argument("--elements", type=int, default=400)
     count = options.parse_args(arguments).elements
     for load, exact in EXACT.items():
-        pressed = max(load, 0) * np.array(
-            [LAMBDA0 * END**1.5 / 1.5, LAMBDA0**2 * END**2 / 4]
-        )  # of the uniform reaction
+        # of the uniform reaction
+        pressed = max(load, 0) * np.array([LAMBDA0 * END**1.5 / 1.5, LAMBDA0**2 * END**2 / 4])
         none, half, whole = (np.array(impact(part * load, DASHPOT[load], count)) for part in (0, 0.5, 1))
         push, turn = (4 * half - whole - 3 * none - pressed) / (SPEED * np.sqrt(2 / np.pi))
         r1 = 1.5 * push / END**1.5

@@ -35,7 +35,7 @@ from bent_beam.errors import InputError
 from bent_beam.fields import Quantity
 from hermite_fe.active_set import SOLVED
 from hermite_fe.banded import dot, multiply, stiff_multiply
-from hermite_fe.compiled import compiled, recompiling
+from hermite_fe.compiled import compiled_within, recompiling
 from hermite_fe.constraints import row_times
 from hermite_fe.stepping import Problem, State, add_energies, end_step, initial_acceleration, mean_forces, prepare
 
@@ -121,13 +121,13 @@ def motion_of(problem: Problem, state: State, spectral_radius: float) -> Motion:
     return Motion(scheme_of(spectral_radius), vectors, reactions)
 
 
-@compiled
+@compiled_within
 def prepare_step(problem: Problem, scheme: Scheme, h: float, t: float) -> float:
     """Make M + hγsC + h²βsK, the matrix of v̇⁺ and of the jumps, for a step to t; returns the length of the step."""
     return prepare(problem, h * scheme.gamma * scheme.s, h * h * scheme.beta * scheme.s, h, t)
 
 
-@compiled
+@compiled_within
 def predict(state: State, motion: Motion, h: float) -> None:
     """Save q and v of the start of the step, and replace them by q*, v*."""
     alpha_m, alpha_f, gamma, beta, _ = motion.scheme
@@ -140,7 +140,7 @@ def predict(state: State, motion: Motion, h: float) -> None:
         v[i] += h * ((1.0 - gamma) * a + gamma * known)
 
 
-@compiled
+@compiled_within
 def correct(state: State, motion: Motion, h: float) -> None:
     """Set v̇⁺ to ``vectors.x``, and compute a⁺, q⁺, v⁺ without jumps."""
     _, _, gamma, beta, s = motion.scheme
@@ -153,7 +153,7 @@ def correct(state: State, motion: Motion, h: float) -> None:
         vectors.missed_motion[i] = h * h * (beta - 0.5 * gamma) * (a - before)
 
 
-@compiled
+@compiled_within
 def take_reaction(scheme: Scheme, reactions: Reactions, h: float, j: int, force: float) -> None:
     """Set constraint j's reaction at the end of the step to ``force``, and compute its impulse over the step by the
     recursion (3.3.12) of v̇."""
@@ -165,7 +165,7 @@ def take_reaction(scheme: Scheme, reactions: Reactions, h: float, j: int, force:
     reactions.impulse[j] = h * ((1.0 - gamma) * filtered + gamma * new)
 
 
-@compiled
+@compiled_within
 def finish_step(problem: Problem, state: State, motion: Motion, t: float, h: float) -> int:
     """Add the energies of the step, by the formulas of the module docstring, and store its jump forces for the next;
     returns the status."""

@@ -24,7 +24,7 @@ from bent_beam.fields import Quantity
 from bent_beam.impact import Impact
 from hermite_fe.active_set import CYCLING, SINGULAR, SOLVED, solve_free
 from hermite_fe.banded import copy
-from hermite_fe.compiled import compiled
+from hermite_fe.compiled import compiled, compiled_within
 from hermite_fe.constraints import (
     PRODUCT,
     SMALLEST_REACTION,
@@ -128,7 +128,7 @@ def take_steps(
     return SOLVED, last
 
 
-@compiled
+@compiled_within
 def set_springs(
     problem: Problem, motion: Motion, conditions: Constraints, closed: Flags, stiffness: float, damping: float,
     position_share: float, velocity_share: float
@@ -151,7 +151,7 @@ def set_springs(
             b[d] -= g * (spring * (rows.gap[j] + conditions.Gq[j]) + damper * conditions.Gv[j])
 
 
-@compiled
+@compiled_within
 def solve_with_springs(
     problem: Problem, state: State, motion: Motion, conditions: Constraints, h: float, stiffness: float, damping: float,
     rounds: int
@@ -182,7 +182,7 @@ def solve_with_springs(
     return status
 
 
-@compiled
+@compiled_within
 def add_spring_reactions(
     problem: Problem, state: State, motion: Motion, h: float, stiffness: float, damping: float
 ) -> None:

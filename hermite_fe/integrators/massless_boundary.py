@@ -29,7 +29,7 @@ from bent_beam.checks import affordable
 from bent_beam.errors import InputError
 from hermite_fe.active_set import SOLVED, solve_constrained
 from hermite_fe.banded import combine, copy, dot
-from hermite_fe.compiled import compiled
+from hermite_fe.compiled import compiled, compiled_within
 from hermite_fe.constraints import Constraints, constraints_of, note_complementarity, rows_times
 from hermite_fe.integrators.base import MOST_WORK, Integrator
 from hermite_fe.stepping import Problem, State, add_energies, add_impulses, end_step, forces_at, mean_forces
@@ -177,7 +177,7 @@ def take_steps(
     return SOLVED, last
 
 
-@compiled
+@compiled_within
 def step(problem: Problem, state: State, memory: MasslessMemory, t: float, h: float) -> int:
     """One explicit step of length h from t, and its energies; returns the status."""
     q, v, a, mass = state.q, state.v, state.acceleration, problem.matrices.M[0]

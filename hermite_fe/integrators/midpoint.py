@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 
 from hermite_fe.active_set import CYCLING, SOLVED, solve_free
 from hermite_fe.banded import PAD, multiply
-from hermite_fe.compiled import compiled
+from hermite_fe.compiled import compiled, compiled_within
 from hermite_fe.constraints import count_rounds, refactor_from
 from hermite_fe.elastic_wall import FORCE, FORCE_TIME, PENETRATION, PRESSURE, push
 from hermite_fe.integrators.base import Integrator
@@ -97,7 +97,7 @@ def take_steps(
     return SOLVED, last
 
 
-@compiled
+@compiled_within
 def solve_step(problem: Problem, state: State, memory: MidpointMemory, t: float, h: float) -> int:
     """Δv by Newton's method, and what the wall then does; returns the status."""
     springs, second, rows, solver = problem.matrices.springs, problem.matrices.second, problem.rows, problem.solver
@@ -141,7 +141,7 @@ def solve_step(problem: Problem, state: State, memory: MidpointMemory, t: float,
     return CYCLING
 
 
-@compiled
+@compiled_within
 def record_push(problem: Problem, state: State, memory: MidpointMemory, t: float, h: float, total: Array) -> None:
     """Add the impulses of a step from t, and note the largest force, penetration and pressure so far, of the two walls
     together. The forces on deflections add up to the whole force of a wall, N₁ + N₃ = 1."""

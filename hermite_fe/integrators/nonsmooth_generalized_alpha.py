@@ -24,7 +24,7 @@ from numpy.typing import NDArray
 from bent_beam.fields import Quantity
 from hermite_fe.active_set import SOLVED, solve_constrained
 from hermite_fe.banded import copy, dot, multiply
-from hermite_fe.compiled import compiled
+from hermite_fe.compiled import compiled, compiled_within
 from hermite_fe.constraints import (
     Constraints,
     constraints_of,
@@ -106,7 +106,7 @@ def take_steps(
     return SOLVED, last
 
 
-@compiled
+@compiled_within
 def smooth_motion(problem: Problem, state: State, motion: Motion, conditions: Constraints, t: float, h: float) -> int:
     """The step's motion without jumps, with the contact conditions of accelerations; returns the status."""
     scheme, vectors, reactions = motion
@@ -121,7 +121,7 @@ def smooth_motion(problem: Problem, state: State, motion: Motion, conditions: Co
     return status
 
 
-@compiled
+@compiled_within
 def velocity_jump(problem: Problem, state: State, motion: Motion, velocity: Constraints) -> int:
     """The jump W (``vectors.x``) of (M + hγsC + h²βsK)W = b + Gᵀp, 0 ≤ p ⊥ Gv⁺ + eGv ≥ 0, v⁺ += W, Gv of before the
     step, b = ``vectors.b``. Puts KW in ``vectors.force``, CW in ``vectors.scratch``; returns the status."""
@@ -143,7 +143,7 @@ def velocity_jump(problem: Problem, state: State, motion: Motion, velocity: Cons
     return status
 
 
-@compiled
+@compiled_within
 def velocity_step(problem: Problem, state: State, memory: AlphaMemory, t: float, h: float) -> int:
     """Constraints at velocity level only.
 
@@ -176,7 +176,7 @@ def velocity_step(problem: Problem, state: State, memory: AlphaMemory, t: float,
     return status
 
 
-@compiled
+@compiled_within
 def position_step(
     problem: Problem, state: State, memory: AlphaMemory, t: float, h: float, with_acceleration: bool
 ) -> int:
@@ -211,7 +211,7 @@ def position_step(
     return status
 
 
-@compiled
+@compiled_within
 def position_jump(problem: Problem, state: State, vectors: Vectors, position: Constraints, h: float) -> int:
     """U of :func:`position_step`. Puts −hKU in ``vectors.b``; returns the status."""
     matrices, rows, _, solver = problem
@@ -234,7 +234,7 @@ def position_jump(problem: Problem, state: State, vectors: Vectors, position: Co
     return status
 
 
-@compiled
+@compiled_within
 def velocity_after_position(
     problem: Problem, state: State, motion: Motion, smooth_p: Array, velocity: Constraints, h: float
 ) -> int:

@@ -33,7 +33,7 @@ from bent_beam.errors import InputError
 from bent_beam.fields import Quantity
 from hermite_fe.active_set import SOLVED, solve_constrained
 from hermite_fe.banded import copy, dot, multiply, stiff_multiply
-from hermite_fe.compiled import compiled
+from hermite_fe.compiled import compiled, compiled_within
 from hermite_fe.constraints import (
     Constraints,
     ContactLaw,
@@ -118,7 +118,7 @@ class SignoriniPosition(Theta):
         return super().start(problem, state)
 
 
-@compiled
+@compiled_within
 def begin_step(
     problem: Problem, state: State, vectors: Vectors, t: float, end: float, theta: float
 ) -> tuple[float, bool]:
@@ -127,7 +127,7 @@ def begin_step(
     matrices, h, made_for = problem.matrices, end - t, problem.solver.step[0]
     h = prepare(problem, theta * h, theta * theta * h * h, h, end)
     if h != made_for:
-        stiffen(state.bending, h, theta, problem.solver)
+        stiffen(state.branches, h, theta, problem.solver)
     b, moved, scratch, force = vectors.b, vectors.v_theta, vectors.scratch, vectors.force
     mean_forces(matrices.load, t, h, theta, force)
     for i in range(b.size):
@@ -136,11 +136,11 @@ def begin_step(
     stiff_multiply(matrices.C, matrices.C_sums, state.v, scratch)
     for i in range(b.size):
         b[i] = h * (force[i] - b[i] - scratch[i])
-    add_branch_forces(state.bending, state.branches, state.v, h, b)
+    add_branch_forces(state.branches, state.bending, state.v, h, b)
     return h, h != made_for
 
 
-@compiled
+@compiled_within
 def finish_step(problem: Problem, state: State, p: Array, vectors: Vectors, h: float, theta: float) -> int:
     """Move on by ``vectors.dv`` and add the energies, p : (rows,), impulses of rigid walls; returns the status."""
     q, v, dv, v_theta, mean_v = state.q, state.v, vectors.dv, vectors.v_theta, vectors.mean_v
@@ -149,13 +149,13 @@ def finish_step(problem: Problem, state: State, p: Array, vectors: Vectors, h: f
         mean_v[i] = v[i] + 0.5 * dv[i]
         q[i] += h * v_theta[i]
         v[i] += dv[i]
-    state.energy[MATERIAL] += step_branches(state.bending, v_theta, h, state.branches, state.stretch)
+    state.energy[MATERIAL] += step_branches(state.branches, state.bending, v_theta, h, state.stretch)
     loss = algorithmic_loss(problem, p, vectors, h, theta)
     add_energies(problem, state, h, h * dot(vectors.force, v_theta), p, mean_v, v_theta, loss, vectors.scratch)
     return end_step(state)
 
 
-@compiled
+@compiled_within
 def algorithmic_loss(problem: Problem, p: Array, vectors: Vectors, h: float, theta: float) -> float:
     """(θ − ½)[Δvᵀ(MΔv − Gᵀp) + h² v_θᵀK v_θ]."""
     matrices, dv, v_theta, scratch = problem.matrices, vectors.dv, vectors.v_theta, vectors.scratch
@@ -171,7 +171,7 @@ def algorithmic_loss(problem: Problem, p: Array, vectors: Vectors, h: float, the
     return (theta - 0.5) * loss
 
 
-@compiled
+@compiled_within
 def impose(
     rows: Rows, law: ContactLaw, conditions: Constraints, state: State, t: float, h: float, theta: float,
     at_position: bool

@@ -2,6 +2,7 @@
 
 import random
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -75,6 +76,16 @@ def test_every_door_gives_the_same_number_with_the_same_bar(tmp_path: Path) -> N
     *_, elastic, tensioned = drawn(tmp_path, 3, coarse=True)
     check(elastic, 0.02)
     check(tensioned, 0.002)
+
+
+def test_one_run_without_damping_has_no_number_of_the_whole_impact(tmp_path: Path) -> None:
+    """It is a band, which ``bounce`` gives; beside it a mean of some runs would be another answer."""
+    case = next(drawn(tmp_path, 1, coarse=True))
+    undamped = replace(case, impact=case.impact.replace(damping=0.0))
+    found = simulate_case(undamped, "hermite", until=None).to_dict()
+    for name in ("restitution", "total_impulse", "half_contact_length"):
+        assert found[name]["value"] is None
+    assert found["peak_moment"] is None and any("bentbeam bounce" in line for line in found["warnings"])
 
 
 @pytest.mark.verify

@@ -165,7 +165,7 @@ class Lifted(SelfSimilarFE):
 
     def simulate(self, impact, **asked):
         data = super().simulate(impact, **asked).dataset
-        return ImpactHistory(data.assign(gap=data["gap"] + self.lift * impact.velocity * data["time"]))
+        return ImpactHistory.of(data.assign(gap=data["gap"] + self.lift * impact.velocity * data["time"]))
 
 
 @pytest.mark.parametrize(("lift", "said"), [(0.04, ""), (0.05, "λ₀"), (0.08, "r₁ λ₀")])

@@ -25,6 +25,26 @@ def root(number):
     return number**0.5
 
 
+def whose(seconds):
+    """The process that a call of so many seconds ran in."""
+    time.sleep(seconds)
+    return os.getpid()
+
+
+def test_a_second_process_is_taken_once_it_pays(monkeypatch, caplog):
+    """Short calls stay here; of long ones all but the first go elsewhere. Who asks for more than pays is told."""
+    here = os.getpid()
+    monkeypatch.setattr(os, "cpu_count", lambda: 2)
+    assert run_all(whose, [(0.01,)] * 5, jobs=None) == [here] * 5
+    monkeypatch.setattr(workers, "PAYS", 0.2)
+    first, *others = run_all(whose, [(0.3,)] * 3, jobs=None)
+    assert first == here and here not in others and not caplog.records
+    monkeypatch.setattr(workers, "PAYS", 60.0)
+    with caplog.at_level("INFO", logger="bent_beam"):
+        assert here not in run_all(whose, [(0.01,)] * 2, jobs=2)
+    assert "leave --jobs out" in caplog.text
+
+
 @pytest.fixture(scope="module")
 def cluster():
     """Its scheduler gives a call up that one worker has died of. A worker that dies while its nanny still starts it is

@@ -10,6 +10,7 @@ from bent_beam.free_flight import pushing
 from bent_beam.meshes import UniformMesh
 from exudyn_models import ExudynModel
 from exudyn_models.contacts import penalty
+from exudyn_models.integrators import Trapezoidal
 
 PAGE = [  # κ/ν, η/T*, this path's number and the Hermite path's of the finest mesh
     (float(kappa), stated(damping.replace("10", "1e", 1))[0], stated(ours)[0], stated(theirs.split()[-1])[0])
@@ -79,6 +80,20 @@ def test_a_rocking_beam_is_the_mirror_image_of_one_rocking_the_other_way():
     assert right.array("total_impulse")[-1] == pytest.approx(left.array("total_impulse")[-1], rel=1e-6)
     assert right.array("gap")[-1, 0] != pytest.approx(right.array("gap")[-1, -1], rel=0.1)
     closes(right)
+
+
+def test_steps_grow_in_flight_and_keep_the_energy_and_the_impulse():
+    """The trapezoidal rule with states that fulfil equilibrium keeps a free beam's energy whatever its step."""
+    impact, step = Impact.whole_beam(2.0, relative_damping=1e-2), 1e-3
+    alike, grown = (
+        ExudynModel(mesh=UniformMesh(1 / 20), integrator=Trapezoidal(time_step=step, flight_step=longest))
+        .simulate_to_separation(impact, save=200)
+        for longest in (None, 10.0 * step)
+    )  # fmt: skip
+    assert grown.steps < 0.7 * alike.steps
+    assert restitution(grown) == pytest.approx(restitution(alike), abs=1e-5)
+    assert abs(grown.array("loss_algorithmic")[-1]) < 1e-12 * grown.array("kinetic_energy")[0]
+    closes(grown, 1e-7)
 
 
 def test_an_ensemble_has_penalties_from_a_quarter_of_the_usual_on_and_coarser_elements():

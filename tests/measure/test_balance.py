@@ -26,17 +26,17 @@ def test_a_run_keeps_its_momentum_and_a_falsified_impulse_energy_or_gap_shows_in
     assert (sound.second_moment is None) == ("axial_force" in loads)
     assert loads.get("axial_force") or sound.second_moment < 5e-4
     data = history.dataset
-    more = balance_of(ImpactHistory(data.assign(total_impulse=1.1 * data["total_impulse"])))
+    more = balance_of(ImpactHistory.of(data.assign(total_impulse=1.1 * data["total_impulse"])))
     assert more.momentum == pytest.approx(1.0 / 11.0, abs=1e-3) and more.points == pytest.approx(-1.0 / 11.0)
     assert "impulse" in more.warnings[0]
-    less = balance_of(ImpactHistory(data.assign(kinetic_energy=0.97 * data["kinetic_energy"])))
+    less = balance_of(ImpactHistory.of(data.assign(kinetic_energy=0.97 * data["kinetic_energy"])))
     assert less.initial_energy == pytest.approx(-0.03, abs=1e-9) and "mass is missing" in less.warnings[0]
-    assert balance_of(ImpactHistory(data.assign(gap=data["gap"] + 0.01))).gap_of_push > 0.03
-    assert balance_of(ImpactHistory(data.isel(time=slice(2, None)))).initial_energy is None
-    in_wall = balance_of(ImpactHistory(data.assign(gap=data["gap"] - 0.01)))
+    assert balance_of(ImpactHistory.of(data.assign(gap=data["gap"] + 0.01))).gap_of_push > 0.03
+    assert balance_of(ImpactHistory.of(data.isel(time=slice(2, None)))).initial_energy is None
+    in_wall = balance_of(ImpactHistory.of(data.assign(gap=data["gap"] - 0.01)))
     assert in_wall.penetration > 0.03 and any("in the wall" in line for line in in_wall.warnings)
     if "acceleration" in loads:
-        worked = balance_of(ImpactHistory(data.assign(work_of_loads=1.1 * data["work_of_loads"])))
+        worked = balance_of(ImpactHistory.of(data.assign(work_of_loads=1.1 * data["work_of_loads"])))
         assert worked.energy > 1e-2 and any("not accounted for" in line for line in worked.warnings)
 
 

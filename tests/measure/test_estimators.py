@@ -18,7 +18,7 @@ from theory import contact_parameters
 
 
 def with_impact(history, impact):
-    return ImpactHistory(history.dataset.assign_attrs(impact=json.dumps(dataclasses.asdict(impact))))
+    return ImpactHistory.of(history.dataset.assign_attrs(impact=json.dumps(dataclasses.asdict(impact))))
 
 
 @cache

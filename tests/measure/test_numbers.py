@@ -52,3 +52,8 @@ def test_a_bar_holds_the_error_of_a_run_of_first_order_and_is_at_most_twice_as_w
     assert 0.1 < found.bar < 0.2 and found.value == 2.1
     assert number_of(2.1, {"mesh_and_step": 2.2, "law": 2.0}, {"drift": 3.0}).bar == pytest.approx(2 * found.bar + 3.0)
     assert number_of(2.1, {"mesh_and_step": 2.2, "law": None}).bar is number_of(2.1, {}).bar is None
+
+
+def test_runs_that_agree_by_chance_give_no_finer_bar() -> None:
+    assert number_of(2.0, {"mesh_and_step": 2.0 + 1e-9}).bar == pytest.approx(2e-5)
+    assert number_of(2.0, {"mesh_and_step": 2.0}).bar == 0.0  # a count

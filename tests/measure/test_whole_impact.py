@@ -111,7 +111,7 @@ def test_in_other_units_an_impact_is_the_same_and_what_springs_of_the_wall_hold_
     run = pushed_until(0.5, last=4.0, again=again)
     time = run.dataset["time"]
     held, lost = 0.05 * time, 0.1 * (time > again)
-    run = ImpactHistory(run.dataset.assign(contact_energy=held, kinetic_energy=1.0 - held - lost))
+    run = ImpactHistory.of(run.dataset.assign(contact_energy=held, kinetic_energy=1.0 - held - lost))
     fields = {name: unit * run.array(name) for name, unit in UNITS.items()}
     other = history_of(18.0 * run.time, 3.0 * run.positions(0), impact=HEAVY, **fields)
     one, same = (dataclasses.asdict(whole_impact(history, shortest=shortest)) for history in (run, other))
@@ -219,6 +219,6 @@ def test_the_largest_force_is_told_in_half_the_beams_momentum_a_period() -> None
     run, steady = pushed_until(0.3), np.full(41, 5.8)
     peaks = dict.fromkeys(("peak_force", "peak_force_time", "peak_penetration", "peak_pressure"), ("time", steady))
     assert whole_impact(run).peak_force is None
-    assert whole_impact(ImpactHistory(run.dataset.assign(peaks))).peak_force == pytest.approx(5.8)
+    assert whole_impact(ImpactHistory.of(run.dataset.assign(peaks))).peak_force == pytest.approx(5.8)
     told = dataclasses.replace(whole_impact(run), peak_force_time=0.5, peak_force_place=0.25, push_time=0.125)
     assert list(peak_times(told, HEAVY).values()) == pytest.approx([9.0, 0.75, 2.25, 0.18])

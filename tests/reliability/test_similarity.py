@@ -152,6 +152,6 @@ def test_a_stored_history_is_enough_to_run_it_again_and_then_is_the_same_bit_for
 
 def test_a_history_that_is_another_by_its_last_bit_is_not_the_same():
     dataset = simulated("hermite").dataset
-    found = rerun_history(ImpactHistory(dataset.assign(gap=np.nextafter(dataset["gap"], 1.0))))
+    found = rerun_history(ImpactHistory.of(dataset.assign(gap=np.nextafter(dataset["gap"], 1.0))))
     assert not found["identical"] and 0.0 < found["largest_difference"].pop("gap") < 1e-15
     assert not found["largest_difference"]

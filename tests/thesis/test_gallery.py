@@ -263,7 +263,7 @@ def test_the_beam_without_the_wall_is_drawn_over_a_curved_wall_too() -> None:
     dataset = flat.dataset.copy()
     bent = flat.impact.replace(curvature=0.8, wall_curvature=0.3)
     dataset.attrs["impact"] = json.dumps(dataclasses.asdict(bent))
-    for over_flat, over_curved in zip(impact_frames(flat, 4), impact_frames(ImpactHistory(dataset), 4), strict=True):
+    for over_flat, over_curved in zip(impact_frames(flat, 4), impact_frames(ImpactHistory.of(dataset), 4), strict=True):
         far = np.abs(over_flat.x) > 0.9 * over_flat.x.max()
         assert np.allclose(over_curved.free, over_flat.free, rtol=0.0, atol=1e-12)
         assert np.allclose(over_curved.y, over_flat.y, rtol=0.0, atol=1e-12)

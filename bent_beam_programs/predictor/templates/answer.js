@@ -1,7 +1,7 @@
 "use strict";
 // A whole impact as numbers with bars: which runs, and what they say together (bent_beam/measure/numbers.py).
 const Answer = (() => {
-  const FACTOR = 1.5; // of what a companion changes
+  const FACTOR = 1.5, LEAST = 1e-5; // of what a companion changes; of the number: closer agreement is chance
   const RATIOS = [0.0002, 0.002, 0.02]; // damping ratios where none is stated
   const DRAWN = [140, 92, 124, 80, 108, 132]; // elements of an ensemble; nodes rebound by 0, ½ and 1 of their velocity
   const NAMES = ["restitution", "impulse", "lastContact", "moment", "force"];
@@ -42,7 +42,8 @@ const Answer = (() => {
       const bar = FACTOR * values.reduce((sum, value) => sum + Math.abs(value - base[name]), 0);
       const { elements, steps } = resolution(p), landing = p.wall ? p.wall.c / elements : 0; // all dashpots of a node
       const known = { lastContact: 0.5 / steps, force: landing };
-      return [name, { value: base[name], bar: bar + (known[name] || 0) }];
+      const sum = bar + (known[name] || 0);
+      return [name, { value: base[name], bar: sum && Math.max(sum, LEAST * Math.abs(base[name])) }];
     }));
   }
 
