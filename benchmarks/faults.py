@@ -22,6 +22,7 @@ import subprocess
 import sys
 import tempfile
 import time
+from collections import Counter
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
@@ -133,19 +134,21 @@ def main(words: Sequence[str] | None = None) -> int:
     print(f"seed {asked.seed}", flush=True)
     of_rooms = [] if asked.put else [drawn(room, asked.each, asked.seed) for room in asked.room or ABOVE]
     faults = [put(*one) for one in asked.put or ()] + [fault for found in of_rooms for fault in found]
-    unseen = 0
+    seen = Counter[tuple[str, str]]()
     with tempfile.TemporaryDirectory(prefix="bentbeam-faults-") as folder:
         copy = Path(folder) / "project"
         shutil.copytree(ROOT, copy, ignore=shutil.ignore_patterns(".*", "out", "site", "__pycache__", "*.egg-info"))
         for fault in faults:
             file, *texts = fault
-            sight = seen_by(fault, copy, [Path(room_of(file)).name, *ABOVE[room_of(file)]])
-            unseen += sight is None
+            room = room_of(file)
+            sight = seen_by(fault, copy, [own := Path(room).name, *ABOVE[room]])
+            seen[room, "unseen" if sight is None else "in its room" if sight.startswith(own) else "one floor up"] += 1
             lines = enumerate(zip(*(text.decode().splitlines() for text in texts)), 1)
             number, (was, now) = next((k, pair) for k, pair in lines if pair[0] != pair[1])
             print(f"{file}:{number}\n    {was.strip()}\n    {now.strip()}\n    {sight or 'UNSEEN'}", flush=True)
-    print(f"{unseen} of {len(faults)} unseen")
-    return int(unseen > 0)
+    for (room, where), count in sorted(seen.items()):
+        print(f"{room}: {count} {where}")
+    return int(any(where == "unseen" for _, where in seen))
 
 
 if __name__ == "__main__":

@@ -23,10 +23,10 @@ from self_similar_fe import SelfSimilarFE
 from theory import predict
 
 
-def lossy(kappa: float, loss: float, times: float = 1.0, **more: object) -> Impact:
-    """The free–free beam in units of its half length, its loss stated at ``times`` the first mode."""
+def lossy(kappa: float, loss: float, **more: object) -> Impact:
+    """The free–free beam in units of its half length, its loss stated at the first mode."""
     beam = Impact.whole_beam(kappa)
-    return beam.replace(hysteretic_loss=loss, loss_frequency=times * first_mode(beam), **more)
+    return beam.replace(hysteretic_loss=loss, loss_frequency=first_mode(beam), **more)
 
 
 def modelled(impact: Impact, elements: int) -> BeamModel:

@@ -43,7 +43,7 @@ SOFT = "exudyn.contact.kind=penalty exudyn.contact.relative_stiffness=6e-5 exudy
         ("hermite", UNIFORM + "2.0", 20.0, "cannot resolve the contact front"),
         ("hermite", "hermite.integrator.growth=3.0", 20.0, "time steps cannot resolve"),
         ("exudyn", UNIFORM + "0.02", 0.4, "reflected"),
-        ("exudyn", UNIFORM + "1.0", 20.0, "under-resolved front"),
+        ("exudyn", UNIFORM + "1.0", 20.0, "elements at the end time"),
         ("exudyn", "mesh.kind=graded mesh.element_length=0.02 mesh.growth=1.25", 20.0, "grows by 25%"),
         ("exudyn", f"{UNIFORM}0.05 {SOFT}", 10.0, "enters the wall"),
         ("exudyn", UNIFORM + "1.0 exudyn.integrator.time_step=1.0", 20.0, "time steps"),
