@@ -27,7 +27,7 @@ YARDSTICKS = {name: ["-c", f"import {name}"] for name in ("numpy, scipy.special,
 ROWS = (  # name, words, yardstick, goal
     ("theory", ["theory", "--kappa-over-nu", "0.5", "--json"], "numpy, scipy.special, typer", 1.6),
     ("predict", ["predict", "cases/drill_pipe.toml", "--json"], "numpy, scipy.special, typer", 1.6),
-    ("--help", ["--help"], "typer", 1.2),
+    ("--help", ["--help"], "typer", 2.5),
 )
 WAITS = (  # name, words (OUT: the folder), goal
     ("predict tube", ["predict", "cases/tube.toml"], 3.0),
