@@ -6,7 +6,9 @@ instant, and the rim is that of what pushes in it. A rigid wall has no largest f
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -54,7 +56,6 @@ def instant(history: ImpactHistory, time: float, *, first_spread: bool = False, 
     with_lift : otherwise the lift is not read, which takes longest.
     """
     k = int(np.argmin(np.abs(history.time - time)))  # saved times are those of steps
-    until = max(time, float(history.time[k]))
     front: float | None
     if not first_spread:
         front = half_contact_length(history, k)
@@ -62,7 +63,8 @@ def instant(history: ImpactHistory, time: float, *, first_spread: bool = False, 
         front = float(np.interp(time, history.time, moments(history).front)) * history.impact.length_scale
     else:
         front = first_front(history, k)
-    peak, wall = peak_moment(history, until=until), wall_peaks(history, until=until)
+    peak = _so_far(peak_moment, history, time, "moment")
+    wall = _so_far(wall_peaks, history, time, "force", "penetration", "pressure")
     begin, end = history.impact.wall_span
     return Instant(
         half_contact_length=front,
@@ -80,6 +82,18 @@ def instant(history: ImpactHistory, time: float, *, first_spread: bool = False, 
         element=0.0 if first_spread or front is None else element_at(history, k, front),
         lift=_lift(history, time) if first_spread and with_lift else 0.0,
     )
+
+
+def _so_far(read: Callable[..., Any], history: ImpactHistory, time: float, *names: str) -> Any:
+    """The largest of all steps until ``time``: between the saved instants before and after, what grows is
+    interpolated."""
+    k = min(int(np.searchsorted(history.time, time)), history.time.size - 1)
+    late = read(history, until=float(history.time[k]))
+    if late is None or k == 0:
+        return late
+    early, span = read(history, until=float(history.time[k - 1])), history.time[k - 1 : k + 1]
+    mixed = {name: float(np.interp(time, span, (getattr(early, name), getattr(late, name)))) for name in names}
+    return late._replace(time=min(late.time, time), **mixed)
 
 
 def _lift(history: ImpactHistory, time: float) -> float:
