@@ -193,11 +193,13 @@ class Stepping:
     def _in_flight(self) -> Iterator[Segment]:
         """Segments whose steps grow with the smallest gap, from those near the wall up to ``flight``."""
         vertical, short, step, t = self.run.beam.vertical, self.segments[0].length, 0.0, 0.0
-        while t < 1.0 - 1e-9 and self.failure is None and not self._left:
+        while t < 1.0 - 1e-9 and not self._left:
             step = min(max(short, step), self.flight)
             count = math.ceil(min(BLOCK if step > short else NEAR, (1.0 - t) / step) - 1e-9)
             start, t = t, min(t + count * step, 1.0)
             yield Segment(start, t, count)
+            if self.failure is not None:
+                return
             q, v = self._state
             step = -float(self.run.contact.depth(q).max()) / (CLEAR * BLOCK * float(np.abs(v[vertical]).max()))
 
