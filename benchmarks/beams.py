@@ -104,8 +104,8 @@ def references(file: Path) -> list[dict[str, float]]:
         methods = [one if law is None else one.cross_checks(impact).get(law) for one in chosen]
         if None in methods:
             continue
-        if law is not None:  # as a companion it takes steps twice as long, which rattle on elements so small
-            methods = [replace(one, integrator=one.integrator.refined(2.0)) for one in methods]
+        if law is not None:  # as a companion it takes long steps, which rattle on elements so small
+            methods = [replace(one, integrator=one.integrator.refined(4.0)) for one in methods]
         reading = instants_reading((end,), False, timed.run(methods[0]))
         values = {f"{name} at {end:.2g}": reading[name] for name in AT_A_TIME}
         if not (impact.supported or impact.wall_in_part):
