@@ -51,7 +51,7 @@ LARGEST_OF_WALL = 0.25  # ℓ_k: elements before a wall that gives way
 SHEARED_ELEMENTS = 160  # of a half beam that shears
 SLOWER_SHEARED, THICK = 2.0, 0.35  # its steps, from this κ/ν on
 FLIGHT, DAMPED_FLIGHT = 5e-4, 0.04  # steps off the wall, over T* and √(ηT*)
-ROUND_OFF = 1e-6  # of the amplitude: at 1e-8 Newton's method stalls on 240 elements (κ/ν = 0.8, η = 1e-3 T*)
+ROUND_OFF = 1e-5  # of the amplitude: Newton stalls at 1e-8 on 240 elements, geometrically exact ones at 1e-6
 RESIDUAL = 1e-8  # of what a step begins with: 1e-5 of a long step's is up to 3e-5 of the energy
 FLATTEST = 1.0 / 150.0  # κ/ν down to which the front does not ask for a stiffer penalty
 
@@ -78,6 +78,7 @@ def for_whole_beam(method: M, impact: Impact) -> M:
     if integrator.with_steps() != integrator:  # open
         step = slower * resolving_step(mesh, impact) if wall is None else step_of_wall(mesh, impact, wall)
         integrator = dataclasses.replace(integrator, time_step=step, flight_step=_flight_step(impact, step))
+    element = method.element or chosen_element(impact)
     contact = method.contact
     if contact is None and wall is None:
         contact = CONTACT if slower == 1.0 or shears else _softer(CONTACT, slower**-2)
@@ -91,7 +92,7 @@ def for_whole_beam(method: M, impact: Impact) -> M:
     return dataclasses.replace(
         method,
         mesh=mesh,
-        element=method.element or chosen_element(impact, viscosity=0.0),
+        element=element if element.viscosity is not None else dataclasses.replace(element, viscosity=0.0),
         integrator=integrator,
         contact=contact,
         solver=solver,

@@ -30,7 +30,7 @@ def _code_in(folder: Path) -> list[Path]:
 def behind(files: Iterable[Path], folder: Path) -> list[str]:
     """What Python ``files`` import, and what that imports in turn: the digest of each module or package in ``folder``
     or elsewhere on the path, of an installed one its version. What is imported by a computed name is not seen."""
-    waiting, seen, found = list(files), {*PACKAGES, *sys.stdlib_module_names}, set()
+    waiting, seen, found = list(files), {"__main__", *PACKAGES, *sys.stdlib_module_names}, set()
     places = installed()
     while waiting:
         for name in _imported_by(waiting.pop()) - seen:

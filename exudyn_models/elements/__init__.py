@@ -10,6 +10,6 @@ __all__ = ["ELEMENTS", "ANCFCable", "Beam", "Element", "GeometricallyExact", "ch
 ELEMENTS: dict[str, type] = {"ancf_cable": ANCFCable, "geometrically_exact": GeometricallyExact}
 
 
-def chosen_element(impact: Impact, viscosity: float | None = None) -> Element:
+def chosen_element(impact: Impact) -> Element:
     """The element of a beam for which none is asked: one with shear where the beam has it."""
-    return (ANCFCable if impact.shear_stiffness is None else GeometricallyExact)(viscosity=viscosity)
+    return (ANCFCable if impact.shear_stiffness is None else GeometricallyExact)()

@@ -10,6 +10,7 @@ from bent_beam.free_flight import pushing
 from bent_beam.meshes import UniformMesh
 from exudyn_models import ExudynModel
 from exudyn_models.contacts import penalty
+from exudyn_models.elements import GeometricallyExact
 from exudyn_models.integrators import Trapezoidal
 
 PAGE = [  # κ/ν, η/T*, this path's number and the Hermite path's of the finest mesh
@@ -55,6 +56,24 @@ def test_restitution_is_that_of_the_hermite_path_and_of_the_page(kappa_over_nu, 
     # hits that follow one another amplify round-off, which differs from processor to processor
     assert restitution(history) == pytest.approx(ours, abs=1e-4)
     closes(history)
+
+
+def test_another_element_is_damped_no_more_than_the_cable():
+    """Named without its viscosity, it brought that of long beams with it."""
+    method = ExudynModel(element=GeometricallyExact()).for_whole_beam(Impact.whole_beam(0.7, relative_damping=3e-3))
+    assert method.element.viscosity == 0.0
+
+
+@pytest.mark.verify
+def test_another_element_bounces_as_the_cable_does():
+    """With the cable's tolerance Newton's method stalled in its first step."""
+    impact = Impact.whole_beam(0.7, relative_damping=3e-3)
+    cable, other = (
+        ExudynModel(element=element).simulate_to_separation(impact) for element in (None, GeometricallyExact())
+    )
+    assert other.energy_budget()["loss_viscous"] == 0.0
+    assert restitution(other) == pytest.approx(restitution(cable), abs=2e-3)
+    closes(other, 1e-5)
 
 
 def test_a_stopped_beam_gathers_its_exact_impulse_until_the_first_release():
