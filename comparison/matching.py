@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from bent_beam.checks import positive
-from bent_beam.errors import ANY_FAILURE, SimulationError, TimeLimitError
+from bent_beam.errors import ANY_FAILURE, SimulationError
 from bent_beam.history import ImpactHistory
 from bent_beam.impact import Impact
 from bent_beam.measure.balance import balance_of
@@ -32,6 +32,7 @@ from comparison.rows import (
     lost_row,
     match_document,
     match_table,
+    reason_of,
     with_theory,
 )  # fmt: skip
 from comparison.runs import Run, kept
@@ -205,9 +206,7 @@ def _attempt(question: MatchQuestion, store: RunStore, limit: float | None) -> M
     try:
         return answer(question, store, limit)
     except ANY_FAILURE as error:
-        foreseen = isinstance(error, (ValueError, SimulationError, TimeLimitError))
-        reason = str(error) if foreseen else f"{type(error).__name__}: {error}"
-        return lost_row(question, reason, refused=isinstance(error, Refused))
+        return lost_row(question, reason_of(error), refused=isinstance(error, Refused))
 
 
 class Matched(list[MatchRow]):

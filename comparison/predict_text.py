@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from comparison.readable import beam_line, milliseconds, number_from, text_table, unit_for
+from comparison.readable import beam_line, largest_of, milliseconds, number_from, text_table, unit_for
 
 __all__ = ["force_line", "over_damping_lines", "prediction_text", "wall_lines"]
 
@@ -102,9 +102,9 @@ def _agreement(document: dict[str, Any]) -> list[str]:
 
 def _largest(document: dict[str, Any]) -> list[str]:
     """The largest stress, or without a section the largest moment, each value with its time range."""
-    name, title = ("peak_moment", "bending moment") if document["peak_stress"] is None else ("peak_stress", "stress")
+    name, title, unit = largest_of(document["peak_stress"])
     last, whole = max(document["times"], key=lambda row: row["time"]), document["whole_impact"]
-    scale, unit = unit_for(COLUMNS[name][1], [document[name]])
+    scale, unit = unit_for(unit, [document[name]])
     lines = [f"Largest {title}, {unit}:"]
     if document["valid_until"]:
         until = f"until {milliseconds(document['valid_until'])}, when {LIMITS[document['limited_by']]}"

@@ -10,6 +10,7 @@ from itertools import product
 from typing import Any
 
 from bent_beam.checks import between, finite, non_negative, one_of, positive
+from bent_beam.errors import SimulationError, TimeLimitError
 from bent_beam.impact import Impact
 from bent_beam.measure.estimators import LeadingEstimate
 from bent_beam.measure.numbers import MISSING, Number
@@ -31,6 +32,7 @@ __all__ = [
     "match_document",
     "match_table",
     "questions",
+    "reason_of",
     "with_theory",
 ]
 
@@ -232,7 +234,13 @@ def lost_row(question: MatchQuestion, reason: str, *, refused: bool = False) -> 
     row = about(question)
     with suppress(ValueError):  # of which the theory has nothing to say either
         row |= with_theory(question, None, None)
-    return MatchRow(**row, reason=" ".join(reason.split()), refused=refused)
+    return MatchRow(**row, reason=reason, refused=refused)
+
+
+def reason_of(error: BaseException) -> str:
+    """Why there is no answer, on one line; what nobody has foreseen with its kind."""
+    foreseen = isinstance(error, (ValueError, SimulationError, TimeLimitError))
+    return " ".join((str(error) if foreseen else f"{type(error).__name__}: {error}").split())
 
 
 def failures(rows: Iterable[Any]) -> list[Any]:

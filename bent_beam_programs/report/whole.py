@@ -11,8 +11,8 @@ from typing import Any
 
 from bent_beam.cases import EXAMPLES, load_case
 from bent_beam.errors import InputError
-from bent_beam.measure.numbers import Band, Number
 from comparison.predicting import predict_case
+from comparison.readable import number_from
 from comparison.store import RunStore
 
 __all__ = ["COLUMNS", "pipe_prediction"]
@@ -72,6 +72,4 @@ def text(number: Any, unit: float) -> str:
     """A number in its column's unit, with its error bar or band where it has one, as ``bentbeam predict`` writes it."""
     if not isinstance(number, Mapping):
         return "–" if number is None else f"{number / unit:.4g}"
-    if band := number.get("band"):
-        return str(Band(**band).scaled(1.0 / unit))
-    return str(Number(number.get("value"), number.get("error")).scaled(1.0 / unit))
+    return str(number_from(dict(number)).scaled(1.0 / unit))

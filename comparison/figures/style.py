@@ -7,7 +7,6 @@ Colours are those of Okabe and Ito (2008), told apart by the colour-blind; sizes
 
 from __future__ import annotations
 
-import argparse
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from io import BytesIO
@@ -119,13 +118,6 @@ def save(fig: Figure, out: Path, name: str, formats: Sequence[str] = ("png",)) -
         files.append(out / f"{name}.{kind}")
         write_atomically(files[-1], stream.getvalue())
     return files
-
-
-def asked_folder() -> Path:
-    """The folder that a figure script writes into: its option ``--out``, else that of the documentation."""
-    parser = argparse.ArgumentParser(description="Draw figures of the documentation.")
-    parser.add_argument("--out", type=Path, default=Path("docs/figures"))
-    return Path(parser.parse_args().out)
 
 
 def mark(path: str) -> dict[str, Any]:
