@@ -39,9 +39,9 @@ from comparison.runs import Run, kept
 from comparison.store import RunStore
 from comparison.workers import Clock, run_all
 
-__all__ = ["INSTANTS", "Matched", "answer", "match"]
+__all__ = ["Matched", "answer", "match"]
 
-INSTANTS = 250
+SAVED = 250
 SHARES = (0.35, 0.7, 1.0)  # of the largest ε
 PERTURBATION = 0.05  # see first_order_epsilon (tests: half, twice); a method may carry its own ``perturbation``
 WIDE = 0.02  # of a leading-order number: a wider error bar deserves a warning
@@ -89,7 +89,7 @@ class _Runs:
             ask = None if self.clock is None else self.clock.progress()
             end = self.duration * impact.time_scale
             try:
-                return simulated(method.simulate, impact, end_time=end, save=INSTANTS, progress=ask)
+                return simulated(method.simulate, impact, end_time=end, save=SAVED, progress=ask)
             except ValueError as error:
                 raise Refused(str(error)) from None
 

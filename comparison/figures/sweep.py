@@ -19,7 +19,7 @@ __all__ = ["sweep_figure"]
 SHOWN = ("peak_stress", "peak_moment", "peak_force", "restitution", "impulse")
 """Numbers that are drawn where there are any, in this order; the moment only without a stress."""
 CURVES, MAPS = 3, 2  # panels
-LEAST = 3  # values of a key of a map
+OF_A_MAP = 3  # values of a key of a map
 LEVELS = 8
 FINE = 60  # places a key between which a map's lines are straight
 LOUD = 0.1  # of the value: larger bars are marked on a map
@@ -36,7 +36,7 @@ def sweep_figure(found: SweepTable) -> Any:
     shown = [name for name in shown if name != "peak_moment" or "peak_stress" not in shown]
     if not shown:
         raise ValueError("no row has a number to be drawn")
-    mapped = len(found.vary) == 2 and all(numeric(v) and len(v) >= LEAST for v in found.vary.values())
+    mapped = len(found.vary) == 2 and all(numeric(v) and len(v) >= OF_A_MAP for v in found.vary.values())
     shown = shown[: MAPS if mapped else CURVES]
     size = {"width": style.PAGE, "height": 3.4 if mapped else 2.8, "sharex": mapped, "sharey": mapped}
     with style.figure(1, len(shown), squeeze=False, **size) as (fig, axes):
