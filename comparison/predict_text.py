@@ -7,7 +7,7 @@ from typing import Any
 
 from comparison.readable import beam_line, largest_of, milliseconds, number_from, text_table, unit_for
 
-__all__ = ["force_line", "over_damping_lines", "prediction_text", "wall_lines"]
+__all__ = ["force_line", "over_damping_lines", "prediction_text", "validity_text", "wall_lines"]
 
 REGIMES = {
     "discrete": "The contact stays one point.",
@@ -41,7 +41,7 @@ def prediction_text(document: dict[str, Any]) -> str:
         [
             f"{REGIMES[document['regime']]} kappa/nu = {document['kappa_over_nu']:.4g} (it spreads below 1).",
             beam_line(document["model"], document["velocity"]),
-            _validity(document),
+            validity_text(document),
             "",
             _table(document),
             "",
@@ -54,7 +54,8 @@ def prediction_text(document: dict[str, Any]) -> str:
     )
 
 
-def _validity(document: dict[str, Any]) -> str:
+def validity_text(document: dict[str, Any]) -> str:
+    """From when, until when and why no longer the theory holds."""
     why = LIMITS[document["limited_by"]]
     if not document["valid_until"]:
         return f"The theory covers no time: {why}."
