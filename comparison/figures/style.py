@@ -140,6 +140,17 @@ def panel_label(axis: Axes, text: str) -> None:
     axis.text(0.0, 1.02, text, transform=axis.transAxes, ha="left", va="bottom", fontweight="bold", fontsize=8.5)
 
 
+def yield_line(axis: Axes, limit: float, highest: float) -> None:
+    """Where the material yields, if the stresses, at most ``highest``, come near it; on the axis."""
+    if limit > 2.0 * highest:
+        return
+    axis.axhline(limit, color=COLOURS["black"], lw=0.9, ls="--")
+    axis.set_ylim(top=max(axis.get_ylim()[1], 1.15 * limit))
+    axis.annotate(
+        f"yields at {limit:.4g}", (0.02, limit), xycoords=("axes fraction", "data"), va="bottom", fontsize=7.0
+    )
+
+
 class Film:
     """Pictures of a figure in which only some artists move: the rest is drawn once, which takes nearly all the time.
 

@@ -101,20 +101,11 @@ def _curves(axis: Any, found: SweepTable, name: str) -> None:
         style.bars(axis, x[order], values[order, i], bars[order, i], look)
     highest = float(np.nanmax(values + bars))
     axis.set(xlabel=label, ylabel=title, ylim=(min(0.0, 1.08 * float(np.nanmin(values - bars))), 1.08 * highest))
-    _yield_line(axis, found, name, highest)
+    limit = _yield_stress(found)
+    if name == "peak_stress" and limit is not None:
+        style.yield_line(axis, 1e-6 * limit, highest)
     if not joined:
         axis.set_xticks(x, [str(value) for value in found.vary[keys[0]]])
-
-
-def _yield_line(axis: Any, found: SweepTable, name: str, highest: float) -> None:
-    """Where the material yields, if the stresses come near it."""
-    limit = _yield_stress(found)
-    if name != "peak_stress" or limit is None or 1e-6 * limit > 2.0 * highest:
-        return
-    axis.axhline(1e-6 * limit, color=style.COLOURS["black"], lw=0.9, ls="--")
-    axis.set_ylim(top=max(axis.get_ylim()[1], 1.15e-6 * limit))
-    axis.annotate(f"yields at {1e-6 * limit:.4g}", (0.02, 1e-6 * limit), xycoords=("axes fraction", "data"),
-                  va="bottom", fontsize=7.0)  # fmt: skip
 
 
 def _yield_stress(found: SweepTable) -> float | None:
