@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from comparison.predict_text import force_line, over_damping_lines
-from comparison.readable import beam_line, in_unit, milliseconds, number_from, shown, text_table, unit_for
+from comparison.readable import beam_line, in_unit, largest_of, milliseconds, number_from, shown, text_table, unit_for
 
 __all__ = ["bounce_text"]
 
@@ -41,10 +41,10 @@ def bounce_text(found: dict[str, Any], *, verbose: bool = False) -> str:
         if name == "peak_moment" and found["peak_stress"] is not None:
             rows.append(["largest stress", *in_unit(number_from(found["peak_stress"]), "Pa"), ""])
     columns = 4 if verbose else 3
-    what, unit = ("moment", "N m") if found["peak_stress"] is None else ("stress", "Pa")
+    name, what, unit = largest_of(found["peak_stress"])
     damped = found["over_damping"] or []
-    scale, unit = unit_for(unit, [row[f"peak_{what}"]["value"] for row in damped])
-    over = [line.strip() for line in over_damping_lines(damped, f"peak_{what}", scale)]
+    scale, unit = unit_for(unit, [row[name]["value"] for row in damped])
+    over = [line.strip() for line in over_damping_lines(damped, name, scale)]
     lines = [
         text_table(["", "value", "", "beam's units"][:columns], [row[:columns] for row in rows]),
         "",

@@ -59,7 +59,7 @@ SI = {
 
 ENERGY = ("translation", "vibration", "dissipated")
 LYING = 5.0  # times the largest push or moment: the end for a beam that does not leave
-BEYOND = 1.15  # times the last contact, or the largest value: the end of the axes
+MARGIN = 1.15  # times the last contact, or the largest value: the end of the axes
 
 
 @dataclass(frozen=True)
@@ -255,7 +255,7 @@ class Bounce:
         outcome = self.outcome
         hardest = max(outcome.peak_moment_time, outcome.push_time)
         last = outcome.last_contact if self.left else min(outcome.last_contact, LYING * (hardest + WINDOW))
-        return BEYOND * max(last, outcome.peak_moment_time) * self.units["time"]
+        return MARGIN * max(last, outcome.peak_moment_time) * self.units["time"]
 
 
 def unit_of(name: str) -> str:

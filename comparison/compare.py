@@ -11,9 +11,9 @@ from typing import Any
 import numpy as np
 from scipy.interpolate import CubicHermiteSpline
 
-from bent_beam.checks import finite, shortened, whole
+from bent_beam.checks import finite, whole
 from bent_beam.errors import InputError
-from bent_beam.fields import made_from
+from bent_beam.fields import part_from_table
 from bent_beam.history import ImpactHistory
 from bent_beam.measure.reduction import peak_moment
 from bent_beam.method import Method, method_type
@@ -129,25 +129,6 @@ def _changed(pairs: dict[str, Any], where: str = "") -> list[list[str]]:
     return rows
 
 
-def _rebuild(described: Any, known: Mapping[str, type], where: str) -> Any:
-    """The part that :func:`bent_beam.fields.describe` described; nested parts too. Only known classes are ever made."""
-    if described is None:
-        return None
-    if not isinstance(described, Mapping) or str(described.get("kind")) not in known:
-        raise InputError(f"history's {where} cannot be made again (got {shortened(described)})")
-    part = known[described["kind"]]
-    values = {}
-    for field in dataclasses.fields(part):
-        if field.name in described and field.init:
-            value = described[field.name]
-            nested = isinstance(value, Mapping) and "kind" in value
-            values[field.name] = _rebuild(value, known, f"{where}.{field.name}") if nested else value
-    try:
-        return made_from(part, values, where)
-    except InputError as error:
-        raise InputError(f"history's {error}") from None
-
-
 def rerun_history(
     old: ImpactHistory, out: Path | None = None, progress: Callable[[float], None] | None = None
 ) -> dict[str, Any]:
@@ -198,11 +179,10 @@ def _again(old: ImpactHistory, progress: Callable[[float], None] | None) -> Impa
     if "end_time" not in settings:
         raise InputError("history's settings lack end_time: it cannot be run again")
     method = method_type(old.path)
-    values: dict[str, Any] = {}
-    for field in dataclasses.fields(method):
-        if field.name in settings:
-            value, kinds = settings[field.name], getattr(method, "PARTS", {}).get(field.name)
-            known = {kind.__name__: kind for kind in (kinds or {}).values()}
-            values[field.name] = value if kinds is None else _rebuild(value, known, field.name)
+    values = {field.name: settings[field.name] for field in dataclasses.fields(method) if field.name in settings}
+    for name, kinds in getattr(method, "PARTS", {}).items():
+        if values.get(name) is not None:  # described by its class: only known ones are ever made
+            known = {kind.__name__: kind for kind in kinds.values()}
+            values[name] = part_from_table(known, values[name], f"history's {name}")
     made: Method = method(**values)
     return made.simulate(old.impact, end_time=settings["end_time"], save=save, progress=progress)

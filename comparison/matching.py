@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from bent_beam.checks import positive
-from bent_beam.errors import ANY_FAILURE, SimulationError, TimeLimitError
+from bent_beam.errors import ANY_FAILURE, SimulationError
 from bent_beam.history import ImpactHistory
 from bent_beam.impact import Impact
 from bent_beam.measure.balance import balance_of
@@ -32,15 +32,16 @@ from comparison.rows import (
     lost_row,
     match_document,
     match_table,
+    reason_of,
     with_theory,
 )  # fmt: skip
 from comparison.runs import Run, kept
 from comparison.store import RunStore
 from comparison.workers import Clock, run_all
 
-__all__ = ["INSTANTS", "Matched", "answer", "match"]
+__all__ = ["Matched", "answer", "match"]
 
-INSTANTS = 250
+SAVED = 250
 SHARES = (0.35, 0.7, 1.0)  # of the largest ε
 PERTURBATION = 0.05  # see first_order_epsilon (tests: half, twice); a method may carry its own ``perturbation``
 WIDE = 0.02  # of a leading-order number: a wider error bar deserves a warning
@@ -88,7 +89,7 @@ class _Runs:
             ask = None if self.clock is None else self.clock.progress()
             end = self.duration * impact.time_scale
             try:
-                return simulated(method.simulate, impact, end_time=end, save=INSTANTS, progress=ask)
+                return simulated(method.simulate, impact, end_time=end, save=SAVED, progress=ask)
             except ValueError as error:
                 raise Refused(str(error)) from None
 
@@ -205,9 +206,7 @@ def _attempt(question: MatchQuestion, store: RunStore, limit: float | None) -> M
     try:
         return answer(question, store, limit)
     except ANY_FAILURE as error:
-        foreseen = isinstance(error, (ValueError, SimulationError, TimeLimitError))
-        reason = str(error) if foreseen else f"{type(error).__name__}: {error}"
-        return lost_row(question, reason, refused=isinstance(error, Refused))
+        return lost_row(question, reason_of(error), refused=isinstance(error, Refused))
 
 
 class Matched(list[MatchRow]):

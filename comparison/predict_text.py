@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from comparison.readable import beam_line, milliseconds, number_from, text_table, unit_for
+from comparison.readable import beam_line, largest_of, milliseconds, number_from, text_table, unit_for
 
-__all__ = ["force_line", "over_damping_lines", "prediction_text", "wall_lines"]
+__all__ = ["force_line", "over_damping_lines", "prediction_text", "validity_text", "wall_lines"]
 
 REGIMES = {
     "discrete": "The contact stays one point.",
@@ -41,7 +41,7 @@ def prediction_text(document: dict[str, Any]) -> str:
         [
             f"{REGIMES[document['regime']]} kappa/nu = {document['kappa_over_nu']:.4g} (it spreads below 1).",
             beam_line(document["model"], document["velocity"]),
-            _validity(document),
+            validity_text(document),
             "",
             _table(document),
             "",
@@ -54,7 +54,8 @@ def prediction_text(document: dict[str, Any]) -> str:
     )
 
 
-def _validity(document: dict[str, Any]) -> str:
+def validity_text(document: dict[str, Any]) -> str:
+    """From when, until when and why no longer the theory holds."""
     why = LIMITS[document["limited_by"]]
     if not document["valid_until"]:
         return f"The theory covers no time: {why}."
@@ -102,9 +103,9 @@ def _agreement(document: dict[str, Any]) -> list[str]:
 
 def _largest(document: dict[str, Any]) -> list[str]:
     """The largest stress, or without a section the largest moment, each value with its time range."""
-    name, title = ("peak_moment", "bending moment") if document["peak_stress"] is None else ("peak_stress", "stress")
+    name, title, unit = largest_of(document["peak_stress"])
     last, whole = max(document["times"], key=lambda row: row["time"]), document["whole_impact"]
-    scale, unit = unit_for(COLUMNS[name][1], [document[name]])
+    scale, unit = unit_for(unit, [document[name]])
     lines = [f"Largest {title}, {unit}:"]
     if document["valid_until"]:
         until = f"until {milliseconds(document['valid_until'])}, when {LIMITS[document['limited_by']]}"

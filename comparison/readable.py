@@ -20,6 +20,7 @@ __all__ = [
     "csv_text",
     "flat",
     "in_unit",
+    "largest_of",
     "milliseconds",
     "number_from",
     "readable",
@@ -94,6 +95,12 @@ def number_from(found: dict[str, Any] | None) -> Number | Band:
     if found and found.get("band"):
         return Band(**found["band"])
     return Number(found["value"], found["error"], found.get("theory")) if found else Number()
+
+
+def largest_of(section: Any) -> tuple[str, str, str]:
+    """By which number the largest load on a beam is known, in words, and its unit: its stress, or without a section
+    (``None``) its moment."""
+    return ("peak_moment", "bending moment", "N m") if section is None else ("peak_stress", "stress", "Pa")
 
 
 def milliseconds(time: float) -> str:

@@ -10,6 +10,7 @@ from itertools import product
 from typing import Any
 
 from bent_beam.checks import between, finite, non_negative, one_of, positive
+from bent_beam.errors import SimulationError, TimeLimitError
 from bent_beam.impact import Impact
 from bent_beam.measure.estimators import LeadingEstimate
 from bent_beam.measure.numbers import MISSING, Number
@@ -19,7 +20,7 @@ from comparison.readable import shown, text_table
 
 __all__ = [
     "DURATION",
-    "LEAST",
+    "HELD_AGAINST",
     "THESIS_KAPPAS",
     "First",
     "MatchQuestion",
@@ -31,6 +32,7 @@ __all__ = [
     "match_document",
     "match_table",
     "questions",
+    "reason_of",
     "with_theory",
 ]
 
@@ -43,7 +45,7 @@ DURATION = 0.1  # t*
 THESIS_KAPPAS = (1 / 1600, 1 / 800, 1 / 400, 1 / 200, 1 / 100, 1 / 40, 1 / 20, 1 / 4, 1 / 2)
 """κ/ν of the thesis's Table 3.4."""
 
-LEAST = {"lambda0": 0.0, "r0": 0.0, "lambda1": 1.0, "r1": 1.0}
+HELD_AGAINST = {"lambda0": 0.0, "r0": 0.0, "lambda1": 1.0, "r1": 1.0}
 """Errors are relative to the larger of |theory| and this."""
 
 LEGEND = (
@@ -232,7 +234,13 @@ def lost_row(question: MatchQuestion, reason: str, *, refused: bool = False) -> 
     row = about(question)
     with suppress(ValueError):  # of which the theory has nothing to say either
         row |= with_theory(question, None, None)
-    return MatchRow(**row, reason=" ".join(reason.split()), refused=refused)
+    return MatchRow(**row, reason=reason, refused=refused)
+
+
+def reason_of(error: BaseException) -> str:
+    """Why there is no answer, on one line; what nobody has foreseen with its kind."""
+    foreseen = isinstance(error, (ValueError, SimulationError, TimeLimitError))
+    return " ".join((str(error) if foreseen else f"{type(error).__name__}: {error}").split())
 
 
 def failures(rows: Iterable[Any]) -> list[Any]:
@@ -277,7 +285,7 @@ def match_table(rows: Sequence[MatchRow]) -> str:
         line += [",".join(f"{v:g}" for v in r.first) if r.of_first_order else "-"] * first
         for name in names:
             number = getattr(r, name)
-            off = number.relative(LEAST[name])
+            off = number.relative(HELD_AGAINST[name])
             line += [str(number), shown(off and 100 * off, "+.3f")]
         line += [str(r.peak_force), shown(r.peak_force.theory)] * elastic
         line += [shown(v, ".0e") for v in (r.lift, r.pull, r.momentum_residual, r.gap_of_push)]

@@ -26,7 +26,7 @@ from comparison.energies import energy_at_end, energy_residual, loss_warnings, n
 from comparison.predicting import instant_numbers, instants_reading
 from comparison.questions import Question
 from comparison.runs import Runs, runs_of
-from theory import predict
+from theory import Prediction, predict
 from theory.prediction import MODELLED
 from theory.validity import ENDS
 
@@ -48,7 +48,70 @@ class Simulated:
 
     def to_dict(self, file: Path | None = None) -> dict[str, Any]:
         """The contract of ``bentbeam simulate --json``; the theory's numbers only where it claims to hold."""
-        return _document(self, file)
+        history, section, numbers = self.history, self.case.section, self.numbers
+        impact, until, reading = history.impact, self.runs.question.until, self.runs.run.reading
+        end = float(history.time[-1]) if until is None else until
+        infinite = predict(impact, [end]) if comparable(impact) else None
+        row = infinite.times[0] if infinite and infinite.times[0].valid else None
+        leading = self.leading if row else None
+        energy, balance = energy_at_end(history), balance_of(history)
+        moment, largest, unit = numbers["peak_moment"], reading, {"length": 1.0, "time": 1.0}
+        if until is None:
+            largest, unit = reading["whole"], scales(impact)
+        several = impact.opposite_wall is not None or impact.off_centre  # between two walls, or of a beam that rocks
+        return {
+            "path": history.path,
+            "model": impact.model,
+            "velocity": impact.velocity,
+            "symmetry": history.symmetry,
+            "settings": {name: one for name, one in history.settings.items() if name != "save"},  # of instants, many
+            "versions": history.versions,
+            "steps": history.steps,
+            "seconds": history.seconds,
+            "time": end,
+            "half_contact_length": _beside(numbers["half_contact_length"], row.half_contact_length if row else None),
+            "total_impulse": _beside(numbers["impulse"], row.impulse if row else None),
+            "restitution": _beside(numbers.get("restitution", MISSING), None),
+            "lambda0": _beside(leading.lambda0 if leading else MISSING, infinite.lambda0 if infinite else None),
+            "r0": _beside(leading.r0 if leading else MISSING, infinite.r0 if infinite else None),
+            "lift": float(moments(history).lift[-1]),
+            "pull": pull_of(history),
+            "hold": hold_of(history),
+            **_with_error("peak_moment", moment),
+            "peak_moment_place": largest["peak_moment_place"] * unit["length"],
+            "peak_moment_time": largest["peak_moment_time"] * unit["time"],
+            **_with_error("peak_stress", stress_of(moment, impact, section) or MISSING),
+            "yield_stress": None if section is None else section.yield_stress,
+            **{name: reading[name] for name in ("peak_force_time", "peak_force_place", "peak_force_wall")},
+            **_with_error("peak_force", numbers["peak_force"]),
+            **_with_error("peak_penetration", numbers["peak_penetration"]),
+            **_with_error("peak_pressure", numbers["peak_pressure"]),
+            "energy": energy,
+            "energy_residual": energy_residual(energy),
+            "numerical_loss": numerical_loss(energy),
+            "momentum_residual": balance.momentum,
+            "second_moment_residual": balance.second_moment,
+            "contact_points_residual": balance.points,
+            "initial_energy_residual": balance.initial_energy,
+            "gap_of_push": balance.gap_of_push,
+            "penetration": balance.penetration,
+            "middle_slope": balance.middle_slope,
+            "hits": [asdict(hit) for hit in hits(history)] if several else None,
+            "warnings": [
+                *doubts(impact, section), *history.warnings, *self._reflected(infinite, end),
+                *loss_warnings(numerical_loss(energy)), *balance.warnings,
+                *([BAND] if until is None and not converges(impact) else ()), *self.runs.lost,
+            ],
+            "file": None if file is None else str(file),
+        }  # fmt: skip
+
+    def _reflected(self, infinite: Prediction | None, end: float) -> list[str]:
+        """From when on waves are back from the ends, where that ends the theory and the run does not say so."""
+        if self.runs.question.until is None or infinite is None or infinite.limited_by != ENDS:
+            return []
+        if end <= infinite.valid_until or any(REFLECTED in line for line in self.history.warnings):
+            return []
+        return [f"waves reflected at the beam's ends are back from {infinite.valid_until:.3g} s on"]
 
 
 def simulate_case(
@@ -112,69 +175,6 @@ def _leading(runs: Runs) -> Any:
 def comparable(impact: Impact) -> bool:
     """Whether the theory has an answer at all: a bow, symmetric about its first touch, before a wall that it knows."""
     return impact.relative_curvature > 0.0 and not impact.off_centre and unmodelled(impact, MODELLED) is None
-
-
-def _document(found: Simulated, file: Path | None) -> dict[str, Any]:
-    history, section, numbers = found.history, found.case.section, found.numbers
-    impact, until, reading = history.impact, found.runs.question.until, found.runs.run.reading
-    end = float(history.time[-1]) if until is None else until
-    several = impact.opposite_wall is not None or impact.off_centre  # hits: between two walls, or of a beam that rocks
-    infinite = predict(impact, [end]) if comparable(impact) else None
-    row = infinite.times[0] if infinite and infinite.times[0].valid else None
-    leading = found.leading if row else None
-    ends, reflected = infinite is not None and infinite.limited_by == ENDS and end > infinite.valid_until, list[str]()
-    if until is not None and ends and not any(REFLECTED in line for line in history.warnings):
-        reflected = [f"waves reflected at the beam's ends are back from {infinite.valid_until:.3g} s on"]  # type: ignore[union-attr]
-    energy, balance = energy_at_end(history), balance_of(history)
-    moment, whole = numbers["peak_moment"], reading.get("whole")
-    stress = stress_of(moment, impact, section)
-    unit = scales(impact)
-    place = whole["peak_moment_place"] * unit["length"] if whole else reading["peak_moment_place"]
-    when = whole["peak_moment_time"] * unit["time"] if whole else reading["peak_moment_time"]
-    return {
-        "path": history.path,
-        "model": impact.model,
-        "velocity": impact.velocity,
-        "symmetry": history.symmetry,
-        "settings": {name: one for name, one in history.settings.items() if name != "save"},  # thousands of instants
-        "versions": history.versions,
-        "steps": history.steps,
-        "seconds": history.seconds,
-        "time": end,
-        "half_contact_length": _beside(numbers["half_contact_length"], row.half_contact_length if row else None),
-        "total_impulse": _beside(numbers["impulse"], row.impulse if row else None),
-        "restitution": _beside(numbers.get("restitution", MISSING), None),
-        "lambda0": _beside(leading.lambda0 if leading else MISSING, infinite.lambda0 if infinite else None),
-        "r0": _beside(leading.r0 if leading else MISSING, infinite.r0 if infinite else None),
-        "lift": float(moments(history).lift[-1]),
-        "pull": pull_of(history),
-        "hold": hold_of(history),
-        **_with_error("peak_moment", moment),
-        "peak_moment_place": place,
-        "peak_moment_time": when,
-        **_with_error("peak_stress", stress or MISSING),
-        "yield_stress": None if section is None else section.yield_stress,
-        **{name: reading[name] for name in ("peak_force_time", "peak_force_place", "peak_force_wall")},
-        **_with_error("peak_force", numbers["peak_force"]),
-        **_with_error("peak_penetration", numbers["peak_penetration"]),
-        **_with_error("peak_pressure", numbers["peak_pressure"]),
-        "energy": energy,
-        "energy_residual": energy_residual(energy),
-        "numerical_loss": numerical_loss(energy),
-        "momentum_residual": balance.momentum,
-        "second_moment_residual": balance.second_moment,
-        "contact_points_residual": balance.points,
-        "initial_energy_residual": balance.initial_energy,
-        "gap_of_push": balance.gap_of_push,
-        "penetration": balance.penetration,
-        "middle_slope": balance.middle_slope,
-        "hits": [asdict(hit) for hit in hits(history)] if several else None,
-        "warnings": [
-            *doubts(impact, section), *history.warnings, *reflected, *loss_warnings(numerical_loss(energy)),
-            *balance.warnings, *([BAND] if until is None and not converges(impact) else ()), *found.runs.lost,
-        ],
-        "file": None if file is None else str(file),
-    }  # fmt: skip
 
 
 def _beside(number: Number, theory: float | None) -> dict[str, float | None]:

@@ -18,7 +18,7 @@ import numpy as np
 
 from bent_beam.cases import Case, case_from_tables, lay_values, value_of
 from bent_beam.checks import shortened
-from bent_beam.errors import ANY_FAILURE, InputError, SimulationError
+from bent_beam.errors import ANY_FAILURE, InputError
 from bent_beam.measure.numbers import Band, Number
 from bent_beam.method import separation_times
 from bent_beam.tables import in_keys
@@ -28,6 +28,7 @@ from comparison.doubts import doubts
 from comparison.predicting import instants_reading, numbers_at
 from comparison.questions import Question
 from comparison.readable import readable
+from comparison.rows import reason_of
 from comparison.runs import runs_of
 from comparison.store import RunStore
 
@@ -136,9 +137,7 @@ def row_of(varied: dict[str, Any], case: Case | InputError, path: str, store: Ru
     try:
         return Row(**about, yield_stress=getattr(case.section, "yield_stress", None), **_found(case, path, store))
     except ANY_FAILURE as error:
-        foreseen = isinstance(error, (ValueError, SimulationError))
-        reason = " ".join((str(error) if foreseen else f"{type(error).__name__}: {error}").split())
-        return Row(**about, reason=in_keys(reason), refused=isinstance(error, InputError))
+        return Row(**about, reason=in_keys(reason_of(error)), refused=isinstance(error, InputError))
 
 
 def _found(case: Case, path: str, store: RunStore) -> dict[str, Any]:

@@ -87,6 +87,6 @@ def draw_return(out: Path) -> list[Path]:
 
 
 if __name__ == "__main__":
-    folder = style.asked_folder()
+    folder = Path("docs/figures")
     for draw in (draw_force, draw_peak_force, draw_return):
         print(*draw(folder))

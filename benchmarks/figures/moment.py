@@ -117,14 +117,13 @@ def draw_moments(found: Sequence[MeasuredMoment], out: Path) -> list[Path]:
 
 
 def _main() -> None:
-    folder = style.asked_folder()
     asked = [(method, kappa) for method in methods_of(PATHS) for kappa in KAPPAS if kappa >= FLATTEST[method.path]]
     found = [measure_moment(method, kappa) for method, kappa in asked]
     for m in found:
         print(f"{m.label:14s} {m.kappa_over_nu:6g}  {m.value:.5f} ± {m.error:.1g}  theory {m.theory:.5f}")
     document = {**stamp("python -m benchmarks.figures.moment"), "points": [asdict(m) for m in found]}
-    write_atomically(folder / "peak-moment.json", json.dumps(document, indent=1) + "\n")
-    print(*draw_moments(found, folder))
+    write_atomically(FOLDER / "peak-moment.json", json.dumps(document, indent=1) + "\n")
+    print(*draw_moments(found, FOLDER))
 
 
 if __name__ == "__main__":

@@ -125,4 +125,4 @@ def over_theory(history: ImpactHistory, name: str) -> FloatArray:
 
 
 if __name__ == "__main__":
-    print(*draw(style.asked_folder()))
+    print(*draw(Path("docs/figures")))

@@ -14,7 +14,7 @@ __all__ = ["result_from_history"]
 
 MOST_SNAPSHOTS = 400
 #: Fields of an impact that the exact solution of the infinite beam does not know, and why.
-BEYOND = {
+UNKNOWN = {
     "damping": "the exact solution has none; `bentbeam bounce` gives a damped beam's whole impact",
     "rotation": "the exact solution is symmetric",
     "first_touch": "the exact solution is symmetric",
@@ -80,7 +80,7 @@ def _problem_of(history: ImpactHistory) -> Problem:
     impact = history.impact
     if impact.curvature <= 0.0:
         raise ResultError("curvature must be positive: a straight beam has no isolated first touch")
-    for name, why in BEYOND.items():
+    for name, why in UNKNOWN.items():
         if getattr(impact, name):
             raise ResultError(f"{name} is {getattr(impact, name):g}: {why}")
     reason = beyond_first_order(impact)

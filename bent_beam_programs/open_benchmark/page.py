@@ -31,7 +31,7 @@ __all__ = ["document", "errors_table", "properties", "write_page"]
 MEASURES = {"lambda0": "λ₀", "r0": "r₀", "lambda1": "λ₁", "r1": "r₁", "restitution": "e", "impulse_error": "J(t)"}
 MEASURES |= {"peak_force": "the largest force", "peak_time": "its time"}
 MARKS = "osD^vP*<>hp8d"
-LEAST = 1e-7  # relative error that a figure still shows
+SMALLEST = 1e-7  # relative error that a figure still shows
 TEMPLATES = Path(__file__).parent / "templates"
 IN_SHORT = ("lambda0", "r0", "restitution", "impulse_error", "peak_force", "peak_time")  # errors where no loads act
 CONVERGED = 0.002  # relative error on the finest mesh that a converging code reaches (strict codes do)
@@ -282,7 +282,7 @@ def _point(row: Row, measure: str) -> tuple[float, float, float] | None:
     found, seconds = row.score.measured.get(measure), row.solver_seconds or row.seconds
     if found is None or found.difference is None or seconds is None or (found.theory == 0.0 and measure == "lambda0"):
         return None
-    error = max(abs(found.relative() or 0.0), LEAST)
+    error = max(abs(found.relative() or 0.0), SMALLEST)
     return seconds, error, error + (found.relative_bar() or 0.0)
 
 

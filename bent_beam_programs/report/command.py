@@ -9,10 +9,12 @@ from typing import Annotated
 import typer
 
 from comparison.command_line.options import (
+    Fresh,
     Json,
     Methods,
     Overwrite,
     Quiet,
+    Refine,
     Scheduler,
     Set,
     emit,
@@ -35,11 +37,8 @@ def report(
     ] = None,
     assignments: Set = None,
     methods: Methods = None,
-    refine: Annotated[
-        str,
-        typer.Option(metavar="1,2,4", help="Elements and steps so many times finer, for work and precision."),
-    ] = "0.5,1",
-    fresh: Annotated[bool, typer.Option("--fresh", help="Do not use runs kept from before.")] = False,
+    refine: Refine = "0.5,1",
+    fresh: Fresh = False,
     overwrite: Overwrite = False,
     as_json: Json = False,
     quiet: Quiet = False,

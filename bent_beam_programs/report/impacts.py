@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, partial
 from typing import Any
 
 import numpy as np
@@ -18,7 +18,8 @@ from bent_beam.impact import Impact
 from bent_beam.measure.force_map import force_map
 from bent_beam.measure.moments import moments
 from bent_beam.method import Method, chosen_for, settings_of
-from comparison.store import RunStore, source_of
+from comparison.runs import kept
+from comparison.store import RunStore
 from comparison.workers import run_all
 from theory import contact_parameters
 from theory.fields import ImpactFields
@@ -103,35 +104,29 @@ def widest(shown: Shown) -> float:
     return 1.3 * max(float(reach), 0.2 * float(np.sqrt(END)))
 
 
-def show(shown: Shown, method: Method) -> ShownImpact:
-    """Simulate with ``method`` and reduce. Raises ``ValueError`` for what it refuses."""
+def show(shown: Shown, method: Method, store: RunStore | None = None) -> ShownImpact:
+    """Simulate with ``method`` and reduce, or find it in ``store``. Raises ``ValueError`` for what it refuses."""
     impact = shown.impact
     reason = method.refuses(impact)
     if reason:
         raise ValueError(reason)
     end = END * impact.time_scale
-    fixed = chosen_for(method, impact, end) if shown.epsilon else method
-    history = fixed.simulate(impact, end_time=end, save=INSTANTS)
-    return ShownImpact(shown, method.label, reduce_history(history, shown), settings_of(method), history.warnings)
+
+    def run() -> ImpactHistory:
+        fixed = chosen_for(method, impact, end) if shown.epsilon else method
+        return fixed.simulate(impact, end_time=end, save=INSTANTS)
+
+    about = [shown.name, shown.kappa_over_nu, *shown.first, shown.epsilon, FRAMES, POINTS, BINS, INSTANTS, END]
+    found = kept(store, {"shown": about}, method, partial(reduce_history, shown=shown), run)
+    return ShownImpact(shown, method.label, found.reading, settings_of(method), found.warnings)
 
 
-def _kept(shown: Shown, method: Method, store: RunStore) -> ShownImpact | str:
-    """:func:`show` in a worker, from the store when it is there; a sentence where it fails."""
-    question = {
-        "shown": [shown.name, shown.kappa_over_nu, *shown.first, shown.epsilon, FRAMES, POINTS, BINS, INSTANTS, END],
-        "settings": settings_of(method) | {"label": ""},
-        "source": source_of(method),
-    }
-
-    def compute() -> dict[str, Any]:
-        found = show(shown, method)
-        return {"data": dict(found.data), "settings": dict(found.settings), "warnings": list(found.warnings)}
-
+def _attempted(shown: Shown, method: Method, store: RunStore) -> ShownImpact | str:
+    """:func:`show` in a worker; a sentence where it fails."""
     try:
-        kept = store.answer(question, compute)
+        return show(shown, method, store)
     except ANY_FAILURE as error:
         return f"{method.label}, {shown.title}: {' '.join(str(error).split())}"
-    return ShownImpact(shown, method.label, kept["data"], kept["settings"], kept["warnings"])
 
 
 def show_all(
@@ -150,7 +145,7 @@ def show_all(
     def died(i: int, why: str) -> str:
         return f"{calls[i][1].label}, {calls[i][0].title}: {why}"
 
-    found = dict(zip(slowest_first, run_all(_kept, calls, jobs=jobs, progress=progress, on_death=died)))
+    found = dict(zip(slowest_first, run_all(_attempted, calls, jobs=jobs, progress=progress, on_death=died)))
     each = [found[i] for i in range(len(asked))]
     return [e for e in each if isinstance(e, ShownImpact)], [e for e in each if isinstance(e, str)]
 
@@ -210,13 +205,13 @@ def reduce_history(history: ImpactHistory, shown: Shown) -> dict[str, Any]:
     def at(values: Array) -> Array:
         return np.interp(wanted, tau, values)
 
-    kept = kept_instants(history.time)
+    instants = kept_instants(history.time)
     edges = np.linspace(0.0, widest(shown), BINS + 1)
     energy = impact.mass_per_length * impact.length_scale * impact.velocity**2
     force = {
         "x": _short(0.5 * (edges[1:] + edges[:-1])),
-        "root_time": _short(root[kept][1:]),
-        "force": [_short(row) for row in force_map(history, kept, edges)],
+        "root_time": _short(root[instants][1:]),
+        "force": [_short(row) for row in force_map(history, instants, edges)],
     }
     curves = {"front": found.front, "reaction": reaction, "pressure": found.pressure, "lift": found.lift}
     reduced = {

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 from bent_beam.measure.numbers import Number
 from bent_beam.method import Method
-from comparison.rows import LEAST, First, MatchQuestion, MatchRow
+from comparison.rows import HELD_AGAINST, First, MatchQuestion, MatchRow
 
 PATHS = ("hermite", "self_similar", "exudyn")
 LEADING = (1 / 1600, 1 / 20, 1 / 4, 1 / 2, 0.8)
@@ -56,12 +56,12 @@ class Cell:
     @property
     def error(self) -> float:
         """The difference from theory, relative (see :func:`tolerance`)."""
-        return self.number.relative(LEAST[self.what]) or 0.0
+        return self.number.relative(HELD_AGAINST[self.what]) or 0.0
 
     @property
     def bar(self) -> float:
         """The error bar, relative."""
-        return self.number.relative_bar(LEAST[self.what]) or 0.0
+        return self.number.relative_bar(HELD_AGAINST[self.what]) or 0.0
 
     @property
     def grade(self) -> str:

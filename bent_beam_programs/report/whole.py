@@ -11,8 +11,9 @@ from typing import Any
 
 from bent_beam.cases import EXAMPLES, load_case
 from bent_beam.errors import InputError
-from bent_beam.measure.numbers import Band, Number
+from comparison.predict_text import validity_text
 from comparison.predicting import predict_case
+from comparison.readable import number_from
 from comparison.store import RunStore
 
 __all__ = ["COLUMNS", "pipe_prediction"]
@@ -37,9 +38,8 @@ WHOLE = {
 def pipe_prediction(file: Path = PIPE, store: RunStore | None = None) -> dict[str, Any] | None:
     """The prediction of a case, or ``None`` where this installation has no such file.
 
-    case; rows : time (ms), by what, and a text for each of :data:`COLUMNS`; valid_from, valid_until, s, valid_after and
-    limited_by; whole : texts of the whole impact as the case states it; damping : (ratio in %, largest stress in MPa);
-    yield_stress, MPa.
+    case; rows : time (ms), by what, and a text for each of :data:`COLUMNS`; validity : of the theory, in words; whole :
+    texts of the whole impact as the case states it; damping : (ratio in %, largest stress in MPa); yield_stress, MPa.
     """
     try:
         case = load_case(file)
@@ -53,12 +53,11 @@ def pipe_prediction(file: Path = PIPE, store: RunStore | None = None) -> dict[st
         if numbers is not None
     ]
     whole = document["whole_impact"] or {}
-    limits = ("valid_from", "valid_until", "valid_after", "limited_by", "force_until")
     yields = document["yield_stress"]
     return {
         "case": case,
         "rows": rows,
-        **{key: document.get(key) for key in limits},
+        "validity": validity_text(document),
         "whole": [words.format(text(whole.get(key), unit)) for key, (words, unit) in WHOLE.items()],
         "damping": [
             (f"{100.0 * row['damping_ratio']:g}", text(row["peak_stress"], 1e6))
@@ -72,6 +71,4 @@ def text(number: Any, unit: float) -> str:
     """A number in its column's unit, with its error bar or band where it has one, as ``bentbeam predict`` writes it."""
     if not isinstance(number, Mapping):
         return "–" if number is None else f"{number / unit:.4g}"
-    if band := number.get("band"):
-        return str(Band(**band).scaled(1.0 / unit))
-    return str(Number(number.get("value"), number.get("error")).scaled(1.0 / unit))
+    return str(number_from(dict(number)).scaled(1.0 / unit))

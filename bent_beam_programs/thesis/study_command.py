@@ -12,6 +12,7 @@ from comparison.command_line.options import (
     Json,
     Methods,
     Quiet,
+    Refine,
     Set,
     complete,
     emit,
@@ -44,10 +45,7 @@ def study(
     ] = None,
     assignments: Set = None,
     methods: Methods = None,
-    refine: Annotated[
-        str | None,
-        typer.Option(metavar="1,2,4", help="Elements and steps of the methods so many times finer, each a row."),
-    ] = None,
+    refine: Refine = None,
     out: Annotated[Path | None, typer.Option(help="Folder for figure, table and conclusion.")] = None,
     jobs: Jobs = 1,
     as_json: Json = False,
@@ -78,7 +76,7 @@ def study(
     loaded = load_case(case, assignments or ())
     asked = path or of_paths or methods is not None or refine is not None
     varied = chosen_methods(path or (), of_paths, methods, loaded) if asked else []
-    refines = factors(refine or "1")
+    refines = factors(refine)
     if out is not None:
         check_writable(out, folder=True)
     with progress(f"study {name}", quiet) as bar:

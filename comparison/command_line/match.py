@@ -31,10 +31,7 @@ def match(
         str | None,
         typer.Option(metavar="K[,ZETA]", help="Elastic wall: stiffness per length over μ/t*², and damping ratio."),
     ] = None,
-    refine: Annotated[
-        str,
-        typer.Option(metavar="1,2,4", help="Factors by which elements and steps are refined, a row each."),
-    ] = "1",
+    refine: options.Refine = "1",
     error_bars: options.ErrorBars = "quick",
     duration: Annotated[float, typer.Option(help="End of the runs, t*.")] = 0.1,
     limit: Annotated[float | None, typer.Option(help="Time limit of a row, s.")] = None,

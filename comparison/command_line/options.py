@@ -75,6 +75,10 @@ Methods = Annotated[
 ErrorBars = Annotated[
     str, typer.Option(help="quick (one companion run, half resolution), thorough (also twice), drift (none).")
 ]
+Refine = Annotated[
+    str | None,
+    typer.Option(metavar="1,2,4", help="Factors by which elements and steps are refined, a row each."),
+]
 Fresh = Annotated[bool, typer.Option("--fresh", help="Ignore stored runs.")]
 Overwrite = Annotated[bool, typer.Option("--overwrite", help="Replace existing files.")]
 
@@ -105,11 +109,12 @@ def numbers(option: str, text: str, counts: Sequence[int], what: str) -> tuple[f
     return found
 
 
-def factors(refine: str) -> tuple[float, ...]:
-    """The factors of ``--refine``. Raises :class:`InputError`."""
+def factors(refine: str | None) -> tuple[float, ...]:
+    """The factors of ``--refine``, 1 where it is not given. Raises :class:`InputError`."""
     from bent_beam.checks import positive
 
-    return tuple(positive("refine", f) for f in numbers("--refine", refine, range(1, 20), "factors, e.g. 1,2,4"))
+    found = numbers("--refine", "1" if refine is None else refine, range(1, 20), "factors, e.g. 1,2,4")
+    return tuple(positive("refine", factor) for factor in found)
 
 
 def emit(document: Any, as_json: bool, text: Callable[[], str]) -> None:

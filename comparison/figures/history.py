@@ -14,7 +14,7 @@ from comparison.figures.panels import impulse_given, sheet
 
 __all__ = ["draw_history"]
 
-BEYOND = 1.15  # times the last push, or the largest moment: the end of the axes
+MARGIN = 1.15  # times the last push, or the largest moment: the end of the axes
 NEARLY = 0.7  # of the record: where that is later, all of it is drawn
 GIVEN = 0.999  # of the impulses: what comes later is none of the last push
 SEEN = 0.02  # of the axis: less of a theory's time is no line
@@ -41,7 +41,7 @@ def _window(history: ImpactHistory) -> tuple[float, float]:
     time, names = history.time, [name for name in ("impulse", "opposite_impulse") if name in history]
     pushed = impulse_given(history)
     last = float(time[np.searchsorted(pushed, GIVEN * pushed[-1])])
-    end = BEYOND * max(last, float(time[np.argmax(history.moment)]))
+    end = MARGIN * max(last, float(time[np.argmax(history.moment)]))
     end = float(time[-1]) if end == 0.0 or end > NEARLY * time[-1] else end
     given = np.abs(np.sum([history.array(name, -1) for name in names], axis=0))
     places = np.abs(history.contact_positions(-1)[given > 1e-3 * given.max(initial=1e-300)])

@@ -22,7 +22,7 @@ from comparison.rows import First, MatchRow, match_document
 from comparison.store import write_atomically
 from theory import contact_parameters
 
-__all__ = ["draw_first_order", "draw_leading", "draw_matching", "leading_figure", "write_match"]
+__all__ = ["draw_matching", "leading_figure", "write_match"]
 
 DASHES = ("-", "--", ":", "-.")
 """Of theory's curves, a kind for each load."""
@@ -43,15 +43,10 @@ def draw_matching(rows: Sequence[MatchRow], out: Path) -> list[Path]:
         key = (row.label, row.kappa_over_nu, row.first)
         finest[key] = max(finest.get(key, row), row, key=lambda r: r.refine)
     shown = list(finest.values())
-    files = draw_leading(shown, out) if any(r.lambda0.measured for r in shown) else []
+    files = style.save(leading_figure(shown), out, "leading") if any(r.lambda0.measured for r in shown) else []
     if any(r.lambda1.measured for r in shown):
         files += draw_first_order(shown, out)
     return files
-
-
-def draw_leading(rows: Sequence[MatchRow], out: Path) -> list[Path]:
-    """``leading.png`` in ``out``."""
-    return style.save(leading_figure(rows), out, "leading")
 
 
 def leading_figure(rows: Sequence[MatchRow]) -> Any:

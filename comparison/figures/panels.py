@@ -100,12 +100,9 @@ def draw_stress(
     scale, unit = unit_for(si, values)
     axis.plot(1e3 * time[1:], scale * values[1:], drawstyle="steps-pre", color=style.COLOURS["blue"], lw=0.8)
     top = scale * float(values.max())
-    if yield_stress is not None and stress is not None and scale * yield_stress < 2.0 * top:
-        top = max(top, scale * yield_stress)
-        axis.axhline(scale * yield_stress, color="black", lw=0.9, ls="--")
-        axis.annotate("yields", (0.99, scale * yield_stress), xycoords=("axes fraction", "data"), ha="right",
-                      va="bottom", fontsize=7.0)  # fmt: skip
     axis.set(ylabel=f"largest {what}  ({unit})", xlim=(0.0, 1e3 * end), ylim=(0.0, 1.3 * top))
+    if yield_stress is not None and stress is not None:
+        style.yield_line(axis, scale * yield_stress, top)
     k = int(np.argmax(values))
     _mark(axis, float(time[k]), scale * float(values[k]), words or f"largest {scale * values[k]:.4g} {unit}")
 

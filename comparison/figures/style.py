@@ -7,7 +7,6 @@ Colours are those of Okabe and Ito (2008), told apart by the colour-blind; sizes
 
 from __future__ import annotations
 
-import argparse
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from io import BytesIO
@@ -121,13 +120,6 @@ def save(fig: Figure, out: Path, name: str, formats: Sequence[str] = ("png",)) -
     return files
 
 
-def asked_folder() -> Path:
-    """The folder that a figure script writes into: its option ``--out``, else that of the documentation."""
-    parser = argparse.ArgumentParser(description="Draw figures of the documentation.")
-    parser.add_argument("--out", type=Path, default=Path("docs/figures"))
-    return Path(parser.parse_args().out)
-
-
 def mark(path: str) -> dict[str, Any]:
     """Marker and colour of a path, without a label."""
     found = MARKERS[path] if path in MARKERS else marks([path])[path]
@@ -146,6 +138,17 @@ def wall_below(axis: Axes, low: float, high: float) -> None:
 def panel_label(axis: Axes, text: str) -> None:
     """(a), (b) … in the upper left corner, outside the data."""
     axis.text(0.0, 1.02, text, transform=axis.transAxes, ha="left", va="bottom", fontweight="bold", fontsize=8.5)
+
+
+def yield_line(axis: Axes, limit: float, highest: float) -> None:
+    """Where the material yields, if the stresses, at most ``highest``, come near it; on the axis."""
+    if limit > 2.0 * highest:
+        return
+    axis.axhline(limit, color=COLOURS["black"], lw=0.9, ls="--")
+    axis.set_ylim(top=max(axis.get_ylim()[1], 1.15 * limit))
+    axis.annotate(
+        f"yields at {limit:.4g}", (0.02, limit), xycoords=("axes fraction", "data"), va="bottom", fontsize=7.0
+    )
 
 
 class Film:

@@ -19,7 +19,7 @@ __all__ = ["sweep_figure"]
 SHOWN = ("peak_stress", "peak_moment", "peak_force", "restitution", "impulse")
 """Numbers that are drawn where there are any, in this order; the moment only without a stress."""
 CURVES, MAPS = 3, 2  # panels
-LEAST = 3  # values of a key of a map
+OF_A_MAP = 3  # values of a key of a map
 LEVELS = 8
 FINE = 60  # places a key between which a map's lines are straight
 LOUD = 0.1  # of the value: larger bars are marked on a map
@@ -36,7 +36,7 @@ def sweep_figure(found: SweepTable) -> Any:
     shown = [name for name in shown if name != "peak_moment" or "peak_stress" not in shown]
     if not shown:
         raise ValueError("no row has a number to be drawn")
-    mapped = len(found.vary) == 2 and all(numeric(v) and len(v) >= LEAST for v in found.vary.values())
+    mapped = len(found.vary) == 2 and all(numeric(v) and len(v) >= OF_A_MAP for v in found.vary.values())
     shown = shown[: MAPS if mapped else CURVES]
     size = {"width": style.PAGE, "height": 3.4 if mapped else 2.8, "sharex": mapped, "sharey": mapped}
     with style.figure(1, len(shown), squeeze=False, **size) as (fig, axes):
@@ -101,20 +101,11 @@ def _curves(axis: Any, found: SweepTable, name: str) -> None:
         style.bars(axis, x[order], values[order, i], bars[order, i], look)
     highest = float(np.nanmax(values + bars))
     axis.set(xlabel=label, ylabel=title, ylim=(min(0.0, 1.08 * float(np.nanmin(values - bars))), 1.08 * highest))
-    _yield_line(axis, found, name, highest)
+    limit = _yield_stress(found)
+    if name == "peak_stress" and limit is not None:
+        style.yield_line(axis, 1e-6 * limit, highest)
     if not joined:
         axis.set_xticks(x, [str(value) for value in found.vary[keys[0]]])
-
-
-def _yield_line(axis: Any, found: SweepTable, name: str, highest: float) -> None:
-    """Where the material yields, if the stresses come near it."""
-    limit = _yield_stress(found)
-    if name != "peak_stress" or limit is None or 1e-6 * limit > 2.0 * highest:
-        return
-    axis.axhline(1e-6 * limit, color=style.COLOURS["black"], lw=0.9, ls="--")
-    axis.set_ylim(top=max(axis.get_ylim()[1], 1.15e-6 * limit))
-    axis.annotate(f"yields at {1e-6 * limit:.4g}", (0.02, 1e-6 * limit), xycoords=("axes fraction", "data"),
-                  va="bottom", fontsize=7.0)  # fmt: skip
 
 
 def _yield_stress(found: SweepTable) -> float | None:

@@ -15,7 +15,7 @@ from bent_beam.measure.numbers import Band, Number
 from comparison.figures import style
 from comparison.figures.panels import contacts, draw_force, draw_wall, heights, sheet
 from comparison.figures.style import Film, write_gif
-from comparison.readable import in_unit
+from comparison.readable import in_unit, largest_of
 
 __all__ = ["animate", "impact_figure"]
 
@@ -25,7 +25,7 @@ FRAMES, PER_SECOND = 90, 18
 def impact_figure(history: ImpactHistory, case: Case, numbers: Mapping[str, Number | Band], end: float) -> Any:
     """A run of a case on one sheet. numbers : SI, by name, for what is marked; end : s, of the axes."""
     impact, section, limit = history.impact, case.section, None if case.section is None else case.section.yield_stress
-    largest, unit = ("peak_moment", "N m") if section is None else ("peak_stress", "Pa")
+    largest, _, unit = largest_of(section)
     marked: dict[str, Any] = {
         "force": _words(numbers.get("peak_force"), "N"),
         "stress": _words(numbers.get(largest), unit),

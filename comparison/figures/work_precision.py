@@ -17,7 +17,7 @@ from typing import Any
 from matplotlib.ticker import FormatStrFormatter, LogLocator, NullFormatter
 
 from comparison.figures import style
-from comparison.rows import LEAST, MatchRow
+from comparison.rows import HELD_AGAINST, MatchRow
 
 __all__ = ["draw_work_precision"]
 
@@ -47,8 +47,8 @@ def draw_work_precision(rows: Sequence[MatchRow], out: Path) -> list[Path]:
 
 def _error(what: str, row: MatchRow) -> tuple[float | None, float | None]:
     number = getattr(row, what)
-    off = number.relative(LEAST[what])
-    return None if off is None else abs(off), number.relative_bar(LEAST[what])
+    off = number.relative(HELD_AGAINST[what])
+    return None if off is None else abs(off), number.relative_bar(HELD_AGAINST[what])
 
 
 def _draw(rows: Sequence[MatchRow], out: Path, name: str, first: bool, missing: int) -> list[Path]:

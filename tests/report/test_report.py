@@ -111,6 +111,7 @@ def test_the_pipe_s_numbers_are_those_that_predict_prints(reader: Reader) -> Non
     printed = re.sub(r"\s+", " ", prediction_text(predict_case(found["case"], TIMES, store=KEPT).to_dict()))
     for _, _, cells in found["rows"]:
         assert all(cell in printed for cell in cells)
+    assert re.sub(r"\s+", " ", found["validity"]) in printed and "The theory holds" in reader.text
     restitution, _, stress = (words.partition(" (band")[0] for words in found["whole"])
     assert restitution in printed and stress.removeprefix("largest stress ").removesuffix(" MPa") in printed
     assert all(f"{value} at {ratio} %" in printed for ratio, value in found["damping"])
