@@ -25,7 +25,6 @@ __all__ = ["CYCLING", "NOT_FINITE", "SINGULAR", "SOLVED", "find_wrong", "solve_c
            "solve_one_by_one"]  # fmt: skip
 
 Array = NDArray[np.float64]
-Flags = NDArray[np.bool_]
 
 SOLVED, SINGULAR, CYCLING, NOT_FINITE = range(4)
 
@@ -80,7 +79,7 @@ def find_wrong(
                 p[j] = (total - b[d]) / factors[j, 0]
             else:
                 p[j] = -solver.y[solver.row_unknown[j]]
-            excess = 0.0 if conditions.held[j] else -p[j]
+            excess = 0.0 if conditions.least[j] < 0.0 else -p[j]
             bound = tolerance * (size + abs(b[d])) / abs(factors[j, 0])
         elif conditions.candidate[j]:
             excess, bound = target[j], tolerance * abs(target[j])
@@ -96,11 +95,11 @@ def find_wrong(
 
 @compiled_within
 def begin(solver: Solver, rows: Rows, conditions: Constraints) -> None:
-    """Open and close constraints as ``conditions`` guesses. Held constraints are always closed; of the others only
-    candidates may be."""
+    """Open and close constraints as ``conditions`` guesses. Those that may pull are always closed; of the others
+    only candidates may be."""
     closed = conditions.closed
     for j in range(closed.size):
-        closed[j] = conditions.held[j] or (closed[j] and conditions.candidate[j])
+        closed[j] = conditions.least[j] < 0.0 or (closed[j] and conditions.candidate[j])
         if solver.closed[j] != closed[j]:
             exchange(solver, rows, j)
 

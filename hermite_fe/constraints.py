@@ -17,31 +17,35 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bent_beam.errors import InputError
-from hermite_fe.banded import PAD, factor, substitute_back, substitute_forward
+from hermite_fe.banded import PAD, copy, factor, substitute_back, substitute_forward
 from hermite_fe.compiled import compiled, compiled_within
 from hermite_fe.system import ContactRows, System
 
-__all__ = ["WORST", "Constraints", "ContactLaw", "Rows", "Solver", "constraints_of", "count_rounds", "exchange",
-           "find_held", "note_complementarity", "refactor_from", "row_times", "rows_of", "rows_times", "solver_of",
-           "update"]  # fmt: skip
+__all__ = ["WORST", "Constraints", "ContactLaw", "Rows", "Solver", "ask_for_gaps", "ask_for_rebound", "constraints_of",
+           "count_rounds", "exchange", "find_candidates", "note_complementarity", "refactor_from", "row_times",
+           "rows_of", "rows_times", "set_bounds", "solver_of", "some_gave_way", "update"]  # fmt: skip
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 Places = NDArray[np.int64]
 
 SMALLEST_REACTION, PRODUCT = range(2)
-"""Indices in ``worst``: the smallest impulse of a constraint that is not held, and the largest |p·slack|."""
+"""Indices in ``worst``: the smallest impulse above what its constraint may pull, and the largest |p·slack|."""
 WORST = ("smallest_reaction", "complementarity_product")
 
 
 class ContactLaw(NamedTuple):
-    """The impact law and what is held against it (:mod:`hermite_fe.contacts`); nothing from ``hold_ends``, s,
-    on."""
+    """What constraints do that close: how they rebound, and how hard they may pull. Nothing else says so.
+
+    restitution : e. hold, hold_until : what is held (:mod:`hermite_fe.contacts`); nothing from ``hold_ends``, s, on.
+    strength : (rows,), N, the pull at which a constraint that has closed opens; one number is that of all.
+    """
 
     restitution: float = 0.0
     hold: int = 0
     hold_until: float = 0.0
     hold_ends: float = np.inf
+    strength: Array = np.zeros(1)
 
 
 class Rows(NamedTuple):
@@ -58,16 +62,17 @@ class Rows(NamedTuple):
 class Constraints(NamedTuple):
     """One set of conditions 0 ≤ p ⊥ G x − c ≥ 0 on the constraints, each array (rows,).
 
-    target : c; candidate : whether the constraint may close; held : whether it stays closed, whatever the sign of p.
+    target : c; candidate : whether the constraint may close; least : bound of p. Where it is negative the constraint
+        stays closed whatever p a solution finds; :func:`some_gave_way` then tells whether that was too small.
     closed : the guess on entry of a solution, the answer on return; p : the multipliers, N s unless a scheme says
         otherwise.
     Gq, Gv : work arrays of the integrator.
     """
 
-    target: Array
     candidate: Flags
-    held: Flags
     closed: Flags
+    target: Array
+    least: Array
     p: Array
     Gq: Array
     Gv: Array
@@ -81,8 +86,7 @@ def rows_of(contacts: ContactRows) -> Rows:
 def constraints_of(rows: Rows) -> Constraints:
     """One set of conditions, all constraints open."""
     m = rows.gap.size
-    numbers, flags = np.zeros((4, m)), np.zeros((3, m), np.bool_)
-    return Constraints(numbers[0], *flags, *numbers[1:])
+    return Constraints(*np.zeros((2, m), np.bool_), *np.zeros((5, m)))
 
 
 @compiled_within
@@ -102,21 +106,58 @@ def rows_times(rows: Rows, x: Array, out: Array) -> None:
 
 
 @compiled_within
-def find_held(rows: Rows, law: ContactLaw, closed: Flags, t: float, held: Flags) -> None:
-    """Mark the constraints that stay closed after time t: before ``hold_until`` all that are closed, else those whose
-    front is fewer than ``hold`` constraints ahead."""
-    held[:] = False
+def set_bounds(rows: Rows, law: ContactLaw, closed: Flags, t: float, h: float, least: Array) -> None:
+    """Set the least impulses of a step from t: 0, of closed constraints −h·strength, of held ones −∞: before
+    ``hold_until`` all that are closed, else those whose front is fewer than ``hold`` constraints ahead."""
+    for j in range(closed.size):
+        least[j] = -h * law.strength[j] if closed[j] else 0.0
     if t >= law.hold_ends or (law.hold == 0 and t >= law.hold_until):
         return
-    right, left = -1, -1  # the front on either side of the first to touch
+    front = np.full(2, -1)  # on either side of the first to touch
     for j in range(closed.size):
-        if closed[j] and rows.side[j] == 0:
-            right = max(right, rows.rank[j])
-        elif closed[j]:
-            left = max(left, rows.rank[j])
+        if closed[j]:
+            front[rows.side[j]] = max(front[rows.side[j]], rows.rank[j])
     for j in range(closed.size):
-        front = right if rows.side[j] == 0 else left
-        held[j] = closed[j] and (t < law.hold_until or front - rows.rank[j] < law.hold)
+        if closed[j] and (t < law.hold_until or front[rows.side[j]] - rows.rank[j] < law.hold):
+            least[j] = -np.inf
+
+
+@compiled_within
+def ask_for_gaps(rows: Rows, conditions: Constraints, q: Array, closed: Flags, h: float, theta: float) -> None:
+    """Ask all constraints for g⁺ = g₀ + Gq + h(Gv + θGx) ≥ 0, Gv as it is; guess ``closed``."""
+    rows_times(rows, q, conditions.Gq)
+    copy(closed, conditions.closed)
+    for j in range(closed.size):
+        conditions.candidate[j] = True
+        conditions.target[j] = -((rows.gap[j] + conditions.Gq[j]) / h + conditions.Gv[j]) / theta
+
+
+@compiled_within
+def find_candidates(rows: Rows, conditions: Constraints, q: Array, closed: Flags, ahead: float) -> None:
+    """Those may close that are on the wall or in it a time ``ahead`` from now, or may pull; guess ``closed``."""
+    rows_times(rows, q, conditions.Gq)
+    copy(closed, conditions.closed)
+    for j in range(closed.size):
+        gap = rows.gap[j] + conditions.Gq[j] + ahead * conditions.Gv[j]
+        conditions.candidate[j] = gap <= 0.0 or conditions.least[j] < 0.0
+
+
+@compiled_within
+def ask_for_rebound(law: ContactLaw, conditions: Constraints, now: Array) -> None:
+    """Ask for Gv⁺ = now + Gx ≥ −eGv, e = 0 of constraints that may pull."""
+    for j in range(now.size):
+        rebound = 0.0 if conditions.least[j] < 0.0 else law.restitution
+        conditions.target[j] = -now[j] - rebound * conditions.Gv[j]
+
+
+@compiled_within
+def some_gave_way(conditions: Constraints) -> bool:
+    """Whether any pulls harder than it may: unilateral from now on, it asks for another solution."""
+    found = False
+    for j in range(conditions.p.size):
+        if conditions.p[j] < conditions.least[j] < 0.0:
+            conditions.least[j], found = 0.0, True
+    return found
 
 
 @compiled_within
@@ -125,14 +166,13 @@ def note_complementarity(
 ) -> None:
     """Record in ``worst`` how far closed constraints are from 0 ≤ p ⊥ Gx − c ≥ 0.
 
-    x : the solution that ``conditions`` were imposed on; to_impulse, to_speed : turn p into N s and Gx into m/s (or m).
+    x : the solution; to_impulse, to_speed : turn p into N s and Gx into m/s (or m).
     """
     for j in range(conditions.p.size):
         if conditions.closed[j]:
-            p, slack = to_impulse * conditions.p[j], to_speed * (row_times(rows, x, j) - conditions.target[j])
-            worst[PRODUCT] = max(worst[PRODUCT], abs(p * slack))
-            if not conditions.held[j]:
-                worst[SMALLEST_REACTION] = min(worst[SMALLEST_REACTION], p)
+            p, slack = conditions.p[j], to_speed * (row_times(rows, x, j) - conditions.target[j])
+            worst[PRODUCT] = max(worst[PRODUCT], abs(to_impulse * p * slack))
+            worst[SMALLEST_REACTION] = min(worst[SMALLEST_REACTION], to_impulse * (p - conditions.least[j]))
 
 
 class Solver(NamedTuple):

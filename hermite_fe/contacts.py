@@ -6,7 +6,7 @@ the mean gap of each element (thesis 4.0.6).
     means    (1/l)∫_e g dx = −(½w₁ + (l/12)θ₁ + ½w₂ − (l/12)θ₂) ≥ 0
 
 The reaction impulse of a mean gap is p_e = l ∫ r_e dt: the pair is conjugate, so the work of a piecewise-constant
-reaction is exact. What they share is the impact law and the hold behind the front:
+reaction is exact. What they share is what closed rows do (:meth:`Contact.law`), the impact law and the hold:
 
     ġ⁺ = −e ġ⁻ where a row closes                                                           (thesis 3.2.4)
 
@@ -49,6 +49,7 @@ from numpy.typing import NDArray
 from bent_beam.errors import InputError
 from bent_beam.fields import Part, Quantity
 from hermite_fe.beam import HermiteBeam
+from hermite_fe.constraints import ContactLaw
 from hermite_fe.masses import Mass
 from hermite_fe.system import ContactRows
 
@@ -82,6 +83,10 @@ class Contact(Part, ABC):
     def held(self) -> dict[str, float]:
         """What keeps closed constraints closed, by the name of its field."""
         return {name: getattr(self, name) for name in ("hold", "hold_until") if getattr(self, name)}
+
+    def law(self, rows: ContactRows, hold_ends: float) -> ContactLaw:
+        """What ``rows`` do that have closed; nothing is held from ``hold_ends``, s, on."""
+        return ContactLaw(self.restitution, self.hold, self.hold_until, hold_ends)
 
     @abstractmethod
     def rows(self, beam: HermiteBeam, facing: Array, *, full: bool) -> ContactRows:

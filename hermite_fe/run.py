@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import time as clock
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -42,7 +41,7 @@ class Trajectory:
 
     q, v : (saved, dofs). impulse, held_impulse, gap : (saved, rows); closed : (saved, rows) bool.
     sums : (saved,) each, by the names that :meth:`Stepper.sums` gives them.
-    steps : taken; seconds : spent on them, without compilation.
+    law : of the constraints that closed. steps : taken; seconds : spent on them, without compilation.
     mean_iterations, most_iterations : rounds of the active set in one solution.
     failure : why the run did not finish ("": it did); failure_time : s, how far it got.
     """
@@ -55,6 +54,7 @@ class Trajectory:
     held_impulse: Array
     closed: NDArray[np.bool_]
     sums: dict[str, Array]
+    law: ContactLaw
     steps: int
     seconds: float
     mean_iterations: float
@@ -83,13 +83,18 @@ class Stepper:
                 "integrator.kind: hysteretic_loss needs moreau_jean or signorini_position, before a wall with a "
                 f"stiffness midpoint; leave it out (got {type(integrator).__name__})"
             )
+        law, kind = law or ContactLaw(), type(integrator).__name__
+        if law.restitution > 0.0 and not integrator.rebounds:
+            raise InputError(f"{kind} has no impact law: restitution must be 0 (got {law.restitution!r})")
+        if np.any(law.strength) and not integrator.holds_zone:
+            raise InputError(f"strength has no effect with {kind}: take MoreauJean or SignoriniPosition")
         for name, value in (("q", q), ("v", v)):
             if np.shape(value) != (system.dofs,):
                 raise InputError(f"{name} must have shape ({system.dofs},) (got {np.shape(value)})")
         self.integrator = integrator
         self.instants = integrator.instants(end_time)
         self.contacts = system.contacts
-        self.problem = problem_of(system, law or ContactLaw())
+        self.problem = problem_of(system, law)
         self.state = state_of(system, q, v)
         self.memory = integrator.start(self.problem, self.state)
         self.step = 0
@@ -175,6 +180,7 @@ def trajectory_of(
     return Trajectory(
         **{name: np.array([sample.pop(name) for sample in samples]) for name in list(samples[0])},
         sums={name: np.array([row[name] for row in sums]) for name in sums[0]},
+        law=run.problem.law,
         steps=run.step,
         seconds=seconds,
         mean_iterations=rounds / max(solutions, 1),
@@ -213,24 +219,23 @@ def integrate(
     end_time: float,
     *,
     restitution: float = 0.0,
-    hold: int = 0,
-    hold_until: float = 0.0,
-    hold_ends: float = math.inf,
+    law: ContactLaw | None = None,
     save: int | Sequence[float] | Array = 200,
     progress: Callable[[float], None] | None = None,
     until: Callable[[Stepper], bool] | None = None,
 ) -> Trajectory:
     """Step ``system`` from (q, v) at t = 0 to ``end_time``, s, or to the last of given times.
 
-    q, v : (dofs,), in the system's units. restitution, hold, hold_until : see :class:`hermite_fe.contacts.Contact`;
-        hold_ends : s, nothing is held from then on.
+    q, v : (dofs,), in the system's units. law : of constraints that close, by default inelastic and unilateral;
+        restitution : in place of a law.
     save : number of saved instants, or times. progress : called with the finished fraction.
     until : called at every saved instant; the run ends with the first at which it returns True.
 
     A run that cannot finish returns the samples so far, with ``failure`` set. Raises ``ValueError`` for bad input.
     """
-    law = ContactLaw(float(restitution), int(hold), float(hold_until), float(hold_ends))
-    run = Stepper(system, q, v, integrator, end_time, law)
+    if law is not None and restitution:
+        raise InputError(f"restitution has no effect beside a law (got {restitution!r})")
+    run = Stepper(system, q, v, integrator, end_time, law or ContactLaw(float(restitution)))
     kept = saved_steps(run.instants, save)
     affordable("integrator and mesh", run.instants.size - 1, max(1, system.dofs // 2), kept.size, MOST_WORK)
     samples: list[dict[str, Any]] = []

@@ -89,10 +89,7 @@ def simulate(
         model.velocity,
         choice.integrator,
         end,
-        restitution=choice.contact.restitution,
-        hold=choice.contact.hold,
-        hold_until=choice.contact.hold_until,
-        hold_ends=FIRST_SPREAD * impact.slow_time_scale,
+        law=choice.contact.law(model.system.contacts, FIRST_SPREAD * impact.slow_time_scale),
         save=save,
         progress=progress,
         until=None if until is None else lambda run: until(model, run),
@@ -128,23 +125,22 @@ def settings_of_run(impact: Impact, choice: resolution.Choice, run: Trajectory) 
     return {
         **({} if branches is None else {"hysteretic_loss": {"loss": impact.hysteretic_loss, **branches.about}}),
         **{name: describe(part) for name, part in choice.parts().items()},
-        "hold": hold_report(impact, choice.contact, run),
+        "hold": hold_report(run),
         "mean_iterations": run.mean_iterations,
         "most_iterations": run.most_iterations,
     }
 
 
-def hold_report(impact: Impact, contact: Contact, run: Trajectory) -> dict[str, float | None] | None:
+def hold_report(run: Trajectory) -> dict[str, float | None] | None:
     """``{"until": s, "pull": largest pull over largest push}`` of a contact point between two saved instants, pull
     ``None`` without a push; ``None`` where nothing ever pulled."""
     pull = -float(np.diff(run.held_impulse, axis=0).min(initial=0.0))
     push = float(np.diff(run.impulse, axis=0).max(initial=0.0))
     if pull == 0.0:
         return None
-    end = float(run.time[-1])
-    stated = end if contact.hold else contact.hold_until
-    until = min(float(stated), end, FIRST_SPREAD * impact.slow_time_scale)
-    return {"until": until, "pull": pull / push if push > 0.0 else None}
+    end, law = float(run.time[-1]), run.law
+    held = min(end if law.hold else law.hold_until, end, law.hold_ends)
+    return {"until": end if np.any(law.strength) else held, "pull": pull / push if push > 0.0 else None}
 
 
 def check_start(model: BeamModel) -> None:

@@ -70,7 +70,7 @@ class State(NamedTuple):
     """The variables that a step changes.
 
     q, v, acceleration : (dofs,), the motion; acceleration, v̇, where the integrator has one.
-    closed : (rows,). impulse, held_impulse : (rows,), N s since the start, and its tensile part in held constraints.
+    closed : (rows,). impulse, held_impulse : (rows,), N s since the start, and its pulling part.
     energy : (7,), J, see :data:`WORK`. worst : (2,), see :data:`hermite_fe.constraints.PRODUCT`.
     peaks : (4,), see :data:`hermite_fe.elastic_wall.FORCE`.
     branches : of a hysteretic beam, else none; stretch : (2 elements,), the weighted sum of their stretches, mean over
@@ -104,6 +104,7 @@ def problem_of(system: System, law: ContactLaw) -> Problem:
         load=system.load if np.any(system.load) else np.zeros((0, system.dofs)), springs=system.springs,
         second=system.second,
     )  # fmt: skip
+    law = law._replace(strength=np.zeros(len(system.contacts)) + law.strength)
     return Problem(matrices, rows_of(system.contacts), law, solver_of(system))
 
 
@@ -204,7 +205,7 @@ def add_impulses(state: State, conditions: Constraints) -> None:
     """Add the impulses of a step to those so far."""
     for j in range(conditions.p.size):
         state.impulse[j] += conditions.p[j]
-        if conditions.held[j]:
+        if conditions.least[j] < 0.0:
             state.held_impulse[j] += min(conditions.p[j], 0.0)
 
 

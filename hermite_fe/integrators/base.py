@@ -35,7 +35,11 @@ class Integrator(Part, ABC):
     """Whether the scheme supports the hold (:mod:`hermite_fe.contacts`)."""
 
     holds_zone: ClassVar[bool] = False
-    """Whether a hold of the whole zone, as in runs that measure what a pressing load changes, is stable."""
+    """Whether a hold of the whole zone, as in runs that measure what a pressing load changes, is stable, and closed
+    constraints may have a strength."""
+
+    rebounds: ClassVar[bool] = True
+    """Whether the scheme has an impact law, for restitution."""
 
     elastic: ClassVar[bool] = False
     """Whether the scheme is for a wall that gives way (:mod:`hermite_fe.elastic_wall`), and not for a rigid one."""

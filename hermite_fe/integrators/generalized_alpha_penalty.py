@@ -14,7 +14,7 @@ from __future__ import annotations
 
 import dataclasses
 from dataclasses import dataclass
-from typing import Annotated
+from typing import Annotated, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -57,6 +57,8 @@ Flags = NDArray[np.bool_]
 class GeneralizedAlphaPenalty(Integrator):
     """Generalised-α with a spring and damper at each node while it penetrates."""
 
+    rebounds: ClassVar[bool] = False
+
     spectral_radius: SpectralRadius = 0.8
     stiffness: Annotated[
         float | None, Quantity("N/m²", "k_c, per length of beam", above=0.0, absent="chosen, 1e7 μ/t*²")
@@ -91,9 +93,6 @@ class GeneralizedAlphaPenalty(Integrator):
             raise InputError("integrator.stiffness and integrator.damping are not chosen yet")
         if problem.rows.dofs.shape[1] != 1:
             raise InputError('generalized_alpha_penalty takes contact.kind = "node" only')
-        e = problem.law.restitution
-        if e > 0.0:
-            raise InputError(f"generalized_alpha_penalty has no impact law: restitution must be 0 (got {e!r})")
         return motion_of(problem, state, self.spectral_radius), constraints_of(problem.rows)
 
     def advance(
@@ -161,10 +160,8 @@ def solve_with_springs(
     ``rounds`` solutions.
     """
     rows, solver, closed, x, status = problem.rows, problem.solver, state.closed, motion.vectors.x, CYCLING
-    position_share, velocity_share = (
-        h * h * motion.scheme.beta * motion.scheme.s,
-        h * motion.scheme.gamma * motion.scheme.s,
-    )
+    _, _, gamma, beta, s = motion.scheme
+    position_share, velocity_share = h * h * beta * s, h * gamma * s
     rows_times(rows, state.q, conditions.Gq)
     rows_times(rows, state.v, conditions.Gv)
     taken = 0

@@ -20,7 +20,7 @@ enough to be stable: K_i with everything else held bounds the frequencies that t
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import ClassVar, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -30,7 +30,7 @@ from bent_beam.errors import InputError
 from hermite_fe.active_set import SOLVED, solve_constrained
 from hermite_fe.banded import combine, copy, dot
 from hermite_fe.compiled import compiled, compiled_within
-from hermite_fe.constraints import Constraints, constraints_of, note_complementarity, rows_times
+from hermite_fe.constraints import Constraints, ask_for_gaps, constraints_of, note_complementarity
 from hermite_fe.integrators.base import MOST_WORK, Integrator
 from hermite_fe.stepping import Problem, State, add_energies, add_impulses, end_step, forces_at, mean_forces
 
@@ -63,6 +63,8 @@ class MasslessMemory(NamedTuple):
 class MasslessBoundary(Integrator):
     """Explicit steps of the points with mass, static equilibrium of those that may touch."""
 
+    rebounds: ClassVar[bool] = False
+
     def start(self, problem: Problem, state: State) -> MasslessMemory:
         refuse(problem, state)
         matrices, solver, stride = problem.matrices, problem.solver, 2 if state.bending.lengths.size else 1
@@ -77,7 +79,6 @@ class MasslessBoundary(Integrator):
             constraints_of(problem.rows), inner, fastest(matrices.K, mass, inner), np.zeros_like(state.impulse),
             *np.zeros((5, state.q.size)),
         )  # fmt: skip
-        memory.conditions.candidate[:] = True
         if settle(problem, state, memory, 0.0) != SOLVED:
             raise InputError("integrator.kind: the points that keep mass in massless_boundary must hold all others")
         memory.push[:] = memory.conditions.p
@@ -94,8 +95,6 @@ class MasslessBoundary(Integrator):
 def refuse(problem: Problem, state: State) -> None:
     """``InputError`` for what the scheme does not have."""
     kind = "integrator.kind: massless_boundary"
-    if problem.law.restitution > 0.0:
-        raise InputError(f"{kind} has no impact law: restitution must be 0 (got {problem.law.restitution!r})")
     if problem.matrices.causes.size:
         raise InputError(f"{kind} has no damping: leave it out, far_field.viscosity must be 0")
     if np.any(state.bending.phi):
@@ -146,10 +145,7 @@ def settle(problem: Problem, state: State, memory: MasslessMemory, t: float) -> 
     matrices, rows, solver = problem.matrices, problem.rows, problem.solver
     conditions, dq, b, a = memory.conditions, memory.dq, memory.b, state.acceleration
     forces_at(matrices, t, state.q, state.v, b, memory.scratch)
-    rows_times(rows, state.q, conditions.Gq)
-    for j in range(rows.gap.size):
-        conditions.target[j] = -rows.gap[j] - conditions.Gq[j]
-    copy(state.closed, conditions.closed)
+    ask_for_gaps(rows, conditions, state.q, state.closed, 1.0, 1.0)
     status = solve_constrained(solver, rows, conditions, b, dq)
     if status != SOLVED:
         return status

@@ -27,11 +27,14 @@ from hermite_fe.banded import copy, dot, multiply
 from hermite_fe.compiled import compiled, compiled_within
 from hermite_fe.constraints import (
     Constraints,
+    ask_for_gaps,
+    ask_for_rebound,
     constraints_of,
-    find_held,
+    find_candidates,
     note_complementarity,
     row_times,
     rows_times,
+    set_bounds,
 )
 from hermite_fe.integrators.base import Integrator
 from hermite_fe.integrators.generalized_alpha import (
@@ -93,7 +96,7 @@ def take_steps(
     motion, _, _, velocity = memory
     for k in range(first, last):
         t, h = times[k], prepare_step(problem, motion.scheme, times[k + 1] - times[k], times[k + 1])
-        find_held(problem.rows, problem.law, state.closed, t, velocity.held)
+        set_bounds(problem.rows, problem.law, state.closed, t, h, velocity.least)
         rows_times(problem.rows, state.v, velocity.Gv)
         if level == VELOCITY:
             status = velocity_step(problem, state, memory, t, h)
@@ -128,9 +131,8 @@ def velocity_jump(problem: Problem, state: State, motion: Motion, velocity: Cons
     matrices, rows, law, solver = problem
     vectors, v = motion.vectors, state.v
     W = vectors.x
-    for j in range(velocity.target.size):
-        rebound = 0.0 if velocity.held[j] else law.restitution
-        velocity.target[j] = -row_times(rows, v, j) - rebound * velocity.Gv[j]
+    rows_times(rows, v, velocity.Gq)
+    ask_for_rebound(law, velocity, velocity.Gq)
     status = solve_constrained(solver, rows, velocity, vectors.b, W)
     if status == SOLVED:
         copy(velocity.p, motion.reactions.impulse)
@@ -153,16 +155,13 @@ def velocity_step(problem: Problem, state: State, memory: AlphaMemory, t: float,
     The matrix of W includes the elastic forces that the jump causes within the step. With M W = Gᵀp alone the next
     accelerations would have to compensate them, which is unstable for a stiff beam.
     """
-    rows, q = problem.rows, state.q
+    q = state.q
     motion, smooth, _, velocity = memory
     scheme, vectors, _ = motion
-    share = h * scheme.beta / scheme.gamma
-    rows_times(rows, q, velocity.Gq)
-    for j in range(rows.gap.size):  # where a constraint would come to rest if it were closed now
-        velocity.candidate[j] = rows.gap[j] + velocity.Gq[j] + (h - share) * velocity.Gv[j] <= 0.0
-        smooth.candidate[j] = False
+    share = h * scheme.beta / scheme.gamma  # a constraint comes to rest h − share ahead if it is closed now
+    find_candidates(problem.rows, velocity, q, state.closed, h - share)
+    smooth.candidate[:] = False
     status = smooth_motion(problem, state, motion, smooth, t, h)
-    copy(state.closed, velocity.closed)
     vectors.b[:] = 0.0
     if status == SOLVED:
         status = velocity_jump(problem, state, motion, velocity)
@@ -199,12 +198,12 @@ def position_step(
     at_rest = motion.reactions.at_rest
     for j in range(at_rest.size):
         smooth.candidate[j] = with_acceleration and at_rest[j]
-        smooth.held[j] = smooth.candidate[j] and velocity.held[j]
+        smooth.least[j] = velocity.least[j] if smooth.candidate[j] else 0.0  # 0 or −∞, in any unit
         smooth.closed[j] = smooth.candidate[j]
         smooth.target[j] = 0.0
     status = smooth_motion(problem, state, motion, smooth, t, h)
     if status == SOLVED:
-        copy(velocity.held, position.held)
+        copy(velocity.least, position.least)
         status = position_jump(problem, state, motion.vectors, position, h)
     if status == SOLVED:
         status = velocity_after_position(problem, state, motion, smooth.p, velocity, h)
@@ -216,11 +215,7 @@ def position_jump(problem: Problem, state: State, vectors: Vectors, position: Co
     """U of :func:`position_step`. Puts −hKU in ``vectors.b``; returns the status."""
     matrices, rows, _, solver = problem
     q, U, b, force = state.q, vectors.x, vectors.b, vectors.new_jump_force
-    rows_times(rows, q, position.Gq)
-    for j in range(rows.gap.size):
-        position.candidate[j] = True
-        position.target[j] = -(rows.gap[j] + position.Gq[j])
-    copy(state.closed, position.closed)
+    ask_for_gaps(rows, position, q, state.closed, 1.0, 1.0)
     b[:] = 0.0
     status = solve_constrained(solver, rows, position, b, U)
     copy(position.closed, state.closed)

@@ -29,20 +29,21 @@ from typing import Annotated, ClassVar, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from bent_beam.errors import InputError
 from bent_beam.fields import Quantity
 from hermite_fe.active_set import SOLVED, solve_constrained
 from hermite_fe.banded import copy, dot, multiply, stiff_multiply
 from hermite_fe.compiled import compiled, compiled_within
 from hermite_fe.constraints import (
     Constraints,
-    ContactLaw,
-    Rows,
+    ask_for_gaps,
+    ask_for_rebound,
     constraints_of,
-    find_held,
+    find_candidates,
     note_complementarity,
     row_times,
     rows_times,
+    set_bounds,
+    some_gave_way,
 )
 from hermite_fe.integrators.base import Integrator
 from hermite_fe.maxwell import add_branch_forces, step_branches, stiffen
@@ -107,15 +108,10 @@ class SignoriniPosition(Theta):
     """
 
     at_position: ClassVar[bool] = True
+    rebounds: ClassVar[bool] = False
     elements_in_first_front: ClassVar[float] = 3.0
 
     theta: Annotated[float, Quantity("", "θ; 1: implicit Euler", least=0.5, most=1.0)] = 1.0
-
-    def start(self, problem: Problem, state: State) -> tuple[Constraints, Vectors]:
-        e = problem.law.restitution
-        if e > 0.0:
-            raise InputError(f"signorini_position has no impact law: restitution must be 0 (got {e!r})")
-        return super().start(problem, state)
 
 
 @compiled_within
@@ -171,26 +167,6 @@ def algorithmic_loss(problem: Problem, p: Array, vectors: Vectors, h: float, the
     return (theta - 0.5) * loss
 
 
-@compiled_within
-def impose(
-    rows: Rows, law: ContactLaw, conditions: Constraints, state: State, t: float, h: float, theta: float,
-    at_position: bool
-) -> None:  # fmt: skip
-    """Set what is held, the candidates and the targets c of GΔv ≥ c, and guess that nothing opens or closes."""
-    find_held(rows, law, state.closed, t, conditions.held)
-    copy(state.closed, conditions.closed)
-    rows_times(rows, state.q, conditions.Gq)
-    rows_times(rows, state.v, conditions.Gv)
-    for j in range(rows.gap.size):
-        gap, speed = rows.gap[j] + conditions.Gq[j], conditions.Gv[j]
-        if at_position:  # g⁺ ≥ 0 at the end of the step
-            conditions.candidate[j] = True
-            conditions.target[j] = -(gap / h + speed) / theta
-        else:  # Gv⁺ ≥ −eGv for constraints that would end the step on the wall or inside it
-            conditions.candidate[j] = gap + (1.0 - theta) * h * speed <= 0.0
-            conditions.target[j] = -speed if conditions.held[j] else -(1.0 + law.restitution) * speed
-
-
 @compiled
 def take_steps(
     problem: Problem, state: State, memory: tuple[Constraints, Vectors], times: Array, first: int, last: int,
@@ -200,8 +176,16 @@ def take_steps(
     (_, rows, law, solver), (conditions, vectors) = problem, memory
     for k in range(first, last):
         h, _ = begin_step(problem, state, vectors, times[k], times[k + 1], theta)
-        impose(rows, law, conditions, state, times[k], h, theta, at_position)
+        set_bounds(rows, law, state.closed, times[k], h, conditions.least)
+        rows_times(rows, state.v, conditions.Gv)
+        if at_position:
+            ask_for_gaps(rows, conditions, state.q, state.closed, h, theta)
+        else:
+            find_candidates(rows, conditions, state.q, state.closed, (1.0 - theta) * h)
+            ask_for_rebound(law, conditions, conditions.Gv)
         status = solve_constrained(solver, rows, conditions, vectors.b, vectors.dv)
+        while status == SOLVED and some_gave_way(conditions):
+            status = solve_constrained(solver, rows, conditions, vectors.b, vectors.dv)
         if status == SOLVED:
             copy(conditions.closed, state.closed)
             add_impulses(state, conditions)

@@ -96,7 +96,7 @@ def check(seed: int) -> None:
     candidate, held = random.random(m) < 0.9, random.random(m) < 0.1
     exact_x, exact_p = truth(system, b, target, candidate, held)
     scale = 1.0 + np.abs(exact_x).max() + np.abs(exact_p).max()
-    conditions.target[:], conditions.candidate[:], conditions.held[:] = target, candidate, held
+    conditions.target[:], conditions.candidate[:], conditions.least[:] = target, candidate, -1.0 * held
     x = np.zeros(n)
     # from one guess to the next the factors are kept; one by one where exchanging many rows at once runs in a circle
     for solve in [solve_constrained] * 3 + [solve_one_by_one] * (degenerate >= 0.3):

@@ -17,6 +17,7 @@ from hermite_parts import ALL, DROP, FIRST_ORDER, GRAVITY, WITH_IMPACT_LAW, Make
 from bent_beam import Impact, SimulationError
 from bent_beam.meshes import ScaleFreeMesh, UniformMesh
 from hermite_fe import HermiteFE, simulate
+from hermite_fe.constraints import ContactLaw
 from hermite_fe.contacts import NodeContact
 from hermite_fe.integrators import GeneralizedAlphaPenalty, MoreauJean, NonsmoothGeneralizedAlpha, SignoriniPosition
 from hermite_fe.run import Trajectory, integrate
@@ -106,7 +107,7 @@ def test_a_weight_presses_until_it_is_lifted_and_only_what_is_held_then_pulls(ma
     """The load −g + 2gt presses until t = ½ and pulls from then on, held until 1; then nothing holds it."""
     g = 2.0
     system = System([[1.0]], [[0.0]], ContactRows([[0]], [[1.0]], [0.0]), load=[[-g], [2.0 * g]])
-    run = integrate(system, np.zeros(1), np.zeros(1), make(1e-3), 1.5, hold_until=1.0)
+    run = integrate(system, np.zeros(1), np.zeros(1), make(1e-3), 1.5, law=ContactLaw(hold_until=1.0))
     pressed = run.time <= 0.5
     assert np.abs(run.q[pressed]).max() < 1e-5 and np.abs(run.sums["complementarity_product"]).max() < 1e-12
     assert run.impulse[pressed, 0].max() == pytest.approx(g * 0.25, rel=1e-2)
