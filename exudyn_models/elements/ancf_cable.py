@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from functools import cached_property
 from typing import Any
 
 import exudyn.itemInterface as items
@@ -20,7 +19,7 @@ from numpy.polynomial.polynomial import polyder, polyval
 from bent_beam import Impact
 from bent_beam.loads import UNSHEARED
 from exudyn_models.elements.beam import Beam, Element, Section
-from exudyn_models.geometry import Array, Indices, Shape
+from exudyn_models.geometry import Array, Shape
 
 __all__ = ["ANCFCable"]
 
@@ -65,16 +64,10 @@ class _Cable(Beam):
             useReducedOrderIntegration=1,
         )
 
-    @cached_property
-    def _first(self) -> Indices:
-        """Coordinates (x₁, x₁′, x₂, x₂′) of the elements, known once the system is assembled."""
-        left, right = self.horizontal[:-1], self.horizontal[1:]
-        return np.stack([left, left + 2, right, right + 2], axis=1)
-
     def _fields(self, q: Array, offset: int, shapes: tuple[Array, ...], *derivatives: int) -> list[Array]:
         """Derivatives by s of a component (0: x, 1: y) at the points of ``shapes``, each (…, elements, points)."""
         length = self.lengths[:, None]
-        at_nodes = q[..., self._first + offset]
+        at_nodes = q[..., self.horizontal[:-1, None] + [0, 2, 4, 6] + offset]  # x₁, x₁′, x₂, x₂′
         at_nodes[..., 1::2] *= length
         return [at_nodes @ shapes[derivative] / length**derivative for derivative in derivatives]
 
