@@ -14,14 +14,9 @@ from exudyn.beams import GenerateBeamElementsAlongLine
 # κ/ν: λ₀, r₀
 EXACT = {0.1: (4.25760, 2.74499), 0.2: (2.70353, 1.88523), 0.5: (1.01887, 1.17721), 0.8: (0.29685, 1.01915)}
 COUNT, LENGTH, END, STEPS = 400, 0.0125, 0.1, 1500  # elements, the length of each, end time, time steps
-BEAM: dict[str, Any] = {"massPerLength": 1, "bendingStiffness": 1, "axialStiffness": 1}
-BEAM |= {"bendingDamping": 0.15 * LENGTH**2}  # for waves as short as the elements
-NO_SHEAR = {"shearStiffness": 100 / LENGTH**2, "crossSectionInertia": 0.01 * LENGTH**2}
+STIFF_BEAM = items.ObjectBeamGeometricallyExact2D(shearStiffness=100 / LENGTH**2, crossSectionInertia=0.01 * LENGTH**2)
 KINDS: dict[str, dict[str, Any]] = {
-    "element": {
-        "ancf_cable": items.ObjectANCFCable2D(**BEAM),
-        "geometrically_exact": items.ObjectBeamGeometricallyExact2D(**BEAM, **NO_SHEAR),
-    },
+    "element": {"ancf_cable": items.ObjectANCFCable2D(), "geometrically_exact": STIFF_BEAM},
     "contact": {"dashpot": {}, "gonthier": {"contactDamping": 0, "impactModel": 2, "restitutionCoefficient": 0.5}},
     "integrator": {
         "generalized_alpha": {"spectralRadius": 0.5},
@@ -44,7 +39,8 @@ def main(arguments: list[str] | None = None) -> None:
 
     # half of the beam: its middle neither moves along x nor turns
     element = KINDS["element"][chosen.element]
-    element.referenceCurvature = -small * chosen.kappa
+    element.massPerLength = element.bendingStiffness = element.axialStiffness = 1
+    element.referenceCurvature, element.bendingDamping = -small * chosen.kappa, 0.15 * LENGTH**2  # of short waves
     stretch = [0] if chosen.element == "ancf_cable" else []  # coordinates of a node: x, y, of cables x′, slope
     line, middle = ([0, 0, 0], [COUNT * LENGTH, 0, 0], COUNT), [1, 0, *stretch, 1]
     nodes = GenerateBeamElementsAlongLine(mbs, *line, element, groundConstraintsStart=middle)["nodes"]
