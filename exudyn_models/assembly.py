@@ -121,7 +121,7 @@ def assemble(layout: Layout, chosen: Chosen, units: Units = MODEL_UNITS) -> tupl
         rotary_inertia=scaling.rotary_inertia,
         units=units,
     )
-    beam = chosen.element.build(system, shape, section, factor * element_times(shape.lengths, scaling.shear_length))
+    beam = chosen.element.beam(system, shape, section, factor * element_times(shape.lengths, scaling.shear_length))
     hold = beam.hold_by_inertia if explicit else beam.fix
     held = {
         "free": (),

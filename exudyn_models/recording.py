@@ -135,7 +135,7 @@ class Recorder:
         after["impulse"] = onwards(self.sums["impulse"], self._impulses(dt, q, force, np.diff(total)))
         if self.scaling.impact.supported:
             total = after["impulse"] @ self.contact.signs
-        y, slope = beam.deflection(q) - self.wall_y, beam.slope(q) - beam.shape.wall_slope
+        y, slope = q[:, beam.vertical] - self.wall_y, beam.slope(q) - beam.shape.wall_slope
         moments = beam.bending_moments(q) + self.unbent
         now = {"y": y, "velocity": v[:, beam.vertical], "slope": slope, "total_impulse": total}
         if beam.section.shear_length:

@@ -122,14 +122,11 @@ def _softer(contact: Penalty, factor: float) -> Penalty:
     """A penalty of ``factor`` times the stiffness with the same damping ratio; damping left open follows by itself."""
     if contact.stiffness is None and contact.relative_stiffness is None:
         contact = dataclasses.replace(contact, relative_stiffness=penalty.STIFFNESS)
-    factors = {"stiffness": factor, "damping": math.sqrt(factor)}
-    softer = {
-        f"{prefix}{name}": value * by
-        for name, by in factors.items()
-        for prefix in ("", "relative_")
-        if (value := getattr(contact, prefix + name)) is not None
+    given = {
+        name: getattr(contact, name) for name in ("stiffness", "damping", "relative_stiffness", "relative_damping")
     }
-    return dataclasses.replace(contact, **softer)
+    by = {name: factor if "stiffness" in name else math.sqrt(factor) for name in given}
+    return dataclasses.replace(contact, **{name: one * by[name] for name, one in given.items() if one is not None})
 
 
 def varied(method: M, impact: Impact, random: np.random.Generator) -> M:

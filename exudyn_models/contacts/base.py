@@ -136,7 +136,7 @@ class ContactRun(ABC):
 
     def depth(self, q: Array) -> Array:
         """Penetration at the contact points, shape (contacts,)."""
-        return np.asarray(q[self.coordinates] - self.wall_y)
+        return np.asarray(self.signs * (q[self.coordinates] - self.wall_y))
 
     @abstractmethod
     def forces(self, q: Array, v: Array) -> tuple[Array, Flags]:

@@ -122,9 +122,6 @@ class PenaltyRun(ContactRun):
             activeConnector=False,
         )
 
-    def depth(self, q: Array) -> Array:
-        return self.signs * super().depth(q)
-
     def _spring_and_dashpot(self, q: Array, v: Array) -> Array:
         if self._of[0] is not q or self._of[1] is not v:  # one solution is looked at more than once
             self._of = q, v

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, ClassVar
 
 import exudyn.itemInterface as items
 import numpy as np
@@ -18,8 +18,8 @@ from numpy.polynomial.polynomial import polyder, polyval
 
 from bent_beam import Impact
 from bent_beam.loads import UNSHEARED
-from exudyn_models.elements.beam import Beam, Element, Section
-from exudyn_models.geometry import Array, Shape
+from exudyn_models.elements.beam import Beam, Element
+from exudyn_models.geometry import Array
 
 __all__ = ["ANCFCable"]
 
@@ -120,6 +120,8 @@ class _Cable(Beam):
 class ANCFCable(Element):
     """ANCF cable elements, cubic: the default of a beam without shear."""
 
+    beam: ClassVar[type[Beam]] = _Cable
+
     def refuses(self, impact: Impact) -> str | None:
         if impact.shear_stiffness is None:
             return None
@@ -127,6 +129,3 @@ class ANCFCable(Element):
             "exudyn.element.kind ancf_cable has no shear: take geometrically_exact "
             f"(got shear_stiffness {impact.shear_stiffness!r}){UNSHEARED}"
         )
-
-    def build(self, mbs: Any, shape: Shape, section: Section, viscosity: Array) -> Beam:
-        return _Cable(mbs, shape, section, viscosity)

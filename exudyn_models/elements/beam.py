@@ -56,7 +56,7 @@ def shares(lengths: Array) -> Array:
 
 
 class Beam(ABC):
-    """A beam in an Exudyn system ``mbs``, whose first nodes are the beam's.
+    """A beam in an Exudyn system ``mbs``, whose first nodes are the beam's; ``viscosity`` of each element, (elements,).
 
     size : coordinates of the system; horizontal, vertical, rotation : those of the nodes, (nodes,).
     load, load_rate : forces on them, (size,), at t = 0 and by time; upward : 1 where they are y.
@@ -200,10 +200,6 @@ class Beam(ABC):
         grid, material = ((mean * (matrix @ moved.T).T).sum(axis=1) for matrix in self._damping)
         return grid, material
 
-    def deflection(self, q: Array) -> Array:
-        """y at the nodes (the reference lies on y = 0)."""
-        return np.asarray(q[..., self.vertical])
-
     @abstractmethod
     def slope(self, q: Array) -> Array:
         """dy/dx at the nodes; of a beam that shears the angle of its sections."""
@@ -254,6 +250,7 @@ class Element(Part, ABC):
     has no effect in the linear limit."""
 
     where: ClassVar[str] = "exudyn.element"
+    beam: ClassVar[type[Beam]]
 
     viscosity: Annotated[
         float | None,
@@ -268,7 +265,3 @@ class Element(Part, ABC):
     def refuses(self, impact: Impact) -> str | None:
         """Why this element cannot model a beam (None: it can)."""
         return None
-
-    @abstractmethod
-    def build(self, mbs: Any, shape: Shape, section: Section, viscosity: Array) -> Beam:
-        """Add the beam to ``mbs``; ``viscosity`` is that of each element, shape (elements,)."""
