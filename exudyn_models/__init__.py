@@ -18,15 +18,6 @@ from exudyn_models.resolution import chosen_half_length, chosen_mesh
 from exudyn_models.solvers import SOLVERS
 
 __all__ = [
-    "CONTACTS",
-    "ELEMENTS",
-    "GEOMETRIES",
-    "INTEGRATORS",
-    "SOLVERS",
-    "Built",
-    "ExudynModel",
-    "build",
-    "chosen_half_length",
-    "chosen_mesh",
-    "simulate",
-]
+    "CONTACTS", "ELEMENTS", "GEOMETRIES", "INTEGRATORS", "SOLVERS", "Built", "ExudynModel", "build",
+    "chosen_half_length", "chosen_mesh", "simulate",
+]  # fmt: skip

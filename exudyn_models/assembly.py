@@ -39,7 +39,7 @@ from exudyn_models.integrators import Integrator
 from exudyn_models.resolution import lasts_until_waves_return, modelled_half_length, reachable, thin_front
 from exudyn_models.solvers import NewtonSolver
 
-__all__ = ["Chosen", "Layout", "assemble", "lay_out", "stable_step"]
+__all__ = ["Chosen", "Layout", "assemble", "lay_out", "settings_of", "stable_step"]
 
 STRETCH = 1e-4  # largest strain under the axial force in the linear limit: lengths are then right to as much
 TAUT = 1e4  # EAΛ²/EI under it: a strain of N/EA moves the front, too, by 7e-4 of what the force does (λ_N at κ/ν = 0.5)
@@ -121,7 +121,7 @@ def assemble(layout: Layout, chosen: Chosen, units: Units = MODEL_UNITS) -> tupl
         rotary_inertia=scaling.rotary_inertia,
         units=units,
     )
-    beam = chosen.element.build(system, shape, section, factor * element_times(shape.lengths, scaling.shear_length))
+    beam = chosen.element.beam(system, shape, section, factor * element_times(shape.lengths, scaling.shear_length))
     hold = beam.hold_by_inertia if explicit else beam.fix
     held = {
         "free": (),
@@ -146,7 +146,7 @@ def assemble(layout: Layout, chosen: Chosen, units: Units = MODEL_UNITS) -> tupl
     seen = items.VObjectGround(graphicsData=[graphics.Lines(line.tolist(), color=GREY)])
     system.AddObject(items.ObjectGround(visualization=seen))
     system.Assemble()
-    beam.locate()
+    assert system.GetNodeODE2Index(beam.nodes[-1]) == beam.horizontal[-1]  # numbered node by node
     return beam, run
 
 
@@ -214,8 +214,19 @@ def _load_end(beam: Beam, node: int, sign: float, scaling: Scaling, *, follows: 
     beam.load_node(node, beam.vertical_coordinate, sign * (force * math.sin(angle) - shear), sign * force * turning)
 
 
+def settings_of(chosen: Chosen, beam: Beam, contact: ContactRun, amplitude: float) -> Any:
+    """Exudyn's settings of a run in model units, but for its steps; no tolerance is below round-off."""
+    round_off = max(contact.round_off, beam.round_off(amplitude))
+    settings = chosen.solver.settings(amplitude, round_off, beam.axial_round_off())
+    chosen.integrator.configure(settings)
+    return settings
+
+
 def stable_step(beam: Beam, contact: ContactRun, integrator: Integrator) -> float:
-    """limit/ω, ω the largest eigenvalue of any element with its contact closed: a bound for the whole mesh."""
+    """limit/ω, ω the largest eigenvalue of any element with its contact closed: a bound for the whole mesh. Implicit
+    integrators have none."""
+    if not integrator.explicit:
+        return math.inf
     mass, stiffness, damped = beam.element_matrices()
     damping = beam.viscosity[:, None, None] * damped
     k, d = contact.stiffness_and_damping()

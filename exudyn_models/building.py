@@ -31,7 +31,7 @@ import numpy as np
 from bent_beam import Impact
 from bent_beam.errors import InputError
 from bent_beam.meshes import NodesMesh, ScaleFreeMesh
-from exudyn_models.assembly import Chosen, Layout, assemble, lay_out, stable_step
+from exudyn_models.assembly import Chosen, Layout, assemble, lay_out, settings_of, stable_step
 from exudyn_models.contacts import ContactRun, Penalty, Rigid
 from exudyn_models.elements import Beam
 from exudyn_models.geometry import Array, Scaling, Units, supports_or_plate
@@ -150,16 +150,13 @@ def _equal_elements(impact: Impact, end: float) -> NodesMesh:
 
 def _settings(layout: Layout, chosen: Chosen, beam: Beam, contact: ContactRun, save: int) -> Any:
     """Exudyn's settings: steps, integrator, and tolerances that are forces, as small as the deflections are."""
-    scaling, integrator, units = layout.scaling, chosen.integrator, beam.units
-    round_off = max(contact.round_off, beam.round_off(scaling.amplitude))
-    settings = chosen.solver.settings(scaling.amplitude, round_off, beam.axial_round_off())
-    time, end = settings.timeIntegration, scaling.end_time
-    stable = stable_step(beam, contact, integrator) if integrator.explicit else np.inf
-    Segment(0.0, end, integrator.segments(1.0, end, stable)[0].steps).lay(time)
+    units, end = beam.units, layout.scaling.end_time
+    settings = settings_of(chosen, beam, contact, layout.scaling.amplitude)
+    time, stable = settings.timeIntegration, stable_step(beam, contact, chosen.integrator)
+    Segment(0.0, end, chosen.integrator.segments(1.0, end, stable)[0].steps).lay(time)
     time.newton.absoluteTolerance *= units.force * max(1.0, units.length)  # some residuals are moments
     time.discontinuous.iterationTolerance *= units.force
-    time.discontinuous.maxIterations = SETTLED
-    integrator.configure(settings)
+    time.discontinuous.maxIterations = min(SETTLED, time.discontinuous.maxIterations)
     settings.solution.sensors.active = True
     settings.solution.sensors.writePeriod = settings.solution.file.writePeriod = end / save
     return settings
@@ -168,27 +165,23 @@ def _settings(layout: Layout, chosen: Chosen, beam: Beam, contact: ContactRun, s
 def _sensors(scaling: Scaling, beam: Beam, contact: ContactRun, copies: float) -> dict[str, int]:
     """Sensors of the real impact, each a function of the system's state."""
     mbs, units = beam.mbs, beam.units
-    size = mbs.systemData.GetODE2Coordinates().size
-    lengths = np.ones(size)  # of each coordinate: slopes have none
+    lengths = np.ones(beam.size)  # of each coordinate: slopes have none
     lengths[beam.horizontal] = lengths[beam.vertical] = units.length
-    upward = np.zeros(size)
-    upward[beam.vertical] = 1.0
-    momentum = np.asarray(beam.mass @ upward)
-    loads = beam.loads()
-    at_first = float(mbs.systemData.GetODE2Coordinates_t() * units.time / lengths @ momentum)
     middle = beam.vertical[int(np.argmin(np.abs(beam.shape.s)))]
 
     def state() -> tuple[Array, Array]:
         data = mbs.systemData
         return data.GetODE2Coordinates() / lengths, data.GetODE2Coordinates_t() * units.time / lengths
 
+    at_first = float(state()[1] @ beam.momentum)
+
     def force() -> list[float]:
         return [float(contact.plain_forces(*state()) @ contact.signs) * copies * scaling.impulse / scaling.end_time]
 
     def impulse() -> list[float]:
         t = mbs.systemData.GetTime() / units.time
-        of_loads = loads(np.array([0.0, t])).mean(axis=0) @ upward * t  # they grow evenly
-        return [float(at_first + of_loads - state()[1] @ momentum) * copies * scaling.impulse]
+        of_loads = beam.loads(np.array([0.0, t])).mean(axis=0) @ beam.upward * t  # they grow evenly
+        return [float(at_first + of_loads - state()[1] @ beam.momentum) * copies * scaling.impulse]
 
     def midpoint() -> list[float]:
         q, v = state()

@@ -32,21 +32,9 @@ from bent_beam.fields import Part, Quantity
 from bent_beam.loads import FreeMotion, lowest_mode
 
 __all__ = [
-    "GEOMETRIES",
-    "MODEL_UNITS",
-    "STEEPEST",
-    "Array",
-    "Flags",
-    "Geometry",
-    "Indices",
-    "LinearLimit",
-    "Scaling",
-    "Shape",
-    "TrueGeometry",
-    "Units",
-    "element_times",
-    "supports_or_plate",
-]
+    "GEOMETRIES", "MODEL_UNITS", "STEEPEST", "Array", "Flags", "Geometry", "Indices", "LinearLimit", "Scaling",
+    "Shape", "TrueGeometry", "Units", "element_times", "supports_or_plate",
+]  # fmt: skip
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]

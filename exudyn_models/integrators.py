@@ -26,16 +26,9 @@ from exudyn_models.geometry import Array
 from exudyn_models.segments import Segment, checked_steps, growing_segments
 
 __all__ = [
-    "DOPRI5",
-    "INTEGRATORS",
-    "RK44",
-    "Averages",
-    "GeneralizedAlpha",
-    "Integrator",
-    "Newmark",
-    "Trapezoidal",
+    "DOPRI5", "INTEGRATORS", "RK44", "Averages", "GeneralizedAlpha", "Integrator", "Newmark", "Trapezoidal",
     "VelocityVerlet",
-]
+]  # fmt: skip
 
 
 @dataclass(frozen=True)

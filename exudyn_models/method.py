@@ -194,7 +194,7 @@ class ExudynModel(Part):
                 energy = float(beam.kinetic_energy(v) + beam.strain_energy(q)) * scaling.energy
                 return (
                     beam.shape.s * scaling.length,
-                    (run.wall_y - beam.deflection(q)) * scaling.deflection,
+                    (run.wall_y - q[beam.vertical]) * scaling.deflection,
                     v[beam.vertical] * scaling.velocity,
                     energy * run.copies,
                 )

@@ -23,6 +23,7 @@ from typing import Any
 import numpy as np
 
 from bent_beam import ImpactHistory
+from bent_beam.files import ENERGIES
 from exudyn_models.contacts import ContactRun
 from exudyn_models.elements import Beam
 from exudyn_models.geometry import Array, Scaling
@@ -31,10 +32,6 @@ from exudyn_models.integrators import Averages
 __all__ = ["Recorder"]
 
 ROWS = 33  # states that are collected before they are summed up
-ENERGIES = (
-    *("kinetic_energy", "strain_energy", "contact_energy", "work_of_loads"),
-    *("loss_impact", "loss_viscous", "loss_material", "loss_algorithmic", "loss_wall"),
-)
 
 
 def products(first: Array, second: Array) -> Array:
@@ -78,10 +75,7 @@ class Recorder:
         impact, natural = scaling.impact, scaling.impact.natural_curvature
         # what the bow has been bent by before the first touch
         self.unbent = 0.0 if natural is None else (natural - impact.curvature) * scaling.length / scaling.slope
-        self.loads = beam.loads()
-        self.upward = np.zeros(self.beam.mass.shape[0])
-        self.upward[beam.vertical] = 1.0  # the shape functions of deflections add up to one
-        self.momentum = np.asarray(self.beam.mass @ self.upward)  # along y, of velocities
+        self.momentum = beam.momentum
         self.record: dict[str, list[Any]] = defaultdict(list)
         self.sums: dict[str, Any] = defaultdict(float)
         self.total = self.deepest = self.start_momentum = self.start_stored = 0.0
@@ -141,7 +135,7 @@ class Recorder:
         after["impulse"] = onwards(self.sums["impulse"], self._impulses(dt, q, force, np.diff(total)))
         if self.scaling.impact.supported:
             total = after["impulse"] @ self.contact.signs
-        y, slope = beam.deflection(q) - self.wall_y, beam.slope(q) - beam.shape.wall_slope
+        y, slope = q[:, beam.vertical] - self.wall_y, beam.slope(q) - beam.shape.wall_slope
         moments = beam.bending_moments(q) + self.unbent
         now = {"y": y, "velocity": v[:, beam.vertical], "slope": slope, "total_impulse": total}
         if beam.section.shear_length:
@@ -187,12 +181,12 @@ class Recorder:
     def _of_energy(self, time: Array, q: Array, v: Array, a: Array) -> dict[str, Array]:
         """Work of the loads, their impulse and the losses in each step, each (steps,)."""
         moved, inertia = np.diff(q, axis=0), (self.beam.mass @ a.T).T
-        kinetic, load = self.beam.kinetic_energy(v), means(self.loads(time))
+        kinetic, load = self.beam.kinetic_energy(v), means(self.beam.loads(time))
         viscous, material = self.beam.damping_work(q, v)
         return {
             "loss_algorithmic": (products(moved, inertia[1:]) + products(moved, inertia[:-1])) / 2 - np.diff(kinetic),
             "work_of_loads": products(moved, load),
-            "load_impulse": load @ self.upward * np.diff(time),
+            "load_impulse": load @ self.beam.upward * np.diff(time),
             "loss_viscous": viscous,
             "loss_material": material,
         }
@@ -200,7 +194,7 @@ class Recorder:
     def _of_contact(self, time: Array, q: Array, v: Array, force: Array, along: Array) -> dict[str, Array]:
         """Work, losses and impulses of the contact forces in each step, each (steps,)."""
         mean, contact = means(force), self.contact
-        depth = q[:, self.beam.vertical[contact.nodes]] - contact.wall_y
+        depth = q[:, contact.coordinates] - contact.wall_y
         pushes = mean * contact.signs * np.diff(time)[:, None]
         pulls = np.minimum(pushes, 0.0)
         gains = {
@@ -216,7 +210,7 @@ class Recorder:
         if contact.wall_springs is not None:
             deepest = np.maximum(depth, 0.0).max(axis=1)
             self._keep_largest("peaks", force.sum(axis=1), time, deepest, anew=False)
-            wall, speed = self.scaling.impact, v[:, self.beam.vertical[contact.nodes]]
+            wall, speed = self.scaling.impact, v[:, contact.coordinates]
             delay = wall.wall_damping / (wall.wall_stiffness or math.inf) / self.scaling.end_time  # c/k
             pressure = np.where(depth > 0.0, depth + delay * speed, 0.0).max(axis=1)  # over k
             self._keep_largest("pressures", pressure, time, deepest, anew=False)

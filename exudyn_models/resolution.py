@@ -23,18 +23,9 @@ from exudyn_models.geometry import Array, Indices, Scaling
 from exudyn_models.integrators import Implicit, Integrator
 
 __all__ = [
-    "chosen_half_length",
-    "chosen_mesh",
-    "chosen_steps",
-    "far_field",
-    "lasts_until_waves_return",
-    "modelled_half_length",
-    "near_buckling",
-    "reachable",
-    "resolving_step",
-    "step_of_wall",
-    "thin_front",
-]
+    "chosen_half_length", "chosen_mesh", "chosen_steps", "far_field", "lasts_until_waves_return",
+    "modelled_half_length", "near_buckling", "reachable", "resolving_step", "step_of_wall", "thin_front",
+]  # fmt: skip
 
 GROWTH = 0.01  # neighbours of the chosen mesh: 5 elements over the front's bending length at κ/ν = 0.05, 20 at 0.2
 THIN = 0.12  # κ/ν below which hits of nodes at the front of that mesh lift the zone; 0.07 without: λ₁ 23 % off
@@ -130,16 +121,20 @@ def near_buckling(impact: Impact) -> float:
     return min(max(1.0 + share, 1.5**-2), 1.0) ** -0.5
 
 
+def shortest_element(mesh: Mesh, impact: Impact) -> float:
+    """m."""
+    return float(np.diff(mesh.nodes(modelled_half_length(mesh, impact))).min())
+
+
 def step_of_wall(mesh: Mesh, impact: Impact, wall: WallScales) -> float:
     """The time step, s, before a wall that gives way."""
-    element = float(np.diff(mesh.nodes(modelled_half_length(mesh, impact))).min())
-    return min(STEP_OF_WALL * element / wall.length, LONGEST_OF_WALL) * wall.time
+    return min(STEP_OF_WALL * shortest_element(mesh, impact) / wall.length, LONGEST_OF_WALL) * wall.time
 
 
 def resolving_step(mesh: Mesh, impact: Impact) -> float:
     """The time step, s, that resolves the contact of the shortest element: half of the time in which a bending wave
     passes it, ½Δx²√(μ/EI), or a shear wave where it is shorter than l_s."""
-    length = float(np.diff(mesh.nodes(impact.half_length)).min())
+    length = shortest_element(mesh, impact)
     return STEP * length * max(length, impact.shear_length) / impact.wave_constant
 
 

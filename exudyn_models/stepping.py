@@ -16,7 +16,7 @@ import numpy as np
 
 from bent_beam.checks import affordable
 from bent_beam.errors import InputError
-from exudyn_models.assembly import Chosen, Layout, assemble, stable_step
+from exudyn_models.assembly import Chosen, Layout, assemble, settings_of, stable_step
 from exudyn_models.geometry import Array
 from exudyn_models.recording import Recorder
 from exudyn_models.segments import Segment
@@ -75,7 +75,7 @@ class Stepping:
             )
         beam, contact = assemble(layout, chosen)
         self.run = Recorder(beam, contact, scaling, not chosen.full_beam, integrator.averages())
-        self.stable = stable_step(beam, contact, integrator) if integrator.explicit else math.inf
+        self.stable = stable_step(beam, contact, integrator)
         crossing = min(0.01, (layout.places[1] / scaling.front) ** 2)
         self.segments = integrator.segments(crossing, scaling.end_time, self.stable)
         self.flight = (getattr(integrator, "flight_step", None) or 0.0) / scaling.end_time
@@ -86,9 +86,7 @@ class Stepping:
         if (expected := SECONDS * steps * nodes) > LONG:
             so_long = "up to" if self.flight else "about"
             LOG.warning("%s %.2g minutes: %d steps of %d nodes", so_long, expected / 60.0, steps, nodes)
-        round_off = max(contact.round_off, beam.round_off(scaling.amplitude))
-        self.settings = chosen.solver.settings(scaling.amplitude, round_off, beam.axial_round_off())
-        integrator.configure(self.settings)
+        self.settings = settings_of(chosen, beam, contact, scaling.amplitude)
         self.solver = integrator.solver()
         self.settling: Settling | None = None  # explicit steps are not repeated
         if contact.iterated and not integrator.explicit:

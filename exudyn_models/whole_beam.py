@@ -5,20 +5,16 @@ of the beam matters alike. So
 
     a uniform mesh,   constant steps,   the trapezoidal rule,   no viscosity at grid scale.
 
-A beam that touches in a point takes h = ½Δx²√(μ/EI) and the penalty as it is. Where a zone spreads, e is off by what
-elements lose that land, about in proportion to Δx; how stiff the penalty is, how it is damped and how long the steps
-are matters less, as long as the steps resolve the penalty. So there elements are shorter, steps 2√2 times as long
-for them, and the penalty an eighth as stiff, with the same damping ratio: kh² and dh stay what they are. (160
-elements, four times as long, a tenth: a fifth of the work, and e is 6e-4 off at κ/ν = 0.4, η/T* = 1e-2, the worst.)
-Off the wall there are only waves that the material has not damped, ω ~ 1/√(ηT*): the steps of a damped beam grow there
-with its gap, up to T*/2000. That takes a quarter of the time, and e moves by a tenth of its bar.
-A rigid plate, whose hits are plastic, takes steps four times as long: the impulse moves by 1e-4, the moment by 3e-4.
-With a mesh, steps or contact of somebody's own, and where the beam is so flat that its front asks for a stiffer
-penalty, steps and penalty are as for a point; elements are shorter wherever no mesh is given.
-
-A beam that shears takes two-node elements of second order, 160 of them. Where these are shorter than l_s, steps follow
-shear waves: h = ½Δx/c_s, twice as long for κ/ν ≥ 0.35, before any wall (the long ones move e by 2e-4 at κ/ν = 0.2 and
-by 0.01 at 0.1).
+- A beam that touches in a point takes h = ½Δx²√(μ/EI) and the penalty as it is.
+- Where a zone spreads, e is off by what elements lose that land, about in proportion to Δx; the penalty matters less,
+  as long as the steps resolve it. So there elements are shorter, steps 2√2 times as long for them, and the penalty an
+  eighth as stiff, with the same damping ratio: kh² and dh stay what they are.
+- Off the wall there are only waves that the material has not damped, ω ~ 1/√(ηT*): the steps of a damped beam grow
+  there with its gap. That takes a quarter of the time, and e moves by a tenth of its bar.
+- A rigid plate, whose hits are plastic, takes steps four times as long.
+- With a mesh, steps or contact of somebody's own, and where the beam is so flat that its front asks for a stiffer
+  penalty, steps and penalty are as for a point; elements are shorter wherever no mesh is given.
+- Elements that are shorter than l_s follow shear waves, and so do steps: h = ½Δx/c_s, or twice as long.
 """
 
 from __future__ import annotations
@@ -36,7 +32,7 @@ from exudyn_models.contacts import Penalty, penalty
 from exudyn_models.elements import chosen_element
 from exudyn_models.geometry import supports_or_plate
 from exudyn_models.integrators import Trapezoidal
-from exudyn_models.resolution import STEP, near_buckling, resolving_step, step_of_wall
+from exudyn_models.resolution import STEP, near_buckling, resolving_step, shortest_element, step_of_wall
 
 __all__ = ["cross_checks", "for_whole_beam", "varied"]
 
@@ -46,10 +42,10 @@ CONTACT = Penalty(hold_start=0.0)
 POINT_ELEMENTS = 100  # of a half beam that touches in a point; half as many: e moves by 4e-5
 ZONE_ELEMENTS = 240  # where a zone spreads, κ/ν < 1; 220 to 300: e within 1.5e-4 at κ/ν = 0.4, η/T* = 1e-2, the worst
 SLOWER = 2.0 * math.sqrt(2.0)  # its steps; the penalty is softer by the square. Twice as long: e is 5e-4 off there
-SLOWER_ON_PLATE = 4.0  # steps where hits are plastic, which forgives long steps
+SLOWER_ON_PLATE = 4.0  # steps where hits are plastic: the impulse moves by 1e-4, the moment by 3e-4
 LARGEST_OF_WALL = 0.25  # ℓ_k: elements before a wall that gives way
 SHEARED_ELEMENTS = 160  # of a half beam that shears
-SLOWER_SHEARED, THICK = 2.0, 0.35  # its steps, from this κ/ν on
+SLOWER_SHEARED, THICK = 2.0, 0.35  # its steps, from this κ/ν on: at 0.2 they move e by 2e-4, at 0.1 by 0.01
 FLIGHT, DAMPED_FLIGHT = 5e-4, 0.04  # steps off the wall, over T* and √(ηT*)
 ROUND_OFF = 1e-5  # of the amplitude: Newton stalls at 1e-8 on 240 elements, geometrically exact ones at 1e-6
 RESIDUAL = 1e-8  # of what a step begins with: 1e-5 of a long step's is up to 3e-5 of the energy
@@ -71,8 +67,7 @@ def for_whole_beam(method: M, impact: Impact) -> M:
     plate = supports_or_plate(impact)  # whose flat beams meet all of it at once, without a front
     spreads = FLATTEST <= impact.kappa_over_nu < 1.0
     slower = 1.0 if not chosen else SLOWER_ON_PLATE if plate else SLOWER if spreads else 1.0
-    shears = float(np.diff(mesh.nodes(impact.half_length)).min()) < impact.shear_length
-    if shears:
+    if shears := shortest_element(mesh, impact) < impact.shear_length:
         plate, slower = False, SLOWER_SHEARED if chosen and impact.kappa_over_nu >= THICK else 1.0
     integrator = Trapezoidal() if method.integrator is None else method.integrator.refined(method.refine)
     if integrator.with_steps() != integrator:  # open
@@ -113,10 +108,9 @@ def cross_checks(method: M, impact: Impact) -> dict[str, M]:
     """What stands beside ``method`` for error bars, by cause: of a penalty, a quarter of the stiffness, whose own time
     is twice as long, with such steps; where elements resolve shear waves, the other of the two dashpots."""
     chosen = for_whole_beam(method, impact)
-    integrator, contact = chosen.integrator, chosen.contact
+    integrator, contact, shortest = chosen.integrator, chosen.contact, shortest_element(chosen.mesh, impact)
     if not isinstance(contact, Penalty):
         return {}
-    shortest = float(np.diff(chosen.mesh.nodes(impact.half_length)).min())
     if shortest < impact.shear_length and contact.relative_damping is contact.damping is None:
         own = penalty.matched(shortest, impact.shear_length, impact.damping * impact.wave_constant)
         other = dataclasses.replace(contact, relative_damping=penalty.DAMPING if own else penalty.MATCHED)
@@ -129,14 +123,11 @@ def _softer(contact: Penalty, factor: float) -> Penalty:
     """A penalty of ``factor`` times the stiffness with the same damping ratio; damping left open follows by itself."""
     if contact.stiffness is None and contact.relative_stiffness is None:
         contact = dataclasses.replace(contact, relative_stiffness=penalty.STIFFNESS)
-    factors = {"stiffness": factor, "damping": math.sqrt(factor)}
-    softer = {
-        f"{prefix}{name}": value * by
-        for name, by in factors.items()
-        for prefix in ("", "relative_")
-        if (value := getattr(contact, prefix + name)) is not None
+    given = {
+        name: getattr(contact, name) for name in ("stiffness", "damping", "relative_stiffness", "relative_damping")
     }
-    return dataclasses.replace(contact, **softer)
+    by = {name: factor if "stiffness" in name else math.sqrt(factor) for name in given}
+    return dataclasses.replace(contact, **{name: one * by[name] for name, one in given.items() if one is not None})
 
 
 def varied(method: M, impact: Impact, random: np.random.Generator) -> M:

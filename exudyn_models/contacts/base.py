@@ -115,8 +115,8 @@ class HeldStrip:
 class ContactRun(ABC):
     """A contact at work in one system.
 
-    nodes : of the beam, those that are contact points; contact_s : their arc lengths; wall_y : the wall there; signs :
-        +1 on the wall, −1 on an opposite one. Each of shape (contacts,).
+    nodes : of the beam, those that are contact points; contact_s : their arc lengths; coordinates : their y in the
+        system's vectors; wall_y : the wall there; signs : +1 on the wall, −1 on an opposite one. Each (contacts,).
     """
 
     iterated = True  # Exudyn finds the contact state by repeating steps
@@ -130,13 +130,13 @@ class ContactRun(ABC):
 
     def __init__(self, beam: Beam, nodes: Indices, wall_y: Array, signs: Array | None = None) -> None:
         self.beam, self.nodes, self.wall_y = beam, nodes, wall_y
-        self.contact_s = beam.shape.s[nodes]
+        self.contact_s, self.coordinates = beam.shape.s[nodes], beam.vertical[nodes]
         self.signs = np.ones(nodes.size) if signs is None else signs
         self.connectors: list[Any] = []  # Exudyn's object numbers
 
     def depth(self, q: Array) -> Array:
         """Penetration at the contact points, shape (contacts,)."""
-        return np.asarray(q[self.beam.vertical[self.nodes]] - self.wall_y)
+        return np.asarray(self.signs * (q[self.coordinates] - self.wall_y))
 
     @abstractmethod
     def forces(self, q: Array, v: Array) -> tuple[Array, Flags]:

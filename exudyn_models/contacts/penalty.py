@@ -8,20 +8,16 @@ C = 10 and D = 3, so that the dashpot takes hold just before the wall and lets g
 of a step are those of a linear complementarity problem with a P-matrix, hence unique. Exudyn's own law, dashpot on
 while y > 0, pulls a beam that leaves; :mod:`exudyn_models.settling` writes these states over its.
 
-With shear nodes meet the wall faster than shear waves at first. There d takes up such waves without reflection,
-d Δx = 2√(κ_sGA μ) or D = 4√3: hits are plastic (κ/ν = 0.1, η/T* = 7e-4, l_s = 0.05 half lengths: e = 0.076 on 160
-elements, 0.145 with D = 3; an explicit code: 0.076). Not where η is several τ (0.1, 3e-3, 0.022: 0.13 for 0.23; 0.24).
+So the contact is as stiff as the elements, on every scale of the mesh. Other C and D (measured: docs/exudyn.md):
 
-So the contact is as stiff as the elements, on every scale of the mesh. Where the front passes an element faster than
-it bends, the contact must be as fast as the front: it passes Δx at x in t = 2xΔx/λ² √(μ/EI), and C = (λ²Δx/x)² makes
-√(k/μ) t = 2, with the damping ratio of 10 and 3.
-
-Below κ/ν = 0.12, on any mesh of moderate size, each node hits the wall by itself, and its rebound adds to the impulse:
-with D = 3 r₀ is 6.5, 21 and 19 % too large at κ/ν = 1/100, 1/400 and 1/1600. There D = 40 makes hits plastic, and
-nothing is held at the start, while nothing but the first spread of the zone moves it and steps are implicit. What is
-left adds to r₀ like 1/D²: the coarser run of an error bar has the smaller D in proportion. Not with a ``hold``, whose
-springs would pull nodes that D = 40 has stopped ahead of the wall, nor where the material damps waves at grid scale:
-what is stopped there lacks in the impulse (7 % at κ/ν = 0.02, η = 1e-3 T*, 1e-3 T*).
+- where the front passes an element faster than it bends. It passes Δx at x in t = 2xΔx/λ² √(μ/EI), and C = (λ²Δx/x)²
+  makes √(k/μ) t = 2, with the damping ratio of 10 and 3;
+- with shear nodes meet the wall faster than shear waves at first. d Δx = 2√(κ_sGA μ), D = 4√3, takes up such waves
+  without reflection. Not where η is several τ (κ/ν = 0.1, η/T* = 3e-3: e = 0.13 for 0.23);
+- below κ/ν = 0.12 each node hits the wall by itself, and its rebound adds to the impulse. D = 40 makes hits plastic,
+  while nothing but the first spread moves the zone and steps are implicit. What is left adds to r₀ like 1/D²: the
+  coarser run of an error bar has the smaller D in proportion. Not with a ``hold``, whose springs would pull nodes that
+  are stopped ahead of the wall, nor where the material damps waves at grid scale: they would lack in the impulse.
 
 The springs and dashpots of a wall that gives way, at the nodes:
 
@@ -36,7 +32,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from functools import cached_property
 from typing import Annotated, Any, ClassVar
 
 import exudyn.itemInterface as items
@@ -47,7 +42,7 @@ from bent_beam.errors import InputError
 from bent_beam.fields import Quantity
 from exudyn_models.contacts.base import START, TINY, Contact, ContactRun, HeldStrip, Hold, Wall
 from exudyn_models.elements import Beam, Element
-from exudyn_models.geometry import Array, Flags, Indices, element_times
+from exudyn_models.geometry import Array, Flags, element_times
 from exudyn_models.integrators import Integrator, Trapezoidal
 from exudyn_models.solvers import NewtonSolver
 
@@ -127,18 +122,10 @@ class PenaltyRun(ContactRun):
             activeConnector=False,
         )
 
-    @cached_property
-    def _coordinates(self) -> Indices:
-        """Of the contact points in the system's vectors, known once it is assembled."""
-        return np.asarray(self.beam.vertical[self.nodes])
-
-    def depth(self, q: Array) -> Array:
-        return np.asarray(self.signs * (q[self._coordinates] - self.wall_y))
-
     def _spring_and_dashpot(self, q: Array, v: Array) -> Array:
         if self._of[0] is not q or self._of[1] is not v:  # one solution is looked at more than once
             self._of = q, v
-            self._force = self.stiffness * self.depth(q) + self.damping * (self.signs * v[self._coordinates])
+            self._force = self.stiffness * self.depth(q) + self.damping * (self.signs * v[self.coordinates])
         return self._force
 
     def closed_by(self, q: Array, v: Array) -> Flags:

@@ -7,14 +7,9 @@ Every node that may touch carries a constraint on its velocity (index 2), inacti
 is found at the wall; its velocity then vanishes within one step, the impact of restitution e = 0. It is released when
 it pulls, but not before the front is ``hold`` elements further on (see :mod:`exudyn_models.contacts.penalty`).
 
-Constraints on velocities leave a node where it was caught, up to V₀h inside the wall, each at a depth of its own: a
-bumpy wall, whose static reactions ±12EI/Δx³·V₀h would drown all others (at κ/ν = 0.9 no node after the first few would
-ever touch). So captured nodes are led back to the wall by the share c of their depth in each step (Baumgarte 1972,
-Comput. Methods Appl. Mech. Eng. 1, 1).
-
-Under position constraints (index 3, generalised-α) the jump of velocity that a switch asks for has no place in the
-equations and Newton's method stops converging; under the undamped trapezoidal rule (γ = ½) the multipliers ring, their
-sign says nothing, and the run stops sooner or later. Hence only Newmark with γ > ½ is accepted.
+Constraints on velocities leave each node at the depth where it was caught: a bumpy wall, whose static reactions
+±12EI/Δx³·V₀h would drown all others. So captured nodes are led back by the share c of their depth in each step
+(Baumgarte 1972, Comput. Methods Appl. Mech. Eng. 1, 1). Why only Newmark with γ > ½ is accepted: docs/exudyn.md.
 """
 
 from __future__ import annotations
@@ -70,7 +65,7 @@ class _Run(ContactRun):
         depth = self.depth(q)
         touching = (depth >= 0.0) & ~self.active
         if time == 0.0:
-            touching &= v[self.beam.vertical[self.nodes]] > 0.0
+            touching &= v[self.coordinates] > 0.0
         self.strip.captured |= touching
         wanted = (self.active & (force >= 0.0)) | touching | self.strip.wanted(time)
         changed = np.flatnonzero(wanted != self.active)

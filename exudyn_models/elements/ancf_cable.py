@@ -10,8 +10,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from functools import cached_property
-from typing import Any
+from typing import Any, ClassVar
 
 import exudyn.itemInterface as items
 import numpy as np
@@ -19,8 +18,8 @@ from numpy.polynomial.polynomial import polyder, polyval
 
 from bent_beam import Impact
 from bent_beam.loads import UNSHEARED
-from exudyn_models.elements.beam import Beam, Element, Section
-from exudyn_models.geometry import Array, Indices, Shape
+from exudyn_models.elements.beam import Beam, Element
+from exudyn_models.geometry import Array
 
 __all__ = ["ANCFCable"]
 
@@ -65,16 +64,10 @@ class _Cable(Beam):
             useReducedOrderIntegration=1,
         )
 
-    @cached_property
-    def _first(self) -> Indices:
-        """Coordinates (x₁, x₁′, x₂, x₂′) of the elements, known once the system is assembled."""
-        left, right = self.horizontal[:-1], self.horizontal[1:]
-        return np.stack([left, left + 2, right, right + 2], axis=1)
-
     def _fields(self, q: Array, offset: int, shapes: tuple[Array, ...], *derivatives: int) -> list[Array]:
         """Derivatives by s of a component (0: x, 1: y) at the points of ``shapes``, each (…, elements, points)."""
         length = self.lengths[:, None]
-        at_nodes = q[..., self._first + offset]
+        at_nodes = q[..., self.horizontal[:-1, None] + [0, 2, 4, 6] + offset]  # x₁, x₁′, x₂, x₂′
         at_nodes[..., 1::2] *= length
         return [at_nodes @ shapes[derivative] / length**derivative for derivative in derivatives]
 
@@ -127,6 +120,8 @@ class _Cable(Beam):
 class ANCFCable(Element):
     """ANCF cable elements, cubic: the default of a beam without shear."""
 
+    beam: ClassVar[type[Beam]] = _Cable
+
     def refuses(self, impact: Impact) -> str | None:
         if impact.shear_stiffness is None:
             return None
@@ -134,6 +129,3 @@ class ANCFCable(Element):
             "exudyn.element.kind ancf_cable has no shear: take geometrically_exact "
             f"(got shear_stiffness {impact.shear_stiffness!r}){UNSHEARED}"
         )
-
-    def build(self, mbs: Any, shape: Shape, section: Section, viscosity: Array) -> Beam:
-        return _Cable(mbs, shape, section, viscosity)

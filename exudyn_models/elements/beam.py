@@ -7,7 +7,6 @@ at its arc length s_i.
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Annotated, Any, ClassVar
@@ -57,7 +56,11 @@ def shares(lengths: Array) -> Array:
 
 
 class Beam(ABC):
-    """A beam in an Exudyn system ``mbs``. ``vertical`` and ``rotation`` number the coordinates within a node."""
+    """A beam in an Exudyn system ``mbs``, whose first nodes are the beam's; ``viscosity`` of each element, (elements,).
+
+    size : coordinates of the system; horizontal, vertical, rotation : those of the nodes, (nodes,).
+    load, load_rate : forces on them, (size,), at t = 0 and by time; upward : 1 where they are y.
+    """
 
     horizontal_coordinate = 0
     vertical_coordinate = 1
@@ -67,10 +70,15 @@ class Beam(ABC):
         self.mbs, self.shape, self.section, self.units = mbs, shape, section, section.units
         self.grid_viscosity = viscosity
         self.viscosity = viscosity + section.damping
-        self.uniform_load = 0.0
-        self.node_loads: list[tuple[int, int, float, float]] = []
         self.lengths = shape.lengths
         self.tributary = shares(self.lengths)
+        each = self.rotation_coordinate + 1
+        self.size = each * shape.s.size
+        self.horizontal = np.arange(0, self.size, each)
+        self.vertical = self.horizontal + self.vertical_coordinate
+        self.rotation = self.horizontal + self.rotation_coordinate
+        self.upward, self.load, self.load_rate = np.zeros((3, self.size))
+        self.upward[self.vertical] = 1.0  # the shape functions of deflections add up to one
         self.nodes = [mbs.AddNode(self.node(i)) for i in range(shape.s.size)]
         self.bodies = [mbs.AddObject(self.body(i)) for i in range(self.lengths.size)]
         ground = mbs.AddNode(items.NodePointGround())
@@ -132,7 +140,7 @@ class Beam(ABC):
 
     def load_uniformly(self, acceleration: float) -> None:
         """A load μ·``acceleration`` per unit length along y."""
-        self.uniform_load = acceleration
+        self.load += self.mass @ (acceleration * self.upward)
         load = [0.0, acceleration * self.units.length / self.units.time**2, 0.0]
         for body in self.bodies:
             marker = self.mbs.AddMarker(items.MarkerBodyMass(bodyNumber=body))
@@ -142,39 +150,36 @@ class Beam(ABC):
         """A force (or moment) ``constant`` + ``rate``·t on one coordinate of the ``node``-th node."""
         if constant == 0.0 == rate:
             return
-        self.node_loads.append((node, coordinate, constant, rate))
+        place = self.horizontal[node] + coordinate
+        self.load[place] += constant
+        self.load_rate[place] += rate
         unit = self.units.force * (self.units.length if coordinate == self.rotation_coordinate else 1.0)
         at_first, growth = constant * unit, rate * unit / self.units.time
         grows = {"loadUserFunction": lambda mbs, t, load: at_first + growth * t} if rate else {}
         self.mbs.AddLoad(items.LoadCoordinate(markerNumber=self.marker(node, coordinate), load=at_first, **grows))
 
-    def loads(self) -> Callable[[Array], Array]:
-        """After ``locate``: all loads as forces on the system's coordinates, as a function of times, (times,
-        coordinates)."""
-        size = self.mbs.systemData.GetODE2Coordinates().size
-        uniform = np.zeros(size)
-        uniform[self.vertical] = self.uniform_load
-        constant, rate = self.mass @ uniform, np.zeros(size)
-        for node, coordinate, value, slope in self.node_loads:
-            place = self.vertical[node] - self.vertical_coordinate + coordinate
-            constant[place] += value
-            rate[place] += slope
-        return lambda times: constant + np.multiply.outer(times, rate)
+    def loads(self, times: Array) -> Array:
+        """All loads as forces on the system's coordinates, (times, size)."""
+        return self.load + np.multiply.outer(times, self.load_rate)
 
     def _assembled(self, matrices: Array, first: Indices, second: Indices) -> Matrix:
         """The system's matrix of element matrices in (first, second) of the left node, then of the right."""
         pairs = [first, second][: matrices.shape[1] // 2]
         at = np.stack([c[s] for s in (slice(None, -1), slice(1, None)) for c in pairs], axis=1)
         rows, columns = (np.broadcast_to(m, matrices.shape) for m in (at[:, :, None], at[:, None, :]))
-        size = self.mbs.systemData.GetODE2Coordinates().size
-        return csr_matrix((matrices.ravel(), (rows.ravel(), columns.ravel())), shape=(size, size))
+        return csr_matrix((matrices.ravel(), (rows.ravel(), columns.ravel())), shape=(self.size, self.size))
 
     @cached_property
     def mass(self) -> Matrix:
-        """Consistent mass matrix of the system, after ``locate``."""
+        """Consistent mass matrix of the system."""
         across, last = self.element_matrices()[0], self.horizontal + self.rotation_coordinate - 1
         along = self._assembled(self.axial_mass(), self.horizontal, last)
         return along + self._assembled(across, self.vertical, self.rotation)
+
+    @cached_property
+    def momentum(self) -> Array:
+        """Along y, of velocities: momentum @ v, (size,)."""
+        return np.asarray(self.mass @ self.upward)
 
     def kinetic_energy(self, v: Array) -> Array:
         """Of one state, or of each of several, v (states, coordinates)."""
@@ -194,17 +199,6 @@ class Beam(ABC):
         moved, mean = np.diff(q, axis=0), (v[1:] + v[:-1]) / 2
         grid, material = ((mean * (matrix @ moved.T).T).sum(axis=1) for matrix in self._damping)
         return grid, material
-
-    def locate(self) -> None:
-        """After ``mbs.Assemble()``: where the coordinates stand in the system's vectors."""
-        first = np.array([self.mbs.GetNodeODE2Index(node) for node in self.nodes])
-        self.horizontal = first + self.horizontal_coordinate
-        self.vertical = first + self.vertical_coordinate
-        self.rotation = first + self.rotation_coordinate
-
-    def deflection(self, q: Array) -> Array:
-        """y at the nodes (the reference lies on y = 0)."""
-        return np.asarray(q[..., self.vertical])
 
     @abstractmethod
     def slope(self, q: Array) -> Array:
@@ -256,6 +250,7 @@ class Element(Part, ABC):
     has no effect in the linear limit."""
 
     where: ClassVar[str] = "exudyn.element"
+    beam: ClassVar[type[Beam]]
 
     viscosity: Annotated[
         float | None,
@@ -270,7 +265,3 @@ class Element(Part, ABC):
     def refuses(self, impact: Impact) -> str | None:
         """Why this element cannot model a beam (None: it can)."""
         return None
-
-    @abstractmethod
-    def build(self, mbs: Any, shape: Shape, section: Section, viscosity: Array) -> Beam:
-        """Add the beam to ``mbs``; ``viscosity`` is that of each element, shape (elements,)."""

@@ -11,7 +11,7 @@ the cable is of fourth.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, ClassVar
 
 import exudyn.itemInterface as items
 import numpy as np
@@ -119,5 +119,4 @@ class GeometricallyExact(Element):
     Of one that does not, a second opinion in 0.5 to 0.65 of the cable's time: λ₀ is as good as the cable's at
     κ/ν = 0.2, five times as far off at 0.5 and 0.8 (0.005, 0.07 %) on the same mesh."""
 
-    def build(self, mbs: Any, shape: Shape, section: Section, viscosity: Array) -> Beam:
-        return _Exact(mbs, shape, section, viscosity)
+    beam: ClassVar[type[Beam]] = _Exact

@@ -14,12 +14,9 @@ from exudyn.beams import GenerateBeamElementsAlongLine
 # κ/ν: λ₀, r₀
 EXACT = {0.1: (4.25760, 2.74499), 0.2: (2.70353, 1.88523), 0.5: (1.01887, 1.17721), 0.8: (0.29685, 1.01915)}
 COUNT, LENGTH, END, STEPS = 400, 0.0125, 0.1, 1500  # elements, the length of each, end time, time steps
+STIFF_BEAM = items.ObjectBeamGeometricallyExact2D(shearStiffness=100 / LENGTH**2, crossSectionInertia=0.01 * LENGTH**2)
 KINDS: dict[str, dict[str, Any]] = {
-    "element": {
-        "ancf_cable": {},
-        "geometrically_exact": {"shearStiffness": 100 / LENGTH**2, "crossSectionInertia": 0.01 * LENGTH**2},
-    },
-    # a node's spring is as stiff as its elements are in bending; its dashpot keeps it from rebounding
+    "element": {"ancf_cable": items.ObjectANCFCable2D(), "geometrically_exact": STIFF_BEAM},
     "contact": {"dashpot": {}, "gonthier": {"contactDamping": 0, "impactModel": 2, "restitutionCoefficient": 0.5}},
     "integrator": {
         "generalized_alpha": {"spectralRadius": 0.5},
@@ -40,27 +37,26 @@ def main(arguments: list[str] | None = None) -> None:
     container = exu.SystemContainer()
     mbs: Any = container.AddSystem()
 
-    # the beam: a bow free of stress that moves towards y > 0; its middle neither moves along x nor turns
-    cable = chosen.element == "ancf_cable"
-    kind = items.ObjectANCFCable2D if cable else items.ObjectBeamGeometricallyExact2D
-    section = KINDS["element"][chosen.element] | {"massPerLength": 1, "bendingStiffness": 1, "axialStiffness": 1}
-    section |= {"bendingDamping": 0.15 * LENGTH**2}  # for waves as short as the elements
-    element = kind(referenceCurvature=-small * chosen.kappa, **section)
-    middle, end = [1, 0, *[0] * cable, 1], [COUNT * LENGTH, 0, 0]
-    nodes = GenerateBeamElementsAlongLine(mbs, [0, 0, 0], end, COUNT, element, groundConstraintsStart=middle)["nodes"]
-    x = LENGTH * np.arange(COUNT + 1)
-    for node, s in zip(nodes, x):
-        bow = [0, -small * chosen.kappa * s**2 / 2, *[0] * cable, -small * chosen.kappa * s]
-        mbs.SetNodeParameter(node, "initialCoordinates", bow)
-        mbs.SetNodeParameter(node, "initialVelocities", [0, small, *[0] * cable, 0])
+    # half of the beam: its middle neither moves along x nor turns
+    element = KINDS["element"][chosen.element]
+    element.massPerLength = element.bendingStiffness = element.axialStiffness = 1
+    element.referenceCurvature, element.bendingDamping = -small * chosen.kappa, 0.15 * LENGTH**2  # of short waves
+    stretch = [0] if chosen.element == "ancf_cable" else []  # coordinates of a node: x, y, of cables x′, slope
+    line, middle = ([0, 0, 0], [COUNT * LENGTH, 0, 0], COUNT), [1, 0, *stretch, 1]
+    nodes = GenerateBeamElementsAlongLine(mbs, *line, element, groundConstraintsStart=middle)["nodes"]
 
-    # the plane, at every node
     ground = mbs.AddMarker(items.MarkerNodeCoordinate(nodeNumber=mbs.AddNode(items.NodePointGround()), coordinate=0))
+    x = LENGTH * np.arange(COUNT + 1)
     share = np.where((x > 0) & (x < x[-1]), 1, 0.5)  # of LENGTH, that a node stands for
     for node, s, part in zip(nodes, x, share):
+        # a bow free of stress that moves towards y > 0 …
+        gap, slope = small * chosen.kappa * s**2 / 2, -small * chosen.kappa * s
+        mbs.SetNodeParameter(node, "initialCoordinates", [0, -gap, *stretch, slope])
+        mbs.SetNodeParameter(node, "initialVelocities", [0, small, *stretch, 0])
+        # … and the plane: a spring as stiff as the elements are in bending, a dashpot that keeps nodes from rebounding
         law = {"contactStiffness": 10 * part / LENGTH**3, "contactDamping": 40 * part / LENGTH}
         law |= {"minimumImpactVelocity": 0.5 * small} | KINDS["contact"][chosen.contact]
-        state = [max(1e-14, small * chosen.kappa * s**2 / 2), 0][: 1 + ("impactModel" in law)]  # the gap: open
+        state = [max(1e-14, gap), 0][: 1 + ("impactModel" in law)]  # the gap: open
         data = mbs.AddNode(items.NodeGenericData(numberOfDataCoordinates=len(state), initialCoordinates=state))
         markers = [mbs.AddMarker(items.MarkerNodeCoordinate(nodeNumber=node, coordinate=1)), ground]
         mbs.AddObject(items.ObjectContactCoordinate(markerNumbers=markers, nodeNumber=data, **law))

@@ -24,26 +24,24 @@ def impact(acceleration: float, dashpot: float, count: int) -> tuple[float, floa
     """Impulse on one half of the beam until END, N s, and its moment about the middle, N s m."""
     mbs: Any = exu.SystemContainer().AddSystem()
     length, x = HALF / count, np.linspace(0, HALF, count + 1)
-    section: dict[str, Any] = {"massPerLength": 1, "bendingStiffness": 1, "axialStiffness": 1}
-    section |= {"referenceCurvature": -SMALL * CURVATURE, "bendingDamping": 0.15 * length**2}
-    cable, load = items.ObjectANCFCable2D(**section), [0, SMALL * acceleration, 0]
-    middle = {"groundConstraintsStart": [1, 0, 0, 1]}  # neither moves along x nor turns
-    nodes = GenerateBeamElementsAlongLine(mbs, [0, 0, 0], [HALF, 0, 0], count, cable, load, **middle)["nodes"]
-    for node, s in zip(nodes, x):
-        bow = [0, -SMALL * CURVATURE * s**2 / 2, 0, -SMALL * CURVATURE * s]
-        mbs.SetNodeParameter(node, "initialCoordinates", bow)
-        mbs.SetNodeParameter(node, "initialVelocities", [0, SMALL * SPEED, 0, 0])
+    cable = items.ObjectANCFCable2D(massPerLength=1, bendingStiffness=1, axialStiffness=1)
+    cable.referenceCurvature, cable.bendingDamping = -SMALL * CURVATURE, 0.15 * length**2
+    load, middle = [0, SMALL * acceleration, 0], [1, 0, 0, 1]  # the middle neither moves along x nor turns
+    nodes = GenerateBeamElementsAlongLine(mbs, [0, 0, 0], [HALF, 0, 0], count, cable, load, middle)["nodes"]
     ground = mbs.AddMarker(items.MarkerNodeCoordinate(nodeNumber=mbs.AddNode(items.NodePointGround()), coordinate=0))
     share = np.where((x > 0) & (x < HALF), length, length / 2)
-    for node, s, part in zip(nodes, x, share):  # the plane
-        gap = max(1e-14, SMALL * CURVATURE * s**2 / 2)
-        data = mbs.AddNode(items.NodeGenericData(numberOfDataCoordinates=1, initialCoordinates=[gap]))
+    for node, s, part in zip(nodes, x, share):  # it arrives as a bow; the plane
+        gap, slope = SMALL * CURVATURE * s**2 / 2, -SMALL * CURVATURE * s
+        mbs.SetNodeParameter(node, "initialCoordinates", [0, -gap, 0, slope])
+        mbs.SetNodeParameter(node, "initialVelocities", [0, SMALL * SPEED, 0, 0])
+        data = mbs.AddNode(items.NodeGenericData(numberOfDataCoordinates=1, initialCoordinates=[max(1e-14, gap)]))
         markers = [mbs.AddMarker(items.MarkerNodeCoordinate(nodeNumber=node, coordinate=1)), ground]
         law = {"contactStiffness": 10 * part / length**4, "contactDamping": dashpot * part / length**2}
         mbs.AddObject(items.ObjectContactCoordinate(markerNumbers=markers, nodeNumber=data, **law))
-    bending: dict[str, Any] = {"bodyNumber": 0, "outputVariableType": exu.OutputVariableType.TorqueLocal}
-    sensor = mbs.AddSensor(items.SensorBody(storeInternal=True, **bending))  # in the middle
-
+    bending = exu.OutputVariableType.TorqueLocal
+    sensor = mbs.AddSensor(
+        items.SensorBody(bodyNumber=0, outputVariableType=bending, storeInternal=True)
+    )  # in the middle
     mbs.Assemble()
     settings = exu.SimulationSettings()
     settings.solution.file.write = False
