@@ -64,8 +64,7 @@ class Constraints(NamedTuple):
 
     target : c; candidate : whether the constraint may close; least : bound of p. Where it is negative the constraint
         stays closed whatever p a solution finds; :func:`some_gave_way` then tells whether that was too small.
-    closed : the guess on entry of a solution, the answer on return; p : the multipliers, N s unless a scheme says
-        otherwise.
+    closed : the guess before a solution, the answer after; p : the multipliers, N s unless a scheme says otherwise.
     Gq, Gv : work arrays of the integrator.
     """
 

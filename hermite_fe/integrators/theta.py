@@ -184,7 +184,7 @@ def take_steps(
             find_candidates(rows, conditions, state.q, state.closed, (1.0 - theta) * h)
             ask_for_rebound(law, conditions, conditions.Gv)
         status = solve_constrained(solver, rows, conditions, vectors.b, vectors.dv)
-        while status == SOLVED and some_gave_way(conditions):
+        while status == SOLVED and some_gave_way(conditions):  # what was pulled too hard is let go together
             status = solve_constrained(solver, rows, conditions, vectors.b, vectors.dv)
         if status == SOLVED:
             copy(conditions.closed, state.closed)
