@@ -93,7 +93,7 @@ def _described(layout: Layout, chosen: Chosen, stepping: Stepping) -> dict[str, 
     """The parts and what was chosen with them, JSON-ready; times in s, lengths in m."""
     scaling, segments, settling = layout.scaling, stepping.segments, stepping.settling
     settings: dict[str, Any] = {n: describe(part) for n, part in vars(chosen).items() if is_dataclass(part)}
-    settings["contact"] |= stepping.run.contact.settings()
+    settings["contact"] |= stepping.run.contact.chosen
     settings |= {
         "hold": stepping.run.hold(),
         "nodes": int(layout.shape.s.size),

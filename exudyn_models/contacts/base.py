@@ -20,6 +20,7 @@ lift what they will.
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Annotated, Any, ClassVar
 
@@ -126,6 +127,7 @@ class ContactRun(ABC):
     assumed: Array | None = None  # the states that the last step was solved with, where Exudyn finds them
     wall_springs: Array | None = None  # stiffness at the contact points of a wall that gives way, (contacts,)
     strip: HeldStrip | None = None  # of a contact that may hold captured nodes
+    chosen: Mapping[str, float] = {}  # settings that were left open, as they were chosen
     round_off = 0.0  # force in Exudyn's connectors that means nothing: no residual can be made smaller
 
     def __init__(self, beam: Beam, nodes: Indices, wall_y: Array, signs: Array | None = None) -> None:
@@ -173,10 +175,6 @@ class ContactRun(ABC):
     def held_until(self) -> float:
         """When (of the end time) the last contact point is let go that may have been held; 0: none ever is."""
         return 0.0 if self.strip is None else self.strip.until
-
-    def settings(self) -> dict[str, Any]:
-        """What was chosen, JSON-ready."""
-        return {} if self.strip is None else {"hold_elements": self.strip.hold}
 
 
 @dataclass(frozen=True)

@@ -177,9 +177,6 @@ class PenaltyRun(ContactRun):
         k[self.nodes], d[self.nodes] = self.stiffness, self.damping  # a node touches one wall at a time
         return k, d
 
-    def settings(self) -> dict[str, Any]:
-        return super().settings() | self.chosen
-
 
 @dataclass(frozen=True)
 class Penalty(Contact):
