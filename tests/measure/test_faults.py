@@ -48,7 +48,7 @@ FAULTS = {
         ("half a node's mass", "initial_energy mass", "masses.py", MASS, f"{MASS} * {LOST.format('beam.lengths')}"),
         ("points mixed up", "second_moment", "simulate.py", POINTS, POINTS.replace("front", "::-1")),
         ("pulls recorded as pushes", "momentum", "stepping.py", STEP, "state.impulse[j] += abs(conditions.p[j])"),
-        ("nodes that may not close", "penetration", "integrators/theta.py", ANY, ANY.replace("True", "j % 3 > 0")),
+        ("nodes that may not close", "penetration", "constraints.py", ANY, ANY.replace("True", "j % 3 > 0")),
         ("a free slope in the middle", "middle_slope", "model.py", "if full else (1,)", "if full else ()"),
         ("material loss", "energy", "stepping.py", f"h * {DAMPED}", f"0.9 * h * {DAMPED}"),
         ("steps of the wrong velocity", "energy", "integrators/theta.py", "q[i] += h * v_theta[i]", "q[i] += h * v[i]"),
