@@ -23,6 +23,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bent_beam.checks import one_of
+from bent_beam.errors import InputError
 from bent_beam.history import ImpactHistory
 from bent_beam.hysteresis import branches_of, converges
 from bent_beam.impact import BEFORE_WAVES_RETURN, Impact
@@ -144,7 +145,7 @@ class Question:
             else:
                 one = refined(self._chosen(self.method), 2.0 ** random.uniform(-1.5, -0.5))
             if one is None:
-                raise ValueError(
+                raise InputError(
                     f"damping: without damping of the beam a whole impact is a band, and {self.method.path} varies "
                     "neither elements nor steps; state a damping"
                 )

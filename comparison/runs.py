@@ -12,7 +12,7 @@ from dataclasses import dataclass, field, replace
 from functools import partial
 from typing import Any
 
-from bent_beam.errors import SimulationError
+from bent_beam.errors import InputError, SimulationError
 from bent_beam.history import ImpactHistory
 from bent_beam.hysteresis import converges
 from bent_beam.impact import Impact
@@ -90,11 +90,12 @@ def runs_of(
 ) -> Runs:
     """Run ``question`` and its companions, or find them in ``store``.
 
-    read : picklable. whole_history : also the history of the run itself, which is then made anew.
+    read : picklable, a function or a ``partial`` of positional arguments. whole_history : also the history of the run
+        itself, which is then made anew.
     Raises ``ValueError`` for what the method refuses, :class:`bent_beam.SimulationError` where the run cannot finish.
     """
     if reason := question.method.refuses(question.impact):
-        raise ValueError(reason)
+        raise InputError(reason)
     told = progress or (lambda _: None)
     first, others = question.run_by, question.companions()
     share = 1.0 / (1 + len(others))
@@ -106,7 +107,8 @@ def runs_of(
         run = _run(store, question, read, first, question.impact)
     told(share)
     calls = [(store, question, read, method, impact) for impact, method in others.values()]
-    found = run_all(_attempted, calls, jobs=jobs, progress=lambda done, _: told(share * (1 + done)))
+    how: dict[str, Any] = {"jobs": jobs, "on_death": lambda _, why: why}
+    found = run_all(_attempted, calls, progress=lambda done, _: told(share * (1 + done)), **how)
     companions = {cause: one for cause, one in zip(others, found) if isinstance(one, Run)}
     lost = [f"no companion run ({cause}): {one}" for cause, one in zip(others, found) if isinstance(one, str)]
     return Runs(question, run, companions, lost, history)
@@ -167,6 +169,6 @@ def numbers_of(
 
 
 def bands_of(runs: Runs, names: Sequence[str]) -> dict[str, Band | Number]:
-    """Bands over all runs; a number without a value where one of them has none."""
+    """Bands over all runs; a number without a value where one of them has none, or all others were lost."""
     every = {name: [run.reading[name] for run in runs.every] for name in names}
-    return {name: Number() if None in values else Band.of(values) for name, values in every.items()}
+    return {name: Number() if None in values or len(values) < 2 else Band.of(values) for name, values in every.items()}

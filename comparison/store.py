@@ -89,7 +89,7 @@ class RunStore:
         if kept is not None:
             return kept
         found = compute()
-        with suppress(OSError):  # a full or read-only cache costs time, not the answer
+        with suppress(OSError, ValueError):  # a full cache, a value that JSON lacks: they cost time, not the answer
             write_atomically(file, _canonical({"answer": found, "sha256": _digest(_canonical(found))}))
         return found
 
