@@ -1,7 +1,7 @@
-"""Runs of a question, read, kept and made into numbers with bars: the one place that does.
+"""Runs of a question about one beam, reduced to readings, kept, and made into numbers with bars.
 
-A run is reduced by a reading, plain numbers by name, and this is what is kept. The store stands around the whole, not
-in it: without one nothing is turned into text and back.
+A reading is a dictionary of plain numbers by name, and this is what a store keeps of a run. Without a store nothing is
+turned into text and back.
 """
 
 from __future__ import annotations
@@ -20,12 +20,12 @@ from bent_beam.measure.numbers import Band, Number, number_of
 from bent_beam.method import Method, settings_of
 from comparison.energies import loss_warnings, numerical_loss
 from comparison.questions import Question
-from comparison.store import RunStore, source_of
+from comparison.store import RunStore, code_of, source_of
 from comparison.workers import run_all
 
 __all__ = ["Run", "Runs", "bands_of", "kept", "numbers_of", "runs_of"]
 
-Reading = Callable[[ImpactHistory], dict[str, Any]]
+Reading = Callable[[ImpactHistory], dict[str, Any]]  # what it returns is JSON-ready and holds "energy", that at the end
 Progress = Callable[[float], None]
 
 
@@ -119,7 +119,8 @@ def kept(
 ) -> Run:
     """What ``read`` makes of ``run()``, or the same from ``store``.
 
-    asked : what the run depends on next to its ``method`` and the code of that, JSON-ready.
+    asked : what the run depends on next to its ``method`` and the code of that, JSON-ready. read : a function of a
+        module, or a ``partial`` of one with JSON-ready positional arguments.
     """
     if store is None:
         return Run.of(run(), read)
@@ -131,7 +132,7 @@ def kept(
 
     named, given = (read.func, read.args) if isinstance(read, partial) else (read, ())
     settings = settings_of(method) | {"label": ""}
-    key = {**asked, "settings": settings, "source": source_of(method), "read": [named.__name__, *given]}
+    key = {**asked, "settings": settings, "source": source_of(method), "read": [code_of(named), *given]}
     return replace(Run(**store.answer(key, compute)), kept=not computed)
 
 

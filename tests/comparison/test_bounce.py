@@ -18,7 +18,10 @@ from bent_beam.measure.numbers import Band
 from bent_beam.meshes import UniformMesh
 from bent_beam.method import method_from_tables
 from comparison.bouncing import bounce, case_of, problem
+from comparison.questions import Question
 from hermite_fe import HermiteFE
+from hermite_fe.contacts import MiddleContact
+from hermite_fe.integrators import SignoriniPosition
 
 COARSE = HermiteFE(mesh=UniformMesh(1.0 / 25))
 
@@ -133,6 +136,13 @@ def test_the_command_gives_numbers_with_bars_figures_and_the_stress_of_the_large
         assert found["peak_stress"][key] == pytest.approx(found["si"]["peak_moment"][key] / modulus, rel=1e-12)
     assert found["si"]["peak_moment_time"]["value"] > 0.0
     assert 0.0 <= found["si"]["peak_moment_place"]["value"] <= 0.5
+
+
+def test_a_contact_or_integrator_that_is_stated_is_that_of_every_run_of_a_band() -> None:
+    """Drawn runs took nodes and Moreau–Jean in their place, without a word."""
+    stated = HermiteFE(contact=MiddleContact(), integrator=SignoriniPosition())
+    every = Question(problem(2.0, 0.0), stated, band=(3, 1)).companions().values()
+    assert [(type(one.contact), type(one.integrator)) for _, one in every] == [(MiddleContact, SignoriniPosition)] * 2
 
 
 class Mortal(HermiteFE):
