@@ -8,7 +8,7 @@
 ``predict``, ``bounce``, ``sweep`` and ``match`` return objects that print themselves, with ``.plot()`` and
 ``.to_dict()``. From a question to what is printed, module by module::
 
-    question   questions.py: a beam, a method, until when; it names the run and its companions, one a cause of error
+    question   questions.py: a beam, a method, until when; it names the run and one more for each cause of error
     runs       runs.py: simulates them or finds them in the store (store.py), each reduced by a reading
     reading    instants_reading (predicting.py), whole_reading (bouncing.py): a history to plain numbers by name
     answer     numbers with bars (runs.py), in PredictedCase, Bounce (bounced.py), Simulated; SweepTable: rows of such

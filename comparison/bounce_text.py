@@ -66,7 +66,7 @@ def _checks(found: dict[str, Any]) -> list[str]:
     momentum, energy, gap, depth, pull = (shown(found[name], ".1g") for name in names)
     unit, shortest = found["si"]["time_unit"], found["shortest_separation"]
     return [
-        f"Read from the state: momentum residual {momentum} of the impulse, energy residual {energy},",
+        f"Read from the state: momentum off by {momentum} of the impulse, energy by {energy} at its worst instant,",
         f"largest gap of a push {gap} V0 t, deepest node {depth} V0 t, largest pull {pull} of the largest push.",
         f"kappa/nu = {found['kappa_over_nu']:.6g}, {_damping_of(found)}, "
         f"T* = {unit:.6g} s; {found['steps']} steps, {found['seconds']:.1f} s for all runs.",

@@ -104,8 +104,8 @@ class Bounce:
 
     @property
     def seconds(self) -> float:
-        """Of all runs together."""
-        return self.runs.seconds
+        """Of all runs together, at any damping ratio."""
+        return sum(one.runs.seconds for one in (self.over or {0.0: self}).values())
 
     @property
     def settings(self) -> dict[str, Any]:
@@ -164,8 +164,10 @@ class Bounce:
     @property
     def warnings(self) -> list[str]:
         """What a reader must know of the numbers."""
-        found = doubts(self.impact, self.case.section)
+        found, others = doubts(self.impact, self.case.section), list[str]()
         if self.over is not None:
+            for ratio, one in self.over.items():
+                others += [f"{100.0 * ratio:g} %: {line}" for line in one.runs.warnings if one.runs is not self.runs]
             ratios = ", ".join(f"{100.0 * ratio:g}" for ratio in self.over)
             found.append(
                 f"no damping is stated: the numbers are those of the largest stress among {ratios} % of the first "
@@ -189,7 +191,7 @@ class Bounce:
                 "the loads bring the beam back to the wall; these numbers are those of the first hit, later ones may "
                 "be larger (--hits follows more)"
             )
-        return [*found, *self.runs.warnings, *self.balance.warnings]
+        return [*found, *self.runs.warnings, *self.balance.warnings, *others]
 
     def to_dict(self) -> dict[str, Any]:
         """The contract of ``bentbeam bounce --json``."""
@@ -243,11 +245,15 @@ class Bounce:
 
         return impact_figure(self.history, self.case, self.in_si, self._shown_until)
 
-    def write(self, out: Path) -> list[Path]:
-        """``bounce.json``, ``bounce.png`` and the animation ``bounce.gif`` in ``out``; returns the files."""
+    def write(self, out: Path, document: dict[str, Any] | None = None) -> list[Path]:
+        """``bounce.json``, ``bounce.png`` and the animation ``bounce.gif`` in ``out``; returns the files.
+
+        document : with what a command adds to :meth:`to_dict`.
+        """
         from comparison.figures.whole_impact import animate
 
-        return [*write_answer(self, out, "bounce"), animate(self.history, out / "bounce.gif", self._shown_until)]
+        film = animate(self.history, out / "bounce.gif", self._shown_until)
+        return [*write_answer(self, out, "bounce", document=document), film]
 
     @property
     def _shown_until(self) -> float:

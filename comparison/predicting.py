@@ -189,7 +189,8 @@ def predict_case(
     if method is None or last <= 0.0:
         prediction = predict(impact, times, section=case.section)
         return PredictedCase(case, prediction, None, None, None, "nothing is simulated", warnings)
-    within = min(last, LATEST * impact.slow_time_scale)
+    latest = LATEST * impact.slow_time_scale
+    within = max((time for time in times if 0.0 < time <= latest), default=latest)
     checked = np.geomspace(0.01 * within, within, CHECKED).tolist()
     prediction = predict(impact, [*times, *checked], section=case.section)
     told, share = progress or (lambda _: None), 1.0 / (len(set(times)) + whole)
@@ -201,8 +202,8 @@ def predict_case(
     simulated = [numbers_at(found.get(time), case) for time in times]
     # what runs say, but for their ends: the theory beside them says how long those do not matter
     warnings += [line for runs in found.values() for line in runs.warnings if REFLECTED not in line]
-    if last > within:
-        warnings.append(f"times beyond {within:.4g} s ({LATEST:g} T*) are not simulated here: bentbeam simulate")
+    if last > latest:
+        warnings.append(f"times beyond {latest:.4g} s ({LATEST:g} T*) are not simulated here: bentbeam simulate")
     impacts: tuple[Bounce | None, str | None] = (None, None)
     if whole:
         impacts = _whole_impact(case, method, store, lambda done: told(1.0 - share * (1.0 - done)))

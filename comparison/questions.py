@@ -1,6 +1,6 @@
 """What is asked of one beam, the run that answers it, and the runs that say how well.
 
-    question ─► run, and companions: another run a cause of error ─► readings ─► numbers  (:mod:`comparison.runs`)
+    question ─► run, and companions: one more for each cause of error ─► readings ─► numbers  (:mod:`comparison.runs`)
 
 - early (before :data:`EARLY` T*; without damping before waves return from the ends): on elements that resolve the
   front, with the damping at grid scale that this takes;
@@ -10,7 +10,7 @@ Companions: half the elements and steps; and later another contact law, for no r
 scheme does. Without damping late motion does not converge: other elements, steps and contact laws, drawn from a seed.
 Early, too, such a beam keeps the short waves that its ends send back at once and that grid viscosity absorbs in a run
 and in its coarser one alike: a run without that viscosity, on even elements that resolve the contact, shows them.
-Whoever asks the same question gets the same runs.
+Whoever asks the same question gets the same numbers; runs are shared where they are read alike, too.
 """
 
 from __future__ import annotations
@@ -23,6 +23,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bent_beam.checks import one_of
+from bent_beam.errors import InputError
 from bent_beam.history import ImpactHistory
 from bent_beam.hysteresis import branches_of, converges
 from bent_beam.impact import BEFORE_WAVES_RETURN, Impact
@@ -51,7 +52,7 @@ class Question:
     to absorb the short waves that one of no damping keeps. band : (runs, seed) of an ensemble in place of run and
     companions.
 
-    A run to a time goes on a tenth of it beyond, for what is read around it.
+    A run to a time t goes on to 1.1 t: means over a tenth of the time are read around t.
     """
 
     impact: Impact
@@ -131,20 +132,20 @@ class Question:
         return None if finer is None else for_whole_beam(finer, impact)
 
     def _drawn(self, runs: int, seed: int) -> list[Method]:
-        """An ensemble of a beam without damping: elements, steps and contact laws drawn at random; of a mesh that the
-        user has stated, and of a path that draws nothing itself, coarser ones.
+        """An ensemble of a beam without damping: elements, steps and contact laws drawn at random; with a mesh,
+        contact or integrator that the user has stated, and of a path that draws nothing itself, coarser ones.
 
         Raises ``ValueError`` where the path varies neither elements nor steps.
         """
         random, found = np.random.default_rng(seed), list[Method]()
-        stated = getattr(self.method, "mesh", None) is not None
+        stated = any(getattr(self.method, part, None) is not None for part in ("mesh", "contact", "integrator"))
         for _ in range(runs):
             if hasattr(self.method, "varied") and not stated:
                 one: Method | None = self._chosen(self.method.varied(self.impact, random))
             else:
                 one = refined(self._chosen(self.method), 2.0 ** random.uniform(-1.5, -0.5))
             if one is None:
-                raise ValueError(
+                raise InputError(
                     f"damping: without damping of the beam a whole impact is a band, and {self.method.path} varies "
                     "neither elements nor steps; state a damping"
                 )
@@ -165,5 +166,5 @@ class Question:
         return simulated(method.simulate, beam, end_time=float(times[-1]), save=times, progress=progress)
 
     def key(self, impact: Impact) -> dict[str, Any]:
-        """What a run of it depends on next to its method, JSON-ready."""
+        """What a run of it depends on next to its method, JSON-ready. A new field that changes runs belongs here."""
         return {"impact": asdict(impact), "until": self.until, "save": self.save}

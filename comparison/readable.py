@@ -152,10 +152,12 @@ def csv_text(documents: Iterable[Mapping[str, Any]]) -> str:
     return stream.getvalue()
 
 
-def write_answer(found: Any, out: Path, name: str, drawable: bool = True) -> list[Path]:
+def write_answer(
+    found: Any, out: Path, name: str, drawable: bool = True, document: dict[str, Any] | None = None
+) -> list[Path]:
     """Document and figure of an answer in ``out``; returns the files."""
     from comparison.figures import style
 
-    document = out / f"{name}.json"
-    write_atomically(document, json_text(found.to_dict(), indent=1) + "\n")
-    return [document, *(style.save(found.plot(), out, name) if drawable else [])]
+    file = out / f"{name}.json"
+    write_atomically(file, json_text(document or found.to_dict(), indent=1) + "\n")
+    return [file, *(style.save(found.plot(), out, name) if drawable else [])]

@@ -1,7 +1,7 @@
-"""Runs of a question, read, kept and made into numbers with bars: the one place that does.
+"""Runs of a question about one beam, reduced to readings, kept, and made into numbers with bars.
 
-A run is reduced by a reading, plain numbers by name, and this is what is kept. The store stands around the whole, not
-in it: without one nothing is turned into text and back.
+A reading is a dictionary of plain numbers by name, and this is what a store keeps of a run. Without a store nothing is
+turned into text and back.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from dataclasses import dataclass, field, replace
 from functools import partial
 from typing import Any
 
-from bent_beam.errors import SimulationError
+from bent_beam.errors import InputError, SimulationError
 from bent_beam.history import ImpactHistory
 from bent_beam.hysteresis import converges
 from bent_beam.impact import Impact
@@ -20,12 +20,12 @@ from bent_beam.measure.numbers import Band, Number, number_of
 from bent_beam.method import Method, settings_of
 from comparison.energies import loss_warnings, numerical_loss
 from comparison.questions import Question
-from comparison.store import RunStore, source_of
+from comparison.store import RunStore, code_of, source_of
 from comparison.workers import run_all
 
 __all__ = ["Run", "Runs", "bands_of", "kept", "numbers_of", "runs_of"]
 
-Reading = Callable[[ImpactHistory], dict[str, Any]]
+Reading = Callable[[ImpactHistory], dict[str, Any]]  # what it returns is JSON-ready and holds "energy", that at the end
 Progress = Callable[[float], None]
 
 
@@ -90,11 +90,12 @@ def runs_of(
 ) -> Runs:
     """Run ``question`` and its companions, or find them in ``store``.
 
-    read : picklable. whole_history : also the history of the run itself, which is then made anew.
+    read : picklable, a function or a ``partial`` of positional arguments. whole_history : also the history of the run
+        itself, which is then made anew.
     Raises ``ValueError`` for what the method refuses, :class:`bent_beam.SimulationError` where the run cannot finish.
     """
     if reason := question.method.refuses(question.impact):
-        raise ValueError(reason)
+        raise InputError(reason)
     told = progress or (lambda _: None)
     first, others = question.run_by, question.companions()
     share = 1.0 / (1 + len(others))
@@ -106,7 +107,8 @@ def runs_of(
         run = _run(store, question, read, first, question.impact)
     told(share)
     calls = [(store, question, read, method, impact) for impact, method in others.values()]
-    found = run_all(_attempted, calls, jobs=jobs, progress=lambda done, _: told(share * (1 + done)))
+    how: dict[str, Any] = {"jobs": jobs, "on_death": lambda _, why: why}
+    found = run_all(_attempted, calls, progress=lambda done, _: told(share * (1 + done)), **how)
     companions = {cause: one for cause, one in zip(others, found) if isinstance(one, Run)}
     lost = [f"no companion run ({cause}): {one}" for cause, one in zip(others, found) if isinstance(one, str)]
     return Runs(question, run, companions, lost, history)
@@ -117,7 +119,8 @@ def kept(
 ) -> Run:
     """What ``read`` makes of ``run()``, or the same from ``store``.
 
-    asked : what the run depends on next to its ``method`` and the code of that, JSON-ready.
+    asked : what the run depends on next to its ``method`` and the code of that, JSON-ready. read : a function of a
+        module, or a ``partial`` of one with JSON-ready positional arguments.
     """
     if store is None:
         return Run.of(run(), read)
@@ -129,7 +132,7 @@ def kept(
 
     named, given = (read.func, read.args) if isinstance(read, partial) else (read, ())
     settings = settings_of(method) | {"label": ""}
-    key = {**asked, "settings": settings, "source": source_of(method), "read": [named.__name__, *given]}
+    key = {**asked, "settings": settings, "source": source_of(method), "read": [code_of(named), *given]}
     return replace(Run(**store.answer(key, compute)), kept=not computed)
 
 
@@ -167,6 +170,6 @@ def numbers_of(
 
 
 def bands_of(runs: Runs, names: Sequence[str]) -> dict[str, Band | Number]:
-    """Bands over all runs; a number without a value where one of them has none."""
+    """Bands over all runs; a number without a value where one of them has none, or all others were lost."""
     every = {name: [run.reading[name] for run in runs.every] for name in names}
-    return {name: Number() if None in values else Band.of(values) for name, values in every.items()}
+    return {name: Number() if None in values or len(values) < 2 else Band.of(values) for name, values in every.items()}

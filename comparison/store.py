@@ -28,8 +28,8 @@ from bent_beam.files import write_atomically
 from bent_beam.versions import versions
 
 __all__ = [
-    "PACKAGES", "RunStore", "check_writable", "default_store", "digest_of_files", "installed", "source_digest",
-    "source_of", "this_code", "write_atomically",
+    "PACKAGES", "RunStore", "check_writable", "code_of", "default_store", "digest_of_files", "installed",
+    "source_digest", "source_of", "this_code", "write_atomically",
 ]  # fmt: skip
 
 PACKAGES = ("bent_beam", "theory", "hermite_fe", "self_similar_fe", "exudyn_models", "comparison")
@@ -89,7 +89,7 @@ class RunStore:
         if kept is not None:
             return kept
         found = compute()
-        with suppress(OSError):  # a full or read-only cache costs time, not the answer
+        with suppress(OSError, ValueError):  # a full cache, a value that JSON lacks: they cost time, not the answer
             write_atomically(file, _canonical({"answer": found, "sha256": _digest(_canonical(found))}))
         return found
 
@@ -115,8 +115,8 @@ def digest_of_files(files: Iterable[Path], root: Path) -> str:
 
 @cache
 def source_digest() -> str:
-    """Digest of this project's own sources: a changed solver must not be served an old answer. Of this process alone
-    where they were edited after it had read them."""
+    """Digest of this project's own sources: a changed solver must not be served an old answer. Where a file was edited
+    after this process had read it, the digest is this process's own, and nobody else is served its answers."""
     files = [file for package in PACKAGES for file in (ROOT / package).rglob("*.py")]
     edited = max(file.stat().st_mtime for file in files) > LOADED
     return digest_of_files(files, ROOT) + (f" {os.getpid()} {LOADED}" if edited else "")
@@ -126,6 +126,12 @@ def this_code() -> dict[str, str]:
     """Versions and digest of the sources that compute in this process."""
     source, *edited = source_digest().split(" ", 1)
     return versions() | {"sources": " ".join([source[:12], *edited])}
+
+
+def code_of(function: Any) -> str:
+    """Name of a function of a module; outside :data:`PACKAGES` with the digest of its file."""
+    name, file = f"{function.__module__}.{function.__qualname__}", Path(inspect.getfile(function))
+    return name if name.partition(".")[0] in PACKAGES else f"{name} {digest_of_files([file], file.parent)}"
 
 
 def source_of(method: Any) -> str | None:

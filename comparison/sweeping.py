@@ -143,8 +143,6 @@ def row_of(varied: dict[str, Any], case: Case | InputError, path: str, store: Ru
 def _found(case: Case, path: str, store: RunStore) -> dict[str, Any]:
     """What runs say in a row."""
     impact, method = case.impact, case.method(path)
-    if reason := method.refuses(impact):
-        raise InputError(reason)
     try:
         separation_times(impact)
     except InputError:

@@ -76,7 +76,7 @@ def bounce(
         document["hits"] = rows
     if out is not None:
         try:
-            document["files"] = [str(file) for file in found.write(out)]
+            document["files"] = [str(file) for file in found.write(out, document)]
         except OSError as error:  # the answer is worth more than its files
             problem_of_files = f"--out: {error}"
 

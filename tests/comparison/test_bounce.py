@@ -3,6 +3,7 @@
 import dataclasses
 import json
 import math
+import os
 from pathlib import Path
 from typing import ClassVar
 
@@ -16,8 +17,11 @@ from bent_beam.history import ImpactHistory
 from bent_beam.measure.numbers import Band
 from bent_beam.meshes import UniformMesh
 from bent_beam.method import method_from_tables
-from comparison.bouncing import bounce, problem
+from comparison.bouncing import bounce, case_of, problem
+from comparison.questions import Question
 from hermite_fe import HermiteFE
+from hermite_fe.contacts import MiddleContact
+from hermite_fe.integrators import SignoriniPosition
 
 COARSE = HermiteFE(mesh=UniformMesh(1.0 / 25))
 
@@ -132,3 +136,43 @@ def test_the_command_gives_numbers_with_bars_figures_and_the_stress_of_the_large
         assert found["peak_stress"][key] == pytest.approx(found["si"]["peak_moment"][key] / modulus, rel=1e-12)
     assert found["si"]["peak_moment_time"]["value"] > 0.0
     assert 0.0 <= found["si"]["peak_moment_place"]["value"] <= 0.5
+
+
+def test_a_contact_or_integrator_that_is_stated_is_that_of_every_run_of_a_band() -> None:
+    """Drawn runs took nodes and Moreau–Jean in their place, without a word."""
+    stated = HermiteFE(contact=MiddleContact(), integrator=SignoriniPosition())
+    every = Question(problem(2.0, 0.0), stated, band=(3, 1)).companions().values()
+    assert [(type(one.contact), type(one.integrator)) for _, one in every] == [(MiddleContact, SignoriniPosition)] * 2
+
+
+class Mortal(HermiteFE):
+    """Runs in the process that its label names: any other dies."""
+
+    def simulate_to_separation(self, impact, **more):
+        if self.label != str(os.getpid()):
+            os._exit(9)
+        return super().simulate_to_separation(impact, **more)
+
+
+def test_runs_whose_processes_die_are_told_and_one_that_is_left_is_no_band() -> None:
+    found = bounce(problem(2.0, 0.0), Mortal(mesh=UniformMesh(0.1), label=str(os.getpid())), runs=3, jobs=2)
+    assert sum(line.startswith("no companion run") for line in found.warnings) == 2
+    assert found.numbers["restitution"].value is None
+
+
+def test_bounce_json_is_the_document_that_was_printed(tmp_path) -> None:
+    both = ("--path", "hermite", "--path", "exudyn", "--damping", "0.01")
+    printed = answered("bounce", "--kappa-over-nu", "2", *both, "--out", tmp_path / "out")
+    written = json.loads((tmp_path / "out" / "bounce.json").read_text())
+    assert [one["path"] for one in written["paths"]] == ["hermite", "exudyn"]
+    assert written["paths"] == printed["paths"]
+
+
+def test_what_companions_say_at_other_damping_ratios_is_passed_on_and_their_seconds_count() -> None:
+    impact = problem(2.0, 0.0)
+    found = bounce(dataclasses.replace(case_of(impact), damping_stated=False), HermiteFE(mesh=UniformMesh(0.1)))
+    assert found.seconds == pytest.approx(sum(one.runs.seconds for one in found.over.values()))
+    other = next(one for one in found.over.values() if one.runs is not found.runs)
+    lost = dataclasses.replace(other, runs=dataclasses.replace(other.runs, lost=["no companion run"]))
+    told = dataclasses.replace(found, over={**found.over, 0.5: lost}).warnings
+    assert any(line.startswith("50 %: no companion run") for line in told)

@@ -14,7 +14,7 @@ from bent_beam.cases import Case, load_case
 from comparison.bouncing import bounce
 from comparison.doubts import doubts
 from comparison.predict_text import prediction_text, wall_lines
-from comparison.predicting import CHECKED, COMPARED, predict_case
+from comparison.predicting import CHECKED, COMPARED, LATEST, predict_case
 from comparison.readable import number_from
 from hermite_fe import HermiteFE
 from hermite_fe.integrators import MoreauJean
@@ -69,6 +69,15 @@ def test_they_agree_as_long_as_the_theory_is_within_2_percent_of_the_stopped_bea
     assert not near.all()
     agreement = predict_case(case_of(impact), [0.069], whole=False).agreement
     assert agreement == pytest.approx({"from": times[0], "until": times[near][-1]})
+
+
+def test_a_time_beyond_those_that_are_simulated_leaves_the_others_compared() -> None:
+    """It said that theory and simulation agree nowhere, where nothing had been compared."""
+    impact = Impact.whole_beam(0.5, relative_damping=1e-2)
+    for times in ([2e-3], [2e-3, 1.1 * LATEST]):
+        found = predict_case(case_of(impact), times, whole=False)
+        assert found.agreement is not None and found.agreement["until"] == pytest.approx(2e-3)
+    assert "are not simulated here" in " ".join(found.warnings)
 
 
 def test_a_beam_of_no_damping_keeps_waves_that_grid_viscosity_absorbs_and_its_bars_hold_them() -> None:

@@ -25,7 +25,7 @@ from comparison.command_line import app, histories
 from comparison.command_line.options import emit
 from comparison.matching import PERTURBATION, match
 from comparison.rows import MatchQuestion, first_order_epsilon
-from comparison.store import RunStore, source_of
+from comparison.store import RunStore, code_of, source_of
 from hermite_fe import HermiteFE
 from hermite_fe.contacts import NodeContact
 
@@ -247,3 +247,14 @@ def test_histories_without_moments_of_the_middle_are_compared(tmp_path):
     history = HermiteFE().simulate(Impact.dimensionless(2.0), end_time=0.01, save=20)
     without = ImpactHistory.of(history.dataset.drop_vars("largest_midspan_moment"))
     assert peak_moment(without).midspan == pytest.approx(peak_moment(history).midspan, rel=0.1)
+
+
+def test_a_reading_of_somebody_s_own_is_kept_with_its_code(tmp_path, monkeypatch):
+    """Its name alone was in the key: an edited one got the numbers of the one before."""
+    monkeypatch.syspath_prepend(tmp_path)
+    (tmp_path / "own_reading.py").write_text("def read(history):\n    return {}\n")
+    read = importlib.import_module("own_reading").read
+    before = code_of(read)
+    (tmp_path / "own_reading.py").write_text("def read(history):\n    return {'energy': 1}\n")
+    assert before.startswith("own_reading.read ") and code_of(read) != before
+    assert code_of(peak_moment) == "bent_beam.measure.reduction.peak_moment"
