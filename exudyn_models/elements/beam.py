@@ -24,7 +24,7 @@ __all__ = ["Beam", "Element", "Section", "shares"]
 VISCOSITY = 0.15  # of √(EIμ)Δx² of an element, λ₀ is off in proportion; tests/exudyn_models/test_exudyn_constants.py
 VISCOSITY_SHEARED = 0.015  # of an element shorter than l_s, in its own time; with 0.15 the first moments are 7 % low
 VISCOSITY_EXPLICIT = 0.003  # more would shorten the stable step
-ROUNDED = 16.0  # times the rounding of one velocity: a residual gathers those of all nodes (seen: 2 to 8)
+ROUNDED = 16.0  # times the rounding of one node's force: a residual gathers those of all nodes (seen: 2 to 8)
 MOST_ROUNDED = 1e-5  # with 1e-3 a damped run to a ten-thousandth of η is accepted, and has 6 % less impulse
 CHOSEN_VISCOSITY = f"{VISCOSITY:g} (shear: {VISCOSITY_SHEARED:g}; explicit: {VISCOSITY_EXPLICIT:g}; whole beam: 0)"
 INERTIA = 1e9  # that no load moves
@@ -98,13 +98,15 @@ class Beam(ABC):
         """Exudyn's item between the nodes ``i`` and ``i`` + 1."""
 
     def round_off(self, velocity: float) -> float:
-        """Viscous force that means nothing, of velocities of this size: no residual of a step can be made smaller.
+        """Force that means nothing, of the deflections of the laid bow (elastic) and of velocities of this size
+        (viscous): no residual of a step can be made smaller.
 
         At most ``MOST_ROUNDED`` of the unit of force: where it is larger, Newton's method stops, and nothing is hidden.
         """
         stiffness = 12.0 * self.lengths / element_times(self.lengths, self.section.shear_length) ** 2
-        rounded = ROUNDED * np.finfo(float).eps * (self.viscosity * stiffness).max()
-        return velocity * min(float(rounded), MOST_ROUNDED)
+        deflections = np.abs(self.shape.y)
+        forces = stiffness * (np.maximum(deflections[:-1], deflections[1:]) + self.viscosity * velocity)
+        return min(float(ROUNDED * np.finfo(float).eps * forces.max()), MOST_ROUNDED * velocity)
 
     def axial_round_off(self) -> float:
         """Force along a beam under an axial force that means nothing: a strain is a difference of places. 0 without."""

@@ -73,6 +73,18 @@ def test_a_hold_behind_the_front_says_until_when_and_how_hard_it_pulled():
     assert held[-1] < 0.0 and np.all(np.diff(held) <= 0.0)
 
 
+def test_newton_goes_no_further_than_the_round_off_of_the_bow_as_it_is_laid():
+    """Elements of 1e-5 of the beam's length at κ/ν = 0.99: a first step without load on any node."""
+    taken = exudyn_models.simulate(
+        Impact.dimensionless(0.99),
+        save=np.array([1e-6, 0.1]),
+        until=lambda *found: found[1] > 0.0,
+        integrator=GeneralizedAlpha(relative_step=2e-3),
+        contact=Penalty(hold_start=0.0),
+    )
+    assert taken.time[-1] == pytest.approx(1e-6, rel=1e-2)
+
+
 def test_nothing_is_held_once_waves_may_be_back():
     """The beam has left the wall when they are; waves change the impulse from 0.01 T* on."""
     beam = Impact(bending_stiffness=0.5, mass_per_length=0.2, length=0.3, curvature=0.05, velocity=1.0)
