@@ -72,7 +72,7 @@ class HermiteFE(Composition):
         What is no impact of a front that spreads from the middle (rocking, a second wall, supports, a stop) gets the
         parts that suit the whole beam.
         """
-        chosen = self if spreads(impact) else self.for_whole_beam(impact)
+        chosen = self if spreads(impact) else self.for_whole_beam(impact, impact.checked_end_time(end_time))
         return simulate(impact, end_time=end_time, save=save, progress=progress, **made_of(chosen))
 
     def chosen_for(self, impact: Impact, end_time: float) -> Self:
@@ -100,9 +100,10 @@ class HermiteFE(Composition):
             mesh = resolution.chosen_mesh(impact, half, end_time, loaded=True)
         return dataclasses.replace(self, mesh=mesh, contact=contact, domain=domain)
 
-    def for_whole_beam(self, impact: Impact) -> Self:
-        """A copy whose open parts are those of a whole beam; its ``refine`` is worked in."""
-        wall, element = wall_scales(impact), impact.half_length / resolution.whole_beam_elements(impact)
+    def for_whole_beam(self, impact: Impact, end_time: float | None = None) -> Self:
+        """A copy whose open parts are those of a whole beam, short enough for a run that ends at ``end_time``, s; its
+        ``refine`` is worked in."""
+        wall, element = wall_scales(impact), resolution.whole_beam_element(impact, end_time)
         if wall is not None:
             element = min(element, resolution.elastic_element(wall, impact.half_length))
         mesh = (self.mesh or UniformMesh(element)).refined(self.refine)

@@ -21,7 +21,7 @@ from hermite_fe.elastic_wall import PEAKS
 from hermite_fe.model import MODELLED, BeamModel, beam_model
 from hermite_fe.run import Stepper, Trajectory, integrate
 from hermite_fe.stepping import ENERGIES
-from hermite_fe.warnings_of_run import rounds_warnings, warnings_of_run
+from hermite_fe.warnings_of_run import lift_warnings, rounds_warnings, warnings_of_run
 
 __all__ = ["refusal", "simulate", "spreads"]
 
@@ -106,6 +106,8 @@ def simulate(
     warnings = rounds_warnings(run.most_iterations)
     if until is None and spreads(impact):
         warnings += warnings_of_run(impact, choice, end, model, history)
+    elif until is None and impact.off_centre:
+        warnings += lift_warnings(impact, model, history)
     history = history.with_warnings(warnings)
     if run.failure:
         raise SimulationError(

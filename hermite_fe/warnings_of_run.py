@@ -14,7 +14,7 @@ from hermite_fe.integrators import Integrator
 from hermite_fe.model import BeamModel
 from hermite_fe.resolution import Choice, front
 
-__all__ = ["rounds_warnings", "warnings_of_run"]
+__all__ = ["lift_warnings", "rounds_warnings", "warnings_of_run"]
 
 Array = NDArray[np.float64]
 
@@ -118,8 +118,8 @@ def lift_warnings(impact: Impact, model: BeamModel, history: ImpactHistory) -> l
         return []
     if impact.lifts or end > FIRST_SPREAD * impact.slow_time_scale:
         return []
-    places, worst, widest = np.abs(model.system.contacts.places), 0.0, 0.0
-    nodes = np.abs(model.beam.nodes)
+    places, worst, widest = np.abs(model.system.contacts.places - impact.first_touch), 0.0, 0.0
+    nodes = np.abs(model.beam.nodes - impact.first_touch)
     instants = np.flatnonzero(time > 0.1 * end)[1:]
     for k in instants:
         before = history.array("impulse", int(np.searchsorted(time, 0.9 * time[k]) - 1))
