@@ -148,9 +148,12 @@ def store_studies(names: Sequence[str] = (), *, file: Path = FILE, jobs: int = 1
 def confirm_studies(names: Sequence[str] = (), *, file: Path = FILE, jobs: int = 1) -> None:
     """Run a sample of the stored studies again and give the file today's digest and words.
 
-    Raises ``ValueError`` naming the first number that differs by more than 2 % (and 0.02 of a per cent).
+    Raises ``ValueError`` where other studies are stored than there are, or naming the first number that differs by more
+    than 2 % (and 0.02 of a per cent).
     """
     before = {note["name"]: note for note in stored.read(file)["studies"]}
+    if others := sorted(before.keys() ^ STUDIES.keys()):
+        raise ValueError(f"{file.name}: stored and no study, or a study and not stored: {', '.join(others)}; run them")
     with TemporaryDirectory() as work:
         sample = notes_of(names or list(STUDIES)[:1], Path(work), jobs)
     for name, note in sample.items():

@@ -66,6 +66,10 @@ def test_stored_studies_carry_their_tables_and_pictures_and_are_confirmed_by_a_r
         stored_studies.store_studies(["friction"], file=file)
     with pytest.raises(ValueError, match="no study is called mess"):
         stored_studies.store_studies(["mess"], file=tmp_path / "none.json")
+    with pytest.raises(ValueError, match=r"a study and not stored: .*damping"):
+        stored_studies.confirm_studies(["restitution"], file=file)
+    two = {name: stored_studies.STUDIES[name] for name in ("restitution", "friction")}
+    monkeypatch.setattr(stored_studies, "STUDIES", two)
     with pytest.raises(ValueError, match=r"restitution: .*no luck"):
         stored_studies.confirm_studies(["restitution"], file=file)
     for worse, refused in ((0.0, False), (1.0, True)):
