@@ -6,11 +6,11 @@
   front, with the damping at grid scale that this takes;
 - later, and for the whole impact: of the whole beam, strictly unilateral, with no damping but the beam's own.
 
-Companions: half the elements and steps; and later another contact law, for no refinement of one scheme shows what the
-scheme does. Without damping late motion does not converge: other elements, steps and contact laws, drawn from a seed.
-Early, too, such a beam keeps the short waves that its ends send back at once and that grid viscosity absorbs in a run
-and in its coarser one alike: a run without that viscosity, on even elements that resolve the contact, shows them.
-Whoever asks the same question gets the same numbers; runs are shared where they are read alike, too.
+Companions: a run of half as many elements and steps. Later also a run with another contact law: no refinement of one
+scheme shows what the scheme does. Without damping late motion does not converge; the companions are then runs whose
+elements, steps and contact laws are drawn from a seed. Such a beam also keeps the short waves that its ends send back
+at once. Grid viscosity absorbs them in a run and in its coarser companion alike, so that an early question has one
+companion without it, on even elements. The same question gets the same numbers, from runs that are kept.
 """
 
 from __future__ import annotations
