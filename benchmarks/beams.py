@@ -34,11 +34,11 @@ from bent_beam.errors import SimulationError
 from bent_beam.files import write_atomically
 from bent_beam.measure.numbers import Number
 from bent_beam.method import for_whole_beam, refined
-from comparison.bounced import NUMBERS
 from comparison.bouncing import bounce, whole_reading
 from comparison.predicting import instants_reading
 from comparison.questions import Question
 from comparison.simulating import simulate_case
+from comparison.whole_numbers import NUMBERS
 from comparison.workers import run_all
 
 __all__ = ["draw", "printed", "references"]

@@ -6,35 +6,21 @@ from typing import Any
 
 from comparison.predict_text import force_line, over_damping_lines
 from comparison.readable import beam_line, in_unit, largest_of, milliseconds, number_from, shown, text_table, unit_for
+from comparison.whole_numbers import WHOLE
 
 __all__ = ["bounce_text"]
-
-TITLES = {
-    "restitution": "coefficient of restitution",
-    "impulse": "impulse",
-    "last_contact": "last contact",
-    "peak_moment": "largest bending moment",
-    "peak_force": "largest force on the wall",
-    "translation": "energy left in translation",
-    "vibration": "energy left in vibration",
-    "dissipated": "energy dissipated",
-}
-EXPERT = {
-    "peak_moment_place": "place of the largest moment, from the middle",
-    "peak_moment_time": "its time",
-    "midspan_moment": "largest moment at the middle",
-    "separations": "separations",
-}
 
 
 def bounce_text(found: dict[str, Any], *, verbose: bool = False) -> str:
     """What ``bentbeam bounce --json`` holds: every number with its error bar, in SI; ``verbose``: also in units of the
     beam, with places and times."""
     rows = []
-    for name, title in {**TITLES, **(EXPERT if verbose else {})}.items():
+    for name, about in WHOLE.items():
+        if not about.title or (about.more and not verbose):
+            continue
         document = found["energy"].get(name) or found.get(name)
         if document is not None:
-            rows.append([title, *_in_si(found, name), str(number_from(document))])
+            rows.append([about.title, *_in_si(found, name), str(number_from(document))])
         elif name == "peak_force":
             within = f"largest impulse within {milliseconds(found['push_window'])}"
             rows.append([within, *_in_si(found, "push"), str(number_from(found["push"]))])

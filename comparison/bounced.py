@@ -24,48 +24,18 @@ from comparison.doubts import doubts
 from comparison.energies import energy_residual, numerical_loss
 from comparison.readable import write_answer
 from comparison.runs import Runs
+from comparison.whole_numbers import WHOLE
 
-__all__ = ["NUMBERS", "SI", "Bounce", "documents", "scales", "stress_of", "unit_of"]
+__all__ = ["Bounce", "documents", "scales", "stress_of"]
 
-NUMBERS = (
-    "restitution",
-    "impulse",
-    "last_contact",
-    "separations",
-    "peak_moment",
-    "peak_moment_place",
-    "peak_moment_time",
-    "midspan_moment",
-    "push",
-    "translation",
-    "vibration",
-    "dissipated",
-)
-"""Fields of :class:`bent_beam.measure.whole_impact.WholeImpact` that get bars."""
-SI = {
-    "impulse": ("impulse", "N s"),
-    "last_contact": ("time", "s"),
-    "peak_moment": ("moment", "N m"),
-    "peak_moment_place": ("length", "m"),
-    "peak_moment_time": ("time", "s"),
-    "midspan_moment": ("moment", "N m"),
-    "peak_force": ("force", "N"),
-    "push": ("impulse", "N s"),
-    "translation": ("energy", "J"),
-    "vibration": ("energy", "J"),
-    "dissipated": ("energy", "J"),
-}
-"""Of a number that has one: what it is scaled by (:func:`scales`), and its unit."""
-
-ENERGY = ("translation", "vibration", "dissipated")
 LYING = 5.0  # times the largest push or moment: the end for a beam that does not leave
 MARGIN = 1.15  # times the last contact, or the largest value: the end of the axes
 
 
 @dataclass(frozen=True)
 class Bounce:
-    """A whole impact: ``numbers`` by name (:data:`NUMBERS`), dimensionless; bands where the beam
-    has no damping.
+    """A whole impact: ``numbers`` by name (:data:`comparison.whole_numbers.WHOLE`), dimensionless; bands
+    where the beam has no damping.
 
     case : of the run that the numbers come from. runs : that and its companions. over : the whole impact at other
     damping ratios, where none was stated, by ratio.
@@ -131,9 +101,9 @@ class Bounce:
 
     @property
     def in_si(self) -> dict[str, Number | Band]:
-        """The numbers in SI units (:data:`SI`); where the section is known, its largest stress, Pa, too."""
+        """The numbers in SI units; where the section is known, its largest stress, Pa, too."""
         unit = self.units
-        found = {name: n.scaled(unit[SI[name][0]]) if name in SI else n for name, n in self.numbers.items()}
+        found = {name: n.scaled(unit.get(WHOLE[name].scale, 1.0)) for name, n in self.numbers.items()}
         stress = self.peak_stress
         return found if stress is None else found | {"peak_stress": stress}
 
@@ -196,16 +166,18 @@ class Bounce:
     def to_dict(self) -> dict[str, Any]:
         """The contract of ``bentbeam bounce --json``."""
         stress, balance, section, question = self.peak_stress, self.balance, self.case.section, self.runs.question
-        si = documents(self.in_si, [name for name in SI if name in self.numbers])
+        si = {name: WHOLE[name].unit for name in self.numbers if WHOLE[name].scale}
+        energies = {name: n.to_dict() for name, n in self.numbers.items() if WHOLE[name].scale == "energy"}
         return {
             "model": self.impact.model,
             "velocity": self.impact.velocity,
             "kappa_over_nu": self.impact.kappa_over_nu,
             "damping": self.impact.relative_damping,
             "hysteretic_loss": self.runs.run.reading["loss"],
-            **{name: number.to_dict() for name, number in self.numbers.items() if name not in ENERGY},
-            "energy": {name: self.numbers[name].to_dict() for name in ENERGY},
-            "si": {name: {**one, "unit": SI[name][1]} for name, one in si.items()} | {"time_unit": self.units["time"]},
+            **{name: number.to_dict() for name, number in self.numbers.items() if name not in energies},
+            "energy": energies,
+            "si": {name: {**self.in_si[name].to_dict(), "unit": unit} for name, unit in si.items()}
+            | {"time_unit": self.units["time"]},
             "peak_stress": None if stress is None else {**stress.to_dict(), "unit": "Pa"},
             "yield_stress": None if section is None else section.yield_stress,
             **peak_times(self.outcome, self.impact),
@@ -262,11 +234,6 @@ class Bounce:
         hardest = max(outcome.peak_moment_time, outcome.push_time)
         last = outcome.last_contact if self.left else min(outcome.last_contact, LYING * (hardest + WINDOW))
         return MARGIN * max(last, outcome.peak_moment_time) * self.units["time"]
-
-
-def unit_of(name: str) -> str:
-    """SI unit of a number."""
-    return "Pa" if name == "peak_stress" else SI.get(name, ("", ""))[1]
 
 
 def scales(impact: Impact) -> dict[str, float]:

@@ -24,15 +24,15 @@ from bent_beam.measure.balance import balance_of
 from bent_beam.measure.numbers import Band, Number
 from bent_beam.measure.whole_impact import whole_impact
 from bent_beam.method import Method, separation_times
-from comparison.bounced import NUMBERS, Bounce
+from comparison.bounced import Bounce
 from comparison.energies import energy_at_end
 from comparison.questions import Question
 from comparison.runs import Runs, bands_of, numbers_of, runs_of
 from comparison.store import RunStore
+from comparison.whole_numbers import FINAL, NUMBERS
 
 __all__ = ["DAMPING_RATIOS", "bounce", "case_of", "problem", "whole_numbers", "whole_reading"]
 
-FINAL = ("restitution", "last_contact", "translation", "vibration", "dissipated")  # only once the beam has left
 TIMES = ("last_contact", "peak_moment_time")
 RUNS = 24  # of a band
 SEED = 15

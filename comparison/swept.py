@@ -8,25 +8,15 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from bent_beam.settings import settings
-from comparison.bounced import unit_of
 from comparison.readable import flat, readable, text_table, unit_for
 from comparison.rows import failures
 from comparison.sweeping import NAMES, Row
+from comparison.whole_numbers import WHOLE
 
 if TYPE_CHECKING:
     import xarray
 
-__all__ = ["TITLES", "SweepTable", "numeric"]
-
-TITLES = {
-    "restitution": "restitution",
-    "impulse": "impulse",
-    "last_contact": "last contact",
-    "peak_moment": "largest moment",
-    "peak_stress": "largest stress",
-    "peak_force": "largest force",
-}
-"""Numbers that a reader sees, with their headings; the others stand in the files."""
+__all__ = ["SweepTable", "numeric"]
 
 
 @dataclass(frozen=True)
@@ -66,7 +56,7 @@ class SweepTable:
         import xarray
 
         columns = {"kappa_over_nu": "1"}
-        columns |= {f"{n}{end}": unit_of(n) or "1" for n in NAMES for end in ("", "_error", "_mean", "_std")}
+        columns |= {f"{n}{end}": WHOLE[n].unit or "1" for n in NAMES for end in ("", "_error", "_mean", "_std")}
         rows, shape = [flat(row.to_dict()) for row in self.rows], [len(values) for values in self.vary.values()]
         variables = {}
         for name, unit in columns.items():
@@ -86,7 +76,8 @@ class SweepTable:
         return self.to_dataset().to_dataframe().reset_index()
 
     def __str__(self) -> str:
-        shown = {name: title for name, title in TITLES.items() if any(name in row.numbers for row in self.rows)}
+        there = {name for row in self.rows for name in row.numbers}
+        shown = {name: about.heading for name, about in WHOLE.items() if about.heading and name in there}
         units = {name: self._unit(name) for name in shown}
         head = [f"{key}, {unit}" if unit else key for key, unit in self.units.items()]
         head += [f"{title}, {units[name][1]}" if units[name][1] else title for name, title in shown.items()]
@@ -105,7 +96,7 @@ class SweepTable:
     def _unit(self, name: str) -> tuple[float, str]:
         """In which a number is written: the same in all rows."""
         values = [row.numbers[name] for row in self.rows if name in row.numbers]
-        return unit_for(unit_of(name), [getattr(one, "mean", one.value) for one in values])
+        return unit_for(WHOLE[name].unit, [getattr(one, "mean", one.value) for one in values])
 
     def _told(self, what: str, sentences: Sequence[Sequence[str]]) -> list[str]:
         """Each of the rows' sentences once, and of which rows it is."""

@@ -9,10 +9,10 @@ import numpy as np
 from scipy.interpolate import PchipInterpolator
 
 from bent_beam.measure.numbers import Band
-from comparison.bounced import unit_of
 from comparison.figures import style
 from comparison.readable import readable, unit_for
-from comparison.swept import TITLES, SweepTable, numeric
+from comparison.swept import SweepTable, numeric
+from comparison.whole_numbers import WHOLE
 
 __all__ = ["sweep_figure"]
 
@@ -65,10 +65,10 @@ def _values(found: SweepTable, name: str) -> list[tuple[float, float] | None]:
 def _grid(found: SweepTable, name: str) -> tuple[Any, Any, str]:
     """Values and bars over the keys, NaN where there is none, and the title of their axis with its unit."""
     pairs = _values(found, name)
-    scale, unit = unit_for(unit_of(name), [pair[0] for pair in pairs if pair])
+    scale, unit = unit_for(WHOLE[name].unit, [pair[0] for pair in pairs if pair])
     shape = [len(values) for values in found.vary.values()]
     array = scale * np.array([pair or (np.nan, np.nan) for pair in pairs]).reshape(*shape, 2)
-    return array[..., 0], array[..., 1], _with_unit(TITLES[name], unit)
+    return array[..., 0], array[..., 1], _with_unit(WHOLE[name].heading, unit)
 
 
 def _with_unit(words: str, unit: str) -> str:
@@ -159,7 +159,7 @@ def _note(found: SweepTable, mapped: bool) -> str:
         return f"Bars: error bars.{missing}"
     name = next(n for n in SHOWN if any(_values(found, n)))
     shares = [abs(pair[1] / pair[0]) for pair in _values(found, name) if pair and pair[0]]
-    wide = f"Error bars of the {TITLES[name]}: {100 * float(np.median(shares)):.2g} % (median), at most "
+    wide = f"Error bars of the {WHOLE[name].heading}: {100 * float(np.median(shares)):.2g} % (median), at most "
     limit, highest = _yield_stress(found), max(pair[0] for pair in _values(found, name) if pair)
     line = ""
     if name == "peak_stress" and limit is not None:

@@ -1,0 +1,46 @@
+"""The numbers of a whole impact: what each is measured in and called. A further one is a line of the table, and a field
+of :class:`bent_beam.measure.whole_impact.WholeImpact`.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+__all__ = ["FINAL", "NUMBERS", "WHOLE", "WholeNumber"]
+
+
+class WholeNumber(NamedTuple):
+    """What is said of a number.
+
+    scale : its SI unit among those of the beam (:func:`comparison.bounced.scales`), empty where it has none; unit : the
+    name of that. title, heading : in the text of an answer and in a sweep's table, empty where it does not stand there.
+    more : stands in the longer text alone. final : exists only once the beam has left.
+    """
+
+    scale: str
+    unit: str
+    title: str = ""
+    heading: str = ""
+    more: bool = False
+    final: bool = False
+
+
+WHOLE = {
+    "restitution": WholeNumber("", "", "coefficient of restitution", "restitution", final=True),
+    "impulse": WholeNumber("impulse", "N s", "impulse", "impulse"),
+    "last_contact": WholeNumber("time", "s", "last contact", "last contact", final=True),
+    "peak_moment": WholeNumber("moment", "N m", "largest bending moment", "largest moment"),
+    "peak_stress": WholeNumber("", "Pa", "", "largest stress"),
+    "peak_force": WholeNumber("force", "N", "largest force on the wall", "largest force"),
+    "push": WholeNumber("impulse", "N s"),
+    "translation": WholeNumber("energy", "J", "energy left in translation", final=True),
+    "vibration": WholeNumber("energy", "J", "energy left in vibration", final=True),
+    "dissipated": WholeNumber("energy", "J", "energy dissipated", final=True),
+    "peak_moment_place": WholeNumber("length", "m", "place of the largest moment, from the middle", more=True),
+    "peak_moment_time": WholeNumber("time", "s", "its time", more=True),
+    "midspan_moment": WholeNumber("moment", "N m", "largest moment at the middle", more=True),
+    "separations": WholeNumber("", "", "separations", more=True),
+}
+NUMBERS = tuple(name for name in WHOLE if name not in ("peak_stress", "peak_force"))
+"""Those of every whole impact: a stress needs a section, a largest force a wall that gives way."""
+FINAL = tuple(name for name, about in WHOLE.items() if about.final)
