@@ -2,7 +2,7 @@
 
 netCDF is HDF5, which can point to other files, hold objects, and unpack a few kilobytes to gigabytes. A history needs
 little: variables of numbers in the root group, attributes of text and numbers. Everything else is refused, before a
-value is read (:func:`examine`).
+value is read (:func:`examine`). A digest of all that is written goes along; what differs from it is refused.
 """
 
 from __future__ import annotations

@@ -86,7 +86,7 @@ def run_all(
 
 def _pays(spent: Sequence[float], left: int) -> bool:
     """Whether ``left`` calls like those that took ``spent``, s, are work for a second process. The first call also
-    loads what it needs."""
+    loads what it needs, so that alone it shows this only if it took longer than :data:`PAYS`."""
     return left > 1 and min(spent) * left > PAYS and (len(spent) > 1 or spent[0] > PAYS)
 
 

@@ -1,7 +1,8 @@
 """Exudyn's time integrators; ``INTEGRATORS`` names them for ``[exudyn.integrator]``.
 
 The impact has no time scale of its own: implicit steps grow with the time since impact, h = c·t, so that every decade
-is resolved alike, starting from the time in which the front crosses the first element.
+is resolved alike, starting from the time in which the front crosses the first element. Those of a whole beam are
+constant at the wall (:mod:`exudyn_models.whole_beam`).
 
 The explicit methods, the fourth-order Runge–Kutta rule, Dormand–Prince 5(4) and velocity Verlet, are stable while the
 step is below limit/ω, where ω bounds the frequencies (and decay rates) of the mesh with every contact closed: for

@@ -3,7 +3,7 @@
 From the first touch to the last separation nothing may be held, nothing damped but by the beam itself, and every part
 of the beam matters alike. So
 
-    a uniform mesh,   constant steps,   the trapezoidal rule,   no viscosity at grid scale.
+    a uniform mesh,   constant steps at the wall,   the trapezoidal rule,   no viscosity at grid scale.
 
 - A beam that touches in a point takes h = ½Δx²√(μ/EI) and the penalty as it is.
 - Where a zone spreads, e is off by what elements lose that land, about in proportion to Δx; the penalty matters less,

@@ -10,8 +10,9 @@ reaction is exact. What they share is what closed rows do (:meth:`Contact.law`),
 
     ġ⁺ = −e ġ⁻ where a row closes                                                           (thesis 3.2.4)
 
-**The hold.** Contact is unilateral. Two options keep closed constraints closed against that, for comparison and for the
-infinite beam's first instants only:
+**The hold.** Contact is unilateral unless its law has a strength (:class:`hermite_fe.constraints.ContactLaw`). Two
+options keep closed constraints closed whatever they pull, for comparison and for the infinite beam's first instants
+only:
 
 - ``hold_until``: nothing that has closed opens before this time (a bilateral start). No mesh resolves the first
   instants, when the front is thinner than an element; the impacts of that phase may leave the zone with a velocity

@@ -1,7 +1,7 @@
 """What a run says of one instant: rim, impulse and force of the wall then, and the largest moment and force until then.
 
-Nothing is of the nearest saved instant: what grows is interpolated, a force is the mean over a window around the
-instant, and the rim is that of what pushes in it. A rigid wall has no largest force: it is an impulse over a window.
+What grows is interpolated between saved instants, a force is the mean over a window around the instant, and the rim
+is that of what pushes in saved intervals around it. A rigid wall has no largest force: it is an impulse over a window.
 """
 
 from __future__ import annotations

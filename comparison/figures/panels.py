@@ -1,5 +1,6 @@
 """Panels of one run in the units of its case: m along the beam, ms, kN, MPa. The wall is below in all of them; heights
-are drawn to a scale that is said; a largest value is marked where and when it is; nothing is cut off."""
+are drawn to a scale that is said; a largest value is marked where and when it is, and where the material yields;
+nothing is cut off."""
 
 from __future__ import annotations
 
