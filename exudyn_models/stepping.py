@@ -1,7 +1,8 @@
 """Exudyn's solver, run in segments of equal steps, its state vectors read after each step.
 
 The segments are planned before the run (:mod:`exudyn_models.segments`); those of a whole beam are laid as it goes, for
-its steps grow with the smallest gap while it is off the wall. Every new segment costs a factorisation, every reading a hundredth of one.
+its steps grow with the smallest gap while it is off the wall. A new segment costs a factorisation, a reading a
+hundredth of one.
 """
 
 from __future__ import annotations

@@ -46,7 +46,7 @@ CaseFile = Annotated[
 Jobs = Annotated[int, typer.Option("--jobs", "-j", min=1, help="Processes on this machine.")]
 ManyJobs = Annotated[
     int | None,
-    typer.Option("--jobs", "-j", min=1, help="Processes on this machine. Default: one per core once 5 s of work are left."),
+    typer.Option("--jobs", "-j", min=1, help="Processes on this machine. Default: one per core from 5 s of work on."),
 ]
 Scheduler = Annotated[
     str | None, typer.Option(help="Address of a dask.distributed scheduler, e.g. tcp://127.0.0.1:8786.")
