@@ -13,8 +13,8 @@ To add a load:
 
 1. ``impact.py``: its field; of a force at a place, the place is a field of its own, with its key in ``tables.py`` and
    ``description.py``. ``scales.py``: without a term its share in ``load_within``, of which momentum, balances and hits
-   follow; if it can pull the beam off the wall, ``lifts``; if it acts on one half alone, ``off_centre``; where a node
-   has to stand, ``meshes.snapped``.
+   follow; if it can pull the beam off the wall, ``lifts``; if it acts on one half alone, ``off_centre``; that its
+   place is on the beam, ``checks.py``; where a node has to stand, ``meshes.snapped``.
 2. The path's file: its name in ``MODELLED``, and without a term its force: ``hermite_fe/model.py`` (``nodal_loads``);
    of Exudyn ``method.py`` (``MODELLED``), ``geometry.py`` (its unit, ``Scaling``) and ``assembly.py`` (``assemble``).
 3. A test (``tests/measure/test_balance.py`` has the balances), a row in ``docs/guide/problems.md``, a line in

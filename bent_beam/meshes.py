@@ -1,4 +1,4 @@
-"""One-dimensional meshes of the half beam 0 ≤ x ≤ L/2, used by both numerical paths.
+"""One-dimensional meshes of the half beam 0 ≤ x ≤ L/2, used by the Hermite and the Exudyn path.
 
 A mesh is a small frozen object; ``mesh.nodes(half_length)`` lays its nodes. A full beam mirrors them
 (:func:`mirrored`). Grading reflects the short waves that an impact radiates (docs/numerics.md): grow by a

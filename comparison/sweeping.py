@@ -31,19 +31,11 @@ from comparison.readable import readable
 from comparison.rows import reason_of
 from comparison.runs import runs_of
 from comparison.store import RunStore
+from comparison.whole_numbers import WHOLE
 
 __all__ = ["NAMES", "Row", "cases_of", "row_of", "varied_from"]
 
-NAMES = (
-    "restitution",
-    "impulse",
-    "last_contact",
-    "peak_moment",
-    "peak_moment_place",
-    "peak_moment_time",
-    "peak_stress",
-    "peak_force",
-)
+NAMES = tuple(name for name, about in WHOLE.items() if about.heading or name.startswith("peak_moment"))
 """Numbers of a row, SI."""
 MOST = 10_000  # rows
 

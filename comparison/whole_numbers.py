@@ -1,5 +1,5 @@
 """The numbers of a whole impact: what each is measured in and called. A further one is a line of the table, and a field
-of :class:`bent_beam.measure.whole_impact.WholeImpact`.
+of :class:`bent_beam.measure.whole_impact.WholeImpact`; with a heading it is a column of a sweep.
 """
 
 from __future__ import annotations

@@ -1,8 +1,8 @@
 """Exudyn's nonlinear and linear solver settings, how to keep it from printing, and its viewer.
 
 Newton's method is run modified (the Jacobian is kept while it converges) on a sparse factorisation whose pattern is
-kept. Residuals are forces in model units, of the size of the amplitude; below ``tolerance`` × amplitude they are
-round-off of 12EI/Δx³·y.
+kept. Residuals are forces in model units, of the size of the amplitude; below ``absolute_tolerance`` × amplitude they
+are round-off of 12EI/Δx³·y.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ class NewtonSolver(Part):
     """How each implicit step is solved.
 
     The absolute tolerance and that of the contact are in units of the model's amplitude, and raised to the round-off of
-    contact and viscous forces where that is larger.
+    contact, elastic, viscous and axial forces (:func:`exudyn_models.assembly.settings_of`) where that is larger.
     """
 
     where: ClassVar[str] = "exudyn.solver"
@@ -51,8 +51,8 @@ class NewtonSolver(Part):
     ] = True
 
     def settings(self, amplitude: float, round_off: float = 0.0, along: float = 0.0) -> Any:
-        """Fresh ``exudyn.SimulationSettings`` with these choices and no files; ``round_off`` of a force at the contact
-        points, and of one ``along`` the beam."""
+        """Fresh ``exudyn.SimulationSettings`` with these choices and no files; ``round_off`` of a force across the
+        beam, and of one ``along`` it."""
         settings = exu.SimulationSettings()
         settings.solution.file.write = False
         settings.solution.sensors.active = False

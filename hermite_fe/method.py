@@ -69,8 +69,8 @@ class HermiteFE(Composition):
     ) -> ImpactHistory:
         """Follow ``impact`` to ``end_time`` (s); see :func:`hermite_fe.simulate`.
 
-        What is no impact of a front that spreads from the middle (rocking, a second wall, supports, a stop) gets the
-        parts that suit the whole beam.
+        What is no impact of a front that spreads from the middle (rocking, a first touch off it, a second wall,
+        supports, a stop) gets the parts that suit the whole beam.
         """
         chosen = self if spreads(impact) else self.for_whole_beam(impact, impact.checked_end_time(end_time))
         return simulate(impact, end_time=end_time, save=save, progress=progress, **made_of(chosen))

@@ -1,4 +1,5 @@
-"""Checks of a run from its state, which an energy budget cannot replace: momentum, initial energy, complementarity.
+"""Checks of a run from its state, which an energy budget cannot replace: momentum, initial energy, complementarity;
+and the limits of all, path by path (``LIMITS``, measured by ``python -m benchmarks.balances``).
 
 Momenta of the modelled beam are integrated from the saved velocities, its mass taken from the problem, so that a wrong
 impulse, a lost mass or a missing load shows, whatever the solver books. With the test functions 1 and x²,

@@ -1,1 +1,1 @@
-"""The predictor: theory in one web page that needs no server and no network."""
+"""The predictor: one web page that simulates a beam and sets the theory beside it, without server or network."""

@@ -253,7 +253,7 @@ def test_the_page_of_the_guide_is_what_the_command_writes() -> None:
     """The words to the letter; the numbers but for rounding, which differs between machines."""
     number = re.compile(r"-?\d+(?:\.\d+)?(?:e-?\d+)?")
     shipped, current = (ROOT / "docs" / "predictor.html").read_text(encoding="utf-8"), page()
-    assert number.sub("#", shipped) == number.sub("#", current), "bentbeam predictor --out docs/predictor.html"
+    assert number.sub("#", shipped) == number.sub("#", current), "bentbeam predictor --out … --overwrite"
     old, new = ([float(v) for v in number.findall(text)] for text in (shipped, current))
     assert old == pytest.approx(new, rel=1e-6, abs=1e-10)
 
