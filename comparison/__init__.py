@@ -11,10 +11,12 @@
     question   questions.py: a beam, a method, until when; it names the run and one more for each cause of error
     runs       runs.py: simulates them or finds them in the store (store.py), each reduced by a reading
     reading    instants_reading (predicting.py), whole_reading (bouncing.py): a history to plain numbers by name
-    answer     numbers with bars (runs.py), in PredictedCase, Bounce (bounced.py), Simulated; SweepTable: rows of such
+    answer     numbers with bars (runs.py), in PredictedCase, Bounce (bounced.py), Simulated, rows of a SweepTable;
+               predict_case (predicting.py) and bounce (bouncing.py) ask the questions and put it together
     printers   to_dict: JSON; *_text.py: the same for readers, by readable.py; figures/
 
-``match`` holds methods, not a beam, against the theory: MatchQuestion (rows.py), runs, moments, MatchRow.
+doors.py has the functions of Python; the commands call the same drivers. ``match`` (matching.py) holds methods, not a
+beam, against the theory: MatchQuestion (rows.py), runs from the same store, bent_beam.measure.estimators, MatchRow.
 """
 
 from typing import Any

@@ -37,8 +37,8 @@ class Bounce:
     """A whole impact: ``numbers`` by name (:data:`comparison.whole_numbers.WHOLE`), dimensionless; bands
     where the beam has no damping.
 
-    case : of the run that the numbers come from. runs : that and its companions. over : the whole impact at other
-    damping ratios, where none was stated, by ratio.
+    case : of the run that the numbers come from. runs : that and its companions. over : where no damping was
+    stated, the whole impact at each damping ratio, this one's too, by ratio.
     """
 
     case: Case
@@ -89,7 +89,7 @@ class Bounce:
 
     @cached_property
     def history(self) -> ImpactHistory:
-        """Of the run itself; simulated again where only its numbers were kept."""
+        """Of the run itself; simulated again unless it was asked for with the numbers."""
         if self.runs.history is not None:
             return self.runs.history
         return self.runs.question.run(self.runs.question.run_by)

@@ -2,7 +2,8 @@
 
 Damping has three states. Stated: numbers. Stated 0, or little hysteretic loss: the motion does not converge
 (docs/whole_impact.md); an ensemble of runs, meshes, steps and contact laws drawn from a seed, gives mean and standard
-deviation. Not stated: numbers at each of :data:`DAMPING_RATIOS`, and the answer is that of the largest stress.
+deviation. Not stated: numbers at each of :data:`DAMPING_RATIOS`, and the answer is that of the largest moment, so of
+the largest stress.
 """
 
 from __future__ import annotations

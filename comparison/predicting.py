@@ -93,10 +93,12 @@ def _thrown_off(impact: Impact, lift: float) -> tuple[float, float]:
 
 @dataclass(frozen=True)
 class PredictedCase:
-    """What is known of a case: ``theory``, at the times ``simulated`` by name, and the whole impact.
+    """What is known of a case.
 
-    agreement : the longest interval, s, in which half length and impulse of theory and simulation agree within bars and
-    2 %. whole : ``None`` where it is not simulated, for the reason ``no_whole``. runs : to the last time.
+    theory : its first rows are the times asked, the rest those of ``agreement``. simulated : a simulation's numbers by
+    name, for each time asked. agreement : the longest interval, s, in which half length and impulse of theory and
+    simulation agree within bars and 2 %. whole : ``None`` where it is not simulated, for the reason ``no_whole``.
+    runs : to the last time.
     """
 
     case: Case

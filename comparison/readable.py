@@ -43,7 +43,7 @@ BEAMS = {
 
 
 def beam_line(model: str, velocity: float) -> str:
-    """The same as a sentence of an answer, with the velocity, m/s, that it became."""
+    """The beam that an answer is of, as a sentence, and the velocity, m/s, at which it touches the wall."""
     return f"{BEAMS[model]} It arrives at {readable(velocity)} m/s."
 
 

@@ -50,7 +50,7 @@ HELD_AGAINST = {"lambda0": 0.0, "r0": 0.0, "lambda1": 1.0, "r1": 1.0}
 
 LEGEND = (
     "± is the error bar, % the difference from theory. lift: largest gap inside the contact zone; pull: largest",
-    "adhesive over largest contact impulse; held: end of the bilateral start; s: seconds of the run.",
+    "adhesive over largest contact impulse; held: end of the bilateral start; s: seconds of its runs.",
 )
 
 EXTREME = 1e30  # of ε: its powers are calculated with
@@ -112,7 +112,7 @@ class MatchRow:
     lift : the largest gap inside the zone over V₀t in the last decade of time; pull : the largest negative contact
     impulse over the largest positive one, after the start; hold : ``{"until": s, "pull": …}`` where any contact was
     held; momentum_residual, gap_of_push : the largest of the runs (:class:`~bent_beam.measure.balance.Balance`);
-    seconds : of all runs of the row; epsilons : of the runs of first order.
+    seconds : of its runs, companions left out; epsilons : of the runs of first order.
     wall : of the question; peak_force : the largest on it, in V₀√μ(EI k)^¼.
     reason : why there are no numbers (``None``: there are); refused : the method had said so before the run.
     """

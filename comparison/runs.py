@@ -47,7 +47,7 @@ class Run:
 @dataclass(frozen=True)
 class Runs:
     """The run of a question and its companions by cause; ``lost``: a sentence for each that could not finish;
-    ``history`` of the run itself, where it was made now."""
+    ``history`` of the run itself, where it was asked for or there was no store."""
 
     question: Question
     run: Run
@@ -100,11 +100,15 @@ def runs_of(
     first, others = question.run_by, question.companions()
     share = 1.0 / (1 + len(others))
     history: ImpactHistory | None = None
+
+    def simulate() -> ImpactHistory:
+        return question.run(first, progress=lambda part: told(share * part))
+
     if whole_history or store is None:
-        history = question.run(first, progress=lambda part: told(share * part))
+        history = simulate()
         run = Run.of(history, read)
     else:
-        run = _run(store, question, read, first, question.impact)
+        run = kept(store, question.key(question.impact), first, read, simulate)
     told(share)
     calls = [(store, question, read, method, impact) for impact, method in others.values()]
     how: dict[str, Any] = {"jobs": jobs, "on_death": lambda _, why: why}
@@ -136,14 +140,10 @@ def kept(
     return replace(Run(**store.answer(key, compute)), kept=not computed)
 
 
-def _run(store: RunStore | None, question: Question, read: Reading, method: Method, impact: Impact) -> Run:
-    return kept(store, question.key(impact), method, read, lambda: question.run(method, impact))
-
-
 def _attempted(store: RunStore | None, question: Question, read: Reading, method: Method, impact: Impact) -> Run | str:
     """A companion: a coarser run may be too coarse, or its reason why there is none."""
     try:
-        return _run(store, question, read, method, impact)
+        return kept(store, question.key(impact), method, read, lambda: question.run(method, impact))
     except (SimulationError, ValueError) as error:
         return str(error)
 

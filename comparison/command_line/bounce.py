@@ -54,7 +54,7 @@ def bounce(
     from comparison.store import RunStore, check_writable
 
     paths = path or ["hermite"]
-    asked = [_asked(case, kappa_over_nu, damping, one, assignments or ()) for one in paths]
+    asked = _asked(case, kappa_over_nu, damping, paths, assignments or ())
     if out is not None:
         check_writable(out, folder=True)
     from comparison.bouncing import bounce as follow  # SciPy: no refusal above waits for it
@@ -91,9 +91,9 @@ def bounce(
 
 
 def _asked(
-    case: Path | None, kappa_over_nu: float | None, damping: float | None, path: str, assignments: Sequence[str]
-) -> tuple[Case, Method]:
-    """The case, or that of the two numbers, and its method."""
+    case: Path | None, kappa_over_nu: float | None, damping: float | None, paths: list[str], assignments: Sequence[str]
+) -> list[tuple[Case, Method]]:
+    """The case, or that of the two numbers, with the method of each path."""
     from bent_beam.cases import load_case
 
     if (case is None) == (kappa_over_nu is None):
@@ -102,10 +102,11 @@ def _asked(
         if damping is not None:
             raise InputError(f"--damping {damping!r} goes with --kappa-over-nu; in a case set beam.damping (s)")
         loaded = load_case(case, assignments)
-        return loaded, loaded.method(path)
+        return [(loaded, loaded.method(path)) for path in paths]
     if damping is None:
         raise InputError("--damping is required next to --kappa-over-nu (eta/T*; 0 for none)")
     from comparison.bouncing import case_of, problem
     from comparison.methods import methods_of
 
-    return case_of(problem(kappa_over_nu or 0.0, damping)), methods_of([path], assignments)[0]
+    beam = case_of(problem(kappa_over_nu or 0.0, damping))
+    return [(beam, method) for method in methods_of(paths, assignments)]

@@ -79,7 +79,7 @@ Refine = Annotated[
     str | None,
     typer.Option(metavar="1,2,4", help="Factors by which elements and steps are refined, a row each."),
 ]
-Fresh = Annotated[bool, typer.Option("--fresh", help="Ignore stored runs.")]
+Fresh = Annotated[bool, typer.Option("--fresh", help="Neither read nor store runs.")]
 Overwrite = Annotated[bool, typer.Option("--overwrite", help="Replace existing files.")]
 
 

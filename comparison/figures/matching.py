@@ -51,7 +51,11 @@ def draw_matching(rows: Sequence[MatchRow], out: Path) -> list[Path]:
 
 def leading_figure(rows: Sequence[MatchRow]) -> Any:
     """λ₀ and r₀ over κ/ν, theory's curve and numerical points, and the relative differences below."""
-    leading = list({(r.label, r.kappa_over_nu): r for r in rows}.values())
+    best: dict[Any, MatchRow] = {}
+    for row in rows:
+        key = (row.label, row.kappa_over_nu)
+        best[key] = max(best.get(key, row), row, key=lambda r: (r.lambda0.measured, r.refine))
+    leading = list(best.values())
     ratios = [r.kappa_over_nu for r in leading]
     curve = np.geomspace(min(*ratios, 0.1) / 2, max(1.5 * max(ratios), 1.0), 400)
     exact = contact_parameters(curve)

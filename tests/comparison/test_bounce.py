@@ -17,8 +17,10 @@ from bent_beam.history import ImpactHistory
 from bent_beam.measure.numbers import Band
 from bent_beam.meshes import UniformMesh
 from bent_beam.method import method_from_tables
-from comparison.bouncing import bounce, case_of, problem
+from comparison.bouncing import bounce, case_of, problem, whole_reading
 from comparison.questions import Question
+from comparison.runs import runs_of
+from comparison.store import RunStore
 from hermite_fe import HermiteFE
 from hermite_fe.contacts import MiddleContact
 from hermite_fe.integrators import SignoriniPosition
@@ -161,11 +163,18 @@ def test_runs_whose_processes_die_are_told_and_one_that_is_left_is_no_band() -> 
 
 
 def test_bounce_json_is_the_document_that_was_printed(tmp_path) -> None:
-    both = ("--path", "hermite", "--path", "exudyn", "--damping", "0.01")
+    scheme = ("--set", "hermite.integrator.kind=moreau_jean")  # of one of the two
+    both = ("--path", "hermite", "--path", "exudyn", "--damping", "0.01", *scheme)
     printed = answered("bounce", "--kappa-over-nu", "2", *both, "--out", tmp_path / "out")
     written = json.loads((tmp_path / "out" / "bounce.json").read_text())
     assert [one["path"] for one in written["paths"]] == ["hermite", "exudyn"]
     assert written["paths"] == printed["paths"]
+
+
+def test_progress_is_told_within_a_run_that_is_kept(tmp_path) -> None:
+    told: list[float] = []
+    runs_of(Question(problem(2.0, 0.01), COARSE), whole_reading, store=RunStore(tmp_path), progress=told.append)
+    assert len([share for share in told if 0.0 < share < 0.3]) > 3
 
 
 def test_what_companions_say_at_other_damping_ratios_is_passed_on_and_their_seconds_count() -> None:
