@@ -103,10 +103,12 @@ class HermiteFE(Composition):
     def for_whole_beam(self, impact: Impact, end_time: float | None = None) -> Self:
         """A copy whose open parts are those of a whole beam, short enough for a run that ends at ``end_time``, s; its
         ``refine`` is worked in."""
-        wall, element = wall_scales(impact), resolution.whole_beam_element(impact, end_time)
-        if wall is not None:
-            element = min(element, resolution.elastic_element(wall, impact.half_length))
-        mesh = (self.mesh or UniformMesh(element)).refined(self.refine)
+        wall, mesh = wall_scales(impact), self.mesh
+        if mesh is None:
+            element = resolution.whole_beam_element(impact, end_time)
+            soft = element if wall is None else resolution.elastic_element(wall, impact.half_length)
+            mesh = UniformMesh(min(element, soft))
+        mesh = mesh.refined(self.refine)
         shortest = float(np.diff(mesh.nodes(impact.half_length)).min())
         contact = self.contact or NodeContact()
         chosen = self.integrator or resolution.whole_beam_scheme(impact, contact)

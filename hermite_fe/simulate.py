@@ -106,7 +106,7 @@ def simulate(
     warnings = rounds_warnings(run.most_iterations)
     if until is None and spreads(impact):
         warnings += warnings_of_run(impact, choice, end, model, history)
-    elif until is None and impact.off_centre:
+    elif until is None and spreads(impact.replace(first_touch=0.0)):  # without rocking and a second wall
         warnings += lift_warnings(impact, model, history)
     history = history.with_warnings(warnings)
     if run.failure:

@@ -163,8 +163,8 @@ def test_runs_whose_processes_die_are_told_and_one_that_is_left_is_no_band() -> 
 
 
 def test_bounce_json_is_the_document_that_was_printed(tmp_path) -> None:
-    scheme = ("--set", "hermite.integrator.kind=moreau_jean")  # of one of the two
-    both = ("--path", "hermite", "--path", "exudyn", "--damping", "0.01", *scheme)
+    each = [f"{path}.mesh={{kind='uniform', element_length=0.05}}" for path in ("hermite", "exudyn")]
+    both = ("--path", "hermite", "--path", "exudyn", "--damping", "0.01", "--set", each[0], "--set", each[1])
     printed = answered("bounce", "--kappa-over-nu", "2", *both, "--out", tmp_path / "out")
     written = json.loads((tmp_path / "out" / "bounce.json").read_text())
     assert [one["path"] for one in written["paths"]] == ["hermite", "exudyn"]

@@ -180,3 +180,7 @@ def test_an_early_impact_off_the_middle_of_a_long_beam_has_the_impulse_of_one_at
     assert met or kappa_over_nu < 0.2
     with pytest.raises(ValueError, match=r"^end_time: before .* s the contact is too short for even elements"):
         HermiteFE().simulate(beside, end_time=1e-6)
+    given = HermiteFE(mesh=UniformMesh(0.1)).simulate(beside, end_time=1e-6)  # a mesh that is given is taken
+    assert given.array("total_impulse")[-1] >= 0.0
+    walls = Impact.whole_beam(0.5).replace(rotation=0.1, opposite_wall=0.3)
+    assert HermiteFE().simulate(walls, end_time=0.002).warnings == []
