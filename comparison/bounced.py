@@ -166,7 +166,7 @@ class Bounce:
     def to_dict(self) -> dict[str, Any]:
         """The contract of ``bentbeam bounce --json``."""
         stress, balance, section, question = self.peak_stress, self.balance, self.case.section, self.runs.question
-        si = {name: WHOLE[name].unit for name in self.numbers if WHOLE[name].scale}
+        in_si = documents(self.in_si, [name for name in self.numbers if WHOLE[name].scale])
         energies = {name: n.to_dict() for name, n in self.numbers.items() if WHOLE[name].scale == "energy"}
         return {
             "model": self.impact.model,
@@ -176,7 +176,7 @@ class Bounce:
             "hysteretic_loss": self.runs.run.reading["loss"],
             **{name: number.to_dict() for name, number in self.numbers.items() if name not in energies},
             "energy": energies,
-            "si": {name: {**self.in_si[name].to_dict(), "unit": unit} for name, unit in si.items()}
+            "si": {name: {**one, "unit": WHOLE[name].unit} for name, one in in_si.items()}
             | {"time_unit": self.units["time"]},
             "peak_stress": None if stress is None else {**stress.to_dict(), "unit": "Pa"},
             "yield_stress": None if section is None else section.yield_stress,

@@ -24,11 +24,11 @@ from self_similar_fe.mesh import ExpandingMesh
 __all__ = ["Similarity", "leading_obstacle", "similarity"]
 
 Array = NDArray[np.float64]
-GAP_ROUND_OFF = 1e-10  # in W, that is in units of V₀t
+GAP_ROUND_OFF = 1e-10  # in W, that is V₀t; at 1e-9 pressed zones rest on so few nodes that λ₁, r₁ scatter by 2 %
 FAST = 0.75  # of the round before: all wrong contacts are exchanged while their number falls below this share of it
 FEW = 2  # runs up to this length are exchanged whole
 PATIENCE = 10  # rounds without progress before only the last wrong one is exchanged (Murty's rule)
-ONE_BY_ONE = 40  # of those rounds before both tolerances are widened tenfold
+ONE_BY_ONE = 40  # of those rounds before both tolerances are widened tenfold; with 30 r₁ scatters more
 MOST_ROUNDS = 500  # in a step
 BAND = 3  # half-bandwidth of Hermite elements: two nodes of two degrees of freedom
 

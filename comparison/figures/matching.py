@@ -6,7 +6,7 @@ A number that is missing is left out, and the figure says how many were.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from itertools import cycle
 from pathlib import Path
 from typing import Any
@@ -38,24 +38,24 @@ def write_match(rows: Sequence[MatchRow], out: Path) -> list[Path]:
 
 def draw_matching(rows: Sequence[MatchRow], out: Path) -> list[Path]:
     """Every matching plot that the rows have data for; returns the files. The finest refinement is drawn."""
-    finest: dict[Any, MatchRow] = {}
-    for row in rows:
-        key = (row.label, row.kappa_over_nu, row.first)
-        finest[key] = max(finest.get(key, row), row, key=lambda r: r.refine)
-    shown = list(finest.values())
+    shown = _best(rows, lambda r: (r.label, r.kappa_over_nu, r.first), lambda r: r.refine)
     files = style.save(leading_figure(shown), out, "leading") if any(r.lambda0.measured for r in shown) else []
     if any(r.lambda1.measured for r in shown):
         files += draw_first_order(shown, out)
     return files
 
 
+def _best(rows: Sequence[MatchRow], key: Callable[[MatchRow], Any], by: Callable[[MatchRow], Any]) -> list[MatchRow]:
+    """Of the rows of each ``key`` the first of those that are best ``by`` this."""
+    found: dict[Any, MatchRow] = {}
+    for row in rows:
+        found[key(row)] = max(found.get(key(row), row), row, key=by)
+    return list(found.values())
+
+
 def leading_figure(rows: Sequence[MatchRow]) -> Any:
     """λ₀ and r₀ over κ/ν, theory's curve and numerical points, and the relative differences below."""
-    best: dict[Any, MatchRow] = {}
-    for row in rows:
-        key = (row.label, row.kappa_over_nu)
-        best[key] = max(best.get(key, row), row, key=lambda r: (r.lambda0.measured, r.refine))
-    leading = list(best.values())
+    leading = _best(rows, lambda r: (r.label, r.kappa_over_nu), lambda r: (r.lambda0.measured, r.refine))
     ratios = [r.kappa_over_nu for r in leading]
     curve = np.geomspace(min(*ratios, 0.1) / 2, max(1.5 * max(ratios), 1.0), 400)
     exact = contact_parameters(curve)

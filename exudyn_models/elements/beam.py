@@ -101,7 +101,8 @@ class Beam(ABC):
         """Force that means nothing, of the deflections of the laid bow (elastic) and of velocities of this size
         (viscous): no residual of a step can be made smaller.
 
-        At most ``MOST_ROUNDED`` of the unit of force: where it is larger, Newton's method stops, and nothing is hidden.
+        At most ``MOST_ROUNDED`` times ``velocity``, the amplitude of the model: where it is larger, Newton's method
+        stops, and nothing is hidden.
         """
         stiffness = 12.0 * self.lengths / element_times(self.lengths, self.section.shear_length) ** 2
         deflections = np.abs(self.shape.y)

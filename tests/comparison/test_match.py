@@ -1,7 +1,7 @@
 """The point of the project: any method is held against the theory, and those of this project agree with it."""
 
 import json
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import product
 from pathlib import Path
 
@@ -9,7 +9,8 @@ import pytest
 from strangers import Stranger
 
 from bent_beam import ImpactHistory, InputError
-from comparison.figures.matching import write_match
+from bent_beam.measure.numbers import MISSING
+from comparison.figures.matching import leading_figure, write_match
 from comparison.matching import answer, match
 from comparison.methods import methods_from_file, methods_of
 from comparison.rows import MatchQuestion, failures, match_table, questions
@@ -143,6 +144,18 @@ def test_what_fails_is_a_row_with_its_reason(tmp_path, monkeypatch):
     assert document["rows"][1]["r0"] == {"value": None, "error": None, "theory": rows[0].r0.theory}
     assert [f["label"] for f in document["failures"]] == ["fails", "creeps"]
     assert all(r.reason in match_table(rows) for r in rows if r.reason)
+
+
+def test_the_plot_shows_what_was_measured_and_says_what_is_missing_of_nothing_else():
+    """Of one κ/ν a run of first order that failed, before or after, takes no point of leading order away."""
+    good, other = (answer(MatchQuestion(Stranger(), kappa), KEEP) for kappa in (0.5, 0.6))
+    lost = replace(good, alpha=1.0, lambda0=MISSING, r0=MISSING, refine=2.0, reason="stopped")
+    for rows in ([good, lost, other], [lost, good, other]):
+        figure = leading_figure(rows)
+        assert "left out" not in figure.get_supxlabel()
+        (points,) = (line for line in figure.axes[0].lines if line.get_label() == "Stranger")
+        assert points.get_xdata().tolist() == [0.5, 0.6]
+    assert "1 row (Stranger)" in leading_figure([lost, other]).get_supxlabel()
 
 
 def test_what_fails_outside_its_run_costs_its_row_too():
