@@ -21,19 +21,7 @@ must be a fraction of ℓ where the front is, steps a fraction of its travel ove
   the rim of the zone over some ℓ_k, and the force rises and falls over some t_k, whatever the zone does. A zone that is
   short when the force is largest, κ/ν > 1, has then a half length of about ℓ_k(κ/ν)^−⅜.
 
-The whole beam, until it has left the wall, asks for something else: nothing may be absorbed, nothing held behind a
-front (a hold glues the zone when waves come back), and every part of the beam matters alike. So
-
-    a uniform mesh,   steps h = ½Δx²√(μ/EI),   Signorini's law alone,   the beam's own damping alone.
-
-Signorini's condition at the new position with θ = ½, which damps nothing but in impacts, comes nearest to converged
-values on a given mesh (docs/whole_impact.md); Moreau–Jean asks for the same at velocity level.
-
-A beam with shear has waves of a largest speed: steps may be longer, in proportion to elements. Signorini's condition at
-the new position with θ = ½ rebounds nodes by chance where the front of a zone outruns shear waves, and under loads;
-Moreau–Jean does not. Of one point the position is nearer to converged values (docs/shear.md):
-
-    h = T* Δx/(80 · ½L),   Moreau–Jean, of one point that no load presses Signorini's law; all else as above.
+A whole beam asks for something else: :mod:`hermite_fe.whole_beam`.
 
 The constants below are studied in tests/hermite_fe/test_constants.py: halved and doubled they move λ₀ and r₀ by less
 than the error bar that goes with them.
@@ -51,15 +39,15 @@ from numpy.typing import NDArray
 
 from bent_beam.errors import InputError
 from bent_beam.fields import Part, Quantity
-from bent_beam.impact import BEFORE_WAVES_RETURN, Impact
-from bent_beam.loads import WallScales, wall_scales
+from bent_beam.impact import Impact
+from bent_beam.loads import wall_scales
 from bent_beam.meshes import GradedMesh, Mesh, ScaleFreeMesh, snapped
 from hermite_fe.contacts import Contact, NodeContact
 from hermite_fe.far_fields import FarField, GridViscosity
 from hermite_fe.integrators import Integrator, Midpoint, MoreauJean, SignoriniPosition
 from hermite_fe.masses import ConsistentMass, Mass
 
-__all__ = ["ELEMENTS", "Choice", "Composition", "choose", "front"]
+__all__ = ["Choice", "Composition", "choose", "front"]
 
 Array = NDArray[np.float64]
 
@@ -71,7 +59,6 @@ GROWTH = 0.01  # of elements, at most
 GROWTH_OUTSIDE = 0.015
 LARGEST_STEP = 1e-3  # of the time since impact
 LONGEST_FIRST_STEP = 2e-3  # of the run
-FEWEST_IN_FRONT = 4.0  # with fewer even elements the early impulse of one point is off by more than 1 %
 ELEMENTS_IN_THIN_FRONT = 12.0  # in ℓ at the end, for κ/ν < THIN
 MOST_ELEMENTS = 25_000  # over the zone, for κ/ν < THIN
 MOST_ON_A_BEAM = 2_000  # likewise, where the front runs over all of the half beam, or before a wall that gives way
@@ -79,13 +66,7 @@ SHORTEST_THIN_STEP = 5e-4  # of the run
 LOADED = (1.3e-3, 33.0, 0.005)  # SMALLEST_ELEMENT, ELEMENTS_IN_FRONT, GROWTH of runs that measure what a load changes
 PRESSED_HOLD = 16  # constraints, of runs that measure what a load changes and presses the zone on
 DOMAIN = 24.0  # √(t/t*) l*: least half length for such a run; 12 and 48 are as good, at 6 waves come back
-ELEMENTS = 200  # of a half beam that is followed until it has left
-SHEARED_ELEMENTS, SHEARED_STEP = 100, 0.0125  # likewise with shear; step, T*, over the element's share of the half beam
-HARD = 2.0  # times as many, and steps: where a front is thin or damping small
-THICK, DAMPED = 0.35, 3e-4  # κ/ν and η/T* from which on neither is
-ONE_POINT = 2.0  # κ/ν from which on a whole impact with shear is that of one point
-PRESSED = 0.5  # of the beam's momentum, that loads give it in a T*: from then on they press
-ELASTIC_ELEMENT, LARGEST_ELASTIC = 0.08, 0.25  # of ℓ_k: elements over the zone, and of a whole beam
+ELASTIC_ELEMENT = 0.08  # of ℓ_k: elements over the zone
 ELASTIC_REACH = 4.0  # ℓ_k beyond the front
 ELASTIC_STEP = 0.01  # of t_k
 
@@ -173,46 +154,6 @@ def scheme_for(impact: Impact, contact: Contact, theta: float = 1.0) -> Integrat
     return SignoriniPosition(theta=theta) if contact.restitution == 0.0 else MoreauJean(theta=theta)
 
 
-def whole_beam_scheme(impact: Impact, contact: Contact) -> Integrator:
-    """The integrator that is chosen for a whole beam."""
-    begin, end = impact.wall_span
-    pressed = impact.net_load * impact.slow_time_scale > PRESSED * impact.mass_per_length * impact.velocity
-    point = (impact.kappa_over_nu >= ONE_POINT or begin == end) and not pressed
-    if impact.shear_stiffness is not None and impact.wall_stiffness is None and not point:
-        return MoreauJean(theta=0.5)
-    return scheme_for(impact, contact, theta=0.5)
-
-
-def whole_beam_element(impact: Impact, end_time: float | None) -> float:
-    """Length, m, of even elements of a beam that is followed until it has left, or to ``end_time``, s.
-
-    Raises ``ValueError`` for an end that would take too many.
-    """
-    elements = float(ELEMENTS)
-    if impact.shear_stiffness is not None:
-        easy = impact.kappa_over_nu >= THICK and impact.relative_damping >= DAMPED
-        elements = SHEARED_ELEMENTS if easy else HARD * SHEARED_ELEMENTS
-    before = BEFORE_WAVES_RETURN * impact.slow_time_scale
-    spreads = impact.relative_curvature > 0.0 and not (impact.supported or impact.wall_in_part)
-    if spreads and end_time is not None and end_time < before:
-        in_half = impact.half_length / front(impact, end_time)[1]
-        if FEWEST_IN_FRONT * in_half > MOST_ON_A_BEAM:
-            earliest = end_time * (FEWEST_IN_FRONT * in_half / MOST_ON_A_BEAM) ** 2
-            raise InputError(
-                f"end_time: before {earliest:.3g} s the contact is too short for even elements, which a beam that does "
-                f"not touch at its middle alone gets (got {end_time!r}); give [mesh], or a shorter beam.length"
-            )
-        elements = max(elements, min(ELEMENTS_IN_FRONT * in_half, MOST_ON_A_BEAM))
-    return impact.half_length / elements
-
-
-def whole_beam_step(impact: Impact, element: float) -> float:
-    """Step, s, on such elements of this length, m, before a rigid wall."""
-    if impact.shear_stiffness is None:
-        return 0.5 * element**2 / impact.wave_constant
-    return SHEARED_STEP * element / impact.half_length * impact.slow_time_scale
-
-
 def modelled_half_length(impact: Impact, domain: float | None) -> float:
     """Half length, m, of what is modelled; ``ValueError`` when ``domain`` is longer than the beam."""
     if domain is not None and domain > impact.half_length:
@@ -250,11 +191,6 @@ def chosen_mesh(impact: Impact, half: float, end_time: float, *, loaded: bool = 
         growth=1.0 + min(growth, kappa / in_front),
         **({} if zone == half else {"zone": zone, "growth_outside": 1.0 + GROWTH_OUTSIDE}),
     )
-
-
-def elastic_element(wall: WallScales, half: float) -> float:
-    """Length of equal elements of a whole beam before a wall that gives way, m."""
-    return max(LARGEST_ELASTIC * wall.length, half / MOST_ON_A_BEAM)
 
 
 def chosen_integrator(impact: Impact, end_time: float, nodes: Array, integrator: Integrator) -> Integrator:

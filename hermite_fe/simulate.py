@@ -22,6 +22,7 @@ from hermite_fe.model import MODELLED, BeamModel, beam_model
 from hermite_fe.run import Stepper, Trajectory, integrate
 from hermite_fe.stepping import ENERGIES
 from hermite_fe.warnings_of_run import lift_warnings, rounds_warnings, warnings_of_run
+from hermite_fe.whole_beam import begins
 
 __all__ = ["refusal", "simulate", "spreads"]
 
@@ -106,7 +107,7 @@ def simulate(
     warnings = rounds_warnings(run.most_iterations)
     if until is None and spreads(impact):
         warnings += warnings_of_run(impact, choice, end, model, history)
-    elif until is None and spreads(impact.replace(first_touch=0.0)):  # without rocking and a second wall
+    elif until is None and begins(impact, end) and not impact.supported:
         warnings += lift_warnings(impact, model, history)
     history = history.with_warnings(warnings)
     if run.failure:

@@ -118,15 +118,15 @@ def lift_warnings(impact: Impact, model: BeamModel, history: ImpactHistory) -> l
         return []
     if impact.lifts or end > FIRST_SPREAD * impact.slow_time_scale:
         return []
-    places, worst, widest = np.abs(model.system.contacts.places - impact.first_touch), 0.0, 0.0
-    nodes = np.abs(model.beam.nodes - impact.first_touch)
-    instants = np.flatnonzero(time > 0.1 * end)[1:]
-    for k in instants:
+    places = model.system.contacts.places[~model.behind] - impact.first_touch
+    nodes, worst, widest = model.beam.nodes - impact.first_touch, 0.0, np.zeros(model.beam.nodes.size, bool)
+    for k in np.flatnonzero(time > 0.1 * end)[1:]:
         before = history.array("impulse", int(np.searchsorted(time, 0.9 * time[k]) - 1))
-        zone = 0.8 * float(np.max(places[history.array("impulse", k) > before], initial=0.0))
-        lift = np.max(history.array("gap", k)[nodes < zone], initial=0.0)
-        worst, widest = max(worst, float(lift) / (impact.velocity * time[k])), max(widest, zone)
-    longest = float(np.diff(np.unique(nodes[nodes <= widest])).max(initial=0.0))
+        pushed = places[history.array("impulse", k) > before]
+        inside = (nodes >= 0.8 * pushed.min(initial=0.0)) & (nodes < 0.8 * pushed.max(initial=0.0))
+        lift = np.max(history.array("gap", k)[inside], initial=0.0)
+        worst, widest = max(worst, float(lift) / (impact.velocity * time[k])), widest | inside
+    longest = float(np.diff(nodes[widest]).max(initial=0.0))
     own = max(math.sqrt(impact.wave_constant * impact.damping), impact.shear_length)
     resolved = own > 0.0 and own >= DAMPED * longest
     if worst <= LARGEST_LIFT or resolved:

@@ -63,7 +63,7 @@ def instant(history: ImpactHistory, time: float, *, first_spread: bool = False, 
         front = float(np.interp(time, history.time, moments(history).front)) * history.impact.length_scale
     else:
         front = first_front(history, k)
-    peak = _so_far(peak_moment, history, time, "moment")
+    peak = _so_far(peak_moment, history, time, "moment", jumps=True)
     wall = _so_far(wall_peaks, history, time, "force", "penetration", "pressure")
     begin, end = history.impact.wall_span
     return Instant(
@@ -84,12 +84,12 @@ def instant(history: ImpactHistory, time: float, *, first_spread: bool = False, 
     )
 
 
-def _so_far(read: Callable[..., Any], history: ImpactHistory, time: float, *names: str) -> Any:
+def _so_far(read: Callable[..., Any], history: ImpactHistory, time: float, *names: str, jumps: bool = False) -> Any:
     """The largest of all steps until ``time``: between the saved instants before and after, what grows is
-    interpolated."""
+    interpolated. What ``jumps`` at the impact does not grow from 0 to the first saved instant."""
     k = min(int(np.searchsorted(history.time, time)), history.time.size - 1)
     late = read(history, until=float(history.time[k]))
-    if late is None or k == 0:
+    if late is None or k == 0 or (jumps and k == 1):
         return late
     early, span = read(history, until=float(history.time[k - 1])), history.time[k - 1 : k + 1]
     mixed = {name: float(np.interp(time, span, (getattr(early, name), getattr(late, name)))) for name in names}

@@ -9,7 +9,7 @@ from bent_beam.measure.whole_impact import whole_impact
 from bent_beam.method import simulate_to_separation
 from hermite_fe import HermiteFE
 from hermite_fe.integrators import MoreauJean, NonsmoothGeneralizedAlpha, SignoriniPosition
-from hermite_fe.resolution import ELEMENTS
+from hermite_fe.whole_beam import ELEMENTS
 
 RESTITUTIONS = [
     pytest.param(float(kappa), stated(damping.replace("10", "1e", 1))[0], hermite, id=f"{kappa}-{damping}")

@@ -69,3 +69,9 @@ def test_a_weight_that_is_lifted_leaves_when_the_lift_exceeds_the_strength(schem
 def test_schemes_that_let_nothing_pull_refuse_a_strength(name: str) -> None:
     with pytest.raises(ValueError, match="strength has no effect with"):
         run(ALL[name](STEP), AdhesiveContact(pull=1.0))
+
+
+def test_a_strength_below_0_is_refused() -> None:
+    system = System([[1.0]], [[0.0]], ContactRows([[0]], [[1.0]], [0.0]))
+    with pytest.raises(ValueError, match=r"strength must be 0 or more, N \(got -1.0\)"):
+        integrate(system, np.zeros(1), np.zeros(1), MoreauJean(STEP), 1.0, law=ContactLaw(strength=-np.ones(1)))

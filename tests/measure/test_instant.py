@@ -20,3 +20,12 @@ def test_the_largest_until_a_time_between_saved_instants_is_that_of_the_steps_un
         for name in ("peak_moment", "peak_force", "peak_penetration", "peak_pressure"):
             assert getattr(found, name) == pytest.approx(getattr(exact, name), rel=2e-3), name
         assert max(found.peak_moment_time, found.peak_force_time) <= time
+
+
+def test_the_largest_moment_of_the_first_instants_is_not_interpolated_from_before_the_impact() -> None:
+    """It is there at once, V₀√(EIμ) of one point, and does not grow from 0 to the first saved instant."""
+    impact = Impact.whole_beam(2.0)
+    fine, coarse = (HermiteFE().simulate(impact, end_time=0.004, save=n) for n in (400, 3))
+    early = 0.5 * float(coarse.time[1])
+    assert instant(coarse, early).peak_moment == pytest.approx(instant(fine, early).peak_moment, rel=0.03)
+    assert instant(coarse, early).peak_moment > 0.9
