@@ -8,7 +8,7 @@ export OMP_NUM_THREADS := 1
 export OPENBLAS_NUM_THREADS := 1
 JOBS ?= 2
 
-.PHONY: help report test verify lint bench coverage stored faults fuzz docs gallery update lowest newest clean
+.PHONY: help report test verify lint bench coverage stored faults fuzz docs gallery update wheel lowest newest clean
 
 help:
 	@echo "make report   match both simulations with the theory and write out/report/index.html"
@@ -75,8 +75,7 @@ gallery: $(STAMP)
 # One lock for every platform and Python that pyproject.toml allows.
 COMPILE = $(BIN)/uv pip compile --quiet --upgrade --universal --python-version 3.11 --generate-hashes --no-emit-index-url \
 	--no-annotate --no-header pyproject.toml
-update: $(STAMP)
-	$(PIP) install uv
+update: $(BIN)/uv
 	$(COMPILE) --extra test --extra lint --output-file requirements.lock
 	$(COMPILE) --extra docs --output-file requirements-docs.lock
 
@@ -86,12 +85,16 @@ update: $(STAMP)
 AT ?= $(BIN)/python
 QUICK := tests/test_package.py tests/bent_beam tests/theory/test_theory_contact.py tests/theory/test_theory_similarity.py \
 	tests/hermite_fe/test_hermite_compiled.py
-lowest newest: $(STAMP)
-	@$(BIN)/uv --version >/dev/null 2>&1 || $(PIP) install uv
+$(BIN)/uv: $(STAMP)
+	$(PIP) install uv
+	@touch $@
+wheel: $(BIN)/uv
+	rm -rf build .venv-wheel && $(BIN)/uv build --quiet --wheel --out-dir .venv-wheel
+lowest newest: wheel
 	$(BIN)/uv venv --quiet --clear --python $(AT) .venv-$@
-	$(BIN)/uv pip install --quiet --python .venv-$@/bin/python --resolution $(if $(filter lowest,$@),lowest-direct,highest) '.[quick]'
+	$(BIN)/uv pip install --quiet --python .venv-$@/bin/python --resolution $(if $(filter lowest,$@),lowest-direct,highest) "$$(ls .venv-wheel/*.whl)[quick]"
 	BENTBEAM_STORE=.venv-$@/store .venv-$@/bin/bentbeam match --kappa-over-nu 2
 	.venv-$@/bin/python -m pytest -m "not verify" $(QUICK)
 
 clean:
-	rm -rf $(VENV) .venv-lowest .venv-newest out site .pytest_cache .mypy_cache .ruff_cache
+	rm -rf $(VENV) .venv-wheel .venv-lowest .venv-newest out site .pytest_cache .mypy_cache .ruff_cache

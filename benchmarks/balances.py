@@ -1,4 +1,4 @@
-"""What sound default runs leave of momentum, energy and contact: the limits of :mod:`bent_beam.measure.balance`.
+"""What sound default runs leave of momentum, energy and contact: :mod:`bent_beam.measure.limits`.
 
     make coverage                                (python -m benchmarks.balances [--runs 60] [--path NAME] [--seed N])
 
@@ -21,7 +21,8 @@ import numpy as np
 from benchmarks.coverage import log_uniform
 from bent_beam import Impact
 from bent_beam.errors import InputError, SimulationError
-from bent_beam.measure.balance import ELSEWHERE, LIMITS, Balance, balance_of
+from bent_beam.measure.balance import Balance, balance_of
+from bent_beam.measure.limits import ELSEWHERE, LIMITS
 from bent_beam.method import method_from_tables, simulate_to_separation
 
 __all__ = ["judged"]

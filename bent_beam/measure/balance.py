@@ -1,5 +1,5 @@
-"""Checks of a run from its state, which an energy budget cannot replace: momentum, initial energy, complementarity;
-and the limits of all, path by path (``LIMITS``, measured by ``python -m benchmarks.balances``).
+"""Checks of a run from its state, which an energy budget cannot replace: momentum, initial energy, complementarity.
+Their limits, path by path, are those of :mod:`bent_beam.measure.limits`.
 
 Momenta of the modelled beam are integrated from the saved velocities, its mass taken from the problem, so that a wrong
 impulse, a lost mass or a missing load shows, whatever the solver books. With the test functions 1 and x²,
@@ -23,6 +23,8 @@ from numpy.typing import NDArray
 
 from bent_beam.files import ENERGIES
 from bent_beam.history import ImpactHistory
+from bent_beam.measure.limits import beyond_limits, limited_as
+from bent_beam.measure.reduction import hold_of
 
 __all__ = ["Balance", "balance_of"]
 
@@ -32,20 +34,6 @@ OUT_OF_BALANCE = 3e-3  # of the impulse: 16 elements a half beam leave 1e-3, def
 MISPLACED = 5e-3  # of the second moment of the impulses, likewise
 ROUND_OFF = 1e-8
 LAST = 0.5  # of the run that is looked at: earlier, the start is not resolved
-LIMITS = {
-    "hermite": {"penetration": 1e-3, "pull": 1e-3, "energy": 4e-7, "middle_slope": 1e-9},
-    "self_similar": {"penetration": 1e-5, "pull": 0.1, "energy": 0.06, "middle_slope": 3e-8},
-    "exudyn": {"penetration": 2e-3, "pull": 1e-6, "energy": 4e-7, "middle_slope": 1e-9},
-}
-"""At least ten times the worst of sixty sound default runs of a path, which ``make coverage`` prints; ``ELSEWHERE`` for
-others. Above it: the drift of contact at velocity level (penetration, pull), energies of other whole impacts."""
-ELSEWHERE = {"penetration": 1e-2, "pull": 0.1, "energy": 1e-2, "middle_slope": 1e-6}
-SAYS = {
-    "penetration": "the beam is in the wall by {:.2g} of how far it has fallen",
-    "pull": "the wall pulls by {:.2g} of its largest push",
-    "energy": "{:.2g} of the energy is not accounted for",
-    "middle_slope": "the middle of a symmetric beam turns by {:.2g} of its largest slope",
-}
 
 
 @dataclass(frozen=True)
@@ -61,7 +49,7 @@ class Balance:
     budget leaves at a saved instant, over the initial energy and the work of the loads; middle_slope : largest slope at
     x = 0 of a symmetric run, over the largest anywhere. ``None`` where a number means nothing."""
 
-    path: str
+    path: str  # what its limits are those of
 
     momentum: float | None
     second_moment: float | None
@@ -91,18 +79,14 @@ class Balance:
             found.append(f"the impulses of the contact points add up to {100.0 * self.points:+.2g} % of the total more")
         if self.initial_energy is not None and abs(self.initial_energy) > ROUND_OFF:
             found.append(f"the initial kinetic energy is off by {100.0 * self.initial_energy:.2g} %: mass is missing")
-        for name, limit in LIMITS.get(self.path, ELSEWHERE).items():
-            value = getattr(self, name)
-            if value is not None and value > limit:
-                found.append(f"{SAYS[name].format(value)}; sound runs stay below {limit:.2g}")
-        return found
+        return found + beyond_limits(self.path, self)
 
 
 def balance_of(history: ImpactHistory) -> Balance:
     """The checks of one run."""
     missing = _of_fast_part(history) if "position" in history else _missing_momentum(history)
     return Balance(
-        history.path,
+        limited_as(history),
         None if missing is None else _residual(missing, history.array("total_impulse")),
         _second_moment(history, missing),
         _points(history),
@@ -139,7 +123,8 @@ def _pull(history: ImpactHistory) -> float | None:
     first = int(np.searchsorted(history.time, LAST * history.time[-1]))
     gains = np.diff(history.array("impulse"), axis=0)
     most = float(gains.max(initial=0.0))  # of the whole run: a beam that has left gives and takes round-off
-    held = "held_impulse" in history and np.ptp(history.array("held_impulse", slice(first, None))) != 0.0
+    hold = hold_of(history)
+    held = hold is not None and (hold["until"] or 0.0) > history.time[first]
     return None if most <= 0.0 or held else max(0.0, -float(gains[first:].min(initial=0.0))) / most
 
 

@@ -11,6 +11,7 @@ from bent_beam.measure.reduction import peak_moment
 from bent_beam.meshes import UniformMesh
 from bent_beam.method import for_whole_beam, method_from_tables
 from exudyn_models import ExudynModel
+from exudyn_models.integrators import GeneralizedAlpha
 from hermite_fe import HermiteFE
 from self_similar_fe import ExpandingMesh, SelfSimilarFE
 
@@ -72,3 +73,19 @@ def test_tension_along_the_axis_moves_no_centre_of_mass_and_the_largest_moment_i
             assert gained == pytest.approx(2.0 * drawn * 0.2 - history.array("total_impulse")[-1], abs=5e-3)
         few, many = (peak_moment(history).moment for history in runs)
         assert few == pytest.approx(many, rel=1e-12)
+
+
+def test_a_pull_counts_where_nothing_is_said_to_be_held() -> None:
+    """The start is held until 0.001 t*; what the wall takes back of its impulse after it is a pull."""
+    history = ExudynModel(refine=0.5).simulate(Impact.dimensionless(0.5), end_time=0.1, save=60)
+    assert history.settings["hold"]["pull"] > 0.01 and balance_of(history).pull == 0.0
+    impulse = history.dataset["impulse"].copy()
+    impulse[-1, 0] -= 0.1 * float(impulse.diff("time").max())
+    taken = balance_of(ImpactHistory.of(history.dataset.assign(impulse=impulse)))
+    assert taken.pull > 0.05 and any("the wall pulls" in line for line in taken.warnings)
+
+
+@pytest.mark.parametrize("integrator", [GeneralizedAlpha(spectral_radius=0.8), GeneralizedAlpha(spectral_radius=0.95)])
+def test_sound_runs_whose_means_of_the_force_swing_have_nothing_to_warn_of(integrator: GeneralizedAlpha) -> None:
+    history = ExudynModel(integrator=integrator, refine=0.5).simulate(Impact.dimensionless(0.25), end_time=0.1)
+    assert balance_of(history).warnings == []

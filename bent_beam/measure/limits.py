@@ -1,0 +1,47 @@
+"""Limits of what the checks of a run may leave (:mod:`bent_beam.measure.balance`), path by path."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from bent_beam.history import ImpactHistory
+
+__all__ = ["ELSEWHERE", "LIMITS", "beyond_limits", "limited_as"]
+
+LIMITS = {
+    "hermite": {"penetration": 1e-3, "pull": 1e-3, "energy": 4e-7, "middle_slope": 1e-9},
+    "self_similar": {"penetration": 1e-5, "pull": 0.1, "energy": 0.06, "middle_slope": 3e-8},
+    "exudyn": {"penetration": 2e-3, "pull": 1e-6, "energy": 4e-7, "middle_slope": 1e-9},
+    "exudyn, explicit or ρ∞ > ½": {"penetration": 4e-3, "pull": 4e-3, "energy": 2e-3, "middle_slope": 1e-9},
+}
+"""At least ten times the worst of sixty sound default runs of a path, which ``make coverage`` prints
+(``benchmarks.balances``); ``ELSEWHERE`` for others. Above it: the drift of contact at velocity level (penetration,
+pull), energies of other whole impacts. Means of generalised-α with ρ∞ > ½ swing about their force, explicit steps close
+the energy to their own order alone: ten times the worst of κ/ν = 0.25 and 1.5."""
+IMPLICIT = ("GeneralizedAlpha", "Newmark", "Trapezoidal")
+ELSEWHERE = {"penetration": 1e-2, "pull": 0.1, "energy": 1e-2, "middle_slope": 1e-6}
+SAYS = {
+    "penetration": "the beam is in the wall by {:.2g} of how far it has fallen",
+    "pull": "the wall pulls by {:.2g} of its largest push",
+    "energy": "{:.2g} of the energy is not accounted for",
+    "middle_slope": "the middle of a symmetric beam turns by {:.2g} of its largest slope",
+}
+
+
+def limited_as(history: ImpactHistory) -> str:
+    """The key of ``LIMITS`` for a run: its path, or a kind of its integrators."""
+    integrator = history.settings.get("integrator")
+    if history.path != "exudyn" or not isinstance(integrator, dict):
+        return history.path
+    sound = integrator.get("kind") in IMPLICIT and integrator.get("spectral_radius", 0.5) <= 0.5
+    return "exudyn" if sound else "exudyn, explicit or ρ∞ > ½"
+
+
+def beyond_limits(path: str, checks: Any) -> list[str]:
+    """A sentence for each of the ``checks``, attributes by the names of the limits, that exceeds its limit."""
+    values = ((name, getattr(checks, name), limit) for name, limit in LIMITS.get(path, ELSEWHERE).items())
+    return [
+        f"{SAYS[name].format(value)}; sound runs stay below {limit:.2g}"
+        for name, value, limit in values
+        if value is not None and value > limit
+    ]
