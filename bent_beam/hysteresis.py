@@ -18,13 +18,13 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from bent_beam.errors import InputError
 from bent_beam.loads import CLAMPED
+from bent_beam.scales import Scales
 
 __all__ = ["FIRST_MODE", "Branches", "branches_of", "check_loss", "converges", "first_mode"]
 
@@ -66,18 +66,18 @@ class Branches:
         return np.asarray(self.relaxed * (1.0 + (self.shares * s / (1.0 + s)).sum(axis=-1)))
 
 
-def first_mode(impact: Any) -> float:
+def first_mode(impact: Scales) -> float:
     """Frequency of the first free–free bending mode, Hz."""
     return float(FIRST_MODE**2 * impact.wave_constant / impact.length**2 / (2.0 * math.pi))
 
 
-def converges(impact: Any) -> bool:
+def converges(impact: Scales) -> bool:
     """Whether a whole impact has numbers that finer elements come to: not without damping, nor with little hysteretic
     loss, which damps short waves no more than long ones (docs/damping.md)."""
     return bool(impact.damping > 0.0 or impact.hysteretic_loss >= LEAST_LOSS)
 
 
-def branches_of(impact: Any) -> Branches | None:
+def branches_of(impact: Scales) -> Branches | None:
     """The branches of ``impact.hysteretic_loss``; ``None`` without."""
     if not impact.hysteretic_loss or impact.loss_frequency is None:
         return None
@@ -106,7 +106,7 @@ def _fitted(loss: float, frequency: float, lowest: float, highest: float) -> Bra
     return Branches(1.0 / float(modulus[-1].real), shares, times, lowest, highest, deviation)
 
 
-def check_loss(impact: Any) -> None:
+def check_loss(impact: Scales) -> None:
     """``ValueError`` where loss and loss frequency do not go together; it names field and value."""
     if not impact.hysteretic_loss:
         if impact.loss_frequency is not None:
