@@ -38,15 +38,8 @@ from theory._fresnel import FloatArray
 from theory.contact import ContactParameters
 
 __all__ = [
-    "FLATTEST",
-    "FORGOTTEN",
-    "StoppedPoint",
-    "early_until",
-    "early_zone",
-    "first_instants",
-    "forgotten_after",
-    "rim",
-]
+    "FLATTEST", "FORGOTTEN", "StoppedPoint", "early_until", "early_zone", "first_instants", "forgotten_after", "rim",
+]  # fmt: skip
 
 #: t_s after which force, impulse and rim are within 2 % of `first_instants`, and κ/ν of the flattest zone whose impulse
 #: comes so near; ``python -m benchmarks.shear`` prints what they lack.

@@ -28,9 +28,9 @@ __all__ = ["Balance", "balance_of"]
 
 Array = NDArray[np.float64]
 PUSH = 1e-6  # of the largest gain of a contact point between two saved instants: less is no push
-OUT_OF_BALANCE = 3e-3  # of the impulse: 16 elements a half beam leave 1e-3, default runs 1e-5
-MISPLACED = 5e-3  # of the second moment of the impulses, likewise
-ROUND_OFF = 1e-8
+OF_ALL = {"momentum": 3e-3, "second_moment": 5e-3, "points": 1e-8, "initial_energy": 1e-8}
+"""Limits whatever the path: 16 elements a half beam leave 1e-3 of the impulse and its second moment, default runs 1e-5;
+the others are round-off."""
 LAST = 0.5  # of the run that is looked at: earlier, the start is not resolved
 LIMITS = {
     "hermite": {"penetration": 1e-3, "pull": 1e-3, "energy": 4e-7, "middle_slope": 1e-9},
@@ -41,10 +41,15 @@ LIMITS = {
 others. Above it: the drift of contact at velocity level (penetration, pull), energies of other whole impacts."""
 ELSEWHERE = {"penetration": 1e-2, "pull": 0.1, "energy": 1e-2, "middle_slope": 1e-6}
 SAYS = {
-    "penetration": "the beam is in the wall by {:.2g} of how far it has fallen",
-    "pull": "the wall pulls by {:.2g} of its largest push",
-    "energy": "{:.2g} of the energy is not accounted for",
-    "middle_slope": "the middle of a symmetric beam turns by {:.2g} of its largest slope",
+    "momentum": "momentum, impulse and loads do not balance: the residual is {percent:.2g} % of the impulse",
+    "second_moment": "the impulses act elsewhere than the motion says: their second moment is off by {percent:.2g} %",
+    "points": "the impulses of the contact points add up to {percent:+.2g} % of the total more",
+    "initial_energy": "the initial kinetic energy is off by {percent:.2g} %: mass is missing",
+    "penetration": "the beam is in the wall by {share:.2g} of how far it has fallen; sound runs stay below {limit:.2g}",
+    "pull": "the wall pulls by {share:.2g} of its largest push; sound runs stay below {limit:.2g}",
+    "energy": "{share:.2g} of the energy is not accounted for; sound runs stay below {limit:.2g}",
+    "middle_slope": "the middle of a symmetric beam turns by {share:.2g} of its largest slope; sound runs stay below "
+    "{limit:.2g}",
 }
 
 
@@ -77,24 +82,10 @@ class Balance:
     def warnings(self) -> list[str]:
         """What is out of balance by more than a resolved run is."""
         found = []
-        if self.momentum is not None and self.momentum > OUT_OF_BALANCE:
-            found.append(
-                f"momentum, impulse and loads do not balance: the residual is {100.0 * self.momentum:.2g} % of the "
-                "impulse"
-            )
-        if self.second_moment is not None and self.second_moment > MISPLACED:
-            found.append(
-                f"the impulses act elsewhere than the motion says: their second moment is off by "
-                f"{100.0 * self.second_moment:.2g} %"
-            )
-        if self.points is not None and abs(self.points) > ROUND_OFF:
-            found.append(f"the impulses of the contact points add up to {100.0 * self.points:+.2g} % of the total more")
-        if self.initial_energy is not None and abs(self.initial_energy) > ROUND_OFF:
-            found.append(f"the initial kinetic energy is off by {100.0 * self.initial_energy:.2g} %: mass is missing")
-        for name, limit in LIMITS.get(self.path, ELSEWHERE).items():
-            value = getattr(self, name)
-            if value is not None and value > limit:
-                found.append(f"{SAYS[name].format(value)}; sound runs stay below {limit:.2g}")
+        for name, limit in (OF_ALL | LIMITS.get(self.path, ELSEWHERE)).items():
+            share = getattr(self, name)
+            if share is not None and abs(share) > limit:
+                found.append(SAYS[name].format(share=share, percent=100.0 * share, limit=limit))
         return found
 
 

@@ -24,13 +24,7 @@ from numpy.typing import NDArray
 from bent_beam.measure.moments import Moments
 from bent_beam.measure.numbers import FACTOR, Number, number_of
 
-__all__ = [
-    "FirstOrderEstimate",
-    "LeadingEstimate",
-    "first_order",
-    "leading_order",
-    "lift_shares",
-]
+__all__ = ["FirstOrderEstimate", "LeadingEstimate", "first_order", "leading_order", "lift_shares"]
 
 Array = NDArray[np.float64]
 SIDE = math.sqrt(2.0 / math.pi)
