@@ -7,11 +7,9 @@ mean of both ends, q̈ the accelerations in equilibrium with all forces (Mq̈ = 
     taken by the integration       (Mq̈)¯ᵀΔq − Δ(½vᵀMv)    the scheme's own kinematics, without force or stiffness
     lost in the contact            f̄_cᵀΔy_c − Δ(energy in its springs), f_c pushing against y
 
-The total impulse is what the momentum of the modelled beam lacks, exact whatever happens within a step; with held ends
-it is the sum of the points' impulses. These pass through the averages that the scheme applies to accelerations.
-
-States are collected after each step and summed up many steps at a time: of the time that a run takes, next to all is
-Exudyn's.
+The total impulse is what the momentum of the modelled beam lacks; with held ends it is the sum of the points' impulses.
+These pass through the averages that the scheme applies to accelerations. States are collected after each step and
+summed up many steps at a time: next to all of the time that a run takes is Exudyn's.
 """
 
 from __future__ import annotations

@@ -1,11 +1,10 @@
-"""Mesh, length, steps and contact points that are chosen from the problem by scaling arguments, when none are given.
+"""Mesh, length, steps and contact points that are chosen by scaling arguments, when none are given (docs/exudyn.md).
 
-In the first spread of the zone elements grow with the distance from the middle, steps with time. Where κ/ν is so small
-that the front is thin, all elements that it may reach are equal: what counts is that each hit of a node is plastic
-(:mod:`exudyn_models.contacts.penalty`), not the bending ahead. A run that lasts until waves are back from the ends
-needs elements of one length, and steps that resolve the contact, h = ½Δx²√(μ/EI). A node that closes within a step much
-longer than the penalty's own time gets half of its reaction once more in the next step, and the beam leaves with more
-energy than it had.
+In the first spread of the zone elements grow with the distance from the middle, steps with time. Before a thin front
+all elements that it may reach are equal. A run that lasts until waves are back from the ends needs elements of one
+length, and steps that resolve the contact, h = ½Δx²√(μ/EI): a node that closes within a step much longer than the
+penalty's own time gets half of its reaction once more in the next step, and the beam leaves with more energy than it
+had.
 """
 
 from __future__ import annotations

@@ -4,17 +4,13 @@ The wall is y = 0, the beam lies in y ≤ 0, the gap is g = −y. A contact puts
 once and is then asked, between segments of time steps, for the force at each contact point; it may switch connectors
 there.
 
-Which captured nodes are held, and until when (:class:`HeldStrip`):
-
-The first instants are never resolved, whatever the mesh: the front is then faster than any element. What their node
-impacts leave behind would lift the zone for a long time, so all captured nodes are held for a first share ``START`` of
-the run, but not in runs that last longer than the first spread, nor where load or damping draws the beam off the wall
-or it touches in a point: a held start makes the largest moment 5 % too large at κ/ν = 0.32 with ζ = 0.2 %, 15 % at 1.2.
-
-Behind the front the exact reaction vanishes; a one-sided law turns the numerical noise there into pushes that lift the
-beam. A hold of so many elements, where asked for, keeps each captured node until the front is that much further: the
-held strip shrinks with the mesh. It too ends with the first spread: from then on waves from the ends are back, and may
-lift what they will.
+Which captured nodes are held, and until when (:class:`HeldStrip`): what the node impacts of the first instants, which
+no mesh resolves, leave behind would lift the zone for a long time. So all captured nodes are held for a first share
+``START`` of the run, but not in runs that last longer than the first spread, nor where load or damping draws the beam
+off the wall or it touches in a point: a held start makes the largest moment 5 % too large at κ/ν = 0.32 with ζ = 0.2 %,
+15 % at 1.2. Behind the front the exact reaction vanishes; a one-sided law turns the numerical noise there into pushes
+that lift the beam. A ``hold`` of so many elements keeps each captured node until the front is that much further. It too
+ends with the first spread: then waves from the ends are back, and may lift what they will.
 """
 
 from __future__ import annotations

@@ -3,29 +3,26 @@
     R_i = b_i max(0, k y_i + d ẏ_i),   b_i the length of beam that node i stands for
     k = C μ/τ²,   d = D μ/τ,   τ = √(μ/EI) Δx² √(1 + Φ), Φ = 0 without shear: k = C EI/Δx⁴, d = D √(EIμ)/Δx²
 
-It is the complementarity 0 ≤ R ⊥ −(y + (d/k) ẏ − R/(bk)) ≥ 0 of the gap a time d/k ahead, 0.3 Δx² for
-C = 10 and D = 3, so that the dashpot takes hold just before the wall and lets go just before it would pull. The states
-of a step are those of a linear complementarity problem with a P-matrix, hence unique. Exudyn's own law, dashpot on
-while y > 0, pulls a beam that leaves; :mod:`exudyn_models.settling` writes these states over its.
+It is the complementarity 0 ≤ R ⊥ −(y + (d/k) ẏ − R/(bk)) ≥ 0 of the gap a time d/k ahead, 0.3 Δx² for C = 10 and D = 3.
+The states of a step are those of a linear complementarity problem with a P-matrix, hence unique. Exudyn's own law,
+dashpot on while y > 0, pulls a beam that leaves; :mod:`exudyn_models.settling` writes these states over its.
 
-So the contact is as stiff as the elements, on every scale of the mesh. Other C and D (measured: docs/exudyn.md):
+Other C and D (measured: docs/exudyn.md):
 
 - where the front passes an element faster than it bends. It passes Δx at x in t = 2xΔx/λ² √(μ/EI), and C = (λ²Δx/x)²
   makes √(k/μ) t = 2, with the damping ratio of 10 and 3;
-- with shear nodes meet the wall faster than shear waves at first. d Δx = 2√(κ_sGA μ), D = 4√3, takes up such waves
-  without reflection. Not where η is several τ (κ/ν = 0.1, η/T* = 3e-3: e = 0.13 for 0.23);
-- below κ/ν = 0.12 each node hits the wall by itself, and its rebound adds to the impulse. D = 40 makes hits plastic,
-  while nothing but the first spread moves the zone and steps are implicit. What is left adds to r₀ like 1/D²: the
-  coarser run of an error bar has the smaller D in proportion. Not with a ``hold``, whose springs would pull nodes that
-  are stopped ahead of the wall, nor where the material damps waves at grid scale: they would lack in the impulse.
+- with shear d Δx = 2√(κ_sGA μ), D = 4√3, takes up shear waves without reflection. Not where η is several τ (κ/ν = 0.1,
+  η/T* = 3e-3: e = 0.13 for 0.23);
+- behind a thin front D = 40 makes hits plastic. What is left adds to r₀ like 1/D²: the coarser run of an error bar has
+  the smaller D in proportion. Not with a ``hold``, whose springs would pull nodes that are stopped ahead of the wall.
 
-The springs and dashpots of a wall that gives way, at the nodes:
+The springs and dashpots of a wall that gives way, at the nodes, are the wall's own and do not change with the mesh:
 
     R_i = max(0, k b_i y_i + c w_i ẏ_i) where y_i > 0, 0 elsewhere,   b_i the length of wall that node i stands for.
 
-They are the wall's own and do not change with the mesh; what the springs hold is an energy. With w_i = b_i each node
-would add c b_i V₀ at once as it lands. So w_i is the length that is covered. Of an element with both nodes in the wall
-each has Δx/2, node i alone sΔx, s = y_i/(y_i − y_{i+1}), where velocities carry the beam by the end of the step.
+With w_i = b_i each node would add c b_i V₀ at once as it lands. So w_i is the length that is covered. Of an element
+with both nodes in the wall each has Δx/2, node i alone sΔx, s = y_i/(y_i − y_{i+1}), where velocities carry the beam by
+the end of the step.
 """
 
 from __future__ import annotations

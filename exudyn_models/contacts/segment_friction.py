@@ -2,11 +2,10 @@
 
     f_n = k g + d ġ per segment while it enters the wall,   |f_t| ≤ μ_f f_n
 
-Exudyn knows this contact against a circle only, and computes its gap as a difference of lengths of the order of the
-radius: too large a circle drowns it in round-off. So the wall takes over a share of the beam's curvature, against
-which the beam is laid flatter: all of it in the linear limit (gap, load and elastic forces are the same to first
-order), a quarter with the true geometry. Friction works along the beam: of second order in the deflection, it changes
-nothing in the linear limit and little for a real, axially stiff beam.
+Exudyn knows this contact against a circle only, and too large a circle drowns the gap in round-off. So the wall takes
+over a share of the beam's curvature, against which the beam is laid flatter: all of it in the linear limit (gap, load
+and elastic forces are the same to first order), a quarter with the true geometry. Friction works along the beam: of
+second order in the deflection, it changes nothing in the linear limit and little for an axially stiff beam.
 """
 
 from __future__ import annotations

@@ -37,19 +37,14 @@ class _Cable(Beam):
     rotation_coordinate = 3
 
     def node(self, i: int) -> Any:
-        shape, turning = self.shape, self.shape.angular_velocity[i]
-        cos, sin = np.cos(shape.angle[i]), np.sin(shape.angle[i])
-        stretched = 1.0 + self.section.stretch
-        x, y = stretched * shape.x[i] - shape.s[i], shape.y[i]
-        length, rate = self.units.length, 1.0 / self.units.time
-        speed = length * rate
+        shape, (place, velocity) = self.shape, self.at_first(i)
+        cos, sin, stretched = np.cos(shape.angle[i]), np.sin(shape.angle[i]), 1.0 + self.section.stretch
+        turning, rate = shape.angular_velocity[i], 1.0 / self.units.time
         return items.NodePoint2DSlope1(
-            referenceCoordinates=[shape.s[i] * length, 0.0, 1.0, 0.0],
-            initialCoordinates=[x * length, y * length, stretched * cos - 1.0, stretched * sin],
-            initialVelocities=[
-                shape.velocity_x[i] * speed, shape.velocity_y[i] * speed, -turning * sin * rate, turning * cos * rate
-            ],
-        )  # fmt: skip
+            referenceCoordinates=[shape.s[i] * self.units.length, 0.0, 1.0, 0.0],
+            initialCoordinates=[*place, stretched * cos - 1.0, stretched * sin],
+            initialVelocities=[*velocity, -turning * sin * rate, turning * cos * rate],
+        )
 
     def body(self, i: int) -> Any:
         units = self.units

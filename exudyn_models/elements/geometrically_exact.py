@@ -36,14 +36,11 @@ class _Exact(Beam):
         super().__init__(mbs, shape, section, viscosity)
 
     def node(self, i: int) -> Any:
-        shape, stretched = self.shape, 1.0 + self.section.stretch
-        length, rate = self.units.length, 1.0 / self.units.time
-        x, speed = stretched * shape.x[i] - shape.s[i], length * rate
-        turning = shape.angular_velocity[i] * rate
+        shape, (place, velocity) = self.shape, self.at_first(i)
         return items.NodeRigidBody2D(
-            referenceCoordinates=[shape.s[i] * length, 0.0, 0.0],
-            initialCoordinates=[x * length, shape.y[i] * length, shape.angle[i]],
-            initialVelocities=[shape.velocity_x[i] * speed, shape.velocity_y[i] * speed, turning],
+            referenceCoordinates=[shape.s[i] * self.units.length, 0.0, 0.0],
+            initialCoordinates=[*place, shape.angle[i]],
+            initialVelocities=[*velocity, shape.angular_velocity[i] * (1.0 / self.units.time)],
         )
 
     def body(self, i: int) -> Any:
