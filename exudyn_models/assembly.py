@@ -182,7 +182,7 @@ def _wall(shape: Shape, scaling: Scaling, chosen: Chosen, shears: bool) -> Wall:
         lengths=lengths,
         centre=centre,
         half=not chosen.full_beam,
-        front=scaling.front,
+        scaling=scaling,
         first_spread=first_spread,
         plastic=chosen.plastic if thin and first_spread >= 1.0 and not explicit else 0.0,
         lifts=impact.lifts or shears or impact.damping > 0.0 or impact.kappa_over_nu >= 1.0,
@@ -190,8 +190,6 @@ def _wall(shape: Shape, scaling: Scaling, chosen: Chosen, shears: bool) -> Wall:
         opposite=None if opposite is None else -opposite / scaling.deflection,
         stiffness=None if stiffness is None else stiffness / unit,
         damping=impact.wall_damping / (unit * scaling.end_time),
-        stiffness_unit=impact.bending_stiffness / scaling.length**4,
-        damping_unit=impact.bending_stiffness * scaling.end_time / scaling.length**4,
     )
 
 

@@ -76,18 +76,13 @@ def build(
 ) -> Built:
     """Lay ``impact`` out in Exudyn's items, in SI units, for plain ``SolveDynamic``.
 
-    Parameters
-    ----------
-    impact : the problem (SI).
     end_time : s; None: 0.1 t*, but 0.01 T* at most.
     save : values of each sensor, evenly spread.
     file : where Exudyn writes its solution, for its ``SolutionViewer``; None: nowhere.
     parts : as those of :func:`exudyn_models.simulate`. What is left out has equal elements and steps; in a run that
         lasts until waves are back from the ends it is that of the whole beam.
 
-    Raises
-    ------
-    ValueError : as :func:`exudyn_models.simulate`, and for what only its stepping can do.
+    Raises ``ValueError`` as :func:`exudyn_models.simulate`, and for what only its stepping can do.
     """
     end, method = impact.checked_end_time(end_time), ExudynModel(**parts)
     if reason := method.refuses(impact) or _refused(method):

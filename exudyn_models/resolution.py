@@ -70,7 +70,7 @@ def chosen_half_length(impact: Impact, end_time: float | None = None) -> float:
 def chosen_mesh(impact: Impact, end_time: float | None = None, *, explicit: bool = False) -> NodesMesh:
     """The mesh that ``simulate`` lays when none is given (half beam), to lay the same under several impacts."""
     scaling, wall = Scaling(impact, impact.checked_end_time(end_time)), wall_scales(impact)
-    if lasts_until_waves_return(impact, end_time) and wall is None:
+    if lasts_until_waves_return(impact, scaling.end_time) and wall is None:
         steps_at_one = 2.0 * scaling.end_time / impact.slow_time_scale  # with one element
         count = max((ELEMENT_STEPS / steps_at_one) ** (1.0 / 3.0), FEWEST) * near_buckling(impact)
         return NodesMesh(tuple(np.linspace(0.0, impact.half_length, max(2, round(count)) + 1).tolist()))
@@ -106,9 +106,8 @@ def modelled_half_length(mesh: Mesh, impact: Impact) -> float:
     return impact.half_length
 
 
-def lasts_until_waves_return(impact: Impact, end_time: float | None) -> bool:
+def lasts_until_waves_return(impact: Impact, end: float) -> bool:
     """Whether waves from the ends of the beam are back before the end time, s."""
-    end = impact.checked_end_time(end_time)
     return end > BEFORE_WAVES_RETURN * impact.slow_time_scale and chosen_half_length(impact, end) == impact.half_length
 
 
@@ -142,7 +141,7 @@ def thin_front(kappa_over_nu: float) -> bool:
     return kappa_over_nu < THIN
 
 
-def chosen_steps(integrator: Integrator, mesh: Mesh, impact: Impact, end_time: float | None) -> Integrator:
+def chosen_steps(integrator: Integrator, mesh: Mesh, impact: Impact, end: float) -> Integrator:
     """``integrator``, which nobody asked for, with steps that resolve the contact once waves are back from the ends,
     and in which a thin front passes ``PASSED`` elements at most.
 
@@ -151,10 +150,9 @@ def chosen_steps(integrator: Integrator, mesh: Mesh, impact: Impact, end_time: f
     """
     if not isinstance(integrator, Implicit):
         return integrator
-    end, wall = impact.checked_end_time(end_time), wall_scales(impact)
-    if wall is not None:
+    if (wall := wall_scales(impact)) is not None:
         return dataclasses.replace(integrator, time_step=step_of_wall(mesh, impact, wall))
-    if lasts_until_waves_return(impact, end_time):
+    if lasts_until_waves_return(impact, end):
         step = resolving_step(mesh, impact)
         return dataclasses.replace(integrator, time_step=step) if end <= MOST_STEPS * step else integrator
     if thin_front(impact.kappa_over_nu):

@@ -63,12 +63,8 @@ def run(
     settings = {"end_time": end, "save": np.asarray(save).tolist(), "full_beam": chosen.full_beam}
     settings |= _described(layout, chosen, stepping)
     settings["wall_seconds"] = clock.perf_counter() - began
-    history = record.history(
-        steps=stepping.steps,
-        seconds=stepping.seconds,
-        completed=failure is None,
-        settings=settings,
-    )
+    about = {"steps": stepping.steps, "seconds": stepping.seconds, "completed": failure is None}
+    history = record.history(settings=settings, **about)
     history = history.with_warnings(warnings_of_run(layout, chosen, stepping, history))
     if failure is not None:
         raise SimulationError(

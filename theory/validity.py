@@ -80,13 +80,7 @@ class Validity:
         return self.begins_after if time < self.begins else None
 
 
-def validity(
-    impact: Impact,
-    solved: ContactParameters,
-    *,
-    rigid_from: float = 0.0,
-    yields: bool = False,
-) -> Validity:
+def validity(impact: Impact, solved: ContactParameters, *, rigid_from: float = 0.0, yields: bool = False) -> Validity:
     """The interval in which half length and impulse are within 2 % of those of the beam, and that of the force.
 
     Args:

@@ -81,15 +81,11 @@ def _lstsq(matrix: Array, right: Array) -> Array:
     return np.asarray(solution / scale)
 
 
-def _farthest(best: Array, companions: Sequence[Array]) -> Array:
-    """Of each value that of the companion, at another resolution, which is farthest from ``best``."""
-    found = np.array(companions)
-    return np.asarray(found[np.abs(found - best).argmax(axis=0), np.arange(best.size)])
-
-
 def _numbers(best: Array, companions: Sequence[Array], known: Mapping[str, Array]) -> list[Number]:
-    """The values with their bars. known : cause → sizes, one for each value."""
-    other = _farthest(best, companions) if companions else best
+    """The values with their bars. companions : the values at other resolutions, of which the farthest counts; known :
+    cause → sizes, one for each value."""
+    others = np.array(companions or [best])
+    other = others[np.abs(others - best).argmax(axis=0), np.arange(best.size)]
     parts = [{cause: float(sizes[i]) for cause, sizes in known.items()} for i in range(best.size)]
     return [number_of(float(best[i]), {"mesh_and_step": float(other[i])}, parts[i]) for i in range(best.size)]
 

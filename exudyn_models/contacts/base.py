@@ -26,7 +26,7 @@ from bent_beam import Impact
 from bent_beam.errors import InputError
 from bent_beam.fields import Part, Quantity
 from exudyn_models.elements.beam import Beam, Element, shares
-from exudyn_models.geometry import Array, Flags, Geometry, Indices, LinearLimit
+from exudyn_models.geometry import Array, Flags, Geometry, Indices, LinearLimit, Scaling
 from exudyn_models.integrators import GeneralizedAlpha, Integrator
 from exudyn_models.solvers import NewtonSolver
 
@@ -46,7 +46,6 @@ class Wall:
     nodes : numbers of the beam's nodes that may touch, ascending; centre : the node at x = 0;
     lengths : of the beam's elements before the wall, 0 of others, (elements,); all are 0 before a stop;
     half : only x ≥ 0 is modelled;
-    front : rough estimate of where contact ends at the end;
     first_spread : until when (in end times) nothing but the first spread of the zone moves it: waves are back later;
     lifts : load or damping lifts the zone from the first, or the beam touches in a point: no start is held;
     plastic : the front is thin, so that nodes that hit must not rebound, and nothing but the first spread moves it: how
@@ -57,7 +56,7 @@ class Wall:
     lengths: Array
     centre: int
     half: bool
-    front: float
+    scaling: Scaling
     first_spread: float
     plastic: float
     lifts: bool
@@ -65,8 +64,6 @@ class Wall:
     opposite: float | None  # y of a second, flat wall behind the beam
     stiffness: float | None = None  # per length, of a wall that gives way; of a stop itself
     damping: float = 0.0  # beside it
-    stiffness_unit: float = 1.0  # SI value of a stiffness per length, N/m², …
-    damping_unit: float = 1.0  # … and of a damping per length, N s/m²
 
     @property
     def stop(self) -> bool:

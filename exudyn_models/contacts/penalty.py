@@ -58,10 +58,10 @@ def matched(element: float, shear_length: float, damping: float) -> bool:
 
 def chosen_stiffness(beam: Beam, wall: Wall) -> float:
     """C of the module's text: 10, or what the front asks for at the end of the run."""
-    s = beam.shape.s
-    k = min(max(int(np.searchsorted(s, wall.front)), 1), s.size - 1)
+    s, front = beam.shape.s, wall.scaling.front
+    k = min(max(int(np.searchsorted(s, front)), 1), s.size - 1)
     length = s[k] - s[k - 1]
-    asked = wall.front**2 * element_times(length, beam.section.shear_length) / length / s[k]
+    asked = front**2 * element_times(length, beam.section.shear_length) / length / s[k]
     late = beam.shears and wall.first_spread < 1.0  # steps follow shear waves, and not the front
     return STIFFNESS if late else max(STIFFNESS, float(asked) ** 2)
 
@@ -221,9 +221,9 @@ class Penalty(Contact):
             damping *= math.sqrt(stiffness / STIFFNESS)
         k, d = penalty_per_length(element_times(local, beam.section.shear_length), stiffness, damping)
         if self.stiffness is not None:
-            k = np.full_like(k, self.stiffness / wall.stiffness_unit)
+            k = np.full_like(k, self.stiffness / wall.scaling.stiffness)
         if self.damping is not None:
-            d = np.full_like(d, self.damping / wall.damping_unit)
+            d = np.full_like(d, self.damping / wall.scaling.damping)
         strip = HeldStrip(wall, self.hold, 0.0 if plastic and self.hold_start is None else self.hold_start)
         about = {"relative_stiffness": stiffness, "relative_damping": damping}
         return PenaltyRun(beam, wall, k * length, d * length, strip, about)
