@@ -32,10 +32,10 @@ Array = NDArray[np.float64]
 
 FIRST_MODE = CLAMPED["clamped"]  # the free–free beam has the frequencies of the clamped one
 BELOW, ABOVE, EARLIEST = 0.1, 1e6, 1e-4  # of the first mode, of the first mode, t*
-PER_DECADE, BEYOND = 1.5, math.sqrt(10.0)  # branches, and how far they go beyond either end of the range
-EXACT = 100.0  # weight of the loss frequency over that of any other
+PER_DECADE, MARGIN = 1.5, math.sqrt(10.0)  # branches, and how far they go beyond either end of the range
+WEIGHT_OF_LOSS = 100.0  # weight of the loss frequency over that of any other
 LEAST_LOSS = 0.05  # with less, meshes, steps and contact laws scatter restitution by hundredths (docs/damping.md)
-NEAR = (1e-3, 1e6)  # times the first mode: where a loss frequency may lie
+RANGE = (1e-3, 1e6)  # times the first mode: where a loss frequency may lie
 
 
 @dataclass(frozen=True)
@@ -91,13 +91,13 @@ def _fitted(loss: float, frequency: float, lowest: float, highest: float) -> Bra
     """The branches by non-negative least squares."""
     from scipy.optimize import nnls
 
-    count = math.ceil(PER_DECADE * math.log10(highest / lowest * BEYOND**2)) + 1
-    times = 1.0 / (2.0 * math.pi * np.geomspace(lowest / BEYOND, highest * BEYOND, count))
+    count = math.ceil(PER_DECADE * math.log10(highest / lowest * MARGIN**2)) + 1
+    times = 1.0 / (2.0 * math.pi * np.geomspace(lowest / MARGIN, highest * MARGIN, count))
     asked = np.append(np.geomspace(lowest, highest, 12 * count), frequency)
     x = 2.0 * math.pi * asked[:, None] * times
     power = 2.0 / math.pi * math.atan(loss)
     weight = (asked / frequency) ** -power
-    weight[-1] *= EXACT
+    weight[-1] *= WEIGHT_OF_LOSS
     size = (times / times[-1]) ** -power  # g is about in proportion: columns of one size
     shares = size * nnls(size * weight[:, None] * (x - loss * x**2) / (1.0 + x**2), loss * weight)[0]
     found = Branches(1.0, shares, times, lowest, highest, 0.0)
@@ -118,10 +118,10 @@ def check_loss(impact: Scales) -> None:
             "material: give one of them"
         )
     mode = first_mode(impact)
-    if impact.loss_frequency is None or not NEAR[0] * mode <= impact.loss_frequency <= NEAR[1] * mode:
+    if impact.loss_frequency is None or not RANGE[0] * mode <= impact.loss_frequency <= RANGE[1] * mode:
         raise InputError(
-            f"loss_frequency must say where EI and hysteretic_loss hold, between {NEAR[0]:g} and {NEAR[1]:g} times the "
-            f"first mode's {mode:.6g} Hz (got {impact.loss_frequency!r})"
+            f"loss_frequency must say where EI and hysteretic_loss hold, between {RANGE[0]:g} and {RANGE[1]:g} times "
+            f"the first mode's {mode:.6g} Hz (got {impact.loss_frequency!r})"
         )
     for name in ("fourth_derivative", "curvature_rate"):
         if getattr(impact, name):

@@ -26,7 +26,7 @@ from bent_beam.scales import Scales
 
 __all__ = ["Impact"]
 
-LONGEST = 1e30  # time, and change of the free motion by the loads, in the problem's own units
+ENDLESS = 1e30  # time, and change of the free motion by the loads, in the problem's own units
 FIRST_SPREAD = 0.005  # T*: until then waves from the ends change the impulse by 1 % at most, of flat contacts by more
 BEFORE_WAVES_RETURN = 0.01  # T*: the earliest that they change the impulse by 2 %
 SCALES = ("wave_constant", "time_scale", "length_scale", "slow_time_scale", "epsilon")
@@ -108,20 +108,20 @@ class Impact(Scales):
         asked without a time, the first spread of the contact, is over."""
         if end_time is None:
             end_time = min(0.1 * self.time_scale, BEFORE_WAVES_RETURN * self.slow_time_scale)
-        if positive("end_time", end_time) / self.time_scale < 1.0 / LONGEST:
+        if positive("end_time", end_time) / self.time_scale < 1.0 / ENDLESS:
             raise InputError(
-                f"end_time must be at least {1 / LONGEST:g} t* (got {end_time!r}, t* = {self.time_scale!r} s)"
+                f"end_time must be at least {1 / ENDLESS:g} t* (got {end_time!r}, t* = {self.time_scale!r} s)"
             )
         return self.checked_time("end_time", end_time)
 
     def checked_time(self, name: str, value: float) -> float:
         """A time (s) since impact, or ``ValueError`` when it, or what the loads do by then, is out of proportion."""
         time = non_negative(name, value) / self.time_scale
-        if time > LONGEST:
-            raise InputError(f"{name} must not exceed {LONGEST:g} t* (got {value!r}, t* = {self.time_scale!r} s)")
+        if time > ENDLESS:
+            raise InputError(f"{name} must not exceed {ENDLESS:g} t* (got {value!r}, t* = {self.time_scale!r} s)")
         for load in loads_of(Impact):
             given = getattr(self, load)
-            if abs(self.group(load)) * time > LONGEST:
+            if abs(self.group(load)) * time > ENDLESS:
                 raise InputError(f"{load} is out of all proportion to a time of {value:.6g} s (got {given!r})")
         return float(value)
 

@@ -38,12 +38,13 @@ from theory._fresnel import FloatArray
 from theory.contact import ContactParameters
 
 __all__ = [
-    "FLATTEST", "FORGOTTEN", "StoppedPoint", "early_until", "early_zone", "first_instants", "forgotten_after", "rim",
+    "FLATTEST_SHEARED", "FORGOTTEN", "StoppedPoint", "early_until", "early_zone", "first_instants", "forgotten_after",
+    "rim",
 ]  # fmt: skip
 
 #: t_s after which force, impulse and rim are within 2 % of `first_instants`, and κ/ν of the flattest zone whose impulse
 #: comes so near; ``python -m benchmarks.shear`` prints what they lack.
-FORGOTTEN, FLATTEST = 10.0, 0.05
+FORGOTTEN, FLATTEST_SHEARED = 10.0, 0.05
 NEWTON = 40  # steps from the far side of any root, doublings at first
 LATE = 500.0  # t_s from which on the stopped point's asymptotic series has all that matters
 ABSCISSA = 22.0  # A of Abate and Whitt: discretisation error e^−A
@@ -162,4 +163,4 @@ def first_instants(
 def forgotten_after(kappa_over_nu: float) -> float:
     """t_s from which on `first_instants` are within 2 %. A flat zone outruns shear waves until t_c and its impulse is
     larger for it; its sections' own turning lifts its middle for (ν/κ)² t_s."""
-    return np.inf if kappa_over_nu < FLATTEST else max(FORGOTTEN, kappa_over_nu**-2.0)
+    return np.inf if kappa_over_nu < FLATTEST_SHEARED else max(FORGOTTEN, kappa_over_nu**-2.0)

@@ -42,9 +42,9 @@ SWING = 0.5 * TOLERANCE
 #: Half length of the beam over that of a flat contact, at which waves of its front are back from the ends.
 FLAT = 3.0
 #: First order over leading order, beyond which an expansion says nothing.
-SMALL = 0.3
+SMALL_CHANGE = 0.3
 #: κ/ν of the flattest contact for which λ₂ and r₂ keep all digits; flatter ones are like it (`_second_order`).
-FLATTEST = 3e-3
+FLATTEST_SOLVED = 3e-3
 #: Slope at which an arch is 2 % lower than its parabola, θ²/12.
 SLOPE_LIMIT = math.sqrt(12.0 * TOLERANCE)
 
@@ -156,8 +156,8 @@ def _until_loads(solved: ContactParameters) -> tuple[float, str]:
 
 
 def _until_second_order(first: float, second: float) -> float:
-    """The smallest τ > 0 with |second|τ² = 2 % of |1 + first τ|, or |first|τ = `SMALL`."""
-    found = SMALL / abs(first) if first else math.inf
+    """The smallest τ > 0 with |second|τ² = 2 % of |1 + first τ|, or |first|τ = `SMALL_CHANGE`."""
+    found = SMALL_CHANGE / abs(first) if first else math.inf
     if second:
         # |second|τ² − 2 % first τ − 2 % = 0; 1 + first τ > 0 up to `found`
         half = 0.5 * TOLERANCE * first
@@ -168,14 +168,14 @@ def _until_second_order(first: float, second: float) -> float:
 def _second_order(p: ContactParameters) -> tuple[float, float, float]:
     """λ₂, r₂ and the rate of the curvature.
 
-    As κ → 0 relative changes depend on α, χ/κ, ψ/κ² and κn alone, so that a flatter contact is one of κ = `FLATTEST`
-    with other loads, but for a relative error of order κ.
+    As κ → 0 relative changes depend on α, χ/κ, ψ/κ² and κn alone, so that a flatter contact is one of
+    κ = `FLATTEST_SOLVED` with other loads, but for a relative error of order κ.
     """
-    if p.kappa_over_nu >= FLATTEST:
+    if p.kappa_over_nu >= FLATTEST_SOLVED:
         second = second_order(p)
         return second.lambda2, second.r2, second.opening
-    flatter = p.kappa_over_nu / FLATTEST
-    like = contact_parameters(FLATTEST, p.alpha, p.psi / flatter**2, p.chi / flatter, axial=p.axial * flatter)
+    flatter = p.kappa_over_nu / FLATTEST_SOLVED
+    like = contact_parameters(FLATTEST_SOLVED, p.alpha, p.psi / flatter**2, p.chi / flatter, axial=p.axial * flatter)
     second = second_order(like)
     return second.lambda2 / like.lambda0 * p.lambda0, second.r2 / like.r0 * p.r0, second.opening
 

@@ -27,7 +27,7 @@ from bent_beam.history import ImpactHistory
 __all__ = ["Balance", "balance_of"]
 
 Array = NDArray[np.float64]
-PUSH = 1e-6  # of the largest gain of a contact point between two saved instants: less is no push
+LEAST_PUSH = 1e-6  # of the largest gain of a contact point between two saved instants: less is no push
 OF_ALL = {"momentum": 3e-3, "second_moment": 5e-3, "points": 1e-8, "initial_energy": 1e-8}
 """Limits whatever the path: 16 elements a half beam leave 1e-3 of the impulse and its second moment, default runs 1e-5;
 the others are round-off."""
@@ -279,4 +279,4 @@ def _gap_of_push(history: ImpactHistory) -> float | None:
         return None
     fallen = history.impact.velocity * history.time[first + 1 :, None]
     gaps = np.abs(history.array("gap", slice(first + 1, None))[:, nodes]) / fallen
-    return float(gaps[gains > PUSH * most].max(initial=0.0))
+    return float(gaps[gains > LEAST_PUSH * most].max(initial=0.0))

@@ -48,12 +48,12 @@ __all__ = ["Penalty", "Springs", "covered", "penalty_per_length"]
 STIFFNESS, DAMPING = 10.0, 3.0  # C and D
 PLASTIC = 40.0  # D behind a thin front
 MATCHED = 4.0 * math.sqrt(3.0)  # D with shear, elements shorter than l_s: d Δx = 2√(κ_sGA μ) …
-OWN = 4.0  # … unless the material's own damping takes as many element times: hits are then plastic by themselves
+DAMPED = 4.0  # … unless the material's own damping takes as many element times: hits are then plastic by themselves
 
 
 def matched(element: float, shear_length: float, damping: float) -> bool:
     """Whether D is :data:`MATCHED` with the shortest ``element``; ``damping`` of the material, over √(μ/EI)."""
-    return element < shear_length and damping < OWN * float(element_times(np.array(element), shear_length))
+    return element < shear_length and damping < DAMPED * float(element_times(np.array(element), shear_length))
 
 
 def chosen_stiffness(beam: Beam, wall: Wall) -> float:

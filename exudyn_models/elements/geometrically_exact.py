@@ -22,14 +22,14 @@ from exudyn_models.geometry import Array, Shape
 __all__ = ["GeometricallyExact"]
 
 PAIR = np.array([[2.0, 1.0], [1.0, 2.0]]) / 6  # products of the linear shape functions, of the unit element
-SHEAR, ROTARY = 100.0, 0.01  # in EI/Δx² and μΔx², of a beam without shear: neither has a visible effect
+RIGID_SHEAR, LITTLE_ROTARY = 100.0, 0.01  # in EI/Δx² and μΔx², of a beam without shear: neither has a visible effect
 
 
 class _Exact(Beam):
     rotation_coordinate = 2
 
     def __init__(self, mbs: Any, shape: Shape, section: Section, viscosity: Array) -> None:
-        self.shear_stiffness, self.rotary_inertia = SHEAR / shape.lengths**2, ROTARY * shape.lengths**2
+        self.shear_stiffness, self.rotary_inertia = RIGID_SHEAR / shape.lengths**2, LITTLE_ROTARY * shape.lengths**2
         if section.shear_length:
             self.shear_stiffness = np.full_like(shape.lengths, section.shear_length**-2)
             self.rotary_inertia = np.full_like(shape.lengths, section.rotary_inertia)
