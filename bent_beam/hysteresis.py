@@ -1,4 +1,4 @@
-"""A material whose loss hardly depends on the frequency: a spring and Maxwell branches beside it.
+"""A material whose loss hardly depends on the frequency: a spring and Maxwell branches beside it (docs/damping.md).
 
     EI(s) = EI_∞ (1 + Σ_j g_j sτ_j/(1 + sτ_j)),     EI(2πif) = EI(1 + iη) at the loss frequency f
 
@@ -7,10 +7,9 @@ g ≥ 0, so that no motion gains energy. That the loss factor is η at ω is lin
     Σ_j g_j (x_j − η x_j²)/(1 + x_j²) = η,     x_j = ωτ_j,
 
 and holds by least squares over the range from a tenth of the first free–free mode, or f, to 10⁶ times that mode or
-10⁴/t*, whichever is higher. The range is that of the problem and not of a mesh, so that a finer mesh has the same
-material. Times lie evenly over the logarithm of the range. Rows are weighted by ω^−(2/π)atan η, since a constant loss
-makes the modulus grow by that power (Kramers and Kronig). Below the range the material is a spring EI_∞, above it a
-stiffer one, both without loss. (Maxwell branches: Simo, Hughes, Computational Inelasticity, 1998, chapter 10.)
+10⁴/t*, whichever is higher. Times lie evenly over the logarithm of the range. Rows are weighted by ω^−(2/π)atan η,
+since a constant loss makes the modulus grow by that power (Kramers and Kronig). Below the range the material is a
+spring EI_∞, above it a stiffer one, both without loss. (Simo, Hughes, Computational Inelasticity, 1998, chapter 10.)
 """
 
 from __future__ import annotations

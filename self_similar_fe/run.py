@@ -1,7 +1,7 @@
 """The impact of an infinite beam on a mesh that expands with √t: the front stands still in it.
 
-The leading order has no scale of its own, so elements are laid in ζ = ξ/√τ and move with ξ = ζ√τ. In the units of the
-fast layer (l*, t*, V₀t*) and with s = ln τ, w = τ W(ζ, s) and D = ∂_s − (ζ/2)∂_ζ along a moving node,
+Elements are laid in ζ = ξ/√τ and move with ξ = ζ√τ. In the units of the fast layer (l*, t*, V₀t*) and with s = ln τ,
+w = τ W(ζ, s) and D = ∂_s − (ζ/2)∂_ζ along a moving node,
 
     w_ττ + w_ξξξξ − n w_ξξ = load − r̃      becomes      D(D + 1) W + W_ζζζζ − nτ W_ζζ = τ (load − r̃)
 
@@ -10,20 +10,11 @@ part η = w₀ − w is unknown (thesis 2.2.19–20); the free motion
 
     w₀ = τ W₀,   W₀ = 1 − κζ²/2 + ετ (α/2 + χζ²/2 + ψζ⁴/24)                                        (2.2.31)
 
-enters as an obstacle alone, 0 ≤ ρ ⊥ η − W₀ ≥ 0 at the nodes, so no load, no curvature and no end of the beam
-are modelled and the far field starts from rest.
-
-Why it is quiet where fixed meshes are noisy (docs/numerics.md): no node is captured while the front keeps its λ₀, each
-decade of time is resolved like the last, and waves that leave are carried outward for good by dξ/dτ of the nodes and
-absorbed by a ramp of viscous damping σ(ζ)(D + 1)η before the mesh stops resolving them.
-
-Time: implicit Euler in τ with steps in proportion to τ. It is exact for W = const (leading order) and for W = τ·const
-(first order), since both are linear functions of time for a moving node. Contact: Signorini at the new position, active
-set.
-
-Start: the mechanics before the first instant is the same at a smaller scale. The first state is therefore the
-self-similar one with the nodes behind the front held; the front's node is found by bisection (held as far as it is
-pushed). From there on every node is free to leave. Nothing is taken from ``theory/``.
+enters as an obstacle alone, 0 ≤ ρ ⊥ η − W₀ ≥ 0 at the nodes. Waves that leave are carried outward by dξ/dτ of the nodes
+and absorbed by a ramp of viscous damping σ(ζ)(D + 1)η. Implicit Euler in τ with steps in proportion to τ, and an active
+set at the new position. The first state is the self-similar one with the nodes behind the front held; the front's node
+is found by bisection (held as far as it is pushed). From there on every node is free to leave. Why it is quiet where
+fixed meshes are noisy, and exact in time for both orders: docs/numerics.md. Nothing is taken from ``theory/``.
 """
 
 from __future__ import annotations

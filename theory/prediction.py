@@ -230,7 +230,9 @@ class _Bending:
 
     def stress(self, moment: float) -> float | None:
         """Largest |σ| (Pa) of a moment together with the axial force."""
-        return None if self.section is None else self.section.stress(moment, self.impact.axial_force)
+        if self.section is None:
+            return None
+        return moment / self.section.section_modulus + abs(self.impact.axial_force) / self.section.area
 
 
 def _at_time(

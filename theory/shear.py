@@ -1,4 +1,4 @@
-r"""First instants of a beam that shears (Timoshenko's), where formulas say them.
+r"""First instants of a beam that shears (Timoshenko's), where formulas say them (docs/shear.md).
 
     μ w_tt = S(w_x − φ)_x − r,     J φ_tt = EI φ_xx + S(w_x − φ),     S = κ_sGA
 
@@ -12,17 +12,14 @@ with damping η of shear and bending alike s becomes s/√D in the roots, and R�
 starts with R = 2V₀√(Sμ): Euler and Bernoulli's force is infinite there, Timoshenko's is not (Szalai 2014, J. Vib.
 Acoust. 136, 041002), and is Euler and Bernoulli's in the end, J = 4√(2t/π)[1 − (3 − g)/(8t)].
 
-**Every bent beam starts with a zone.** A point force kinks a deflection that shears, which no bow can follow. Until
-t_c = 1/(2κ) the rim runs ahead of shear waves; nothing moves there yet, so that the wall takes the momentum that the
-parabola brings, as of a string:
+**Every bent beam starts with a zone**, whose rim runs ahead of shear waves until t_c = 1/(2κ), as of a string:
 
     X = √(2t/κ),     J = 2X,     R = √(2/(κt)).
 
 It is exact where nothing at all runs ahead of the rim, t < g t_c; until t_c bending waves do, which move little.
 
-**Towards Euler and Bernoulli's law.** The rim bears no point force: the force is spread over one l_s behind it, and
-with a deflection that decays as e^{−x} ahead, κ < 1 gives X − coth X = λ₀√t. So the rim is one l_s ahead of λ₀√t, where
-the force acts in the mean; κ > 1: coth X − X = (κ − 1)√(πt/2), so that the zone shrinks again.
+**Towards Euler and Bernoulli's law** the force is spread over one l_s behind the rim, and with a deflection that decays
+as e^{−x} ahead, κ < 1 gives X − coth X = λ₀√t, κ > 1 coth X − X = (κ − 1)√(πt/2), so that the zone shrinks again.
 """
 
 from __future__ import annotations
