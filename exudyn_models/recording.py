@@ -257,11 +257,8 @@ class Recorder:
         impulse, active = saved["impulse"] * s.impulse, saved["in_contact"]
         at_contact = {"impulse": impulse[:, front], "in_contact": active[:, front]}
         if not front.all():  # contact points of the opposite wall follow those of the front
-            at_contact = {
-                "impulse": impulse[:, front],
-                "opposite_impulse": -impulse[:, ~front],
-                "in_contact": active[:, front] | active[:, ~front],
-            }
+            at_contact["opposite_impulse"] = -impulse[:, ~front]
+            at_contact["in_contact"] |= active[:, ~front]
         of_time = {name: saved[name] * self.copies * s.impulse for name in ("total_impulse", "held_impulse")}
         of_time |= {name: saved[name] * self.copies * s.energy for name in ENERGIES if name in saved}
         largest, place, midspan = saved["moments"].T
