@@ -123,16 +123,13 @@ def assemble(layout: Layout, chosen: Chosen, units: Units = MODEL_UNITS) -> tupl
     )
     beam = chosen.element.beam(system, shape, section, factor * element_times(shape.lengths, scaling.shear_length))
     hold = beam.hold_by_inertia if explicit else beam.fix
-    held = {
-        "free": (),
-        "hinged": (beam.vertical_coordinate,),
-        "clamped": (beam.vertical_coordinate, beam.rotation_coordinate),
-    }
+    across, turning = beam.vertical_coordinate, beam.rotation_coordinate
+    held = {"free": (), "hinged": (across,), "clamped": (across, turning)}
     ends = [(shape.s.size - 1, 1.0, scaling.impact.right_end)]
     if chosen.full_beam:
         ends.insert(0, (0, -1.0, scaling.impact.left_end))
     else:
-        hold(0, beam.horizontal_coordinate, beam.rotation_coordinate)
+        hold(0, beam.horizontal_coordinate, turning)
     for node, _, end in ends:
         if held[end]:
             hold(node, *held[end])

@@ -152,12 +152,8 @@ class ExudynModel(Part):
                 if getattr(impact, other):
                     yield f"{other} is not modelled together with {name} (got {getattr(impact, other)!r})"
         element = self.element or chosen_element(impact)
-        for reason in (
-            element.refuses(impact),
-            contact.refuses(impact, element, self.integrator or contact.integrator),
-        ):
-            if reason is not None:
-                yield reason
+        of_contact = contact.refuses(impact, element, self.integrator or contact.integrator)
+        yield from filter(None, (element.refuses(impact), of_contact))
         if true and impact.off_centre:
             yield "exudyn.geometry.kind true knows the symmetric bow only: with rotation or first_touch take linear"
 

@@ -37,16 +37,10 @@ class _Run(ContactRun):
         self.strip: HeldStrip = HeldStrip(wall, hold)
         self.active = np.zeros(wall.nodes.size, bool)
         self.back = np.zeros(wall.nodes.size)  # speed asked of each closed node
-        self.connectors = [
-            beam.mbs.AddObject(
-                items.CoordinateConstraint(
-                    markerNumbers=[beam.ground_marker, beam.marker(int(node), beam.vertical_coordinate)],
-                    velocityLevel=True,
-                    activeConnector=False,
-                )
-            )
-            for node in wall.nodes
-        ]
+        for node in wall.nodes:
+            markers = [beam.ground_marker, beam.marker(int(node), beam.vertical_coordinate)]
+            constraint = items.CoordinateConstraint(markerNumbers=markers, velocityLevel=True, activeConnector=False)
+            self.connectors.append(beam.mbs.AddObject(constraint))
 
     @cached_property
     def _multipliers(self) -> Indices:
