@@ -37,6 +37,7 @@ __all__ = ["cross_checks", "for_whole_beam", "varied"]
 M = TypeVar("M", bound=Any)  # :class:`exudyn_models.method.ExudynModel`, which has these functions as methods
 
 UNHELD = Penalty(hold_start=0.0)
+ON_PLATE = Penalty(relative_stiffness=penalty.STIFFNESS, relative_damping=penalty.PLASTIC, hold_start=0.0)
 POINT_ELEMENTS = 100  # of a half beam that touches in a point; half as many: e moves by 4e-5
 ZONE_ELEMENTS = 240  # where a zone spreads, κ/ν < 1; 220 to 300: e within 1.5e-4 at κ/ν = 0.4, η/T* = 1e-2, the worst
 SLOWER = 2.0 * math.sqrt(2.0)  # its steps; the penalty is softer by the square. Twice as long: e is 5e-4 off there
@@ -74,11 +75,8 @@ def for_whole_beam(method: M, impact: Impact) -> M:
     element = method.element or chosen_element(impact)
     contact = method.contact
     if contact is None and wall is None:
-        contact = UNHELD if slower == 1.0 or shears else _softer(UNHELD, slower**-2)
-        if plate:
-            contact = dataclasses.replace(
-                UNHELD, relative_stiffness=penalty.STIFFNESS, relative_damping=penalty.PLASTIC
-            )
+        softer = slower != 1.0 and not shears
+        contact = ON_PLATE if plate else _softer(UNHELD, slower**-2) if softer else UNHELD
     solver = method.solver
     if solver is None and contact is not None and getattr(integrator, "flight_step", None):
         solver = dataclasses.replace(contact.solver, relative_tolerance=RELATIVE, absolute_tolerance=ABSOLUTE)
@@ -121,10 +119,9 @@ def _softer(contact: Penalty, factor: float) -> Penalty:
     """A penalty of ``factor`` times the stiffness with the same damping ratio; damping left open follows by itself."""
     if contact.stiffness is None and contact.relative_stiffness is None:
         contact = dataclasses.replace(contact, relative_stiffness=penalty.STIFFNESS)
-    given = {
-        name: getattr(contact, name) for name in ("stiffness", "damping", "relative_stiffness", "relative_damping")
-    }
-    by = {name: factor if "stiffness" in name else math.sqrt(factor) for name in given}
+    by = dict.fromkeys(("stiffness", "relative_stiffness"), factor)
+    by |= dict.fromkeys(("damping", "relative_damping"), math.sqrt(factor))
+    given = {name: getattr(contact, name) for name in by}
     return dataclasses.replace(contact, **{name: one * by[name] for name, one in given.items() if one is not None})
 
 
