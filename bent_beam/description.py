@@ -27,7 +27,7 @@ def impact_of(beam: BeamTable, arrival: _ImpactTable, wall: WallTable, section: 
     values |= {"length": beam.length, "axial_force": beam.axial_force, "natural_curvature": beam.natural_curvature}
     _only_with("beam.tension_direction", beam.tension_direction, "beam.axial_force", beam.axial_force)
     values["tension_direction"] = beam.tension_direction or "axis"
-    values |= _of_section(beam, section) | _shear(beam, section)
+    values |= _stiffness_and_mass(beam, section) | _shear(beam, section)
     values["curvature"] = _curvature(beam)
     values |= _damping(beam, math.sqrt(values["bending_stiffness"] / values["mass_per_length"]))
     values["left_end"], values["right_end"] = ends = _ends(beam)
@@ -55,18 +55,21 @@ def _only_with(name: str, value: Any, other: str, is_given: Any) -> None:
         raise InputError(f"{name} has no effect without {other} (got {value!r})")
 
 
-def _of_section(beam: BeamTable, section: Section | None) -> dict[str, float]:
-    """EI, μ and section height, of the section or as they are given."""
-    found = {}
-    for name in ("bending_stiffness", "mass_per_length"):
-        value = getattr(beam, name)
-        if section is None and value is None:
+def _of_section(beam: BeamTable, section: Section | None, name: str) -> float | None:
+    """A quantity of the section, or as it is given; ``None`` where neither knows it."""
+    given, known = getattr(beam, name), getattr(section, name, None)
+    if given is not None and known is not None:
+        raise InputError(f"beam.{name} = {given!r} and [section] say the same thing: give one of them")
+    # sizes that are each allowed may make one that is not
+    return given if known is None else declared(Impact)[name].checked(f"section: {name}", known)
+
+
+def _stiffness_and_mass(beam: BeamTable, section: Section | None) -> dict[str, Any]:
+    """EI, μ and section height."""
+    found = {name: _of_section(beam, section, name) for name in ("bending_stiffness", "mass_per_length")}
+    for name, value in found.items():
+        if value is None:
             raise InputError(f"beam.{name} is required (or a [section])")
-        if section is not None and value is not None:
-            raise InputError(f"beam.{name} = {value!r} and [section] say the same thing: give one of them")
-        if section is not None:  # sizes that are each allowed may make one that is not
-            value = declared(Impact)[name].checked(f"section: {name}", getattr(section, name))
-        found[name] = value
     if beam.section_height is not None:
         if section is not None:
             raise InputError(f"beam.section_height = {beam.section_height!r} and [section] clash: give one")
@@ -78,14 +81,8 @@ def _of_section(beam: BeamTable, section: Section | None) -> dict[str, float]:
 
 
 def _shear(beam: BeamTable, section: Section | None) -> dict[str, Any]:
-    """κ_sGA, N, and ρI, kg m, of Timoshenko's beam, of the section or as they are given; none of Euler and
-    Bernoulli's."""
-    found: dict[str, float | None] = {}
-    for name in ("shear_stiffness", "rotary_inertia"):
-        given, known = getattr(beam, name), getattr(section, name, None)
-        if given is not None and known is not None:
-            raise InputError(f"beam.{name} = {given!r} and [section] say the same thing: give one of them")
-        found[name] = given if known is None else declared(Impact)[name].checked(f"section: {name}", known)
+    """κ_sGA, N, and ρI, kg m, of Timoshenko's beam; none of Euler and Bernoulli's."""
+    found = {name: _of_section(beam, section, name) for name in ("shear_stiffness", "rotary_inertia")}
     if found["shear_stiffness"] is None:
         _only_with("beam.rotary_inertia", beam.rotary_inertia, "beam.shear_stiffness", None)
         if beam.model == TIMOSHENKO:

@@ -25,13 +25,7 @@ class SimulationError(RuntimeError):
     s, ``None`` where a method failed without saying when."""
 
     def __init__(
-        self,
-        message: str,
-        *,
-        time: float | None = None,
-        step: int = 0,
-        advice: str = "",
-        history: Any = None,
+        self, message: str, *, time: float | None = None, step: int = 0, advice: str = "", history: Any = None
     ) -> None:
         super().__init__(message if time is None else f"{message} at t = {time:.6g} s (step {step}); try: {advice}")
         self.time, self.step, self.advice, self.history = time, step, advice, history

@@ -39,7 +39,7 @@ ENERGIES = ("kinetic_energy", "strain_energy", "contact_energy", "work_of_loads"
 REQUIRED = ("time", "x", "contact_x", "gap", "impulse", "total_impulse", "kinetic_energy", "strain_energy")
 
 # dimensions → the variables of them → their units
-KNOWN: dict[tuple[str, ...], dict[str, str]] = {
+VARIABLES: dict[tuple[str, ...], dict[str, str]] = {
     ("x",): {"x": "m"},
     ("contact",): {"contact_x": "m"},
     ("time", "x"): {"gap": "m", "position": "m", "velocity": "m/s", "slope": "1", "angle": "1",
@@ -54,16 +54,16 @@ KNOWN: dict[tuple[str, ...], dict[str, str]] = {
         "largest_moment": "N m", "largest_moment_place": "m", "largest_midspan_moment": "N m",
     },
 }  # fmt: skip
-DIMENSIONS = {name: dimensions for dimensions, units in KNOWN.items() for name in units}
-UNITS = {name: unit for units in KNOWN.values() for name, unit in units.items() if unit}
+DIMENSIONS = {name: dimensions for dimensions, units in VARIABLES.items() for name in units}
+UNITS = {name: unit for units in VARIABLES.values() for name, unit in units.items() if unit}
 
 LARGEST_VALUE = 1e150  # its square can still be calculated with
 NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]{0,63}")
 MOST_VARIABLES = 64
 MOST_ATTRIBUTES = 32  # of one object
 MOST_TEXT = 16_000_000  # bytes of one attribute: the nodes and saved instants of the largest run fit
-LARGEST = 8_000_000_000  # bytes of all values
-SMALL, RATIO = 250_000_000, 20  # bytes that any file may unpack to; beyond, times the file's size
+LARGEST_FILE = 8_000_000_000  # bytes of all values
+ANY_FILE, RATIO = 250_000_000, 20  # bytes that any file may unpack to; beyond, times the file's size
 OF_NETCDF = {"DIMENSION_LIST", "REFERENCE_LIST"}  # references between variables and their dimensions, no text
 CONTROL = {"Cc", "Cf", "Cs"}  # of Unicode
 
@@ -144,7 +144,7 @@ def examine(file: Path) -> None:
 
     if file.exists() and not file.is_file():  # a pipe that nobody writes into would be waited for
         raise ValueError("it is no regular file")
-    most = min(LARGEST, SMALL + RATIO * file.stat().st_size)
+    most = min(LARGEST_FILE, ANY_FILE + RATIO * file.stat().st_size)
     with h5py.File(file, "r") as content:
         if len(content) > MOST_VARIABLES:
             raise ValueError(f"it holds {len(content)} variables; {MOST_VARIABLES} are the most")

@@ -56,11 +56,8 @@ def cannot_return(impact: Impact, x: Array, gap: Array, velocity: Array, energy:
     x : node places, m, of the whole beam or of its half x ≥ 0; gap (m) and velocity into the wall (m/s) there.
     energy : kinetic and strain, of the whole beam, J.
     """
-    return bears_free_flight(impact) and _flies_off(impact, x, gap, velocity, energy)
-
-
-def _flies_off(impact: Impact, x: Array, gap: Array, velocity: Array, energy: float) -> bool:
-    """:func:`cannot_return` of a beam that bears free flight."""
+    if not bears_free_flight(impact):
+        return False
     half = x[0] >= 0.0
     free = gap - 0.5 * impact.relative_curvature * (x - impact.first_touch) ** 2  # zero for an unstrained beam at rest
     distance, tilt = _rigid(x, free, half)
@@ -91,16 +88,15 @@ def has_left(history: ImpactHistory) -> bool:
         return history.positions(-1), history.array("gap", -1), history.array("velocity", -1), energy
 
     quiet = history.time[-1] - history.time[pushed[-1] + 1] if pushed.size else 0.0
-    return pushed.size > 0 and _is_off(history.impact, bears_free_flight(history.impact), float(quiet), last)
+    return pushed.size > 0 and _is_off(history.impact, float(quiet), last)
 
 
-def _is_off(impact: Impact, told: bool, quiet: float, state: Callable[[], State]) -> bool:
-    """Whether a beam that has not pushed for ``quiet`` s is off for good; ``told``: whether :func:`cannot_return` tells
-    it, of ``state``."""
-    if not told:
+def _is_off(impact: Impact, quiet: float, state: Callable[[], State]) -> bool:
+    """Whether a beam that has not pushed for ``quiet`` s is off for good: of ``state``, where that tells it."""
+    if not bears_free_flight(impact):
         return quiet >= LOWEST_PERIOD * impact.slow_time_scale
     x, gap, velocity, energy = state()
-    return bool(gap.min() > 0.0) and _flies_off(impact, x, gap, velocity, energy)
+    return bool(gap.min() > 0.0) and cannot_return(impact, x, gap, velocity, energy)
 
 
 class Separation:
@@ -109,9 +105,7 @@ class Separation:
 
     def __init__(self, impact: Impact) -> None:
         self.impact = impact
-        self.told = bears_free_flight(impact)
-        self.impulse = 0.0
-        self.since = 0.0
+        self.impulse = self.since = 0.0
 
     def __call__(self, time: float, impulse: float, state: Callable[[], State], *, closed: bool = False) -> bool:
         """Whether the beam has left at ``time`` (s), asked at increasing times.
@@ -123,7 +117,7 @@ class Separation:
             self.impulse, self.since = impulse, time
             return False
         over = impulse != 0.0 and time - self.since >= LOWEST_PERIOD * self.impact.slow_time_scale
-        return over and _is_off(self.impact, self.told, time - self.since, state)
+        return over and _is_off(self.impact, time - self.since, state)
 
 
 def _rigid(x: Array, field: Array, half: bool) -> tuple[float, float]:

@@ -18,8 +18,8 @@ from pathlib import Path
 __all__ = ["try_first"]
 
 LIMIT = 30  # s; the largest history takes three
-START = "import json, sys; sys.path[:] = json.loads(sys.argv[1]); "
-START += "from bent_beam.files import examine; from bent_beam.guarded import serve; serve(examine)"
+CHILD = "import json, sys; sys.path[:] = json.loads(sys.argv[1]); "
+CHILD += "from bent_beam.files import examine; from bent_beam.guarded import serve; serve(examine)"
 
 _lock = threading.Lock()
 _child: subprocess.Popen[str] | None = None
@@ -31,7 +31,7 @@ def try_first(file: Path) -> None:
     file.stat()
     with _lock:
         if _child is None or _child.poll() is not None:
-            words = [sys.executable, "-P", "-c", START, json.dumps(sys.path)]
+            words = [sys.executable, "-P", "-c", CHILD, json.dumps(sys.path)]
             _child = subprocess.Popen(words, text=True, stdin=subprocess.PIPE, stdout=subprocess.PIPE)
             atexit.register(_child.kill)
         assert _child.stdin is not None and _child.stdout is not None

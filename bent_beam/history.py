@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 
 from bent_beam.files import ENERGIES, LOSSES, UNITS, check_contents, check_variables, read_dataset, write_dataset
 from bent_beam.impact import Impact
+from bent_beam.section import Section
 from bent_beam.versions import versions
 
 if TYPE_CHECKING:
@@ -120,9 +121,8 @@ class ImpactHistory:
         }
         return replace(self, variables=kept)  # time is the first dimension
 
-    def described(self, title: str, section: Any) -> ImpactHistory:
-        """The same that knows the title of its case, and its section (:class:`bent_beam.section.Section` or ``None``),
-        for stresses."""
+    def described(self, title: str, section: Section | None) -> ImpactHistory:
+        """The same that knows the title of its case, and its section, for stresses."""
         held = {"title": title} if title else {}
         if section is not None:
             held["section"] = json.dumps({"area": section.area, "section_modulus": section.section_modulus})

@@ -1,4 +1,4 @@
-"""A material whose loss hardly depends on the frequency: a spring and Maxwell branches beside it.
+"""A material whose loss hardly depends on the frequency: a spring and Maxwell branches beside it (docs/damping.md).
 
     EI(s) = EI_∞ (1 + Σ_j g_j sτ_j/(1 + sτ_j)),     EI(2πif) = EI(1 + iη) at the loss frequency f
 
@@ -7,10 +7,9 @@ g ≥ 0, so that no motion gains energy. That the loss factor is η at ω is lin
     Σ_j g_j (x_j − η x_j²)/(1 + x_j²) = η,     x_j = ωτ_j,
 
 and holds by least squares over the range from a tenth of the first free–free mode, or f, to 10⁶ times that mode or
-10⁴/t*, whichever is higher. The range is that of the problem and not of a mesh, so that a finer mesh has the same
-material. Times lie evenly over the logarithm of the range. Rows are weighted by ω^−(2/π)atan η, since a constant loss
-makes the modulus grow by that power (Kramers and Kronig). Below the range the material is a spring EI_∞, above it a
-stiffer one, both without loss. (Maxwell branches: Simo, Hughes, Computational Inelasticity, 1998, chapter 10.)
+10⁴/t*, whichever is higher. Times lie evenly over the logarithm of the range. Rows are weighted by ω^−(2/π)atan η,
+since a constant loss makes the modulus grow by that power (Kramers and Kronig). Below the range the material is a
+spring EI_∞, above it a stiffer one, both without loss. (Simo, Hughes, Computational Inelasticity, 1998, chapter 10.)
 """
 
 from __future__ import annotations
@@ -18,13 +17,13 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from bent_beam.errors import InputError
 from bent_beam.loads import CLAMPED
+from bent_beam.scales import Scales
 
 __all__ = ["FIRST_MODE", "Branches", "branches_of", "check_loss", "converges", "first_mode"]
 
@@ -32,10 +31,10 @@ Array = NDArray[np.float64]
 
 FIRST_MODE = CLAMPED["clamped"]  # the free–free beam has the frequencies of the clamped one
 BELOW, ABOVE, EARLIEST = 0.1, 1e6, 1e-4  # of the first mode, of the first mode, t*
-PER_DECADE, BEYOND = 1.5, math.sqrt(10.0)  # branches, and how far they go beyond either end of the range
-EXACT = 100.0  # weight of the loss frequency over that of any other
+PER_DECADE, MARGIN = 1.5, math.sqrt(10.0)  # branches, and how far they go beyond either end of the range
+WEIGHT_OF_LOSS = 100.0  # weight of the loss frequency over that of any other
 LEAST_LOSS = 0.05  # with less, meshes, steps and contact laws scatter restitution by hundredths (docs/damping.md)
-NEAR = (1e-3, 1e6)  # times the first mode: where a loss frequency may lie
+RANGE = (1e-3, 1e6)  # times the first mode: where a loss frequency may lie
 
 
 @dataclass(frozen=True)
@@ -66,18 +65,18 @@ class Branches:
         return np.asarray(self.relaxed * (1.0 + (self.shares * s / (1.0 + s)).sum(axis=-1)))
 
 
-def first_mode(impact: Any) -> float:
+def first_mode(impact: Scales) -> float:
     """Frequency of the first free–free bending mode, Hz."""
     return float(FIRST_MODE**2 * impact.wave_constant / impact.length**2 / (2.0 * math.pi))
 
 
-def converges(impact: Any) -> bool:
+def converges(impact: Scales) -> bool:
     """Whether a whole impact has numbers that finer elements come to: not without damping, nor with little hysteretic
     loss, which damps short waves no more than long ones (docs/damping.md)."""
     return bool(impact.damping > 0.0 or impact.hysteretic_loss >= LEAST_LOSS)
 
 
-def branches_of(impact: Any) -> Branches | None:
+def branches_of(impact: Scales) -> Branches | None:
     """The branches of ``impact.hysteretic_loss``; ``None`` without."""
     if not impact.hysteretic_loss or impact.loss_frequency is None:
         return None
@@ -91,13 +90,13 @@ def _fitted(loss: float, frequency: float, lowest: float, highest: float) -> Bra
     """The branches by non-negative least squares."""
     from scipy.optimize import nnls
 
-    count = math.ceil(PER_DECADE * math.log10(highest / lowest * BEYOND**2)) + 1
-    times = 1.0 / (2.0 * math.pi * np.geomspace(lowest / BEYOND, highest * BEYOND, count))
+    count = math.ceil(PER_DECADE * math.log10(highest / lowest * MARGIN**2)) + 1
+    times = 1.0 / (2.0 * math.pi * np.geomspace(lowest / MARGIN, highest * MARGIN, count))
     asked = np.append(np.geomspace(lowest, highest, 12 * count), frequency)
     x = 2.0 * math.pi * asked[:, None] * times
     power = 2.0 / math.pi * math.atan(loss)
     weight = (asked / frequency) ** -power
-    weight[-1] *= EXACT
+    weight[-1] *= WEIGHT_OF_LOSS
     size = (times / times[-1]) ** -power  # g is about in proportion: columns of one size
     shares = size * nnls(size * weight[:, None] * (x - loss * x**2) / (1.0 + x**2), loss * weight)[0]
     found = Branches(1.0, shares, times, lowest, highest, 0.0)
@@ -106,7 +105,7 @@ def _fitted(loss: float, frequency: float, lowest: float, highest: float) -> Bra
     return Branches(1.0 / float(modulus[-1].real), shares, times, lowest, highest, deviation)
 
 
-def check_loss(impact: Any) -> None:
+def check_loss(impact: Scales) -> None:
     """``ValueError`` where loss and loss frequency do not go together; it names field and value."""
     if not impact.hysteretic_loss:
         if impact.loss_frequency is not None:
@@ -118,10 +117,10 @@ def check_loss(impact: Any) -> None:
             "material: give one of them"
         )
     mode = first_mode(impact)
-    if impact.loss_frequency is None or not NEAR[0] * mode <= impact.loss_frequency <= NEAR[1] * mode:
+    if impact.loss_frequency is None or not RANGE[0] * mode <= impact.loss_frequency <= RANGE[1] * mode:
         raise InputError(
-            f"loss_frequency must say where EI and hysteretic_loss hold, between {NEAR[0]:g} and {NEAR[1]:g} times the "
-            f"first mode's {mode:.6g} Hz (got {impact.loss_frequency!r})"
+            f"loss_frequency must say where EI and hysteretic_loss hold, between {RANGE[0]:g} and {RANGE[1]:g} times "
+            f"the first mode's {mode:.6g} Hz (got {impact.loss_frequency!r})"
         )
     for name in ("fourth_derivative", "curvature_rate"):
         if getattr(impact, name):

@@ -15,27 +15,31 @@ y > 0 points into the wall y_w = −K_w x²/2; x = 0 touches first, at t = 0. Th
 from __future__ import annotations
 
 import dataclasses
-from typing import Annotated, Any
+import math
+from typing import Any
 
-from bent_beam.checks import check_arrangement, check_scales, non_negative, positive
+from bent_beam.checks import LARGEST, non_negative, positive
 from bent_beam.errors import InputError
-from bent_beam.fields import Part, Quantity
 from bent_beam.hysteresis import check_loss
-from bent_beam.loads import ENDS, SIMULATED, UNSHEARED, Feature, Load, loads_of
+from bent_beam.loads import loads_of
 from bent_beam.scales import Scales
 
 __all__ = ["Impact"]
 
-LONGEST = 1e30  # time, and change of the free motion by the loads, in the problem's own units
+ENDLESS = 1e30  # time, and change of the free motion by the loads, in the problem's own units
 FIRST_SPREAD = 0.005  # T*: until then waves from the ends change the impulse by 1 % at most, of flat contacts by more
 BEFORE_WAVES_RETURN = 0.01  # T*: the earliest that they change the impulse by 2 %
+SCALES = ("wave_constant", "time_scale", "length_scale", "slow_time_scale", "epsilon")
+GROUPS = ("epsilon_alpha", "epsilon_chi", "epsilon_psi", "epsilon_axial", "relative_damping", "kappa_over_nu")
+NOT_HELD = ("rotation", "curvature_rate", "fourth_derivative")  # motions that a support does not allow
 
 
 @dataclasses.dataclass(frozen=True)
-class Impact(Part, Scales):
+class Impact(Scales):
     """A bent beam about to hit a wall (SI units); free, rigid and symmetric about x = 0 unless said otherwise.
 
-    Units, meanings and ranges of the fields stand at the fields. Raises ``ValueError`` naming field and value.
+    Units, meanings and ranges of the fields stand in :class:`bent_beam.scales.Scales`. Raises ``ValueError`` naming
+    field and value.
 
     >>> from bent_beam import Impact
     >>> pipe = Impact(bending_stiffness=1.224e6, mass_per_length=29.02, length=90.0, curvature=0.002, velocity=2.0)
@@ -43,56 +47,10 @@ class Impact(Part, Scales):
     0.205
     """
 
-    bending_stiffness: Annotated[float, Quantity("N m²", "EI", above=0.0)]
-    mass_per_length: Annotated[float, Quantity("kg/m", "μ", above=0.0)]
-    length: Annotated[float, Quantity("m", "L of the whole beam", above=0.0)]
-    curvature: Annotated[float, Quantity("1/m", "K, the bow at the first touch", least=0.0)]
-    velocity: Annotated[float, Quantity("m/s", "V₀ towards the wall", above=0.0)]
-    acceleration: Annotated[
-        float, Load("m/s²", "a₀ at the first touch; free flight unless given", group="alpha", powers=(0, 2))
-    ] = 0.0
-    curvature_rate: Annotated[float, Load("1/(m s)", "c₀ = ∂³y₀/∂x²∂t", group="chi", powers=(2, 1))] = 0.0
-    fourth_derivative: Annotated[float, Load("1/m³", "q₀ = ∂⁴y₀/∂x⁴", group="psi", powers=(4, 0))] = 0.0
-    section_height: Annotated[
-        float, Quantity("m", "d, for EA = 12 EI/d² on the Exudyn path; from the [section]", above=0.0)
-    ] = 0.01
-    shear_stiffness: Annotated[
-        float | None, Feature("N", "κ_sGA of Timoshenko's beam; Euler and Bernoulli's without", above=0.0,
-                              instead=UNSHEARED)] = None  # fmt: skip
-    rotary_inertia: Annotated[float, Quantity("kg m", "J = ρI of a section, next to shear_stiffness", least=0.0)] = 0.0
-    axial_force: Annotated[float, Load("N", "N, tension positive", group="axial")] = 0.0
-    tension_direction: Annotated[
-        str,
-        Quantity("", "of the axial force at the ends: along x, or along the bow's ends", choices=("axis", "tangent")),
-    ] = "axis"
-    damping: Annotated[float, Quantity("s", "η, Kelvin–Voigt damping of the beam's own material", least=0.0)] = 0.0
-    hysteretic_loss: Annotated[
-        float, Feature("1", "loss factor of the material, nearly that of all frequencies", least=0.0, most=1.0,
-                       instead=": take the Hermite path, or damping in its place")] = 0.0  # fmt: skip
-    loss_frequency: Annotated[float | None, Quantity("Hz", "where EI and hysteretic_loss hold", above=0.0)] = None
-    wall_curvature: Annotated[float, Quantity("1/m", "K_w, positive where the wall is concave; less than K")] = 0.0
-    natural_curvature: Annotated[float | None, Quantity("1/m", "stress-free K; the whole bow's unless given")] = None
-    rotation: Annotated[float, Load("rad/s", "rocking about the middle (runs of the full beam)", powers=(1, 1))] = 0.0
-    first_touch: Annotated[float, Quantity("m", "the bow's apex from the middle (runs of the full beam)")] = 0.0
-    opposite_wall: Annotated[float | None, Quantity("m", "distance of a second wall behind the apex", above=0.0)] = None
-    wall_stiffness: Annotated[
-        float | None, Feature("N/m²", "k per length of beam, of a stop in N/m; rigid unless given", above=0.0)
-    ] = None
-    wall_damping: Annotated[
-        float, Feature("N s/m²", "c beside k: the wall gives max(0, k p + c ṗ); of a stop in N s/m", least=0.0)
-    ] = 0.0
-    wall_clearance: Annotated[
-        float, Feature("m", "of held ends: from the beam at rest to the wall in front, where a run then starts",
-                       least=0.0, instead=": bentbeam simulate follows it, on the Hermite path")] = 0.0  # fmt: skip
-    wall_from: Annotated[float | None, Feature("m", "where the wall begins, from the middle", instead=SIMULATED)] = None
-    wall_to: Annotated[float | None, Feature("m", "where it ends; at wall_from: a stop", instead=SIMULATED)] = None
-    left_end: Annotated[str, Feature("", "how the end at x = −L/2 is held", choices=ENDS, instead=SIMULATED)] = "free"
-    right_end: Annotated[str, Feature("", "how the end at x = L/2 is held", choices=ENDS, instead=SIMULATED)] = "free"
-
     def __post_init__(self) -> None:
         super().__post_init__()
-        check_arrangement(self)
-        check_scales(self)
+        _check_arrangement(self)
+        _check_scales(self)
         check_loss(self)
 
     @classmethod
@@ -150,19 +108,76 @@ class Impact(Part, Scales):
         asked without a time, the first spread of the contact, is over."""
         if end_time is None:
             end_time = min(0.1 * self.time_scale, BEFORE_WAVES_RETURN * self.slow_time_scale)
-        if positive("end_time", end_time) / self.time_scale < 1.0 / LONGEST:
+        if positive("end_time", end_time) / self.time_scale < 1.0 / ENDLESS:
             raise InputError(
-                f"end_time must be at least {1 / LONGEST:g} t* (got {end_time!r}, t* = {self.time_scale!r} s)"
+                f"end_time must be at least {1 / ENDLESS:g} t* (got {end_time!r}, t* = {self.time_scale!r} s)"
             )
         return self.checked_time("end_time", end_time)
 
     def checked_time(self, name: str, value: float) -> float:
         """A time (s) since impact, or ``ValueError`` when it, or what the loads do by then, is out of proportion."""
         time = non_negative(name, value) / self.time_scale
-        if time > LONGEST:
-            raise InputError(f"{name} must not exceed {LONGEST:g} t* (got {value!r}, t* = {self.time_scale!r} s)")
+        if time > ENDLESS:
+            raise InputError(f"{name} must not exceed {ENDLESS:g} t* (got {value!r}, t* = {self.time_scale!r} s)")
         for load in loads_of(Impact):
             given = getattr(self, load)
-            if abs(self.group(load)) * time > LONGEST:
+            if abs(self.group(load)) * time > ENDLESS:
                 raise InputError(f"{load} is out of all proportion to a time of {value:.6g} s (got {given!r})")
         return float(value)
+
+
+def _check_scales(impact: Impact) -> None:
+    """``ValueError`` for scales and groups that floating point does not hold."""
+    for name in (*SCALES, *GROUPS):
+        try:
+            value = abs(getattr(impact, name))
+        except (OverflowError, ZeroDivisionError):
+            value = math.inf
+        if not value <= LARGEST or (name in SCALES and value < 1.0 / LARGEST):
+            raise InputError(
+                f"length, curvature, velocity, bending_stiffness and mass_per_length put {name} beyond "
+                f"{LARGEST:g} or below its inverse (got L = {impact.length!r}, K = {impact.curvature!r}, "
+                f"V0 = {impact.velocity!r}, EI = {impact.bending_stiffness!r}, mu = {impact.mass_per_length!r})"
+            )
+
+
+def _check_arrangement(impact: Impact) -> None:
+    """``ValueError`` where supports, wall, first touch or bow contradict one another; it names field and value."""
+    half = impact.half_length
+    if abs(impact.first_touch) >= half:
+        raise InputError(
+            f"first_touch must lie on the beam, within {half!r} m of its middle (got {impact.first_touch!r})"
+        )
+    if impact.wall_curvature and impact.wall_curvature >= impact.curvature:
+        raise InputError(
+            f"wall_curvature must be less than the beam's curvature {impact.curvature!r}, or no point touches first "
+            f"(got {impact.wall_curvature!r})"
+        )
+    for name in ("wall_from", "wall_to"):
+        place = getattr(impact, name)
+        if place is not None and not -half <= place <= half:
+            raise InputError(
+                f"{name} must lie on the beam, within {half!r} m of its middle (got {place!r}); leave it out for a "
+                "wall that goes on"
+            )
+    begin, end = impact.wall_span
+    if begin > end:
+        raise InputError(f"wall_from must not exceed wall_to {end!r} (got {begin!r})")
+    if impact.wall_damping and impact.wall_stiffness is None:
+        raise InputError(
+            f"wall_damping has no effect on a rigid wall: give wall_stiffness too (got {impact.wall_damping!r})"
+        )
+    if impact.wall_clearance and not impact.supported:
+        raise InputError(
+            "wall_clearance has no effect on a free beam, which flies up to the wall as it is: leave it out, or hold "
+            f"an end (got {impact.wall_clearance!r})"
+        )
+    if impact.rotary_inertia and impact.shear_stiffness is None:
+        raise InputError(f"rotary_inertia has no effect without shear_stiffness (got {impact.rotary_inertia!r})")
+    if impact.supported:
+        for name in NOT_HELD:
+            if getattr(impact, name):
+                raise InputError(
+                    f"{name} must be 0 where an end is held: the beam arrives in the lowest mode that its ends allow "
+                    f"(got {getattr(impact, name)!r})"
+                )

@@ -11,10 +11,10 @@ and what compares with it do so, too (:func:`unmodelled`).
 
 To add a load:
 
-1. ``impact.py``: its field; of a force at a place, the place is a field of its own, with its key in ``tables.py`` and
-   ``description.py``. ``scales.py``: without a term its share in ``load_within``, of which momentum, balances and hits
+1. ``scales.py``: its field; of a force at a place, the place is a field of its own, with its key in ``tables.py`` and
+   ``description.py``. Without a term its share in ``load_within``, of which momentum, balances and hits
    follow; if it can pull the beam off the wall, ``lifts``; if it acts on one half alone, ``off_centre``; that its
-   place is on the beam, ``checks.py``; where a node has to stand, ``meshes.snapped``.
+   place is on the beam, ``impact.py``; where a node has to stand, ``meshes.snapped``.
 2. The path's file: its name in ``MODELLED``, and without a term its force: ``hermite_fe/model.py`` (``nodal_loads``);
    of Exudyn ``method.py`` (``MODELLED``), ``geometry.py`` (its unit, ``Scaling``) and ``assembly.py`` (``assemble``).
 3. A test (``tests/measure/test_balance.py`` has the balances), a row in ``docs/guide/problems.md``, a line in
@@ -50,11 +50,11 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from bent_beam.fields import Quantity, declared
+from bent_beam.fields import Part, Quantity, declared
 
 __all__ = [
-    "ENDS", "Feature", "FreeMotion", "Load", "WallScales", "beyond_first_order", "load_against", "loads_of",
-    "lowest_mode", "unmodelled", "wall_scales",
+    "ENDS", "Feature", "FreeMotion", "Load", "WallScales", "beyond_first_order", "loads_of", "lowest_mode",
+    "unmodelled", "wall_scales",
 ]  # fmt: skip
 
 Array = NDArray[np.float64]
@@ -87,12 +87,12 @@ def loads_of(kind: type) -> dict[str, Load]:
     return {name: field.quantity for name, field in declared(kind).items() if isinstance(field.quantity, Load)}
 
 
-def beyond_first_order(impact: Any) -> str | None:
+def beyond_first_order(impact: Part) -> str | None:
     """Why theory to first order cannot take an impact, naming the field (``None``: it can)."""
     return unmodelled(impact, [name for name, load in loads_of(type(impact)).items() if load.group])
 
 
-def unmodelled(impact: Any, modelled: Collection[str]) -> str | None:
+def unmodelled(impact: Part, modelled: Collection[str]) -> str | None:
     """Why a solver of the features ``modelled``, loads among them, cannot take an impact, naming the field (``None``:
     it can). Features are the fields annotated by :class:`Feature`; any solver takes the other fields."""
     about = declared(type(impact))  # type: ignore[arg-type]
@@ -129,18 +129,6 @@ class FreeMotion:
     def first_order(self) -> FreeMotion:
         """Its terms that grow like t² where x ~ √t, against the t of V₀t and Kx²/2."""
         return FreeMotion({(i, j): c for (i, j), c in self.terms.items() if i + 2 * j == 4})
-
-
-def load_against(impact: Any, curvature: float) -> float:
-    """μa₀ + EI q₀ + N(K − ``curvature``), N/m; nothing where the terms cancel to rounding."""
-    motion = impact.free_motion(0.0)
-    terms = (
-        impact.mass_per_length * float(motion(0.0, by_t=2)),
-        impact.bending_stiffness * float(motion(0.0, by_x=4)),
-        impact.axial_force * (impact.curvature - curvature),
-    )
-    total = math.fsum(terms)
-    return total if abs(total) > 1e-14 * max(abs(term) for term in terms) else 0.0
 
 
 ENDS = ("free", "hinged", "clamped")

@@ -20,17 +20,9 @@ from bent_beam.errors import InputError
 from bent_beam.fields import Part, Quantity
 
 __all__ = [
-    "MESHES",
-    "GradedMesh",
-    "Mesh",
-    "NodesMesh",
-    "ScaleFreeMesh",
-    "SquareMesh",
-    "UniformMesh",
-    "checked_nodes",
-    "mirrored",
-    "snapped",
-]
+    "MESHES", "GradedMesh", "Mesh", "NodesMesh", "ScaleFreeMesh", "SquareMesh", "UniformMesh", "checked_nodes",
+    "mirrored", "snapped",
+]  # fmt: skip
 
 Array = NDArray[np.float64]
 

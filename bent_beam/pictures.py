@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 __all__ = ["draw_force", "draw_stress", "force_and_stress"]
 
-START = 0.01  # of the run
+CUT_OFF = 0.01  # of the run
 
 
 def force_and_stress(history: Any) -> Any:
@@ -26,7 +26,7 @@ def force_and_stress(history: Any) -> Any:
 def draw_force(axis: Any, history: Any, **style: Any) -> None:
     """Mean force of the wall between saved instants; at the very start, where it falls like 1/√t, it is cut off."""
     force = history.force
-    top = 1.2 * float(force[history.time >= START * history.time[-1]].max())
+    top = 1.2 * float(force[history.time >= CUT_OFF * history.time[-1]].max())
     scale = _draw(axis, history, np.minimum(force, top), "force of the wall", "N", style)
     if top > 0.0:
         axis.set_ylim(top=scale * top)

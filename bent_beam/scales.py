@@ -1,4 +1,4 @@
-"""Scales and dimensionless groups of an impact (theory.md, section 2; thesis 2.2.16, 2.2.36–37).
+"""The fields of an impact, its scales and dimensionless groups (theory.md, section 2; thesis 2.2.16, 2.2.36–37).
 
 l* = √(EI/μ)/V₀,  t* = l*/V₀: the fast layer;     T* = √(μL*⁴/EI): free vibration;     ε = t*/T*
 l_s = √(EI/κ_sGA),  t_s = √(EIμ)/κ_sGA: shear;     g = J κ_sGA/(EI μ), which is κ_sG/E where nothing moves along
@@ -7,31 +7,64 @@ l_s = √(EI/κ_sGA),  t_s = √(EIμ)/κ_sGA: shear;     g = J κ_sGA/(EI μ), 
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
+from typing import Annotated
 
-from bent_beam.loads import FreeMotion, load_against, loads_of
+from bent_beam.fields import Part, Quantity
+from bent_beam.loads import ENDS, SIMULATED, UNSHEARED, Feature, FreeMotion, Load, loads_of
 
 __all__ = ["Scales"]
 
 
-class Scales:
-    """What follows from the fields of :class:`bent_beam.Impact`, their units and meanings stand there."""
+@dataclass(frozen=True)
+class Scales(Part):
+    """The fields of :class:`bent_beam.Impact` with their units, meanings and ranges, and what follows from them."""
 
-    bending_stiffness: float
-    mass_per_length: float
-    length: float
-    curvature: float
-    velocity: float
-    shear_stiffness: float | None
-    rotary_inertia: float
-    wall_curvature: float
-    rotation: float
-    first_touch: float
-    tension_direction: str
-    damping: float
-    left_end: str
-    right_end: str
-    wall_from: float | None
-    wall_to: float | None
+    bending_stiffness: Annotated[float, Quantity("N m²", "EI", above=0.0)]
+    mass_per_length: Annotated[float, Quantity("kg/m", "μ", above=0.0)]
+    length: Annotated[float, Quantity("m", "L of the whole beam", above=0.0)]
+    curvature: Annotated[float, Quantity("1/m", "K, the bow at the first touch", least=0.0)]
+    velocity: Annotated[float, Quantity("m/s", "V₀ towards the wall", above=0.0)]
+    acceleration: Annotated[
+        float, Load("m/s²", "a₀ at the first touch; free flight unless given", group="alpha", powers=(0, 2))
+    ] = 0.0
+    curvature_rate: Annotated[float, Load("1/(m s)", "c₀ = ∂³y₀/∂x²∂t", group="chi", powers=(2, 1))] = 0.0
+    fourth_derivative: Annotated[float, Load("1/m³", "q₀ = ∂⁴y₀/∂x⁴", group="psi", powers=(4, 0))] = 0.0
+    section_height: Annotated[
+        float, Quantity("m", "d, for EA = 12 EI/d² on the Exudyn path; from the [section]", above=0.0)
+    ] = 0.01
+    shear_stiffness: Annotated[
+        float | None, Feature("N", "κ_sGA of Timoshenko's beam; Euler and Bernoulli's without", above=0.0,
+                              instead=UNSHEARED)] = None  # fmt: skip
+    rotary_inertia: Annotated[float, Quantity("kg m", "J = ρI of a section, next to shear_stiffness", least=0.0)] = 0.0
+    axial_force: Annotated[float, Load("N", "N, tension positive", group="axial")] = 0.0
+    tension_direction: Annotated[
+        str,
+        Quantity("", "of the axial force at the ends: along x, or along the bow's ends", choices=("axis", "tangent")),
+    ] = "axis"
+    damping: Annotated[float, Quantity("s", "η, Kelvin–Voigt damping of the beam's own material", least=0.0)] = 0.0
+    hysteretic_loss: Annotated[
+        float, Feature("1", "loss factor of the material, nearly that of all frequencies", least=0.0, most=1.0,
+                       instead=": take the Hermite path, or damping in its place")] = 0.0  # fmt: skip
+    loss_frequency: Annotated[float | None, Quantity("Hz", "where EI and hysteretic_loss hold", above=0.0)] = None
+    wall_curvature: Annotated[float, Quantity("1/m", "K_w, positive where the wall is concave; less than K")] = 0.0
+    natural_curvature: Annotated[float | None, Quantity("1/m", "stress-free K; the whole bow's unless given")] = None
+    rotation: Annotated[float, Load("rad/s", "rocking about the middle (runs of the full beam)", powers=(1, 1))] = 0.0
+    first_touch: Annotated[float, Quantity("m", "the bow's apex from the middle (runs of the full beam)")] = 0.0
+    opposite_wall: Annotated[float | None, Quantity("m", "distance of a second wall behind the apex", above=0.0)] = None
+    wall_stiffness: Annotated[
+        float | None, Feature("N/m²", "k per length of beam, of a stop in N/m; rigid unless given", above=0.0)
+    ] = None
+    wall_damping: Annotated[
+        float, Feature("N s/m²", "c beside k: the wall gives max(0, k p + c ṗ); of a stop in N s/m", least=0.0)
+    ] = 0.0
+    wall_clearance: Annotated[
+        float, Feature("m", "of held ends: from the beam at rest to the wall in front, where a run then starts",
+                       least=0.0, instead=": bentbeam simulate follows it, on the Hermite path")] = 0.0  # fmt: skip
+    wall_from: Annotated[float | None, Feature("m", "where the wall begins, from the middle", instead=SIMULATED)] = None
+    wall_to: Annotated[float | None, Feature("m", "where it ends; at wall_from: a stop", instead=SIMULATED)] = None
+    left_end: Annotated[str, Feature("", "how the end at x = −L/2 is held", choices=ENDS, instead=SIMULATED)] = "free"
+    right_end: Annotated[str, Feature("", "how the end at x = L/2 is held", choices=ENDS, instead=SIMULATED)] = "free"
 
     @property
     def wave_constant(self) -> float:
@@ -111,15 +144,26 @@ class Scales:
         """K − K_w, 1/m: of the beam against the wall. Without axial force a curved wall does nothing else."""
         return self.curvature - self.wall_curvature
 
+    def _load_against(self, curvature: float) -> float:
+        """μa₀ + EI q₀ + N(K − ``curvature``), N/m; nothing where the terms cancel to rounding."""
+        motion = self.free_motion(0.0)
+        terms = (
+            self.mass_per_length * float(motion(0.0, by_t=2)),
+            self.bending_stiffness * float(motion(0.0, by_x=4)),
+            self.axial_force * (self.curvature - curvature),
+        )
+        total = math.fsum(terms)
+        return total if abs(total) > 1e-14 * max(abs(term) for term in terms) else 0.0
+
     @property
     def uniform_pressure(self) -> float:
         """p = μa₀ + EI q₀ + N K, N/m: the uniform load under which the free motion is y₀."""
-        return load_against(self, 0.0)
+        return self._load_against(0.0)
 
     @property
     def zone_pressure(self) -> float:
         """p − N K_w, N/m: what presses a contact zone that lies on the wall; it lifts off where this is negative."""
-        return load_against(self, self.wall_curvature)
+        return self._load_against(self.wall_curvature)
 
     @property
     def lifts(self) -> bool:
@@ -129,7 +173,7 @@ class Scales:
     def load_within(self, half: float, power: int = 0) -> float:
         """∫xⁿp dx over |x| ≤ ``half`` from the middle, of all loads together, N mⁿ, for an even n = ``power``. Forces
         along the ends of the bow pull at it with −NK."""
-        pressure = load_against(self, self.curvature if self.tension_direction == "tangent" else 0.0)
+        pressure = self._load_against(self.curvature if self.tension_direction == "tangent" else 0.0)
         return pressure * 2.0 * half ** (power + 1) / (power + 1)
 
     @property

@@ -123,16 +123,13 @@ def assemble(layout: Layout, chosen: Chosen, units: Units = MODEL_UNITS) -> tupl
     )
     beam = chosen.element.beam(system, shape, section, factor * element_times(shape.lengths, scaling.shear_length))
     hold = beam.hold_by_inertia if explicit else beam.fix
-    held = {
-        "free": (),
-        "hinged": (beam.vertical_coordinate,),
-        "clamped": (beam.vertical_coordinate, beam.rotation_coordinate),
-    }
+    across, turning = beam.vertical_coordinate, beam.rotation_coordinate
+    held = {"free": (), "hinged": (across,), "clamped": (across, turning)}
     ends = [(shape.s.size - 1, 1.0, scaling.impact.right_end)]
     if chosen.full_beam:
         ends.insert(0, (0, -1.0, scaling.impact.left_end))
     else:
-        hold(0, beam.horizontal_coordinate, beam.rotation_coordinate)
+        hold(0, beam.horizontal_coordinate, turning)
     for node, _, end in ends:
         if held[end]:
             hold(node, *held[end])
@@ -182,7 +179,7 @@ def _wall(shape: Shape, scaling: Scaling, chosen: Chosen, shears: bool) -> Wall:
         lengths=lengths,
         centre=centre,
         half=not chosen.full_beam,
-        front=scaling.front,
+        scaling=scaling,
         first_spread=first_spread,
         plastic=chosen.plastic if thin and first_spread >= 1.0 and not explicit else 0.0,
         lifts=impact.lifts or shears or impact.damping > 0.0 or impact.kappa_over_nu >= 1.0,
@@ -190,8 +187,6 @@ def _wall(shape: Shape, scaling: Scaling, chosen: Chosen, shears: bool) -> Wall:
         opposite=None if opposite is None else -opposite / scaling.deflection,
         stiffness=None if stiffness is None else stiffness / unit,
         damping=impact.wall_damping / (unit * scaling.end_time),
-        stiffness_unit=impact.bending_stiffness / scaling.length**4,
-        damping_unit=impact.bending_stiffness * scaling.end_time / scaling.length**4,
     )
 
 

@@ -43,10 +43,10 @@ from exudyn_models.segments import Segment
 __all__ = ["Built", "build"]
 
 ELEMENTS_OF_ZONE = 100.0  # equal elements up to the front's bound, …
-BEYOND = 1.2  # … and so much further. With D = 40 r₀ is within 0.03 % for κ/ν from 0.1 to 0.9
-STEPS = 1500
+BEYOND_ZONE = 1.2  # … and so much further. With D = 40 r₀ is within 0.03 % for κ/ν from 0.1 to 0.9
+EQUAL_STEPS = 1500
 SETTLED = 5  # repetitions of a step, Exudyn's default: by its judgement hundreds would not settle more
-CONTACT = Penalty(relative_damping=40.0, hold_start=0.0)
+QUIET = Penalty(relative_damping=40.0, hold_start=0.0)
 
 
 @dataclass(frozen=True)
@@ -76,18 +76,13 @@ def build(
 ) -> Built:
     """Lay ``impact`` out in Exudyn's items, in SI units, for plain ``SolveDynamic``.
 
-    Parameters
-    ----------
-    impact : the problem (SI).
     end_time : s; None: 0.1 t*, but 0.01 T* at most.
     save : values of each sensor, evenly spread.
     file : where Exudyn writes its solution, for its ``SolutionViewer``; None: nowhere.
     parts : as those of :func:`exudyn_models.simulate`. What is left out has equal elements and steps; in a run that
         lasts until waves are back from the ends it is that of the whole beam.
 
-    Raises
-    ------
-    ValueError : as :func:`exudyn_models.simulate`, and for what only its stepping can do.
+    Raises ``ValueError`` as :func:`exudyn_models.simulate`, and for what only its stepping can do.
     """
     end, method = impact.checked_end_time(end_time), ExudynModel(**parts)
     if reason := method.refuses(impact) or _refused(method):
@@ -133,18 +128,18 @@ def _chosen(method: ExudynModel, impact: Impact, end: float) -> Chosen:
     explicit = method.integrator is not None and method.integrator.explicit
     if not explicit:
         method = dataclasses.replace(method, mesh=method.mesh or _equal_elements(impact, end))
-    contact = method.contact or (Penalty(hold_start=0.0) if explicit or impact.shear_stiffness is not None else CONTACT)
+    contact = method.contact or (Penalty(hold_start=0.0) if explicit or impact.shear_stiffness is not None else QUIET)
     chosen = dataclasses.replace(method, contact=contact).chosen(impact, end)
     if not isinstance(chosen.integrator, Implicit) or chosen.integrator.time_step is not None:
         return chosen
-    integrator = dataclasses.replace(chosen.integrator, time_step=end / STEPS).refined(method.refine)
+    integrator = dataclasses.replace(chosen.integrator, time_step=end / EQUAL_STEPS).refined(method.refine)
     return dataclasses.replace(chosen, integrator=integrator)
 
 
 def _equal_elements(impact: Impact, end: float) -> NodesMesh:
     scaling = Scaling(impact, end)
     front = scaling.front * scaling.length
-    rule = ScaleFreeMesh(front / ELEMENTS_OF_ZONE, 1.0, zone=BEYOND * front, growth_outside=1.0 + GROWTH_OF_WAVES)
+    rule = ScaleFreeMesh(front / ELEMENTS_OF_ZONE, 1.0, zone=BEYOND_ZONE * front, growth_outside=1.0 + GROWTH_OF_WAVES)
     return NodesMesh(tuple(rule.nodes(chosen_half_length(impact, end)).tolist()))
 
 

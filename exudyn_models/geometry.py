@@ -55,7 +55,8 @@ class Scaling:
     """Conversions between SI and model units (model × factor = SI) for one impact followed to ``end_time`` (s).
 
     length : Λ = (EI/μ)^{1/4} √T, m; true_amplitude : V₀T/Λ, at which the model has the shape of the real beam.
-    deflection (m), velocity (m/s), slope, impulse (N s), energy (J) : factors.
+    deflection (m), velocity (m/s), slope, impulse (N s), energy (J), stiffness (N/m²) and damping (N s/m²) per length :
+        factors.
     kappa : of the beam against the wall; beam_kappa, wall_kappa : of each.
     front : √(2ν/κ), for choosing a resolution, never to make an answer: without a wall, y₀ = V₀t − Kx²/2 would be
         inside it up to x = √(2V₀t/K), that is λ₀ < √(2ν/κ).
@@ -74,6 +75,8 @@ class Scaling:
         self.slope = self.deflection / self.length
         self.impulse = impact.mass_per_length * self.length * self.velocity
         self.energy = impact.mass_per_length * self.length * self.velocity**2
+        self.stiffness = impact.bending_stiffness / self.length**4
+        self.damping = impact.bending_stiffness * end_time / self.length**4
         self.kappa = impact.kappa_over_nu
         self.beam_kappa = impact.curvature * impact.length_scale
         self.wall_kappa = impact.wall_curvature * impact.length_scale

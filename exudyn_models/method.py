@@ -152,12 +152,8 @@ class ExudynModel(Part):
                 if getattr(impact, other):
                     yield f"{other} is not modelled together with {name} (got {getattr(impact, other)!r})"
         element = self.element or chosen_element(impact)
-        for reason in (
-            element.refuses(impact),
-            contact.refuses(impact, element, self.integrator or contact.integrator),
-        ):
-            if reason is not None:
-                yield reason
+        of_contact = contact.refuses(impact, element, self.integrator or contact.integrator)
+        yield from filter(None, (element.refuses(impact), of_contact))
         if true and impact.off_centre:
             yield "exudyn.geometry.kind true knows the symmetric bow only: with rotation or first_touch take linear"
 
@@ -231,11 +227,8 @@ def simulate(
     until: Until | None = None,
     **parts: Any,
 ) -> ImpactHistory:
-    """Simulate one impact with Exudyn.
+    """Simulate one impact with Exudyn: the history in SI units.
 
-    Parameters
-    ----------
-    impact : the problem (SI).
     end_time : s; None: 0.1 t*, but 0.01 T* at most.
     save : number of saved instants after t = 0, spread evenly in √t, or their times, s; snapped to steps.
     view : watch the run in Exudyn's viewer, until its window is told to go on (Q or Escape); without a display a line
@@ -244,18 +237,12 @@ def simulate(
     until : asked at every saved instant; the run ends with the first at which it says so.
     parts : mesh, element and so on, the fields of :class:`exudyn_models.method.ExudynModel`.
 
-    Returns
-    -------
-    ImpactHistory with the fields of :mod:`bent_beam.history` in SI units. Sums (energies,
-    ``total_impulse``) are of both halves of the modelled beam; a half model's ``impulse`` is that of x ≥ 0, half of
-    the total.
+    Sums (energies, ``total_impulse``) are of both halves of the modelled beam; a half model's ``impulse`` is that of
+    x ≥ 0, half of the total.
 
-    Raises
-    ------
-    ValueError : parts that cannot work together, an unstable explicit step, a beam that cannot be laid out.
-    TypeError : a part of an unknown name.
-    SimulationError : Exudyn's solver failed, contact states did not settle, or the state stopped being finite; carries
-        the history up to there.
+    Raises ``ValueError`` for parts that cannot work together, an unstable explicit step, a beam that cannot be laid
+    out; ``TypeError`` for a part of an unknown name; :class:`bent_beam.SimulationError`, with the history up to there,
+    where Exudyn's solver failed, contact states did not settle, or the state stopped being finite.
     """
     end, method = impact.checked_end_time(end_time), ExudynModel(**parts)
     if reason := method.refuses(impact):

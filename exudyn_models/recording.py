@@ -7,11 +7,9 @@ mean of both ends, q̈ the accelerations in equilibrium with all forces (Mq̈ = 
     taken by the integration       (Mq̈)¯ᵀΔq − Δ(½vᵀMv)    the scheme's own kinematics, without force or stiffness
     lost in the contact            f̄_cᵀΔy_c − Δ(energy in its springs), f_c pushing against y
 
-The total impulse is what the momentum of the modelled beam lacks, exact whatever happens within a step; with held ends
-it is the sum of the points' impulses. These pass through the averages that the scheme applies to accelerations.
-
-States are collected after each step and summed up many steps at a time: of the time that a run takes, next to all is
-Exudyn's.
+The total impulse is what the momentum of the modelled beam lacks; with held ends it is the sum of the points' impulses.
+These pass through the averages that the scheme applies to accelerations. States are collected after each step and
+summed up many steps at a time: next to all of the time that a run takes is Exudyn's.
 """
 
 from __future__ import annotations
@@ -259,11 +257,8 @@ class Recorder:
         impulse, active = saved["impulse"] * s.impulse, saved["in_contact"]
         at_contact = {"impulse": impulse[:, front], "in_contact": active[:, front]}
         if not front.all():  # contact points of the opposite wall follow those of the front
-            at_contact = {
-                "impulse": impulse[:, front],
-                "opposite_impulse": -impulse[:, ~front],
-                "in_contact": active[:, front] | active[:, ~front],
-            }
+            at_contact["opposite_impulse"] = -impulse[:, ~front]
+            at_contact["in_contact"] |= active[:, ~front]
         of_time = {name: saved[name] * self.copies * s.impulse for name in ("total_impulse", "held_impulse")}
         of_time |= {name: saved[name] * self.copies * s.energy for name in ENERGIES if name in saved}
         largest, place, midspan = saved["moments"].T

@@ -1,11 +1,10 @@
-"""Mesh, length, steps and contact points that are chosen from the problem by scaling arguments, when none are given.
+"""Mesh, length, steps and contact points that are chosen by scaling arguments, when none are given (docs/exudyn.md).
 
-In the first spread of the zone elements grow with the distance from the middle, steps with time. Where κ/ν is so small
-that the front is thin, all elements that it may reach are equal: what counts is that each hit of a node is plastic
-(:mod:`exudyn_models.contacts.penalty`), not the bending ahead. A run that lasts until waves are back from the ends
-needs elements of one length, and steps that resolve the contact, h = ½Δx²√(μ/EI). A node that closes within a step much
-longer than the penalty's own time gets half of its reaction once more in the next step, and the beam leaves with more
-energy than it had.
+In the first spread of the zone elements grow with the distance from the middle, steps with time. Before a thin front
+all elements that it may reach are equal. A run that lasts until waves are back from the ends needs elements of one
+length, and steps that resolve the contact, h = ½Δx²√(μ/EI): a node that closes within a step much longer than the
+penalty's own time gets half of its reaction once more in the next step, and the beam leaves with more energy than it
+had.
 """
 
 from __future__ import annotations
@@ -35,11 +34,11 @@ OF_SHORT_ZONE, SHORTEST = 60.0, 0.01  # … and over bound (1 − κ/ν), which 
 OF_SHORT_ZONE_EXPLICIT, SHORTEST_EXPLICIT = 3.0, 0.07  # likewise; λ₀ is 12 % off at κ/ν = 0.93 with 1.8 elements
 OF_THIN_FRONT = 3.0  # equal elements over the bending length of a thin front at the end of the run, …
 LEAST_OF_ZONE, MOST_OF_ZONE = 300.0, 800.0  # … but so many at least and at most up to the front's bound
-BEYOND = 1.1  # times the front's bound, where these end
+BEYOND_THIN_FRONT = 1.1  # times the front's bound, where these end
 PASSED = 2.0  # elements that a thin front passes in a step
 REACH, REACH_OF_FRONT = 12.0, 8.0  # half length to model, see far_field; tests/exudyn_models/test_exudyn_constants.py
-LONGEST = 2e3  # Λ of a half beam whose ends an axial force bends
-INSIDE = 0.6  # of where a bent-up end would itself be at the wall: beyond, nothing touches
+LONGEST_BENT = 2e3  # Λ of a half beam whose ends an axial force bends
+BEFORE_BENT_END = 0.6  # of where a bent-up end would itself be at the wall: beyond, nothing touches
 ELEMENT_STEPS = 4e5  # elements times steps of a run with uniform elements: a few seconds
 FEWEST = 60  # uniform elements of a half beam, from 0.9 T* on; tests/exudyn_models/test_exudyn_constants.py
 STEP = 0.5  # h/(Δx²√(μ/EI)) that resolves the contact
@@ -60,10 +59,10 @@ def far_field(scaling: Scaling) -> float:
 
 def chosen_half_length(impact: Impact, end_time: float | None = None) -> float:
     """The half length, m, modelled when no mesh is given: the beam's, or less where nothing returns in time. An axial
-    force along x bends the ends of a bow: the beam is then modelled as long as it is, up to :data:`LONGEST`."""
+    force along x bends the ends of a bow: the beam is then modelled as long as it is, up to :data:`LONGEST_BENT`."""
     scaling = Scaling(impact, impact.checked_end_time(end_time))
     bent = bool(impact.axial_force) and impact.tension_direction == "axis"
-    if bent and impact.half_length <= LONGEST * scaling.length:
+    if bent and impact.half_length <= LONGEST_BENT * scaling.length:
         return impact.half_length
     return min(impact.half_length, far_field(scaling) * scaling.length)
 
@@ -71,7 +70,7 @@ def chosen_half_length(impact: Impact, end_time: float | None = None) -> float:
 def chosen_mesh(impact: Impact, end_time: float | None = None, *, explicit: bool = False) -> NodesMesh:
     """The mesh that ``simulate`` lays when none is given (half beam), to lay the same under several impacts."""
     scaling, wall = Scaling(impact, impact.checked_end_time(end_time)), wall_scales(impact)
-    if lasts_until_waves_return(impact, end_time) and wall is None:
+    if lasts_until_waves_return(impact, scaling.end_time) and wall is None:
         steps_at_one = 2.0 * scaling.end_time / impact.slow_time_scale  # with one element
         count = max((ELEMENT_STEPS / steps_at_one) ** (1.0 / 3.0), FEWEST) * near_buckling(impact)
         return NodesMesh(tuple(np.linspace(0.0, impact.half_length, max(2, round(count)) + 1).tolist()))
@@ -86,7 +85,7 @@ def chosen_mesh(impact: Impact, end_time: float | None = None, *, explicit: bool
             element = min(element, front * max(1.0 - scaling.kappa, SHORTEST_EXPLICIT) / OF_SHORT_ZONE_EXPLICIT)
     elif thin_front(scaling.kappa):
         count = min(max(OF_THIN_FRONT * front**2 / 2.0, LEAST_OF_ZONE), MOST_OF_ZONE)
-        element, growth, zone = front / count, 0.0, BEYOND * front
+        element, growth, zone = front / count, 0.0, BEYOND_THIN_FRONT * front
     else:
         element, growth, zone = min(front / OF_ZONE, (2.0 / front) / OF_BENDING), GROWTH, WAVES * front
         if scaling.kappa < 1.0:
@@ -107,9 +106,8 @@ def modelled_half_length(mesh: Mesh, impact: Impact) -> float:
     return impact.half_length
 
 
-def lasts_until_waves_return(impact: Impact, end_time: float | None) -> bool:
+def lasts_until_waves_return(impact: Impact, end: float) -> bool:
     """Whether waves from the ends of the beam are back before the end time, s."""
-    end = impact.checked_end_time(end_time)
     return end > BEFORE_WAVES_RETURN * impact.slow_time_scale and chosen_half_length(impact, end) == impact.half_length
 
 
@@ -143,7 +141,7 @@ def thin_front(kappa_over_nu: float) -> bool:
     return kappa_over_nu < THIN
 
 
-def chosen_steps(integrator: Integrator, mesh: Mesh, impact: Impact, end_time: float | None) -> Integrator:
+def chosen_steps(integrator: Integrator, mesh: Mesh, impact: Impact, end: float) -> Integrator:
     """``integrator``, which nobody asked for, with steps that resolve the contact once waves are back from the ends,
     and in which a thin front passes ``PASSED`` elements at most.
 
@@ -152,10 +150,9 @@ def chosen_steps(integrator: Integrator, mesh: Mesh, impact: Impact, end_time: f
     """
     if not isinstance(integrator, Implicit):
         return integrator
-    end, wall = impact.checked_end_time(end_time), wall_scales(impact)
-    if wall is not None:
+    if (wall := wall_scales(impact)) is not None:
         return dataclasses.replace(integrator, time_step=step_of_wall(mesh, impact, wall))
-    if lasts_until_waves_return(impact, end_time):
+    if lasts_until_waves_return(impact, end):
         step = resolving_step(mesh, impact)
         return dataclasses.replace(integrator, time_step=step) if end <= MOST_STEPS * step else integrator
     if thin_front(impact.kappa_over_nu):
@@ -184,7 +181,7 @@ def reachable(x: Array, scaling: Scaling, centre: int) -> Indices:
     place = np.abs(x - scaling.first_touch)
     chi, psi = scaling.motion.terms[2, 1], scaling.motion.terms[4, 0]
     spread = scaling.kappa - max(chi, 0.0)
-    let = INSIDE * math.sqrt(12.0 * spread / psi) if psi > 0.0 and spread > 0.0 else math.inf
+    let = BEFORE_BENT_END * math.sqrt(12.0 * spread / psi) if psi > 0.0 and spread > 0.0 else math.inf
     reach = min(1.5 * place[inside & (place < let)].max(initial=0.0), let)
     wide = place <= reach * (1.0 + 1e-9)  # a node right there belongs, whatever its round-off
     wide[max(0, centre - 20) : centre + 21] = True

@@ -11,7 +11,7 @@ from bent_beam.errors import InputError
 __all__ = ["Segment", "checked_steps", "growing_segments"]
 
 MAXIMUM_STEPS = 5_000_000
-SHORTEST = 1e-3  # of a step, what halving it may leave
+LEFT_BY_HALVING = 1e-3  # of a step, what halving it may leave
 EVEN = 12.5  # steps of one length at least, while steps grow …
 CHANGE = 1.05  # … or as many as it takes them to grow by this factor
 
@@ -31,7 +31,7 @@ class Segment:
 
     def lay(self, settings: Any, running: Any = None) -> None:
         """Set Exudyn's steps, nowhere else set: in its settings of the time integration, and in a solver that runs."""
-        settings.minimumStepSize = SHORTEST * self.length
+        settings.minimumStepSize = LEFT_BY_HALVING * self.length
         for one in (settings, running) if running else (settings,):
             one.startTime, one.endTime, one.numberOfSteps = self.start, self.end, self.steps
         if running:

@@ -36,9 +36,9 @@ MOST_CYCLES = 0.05  # of the steps
 DEEPEST = 0.01  # of V₀t
 MOST_GIVEN = 1e-3  # of the initial energy, by the contact
 MOST_PULLED = 1.0  # of the total impulse
-FEWEST = 3.0  # elements over the front's bending length
+NEEDED = 3.0  # elements over the front's bending length
 STEEPEST_GROWTH = 1.021  # of neighbouring elements
-STEEPEST = 0.1  # slope
+STEEPEST_SLOPE = 0.1  # slope
 
 
 def run(
@@ -63,12 +63,8 @@ def run(
     settings = {"end_time": end, "save": np.asarray(save).tolist(), "full_beam": chosen.full_beam}
     settings |= _described(layout, chosen, stepping)
     settings["wall_seconds"] = clock.perf_counter() - began
-    history = record.history(
-        steps=stepping.steps,
-        seconds=stepping.seconds,
-        completed=failure is None,
-        settings=settings,
-    )
+    about = {"steps": stepping.steps, "seconds": stepping.seconds, "completed": failure is None}
+    history = record.history(settings=settings, **about)
     history = history.with_warnings(warnings_of_run(layout, chosen, stepping, history))
     if failure is not None:
         raise SimulationError(
@@ -168,9 +164,9 @@ def _of_front(places: Array, scaling: Scaling) -> list[str]:
     for part in (1.0, 0.1):
         k = min(int(np.searchsorted(places, scaling.front * math.sqrt(part))), places.size - 2)
         held = 2.0 / scaling.front * math.sqrt(part) / (places[k + 1] - places[k])
-        if held < FEWEST:
+        if held < NEEDED:
             when = "the end time" if part == 1.0 else f"{part:g} of the end time"
-            return [f"under-resolved front: its bending length holds {held:.1f} elements at {when}, needs {FEWEST:g}"]
+            return [f"under-resolved front: its bending length holds {held:.1f} elements at {when}, needs {NEEDED:g}"]
     return []
 
 
@@ -188,9 +184,9 @@ def _of_depth(run: Recorder) -> Iterator[str]:
 def _of_slopes(run: Recorder) -> Iterator[str]:
     record, shape = run.record, run.beam.shape
     slope = max((float(np.abs(s + shape.wall_slope).max()) for s in record["slope"]), default=0.0)
-    if slope > STEEPEST and shape.slender:
+    if slope > STEEPEST_SLOPE and shape.slender:
         yield f"slopes up to {slope:.2g}: linear theory no longer describes this beam, only its first instants"
-    elif slope > STEEPEST:
+    elif slope > STEEPEST_SLOPE:
         yield (
             f"the model's slopes reach {slope:.2g}, beyond its elements' linear range (κ/ν = {run.scaling.kappa:.3g}); "
             'set a smaller "amplitude" in [exudyn.geometry]'

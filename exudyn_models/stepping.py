@@ -31,7 +31,7 @@ MOST_NODES = 200_000  # Exudyn takes 10 kB for each: 2 GB
 MOST_WORK = 2e9  # steps x nodes: some hours
 SECONDS = 5e-6  # a step and node, measured with 200 to 240
 LONG = 60.0  # s: a run that will take longer says so before it starts
-BLOCK, NEAR = 10, 40  # steps in flight, and near the wall, until the gap is looked at again
+FLIGHT_BLOCK, WALL_BLOCK = 10, 40  # steps in flight, and near the wall, until the gap is looked at again
 CLEAR = 2.0  # a block ends before the fastest node of the beam could pass the smallest gap over this
 BETWEEN = 200  # steps between two reports of progress
 LOG = logging.getLogger(__name__)
@@ -195,13 +195,13 @@ class Stepping:
         vertical, short, step, t = self.run.beam.vertical, self.segments[0].length, 0.0, 0.0
         while t < 1.0 - 1e-9 and not self._left:
             step = min(max(short, step), self.flight)
-            count = math.ceil(min(BLOCK if step > short else NEAR, (1.0 - t) / step) - 1e-9)
+            count = math.ceil(min(FLIGHT_BLOCK if step > short else WALL_BLOCK, (1.0 - t) / step) - 1e-9)
             start, t = t, min(t + count * step, 1.0)
             yield Segment(start, t, count)
             if self.failure is not None:
                 return
             q, v = self._state
-            step = -float(self.run.contact.depth(q).max()) / (CLEAR * BLOCK * float(np.abs(v[vertical]).max()))
+            step = -float(self.run.contact.depth(q).max()) / (CLEAR * FLIGHT_BLOCK * float(np.abs(v[vertical]).max()))
 
     def _step_through(self, segment: Segment) -> None:
         segment.lay(self.settings.timeIntegration, self.solver.it)

@@ -1,19 +1,17 @@
-"""The method of a whole impact, and what it is held against for error bars.
+"""The method of a whole impact, and what it is held against for error bars (docs/exudyn.md, "The whole impact").
 
-From the first touch to the last separation nothing may be held, nothing damped but by the beam itself, and every part
-of the beam matters alike. So
+Nothing is held, nothing damped but by the beam itself, and every part of the beam matters alike. So
 
     a uniform mesh,   constant steps at the wall,   the trapezoidal rule,   no viscosity at grid scale.
 
 - A beam that touches in a point takes h = ½Δx²√(μ/EI) and the penalty as it is.
-- Where a zone spreads, e is off by what elements lose that land, about in proportion to Δx; the penalty matters less,
-  as long as the steps resolve it. So there elements are shorter, steps 2√2 times as long for them, and the penalty an
-  eighth as stiff, with the same damping ratio: kh² and dh stay what they are.
-- Off the wall there are only waves that the material has not damped, ω ~ 1/√(ηT*): the steps of a damped beam grow
-  there with its gap. That takes a quarter of the time, and e moves by a tenth of its bar.
+- Where a zone spreads, e is off by what elements lose that land, about in proportion to Δx. So there elements are
+  shorter, steps 2√2 times as long for them, and the penalty an eighth as stiff, with the same damping ratio: kh² and dh
+  stay what they are.
+- Off the wall there are only waves of ω ~ 1/√(ηT*): the steps of a damped beam grow there with its gap.
 - A rigid plate, whose hits are plastic, takes steps four times as long.
 - With a mesh, steps or contact of somebody's own, and where the beam is so flat that its front asks for a stiffer
-  penalty, steps and penalty are as for a point; elements are shorter wherever no mesh is given.
+  penalty, steps and penalty are as for a point.
 - Elements that are shorter than l_s follow shear waves, and so do steps: h = ½Δx/c_s, or twice as long.
 """
 
@@ -38,7 +36,8 @@ __all__ = ["cross_checks", "for_whole_beam", "varied"]
 
 M = TypeVar("M", bound=Any)  # :class:`exudyn_models.method.ExudynModel`, which has these functions as methods
 
-CONTACT = Penalty(hold_start=0.0)
+UNHELD = Penalty(hold_start=0.0)
+ON_PLATE = Penalty(relative_stiffness=penalty.STIFFNESS, relative_damping=penalty.PLASTIC, hold_start=0.0)
 POINT_ELEMENTS = 100  # of a half beam that touches in a point; half as many: e moves by 4e-5
 ZONE_ELEMENTS = 240  # where a zone spreads, κ/ν < 1; 220 to 300: e within 1.5e-4 at κ/ν = 0.4, η/T* = 1e-2, the worst
 SLOWER = 2.0 * math.sqrt(2.0)  # its steps; the penalty is softer by the square. Twice as long: e is 5e-4 off there
@@ -47,9 +46,9 @@ LARGEST_OF_WALL = 0.25  # ℓ_k: elements before a wall that gives way
 SHEARED_ELEMENTS = 160  # of a half beam that shears
 SLOWER_SHEARED, THICK = 2.0, 0.35  # its steps, from this κ/ν on: at 0.2 they move e by 2e-4, at 0.1 by 0.01
 FLIGHT, DAMPED_FLIGHT = 5e-4, 0.04  # steps off the wall, over T* and √(ηT*)
-ROUND_OFF = 1e-5  # of the amplitude: Newton stalls at 1e-8 on 240 elements, geometrically exact ones at 1e-6
-RESIDUAL = 1e-8  # of what a step begins with: 1e-5 of a long step's is up to 3e-5 of the energy
-FLATTEST = 1.0 / 150.0  # κ/ν down to which the front does not ask for a stiffer penalty
+ABSOLUTE = 1e-5  # of the amplitude: Newton stalls at 1e-8 on 240 elements, geometrically exact ones at 1e-6
+RELATIVE = 1e-8  # of what a step begins with: 1e-5 of a long step's is up to 3e-5 of the energy
+FLATTEST_FRONT = 1.0 / 150.0  # κ/ν down to which the front does not ask for a stiffer penalty
 
 
 def for_whole_beam(method: M, impact: Impact) -> M:
@@ -65,7 +64,7 @@ def for_whole_beam(method: M, impact: Impact) -> M:
     mesh = mesh.refined(method.refine)
     chosen = method.mesh is None and method.contact is None and method.integrator is None
     plate = supports_or_plate(impact)  # whose flat beams meet all of it at once, without a front
-    spreads = FLATTEST <= impact.kappa_over_nu < 1.0
+    spreads = FLATTEST_FRONT <= impact.kappa_over_nu < 1.0
     slower = 1.0 if not chosen else SLOWER_ON_PLATE if plate else SLOWER if spreads else 1.0
     if shears := shortest_element(mesh, impact) < impact.shear_length:
         plate, slower = False, SLOWER_SHEARED if chosen and impact.kappa_over_nu >= THICK else 1.0
@@ -76,14 +75,11 @@ def for_whole_beam(method: M, impact: Impact) -> M:
     element = method.element or chosen_element(impact)
     contact = method.contact
     if contact is None and wall is None:
-        contact = CONTACT if slower == 1.0 or shears else _softer(CONTACT, slower**-2)
-        if plate:
-            contact = dataclasses.replace(
-                CONTACT, relative_stiffness=penalty.STIFFNESS, relative_damping=penalty.PLASTIC
-            )
+        softer = slower != 1.0 and not shears
+        contact = ON_PLATE if plate else _softer(UNHELD, slower**-2) if softer else UNHELD
     solver = method.solver
     if solver is None and contact is not None and getattr(integrator, "flight_step", None):
-        solver = dataclasses.replace(contact.solver, relative_tolerance=RESIDUAL, absolute_tolerance=ROUND_OFF)
+        solver = dataclasses.replace(contact.solver, relative_tolerance=RELATIVE, absolute_tolerance=ABSOLUTE)
     return dataclasses.replace(
         method,
         mesh=mesh,
@@ -123,10 +119,9 @@ def _softer(contact: Penalty, factor: float) -> Penalty:
     """A penalty of ``factor`` times the stiffness with the same damping ratio; damping left open follows by itself."""
     if contact.stiffness is None and contact.relative_stiffness is None:
         contact = dataclasses.replace(contact, relative_stiffness=penalty.STIFFNESS)
-    given = {
-        name: getattr(contact, name) for name in ("stiffness", "damping", "relative_stiffness", "relative_damping")
-    }
-    by = {name: factor if "stiffness" in name else math.sqrt(factor) for name in given}
+    by = dict.fromkeys(("stiffness", "relative_stiffness"), factor)
+    by |= dict.fromkeys(("damping", "relative_damping"), math.sqrt(factor))
+    given = {name: getattr(contact, name) for name in by}
     return dataclasses.replace(contact, **{name: one * by[name] for name, one in given.items() if one is not None})
 
 
@@ -135,7 +130,7 @@ def varied(method: M, impact: Impact, random: np.random.Generator) -> M:
     elements = int(random.integers(2 * POINT_ELEMENTS // 5, 4 * POINT_ELEMENTS // 5))
     length = impact.half_length / elements
     step = STEP * 2.0 ** random.uniform(-0.5, 0.5) * length**2 / impact.wave_constant
-    contact = _softer(CONTACT, 2.0 ** random.uniform(-2.0, 0.0)) if impact.wall_stiffness is None else None
+    contact = _softer(UNHELD, 2.0 ** random.uniform(-2.0, 0.0)) if impact.wall_stiffness is None else None
     return dataclasses.replace(
         method, mesh=UniformMesh(length), integrator=Trapezoidal(time_step=step), contact=contact
     )

@@ -66,32 +66,32 @@ class SelfSimilarFE(Part):
         """Follow ``impact`` over the mesh's decades of time up to ``end_time``, s (by default 0.1 t*, but 0.01 T* at
         most)."""
         end = impact.checked_end_time(end_time)
-        reason = self.refuses(impact)
-        if reason:
+        if reason := self.refuses(impact):
             raise InputError(reason)
-        mesh = self.chosen_for(impact, end).mesh
-        assert mesh is not None
-        return simulate_expanding(impact, mesh, end_time=end, save=save, progress=progress)
+        return simulate_expanding(impact, self._mesh_for(impact), end_time=end, save=save, progress=progress)
 
     def chosen_for(self, impact: Impact, end_time: float) -> SelfSimilarFE:
         """A copy with the mesh that the load of ``impact`` asks for."""
-        mesh = self.mesh
-        if mesh is None:
-            pressure = impact.zone_pressure
-            if pressure > 0.0:
-                # The load must close the last trace of lift long before the fit begins: early start, finest front.
-                # Nothing happens within a step but that, so steps may be long.
-                mesh = ExpandingMesh(front_resolution=0.0015, interior_elements=60, step_ratio=0.06, decades=6.0)
-            elif pressure < 0.0:
-                # The contact is one or two nodes that the front passes on: steps shorter than its passage.
-                mesh = ExpandingMesh(front_resolution=0.005, interior_elements=60, step_ratio=0.01, decades=6.0)
-            elif impact.axial_force:
-                # Tension alone moves the front: it must pass the finest elements, whose size is the noise of λ_c.
-                mesh = ExpandingMesh(front_resolution=0.003, step_ratio=0.01)
-            else:
-                mesh = ExpandingMesh()
-        return dataclasses.replace(self, mesh=mesh.refined(self.refine), refine=1.0)
+        return dataclasses.replace(self, mesh=self._mesh_for(impact), refine=1.0)
+
+    def _mesh_for(self, impact: Impact) -> ExpandingMesh:
+        return (self.mesh or chosen_mesh(impact)).refined(self.refine)
 
     def refined(self, factor: float) -> SelfSimilarFE:
         """A copy with elements and steps ``factor`` times finer."""
         return dataclasses.replace(self, refine=self.refine * factor)
+
+
+def chosen_mesh(impact: Impact) -> ExpandingMesh:
+    """The mesh of a run of which none is given."""
+    if impact.zone_pressure > 0.0:
+        # The load must close the last trace of lift long before the fit begins: early start, finest front.
+        # Nothing happens within a step but that, so steps may be long.
+        return ExpandingMesh(front_resolution=0.0015, interior_elements=60, step_ratio=0.06, decades=6.0)
+    if impact.zone_pressure < 0.0:
+        # The contact is one or two nodes that the front passes on: steps shorter than its passage.
+        return ExpandingMesh(front_resolution=0.005, interior_elements=60, step_ratio=0.01, decades=6.0)
+    if impact.axial_force:
+        # Tension alone moves the front: it must pass the finest elements, whose size is the noise of λ_c.
+        return ExpandingMesh(front_resolution=0.003, step_ratio=0.01)
+    return ExpandingMesh()

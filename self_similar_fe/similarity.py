@@ -46,13 +46,13 @@ class _Operators:
     damped: sparse.csr_matrix  # ∫ σ N (D₀N)ᵀ, D₀ = −(ζ/2)∂_ζ, a part of A
 
 
-GAUSS, WEIGHTS = np.polynomial.legendre.leggauss(6)
+POINTS, WEIGHTS = np.polynomial.legendre.leggauss(6)
 
 
 def _operators(zeta: Array, sigma: Callable[[Array], Array]) -> _Operators:
     """Galerkin matrices of D(D + 1) + σ(D + 1) + ∂⁴ on Hermite elements; D's second factor is integrated by parts."""
     length, n = np.diff(zeta), zeta.size
-    points = (GAUSS[:, None] + 1.0) / 2.0
+    points = (POINTS[:, None] + 1.0) / 2.0
     place, dl = zeta[:-1] + points * length, WEIGHTS[:, None] / 2.0 * length
     shape, slope, bend = (_shapes(points, length, d) for d in (0, 1, 2))
     advected = -0.5 * place[:, :, None] * slope  # −(ζ/2) N′

@@ -12,14 +12,6 @@ from theory.prediction import Prediction, PredictionAtTime, predict
 from theory.similarity import PeakMoment, SelfSimilarWave, peak_moment
 
 __all__ = [
-    "ContactParameters",
-    "FieldValues",
-    "ImpactFields",
-    "PeakMoment",
-    "Prediction",
-    "PredictionAtTime",
-    "SelfSimilarWave",
-    "contact_parameters",
-    "peak_moment",
-    "predict",
-]
+    "ContactParameters", "FieldValues", "ImpactFields", "PeakMoment", "Prediction", "PredictionAtTime",
+    "SelfSimilarWave", "contact_parameters", "peak_moment", "predict",
+]  # fmt: skip

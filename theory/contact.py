@@ -30,7 +30,7 @@ from theory import phi
 from theory._fresnel import FloatArray
 
 #: Below it λ₁ and r₁, which grow like (κ/ν)^{−5/2}, need intermediate numbers beyond double precision.
-FLATTEST = 1e-60
+FLATTEST_SOLVABLE = 1e-60
 
 #: Products of three arguments stay below the largest double.
 _LARGEST = 1e100
@@ -145,9 +145,9 @@ def _checked(**given: ArrayLike) -> dict[str, FloatArray]:
             raise ValueError(f"{name} must be {need} (got {values[~good][0]})")
         if np.any(large := np.abs(values) > _LARGEST):
             raise ValueError(f"{name} must not exceed {_LARGEST:g} in size (got {values[large][0]:g})")
-    if np.any(arrays["kappa_over_nu"] < FLATTEST):
+    if np.any(arrays["kappa_over_nu"] < FLATTEST_SOLVABLE):
         raise ValueError(
-            f"kappa_over_nu must be at least {FLATTEST:g} (got {np.min(arrays['kappa_over_nu'])}): "
+            f"kappa_over_nu must be at least {FLATTEST_SOLVABLE:g} (got {np.min(arrays['kappa_over_nu'])}): "
             "so flat a beam touches over its whole length at once"
         )
     return arrays

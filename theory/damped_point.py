@@ -6,12 +6,10 @@ r"""One point of an infinite beam stopped, with Kelvin and Voigt's damping: what
 
     R ∝ (1 + ηs)^{1/4} s^{−1/2},     M(0) ∝ (1 + ηs)^{1/2}/s.
 
-An acceleration a₀ adds a₀/V₀ times the integral of R over time, and so on. Over their values at η = 0 the reaction
-(m = 0), the impulse and the reaction to a₀ (m = 1), and the impulse by a₀ (m = 2) are
+Over their values at η = 0 the reaction (m = 0), the impulse and the reaction to an acceleration a₀ (m = 1), and the
+impulse by a₀ (m = 2) are
 
-    Γ(m + 1/2)/Γ(m + 1/4) T^{−1/4} ₁F₁(−1/4; m + 1/4; −T),      M/M₀ = e^{−T}/√(πT) + erf √T,
-
-which tend to 1: the impulse is within 2 % of the undamped one after t = 6.3 η, the moment much earlier.
+    Γ(m + 1/2)/Γ(m + 1/4) T^{−1/4} ₁F₁(−1/4; m + 1/4; −T),      M/M₀ = e^{−T}/√(πT) + erf √T.
 
 A zone (κ/ν < 1) starts as one point, too. Its elastic moment is erf √T of that of a point, and it spreads once that is
 κ/ν, at T_p = erf⁻¹(κ/ν)². From then on damping has no closed form.

@@ -1,4 +1,5 @@
-r"""A wall of stiffness k and damping c: the beam's Green's function with springs and dashpots that never pull (new).
+r"""A wall of stiffness k and damping c: the beam's Green's function with springs and dashpots that never pull (new;
+derived in docs/theory.md, section 9).
 
 The wall pushes with R = max(0, k p + c ṗ) per length where the penetration p = V₀t − Kx²/2 − η is positive. In units
 t_k = √(μ/k), ℓ_k = (EI/k)^{1/4}, V₀, with ζ = c/(2√(kμ)) and κ/ν for K,
@@ -15,22 +16,13 @@ The Volterra equation is solved step by step. Loads are linear in time between s
 linear in place; the rim of the zone lies anywhere between two points, and R is integrated up to it. Both errors are of
 second order. Richardson's rule over a grid and one twice as fine takes them away, and its step is the error bar.
 
-**κ/ν → 0.** Bending plays no part. A section lands at t = (κ/ν)x²/2 and is an oscillator of its own, p̈ + 2ζṗ + p = 0,
-p(0) = 0, ṗ(0) = 1, which the wall pushes with R = −p̈:
+**κ/ν → 0.** Each section lands at t = (κ/ν)x²/2 and is an oscillator of its own, p̈ + 2ζṗ + p = 0, p(0) = 0, ṗ(0) = 1,
+which the wall pushes with R = −p̈:   f√(κ/ν) → 2√2 max_T ∫₀^{√T} R(T − s²) ds.
 
-    f√(κ/ν) → 2√2 max_T ∫₀^{√T} R(T − s²) ds.
-
-**κ/ν → ∞, ζ = 0.** The zone is short against the bending waves. In t = (κ/ν)^{1/4}τ, p(0,t) = (κ/ν)^{1/4}Π,
-F = (κ/ν)^{−1/8}Φ the beam answers as to a point force, and p is a parabola of the bow's curvature:
-
-    Π = τ − ∫Φ(s) √((τ−s)/2π) ds,     Φ = (4√2/3) Π^{3/2}.
-
-To the next order in ν/κ the moment under the force, m = ∫Φ/√(8π(τ−s)) ds, takes its part of the curvature away, and
-the force is spread over a zone of ⟨x²⟩ = 2Π/5 (ν/κ)^{3/4}, which bends the beam's middle less:
+**κ/ν → ∞, ζ = 0.** In t = (κ/ν)^{1/4}τ, p(0,t) = (κ/ν)^{1/4}Π, F = (κ/ν)^{−1/8}Φ the beam answers as to a point force,
+p is a parabola of the bow's curvature, and with the moment under the force, m = ∫Φ/√(8π(τ−s)) ds, to order ν/κ
 
     Π = τ − ∫Φ(s) √((τ−s)/2π) ds + (ν/κ) ∫ΦΠ/(5√(8π(τ−s))) ds,     Φ = (4√2/3) Π^{3/2} (1 + m ν/2κ).
-
-What is left is of order (ν/κ)^{3/2}: f (κ/ν)^{1/8} → f₀ + f₁ ν/κ.
 """
 
 from __future__ import annotations

@@ -8,18 +8,15 @@ with λ_c, R̃ of `theory.contact` and r̃ = ε(α′+ψ) in the continuous regi
 leading order (2.6.36), (2.6.37). w > 0 is in the wall: the gap is −w. An axial force n changes the kernel of the
 concentrated reactions to √(t/2π)[H(β) + nt H_N(β)], t = τ−s; in r̃, itself of first order, n is left out.
 
-How the integrals are done. With x = |ξ|/√τ, √s = √τ tanh u and Λ(u) = λ₀ + ελ₁τ tanh²u, the kernel's
-argument is β_∓ = (ξ ∓ λ_c(s))/√(τ−s) = x cosh u ∓ Λ sinh u, so that both end-point singularities are gone and
-what is left is the oscillation e^{iβ²/4} as s → τ, without bound in frequency and, for curvature and
-velocity, without decay. H is the real part of an entire function, an iterated complementary error
-function of z = e^{−iπ/4}β/2 (for β < 0 of −β, since H is even):
+With x = |ξ|/√τ, √s = √τ tanh u and Λ(u) = λ₀ + ελ₁τ tanh²u, the kernel's argument is β_∓ = x cosh u ∓ Λ sinh u. H is
+the real part of an entire function, an iterated complementary error function of z = e^{−iπ/4}β/2 (for β < 0 of −β):
 
     H″ = Re[−(1+i)/2 e^{−z²}],     H′ = Re[i√(π/2) erfc z],     H − βH′ = Re[(1−i) e^{−z²}],
     H  = Re[√(2π) e^{−iπ/4} ierfc z],     √(π/2) − P = Re[2√(2π) i²erfc z],
     H_N = Re[√(2π) e^{iπ/4}(2 i³erfc z − ½ ierfc z)].
 
-So the path may leave the real axis. It leaves it downwards where |β| falls and upwards where |β| grows, and
-e^{iβ²/4} decays on all of it; it comes back to the axis only at the least |β|.
+So the path may leave the real axis, downwards where |β| falls and upwards where |β| grows, and e^{iβ²/4} decays on all
+of it (docs/theory.md, section 8); it comes back to the axis only at the least |β|.
 """
 
 from __future__ import annotations

@@ -164,12 +164,7 @@ def predict(impact: Impact, times: Iterable[float] | float = (), *, section: Sec
     limit = None if section is None else section.yield_stress
     yields = None if stress is None or limit is None else stress > limit
     wall = on_elastic_wall(impact, solved)
-    holds = validity(
-        impact,
-        solved,
-        rigid_from=0.0 if wall is None else wall.rigid_from,
-        yields=bool(yields),
-    )
+    holds = validity(impact, solved, rigid_from=0.0 if wall is None else wall.rigid_from, yields=bool(yields))
     if impact.damping > 0.0 and 0.0 < holds.until < math.inf:  # grows until then
         last = _at_time(impact, solved, bending, holds.until * (1.0 - 1e-9), None)
         peak, stress = last.peak_moment, last.peak_stress
@@ -195,8 +190,7 @@ def predict(impact: Impact, times: Iterable[float] | float = (), *, section: Sec
 
 def _check(impact: Impact) -> None:
     """Raise ``ValueError`` for what the theory does not cover."""
-    reason = unmodelled(impact, MODELLED)
-    if reason is not None:
+    if reason := unmodelled(impact, MODELLED):
         raise ValueError(reason)
     if not impact.relative_curvature > 0.0:
         raise ValueError(

@@ -1,4 +1,4 @@
-r"""First instants of a beam that shears (Timoshenko's), where formulas say them.
+r"""First instants of a beam that shears (Timoshenko's), where formulas say them (docs/shear.md).
 
     μ w_tt = S(w_x − φ)_x − r,     J φ_tt = EI φ_xx + S(w_x − φ),     S = κ_sGA
 
@@ -12,17 +12,14 @@ with damping η of shear and bending alike s becomes s/√D in the roots, and R�
 starts with R = 2V₀√(Sμ): Euler and Bernoulli's force is infinite there, Timoshenko's is not (Szalai 2014, J. Vib.
 Acoust. 136, 041002), and is Euler and Bernoulli's in the end, J = 4√(2t/π)[1 − (3 − g)/(8t)].
 
-**Every bent beam starts with a zone.** A point force kinks a deflection that shears, which no bow can follow. Until
-t_c = 1/(2κ) the rim runs ahead of shear waves; nothing moves there yet, so that the wall takes the momentum that the
-parabola brings, as of a string:
+**Every bent beam starts with a zone**, whose rim runs ahead of shear waves until t_c = 1/(2κ), as of a string:
 
     X = √(2t/κ),     J = 2X,     R = √(2/(κt)).
 
 It is exact where nothing at all runs ahead of the rim, t < g t_c; until t_c bending waves do, which move little.
 
-**Towards Euler and Bernoulli's law.** The rim bears no point force: the force is spread over one l_s behind it, and
-with a deflection that decays as e^{−x} ahead, κ < 1 gives X − coth X = λ₀√t. So the rim is one l_s ahead of λ₀√t, where
-the force acts in the mean; κ > 1: coth X − X = (κ − 1)√(πt/2), so that the zone shrinks again.
+**Towards Euler and Bernoulli's law** the force is spread over one l_s behind the rim, and with a deflection that decays
+as e^{−x} ahead, κ < 1 gives X − coth X = λ₀√t, κ > 1 coth X − X = (κ − 1)√(πt/2), so that the zone shrinks again.
 """
 
 from __future__ import annotations
@@ -38,19 +35,13 @@ from theory._fresnel import FloatArray
 from theory.contact import ContactParameters
 
 __all__ = [
-    "FLATTEST",
-    "FORGOTTEN",
-    "StoppedPoint",
-    "early_until",
-    "early_zone",
-    "first_instants",
-    "forgotten_after",
+    "FLATTEST_SHEARED", "FORGOTTEN", "StoppedPoint", "early_until", "early_zone", "first_instants", "forgotten_after",
     "rim",
-]
+]  # fmt: skip
 
 #: t_s after which force, impulse and rim are within 2 % of `first_instants`, and κ/ν of the flattest zone whose impulse
 #: comes so near; ``python -m benchmarks.shear`` prints what they lack.
-FORGOTTEN, FLATTEST = 10.0, 0.05
+FORGOTTEN, FLATTEST_SHEARED = 10.0, 0.05
 NEWTON = 40  # steps from the far side of any root, doublings at first
 LATE = 500.0  # t_s from which on the stopped point's asymptotic series has all that matters
 ABSCISSA = 22.0  # A of Abate and Whitt: discretisation error e^−A
@@ -169,4 +160,4 @@ def first_instants(
 def forgotten_after(kappa_over_nu: float) -> float:
     """t_s from which on `first_instants` are within 2 %. A flat zone outruns shear waves until t_c and its impulse is
     larger for it; its sections' own turning lifts its middle for (ν/κ)² t_s."""
-    return np.inf if kappa_over_nu < FLATTEST else max(FORGOTTEN, kappa_over_nu**-2.0)
+    return np.inf if kappa_over_nu < FLATTEST_SHEARED else max(FORGOTTEN, kappa_over_nu**-2.0)

@@ -1,28 +1,24 @@
-r"""The leading order in closed form: a bending wave outside the contact zone, nothing inside.
+r"""The leading order in closed form: a bending wave outside the contact zone, nothing inside (new).
 
 At ε = 0 the impact is self-similar, η = τE(x) with x = ξ/√τ, and ∂²/∂τ² + ∂⁴/∂ξ⁴ factors into two Schrödinger
 operators. The wave that decays ahead of the front is therefore one iterated error function,
 
     E(x) = 1 − κx²/2,  |x| ≤ λ₀,        E(x) = Re[B i²erfc(z)],  z = e^{−iπ/4}|x|/2,  |x| ≥ λ₀,
 
-and at the front E, E′, E″ are continuous while E‴ jumps by √(2/π) r₀. This is not in the thesis; it
-solves (2.6.37) without an integral and gives independently the λ₀ and r₀ of (2.6.21), (2.6.22). With it
+and at the front E, E′, E″ are continuous while E‴ jumps by √(2/π) r₀. This solves (2.6.37) without an integral. With it
 
     ∫η_τ dξ = ∫R̃ dτ = 4√(2/π) r₀ √τ                                      momentum = impulse,
     ½∫(η_τ² + η_ξξ²) dξ = ∫R̃ dτ                                        energy,
 
-the second because the contact moves with ν = 1 in the fast layer, at rest in the beam: the reactions do no work
-and the beam's energy is conserved. Ahead of the front η_τ² + η_ξξ² = |B erfc(z)|²/16 does not oscillate.
+the second because the contact moves with ν = 1 in the fast layer, at rest in the beam: the reactions do no work.
+Ahead of the front η_τ² + η_ξξ² = |B erfc(z)|²/16 does not oscillate.
 
-The largest bending moment is constant in time, M = V₀√(EIμ) m(κ/ν):
+The largest bending moment is constant in time, M = V₀√(EIμ) m(κ/ν) (docs/theory.md, section 7):
 
-    E″(x) = Re[B (e^{−iπ/4}/2)² erfc z],   E‴(x) = √(2/π) r₀ cos((x² − λ₀²)/4),   E″ = −κ at x = λ₀,
+    E″(x) = Re[B (e^{−iπ/4}/2)² erfc z],   E‴(x) = √(2/π) r₀ cos((x² − λ₀²)/4),   E″ = −κ at x = λ₀.
 
-without a phase, since E⁗ = x(E′ − xE″)/4 is zero at the front. In the zone the beam is straightened, so the wall
-bends it by κ. Ahead of it E‴ is a pure oscillation in x²/4: E″ has its extrema at known places, the first where
-x_p² = λ₀² + 2π. The arches of E‴ shrink with x, so the
-extrema lie nested around 0 and the first, which bends the beam further, is the largest (docs/theory.md; not in
-the thesis). At one point, κ/ν ≥ 1, the largest is at the contact: 1.
+In the zone the beam is straightened, so the wall bends it by κ. Ahead of it the first extremum of E″, where
+x_p² = λ₀² + 2π, bends the beam further and is the largest. At one point, κ/ν ≥ 1, the largest is at the contact: 1.
 """
 
 from __future__ import annotations

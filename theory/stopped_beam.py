@@ -27,7 +27,7 @@ from theory._fresnel import FloatArray
 
 _DEAD = 40.0  # e^{−40} of what a mode began with
 _MOST_MODES = 400_000
-_CHUNK = 2_000_000  # modes times instants at once
+_AT_ONCE = 2_000_000  # modes times instants at once
 
 
 @dataclass(frozen=True)
@@ -142,7 +142,7 @@ class StoppedBeam:
         start = 0
         while start < rest.size:
             modes = self._modes(float(flat[rest[start]]))
-            chosen = rest[start : start + max(1, _CHUNK // modes)]
+            chosen = rest[start : start + max(1, _AT_ONCE // modes)]
             result[chosen] = self._sum(flat[chosen], modes, kind)
             start += chosen.size
         return result.reshape(values.shape)

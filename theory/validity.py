@@ -1,29 +1,17 @@
-r"""Until when the theory of the first instants holds for a real beam. Every limit follows from a formula.
+r"""Until when the theory of the first instants holds for a real beam. Every limit is a formula, derived in
+docs/theory.md, section 9; ℓ is the half length, d the distance of the contact's end from the beam's.
 
-- **ends**: a free end reflects a bending wave with the factor i, whatever its length, so that the wave that comes back
-  is that of `theory.similarity` from an image at 2ℓ, times i. At the contact, where deflection and slope are given, an
-  incoming wave changes the third derivative by 2√2 of its own. That of the theory's wave is an oscillation as large
-  as the force itself, in x²/(4ct). The reaction of an undamped beam therefore swings from the first instant on; its
-  impulse, over which the swings cancel, changes at most by
-
-      √2 ct/d²,      d the distance of the contact's end from the beam's,
-
-  that is by √2 % at d = `DISTANCE` √(ct). This is the limit. The front of a flat contact
-  runs with waves as fast as itself. Those of the first fifth of the time are back when it has covered a third (`FLAT`)
-  of the half length, which is then the limit. Damping kills the short waves, which come first: at t those of k = ℓ/ct
-  are back with 2√2 e^{−ηℓ⁴/2c²t³} of the force. Until this is `SWING`, or for less damping until the mean over a tenth
-  of the time before and after has √2 ct/d² · 2/0.1 = `SWING`, the force holds, too (`force_until`). A free motion
-  with q₀ needs moments EI q₀ℓ²/2 at the ends. Without them waves start there at once, with a quarter of that phase.
-  They swing the force by √2 |q₀|c/(r₀V₀), units ℓ = T* = 1, and change the impulse by 2√2 |q₀|ct/(r₀V₀). If the swing
-  is more than 2 %, the limit is 2 % of the impulse or twice the distance.
-  An axial force along x pushes the ends of the bow across with NKℓ. That wave swings the force by 4√2 NKt/(μV₀r₀), and
-  changes the impulse by 2ct/ℓ² of as much; the limits are the same.
+- **ends**: waves that come back change the impulse by √2 ct/d² at most; the limit is d = `DISTANCE` √(ct). Those of a
+  flat contact's front are back when it has covered a third of ℓ (`FLAT`). They swing the force by 2√2 of itself from
+  the first instant on, damped by e^{−ηℓ⁴/2c²t³}, its mean over a tenth of the time before and after by √2 ct/d² · 20;
+  until `SWING` the force holds, too (`force_until`). A free motion with q₀ swings it by √2 |q₀|cℓ²/(r₀V₀) from the
+  ends, an axial force along x by 4√2 NKt/(μV₀r₀), and the impulse by 2ct/ℓ² of as much. If the swing is more than 2 %,
+  the limit is 2 % of the impulse or twice the distance.
 - **loads**: the second order (`theory.second_order`) over what first order predicts, and the first order over the
-  leading one, which has to be small.
+  leading one, which has to be small. One point spreads when the loads have taken the curvature κ − ν of its gap away.
 - **damping**: one point has a closed form (`theory.damped_point`), under an axial force up to its share in r₁. A zone
   has one as long as it is one point, until T_p η.
 - **hysteretic loss**: a modulus that grows with the frequency leaves no self-similar contact; never valid.
-- **opening**: one point spreads when the loads have taken the curvature κ − ν of its gap away.
 - **slope**: an arch is lower than its parabola by θ²/12. This is about the slope that the impact adds.
 - **shear**: a beam that shears has formulas of its own (`theory.shear`), after some times t_s = √(EIμ)/(κ_sGA).
 - **wall**: one that gives way counts as rigid after many times √(μ/k) (`theory.wall_prediction`).
@@ -54,9 +42,9 @@ SWING = 0.5 * TOLERANCE
 #: Half length of the beam over that of a flat contact, at which waves of its front are back from the ends.
 FLAT = 3.0
 #: First order over leading order, beyond which an expansion says nothing.
-SMALL = 0.3
+SMALL_CHANGE = 0.3
 #: κ/ν of the flattest contact for which λ₂ and r₂ keep all digits; flatter ones are like it (`_second_order`).
-FLATTEST = 3e-3
+FLATTEST_SOLVED = 3e-3
 #: Slope at which an arch is 2 % lower than its parabola, θ²/12.
 SLOPE_LIMIT = math.sqrt(12.0 * TOLERANCE)
 
@@ -92,13 +80,7 @@ class Validity:
         return self.begins_after if time < self.begins else None
 
 
-def validity(
-    impact: Impact,
-    solved: ContactParameters,
-    *,
-    rigid_from: float = 0.0,
-    yields: bool = False,
-) -> Validity:
+def validity(impact: Impact, solved: ContactParameters, *, rigid_from: float = 0.0, yields: bool = False) -> Validity:
     """The interval in which half length and impulse are within 2 % of those of the beam, and that of the force.
 
     Args:
@@ -174,8 +156,8 @@ def _until_loads(solved: ContactParameters) -> tuple[float, str]:
 
 
 def _until_second_order(first: float, second: float) -> float:
-    """The smallest τ > 0 with |second|τ² = 2 % of |1 + first τ|, or |first|τ = `SMALL`."""
-    found = SMALL / abs(first) if first else math.inf
+    """The smallest τ > 0 with |second|τ² = 2 % of |1 + first τ|, or |first|τ = `SMALL_CHANGE`."""
+    found = SMALL_CHANGE / abs(first) if first else math.inf
     if second:
         # |second|τ² − 2 % first τ − 2 % = 0; 1 + first τ > 0 up to `found`
         half = 0.5 * TOLERANCE * first
@@ -186,14 +168,14 @@ def _until_second_order(first: float, second: float) -> float:
 def _second_order(p: ContactParameters) -> tuple[float, float, float]:
     """λ₂, r₂ and the rate of the curvature.
 
-    As κ → 0 relative changes depend on α, χ/κ, ψ/κ² and κn alone, so that a flatter contact is one of κ = `FLATTEST`
-    with other loads, but for a relative error of order κ.
+    As κ → 0 relative changes depend on α, χ/κ, ψ/κ² and κn alone, so that a flatter contact is one of
+    κ = `FLATTEST_SOLVED` with other loads, but for a relative error of order κ.
     """
-    if p.kappa_over_nu >= FLATTEST:
+    if p.kappa_over_nu >= FLATTEST_SOLVED:
         second = second_order(p)
         return second.lambda2, second.r2, second.opening
-    flatter = p.kappa_over_nu / FLATTEST
-    like = contact_parameters(FLATTEST, p.alpha, p.psi / flatter**2, p.chi / flatter, axial=p.axial * flatter)
+    flatter = p.kappa_over_nu / FLATTEST_SOLVED
+    like = contact_parameters(FLATTEST_SOLVED, p.alpha, p.psi / flatter**2, p.chi / flatter, axial=p.axial * flatter)
     second = second_order(like)
     return second.lambda2 / like.lambda0 * p.lambda0, second.r2 / like.r0 * p.r0, second.opening
 

@@ -1,18 +1,13 @@
 r"""What the theory says about an impact on a wall that gives way, SI units (`theory.elastic_wall`).
 
-    F_max = f(κ/ν, ζ) V₀√μ(EI k)^{1/4},   t_k = √(μ/k),   ℓ_k = (EI/k)^{1/4},   ζ = c/(2√(kμ)).
+    F_max = f(κ/ν, ζ) V₀√μ(EI k)^{1/4},   t_k = √(μ/k),   ℓ_k = (EI/k)^{1/4},   ζ = c/(2√(kμ)),
+    λ_c(t) → λ₀√(ct) + (4EI/k)^{1/4} for κ/ν < 1                                 (docs/theory.md, section 9)
 
-How the rigid wall's law comes back. Behind the rim the beam rests on springs, EI y⁗ + ky = 0, and decays inwards from
-y = 0 at the rim; ahead of it y is the cubic whose zone would end 1/β = (4EI/k)^{1/4} earlier. Hence, for κ/ν < 1,
-
-    λ_c(t) → λ₀√(ct) + (4EI/k)^{1/4},
-
-while the force acts at λ₀√(ct), 1/β behind the rim. Impulse, force over a tenth of the time and place of the force are
-within 2 % of the rigid wall's: of one point after 29 t_k and 14 (κ/ν)^{1/4} t_k, its impulse after half of that; of a
-zone of κ/ν ≥ 0.35 and ζ ≥ ¼ after 200 t_k, its impulse after 40, and once λ₀√(ct) is more than 4.2 ℓ_k. All of it is
-read off `theory.elastic_wall` (``python -m benchmarks.wall``). A zone with less damping bounces on and on, a flatter
-one lands faster than it bends. What the wall gives back then stays in the impulse for thousands of t_k, and no time is
-given.
+while the force acts at λ₀√(ct). Impulse, force over a tenth of the time and place of the force are within 2 % of
+the rigid wall's: of one point after 29 t_k and 14 (κ/ν)^{1/4} t_k, its impulse after half of that; of a zone of
+κ/ν ≥ 0.35 and ζ ≥ ¼ after 200 t_k, its impulse after 40, and once λ₀√(ct) is more than 4.2 ℓ_k. All of it is read off
+`theory.elastic_wall` (``python -m benchmarks.wall``). What a zone with less damping, or a flatter one, gets back stays
+in the impulse for thousands of t_k, and no time is given.
 """
 
 from __future__ import annotations

@@ -24,19 +24,13 @@ from numpy.typing import NDArray
 from bent_beam.measure.moments import Moments
 from bent_beam.measure.numbers import FACTOR, Number, number_of
 
-__all__ = [
-    "FirstOrderEstimate",
-    "LeadingEstimate",
-    "first_order",
-    "leading_order",
-    "lift_shares",
-]
+__all__ = ["FirstOrderEstimate", "LeadingEstimate", "first_order", "leading_order", "lift_shares"]
 
 Array = NDArray[np.float64]
 SIDE = math.sqrt(2.0 / math.pi)
 FLOOR = 2e-3  # of the larger of λ₁ and r₁: what halving mesh and steps moves them by
 # What no companion shows, held against methods drawn at random (benchmarks/coverage.py, make coverage):
-LEAST = 1e-4  # of a leading-order value: what runs keep that no refinement moves any more
+LEAST_LEADING = 1e-4  # of a leading-order value: what runs keep that no refinement moves any more
 DRIFT_ALONE = 4.0  # of the spread over the window and its parts, where no companion says what the mesh does
 LIFTED = 0.1  # of V₀t: a larger lift counts whole, a smaller one in proportion to itself
 INSIDE = 0.5  # of what the lift does to r₀, to λ₀: pushes off the zone act anywhere behind the front
@@ -87,15 +81,11 @@ def _lstsq(matrix: Array, right: Array) -> Array:
     return np.asarray(solution / scale)
 
 
-def _farthest(best: Array, companions: Sequence[Array]) -> Array:
-    """Of each value that of the companion, at another resolution, which is farthest from ``best``."""
-    found = np.array(companions)
-    return np.asarray(found[np.abs(found - best).argmax(axis=0), np.arange(best.size)])
-
-
 def _numbers(best: Array, companions: Sequence[Array], known: Mapping[str, Array]) -> list[Number]:
-    """The values with their bars. known : cause → sizes, one for each value."""
-    other = _farthest(best, companions) if companions else best
+    """The values with their bars. companions : the values at other resolutions, of which the farthest counts; known :
+    cause → sizes, one for each value."""
+    others = np.array(companions or [best])
+    other = others[np.abs(others - best).argmax(axis=0), np.arange(best.size)]
     parts = [{cause: float(sizes[i]) for cause, sizes in known.items()} for i in range(best.size)]
     return [number_of(float(best[i]), {"mesh_and_step": float(other[i])}, parts[i]) for i in range(best.size)]
 
@@ -111,8 +101,9 @@ def leading_order(found: Moments, *, window: float = 10.0, companions: Sequence[
     the error; without companions only the drift over the window measures it.
 
     The bar (:func:`bent_beam.measure.numbers.number_of`) holds the largest difference from a companion, the drift
-    (spread over the window and its parts), ``LEAST`` of the value and the lift over V₀t, times lift/``LIFTED`` where
-    that is less than 1: impacts that throw the zone off the wall push it too hard, in the coarser run just as much.
+    (spread over the window and its parts), ``LEAST_LEADING`` of the value and the lift over V₀t, times
+    lift/``LIFTED`` where that is less than 1: impacts that throw the zone off the wall push it too hard, in the coarser
+    run just as much.
     With Exudyn at κ/ν from 1/800 to 1/25 r₀ was 22, 21, 14, 6.5, 2.3 and 0.6 % too large where the zone lifted by 0.2,
     0.2, 0.2, 0.07, 0.03 and 0.01 V₀t. Of λ₀ it is ``INSIDE`` of that: velocity-level laws at κ/ν = 0.06 lift the zone
     by 0.03 to 0.14 V₀t, r₀ is 0.4 to 2.2 % too large and λ₀ 0.14 to 0.7 % too small.
@@ -130,7 +121,7 @@ def leading_order(found: Moments, *, window: float = 10.0, companions: Sequence[
     best, drift, lift, times = _leading_values(found, window)
     known = {
         "drift": (FACTOR if companions else DRIFT_ALONE) * drift,
-        "least": LEAST * np.maximum(best, [0.0, 0.1]),
+        "least": LEAST_LEADING * np.maximum(best, [0.0, 0.1]),
         "lift": np.array(lift_shares(lift)) * best,
     }
     r0, lambda0 = _numbers(best, [_leading_values(companion, window)[0] for companion in companions], known)

@@ -16,7 +16,7 @@ Array = NDArray[np.float64]
 CHUNK = 256  # saved instants at once
 OF_RUN, OF_BEAM = 0.02, 0.002  # see _first_resolved
 RESOLVED = 10.0  # elements that a bending wave must have passed before a moment is one of the beam, not of its mesh
-START = 0.01  # of the run: while this lasts, a start may be held
+MAY_BE_HELD = 0.01  # of the run: while this lasts, a start may be held
 
 
 class PeakMoment(NamedTuple):
@@ -75,7 +75,7 @@ def pull_of(history: ImpactHistory) -> float | None:
     """Largest negative over largest positive contact impulse between two saved instants, after the start; ``None``
     where nothing pushed."""
     time = history.time
-    first = int(np.searchsorted(time, START * time[-1]))
+    first = int(np.searchsorted(time, MAY_BE_HELD * time[-1]))
     gains = np.diff(history.array("impulse", slice(first, None)), axis=0)
     least, most = float(gains.min(initial=0.0)), float(gains.max(initial=0.0))
     return None if most <= 0.0 else (0.0 - least) / most  # nothing pulled: 0, not −0

@@ -1,20 +1,17 @@
-"""What a run of the whole impact comes to, in the units ℓ = L/2, T* = ℓ²√(μ/EI), V₀ (so EI = μ = 1 as well).
+"""What a run of the whole impact comes to, in the units ℓ = L/2, T* = ℓ²√(μ/EI), V₀ (docs/whole_impact.md).
 
 A hit is a time of contact whose gaps are shorter than a period of the first mode; these numbers are of the first:
 
     e = −velocity of the centre of mass after it/V₀,   J = impulse until then/(μℓV₀), without loads 2(1 + e),
 
 its last contact T_c/T*, how often the beam was off the wall, and the shares of energy then, of what the beam had and
-the loads have worked. Where loads act, the momentum at the last contact is what the wall and they have given until
-then. The largest bending moment of the elastic strain, EI u_xx/(V₀√(EIμ)), and the largest force on a wall that gives
-way are those of the whole motion: from the first touch to one period of the lowest mode after the last contact, where
-the run goes on so long.
+the loads have worked. The largest bending moment of the elastic strain, EI u_xx/(V₀√(EIμ)), and the largest force on a
+wall that gives way are those of the whole motion: from the first touch to one period of the lowest mode after the last
+contact, where the run goes on so long.
 
 A separation is a time of at least :data:`SHORTEST_SEPARATION` T* without a push: without a smallest duration there is
-no such number (the reaction of a beam that is stopped at a point changes sign arbitrarily fast).
-
-A beam may come back to the wall, rock on it or go back and forth between two: :func:`hits` lists all; each is of one
-wall, without the other in between.
+no such number (the reaction of a beam that is stopped at a point changes sign arbitrarily fast). :func:`hits` lists all
+hits; each is of one wall, without the other in between.
 """
 
 from __future__ import annotations

@@ -14,7 +14,6 @@ from bent_beam.fields import Part, declared
 ROLE = re.compile(r":[a-z]+:`~?([^`]+)`")
 CODE = re.compile(r"`+[^`]*`+")
 FIELD = re.compile(r"([A-Za-z_][\w.,* ]*?) : (.*)", re.DOTALL)
-UNDERLINE = re.compile(r"-{3,}")
 
 
 class PlainDocstrings(griffe.Extension):
@@ -56,9 +55,6 @@ def _block(block: str) -> str:
         return "```text\n" + textwrap.dedent("\n".join(lines)) + "\n```"
     if all(line.startswith("|") for line in lines):
         return re.sub(r"([*_])", r"\\\1", block)
-    if len(lines) > 1 and UNDERLINE.fullmatch(lines[1].strip()):
-        rest = _block("\n".join(lines[2:])) if lines[2:] else ""
-        return f"**{lines[0].strip()}**\n\n{rest}"
     if any(line.strip().startswith(">>>") for line in lines):
         return "```pycon\n" + textwrap.dedent("\n".join(lines)) + "\n```"
     if len(lines) > 1 and lines[0].endswith(":") and all(line.startswith("    ") for line in lines[1:]):

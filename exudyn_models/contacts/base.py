@@ -4,17 +4,13 @@ The wall is y = 0, the beam lies in y ≤ 0, the gap is g = −y. A contact puts
 once and is then asked, between segments of time steps, for the force at each contact point; it may switch connectors
 there.
 
-Which captured nodes are held, and until when (:class:`HeldStrip`):
-
-The first instants are never resolved, whatever the mesh: the front is then faster than any element. What their node
-impacts leave behind would lift the zone for a long time, so all captured nodes are held for a first share ``START`` of
-the run, but not in runs that last longer than the first spread, nor where load or damping draws the beam off the wall
-or it touches in a point: a held start makes the largest moment 5 % too large at κ/ν = 0.32 with ζ = 0.2 %, 15 % at 1.2.
-
-Behind the front the exact reaction vanishes; a one-sided law turns the numerical noise there into pushes that lift the
-beam. A hold of so many elements, where asked for, keeps each captured node until the front is that much further: the
-held strip shrinks with the mesh. It too ends with the first spread: from then on waves from the ends are back, and may
-lift what they will.
+Which captured nodes are held, and until when (:class:`HeldStrip`): what the node impacts of the first instants, which
+no mesh resolves, leave behind would lift the zone for a long time. So all captured nodes are held for a first share
+``START`` of the run, but not in runs that last longer than the first spread, nor where load or damping draws the beam
+off the wall or it touches in a point: a held start makes the largest moment 5 % too large at κ/ν = 0.32 with ζ = 0.2 %,
+15 % at 1.2. Behind the front the exact reaction vanishes; a one-sided law turns the numerical noise there into pushes
+that lift the beam. A ``hold`` of so many elements keeps each captured node until the front is that much further. It too
+ends with the first spread: then waves from the ends are back, and may lift what they will.
 """
 
 from __future__ import annotations
@@ -30,7 +26,7 @@ from bent_beam import Impact
 from bent_beam.errors import InputError
 from bent_beam.fields import Part, Quantity
 from exudyn_models.elements.beam import Beam, Element, shares
-from exudyn_models.geometry import Array, Flags, Geometry, Indices, LinearLimit
+from exudyn_models.geometry import Array, Flags, Geometry, Indices, LinearLimit, Scaling
 from exudyn_models.integrators import GeneralizedAlpha, Integrator
 from exudyn_models.solvers import NewtonSolver
 
@@ -50,7 +46,6 @@ class Wall:
     nodes : numbers of the beam's nodes that may touch, ascending; centre : the node at x = 0;
     lengths : of the beam's elements before the wall, 0 of others, (elements,); all are 0 before a stop;
     half : only x ≥ 0 is modelled;
-    front : rough estimate of where contact ends at the end;
     first_spread : until when (in end times) nothing but the first spread of the zone moves it: waves are back later;
     lifts : load or damping lifts the zone from the first, or the beam touches in a point: no start is held;
     plastic : the front is thin, so that nodes that hit must not rebound, and nothing but the first spread moves it: how
@@ -61,7 +56,7 @@ class Wall:
     lengths: Array
     centre: int
     half: bool
-    front: float
+    scaling: Scaling
     first_spread: float
     plastic: float
     lifts: bool
@@ -69,8 +64,6 @@ class Wall:
     opposite: float | None  # y of a second, flat wall behind the beam
     stiffness: float | None = None  # per length, of a wall that gives way; of a stop itself
     damping: float = 0.0  # beside it
-    stiffness_unit: float = 1.0  # SI value of a stiffness per length, N/m², …
-    damping_unit: float = 1.0  # … and of a damping per length, N s/m²
 
     @property
     def stop(self) -> bool:

@@ -3,29 +3,26 @@
     R_i = b_i max(0, k y_i + d ẏ_i),   b_i the length of beam that node i stands for
     k = C μ/τ²,   d = D μ/τ,   τ = √(μ/EI) Δx² √(1 + Φ), Φ = 0 without shear: k = C EI/Δx⁴, d = D √(EIμ)/Δx²
 
-It is the complementarity 0 ≤ R ⊥ −(y + (d/k) ẏ − R/(bk)) ≥ 0 of the gap a time d/k ahead, 0.3 Δx² for
-C = 10 and D = 3, so that the dashpot takes hold just before the wall and lets go just before it would pull. The states
-of a step are those of a linear complementarity problem with a P-matrix, hence unique. Exudyn's own law, dashpot on
-while y > 0, pulls a beam that leaves; :mod:`exudyn_models.settling` writes these states over its.
+It is the complementarity 0 ≤ R ⊥ −(y + (d/k) ẏ − R/(bk)) ≥ 0 of the gap a time d/k ahead, 0.3 Δx² for C = 10 and D = 3.
+The states of a step are those of a linear complementarity problem with a P-matrix, hence unique. Exudyn's own law,
+dashpot on while y > 0, pulls a beam that leaves; :mod:`exudyn_models.settling` writes these states over its.
 
-So the contact is as stiff as the elements, on every scale of the mesh. Other C and D (measured: docs/exudyn.md):
+Other C and D (measured: docs/exudyn.md):
 
 - where the front passes an element faster than it bends. It passes Δx at x in t = 2xΔx/λ² √(μ/EI), and C = (λ²Δx/x)²
   makes √(k/μ) t = 2, with the damping ratio of 10 and 3;
-- with shear nodes meet the wall faster than shear waves at first. d Δx = 2√(κ_sGA μ), D = 4√3, takes up such waves
-  without reflection. Not where η is several τ (κ/ν = 0.1, η/T* = 3e-3: e = 0.13 for 0.23);
-- below κ/ν = 0.12 each node hits the wall by itself, and its rebound adds to the impulse. D = 40 makes hits plastic,
-  while nothing but the first spread moves the zone and steps are implicit. What is left adds to r₀ like 1/D²: the
-  coarser run of an error bar has the smaller D in proportion. Not with a ``hold``, whose springs would pull nodes that
-  are stopped ahead of the wall, nor where the material damps waves at grid scale: they would lack in the impulse.
+- with shear d Δx = 2√(κ_sGA μ), D = 4√3, takes up shear waves without reflection. Not where η is several τ (κ/ν = 0.1,
+  η/T* = 3e-3: e = 0.13 for 0.23);
+- behind a thin front D = 40 makes hits plastic. What is left adds to r₀ like 1/D²: the coarser run of an error bar has
+  the smaller D in proportion. Not with a ``hold``, whose springs would pull nodes that are stopped ahead of the wall.
 
-The springs and dashpots of a wall that gives way, at the nodes:
+The springs and dashpots of a wall that gives way, at the nodes, are the wall's own and do not change with the mesh:
 
     R_i = max(0, k b_i y_i + c w_i ẏ_i) where y_i > 0, 0 elsewhere,   b_i the length of wall that node i stands for.
 
-They are the wall's own and do not change with the mesh; what the springs hold is an energy. With w_i = b_i each node
-would add c b_i V₀ at once as it lands. So w_i is the length that is covered. Of an element with both nodes in the wall
-each has Δx/2, node i alone sΔx, s = y_i/(y_i − y_{i+1}), where velocities carry the beam by the end of the step.
+With w_i = b_i each node would add c b_i V₀ at once as it lands. So w_i is the length that is covered. Of an element
+with both nodes in the wall each has Δx/2, node i alone sΔx, s = y_i/(y_i − y_{i+1}), where velocities carry the beam by
+the end of the step.
 """
 
 from __future__ import annotations
@@ -51,20 +48,20 @@ __all__ = ["Penalty", "Springs", "covered", "penalty_per_length"]
 STIFFNESS, DAMPING = 10.0, 3.0  # C and D
 PLASTIC = 40.0  # D behind a thin front
 MATCHED = 4.0 * math.sqrt(3.0)  # D with shear, elements shorter than l_s: d Δx = 2√(κ_sGA μ) …
-OWN = 4.0  # … unless the material's own damping takes as many element times: hits are then plastic by themselves
+DAMPED = 4.0  # … unless the material's own damping takes as many element times: hits are then plastic by themselves
 
 
 def matched(element: float, shear_length: float, damping: float) -> bool:
     """Whether D is :data:`MATCHED` with the shortest ``element``; ``damping`` of the material, over √(μ/EI)."""
-    return element < shear_length and damping < OWN * float(element_times(np.array(element), shear_length))
+    return element < shear_length and damping < DAMPED * float(element_times(np.array(element), shear_length))
 
 
 def chosen_stiffness(beam: Beam, wall: Wall) -> float:
     """C of the module's text: 10, or what the front asks for at the end of the run."""
-    s = beam.shape.s
-    k = min(max(int(np.searchsorted(s, wall.front)), 1), s.size - 1)
+    s, front = beam.shape.s, wall.scaling.front
+    k = min(max(int(np.searchsorted(s, front)), 1), s.size - 1)
     length = s[k] - s[k - 1]
-    asked = wall.front**2 * element_times(length, beam.section.shear_length) / length / s[k]
+    asked = front**2 * element_times(length, beam.section.shear_length) / length / s[k]
     late = beam.shears and wall.first_spread < 1.0  # steps follow shear waves, and not the front
     return STIFFNESS if late else max(STIFFNESS, float(asked) ** 2)
 
@@ -224,9 +221,9 @@ class Penalty(Contact):
             damping *= math.sqrt(stiffness / STIFFNESS)
         k, d = penalty_per_length(element_times(local, beam.section.shear_length), stiffness, damping)
         if self.stiffness is not None:
-            k = np.full_like(k, self.stiffness / wall.stiffness_unit)
+            k = np.full_like(k, self.stiffness / wall.scaling.stiffness)
         if self.damping is not None:
-            d = np.full_like(d, self.damping / wall.damping_unit)
+            d = np.full_like(d, self.damping / wall.scaling.damping)
         strip = HeldStrip(wall, self.hold, 0.0 if plastic and self.hold_start is None else self.hold_start)
         about = {"relative_stiffness": stiffness, "relative_damping": damping}
         return PenaltyRun(beam, wall, k * length, d * length, strip, about)

@@ -1,15 +1,12 @@
-"""Rigid contact: constraints switched with the contact state (Exudyn's ``CoordinateConstraint``), Lagrange
-multipliers, no penalty.
+"""Rigid contact: constraints switched with the contact state (Exudyn's ``CoordinateConstraint``), no penalty.
 
     ẏ_i = −c y_i/h while captured,   R_i = −λ_i ≥ 0,   0 ≤ R_i ⊥ −y_i ≥ 0
 
 Every node that may touch carries a constraint on its velocity (index 2), inactive until, between two steps, the node
 is found at the wall; its velocity then vanishes within one step, the impact of restitution e = 0. It is released when
-it pulls, but not before the front is ``hold`` elements further on (see :mod:`exudyn_models.contacts.penalty`).
-
-Constraints on velocities leave each node at the depth where it was caught: a bumpy wall, whose static reactions
-±12EI/Δx³·V₀h would drown all others. So captured nodes are led back by the share c of their depth in each step
-(Baumgarte 1972, Comput. Methods Appl. Mech. Eng. 1, 1). Why only Newmark with γ > ½ is accepted: docs/exudyn.md.
+it pulls, but not before the front is ``hold`` elements further on (:mod:`exudyn_models.contacts.base`). In each step it
+is led back by the share c of the depth where it was caught (Baumgarte 1972, Comput. Methods Appl. Mech. Eng. 1, 1).
+Why, and why only Newmark with γ > ½ is accepted: docs/exudyn.md.
 """
 
 from __future__ import annotations
@@ -40,16 +37,10 @@ class _Run(ContactRun):
         self.strip: HeldStrip = HeldStrip(wall, hold)
         self.active = np.zeros(wall.nodes.size, bool)
         self.back = np.zeros(wall.nodes.size)  # speed asked of each closed node
-        self.connectors = [
-            beam.mbs.AddObject(
-                items.CoordinateConstraint(
-                    markerNumbers=[beam.ground_marker, beam.marker(int(node), beam.vertical_coordinate)],
-                    velocityLevel=True,
-                    activeConnector=False,
-                )
-            )
-            for node in wall.nodes
-        ]
+        for node in wall.nodes:
+            markers = [beam.ground_marker, beam.marker(int(node), beam.vertical_coordinate)]
+            constraint = items.CoordinateConstraint(markerNumbers=markers, velocityLevel=True, activeConnector=False)
+            self.connectors.append(beam.mbs.AddObject(constraint))
 
     @cached_property
     def _multipliers(self) -> Indices:

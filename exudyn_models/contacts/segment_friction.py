@@ -2,11 +2,10 @@
 
     f_n = k g + d ġ per segment while it enters the wall,   |f_t| ≤ μ_f f_n
 
-Exudyn knows this contact against a circle only, and computes its gap as a difference of lengths of the order of the
-radius: too large a circle drowns it in round-off. So the wall takes over a share of the beam's curvature, against
-which the beam is laid flatter: all of it in the linear limit (gap, load and elastic forces are the same to first
-order), a quarter with the true geometry. Friction works along the beam: of second order in the deflection, it changes
-nothing in the linear limit and little for a real, axially stiff beam.
+Exudyn knows this contact against a circle only, and too large a circle drowns the gap in round-off. So the wall takes
+over a share of the beam's curvature, against which the beam is laid flatter: all of it in the linear limit (gap, load
+and elastic forces are the same to first order), a quarter with the true geometry. Friction works along the beam: of
+second order in the deflection, it changes nothing in the linear limit and little for an axially stiff beam.
 """
 
 from __future__ import annotations
@@ -30,6 +29,7 @@ from exudyn_models.solvers import NewtonSolver
 __all__ = ["SegmentFriction"]
 
 TRUE_SHARE = 0.25  # of the curvature, true geometry
+OPEN = [0.1, -2.0, 0.0]  # states of a segment, neither sticking nor slipping
 
 
 class _Run(ContactRun):
@@ -131,34 +131,27 @@ class SegmentFriction(Contact):
         return TRUE_SHARE if geometry.true else 1.0
 
     def attach(self, beam: Beam, wall: Wall) -> ContactRun:
-        mbs, lengths, units = beam.mbs, beam.lengths, beam.units
-        radius = units.length / beam.shape.wall_curvature
+        mbs, units, last = beam.mbs, beam.units, beam.lengths.size
+        elements = np.arange(max(0, int(wall.nodes[0]) - 1), min(last, int(wall.nodes[-1]) + 1))
+        lengths, radius = beam.lengths[elements], units.length / beam.shape.wall_curvature
         k, d = penalty_per_length(lengths**2, self.relative_stiffness, self.relative_damping)
         tangential = (self.relative_friction_damping if self.friction else 0.0) / lengths**2
+        run = _Run(beam, elements, k * lengths, d * lengths, self.friction, tangential * lengths)
         ground = mbs.AddObject(items.ObjectGround())
         circle = mbs.AddMarker(items.MarkerBodyRigid(bodyNumber=ground, localPosition=[0.0, radius, 0.0]))
-        connectors, elements = [], np.arange(max(0, int(wall.nodes[0]) - 1), min(lengths.size, int(wall.nodes[-1]) + 1))
-        for e in elements:
+        for i, e in enumerate(elements):
             marker = mbs.AddMarker(items.MarkerBodyCable2DShape(bodyNumber=beam.bodies[e], numberOfSegments=1))
-            state = mbs.AddNode(
-                items.NodeGenericData(numberOfDataCoordinates=_Run.states, initialCoordinates=[0.1, -2.0, 0.0])
-            )  # open, neither sticking nor slipping
-            connector = mbs.AddObject(
-                items.ObjectContactFrictionCircleCable2D(
-                    markerNumbers=[circle, marker],
-                    nodeNumber=state,
-                    numberOfContactSegments=1,
-                    contactStiffness=k[e] * lengths[e] * units.stiffness,
-                    contactDamping=d[e] * lengths[e] * units.damping,
-                    circleRadius=radius,
-                    frictionCoefficient=self.friction,
-                    frictionVelocityPenalty=tangential[e] * lengths[e] * units.damping,
-                    useSegmentNormals=False,
-                )
+            state = items.NodeGenericData(numberOfDataCoordinates=_Run.states, initialCoordinates=OPEN)
+            connector = items.ObjectContactFrictionCircleCable2D(
+                markerNumbers=[circle, marker],
+                nodeNumber=mbs.AddNode(state),
+                numberOfContactSegments=1,
+                contactStiffness=run.stiffness[i] * units.stiffness,
+                contactDamping=run.damping[i] * units.damping,
+                circleRadius=radius,
+                frictionCoefficient=self.friction,
+                frictionVelocityPenalty=run.sliding[i] * units.damping,
+                useSegmentNormals=False,
             )
-            connectors.append(connector)
-        share = lengths[elements]
-        pushes = k[elements] * share, d[elements] * share
-        run = _Run(beam, elements, *pushes, self.friction, tangential[elements] * share)
-        run.connectors = connectors
+            run.connectors.append(mbs.AddObject(connector))
         return run

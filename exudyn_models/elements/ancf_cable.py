@@ -25,7 +25,7 @@ __all__ = ["ANCFCable"]
 
 POINTS, WEIGHTS = np.polynomial.legendre.leggauss(4)
 CUBICS = np.array([[1.0, 0.0, -3.0, 2.0], [0.0, 1.0, -2.0, 1.0], [0.0, 0.0, 3.0, -2.0], [0.0, 0.0, -1.0, 1.0]]).T
-GAUSS, BENT, ENDS = (
+AT_STRETCH, AT_BENDING, AT_ENDS = (
     tuple(np.asarray(polyval(places, polyder(CUBICS, derivative)), np.float64) for derivative in range(3))
     for places in ((POINTS + 1) / 2, 0.5 + np.array([-1.0, 1.0]) / math.sqrt(12.0), np.array([0.0, 1.0]))
 )
@@ -37,19 +37,14 @@ class _Cable(Beam):
     rotation_coordinate = 3
 
     def node(self, i: int) -> Any:
-        shape, turning = self.shape, self.shape.angular_velocity[i]
-        cos, sin = np.cos(shape.angle[i]), np.sin(shape.angle[i])
-        stretched = 1.0 + self.section.stretch
-        x, y = stretched * shape.x[i] - shape.s[i], shape.y[i]
-        length, rate = self.units.length, 1.0 / self.units.time
-        speed = length * rate
+        shape, (place, velocity) = self.shape, self.at_first(i)
+        cos, sin, stretched = np.cos(shape.angle[i]), np.sin(shape.angle[i]), 1.0 + self.section.stretch
+        turning, rate = shape.angular_velocity[i], 1.0 / self.units.time
         return items.NodePoint2DSlope1(
-            referenceCoordinates=[shape.s[i] * length, 0.0, 1.0, 0.0],
-            initialCoordinates=[x * length, y * length, stretched * cos - 1.0, stretched * sin],
-            initialVelocities=[
-                shape.velocity_x[i] * speed, shape.velocity_y[i] * speed, -turning * sin * rate, turning * cos * rate
-            ],
-        )  # fmt: skip
+            referenceCoordinates=[shape.s[i] * self.units.length, 0.0, 1.0, 0.0],
+            initialCoordinates=[*place, stretched * cos - 1.0, stretched * sin],
+            initialVelocities=[*velocity, -turning * sin * rate, turning * cos * rate],
+        )
 
     def body(self, i: int) -> Any:
         units = self.units
@@ -78,17 +73,17 @@ class _Cable(Beam):
         return np.asarray(q[..., self.rotation] / (1.0 + q[..., self.horizontal + 2]))
 
     def axial_strain(self, q: Array) -> Array:
-        (x1,), (y1,) = self._fields(q, 0, GAUSS, 1), self._fields(q, 1, GAUSS, 1)
+        (x1,), (y1,) = self._fields(q, 0, AT_STRETCH, 1), self._fields(q, 1, AT_STRETCH, 1)
         return np.asarray(np.hypot(1.0 + x1, y1) - 1.0)
 
     def bending_energy(self, q: Array) -> Array:
-        (x1, x2), (y1, y2) = self._fields(q, 0, BENT, 1, 2), self._fields(q, 1, BENT, 1, 2)
+        (x1, x2), (y1, y2) = self._fields(q, 0, AT_BENDING, 1, 2), self._fields(q, 1, AT_BENDING, 1, 2)
         squares = (self._curvature(x1, x2, y1, y2) - self.shape.curvature) ** 2
         return np.asarray(squares.mean(axis=-1) @ self.lengths) / 2
 
     def damping_work(self, q: Array, v: Array) -> tuple[Array, Array]:
-        (x1, x2), (y1, y2) = self._fields(q, 0, BENT, 1, 2), self._fields(q, 1, BENT, 1, 2)
-        (u1, u2), (w1, w2) = self._fields(v, 0, BENT, 1, 2), self._fields(v, 1, BENT, 1, 2)
+        (x1, x2), (y1, y2) = self._fields(q, 0, AT_BENDING, 1, 2), self._fields(q, 1, AT_BENDING, 1, 2)
+        (u1, u2), (w1, w2) = self._fields(v, 0, AT_BENDING, 1, 2), self._fields(v, 1, AT_BENDING, 1, 2)
         bent, along = self._curvature(x1, x2, y1, y2), 1.0 + x1
         rate = u1 * y2 + along * w2 - w1 * x2 - y1 * u2 - 2.0 * bent * (along * u1 + y1 * w1)
         rate /= along**2 + y1**2
@@ -96,7 +91,7 @@ class _Cable(Beam):
         return work @ self.grid_viscosity, work.sum(axis=-1) * self.section.damping
 
     def bending_moments(self, q: Array) -> Array:
-        (x1, x2), (y1, y2) = self._fields(q, 0, ENDS, 1, 2), self._fields(q, 1, ENDS, 1, 2)
+        (x1, x2), (y1, y2) = self._fields(q, 0, AT_ENDS, 1, 2), self._fields(q, 1, AT_ENDS, 1, 2)
         return self._curvature(x1, x2, y1, y2) - self.shape.curvature
 
     def _curvature(self, x1: Array, x2: Array, y1: Array, y2: Array) -> Array:
@@ -110,7 +105,7 @@ class _Cable(Beam):
         length = self.lengths
         scale = np.stack([np.ones_like(length), length, np.ones_like(length), length], axis=1)
         outer = scale[:, :, None] * scale[:, None, :]
-        n, _, b = GAUSS
+        n, _, b = AT_STRETCH
         mass = (n * WEIGHTS / 2) @ n.T * outer * length[:, None, None]
         bending = (b * WEIGHTS / 2) @ b.T * outer / (length**3)[:, None, None]
         return mass, bending, bending

@@ -89,6 +89,13 @@ class Beam(ABC):
         """Whether elements are short enough for shear waves to be what they resolve."""
         return float(self.lengths.min()) < self.section.shear_length
 
+    def at_first(self, i: int) -> tuple[list[float], list[float]]:
+        """Displacement and velocity along x and y of node ``i`` at the first contact, for Exudyn's item."""
+        shape, length = self.shape, self.units.length
+        speed = length * (1.0 / self.units.time)
+        x = (1.0 + self.section.stretch) * shape.x[i] - shape.s[i]
+        return [x * length, shape.y[i] * length], [shape.velocity_x[i] * speed, shape.velocity_y[i] * speed]
+
     @abstractmethod
     def node(self, i: int) -> Any:
         """Exudyn's item."""

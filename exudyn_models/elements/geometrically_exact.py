@@ -22,28 +22,25 @@ from exudyn_models.geometry import Array, Shape
 __all__ = ["GeometricallyExact"]
 
 PAIR = np.array([[2.0, 1.0], [1.0, 2.0]]) / 6  # products of the linear shape functions, of the unit element
-SHEAR, ROTARY = 100.0, 0.01  # in EI/Δx² and μΔx², of a beam without shear: neither has a visible effect
+RIGID_SHEAR, LITTLE_ROTARY = 100.0, 0.01  # in EI/Δx² and μΔx², of a beam without shear: neither has a visible effect
 
 
 class _Exact(Beam):
     rotation_coordinate = 2
 
     def __init__(self, mbs: Any, shape: Shape, section: Section, viscosity: Array) -> None:
-        self.shear_stiffness, self.rotary_inertia = SHEAR / shape.lengths**2, ROTARY * shape.lengths**2
+        self.shear_stiffness, self.rotary_inertia = RIGID_SHEAR / shape.lengths**2, LITTLE_ROTARY * shape.lengths**2
         if section.shear_length:
             self.shear_stiffness = np.full_like(shape.lengths, section.shear_length**-2)
             self.rotary_inertia = np.full_like(shape.lengths, section.rotary_inertia)
         super().__init__(mbs, shape, section, viscosity)
 
     def node(self, i: int) -> Any:
-        shape, stretched = self.shape, 1.0 + self.section.stretch
-        length, rate = self.units.length, 1.0 / self.units.time
-        x, speed = stretched * shape.x[i] - shape.s[i], length * rate
-        turning = shape.angular_velocity[i] * rate
+        shape, (place, velocity) = self.shape, self.at_first(i)
         return items.NodeRigidBody2D(
-            referenceCoordinates=[shape.s[i] * length, 0.0, 0.0],
-            initialCoordinates=[x * length, shape.y[i] * length, shape.angle[i]],
-            initialVelocities=[shape.velocity_x[i] * speed, shape.velocity_y[i] * speed, turning],
+            referenceCoordinates=[shape.s[i] * self.units.length, 0.0, 0.0],
+            initialCoordinates=[*place, shape.angle[i]],
+            initialVelocities=[*velocity, shape.angular_velocity[i] * (1.0 / self.units.time)],
         )
 
     def body(self, i: int) -> Any:

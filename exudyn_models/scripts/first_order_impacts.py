@@ -38,10 +38,8 @@ def impact(acceleration: float, dashpot: float, count: int) -> tuple[float, floa
         markers = [mbs.AddMarker(items.MarkerNodeCoordinate(nodeNumber=node, coordinate=1)), ground]
         law = {"contactStiffness": 10 * part / length**4, "contactDamping": dashpot * part / length**2}
         mbs.AddObject(items.ObjectContactCoordinate(markerNumbers=markers, nodeNumber=data, **law))
-    bending = exu.OutputVariableType.TorqueLocal
-    sensor = mbs.AddSensor(
-        items.SensorBody(bodyNumber=0, outputVariableType=bending, storeInternal=True)
-    )  # in the middle
+    bending = items.SensorBody(bodyNumber=0, outputVariableType=exu.OutputVariableType.TorqueLocal, storeInternal=True)
+    sensor = mbs.AddSensor(bending)  # in the middle
     mbs.Assemble()
     settings = exu.SimulationSettings()
     settings.solution.file.write = False
