@@ -26,8 +26,6 @@ from bent_beam_programs.open_benchmark.imports import behind
 from bent_beam_programs.open_benchmark.problem import Problem
 from comparison.store import source_digest
 
-__all__ = ["ADAPTERS", "GIVEN", "RESOLUTIONS", "Adapter", "chosen_adapters", "install", "shipped_adapters"]
-
 ADAPTERS = Path(__file__).parent / "adapters"
 RESOLUTIONS = ("coarse", "medium", "fine")
 GIVEN = "given"  # one mesh for all: elements of 0.02 l*, 400 equal steps, or as many as a code needs to be stable

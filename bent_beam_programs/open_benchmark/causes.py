@@ -14,8 +14,6 @@ from bent_beam_programs.open_benchmark.judgement import PART, Finding, Score
 from bent_beam_programs.open_benchmark.result import Result
 from bent_beam_programs.open_benchmark.symptoms import last_push
 
-__all__ = ["causes"]
-
 SUSPECT = 0.2  # κ/ν below which the first instants may throw the zone off the wall
 EVEN = 0.08  # unevenness of a zone that was laid down point after point, without rebounds
 PROPORTIONAL = 0.8  # cosine between pushes and penetrations of a wall on springs; 1 where no dashpot helps

@@ -12,8 +12,6 @@ from pathlib import Path
 
 from comparison.store import PACKAGES, digest_of_files, installed
 
-__all__ = ["behind"]
-
 CODE = (".py", ".so", ".pyd")
 
 

@@ -19,8 +19,6 @@ from bent_beam_programs.open_benchmark.judgement import PART, Symptom
 from bent_beam_programs.open_benchmark.problem import Problem
 from bent_beam_programs.open_benchmark.result import Array, Result
 
-__all__ = ["last_push", "readings"]
-
 NODES, GAPS = "node_x and node_impulse", "x, snap_tau and snap_gap"
 AHEAD = 5.0  # √τ short of the far end, or 3 ahead of the front: hardly a wave has come there
 STEEP = 0.5  # κ/ν, the least that an error of curvature is held against: waves ahead hide a smaller one

@@ -24,8 +24,6 @@ from bent_beam_programs.thesis.studies.outcome import MEASURES, Outcome
 from bent_beam_programs.thesis.studies.thesis import Progress, Variant, run_variants
 from comparison.store import write_atomically
 
-__all__ = ["STUDIES", "Study", "StudyResult", "run_study"]
-
 SAME = 30  # characters of a warning that tell its kind: its numbers differ from run to run
 
 LISTED = (
