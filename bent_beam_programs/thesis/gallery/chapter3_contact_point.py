@@ -8,7 +8,6 @@ import numpy as np
 
 from bent_beam.history import ImpactHistory
 from bent_beam_programs.thesis.gallery.drawing import (
-    THEORY,
     CellForces,
     beam_at_times,
     draw_maps,
@@ -17,7 +16,7 @@ from bent_beam_programs.thesis.gallery.drawing import (
     scatters_of,
 )
 from bent_beam_programs.thesis.gallery.runs import reference_runs, thesis, thesis_history, thesis_run
-from bent_beam_programs.thesis.sheet import Sheet, item
+from bent_beam_programs.thesis.sheet import Sheet, item, items
 from bent_beam_programs.thesis.studies.exact import Exact
 from bent_beam_programs.thesis.studies.numerical import NAMES
 from bent_beam_programs.thesis.studies.outcome import Outcome, scatter
@@ -83,7 +82,7 @@ def evolution(sheet: Sheet, contact: str) -> None:
             for t, colour in zip(TIMES, style.SEQUENCE):
                 axis.plot(float(exact.front(t)), 0.0, marker="^", ms=5, color=colour, clip_on=False, zorder=5)
             flat = -1e3 * exact.gap(places, last)
-            sheet.line(axis, places, flat, series=f"theory, t = {readable(last, 3)} s", **THEORY)
+            sheet.line(axis, places, flat, series=f"theory, t = {readable(last, 3)} s", **style.THEORY)
             lift = 1e3 * run(contact, mass).lift
             style.wall_below(axis, -1.4 * lift, 0.25 * lift)
             sheet.numbers[f"largest lift inside the zone (mm), {mass} mass"] = lift
@@ -120,39 +119,25 @@ def nodes(sheet: Sheet) -> None:
     evolution(sheet, "node")
 
 
-@item("fig-3.25", shown=SHOWN)
-def lengths(sheet: Sheet) -> None:
-    """Nodes and middles: contact length
-
-    Contact length until τ = 0.1 (a), and less theory's (b), nodes and middles with both masses; {shown}. As the thesis
-    says, no significant difference.
-    """
-    compare(sheet, (contact_length, length_off), "contact_length_error")
-
-
-@item("fig-3.26", shown=SHOWN)
-def reactions(sheet: Sheet) -> None:
-    """Nodes and middles: reaction
-
-    Reaction of one side until τ = 0.1, nodes and middles with both masses; {shown}: (a) means in windows, the band
-    holding eight tenths of the reaction of every step, filtered as in 3.3.1, peaks cut; (b) the impulse less theory's,
-    unfiltered. The thesis finds the general behaviour of 1/√t with both. In impulse lumped nodes are nearest to theory
-    and lumped middles furthest from it.
-    """
-    compare(sheet, (banded, impulse_off), "reaction_error")
-
-
-@item("fig-3.27", shown=SHOWN)
-def energies(sheet: Sheet) -> None:
-    """Nodes and middles: energy
-
-    Energy of the beam until τ = 0.1, less its 10 000 J before the contact, which is drawn too, nodes and middles with
-    both masses; {shown}. With lumped masses the node method loses more than the middle method, as the thesis says; with
-    the consistent matrix they lose about the same. The thesis takes the loss for the kinetic energy of the beam that
-    comes to rest. In theory none is lost, all of it runs ahead as waves; Hermite's own mesh (circles) does not resolve
-    so thin a front either and loses as much, Self-similar (diamonds) resolves it and loses none.
-    """
-    compare(sheet, (energy,), "lost_impact", "lost_damping")
+items(__name__, compare, (
+    ("fig-3.25", "Nodes and middles: contact length",
+     f"Contact length until τ = 0.1 (a), and less theory's (b), nodes and middles with both masses; {SHOWN}. As the "
+     "thesis says, no significant difference.",
+     (contact_length, length_off), "contact_length_error"),
+    ("fig-3.26", "Nodes and middles: reaction",
+     f"Reaction of one side until τ = 0.1, nodes and middles with both masses; {SHOWN}: (a) means in windows, the band "
+     "holding eight tenths of the reaction of every step, filtered as in 3.3.1, peaks cut; (b) the impulse less "
+     "theory's, unfiltered. The thesis finds the general behaviour of 1/√t with both. In impulse lumped nodes are "
+     "nearest to theory and lumped middles furthest from it.",
+     (banded, impulse_off), "reaction_error"),
+    ("fig-3.27", "Nodes and middles: energy",
+     "Energy of the beam until τ = 0.1, less its 10 000 J before the contact, which is drawn too, nodes and middles "
+     f"with both masses; {SHOWN}. With lumped masses the node method loses more than the middle method, as the thesis "
+     "says; with the consistent matrix they lose about the same. The thesis takes the loss for the kinetic energy of "
+     "the beam that comes to rest. In theory none is lost, all of it runs ahead as waves; Hermite's own mesh (circles) "
+     "does not resolve so thin a front either and loses as much, Self-similar (diamonds) resolves it and loses none.",
+     (energy,), "lost_impact", "lost_damping"),
+))  # fmt: skip
 
 
 @item("fig-3.28", shown=SHOWN)
@@ -212,7 +197,7 @@ def starts(sheet: Sheet) -> None:
         for o, colour in zip(found, COLOURS.values()):
             sheet.line(axis, 1e6 * o.time, 1e3 * o.front, series=o.label, color=colour, drawstyle="steps-post", lw=0.9)
             sheet.numbers[f"first reaction (s), {o.label}"] = float(o.time[np.argmax(o.side_impulse > 0.0)])
-        sheet.line(axis, 1e6 * times, 1e3 * found[0].exact.front(times), series="theory", **THEORY)
+        sheet.line(axis, 1e6 * times, 1e3 * found[0].exact.front(times), series="theory", **style.THEORY)
         legend_below(fig, axis, 3, fontsize=7.0)
 
 
@@ -234,7 +219,7 @@ def unfiltered(sheet: Sheet) -> None:
             colour = COLOURS[mass, contact]
             pushed = np.where(found.reaction > 0.0, found.reaction, np.nan)
             sheet.line(axis, 1e6 * time, 1e-3 * pushed, series=name, color=colour, ls="", marker=".", ms=0.8)
-            sheet.line(axis, 1e6 * time, 1e-3 * target, series="theory", **THEORY)
+            sheet.line(axis, 1e6 * time, 1e-3 * target, series="theory", **style.THEORY)
             axis.set(xlabel="$t$  (µs)", xlim=(0, 1e6 * time[-1]))
             axis.set(ylabel="reaction of one side  (kN)", ylim=(1e-1, 1e4), yscale="log")
         sheet.letter(axes, [f"{NAMES[contact]}, {mass} mass" for mass, contact in PAIRS])

@@ -12,7 +12,6 @@ from matplotlib.axes import Axes
 from bent_beam.history import ImpactHistory
 from bent_beam.impact import Impact
 from bent_beam_programs.thesis.gallery.drawing import (
-    THEORY,
     beam_at_times,
     draw_maps,
     legend_below,
@@ -114,7 +113,7 @@ def shapes(sheet: Sheet) -> None:
             y = -1e3 * finite.gap[every]
             sheet.line(axis, finite.x[every], y, series=f"Hermite, {name}", legend=legend, **mark)
             exact = -1e3 * finite.exact.gap(places, float(finite.time[-1]))
-            sheet.line(axis, places, exact, series=f"theory, {name}", legend=legend, **{**THEORY, "ls": "--"})
+            sheet.line(axis, places, exact, series=f"theory, {name}", legend=legend, **{**style.THEORY, "ls": "--"})
             for label, run in (("thesis's settings", thesis_run), ("Hermite", finite)):
                 sheet.numbers[f"lift (mm), {name}, {label}"] = 1e3 * run.lift
         style.wall_below(axis, -9.0, 1.0)
@@ -140,7 +139,7 @@ def leading(sheet: Sheet, axis: Axes, what: str, end: float) -> None:
     t = end * np.linspace(0.0, 1.0, 301)[1:] ** 2
     factor = 1e3 if what == "front" else 1e-3 if "kN" in axis.get_ylabel() else 1.0
     values = factor * getattr(Exact(impact(0.0)), what)(t)
-    sheet.line(axis, 1e3 * t, values, series="theory, leading order", **{**THEORY, "ls": ":"})
+    sheet.line(axis, 1e3 * t, values, series="theory, leading order", **{**style.THEORY, "ls": ":"})
 
 
 @item("fig-3.34", case=CASE)

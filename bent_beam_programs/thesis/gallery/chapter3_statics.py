@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from bent_beam_programs.thesis.gallery.drawing import THEORY, guide, legend_below, plain_line
+from bent_beam_programs.thesis.gallery.drawing import guide, legend_below, plain_line
 from bent_beam_programs.thesis.sheet import Sheet, item
 from comparison.figures import style
 from hermite_fe import INTEGRATORS
@@ -31,7 +31,7 @@ def static(sheet: Sheet, force: float, node: int, supports: dict[int, float], ex
     found = beam.static(load, supports)[0::2]
     with sheet.figure() as (_, axis):
         axis.set(xlabel="$x$  (m)", ylabel="$w$  (m)", xlim=(0, LENGTH))
-        sheet.line(axis, beam.nodes, -exact, series="theory", **THEORY)
+        sheet.line(axis, beam.nodes, -exact, series="theory", **style.THEORY)
         sheet.line(axis, beam.nodes, -found, series="Hermite", **style.mark("hermite"), markevery=2)
         axis.legend()
     largest = float(np.abs(exact).max())
@@ -122,7 +122,7 @@ def bouncing(sheet: Sheet) -> None:
     with sheet.figure(1, 2, width=style.PAGE, height=2.5) as (fig, axes):
         for axis, marker in zip(axes, ("", ".")):
             axis.set(xlabel="$t$  (s)", ylabel="$q$  (m)")
-            sheet.line(axis, dense, exact, series="theory", **THEORY)
+            sheet.line(axis, dense, exact, series="theory", **style.THEORY)
             drawn = (("position predicted", predicted, "vermilion"), ("Moreau–Jean", height, "blue"))
             for series, y, colour in drawn:
                 sheet.line(axis, times, y, series=series, **plain_line(colour, width=0.9, marker=marker, ms=4))
@@ -150,4 +150,4 @@ def shapes(sheet: Sheet) -> None:
         for i, (axis, values) in enumerate(zip(axes.flat, shape_functions(xi, 1.0).T), 1):
             axis.set(ylabel=f"$N_{i}$  (1)" if i % 2 else f"$N_{i}/l_e$  (1)", xlim=(0, 1))
             axis.set_xlabel(r"$\xi$  (1)" if i > 2 else "")
-            sheet.line(axis, xi, values, series=f"N{i}", **THEORY)
+            sheet.line(axis, xi, values, series=f"N{i}", **style.THEORY)

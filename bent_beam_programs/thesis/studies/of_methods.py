@@ -150,17 +150,18 @@ def _runs(vary: Vary, case: Case, method: Method, factor: float) -> list[Variant
         if finer is None:
             reason = f"refine: {method.path} does not know how to be refined (got {factor:g})"
         elif not (reason := finer.refuses(case.impact) or ""):
-            return [_run(method.label, one, case, factor) for one in vary(finer, case)]
+            return [
+                Variant(
+                    method.label, one.impact or case.impact, one.end_time or case.end_time, one.method, one.value,
+                    setting=one.name, refine=factor,
+                )
+                for one in vary(finer, case)
+            ]  # fmt: skip
     except NotVaried as error:
         reason = f"not varied: {error}"
     except ANY_FAILURE as error:
         reason = str(error)
     return [failed(method.label, case.impact, None, reason, refine=factor, refused=True)]
-
-
-def _run(label: str, one: Setting, case: Case, factor: float) -> Variant:
-    impact, end = one.impact or case.impact, one.end_time or case.end_time
-    return Variant(label, impact, end, one.method, one.value, setting=one.name, refine=factor)
 
 
 def draw_methods(sheet: Sheet, heading: str, outcomes: Sequence[Outcome]) -> None:
@@ -178,8 +179,7 @@ def draw_methods(sheet: Sheet, heading: str, outcomes: Sequence[Outcome]) -> Non
                 points = [(settings.index(o.setting), abs(v)) for o in mine if (v := o.measures.get(name)) is not None]
                 if points:
                     x, y = np.array(points, float).T
-                    line: dict[str, Any] = {k: v for k, v in mark.items() if k != "label"} | {"ls": "-", "lw": 0.7}
-                    sheet.line(axis, x, np.maximum(y, SMALLEST), series=label, **line)
+                    sheet.line(axis, x, np.maximum(y, SMALLEST), series=label, **mark | {"ls": "-", "lw": 0.7})
             _decades(axis)
             axis.set_ylabel(title)
             axis.set_xticks(range(len(settings)), settings, rotation=45.0, ha="right", rotation_mode="anchor")
