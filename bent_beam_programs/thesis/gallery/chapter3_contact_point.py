@@ -6,7 +6,6 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from bent_beam.history import ImpactHistory
 from bent_beam_programs.thesis.gallery.drawing import (
     CellForces,
     beam_at_times,
@@ -15,7 +14,7 @@ from bent_beam_programs.thesis.gallery.drawing import (
     numbers_of,
     scatters_of,
 )
-from bent_beam_programs.thesis.gallery.runs import reference_runs, thesis, thesis_history, thesis_run
+from bent_beam_programs.thesis.gallery.runs import reference_runs, thesis
 from bent_beam_programs.thesis.sheet import Sheet, item, items
 from bent_beam_programs.thesis.studies.exact import Exact
 from bent_beam_programs.thesis.studies.numerical import NAMES
@@ -48,11 +47,6 @@ def run(contact: str, mass: str, curvature: float = FLAT, duration: float = 0.1)
     return thesis(f"{NAMES[contact]}, {mass}", curvature, duration, contact=contact, mass=MASSES[mass])
 
 
-def history(contact: str, mass: str) -> ImpactHistory:
-    """The whole run of one of the four."""
-    return thesis_history(FLAT, 0.1, contact=contact, mass=MASSES[mass])
-
-
 def four() -> list[Outcome]:
     """Nodes and middles, both masses."""
     return [run(contact, mass) for mass, contact in PAIRS]
@@ -76,14 +70,14 @@ def evolution(sheet: Sheet, contact: str) -> None:
     places, last = np.linspace(0.0, 1.1, 300), TIMES[-1]
     with sheet.figure(1, 2, width=style.PAGE, height=2.9) as (fig, axes):
         for axis, mass in zip(axes, MASSES):
-            found = history(contact, mass)
-            exact = Exact(found.impact)
-            beam_at_times(sheet, axis, found, TIMES, 1.1, lambda t: f"t = {readable(t, 3)} s")
+            found = run(contact, mass)
+            exact = found.exact
+            beam_at_times(sheet, axis, found.history, TIMES, 1.1, lambda t: f"t = {readable(t, 3)} s")
             for t, colour in zip(TIMES, style.SEQUENCE):
                 axis.plot(float(exact.front(t)), 0.0, marker="^", ms=5, color=colour, clip_on=False, zorder=5)
             flat = -1e3 * exact.gap(places, last)
             sheet.line(axis, places, flat, series=f"theory, t = {readable(last, 3)} s", **style.THEORY)
-            lift = 1e3 * run(contact, mass).lift
+            lift = 1e3 * found.lift
             style.wall_below(axis, -1.4 * lift, 0.25 * lift)
             sheet.numbers[f"largest lift inside the zone (mm), {mass} mass"] = lift
         sheet.letter(axes, [f"{mass} mass" for mass in MASSES])
@@ -167,7 +161,7 @@ def reaction_in_space_and_time(sheet: Sheet) -> None:
     ±λ₀√t (red line). The reaction is at the moving ends of the contact, as theory and thesis say: noise comes with the
     steps of the front, not from behind it.
     """
-    shown = {f"contact at {contact}s, {mass} mass": history(contact, mass) for mass, contact in PAIRS}
+    shown = {f"contact at {contact}s, {mass} mass": run(contact, mass).history for mass, contact in PAIRS}
     cells = draw_maps(sheet, shown, 2, 5.0)
     exact = Exact(next(iter(shown.values())).impact)
     for name, found in zip(shown, cells):
@@ -212,8 +206,10 @@ def unfiltered(sheet: Sheet) -> None:
     """
     with sheet.figure(2, 2, width=style.PAGE, height=4.4, sharex=True, sharey=True) as (_, axes):
         for axis, (mass, contact) in zip(axes.flat, PAIRS):
-            whole, found = thesis_run(FLAT, 0.1, contact=contact, mass=MASSES[mass])
-            name, time, target = f"{NAMES[contact]}, {mass}", found.time, Exact(whole.impact).side_reaction(found.time)
+            whole = run(contact, mass)
+            assert whole.steps is not None
+            found, name, time = whole.steps, f"{NAMES[contact]}, {mass}", whole.steps.time
+            target = whole.exact.side_reaction(time)
             sheet.numbers[f"scatter, {name} mass"] = scatter(time, found.reaction, target)
             sheet.numbers[f"steps without a reaction (%), {name} mass"] = 100.0 * float(np.mean(found.reaction <= 0.0))
             colour = COLOURS[mass, contact]

@@ -11,6 +11,7 @@ from hermite_fe import INTEGRATORS
 from hermite_fe.beam import HermiteBeam, shape_functions
 from hermite_fe.run import integrate
 from hermite_fe.system import ContactRows, System
+from theory.ladder import BouncingBall
 
 LENGTH, STIFFNESS, ELEMENTS = 5.0, 9.345e3, 52
 NODES = np.linspace(0.0, LENGTH, ELEMENTS + 1)
@@ -93,18 +94,11 @@ def predicting_ball(step: float, instants: int) -> np.ndarray:
 
 
 def exact_ball(end: float) -> tuple[np.ndarray, np.ndarray]:
-    """Times (s) and heights (m) of the exact flight, its bounces among the times.
-
-    The ball falls for √(2H/g), and flight n after it lasts 2 eⁿ √(2H/g).
-    """
-    fall = np.sqrt(2.0 * HEIGHT / GRAVITY)
-    bounces = fall + np.concatenate([[0.0], np.cumsum(2.0 * fall * RESTITUTION ** np.arange(1, 60))])
+    """Times (s) and heights (m) of the exact flight, its bounces among the times."""
+    found = BouncingBall(HEIGHT, gravity=GRAVITY, restitution=RESTITUTION)
+    bounces = found.impact_time(np.arange(1, 61))
     times = np.unique(np.concatenate([np.linspace(0.0, end, 3001), bounces[bounces <= end]]))
-    number = np.searchsorted(bounces, times, side="right")  # bounces so far
-    start = np.where(number > 0, bounces[number - 1], -fall)
-    speed = GRAVITY * fall * RESTITUTION**number
-    s = times - start
-    return times, np.where(np.isin(times, bounces), 0.0, speed * s - 0.5 * GRAVITY * s**2)
+    return times, np.where(np.isin(times, bounces), 0.0, found.position(times))
 
 
 @item("fig-3.6")
