@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 import numpy as np
 
 from bent_beam_programs.thesis.gallery.drawing import (
+    NUMBERS,
     CellForces,
     beam_at_times,
     draw_maps,
@@ -52,14 +51,14 @@ def four() -> list[Outcome]:
     return [run(contact, mass) for mass, contact in PAIRS]
 
 
-def compare(sheet: Sheet, panels: Sequence[Panel], *measures: str) -> None:
+def compare(sheet: Sheet, *panels: Panel) -> None:
     """Panels of the four and of the references in a row, one legend, their numbers beside them."""
     own = four()
     outcomes = own + reference_runs(FLAT, 0.1)
     with sheet.figure(1, len(panels), width=style.PAGE if len(panels) > 1 else 4.6, height=3.0) as (fig, axes):
         for axis, panel in zip(np.ravel(axes), panels):
             panel(sheet, axis, outcomes)
-        numbers_of(sheet, outcomes, *measures)
+            numbers_of(sheet, outcomes, *NUMBERS.get(panel, ()))
         legend_below(fig, np.ravel(axes)[0], 2 + len(panels), fontsize=7.0)
     if banded in panels:
         scatters_of(sheet, own)
@@ -117,20 +116,20 @@ items(__name__, compare, (
     ("fig-3.25", "Nodes and middles: contact length",
      f"Contact length until τ = 0.1 (a), and less theory's (b), nodes and middles with both masses; {SHOWN}. As the "
      "thesis says, no significant difference.",
-     (contact_length, length_off), "contact_length_error"),
+     contact_length, length_off),
     ("fig-3.26", "Nodes and middles: reaction",
      f"Reaction of one side until τ = 0.1, nodes and middles with both masses; {SHOWN}: (a) means in windows, the band "
      "holding eight tenths of the reaction of every step, filtered as in 3.3.1, peaks cut; (b) the impulse less "
      "theory's, unfiltered. The thesis finds the general behaviour of 1/√t with both. In impulse lumped nodes are "
      "nearest to theory and lumped middles furthest from it.",
-     (banded, impulse_off), "reaction_error"),
+     banded, impulse_off),
     ("fig-3.27", "Nodes and middles: energy",
      "Energy of the beam until τ = 0.1, less its 10 000 J before the contact, which is drawn too, nodes and middles "
      f"with both masses; {SHOWN}. With lumped masses the node method loses more than the middle method, as the thesis "
      "says; with the consistent matrix they lose about the same. The thesis takes the loss for the kinetic energy of "
      "the beam that comes to rest. In theory none is lost, all of it runs ahead as waves; Hermite's own mesh (circles) "
      "does not resolve so thin a front either and loses as much, Self-similar (diamonds) resolves it and loses none.",
-     (energy,), "lost_impact", "lost_damping"),
+     energy),
 ))  # fmt: skip
 
 
